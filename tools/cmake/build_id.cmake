@@ -1,0 +1,37 @@
+# What this is built from, as build_id.h in OCTET_GENERATED: looked up at each build, rewritten only when it has changed.
+if(NOT CMAKE_SCRIPT_MODE_FILE)
+  add_custom_target(octet_build_id
+    COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} -D HEADER=${OCTET_GENERATED}/build_id.h
+            -P ${CMAKE_CURRENT_LIST_FILE}
+    BYPRODUCTS ${OCTET_GENERATED}/build_id.h
+    VERBATIM)
+  return()
+endif()
+
+# git COMMAND...: its one line of output, or nothing. The folder's own repository counts, none that the folder lies in.
+get_filename_component(above ${SOURCE} DIRECTORY)
+set(ENV{GIT_CEILING_DIRECTORIES} ${above})
+macro(git variable)
+  execute_process(COMMAND git -C ${SOURCE} ${ARGN} OUTPUT_VARIABLE ${variable} ERROR_QUIET OUTPUT_STRIP_TRAILING_WHITESPACE)
+endmacro()
+
+git(describe describe --always --dirty --abbrev=6)
+git(commit rev-parse --verify --quiet HEAD)
+if(commit)
+  string(SUBSTRING ${commit} 0 6 commit)
+else()
+  set(describe unknown)
+  set(commit 0)
+endif()
+string(REGEX MATCH "-dirty$" modified "${describe}")
+if(modified)
+  set(modified 1)
+else()
+  set(modified 0)
+endif()
+
+file(CONFIGURE OUTPUT ${HEADER} CONTENT [[
+#define OCTET_BUILD_DESCRIBE "@describe@"
+#define OCTET_BUILD_COMMIT 0x@commit@u
+#define OCTET_BUILD_MODIFIED @modified@
+]] @ONLY)

@@ -1,0 +1,17 @@
+# Unity, the unit-test framework: tools/setup fetches it into UNITY_DIR, pinned by hash.
+set(UNITY_DIR ${PROJECT_SOURCE_DIR}/build/unity CACHE PATH "where unity.c and its headers are")
+if(NOT EXISTS ${UNITY_DIR}/unity.c)
+  message(FATAL_ERROR "Unity is not in ${UNITY_DIR}: run tools/setup")
+endif()
+
+add_library(unity STATIC ${UNITY_DIR}/unity.c)
+target_include_directories(unity SYSTEM PUBLIC ${UNITY_DIR})
+
+# octet_test(NAME LIBRARY...): a test program from test_NAME.c in the current folder.
+function(octet_test name)
+  add_executable(test_${name} test_${name}.c)
+  target_link_libraries(test_${name} PRIVATE unity octet_warnings ${ARGN})
+  add_test(NAME ${name} COMMAND test_${name})
+  # Unity with no test run says OK and exits 0: that is a failure here.
+  set_tests_properties(${name} PROPERTIES FAIL_REGULAR_EXPRESSION "\n0 Tests" TIMEOUT 60)
+endfunction()
