@@ -1,0 +1,43 @@
+/* The robot, for ever: sense, step, drive, report, save. */
+#include "firmware/robot.h"
+
+static void wake(struct robot *robot, struct hal *hal)
+{
+    uint8_t cells[CELL_COUNT];
+
+    robot_init(robot, hal_entropy(hal));
+    /* A memory that cannot be read, or is none, leaves the robot to learn anew. */
+    if (hal_load(hal, cells) == 1)
+        (void)memory_adopt(&robot->brain.memory, cells);
+}
+
+static int live_one_tick(struct robot *robot, struct hal *hal)
+{
+    struct input in;
+    struct output out;
+    int result = hal_receive(hal, &in);
+
+    if (result < 0)
+        return result;
+    robot_respond(robot, (enum hal_input)result, &in, &out);
+    result = hal_send(hal, &out);
+    /* After the drive has gone, since storing may take long. The body counts what it could not store. */
+    if (out.store)
+        (void)hal_store(hal, out.memory);
+    return result;
+}
+
+int main(int argc, char *argv[])
+{
+    struct robot robot;
+    struct hal *hal;
+    int result = hal_open(&hal, argc, argv);
+
+    if (result < 0)
+        return -result;
+    wake(&robot, hal);
+    do
+        result = live_one_tick(&robot, hal);
+    while (result >= 0);
+    return result == HAL_E_CLOSED ? 0 : -result;
+}

@@ -1,0 +1,44 @@
+#include "firmware/memory.h"
+
+static bool is_valid(const uint8_t cells[CELL_COUNT])
+{
+    bool valid = cells[0] == SIDE_NONE;
+
+    for (unsigned p = 1; p < CELL_COUNT; p++)
+        valid = valid && cells[p] <= SIDE_RIGHT;
+    return valid;
+}
+
+void memory_erase(struct memory *memory)
+{
+    *memory = (struct memory){{SIDE_NONE}};
+}
+
+enum side memory_recall(const struct memory *memory, uint8_t pattern)
+{
+    return (enum side)memory->cell[pattern];
+}
+
+void memory_learn(struct memory *memory, uint8_t pattern, enum side side)
+{
+    memory->cell[pattern] = (uint8_t)side;
+}
+
+bool memory_adopt(struct memory *memory, const uint8_t cells[CELL_COUNT])
+{
+    if (!is_valid(cells))
+        return false;
+    for (unsigned p = 0; p < CELL_COUNT; p++)
+        memory->cell[p] = cells[p];
+    return true;
+}
+
+bool memory_write(struct memory *memory, uint8_t mask, uint16_t sides)
+{
+    struct memory wanted = *memory;
+
+    for (unsigned p = 0; p < CELL_COUNT; p++)
+        if (mask & (1u << p))
+            wanted.cell[p] = (uint8_t)(((unsigned)sides >> (2 * p)) & 3u);
+    return memory_adopt(memory, wanted.cell);
+}

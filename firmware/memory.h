@@ -1,0 +1,30 @@
+/* memory.h: the eight bytes, all that the robot ever learns. One cell for each pattern holds the turn to make. */
+#ifndef OCTET_MEMORY_H
+#define OCTET_MEMORY_H
+
+#include <stdbool.h>
+
+#include "hal/hal.h"
+
+enum side { SIDE_NONE = 0, SIDE_LEFT = 1, SIDE_RIGHT = 2 };
+
+struct memory {
+    uint8_t cell[CELL_COUNT];   /* an enum side for each pattern; cell 0, nothing in the way, stays empty */
+};
+
+void memory_erase(struct memory *memory);
+
+enum side memory_recall(const struct memory *memory, uint8_t pattern);
+        /* The turn learned for pattern 0..7; SIDE_NONE where nothing is. */
+
+void memory_learn(struct memory *memory, uint8_t pattern, enum side side);
+        /* Remembers side for pattern 1..7. */
+
+bool memory_adopt(struct memory *memory, const uint8_t cells[CELL_COUNT]);
+        /* Takes over all cells. False, and nothing is changed, if they are no memory. */
+
+bool memory_write(struct memory *memory, uint8_t mask, uint16_t sides);
+        /* Sets cell p to bits 2p and 2p+1 of sides for each bit p of mask. False, and nothing is changed, if one of
+           these is no side, or is one for cell 0. */
+
+#endif

@@ -1,0 +1,38 @@
+/* motion.h: turns and steps become wheel speeds, tick by tick, measured by the wheels' odometers.
+ *
+ * What a turn misses is made up for in the next one, so that errors do not add up. */
+#ifndef OCTET_MOTION_H
+#define OCTET_MOTION_H
+
+#include "firmware/brain.h"
+
+struct motion {
+    int32_t turn_left;         /* still to turn, right positive: left wheel less right wheel, 0.1 mm / 16384 */
+    int16_t way_left;          /* still to drive: left wheel plus right wheel, 0.1 mm */
+    uint16_t odometer_left;    /* as of the last tick */
+    uint16_t odometer_right;
+    uint16_t ticks_left;       /* then the action is given up: the wheels do not obey */
+    uint8_t kind;              /* what is under way */
+    bool referenced;           /* the odometers above hold */
+};
+
+void motion_start(struct motion *motion);
+        /* At rest, with nothing to make up for. */
+
+void motion_lift(struct motion *motion);
+        /* The wheels may turn unseen from here to the next motion_track: that is not the robot's way. */
+
+void motion_track(struct motion *motion, const struct senses *senses);
+        /* Takes in what the wheels have done since the last tick. Call once for each senses. */
+
+bool motion_ended(const struct motion *motion, const struct config *config, const struct senses *senses);
+        /* Is the action done with: turned to within 1/8 degree, driven to within 0.25 mm, stopped by an obstacle ahead,
+           or given up? True before the first action, too. */
+
+void motion_begin(struct motion *motion, const struct config *config, const struct action *action);
+        /* Starts a turn, a step, or one tick of rest. */
+
+void motion_drive(const struct motion *motion, const struct config *config, struct drive *drive);
+        /* Sets the wheel speeds for this tick, so that the action ends without running over. */
+
+#endif

@@ -1,0 +1,109 @@
+#include "firmware/robot.h"
+
+enum {
+    ACTION_SPAN = 128,     /* actions are numbered 0..127 */
+    REPORT_MS = 1000,      /* a report is due once a second of robot time, */
+    REPORT_SILENCES = 10   /* or, where no tick comes, with every tenth silence */
+};
+
+void robot_init(struct robot *robot, uint32_t seed)
+{
+    *robot = (struct robot){.running = false};
+    (void)config_load(&robot->config, PROFILE_ARTICLE);
+    brain_start(&robot->brain, seed);
+    motion_start(&robot->motion);
+}
+
+static void begin_next_action(struct robot *robot, const struct senses *senses)
+{
+    struct action action = brain_next(&robot->brain, &robot->config, senses);
+
+    motion_begin(&robot->motion, &robot->config, &action);
+    robot->reason = (uint8_t)action.reason;
+    robot->action = (uint8_t)((robot->action + 1u) % ACTION_SPAN);
+}
+
+static struct drive rest(const struct robot *robot)
+{
+    return (struct drive){
+        .tick = robot->tick,
+        .reason = REASON_STOP,
+        .repeat_count = robot->brain.repeat_count,
+        .action = robot->action,
+    };
+}
+
+void robot_step(struct robot *robot, const struct senses *senses, struct drive *drive)
+{
+    robot->tick = senses->tick;
+    robot->ticks++;
+    if (!robot->running) {
+        *drive = rest(robot);
+        return;
+    }
+    motion_track(&robot->motion, senses);
+    if (motion_ended(&robot->motion, &robot->config, senses))
+        begin_next_action(robot, senses);
+    *drive = rest(robot);
+    drive->reason = (enum reason)robot->reason;
+    drive->eat = drive->reason == REASON_EAT;
+    motion_drive(&robot->motion, &robot->config, drive);
+}
+
+static uint32_t ticks_per_report(const struct robot *robot)
+{
+    return REPORT_MS / robot->config.value[TICK_MS];
+}
+
+static void add_report(const struct robot *robot, struct output *out)
+{
+    out->has_report = true;
+    out->report.running = robot->running;
+    out->report.frozen = robot->brain.frozen;
+    out->report.profile = robot->profile;
+    out->report.uptime_s = (uint16_t)(robot->ticks / ticks_per_report(robot));
+    out->has_memory = true;
+}
+
+static void respond_to_senses(struct robot *robot, const struct senses *senses, struct output *out)
+{
+    robot->silences = 0;
+    robot_step(robot, senses, &out->drive);
+    out->has_drive = true;
+    if (robot->ticks % ticks_per_report(robot) == 0)
+        add_report(robot, out);
+}
+
+static void respond_to_command(struct robot *robot, const struct command *command, struct output *out)
+{
+    out->answer = robot_obey(robot, command);
+    out->has_answer = true;
+    if (command->opcode == OPCODE_STOP)
+        add_report(robot, out);
+}
+
+/* The brain is not asked and the motion not touched: with the next senses all goes on where it was. */
+static void respond_to_silence(struct robot *robot, struct output *out)
+{
+    out->drive = rest(robot);
+    out->has_drive = robot->running;
+    robot->silences = (uint8_t)((robot->silences + 1u) % REPORT_SILENCES);
+    if (robot->silences == 0)
+        add_report(robot, out);
+}
+
+void robot_respond(struct robot *robot, enum hal_input kind, const struct input *in, struct output *out)
+{
+    *out = (struct output){.has_drive = false};
+    if (kind == HAL_SENSES)
+        respond_to_senses(robot, &in->senses, out);
+    else if (kind == HAL_COMMAND)
+        respond_to_command(robot, &in->command, out);
+    else
+        respond_to_silence(robot, out);
+    out->store = robot->brain.changed;
+    out->has_memory = out->has_memory || out->store;
+    for (unsigned p = 0; p < CELL_COUNT; p++)
+        out->memory[p] = robot->brain.memory.cell[p];
+    robot->brain.changed = false;
+}

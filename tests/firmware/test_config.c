@@ -1,0 +1,94 @@
+#include "firmware/config.h"
+
+#include <unity.h>
+
+static const struct {
+    uint16_t min, article, max;
+} expected[PARAMETER_COUNT] = {
+    [TURN_DEG] = {1, 10, 180},         [TRIAL_DEG] = {1, 45, 180},         [STEP_MM] = {1, 12, 500},
+    [LOOK_MIN_DEG] = {1, 2, 90},       [LOOK_CHOICES] = {1, 10, 90},       [REACH_MM] = {1, 150, 1000},
+    [BOREDOM_LIMIT] = {1, 10, 254},    [BOREDOM_MIN_DEG] = {1, 150, 180},  [BOREDOM_CHOICES] = {1, 60, 180},
+    [SPEED_MM_S] = {20, 200, 1000},    [TURN_SPEED_DEG_S] = {30, 180, 360},
+    [WHEEL_TRACK_MM] = {80, 160, 400}, [TICK_MS] = {10, 20, 100},
+};
+
+static struct config config;
+
+void setUp(void)
+{
+    TEST_ASSERT_TRUE(config_load(&config, PROFILE_ARTICLE));
+}
+
+void tearDown(void) {}
+
+static void test_the_article_profile_has_the_articles_numbers(void)
+{
+    for (unsigned p = 0; p < PARAMETER_COUNT; p++)
+        TEST_ASSERT_EQUAL_UINT16(expected[p].article, config.value[p]);
+}
+
+static void test_an_unknown_profile_changes_nothing(void)
+{
+    static const struct config odd = {{7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7}};
+
+    for (unsigned profile = PROFILE_COUNT; profile <= UINT8_MAX; profile++) {
+        config = odd;
+        TEST_ASSERT_FALSE(config_load(&config, (uint8_t)profile));
+        TEST_ASSERT_EQUAL_MEMORY(&odd, &config, sizeof config);
+    }
+}
+
+static void test_both_ends_of_a_range_fit(void)
+{
+    for (uint8_t p = 0; p < PARAMETER_COUNT; p++) {
+        TEST_ASSERT_TRUE(config_fits(p, expected[p].min));
+        TEST_ASSERT_TRUE(config_fits(p, expected[p].max));
+    }
+}
+
+static void test_what_is_beyond_either_end_does_not_fit(void)
+{
+    for (uint8_t p = 0; p < PARAMETER_COUNT; p++) {
+        TEST_ASSERT_FALSE(config_fits(p, expected[p].min - 1u));
+        TEST_ASSERT_FALSE(config_fits(p, expected[p].max + 1u));
+    }
+}
+
+static void test_nothing_beyond_16_bits_fits(void)
+{
+    for (uint8_t p = 0; p < PARAMETER_COUNT; p++)
+        TEST_ASSERT_FALSE(config_fits(p, 0x10000u + expected[p].article));
+}
+
+static void test_each_profile_fits(void)
+{
+    for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
+        TEST_ASSERT_TRUE(config_load(&config, profile));
+        for (uint8_t p = 0; p < PARAMETER_COUNT; p++)
+            TEST_ASSERT_TRUE(config_fits(p, config.value[p]));
+    }
+}
+
+static void test_setting_a_parameter_leaves_the_others(void)
+{
+    for (uint8_t p = 0; p < PARAMETER_COUNT; p++) {
+        struct config before = config;
+
+        config_set(&config, p, expected[p].max);
+        before.value[p] = expected[p].max;
+        TEST_ASSERT_EQUAL_MEMORY(&before, &config, sizeof config);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_article_profile_has_the_articles_numbers);
+    RUN_TEST(test_an_unknown_profile_changes_nothing);
+    RUN_TEST(test_both_ends_of_a_range_fit);
+    RUN_TEST(test_what_is_beyond_either_end_does_not_fit);
+    RUN_TEST(test_nothing_beyond_16_bits_fits);
+    RUN_TEST(test_each_profile_fits);
+    RUN_TEST(test_setting_a_parameter_leaves_the_others);
+    return UNITY_END();
+}

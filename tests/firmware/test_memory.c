@@ -1,0 +1,128 @@
+#include "firmware/memory.h"
+
+#include <unity.h>
+
+static const uint8_t LEARNED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
+
+static struct memory memory;
+
+static void assert_as_learned(void)
+{
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(LEARNED, memory.cell, CELL_COUNT);
+}
+
+void setUp(void)
+{
+    TEST_ASSERT_TRUE(memory_adopt(&memory, LEARNED));
+}
+
+void tearDown(void) {}
+
+static void test_the_memory_is_eight_bytes(void)
+{
+    TEST_ASSERT_EQUAL_size_t(8, sizeof(struct memory));
+}
+
+static void test_an_erased_memory_knows_nothing(void)
+{
+    memory_erase(&memory);
+    for (uint8_t p = 0; p < CELL_COUNT; p++)
+        TEST_ASSERT_EQUAL(SIDE_NONE, memory_recall(&memory, p));
+}
+
+static void test_each_cell_recalls_its_own_side(void)
+{
+    for (uint8_t p = 0; p < CELL_COUNT; p++)
+        TEST_ASSERT_EQUAL(LEARNED[p], memory_recall(&memory, p));
+}
+
+static void test_learning_changes_one_cell_only(void)
+{
+    for (uint8_t p = 1; p < CELL_COUNT; p++) {
+        uint8_t expected[CELL_COUNT] = {0};
+
+        memory_erase(&memory);
+        memory_learn(&memory, p, SIDE_RIGHT);
+        expected[p] = SIDE_RIGHT;
+        TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, memory.cell, CELL_COUNT);
+    }
+}
+
+static void test_a_lesson_replaces_an_older_one(void)
+{
+    memory_learn(&memory, 1, SIDE_RIGHT);
+    TEST_ASSERT_EQUAL(SIDE_RIGHT, memory_recall(&memory, 1));
+}
+
+static void test_cells_that_are_no_side_are_not_adopted(void)
+{
+    for (unsigned p = 1; p < CELL_COUNT; p++)
+        for (unsigned value = 3; value <= UINT8_MAX; value++) {
+            uint8_t cells[CELL_COUNT] = {0};
+
+            cells[p] = (uint8_t)value;
+            TEST_ASSERT_FALSE(memory_adopt(&memory, cells));
+        }
+    assert_as_learned();
+}
+
+static void test_a_turn_for_a_clear_way_is_not_adopted(void)
+{
+    static const uint8_t cells[CELL_COUNT] = {SIDE_LEFT};
+
+    TEST_ASSERT_FALSE(memory_adopt(&memory, cells));
+    assert_as_learned();
+}
+
+static void test_writing_takes_two_bits_for_each_cell(void)
+{
+    static const uint8_t expected[CELL_COUNT] = {0, 2, 1, 0, 1, 2, 0, 1};
+
+    TEST_ASSERT_TRUE(memory_write(&memory, 0xFF, 2 << 2 | 1 << 4 | 1 << 8 | 2 << 10 | 1 << 14));
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, memory.cell, CELL_COUNT);
+}
+
+static void test_writing_leaves_the_cells_beside_the_mask(void)
+{
+    static const uint8_t expected[CELL_COUNT] = {0, 1, 2, 0, 2, 1, 2, 1};
+
+    TEST_ASSERT_TRUE(memory_write(&memory, 1u << 3 | 1u << 7, 1u << 14));
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, memory.cell, CELL_COUNT);
+}
+
+static void test_writing_ignores_the_sides_beside_the_mask(void)
+{
+    TEST_ASSERT_TRUE(memory_write(&memory, 0, 0xFFFF));
+    assert_as_learned();
+}
+
+static void test_writing_what_is_no_side_changes_nothing(void)
+{
+    /* Cell 7 is no side; cells 1..6 would be emptied. */
+    TEST_ASSERT_FALSE(memory_write(&memory, 0xFE, 3u << 14));
+    assert_as_learned();
+}
+
+static void test_writing_a_turn_for_a_clear_way_changes_nothing(void)
+{
+    TEST_ASSERT_FALSE(memory_write(&memory, 0xFF, SIDE_LEFT));
+    assert_as_learned();
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_memory_is_eight_bytes);
+    RUN_TEST(test_an_erased_memory_knows_nothing);
+    RUN_TEST(test_each_cell_recalls_its_own_side);
+    RUN_TEST(test_learning_changes_one_cell_only);
+    RUN_TEST(test_a_lesson_replaces_an_older_one);
+    RUN_TEST(test_cells_that_are_no_side_are_not_adopted);
+    RUN_TEST(test_a_turn_for_a_clear_way_is_not_adopted);
+    RUN_TEST(test_writing_takes_two_bits_for_each_cell);
+    RUN_TEST(test_writing_leaves_the_cells_beside_the_mask);
+    RUN_TEST(test_writing_ignores_the_sides_beside_the_mask);
+    RUN_TEST(test_writing_what_is_no_side_changes_nothing);
+    RUN_TEST(test_writing_a_turn_for_a_clear_way_changes_nothing);
+    return UNITY_END();
+}

@@ -1,0 +1,142 @@
+#include "firmware/random.h"
+
+#include <stdbool.h>
+
+#include <unity.h>
+
+static struct random dice;
+
+void setUp(void)
+{
+    random_seed(&dice, 1);
+}
+
+void tearDown(void) {}
+
+/* The authors' own C code gives these numbers for the state 1, 2, and so did a rendering in Python. */
+static void test_the_sequence_is_that_of_xoroshiro64_star_star(void)
+{
+    static const uint32_t published[10] = {3802928447u, 813792938u,  1618621494u, 2955957307u, 3252880261u,
+                                           1129983909u, 2539651700u, 1327610908u, 1757650787u, 2763843748u};
+
+    dice = (struct random){{1, 2}};
+    for (unsigned i = 0; i < 10; i++)
+        TEST_ASSERT_EQUAL_UINT32(published[i], random_next(&dice));
+}
+
+static void test_equal_seeds_give_equal_sequences(void)
+{
+    struct random twin;
+
+    random_seed(&twin, 1);
+    for (unsigned i = 0; i < 1000; i++)
+        TEST_ASSERT_EQUAL_UINT32(random_next(&twin), random_next(&dice));
+}
+
+static void test_neighbouring_seeds_give_different_sequences(void)
+{
+    for (uint32_t seed = 0; seed < 1000; seed++) {
+        struct random one, next;
+
+        random_seed(&one, seed);
+        random_seed(&next, seed + 1);
+        TEST_ASSERT_TRUE(random_next(&one) != random_next(&next));
+    }
+}
+
+/* The first choice that a robot makes: seeds 0, 1, 2.. must not all make the same. */
+static void test_the_first_draw_of_neighbouring_seeds_is_fair(void)
+{
+    unsigned ones = 0;
+
+    for (uint32_t seed = 0; seed < 10000; seed++) {
+        random_seed(&dice, seed);
+        ones += random_below(&dice, 2);
+    }
+    TEST_ASSERT_UINT_WITHIN(250, 5000, ones);   /* five standard deviations */
+}
+
+/* These two seeds make one word of the state 0. */
+static void test_no_seed_makes_the_dice_stand_still(void)
+{
+    static const uint32_t seeds[2] = {0u - 0x9e3779b9u, 0u - 0x3c6ef372u};
+
+    for (unsigned i = 0; i < 2; i++) {
+        random_seed(&dice, seeds[i]);
+        TEST_ASSERT_TRUE(dice.state[0] != 0 || dice.state[1] != 0);
+    }
+}
+
+static void test_below_1_is_always_0(void)
+{
+    for (unsigned i = 0; i < 1000; i++)
+        TEST_ASSERT_EQUAL_UINT8(0, random_below(&dice, 1));
+}
+
+static void test_below_n_reaches_each_number_and_no_other(void)
+{
+    for (unsigned n = 1; n <= UINT8_MAX; n++) {
+        bool seen[UINT8_MAX + 1] = {false};
+
+        for (unsigned i = 0; i < 20 * n; i++)
+            seen[random_below(&dice, (uint8_t)n)] = true;
+        for (unsigned value = 0; value <= UINT8_MAX; value++)
+            TEST_ASSERT_EQUAL(value < n, seen[value]);
+    }
+}
+
+static void assert_fair(uint8_t n)
+{
+    enum { EACH = 10000, FIVE_DEVIATIONS = 500 };
+    unsigned counts[UINT8_MAX] = {0};
+
+    for (unsigned i = 0; i < n * (unsigned)EACH; i++)
+        counts[random_below(&dice, n)]++;
+    for (unsigned value = 0; value < n; value++)
+        TEST_ASSERT_UINT_WITHIN(FIVE_DEVIATIONS, EACH, counts[value]);
+}
+
+static void test_two_sides_are_as_likely(void)
+{
+    assert_fair(2);
+}
+
+static void test_ten_sizes_are_as_likely(void)
+{
+    assert_fair(10);
+}
+
+/* 256 % 60 is 16: a plain remainder would draw 0..15 a quarter too often. */
+static void test_sixty_sizes_are_as_likely(void)
+{
+    assert_fair(60);
+}
+
+static void test_255_sizes_are_as_likely(void)
+{
+    assert_fair(255);
+}
+
+/* 256 / 129: half of what is drawn is thrown away. */
+static void test_a_number_that_just_missed_a_power_of_two_is_fair(void)
+{
+    assert_fair(129);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_sequence_is_that_of_xoroshiro64_star_star);
+    RUN_TEST(test_equal_seeds_give_equal_sequences);
+    RUN_TEST(test_neighbouring_seeds_give_different_sequences);
+    RUN_TEST(test_the_first_draw_of_neighbouring_seeds_is_fair);
+    RUN_TEST(test_no_seed_makes_the_dice_stand_still);
+    RUN_TEST(test_below_1_is_always_0);
+    RUN_TEST(test_below_n_reaches_each_number_and_no_other);
+    RUN_TEST(test_two_sides_are_as_likely);
+    RUN_TEST(test_ten_sizes_are_as_likely);
+    RUN_TEST(test_sixty_sizes_are_as_likely);
+    RUN_TEST(test_255_sizes_are_as_likely);
+    RUN_TEST(test_a_number_that_just_missed_a_power_of_two_is_fair);
+    return UNITY_END();
+}
