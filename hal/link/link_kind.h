@@ -1,0 +1,28 @@
+/* link_kind.h: what each kind of link on the host provides. link_by_name.c chooses one and calls through it. */
+#ifndef OCTET_LINK_KIND_H
+#define OCTET_LINK_KIND_H
+
+#include "hal/link/link.h"
+
+struct link {
+    const struct link_kind *kind;
+    int fd;
+};
+
+struct link_request {
+    const char *place;      /* the name after the colon, never empty */
+    const uint16_t *ids;
+    size_t id_count;        /* 0..LINK_IDS_MAX */
+    const char *why;        /* filled where opening fails: the reason */
+};
+
+struct link_kind {
+    const char *prefix;     /* of its names, with the colon */
+    int (*open)(struct link **link, struct link_request *request);
+    int (*receive)(struct link *link, struct frame *out, uint32_t wait_ms);
+    int (*send)(struct link *link, const struct frame *frame);
+};      /* Contracts as in link.h. A link is one block from malloc that begins with its struct link. */
+
+extern const struct link_kind LINK_KIND_SOCKETCAN, LINK_KIND_FD, LINK_KIND_SLCAN;
+
+#endif

@@ -1,0 +1,142 @@
+#include "hal/inproc/exchange.h"
+
+#include <string.h>
+
+#include <unity.h>
+
+#include "hal/can/crc8.h"
+#include "octet.h"
+
+static const uint8_t STORED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 1};
+
+static struct session *session;
+static struct frame out[WIRE_FRAMES_MAX];
+
+void setUp(void)
+{
+    memset(out, 0, sizeof out);
+    session = session_open(1, STORED);
+    TEST_ASSERT_NOT_NULL(session);
+}
+
+void tearDown(void)
+{
+    session_close(session);
+}
+
+static struct frame sealed(struct frame frame)
+{
+    frame.data[0] = crc8_of_frame(&frame);
+    return frame;
+}
+
+static struct frame senses_frame(uint16_t tick)
+{
+    const struct octet_senses_t senses = {.tick = tick};
+    struct frame frame = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH};
+
+    octet_senses_pack(frame.data, &senses, sizeof frame.data);
+    return sealed(frame);
+}
+
+static struct frame command_frame(uint8_t opcode)
+{
+    const struct octet_command_t command = {.opcode = opcode, .counter = 1};
+    struct frame frame = {.id = OCTET_COMMAND_FRAME_ID, .len = OCTET_COMMAND_LENGTH};
+
+    octet_command_pack(frame.data, &command, sizeof frame.data);
+    return sealed(frame);
+}
+
+static size_t exchange(struct frame in)
+{
+    return session_exchange(session, &in, out);
+}
+
+static void test_senses_are_answered_with_a_drive(void)
+{
+    TEST_ASSERT_EQUAL_size_t(1, exchange(senses_frame(7)));
+    TEST_ASSERT_EQUAL_UINT32(OCTET_DRIVE_FRAME_ID, out[0].id);
+}
+
+static void test_a_command_is_answered_before_its_report(void)
+{
+    TEST_ASSERT_EQUAL_size_t(5, exchange(command_frame(OPCODE_STOP)));
+    TEST_ASSERT_EQUAL_UINT32(OCTET_ANSWER_FRAME_ID, out[0].id);
+    TEST_ASSERT_EQUAL_UINT32(OCTET_HEARTBEAT_FRAME_ID, out[1].id);
+}
+
+static void test_a_started_robot_drives(void)
+{
+    struct octet_drive_t drive;
+
+    exchange(command_frame(OPCODE_START));
+    exchange(senses_frame(0));
+    octet_drive_unpack(&drive, out[0].data, out[0].len);
+    TEST_ASSERT_GREATER_THAN_INT16(0, drive.left);
+}
+
+static void test_a_damaged_frame_is_counted_and_not_answered(void)
+{
+    struct frame damaged = senses_frame(0);
+
+    damaged.data[0] ^= 1;
+    TEST_ASSERT_EQUAL_size_t(0, exchange(damaged));
+    TEST_ASSERT_EQUAL_UINT8(1, session->wire.faults[FAULT_DAMAGED]);
+}
+
+static void test_stale_senses_do_not_reach_the_robot(void)
+{
+    exchange(senses_frame(0));
+    TEST_ASSERT_EQUAL_size_t(0, exchange(senses_frame(0)));
+    TEST_ASSERT_EQUAL_UINT32(1, session->robot.ticks);
+}
+
+static void test_a_session_begins_stopped(void)
+{
+    TEST_ASSERT_FALSE(session->robot.running);
+}
+
+static void test_a_session_begins_with_what_was_stored(void)
+{
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(STORED, session->robot.brain.memory.cell, CELL_COUNT);
+}
+
+static void test_from_what_is_no_memory_nothing_is_known(void)
+{
+    static const uint8_t none[CELL_COUNT] = {0, 3}, nothing[CELL_COUNT] = {0};
+
+    session_close(session);
+    session = session_open(1, none);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, session->robot.brain.memory.cell, CELL_COUNT);
+}
+
+static void test_two_sessions_do_not_know_each_other(void)
+{
+    struct session *other = session_open(2, STORED);
+
+    exchange(command_frame(OPCODE_START));
+    TEST_ASSERT_FALSE(other->robot.running);
+    session_close(other);
+}
+
+static void test_closing_no_session_is_fine(void)
+{
+    session_close(NULL);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_senses_are_answered_with_a_drive);
+    RUN_TEST(test_a_command_is_answered_before_its_report);
+    RUN_TEST(test_a_started_robot_drives);
+    RUN_TEST(test_a_damaged_frame_is_counted_and_not_answered);
+    RUN_TEST(test_stale_senses_do_not_reach_the_robot);
+    RUN_TEST(test_a_session_begins_stopped);
+    RUN_TEST(test_a_session_begins_with_what_was_stored);
+    RUN_TEST(test_from_what_is_no_memory_nothing_is_known);
+    RUN_TEST(test_two_sessions_do_not_know_each_other);
+    RUN_TEST(test_closing_no_session_is_fine);
+    return UNITY_END();
+}

@@ -1,0 +1,228 @@
+/* The store against a disk that fails at the n-th call, for every n. */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <unity.h>
+
+#include "hal/host/file_store.h"
+
+static const uint8_t OLD[CELL_COUNT] = {0, 1, 2, 3, 4, 5, 6, 7};
+static const uint8_t NEW[CELL_COUNT] = {7, 6, 5, 4, 3, 2, 1, 0};
+
+static char folder[32];
+static char path[64];
+static char fresh[64];   /* the file beside it */
+static int calls;
+static int fail_at;   /* the call that fails; 0: none */
+
+int __real_open(const char *name, int flags, ...);
+int __wrap_open(const char *name, int flags, ...);
+ssize_t __real_read(int fd, void *to, size_t size);
+ssize_t __wrap_read(int fd, void *to, size_t size);
+ssize_t __real_write(int fd, const void *from, size_t size);
+ssize_t __wrap_write(int fd, const void *from, size_t size);
+int __real_fsync(int fd);
+int __wrap_fsync(int fd);
+int __real_close(int fd);
+int __wrap_close(int fd);
+int __real_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to);
+
+static bool strikes(void)
+{
+    errno = EIO;
+    return ++calls == fail_at;
+}
+
+int __wrap_open(const char *name, int flags, ...)
+{
+    va_list arguments;
+    va_start(arguments, flags);
+    mode_t mode = flags & O_CREAT ? va_arg(arguments, mode_t) : 0;
+    va_end(arguments);
+    return strikes() ? -1 : __real_open(name, flags, mode);
+}
+
+ssize_t __wrap_read(int fd, void *to, size_t size)
+{
+    return strikes() ? -1 : __real_read(fd, to, size);
+}
+
+/* The disk is full half way through. */
+ssize_t __wrap_write(int fd, const void *from, size_t size)
+{
+    return __real_write(fd, from, strikes() ? size / 2 : size);
+}
+
+int __wrap_fsync(int fd)
+{
+    return strikes() ? -1 : __real_fsync(fd);
+}
+
+int __wrap_close(int fd)
+{
+    int result = __real_close(fd);
+    return strikes() ? -1 : result;
+}
+
+int __wrap_rename(const char *from, const char *to)
+{
+    return strikes() ? -1 : __real_rename(from, to);
+}
+
+void setUp(void)
+{
+    fail_at = 0;
+    strcpy(folder, "/tmp/octet-store-XXXXXX");
+    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/memory", folder);
+    snprintf(fresh, sizeof fresh, "%s/memory.new", folder);
+}
+
+void tearDown(void)
+{
+    fail_at = 0;
+    unlink(path);
+    TEST_ASSERT_EQUAL_INT(0, rmdir(folder));   /* nothing else was left */
+}
+
+static void write_file(const void *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    TEST_ASSERT_NOT_NULL(file);
+    TEST_ASSERT_EQUAL_size_t(size, fwrite(bytes, 1, size, file));
+    TEST_ASSERT_EQUAL_INT(0, fclose(file));
+}
+
+static void assert_stored(const uint8_t expected[CELL_COUNT])
+{
+    uint8_t memory[CELL_COUNT] = {0};
+    TEST_ASSERT_EQUAL_INT(1, file_store_load(path, memory));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, memory, CELL_COUNT);
+}
+
+static void assert_load_leaves_memory_alone(int expected)
+{
+    uint8_t memory[CELL_COUNT];
+    memset(memory, 0xEE, sizeof memory);
+    TEST_ASSERT_EQUAL_INT(expected, file_store_load(path, memory));
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xEE, memory, CELL_COUNT);
+}
+
+static void test_nothing_was_ever_stored(void)
+{
+    assert_load_leaves_memory_alone(0);
+}
+
+static void test_what_was_saved_is_loaded(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, file_store_save(path, OLD));
+    assert_stored(OLD);
+    TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
+    assert_stored(NEW);
+}
+
+static void test_the_file_is_the_bytes_alone(void)
+{
+    struct stat file;
+    TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
+
+    TEST_ASSERT_EQUAL_INT(0, stat(path, &file));
+    TEST_ASSERT_EQUAL_INT(CELL_COUNT, file.st_size);
+}
+
+static void test_a_file_of_another_size_is_no_memory(void)
+{
+    const size_t sizes[] = {0, 7, 9, 64};
+    const uint8_t bytes[64] = {0};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        write_file(bytes, sizes[i]);
+        assert_load_leaves_memory_alone(HAL_E_STORE);
+    }
+}
+
+static void test_a_file_of_another_size_is_replaced_by_a_save(void)
+{
+    write_file("short", 5);
+    TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
+    assert_stored(NEW);
+}
+
+static void test_a_file_that_cannot_be_read_is_no_memory(void)
+{
+    write_file(OLD, CELL_COUNT);
+    for (int n = 1; n <= 2; n++) {
+        calls = 0;
+        fail_at = n;
+        assert_load_leaves_memory_alone(HAL_E_STORE);
+    }
+}
+
+static void test_a_folder_that_is_not_there_refuses_a_save(void)
+{
+    TEST_ASSERT_EQUAL_INT(HAL_E_STORE, file_store_save("/no/such/folder/memory", NEW));
+}
+
+static void test_a_path_too_long_refuses_a_save(void)
+{
+    char name[5000];
+    memset(name, 'x', sizeof name);
+    name[sizeof name - 1] = '\0';
+    TEST_ASSERT_EQUAL_INT(HAL_E_STORE, file_store_save(name, NEW));
+}
+
+/* Saves NEW with the n-th call failing, and nothing left beside the file; false: there are fewer than n. */
+static bool save_fails_at(int n, int *result)
+{
+    calls = 0;
+    fail_at = n;
+    *result = file_store_save(path, NEW);
+    fail_at = 0;
+    TEST_ASSERT_EQUAL_INT(-1, access(fresh, F_OK));
+    return calls >= n;
+}
+
+static void test_a_refused_save_leaves_the_old_memory(void)
+{
+    int result, refused = 0;
+    write_file(OLD, CELL_COUNT);
+    for (int n = 1; save_fails_at(n, &result); n++) {
+        assert_stored(result == 0 ? NEW : OLD);
+        refused += result == HAL_E_STORE;
+        write_file(OLD, CELL_COUNT);
+    }
+    TEST_ASSERT_EQUAL_INT(7, refused);   /* open, write, fsync, close, rename; open and fsync of the folder */
+}
+
+static void test_a_refused_first_save_leaves_nothing(void)
+{
+    int result, refused = 0;
+    for (int n = 2; save_fails_at(n, &result); n++) {
+        if (result == 0) assert_stored(NEW);
+        else assert_load_leaves_memory_alone(0);
+        refused += result == HAL_E_STORE;
+        unlink(path);
+    }
+    TEST_ASSERT_EQUAL_INT(7, refused);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_nothing_was_ever_stored);
+    RUN_TEST(test_what_was_saved_is_loaded);
+    RUN_TEST(test_the_file_is_the_bytes_alone);
+    RUN_TEST(test_a_file_of_another_size_is_no_memory);
+    RUN_TEST(test_a_file_of_another_size_is_replaced_by_a_save);
+    RUN_TEST(test_a_file_that_cannot_be_read_is_no_memory);
+    RUN_TEST(test_a_folder_that_is_not_there_refuses_a_save);
+    RUN_TEST(test_a_path_too_long_refuses_a_save);
+    RUN_TEST(test_a_refused_save_leaves_the_old_memory);
+    RUN_TEST(test_a_refused_first_save_leaves_nothing);
+    return UNITY_END();
+}

@@ -1,0 +1,143 @@
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <unity.h>
+
+#include "hal/link/link.h"
+
+static const uint16_t IDS[LINK_IDS_MAX + 1];
+static char said[2 * PATH_MAX];   /* on stderr, by the last open */
+
+void setUp(void) {}
+void tearDown(void) {}
+
+/* Opens with stderr going to a file that nobody else sees. */
+static int open_listening(struct link **link, const char *name, size_t id_count)
+{
+    int console = dup(STDERR_FILENO);
+    FILE *heard = tmpfile();
+    TEST_ASSERT_NOT_NULL(heard);
+    dup2(fileno(heard), STDERR_FILENO);
+    int result = link_open(link, name, IDS, id_count);
+    dup2(console, STDERR_FILENO);
+    close(console);
+    rewind(heard);
+    said[fread(said, 1, sizeof said - 1, heard)] = '\0';
+    fclose(heard);
+    return result;
+}
+
+static void assert_refused(int expected, const char *name, size_t id_count)
+{
+    struct link *untouched = (struct link *)said;
+    struct link *link = untouched;
+    TEST_ASSERT_EQUAL_INT_MESSAGE(expected, open_listening(&link, name, id_count), name);
+    TEST_ASSERT_EQUAL_PTR(untouched, link);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, name), said);
+    TEST_ASSERT_EQUAL_PTR_MESSAGE(said + strlen(said) - 1, strchr(said, '\n'), said);
+}
+
+static void test_a_name_of_no_kind_is_refused(void)
+{
+    const char *const names[] = {"", "can0", "fd", "fd:", "slcan:", "socketcan:", "udp:1", ":"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) assert_refused(LINK_E_NAME, names[i], 1);
+}
+
+static void test_a_refused_name_is_answered_with_those_there_are(void)
+{
+    assert_refused(LINK_E_NAME, "can0", 1);
+
+    TEST_ASSERT_EQUAL_STRING(
+        "link can0: no such kind of link; the links are socketcan:IFACE, fd:N, slcan:PATH[@BAUD]\n", said);
+}
+
+static void test_a_descriptor_must_be_a_number(void)
+{
+    const char *const names[] = {"fd:x", "fd:-1", "fd:+3", "fd: 3", "fd:3x", "fd:2147483648",
+                                 "fd:99999999999999999999"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) assert_refused(LINK_E_NAME, names[i], 1);
+}
+
+static void test_a_descriptor_must_be_open(void)
+{
+    assert_refused(LINK_E_OPEN, "fd:987", 1);
+
+    TEST_ASSERT_EQUAL_STRING("link fd:987: Bad file descriptor\n", said);
+}
+
+static void assert_descriptor_refused(int fd)
+{
+    char name[16];
+    snprintf(name, sizeof name, "fd:%d", fd);
+    assert_refused(LINK_E_OPEN, name, 1);
+    TEST_ASSERT_EQUAL_INT(0, close(fd));   /* still ours */
+}
+
+static void test_a_descriptor_must_be_a_socket_of_whole_frames(void)
+{
+    assert_descriptor_refused(open("/dev/null", O_RDWR));
+    assert_descriptor_refused(socket(AF_UNIX, SOCK_STREAM, 0));
+    assert_descriptor_refused(socket(AF_UNIX, SOCK_DGRAM, 0));
+}
+
+static void test_a_path_must_be_a_terminal(void)
+{
+    assert_refused(LINK_E_OPEN, "slcan:/no/such/line", 1);
+    assert_refused(LINK_E_OPEN, "slcan:/dev/null", 1);
+    assert_refused(LINK_E_OPEN, "slcan:@115200", 1);
+}
+
+static void test_a_speed_must_be_one_of_a_serial_line(void)
+{
+    assert_refused(LINK_E_NAME, "slcan:/dev/ptmx@115201", 1);
+    assert_refused(LINK_E_NAME, "slcan:/dev/ptmx@", 1);
+}
+
+static void test_a_terminal_opens_with_a_speed(void)
+{
+    struct link *link = NULL;
+
+    TEST_ASSERT_EQUAL_INT(0, open_listening(&link, "slcan:/dev/ptmx@9600", 1));
+    TEST_ASSERT_EQUAL_STRING("", said);
+    link_close(link);
+}
+
+static void test_a_path_too_long_is_refused(void)
+{
+    char name[PATH_MAX + 10] = "slcan:";
+    memset(name + strlen(name), 'x', PATH_MAX);
+
+    assert_refused(LINK_E_NAME, name, 1);
+}
+
+static void test_an_interface_must_exist(void)
+{
+    assert_refused(LINK_E_OPEN, "socketcan:nosuch0", 1);
+}
+
+static void test_more_identifiers_than_a_link_takes_are_refused(void)
+{
+    assert_refused(LINK_E_OPEN, "fd:987", LINK_IDS_MAX + 1);
+
+    TEST_ASSERT_EQUAL_STRING("link fd:987: too many identifiers to listen for\n", said);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_name_of_no_kind_is_refused);
+    RUN_TEST(test_a_refused_name_is_answered_with_those_there_are);
+    RUN_TEST(test_a_descriptor_must_be_a_number);
+    RUN_TEST(test_a_descriptor_must_be_open);
+    RUN_TEST(test_a_descriptor_must_be_a_socket_of_whole_frames);
+    RUN_TEST(test_a_path_must_be_a_terminal);
+    RUN_TEST(test_a_speed_must_be_one_of_a_serial_line);
+    RUN_TEST(test_a_terminal_opens_with_a_speed);
+    RUN_TEST(test_a_path_too_long_is_refused);
+    RUN_TEST(test_an_interface_must_exist);
+    RUN_TEST(test_more_identifiers_than_a_link_takes_are_refused);
+    return UNITY_END();
+}

@@ -1,0 +1,214 @@
+#include <string.h>
+#include <unity.h>
+
+#include "hal/link/slcan.h"
+
+struct tally {
+    unsigned frames, garbled;
+    struct frame last;
+};
+
+void setUp(void) {}
+void tearDown(void) {}
+
+static struct tally decode(const char *text)
+{
+    struct slcan_decoder decoder = {0};
+    struct tally tally = {0};
+    for (; *text != '\0'; text++) {
+        enum slcan_found found = slcan_decode(&decoder, *text, &tally.last);
+        tally.frames += found == SLCAN_FRAME;
+        tally.garbled += found == SLCAN_GARBLED;
+    }
+    return tally;
+}
+
+static void assert_decodes(const char *text, const struct frame *expected)
+{
+    struct tally tally = decode(text);
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(1, tally.frames, text);
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(0, tally.garbled, text);
+    TEST_ASSERT_EQUAL_HEX32_MESSAGE(expected->id, tally.last.id, text);
+    TEST_ASSERT_EQUAL_UINT8_MESSAGE(expected->len, tally.last.len, text);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY_MESSAGE(expected->data, tally.last.data, 8, text);
+}
+
+static void assert_encodes(const char *expected, const struct frame *frame)
+{
+    char text[SLCAN_TEXT_MAX + 1] = {0};
+    TEST_ASSERT_EQUAL_size_t(strlen(expected), slcan_encode(text, frame));
+    TEST_ASSERT_EQUAL_STRING(expected, text);
+}
+
+/* Each alone, then with a good frame after it. */
+static void assert_garbled_once(const char *line)
+{
+    char text[128];
+    strcpy(text, line);
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(0, decode(text).frames, line);
+    strcat(text, "t1230\r");
+    struct tally tally = decode(text);
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(1, tally.garbled, line);
+    TEST_ASSERT_EQUAL_UINT_MESSAGE(1, tally.frames, line);
+}
+
+static void test_a_data_line_is_a_frame(void)
+{
+    assert_decodes("t1233AABBCC\r", &(struct frame){0x123, 3, {0xAA, 0xBB, 0xCC}});
+    assert_decodes("t7FF0\r", &(struct frame){0x7FF, 0, {0}});
+    assert_decodes("t00080123456789ABCDEF\r",
+                   &(struct frame){0, 8, {0x01, 0x23, 0x45, 0x67, 0x89, 0xAB, 0xCD, 0xEF}});
+}
+
+static void test_hex_may_be_lower_case(void)
+{
+    assert_decodes("t7fa2abfF\r", &(struct frame){0x7FA, 2, {0xAB, 0xFF}});
+}
+
+static void test_extended_and_remote_lines_bear_flags(void)
+{
+    assert_decodes("T1FFFFFFF1A5\r", &(struct frame){0x1FFFFFFF | FRAME_EXTENDED, 1, {0xA5}});
+    assert_decodes("r1238\r", &(struct frame){0x123 | FRAME_REMOTE, 8, {0}});
+    assert_decodes("R000001230\r", &(struct frame){0x123 | FRAME_EXTENDED | FRAME_REMOTE, 0, {0}});
+}
+
+static void test_time_after_the_data_is_passed_over(void)
+{
+    assert_decodes("t1231AAEA5F\r", &(struct frame){0x123, 1, {0xAA}});
+    assert_decodes("r1231EA5F\r", &(struct frame){0x123 | FRAME_REMOTE, 1, {0}});
+    assert_decodes("T0000012380011223344556677EA5F\r",
+                   &(struct frame){0x123 | FRAME_EXTENDED, 8, {0, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77}});
+}
+
+static void test_replies_and_set_up_commands_mean_nothing(void)
+{
+    struct tally tally = decode("\r\r\az\rZ\rC\rS6\rO\rL\rY2\rs031C\rV\rN\rF\rZ1\rM00000000\rmFFFFFFFF\r");
+
+    TEST_ASSERT_EQUAL_UINT(0, tally.frames);
+    TEST_ASSERT_EQUAL_UINT(0, tally.garbled);
+}
+
+static void test_a_frame_follows_set_up_commands(void)
+{
+    assert_decodes("C\rS6\rO\r\at1230\r", &(struct frame){0x123, 0, {0}});
+}
+
+static void test_a_half_line_counts_once(void)
+{
+    assert_garbled_once("t\r");
+    assert_garbled_once("t12\r");
+    assert_garbled_once("t123\r");
+    assert_garbled_once("t1232AA\r");
+    assert_garbled_once("t1232AAB\r");
+    assert_garbled_once("T0000012\r");
+    assert_garbled_once("t1232A\a");
+}
+
+static void test_the_tail_of_a_line_counts_once(void)
+{
+    assert_garbled_once("3AABBCC\r");
+    assert_garbled_once("CC11\r");
+    assert_garbled_once("F0\r");
+}
+
+static void test_two_lines_run_together_count_once(void)
+{
+    assert_garbled_once("t1232At1230\r");
+}
+
+static void test_a_line_too_long_counts_once(void)
+{
+    assert_garbled_once("T0000012380011223344556677EA5F0\r");
+    assert_garbled_once("t1230ttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttt\r");
+}
+
+static void test_a_line_of_any_length_counts_once(void)
+{
+    struct slcan_decoder decoder = {0};
+    struct frame frame;
+    for (int len = 1; len < 600; len++) {
+        for (int i = 0; i < len; i++) TEST_ASSERT_EQUAL(SLCAN_NOTHING, slcan_decode(&decoder, '0', &frame));
+        TEST_ASSERT_EQUAL(SLCAN_GARBLED, slcan_decode(&decoder, '\r', &frame));
+    }
+}
+
+static void test_more_than_the_time_after_the_data_is_garbled(void)
+{
+    assert_garbled_once("t1231AAE\r");
+    assert_garbled_once("t1231AAEA5\r");
+    assert_garbled_once("t1231AAEA5F0\r");
+}
+
+static void test_what_no_frame_can_hold_is_garbled(void)
+{
+    assert_garbled_once("t8000\r");
+    assert_garbled_once("T200000000\r");
+    assert_garbled_once("t1239001122334455667788\r");
+    assert_garbled_once("t123G\r");
+    assert_garbled_once("t1231A:\r");
+    assert_garbled_once("t12/0\r");
+    assert_garbled_once("t12@0\r");
+    assert_garbled_once("t12`0\r");
+    assert_garbled_once("t12g0\r");
+    assert_garbled_once("r1239\r");
+    assert_garbled_once("x1230\r");
+    assert_garbled_once("\nt1230\r");
+    assert_garbled_once("\x80\xFF\r");
+}
+
+static void test_what_is_garbled_leaves_the_frame_alone(void)
+{
+    struct tally tally = decode("t7FF1A5\rt1231\r");
+
+    TEST_ASSERT_EQUAL_HEX32(0x7FF, tally.last.id);
+    TEST_ASSERT_EQUAL_HEX8(0xA5, tally.last.data[0]);
+}
+
+static void test_frames_are_written_in_upper_case(void)
+{
+    assert_encodes("t7FA2ABFF\r", &(struct frame){0x7FA, 2, {0xAB, 0xFF}});
+    assert_encodes("t0010\r", &(struct frame){0x001, 0, {0}});
+    assert_encodes("T1ABCDEF01A5\r", &(struct frame){0x1ABCDEF0 | FRAME_EXTENDED, 1, {0xA5}});
+    assert_encodes("r1238\r", &(struct frame){0x123 | FRAME_REMOTE, 8, {0}});
+    assert_encodes("R000001232\r", &(struct frame){0x123 | FRAME_REMOTE | FRAME_EXTENDED, 2, {0}});
+}
+
+static void test_the_longest_line_fits(void)
+{
+    assert_encodes("T1FFFFFFF8FFFFFFFFFFFFFFFF\r",
+                   &(struct frame){0xFFFFFFFF & ~FRAME_REMOTE, 8, {255, 255, 255, 255, 255, 255, 255, 255}});
+}
+
+static void test_each_written_line_reads_back(void)
+{
+    for (uint8_t len = 0; len <= 8; len++) {
+        struct frame frame = {.id = 0x100u + len, .len = len};
+        memset(frame.data, 0x5A, len);
+        char text[SLCAN_TEXT_MAX + 1] = {0};
+        slcan_encode(text, &frame);
+        assert_decodes(text, &frame);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_data_line_is_a_frame);
+    RUN_TEST(test_hex_may_be_lower_case);
+    RUN_TEST(test_extended_and_remote_lines_bear_flags);
+    RUN_TEST(test_time_after_the_data_is_passed_over);
+    RUN_TEST(test_replies_and_set_up_commands_mean_nothing);
+    RUN_TEST(test_a_frame_follows_set_up_commands);
+    RUN_TEST(test_a_half_line_counts_once);
+    RUN_TEST(test_the_tail_of_a_line_counts_once);
+    RUN_TEST(test_two_lines_run_together_count_once);
+    RUN_TEST(test_a_line_too_long_counts_once);
+    RUN_TEST(test_a_line_of_any_length_counts_once);
+    RUN_TEST(test_more_than_the_time_after_the_data_is_garbled);
+    RUN_TEST(test_what_no_frame_can_hold_is_garbled);
+    RUN_TEST(test_what_is_garbled_leaves_the_frame_alone);
+    RUN_TEST(test_frames_are_written_in_upper_case);
+    RUN_TEST(test_the_longest_line_fits);
+    RUN_TEST(test_each_written_line_reads_back);
+    return UNITY_END();
+}

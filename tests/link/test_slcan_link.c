@@ -1,0 +1,150 @@
+/* A serial line that takes less than it is given, played by a fake write. */
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <termios.h>
+#include <unistd.h>
+#include <unity.h>
+
+#include "hal/link/link.h"
+
+static const struct frame HELLO = {0x123, 2, {0xAB, 0xCD}};
+static const struct frame EMPTY = {.id = 0x100};
+static const uint16_t WANTED[] = {0x123};
+
+static size_t room;       /* bytes that the line takes, then it is full */
+static size_t piece;      /* at most so many at once */
+static int interruptions; /* before it takes anything */
+static struct link *near;
+static int far;
+
+ssize_t __real_write(int fd, const void *from, size_t size);
+ssize_t __wrap_write(int fd, const void *from, size_t size);
+
+static ssize_t fail(int error)
+{
+    errno = error;
+    return -1;
+}
+
+ssize_t __wrap_write(int fd, const void *from, size_t size)
+{
+    if (interruptions-- > 0) return fail(EINTR);
+    if (room == 0) return fail(EAGAIN);
+    if (size > piece) size = piece;
+    if (size > room) size = room;
+    room -= size;
+    return __real_write(fd, from, size);
+}
+
+void setUp(void)
+{
+    char name[64];
+    room = piece = 1000;
+    interruptions = 0;
+    far = posix_openpt(O_RDWR | O_NOCTTY);
+    TEST_ASSERT_EQUAL_INT(0, grantpt(far));
+    TEST_ASSERT_EQUAL_INT(0, unlockpt(far));
+    snprintf(name, sizeof name, "slcan:%s", ptsname(far));
+    TEST_ASSERT_EQUAL_INT(0, link_open(&near, name, WANTED, 1));
+}
+
+void tearDown(void)
+{
+    link_close(near);
+    close(far);
+}
+
+static void assert_far_reads(const char *expected)
+{
+    char text[100] = {0};
+    size_t len = 0;
+    while (len < sizeof text - 1 && poll(&(struct pollfd){.fd = far, .events = POLLIN}, 1, 50) == 1)
+        len += (size_t)read(far, text + len, sizeof text - 1 - len);
+    TEST_ASSERT_EQUAL_STRING(expected, text);
+}
+
+static void put(const char *text)
+{
+    TEST_ASSERT_EQUAL_INT(strlen(text), __real_write(far, text, strlen(text)));
+}
+
+static void test_opening_sends_nothing(void)
+{
+    assert_far_reads("");
+}
+
+static void test_a_line_taken_in_pieces_arrives_whole(void)
+{
+    piece = 3;
+    TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
+    assert_far_reads("t1232ABCD\r");
+}
+
+static void test_an_interrupted_write_goes_on(void)
+{
+    interruptions = 2;
+    TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
+    assert_far_reads("t1232ABCD\r");
+}
+
+static void test_a_line_cut_short_is_ended_before_the_next(void)
+{
+    room = 4;
+    TEST_ASSERT_EQUAL_INT(LINK_E_FULL, link_send(near, &HELLO));
+    room = 1000;
+    TEST_ASSERT_EQUAL_INT(0, link_send(near, &EMPTY));
+    TEST_ASSERT_EQUAL_INT(0, link_send(near, &EMPTY));
+    assert_far_reads("t123\rt1000\rt1000\r");
+}
+
+static void test_a_line_stays_cut_short_while_nothing_passes(void)
+{
+    room = 4;
+    TEST_ASSERT_EQUAL_INT(LINK_E_FULL, link_send(near, &HELLO));
+    TEST_ASSERT_EQUAL_INT(LINK_E_FULL, link_send(near, &HELLO));
+    room = 1000;
+    TEST_ASSERT_EQUAL_INT(0, link_send(near, &EMPTY));
+    assert_far_reads("t123\rt1000\r");
+}
+
+static void test_lines_that_mean_nothing_do_not_end_the_wait(void)
+{
+    struct frame frame;
+    put("C\rS6\rO\r\a\rz\r");
+    TEST_ASSERT_EQUAL_INT(0, link_receive(near, &frame, 20));
+}
+
+static void test_a_line_that_comes_in_pieces_is_one_frame(void)
+{
+    struct frame frame;
+    put("t1232A");
+    TEST_ASSERT_EQUAL_INT(0, link_receive(near, &frame, 20));
+    put("BCD\r");
+    TEST_ASSERT_EQUAL_INT(1, link_receive(near, &frame, 1000));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
+}
+
+static void test_the_line_is_set_to_its_usual_speed(void)
+{
+    struct termios line;
+    TEST_ASSERT_EQUAL_INT(0, tcgetattr(far, &line));
+    TEST_ASSERT_EQUAL_UINT(B115200, cfgetospeed(&line));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_opening_sends_nothing);
+    RUN_TEST(test_a_line_taken_in_pieces_arrives_whole);
+    RUN_TEST(test_an_interrupted_write_goes_on);
+    RUN_TEST(test_a_line_cut_short_is_ended_before_the_next);
+    RUN_TEST(test_a_line_stays_cut_short_while_nothing_passes);
+    RUN_TEST(test_lines_that_mean_nothing_do_not_end_the_wait);
+    RUN_TEST(test_a_line_that_comes_in_pieces_is_one_frame);
+    RUN_TEST(test_the_line_is_set_to_its_usual_speed);
+    return UNITY_END();
+}

@@ -1,0 +1,278 @@
+/* What sockets seldom say, said to the link by fakes of the system calls. */
+#include <errno.h>
+#include <limits.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <time.h>
+#include <unistd.h>
+#include <unity.h>
+
+#include "hal/link/link.h"
+
+enum { FOR_EVER = INT_MAX, WAIT_MS = 30, LATE_MS = 1000 };
+
+/* The first calls fail, with error; the others go through. */
+struct fault {
+    int error, first, calls;
+};
+
+static struct fault recv_fault, send_fault, setsockopt_fault, calloc_fault;
+
+static const struct frame HELLO = {0x123, 3, {0xAA, 0xBB, 0xCC}};
+static const uint16_t WANTED[] = {0x123};
+static struct link *near;
+static int far;
+
+static bool strikes(struct fault *fault)
+{
+    if (fault->calls >= fault->first) return false;
+    fault->calls++;
+    errno = fault->error;
+    return true;
+}
+
+ssize_t __real_recv(int fd, void *to, size_t size, int flags);
+ssize_t __wrap_recv(int fd, void *to, size_t size, int flags);
+ssize_t __real_send(int fd, const void *from, size_t size, int flags);
+ssize_t __wrap_send(int fd, const void *from, size_t size, int flags);
+int __real_setsockopt(int fd, int level, int name, const void *value, socklen_t size);
+int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+
+ssize_t __wrap_recv(int fd, void *to, size_t size, int flags)
+{
+    return strikes(&recv_fault) ? -1 : __real_recv(fd, to, size, flags);
+}
+
+ssize_t __wrap_send(int fd, const void *from, size_t size, int flags)
+{
+    return strikes(&send_fault) ? -1 : __real_send(fd, from, size, flags);
+}
+
+int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t size)
+{
+    return strikes(&setsockopt_fault) ? -1 : __real_setsockopt(fd, level, name, value, size);
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return strikes(&calloc_fault) ? NULL : __real_calloc(count, size);
+}
+
+static int64_t now_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (int64_t)now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
+
+void setUp(void)
+{
+    int ends[2];
+    char name[16];
+    recv_fault = send_fault = setsockopt_fault = calloc_fault = (struct fault){0};
+    TEST_ASSERT_EQUAL_INT(0, socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends));
+    far = ends[0];
+    snprintf(name, sizeof name, "fd:%d", ends[1]);
+    TEST_ASSERT_EQUAL_INT(0, link_open(&near, name, WANTED, 1));
+}
+
+void tearDown(void)
+{
+    link_close(near);
+    close(far);
+}
+
+/* The result expected, after from_ms at the earliest and without hanging. */
+static void assert_receive(int expected, int64_t from_ms)
+{
+    struct frame frame;
+    int64_t start = now_ms();
+    TEST_ASSERT_EQUAL_INT(expected, link_receive(near, &frame, WAIT_MS));
+    int64_t took = now_ms() - start;
+    TEST_ASSERT_TRUE(took >= from_ms);
+    TEST_ASSERT_TRUE(took < from_ms + LATE_MS);
+}
+
+static void assert_send(int expected, int64_t from_ms)
+{
+    int64_t start = now_ms();
+    TEST_ASSERT_EQUAL_INT(expected, link_send(near, &HELLO));
+    int64_t took = now_ms() - start;
+    TEST_ASSERT_TRUE(took >= from_ms);
+    TEST_ASSERT_TRUE(took < from_ms + LATE_MS);
+}
+
+static void put(size_t size, uint8_t len)
+{
+    uint8_t raw[72] = {0x23, 0x01, 0, 0, len};
+    TEST_ASSERT_EQUAL_INT(size, write(far, raw, size));
+}
+
+static void assert_far_has_one_frame(void)
+{
+    uint8_t raw[72];
+    TEST_ASSERT_EQUAL_INT(16, read(far, raw, sizeof raw));
+    TEST_ASSERT_EQUAL_INT(-1, read(far, raw, sizeof raw));
+}
+
+static void test_a_busy_queue_is_tried_again(void)
+{
+    send_fault = (struct fault){.error = ENOBUFS, .first = 3};
+    assert_send(0, 3);
+    assert_far_has_one_frame();
+}
+
+static void test_a_queue_that_stays_busy_is_given_up_in_time(void)
+{
+    send_fault = (struct fault){.error = ENOBUFS, .first = FOR_EVER};
+    assert_send(LINK_E_FULL, LINK_SEND_MS);
+}
+
+static void test_an_interrupted_send_is_tried_again(void)
+{
+    send_fault = (struct fault){.error = EINTR, .first = 1};
+    assert_send(0, 0);
+    assert_far_has_one_frame();
+}
+
+static void test_a_send_that_is_always_interrupted_ends(void)
+{
+    send_fault = (struct fault){.error = EINTR, .first = FOR_EVER};
+    assert_send(LINK_E_FULL, LINK_SEND_MS);
+}
+
+static void test_a_send_to_a_bus_that_is_down_says_so_at_once(void)
+{
+    send_fault = (struct fault){.error = ENETDOWN, .first = FOR_EVER};
+    assert_send(LINK_E_DOWN, 0);
+}
+
+static void test_a_send_to_an_interface_that_is_gone_is_closed(void)
+{
+    const int errors[] = {ENODEV, ENXIO, EPIPE, ECONNRESET, EBADF};
+    for (size_t i = 0; i < sizeof errors / sizeof errors[0]; i++) {
+        send_fault = (struct fault){.error = errors[i], .first = FOR_EVER};
+        assert_send(LINK_E_CLOSED, 0);
+    }
+}
+
+static void test_an_interrupted_receive_is_tried_again(void)
+{
+    recv_fault = (struct fault){.error = EINTR, .first = 3};
+    put(16, 3);
+    assert_receive(1, 0);
+}
+
+static void test_a_receive_that_is_always_interrupted_ends(void)
+{
+    recv_fault = (struct fault){.error = EINTR, .first = FOR_EVER};
+    assert_receive(0, WAIT_MS);
+}
+
+static void test_a_bus_that_is_down_says_so_after_the_wait(void)
+{
+    recv_fault = (struct fault){.error = ENETDOWN, .first = 1};
+    assert_receive(LINK_E_DOWN, WAIT_MS);
+    assert_receive(0, WAIT_MS);
+}
+
+static void test_a_bus_that_stays_down_says_so_after_the_wait(void)
+{
+    recv_fault = (struct fault){.error = ENETDOWN, .first = FOR_EVER};
+    assert_receive(LINK_E_DOWN, WAIT_MS);
+}
+
+static void test_a_frame_after_the_bus_was_down_arrives(void)
+{
+    recv_fault = (struct fault){.error = ENETDOWN, .first = 1};
+    put(16, 3);
+    assert_receive(1, 0);
+}
+
+static void test_a_receive_from_an_interface_that_is_gone_is_closed(void)
+{
+    const int errors[] = {ENODEV, ENXIO, ECONNRESET, EBADF};
+    for (size_t i = 0; i < sizeof errors / sizeof errors[0]; i++) {
+        recv_fault = (struct fault){.error = errors[i], .first = FOR_EVER};
+        assert_receive(LINK_E_CLOSED, 0);
+    }
+}
+
+static void test_a_wait_that_cannot_be_set_is_closed(void)
+{
+    setsockopt_fault = (struct fault){.error = EBADF, .first = 1};
+    assert_receive(LINK_E_CLOSED, 0);
+}
+
+static void test_a_datagram_of_another_size_is_garbled(void)
+{
+    const size_t sizes[] = {0, 1, 15, 17, 72};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        put(sizes[i], 3);
+        assert_receive(LINK_E_GARBLED, 0);
+    }
+    put(16, 3);
+    assert_receive(1, 0);
+}
+
+static void test_a_far_end_that_sends_no_more_is_closed(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, shutdown(far, SHUT_WR));
+    assert_receive(LINK_E_CLOSED, 0);
+}
+
+static void test_a_length_over_eight_is_garbled(void)
+{
+    put(16, 9);
+    assert_receive(LINK_E_GARBLED, 0);
+    put(16, 255);
+    assert_receive(LINK_E_GARBLED, 0);
+}
+
+static void test_a_descriptor_that_came_non_blocking_waits_all_the_same(void)
+{
+    assert_receive(0, WAIT_MS);
+}
+
+static void test_no_memory_for_a_link_refuses_it(void)
+{
+    int ends[2];
+    char name[16];
+    struct link *link = NULL;
+    TEST_ASSERT_EQUAL_INT(0, socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends));
+    snprintf(name, sizeof name, "fd:%d", ends[0]);
+    calloc_fault = (struct fault){.error = ENOMEM, .first = 1};
+
+    TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, link_open(&link, name, WANTED, 1));
+    TEST_ASSERT_NULL(link);
+    TEST_ASSERT_EQUAL_INT(0, close(ends[0]));
+    TEST_ASSERT_EQUAL_INT(0, close(ends[1]));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_busy_queue_is_tried_again);
+    RUN_TEST(test_a_queue_that_stays_busy_is_given_up_in_time);
+    RUN_TEST(test_an_interrupted_send_is_tried_again);
+    RUN_TEST(test_a_send_that_is_always_interrupted_ends);
+    RUN_TEST(test_a_send_to_a_bus_that_is_down_says_so_at_once);
+    RUN_TEST(test_a_send_to_an_interface_that_is_gone_is_closed);
+    RUN_TEST(test_an_interrupted_receive_is_tried_again);
+    RUN_TEST(test_a_receive_that_is_always_interrupted_ends);
+    RUN_TEST(test_a_bus_that_is_down_says_so_after_the_wait);
+    RUN_TEST(test_a_bus_that_stays_down_says_so_after_the_wait);
+    RUN_TEST(test_a_frame_after_the_bus_was_down_arrives);
+    RUN_TEST(test_a_receive_from_an_interface_that_is_gone_is_closed);
+    RUN_TEST(test_a_wait_that_cannot_be_set_is_closed);
+    RUN_TEST(test_a_datagram_of_another_size_is_garbled);
+    RUN_TEST(test_a_far_end_that_sends_no_more_is_closed);
+    RUN_TEST(test_a_length_over_eight_is_garbled);
+    RUN_TEST(test_a_descriptor_that_came_non_blocking_waits_all_the_same);
+    RUN_TEST(test_no_memory_for_a_link_refuses_it);
+    return UNITY_END();
+}
