@@ -29,14 +29,14 @@ static struct action step_forward(struct brain *brain, const struct config *conf
 static struct action look_around(struct brain *brain, const struct config *config)
 {
     enum side side = random_below(&brain->random, 2) ? SIDE_RIGHT : SIDE_LEFT;
-    unsigned more = random_below(&brain->random, (uint8_t)config->value[LOOK_CHOICES]);
+    unsigned more = random_below(&brain->random, config->value[LOOK_CHOICES]);
 
     return turn(REASON_LOOK_AROUND, side, config->value[LOOK_MIN_DEG] + more);
 }
 
 static struct action turn_about(struct brain *brain, const struct config *config)
 {
-    unsigned more = random_below(&brain->random, (uint8_t)config->value[BOREDOM_CHOICES]);
+    unsigned more = random_below(&brain->random, config->value[BOREDOM_CHOICES]);
 
     return turn(REASON_BOREDOM, SIDE_RIGHT, config->value[BOREDOM_MIN_DEG] + more);
 }

@@ -10,8 +10,8 @@
 /* One thing to do. */
 struct action {
     enum reason reason;
-    int16_t turn_deg;      /* right positive; 0 for no turn */
-    uint16_t forward_mm;   /* 0 for no step */
+    uint8_t forward_mm;   /* 0 for no step */
+    int16_t turn_deg;     /* right positive; 0 for no turn */
 };
 
 struct brain {

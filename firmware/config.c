@@ -1,20 +1,21 @@
 #include "firmware/config.h"
 
+/* A byte holds each: that makes the whole robot 64 bytes. */
 static const struct {
-    uint16_t min, max;
+    uint8_t min, max;
 } ranges[PARAMETER_COUNT] = {
     [TURN_DEG] = {1, 180},
     [TRIAL_DEG] = {1, 180},
-    [STEP_MM] = {1, 500},
+    [STEP_MM] = {1, 250},
     [LOOK_MIN_DEG] = {1, 90},
     [LOOK_CHOICES] = {1, 90},
-    [REACH_MM] = {1, 1000},
+    [REACH_MM] = {1, 250},
     [BOREDOM_LIMIT] = {1, 254},
     [BOREDOM_MIN_DEG] = {1, 180},
     [BOREDOM_CHOICES] = {1, 180},
-    [SPEED_MM_S] = {20, 1000},
-    [TURN_SPEED_DEG_S] = {30, 360},
-    [WHEEL_TRACK_MM] = {80, 400},
+    [SPEED_MM_S] = {20, 250},
+    [TURN_SPEED_DEG_S] = {30, 250},
+    [WHEEL_TRACK_MM] = {80, 250},
     [TICK_MS] = {10, 100},
 };
 
@@ -50,7 +51,7 @@ bool config_fits(uint8_t parameter, uint32_t value)
     return value >= ranges[parameter].min && value <= ranges[parameter].max;
 }
 
-void config_set(struct config *config, uint8_t parameter, uint16_t value)
+void config_set(struct config *config, uint8_t parameter, uint8_t value)
 {
     config->value[parameter] = value;
 }

@@ -23,7 +23,7 @@ enum parameter {
 };
 
 struct config {
-    uint16_t value[PARAMETER_COUNT];
+    uint8_t value[PARAMETER_COUNT];
 };
 
 enum profile { PROFILE_ARTICLE, PROFILE_COUNT };
@@ -34,7 +34,7 @@ bool config_load(struct config *config, uint8_t profile);
 bool config_fits(uint8_t parameter, uint32_t value);
         /* Is value within the range of parameter 0..PARAMETER_COUNT-1? */
 
-void config_set(struct config *config, uint8_t parameter, uint16_t value);
+void config_set(struct config *config, uint8_t parameter, uint8_t value);
         /* Sets a parameter to a value that fits. */
 
 #endif

@@ -2,11 +2,10 @@
 
 static bool is_valid(const uint8_t cells[CELL_COUNT])
 {
-    bool valid = cells[0] == SIDE_NONE;
-
-    for (unsigned p = 1; p < CELL_COUNT; p++)
-        valid = valid && cells[p] <= SIDE_RIGHT;
-    return valid;
+    for (unsigned p = 0; p < CELL_COUNT; p++)
+        if (cells[p] > (p == 0 ? SIDE_NONE : SIDE_RIGHT))
+            return false;
+    return true;
 }
 
 void memory_erase(struct memory *memory)

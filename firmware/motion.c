@@ -14,9 +14,9 @@ enum {
     PATIENCE_TICKS = 25                            /* beyond twice the ticks that an action needs */
 };
 
-static int32_t magnitude(int32_t x)
+static uint32_t magnitude(int32_t x)
 {
-    return x < 0 ? -x : x;
+    return (uint32_t)(x < 0 ? -x : x);
 }
 
 static int32_t clamped(int32_t x, int32_t limit)
@@ -27,28 +27,40 @@ static int32_t clamped(int32_t x, int32_t limit)
 }
 
 /* turn_left for one degree: track * pi / 180 in units. The constant, in 1/128, makes it exact to one in a million. */
-static int32_t turn_per_degree(const struct config *config)
+static uint32_t turn_per_degree(const struct config *config)
 {
-    return (int32_t)((config->value[WHEEL_TRACK_MM] * 366022u + 64u) / 128u);
+    return (config->value[WHEEL_TRACK_MM] * 366022u + 64u) / 128u;
 }
 
-static int32_t wheel_speed_turning(const struct config *config)
+/* Divisions here are unsigned throughout: a small processor has to bring its own, and one kind is enough. */
+static uint32_t wheel_speed_turning(const struct config *config)
 {
     return turn_per_degree(config) / 64 * config->value[TURN_SPEED_DEG_S] / (TURN_UNIT / 64 * COUNTS_PER_MM);
 }
 
-static int32_t counts_per_tick(const struct config *config, int32_t speed_mm_s)
+/* Of the action under way: what each wheel makes at the most, mm/s. */
+static uint32_t full_speed(const struct motion *motion, const struct config *config)
 {
-    return speed_mm_s * COUNTS_PER_MM * config->value[TICK_MS] / 1000;
+    return motion->kind == TURN ? wheel_speed_turning(config) : config->value[SPEED_MM_S];
+}
+
+/* Of the action under way: still to be made, both wheels' counts together, right or forward positive. */
+static int32_t counts_left(const struct motion *motion)
+{
+    if (motion->kind == TURN)
+        return motion->turn_left / TURN_UNIT;
+    return motion->kind == STEP ? motion->way_left : 0;
 }
 
 /* The wheel speed that covers counts in one tick, rounded, or the limit where that takes longer. */
-static int16_t speed_for(int32_t counts, const struct config *config, int32_t limit_mm_s)
+static int16_t speed_for(int32_t counts, const struct config *config, uint32_t limit_mm_s)
 {
-    int32_t per_mm_s = COUNTS_PER_MM * config->value[TICK_MS];
-    int32_t rounding = counts < 0 ? -per_mm_s / 2 : per_mm_s / 2;
+    uint32_t per_mm_s = (uint32_t)COUNTS_PER_MM * config->value[TICK_MS];
+    uint32_t speed = (magnitude(counts) * 1000 + per_mm_s / 2) / per_mm_s;
 
-    return (int16_t)clamped((counts * 1000 + rounding) / per_mm_s, limit_mm_s);
+    if (speed > limit_mm_s)
+        speed = limit_mm_s;
+    return (int16_t)(counts < 0 ? -(int32_t)speed : (int32_t)speed);
 }
 
 /* How far a wrapping odometer went, forward positive; good for up to half its span between two ticks. */
@@ -104,12 +116,11 @@ static enum kind kind_of(const struct action *action)
 /* Ticks to allow: twice what the action needs at full speed, and a little. */
 static uint16_t patience(const struct motion *motion, const struct config *config)
 {
+    uint32_t counts_per_tick = full_speed(motion, config) * COUNTS_PER_MM * config->value[TICK_MS] / 1000;
+
     if (motion->kind == REST)
         return 1;
-    if (motion->kind == STEP)
-        return (uint16_t)(2 * motion->way_left / counts_per_tick(config, config->value[SPEED_MM_S]) + PATIENCE_TICKS);
-    return (uint16_t)(2 * (magnitude(motion->turn_left) / TURN_UNIT)
-                      / counts_per_tick(config, wheel_speed_turning(config)) + PATIENCE_TICKS);
+    return (uint16_t)(2 * magnitude(counts_left(motion)) / counts_per_tick + PATIENCE_TICKS);
 }
 
 void motion_begin(struct motion *motion, const struct config *config, const struct action *action)
@@ -118,20 +129,15 @@ void motion_begin(struct motion *motion, const struct config *config, const stru
     if (motion->kind == TURN && motion->ticks_left == 0)
         motion->turn_left = 0;
     motion->kind = (uint8_t)kind_of(action);
-    motion->turn_left += action->turn_deg * turn_per_degree(config);
+    motion->turn_left += action->turn_deg * (int32_t)turn_per_degree(config);
     motion->way_left = (int16_t)(action->forward_mm * COUNTS_PER_MM);
     motion->ticks_left = patience(motion, config);
 }
 
 void motion_drive(const struct motion *motion, const struct config *config, struct drive *drive)
 {
-    drive->left_mm_s = 0;
-    drive->right_mm_s = 0;
-    if (motion->kind == TURN) {
-        drive->left_mm_s = speed_for(motion->turn_left / TURN_UNIT, config, wheel_speed_turning(config));
-        drive->right_mm_s = (int16_t)-drive->left_mm_s;
-    } else if (motion->kind == STEP) {
-        drive->left_mm_s = speed_for(motion->way_left, config, config->value[SPEED_MM_S]);
-        drive->right_mm_s = drive->left_mm_s;
-    }
+    int16_t speed = speed_for(counts_left(motion), config, full_speed(motion, config));
+
+    drive->left_mm_s = speed;
+    drive->right_mm_s = (int16_t)(motion->kind == TURN ? -speed : speed);
 }

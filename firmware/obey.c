@@ -32,7 +32,7 @@ static enum result set(struct robot *robot, const struct command *command)
         return RESULT_UNKNOWN_PARAMETER;
     if (!config_fits(command->which, command->value))
         return RESULT_OUT_OF_RANGE;
-    config_set(&robot->config, command->which, (uint16_t)command->value);
+    config_set(&robot->config, command->which, (uint8_t)command->value);
     return RESULT_DONE;
 }
 

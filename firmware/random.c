@@ -18,8 +18,10 @@ static uint32_t mixed(uint32_t x)
 void random_seed(struct random *random, uint32_t seed)
 {
     /* The mixing is one to one and the two arguments differ, so that at most one word is 0. */
-    random->state[0] = mixed(seed + 0x9e3779b9u);
-    random->state[1] = mixed(seed + 0x3c6ef372u);
+    for (unsigned i = 0; i < 2; i++) {
+        seed += 0x9e3779b9u;
+        random->state[i] = mixed(seed);
+    }
 }
 
 uint32_t random_next(struct random *random)

@@ -2,7 +2,7 @@
 
 enum {
     ACTION_SPAN = 128,     /* actions are numbered 0..127 */
-    REPORT_MS = 1000,      /* a report is due once a second of robot time, */
+    SECOND_MS = 1000,      /* a report is due once a second of robot time, */
     REPORT_SILENCES = 10   /* or, where no tick comes, with every tenth silence */
 };
 
@@ -23,9 +23,16 @@ static void begin_next_action(struct robot *robot, const struct senses *senses)
     robot->action = (uint8_t)((robot->action + 1u) % ACTION_SPAN);
 }
 
-static struct drive rest(const struct robot *robot)
+static void go_on(struct robot *robot, const struct senses *senses)
 {
-    return (struct drive){
+    motion_track(&robot->motion, senses);
+    if (motion_ended(&robot->motion, &robot->config, senses))
+        begin_next_action(robot, senses);
+}
+
+static void rest(const struct robot *robot, struct drive *drive)
+{
+    *drive = (struct drive){
         .tick = robot->tick,
         .reason = REASON_STOP,
         .repeat_count = robot->brain.repeat_count,
@@ -36,23 +43,25 @@ static struct drive rest(const struct robot *robot)
 void robot_step(struct robot *robot, const struct senses *senses, struct drive *drive)
 {
     robot->tick = senses->tick;
-    robot->ticks++;
-    if (!robot->running) {
-        *drive = rest(robot);
+    if (robot->running)
+        go_on(robot, senses);
+    rest(robot, drive);
+    if (!robot->running)
         return;
-    }
-    motion_track(&robot->motion, senses);
-    if (motion_ended(&robot->motion, &robot->config, senses))
-        begin_next_action(robot, senses);
-    *drive = rest(robot);
     drive->reason = (enum reason)robot->reason;
     drive->eat = drive->reason == REASON_EAT;
     motion_drive(&robot->motion, &robot->config, drive);
 }
 
-static uint32_t ticks_per_report(const struct robot *robot)
+/* One tick of robot time. True: it makes a second full. */
+static bool pass_time(struct robot *robot)
 {
-    return REPORT_MS / robot->config.value[TICK_MS];
+    robot->part_ms = (uint16_t)(robot->part_ms + robot->config.value[TICK_MS]);
+    if (robot->part_ms < SECOND_MS)
+        return false;
+    robot->part_ms = (uint16_t)(robot->part_ms - SECOND_MS);
+    robot->uptime_s++;
+    return true;
 }
 
 static void add_report(const struct robot *robot, struct output *out)
@@ -61,7 +70,7 @@ static void add_report(const struct robot *robot, struct output *out)
     out->report.running = robot->running;
     out->report.frozen = robot->brain.frozen;
     out->report.profile = robot->profile;
-    out->report.uptime_s = (uint16_t)(robot->ticks / ticks_per_report(robot));
+    out->report.uptime_s = robot->uptime_s;
     out->has_memory = true;
 }
 
@@ -70,7 +79,7 @@ static void respond_to_senses(struct robot *robot, const struct senses *senses, 
     robot->silences = 0;
     robot_step(robot, senses, &out->drive);
     out->has_drive = true;
-    if (robot->ticks % ticks_per_report(robot) == 0)
+    if (pass_time(robot))
         add_report(robot, out);
 }
 
@@ -85,11 +94,13 @@ static void respond_to_command(struct robot *robot, const struct command *comman
 /* The brain is not asked and the motion not touched: with the next senses all goes on where it was. */
 static void respond_to_silence(struct robot *robot, struct output *out)
 {
-    out->drive = rest(robot);
+    rest(robot, &out->drive);
     out->has_drive = robot->running;
-    robot->silences = (uint8_t)((robot->silences + 1u) % REPORT_SILENCES);
-    if (robot->silences == 0)
-        add_report(robot, out);
+    robot->silences++;
+    if (robot->silences < REPORT_SILENCES)
+        return;
+    robot->silences = 0;
+    add_report(robot, out);
 }
 
 void robot_respond(struct robot *robot, enum hal_input kind, const struct input *in, struct output *out)

@@ -5,16 +5,17 @@
 #include "firmware/motion.h"
 
 struct robot {
-    struct config config;
-    struct brain brain;
-    struct motion motion;
-    uint32_t ticks;       /* since power-up, wraps */
-    uint16_t tick;        /* of the last senses */
-    uint8_t silences;     /* in a row */
+    bool running;
     uint8_t profile;
     uint8_t reason;       /* of the action under way */
     uint8_t action;       /* its number, 0..127 */
-    bool running;
+    uint8_t silences;     /* in a row */
+    struct config config;
+    uint16_t tick;        /* of the last senses */
+    uint16_t part_ms;     /* of the second that has begun */
+    uint16_t uptime_s;    /* robot time since power-up, counted in ticks, wraps */
+    struct brain brain;
+    struct motion motion;
 };
 
 void robot_init(struct robot *robot, uint32_t seed);

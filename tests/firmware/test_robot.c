@@ -279,7 +279,8 @@ static void test_uptime_counts_seconds(void)
 
 static void test_uptime_wraps(void)
 {
-    robot.ticks = 65536u * TICKS_PER_SECOND - 1u;
+    robot.uptime_s = UINT16_MAX;
+    robot.part_ms = 980;
     feel(CLEAR);
     TEST_ASSERT_TRUE(out.has_report);
     TEST_ASSERT_EQUAL_UINT16(0, out.report.uptime_s);

@@ -89,7 +89,7 @@ static void test_stale_senses_do_not_reach_the_robot(void)
 {
     exchange(senses_frame(0));
     TEST_ASSERT_EQUAL_size_t(0, exchange(senses_frame(0)));
-    TEST_ASSERT_EQUAL_UINT32(1, session->robot.ticks);
+    TEST_ASSERT_EQUAL_UINT16(20, session->robot.part_ms);   /* one tick */
 }
 
 static void test_a_session_begins_stopped(void)

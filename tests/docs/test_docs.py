@@ -1,0 +1,86 @@
+"""What the documents say is so: their commands run, their files exist, their quotations stand in the code."""
+
+import re
+import shlex
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from host_sim.protocol_page import page
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = sorted([ROOT / "README.md", *ROOT.glob("docs/*.md")])
+IDS = [path.name for path in PAGES]
+BLOCK = re.compile(r"^```(\S+)(?: (\S+))?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+# These are the test run itself, and what it is called from.
+NOT_FROM_HERE = ("tools/test", "git clone")
+
+
+def commands(kind: str | None) -> list[str]:
+    """The lines of all `sh` blocks that are marked so."""
+    blocks = [found for path in PAGES for found in BLOCK.findall(path.read_text())]
+    wanted = [text for word, mark, text in blocks if (word, mark or None) == ("sh", kind)]
+    lines = [line for text in wanted for line in text.splitlines()]
+    return [line for line in dict.fromkeys(lines) if line.strip() and not line.startswith(NOT_FROM_HERE)]
+
+
+def run(line: str, folder: Path) -> subprocess.CompletedProcess:
+    """A line as a reader types it, in a folder like the project's."""
+    return subprocess.run(line, shell=True, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    """The project's folder, but for what commands write."""
+    folder = tmp_path_factory.mktemp("project")
+    for entry in ROOT.iterdir():
+        if entry.name != "out":
+            (folder / entry.name).symlink_to(entry)
+    return folder
+
+
+def test_every_command_in_the_documents_does_what_it_should(folder):
+    done = {line: run(line, folder) for line in commands(None)}
+
+    assert len(done) >= 8
+    assert {line: (it.returncode, it.stderr) for line, it in done.items() if it.returncode} == {}
+
+
+@pytest.mark.parametrize("line", commands("needs-hardware"))
+def test_commands_for_hardware_that_is_not_here_name_what_is_missing(line, folder):
+    done = run(line, folder)
+
+    assert done.returncode in (1, 2)
+    assert "usage:" not in done.stderr
+    assert any(word in done.stderr for word in shlex.split(line.replace(":", " ")))
+
+
+@pytest.mark.parametrize("path", PAGES, ids=IDS)
+def test_every_file_that_a_document_names_exists(path):
+    text = path.read_text()
+    linked = [path.parent / link for link in re.findall(r"\]\((?!https?:|#)([^)#]+)", text)]
+    named = re.findall(r"`((?:firmware|hal|host_sim|tests|tools|docs|\.ci)/[\w./-]+)`", text)
+
+    missing = [str(file) for file in [*linked, *(ROOT / name for name in named)] if not file.exists()]
+
+    assert missing == []
+
+
+def test_every_line_of_c_in_the_article_stands_in_the_file_named():
+    rows = re.findall(r"^\| .*? \| `([^`]+)` \| `([\w/.]+)`", (ROOT / "docs/article.md").read_text(), re.MULTILINE)
+
+    wrong = [(line, file) for line, file in rows if line not in (ROOT / file).read_text()]
+
+    assert len(rows) > 15
+    assert wrong == []
+
+
+def test_the_page_about_the_wire_is_that_of_the_dbc():
+    assert (ROOT / "docs/protocol.md").read_text() == page(), "make it anew: tools/octet protocol > docs/protocol.md"
+
+
+def test_no_document_is_for_one_machine_only():
+    places = (f"{ROOT}/", f"{Path.home()}/")
+
+    assert [path.name for path in PAGES if any(place in path.read_text() for place in places)] == []

@@ -1,0 +1,43 @@
+"""The robot's C core for tests, as the project's own headers declare it."""
+
+import os
+import re
+from functools import cache
+from pathlib import Path
+
+import cffi
+
+ROOT = Path(__file__).resolve().parents[2]
+_HEADERS = [
+    "hal/hal.h",
+    "firmware/pattern.h",
+    "firmware/config.h",
+    "firmware/memory.h",
+    "firmware/random.h",
+    "firmware/brain.h",
+    "hal/link/link.h",
+    "hal/can/crc8.h",
+]
+
+
+def library_path() -> Path:
+    """Where liboctet.so is: OCTET_LIBRARY, or the host build."""
+    return Path(os.environ.get("OCTET_LIBRARY", ROOT / "build/host/hal/inproc/liboctet.so"))
+
+
+def declarations(header: Path) -> str:
+    """What a header declares, without the preprocessor's lines, which cffi does not read."""
+    text = header.read_text()
+    text = re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL)
+    text = re.sub(r"^#(.*\\\n)*.*$", "", text, flags=re.MULTILINE)
+    return re.sub(r'extern "C" \{|^\}$', "", text, flags=re.MULTILINE)
+
+
+@cache
+def load() -> tuple[cffi.FFI, object]:
+    """The library and the interface to it, declared by the headers that it was built from."""
+    ffi = cffi.FFI()
+    for header in _HEADERS:
+        ffi.cdef(declarations(ROOT / header))
+    ffi.cdef(declarations(library_path().parents[2] / "generated/octet.h"))
+    return ffi, ffi.dlopen(str(library_path()))

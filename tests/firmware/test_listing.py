@@ -1,0 +1,297 @@
+"""The C brain decides as the article's listing does: a million times at random, and in every case there is.
+
+Where a case has a random outcome, the brain is given a generator state that yields it.
+"""
+
+import itertools
+import random
+import subprocess
+from collections import Counter
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+
+from tests.firmware.listing import Action, Listing
+from tests.firmware.octet_c import ROOT, library_path, load
+
+FFI, C = load()
+
+DECISIONS = 1_000_000
+PATTERNS = range(8)
+REPEAT_COUNTS = range(256)
+MEMORIES = np.array([(0, *cells) for cells in itertools.product(range(3), repeat=7)], dtype=np.uint8)
+
+
+class Reading(NamedTuple):
+    """What the robot senses as it decides."""
+
+    feel: int
+    look: bool = False
+    beacon_mm: int = 0
+
+
+def article_config():
+    config = FFI.new("struct config *")
+    assert C.config_load(config, C.PROFILE_ARTICLE)
+    return config
+
+
+class SensingRobot:
+    """A robot for the listing that senses what it is told to, and draws from a generator of its own."""
+
+    def __init__(self) -> None:
+        self.reading = Reading(0)
+        self.dice = FFI.new("struct random *")
+
+    def feel(self) -> int:
+        return self.reading.feel
+
+    def look(self) -> bool:
+        return self.reading.look
+
+    def beacon_mm(self) -> int:
+        return self.reading.beacon_mm
+
+    def random(self, n: int) -> int:
+        return C.random_below(self.dice, n)
+
+
+class ScriptedRobot(SensingRobot):
+    """The same with draws that are given."""
+
+    def __init__(self, draws: tuple[int, ...]) -> None:
+        self.draws = iter(draws)
+
+    def random(self, n: int) -> int:
+        draw = next(self.draws)
+        assert draw < n
+        return draw
+
+
+def repeat_count_during(action: Action, listing: Listing) -> int:
+    """The brain's: it counts a remembered turn as it begins, the listing when it has ended; and it stays at 255."""
+    return min(listing.repeat_count + (action.why == "REMEMBERED"), 255)
+
+
+def random_reading(dice: random.Random) -> Reading:
+    beacon_mm = dice.choice([0, 1, 149, 150, 151, 8191, dice.randrange(300)])
+    return Reading(dice.randrange(32), dice.random() < 0.5, beacon_mm)
+
+
+def test_a_million_random_decisions_are_those_of_the_listing():
+    dice, seen = random.Random(1), Counter()
+    brain, config, senses = FFI.new("struct brain *"), article_config(), FFI.new("struct senses *")
+    cells, robot = FFI.buffer(brain.memory.cell), SensingRobot()
+    names = {getattr(C, name): name for name in dir(C) if name.startswith("REASON_")}
+    for i in range(DECISIONS):
+        if i % 40 == 0:
+            # Given a brain and the listing with the same memory, repeat count and generator
+            C.brain_start(brain, i)
+            cells[1:] = bytes(dice.choices(range(3), k=7))
+            brain.repeat_count = dice.choice([0, 8, dice.randrange(256)])
+            robot.dice.state = brain.random.state
+            listing = Listing(robot, bytearray(cells), brain.repeat_count)
+            search = listing.search()
+        # When both sense the same
+        robot.reading = random_reading(dice)
+        senses.feel, senses.look, senses.beacon_mm = robot.reading
+        senses.odometer_left = senses.tick = i & 4095  # of no concern to the brain
+        expected, action = next(search), C.brain_next(brain, config, senses)
+        # Then both do the same, and know the same
+        assert (names[action.reason], action.turn_deg, action.forward_mm) == ("REASON_" + expected[0], *expected[1:])
+        assert cells[:] == listing.mem
+        assert brain.repeat_count == repeat_count_during(expected, listing)
+        seen[expected.why] += 1
+    # And the million held enough of everything
+    assert set(seen) == {"WANDER", "TOWARD_FOOD", "LOOK_AROUND", "REMEMBERED", "TRIAL", "BOREDOM", "EAT"}
+    assert min(seen.values()) > 1000, seen
+
+
+# Every case there is. The listing is asked once for each case that it can tell apart: its memory holds only the cells
+# that it reads, and any other index is a KeyError. The brain is asked with every whole memory.
+
+
+def listing_says(
+    readings: list[Reading], mem: dict[int, int], repeat_count: int, draws: tuple[int, ...]
+) -> tuple[Action, int]:
+    """The last action of some readings in a row, and the brain's repeat count during it."""
+    robot = ScriptedRobot(draws)
+    listing = Listing(robot, mem, repeat_count)
+    search = listing.search()
+    for robot.reading in readings:
+        action = next(search)
+    return action, repeat_count_during(action, listing)
+
+
+@cache
+def generator_state(choices: tuple[int, ...], wanted: tuple[int, ...]) -> tuple[int, int]:
+    """A state of the generator from which random(choices[0]), random(choices[1]).. are as wanted."""
+    dice = FFI.new("struct random *")
+    drawn, seeds = None, itertools.count()
+    while drawn != wanted:
+        C.random_seed(dice, next(seeds))
+        state = tuple(dice.state)
+        drawn = tuple(C.random_below(dice, n) for n in choices)
+    return state
+
+
+KINDS = {"uint8_t": "u1", "_Bool": "?", "int16_t": "i2", "uint16_t": "u2", "enum reason": "u4"}
+KINDS |= {"struct memory": "8u1", "struct random": "2u4"}
+
+
+def layout(struct: str) -> np.dtype:
+    """The C struct as numpy sees it."""
+    fields = FFI.typeof(struct).fields
+    return np.dtype(
+        {
+            "names": [name for name, _ in fields],
+            "formats": [KINDS[field.type.cname] for _, field in fields],
+            "offsets": [field.offset for _, field in fields],
+            "itemsize": FFI.sizeof(struct),
+        }
+    )
+
+
+BRAIN, ACTION = layout("struct brain"), layout("struct action")
+
+
+class Brains:
+    """Many brains, all asked at once."""
+
+    def __init__(self, ask, memories: np.ndarray, repeat_counts: np.ndarray | int) -> None:
+        self._ask, self._config = ask, article_config()
+        self.now = np.zeros(np.broadcast_shapes(memories.shape[:-1], np.shape(repeat_counts)), BRAIN)
+        self.now["memory"], self.now["repeat_count"] = memories, repeat_counts
+
+    def decide(self, reading: Reading, choices: tuple[int, ...] = (2,), draws: tuple[int, ...] = (0,)) -> np.ndarray:
+        """What each does next, as an array of ACTION, where its random numbers will be these."""
+        self.now["random"] = generator_state(choices, draws)
+        actions = np.zeros(self.now.shape, ACTION)
+        senses = FFI.new("struct senses *", reading._asdict())
+        self._ask(
+            FFI.from_buffer("struct action[]", actions.reshape(-1)),
+            FFI.from_buffer("struct brain[]", self.now.reshape(-1), require_writable=True),
+            self._config,
+            senses,
+            self.now.size,
+        )
+        return actions
+
+
+@pytest.fixture(scope="module")
+def brains(tmp_path_factory: pytest.TempPathFactory):
+    """Makes `Brains`, with batch.c compiled against the library under test."""
+    library, batch = library_path(), tmp_path_factory.mktemp("batch") / "batch.so"
+    source = Path(__file__).with_name("batch.c")
+    link = [library, f"-Wl,-rpath,{library.parent}"]
+    subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-I", ROOT, "-o", batch, source, *link], check=True)
+    FFI.cdef("void brain_next_each(struct action *, struct brain *, struct config *, struct senses *, size_t);")
+    ask = FFI.dlopen(str(batch)).brain_next_each
+    return lambda memories, repeat_counts: Brains(ask, memories, repeat_counts)
+
+
+def table(cases: list[tuple[Action, int]], shape: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Actions and repeat counts of the listing as arrays of a shape."""
+    actions = np.zeros(len(cases), ACTION)
+    actions["reason"] = [getattr(C, "REASON_" + action.why) for action, _ in cases]
+    actions["turn_deg"] = [action.turn_deg for action, _ in cases]
+    actions["forward_mm"] = [action.forward_mm for action, _ in cases]
+    return actions.reshape(shape), np.array([count for _, count in cases], np.uint8).reshape(shape)
+
+
+@pytest.mark.parametrize("pattern", PATTERNS)
+def test_every_first_action_is_that_of_the_listing(brains, pattern):
+    for draw in range(2):
+        # Given every memory with every repeat count
+        asked = brains(MEMORIES[:, None], np.array(REPEAT_COUNTS))
+        reading = Reading(pattern << 1)
+        # When the pattern is read
+        actions = asked.decide(reading, (2,), (draw,))
+        # Then the action is the listing's for the pattern's cell, and no cell has changed
+        cases = [listing_says([reading], {pattern: c}, n, (draw,)) for c in range(3) for n in REPEAT_COUNTS]
+        expected, counts = table(cases, (3, 256))
+        cell = MEMORIES[:, pattern]
+        assert (actions == expected[cell]).all()
+        assert (asked.now["repeat_count"] == counts[cell]).all()
+        assert (asked.now["memory"] == MEMORIES[:, None]).all()
+
+
+# After a step the repeat count is 0 whatever it was: the first actions, above, have shown that.
+@pytest.mark.parametrize("draws", list(itertools.product(range(2), range(10))))
+def test_every_look_around_is_that_of_the_listing(brains, draws):
+    for pattern in PATTERNS:
+        readings = [Reading(0), Reading(pattern << 1)]
+        asked = brains(MEMORIES, 7)
+        asked.decide(readings[0])
+        actions = asked.decide(readings[1], (2, 10), draws)
+        expected, counts = table([listing_says(readings, {}, 7, draws)], (1,))
+        assert (actions == expected).all()
+        assert (asked.now["repeat_count"] == counts).all()
+        assert (asked.now["memory"] == MEMORIES).all()
+
+
+@pytest.mark.parametrize("beacon_mm", [0, 1, 149, 150, 151, 8191])
+def test_every_sight_of_food_after_a_step_is_as_in_the_listing(brains, beacon_mm):
+    for pattern, draw in itertools.product(PATTERNS, range(2)):
+        readings = [Reading(0, True, 8191), Reading(pattern << 1, True, beacon_mm)]
+        asked = brains(MEMORIES, 7)
+        asked.decide(readings[0])
+        actions = asked.decide(readings[1], (2,), (draw,))
+        expected, counts = table([listing_says(readings, {pattern: c}, 7, (draw,)) for c in range(3)], (3,))
+        cell = MEMORIES[:, pattern]
+        assert (actions == expected[cell]).all()
+        assert (asked.now["repeat_count"] == counts[cell]).all()
+
+
+@pytest.mark.parametrize("pattern", PATTERNS[1:])
+def test_every_boredom_is_that_of_the_listing(brains, pattern):
+    memories = MEMORIES[MEMORIES[:, pattern] != 0]
+    bored = brains(memories, 9)
+    bored.decide(Reading(pattern << 1))
+    before = bored.now.copy()
+    for draw, later in itertools.product(range(60), PATTERNS):
+        readings = [Reading(pattern << 1), Reading(later << 1)]
+        bored.now = before.copy()
+        actions = bored.decide(readings[1], (60,), (draw,))
+        expected, counts = table([listing_says(readings, {pattern: C.SIDE_LEFT}, 9, (draw,))], (1,))
+        assert (actions == expected).all()
+        assert (bored.now["repeat_count"] == counts).all()
+        assert (bored.now["memory"] == memories).all()
+
+
+def judged(old: int, new: int, draws: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, int]:
+    """The listing's action after a trial, its repeat count, and what the old pattern's cell then holds.
+
+    The first two are indexed by the new pattern's cell before the trial, and by the repeat count.
+    """
+    cases, lessons = [], set()
+    for cell, count in itertools.product(range(3), REPEAT_COUNTS):
+        mem = {new: cell, old: 0}
+        cases.append(listing_says([Reading(old << 1), Reading(new << 1)], mem, count, draws))
+        lessons.add(mem[old])
+    (lesson,) = lessons
+    return *table(cases, (3, 256)), lesson
+
+
+@pytest.mark.parametrize("old", PATTERNS[1:])
+def test_every_trial_is_judged_as_in_the_listing(brains, old):
+    # Given every memory that does not know the old pattern, with every repeat count, after a trial to either side
+    memories = MEMORIES[MEMORIES[:, old] == 0]
+    for side in range(2):
+        tried = brains(memories[:, None], np.array(REPEAT_COUNTS))
+        tried.decide(Reading(old << 1), (2,), (side,))
+        before = tried.now.copy()
+        for new, draw in itertools.product(PATTERNS, range(2)):
+            # When a new pattern is read
+            tried.now = before.copy()
+            actions = tried.decide(Reading(new << 1), (2,), (draw,))
+            # Then the same lesson is learned, and the same reading decides the next action
+            expected, counts, lesson = judged(old, new, (side, draw))
+            cell, known = memories[:, new], memories.copy()
+            known[:, old] = lesson
+            assert (actions == expected[cell]).all()
+            assert (tried.now["repeat_count"] == counts[cell]).all()
+            assert (tried.now["memory"] == known[:, None]).all()

@@ -1,0 +1,90 @@
+"""`run.world.json` gives back what was written, and takes no nonsense."""
+
+import json
+
+import pytest
+
+from host_sim.edits import AddBar, Lift, MoveBar, MoveFood, Put, RemoveBar
+from host_sim.environment import Bar, Pose
+from host_sim.errors import OctetError, UsageError
+from host_sim.world_file import Begun, Edited, WorldRecord, read_world, world_path
+
+BAR = Bar((10.0, 20.0), (300.0, 40.0))
+EDITS = [
+    Edited(3, AddBar(BAR)),
+    Edited(3, MoveBar(6, BAR)),
+    Edited(4, RemoveBar(6)),
+    Edited(9, MoveFood(2, (1.0, 2.0))),
+    Edited(9, Lift()),
+    Edited(12, Put(Pose(100.0, 200.0, -3.1))),
+]
+
+
+def record() -> WorldRecord:
+    return WorldRecord(1, 5, 30000, [Begun(1, 1, 0), Begun(1, 2, 7)], list(EDITS))
+
+
+def test_what_was_written_is_read(tmp_path):
+    path = world_path(tmp_path / "run.log")
+    record().write(path)
+    assert path.name == "run.world.json"
+    assert read_world(path) == record()
+
+
+def test_dragging_between_two_ticks_leaves_the_last_place_only():
+    dragged = WorldRecord(1, 5, 30000)
+    for x in (1.0, 2.0, 3.0):
+        dragged.add(Edited(5, MoveFood(0, (x, 0.0))))
+    dragged.add(Edited(5, MoveFood(1, (9.0, 0.0))))
+    dragged.add(Edited(6, MoveFood(1, (10.0, 0.0))))
+    places = [(edited.tick, edited.edit.id, edited.edit.at[0]) for edited in dragged.edits]
+    assert places == [(5, 0, 3.0), (5, 1, 9.0), (6, 1, 10.0)]
+
+
+def test_equal_edits_in_a_row_that_move_nothing_are_all_kept():
+    kept = WorldRecord(1, 5, 30000)
+    kept.add(Edited(5, AddBar(BAR)))
+    kept.add(Edited(5, AddBar(BAR)))
+    assert len(kept.edits) == 2
+
+
+GOOD = {"format": 1, "seed": 1, "of": 5, "limit_ticks": 9, "environments": [], "edits": []}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"format": 2},
+        {"seed": -1},
+        {"seed": True},
+        {"seed": 1.0},
+        {"of": 0},
+        {"limit_ticks": "9"},
+        {"environments": {}},
+        {"environments": [1]},
+        {"environments": [{"seed": 1, "number": 0, "first_tick": 0}]},
+        {"environments": [{"seed": 1, "number": n, "first_tick": 9 - n} for n in (1, 2)]},
+        {"edits": [{"tick": 1, "do": "dance"}]},
+        {"edits": [{"do": "lift"}]},
+        {"edits": [{"tick": 1, "do": "put", "at": [0, 0]}]},
+        {"edits": [{"tick": 1, "do": "move_bar", "id": 1, "a": [0, 0], "b": [1e3, 0]}]},
+    ],
+)
+def test_a_damaged_file_is_refused(tmp_path, change):
+    path = tmp_path / "run.world.json"
+    path.write_text(json.dumps({**GOOD, **change}))
+    with pytest.raises(OctetError, match="no world file"):
+        read_world(path)
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"[]", b"\xff\xfe", b"[" * 100_000])
+def test_what_is_no_object_is_refused(tmp_path, content):
+    path = tmp_path / "run.world.json"
+    path.write_bytes(content)
+    with pytest.raises(OctetError, match="no world file"):
+        read_world(path)
+
+
+def test_a_missing_file_is_said(tmp_path):
+    with pytest.raises(UsageError, match="cannot read"):
+        read_world(tmp_path / "none.json")

@@ -1,0 +1,26 @@
+"""Whole runs, each in a folder of its own."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from tests.runs.support import Run, assert_healthy, octet
+
+
+@pytest.fixture
+def run(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Callable[..., Run]]:
+    """Does a run into a folder of its own; after the test, not a frame may have been lost or refused in any."""
+    done: list[Run] = []
+
+    def start(*words: str | Path) -> Run:
+        out = tmp_path / f"out{len(done) + 1}"
+        ended = octet("run", "--out", out, *words)
+        done.append(Run(ended.returncode, ended.stdout, ended.stderr, out))
+        return done[-1]
+
+    yield start
+    if request.node.get_closest_marker("faulty") is None:
+        for ended in done:
+            if ended.code == 0:
+                assert_healthy(ended.summary)

@@ -1,0 +1,72 @@
+"""Whole runs, as a person would start them, and what they leave behind."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+ROBOT = ROOT / "build/host/hal/host/octet-robot"
+DEADLINE_S = 120
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run that has ended."""
+
+    code: int
+    output: str
+    errors: str
+    out: Path
+
+    @property
+    def summary(self) -> dict:
+        return json.loads((self.out / "summary.json").read_text())
+
+    @property
+    def log(self) -> bytes:
+        return (self.out / "run.log").read_bytes()
+
+
+def octet(*words: str | Path, **kwargs) -> subprocess.CompletedProcess:
+    """`tools/octet WORDS`, without setting up anew."""
+    command = [sys.executable, "-m", "host_sim", *map(os.fspath, words)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=DEADLINE_S, check=False, **kwargs)
+
+
+def assert_healthy(summary: dict) -> None:
+    """Not a frame was lost or refused, and the robot counted no fault."""
+    frames = summary["frames"]
+    assert (frames["lost"], frames["refused"]) == (0, 0)
+    assert set(summary["faults"].values()) == {0}
+
+
+def start_octet(*words: str | Path) -> subprocess.Popen:
+    """The same, going on in the background; the caller ends it."""
+    command = [sys.executable, "-m", "host_sim", *map(os.fspath, words)]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def wait_until(is_so: Callable[[], object], what: str) -> None:
+    """Waits for something to become true, in bounded time."""
+    give_up = time.monotonic() + DEADLINE_S
+    while not is_so():
+        assert time.monotonic() < give_up, f"waited in vain: {what}"
+        time.sleep(0.005)
+
+
+def robot_of(process: subprocess.Popen) -> int:
+    """The process of the robot that a run started."""
+    children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    wait_until(lambda: process.poll() is not None or children.read_text(), "a robot")
+    return int(children.read_text().split()[0])
+
+
+def wait_for_lines(path: Path, count: int) -> None:
+    """Waits until a run has recorded so many frames; the log of a run that goes on is beside the old one."""
+    part = path.with_name(path.name + ".part")
+    wait_until(lambda: part.exists() and part.read_bytes().count(b"\n") >= count, f"{count} frames in {part}")

@@ -1,0 +1,168 @@
+"""Whatever is typed wrong gets one clear line and an exit code, and nothing is overwritten."""
+
+import os
+import shutil
+import subprocess
+
+import pytest
+
+from tests.runs.support import ROBOT, ROOT, octet
+
+WRONG = {
+    "an unknown profile": (["--profile", "genius"], "genius"),
+    "a seed that is no number": (["--seed", "x"], "'x'"),
+    "a seed out of range": (["--seed", "4294967296"], "4294967295"),
+    "a negative seed": (["--seed", "-1"], "'-1'"),
+    "no environments": (["--environments", "0"], "1 to 1000"),
+    "a limit that is not a number": (["--limit-s", "nan"], "'nan'"),
+    "a node out of range": (["--node", "64"], "1 to 63"),
+    "an unknown parameter": (["--set", "colour=3"], "turn_deg"),
+    "a parameter without a value": (["--set", "turn_deg"], "turn_deg"),
+    "a parameter out of the robot's range": (["--set", "turn_deg=999"], "out_of_range"),
+    "a bus without a channel": (["--bus", "socketcan"], "INTERFACE:CHANNEL"),
+    "an unknown interface": (["--bus", "carrier:pigeon"], "pigeon"),
+    "a CAN interface that does not exist": (["--bus", "socketcan:nowhere0"], "nowhere0"),
+    "a tty that does not exist": (["--bus", "slcan:/dev/nowhere", "--robot", "external"], "/dev/nowhere"),
+    "an external robot without a bus": (["--bus", "fd", "--robot", "external"], "INTERFACE:CHANNEL"),
+    "an unknown option": (["--warp", "9"], "--warp"),
+}
+
+
+@pytest.mark.parametrize(("words", "named"), WRONG.values(), ids=WRONG.keys())
+def test_wrong_usage_gets_one_line_and_changes_nothing(run, words, named):
+    before = run("--environments", "1", "--bus", "none", "--limit-s", "1")
+
+    done = octet("run", "--bus", "fd", "--out", before.out, *words)
+
+    assert done.returncode == 2
+    assert done.stderr.startswith("octet: ")
+    assert done.stderr.count("\n") == 1
+    assert named in done.stderr
+    assert (before.out / "run.log").read_bytes() == before.log
+    assert not list(before.out.glob("*.part"))
+
+
+BAD_MEMORIES = {
+    "cut short": (bytes(7), "7 bytes"),
+    "too long": (bytes(9), "9 bytes"),
+    "empty": (b"", "0 bytes"),
+    "of no action": (bytes([0, 1, 3, 0, 0, 0, 0, 0]), "cell 2 holds 3"),
+    "with something in cell 0": (bytes([1, 0, 0, 0, 0, 0, 0, 0]), "cell 0 holds 1"),
+}
+
+
+@pytest.mark.parametrize(("content", "named"), BAD_MEMORIES.values(), ids=BAD_MEMORIES.keys())
+def test_a_file_that_is_no_memory_is_refused_and_left(run, tmp_path, content, named):
+    memory = tmp_path / "robot.mem"
+    memory.write_bytes(content)
+
+    done = run("--environments", "1", "--bus", "none", "--memory", memory)
+
+    assert done.code == 2
+    assert named in done.errors
+    assert memory.read_bytes() == content
+
+
+def test_an_output_folder_that_is_a_file_is_refused(tmp_path):
+    in_the_way = tmp_path / "out"
+    in_the_way.write_text("mine")
+
+    done = octet("run", "--bus", "none", "--out", in_the_way)
+
+    assert done.returncode == 2
+    assert "choose another with --out" in done.stderr
+    assert in_the_way.read_text() == "mine"
+
+
+def test_a_full_disk_is_named(tmp_path):
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "run.log.part").symlink_to("/dev/full")
+
+    done = octet("run", "--bus", "none", "--environments", "1", "--out", out)
+
+    assert done.returncode == 1
+    assert "No space left" in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+NO_LOGS = {
+    "missing": None,
+    "empty": b"",
+    "binary": bytes(range(256)),
+    "something else": b"hello\n",
+    "without a heartbeat": b"(0000000000.000000) octet 0C1#9100000000000000\n",
+}
+
+
+@pytest.mark.parametrize("content", NO_LOGS.values(), ids=NO_LOGS.keys())
+def test_a_replay_of_no_log_says_so_in_one_line(tmp_path, content):
+    log = tmp_path / "run.log"
+    if content is not None:
+        log.write_bytes(content)
+
+    done = octet("replay", log)
+
+    assert done.returncode in (1, 2)
+    assert done.stderr.startswith("octet: ")
+    assert done.stderr.count("\n") == 1
+    assert str(log) in done.stderr
+
+
+def test_a_log_cut_in_the_middle_of_a_line_names_the_line(run, tmp_path):
+    done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
+    cut = tmp_path / "cut.log"
+    cut.write_bytes(done.log[: len(done.log) // 2 - 7])
+
+    replayed = octet("replay", cut)
+
+    assert replayed.returncode == 1
+    assert "cut short" in replayed.stderr
+
+
+def test_a_log_of_another_protocol_is_refused(run, tmp_path):
+    done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
+    other = tmp_path / "other.log"
+    lines = done.log.decode().splitlines(keepends=True)
+    other.write_text("".join(line[:-5] + "0000\n" if " 181#" in line else line for line in lines))
+
+    replayed = octet("replay", other)
+
+    assert replayed.returncode == 1
+    assert "another octet.dbc" in replayed.stderr
+
+
+def test_a_robot_built_from_another_dbc_is_refused(tmp_path):
+    """A simulator of its own, whose octet.dbc differs by a line, with the robot that is here."""
+    shutil.copytree(ROOT / "host_sim", tmp_path / "host_sim")
+    dbc = tmp_path / "hal/can/octet.dbc"
+    dbc.parent.mkdir(parents=True)
+    dbc.write_bytes((ROOT / "hal/can/octet.dbc").read_bytes() + b"\n")
+    (tmp_path / "build").symlink_to(ROOT / "build")
+
+    done = octet("run", "--bus", "fd", "--out", tmp_path / "out", cwd=tmp_path)
+
+    assert done.returncode == 1
+    assert "another octet.dbc" in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "out/run.log").exists()
+
+
+ROBOT_WRONG = {
+    "nothing": ([], 2),
+    "a node out of range": (["--node", "0", "fd:0"], 2),
+    "two links": (["fd:0", "fd:1"], 2),
+    "an unknown option": (["--warp", "fd:0"], 2),
+    "an unknown kind of link": (["pigeon:1"], 2),
+    "an fd that is not open": (["fd:999"], 1),
+    "an interface that does not exist": (["socketcan:nowhere0"], 1),
+    "a tty that does not exist": (["slcan:/dev/nowhere"], 1),
+}
+
+
+@pytest.mark.parametrize(("words", "code"), ROBOT_WRONG.values(), ids=ROBOT_WRONG.keys())
+def test_the_robot_itself_says_what_it_cannot_use(words, code):
+    done = subprocess.run([os.fspath(ROBOT), *words], capture_output=True, text=True, timeout=10, check=False)
+
+    assert done.returncode == code
+    assert done.stderr

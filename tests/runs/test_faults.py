@@ -1,0 +1,112 @@
+"""A robot that dies, hangs, or is held up in the middle of a run."""
+
+import contextlib
+import os
+import random
+import signal
+import time
+
+import pytest
+
+from tests.runs.support import octet, robot_of, start_octet, wait_for_lines
+
+LONG = ("--environments", "20", "--bus", "fd", "--quiet")
+
+
+@pytest.fixture
+def long_run(tmp_path):
+    """A run that goes on for long enough to be disturbed, and its robot's process."""
+    process = start_octet("run", "--out", tmp_path, *LONG)
+    robot = robot_of(process)
+    wait_for_lines(tmp_path / "run.log", 4000)
+    yield process, robot
+    process.kill()
+    process.communicate()
+
+
+def test_a_robot_that_is_killed_ends_the_run_with_one_line(long_run, tmp_path):
+    process, robot = long_run
+
+    os.kill(robot, signal.SIGKILL)
+
+    _, errors = process.communicate(timeout=20)
+    assert process.returncode == 1
+    assert errors.count("\n") == 1
+    assert "far end is closed" in errors or "killed by signal 9" in errors
+    assert octet("replay", tmp_path / "run.log").returncode in (0, 1)
+    assert (tmp_path / "run.log").read_bytes().endswith(b"\n")
+
+
+def test_a_robot_that_hangs_is_named_with_its_tick_and_last_frame(long_run):
+    process, robot = long_run
+
+    os.kill(robot, signal.SIGSTOP)
+
+    _, errors = process.communicate(timeout=30)
+    assert process.returncode == 1
+    assert "did not answer tick" in errors
+    assert "last frame from it: DRIVE" in errors
+    assert "is running and printed: octet-robot: node 1 listens" in errors
+
+
+def test_a_robot_does_not_outlive_its_simulator(long_run):
+    process, robot = long_run
+
+    process.kill()
+    process.wait()
+
+    give_up = time.monotonic() + 10
+    while os.path.exists(f"/proc/{robot}/exe") and time.monotonic() < give_up:  # noqa: PTH110 - no file of ours
+        time.sleep(0.01)
+    assert not os.path.exists(f"/proc/{robot}/exe")  # noqa: PTH110
+
+
+def test_an_interrupted_run_keeps_what_it_recorded(long_run, tmp_path):
+    process, _ = long_run
+
+    process.send_signal(signal.SIGINT)
+
+    _, errors = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert errors.startswith("octet: interrupted")
+    assert (tmp_path / "run.log").read_bytes().count(b"\n") >= 4000
+
+
+def hold_up(pid: int, seconds: float) -> None:
+    """Up to twice the 100 ms after which a robot on its own clock stops."""
+    os.kill(pid, signal.SIGSTOP)
+    time.sleep(seconds)
+    os.kill(pid, signal.SIGCONT)
+
+
+def test_delays_on_either_side_change_nothing(tmp_path, run):
+    words = ("--environments", "2", "--bus", "fd", "--quiet")
+    undisturbed = run(*words)
+    chance = random.Random(1)
+    process = start_octet("run", "--out", tmp_path / "delayed", *words)
+    robot = robot_of(process)
+
+    while process.poll() is None:
+        with contextlib.suppress(ProcessLookupError):  # at its end the run takes its robot with it
+            hold_up(chance.choice((process.pid, robot)), chance.uniform(0.0, 0.2))
+        time.sleep(chance.uniform(0.0, 0.05))
+
+    _, errors = process.communicate()
+    assert (process.returncode, errors) == (0, "")
+    assert (tmp_path / "delayed/run.log").read_bytes() == undisturbed.log
+
+
+def test_in_real_time_a_held_up_robot_stops_and_then_goes_on(tmp_path):
+    words = ("--environments", "1", "--bus", "fd", "--limit-s", "4", "--real-time", "--json")
+    process = start_octet("run", "--out", tmp_path, *words)
+    robot = robot_of(process)
+    time.sleep(1.5)
+
+    os.kill(robot, signal.SIGSTOP)
+    time.sleep(0.8)
+    os.kill(robot, signal.SIGCONT)
+
+    output, errors = process.communicate(timeout=30)
+    assert (process.returncode, errors) == (0, "")
+    assert '"ticks": 200' in output
+    assert octet("replay", tmp_path / "run.log").returncode in (0, 1)

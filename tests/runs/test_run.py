@@ -1,0 +1,156 @@
+"""What a run leaves behind, and that it depends on seed and options only."""
+
+import hashlib
+import json
+
+import can
+import pytest
+
+from tests.runs.support import octet
+
+
+def test_a_run_finishes_its_environments_and_says_so(run):
+    done = run("--environments", "2", "--bus", "fd")
+
+    assert (done.code, done.errors) == (0, "")
+    assert [world["finished"] for world in done.summary["environments"]] == [True, True]
+    assert all(world["food_eaten"] == 3 for world in done.summary["environments"])
+    assert "all food found" in done.output
+
+
+def test_a_run_leaves_log_summary_and_picture(run):
+    done = run("--environments", "1", "--bus", "none")
+
+    assert (done.out / "arena.png").read_bytes().startswith(b"\x89PNG")
+    assert hashlib.sha256(done.log).hexdigest() == done.summary["log_sha256"]
+    assert not list(done.out.glob("*.part"))
+
+
+def test_the_summary_has_all_that_is_promised(run):
+    summary = run("--environments", "1", "--bus", "none").summary
+
+    top = {"seed", "profile", "bus", "environments", "memory", "frames", "log_sha256", "wall_s", "real_time_factor"}
+    world = {"finished", "food_eaten", "ticks", "robot_s", "collisions"}
+    world |= {"trials", "remembered_turns", "boredom_turns"}
+    assert top <= summary.keys()
+    assert world | {"memory"} <= summary["environments"][0].keys()
+    assert {"sent", "received", "lost", "refused"} == summary["frames"].keys()
+    assert len(summary["memory"]) == 8
+
+
+def test_json_prints_the_summary_and_nothing_else(run):
+    done = run("--environments", "1", "--bus", "fd", "--json")
+
+    assert json.loads(done.output) == done.summary
+    assert done.errors == ""
+
+
+def test_quiet_prints_nothing(run):
+    done = run("--environments", "1", "--bus", "none", "--quiet")
+
+    assert (done.code, done.output, done.errors) == (0, "", "")
+
+
+def test_python_can_reads_the_log(run):
+    done = run("--environments", "1", "--bus", "none")
+
+    with can.LogReader(done.out / "run.log") as reader:
+        messages = list(reader)
+
+    ticks = done.summary["environments"][0]["ticks"]
+    assert sum(message.arbitration_id == 0xC1 for message in messages) == ticks
+    assert sum(message.arbitration_id == 0x81 for message in messages) == ticks
+
+
+@pytest.mark.parametrize("seed", [0, 7, 2**32 - 1])
+def test_a_robot_behind_a_socket_pair_and_one_in_this_process_leave_the_same_bytes(run, seed):
+    words = ("--environments", "1", "--seed", str(seed))
+
+    behind, within = run(*words, "--bus", "fd"), run(*words, "--bus", "none")
+
+    assert behind.log == within.log
+
+
+def test_the_same_run_again_leaves_the_same_bytes(run):
+    words = ("--environments", "2", "--seed", "5", "--bus", "none")
+
+    once, again = run(*words), run(*words)
+
+    assert once.log == again.log
+    assert (once.out / "arena.png").read_bytes() == (again.out / "arena.png").read_bytes()
+
+
+def test_another_seed_is_another_run(run):
+    one, other = (run("--environments", "1", "--seed", seed, "--bus", "none") for seed in ("1", "2"))
+
+    assert one.log != other.log
+
+
+def test_a_replay_of_a_run_finds_no_difference(run):
+    done = run("--environments", "1", "--bus", "fd")
+
+    replayed = octet("replay", done.out / "run.log")
+
+    assert (replayed.returncode, replayed.stderr) == (0, "")
+    assert "no difference" in replayed.stdout
+
+
+def test_a_replay_names_the_first_drive_that_differs(run, tmp_path):
+    done = run("--environments", "1", "--bus", "none")
+    lines = done.log.decode().splitlines(keepends=True)
+    at = next(i for i, line in enumerate(lines) if i > 500 and " 081#" in line)
+    # The same tick said by another robot: a drive of another tick, whole and with a true CRC.
+    lines[at] = lines[at - 100 : at][[" 081#" in line for line in lines[at - 100 : at]].index(True)]
+    changed = tmp_path / "changed.log"
+    changed.write_text("".join(lines))
+
+    replayed = octet("replay", changed)
+
+    assert replayed.returncode == 1
+    assert "differs" in replayed.stdout
+    assert replayed.stdout.count("DRIVE tick=") >= 1
+
+
+def test_settings_change_the_run_and_its_replay_knows_them(run):
+    plain = run("--environments", "1", "--bus", "none")
+    changed = run("--environments", "1", "--bus", "none", "--set", "turn_deg=25", "--set", "boredom_limit=4")
+
+    assert changed.log != plain.log
+    assert octet("replay", changed.out / "run.log").returncode == 0
+
+
+def test_another_node_has_its_own_identifiers(run):
+    done = run("--environments", "1", "--bus", "fd", "--node", "63")
+
+    identifiers = {line.split()[2][:3] for line in done.log.decode().splitlines()}
+    assert {"07F", "0BF", "0FF"} <= identifiers
+    assert octet("replay", "--node", "63", done.out / "run.log").returncode == 0
+
+
+def test_a_short_time_limit_ends_an_environment_unfinished(run):
+    done = run("--environments", "2", "--bus", "none", "--limit-s", "2")
+
+    assert [world["ticks"] for world in done.summary["environments"]] == [100, 100]
+    assert [world["finished"] for world in done.summary["environments"]] == [False, False]
+
+
+def test_real_time_takes_its_time_and_loses_nothing(run):
+    done = run("--environments", "1", "--bus", "fd", "--limit-s", "3", "--real-time")
+
+    assert done.code == 0
+    assert 2.9 < done.summary["wall_s"] < 30
+    assert done.summary["environments"][0]["ticks"] == 150
+
+
+def test_a_memory_file_is_made_gone_on_with_and_kept_up(run, tmp_path):
+    memory = tmp_path / "robot.mem"
+
+    first = run("--environments", "1", "--bus", "fd", "--memory", memory)
+    learned = memory.read_bytes()
+    second = run("--environments", "1", "--bus", "fd", "--memory", memory, "--seed", "9")
+
+    assert list(learned) == first.summary["memory"]
+    kept = [cell for cell, was in zip(second.summary["memory"], learned, strict=True) if was]
+    assert kept == [cell for cell in learned if cell]
+    assert second.summary["environments"][0]["trials"] < first.summary["environments"][0]["trials"]
+    assert octet("replay", second.out / "run.log").returncode == 0

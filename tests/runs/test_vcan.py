@@ -1,0 +1,116 @@
+"""Whole runs over real SocketCAN."""
+
+import re
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import can
+import pytest
+
+from tests.runs.support import DEADLINE_S, octet, robot_of, start_octet, wait_for_lines, wait_until
+
+pytestmark = pytest.mark.vcan
+VCAN = ("--bus", "socketcan:vcan0")
+
+
+@pytest.fixture
+def candump(tmp_path):
+    """candump, once it hears what is on the bus, and the file that it writes."""
+    heard = tmp_path / "candump.log"
+    with heard.open("w") as file:
+        # Room for a run's frames, for when others have the processor.
+        process = subprocess.Popen(["candump", "-L", "-r", "8000000", "vcan0"], stdout=file)
+    with can.Bus(interface="socketcan", channel="vcan0") as sender:
+        wait_until(lambda: listens(process, sender), "candump")
+    yield process, heard
+    process.kill()
+    process.wait()
+
+
+def listens(candump: subprocess.Popen, sender: can.BusABC) -> bool:
+    sender.send(can.Message(arbitration_id=0x7FF, is_extended_id=False))
+    time.sleep(0.05)
+    return any("socket:" in str(fd.readlink()) for fd in Path(f"/proc/{candump.pid}/fd").iterdir())
+
+
+def frames_in(text: str) -> list[str]:
+    return [line.split()[2] for line in text.splitlines() if "7FF#" not in line]
+
+
+def test_candump_sees_exactly_the_frames_of_the_log(run, candump):
+    process, heard = candump
+
+    done = run("--environments", "1", "--limit-s", "20", *VCAN)
+    time.sleep(0.3)  # candump cannot say that it has taken all there was; too short a rest would fail, not pass
+    process.send_signal(signal.SIGINT)
+    process.wait(timeout=10)
+
+    assert (done.code, done.errors) == (0, "")
+    assert frames_in(heard.read_text()) == frames_in(done.log.decode())
+
+
+def test_over_vcan_a_run_leaves_the_same_bytes(run):
+    words = ("--environments", "1", "--limit-s", "20", "--seed", "3")
+
+    on_the_bus, within = run(*words, *VCAN), run(*words, "--bus", "none")
+
+    assert on_the_bus.log == within.log
+    assert octet("replay", on_the_bus.out / "run.log").returncode == 0
+
+
+def test_auto_takes_vcan_where_there_is_one_and_says_so(run):
+    done = run("--environments", "1", "--limit-s", "2", "--bus", "auto")
+
+    assert done.code == 0
+    assert "socketcan:vcan0" in done.output
+
+
+def test_a_robot_that_is_killed_ends_the_run_with_one_line(tmp_path):
+    process = start_octet("run", "--out", tmp_path, "--environments", "20", "--quiet", *VCAN)
+    robot = robot_of(process)
+    wait_for_lines(tmp_path / "run.log", 4000)
+
+    subprocess.run(["kill", "-KILL", str(robot)], check=True)
+
+    _, errors = process.communicate(timeout=DEADLINE_S)
+    assert process.returncode == 1
+    assert errors.count("\n") == 1
+    assert "killed by signal 9" in errors
+
+
+@pytest.mark.faulty
+def test_garbage_on_the_bus_is_refused_and_the_robot_learns_as_ever(run):
+    words = ("--environments", "1", "--limit-s", "20", "--seed", "3")
+    quiet = run(*words, "--bus", "none")
+    # Random frames of every kind with identifiers around the robot's own.
+    garbage = subprocess.Popen(["cangen", "vcan0", "-g", "2", "-I", "i", "-L", "i", "-m"])
+
+    done = run(*words, *VCAN)
+    garbage.kill()
+    garbage.wait()
+
+    assert (done.code, done.errors) == (0, "")
+    assert done.summary["frames"]["refused"] > 0
+    assert done.summary["frames"]["lost"] == 0
+    assert drives_in(done.log) == drives_in(quiet.log)
+    assert done.summary["memory"] == quiet.summary["memory"]
+
+
+def drives_in(log: bytes) -> list[bytes]:
+    return re.findall(rb" (081#\w+)", log)
+
+
+def test_an_interface_that_vanishes_ends_the_run_with_one_line(tmp_path):
+    subprocess.run(["ip", "link", "add", "dev", "vcan9", "type", "vcan"], check=True)
+    subprocess.run(["ip", "link", "set", "vcan9", "up"], check=True)
+    process = start_octet("run", "--out", tmp_path, "--environments", "20", "--quiet", "--bus", "socketcan:vcan9")
+    wait_for_lines(tmp_path / "run.log", 4000)
+
+    subprocess.run(["ip", "link", "del", "vcan9"], check=True)
+
+    _, errors = process.communicate(timeout=DEADLINE_S)
+    assert process.returncode == 1
+    assert errors.startswith("octet: ")
+    assert errors.count("\n") == 1

@@ -1,0 +1,255 @@
+"""The body: it rolls as its wheels do, stops at walls, and eats what it sees near by."""
+
+import math
+import random
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from host_sim.arena import Arena
+from host_sim.environment import Bar, Environment, Point, Pose, World, ahead_of, clearance_mm, generate
+from host_sim.signals import Senses
+
+WORLD = World()
+MIDDLE = Pose(2000.0, 1500.0, 0.7)
+RADIUS = WORLD.body_radius_mm
+
+
+def arena_with(start: Pose = MIDDLE, bars: tuple[Bar, ...] = (), foods: tuple[Point, ...] = ()) -> Arena:
+    return Arena(Environment(bars, foods, start), WORLD)
+
+
+def drive(arena: Arena, left_mm_s: float, right_mm_s: float, ticks: int) -> None:
+    for _ in range(ticks):
+        arena.move(left_mm_s, right_mm_s)
+
+
+def ideal(start: Pose, left_mm: float, right_mm: float) -> Pose:
+    """The end of the arc, from its radius and the middle that it turns about."""
+    turn = (left_mm - right_mm) / WORLD.wheel_track_mm
+    radius = (left_mm + right_mm) / 2 / turn
+    x = start.x_mm + radius * (math.sin(start.heading_rad + turn) - math.sin(start.heading_rad))
+    y = start.y_mm - radius * (math.cos(start.heading_rad + turn) - math.cos(start.heading_rad))
+    return Pose(x, y, math.remainder(start.heading_rad + turn, math.tau))
+
+
+def assert_near(pose: Pose, wanted: Pose) -> None:
+    assert pose == pytest.approx(wanted, abs=1e-6)
+
+
+def roam(seed: int, ticks: int) -> list[Senses]:
+    """Random drives of random length in a random environment, into whatever is there."""
+    arena, draws, senses = Arena(generate(seed, 1, WORLD), WORLD), random.Random(seed), []
+    left = right = 0.0
+    for tick in range(ticks):
+        if draws.random() < 0.05:
+            left, right = draws.uniform(-300, 500), draws.uniform(-300, 500)
+        senses.append(arena.sense(tick))
+        arena.eat()
+        arena.move(left, right)
+    return senses
+
+
+def test_equal_wheels_drive_straight_ahead_without_drift() -> None:
+    arena = arena_with()
+
+    drive(arena, 200.0, 200.0, 200)
+
+    assert_near(arena.pose, Pose(*ahead_of(MIDDLE, 800.0), MIDDLE.heading_rad))
+
+
+def test_opposite_wheels_turn_in_place() -> None:
+    arena = arena_with()
+
+    drive(arena, 251.0, -251.0, 10_000)
+
+    assert arena.pose[:2] == MIDDLE[:2]
+
+
+def test_a_faster_left_wheel_turns_the_robot_right() -> None:
+    arena = arena_with(Pose(2000.0, 1500.0, 0.0))
+
+    drive(arena, 200.0, 100.0, 20)
+
+    assert arena.pose.heading_rad > 0
+    assert arena.pose.y_mm > 1500.0
+
+
+@pytest.mark.parametrize(("left", "right"), [(200.0, 100.0), (-50.0, 300.0), (500.0, -499.0), (-100.0, -120.0)])
+def test_one_tick_moves_along_the_arc_of_the_wheels(left: float, right: float) -> None:
+    arena = arena_with()
+
+    arena.move(left, right)
+
+    assert_near(arena.pose, ideal(MIDDLE, left * WORLD.tick_s, right * WORLD.tick_s))
+
+
+def test_a_thousand_ticks_end_where_one_long_arc_ends() -> None:
+    arena = arena_with()
+
+    drive(arena, 500.0, 400.0, 1000)
+
+    assert_near(arena.pose, ideal(MIDDLE, 10_000.0, 8000.0))
+
+
+def test_too_fast_wheels_are_cut_to_the_greatest_speed() -> None:
+    arena = arena_with()
+
+    arena.move(2047.0, -2047.0)
+
+    way = WORLD.max_wheel_speed_mm_s * WORLD.tick_s
+    assert arena.odometer == pytest.approx((way, -way))
+
+
+def test_odometers_count_tenths_of_a_mm_and_wrap() -> None:
+    arena = arena_with()
+
+    drive(arena, 200.0, -100.0, 110)
+    senses = arena.sense(0)
+
+    assert (senses.odometer_left, senses.odometer_right) == (4400 - 4096, 4096 - 2200)
+
+
+def test_odometers_go_on_from_the_arena_before() -> None:
+    environment = Environment((), (), MIDDLE)
+    arena = Arena(environment, WORLD, odometer=(12.5, -0.3))
+
+    senses = arena.sense(0)
+
+    assert (senses.odometer_left, senses.odometer_right) == (125, 4093)
+    assert arena.odometer == (12.5, -0.3)
+
+
+def test_ticks_wrap() -> None:
+    assert [arena_with().sense(tick).tick for tick in (0, 4095, 4096, 10_000)] == [0, 4095, 0, 1808]
+
+
+@pytest.mark.parametrize(
+    ("heading_deg", "axis", "stop_mm"),
+    [(0, 0, WORLD.width_mm - RADIUS), (90, 1, WORLD.height_mm - RADIUS), (180, 0, RADIUS), (-90, 1, RADIUS)],
+)
+def test_each_wall_stops_the_robot(heading_deg: float, axis: int, stop_mm: float) -> None:
+    arena = arena_with(Pose(2000.0, 1500.0, math.radians(heading_deg)))
+
+    drive(arena, 500.0, 500.0, 1000)
+
+    assert arena.pose[axis] == pytest.approx(stop_mm, abs=0.02)
+    assert arena.sense(0).bump
+
+
+def test_one_wall_hit_and_leant_on_is_one_collision() -> None:
+    arena = arena_with(Pose(3800.0, 1500.0, 0.0))
+
+    drive(arena, 200.0, 200.0, 100)
+
+    assert (arena.collisions, arena.touching) == (1, True)
+
+
+def test_backing_off_ends_the_touch() -> None:
+    arena = arena_with(Pose(3800.0, 1500.0, 0.0))
+
+    drive(arena, 200.0, 200.0, 100)
+    arena.move(-200.0, -200.0)
+
+    assert (arena.collisions, arena.touching, arena.sense(0).bump) == (1, False, False)
+
+
+def test_odometers_count_the_slip_of_wheels_that_push_a_wall() -> None:
+    arena = arena_with(Pose(3900.0, 1500.0, 0.0))
+
+    drive(arena, 200.0, 200.0, 100)
+
+    assert arena.odometer == pytest.approx((400.0, 400.0))
+    assert arena.pose.x_mm == pytest.approx(3900.0, abs=0.02)
+
+
+def test_a_robot_that_meets_a_wall_aslant_slides_along_it() -> None:
+    arena = arena_with(Pose(3850.0, 1500.0, math.radians(60)))
+
+    drive(arena, 200.0, 200.0, 100)
+
+    assert arena.pose.x_mm == pytest.approx(3900.0, abs=0.02)
+    assert arena.pose.y_mm == pytest.approx(1500.0 + 400.0 * math.sin(math.radians(60)), abs=0.5)
+
+
+def test_a_robot_against_a_wall_can_still_turn() -> None:
+    arena = arena_with(Pose(3900.0, 1500.0, 0.0))
+
+    drive(arena, 100.0, -100.0, 10)
+
+    assert_near(arena.pose, Pose(3900.0, 1500.0, 0.25))
+
+
+def test_the_arena_corner_stops_the_robot_at_both_walls() -> None:
+    arena = arena_with(Pose(3503.0, 2500.0, math.radians(45)))
+
+    drive(arena, 500.0, 500.0, 200)
+
+    assert arena.pose[:2] == pytest.approx((WORLD.width_mm - RADIUS, WORLD.height_mm - RADIUS), abs=0.02)
+
+
+@pytest.mark.parametrize("opening_deg", [30, 90, 150])
+def test_a_corner_holds_the_robot(opening_deg: float) -> None:
+    # Two bars that meet ahead of the robot like the sides of a funnel.
+    start, tip = Pose(1500.0, 1500.0, 0.0), (2200.0, 1500.0)
+    sides = [Pose(*tip, math.pi + side * math.radians(opening_deg) / 2) for side in (-1, 1)]
+    bars = tuple(Bar(tip, ahead_of(side, 600.0)) for side in sides)
+    arena = arena_with(start, bars)
+
+    drive(arena, 430.0, 420.0, 500)
+
+    room = clearance_mm(_row(arena.pose), bars, WORLD)[0]
+    assert room == pytest.approx(RADIUS, abs=0.1)
+    assert arena.pose.x_mm < tip[0]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_body_never_gets_into_an_obstacle(seed: int) -> None:
+    environment, draws = generate(seed, 1, WORLD), random.Random(seed)
+    arena, touched = Arena(environment, WORLD), False
+    for _ in range(40):
+        left, right = draws.uniform(-100, 500), draws.uniform(-100, 500)
+        for _ in range(40):
+            arena.move(left, right)
+            touched = touched or arena.touching
+            assert clearance_mm(_row(arena.pose), environment.bars, WORLD)[0] > RADIUS - 0.02
+    assert touched == (arena.collisions > 0)
+
+
+def test_senses_are_right_before_the_first_move() -> None:
+    x, y = ahead_of(MIDDLE, 160.0)
+    arena = arena_with(bars=(Bar((x, y), (x + 0.01, y)),), foods=(ahead_of(MIDDLE, -300.0),))
+
+    assert arena.sense(3) == Senses(3, 4, False, False, 0, 0, 0)
+
+
+def test_food_is_eaten_once_and_only_the_piece_that_is_seen() -> None:
+    behind, near, aside = ahead_of(MIDDLE, -120.0), ahead_of(MIDDLE, 149.0), ahead_of(MIDDLE, 149.0, 1.0)
+    arena = arena_with(foods=(behind, near, aside))
+
+    assert (arena.eat(), arena.eat()) == (True, False)
+
+    assert (arena.eaten, arena.food_left) == ([False, True, False], 2)
+    assert not arena.sense(0).look
+
+
+@pytest.mark.parametrize(("distance_mm", "eaten"), [(149.0, True), (150.0, False)])
+def test_food_is_eaten_nearer_than_150_mm(distance_mm: float, eaten: bool) -> None:
+    arena = arena_with(foods=(ahead_of(MIDDLE, distance_mm),))
+
+    assert arena.eat() is eaten
+    assert arena.food_left == 1 - eaten
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_same_drives_give_the_same_senses_bit_for_bit(seed: int) -> None:
+    first = roam(seed, 5000)
+
+    assert roam(seed, 5000) == first
+    assert len({senses.feel for senses in first}) > 5
+    assert any(senses.bump for senses in first)
+
+
+def _row(pose: Pose) -> NDArray[np.float64]:
+    return np.array([pose[:2]])

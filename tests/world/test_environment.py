@@ -1,0 +1,123 @@
+"""Environments: the same for the same seed, fair to the robot, and turned the right way round."""
+
+import math
+
+import numpy as np
+import pytest
+
+from host_sim.environment import Bar, Environment, Pose, World, ahead_of, clearance_mm, generate, turned
+
+WORLD = World()
+
+
+def room_mm(environment: Environment, *points: tuple[float, float]) -> list[float]:
+    return [float(room) for room in clearance_mm(np.array(points), environment.bars, WORLD)]
+
+
+def can_reach(environment: Environment, goal: tuple[float, float]) -> bool:
+    """A second opinion on the generator's proof: steps of 20 mm from place to place where the body fits."""
+    step = 20.0
+    y, x = np.mgrid[0 : WORLD.height_mm : step, 0 : WORLD.width_mm : step]
+    fits = clearance_mm(np.column_stack([x.ravel(), y.ravel()]), environment.bars, WORLD) >= WORLD.body_radius_mm
+    free = fits.reshape(x.shape)
+    reached = np.zeros_like(free)
+    reached[round(environment.start.y_mm / step), round(environment.start.x_mm / step)] = True
+    grown = reached.copy()
+    while True:
+        grown[1:] |= reached[:-1]
+        grown[:-1] |= reached[1:]
+        grown[:, 1:] |= reached[:, :-1]
+        grown[:, :-1] |= reached[:, 1:]
+        grown &= free
+        if (grown == reached).all():
+            return bool(reached[round(goal[1] / step), round(goal[0] / step)])
+        reached = grown.copy()
+
+
+def test_a_faster_left_wheel_turns_right_and_right_turns_are_positive() -> None:
+    assert turned(left_mm=2.0, right_mm=1.0, track_mm=100.0) == pytest.approx(0.01)
+
+
+def test_heading_0_looks_along_x_and_90_degrees_to_the_right_of_it_is_down_the_screen() -> None:
+    pose = Pose(10.0, 20.0, 0.0)
+
+    assert ahead_of(pose, 5.0) == pytest.approx((15.0, 20.0))
+    assert ahead_of(pose, 5.0, math.pi / 2) == pytest.approx((10.0, 25.0))
+
+
+def test_a_bearing_counts_from_the_heading() -> None:
+    assert ahead_of(Pose(0.0, 0.0, math.pi / 2), 5.0, math.pi / 2) == pytest.approx((-5.0, 0.0))
+
+
+def test_the_same_seed_and_number_give_the_same_environment() -> None:
+    assert generate(7, 2, WORLD) == generate(7, 2, WORLD)
+
+
+def test_the_environment_of_a_seed_stays_the_same_for_ever() -> None:
+    start = generate(1, 1, WORLD).start
+
+    assert start == pytest.approx((314.651908, 385.035638, -2.400630), abs=1e-6)
+
+
+@pytest.mark.parametrize(("seed", "number"), [(2, 1), (1, 2), (-1, 1), (11, 1), (1, 11)])
+def test_another_seed_or_number_gives_another_environment(seed: int, number: int) -> None:
+    assert generate(seed, number, WORLD) != generate(1, 1, WORLD)
+
+
+def test_clearance_is_the_distance_to_the_nearest_surface() -> None:
+    environment = Environment((Bar((1000.0, 1000.0), (2000.0, 1000.0)),), (), Pose(0.0, 0.0, 0.0))
+
+    beside, beyond_the_end, by_the_wall, inside, outside = room_mm(
+        environment, (1500.0, 1100.0), (2130.0, 1000.0), (4.0, 500.0), (1500.0, 1005.0), (-3.0, 500.0)
+    )
+
+    assert (beside, beyond_the_end, by_the_wall) == pytest.approx((80.0, 110.0, 4.0))
+    assert (inside, outside) == pytest.approx((-15.0, -3.0))
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_every_environment_is_fair(seed: int) -> None:
+    environment = generate(seed, 1, WORLD)
+
+    for food, (low, high) in zip(environment.food, WORLD.food_bands_mm, strict=True):
+        assert low <= food[0] <= high
+    assert len(environment.bars) == WORLD.bar_count
+    assert min(room_mm(environment, environment.start[:2])) >= WORLD.body_radius_mm + WORLD.sensor_reach_mm
+
+
+@pytest.mark.parametrize("seed", range(200))
+def test_every_obstacle_is_as_long_as_it_may_be_and_inside_the_walls(seed: int) -> None:
+    half = WORLD.bar_thickness_mm / 2
+    for a, b in generate(seed, 1, WORLD).bars:
+        assert WORLD.bar_length_mm[0] - 1e-9 <= math.dist(a, b) + 2 * half <= WORLD.bar_length_mm[1] + 1e-9
+        for x, y in (a, b):
+            assert half - 1e-9 <= x <= WORLD.width_mm - half + 1e-9
+            assert half - 1e-9 <= y <= WORLD.height_mm - half + 1e-9
+
+
+@pytest.mark.parametrize("seed", range(0, 200, 5))
+def test_the_body_can_get_from_the_start_to_all_food(seed: int) -> None:
+    environment = generate(seed, 1, WORLD)
+
+    assert all(can_reach(environment, food) for food in environment.food)
+
+
+def test_food_behind_obstacles_is_drawn_again() -> None:
+    # Bars almost as long as the arena is high: most draws cut it in two.
+    world = World(bar_count=3, bar_length_mm=(2700.0, 2900.0))
+    for seed in range(10):
+        environment = generate(seed, 1, world)
+
+        assert all(can_reach(environment, food) for food in environment.food)
+
+
+def test_starts_look_every_way() -> None:
+    headings = [generate(seed, 1, WORLD).start.heading_rad for seed in range(100)]
+
+    quarters = {math.floor(heading / (math.pi / 2)) for heading in headings}
+    assert quarters == {-2, -1, 0, 1}
+
+
+def test_a_world_without_room_is_refused_with_its_seed_and_number() -> None:
+    with pytest.raises(ValueError, match="seed 5, number 3"):
+        generate(5, 3, World(width_mm=300.0, height_mm=300.0, bar_count=0))

@@ -1,0 +1,161 @@
+"""What the robot feels and sees, with one small obstacle at a time."""
+
+import math
+
+import pytest
+
+from host_sim.arena import Arena
+from host_sim.environment import Bar, Environment, Point, Pose, World, ahead_of
+from host_sim.sensors import CONE_BEARINGS_DEG, cone_outline
+
+WORLD = World()
+START = Pose(2000.0, 1500.0, 0.7)
+REACH_MM = WORLD.body_radius_mm + WORLD.sensor_reach_mm
+
+
+def peg(bearing_deg: float, gap_mm: float) -> Bar:
+    """A short obstacle square to the bearing, its middle's near face so far from the body's edge."""
+    middle = WORLD.body_radius_mm + gap_mm + WORLD.bar_thickness_mm / 2
+    x, y = ahead_of(START, middle, math.radians(bearing_deg))
+    return Bar((x, y), (x + 0.01, y))
+
+
+def needle_feel(bearing_deg: float) -> int:
+    """What is felt of an obstacle of 0.01 mm, 50 mm off the body."""
+    point = ahead_of(START, WORLD.body_radius_mm + 50.0, math.radians(bearing_deg))
+    needle = Bar(point, (point[0] + 0.01, point[1]))
+    environment = Environment((needle,), (), START)
+    return Arena(environment, World(bar_thickness_mm=0.01)).sense(0).feel
+
+
+def feel(*bars: Bar) -> int:
+    return Arena(Environment(bars, (), START), WORLD).sense(0).feel
+
+
+def beacon_mm(*foods: Point, bars: tuple[Bar, ...] = ()) -> int:
+    senses = Arena(Environment(bars, foods, START), WORLD).sense(0)
+    assert senses.look == (senses.beacon_mm > 0)
+    return senses.beacon_mm
+
+
+def food_at(ahead_mm: float, right_mm: float) -> Point:
+    x, y = ahead_of(START, ahead_mm)
+    return ahead_of(Pose(x, y, START.heading_rad), right_mm, math.pi / 2)
+
+
+def bar_across(ahead_mm: float, from_mm: float, to_mm: float) -> Bar:
+    """A bar across the robot's way, from so far to so far to its right."""
+    return Bar(food_at(ahead_mm, from_mm), food_at(ahead_mm, to_mm))
+
+
+def test_nothing_in_reach_feels_like_nothing() -> None:
+    assert feel() == 0
+
+
+@pytest.mark.parametrize(("bit", "bearing_deg"), [(1, 90), (2, 45), (4, 0), (8, -45), (16, -90)])
+def test_an_obstacle_in_one_cone_sets_that_bit_alone(bit: int, bearing_deg: float) -> None:
+    assert feel(peg(bearing_deg, 30.0)) == bit
+
+
+@pytest.mark.parametrize(("bits", "bearing_deg"), [(1 | 2, 67.5), (2 | 4, 22.5), (4 | 8, -22.5), (8 | 16, -67.5)])
+def test_an_obstacle_between_two_cones_sets_both_bits(bits: int, bearing_deg: float) -> None:
+    assert feel(peg(bearing_deg, 30.0)) == bits
+
+
+def test_cones_leave_no_gap_for_a_needle_from_minus_112_to_plus_112_degrees() -> None:
+    bearings = [quarter / 4 for quarter in range(-449, 450)]
+
+    missed = [bearing for bearing in bearings if not needle_feel(bearing)]
+
+    assert not missed
+
+
+@pytest.mark.parametrize("bearing_deg", [-112.6, 112.6])
+def test_a_needle_just_outside_the_cones_is_not_felt(bearing_deg: float) -> None:
+    assert not needle_feel(bearing_deg)
+
+
+@pytest.mark.parametrize("bearing_deg", [135, 180, -135])
+def test_the_back_feels_nothing(bearing_deg: float) -> None:
+    assert feel(peg(bearing_deg, 10.0)) == 0
+
+
+def test_obstacles_on_both_sides_set_both_bits() -> None:
+    assert feel(peg(45, 30.0), peg(-45, 30.0)) == 2 | 8
+
+
+@pytest.mark.parametrize("bearing_deg", [*range(-110, 111, 7), -112.4, 22.5, 112.4])
+def test_cones_reach_60_mm_give_or_take_one(bearing_deg: float) -> None:
+    assert feel(peg(bearing_deg, 59.0))
+    assert not feel(peg(bearing_deg, 61.0))
+
+
+def test_a_cone_is_cut_to_its_reach() -> None:
+    outline = cone_outline(CONE_BEARINGS_DEG[1], REACH_MM)
+
+    assert outline[0] == (0.0, 0.0)
+    assert [math.hypot(x, y) for x, y in outline[1:]] == pytest.approx([REACH_MM] * 5, abs=0.4)
+
+
+def test_a_wall_is_felt_like_an_obstacle() -> None:
+    start = Pose(WORLD.width_mm - WORLD.body_radius_mm - 30.0, 1500.0, 0.0)
+
+    assert Arena(Environment((), (), start), WORLD).sense(0).feel & 4
+
+
+def test_one_of_two_obstacles_in_a_cone_may_leave_without_clearing_the_bit() -> None:
+    near, far = peg(0, 20.0), peg(0, 50.0)
+    arena = Arena(Environment((near, far), (), START), WORLD)
+
+    for _ in range(5):
+        arena.move(-200.0, -200.0)
+    with_one = arena.sense(5).feel
+    for _ in range(10):
+        arena.move(-200.0, -200.0)
+
+    assert (with_one, arena.sense(15).feel) == (4, 0)
+
+
+def test_food_straight_ahead_is_seen_at_its_distance_in_whole_mm() -> None:
+    assert beacon_mm(food_at(700.4, 0.0)) == 700
+
+
+@pytest.mark.parametrize("right_mm", [-49.9, 49.9])
+def test_food_just_inside_the_beam_is_seen(right_mm: float) -> None:
+    assert beacon_mm(food_at(700.0, right_mm)) == round(math.hypot(700.0, right_mm))
+
+
+@pytest.mark.parametrize("right_mm", [-50.1, 50.1])
+def test_food_just_outside_the_beam_is_not_seen(right_mm: float) -> None:
+    assert beacon_mm(food_at(700.0, right_mm)) == 0
+
+
+def test_food_behind_the_robot_is_not_seen() -> None:
+    assert beacon_mm(food_at(-300.0, 0.0)) == 0
+
+
+def test_food_under_the_very_middle_of_the_body_counts_as_1_mm_away() -> None:
+    assert beacon_mm(food_at(0.3, 0.0)) == 1
+
+
+def test_the_nearest_of_several_pieces_is_seen() -> None:
+    assert beacon_mm(food_at(900.0, 0.0), food_at(500.0, 0.0), food_at(700.0, 0.0)) == 500
+
+
+def test_food_behind_a_bar_is_not_seen() -> None:
+    assert beacon_mm(food_at(700.0, 0.0), bars=(bar_across(400.0, -200.0, 200.0),)) == 0
+
+
+def test_a_bar_behind_the_food_hides_nothing() -> None:
+    assert beacon_mm(food_at(700.0, 0.0), bars=(bar_across(800.0, -200.0, 200.0),)) == 700
+
+
+def test_a_bar_beside_the_line_of_sight_hides_nothing() -> None:
+    assert beacon_mm(food_at(700.0, 0.0), bars=(bar_across(400.0, 21.0, 200.0),)) == 700
+
+
+def test_food_beyond_hidden_food_is_seen_past_the_bar() -> None:
+    # The bar ends between the two lines of sight.
+    bars = (bar_across(400.0, 21.0, 200.0),)
+
+    assert beacon_mm(food_at(500.0, 45.0), food_at(900.0, -45.0), bars=bars) == round(math.hypot(900.0, 45.0))
