@@ -1,10 +1,14 @@
 # What this is built from, as build_id.h in OCTET_GENERATED: looked up at each build, rewritten only when it has changed.
 if(NOT CMAKE_SCRIPT_MODE_FILE)
-  add_custom_target(octet_build_id
+  # The second output is never made: that is what has the command run at each build.
+  add_custom_command(
+    OUTPUT ${OCTET_GENERATED}/build_id.h ${OCTET_GENERATED}/build_id.always
     COMMAND ${CMAKE_COMMAND} -D SOURCE=${PROJECT_SOURCE_DIR} -D HEADER=${OCTET_GENERATED}/build_id.h
             -P ${CMAKE_CURRENT_LIST_FILE}
-    BYPRODUCTS ${OCTET_GENERATED}/build_id.h
+    COMMENT "Looking up what this is built from"
     VERBATIM)
+  set_source_files_properties(${OCTET_GENERATED}/build_id.always PROPERTIES SYMBOLIC TRUE)
+  add_custom_target(octet_build_id DEPENDS ${OCTET_GENERATED}/build_id.h)
   return()
 endif()
 

@@ -1,0 +1,6 @@
+/* What this image is, readable in the image itself: tools/flash looks for it. */
+#include "build_id.h"
+
+__attribute__((section(".build_id"), used))
+static const char build_id[] =
+    "octet-image board=" OCTET_BOARD " chip=" OCTET_CHIP " version=" OCTET_BUILD_DESCRIBE " dbc=" OCTET_DBC_HASH;

@@ -1,0 +1,76 @@
+/* 72 MHz from the board's 8 MHz crystal, or 64 MHz from the internal oscillator. */
+#include "hal/stm32/chip.h"
+#include "hal/stm32/f103/registers_f103.h"
+
+#if OCTET_CRYSTAL_MHZ != 8
+#error "the PLL's factor below is for 8 MHz"
+#endif
+
+enum {
+    CSR_FORGET = 1 << 24,
+    WAIT_MAX = 10000,            /* looks at a flag: some 5 ms at 8 MHz; a crystal starts in 2 ms, the PLL in 0.2 ms */
+    HSION = 1u << 0,
+    HSEON = 1u << 16,
+    HSERDY = 1u << 17,
+    PLLON = 1u << 24,
+    PLLRDY = 1u << 25,
+    CFGR_SW_PLL = 2,
+    CFGR_SWS = 3u << 2,
+    CFGR_SWS_PLL = 2u << 2,
+    CFGR_APB1_BY_2 = 4u << 8,    /* 36 MHz, its limit */
+    PLL_FROM_HSE = 1u << 16,     /* else from half the internal oscillator */
+    PLL_BY_9 = 7u << 18,
+    PLL_BY_16 = 14u << 18,
+    ACR_2_WAITS = 2,             /* above 48 MHz */
+    ACR_PREFETCH = 1u << 4
+};
+
+static bool comes_up(volatile const uint32_t *reg, uint32_t mask, uint32_t wanted)
+{
+    for (unsigned i = 0; i < WAIT_MAX; i++)
+        if ((*reg & mask) == wanted)
+            return true;
+    return false;
+}
+
+static bool start_crystal(void)
+{
+    RCC.cr |= HSEON;
+    return comes_up(&RCC.cr, HSERDY, HSERDY);
+}
+
+static bool start_pll(uint32_t setting)
+{
+    RCC.cfgr = CFGR_APB1_BY_2 | setting;
+    RCC.cr |= PLLON;
+    return comes_up(&RCC.cr, PLLRDY, PLLRDY);
+}
+
+static bool switch_to_pll(uint32_t setting)
+{
+    FLASH.acr = ACR_PREFETCH | ACR_2_WAITS;   /* before the clock gets faster */
+    RCC.cfgr = CFGR_APB1_BY_2 | setting | CFGR_SW_PLL;
+    return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL);
+}
+
+struct clocks clock_start(void)
+{
+    static const struct clocks best = {72000000, 36000000, 72000000, true};
+    static const struct clocks good = {64000000, 32000000, 64000000, false};
+    static const struct clocks slow = {8000000, 8000000, 8000000, false};
+    bool exact = start_crystal();
+    uint32_t setting = exact ? PLL_FROM_HSE | PLL_BY_9 : PLL_BY_16;
+
+    if (start_pll(setting) && switch_to_pll(setting))
+        return exact ? best : good;
+    RCC.cfgr = 0;
+    return slow;
+}
+
+uint32_t chip_reset_flags(void)
+{
+    uint32_t flags = RCC.csr;
+
+    RCC.csr = flags | CSR_FORGET;
+    return flags;
+}

@@ -1,0 +1,85 @@
+/* The last two pages (PM0075 2.3). The core stands still while one is written or erased. */
+#include "hal/flash_store/flash.h"
+
+#include "hal/stm32/f103/registers_f103.h"
+#include "hal/stm32/line.h"
+#include "hal/stm32/machine.h"
+
+enum {
+    PAGE_SIZE = 1024,
+    ERASE_MS = 100,            /* more than twice what a page takes */
+    WRITE_MS = 2,
+    SR_BUSY = 1 << 0,
+    SR_ERRORS = 1 << 2 | 1 << 4,
+    SR_DONE = 1 << 5,
+    CR_WRITE = 1 << 0,
+    CR_ERASE = 1 << 1,
+    CR_START = 1 << 6,
+    CR_LOCK = 1 << 7
+};
+
+extern volatile uint16_t STORE[FLASH_PAGES][PAGE_SIZE / 2];   /* written by halves of a word */
+
+bool flash_exists(void)
+{
+    return FLASH.cr & CR_LOCK;   /* set by every reset, and by us whenever we are done */
+}
+
+uint32_t flash_page_size(void)
+{
+    return PAGE_SIZE;
+}
+
+const void *flash_page(unsigned page)
+{
+    return (const void *)STORE[page];
+}
+
+static void unlock(uint32_t setting)
+{
+    FLASH.keyr = 0x45670123;
+    FLASH.keyr = 0xCDEF89AB;
+    FLASH.sr = SR_ERRORS | SR_DONE;
+    FLASH.cr = setting;
+}
+
+/* Locks again as well. */
+static int finish(uint32_t limit_ms)
+{
+    uint32_t start = machine_ms();
+    uint32_t status;
+
+    do
+        status = FLASH.sr;
+    while (status & SR_BUSY && machine_ms() - start <= limit_ms);
+    FLASH.cr = CR_LOCK;
+    line_pump();
+    return status & (SR_BUSY | SR_ERRORS) ? -1 : 0;
+}
+
+static int write_half(volatile uint16_t *at, uint16_t half)
+{
+    int result;
+
+    unlock(CR_WRITE);
+    *at = half;
+    result = finish(WRITE_MS);
+    return result == 0 && *at == half ? 0 : -1;
+}
+
+int flash_write(unsigned page, uint32_t offset, uint32_t word)
+{
+    volatile uint16_t *at = &STORE[page][offset / 2];
+
+    if (write_half(at, (uint16_t)word) < 0)
+        return -1;
+    return write_half(at + 1, (uint16_t)(word >> 16));
+}
+
+int flash_erase(unsigned page)
+{
+    unlock(CR_ERASE);
+    FLASH.ar = (uint32_t)(uintptr_t)STORE[page];
+    FLASH.cr = CR_ERASE | CR_START;
+    return finish(ERASE_MS);
+}

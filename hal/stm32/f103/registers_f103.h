@@ -1,0 +1,53 @@
+/* registers_f103.h: what the STM32F103 has in its own way (RM0008, flash: PM0075). Notation as in registers.h. */
+#ifndef OCTET_REGISTERS_F103_H
+#define OCTET_REGISTERS_F103_H
+
+#include <stdint.h>
+
+struct rcc_registers {        /* 7.3.11 */
+    uint32_t cr;              /* rw, ready bits r   7.3.1 */
+    uint32_t cfgr;            /* rw, SWS r; PLL bits while the PLL is off   7.3.2 */
+    uint32_t cir;             /* rw */
+    uint32_t apb2rstr;        /* rw */
+    uint32_t apb1rstr;        /* rw */
+    uint32_t ahbenr;          /* rw */
+    uint32_t apb2enr;         /* rw   7.3.7 */
+    uint32_t apb1enr;         /* rw   7.3.8 */
+    uint32_t bdcr;            /* rw */
+    uint32_t csr;             /* reset flags r, RMVF rw   7.3.10 */
+};
+
+struct flash_registers {      /* PM0075 3.9 */
+    uint32_t acr;             /* rw   3.1 */
+    uint32_t keyr;            /* w    3.2 */
+    uint32_t optkeyr;         /* w */
+    uint32_t sr;              /* w1c, BSY r   3.4 */
+    uint32_t cr;              /* rw once unlocked, STRT w1s   3.5 */
+    uint32_t ar;              /* w    page to erase   3.6 */
+};
+
+struct gpio_registers {       /* 9.5 */
+    uint32_t cr[2];           /* rw   four bits a pin   9.2.1 */
+    uint32_t idr;             /* r */
+    uint32_t odr;             /* rw; also the direction of an input's pull */
+    uint32_t bsrr;            /* w    low half sets, high half clears */
+    uint32_t brr;             /* w */
+    uint32_t lckr;            /* rw */
+};
+
+struct gpio_port {            /* one each 1 KB */
+    struct gpio_registers at;
+    uint32_t reserved[249];
+};
+
+struct afio_registers {       /* 9.5 */
+    uint32_t evcr;            /* rw */
+    uint32_t mapr;            /* rw, SWJ bits w   9.4.2 */
+};
+
+extern volatile struct rcc_registers RCC;
+extern volatile struct flash_registers FLASH;
+extern volatile struct gpio_port GPIO[5];   /* A..E */
+extern volatile struct afio_registers AFIO;
+
+#endif

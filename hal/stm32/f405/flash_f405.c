@@ -1,0 +1,79 @@
+/* Sectors 1 and 2 (RM0090 3.6). The core stands still while one is written or erased. */
+#include "hal/flash_store/flash.h"
+
+#include "hal/stm32/f405/registers_f405.h"
+#include "hal/stm32/machine.h"
+
+enum {
+    SECTOR_SIZE = 16384,
+    FIRST_SECTOR = 1,
+    ERASE_MS = 1000,           /* more than the slowest sector of 16 kB takes */
+    WRITE_MS = 2,
+    SR_DONE = 1 << 0,
+    SR_ERRORS = 0xF2,
+    SR_BUSY = 1 << 16,
+    CR_WRITE = 1 << 0,
+    CR_ERASE = 1 << 1,
+    CR_SECTOR_AT = 3,
+    CR_WORDS = 2 << 8,         /* four bytes at once, for 2.7 V and more */
+    CR_START = 1 << 16
+};
+
+static const uint32_t CR_LOCK = 1u << 31;
+
+extern volatile uint32_t STORE[FLASH_PAGES][SECTOR_SIZE / 4];
+
+bool flash_exists(void)
+{
+    return FLASH.cr & CR_LOCK;   /* set by every reset, and by us whenever we are done */
+}
+
+uint32_t flash_page_size(void)
+{
+    return SECTOR_SIZE;
+}
+
+const void *flash_page(unsigned page)
+{
+    return (const void *)STORE[page];
+}
+
+static void unlock(uint32_t setting)
+{
+    FLASH.keyr = 0x45670123;
+    FLASH.keyr = 0xCDEF89AB;
+    FLASH.sr = SR_ERRORS | SR_DONE;
+    FLASH.cr = CR_WORDS | setting;
+}
+
+/* Locks again as well. */
+static int finish(uint32_t limit_ms)
+{
+    uint32_t start = machine_ms();
+    uint32_t status;
+
+    do
+        status = FLASH.sr;
+    while (status & SR_BUSY && machine_ms() - start <= limit_ms);
+    FLASH.cr = CR_LOCK;
+    return status & (SR_BUSY | SR_ERRORS) ? -1 : 0;
+}
+
+int flash_write(unsigned page, uint32_t offset, uint32_t word)
+{
+    int result;
+
+    unlock(CR_WRITE);
+    STORE[page][offset / 4] = word;
+    result = finish(WRITE_MS);
+    return result == 0 && STORE[page][offset / 4] == word ? 0 : -1;
+}
+
+int flash_erase(unsigned page)
+{
+    uint32_t setting = CR_ERASE | (FIRST_SECTOR + page) << CR_SECTOR_AT;
+
+    unlock(setting);
+    FLASH.cr = CR_WORDS | setting | CR_START;
+    return finish(ERASE_MS);
+}

@@ -1,0 +1,51 @@
+/* registers_f405.h: what the STM32F405 has in its own way (RM0090). Notation as in registers.h. */
+#ifndef OCTET_REGISTERS_F405_H
+#define OCTET_REGISTERS_F405_H
+
+#include <stdint.h>
+
+struct rcc_registers {        /* 7.3.24 */
+    uint32_t cr;              /* rw, ready bits r   7.3.1 */
+    uint32_t pllcfgr;         /* rw while the PLL is off   7.3.2 */
+    uint32_t cfgr;            /* rw, SWS r   7.3.3 */
+    uint32_t cir;             /* rw */
+    uint32_t reserved_1[8];
+    uint32_t ahb1enr;         /* rw   7.3.10 */
+    uint32_t reserved_2[3];
+    uint32_t apb1enr;         /* rw   7.3.13 */
+    uint32_t apb2enr;         /* rw   7.3.14 */
+    uint32_t reserved_3[10];
+    uint32_t bdcr;            /* rw */
+    uint32_t csr;             /* reset flags r, RMVF rw   7.3.21 */
+};
+
+struct flash_registers {      /* 3.9.8 */
+    uint32_t acr;             /* rw   3.9.1 */
+    uint32_t keyr;            /* w    3.9.2 */
+    uint32_t optkeyr;         /* w */
+    uint32_t sr;              /* w1c, BSY r   3.9.4 */
+    uint32_t cr;              /* rw once unlocked, STRT w1s   3.9.5 */
+};
+
+struct gpio_registers {       /* 8.4.11 */
+    uint32_t moder;           /* rw   two bits a pin */
+    uint32_t otyper;          /* rw */
+    uint32_t ospeedr;         /* rw */
+    uint32_t pupdr;           /* rw   two bits a pin */
+    uint32_t idr;             /* r */
+    uint32_t odr;             /* rw */
+    uint32_t bsrr;            /* w    low half sets, high half clears */
+    uint32_t lckr;            /* rw */
+    uint32_t afr[2];          /* rw   four bits a pin */
+};
+
+extern volatile struct rcc_registers RCC;
+extern volatile struct flash_registers FLASH;
+struct gpio_port {             /* one each 1 KB */
+    struct gpio_registers at;
+    uint32_t reserved[246];
+};
+
+extern volatile struct gpio_port GPIO[9];   /* A..I */
+
+#endif

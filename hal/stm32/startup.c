@@ -1,0 +1,68 @@
+/* From reset to main, and from a crash to reset. */
+#include <stddef.h>
+#include <string.h>
+
+#include "hal/stm32/crash.h"
+#include "hal/stm32/machine.h"
+#include "hal/stm32/registers.h"
+
+enum {
+    ICSR_VECTOR = 0x1FF,      /* number of the exception under way */
+    AIRCR_KEY = 0x05FA << 16,
+    AIRCR_RESET = 1 << 2
+};
+
+/* From the linker script: addresses only. */
+extern uint32_t stack_bottom[], stack_top[], data_start[], data_end[], data_image[], bss_start[], bss_end[];
+
+int main(int argc, char *argv[]);
+void startup_reset(void);
+void startup_crash(void);
+void startup_crashed(const uint32_t *frame);
+
+struct vectors {              /* PM0214 2.3.4, PM0056 2.3.4 */
+    uint32_t *stack;
+    void (*handlers[15])(void);
+};
+
+/* No interrupt is ever enabled: the core's own 15 exceptions are all. */
+__attribute__((section(".vectors"), used))
+static const struct vectors vectors = {
+    stack_top,
+    {
+        startup_reset, startup_crash, startup_crash, startup_crash, startup_crash, startup_crash, NULL, NULL, NULL, NULL,
+        startup_crash, startup_crash, NULL, startup_crash, startup_crash,
+    },
+};
+
+/* It takes a few cycles; and if it never comes, the watchdog does. */
+static void restart(void)
+{
+    SCB.aircr = AIRCR_KEY | AIRCR_RESET;
+    for (;;)
+        continue;
+}
+
+void startup_reset(void)
+{
+    memcpy(data_start, data_image, (size_t)((char *)data_end - (char *)data_start));
+    memset(bss_start, 0, (size_t)((char *)bss_end - (char *)bss_start));
+    machine_start();
+    (void)main(0, NULL);
+    restart();   /* main ends where its body cannot be had: once more, from the beginning */
+}
+
+/* The stack may be what is broken: begins a new one. */
+__attribute__((naked)) void startup_crash(void)
+{
+    __asm__ volatile("mrs r0, msp\n\t"
+                     "ldr r1, =stack_top\n\t"
+                     "msr msp, r1\n\t"
+                     "b startup_crashed");
+}
+
+void startup_crashed(const uint32_t *frame)
+{
+    crash_keep(SCB.icsr & ICSR_VECTOR, frame, stack_bottom, stack_top);
+    restart();
+}

@@ -1,0 +1,62 @@
+/* A microcontroller as a port. */
+#include "hal/can/port.h"
+
+#include "hal/flash_store/flash.h"
+#include "hal/flash_store/flash_store.h"
+#include "hal/stm32/crash.h"
+#include "hal/stm32/machine.h"
+#include "hal/stm32/registers.h"
+
+enum { BLINK_SLOWLY = 9, BLINK_FAST = 7 };   /* bit of the milliseconds: about 1 Hz, 4 Hz */
+
+static struct flash_store store;                                /* there is one */
+static uint32_t entropy __attribute__((section(".noinit")));    /* power-up fills it at random; a reset leaves it */
+
+int port_open(struct port *port, int argc, char *const argv[])
+{
+    (void)argc;
+    (void)argv;
+    *port = (struct port){
+        .link = "",   /* there is one, linked in */
+        .node = OCTET_NODE,
+        .reset_cause = crash_reset_cause(chip_reset_flags()),
+        .crash = crash_last(),
+    };
+    pins_light(true);
+    return 0;
+}
+
+void port_ready(const struct port *port)
+{
+    (void)port;
+    pins_light(false);
+}
+
+uint32_t port_clock_ms(void)
+{
+    return machine_ms();
+}
+
+void port_alive(bool outage)
+{
+    machine_feed();
+    pins_light(machine_ms() >> (outage ? BLINK_FAST : BLINK_SLOWLY) & 1u);
+}
+
+int port_load(uint8_t memory[CELL_COUNT])
+{
+    return flash_exists() ? flash_store_open(&store, memory) : 0;
+}
+
+int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
+{
+    int result = flash_exists() ? flash_store_save(&store, memory, effort == PORT_AT_REST) : 0;
+
+    return result == FLASH_STORE_LATER ? PORT_LATER : result;
+}
+
+uint32_t port_entropy(void)
+{
+    entropy = (entropy + SYSTICK.val) * 1664525u + 1013904223u;
+    return entropy;
+}

@@ -1,0 +1,123 @@
+/* Frames as slcan text over a serial line. A byte comes every 87 us at the most: whatever waits here takes it. */
+#include "hal/link/link.h"
+
+#include <stdbool.h>
+
+#include "hal/link/slcan.h"
+#include "hal/stm32/line.h"
+#include "hal/stm32/machine.h"
+#include "hal/stm32/uart.h"
+
+enum {
+    BAUD = 115200,
+    WAITING_MAX = 128,   /* bytes received and not yet decoded: four lines */
+    SPOILT = '?'         /* occurs in no line: makes the one that it is in garbled */
+};
+
+struct link {
+    struct slcan_decoder decoder;
+    char waiting[WAITING_MAX];
+    uint8_t first, count;   /* of these bytes */
+    bool cut_short;         /* the last line sent lacks its end */
+};
+
+static struct link the_link;   /* one line */
+
+int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count)
+{
+    (void)name;
+    (void)ids;
+    (void)id_count;
+    uart_start(machine_clocks().usart_hz, BAUD);
+    the_link = (struct link){.count = 0};
+    *link = &the_link;
+    return 0;
+}
+
+static void keep(struct link *link, char byte)
+{
+    if (link->count < WAITING_MAX)
+        link->count++;
+    else
+        byte = SPOILT;
+    link->waiting[(link->first + link->count - 1u) % WAITING_MAX] = byte;
+}
+
+static void pump(struct link *link)
+{
+    int byte = uart_get();
+
+    if (byte != UART_NOTHING)
+        keep(link, byte == UART_DAMAGED ? SPOILT : (char)byte);
+}
+
+void line_pump(void)
+{
+    pump(&the_link);
+}
+
+/* 1, 0 or LINK_E_GARBLED as link_receive, without waiting. */
+static int decode(struct link *link, struct frame *out)
+{
+    enum slcan_found found = SLCAN_NOTHING;
+
+    while (link->count > 0 && found == SLCAN_NOTHING) {
+        found = slcan_decode(&link->decoder, link->waiting[link->first], out);
+        link->first = (uint8_t)((link->first + 1u) % WAITING_MAX);
+        link->count--;
+    }
+    if (found == SLCAN_NOTHING)
+        return 0;
+    return found == SLCAN_FRAME ? 1 : LINK_E_GARBLED;
+}
+
+int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
+{
+    uint32_t start = machine_ms();
+    int result;
+
+    do {
+        pump(link);
+        result = decode(link, out);
+    } while (result == 0 && machine_ms() - start < wait_ms);
+    return result;
+}
+
+static bool send_byte(struct link *link, char byte, uint32_t start)
+{
+    while (!uart_put((uint8_t)byte)) {
+        pump(link);
+        if (machine_ms() - start > LINK_SEND_MS)
+            return false;
+    }
+    return true;
+}
+
+/* A line cut short is ended first, lest it spoil this one. */
+int link_send(struct link *link, const struct frame *frame)
+{
+    char text[1 + SLCAN_TEXT_MAX] = "\r";
+    size_t prefix = link->cut_short ? 1 : 0;
+    size_t len = prefix + slcan_encode(text + prefix, frame);
+    uint32_t start = machine_ms();
+    size_t sent = 0;
+
+    while (sent < len && send_byte(link, text[sent], start))
+        sent++;
+    if (sent > 0)
+        link->cut_short = sent < len;
+    return sent == len ? 0 : LINK_E_FULL;
+}
+
+/* A serial line has no error counters, and an adapter at its far end keeps its own to itself. */
+void link_health(const struct link *link, struct link_health *out)
+{
+    (void)link;
+    *out = (struct link_health){.state = BUS_ACTIVE};
+}
+
+void link_close(struct link *link)
+{
+    if (link)
+        uart_stop();
+}

@@ -1,0 +1,88 @@
+"""What the tests of images share: a talk with a board, frame by frame."""
+
+from dataclasses import dataclass, field
+
+from host_sim.emulated.board import EmulatedBoard
+from host_sim.emulated.hardware import Faults
+from host_sim.emulated.start import start_board
+from host_sim.protocol import Frame, Protocol, Said
+from host_sim.signals import Senses
+
+BOARDS = ("stm32f405", "stm32f103")
+TICK_S = 0.02
+COUNTERS = (
+    "silences",
+    "missed",
+    "stale",
+    "damaged",
+    "foreign",
+    "unsent",
+    "refused",
+    "unsaved",
+    "bus_offs",
+    "dropped",
+)
+LEARN_LEFT = 0b01_00
+"""Cells of a write command: cell 1 is left."""
+
+
+@dataclass
+class Talk:
+    """Orders and senses to a board, and all that it said."""
+
+    board: EmulatedBoard
+    lockstep: int = 1
+    heard: list[Said] = field(default_factory=list)
+    tick: int = -1
+    counter: int = 0
+    protocol: Protocol = field(default_factory=Protocol)
+
+    def order(self, opcode: str, **signals: int) -> None:
+        self.counter = (self.counter + 1) % 16
+        number = self.protocol.choices("COMMAND", "opcode")[opcode]
+        fixed = {"counter": self.counter, "opcode": number, "lockstep": self.lockstep}
+        self.board.send(self.protocol.encode("COMMAND", {**fixed, **signals}))
+        self.wait(0.005)
+
+    def start(self) -> None:
+        self.order("start", profile=0, seed=1)
+
+    def senses(self, feel: int = 0) -> Frame:
+        self.tick += 1
+        return self.protocol.encode_senses(Senses(self.tick % 4096, feel, False, False, 0, 0, 0))
+
+    def live(self, ticks: int, feel: int = 0) -> list[Said]:
+        """So many ticks in their time; returns the drives."""
+        before = len(self.heard)
+        for _ in range(ticks):
+            self.board.send(self.senses(feel))
+            self.wait(TICK_S)
+        return [said for said in self.heard[before:] if said.name == "DRIVE"]
+
+    def wait(self, span_s: float) -> list[Said]:
+        said = [self.protocol.decode(frame) for frame in self.board.pass_time(span_s)]
+        assert None not in said, "the board sent what is no frame of ours"
+        self.heard.extend(said)
+        return said
+
+    def last(self, name: str) -> dict[str, int]:
+        return next(said.signals for said in reversed(self.heard) if said.name == name)
+
+    def ask(self) -> dict[str, int]:
+        """Stops the robot; returns what it says of itself: HEARTBEAT, FAULTS, HEALTH together."""
+        self.order("stop")
+        self.wait(0.02)
+        return self.last("HEARTBEAT") | self.last("FAULTS") | self.last("HEALTH")
+
+
+def talk_to(name: str, faults: Faults | None = None, lockstep: int = 0) -> Talk:
+    return Talk(start_board(name, faults), lockstep)
+
+
+def is_rest(said: Said) -> bool:
+    return said.signals["left"] == said.signals["right"] == 0
+
+
+def counted(report: dict[str, int]) -> dict[str, int]:
+    """The fault counters that are not zero."""
+    return {name: report[name] for name in COUNTERS if report[name]}

@@ -1,0 +1,66 @@
+"""The same firmware does the same everywhere: the frames of the host build are those of each image, byte for byte."""
+
+import pytest
+
+from host_sim.connection import Connection
+from host_sim.emulated.start import start_board
+from host_sim.equality import IMAGES, REFERENCE, compare, first_difference, record
+from host_sim.run_options import BOARDS
+from host_sim.short_run import run_ticks
+
+TICKS = 2000
+LEARNED = b"141#00"
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_all_images_do_what_the_host_build_does(seed, tmp_path):
+    verdicts = list(compare([seed], TICKS, tmp_path))
+
+    assert [(verdict.where, verdict.difference) for verdict in verdicts] == [(image, None) for image in IMAGES]
+    log = (tmp_path / f"{REFERENCE}-{seed}.log").read_bytes()
+    memories = {line.split()[-1] for line in log.splitlines() if LEARNED in line}
+    assert len(memories) > 1, "it learned while it was watched"
+
+
+def test_another_seed_is_another_run(tmp_path):
+    logs = [tmp_path / f"{seed}.log" for seed in (1, 2)]
+    for seed, log in enumerate(logs, start=1):
+        record(REFERENCE, seed, 200, log)
+
+    assert first_difference(*logs) is not None
+
+
+def test_the_first_line_that_differs_is_named(tmp_path):
+    ours, theirs = tmp_path / "ours.log", tmp_path / "theirs.log"
+    ours.write_text("a\nb\nc\n")
+    theirs.write_text("a\nB\nC\n")
+
+    assert first_difference(ours, theirs) == "line 2: b on the host, B in theirs.log"
+
+
+def test_a_log_that_ends_early_differs(tmp_path):
+    ours, theirs = tmp_path / "ours.log", tmp_path / "theirs.log"
+    ours.write_text("a\nb\n")
+    theirs.write_text("a\n")
+
+    assert first_difference(ours, theirs) == "line 2: b on the host, (end) in theirs.log"
+
+
+def test_the_log_of_an_image_that_differs_is_left(tmp_path, monkeypatch):
+    monkeypatch.setattr("host_sim.equality.record", lambda where, _seed, _ticks, log: log.write_text(f"{where}\n"))
+
+    verdicts = list(compare([5], 10, tmp_path, ["qemu"]))
+
+    assert [verdict.difference for verdict in verdicts] == ["line 1: host on the host, qemu in qemu-5.log"]
+    assert (tmp_path / "qemu-5.log").exists()
+
+
+@pytest.mark.parametrize("board", BOARDS)
+def test_the_slcan_image_does_the_same_on_an_emulated_serial_line(board, tmp_path):
+    logs = [tmp_path / "host.log", tmp_path / "serial.log"]
+    record(REFERENCE, 4, 300, logs[0])
+    emulated = start_board(board, link="slcan")
+
+    run_ticks(Connection(emulated, board, emulated.status), 4, 300, logs[1])
+
+    assert first_difference(*logs) is None

@@ -1,0 +1,132 @@
+"""An emulated board on a python-can bus, and the command that puts it there."""
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from contextlib import ExitStack
+
+import can
+import pytest
+
+from host_sim.connection import connect
+from host_sim.emulated.__main__ import main
+from host_sim.emulated.joined import JoinedBoard
+from host_sim.emulated.start import start_board
+from host_sim.equality import REFERENCE, first_difference, record
+from host_sim.protocol import Frame, Protocol
+from host_sim.short_run import run_ticks
+from host_sim.signals import Senses
+
+PROTOCOL = Protocol()
+STOP = PROTOCOL.encode("COMMAND", {"counter": 1, "opcode": 1, "lockstep": 0})
+
+
+@pytest.fixture
+def joined():
+    with (
+        can.Bus(interface="virtual", channel="octet-test") as near,
+        can.Bus(interface="virtual", channel="octet-test") as far,
+    ):
+        yield JoinedBoard(start_board("stm32f103"), near), far
+
+
+def send(bus, frame, **kind):
+    bus.send(can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=False, **kind))
+
+
+def heard(joined, bus, wanted):
+    """What comes until a message of that name does."""
+    names = []
+    give_up = time.monotonic() + 10
+    while wanted not in names and time.monotonic() < give_up:
+        joined.step()
+        while (message := bus.recv(0)) is not None:
+            names.append(PROTOCOL.decode(Frame(message.arbitration_id, bytes(message.data))).name)
+    return names
+
+
+def test_it_answers_on_the_bus(joined):
+    board, bus = joined
+
+    send(bus, STOP)
+
+    assert heard(board, bus, "MEMORY")[:2] == ["ANSWER", "HEARTBEAT"]
+
+
+def test_it_takes_senses_beside_frames_of_other_kinds(joined):
+    board, bus = joined
+    senses = PROTOCOL.encode_senses(Senses(0, 0, False, False, 0, 0, 0))
+    bus.send(can.Message(arbitration_id=senses.id, is_remote_frame=True, dlc=8, is_extended_id=False))
+    bus.send(can.Message(arbitration_id=senses.id, data=senses.data, is_extended_id=True))
+
+    send(bus, senses)
+
+    assert "DRIVE" in heard(board, bus, "DRIVE")
+
+
+def test_its_time_does_not_run_ahead_of_the_walls(joined):
+    board, _ = joined
+    clock = board._board.hardware.clock
+    began, board_began = time.monotonic(), clock.now
+
+    for _ in range(50):
+        board.step()
+
+    assert (clock.now - board_began) / 1e15 <= time.monotonic() - began + 0.001
+
+
+def test_the_command_serves_until_the_bus_is_gone(monkeypatch, capsys):
+    def step(_self):
+        raise can.CanError("it broke")
+
+    monkeypatch.setattr(JoinedBoard, "step", step)
+
+    assert main(["--bus", "virtual:octet-test"]) == 1
+    output = capsys.readouterr()
+    assert output.out == "octet: an emulated stm32f405 listens on virtual:octet-test\n"
+    assert output.err == "octet: the bus virtual:octet-test is gone: it broke\n"
+
+
+def test_a_bus_that_cannot_be_had_is_one_line(capsys):
+    assert main(["--bus", "nonsense"]) == 2
+
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_the_cost_of_ticks_is_printed_as_json(capsys):
+    assert main(["--count-instructions", "--ticks", "100", "--board", "stm32f103"]) == 0
+
+    cost = json.loads(capsys.readouterr().out)
+    assert (cost["board"], cost["ticks"]) == ("stm32f103", 100)
+    assert 500 < cost["mean"] <= cost["worst"]
+
+
+@pytest.fixture
+def board_on_vcan():
+    command = [sys.executable, "-m", "host_sim.emulated", "--board", "stm32f103", "--bus", "socketcan:vcan0"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert "listens" in process.stdout.readline()
+    yield process
+    process.kill()
+    process.communicate()
+
+
+@pytest.mark.vcan
+@pytest.mark.usefixtures("board_on_vcan")
+def test_on_a_socketcan_bus_it_does_what_the_host_build_does(tmp_path):
+    logs = [tmp_path / "host.log", tmp_path / "vcan.log"]
+    record(REFERENCE, 3, 500, logs[0])
+
+    with ExitStack() as stack:
+        run_ticks(connect(stack, "socketcan:vcan0", "external", 1), 3, 500, logs[1])
+
+    assert first_difference(*logs) is None
+
+
+@pytest.mark.vcan
+def test_interrupted_it_ends(board_on_vcan):
+    board_on_vcan.send_signal(signal.SIGINT)
+
+    assert board_on_vcan.wait(10) == 130

@@ -1,0 +1,159 @@
+"""The slcan image in QEMU, joined to the simulator."""
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from contextlib import ExitStack
+
+import pytest
+
+from host_sim.connection import connect
+from host_sim.errors import OctetError, RobotError, UsageError
+from host_sim.images import image_path
+from host_sim.protocol import Frame
+from host_sim.qemu import Qemu
+from host_sim.short_run import run_ticks
+from host_sim.slcan_link import SlcanLink
+
+ROBOT = "import time, host_sim.qemu as q; robot = q.Qemu(); print(robot.pid, flush=True); time.sleep(60)"
+
+
+@pytest.fixture
+def qemu():
+    robot = Qemu()
+    yield robot
+    robot.close()
+
+
+@pytest.fixture
+def line():
+    ours, theirs = socket.socketpair()
+    link = SlcanLink(ours)
+    yield link, theirs
+    link.close()
+    theirs.close()
+
+
+def is_running(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_a_robot_in_qemu_learns_and_its_process_ends(tmp_path):
+    with ExitStack() as stack:
+        connection = connect(stack, "fd", "qemu", 1)
+        session = run_ticks(connection, 1, 1000, tmp_path / "run.log")
+
+    assert any(session.memory)
+    assert set(session.faults.values()) == {0}
+    assert (session.frames.lost, session.frames.refused) == (0, 0)
+    assert not is_running(connection.pid)
+
+
+def test_qemu_reaches_200_ticks_a_second(tmp_path):
+    def measure():
+        began = time.monotonic()
+        run_ticks(connection, 1, 400, tmp_path / "run.log")
+        return 400 / (time.monotonic() - began)
+
+    with ExitStack() as stack:
+        connection = connect(stack, "fd", "qemu", 1)
+        # The best of three: other tests run beside this one.
+        assert max(measure() for _ in range(3)) >= 200
+
+
+def test_qemu_that_dies_is_named(qemu):
+    os.kill(qemu.pid, signal.SIGKILL)
+
+    with pytest.raises(RobotError, match="closed"):
+        qemu.link.receive(5.0)
+    os.waitid(os.P_PID, qemu.pid, os.WEXITED | os.WNOWAIT)
+    with pytest.raises(RobotError, match="QEMU ended with exit code -9"):
+        qemu.status()
+
+
+def test_qemu_ends_with_the_process_that_started_it():
+    starter = subprocess.Popen([sys.executable, "-c", ROBOT], stdout=subprocess.PIPE, text=True)
+    pid = int(starter.stdout.readline())
+    starter.kill()
+    starter.communicate()
+
+    give_up = time.monotonic() + 5
+    while is_running(pid) and time.monotonic() < give_up:
+        time.sleep(0.01)
+    assert not is_running(pid)
+
+
+def test_qemu_that_is_not_installed_is_named(monkeypatch):
+    monkeypatch.setenv("PATH", "/nowhere")
+
+    with pytest.raises(OctetError, match="tools/setup images"):
+        Qemu()
+
+
+def test_an_image_that_is_not_built_is_named_with_how_to_build_it(monkeypatch, tmp_path):
+    monkeypatch.setattr("host_sim.images.BUILD", tmp_path)
+
+    with pytest.raises(OctetError, match="tools/setup images"):
+        image_path("stm32f405", "slcan")
+
+
+def test_what_is_no_image_ends_qemu_with_its_reason(tmp_path):
+    with pytest.raises(RobotError, match=r"QEMU ended with exit code 1 and printed: .*nothing\.elf"):
+        Qemu(tmp_path / "nothing.elf")
+
+
+def test_an_image_that_says_nothing_is_given_up(monkeypatch):
+    monkeypatch.setattr("host_sim.qemu._READY_S", 0.05)
+
+    with pytest.raises(RobotError, match=r"said nothing for 0\.05 s; it is running in QEMU"):
+        Qemu()
+
+
+@pytest.mark.parametrize("robot", ["qemu", "emulated"])
+def test_an_emulator_brings_its_own_bus_and_node(robot):
+    with ExitStack() as stack, pytest.raises(UsageError, match="its own bus"):
+        connect(stack, "socketcan:vcan0", robot, 1)
+    with ExitStack() as stack, pytest.raises(UsageError, match="is node 1, not 2"):
+        connect(stack, "fd", robot, 2)
+
+
+def test_a_board_that_does_not_exist_is_named():
+    with ExitStack() as stack, pytest.raises(UsageError, match="no board 'stm32f999'; there are stm32f405,"):
+        connect(stack, "fd", "emulated", 1, board="stm32f999")
+
+
+def test_frames_go_over_the_line_as_text(line):
+    link, far = line
+
+    link.send(Frame(0x41, b"\x01\xab"))
+    far.sendall(b"t0812FF00\rt7FF0\r")
+
+    assert far.recv(100) == b"t041201AB\r"
+    assert [link.receive(1.0), link.receive(1.0)] == [Frame(0x81, b"\xff\x00"), Frame(0x7FF, b"")]
+    assert link.receive(0.0) is None
+
+
+@pytest.mark.parametrize("text", [b"t0812FF\r", b"t0811FF00\r", b"T000000810\r", b"nonsense\r", b"\r", b"t0819\r"])
+def test_what_is_no_frame_of_ours_is_nobodys(line, text):
+    link, far = line
+
+    far.sendall(text)
+
+    assert link.receive(1.0) == Frame(-1, b"")
+
+
+def test_a_line_whose_far_end_is_closed_is_an_error(line):
+    link, far = line
+    far.close()
+
+    with pytest.raises(RobotError, match="closed"):
+        link.receive(1.0)
+    with pytest.raises(RobotError, match="cannot send"):
+        link.send(Frame(1, b""))

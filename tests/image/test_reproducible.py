@@ -1,0 +1,33 @@
+"""An image depends on the sources, and not on the folder or the time in which it was built."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = ("CMakeLists.txt", "CMakePresets.json", "firmware", "hal", "tools")
+
+
+def built(folder: Path, preset: str) -> dict[str, bytes]:
+    """Copies the sources into a folder and builds a preset's images there; their bytes by file name."""
+    folder.mkdir(parents=True)
+    for name in SOURCES:
+        copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
+        copy(ROOT / name, folder / name)
+    cantools = Path(sys.executable).parent / "cantools"
+    for command in (["--preset", preset, f"-DCANTOOLS={cantools}"], ["--build", "--preset", preset]):
+        subprocess.run(["cmake", *command], cwd=folder, check=True, capture_output=True)
+    return {path.name: path.read_bytes() for path in (folder / "build" / preset).glob("octet-*")}
+
+
+@pytest.mark.parametrize("preset", ["stm32f405", "stm32f103"])
+def test_two_builds_from_different_folders_give_the_same_bytes(preset: str, tmp_path: Path) -> None:
+    here = built(tmp_path / "here", preset)
+    there = built(tmp_path / "a longer way" / "there", preset)
+
+    assert {Path(name).suffix for name in here} == {".elf", ".bin", ".hex", ".map"}
+    assert sorted(here) == sorted(there)
+    assert [name for name in here if here[name] != there[name]] == []

@@ -1,0 +1,119 @@
+"""What every link to a robot does, whatever carries the frames: in process, a socket pair, QEMU, emulated boards."""
+
+import itertools
+import time
+from contextlib import ExitStack
+
+import pytest
+
+from host_sim.connection import connect
+from host_sim.protocol import Frame, Protocol
+from host_sim.signals import Senses
+
+PROTOCOL = Protocol()
+COUNTERS = itertools.cycle(range(16))  # the robots live longer than a test, and remember the last one
+PATIENCE_S = 5.0
+ROBOTS = {
+    "in process": ("none", "spawn", "stm32f405"),
+    "socket pair": ("fd", "spawn", "stm32f405"),
+    "qemu": ("fd", "qemu", "stm32f405"),
+    "emulated stm32f405": ("fd", "emulated", "stm32f405"),
+    "emulated stm32f103": ("fd", "emulated", "stm32f103"),
+}
+
+
+@pytest.fixture(scope="module", params=ROBOTS)
+def connection(request):
+    bus, robot, board = ROBOTS[request.param]
+    with ExitStack() as stack:
+        yield connect(stack, bus, robot, 1, board=board)
+
+
+@pytest.fixture
+def link(connection):
+    """With nothing left over, and a robot that takes any tick and counts on the sender's clock."""
+    ask(connection.link)
+    return connection.link
+
+
+def order():
+    return PROTOCOL.encode("COMMAND", {"counter": next(COUNTERS), "opcode": 1, "lockstep": 1})
+
+
+def senses(tick):
+    return PROTOCOL.encode_senses(Senses(tick, 0, False, False, 0, 0, 0))
+
+
+def hear_until(link, name):
+    said = []
+    while not said or said[-1].name != name:
+        frame = link.receive(PATIENCE_S)
+        assert frame is not None, f"no {name}, only {said}"
+        said.append(PROTOCOL.decode(frame))
+        assert said[-1] is not None, frame
+    return said
+
+
+def ask(link):
+    """Stops the robot; returns what it answers."""
+    link.send(order())
+    said = hear_until(link, "ANSWER")
+    return said + hear_until(link, "MEMORY")
+
+
+def faults(link):
+    return next(said.signals for said in ask(link) if said.name == "FAULTS")
+
+
+def test_a_command_is_answered_once_and_in_full(link):
+    names = [said.name for said in ask(link)]
+
+    assert names == ["ANSWER", "HEARTBEAT", "HEALTH", "FAULTS", "MEMORY"]
+    assert link.receive(0.05) is None
+
+
+def test_frames_keep_their_order(link):
+    for tick in range(8):
+        link.send(senses(tick))
+
+    ticks = [hear_until(link, "DRIVE")[-1].signals["tick"] for _ in range(8)]
+
+    assert ticks == list(range(8))
+
+
+def test_receiving_waits_as_long_as_told_and_no_longer(link):
+    began = time.monotonic()
+    assert link.receive(0.0) is None
+    looked_s = time.monotonic() - began
+    assert link.receive(0.1) is None
+    waited_s = time.monotonic() - began - looked_s
+
+    assert looked_s < 0.05
+    assert 0.1 <= waited_s < 1.0
+
+
+@pytest.mark.parametrize("damage", ["length", "crc", "repeat"])
+def test_a_bad_frame_gets_no_answer_and_is_counted(link, damage):
+    before = faults(link)
+    good = order()
+    link.send(good)
+    hear_until(link, "MEMORY")
+    bad = {
+        "length": Frame(good.id, good.data[:5]),
+        "crc": Frame(good.id, bytes((good.data[0] ^ 1,)) + good.data[1:]),
+        "repeat": good,
+    }[damage]
+
+    link.send(bad)
+
+    assert link.receive(0.05) is None
+    counted = "stale" if damage == "repeat" else "damaged"
+    assert faults(link)[counted] == before[counted] + 1
+
+
+def test_frames_for_others_get_no_answer(link):
+    for frame_id in (0x000, 0x042, 0x0C2, 0x181, 0x7FF):
+        link.send(Frame(frame_id, bytes(8)))
+
+    assert link.receive(0.05) is None
+    assert len(ask(link)) == 5

@@ -1,0 +1,127 @@
+#include "hal/stm32/crash.h"
+
+#include <unity.h>
+
+#include "hal/stm32/registers.h"
+
+enum { PIN = 1 << 26, POWER_ON = 1 << 27, SOFTWARE = 1 << 28, INDEPENDENT = 1 << 29, WINDOW = 1 << 30 };
+
+volatile struct system_registers SCB;
+
+/* r0..r3, r12, lr, pc, psr, somewhere in a stack */
+static const uint32_t stack[16] = {[4] = 0x10, 0x11, 0x12, 0x13, 0x1C, 0x0800AAA1, 0x0800BBB2, 0x61000000};
+
+void setUp(void)
+{
+    (void)crash_reset_cause(POWER_ON);
+    SCB.cfsr = 0x8200;
+    SCB.hfsr = 0x40000000;
+    SCB.mmfar = 0xE000ED34;
+    SCB.bfar = 0xDEADBEEF;
+}
+
+void tearDown(void) {}
+
+static void crash_at(const uint32_t *frame)
+{
+    crash_keep(CRASH_BUS_FAULT, frame, stack, stack + 16);
+}
+
+static void test_after_power_on_there_is_no_crash(void)
+{
+    TEST_ASSERT_NULL(crash_last());
+}
+
+static void test_a_crash_is_known_after_the_reset(void)
+{
+    crash_at(&stack[4]);
+    TEST_ASSERT_EQUAL(RESET_CRASH, crash_reset_cause(SOFTWARE | PIN));
+    TEST_ASSERT_NOT_NULL(crash_last());
+    TEST_ASSERT_EQUAL_UINT32(CRASH_BUS_FAULT, crash_last()->cause);
+}
+
+static void test_a_crash_keeps_all_registers(void)
+{
+    const uint32_t *registers;
+
+    crash_at(&stack[4]);
+    (void)crash_reset_cause(SOFTWARE);
+    registers = crash_last()->registers;
+    TEST_ASSERT_EQUAL_HEX32(0x10, registers[CRASH_R0]);
+    TEST_ASSERT_EQUAL_HEX32(0x11, registers[CRASH_R1]);
+    TEST_ASSERT_EQUAL_HEX32(0x12, registers[CRASH_R2]);
+    TEST_ASSERT_EQUAL_HEX32(0x13, registers[CRASH_R3]);
+    TEST_ASSERT_EQUAL_HEX32(0x1C, registers[CRASH_R12]);
+    TEST_ASSERT_EQUAL_HEX32(0x0800AAA1, registers[CRASH_LR]);
+    TEST_ASSERT_EQUAL_HEX32(0x0800BBB2, registers[CRASH_PC]);
+    TEST_ASSERT_EQUAL_HEX32(0x61000000, registers[CRASH_PSR]);
+    TEST_ASSERT_EQUAL_HEX32((uint32_t)(uintptr_t)&stack[4], registers[CRASH_SP]);
+    TEST_ASSERT_EQUAL_HEX32(0x8200, registers[CRASH_CFSR]);
+    TEST_ASSERT_EQUAL_HEX32(0x40000000, registers[CRASH_HFSR]);
+    TEST_ASSERT_EQUAL_HEX32(0xE000ED34, registers[CRASH_MMFAR]);
+    TEST_ASSERT_EQUAL_HEX32(0xDEADBEEF, registers[CRASH_BFAR]);
+}
+
+static void test_a_stack_pointer_out_of_the_stack_is_kept_and_not_followed(void)
+{
+    static const uint32_t elsewhere[8] = {1, 2, 3, 4, 5, 6, 7, 8};
+
+    crash_at(elsewhere);
+    (void)crash_reset_cause(SOFTWARE);
+    TEST_ASSERT_EQUAL_HEX32((uint32_t)(uintptr_t)elsewhere, crash_last()->registers[CRASH_SP]);
+    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->registers[CRASH_PC]);
+}
+
+static void test_a_frame_below_the_stack_is_not_followed(void)
+{
+    crash_keep(CRASH_BUS_FAULT, &stack[4], stack + 5, stack + 16);
+    (void)crash_reset_cause(SOFTWARE);
+    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->registers[CRASH_R0]);
+}
+
+static void test_a_frame_that_ends_beyond_the_stack_is_not_followed(void)
+{
+    crash_at(&stack[9]);
+    (void)crash_reset_cause(SOFTWARE);
+    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->registers[CRASH_R0]);
+}
+
+static void test_an_old_crash_is_still_told_but_was_not_the_cause(void)
+{
+    crash_at(&stack[4]);
+    (void)crash_reset_cause(SOFTWARE);
+    TEST_ASSERT_EQUAL(RESET_SOFTWARE, crash_reset_cause(SOFTWARE));
+    TEST_ASSERT_NOT_NULL(crash_last());
+}
+
+static void test_power_on_forgets_the_crash(void)
+{
+    crash_at(&stack[4]);
+    TEST_ASSERT_EQUAL(RESET_POWER_ON, crash_reset_cause(POWER_ON | PIN));
+    TEST_ASSERT_NULL(crash_last());
+}
+
+static void test_each_cause_is_told_by_its_flag(void)
+{
+    TEST_ASSERT_EQUAL(RESET_PIN, crash_reset_cause(PIN));
+    TEST_ASSERT_EQUAL(RESET_WATCHDOG, crash_reset_cause(INDEPENDENT | PIN));
+    TEST_ASSERT_EQUAL(RESET_WATCHDOG, crash_reset_cause(WINDOW | PIN));
+    TEST_ASSERT_EQUAL(RESET_SOFTWARE, crash_reset_cause(SOFTWARE | PIN));
+    TEST_ASSERT_EQUAL(RESET_POWER_ON, crash_reset_cause(POWER_ON | PIN));
+    TEST_ASSERT_EQUAL(RESET_POWER_ON, crash_reset_cause(0));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_after_power_on_there_is_no_crash);
+    RUN_TEST(test_a_crash_is_known_after_the_reset);
+    RUN_TEST(test_a_crash_keeps_all_registers);
+    RUN_TEST(test_a_stack_pointer_out_of_the_stack_is_kept_and_not_followed);
+    RUN_TEST(test_a_frame_below_the_stack_is_not_followed);
+    RUN_TEST(test_a_frame_that_ends_beyond_the_stack_is_not_followed);
+    RUN_TEST(test_an_old_crash_is_still_told_but_was_not_the_cause);
+    RUN_TEST(test_power_on_forgets_the_crash);
+    RUN_TEST(test_each_cause_is_told_by_its_flag);
+    return UNITY_END();
+}

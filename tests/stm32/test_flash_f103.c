@@ -1,0 +1,127 @@
+/* As test_flash_f405.c. */
+#include <string.h>
+
+#include <unity.h>
+
+#include "hal/flash_store/flash.h"
+#include "hal/stm32/f103/registers_f103.h"
+#include "hal/stm32/line.h"
+#include "hal/stm32/machine.h"
+
+enum { HALVES = 512, BUSY = 1, NOT_ERASED = 1 << 2, LOCK = 1 << 7, FOREVER = 1 << 30 };
+
+volatile struct flash_registers FLASH;
+volatile uint16_t STORE[FLASH_PAGES][HALVES];
+
+static struct {
+    uint32_t now_ms, busy_ms, error;
+    unsigned operations, failing;   /* the n-th fails, counted from 1 */
+    unsigned pumped;
+} controller;
+
+uint32_t machine_ms(void)
+{
+    controller.operations += controller.now_ms == 0;
+    FLASH.sr = controller.now_ms < controller.busy_ms ? BUSY : 0u;
+    if (controller.error != 0 && controller.operations == controller.failing)
+        FLASH.sr |= controller.error;
+    return controller.now_ms++;
+}
+
+/* Each operation ends with this. */
+void line_pump(void)
+{
+    controller.pumped++;
+    controller.now_ms = 0;
+}
+
+void setUp(void)
+{
+    memset((void *)&FLASH, 0, sizeof FLASH);
+    memset((void *)STORE, 0xFF, sizeof STORE);
+    memset(&controller, 0, sizeof controller);
+    FLASH.cr = LOCK;
+}
+
+void tearDown(void) {}
+
+static void test_a_controller_that_is_locked_after_reset_is_one(void)
+{
+    TEST_ASSERT_TRUE(flash_exists());
+    FLASH.cr = 0;
+    TEST_ASSERT_FALSE(flash_exists());
+}
+
+static void test_pages_are_1_kb_and_the_stores(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(1024, flash_page_size());
+    TEST_ASSERT_EQUAL_PTR(STORE[1], flash_page(1));
+}
+
+static void test_a_word_is_written_in_halves_the_lower_first_in_place(void)
+{
+    TEST_ASSERT_EQUAL(0, flash_write(1, 20, 0x12345678));
+    TEST_ASSERT_EQUAL_HEX16(0x5678, STORE[1][10]);
+    TEST_ASSERT_EQUAL_HEX16(0x1234, STORE[1][11]);
+    TEST_ASSERT_EQUAL_UINT(2, controller.operations);
+}
+
+static void test_the_line_is_pumped_after_each_half(void)
+{
+    (void)flash_write(0, 0, 1);
+    TEST_ASSERT_EQUAL_UINT(2, controller.pumped);
+}
+
+static void test_the_keys_come_in_their_order_and_it_is_locked_again(void)
+{
+    (void)flash_write(0, 0, 1);
+    TEST_ASSERT_EQUAL_HEX32(0xCDEF89AB, FLASH.keyr);   /* the second of two */
+    TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
+}
+
+static void test_either_half_that_is_refused_fails(void)
+{
+    for (unsigned n = 1; n <= 2; n++) {
+        setUp();
+        controller.error = NOT_ERASED;
+        controller.failing = n;
+        TEST_ASSERT_EQUAL(-1, flash_write(0, 0, 1));
+        TEST_ASSERT_EQUAL_UINT(n, controller.operations);
+        TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
+    }
+}
+
+static void test_a_write_that_never_ends_is_given_up(void)
+{
+    controller.busy_ms = FOREVER;
+    TEST_ASSERT_EQUAL(-1, flash_write(0, 0, 1));
+    TEST_ASSERT_EQUAL_UINT(1, controller.operations);
+}
+
+static void test_a_page_is_erased_by_its_address(void)
+{
+    TEST_ASSERT_EQUAL(0, flash_erase(1));
+    TEST_ASSERT_EQUAL_HEX32((uint32_t)(uintptr_t)STORE[1], FLASH.ar);
+    TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
+}
+
+static void test_an_erase_that_never_ends_is_given_up(void)
+{
+    controller.busy_ms = FOREVER;
+    TEST_ASSERT_EQUAL(-1, flash_erase(0));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_controller_that_is_locked_after_reset_is_one);
+    RUN_TEST(test_pages_are_1_kb_and_the_stores);
+    RUN_TEST(test_a_word_is_written_in_halves_the_lower_first_in_place);
+    RUN_TEST(test_the_line_is_pumped_after_each_half);
+    RUN_TEST(test_the_keys_come_in_their_order_and_it_is_locked_again);
+    RUN_TEST(test_either_half_that_is_refused_fails);
+    RUN_TEST(test_a_write_that_never_ends_is_given_up);
+    RUN_TEST(test_a_page_is_erased_by_its_address);
+    RUN_TEST(test_an_erase_that_never_ends_is_given_up);
+    return UNITY_END();
+}

@@ -1,0 +1,261 @@
+#include <string.h>
+
+#include <unity.h>
+
+#include "hal/link/link.h"
+#include "hal/stm32/line.h"
+#include "hal/stm32/machine.h"
+#include "hal/stm32/uart.h"
+
+enum { TEXT_MAX = 1024, LOOK_US = 10, BYTE_US = 87, DAMAGED = '\x80', NEVER = 0 };
+
+/* The fake line: a byte each way every 87 us. Time passes with each look at the clock. */
+static struct {
+    uint32_t now_us, taken_us;
+    char in[TEXT_MAX], out[TEXT_MAX];
+    unsigned in_len, in_at, out_len;
+    uint32_t busy_until_us;
+    unsigned blocked_from;      /* from this byte on, counted from 1, nothing goes out */
+    uint32_t clock_hz, baud;
+    bool on;
+} fake;
+
+static struct link *link_here;
+static struct frame frame;
+
+uint32_t machine_ms(void)
+{
+    fake.now_us += LOOK_US;
+    return fake.now_us / 1000;
+}
+
+struct clocks machine_clocks(void)
+{
+    return (struct clocks){168000000, 42000000, 84000000, true};
+}
+
+void uart_start(uint32_t clock_hz, uint32_t baud)
+{
+    fake.clock_hz = clock_hz;
+    fake.baud = baud;
+    fake.on = true;
+}
+
+void uart_stop(void)
+{
+    fake.on = false;
+}
+
+int uart_get(void)
+{
+    char byte;
+
+    if (fake.in_at == fake.in_len || fake.now_us - fake.taken_us < BYTE_US)
+        return UART_NOTHING;
+    fake.taken_us = fake.now_us;
+    byte = fake.in[fake.in_at++];
+    return byte == DAMAGED ? UART_DAMAGED : byte;
+}
+
+bool uart_put(uint8_t byte)
+{
+    if (fake.now_us < fake.busy_until_us || fake.out_len + 1 == fake.blocked_from)
+        return false;
+    fake.busy_until_us = fake.now_us + BYTE_US;
+    fake.out[fake.out_len++] = (char)byte;
+    return true;
+}
+
+void setUp(void)
+{
+    static const uint16_t ids[] = {0x0C1, 0x041};
+
+    memset(&fake, 0, sizeof fake);
+    TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, 2));
+}
+
+void tearDown(void) {}
+
+static void comes(const char *text)
+{
+    size_t len = strlen(text);
+
+    memcpy(fake.in + fake.in_len, text, len);
+    fake.in_len += (unsigned)len;
+}
+
+static int receive(uint32_t wait_ms)
+{
+    return link_receive(link_here, &frame, wait_ms);
+}
+
+static void test_it_opens_at_115200_baud(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(84000000, fake.clock_hz);
+    TEST_ASSERT_EQUAL_UINT32(115200, fake.baud);
+}
+
+static void test_a_line_is_a_frame(void)
+{
+    comes("t0C1201FE\r");
+    TEST_ASSERT_EQUAL(1, receive(20));
+    TEST_ASSERT_EQUAL_HEX32(0x0C1, frame.id);
+    TEST_ASSERT_EQUAL_UINT8(2, frame.len);
+    TEST_ASSERT_EQUAL_HEX8(0xFE, frame.data[1]);
+}
+
+static void test_silence_is_waited_out(void)
+{
+    TEST_ASSERT_EQUAL(0, receive(20));
+    TEST_ASSERT_UINT32_WITHIN(100, 20000, fake.now_us);
+}
+
+static void test_half_a_line_waits_for_the_other_half(void)
+{
+    comes("t0C1201");
+    TEST_ASSERT_EQUAL(0, receive(20));
+    comes("FE\r");
+    TEST_ASSERT_EQUAL(1, receive(20));
+}
+
+static void test_a_damaged_byte_makes_one_garbled_line(void)
+{
+    comes("t0C12\x80" "1FE\rt0C10\r");
+    TEST_ASSERT_EQUAL(LINK_E_GARBLED, receive(20));
+    TEST_ASSERT_EQUAL(1, receive(20));
+    TEST_ASSERT_EQUAL(0, receive(20));
+}
+
+static void send_some(unsigned count)
+{
+    static const struct frame some = {.id = 0x081, .len = 8, .data = {1, 2, 3, 4, 5, 6, 7, 8}};
+
+    for (unsigned i = 0; i < count; i++)
+        TEST_ASSERT_EQUAL(0, link_send(link_here, &some));
+}
+
+static void test_a_frame_goes_out_as_a_line(void)
+{
+    send_some(1);
+    TEST_ASSERT_EQUAL_STRING_LEN("t08180102030405060708\r", fake.out, fake.out_len);
+}
+
+static void test_what_comes_while_sending_is_not_lost(void)
+{
+    comes("t0C1801020304050607FF\rt0C10\r");
+    send_some(3);
+    TEST_ASSERT_EQUAL(1, receive(0));
+    TEST_ASSERT_EQUAL_HEX8(0xFF, frame.data[7]);
+    TEST_ASSERT_EQUAL(1, receive(0));
+}
+
+static void test_what_is_pumped_is_not_lost(void)
+{
+    comes("t0C10\r");
+    for (unsigned i = 0; i < 100; i++) {
+        line_pump();
+        (void)machine_ms();
+    }
+    TEST_ASSERT_EQUAL(1, receive(0));
+}
+
+static void test_more_than_there_is_room_for_is_garbled_and_then_all_is_well(void)
+{
+    unsigned garbled = 0, whole = 0;
+
+    for (unsigned i = 0; i < 10; i++)
+        comes("t0C1801020304050607FF\r");
+    send_some(10);
+    comes("\rt0C11AA\r");
+    for (int result = receive(20); result != 0; result = receive(20)) {
+        garbled += result == LINK_E_GARBLED;
+        whole += result == 1;
+    }
+    TEST_ASSERT_EQUAL_UINT(1, garbled);
+    TEST_ASSERT_EQUAL_UINT(6, whole);   /* five that there was room for, and the one after */
+    TEST_ASSERT_EQUAL_HEX8(0xAA, frame.data[0]);
+}
+
+static void test_lines_lost_as_a_whole_are_noticed_too(void)
+{
+    unsigned garbled = 0;
+
+    for (unsigned i = 0; i < 12; i++)
+        comes("t0C15AABBCCDDEE\r");   /* 16 bytes: eight fill the room exactly */
+    send_some(13);
+    TEST_ASSERT_EQUAL(1, receive(20));   /* there is room again */
+    comes("\r");
+    for (int result = receive(20); result != 0; result = receive(20))
+        garbled += result == LINK_E_GARBLED;
+    TEST_ASSERT_EQUAL_UINT(1, garbled);
+}
+
+static void test_a_line_that_never_began_needs_no_end(void)
+{
+    static const struct frame some = {.id = 0x123};
+
+    fake.blocked_from = 1;
+    TEST_ASSERT_EQUAL(LINK_E_FULL, link_send(link_here, &some));
+    fake.blocked_from = NEVER;
+    TEST_ASSERT_EQUAL(0, link_send(link_here, &some));
+    TEST_ASSERT_EQUAL_STRING_LEN("t1230\r", fake.out, fake.out_len);
+}
+
+static void test_a_line_that_does_not_take_it_is_given_up_in_time(void)
+{
+    fake.blocked_from = 1;
+    TEST_ASSERT_EQUAL(LINK_E_FULL, link_send(link_here, &frame));
+    TEST_ASSERT_UINT32_WITHIN(1100, 1000 * LINK_SEND_MS, fake.now_us);
+}
+
+static void test_a_line_cut_short_is_ended_before_the_next(void)
+{
+    static const struct frame some = {.id = 0x123, .len = 1, .data = {0xAB}};
+
+    fake.blocked_from = 4;
+    TEST_ASSERT_EQUAL(LINK_E_FULL, link_send(link_here, &some));
+    fake.blocked_from = NEVER;
+    TEST_ASSERT_EQUAL(0, link_send(link_here, &some));
+    TEST_ASSERT_EQUAL(0, link_send(link_here, &some));
+    TEST_ASSERT_EQUAL_STRING_LEN("t12\rt1231AB\rt1231AB\r", fake.out, fake.out_len);
+}
+
+static void test_its_health_is_always_fine(void)
+{
+    static const struct link_health fine = {.state = BUS_ACTIVE};
+    struct link_health health;
+
+    memset(&health, 0xA5, sizeof health);
+    link_health(link_here, &health);
+    TEST_ASSERT_EQUAL(fine.state, health.state);
+    TEST_ASSERT_EQUAL_UINT8(0, health.tx_errors | health.rx_errors | health.bus_offs | health.dropped);
+}
+
+static void test_it_closes(void)
+{
+    link_close(NULL);
+    TEST_ASSERT_TRUE(fake.on);
+    link_close(link_here);
+    TEST_ASSERT_FALSE(fake.on);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_it_opens_at_115200_baud);
+    RUN_TEST(test_a_line_is_a_frame);
+    RUN_TEST(test_silence_is_waited_out);
+    RUN_TEST(test_half_a_line_waits_for_the_other_half);
+    RUN_TEST(test_a_damaged_byte_makes_one_garbled_line);
+    RUN_TEST(test_a_frame_goes_out_as_a_line);
+    RUN_TEST(test_what_comes_while_sending_is_not_lost);
+    RUN_TEST(test_what_is_pumped_is_not_lost);
+    RUN_TEST(test_more_than_there_is_room_for_is_garbled_and_then_all_is_well);
+    RUN_TEST(test_lines_lost_as_a_whole_are_noticed_too);
+    RUN_TEST(test_a_line_that_never_began_needs_no_end);
+    RUN_TEST(test_a_line_that_does_not_take_it_is_given_up_in_time);
+    RUN_TEST(test_a_line_cut_short_is_ended_before_the_next);
+    RUN_TEST(test_its_health_is_always_fine);
+    RUN_TEST(test_it_closes);
+    return UNITY_END();
+}

@@ -1,0 +1,178 @@
+"""tools/flash: what it makes of boards, images and probes, with stand-ins for the programs that it calls."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from tools.flashing import FlashError  # noqa: E402 - found by the line above
+from tools.flashing.images import Image, all_boards, build, choose_board, identify  # noqa: E402
+from tools.flashing.probes import Probe, choose_probe, find_probes  # noqa: E402
+from tools.flashing.programs import Plan, check_chip, make_plan, write  # noqa: E402
+
+BOARDS = all_boards()
+STLINK, OTHER = Probe("stlink", "A1"), Probe("cmsis-dap", "B2")
+
+
+def plug_in(usb: Path, name: str, **attributes: str) -> None:
+    (usb / name).mkdir(parents=True)
+    for attribute, value in attributes.items():
+        (usb / name / attribute).write_text(f"{value}\n")
+
+
+def image_file(folder: Path, board: str, chip: str) -> Path:
+    path = folder / "image.elf"
+    identity = f"octet-image board={board} chip={chip} version=1.0-3-gabc dbc=7827"
+    path.write_bytes(b"\x7fELF..\0" + identity.encode() + b"\0..")
+    return path
+
+
+def image_for(chip: str) -> Image:
+    return Image(Path("octet.elf"), "blue_pill", chip, "1", "0")
+
+
+def installed(folder: Path, monkeypatch: pytest.MonkeyPatch, **programs: str) -> None:
+    """Puts shell scripts of these names first in PATH."""
+    for name, script in programs.items():
+        (folder / name).write_text(f"#!/bin/sh\n{script}\n")
+        (folder / name).chmod(0o755)
+    monkeypatch.setenv("PATH", f"{folder}{os.pathsep}{os.environ['PATH']}")
+
+
+def flash(*options: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([ROOT / "tools" / "flash", *options], capture_output=True, text=True, check=False)
+
+
+def test_every_board_has_a_preset() -> None:
+    presets = {board.name: (board.chip, board.preset) for board in BOARDS.values()}
+    assert presets == {
+        "blue_pill": ("stm32f103", "stm32f103"),
+        "feather_stm32f405": ("stm32f405", "stm32f405"),
+        "olimex_stm32_h405": ("stm32f405", "stm32h405"),
+    }
+
+
+def test_a_board_that_does_not_exist_is_refused() -> None:
+    with pytest.raises(FlashError, match="no board nosuch; there are blue_pill, feather"):
+        choose_board("nosuch", BOARDS)
+
+
+def test_a_link_that_does_not_exist_is_refused() -> None:
+    with pytest.raises(FlashError, match="no link usb; there are bxcan, slcan"):
+        build(BOARDS["blue_pill"], "usb")
+
+
+def test_an_image_says_what_it_is(tmp_path: Path) -> None:
+    image = identify(image_file(tmp_path, "blue_pill", "stm32f103"), BOARDS["blue_pill"])
+    assert (image.chip, image.version, image.dbc) == ("stm32f103", "1.0-3-gabc", "7827")
+
+
+def test_an_image_for_another_board_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(FlashError, match="is for olimex_stm32_h405, not for blue_pill"):
+        identify(image_file(tmp_path, "olimex_stm32_h405", "stm32f405"), BOARDS["blue_pill"])
+
+
+def test_what_is_no_image_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "some.elf").write_bytes(b"\x7fELF")
+    with pytest.raises(FlashError, match="is no image of ours"):
+        identify(tmp_path / "some.elf", BOARDS["blue_pill"])
+    with pytest.raises(FlashError, match="No such file"):
+        identify(tmp_path / "none.elf", BOARDS["blue_pill"])
+
+
+def test_probes_are_found_among_other_devices(tmp_path: Path) -> None:
+    plug_in(tmp_path, "1-1", idVendor="0483", idProduct="374b", serial="A1", product="STM32 STLink")
+    plug_in(tmp_path, "1-2", idVendor="0d28", idProduct="0204", serial="B2", product="DAPLink CMSIS-DAP")
+    plug_in(tmp_path, "1-3", idVendor="1366", idProduct="0101", serial="C3", product="J-Link")
+    plug_in(tmp_path, "1-4", idVendor="0483", idProduct="5740", serial="D4", product="Virtual COM Port")
+    plug_in(tmp_path, "usb1", idVendor="1d6b")
+    assert [str(probe) for probe in find_probes(tmp_path)] == ["stlink:A1", "cmsis-dap:B2", "jlink:C3"]
+
+
+def test_without_usb_there_is_no_probe(tmp_path: Path) -> None:
+    assert find_probes(tmp_path / "none") == []
+
+
+@pytest.mark.parametrize("wanted", [None, "stlink", "stlink:A1"])
+def test_the_only_probe_is_chosen(wanted: str | None) -> None:
+    assert choose_probe(wanted, [STLINK]) == STLINK
+
+
+@pytest.mark.parametrize(
+    ("wanted", "found", "reason"),
+    [
+        (None, [], "no debug probe is plugged in"),
+        ("stlink:Z9", [STLINK], "no probe stlink:Z9 is plugged in"),
+        (None, [STLINK, OTHER], "several probes: choose one with --probe: stlink:A1, cmsis-dap:B2"),
+        ("magic", [STLINK], "no kind of probe magic"),
+        ("serial:/dev/nosuch", [], "no such device: /dev/nosuch"),
+        ("serial", [], "PATH is missing"),
+    ],
+)
+def test_a_choice_that_is_none_is_refused(wanted: str | None, found: list[Probe], reason: str) -> None:
+    with pytest.raises(FlashError, match=reason):
+        choose_probe(wanted, found)
+
+
+@pytest.mark.parametrize(("probe", "program"), [(STLINK, "openocd"), (Probe("serial", "/dev/null"), "stm32flash")])
+def test_the_program_follows_from_the_probe(probe: Probe, program: str) -> None:
+    assert make_plan(image_for("stm32f103"), probe, has=bool).program == program
+
+
+def test_pyocd_does_where_openocd_is_missing() -> None:
+    plan = make_plan(image_for("stm32f405"), STLINK, has=lambda program: program == "pyocd")
+    assert plan.write[:6] == ["pyocd", "load", "-u", "A1", "-t", "stm32f405rg"]
+
+
+def test_without_a_program_it_says_which_is_needed() -> None:
+    with pytest.raises(FlashError, match="openocd or pyocd is needed for stlink"):
+        make_plan(image_for("stm32f405"), STLINK, has=lambda _: False)
+
+
+def plan_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: str) -> Plan:
+    installed(tmp_path, monkeypatch, openocd=script)
+    return make_plan(image_for("stm32f405"), STLINK)
+
+
+def test_the_right_chip_is_accepted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    check_chip(plan_with(tmp_path, monkeypatch, "echo Info : clock; echo chip=0x10076413"), "stm32f405")
+
+
+def test_a_wrong_chip_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = plan_with(tmp_path, monkeypatch, "echo chip=0x20036410")
+    with pytest.raises(FlashError, match=r"the chip behind the probe is 0x410, not stm32f405 \(0x413\)"):
+        check_chip(plan, "stm32f405")
+
+
+def test_a_chip_that_does_not_answer_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = plan_with(tmp_path, monkeypatch, "echo Error: init mode failed >&2; exit 1")
+    with pytest.raises(FlashError, match=r"openocd finds no chip \(exit code 1\): Error: init mode failed"):
+        check_chip(plan, "stm32f405")
+
+
+def test_a_write_that_fails_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = plan_with(tmp_path, monkeypatch, "echo '** Verify Failed **'; exit 1")
+    with pytest.raises(FlashError, match=r"openocd failed, flash again \(exit code 1\): \*\* Verify Failed"):
+        write(plan)
+
+
+def test_a_dry_run_says_what_it_would_do_and_calls_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    called = tmp_path / "called"
+    installed(tmp_path, monkeypatch, stm32flash=f"touch {called}")
+    image = image_file(tmp_path, "blue_pill", "stm32f103")
+    options = (f"--image={image}", "--probe=serial:/dev/null", "--dry-run")
+
+    result = flash("blue_pill", "bxcan", *options)
+
+    assert [line.split()[0] for line in result.stdout.splitlines()] == ["image", "board", "check", "write"]
+    assert not called.exists()
+
+
+def test_what_cannot_be_done_is_one_line_and_ends_with_1() -> None:
+    result = flash("nosuch", "bxcan")
+    assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)

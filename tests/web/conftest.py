@@ -1,0 +1,64 @@
+"""Debian's Chromium, runs to watch, and pages that are held to their manners."""
+
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from tests.runs.support import octet
+from tests.web.support import CHROMIUM, Faults, Watched, start_watched, wait_for
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    if not shutil.which(CHROMIUM):
+        pytest.skip(f"chromium: {CHROMIUM} is missing")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def watch(tmp_path: Path) -> Iterator[Callable[..., Watched]]:
+    """Starts runs to watch; ends what is left of them."""
+    started = []
+
+    def start(*words: str) -> Watched:
+        started.append(start_watched(tmp_path / f"run{len(started)}", *words))
+        return started[-1]
+
+    yield start
+    for watched in started:
+        watched.process.kill()
+        watched.process.communicate()
+
+
+@pytest.fixture
+def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
+    """Opens pages in fresh profiles; none may complain or ask anyone but its own server."""
+    opened = []
+
+    def open_one(url: str, ready: str = "window.octet?.scene?.state", **context) -> Page:
+        faults = Faults(url.partition("?")[0])
+        page = browser.new_context(**context).new_page()
+        opened.append((page, faults))
+        faults.listen(page)
+        page.goto(url)
+        wait_for(page, ready)
+        return page
+
+    yield open_one
+    for page, faults in opened:
+        page.context.close()
+        assert faults.seen == []
+
+
+@pytest.fixture(scope="session")
+def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page of a run of two environments."""
+    out = tmp_path_factory.mktemp("kept")
+    assert octet("run", "--bus", "none", "--environments", "2", "--quiet", "--out", out).returncode == 0
+    return out / "replay.html"

@@ -1,0 +1,155 @@
+"""A run that is watched, and pages that watch it in a real browser."""
+
+import json
+import re
+import signal
+import subprocess
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from playwright.sync_api import Page
+
+from host_sim.protocol import Protocol, Said
+from host_sim.record import read_log
+from tests.runs.support import ROOT, start_octet
+
+CHROMIUM = "/usr/bin/chromium"
+SCREENS = ROOT / "build/reports/screens"
+_READY_S = 20.0
+_END_S = 20.0
+_WAIT_S = 15.0
+
+
+@dataclass
+class Watched:
+    """A run that goes on, and its page's address."""
+
+    process: subprocess.Popen
+    url: str
+    out: Path
+
+    def end(self) -> int:
+        """Ctrl-C; returns the exit code."""
+        self.process.send_signal(signal.SIGINT)
+        return self.process.wait(_END_S)
+
+    def commands(self) -> list[dict[str, int]]:
+        """The COMMAND frames of the ended run, decoded."""
+        return [said.signals for said in self.said() if said.name == "COMMAND"]
+
+    def said(self) -> list[Said]:
+        protocol = Protocol()
+        return [said for line in read_log(self.out / "run.log") if (said := protocol.decode(line.frame))]
+
+    def world(self) -> dict[str, Any]:
+        return json.loads((self.out / "run.world.json").read_text())
+
+    def summary(self) -> dict[str, Any]:
+        return json.loads((self.out / "summary.json").read_text())
+
+
+def start_watched(out: Path, *words: str) -> Watched:
+    """Starts a run that people can watch, on a port of its own, and waits until it serves."""
+    process = start_octet("watch", "--bus", "none", "--port", "0", "--out", out, *words)
+    give_up = threading.Timer(_READY_S, process.kill)
+    give_up.start()
+    try:
+        return Watched(process, _address(process), out)
+    except AssertionError:
+        process.communicate()
+        raise
+    finally:
+        give_up.cancel()
+
+
+def _address(process: subprocess.Popen) -> str:
+    assert process.stdout is not None
+    assert process.stderr is not None
+    for line in process.stdout:
+        if match := re.search(r"http://\S+", line):
+            return match[0]
+    raise AssertionError(f"the run does not serve: {process.stderr.read()}")
+
+
+@dataclass
+class Faults:
+    """What a page must not do: complain, or ask anyone but its server."""
+
+    home: str
+    seen: list[str] = field(default_factory=list)
+
+    def listen(self, page: Page) -> None:
+        page.on("console", lambda message: self._console(message.type, message.text))
+        page.on("pageerror", lambda error: self.seen.append(f"error: {error}"))
+        page.on("request", lambda request: self._request(request.url))
+        page.on("websocket", lambda socket: self._request(socket.url.replace("ws:", "http:")))
+
+    def _console(self, kind: str, text: str) -> None:
+        if kind in ("error", "warning") and "getImageData" not in text:  # the tests' own doing
+            self.seen.append(f"console {kind}: {text}")
+
+    def _request(self, url: str) -> None:
+        if not url.startswith((self.home, "data:")):
+            self.seen.append(f"request: {url}")
+
+
+def run_in(page: Path) -> dict[str, Any]:
+    """The run in a kept page, but for its title."""
+    text = page.read_text().partition('<script type="application/json" id="run">')[2].partition("</script>")[0]
+    return {**json.loads(text), "title": None}
+
+
+def state(page: Page) -> dict[str, Any]:
+    """The state that the page shows."""
+    return page.evaluate("octet.scene.state")
+
+
+def wait_for(page: Page, condition: str, argument: Any = None) -> None:
+    """Waits until something is so on a page. Playwright's own wait needs `eval`, which the page forbids."""
+    give_up = time.monotonic() + _WAIT_S
+    while not page.evaluate(condition, argument):
+        assert time.monotonic() < give_up, f"waited in vain: {condition}"
+        page.wait_for_timeout(10)
+
+
+def wait_for_text(page: Page, selector: str, text: str) -> None:
+    """Waits until an element says something; what is known is shown with the next frame only."""
+    wait_for(page, "([where, text]) => document.querySelector(where).innerText.includes(text)", [selector, text])
+
+
+def pause(page: Page) -> None:
+    page.click("#play")
+    wait_for(page, "!octet.scene.play.playing")
+
+
+def full_speed(page: Page) -> None:
+    page.select_option("#speed", "0")
+    wait_for(page, "octet.scene.play.speed === 0")
+
+
+def place_on_page(page: Page, x: float, y: float) -> tuple[float, float]:
+    """Where a place of the arena is on the page."""
+    box = page.locator("#arena").bounding_box()
+    assert box is not None
+    per_mm = box["width"] / (4000 + 80)
+    return box["x"] + (x + 40) * per_mm, box["y"] + (y + 40) * per_mm
+
+
+def drag(page: Page, start: tuple[float, float], end: tuple[float, float]) -> None:
+    """Drags from one place of the arena to another."""
+    page.mouse.move(*place_on_page(page, *start))
+    page.mouse.down()
+    page.mouse.move(*place_on_page(page, *end), steps=8)
+    page.mouse.up()
+
+
+def eventually(is_so: Callable[[], bool], what: str, limit_s: float = 10.0) -> None:
+    """Waits for something outside of the browser."""
+    give_up = time.monotonic() + limit_s
+    while not is_so():
+        assert time.monotonic() < give_up, f"waited in vain: {what}"
+        time.sleep(0.02)

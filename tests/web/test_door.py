@@ -1,0 +1,232 @@
+"""What comes in over the WebSocket is checked at the door: refused, counted, and the run goes on unharmed."""
+
+import asyncio
+import contextlib
+import json
+import socket
+from collections.abc import Awaitable, Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import aiohttp
+import pytest
+
+from tests.runs.support import octet
+from tests.web.support import Watched, eventually
+
+Socket = aiohttp.ClientWebSocketResponse
+
+
+@pytest.fixture
+def watched(watch) -> Iterator[Watched]:
+    """A run that must be well at the end of the test."""
+    watched = watch("--environments", "20")
+    yield watched
+    first = talk(watched, tick)
+    eventually(lambda: talk(watched, tick) > first, "the run goes on")
+    assert watched.end() == 0
+    assert set(watched.summary()["faults"].values()) == {0}
+
+
+def talk(watched: Watched, what: Callable[[Socket], Awaitable[Any]], query: str = "", **headers: str) -> Any:
+    """Opens a WebSocket as the page would, and does something with it."""
+    home = watched.url.split("?")[0]
+    headers = {"Origin": home.rstrip("/"), **headers}
+
+    async def connect() -> Any:
+        url = f"{home}live{query}"
+        async with aiohttp.ClientSession() as session, session.ws_connect(url, headers=headers) as ws:
+            return await what(ws)
+
+    return asyncio.run(connect())
+
+
+async def message(ws: Socket) -> dict[str, Any]:
+    return json.loads((await ws.receive(timeout=5)).data)
+
+
+async def tick(ws: Socket) -> int:
+    return (await message(ws))["state"]["tick"]
+
+
+async def refused(ws: Socket) -> int:
+    return (await message(ws))["health"]["orders_refused"]
+
+
+JUNK = [
+    "",
+    "no JSON",
+    "[]",
+    "null",
+    "7",
+    '"play"',
+    "{}",
+    '{"do": null}',
+    '{"do": ["play"]}',
+    '{"do": "dance"}',
+    '{"do": "speed"}',
+    '{"do": "speed", "factor": "fast"}',
+    '{"do": "speed", "factor": true}',
+    '{"do": "speed", "factor": -1}',
+    '{"do": "speed", "factor": 1e308}',
+    '{"do": "speed", "factor": NaN}',
+    '{"do": "speed", "factor": Infinity}',
+    '{"do": "seed", "seed": 4294967296}',
+    '{"do": "seed", "seed": 1.5}',
+    '{"do": "seed", "seed": 1' + "0" * 400 + "}",
+    '{"do": "seed", "seed": 1' + "0" * 4000 + "}",
+    '{"do": "write", "cell": 0, "side": 1}',
+    '{"do": "write", "cell": 8, "side": 1}',
+    '{"do": "write", "cell": 1, "side": 3}',
+    '{"do": "freeze", "on": "yes"}',
+    '{"do": "move_bar", "id": 0}',
+    '{"do": "move_bar", "id": 0, "a": [0], "b": [1, 2]}',
+    '{"do": "move_bar", "id": 0, "a": [0, "x"], "b": [1, 2]}',
+    '{"do": "move_food", "id": 0, "at": [-1, 0]}',
+    '{"do": "move_food", "id": 0, "at": [1e9, 0]}',
+    '{"do": "put", "at": [0, 0], "heading": 99999}',
+    "[" * 4000,
+    "\x00" * 100,
+]
+
+
+def test_junk_is_refused_and_counted(watched):
+    async def send_all(ws: Socket) -> None:
+        for junk in JUNK:
+            await ws.send_str(junk)
+        await ws.send_bytes(b"\xff" * 100)
+        await ws.receive(timeout=5)
+
+    talk(watched, send_all)
+    assert talk(watched, refused) == len(JUNK) + 1
+
+
+def test_ten_megabytes_are_not_even_read(watched):
+    async def flood(ws: Socket) -> int | None:
+        with contextlib.suppress(ConnectionError):
+            await ws.send_bytes(b"x" * 10_000_000)
+        async for _ in ws:
+            pass
+        return ws.close_code
+
+    assert talk(watched, flood) in (1009, 1006)
+    assert talk(watched, refused) == 1
+
+
+def test_a_page_that_talks_nonsense_for_ever_is_hung_up_on(watched):
+    async def babble(ws: Socket) -> int | None:
+        for _ in range(200):
+            with contextlib.suppress(ConnectionError):
+                await ws.send_str("blah")
+        async for _ in ws:
+            pass
+        return ws.close_code
+
+    assert talk(watched, babble) == 1008
+
+
+def test_what_is_in_order_but_impossible_is_answered_in_words(watched):
+    async def ask(ws: Socket) -> list[str]:
+        await ws.send_str('{"do": "remove_bar", "id": 999}')
+        while True:
+            said = await message(ws)
+            if "notes" in said:
+                return said["notes"]
+
+    assert talk(watched, ask) == ["there is no number 999"]
+
+
+def test_orders_beyond_what_may_wait_are_refused(watched):
+    async def hurry(ws: Socket) -> None:
+        for _ in range(5000):
+            await ws.send_str('{"do": "play"}')
+
+    talk(watched, hurry)
+
+
+def test_a_foreign_origin_is_refused(watched):
+    origins = ("http://evil.example", "null", "https://127.0.0.1", "")
+    for origin in origins:
+        with pytest.raises(aiohttp.WSServerHandshakeError) as refusal:
+            talk(watched, tick, Origin=origin)
+        assert refusal.value.status == 403
+    assert talk(watched, refused) == len(origins)
+
+
+def test_a_page_that_stops_reading_holds_nothing_up(watched):
+    host, port = watched.url.split("/")[2].split(":")
+    handshake = (
+        f"GET /live HTTP/1.1\r\nHost: {host}:{port}\r\nOrigin: http://{host}:{port}\r\n"
+        "Upgrade: websocket\r\nConnection: Upgrade\r\n"
+        "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n"
+    )
+
+    async def full_speed(ws: Socket) -> None:
+        await ws.send_str('{"do": "speed", "factor": 0}')
+        await message(ws)
+
+    with socket.socket() as deaf:
+        deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        deaf.connect((host, int(port)))
+        deaf.sendall(handshake.encode())
+        talk(watched, full_speed)
+        first = talk(watched, tick)
+        eventually(lambda: talk(watched, tick) > first + 20_000, "the run races on")
+        assert memory_mb(watched.process.pid) < 400
+
+
+def test_no_more_pages_than_fit(watched):
+    home = watched.url
+
+    async def crowd() -> int:
+        async with aiohttp.ClientSession() as session, contextlib.AsyncExitStack() as stack:
+            for _ in range(32):
+                ws = session.ws_connect(f"{home}live", headers={"Origin": home.rstrip("/")})
+                await stack.enter_async_context(ws)
+            with pytest.raises(aiohttp.WSServerHandshakeError) as refusal:
+                await session.ws_connect(f"{home}live", headers={"Origin": home.rstrip("/")})
+            return refusal.value.status
+
+    assert asyncio.run(crowd()) == 503
+
+
+def test_only_the_page_and_its_parts_are_served(watched):
+    async def get(path: str) -> int:
+        async with aiohttp.ClientSession() as session, session.get(f"{watched.url}{path}") as response:
+            return response.status
+
+    for path in ("live.html", "../cli.py", "%2e%2e%2fcli.py", "replay.html", "nothing.js"):
+        assert asyncio.run(get(path)) in (400, 403, 404)
+    assert asyncio.run(get("live.js")) == 200
+
+
+def test_other_machines_need_the_token(watch):
+    watched = watch("--listen", "127.0.0.1")
+    home, query = watched.url.split("?")
+
+    async def get(address: str) -> int:
+        async with aiohttp.ClientSession() as session, session.get(address) as response:
+            return response.status
+
+    assert asyncio.run(get(home)) == 403
+    assert asyncio.run(get(f"{home}?token=guess")) == 403
+    assert asyncio.run(get(watched.url)) == 200
+    with pytest.raises(aiohttp.WSServerHandshakeError):
+        talk(watched, tick)
+    assert talk(watched, tick, query=f"?{query}") >= 0
+
+
+def test_a_port_in_use_is_one_clear_line(tmp_path):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        done = octet("watch", "--bus", "none", "--port", str(port), "--out", tmp_path)
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert f"port {port}: address already in use; choose another with --port or --listen" in done.stderr
+
+
+def memory_mb(pid: int) -> float:
+    status = Path(f"/proc/{pid}/status").read_text()
+    return next(int(line.split()[1]) / 1024 for line in status.splitlines() if line.startswith("VmRSS"))

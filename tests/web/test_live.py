@@ -1,0 +1,252 @@
+"""A person watches a run and meddles."""
+
+import math
+import statistics
+
+import pytest
+
+from tests.runs.support import octet
+from tests.web.support import drag, full_speed, pause, place_on_page, run_in, state, wait_for, wait_for_text
+
+
+def test_the_page_shows_the_run_as_it_goes_on(watch, open_page):
+    page = open_page(watch("--seed", "1").url)
+    first = state(page)["tick"]
+    wait_for(page, "tick => octet.scene.state.tick > tick + 25", first)
+    assert page.inner_text("#fact-environment") == "1 of 5"
+    assert page.inner_text("#fact-food") == "3 of 3"
+    assert len(page.inner_text("#doing")) > 10
+
+
+def test_it_pauses_and_plays_again(watch, open_page):
+    page = open_page(watch().url)
+    pause(page)
+    tick = state(page)["tick"]
+    page.wait_for_timeout(300)
+    assert state(page)["tick"] == tick
+    page.click("#play")
+    wait_for(page, "tick => octet.scene.state.tick > tick", tick)
+
+
+def test_a_single_decision_is_one_action(watch, open_page):
+    page = open_page(watch().url)
+    pause(page)
+    before = state(page)["action"]
+    page.click("#decision")
+    wait_for(page, "action => octet.scene.state.action !== action && !octet.scene.play.playing", before)
+    assert state(page)["action"] == (before + 1) % 128
+
+
+def test_full_speed_is_much_faster_than_real_time(watch, open_page):
+    page = open_page(watch("--environments", "50").url)
+    full_speed(page)
+    wait_for(page, "octet.scene.play.rate > 1000")
+
+
+def test_next_environment_and_a_new_seed(watch, open_page):
+    watched = watch("--seed", "5")
+    page = open_page(watched.url)
+    page.click("#next")
+    wait_for(page, "octet.scene.environment.number === 2")
+    page.fill("#seed", "77")
+    page.click("text=Start over")
+    wait_for(page, "octet.scene.environment.seed === 77 && octet.scene.environment.number === 1")
+    assert watched.end() == 0
+    begun = [(entry["seed"], entry["number"]) for entry in watched.world()["environments"]]
+    assert begun == [(5, 1), (5, 2), (77, 1)]
+
+
+def test_a_pressed_cell_is_a_command_on_the_bus(watch, open_page):
+    watched = watch()
+    page = open_page(watched.url)
+    pause(page)
+    page.click("#cells li:nth-child(8) button")
+    wait_for(page, "octet.scene.state.memory[7] === 1")
+    wait_for_text(page, "#cells li:nth-child(8)", "left")
+    page.click("#erase")
+    wait_for(page, "octet.scene.state.memory.every(side => side === 0)")
+    page.click("#freeze")
+    wait_for(page, "octet.scene.state.frozen === 1")
+    assert watched.end() == 0
+    opcodes = [(c["opcode"], c.get("mask"), c.get("cells"), c.get("freeze")) for c in watched.commands()]
+    assert opcodes[-4:-1] == [(5, 1 << 7, 1 << 14, None), (6, None, None, None), (7, None, None, 1)]
+
+
+def test_an_obstacle_dragged_into_its_way_makes_it_learn_anew(watch, open_page):
+    watched = watch("--seed", "1")
+    page = open_page(watched.url)
+    pause(page)
+    page.click("#erase")
+    wait_for(page, "octet.scene.state.memory.every(side => side === 0)")
+    now, bar = state(page), page.evaluate("octet.scene.environment.bars[0]")
+    middle = ((bar[1] + bar[3]) / 2, (bar[2] + bar[4]) / 2)
+    heading = now["heading"] / 1000
+    ahead = (now["x"] + 330 * math.cos(heading), now["y"] + 330 * math.sin(heading))
+    drag(page, middle, (min(3700, max(300, ahead[0])), min(2700, max(300, ahead[1]))))
+    wait_for(page, "old => octet.scene.environment.bars[0][1] !== old", bar[1])
+    full_speed(page)
+    page.click("#play")
+    wait_for(page, "octet.scene.state.memory.some(side => side > 0)")
+    wait_for_text(page, "#lessons", "Learned:")
+    assert watched.end() == 0
+    assert {edit["do"] for edit in watched.world()["edits"]} == {"move_bar"}
+
+
+def test_the_robot_is_picked_up_and_put_down_elsewhere(watch, open_page):
+    watched = watch("--seed", "1")
+    page = open_page(watched.url)
+    pause(page)
+    now = state(page)
+    food = page.evaluate("octet.scene.environment.food[1]")
+    drag(page, (now["x"], now["y"]), (food[0] - 180, food[1]))
+    wait_for(page, "x => octet.scene.state.x !== x && !octet.scene.state.lifted", now["x"])
+    assert abs(state(page)["x"] - (food[0] - 180)) < 20
+    assert watched.end() == 0
+    assert [edit["do"] for edit in watched.world()["edits"]] == ["lift", "put"]
+
+
+def test_food_is_dragged_elsewhere(watch, open_page):
+    page = open_page(watch("--seed", "1").url)
+    pause(page)
+    drag(page, page.evaluate("octet.scene.environment.food[0]"), (300, 2700))
+    wait_for(page, "octet.scene.environment.food[0][1] > 2680")
+
+
+def test_a_run_that_was_meddled_with_replays(watch, open_page):
+    watched = watch("--seed", "4")
+    page = open_page(watched.url)
+    for meddle in ("#lift", "#add-bar", "#cells li:nth-child(3) button", "#freeze", "#lift", "#next", "#erase"):
+        page.click(meddle)
+        page.wait_for_timeout(100)
+    page.fill("#seed", "8")
+    page.press("#seed", "Enter")
+    wait_for(page, "octet.scene.environment.seed === 8 && octet.scene.trail.length > 5")
+    assert watched.end() == 0
+    log, again = watched.out / "run.log", watched.out / "again.html"
+    assert octet("replay", log).returncode == 0
+    assert octet("replay", log, "--html", again).returncode == 0
+    assert run_in(again) == run_in(watched.out / "replay.html")
+
+
+def test_a_lifted_robot_senses_nothing(watch, open_page):
+    page = open_page(watch().url)
+    page.click("#lift")
+    wait_for(page, "octet.scene.state.lifted === 1 && octet.scene.state.feel === 0 && octet.scene.state.beacon === 0")
+    wait_for_text(page, "#doing", "picked me up")
+
+
+def test_what_cannot_be_done_is_said(watch, open_page):
+    page = open_page(watch().url)
+    pause(page)
+    now, bar = state(page), page.evaluate("octet.scene.environment.bars[0]")
+    drag(page, ((bar[1] + bar[3]) / 2, (bar[2] + bar[4]) / 2), (now["x"], now["y"]))
+    wait_for_text(page, "#note", "the robot stands there")
+
+
+def test_reloading_in_mid_run_goes_on_where_the_run_is(watch, open_page):
+    page = open_page(watch().url)
+    wait_for(page, "octet.scene.state.tick > 60")
+    page.reload()
+    wait_for(page, "window.octet?.scene?.state?.tick > 60 && octet.scene.trail.length > 5")
+
+
+def test_two_pages_see_the_same_run(watch, open_page):
+    watched = watch()
+    one, two = open_page(watched.url), open_page(watched.url)
+    pause(one)
+    wait_for(two, "!octet.scene.play.playing")
+    tick = state(one)["tick"]
+    wait_for(two, "tick => octet.scene.state.tick === tick", tick)
+    assert state(one) == state(two)
+
+
+def test_a_closed_page_harms_nothing(watch, open_page):
+    watched = watch()
+    page = open_page(watched.url)
+    other = open_page(watched.url)
+    page.close()
+    tick = state(other)["tick"]
+    wait_for(other, "tick => octet.scene.state.tick > tick + 10", tick)
+
+
+def test_keyboard_alone(watch, open_page):
+    page = open_page(watch("--seed", "3").url)
+    page.keyboard.press("Space")
+    wait_for(page, "!octet.scene.play.playing")
+    action = state(page)["action"]
+    page.keyboard.press(".")
+    wait_for(page, "action => octet.scene.state.action !== action && !octet.scene.play.playing", action)
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.id") == "arena"
+    for _ in range(5):
+        page.keyboard.press("e")
+    bar = page.evaluate("octet.scene.environment.bars[0]")
+    page.keyboard.press("r")
+    wait_for(page, "old => String(octet.scene.environment.bars[0]) !== old", ",".join(map(str, bar)))
+    page.keyboard.press("Delete")
+    wait_for(page, "octet.scene.environment.bars.length === 5")
+    page.keyboard.press("a")
+    wait_for(page, "octet.scene.environment.bars.length === 6")
+    page.keyboard.press("n")
+    wait_for(page, "octet.scene.environment.number === 2")
+
+
+def test_all_controls_can_be_reached_by_tab(watch, open_page):
+    page = open_page(watch().url)
+    pause(page)
+    reached = set()
+    for _ in range(30):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.id"))
+    assert {"arena", "play", "decision", "speed", "lift", "add-bar", "next", "seed", "freeze", "erase"} <= reached
+
+
+def test_the_end_of_the_run_is_said(watch, open_page):
+    watched = watch("--environments", "1")
+    page = open_page(watched.url)
+    full_speed(page)
+    wait_for(page, "octet.scene.play.done")
+    wait_for_text(page, "#status", "all done")
+    assert watched.end() == 0
+    wait_for_text(page, "#status", "the run has ended")
+
+
+@pytest.mark.parametrize("speed", ["1", "0"])
+def test_drawing_a_frame_takes_less_than_4_ms(watch, open_page, speed):
+    page = open_page(watch("--environments", "50").url, viewport={"width": 1280, "height": 800})
+    full_speed(page)
+    wait_for(page, "octet.scene.trail.length > 1000 || octet.scene.environment.number > 3")
+    page.select_option("#speed", speed)
+    # Reading a pixel makes the browser finish the drawing.
+    page.evaluate(
+        """() => {
+            const draw = octet.renderer.draw.bind(octet.renderer);
+            octet.times = [];
+            octet.renderer.draw = (scene) => {
+                const began = performance.now();
+                draw(scene);
+                octet.renderer.context.getImageData(0, 0, 1, 1);
+                octet.times.push(performance.now() - began);
+            };
+        }"""
+    )
+    wait_for(page, "octet.times.length > 60")
+    assert statistics.median(page.evaluate("octet.times")) < 4
+
+
+def test_the_page_is_less_than_100_ms_behind(watch, open_page):
+    page = open_page(watch().url)
+    wait_for(page, "octet.timing.drawn > 30")
+    lags = []
+    for _ in range(20):
+        page.wait_for_timeout(50)
+        lags.append(page.evaluate("octet.timing.lagMs"))
+    assert statistics.median(lags) < 100
+
+
+def test_the_place_of_a_click_is_where_the_robot_is(watch, open_page):
+    page = open_page(watch().url)
+    pause(page)
+    now = state(page)
+    page.mouse.click(*place_on_page(page, now["x"], now["y"]))
+    assert page.evaluate("octet.scene.selected.kind") == "robot"

@@ -1,0 +1,86 @@
+"""Screenshots of the main states, for people to look at, and the checks that a machine can make of them."""
+
+import itertools
+from collections.abc import Callable
+
+import pytest
+from playwright.sync_api import Page
+
+from tests.web.support import SCREENS, pause, wait_for
+
+SIZES = {"phone": (390, 844, 2), "laptop": (1280, 800, 1), "projector": (1920, 1080, 1)}
+LOOKS = list(itertools.product(("light", "dark"), SIZES))
+
+# The contrast of every text with what lies behind it, as WCAG 2 works it out; the least, with its element.
+LEAST_CONTRAST = """() => {
+  const channel = (c) => (c /= 255) <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+  const light = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+  const parse = (colour) => colour.match(/[\\d.]+/g).map(Number);
+  const behind = (element) => {
+    for (let e = element; e; e = e.parentElement) {
+      const colour = parse(getComputedStyle(e).backgroundColor);
+      if (colour.length === 3 || colour[3] === 1) return colour;
+    }
+    return [255, 255, 255];
+  };
+  const texts = [...document.querySelectorAll("body *")].filter((e) => e.checkVisibility() && !e.disabled &&
+    [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()));
+  return texts.map((e) => {
+    const [a, b] = [light(parse(getComputedStyle(e).color)), light(behind(e))];
+    return [(Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05), e.id || e.className || e.tagName];
+  }).sort((p, q) => p[0] - q[0])[0];
+}"""
+
+
+def check(page: Page, name: str) -> None:
+    """Takes the picture; nothing sticks out sideways, and every text can be read."""
+    SCREENS.mkdir(parents=True, exist_ok=True)
+    page.screenshot(path=SCREENS / f"{name}.png", full_page=True)
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    contrast, where = page.evaluate(LEAST_CONTRAST)
+    assert contrast >= 4.5, where
+
+
+@pytest.fixture
+def look(open_page) -> Callable[..., Page]:
+    def open_look(url: str, scheme: str, size: str) -> Page:
+        width, height, ratio = SIZES[size]
+        viewport = {"width": width, "height": height}
+        return open_page(
+            url, viewport=viewport, device_scale_factor=ratio, color_scheme=scheme, reduced_motion="reduce"
+        )
+
+    return open_look
+
+
+def test_live(watch, look):
+    url = watch("--seed", "2").url
+    for scheme, size in LOOKS:
+        page = look(url, scheme, size)
+        wait_for(page, "octet.scene.trail.length > 20")
+        check(page, f"live-{scheme}-{size}")
+        assert page.evaluate("octet.renderer.canvas.width") == page.evaluate(
+            "Math.round(octet.renderer.canvas.clientWidth * devicePixelRatio)"
+        )
+
+
+def test_meddling(watch, look):
+    page = look(watch("--seed", "2").url, "light", "laptop")
+    pause(page)
+    page.click("#add-bar")
+    wait_for(page, "octet.scene.selected?.kind === 'bar'")
+    page.click("#lift")
+    wait_for(page, "octet.scene.ghost && octet.scene.play")
+    page.click("#cells li:nth-child(3) button")
+    wait_for(page, "octet.scene.state.memory[2] === 1")
+    page.click("summary")
+    check(page, "meddling-light-laptop")
+
+
+def test_kept(kept, look):
+    for scheme, size in LOOKS:
+        page = look(kept.as_uri(), scheme, size)
+        page.click("#pin")
+        page.evaluate("octet.go(Math.floor(octet.data.last * 0.4))")
+        page.wait_for_timeout(60)
+        check(page, f"kept-{scheme}-{size}")

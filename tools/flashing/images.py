@@ -1,0 +1,103 @@
+"""Boards, and the images that are built for them."""
+
+import json
+import re
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from tools.flashing import FlashError
+
+ROOT = Path(__file__).resolve().parents[2]
+LINKS = ("bxcan", "slcan")
+_SET = re.compile(r"^set\((\w+) ([^)]*)\)", re.MULTILINE)
+_IDENTITY = re.compile(rb"octet-image board=(\S+) chip=(\S+) version=(\S+) dbc=(\w+)\0")
+
+
+@dataclass(frozen=True)
+class Board:
+    """A board that we build for.
+
+    Attributes:
+        name: Of its file in hal/stm32/boards.
+        chip: stm32f405 or stm32f103.
+        preset: The CMake preset that builds for it.
+    """
+
+    name: str
+    chip: str
+    preset: str
+
+
+@dataclass(frozen=True)
+class Image:
+    """An image, and what it says of itself.
+
+    Attributes:
+        path: The .elf file; .bin and .hex lie beside it.
+        board: That it was built for.
+        chip: Of that board.
+        version: What `git describe` said.
+        dbc: Hash of the protocol.
+    """
+
+    path: Path
+    board: str
+    chip: str
+    version: str
+    dbc: str
+
+
+def all_boards(root: Path = ROOT) -> dict[str, Board]:
+    """Every board by its name."""
+    presets = json.loads((root / "CMakePresets.json").read_text())["configurePresets"]
+    by_board = {preset.get("cacheVariables", {}).get("OCTET_BOARD"): preset["name"] for preset in presets}
+    boards = {}
+    for path in sorted((root / "hal" / "stm32" / "boards").glob("*.cmake")):
+        chip = dict(_SET.findall(path.read_text()))["OCTET_CHIP"]
+        boards[path.stem] = Board(path.stem, chip, by_board[path.stem])
+    return boards
+
+
+def choose_board(name: str, boards: dict[str, Board]) -> Board:
+    """The board of that name.
+
+    Raises:
+        FlashError: There is none.
+    """
+    if name not in boards:
+        raise FlashError(f"no board {name}; there are {', '.join(boards)}")
+    return boards[name]
+
+
+def build(board: Board, link: str, root: Path = ROOT) -> Path:
+    """Brings the image for a board and a link up to date.
+
+    Raises:
+        FlashError: There is no such link, or it does not build.
+    """
+    if link not in LINKS:
+        raise FlashError(f"no link {link}; there are {', '.join(LINKS)}")
+    for command in (["--preset", board.preset], ["--build", "--preset", board.preset]):
+        done = subprocess.run(["cmake", *command], cwd=root, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise FlashError(f"cmake {' '.join(command)} failed; run it to see why")
+    return root / "build" / board.preset / f"octet-{board.chip}-{link}.elf"
+
+
+def identify(path: Path, board: Board) -> Image:
+    """What an image says of itself.
+
+    Raises:
+        FlashError: It cannot be read, is none of ours, or is for another board.
+    """
+    try:
+        found = _IDENTITY.search(path.read_bytes())
+    except OSError as error:
+        raise FlashError(f"{path}: {error.strerror}") from error
+    if found is None:
+        raise FlashError(f"{path} is no image of ours")
+    image = Image(path, *(part.decode() for part in found.groups()))
+    if image.board != board.name:
+        raise FlashError(f"{path} is for {image.board}, not for {board.name}")
+    return image

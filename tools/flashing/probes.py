@@ -1,0 +1,77 @@
+"""Debug probes on USB, and the chips' own serial boot loader."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from tools.flashing import FlashError
+
+USB = Path("/sys/bus/usb/devices")
+KINDS = ("stlink", "cmsis-dap", "jlink", "serial")
+_ST, _SEGGER = "0483", "1366"
+_STLINK_PRODUCTS = ("3744", "3748", "374a", "374b", "374d", "374e", "374f", "3752", "3753", "3754", "3757")
+
+
+@dataclass(frozen=True)
+class Probe:
+    """What an image goes through.
+
+    Attributes:
+        kind: One of KINDS.
+        where: Its serial number; for "serial", the device's path.
+    """
+
+    kind: str
+    where: str
+
+    def __str__(self) -> str:
+        """As --probe takes it."""
+        return f"{self.kind}:{self.where}"
+
+
+def _read(device: Path, name: str) -> str:
+    try:
+        return (device / name).read_text().strip()
+    except OSError:
+        return ""
+
+
+def _kind_of(device: Path) -> str | None:
+    vendor, product = _read(device, "idVendor"), _read(device, "idProduct")
+    if vendor == _ST and product in _STLINK_PRODUCTS:
+        return "stlink"
+    if vendor == _SEGGER:
+        return "jlink"
+    return "cmsis-dap" if "CMSIS-DAP" in _read(device, "product") else None
+
+
+def find_probes(usb: Path = USB) -> list[Probe]:
+    """Every debug probe that is plugged in."""
+    devices = sorted(usb.iterdir()) if usb.is_dir() else []
+    kinds = ((device, _kind_of(device)) for device in devices)
+    return [Probe(kind, _read(device, "serial")) for device, kind in kinds if kind is not None]
+
+
+def choose_probe(wanted: str | None, found: list[Probe]) -> Probe:
+    """The probe to use.
+
+    Args:
+        wanted: KIND or KIND:WHERE; None for the only one there is.
+        found: Those that are plugged in.
+
+    Raises:
+        FlashError: There is none such, or several.
+    """
+    kind, _, where = (wanted or "").partition(":")
+    if kind and kind not in KINDS:
+        raise FlashError(f"no kind of probe {kind}; there are {', '.join(KINDS)}")
+    if kind == "serial":
+        if not where or not Path(where).exists():
+            raise FlashError(f"--probe serial:PATH: no such device: {where or 'PATH is missing'}")
+        return Probe(kind, where)
+    fitting = [probe for probe in found if kind in ("", probe.kind) and where in ("", probe.where)]
+    if not fitting:
+        missing = f"no probe {wanted}" if wanted else "no debug probe"
+        raise FlashError(f"{missing} is plugged in; for the chip's own boot loader: --probe serial:/dev/ttyUSB0")
+    if len(fitting) > 1:
+        raise FlashError(f"several probes: choose one with --probe: {', '.join(str(probe) for probe in fitting)}")
+    return fitting[0]

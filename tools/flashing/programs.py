@@ -1,0 +1,124 @@
+"""The programs that write to a chip: openocd, pyocd, and stm32flash for the serial boot loader.
+
+None of them erases more than the image needs: what the robot has learned stays.
+"""
+
+import re
+import shutil
+import subprocess
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from tools.flashing import FlashError
+from tools.flashing.images import Image
+from tools.flashing.probes import Probe
+
+CHIP_IDS = {"stm32f405": 0x413, "stm32f103": 0x410}
+"""DBGMCU_IDCODE, bits 0..11: RM0090 38.6.1, RM0008 31.6.1."""
+
+_IDCODE = "0xE0042000"
+_TARGETS = {"stm32f405": ("stm32f4x", "stm32f405rg"), "stm32f103": ("stm32f1x", "stm32f103c8")}
+_OPENOCD_INTERFACES = {"stlink": "stlink", "cmsis-dap": "cmsis-dap", "jlink": "jlink"}
+_TIMEOUT_S = 120
+
+Command = list[str]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What will be done.
+
+    Attributes:
+        program: Its name.
+        ask: Prints the chip's identity.
+        answer: Finds it in what was printed.
+        write: Writes, verifies and starts the image.
+    """
+
+    program: str
+    ask: Command
+    answer: re.Pattern[str]
+    write: Command
+
+
+def _openocd(image: Image, probe: Probe) -> Plan:
+    serial = ["-c", f"adapter serial {probe.where}"] if probe.where else []
+    interface = ["-f", f"interface/{_OPENOCD_INTERFACES[probe.kind]}.cfg", *serial]
+    transport = [] if probe.kind == "stlink" else ["-c", "transport select swd"]
+    command = ["openocd", *interface, *transport, "-f", f"target/{_TARGETS[image.chip][0]}.cfg"]
+    ask = [*command, "-c", f"init; echo [format chip=0x%x [read_memory {_IDCODE} 32 1]]; shutdown"]
+    write = [*command, "-c", f"program {{{image.path}}} verify reset exit"]
+    return Plan("openocd", ask, re.compile(r"chip=0x([0-9a-f]+)"), write)
+
+
+def _pyocd(image: Image, probe: Probe) -> Plan:
+    which = ["-u", probe.where] if probe.where else []
+    ask = ["pyocd", "commander", *which, "-t", "cortex_m", "-c", f"read32 {_IDCODE}"]
+    write = ["pyocd", "load", *which, "-t", _TARGETS[image.chip][1], "--erase", "sector", str(image.path)]
+    return Plan("pyocd", ask, re.compile(r"e0042000: +([0-9a-f]{8})", re.IGNORECASE), write)
+
+
+def _stm32flash(image: Image, probe: Probe) -> Plan:
+    write = ["stm32flash", "-w", str(image.path.with_suffix(".bin")), "-v", "-g", "0x08000000", probe.where]
+    return Plan("stm32flash", ["stm32flash", probe.where], re.compile(r"Device ID +: 0x([0-9a-f]+)"), write)
+
+
+_FOR_SERIAL = {"stm32flash": _stm32flash}
+_FOR_DEBUG_PROBES = {"openocd": _openocd, "pyocd": _pyocd}
+
+
+def make_plan(image: Image, probe: Probe, has: Callable[[str], object] = shutil.which) -> Plan:
+    """How to write an image through a probe.
+
+    Args:
+        image: To write.
+        probe: To write it through.
+        has: Tells whether a program is installed.
+
+    Raises:
+        FlashError: No program for it is installed.
+    """
+    makers = _FOR_SERIAL if probe.kind == "serial" else _FOR_DEBUG_PROBES
+    for program, make in makers.items():
+        if has(program):
+            return make(image, probe)
+    raise FlashError(f"{' or '.join(makers)} is needed for {probe.kind}, and not installed")
+
+
+def _run(command: Command) -> tuple[int, str]:
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=_TIMEOUT_S)
+    except subprocess.TimeoutExpired as error:
+        raise FlashError(f"{command[0]} did not end within {_TIMEOUT_S} s") from error
+    return done.returncode, done.stdout + done.stderr
+
+
+def _last_line(output: str) -> str:
+    lines = [line.strip() for line in output.splitlines() if line.strip()]
+    return lines[-1] if lines else "no word from it"
+
+
+def check_chip(plan: Plan, chip: str) -> None:
+    """Makes sure that the chip behind the probe is the one that the image is for.
+
+    Raises:
+        FlashError: It is another one, or does not answer.
+    """
+    code, output = _run(plan.ask)
+    found = plan.answer.search(output)
+    if found is None:
+        raise FlashError(f"{plan.program} finds no chip (exit code {code}): {_last_line(output)}")
+    identity = int(found[1], 16) & 0xFFF
+    if identity != CHIP_IDS[chip]:
+        raise FlashError(f"the chip behind the probe is 0x{identity:03X}, not {chip} (0x{CHIP_IDS[chip]:03X})")
+
+
+def write(plan: Plan) -> None:
+    """Writes the image.
+
+    Raises:
+        FlashError: It failed; what is on the chip now is not to be relied on.
+    """
+    code, output = _run(plan.write)
+    if code != 0:
+        raise FlashError(f"{plan.program} failed, flash again (exit code {code}): {_last_line(output)}")

@@ -1,0 +1,1 @@
+"""How big the images are, and of what."""

@@ -1,0 +1,86 @@
+"""The core without a body, compiled for processors that we have no board for: it is portable, and small."""
+
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = ("pattern", "memory", "random", "config", "brain", "motion", "robot", "obey")
+_COMMON = ("-std=c99", "-ffreestanding", "-Os", "-ffunction-sections", "-fdata-sections", "-Wall", "-Werror")
+_ENTRIES = ("robot_init", "robot_respond", "memory_adopt")
+_STATE = '#include "firmware/robot.h"\nstruct robot the_robot;\n'
+
+
+@dataclass(frozen=True)
+class Processor:
+    """A compiler and its flags.
+
+    Attributes:
+        name: As the table says it.
+        prefix: Of the compiler's tools.
+        flags: That choose the processor.
+    """
+
+    name: str
+    prefix: str
+    flags: tuple[str, ...]
+
+
+PROCESSORS = (
+    Processor("Cortex-M0", "arm-none-eabi-", ("-mcpu=cortex-m0", "-mthumb")),
+    Processor("RV32", "riscv64-unknown-elf-", ("-march=rv32imac", "-mabi=ilp32")),
+    Processor("AVR", "avr-", ("-mmcu=atmega328p",)),
+)
+
+
+@dataclass(frozen=True)
+class CoreSize:
+    """What the core takes.
+
+    Attributes:
+        flash: Bytes of code and constants, all our own.
+        library: Bytes of the compiler's library that it needs as well: a division, where the processor has none.
+        state: Bytes of one robot.
+    """
+
+    flash: int
+    library: int
+    state: int
+
+
+def _run(*command: str | Path) -> str:
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def _linked(processor: Processor, folder: Path, *libraries: str) -> dict[str, int]:
+    """Sizes of the core's sections by name. What no library brings stays open: a body has it anyway."""
+    sources = [ROOT / "firmware" / f"{name}.c" for name in SOURCES]
+    program = folder / f"{processor.name}.elf"
+    links = ("-nostdlib", "-Wl,--gc-sections", "-Wl,--unresolved-symbols=ignore-all", f"-Wl,--entry={_ENTRIES[0]}")
+    entries = [f"-Wl,--undefined={name}" for name in (*_ENTRIES, "the_robot")]
+    compiler = (f"{processor.prefix}gcc", *processor.flags, *_COMMON, "-I", ROOT)
+    _run(*compiler, *links, *entries, *sources, folder / "state.c", *libraries, "-o", program)
+    lines = _run(f"{processor.prefix}size", "-A", program).splitlines()
+    rows = (line.split() for line in lines if line.startswith("."))
+    return {row[0]: int(row[1]) for row in rows}
+
+
+def _flash(sizes: dict[str, int]) -> int:
+    return sum(sizes.get(name, 0) for name in (".text", ".rodata", ".srodata", ".data", ".sdata"))
+
+
+def measure(processor: Processor, folder: Path) -> CoreSize:
+    """Compiles and links the core for a processor.
+
+    Args:
+        processor: Which.
+        folder: For what comes out.
+
+    Raises:
+        subprocess.CalledProcessError: It does not compile.
+        FileNotFoundError: The compiler is not installed.
+    """
+    (folder / "state.c").write_text(_STATE)
+    alone, whole = _linked(processor, folder), _linked(processor, folder, "-lgcc")
+    state = sum(size for name, size in alone.items() if name in (".bss", ".sbss"))
+    return CoreSize(_flash(alone), _flash(whole) - _flash(alone), state)

@@ -1,0 +1,84 @@
+"""The worst stack of an image, from the call graphs that the compiler leaves beside its objects."""
+
+import re
+from collections import defaultdict
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+LIBRARY = 32
+"""Bytes allowed for a function of the compiler's library; none calls further. More than any that we use takes."""
+
+_NODE = re.compile(r'^node: \{ title: "([^"]+)" label: "[^"]*\\n(\d+) bytes \(([a-z, ]+)\)', re.MULTILINE)
+_EDGE = re.compile(r'^edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"', re.MULTILINE)
+
+
+class StackError(Exception):
+    """The worst stack cannot be known."""
+
+
+@dataclass
+class CallGraph:
+    """Who calls whom, and what each takes.
+
+    Attributes:
+        frames: Bytes of stack of each function by its name, those of one file with that file's path before it.
+        calls: Whom each function calls.
+    """
+
+    frames: dict[str, int] = field(default_factory=dict)
+    calls: defaultdict[str, set[str]] = field(default_factory=lambda: defaultdict(set))
+
+    def add(self, text: str) -> None:
+        """Takes in one file of the compiler's.
+
+        Raises:
+            StackError: A function takes more or less stack as it runs.
+        """
+        for name, size, kind in _NODE.findall(text):
+            if kind != "static":
+                raise StackError(f"the stack of {name} is {kind}")
+            self.frames[name] = int(size)
+        for caller, callee in _EDGE.findall(text):
+            self.calls[caller].add(callee)
+
+    def worst(self, function: str, above: tuple[str, ...] = ()) -> tuple[int, list[str]]:
+        """The deepest way down from a function: its bytes, and the functions on it.
+
+        Raises:
+            StackError: There is recursion, or a call through a pointer.
+        """
+        if function in above:
+            raise StackError(f"{function} calls itself, through {' '.join(above)}")
+        if function == "__indirect_call":
+            raise StackError(f"{above[-1]} calls through a pointer")
+        deepest, way = 0, list[str]()
+        for callee in sorted(self.calls[function]):
+            depth, further = self.worst(callee, (*above, function))
+            if depth > deepest:
+                deepest, way = depth, further
+        return self.frames.get(function, LIBRARY) + deepest, [function, *way]
+
+
+def read_graph(build: Path, objects: Collection[str]) -> CallGraph:
+    """The call graph of the objects of an image, as built in a folder.
+
+    Args:
+        build: The build folder.
+        objects: Names of object files, such as `crc8.c.obj`.
+
+    Raises:
+        StackError: It is missing, or says that the stack cannot be known.
+    """
+    graph = CallGraph()
+    for path in sorted(build.rglob("*.ci")):
+        if path.with_suffix(".obj").name in objects:
+            graph.add(path.read_text())
+    if not graph.frames:
+        raise StackError(f"no call graph in {build}")
+    return graph
+
+
+def worst_stack(graph: CallGraph, roots: Iterable[str]) -> tuple[int, list[str]]:
+    """The deepest way down from any of the roots, each of which begins with an empty stack."""
+    return max((graph.worst(root) for root in roots), key=lambda found: found[0])
