@@ -48,7 +48,7 @@ class Progress:
         cells = "".join(".LR"[cell] for cell in self._session.memory)
         eaten = sum(arena.eaten)
         self._out.write(
-            f"\r\x1b[Kworld {number} of {self._environments}   food {eaten} of {eaten + arena.food_left}   "
+            f"\r\x1b[Kenvironment {number} of {self._environments}   food {eaten} of {eaten + arena.food_left}   "
             f"memory {cells}   {self._ticks * self._tick_s:.0f} s   {speed:.0f} x real time"
         )
         self._out.flush()

@@ -105,7 +105,7 @@ def environment_line(number: int, chapter: Chapter) -> str:
     end = "all food found" if chapter.finished else f"{sum(chapter.eaten)} food found, time up,"
     trials, known, bored = (chapter.begun.get(reason, 0) for reason in (TRIAL, REMEMBERED, BOREDOM))
     return (
-        f"world {number}   {end} in {chapter.robot_s:.0f} s; {trials} trials, {known} remembered turns, "
+        f"environment {number}   {end} in {chapter.robot_s:.0f} s; {trials} trials, {known} remembered turns, "
         f"bored {bored} times"
     )
 

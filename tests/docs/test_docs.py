@@ -1,8 +1,13 @@
 """What the documents say is so: their commands run, their files exist, their quotations stand in the code."""
 
+import contextlib
+import os
+import pty
 import re
 import shlex
+import signal
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -45,6 +50,26 @@ def test_every_command_in_the_documents_does_what_it_should(folder):
 
     assert len(done) >= 8
     assert {line: (it.returncode, it.stderr) for line, it in done.items() if it.returncode} == {}
+
+
+@pytest.mark.parametrize("line", commands("until-stopped"))
+def test_commands_that_go_on_until_stopped_do_so_and_end_well(line, folder):
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(f"exec {line}", shell=True, cwd=folder, stdin=theirs, stdout=theirs, stderr=theirs)
+    os.close(theirs)
+
+    first = os.read(ours, 1024)
+    time.sleep(2)
+    goes_on = process.poll() is None
+    process.send_signal(signal.SIGINT)
+
+    assert first
+    assert goes_on
+    with contextlib.suppress(OSError):  # the far end of a pty is closed when the process has ended
+        while os.read(ours, 65536):
+            pass
+    assert process.wait(timeout=30) in (0, 130)
+    os.close(ours)
 
 
 @pytest.mark.parametrize("line", commands("needs-hardware"))
