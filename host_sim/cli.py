@@ -9,13 +9,13 @@ from dataclasses import fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from host_sim.commands.run_options import BOARDS, ROBOTS, RunOptions, WatchOptions
 from host_sim.errors import OctetError, UsageError
-from host_sim.orders import FULL_SPEED
-from host_sim.protocol import NODE_MAX, Protocol
-from host_sim.run_options import BOARDS, ROBOTS, RunOptions, WatchOptions
+from host_sim.live.orders import FULL_SPEED
+from host_sim.wire.protocol import NODE_MAX, Protocol
 
 if TYPE_CHECKING:
-    from host_sim.retrace import Retraced
+    from host_sim.kept.retrace import Retraced
 
 _VALUE_MAX = 65535
 _BUS_HELP = "auto, fd (socket pair), none (in this process), or python-can's INTERFACE:CHANNEL"
@@ -189,8 +189,8 @@ def _run(arguments: argparse.Namespace) -> int:
     if arguments.watch:
         speed = 1.0 if arguments.real_time else FULL_SPEED
         return _run_watched(arguments, WatchOptions(arguments.listen, arguments.port, speed, stays=False))
-    from host_sim.bus_choice import choose_bus
-    from host_sim.run_command import run
+    from host_sim.commands.run_command import run
+    from host_sim.robots.bus_choice import choose_bus
 
     run(_run_options(arguments, choose_bus(arguments.bus, arguments.robot)))
     return 0
@@ -202,7 +202,7 @@ def _watch(arguments: argparse.Namespace) -> int:
 
 def _run_watched(arguments: argparse.Namespace, watch: WatchOptions) -> int:
     """The page keeps the time, so the robot waits for it; a bus in a network of its own would hide the page."""
-    from host_sim.run_command import run
+    from host_sim.commands.run_command import run
 
     options = _run_options(arguments, "fd" if arguments.bus == "auto" else arguments.bus)
     run(replace(options, real_time=False, watch=watch))
@@ -218,7 +218,7 @@ def _run_options(arguments: argparse.Namespace, bus: str) -> RunOptions:
 def _replay(arguments: argparse.Namespace) -> int:
     if arguments.html is not None:
         return _replay_page(arguments)
-    from host_sim.replay_command import replay, tell
+    from host_sim.commands.replay_command import replay, tell
 
     protocol = Protocol(arguments.node)
     outcome = replay(arguments.log, protocol)
@@ -227,7 +227,7 @@ def _replay(arguments: argparse.Namespace) -> int:
 
 
 def _replay_page(arguments: argparse.Namespace) -> int:
-    from host_sim.replay_page import write_page
+    from host_sim.kept.replay_page import write_page
 
     found = _retrace(arguments)
     write_page(arguments.html, found.trajectory, found.title)
@@ -236,8 +236,8 @@ def _replay_page(arguments: argparse.Namespace) -> int:
 
 
 def _picture(arguments: argparse.Namespace) -> int:
-    from host_sim.animation import Clip, write_gif
-    from host_sim.still import write_still
+    from host_sim.kept.animation import Clip, write_gif
+    from host_sim.kept.still import write_still
 
     if arguments.gif is None and arguments.png is None:
         raise UsageError("say --gif FILE for an animation, or --png FILE for a picture")
@@ -251,7 +251,7 @@ def _picture(arguments: argparse.Namespace) -> int:
 
 
 def _retrace(arguments: argparse.Namespace) -> "Retraced":
-    from host_sim.retrace import retrace
+    from host_sim.kept.retrace import retrace
 
     found = retrace(arguments.log, Protocol(arguments.node), in_the_open=arguments.no_world)
     if not found.stopped:
@@ -260,7 +260,7 @@ def _retrace(arguments: argparse.Namespace) -> "Retraced":
 
 
 def _protocol(arguments: argparse.Namespace) -> int:
-    from host_sim.protocol_page import page
+    from host_sim.commands.protocol_page import page
 
     del arguments
     sys.stdout.write(page())

@@ -32,10 +32,10 @@ uint32_t port_entropy(void);
 
 enum port_effort { PORT_QUICKLY, PORT_AT_REST };
 
+enum { PORT_LATER = 1 };
+
 int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort);
         /* As hal_store. Or PORT_LATER, and nothing is changed: it takes longer than a tick, and effort is PORT_QUICKLY.
            With PORT_AT_REST, when the wheels stand and nobody waits for an answer, it may take a second. */
-
-enum { PORT_LATER = 1 };
 
 #endif

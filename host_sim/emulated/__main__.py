@@ -7,12 +7,12 @@ from collections.abc import Sequence
 
 import can
 
-from host_sim.connection import open_bus
 from host_sim.emulated.chips import CHIPS
 from host_sim.emulated.joined import JoinedBoard
 from host_sim.emulated.start import start_board
 from host_sim.emulated.tick_cost import count_ticks
 from host_sim.errors import OctetError
+from host_sim.robots.connection import open_bus
 
 _EXAMPLES = """\
 examples:

@@ -10,8 +10,8 @@ from host_sim.emulated.clock import NEVER, SECOND
 from host_sim.emulated.elf import load_segments
 from host_sim.emulated.errors import PowerCut
 from host_sim.emulated.hardware import Faults, Hardware
-from host_sim.protocol import Frame
-from host_sim.slcan_link import encode
+from host_sim.wire.protocol import Frame
+from host_sim.wire.slcan_link import encode
 
 _BOOT_S = 0.05
 

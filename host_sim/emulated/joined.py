@@ -6,7 +6,7 @@ import can
 
 from host_sim.emulated.board import EmulatedBoard
 from host_sim.emulated.can_frame import CanFrame
-from host_sim.protocol import Frame
+from host_sim.wire.protocol import Frame
 
 _SLICE_S = 0.001
 

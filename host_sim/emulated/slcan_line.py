@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from host_sim.emulated.can_frame import CanFrame
-from host_sim.slcan_link import decode
+from host_sim.wire.slcan_link import decode
 
 _END = ord("\r")
 

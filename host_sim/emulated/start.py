@@ -4,7 +4,7 @@ from host_sim.emulated.board import EmulatedBoard
 from host_sim.emulated.chips import CHIPS
 from host_sim.emulated.hardware import Faults
 from host_sim.errors import UsageError
-from host_sim.images import image_path
+from host_sim.robots.images import image_path
 
 
 def start_board(name: str, faults: Faults | None = None, link: str = "bxcan") -> EmulatedBoard:

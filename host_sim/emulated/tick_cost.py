@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from host_sim.connection import Connection
+from host_sim.commands.short_run import run_ticks
 from host_sim.emulated.board import EmulatedBoard
 from host_sim.emulated.can_frame import CanFrame
 from host_sim.emulated.start import start_board
-from host_sim.protocol import Protocol
-from host_sim.short_run import run_ticks
+from host_sim.robots.connection import Connection
+from host_sim.wire.protocol import Protocol
 
 
 @dataclass

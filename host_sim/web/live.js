@@ -40,12 +40,12 @@ class LivePage {
     if (!ended) setTimeout(() => this.connect(), AGAIN_MS);
   }
 
-  /** @param {Object} order - As in host_sim/orders.py. */
+  /** @param {Object} order - As in host_sim/live/orders.py. */
   send(order) {
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(order));
   }
 
-  /** @param {Object} message - As in host_sim/page_feed.py. */
+  /** @param {Object} message - As in host_sim/live/page_feed.py. */
   take(message) {
     const { scene } = this;
     if (message.measures) this.begin(message.measures);

@@ -7,13 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.edits import AddBar, Lift, MoveFood, Put
-from host_sim.environment import Bar, Pose, World
-from host_sim.inproc_link import InProcessLink
-from host_sim.keeper import Keeper
-from host_sim.live_run import ORDERS_MAX, LiveRun
-from host_sim.lockstep import Lockstep
-from host_sim.orders import (
+from host_sim.kept.keeper import Keeper
+from host_sim.live.live_run import ORDERS_MAX, LiveRun
+from host_sim.live.orders import (
     FULL_SPEED,
     EraseMemory,
     Freeze,
@@ -24,11 +20,15 @@ from host_sim.orders import (
     Play,
     WriteCell,
 )
-from host_sim.page_feed import PageFeed
-from host_sim.protocol import Protocol
-from host_sim.record import Recorder
-from host_sim.session import Session
-from host_sim.simulation import Simulation
+from host_sim.live.page_feed import PageFeed
+from host_sim.robots.inproc_link import InProcessLink
+from host_sim.wire.lockstep import Lockstep
+from host_sim.wire.protocol import Protocol
+from host_sim.wire.record import Recorder
+from host_sim.wire.session import Session
+from host_sim.world.edits import AddBar, Lift, MoveFood, Put
+from host_sim.world.environment import Bar, Pose, World
+from host_sim.world.simulation import Simulation
 
 Live = Callable[..., LiveRun]
 

@@ -6,12 +6,12 @@ from collections.abc import Callable
 import pytest
 
 from host_sim.errors import RefusedError, RobotError
-from host_sim.inproc_link import InProcessLink
-from host_sim.lockstep import HOLD_TICKS, Lockstep, RealTime
-from host_sim.protocol import Frame, Protocol
-from host_sim.record import Recorder
-from host_sim.session import Session
-from host_sim.signals import Senses
+from host_sim.robots.inproc_link import InProcessLink
+from host_sim.wire.lockstep import HOLD_TICKS, Lockstep, RealTime
+from host_sim.wire.protocol import Frame, Protocol
+from host_sim.wire.record import Recorder
+from host_sim.wire.session import Session
+from host_sim.wire.signals import Senses
 
 PROTOCOL = Protocol()
 Tamper = Callable[[Frame], list[Frame]]

@@ -4,10 +4,10 @@ import json
 
 import pytest
 
-from host_sim.edits import AddBar, Lift, MoveBar, MoveFood, Put, RemoveBar
-from host_sim.environment import Bar, Pose
 from host_sim.errors import OctetError, UsageError
-from host_sim.world_file import Begun, Edited, WorldRecord, read_world, world_path
+from host_sim.world.edits import AddBar, Lift, MoveBar, MoveFood, Put, RemoveBar
+from host_sim.world.environment import Bar, Pose
+from host_sim.world.world_file import Begun, Edited, WorldRecord, read_world, world_path
 
 BAR = Bar((10.0, 20.0), (300.0, 40.0))
 EDITS = [

@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from host_sim.emulated.board import EmulatedBoard
 from host_sim.emulated.hardware import Faults
 from host_sim.emulated.start import start_board
-from host_sim.protocol import Frame, Protocol, Said
-from host_sim.signals import Senses
+from host_sim.wire.protocol import Frame, Protocol, Said
+from host_sim.wire.signals import Senses
 
 BOARDS = ("stm32f405", "stm32f103")
 TICK_S = 0.02

@@ -10,14 +10,14 @@ from contextlib import ExitStack
 import can
 import pytest
 
-from host_sim.connection import connect
+from host_sim.commands.equality import REFERENCE, first_difference, record
+from host_sim.commands.short_run import run_ticks
 from host_sim.emulated.__main__ import main
 from host_sim.emulated.joined import JoinedBoard
 from host_sim.emulated.start import start_board
-from host_sim.equality import REFERENCE, first_difference, record
-from host_sim.protocol import Frame, Protocol
-from host_sim.short_run import run_ticks
-from host_sim.signals import Senses
+from host_sim.robots.connection import connect
+from host_sim.wire.protocol import Frame, Protocol
+from host_sim.wire.signals import Senses
 
 PROTOCOL = Protocol()
 STOP = PROTOCOL.encode("COMMAND", {"counter": 1, "opcode": 1, "lockstep": 0})

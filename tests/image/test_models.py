@@ -21,7 +21,7 @@ from host_sim.emulated.systick import SysTick
 from host_sim.emulated.usart import Usart
 from host_sim.emulated.watchdog import Watchdog
 from host_sim.errors import OctetError
-from host_sim.robot_process import PROGRAM
+from host_sim.robots.robot_process import PROGRAM
 
 KEYR, SR, CR = 0x04, 0x0C, 0x10
 KEYS = (0x45670123, 0xCDEF89AB)

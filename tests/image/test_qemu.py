@@ -10,15 +10,15 @@ from contextlib import ExitStack
 
 import pytest
 
-from host_sim.connection import connect
+from host_sim.commands.short_run import run_ticks
 from host_sim.errors import OctetError, RobotError, UsageError
-from host_sim.images import image_path
-from host_sim.protocol import Frame
-from host_sim.qemu import Qemu
-from host_sim.short_run import run_ticks
-from host_sim.slcan_link import SlcanLink
+from host_sim.robots.connection import connect
+from host_sim.robots.images import image_path
+from host_sim.robots.qemu import Qemu
+from host_sim.wire.protocol import Frame
+from host_sim.wire.slcan_link import SlcanLink
 
-ROBOT = "import time, host_sim.qemu as q; robot = q.Qemu(); print(robot.pid, flush=True); time.sleep(60)"
+ROBOT = "import time, host_sim.robots.qemu as q; robot = q.Qemu(); print(robot.pid, flush=True); time.sleep(60)"
 
 
 @pytest.fixture
@@ -98,7 +98,7 @@ def test_qemu_that_is_not_installed_is_named(monkeypatch):
 
 
 def test_an_image_that_is_not_built_is_named_with_how_to_build_it(monkeypatch, tmp_path):
-    monkeypatch.setattr("host_sim.images.BUILD", tmp_path)
+    monkeypatch.setattr("host_sim.robots.images.BUILD", tmp_path)
 
     with pytest.raises(OctetError, match="tools/setup images"):
         image_path("stm32f405", "slcan")
@@ -110,7 +110,7 @@ def test_what_is_no_image_ends_qemu_with_its_reason(tmp_path):
 
 
 def test_an_image_that_says_nothing_is_given_up(monkeypatch):
-    monkeypatch.setattr("host_sim.qemu._READY_S", 0.05)
+    monkeypatch.setattr("host_sim.robots.qemu._READY_S", 0.05)
 
     with pytest.raises(RobotError, match=r"said nothing for 0\.05 s; it is running in QEMU"):
         Qemu()

@@ -6,9 +6,9 @@ from contextlib import ExitStack
 
 import pytest
 
-from host_sim.connection import connect
-from host_sim.protocol import Frame, Protocol
-from host_sim.signals import Senses
+from host_sim.robots.connection import connect
+from host_sim.wire.protocol import Frame, Protocol
+from host_sim.wire.signals import Senses
 
 PROTOCOL = Protocol()
 COUNTERS = itertools.cycle(range(16))  # the robots live longer than a test, and remember the last one

@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
-from host_sim.connection import connect
-from host_sim.environment import World
-from host_sim.keeper import Keeper
-from host_sim.lockstep import Lockstep
-from host_sim.protocol import Frame, Protocol
-from host_sim.record import Recorder, line_of
-from host_sim.session import Session
-from host_sim.simulation import Simulation
-from host_sim.trajectory import Trajectory
-from host_sim.world_file import world_path
+from host_sim.kept.keeper import Keeper
+from host_sim.kept.trajectory import Trajectory
+from host_sim.robots.connection import connect
+from host_sim.wire.lockstep import Lockstep
+from host_sim.wire.protocol import Frame, Protocol
+from host_sim.wire.record import Recorder, line_of
+from host_sim.wire.session import Session
+from host_sim.world.environment import World
+from host_sim.world.simulation import Simulation
+from host_sim.world.world_file import world_path
 
 T = TypeVar("T")
 Meddle = Callable[[Simulation, Keeper], None]

@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from host_sim.animation import Clip, draw_frame, write_gif
 from host_sim.cli import main
-from host_sim.drawing import CONE_LIT
-from host_sim.scene import State
-from host_sim.trajectory import Trajectory
-from host_sim.words import PATTERNS, lesson_sentence, sentence
+from host_sim.kept.animation import Clip, draw_frame, write_gif
+from host_sim.kept.drawing import CONE_LIT
+from host_sim.kept.trajectory import Trajectory
+from host_sim.live.scene import State
+from host_sim.live.words import PATTERNS, lesson_sentence, sentence
 
 README_BYTES_MAX = 1_500_000
 IMAGES = Path(__file__).resolve().parents[2] / "docs/images"

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from host_sim.cli import main
-from host_sim.protocol import Protocol
-from host_sim.record import line_of, read_log
-from host_sim.world_file import world_path
+from host_sim.wire.protocol import Protocol
+from host_sim.wire.record import line_of, read_log
+from host_sim.world.world_file import world_path
 
 
 def cut_inside_a_line(log: Path) -> None:

@@ -10,13 +10,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from host_sim import replay_page
 from host_sim.cli import main
-from host_sim.protocol import Protocol
-from host_sim.replay_page import pack, page, run_data, write_page
-from host_sim.retrace import retrace
-from host_sim.scene import State
-from host_sim.trajectory import Trajectory, at
+from host_sim.kept import replay_page
+from host_sim.kept.replay_page import pack, page, run_data, write_page
+from host_sim.kept.retrace import retrace
+from host_sim.kept.trajectory import Trajectory, at
+from host_sim.live.scene import State
+from host_sim.wire.protocol import Protocol
 from tests.kept.support import record_run
 
 SVG = "http://www.w3.org/2000/svg"
@@ -105,7 +105,7 @@ def test_nothing_in_a_run_ends_the_script_that_holds_it(kept):
 
 
 def test_modules_come_once_each_after_what_they_need(tmp_path, monkeypatch):
-    monkeypatch.setattr(replay_page, "_WEB", tmp_path)
+    monkeypatch.setattr(replay_page, "WEB", tmp_path)
     link, script = '<link rel="stylesheet" href="s.css">', '<script type="module" src="a.js"></script>'
     (tmp_path / "replay.html").write_text(link + script)
     (tmp_path / "s.css").write_text("p { margin: 0 }\n")

@@ -18,13 +18,13 @@ from pathlib import Path
 
 import pytest
 
-from host_sim import terminal_view
-from host_sim.environment import World
-from host_sim.orders import FULL_SPEED
-from host_sim.terminal_view import faster, slower
-from host_sim.text_picture import View, draw_text
-from host_sim.trajectory import Trajectory, at
-from host_sim.words import sentence
+from host_sim.kept.trajectory import Trajectory, at
+from host_sim.live import terminal_view
+from host_sim.live.orders import FULL_SPEED
+from host_sim.live.terminal_view import faster, slower
+from host_sim.live.text_picture import View, draw_text
+from host_sim.live.words import sentence
+from host_sim.world.environment import World
 from tests.kept.support import finished
 
 DEADLINE_S = 60

@@ -7,23 +7,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from host_sim import trajectory as trajectory_module
-from host_sim.arena import Arena
 from host_sim.cli import main
-from host_sim.edits import AddBar, Lift, MoveFood, Put
-from host_sim.environment import Bar, Pose
 from host_sim.errors import OctetError
-from host_sim.keeper import Keeper
-from host_sim.live_run import LiveRun
-from host_sim.orders import FULL_SPEED, EraseMemory, Freeze, NewSeed, NextEnvironment, WriteCell
-from host_sim.protocol import Frame, Protocol
-from host_sim.record import read_log
-from host_sim.recording import read_recording
-from host_sim.retrace import retrace
-from host_sim.signals import Drive, Senses
-from host_sim.simulation import Simulation
-from host_sim.trajectory import Trajectory
-from host_sim.world_file import world_path
+from host_sim.kept import trajectory as trajectory_module
+from host_sim.kept.keeper import Keeper
+from host_sim.kept.recording import read_recording
+from host_sim.kept.retrace import retrace
+from host_sim.kept.trajectory import Trajectory
+from host_sim.live.live_run import LiveRun
+from host_sim.live.orders import FULL_SPEED, EraseMemory, Freeze, NewSeed, NextEnvironment, WriteCell
+from host_sim.wire.protocol import Frame, Protocol
+from host_sim.wire.record import read_log
+from host_sim.wire.signals import Drive, Senses
+from host_sim.world.arena import Arena
+from host_sim.world.edits import AddBar, Lift, MoveFood, Put
+from host_sim.world.environment import Bar, Pose
+from host_sim.world.simulation import Simulation
+from host_sim.world.world_file import world_path
 from tests.kept.support import finished, open_simulation, record_run, without, write_log
 
 

@@ -8,13 +8,13 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from host_sim.connection import connect
-from host_sim.environment import World
-from host_sim.lockstep import Lockstep
-from host_sim.protocol import Protocol
-from host_sim.record import Recorder
-from host_sim.session import Session
-from host_sim.simulation import Chapter, Simulation
+from host_sim.robots.connection import connect
+from host_sim.wire.lockstep import Lockstep
+from host_sim.wire.protocol import Protocol
+from host_sim.wire.record import Recorder
+from host_sim.wire.session import Session
+from host_sim.world.environment import World
+from host_sim.world.simulation import Chapter, Simulation
 
 SEEDS = range(1, 41)
 ENOUGH = 0.95

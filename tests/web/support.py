@@ -13,8 +13,8 @@ from typing import Any
 
 from playwright.sync_api import Page
 
-from host_sim.protocol import Protocol, Said
-from host_sim.record import read_log
+from host_sim.wire.protocol import Protocol, Said
+from host_sim.wire.record import read_log
 from tests.runs.support import ROOT, start_octet
 
 CHROMIUM = "/usr/bin/chromium"

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from host_sim.arena import Arena
-from host_sim.environment import Bar, Environment, Point, Pose, World, ahead_of, clearance_mm, generate
-from host_sim.signals import Senses
+from host_sim.wire.signals import Senses
+from host_sim.world.arena import Arena
+from host_sim.world.environment import Bar, Environment, Point, Pose, World, ahead_of, clearance_mm, generate
 
 WORLD = World()
 MIDDLE = Pose(2000.0, 1500.0, 0.7)

@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-from host_sim.arena import Arena
-from host_sim.editing import BARS_MAX, EditError, make_edit
-from host_sim.edits import AddBar, Edit, Lift, MoveBar, MoveFood, Put, RemoveBar
-from host_sim.environment import Bar, Environment, Pose, World
+from host_sim.world.arena import Arena
+from host_sim.world.editing import BARS_MAX, EditError, make_edit
+from host_sim.world.edits import AddBar, Edit, Lift, MoveBar, MoveFood, Put, RemoveBar
+from host_sim.world.environment import Bar, Environment, Pose, World
 
 WORLD = World()
 FAR = Bar((500.0, 500.0), (900.0, 500.0))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from host_sim.environment import Bar, Environment, Pose, World, ahead_of, clearance_mm, generate, turned
+from host_sim.world.environment import Bar, Environment, Pose, World, ahead_of, clearance_mm, generate, turned
 
 WORLD = World()
 

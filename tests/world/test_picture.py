@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from host_sim.environment import Environment, Pose, World, generate
-from host_sim.picture import draw_run
+from host_sim.kept.picture import draw_run
+from host_sim.world.environment import Environment, Pose, World, generate
 
 WORLD = World()
 EMPTY_MEMORY = [0] * 8

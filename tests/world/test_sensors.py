@@ -4,9 +4,9 @@ import math
 
 import pytest
 
-from host_sim.arena import Arena
-from host_sim.environment import Bar, Environment, Point, Pose, World, ahead_of
-from host_sim.sensors import CONE_BEARINGS_DEG, cone_outline
+from host_sim.world.arena import Arena
+from host_sim.world.environment import Bar, Environment, Point, Pose, World, ahead_of
+from host_sim.world.sensors import CONE_BEARINGS_DEG, cone_outline
 
 WORLD = World()
 START = Pose(2000.0, 1500.0, 0.7)

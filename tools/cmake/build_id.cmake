@@ -7,7 +7,6 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
             -P ${CMAKE_CURRENT_LIST_FILE}
     COMMENT "Looking up what this is built from"
     VERBATIM)
-  set_source_files_properties(${OCTET_GENERATED}/build_id.always PROPERTIES SYMBOLIC TRUE)
   add_custom_target(octet_build_id DEPENDS ${OCTET_GENERATED}/build_id.h)
   return()
 endif()

@@ -2,7 +2,7 @@
 include(${PROJECT_SOURCE_DIR}/hal/stm32/boards/${OCTET_BOARD}.cmake)
 string(REGEX REPLACE "^stm32" "" OCTET_CHIP_SHORT ${OCTET_CHIP})
 
-# octet_pin(VARIABLE): a pin as board.h reads it.
+# octet_define_pins(TARGET): what the board's file says, as board.h reads it.
 function(octet_define_pins target)
   foreach(name LED CAN_RX CAN_TX UART_RX UART_TX)
     list(JOIN OCTET_${name} "," pin)
@@ -11,7 +11,7 @@ function(octet_define_pins target)
   target_compile_definitions(${target} PRIVATE OCTET_LED_HIGH=${OCTET_LED_HIGH} OCTET_CRYSTAL_MHZ=${OCTET_CRYSTAL_MHZ})
 endfunction()
 
-# octet_image(LINK SOURCE LIBRARY...): the robot on this chip, over that link: .elf, .bin, .hex and .map.
+# octet_image(LINK LIBRARY...): the robot on this chip, over that link: .elf, .bin, .hex and .map.
 function(octet_image link)
   set(image octet-${OCTET_CHIP}-${link})
   add_executable(${image})

@@ -1,0 +1,1 @@
+"""What each command of `tools/octet` does, and what `tools/bench` measures."""

@@ -1,0 +1,1 @@
+"""A run that people watch, and meddle with."""

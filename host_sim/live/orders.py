@@ -1,0 +1,113 @@
+"""What a watching page may ask for, checked where it comes in."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from host_sim.world.edits import Edit, edit_from, whole
+
+TEXT_MAX = 4096
+"""No order is longer, in bytes."""
+
+FULL_SPEED = 0.0
+_SPEED_MIN, _SPEED_MAX = 0.25, 1000.0
+_SEED_MAX = 2**32 - 1
+
+
+@dataclass(frozen=True)
+class Play:
+    """Go on, or stand still: the world, and the robot in it."""
+
+    on: bool
+
+
+@dataclass(frozen=True)
+class OneDecision:
+    """Go on until the robot has decided once more, and then stand still."""
+
+
+@dataclass(frozen=True)
+class Speed:
+    """So many times real time; `FULL_SPEED` is as fast as it goes."""
+
+    factor: float
+
+
+@dataclass(frozen=True)
+class NextEnvironment:
+    """Leave this environment as it is for the next one."""
+
+
+@dataclass(frozen=True)
+class NewSeed:
+    """Start over with the environments and random turns of a seed. The memory stays."""
+
+    seed: int
+
+
+@dataclass(frozen=True)
+class WriteCell:
+    """Write one cell of the robot's memory: side 0 nothing, 1 left, 2 right."""
+
+    cell: int
+    side: int
+
+
+@dataclass(frozen=True)
+class EraseMemory:
+    """Erase all cells."""
+
+
+@dataclass(frozen=True)
+class Freeze:
+    """Learn no more, or learn again."""
+
+    on: bool
+
+
+Order = Play | OneDecision | Speed | NextEnvironment | NewSeed | WriteCell | EraseMemory | Freeze | Edit
+
+
+def order_from(text: str) -> Order:
+    """The order in a message.
+
+    Args:
+        text: A JSON object with the order's name in `do`, and its fields.
+
+    Raises:
+        ValueError: It is no order, or one with fields that are missing, of a wrong type or out of bounds.
+    """
+    try:
+        fields = json.loads(text)
+    except RecursionError:
+        raise ValueError("too many brackets") from None
+    if not isinstance(fields, dict):
+        raise ValueError("no object")
+    parse = _PARSERS.get(str(fields.get("do")))
+    order = edit_from(fields) if parse is None else parse(fields)
+    if order is None:
+        raise ValueError("no such order")
+    return order
+
+
+def _speed(fields: Mapping[str, Any]) -> Speed:
+    factor = fields.get("factor")
+    if isinstance(factor, bool) or not isinstance(factor, (int, float)):
+        raise ValueError("factor must be a number")
+    if factor != FULL_SPEED and not _SPEED_MIN <= factor <= _SPEED_MAX:
+        raise ValueError(f"factor must be {FULL_SPEED:g}, or from {_SPEED_MIN:g} to {_SPEED_MAX:g}")
+    return Speed(float(factor))
+
+
+_PARSERS: dict[str, Callable[[Mapping[str, Any]], Order]] = {
+    "play": lambda _: Play(True),
+    "pause": lambda _: Play(False),
+    "decision": lambda _: OneDecision(),
+    "speed": _speed,
+    "next": lambda _: NextEnvironment(),
+    "seed": lambda fields: NewSeed(whole(fields, "seed", 0, _SEED_MAX)),
+    "write": lambda fields: WriteCell(whole(fields, "cell", 1, 7), whole(fields, "side", 0, 2)),
+    "erase": lambda _: EraseMemory(),
+    "freeze": lambda fields: Freeze(bool(whole(fields, "on", 0, 1))),
+}

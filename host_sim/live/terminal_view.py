@@ -1,0 +1,116 @@
+"""`tools/octet watch --terminal`: a run in a terminal, for a robot that is reached over ssh."""
+
+import asyncio
+import contextlib
+import curses
+import signal
+import sys
+
+from host_sim.errors import UsageError
+from host_sim.live.live_run import LiveRun
+from host_sim.live.orders import FULL_SPEED, NextEnvironment, OneDecision, Order, Play, Speed
+from host_sim.live.scene import environment_scene, state
+from host_sim.live.text_picture import View, draw_text
+
+_EVERY_S = 0.1
+_KEYS = "q quits   space pauses   . one decision   + - speed   n next"
+_SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1000.0)
+"""The speeds that + and - go through; beyond the last one, as fast as it goes."""
+
+
+def watch_in_terminal(live: LiveRun) -> None:
+    """Takes a run from its begin to its end on the whole screen of the terminal, which is as before in the end.
+
+    Args:
+        live: The run. What it prints meanwhile would spoil the picture.
+
+    Raises:
+        UsageError: There is no terminal, or none that a picture can be drawn in.
+        RobotError: The robot is gone.
+    """
+    if not (sys.stdin.isatty() and sys.stdout.isatty()):
+        raise UsageError("--terminal draws on a terminal, and this is none: leave it out, or use ssh -t")
+    live.begin()
+    try:
+        curses.wrapper(lambda screen: asyncio.run(_show(live, screen)))
+    except curses.error as error:
+        raise UsageError(f"cannot draw in this terminal ({error}): set TERM to what it is, such as xterm") from None
+
+
+async def _show(live: LiveRun, screen: "curses.window") -> None:
+    """Draws at most ten times a second, whatever the speed of the run."""
+    _close_on_signals(live)
+    screen.nodelay(True)
+    with contextlib.suppress(curses.error):  # some terminals cannot hide it
+        curses.curs_set(0)
+    player = asyncio.create_task(live.play())
+    while not player.done():
+        while (key := screen.getch()) != curses.ERR:
+            _press(live, key)
+        _draw(live, screen)
+        await asyncio.wait({player}, timeout=_EVERY_S)
+    await player
+
+
+def _close_on_signals(live: LiveRun) -> None:
+    """Ctrl-C, and a terminal that goes away, end the run in good order."""
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        asyncio.get_running_loop().add_signal_handler(number, live.close)
+
+
+def _press(live: LiveRun, key: int) -> None:
+    """Does what a key says."""
+    orders: dict[int, Order] = {
+        ord(" "): Play(not live.playing),
+        ord("."): OneDecision(),
+        ord("+"): Speed(faster(live.speed)),
+        ord("-"): Speed(slower(live.speed)),
+        ord("n"): NextEnvironment(),
+    }
+    if key == ord("q"):
+        live.close()
+    elif key in orders:
+        live.offer(orders[key], lambda _: curses.beep())
+
+
+def faster(speed: float) -> float:
+    """The next higher speed."""
+    return FULL_SPEED if speed == FULL_SPEED else next((step for step in _SPEEDS if step > speed), FULL_SPEED)
+
+
+def slower(speed: float) -> float:
+    """The next lower speed; the lowest stays."""
+    if speed == FULL_SPEED:
+        return _SPEEDS[-1]
+    return next((step for step in reversed(_SPEEDS) if step < speed), _SPEEDS[0])
+
+
+def _draw(live: LiveRun, screen: "curses.window") -> None:
+    rows, columns = screen.getmaxyx()
+    screen.erase()
+    for row, line in enumerate(draw_text(_view(live), columns, rows)):
+        # The last place of all stays free: the screen would scroll.
+        screen.addnstr(row, 0, line, columns - (row == rows - 1))
+    screen.refresh()
+
+
+def _view(live: LiveRun) -> View:
+    simulation = live.simulation
+    return View(
+        live.world,
+        environment_scene(simulation.record.begun[-1], simulation.environments, simulation.arena),
+        state(max(0, simulation.tick - 1), simulation.arena, simulation.senses, simulation.drive, live.story),
+        [(x, y) for x, y, _ in simulation.chapter.trail],
+        live.boredom_limit,
+        _pace(live),
+        _KEYS,
+    )
+
+
+def _pace(live: LiveRun) -> str:
+    if live.done:
+        return "over"
+    if not live.playing:
+        return "paused"
+    speed = live.speed if live.speed != FULL_SPEED else live.rate * live.world.tick_s
+    return f"{speed:.3g} x real time"

@@ -1,0 +1,157 @@
+"""A run in plain characters: arena, senses, memory and reason, for a screen of any size from 60 x 20 up."""
+
+import math
+import textwrap
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from host_sim.live.scene import EnvironmentScene, State
+from host_sim.live.words import PATTERNS, SIDES, sentence
+from host_sim.world.environment import Point, Pose, World
+
+COLUMNS_MIN, ROWS_MIN = 60, 20
+"""The smallest screen that has room for it all."""
+
+_PANEL, _ROWS_BELOW = 22, 4
+_TALL = 2.0
+_FOOD, _EATEN, _BAR, _TRAIL, _ROBOT = "O", "x", "#", ".", "@"
+_NOSES = "-\\|/"
+_FEELERS = ((16, "<"), (8, "\\"), (4, "|"), (2, "/"), (1, ">"))
+_FRONT = ((4, "\\"), (2, "|"), (1, "/"))
+_REMEMBERED, _TRIAL = 4, 5
+
+
+@dataclass(frozen=True)
+class View:
+    """What to draw.
+
+    Attributes:
+        world: The measures.
+        scene: The arena.
+        state: The tick.
+        trail: Where the robot was in this arena.
+        boredom_limit: The remembered turn in a row after which it is bored.
+        pace: How fast it goes, in words.
+        keys: Which keys do what.
+    """
+
+    world: World
+    scene: EnvironmentScene
+    state: State
+    trail: Sequence[Point]
+    boredom_limit: int
+    pace: str
+    keys: str
+
+
+def draw_text(view: View, columns: int, rows: int) -> list[str]:
+    """The picture, line by line.
+
+    Args:
+        view: What to draw.
+        columns: Width of the screen.
+        rows: Height of the screen.
+
+    Returns:
+        At most `rows` lines of at most `columns` characters; on a screen that is too small, one that says so.
+    """
+    if columns < COLUMNS_MIN or rows < ROWS_MIN:
+        told = f"{columns} x {rows} characters are too few: {COLUMNS_MIN} x {ROWS_MIN} are the least"
+        return textwrap.wrap(told, columns)[:rows]
+    arena = _draw_arena(view, columns - _PANEL, rows - _ROWS_BELOW - 1)
+    panel = _draw_panel(view)
+    width = len(arena[0])
+    middle = [f"{left:{width}}  {right}" for left, right in zip(arena, _padded(panel, len(arena)), strict=True)]
+    words = _padded(textwrap.wrap(sentence(view.state), columns), 2)
+    return [line[:columns].rstrip() for line in (_head(view), *middle, "", *words, view.keys)]
+
+
+def _head(view: View) -> str:
+    scene, state = view.scene, view.state
+    seconds = state["tick"] * view.world.tick_s
+    food = f"food {sum(state['eaten'])} of {len(state['eaten'])}"
+    clock = f"{int(seconds // 60)}:{seconds % 60:04.1f}"
+    return f"environment {scene['number']} of {scene['of']}   {food}   {clock}   {view.pace}"
+
+
+def _draw_arena(view: View, columns: int, rows: int) -> list[str]:
+    """The arena in its frame, as large as there is room, its sides as long as they are in the world."""
+    canvas = _Canvas(view.world, columns - 2, rows - 2)
+    canvas.mark(view.trail, _TRAIL)
+    for _, ax, ay, bx, by in view.scene["bars"]:
+        canvas.line((ax, ay), (bx, by), _BAR)
+    for (x, y), eaten in zip(view.scene["food"], view.state["eaten"], strict=True):
+        canvas.mark([(x, y)], _EATEN if eaten else _FOOD)
+    canvas.robot(Pose(view.state["x"], view.state["y"], view.state["heading"] / 1000))
+    edge = f"+{'-' * canvas.columns}+"
+    return [edge, *(f"|{''.join(row)}|" for row in canvas.rows), edge]
+
+
+class _Canvas:
+    """Characters over the arena's floor; one is twice as high as wide."""
+
+    def __init__(self, world: World, columns: int, rows: int) -> None:
+        per_row = max(world.height_mm / rows, world.width_mm / columns * _TALL)
+        self.columns = min(columns, round(world.width_mm / per_row * _TALL))
+        count = min(rows, round(world.height_mm / per_row))
+        self.rows = [[" "] * self.columns for _ in range(count)]
+        self._world = world
+
+    def mark(self, points: Iterable[Point], sign: str) -> None:
+        """Puts a sign at each point."""
+        for point in points:
+            self._put(*self._place(point), sign)
+
+    def line(self, a: Point, b: Point, sign: str) -> None:
+        """Puts signs from one point to another."""
+        steps = self.columns + len(self.rows)
+        parts = [i / steps for i in range(steps + 1)]
+        self.mark(((a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part) for part in parts), sign)
+
+    def robot(self, pose: Pose) -> None:
+        """Puts the robot, and a stroke beside it, where it looks."""
+        column, row = self._place(pose[:2])
+        eighth = round(pose.heading_rad / (math.pi / 4))
+        nose = round(math.cos(eighth * math.pi / 4)), round(math.sin(eighth * math.pi / 4))
+        self._put(column + nose[0], row + nose[1], _NOSES[eighth % len(_NOSES)])
+        self._put(column, row, _ROBOT)
+
+    def _place(self, point: Point) -> tuple[int, int]:
+        """Column and row of a point."""
+        return (
+            int(point[0] / self._world.width_mm * self.columns),
+            int(point[1] / self._world.height_mm * len(self.rows)),
+        )
+
+    def _put(self, column: int, row: int, sign: str) -> None:
+        if 0 <= row < len(self.rows) and 0 <= column < self.columns:
+            self.rows[row][column] = sign
+
+
+def _draw_panel(view: View) -> list[str]:
+    """Senses, boredom and the memory: for each cell its sensors, what it holds, and how often it was used."""
+    state = view.state
+    feelers = " ".join(sign if state["feel"] & bit else "." for bit, sign in _FEELERS)
+    count = min(state["repeat_count"], view.boredom_limit)
+    bar = "#" * round(8 * count / view.boredom_limit)
+    food = f"{state['beacon']} mm" if state["beacon"] else "none"
+    return [
+        f"senses  {feelers}",
+        f"food    {food}",
+        f"bored   [{bar:8}] {state['repeat_count']}",
+        "",
+        "memory         used",
+        *(_draw_cell(state, cell) for cell in range(1, len(PATTERNS))),
+    ]
+
+
+def _draw_cell(state: State, cell: int) -> str:
+    in_use = state["reason"] in (_REMEMBERED, _TRIAL) and state["pattern"] == cell
+    front = "".join(sign if cell & bit else "." for bit, sign in _FRONT)
+    side = SIDES[state["memory"][cell]] if state["memory"][cell] else "-"
+    return f"{'>' if in_use else ' '} {front}  {side:7}{state['uses'][cell]:5}"
+
+
+def _padded(lines: Sequence[str], count: int) -> list[str]:
+    """So many lines, the last ones empty."""
+    return [*lines, *[""] * (count - len(lines))][:count]

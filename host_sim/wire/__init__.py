@@ -1,0 +1,1 @@
+"""The wire: frames, the conversation with a robot, and the record of it."""

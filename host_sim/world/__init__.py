@@ -1,0 +1,1 @@
+"""The world: environments, arena, sensors, and one robot's way through them."""

@@ -1,0 +1,60 @@
+"""The walls and bars of an arena in a pymunk space. Bars can be added, moved and taken away."""
+
+import pymunk
+
+from host_sim.world.environment import Bar, Point, World
+from host_sim.world.sensors import OBSTACLE
+
+_WALL_MM = 100.0
+
+
+class Obstacles:
+    """What stands in the robot's way.
+
+    Attributes:
+        bars: The bars by their ids: 0, 1, ... in the order in which they came. An id is never used again.
+    """
+
+    def __init__(self, space: pymunk.Space, bars: tuple[Bar, ...], world: World) -> None:
+        """Sets up bars and walls in a space."""
+        self.bars: dict[int, Bar] = {}
+        self._space, self._radius_mm = space, world.bar_thickness_mm / 2
+        self._shapes: dict[int, pymunk.Segment] = {}
+        self._next_id = 0
+        for bar in bars:
+            self.add(bar)
+        self._add_walls(world)
+
+    def add(self, bar: Bar) -> None:
+        """Adds a bar; it gets the next id."""
+        self._put(self._next_id, bar)
+        self._next_id += 1
+
+    def move(self, bar_id: int, bar: Bar) -> None:
+        """Puts one of the bars elsewhere."""
+        self._space.remove(self._shapes[bar_id])
+        self._put(bar_id, bar)
+
+    def remove(self, bar_id: int) -> None:
+        """Takes one of the bars away."""
+        self._space.remove(self._shapes.pop(bar_id))
+        del self.bars[bar_id]
+
+    def _put(self, bar_id: int, bar: Bar) -> None:
+        self.bars[bar_id] = bar
+        self._shapes[bar_id] = self._add_segment(bar.a, bar.b, self._radius_mm)
+
+    def _add_walls(self, world: World) -> None:
+        # The middle lines of the walls lie outside by their radius: the inside faces are the arena's edge.
+        left, top = -_WALL_MM, -_WALL_MM
+        right, bottom = world.width_mm + _WALL_MM, world.height_mm + _WALL_MM
+        corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
+        for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
+            self._add_segment(a, b, _WALL_MM)
+
+    def _add_segment(self, a: Point, b: Point, radius_mm: float) -> pymunk.Segment:
+        shape = pymunk.Segment(self._space.static_body, a, b, radius_mm)
+        shape.collision_type = OBSTACLE
+        shape.filter = pymunk.ShapeFilter(categories=OBSTACLE)
+        self._space.add(shape)
+        return shape
