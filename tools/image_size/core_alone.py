@@ -58,7 +58,7 @@ def _linked(processor: Processor, folder: Path, *libraries: str) -> dict[str, in
     program = folder / f"{processor.name}.elf"
     links = ("-nostdlib", "-Wl,--gc-sections", "-Wl,--unresolved-symbols=ignore-all", f"-Wl,--entry={_ENTRIES[0]}")
     entries = [f"-Wl,--undefined={name}" for name in (*_ENTRIES, "the_robot")]
-    compiler = (f"{processor.prefix}gcc", *processor.flags, *_COMMON, "-I", ROOT)
+    compiler: tuple[str | Path, ...] = (f"{processor.prefix}gcc", *processor.flags, *_COMMON, "-I", ROOT)
     _run(*compiler, *links, *entries, *sources, folder / "state.c", *libraries, "-o", program)
     lines = _run(f"{processor.prefix}size", "-A", program).splitlines()
     rows = (line.split() for line in lines if line.startswith("."))
