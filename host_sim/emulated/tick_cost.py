@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from host_sim.commands.short_run import run_ticks
+from host_sim.bench.short_run import run_ticks
 from host_sim.emulated.board import EmulatedBoard
 from host_sim.emulated.can_frame import CanFrame
 from host_sim.emulated.start import start_board

@@ -383,20 +383,6 @@ def test_the_worst_tick_stays_within_its_bar(name):
     assert max(count_ticks(name, 1, 3000)) <= WORST_TICK
 
 
-def test_lockstep_reaches_200_ticks_a_second(name):
-    talk = talk_to(name, lockstep=1)
-    talk.start()
-    began = time.monotonic()
-    for _ in range(400):
-        talk.board.send(talk.senses())
-        frame = talk.board.receive(1.0)
-        while frame is not None and talk.protocol.decode(frame).name != "DRIVE":
-            frame = talk.board.receive(1.0)
-        assert frame is not None
-
-    assert 400 / (time.monotonic() - began) >= 200
-
-
 def test_a_board_that_hears_nothing_says_nothing_and_takes_its_time(name):
     talk = talk_to(name)
     began = time.monotonic()

@@ -2,9 +2,9 @@
 
 import pytest
 
-from host_sim.commands.equality import IMAGES, REFERENCE, compare, first_difference, record
+from host_sim.bench.equality import IMAGES, REFERENCE, compare, first_difference, record
+from host_sim.bench.short_run import run_ticks
 from host_sim.commands.run_options import BOARDS
-from host_sim.commands.short_run import run_ticks
 from host_sim.emulated.start import start_board
 from host_sim.robots.connection import Connection
 
@@ -47,7 +47,7 @@ def test_a_log_that_ends_early_differs(tmp_path):
 
 
 def test_the_log_of_an_image_that_differs_is_left(tmp_path, monkeypatch):
-    module = "host_sim.commands.equality"
+    module = "host_sim.bench.equality"
     monkeypatch.setattr(f"{module}.record", lambda where, _seed, _ticks, log: log.write_text(f"{where}\n"))
 
     verdicts = list(compare([5], 10, tmp_path, ["qemu"]))

@@ -10,8 +10,8 @@ from contextlib import ExitStack
 import can
 import pytest
 
-from host_sim.commands.equality import REFERENCE, first_difference, record
-from host_sim.commands.short_run import run_ticks
+from host_sim.bench.equality import REFERENCE, first_difference, record
+from host_sim.bench.short_run import run_ticks
 from host_sim.emulated.__main__ import main
 from host_sim.emulated.joined import JoinedBoard
 from host_sim.emulated.start import start_board

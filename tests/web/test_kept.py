@@ -73,11 +73,3 @@ def test_keyboard_alone(page):
     assert page.evaluate("octet.scene.state.reason") == 5
     page.keyboard.press("Space")
     wait_for(page, "octet.playing")
-
-
-def test_it_is_there_within_a_second(kept, browser):
-    page = browser.new_page()
-    page.goto(kept.as_uri())
-    wait_for(page, READY)
-    assert page.evaluate("performance.now()") < 1000
-    page.close()

@@ -6,8 +6,8 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import NamedTuple
 
+from host_sim.bench.short_run import run_ticks
 from host_sim.commands.run_options import BOARDS
-from host_sim.commands.short_run import run_ticks
 from host_sim.robots.connection import connect
 
 REFERENCE = "host"

@@ -1,0 +1,1 @@
+"""How fast it all is, and whether it is the same everywhere: `tools/bench`."""

@@ -1,0 +1,34 @@
+"""`tools/bench`: each figure beside a reference measured in the same run on the same machine."""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict
+
+from host_sim.bench.figure import table
+from host_sim.bench.image_figures import compare_images, image_figures
+from host_sim.bench.lockstep_figures import lockstep_figures, measure_vcan
+from host_sim.bench.page_figures import page_figures
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Measures and tells; the exit code is 1 if a bar was missed."""
+    parser = argparse.ArgumentParser(prog="tools/bench", description="Measures speed, each beside a reference.")
+    add = parser.add_argument
+    add("--json", action="store_true", help="print JSON, not a table")
+    add("--equality", action="store_true", help="instead, compare long runs of all images with the host's")
+    add("--vcan", action="store_true", help="instead, only the pair of figures for vcan0, which must exist")
+    options = parser.parse_args(arguments)
+    if options.equality:
+        return 0 if compare_images() else 1
+    if options.vcan:
+        print(json.dumps(measure_vcan()))
+        return 0
+    figures = [*lockstep_figures(), *image_figures(), *page_figures()]
+    print(json.dumps([asdict(figure) for figure in figures], indent=2) if options.json else table(figures))
+    return 0 if all(figure.reached for figure in figures) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

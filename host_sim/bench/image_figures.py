@@ -1,0 +1,49 @@
+"""How fast the images that are flashed run on boards that are not there, and whether they do what the host does."""
+
+import time
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from host_sim.bench.equality import compare
+from host_sim.bench.figure import Figure, Rate, rate_figure
+from host_sim.bench.short_run import run_ticks
+from host_sim.commands.run_options import BOARDS
+from host_sim.robots.connection import connect
+
+_SEED, _TICKS = 1, 2000
+_EQUAL_SEEDS, _EQUAL_TICKS = 20, 10_000
+_REAL_TIME = Rate("real time", 50)
+_AT_LEAST = 200
+
+
+def image_figures() -> list[Figure]:
+    """Lockstep with each image, in a whole run with physics and log."""
+    emulated = [
+        rate_figure(
+            Rate(f"bxCAN image on an emulated {board}", _ticks_per_second("emulated", board), _AT_LEAST),
+            _REAL_TIME,
+            "Python, called for each register that the image touches",
+        )
+        for board in BOARDS
+    ]
+    in_qemu = Rate("slcan image in QEMU", _ticks_per_second("qemu", BOARDS[0]), _AT_LEAST)
+    return [*emulated, rate_figure(in_qemu, _REAL_TIME, "bytes going one by one through QEMU's serial line")]
+
+
+def compare_images() -> bool:
+    """Long runs of the host build, of the QEMU image and of both emulated boards: are all frames the same?"""
+    equal = True
+    with TemporaryDirectory() as folder:
+        for seed, where, difference in compare(range(1, _EQUAL_SEEDS + 1), _EQUAL_TICKS, Path(folder)):
+            print(f"seed {seed}, {_EQUAL_TICKS} ticks, {where}: {difference or 'equal'}", flush=True)
+            equal = equal and difference is None
+    return equal
+
+
+def _ticks_per_second(robot: str, board: str) -> float:
+    with ExitStack() as stack, TemporaryDirectory() as folder:
+        connection = connect(stack, "none", robot, 1, board=board)
+        began = time.perf_counter()
+        run_ticks(connection, _SEED, _TICKS, Path(folder) / "run.log")
+        return _TICKS / (time.perf_counter() - began)

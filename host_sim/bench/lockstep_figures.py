@@ -1,0 +1,138 @@
+"""How fast world and robot take turns: over a socket pair, over vcan, and in one process."""
+
+import json
+import os
+import socket
+import subprocess
+import sys
+import time
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import can
+
+from host_sim.bench.figure import ROUNDS, Figure, Rate, best, most_figure, rate_figure
+from host_sim.paths import BUILD, ROOT
+from host_sim.robots.connection import connect
+from host_sim.wire.lockstep import Lockstep
+from host_sim.wire.protocol import Protocol
+from host_sim.wire.record import Recorder
+from host_sim.wire.session import Session
+from host_sim.world.arena import Arena
+from host_sim.world.environment import World, generate
+from host_sim.world.simulation import Simulation
+
+_REFERENCE = BUILD / "host" / "tools" / "reference"
+_VCAN = "socketcan:vcan0"
+_TURNS, _VCAN_TURNS = 20_000, 2_000
+_LIMIT_S, _VCAN_LIMIT_S = 60.0, 20.0
+_SEED = 1
+
+
+def lockstep_figures() -> list[Figure]:
+    """Every figure of lockstep, and of the core alone."""
+    return [
+        rate_figure(
+            Rate("lockstep over a socket pair, with physics", best(lambda: _ticks_per_second("fd", _LIMIT_S)), 5000),
+            Rate("C ping-pong over a socket pair", best(_c_turns_per_second), 0.4),
+            "waking two processes a tick, then Python",
+        ),
+        _vcan_figure(),
+        rate_figure(
+            Rate("in process, with physics and log", best(lambda: _ticks_per_second("none", _LIMIT_S)), 50_000),
+            Rate("the arena alone", best(_arena_ticks_per_second)),
+            "Python: arena, codec and log in equal parts",
+        ),
+        most_figure("the core's tick, in C", _core_tick_ns(), "ns", 100, "the processor"),
+        most_figure("tools/run, one robot second, to its end", _start_s(), "s", 2, "importing Python's packages"),
+    ]
+
+
+def measure_vcan() -> dict[str, float]:
+    """Reference and our own figure, where vcan0 exists: the best of some, taken in turn."""
+    pairs = [(_python_can_turns_per_second(), _ticks_per_second(_VCAN, _VCAN_LIMIT_S)) for _ in range(ROUNDS)]
+    return {"reference": max(reference for reference, _ in pairs), "ours": max(ours for _, ours in pairs)}
+
+
+def _vcan_figure() -> Figure:
+    order = [os.fspath(ROOT / "tools" / "with-vcan"), sys.executable, "-m", "host_sim.bench", "--vcan"]
+    pair = json.loads(subprocess.run(order, capture_output=True, text=True, check=True).stdout)
+    return rate_figure(
+        Rate("lockstep over vcan, with physics", pair["ours"]),
+        Rate("python-can with a C echo", pair["reference"], 0.8),
+        "two trips through the kernel's CAN stack a tick, and Python's",
+    )
+
+
+def _ticks_per_second(bus: str, limit_s: float) -> float:
+    """Lockstep with physics and log: ticks by wall time, from the first to the last."""
+    with TemporaryDirectory() as folder, ExitStack() as stack:
+        recorder = Recorder(Path(folder) / "run.log")
+        stack.callback(recorder.close)
+        connection = connect(stack, bus, "spawn", 1)
+        session = Session(connection.link, Protocol(), recorder, status=connection.status)
+        session.greet(5.0)
+        session.start(_SEED, 0, {}, None)
+        simulation = Simulation(World(), session, Lockstep(session), _SEED, 3, limit_s)
+        began = time.perf_counter()
+        ticks = sum(chapter.ticks for chapter in simulation.run())
+        return ticks / (time.perf_counter() - began)
+
+
+def _arena_ticks_per_second() -> float:
+    """The arena alone, its robot turning in place."""
+    arena = Arena(generate(_SEED, 1, World()), World())
+    began = time.perf_counter()
+    for tick in range(_TURNS):
+        arena.sense(tick)
+        arena.move(200, -200)
+    return _TURNS / (time.perf_counter() - began)
+
+
+def _c_turns_per_second() -> float:
+    """Two C processes taking turns on a socket pair."""
+    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    program = os.fspath(_REFERENCE / "octet-pingpong")
+    with ours, theirs:
+        echo_order = [program, "echo", f"fd:{theirs.fileno()}"]
+        with subprocess.Popen(echo_order, pass_fds=[theirs.fileno()], stdout=subprocess.DEVNULL) as echo:
+            ping_order = [program, "ping", f"fd:{ours.fileno()}", str(_TURNS * 2)]
+            fds = [ours.fileno()]
+            ping = subprocess.run(ping_order, pass_fds=fds, capture_output=True, text=True, check=True)
+            echo.terminate()
+    return 1e6 / float(ping.stdout)
+
+
+def _python_can_turns_per_second() -> float:
+    """python-can and a C echo taking turns on vcan0."""
+    order = [os.fspath(_REFERENCE / "octet-pingpong"), "echo", _VCAN]
+    message = can.Message(arbitration_id=0x0C1, data=bytes(8), is_extended_id=False)
+    with subprocess.Popen(order, stdout=subprocess.PIPE) as echo, can.Bus("vcan0", "socketcan") as bus:
+        assert echo.stdout is not None
+        echo.stdout.readline()
+        began = time.perf_counter()
+        for _ in range(_VCAN_TURNS):
+            bus.send(message)
+            bus.recv(5.0)
+        seconds = time.perf_counter() - began
+        echo.terminate()
+    return _VCAN_TURNS / seconds
+
+
+def _core_tick_ns() -> float:
+    order = [os.fspath(_REFERENCE / "octet-core-tick")]
+    return float(subprocess.run(order, capture_output=True, text=True, check=True).stdout)
+
+
+def _start_s() -> float:
+    """The fastest of some starts of `tools/run`: to its end, which is later than its first tick."""
+    return min(_one_start_s() for _ in range(ROUNDS))
+
+
+def _one_start_s() -> float:
+    with TemporaryDirectory() as folder:
+        order = [f"{ROOT}/tools/run", "--environments", "1", "--limit-s", "1", "--quiet", "--out", folder]
+        began = time.perf_counter()
+        subprocess.run(order, check=True)
+        return time.perf_counter() - began

@@ -1,0 +1,133 @@
+"""How fast the pages are, in a real browser: drawing, lag, the cost of being watched, and a kept page's start."""
+
+import json
+import os
+import re
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from host_sim.bench.figure import ROUNDS, Figure, best, most_figure
+from host_sim.errors import OctetError
+
+_CHROMIUM = "/usr/bin/chromium"
+_READY = "window.octet?.scene?.state"
+_WIDTH, _HEIGHT = 1280, 800
+_FRAMES, _LAGS, _LAG_PAUSE_MS = 200, 40, 50.0
+_WATCHED_ENVIRONMENTS = 40  # long enough for the opening of the page not to count
+_PATIENCE_S = 30.0
+# Reading a pixel makes the browser finish the drawing.
+_TIME_DRAWING = """() => {
+    const draw = octet.renderer.draw.bind(octet.renderer);
+    octet.times = [];
+    octet.renderer.draw = (scene) => {
+        const began = performance.now();
+        draw(scene);
+        octet.renderer.context.getImageData(0, 0, 1, 1);
+        octet.times.push(performance.now() - began);
+    };
+}"""
+
+
+def page_figures() -> list[Figure]:
+    """Every figure of the pages."""
+    with sync_playwright() as playwright, TemporaryDirectory() as folder:
+        browser = playwright.chromium.launch(executable_path=_CHROMIUM, args=["--no-sandbox"])
+        try:
+            return _figures(browser, Path(folder))
+        finally:
+            browser.close()
+
+
+def _figures(browser: Browser, folder: Path) -> list[Figure]:
+    drawing_ms, lag_ms = _drawing_and_lag_ms(browser, folder)
+    alone = best(lambda: _watched_ticks_per_second(None, folder))
+    watched = best(lambda: _watched_ticks_per_second(browser, folder))
+    loss = 100 * (1 - watched / alone)
+    ready_ms = min(_kept_page_ms(browser, folder) for _ in range(ROUNDS))
+    return [
+        most_figure("drawing one frame, median", drawing_ms, "ms", 4, "canvas without a graphics card"),
+        most_figure("state on the page behind the robot, median", lag_ms, "ms", 100, "the page's 60 frames a second"),
+        Figure(
+            name="one watching page, at full speed",
+            value=round(loss, 1),
+            unit="% fewer ticks/s",
+            bar="<= 10",
+            reached=loss <= 10,  # noqa: PLR2004 - as the bar says
+            bound="two cores: the browser takes most of one",
+            reference=f"watched by nobody: {alone:.0f} ticks/s",
+            ratio=round(watched / alone, 2),
+        ),
+        most_figure("a kept page, to its first picture", ready_ms, "ms", 1000, "unpacking and laying out"),
+    ]
+
+
+@contextmanager
+def _watched_run(folder: Path, *words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """A run that serves a page: its process, and the address."""
+    order = [sys.executable, "-m", "host_sim", *words, "--bus", "none", "--port", "0", "--out", os.fspath(folder)]
+    with subprocess.Popen(order, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        try:
+            address = next(match[0] for line in process.stdout if (match := re.search(r"http://\S+", line)))
+            yield process, address
+        finally:
+            process.terminate()
+
+
+def _wait_for(page: Page, expression: str) -> None:
+    """Asks again and again: the page's own policy lets no one evaluate within it."""
+    give_up = time.monotonic() + _PATIENCE_S
+    while not page.evaluate(f"Boolean({expression})"):
+        if time.monotonic() > give_up:
+            raise OctetError(f"the page did not come to {expression} within {_PATIENCE_S:g} s")
+
+
+def _open(browser: Browser, address: str) -> Page:
+    page = browser.new_page(viewport={"width": _WIDTH, "height": _HEIGHT})
+    page.goto(address)
+    _wait_for(page, _READY)
+    return page
+
+
+def _drawing_and_lag_ms(browser: Browser, folder: Path) -> tuple[float, float]:
+    with _watched_run(folder, "watch", "--environments", "100") as (_, address):
+        page = _open(browser, address)
+        page.evaluate(_TIME_DRAWING)
+        _wait_for(page, f"octet.times.length > {_FRAMES}")
+        drawing_ms = statistics.median(page.evaluate("octet.times"))
+        lags_ms = []
+        for _ in range(_LAGS):
+            page.wait_for_timeout(_LAG_PAUSE_MS)
+            lags_ms.append(page.evaluate("octet.timing.lagMs"))
+        page.close()
+    return drawing_ms, statistics.median(lags_ms)
+
+
+def _watched_ticks_per_second(browser: Browser | None, folder: Path) -> float:
+    """A run at full speed that serves a page, from its summary; with a browser, that page is open all the while."""
+    words = ("run", "--watch", "--environments", str(_WATCHED_ENVIRONMENTS))
+    with _watched_run(folder, *words) as (process, address):
+        page = None if browser is None else _open(browser, address)
+        assert process.stdout is not None
+        process.stdout.read()
+        if page is not None:
+            page.close()
+    summary = json.loads((folder / "summary.json").read_text())
+    ticks = sum(entry["ticks"] for entry in summary["environments"])
+    return float(ticks / summary["wall_s"])
+
+
+def _kept_page_ms(browser: Browser, folder: Path) -> float:
+    began = time.perf_counter()
+    page = _open(browser, (folder / "replay.html").as_uri())
+    ready_ms = (time.perf_counter() - began) * 1e3
+    page.close()
+    return ready_ms
