@@ -183,13 +183,13 @@ def _cell(point: Point) -> tuple[int, int]:
 def _reachable(environment: Environment, world: World) -> NDArray[np.bool_]:
     """The cells of the grid that the middle of the body can get to from the start: shape (rows, columns)."""
     free = _free(environment.bars, world)
-    columns, todo = free.shape[1], [int(np.ravel_multi_index(_cell(environment.start[:2]), free.shape))]
+    columns, frontier = free.shape[1], [int(np.ravel_multi_index(_cell(environment.start[:2]), free.shape))]
     unvisited = bytearray(free.tobytes())
-    while todo:
-        cell = todo.pop()
+    while frontier:
+        cell = frontier.pop()
         if unvisited[cell]:
             unvisited[cell] = False
-            todo += (cell - 1, cell + 1, cell - columns, cell + columns)
+            frontier += (cell - 1, cell + 1, cell - columns, cell + columns)
     left: NDArray[np.bool_] = np.frombuffer(unvisited, dtype=bool).reshape(free.shape)
     return free & ~left
 

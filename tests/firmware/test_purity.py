@@ -1,0 +1,47 @@
+"""The core asks nothing of anyone: no heap, no clock, no operating system, no floating point, no conditional code."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+CORE = sorted(path for path in (ROOT / "firmware").glob("*.c") if path.name != "main.c")
+ALLOWED = {"memcpy", "memset"}
+IMPURE = {
+    "the heap": "#include <stdlib.h>\nvoid *f(void) { return malloc(8); }\n",
+    "the clock": "#include <time.h>\ntime_t f(void) { return time(0); }\n",
+    "the console": "#include <stdio.h>\nint f(void) { return puts(\"x\"); }\n",
+}
+
+
+def wanted_by(sources: list[Path], folder: Path) -> set[str]:
+    """What these sources, linked into one object, still want from others."""
+    program = folder / "linked.o"
+    compiler = ["gcc", "-std=c99", "-O2", "-fno-stack-protector", "-I", ROOT, "-r", "-nostdlib", "-o", program]
+    subprocess.run([*compiler, *sources], check=True)
+    listed = subprocess.run(["nm", "--undefined-only", program], check=True, capture_output=True, text=True).stdout
+    return {line.split()[-1] for line in listed.splitlines()} - {"_GLOBAL_OFFSET_TABLE_"}
+
+
+def test_the_core_wants_nothing_but_copying_and_clearing(tmp_path):
+    assert len(CORE) >= 8
+    assert wanted_by(CORE, tmp_path) <= ALLOWED
+
+
+@pytest.mark.parametrize("source", IMPURE.values(), ids=IMPURE.keys())
+def test_whoever_wants_more_is_noticed(source, tmp_path):
+    impure = tmp_path / "impure.c"
+    impure.write_text(source)
+
+    assert not wanted_by([*CORE, impure], tmp_path) <= ALLOWED
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "firmware").glob("*.[ch]")), ids=lambda path: path.name)
+def test_the_core_is_the_same_everywhere_and_counts_in_whole_numbers(path):
+    text = path.read_text()
+    guards = re.findall(r"^#\s*(?:if|ifdef|ifndef|elif)\b.*$", text, re.MULTILINE)
+
+    assert guards == ([f"#ifndef OCTET_{path.stem.upper()}_H"] if path.suffix == ".h" else [])
+    assert re.findall(r"\b(?:float|double)\b|\d\.\d+f?\b", re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)) == []
