@@ -55,7 +55,10 @@ def test_every_command_in_the_documents_does_what_it_should(folder):
 @pytest.mark.parametrize("line", commands("until-stopped"))
 def test_commands_that_go_on_until_stopped_do_so_and_end_well(line, folder):
     ours, theirs = pty.openpty()
-    process = subprocess.Popen(f"exec {line}", shell=True, cwd=folder, stdin=theirs, stdout=theirs, stderr=theirs)
+    terminal = {**os.environ, "TERM": "xterm"}  # a test machine may have none
+    process = subprocess.Popen(
+        f"exec {line}", shell=True, cwd=folder, env=terminal, stdin=theirs, stdout=theirs, stderr=theirs
+    )
     os.close(theirs)
 
     first = os.read(ours, 1024)
