@@ -26,7 +26,7 @@ examples:
   tools/run --seed 7 --environments 1 --real-time    one, as fast as a real robot
   tools/run --memory robot.mem                       go on with what was learned last time
   tools/run --set turn_deg=20 --set boredom_limit=6  another character
-  tools/run --robot emulated --board stm32f103        the very image that is flashed
+  tools/run --robot emulated --board stm32f103       the very image that is flashed
   tools/run --bus socketcan:can0 --robot external --real-time
                                                      a real robot on a real bus
 """

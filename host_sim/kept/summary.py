@@ -102,7 +102,7 @@ def environment_line(number: int, chapter: Chapter) -> str:
         number: 1 for the first.
         chapter: What happened there.
     """
-    end = "all food found" if chapter.finished else f"{sum(chapter.eaten)} food found, time up,"
+    end = "all food found" if chapter.finished else f"{sum(chapter.eaten)} of {len(chapter.eaten)} food found"
     trials, known, bored = (chapter.begun.get(reason, 0) for reason in (TRIAL, REMEMBERED, BOREDOM))
     return (
         f"environment {number}   {end} in {chapter.robot_s:.0f} s; {trials} trials, {known} remembered turns, "
