@@ -1,0 +1,189 @@
+#include "fake_body.h"
+
+#include <string.h>
+
+#include "hal/can/crc8.h"
+
+struct fake fake;
+struct hal *hal;
+struct input in;
+
+/* ---- the fake port */
+
+int port_open(struct port *port, int argc, char *const argv[])
+{
+    (void)argc;
+    (void)argv;
+    *port = (struct port){.link = "fake", .node = NODE};
+    return fake.port_result;
+}
+
+void port_ready(const struct port *port)
+{
+    TEST_ASSERT_EQUAL_UINT8(NODE, port->node);
+}
+
+uint32_t port_clock_ms(void)
+{
+    return UINT32_MAX - 50 + fake.clock_ms;   /* wraps within each test */
+}
+
+int port_load(uint8_t memory[CELL_COUNT])
+{
+    memory[1] = 2;
+    return fake.store_result;
+}
+
+void port_alive(bool outage)
+{
+    const uint32_t waited_ms = fake.clock_ms - fake.alive_ms;
+
+    (void)outage;
+    if (waited_ms > fake.longest_wait_ms)
+        fake.longest_wait_ms = waited_ms;
+    fake.alive_ms = fake.clock_ms;
+}
+
+int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
+{
+    TEST_ASSERT_EQUAL_UINT8(2, memory[1]);
+    if (fake.needs_rest && effort == PORT_QUICKLY)
+        return PORT_LATER;
+    fake.stores++;
+    return fake.store_result;
+}
+
+uint32_t port_entropy(void)
+{
+    return 0xC0FFEE;
+}
+
+/* ---- the fake link */
+
+int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count)
+{
+    TEST_ASSERT_EQUAL_STRING("fake", name);
+    TEST_ASSERT_EQUAL_size_t(WIRE_LISTEN_COUNT, id_count);
+    memcpy(fake.ids, ids, sizeof fake.ids);
+    *link = NULL;
+    return fake.open_result;
+}
+
+static int failed(uint32_t wait_ms)
+{
+    fake.closed = fake.failure == LINK_E_CLOSED;
+    if (fake.failure == LINK_E_DOWN)
+        fake.clock_ms += wait_ms;
+    return fake.failure;
+}
+
+int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
+{
+    const struct event *event = &fake.script[fake.next];
+
+    (void)link;
+    fake.receives++;
+    if (fake.closed)
+        return LINK_E_CLOSED;
+    if (fake.receives == fake.failing_receive)
+        return failed(wait_ms);
+    if (fake.next == fake.events || (int32_t)(event->at_ms - fake.clock_ms) > (int32_t)wait_ms) {
+        fake.clock_ms += wait_ms;
+        return 0;
+    }
+    fake.next++;
+    if ((int32_t)(event->at_ms - fake.clock_ms) > 0)
+        fake.clock_ms = event->at_ms;
+    *out = event->frame;
+    return event->result;
+}
+
+int link_send(struct link *link, const struct frame *frame)
+{
+    (void)link;
+    if (fake.closed)
+        return LINK_E_CLOSED;
+    if (fake.sends + 1 == fake.failing_send) {
+        fake.sends++;
+        return failed(0);
+    }
+    TEST_ASSERT_LESS_THAN_UINT(SENT_MAX, fake.sends);
+    fake.sent[fake.sends++] = *frame;
+    return 0;
+}
+
+void link_health(const struct link *link, struct link_health *out)
+{
+    (void)link;
+    *out = (struct link_health){.state = BUS_ACTIVE};
+}
+
+int open_body(void)
+{
+    return hal_open(&hal, 0, NULL);
+}
+
+void setUp(void)
+{
+    memset(&fake, 0, sizeof fake);
+    TEST_ASSERT_EQUAL(0, open_body());
+}
+
+void tearDown(void) {}
+
+void happens(uint32_t at_ms, int result, struct frame frame)
+{
+    TEST_ASSERT_LESS_THAN_UINT(SCRIPT_MAX, fake.events);
+    fake.script[fake.events++] = (struct event){.at_ms = at_ms, .result = result, .frame = frame};
+}
+
+static struct frame sealed(struct frame frame)
+{
+    frame.data[0] = crc8_of_frame(&frame);
+    return frame;
+}
+
+void senses_come(uint32_t at_ms, uint16_t tick)
+{
+    const struct octet_senses_t senses = {.tick = tick};
+    struct frame frame = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH};
+
+    octet_senses_pack(frame.data, &senses, sizeof frame.data);
+    happens(at_ms, 1, sealed(frame));
+}
+
+void command_comes(uint32_t at_ms, struct octet_command_t command)
+{
+    struct frame frame = {.id = OCTET_COMMAND_FRAME_ID, .len = OCTET_COMMAND_LENGTH};
+
+    octet_command_pack(frame.data, &command, sizeof frame.data);
+    happens(at_ms, 1, sealed(frame));
+}
+
+void noise_comes(uint32_t at_ms)
+{
+    happens(at_ms, 1, (struct frame){.id = 0x7FF});
+}
+
+int receive(void)
+{
+    return hal_receive(hal, &in);
+}
+
+struct octet_faults_t faults(void)
+{
+    const struct output out = {.has_report = true};
+    struct octet_faults_t reported;
+
+    fake.failing_send = NEVER;
+    TEST_ASSERT_EQUAL(0, hal_send(hal, &out));
+    TEST_ASSERT_EQUAL(0, octet_faults_unpack(&reported, fake.sent[fake.sends - 1].data, OCTET_FAULTS_LENGTH));
+    return reported;
+}
+
+void assert_faults(struct octet_faults_t expected)
+{
+    const struct octet_faults_t actual = faults();
+
+    TEST_ASSERT_EQUAL_MEMORY(&expected, &actual, sizeof actual);
+}

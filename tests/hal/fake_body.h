@@ -1,0 +1,60 @@
+/* fake_body.h: the CAN body between a fake link and a fake port: what happens to it is a script, and its clock moves only
+ * while it waits. The link fails on plan, at the n-th call. */
+#ifndef OCTET_FAKE_BODY_H
+#define OCTET_FAKE_BODY_H
+
+#include <unity.h>
+
+#include "hal/can/port.h"
+#include "hal/can/wire.h"
+#include "octet.h"
+
+enum { NODE = 1, SCRIPT_MAX = 64, SENT_MAX = 256, NEVER = 0, FRAMES = WIRE_FRAMES_MAX - 1 /* no crash */ };
+
+/* What the fake link does, in order: at a time, a result of link_receive, with a frame if that is 1. */
+struct event {
+    uint32_t at_ms;
+    int result;
+    struct frame frame;
+};
+
+/* The fake link and the fake port. Time begins at 0 and passes only while the link waits. */
+struct fake {
+    uint32_t clock_ms;
+    struct event script[SCRIPT_MAX];
+    unsigned events, next;
+    unsigned receives, failing_receive;   /* link_receive fails at this call, counted from 1 */
+    unsigned sends, failing_send;
+    int failure;
+    bool closed;
+    struct frame sent[SENT_MAX];
+    int open_result, port_result, store_result;
+    bool needs_rest;                      /* to store anything */
+    unsigned stores;                      /* that were not put off */
+    uint32_t alive_ms, longest_wait_ms;   /* without a sign of life */
+    uint16_t ids[WIRE_LISTEN_COUNT];
+};
+
+extern struct fake fake;
+extern struct hal *hal;     /* the body, open */
+extern struct input in;     /* what receive took */
+
+int open_body(void);
+        /* Opens it again, as things are; result of hal_open. */
+
+void happens(uint32_t at_ms, int result, struct frame frame);
+void senses_come(uint32_t at_ms, uint16_t tick);
+void command_comes(uint32_t at_ms, struct octet_command_t command);
+void noise_comes(uint32_t at_ms);
+        /* One more event of the script. */
+
+int receive(void);
+        /* hal_receive into `in`. */
+
+struct octet_faults_t faults(void);
+        /* What the robot itself reports of its faults, with nothing failing any more. */
+
+void assert_faults(struct octet_faults_t expected);
+        /* The robot reports exactly these. */
+
+#endif

@@ -1,0 +1,169 @@
+/* Sending and storing, and a link that fails on plan. */
+#include "fake_body.h"
+
+static void test_a_drive_goes_out(void)
+{
+    const struct output out = {.has_drive = true};
+
+    TEST_ASSERT_EQUAL(0, hal_send(hal, &out));
+    TEST_ASSERT_EQUAL_UINT(1, fake.sends);
+    TEST_ASSERT_EQUAL_UINT32(OCTET_DRIVE_FRAME_ID, fake.sent[0].id);
+}
+
+static void test_a_closed_link_takes_no_drive(void)
+{
+    const struct output out = {.has_drive = true};
+
+    fake.closed = true;
+    TEST_ASSERT_EQUAL(HAL_E_CLOSED, hal_send(hal, &out));
+}
+
+static void assert_only_frame_n_is_lost(unsigned n, int failure)
+{
+    const struct output out = {.has_answer = true, .has_report = true, .has_memory = true, .has_drive = true};
+
+    setUp();
+    fake.failing_send = n;
+    fake.failure = failure;
+    TEST_ASSERT_EQUAL(0, hal_send(hal, &out));
+    TEST_ASSERT_EQUAL_UINT(FRAMES, fake.sends);
+    assert_faults((struct octet_faults_t){.unsent = 1});
+}
+
+static void test_a_frame_that_the_bus_does_not_take_is_counted_and_the_rest_goes_out(void)
+{
+    for (unsigned n = 1; n <= FRAMES; n++) {
+        assert_only_frame_n_is_lost(n, LINK_E_FULL);
+        assert_only_frame_n_is_lost(n, LINK_E_DOWN);
+    }
+}
+
+/* Twenty ticks with an outage in the middle, and a failure at the n-th look at the link. */
+static int live_through(unsigned n, int failure)
+{
+    int result = 0;
+
+    setUp();
+    fake.failing_receive = n;
+    fake.failure = failure;
+    for (uint16_t tick = 0; tick < 20; tick++)
+        senses_come(20u * tick + (tick < 10 ? 0 : 300), tick);
+    while (result >= 0 && fake.next < fake.events)
+        result = receive();
+    return result;
+}
+
+static void test_whenever_a_bus_is_down_for_a_while_life_goes_on(void)
+{
+    for (unsigned n = 1; n <= 25; n++)
+        TEST_ASSERT_EQUAL(HAL_SENSES, live_through(n, LINK_E_DOWN));
+}
+
+static void test_whenever_something_is_no_frame_it_is_counted_and_life_goes_on(void)
+{
+    for (unsigned n = 1; n <= 20; n++) {
+        TEST_ASSERT_EQUAL(HAL_SENSES, live_through(n, LINK_E_GARBLED));
+        TEST_ASSERT_EQUAL_UINT8(1, faults().damaged);
+    }
+}
+
+static void test_whenever_the_link_closes_the_robot_ends(void)
+{
+    for (unsigned n = 1; n <= 20; n++)
+        TEST_ASSERT_EQUAL(HAL_E_CLOSED, live_through(n, LINK_E_CLOSED));
+}
+
+static void test_a_memory_is_loaded_and_stored_through_the_port(void)
+{
+    uint8_t memory[CELL_COUNT] = {0};
+
+    fake.store_result = 1;
+    TEST_ASSERT_EQUAL(1, hal_load(hal, memory));
+    fake.store_result = 0;
+    TEST_ASSERT_EQUAL(0, hal_store(hal, memory));
+    assert_faults((struct octet_faults_t){.unsaved = 0});
+}
+
+static void test_a_memory_that_could_not_be_stored_is_counted(void)
+{
+    static const uint8_t memory[CELL_COUNT] = {0, 2};
+
+    fake.store_result = HAL_E_STORE;
+    TEST_ASSERT_EQUAL(HAL_E_STORE, hal_store(hal, memory));
+    assert_faults((struct octet_faults_t){.unsaved = 1});
+}
+
+static void test_a_stored_memory_that_is_none_is_counted(void)
+{
+    uint8_t memory[CELL_COUNT];
+
+    fake.store_result = HAL_E_STORE;
+    TEST_ASSERT_EQUAL(HAL_E_STORE, hal_load(hal, memory));
+    assert_faults((struct octet_faults_t){.unsaved = 1});
+}
+
+static void test_a_memory_never_stored_is_no_fault(void)
+{
+    uint8_t memory[CELL_COUNT];
+
+    TEST_ASSERT_EQUAL(0, hal_load(hal, memory));
+    assert_faults((struct octet_faults_t){.unsaved = 0});
+}
+
+static void store_later(void)
+{
+    static const uint8_t memory[CELL_COUNT] = {0, 2};
+
+    fake.needs_rest = true;
+    TEST_ASSERT_EQUAL(0, hal_store(hal, memory));
+}
+
+static void test_storing_that_takes_long_waits_for_a_silence(void)
+{
+    store_later();
+    TEST_ASSERT_EQUAL_UINT(0, fake.stores);
+    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT(1, fake.stores);
+    assert_faults((struct octet_faults_t){.unsaved = 0});
+}
+
+static void test_what_was_put_off_is_stored_once(void)
+{
+    store_later();
+    for (unsigned i = 0; i < 3; i++)
+        TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT(1, fake.stores);
+}
+
+static void test_what_was_put_off_and_could_not_be_stored_is_counted(void)
+{
+    store_later();
+    fake.store_result = HAL_E_STORE;
+    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    assert_faults((struct octet_faults_t){.unsaved = 1});
+}
+
+static void test_entropy_is_the_ports(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0xC0FFEE, hal_entropy(hal));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_drive_goes_out);
+    RUN_TEST(test_a_closed_link_takes_no_drive);
+    RUN_TEST(test_a_frame_that_the_bus_does_not_take_is_counted_and_the_rest_goes_out);
+    RUN_TEST(test_whenever_a_bus_is_down_for_a_while_life_goes_on);
+    RUN_TEST(test_whenever_something_is_no_frame_it_is_counted_and_life_goes_on);
+    RUN_TEST(test_whenever_the_link_closes_the_robot_ends);
+    RUN_TEST(test_a_memory_is_loaded_and_stored_through_the_port);
+    RUN_TEST(test_a_memory_that_could_not_be_stored_is_counted);
+    RUN_TEST(test_a_stored_memory_that_is_none_is_counted);
+    RUN_TEST(test_a_memory_never_stored_is_no_fault);
+    RUN_TEST(test_storing_that_takes_long_waits_for_a_silence);
+    RUN_TEST(test_what_was_put_off_is_stored_once);
+    RUN_TEST(test_what_was_put_off_and_could_not_be_stored_is_counted);
+    RUN_TEST(test_entropy_is_the_ports);
+    return UNITY_END();
+}
