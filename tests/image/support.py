@@ -86,3 +86,13 @@ def is_rest(said: Said) -> bool:
 def counted(report: dict[str, int]) -> dict[str, int]:
     """The fault counters that are not zero."""
     return {name: report[name] for name in COUNTERS if report[name]}
+
+
+def write(peripheral, offset, value):
+    """Writes a register of a model."""
+    peripheral.registers[offset].write(value)
+
+
+def read(peripheral, offset):
+    """Reads one."""
+    return peripheral.registers[offset].read()

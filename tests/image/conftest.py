@@ -1,0 +1,10 @@
+"""What the models stand on."""
+
+import pytest
+
+from host_sim.emulated.clock import Clock
+
+
+@pytest.fixture
+def clock():
+    return Clock(8_000_000)

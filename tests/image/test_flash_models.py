@@ -1,0 +1,148 @@
+"""The models of both kinds of flash, against the reference manuals."""
+
+import pytest
+
+from host_sim.emulated.clock import SECOND
+from host_sim.emulated.errors import BoardError, PowerCut
+from host_sim.emulated.flash import FlashFaults
+from host_sim.emulated.flash_f1 import FlashF1
+from host_sim.emulated.flash_f4 import FlashF4
+from tests.image.support import read, write
+
+KEYR, SR, CR = 0x04, 0x0C, 0x10
+KEYS = (0x45670123, 0xCDEF89AB)
+
+
+def unlocked(flash):
+    for key in KEYS:
+        write(flash, KEYR, key)
+    return flash
+
+
+def f1(clock, **faults):
+    return unlocked(FlashF1(clock, FlashFaults(**faults)))
+
+
+def f4(clock, **faults):
+    return unlocked(FlashF4(clock, FlashFaults(**faults)))
+
+
+def test_an_f1_page_is_erased_and_nothing_else(clock):
+    flash = f1(clock)
+    flash.memory[:] = bytes(len(flash.memory))
+
+    write(flash, CR, 1 << 1)
+    write(flash, 0x14, 0x08000000 + 63 * 1024)
+    write(flash, CR, 1 << 1 | 1 << 6)
+
+    assert flash.memory[63 * 1024 :] == b"\xff" * 1024
+    assert not any(flash.memory[: 63 * 1024])
+    assert clock.now >= SECOND // 50
+
+
+def test_an_f1_half_word_is_written_once(clock):
+    flash = f1(clock)
+    write(flash, CR, 1)
+
+    flash.write(0x100, 2, 0x1234)
+    first = read(flash, SR)
+    flash.write(0x100, 2, 0x1200)
+
+    assert (first, read(flash, SR)) == (0, 1 << 2)
+    assert flash.read(0x100, 2) == 0x1234
+    write(flash, SR, 1 << 2)
+    flash.write(0x100, 2, 0)
+    assert (flash.read(0x100, 2), read(flash, SR)) == (0, 0)
+
+
+@pytest.mark.parametrize(("programming", "width"), [(0, 2), (1, 4), (1, 1)])
+def test_an_f1_refuses_other_writes(clock, programming, width):
+    flash = f1(clock)
+    write(flash, CR, programming)
+
+    flash.write(0x100, width, 0x12)
+
+    assert read(flash, SR) == 1 << 2
+    assert flash.read(0x100, 2) == 0xFFFF
+
+
+def test_an_f4_sector_is_erased_and_nothing_else(clock):
+    flash = f4(clock)
+    flash.memory[:] = bytes(len(flash.memory))
+
+    write(flash, CR, 1 << 1 | 4 << 3 | 1 << 16)
+
+    assert flash.memory.count(0xFF) == 64 << 10
+    assert set(flash.memory[64 << 10 : 128 << 10]) == {0xFF}
+
+
+def test_an_f4_write_clears_bits_and_sets_none(clock):
+    flash = f4(clock)
+    write(flash, CR, 1 | 2 << 8)
+
+    flash.write(0x4000, 4, 0xFFFF0F0F)
+    flash.write(0x4000, 4, 0x0FFFFFFF)
+
+    assert flash.read(0x4000, 4) == 0x0FFF0F0F
+    assert read(flash, SR) == 0
+
+
+@pytest.mark.parametrize(("control", "flag"), [(0, 1 << 7), (1, 1 << 6)])
+def test_an_f4_refuses_writes_of_another_size_or_without_consent(clock, control, flag):
+    flash = f4(clock)
+    write(flash, CR, control)
+
+    flash.write(0x4000, 4, 0)
+
+    assert read(flash, SR) == flag
+    assert flash.read(0x4000, 4) == 0xFFFFFFFF
+
+
+def test_a_locked_flash_takes_no_orders(clock):
+    flash = FlashF4(clock, FlashFaults())
+
+    with pytest.raises(BoardError, match="locked"):
+        write(flash, CR, 1)
+    with pytest.raises(BoardError, match="wrong key"):
+        write(flash, KEYR, KEYS[1])
+
+
+def test_the_image_cannot_change_itself(clock):
+    flash = f4(clock)
+    flash.code_end = 0x4000
+    write(flash, CR, 1 | 2 << 8)
+
+    with pytest.raises(BoardError, match="change itself at 0x08001000"):
+        flash.write(0x1000, 4, 0)
+    with pytest.raises(BoardError, match="change itself"):
+        write(flash, CR, 1 << 1 | 1 << 16)
+
+
+def test_a_page_that_does_not_exist_is_named(clock):
+    flash = f1(clock)
+    write(flash, 0x14, 0x08010000)
+
+    write(flash, CR, 2)
+    with pytest.raises(BoardError, match="page 64"):
+        write(flash, CR, 2 | 1 << 6)
+
+
+def test_a_write_can_be_made_to_fail(clock):
+    flash = f4(clock, failing=frozenset({2}))
+    write(flash, CR, 1 | 2 << 8)
+
+    for offset in (0x4000, 0x4004, 0x4008):
+        flash.write(offset, 4, 0)
+
+    assert [flash.read(offset, 4) for offset in (0x4000, 0x4004, 0x4008)] == [0, 0xFFFFFFFF, 0]
+    assert read(flash, SR) == 1 << 1
+
+
+def test_a_write_can_be_cut_in_the_middle(clock):
+    flash = f1(clock, cut_at=1)
+    write(flash, CR, 1)
+
+    with pytest.raises(PowerCut):
+        flash.write(0x100, 2, 0)
+
+    assert flash.read(0x100, 2) == 0x0F0F

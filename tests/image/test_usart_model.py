@@ -1,0 +1,96 @@
+"""The model of the serial line, and of what comes over it."""
+
+import pytest
+
+from host_sim.emulated.can_frame import CanFrame
+from host_sim.emulated.clock import SECOND, Clock
+from host_sim.emulated.errors import BoardError
+from host_sim.emulated.slcan_line import SlcanLine
+from host_sim.emulated.usart import Usart
+from tests.image.support import read, write
+
+
+class Port:
+    """USART1 by itself, set up for 115200 baud from 72 MHz."""
+
+    def __init__(self):
+        self.clock, self.heard = Clock(72_000_000), []
+        self.usart = Usart(self.clock, lambda: 72_000_000, self.heard.append)
+        write(self.usart, 0x08, 625)
+        write(self.usart, 0x0C, 1 << 13 | 3 << 2)
+
+    def pass_us(self, us):
+        self.clock.skip(us * SECOND // 10**6)
+
+    def status(self):
+        return read(self.usart, 0x00)
+
+
+def test_bytes_come_one_by_one_at_the_lines_speed():
+    port = Port()
+    port.usart.feed(b"ab")
+
+    port.pass_us(86)
+    early = port.status()
+    port.pass_us(1)
+    first = port.status(), read(port.usart, 0x04)
+    port.pass_us(87)
+
+    assert (early, first, read(port.usart, 0x04)) == (0xC0, (0xE0, ord("a")), ord("b"))
+    assert port.status() == 0xC0
+
+
+def test_a_byte_that_is_not_taken_costs_the_next():
+    port = Port()
+    port.usart.feed(b"abc")
+
+    port.pass_us(200)
+    status, byte = port.status(), read(port.usart, 0x04)
+    port.pass_us(87)
+
+    assert (status & 8, byte, port.status() & 8, read(port.usart, 0x04)) == (8, ord("a"), 0, ord("c"))
+
+
+def test_two_bytes_can_be_on_their_way_out():
+    port = Port()
+    write(port.usart, 0x04, ord("x"))
+    one = port.status()
+    write(port.usart, 0x04, ord("y"))
+    two = port.status()
+
+    with pytest.raises(BoardError, match="TXE"):
+        write(port.usart, 0x04, ord("z"))
+    port.pass_us(87)
+    assert (one & 0xC0, two & 0xC0, port.status() & 0xC0) == (0x80, 0, 0x80)
+    port.pass_us(87)
+    assert (bytes(port.heard), port.status() & 0xC0) == (b"xy", 0xC0)
+
+
+def test_without_its_receiver_bytes_are_lost():
+    port = Port()
+    write(port.usart, 0x0C, 0)
+
+    port.usart.feed(b"a")
+    port.pass_us(100)
+
+    assert port.status() == 0xC0
+
+
+def test_another_speed_than_the_lines_is_an_error():
+    usart = Usart(Clock(1), lambda: 8_000_000, lambda _byte: None)
+    write(usart, 0x08, 625)
+
+    with pytest.raises(BoardError, match="12800 baud"):
+        write(usart, 0x0C, 1 << 13)
+    with pytest.raises(BoardError, match="interrupts"):
+        write(usart, 0x0C, 1 << 5)
+
+
+def test_a_line_that_is_no_frame_is_dropped():
+    heard = []
+    line = SlcanLine(heard.append)
+
+    for byte in b"z\rt0811AB\r\r":
+        line.take(byte)
+
+    assert heard == [CanFrame(0x81, b"\xab")]
