@@ -11,7 +11,7 @@ static void wake(struct robot *robot, struct hal *hal)
         (void)memory_adopt(&robot->brain.memory, cells);
 }
 
-static int live_one_tick(struct robot *robot, struct hal *hal)
+static int run_once(struct robot *robot, struct hal *hal)
 {
     struct input in;
     struct output out;
@@ -37,7 +37,7 @@ int main(int argc, char *argv[])
         return -result;
     wake(&robot, hal);
     do
-        result = live_one_tick(&robot, hal);
+        result = run_once(&robot, hal);
     while (result >= 0);
     return result == HAL_E_CLOSED ? 0 : -result;
 }

@@ -11,7 +11,7 @@ enum {
     WAY_LIMIT = 16000,                             /* of way_left: likewise */
     WAY_PRECISION = 5,                             /* 0.25 mm, as the sum of two wheels' counts */
     COUNTS_PER_MM = 2 * ODOMETER_COUNTS_PER_MM,    /* of both wheels together */
-    PATIENCE_TICKS = 25                            /* beyond twice the ticks that an action needs */
+    TIMEOUT_MARGIN_TICKS = 25                            /* beyond twice the ticks that an action needs */
 };
 
 static uint32_t magnitude(int32_t x)
@@ -114,13 +114,13 @@ static enum kind kind_of(const struct action *action)
 }
 
 /* Ticks to allow: twice what the action needs at full speed, and a little. */
-static uint16_t patience(const struct motion *motion, const struct config *config)
+static uint16_t timeout_ticks(const struct motion *motion, const struct config *config)
 {
     uint32_t counts_per_tick = full_speed(motion, config) * COUNTS_PER_MM * config->value[TICK_MS] / 1000;
 
     if (motion->kind == REST)
         return 1;
-    return (uint16_t)(2 * magnitude(counts_left(motion)) / counts_per_tick + PATIENCE_TICKS);
+    return (uint16_t)(2 * magnitude(counts_left(motion)) / counts_per_tick + TIMEOUT_MARGIN_TICKS);
 }
 
 void motion_begin(struct motion *motion, const struct config *config, const struct action *action)
@@ -131,7 +131,7 @@ void motion_begin(struct motion *motion, const struct config *config, const stru
     motion->kind = (uint8_t)kind_of(action);
     motion->turn_left += action->turn_deg * (int32_t)turn_per_degree(config);
     motion->way_left = (int16_t)(action->forward_mm * COUNTS_PER_MM);
-    motion->ticks_left = patience(motion, config);
+    motion->ticks_left = timeout_ticks(motion, config);
 }
 
 void motion_drive(const struct motion *motion, const struct config *config, struct drive *drive)

@@ -85,7 +85,7 @@ static void respond_to_senses(struct robot *robot, const struct senses *senses, 
 
 static void respond_to_command(struct robot *robot, const struct command *command, struct output *out)
 {
-    out->answer = robot_obey(robot, command);
+    out->answer = robot_execute(robot, command);
     out->has_answer = true;
     if (command->opcode == OPCODE_STOP)
         add_report(robot, out);

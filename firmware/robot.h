@@ -24,7 +24,7 @@ void robot_init(struct robot *robot, uint32_t seed);
 void robot_step(struct robot *robot, const struct senses *senses, struct drive *drive);
         /* One tick: fills *drive for these senses. A stopped robot's wheels rest. */
 
-enum result robot_obey(struct robot *robot, const struct command *command);
+enum result robot_execute(struct robot *robot, const struct command *command);
         /* Carries out one command, or says why not and changes nothing. */
 
 void robot_respond(struct robot *robot, enum hal_input kind, const struct input *in, struct output *out);

@@ -2,7 +2,7 @@
 
 import sys
 
-from host_sim.cli import main
+from host_sim.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main())

@@ -51,8 +51,10 @@ MUTANTS = {
     ),
     "silence names no tick": Mutant("robot", "    rest(robot, &out->drive);\n", ""),
     "trials eat": Mutant("robot", "drive->reason == REASON_EAT", "drive->reason >= REASON_TRIAL"),
-    "a stop goes on": Mutant("obey", "    robot->running = false;", "    ;"),
-    "a start forgets": Mutant("obey", "    motion_start(&robot->motion);", "    memory_erase(&robot->brain.memory);"),
+    "a stop goes on": Mutant("commands", "    robot->running = false;", "    ;"),
+    "a start forgets": Mutant(
+        "commands", "    motion_start(&robot->motion);", "    memory_erase(&robot->brain.memory);"
+    ),
 }
 
 

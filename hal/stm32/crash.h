@@ -2,7 +2,7 @@
 #ifndef OCTET_CRASH_H
 #define OCTET_CRASH_H
 
-#include "hal/can/health.h"
+#include "hal/protocol/health.h"
 
 enum {
     CRASH_FRAME_WORDS = 8   /* what the core pushes when an exception comes: r0..r3, r12, lr, pc, psr */

@@ -1,5 +1,5 @@
 /* A microcontroller as a port. */
-#include "hal/can/port.h"
+#include "hal/can_body/port.h"
 
 #include "hal/flash_store/flash.h"
 #include "hal/flash_store/flash_store.h"

@@ -6,9 +6,9 @@ from itertools import zip_longest
 from pathlib import Path
 from typing import NamedTuple
 
+from host_sim.backends.connection import connect
 from host_sim.bench.short_run import run_ticks
-from host_sim.commands.run_options import BOARDS
-from host_sim.robots.connection import connect
+from host_sim.cli.run_options import BOARDS
 
 REFERENCE = "host"
 """The firmware built for the host, in this process: what the others are held against."""

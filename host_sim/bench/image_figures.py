@@ -5,11 +5,11 @@ from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from host_sim.backends.connection import connect
 from host_sim.bench.equality import compare
 from host_sim.bench.figure import Figure, Rate, rate_figure
 from host_sim.bench.short_run import run_ticks
-from host_sim.commands.run_options import BOARDS
-from host_sim.robots.connection import connect
+from host_sim.cli.run_options import BOARDS
 
 _SEED, _TICKS = 1, 2000
 _EQUAL_SEEDS, _EQUAL_TICKS = 20, 10_000

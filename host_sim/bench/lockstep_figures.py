@@ -12,16 +12,17 @@ from tempfile import TemporaryDirectory
 
 import can
 
+from host_sim.backends.connection import connect
 from host_sim.bench.figure import ROUNDS, Figure, Rate, best, most_figure, rate_figure
+from host_sim.client.frame_log import Recorder
+from host_sim.client.pacing import Lockstep
+from host_sim.client.session import Session
 from host_sim.paths import BUILD, ROOT
-from host_sim.robots.connection import connect
-from host_sim.wire.lockstep import Lockstep
-from host_sim.wire.protocol import Protocol
-from host_sim.wire.record import Recorder
-from host_sim.wire.session import Session
+from host_sim.protocol.codec import Protocol
+from host_sim.sim.simulation import Simulation
 from host_sim.world.arena import Arena
-from host_sim.world.environment import World, generate
-from host_sim.world.simulation import Simulation
+from host_sim.world.layouts import generate
+from host_sim.world.params import SimParams
 
 _REFERENCE = BUILD / "host" / "tools" / "reference"
 _VCAN = "socketcan:vcan0"
@@ -72,17 +73,17 @@ def _ticks_per_second(bus: str, limit_s: float) -> float:
         stack.callback(recorder.close)
         connection = connect(stack, bus, "spawn", 1)
         session = Session(connection.link, Protocol(), recorder, status=connection.status)
-        session.greet(5.0)
+        session.handshake(5.0)
         session.start(_SEED, 0, {}, None)
-        simulation = Simulation(World(), session, Lockstep(session), _SEED, 3, limit_s)
+        simulation = Simulation(SimParams(), session, Lockstep(session), _SEED, 3, limit_s)
         began = time.perf_counter()
-        ticks = sum(chapter.ticks for chapter in simulation.run())
+        ticks = sum(episode.ticks for episode in simulation.run())
         return ticks / (time.perf_counter() - began)
 
 
 def _arena_ticks_per_second() -> float:
     """The arena alone, its robot turning in place."""
-    arena = Arena(generate(_SEED, 1, World()), World())
+    arena = Arena(generate(_SEED, 1, SimParams()), SimParams())
     began = time.perf_counter()
     for tick in range(_TURNS):
         arena.sense(tick)

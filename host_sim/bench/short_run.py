@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-from host_sim.robots.connection import Connection
-from host_sim.wire.lockstep import Lockstep, Pace
-from host_sim.wire.protocol import Protocol
-from host_sim.wire.record import Recorder
-from host_sim.wire.session import Session
-from host_sim.wire.signals import Drive, Senses
-from host_sim.world.environment import World
-from host_sim.world.simulation import Simulation
+from host_sim.backends.connection import Connection
+from host_sim.client.frame_log import Recorder
+from host_sim.client.pacing import Lockstep, Pace
+from host_sim.client.session import Session
+from host_sim.protocol.codec import Protocol
+from host_sim.robot_io import Drive, Senses
+from host_sim.sim.simulation import Simulation
+from host_sim.world.params import SimParams
 
 _PATIENCE_S = 5.0
 _ENVIRONMENT_S = 600.0
@@ -47,15 +47,15 @@ def run_ticks(connection: Connection, seed: int, ticks: int, log: Path) -> Sessi
     Raises:
         RobotError: The robot is gone.
     """
-    world, recorder = World(), Recorder(log)
+    params, recorder = SimParams(), Recorder(log)
     try:
         session = Session(connection.link, Protocol(), recorder, status=connection.status)
-        session.greet(_PATIENCE_S)
+        session.handshake(_PATIENCE_S)
         session.start(seed, 0, {}, None)
         pace = _Limited(Lockstep(session), ticks)
         try:
             # An environment takes at least one tick, so that there are enough.
-            for _ in Simulation(world, session, pace, seed, ticks + 1, _ENVIRONMENT_S).run():
+            for _ in Simulation(params, session, pace, seed, ticks + 1, _ENVIRONMENT_S).run():
                 pass
         except _Over:
             session.stop()

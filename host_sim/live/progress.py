@@ -4,7 +4,7 @@ import sys
 import time
 from typing import TextIO
 
-from host_sim.wire.session import Session
+from host_sim.client.session import Session
 from host_sim.world.arena import Arena
 
 _EVERY_TICKS = 64

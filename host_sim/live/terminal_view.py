@@ -7,10 +7,10 @@ import signal
 import sys
 
 from host_sim.errors import UsageError
-from host_sim.live.live_run import LiveRun
 from host_sim.live.orders import FULL_SPEED, NextEnvironment, OneDecision, Order, Play, Speed
-from host_sim.live.scene import environment_scene, state
+from host_sim.live.paced_run import PacedRun
 from host_sim.live.text_picture import View, draw_text
+from host_sim.view.state import environment_scene, state
 
 _EVERY_S = 0.1
 _KEYS = "q quits   space pauses   . one decision   + - speed   n next"
@@ -18,7 +18,7 @@ _SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1000.0)
 """The speeds that + and - go through; beyond the last one, as fast as it goes."""
 
 
-def watch_in_terminal(live: LiveRun) -> None:
+def watch_in_terminal(live: PacedRun) -> None:
     """Takes a run from its begin to its end on the whole screen of the terminal, which is as before in the end.
 
     Args:
@@ -37,7 +37,7 @@ def watch_in_terminal(live: LiveRun) -> None:
         raise UsageError(f"cannot draw in this terminal ({error}): set TERM to what it is, such as xterm") from None
 
 
-async def _show(live: LiveRun, screen: "curses.window") -> None:
+async def _show(live: PacedRun, screen: "curses.window") -> None:
     """Draws at most ten times a second, whatever the speed of the run."""
     _close_on_signals(live)
     screen.nodelay(True)
@@ -52,13 +52,13 @@ async def _show(live: LiveRun, screen: "curses.window") -> None:
     await player
 
 
-def _close_on_signals(live: LiveRun) -> None:
+def _close_on_signals(live: PacedRun) -> None:
     """Ctrl-C, and a terminal that goes away, end the run in good order."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         asyncio.get_running_loop().add_signal_handler(number, live.close)
 
 
-def _press(live: LiveRun, key: int) -> None:
+def _press(live: PacedRun, key: int) -> None:
     """Does what a key says."""
     orders: dict[int, Order] = {
         ord(" "): Play(not live.playing),
@@ -85,7 +85,7 @@ def slower(speed: float) -> float:
     return next((step for step in reversed(_SPEEDS) if step < speed), _SPEEDS[0])
 
 
-def _draw(live: LiveRun, screen: "curses.window") -> None:
+def _draw(live: PacedRun, screen: "curses.window") -> None:
     rows, columns = screen.getmaxyx()
     screen.erase()
     for row, line in enumerate(draw_text(_view(live), columns, rows)):
@@ -94,23 +94,23 @@ def _draw(live: LiveRun, screen: "curses.window") -> None:
     screen.refresh()
 
 
-def _view(live: LiveRun) -> View:
+def _view(live: PacedRun) -> View:
     simulation = live.simulation
     return View(
-        live.world,
+        live.params,
         environment_scene(simulation.record.begun[-1], simulation.environments, simulation.arena),
-        state(max(0, simulation.tick - 1), simulation.arena, simulation.senses, simulation.drive, live.story),
-        [(x, y) for x, y, _ in simulation.chapter.trail],
+        state(max(0, simulation.tick - 1), simulation.arena, simulation.senses, simulation.drive, live.history),
+        [(x, y) for x, y, _ in simulation.episode.trail],
         live.boredom_limit,
         _pace(live),
         _KEYS,
     )
 
 
-def _pace(live: LiveRun) -> str:
+def _pace(live: PacedRun) -> str:
     if live.done:
         return "over"
     if not live.playing:
         return "paused"
-    speed = live.speed if live.speed != FULL_SPEED else live.rate * live.world.tick_s
+    speed = live.speed if live.speed != FULL_SPEED else live.rate * live.params.tick_s
     return f"{speed:.3g} x real time"

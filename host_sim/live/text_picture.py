@@ -5,9 +5,10 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from host_sim.live.scene import EnvironmentScene, State
-from host_sim.live.words import PATTERNS, SIDES, sentence
-from host_sim.world.environment import Point, Pose, World
+from host_sim.view.phrases import PATTERNS, SIDES, sentence
+from host_sim.view.state import EnvironmentScene, State
+from host_sim.world.geometry import Point, Pose
+from host_sim.world.params import SimParams
 
 COLUMNS_MIN, ROWS_MIN = 60, 20
 """The smallest screen that has room for it all."""
@@ -26,7 +27,7 @@ class View:
     """What to draw.
 
     Attributes:
-        world: The measures.
+        params: The measures.
         scene: The arena.
         state: The tick.
         trail: Where the robot was in this arena.
@@ -35,7 +36,7 @@ class View:
         keys: Which keys do what.
     """
 
-    world: World
+    params: SimParams
     scene: EnvironmentScene
     state: State
     trail: Sequence[Point]
@@ -68,7 +69,7 @@ def draw_text(view: View, columns: int, rows: int) -> list[str]:
 
 def _head(view: View) -> str:
     scene, state = view.scene, view.state
-    seconds = state["tick"] * view.world.tick_s
+    seconds = state["tick"] * view.params.tick_s
     food = f"food {sum(state['eaten'])} of {len(state['eaten'])}"
     clock = f"{int(seconds // 60)}:{seconds % 60:04.1f}"
     return f"environment {scene['number']} of {scene['of']}   {food}   {clock}   {view.pace}"
@@ -76,7 +77,7 @@ def _head(view: View) -> str:
 
 def _draw_arena(view: View, columns: int, rows: int) -> list[str]:
     """The arena in its frame, as large as there is room, its sides as long as they are in the world."""
-    canvas = _Canvas(view.world, columns - 2, rows - 2)
+    canvas = _Canvas(view.params, columns - 2, rows - 2)
     canvas.mark(view.trail, _TRAIL)
     for _, ax, ay, bx, by in view.scene["bars"]:
         canvas.line((ax, ay), (bx, by), _BAR)
@@ -90,12 +91,12 @@ def _draw_arena(view: View, columns: int, rows: int) -> list[str]:
 class _Canvas:
     """Characters over the arena's floor; one is twice as high as wide."""
 
-    def __init__(self, world: World, columns: int, rows: int) -> None:
-        per_row = max(world.height_mm / rows, world.width_mm / columns * _TALL)
-        self.columns = min(columns, round(world.width_mm / per_row * _TALL))
-        count = min(rows, round(world.height_mm / per_row))
+    def __init__(self, params: SimParams, columns: int, rows: int) -> None:
+        per_row = max(params.height_mm / rows, params.width_mm / columns * _TALL)
+        self.columns = min(columns, round(params.width_mm / per_row * _TALL))
+        count = min(rows, round(params.height_mm / per_row))
         self.rows = [[" "] * self.columns for _ in range(count)]
-        self._world = world
+        self._params = params
 
     def mark(self, points: Iterable[Point], sign: str) -> None:
         """Puts a sign at each point."""
@@ -119,8 +120,8 @@ class _Canvas:
     def _place(self, point: Point) -> tuple[int, int]:
         """Column and row of a point."""
         return (
-            int(point[0] / self._world.width_mm * self.columns),
-            int(point[1] / self._world.height_mm * len(self.rows)),
+            int(point[0] / self._params.width_mm * self.columns),
+            int(point[1] / self._params.height_mm * len(self.rows)),
         )
 
     def _put(self, column: int, row: int, sign: str) -> None:

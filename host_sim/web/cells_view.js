@@ -19,7 +19,7 @@ export class CellsView {
   }
 
   /**
-   * @param {Object} state - As in host_sim/live/scene.py.
+   * @param {Object} state - As in host_sim/view/state.py.
    * @param {Object} measures
    * @param {number[]} [then] - A memory to compare with.
    */

@@ -15,7 +15,7 @@ export class Controls {
     document.addEventListener("keydown", (event) => this.press(event));
   }
 
-  /** @param {Object} scene - With `play` as in host_sim/live/page_feed.py. */
+  /** @param {Object} scene - With `play` as in host_sim/live/feed.py. */
   show({ play, state, environment, measures }) {
     this.playing = play.playing;
     this.showFrozen(state.frozen);

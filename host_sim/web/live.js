@@ -45,7 +45,7 @@ class LivePage {
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(order));
   }
 
-  /** @param {Object} message - As in host_sim/live/page_feed.py. */
+  /** @param {Object} message - As in host_sim/live/feed.py. */
   take(message) {
     const { scene } = this;
     if (message.measures) this.begin(message.measures);

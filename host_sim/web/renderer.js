@@ -10,7 +10,7 @@ const GRID_MM = 500;
 const FOOD_MM = 50;
 
 /**
- * What there is to see; the parts are those of host_sim/live/scene.py.
+ * What there is to see; the parts are those of host_sim/view/state.py.
  * @typedef {Object} Scene
  * @property {Object} measures
  * @property {Object} environment

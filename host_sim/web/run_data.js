@@ -1,4 +1,4 @@
-/* A recorded run: unpacks what host_sim/kept/replay_page.py packed, and gives the state of any tick. */
+/* A recorded run: unpacks what host_sim/report/replay_page.py packed, and gives the state of any tick. */
 
 import { Trail } from "./trail.js";
 
@@ -10,7 +10,7 @@ const PER_MM = { x: 10, y: 10 };
 export class RunData {
   /**
    * Unpacks a run.
-   * @param {Object} run - As host_sim/kept/replay_page.py describes it.
+   * @param {Object} run - As host_sim/report/replay_page.py describes it.
    * @returns {Promise<RunData>}
    */
   static async from(run) {
@@ -27,7 +27,7 @@ export class RunData {
     this.measures = run.measures;
   }
 
-  /** The state of a tick, as in host_sim/live/scene.py. */
+  /** The state of a tick, as in host_sim/view/state.py. */
   stateAt(tick) {
     const state = { tick };
     for (const [name, column] of Object.entries(this.columns)) {

@@ -15,7 +15,7 @@ const RIGHT = 2;
 
 /**
  * One sentence for what a state shows.
- * @param {Object} state - As in host_sim/live/scene.py.
+ * @param {Object} state - As in host_sim/view/state.py.
  * @param {boolean} exact - Whether to tell a step from the look around that follows: too quick to read in motion.
  * @returns {string}
  */
@@ -52,7 +52,7 @@ export function verdict(state) {
 
 /**
  * A sentence for a lesson.
- * @param {Object} lesson - As in host_sim/kept/story.py.
+ * @param {Object} lesson - As in host_sim/view/history.py.
  * @returns {string}
  */
 export function lessonWords(lesson) {

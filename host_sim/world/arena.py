@@ -5,9 +5,11 @@ from collections.abc import Sequence
 
 import pymunk
 
-from host_sim.wire.signals import Senses
-from host_sim.world.environment import Environment, Point, Pose, World, turned
+from host_sim.robot_io import Senses
+from host_sim.world.geometry import Point, Pose, turned
+from host_sim.world.layouts import Layout
 from host_sim.world.obstacles import Obstacles
+from host_sim.world.params import SimParams
 from host_sim.world.sensors import OBSTACLE, ROBOT, Perimeter, Sighting, look
 
 _IN_THE_AIR = -10_000.0, -10_000.0
@@ -27,26 +29,26 @@ class Arena:
     and a body pressed into an obstacle is pushed straight out of it, so it stops or slides.
     """
 
-    def __init__(self, environment: Environment, world: World, odometer: Point = (0.0, 0.0)) -> None:
+    def __init__(self, layout: Layout, params: SimParams, odometer: Point = (0.0, 0.0)) -> None:
         """Builds the space and senses once, so that the first `sense` is right.
 
         Args:
-            environment: The layout.
-            world: The measures.
+            layout: The layout.
+            params: The measures.
             odometer: Way of the left and the right wheel so far, mm, where the robot comes from another arena.
         """
-        self._world = world
-        self._x, self._y, self._heading = environment.start
+        self._params = params
+        self._x, self._y, self._heading = layout.start
         self._left_mm, self._right_mm = odometer
-        self._start = environment.start
-        self._food, self._uneaten = list(environment.food), dict(enumerate(environment.food))
+        self._start = layout.start
+        self._food, self._uneaten = list(layout.food), dict(enumerate(layout.food))
         self._lifted = False
         self._collisions, self._touches = 0, 0
         self._depth_mm, self._normal = 0.0, (0.0, 0.0)
         self._space = pymunk.Space()
-        self._obstacles = Obstacles(self._space, environment.bars, world)
+        self._obstacles = Obstacles(self._space, layout.bars, params)
         self._body = self._add_body()
-        self._perimeter = Perimeter(self._space, self._body, world)
+        self._perimeter = Perimeter(self._space, self._body, params)
         self._place()
 
     @property
@@ -80,9 +82,9 @@ class Arena:
         return self._food
 
     @property
-    def layout(self) -> Environment:
+    def layout(self) -> Layout:
         """The environment as it is now, with its first start."""
-        return Environment(tuple(self._obstacles.bars.values()), tuple(self._food), self._start)
+        return Layout(tuple(self._obstacles.bars.values()), tuple(self._food), self._start)
 
     @property
     def lifted(self) -> bool:
@@ -123,7 +125,7 @@ class Arena:
             True if food was eaten, False if none is seen or it is `eat_reach_mm` away or farther.
         """
         sighting = self._look()
-        if sighting is None or sighting.distance_mm >= self._world.eat_reach_mm:
+        if sighting is None or sighting.distance_mm >= self._params.eat_reach_mm:
             return False
         del self._uneaten[next(food_id for food_id, food in self._uneaten.items() if food == sighting.food)]
         return True
@@ -135,13 +137,13 @@ class Arena:
             left_mm_s: Speed of the left wheel, forward positive; cut to the world's greatest.
             right_mm_s: Speed of the right wheel, the same.
         """
-        limit, tick_s = self._world.max_wheel_speed_mm_s, self._world.tick_s
+        limit, tick_s = self._params.max_wheel_speed_mm_s, self._params.tick_s
         left_mm = max(-limit, min(limit, left_mm_s)) * tick_s
         right_mm = max(-limit, min(limit, right_mm_s)) * tick_s
         self._left_mm += left_mm
         self._right_mm += right_mm
         if not self._lifted:
-            turn = turned(left_mm, right_mm, self._world.wheel_track_mm)
+            turn = turned(left_mm, right_mm, self._params.wheel_track_mm)
             self._advance((left_mm + right_mm) / 2, turn)
 
     def move_food(self, food_id: int, at: Point) -> None:
@@ -166,7 +168,7 @@ class Arena:
         self._place()
         if self._lifted:
             self._body.position = _IN_THE_AIR
-            self._space.step(self._world.tick_s)
+            self._space.step(self._params.tick_s)
 
     def _advance(self, way_mm: float, turn_rad: float) -> None:
         """Moves the body's middle along an arc, as far as obstacles let it."""
@@ -197,16 +199,16 @@ class Arena:
         self._depth_mm = 0.0
         self._body.position = self._x, self._y
         self._body.angle = self._heading
-        self._space.step(self._world.tick_s)
+        self._space.step(self._params.tick_s)
 
     def _look(self) -> Sighting | None:
         if self._lifted:
             return None
-        return look(self._space, self.pose, self._uneaten.values(), self._world.beam_width_mm)
+        return look(self._space, self.pose, self._uneaten.values(), self._params.beam_width_mm)
 
     def _add_body(self) -> pymunk.Body:
         body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
-        disc = pymunk.Circle(body, self._world.body_radius_mm)
+        disc = pymunk.Circle(body, self._params.body_radius_mm)
         disc.collision_type = ROBOT
         disc.filter = pymunk.ShapeFilter(categories=ROBOT)
         self._space.add(body, disc)

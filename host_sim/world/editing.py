@@ -8,7 +8,9 @@ import numpy as np
 
 from host_sim.world.arena import Arena
 from host_sim.world.edits import AddBar, Edit, Lift, MoveBar, MoveFood, Put, RemoveBar
-from host_sim.world.environment import Bar, Point, World, clearance_mm
+from host_sim.world.geometry import Bar, Point
+from host_sim.world.layouts import clearance_mm
+from host_sim.world.params import SimParams
 
 BARS_MAX = 40
 
@@ -17,55 +19,55 @@ class EditError(ValueError):
     """An edit that cannot be made in this world as it is; says why, in words for people."""
 
 
-def make_edit(arena: Arena, edit: Edit, world: World) -> None:
+def make_edit(arena: Arena, edit: Edit, params: SimParams) -> None:
     """Makes one edit, between two ticks. Equal edits at equal ticks give equal runs.
 
     Raises:
         EditError: Nothing was changed.
     """
-    _MAKERS[type(edit)](arena, edit, world)
+    _MAKERS[type(edit)](arena, edit, params)
     arena.settle()
 
 
-def _add_bar(arena: Arena, edit: AddBar, world: World) -> None:
+def _add_bar(arena: Arena, edit: AddBar, params: SimParams) -> None:
     if len(arena.obstacles.bars) >= BARS_MAX:
         raise EditError(f"there are {BARS_MAX} obstacles already")
-    _check_bar(arena, edit.bar, world)
+    _check_bar(arena, edit.bar, params)
     arena.obstacles.add(edit.bar)
 
 
-def _move_bar(arena: Arena, edit: MoveBar, world: World) -> None:
+def _move_bar(arena: Arena, edit: MoveBar, params: SimParams) -> None:
     _check_known(edit.id, arena.obstacles.bars)
-    _check_bar(arena, edit.bar, world)
+    _check_bar(arena, edit.bar, params)
     arena.obstacles.move(edit.id, edit.bar)
 
 
-def _remove_bar(arena: Arena, edit: RemoveBar, _world: World) -> None:
+def _remove_bar(arena: Arena, edit: RemoveBar, _params: SimParams) -> None:
     _check_known(edit.id, arena.obstacles.bars)
     arena.obstacles.remove(edit.id)
 
 
-def _move_food(arena: Arena, edit: MoveFood, world: World) -> None:
+def _move_food(arena: Arena, edit: MoveFood, params: SimParams) -> None:
     _check_known(edit.id, range(len(arena.food)))
-    _check_inside(edit.at, world)
+    _check_inside(edit.at, params)
     arena.move_food(edit.id, edit.at)
 
 
-def _lift(arena: Arena, _edit: Lift, _world: World) -> None:
+def _lift(arena: Arena, _edit: Lift, _params: SimParams) -> None:
     if arena.lifted:
         raise EditError("the robot is in the air already")
     arena.lift()
 
 
-def _put(arena: Arena, edit: Put, world: World) -> None:
+def _put(arena: Arena, edit: Put, params: SimParams) -> None:
     if not arena.lifted:
         raise EditError("the robot is not in the air")
-    if _room_mm(edit.pose[:2], arena.obstacles.bars.values(), world) < world.body_radius_mm:
+    if _room_mm(edit.pose[:2], arena.obstacles.bars.values(), params) < params.body_radius_mm:
         raise EditError("there is no room for the robot")
     arena.put(edit.pose)
 
 
-_MAKERS: dict[type, Callable[[Arena, Any, World], None]] = {
+_MAKERS: dict[type, Callable[[Arena, Any, SimParams], None]] = {
     AddBar: _add_bar,
     MoveBar: _move_bar,
     RemoveBar: _remove_bar,
@@ -75,17 +77,17 @@ _MAKERS: dict[type, Callable[[Arena, Any, World], None]] = {
 }
 
 
-def _check_bar(arena: Arena, bar: Bar, world: World) -> None:
-    _check_inside(bar.a, world)
-    _check_inside(bar.b, world)
-    if math.dist(bar.a, bar.b) < world.bar_thickness_mm:
+def _check_bar(arena: Arena, bar: Bar, params: SimParams) -> None:
+    _check_inside(bar.a, params)
+    _check_inside(bar.b, params)
+    if math.dist(bar.a, bar.b) < params.bar_thickness_mm:
         raise EditError("the obstacle is too short")
-    if not arena.lifted and _room_mm(arena.pose[:2], [bar], world) < world.body_radius_mm:
+    if not arena.lifted and _room_mm(arena.pose[:2], [bar], params) < params.body_radius_mm:
         raise EditError("the robot stands there")
 
 
-def _check_inside(point: Point, world: World) -> None:
-    if not (0 <= point[0] <= world.width_mm and 0 <= point[1] <= world.height_mm):
+def _check_inside(point: Point, params: SimParams) -> None:
+    if not (0 <= point[0] <= params.width_mm and 0 <= point[1] <= params.height_mm):
         raise EditError("that is outside of the arena")
 
 
@@ -94,6 +96,6 @@ def _check_known(number: int, known: Collection[int]) -> None:
         raise EditError(f"there is no number {number}")
 
 
-def _room_mm(point: Point, bars: Iterable[Bar], world: World) -> float:
+def _room_mm(point: Point, bars: Iterable[Bar], params: SimParams) -> float:
     """The distance from a point to the nearest of these bars or a wall."""
-    return float(clearance_mm(np.array([point]), tuple(bars), world)[0])
+    return float(clearance_mm(np.array([point]), tuple(bars), params)[0])

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from host_sim.world.environment import Bar, Point, Pose
+from host_sim.world.geometry import Bar, Point, Pose
 
 SIZE_MAX_MM = 100_000
 """No place is farther than this from the arena's corner."""

@@ -2,7 +2,8 @@
 
 import pymunk
 
-from host_sim.world.environment import Bar, Point, World
+from host_sim.world.geometry import Bar, Point
+from host_sim.world.params import SimParams
 from host_sim.world.sensors import OBSTACLE
 
 _WALL_MM = 100.0
@@ -15,15 +16,15 @@ class Obstacles:
         bars: The bars by their ids: 0, 1, ... in the order in which they came. An id is never used again.
     """
 
-    def __init__(self, space: pymunk.Space, bars: tuple[Bar, ...], world: World) -> None:
+    def __init__(self, space: pymunk.Space, bars: tuple[Bar, ...], params: SimParams) -> None:
         """Sets up bars and walls in a space."""
         self.bars: dict[int, Bar] = {}
-        self._space, self._radius_mm = space, world.bar_thickness_mm / 2
+        self._space, self._radius_mm = space, params.bar_thickness_mm / 2
         self._shapes: dict[int, pymunk.Segment] = {}
         self._next_id = 0
         for bar in bars:
             self.add(bar)
-        self._add_walls(world)
+        self._add_walls(params)
 
     def add(self, bar: Bar) -> None:
         """Adds a bar; it gets the next id."""
@@ -44,10 +45,10 @@ class Obstacles:
         self.bars[bar_id] = bar
         self._shapes[bar_id] = self._add_segment(bar.a, bar.b, self._radius_mm)
 
-    def _add_walls(self, world: World) -> None:
+    def _add_walls(self, params: SimParams) -> None:
         # The middle lines of the walls lie outside by their radius: the inside faces are the arena's edge.
         left, top = -_WALL_MM, -_WALL_MM
-        right, bottom = world.width_mm + _WALL_MM, world.height_mm + _WALL_MM
+        right, bottom = params.width_mm + _WALL_MM, params.height_mm + _WALL_MM
         corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
         for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
             self._add_segment(a, b, _WALL_MM)

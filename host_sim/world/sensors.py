@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import pymunk
 
-from host_sim.world.environment import Point, Pose, World
+from host_sim.world.geometry import Point, Pose
+from host_sim.world.params import SimParams
 
 OBSTACLE = 1
 """Collision type and filter category of obstacles and walls."""
@@ -33,11 +34,11 @@ class Perimeter:
             front 4, front-left 8, left 16.
     """
 
-    def __init__(self, space: pymunk.Space, body: pymunk.Body, world: World) -> None:
+    def __init__(self, space: pymunk.Space, body: pymunk.Body, params: SimParams) -> None:
         """Fixes the cones to a body that is in the space."""
         self.feel = 0
         self._overlaps = dict.fromkeys(CONE_BEARINGS_DEG, 0)
-        reach_mm = world.body_radius_mm + world.sensor_reach_mm
+        reach_mm = params.body_radius_mm + params.sensor_reach_mm
         for bit, bearing_deg in CONE_BEARINGS_DEG.items():
             cone = pymunk.Poly(body, cone_outline(bearing_deg, reach_mm))
             cone.sensor = True

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.commands.protocol_page import page
+from host_sim.cli.protocol_page import page
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([ROOT / "README.md", *ROOT.glob("docs/*.md")])

@@ -16,13 +16,13 @@ _HEADERS = [
     "firmware/random.h",
     "firmware/brain.h",
     "hal/link/link.h",
-    "hal/can/crc8.h",
+    "hal/protocol/crc8.h",
 ]
 
 
 def library_path() -> Path:
     """Where liboctet.so is: OCTET_LIBRARY, or the host build."""
-    return Path(os.environ.get("OCTET_LIBRARY", ROOT / "build/host/hal/inproc/liboctet.so"))
+    return Path(os.environ.get("OCTET_LIBRARY", ROOT / "build/host/hal/library/liboctet.so"))
 
 
 def declarations(header: Path) -> str:

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "hal/can/crc8.h"
+#include "hal/protocol/crc8.h"
 
 struct fake fake;
 struct hal *hal;

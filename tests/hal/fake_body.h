@@ -5,8 +5,8 @@
 
 #include <unity.h>
 
-#include "hal/can/port.h"
-#include "hal/can/wire.h"
+#include "hal/can_body/port.h"
+#include "hal/protocol/wire.h"
 #include "octet.h"
 
 enum { NODE = 1, SCRIPT_MAX = 64, SENT_MAX = 256, NEVER = 0, FRAMES = WIRE_FRAMES_MAX - 1 /* no crash */ };

@@ -1,4 +1,4 @@
-#include "hal/can/crc8.h"
+#include "hal/protocol/crc8.h"
 
 #include <unity.h>
 

@@ -1,10 +1,10 @@
-#include "hal/inproc/exchange.h"
+#include "hal/library/exchange.h"
 
 #include <string.h>
 
 #include <unity.h>
 
-#include "hal/can/crc8.h"
+#include "hal/protocol/crc8.h"
 #include "octet.h"
 
 static const uint8_t STORED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 1};

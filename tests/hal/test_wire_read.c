@@ -1,10 +1,10 @@
-#include "hal/can/wire.h"
+#include "hal/protocol/wire.h"
 
 #include <string.h>
 
 #include <unity.h>
 
-#include "hal/can/crc8.h"
+#include "hal/protocol/crc8.h"
 #include "octet.h"
 
 enum { NODE = 1, ID_BITS = 11, BITS = ID_BITS + 64 };

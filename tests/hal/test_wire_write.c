@@ -1,4 +1,4 @@
-#include "hal/can/wire.h"
+#include "hal/protocol/wire.h"
 
 #include <string.h>
 
@@ -6,7 +6,7 @@
 
 #include "firmware/config.h"
 #include "firmware/memory.h"
-#include "hal/can/crc8.h"
+#include "hal/protocol/crc8.h"
 #include "octet.h"
 
 enum { NODE = 1 };

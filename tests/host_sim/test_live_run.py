@@ -7,8 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.kept.keeper import Keeper
-from host_sim.live.live_run import ORDERS_MAX, LiveRun
+from host_sim.client.frame_log import Recorder
+from host_sim.client.pacing import Lockstep
+from host_sim.client.session import Session
+from host_sim.live.feed import PageFeed
 from host_sim.live.orders import (
     FULL_SPEED,
     EraseMemory,
@@ -20,17 +22,16 @@ from host_sim.live.orders import (
     Play,
     WriteCell,
 )
-from host_sim.live.page_feed import PageFeed
-from host_sim.robots.inproc_link import InProcessLink
-from host_sim.wire.lockstep import Lockstep
-from host_sim.wire.protocol import Protocol
-from host_sim.wire.record import Recorder
-from host_sim.wire.session import Session
+from host_sim.live.paced_run import ORDERS_MAX, PacedRun
+from host_sim.protocol.codec import Protocol
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.sim.simulation import Simulation
+from host_sim.transport.in_process_link import InProcessLink
 from host_sim.world.edits import AddBar, Lift, MoveFood, Put
-from host_sim.world.environment import Bar, Pose, World
-from host_sim.world.simulation import Simulation
+from host_sim.world.geometry import Bar, Pose
+from host_sim.world.params import SimParams
 
-Live = Callable[..., LiveRun]
+Live = Callable[..., PacedRun]
 
 
 @pytest.fixture
@@ -38,15 +39,15 @@ def live(tmp_path: Path) -> Iterator[Live]:
     """Makes runs that have begun, each with a log of its own."""
     recorders = []
 
-    def make(name: str = "run", **options) -> LiveRun:
+    def make(name: str = "run", **options) -> PacedRun:
         recorders.append(Recorder(tmp_path / f"{name}.log"))
         session = Session(InProcessLink(), Protocol(), recorders[-1])
-        session.greet(1.0)
+        session.handshake(1.0)
         session.start(1, 0, {}, None)
-        simulation = Simulation(World(), session, Lockstep(session), 1, 5, 600.0)
-        keeper = Keeper(simulation)
-        simulation.watch = keeper
-        run = LiveRun(simulation, keeper.story, lambda seed: session.start(seed, 0, {}, None), **options)
+        simulation = Simulation(SimParams(), session, Lockstep(session), 1, 5, 600.0)
+        run_recorder = RunRecorder(simulation)
+        simulation.watch = run_recorder
+        run = PacedRun(simulation, run_recorder.history, lambda seed: session.start(seed, 0, {}, None), **options)
         run.begin()
         return run
 
@@ -55,7 +56,7 @@ def live(tmp_path: Path) -> Iterator[Live]:
         recorder.close()
 
 
-def play(live: LiveRun, until: Callable[[], object], limit_s: float = 10.0) -> None:
+def play(live: PacedRun, until: Callable[[], object], limit_s: float = 10.0) -> None:
     """Lets it run until something is so."""
 
     async def run() -> None:
@@ -69,7 +70,7 @@ def play(live: LiveRun, until: Callable[[], object], limit_s: float = 10.0) -> N
     asyncio.run(run())
 
 
-def order(live: LiveRun, *orders: Order) -> list[str]:
+def order(live: PacedRun, *orders: Order) -> list[str]:
     """Has orders obeyed; returns the complaints."""
     complaints: list[str] = []
     for one in orders:
@@ -106,7 +107,7 @@ def test_cells_are_written_and_erased_at_once_while_it_stands(live):
     run = live()
     order(run, WriteCell(3, 1), WriteCell(6, 2))
     assert run.simulation.session.memory == (0, 0, 0, 1, 0, 0, 2, 0)
-    lessons = [(lesson["cell"], lesson["side"], lesson["by_hand"]) for lesson in run.story.lessons]
+    lessons = [(lesson["cell"], lesson["side"], lesson["by_hand"]) for lesson in run.history.lessons]
     assert lessons == [(3, 1, 1), (6, 2, 1)]
     order(run, EraseMemory())
     assert run.simulation.session.memory == (0,) * 8
@@ -116,16 +117,16 @@ def test_a_frozen_robot_learns_nothing(live):
     run = live(speed=FULL_SPEED)
     order(run, Freeze(True))
     run.offer(Play(True), print)
-    play(run, lambda: run.story.trials > 5)
-    assert run.story.memory == (0,) * 8
-    assert run.story.frozen
+    play(run, lambda: run.history.trials > 5)
+    assert run.history.memory == (0,) * 8
+    assert run.history.frozen
 
 
 def test_the_next_environment_and_a_new_seed_are_recorded(live):
     run = live(speed=FULL_SPEED)
     order(run, NextEnvironment(), NewSeed(9))
     assert [begun[:2] for begun in run.simulation.record.begun] == [(1, 1), (1, 2), (9, 1)]
-    assert len(run.chapters) == 2
+    assert len(run.episodes) == 2
 
 
 def test_after_the_last_environment_it_waits_for_a_new_seed(live):
@@ -142,7 +143,7 @@ def test_it_ends_by_itself_where_nobody_stays(live):
     for _ in range(5):
         run.offer(NextEnvironment(), print)
     asyncio.run(run.play())
-    assert len(run.chapters) == 5
+    assert len(run.episodes) == 5
 
 
 def test_what_cannot_be_done_is_complained_of_and_not_recorded(live):

@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from host_sim.wire.protocol import Frame, Protocol, crc8, drive_from
-from host_sim.wire.signals import Senses
+from host_sim.protocol.codec import Frame, Protocol, crc8, drive_from
+from host_sim.robot_io import Senses
 
 PROTOCOL = Protocol()
 DRIVE_RANGES = ((0, 4095), (-2047, 2047), (-2047, 2047), (0, 7), (0, 255), (0, 127), (0, 1))

@@ -5,13 +5,13 @@ from collections.abc import Callable
 
 import pytest
 
+from host_sim.client.frame_log import Recorder
+from host_sim.client.pacing import HOLD_TICKS, Lockstep, RealTime
+from host_sim.client.session import Session
 from host_sim.errors import RefusedError, RobotError
-from host_sim.robots.inproc_link import InProcessLink
-from host_sim.wire.lockstep import HOLD_TICKS, Lockstep, RealTime
-from host_sim.wire.protocol import Frame, Protocol
-from host_sim.wire.record import Recorder
-from host_sim.wire.session import Session
-from host_sim.wire.signals import Senses
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.robot_io import Senses
+from host_sim.transport.in_process_link import InProcessLink
 
 PROTOCOL = Protocol()
 Tamper = Callable[[Frame], list[Frame]]
@@ -47,7 +47,7 @@ def session_with(tmp_path):
 
 
 def started(session: Session) -> Session:
-    session.greet(1.0)
+    session.handshake(1.0)
     session.start(1, 0, {}, None)
     return session
 
@@ -73,19 +73,19 @@ def test_a_robot_of_another_dbc_is_refused(session_with):
         return [frame._replace(data=frame.data[:6] + b"\x00\x00")] if is_a("HEARTBEAT")(frame) else [frame]
 
     with pytest.raises(RobotError, match=r"another octet.dbc \(hash 0000, ours"):
-        session_with(older).greet(1.0)
+        session_with(older).handshake(1.0)
 
 
 def test_no_robot_at_all_is_named(session_with):
     with pytest.raises(RobotError, match="no robot of node 1 answered"):
-        session_with(lambda _: []).greet(0.5)
+        session_with(lambda _: []).handshake(0.5)
 
 
 def test_a_robot_that_is_not_there_yet_is_waited_for(session_with):
     deaf_until = time.monotonic() + 0.7
     session = session_with(lambda frame: [frame] if time.monotonic() > deaf_until else [])
 
-    session.greet(5.0, again_s=0.3)
+    session.handshake(5.0, again_s=0.3)
 
     assert session.frames.received >= 4
 
@@ -148,7 +148,7 @@ def test_a_refused_command_says_which_and_why(session_with):
 
 def test_a_memory_that_is_written_comes_back(session_with):
     session = session_with()
-    session.greet(1.0)
+    session.handshake(1.0)
 
     session.start(1, 0, {}, (0, 1, 2, 1, 2, 0, 2, 1))
 

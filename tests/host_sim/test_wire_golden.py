@@ -6,7 +6,7 @@ import random
 import cantools
 import pytest
 
-from host_sim.wire.protocol import CONTROL, DBC, NODE_MAX, crc8
+from host_sim.protocol.codec import CONTROL, DBC, NODE_MAX, crc8
 from tests.firmware.octet_c import load
 
 DATABASE = cantools.database.load_file(DBC)

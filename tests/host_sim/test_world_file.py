@@ -5,9 +5,10 @@ import json
 import pytest
 
 from host_sim.errors import OctetError, UsageError
+from host_sim.recording.world_file import read_world, world_path
+from host_sim.sim.world_record import Begun, Edited, WorldRecord
 from host_sim.world.edits import AddBar, Lift, MoveBar, MoveFood, Put, RemoveBar
-from host_sim.world.environment import Bar, Pose
-from host_sim.world.world_file import Begun, Edited, WorldRecord, read_world, world_path
+from host_sim.world.geometry import Bar, Pose
 
 BAR = Bar((10.0, 20.0), (300.0, 40.0))
 EDITS = [
@@ -26,7 +27,7 @@ def record() -> WorldRecord:
 
 def test_what_was_written_is_read(tmp_path):
     path = world_path(tmp_path / "run.log")
-    record().write(path)
+    write_world(record(), path)
     assert path.name == "run.world.json"
     assert read_world(path) == record()
 

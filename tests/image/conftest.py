@@ -2,7 +2,7 @@
 
 import pytest
 
-from host_sim.emulated.clock import Clock
+from host_sim.emulator.clock import Clock
 
 
 @pytest.fixture

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass, field
 
-from host_sim.emulated.board import EmulatedBoard
-from host_sim.emulated.hardware import Faults
-from host_sim.emulated.start import start_board
-from host_sim.wire.protocol import Frame, Protocol, Said
-from host_sim.wire.signals import Senses
+from host_sim.emulator.board import EmulatedBoard
+from host_sim.emulator.hardware import Faults
+from host_sim.emulator.start import start_board
+from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
+from host_sim.robot_io import Senses
 
 BOARDS = ("stm32f405", "stm32f103")
 TICK_S = 0.02
@@ -32,7 +32,7 @@ class Talk:
 
     board: EmulatedBoard
     lockstep: int = 1
-    heard: list[Said] = field(default_factory=list)
+    heard: list[DecodedFrame] = field(default_factory=list)
     tick: int = -1
     counter: int = 0
     protocol: Protocol = field(default_factory=Protocol)
@@ -51,7 +51,7 @@ class Talk:
         self.tick += 1
         return self.protocol.encode_senses(Senses(self.tick % 4096, feel, False, False, 0, 0, 0))
 
-    def live(self, ticks: int, feel: int = 0) -> list[Said]:
+    def live(self, ticks: int, feel: int = 0) -> list[DecodedFrame]:
         """So many ticks in their time; returns the drives."""
         before = len(self.heard)
         for _ in range(ticks):
@@ -59,7 +59,7 @@ class Talk:
             self.wait(TICK_S)
         return [said for said in self.heard[before:] if said.name == "DRIVE"]
 
-    def wait(self, span_s: float) -> list[Said]:
+    def wait(self, span_s: float) -> list[DecodedFrame]:
         said = [self.protocol.decode(frame) for frame in self.board.pass_time(span_s)]
         assert None not in said, "the board sent what is no frame of ours"
         self.heard.extend(said)
@@ -79,7 +79,7 @@ def talk_to(name: str, faults: Faults | None = None, lockstep: int = 0) -> Talk:
     return Talk(start_board(name, faults), lockstep)
 
 
-def is_rest(said: Said) -> bool:
+def is_rest(said: DecodedFrame) -> bool:
     return said.signals["left"] == said.signals["right"] == 0
 
 

@@ -2,11 +2,11 @@
 
 import pytest
 
-from host_sim.emulated.bxcan import BxCan, CanFaults
-from host_sim.emulated.can_frame import CanFrame
-from host_sim.emulated.can_wire import CanWire
-from host_sim.emulated.clock import SECOND, Clock
-from host_sim.emulated.errors import BoardError
+from host_sim.emulator.bxcan import BxCan, CanFaults
+from host_sim.emulator.can_frame import CanFrame
+from host_sim.emulator.can_wire import CanWire
+from host_sim.emulator.clock import SECOND, Clock
+from host_sim.emulator.errors import BoardError
 
 MCR, MSR, TSR, RF0R, RF1R, ESR, BTR = 0x00, 0x04, 0x08, 0x0C, 0x10, 0x18, 0x1C
 FMR, FM1R, FS1R, FFA1R, FA1R, BANK_0 = 0x200, 0x204, 0x20C, 0x214, 0x21C, 0x240

@@ -2,11 +2,11 @@
 
 import pytest
 
-from host_sim.emulated.clock import SECOND
-from host_sim.emulated.errors import BoardError, PowerCut
-from host_sim.emulated.flash import FlashFaults
-from host_sim.emulated.flash_f1 import FlashF1
-from host_sim.emulated.flash_f4 import FlashF4
+from host_sim.emulator.clock import SECOND
+from host_sim.emulator.errors import BoardError, PowerCut
+from host_sim.emulator.flash import FlashFaults
+from host_sim.emulator.flash_f1 import FlashF1
+from host_sim.emulator.flash_f4 import FlashF4
 from tests.image.support import read, write
 
 KEYR, SR, CR = 0x04, 0x0C, 0x10

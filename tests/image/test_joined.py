@@ -10,14 +10,14 @@ from contextlib import ExitStack
 import can
 import pytest
 
+from host_sim.backends.connection import connect
 from host_sim.bench.equality import REFERENCE, first_difference, record
 from host_sim.bench.short_run import run_ticks
-from host_sim.emulated.__main__ import main
-from host_sim.emulated.joined import JoinedBoard
-from host_sim.emulated.start import start_board
-from host_sim.robots.connection import connect
-from host_sim.wire.protocol import Frame, Protocol
-from host_sim.wire.signals import Senses
+from host_sim.emulator.__main__ import main
+from host_sim.emulator.joined import JoinedBoard
+from host_sim.emulator.start import start_board
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.robot_io import Senses
 
 PROTOCOL = Protocol()
 STOP = PROTOCOL.encode("COMMAND", {"counter": 1, "opcode": 1, "lockstep": 0})
@@ -105,7 +105,7 @@ def test_the_cost_of_ticks_is_printed_as_json(capsys):
 
 @pytest.fixture
 def board_on_vcan():
-    command = [sys.executable, "-m", "host_sim.emulated", "--board", "stm32f103", "--bus", "socketcan:vcan0"]
+    command = [sys.executable, "-m", "host_sim.emulator", "--board", "stm32f103", "--bus", "socketcan:vcan0"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert "listens" in process.stdout.readline()
     yield process

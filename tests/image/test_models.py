@@ -2,20 +2,20 @@
 
 import pytest
 
-from host_sim.emulated.address_space import AddressSpace
-from host_sim.emulated.chips import STM32F103, STM32F405
-from host_sim.emulated.clock import SECOND
-from host_sim.emulated.core import PAGE, Core
-from host_sim.emulated.elf import load_segments
-from host_sim.emulated.errors import BoardError
-from host_sim.emulated.gpio import gpio_f1, gpio_f4
-from host_sim.emulated.rcc import RccFaults
-from host_sim.emulated.registers import Peripheral, Register
-from host_sim.emulated.system_control import SystemControl
-from host_sim.emulated.systick import SysTick
-from host_sim.emulated.watchdog import Watchdog
+from host_sim.backends.robot_process import PROGRAM
+from host_sim.emulator.address_space import AddressSpace
+from host_sim.emulator.chips import STM32F103, STM32F405
+from host_sim.emulator.clock import SECOND
+from host_sim.emulator.core import PAGE, Core
+from host_sim.emulator.elf import load_segments
+from host_sim.emulator.errors import BoardError
+from host_sim.emulator.gpio import gpio_f1, gpio_f4
+from host_sim.emulator.rcc import RccFaults
+from host_sim.emulator.registers import Peripheral, Register
+from host_sim.emulator.system_control import SystemControl
+from host_sim.emulator.systick import SysTick
+from host_sim.emulator.watchdog import Watchdog
 from host_sim.errors import OctetError
-from host_sim.robots.robot_process import PROGRAM
 from tests.image.support import read, write
 
 

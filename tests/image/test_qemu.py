@@ -10,15 +10,15 @@ from contextlib import ExitStack
 
 import pytest
 
+from host_sim.backends.connection import connect
+from host_sim.backends.images import image_path
+from host_sim.backends.qemu import Qemu
 from host_sim.bench.short_run import run_ticks
 from host_sim.errors import OctetError, RobotError, UsageError
-from host_sim.robots.connection import connect
-from host_sim.robots.images import image_path
-from host_sim.robots.qemu import Qemu
-from host_sim.wire.protocol import Frame
-from host_sim.wire.slcan_link import SlcanLink
+from host_sim.protocol.codec import Frame
+from host_sim.transport.slcan_link import SlcanLink
 
-ROBOT = "import time, host_sim.robots.qemu as q; robot = q.Qemu(); print(robot.pid, flush=True); time.sleep(60)"
+ROBOT = "import time, host_sim.backends.qemu as q; robot = q.Qemu(); print(robot.pid, flush=True); time.sleep(60)"
 
 
 @pytest.fixture

@@ -6,9 +6,9 @@ from contextlib import ExitStack
 
 import pytest
 
-from host_sim.robots.connection import connect
-from host_sim.wire.protocol import Frame, Protocol
-from host_sim.wire.signals import Senses
+from host_sim.backends.connection import connect
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.robot_io import Senses
 
 PROTOCOL = Protocol()
 COUNTERS = itertools.cycle(range(16))  # the robots live longer than a test, and remember the last one

@@ -2,11 +2,11 @@
 
 import pytest
 
-from host_sim.emulated.can_frame import CanFrame
-from host_sim.emulated.clock import SECOND, Clock
-from host_sim.emulated.errors import BoardError
-from host_sim.emulated.slcan_line import SlcanLine
-from host_sim.emulated.usart import Usart
+from host_sim.emulator.can_frame import CanFrame
+from host_sim.emulator.clock import SECOND, Clock
+from host_sim.emulator.errors import BoardError
+from host_sim.emulator.slcan_line import SlcanLine
+from host_sim.emulator.usart import Usart
 from tests.image.support import read, write
 
 

@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <unity.h>
 
-#include "hal/host/file_store.h"
+#include "hal/port/posix/file_store.h"
 
 static const uint8_t OLD[CELL_COUNT] = {0, 1, 2, 3, 4, 5, 6, 7};
 static const uint8_t NEW[CELL_COUNT] = {7, 6, 5, 4, 3, 2, 1, 0};

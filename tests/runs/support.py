@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-ROBOT = ROOT / "build/host/hal/host/octet-robot"
+ROBOT = ROOT / "build/host/hal/port/posix/octet-robot"
 DEADLINE_S = 120
 
 

@@ -135,9 +135,9 @@ def test_a_log_of_another_protocol_is_refused(run, tmp_path):
 def test_a_robot_built_from_another_dbc_is_refused(tmp_path):
     """A simulator of its own, whose octet.dbc differs by a line, with the robot that is here."""
     shutil.copytree(ROOT / "host_sim", tmp_path / "host_sim")
-    dbc = tmp_path / "hal/can/octet.dbc"
+    dbc = tmp_path / "hal/protocol/octet.dbc"
     dbc.parent.mkdir(parents=True)
-    dbc.write_bytes((ROOT / "hal/can/octet.dbc").read_bytes() + b"\n")
+    dbc.write_bytes((ROOT / "hal/protocol/octet.dbc").read_bytes() + b"\n")
     (tmp_path / "build").symlink_to(ROOT / "build")
 
     done = octet("run", "--bus", "fd", "--out", tmp_path / "out", cwd=tmp_path)

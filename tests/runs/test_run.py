@@ -13,8 +13,8 @@ def test_a_run_finishes_its_environments_and_says_so(run):
     done = run("--environments", "2", "--bus", "fd")
 
     assert (done.code, done.errors) == (0, "")
-    assert [world["finished"] for world in done.summary["environments"]] == [True, True]
-    assert all(world["food_eaten"] == 3 for world in done.summary["environments"])
+    assert [params["finished"] for params in done.summary["environments"]] == [True, True]
+    assert all(params["food_eaten"] == 3 for params in done.summary["environments"])
     assert "all food found" in done.output
 
 
@@ -30,10 +30,10 @@ def test_the_summary_has_all_that_is_promised(run):
     summary = run("--environments", "1", "--bus", "none").summary
 
     top = {"seed", "profile", "bus", "environments", "memory", "frames", "log_sha256", "wall_s", "real_time_factor"}
-    world = {"finished", "food_eaten", "ticks", "robot_s", "collisions"}
-    world |= {"trials", "remembered_turns", "boredom_turns"}
+    params = {"finished", "food_eaten", "ticks", "robot_s", "collisions"}
+    params |= {"trials", "remembered_turns", "boredom_turns"}
     assert top <= summary.keys()
-    assert world | {"memory"} <= summary["environments"][0].keys()
+    assert params | {"memory"} <= summary["environments"][0].keys()
     assert {"sent", "received", "lost", "refused"} == summary["frames"].keys()
     assert len(summary["memory"]) == 8
 
@@ -130,8 +130,8 @@ def test_another_node_has_its_own_identifiers(run):
 def test_a_short_time_limit_ends_an_environment_unfinished(run):
     done = run("--environments", "2", "--bus", "none", "--limit-s", "2")
 
-    assert [world["ticks"] for world in done.summary["environments"]] == [100, 100]
-    assert [world["finished"] for world in done.summary["environments"]] == [False, False]
+    assert [params["ticks"] for params in done.summary["environments"]] == [100, 100]
+    assert [params["finished"] for params in done.summary["environments"]] == [False, False]
 
 
 def test_real_time_takes_its_time_and_loses_nothing(run):

@@ -36,7 +36,7 @@ def test_the_exit_code_comes_through(finished: Finished) -> None:
 
 
 def test_arguments_folder_and_environment_come_through(finished: Finished) -> None:
-    assert finished.stdout.startswith("<a b'c><><$HOME \"*\"\n></")
+    assert finished.stdout.startswith('<a b\'c><><$HOME "*"\n></')
     assert finished.stdout.endswith("/a folder0><two\nlines>")
 
 

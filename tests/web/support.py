@@ -13,8 +13,8 @@ from typing import Any
 
 from playwright.sync_api import Page
 
-from host_sim.wire.protocol import Protocol, Said
-from host_sim.wire.record import read_log
+from host_sim.client.frame_log import read_log
+from host_sim.protocol.codec import DecodedFrame, Protocol
 from tests.runs.support import ROOT, start_octet
 
 CHROMIUM = "/usr/bin/chromium"
@@ -41,11 +41,11 @@ class Watched:
         """The COMMAND frames of the ended run, decoded."""
         return [said.signals for said in self.said() if said.name == "COMMAND"]
 
-    def said(self) -> list[Said]:
+    def said(self) -> list[DecodedFrame]:
         protocol = Protocol()
         return [said for line in read_log(self.out / "run.log") if (said := protocol.decode(line.frame))]
 
-    def world(self) -> dict[str, Any]:
+    def params(self) -> dict[str, Any]:
         return json.loads((self.out / "run.world.json").read_text())
 
     def summary(self) -> dict[str, Any]:

@@ -43,7 +43,7 @@ def test_next_environment_and_a_new_seed(watch, open_page):
     page.click("text=Start over")
     wait_for(page, "octet.scene.environment.seed === 77 && octet.scene.environment.number === 1")
     assert watched.end() == 0
-    begun = [(entry["seed"], entry["number"]) for entry in watched.world()["environments"]]
+    begun = [(entry["seed"], entry["number"]) for entry in watched.params()["environments"]]
     assert begun == [(5, 1), (5, 2), (77, 1)]
 
 
@@ -80,7 +80,7 @@ def test_an_obstacle_dragged_into_its_way_makes_it_learn_anew(watch, open_page):
     wait_for(page, "octet.scene.state.memory.some(side => side > 0)")
     wait_for_text(page, "#lessons", "Learned:")
     assert watched.end() == 0
-    assert {edit["do"] for edit in watched.world()["edits"]} == {"move_bar"}
+    assert {edit["do"] for edit in watched.params()["edits"]} == {"move_bar"}
 
 
 def test_the_robot_is_picked_up_and_put_down_elsewhere(watch, open_page):
@@ -93,7 +93,7 @@ def test_the_robot_is_picked_up_and_put_down_elsewhere(watch, open_page):
     wait_for(page, "x => octet.scene.state.x !== x && !octet.scene.state.lifted", now["x"])
     assert abs(state(page)["x"] - (food[0] - 180)) < 20
     assert watched.end() == 0
-    assert [edit["do"] for edit in watched.world()["edits"]] == ["lift", "put"]
+    assert [edit["do"] for edit in watched.params()["edits"]] == ["lift", "put"]
 
 
 def test_food_is_dragged_elsewhere(watch, open_page):

@@ -7,17 +7,19 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from host_sim.wire.signals import Senses
+from host_sim.robot_io import Senses
 from host_sim.world.arena import Arena
-from host_sim.world.environment import Bar, Environment, Point, Pose, World, ahead_of, clearance_mm, generate
+from host_sim.world.geometry import Bar, Point, Pose, ahead_of
+from host_sim.world.layouts import Layout, clearance_mm, generate
+from host_sim.world.params import SimParams
 
-WORLD = World()
+PARAMS = SimParams()
 MIDDLE = Pose(2000.0, 1500.0, 0.7)
-RADIUS = WORLD.body_radius_mm
+RADIUS = PARAMS.body_radius_mm
 
 
 def arena_with(start: Pose = MIDDLE, bars: tuple[Bar, ...] = (), foods: tuple[Point, ...] = ()) -> Arena:
-    return Arena(Environment(bars, foods, start), WORLD)
+    return Arena(Layout(bars, foods, start), PARAMS)
 
 
 def drive(arena: Arena, left_mm_s: float, right_mm_s: float, ticks: int) -> None:
@@ -27,7 +29,7 @@ def drive(arena: Arena, left_mm_s: float, right_mm_s: float, ticks: int) -> None
 
 def ideal(start: Pose, left_mm: float, right_mm: float) -> Pose:
     """The end of the arc, from its radius and the middle that it turns about."""
-    turn = (left_mm - right_mm) / WORLD.wheel_track_mm
+    turn = (left_mm - right_mm) / PARAMS.wheel_track_mm
     radius = (left_mm + right_mm) / 2 / turn
     x = start.x_mm + radius * (math.sin(start.heading_rad + turn) - math.sin(start.heading_rad))
     y = start.y_mm - radius * (math.cos(start.heading_rad + turn) - math.cos(start.heading_rad))
@@ -40,7 +42,7 @@ def assert_near(pose: Pose, wanted: Pose) -> None:
 
 def roam(seed: int, ticks: int) -> list[Senses]:
     """Random drives of random length in a random environment, into whatever is there."""
-    arena, draws, senses = Arena(generate(seed, 1, WORLD), WORLD), random.Random(seed), []
+    arena, draws, senses = Arena(generate(seed, 1, PARAMS), PARAMS), random.Random(seed), []
     left = right = 0.0
     for tick in range(ticks):
         if draws.random() < 0.05:
@@ -82,7 +84,7 @@ def test_one_tick_moves_along_the_arc_of_the_wheels(left: float, right: float) -
 
     arena.move(left, right)
 
-    assert_near(arena.pose, ideal(MIDDLE, left * WORLD.tick_s, right * WORLD.tick_s))
+    assert_near(arena.pose, ideal(MIDDLE, left * PARAMS.tick_s, right * PARAMS.tick_s))
 
 
 def test_a_thousand_ticks_end_where_one_long_arc_ends() -> None:
@@ -98,7 +100,7 @@ def test_too_fast_wheels_are_cut_to_the_greatest_speed() -> None:
 
     arena.move(2047.0, -2047.0)
 
-    way = WORLD.max_wheel_speed_mm_s * WORLD.tick_s
+    way = PARAMS.max_wheel_speed_mm_s * PARAMS.tick_s
     assert arena.odometer == pytest.approx((way, -way))
 
 
@@ -112,8 +114,8 @@ def test_odometers_count_tenths_of_a_mm_and_wrap() -> None:
 
 
 def test_odometers_go_on_from_the_arena_before() -> None:
-    environment = Environment((), (), MIDDLE)
-    arena = Arena(environment, WORLD, odometer=(12.5, -0.3))
+    layout = Layout((), (), MIDDLE)
+    arena = Arena(layout, PARAMS, odometer=(12.5, -0.3))
 
     senses = arena.sense(0)
 
@@ -127,7 +129,7 @@ def test_ticks_wrap() -> None:
 
 @pytest.mark.parametrize(
     ("heading_deg", "axis", "stop_mm"),
-    [(0, 0, WORLD.width_mm - RADIUS), (90, 1, WORLD.height_mm - RADIUS), (180, 0, RADIUS), (-90, 1, RADIUS)],
+    [(0, 0, PARAMS.width_mm - RADIUS), (90, 1, PARAMS.height_mm - RADIUS), (180, 0, RADIUS), (-90, 1, RADIUS)],
 )
 def test_each_wall_stops_the_robot(heading_deg: float, axis: int, stop_mm: float) -> None:
     arena = arena_with(Pose(2000.0, 1500.0, math.radians(heading_deg)))
@@ -186,7 +188,7 @@ def test_the_arena_corner_stops_the_robot_at_both_walls() -> None:
 
     drive(arena, 500.0, 500.0, 200)
 
-    assert arena.pose[:2] == pytest.approx((WORLD.width_mm - RADIUS, WORLD.height_mm - RADIUS), abs=0.02)
+    assert arena.pose[:2] == pytest.approx((PARAMS.width_mm - RADIUS, PARAMS.height_mm - RADIUS), abs=0.02)
 
 
 @pytest.mark.parametrize("opening_deg", [30, 90, 150])
@@ -199,21 +201,21 @@ def test_a_corner_holds_the_robot(opening_deg: float) -> None:
 
     drive(arena, 430.0, 420.0, 500)
 
-    room = clearance_mm(_row(arena.pose), bars, WORLD)[0]
+    room = clearance_mm(_row(arena.pose), bars, PARAMS)[0]
     assert room == pytest.approx(RADIUS, abs=0.1)
     assert arena.pose.x_mm < tip[0]
 
 
 @pytest.mark.parametrize("seed", range(20))
 def test_the_body_never_gets_into_an_obstacle(seed: int) -> None:
-    environment, draws = generate(seed, 1, WORLD), random.Random(seed)
-    arena, touched = Arena(environment, WORLD), False
+    layout, draws = generate(seed, 1, PARAMS), random.Random(seed)
+    arena, touched = Arena(layout, PARAMS), False
     for _ in range(40):
         left, right = draws.uniform(-100, 500), draws.uniform(-100, 500)
         for _ in range(40):
             arena.move(left, right)
             touched = touched or arena.touching
-            assert clearance_mm(_row(arena.pose), environment.bars, WORLD)[0] > RADIUS - 0.02
+            assert clearance_mm(_row(arena.pose), layout.bars, PARAMS)[0] > RADIUS - 0.02
     assert touched == (arena.collisions > 0)
 
 

@@ -7,9 +7,11 @@ import pytest
 from host_sim.world.arena import Arena
 from host_sim.world.editing import BARS_MAX, EditError, make_edit
 from host_sim.world.edits import AddBar, Edit, Lift, MoveBar, MoveFood, Put, RemoveBar
-from host_sim.world.environment import Bar, Environment, Pose, World
+from host_sim.world.geometry import Bar, Pose
+from host_sim.world.layouts import Layout
+from host_sim.world.params import SimParams
 
-WORLD = World()
+PARAMS = SimParams()
 FAR = Bar((500.0, 500.0), (900.0, 500.0))
 AHEAD = Bar((2140.0, 1300.0), (2140.0, 1700.0))
 FRONT = 4
@@ -19,7 +21,7 @@ FRONT = 4
 def arena() -> Arena:
     """The robot in the middle, looking to the right; one bar far away, food ahead."""
     start = Pose(2000.0, 1500.0, 0.0)
-    return Arena(Environment((FAR,), ((2500.0, 1500.0), (600.0, 2500.0)), start), WORLD)
+    return Arena(Layout((FAR,), ((2500.0, 1500.0), (600.0, 2500.0)), start), PARAMS)
 
 
 def feel(arena: Arena) -> int:
@@ -28,7 +30,7 @@ def feel(arena: Arena) -> int:
 
 def edit(arena: Arena, *edits: Edit) -> None:
     for one in edits:
-        make_edit(arena, one, WORLD)
+        make_edit(arena, one, PARAMS)
 
 
 def test_a_bar_put_before_the_robot_is_felt_at_once(arena):

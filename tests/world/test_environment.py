@@ -5,23 +5,25 @@ import math
 import numpy as np
 import pytest
 
-from host_sim.world.environment import Bar, Environment, Pose, World, ahead_of, clearance_mm, generate, turned
+from host_sim.world.geometry import Bar, Pose, ahead_of, turned
+from host_sim.world.layouts import Layout, clearance_mm, generate
+from host_sim.world.params import SimParams
 
-WORLD = World()
-
-
-def room_mm(environment: Environment, *points: tuple[float, float]) -> list[float]:
-    return [float(room) for room in clearance_mm(np.array(points), environment.bars, WORLD)]
+PARAMS = SimParams()
 
 
-def can_reach(environment: Environment, goal: tuple[float, float]) -> bool:
+def room_mm(layout: Layout, *points: tuple[float, float]) -> list[float]:
+    return [float(room) for room in clearance_mm(np.array(points), layout.bars, PARAMS)]
+
+
+def can_reach(layout: Layout, goal: tuple[float, float]) -> bool:
     """A second opinion on the generator's proof: steps of 20 mm from place to place where the body fits."""
     step = 20.0
-    y, x = np.mgrid[0 : WORLD.height_mm : step, 0 : WORLD.width_mm : step]
-    fits = clearance_mm(np.column_stack([x.ravel(), y.ravel()]), environment.bars, WORLD) >= WORLD.body_radius_mm
+    y, x = np.mgrid[0 : PARAMS.height_mm : step, 0 : PARAMS.width_mm : step]
+    fits = clearance_mm(np.column_stack([x.ravel(), y.ravel()]), layout.bars, PARAMS) >= PARAMS.body_radius_mm
     free = fits.reshape(x.shape)
     reached = np.zeros_like(free)
-    reached[round(environment.start.y_mm / step), round(environment.start.x_mm / step)] = True
+    reached[round(layout.start.y_mm / step), round(layout.start.x_mm / step)] = True
     grown = reached.copy()
     while True:
         grown[1:] |= reached[:-1]
@@ -50,25 +52,25 @@ def test_a_bearing_counts_from_the_heading() -> None:
 
 
 def test_the_same_seed_and_number_give_the_same_environment() -> None:
-    assert generate(7, 2, WORLD) == generate(7, 2, WORLD)
+    assert generate(7, 2, PARAMS) == generate(7, 2, PARAMS)
 
 
 def test_the_environment_of_a_seed_stays_the_same_for_ever() -> None:
-    start = generate(1, 1, WORLD).start
+    start = generate(1, 1, PARAMS).start
 
     assert start == pytest.approx((314.651908, 385.035638, -2.400630), abs=1e-6)
 
 
 @pytest.mark.parametrize(("seed", "number"), [(2, 1), (1, 2), (-1, 1), (11, 1), (1, 11)])
 def test_another_seed_or_number_gives_another_environment(seed: int, number: int) -> None:
-    assert generate(seed, number, WORLD) != generate(1, 1, WORLD)
+    assert generate(seed, number, PARAMS) != generate(1, 1, PARAMS)
 
 
 def test_clearance_is_the_distance_to_the_nearest_surface() -> None:
-    environment = Environment((Bar((1000.0, 1000.0), (2000.0, 1000.0)),), (), Pose(0.0, 0.0, 0.0))
+    layout = Layout((Bar((1000.0, 1000.0), (2000.0, 1000.0)),), (), Pose(0.0, 0.0, 0.0))
 
     beside, beyond_the_end, by_the_wall, inside, outside = room_mm(
-        environment, (1500.0, 1100.0), (2130.0, 1000.0), (4.0, 500.0), (1500.0, 1005.0), (-3.0, 500.0)
+        layout, (1500.0, 1100.0), (2130.0, 1000.0), (4.0, 500.0), (1500.0, 1005.0), (-3.0, 500.0)
     )
 
     assert (beside, beyond_the_end, by_the_wall) == pytest.approx((80.0, 110.0, 4.0))
@@ -77,42 +79,42 @@ def test_clearance_is_the_distance_to_the_nearest_surface() -> None:
 
 @pytest.mark.parametrize("seed", range(200))
 def test_every_environment_is_fair(seed: int) -> None:
-    environment = generate(seed, 1, WORLD)
+    layout = generate(seed, 1, PARAMS)
 
-    for food, (low, high) in zip(environment.food, WORLD.food_bands_mm, strict=True):
+    for food, (low, high) in zip(layout.food, PARAMS.food_bands_mm, strict=True):
         assert low <= food[0] <= high
-    assert len(environment.bars) == WORLD.bar_count
-    assert min(room_mm(environment, environment.start[:2])) >= WORLD.body_radius_mm + WORLD.sensor_reach_mm
+    assert len(layout.bars) == PARAMS.bar_count
+    assert min(room_mm(layout, layout.start[:2])) >= PARAMS.body_radius_mm + PARAMS.sensor_reach_mm
 
 
 @pytest.mark.parametrize("seed", range(200))
 def test_every_obstacle_is_as_long_as_it_may_be_and_inside_the_walls(seed: int) -> None:
-    half = WORLD.bar_thickness_mm / 2
-    for a, b in generate(seed, 1, WORLD).bars:
-        assert WORLD.bar_length_mm[0] - 1e-9 <= math.dist(a, b) + 2 * half <= WORLD.bar_length_mm[1] + 1e-9
+    half = PARAMS.bar_thickness_mm / 2
+    for a, b in generate(seed, 1, PARAMS).bars:
+        assert PARAMS.bar_length_mm[0] - 1e-9 <= math.dist(a, b) + 2 * half <= PARAMS.bar_length_mm[1] + 1e-9
         for x, y in (a, b):
-            assert half - 1e-9 <= x <= WORLD.width_mm - half + 1e-9
-            assert half - 1e-9 <= y <= WORLD.height_mm - half + 1e-9
+            assert half - 1e-9 <= x <= PARAMS.width_mm - half + 1e-9
+            assert half - 1e-9 <= y <= PARAMS.height_mm - half + 1e-9
 
 
 @pytest.mark.parametrize("seed", range(0, 200, 5))
 def test_the_body_can_get_from_the_start_to_all_food(seed: int) -> None:
-    environment = generate(seed, 1, WORLD)
+    layout = generate(seed, 1, PARAMS)
 
-    assert all(can_reach(environment, food) for food in environment.food)
+    assert all(can_reach(layout, food) for food in layout.food)
 
 
 def test_food_behind_obstacles_is_drawn_again() -> None:
     # Bars almost as long as the arena is high: most draws cut it in two.
-    world = World(bar_count=3, bar_length_mm=(2700.0, 2900.0))
+    params = SimParams(bar_count=3, bar_length_mm=(2700.0, 2900.0))
     for seed in range(10):
-        environment = generate(seed, 1, world)
+        layout = generate(seed, 1, params)
 
-        assert all(can_reach(environment, food) for food in environment.food)
+        assert all(can_reach(layout, food) for food in layout.food)
 
 
 def test_starts_look_every_way() -> None:
-    headings = [generate(seed, 1, WORLD).start.heading_rad for seed in range(100)]
+    headings = [generate(seed, 1, PARAMS).start.heading_rad for seed in range(100)]
 
     quarters = {math.floor(heading / (math.pi / 2)) for heading in headings}
     assert quarters == {-2, -1, 0, 1}
@@ -120,4 +122,4 @@ def test_starts_look_every_way() -> None:
 
 def test_a_world_without_room_is_refused_with_its_seed_and_number() -> None:
     with pytest.raises(ValueError, match="seed 5, number 3"):
-        generate(5, 3, World(width_mm=300.0, height_mm=300.0, bar_count=0))
+        generate(5, 3, SimParams(width_mm=300.0, height_mm=300.0, bar_count=0))

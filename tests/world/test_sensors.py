@@ -5,35 +5,37 @@ import math
 import pytest
 
 from host_sim.world.arena import Arena
-from host_sim.world.environment import Bar, Environment, Point, Pose, World, ahead_of
+from host_sim.world.geometry import Bar, Point, Pose, ahead_of
+from host_sim.world.layouts import Layout
+from host_sim.world.params import SimParams
 from host_sim.world.sensors import CONE_BEARINGS_DEG, cone_outline
 
-WORLD = World()
+PARAMS = SimParams()
 START = Pose(2000.0, 1500.0, 0.7)
-REACH_MM = WORLD.body_radius_mm + WORLD.sensor_reach_mm
+REACH_MM = PARAMS.body_radius_mm + PARAMS.sensor_reach_mm
 
 
 def peg(bearing_deg: float, gap_mm: float) -> Bar:
     """A short obstacle square to the bearing, its middle's near face so far from the body's edge."""
-    middle = WORLD.body_radius_mm + gap_mm + WORLD.bar_thickness_mm / 2
+    middle = PARAMS.body_radius_mm + gap_mm + PARAMS.bar_thickness_mm / 2
     x, y = ahead_of(START, middle, math.radians(bearing_deg))
     return Bar((x, y), (x + 0.01, y))
 
 
 def needle_feel(bearing_deg: float) -> int:
     """What is felt of an obstacle of 0.01 mm, 50 mm off the body."""
-    point = ahead_of(START, WORLD.body_radius_mm + 50.0, math.radians(bearing_deg))
+    point = ahead_of(START, PARAMS.body_radius_mm + 50.0, math.radians(bearing_deg))
     needle = Bar(point, (point[0] + 0.01, point[1]))
-    environment = Environment((needle,), (), START)
-    return Arena(environment, World(bar_thickness_mm=0.01)).sense(0).feel
+    layout = Layout((needle,), (), START)
+    return Arena(layout, SimParams(bar_thickness_mm=0.01)).sense(0).feel
 
 
 def feel(*bars: Bar) -> int:
-    return Arena(Environment(bars, (), START), WORLD).sense(0).feel
+    return Arena(Layout(bars, (), START), PARAMS).sense(0).feel
 
 
 def beacon_mm(*foods: Point, bars: tuple[Bar, ...] = ()) -> int:
-    senses = Arena(Environment(bars, foods, START), WORLD).sense(0)
+    senses = Arena(Layout(bars, foods, START), PARAMS).sense(0)
     assert senses.look == (senses.beacon_mm > 0)
     return senses.beacon_mm
 
@@ -98,14 +100,14 @@ def test_a_cone_is_cut_to_its_reach() -> None:
 
 
 def test_a_wall_is_felt_like_an_obstacle() -> None:
-    start = Pose(WORLD.width_mm - WORLD.body_radius_mm - 30.0, 1500.0, 0.0)
+    start = Pose(PARAMS.width_mm - PARAMS.body_radius_mm - 30.0, 1500.0, 0.0)
 
-    assert Arena(Environment((), (), start), WORLD).sense(0).feel & 4
+    assert Arena(Layout((), (), start), PARAMS).sense(0).feel & 4
 
 
 def test_one_of_two_obstacles_in_a_cone_may_leave_without_clearing_the_bit() -> None:
     near, far = peg(0, 20.0), peg(0, 50.0)
-    arena = Arena(Environment((near, far), (), START), WORLD)
+    arena = Arena(Layout((near, far), (), START), PARAMS)
 
     for _ in range(5):
         arena.move(-200.0, -200.0)

@@ -1,7 +1,7 @@
 # C code for packing and unpacking the wire's frames, made from the DBC when building.
 find_program(CANTOOLS cantools HINTS ${PROJECT_SOURCE_DIR}/.venv/bin REQUIRED)
 
-set(OCTET_DBC ${PROJECT_SOURCE_DIR}/hal/can/octet.dbc)
+set(OCTET_DBC ${PROJECT_SOURCE_DIR}/hal/protocol/octet.dbc)
 set(OCTET_GENERATED ${PROJECT_BINARY_DIR}/generated)
 file(MAKE_DIRECTORY ${OCTET_GENERATED})
 add_custom_command(

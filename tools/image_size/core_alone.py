@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("pattern", "memory", "random", "config", "brain", "motion", "robot", "obey")
+SOURCES = ("pattern", "memory", "random", "config", "brain", "motion", "robot", "commands")
 _COMMON = ("-std=c99", "-ffreestanding", "-Os", "-ffunction-sections", "-fdata-sections", "-Wall", "-Werror")
 _ENTRIES = ("robot_init", "robot_respond", "memory_adopt")
 _STATE = '#include "firmware/robot.h"\nstruct robot the_robot;\n'

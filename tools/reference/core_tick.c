@@ -29,7 +29,7 @@ int main(void)
     double began;
 
     robot_init(&robot, 1);
-    if (robot_obey(&robot, &start) != RESULT_DONE)
+    if (robot_execute(&robot, &start) != RESULT_DONE)
         return 1;
     began = now_ns();
     for (uint32_t tick = 0; tick < TICKS; tick++) {

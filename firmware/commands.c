@@ -1,0 +1,80 @@
+#include "firmware/robot.h"
+
+static enum result stop(struct robot *robot)
+{
+    robot->running = false;
+    motion_lift(&robot->motion);
+    return RESULT_DONE;
+}
+
+static enum result start(struct robot *robot, const struct command *command)
+{
+    if (!config_load(&robot->config, command->which))
+        return RESULT_UNKNOWN_PROFILE;
+    robot->profile = command->which;
+    brain_start(&robot->brain, command->value);
+    robot->brain.frozen = false;
+    robot->action = 0;
+    motion_start(&robot->motion);
+    robot->running = true;
+    return RESULT_DONE;
+}
+
+static enum result resume(struct robot *robot)
+{
+    robot->running = true;
+    return RESULT_DONE;
+}
+
+static enum result set(struct robot *robot, const struct command *command)
+{
+    if (command->which >= PARAMETER_COUNT)
+        return RESULT_UNKNOWN_PARAMETER;
+    if (!config_fits(command->which, command->value))
+        return RESULT_OUT_OF_RANGE;
+    config_set(&robot->config, command->which, (uint8_t)command->value);
+    return RESULT_DONE;
+}
+
+static enum result write_memory(struct robot *robot, const struct command *command)
+{
+    if (!memory_write(&robot->brain.memory, command->which, (uint16_t)command->value))
+        return RESULT_OUT_OF_RANGE;
+    robot->brain.changed = true;
+    return RESULT_DONE;
+}
+
+static enum result erase_memory(struct robot *robot)
+{
+    memory_erase(&robot->brain.memory);
+    robot->brain.changed = true;
+    return RESULT_DONE;
+}
+
+static enum result freeze(struct robot *robot, const struct command *command)
+{
+    robot->brain.frozen = command->which != 0;
+    return RESULT_DONE;
+}
+
+enum result robot_execute(struct robot *robot, const struct command *command)
+{
+    switch (command->opcode) {
+    case OPCODE_STOP:
+        return stop(robot);
+    case OPCODE_START:
+        return start(robot, command);
+    case OPCODE_RESUME:
+        return resume(robot);
+    case OPCODE_SET:
+        return set(robot, command);
+    case OPCODE_WRITE:
+        return write_memory(robot, command);
+    case OPCODE_ERASE:
+        return erase_memory(robot);
+    case OPCODE_FREEZE:
+        return freeze(robot, command);
+    default:
+        return RESULT_UNKNOWN_COMMAND;
+    }
+}

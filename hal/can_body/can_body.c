@@ -1,0 +1,192 @@
+/* The body at the far end of a CAN link: hal.h on link.h. */
+#include "hal/can_body/port.h"
+#include "hal/protocol/wire.h"
+
+enum { DRAIN_MAX = 4096 };   /* frames looked at to find the newest senses: more than any queue holds */
+
+struct hal {
+    struct link *link;
+    struct wire wire;
+    uint32_t heard_ms;   /* when senses last came, or silence was last reported */
+    uint32_t silent_ms;  /* since then, as of the last look at the clock: there is one for each thing that comes */
+    bool outage;         /* silence was reported, and no fresh senses have come since */
+    bool unstored;       /* storing this was put off: */
+    uint8_t memory[CELL_COUNT];
+};
+
+int hal_open(struct hal **hal, int argc, char *const argv[])
+{
+    static struct hal body;   /* one to a program; main knows no size to make room for */
+    struct port port;
+    uint16_t ids[WIRE_LISTEN_COUNT];
+    int result = port_open(&port, argc, argv);
+
+    if (result < 0)
+        return result;
+    wire_init(&body.wire, port.node);
+    body.wire.health.reset_cause = port.reset_cause;
+    body.wire.health.crash = port.crash;
+    wire_ids(&body.wire, ids);
+    result = link_open(&body.link, port.link, ids, WIRE_LISTEN_COUNT);
+    if (result < 0)
+        return result == LINK_E_NAME ? HAL_E_USAGE : HAL_E_BODY;
+    body.heard_ms = port_clock_ms();
+    body.silent_ms = 0;
+    body.outage = false;
+    port_ready(&port);
+    *hal = &body;
+    return 0;
+}
+
+static int receive_frame(struct hal *hal, struct frame *frame, uint32_t wait_ms)
+{
+    int result = link_receive(hal->link, frame, wait_ms);
+
+    if (result == LINK_E_GARBLED)
+        wire_count(&hal->wire, FAULT_DAMAGED);
+    return result;
+}
+
+static int counted(struct hal *hal, int result)
+{
+    if (result == HAL_E_STORE)
+        wire_count(&hal->wire, FAULT_UNSAVED);
+    return result;
+}
+
+/* Counts a failure to store; one that was put off stays to be done. */
+static int stored(struct hal *hal, int result)
+{
+    hal->unstored = result == PORT_LATER;
+    return counted(hal, hal->unstored ? 0 : result);
+}
+
+static uint32_t limit_ms(const struct hal *hal)
+{
+    return hal->wire.lockstep ? HAL_LOCKSTEP_MS : HAL_SILENCE_MS;
+}
+
+static void note_outage(struct hal *hal)
+{
+    wire_outage(&hal->wire);
+    hal->outage = true;
+}
+
+/* The wheels stand, and nobody waits for an answer: time for what takes long. */
+static int report_silence(struct hal *hal)
+{
+    note_outage(hal);
+    if (hal->unstored)
+        (void)stored(hal, port_store(hal->memory, PORT_AT_REST));
+    hal->heard_ms = port_clock_ms();
+    hal->silent_ms = 0;
+    return HAL_SILENCE;
+}
+
+/* After an outage the queue holds what was true long ago: of all that waits, only the newest senses count. A command
+ * among them comes first; the senses before it are out of date. */
+static int take_newest(struct hal *hal, struct input *in)
+{
+    struct frame frame;
+    int result = LINK_E_GARBLED;
+
+    for (unsigned i = 0; i < DRAIN_MAX && (result == 1 || result == LINK_E_GARBLED); i++) {
+        enum hal_input kind = HAL_SILENCE;
+
+        result = receive_frame(hal, &frame, 0);
+        if (result == 1)
+            kind = wire_read(&hal->wire, &frame, in);
+        if (kind != HAL_SILENCE)
+            wire_count(&hal->wire, FAULT_STALE);   /* the senses before it */
+        if (kind == HAL_COMMAND)
+            return HAL_COMMAND;
+    }
+    return HAL_SENSES;
+}
+
+static int take_senses(struct hal *hal, struct input *in)
+{
+    int result = HAL_SENSES;
+
+    /* A robot that was held up itself finds its senses waiting, and has heard of no silence. */
+    if (hal->silent_ms >= limit_ms(hal) && !hal->outage)
+        note_outage(hal);
+    if (hal->outage)
+        result = take_newest(hal, in);
+    if (result == HAL_SENSES) {
+        hal->outage = false;
+        hal->heard_ms += hal->silent_ms;
+        hal->silent_ms = 0;
+    }
+    return result;
+}
+
+/* Waits for one thing, whatever it is: what of it is for the robot, or HAL_SILENCE. */
+static int receive_input(struct hal *hal, struct input *in, uint32_t wait_ms)
+{
+    struct frame frame;
+    int result = receive_frame(hal, &frame, wait_ms);
+    enum hal_input kind;
+
+    hal->silent_ms = port_clock_ms() - hal->heard_ms;
+    if (result != 1)
+        return result == LINK_E_CLOSED ? HAL_E_CLOSED : HAL_SILENCE;
+    kind = wire_read(&hal->wire, &frame, in);
+    return kind == HAL_SENSES ? take_senses(hal, in) : (int)kind;
+}
+
+/* A lockstep's long wait is waited in pieces, with a sign of life between them. */
+static uint32_t slice_of(uint32_t wait_ms)
+{
+    return wait_ms < HAL_SILENCE_MS ? wait_ms : HAL_SILENCE_MS;
+}
+
+int hal_receive(struct hal *hal, struct input *in)
+{
+    int result = HAL_SILENCE;
+
+    while (result == HAL_SILENCE) {
+        if (hal->silent_ms >= limit_ms(hal))
+            return report_silence(hal);
+        port_alive(hal->outage);
+        result = receive_input(hal, in, slice_of(limit_ms(hal) - hal->silent_ms));
+    }
+    return result;
+}
+
+int hal_send(struct hal *hal, const struct output *out)
+{
+    struct frame frames[WIRE_FRAMES_MAX];
+    size_t count;
+
+    if (out->has_report)
+        link_health(hal->link, &hal->wire.health.bus);
+    count = wire_write(&hal->wire, out, frames);
+    for (size_t i = 0; i < count; i++) {
+        int result = link_send(hal->link, &frames[i]);
+
+        if (result == LINK_E_CLOSED)
+            return HAL_E_CLOSED;
+        if (result < 0)
+            wire_count(&hal->wire, FAULT_UNSENT);
+    }
+    return 0;
+}
+
+int hal_load(struct hal *hal, uint8_t memory[CELL_COUNT])
+{
+    return counted(hal, port_load(memory));
+}
+
+int hal_store(struct hal *hal, const uint8_t memory[CELL_COUNT])
+{
+    for (unsigned p = 0; p < CELL_COUNT; p++)
+        hal->memory[p] = memory[p];
+    return stored(hal, port_store(memory, PORT_QUICKLY));
+}
+
+uint32_t hal_entropy(struct hal *hal)
+{
+    (void)hal;
+    return port_entropy();
+}

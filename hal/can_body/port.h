@@ -1,0 +1,41 @@
+/* port.h: the little that the CAN body needs of the machine it runs on, besides a link. */
+#ifndef OCTET_PORT_H
+#define OCTET_PORT_H
+
+#include <stdint.h>
+
+#include "hal/protocol/health.h"
+
+struct port {
+    const char *link;   /* name of the link, as link_open takes it */
+    uint8_t node;       /* 1..63 */
+    enum reset_cause reset_cause;
+    const struct crash *crash;   /* the last since power-up; null for none */
+};
+
+int port_open(struct port *port, int argc, char *const argv[]);
+        /* Fills *port from the command line, or with what is built in. 0 or HAL_E_USAGE, said on the console. */
+
+void port_ready(const struct port *port);
+        /* The link is open: says so, in the machine's own way. */
+
+uint32_t port_clock_ms(void);
+        /* Milliseconds from any start; wraps. */
+
+void port_alive(bool outage);
+        /* Called once a tick, and at least every HAL_SILENCE_MS while one is rightly waited for: all is well up to here.
+           For a watchdog, and for a light that tells whether senses come. */
+
+int port_load(uint8_t memory[CELL_COUNT]);
+uint32_t port_entropy(void);
+        /* As hal_load and hal_entropy in hal.h. */
+
+enum port_effort { PORT_QUICKLY, PORT_AT_REST };
+
+enum { PORT_LATER = 1 };
+
+int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort);
+        /* As hal_store. Or PORT_LATER, and nothing is changed: it takes longer than a tick, and effort is PORT_QUICKLY.
+           With PORT_AT_REST, when the wheels stand and nobody waits for an answer, it may take a second. */
+
+#endif

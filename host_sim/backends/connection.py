@@ -1,0 +1,146 @@
+"""From the names that a person types to a robot at the end of a link."""
+
+import socket
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from typing import Any
+
+import can
+
+from host_sim.backends.qemu import Qemu
+from host_sim.backends.robot_process import RobotProcess
+from host_sim.cli.run_options import BOARDS
+from host_sim.errors import UsageError
+from host_sim.transport.in_process_link import InProcessLink
+from host_sim.transport.link import BusLink, Link
+from host_sim.transport.socket_pair_bus import SocketPairBus
+
+BITRATE = 500_000
+"""Bits a second, for buses that are set up when opened."""
+
+NOTHING = (0,) * 8
+"""A memory in which nothing is learned."""
+
+_EMULATORS = ("qemu", "emulated")
+_IMAGE_NODE = 1
+
+
+@dataclass(frozen=True)
+class Connection:
+    """A robot within reach.
+
+    Attributes:
+        link: Carries frames to it and back.
+        bus: The bus's name, as the summary gives it.
+        status: Tells how the robot's process is, and raises RobotError if it has ended.
+        pid: Number of that process; None if it is not ours.
+    """
+
+    link: Link
+    bus: str
+    status: Callable[[], str]
+    pid: int | None = None
+
+
+def connect(  # noqa: PLR0913, PLR0917 - what a person can say about it
+    stack: ExitStack, bus: str, robot: str, node: int, memory: Sequence[int] = NOTHING, board: str = BOARDS[0]
+) -> Connection:
+    """Opens a bus and, unless it is there already, starts a robot on it.
+
+    Args:
+        stack: Ends all that is opened here when it closes.
+        bus: `none`, `fd`, or a python-can `INTERFACE:CHANNEL`. Robots in emulators bring their own: any but the last.
+        robot: `spawn` to start one, `external` for one that is on the bus, `qemu` or `emulated` for the image that
+            is flashed.
+        node: 1..63.
+        memory: What an in-process robot wakes up with.
+        board: One of `BOARDS`, for an emulated robot.
+
+    Raises:
+        UsageError: The names make no sense together, or the bus cannot be opened.
+        OctetError: Something to be built or installed is not there.
+        RobotError: The robot does not start.
+    """
+    if robot in _EMULATORS:
+        return _in_emulator(stack, bus, robot, node, board)
+    if bus in ("none", "fd") and robot == "external":
+        raise UsageError(f"--robot external needs a bus that it is on: --bus INTERFACE:CHANNEL, not --bus {bus}")
+    if bus == "none":
+        return Connection(InProcessLink(node, memory), bus, lambda: "runs in this process")
+    if bus == "fd":
+        return _over_socket_pair(stack, node)
+    return _over_bus(stack, bus, robot, node)
+
+
+def _in_emulator(stack: ExitStack, bus: str, robot: str, node: int, board: str) -> Connection:
+    if bus not in ("none", "fd"):
+        raise UsageError(
+            f"--robot {robot} brings its own bus: leave out --bus {bus}; or put a board on that one with"
+            f" python -m host_sim.emulator --bus {bus}, and say --robot external"
+        )
+    if node != _IMAGE_NODE:
+        raise UsageError(f"the image that is flashed is node {_IMAGE_NODE}, not {node}: leave out --node")
+    return _in_qemu(stack) if robot == "qemu" else _on_emulated_board(stack, board)
+
+
+def _in_qemu(stack: ExitStack) -> Connection:
+    qemu = Qemu()
+    stack.callback(qemu.close)
+    return Connection(qemu.link, "qemu", qemu.status, qemu.pid)
+
+
+def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
+    from host_sim.emulator.start import start_board  # noqa: PLC0415 - Unicorn is there for tests and emulation only
+
+    board = start_board(name)
+    stack.callback(board.close)
+    return Connection(board, f"emulated {name}", board.status)
+
+
+def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
+    ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    with theirs:
+        link = BusLink(SocketPairBus(ours.detach()))
+        stack.callback(link.close)
+        process = RobotProcess(f"fd:{theirs.fileno()}", node, [theirs.fileno()])
+    stack.callback(process.close)
+    return Connection(link, "fd", process.status, process.pid)
+
+
+def _over_bus(stack: ExitStack, bus: str, robot: str, node: int) -> Connection:
+    link = BusLink(open_bus(bus))
+    stack.callback(link.close)
+    interface = bus.partition(":")[0]
+    if robot == "external":
+        return Connection(link, bus, lambda: "is not ours to watch")
+    if interface != "socketcan":
+        raise UsageError(f"a robot can be started on socketcan or fd, not on {interface}: say --robot external")
+    process = RobotProcess(bus, node)
+    stack.callback(process.close)
+    return Connection(link, bus, process.status, process.pid)
+
+
+def open_bus(bus: str) -> can.BusABC:
+    """Opens a python-can bus.
+
+    Args:
+        bus: `INTERFACE:CHANNEL`.
+
+    Raises:
+        UsageError: It is no such name, or cannot be opened.
+    """
+    interface, colon, channel = bus.partition(":")
+    if not (interface and colon and channel):
+        raise UsageError(f"--bus is auto, fd, none or INTERFACE:CHANNEL such as socketcan:vcan0, not {bus!r}")
+    extra: dict[str, Any] = {}
+    if interface == "slcan":
+        # Its default is to sleep for 2 s, for adapters that reset when opened.
+        extra["sleep_after_open"] = 0.0
+    if interface != "socketcan":
+        extra["bitrate"] = BITRATE
+    try:
+        return can.Bus(interface=interface, channel=channel, **extra)
+    except (can.CanError, can.CanInterfaceNotImplementedError, OSError, ValueError, ImportError) as error:
+        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}") from error

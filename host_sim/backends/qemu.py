@@ -1,0 +1,102 @@
+"""The STM32F405 image with slcan on its UART, in QEMU."""
+
+import os
+import shutil
+import socket
+import subprocess
+from contextlib import suppress
+from pathlib import Path
+
+from host_sim.backends.images import image_path
+from host_sim.errors import OctetError, RobotError
+from host_sim.transport.slcan_link import SlcanLink
+
+PROGRAM = "qemu-system-arm"
+MACHINE = "netduinoplus2"
+"""A board of QEMU's with an STM32F405."""
+
+_READY_S = 10.0
+_END_S = 2.0
+_PAUSE_S = 0.05
+"""What the robot says at once has no such gaps."""
+
+
+class Qemu:
+    """One running QEMU. It ends with `close`, and at the latest with this process.
+
+    Attributes:
+        link: Carries frames to the image and back.
+        pid: The process's number.
+    """
+
+    def __init__(self, image: Path | None = None) -> None:
+        """Starts it and waits until the robot inside has reported: left alone, it does so once a second.
+
+        Args:
+            image: The `.elf`; None for the one that the build leaves.
+
+        Raises:
+            OctetError: QEMU is not installed, or the image is not built.
+            RobotError: It ended, or the robot did not speak in time.
+        """
+        image = image or image_path("stm32f405", "slcan")
+        if shutil.which(PROGRAM) is None:
+            raise OctetError(f"{PROGRAM} is not installed: run tools/setup images")
+        ours, theirs = socket.socketpair()
+        with theirs:
+            self._process = subprocess.Popen(
+                _order(image, theirs.fileno()),
+                pass_fds=[theirs.fileno()],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+            )
+        self.link = SlcanLink(ours)
+        self.pid = self._process.pid
+        try:
+            self._await_ready()
+        except BaseException:
+            self.close()
+            raise
+
+    def status(self) -> str:
+        """How the process is, in a few words.
+
+        Raises:
+            RobotError: It has ended; says what it printed.
+        """
+        code = self._process.poll()
+        if code is None:
+            return "is running in QEMU"
+        assert self._process.stderr is not None
+        printed = self._process.stderr.read().decode(errors="replace").strip().replace("\n", " / ")
+        raise RobotError(f"QEMU ended with exit code {code} and printed: {printed or 'nothing'}")
+
+    def close(self) -> None:
+        """Ends the process. It has nothing to save."""
+        self._process.kill()
+        self._process.wait()
+        self.link.close()
+        if self._process.stderr is not None:
+            self._process.stderr.close()
+
+    def _await_ready(self) -> None:
+        try:
+            frame = self.link.receive(_READY_S)
+        except RobotError:
+            with suppress(subprocess.TimeoutExpired):
+                self._process.wait(_END_S)
+            self.status()
+            raise
+        if frame is None:
+            raise RobotError(f"the robot in QEMU said nothing for {_READY_S:g} s; it {self.status()}")
+        while self.link.receive(_PAUSE_S) is not None:
+            continue
+
+
+def _order(image: Path, serial: int) -> list[str]:
+    """The command line; `setpriv` ends QEMU where this process ends without a chance to."""
+    return [
+        *("setpriv", "--pdeathsig", "KILL", PROGRAM, "-M", MACHINE, "-display", "none", "-monitor", "none"),
+        *("-chardev", f"socket,id=uart,fd={serial}", "-serial", "chardev:uart", "-kernel", os.fspath(image)),
+    ]

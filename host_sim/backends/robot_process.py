@@ -1,0 +1,105 @@
+"""The firmware as a process of its own, as it runs on the host."""
+
+import os
+import select
+import subprocess
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from host_sim.errors import OctetError, RobotError
+from host_sim.paths import BUILD
+
+PROGRAM = BUILD / "host" / "hal" / "port" / "posix" / "octet-robot"
+_READY_S = 10.0
+_END_S = 2.0
+_PRINTED_CHARS = 400
+
+
+class RobotProcess:
+    """One running robot. It ends with `close`, and at the latest with this process.
+
+    Attributes:
+        pid: The process's number.
+    """
+
+    def __init__(self, link: str, node: int, pass_fds: Sequence[int] = (), program: Path = PROGRAM) -> None:
+        """Starts it and waits until it listens.
+
+        Args:
+            link: Its link, as the robot's own command line takes it: `socketcan:vcan0`, `fd:5`.
+            node: 1..63.
+            pass_fds: Open files that it inherits.
+            program: The firmware.
+
+        Raises:
+            OctetError: The program is not there.
+            RobotError: It ended, or did not get ready in time; says what it printed.
+        """
+        order = [os.fspath(program), "--with-parent", "--node", str(node), link]
+        try:
+            self._process = subprocess.Popen(
+                order,
+                pass_fds=pass_fds,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,  # a Ctrl-C in the terminal is for us: we stop the robot in good order
+            )
+        except OSError as error:
+            raise OctetError(f"cannot start the firmware: {error}; build it with tools/setup") from error
+        self.pid = self._process.pid
+        self._printed = b""
+        assert self._process.stdout is not None
+        self._output = self._process.stdout
+        os.set_blocking(self._output.fileno(), False)
+        try:
+            self._await_ready()
+        except BaseException:
+            self.close()
+            raise
+
+    def status(self) -> str:
+        """How the process is, in a few words, with what it printed.
+
+        Raises:
+            RobotError: It has ended.
+        """
+        code = self._process.poll()
+        if code is None:
+            return f"is running and {self._quoted()}"
+        how = f"was killed by signal {-code}" if code < 0 else f"ended with exit code {code}"
+        raise RobotError(f"the robot {how} and {self._quoted()}")
+
+    def close(self) -> None:
+        """Ends the process, by force if it must be."""
+        self._process.terminate()
+        try:
+            self._process.wait(_END_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._output.close()
+
+    def _await_ready(self) -> None:
+        give_up = time.monotonic() + _READY_S
+        while b"listens" not in self._printed:
+            left_s = give_up - time.monotonic()
+            if not select.select([self._output], [], [], max(left_s, 0.0))[0]:
+                raise RobotError(f"the robot was not ready within {_READY_S:g} s and {self._quoted()}")
+            self._read()
+            if self._process.poll() is not None:
+                self._read()
+                break
+        self.status()
+
+    def _read(self) -> None:
+        try:
+            self._printed += os.read(self._output.fileno(), 65536)
+        except BlockingIOError:
+            return
+
+    def _quoted(self) -> str:
+        self._read()
+        text = " / ".join(self._printed.decode(errors="replace").split("\n")).strip(" /")
+        return f"printed: {text[-_PRINTED_CHARS:]}" if text else "printed nothing"

@@ -1,1 +1,0 @@
-"""What each command of `tools/octet` does, and what `tools/bench` measures."""

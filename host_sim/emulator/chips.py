@@ -1,0 +1,116 @@
+"""The chips that there are: what lies where in each."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from host_sim.emulator.clock import Clock
+from host_sim.emulator.flash import Factory as FlashFactory
+from host_sim.emulator.flash_f1 import FlashF1
+from host_sim.emulator.flash_f4 import FlashF4
+from host_sim.emulator.gpio import Gpio, gpio_f1, gpio_f4
+from host_sim.emulator.rcc import Oscillators, Rcc, RccFaults
+from host_sim.emulator.rcc_f1 import RccF1
+from host_sim.emulator.rcc_f4 import RccF4
+
+Gate = tuple[int, int]
+"""Offset of a register of RCC, and a bit in it."""
+
+
+@dataclass(frozen=True)
+class Chip:
+    """One chip on one board.
+
+    Attributes:
+        name: As the board is called on the command line.
+        cpuid: What its core calls itself.
+        slow_hz: Speed of the watchdog's oscillator.
+        oscillators: The others' speeds; the crystal is the board's.
+        ram: (base, bytes) of each RAM.
+        system_rom: Base of the page with the unique identifier.
+        rcc: Makes the reset and clock control.
+        rcc_base: Where it lies.
+        flash: Makes the flash.
+        flash_base: Where its registers lie.
+        gpio: Makes a port by its name.
+        gpio_base: Where port A lies; each has 1 kB.
+        gpio_gates: Of each port.
+        can_banks: Number of the filter banks of CAN.
+        can_gate: Of CAN.
+        usart_base: Where USART1 lies.
+        usart_gate: Of USART1.
+        afio_gate: Of the alternate functions' registers; None: this chip has none.
+    """
+
+    name: str
+    cpuid: int
+    slow_hz: int
+    oscillators: Oscillators
+    ram: Sequence[tuple[int, int]]
+    system_rom: int
+    rcc: Callable[[Clock, Oscillators, Callable[[], int], RccFaults], Rcc]
+    rcc_base: int
+    flash: FlashFactory
+    flash_base: int
+    gpio: Callable[[str], Gpio]
+    gpio_base: int
+    gpio_gates: Sequence[Gate]
+    can_banks: int
+    can_gate: Gate
+    usart_base: int
+    usart_gate: Gate
+    afio_gate: Gate | None = None
+
+
+WATCHDOG_BASE, CAN_BASE, AFIO_BASE = 0x40003000, 0x40006400, 0x40010000
+SYSTICK_BASE, SCB_BASE = 0xE000E010, 0xE000ED00
+"""Where both chips have the same."""
+
+GPIO_STRIDE = 0x400
+"""From one port to the next."""
+
+_MHZ = 1_000_000
+
+STM32F405 = Chip(
+    name="stm32f405",
+    cpuid=0x410FC241,
+    slow_hz=32_000,
+    oscillators=Oscillators(internal=16 * _MHZ, crystal=12 * _MHZ, core_max=168 * _MHZ, apb1_max=42 * _MHZ),
+    ram=((0x20000000, 128 << 10), (0x10000000, 64 << 10)),
+    system_rom=0x1FFF7000,
+    rcc=RccF4,
+    rcc_base=0x40023800,
+    flash=FlashF4,
+    flash_base=0x40023C00,
+    gpio=gpio_f4,
+    gpio_base=0x40020000,
+    gpio_gates=[(0x30, port) for port in range(9)],
+    can_banks=28,
+    can_gate=(0x40, 25),
+    usart_base=0x40011000,
+    usart_gate=(0x44, 4),
+)
+"""Adafruit Feather STM32F405."""
+
+STM32F103 = Chip(
+    name="stm32f103",
+    cpuid=0x411FC231,
+    slow_hz=40_000,
+    oscillators=Oscillators(internal=8 * _MHZ, crystal=8 * _MHZ, core_max=72 * _MHZ, apb1_max=36 * _MHZ),
+    ram=((0x20000000, 20 << 10),),
+    system_rom=0x1FFFF000,
+    rcc=RccF1,
+    rcc_base=0x40021000,
+    flash=FlashF1,
+    flash_base=0x40022000,
+    gpio=gpio_f1,
+    gpio_base=0x40010800,
+    gpio_gates=[(0x18, 2 + port) for port in range(5)],
+    can_banks=14,
+    can_gate=(0x1C, 25),
+    usart_base=0x40013800,
+    usart_gate=(0x18, 14),
+    afio_gate=(0x18, 0),
+)
+"""Blue Pill."""
+
+CHIPS = {chip.name: chip for chip in (STM32F405, STM32F103)}

@@ -1,0 +1,198 @@
+"""Serves a live run to browsers: the page and its parts over HTTP, the run itself over one WebSocket a page."""
+
+import asyncio
+import contextlib
+import os
+import secrets
+import socket
+from collections.abc import AsyncIterator
+
+from aiohttp import WSCloseCode, WSMsgType, web
+
+from host_sim.errors import UsageError
+from host_sim.live.feed import PageFeed
+from host_sim.live.orders import FULL_SPEED, TEXT_MAX, order_from
+from host_sim.live.paced_run import PacedRun
+from host_sim.paths import WEB
+
+PAGES_MAX = 32
+FRAME_S, RACING_FRAME_S = 1 / 60, 1 / 30
+"""A page is told of changes so often, at most; the second at full speed, where nobody could follow anyway."""
+
+_REFUSALS_MAX = 100
+_ANYWHERE = ("0.0.0.0", "::")
+_HEADERS = {
+    "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+    "img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+    "Cache-Control": "no-store",
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+}
+
+
+class Listener:
+    """The place where pages knock: taken before the run begins, so that a port in use spoils nothing.
+
+    Attributes:
+        host: The address that it listens on.
+        port: Its port.
+        token: What a page's address must carry; None where only this machine can reach us.
+        socket: Listens.
+    """
+
+    def __init__(self, listen: str | None, port: int) -> None:
+        """Opens it.
+
+        Args:
+            listen: An address for others to reach us at, with a token; None for this machine only, without.
+            port: The port; 0 for any that is free.
+
+        Raises:
+            UsageError: The address cannot be had.
+        """
+        self.host = listen or "127.0.0.1"
+        self.token = None if listen is None else secrets.token_urlsafe(16)
+        try:
+            family, *_, address = socket.getaddrinfo(self.host, port, type=socket.SOCK_STREAM)[0]
+            self.socket = socket.create_server((address[0], port), family=family)
+        except OSError as error:
+            unknown = isinstance(error, socket.gaierror)
+            why = "no such address" if unknown or error.errno is None else os.strerror(error.errno).lower()
+            where = f"{self.host}, port {port}"
+            raise UsageError(f"cannot listen on {where}: {why}; choose another with --port or --listen") from None
+        self.port: int = self.socket.getsockname()[1]
+
+    @property
+    def url(self) -> str:
+        """What a person opens."""
+        host = f"[{self.host}]" if self.socket.family is socket.AF_INET6 else self.host
+        if self.host in _ANYWHERE:
+            host = socket.gethostname()
+        query = "" if self.token is None else f"?token={self.token}"
+        return f"http://{host}:{self.port}/{query}"
+
+
+class LiveServer:
+    """The pages that watch one run.
+
+    Attributes:
+        pages: How many watch.
+    """
+
+    def __init__(self, live: PacedRun, listener: Listener) -> None:
+        """Serves nothing yet."""
+        self.pages = 0
+        self._live, self._listener = live, listener
+        self._sockets: set[web.WebSocketResponse] = set()
+        self._app = web.Application(client_max_size=TEXT_MAX)
+        self._app.router.add_get("/", self._page)
+        self._app.router.add_get("/live", self._socket)
+        self._app.router.add_get("/{name}", self._part)
+
+    @contextlib.asynccontextmanager
+    async def serving(self) -> AsyncIterator[None]:
+        """Serves while the context lasts."""
+        runner = web.AppRunner(self._app, access_log=None, shutdown_timeout=1.0)
+        await runner.setup()
+        try:
+            await web.SockSite(runner, self._listener.socket).start()
+            yield
+        finally:
+            for page in list(self._sockets):
+                await _say_goodbye(page)
+            await runner.cleanup()
+
+    async def _page(self, request: web.Request) -> web.StreamResponse:
+        self._check_token(request)
+        return _file("live.html")
+
+    async def _part(self, request: web.Request) -> web.StreamResponse:
+        name = request.match_info["name"]
+        if name not in _parts():
+            raise web.HTTPNotFound
+        return _file(name)
+
+    async def _socket(self, request: web.Request) -> web.StreamResponse:
+        self._check_token(request)
+        self._check_origin(request)
+        if self.pages >= PAGES_MAX:
+            raise web.HTTPServiceUnavailable(text=f"{PAGES_MAX} pages watch already\n")
+        page = web.WebSocketResponse(max_msg_size=TEXT_MAX, heartbeat=20.0, compress=False, timeout=1.0)
+        await page.prepare(request)
+        self._sockets.add(page)
+        self.pages += 1
+        feed = PageFeed(self._live)
+        sender = asyncio.create_task(_send(page, feed))
+        try:
+            await self._receive(page, feed)
+        finally:
+            sender.cancel()
+            self.pages -= 1
+            self._sockets.discard(page)
+        return page
+
+    async def _receive(self, page: web.WebSocketResponse, feed: PageFeed) -> None:
+        """Takes orders until the page goes, or has talked too much nonsense."""
+        refusals = 0
+        while refusals < _REFUSALS_MAX:
+            message = await page.receive()
+            if message.type is WSMsgType.TEXT:
+                refusals += not self._accept(message.data, feed)
+            elif message.type is WSMsgType.BINARY:
+                self._live.refused += 1
+                refusals += 1
+            else:
+                self._live.refused += message.type is WSMsgType.ERROR
+                return
+        await page.close(code=WSCloseCode.POLICY_VIOLATION, message=b"too much nonsense")
+
+    def _accept(self, text: str, feed: PageFeed) -> bool:
+        try:
+            order = order_from(text)
+        except ValueError as error:
+            self._live.refused += 1
+            self._live.change += 1
+            feed.notes.append(f"not understood: {error}"[:200])
+            return False
+        self._live.offer(order, feed.notes.append)
+        return True
+
+    def _check_token(self, request: web.Request) -> None:
+        token = self._listener.token
+        given = request.query.get("token", "")
+        if token is not None and not secrets.compare_digest(given.encode(), token.encode()):
+            self._live.refused += 1
+            raise web.HTTPForbidden(text="the address must end with ?token=..., as octet printed it\n")
+
+    def _check_origin(self, request: web.Request) -> None:
+        """Only our own page may open a socket: any page in the same browser could try."""
+        port = self._listener.port
+        ours = {f"http://127.0.0.1:{port}", f"http://localhost:{port}"}
+        if self._listener.token is not None:
+            ours.add(f"http://{request.host}")
+        if request.headers.get("Origin") not in ours:
+            self._live.refused += 1
+            raise web.HTTPForbidden(text="only octet's own page may connect\n")
+
+
+async def _send(page: web.WebSocketResponse, feed: PageFeed) -> None:
+    """Tells a page the latest, as fast as it reads and no faster."""
+    with contextlib.suppress(ConnectionError):
+        while not page.closed:
+            message = feed.next()
+            if message is not None:
+                await page.send_str(message)
+            await asyncio.sleep(RACING_FRAME_S if feed.live.speed == FULL_SPEED else FRAME_S)
+
+
+async def _say_goodbye(page: web.WebSocketResponse) -> None:
+    with contextlib.suppress(ConnectionError, asyncio.TimeoutError):
+        await asyncio.wait_for(page.close(code=WSCloseCode.GOING_AWAY, message=b"the run has ended"), 1.0)
+
+
+def _parts() -> set[str]:
+    return {path.name for path in WEB.iterdir() if path.suffix in (".js", ".css")}
+
+
+def _file(name: str) -> web.FileResponse:
+    return web.FileResponse(WEB / name, headers=_HEADERS)

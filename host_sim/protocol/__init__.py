@@ -1,0 +1,1 @@
+"""The bus protocol: frames and what they say."""

@@ -1,0 +1,1 @@
+"""A run that has been: its log, its world, and what is worked out from them."""

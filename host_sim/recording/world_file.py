@@ -1,0 +1,92 @@
+"""`run.world.json`, beside a run's log: which environments the robot was in, and what a person did to them, by tick.
+
+The log has what the robot sensed, did and was told; this has the world that it did so in. Log and world file together
+give the whole run again.
+"""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from host_sim.atomic_file import write_bytes
+from host_sim.errors import OctetError, UsageError
+from host_sim.sim.world_record import Begun, Edited, WorldRecord
+from host_sim.world.edits import edit_from, edit_to, whole
+
+_FORMAT = 1
+_SEED_MAX, _TICK_MAX, _NUMBER_MAX = 2**32 - 1, 2**53, 1_000_000
+
+
+def write_world(record: WorldRecord, path: Path) -> None:
+    """Writes the file, all or nothing.
+
+    Raises:
+        OctetError: The disk did not take it.
+    """
+    content = {
+        "format": _FORMAT,
+        "seed": record.seed,
+        "of": record.environments,
+        "limit_ticks": record.limit_ticks,
+        "environments": [begun._asdict() for begun in record.begun],
+        "edits": [{"tick": tick, **edit_to(edit)} for tick, edit in record.edits],
+    }
+    write_bytes(path, (json.dumps(content) + "\n").encode())
+
+
+def world_path(log: Path) -> Path:
+    """Where the world file of a log is: `run.world.json` beside `run.log`."""
+    return log.with_suffix(".world.json")
+
+
+def read_world(path: Path) -> WorldRecord:
+    """Reads a world file.
+
+    Raises:
+        UsageError: The file cannot be read.
+        OctetError: It is no world file, or one of another format; says what is wrong.
+    """
+    try:
+        content = json.loads(path.read_bytes())
+        if not isinstance(content, dict) or content.get("format") != _FORMAT:
+            raise ValueError(f'no object with "format": {_FORMAT}')
+        return _record(content)
+    except OSError as error:
+        raise UsageError(f"cannot read {path}: {error.strerror}") from None
+    except (ValueError, RecursionError) as error:
+        raise OctetError(f"{path} is no world file of this version: {error}") from None
+
+
+def _record(content: dict[str, Any]) -> WorldRecord:
+    begun = [_begun(entry) for entry in _objects(content, "environments")]
+    edits = [_edited(entry) for entry in _objects(content, "edits")]
+    for name, ticks in (("environments", [b.first_tick for b in begun]), ("edits", [e.tick for e in edits])):
+        if ticks != sorted(ticks):
+            raise ValueError(f"{name} are not in the order of their ticks")
+    return WorldRecord(
+        whole(content, "seed", 0, _SEED_MAX),
+        whole(content, "of", 1, _NUMBER_MAX),
+        whole(content, "limit_ticks", 1, _TICK_MAX),
+        begun,
+        edits,
+    )
+
+
+def _objects(content: dict[str, Any], name: str) -> Iterator[dict[str, Any]]:
+    entries = content.get(name)
+    if not isinstance(entries, list) or not all(isinstance(entry, dict) for entry in entries):
+        raise ValueError(f"{name} must be a list of objects")
+    return iter(entries)
+
+
+def _begun(entry: dict[str, Any]) -> Begun:
+    seed, number = whole(entry, "seed", 0, _SEED_MAX), whole(entry, "number", 1, _NUMBER_MAX)
+    return Begun(seed, number, whole(entry, "first_tick", 0, _TICK_MAX))
+
+
+def _edited(entry: dict[str, Any]) -> Edited:
+    edit = edit_from(entry)
+    if edit is None:
+        raise ValueError(f"there is no edit {entry.get('do')!r}")
+    return Edited(whole(entry, "tick", 0, _TICK_MAX), edit)

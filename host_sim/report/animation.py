@@ -1,0 +1,176 @@
+"""A short animation of a run: the arena with the robot's senses, its reason in words, and its memory as it fills."""
+
+from dataclasses import dataclass
+from io import BytesIO
+from itertools import combinations
+from pathlib import Path
+
+from PIL import Image, ImageColor, ImageFont
+
+from host_sim.atomic_file import write_bytes
+from host_sim.errors import UsageError
+from host_sim.recording.trajectory import Trajectory, at
+from host_sim.report.drawing import (
+    CONE_DARK,
+    CONE_LIT,
+    FLOOR,
+    FOOD_MM,
+    INK,
+    MARKS,
+    OBSTACLE,
+    PAPER,
+    Plan,
+    draw_cell,
+    draw_cone,
+    draw_food,
+    draw_obstacles,
+    draw_robot,
+    draw_trail,
+    write,
+)
+from host_sim.view.history import Lesson
+from host_sim.view.phrases import SIDES, lesson_sentence, sentence
+from host_sim.view.state import EnvironmentScene, State
+from host_sim.world.geometry import Pose, ahead_of
+from host_sim.world.params import SimParams
+from host_sim.world.sensors import CONE_BEARINGS_DEG
+
+FRAMES_MAX = 600
+"""A clip of more frames is refused: it would be no short one."""
+
+_FRAME_MS = 80
+_HOLD_MS = 1000
+_TRAIL_S = 12.0
+_CELLS, _MARGIN_PX, _LINE_PX, _TEXT_PX = 8, 10, 26, 15
+_CLOCK_PX = 70
+_BEAM, _IN_USE, _LEARNED = "#d8efe7", "#fdeecb", "#bfe5d8"
+_TURNING = (4, 5)
+_COLOURS = (PAPER, FLOOR, INK, OBSTACLE, CONE_LIT, CONE_DARK, _BEAM, _IN_USE, _LEARNED)
+
+
+@dataclass(frozen=True)
+class Clip:
+    """What part of a run to show, and how.
+
+    Attributes:
+        from_s: Robot time at which it begins, s.
+        to_s: Robot time at which it ends; None for the end of the run.
+        speed: Robot seconds to a second. A lesson and all else worth a look is held for a moment, at this speed too.
+        width_px: Width of the picture.
+    """
+
+    from_s: float = 0.0
+    to_s: float | None = None
+    speed: float = 1.0
+    width_px: int = 640
+
+
+def write_gif(path: Path, trajectory: Trajectory, clip: Clip) -> None:
+    """Writes an animated GIF that begins anew at its end; equal clips give equal bytes.
+
+    Raises:
+        UsageError: There is nothing of the run between the two times, or too much for a clip.
+        OctetError: The disk did not take it.
+    """
+    ticks = _frame_ticks(trajectory, clip)
+    holds, palette = _holds(trajectory, clip), _palette()
+    durations = [_FRAME_MS + holds.get(tick, 0) for tick in ticks]
+    frames = (draw_frame(trajectory, tick, clip.width_px) for tick in ticks)
+    first, *others = (frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
+    content = BytesIO()
+    first.save(content, "GIF", save_all=True, append_images=others, duration=durations, loop=0)
+    write_bytes(path, content.getvalue())
+
+
+def draw_frame(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image:
+    """One tick: above the reason, then the arena, then the memory."""
+    state, inner_px = trajectory.at(tick), width_px - 2 * _MARGIN_PX
+    lesson = next((lesson for lesson in trajectory.lessons if lesson["tick"] == tick), None)
+    arena = _draw_arena(trajectory, state, inner_px)
+    cells = _draw_memory(state, lesson, trajectory.params, inner_px // _CELLS)
+    frame = Image.new("RGB", (width_px, 2 * _MARGIN_PX + _LINE_PX + arena.height + cells.height), PAPER)
+    frame.paste(arena, (_MARGIN_PX, _LINE_PX))
+    frame.paste(cells, ((width_px - cells.width) // 2, _LINE_PX + arena.height + _MARGIN_PX))
+    words = lesson_sentence(lesson) if lesson else sentence(state)
+    write(frame, (_MARGIN_PX, _LINE_PX / 2), words, _fitting_px(words, inner_px - _CLOCK_PX), "lm")
+    clock = f"{tick * trajectory.params.tick_s:.1f} s"
+    write(frame, (width_px - _MARGIN_PX, _LINE_PX / 2), clock, _TEXT_PX, "rm")
+    return frame
+
+
+def _fitting_px(words: str, room_px: int) -> int:
+    """The size at which a line fits."""
+    return min(_TEXT_PX, int(_TEXT_PX * room_px / ImageFont.load_default(_TEXT_PX).getlength(words)))
+
+
+def _frame_ticks(trajectory: Trajectory, clip: Clip) -> list[int]:
+    """The ticks to show: at even distances, and those to be held."""
+    tick_s = trajectory.params.tick_s
+    first = max(round(clip.from_s / tick_s), trajectory.first_tick)
+    end = trajectory.ticks if clip.to_s is None else min(round(clip.to_s / tick_s) + 1, trajectory.ticks)
+    step = max(1, round(_FRAME_MS / 1000 * clip.speed / tick_s))
+    ticks = sorted({*range(first, end, step), *(tick for tick in _holds(trajectory, clip) if first <= tick < end)})
+    if not ticks:
+        raise UsageError(f"there is nothing between these times: the run is {trajectory.ticks * tick_s:.2f} s long")
+    if len(ticks) > FRAMES_MAX:
+        raise UsageError(f"{len(ticks)} frames are too many, {FRAMES_MAX} the most: use --from, --to or --speed")
+    return ticks
+
+
+def _holds(trajectory: Trajectory, clip: Clip) -> dict[int, int]:
+    """How long to hold which ticks, ms."""
+    return {tick: round(_HOLD_MS / clip.speed) for tick, kind in trajectory.events() if kind != "environment"}
+
+
+def _palette() -> Image.Image:
+    """The colours of all frames, each with its blends into paper and floor and half-way into every other."""
+    bases = dict.fromkeys(ImageColor.getrgb(colour) for colour in (*_COLOURS, *(mark.colour for mark in MARKS)))
+    blends = [(a, b, 0.5) for a, b in combinations(bases, 2)]
+    blends += [(a, ImageColor.getrgb(b), part) for a in bases for b in (PAPER, FLOOR) for part in (0.25, 0.75)]
+    mixed = [tuple(round(x + (y - x) * part) for x, y in zip(a, b, strict=True)) for a, b, part in blends]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([value for colour in [*bases, *mixed] for value in colour])
+    return palette
+
+
+def _draw_arena(trajectory: Trajectory, state: State, width_px: int) -> Image.Image:
+    params, scene = trajectory.params, at(trajectory.scenes, state["tick"])
+    plan = Plan(params.width_mm, params.height_mm, width_px, FLOOR)
+    pose = Pose(state["x"], state["y"], state["heading"] / 1000)
+    if state["beacon"]:
+        plan.line([pose[:2], ahead_of(pose, state["beacon"])], params.beam_width_mm, _BEAM)
+    _draw_trail(plan, trajectory, state["tick"], scene)
+    for bit, bearing_deg in CONE_BEARINGS_DEG.items():
+        reach_mm = params.body_radius_mm + params.sensor_reach_mm
+        draw_cone(plan, pose, bearing_deg, reach_mm, CONE_LIT if state["feel"] & bit else CONE_DARK)
+    draw_obstacles(plan, (((ax, ay), (bx, by)) for _, ax, ay, bx, by in scene["bars"]), params)
+    for (x, y), eaten in zip(scene["food"], state["eaten"], strict=True):
+        draw_food(plan, (x, y), FOOD_MM, bool(eaten))
+    draw_robot(plan, pose, 2 * params.body_radius_mm, PAPER)
+    return plan.done()
+
+
+def _draw_trail(plan: Plan, trajectory: Trajectory, tick: int, scene: EnvironmentScene) -> None:
+    """The last of the way, as far as it is in this environment."""
+    first = max(tick - round(_TRAIL_S / trajectory.params.tick_s), scene["first_tick"], trajectory.first_tick)
+    rows = slice(first - trajectory.first_tick, tick + 1 - trajectory.first_tick)
+    places = trajectory.poses()[rows, :2].tolist()
+    reasons = trajectory.column("reason")[rows].tolist()
+    draw_trail(plan, tuple(places[0]), [(x, y, reason) for (x, y), reason in zip(places, reasons, strict=True)])
+
+
+def _draw_memory(state: State, lesson: Lesson | None, params: SimParams, width_px: int) -> Image.Image:
+    """The cells with what they hold; the one learned, else the one in use, or tried for, is lit."""
+    row = Image.new("RGB", (_CELLS * width_px, width_px), PAPER)
+    in_use = state["pattern"] if state["reason"] in _TURNING else None
+    lit, lit_colour = (lesson["cell"], _LEARNED) if lesson else (in_use, _IN_USE)
+    for pattern, side in enumerate(state["memory"]):
+        colour = lit_colour if pattern == lit else PAPER
+        cell = Image.new("RGB", (width_px, width_px), colour)
+        drawing = draw_cell(pattern, side, params, width_px, colour)
+        cell.paste(drawing)
+        if side:
+            middle = width_px / 2, (drawing.height + width_px) / 2
+            write(cell, middle, SIDES[side], min(_TEXT_PX, width_px // 5), "mm")
+        row.paste(cell, (pattern * width_px, 0))
+    return row

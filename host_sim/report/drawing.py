@@ -1,0 +1,164 @@
+"""What every picture of the robot is drawn with: a plan in mm, its colours, robot, food, cones and cells."""
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import groupby
+from typing import NamedTuple
+
+from PIL import Image, ImageDraw, ImageFont
+
+from host_sim.world.geometry import Point, Pose, ahead_of
+from host_sim.world.params import SimParams
+from host_sim.world.sensors import CONE_BEARINGS_DEG, cone_outline
+
+PAPER, INK, FLOOR, OBSTACLE = "#ffffff", "#20262e", "#f6f5f1", "#4b535d"
+CONE_LIT, CONE_DARK = "#e69f00", "#e1e4e8"
+FOOD_MM = 100.0
+FRONT_BITS = (2, 4, 8)
+"""The bits of feel that make the pattern: front-right, front, front-left."""
+
+# Everything but text is drawn this many times too large and then shrunk, for smooth edges.
+_OVERSIZE = 3
+_FOOD, _FRAME_MM = "#009e73", 16.0
+_UP = -math.pi / 2
+
+
+class Mark(NamedTuple):
+    """How a reason shows in the path: higher layers are drawn over lower ones."""
+
+    words: str
+    colour: str
+    width_mm: float
+    layer: int
+
+
+MARKS = (
+    Mark("stopped", "#8a8a8a", 30.0, 1),
+    Mark("wanders", "#56b4e9", 14.0, 1),
+    Mark("goes toward food", "#009e73", 20.0, 2),
+    Mark("looks around", "#c6ccd4", 34.0, 0),
+    Mark("remembered turn", "#0072b2", 36.0, 3),
+    Mark("trial turn", "#d55e00", 68.0, 4),
+    Mark("bored, about face", "#cc79a7", 68.0, 4),
+    Mark("eats", "#000000", 44.0, 5),
+)
+"""By reason; colours after Okabe and Ito, which colour-blind people can tell apart."""
+
+PATHS = (1, 2)
+"""The reasons for which the robot drives rather than turns."""
+
+
+class Plan:
+    """A surface to draw on in mm, smooth when it is done."""
+
+    def __init__(self, width_mm: float, height_mm: float, width_px: int, colour: str) -> None:
+        """Begins with one colour all over; the height in pixels follows."""
+        self._size_px = width_px, round(width_px * height_mm / width_mm)
+        self._px_per_mm = width_px * _OVERSIZE / width_mm
+        self._image = Image.new("RGB", (self._size_px[0] * _OVERSIZE, self._size_px[1] * _OVERSIZE), colour)
+        self._draw = ImageDraw.Draw(self._image)
+
+    def disc(self, middle: Point, diameter_mm: float, colour: str) -> None:
+        """A filled disc."""
+        x, y = self._pixels([middle])[0]
+        radius = diameter_mm * self._px_per_mm / 2
+        self._draw.ellipse((x - radius, y - radius, x + radius, y + radius), colour)
+
+    def line(self, points: Sequence[Point], width_mm: float, colour: str) -> None:
+        """A line with round ends and corners."""
+        self._draw.line(self._pixels(points), colour, max(1, round(width_mm * self._px_per_mm)), joint="curve")
+        for end in (points[0], points[-1]):
+            self.disc(end, width_mm, colour)
+
+    def polygon(self, points: Sequence[Point], colour: str) -> None:
+        """A filled polygon."""
+        self._draw.polygon(self._pixels(points), colour)
+
+    def done(self) -> Image.Image:
+        """The drawing in its final size."""
+        return self._image.resize(self._size_px, Image.Resampling.BOX)
+
+    def _pixels(self, points: Sequence[Point]) -> list[Point]:
+        return [(x * self._px_per_mm, y * self._px_per_mm) for x, y in points]
+
+
+def draw_mark(plan: Plan, reason: int, points: Sequence[Point], scale: float = 1.0) -> None:
+    """A way as a line, or a turn as a dot, as `MARKS` has it."""
+    _, colour, width_mm, _ = MARKS[reason]
+    if len(points) > 1:
+        plan.line(points, width_mm * scale, colour)
+    else:
+        plan.disc(points[0], width_mm * scale, colour)
+
+
+def draw_trail(plan: Plan, start: Point, trail: Sequence[tuple[float, float, int]]) -> None:
+    """Ways as lines, turns as dots, in the order of their layers.
+
+    Args:
+        plan: To draw on.
+        start: Where it begins.
+        trail: For each control tick, where it ended (x and y in mm) and the reason of its drive, 0..7.
+    """
+    points = [start, *((x, y) for x, y, _ in trail)]
+    runs = [(reason, [i for i, _ in ticks]) for reason, ticks in groupby(enumerate(trail), lambda t: t[1][2])]
+    for reason, ticks in sorted(runs, key=lambda run: MARKS[run[0]].layer):
+        # Tick i leads from point i to point i + 1.
+        way = points[ticks[0] : ticks[-1] + 2]
+        draw_mark(plan, reason, way if reason in PATHS else way[:1])
+
+
+def draw_food(plan: Plan, middle: Point, diameter: float, eaten: bool) -> None:
+    """A full disc, or an empty ring once it is eaten."""
+    plan.disc(middle, diameter, _FOOD)
+    if eaten:
+        plan.disc(middle, diameter * 0.7, FLOOR)
+
+
+def draw_obstacles(plan: Plan, bars: Iterable[Sequence[Point]], params: SimParams) -> None:
+    """The bars, each the two ends of its middle line, and the walls."""
+    for bar in bars:
+        plan.line(bar, params.bar_thickness_mm, OBSTACLE)
+    right, bottom = params.width_mm, params.height_mm
+    plan.line([(0, 0), (right, 0), (right, bottom), (0, bottom), (0, 0)], _FRAME_MM, OBSTACLE)
+
+
+def draw_robot(plan: Plan, pose: Pose, diameter: float, colour: str) -> None:
+    """A disc with a line to where it looks."""
+    plan.disc(pose[:2], diameter, INK)
+    plan.disc(pose[:2], diameter * 0.86, colour)
+    nose = [ahead_of(pose, diameter * 0.08), ahead_of(pose, diameter * 0.34)]
+    plan.line(nose, diameter * 0.12, INK if colour == PAPER else PAPER)
+
+
+def draw_cone(plan: Plan, pose: Pose, bearing_deg: float, reach_mm: float, colour: str) -> None:
+    """A sensor's cone."""
+    corners = [ahead_of(pose, math.hypot(x, y), math.atan2(y, x)) for x, y in cone_outline(bearing_deg, reach_mm)]
+    plan.polygon(corners, colour)
+    plan.line([*corners, corners[0]], reach_mm / 20, PAPER)
+
+
+def draw_cell(pattern: int, action: int, params: SimParams, width_px: int, colour: str = PAPER) -> Image.Image:
+    """One cell: the robot, looking up, its front cones lit or not, and an arrow round it for the turn."""
+    reach = params.body_radius_mm + params.sensor_reach_mm
+    plan = Plan(3.6 * reach, 2.5 * reach, width_px, colour)
+    pose = Pose(1.8 * reach, 1.75 * reach, _UP)
+    for bit in FRONT_BITS:
+        draw_cone(plan, pose, CONE_BEARINGS_DEG[bit], reach, CONE_LIT if bit >> 1 & pattern else CONE_DARK)
+    draw_robot(plan, pose, 2 * params.body_radius_mm, PAPER)
+    if action:
+        _draw_arrow(plan, pose, 1.35 * reach, -1 if action == 1 else 1)
+    return plan.done()
+
+
+def _draw_arrow(plan: Plan, pose: Pose, radius_mm: float, side: int) -> None:
+    """An arrow round the robot: side -1 to its left, 1 to its right."""
+    arc = [ahead_of(pose, radius_mm, side * math.radians(bearing)) for bearing in range(0, 76, 5)]
+    plan.line(arc, radius_mm / 14, INK)
+    base, tip = side * math.radians(75), side * math.radians(100)
+    head = [ahead_of(pose, radius_mm * part, base) for part in (0.84, 1.16)]
+    plan.polygon([*head, ahead_of(pose, radius_mm, tip)], INK)
+
+
+def write(image: Image.Image, place: Point, text: str, size_px: int, anchor: str) -> None:
+    """A line of text; `anchor` as Pillow has it."""
+    ImageDraw.Draw(image).text(place, text, INK, ImageFont.load_default(size_px), anchor=anchor)

@@ -1,0 +1,156 @@
+r"""A run as one HTML page that needs no server.
+
+The page is `web/replay.html` with what it refers to put in its place, so that the template opens as it is:
+- `<link rel="stylesheet" href="X">` becomes the style sheet;
+- `<script type="module" src="X"></script>` becomes that module with all that it imports, directly or not, before it,
+  each in a function of its own. An import is one line, `import { a, b } from "./y.js";`, an export the word before a
+  declaration;
+- `<script type="application/json" id="run"></script>` gets the run, each `<` in it as `\u003c`.
+
+The run is one object. Measures, EnvironmentScene and State are as in scene.py, Trial and Lesson as in story.py. What
+comes second in a pair holds from that tick on, until the next pair's; the first is from tick `first_tick` on.
+
+    version      1
+    title        for people, such as "seed 7, 3 environments"
+    measures     Measures
+    first_tick   the first tick on the page; 0 but for very long runs, whose last part it shows
+    ticks        how many there are
+    scenes       [[tick, EnvironmentScene], ...]: one for each environment and for each change of it by a person
+    eaten        [[tick, [0 or 1 for each piece of the scene's food]], ...]
+    memory       [[tick, [8 cells]], ...]
+    trials       [[tick, Trial or null], ...]: State.trial
+    lessons      [Lesson, ...], those before first_tick too
+    turns        [[tick, cell], ...]: each use of a cell, those before first_tick too: State.uses counts them
+    events       [[tick, kind], ...], in their order: kind is "environment", "trial", "lesson", "boredom" or "eat"
+    columns      the names of the columns, in the order of the data
+    data         base64 of a zlib stream (DecompressionStream "deflate") of the columns
+
+State n is `scene.state` of tick n: what the robot sensed and answered, and where that left it. A column has one whole
+number for each tick. Their names are those in State; x and y are in 0.1 mm, heading is in mrad:
+
+    x y heading lifted feel bump beacon left right reason repeat_count action pattern frozen
+
+A column is kept as its differences, the first from 0, each "zigzag" (0, -1, 1, -2, ... is 0, 1, 2, 3, ...), as 32-bit
+numbers, in planes: the low bytes of all `ticks` differences, then the next higher bytes, and so on. So, in
+JavaScript, with the inflated bytes b, column c, n ticks and value = 0 before the first:
+
+    const low = 4 * c * n;
+    const z = b[low + i] | b[low + n + i] << 8 | b[low + 2 * n + i] << 16 | b[low + 3 * n + i] << 24;
+    value += z >>> 1 ^ -(z & 1);
+"""
+
+import base64
+import json
+import re
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from host_sim.atomic_file import write_bytes
+from host_sim.paths import WEB
+from host_sim.recording.trajectory import Trajectory
+from host_sim.view.state import measures
+
+_TEMPLATE = "replay.html"
+_STYLE = re.compile(r'<link rel="stylesheet" href="([\w.-]+)">')
+_SCRIPT = re.compile(r'<script type="module" src="([\w.-]+)"></script>')
+_RUN = '<script type="application/json" id="run"></script>'
+_IMPORT = re.compile(r'^import (\{[^}]*\}) from "\./([\w.-]+)";$', re.MULTILINE)
+_EXPORT = re.compile(r"^export ((?:async )?(?:function|const|let|class) (\w+))", re.MULTILINE)
+_FIELDS = {"beacon": "beacon_mm", "left": "left_mm_s", "right": "right_mm_s"}
+_SENSED = ("lifted", "feel", "bump", "beacon")
+_DONE = ("left", "right", "reason", "repeat_count", "action", "pattern", "frozen")
+
+
+def write_page(path: Path, trajectory: Trajectory, title: str) -> None:
+    """Writes the page of a run; equal runs give equal bytes.
+
+    Args:
+        path: The file; one that is there is replaced.
+        trajectory: The run, of at least one tick.
+        title: For people.
+
+    Raises:
+        OctetError: The disk did not take it.
+    """
+    write_bytes(path, page(run_data(trajectory, title)).encode())
+
+
+def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:
+    """The run as the page has it; see above."""
+    columns = _columns(trajectory)
+    return {
+        "version": 1,
+        "title": title,
+        "measures": measures(trajectory.params, trajectory.boredom_limit),
+        "first_tick": trajectory.first_tick,
+        "ticks": trajectory.ticks - trajectory.first_tick,
+        "scenes": trajectory.scenes,
+        "eaten": trajectory.meals,
+        "memory": trajectory.memories,
+        "trials": trajectory.trials,
+        "lessons": trajectory.lessons,
+        "turns": trajectory.turns(),
+        "events": trajectory.events(),
+        "columns": list(columns),
+        "data": pack(np.array(list(columns.values()))),
+    }
+
+
+def pack(columns: NDArray[np.int64]) -> str:
+    """The text of columns.
+
+    Args:
+        columns: Shape (columns, ticks), differences from tick to tick within 31 bits.
+    """
+    steps = np.diff(columns, axis=1, prepend=0)
+    zigzag = (steps << 1 ^ steps >> 63).astype("<u4")
+    planes = zigzag.view(np.uint8).reshape(*columns.shape, 4).transpose(0, 2, 1)
+    return base64.b64encode(zlib.compress(planes.tobytes())).decode("ascii")
+
+
+def page(run: dict[str, Any]) -> str:
+    """The page's text."""
+    text = (WEB / _TEMPLATE).read_text(encoding="utf-8")
+    text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", text)
+    text = _SCRIPT.sub(lambda match: f'<script type="module">\n{_bundle(match[1])}</script>', text)
+    told = json.dumps(run, separators=(",", ":")).replace("<", "\\u003c")
+    return text.replace(_RUN, _RUN.replace("></", f">{told}</"))
+
+
+def _columns(trajectory: Trajectory) -> dict[str, NDArray[np.int64]]:
+    """Every column, as whole numbers."""
+    x, y, heading = np.rint(trajectory.poses() * (10, 10, 1000)).astype(np.int64).T
+    rows = {name: trajectory.column(_FIELDS.get(name, name)).astype(np.int64) for name in (*_SENSED, *_DONE)}
+    return {"x": x, "y": y, "heading": heading, **rows}
+
+
+def _bundle(name: str) -> str:
+    """A module and, before it, all that it imports, as one: no script can end the element that it is in."""
+    modules = "".join(_as_function(module) for module in _in_order(name, set()))
+    return f"const modules = {{}};\n{modules}".replace("</script", "<\\/script")
+
+
+def _as_function(name: str) -> str:
+    """A module as a function that is called and gives what it exports."""
+    text = _read(name)
+    exported = ", ".join(match[2] for match in _EXPORT.finditer(text))
+    body = _EXPORT.sub(r"\1", _IMPORT.sub(r'const \1 = modules["\2"];', text))
+    return f'modules["{name}"] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n'
+
+
+def _in_order(name: str, seen: set[str]) -> Iterator[str]:
+    """The modules that one needs, each after those that it needs itself."""
+    if name not in seen:
+        seen.add(name)
+        for _, needed in _IMPORT.findall(_read(name)):
+            yield from _in_order(needed, seen)
+        yield name
+
+
+def _read(name: str) -> str:
+    return (WEB / name).read_text(encoding="utf-8")

@@ -1,0 +1,1 @@
+"""How frames get to a robot and back."""

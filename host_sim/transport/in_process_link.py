@@ -1,0 +1,87 @@
+"""The firmware within this process: a link that is a function call into its shared library."""
+
+import os
+import time
+from collections import deque
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import cffi
+
+from host_sim.errors import OctetError
+from host_sim.paths import BUILD
+from host_sim.protocol.codec import Frame
+
+LIBRARY = BUILD / "host" / "hal" / "library" / "liboctet.so"
+_FRAMES_MAX = 7
+
+_DECLARATIONS = """
+struct frame { uint32_t id; uint8_t len; uint8_t data[8]; };
+struct session;
+struct session *session_open(uint8_t node, const uint8_t memory[8]);
+size_t session_exchange(struct session *session, const struct frame *in, struct frame *out);
+void session_close(struct session *session);
+"""
+
+
+def load_library(ffi: cffi.FFI, path: Path = LIBRARY) -> Any:
+    """The firmware as a library.
+
+    Raises:
+        OctetError: It is not there, or no library.
+    """
+    try:
+        return ffi.dlopen(os.fspath(path))
+    except OSError as error:
+        raise OctetError(f"cannot load the firmware: {error}; build it with tools/setup") from error
+
+
+class InProcessLink:
+    """A robot that answers within `send`. It knows no time but the ticks, and is never late."""
+
+    def __init__(self, node: int = 1, memory: Sequence[int] = (0,) * 8, library: Path = LIBRARY) -> None:
+        """Wakes a robot.
+
+        Args:
+            node: 1..63.
+            memory: Eight cells that it wakes up with.
+            library: The firmware.
+
+        Raises:
+            OctetError: The library cannot be loaded.
+        """
+        self._ffi = cffi.FFI()
+        self._ffi.cdef(_DECLARATIONS)
+        self._library = load_library(self._ffi, library)
+        self._session = self._ffi.gc(self._library.session_open(node, bytes(memory)), self._library.session_close)
+        self._in: Any = self._ffi.new("struct frame *")
+        self._out: Any = self._ffi.new("struct frame[]", _FRAMES_MAX)
+        self._answers: deque[Frame] = deque()
+
+    def send(self, frame: Frame) -> None:
+        """As in `Link`."""
+        data = frame.data
+        self._in.id, self._in.len = frame.id, len(data)
+        self._ffi.memmove(self._in.data, data, len(data))
+        count = self._library.session_exchange(self._session, self._in, self._out)
+        for i in range(count):
+            out = self._out[i]
+            self._answers.append(Frame(out.id, self._ffi.buffer(out.data, out.len)[:]))
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """As in `Link`. What is not there yet will not come: waiting passes the time, no more."""
+        if self._answers:
+            return self._answers.popleft()
+        time.sleep(timeout_s)
+        return None
+
+    def taken(self) -> list[Frame]:
+        """All that waits, at once."""
+        answers = list(self._answers)
+        self._answers.clear()
+        return answers
+
+    def close(self) -> None:
+        """As in `Link`."""
+        self._answers.clear()

@@ -1,0 +1,1 @@
+"""What any display shows of a run."""

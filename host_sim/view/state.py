@@ -1,0 +1,165 @@
+"""What there is to see of a run, in plain JSON: the one shape that every view draws, live or kept.
+
+Ticks are counted from the start of the run and do not wrap. Lengths are in mm, x to the right and y down; headings in
+mrad, 0 along +x, positive to the right. Sides: 0 nothing, 1 left, 2 right. Reasons: as in octet.dbc, 0..7.
+"""
+
+from typing import TypedDict
+
+from host_sim.robot_io import Drive, Senses
+from host_sim.sim.world_record import Begun
+from host_sim.view.history import LearningHistory, Lesson, Trial
+from host_sim.world.arena import Arena
+from host_sim.world.params import SimParams
+
+__all__ = ["EnvironmentScene", "Lesson", "Measures", "State", "Trial", "environment_scene", "measures", "state"]
+
+
+class Measures(TypedDict):
+    """The measures that a drawing needs, mm unless said.
+
+    Attributes:
+        width: Of the arena, inside.
+        height: Of the arena, inside.
+        body: Radius of the robot.
+        track: Distance between its wheels.
+        reach: How far the sensor cones reach beyond the body.
+        beam: Width of the corridor in which food is seen.
+        eat: Food nearer than this to the robot's middle can be eaten.
+        bar: Thickness of an obstacle.
+        tick_ms: Length of a tick, ms of robot time.
+        boredom: The remembered turn in a row after which the robot is bored.
+    """
+
+    width: float
+    height: float
+    body: float
+    track: float
+    reach: float
+    beam: float
+    eat: float
+    bar: float
+    tick_ms: float
+    boredom: int
+
+
+class EnvironmentScene(TypedDict):
+    """One arena. DecodedFrame when it begins, and anew whenever a person has changed its obstacles or food.
+
+    Attributes:
+        number: 1 for the first.
+        of: How many the run has.
+        seed: That it was drawn from.
+        first_tick: Its first tick.
+        bars: For each obstacle: its id, then both ends of its middle line: [id, ax, ay, bx, by].
+        food: For each piece of food, eaten or not: [x, y].
+    """
+
+    number: int
+    of: int
+    seed: int
+    first_tick: int
+    bars: list[list[float]]
+    food: list[list[float]]
+
+
+class State(TypedDict):
+    """All that changes from tick to tick: what the robot sensed at this tick, what it did, and where that left it.
+
+    Attributes:
+        tick: Number of the tick.
+        x: Middle of the robot after the tick, to 0.1 mm.
+        y: The same.
+        heading: -3142..3142 mrad after the tick.
+        lifted: 1 while a person holds the robot in the air.
+        feel: Proximity, one bit each: right 1, front-right 2, front 4, front-left 8, left 16.
+        bump: 1 if the body touched something.
+        beacon: Distance to the food seen straight ahead; 0 if none is seen.
+        left: Speed of the left wheel, mm/s, forward positive.
+        right: Speed of the right wheel.
+        reason: Why it does what it does.
+        repeat_count: Remembered turns since the way was last clear, 0..255.
+        action: Number of the action under way, 0..127, wraps.
+        pattern: The three front sensors when that action was decided: bit 0 front-right, 1 front, 2 front-left.
+        eaten: For each piece of food, 1 if it was eaten.
+        memory: The eight cells, each a side.
+        uses: For each cell, how often it was used.
+        learned: For each cell, the tick at which it last changed; -1 if never in this run.
+        frozen: 1 if the robot does not learn.
+        trial: The last trial of the run, or None.
+    """
+
+    tick: int
+    x: float
+    y: float
+    heading: int
+    lifted: int
+    feel: int
+    bump: int
+    beacon: int
+    left: int
+    right: int
+    reason: int
+    repeat_count: int
+    action: int
+    pattern: int
+    eaten: list[int]
+    memory: list[int]
+    uses: list[int]
+    learned: list[int]
+    frozen: int
+    trial: Trial | None
+
+
+def measures(params: SimParams, boredom_limit: int = 10) -> Measures:
+    """The measures of a world, and the robot's parameter `boredom_limit`."""
+    return Measures(
+        width=params.width_mm,
+        height=params.height_mm,
+        body=params.body_radius_mm,
+        track=params.wheel_track_mm,
+        reach=params.sensor_reach_mm,
+        beam=params.beam_width_mm,
+        eat=params.eat_reach_mm,
+        bar=params.bar_thickness_mm,
+        tick_ms=params.tick_s * 1000,
+        boredom=boredom_limit,
+    )
+
+
+def environment_scene(begun: Begun, of: int, arena: Arena) -> EnvironmentScene:
+    """The arena as it is now, in the environment that began so, of as many."""
+    return EnvironmentScene(
+        number=begun.number,
+        of=of,
+        seed=begun.seed,
+        first_tick=begun.first_tick,
+        bars=[[bar_id, *(round(c, 1) for c in (*bar.a, *bar.b))] for bar_id, bar in arena.obstacles.bars.items()],
+        food=[[round(x, 1), round(y, 1)] for x, y in arena.food],
+    )
+
+
+def state(tick: int, arena: Arena, senses: Senses, drive: Drive, history: LearningHistory) -> State:
+    """The state after a tick: `senses` and `drive` are that tick's, `arena` has moved and `story` has taken it."""
+    return State(
+        tick=tick,
+        x=round(arena.pose.x_mm, 1),
+        y=round(arena.pose.y_mm, 1),
+        heading=round(arena.pose.heading_rad * 1000),
+        lifted=int(arena.lifted),
+        feel=senses.feel,
+        bump=int(senses.bump),
+        beacon=senses.beacon_mm,
+        left=drive.left_mm_s,
+        right=drive.right_mm_s,
+        reason=drive.reason,
+        repeat_count=drive.repeat_count,
+        action=drive.action,
+        pattern=history.pattern,
+        eaten=[int(eaten) for eaten in arena.eaten],
+        memory=list(history.memory),
+        uses=list(history.uses),
+        learned=list(history.learned),
+        frozen=int(history.frozen),
+        trial=history.trial,
+    )

@@ -1,0 +1,138 @@
+"""One random layout of obstacles and food for each seed and number."""
+
+import math
+import random
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from host_sim.world.geometry import Bar, Point, Pose
+from host_sim.world.params import SimParams
+
+_CELL_MM = 25.0
+_TRIES = 1000
+
+
+@dataclass(frozen=True)
+class Layout:
+    """One layout: obstacles, the middles of the pieces of food, and the robot's first pose."""
+
+    bars: tuple[Bar, ...]
+    food: tuple[Point, ...]
+    start: Pose
+
+
+def generate(seed: int, number: int, params: SimParams) -> Layout:
+    """Draws the environment that belongs to a seed and a number: the same for ever, on every Python.
+
+    Where the robot starts and where food lies, nothing else is within reach of its sensors, and its middle can get
+    from the start to every piece of food.
+
+    Args:
+        seed: The run's seed, any integer.
+        number: Which environment of the run, any integer.
+        params: The measures.
+
+    Returns:
+        The first layout drawn that is fair in this sense.
+
+    Raises:
+        ValueError: The world is so crowded that 1000 draws gave no fair layout.
+    """
+    draws = random.Random(f"octet {seed} {number}")
+    for _ in range(_TRIES):
+        layout = _draw(draws, params)
+        if _is_fair(layout, params):
+            return layout
+    raise ValueError(f"no fair environment in {_TRIES} draws for seed {seed}, number {number}: {params}")
+
+
+def clearance_mm(points: NDArray[np.float64], bars: tuple[Bar, ...], params: SimParams) -> NDArray[np.float64]:
+    """Distances from points to the nearest obstacle or wall.
+
+    Args:
+        points: Shape (n, 2), x and y in mm.
+        bars: The obstacles.
+        params: The measures.
+
+    Returns:
+        Shape (n,), mm; negative inside an obstacle or beyond a wall.
+    """
+    x, y = points[:, 0], points[:, 1]
+    nearest = np.minimum(np.minimum(x, params.width_mm - x), np.minimum(y, params.height_mm - y))
+    for bar in bars:
+        nearest = np.minimum(nearest, _distance_mm(x, y, bar) - params.bar_thickness_mm / 2)
+    return nearest
+
+
+def _distance_mm(x: NDArray[np.float64], y: NDArray[np.float64], bar: Bar) -> NDArray[np.float64]:
+    """Distances from points to the middle line of a bar."""
+    (ax, ay), (bx, by) = bar
+    dx, dy = bx - ax, by - ay
+    along = np.clip(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0, 1.0)
+    return np.asarray(np.hypot(x - ax - along * dx, y - ay - along * dy))
+
+
+def _draw(draws: random.Random, params: SimParams) -> Layout:
+    bars = tuple(_draw_bar(draws, params) for _ in range(params.bar_count))
+    food = tuple(
+        (_between(draws, low, high), _between(draws, 0.0, params.height_mm)) for low, high in params.food_bands_mm
+    )
+    x, y = _between(draws, 0.0, params.width_mm), _between(draws, 0.0, params.height_mm)
+    return Layout(bars, food, Pose(x, y, _between(draws, -math.pi, math.pi)))
+
+
+def _draw_bar(draws: random.Random, params: SimParams) -> Bar:
+    """A bar of any length and angle, anywhere inside the walls."""
+    half = (_between(draws, *params.bar_length_mm) - params.bar_thickness_mm) / 2
+    angle = _between(draws, 0.0, math.pi)
+    dx, dy = half * math.cos(angle), half * math.sin(angle)
+    margin_x, margin_y = abs(dx) + params.bar_thickness_mm / 2, abs(dy) + params.bar_thickness_mm / 2
+    x = _between(draws, margin_x, params.width_mm - margin_x)
+    y = _between(draws, margin_y, params.height_mm - margin_y)
+    return Bar((x - dx, y - dy), (x + dx, y + dy))
+
+
+def _between(draws: random.Random, low: float, high: float) -> float:
+    # Of all the generator's methods only random() is promised to stay the same from one Python to the next.
+    return low + (high - low) * draws.random()
+
+
+def _is_fair(layout: Layout, params: SimParams) -> bool:
+    """Nothing is in sensor reach at the start or at the food, and a way for the body leads to each piece of food."""
+    places = np.array([layout.start[:2], *layout.food])
+    reach_mm = params.body_radius_mm + params.sensor_reach_mm
+    if clearance_mm(places, layout.bars, params).min() < reach_mm:
+        return False
+    way = _reachable(layout, params)
+    return all(way[_cell(point)] for point in layout.food)
+
+
+def _cell(point: Point) -> tuple[int, int]:
+    """Row and column of a point on the grid of the flood fill, which has a border of one cell."""
+    return 1 + int(point[1] / _CELL_MM), 1 + int(point[0] / _CELL_MM)
+
+
+def _reachable(layout: Layout, params: SimParams) -> NDArray[np.bool_]:
+    """The cells of the grid that the middle of the body can get to from the start: shape (rows, columns)."""
+    free = _free(layout.bars, params)
+    columns, frontier = free.shape[1], [int(np.ravel_multi_index(_cell(layout.start[:2]), free.shape))]
+    unvisited = bytearray(free.tobytes())
+    while frontier:
+        cell = frontier.pop()
+        if unvisited[cell]:
+            unvisited[cell] = False
+            frontier += (cell - 1, cell + 1, cell - columns, cell + columns)
+    left: NDArray[np.bool_] = np.frombuffer(unvisited, dtype=bool).reshape(free.shape)
+    return free & ~left
+
+
+def _free(bars: tuple[Bar, ...], params: SimParams) -> NDArray[np.bool_]:
+    """The cells in which the middle of the body may be anywhere, inside a border of cells in which it may not."""
+    rows, columns = math.ceil(params.height_mm / _CELL_MM), math.ceil(params.width_mm / _CELL_MM)
+    y, x = (np.indices((rows, columns)) + 0.5) * _CELL_MM
+    room = clearance_mm(np.column_stack([x.ravel(), y.ravel()]), bars, params)
+    # Clearance shrinks by at most the way gone, and no point of a cell is farther than this from its middle.
+    corner_mm = _CELL_MM * math.sqrt(0.5)
+    return np.pad(room.reshape(rows, columns) >= params.body_radius_mm + corner_mm, 1)

@@ -1,0 +1,38 @@
+"""The measures of a world: arena, body and senses."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class SimParams:
+    """The measures of arena, body and senses. The defaults are the article's screen at 5 mm a pixel.
+
+    Attributes:
+        width_mm: Inside width of the walled arena.
+        height_mm: Inside height of the walled arena.
+        body_radius_mm: Radius of the robot, a disc that turns about its middle.
+        wheel_track_mm: Distance between the two driven wheels.
+        sensor_reach_mm: How far the proximity cones reach beyond the body.
+        beam_width_mm: Width of the corridor straight ahead in which food is seen.
+        eat_reach_mm: Food nearer than this to the middle of the body can be eaten.
+        bar_count: Number of obstacles.
+        bar_thickness_mm: Thickness of an obstacle, and the diameter of its round ends.
+        bar_length_mm: Least and greatest length of an obstacle, round ends included.
+        food_bands_mm: Least and greatest x of each piece of food.
+        tick_s: Length of a control tick.
+        max_wheel_speed_mm_s: Faster wheel speeds, either way, are cut to this.
+    """
+
+    width_mm: float = 4000.0
+    height_mm: float = 3000.0
+    body_radius_mm: float = 100.0
+    wheel_track_mm: float = 160.0
+    sensor_reach_mm: float = 60.0
+    beam_width_mm: float = 100.0
+    eat_reach_mm: float = 150.0
+    bar_count: int = 6
+    bar_thickness_mm: float = 40.0
+    bar_length_mm: tuple[float, float] = (300.0, 1000.0)
+    food_bands_mm: tuple[tuple[float, float], ...] = ((0.0, 1000.0), (1150.0, 2750.0), (2750.0, 4000.0))
+    tick_s: float = 0.020
+    max_wheel_speed_mm_s: float = 500.0

@@ -1,0 +1,86 @@
+"""Recorded runs of the real firmware, in this process, with the trajectory that was kept meanwhile."""
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeVar
+
+from host_sim.backends.connection import connect
+from host_sim.client.frame_log import Recorder, line_of
+from host_sim.client.pacing import Lockstep
+from host_sim.client.session import Session
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.recording.trajectory import Trajectory
+from host_sim.recording.world_file import world_path, write_world
+from host_sim.sim.simulation import Simulation
+from host_sim.world.params import SimParams
+
+T = TypeVar("T")
+Meddle = Callable[[Simulation, RunRecorder], None]
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A run's log, with its world file beside it, and what was seen of it as it went."""
+
+    log: Path
+    trajectory: Trajectory
+
+
+def record_run(
+    folder: Path, seed: int = 1, environments: int = 1, limit_s: float = 600.0, meddle: Meddle = lambda *_: None
+) -> Kept:
+    """Does a run; `meddle` is called before each tick."""
+    folder.mkdir(exist_ok=True)
+    log = folder / "run.log"
+    with ExitStack() as stack:
+        simulation = open_simulation(stack, log, seed, environments, limit_s)
+        run_recorder = RunRecorder(simulation)
+        simulation.watch = run_recorder
+        for number in range(1, environments + 1):
+            simulation.enter(number)
+            while not simulation.over:
+                meddle(simulation, run_recorder)
+                simulation.step()
+            simulation.leave()
+        simulation.session.stop()
+    write_world(simulation.record, world_path(log))
+    return Kept(log, run_recorder.trajectory)
+
+
+def open_simulation(stack: ExitStack, log: Path, seed: int, environments: int, limit_s: float) -> Simulation:
+    """A started robot in a simulation that has not begun; the log is whole when the stack has closed."""
+    recorder = Recorder(log)
+    stack.callback(recorder.close)
+    session = Session(connect(stack, "none", "spawn", 1).link, Protocol(), recorder)
+    session.handshake(1.0)
+    session.start(seed, 0, {}, None)
+    return Simulation(SimParams(), session, Lockstep(session), seed, environments, limit_s)
+
+
+def finished(work: Callable[[], Coroutine[None, None, T]]) -> T:
+    """What a coroutine comes to; in a thread, since Playwright keeps an event loop running in its own."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(lambda: asyncio.run(work())).result()
+
+
+def write_log(path: Path, *frames: Frame) -> Path:
+    """Writes a log of frames, each 20 ms after the one before."""
+    path.write_text("".join(f"{line_of(20_000 * i, frame)}\n" for i, frame in enumerate(frames)))
+    return path
+
+
+def without(log: Path, name: str, **signals: int) -> None:
+    """Removes from a log the messages of that name with these signals."""
+    protocol = Protocol()
+
+    def stays(line: str) -> bool:
+        frame_id, data = line.split()[2].split("#")
+        said = protocol.decode(Frame(int(frame_id, 16), bytes.fromhex(data)))
+        return said is None or said.name != name or not signals.items() <= said.signals.items()
+
+    log.write_text("".join(filter(stays, log.read_text().splitlines(keepends=True))))

@@ -1,0 +1,115 @@
+"""Logs and world files that are none get one clear line that says what to do."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from host_sim.cli.main import main
+from host_sim.client.frame_log import line_of, read_log
+from host_sim.protocol.codec import Protocol
+from host_sim.recording.world_file import world_path
+
+
+def cut_inside_a_line(log: Path) -> None:
+    log.write_bytes(log.read_bytes()[:-7])
+
+
+def cut_before_the_first_tick(log: Path) -> None:
+    log.write_text("".join(log.read_text().splitlines(keepends=True)[:7]))
+
+
+def make_binary(log: Path) -> None:
+    log.write_bytes(bytes(range(256)) * 8)
+
+
+def make_text(log: Path) -> None:
+    log.write_text("Dear robot,\nhow are you?\n")
+
+
+def make_empty(log: Path) -> None:
+    log.write_bytes(b"")
+
+
+def remove(log: Path) -> None:
+    log.unlink()
+
+
+def make_folder(log: Path) -> None:
+    log.unlink()
+    log.mkdir()
+
+
+def make_other_protocol(log: Path) -> None:
+    """As one that was recorded with another octet.dbc."""
+    heartbeat = Protocol().id_of("HEARTBEAT")
+    lines = []
+    for time_us, frame in read_log(log):
+        last = bytes(byte ^ 0xFF for byte in frame.data[-2:]) if frame.id == heartbeat else frame.data[-2:]
+        lines.append(line_of(time_us, frame._replace(data=frame.data[:-2] + last)))
+    log.write_text("".join(f"{line}\n" for line in lines))
+
+
+def change_world(log: Path, **fields: object) -> None:
+    path = world_path(log)
+    path.write_text(json.dumps({**json.loads(path.read_text()), **fields}))
+
+
+def take_the_world_of_another_seed(log: Path) -> None:
+    change_world(log, environments=[{"seed": 5, "number": 1, "first_tick": 0}])
+
+
+def let_the_world_begin_later(log: Path) -> None:
+    change_world(log, environments=[{"seed": 333, "number": 1, "first_tick": 9}])
+
+
+def edit_what_cannot_be(log: Path) -> None:
+    change_world(log, edits=[{"tick": 50, "do": "remove_bar", "id": 77}])
+
+
+def make_world_no_json(log: Path) -> None:
+    world_path(log).write_text("{")
+
+
+def make_world_folder(log: Path) -> None:
+    world_path(log).unlink()
+    world_path(log).mkdir()
+
+
+BAD = {
+    cut_inside_a_line: (1, "cut short"),
+    cut_before_the_first_tick: (1, "no tick"),
+    make_binary: (2, "not even text"),
+    make_text: (1, "line 1"),
+    make_empty: (1, "empty"),
+    remove: (2, "No such file"),
+    make_folder: (2, "directory"),
+    make_other_protocol: (1, "another octet.dbc"),
+    take_the_world_of_another_seed: (1, "not recorded in the world of"),
+    let_the_world_begin_later: (1, "begins later"),
+    edit_what_cannot_be: (1, "no number 77"),
+    make_world_no_json: (1, "no world file"),
+    make_world_folder: (2, "directory"),
+}
+
+
+@pytest.mark.parametrize("command", [["replay", "--html"], ["picture", "--png"]], ids=["page", "picture"])
+@pytest.mark.parametrize("spoil", BAD, ids=lambda spoil: spoil.__name__)
+def test_what_is_no_run_is_one_line_and_leaves_nothing(short, tmp_path, capsys, spoil, command):
+    code, named = BAD[spoil]
+    spoil(short.log)
+    made = tmp_path / "made"
+
+    assert main([command[0], str(short.log), command[1], str(made)]) == code
+
+    told = capsys.readouterr().err
+    assert re.fullmatch(r"octet: .*\n", told)
+    assert named in told
+    assert not made.exists()
+
+
+def test_a_log_in_a_wrong_world_can_be_drawn_without_it(short, tmp_path):
+    take_the_world_of_another_seed(short.log)
+
+    assert main(["replay", str(short.log), "--no-world", "--html", str(tmp_path / "page.html")]) == 0

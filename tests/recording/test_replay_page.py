@@ -1,0 +1,143 @@
+"""The page of a run: small, whole, and true."""
+
+import base64
+import json
+import re
+import zlib
+
+import numpy as np
+import pytest
+from host_sim.kept import replay_page
+from hypothesis import given
+from hypothesis import strategies as st
+
+from host_sim.cli.main import main
+from host_sim.protocol.codec import Protocol
+from host_sim.recording.resimulation import resimulate
+from host_sim.recording.trajectory import Trajectory, at
+from host_sim.report.replay_page import pack, page, run_data, write_page
+from host_sim.view.state import State
+from tests.recording.support import record_run
+
+SVG = "http://www.w3.org/2000/svg"
+"""The name of a language, which nobody fetches."""
+
+
+def unpacked(data: str, columns: int) -> list[list[int]]:
+    """As the page does it."""
+    planes = np.frombuffer(zlib.decompress(base64.b64decode(data)), np.uint8).reshape(columns, 4, -1)
+    zigzag = (planes.astype(np.int64) << np.array([[0], [8], [16], [24]])).sum(axis=1)
+    return np.cumsum(zigzag >> 1 ^ -(zigzag & 1), axis=1).tolist()
+
+
+def state_in(run: dict, columns: dict[str, list[int]], tick: int) -> State:
+    """The state of a tick, from what the page holds."""
+    row = {name: values[tick - run["first_tick"]] for name, values in columns.items()}
+    lessons = [(lesson["cell"], lesson["tick"]) for lesson in run["lessons"] if lesson["tick"] <= tick]
+    return State(
+        **{**row, "x": row["x"] / 10, "y": row["y"] / 10},
+        tick=tick,
+        eaten=at(run["eaten"], tick),
+        memory=at(run["memory"], tick),
+        uses=[sum(turn <= tick and used == cell for turn, used in run["turns"]) for cell in range(8)],
+        learned=[max((when for what, when in lessons if what == cell), default=-1) for cell in range(8)],
+        trial=at(run["trials"], tick),
+    )
+
+
+def run_in(text: str) -> dict:
+    match = re.search(r'<script type="application/json" id="run">(.*?)</script>', text, re.DOTALL)
+    return json.loads(match[1])
+
+
+def test_the_page_has_the_state_of_every_tick(kept, tmp_path):
+    write_page(tmp_path / "page.html", kept.trajectory, "a run")
+
+    run = run_in((tmp_path / "page.html").read_text())
+
+    columns = dict(zip(run["columns"], unpacked(run["data"], len(run["columns"])), strict=True))
+    for tick in (*range(0, kept.trajectory.ticks, 61), kept.trajectory.ticks - 1):
+        assert state_in(run, columns, tick) == kept.trajectory.at(tick)
+    assert run["ticks"] == kept.trajectory.ticks
+    assert run["scenes"] == [[tick, scene] for tick, scene in kept.trajectory.scenes]
+
+
+def test_ten_robot_minutes_are_less_than_a_megabyte(tmp_path):
+    trajectory = record_run(tmp_path, seed=1, environments=5, limit_s=120.0).trajectory
+    assert trajectory.ticks >= 25_000
+
+    text = page(run_data(trajectory, "ten minutes"))
+
+    assert len(text.encode()) * 30_000 / trajectory.ticks < 1_000_000
+
+
+def test_the_page_needs_nothing_from_anywhere(kept):
+    text = page(run_data(kept.trajectory, "a run"))
+
+    assert set(re.findall(r"\bhttps?://[^\s\"'`<)]*", text)) <= {SVG}
+    assert not re.search(r"""(?:src|href)=["'](?!data:|#)|@import|\burl\((?!["']?data:|#)""", text)
+    assert not re.search(r"^(import|export) ", text, re.MULTILINE)
+
+
+def test_the_same_run_gives_the_same_bytes(tmp_path):
+    texts = [page(run_data(record_run(tmp_path / name, seed=5, limit_s=20.0).trajectory, "x")) for name in "ab"]
+
+    assert texts[0] == texts[1]
+
+
+def test_a_run_leaves_the_page_that_its_log_makes(tmp_path):
+    words = ["--seed", "4", "--environments", "1", "--limit-s", "20", "--bus", "none", "--quiet"]
+    assert main(["run", *words, "--out", str(tmp_path)]) == 0
+    again = tmp_path / "again.html"
+
+    assert main(["replay", str(tmp_path / "run.log"), "--html", str(again)]) == 0
+
+    assert again.read_bytes() == (tmp_path / "replay.html").read_bytes()
+
+
+def test_nothing_in_a_run_ends_the_script_that_holds_it(kept):
+    title = "</script><script>alert(1)</script><!--"
+
+    text = page(run_data(kept.trajectory, title))
+
+    assert title not in text
+    assert run_in(text)["title"] == title
+
+
+def test_modules_come_once_each_after_what_they_need(tmp_path, monkeypatch):
+    monkeypatch.setattr(replay_page, "WEB", tmp_path)
+    link, script = '<link rel="stylesheet" href="s.css">', '<script type="module" src="a.js"></script>'
+    (tmp_path / "replay.html").write_text(link + script)
+    (tmp_path / "s.css").write_text("p { margin: 0 }\n")
+    (tmp_path / "a.js").write_text('import { b } from "./b.js";\nimport { C, d } from "./c.js";\nb(C, d);\n')
+    (tmp_path / "b.js").write_text('import { C } from "./c.js";\nexport const b = C;\n')
+    (tmp_path / "c.js").write_text('export class C {}\nexport async function d() { return "</script>"; }\n')
+
+    text = page({})
+
+    assert "<style>\np { margin: 0 }\n</style>" in text
+    assert re.findall(r'modules\["(\w)\.js"\] = ', text) == ["c", "b", "a"]
+    assert 'const { C, d } = modules["c.js"];' in text
+    assert "return { C, d };" in text
+    assert text.count("</script>") == 1
+    assert not re.search(r"^(import|export) ", text, re.MULTILINE)
+
+
+@given(st.lists(st.lists(st.integers(-(2**29), 2**29), min_size=3, max_size=3), min_size=1, max_size=5))
+def test_columns_come_out_as_they_went_in(columns):
+    assert unpacked(pack(np.array(columns)), len(columns)) == columns
+
+
+def test_a_reckoned_way_makes_a_page_as_well(kept):
+    found: Trajectory = resimulate(kept.log, Protocol(), in_the_open=True).trajectory
+
+    run = run_in(page(run_data(found, "somewhere")))
+
+    assert run["scenes"][0][1]["food"] == []
+    assert run["ticks"] == kept.trajectory.ticks
+
+
+@pytest.mark.parametrize("name", ["nowhere/page.html", "."])
+def test_a_page_that_cannot_be_written_is_one_line(short, tmp_path, capsys, name):
+    assert main(["replay", str(short.log), "--html", str(tmp_path / name)]) == 1
+    assert re.fullmatch(r"octet: cannot write .*\n", capsys.readouterr().err)

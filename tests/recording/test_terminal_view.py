@@ -1,0 +1,261 @@
+"""A run drawn in a terminal: in plain characters of any size, and on a real pseudo-terminal."""
+
+import asyncio
+import fcntl
+import json
+import os
+import pty
+import re
+import select
+import signal
+import struct
+import subprocess
+import sys
+import termios
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from host_sim.live import terminal_view
+from host_sim.live.orders import FULL_SPEED
+from host_sim.live.terminal_view import faster, slower
+from host_sim.live.text_picture import View, draw_text
+from host_sim.recording.trajectory import Trajectory, at
+from host_sim.view.phrases import sentence
+from host_sim.world.params import SimParams
+from tests.recording.support import finished
+
+DEADLINE_S = 60
+WATCH = (sys.executable, "-m", "host_sim", "watch", "--terminal", "--seed", "3")
+LEAVE_FULL_SCREEN = b"\x1b[?1049l"
+
+
+def view_of(trajectory: Trajectory, tick: int) -> View:
+    trail = [(x, y) for x, y, _ in trajectory.poses()[: tick + 1].tolist()]
+    return View(SimParams(), at(trajectory.scenes, tick), trajectory.at(tick), trail, 10, "1 x real time", "q quits")
+
+
+@pytest.fixture(scope="session")
+def view(ten_seconds) -> View:
+    """Just before the first lesson."""
+    return view_of(ten_seconds.trajectory, 170)
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(60, 20), (80, 24), (100, 20), (60, 50), (250, 80)])
+def test_the_picture_fits_any_screen(view, columns, rows):
+    lines = draw_text(view, columns, rows)
+
+    assert len(lines) <= rows
+    assert max(map(len, lines)) <= columns
+    assert all(line.isascii() for line in lines)
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(60, 20), (80, 24), (250, 80)])
+def test_the_picture_tells_all_there_is_to_know(view, columns, rows):
+    text = "\n".join(draw_text(view, columns, rows))
+
+    assert "environment 1 of 1   food 0 of 3   0:03.4   1 x real time" in text
+    assert sentence(view.state) in " ".join(text.split())
+    assert "> .|/  -" in text
+    assert text.count("@") == 1
+    assert text.count("O") == 3
+    assert "#" in text
+    assert "q quits" in text
+
+
+@pytest.mark.parametrize(("columns", "rows"), [(59, 24), (80, 19), (1, 1), (7, 3)])
+def test_on_a_screen_too_small_it_says_how_large(view, columns, rows):
+    lines = draw_text(view, columns, rows)
+
+    assert len(lines) <= rows
+    assert max(map(len, lines)) <= columns
+    assert re.match(r"\d", lines[0])
+
+
+@pytest.mark.parametrize(
+    ("heading", "row", "column", "nose"),
+    [
+        (0, 0, 1, "-"),
+        (785, 1, 1, "\\"),
+        (1571, 1, 0, "|"),
+        (2356, 1, -1, "/"),
+        (-1571, -1, 0, "|"),
+        (3141, 0, -1, "-"),
+    ],
+)
+def test_the_nose_is_where_the_robot_looks(view, heading, row, column, nose):
+    state = {**view.state, "x": 2000.0, "y": 1500.0, "heading": heading, "eaten": []}
+    lines = draw_text(replace(view, state=state, scene={**view.scene, "bars": [], "food": []}, trail=[]), 80, 24)
+
+    at_row = next(i for i, line in enumerate(lines) if "@" in line)
+    assert lines[at_row + row][lines[at_row].index("@") + column] == nose
+
+
+def test_the_arena_is_as_wide_as_it_is_in_the_world(view):
+    lines = draw_text(view, 200, 60)
+
+    width, height = lines[1].count("-"), sum(line.startswith("|") for line in lines)
+    assert width / (2 * height) == pytest.approx(4 / 3, rel=0.05)
+
+
+def test_speed_goes_up_and_down_in_steps():
+    assert [faster(1.0), faster(1000.0), faster(FULL_SPEED)] == [2.0, FULL_SPEED, FULL_SPEED]
+    assert [slower(1.0), slower(0.25), slower(FULL_SPEED)] == [0.5, 0.25, 1000.0]
+
+
+class Screen:
+    """Counts how often it is drawn."""
+
+    def __init__(self) -> None:
+        self.drawn = 0
+
+    def getmaxyx(self) -> tuple[int, int]:
+        return 24, 80
+
+    def refresh(self) -> None:
+        self.drawn += 1
+
+    def getch(self) -> int:
+        return -1
+
+    def nodelay(self, flag: bool) -> None:
+        pass
+
+    def erase(self) -> None:
+        pass
+
+    def addnstr(self, *_: object) -> None:
+        pass
+
+
+class Idle:
+    """A run in which a second passes."""
+
+    done = False
+
+    async def play(self) -> None:
+        await asyncio.sleep(1.0)
+
+    def close(self) -> None:
+        pass
+
+
+def test_it_draws_ten_times_a_second_at_most(view, monkeypatch):
+    monkeypatch.setattr(terminal_view, "_view", lambda _: view)
+    monkeypatch.setattr(terminal_view, "_close_on_signals", lambda _: None)
+    screen = Screen()
+
+    finished(lambda: terminal_view._show(Idle(), screen))
+
+    assert 2 <= screen.drawn <= 11
+
+
+class Terminal:
+    """`tools/octet watch --terminal` on a terminal of 80 x 24."""
+
+    def __init__(self, out: Path, *words: str, term: str = "xterm") -> None:
+        self._ours, self._theirs = pty.openpty()
+        fcntl.ioctl(self._theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+        self.before = termios.tcgetattr(self._theirs)
+        self._process = subprocess.Popen(
+            [*WATCH, "--out", os.fspath(out), *words],
+            stdin=self._theirs,
+            stdout=self._theirs,
+            stderr=self._theirs,
+            env={**os.environ, "TERM": term},
+            start_new_session=True,
+            preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0),  # noqa: PLW1509 - so that Ctrl-C is a signal
+        )
+        self.output = b""
+
+    def read_until(self, *wanted: bytes) -> None:
+        give_up = time.monotonic() + DEADLINE_S
+        while not all(text in self.output for text in wanted):
+            assert time.monotonic() < give_up, self.output[-2000:]
+            self._read()
+
+    def press(self, keys: bytes) -> None:
+        os.write(self._ours, keys)
+
+    def signal(self, number: int) -> None:
+        self._process.send_signal(number)
+
+    def end(self) -> int:
+        give_up = time.monotonic() + DEADLINE_S
+        while self._process.poll() is None:
+            assert time.monotonic() < give_up, self.output[-2000:]
+            self._read()
+        self._read()
+        return self._process.returncode
+
+    @property
+    def after(self) -> list:
+        return termios.tcgetattr(self._theirs)
+
+    def close(self) -> None:
+        self._process.kill()
+        self._process.wait()
+        os.close(self._ours)
+        os.close(self._theirs)
+
+    def _read(self) -> None:
+        if select.select([self._ours], [], [], 0.05)[0]:
+            self.output += os.read(self._ours, 65536)
+
+
+@pytest.fixture
+def terminal(tmp_path):
+    """One that shows a run."""
+    shown = Terminal(tmp_path)
+    yield shown
+    shown.close()
+
+
+@pytest.mark.parametrize("leave", [b"q", b"\x03", "terminate"], ids=["q", "Ctrl-C", "terminate"])
+def test_the_terminal_is_as_before_when_it_ends(terminal, tmp_path, leave):
+    terminal.read_until(b"environment 1 of 5", b"real time")
+
+    if leave == "terminate":
+        terminal.signal(signal.SIGTERM)
+    else:
+        terminal.press(leave)
+
+    assert terminal.end() == 0
+    assert LEAVE_FULL_SCREEN in terminal.output
+    assert b"Traceback" not in terminal.output
+    assert terminal.after == terminal.before
+    assert (tmp_path / "run.log").exists()
+
+
+def test_keys_do_what_they_say(terminal, tmp_path):
+    terminal.read_until(b"environment 1 of 5")
+    terminal.press(b" ")
+    terminal.read_until(b"paused")
+    terminal.press(b"n")
+    time.sleep(0.5)
+    terminal.press(b"q")
+
+    assert terminal.end() == 0
+    begun = json.loads((tmp_path / "run.world.json").read_text())["environments"]
+    assert [environment["number"] for environment in begun] == [1, 2]
+
+
+def test_a_terminal_that_is_unknown_is_one_line(tmp_path):
+    terminal = Terminal(tmp_path, "--quiet", term="teletype-of-1930")
+
+    code = terminal.end()
+
+    terminal.close()
+    assert code == 2
+    assert re.fullmatch(rb"octet: cannot draw in this terminal.*TERM.*\r\n", terminal.output)
+
+
+def test_without_a_terminal_it_is_wrong_usage(tmp_path):
+    command = [*WATCH, "--quiet", "--out", os.fspath(tmp_path)]
+
+    done = subprocess.run(command, input="", capture_output=True, text=True, timeout=DEADLINE_S, check=False)
+
+    assert done.returncode == 2
+    assert re.fullmatch(r"octet: --terminal draws on a terminal.*\n", done.stderr)
