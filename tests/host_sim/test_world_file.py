@@ -5,7 +5,7 @@ import json
 import pytest
 
 from host_sim.errors import OctetError, UsageError
-from host_sim.recording.world_file import read_world, world_path
+from host_sim.recording.world_file import read_world, world_path, write_world
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
 from host_sim.world.edits import AddBar, Lift, MoveBar, MoveFood, Put, RemoveBar
 from host_sim.world.geometry import Bar, Pose

@@ -7,7 +7,6 @@ import zlib
 
 import numpy as np
 import pytest
-from host_sim.kept import replay_page
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,6 +14,7 @@ from host_sim.cli.main import main
 from host_sim.protocol.codec import Protocol
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.trajectory import Trajectory, at
+from host_sim.report import replay_page
 from host_sim.report.replay_page import pack, page, run_data, write_page
 from host_sim.view.state import State
 from tests.recording.support import record_run

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from host_sim.kept import trajectory as trajectory_module
 
 from host_sim.cli.main import main
 from host_sim.client.frame_log import read_log
@@ -14,6 +13,7 @@ from host_sim.errors import OctetError
 from host_sim.live.orders import FULL_SPEED, EraseMemory, Freeze, NewSeed, NextEnvironment, WriteCell
 from host_sim.live.paced_run import PacedRun
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.recording import trajectory as trajectory_module
 from host_sim.recording.log_reader import read_recording
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.run_recorder import RunRecorder
