@@ -86,7 +86,7 @@ def test_qemu_that_is_not_installed_is_named(monkeypatch):
 
 
 def test_an_image_that_is_not_built_is_named_with_how_to_build_it(monkeypatch, tmp_path):
-    monkeypatch.setattr("host_sim.robots.images.BUILD", tmp_path)
+    monkeypatch.setattr("host_sim.backends.images.BUILD", tmp_path)
 
     with pytest.raises(OctetError, match="tools/setup images"):
         image_path("stm32f405", "slcan")
@@ -98,7 +98,7 @@ def test_what_is_no_image_ends_qemu_with_its_reason(tmp_path):
 
 
 def test_an_image_that_says_nothing_is_given_up(monkeypatch):
-    monkeypatch.setattr("host_sim.robots.qemu._READY_S", 0.05)
+    monkeypatch.setattr("host_sim.backends.qemu._READY_S", 0.05)
 
     with pytest.raises(RobotError, match=r"said nothing for 0\.05 s; it is running in QEMU"):
         Qemu()
