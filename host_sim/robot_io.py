@@ -1,20 +1,35 @@
-"""What travels between the body and the robot's mind at each control tick, in the wire's own whole numbers."""
+"""What travels between a body and its robot at each control tick, in the bus's own whole numbers.
+
+The observation, field by field:
+
+| field          | meaning                                                             | min | max  | unit   |
+| -------------- | ------------------------------------------------------------------- | --- | ---- | ------ |
+| tick           | number of the control tick, wraps                                   | 0   | 4095 | ticks  |
+| feel           | proximity: right 1, front-right 2, front 4, front-left 8, left 16   | 0   | 31   | bits   |
+| bump           | the body touches something                                          | 0   | 1    |        |
+| look           | food is seen straight ahead                                         | 0   | 1    |        |
+| beacon_mm      | distance from the middle of the body to that food; 0: none          | 0   | 8191 | mm     |
+| odometer_left  | way of the left wheel, forward counts up, wraps                     | 0   | 4095 | 0.1 mm |
+| odometer_right | way of the right wheel, forward counts up, wraps                    | 0   | 4095 | 0.1 mm |
+
+The action, field by field:
+
+| field        | meaning                                                | min   | max  | unit  |
+| ------------ | ------------------------------------------------------ | ----- | ---- | ----- |
+| tick         | tick of the senses that this answers                   | 0     | 4095 | ticks |
+| left_mm_s    | speed of the left wheel, forward positive              | -2047 | 2047 | mm/s  |
+| right_mm_s   | speed of the right wheel, forward positive             | -2047 | 2047 | mm/s  |
+| reason       | why, a `Reason` of octet.dbc                           | 0     | 7    |       |
+| repeat_count | remembered turns since the way was last clear          | 0     | 255  | turns |
+| action       | number of the action, one more for each new one, wraps | 0     | 127  |       |
+| eat          | eat the food that is seen straight ahead               | 0     | 1    |       |
+"""
 
 from typing import NamedTuple
 
 
 class Senses(NamedTuple):
-    """What the body senses.
-
-    Attributes:
-        tick: 0..4095, wraps.
-        feel: Proximity, one bit each: right 1, front-right 2, front 4, front-left 8, left 16.
-        bump: Whether the body touches an obstacle or a wall.
-        look: Whether food is seen straight ahead.
-        beacon_mm: Distance from the middle of the body to that food, 1..8191; 0 if none is seen.
-        odometer_left: Way of the left wheel in 0.1 mm, forward counts up, 0..4095, wraps.
-        odometer_right: The same for the right wheel.
-    """
+    """What the body senses at one tick; the table above has the ranges."""
 
     tick: int
     feel: int
@@ -26,17 +41,7 @@ class Senses(NamedTuple):
 
 
 class Drive(NamedTuple):
-    """What the wheels are to do until the next tick.
-
-    Attributes:
-        tick: That of the senses which this answers, 0..4095.
-        left_mm_s: Speed of the left wheel, -2047..2047, forward positive.
-        right_mm_s: Speed of the right wheel, the same.
-        reason: 0 stop, 1 wander, 2 toward food, 3 look around, 4 remembered turn, 5 trial, 6 boredom, 7 eat.
-        repeat_count: Remembered turns since the way was last clear, 0..255.
-        action: One more for each new action, 0..127, wraps.
-        eat: Whether to eat the food seen straight ahead.
-    """
+    """What the wheels are to do until the next tick; the table above has the ranges."""
 
     tick: int
     left_mm_s: int
@@ -45,3 +50,10 @@ class Drive(NamedTuple):
     repeat_count: int
     action: int
     eat: bool
+
+
+NOTHING_SENSED = Senses(tick=0, feel=0, bump=False, look=False, beacon_mm=0, odometer_left=0, odometer_right=0)
+"""Of a body that has not sensed yet."""
+
+REST = Drive(tick=0, left_mm_s=0, right_mm_s=0, reason=0, repeat_count=0, action=0, eat=False)
+"""Wheels at rest."""

@@ -1,26 +1,19 @@
 """From the names that a person types to a robot at the end of a link."""
 
 import socket
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass
-from typing import Any
 
-import can
-
+from host_sim.backends.images import BOARDS
 from host_sim.backends.qemu import Qemu
 from host_sim.backends.robot_process import RobotProcess
-from host_sim.cli.run_options import BOARDS
 from host_sim.errors import UsageError
+from host_sim.protocol.codec import Protocol
+from host_sim.transport.buses import open_bus
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.link import BusLink, Link
 from host_sim.transport.socket_pair_bus import SocketPairBus
-
-BITRATE = 500_000
-"""Bits a second, for buses that are set up when opened."""
-
-NOTHING = (0,) * 8
-"""A memory in which nothing is learned."""
 
 _EMULATORS = ("qemu", "emulated")
 _IMAGE_NODE = 1
@@ -44,7 +37,7 @@ class Connection:
 
 
 def connect(  # noqa: PLR0913, PLR0917 - what a person can say about it
-    stack: ExitStack, bus: str, robot: str, node: int, memory: Sequence[int] = NOTHING, board: str = BOARDS[0]
+    stack: ExitStack, bus: str, robot: str, node: int, board: str = "", shared: bool = False
 ) -> Connection:
     """Opens a bus and, unless it is there already, starts a robot on it.
 
@@ -54,8 +47,8 @@ def connect(  # noqa: PLR0913, PLR0917 - what a person can say about it
         robot: `spawn` to start one, `external` for one that is on the bus, `qemu` or `emulated` for the image that
             is flashed.
         node: 1..63.
-        memory: What an in-process robot wakes up with.
-        board: One of `BOARDS`, for an emulated robot.
+        board: One of `BOARDS`, for an emulated robot; empty for the first.
+        shared: Whether other robots of this run are on the bus, each with a connection of its own.
 
     Raises:
         UsageError: The names make no sense together, or the bus cannot be opened.
@@ -63,13 +56,15 @@ def connect(  # noqa: PLR0913, PLR0917 - what a person can say about it
         RobotError: The robot does not start.
     """
     if robot in _EMULATORS:
-        return _in_emulator(stack, bus, robot, node, board)
+        return _in_emulator(stack, bus, robot, node, board or BOARDS[0])
     if bus in ("none", "fd") and robot == "external":
         raise UsageError(f"--robot external needs a bus that it is on: --bus INTERFACE:CHANNEL, not --bus {bus}")
     if bus == "none":
-        return Connection(InProcessLink(node, memory), bus, lambda: "runs in this process")
+        return Connection(InProcessLink(node), bus, lambda: "runs in this process")
     if bus == "fd":
         return _over_socket_pair(stack, node)
+    if shared and bus.partition(":")[0] != "socketcan":
+        raise UsageError(f"several robots can be on socketcan, fd or none, not on {bus}: leave out --robots")
     return _over_bus(stack, bus, robot, node)
 
 
@@ -80,7 +75,7 @@ def _in_emulator(stack: ExitStack, bus: str, robot: str, node: int, board: str) 
             f" python -m host_sim.emulator --bus {bus}, and say --robot external"
         )
     if node != _IMAGE_NODE:
-        raise UsageError(f"the image that is flashed is node {_IMAGE_NODE}, not {node}: leave out --node")
+        raise UsageError(f"the image that is flashed is node {_IMAGE_NODE}, not {node}: leave out --node, --robots")
     return _in_qemu(stack) if robot == "qemu" else _on_emulated_board(stack, board)
 
 
@@ -109,7 +104,7 @@ def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
 
 
 def _over_bus(stack: ExitStack, bus: str, robot: str, node: int) -> Connection:
-    link = BusLink(open_bus(bus))
+    link = BusLink(open_bus(bus, Protocol(node).ids_from("ROBOT")))
     stack.callback(link.close)
     interface = bus.partition(":")[0]
     if robot == "external":
@@ -119,28 +114,3 @@ def _over_bus(stack: ExitStack, bus: str, robot: str, node: int) -> Connection:
     process = RobotProcess(bus, node)
     stack.callback(process.close)
     return Connection(link, bus, process.status, process.pid)
-
-
-def open_bus(bus: str) -> can.BusABC:
-    """Opens a python-can bus.
-
-    Args:
-        bus: `INTERFACE:CHANNEL`.
-
-    Raises:
-        UsageError: It is no such name, or cannot be opened.
-    """
-    interface, colon, channel = bus.partition(":")
-    if not (interface and colon and channel):
-        raise UsageError(f"--bus is auto, fd, none or INTERFACE:CHANNEL such as socketcan:vcan0, not {bus!r}")
-    extra: dict[str, Any] = {}
-    if interface == "slcan":
-        # Its default is to sleep for 2 s, for adapters that reset when opened.
-        extra["sleep_after_open"] = 0.0
-    if interface != "socketcan":
-        extra["bitrate"] = BITRATE
-    try:
-        return can.Bus(interface=interface, channel=channel, **extra)
-    except (can.CanError, can.CanInterfaceNotImplementedError, OSError, ValueError, ImportError) as error:
-        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}") from error

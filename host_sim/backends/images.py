@@ -5,6 +5,9 @@ from pathlib import Path
 from host_sim.errors import OctetError
 from host_sim.paths import BUILD
 
+BOARDS = ("stm32f405", "stm32f103")
+"""Boards that can be emulated."""
+
 
 def image_path(board: str, link: str) -> Path:
     """Where an image is.

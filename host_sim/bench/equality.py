@@ -1,14 +1,14 @@
 """Whether one and the same firmware does the same everywhere: every frame of it, byte for byte."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import ExitStack
 from itertools import zip_longest
 from pathlib import Path
 from typing import NamedTuple
 
-from host_sim.backends.connection import connect
+from host_sim.backends.images import BOARDS
 from host_sim.bench.short_run import run_ticks
-from host_sim.cli.run_options import BOARDS
+from host_sim.client.frame_log import FrameLog
+from host_sim.sim.run_config import RunConfig
 
 REFERENCE = "host"
 """The firmware built for the host, in this process: what the others are held against."""
@@ -43,13 +43,9 @@ def record(where: str, seed: int, ticks: int, log: Path) -> None:
     Raises:
         OctetError: The robot cannot be had there, or it fails.
     """
-    robot = "emulated" if where in BOARDS else where
-    with ExitStack() as stack:
-        if where == REFERENCE:
-            connection = connect(stack, "none", "spawn", 1)
-        else:
-            connection = connect(stack, "none", robot, 1, board=where)
-        run_ticks(connection, seed, ticks, log)
+    robots = {REFERENCE: "spawn", **dict.fromkeys(BOARDS, "emulated")}
+    board = where if where in BOARDS else ""
+    run_ticks(RunConfig(seed=seed, robot=robots.get(where, where), board=board), ticks, FrameLog(log))
 
 
 def first_difference(reference: Path, other: Path) -> str | None:

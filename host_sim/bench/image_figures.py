@@ -1,15 +1,15 @@
 """How fast the images that are flashed run on boards that are not there, and whether they do what the host does."""
 
 import time
-from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from host_sim.backends.connection import connect
+from host_sim.backends.images import BOARDS
 from host_sim.bench.equality import compare
 from host_sim.bench.figure import Figure, Rate, rate_figure
 from host_sim.bench.short_run import run_ticks
-from host_sim.cli.run_options import BOARDS
+from host_sim.client.frame_log import FrameLog
+from host_sim.sim.run_config import RunConfig
 
 _SEED, _TICKS = 1, 2000
 _EQUAL_SEEDS, _EQUAL_TICKS = 20, 10_000
@@ -42,8 +42,7 @@ def compare_images() -> bool:
 
 
 def _ticks_per_second(robot: str, board: str) -> float:
-    with ExitStack() as stack, TemporaryDirectory() as folder:
-        connection = connect(stack, "none", robot, 1, board=board)
+    with TemporaryDirectory() as folder:
         began = time.perf_counter()
-        run_ticks(connection, _SEED, _TICKS, Path(folder) / "run.log")
+        run_ticks(RunConfig(seed=_SEED, robot=robot, board=board), _TICKS, FrameLog(Path(folder) / "run.log"))
         return _TICKS / (time.perf_counter() - began)

@@ -12,14 +12,11 @@ from tempfile import TemporaryDirectory
 
 import can
 
-from host_sim.backends.connection import connect
 from host_sim.bench.figure import ROUNDS, Figure, Rate, best, most_figure, rate_figure
-from host_sim.client.frame_log import Recorder
-from host_sim.client.pacing import Lockstep
-from host_sim.client.session import Session
+from host_sim.client.frame_log import FrameLog
 from host_sim.paths import BUILD, ROOT
-from host_sim.protocol.codec import Protocol
-from host_sim.sim.simulation import Simulation
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
 from host_sim.world.arena import Arena
 from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
@@ -68,14 +65,11 @@ def _vcan_figure() -> Figure:
 
 def _ticks_per_second(bus: str, limit_s: float) -> float:
     """Lockstep with physics and log: ticks by wall time, from the first to the last."""
+    config = RunConfig(seed=_SEED, environments=3, limit_s=limit_s, bus=bus)
     with TemporaryDirectory() as folder, ExitStack() as stack:
-        recorder = Recorder(Path(folder) / "run.log")
-        stack.callback(recorder.close)
-        connection = connect(stack, bus, "spawn", 1)
-        session = Session(connection.link, Protocol(), recorder, status=connection.status)
-        session.handshake(5.0)
-        session.start(_SEED, 0, {}, None)
-        simulation = Simulation(SimParams(), session, Lockstep(session), _SEED, 3, limit_s)
+        log = FrameLog(Path(folder) / "run.log")
+        stack.callback(log.close)
+        simulation = stack.enter_context(make(config, log))
         began = time.perf_counter()
         ticks = sum(episode.ticks for episode in simulation.run())
         return ticks / (time.perf_counter() - began)
@@ -86,8 +80,8 @@ def _arena_ticks_per_second() -> float:
     arena = Arena(generate(_SEED, 1, SimParams()), SimParams())
     began = time.perf_counter()
     for tick in range(_TURNS):
-        arena.sense(tick)
-        arena.move(200, -200)
+        arena.body.sense(tick)
+        arena.body.move(200, -200)
     return _TURNS / (time.perf_counter() - began)
 
 

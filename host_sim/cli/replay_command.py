@@ -1,116 +1,60 @@
-"""`tools/octet replay`: a recorded log against the firmware of today."""
+"""`tools/octet replay`: a recorded log against the firmware of today, or as a page."""
 
-from dataclasses import dataclass
+import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from host_sim.client.frame_log import Recorded, read_log
-from host_sim.errors import OctetError
-from host_sim.protocol.codec import Frame, Protocol
-from host_sim.transport.in_process_link import InProcessLink
+from host_sim.cli.log_options import add_log_options, resimulated
+from host_sim.cli.parsing import add_command
 
-_TO_ROBOT = ("SENSES", "COMMAND")
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
 
-
-@dataclass(frozen=True)
-class Difference:
-    """The first tick at which the firmware does something else than the log.
-
-    Attributes:
-        time_us: Robot time.
-        recorded: What the log has; None if it has nothing.
-        replayed: What the firmware says now; None if it says nothing.
-    """
-
-    time_us: int
-    recorded: Frame | None
-    replayed: Frame | None
+_EXAMPLES = """\
+examples:
+  tools/octet replay out/run.log                     does today's firmware do the same?
+  tools/octet replay out/run.log --html run.html     a page to look at and keep
+"""
 
 
-@dataclass(frozen=True)
-class Replay:
-    """How a replay went.
-
-    Attributes:
-        drives: Drives that were the same.
-        difference: The first that was not; None if all were.
-    """
-
-    drives: int
-    difference: Difference | None
-
-
-def replay(path: Path, protocol: Protocol) -> Replay:
-    """Feeds a log's senses and commands to the firmware and compares its drives.
-
-    Raises:
-        UsageError: The file cannot be read.
-        OctetError: It is no log, or one of another protocol or node.
-    """
-    lines = list(read_log(path))
-    check_protocol(path, lines, protocol)
-    link = InProcessLink(protocol.node, first_memory(lines, protocol))
-    pending: dict[int, Frame] = {}
-    drives, lockstep = 0, True
-    for time_us, frame in lines:
-        said = protocol.decode(frame)
-        if said is None:
-            raise OctetError(f"{path}: damaged or foreign frame at {time_us / 1e6:.2f} s: {protocol.describe(frame)}")
-        if said.name in _TO_ROBOT:
-            lockstep = bool(said.signals.get("lockstep", lockstep))
-            if pending and lockstep:
-                return Replay(drives, Difference(time_us, None, pending.popitem()[1]))
-            pending.update(_drives_for(link, frame, protocol))
-        elif said.name == "DRIVE":
-            answer = pending.pop(said.signals["tick"], None)
-            # On its own clock a robot that heard nothing also says so; here it always hears.
-            if answer != frame and not (answer is None and not lockstep and said.signals["reason"] == 0):
-                return Replay(drives, Difference(time_us, frame, answer))
-            drives += answer is not None
-    if pending and lockstep:
-        return Replay(drives, Difference(lines[-1].time_us, None, pending.popitem()[1]))
-    return Replay(drives, None)
-
-
-def tell(outcome: Replay, path: Path, protocol: Protocol) -> str:
-    """The outcome for people."""
-    if outcome.difference is None:
-        return f"{path}: {outcome.drives} drives, no difference"
-    difference = outcome.difference
-    return "\n".join(
-        (
-            f"{path}: differs after {outcome.drives} equal drives, at {difference.time_us / 1e6:.2f} s of robot time",
-            f"  recorded  {_described(difference.recorded, protocol)}",
-            f"  replayed  {_described(difference.replayed, protocol)}",
-        )
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "replay",
+        _replay,
+        summary="compare a recorded log with the firmware, or make a page of it",
+        description="Feeds the senses of a recorded log to the firmware and compares its drives with the log's.",
+        epilog=_EXAMPLES,
     )
+    add_log_options(parser)
+    parser.add_argument("--html", type=Path, metavar="FILE", help="make a page of it instead, to play in a browser")
 
 
-def _described(frame: Frame | None, protocol: Protocol) -> str:
-    return "nothing" if frame is None else protocol.describe(frame)
+def _replay(arguments: argparse.Namespace) -> int:
+    return _compare(arguments.log, arguments.node) if arguments.html is None else _write_page(arguments)
 
 
-def _drives_for(link: InProcessLink, frame: Frame, protocol: Protocol) -> dict[int, Frame]:
-    """The drives with which the firmware answers a frame, by tick."""
-    link.send(frame)
-    said = ((answer, protocol.decode(answer)) for answer in link.taken())
-    return {what.signals["tick"]: answer for answer, what in said if what is not None and what.name == "DRIVE"}
+def _compare(log: Path, first_node: int) -> int:
+    """Compares every robot from a node on; a log without that node is refused."""
+    from host_sim.protocol.codec import Protocol
+    from host_sim.recording.log_reader import nodes_in, read_log
+    from host_sim.recording.replay import replay, report
+
+    lines = list(read_log(log))
+    equal = True
+    for node in sorted({first_node, *(node for node in nodes_in(lines) if node > first_node)}):
+        protocol = Protocol(node)
+        outcome = replay(log, lines, protocol)
+        print(report(outcome, log, protocol))
+        equal = equal and outcome.difference is None
+    return 0 if equal else 1
 
 
-def check_protocol(path: Path, lines: list[Recorded], protocol: Protocol) -> None:
-    """Sees that a log is one of this protocol.
+def _write_page(arguments: argparse.Namespace) -> int:
+    from host_sim.report.replay_page import write_page
 
-    Raises:
-        OctetError: It is of another, of another node, or of no run.
-    """
-    said = (protocol.decode(line.frame) for line in lines)
-    heartbeat = next((what for what in said if what is not None and what.name == "HEARTBEAT"), None)
-    if heartbeat is None:
-        raise OctetError(f"{path} has no heartbeat of node {protocol.node}: not a log of a run, or cut short")
-    if heartbeat.signals["dbc_hash"] != protocol.dbc_hash:
-        raise OctetError(f"{path} was recorded with another octet.dbc: replay it with the version that wrote it")
-
-
-def first_memory(lines: list[Recorded], protocol: Protocol) -> bytes:
-    """What the robot remembered before the run: it says so when greeted."""
-    memory_id = protocol.id_of("MEMORY")
-    return next((line.frame.data for line in lines if line.frame.id == memory_id), bytes(8))
+    found = resimulated(arguments)
+    write_page(arguments.html, found.trajectory, found.title)
+    print(f"wrote     {arguments.html}")
+    return 0

@@ -1,43 +1,41 @@
-"""`tools/octet watch`: a run in the browser."""
+"""`tools/octet watch`: a run in the browser, or in the terminal, with controls."""
 
-import asyncio
-import os
-import signal
-import sys
-import webbrowser
-from collections.abc import Callable
+import argparse
+from typing import TYPE_CHECKING
 
-from host_sim.live.paced_run import PacedRun
-from host_sim.live.server import Listener, LiveServer
+from host_sim.cli.parsing import add_command, parameter_table
+from host_sim.cli.run_options import WatchOptions, add_run_options, add_watch_options
 
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
 
-def watch_run(live: PacedRun, listener: Listener, say: Callable[[str], object]) -> None:
-    """Takes a run from its begin to its end while people watch; Ctrl-C ends it in good order.
-
-    Args:
-        live: The run.
-        listener: Where they come in.
-        say: Prints its address.
-
-    Raises:
-        RobotError: The robot is gone.
-    """
-    live.begin()
-    asyncio.run(_serve(live, listener, say))
+_EXAMPLES = """\
+examples:
+  tools/octet watch                                  one robot, five environments, your browser
+  tools/octet watch --robots 3                       three of them
+  tools/octet watch --seed 7 --memory robot.mem      other environments, and what was learned last time
+  tools/octet watch --listen 0.0.0.0                 for a classroom: prints an address with a token
+  tools/octet watch --terminal                       where there is no browser, as over ssh
+"""
 
 
-async def _serve(live: PacedRun, listener: Listener, say: Callable[[str], object]) -> None:
-    loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(number, live.close)
-    async with LiveServer(live, listener).serving():
-        say(f"watch     {listener.url}  (Ctrl-C ends it)")
-        if _on_a_desktop():
-            webbrowser.open(listener.url)
-        await live.play()
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    watch = add_command(
+        commands,
+        "watch",
+        _watch,
+        summary="watch a robot learn in the browser, and interfere",
+        description="The same run as `run`, in real time in the browser, with controls. Ctrl-C ends it.",
+        epilog=f"{parameter_table()}\n\n{_EXAMPLES}",
+    )
+    add_run_options(watch)
+    add_watch_options(watch)
+    watch.add_argument("--terminal", action="store_true", help="draw it in this terminal instead, as over ssh")
 
 
-def _on_a_desktop() -> bool:
-    """Whether someone sits before a screen here who would like to see a browser."""
-    screen = sys.platform == "darwin" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
-    return screen and sys.stdout.isatty()
+def _watch(arguments: argparse.Namespace) -> int:
+    from host_sim.cli.conduct import conduct_watched
+
+    conduct_watched(arguments, WatchOptions(arguments.listen, arguments.port, terminal=arguments.terminal))
+    return 0

@@ -1,84 +1,112 @@
-"""The two ways for world and robot to keep time: each waiting for the other, or both by the wall's clock."""
+"""The two ways for world and robots to keep time: each waiting for the other, or all by the wall clock."""
 
 import time
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Protocol
 
-from host_sim.client.session import Session
-from host_sim.robot_io import Drive, Senses
+from host_sim.client.robot_client import RobotClient
+from host_sim.robot_io import REST, Drive, Senses
 
 HOLD_TICKS = 5
 """A body goes on with its last drive for so many ticks (100 ms); then its wheels stop."""
 
 
 class Pace(Protocol):
-    """Takes world and robot through one tick together."""
+    """Takes world and robots through one tick together."""
 
-    def exchange(self, senses: Senses) -> Drive:
-        """Tells the robot its senses.
+    def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
+        """Tells each robot its senses.
 
         Returns:
-            What the wheels are to do in this tick.
+            What the wheels of each are to do in this tick.
 
         Raises:
-            RobotError: The robot is gone.
+            RobotError: A robot is gone.
         """
 
 
 class Lockstep:
-    """World and robot wait for each other: the result is the same at any speed, and on any machine."""
+    """World and robots wait for each other: the result is the same at any speed, and on any machine."""
 
-    def __init__(self, session: Session) -> None:
-        """Keeps time with the robot of a session."""
-        self._session = session
+    def __init__(self, clients: Sequence[RobotClient]) -> None:
+        """Keeps time with these robots."""
+        self._clients = clients
 
-    def exchange(self, senses: Senses) -> Drive:
-        """As in `Pace`; a robot that does not answer by the session's deadline is gone."""
-        self._session.send_senses(senses)
-        drive = self._session.receive_drive(self._session.deadline_s)
-        if drive is None:
-            raise self._session.late(senses.tick)
-        return drive
+    def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
+        """As in `Pace`; a robot that does not answer by its client's deadline is gone."""
+        drives = []
+        for client, sensed in zip(self._clients, senses, strict=True):
+            client.send_senses(sensed)
+        for client, sensed in zip(self._clients, senses, strict=True):
+            drive = client.receive_drive(client.deadline_s)
+            if drive is None:
+                raise client.late(sensed.tick)
+            drives.append(drive)
+        return drives
+
+
+@dataclass
+class _Wheels:
+    """What the wheels of one robot do while no answer comes."""
+
+    client: RobotClient
+    drive: Drive | None = None
+    waited: int = 0
+
+    def turn(self, fresh: Drive | None, tick: int, tick_s: float) -> Drive:
+        """The drive that came; else the last one for `HOLD_TICKS` ticks, then rest, until the deadline."""
+        if fresh is not None:
+            self.drive, self.waited = fresh, 0
+            return fresh
+        self.client.frames.lost += 1
+        self.waited += 1
+        if self.waited * tick_s > self.client.deadline_s:
+            raise self.client.late(tick)
+        return held(self.drive, self.waited, tick)
+
+
+def held(last: Drive | None, waited: int, tick: int) -> Drive:
+    """What a body does in a tick without a drive.
+
+    Args:
+        last: The last drive; None if there was none.
+        waited: Ticks since then.
+        tick: The tick, 0..4095.
+    """
+    if last is None or waited > HOLD_TICKS:
+        return REST._replace(tick=tick)
+    return last._replace(eat=False)
 
 
 class RealTime:
     """A tick takes its time, and nobody waits: a late answer counts when it comes, as on a real body."""
 
-    def __init__(self, session: Session, tick_s: float) -> None:
+    def __init__(self, clients: Sequence[RobotClient], tick_s: float) -> None:
         """Begins with the wheels at rest.
 
         Args:
-            session: The robot's.
-            tick_s: Length of a tick on the wall's clock.
+            clients: The robots'.
+            tick_s: Length of a tick on the wall clock.
         """
-        self._session, self._tick_s = session, tick_s
+        self._tick_s = tick_s
+        self._wheels = [_Wheels(client) for client in clients]
         self._next_s = time.monotonic()
-        self._drive: Drive | None = None
-        self._waited = 0
 
-    def exchange(self, senses: Senses) -> Drive:
-        """As in `Pace`: the answer, or the last one for `HOLD_TICKS` ticks, then rest, until the deadline."""
-        self._session.send_senses(senses)
+    def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
+        """As in `Pace`: the answers, or what bodies do without."""
+        for wheels, sensed in zip(self._wheels, senses, strict=True):
+            wheels.client.send_senses(sensed)
         # A host that was held up does not hurry to make up for it: that would not be real time either.
         self._next_s = max(self._next_s + self._tick_s, time.monotonic())
         fresh = self._newest()
-        if fresh is None:
-            self._session.frames.lost += 1
-            return self._held(senses.tick)
-        self._drive, self._waited = fresh, 0
-        return fresh
+        both = zip(self._wheels, fresh, senses, strict=True)
+        return [wheels.turn(drive, sensed.tick, self._tick_s) for wheels, drive, sensed in both]
 
-    def _newest(self) -> Drive | None:
-        """The last drive that comes before the tick is over."""
-        fresh = None
+    def _newest(self) -> list[Drive | None]:
+        """For each robot the last drive that comes before the tick is over."""
+        fresh: list[Drive | None] = [None] * len(self._wheels)
         while (left_s := self._next_s - time.monotonic()) > 0:
-            heard = self._session.receive_drive(left_s)
-            fresh = heard or fresh
+            for i, wheels in enumerate(self._wheels):
+                fresh[i] = wheels.client.receive_drive(left_s / len(self._wheels)) or fresh[i]
         return fresh
-
-    def _held(self, tick: int) -> Drive:
-        self._waited += 1
-        if self._waited * self._tick_s > self._session.deadline_s:
-            raise self._session.late(tick)
-        if self._drive is None or self._waited > HOLD_TICKS:
-            return Drive(tick, 0, 0, 0, 0, 0, False)
-        return self._drive._replace(eat=False)

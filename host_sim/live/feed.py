@@ -3,11 +3,14 @@
 import json
 import time
 from collections import deque
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any
 
 from host_sim.live.paced_run import PacedRun
-from host_sim.view.state import Lesson, State, environment_scene, measures, state
+from host_sim.recording.summary import frame_counts
+from host_sim.recording.trajectory import RobotTrack
+from host_sim.view.history import Lesson
+from host_sim.view.state import environment_scene, measures, states
 
 TRAIL_MAX = 3000
 """A page that joins late gets so many ticks of the trail."""
@@ -31,27 +34,29 @@ class PageFeed:
     _environments: int = 0
     _told: tuple[int, int] = (-1, -1)
     _trail: int = 0
-    _lessons: int = 0
+    _lessons: dict[int, int] = field(default_factory=dict)
 
     def next(self) -> str | None:
         """The message that brings the page up to date, or None if it is.
 
-        Its fields: `state`, and if they are new `environment` and `measures`, as in scene.py; `trail`, the ticks
-        since the last message as [x, y, reason, ...], thinned out if there are many; `lessons`, those since; `play`,
-        what the controls show; `health`; `notes`, if there are any; `at`, the wall's time in ms since 1970.
+        Its fields: `states`, one a robot, and if they are new `environment` and `measures`, as in view/state.py;
+        `trails`, for each robot the ticks since the last message as [x, y, reason, ...], thinned out if many;
+        `lessons`, those since, of all robots; `play`, what the controls show; `health`; `notes`, if there are any;
+        `at`, the wall clock's time in ms since 1970.
         """
         now = (self.live.simulation.tick, self.live.change)
         if now == self._told and not self.notes:
             return None
         first = self._told == (-1, -1)
         self._told = now
-        message: dict[str, Any] = {"measures": measures(self.live.params, self.live.boredom_limit)} if first else {}
+        limit = self.live.recorder.trajectory.boredom_limit
+        message: dict[str, Any] = {"measures": measures(self.live.params, limit)} if first else {}
         if self.live.layout != self._layout:
             message |= self._arena()
         message |= {
             "at": round(time.time() * 1000),
-            "state": self._state(),
-            "trail": self._new_trail(),
+            "states": states(self.live.simulation, self.live.recorder.histories),
+            "trails": self._new_trails(),
             "lessons": self._new_lessons(),
             "play": self._play(),
             "health": self._health(),
@@ -66,27 +71,30 @@ class PageFeed:
         self._layout = self.live.layout
         if len(simulation.record.begun) != self._environments:
             self._environments = len(simulation.record.begun)
-            self._trail = max(0, simulation.episode.ticks - TRAIL_MAX)
+            self._trail = max(self._first_tick(), simulation.tick - TRAIL_MAX)
         scene = environment_scene(simulation.record.begun[-1], simulation.environments, simulation.arena)
         return {"environment": scene}
 
-    def _state(self) -> State:
-        simulation = self.live.simulation
-        drive, senses = simulation.drive, simulation.senses
-        return state(max(0, simulation.tick - 1), simulation.arena, senses, drive, self.live.history)
+    def _first_tick(self) -> int:
+        """The first tick of the environment."""
+        return self.live.simulation.record.begun[-1].first_tick
 
-    def _new_trail(self) -> list[float]:
-        trail = self.live.simulation.episode.trail
-        first = max(self._trail, len(trail) - TRAIL_MAX)
-        step = 1 + (len(trail) - first) // _POINTS_MAX if self._trail else 1
-        points = trail[first::step]
-        self._trail = len(trail)
-        return [number for x, y, reason in points for number in (round(x), round(y), reason)]
+    def _new_trails(self) -> list[list[float]]:
+        """What is new of each robot's trail; all of it where the environment has just begun."""
+        tracks = self.live.recorder.trajectory.tracks
+        end = tracks[0].ticks
+        first = max(self._trail, end - TRAIL_MAX, tracks[0].first_tick)
+        step = 1 if self._trail == self._first_tick() else 1 + (end - first) // _POINTS_MAX
+        self._trail = end
+        return [_points(track, first, end, step) for track in tracks]
 
     def _new_lessons(self) -> list[Lesson]:
-        lessons = self.live.history.lessons[self._lessons :][-_POINTS_MAX:]
-        self._lessons = len(self.live.history.lessons)
-        return lessons
+        """The lessons since the last message, each robot's latest."""
+        new = []
+        for i, history in enumerate(self.live.recorder.histories):
+            new += history.lessons[self._lessons.get(i, 0) :][-_POINTS_MAX:]
+            self._lessons[i] = len(history.lessons)
+        return new
 
     def _play(self) -> dict[str, Any]:
         live = self.live
@@ -99,12 +107,19 @@ class PageFeed:
         }
 
     def _health(self) -> dict[str, int]:
-        session = self.live.simulation.session
-        frames, faults = asdict(session.frames), session.faults
+        """What became of the frames of all robots."""
+        counts = [frame_counts(client) for client in self.live.simulation.clients]
         return {
-            "sent": frames["sent"],
-            "lost": frames["lost"] + faults.get("missed", 0),
-            "refused": frames["refused"] + sum(faults.get(kind, 0) for kind in ("stale", "damaged", "foreign")),
+            **{name: sum(count[name] for count in counts) for name in ("sent", "lost", "refused")},
             "late": self.live.late,
             "orders_refused": self.live.refused,
         }
+
+
+def _points(track: RobotTrack, first: int, end: int, step: int) -> list[float]:
+    """[x, y, reason, ...] of some ticks."""
+    points: list[float] = []
+    for tick in range(first, end, step):
+        row, pose = track.row(tick), track.pose(tick)
+        points += (round(pose.x_mm), round(pose.y_mm), row["reason"])
+    return points

@@ -5,7 +5,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from host_sim.world.edits import Edit, edit_from, whole
+from host_sim.protocol.generated import CELL_COUNT, NODE_MAX, Side
+from host_sim.world.edits import Edit, edit_from, pose_from, whole
+from host_sim.world.geometry import Pose
 
 TEXT_MAX = 4096
 """No order is longer, in bytes."""
@@ -48,25 +50,45 @@ class NewSeed:
 
 @dataclass(frozen=True)
 class WriteCell:
-    """Write one cell of the robot's memory: side 0 nothing, 1 left, 2 right."""
+    """Write one cell of a robot's memory: side 0 nothing, 1 left, 2 right. Without a node, of the first robot's."""
 
     cell: int
     side: int
+    node: int | None = None
 
 
 @dataclass(frozen=True)
 class EraseMemory:
-    """Erase all cells."""
+    """Erase all cells of a robot's memory."""
+
+    node: int | None = None
 
 
 @dataclass(frozen=True)
 class Freeze:
-    """Learn no more, or learn again."""
+    """A robot is to learn no more, or to learn again."""
 
     on: bool
+    node: int | None = None
 
 
-Order = Play | OneDecision | Speed | NextEnvironment | NewSeed | WriteCell | EraseMemory | Freeze | Edit
+@dataclass(frozen=True)
+class LiftRobot:
+    """Lift a robot off the floor."""
+
+    node: int | None = None
+
+
+@dataclass(frozen=True)
+class PutRobot:
+    """Put a lifted robot down."""
+
+    pose: Pose
+    node: int | None = None
+
+
+RobotOrder = WriteCell | EraseMemory | Freeze | LiftRobot | PutRobot
+Order = Play | OneDecision | Speed | NextEnvironment | NewSeed | RobotOrder | Edit
 
 
 def order_from(text: str) -> Order:
@@ -100,6 +122,10 @@ def _speed(fields: Mapping[str, Any]) -> Speed:
     return Speed(float(factor))
 
 
+def _node(fields: Mapping[str, Any]) -> int | None:
+    return whole(fields, "node", 1, NODE_MAX) if "node" in fields else None
+
+
 _PARSERS: dict[str, Callable[[Mapping[str, Any]], Order]] = {
     "play": lambda _: Play(True),
     "pause": lambda _: Play(False),
@@ -107,7 +133,11 @@ _PARSERS: dict[str, Callable[[Mapping[str, Any]], Order]] = {
     "speed": _speed,
     "next": lambda _: NextEnvironment(),
     "seed": lambda fields: NewSeed(whole(fields, "seed", 0, _SEED_MAX)),
-    "write": lambda fields: WriteCell(whole(fields, "cell", 1, 7), whole(fields, "side", 0, 2)),
-    "erase": lambda _: EraseMemory(),
-    "freeze": lambda fields: Freeze(bool(whole(fields, "on", 0, 1))),
+    "write": lambda fields: WriteCell(
+        whole(fields, "cell", 1, CELL_COUNT - 1), whole(fields, "side", 0, max(Side)), _node(fields)
+    ),
+    "erase": lambda fields: EraseMemory(_node(fields)),
+    "freeze": lambda fields: Freeze(bool(whole(fields, "on", 0, 1)), _node(fields)),
+    "lift": lambda fields: LiftRobot(_node(fields)),
+    "put": lambda fields: PutRobot(pose_from(fields), _node(fields)),
 }

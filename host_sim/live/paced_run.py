@@ -6,27 +6,27 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from host_sim.client.commands import erase_memory, freeze, write_cells
 from host_sim.errors import RefusedError
 from host_sim.live.orders import (
     FULL_SPEED,
     EraseMemory,
     Freeze,
+    LiftRobot,
     NewSeed,
     NextEnvironment,
     OneDecision,
     Order,
     Play,
+    PutRobot,
     Speed,
     WriteCell,
 )
+from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.simulation import EpisodeResult, Simulation
-from host_sim.view.history import LearningHistory
 from host_sim.world.editing import EditError
-from host_sim.world.edits import Edit
+from host_sim.world.edits import Edit, Lift, Put
 from host_sim.world.params import SimParams
-
-BOREDOM_LIMIT = 10
-"""Of the article's profile."""
 
 ORDERS_MAX = 256
 """So many orders may wait for the next tick; more are refused."""
@@ -45,10 +45,9 @@ class PacedRun:
 
     Attributes:
         simulation: Not begun yet.
-        history: What it has come to: whoever watches the simulation tells it each tick; we tell it what people do.
-        restart: Restarts the robot with another seed.
+        recorder: Takes the simulation down; we tell it what people do.
+        restart: Restarts the robots with another seed.
         ended: Told of each environment that has ended.
-        boredom_limit: The remembered turn in a row after which the robot is bored.
         stays: Whether to wait for orders after the last environment rather than end.
         speed: Times real time, or `FULL_SPEED`.
         playing: Whether it goes on.
@@ -62,10 +61,9 @@ class PacedRun:
     """
 
     simulation: Simulation
-    history: LearningHistory
+    recorder: RunRecorder
     restart: Callable[[int], None]
     ended: Callable[[EpisodeResult], object] = lambda _: None
-    boredom_limit: int = BOREDOM_LIMIT
     stays: bool = True
     speed: float = 1.0
     playing: bool = True
@@ -105,7 +103,6 @@ class PacedRun:
 
     def begin(self) -> None:
         """Enters the first environment."""
-        self.history.memory = self.simulation.session.memory
         self._enter(1)
 
     async def play(self) -> None:
@@ -158,7 +155,7 @@ class PacedRun:
     def _tick(self) -> None:
         simulation = self.simulation
         simulation.step()
-        if self._stop_at_action is not None and simulation.drive.action != self._stop_at_action:
+        if self._stop_at_action is not None and simulation.drives[0].action != self._stop_at_action:
             self._stand_still()
         if simulation.over:
             self._go_on()
@@ -175,9 +172,10 @@ class PacedRun:
     def _idle(self) -> None:
         """A robot in lockstep says that it hears nothing while we pause; that is as it should be, and no news."""
         self._next_s = self.rate = 0.0
-        while self.simulation.session.link.receive(0.0) is not None:
-            pass
-        self.simulation.session.status()
+        for client in self.simulation.clients:
+            while client.link.receive(0.0) is not None:
+                pass
+            client.status()
 
     def _stand_still(self) -> None:
         self.playing, self._stop_at_action = False, None
@@ -197,7 +195,7 @@ class PacedRun:
             case Play(on):
                 self.playing, self._stop_at_action = on, None
             case OneDecision():
-                self.playing, self._stop_at_action = True, self.simulation.drive.action
+                self.playing, self._stop_at_action = True, self.simulation.drives[0].action
             case Speed(factor):
                 self.speed, self._next_s = factor, 0.0
             case NextEnvironment():
@@ -209,10 +207,16 @@ class PacedRun:
             case _:
                 self._edit(order)
 
-    def _edit(self, edit: Edit) -> None:
+    def _edit(self, order: LiftRobot | PutRobot | Edit) -> None:
         if self.done:
             raise EditError("the run is over: choose a new seed")
-        self.simulation.edit(edit)
+        match order:
+            case LiftRobot(node):
+                self.simulation.edit(Lift(self._index(node)))
+            case PutRobot(pose, node):
+                self.simulation.edit(Put(pose, self._index(node)))
+            case _:
+                self.simulation.edit(order)
         self.layout += 1
 
     def _start_over(self, seed: int) -> None:
@@ -220,19 +224,32 @@ class PacedRun:
         self.simulation.seed = seed
         self.simulation.set_clock()
         self.restart(seed)
-        self.history.frozen, self.history.trial = False, None
+        for history in self.recorder.histories:
+            history.frozen, history.trial = False, None
         self._enter(1)
 
     def _command(self, order: WriteCell | EraseMemory | Freeze) -> None:
         """Tells the robot, in its own words: a real one obeys as well."""
-        session = self.simulation.session
+        index = self._index(order.node)
+        client, history = self.simulation.clients[index], self.recorder.histories[index]
         self.simulation.set_clock()
         match order:
             case WriteCell(cell, side):
-                session.rewrite("write", mask=1 << cell, cells=side << 2 * cell)
+                write_cells(client, {cell: side})
             case EraseMemory():
-                session.rewrite("erase")
+                erase_memory(client)
             case Freeze(on):
-                session.command("freeze", freeze=int(on))
-                self.history.frozen = on
-        self.history.relearn(self.simulation.tick, session.memory)
+                freeze(client, on)
+                history.frozen = on
+        history.relearn(self.simulation.tick, client.memory)
+
+    def _index(self, node: int | None) -> int:
+        """The place of a robot among the robots; None is the first.
+
+        Raises:
+            EditError: There is no such robot.
+        """
+        nodes = self.simulation.nodes
+        if node is not None and node not in nodes:
+            raise EditError(f"there is no robot {node}; there are {', '.join(map(str, nodes))}")
+        return 0 if node is None else nodes.index(node)

@@ -10,7 +10,7 @@ from host_sim.errors import UsageError
 from host_sim.live.orders import FULL_SPEED, NextEnvironment, OneDecision, Order, Play, Speed
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.text_picture import View, draw_text
-from host_sim.view.state import environment_scene, state
+from host_sim.view.state import environment_scene, states
 
 _EVERY_S = 0.1
 _KEYS = "q quits   space pauses   . one decision   + - speed   n next"
@@ -95,13 +95,15 @@ def _draw(live: PacedRun, screen: "curses.window") -> None:
 
 
 def _view(live: PacedRun) -> View:
-    simulation = live.simulation
+    simulation, trajectory = live.simulation, live.recorder.trajectory
+    begun = simulation.record.begun[-1]
+    first = max(begun.first_tick, trajectory.first_tick) - trajectory.first_tick
     return View(
         live.params,
-        environment_scene(simulation.record.begun[-1], simulation.environments, simulation.arena),
-        state(max(0, simulation.tick - 1), simulation.arena, simulation.senses, simulation.drive, live.history),
-        [(x, y) for x, y, _ in simulation.episode.trail],
-        live.boredom_limit,
+        environment_scene(begun, simulation.environments, simulation.arena),
+        states(simulation, live.recorder.histories),
+        [[(x, y) for x, y, _ in track.poses()[first:].tolist()] for track in trajectory.tracks],
+        trajectory.boredom_limit,
         _pace(live),
         _KEYS,
     )

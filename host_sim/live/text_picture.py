@@ -5,7 +5,8 @@ import textwrap
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from host_sim.view.phrases import PATTERNS, SIDES, sentence
+from host_sim.protocol.generated import FEEL, PATTERNS, SIDES, Reason
+from host_sim.view.phrases import sentence
 from host_sim.view.state import EnvironmentScene, State
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.params import SimParams
@@ -17,9 +18,8 @@ _PANEL, _ROWS_BELOW = 22, 4
 _TALL = 2.0
 _FOOD, _EATEN, _BAR, _TRAIL, _ROBOT = "O", "x", "#", ".", "@"
 _NOSES = "-\\|/"
-_FEELERS = ((16, "<"), (8, "\\"), (4, "|"), (2, "/"), (1, ">"))
+_FEELERS = (("LEFT", "<"), ("FRONT_LEFT", "\\"), ("FRONT", "|"), ("FRONT_RIGHT", "/"), ("RIGHT", ">"))
 _FRONT = ((4, "\\"), (2, "|"), (1, "/"))
-_REMEMBERED, _TRIAL = 4, 5
 
 
 @dataclass(frozen=True)
@@ -29,8 +29,8 @@ class View:
     Attributes:
         params: The measures.
         scene: The arena.
-        state: The tick.
-        trail: Where the robot was in this arena.
+        states: The robots after the tick; the first one's senses and memory are shown.
+        trails: Where each robot was in this arena.
         boredom_limit: The remembered turn in a row after which it is bored.
         pace: How fast it goes, in words.
         keys: Which keys do what.
@@ -38,11 +38,16 @@ class View:
 
     params: SimParams
     scene: EnvironmentScene
-    state: State
-    trail: Sequence[Point]
+    states: Sequence[State]
+    trails: Sequence[Sequence[Point]]
     boredom_limit: int
     pace: str
     keys: str
+
+    @property
+    def state(self) -> State:
+        """The first robot's."""
+        return self.states[0]
 
 
 def draw_text(view: View, columns: int, rows: int) -> list[str]:
@@ -78,12 +83,15 @@ def _head(view: View) -> str:
 def _draw_arena(view: View, columns: int, rows: int) -> list[str]:
     """The arena in its frame, as large as there is room, its sides as long as they are in the world."""
     canvas = _Canvas(view.params, columns - 2, rows - 2)
-    canvas.mark(view.trail, _TRAIL)
+    for trail in view.trails:
+        canvas.mark(trail, _TRAIL)
     for _, ax, ay, bx, by in view.scene["bars"]:
         canvas.line((ax, ay), (bx, by), _BAR)
     for (x, y), eaten in zip(view.scene["food"], view.state["eaten"], strict=True):
         canvas.mark([(x, y)], _EATEN if eaten else _FOOD)
-    canvas.robot(Pose(view.state["x"], view.state["y"], view.state["heading"] / 1000))
+    for state in view.states:
+        sign = _ROBOT if len(view.states) == 1 else str(state["node"])[-1]
+        canvas.robot(Pose(state["x"], state["y"], state["heading"] / 1000), sign)
     edge = f"+{'-' * canvas.columns}+"
     return [edge, *(f"|{''.join(row)}|" for row in canvas.rows), edge]
 
@@ -109,13 +117,13 @@ class _Canvas:
         parts = [i / steps for i in range(steps + 1)]
         self.mark(((a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part) for part in parts), sign)
 
-    def robot(self, pose: Pose) -> None:
-        """Puts the robot, and a stroke beside it, where it looks."""
+    def robot(self, pose: Pose, sign: str) -> None:
+        """Puts a robot, and a stroke beside it, where it looks."""
         column, row = self._place(pose[:2])
         eighth = round(pose.heading_rad / (math.pi / 4))
         nose = round(math.cos(eighth * math.pi / 4)), round(math.sin(eighth * math.pi / 4))
         self._put(column + nose[0], row + nose[1], _NOSES[eighth % len(_NOSES)])
-        self._put(column, row, _ROBOT)
+        self._put(column, row, sign)
 
     def _place(self, point: Point) -> tuple[int, int]:
         """Column and row of a point."""
@@ -132,7 +140,7 @@ class _Canvas:
 def _draw_panel(view: View) -> list[str]:
     """Senses, boredom and the memory: for each cell its sensors, what it holds, and how often it was used."""
     state = view.state
-    feelers = " ".join(sign if state["feel"] & bit else "." for bit, sign in _FEELERS)
+    feelers = " ".join(sign if state["feel"] & FEEL[name] else "." for name, sign in _FEELERS)
     count = min(state["repeat_count"], view.boredom_limit)
     bar = "#" * round(8 * count / view.boredom_limit)
     food = f"{state['beacon']} mm" if state["beacon"] else "none"
@@ -147,7 +155,7 @@ def _draw_panel(view: View) -> list[str]:
 
 
 def _draw_cell(state: State, cell: int) -> str:
-    in_use = state["reason"] in (_REMEMBERED, _TRIAL) and state["pattern"] == cell
+    in_use = state["reason"] in (Reason.REMEMBERED, Reason.TRIAL) and state["pattern"] == cell
     front = "".join(sign if cell & bit else "." for bit, sign in _FRONT)
     side = SIDES[state["memory"][cell]] if state["memory"][cell] else "-"
     return f"{'>' if in_use else ' '} {front}  {side:7}{state['uses'][cell]:5}"

@@ -88,9 +88,17 @@ class Protocol:
         self._drive = Layout(self._messages["DRIVE"], _DRIVE)
         self._drive_id = self.id_of("DRIVE")
 
+    def accepts(self, dbc_hash: int) -> bool:
+        """Whether a robot or a log with this hash has the same layout of messages."""
+        return dbc_hash == self.dbc_hash
+
     def id_of(self, name: str) -> int:
         """The identifier of a message for this node."""
         return self._messages[name].frame_id + self.node - 1
+
+    def ids_from(self, sender: str) -> list[int]:
+        """The identifiers of the messages that `SIM` or `ROBOT` sends."""
+        return [self.id_of(name) for name, message in self._messages.items() if sender in message.senders]
 
     def choices(self, name: str, signal: str) -> dict[str, int]:
         """The value table of a signal: number by name."""
@@ -140,6 +148,11 @@ class Protocol:
     def _spelt(self, name: str, signal: str, value: int) -> str:
         choices: Mapping[int, object] = self._messages[name].get_signal_by_name(signal).choices or {}
         return str(choices.get(value, value))
+
+
+def node_of(frame_id: int) -> int:
+    """The node that an identifier belongs to, 1..63; 0 for one of no node."""
+    return frame_id % (NODE_MAX + 1)
 
 
 def _protected(frame_id: int, data: bytes) -> Frame:

@@ -1,19 +1,19 @@
 """Where a robot went as far as its odometers tell: for logs of real bodies, whose world nobody knows."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from host_sim.recording.log_reader import Recording
+from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN
+from host_sim.recording.recording import Recording
+from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory
 from host_sim.robot_io import Senses
-from host_sim.view.history import LearningHistory
 from host_sim.view.state import EnvironmentScene
-from host_sim.world.geometry import Pose, turned
+from host_sim.world.body import rolled
+from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams
 
-_SPAN, _COUNTS_PER_MM = 4096, 10
 _MARGIN_MM = 500.0
 
 
@@ -23,25 +23,24 @@ class _Body:
 
     pose: Pose
     lifted: bool = False
-    eaten: Sequence[bool] = ()
 
 
-def reckon(recording: Recording, params: SimParams) -> Trajectory:
+def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
     """The trajectory of a recording in an empty arena, large enough for it, in whose middle it lies.
 
     Args:
         recording: Has at least one tick.
+        node: The robot's number on the bus.
         params: The measures; the arena's size counts as the least.
     """
     poses = _ways([tick.senses for tick in recording.ticks], params)
     params, poses = _framed(poses, params)
-    trajectory, history = Trajectory(params, recording.boredom_limit), LearningHistory(recording.first_memory)
-    trajectory.enter(EnvironmentScene(number=1, of=1, seed=0, first_tick=0, bars=[], food=[]))
-    for number, (tick, pose) in enumerate(zip(recording.ticks, poses, strict=True)):
-        history.frozen = tick.frozen
-        history.take(number, tick.senses, tick.drive, tick.memory)
-        trajectory.add(_Body(pose), tick.senses, tick.drive, history)
-    return trajectory
+    recorder = RunRecorder(params, recording.boredom_limit, {node: recording.first_memory})
+    recorder.enter(EnvironmentScene(number=1, of=1, seed=0, first_tick=0, bars=[], food=[]))
+    for tick, pose in zip(recording.ticks, poses, strict=True):
+        recorder.histories[0].frozen = tick.frozen
+        recorder.add(0, _Body(pose), tick.senses, tick.drive, tick.memory)
+    return recorder.trajectory
 
 
 def _ways(senses: Sequence[Senses], params: SimParams) -> list[Pose]:
@@ -51,22 +50,14 @@ def _ways(senses: Sequence[Senses], params: SimParams) -> list[Pose]:
     for before, after in pairwise(senses):
         left_mm = _way_mm(before.odometer_left, after.odometer_left)
         right_mm = _way_mm(before.odometer_right, after.odometer_right)
-        pose = _rolled(pose, left_mm, right_mm, params.wheel_track_mm)
+        pose = rolled(pose, left_mm, right_mm, params.wheel_track_mm)
         poses.append(pose)
     return [*poses, pose]
 
 
 def _way_mm(before: int, after: int) -> float:
     """The way between two counts, which wrap; it is less than half a round either way."""
-    return ((after - before + _SPAN // 2) % _SPAN - _SPAN // 2) / _COUNTS_PER_MM
-
-
-def _rolled(pose: Pose, left_mm: float, right_mm: float, track_mm: float) -> Pose:
-    """The pose after a short arc."""
-    turn, way_mm = turned(left_mm, right_mm, track_mm), (left_mm + right_mm) / 2
-    middle = pose.heading_rad + turn / 2
-    heading = math.remainder(pose.heading_rad + turn, math.tau)
-    return Pose(pose.x_mm + way_mm * math.cos(middle), pose.y_mm + way_mm * math.sin(middle), heading)
+    return ((after - before + ODOMETER_SPAN // 2) % ODOMETER_SPAN - ODOMETER_SPAN // 2) / ODOMETER_COUNTS_PER_MM
 
 
 def _framed(poses: Sequence[Pose], params: SimParams) -> tuple[SimParams, list[Pose]]:

@@ -1,147 +1,77 @@
-"""What a log says of robot and body, tick by tick."""
+"""Reads frame logs back, every line checked: those of `FrameLog`, and candump's own (`candump -L`)."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+import re
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from host_sim.cli.replay_command import check_protocol, first_memory
-from host_sim.client.frame_log import read_log
-from host_sim.client.pacing import HOLD_TICKS
-from host_sim.errors import OctetError
-from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
-from host_sim.robot_io import Drive, Senses
+from host_sim.errors import OctetError, UsageError
+from host_sim.protocol.codec import Frame, Protocol, node_of
+
+_LINE = re.compile(r"\((\d+)\.(\d{6})\) (\S+) ([0-9A-F]{3})#((?:[0-9A-F]{2}){0,8})")
 
 
-class Tick(NamedTuple):
-    """One control tick.
+class Recorded(NamedTuple):
+    """One line of a log: robot time in µs, and the frame."""
 
-    Attributes:
-        senses: What the body sensed.
-        drive: What its wheels did: the robot's answer, or what a body does without one.
-        memory: The eight cells with which the robot answered.
-        frozen: Whether the robot does not learn.
-    """
-
-    senses: Senses
-    drive: Drive
-    memory: tuple[int, ...]
-    frozen: bool
+    time_us: int
+    frame: Frame
 
 
-@dataclass
-class Recording:
-    """A log, understood.
+def read_log(path: Path) -> Iterator[Recorded]:
+    """Reads a log, ours or candump's own.
 
-    Attributes:
-        seed: With which the robot was started; None if that is not in the log.
-        boredom_limit: The remembered turn in a row after which the robot is bored.
-        first_memory: The eight cells before the first tick.
-        ticks: In their order; one whose answer is cut off is left out.
-        stopped: Whether the log ends with the robot at rest: else it is cut short, or the run was.
-    """
-
-    seed: int | None = None
-    boredom_limit: int = 10
-    first_memory: tuple[int, ...] = (0,) * 8
-    ticks: list[Tick] = field(default_factory=list)
-    stopped: bool = False
-
-
-def read_recording(log: Path, protocol: Protocol) -> Recording:
-    """Reads a log.
+    Yields:
+        Each frame in its order.
 
     Raises:
         UsageError: The file cannot be read.
-        OctetError: It is no log, one of another protocol or node, or one without a tick.
+        OctetError: A line is no frame, or the last line is cut short; names the line.
     """
-    lines = list(read_log(log))
-    check_protocol(log, lines, protocol)
-    recording = _Reader(protocol, first_memory(lines, protocol)).read(line.frame for line in lines)
-    if not recording.ticks:
-        raise OctetError(f"{log} has no tick in which the robot moves: a run that never began, or cut short")
-    return recording
+    try:
+        text = path.read_text(encoding="ascii")
+    except OSError as error:
+        raise UsageError(f"cannot read {path}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise UsageError(f"{path} is no frame log: it is not even text") from None
+    if not text:
+        raise OctetError(f"{path} is empty: no frame log")
+    for number, line in enumerate(text.splitlines(keepends=True), start=1):
+        match = _LINE.fullmatch(line.rstrip("\n"))
+        if match is None or not line.endswith("\n"):
+            raise OctetError(f"{path}, line {number}: no frame as candump -L writes it, or cut short: {line[:60]!r}")
+        seconds, micros, _, frame_id, data = match.groups()
+        yield Recorded(int(seconds) * 1_000_000 + int(micros), Frame(int(frame_id, 16), bytes.fromhex(data)))
 
 
-class _Reader:
-    """Puts frames together to ticks. A tick ends with the next SENSES or command: drives after it come too late."""
-
-    def __init__(self, protocol: Protocol, memory: bytes) -> None:
-        self._protocol = protocol
-        opcodes = protocol.choices("COMMAND", "opcode")
-        self._orders = {number: name for name, number in opcodes.items()}
-        self._boredom_limit = protocol.choices("COMMAND", "parameter")["boredom_limit"]
-        self._memory = tuple(memory)
-        self._recording = Recording(first_memory=self._memory)
-        self._senses: Senses | None = None
-        self._fresh: Drive | None = None
-        self._last: Drive | None = None
-        self._waited = 0
-        self._frozen, self._lockstep = False, True
-
-    def read(self, frames: Iterable[Frame]) -> Recording:
-        """Takes all frames in their order, but those that are damaged or of another node."""
-        for frame in frames:
-            if drive := self._protocol.decode_drive(frame):
-                self._fresh = drive
-            elif said := self._protocol.decode(frame):
-                self._accept(said)
-        self._end_tick()
-        return self._recording
-
-    def _accept(self, said: DecodedFrame) -> None:
-        if said.name == "SENSES":
-            self._end_tick()
-            self._senses = _senses_from(said)
-        elif said.name == "MEMORY":
-            self._remember(tuple(said.signals.values()))
-        elif said.name == "COMMAND":
-            self._end_tick()
-            self._obey(said.signals)
-
-    def _end_tick(self) -> None:
-        if self._senses is not None and (self._fresh is not None or not self._lockstep):
-            tick = Tick(self._senses, self._taken(self._senses.tick), self._memory, self._frozen)
-            self._recording.ticks.append(tick)
-        self._senses, self._fresh = None, None
-
-    def _taken(self, tick: int) -> Drive:
-        """What the wheels do: the answer, or the one before for a while, then rest. As in `RealTime`."""
-        if self._fresh is not None:
-            self._last, self._waited = self._fresh, 0
-            return self._fresh
-        self._waited += 1
-        if self._last is None or self._waited > HOLD_TICKS:
-            return Drive(tick, 0, 0, 0, 0, 0, False)
-        return self._last._replace(eat=False)
-
-    def _remember(self, memory: tuple[int, ...]) -> None:
-        self._memory = memory
-        if not self._recording.ticks and self._senses is None:
-            self._recording.first_memory = memory
-
-    def _obey(self, signals: dict[str, int]) -> None:
-        order = self._orders.get(signals["opcode"])
-        self._lockstep = bool(signals["lockstep"])
-        self._recording.stopped = order == "stop"
-        if order == "start":
-            self._frozen = False
-            self._recording.seed = signals["seed"] if self._recording.seed is None else self._recording.seed
-        elif order == "set" and signals["parameter"] == self._boredom_limit:
-            self._recording.boredom_limit = signals["value"]
-        elif order == "freeze":
-            self._frozen = bool(signals["freeze"])
+def nodes_in(lines: Sequence[Recorded]) -> list[int]:
+    """The nodes that are in a log, in their order: those that have sent a heartbeat."""
+    heartbeats = {node: Protocol(node).id_of("HEARTBEAT") for node in sorted({node_of(it.frame.id) for it in lines})}
+    ids = {line.frame.id for line in lines}
+    return [node for node, heartbeat in heartbeats.items() if heartbeat in ids]
 
 
-def _senses_from(said: DecodedFrame) -> Senses:
-    """The senses in a decoded SENSES frame."""
-    signals = said.signals
-    return Senses(
-        signals["tick"],
-        signals["feel"],
-        bool(signals["bump"]),
-        bool(signals["look"]),
-        signals["beacon"],
-        signals["odometer_left"],
-        signals["odometer_right"],
-    )
+def lines_of(lines: Sequence[Recorded], node: int) -> list[Recorded]:
+    """The lines of a log without those of other nodes that are in it."""
+    others = set(nodes_in(lines)) - {node}
+    return [line for line in lines if node_of(line.frame.id) not in others]
+
+
+def check_protocol(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> None:
+    """Sees that a log is one of this protocol.
+
+    Raises:
+        OctetError: It is of another, of another node, or of no run.
+    """
+    said = (protocol.decode(line.frame) for line in lines)
+    heartbeat = next((what for what in said if what is not None and what.name == "HEARTBEAT"), None)
+    if heartbeat is None:
+        raise OctetError(f"{path} has no heartbeat of node {protocol.node}: not a log of a run, or cut short")
+    if not protocol.accepts(heartbeat.signals["dbc_hash"]):
+        raise OctetError(f"{path} was recorded with another octet.dbc: replay it with the version that wrote it")
+
+
+def first_memory(lines: Sequence[Recorded], protocol: Protocol) -> bytes:
+    """What the robot remembered before the run: it says so in the handshake."""
+    memory_id = protocol.id_of("MEMORY")
+    return next((line.frame.data for line in lines if line.frame.id == memory_id), bytes(8))

@@ -5,8 +5,7 @@ from pathlib import Path
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import UsageError
-
-CELLS = 8
+from host_sim.protocol.generated import CELL_COUNT
 
 
 def load_memory(path: Path) -> tuple[int, ...] | None:
@@ -21,8 +20,8 @@ def load_memory(path: Path) -> tuple[int, ...] | None:
         return None
     except OSError as error:
         raise UsageError(f"cannot read the memory file {path}: {error.strerror}") from None
-    if len(content) != CELLS:
-        raise UsageError(f"{path} is no memory: it has {len(content)} bytes, not {CELLS}; it was left as it is")
+    if len(content) != CELL_COUNT:
+        raise UsageError(f"{path} is no memory: it has {len(content)} bytes, not {CELL_COUNT}; it was left as it is")
     for cell, value in enumerate(content):
         if value > (2 if cell else 0):
             allowed = "0 nothing, 1 left, 2 right" if cell else "0 only"
@@ -38,3 +37,12 @@ def save_memory(path: Path, memory: Sequence[int]) -> None:
         OctetError: The disk did not take it.
     """
     write_bytes(path, bytes(memory))
+
+
+def memory_path(path: Path, node: int, robots: int) -> Path:
+    """The file of one robot's memory: the path as it is for one robot, and with the node's number for several.
+
+    >>> memory_path(Path("robot.mem"), node=2, robots=3).name
+    'robot-2.mem'
+    """
+    return path if robots == 1 else path.with_name(f"{path.stem}-{node}{path.suffix}")

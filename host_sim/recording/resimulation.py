@@ -1,18 +1,20 @@
 """From a log back to where the robot was: its world is built anew, and its drives move the body through it again."""
 
 from collections import deque
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from host_sim.errors import OctetError
-from host_sim.protocol.codec import Protocol
+from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.recording.dead_reckoning import reckon
-from host_sim.recording.log_reader import Recording, read_recording
+from host_sim.recording.log_reader import Recorded, nodes_in, read_log
+from host_sim.recording.recording import Recording, Tick, read_recording
+from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import read_world, world_path
 from host_sim.robot_io import Senses
 from host_sim.sim.world_record import Begun, WorldRecord
-from host_sim.view.history import LearningHistory
 from host_sim.view.state import environment_scene
 from host_sim.world.arena import Arena
 from host_sim.world.editing import EditError, make_edit
@@ -44,7 +46,7 @@ class Resimulation:
         return "a robot on its way" if self.seed is None else f"seed {self.seed}"
 
 
-def resimulate(log: Path, protocol: Protocol, *, in_the_open: bool = False) -> Resimulation:
+def resimulate(log: Path, node: int = 1, *, in_the_open: bool = False) -> Resimulation:
     """Finds a run again from its log, and from the world file beside it if there is one.
 
     Without a world file, the environments are those of the seed with which the robot was started, one after the other
@@ -52,72 +54,99 @@ def resimulate(log: Path, protocol: Protocol, *, in_the_open: bool = False) -> R
 
     Args:
         log: As a run left it, or `candump -L`.
-        protocol: Of the robot's node.
-        in_the_open: Whether to ask neither world file nor seed.
+        node: The robot's number on the bus; the first one's, of several.
+        in_the_open: Whether to ask neither world file nor seed; then this robot alone is found.
 
     Raises:
         UsageError: A file cannot be read.
         OctetError: The log is no log of this protocol, or the world is not the one in which it was recorded.
     """
-    recording = read_recording(log, protocol)
-    known = None if in_the_open else _world_record(log, recording)
-    if known is None:
-        return Resimulation(reckon(recording, SimParams()), None, recording.stopped)
-    return Resimulation(_Walk(log, SimParams(), known, recording).walk(), known.seed, recording.stopped)
+    lines = list(read_log(log))
+    recording = read_recording(log, lines, Protocol(node))
+    record = None if in_the_open else _world_record(log, lines, recording, node)
+    if record is None:
+        return Resimulation(reckon(recording, node, SimParams()), None, recording.stopped)
+    others = range(node + 1, node + record.robots)
+    recordings = {node: recording} | {other: read_recording(log, lines, Protocol(other)) for other in others}
+    trajectory = _Walk(log, SimParams(), record, recordings).walk()
+    return Resimulation(trajectory, record.seed, recording.stopped)
 
 
-def _world_record(log: Path, recording: Recording) -> WorldRecord | None:
+def _world_record(log: Path, lines: Sequence[Recorded], recording: Recording, node: int) -> WorldRecord | None:
     path = world_path(log)
     if path.exists():
         return read_world(path)
-    return None if recording.seed is None else WorldRecord(recording.seed, 1, round(_LIMIT_S / SimParams().tick_s))
+    if recording.seed is None:
+        return None
+    nodes = set(nodes_in(lines))
+    robots = next(count for count in range(1, NODE_MAX + 1) if node + count not in nodes)
+    return WorldRecord(recording.seed, 1, round(_LIMIT_S / SimParams().tick_s), robots)
 
 
 class _Walk:
     """One way through the environments of a record; where it names none, one follows the other as in a run."""
 
-    def __init__(self, log: Path, params: SimParams, record: WorldRecord, recording: Recording) -> None:
-        self._log, self._params, self._record, self._recording = log, params, record, recording
+    def __init__(self, log: Path, params: SimParams, record: WorldRecord, recordings: dict[int, Recording]) -> None:
+        self._log, self._params, self._record = log, params, record
+        self._recordings = list(recordings.values())
         self._runs_on = not record.begun
         self._planned, self._edits = deque(record.begun), deque(record.edits)
         self._begun = Begun(record.seed, 0, 0)
         self._arena: Arena | None = None
-        self._history = LearningHistory(recording.first_memory)
-        self._trajectory = Trajectory(params, recording.boredom_limit)
+        memories = {node: recording.first_memory for node, recording in recordings.items()}
+        self._recorder = RunRecorder(params, self._recordings[0].boredom_limit, memories)
 
     def walk(self) -> Trajectory:
-        """Goes all of it."""
-        for tick, (senses, drive, memory, frozen) in enumerate(self._recording.ticks):
-            arena = self._prepare(tick)
-            self._check(tick, arena.sense(tick), senses)
-            if drive.eat:
-                arena.eat()
-            arena.move(drive.left_mm_s, drive.right_mm_s)
-            self._history.frozen = frozen
-            self._history.take(tick, senses, drive, memory)
-            self._trajectory.add(arena, senses, drive, self._history)
-        for _, scene in self._trajectory.scenes:
+        """Goes all of it, as far as every robot's recording does."""
+        for tick, robots in enumerate(zip(*(recording.ticks for recording in self._recordings), strict=False)):
+            self._walk_tick(tick, robots)
+        for _, scene in self._recorder.trajectory.scenes:
             scene["of"] = max(self._record.environments, self._begun.number)
-        return self._trajectory
+        return self._recorder.trajectory
+
+    def _walk_tick(self, tick: int, robots: Sequence[Tick]) -> None:
+        arena = self._prepare(tick)
+        for node, body, robot in zip(self._nodes, arena.bodies, robots, strict=True):
+            self._check(tick, node, body.sense(tick), robot.senses)
+        ate = False
+        for body, robot in zip(arena.bodies, robots, strict=True):
+            ate |= robot.drive.eat and body.eat()
+            body.move(robot.drive.left_mm_s, robot.drive.right_mm_s)
+        for i, robot in enumerate(robots):
+            self._recorder.histories[i].frozen = robot.frozen
+            self._recorder.add(i, arena.bodies[i], robot.senses, robot.drive, robot.memory)
+        if ate:
+            self._recorder.eaten(arena.food.eaten, [robot.drive for robot in robots])
+
+    @property
+    def _nodes(self) -> list[int]:
+        return [history.node for history in self._recorder.histories]
 
     def _prepare(self, tick: int) -> Arena:
         """The arena of a tick, with what a person did to it before."""
         arena, changed = self._arena, False
         begun = self._due(tick)
         if begun is not None:
-            environment = generate(begun.seed, begun.number, self._params)
-            arena = Arena(environment, self._params, arena.odometer if arena else (0.0, 0.0))
-            if begun.number == 1 or begun.seed != self._begun.seed:
-                self._history.trial = None  # a run that starts over has no last trial
-            self._arena, self._begun, changed = arena, begun, True
+            arena = self._enter(begun)
+            changed = True
         if arena is None:
             raise self._misfit(tick, "it begins later")
         while self._edits and self._edits[0].tick == tick:
             self._edit(arena, tick, self._edits.popleft().edit)
             changed = True
         if changed:
-            self._trajectory.enter(environment_scene(self._begun, self._record.environments, arena))
+            self._recorder.enter(environment_scene(self._begun, self._record.environments, arena))
         return arena
+
+    def _enter(self, begun: Begun) -> Arena:
+        odometers = [body.odometer for body in self._arena.bodies] if self._arena else []
+        layout = generate(begun.seed, begun.number, self._params, self._record.robots)
+        self._arena = Arena(layout, self._params, odometers)
+        if begun.number == 1 or begun.seed != self._begun.seed:
+            for history in self._recorder.histories:
+                history.trial = None  # a run that starts over has no last trial
+        self._begun = begun
+        return self._arena
 
     def _due(self, tick: int) -> Begun | None:
         """The environment that begins with a tick; of several in one tick, the last."""
@@ -126,7 +155,7 @@ class _Walk:
             begun = self._planned.popleft()
         if not self._runs_on:
             return begun
-        over = self._arena is None or not self._arena.food_left
+        over = self._arena is None or not self._arena.food.uneaten
         if over or tick - self._begun.first_tick >= self._record.limit_ticks:
             begun = Begun(self._begun.seed, self._begun.number + 1, tick)
         return begun
@@ -137,14 +166,17 @@ class _Walk:
         except EditError as error:
             raise self._misfit(tick, str(error)) from None
 
-    def _check(self, tick: int, simulated: Senses, recorded: Senses) -> None:
-        if simulated != recorded:
-            pairs = zip(Senses._fields, recorded, simulated, strict=True)
-            raise self._misfit(tick, ", ".join(f"{name} {a:d} and not {b:d}" for name, a, b in pairs if a != b))
+    def _check(self, tick: int, node: int, simulated: Senses, recorded: Senses) -> None:
+        if simulated == recorded:
+            return
+        pairs = zip(Senses._fields, recorded, simulated, strict=True)
+        who = f"node {node}: " if self._record.robots > 1 else ""
+        what = ", ".join(f"{name} {a:d} and not {b:d}" for name, a, b in pairs if a != b)
+        raise self._misfit(tick, who + what)
 
     def _misfit(self, tick: int, what: str) -> OctetError:
-        params = f"seed {self._record.seed}" if self._runs_on else str(world_path(self._log))
+        world = f"seed {self._record.seed}" if self._runs_on else str(world_path(self._log))
         return OctetError(
-            f"{self._log} was not recorded in the world of {params}: at {tick * self._params.tick_s:.2f} s {what}; "
+            f"{self._log} was not recorded in the world of {world}: at {tick * self._params.tick_s:.2f} s {what}; "
             f"put the {world_path(self._log).name} of that run beside it, or leave the world out with --no-world"
         )

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.atomic_file import write_bytes
-from host_sim.cli.run_options import RunOptions
-from host_sim.client.session import Session
-from host_sim.sim.simulation import BOREDOM, REMEMBERED, TRIAL, EpisodeResult
+from host_sim.client.robot_client import RobotClient
+from host_sim.protocol.generated import PATTERNS, SIDES, Reason
+from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import EpisodeResult, RobotResult
 
-SIDES = ("nothing", "left", "right")
-"""What a cell holds, by its number."""
+_COUNTED = {"trials": Reason.TRIAL, "remembered_turns": Reason.REMEMBERED, "boredom_turns": Reason.BOREDOM}
 
 
 @dataclass(frozen=True)
@@ -21,13 +21,12 @@ class Summary:
 
     Attributes:
         seed: Of environments and random turns.
-        profile: The robot's, by name.
-        bus: Where the robot was: none, fd, INTERFACE:CHANNEL, qemu, or an emulated board.
-        environments: One entry each: finished, food_eaten, ticks, robot_s, trials, remembered_turns, boredom_turns,
-            collisions, memory (the eight cells at its end).
-        memory: The eight cells at the end.
-        frames: sent, received, lost, refused.
-        faults: The robot's own fault counters.
+        profile: What the robots behaved like, by name.
+        bus: Where the robots were: none, fd, INTERFACE:CHANNEL, qemu, or an emulated board.
+        environments: One entry each: finished, food_eaten, ticks, robot_s, and robots, with for each robot its node,
+            food_eaten, trials, remembered_turns, boredom_turns, collisions and memory (the eight cells at its end).
+        robots: One entry each: node, memory (the eight cells at the end), frames (sent, received, lost, refused) and
+            faults, the robot's own fault counters.
         log_sha256: Of run.log.
         wall_s: How long it took.
         real_time_factor: Robot time by wall time.
@@ -37,9 +36,7 @@ class Summary:
     profile: str
     bus: str
     environments: list[dict[str, Any]]
-    memory: list[int]
-    frames: dict[str, int]
-    faults: dict[str, int]
+    robots: list[dict[str, Any]]
     log_sha256: str
     wall_s: float
     real_time_factor: float
@@ -58,37 +55,38 @@ class Summary:
 
     def for_people(self) -> str:
         """A few lines."""
-        learned = [f"{_pattern_words(p)}: {SIDES[cell]}" for p, cell in enumerate(self.memory) if cell]
-        return (
-            f"learned   {'; '.join(learned) if learned else 'nothing'}\n"
-            f"speed     {self.real_time_factor:.0f} x real time on {self.bus}, {self.wall_s:.1f} s"
-        )
+        several = len(self.robots) > 1
+        learned = [f"learned   {self._whose(robot) if several else ''}{_learned(robot)}" for robot in self.robots]
+        speed = f"speed     {self.real_time_factor:.0f} x real time on {self.bus}, {self.wall_s:.1f} s"
+        return "\n".join([*learned, speed])
+
+    def _whose(self, robot: dict[str, Any]) -> str:
+        return f"robot {robot['node']}: "
 
 
 def summarize(
-    options: RunOptions, session: Session, episodes: Sequence[EpisodeResult], log_sha256: str, wall_s: float
+    config: RunConfig,
+    clients: Sequence[RobotClient],
+    episodes: Sequence[EpisodeResult],
+    log_sha256: str,
+    wall_s: float,
 ) -> Summary:
     """Sums up a run that has ended.
 
     Args:
-        options: What was asked for.
-        session: The conversation, at its end.
+        config: What was asked for.
+        clients: The robots, at its end.
         episodes: What happened in each environment.
         log_sha256: Of the log.
         wall_s: How long it took, s.
     """
     robot_s = sum(episode.robot_s for episode in episodes)
-    faults, frames = session.faults, asdict(session.frames)
-    frames["lost"] += faults.get("missed", 0)
-    frames["refused"] += sum(faults.get(kind, 0) for kind in ("stale", "damaged", "foreign"))
     return Summary(
-        seed=options.seed,
-        profile=options.profile,
-        bus=session.bus,
-        environments=[_entry(episode) for episode in episodes],
-        memory=list(session.memory),
-        frames=frames,
-        faults=faults,
+        seed=config.seed,
+        profile=config.profile,
+        bus=clients[0].bus,
+        environments=[_environment(episode) for episode in episodes],
+        robots=[_robot(client) for client in clients],
         log_sha256=log_sha256,
         wall_s=round(wall_s, 3),
         real_time_factor=round(robot_s / wall_s, 2),
@@ -103,27 +101,51 @@ def environment_line(number: int, episode: EpisodeResult) -> str:
         episode: What happened there.
     """
     end = "all food found" if episode.finished else f"{sum(episode.eaten)} of {len(episode.eaten)} food found"
-    trials, known, bored = (episode.begun.get(reason, 0) for reason in (TRIAL, REMEMBERED, BOREDOM))
+    trials, known, bored = (episode.begun(reason) for reason in (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM))
     return (
         f"environment {number}   {end} in {episode.robot_s:.0f} s; {trials} trials, {known} remembered turns, "
         f"bored {bored} times"
     )
 
 
-def _entry(episode: EpisodeResult) -> dict[str, Any]:
+def frame_counts(client: RobotClient) -> dict[str, int]:
+    """What became of a robot's frames: sent, received, lost, refused; what it says of its own side is in it."""
+    faults, frames = client.faults, asdict(client.frames)
+    frames["lost"] += faults.get("missed", 0)
+    frames["refused"] += sum(faults.get(kind, 0) for kind in ("stale", "damaged", "foreign"))
+    return frames
+
+
+def _robot(client: RobotClient) -> dict[str, Any]:
+    return {
+        "node": client.node,
+        "memory": list(client.memory),
+        "frames": frame_counts(client),
+        "faults": client.faults,
+    }
+
+
+def _environment(episode: EpisodeResult) -> dict[str, Any]:
     return {
         "finished": episode.finished,
         "food_eaten": sum(episode.eaten),
         "ticks": episode.ticks,
         "robot_s": episode.robot_s,
-        "trials": episode.begun.get(TRIAL, 0),
-        "remembered_turns": episode.begun.get(REMEMBERED, 0),
-        "boredom_turns": episode.begun.get(BOREDOM, 0),
-        "collisions": episode.collisions,
-        "memory": list(episode.memory),
+        "robots": [_deeds(robot) for robot in episode.robots],
     }
 
 
-def _pattern_words(pattern: int) -> str:
-    names = ("front-right", "front", "front-left")
-    return " + ".join(name for bit, name in enumerate(names) if pattern >> bit & 1)
+def _deeds(robot: RobotResult) -> dict[str, Any]:
+    """What a robot did in an environment."""
+    return {
+        "node": robot.node,
+        "food_eaten": robot.food_eaten,
+        **{name: robot.begun.get(reason, 0) for name, reason in _COUNTED.items()},
+        "collisions": robot.collisions,
+        "memory": list(robot.memory),
+    }
+
+
+def _learned(robot: dict[str, Any]) -> str:
+    cells = enumerate(robot["memory"])
+    return "; ".join(f"{PATTERNS[pattern]}: {SIDES[side]}" for pattern, side in cells if side) or "nothing"

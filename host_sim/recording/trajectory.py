@@ -1,4 +1,4 @@
-"""A run, tick by tick, as there is to see of it: what a page to keep, an animation and the tests are made from."""
+"""A run, tick by tick, as there is to see of it: what pages, pictures, animations and the tests are made from."""
 
 from array import array
 from bisect import bisect_right
@@ -6,14 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from operator import itemgetter
-from struct import Struct
-from typing import NamedTuple, Protocol, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from host_sim.protocol.generated import CELL_COUNT, Reason
 from host_sim.robot_io import Drive, Senses
-from host_sim.view.history import LearningHistory, Lesson, Trial
+from host_sim.view.history import Lesson, Trial
 from host_sim.view.state import EnvironmentScene, State
 from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams
@@ -22,29 +22,10 @@ T = TypeVar("T")
 Changes = list[tuple[int, T]]
 """What changes seldom: from which tick on, and what."""
 
-TICKS_MAX = 1_000_000
-"""Of longer runs the last environments are kept: 58 MB, and some 5 MB as a page."""
+ROW = (*Senses._fields, *Drive._fields, "pattern", "lifted", "frozen")
+"""What is kept of a robot at each tick, in 16 bits each, beside its pose."""
 
-_REMEMBERED, _TRIAL, _BOREDOM = 4, 5, 6
-_ROW = (*Senses._fields, *Drive._fields, "pattern", "lifted", "frozen")
-_PACKED = Struct(f"={len(_ROW)}h")
-_AXES = len(Pose._fields)
-
-
-class Body(Protocol):
-    """As much of an arena as a trajectory takes down."""
-
-    @property
-    def pose(self) -> Pose:
-        """Where the robot is and looks."""
-
-    @property
-    def lifted(self) -> bool:
-        """Whether a person holds the robot in the air."""
-
-    @property
-    def eaten(self) -> Sequence[bool]:
-        """For each piece of food, whether it has been eaten."""
+AXES = len(Pose._fields)
 
 
 class Event(NamedTuple):
@@ -55,66 +36,123 @@ class Event(NamedTuple):
 
 
 @dataclass
-class Trajectory:
-    """Grows tick by tick, as far as `TICKS_MAX` and the environment under way.
+class RobotTrack:
+    """One robot's part of a run.
 
     Attributes:
-        params: The measures.
-        boredom_limit: The remembered turn in a row after which the robot is bored.
+        node: Its number on the bus.
         first_tick: The first tick that is kept.
-        scenes: The environments, and what people made of them.
         memories: The eight cells.
-        meals: For each piece of the scene's food, 1 if it is eaten.
         trials: The last trial, under way or judged.
         lessons: All that was learned or written by hand.
+        meals: The ticks in which it ate.
+        poses_flat: x and y in mm, heading in rad, tick after tick.
+        rows_flat: The fields of `ROW`, tick after tick.
+        old_turns: Remembered turns of ticks that are no longer kept.
     """
 
-    params: SimParams
-    boredom_limit: int = 10
+    node: int
     first_tick: int = 0
-    scenes: Changes[EnvironmentScene] = field(default_factory=list)
     memories: Changes[list[int]] = field(default_factory=list)
-    meals: Changes[list[int]] = field(default_factory=list)
     trials: Changes[Trial | None] = field(default_factory=list)
     lessons: list[Lesson] = field(default_factory=list)
-    _poses: "array[float]" = field(default_factory=lambda: array("d"))
-    _rows: "array[int]" = field(default_factory=lambda: array("h"))
-    _old_turns: list[tuple[int, int]] = field(default_factory=list)
-    _action: int = -1
-    _memory: Sequence[int] = ()
+    meals: list[int] = field(default_factory=list)
+    poses_flat: "array[float]" = field(default_factory=lambda: array("d"))
+    rows_flat: "array[int]" = field(default_factory=lambda: array("h"))
+    old_turns: list[tuple[int, int]] = field(default_factory=list)
 
     @property
     def ticks(self) -> int:
         """The number of ticks so far, those no longer kept too."""
-        return self.first_tick + len(self._poses) // _AXES
+        return self.first_tick + len(self.poses_flat) // AXES
 
-    def enter(self, scene: EnvironmentScene) -> None:
-        """An environment begins with the next tick, or a person has changed the present one."""
-        self.scenes.append((self.ticks, scene))
-        self._action = -1
-        begun = [scene["first_tick"] for _, scene in self.scenes]
-        self._forget(next((first for first in begun if self.ticks - first <= TICKS_MAX), begun[-1]))
+    def row(self, tick: int) -> dict[str, int]:
+        """The fields of `ROW` at a tick that is kept."""
+        at_row = tick - self.first_tick
+        return dict(zip(ROW, self.rows_flat[at_row * len(ROW) : (at_row + 1) * len(ROW)], strict=True))
 
-    def add(self, body: Body, senses: Senses, drive: Drive, history: LearningHistory) -> None:
-        """Adds a tick: `senses` and `drive` are the tick's, `body` has moved and `story` has taken it."""
-        if drive.action != self._action or drive.eat or history.memory is not self._memory:
-            self._action, self._memory = drive.action, history.memory
-            self._add_changes(body, history)
-        self._poses.extend(body.pose)
-        self._rows.frombytes(_PACKED.pack(*senses, *drive, history.pattern, body.lifted, history.frozen))
+    def pose(self, tick: int) -> Pose:
+        """The pose after a tick that is kept."""
+        at_row = tick - self.first_tick
+        return Pose(*self.poses_flat[at_row * AXES : (at_row + 1) * AXES])
 
-    def at(self, tick: int) -> State:
-        """The state after a tick, equal to what `scene.state` said then.
+    def poses(self) -> NDArray[np.float64]:
+        """A view of the poses: shape (ticks, 3), x and y in mm, heading in rad. Add no tick while it lives."""
+        return np.frombuffer(self.poses_flat, np.float64).reshape(-1, AXES)
+
+    def column(self, name: str) -> NDArray[np.int16]:
+        """A field of `ROW` by tick. A view, as `poses` is."""
+        return np.frombuffer(self.rows_flat, np.int16).reshape(-1, len(ROW))[:, ROW.index(name)]
+
+    def begun(self, reason: int) -> NDArray[np.int64]:
+        """The ticks in which actions with that reason began."""
+        news = np.diff(self.column("action"), prepend=np.int16(-1)) != 0
+        return np.flatnonzero(news & (self.column("reason") == reason)) + self.first_tick
+
+    def turns(self) -> list[tuple[int, int]]:
+        """Each remembered turn of the whole run: its first tick, and the cell that it was remembered from."""
+        ticks = self.begun(Reason.REMEMBERED)
+        cells = self.column("pattern")[ticks - self.first_tick]
+        return [*self.old_turns, *zip(ticks.tolist(), cells.tolist(), strict=True)]
+
+    def uses(self, tick: int) -> list[int]:
+        """How often each cell was used until a tick."""
+        cells = [cell for begun, cell in self.turns() if begun <= tick]
+        return [cells.count(cell) for cell in range(CELL_COUNT)]
+
+    def learned(self, tick: int) -> list[int]:
+        """For each cell, the tick of its last change until a tick; -1 if there was none."""
+        learned = [-1] * CELL_COUNT
+        for lesson in self.lessons:
+            if lesson["tick"] <= tick:
+                learned[lesson["cell"]] = lesson["tick"]
+        return learned
+
+
+@dataclass
+class Trajectory:
+    """All robots of a run. A `RunRecorder` lets it grow.
+
+    Attributes:
+        params: The measures.
+        boredom_limit: The remembered turn in a row after which a robot is bored.
+        tracks: The robots, in the order of their nodes.
+        scenes: The environments, and what people made of them.
+        meals: For each piece of the scene's food, 1 if it is eaten.
+    """
+
+    params: SimParams
+    boredom_limit: int
+    tracks: list[RobotTrack]
+    scenes: Changes[EnvironmentScene] = field(default_factory=list)
+    meals: Changes[list[int]] = field(default_factory=list)
+
+    @property
+    def first_tick(self) -> int:
+        """The first tick that is kept."""
+        return self.tracks[0].first_tick
+
+    @property
+    def ticks(self) -> int:
+        """The number of ticks so far, those no longer kept too."""
+        return self.tracks[0].ticks
+
+    def at(self, tick: int, robot: int = 0) -> State:
+        """The state of a robot after a tick, equal to what `view.state.state` said then.
+
+        Args:
+            tick: Which.
+            robot: Its place among `tracks`.
 
         Raises:
             IndexError: There is no such tick, or it is kept no longer.
         """
         if not self.first_tick <= tick < self.ticks:
             raise IndexError(f"tick {tick} of {self.first_tick}..{self.ticks - 1}")
-        at_row = tick - self.first_tick
-        row = dict(zip(_ROW, self._rows[at_row * len(_ROW) : (at_row + 1) * len(_ROW)], strict=True))
-        x, y, heading = self._poses[at_row * _AXES : (at_row + 1) * _AXES]
+        track = self.tracks[robot]
+        row, (x, y, heading) = track.row(tick), track.pose(tick)
         return State(
+            node=track.node,
             tick=tick,
             x=round(x, 1),
             y=round(y, 1),
@@ -130,89 +168,33 @@ class Trajectory:
             action=row["action"],
             pattern=row["pattern"],
             eaten=at(self.meals, tick),
-            memory=at(self.memories, tick),
-            uses=self._uses(tick),
-            learned=self._learned(tick),
+            memory=at(track.memories, tick),
+            uses=track.uses(tick),
+            learned=track.learned(tick),
             frozen=row["frozen"],
-            trial=at(self.trials, tick),
+            trial=at(track.trials, tick),
         )
 
-    def poses(self) -> NDArray[np.float64]:
-        """A view of the poses: shape (ticks, 3), x and y in mm, heading in rad. Add no tick while it lives."""
-        return np.frombuffer(self._poses, np.float64).reshape(-1, _AXES)
-
-    def column(self, name: str) -> NDArray[np.int16]:
-        """A field of `Senses` or `Drive`, pattern, lifted or frozen, by tick. A view, as `poses` is."""
-        return np.frombuffer(self._rows, np.int16).reshape(-1, len(_ROW))[:, _ROW.index(name)]
-
-    def begun(self, reason: int) -> NDArray[np.int64]:
-        """The ticks in which actions with that reason began."""
-        news = np.diff(self.column("action"), prepend=np.int16(-1)) != 0
-        return np.flatnonzero(news & (self.column("reason") == reason)) + self.first_tick
-
-    def turns(self) -> list[tuple[int, int]]:
-        """Each remembered turn of the whole run: its first tick, and the cell that it was remembered from."""
-        ticks = self.begun(_REMEMBERED)
-        cells = self.column("pattern")[ticks - self.first_tick]
-        return [*self._old_turns, *zip(ticks.tolist(), cells.tolist(), strict=True)]
-
-    def events(self) -> list[Event]:
-        """All that can be jumped to, in the order of ticks."""
-        first, lessons = self.first_tick, (lesson for lesson in self.lessons if not lesson["by_hand"])
-        numbers = [(tick, scene["number"]) for tick, scene in self.scenes]
+    def events(self, robot: int = 0) -> list[Event]:
+        """All of a robot's that can be jumped to, in the order of ticks."""
+        track = self.tracks[robot]
+        lessons = (lesson for lesson in track.lessons if not lesson["by_hand"])
         return sorted(
             (
-                *(Event(tick, "environment") for (_, old), (tick, new) in pairwise([(0, 0), *numbers]) if new != old),
-                *(Event(tick, "trial") for tick in self.begun(_TRIAL).tolist()),
-                *(Event(tick, "boredom") for tick in self.begun(_BOREDOM).tolist()),
-                *(Event(lesson["tick"], "lesson") for lesson in lessons if lesson["tick"] >= first),
-                *(Event(tick, "eat") for (_, old), (tick, new) in pairwise(self.meals) if sum(new) > sum(old)),
+                *(Event(tick, "environment") for tick in self.begun()),
+                *(Event(tick, "trial") for tick in track.begun(Reason.TRIAL).tolist()),
+                *(Event(tick, "boredom") for tick in track.begun(Reason.BOREDOM).tolist()),
+                *(Event(lesson["tick"], "lesson") for lesson in lessons if lesson["tick"] >= self.first_tick),
+                *(Event(tick, "eat") for tick in track.meals if tick >= self.first_tick),
             )
         )
 
-    def _add_changes(self, body: Body, history: LearningHistory) -> None:
-        """Notes what can change with an action, a bite or a frame of the memory."""
-        _note(self.memories, self.ticks, list(history.memory))
-        _note(self.meals, self.ticks, [int(eaten) for eaten in body.eaten])
-        _note(self.trials, self.ticks, history.trial)
-        self.lessons = history.lessons
-
-    def _forget(self, first: int) -> None:
-        """Keeps only what is from a tick on."""
-        if first > self.first_tick:
-            self._old_turns = [turn for turn in self.turns() if turn[0] < first]
-            del self._poses[: (first - self.first_tick) * _AXES]
-            del self._rows[: (first - self.first_tick) * len(_ROW)]
-            self.scenes, self.memories = _since(self.scenes, first), _since(self.memories, first)
-            self.meals, self.trials = _since(self.meals, first), _since(self.trials, first)
-            self.first_tick = first
-
-    def _uses(self, tick: int) -> list[int]:
-        cells = [cell for begun, cell in self.turns() if begun <= tick]
-        return [cells.count(cell) for cell in range(8)]
-
-    def _learned(self, tick: int) -> list[int]:
-        learned = [-1] * 8
-        for lesson in self.lessons:
-            if lesson["tick"] <= tick:
-                learned[lesson["cell"]] = lesson["tick"]
-        return learned
+    def begun(self) -> list[int]:
+        """The first tick of each environment that is kept."""
+        numbers = [(0, 0), *((tick, scene["number"]) for tick, scene in self.scenes)]
+        return [tick for (_, old), (tick, new) in pairwise(numbers) if new != old]
 
 
 def at(changes: Sequence[tuple[int, T]], tick: int) -> T:
     """What holds at a tick."""
     return changes[bisect_right(changes, tick, key=itemgetter(0)) - 1][1]
-
-
-def _note(changes: Changes[T], tick: int, value: T) -> None:
-    """Adds a value if it is news, in place of one of the same tick."""
-    if changes and changes[-1][1] == value:
-        return
-    if changes and changes[-1][0] == tick:
-        changes.pop()
-    changes.append((tick, value))
-
-
-def _since(changes: Changes[T], first: int) -> Changes[T]:
-    """The changes from a tick on, beginning with what holds then."""
-    return [(first, at(changes, first)), *(change for change in changes if change[0] > first)]

@@ -11,6 +11,7 @@ from typing import Any
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import OctetError, UsageError
+from host_sim.protocol.codec import NODE_MAX
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
 from host_sim.world.edits import edit_from, edit_to, whole
 
@@ -29,6 +30,7 @@ def write_world(record: WorldRecord, path: Path) -> None:
         "seed": record.seed,
         "of": record.environments,
         "limit_ticks": record.limit_ticks,
+        "robots": record.robots,
         "environments": [begun._asdict() for begun in record.begun],
         "edits": [{"tick": tick, **edit_to(edit)} for tick, edit in record.edits],
     }
@@ -68,6 +70,7 @@ def _record(content: dict[str, Any]) -> WorldRecord:
         whole(content, "seed", 0, _SEED_MAX),
         whole(content, "of", 1, _NUMBER_MAX),
         whole(content, "limit_ticks", 1, _TICK_MAX),
+        whole(content, "robots", 1, NODE_MAX) if "robots" in content else 1,
         begun,
         edits,
     )

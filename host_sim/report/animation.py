@@ -9,7 +9,8 @@ from PIL import Image, ImageColor, ImageFont
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import UsageError
-from host_sim.recording.trajectory import Trajectory, at
+from host_sim.protocol.generated import CELL_COUNT, SIDES, Reason
+from host_sim.recording.trajectory import RobotTrack, Trajectory, at
 from host_sim.report.drawing import (
     CONE_DARK,
     CONE_LIT,
@@ -29,11 +30,11 @@ from host_sim.report.drawing import (
     write,
 )
 from host_sim.view.history import Lesson
-from host_sim.view.phrases import SIDES, lesson_sentence, sentence
-from host_sim.view.state import EnvironmentScene, State
+from host_sim.view.phrases import lesson_sentence, sentence
+from host_sim.view.state import State
+from host_sim.world.cones import CONE_BEARINGS_DEG
 from host_sim.world.geometry import Pose, ahead_of
 from host_sim.world.params import SimParams
-from host_sim.world.sensors import CONE_BEARINGS_DEG
 
 FRAMES_MAX = 600
 """A clip of more frames is refused: it would be no short one."""
@@ -41,10 +42,11 @@ FRAMES_MAX = 600
 _FRAME_MS = 80
 _HOLD_MS = 1000
 _TRAIL_S = 12.0
-_CELLS, _MARGIN_PX, _LINE_PX, _TEXT_PX = 8, 10, 26, 15
+_MARGIN_PX, _LINE_PX, _TEXT_PX = 10, 26, 15
 _CLOCK_PX = 70
 _BEAM, _IN_USE, _LEARNED = "#d8efe7", "#fdeecb", "#bfe5d8"
-_TURNING = (4, 5)
+_TURNING = (Reason.REMEMBERED, Reason.TRIAL)
+_MARK_COLOURS = tuple(mark.colour for mark in MARKS.values())
 _COLOURS = (PAPER, FLOOR, INK, OBSTACLE, CONE_LIT, CONE_DARK, _BEAM, _IN_USE, _LEARNED)
 
 
@@ -85,9 +87,9 @@ def write_gif(path: Path, trajectory: Trajectory, clip: Clip) -> None:
 def draw_frame(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image:
     """One tick: above the reason, then the arena, then the memory."""
     state, inner_px = trajectory.at(tick), width_px - 2 * _MARGIN_PX
-    lesson = next((lesson for lesson in trajectory.lessons if lesson["tick"] == tick), None)
-    arena = _draw_arena(trajectory, state, inner_px)
-    cells = _draw_memory(state, lesson, trajectory.params, inner_px // _CELLS)
+    lesson = next((lesson for lesson in trajectory.tracks[0].lessons if lesson["tick"] == tick), None)
+    arena = _draw_arena(trajectory, tick, inner_px)
+    cells = _draw_memory(state, lesson, trajectory.params, inner_px // CELL_COUNT)
     frame = Image.new("RGB", (width_px, 2 * _MARGIN_PX + _LINE_PX + arena.height + cells.height), PAPER)
     frame.paste(arena, (_MARGIN_PX, _LINE_PX))
     frame.paste(cells, ((width_px - cells.width) // 2, _LINE_PX + arena.height + _MARGIN_PX))
@@ -124,7 +126,9 @@ def _holds(trajectory: Trajectory, clip: Clip) -> dict[int, int]:
 
 def _palette() -> Image.Image:
     """The colours of all frames, each with its blends into paper and floor and half-way into every other."""
-    bases = dict.fromkeys(ImageColor.getrgb(colour) for colour in (*_COLOURS, *(mark.colour for mark in MARKS)))
+    bases = dict.fromkeys(
+        ImageColor.getrgb(colour) for colour in (*_COLOURS, *(mark.colour for mark in MARKS.values()))
+    )
     blends = [(a, b, 0.5) for a, b in combinations(bases, 2)]
     blends += [(a, ImageColor.getrgb(b), part) for a in bases for b in (PAPER, FLOOR) for part in (0.25, 0.75)]
     mixed = [tuple(round(x + (y - x) * part) for x, y in zip(a, b, strict=True)) for a, b, part in blends]
@@ -133,35 +137,47 @@ def _palette() -> Image.Image:
     return palette
 
 
-def _draw_arena(trajectory: Trajectory, state: State, width_px: int) -> Image.Image:
-    params, scene = trajectory.params, at(trajectory.scenes, state["tick"])
+def _draw_arena(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image:
+    params, scene = trajectory.params, at(trajectory.scenes, tick)
+    states = [trajectory.at(tick, robot) for robot in range(len(trajectory.tracks))]
     plan = Plan(params.width_mm, params.height_mm, width_px, FLOOR)
-    pose = Pose(state["x"], state["y"], state["heading"] / 1000)
-    if state["beacon"]:
-        plan.line([pose[:2], ahead_of(pose, state["beacon"])], params.beam_width_mm, _BEAM)
-    _draw_trail(plan, trajectory, state["tick"], scene)
-    for bit, bearing_deg in CONE_BEARINGS_DEG.items():
-        reach_mm = params.body_radius_mm + params.sensor_reach_mm
-        draw_cone(plan, pose, bearing_deg, reach_mm, CONE_LIT if state["feel"] & bit else CONE_DARK)
+    for state in states:
+        if state["beacon"]:
+            plan.line([_pose(state)[:2], ahead_of(_pose(state), state["beacon"])], params.beam_width_mm, _BEAM)
+    for track in trajectory.tracks:
+        _draw_trail(plan, trajectory, track, tick)
+    for state in states:
+        _draw_cones(plan, state, params)
     draw_obstacles(plan, (((ax, ay), (bx, by)) for _, ax, ay, bx, by in scene["bars"]), params)
-    for (x, y), eaten in zip(scene["food"], state["eaten"], strict=True):
+    for (x, y), eaten in zip(scene["food"], states[0]["eaten"], strict=True):
         draw_food(plan, (x, y), FOOD_MM, bool(eaten))
-    draw_robot(plan, pose, 2 * params.body_radius_mm, PAPER)
+    for state in states:
+        draw_robot(plan, _pose(state), 2 * params.body_radius_mm, PAPER)
     return plan.done()
 
 
-def _draw_trail(plan: Plan, trajectory: Trajectory, tick: int, scene: EnvironmentScene) -> None:
+def _pose(state: State) -> Pose:
+    return Pose(state["x"], state["y"], state["heading"] / 1000)
+
+
+def _draw_cones(plan: Plan, state: State, params: SimParams) -> None:
+    reach_mm = params.body_radius_mm + params.sensor_reach_mm
+    for bit, bearing_deg in CONE_BEARINGS_DEG.items():
+        draw_cone(plan, _pose(state), bearing_deg, reach_mm, CONE_LIT if state["feel"] & bit else CONE_DARK)
+
+
+def _draw_trail(plan: Plan, trajectory: Trajectory, track: RobotTrack, tick: int) -> None:
     """The last of the way, as far as it is in this environment."""
-    first = max(tick - round(_TRAIL_S / trajectory.params.tick_s), scene["first_tick"], trajectory.first_tick)
-    rows = slice(first - trajectory.first_tick, tick + 1 - trajectory.first_tick)
-    places = trajectory.poses()[rows, :2].tolist()
-    reasons = trajectory.column("reason")[rows].tolist()
+    begun = at(trajectory.scenes, tick)["first_tick"]
+    first = max(tick - round(_TRAIL_S / trajectory.params.tick_s), begun, track.first_tick)
+    rows = slice(first - track.first_tick, tick + 1 - track.first_tick)
+    places, reasons = track.poses()[rows, :2].tolist(), track.column("reason")[rows].tolist()
     draw_trail(plan, tuple(places[0]), [(x, y, reason) for (x, y), reason in zip(places, reasons, strict=True)])
 
 
 def _draw_memory(state: State, lesson: Lesson | None, params: SimParams, width_px: int) -> Image.Image:
     """The cells with what they hold; the one learned, else the one in use, or tried for, is lit."""
-    row = Image.new("RGB", (_CELLS * width_px, width_px), PAPER)
+    row = Image.new("RGB", (CELL_COUNT * width_px, width_px), PAPER)
     in_use = state["pattern"] if state["reason"] in _TURNING else None
     lit, lit_colour = (lesson["cell"], _LEARNED) if lesson else (in_use, _IN_USE)
     for pattern, side in enumerate(state["memory"]):

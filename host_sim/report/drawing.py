@@ -7,14 +7,15 @@ from typing import NamedTuple
 
 from PIL import Image, ImageDraw, ImageFont
 
+from host_sim.protocol.generated import FEEL, Reason, Side
+from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline
 from host_sim.world.geometry import Point, Pose, ahead_of
 from host_sim.world.params import SimParams
-from host_sim.world.sensors import CONE_BEARINGS_DEG, cone_outline
 
 PAPER, INK, FLOOR, OBSTACLE = "#ffffff", "#20262e", "#f6f5f1", "#4b535d"
 CONE_LIT, CONE_DARK = "#e69f00", "#e1e4e8"
 FOOD_MM = 100.0
-FRONT_BITS = (2, 4, 8)
+FRONT_BITS = (FEEL["FRONT_RIGHT"], FEEL["FRONT"], FEEL["FRONT_LEFT"])
 """The bits of feel that make the pattern: front-right, front, front-left."""
 
 # Everything but text is drawn this many times too large and then shrunk, for smooth edges.
@@ -32,19 +33,19 @@ class Mark(NamedTuple):
     layer: int
 
 
-MARKS = (
-    Mark("stopped", "#8a8a8a", 30.0, 1),
-    Mark("wanders", "#56b4e9", 14.0, 1),
-    Mark("goes toward food", "#009e73", 20.0, 2),
-    Mark("looks around", "#c6ccd4", 34.0, 0),
-    Mark("remembered turn", "#0072b2", 36.0, 3),
-    Mark("trial turn", "#d55e00", 68.0, 4),
-    Mark("bored, about face", "#cc79a7", 68.0, 4),
-    Mark("eats", "#000000", 44.0, 5),
-)
+MARKS = {
+    Reason.STOP: Mark("stopped", "#8a8a8a", 30.0, 1),
+    Reason.WANDER: Mark("wanders", "#56b4e9", 14.0, 1),
+    Reason.TOWARD_FOOD: Mark("goes toward food", "#009e73", 20.0, 2),
+    Reason.LOOK_AROUND: Mark("looks around", "#c6ccd4", 34.0, 0),
+    Reason.REMEMBERED: Mark("remembered turn", "#0072b2", 36.0, 3),
+    Reason.TRIAL: Mark("trial turn", "#d55e00", 68.0, 4),
+    Reason.BOREDOM: Mark("bored, about face", "#cc79a7", 68.0, 4),
+    Reason.EAT: Mark("eats", "#000000", 44.0, 5),
+}
 """By reason; colours after Okabe and Ito, which colour-blind people can tell apart."""
 
-PATHS = (1, 2)
+PATHS = (Reason.WANDER, Reason.TOWARD_FOOD)
 """The reasons for which the robot drives rather than turns."""
 
 
@@ -84,7 +85,7 @@ class Plan:
 
 def draw_mark(plan: Plan, reason: int, points: Sequence[Point], scale: float = 1.0) -> None:
     """A way as a line, or a turn as a dot, as `MARKS` has it."""
-    _, colour, width_mm, _ = MARKS[reason]
+    _, colour, width_mm, _ = MARKS[Reason(reason)]
     if len(points) > 1:
         plan.line(points, width_mm * scale, colour)
     else:
@@ -101,7 +102,7 @@ def draw_trail(plan: Plan, start: Point, trail: Sequence[tuple[float, float, int
     """
     points = [start, *((x, y) for x, y, _ in trail)]
     runs = [(reason, [i for i, _ in ticks]) for reason, ticks in groupby(enumerate(trail), lambda t: t[1][2])]
-    for reason, ticks in sorted(runs, key=lambda run: MARKS[run[0]].layer):
+    for reason, ticks in sorted(runs, key=lambda run: MARKS[Reason(run[0])].layer):
         # Tick i leads from point i to point i + 1.
         way = points[ticks[0] : ticks[-1] + 2]
         draw_mark(plan, reason, way if reason in PATHS else way[:1])
@@ -137,7 +138,7 @@ def draw_cone(plan: Plan, pose: Pose, bearing_deg: float, reach_mm: float, colou
     plan.line([*corners, corners[0]], reach_mm / 20, PAPER)
 
 
-def draw_cell(pattern: int, action: int, params: SimParams, width_px: int, colour: str = PAPER) -> Image.Image:
+def draw_cell(pattern: int, side: int, params: SimParams, width_px: int, colour: str = PAPER) -> Image.Image:
     """One cell: the robot, looking up, its front cones lit or not, and an arrow round it for the turn."""
     reach = params.body_radius_mm + params.sensor_reach_mm
     plan = Plan(3.6 * reach, 2.5 * reach, width_px, colour)
@@ -145,8 +146,8 @@ def draw_cell(pattern: int, action: int, params: SimParams, width_px: int, colou
     for bit in FRONT_BITS:
         draw_cone(plan, pose, CONE_BEARINGS_DEG[bit], reach, CONE_LIT if bit >> 1 & pattern else CONE_DARK)
     draw_robot(plan, pose, 2 * params.body_radius_mm, PAPER)
-    if action:
-        _draw_arrow(plan, pose, 1.35 * reach, -1 if action == 1 else 1)
+    if side:
+        _draw_arrow(plan, pose, 1.35 * reach, -1 if side == Side.LEFT else 1)
     return plan.done()
 
 

@@ -1,12 +1,17 @@
-"""One picture of a whole run: every environment with the robot's path, and below the eight cells of its memory."""
+"""One picture of a whole run: every environment with the robots' paths, and below the cells of their memories."""
 
 import math
-from collections.abc import Sequence
-from os import PathLike
-from typing import Protocol
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from itertools import pairwise
+from pathlib import Path
 
 from PIL import Image
 
+from host_sim.atomic_file import write_bytes
+from host_sim.protocol.generated import CELL_COUNT, SIDES
+from host_sim.recording.trajectory import Trajectory, at
 from host_sim.report.drawing import (
     FLOOR,
     FOOD_MM,
@@ -23,92 +28,122 @@ from host_sim.report.drawing import (
     draw_trail,
     write,
 )
+from host_sim.view.state import EnvironmentScene
 from host_sim.world.geometry import Point, Pose
-from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
 
-_CELLS, _MOST_ENVIRONMENTS, _COLUMNS = 8, 9, 3
+_MOST_ENVIRONMENTS, _COLUMNS = 9, 3
 _WIDTH_PX, _MARGIN_PX, _GAP_PX = 1608, 36, 24
 _LEGEND_COLUMNS, _LINE_PX, _TEXT_PX, _HEADING_PX = 6, 30, 18, 21
 _LEGEND_PX_PER_MM = 0.25
-_TURNS = ("nothing yet", "turn left", "turn right")
+_MOST_MEMORIES = 8
 
 
-class EpisodeResult(Protocol):
-    """What happened in one environment, as far as the picture shows it."""
+@dataclass(frozen=True)
+class Panel:
+    """What happened in one environment, as far as the picture shows it.
 
-    @property
-    def layout(self) -> Layout:
-        """The layout."""
+    Attributes:
+        scene: Where everything was at its end.
+        eaten: For each piece of food, whether it was eaten.
+        robot_s: How long it took, s, in the robots' time.
+        trails: For each robot and each control tick, where it ended (x and y in mm) and the reason of its drive.
+        starts: For each robot, where it was after the first tick.
+    """
 
-    @property
-    def trail(self) -> Sequence[tuple[float, float, int]]:
-        """For each control tick, where it ended (x and y in mm) and the reason of its drive, 0..7."""
-
-    @property
-    def eaten(self) -> Sequence[bool]:
-        """For each piece of food, whether it was eaten."""
-
-    @property
-    def robot_s(self) -> float:
-        """How long it took, s, in the robot's time."""
-
-    @property
-    def finished(self) -> bool:
-        """Whether all the food was eaten in the time allowed."""
+    scene: EnvironmentScene
+    eaten: Sequence[int]
+    robot_s: float
+    trails: Sequence[Sequence[tuple[float, float, int]]]
+    starts: Sequence[Pose]
 
 
-def draw_run(
-    path: str | PathLike[str], params: SimParams, environments: Sequence[EpisodeResult], memory: Sequence[int]
-) -> None:
-    """Writes the picture of a run as PNG, below 400 kB; equal runs give equal bytes.
+def write_picture(path: Path, trajectory: Trajectory) -> None:
+    """Writes the picture of a run as PNG, below 400 kB for one robot; equal runs give equal bytes.
 
     Args:
-        path: The file to write; one that is there is replaced.
+        path: The file; one that is there is replaced.
+        trajectory: The run, of at least one tick. Of more than nine environments the last nine are shown, of more
+            than eight robots the memories of the first eight.
+
+    Raises:
+        OctetError: The disk did not take it.
+    """
+    begun = trajectory.begun()
+    panels = [_panel(trajectory, first, end) for first, end in pairwise([*begun, trajectory.ticks])]
+    memories = {track.node: at(track.memories, trajectory.ticks - 1) for track in trajectory.tracks}
+    content = BytesIO()
+    draw_run(trajectory.params, panels, memories).save(content, "PNG", optimize=True)
+    write_bytes(path, content.getvalue())
+
+
+def _panel(trajectory: Trajectory, first: int, end: int) -> Panel:
+    """What happened from one tick to before another, in the scene of the last of them."""
+    rows = slice(first - trajectory.first_tick, end - trajectory.first_tick)
+    trails = []
+    for track in trajectory.tracks:
+        places, reasons = track.poses()[rows, :2].tolist(), track.column("reason")[rows].tolist()
+        trails.append([(x, y, reason) for (x, y), reason in zip(places, reasons, strict=True)])
+    return Panel(
+        scene=at(trajectory.scenes, end - 1),
+        eaten=at(trajectory.meals, end - 1),
+        robot_s=(end - first) * trajectory.params.tick_s,
+        trails=trails,
+        starts=[track.pose(first) for track in trajectory.tracks],
+    )
+
+
+def draw_run(params: SimParams, panels: Sequence[Panel], memories: Mapping[int, Sequence[int]]) -> Image.Image:
+    """The picture of a run.
+
+    Args:
         params: The measures.
-        environments: What happened, in order, at least one; of more than nine the last nine are shown.
-        memory: The eight cells at the end: 0 nothing, 1 left, 2 right.
+        panels: What happened, in order, at least one; of more than nine the last nine are shown.
+        memories: For each robot, by its node, the eight cells at the end: 0 nothing, 1 left, 2 right.
 
     Raises:
         ValueError: There is no environment, or there are not eight cells.
-        OSError: The file cannot be written.
     """
-    if not environments or len(memory) != _CELLS:
-        raise ValueError(f"no picture of {len(environments)} environments and {len(memory)} cells")
-    shown = list(enumerate(environments, 1))[-_MOST_ENVIRONMENTS:]
-    rows = [_legend(params), *_environment_rows(shown, params), _memory_row(memory, params)]
-    _stacked(rows).quantize().save(path, "PNG", optimize=True)
+    if not panels or any(len(memory) != CELL_COUNT for memory in memories.values()):
+        raise ValueError(f"no picture of {len(panels)} environments and these memories: {memories}")
+    rows = [_legend(params), *_environment_rows(panels[-_MOST_ENVIRONMENTS:], params)]
+    for node, memory in list(memories.items())[:_MOST_MEMORIES]:
+        rows.append(_memory_row(f"robot {node}" if len(memories) > 1 else "The robot", memory, params))
+    return _stacked(rows).quantize()
 
 
-def _environment_rows(episodes: Sequence[tuple[int, EpisodeResult]], params: SimParams) -> list[Image.Image]:
-    """The numbered environments, side by side, each under its caption."""
-    columns = min(_COLUMNS, len(episodes))
+def _environment_rows(panels: Sequence[Panel], params: SimParams) -> list[Image.Image]:
+    """The environments, side by side, each under its caption."""
+    columns = min(_COLUMNS, len(panels))
     width_px = (_WIDTH_PX - (columns - 1) * _GAP_PX) // columns
-    panels = [_titled(_caption(*episode), _environment(episode[1], params, width_px)) for episode in episodes]
-    return [_abreast(panels[first : first + columns], _GAP_PX) for first in range(0, len(panels), columns)]
+    images = [_titled(_caption(panel), _environment(panel, params, width_px)) for panel in panels]
+    return [_abreast(images[first : first + columns], _GAP_PX) for first in range(0, len(images), columns)]
 
 
-def _caption(number: int, episode: EpisodeResult) -> str:
-    outcome = "finished in" if episode.finished else "not finished in"
-    food = f"{sum(episode.eaten)} of {len(episode.eaten)} food"
-    return f"environment {number}: {outcome} {episode.robot_s:.0f} s, {food}"
+def _caption(panel: Panel) -> str:
+    finished = bool(panel.eaten) and all(panel.eaten)
+    outcome = "finished in" if finished else "not finished in"
+    food = f"{sum(panel.eaten)} of {len(panel.eaten)} food"
+    return f"environment {panel.scene['number']}: {outcome} {panel.robot_s:.0f} s, {food}"
 
 
-def _environment(episode: EpisodeResult, params: SimParams, width_px: int) -> Image.Image:
-    """The arena from above, with what the robot did in it."""
+def _environment(panel: Panel, params: SimParams, width_px: int) -> Image.Image:
+    """The arena from above, with what the robots did in it."""
     plan = Plan(params.width_mm, params.height_mm, width_px, FLOOR)
-    draw_trail(plan, episode.layout.start[:2], episode.trail)
-    draw_obstacles(plan, episode.layout.bars, params)
-    for food, eaten in zip(episode.layout.food, episode.eaten, strict=True):
-        draw_food(plan, food, FOOD_MM, eaten)
-    draw_robot(plan, episode.layout.start, 2 * params.body_radius_mm, PAPER)
-    draw_robot(plan, _end(episode), 2 * params.body_radius_mm, INK)
+    for start, trail in zip(panel.starts, panel.trails, strict=True):
+        draw_trail(plan, start[:2], trail)
+    draw_obstacles(plan, (((ax, ay), (bx, by)) for _, ax, ay, bx, by in panel.scene["bars"]), params)
+    for (x, y), eaten in zip(panel.scene["food"], panel.eaten, strict=True):
+        draw_food(plan, (x, y), FOOD_MM, bool(eaten))
+    for start, trail in zip(panel.starts, panel.trails, strict=True):
+        draw_robot(plan, start, 2 * params.body_radius_mm, PAPER)
+        draw_robot(plan, _end(start, trail), 2 * params.body_radius_mm, INK)
     return plan.done()
 
 
-def _end(episode: EpisodeResult) -> Pose:
-    """Where the trail ends, looking along its last way."""
-    start, points = episode.layout.start, [(x, y) for x, y, _ in episode.trail]
+def _end(start: Pose, trail: Sequence[tuple[float, float, int]]) -> Pose:
+    """Where a trail ends, looking along its last way."""
+    points = [(x, y) for x, y, _ in trail]
     if not points:
         return start
     end = points[-1]
@@ -118,13 +153,13 @@ def _end(episode: EpisodeResult) -> Pose:
 
 def _legend(params: SimParams) -> Image.Image:
     """What the colours and signs mean."""
-    words = [mark.words for mark in MARKS] + ["start", "end", "food left", "food eaten"]
+    words = [mark.words for mark in MARKS.values()] + ["start", "end", "food left", "food eaten"]
     column_px = _WIDTH_PX // _LEGEND_COLUMNS
     places = [(i % _LEGEND_COLUMNS * column_px, i // _LEGEND_COLUMNS * _LINE_PX) for i in range(len(words))]
     height = places[-1][1] + _LINE_PX
     plan = Plan(_WIDTH_PX, height, _WIDTH_PX, PAPER)
     middles = [(x + _LINE_PX / 2, y + _LINE_PX / 2) for x, y in places]
-    for reason, (x, y) in enumerate(middles[: len(MARKS)]):
+    for reason, (x, y) in zip(MARKS, middles, strict=False):
         draw_mark(plan, reason, [(x - 12, y), (x + 12, y)] if reason in PATHS else [(x, y)], _LEGEND_PX_PER_MM)
     _draw_signs(plan, middles[len(MARKS) :], params)
     image = plan.done()
@@ -142,20 +177,20 @@ def _draw_signs(plan: Plan, middles: Sequence[Point], params: SimParams) -> None
         draw_food(plan, middle, food, eaten)
 
 
-def _memory_row(memory: Sequence[int], params: SimParams) -> Image.Image:
+def _memory_row(whose: str, memory: Sequence[int], params: SimParams) -> Image.Image:
     """The eight cells: what the front sensors feel, and the turn learned for it."""
-    cells = [_cell(pattern, action, params) for pattern, action in enumerate(memory)]
-    return _titled("The robot's memory: one cell for each pattern of its three front sensors", _abreast(cells, 0))
+    cells = [_cell(pattern, side, params) for pattern, side in enumerate(memory)]
+    return _titled(f"{whose}'s memory: one cell for each pattern of its three front sensors", _abreast(cells, 0))
 
 
-def _cell(pattern: int, action: int, params: SimParams) -> Image.Image:
+def _cell(pattern: int, side: int, params: SimParams) -> Image.Image:
     """One cell, and in words what it holds."""
-    width_px = _WIDTH_PX // _CELLS
-    drawing = draw_cell(pattern, action, params, width_px)
+    width_px = _WIDTH_PX // CELL_COUNT
+    drawing = draw_cell(pattern, side, params, width_px)
     image = Image.new("RGB", (width_px, drawing.height + 2 * _LINE_PX), PAPER)
     image.paste(drawing)
-    write(image, (width_px / 2, image.height - 1.5 * _LINE_PX), f"cell {pattern}", _TEXT_PX, "mm")
-    words = _TURNS[action] if pattern else "stays empty"
+    write(image, (width_px / 2, image.height - 1.5 * _LINE_PX), f"cell {pattern} ({pattern:03b})", _TEXT_PX, "mm")
+    words = "stays empty" if pattern == 0 else f"turn {SIDES[side]}" if side else "nothing yet"
     write(image, (width_px / 2, image.height - 0.7 * _LINE_PX), words, _TEXT_PX, "mm")
     return image
 

@@ -7,25 +7,28 @@ The page is `web/replay.html` with what it refers to put in its place, so that t
   declaration;
 - `<script type="application/json" id="run"></script>` gets the run, each `<` in it as `\u003c`.
 
-The run is one object. Measures, EnvironmentScene and State are as in scene.py, Trial and Lesson as in story.py. What
-comes second in a pair holds from that tick on, until the next pair's; the first is from tick `first_tick` on.
+The run is one object. Measures, EnvironmentScene and State are as in view/state.py, Trial and Lesson as in
+view/history.py. What comes second in a pair holds from that tick on, until the next pair's; the first is from tick
+`first_tick` on.
 
-    version      1
+    version      2
     title        for people, such as "seed 7, 3 environments"
     measures     Measures
     first_tick   the first tick on the page; 0 but for very long runs, whose last part it shows
     ticks        how many there are
     scenes       [[tick, EnvironmentScene], ...]: one for each environment and for each change of it by a person
     eaten        [[tick, [0 or 1 for each piece of the scene's food]], ...]
-    memory       [[tick, [8 cells]], ...]
-    trials       [[tick, Trial or null], ...]: State.trial
-    lessons      [Lesson, ...], those before first_tick too
-    turns        [[tick, cell], ...]: each use of a cell, those before first_tick too: State.uses counts them
-    events       [[tick, kind], ...], in their order: kind is "environment", "trial", "lesson", "boredom" or "eat"
-    columns      the names of the columns, in the order of the data
-    data         base64 of a zlib stream (DecompressionStream "deflate") of the columns
+    robots       one object a robot, in the order of their nodes:
+        node         its number on the bus
+        memory       [[tick, [8 cells]], ...]
+        trials       [[tick, Trial or null], ...]: State.trial
+        lessons      [Lesson, ...], those before first_tick too
+        turns        [[tick, cell], ...]: each use of a cell, those before first_tick too: State.uses counts them
+        events       [[tick, kind], ...], in their order: kind is "environment", "trial", "lesson", "boredom" or "eat"
+        columns      the names of the columns, in the order of the data
+        data         base64 of a zlib stream (DecompressionStream "deflate") of the columns
 
-State n is `scene.state` of tick n: what the robot sensed and answered, and where that left it. A column has one whole
+State n is `state` of tick n: what the robot sensed and answered, and where that left it. A column has one whole
 number for each tick. Their names are those in State; x and y are in 0.1 mm, heading is in mrad:
 
     x y heading lifted feel bump beacon left right reason repeat_count action pattern frozen
@@ -52,7 +55,7 @@ from numpy.typing import NDArray
 
 from host_sim.atomic_file import write_bytes
 from host_sim.paths import WEB
-from host_sim.recording.trajectory import Trajectory
+from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.view.state import measures
 
 _TEMPLATE = "replay.html"
@@ -82,20 +85,28 @@ def write_page(path: Path, trajectory: Trajectory, title: str) -> None:
 
 def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:
     """The run as the page has it; see above."""
-    columns = _columns(trajectory)
     return {
-        "version": 1,
+        "version": 2,
         "title": title,
         "measures": measures(trajectory.params, trajectory.boredom_limit),
         "first_tick": trajectory.first_tick,
         "ticks": trajectory.ticks - trajectory.first_tick,
         "scenes": trajectory.scenes,
         "eaten": trajectory.meals,
-        "memory": trajectory.memories,
-        "trials": trajectory.trials,
-        "lessons": trajectory.lessons,
-        "turns": trajectory.turns(),
-        "events": trajectory.events(),
+        "robots": [_robot_data(trajectory, robot) for robot in range(len(trajectory.tracks))],
+    }
+
+
+def _robot_data(trajectory: Trajectory, robot: int) -> dict[str, Any]:
+    track = trajectory.tracks[robot]
+    columns = _columns(track)
+    return {
+        "node": track.node,
+        "memory": track.memories,
+        "trials": track.trials,
+        "lessons": track.lessons,
+        "turns": track.turns(),
+        "events": trajectory.events(robot),
         "columns": list(columns),
         "data": pack(np.array(list(columns.values()))),
     }
@@ -122,10 +133,10 @@ def page(run: dict[str, Any]) -> str:
     return text.replace(_RUN, _RUN.replace("></", f">{told}</"))
 
 
-def _columns(trajectory: Trajectory) -> dict[str, NDArray[np.int64]]:
+def _columns(track: RobotTrack) -> dict[str, NDArray[np.int64]]:
     """Every column, as whole numbers."""
-    x, y, heading = np.rint(trajectory.poses() * (10, 10, 1000)).astype(np.int64).T
-    rows = {name: trajectory.column(_FIELDS.get(name, name)).astype(np.int64) for name in (*_SENSED, *_DONE)}
+    x, y, heading = np.rint(track.poses() * (10, 10, 1000)).astype(np.int64).T
+    rows = {name: track.column(_FIELDS.get(name, name)).astype(np.int64) for name in (*_SENSED, *_DONE)}
     return {"x": x, "y": y, "heading": heading, **rows}
 
 

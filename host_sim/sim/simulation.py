@@ -1,11 +1,11 @@
-"""A run: one robot, one environment after the other, its memory carried over."""
+"""A run: robots in one environment after the other, their memories carried over."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from host_sim.client.pacing import Pace
-from host_sim.client.session import Session
-from host_sim.robot_io import Drive, Senses
+from host_sim.client.robot_client import RobotClient
+from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
 from host_sim.world.arena import Arena
 from host_sim.world.editing import make_edit
@@ -14,11 +14,24 @@ from host_sim.world.geometry import Point
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams
 
-BOREDOM, EAT, REMEMBERED, TRIAL = 6, 7, 4, 5
-"""Reasons, as in octet.dbc."""
 
-_NOTHING_SENSED = Senses(0, 0, False, False, 0, 0, 0)
-_AT_REST = Drive(0, 0, 0, 0, 0, 0, False)
+@dataclass
+class RobotResult:
+    """What one robot did in one environment.
+
+    Attributes:
+        node: Its number on the bus.
+        begun: Number of actions begun, by reason.
+        food_eaten: Pieces of food that it ate.
+        collisions: How often its body began to touch something.
+        memory: The eight cells at the end.
+    """
+
+    node: int
+    begun: dict[int, int] = field(default_factory=dict)
+    food_eaten: int = 0
+    collisions: int = 0
+    memory: tuple[int, ...] = (0,) * 8
 
 
 @dataclass
@@ -26,85 +39,97 @@ class EpisodeResult:
     """What happened in one environment.
 
     Attributes:
-        layout: The layout.
+        layout: Where everything was at the end.
         tick_s: Length of a tick.
+        robots: What each robot did.
         ticks: How many there were.
-        trail: Where the robot was and why it did what it did, (x in mm, y in mm, reason), for each tick.
         eaten: For each piece of food, whether it was eaten.
-        finished: Whether all was eaten.
-        begun: Number of actions begun, by reason.
-        collisions: How often the body began to touch something.
-        memory: The eight cells at the end.
     """
 
     layout: Layout
     tick_s: float
+    robots: list[RobotResult]
     ticks: int = 0
-    trail: list[tuple[float, float, int]] = field(default_factory=list)
     eaten: list[bool] = field(default_factory=list)
-    finished: bool = False
-    begun: dict[int, int] = field(default_factory=dict)
-    collisions: int = 0
-    memory: tuple[int, ...] = (0,) * 8
+
+    @property
+    def finished(self) -> bool:
+        """Whether all the food was eaten."""
+        return bool(self.eaten) and all(self.eaten)
 
     @property
     def robot_s(self) -> float:
         """Robot time spent here, s."""
         return round(self.ticks * self.tick_s, 3)
 
+    def begun(self, reason: int) -> int:
+        """How many actions were begun for a reason, by all robots."""
+        return sum(robot.begun.get(reason, 0) for robot in self.robots)
+
 
 @dataclass
 class Simulation:
-    """Puts a started robot through its environments: `run` does it all; `enter`, `step` and `leave` do it bit by bit.
+    """Puts started robots through their environments: `run` does it all; `enter`, `step` and `leave` bit by bit.
+
+    `make` builds one.
 
     Attributes:
         params: The measures.
-        session: The conversation with the robot.
-        pace: How world and robot keep time.
+        clients: The robots, at least one, in the order of their starts.
+        pace: How world and robots keep time.
         seed: Of the environments.
         environments: How many.
         limit_s: Robot time after which an environment ends, finished or not.
-        watch: Called after each tick with the environment's number and arena, for progress.
+        watch: Called after each tick.
         record: Which environments there were, and what a person did to them.
         tick: Number of the next tick.
         arena: Of the environment entered last.
         episode: What has happened there so far.
-        senses: Of the last tick.
-        drive: Of the last tick.
+        senses: Each robot's, of the last tick.
+        drives: Each robot's, of the last tick.
     """
 
     params: SimParams
-    session: Session
+    clients: Sequence[RobotClient]
     pace: Pace
     seed: int
     environments: int
     limit_s: float
-    watch: Callable[[int, Arena], object] = lambda *_: None
+    watch: Callable[["Simulation"], object] = lambda _: None
     record: WorldRecord = field(init=False)
     tick: int = 0
     arena: Arena = field(init=False)
     episode: EpisodeResult = field(init=False)
-    senses: Senses = _NOTHING_SENSED
-    drive: Drive = _AT_REST
-    _odometer: Point = (0.0, 0.0)
-    _action: int = -1
+    senses: list[Senses] = field(init=False)
+    drives: Sequence[Drive] = field(init=False)
+    _odometers: list[Point] = field(init=False)
 
     def __post_init__(self) -> None:
-        self.record = WorldRecord(self.seed, self.environments, round(self.limit_s / self.params.tick_s))
+        robots = len(self.clients)
+        limit_ticks = round(self.limit_s / self.params.tick_s)
+        self.record = WorldRecord(self.seed, self.environments, limit_ticks, robots)
+        self.senses, self.drives = [NOTHING_SENSED] * robots, [REST] * robots
+        self._odometers = [(0.0, 0.0)] * robots
 
     @property
     def over(self) -> bool:
         """Whether the environment has ended: all food eaten, or time up."""
-        return not self.arena.food_left or self.episode.ticks >= self.record.limit_ticks
+        return not self.arena.food.uneaten or self.episode.ticks >= self.record.limit_ticks
+
+    @property
+    def nodes(self) -> list[int]:
+        """The robots' numbers on the bus."""
+        return [client.node for client in self.clients]
 
     def run(self) -> Iterator[EpisodeResult]:
         """Runs it.
 
         Yields:
-            Each environment's chapter when it has ended.
+            Each environment's result when it has ended.
 
         Raises:
-            RobotError: The robot is gone.
+            RobotError: A robot is gone.
+            NoRoomError: There is no room for so many robots.
         """
         for number in range(1, self.environments + 1):
             self.enter(number)
@@ -113,38 +138,45 @@ class Simulation:
             yield self.leave()
 
     def enter(self, number: int) -> None:
-        """Begins the environment of that number."""
-        layout = generate(self.seed, number, self.params)
-        self.arena = Arena(layout, self.params, self._odometer)
-        self.episode = EpisodeResult(layout, self.params.tick_s)
+        """Begins the environment of that number.
+
+        Raises:
+            NoRoomError: There is no room for so many robots.
+        """
+        layout = generate(self.seed, number, self.params, len(self.clients))
+        self.arena = Arena(layout, self.params, self._odometers)
+        self.episode = EpisodeResult(layout, self.params.tick_s, [RobotResult(node) for node in self.nodes])
         self.record.begin(Begun(self.seed, number, self.tick))
 
     def step(self) -> None:
         """Does one tick.
 
         Raises:
-            RobotError: The robot is gone.
+            RobotError: A robot is gone.
         """
-        arena, episode = self.arena, self.episode
-        drive = self._exchange(arena)
-        if drive.eat:
-            arena.eat()
-        arena.move(drive.left_mm_s, drive.right_mm_s)
-        episode.ticks += 1
-        x, y, _ = arena.pose
-        episode.trail.append((x, y, drive.reason))
-        if drive.action != self._action:
-            self._action = drive.action
-            episode.begun[drive.reason] = episode.begun.get(drive.reason, 0) + 1
-        self.watch(self.record.begun[-1].number, arena)
+        self.clients[0].log.set_time(round(self.tick * self.params.tick_s * 1e6))
+        bodies, before = self.arena.bodies, self.drives
+        for i, body in enumerate(bodies):
+            self.senses[i] = body.sense(self.tick)
+        self.drives = self.pace.exchange(self.senses)
+        for i, (body, drive) in enumerate(zip(bodies, self.drives, strict=True)):
+            if drive.eat and body.eat():
+                self.episode.robots[i].food_eaten += 1
+            body.move(drive.left_mm_s, drive.right_mm_s)
+            if drive.action != before[i].action:
+                begun = self.episode.robots[i].begun
+                begun[drive.reason] = begun.get(drive.reason, 0) + 1
+        self.tick += 1
+        self.episode.ticks += 1
+        self.watch(self)
 
     def leave(self) -> EpisodeResult:
         """Ends the environment, finished or not."""
         arena, episode = self.arena, self.episode
-        self._odometer = arena.odometer
-        episode.layout = arena.layout
-        episode.eaten, episode.finished = arena.eaten, not arena.food_left
-        episode.collisions, episode.memory = arena.collisions, self.session.memory
+        self._odometers = [body.odometer for body in arena.bodies]
+        episode.layout, episode.eaten = arena.layout, arena.food.eaten
+        for robot, body, client in zip(episode.robots, arena.bodies, self.clients, strict=True):
+            robot.collisions, robot.memory = body.collisions, client.memory
         return episode
 
     def edit(self, edit: Edit) -> None:
@@ -158,11 +190,4 @@ class Simulation:
 
     def set_clock(self) -> None:
         """Dates what is recorded from now on with the next tick."""
-        self.session.recorder.time_us = round(self.tick * self.params.tick_s * 1e6)
-
-    def _exchange(self, arena: Arena) -> Drive:
-        self.set_clock()
-        self.senses = arena.sense(self.tick)
-        self.drive = drive = self.pace.exchange(self.senses)
-        self.tick += 1
-        return drive
+        self.clients[0].log.set_time(round(self.tick * self.params.tick_s * 1e6))

@@ -29,6 +29,7 @@ class WorldRecord:
         seed: Of the run.
         environments: How many the run was to have.
         limit_ticks: Ticks after which an environment ends, finished or not.
+        robots: How many are in each environment.
         begun: The environments in the order in which they began.
         edits: What a person did, in order.
     """
@@ -36,6 +37,7 @@ class WorldRecord:
     seed: int
     environments: int
     limit_ticks: int
+    robots: int = 1
     begun: list[Begun] = field(default_factory=list)
     edits: list[Edited] = field(default_factory=list)
 

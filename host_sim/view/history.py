@@ -1,12 +1,11 @@
-"""What a run has come to, told tick by tick: trials and their verdicts, lessons, how often each cell was used."""
+"""What a robot has learned in a run so far: trials and their verdicts, lessons, how often each cell was used."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TypedDict
 
+from host_sim.protocol.generated import CELL_COUNT, Reason
 from host_sim.robot_io import Drive, Senses
-
-_REMEMBERED, _TRIAL = 4, 5
 
 
 class Trial(TypedDict):
@@ -29,12 +28,14 @@ class Lesson(TypedDict):
     """A cell that changed.
 
     Attributes:
+        node: Whose.
         tick: When.
         cell: Which, 1..7.
         side: What it holds now: 0 nothing, 1 left, 2 right.
         by_hand: 1 if a person wrote or erased it, 0 if the robot learned it.
     """
 
+    node: int
     tick: int
     cell: int
     side: int
@@ -51,6 +52,7 @@ class LearningHistory:
     """Takes every tick of a run in its order.
 
     Attributes:
+        node: The robot's number on the bus.
         memory: The eight cells.
         frozen: Whether the robot does not learn; whoever gives the command sets it.
         pattern: The front sensors when the action under way was decided.
@@ -61,11 +63,12 @@ class LearningHistory:
         lessons: All lessons.
     """
 
-    memory: Sequence[int] = (0,) * 8
+    node: int = 1
+    memory: Sequence[int] = (0,) * CELL_COUNT
     frozen: bool = False
     pattern: int = 0
-    uses: list[int] = field(default_factory=lambda: [0] * 8)
-    learned: list[int] = field(default_factory=lambda: [-1] * 8)
+    uses: list[int] = field(default_factory=lambda: [0] * CELL_COUNT)
+    learned: list[int] = field(default_factory=lambda: [-1] * CELL_COUNT)
     trial: Trial | None = None
     trials: int = 0
     lessons: list[Lesson] = field(default_factory=list)
@@ -87,7 +90,7 @@ class LearningHistory:
         for cell, (before, side) in enumerate(zip(self.memory, memory, strict=True)):
             if side != before:
                 learned = trial is not None and (trial["cell"], trial["side"], trial["helped"]) == (cell, side, 1)
-                self.lessons.append(Lesson(tick=tick, cell=cell, side=side, by_hand=int(not learned)))
+                self.lessons.append(Lesson(node=self.node, tick=tick, cell=cell, side=side, by_hand=int(not learned)))
                 self.learned[cell] = tick
         self.memory = memory
 
@@ -100,9 +103,9 @@ class LearningHistory:
         return self.trial
 
     def _begin(self, tick: int, drive: Drive) -> None:
-        if drive.reason == _REMEMBERED:
+        if drive.reason == Reason.REMEMBERED:
             self.uses[self.pattern] += 1
-        elif drive.reason == _TRIAL:
+        elif drive.reason == Reason.TRIAL:
             side = 1 if drive.left_mm_s < drive.right_mm_s else 2
             self.trial = Trial(tick=tick, cell=self.pattern, side=side, helped=None)
             self.trials += 1

@@ -1,22 +1,8 @@
-"""What the robot does and why, in its own words; those of web/words.js."""
+"""What a robot does and why, in its own words; the page has the same."""
 
+from host_sim.protocol.generated import PATTERNS, SIDES, Reason, Side
 from host_sim.view.history import Lesson
 from host_sim.view.state import State
-
-PATTERNS = (
-    "nothing",
-    "front-right",
-    "front",
-    "front and front-right",
-    "front-left",
-    "front-left and front-right",
-    "front-left and front",
-    "all three",
-)
-"""Names of the eight patterns of the front sensors."""
-
-SIDES = ("nothing", "left", "right")
-"""What a cell holds."""
 
 _WANDERING = "Nothing in my way: I drive on and look about for food."
 
@@ -25,18 +11,22 @@ def sentence(state: State) -> str:
     """What a tick shows, in one sentence."""
     if state["lifted"]:
         return "Someone has picked me up: my wheels turn in the air."
-    side = SIDES[1 if state["left"] < state["right"] else 2]
+    side = SIDES[Side.LEFT if state["left"] < state["right"] else Side.RIGHT]
     blocked = f"{PATTERNS[state['pattern']].capitalize()} blocked"
-    return (
-        "I am standing still.",
-        _WANDERING,
-        f"I see food {state['beacon'] / 1000:.2f} m ahead: I drive toward it." if state["beacon"] else _WANDERING,
-        _WANDERING,
-        f"{blocked}: I remember that turning {side} helped.",
-        f"{blocked}: I do not know what helps yet, so I try turning {side}.",
-        f"{state['repeat_count']} turns in a row, and still blocked. I am bored: about face!",
-        "Food! I eat it.",
-    )[state["reason"]]
+    return {
+        Reason.STOP: "I am standing still.",
+        Reason.WANDER: _WANDERING,
+        Reason.TOWARD_FOOD: _toward_food(state["beacon"]),
+        Reason.LOOK_AROUND: _WANDERING,
+        Reason.REMEMBERED: f"{blocked}: I remember that turning {side} helped.",
+        Reason.TRIAL: f"{blocked}: I do not know what helps yet, so I try turning {side}.",
+        Reason.BOREDOM: f"{state['repeat_count']} turns in a row, and still blocked. I am bored: about face!",
+        Reason.EAT: "Food! I eat it.",
+    }[Reason(state["reason"])]
+
+
+def _toward_food(beacon_mm: int) -> str:
+    return f"I see food {beacon_mm / 1000:.2f} m ahead: I drive toward it." if beacon_mm else _WANDERING
 
 
 def lesson_sentence(lesson: Lesson) -> str:

@@ -4,12 +4,15 @@ Ticks are counted from the start of the run and do not wrap. Lengths are in mm, 
 mrad, 0 along +x, positive to the right. Sides: 0 nothing, 1 left, 2 right. Reasons: as in octet.dbc, 0..7.
 """
 
+from collections.abc import Sequence
 from typing import TypedDict
 
 from host_sim.robot_io import Drive, Senses
+from host_sim.sim.simulation import Simulation
 from host_sim.sim.world_record import Begun
 from host_sim.view.history import LearningHistory, Lesson, Trial
 from host_sim.world.arena import Arena
+from host_sim.world.body import Body
 from host_sim.world.params import SimParams
 
 __all__ = ["EnvironmentScene", "Lesson", "Measures", "State", "Trial", "environment_scene", "measures", "state"]
@@ -67,6 +70,7 @@ class State(TypedDict):
     """All that changes from tick to tick: what the robot sensed at this tick, what it did, and where that left it.
 
     Attributes:
+        node: The robot's number on the bus.
         tick: Number of the tick.
         x: Middle of the robot after the tick, to 0.1 mm.
         y: The same.
@@ -89,6 +93,7 @@ class State(TypedDict):
         trial: The last trial of the run, or None.
     """
 
+    node: int
     tick: int
     x: float
     y: float
@@ -111,7 +116,7 @@ class State(TypedDict):
     trial: Trial | None
 
 
-def measures(params: SimParams, boredom_limit: int = 10) -> Measures:
+def measures(params: SimParams, boredom_limit: int) -> Measures:
     """The measures of a world, and the robot's parameter `boredom_limit`."""
     return Measures(
         width=params.width_mm,
@@ -135,18 +140,31 @@ def environment_scene(begun: Begun, of: int, arena: Arena) -> EnvironmentScene:
         seed=begun.seed,
         first_tick=begun.first_tick,
         bars=[[bar_id, *(round(c, 1) for c in (*bar.a, *bar.b))] for bar_id, bar in arena.obstacles.bars.items()],
-        food=[[round(x, 1), round(y, 1)] for x, y in arena.food],
+        food=[[round(x, 1), round(y, 1)] for x, y in arena.food.at],
     )
 
 
-def state(tick: int, arena: Arena, senses: Senses, drive: Drive, history: LearningHistory) -> State:
-    """The state after a tick: `senses` and `drive` are that tick's, `arena` has moved and `story` has taken it."""
+def state(  # noqa: PLR0913, PLR0917 - all that a display shows
+    tick: int, body: Body, eaten: Sequence[bool], senses: Senses, drive: Drive, history: LearningHistory
+) -> State:
+    """A robot's state after a tick.
+
+    Args:
+        tick: Its number.
+        body: Has moved.
+        eaten: For each piece of food, whether it was eaten.
+        senses: The tick's.
+        drive: The tick's.
+        history: Has taken the tick.
+    """
+    x, y, heading = body.pose
     return State(
+        node=history.node,
         tick=tick,
-        x=round(arena.pose.x_mm, 1),
-        y=round(arena.pose.y_mm, 1),
-        heading=round(arena.pose.heading_rad * 1000),
-        lifted=int(arena.lifted),
+        x=round(x, 1),
+        y=round(y, 1),
+        heading=round(heading * 1000),
+        lifted=int(body.lifted),
         feel=senses.feel,
         bump=int(senses.bump),
         beacon=senses.beacon_mm,
@@ -156,10 +174,20 @@ def state(tick: int, arena: Arena, senses: Senses, drive: Drive, history: Learni
         repeat_count=drive.repeat_count,
         action=drive.action,
         pattern=history.pattern,
-        eaten=[int(eaten) for eaten in arena.eaten],
+        eaten=[int(is_eaten) for is_eaten in eaten],
         memory=list(history.memory),
         uses=list(history.uses),
         learned=list(history.learned),
         frozen=int(history.frozen),
         trial=history.trial,
     )
+
+
+def states(simulation: Simulation, histories: Sequence[LearningHistory]) -> list[State]:
+    """The state of each robot of a simulation after its last tick; `histories` have taken it."""
+    arena, tick = simulation.arena, max(0, simulation.tick - 1)
+    eaten = arena.food.eaten
+    return [
+        state(tick, arena.bodies[i], eaten, simulation.senses[i], simulation.drives[i], history)
+        for i, history in enumerate(histories)
+    ]

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from host_sim.world.arena import Arena
+from host_sim.world.body import Body
 from host_sim.world.edits import AddBar, Edit, Lift, MoveBar, MoveFood, Put, RemoveBar
 from host_sim.world.geometry import Bar, Point
 from host_sim.world.layouts import clearance_mm
@@ -48,23 +49,34 @@ def _remove_bar(arena: Arena, edit: RemoveBar, _params: SimParams) -> None:
 
 
 def _move_food(arena: Arena, edit: MoveFood, params: SimParams) -> None:
-    _check_known(edit.id, range(len(arena.food)))
+    _check_known(edit.id, range(len(arena.food.at)))
     _check_inside(edit.at, params)
-    arena.move_food(edit.id, edit.at)
+    arena.food.move(edit.id, edit.at)
 
 
-def _lift(arena: Arena, _edit: Lift, _params: SimParams) -> None:
-    if arena.lifted:
+def _lift(arena: Arena, edit: Lift, _params: SimParams) -> None:
+    body = _robot(arena, edit.robot)
+    if body.lifted:
         raise EditError("the robot is in the air already")
-    arena.lift()
+    body.lift()
 
 
 def _put(arena: Arena, edit: Put, params: SimParams) -> None:
-    if not arena.lifted:
+    body = _robot(arena, edit.robot)
+    if not body.lifted:
         raise EditError("the robot is not in the air")
-    if _room_mm(edit.pose[:2], arena.obstacles.bars.values(), params) < params.body_radius_mm:
+    others = [other for other in arena.bodies if not (other is body or other.lifted)]
+    apart_mm = min((math.dist(edit.pose[:2], other.pose[:2]) for other in others), default=math.inf)
+    room_mm = _room_mm(edit.pose[:2], arena.obstacles.bars.values(), params)
+    if min(room_mm, apart_mm - params.body_radius_mm) < params.body_radius_mm:
         raise EditError("there is no room for the robot")
-    arena.put(edit.pose)
+    body.put(edit.pose)
+
+
+def _robot(arena: Arena, index: int) -> Body:
+    if index >= len(arena.bodies):
+        raise EditError(f"there is no such robot; there are {len(arena.bodies)}")
+    return arena.bodies[index]
 
 
 _MAKERS: dict[type, Callable[[Arena, Any, SimParams], None]] = {
@@ -82,7 +94,8 @@ def _check_bar(arena: Arena, bar: Bar, params: SimParams) -> None:
     _check_inside(bar.b, params)
     if math.dist(bar.a, bar.b) < params.bar_thickness_mm:
         raise EditError("the obstacle is too short")
-    if not arena.lifted and _room_mm(arena.pose[:2], [bar], params) < params.body_radius_mm:
+    standing = (body for body in arena.bodies if not body.lifted)
+    if any(_room_mm(body.pose[:2], [bar], params) < params.body_radius_mm for body in standing):
         raise EditError("the robot stands there")
 
 

@@ -11,6 +11,7 @@ SIZE_MAX_MM = 100_000
 
 HEADING_MAX_MRAD = 3142
 _ID_MAX = 1_000_000
+_ROBOTS_MAX = 10_000
 
 
 @dataclass(frozen=True)
@@ -45,14 +46,17 @@ class MoveFood:
 
 @dataclass(frozen=True)
 class Lift:
-    """The robot is held in the air: its wheels turn, it senses nothing and goes nowhere."""
+    """A robot, counted from 0, is held in the air: its wheels turn, it senses nothing and goes nowhere."""
+
+    robot: int = 0
 
 
 @dataclass(frozen=True)
 class Put:
-    """The robot is put down."""
+    """A robot, counted from 0, is put down."""
 
     pose: Pose
+    robot: int = 0
 
 
 Edit = AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put
@@ -79,10 +83,11 @@ def edit_to(edit: Edit) -> dict[str, Any]:
             return {"do": "remove_bar", "id": bar_id}
         case MoveFood(food_id, at):
             return {"do": "move_food", "id": food_id, "at": _whole_point(at)}
-        case Lift():
-            return {"do": "lift"}
-        case Put(pose):
-            return {"do": "put", "at": _whole_point(pose[:2]), "heading": round(pose.heading_rad * 1000)}
+        case Lift(robot):
+            return {"do": "lift", **_which(robot)}
+        case Put(pose, robot):
+            heading = round(pose.heading_rad * 1000)
+            return {"do": "put", **_which(robot), "at": _whole_point(pose[:2]), "heading": heading}
 
 
 def whole(fields: Mapping[str, Any], name: str, low: int, high: int) -> int:
@@ -112,8 +117,17 @@ def _bar(fields: Mapping[str, Any]) -> Bar:
     return Bar(_point(fields, "a"), _point(fields, "b"))
 
 
-def _pose(fields: Mapping[str, Any]) -> Pose:
+def pose_from(fields: Mapping[str, Any]) -> Pose:
+    """The pose in a JSON object: `at`, and `heading` in mrad.
+
+    Raises:
+        ValueError: A field is missing, of a wrong type or out of all bounds.
+    """
     return Pose(*_point(fields, "at"), whole(fields, "heading", -HEADING_MAX_MRAD, HEADING_MAX_MRAD) / 1000)
+
+
+def _robot(fields: Mapping[str, Any]) -> int:
+    return whole(fields, "robot", 0, _ROBOTS_MAX) if "robot" in fields else 0
 
 
 _PARSERS: dict[str, Callable[[Mapping[str, Any]], Edit]] = {
@@ -121,13 +135,18 @@ _PARSERS: dict[str, Callable[[Mapping[str, Any]], Edit]] = {
     "move_bar": lambda fields: MoveBar(whole(fields, "id", 0, _ID_MAX), _bar(fields)),
     "remove_bar": lambda fields: RemoveBar(whole(fields, "id", 0, _ID_MAX)),
     "move_food": lambda fields: MoveFood(whole(fields, "id", 0, _ID_MAX), _point(fields, "at")),
-    "lift": lambda _: Lift(),
-    "put": lambda fields: Put(_pose(fields)),
+    "lift": lambda fields: Lift(_robot(fields)),
+    "put": lambda fields: Put(pose_from(fields), _robot(fields)),
 }
 
 
 def _ends(bar: Bar) -> dict[str, list[int]]:
     return {"a": _whole_point(bar.a), "b": _whole_point(bar.b)}
+
+
+def _which(robot: int) -> dict[str, int]:
+    """The field that names a robot; the first needs none."""
+    return {"robot": robot} if robot else {}
 
 
 def _whole_point(point: Point) -> list[int]:

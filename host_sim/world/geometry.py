@@ -26,11 +26,6 @@ class Bar(NamedTuple):
     b: Point
 
 
-def turned(left_mm: float, right_mm: float, track_mm: float) -> float:
-    """The turn in rad, positive to the right, of a body whose wheels roll so far: left faster turns right."""
-    return (left_mm - right_mm) / track_mm
-
-
 def ahead_of(pose: Pose, distance_mm: float, bearing_rad: float = 0.0) -> Point:
     """The point so far from a pose, at a bearing counted to the right from where it looks."""
     angle = pose.heading_rad + bearing_rad

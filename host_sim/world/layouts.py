@@ -2,7 +2,7 @@
 
 import math
 import random
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,35 +16,67 @@ _TRIES = 1000
 
 @dataclass(frozen=True)
 class Layout:
-    """One layout: obstacles, the middles of the pieces of food, and the robot's first pose."""
+    """Where everything is at first.
+
+    Attributes:
+        bars: The obstacles.
+        food: The middles of the pieces of food.
+        start: The first robot's first pose.
+        other_starts: Those of further robots.
+    """
 
     bars: tuple[Bar, ...]
     food: tuple[Point, ...]
     start: Pose
+    other_starts: tuple[Pose, ...] = ()
+
+    @property
+    def starts(self) -> tuple[Pose, ...]:
+        """Every robot's first pose."""
+        return self.start, *self.other_starts
 
 
-def generate(seed: int, number: int, params: SimParams) -> Layout:
-    """Draws the environment that belongs to a seed and a number: the same for ever, on every Python.
+class NoRoomError(ValueError):
+    """There are more robots than fit into a layout.
 
-    Where the robot starts and where food lies, nothing else is within reach of its sensors, and its middle can get
-    from the start to every piece of food.
+    Attributes:
+        fitting: How many do.
+    """
+
+    def __init__(self, number: int, fitting: int) -> None:
+        """For the environment of that number."""
+        super().__init__(f"there is room for {fitting} robots in environment {number}")
+        self.fitting = fitting
+
+
+def generate(seed: int, number: int, params: SimParams, robots: int = 1) -> Layout:
+    """Draws the layout that belongs to a seed and a number: the same for ever, on every Python.
+
+    Where a robot starts and where food lies, nothing else is within reach of the sensors, and a body's middle can get
+    from each start to every piece of food. Further robots leave the layout as it is for one.
+
+    >>> layout = generate(seed=1, number=1, params=SimParams())
+    >>> len(layout.bars), len(layout.food), len(layout.starts)
+    (6, 3, 1)
 
     Args:
         seed: The run's seed, any integer.
         number: Which environment of the run, any integer.
         params: The measures.
+        robots: How many start in it, at least 1.
 
     Returns:
         The first layout drawn that is fair in this sense.
 
     Raises:
         ValueError: The world is so crowded that 1000 draws gave no fair layout.
+        NoRoomError: There is no room for so many robots.
     """
     draws = random.Random(f"octet {seed} {number}")
     for _ in range(_TRIES):
         layout = _draw(draws, params)
         if _is_fair(layout, params):
-            return layout
+            return layout if robots == 1 else _with_robots(layout, number, robots, seed, params)
     raise ValueError(f"no fair environment in {_TRIES} draws for seed {seed}, number {number}: {params}")
 
 
@@ -74,13 +106,33 @@ def _distance_mm(x: NDArray[np.float64], y: NDArray[np.float64], bar: Bar) -> ND
     return np.asarray(np.hypot(x - ax - along * dx, y - ay - along * dy))
 
 
+def _with_robots(layout: Layout, number: int, robots: int, seed: int, params: SimParams) -> Layout:
+    """The layout with a start for each robot; those of fewer robots are among those of more."""
+    draws = random.Random(f"octet {seed} {number} starts")
+    reach_mm = params.body_radius_mm + params.sensor_reach_mm
+    way, starts = _reachable(layout, params), [layout.start]
+    for _ in range(_TRIES):
+        if len(starts) == robots:
+            return replace(layout, other_starts=tuple(starts[1:]))
+        start = _draw_start(draws, params)
+        clear_mm = float(clearance_mm(np.array([start[:2]]), layout.bars, params)[0])
+        apart_mm = min(math.dist(start[:2], other[:2]) for other in starts) - params.body_radius_mm
+        if way[_cell(start[:2])] and min(clear_mm, apart_mm) >= reach_mm:
+            starts.append(start)
+    raise NoRoomError(number, len(starts))
+
+
+def _draw_start(draws: random.Random, params: SimParams) -> Pose:
+    x, y = _between(draws, 0.0, params.width_mm), _between(draws, 0.0, params.height_mm)
+    return Pose(x, y, _between(draws, -math.pi, math.pi))
+
+
 def _draw(draws: random.Random, params: SimParams) -> Layout:
     bars = tuple(_draw_bar(draws, params) for _ in range(params.bar_count))
     food = tuple(
         (_between(draws, low, high), _between(draws, 0.0, params.height_mm)) for low, high in params.food_bands_mm
     )
-    x, y = _between(draws, 0.0, params.width_mm), _between(draws, 0.0, params.height_mm)
-    return Layout(bars, food, Pose(x, y, _between(draws, -math.pi, math.pi)))
+    return Layout(bars, food, _draw_start(draws, params))
 
 
 def _draw_bar(draws: random.Random, params: SimParams) -> Bar:

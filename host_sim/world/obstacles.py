@@ -4,7 +4,7 @@ import pymunk
 
 from host_sim.world.geometry import Bar, Point
 from host_sim.world.params import SimParams
-from host_sim.world.sensors import OBSTACLE
+from host_sim.world.shapes import OBSTACLE, OBSTACLE_FILTER
 
 _WALL_MM = 100.0
 
@@ -56,6 +56,6 @@ class Obstacles:
     def _add_segment(self, a: Point, b: Point, radius_mm: float) -> pymunk.Segment:
         shape = pymunk.Segment(self._space.static_body, a, b, radius_mm)
         shape.collision_type = OBSTACLE
-        shape.filter = pymunk.ShapeFilter(categories=OBSTACLE)
+        shape.filter = OBSTACLE_FILTER
         self._space.add(shape)
         return shape

@@ -22,7 +22,7 @@ EDITS = [
 
 
 def record() -> WorldRecord:
-    return WorldRecord(1, 5, 30000, [Begun(1, 1, 0), Begun(1, 2, 7)], list(EDITS))
+    return WorldRecord(1, 5, 30000, 2, [Begun(1, 1, 0), Begun(1, 2, 7)], list(EDITS))
 
 
 def test_what_was_written_is_read(tmp_path):

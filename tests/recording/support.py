@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
-from host_sim.backends.connection import connect
-from host_sim.client.frame_log import Recorder, line_of
-from host_sim.client.pacing import Lockstep
-from host_sim.client.session import Session
+from host_sim.client.commands import stop
+from host_sim.client.frame_log import FrameLog, line_of
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.generated import PARAMETERS
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path, write_world
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.world.params import SimParams
 
 T = TypeVar("T")
 Meddle = Callable[[Simulation, RunRecorder], None]
@@ -38,28 +38,30 @@ def record_run(
     folder.mkdir(exist_ok=True)
     log = folder / "run.log"
     with ExitStack() as stack:
-        simulation = open_simulation(stack, log, seed, environments, limit_s)
-        run_recorder = RunRecorder(simulation)
-        simulation.watch = run_recorder
-        for number in range(1, environments + 1):
-            simulation.enter(number)
-            while not simulation.over:
-                meddle(simulation, run_recorder)
-                simulation.step()
-            simulation.leave()
-        simulation.session.stop()
+        simulation = open_simulation(stack, log, RunConfig(seed=seed, environments=environments, limit_s=limit_s))
+        recorder = run_through(simulation, meddle)
+        stop(simulation.clients[0])
     write_world(simulation.record, world_path(log))
-    return Kept(log, run_recorder.trajectory)
+    return Kept(log, recorder.trajectory)
 
 
-def open_simulation(stack: ExitStack, log: Path, seed: int, environments: int, limit_s: float) -> Simulation:
-    """A started robot in a simulation that has not begun; the log is whole when the stack has closed."""
-    recorder = Recorder(log)
-    stack.callback(recorder.close)
-    session = Session(connect(stack, "none", "spawn", 1).link, Protocol(), recorder)
-    session.handshake(1.0)
-    session.start(seed, 0, {}, None)
-    return Simulation(SimParams(), session, Lockstep(session), seed, environments, limit_s)
+def run_through(simulation: Simulation, meddle: Meddle = lambda *_: None) -> RunRecorder:
+    """Runs a simulation to its end; `meddle` is called before each tick."""
+    recorder = RunRecorder.of(simulation, PARAMETERS["boredom_limit"].default)
+    for number in range(1, simulation.environments + 1):
+        simulation.enter(number)
+        while not simulation.over:
+            meddle(simulation, recorder)
+            simulation.step()
+        simulation.leave()
+    return recorder
+
+
+def open_simulation(stack: ExitStack, log: Path, config: RunConfig) -> Simulation:
+    """Started robots in a simulation that has not begun; the log is whole when the stack has closed."""
+    frames = FrameLog(log)
+    stack.callback(frames.close)
+    return stack.enter_context(make(config, frames))
 
 
 def finished(work: Callable[[], Coroutine[None, None, T]]) -> T:

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from host_sim.cli.main import main
-from host_sim.client.frame_log import line_of, read_log
+from host_sim.client.frame_log import line_of
 from host_sim.protocol.codec import Protocol
+from host_sim.recording.log_reader import read_log
 from host_sim.recording.world_file import world_path
 
 

@@ -11,7 +11,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from host_sim.cli.main import main
-from host_sim.protocol.codec import Protocol
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.report import replay_page
@@ -30,18 +29,19 @@ def unpacked(data: str, columns: int) -> list[list[int]]:
     return np.cumsum(zigzag >> 1 ^ -(zigzag & 1), axis=1).tolist()
 
 
-def state_in(run: dict, columns: dict[str, list[int]], tick: int) -> State:
-    """The state of a tick, from what the page holds."""
+def state_in(run: dict, robot: dict, columns: dict[str, list[int]], tick: int) -> State:
+    """The state of a robot at a tick, from what the page holds."""
     row = {name: values[tick - run["first_tick"]] for name, values in columns.items()}
-    lessons = [(lesson["cell"], lesson["tick"]) for lesson in run["lessons"] if lesson["tick"] <= tick]
+    lessons = [(lesson["cell"], lesson["tick"]) for lesson in robot["lessons"] if lesson["tick"] <= tick]
     return State(
         **{**row, "x": row["x"] / 10, "y": row["y"] / 10},
+        node=robot["node"],
         tick=tick,
         eaten=at(run["eaten"], tick),
-        memory=at(run["memory"], tick),
-        uses=[sum(turn <= tick and used == cell for turn, used in run["turns"]) for cell in range(8)],
+        memory=at(robot["memory"], tick),
+        uses=[sum(turn <= tick and used == cell for turn, used in robot["turns"]) for cell in range(8)],
         learned=[max((when for what, when in lessons if what == cell), default=-1) for cell in range(8)],
-        trial=at(run["trials"], tick),
+        trial=at(robot["trials"], tick),
     )
 
 
@@ -55,9 +55,10 @@ def test_the_page_has_the_state_of_every_tick(kept, tmp_path):
 
     run = run_in((tmp_path / "page.html").read_text())
 
-    columns = dict(zip(run["columns"], unpacked(run["data"], len(run["columns"])), strict=True))
+    robot = run["robots"][0]
+    columns = dict(zip(robot["columns"], unpacked(robot["data"], len(robot["columns"])), strict=True))
     for tick in (*range(0, kept.trajectory.ticks, 61), kept.trajectory.ticks - 1):
-        assert state_in(run, columns, tick) == kept.trajectory.at(tick)
+        assert state_in(run, robot, columns, tick) == kept.trajectory.at(tick)
     assert run["ticks"] == kept.trajectory.ticks
     assert run["scenes"] == [[tick, scene] for tick, scene in kept.trajectory.scenes]
 
@@ -129,7 +130,7 @@ def test_columns_come_out_as_they_went_in(columns):
 
 
 def test_a_reckoned_way_makes_a_page_as_well(kept):
-    found: Trajectory = resimulate(kept.log, Protocol(), in_the_open=True).trajectory
+    found: Trajectory = resimulate(kept.log, in_the_open=True).trajectory
 
     run = run_in(page(run_data(found, "somewhere")))
 

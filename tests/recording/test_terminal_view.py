@@ -33,8 +33,9 @@ LEAVE_FULL_SCREEN = b"\x1b[?1049l"
 
 
 def view_of(trajectory: Trajectory, tick: int) -> View:
-    trail = [(x, y) for x, y, _ in trajectory.poses()[: tick + 1].tolist()]
-    return View(SimParams(), at(trajectory.scenes, tick), trajectory.at(tick), trail, 10, "1 x real time", "q quits")
+    trail = [(x, y) for x, y, _ in trajectory.tracks[0].poses()[: tick + 1].tolist()]
+    scene, states = at(trajectory.scenes, tick), [trajectory.at(tick)]
+    return View(SimParams(), scene, states, [trail], 10, "1 x real time", "q quits")
 
 
 @pytest.fixture(scope="session")
@@ -87,7 +88,7 @@ def test_on_a_screen_too_small_it_says_how_large(view, columns, rows):
 )
 def test_the_nose_is_where_the_robot_looks(view, heading, row, column, nose):
     state = {**view.state, "x": 2000.0, "y": 1500.0, "heading": heading, "eaten": []}
-    lines = draw_text(replace(view, state=state, scene={**view.scene, "bars": [], "food": []}, trail=[]), 80, 24)
+    lines = draw_text(replace(view, states=[state], scene={**view.scene, "bars": [], "food": []}, trails=[]), 80, 24)
 
     at_row = next(i for i, line in enumerate(lines) if "@" in line)
     assert lines[at_row + row][lines[at_row].index("@") + column] == nose

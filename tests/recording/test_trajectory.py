@@ -2,39 +2,44 @@
 
 import math
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from host_sim.cli.main import main
-from host_sim.client.frame_log import read_log
+from host_sim.client.commands import freeze, write_cells
 from host_sim.errors import OctetError
 from host_sim.live.orders import FULL_SPEED, EraseMemory, Freeze, NewSeed, NextEnvironment, WriteCell
 from host_sim.live.paced_run import PacedRun
 from host_sim.protocol.codec import Frame, Protocol
-from host_sim.recording import trajectory as trajectory_module
-from host_sim.recording.log_reader import read_recording
+from host_sim.recording import run_recorder as run_recorder_module
+from host_sim.recording.log_reader import read_log
+from host_sim.recording.recording import read_recording
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path, write_world
-from host_sim.robot_io import Drive, Senses
+from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
+from host_sim.sim.make import start_robots
+from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.world.arena import Arena
 from host_sim.world.edits import AddBar, Lift, MoveFood, Put
 from host_sim.world.geometry import Bar, Pose
-from tests.recording.support import finished, open_simulation, record_run, without, write_log
+from tests.recording.support import finished, open_simulation, record_run, run_through, without, write_log
 
 
 def assert_equal(one: Trajectory, other: Trajectory) -> None:
     assert one.ticks == other.ticks
-    assert np.array_equal(one.poses(), other.poses())
-    assert (one.scenes, one.meals, one.memories) == (other.scenes, other.meals, other.memories)
-    assert (one.trials, one.lessons, one.turns()) == (other.trials, other.lessons, other.turns())
-    assert one.events() == other.events()
-    for tick in range(0, one.ticks, 97):
-        assert one.at(tick) == other.at(tick)
+    assert (one.scenes, one.meals) == (other.scenes, other.meals)
+    for robot, (ours, theirs) in enumerate(zip(one.tracks, other.tracks, strict=True)):
+        assert np.array_equal(ours.poses(), theirs.poses())
+        assert ours.memories == theirs.memories
+        assert (ours.trials, ours.lessons, ours.turns()) == (theirs.trials, theirs.lessons, theirs.turns())
+        assert one.events(robot) == other.events(robot)
+        for tick in range(0, one.ticks, 97):
+            assert one.at(tick, robot) == other.at(tick, robot)
 
 
 @pytest.mark.parametrize("seed", [1, 7, 4242])
@@ -45,27 +50,27 @@ def test_the_state_at_a_tick_is_that_of_the_log(tmp_path, seed):
     senses = [what.signals for what in said if what.name == "SENSES"]
     drives = [what.signals for what in said if what.name == "DRIVE"]
 
-    found = resimulate(log, protocol).trajectory
+    found = resimulate(log).trajectory
 
     assert found.ticks == len(senses) == len(drives)
-    assert found.column("beacon_mm").tolist() == [frame["beacon"] for frame in senses]
+    assert found.tracks[0].column("beacon_mm").tolist() == [frame["beacon"] for frame in senses]
     for name in ("tick", "feel", "bump", "look", "odometer_left", "odometer_right"):
-        assert found.column(name).tolist() == [frame[name] for frame in senses]
+        assert found.tracks[0].column(name).tolist() == [frame[name] for frame in senses]
     for name in ("reason", "repeat_count", "action", "eat"):
-        assert found.column(name).tolist() == [frame[name] for frame in drives]
+        assert found.tracks[0].column(name).tolist() == [frame[name] for frame in drives]
     for name in ("left", "right"):
-        assert found.column(f"{name}_mm_s").tolist() == [frame[name] for frame in drives]
+        assert found.tracks[0].column(f"{name}_mm_s").tolist() == [frame[name] for frame in drives]
 
 
 def test_the_log_gives_what_was_seen_as_it_went(kept):
-    assert_equal(resimulate(kept.log, Protocol()).trajectory, kept.trajectory)
+    assert_equal(resimulate(kept.log).trajectory, kept.trajectory)
 
 
 def test_without_a_world_file_the_environments_are_those_of_the_seed(tmp_path):
     run = record_run(tmp_path, seed=2, environments=2)
     world_path(run.log).unlink()
 
-    found = resimulate(run.log, Protocol())
+    found = resimulate(run.log)
 
     assert found.seed == 2
     assert_equal(found.trajectory, run.trajectory)
@@ -78,24 +83,24 @@ def meddle(simulation: Simulation, run_recorder: RunRecorder) -> None:
         150: lambda: simulation.edit(Lift()),
         180: lambda: simulation.edit(Put(Pose(2000.0, 1500.0, 0.5))),
         200: lambda: simulation.edit(MoveFood(0, (2600.0, 1800.0))),
-        250: lambda: simulation.session.rewrite("write", mask=2, cells=2 << 2),
-        300: lambda: simulation.session.command("freeze", freeze=1),
+        250: lambda: write_cells(simulation.clients[0], {1: 2}),
+        300: lambda: freeze(simulation.clients[0], True),
     }
     at_tick.get(simulation.tick, lambda: None)()
-    run_recorder.history.frozen = simulation.tick >= 300
+    run_recorder.histories[0].frozen = simulation.tick >= 300
 
 
 def test_what_people_did_happens_again(tmp_path):
     run = record_run(tmp_path, seed=3, environments=2, limit_s=12.0, meddle=meddle)
 
-    found = resimulate(run.log, Protocol()).trajectory
+    found = resimulate(run.log).trajectory
 
     assert_equal(found, run.trajectory)
     assert [tick for tick, _ in found.scenes] == [0, 100, 150, 180, 200, 600]
     assert found.at(160)["lifted"] == 1
     assert found.at(299)["frozen"] == 0
     assert found.at(300)["frozen"] == 1
-    assert {"tick": 250, "cell": 1, "side": 2, "by_hand": 1} in found.lessons
+    assert {"node": 1, "tick": 250, "cell": 1, "side": 2, "by_hand": 1} in found.tracks[0].lessons
 
 
 def test_what_people_did_live_happens_again(tmp_path):
@@ -109,23 +114,26 @@ def test_what_people_did_live_happens_again(tmp_path):
     }
     complaints = []
     with ExitStack() as stack:
-        simulation = open_simulation(stack, tmp_path / "run.log", seed=3, environments=2, limit_s=30.0)
-        run_recorder = RunRecorder(simulation)
+        config = RunConfig(seed=3, environments=2, limit_s=30.0)
+        simulation = open_simulation(stack, tmp_path / "run.log", config)
+        recorder = RunRecorder.of(simulation, 10)
 
-        def watch(number: int, arena: Arena) -> None:
-            run_recorder(number, arena)
+        def watch(simulation: Simulation) -> None:
+            recorder(simulation)
             for order in orders.get(simulation.tick, ()):
                 live.offer(order, complaints.append)
 
         simulation.watch = watch
-        live = PacedRun(simulation, run_recorder.history, lambda seed: simulation.session.start(seed, 0, {}, None))
+        live = PacedRun(
+            simulation, recorder, lambda seed: start_robots(simulation.clients, replace(config, seed=seed))
+        )
         live.stays, live.speed = False, FULL_SPEED
         live.begin()
         finished(live.play)
     write_world(simulation.record, tmp_path / "run.world.json")
 
     assert complaints == []
-    assert_equal(resimulate(tmp_path / "run.log", Protocol()).trajectory, run_recorder.trajectory)
+    assert_equal(resimulate(tmp_path / "run.log").trajectory, recorder.trajectory)
     assert [begun.seed for begun in simulation.record.begun] == [3, 3, 9, 9, 4, 4]
 
 
@@ -141,7 +149,7 @@ def test_senses_that_contradict_the_world_are_named(short):
     short.log.write_text("".join(lines))
 
     with pytest.raises(OctetError, match=rf"at {recorded.time_us / 1e6:.2f} s feel \d+ and not \d+; .*--no-world"):
-        resimulate(short.log, protocol)
+        resimulate(short.log)
 
 
 def test_a_run_with_another_limit_needs_its_world_file(tmp_path):
@@ -149,18 +157,18 @@ def test_a_run_with_another_limit_needs_its_world_file(tmp_path):
     world_path(run.log).unlink()
 
     with pytest.raises(OctetError, match=r"world of seed 2: at \d+\.\d\d s .* put the run\.world\.json"):
-        resimulate(run.log, Protocol())
+        resimulate(run.log)
 
 
 def test_without_a_seed_the_way_is_reckoned_from_the_odometers(short):
     world_path(short.log).unlink()
     without(short.log, "COMMAND", opcode=2)
 
-    found = resimulate(short.log, Protocol())
+    found = resimulate(short.log)
 
     assert found.seed is None
     assert found.trajectory.scenes[0][1]["bars"] == []
-    seen, reckoned = short.trajectory.poses(), found.trajectory.poses()
+    seen, reckoned = short.trajectory.tracks[0].poses(), found.trajectory.tracks[0].poses()
     assert np.hypot(*np.diff(reckoned[:300, :2], axis=0).T) == pytest.approx(
         np.hypot(*np.diff(seen[:300, :2], axis=0).T), abs=0.15
     )
@@ -169,9 +177,9 @@ def test_without_a_seed_the_way_is_reckoned_from_the_odometers(short):
 
 
 def test_in_the_open_all_of_the_way_lies_in_the_arena(kept):
-    found = resimulate(kept.log, Protocol(), in_the_open=True).trajectory
+    found = resimulate(kept.log, in_the_open=True).trajectory
 
-    x, y, _ = found.poses().T
+    x, y, _ = found.tracks[0].poses().T
     assert x.min() > 0
     assert y.min() > 0
     assert x.max() < found.params.width_mm
@@ -183,12 +191,12 @@ def test_a_log_without_its_end_gives_what_it_has_and_says_so(short, tmp_path, ca
     short.log.write_text("".join(lines[:401]))
 
     assert main(["replay", str(short.log), "--html", str(tmp_path / "page.html")]) == 0
-    assert capsys.readouterr().err == f"octet: {short.log} ends before its run does: this is what it has\n"
-    assert not resimulate(short.log, Protocol()).stopped
+    assert capsys.readouterr().err == f"octet: {short.log} ends before its run does; what it has is shown\n"
+    assert not resimulate(short.log).stopped
 
 
 def senses(tick: int) -> Senses:
-    return Senses(tick, 0, False, False, 0, 0, 0)
+    return NOTHING_SENSED._replace(tick=tick)
 
 
 def heartbeat_of(log: Path) -> Frame:
@@ -210,16 +218,16 @@ def test_on_its_own_clock_a_body_holds_a_drive_for_a_while_and_then_rests(short,
         *(protocol.encode_senses(senses(tick)) for tick in range(1, 8)),
     )
 
-    recording = read_recording(log, protocol)
+    recording = read_recording(log, list(read_log(log)), protocol)
 
-    rest = [Drive(tick, 0, 0, 0, 0, 0, False) for tick in (6, 7)]
+    rest = [REST._replace(tick=tick) for tick in (6, 7)]
     assert [tick.drive for tick in recording.ticks] == [drive] * 6 + rest
 
 
 def test_of_a_very_long_run_the_last_environments_are_kept(kept, monkeypatch):
-    monkeypatch.setattr(trajectory_module, "TICKS_MAX", 1000)
+    monkeypatch.setattr(run_recorder_module, "TICKS_MAX", 1000)
 
-    found = resimulate(kept.log, Protocol()).trajectory
+    found = resimulate(kept.log).trajectory
 
     first = kept.trajectory.scenes[1][0]
     assert found.first_tick == first
@@ -229,3 +237,16 @@ def test_of_a_very_long_run_the_last_environments_are_kept(kept, monkeypatch):
     assert found.events() == [event for event in kept.trajectory.events() if event.tick >= first]
     with pytest.raises(IndexError):
         found.at(first - 1)
+
+
+def test_several_robots_are_found_again(tmp_path):
+    config = RunConfig(seed=5, environments=2, limit_s=8.0, robots=3)
+    with ExitStack() as stack:
+        simulation = open_simulation(stack, tmp_path / "run.log", config)
+        recorder = run_through(simulation)
+    write_world(simulation.record, tmp_path / "run.world.json")
+
+    found = resimulate(tmp_path / "run.log").trajectory
+
+    assert [track.node for track in found.tracks] == [1, 2, 3]
+    assert_equal(found, recorder.trajectory)

@@ -28,6 +28,11 @@ class Run:
         return json.loads((self.out / "summary.json").read_text())
 
     @property
+    def memory(self) -> list[int]:
+        """What the first robot remembered at the end."""
+        return self.summary["robots"][0]["memory"]
+
+    @property
     def log(self) -> bytes:
         return (self.out / "run.log").read_bytes()
 
@@ -39,10 +44,10 @@ def octet(*words: str | Path, **kwargs) -> subprocess.CompletedProcess:
 
 
 def assert_healthy(summary: dict) -> None:
-    """Not a frame was lost or refused, and the robot counted no fault."""
-    frames = summary["frames"]
-    assert (frames["lost"], frames["refused"]) == (0, 0)
-    assert set(summary["faults"].values()) == {0}
+    """Not a frame was lost or refused, and no robot counted a fault."""
+    for robot in summary["robots"]:
+        assert (robot["frames"]["lost"], robot["frames"]["refused"]) == (0, 0)
+        assert set(robot["faults"].values()) == {0}
 
 
 def start_octet(*words: str | Path) -> subprocess.Popen:

@@ -71,8 +71,8 @@ def test_an_external_robot_can_be_run_again_and_keeps_its_memory(run, serial_rob
 
     first, second = run(*words), run(*words)
 
-    assert any(first.summary["memory"])
+    assert any(first.memory)
     assert (second.code, second.errors) == (0, "")
-    kept = zip(first.summary["memory"], second.summary["memory"], strict=True)
+    kept = zip(first.memory, second.memory, strict=True)
     assert all(now == before for before, now in kept if before)
     assert octet("replay", second.out / "run.log").returncode == 0

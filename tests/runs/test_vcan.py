@@ -92,10 +92,11 @@ def test_garbage_on_the_bus_is_refused_and_the_robot_learns_as_ever(run):
     garbage.wait()
 
     assert (done.code, done.errors) == (0, "")
-    assert done.summary["frames"]["refused"] > 0
-    assert done.summary["frames"]["lost"] == 0
+    frames = done.summary["robots"][0]["frames"]
+    assert frames["refused"] > 0
+    assert frames["lost"] == 0
     assert drives_in(done.log) == drives_in(quiet.log)
-    assert done.summary["memory"] == quiet.summary["memory"]
+    assert done.memory == quiet.memory
 
 
 def drives_in(log: bytes) -> list[bytes]:
@@ -114,3 +115,9 @@ def test_an_interface_that_vanishes_ends_the_run_with_one_line(tmp_path):
     assert process.returncode == 1
     assert errors.startswith("octet: ")
     assert errors.count("\n") == 1
+
+
+def test_several_robots_share_a_bus(run):
+    words = ("--robots", "4", "--environments", "1", "--limit-s", "10", "--seed", "4")
+
+    assert run(*words, *VCAN).log == run(*words, "--bus", "none").log

@@ -25,7 +25,7 @@ def watched(watch) -> Iterator[Watched]:
     first = talk(watched, tick)
     eventually(lambda: talk(watched, tick) > first, "the run goes on")
     assert watched.end() == 0
-    assert set(watched.summary()["faults"].values()) == {0}
+    assert set(watched.summary()["robots"][0]["faults"].values()) == {0}
 
 
 def talk(watched: Watched, what: Callable[[Socket], Awaitable[Any]], query: str = "", **headers: str) -> Any:

@@ -25,12 +25,18 @@ def arena() -> Arena:
 
 
 def feel(arena: Arena) -> int:
-    return arena.sense(0).feel
+    return arena.body.sense(0).feel
 
 
 def edit(arena: Arena, *edits: Edit) -> None:
     for one in edits:
         make_edit(arena, one, PARAMS)
+
+
+def eat(arena: Arena) -> bool:
+    """Eats what is seen."""
+    arena.body.sense(0)
+    return arena.body.eat()
 
 
 def test_a_bar_put_before_the_robot_is_felt_at_once(arena):
@@ -52,47 +58,47 @@ def test_an_id_is_never_used_again(arena):
 
 
 def test_a_bar_hides_the_food_behind_it(arena):
-    assert arena.sense(0).look
+    assert arena.body.sense(0).look
     edit(arena, AddBar(AHEAD))
-    assert not arena.sense(0).look
+    assert not arena.body.sense(0).look
 
 
 def test_moved_food_is_seen_where_it_lies(arena):
     edit(arena, MoveFood(0, (2300.0, 1500.0)))
-    assert arena.sense(0).beacon_mm == 300
+    assert arena.body.sense(0).beacon_mm == 300
 
 
 def test_eaten_food_stays_eaten_wherever_it_is_moved(arena):
     edit(arena, MoveFood(0, (2120.0, 1500.0)))
-    assert arena.eat()
+    assert eat(arena)
     edit(arena, MoveFood(0, (2300.0, 1500.0)))
-    assert not arena.sense(0).look
-    assert arena.eaten == [True, False]
+    assert not arena.body.sense(0).look
+    assert arena.food.eaten == [True, False]
 
 
 def test_two_pieces_of_food_at_one_place_are_eaten_one_by_one(arena):
     edit(arena, MoveFood(0, (2120.0, 1500.0)), MoveFood(1, (2120.0, 1500.0)))
-    assert arena.eat()
-    assert arena.food_left == 1
-    assert arena.eat()
-    assert arena.food_left == 0
+    assert eat(arena)
+    assert len(arena.food.uneaten) == 1
+    assert eat(arena)
+    assert len(arena.food.uneaten) == 0
 
 
 def test_a_lifted_robot_senses_nothing_and_goes_nowhere_but_its_wheels_turn(arena):
     edit(arena, MoveBar(0, AHEAD), Lift())
-    pose, odometer = arena.pose, arena.odometer
-    arena.move(200, 200)
-    senses = arena.sense(0)
+    pose, odometer = arena.body.pose, arena.body.odometer
+    arena.body.move(200, 200)
+    senses = arena.body.sense(0)
     assert (senses.feel, senses.look, senses.bump) == (0, False, False)
-    assert arena.pose == pose
-    assert arena.odometer > odometer
+    assert arena.body.pose == pose
+    assert arena.body.odometer > odometer
 
 
 def test_a_robot_put_down_is_where_it_was_put(arena):
     edit(arena, Lift(), Put(Pose(600.0, 1500.0, 1.0)))
-    assert arena.pose == (600.0, 1500.0, 1.0)
-    arena.move(200, 200)
-    assert arena.pose.x_mm == pytest.approx(600 + 4 * math.cos(1.0))
+    assert arena.body.pose == (600.0, 1500.0, 1.0)
+    arena.body.move(200, 200)
+    assert arena.body.pose.x_mm == pytest.approx(600 + 4 * math.cos(1.0))
 
 
 def test_a_robot_put_down_before_a_wall_feels_it(arena):
@@ -115,10 +121,10 @@ def test_a_robot_put_down_before_a_wall_feels_it(arena):
     ],
 )
 def test_what_cannot_be_changes_nothing(arena, impossible):
-    before = arena.layout, arena.pose, arena.sense(0)
+    before = arena.layout, arena.body.pose, arena.body.sense(0)
     with pytest.raises(EditError):
         edit(arena, impossible)
-    assert (arena.layout, arena.pose, arena.sense(0)) == before
+    assert (arena.layout, arena.body.pose, arena.body.sense(0)) == before
 
 
 def test_a_lifted_robot_is_not_lifted_twice(arena):
@@ -132,7 +138,7 @@ def test_there_is_no_room_for_the_robot_in_a_bar_or_a_wall(arena, place):
     edit(arena, Lift())
     with pytest.raises(EditError, match="no room"):
         edit(arena, Put(Pose(*place, 0.0)))
-    assert arena.lifted
+    assert arena.body.lifted
 
 
 def test_the_arena_does_not_fill_up_for_ever(arena):

@@ -1,12 +1,14 @@
 """Environments: the same for the same seed, fair to the robot, and turned the right way round."""
 
+import itertools
 import math
 
 import numpy as np
 import pytest
 
-from host_sim.world.geometry import Bar, Pose, ahead_of, turned
-from host_sim.world.layouts import Layout, clearance_mm, generate
+from host_sim.world.body import rolled
+from host_sim.world.geometry import Bar, Pose, ahead_of
+from host_sim.world.layouts import Layout, NoRoomError, clearance_mm, generate
 from host_sim.world.params import SimParams
 
 PARAMS = SimParams()
@@ -37,7 +39,7 @@ def can_reach(layout: Layout, goal: tuple[float, float]) -> bool:
 
 
 def test_a_faster_left_wheel_turns_right_and_right_turns_are_positive() -> None:
-    assert turned(left_mm=2.0, right_mm=1.0, track_mm=100.0) == pytest.approx(0.01)
+    assert rolled(Pose(0.0, 0.0, 0.0), left_mm=2.0, right_mm=1.0, track_mm=100.0).heading_rad == pytest.approx(0.01)
 
 
 def test_heading_0_looks_along_x_and_90_degrees_to_the_right_of_it_is_down_the_screen() -> None:
@@ -123,3 +125,29 @@ def test_starts_look_every_way() -> None:
 def test_a_world_without_room_is_refused_with_its_seed_and_number() -> None:
     with pytest.raises(ValueError, match="seed 5, number 3"):
         generate(5, 3, SimParams(width_mm=300.0, height_mm=300.0, bar_count=0))
+
+
+def test_more_robots_leave_the_layout_and_the_starts_of_fewer_as_they_are() -> None:
+    layouts = [generate(7, 2, PARAMS, robots) for robots in (1, 2, 5)]
+
+    assert len({(layout.bars, layout.food, layout.start) for layout in layouts}) == 1
+    assert layouts[2].starts[:2] == layouts[1].starts
+    assert [len(layout.starts) for layout in layouts] == [1, 2, 5]
+
+
+def test_no_robot_starts_within_reach_of_another_or_of_an_obstacle() -> None:
+    layout = generate(3, 1, PARAMS, robots=20)
+    reach_mm = PARAMS.body_radius_mm + PARAMS.sensor_reach_mm
+
+    apart = [math.dist(a[:2], b[:2]) for a, b in itertools.combinations(layout.starts, 2)]
+    assert min(apart) >= reach_mm + PARAMS.body_radius_mm
+    assert min(room_mm(layout, *(start[:2] for start in layout.starts))) >= reach_mm
+
+
+def test_more_robots_than_there_is_room_for_say_how_many_fit() -> None:
+    small = SimParams(width_mm=1500.0, height_mm=1500.0, bar_count=0, food_bands_mm=((0.0, 1500.0),))
+
+    with pytest.raises(NoRoomError, match=r"there is room for \d+ robots in environment 1") as raised:
+        generate(1, 1, small, robots=60)
+
+    assert len(generate(1, 1, small, robots=raised.value.fitting).starts) == raised.value.fitting

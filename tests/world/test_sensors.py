@@ -5,10 +5,10 @@ import math
 import pytest
 
 from host_sim.world.arena import Arena
+from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline
 from host_sim.world.geometry import Bar, Point, Pose, ahead_of
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
-from host_sim.world.sensors import CONE_BEARINGS_DEG, cone_outline
 
 PARAMS = SimParams()
 START = Pose(2000.0, 1500.0, 0.7)
@@ -27,15 +27,15 @@ def needle_feel(bearing_deg: float) -> int:
     point = ahead_of(START, PARAMS.body_radius_mm + 50.0, math.radians(bearing_deg))
     needle = Bar(point, (point[0] + 0.01, point[1]))
     layout = Layout((needle,), (), START)
-    return Arena(layout, SimParams(bar_thickness_mm=0.01)).sense(0).feel
+    return Arena(layout, SimParams(bar_thickness_mm=0.01)).body.sense(0).feel
 
 
 def feel(*bars: Bar) -> int:
-    return Arena(Layout(bars, (), START), PARAMS).sense(0).feel
+    return Arena(Layout(bars, (), START), PARAMS).body.sense(0).feel
 
 
 def beacon_mm(*foods: Point, bars: tuple[Bar, ...] = ()) -> int:
-    senses = Arena(Layout(bars, foods, START), PARAMS).sense(0)
+    senses = Arena(Layout(bars, foods, START), PARAMS).body.sense(0)
     assert senses.look == (senses.beacon_mm > 0)
     return senses.beacon_mm
 
@@ -102,7 +102,7 @@ def test_a_cone_is_cut_to_its_reach() -> None:
 def test_a_wall_is_felt_like_an_obstacle() -> None:
     start = Pose(PARAMS.width_mm - PARAMS.body_radius_mm - 30.0, 1500.0, 0.0)
 
-    assert Arena(Layout((), (), start), PARAMS).sense(0).feel & 4
+    assert Arena(Layout((), (), start), PARAMS).body.sense(0).feel & 4
 
 
 def test_one_of_two_obstacles_in_a_cone_may_leave_without_clearing_the_bit() -> None:
@@ -110,12 +110,12 @@ def test_one_of_two_obstacles_in_a_cone_may_leave_without_clearing_the_bit() -> 
     arena = Arena(Layout((near, far), (), START), PARAMS)
 
     for _ in range(5):
-        arena.move(-200.0, -200.0)
-    with_one = arena.sense(5).feel
+        arena.body.move(-200.0, -200.0)
+    with_one = arena.body.sense(5).feel
     for _ in range(10):
-        arena.move(-200.0, -200.0)
+        arena.body.move(-200.0, -200.0)
 
-    assert (with_one, arena.sense(15).feel) == (4, 0)
+    assert (with_one, arena.body.sense(15).feel) == (4, 0)
 
 
 def test_food_straight_ahead_is_seen_at_its_distance_in_whole_mm() -> None:

@@ -3,18 +3,19 @@
 import asyncio
 import time
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from host_sim.client.frame_log import Recorder
-from host_sim.client.pacing import Lockstep
-from host_sim.client.session import Session
+from host_sim.client.commands import stop
 from host_sim.live.feed import PageFeed
 from host_sim.live.orders import (
     FULL_SPEED,
     EraseMemory,
     Freeze,
+    LiftRobot,
     NewSeed,
     NextEnvironment,
     OneDecision,
@@ -23,13 +24,12 @@ from host_sim.live.orders import (
     WriteCell,
 )
 from host_sim.live.paced_run import ORDERS_MAX, PacedRun
-from host_sim.protocol.codec import Protocol
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.sim.simulation import Simulation
-from host_sim.transport.in_process_link import InProcessLink
+from host_sim.sim.make import start_robots
+from host_sim.sim.run_config import RunConfig
 from host_sim.world.edits import AddBar, Lift, MoveFood, Put
 from host_sim.world.geometry import Bar, Pose
-from host_sim.world.params import SimParams
+from tests.recording.support import open_simulation
 
 Live = Callable[..., PacedRun]
 
@@ -37,23 +37,20 @@ Live = Callable[..., PacedRun]
 @pytest.fixture
 def live(tmp_path: Path) -> Iterator[Live]:
     """Makes runs that have begun, each with a log of its own."""
-    recorders = []
+    with ExitStack() as stack:
 
-    def make(name: str = "run", **options) -> PacedRun:
-        recorders.append(Recorder(tmp_path / f"{name}.log"))
-        session = Session(InProcessLink(), Protocol(), recorders[-1])
-        session.handshake(1.0)
-        session.start(1, 0, {}, None)
-        simulation = Simulation(SimParams(), session, Lockstep(session), 1, 5, 600.0)
-        run_recorder = RunRecorder(simulation)
-        simulation.watch = run_recorder
-        run = PacedRun(simulation, run_recorder.history, lambda seed: session.start(seed, 0, {}, None), **options)
-        run.begin()
-        return run
+        def begin(name: str = "run", robots: int = 1, **options) -> PacedRun:
+            config = RunConfig(seed=1, robots=robots)
+            simulation = open_simulation(stack, tmp_path / f"{name}.log", config)
 
-    yield make
-    for recorder in recorders:
-        recorder.close()
+            def restart(seed: int) -> None:
+                start_robots(simulation.clients, replace(config, seed=seed))
+
+            run = PacedRun(simulation, RunRecorder.of(simulation, 10), restart, **options)
+            run.begin()
+            return run
+
+        yield begin
 
 
 def play(live: PacedRun, until: Callable[[], object], limit_s: float = 10.0) -> None:
@@ -97,29 +94,29 @@ def test_full_speed_waits_for_nothing(live):
 def test_one_decision_is_one_more_action(live):
     run = live(speed=FULL_SPEED)
     order(run, Play(False))
-    action = run.simulation.drive.action
+    action = run.simulation.drives[0].action
     run.offer(OneDecision(), print)
-    play(run, lambda: run.simulation.drive.action != action and not run.playing)
-    assert run.simulation.drive.action == (action + 1) % 128
+    play(run, lambda: run.simulation.drives[0].action != action and not run.playing)
+    assert run.simulation.drives[0].action == (action + 1) % 128
 
 
 def test_cells_are_written_and_erased_at_once_while_it_stands(live):
     run = live()
     order(run, WriteCell(3, 1), WriteCell(6, 2))
-    assert run.simulation.session.memory == (0, 0, 0, 1, 0, 0, 2, 0)
-    lessons = [(lesson["cell"], lesson["side"], lesson["by_hand"]) for lesson in run.history.lessons]
+    assert run.simulation.clients[0].memory == (0, 0, 0, 1, 0, 0, 2, 0)
+    lessons = [(lesson["cell"], lesson["side"], lesson["by_hand"]) for lesson in run.recorder.histories[0].lessons]
     assert lessons == [(3, 1, 1), (6, 2, 1)]
     order(run, EraseMemory())
-    assert run.simulation.session.memory == (0,) * 8
+    assert run.simulation.clients[0].memory == (0,) * 8
 
 
 def test_a_frozen_robot_learns_nothing(live):
     run = live(speed=FULL_SPEED)
     order(run, Freeze(True))
     run.offer(Play(True), print)
-    play(run, lambda: run.history.trials > 5)
-    assert run.history.memory == (0,) * 8
-    assert run.history.frozen
+    play(run, lambda: run.recorder.histories[0].trials > 5)
+    assert run.recorder.histories[0].memory == (0,) * 8
+    assert run.recorder.histories[0].frozen
 
 
 def test_the_next_environment_and_a_new_seed_are_recorded(live):
@@ -148,7 +145,7 @@ def test_it_ends_by_itself_where_nobody_stays(live):
 
 def test_what_cannot_be_done_is_complained_of_and_not_recorded(live):
     run = live()
-    robot = run.simulation.arena.pose
+    robot = run.simulation.arena.body.pose
     assert order(run, AddBar(Bar(robot[:2], (0.0, 0.0)))) == ["the robot stands there"]
     assert run.simulation.record.edits == []
 
@@ -174,8 +171,8 @@ def test_equal_orders_at_equal_ticks_give_equal_runs(live):
             for _ in range(137):
                 simulation.step()
             order(run, *orders)
-        simulation.session.stop()
-        return simulation.session.recorder.close()
+        stop(simulation.clients[0])
+        return simulation.clients[0].log.close()
 
     assert meddle("once") == meddle("again")
 
@@ -197,3 +194,12 @@ def test_a_page_that_asks_seldom_gets_no_more_than_one_that_asks_often(live):
             run.simulation.enter(2)
         run.simulation.step()
     assert len(feed.next()) < 10_000
+
+
+def test_each_robot_is_told_by_its_node(live):
+    run = live(robots=2)
+    assert order(run, WriteCell(3, 1, node=2), LiftRobot(2), Freeze(True, node=1)) == []
+    assert [client.memory[3] for client in run.simulation.clients] == [0, 1]
+    assert [body.lifted for body in run.simulation.arena.bodies] == [False, True]
+    assert [history.frozen for history in run.recorder.histories] == [True, False]
+    assert order(run, EraseMemory(node=3)) == ["there is no robot 3; there are 1, 2"]

@@ -1,16 +1,19 @@
 """What a tick costs: instructions from the senses that are seen in the FIFO to the drive in the mailbox."""
 
-from contextlib import ExitStack
 from dataclasses import dataclass, field
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
-from host_sim.backends.connection import Connection
-from host_sim.bench.short_run import run_ticks
+from host_sim.bench.short_run import step_through
+from host_sim.client.frame_log import FrameLog
+from host_sim.client.handshake import handshake
+from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.board import EmulatedBoard
 from host_sim.emulator.can_frame import CanFrame
 from host_sim.emulator.start import start_board
 from host_sim.protocol.codec import Protocol
+from host_sim.sim.make import assemble
+from host_sim.sim.run_config import RunConfig
+
+_READY_S = 5.0
 
 
 @dataclass
@@ -54,9 +57,13 @@ def count_ticks(name: str, seed: int, ticks: int) -> list[int]:
     Raises:
         OctetError: The board or its image cannot be had, or it fails.
     """
-    with ExitStack() as stack:
-        folder = Path(stack.enter_context(TemporaryDirectory()))
-        board = start_board(name)
+    board = start_board(name)
+    try:
         cost = TickCost(board)
-        run_ticks(Connection(board, name, board.status), seed, ticks, folder / "run.log")
+        client = RobotClient(board, Protocol(), FrameLog(), status=board.status, bus=name)
+        handshake(client, _READY_S)
+        step_through(assemble([client], RunConfig(seed=seed)), ticks)
+        client.log.close()
+    finally:
+        board.close()
     return cost.counts

@@ -1,0 +1,28 @@
+"""`tools/octet protocol`: the description of the bus protocol."""
+
+import argparse
+import sys
+from typing import TYPE_CHECKING
+
+from host_sim.cli.parsing import add_command
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    add_command(
+        commands,
+        "protocol",
+        _protocol,
+        summary="print the description of the bus protocol",
+        description="Prints docs/protocol.md, made from hal/protocol/octet.dbc.",
+    )
+
+
+def _protocol(_arguments: argparse.Namespace) -> int:
+    from host_sim.report.protocol_page import page
+
+    sys.stdout.write(page())
+    return 0

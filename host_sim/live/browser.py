@@ -1,0 +1,43 @@
+"""A run in the browser."""
+
+import asyncio
+import os
+import signal
+import sys
+import webbrowser
+from collections.abc import Callable
+
+from host_sim.live.paced_run import PacedRun
+from host_sim.live.server import Listener, LiveServer
+
+
+def watch_run(live: PacedRun, listener: Listener, say: Callable[[str], object]) -> None:
+    """Takes a run from its begin to its end while people watch; Ctrl-C ends it in good order.
+
+    Args:
+        live: The run.
+        listener: Where they come in.
+        say: Prints its address.
+
+    Raises:
+        RobotError: The robot is gone.
+    """
+    live.begin()
+    asyncio.run(_serve(live, listener, say))
+
+
+async def _serve(live: PacedRun, listener: Listener, say: Callable[[str], object]) -> None:
+    loop = asyncio.get_running_loop()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        loop.add_signal_handler(number, live.close)
+    async with LiveServer(live, listener).serving():
+        say(f"watch     {listener.url}  (Ctrl-C ends it)")
+        if _on_a_desktop():
+            webbrowser.open(listener.url)
+        await live.play()
+
+
+def _on_a_desktop() -> bool:
+    """Whether someone sits before a screen here who would like to see a browser."""
+    screen = sys.platform == "darwin" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+    return screen and sys.stdout.isatty()

@@ -1,0 +1,128 @@
+"""The one place where a run is put together: robots, the world around them, and how they keep time."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+
+from host_sim.backends.connection import connect
+from host_sim.client.commands import start
+from host_sim.client.frame_log import FrameLog
+from host_sim.client.handshake import handshake
+from host_sim.client.pacing import Lockstep, Pace, RealTime
+from host_sim.client.robot_client import RobotClient
+from host_sim.errors import RefusedError, UsageError
+from host_sim.protocol.codec import NODE_MAX, Protocol
+from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import Simulation
+from host_sim.world.layouts import NoRoomError, generate
+from host_sim.world.params import SimParams
+
+Memory = Sequence[int]
+
+_SPAWNED_S, _EXTERNAL_S, _RETRY_S = 5.0, 15.0, 0.5
+_SEED_SPAN = 2**32
+
+
+@contextmanager
+def make(
+    config: RunConfig | None = None,
+    log: FrameLog | None = None,
+    memories: Sequence[Memory | None] = (),
+    ready: Callable[[RobotClient], object] = lambda _: None,
+) -> Iterator[Simulation]:
+    """Puts a run together: the robots are started and wait for their first senses.
+
+    >>> with make(RunConfig(seed=1, environments=1, limit_s=2.0)) as simulation:
+    ...     for episode in simulation.run():
+    ...         print(episode.ticks, episode.eaten)
+    100 [False, False, False]
+
+    Tick by tick, with what the robot senses and does:
+
+    >>> with make(RunConfig(seed=1, environments=1)) as simulation:
+    ...     simulation.enter(1)
+    ...     simulation.step()
+    ...     simulation.senses[0].feel, simulation.drives[0].left_mm_s
+    (0, 200)
+
+    Args:
+        config: What to put together; by default, what an empty command line means, in this process.
+        log: Gets every frame; the caller closes it. By default they are forgotten.
+        memories: For each robot the eight cells to write at its start; None, or no entry, leaves it its own.
+        ready: Called with each robot's client when it has answered.
+
+    Yields:
+        The simulation, before its first environment. The robots end with the context.
+
+    Raises:
+        UsageError: The configuration cannot be meant.
+        OctetError: Something to be built or installed is not there.
+        RobotError: A robot does not answer.
+    """
+    config, log = config or RunConfig(), log or FrameLog()
+    _check(config, SimParams())
+    with ExitStack() as stack:
+        clients = []
+        for node in config.nodes:
+            client = _connected(stack, config, node, log)
+            ready(client)
+            clients.append(client)
+        yield assemble(clients, config, memories)
+
+
+def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequence[Memory | None] = ()) -> Simulation:
+    """Starts robots that have been connected, and puts a world around them. For everything else there is `make`.
+
+    Raises:
+        UsageError: A robot refuses what it is told.
+        RobotError: A robot does not answer.
+    """
+    params = SimParams()
+    start_robots(clients, config, memories)
+    pace: Pace = RealTime(clients, params.tick_s) if config.real_time else Lockstep(clients)
+    return Simulation(params, clients, pace, config.seed, config.environments, config.limit_s)
+
+
+def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Sequence[Memory | None] = ()) -> None:
+    """Starts each robot with a seed of its own: the first with the run's, the others with those that follow.
+
+    Raises:
+        UsageError: A robot refuses what it is told.
+        RobotError: A robot does not answer.
+    """
+    for index, client in enumerate(clients):
+        profile = client.protocol.choices("COMMAND", "profile")[config.profile]
+        memory = memories[index] if index < len(memories) else None
+        try:
+            start(client, (config.seed + index) % _SEED_SPAN, profile, config.settings, memory)
+        except RefusedError as refused:
+            raise UsageError(f"{refused}; give values within the robot's range") from refused
+
+
+def _check(config: RunConfig, params: SimParams) -> None:
+    if config.nodes.stop - 1 > NODE_MAX:
+        last = config.nodes.stop - 1
+        raise UsageError(f"nodes go up to {NODE_MAX}: {config.robots} robots from node {config.node} on need {last}")
+    if config.robots == 1:
+        return
+    try:
+        for number in range(1, config.environments + 1):
+            generate(config.seed, number, params, config.robots)
+    except NoRoomError as error:
+        raise UsageError(f"{config.robots} robots are too many for seed {config.seed}: {error}") from None
+
+
+def _connected(stack: ExitStack, config: RunConfig, node: int, log: FrameLog) -> RobotClient:
+    connection = connect(stack, config.bus, config.robot, node, config.board, shared=config.robots > 1)
+    client = RobotClient(
+        connection.link,
+        Protocol(node),
+        log,
+        lockstep=not config.real_time,
+        status=connection.status,
+        bus=connection.bus,
+    )
+    if config.robot == "external":
+        handshake(client, _EXTERNAL_S, retry_s=_RETRY_S)
+    else:
+        handshake(client, _SPAWNED_S)
+    return client

@@ -1,0 +1,209 @@
+"""One robot's body: it rolls as its wheels do, feels and sees, and is pushed out of what it runs into."""
+
+import math
+
+import pymunk
+
+from host_sim.robot_io import Senses
+from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline
+from host_sim.world.food import Food
+from host_sim.world.geometry import Point, Pose
+from host_sim.world.params import SimParams
+from host_sim.world.shapes import CONES, DISC, OBSTACLE, cone_filter, disc_filter, sight_filter
+
+_IN_THE_AIR_MM = -10_000.0
+# A pushed-out body stays this deep in the obstacle, so that it goes on touching and does not bounce.
+_TOUCH_MM = 0.01
+_PUSHES = 8
+_COUNTER_MASK = 4095
+_COUNTS_PER_MM = 10
+
+
+class Body:
+    """A disc with two wheels, five proximity cones and a beam that sees food.
+
+    Each tick is `sense`, perhaps `eat`, then `move`. Chipmunk finds overlaps; the motion itself is worked out here,
+    exactly: the wheels roll the body along an arc, and a body pressed into an obstacle is pushed straight out of it,
+    so it stops or slides. Another robot's disc is an obstacle like any other.
+
+    Attributes:
+        pose: Where it is and looks.
+        disc: Its shape in the space.
+        feel: One bit for each cone with something in it, as of the space's last step: right 1, front-right 2,
+            front 4, front-left 8, left 16.
+        collisions: How often it has begun to touch something.
+        touches: What it touches now: how many things.
+        lifted: Whether someone holds it in the air.
+    """
+
+    def __init__(  # noqa: PLR0913, PLR0917 - where it is, and what it was
+        self, space: pymunk.Space, food: Food, params: SimParams, index: int, start: Pose, odometer: Point
+    ) -> None:
+        """Puts it into a space.
+
+        Args:
+            space: Holds the obstacles.
+            food: What there is to eat.
+            params: The measures.
+            index: 0, 1, ..., its own in this space.
+            start: Its first pose.
+            odometer: Way of the left and the right wheel so far, mm, where the robot comes from another arena.
+        """
+        self.feel = self.collisions = self.touches = 0
+        self.lifted = False
+        self._space, self._food, self._params = space, food, params
+        self._in_the_air = _IN_THE_AIR_MM, _IN_THE_AIR_MM * (index + 1)
+        self.pose = start
+        self._left_mm, self._right_mm = odometer
+        self._depth_mm, self._normal = 0.0, (0.0, 0.0)
+        self._seen_id, self._seen_mm = -1, 0
+        self._body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
+        self._sight = sight_filter(index + 1)
+        self.disc = pymunk.Circle(self._body, params.body_radius_mm)
+        self.disc.collision_type, self.disc.filter = DISC, disc_filter(index + 1)
+        # Where it is to be first, before Chipmunk looks at it.
+        self._body.position, self._body.angle = start[:2], start.heading_rad
+        space.add(self._body, self.disc)
+        self._overlaps = dict.fromkeys(CONE_BEARINGS_DEG, 0)
+        for number, bit in enumerate(CONE_BEARINGS_DEG, CONES + index * len(CONE_BEARINGS_DEG)):
+            self._add_cone(bit, number, cone_filter(index + 1))
+
+    @property
+    def odometer(self) -> Point:
+        """Way of the left and the right wheel since the first arena, mm, forward positive; slip counts as way."""
+        return self._left_mm, self._right_mm
+
+    def sense(self, tick: int) -> Senses:
+        """What the robot senses where it stands. Food is seen in a corridor straight ahead where nothing hides it.
+
+        Args:
+            tick: Number of the control tick; it is wrapped to 0..4095.
+        """
+        self._seen_id, beacon_mm = -1, 0
+        if not self.lifted:
+            x, y, heading = self.pose
+            ahead_x, ahead_y, half = math.cos(heading), math.sin(heading), self._params.beam_width_mm / 2
+            for food_id, food in self._food.uneaten.items():
+                dx, dy = food[0] - x, food[1] - y
+                if dx * ahead_x + dy * ahead_y <= 0.0 or abs(dy * ahead_x - dx * ahead_y) > half:
+                    continue
+                distance_mm = max(1, round(math.hypot(dx, dy)))
+                if (beacon_mm == 0 or distance_mm < beacon_mm) and not self._is_hidden(food):
+                    self._seen_id, beacon_mm = food_id, distance_mm
+        self._seen_mm = beacon_mm
+        return Senses(
+            tick=tick & _COUNTER_MASK,
+            feel=self.feel,
+            bump=self.touches > 0,
+            look=beacon_mm > 0,
+            beacon_mm=beacon_mm,
+            odometer_left=round(self._left_mm * _COUNTS_PER_MM) & _COUNTER_MASK,
+            odometer_right=round(self._right_mm * _COUNTS_PER_MM) & _COUNTER_MASK,
+        )
+
+    def eat(self) -> bool:
+        """Eats the food that was sensed straight ahead, if it is near enough and no other robot was quicker.
+
+        Returns:
+            True if food was eaten, False if none was seen or it is `eat_reach_mm` away or farther.
+        """
+        if self._seen_id not in self._food.uneaten or self._seen_mm >= self._params.eat_reach_mm:
+            return False
+        self._food.eat(self._seen_id)
+        return True
+
+    def move(self, left_mm_s: float, right_mm_s: float) -> None:
+        """Lets the wheels roll for one control tick.
+
+        Args:
+            left_mm_s: Speed of the left wheel, forward positive; cut to the greatest that the measures allow.
+            right_mm_s: Speed of the right wheel, the same.
+        """
+        limit, tick_s = self._params.max_wheel_speed_mm_s, self._params.tick_s
+        left_mm = max(-limit, min(limit, left_mm_s)) * tick_s
+        right_mm = max(-limit, min(limit, right_mm_s)) * tick_s
+        self._left_mm += left_mm
+        self._right_mm += right_mm
+        if self.lifted:
+            return
+        before = self.pose
+        self.pose = rolled(before, left_mm, right_mm, self._params.wheel_track_mm)
+        self.place()
+        if self._depth_mm > _TOUCH_MM:
+            self._push_out(before)
+
+    def lift(self) -> None:
+        """Takes it off the floor: its wheels turn, it senses nothing and goes nowhere."""
+        self.lifted = True
+
+    def put(self, pose: Pose) -> None:
+        """Puts it down where there is room for it."""
+        self.lifted = False
+        self.pose = pose
+
+    def place(self) -> None:
+        """Puts it where it has come to, and finds what it and its cones overlap there."""
+        x, y, heading = self.pose
+        self._depth_mm = 0.0
+        self._body.position = self._in_the_air if self.lifted else (x, y)
+        self._body.angle = heading
+        self._space.step(self._params.tick_s)
+
+    def press(self, depth_mm: float, normal: Point) -> None:
+        """Remembers the deepest overlap of this step, with its normal from the body into what it touches."""
+        if depth_mm > self._depth_mm:
+            self._depth_mm, self._normal = depth_mm, normal
+
+    def _push_out(self, before: Pose) -> None:
+        """Frees the body from the deepest overlap, again and again; if wedged, back to where it was."""
+        for _ in range(_PUSHES):
+            push_mm = self._depth_mm - _TOUCH_MM / 2
+            x, y, heading = self.pose
+            self.pose = Pose(x - push_mm * self._normal[0], y - push_mm * self._normal[1], heading)
+            self.place()
+            if self._depth_mm <= _TOUCH_MM:
+                return
+        self.pose = self.pose._replace(x_mm=before.x_mm, y_mm=before.y_mm)
+        self.place()
+
+    def _is_hidden(self, food: Point) -> bool:
+        return self._space.segment_query_first(self.pose[:2], food, 0.0, self._sight) is not None
+
+    def _add_cone(self, bit: int, collision_type: int, cone_filter: pymunk.ShapeFilter) -> None:
+        """Chipmunk reports when a cone begins and ceases to overlap something, so that reading costs nothing."""
+        params, space = self._params, self._space
+        reach_mm = params.body_radius_mm + params.sensor_reach_mm
+        cone = pymunk.Poly(self._body, cone_outline(CONE_BEARINGS_DEG[bit], reach_mm))
+        cone.sensor = True
+        cone.collision_type, cone.filter = collision_type, cone_filter
+        space.add(cone)
+        for other in (OBSTACLE, DISC):
+            space.on_collision(collision_type, other, begin=self._begin, separate=self._separate, data=bit)
+
+    def _begin(self, _arbiter: pymunk.Arbiter, _space: pymunk.Space, bit: int) -> None:
+        self._overlaps[bit] += 1
+        self.feel |= bit
+
+    def _separate(self, _arbiter: pymunk.Arbiter, _space: pymunk.Space, bit: int) -> None:
+        self._overlaps[bit] -= 1
+        if not self._overlaps[bit]:
+            self.feel &= ~bit
+
+
+def rolled(pose: Pose, left_mm: float, right_mm: float, track_mm: float) -> Pose:
+    """The pose after the wheels have rolled so far, each at its own steady speed: an arc.
+
+    Left farther than right turns right, which is the positive way.
+
+    >>> rolled(Pose(0.0, 0.0, 0.0), left_mm=10.0, right_mm=-10.0, track_mm=160.0).heading_rad
+    0.125
+    """
+    turn, way_mm = (left_mm - right_mm) / track_mm, (left_mm + right_mm) / 2
+    half = turn / 2
+    chord_mm = way_mm * math.sin(half) / half if half else way_mm
+    x, y, heading = pose
+    return Pose(
+        x + chord_mm * math.cos(heading + half),
+        y + chord_mm * math.sin(heading + half),
+        math.remainder(heading + turn, math.tau),
+    )

@@ -1,0 +1,190 @@
+"""A conversation with a robot that is not as it should be: a link that tampers with what a healthy one says."""
+
+import time
+from collections.abc import Callable
+
+import pytest
+
+from host_sim.client.commands import start
+from host_sim.client.frame_log import FrameLog
+from host_sim.client.handshake import handshake
+from host_sim.client.pacing import HOLD_TICKS, Lockstep, Pace, RealTime
+from host_sim.client.robot_client import RobotClient
+from host_sim.errors import RefusedError, RobotError
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.robot_io import NOTHING_SENSED, Drive, Senses
+from host_sim.transport.in_process_link import InProcessLink
+
+PROTOCOL = Protocol()
+Tamper = Callable[[Frame], list[Frame]]
+
+
+class TamperedLink(InProcessLink):
+    """Hands each frame from the robot through a function that may change, double or drop it."""
+
+    def __init__(self, tamper: Tamper) -> None:
+        super().__init__()
+        self.tamper = tamper
+        self._waiting: list[Frame] = []
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        while not self._waiting and (frame := super().receive(0.0)) is not None:
+            self._waiting += self.tamper(frame)
+        if self._waiting:
+            return self._waiting.pop(0)
+        time.sleep(timeout_s)
+        return None
+
+
+@pytest.fixture
+def client_with(tmp_path):
+    """Opens a client with a robot whose frames are tampered with."""
+    log = FrameLog(tmp_path / "run.log")
+
+    def connect(tamper: Tamper = lambda frame: [frame], **kwargs) -> RobotClient:
+        return RobotClient(TamperedLink(tamper), PROTOCOL, log, **{"deadline_s": 0.3, **kwargs})
+
+    yield connect
+    log.close()
+
+
+def started(client: RobotClient) -> RobotClient:
+    handshake(client, 1.0)
+    start(client, 1, 0, {}, None)
+    return client
+
+
+def senses(tick: int, feel: int = 0) -> Senses:
+    return NOTHING_SENSED._replace(tick=tick, feel=feel)
+
+
+def exchange(pace: Pace, sensed: Senses) -> Drive:
+    """One tick of one robot."""
+    (drive,) = pace.exchange([sensed])
+    return drive
+
+
+def is_a(name: str) -> Callable[[Frame], bool]:
+    return lambda frame: frame.id == PROTOCOL.id_of(name)
+
+
+def test_a_robot_answers_each_tick(client_with):
+    pace = Lockstep([started(client_with())])
+
+    drives = [exchange(pace, senses(tick)) for tick in range(5)]
+
+    assert [drive.tick for drive in drives] == list(range(5))
+
+
+def test_a_robot_of_another_dbc_is_refused(client_with):
+    def older(frame: Frame) -> list[Frame]:
+        return [frame._replace(data=frame.data[:6] + b"\x00\x00")] if is_a("HEARTBEAT")(frame) else [frame]
+
+    with pytest.raises(RobotError, match=r"another octet.dbc \(hash 0000, ours"):
+        handshake(client_with(older), 1.0)
+
+
+def test_no_robot_at_all_is_named(client_with):
+    with pytest.raises(RobotError, match="no robot of node 1 answered"):
+        handshake(client_with(lambda _: []), 0.5)
+
+
+def test_a_robot_that_is_not_there_yet_is_waited_for(client_with):
+    deaf_until = time.monotonic() + 0.7
+    client = client_with(lambda frame: [frame] if time.monotonic() > deaf_until else [])
+
+    handshake(client, 5.0, retry_s=0.3)
+
+    assert client.frames.received >= 4
+
+
+def test_a_drive_that_never_comes_is_named_with_tick_and_last_frame(client_with):
+    client = started(client_with())
+    pace = Lockstep([client])
+    exchange(pace, senses(0))
+    client.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
+
+    with pytest.raises(RobotError, match=r"did not answer tick 1 within 0.3 s; last frame from it: DRIVE tick=0"):
+        exchange(pace, senses(1))
+
+
+def test_a_damaged_drive_is_refused_and_counted(client_with):
+    client = started(client_with())
+    client.link.tamper = lambda frame: [frame._replace(data=frame.data[:-1] + bytes([frame.data[-1] ^ 1])), frame]
+
+    drive = exchange(Lockstep([client]), senses(0))
+
+    assert drive.tick == 0
+    assert client.frames.refused == 1
+
+
+def test_a_drive_that_comes_twice_counts_once(client_with):
+    client = started(client_with(lambda frame: [frame, frame] if is_a("DRIVE")(frame) else [frame]))
+    pace = Lockstep([client])
+
+    for tick in range(10):
+        assert exchange(pace, senses(tick)).tick == tick
+
+    assert client.frames.refused == 9
+
+
+def test_frames_of_nobody_are_refused_and_not_recorded(client_with):
+    strange = [Frame(-1, b""), Frame(0x7FF, bytes(8)), Frame(PROTOCOL.id_of("SENSES"), bytes(8)), Frame(0x81, b"")]
+    client = started(client_with())
+    client.link.tamper = lambda frame: [*strange, frame]
+
+    exchange(Lockstep([client]), senses(0))
+
+    assert client.frames.refused == 4
+
+
+def test_a_memory_frame_that_is_no_memory_is_refused(client_with):
+    forged = Frame(PROTOCOL.id_of("MEMORY"), bytes([0, 3, 0, 0, 0, 0, 0, 0]))
+    client = started(client_with())
+    client.link.tamper = lambda frame: [forged, frame]
+
+    exchange(Lockstep([client]), senses(0))
+
+    assert client.memory == (0,) * 8
+    assert client.frames.refused == 1
+
+
+def test_a_refused_command_says_which_and_why(client_with):
+    with pytest.raises(RefusedError, match=r"opcode=set result=out_of_range"):
+        started(client_with()).command("set", parameter=0, value=0)
+
+
+def test_a_memory_that_is_written_comes_back(client_with):
+    client = client_with()
+    handshake(client, 1.0)
+
+    start(client, 1, 0, {}, (0, 1, 2, 1, 2, 0, 2, 1))
+
+    assert client.memory == (0, 1, 2, 1, 2, 0, 2, 1)
+
+
+def test_in_real_time_the_last_drive_holds_for_100_ms_and_then_the_wheels_stop(client_with):
+    client = started(client_with(lockstep=False, deadline_s=5.0))
+    pace = RealTime([client], 0.02)
+    moving = exchange(pace, senses(0))
+    client.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
+
+    held = [exchange(pace, senses(tick)) for tick in range(1, HOLD_TICKS + 3)]
+
+    assert moving.left_mm_s > 0
+    assert [drive.left_mm_s for drive in held] == [moving.left_mm_s] * HOLD_TICKS + [0, 0]
+    assert client.frames.lost == HOLD_TICKS + 2
+
+
+def test_in_real_time_a_robot_that_is_back_is_obeyed_again(client_with):
+    client = started(client_with(lockstep=False, deadline_s=5.0))
+    pace = RealTime([client], 0.02)
+    client.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
+    resting = [exchange(pace, senses(tick)) for tick in range(8)][-1]
+    client.link.tamper = lambda frame: [frame]
+
+    back = exchange(pace, senses(8))
+
+    assert resting.left_mm_s == 0
+    assert back.tick == 8
+    assert back.left_mm_s > 0

@@ -1,0 +1,140 @@
+"""The picture of a run: a small PNG that shows every environment, the path in its colours, and the memory."""
+
+import random
+from collections.abc import Sequence
+from io import BytesIO
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from host_sim.report.picture import Panel, draw_run
+from host_sim.sim.world_record import Begun
+from host_sim.view.state import EnvironmentScene, environment_scene
+from host_sim.world.arena import Arena
+from host_sim.world.geometry import Pose
+from host_sim.world.layouts import generate
+from host_sim.world.params import SimParams
+
+PARAMS = SimParams()
+EMPTY_MEMORY = [0] * 8
+LEARNED_MEMORY = [0, 1, 2, 1, 2, 1, 2, 0]
+FOOD_GREEN, TRIAL_ORANGE, BORED_PINK = (0, 158, 115), (213, 94, 0), (204, 121, 167)
+
+
+SCENE = EnvironmentScene(number=1, of=1, seed=1, first_tick=0, bars=[], food=[[1000.0, 2000.0]])
+START = Pose(2000.0, 1500.0, 0.0)
+Trail = Sequence[tuple[float, float, int]]
+
+
+def panel(
+    trail: Trail = (), eaten: Sequence[int] = (0,), robot_s: float = 145.0, scene: EnvironmentScene = SCENE
+) -> Panel:
+    return Panel(scene, eaten, robot_s, [trail], [START])
+
+
+def busy_panel(seed: int) -> Panel:
+    """Ten robot minutes of ways and turns all over the arena."""
+    draws, trail = random.Random(seed), []
+    x, y = 2000.0, 1500.0
+    for _ in range(30_000):
+        x = min(3900.0, max(100.0, x + draws.uniform(-20, 20)))
+        y = min(2900.0, max(100.0, y + draws.uniform(-20, 20)))
+        trail.append((x, y, draws.choice((1, 1, 1, 3, 3, 2, 4, 5, 6))))
+    arena = Arena(generate(seed, 1, PARAMS), PARAMS)
+    return panel(trail, (1, 0, 1), 600.0, environment_scene(Begun(seed, 1, 0), 1, arena))
+
+
+def png(*panels: Panel, memory: Sequence[int] = EMPTY_MEMORY) -> bytes:
+    content = BytesIO()
+    draw_run(PARAMS, panels, {1: memory}).save(content, "PNG", optimize=True)
+    return content.getvalue()
+
+
+def picture(*panels: Panel, memory: Sequence[int] = EMPTY_MEMORY) -> NDArray[np.uint8]:
+    """Draws, and gives the pixels: shape (height, width, 3)."""
+    return np.asarray(draw_run(PARAMS, panels, {1: memory}).convert("RGB"))
+
+
+def count(pixels: NDArray[np.uint8], colour: tuple[int, int, int]) -> int:
+    return int((abs(pixels.astype(int) - colour).max(axis=2) <= 3).sum())
+
+
+def test_the_same_run_gives_the_same_bytes() -> None:
+    assert png(busy_panel(1), memory=LEARNED_MEMORY) == png(busy_panel(1), memory=LEARNED_MEMORY)
+
+
+@pytest.mark.parametrize("environments", [1, 9, 10])
+def test_the_busiest_picture_stays_below_400_kb(environments: int) -> None:
+    assert len(png(*[busy_panel(1)] * environments, memory=LEARNED_MEMORY)) < 400_000
+
+
+def test_all_pictures_are_equally_wide_and_grow_by_the_row() -> None:
+    shapes = {n: picture(*[panel()] * n).shape for n in (3, 4, 6, 7, 9, 10)}
+
+    assert {width for _, width, _ in shapes.values()} == {1680}
+    assert shapes[3] < shapes[4] == shapes[6] < shapes[7] == shapes[9] == shapes[10]
+
+
+def test_longer_runs_show_their_last_nine_environments() -> None:
+    orange = panel(trail=((1000.0, 1000.0, 1), (1000.0, 1000.0, 5), (1000.0, 1500.0, 1)))
+
+    without = count(picture(orange, *[panel()] * 9), TRIAL_ORANGE)
+    with_it = count(picture(*[panel()] * 9, orange), TRIAL_ORANGE)
+
+    assert with_it > without
+
+
+@pytest.mark.parametrize(("reason", "colour"), [(2, FOOD_GREEN), (5, TRIAL_ORANGE), (6, BORED_PINK)])
+def test_the_path_has_the_colour_of_its_reason(reason: int, colour: tuple[int, int, int]) -> None:
+    still = picture(panel())
+    acted = picture(panel(trail=((2600.0, 1500.0, 1), (2900.0, 1500.0, reason), (2900.0, 900.0, 1))))
+
+    assert count(acted, colour) > count(still, colour) + 20
+
+
+def test_food_is_a_full_disc_until_it_is_eaten() -> None:
+    left = picture(panel(eaten=(False,)))
+    eaten = picture(panel(eaten=(True,)))
+
+    assert count(left, FOOD_GREEN) > count(eaten, FOOD_GREEN) + 100
+
+
+def test_a_learned_memory_shows_arrows() -> None:
+    empty = picture(panel())
+    learned = picture(panel(), memory=LEARNED_MEMORY)
+
+    changed = np.argwhere((abs(empty.astype(int) - learned) > 60).any(axis=2))
+    assert len(changed) > 1000
+    assert changed[:, 0].min() > empty.shape[0] - 250
+
+
+def test_left_and_right_arrows_mirror_each_other() -> None:
+    cell_px = 1608 // 8
+    sides = []
+    for action in (1, 2):
+        pixels = picture(panel(), memory=[0, 0, action, 0, 0, 0, 0, 0])
+        cell = pixels[-200:-100, 36 + 2 * cell_px : 36 + 3 * cell_px]
+        dark = cell.sum(axis=2) < 300
+        sides.append(int(dark[:, :100].sum() - dark[:, -100:].sum()))
+
+    assert sides[0] > 100
+    assert sides[0] == pytest.approx(-sides[1], rel=0.15)
+
+
+@pytest.mark.parametrize(("environments", "cells"), [(0, 8), (1, 7)])
+def test_a_run_without_environments_or_with_too_few_cells_is_refused(environments: int, cells: int) -> None:
+    with pytest.raises(ValueError, match=f"no picture of {environments} environments"):
+        draw_run(PARAMS, [panel()] * environments, {1: [0] * cells})
+
+
+def test_each_of_several_robots_has_its_path_and_its_memory() -> None:
+    alone = draw_run(PARAMS, [panel()], {1: EMPTY_MEMORY})
+    trail = [(2600.0, 1500.0, 1), (2900.0, 1500.0, 5), (2900.0, 900.0, 1)]
+    two = Panel(SCENE, (0,), 145.0, [(), trail], [START, Pose(2600.0, 1500.0, 0.0)])
+
+    both = draw_run(PARAMS, [two], {1: EMPTY_MEMORY, 2: LEARNED_MEMORY})
+
+    assert both.height > alone.height + 150
+    orange = [count(np.asarray(image.convert("RGB")), TRIAL_ORANGE) for image in (alone, both)]
+    assert orange[1] > orange[0]
