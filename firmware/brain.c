@@ -77,7 +77,7 @@ static struct action decide(struct brain *brain, const struct config *config, co
 
     if (pattern == 0)
         return step_forward(brain, config, senses);
-    if (side == SIDE_NONE)
+    if (side == SIDE_NOTHING)
         return try_a_turn(brain, config, pattern);
     return turn_as_learned(brain, config, side);
 }

@@ -1,7 +1,6 @@
 #include "firmware/robot.h"
 
 enum {
-    ACTION_SPAN = 128,     /* actions are numbered 0..127 */
     SECOND_MS = 1000,      /* a report is due once a second of robot time, */
     REPORT_SILENCES = 10   /* or, where no tick comes, with every tenth silence */
 };
@@ -30,9 +29,9 @@ static void go_on(struct robot *robot, const struct senses *senses)
         begin_next_action(robot, senses);
 }
 
-static void rest(const struct robot *robot, struct drive *drive)
+static struct drive drive_at_rest(const struct robot *robot)
 {
-    *drive = (struct drive){
+    return (struct drive){
         .tick = robot->tick,
         .reason = REASON_STOP,
         .repeat_count = robot->brain.repeat_count,
@@ -45,7 +44,7 @@ void robot_step(struct robot *robot, const struct senses *senses, struct drive *
     robot->tick = senses->tick;
     if (robot->running)
         go_on(robot, senses);
-    rest(robot, drive);
+    *drive = drive_at_rest(robot);
     if (!robot->running)
         return;
     drive->reason = (enum reason)robot->reason;
@@ -94,7 +93,7 @@ static void respond_to_command(struct robot *robot, const struct command *comman
 /* The brain is not asked and the motion not touched: with the next senses all goes on where it was. */
 static void respond_to_silence(struct robot *robot, struct output *out)
 {
-    rest(robot, &out->drive);
+    out->drive = drive_at_rest(robot);
     out->has_drive = robot->running;
     robot->silences++;
     if (robot->silences < REPORT_SILENCES)
@@ -103,12 +102,12 @@ static void respond_to_silence(struct robot *robot, struct output *out)
     add_report(robot, out);
 }
 
-void robot_respond(struct robot *robot, enum hal_input kind, const struct input *in, struct output *out)
+void robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out)
 {
     *out = (struct output){.has_drive = false};
-    if (kind == HAL_SENSES)
+    if (kind == INPUT_SENSES)
         respond_to_senses(robot, &in->senses, out);
-    else if (kind == HAL_COMMAND)
+    else if (kind == INPUT_COMMAND)
         respond_to_command(robot, &in->command, out);
     else
         respond_to_silence(robot, out);

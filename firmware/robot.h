@@ -27,7 +27,7 @@ void robot_step(struct robot *robot, const struct senses *senses, struct drive *
 enum result robot_execute(struct robot *robot, const struct command *command);
         /* Carries out one command, or says why not and changes nothing. */
 
-void robot_respond(struct robot *robot, enum hal_input kind, const struct input *in, struct output *out);
+void robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
         /* Fills *out with all that one input calls for: the drive for senses, rest for silence, the answer to a
            command, and a report and the memory whenever they are due. */
 

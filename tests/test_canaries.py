@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import pytest
 
+from tests.firmware.octet_c import GENERATED
+
 ROOT = Path(__file__).resolve().parent.parent
 UNITY = Path(os.environ.get("UNITY_DIR", ROOT / "build/unity"))
 
@@ -24,8 +26,8 @@ class Mutant(NamedTuple):
 MUTANTS = {
     "pattern counts two sensors only": Mutant("pattern", " + ((pattern >> 2) & 1u)", ""),
     "pattern is one bit off": Mutant("pattern", "feel >> 1", "feel >> 2"),
-    "memory takes a side for cell 0": Mutant("memory", "(p == 0 ? SIDE_NONE : SIDE_RIGHT)", "SIDE_RIGHT"),
-    "memory takes what is no side": Mutant("memory", "SIDE_NONE : SIDE_RIGHT)", "SIDE_NONE : 3)"),
+    "memory takes a side for cell 0": Mutant("memory", "cells[p] > max[p]", "cells[p] > 2"),
+    "memory takes what is no side": Mutant("memory", "cells[p] > max[p]", "cells[p] > max[p] + (p > 0)"),
     "dice favour small numbers": Mutant("random", "if (drawn < n)", "drawn %= n;\n        if (drawn < n)"),
     "dice are rotated by one more": Mutant("random", "rotated(s1, 13)", "rotated(s1, 14)"),
     "a range is open at its end": Mutant("config", "value <= ranges", "value < ranges"),
@@ -46,10 +48,10 @@ MUTANTS = {
     "stuck wheels are waited for": Mutant("motion", "        motion->ticks_left--;", "        ;"),
     "silence drives on": Mutant(
         "robot",
-        "rest(robot, &out->drive);",
-        "rest(robot, &out->drive);\n    motion_drive(&robot->motion, &robot->config, &out->drive);",
+        "out->drive = drive_at_rest(robot);",
+        "out->drive = drive_at_rest(robot);\n    motion_drive(&robot->motion, &robot->config, &out->drive);",
     ),
-    "silence names no tick": Mutant("robot", "    rest(robot, &out->drive);\n", ""),
+    "silence names no tick": Mutant("robot", "    out->drive = drive_at_rest(robot);\n", ""),
     "trials eat": Mutant("robot", "drive->reason == REASON_EAT", "drive->reason >= REASON_TRIAL"),
     "a stop goes on": Mutant("commands", "    robot->running = false;", "    ;"),
     "a start forgets": Mutant(
@@ -72,7 +74,8 @@ def unit_tests_pass(folder: Path, module: str, unity: Path) -> bool:
     """Builds a module's unit tests on the firmware in folder/firmware, and runs them."""
     sources = [source for source in (folder / "firmware").glob("*.c") if source.name != "main.c"]
     test = ROOT / f"tests/firmware/test_{module}.c"
-    program = compiled(folder / "test", "-I", folder, "-I", ROOT, "-I", UNITY, test, *sources, unity, "-lm")
+    include = [part for path in (folder, ROOT, GENERATED, UNITY) for part in ("-I", path)]
+    program = compiled(folder / "test", *include, test, *sources, unity, "-lm")
     return subprocess.run([program], capture_output=True, timeout=20, check=False).returncode == 0
 
 

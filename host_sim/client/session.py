@@ -194,9 +194,9 @@ class Session:
         return said
 
     def _check_hash(self, heartbeat: DecodedFrame) -> None:
-        theirs, ours = heartbeat.signals["dbc_hash"], self.protocol.dbc_hash
-        if theirs != ours:
-            hashes = f"hash {theirs:04X}, ours {ours:04X}"
+        theirs = heartbeat.signals["dbc_hash"]
+        if not self.protocol.fits(theirs):
+            hashes = f"hash {theirs:04X}, ours {self.protocol.dbc_hash:04X}"
             raise RobotError(f"the robot was built from another octet.dbc ({hashes}): rebuild it")
 
     def _receive(self, name: str, timeout_s: float, *, record: bool = True) -> DecodedFrame | None:

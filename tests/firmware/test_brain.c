@@ -184,28 +184,28 @@ static void test_a_trial_changes_no_other_cell(void)
     next(ALL_THREE);
     next(FRONT);
     for (uint8_t pattern = 0; pattern < PATTERN_ALL_THREE; pattern++)
-        TEST_ASSERT_EQUAL(SIDE_NONE, memory_recall(&brain.memory, pattern));
+        TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, pattern));
 }
 
 static void test_a_trial_that_frees_no_sensor_is_forgotten(void)
 {
     next(FRONT);
     next(FRONT_LEFT);   /* another pattern, but as many */
-    TEST_ASSERT_EQUAL(SIDE_NONE, memory_recall(&brain.memory, PATTERN_FRONT));
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
 static void test_a_trial_that_makes_it_worse_is_forgotten(void)
 {
     next(FRONT);
     next(ALL_THREE);
-    TEST_ASSERT_EQUAL(SIDE_NONE, memory_recall(&brain.memory, PATTERN_FRONT));
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
 static void test_the_side_sensors_do_not_judge_a_trial(void)
 {
     next(FRONT | FRONT_LEFT);
     next(FRONT | 1 | 16);
-    TEST_ASSERT_TRUE(memory_recall(&brain.memory, PATTERN_FRONT | PATTERN_FRONT_LEFT) != SIDE_NONE);
+    TEST_ASSERT_TRUE(memory_recall(&brain.memory, PATTERN_FRONT | PATTERN_FRONT_LEFT) != SIDE_NOTHING);
 }
 
 static void test_the_reading_that_judges_a_trial_decides_the_next_action(void)
@@ -221,7 +221,7 @@ static void test_a_trial_is_judged_by_the_first_reading_only(void)
     next(FRONT);
     next(FRONT_LEFT);   /* no fewer */
     next(CLEAR);        /* fewer, but by the remembered turn */
-    TEST_ASSERT_EQUAL(SIDE_NONE, memory_recall(&brain.memory, PATTERN_FRONT));
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
 static void test_learning_marks_the_memory_as_changed(void)
@@ -244,7 +244,7 @@ static void test_a_frozen_brain_learns_nothing(void)
     brain.frozen = true;
     next(FRONT);
     next(CLEAR);
-    TEST_ASSERT_EQUAL(SIDE_NONE, memory_recall(&brain.memory, PATTERN_FRONT));
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
     TEST_ASSERT_FALSE(brain.changed);
 }
 
@@ -351,7 +351,7 @@ static void test_a_start_forgets_the_trial_under_way(void)
     next(FRONT);
     brain_start(&brain, 2);
     next(CLEAR);
-    TEST_ASSERT_EQUAL(SIDE_NONE, memory_recall(&brain.memory, PATTERN_FRONT));
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
 static void test_a_start_ends_the_count(void)

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from tests.firmware.listing import Action, Listing
-from tests.firmware.octet_c import ROOT, library_path, load
+from tests.firmware.octet_c import GENERATED, ROOT, library_path, load
 
 FFI, C = load()
 
@@ -187,7 +187,9 @@ def brains(tmp_path_factory: pytest.TempPathFactory):
     library, batch = library_path(), tmp_path_factory.mktemp("batch") / "batch.so"
     source = Path(__file__).with_name("batch.c")
     link = [library, f"-Wl,-rpath,{library.parent}"]
-    subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-I", ROOT, "-o", batch, source, *link], check=True)
+    subprocess.run(
+        ["gcc", "-O2", "-shared", "-fPIC", "-I", ROOT, "-I", GENERATED, "-o", batch, source, *link], check=True
+    )
     FFI.cdef("void brain_next_each(struct action *, struct brain *, struct config *, struct senses *, size_t);")
     ask = FFI.dlopen(str(batch)).brain_next_each
     return lambda memories, repeat_counts: Brains(ask, memories, repeat_counts)

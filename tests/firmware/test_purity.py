@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.firmware.octet_c import GENERATED
+
 ROOT = Path(__file__).resolve().parents[2]
 CORE = sorted(path for path in (ROOT / "firmware").glob("*.c") if path.name != "main.c")
 ALLOWED = {"memcpy", "memset"}
@@ -19,7 +21,20 @@ IMPURE = {
 def wanted_by(sources: list[Path], folder: Path) -> set[str]:
     """What these sources, linked into one object, still want from others."""
     program = folder / "linked.o"
-    compiler = ["gcc", "-std=c99", "-O2", "-fno-stack-protector", "-I", ROOT, "-r", "-nostdlib", "-o", program]
+    compiler = [
+        "gcc",
+        "-std=c99",
+        "-O2",
+        "-fno-stack-protector",
+        "-I",
+        ROOT,
+        "-I",
+        GENERATED,
+        "-r",
+        "-nostdlib",
+        "-o",
+        program,
+    ]
     subprocess.run([*compiler, *sources], check=True)
     listed = subprocess.run(["nm", "--undefined-only", program], check=True, capture_output=True, text=True).stdout
     return {line.split()[-1] for line in listed.splitlines()} - {"_GLOBAL_OFFSET_TABLE_"}

@@ -9,7 +9,7 @@ enum { CLEAR = 0, FRONT = 4, PATTERN_FRONT = 2, TICKS_PER_SECOND = 50, MANY = 10
 static struct robot robot;
 static struct output out;
 
-static void respond_to(enum hal_input kind, const struct input *in)
+static void respond_to(enum input_kind kind, const struct input *in)
 {
     memset(&out, 0xA5, sizeof out);   /* whatever was there before */
     robot_respond(&robot, kind, in, &out);
@@ -19,7 +19,7 @@ static void sense(struct senses senses)
 {
     const struct input in = {.senses = senses};
 
-    respond_to(HAL_SENSES, &in);
+    respond_to(INPUT_SENSES, &in);
 }
 
 static void feel(uint8_t feel)
@@ -31,14 +31,14 @@ static void silence(void)
 {
     static const struct input nothing;
 
-    respond_to(HAL_SILENCE, &nothing);
+    respond_to(INPUT_SILENCE, &nothing);
 }
 
 static void command(enum opcode opcode, uint8_t which, uint32_t value)
 {
     const struct input in = {.command = {.opcode = opcode, .which = which, .value = value}};
 
-    respond_to(HAL_COMMAND, &in);
+    respond_to(INPUT_COMMAND, &in);
 }
 
 static void learned(enum side side)
@@ -345,7 +345,7 @@ static void test_a_lesson_is_sent_and_stored_as_it_is_learned(void)
     sense(after);
     TEST_ASSERT_TRUE(out.has_memory);
     TEST_ASSERT_TRUE(out.store);
-    TEST_ASSERT_TRUE(out.memory[PATTERN_FRONT] != SIDE_NONE);
+    TEST_ASSERT_TRUE(out.memory[PATTERN_FRONT] != SIDE_NOTHING);
 }
 
 static void test_a_report_alone_stores_nothing(void)

@@ -68,7 +68,7 @@ static void test_the_last_node_writes_its_own_identifiers(void)
 {
     static const uint32_t ids[WIRE_FRAMES_MAX] = {257 + 62, 385 + 62, 513 + 62, 577 + 62, 449 + 62, 321 + 62, 129 + 62};
 
-    wire_init(&wire, WIRE_NODE_MAX);
+    wire_init(&wire, NODE_MAX);
     mark_all();
     write();
     for (unsigned i = 0; i < WIRE_FRAMES_MAX; i++)
@@ -135,7 +135,7 @@ static struct octet_answer_t answer_to(uint8_t opcode, uint8_t counter, enum res
 
     octet_command_pack(frame.data, &command, sizeof frame.data);
     frame.data[0] = crc8_of_frame(&frame);
-    TEST_ASSERT_EQUAL(HAL_COMMAND, wire_read(&wire, &frame, &in));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, wire_read(&wire, &frame, &in));
     out.has_answer = true;
     out.answer = result;
     write();
@@ -345,7 +345,7 @@ static void test_parameters_are_those_of_the_dbc(void)
 static void test_profiles_and_sides_are_those_of_the_dbc(void)
 {
     TEST_ASSERT_EQUAL(OCTET_COMMAND_PROFILE_ARTICLE_CHOICE, PROFILE_ARTICLE);
-    TEST_ASSERT_EQUAL(OCTET_MEMORY_CELL_1_NOTHING_CHOICE, SIDE_NONE);
+    TEST_ASSERT_EQUAL(OCTET_MEMORY_CELL_1_NOTHING_CHOICE, SIDE_NOTHING);
     TEST_ASSERT_EQUAL(OCTET_MEMORY_CELL_1_LEFT_CHOICE, SIDE_LEFT);
     TEST_ASSERT_EQUAL(OCTET_MEMORY_CELL_1_RIGHT_CHOICE, SIDE_RIGHT);
 }
