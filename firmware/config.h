@@ -1,4 +1,4 @@
-/* config.h: the numbers that a robot is set up with, each with its range, and the profiles that name sets of them. */
+/* config.h: the numbers that a robot is set up with, each with its range and its default: those of octet.dbc. */
 #ifndef OCTET_CONFIG_H
 #define OCTET_CONFIG_H
 
@@ -8,8 +8,8 @@ struct config {
     uint8_t value[PARAMETER_COUNT];
 };
 
-bool config_load(struct config *config, uint8_t profile);
-        /* Sets all parameters as the profile has them. False, and nothing is changed, if there is no such profile. */
+void config_reset(struct config *config);
+        /* Sets all parameters to their defaults. */
 
 bool config_fits(uint8_t parameter, uint32_t value);
         /* Is value within the range of parameter 0..PARAMETER_COUNT-1? */

@@ -6,7 +6,6 @@
 
 struct robot {
     bool running;
-    uint8_t profile;
     uint8_t reason;       /* of the action under way */
     uint8_t action;       /* its number, 0..127 */
     uint8_t silences;     /* in a row */

@@ -61,8 +61,8 @@ def _parameters(robot: Description) -> str:
 
 def _profiles(robot: Description) -> str:
     names = "\n".join(f"    {c_name('profile', name)}," for name in robot.profiles)
-    rows = " \\\n".join(f"    X({name})" for name in robot.profiles)
+    rows = " \\\n".join(f"    X({c_name('profile', name)}, {name})" for name in robot.profiles)
     return (
         f"enum profile {{\n{names}\n    PROFILE_COUNT\n}};\n\n"
-        f"/* X(name) for each profile: the behaviour of that name. */\n#define ROBOT_BEHAVIOURS(X) \\\n{rows}\n"
+        f"/* X(profile, name) for each: the behaviour of that name. */\n#define ROBOT_BEHAVIOURS(X) \\\n{rows}\n"
     )
