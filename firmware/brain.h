@@ -1,5 +1,5 @@
-/* brain.h: the article's loop, from what is sensed to what is done next. It is asked only when the last action has
- * ended, knows no time and no wheels, and draws random numbers only where the article's listing does. */
+/* brain.h: from what is sensed to what is done next. Called only when the previous action has ended; independent of time
+ * and wheels. How it decides is the behaviour's: see behaviours/. */
 #ifndef OCTET_BRAIN_H
 #define OCTET_BRAIN_H
 
@@ -17,18 +17,21 @@ struct action {
 struct brain {
     struct memory memory;
     struct random random;
+    uint8_t profile;         /* of the behaviour that decides, an enum profile */
     uint8_t repeat_count;    /* remembered turns since the way was last clear; stays at 255 */
-    uint8_t awaits;          /* what the action under way leaves to be done when it ends */
+    uint8_t awaits;          /* what the action under way leaves to be done when it ends; 0 for nothing */
     uint8_t tried_pattern;   /* on trial: the pattern in which the turn was tried, */
     uint8_t tried_side;      /* and where to */
+    bool learns;             /* as the profile has it; false: what is in the memory is not stored */
     bool frozen;             /* true: it learns no more */
     bool changed;            /* true: the memory is no longer what was last reported */
 };
 
-void brain_start(struct brain *brain, uint32_t seed);
-        /* Ready for its first decision. What was learned stays. */
+bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed);
+        /* Ready for its first decision, as that profile decides. What was learned stays. False, and nothing is changed,
+           if there is no such profile. */
 
 struct action brain_next(struct brain *brain, const struct config *config, const struct senses *senses);
-        /* The last action has ended with these senses: judges it, and says what to do next. */
+        /* The previous action has ended with these senses: judges it, and says what to do next. */
 
 #endif

@@ -9,10 +9,9 @@ static enum result stop(struct robot *robot)
 
 static enum result start(struct robot *robot, const struct command *command)
 {
-    if (!config_load(&robot->config, command->which))
+    if (!brain_start(&robot->brain, command->which, command->value))
         return RESULT_UNKNOWN_PROFILE;
-    robot->profile = command->which;
-    brain_start(&robot->brain, command->value);
+    config_reset(&robot->config);
     robot->brain.frozen = false;
     robot->action = 0;
     motion_start(&robot->motion);

@@ -1,5 +1,6 @@
 /* The robot, for ever: sense, step, drive, report, save. */
 #include "firmware/robot.h"
+#include "hal/hal.h"
 
 static void wake(struct robot *robot, struct hal *hal)
 {
@@ -19,7 +20,7 @@ static int run_once(struct robot *robot, struct hal *hal)
 
     if (result < 0)
         return result;
-    robot_respond(robot, (enum hal_input)result, &in, &out);
+    robot_respond(robot, (enum input_kind)result, &in, &out);
     result = hal_send(hal, &out);
     /* After the drive has gone, since storing may take long. The body counts what it could not store. */
     if (out.store)

@@ -2,15 +2,17 @@
 
 static bool is_valid(const uint8_t cells[CELL_COUNT])
 {
+    static const uint8_t max[CELL_COUNT] = ROBOT_CELL_MAX;
+
     for (unsigned p = 0; p < CELL_COUNT; p++)
-        if (cells[p] > (p == 0 ? SIDE_NONE : SIDE_RIGHT))
+        if (cells[p] > max[p])
             return false;
     return true;
 }
 
 void memory_erase(struct memory *memory)
 {
-    *memory = (struct memory){{SIDE_NONE}};
+    *memory = (struct memory){{SIDE_NOTHING}};
 }
 
 enum side memory_recall(const struct memory *memory, uint8_t pattern)

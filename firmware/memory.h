@@ -2,11 +2,7 @@
 #ifndef OCTET_MEMORY_H
 #define OCTET_MEMORY_H
 
-#include <stdbool.h>
-
-#include "hal/hal.h"
-
-enum side { SIDE_NONE = 0, SIDE_LEFT = 1, SIDE_RIGHT = 2 };
+#include "firmware/io.h"
 
 struct memory {
     uint8_t cell[CELL_COUNT];   /* an enum side for each pattern; cell 0, nothing in the way, stays empty */
@@ -15,7 +11,7 @@ struct memory {
 void memory_erase(struct memory *memory);
 
 enum side memory_recall(const struct memory *memory, uint8_t pattern);
-        /* The turn learned for pattern 0..7; SIDE_NONE where nothing is. */
+        /* The turn learned for pattern 0..7; SIDE_NOTHING where nothing is. */
 
 void memory_learn(struct memory *memory, uint8_t pattern, enum side side);
         /* Remembers side for pattern 1..7. */

@@ -1,7 +1,6 @@
 #include "firmware/robot.h"
 
 enum {
-    ACTION_SPAN = 128,     /* actions are numbered 0..127 */
     SECOND_MS = 1000,      /* a report is due once a second of robot time, */
     REPORT_SILENCES = 10   /* or, where no tick comes, with every tenth silence */
 };
@@ -9,8 +8,8 @@ enum {
 void robot_init(struct robot *robot, uint32_t seed)
 {
     *robot = (struct robot){.running = false};
-    (void)config_load(&robot->config, PROFILE_ARTICLE);
-    brain_start(&robot->brain, seed);
+    config_reset(&robot->config);
+    (void)brain_start(&robot->brain, PROFILE_ARTICLE, seed);
     motion_start(&robot->motion);
 }
 
@@ -30,14 +29,17 @@ static void go_on(struct robot *robot, const struct senses *senses)
         begin_next_action(robot, senses);
 }
 
-static void rest(const struct robot *robot, struct drive *drive)
+static void drive_init(struct drive *drive, const struct robot *robot, bool moving)
 {
     *drive = (struct drive){
         .tick = robot->tick,
-        .reason = REASON_STOP,
+        .reason = moving ? (enum reason)robot->reason : REASON_STOP,
         .repeat_count = robot->brain.repeat_count,
         .action = robot->action,
     };
+    if (moving)
+        motion_drive(&robot->motion, &robot->config, drive);
+    drive->eat = drive->reason == REASON_EAT;
 }
 
 void robot_step(struct robot *robot, const struct senses *senses, struct drive *drive)
@@ -45,12 +47,7 @@ void robot_step(struct robot *robot, const struct senses *senses, struct drive *
     robot->tick = senses->tick;
     if (robot->running)
         go_on(robot, senses);
-    rest(robot, drive);
-    if (!robot->running)
-        return;
-    drive->reason = (enum reason)robot->reason;
-    drive->eat = drive->reason == REASON_EAT;
-    motion_drive(&robot->motion, &robot->config, drive);
+    drive_init(drive, robot, robot->running);
 }
 
 /* One tick of robot time. True: it makes a second full. */
@@ -69,7 +66,7 @@ static void add_report(const struct robot *robot, struct output *out)
     out->has_report = true;
     out->report.running = robot->running;
     out->report.frozen = robot->brain.frozen;
-    out->report.profile = robot->profile;
+    out->report.profile = robot->brain.profile;
     out->report.uptime_s = robot->uptime_s;
     out->has_memory = true;
 }
@@ -94,7 +91,7 @@ static void respond_to_command(struct robot *robot, const struct command *comman
 /* The brain is not asked and the motion not touched: with the next senses all goes on where it was. */
 static void respond_to_silence(struct robot *robot, struct output *out)
 {
-    rest(robot, &out->drive);
+    drive_init(&out->drive, robot, false);
     out->has_drive = robot->running;
     robot->silences++;
     if (robot->silences < REPORT_SILENCES)
@@ -103,17 +100,17 @@ static void respond_to_silence(struct robot *robot, struct output *out)
     add_report(robot, out);
 }
 
-void robot_respond(struct robot *robot, enum hal_input kind, const struct input *in, struct output *out)
+void robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out)
 {
     *out = (struct output){.has_drive = false};
-    if (kind == HAL_SENSES)
+    if (kind == INPUT_SENSES)
         respond_to_senses(robot, &in->senses, out);
-    else if (kind == HAL_COMMAND)
+    else if (kind == INPUT_COMMAND)
         respond_to_command(robot, &in->command, out);
     else
         respond_to_silence(robot, out);
-    out->store = robot->brain.changed;
-    out->has_memory = out->has_memory || out->store;
+    out->store = robot->brain.changed && robot->brain.learns;
+    out->has_memory = out->has_memory || robot->brain.changed;
     for (unsigned p = 0; p < CELL_COUNT; p++)
         out->memory[p] = robot->brain.memory.cell[p];
     robot->brain.changed = false;

@@ -6,7 +6,6 @@
 
 struct robot {
     bool running;
-    uint8_t profile;
     uint8_t reason;       /* of the action under way */
     uint8_t action;       /* its number, 0..127 */
     uint8_t silences;     /* in a row */
@@ -27,7 +26,7 @@ void robot_step(struct robot *robot, const struct senses *senses, struct drive *
 enum result robot_execute(struct robot *robot, const struct command *command);
         /* Carries out one command, or says why not and changes nothing. */
 
-void robot_respond(struct robot *robot, enum hal_input kind, const struct input *in, struct output *out);
+void robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
         /* Fills *out with all that one input calls for: the drive for senses, rest for silence, the answer to a
            command, and a report and the memory whenever they are due. */
 

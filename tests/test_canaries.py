@@ -1,61 +1,226 @@
-"""A planted fault is noticed, by the unit tests of its module or by the sanitizers; sound code is let through."""
+"""A planted fault is noticed, by the unit tests of its module or by the sanitizers; sound code is let through.
+
+A fault in the firmware is a function that the linker puts in the place of the real one (`--wrap`): it says what the
+robot does wrong, whatever the source looks like.
+"""
 
 import os
 import re
-import shutil
 import subprocess
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 
+from tests.firmware.octet_c import GENERATED
+
 ROOT = Path(__file__).resolve().parent.parent
 UNITY = Path(os.environ.get("UNITY_DIR", ROOT / "build/unity"))
+INCLUDE = [part for folder in (ROOT, GENERATED, UNITY) for part in ("-I", folder)]
 
 
-class Mutant(NamedTuple):
-    """One line of a module, and what it is changed to."""
+class Fault(NamedTuple):
+    """A wrong function in the place of a right one.
+
+    Attributes:
+        module: Whose unit tests are to notice.
+        function: Which one is replaced.
+        body: Of the wrong one; `real` is the right one.
+    """
 
     module: str
-    text: str
-    changed: str
+    function: str
+    body: str
 
 
-MUTANTS = {
-    "pattern counts two sensors only": Mutant("pattern", " + ((pattern >> 2) & 1u)", ""),
-    "pattern is one bit off": Mutant("pattern", "feel >> 1", "feel >> 2"),
-    "memory takes a side for cell 0": Mutant("memory", "(p == 0 ? SIDE_NONE : SIDE_RIGHT)", "SIDE_RIGHT"),
-    "memory takes what is no side": Mutant("memory", "SIDE_NONE : SIDE_RIGHT)", "SIDE_NONE : 3)"),
-    "dice favour small numbers": Mutant("random", "if (drawn < n)", "drawn %= n;\n        if (drawn < n)"),
-    "dice are rotated by one more": Mutant("random", "rotated(s1, 13)", "rotated(s1, 14)"),
-    "a range is open at its end": Mutant("config", "value <= ranges", "value < ranges"),
-    "left is right": Mutant("brain", "side == SIDE_RIGHT ? 1 : -1", "side == SIDE_RIGHT ? -1 : 1"),
-    "boredom never ends": Mutant("brain", "repeat_count == config", "repeat_count >= config"),
-    "a clear way does not end the count": Mutant(
-        "brain", "    brain->repeat_count = 0;\n    brain->awaits = AWAITS_L", "    brain->awaits = AWAITS_L"
-    ),
-    "no better is good enough": Mutant("brain", ">= pattern_count(brain->tried", "> pattern_count(brain->tried"),
-    "the lesson goes to another cell": Mutant(
-        "brain", "&brain->memory, brain->tried_pattern", "&brain->memory, pattern_of(senses->feel)"
-    ),
-    "a frozen brain learns": Mutant("brain", "brain->frozen || ", ""),
-    "food is eaten one millimetre too far": Mutant("brain", "beacon_mm < config", "beacon_mm <= config"),
-    "turns forget what the last one missed": Mutant("motion", "turn_left += action", "turn_left = action"),
-    "odometers do not wrap": Mutant("motion", "& (ODOMETER_SPAN - 1)", "& 0xFFFF"),
-    "a step runs into the obstacle": Mutant("motion", " || pattern_of(senses->feel) != 0", ""),
-    "stuck wheels are waited for": Mutant("motion", "        motion->ticks_left--;", "        ;"),
-    "silence drives on": Mutant(
-        "robot",
-        "rest(robot, &out->drive);",
-        "rest(robot, &out->drive);\n    motion_drive(&robot->motion, &robot->config, &out->drive);",
-    ),
-    "silence names no tick": Mutant("robot", "    rest(robot, &out->drive);\n", ""),
-    "trials eat": Mutant("robot", "drive->reason == REASON_EAT", "drive->reason >= REASON_TRIAL"),
-    "a stop goes on": Mutant("commands", "    robot->running = false;", "    ;"),
-    "a start forgets": Mutant(
-        "commands", "    motion_start(&robot->motion);", "    memory_erase(&robot->brain.memory);"
+# Each function that is replaced: what it returns, and its parameters.
+NEXT = ("struct action", "struct brain *brain, const struct config *config, const struct senses *senses")
+FUNCTIONS = {
+    "pattern_of": ("uint8_t", "uint8_t feel"),
+    "pattern_count": ("uint8_t", "uint8_t pattern"),
+    "memory_adopt": ("bool", "struct memory *memory, const uint8_t cells[CELL_COUNT]"),
+    "random_next": ("uint32_t", "struct random *random"),
+    "random_below": ("uint8_t", "struct random *random, uint8_t n"),
+    "config_fits": ("bool", "uint8_t parameter, uint32_t value"),
+    "listing_trial_helped": ("bool", "const struct brain *brain, const struct senses *senses"),
+    "article_next": NEXT,
+    "fixed_next": NEXT,
+    "never_next": NEXT,
+    "brain_start": ("bool", "struct brain *brain, uint8_t profile, uint32_t seed"),
+    "motion_begin": ("void", "struct motion *motion, const struct config *config, const struct action *action"),
+    "motion_track": ("void", "struct motion *motion, const struct senses *senses"),
+    "motion_ended": ("bool", "const struct motion *motion, const struct config *config, const struct senses *senses"),
+    "robot_execute": ("enum result", "struct robot *robot, const struct command *command"),
+    "robot_respond": (
+        "void",
+        "struct robot *robot, enum input_kind kind, const struct input *in, struct output *out",
     ),
 }
+
+RESPOND = "real(robot, kind, in, out);"
+FAULTS = {
+    "pattern counts two sensors only": Fault("pattern", "pattern_count", "return real(pattern & 3);"),
+    "pattern is one bit off": Fault("pattern", "pattern_of", "return real(feel >> 1);"),
+    "memory takes a side for cell 0": Fault(
+        "memory",
+        "memory_adopt",
+        """
+        uint8_t allowed[CELL_COUNT];
+        memcpy(allowed, cells, sizeof allowed);
+        allowed[0] = SIDE_NOTHING;
+        return real(memory, allowed) && (memory->cell[0] = cells[0], true);
+        """,
+    ),
+    "memory takes what is no side": Fault(
+        "memory",
+        "memory_adopt",
+        """
+        uint8_t allowed[CELL_COUNT];
+        for (unsigned p = 0; p < CELL_COUNT; p++)
+            allowed[p] = cells[p] > SIDE_RIGHT ? SIDE_RIGHT : cells[p];
+        return real(memory, allowed);
+        """,
+    ),
+    "dice favour small numbers": Fault("random", "random_below", "return (random_next(random) >> 24) % n;"),
+    "dice miss every other number": Fault("random", "random_next", "real(random); return real(random);"),
+    "a range is open at its end": Fault(
+        "config", "config_fits", "return real(parameter, value) && real(parameter, value + 1);"
+    ),
+    "left is right": Fault(
+        "article",
+        "article_next",
+        "struct action action = real(brain, config, senses); action.turn_deg = -action.turn_deg; return action;",
+    ),
+    "boredom never ends": Fault(
+        "article",
+        "article_next",
+        """
+        struct action action = real(brain, config, senses);
+        if (action.reason == REASON_REMEMBERED && brain->repeat_count >= config->value[BOREDOM_LIMIT])
+            brain->awaits = AWAITS_BOREDOM;
+        return action;
+        """,
+    ),
+    "a clear way does not end the count": Fault(
+        "article",
+        "article_next",
+        """
+        uint8_t before = brain->repeat_count;
+        struct action action = real(brain, config, senses);
+        if (action.forward_mm != 0)
+            brain->repeat_count = before;
+        return action;
+        """,
+    ),
+    "no better is good enough": Fault(
+        "article",
+        "listing_trial_helped",
+        """
+        return brain->awaits == AWAITS_VERDICT
+            && pattern_count(pattern_of(senses->feel)) <= pattern_count(brain->tried_pattern);
+        """,
+    ),
+    "the lesson goes to another cell": Fault(
+        "article",
+        "article_next",
+        """
+        uint8_t tried = brain->tried_pattern, before = brain->memory.cell[tried];
+        struct action action = real(brain, config, senses);
+        if (brain->memory.cell[tried] != before) {
+            brain->memory.cell[pattern_of(senses->feel)] = brain->memory.cell[tried];
+            brain->memory.cell[tried] = before;
+        }
+        return action;
+        """,
+    ),
+    "a frozen brain learns": Fault(
+        "article",
+        "article_next",
+        """
+        bool frozen = brain->frozen;
+        brain->frozen = false;
+        struct action action = real(brain, config, senses);
+        brain->frozen = frozen;
+        return action;
+        """,
+    ),
+    "food is eaten one millimetre too far": Fault(
+        "article",
+        "article_next",
+        """
+        struct senses nearer = *senses;
+        nearer.beacon_mm -= nearer.beacon_mm > 0;
+        return real(brain, config, &nearer);
+        """,
+    ),
+    "fixed learns": Fault("fixed", "fixed_next", "return article_next(brain, config, senses);"),
+    "never remembers": Fault("never", "never_next", "return fixed_next(brain, config, senses);"),
+    "an unknown profile is that of the article": Fault(
+        "brain", "brain_start", "return real(brain, profile < PROFILE_COUNT ? profile : PROFILE_ARTICLE, seed);"
+    ),
+    "turns forget what the last one missed": Fault(
+        "motion", "motion_begin", "motion->turn_left = 0; real(motion, config, action);"
+    ),
+    "odometers do not wrap": Fault(
+        "motion",
+        "motion_track",
+        """
+        if (abs(senses->odometer_left - motion->odometer_left) >= ODOMETER_SPAN / 2)
+            motion->referenced = false;
+        real(motion, senses);
+        """,
+    ),
+    "a step runs into the obstacle": Fault(
+        "motion",
+        "motion_ended",
+        "struct senses clear = *senses; clear.feel = 0; return real(motion, config, &clear);",
+    ),
+    "stuck wheels are waited for": Fault(
+        "motion",
+        "motion_track",
+        "uint16_t before = motion->ticks_left; real(motion, senses); motion->ticks_left = before;",
+    ),
+    "silence drives on": Fault(
+        "robot",
+        "robot_respond",
+        f"{RESPOND} if (kind == INPUT_SILENCE) motion_drive(&robot->motion, &robot->config, &out->drive);",
+    ),
+    "silence names no tick": Fault(
+        "robot", "robot_respond", f"{RESPOND} if (kind == INPUT_SILENCE) out->drive.tick = 0;"
+    ),
+    "trials eat": Fault("robot", "robot_respond", f"{RESPOND} out->drive.eat |= out->drive.reason == REASON_TRIAL;"),
+    "what is not learned is stored": Fault("robot", "robot_respond", f"{RESPOND} out->store = out->has_memory;"),
+    "a stop goes on": Fault(
+        "commands",
+        "robot_execute",
+        "bool before = robot->running; enum result result = real(robot, command); robot->running = before;"
+        "return result;",
+    ),
+    "a start forgets": Fault(
+        "commands",
+        "robot_execute",
+        "if (command->opcode == OPCODE_START) memory_erase(&robot->brain.memory); return real(robot, command);",
+    ),
+}
+MODULES = sorted({fault.module for fault in FAULTS.values()})
+
+CANARY = """\
+#include <stdlib.h>
+#include <string.h>
+
+#include "firmware/behaviours/behaviour.h"
+#include "firmware/behaviours/listing.h"
+#include "firmware/pattern.h"
+#include "firmware/robot.h"
+
+#define real __real_{function}
+{returns} __real_{function}({parameters});
+{returns} __wrap_{function}({parameters});
+{returns} __wrap_{function}({parameters})
+{{
+    {body}
+}}
+"""
 
 
 def compiled(program: Path, *arguments: str | Path) -> Path:
@@ -64,37 +229,45 @@ def compiled(program: Path, *arguments: str | Path) -> Path:
 
 
 @pytest.fixture(scope="module")
-def unity(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return compiled(tmp_path_factory.mktemp("unity") / "unity.o", "-c", UNITY / "unity.c")
+def objects(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """The firmware and Unity, compiled."""
+    folder = tmp_path_factory.mktemp("objects")
+    sources = [source for source in (ROOT / "firmware").rglob("*.c") if source.name != "main.c"]
+    return [compiled(folder / f"{source.stem}.o", *INCLUDE, "-c", source) for source in (*sources, UNITY / "unity.c")]
 
 
-def unit_tests_pass(folder: Path, module: str, unity: Path) -> bool:
-    """Builds a module's unit tests on the firmware in folder/firmware, and runs them."""
-    sources = [source for source in (folder / "firmware").glob("*.c") if source.name != "main.c"]
-    test = ROOT / f"tests/firmware/test_{module}.c"
-    program = compiled(folder / "test", "-I", folder, "-I", ROOT, "-I", UNITY, test, *sources, unity, "-lm")
+def unit_tests_pass(folder: Path, module: str, objects: list[Path], *more: str | Path) -> bool:
+    """Builds a module's unit tests with the firmware and with what is more, and runs them."""
+    (test,) = (ROOT / "tests/firmware").rglob(f"test_{module}.c")
+    program = compiled(folder / "test", *INCLUDE, test, *objects, *more, "-lm")
     return subprocess.run([program], capture_output=True, timeout=20, check=False).returncode == 0
 
 
-@pytest.fixture
-def copy(tmp_path: Path) -> Path:
-    shutil.copytree(ROOT / "firmware", tmp_path / "firmware")
-    return tmp_path
+def planted(folder: Path, function: str, body: str) -> list[str | Path]:
+    """What a compiler is told to link a body in the place of a function."""
+    returns, parameters = FUNCTIONS[function]
+    source = folder / "canary.c"
+    source.write_text(CANARY.format(function=function, returns=returns, parameters=parameters, body=body))
+    return [source, f"-Wl,--wrap={function}"]
 
 
-@pytest.mark.parametrize("module", sorted({mutant.module for mutant in MUTANTS.values()}))
-def test_sound_firmware_passes_its_tests(copy, unity, module):
-    assert unit_tests_pass(copy, module, unity)
+@pytest.mark.parametrize("module", MODULES)
+def test_sound_firmware_passes_its_tests(tmp_path, objects, module):
+    assert unit_tests_pass(tmp_path, module, objects)
 
 
-@pytest.mark.parametrize("mutant", MUTANTS.values(), ids=MUTANTS)
-def test_a_planted_fault_fails_the_tests_of_its_module(copy, unity, mutant):
-    source = copy / "firmware" / f"{mutant.module}.c"
-    sound = source.read_text()
-    assert sound.count(mutant.text) == 1, "the text to change is no longer there, or not once"
-    source.write_text(sound.replace(mutant.text, mutant.changed))
+@pytest.mark.parametrize("module", MODULES)
+def test_a_replacement_that_does_the_same_is_let_through(tmp_path, objects, module):
+    more = planted(tmp_path, "pattern_of", "return real(feel);")
 
-    assert not unit_tests_pass(copy, mutant.module, unity)
+    assert unit_tests_pass(tmp_path, module, objects, *more)
+
+
+@pytest.mark.parametrize("fault", FAULTS.values(), ids=FAULTS)
+def test_a_planted_fault_fails_the_tests_of_its_module(tmp_path, objects, fault):
+    more = planted(tmp_path, fault.function, fault.body)
+
+    assert not unit_tests_pass(tmp_path, fault.module, objects, *more)
 
 
 def sanitizer_flags() -> list[str]:

@@ -80,7 +80,7 @@ static int report_silence(struct hal *hal)
         (void)stored(hal, port_store(hal->memory, PORT_AT_REST));
     hal->heard_ms = port_clock_ms();
     hal->silent_ms = 0;
-    return HAL_SILENCE;
+    return INPUT_SILENCE;
 }
 
 /* After an outage the queue holds what was true long ago: of all that waits, only the newest senses count. A command
@@ -91,29 +91,29 @@ static int take_newest(struct hal *hal, struct input *in)
     int result = LINK_E_GARBLED;
 
     for (unsigned i = 0; i < DRAIN_MAX && (result == 1 || result == LINK_E_GARBLED); i++) {
-        enum hal_input kind = HAL_SILENCE;
+        enum input_kind kind = INPUT_SILENCE;
 
         result = receive_frame(hal, &frame, 0);
         if (result == 1)
             kind = wire_read(&hal->wire, &frame, in);
-        if (kind != HAL_SILENCE)
+        if (kind != INPUT_SILENCE)
             wire_count(&hal->wire, FAULT_STALE);   /* the senses before it */
-        if (kind == HAL_COMMAND)
-            return HAL_COMMAND;
+        if (kind == INPUT_COMMAND)
+            return INPUT_COMMAND;
     }
-    return HAL_SENSES;
+    return INPUT_SENSES;
 }
 
 static int take_senses(struct hal *hal, struct input *in)
 {
-    int result = HAL_SENSES;
+    int result = INPUT_SENSES;
 
     /* A robot that was held up itself finds its senses waiting, and has heard of no silence. */
     if (hal->silent_ms >= limit_ms(hal) && !hal->outage)
         note_outage(hal);
     if (hal->outage)
         result = take_newest(hal, in);
-    if (result == HAL_SENSES) {
+    if (result == INPUT_SENSES) {
         hal->outage = false;
         hal->heard_ms += hal->silent_ms;
         hal->silent_ms = 0;
@@ -121,18 +121,18 @@ static int take_senses(struct hal *hal, struct input *in)
     return result;
 }
 
-/* Waits for one thing, whatever it is: what of it is for the robot, or HAL_SILENCE. */
+/* Waits for one thing, whatever it is: what of it is for the robot, or INPUT_SILENCE. */
 static int receive_input(struct hal *hal, struct input *in, uint32_t wait_ms)
 {
     struct frame frame;
     int result = receive_frame(hal, &frame, wait_ms);
-    enum hal_input kind;
+    enum input_kind kind;
 
     hal->silent_ms = port_clock_ms() - hal->heard_ms;
     if (result != 1)
-        return result == LINK_E_CLOSED ? HAL_E_CLOSED : HAL_SILENCE;
+        return result == LINK_E_CLOSED ? HAL_E_CLOSED : INPUT_SILENCE;
     kind = wire_read(&hal->wire, &frame, in);
-    return kind == HAL_SENSES ? take_senses(hal, in) : (int)kind;
+    return kind == INPUT_SENSES ? take_senses(hal, in) : (int)kind;
 }
 
 /* A lockstep's long wait is waited in pieces, with a sign of life between them. */
@@ -143,9 +143,9 @@ static uint32_t slice_of(uint32_t wait_ms)
 
 int hal_receive(struct hal *hal, struct input *in)
 {
-    int result = HAL_SILENCE;
+    int result = INPUT_SILENCE;
 
-    while (result == HAL_SILENCE) {
+    while (result == INPUT_SILENCE) {
         if (hal->silent_ms >= limit_ms(hal))
             return report_silence(hal);
         port_alive(hal->outage);

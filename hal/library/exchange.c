@@ -18,9 +18,9 @@ size_t session_exchange(struct session *session, const struct frame *in, struct 
 {
     struct input input;
     struct output output;
-    enum hal_input kind = wire_read(&session->wire, in, &input);
+    enum input_kind kind = wire_read(&session->wire, in, &input);
 
-    if (kind == HAL_SILENCE)
+    if (kind == INPUT_SILENCE)
         return 0;
     robot_respond(&session->robot, kind, &input, &output);
     return wire_write(&session->wire, &output, out);

@@ -12,7 +12,7 @@ struct session {
 };
 
 struct session *session_open(uint8_t node, const uint8_t memory[CELL_COUNT]);
-        /* A robot as after power-up, with what was stored; nothing, if that is no memory. node is 1..WIRE_NODE_MAX.
+        /* A robot as after power-up, with what was stored; nothing, if that is no memory. node is 1..NODE_MAX.
            Null where the machine has no room. */
 
 size_t session_exchange(struct session *session, const struct frame *in, struct frame out[WIRE_FRAMES_MAX]);

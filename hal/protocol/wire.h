@@ -6,7 +6,6 @@
 #include "hal/protocol/health.h"
 
 enum {
-    WIRE_NODE_MAX = 63,
     WIRE_LISTEN_COUNT = 2,   /* identifiers that the robot listens for */
     WIRE_FRAMES_MAX = 7      /* that one output makes */
 };
@@ -37,13 +36,13 @@ struct wire {
 };
 
 void wire_init(struct wire *wire, uint8_t node);
-        /* node is 1..WIRE_NODE_MAX. */
+        /* node is 1..NODE_MAX. */
 
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT]);
         /* The identifiers to listen for. */
 
-enum hal_input wire_read(struct wire *wire, const struct frame *frame, struct input *in);
-        /* HAL_SENSES or HAL_COMMAND: fresh, whole and for us, and that part of *in is filled. HAL_SILENCE: none of
+enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct input *in);
+        /* INPUT_SENSES or INPUT_COMMAND: fresh, whole and for us, and that part of *in is filled. INPUT_SILENCE: none of
            that; it is counted, and *in is untouched. */
 
 size_t wire_write(struct wire *wire, const struct output *out, struct frame frames[WIRE_FRAMES_MAX]);

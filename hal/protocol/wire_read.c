@@ -3,8 +3,6 @@
 #include "hal/protocol/crc8.h"
 #include "octet.h"
 
-enum { TICK_SPAN = 4096 };
-
 static bool is_whole(const struct frame *frame, uint8_t len)
 {
     return frame->len == len && frame->data[0] == crc8_of_frame(frame);
@@ -45,10 +43,10 @@ void wire_outage(struct wire *wire)
     wire->knows_tick = false;
 }
 
-static enum hal_input refused(struct wire *wire, enum fault fault)
+static enum input_kind refused(struct wire *wire, enum fault fault)
 {
     wire_count(wire, fault);
-    return HAL_SILENCE;
+    return INPUT_SILENCE;
 }
 
 /* Fresh is up to half a span ahead of the last; what is behind it came twice, or too late. */
@@ -65,7 +63,7 @@ static bool is_fresh(struct wire *wire, uint16_t tick)
     return true;
 }
 
-static enum hal_input read_senses(struct wire *wire, const struct frame *frame, struct senses *senses)
+static enum input_kind read_senses(struct wire *wire, const struct frame *frame, struct senses *senses)
 {
     struct octet_senses_t got;
 
@@ -82,7 +80,7 @@ static enum hal_input read_senses(struct wire *wire, const struct frame *frame, 
         .odometer_left = got.odometer_left,
         .odometer_right = got.odometer_right,
     };
-    return HAL_SENSES;
+    return INPUT_SENSES;
 }
 
 static struct command command_from(const struct octet_command_t *got)
@@ -111,7 +109,7 @@ static struct command command_from(const struct octet_command_t *got)
     return command;
 }
 
-static enum hal_input read_command(struct wire *wire, const struct frame *frame, struct command *command)
+static enum input_kind read_command(struct wire *wire, const struct frame *frame, struct command *command)
 {
     struct octet_command_t got;
 
@@ -127,10 +125,10 @@ static enum hal_input read_command(struct wire *wire, const struct frame *frame,
     if (got.opcode == OPCODE_STOP || got.opcode == OPCODE_START)
         wire->knows_tick = false;
     *command = command_from(&got);
-    return HAL_COMMAND;
+    return INPUT_COMMAND;
 }
 
-enum hal_input wire_read(struct wire *wire, const struct frame *frame, struct input *in)
+enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct input *in)
 {
     if (frame->id == wire_id(wire, OCTET_SENSES_FRAME_ID))
         return read_senses(wire, frame, &in->senses);

@@ -44,7 +44,7 @@ static void write_heartbeat(const struct wire *wire, const struct output *out, s
         .uptime = out->report.uptime_s,
         .version_major = OCTET_VERSION_MAJOR,
         .version_minor = OCTET_VERSION_MINOR,
-        .dbc_hash = OCTET_DBC_HASH,
+        .dbc_hash = LAYOUT_HASH,
     };
 
     (void)octet_heartbeat_pack(frame->data, &heartbeat, sizeof frame->data);

@@ -38,6 +38,6 @@ def handshake(client: RobotClient, timeout_s: float, retry_s: float | None = Non
 
 def _check_hash(client: RobotClient, heartbeat: DecodedFrame) -> None:
     theirs, ours = heartbeat.signals["dbc_hash"], client.protocol.dbc_hash
-    if not client.protocol.accepts(theirs):
+    if not client.protocol.fits(theirs):
         hashes = f"hash {theirs:04X}, ours {ours:04X}"
         raise RobotError(f"the robot was built from another octet.dbc ({hashes}): rebuild it")

@@ -1,6 +1,5 @@
 """The wire, as `hal/protocol/octet.dbc` has it: what the simulator sends to frames, frames to what the robot says."""
 
-import hashlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
@@ -9,13 +8,13 @@ import cantools
 from cantools.database.can import Database
 
 from host_sim.paths import ROOT
+from host_sim.protocol.generated import LAYOUT_HASH, NODE_MAX, SAME_LAYOUT
 from host_sim.protocol.signal_layout import Layout
 from host_sim.robot_io import Drive, Senses
 
-DBC = ROOT / "hal" / "protocol" / "octet.dbc"
-NODE_MAX = 63
-"""Nodes are numbered 1..63."""
+__all__ = ["CONTROL", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "crc8", "drive_from"]
 
+DBC = ROOT / "hal" / "protocol" / "octet.dbc"
 CONTROL = ("COMMAND", "DRIVE", "SENSES", "ANSWER")
 """The messages that carry a CRC."""
 
@@ -66,7 +65,7 @@ class Protocol:
 
     Attributes:
         node: 1..63.
-        dbc_hash: First two bytes of the SHA-256 of the DBC file; the robot's must be the same.
+        dbc_hash: Hash of the messages' layout; see `fits`.
     """
 
     def __init__(self, node: int = 1, dbc: Path = DBC) -> None:
@@ -78,7 +77,7 @@ class Protocol:
         if not 1 <= node <= NODE_MAX:
             raise ValueError(f"node is 1..{NODE_MAX}, not {node}")
         self.node = node
-        self.dbc_hash = int.from_bytes(hashlib.sha256(dbc.read_bytes()).digest()[:2], "big")
+        self.dbc_hash = LAYOUT_HASH
         database = cantools.database.load_file(dbc)
         assert isinstance(database, Database)
         self._messages = {message.name: message for message in database.messages}
@@ -88,9 +87,10 @@ class Protocol:
         self._drive = Layout(self._messages["DRIVE"], _DRIVE)
         self._drive_id = self.id_of("DRIVE")
 
-    def accepts(self, dbc_hash: int) -> bool:
-        """Whether a robot or a log with this hash has the same layout of messages."""
-        return dbc_hash == self.dbc_hash
+    @staticmethod
+    def fits(dbc_hash: int) -> bool:
+        """Whether a robot or a log with this hash has the messages laid out as here."""
+        return dbc_hash in SAME_LAYOUT
 
     def id_of(self, name: str) -> int:
         """The identifier of a message for this node."""

@@ -67,7 +67,7 @@ def check_protocol(path: Path, lines: Sequence[Recorded], protocol: Protocol) ->
     heartbeat = next((what for what in said if what is not None and what.name == "HEARTBEAT"), None)
     if heartbeat is None:
         raise OctetError(f"{path} has no heartbeat of node {protocol.node}: not a log of a run, or cut short")
-    if not protocol.accepts(heartbeat.signals["dbc_hash"]):
+    if not protocol.fits(heartbeat.signals["dbc_hash"]):
         raise OctetError(f"{path} was recorded with another octet.dbc: replay it with the version that wrote it")
 
 

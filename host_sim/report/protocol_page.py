@@ -7,11 +7,12 @@ from cantools.database.can import Database, Message
 from cantools.database.can.signal import Signal
 
 from host_sim.protocol.codec import CONTROL, DBC, NODE_MAX
+from host_sim.protocol.generated import PARAMETERS
 
 _HEAD = """\
 # The wire
 
-Made from [`octet.dbc`](../hal/protocol/octet.dbc) by `tools/octet protocol`; the C code and the Python code come
+Made from [`octet.dbc`](../hal/protocol/octet.dbc) by `tools/octet protocol`; the C, Python and JavaScript code comes
 from the same file. Any tool that reads DBC files shows the traffic in plain words; `cantools` is in `.venv/bin`:
 
 ```sh
@@ -22,7 +23,7 @@ head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/oc
 ## A conversation
 
 1. **stop** (COMMAND). The robot answers with ANSWER, HEARTBEAT, FAULTS and MEMORY: who it is, how it fares, what it
-   knows. Both sides compare the hash of octet.dbc in the HEARTBEAT; if it differs they do not talk.
+   knows. HEARTBEAT has the hash of the messages' layout; the simulator talks to no robot with another one.
 2. **start** with profile and seed, then perhaps **set** for parameters and **write** for the memory, each answered.
 3. SENSES with tick n; the robot answers DRIVE with tick n. And so on, every 20 ms of robot time.
 4. A frame of the robot's own that goes with a tick (MEMORY when it has learned, HEARTBEAT and FAULTS once a second)
@@ -52,7 +53,16 @@ def page() -> str:
     rows = [_message_row(message) for message in messages]
     head = ["| identifier | message | bytes | from | protected |", "| --- | --- | --- | --- | --- |"]
     overview = _HEAD.format(nodes=NODE_MAX) + "\n".join([*head, *rows]) + "\n"
-    return overview + "".join(_section(message) for message in messages)
+    return overview + "".join(_section(message) for message in messages) + _parameters()
+
+
+def _parameters() -> str:
+    head = ["| parameter | number | range | unit | default | meaning |", "| --- | --- | --- | --- | --- | --- |"]
+    rows = [
+        f"| {name} | {p.number} | {p.minimum}..{p.maximum} | {p.unit} | {p.default} | {p.comment} |"
+        for name, p in PARAMETERS.items()
+    ]
+    return "\n## Parameters\n\nWhat **set** changes, until the next **start**.\n\n" + "\n".join([*head, *rows]) + "\n"
 
 
 def _message_row(message: Message) -> str:

@@ -11,7 +11,6 @@ import time
 from pathlib import Path
 
 import pytest
-
 from host_sim.cli.protocol_page import page
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -9,7 +9,7 @@ import cffi
 
 ROOT = Path(__file__).resolve().parents[2]
 _HEADERS = [
-    "hal/hal.h",
+    "firmware/io.h",
     "firmware/pattern.h",
     "firmware/config.h",
     "firmware/memory.h",
@@ -25,6 +25,10 @@ def library_path() -> Path:
     return Path(os.environ.get("OCTET_LIBRARY", ROOT / "build/host/hal/library/liboctet.so"))
 
 
+GENERATED = library_path().parents[2] / "generated"
+"""What the build made of octet.dbc and robot.toml."""
+
+
 def declarations(header: Path) -> str:
     """What a header declares, without the preprocessor's lines, which cffi does not read."""
     text = header.read_text()
@@ -37,7 +41,6 @@ def declarations(header: Path) -> str:
 def load() -> tuple[cffi.FFI, object]:
     """The library and the interface to it, declared by the headers that it was built from."""
     ffi = cffi.FFI()
-    for header in _HEADERS:
-        ffi.cdef(declarations(ROOT / header))
-    ffi.cdef(declarations(library_path().parents[2] / "generated/octet.h"))
+    for header in (GENERATED / "robot_words.h", *(ROOT / header for header in _HEADERS), GENERATED / "octet.h"):
+        ffi.cdef(declarations(header))
     return ffi, ffi.dlopen(str(library_path()))

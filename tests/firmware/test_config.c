@@ -16,26 +16,15 @@ static struct config config;
 
 void setUp(void)
 {
-    TEST_ASSERT_TRUE(config_load(&config, PROFILE_ARTICLE));
+    config_reset(&config);
 }
 
 void tearDown(void) {}
 
-static void test_the_article_profile_has_the_articles_numbers(void)
+static void test_the_defaults_are_the_articles_numbers(void)
 {
     for (unsigned p = 0; p < PARAMETER_COUNT; p++)
         TEST_ASSERT_EQUAL_UINT16(expected[p].article, config.value[p]);
-}
-
-static void test_an_unknown_profile_changes_nothing(void)
-{
-    static const struct config odd = {{7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7}};
-
-    for (unsigned profile = PROFILE_COUNT; profile <= UINT8_MAX; profile++) {
-        config = odd;
-        TEST_ASSERT_FALSE(config_load(&config, (uint8_t)profile));
-        TEST_ASSERT_EQUAL_MEMORY(&odd, &config, sizeof config);
-    }
 }
 
 static void test_both_ends_of_a_range_fit(void)
@@ -60,13 +49,10 @@ static void test_nothing_beyond_16_bits_fits(void)
         TEST_ASSERT_FALSE(config_fits(p, 0x10000u + expected[p].article));
 }
 
-static void test_each_profile_fits(void)
+static void test_the_defaults_fit(void)
 {
-    for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
-        TEST_ASSERT_TRUE(config_load(&config, profile));
-        for (uint8_t p = 0; p < PARAMETER_COUNT; p++)
-            TEST_ASSERT_TRUE(config_fits(p, config.value[p]));
-    }
+    for (uint8_t p = 0; p < PARAMETER_COUNT; p++)
+        TEST_ASSERT_TRUE(config_fits(p, config.value[p]));
 }
 
 static void test_setting_a_parameter_leaves_the_others(void)
@@ -83,12 +69,11 @@ static void test_setting_a_parameter_leaves_the_others(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_the_article_profile_has_the_articles_numbers);
-    RUN_TEST(test_an_unknown_profile_changes_nothing);
+    RUN_TEST(test_the_defaults_are_the_articles_numbers);
     RUN_TEST(test_both_ends_of_a_range_fit);
     RUN_TEST(test_what_is_beyond_either_end_does_not_fit);
     RUN_TEST(test_nothing_beyond_16_bits_fits);
-    RUN_TEST(test_each_profile_fits);
+    RUN_TEST(test_the_defaults_fit);
     RUN_TEST(test_setting_a_parameter_leaves_the_others);
     return UNITY_END();
 }

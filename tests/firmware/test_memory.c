@@ -27,7 +27,7 @@ static void test_an_erased_memory_knows_nothing(void)
 {
     memory_erase(&memory);
     for (uint8_t p = 0; p < CELL_COUNT; p++)
-        TEST_ASSERT_EQUAL(SIDE_NONE, memory_recall(&memory, p));
+        TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&memory, p));
 }
 
 static void test_each_cell_recalls_its_own_side(void)

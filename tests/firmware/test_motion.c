@@ -101,7 +101,7 @@ static void stand_at(double left_mm, double right_mm)
 
 void setUp(void)
 {
-    TEST_ASSERT_TRUE(config_load(&config, PROFILE_ARTICLE));
+    config_reset(&config);
     random_seed(&dice, 1);
     stand_at(0.0, 0.0);
 }

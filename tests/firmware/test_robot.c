@@ -9,7 +9,7 @@ enum { CLEAR = 0, FRONT = 4, PATTERN_FRONT = 2, TICKS_PER_SECOND = 50, MANY = 10
 static struct robot robot;
 static struct output out;
 
-static void respond_to(enum hal_input kind, const struct input *in)
+static void respond_to(enum input_kind kind, const struct input *in)
 {
     memset(&out, 0xA5, sizeof out);   /* whatever was there before */
     robot_respond(&robot, kind, in, &out);
@@ -19,7 +19,7 @@ static void sense(struct senses senses)
 {
     const struct input in = {.senses = senses};
 
-    respond_to(HAL_SENSES, &in);
+    respond_to(INPUT_SENSES, &in);
 }
 
 static void feel(uint8_t feel)
@@ -31,14 +31,14 @@ static void silence(void)
 {
     static const struct input nothing;
 
-    respond_to(HAL_SILENCE, &nothing);
+    respond_to(INPUT_SILENCE, &nothing);
 }
 
 static void command(enum opcode opcode, uint8_t which, uint32_t value)
 {
     const struct input in = {.command = {.opcode = opcode, .which = which, .value = value}};
 
-    respond_to(HAL_COMMAND, &in);
+    respond_to(INPUT_COMMAND, &in);
 }
 
 static void learned(enum side side)
@@ -345,7 +345,33 @@ static void test_a_lesson_is_sent_and_stored_as_it_is_learned(void)
     sense(after);
     TEST_ASSERT_TRUE(out.has_memory);
     TEST_ASSERT_TRUE(out.store);
-    TEST_ASSERT_TRUE(out.memory[PATTERN_FRONT] != SIDE_NONE);
+    TEST_ASSERT_TRUE(out.memory[PATTERN_FRONT] != SIDE_NOTHING);
+}
+
+static void test_the_turns_of_a_fixed_robot_are_sent_and_not_stored(void)
+{
+    command(OPCODE_START, PROFILE_FIXED, 1);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_TRUE(out.has_memory);
+    TEST_ASSERT_FALSE(out.store);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, out.memory[PATTERN_FRONT]);
+}
+
+static void test_what_is_written_to_a_robot_that_does_not_learn_is_not_stored(void)
+{
+    command(OPCODE_START, PROFILE_FIXED, 1);
+    command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_RIGHT << 2 * PATTERN_FRONT);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_RIGHT, out.memory[PATTERN_FRONT]);
+    TEST_ASSERT_FALSE(out.store);
+}
+
+static void test_the_report_tells_the_profile(void)
+{
+    for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
+        command(OPCODE_START, profile, 1);
+        command(OPCODE_STOP, 0, 0);
+        TEST_ASSERT_EQUAL_UINT8(profile, out.report.profile);
+    }
 }
 
 static void test_a_report_alone_stores_nothing(void)
@@ -389,6 +415,9 @@ int main(void)
     RUN_TEST(test_senses_are_driven_and_not_answered);
     RUN_TEST(test_a_written_memory_is_sent_and_stored_once);
     RUN_TEST(test_a_lesson_is_sent_and_stored_as_it_is_learned);
+    RUN_TEST(test_the_turns_of_a_fixed_robot_are_sent_and_not_stored);
+    RUN_TEST(test_what_is_written_to_a_robot_that_does_not_learn_is_not_stored);
+    RUN_TEST(test_the_report_tells_the_profile);
     RUN_TEST(test_a_report_alone_stores_nothing);
     return UNITY_END();
 }

@@ -37,7 +37,7 @@ static void test_a_body_that_did_not_open_is_not_given_out(void)
 static void test_senses_are_received_when_they_come(void)
 {
     senses_come(20, 7);
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     TEST_ASSERT_EQUAL_UINT16(7, in.senses.tick);
     TEST_ASSERT_EQUAL_UINT32(20, fake.clock_ms);
 }
@@ -47,16 +47,16 @@ static void test_senses_and_commands_are_received_in_their_order(void)
     senses_come(20, 0);
     command_comes(20, (struct octet_command_t){.opcode = OPCODE_ERASE});
     senses_come(20, 1);
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
-    TEST_ASSERT_EQUAL(HAL_COMMAND, receive());
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
 }
 
 static void test_silence_is_100_ms_without_senses(void)
 {
     senses_come(20, 0);
     receive();
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(120, fake.clock_ms);
     assert_faults((struct octet_faults_t){.silences = 1});
 }
@@ -64,13 +64,13 @@ static void test_silence_is_100_ms_without_senses(void)
 static void test_senses_after_99_ms_are_no_silence(void)
 {
     senses_come(99, 0);
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
 }
 
 static void test_silence_is_said_again_every_100_ms(void)
 {
     for (uint32_t i = 1; i <= 10; i++) {
-        TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
         TEST_ASSERT_EQUAL_UINT32(100 * i, fake.clock_ms);
     }
 }
@@ -79,7 +79,7 @@ static void test_noise_does_not_break_the_silence(void)
 {
     for (uint32_t at_ms = 10; at_ms <= 190; at_ms += 10)
         noise_comes(at_ms);
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
 }
 
@@ -88,7 +88,7 @@ static void test_stale_senses_do_not_break_the_silence(void)
     senses_come(0, 5);
     senses_come(50, 5);
     receive();
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
     assert_faults((struct octet_faults_t){.silences = 1, .stale = 1});
 }
@@ -96,8 +96,8 @@ static void test_stale_senses_do_not_break_the_silence(void)
 static void test_a_command_does_not_break_the_silence(void)
 {
     command_comes(60, (struct octet_command_t){.opcode = OPCODE_ERASE});
-    TEST_ASSERT_EQUAL(HAL_COMMAND, receive());
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
 }
 
@@ -105,28 +105,28 @@ static void test_in_lockstep_silence_is_10_s(void)
 {
     command_comes(0, (struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1});
     receive();
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(10000, fake.clock_ms);
 }
 
 static void test_after_an_outage_only_the_newest_senses_count(void)
 {
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     for (uint16_t tick = 0; tick < 30; tick++)
         senses_come(150, tick);
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     TEST_ASSERT_EQUAL_UINT16(29, in.senses.tick);
     assert_faults((struct octet_faults_t){.stale = 29});
 }
 
 static void test_noise_among_what_queued_up_is_passed_over(void)
 {
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
     noise_comes(150);
     happens(150, LINK_E_GARBLED, (struct frame){.len = 0});
     senses_come(150, 1);
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     TEST_ASSERT_EQUAL_UINT16(1, in.senses.tick);
     assert_faults((struct octet_faults_t){.stale = 1, .foreign = 1, .damaged = 1});
 }
@@ -136,63 +136,63 @@ static void test_without_an_outage_nothing_is_passed_over(void)
     for (uint16_t tick = 0; tick < 30; tick++)
         senses_come(20, tick);
     for (uint16_t tick = 0; tick < 30; tick++) {
-        TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+        TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
         TEST_ASSERT_EQUAL_UINT16(tick, in.senses.tick);
     }
 }
 
 static void test_after_an_outage_a_queued_command_comes_first(void)
 {
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
     command_comes(150, (struct octet_command_t){.opcode = OPCODE_ERASE});
     senses_come(150, 1);
     senses_come(150, 2);
-    TEST_ASSERT_EQUAL(HAL_COMMAND, receive());
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     TEST_ASSERT_EQUAL_UINT16(2, in.senses.tick);
     assert_faults((struct octet_faults_t){.stale = 2});
 }
 
 static void test_senses_that_a_queued_command_outdates_do_not_end_the_outage(void)
 {
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
     command_comes(150, (struct octet_command_t){.opcode = OPCODE_ERASE});
-    TEST_ASSERT_EQUAL(HAL_COMMAND, receive());
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(200, fake.clock_ms);
 }
 
 static void test_a_body_opened_again_has_no_outage(void)
 {
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL(0, open_body());
     senses_come(150, 0);
     senses_come(150, 1);
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     TEST_ASSERT_EQUAL_UINT16(0, in.senses.tick);
 }
 
 static void test_an_outage_ends_with_its_first_senses(void)
 {
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
     senses_come(170, 1);
     senses_come(170, 2);
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     TEST_ASSERT_EQUAL_UINT16(1, in.senses.tick);
 }
 
 static void test_a_robot_that_was_held_up_itself_takes_the_newest_senses(void)
 {
     senses_come(0, 0);
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     for (uint16_t tick = 1; tick <= 7; tick++)
         senses_come(20u * tick, tick);
     fake.clock_ms += 150;
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     TEST_ASSERT_EQUAL_UINT16(7, in.senses.tick);
     assert_faults((struct octet_faults_t){.silences = 1, .stale = 6});
 }
@@ -201,7 +201,7 @@ static void test_a_long_wait_gives_signs_of_life(void)
 {
     command_comes(0, (struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1});
     receive();
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(10000 - HAL_SILENCE_MS, fake.alive_ms);
     TEST_ASSERT_EQUAL_UINT32(HAL_SILENCE_MS, fake.longest_wait_ms);
 }
@@ -210,7 +210,7 @@ static void test_a_bus_that_is_down_is_silence(void)
 {
     fake.failing_receive = 1;
     fake.failure = LINK_E_DOWN;
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
 }
 
@@ -218,7 +218,7 @@ static void test_what_is_no_frame_is_counted_as_damaged(void)
 {
     happens(10, LINK_E_GARBLED, (struct frame){.len = 0});
     senses_come(20, 0);
-    TEST_ASSERT_EQUAL(HAL_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     assert_faults((struct octet_faults_t){.damaged = 1});
 }
 

@@ -56,13 +56,13 @@ static int live_through(unsigned n, int failure)
 static void test_whenever_a_bus_is_down_for_a_while_life_goes_on(void)
 {
     for (unsigned n = 1; n <= 25; n++)
-        TEST_ASSERT_EQUAL(HAL_SENSES, live_through(n, LINK_E_DOWN));
+        TEST_ASSERT_EQUAL(INPUT_SENSES, live_through(n, LINK_E_DOWN));
 }
 
 static void test_whenever_something_is_no_frame_it_is_counted_and_life_goes_on(void)
 {
     for (unsigned n = 1; n <= 20; n++) {
-        TEST_ASSERT_EQUAL(HAL_SENSES, live_through(n, LINK_E_GARBLED));
+        TEST_ASSERT_EQUAL(INPUT_SENSES, live_through(n, LINK_E_GARBLED));
         TEST_ASSERT_EQUAL_UINT8(1, faults().damaged);
     }
 }
@@ -122,7 +122,7 @@ static void test_storing_that_takes_long_waits_for_a_silence(void)
 {
     store_later();
     TEST_ASSERT_EQUAL_UINT(0, fake.stores);
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT(1, fake.stores);
     assert_faults((struct octet_faults_t){.unsaved = 0});
 }
@@ -131,7 +131,7 @@ static void test_what_was_put_off_is_stored_once(void)
 {
     store_later();
     for (unsigned i = 0; i < 3; i++)
-        TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT(1, fake.stores);
 }
 
@@ -139,7 +139,7 @@ static void test_what_was_put_off_and_could_not_be_stored_is_counted(void)
 {
     store_later();
     fake.store_result = HAL_E_STORE;
-    TEST_ASSERT_EQUAL(HAL_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     assert_faults((struct octet_faults_t){.unsaved = 1});
 }
 

@@ -58,12 +58,12 @@ static struct frame plain_command(uint8_t opcode, uint8_t counter)
     return command_frame((struct octet_command_t){.opcode = opcode, .counter = counter});
 }
 
-static enum hal_input read(struct frame frame)
+static enum input_kind read(struct frame frame)
 {
     return wire_read(&wire, &frame, &in);
 }
 
-static enum hal_input read_tick(uint16_t tick)
+static enum input_kind read_tick(uint16_t tick)
 {
     return read(senses_frame(NODE, tick));
 }
@@ -73,13 +73,13 @@ static void refuse(struct frame frame)
 {
     const struct input before = in;
 
-    TEST_ASSERT_EQUAL(HAL_SILENCE, read(frame));
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, read(frame));
     TEST_ASSERT_EQUAL_MEMORY(&before, &in, sizeof in);
 }
 
 static void test_senses_arrive_whole(void)
 {
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(4095));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(4095));
     TEST_ASSERT_EQUAL_UINT16(4095, in.senses.tick);
     TEST_ASSERT_EQUAL_UINT8(21, in.senses.feel);
     TEST_ASSERT_TRUE(in.senses.bump);
@@ -98,28 +98,28 @@ static void assert_command(enum opcode opcode, unsigned which, uint32_t value)
 
 static void test_start_brings_profile_and_seed(void)
 {
-    TEST_ASSERT_EQUAL(HAL_COMMAND, read(command_frame((struct octet_command_t){
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
                                        .opcode = OPCODE_START, .profile = 200, .seed = 0xFFFFFFFF})));
     assert_command(OPCODE_START, 200, 0xFFFFFFFF);
 }
 
 static void test_set_brings_parameter_and_value(void)
 {
-    TEST_ASSERT_EQUAL(HAL_COMMAND, read(command_frame((struct octet_command_t){
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
                                        .opcode = OPCODE_SET, .parameter = 12, .value = 65535})));
     assert_command(OPCODE_SET, 12, 65535);
 }
 
 static void test_write_brings_mask_and_cells(void)
 {
-    TEST_ASSERT_EQUAL(HAL_COMMAND, read(command_frame((struct octet_command_t){
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
                                        .opcode = OPCODE_WRITE, .mask = 0xFE, .cells = 0xAAA8})));
     assert_command(OPCODE_WRITE, 0xFE, 0xAAA8);
 }
 
 static void test_freeze_brings_its_flag(void)
 {
-    TEST_ASSERT_EQUAL(HAL_COMMAND, read(command_frame((struct octet_command_t){.opcode = OPCODE_FREEZE, .freeze = 1})));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){.opcode = OPCODE_FREEZE, .freeze = 1})));
     assert_command(OPCODE_FREEZE, 1, 0);
 }
 
@@ -128,7 +128,7 @@ static void test_other_opcodes_bring_no_arguments(void)
     static const uint8_t opcodes[] = {OPCODE_STOP, OPCODE_RESUME, OPCODE_ERASE, 0, 8, 15};
 
     for (uint8_t i = 0; i < sizeof opcodes; i++) {
-        TEST_ASSERT_EQUAL(HAL_COMMAND, read(plain_command(opcodes[i], i)));
+        TEST_ASSERT_EQUAL(INPUT_COMMAND, read(plain_command(opcodes[i], i)));
         assert_command((enum opcode)opcodes[i], 0, 0);
     }
 }
@@ -143,9 +143,9 @@ static void test_each_command_says_whose_clock_rules(void)
 
 static void test_each_node_hears_its_own_frames(void)
 {
-    for (uint8_t node = 1; node <= WIRE_NODE_MAX; node++) {
+    for (uint8_t node = 1; node <= NODE_MAX; node++) {
         wire_init(&wire, node);
-        TEST_ASSERT_EQUAL(HAL_SENSES, read(senses_frame(node, 0)));
+        TEST_ASSERT_EQUAL(INPUT_SENSES, read(senses_frame(node, 0)));
     }
 }
 
@@ -153,7 +153,7 @@ static void test_no_node_hears_anothers_frames(void)
 {
     unsigned foreign = 0;
 
-    for (uint8_t node = 1; node <= WIRE_NODE_MAX; node++)
+    for (uint8_t node = 1; node <= NODE_MAX; node++)
         if (node != NODE) {
             refuse(senses_frame(node, 0));
             foreign++;
@@ -164,7 +164,7 @@ static void test_no_node_hears_anothers_frames(void)
 static void test_the_first_and_the_last_node_listen_for_their_own(void)
 {
     static const uint16_t expected[2][WIRE_LISTEN_COUNT] = {{193, 65}, {193 + 62, 65 + 62}};
-    static const uint8_t nodes[2] = {1, WIRE_NODE_MAX};
+    static const uint8_t nodes[2] = {1, NODE_MAX};
     uint16_t ids[WIRE_LISTEN_COUNT];
 
     for (unsigned i = 0; i < 2; i++) {
@@ -225,7 +225,7 @@ static void refuse_every_flip(const struct frame good)
             refuse_and_count(two);
         }
     }
-    TEST_ASSERT_NOT_EQUAL(HAL_SILENCE, read(good));   /* the clean control */
+    TEST_ASSERT_NOT_EQUAL(INPUT_SILENCE, read(good));   /* the clean control */
 }
 
 static void test_senses_with_one_or_two_flipped_bits_are_refused(void)
@@ -258,18 +258,18 @@ static void test_damaged_senses_do_not_move_the_tick(void)
     damaged.data[0] ^= 1;
     refuse(damaged);
     expect(FAULT_DAMAGED, 1);
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(2));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(2));
 }
 
 static void test_any_tick_may_be_the_first(void)
 {
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(3000));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(3000));
 }
 
 static void test_the_tick_wraps(void)
 {
     read_tick(4095);
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(0));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(0));
 }
 
 static void test_senses_that_come_twice_are_stale(void)
@@ -292,20 +292,20 @@ static void test_stale_senses_do_not_move_the_tick(void)
     read_tick(5);
     refuse(senses_frame(NODE, 3));
     expect(FAULT_STALE, 1);
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(6));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(6));
 }
 
 static void test_ticks_that_never_came_are_counted(void)
 {
     read_tick(4094);
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(2));   /* without 4095, 0 and 1 */
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(2));   /* without 4095, 0 and 1 */
     expect(FAULT_MISSED, 3);
 }
 
 static void test_the_farthest_tick_ahead_is_fresh(void)
 {
     read_tick(0);
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(2047));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(2047));
     expect(FAULT_MISSED, 255);   /* 2046, and the counter stays at 255 */
 }
 
@@ -314,7 +314,7 @@ static void test_after_an_outage_any_tick_is_taken(void)
     read_tick(100);
     wire_outage(&wire);
     expect(FAULT_SILENCE, 1);
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(50));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(50));
 }
 
 static void test_an_outage_is_counted_once_however_long(void)
@@ -334,9 +334,9 @@ static void test_after_stop_or_start_any_tick_is_taken(void)
 {
     read_tick(100);
     read(plain_command(OPCODE_STOP, 0));
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(50));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(50));
     read(plain_command(OPCODE_START, 1));
-    TEST_ASSERT_EQUAL(HAL_SENSES, read_tick(20));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(20));
 }
 
 static void test_after_other_commands_the_tick_must_follow(void)
@@ -357,8 +357,8 @@ static void test_a_command_that_comes_twice_is_stale(void)
 static void test_any_other_counter_is_a_new_command(void)
 {
     for (uint8_t counter = 0; counter < 16; counter++)
-        TEST_ASSERT_EQUAL(HAL_COMMAND, read(plain_command(OPCODE_ERASE, counter)));
-    TEST_ASSERT_EQUAL(HAL_COMMAND, read(plain_command(OPCODE_ERASE, 3)));
+        TEST_ASSERT_EQUAL(INPUT_COMMAND, read(plain_command(OPCODE_ERASE, counter)));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(plain_command(OPCODE_ERASE, 3)));
 }
 
 static void test_a_damaged_command_does_not_use_up_its_counter(void)
@@ -368,7 +368,7 @@ static void test_a_damaged_command_does_not_use_up_its_counter(void)
     damaged.data[7] ^= 1;
     refuse(damaged);
     expect(FAULT_DAMAGED, 1);
-    TEST_ASSERT_EQUAL(HAL_COMMAND, read(plain_command(OPCODE_ERASE, 7)));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(plain_command(OPCODE_ERASE, 7)));
 }
 
 static void test_every_counter_stays_at_255(void)

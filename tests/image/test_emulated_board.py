@@ -4,6 +4,7 @@ import time
 from itertools import pairwise
 
 import pytest
+from host_sim.emulator.tick_cost import count_ticks
 
 from host_sim.emulator.bxcan import CanFaults
 from host_sim.emulator.can_frame import CanFrame
@@ -11,7 +12,6 @@ from host_sim.emulator.clock import SECOND
 from host_sim.emulator.flash import FlashFaults
 from host_sim.emulator.hardware import Faults
 from host_sim.emulator.rcc import RccFaults
-from host_sim.emulator.tick_cost import count_ticks
 from tests.image.support import BOARDS, LEARN_LEFT, Talk, counted, is_rest, talk_to
 
 WORST_TICK = 3000

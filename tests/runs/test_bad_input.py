@@ -3,6 +3,7 @@
 import os
 import shutil
 import subprocess
+import sys
 
 import pytest
 
@@ -132,12 +133,14 @@ def test_a_log_of_another_protocol_is_refused(run, tmp_path):
     assert "another octet.dbc" in replayed.stderr
 
 
-def test_a_robot_built_from_another_dbc_is_refused(tmp_path):
-    """A simulator of its own, whose octet.dbc differs by a line, with the robot that is here."""
+def test_a_robot_with_another_layout_of_messages_is_refused(tmp_path):
+    """A simulator of its own, in whose octet.dbc two signals have changed places, with the robot that is here."""
     shutil.copytree(ROOT / "host_sim", tmp_path / "host_sim")
-    dbc = tmp_path / "hal/protocol/octet.dbc"
+    dbc, python = tmp_path / "hal/protocol/octet.dbc", tmp_path / "host_sim/protocol/generated.py"
     dbc.parent.mkdir(parents=True)
-    dbc.write_bytes((ROOT / "hal/protocol/octet.dbc").read_bytes() + b"\n")
+    text = (ROOT / "hal/protocol/octet.dbc").read_text()
+    dbc.write_text(text.replace("bump : 25|", "bump : 26|").replace("look : 26|", "look : 25|"))
+    subprocess.run([sys.executable, ROOT / "tools/generate", "--dbc", dbc, "--python", python], check=True)
     (tmp_path / "build").symlink_to(ROOT / "build")
 
     done = octet("run", "--bus", "fd", "--out", tmp_path / "out", cwd=tmp_path)

@@ -10,11 +10,13 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# Notes each call; `python3 -m venv` makes a .venv whose python does the same, and cmake makes its build folder.
+# Notes each call; `python3 -m venv` makes a .venv whose python does the same, and cmake and tools/generate make what
+# they are to make.
 STAND_IN = """#!/bin/bash
 [ "$*" = --version ] || echo "${0##*/} $*" >>"$CALLS"
 case "${0##*/} $*" in
   "python3 -m venv"*) mkdir -p .venv/bin && cp "$0" .venv/bin/python ;;
+  "python tools/generate"*) touch "$3" "$5" ;;
   cmake*) mkdir -p build/host ;;
   *install*--require-hashes*) [ ! -e "$CALLS.break" ] ;;
 esac
@@ -32,6 +34,16 @@ class Tree:
         shutil.copy(ROOT / "tools/setup", self.folder / "tools")
         for name in ("requirements.lock", "pyproject.toml", "CMakePresets.json"):
             shutil.copy(ROOT / name, self.folder)
+        for name in (
+            "hal/protocol/octet.dbc",
+            "hal/protocol/robot.toml",
+            "tools/generate",
+            "tools/robot_words/model.py",
+        ):
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / name, self.folder / name)
+        for name in ("host_sim/protocol", "host_sim/web"):
+            (self.folder / name).mkdir(parents=True)
         self.bin.mkdir()
         for name in ("python3", "cmake", "ninja"):
             (self.bin / name).write_text(STAND_IN)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = ("pattern", "memory", "random", "config", "brain", "motion", "robot", "commands")
+_PYTHON = ROOT / ".venv" / "bin" / "python"
 _COMMON = ("-std=c99", "-ffreestanding", "-Os", "-ffunction-sections", "-fdata-sections", "-Wall", "-Werror")
 _ENTRIES = ("robot_init", "robot_respond", "memory_adopt")
 _STATE = '#include "firmware/robot.h"\nstruct robot the_robot;\n'
@@ -54,11 +54,19 @@ def _run(*command: str | Path) -> str:
 
 def _linked(processor: Processor, folder: Path, *libraries: str) -> dict[str, int]:
     """Sizes of the core's sections by name. What no library brings stays open: a body has it anyway."""
-    sources = [ROOT / "firmware" / f"{name}.c" for name in SOURCES]
+    sources = [path for path in sorted((ROOT / "firmware").rglob("*.c")) if path.name != "main.c"]
     program = folder / f"{processor.name}.elf"
     links = ("-nostdlib", "-Wl,--gc-sections", "-Wl,--unresolved-symbols=ignore-all", f"-Wl,--entry={_ENTRIES[0]}")
     entries = [f"-Wl,--undefined={name}" for name in (*_ENTRIES, "the_robot")]
-    compiler: tuple[str | Path, ...] = (f"{processor.prefix}gcc", *processor.flags, *_COMMON, "-I", ROOT)
+    compiler: tuple[str | Path, ...] = (
+        f"{processor.prefix}gcc",
+        *processor.flags,
+        *_COMMON,
+        "-I",
+        ROOT,
+        "-I",
+        folder,
+    )
     _run(*compiler, *links, *entries, *sources, folder / "state.c", *libraries, "-o", program)
     lines = _run(f"{processor.prefix}size", "-A", program).splitlines()
     rows = (line.split() for line in lines if line.startswith("."))
@@ -81,6 +89,7 @@ def measure(processor: Processor, folder: Path) -> CoreSize:
         FileNotFoundError: The compiler is not installed.
     """
     (folder / "state.c").write_text(_STATE)
+    _run(_PYTHON, ROOT / "tools" / "generate", "--c", folder / "robot_words.h")
     alone, whole = _linked(processor, folder), _linked(processor, folder, "-lgcc")
     state = sum(size for name, size in alone.items() if name in (".bss", ".sbss"))
     return CoreSize(_flash(alone), _flash(whole) - _flash(alone), state)

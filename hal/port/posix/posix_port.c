@@ -30,8 +30,8 @@ static int parse_node(const char *text, uint8_t *node)
 
     errno = 0;
     number = strtol(text, &end, 10);
-    if (errno != 0 || end == text || *end != '\0' || number < 1 || number > WIRE_NODE_MAX) {
-        fprintf(stderr, "octet-robot: --node is 1..%d, not %s\n", WIRE_NODE_MAX, text);
+    if (errno != 0 || end == text || *end != '\0' || number < 1 || number > NODE_MAX) {
+        fprintf(stderr, "octet-robot: --node is 1..%d, not %s\n", NODE_MAX, text);
         return HAL_E_USAGE;
     }
     *node = (uint8_t)number;

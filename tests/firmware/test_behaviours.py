@@ -1,21 +1,24 @@
-"""The C brain decides as the article's listing does: a million times at random, and in every case there is.
+"""Each behaviour decides as its oracle does: a million times at random, and in every case there is.
 
+The oracle of the profile NAME is `Oracle` in `oracles/NAME.py`.
 Where a case has a random outcome, the brain is given a generator state that yields it.
 """
 
+import importlib
 import itertools
 import random
 import subprocess
 from collections import Counter
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
-from tests.firmware.listing import Action, Listing
-from tests.firmware.octet_c import ROOT, library_path, load
+from host_sim.protocol.generated import PROFILES
+from tests.firmware.octet_c import GENERATED, ROOT, library_path, load
+from tests.firmware.oracles.listing import Action, Listing
 
 FFI, C = load()
 
@@ -33,10 +36,19 @@ class Reading(NamedTuple):
     beacon_mm: int = 0
 
 
-def article_config():
+def default_config():
     config = FFI.new("struct config *")
-    assert C.config_load(config, C.PROFILE_ARTICLE)
+    C.config_reset(config)
     return config
+
+
+def oracle_of(profile: str) -> type[Listing]:
+    return importlib.import_module(f"tests.firmware.oracles.{profile}").Oracle
+
+
+@pytest.fixture(params=PROFILES)
+def profile(request: pytest.FixtureRequest) -> str:
+    return request.param
 
 
 class SensingRobot:
@@ -81,19 +93,20 @@ def random_reading(dice: random.Random) -> Reading:
     return Reading(dice.randrange(32), dice.random() < 0.5, beacon_mm)
 
 
-def test_a_million_random_decisions_are_those_of_the_listing():
+def decide_side_by_side(profile: str, oracle: type[Listing], decisions: int) -> Counter[str]:
+    """Lets the C and an oracle decide by the same readings and draws; returns how often each action was seen."""
     dice, seen = random.Random(1), Counter()
-    brain, config, senses = FFI.new("struct brain *"), article_config(), FFI.new("struct senses *")
+    brain, config, senses = FFI.new("struct brain *"), default_config(), FFI.new("struct senses *")
     cells, robot = FFI.buffer(brain.memory.cell), SensingRobot()
     names = {getattr(C, name): name for name in dir(C) if name.startswith("REASON_")}
-    for i in range(DECISIONS):
+    for i in range(decisions):
         if i % 40 == 0:
-            # Given a brain and the listing with the same memory, repeat count and generator
-            C.brain_start(brain, i)
+            # Given a brain and the oracle with the same memory, repeat count and generator
+            assert C.brain_start(brain, PROFILES[profile], i)
             cells[1:] = bytes(dice.choices(range(3), k=7))
             brain.repeat_count = dice.choice([0, 8, dice.randrange(256)])
             robot.dice.state = brain.random.state
-            listing = Listing(robot, bytearray(cells), brain.repeat_count)
+            listing = oracle(robot, bytearray(cells), brain.repeat_count)
             search = listing.search()
         # When both sense the same
         robot.reading = random_reading(dice)
@@ -105,21 +118,45 @@ def test_a_million_random_decisions_are_those_of_the_listing():
         assert cells[:] == listing.mem
         assert brain.repeat_count == repeat_count_during(expected, listing)
         seen[expected.why] += 1
-    # And the million held enough of everything
-    assert set(seen) == {"WANDER", "TOWARD_FOOD", "LOOK_AROUND", "REMEMBERED", "TRIAL", "BOREDOM", "EAT"}
+    return seen
+
+
+def test_a_million_random_decisions_are_those_of_the_oracle(profile):
+    seen = decide_side_by_side(profile, oracle_of(profile), DECISIONS)
+    # And the million held enough of everything that it does
+    assert {"WANDER", "TOWARD_FOOD", "LOOK_AROUND", "TRIAL", "EAT"} <= set(seen)
     assert min(seen.values()) > 1000, seen
 
 
-# Every case there is. The listing is asked once for each case that it can tell apart: its memory holds only the cells
+@pytest.mark.parametrize(("profile", "other"), list(itertools.permutations(PROFILES, 2)))
+def test_the_oracle_of_another_behaviour_is_found_to_differ(profile, other):
+    with pytest.raises(AssertionError):
+        decide_side_by_side(profile, oracle_of(other), DECISIONS)
+
+
+def test_a_run_begins_with_the_memory_that_the_oracle_says(profile):
+    brain = FFI.new("struct brain *")
+    for before in MEMORIES:
+        FFI.buffer(brain.memory.cell)[:] = bytes(before)
+        brain.changed = False
+        assert C.brain_start(brain, PROFILES[profile], 1)
+        assert FFI.buffer(brain.memory.cell)[:] == oracle_of(profile).begin(bytes(before))
+        assert brain.changed or FFI.buffer(brain.memory.cell)[:] == bytes(before)
+
+
+# Every case there is. The oracle is asked once for each case that it can tell apart: its memory holds only the cells
 # that it reads, and any other index is a KeyError. The brain is asked with every whole memory.
 
+REMEMBERING = [profile for profile in PROFILES if oracle_of(profile)(SensingRobot(), {1: C.SIDE_LEFT}).recall(1)]
+"""Profiles that make use of their memory."""
 
-def listing_says(
-    readings: list[Reading], mem: dict[int, int], repeat_count: int, draws: tuple[int, ...]
+
+def oracle_says(
+    oracle: type[Listing], readings: list[Reading], mem: dict[int, int], repeat_count: int, draws: tuple[int, ...]
 ) -> tuple[Action, int]:
     """The last action of some readings in a row, and the brain's repeat count during it."""
     robot = ScriptedRobot(draws)
-    listing = Listing(robot, mem, repeat_count)
+    listing = oracle(robot, mem, repeat_count)
     search = listing.search()
     for robot.reading in readings:
         action = next(search)
@@ -159,11 +196,12 @@ BRAIN, ACTION = layout("struct brain"), layout("struct action")
 
 
 class Brains:
-    """Many brains, all asked at once."""
+    """Many brains of one profile, all asked at once."""
 
-    def __init__(self, ask, memories: np.ndarray, repeat_counts: np.ndarray | int) -> None:
-        self._ask, self._config = ask, article_config()
+    def __init__(self, ask, profile: str, memories: np.ndarray, repeat_counts: np.ndarray | int) -> None:
+        self._ask, self._config = ask, default_config()
         self.now = np.zeros(np.broadcast_shapes(memories.shape[:-1], np.shape(repeat_counts)), BRAIN)
+        self.now["profile"] = PROFILES[profile]
         self.now["memory"], self.now["repeat_count"] = memories, repeat_counts
 
     def decide(self, reading: Reading, choices: tuple[int, ...] = (2,), draws: tuple[int, ...] = (0,)) -> np.ndarray:
@@ -187,14 +225,16 @@ def brains(tmp_path_factory: pytest.TempPathFactory):
     library, batch = library_path(), tmp_path_factory.mktemp("batch") / "batch.so"
     source = Path(__file__).with_name("batch.c")
     link = [library, f"-Wl,-rpath,{library.parent}"]
-    subprocess.run(["gcc", "-O2", "-shared", "-fPIC", "-I", ROOT, "-o", batch, source, *link], check=True)
+    subprocess.run(
+        ["gcc", "-O2", "-shared", "-fPIC", "-I", ROOT, "-I", GENERATED, "-o", batch, source, *link], check=True
+    )
     FFI.cdef("void brain_next_each(struct action *, struct brain *, struct config *, struct senses *, size_t);")
     ask = FFI.dlopen(str(batch)).brain_next_each
-    return lambda memories, repeat_counts: Brains(ask, memories, repeat_counts)
+    return partial(Brains, ask)
 
 
 def table(cases: list[tuple[Action, int]], shape: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Actions and repeat counts of the listing as arrays of a shape."""
+    """Actions and repeat counts of the oracle as arrays of a shape."""
     actions = np.zeros(len(cases), ACTION)
     actions["reason"] = [getattr(C, "REASON_" + action.why) for action, _ in cases]
     actions["turn_deg"] = [action.turn_deg for action, _ in cases]
@@ -203,15 +243,16 @@ def table(cases: list[tuple[Action, int]], shape: tuple[int, ...]) -> tuple[np.n
 
 
 @pytest.mark.parametrize("pattern", PATTERNS)
-def test_every_first_action_is_that_of_the_listing(brains, pattern):
+def test_every_first_action_is_that_of_the_oracle(brains, profile, pattern):
+    oracle = oracle_of(profile)
     for draw in range(2):
         # Given every memory with every repeat count
-        asked = brains(MEMORIES[:, None], np.array(REPEAT_COUNTS))
+        asked = brains(profile, MEMORIES[:, None], np.array(REPEAT_COUNTS))
         reading = Reading(pattern << 1)
         # When the pattern is read
         actions = asked.decide(reading, (2,), (draw,))
-        # Then the action is the listing's for the pattern's cell, and no cell has changed
-        cases = [listing_says([reading], {pattern: c}, n, (draw,)) for c in range(3) for n in REPEAT_COUNTS]
+        # Then the action is the oracle's for the pattern's cell, and no cell has changed
+        cases = [oracle_says(oracle, [reading], {pattern: c}, n, (draw,)) for c in range(3) for n in REPEAT_COUNTS]
         expected, counts = table(cases, (3, 256))
         cell = MEMORIES[:, pattern]
         assert (actions == expected[cell]).all()
@@ -221,67 +262,72 @@ def test_every_first_action_is_that_of_the_listing(brains, pattern):
 
 # After a step the repeat count is 0 whatever it was: the first actions, above, have shown that.
 @pytest.mark.parametrize("draws", list(itertools.product(range(2), range(10))))
-def test_every_look_around_is_that_of_the_listing(brains, draws):
+def test_every_look_around_is_that_of_the_oracle(brains, profile, draws):
+    oracle = oracle_of(profile)
     for pattern in PATTERNS:
         readings = [Reading(0), Reading(pattern << 1)]
-        asked = brains(MEMORIES, 7)
+        asked = brains(profile, MEMORIES, 7)
         asked.decide(readings[0])
         actions = asked.decide(readings[1], (2, 10), draws)
-        expected, counts = table([listing_says(readings, {}, 7, draws)], (1,))
+        expected, counts = table([oracle_says(oracle, readings, {}, 7, draws)], (1,))
         assert (actions == expected).all()
         assert (asked.now["repeat_count"] == counts).all()
         assert (asked.now["memory"] == MEMORIES).all()
 
 
 @pytest.mark.parametrize("beacon_mm", [0, 1, 149, 150, 151, 8191])
-def test_every_sight_of_food_after_a_step_is_as_in_the_listing(brains, beacon_mm):
+def test_every_sight_of_food_after_a_step_is_as_by_the_oracle(brains, profile, beacon_mm):
+    oracle = oracle_of(profile)
     for pattern, draw in itertools.product(PATTERNS, range(2)):
         readings = [Reading(0, True, 8191), Reading(pattern << 1, True, beacon_mm)]
-        asked = brains(MEMORIES, 7)
+        asked = brains(profile, MEMORIES, 7)
         asked.decide(readings[0])
         actions = asked.decide(readings[1], (2,), (draw,))
-        expected, counts = table([listing_says(readings, {pattern: c}, 7, (draw,)) for c in range(3)], (3,))
+        expected, counts = table([oracle_says(oracle, readings, {pattern: c}, 7, (draw,)) for c in range(3)], (3,))
         cell = MEMORIES[:, pattern]
         assert (actions == expected[cell]).all()
         assert (asked.now["repeat_count"] == counts[cell]).all()
 
 
+@pytest.mark.parametrize("profile", REMEMBERING)
 @pytest.mark.parametrize("pattern", PATTERNS[1:])
-def test_every_boredom_is_that_of_the_listing(brains, pattern):
+def test_every_boredom_is_that_of_the_oracle(brains, profile, pattern):
+    oracle = oracle_of(profile)
     memories = MEMORIES[MEMORIES[:, pattern] != 0]
-    bored = brains(memories, 9)
+    bored = brains(profile, memories, 9)
     bored.decide(Reading(pattern << 1))
     before = bored.now.copy()
     for draw, later in itertools.product(range(60), PATTERNS):
         readings = [Reading(pattern << 1), Reading(later << 1)]
         bored.now = before.copy()
         actions = bored.decide(readings[1], (60,), (draw,))
-        expected, counts = table([listing_says(readings, {pattern: C.SIDE_LEFT}, 9, (draw,))], (1,))
+        expected, counts = table([oracle_says(oracle, readings, {pattern: C.SIDE_LEFT}, 9, (draw,))], (1,))
         assert (actions == expected).all()
         assert (bored.now["repeat_count"] == counts).all()
         assert (bored.now["memory"] == memories).all()
 
 
-def judged(old: int, new: int, draws: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, int]:
-    """The listing's action after a trial, its repeat count, and what the old pattern's cell then holds.
+def judged(oracle: type[Listing], old: int, new: int, draws: tuple[int, int]) -> tuple[np.ndarray, np.ndarray, int]:
+    """The oracle's action after a trial, its repeat count, and what the old pattern's cell then holds.
 
     The first two are indexed by the new pattern's cell before the trial, and by the repeat count.
     """
     cases, lessons = [], set()
     for cell, count in itertools.product(range(3), REPEAT_COUNTS):
         mem = {new: cell, old: 0}
-        cases.append(listing_says([Reading(old << 1), Reading(new << 1)], mem, count, draws))
+        cases.append(oracle_says(oracle, [Reading(old << 1), Reading(new << 1)], mem, count, draws))
         lessons.add(mem[old])
     (lesson,) = lessons
     return *table(cases, (3, 256)), lesson
 
 
 @pytest.mark.parametrize("old", PATTERNS[1:])
-def test_every_trial_is_judged_as_in_the_listing(brains, old):
+def test_every_trial_is_judged_as_by_the_oracle(brains, profile, old):
+    oracle = oracle_of(profile)
     # Given every memory that does not know the old pattern, with every repeat count, after a trial to either side
     memories = MEMORIES[MEMORIES[:, old] == 0]
     for side in range(2):
-        tried = brains(memories[:, None], np.array(REPEAT_COUNTS))
+        tried = brains(profile, memories[:, None], np.array(REPEAT_COUNTS))
         tried.decide(Reading(old << 1), (2,), (side,))
         before = tried.now.copy()
         for new, draw in itertools.product(PATTERNS, range(2)):
@@ -289,7 +335,7 @@ def test_every_trial_is_judged_as_in_the_listing(brains, old):
             tried.now = before.copy()
             actions = tried.decide(Reading(new << 1), (2,), (draw,))
             # Then the same lesson is learned, and the same reading decides the next action
-            expected, counts, lesson = judged(old, new, (side, draw))
+            expected, counts, lesson = judged(oracle, old, new, (side, draw))
             cell, known = memories[:, new], memories.copy()
             known[:, old] = lesson
             assert (actions == expected[cell]).all()

@@ -1,7 +1,7 @@
-"""The article's Figure 4 in Python, each line beside the listing's own: the oracle that the C brain is held against.
+"""The article's Figure 4 in Python, each line beside the listing's own: the oracles of the behaviours start from it.
 
 Where the listing moves the robot, `Listing.search` yields the action and goes on when it has ended. Where the listing
-asks the robot, it asks a `Robot`. Lengths are those of behaviour.md: a screen pixel is 5 mm.
+asks the robot, it asks a `Robot`. The listing's lengths are pixels of its screen; a pixel is 5 mm here.
 """
 
 from collections.abc import Iterator, MutableMapping
@@ -46,9 +46,22 @@ class Listing:
     def __init__(self, robot: Robot, mem: MutableMapping[int, int] | bytearray, repeat_count: int = 0) -> None:
         self.robot, self.mem, self.repeat_count = robot, mem, repeat_count
 
+    @staticmethod
+    def begin(cells: bytes) -> bytes:
+        """The memory with which a run begins, from what it was before."""
+        return cells
+
+    def recall(self, pattern: int) -> int:
+        """What is known for a pattern."""
+        return self.mem[pattern]
+
+    def learn(self, pattern: int, side: int) -> None:
+        """Takes a lesson."""
+        self.mem[pattern] = side
+
     def search(self) -> Iterator[Action]:  # noqa: C901, PLR0912  # as long as the listing
         """Search, for ever: the food never runs out."""
-        robot, mem = self.robot, self.mem
+        robot, mem = self.robot, self.recall
         while True:  # while FoodCnt
             senses = (robot.feel() >> 1) & 7  # Senses = (rFeel()>>1)&7
             if senses == 0:  # if Senses=0
@@ -61,10 +74,10 @@ class Listing:
                     yield Action("LOOK_AROUND", 2 + robot.random(10))  # rTurn 2 +random(10)
                 else:  # else
                     yield Action("LOOK_AROUND", -(2 + robot.random(10)))  # rTurn -(2+random(10))
-            elif mem[senses]:  # else: if Mem[Senses]
-                if mem[senses] == TURN_LEFT:  # if Mem[Senses] = TurnLeft
+            elif mem(senses):  # else: if Mem[Senses]
+                if mem(senses) == TURN_LEFT:  # if Mem[Senses] = TurnLeft
                     yield Action("REMEMBERED", -DEG)  # then rTurn -Deg
-                elif mem[senses] == TURN_RIGHT:  # if Mem[Senses] = TurnRight
+                elif mem(senses) == TURN_RIGHT:  # if Mem[Senses] = TurnRight
                     yield Action("REMEMBERED", DEG)  # then rTurn Deg
                 self.repeat_count += 1  # RepeatCount++
                 if self.repeat_count == 10:  # if RepeatCount=10
@@ -80,4 +93,4 @@ class Listing:
                 senses = (robot.feel() >> 1) & 7  # Senses = (rFeel()>>1)&7
                 new_cnt = count_sensors(senses)  # call CountSensors(Senses,NewCnt)
                 if new_cnt < cnt:  # if NewCnt<Cnt
-                    mem[old_senses] = r  # then Mem[OldSenses]=r
+                    self.learn(old_senses, r)  # then Mem[OldSenses]=r

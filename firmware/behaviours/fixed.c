@@ -1,0 +1,18 @@
+/* fixed: the article's "simple coding solution": every front pattern has its programmed turn. */
+#include "firmware/behaviours/behaviour.h"
+#include "firmware/behaviours/listing.h"
+
+bool fixed_begin(struct brain *brain)
+{
+    static const uint8_t programmed[CELL_COUNT] = {
+        SIDE_NOTHING, SIDE_LEFT, SIDE_LEFT, SIDE_LEFT, SIDE_RIGHT, SIDE_LEFT, SIDE_RIGHT, SIDE_LEFT,
+    };
+
+    brain->changed = memory_adopt(&brain->memory, programmed);
+    return false;
+}
+
+struct action fixed_next(struct brain *brain, const struct config *config, const struct senses *senses)
+{
+    return listing_next(brain, config, senses, &brain->memory);
+}

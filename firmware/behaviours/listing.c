@@ -1,0 +1,90 @@
+#include "firmware/behaviours/listing.h"
+
+#include "firmware/pattern.h"
+
+static struct action turn(enum reason reason, enum side side, unsigned degrees)
+{
+    int sign = side == SIDE_RIGHT ? 1 : -1;
+
+    return (struct action){.reason = reason, .turn_deg = (int16_t)(sign * (int)degrees)};
+}
+
+static struct action step_forward(struct brain *brain, const struct config *config, const struct senses *senses)
+{
+    brain->repeat_count = 0;
+    brain->awaits = AWAITS_LOOK;
+    return (struct action){
+        .reason = senses->look ? REASON_TOWARD_FOOD : REASON_WANDER,
+        .forward_mm = config->value[STEP_MM],
+    };
+}
+
+static struct action look_around(struct brain *brain, const struct config *config)
+{
+    enum side side = random_below(&brain->random, 2) ? SIDE_RIGHT : SIDE_LEFT;
+    unsigned more = random_below(&brain->random, config->value[LOOK_CHOICES]);
+
+    return turn(REASON_LOOK_AROUND, side, config->value[LOOK_MIN_DEG] + more);
+}
+
+static struct action turn_about(struct brain *brain, const struct config *config)
+{
+    unsigned more = random_below(&brain->random, config->value[BOREDOM_CHOICES]);
+
+    return turn(REASON_BOREDOM, SIDE_RIGHT, config->value[BOREDOM_MIN_DEG] + more);
+}
+
+static struct action turn_as_learned(struct brain *brain, const struct config *config, enum side side)
+{
+    if (brain->repeat_count < UINT8_MAX)
+        brain->repeat_count++;
+    if (brain->repeat_count == config->value[BOREDOM_LIMIT])
+        brain->awaits = AWAITS_BOREDOM;
+    return turn(REASON_REMEMBERED, side, config->value[TURN_DEG]);
+}
+
+static struct action try_a_turn(struct brain *brain, const struct config *config, uint8_t pattern)
+{
+    enum side side = random_below(&brain->random, 2) + 1 == SIDE_LEFT ? SIDE_LEFT : SIDE_RIGHT;
+
+    brain->tried_pattern = pattern;
+    brain->tried_side = (uint8_t)side;
+    brain->awaits = AWAITS_VERDICT;
+    return turn(REASON_TRIAL, side, config->value[TRIAL_DEG]);
+}
+
+/* The top of the listing's loop. */
+static struct action decide(struct brain *brain, const struct config *config, const struct senses *senses,
+                            const struct memory *known)
+{
+    uint8_t pattern = pattern_of(senses->feel);
+    enum side side = memory_recall(known, pattern);
+
+    if (pattern == 0)
+        return step_forward(brain, config, senses);
+    if (side == SIDE_NOTHING)
+        return try_a_turn(brain, config, pattern);
+    return turn_as_learned(brain, config, side);
+}
+
+/* Fewer sensors triggered than before the turn: that is all the robot knows of good and bad. */
+bool listing_trial_helped(const struct brain *brain, const struct senses *senses)
+{
+    return brain->awaits == AWAITS_VERDICT
+        && pattern_count(pattern_of(senses->feel)) < pattern_count(brain->tried_pattern);
+}
+
+struct action listing_next(struct brain *brain, const struct config *config, const struct senses *senses,
+                           const struct memory *known)
+{
+    uint8_t awaited = brain->awaits;
+
+    brain->awaits = AWAITS_NOTHING;
+    if (awaited == AWAITS_BOREDOM)
+        return turn_about(brain, config);
+    if (awaited == AWAITS_LOOK && !senses->look)
+        return look_around(brain, config);
+    if (awaited == AWAITS_LOOK && senses->beacon_mm < config->value[REACH_MM])
+        return (struct action){.reason = REASON_EAT};
+    return decide(brain, config, senses, known);
+}

@@ -1,0 +1,62 @@
+/* io.h: what goes into the robot and what comes out of it, tick by tick. */
+#ifndef OCTET_IO_H
+#define OCTET_IO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "robot_words.h"
+
+/* What the body senses at one control tick. */
+struct senses {
+    uint16_t tick;            /* 0..TICK_SPAN-1, wraps */
+    uint8_t feel;             /* proximity, the sum of the FEEL_ bits */
+    bool bump;                /* the body touches an obstacle */
+    bool look;                /* food is seen straight ahead */
+    uint16_t beacon_mm;       /* distance from the middle of the body to that food; 0: none seen */
+    uint16_t odometer_left;   /* 0.1 mm, forward counts up, wraps at ODOMETER_SPAN */
+    uint16_t odometer_right;
+};
+
+/* What the wheels are to do until the next tick. */
+struct drive {
+    uint16_t tick;            /* of the senses that this answers */
+    int16_t left_mm_s;        /* -2047..2047, forward positive */
+    int16_t right_mm_s;
+    enum reason reason;
+    uint8_t repeat_count;     /* remembered turns since the way was last clear; stays at 255 */
+    uint8_t action;           /* one more for each new action, 0..ACTION_SPAN-1, wraps */
+    bool eat;
+};
+
+struct command {
+    enum opcode opcode;   /* other values arrive too; the robot refuses them */
+    uint8_t which;        /* start: profile. set: parameter. write: mask of cells. freeze: 1 or 0 */
+    uint32_t value;       /* start: seed. set: value. write: two bits a cell, cell p at bit 2p */
+};
+
+enum input_kind { INPUT_SILENCE = 0, INPUT_SENSES = 1, INPUT_COMMAND = 2 };
+
+struct input {
+    struct senses senses;     /* filled with INPUT_SENSES */
+    struct command command;   /* filled with INPUT_COMMAND */
+};
+
+/* How the robot is, once a second. */
+struct report {
+    bool running, frozen;
+    uint8_t profile;
+    uint16_t uptime_s;   /* robot time: counted in ticks, wraps */
+};
+
+/* What one tick or one command calls for: the parts that a flag marks. */
+struct output {
+    bool has_answer, has_report, has_memory, has_drive;   /* to be sent */
+    bool store;                                           /* the memory has changed, and is to be stored */
+    enum result answer;
+    struct report report;
+    uint8_t memory[CELL_COUNT];
+    struct drive drive;
+};
+
+#endif

@@ -1,0 +1,73 @@
+#include "firmware/brain.h"
+
+#include <unity.h>
+
+enum { ALL_THREE = 7, MANY = 100 };
+
+static const uint8_t REMEMBERED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 1};
+
+static struct brain brain;
+static struct config config;
+
+/* A robot that knows something from before. */
+void setUp(void)
+{
+    brain = (struct brain){.frozen = false};
+    config_reset(&config);
+    TEST_ASSERT_TRUE(memory_adopt(&brain.memory, REMEMBERED));
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_NEVER, 1));
+}
+
+void tearDown(void) {}
+
+static struct action next(uint8_t pattern)
+{
+    const struct senses senses = {.feel = (uint8_t)(pattern << 1)};
+
+    return brain_next(&brain, &config, &senses);
+}
+
+static void test_every_blockage_is_a_trial(void)
+{
+    for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
+        struct action action = next(pattern);
+
+        TEST_ASSERT_EQUAL(REASON_TRIAL, action.reason);
+        TEST_ASSERT_TRUE(action.turn_deg == -45 || action.turn_deg == 45);
+    }
+}
+
+static void test_a_trial_that_helps_teaches_nothing(void)
+{
+    for (unsigned i = 0; i < MANY; i++) {
+        next(ALL_THREE);
+        next(0);
+        next(0);   /* looks around */
+    }
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(REMEMBERED, brain.memory.cell, CELL_COUNT);
+    TEST_ASSERT_FALSE(brain.changed);
+}
+
+static void test_it_is_never_bored(void)
+{
+    for (unsigned i = 0; i < MANY; i++)
+        TEST_ASSERT_EQUAL(REASON_TRIAL, next(ALL_THREE).reason);
+    TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
+}
+
+static void test_it_leaves_the_memory_as_it_is(void)
+{
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(REMEMBERED, brain.memory.cell, CELL_COUNT);
+    TEST_ASSERT_FALSE(brain.changed);
+    TEST_ASSERT_FALSE(brain.learns);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_every_blockage_is_a_trial);
+    RUN_TEST(test_a_trial_that_helps_teaches_nothing);
+    RUN_TEST(test_it_is_never_bored);
+    RUN_TEST(test_it_leaves_the_memory_as_it_is);
+    return UNITY_END();
+}

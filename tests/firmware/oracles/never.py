@@ -1,0 +1,15 @@
+"""The profile `never`: each blockage is a trial."""
+
+from tests.firmware.oracles.listing import Listing
+
+
+class Oracle(Listing):
+    """It has a memory and makes no use of it."""
+
+    def recall(self, pattern: int) -> int:
+        """Nothing."""
+        del pattern
+        return 0
+
+    def learn(self, pattern: int, side: int) -> None:
+        """Nothing."""

@@ -1,0 +1,185 @@
+"""tools/generate: the hash is one of the messages' layout, and what does not fit together is refused."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import cantools
+import pytest
+
+from host_sim.protocol import generated
+from tools.robot_words import to_javascript, to_python
+from tools.robot_words.layout import layout_hash
+from tools.robot_words.model import DescriptionError, read
+
+ROOT = Path(__file__).resolve().parents[2]
+DBC = ROOT / "hal/protocol/octet.dbc"
+WORDS = ROOT / "hal/protocol/robot.toml"
+TEXT = DBC.read_text()
+
+
+def hash_of(text: str | bytes, folder: Path) -> int:
+    """The hash of a DBC file with this text."""
+    path = folder / "changed.dbc"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return layout_hash(cantools.database.load_file(path))
+
+
+def changed(old: str, new: str, text: str = TEXT) -> str:
+    assert old in text, old
+    return text.replace(old, new)
+
+
+def dumped(folder: Path) -> str:
+    """As the library writes it."""
+    del folder
+    return cantools.database.load_file(DBC).as_dbc_string()
+
+
+def converted(folder: Path) -> bytes:
+    """As the command line writes it."""
+    path = folder / "converted.dbc"
+    subprocess.run([Path(sys.executable).parent / "cantools", "convert", DBC, path], check=True)
+    return path.read_bytes()
+
+
+def with_messages_turned_round(folder: Path) -> str:
+    """The same messages, the last one first."""
+    del folder
+    messages = re.findall(r"^BO_ .*?\n\n", TEXT, re.MULTILINE | re.DOTALL)
+    return changed("".join(messages), "".join(reversed(messages)))
+
+
+NEW_PARAMETER = 'EV_ patience_s: 0 [0|9] "s" 1 13 DUMMY_NODE_VECTOR0 Vector__XXX;'
+
+SAME = {
+    "a mended comment": lambda _: changed('CM_ SG_ 129 reason "', 'CM_ SG_ 129 reason "In short: '),
+    "a new profile": lambda _: changed('2 "never"', '2 "never" 3 "searcher"'),
+    "another name of a choice": lambda _: changed('3 "look_around"', '3 "glance"'),
+    "another unit": lambda _: changed('"mm/s"', '"km/h"'),
+    "another range": lambda _: changed("[0|12]", "[0|99]"),
+    "a new parameter": lambda _: changed(
+        "EV_ turn_deg", 'EV_ x: 0 [0|1] "" 0 99 DUMMY_NODE_VECTOR0 Vector__XXX;\nEV_ turn_deg'
+    ),
+    "line ends of Windows": lambda _: TEXT.replace("\n", "\r\n").encode(),
+    "another order of messages": with_messages_turned_round,
+    "saved by another tool": dumped,
+    "converted by another tool": converted,
+}
+OTHER = {
+    "a moved signal": (
+        'SG_ tick : 8|12@1+ (1,0) [0|4095] "tick" SIM\n SG_ reason : 20|4@1+',
+        'SG_ tick : 12|12@1+ (1,0) [0|4095] "tick" SIM\n SG_ reason : 8|4@1+',
+    ),
+    "a resized signal": ("SG_ feel : 20|5@1+", "SG_ feel : 20|4@1+"),
+    "another sign": ("SG_ left : 24|12@1-", "SG_ left : 24|12@1+"),
+    "another byte order": ("SG_ result : 16|8@1+", "SG_ result : 23|8@0+"),
+    "another name of a signal": ("SG_ beacon :", "SG_ distance :"),
+    "another multiplexer value": ("SG_ freeze m7", "SG_ freeze m6"),
+    "another identifier": ("BO_ 577 CRASH: 6", "BO_ 641 CRASH: 6"),
+    "another length": ("BO_ 577 CRASH: 6", "BO_ 577 CRASH: 7"),
+    "a signal more": (" SG_ commit : 40", ' SG_ spare : 6|2@1+ (1,0) [0|3] "" SIM\n SG_ commit : 40'),
+    "a signal less": (' SG_ action : 57|7@1+ (1,0) [0|127] "" SIM\n', ""),
+}
+
+
+@pytest.mark.parametrize("change", SAME.values(), ids=SAME)
+def test_what_moves_no_bit_changes_no_hash(change, tmp_path):
+    assert hash_of(change(tmp_path), tmp_path) == generated.LAYOUT_HASH
+
+
+@pytest.mark.parametrize(("old", "new"), OTHER.values(), ids=OTHER)
+def test_what_moves_a_bit_changes_the_hash(old, new, tmp_path):
+    # A comment or value table of what is no longer there would not be read at all.
+    bare = re.sub(r"^(CM_|VAL_) .*\n", "", TEXT, flags=re.MULTILINE)
+    assert hash_of(bare, tmp_path) == generated.LAYOUT_HASH
+
+    assert hash_of(changed(old, new, bare), tmp_path) != generated.LAYOUT_HASH
+
+
+def test_parameters_survive_another_tool(tmp_path):
+    path = tmp_path / "converted.dbc"
+    path.write_bytes(converted(tmp_path))
+
+    assert read(path, WORDS).parameters == read(DBC, WORDS).parameters
+
+
+UNFIT = {
+    "a parameter without a description": ('12 "tick_ms" ;', '12 "tick_ms" 13 "patience_s" ;', "EV_ lines"),
+    "a description of no parameter": (' 12 "tick_ms" ;', " ;", "EV_ lines"),
+    "a parameter with another number": ('"deg" 45 1 DUMMY', '"deg" 45 13 DUMMY', "EV_ lines"),
+    "a default out of its range": ('[1|180] "deg" 45 1', '[1|180] "deg" 200 1', "trial_deg"),
+    "a range that no byte holds": ('[1|250] "mm" 12', '[1|256] "mm" 12', "step_mm"),
+    "a parameter without a comment": ('CM_ EV_ reach_mm "Food nearer than this is eaten.";', "", "reach_mm"),
+    "two lists of profiles": ('VAL_ 385 profile 0 "article"', 'VAL_ 385 profile 0 "paper"', "profile"),
+    "profiles with a gap": ('2 "never"', '3 "never"', "not 0, 1, 2"),
+    "two lists of opcodes": ('VAL_ 257 opcode 1 "stop"', 'VAL_ 257 opcode 1 "halt"', "opcode"),
+    "a cell with a range of its own": (
+        "SG_ cell_3 : 24|8@1+ (1,0) [0|2]",
+        "SG_ cell_3 : 24|8@1+ (1,0) [0|3]",
+        "cell_3",
+    ),
+    "a cell with names of its own": ('cell_5 0 "nothing" 1 "left"', 'cell_5 0 "nothing" 1 "port"', "cell_5"),
+    "a signal that is no whole number": (
+        "SG_ beacon : 27|13@1+ (1,0)",
+        "SG_ beacon : 27|13@1+ (0.5,0)",
+        "SENSES.beacon",
+    ),
+    "odometers in another unit": ('"0.1 mm"', '"inch"', "inch"),
+    "identifiers too close": ("BO_ 577 CRASH", "BO_ 520 CRASH", "63 nodes"),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "words"), UNFIT.values(), ids=UNFIT)
+def test_a_dbc_that_contradicts_itself_is_refused(old, new, words, tmp_path):
+    path = tmp_path / "unfit.dbc"
+    text = changed(old, new)
+    path.write_text(
+        re.sub(r"^(CM_ (BO_|SG_)|VAL_) 577 .*\n", "", text, flags=re.MULTILINE) if "CRASH" in old else text
+    )
+
+    with pytest.raises(DescriptionError, match=re.escape(words)):
+        read(path, WORDS)
+
+
+UNFIT_WORDS = {
+    "a pattern without a name": ('"101" = "front-left and front-right"\n', "", "[patterns]"),
+    "two patterns of one name": ('"010" = "front"', '"010" = "front-right"', "[patterns]"),
+    "a sensor too few": ('["right", "front-right"', '["front-right"', "feel names 4"),
+    "the meaning of no reason": ('trial = "blocked', 'tried = "blocked', "[reason] explains tried"),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "words"), UNFIT_WORDS.values(), ids=UNFIT_WORDS)
+def test_words_that_do_not_fit_the_dbc_are_refused(old, new, words, tmp_path):
+    path = tmp_path / "robot.toml"
+    path.write_text(changed(old, new, WORDS.read_text()))
+
+    with pytest.raises(DescriptionError, match=re.escape(words)):
+        read(DBC, path)
+
+
+def test_a_refusal_is_one_line_and_leaves_no_file(tmp_path):
+    (tmp_path / "octet.dbc").write_text(changed('2 "never"', '3 "never"'))
+    command = [sys.executable, ROOT / "tools/generate", "--dbc", tmp_path / "octet.dbc", "--c", tmp_path / "words.h"]
+
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+
+    assert (done.returncode, done.stdout) == (1, "")
+    assert done.stderr.count("\n") == 1
+    assert not (tmp_path / "words.h").exists()
+
+
+def test_what_was_generated_is_what_the_files_say_today():
+    robot = read(DBC, WORDS)
+
+    assert (ROOT / "host_sim/protocol/generated.py").read_text() == to_python.module(robot)
+    assert (ROOT / "host_sim/web/generated.js").read_text() == to_javascript.module(robot)
+
+
+def test_each_export_to_javascript_is_one_line():
+    lines = to_javascript.module(read(DBC, WORDS)).splitlines()
+
+    assert all(line.startswith(("export const ", "/*")) or line == "" for line in lines)
+    assert "export const SIDE = { NOTHING: 0, LEFT: 1, RIGHT: 2 };" in lines

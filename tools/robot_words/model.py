@@ -1,0 +1,231 @@
+"""What `octet.dbc` and `robot.toml` say together, checked: all that the generated files are made of."""
+
+import importlib
+import itertools
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import cantools
+from cantools.database.can import Database, Message
+from cantools.database.can.signal import Signal
+
+from tools.robot_words.layout import layout_hash
+
+# Python 3.10 has none of its own.
+_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+
+_BYTE_MAX = 255
+_UNITS_PER_MM = {"0.1 mm": 10, "mm": 1}
+
+
+class DescriptionError(ValueError):
+    """The two files do not fit together, or ask for what the robot cannot hold."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number that the robot is set up with; see `Description.parameters`."""
+
+    name: str
+    number: int
+    minimum: int
+    maximum: int
+    default: int
+    unit: str
+    comment: str
+
+
+@dataclass(frozen=True)
+class Description:
+    """The robot's numbers and words.
+
+    Attributes:
+        messages: As cantools reads them, by rising identifier.
+        enums: The words that firmware and simulator share, each with its number, by what they are of.
+        meanings: What a word means, for some.
+        parameters: By rising number, from 0 without a gap.
+        profiles: Names by number, from 0 without a gap.
+        patterns: Names by number.
+        feel: Names of the proximity sensors, from bit 0 on.
+        cell_max: The greatest value of each cell.
+        node_max: The last node.
+        tick_span: Ticks are numbered below it, and wrap.
+        action_span: Actions likewise.
+        odometer_span: Odometers count below it, and wrap.
+        odometer_counts_per_mm: How finely they count.
+        layout_hash: Of the messages' layout.
+        same_layout: Other hashes that stood for the same layout.
+    """
+
+    messages: Sequence[Message]
+    enums: Mapping[str, Mapping[str, int]]
+    meanings: Mapping[str, Mapping[str, str]]
+    parameters: Sequence[Parameter]
+    profiles: Sequence[str]
+    patterns: Sequence[str]
+    feel: Sequence[str]
+    cell_max: Sequence[int]
+    node_max: int
+    tick_span: int
+    action_span: int
+    odometer_span: int
+    odometer_counts_per_mm: int
+    layout_hash: int
+    same_layout: Sequence[int]
+
+
+def read(dbc: Path, words: Path) -> Description:
+    """Reads and checks both files.
+
+    Raises:
+        DescriptionError: They do not fit together.
+    """
+    database = cantools.database.load_file(dbc)
+    assert isinstance(database, Database)
+    toml: dict[str, Any] = _toml.loads(words.read_text(encoding="utf-8"))
+    for message in database.messages:
+        _check_message(message)
+    signal = partial(_signal, database)
+    enums = {
+        "reason": _choices(signal("DRIVE.reason")),
+        "opcode": _same_choices(signal("COMMAND.opcode"), signal("ANSWER.opcode")),
+        "result": _choices(signal("ANSWER.result")),
+        "side": _choices(signal("MEMORY.cell_1")),
+    }
+    meanings = {name: toml.get(name, {}) for name in enums}
+    _check_meanings(enums, meanings)
+    hashed = layout_hash(database)
+    return Description(
+        messages=sorted(database.messages, key=lambda message: message.frame_id),
+        enums=enums,
+        meanings=meanings,
+        parameters=_parameters(database, _choices(signal("COMMAND.parameter"))),
+        profiles=_listed(_same_choices(signal("COMMAND.profile"), signal("HEARTBEAT.profile")), "profile"),
+        patterns=_patterns(toml["patterns"]),
+        feel=_feel(toml["feel"], signal("SENSES.feel")),
+        cell_max=_cell_max(database.get_message_by_name("MEMORY"), enums["side"]),
+        node_max=_node_max(toml["node_max"], database),
+        tick_span=1 << signal("SENSES.tick").length,
+        action_span=1 << signal("DRIVE.action").length,
+        odometer_span=1 << signal("SENSES.odometer_left").length,
+        odometer_counts_per_mm=_counts_per_mm(signal("SENSES.odometer_left"), signal("SENSES.odometer_right")),
+        layout_hash=hashed,
+        same_layout=[int(text, 16) for text in toml.get("same_layout", {}).get(f"{hashed:04X}", [])],
+    )
+
+
+def _signal(database: Database, path: str) -> Signal:
+    """The signal of a path such as DRIVE.reason."""
+    message, _, name = path.partition(".")
+    try:
+        return database.get_message_by_name(message).get_signal_by_name(name)
+    except KeyError as missing:
+        raise DescriptionError(f"there is no {path}") from missing
+
+
+def _check_message(message: Message) -> None:
+    """The codecs know little-endian whole numbers only."""
+    for signal in message.signals:
+        if signal.byte_order != "little_endian" or (signal.scale, signal.offset, signal.is_float) != (1, 0, False):
+            raise DescriptionError(f"{message.name}.{signal.name} is not a little-endian whole number as it is")
+
+
+def _choices(signal: Signal) -> dict[str, int]:
+    return {str(choice): number for number, choice in sorted((signal.choices or {}).items())}
+
+
+def _same_choices(one: Signal, other: Signal) -> dict[str, int]:
+    choices = _choices(one)
+    if choices != _choices(other):
+        raise DescriptionError(f"the two signals {one.name} have different names: {choices} and {_choices(other)}")
+    return choices
+
+
+def _listed(choices: Mapping[str, int], what: str) -> list[str]:
+    if list(choices.values()) != list(range(len(choices))) or not choices:
+        raise DescriptionError(f"the numbers of {what} are not 0, 1, 2..: {choices}")
+    return list(choices)
+
+
+def _parameters(database: Database, choices: Mapping[str, int]) -> list[Parameter]:
+    variables = {} if database.dbc is None else database.dbc.environment_variables
+    parameters = [
+        Parameter(
+            name=variable.name,
+            number=variable.env_id,
+            minimum=int(variable.minimum),
+            maximum=int(variable.maximum),
+            default=int(variable.initial_value),
+            unit=variable.unit or "",
+            comment=variable.comment or "",
+        )
+        for variable in sorted(variables.values(), key=lambda variable: variable.env_id)
+    ]
+    numbers = {parameter.name: parameter.number for parameter in parameters}
+    if numbers != choices:
+        raise DescriptionError(f"COMMAND.parameter names {dict(choices)}, the EV_ lines {numbers}")
+    _listed(numbers, "parameter")
+    for parameter in parameters:
+        _check_parameter(parameter)
+    return parameters
+
+
+def _check_parameter(parameter: Parameter) -> None:
+    """The robot keeps each in a byte: that makes the whole robot 64 bytes."""
+    if not 0 <= parameter.minimum <= parameter.default <= parameter.maximum <= _BYTE_MAX:
+        raise DescriptionError(f"{parameter.name}: 0 <= minimum <= default <= maximum <= {_BYTE_MAX} does not hold")
+    if not parameter.comment or not parameter.unit:
+        raise DescriptionError(f"{parameter.name} has no unit or no comment")
+
+
+def _check_meanings(enums: Mapping[str, Mapping[str, int]], meanings: Mapping[str, Mapping[str, str]]) -> None:
+    for name, words in meanings.items():
+        unknown = sorted(set(words) - set(enums[name]))
+        if unknown:
+            raise DescriptionError(f"[{name}] explains {', '.join(unknown)}, which octet.dbc does not have")
+
+
+def _patterns(names: Mapping[str, str]) -> list[str]:
+    digits = len(next(iter(names)))
+    wanted = ["".join(bits) for bits in itertools.product("01", repeat=digits)]
+    if sorted(names) != wanted or len(set(names.values())) != len(names):
+        raise DescriptionError(f"[patterns] does not name each of {wanted[0]} to {wanted[-1]} once")
+    return [names[bits] for bits in wanted]
+
+
+def _feel(names: Sequence[str], signal: Signal) -> Sequence[str]:
+    if len(names) != signal.length:
+        raise DescriptionError(f"feel names {len(names)} sensors, and the signal has {signal.length} bits")
+    return names
+
+
+def _cell_max(memory: Message, sides: Mapping[str, int]) -> list[int]:
+    """The greatest value of each cell: of its names, which are those of the sides from 0 on, and of its range."""
+    greatest = []
+    for cell in sorted(memory.signals, key=lambda signal: signal.start):
+        choices = _choices(cell)
+        if list(choices.items()) != list(sides.items())[: len(choices)] or len(choices) == 0:
+            raise DescriptionError(f"MEMORY.{cell.name}: {choices} are not the first of {dict(sides)}")
+        # A range of 0..0 is read as none at all.
+        if int(cell.maximum or 0) != len(choices) - 1:
+            raise DescriptionError(f"MEMORY.{cell.name}: its range ends at {cell.maximum}, its names do not")
+        greatest.append(len(choices) - 1)
+    return greatest
+
+
+def _node_max(node_max: int, database: Database) -> int:
+    ids = sorted(message.frame_id for message in database.messages)
+    if any(later - earlier < node_max for earlier, later in itertools.pairwise(ids)):
+        raise DescriptionError(f"{node_max} nodes do not fit between the identifiers")
+    return node_max
+
+
+def _counts_per_mm(*odometers: Signal) -> int:
+    (unit,) = {odometer.unit for odometer in odometers}
+    if unit not in _UNITS_PER_MM:
+        raise DescriptionError(f"the odometers' unit is {unit!r}; known are {', '.join(_UNITS_PER_MM)}")
+    return _UNITS_PER_MM[unit]

@@ -1,0 +1,68 @@
+"""The robot's numbers and words in C: robot_words.h."""
+
+from collections.abc import Mapping
+
+from tools.robot_words.model import Description
+
+_HEAD = """\
+/* robot_words.h: the robot's numbers and words. Made by tools/generate from octet.dbc and robot.toml. */
+#ifndef OCTET_ROBOT_WORDS_H
+#define OCTET_ROBOT_WORDS_H
+"""
+
+
+def header(robot: Description) -> str:
+    """The text of robot_words.h."""
+    parts = [_HEAD, _numbers(robot)]
+    parts += [_enum(name, words, robot.meanings[name]) for name, words in robot.enums.items()]
+    parts += [_parameters(robot), _profiles(robot), "#endif\n"]
+    return "\n".join(parts)
+
+
+def c_name(*words: str) -> str:
+    """REASON_LOOK_AROUND of "reason", "look_around"."""
+    return "_".join(words).upper().replace("-", "_")
+
+
+def _numbers(robot: Description) -> str:
+    numbers = {
+        "CELL_COUNT": len(robot.cell_max),
+        "NODE_MAX": robot.node_max,
+        "TICK_SPAN": robot.tick_span,
+        "ACTION_SPAN": robot.action_span,
+        "ODOMETER_SPAN": robot.odometer_span,
+        "ODOMETER_COUNTS_PER_MM": robot.odometer_counts_per_mm,
+        "LAYOUT_HASH": f"0x{robot.layout_hash:04X}",
+        **{c_name("feel", name): 1 << bit for bit, name in enumerate(robot.feel)},
+    }
+    lines = ",\n".join(f"    {name} = {number}" for name, number in numbers.items())
+    cell_max = ", ".join(str(value) for value in robot.cell_max)
+    return f"enum {{\n{lines}\n}};\n\n/* The greatest value of each cell. */\n#define ROBOT_CELL_MAX {{{cell_max}}}\n"
+
+
+def _enum(name: str, words: Mapping[str, int], meanings: Mapping[str, str]) -> str:
+    lines = [
+        f"    {c_name(name, word)} = {number}," + (f"   /* {meanings[word]} */" if word in meanings else "")
+        for word, number in words.items()
+    ]
+    return f"enum {name} {{\n" + "\n".join(lines) + "\n};\n"
+
+
+def _parameters(robot: Description) -> str:
+    names = "\n".join(
+        f"    {c_name(p.name)},   /* {p.unit}, {p.minimum}..{p.maximum}. {p.comment} */" for p in robot.parameters
+    )
+    rows = " \\\n".join(f"    X({c_name(p.name)}, {p.minimum}, {p.maximum}, {p.default})" for p in robot.parameters)
+    return (
+        f"enum parameter {{\n{names}\n    PARAMETER_COUNT\n}};\n\n"
+        f"/* X(parameter, minimum, maximum, default) for each. */\n#define ROBOT_PARAMETERS(X) \\\n{rows}\n"
+    )
+
+
+def _profiles(robot: Description) -> str:
+    names = "\n".join(f"    {c_name('profile', name)}," for name in robot.profiles)
+    rows = " \\\n".join(f"    X({c_name('profile', name)}, {name})" for name in robot.profiles)
+    return (
+        f"enum profile {{\n{names}\n    PROFILE_COUNT\n}};\n\n"
+        f"/* X(profile, name) for each: the behaviour of that name. */\n#define ROBOT_BEHAVIOURS(X) \\\n{rows}\n"
+    )

@@ -1,0 +1,32 @@
+"""The robot's numbers and words in JavaScript: host_sim/web/generated.js."""
+
+import json
+
+from tools.robot_words.model import Description
+from tools.robot_words.to_c import c_name
+
+_HEAD = "/* Made by tools/generate from octet.dbc and robot.toml. */\n"
+
+
+def module(robot: Description) -> str:
+    """The text of generated.js: one declaration a line."""
+    exports: dict[str, object] = {}
+    for name in ("reason", "side"):
+        exports[name.upper()] = {c_name(word): number for word, number in robot.enums[name].items()}
+    exports["SIDES"] = list(robot.enums["side"])
+    exports["PATTERNS"] = list(robot.patterns)
+    exports["CELL_COUNT"] = len(robot.cell_max)
+    exports["FEEL"] = {c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}
+    exports["PROFILES"] = list(robot.profiles)
+    exports["PARAMETERS"] = {
+        p.name: {"min": p.minimum, "max": p.maximum, "default": p.default, "unit": p.unit} for p in robot.parameters
+    }
+    lines = [f"export const {name} = {_literal(value)};" for name, value in exports.items()]
+    return "\n".join([_HEAD, *lines, ""])
+
+
+def _literal(value: object) -> str:
+    """A value as JavaScript has it, keys without quotes."""
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key}: {_literal(inner)}" for key, inner in value.items()) + " }"
+    return json.dumps(value)

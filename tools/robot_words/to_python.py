@@ -1,0 +1,116 @@
+"""The robot's numbers and words in Python: host_sim/protocol/generated.py."""
+
+from collections.abc import Iterable, Mapping
+
+from cantools.database.can import Message
+from cantools.database.can.signal import Signal
+
+from tools.robot_words.model import Description, Parameter
+from tools.robot_words.to_c import c_name
+
+_HEAD = '''\
+"""The robot's numbers and words. Made by tools/generate from octet.dbc and robot.toml."""
+
+from enum import IntEnum
+from typing import NamedTuple
+
+
+class Parameter(NamedTuple):
+    """A number that the robot is set up with."""
+
+    number: int
+    minimum: int
+    maximum: int
+    default: int
+    unit: str
+    comment: str
+
+
+class Signal(NamedTuple):
+    """A little-endian whole number in a message.
+
+    `multiplexer` holds the values of the message's selector with which it is there; none if it always is.
+    """
+
+    name: str
+    start: int
+    length: int
+    signed: bool
+    selector: bool
+    multiplexer: tuple[int, ...]
+    choices: dict[int, str]
+
+
+class Message(NamedTuple):
+    """A message of node 1; node n adds n - 1 to the identifier."""
+
+    name: str
+    id: int
+    length: int
+    sender: str
+    signals: tuple[Signal, ...]
+
+'''
+
+
+def module(robot: Description) -> str:
+    """The text of generated.py."""
+    parts = [_HEAD]
+    parts += [_enum(name.capitalize(), words) for name, words in robot.enums.items()]
+    parts += [f"{name} = {value}\n" for name, value in _constants(robot).items()]
+    parts.append(_dict("PARAMETERS: dict[str, Parameter]", map(_parameter, robot.parameters)))
+    parts.append(_dict("MESSAGES: dict[str, Message]", map(_message, robot.messages)))
+    return "".join(parts)
+
+
+def _enum(name: str, words: Mapping[str, int]) -> str:
+    lines = "".join(f"    {c_name(word)} = {number}\n" for word, number in words.items())
+    return f'\nclass {name}(IntEnum):\n    """Numbers of {name.lower()}, as on the wire."""\n\n{lines}\n'
+
+
+def _constants(robot: Description) -> dict[str, str]:
+    same = sorted({robot.layout_hash, *robot.same_layout})
+    return {
+        "\nPROFILES: dict[str, int]": repr({name: number for number, name in enumerate(robot.profiles)}),
+        "PATTERNS: tuple[str, ...]": repr(tuple(robot.patterns)),
+        "SIDES: tuple[str, ...]": repr(tuple(robot.enums["side"])),
+        "FEEL: dict[str, int]": repr({c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}),
+        "CELL_COUNT": str(len(robot.cell_max)),
+        "CELL_MAX: tuple[int, ...]": repr(tuple(robot.cell_max)),
+        "NODE_MAX": str(robot.node_max),
+        "TICK_SPAN": str(robot.tick_span),
+        "ACTION_SPAN": str(robot.action_span),
+        "ODOMETER_SPAN": str(robot.odometer_span),
+        "ODOMETER_COUNTS_PER_MM": str(robot.odometer_counts_per_mm),
+        "LAYOUT_HASH": f"0x{robot.layout_hash:04X}",
+        "SAME_LAYOUT: frozenset[int]": f"frozenset(({', '.join(f'0x{number:04X}' for number in same)},))",
+    }
+
+
+def _dict(declared: str, entries: Iterable[str]) -> str:
+    return f"{declared} = {{\n{''.join(entries)}}}\n"
+
+
+def _parameter(parameter: Parameter) -> str:
+    p = parameter
+    values = (p.number, p.minimum, p.maximum, p.default, p.unit, p.comment)
+    return f"    {p.name!r}: Parameter({', '.join(map(repr, values))}),\n"
+
+
+def _message(message: Message) -> str:
+    (sender,) = message.senders
+    signals = "".join(map(_signal, sorted(message.signals, key=_place)))
+    values = f"{message.name!r}, {message.frame_id}, {message.length}, {sender!r}"
+    return f"    {message.name!r}: Message({values}, (\n{signals}    )),\n"
+
+
+def _place(signal: Signal) -> tuple[int, list[int]]:
+    return signal.start, list(signal.multiplexer_ids or ())
+
+
+def _signal(signal: Signal) -> str:
+    choices = {number: str(name) for number, name in sorted((signal.choices or {}).items())}
+    multiplexer = tuple(sorted(signal.multiplexer_ids or ()))
+    flags = (signal.is_signed, signal.is_multiplexer, multiplexer, choices)
+    values = (signal.name, signal.start, signal.length, *flags)
+    return f"        Signal({', '.join(map(repr, values))}),\n"
