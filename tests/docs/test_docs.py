@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
-from host_sim.cli.protocol_page import page
+from host_sim.report.protocol_page import page
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([ROOT / "README.md", *ROOT.glob("docs/*.md")])
