@@ -12,7 +12,7 @@ from host_sim.live.server import Listener, LiveServer
 
 
 def watch_run(live: PacedRun, listener: Listener, say: Callable[[str], object]) -> None:
-    """Takes a run from its begin to its end while people watch; Ctrl-C ends it in good order.
+    """Takes a run from its begin to its end while people watch; Ctrl-C ends it in good command.
 
     Args:
         live: The run.

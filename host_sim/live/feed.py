@@ -25,7 +25,7 @@ class PageFeed:
 
     Attributes:
         live: The run that the page watches.
-        notes: What the page's person is to be told: orders that could not be obeyed.
+        notes: What the page's person is to be told: commands that could not be carried out.
     """
 
     live: PacedRun

@@ -1,4 +1,4 @@
-"""A run that people watch and meddle with: paced by the wall's clock, its orders obeyed between two ticks."""
+"""A run that people watch and meddle with: paced by the wall's clock, its commands carried out between two ticks."""
 
 import asyncio
 import time
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from host_sim.client.commands import erase_memory, freeze, write_cells
 from host_sim.errors import RefusedError
-from host_sim.live.orders import (
+from host_sim.live.page_commands import (
     FULL_SPEED,
     EraseMemory,
     Freeze,
@@ -16,7 +16,7 @@ from host_sim.live.orders import (
     NewSeed,
     NextEnvironment,
     OneDecision,
-    Order,
+    PageCommand,
     Play,
     PutRobot,
     Speed,
@@ -24,19 +24,18 @@ from host_sim.live.orders import (
 )
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.simulation import EpisodeResult, Simulation
-from host_sim.world.editing import EditError
-from host_sim.world.edits import Edit, Lift, Put
+from host_sim.world.edits import Edit, EditError, Lift, Put
 from host_sim.world.params import SimParams
 
-ORDERS_MAX = 256
-"""So many orders may wait for the next tick; more are refused."""
+COMMANDS_MAX = 256
+"""So many commands may wait for the next tick; more are refused."""
 
 _SLICE_S = 0.008
 _IDLE_S = 0.02
 _LATE_S = 0.1
 _RATE_S = 0.5
 
-Complain = Callable[[str], None]
+Reject = Callable[[str], None]
 
 
 @dataclass
@@ -48,7 +47,7 @@ class PacedRun:
         recorder: Takes the simulation down; we tell it what people do.
         restart: Restarts the robots with another seed.
         ended: Told of each environment that has ended.
-        stays: Whether to wait for orders after the last environment rather than end.
+        stays: Whether to wait for commands after the last environment rather than end.
         speed: Times real time, or `FULL_SPEED`.
         playing: Whether it goes on.
         done: Whether the last environment is behind it.
@@ -57,7 +56,7 @@ class PacedRun:
         change: Counts the changes of anything that a page shows while no tick passes.
         rate: Ticks a second, lately.
         late: Ticks that began more than 0.1 s after their time.
-        refused: Orders that were none, or too many at once.
+        refused: Commands that were none, or too many at once.
     """
 
     simulation: Simulation
@@ -74,7 +73,7 @@ class PacedRun:
     rate: float = 0.0
     late: int = 0
     refused: int = 0
-    _orders: deque[tuple[Order, Complain]] = field(default_factory=deque)
+    _commands: deque[tuple[PageCommand, Reject]] = field(default_factory=deque)
     _closed: bool = False
     _stop_at_action: int | None = None
     _next_s: float = 0.0
@@ -85,15 +84,15 @@ class PacedRun:
         """The measures."""
         return self.simulation.params
 
-    def offer(self, order: Order, complain: Complain) -> None:
-        """Takes an order, to be obeyed before the next tick.
+    def offer(self, command: PageCommand, reject: Reject) -> None:
+        """Takes a command, to be carried out before the next tick.
 
         Args:
-            order: What to do.
-            complain: Told in words if it cannot be done.
+            command: What to do.
+            reject: Told in words if it cannot be done.
         """
-        if len(self._orders) < ORDERS_MAX:
-            self._orders.append((order, complain))
+        if len(self._commands) < COMMANDS_MAX:
+            self._commands.append((command, reject))
         else:
             self.refused += 1
 
@@ -112,7 +111,7 @@ class PacedRun:
             RobotError: The robot is gone.
         """
         while not self._closed and (self.stays or not self.done):
-            self._obey_all()
+            self._execute_all()
             if self.playing and not self.done:
                 self._run_slice()
                 await asyncio.sleep(self._spare_s())
@@ -181,17 +180,17 @@ class PacedRun:
         self.playing, self._stop_at_action = False, None
         self.change += 1
 
-    def _obey_all(self) -> None:
-        while self._orders:
-            order, complain = self._orders.popleft()
+    def _execute_all(self) -> None:
+        while self._commands:
+            command, reject = self._commands.popleft()
             try:
-                self._obey(order)
+                self._execute(command)
             except (EditError, RefusedError) as error:
-                complain(str(error))
+                reject(str(error))
             self.change += 1
 
-    def _obey(self, order: Order) -> None:
-        match order:
+    def _execute(self, command: PageCommand) -> None:
+        match command:
             case Play(on):
                 self.playing, self._stop_at_action = on, None
             case OneDecision():
@@ -203,20 +202,20 @@ class PacedRun:
             case NewSeed(seed):
                 self._start_over(seed)
             case WriteCell() | EraseMemory() | Freeze():
-                self._command(order)
+                self._command(command)
             case _:
-                self._edit(order)
+                self._edit(command)
 
-    def _edit(self, order: LiftRobot | PutRobot | Edit) -> None:
+    def _edit(self, command: LiftRobot | PutRobot | Edit) -> None:
         if self.done:
             raise EditError("the run is over: choose a new seed")
-        match order:
+        match command:
             case LiftRobot(node):
                 self.simulation.edit(Lift(self._index(node)))
             case PutRobot(pose, node):
                 self.simulation.edit(Put(pose, self._index(node)))
             case _:
-                self.simulation.edit(order)
+                self.simulation.edit(command)
         self.layout += 1
 
     def _start_over(self, seed: int) -> None:
@@ -228,12 +227,12 @@ class PacedRun:
             history.frozen, history.trial = False, None
         self._enter(1)
 
-    def _command(self, order: WriteCell | EraseMemory | Freeze) -> None:
+    def _command(self, command: WriteCell | EraseMemory | Freeze) -> None:
         """Tells the robot, in its own words: a real one obeys as well."""
-        index = self._index(order.node)
+        index = self._index(command.node)
         client, history = self.simulation.clients[index], self.recorder.histories[index]
         self.simulation.set_clock()
-        match order:
+        match command:
             case WriteCell(cell, side):
                 write_cells(client, {cell: side})
             case EraseMemory():

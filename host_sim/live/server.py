@@ -11,8 +11,8 @@ from aiohttp import WSCloseCode, WSMsgType, web
 
 from host_sim.errors import UsageError
 from host_sim.live.feed import PageFeed
-from host_sim.live.orders import FULL_SPEED, TEXT_MAX, order_from
 from host_sim.live.paced_run import PacedRun
+from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX, page_command_from
 from host_sim.paths import WEB
 
 PAGES_MAX = 32
@@ -132,7 +132,7 @@ class LiveServer:
         return page
 
     async def _receive(self, page: web.WebSocketResponse, feed: PageFeed) -> None:
-        """Takes orders until the page goes, or has talked too much nonsense."""
+        """Takes commands until the page goes, or has talked too much nonsense."""
         refusals = 0
         while refusals < _REFUSALS_MAX:
             message = await page.receive()
@@ -148,13 +148,13 @@ class LiveServer:
 
     def _accept(self, text: str, feed: PageFeed) -> bool:
         try:
-            order = order_from(text)
+            command = page_command_from(text)
         except ValueError as error:
             self._live.refused += 1
             self._live.change += 1
             feed.notes.append(f"not understood: {error}"[:200])
             return False
-        self._live.offer(order, feed.notes.append)
+        self._live.offer(command, feed.notes.append)
         return True
 
     def _check_token(self, request: web.Request) -> None:

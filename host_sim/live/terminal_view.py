@@ -7,8 +7,8 @@ import signal
 import sys
 
 from host_sim.errors import UsageError
-from host_sim.live.orders import FULL_SPEED, NextEnvironment, OneDecision, Order, Play, Speed
 from host_sim.live.paced_run import PacedRun
+from host_sim.live.page_commands import FULL_SPEED, NextEnvironment, OneDecision, PageCommand, Play, Speed
 from host_sim.live.text_picture import View, draw_text
 from host_sim.view.state import environment_scene, states
 
@@ -53,14 +53,14 @@ async def _show(live: PacedRun, screen: "curses.window") -> None:
 
 
 def _close_on_signals(live: PacedRun) -> None:
-    """Ctrl-C, and a terminal that goes away, end the run in good order."""
+    """Ctrl-C, and a terminal that goes away, end the run in good command."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         asyncio.get_running_loop().add_signal_handler(number, live.close)
 
 
 def _press(live: PacedRun, key: int) -> None:
     """Does what a key says."""
-    orders: dict[int, Order] = {
+    commands: dict[int, PageCommand] = {
         ord(" "): Play(not live.playing),
         ord("."): OneDecision(),
         ord("+"): Speed(faster(live.speed)),
@@ -69,8 +69,8 @@ def _press(live: PacedRun, key: int) -> None:
     }
     if key == ord("q"):
         live.close()
-    elif key in orders:
-        live.offer(orders[key], lambda _: curses.beep())
+    elif key in commands:
+        live.offer(commands[key], lambda _: curses.beep())
 
 
 def faster(speed: float) -> float:

@@ -17,8 +17,7 @@ from host_sim.robot_io import Senses
 from host_sim.sim.world_record import Begun, WorldRecord
 from host_sim.view.state import environment_scene
 from host_sim.world.arena import Arena
-from host_sim.world.editing import EditError, make_edit
-from host_sim.world.edits import Edit
+from host_sim.world.edits import Edit, EditError, make_edit
 from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
 

@@ -8,8 +8,7 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
 from host_sim.world.arena import Arena
-from host_sim.world.editing import make_edit
-from host_sim.world.edits import Edit
+from host_sim.world.edits import Edit, make_edit
 from host_sim.world.geometry import Point
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams

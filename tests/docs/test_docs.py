@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
+
 from host_sim.report.protocol_page import page
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -11,7 +11,8 @@ import pytest
 
 from host_sim.client.commands import stop
 from host_sim.live.feed import PageFeed
-from host_sim.live.orders import (
+from host_sim.live.paced_run import COMMANDS_MAX, PacedRun
+from host_sim.live.page_commands import (
     FULL_SPEED,
     EraseMemory,
     Freeze,
@@ -19,11 +20,10 @@ from host_sim.live.orders import (
     NewSeed,
     NextEnvironment,
     OneDecision,
-    Order,
+    PageCommand,
     Play,
     WriteCell,
 )
-from host_sim.live.paced_run import ORDERS_MAX, PacedRun
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.make import start_robots
 from host_sim.sim.run_config import RunConfig
@@ -67,13 +67,13 @@ def play(live: PacedRun, until: Callable[[], object], limit_s: float = 10.0) -> 
     asyncio.run(run())
 
 
-def order(live: PacedRun, *orders: Order) -> list[str]:
+def order(live: PacedRun, *orders: PageCommand) -> list[str]:
     """Has orders obeyed; returns the complaints."""
     complaints: list[str] = []
     for one in orders:
         live.offer(one, complaints.append)
     live.offer(Play(False), complaints.append)
-    play(live, lambda: not live.playing and not live._orders)
+    play(live, lambda: not live.playing and not live._commands)
     return complaints
 
 
@@ -152,7 +152,7 @@ def test_what_cannot_be_done_is_complained_of_and_not_recorded(live):
 
 def test_more_orders_than_fit_are_refused_and_counted(live):
     run = live()
-    for _ in range(ORDERS_MAX + 3):
+    for _ in range(COMMANDS_MAX + 3):
         run.offer(Play(True), print)
     assert run.refused == 3
 

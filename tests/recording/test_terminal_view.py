@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.live import terminal_view
-from host_sim.live.orders import FULL_SPEED
+from host_sim.live.page_commands import FULL_SPEED
 from host_sim.live.terminal_view import faster, slower
 from host_sim.live.text_picture import View, draw_text
 from host_sim.recording.trajectory import Trajectory, at

@@ -11,8 +11,8 @@ import pytest
 from host_sim.cli.main import main
 from host_sim.client.commands import freeze, write_cells
 from host_sim.errors import OctetError
-from host_sim.live.orders import FULL_SPEED, EraseMemory, Freeze, NewSeed, NextEnvironment, WriteCell
 from host_sim.live.paced_run import PacedRun
+from host_sim.live.page_commands import FULL_SPEED, EraseMemory, Freeze, NewSeed, NextEnvironment, WriteCell
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.recording import run_recorder as run_recorder_module
 from host_sim.recording.log_reader import read_log

@@ -10,7 +10,7 @@ from host_sim.world.edits import Edit, edit_from, pose_from, whole
 from host_sim.world.geometry import Pose
 
 TEXT_MAX = 4096
-"""No order is longer, in bytes."""
+"""No command is longer, in bytes."""
 
 FULL_SPEED = 0.0
 _SPEED_MIN, _SPEED_MAX = 0.25, 1000.0
@@ -87,18 +87,18 @@ class PutRobot:
     node: int | None = None
 
 
-RobotOrder = WriteCell | EraseMemory | Freeze | LiftRobot | PutRobot
-Order = Play | OneDecision | Speed | NextEnvironment | NewSeed | RobotOrder | Edit
+RobotCommand = WriteCell | EraseMemory | Freeze | LiftRobot | PutRobot
+PageCommand = Play | OneDecision | Speed | NextEnvironment | NewSeed | RobotCommand | Edit
 
 
-def order_from(text: str) -> Order:
+def page_command_from(text: str) -> PageCommand:
     """The order in a message.
 
     Args:
-        text: A JSON object with the order's name in `do`, and its fields.
+        text: A JSON object with the command's name in `do`, and its fields.
 
     Raises:
-        ValueError: It is no order, or one with fields that are missing, of a wrong type or out of bounds.
+        ValueError: It is no command, or one with fields that are missing, of a wrong type or out of bounds.
     """
     try:
         fields = json.loads(text)
@@ -107,10 +107,10 @@ def order_from(text: str) -> Order:
     if not isinstance(fields, dict):
         raise ValueError("no object")
     parse = _PARSERS.get(str(fields.get("do")))
-    order = edit_from(fields) if parse is None else parse(fields)
-    if order is None:
-        raise ValueError("no such order")
-    return order
+    command = edit_from(fields) if parse is None else parse(fields)
+    if command is None:
+        raise ValueError("no such command")
+    return command
 
 
 def _speed(fields: Mapping[str, Any]) -> Speed:
@@ -126,7 +126,7 @@ def _node(fields: Mapping[str, Any]) -> int | None:
     return whole(fields, "node", 1, NODE_MAX) if "node" in fields else None
 
 
-_PARSERS: dict[str, Callable[[Mapping[str, Any]], Order]] = {
+_PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand]] = {
     "play": lambda _: Play(True),
     "pause": lambda _: Play(False),
     "decision": lambda _: OneDecision(),

@@ -5,8 +5,7 @@ import math
 import pytest
 
 from host_sim.world.arena import Arena
-from host_sim.world.editing import BARS_MAX, EditError, make_edit
-from host_sim.world.edits import AddBar, Edit, Lift, MoveBar, MoveFood, Put, RemoveBar
+from host_sim.world.edits import BARS_MAX, AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar, make_edit
 from host_sim.world.geometry import Bar, Pose
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
