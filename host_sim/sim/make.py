@@ -58,9 +58,12 @@ def make(
         OctetError: Something to be built or installed is not there.
         RobotError: A robot does not answer.
     """
-    config, log = config or RunConfig(), log or FrameLog()
+    config = config or RunConfig()
     _check(config, SimParams())
     with ExitStack() as stack:
+        if log is None:
+            log = FrameLog()
+            stack.callback(log.close)
         clients = []
         for node in config.nodes:
             client = _connected(stack, config, node, log)
