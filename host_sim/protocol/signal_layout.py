@@ -64,7 +64,7 @@ class MessageLayout:
 
 
 class TupleLayout:
-    """Packs and unpacks some signals of one message, in an order of one's own: for what goes to and fro every tick."""
+    """Packs and unpacks some signals of one message, in an order of one's own: for what is sent every tick."""
 
     def __init__(self, message: Message, names: Sequence[str]) -> None:
         """Looks up the signals, in the order of the values."""
