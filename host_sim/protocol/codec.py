@@ -1,28 +1,24 @@
 """The wire, as `hal/protocol/octet.dbc` has it: what the simulator sends to frames, frames to what the robot says."""
 
-from collections.abc import Mapping
-from pathlib import Path
 from typing import NamedTuple
 
-import cantools
-from cantools.database.can import Database
-
 from host_sim.paths import ROOT
-from host_sim.protocol.generated import LAYOUT_HASH, NODE_MAX, SAME_LAYOUT
-from host_sim.protocol.signal_layout import Layout
+from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, SAME_LAYOUT, Signal
+from host_sim.protocol.signal_layout import MessageLayout, TupleLayout
 from host_sim.robot_io import Drive, Senses
 
-__all__ = ["CONTROL", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "crc8", "drive_from"]
+__all__ = ["CONTROL", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "crc8"]
 
 DBC = ROOT / "hal" / "protocol" / "octet.dbc"
-CONTROL = ("COMMAND", "DRIVE", "SENSES", "ANSWER")
+CONTROL = tuple(name for name, message in MESSAGES.items() if message.signals[0].name == "crc")
 """The messages that carry a CRC."""
 
-
 _LENGTH = 8
-# In the order of the fields of `Senses` and of `Drive`.
-_SENSES = ("tick", "feel", "bump", "look", "beacon", "odometer_left", "odometer_right")
-_DRIVE = ("tick", "left", "right", "reason", "repeat_count", "action", "eat")
+# The fields of `Senses` and of `Drive` whose signals have other names: a signal has its unit beside its name.
+_SIGNALS = {"beacon_mm": "beacon", "left_mm_s": "left", "right_mm_s": "right"}
+_LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
+_SENSES = TupleLayout(MESSAGES["SENSES"], [_SIGNALS.get(field, field) for field in Senses._fields])
+_DRIVE = TupleLayout(MESSAGES["DRIVE"], [_SIGNALS.get(field, field) for field in Drive._fields])
 
 
 class Frame(NamedTuple):
@@ -68,8 +64,8 @@ class Protocol:
         dbc_hash: Hash of the messages' layout; see `fits`.
     """
 
-    def __init__(self, node: int = 1, dbc: Path = DBC) -> None:
-        """Reads the DBC file.
+    def __init__(self, node: int = 1) -> None:
+        """Works out the node's identifiers.
 
         Raises:
             ValueError: node is out of range.
@@ -78,13 +74,8 @@ class Protocol:
             raise ValueError(f"node is 1..{NODE_MAX}, not {node}")
         self.node = node
         self.dbc_hash = LAYOUT_HASH
-        database = cantools.database.load_file(dbc)
-        assert isinstance(database, Database)
-        self._messages = {message.name: message for message in database.messages}
-        self._by_id = {self.id_of(name): message for name, message in self._messages.items()}
-        self._senses = Layout(self._messages["SENSES"], _SENSES)
+        self._by_id = {self.id_of(name): message for name, message in MESSAGES.items()}
         self._senses_id = self.id_of("SENSES")
-        self._drive = Layout(self._messages["DRIVE"], _DRIVE)
         self._drive_id = self.id_of("DRIVE")
 
     @staticmethod
@@ -94,7 +85,7 @@ class Protocol:
 
     def id_of(self, name: str) -> int:
         """The identifier of a message for this node."""
-        return self._messages[name].frame_id + self.node - 1
+        return MESSAGES[name].id + self.node - 1
 
     def ids_from(self, sender: str) -> list[int]:
         """The identifiers of the messages that `SIM` or `ROBOT` sends."""
@@ -102,23 +93,24 @@ class Protocol:
 
     def choices(self, name: str, signal: str) -> dict[str, int]:
         """The value table of a signal: number by name."""
-        choices: Mapping[int, object] = self._messages[name].get_signal_by_name(signal).choices or {}
-        return {str(choice): number for number, choice in choices.items()}
+        return {choice: number for number, choice in _signal(name, signal).choices.items()}
 
     def encode(self, name: str, signals: dict[str, int]) -> Frame:
         """A frame of a message that carries a CRC.
 
         Args:
             name: The message.
-            signals: Raw numbers within each signal's range, all that the message has but `crc`.
+            signals: Raw numbers that the signals have room for, all that the message has but `crc`.
+
+        Raises:
+            KeyError: A signal is missing.
+            ValueError: A signal has no room for its number.
         """
-        data = self._messages[name].encode({**signals, "crc": 0}, scaling=False, strict=False)
-        return _protected(self.id_of(name), data)
+        return _protected(self.id_of(name), _LAYOUTS[name].pack({**signals, "crc": 0}))
 
     def encode_senses(self, senses: Senses) -> Frame:
         """The frame that tells the robot its senses."""
-        data = self._senses.pack(senses).to_bytes(8, "little")
-        return _protected(self._senses_id, data)
+        return _protected(self._senses_id, _SENSES.pack(senses).to_bytes(_LENGTH, "little"))
 
     def decode(self, frame: Frame) -> DecodedFrame | None:
         """What a frame says; None if it is not this node's, of a wrong length, or damaged."""
@@ -127,27 +119,30 @@ class Protocol:
             return None
         if message.name in CONTROL and frame.data[0] != crc8(frame.id, frame.data):
             return None
-        signals = message.decode(frame.data, decode_choices=False, scaling=False)
-        return DecodedFrame(message.name, signals)  # type: ignore[arg-type] # unscaled and without choices, all are int
+        return DecodedFrame(message.name, _LAYOUTS[message.name].unpack(frame.data))
 
     def decode_drive(self, frame: Frame) -> Drive | None:
         """The drive in a frame; None if it is no whole DRIVE of this node."""
         data = frame.data
         if frame.id != self._drive_id or len(data) != _LENGTH or data[0] != crc8(frame.id, data):
             return None
-        return Drive._make(self._drive.unpack(int.from_bytes(data, "little")))
+        return Drive._make(_DRIVE.unpack(int.from_bytes(data, "little")))
 
     def describe(self, frame: Frame) -> str:
         """One line for people: the message and its signals, choices by name."""
         said = self.decode(frame)
         if said is None:
-            return f"{frame.id:03X}#{frame.data.hex().upper()} (no frame of node {self.node}, or damaged)"
-        parts = [f"{key}={self._spelt(said.name, key, value)}" for key, value in said.signals.items() if key != "crc"]
+            return f"{frame.id:03X}#{frame.data.hex().upper()} (not a frame of node {self.node}, or damaged)"
+        parts = [
+            f"{name}={_signal(said.name, name).choices.get(number, number)}"
+            for name, number in said.signals.items()
+            if name != "crc"
+        ]
         return f"{said.name} {' '.join(parts)}"
 
-    def _spelt(self, name: str, signal: str, value: int) -> str:
-        choices: Mapping[int, object] = self._messages[name].get_signal_by_name(signal).choices or {}
-        return str(choices.get(value, value))
+
+def _signal(name: str, signal: str) -> Signal:
+    return next(known for known in MESSAGES[name].signals if known.name == signal)
 
 
 def node_of(frame_id: int) -> int:
@@ -158,8 +153,3 @@ def node_of(frame_id: int) -> int:
 def _protected(frame_id: int, data: bytes) -> Frame:
     """A frame with its CRC in byte 0."""
     return Frame(frame_id, bytes((crc8(frame_id, data),)) + data[1:])
-
-
-def drive_from(said: DecodedFrame) -> Drive:
-    """The drive in a decoded DRIVE frame."""
-    return Drive._make(said.signals[name] for name in _DRIVE)

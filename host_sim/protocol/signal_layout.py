@@ -1,26 +1,77 @@
-"""Where a message's signals lie in its frame: for the two messages that go to and fro at every tick."""
+"""Where a message's signals lie in its frame."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
 
-from cantools.database.can import Message
+from host_sim.protocol.generated import Message, Signal
 
 
-class Layout:
-    """Packs and unpacks some signals of one message, in an order of one's own."""
+class _Field(NamedTuple):
+    """A signal's place; `sign` is the bit that makes it negative, 0 for a signal that never is."""
 
-    def __init__(self, message: Message, names: Sequence[str]) -> None:
-        """Looks up the signals.
+    name: str
+    start: int
+    mask: int
+    sign: int
+
+
+def _field(signal: Signal) -> _Field:
+    sign = 1 << (signal.length - 1) if signal.signed else 0
+    return _Field(signal.name, signal.start, (1 << signal.length) - 1, sign)
+
+
+class MessageLayout:
+    """Packs and unpacks one message, all signals that are in a frame together."""
+
+    def __init__(self, message: Message) -> None:
+        """Works out which signals are there with each value of the message's selector, if it has one."""
+        self._message = message
+        self._common = tuple(_field(signal) for signal in message.signals if not signal.multiplexer)
+        self._selector = next((_field(signal) for signal in message.signals if signal.selector), None)
+        numbers = {number for signal in message.signals for number in signal.multiplexer}
+        self._branches = {
+            number: tuple(_field(s) for s in message.signals if not s.multiplexer or number in s.multiplexer)
+            for number in numbers
+        }
+
+    def pack(self, signals: Mapping[str, int]) -> bytes:
+        """The data of a frame.
 
         Args:
-            message: All its signals are little-endian whole numbers, with factor 1 and offset 0.
-            names: The signals, in the order of the values.
+            signals: Raw numbers, by the names of all signals that are there.
+
+        Raises:
+            KeyError: One is missing.
+            ValueError: One has no room for its number.
         """
-        signals = [message.get_signal_by_name(name) for name in names]
-        self._starts = [signal.start for signal in signals]
-        self._fields = [
-            (signal.start, (1 << signal.length) - 1, 1 << (signal.length - 1) if signal.is_signed else 0)
-            for signal in signals
-        ]
+        word = 0
+        for field in self._fields(0 if self._selector is None else signals[self._selector.name]):
+            number = signals[field.name]
+            if not -field.sign <= number <= field.mask - field.sign:
+                raise ValueError(f"{self._message.name}.{field.name} has no room for {number}")
+            word |= (number & field.mask) << field.start
+        return word.to_bytes(self._message.length, "little")
+
+    def unpack(self, data: bytes) -> dict[str, int]:
+        """The raw numbers in the data of a frame, which has the message's length."""
+        word = int.from_bytes(data, "little")
+        selected = 0 if self._selector is None else word >> self._selector.start & self._selector.mask
+        # Taking the sign bit off and adding it again below zero is what makes a number signed.
+        return {name: ((word >> start & mask) ^ sign) - sign for name, start, mask, sign in self._fields(selected)}
+
+    def _fields(self, selected: int) -> tuple[_Field, ...]:
+        return self._branches.get(selected, self._common)
+
+
+class TupleLayout:
+    """Packs and unpacks some signals of one message, in an order of one's own: for what is sent every tick."""
+
+    def __init__(self, message: Message, names: Sequence[str]) -> None:
+        """Looks up the signals, in the order of the values."""
+        by_name = {signal.name: signal for signal in message.signals}
+        fields = [_field(by_name[name]) for name in names]
+        self._starts = [field.start for field in fields]
+        self._places = [field[1:] for field in fields]
 
     def pack(self, values: Iterable[int]) -> int:
         """The frame's data as one little-endian number; each value must be unsigned and fit its signal."""
@@ -31,5 +82,4 @@ class Layout:
 
     def unpack(self, word: int) -> list[int]:
         """The values in a frame's data, given as one little-endian number."""
-        # Taking the sign bit off and adding it again below zero is what makes a number signed.
-        return [((word >> start & mask) ^ sign) - sign for start, mask, sign in self._fields]
+        return [((word >> start & mask) ^ sign) - sign for start, mask, sign in self._places]

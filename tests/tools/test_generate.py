@@ -59,9 +59,7 @@ SAME = {
     "another name of a choice": lambda _: changed('3 "look_around"', '3 "glance"'),
     "another unit": lambda _: changed('"mm/s"', '"km/h"'),
     "another range": lambda _: changed("[0|12]", "[0|99]"),
-    "a new parameter": lambda _: changed(
-        "EV_ turn_deg", 'EV_ x: 0 [0|1] "" 0 99 DUMMY_NODE_VECTOR0 Vector__XXX;\nEV_ turn_deg'
-    ),
+    "a new parameter": lambda _: changed("\nEV_ turn_deg:", f"\n{NEW_PARAMETER}\nEV_ turn_deg:"),
     "line ends of Windows": lambda _: TEXT.replace("\n", "\r\n").encode(),
     "another order of messages": with_messages_turned_round,
     "saved by another tool": dumped,
