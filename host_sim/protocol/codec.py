@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from host_sim.paths import ROOT
 from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, SAME_LAYOUT, Signal
-from host_sim.protocol.signal_layout import MessageLayout, TupleLayout
+from host_sim.protocol.signal_layout import MessageLayout, places
 from host_sim.robot_io import Drive, Senses
 
 __all__ = ["CONTROL", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "crc8"]
@@ -17,8 +17,8 @@ _LENGTH = 8
 # The fields of `Senses` and of `Drive` whose signals have other names: a signal has its unit beside its name.
 _SIGNALS = {"beacon_mm": "beacon", "left_mm_s": "left", "right_mm_s": "right"}
 _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
-_SENSES = TupleLayout(MESSAGES["SENSES"], [_SIGNALS.get(field, field) for field in Senses._fields])
-_DRIVE = TupleLayout(MESSAGES["DRIVE"], [_SIGNALS.get(field, field) for field in Drive._fields])
+_SENSES = places(MESSAGES["SENSES"], [_SIGNALS.get(field, field) for field in Senses._fields])
+_DRIVE = places(MESSAGES["DRIVE"], [_SIGNALS.get(field, field) for field in Drive._fields])
 
 
 class Frame(NamedTuple):
@@ -89,7 +89,7 @@ class Protocol:
 
     def ids_from(self, sender: str) -> list[int]:
         """The identifiers of the messages that `SIM` or `ROBOT` sends."""
-        return [self.id_of(name) for name, message in self._messages.items() if sender in message.senders]
+        return [self.id_of(name) for name, message in MESSAGES.items() if message.sender == sender]
 
     def choices(self, name: str, signal: str) -> dict[str, int]:
         """The value table of a signal: number by name."""
@@ -110,7 +110,11 @@ class Protocol:
 
     def encode_senses(self, senses: Senses) -> Frame:
         """The frame that tells the robot its senses."""
-        return _protected(self._senses_id, _SENSES.pack(senses).to_bytes(_LENGTH, "little"))
+        word = 0
+        for value, (start, _, _) in zip(senses, _SENSES, strict=True):
+            word |= value << start
+        data = word.to_bytes(_LENGTH, "little")
+        return Frame(self._senses_id, bytes((crc8(self._senses_id, data),)) + data[1:])
 
     def decode(self, frame: Frame) -> DecodedFrame | None:
         """What a frame says; None if it is not this node's, of a wrong length, or damaged."""
@@ -126,7 +130,11 @@ class Protocol:
         data = frame.data
         if frame.id != self._drive_id or len(data) != _LENGTH or data[0] != crc8(frame.id, data):
             return None
-        return Drive._make(_DRIVE.unpack(int.from_bytes(data, "little")))
+        word, values = int.from_bytes(data, "little"), []
+        for start, mask, sign in _DRIVE:
+            # Taking the sign bit off and adding it again below zero is what makes a number signed.
+            values.append(((word >> start & mask) ^ sign) - sign)
+        return Drive._make(values)
 
     def describe(self, frame: Frame) -> str:
         """One line for people: the message and its signals, choices by name."""

@@ -1,6 +1,6 @@
 """Where a message's signals lie in its frame."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from host_sim.protocol.generated import Message, Signal
@@ -63,23 +63,12 @@ class MessageLayout:
         return self._branches.get(selected, self._common)
 
 
-class TupleLayout:
-    """Packs and unpacks some signals of one message, in an order of one's own: for what is sent every tick."""
+def places(message: Message, names: Sequence[str]) -> list[tuple[int, int, int]]:
+    """Start, mask and sign bit of signals, for packing and unpacking in an order of one's own.
 
-    def __init__(self, message: Message, names: Sequence[str]) -> None:
-        """Looks up the signals, in the order of the values."""
-        by_name = {signal.name: signal for signal in message.signals}
-        fields = [_field(by_name[name]) for name in names]
-        self._starts = [field.start for field in fields]
-        self._places = [field[1:] for field in fields]
-
-    def pack(self, values: Iterable[int]) -> int:
-        """The frame's data as one little-endian number; each value must be unsigned and fit its signal."""
-        word = 0
-        for value, start in zip(values, self._starts, strict=True):
-            word |= value << start
-        return word
-
-    def unpack(self, word: int) -> list[int]:
-        """The values in a frame's data, given as one little-endian number."""
-        return [((word >> start & mask) ^ sign) - sign for start, mask, sign in self._places]
+    Args:
+        message: Has the signals.
+        names: The signals, in the order of the values.
+    """
+    by_name = {signal.name: signal for signal in message.signals}
+    return [_field(by_name[name])[1:] for name in names]
