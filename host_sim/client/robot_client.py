@@ -8,7 +8,7 @@ from typing import TypeVar
 from host_sim.client.frame_log import FrameLog
 from host_sim.errors import RefusedError, RobotError
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
-from host_sim.protocol.generated import Opcode, Reason
+from host_sim.protocol.generated import CELL_COUNT, CELL_MAX, TICK_SPAN, Opcode, Reason
 from host_sim.robot_io import REST, Drive, Senses
 from host_sim.transport.link import Link
 
@@ -17,9 +17,8 @@ T = TypeVar("T")
 DEADLINE_S = 5.0
 """The robot's time to answer, on the wall clock, before it counts as gone."""
 
-_TICK_MASK = 4095
+_TICK_MASK = TICK_SPAN - 1
 _COUNTER_MASK = 15
-_CELL_MAX = 2
 _LOOK_ALIVE_S = 0.2
 _NO_DRIVE = REST._replace(tick=_TICK_MASK)
 _FROM_ROBOT = frozenset({"ANSWER", "MEMORY", "HEARTBEAT", "FAULTS", "HEALTH", "CRASH"})
@@ -69,7 +68,7 @@ class RobotClient:
     status: Callable[[], str] = lambda: "is not ours to watch"
     bus: str = ""
     deadline_s: float = DEADLINE_S
-    memory: tuple[int, ...] = (0,) * 8
+    memory: tuple[int, ...] = (0,) * CELL_COUNT
     faults: dict[str, int] = field(default_factory=dict)
     frames: FrameCounts = field(default_factory=FrameCounts)
     last: Frame | None = None
@@ -236,7 +235,7 @@ class RobotClient:
             self.faults = dict(decoded.signals)
         if decoded.name == "MEMORY":
             cells = tuple(decoded.signals.values())
-            if cells[0] or max(cells) > _CELL_MAX:
+            if any(cell > most for cell, most in zip(cells, CELL_MAX, strict=True)):
                 return False
             self.memory = cells
         return True

@@ -5,14 +5,14 @@ from pathlib import Path
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import UsageError
-from host_sim.protocol.generated import CELL_COUNT
+from host_sim.protocol.generated import CELL_COUNT, CELL_MAX, SIDES
 
 
 def load_memory(path: Path) -> tuple[int, ...] | None:
     """The memory in a file; None if there is no such file yet.
 
     Raises:
-        UsageError: The file cannot be read, or what it holds is no memory.
+        UsageError: The file cannot be read, or does not hold a memory.
     """
     try:
         content = path.read_bytes()
@@ -21,12 +21,13 @@ def load_memory(path: Path) -> tuple[int, ...] | None:
     except OSError as error:
         raise UsageError(f"cannot read the memory file {path}: {error.strerror}") from None
     if len(content) != CELL_COUNT:
-        raise UsageError(f"{path} is no memory: it has {len(content)} bytes, not {CELL_COUNT}; it was left as it is")
-    for cell, value in enumerate(content):
-        if value > (2 if cell else 0):
-            allowed = "0 nothing, 1 left, 2 right" if cell else "0 only"
-            holds = f"cell {cell} holds {value}, but takes {allowed}"
-            raise UsageError(f"{path} is no memory: {holds}; it was left as it is")
+        raise UsageError(f"{path} is not a memory file: {len(content)} bytes, expected {CELL_COUNT} (file unchanged)")
+    for cell, (value, most) in enumerate(zip(content, CELL_MAX, strict=True)):
+        if value > most:
+            allowed = ", ".join(f"{side} {name}" for side, name in enumerate(SIDES[: most + 1]))
+            raise UsageError(
+                f"{path} is not a memory file: cell {cell} holds {value}, allowed is {allowed} (file unchanged)"
+            )
     return tuple(content)
 
 

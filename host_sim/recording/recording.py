@@ -8,7 +8,7 @@ from typing import NamedTuple
 from host_sim.client.pacing import held
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
-from host_sim.protocol.generated import PARAMETERS, Opcode
+from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Opcode
 from host_sim.recording.log_reader import Recorded, check_protocol, first_memory, lines_of
 from host_sim.robot_io import Drive, Senses
 
@@ -43,7 +43,7 @@ class Recording:
 
     seed: int | None = None
     boredom_limit: int = PARAMETERS["boredom_limit"].default
-    first_memory: tuple[int, ...] = (0,) * 8
+    first_memory: tuple[int, ...] = (0,) * CELL_COUNT
     ticks: list[Tick] = field(default_factory=list)
     stopped: bool = False
 

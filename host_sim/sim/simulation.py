@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from host_sim.client.pacing import Pace
 from host_sim.client.robot_client import RobotClient
+from host_sim.protocol.generated import CELL_COUNT
 from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
 from host_sim.world.arena import Arena
@@ -30,7 +31,7 @@ class RobotResult:
     begun: dict[int, int] = field(default_factory=dict)
     food_eaten: int = 0
     collisions: int = 0
-    memory: tuple[int, ...] = (0,) * 8
+    memory: tuple[int, ...] = (0,) * CELL_COUNT
 
 
 @dataclass
