@@ -57,8 +57,8 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
 
 
 @pytest.fixture(scope="session")
-def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The page of a run of two environments."""
-    out = tmp_path_factory.mktemp("kept")
+    out = tmp_path_factory.mktemp("recorded")
     assert octet("run", "--bus", "none", "--environments", "2", "--quiet", "--out", out).returncode == 0
     return out / "replay.html"

@@ -59,28 +59,28 @@ def test_live(watch, look):
         page = look(url, scheme, size)
         wait_for(page, "octet.scene.trail.length > 20")
         check(page, f"live-{scheme}-{size}")
-        assert page.evaluate("octet.renderer.canvas.width") == page.evaluate(
-            "Math.round(octet.renderer.canvas.clientWidth * devicePixelRatio)"
+        assert page.evaluate("octet.view.renderer.canvas.width") == page.evaluate(
+            "Math.round(octet.view.renderer.canvas.clientWidth * devicePixelRatio)"
         )
 
 
-def test_meddling(watch, look):
+def test_interaction(watch, look):
     page = look(watch("--seed", "2").url, "light", "laptop")
     pause(page)
     page.click("#add-bar")
-    wait_for(page, "octet.scene.selected?.kind === 'bar'")
+    wait_for(page, "octet.scene.item?.kind === 'bar'")
     page.click("#lift")
-    wait_for(page, "octet.scene.ghost && octet.scene.play")
+    wait_for(page, "octet.scene.ghosts.size === 1")
     page.click("#cells li:nth-child(3) button")
     wait_for(page, "octet.scene.state.memory[2] === 1")
     page.click("summary")
-    check(page, "meddling-light-laptop")
+    check(page, "interaction-light-laptop")
 
 
-def test_kept(kept, look):
+def test_replay(recorded, look):
     for scheme, size in LOOKS:
-        page = look(kept.as_uri(), scheme, size)
+        page = look(recorded.as_uri(), scheme, size)
         page.click("#pin")
         page.evaluate("octet.go(Math.floor(octet.data.last * 0.4))")
         page.wait_for_timeout(60)
-        check(page, f"kept-{scheme}-{size}")
+        check(page, f"replay-{scheme}-{size}")
