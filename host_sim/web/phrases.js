@@ -92,7 +92,7 @@ export function binary(pattern) {
 
 /** @param {State} state */
 function towardFood({ beacon }) {
-  return `I see food${beacon ? ` ${(beacon / 1000).toFixed(2)} m ahead` : ""}: I drive toward it.`;
+  return beacon ? `I see food ${(beacon / 1000).toFixed(2)} m ahead: I drive toward it.` : WANDERING;
 }
 
 /** @param {State} state */

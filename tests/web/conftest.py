@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from tests.runs.support import octet
-from tests.web.support import CHROMIUM, Faults, Watched, start_watched, wait_for
+from tests.web.support import CHROMIUM, READY, Faults, Watched, start_watched, wait_for
 
 
 @pytest.fixture(scope="session")
@@ -41,11 +41,12 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
     """Opens pages in fresh profiles; none may complain or ask anyone but its own server."""
     opened = []
 
-    def open_one(url: str, ready: str = "window.octet?.scene?.state", **context) -> Page:
+    def open_one(url: str, ready: str = READY, prepare: Callable[[Page], object] = lambda _: None, **context) -> Page:
         faults = Faults(url.partition("?")[0])
         page = browser.new_context(**context).new_page()
         opened.append((page, faults))
         faults.listen(page)
+        prepare(page)
         page.goto(url)
         wait_for(page, ready)
         return page

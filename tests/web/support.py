@@ -18,6 +18,9 @@ from host_sim.protocol.codec import DecodedFrame, Protocol
 from tests.runs.support import ROOT, start_octet
 
 CHROMIUM = "/usr/bin/chromium"
+READY = "window.octet?.scene?.state"
+"""Whether a page shows a run."""
+
 SCREENS = ROOT / "build/reports/screens"
 _READY_S = 20.0
 _END_S = 20.0

@@ -8,8 +8,6 @@ from playwright.sync_api import Page
 
 from tests.web.support import wait_for
 
-READY = "window.octet?.scene?.state"
-
 
 @pytest.fixture
 def page(recorded: Path, open_page: Callable[..., Page]) -> Page:
