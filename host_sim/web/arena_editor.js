@@ -56,7 +56,8 @@ export class ArenaEditor {
       if (lifted) this.lifting.delete(node);
       else if (node !== dragged && !this.lifting.has(node)) ghosts.delete(node);
     }
-    setText(byId("lift"), this.robot.lifted ? "Put down the robot" : "Pick up the robot");
+    const which = states.length > 1 ? `robot ${this.robot.node}` : "the robot";
+    setText(byId("lift"), `${this.robot.lifted ? "Put down" : "Pick up"} ${which}`);
   }
 
   /** The state of the robot that the buttons act on: that of the panel. */

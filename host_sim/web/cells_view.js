@@ -14,7 +14,7 @@ import { CONES, patternBit } from "./sensors.js";
  *   then: number | null}} Facts
  *
  * The elements of a cell.
- * @typedef {{button: HTMLElement, name: HTMLElement, side: HTMLElement, story: HTMLElement, then: HTMLElement}} Parts
+ * @typedef {{button: HTMLElement, name: HTMLElement, side: HTMLElement, history: HTMLElement, then: HTMLElement}} Parts
  *
  * @typedef {(cell: number, side: number) => void} OnPress
  */
@@ -81,9 +81,9 @@ function fillCell(parts, facts) {
   button.classList.toggle("trying", facts.trying !== SIDE.NOTHING);
   button.classList.toggle("changed", facts.then !== null && facts.then !== facts.side);
   parts.side.textContent = sideWords(facts);
-  parts.story.textContent = historyOf(facts);
+  parts.history.textContent = historyOf(facts);
   parts.then.textContent = facts.then === null ? "" : `then: ${facts.then ? SIDES[facts.then] : "empty"}`;
-  const words = [parts.name, parts.side, parts.story, parts.then].map(({ textContent }) => textContent);
+  const words = [parts.name, parts.side, parts.history, parts.then].map(({ textContent }) => textContent);
   button.setAttribute("aria-label", `Cell ${facts.cell}, ${words.filter(Boolean).join(", ")}`);
 }
 
@@ -113,9 +113,9 @@ function makeCell(list, cell, onPress) {
   const button = item.appendChild(onPress ? makeButton(cell, onPress) : makeImage());
   button.classList.add("cell");
   button.appendChild(pictureOf(cell));
-  const [name, side, story, then] = ["name", "side", "story", "then"].map((part) => addSpan(button, part));
+  const [name, side, history, then] = ["name", "side", "history", "then"].map((part) => addSpan(button, part));
   name.textContent = `${PATTERNS[cell]} ${binary(cell)}`;
-  return { button, name, side, story, then };
+  return { button, name, side, history, then };
 }
 
 /**

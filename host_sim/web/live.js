@@ -25,8 +25,8 @@ class LivePage {
      */
     this.message = undefined;
     this.isNew = false;
-    /** The last drawing times, and how old the state was, for measurements. */
-    this.timing = { drawn: 0, ms: [0], lagMs: 0 };
+    /** How old the state was when it was last drawn, for measurements. */
+    this.timing = { lagMs: 0 };
     this.note = new Note();
     this.socket = this.connect();
     requestAnimationFrame(() => this.frame());
@@ -80,22 +80,11 @@ class LivePage {
   frame() {
     const { view, message } = this;
     if (view && message && (this.isNew || view.editor.changed)) {
-      const began = performance.now();
       this.isNew = false;
       view.draw(message);
-      this.measure(performance.now() - began, message.at);
+      this.timing.lagMs = Date.now() - message.at;
     }
     requestAnimationFrame(() => this.frame());
-  }
-
-  /**
-   * @param {number} ms
-   * @param {number} at
-   */
-  measure(ms, at) {
-    this.timing.drawn += 1;
-    this.timing.lagMs = Date.now() - at;
-    this.timing.ms[this.timing.drawn % 1000] = ms;
   }
 }
 

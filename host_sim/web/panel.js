@@ -39,7 +39,7 @@ export class Panel {
    */
   show(scene, { exact, then }) {
     const { state, measures } = scene;
-    this.say(state, exact);
+    this.showSentence(state, exact);
     this.showBoredom(state, measures);
     this.showFacts(scene);
     setText(byId("memory-title"), scene.states.length > 1 ? MEMORY.replace(":", ` of robot ${state.node}:`) : MEMORY);
@@ -50,7 +50,7 @@ export class Panel {
    * @param {State} state
    * @param {boolean} exact
    */
-  say(state, exact) {
+  showSentence(state, exact) {
     const now = performance.now();
     const weight = (state.lifted ? LIFTED_WEIGHT : WEIGHT.get(state.reason)) ?? 0;
     const holds = state.node === this.held.node && weight < this.held.weight && now < this.held.until;

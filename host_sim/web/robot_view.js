@@ -151,7 +151,7 @@ function drawNumber(context, scene, state, palette) {
   const at = { x: toTheRight ? NUMBER_MM : -NUMBER_MM, y: below ? NUMBER_MM : -NUMBER_MM };
   const [ground, ink] = shown ? [palette.of.ink, palette.of.paper] : [palette.of.paper, palette.of.ink];
   drawDisc(context, { ...at, radius: 72, ground, edge: palette.of.ink, width: 10 });
-  drawText(context, `${state.node}`, { ...at, size: 100, colour: ink });
+  drawText(context, `${state.node}`, { ...at, size: state.node < 10 ? 100 : 80, colour: ink });
 }
 
 /**

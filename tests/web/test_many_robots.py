@@ -128,7 +128,7 @@ def test_two_robots_can_be_held_at_once(page, run):
         run.states[node - 1]["lifted"] = 1
         run.send()
         wait_for(page, "node => octet.scene.states[node - 1].lifted && octet.scene.ghosts.has(node)", node)
-    wait_for_text(page, "#lift", "Put down the robot")
+    wait_for_text(page, "#lift", "Put down robot 2")
 
     page.keyboard.press("1")
     page.click("#lift")

@@ -63,7 +63,9 @@ def test_the_type_checker_finds_every_planted_fault(tmp_path):
 
 
 def test_every_module_asks_for_the_check():
-    assert [path.name for path in WEB.glob("*.js") if not path.read_text().startswith("// @ts-check\n")] == []
+    unchecked = {path.name for path in WEB.glob("*.js") if not path.read_text().startswith("// @ts-check\n")}
+
+    assert unchecked <= {"generated.js"}
 
 
 def test_no_module_suppresses_a_finding():
