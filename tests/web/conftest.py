@@ -11,8 +11,9 @@ from tests.runs.support import octet
 from tests.web.support import CHROMIUM, READY, Faults, Watched, start_watched, wait_for
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
+    """Not for the session: while Playwright is at work, no other test in this process can run an event loop."""
     if not shutil.which(CHROMIUM):
         pytest.skip(f"chromium: {CHROMIUM} is missing")
     with sync_playwright() as playwright:
