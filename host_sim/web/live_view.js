@@ -15,8 +15,8 @@ import { Scene } from "./scene.js";
 /**
  * @typedef {import("./types.js").Command} Command
  * @typedef {import("./types.js").EnvironmentScene} EnvironmentScene
+ * @typedef {import("./types.js").Lesson} Lesson
  * @typedef {import("./types.js").Message} Message
- * @typedef {import("./types.js").NodeLesson} NodeLesson
  */
 
 const LESSONS_SHOWN = 30;
@@ -38,7 +38,7 @@ export class LiveView {
     this.lessonsView = new LessonsView();
     /**
      * The last lessons of each robot, by node.
-     * @type {Map<number, NodeLesson[]>}
+     * @type {Map<number, Lesson[]>}
      */
     this.lessons = new Map();
     bindArenaKeys(this.renderer.canvas, this.editor);
@@ -77,7 +77,7 @@ export class LiveView {
     this.editor.onEnvironment();
   }
 
-  /** @param {NodeLesson} lesson */
+  /** @param {Lesson} lesson */
   addLesson(lesson) {
     const lessons = this.lessons.get(lesson.node) ?? [];
     this.lessons.set(lesson.node, [...lessons, lesson].slice(-LESSONS_SHOWN));

@@ -62,15 +62,11 @@
 
 /**
  * @typedef {Object} Lesson
+ * @property {number} node
  * @property {number} tick
  * @property {number} cell
  * @property {number} side
  * @property {number} by_hand
- */
-
-/**
- * A lesson in a Message, with the robot that learned it.
- * @typedef {Lesson & {node: number}} NodeLesson
  */
 
 /**
@@ -99,7 +95,7 @@
  * @property {number} at
  * @property {State[]} states
  * @property {number[][]} trails
- * @property {NodeLesson[]} lessons
+ * @property {Lesson[]} lessons
  * @property {Play} play
  * @property {Health} health
  * @property {string[]} [notes]

@@ -15,7 +15,7 @@ from host_sim.view.state import EnvironmentScene, Measures, State, measures
 from host_sim.world.params import SimParams
 
 HOME = "http://octet.test/"
-MEASURES: Measures = measures(SimParams())
+MEASURES: Measures = measures(SimParams(), 10)
 ENVIRONMENT = EnvironmentScene(
     number=1,
     of=5,
@@ -113,7 +113,7 @@ def _recorded(node: int, y: int, cell: int, learned_at: int) -> dict[str, Any]:
         "node": node,
         "memory": [[0, [0] * 8], [learned_at, learned]],
         "trials": [[0, None]],
-        "lessons": [{"tick": learned_at, "cell": cell, "side": 1, "by_hand": 0}],
+        "lessons": [{"node": node, "tick": learned_at, "cell": cell, "side": 1, "by_hand": 0}],
         "turns": [],
         "events": [[0, "environment"], [learned_at, "lesson"]],
         "columns": COLUMNS,
