@@ -1,10 +1,13 @@
 """Pages that show many robots: all are drawn, one is selected, commands name theirs."""
 
+import json
+
 import pytest
 
 from host_sim.view.state import State
+from tests.runs.support import octet
 from tests.web.fake_run import HOME, FakeRun, robot_state, write_replay
-from tests.web.support import drag, place_on_page, wait_for, wait_for_text
+from tests.web.support import drag, pause, place_on_page, wait_for, wait_for_text
 
 # The colour of the canvas at a place of the arena, and the one that the style sheet has by a name.
 COLOUR_AT = """([x, y]) => {
@@ -198,3 +201,37 @@ def test_a_click_selects_a_recorded_robot(replay):
     assert selected(replay) == 3
     replay.mouse.click(*place_on_page(replay, 500, 1600))
     assert selected(replay) == 4
+
+
+def test_a_person_acts_on_one_robot_of_a_live_run(watch, open_page):
+    watched = watch("--robots", "3", "--seed", "1")
+    page = open_page(watched.url)
+    pause(page)
+    assert page.evaluate("octet.scene.states.map(({ node }) => node)") == [1, 2, 3]
+    page.keyboard.press("2")
+    wait_for_text(page, "#memory-title", "robot 2")
+
+    page.click("#cells li:nth-child(8) button")
+    wait_for(page, "octet.scene.states[1].memory[7] === 1")
+    page.click("#lift")
+    wait_for(page, "octet.scene.states[1].lifted === 1")
+
+    assert page.evaluate("octet.scene.states.map(({ memory, lifted }) => [memory[7], lifted])") == [
+        [0, 0],
+        [1, 1],
+        [0, 0],
+    ]
+    assert watched.end() == 0
+    assert [(edit["do"], edit["node"]) for edit in watched.params()["edits"]] == [("lift", 2)]
+
+
+def test_a_recorded_run_shows_each_robot_as_it_was(tmp_path, open_page):
+    words = ("--robots", "2", "--seed", "3", "--environments", "1", "--limit-s", "20")
+    assert octet("run", "--bus", "none", *words, "--quiet", "--out", tmp_path).returncode == 0
+    page = open_page((tmp_path / "replay.html").as_uri())
+
+    page.evaluate("octet.go(octet.data.last)")
+
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    shown = page.evaluate("octet.scene.states.map(({ node, memory }) => [node, memory])")
+    assert shown == [[robot["node"], robot["memory"]] for robot in summary["robots"]]
