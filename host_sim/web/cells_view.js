@@ -1,7 +1,23 @@
+// @ts-check
 /* The eight cells: for each pattern its picture, what was learned, when, and how often it was used. */
 
-import { REASON } from "./reasons.js";
-import { PATTERN_NAMES, SIDE_NAMES, clock } from "./words.js";
+import { CELL_COUNT, PATTERNS, REASON, SIDE, SIDES } from "./generated.js";
+import { binary, clock } from "./phrases.js";
+import { CONES, patternBit } from "./sensors.js";
+
+/**
+ * @typedef {import("./types.js").Measures} Measures
+ * @typedef {import("./types.js").State} State
+ *
+ * What a cell shows; `then` is what it held at another time.
+ * @typedef {{cell: number, side: number, when: string, uses: number, inUse: boolean, trying: number,
+ *   then: number | null}} Facts
+ *
+ * The elements of a cell.
+ * @typedef {{button: HTMLElement, name: HTMLElement, side: HTMLElement, history: HTMLElement, then: HTMLElement}} Parts
+ *
+ * @typedef {(cell: number, side: number) => void} OnPress
+ */
 
 const SVG = "http://www.w3.org/2000/svg";
 /** A cone of 45 degrees that looks up. */
@@ -11,16 +27,17 @@ const SECTOR = "M0 0 L-12.2 -29.6 A32 32 0 0 1 12.2 -29.6 Z";
 export class CellsView {
   /**
    * @param {HTMLElement} list
-   * @param {(cell: number, side: number) => void} [onPress] - Told which cell, and what it holds next.
+   * @param {OnPress} [onPress] - Gets the cell that was pressed, and what it is to hold next.
    */
   constructor(list, onPress) {
-    this.cells = PATTERN_NAMES.map((_, cell) => makeCell(list, cell, onPress));
+    this.cells = Array.from({ length: CELL_COUNT }, (_, cell) => makeCell(list, cell, onPress));
+    /** @type {string[]} */
     this.shown = [];
   }
 
   /**
-   * @param {Object} state - As in host_sim/view/state.py.
-   * @param {Object} measures
+   * @param {State} state
+   * @param {Measures} measures
    * @param {number[]} [then] - A memory to compare with.
    */
   show(state, measures, then) {
@@ -33,86 +50,126 @@ export class CellsView {
   }
 }
 
+/**
+ * @param {State} state
+ * @param {Measures} measures
+ * @param {number} cell
+ * @param {number[]} [then]
+ * @returns {Facts}
+ */
 function factsOf(state, measures, cell, then) {
-  const side = state.memory[cell];
   const about = state.pattern === cell && !state.lifted;
   return {
     cell,
-    side,
+    side: state.memory[cell],
     when: state.learned[cell] < 0 ? "" : clock(state.learned[cell], measures),
     uses: state.uses[cell],
-    inUse: about && state.reason === REASON.remembered,
-    trying: about && state.reason === REASON.trial ? (state.trial?.side ?? 0) : 0,
+    inUse: about && state.reason === REASON.REMEMBERED,
+    trying: about && state.reason === REASON.TRIAL && state.trial ? state.trial.side : SIDE.NOTHING,
     then: then ? then[cell] : null,
   };
 }
 
+/**
+ * @param {Parts} parts
+ * @param {Facts} facts
+ */
 function fillCell(parts, facts) {
   const { button } = parts;
-  button.dataset.side = SIDE_NAMES[facts.side];
+  button.dataset.side = SIDES[facts.side];
   button.classList.toggle("in-use", facts.inUse);
-  button.classList.toggle("trying", facts.trying > 0);
+  button.classList.toggle("trying", facts.trying !== SIDE.NOTHING);
   button.classList.toggle("changed", facts.then !== null && facts.then !== facts.side);
   parts.side.textContent = sideWords(facts);
-  parts.story.textContent = storyOf(facts);
-  parts.then.textContent = facts.then === null ? "" : `then: ${facts.then ? SIDE_NAMES[facts.then] : "empty"}`;
-  const story = [PATTERN_NAMES[facts.cell], parts.side.textContent, parts.story.textContent, parts.then.textContent];
-  button.setAttribute("aria-label", `Cell ${facts.cell}, ${story.filter(Boolean).join(", ")}`);
+  parts.history.textContent = historyOf(facts);
+  parts.then.textContent = facts.then === null ? "" : `then: ${facts.then ? SIDES[facts.then] : "empty"}`;
+  const words = [parts.name, parts.side, parts.history, parts.then].map(({ textContent }) => textContent);
+  button.setAttribute("aria-label", `Cell ${facts.cell}, ${words.filter(Boolean).join(", ")}`);
 }
 
+/** @param {Facts} facts */
 function sideWords({ cell, side, trying }) {
   if (cell === 0) return "drive on";
-  if (trying) return `${trying === 1 ? "↰" : "↱"} ${SIDE_NAMES[trying]}?`;
-  if (side === 0) return "empty";
-  return side === 1 ? "↰ left" : "right ↱";
+  if (trying !== SIDE.NOTHING) return `${trying === SIDE.LEFT ? "↰" : "↱"} ${SIDES[trying]}?`;
+  if (side === SIDE.NOTHING) return "empty";
+  return side === SIDE.LEFT ? `↰ ${SIDES[side]}` : `${SIDES[side]} ↱`;
 }
 
-function storyOf({ cell, side, when, uses }) {
+/** @param {Facts} facts */
+function historyOf({ cell, side, when, uses }) {
   if (cell === 0) return "";
-  const learned = side && when ? `learned ${when}` : "";
+  const learned = side !== SIDE.NOTHING && when ? `learned ${when}` : "";
   return [learned, uses ? `used ${uses}×` : ""].filter(Boolean).join(", ");
 }
 
+/**
+ * @param {HTMLElement} list
+ * @param {number} cell
+ * @param {OnPress} [onPress]
+ * @returns {Parts}
+ */
 function makeCell(list, cell, onPress) {
   const item = list.appendChild(document.createElement("li"));
-  const button = item.appendChild(document.createElement(onPress ? "button" : "div"));
-  button.className = "cell";
+  const button = item.appendChild(onPress ? makeButton(cell, onPress) : makeImage());
+  button.classList.add("cell");
   button.appendChild(pictureOf(cell));
-  const parts = { button };
-  for (const name of ["name", "side", "story", "then"]) parts[name] = addSpan(button, name);
-  parts.name.textContent = PATTERN_NAMES[cell];
-  if (onPress) makePressable(button, cell, onPress);
-  else button.setAttribute("role", "img");
-  return parts;
+  const [name, side, history, then] = ["name", "side", "history", "then"].map((part) => addSpan(button, part));
+  name.textContent = `${PATTERNS[cell]} ${binary(cell)}`;
+  return { button, name, side, history, then };
 }
 
-function makePressable(button, cell, onPress) {
+/**
+ * @param {number} cell
+ * @param {OnPress} onPress
+ */
+function makeButton(cell, onPress) {
+  const button = document.createElement("button");
   button.type = "button";
   button.disabled = cell === 0;
   button.title = cell ? "Press to change: empty, left, right" : "Nothing in the way: nothing to learn";
-  button.addEventListener("click", () => onPress(cell, (SIDE_NAMES.indexOf(button.dataset.side) + 1) % 3));
+  const next = () => (SIDES.indexOf(button.dataset.side ?? "") + 1) % SIDES.length;
+  button.addEventListener("click", () => onPress(cell, next()));
+  return button;
 }
 
+function makeImage() {
+  const image = document.createElement("div");
+  image.setAttribute("role", "img");
+  return image;
+}
+
+/**
+ * @param {HTMLElement} parent
+ * @param {string} name
+ */
 function addSpan(parent, name) {
   const span = parent.appendChild(document.createElement("span"));
   span.className = `cell-${name}`;
   return span;
 }
 
-/** The robot from above with its three front sensors, those of the pattern lit. */
+/**
+ * The robot from above with its three front sensors, those of the pattern lit.
+ * @param {number} pattern
+ */
 function pictureOf(pattern) {
   const svg = document.createElementNS(SVG, "svg");
   svg.setAttribute("viewBox", "-34 -34 68 50");
   svg.setAttribute("aria-hidden", "true");
-  for (const [bit, degrees] of [[1, 45], [2, 0], [4, -45]]) {
-    const lit = pattern & bit ? "lit" : "dark";
-    addShape(svg, "path", { d: SECTOR, class: lit, transform: `rotate(${degrees})` });
+  for (const { bit, bearing } of CONES.filter((cone) => patternBit(cone.bit))) {
+    const lit = pattern & patternBit(bit) ? "lit" : "dark";
+    addShape(svg, "path", { d: SECTOR, class: lit, transform: `rotate(${bearing})` });
   }
-  addShape(svg, "circle", { r: 13, class: "body" });
+  addShape(svg, "circle", { r: "13", class: "body" });
   addShape(svg, "path", { d: "M0 -9 L5 4 H-5 Z", class: "nose" });
   return svg;
 }
 
+/**
+ * @param {Element} svg
+ * @param {string} name
+ * @param {Record<string, string>} attributes
+ */
 function addShape(svg, name, attributes) {
   const shape = svg.appendChild(document.createElementNS(SVG, name));
   for (const [key, value] of Object.entries(attributes)) shape.setAttribute(key, value);

@@ -1,34 +1,49 @@
+// @ts-check
 /* The live page's buttons and keys for time, memory and run. */
 
-import { byId } from "./panel.js";
+import { byId, isForPage, setText, typedById } from "./elements.js";
 
+/**
+ * @typedef {import("./scene.js").Scene} Scene
+ * @typedef {import("./types.js").Command} Command
+ * @typedef {import("./types.js").Play} Play
+ */
+
+/** @type {Record<string, string>} */
 const KEYS = { " ": "play", ".": "decision", n: "next" };
 
 /** Sends what a person asks for, and shows how things stand. */
 export class Controls {
-  /** @param {(order: Object) => void} send */
+  /** @param {(command: Command) => void} send */
   constructor(send) {
     this.send = send;
     this.playing = true;
     this.frozen = 0;
+    this.node = 0;
+    this.speed = typedById("speed", HTMLSelectElement);
+    this.seed = typedById("seed", HTMLInputElement);
     this.bindButtons();
-    document.addEventListener("keydown", (event) => this.press(event));
+    document.addEventListener("keydown", (event) => this.onKey(event));
   }
 
-  /** @param {Object} scene - With `play` as in host_sim/live/feed.py. */
-  show({ play, state, environment, measures }) {
+  /**
+   * @param {Scene} scene
+   * @param {Play} play
+   */
+  show({ state, environment, measures }, play) {
     this.playing = play.playing;
+    this.node = state.node;
     this.showFrozen(state.frozen);
     setText(byId("play"), play.playing ? "Pause" : "Play");
     setText(byId("status"), statusOf(play));
     setText(byId("fact-speed"), play.rate ? `${((play.rate * measures.tick_ms) / 1000).toFixed(1)} ×` : "0 ×");
-    for (const id of ["play", "decision", "next"]) byId(id).disabled = play.done;
-    const speed = byId("speed");
-    if (document.activeElement !== speed) speed.value = `${play.speed}`;
-    const seed = byId("seed");
-    if (seed.value === "" && document.activeElement !== seed) seed.value = `${environment.seed + 1}`;
+    for (const id of Object.values(KEYS)) typedById(id, HTMLButtonElement).disabled = play.done;
+    if (document.activeElement !== this.speed) this.speed.value = `${play.speed}`;
+    const empty = this.seed.value === "" && document.activeElement !== this.seed;
+    if (empty) this.seed.value = `${environment.seed + 1}`;
   }
 
+  /** @param {number} frozen */
   showFrozen(frozen) {
     if (frozen === this.frozen) return;
     this.frozen = frozen;
@@ -37,43 +52,44 @@ export class Controls {
   }
 
   bindButtons() {
-    const on = (id, order) => byId(id).addEventListener("click", () => this.send(order()));
+    const on = (/** @type {string} */ id, /** @type {() => Command} */ command) =>
+      byId(id).addEventListener("click", () => this.send(command()));
     on("play", () => ({ do: this.playing ? "pause" : "play" }));
     on("decision", () => ({ do: "decision" }));
     on("next", () => ({ do: "next" }));
-    on("erase", () => ({ do: "erase" }));
-    on("freeze", () => ({ do: "freeze", on: 1 - this.frozen }));
-    byId("speed").addEventListener("change", (event) => {
-      this.send({ do: "speed", factor: Number(event.target.value) });
-      event.target.blur();
+    on("erase", () => ({ do: "erase", node: this.node }));
+    on("freeze", () => ({ do: "freeze", node: this.node, on: 1 - this.frozen }));
+    this.speed.addEventListener("change", () => {
+      this.send({ do: "speed", factor: Number(this.speed.value) });
+      this.speed.blur();
     });
     byId("seed-form").addEventListener("submit", (event) => this.startOver(event));
   }
 
+  /** @param {SubmitEvent} event */
   startOver(event) {
     event.preventDefault();
-    this.send({ do: "seed", seed: Number(byId("seed").value) });
-    byId("seed").value = "";
-    byId("seed").blur();
+    this.send({ do: "seed", seed: Number(this.seed.value) });
+    this.seed.value = "";
+    this.seed.blur();
   }
 
-  /** Keys work wherever they do not mean something else already. */
-  press(event) {
-    const target = event.target;
-    if (event.ctrlKey || event.metaKey || event.altKey || target.closest("input, select, summary")) return;
-    if (event.key === " " && target.closest("button")) return;
+  /**
+   * Keys work wherever they do not mean something else already.
+   * @param {KeyboardEvent} event
+   */
+  onKey(event) {
     const id = KEYS[event.key.toLowerCase()];
-    if (id === undefined) return;
+    const fields = event.key === " " ? "input, select, summary, button" : "input, select, summary";
+    if (id === undefined || !isForPage(event, fields)) return;
     event.preventDefault();
-    if (!byId(id).disabled) byId(id).click();
+    const button = typedById(id, HTMLButtonElement);
+    if (!button.disabled) button.click();
   }
 }
 
+/** @param {Play} play */
 function statusOf(play) {
   if (play.done) return play.stays ? "all done: start over with a seed" : "all done";
   return play.playing ? "live" : "paused";
-}
-
-function setText(element, text) {
-  if (element.textContent !== text) element.textContent = text;
 }

@@ -1,24 +1,33 @@
+// @ts-check
 /* The colours of a canvas: those of the style sheet, so that light and dark are decided in one place. */
 
-const NAMES = ["floor", "grid", "ink", "paper", "bar", "food", "cone", "cone-dark", "beam", "select"];
-const REASONS = 8;
+import { REASON } from "./generated.js";
+
+const NAMES = /** @type {const} */ ([
+  "floor", "grid", "ink", "paper", "bar", "food", "cone", "cone-dark", "beam", "select",
+]);
 
 /**
  * @typedef {Object} Palette
- * @property {Object<string, string>} of - Colour by name.
+ * @property {Record<typeof NAMES[number], string>} of - Colour by name.
  * @property {string[]} reasons - Colour by reason.
  */
 
+/** What the style sheet calls each reason, by reason: "toward-food". */
+export const REASON_KEYS = Object.entries(REASON)
+  .sort(([, a], [, b]) => a - b)
+  .map(([name]) => name.toLowerCase().replaceAll("_", "-"));
+
 /**
- * Reads the colours that hold for an element now.
+ * Reads the colours that an element has now.
  * @param {Element} element
  * @returns {Palette}
  */
 export function paletteOf(element) {
   const style = getComputedStyle(element);
-  const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+  const colour = (/** @type {string} */ name) => style.getPropertyValue(`--${name}`).trim();
   return {
-    of: Object.fromEntries(NAMES.map((name) => [name, colour(name)])),
-    reasons: Array.from({ length: REASONS }, (_, reason) => colour(`reason-${reason}`)),
+    of: /** @type {Palette["of"]} */ (Object.fromEntries(NAMES.map((name) => [name, colour(name)]))),
+    reasons: REASON_KEYS.map((key) => colour(`reason-${key}`)),
   };
 }

@@ -1,31 +1,30 @@
-/* Draws one scene on a canvas: the arena to scale, the trail, the robot. Knows nothing but its canvas. */
+// @ts-check
+/* Draws a scene on a canvas: the arena to scale, the trails, the robots. */
 
+import { contextOf } from "./elements.js";
 import { paletteOf } from "./palette.js";
-import { circle, drawLook, drawRobot } from "./robot_view.js";
-import { TrailLayer } from "./trail_view.js";
-
-/** Room around the arena, for its walls. */
-export const MARGIN_MM = 40;
-const GRID_MM = 500;
-const FOOD_MM = 50;
+import { drawLook, drawRobot } from "./robot_view.js";
+import { circle } from "./shapes.js";
+import { TrailLayer } from "./trail_layer.js";
 
 /**
- * What there is to see; the parts are those of host_sim/view/state.py.
- * @typedef {Object} Scene
- * @property {Object} measures
- * @property {Object} environment
- * @property {Object} state
- * @property {import("./trail.js").Trail} trail
- * @property {{kind: string, id: number}} [selected] - What a person has chosen, if anything.
- * @property {{x: number, y: number}} [ghost] - Where a person holds the robot, if anyone does.
+ * @typedef {import("./scene.js").Item} Item
+ * @typedef {import("./scene.js").Scene} Scene
+ * @typedef {import("./types.js").Measures} Measures
+ * @typedef {import("./types.js").Place} Place
  */
+
+/** Room around the arena, for its walls. */
+const MARGIN_MM = 40;
+const GRID_MM = 500;
+const FOOD_MM = 50;
 
 /** Keeps its canvas as sharp as the screen. */
 export class Renderer {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
     this.canvas = canvas;
-    this.context = canvas.getContext("2d", { alpha: false });
+    this.context = contextOf(canvas, { alpha: false });
     this.palette = paletteOf(canvas);
     this.trailLayer = new TrailLayer();
     this.scale = 1;
@@ -37,19 +36,20 @@ export class Renderer {
   /** @param {Scene} scene */
   draw(scene) {
     const { context, palette } = this;
+    const states = [...scene.states.filter(({ node }) => node !== scene.node), scene.state];
     this.fit(scene.measures);
     this.drawFloor(scene.measures);
-    this.trailLayer.draw(context, scene.trail, palette.reasons);
-    drawLook(context, scene, palette);
+    this.trailLayer.draw(context, scene.trails, palette.reasons, scene.trail);
+    for (const state of states) drawLook(context, scene, state, palette);
     this.drawFood(scene);
     this.drawBars(scene);
-    drawRobot(context, scene, palette);
+    for (const state of states) drawRobot(context, scene, state, palette);
   }
 
   /**
    * The place in the arena at a place of the page.
    * @param {{clientX: number, clientY: number}} at
-   * @returns {{x: number, y: number}} mm
+   * @returns {Place} mm
    */
   placeOf(at) {
     const box = this.canvas.getBoundingClientRect();
@@ -66,7 +66,10 @@ export class Renderer {
     this.size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
   }
 
-  /** Gives the canvas a pixel for each of the screen's, and mm as its unit. */
+  /**
+   * Gives the canvas a pixel for each of the screen's, and mm as its unit.
+   * @param {Measures} measures
+   */
   fit(measures) {
     const width = Math.max(1, Math.round(this.size.width * devicePixelRatio));
     const height = Math.max(1, Math.round(this.size.height * devicePixelRatio));
@@ -78,6 +81,7 @@ export class Renderer {
     this.context.setTransform(this.scale, 0, 0, this.scale, MARGIN_MM * this.scale, MARGIN_MM * this.scale);
   }
 
+  /** @param {Measures} measures */
   drawFloor(measures) {
     const { context, palette } = this;
     context.fillStyle = palette.of.bar;
@@ -89,29 +93,38 @@ export class Renderer {
     for (let y = GRID_MM; y < measures.height; y += GRID_MM) context.fillRect(0, y - 2, measures.width, 4);
   }
 
-  /** A full disc; an empty ring once it is eaten. */
-  drawFood({ environment, state, selected }) {
+  /**
+   * A full disc; an empty ring once it is eaten.
+   * @param {Scene} scene
+   */
+  drawFood({ environment, state, item }) {
     const { context, palette } = this;
     environment.food.forEach(([x, y], id) => {
       circle(context, x, y, FOOD_MM);
       context.fillStyle = palette.of[state.eaten[id] ? "floor" : "food"];
       context.fill();
-      context.strokeStyle = palette.of[isIt(selected, "food", id) ? "select" : "food"];
+      context.strokeStyle = palette.of[isSelected(item, "food", id) ? "select" : "food"];
       context.lineWidth = 14;
       context.stroke();
     });
   }
 
-  drawBars({ environment, measures, selected }) {
-    const { context, palette } = this;
-    context.lineCap = "round";
-    for (const [id, ax, ay, bx, by] of environment.bars) {
-      if (isIt(selected, "bar", id)) this.drawBar([ax, ay, bx, by], measures.bar + 40, palette.of.select);
-      this.drawBar([ax, ay, bx, by], measures.bar, palette.of.bar);
+  /** @param {Scene} scene */
+  drawBars({ environment, measures, item }) {
+    const { palette } = this;
+    this.context.lineCap = "round";
+    for (const bar of environment.bars) {
+      if (isSelected(item, "bar", bar[0])) this.drawBar(bar, measures.bar + 40, palette.of.select);
+      this.drawBar(bar, measures.bar, palette.of.bar);
     }
   }
 
-  drawBar([ax, ay, bx, by], width, colour) {
+  /**
+   * @param {number[]} bar
+   * @param {number} width
+   * @param {string} colour
+   */
+  drawBar([, ax, ay, bx, by], width, colour) {
     const { context } = this;
     context.strokeStyle = colour;
     context.lineWidth = width;
@@ -122,6 +135,11 @@ export class Renderer {
   }
 }
 
-function isIt(selected, kind, id) {
-  return selected?.kind === kind && selected.id === id;
+/**
+ * @param {Item | undefined} item
+ * @param {Item["kind"]} kind
+ * @param {number} id
+ */
+function isSelected(item, kind, id) {
+  return item?.kind === kind && item.id === id;
 }

@@ -1,56 +1,95 @@
-/* The kept page: plays a recorded run, forward and back, and compares its memory at two times. */
+// @ts-check
+/* The page of a recorded run: plays it, forward and back, and compares its memory at two times. */
 
-import { Panel, byId } from "./panel.js";
+import { byId, isForPage, setText, typedById } from "./elements.js";
+import { itemAt } from "./hit_testing.js";
+import { LessonsView } from "./lessons_view.js";
+import { Panel } from "./panel.js";
+import { clock } from "./phrases.js";
 import { Renderer } from "./renderer.js";
+import { RobotPicker } from "./robot_picker.js";
 import { RunData } from "./run_data.js";
+import { Scene } from "./scene.js";
 import { drawMarks } from "./timeline.js";
-import { Trail } from "./trail.js";
-import { clock, lessonWords } from "./words.js";
+
+/** @typedef {import("./types.js").EventKind} EventKind */
 
 /** Shows one run; `go` shows its state at a tick. */
 class Player {
   /** @param {RunData} data */
   constructor(data) {
-    Object.assign(this, { data, tick: data.first, playing: false, then: undefined, pinned: undefined });
-    this.renderer = new Renderer(byId("arena"));
+    this.data = data;
+    this.tick = this.exactTick = data.first;
+    this.playing = false;
+    /**
+     * The tick that the memory is compared with.
+     * @type {number | undefined}
+     */
+    this.pinned = undefined;
+    /**
+     * When the last frame was drawn, ms.
+     * @type {number | undefined}
+     */
+    this.frameAt = undefined;
+    this.stale = true;
+    this.scrub = typedById("scrub", HTMLInputElement);
+    this.marks = typedById("marks", HTMLCanvasElement);
+    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement));
     this.panel = new Panel();
-    this.scene = { measures: data.measures, trail: new Trail() };
+    this.lessonsView = new LessonsView();
+    this.scene = new Scene(data.measures, data.sceneAt(data.first), data.statesAt(data.first));
+    this.picker = new RobotPicker(this.scene, (node) => this.select(node));
+    data.trailsAt(data.first, this.scene.trails);
     this.bind();
-    this.go(data.first);
-    new ResizeObserver(() => this.resize()).observe(byId("marks"));
+    new ResizeObserver(() => this.resize()).observe(this.marks);
     requestAnimationFrame((now) => this.frame(now));
   }
 
   bind() {
-    const scrub = byId("scrub");
-    [scrub.min, scrub.max] = [this.data.first, this.data.last];
-    scrub.addEventListener("input", () => this.go(Number(scrub.value)));
+    [this.scrub.min, this.scrub.max] = [`${this.data.first}`, `${this.data.last}`];
+    this.scrub.addEventListener("input", () => this.go(Number(this.scrub.value)));
     byId("play").addEventListener("click", () => this.setPlaying(!this.playing));
     byId("before").addEventListener("click", () => this.jump(-1));
     byId("after").addEventListener("click", () => this.jump(1));
     byId("pin").addEventListener("click", () => this.pin());
-    document.addEventListener("keydown", (event) => this.press(event));
+    this.renderer.canvas.addEventListener("click", (event) => this.onClick(event));
+    document.addEventListener("keydown", (event) => this.onKey(event));
+  }
+
+  /** The robot that is selected. */
+  get robot() {
+    return this.data.robots[this.scene.index];
+  }
+
+  /** @param {number} node */
+  select(node) {
+    this.scene.node = node;
+    this.resize();
   }
 
   resize() {
-    drawMarks(byId("marks"), this.data);
+    drawMarks(this.marks, this.robot, this.data);
     this.stale = true;
   }
 
-  /** Shows a tick; one beyond the ends shows the end. */
+  /**
+   * Shows a tick; one beyond the ends shows the end.
+   * @param {number} tick
+   */
   go(tick) {
     const { data, scene } = this;
     const before = this.tick;
     this.tick = Math.min(data.last, Math.max(data.first, Math.floor(tick)));
     const environment = data.sceneAt(this.tick);
-    const onward = scene.state && this.tick >= before && environment.first_tick === scene.environment.first_tick;
-    if (onward) data.addTrail(scene.trail, before + 1, this.tick);
-    else data.trailAt(this.tick, scene.trail);
+    const onward = this.tick >= before && environment.first_tick === scene.environment.first_tick;
+    if (onward) data.addTrails(scene.trails, before + 1, this.tick);
+    else data.trailsAt(this.tick, scene.trails);
     scene.environment = environment;
-    scene.state = data.stateAt(this.tick);
+    scene.states = data.statesAt(this.tick);
     this.stale = true;
   }
 
+  /** @param {boolean} playing */
   setPlaying(playing) {
     if (playing && this.tick === this.data.last) this.go(this.data.first);
     this.playing = playing;
@@ -60,82 +99,91 @@ class Player {
     this.stale = true;
   }
 
+  /** @param {number} step - 1 for the next event of the chosen kind, -1 for the one before. */
   jump(step) {
-    const kind = byId("kind").value;
-    const tick = this.data.eventFrom(kind, this.tick, step);
+    const kind = /** @type {EventKind} */ (typedById("kind", HTMLSelectElement).value);
+    const tick = this.robot.eventFrom(kind, this.tick, step);
     const none = `no ${step > 0 ? "later" : "earlier"} ${kind}`;
-    byId("status").textContent = tick === undefined ? none : this.data.run.title;
+    setText(byId("status"), tick === undefined ? none : this.data.run.title);
     if (tick === undefined) return;
     this.setPlaying(false);
     this.go(tick);
   }
 
-  /** Holds the memory of now against that of other times; once more lets go of it. */
+  /** Compares the memory of now with that of other times; once more ends that. */
   pin() {
     this.pinned = this.pinned === undefined ? this.tick : undefined;
-    this.then = this.pinned === undefined ? undefined : this.data.memoryAt(this.pinned);
-    const pinned = this.pinned !== undefined;
-    byId("pin").textContent = pinned ? `Compared with ${clock(this.pinned, this.data.measures)}` : "Compare with now";
-    byId("pin").setAttribute("aria-pressed", `${pinned}`);
+    const words = this.pinned === undefined ? "Compare with now" : `Compared with ${this.clockAt(this.pinned)}`;
+    setText(byId("pin"), words);
+    byId("pin").setAttribute("aria-pressed", `${this.pinned !== undefined}`);
     this.stale = true;
   }
 
+  /** @param {number} tick */
+  clockAt(tick) {
+    return clock(tick, this.data.measures);
+  }
+
+  /** @param {number} now */
   frame(now) {
     if (this.playing) this.advance(now);
     if (this.stale) this.draw();
     requestAnimationFrame((next) => this.frame(next));
   }
 
+  /** @param {number} now */
   advance(now) {
-    const ticks = ((now - (this.frameAt ?? now)) / this.data.measures.tick_ms) * Number(byId("speed").value);
+    const speed = Number(typedById("speed", HTMLSelectElement).value);
+    this.exactTick += ((now - (this.frameAt ?? now)) / this.data.measures.tick_ms) * speed;
     this.frameAt = now;
-    this.exactTick += ticks;
     this.go(this.exactTick);
     if (this.tick === this.data.last) this.setPlaying(false);
   }
 
   draw() {
+    const { scene, robot, tick } = this;
     this.stale = false;
-    this.renderer.draw(this.scene);
-    this.panel.show(this.scene, { exact: !this.playing, then: this.then });
-    const scrub = byId("scrub");
-    scrub.value = this.tick;
-    scrub.setAttribute("aria-valuetext", clock(this.tick, this.data.measures));
-    this.showLessons();
+    this.renderer.draw(scene);
+    const then = this.pinned === undefined ? undefined : robot.memoryAt(this.pinned);
+    this.panel.show(scene, { exact: !this.playing, then });
+    this.picker.show();
+    this.lessonsView.show(scene.node, robot.lessonsUpTo(tick), scene.measures);
+    this.scrub.value = `${tick}`;
+    this.scrub.setAttribute("aria-valuetext", this.clockAt(tick));
   }
 
-  showLessons() {
-    const lessons = this.data.lessonsUpTo(this.tick);
-    if (this.lessons === lessons.length) return;
-    this.lessons = lessons.length;
-    byId("lessons").replaceChildren(...lessons.reverse().map((lesson) => this.lessonItem(lesson)));
+  /** @param {MouseEvent} event */
+  onClick(event) {
+    const item = itemAt(this.scene, this.renderer.placeOf(event));
+    if (item?.kind === "robot") this.select(item.id);
   }
 
-  lessonItem(lesson) {
-    const item = document.createElement("li");
-    item.textContent = `${clock(lesson.tick, this.data.measures)} ${lessonWords(lesson)}`;
-    return item;
-  }
-
-  press(event) {
-    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("select")) return;
+  /** @param {KeyboardEvent} event */
+  onKey(event) {
+    if (!isForPage(event, event.key === " " ? "select, button" : "select")) return;
     const action = this.actionOf(event);
     if (!action) return;
     event.preventDefault();
     action();
   }
 
-  actionOf({ key, shiftKey, target }) {
+  /**
+   * @param {KeyboardEvent} event
+   * @returns {(() => void) | undefined}
+   */
+  actionOf({ key, shiftKey }) {
     const step = shiftKey ? Math.round(1000 / this.data.measures.tick_ms) : 1;
-    if (key === " ") return target.closest("button") ? undefined : () => this.setPlaying(!this.playing);
-    return {
+    /** @type {Record<string, () => void>} */
+    const actions = {
+      " ": () => this.setPlaying(!this.playing),
       arrowright: () => this.go(this.tick + step),
       arrowleft: () => this.go(this.tick - step),
       home: () => this.go(this.data.first),
       end: () => this.go(this.data.last),
       n: () => this.jump(1),
       p: () => this.jump(-1),
-    }[key.toLowerCase()];
+    };
+    return actions[key.toLowerCase()];
   }
 }
 
@@ -143,8 +191,8 @@ async function start() {
   const text = byId("run").textContent;
   if (!text) throw new Error("This page has no run in it: tools/octet replay RUN.LOG --html makes one that has.");
   const run = JSON.parse(text);
-  byId("status").textContent = run.title;
-  window.octet = new Player(await RunData.from(run));
+  setText(byId("status"), run.title);
+  Object.assign(window, { octet: new Player(await RunData.from(run)) });
 }
 
-start().catch((error) => (byId("status").textContent = error.message));
+start().catch((error) => setText(byId("status"), error.message));

@@ -1,52 +1,70 @@
-/* Draws the robot: body, wheels, heading, the five cones, the look ahead, and what it tries. */
+// @ts-check
+/* Draws a robot: body, wheels, heading, the five cones, the look ahead, its number, and what it tries. */
 
-import { REASON } from "./reasons.js";
+import { REASON } from "./generated.js";
+import { CONES } from "./sensors.js";
+import { circle, drawDisc, drawRing, drawText } from "./shapes.js";
 
-/** The bearing of each cone's middle in degrees, to the right of the heading, by its bit of feel. */
-const CONES = [[1, 90], [2, 45], [4, 0], [8, -45], [16, -90]];
+/**
+ * @typedef {import("./palette.js").Palette} Palette
+ * @typedef {import("./scene.js").Scene} Scene
+ * @typedef {import("./types.js").Measures} Measures
+ * @typedef {import("./types.js").State} State
+ */
+
 const CONE_HALF = Math.PI / 8;
 const GLANCE_MM = 700;
 const VERDICT_MS = 1200;
 const SIGN_MM = 290;
 const SIGN_ROOM_MM = 400;
+const NUMBER_MM = 165;
+const NUMBER_ROOM_MM = 260;
 
 /**
  * @param {CanvasRenderingContext2D} context - In mm.
- * @param {import("./renderer.js").Scene} scene
- * @param {import("./palette.js").Palette} palette
+ * @param {Scene} scene
+ * @param {State} state - Of the robot to draw.
+ * @param {Palette} palette
  */
-export function drawRobot(context, scene, palette) {
-  const { state, measures, ghost, selected } = scene;
+export function drawRobot(context, scene, state, palette) {
+  const { measures, item } = scene;
+  const pose = scene.poseOf(state);
   context.save();
-  context.translate(ghost?.x ?? state.x, ghost?.y ?? state.y);
+  context.translate(pose.x, pose.y);
   context.save();
-  context.rotate((ghost?.heading ?? state.heading) / 1000);
-  if (state.lifted || ghost) drawAir(context, measures, palette);
+  context.rotate(pose.heading / 1000);
+  if (scene.isHeld(state)) drawAir(context, measures, palette);
   else drawCones(context, state.feel, measures, palette);
-  if (selected?.kind === "robot") drawRing(context, measures.body * 1.12, palette.of.select);
+  if (item?.kind === "robot" && item.id === state.node) drawRing(context, measures.body * 1.12, palette.of.select);
   drawBody(context, state, measures, palette);
   context.restore();
-  drawTrial(context, scene, palette);
+  if (scene.states.length > 1) drawNumber(context, scene, state, palette);
+  drawTrial(context, state, measures, palette);
   context.restore();
 }
 
-/** A wide broken ring says that it is off the floor. */
+/**
+ * A wide broken ring says that it is off the floor.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Measures} measures
+ * @param {Palette} palette
+ */
 function drawAir(context, measures, palette) {
   context.setLineDash([40, 30]);
   drawRing(context, measures.body * 1.45, palette.of.select);
   context.setLineDash([]);
 }
 
-function drawRing(context, radius, colour) {
-  context.strokeStyle = colour;
-  context.lineWidth = 16;
-  circle(context, 0, 0, radius);
-  context.stroke();
-}
-
-/** The corridor in which the robot sees food, lit as far as the food that it sees; obstacles go over it. */
-export function drawLook(context, { state, measures, ghost }, palette) {
-  if (state.lifted || ghost) return;
+/**
+ * The corridor in which a robot sees food, lit as far as the food that it sees; obstacles go over it.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Scene} scene
+ * @param {State} state
+ * @param {Palette} palette
+ */
+export function drawLook(context, scene, state, palette) {
+  const { measures } = scene;
+  if (scene.isHeld(state)) return;
   context.save();
   context.beginPath();
   context.rect(0, 0, measures.width, measures.height);
@@ -59,8 +77,14 @@ export function drawLook(context, { state, measures, ghost }, palette) {
   context.restore();
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} feel
+ * @param {Measures} measures
+ * @param {Palette} palette
+ */
 function drawCones(context, feel, measures, palette) {
-  for (const [bit, bearing] of CONES) {
+  for (const { bit, bearing } of CONES) {
     const middle = (bearing * Math.PI) / 180;
     context.beginPath();
     context.moveTo(0, 0);
@@ -76,6 +100,12 @@ function drawCones(context, feel, measures, palette) {
   }
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {State} state
+ * @param {Measures} measures
+ * @param {Palette} palette
+ */
 function drawBody(context, state, measures, palette) {
   const wheel = { length: 70, width: 24 };
   context.fillStyle = palette.of.ink;
@@ -91,6 +121,11 @@ function drawBody(context, state, measures, palette) {
   drawNose(context, measures.body, palette);
 }
 
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {number} body
+ * @param {Palette} palette
+ */
 function drawNose(context, body, palette) {
   context.fillStyle = palette.of.ink;
   context.beginPath();
@@ -101,34 +136,39 @@ function drawNose(context, body, palette) {
   context.fill();
 }
 
-/** A sign above the robot: a question while it tries something, then whether it helped. */
-function drawTrial(context, scene, palette) {
-  const { state, measures } = scene;
+/**
+ * The robot's number beside its body; inverted for the robot that the panel shows.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Scene} scene
+ * @param {State} state
+ * @param {Palette} palette
+ */
+function drawNumber(context, scene, state, palette) {
+  const { x, y } = scene.poseOf(state);
+  const shown = state.node === scene.node;
+  const toTheRight = x < scene.measures.width - NUMBER_ROOM_MM;
+  const below = y < scene.measures.height - NUMBER_ROOM_MM;
+  const at = { x: toTheRight ? NUMBER_MM : -NUMBER_MM, y: below ? NUMBER_MM : -NUMBER_MM };
+  const [ground, ink] = shown ? [palette.of.ink, palette.of.paper] : [palette.of.paper, palette.of.ink];
+  drawDisc(context, { ...at, radius: 72, ground, edge: palette.of.ink, width: 10 });
+  drawText(context, `${state.node}`, { ...at, size: state.node < 10 ? 100 : 80, colour: ink });
+}
+
+/**
+ * A sign above the robot: a question while it tries something, then whether it helped.
+ * @param {CanvasRenderingContext2D} context
+ * @param {State} state
+ * @param {Measures} measures
+ * @param {Palette} palette
+ */
+function drawTrial(context, state, measures, palette) {
   const trial = state.trial;
   if (!trial || (state.tick - trial.tick) * measures.tick_ms > VERDICT_MS) return;
-  const trying = state.reason === REASON.trial && trial.helped === null;
+  const trying = state.reason === REASON.TRIAL && trial.helped === null;
   if (!trying && trial.helped === null) return;
   const sign = trying ? "?" : trial.helped ? "✓" : "✗";
-  const colour = trial.helped === 1 ? palette.of.food : palette.reasons[REASON.trial];
-  drawSign(context, { sign, colour, y: state.y < SIGN_ROOM_MM ? SIGN_MM : -SIGN_MM }, palette);
-}
-
-function drawSign(context, { sign, colour, y }, palette) {
-  circle(context, 0, y, 95);
-  context.fillStyle = palette.of.paper;
-  context.fill();
-  context.strokeStyle = colour;
-  context.lineWidth = 18;
-  context.stroke();
-  context.fillStyle = palette.of.ink;
-  context.font = "bold 130px system-ui, sans-serif";
-  context.textAlign = "center";
-  context.textBaseline = "middle";
-  context.fillText(sign, 0, y + 8);
-}
-
-/** Begins a path that is one circle. */
-export function circle(context, x, y, radius) {
-  context.beginPath();
-  context.arc(x, y, radius, 0, 2 * Math.PI);
+  const edge = trial.helped ? palette.of.food : palette.reasons[REASON.TRIAL];
+  const at = { x: 0, y: state.y < SIGN_ROOM_MM ? SIGN_MM : -SIGN_MM };
+  drawDisc(context, { ...at, radius: 95, ground: palette.of.paper, edge, width: 18 });
+  drawText(context, sign, { ...at, size: 130, colour: palette.of.ink });
 }

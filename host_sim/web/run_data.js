@@ -1,76 +1,165 @@
-/* A recorded run: unpacks what host_sim/report/replay_page.py packed, and gives the state of any tick. */
+// @ts-check
+/* A recorded run: gives the states of any tick. */
 
-import { Trail } from "./trail.js";
+import { CELL_COUNT } from "./generated.js";
+import { unpackColumns } from "./packed_columns.js";
 
-const VERSION = 1;
+/**
+ * @typedef {import("./packed_columns.js").Columns} Columns
+ * @typedef {import("./trail.js").Trail} Trail
+ * @typedef {import("./types.js").EnvironmentScene} EnvironmentScene
+ * @typedef {import("./types.js").EventKind} EventKind
+ * @typedef {import("./types.js").Lesson} Lesson
+ * @typedef {import("./types.js").RobotRun} RobotRun
+ * @typedef {import("./types.js").Run} Run
+ * @typedef {import("./types.js").State} State
+ */
+
+const VERSION = 2;
 const TRAIL_TICKS = 6000;
-const PER_MM = { x: 10, y: 10 };
+const PLACES_PER_MM = 10;
 
 /** A run in memory. Ticks are counted from the start of the run. */
 export class RunData {
   /**
    * Unpacks a run.
-   * @param {Object} run - As host_sim/report/replay_page.py describes it.
+   * @param {Run} run
    * @returns {Promise<RunData>}
    */
   static async from(run) {
     if (run.version !== VERSION) throw new Error(`This page shows runs of version ${VERSION}, not ${run.version}.`);
-    const columns = unpack(await inflate(run.data), run.columns, run.ticks);
-    return new RunData(run, columns);
+    const columns = run.robots.map((robot) => unpackColumns(robot.data, robot.columns, run.ticks));
+    return new RunData(run, await Promise.all(columns));
   }
 
+  /**
+   * @param {Run} run
+   * @param {Columns[]} columns - Of each robot.
+   */
   constructor(run, columns) {
     this.run = run;
-    this.columns = columns;
     this.first = run.first_tick;
     this.last = run.first_tick + run.ticks - 1;
     this.measures = run.measures;
+    this.robots = run.robots.map((robot, i) => new RobotData(robot, columns[i], run.first_tick));
   }
 
-  /** The state of a tick, as in host_sim/view/state.py. */
-  stateAt(tick) {
-    const state = { tick };
-    for (const [name, column] of Object.entries(this.columns)) {
-      state[name] = column[tick - this.first] / (PER_MM[name] ?? 1);
-    }
-    state.eaten = latest(this.run.eaten, tick);
-    state.memory = this.memoryAt(tick);
-    state.trial = latest(this.run.trials, tick) ?? null;
-    state.uses = this.usesAt(tick);
-    state.learned = this.learnedAt(tick);
-    return state;
+  /**
+   * The states of all robots at a tick.
+   * @param {number} tick
+   * @returns {State[]}
+   */
+  statesAt(tick) {
+    const eaten = latest(this.run.eaten, tick);
+    return this.robots.map((robot) => robot.stateAt(tick, eaten));
   }
 
-  memoryAt(tick) {
-    return latest(this.run.memory, tick);
-  }
-
+  /** @param {number} tick */
   sceneAt(tick) {
     return latest(this.run.scenes, tick);
   }
 
-  /** How often each cell was used, up to a tick. */
+  /**
+   * Makes trails those up to a tick, in its environment.
+   * @param {number} tick
+   * @param {Trail[]} trails
+   */
+  trailsAt(tick, trails) {
+    const begin = this.sceneAt(tick).first_tick;
+    trails.forEach((trail) => trail.clear());
+    this.addTrails(trails, Math.max(this.first, begin, tick - TRAIL_TICKS), tick);
+  }
+
+  /**
+   * Adds ticks to trails, both ends included.
+   * @param {Trail[]} trails
+   * @param {number} from
+   * @param {number} to
+   */
+  addTrails(trails, from, to) {
+    this.robots.forEach((robot, i) => robot.addTrail(trails[i], from, to));
+  }
+}
+
+/** What a recorded run has of one robot. */
+export class RobotData {
+  /**
+   * @param {RobotRun} run
+   * @param {Columns} columns
+   * @param {number} first - The first tick of the columns.
+   */
+  constructor(run, columns, first) {
+    this.run = run;
+    this.columns = columns;
+    this.first = first;
+  }
+
+  /**
+   * @param {number} tick
+   * @param {number[]} eaten
+   * @returns {State}
+   */
+  stateAt(tick, eaten) {
+    const at = (/** @type {string} */ column) => this.columns[column][tick - this.first];
+    return {
+      node: this.run.node,
+      tick,
+      x: at("x") / PLACES_PER_MM,
+      y: at("y") / PLACES_PER_MM,
+      heading: at("heading"),
+      lifted: at("lifted"),
+      feel: at("feel"),
+      bump: at("bump"),
+      beacon: at("beacon"),
+      left: at("left"),
+      right: at("right"),
+      reason: at("reason"),
+      repeat_count: at("repeat_count"),
+      action: at("action"),
+      pattern: at("pattern"),
+      eaten,
+      memory: this.memoryAt(tick),
+      uses: this.usesAt(tick),
+      learned: this.learnedAt(tick),
+      frozen: at("frozen"),
+      trial: latest(this.run.trials, tick),
+    };
+  }
+
+  /** @param {number} tick */
+  memoryAt(tick) {
+    return latest(this.run.memory, tick);
+  }
+
+  /**
+   * How often each cell was used, up to a tick.
+   * @param {number} tick
+   */
   usesAt(tick) {
-    const uses = new Array(8).fill(0);
+    const uses = Array.from({ length: CELL_COUNT }, () => 0);
     const count = countUpTo(this.run.turns, tick, ([at]) => at);
     for (let i = 0; i < count; i += 1) uses[this.run.turns[i][1]] += 1;
     return uses;
   }
 
-  /** When each cell last changed, up to a tick; -1 if it did not. */
+  /**
+   * When each cell last changed, up to a tick; -1 if it did not.
+   * @param {number} tick
+   */
   learnedAt(tick) {
-    const learned = new Array(8).fill(-1);
+    const learned = Array.from({ length: CELL_COUNT }, () => -1);
     for (const lesson of this.lessonsUpTo(tick)) learned[lesson.cell] = lesson.tick;
     return learned;
   }
 
+  /** @param {number} tick */
   lessonsUpTo(tick) {
     return this.run.lessons.slice(0, countUpTo(this.run.lessons, tick, (lesson) => lesson.tick));
   }
 
   /**
    * The tick of the next event of a kind after a tick, or the one before it; undefined if there is none.
-   * @param {string} kind
+   * @param {EventKind} kind
    * @param {number} tick
    * @param {number} step - 1 or -1.
    */
@@ -79,53 +168,37 @@ export class RunData {
     return step > 0 ? ticks[0] : ticks.at(-1);
   }
 
-  /** The trail up to a tick, in its environment. */
-  trailAt(tick, trail = new Trail()) {
-    const begin = this.sceneAt(tick).first_tick;
-    trail.clear();
-    this.addTrail(trail, Math.max(this.first, begin, tick - TRAIL_TICKS), tick);
-    return trail;
-  }
-
-  /** Adds ticks to a trail, both ends included. */
+  /**
+   * @param {Trail} trail
+   * @param {number} from
+   * @param {number} to
+   */
   addTrail(trail, from, to) {
     const { x, y, reason } = this.columns;
-    for (let tick = from; tick <= to; tick += 1) {
-      const i = tick - this.first;
-      trail.add(x[i] / PER_MM.x, y[i] / PER_MM.y, reason[i]);
+    for (let i = from - this.first; i <= to - this.first; i += 1) {
+      trail.add(x[i] / PLACES_PER_MM, y[i] / PLACES_PER_MM, reason[i]);
     }
   }
 }
 
-async function inflate(text) {
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
-function unpack(bytes, names, ticks) {
-  return Object.fromEntries(names.map((name, column) => [name, unpackColumn(bytes, 4 * column * ticks, ticks)]));
-}
-
-/** Planes of bytes to differences, differences to values. */
-function unpackColumn(bytes, low, ticks) {
-  const values = new Int32Array(ticks);
-  let value = 0;
-  for (let i = 0; i < ticks; i += 1) {
-    const at = low + i;
-    const z = bytes[at] | (bytes[at + ticks] << 8) | (bytes[at + 2 * ticks] << 16) | (bytes[at + 3 * ticks] << 24);
-    value += (z >>> 1) ^ -(z & 1);
-    values[i] = value;
-  }
-  return values;
-}
-
-/** What holds at a tick, of pairs [from which tick on, what] in their order. */
+/**
+ * What holds at a tick, of pairs [from which tick on, what] in their order; the first holds at least from there.
+ * @template T
+ * @param {[number, T][]} pairs
+ * @param {number} tick
+ * @returns {T}
+ */
 function latest(pairs, tick) {
-  return pairs[countUpTo(pairs, tick, ([at]) => at) - 1]?.[1];
+  return pairs[countUpTo(pairs, tick, ([at]) => at) - 1][1];
 }
 
-/** How many entries, in the order of their ticks, are at a tick or before. */
+/**
+ * How many entries, in the order of their ticks, are at a tick or before.
+ * @template T
+ * @param {T[]} entries
+ * @param {number} tick
+ * @param {(entry: T) => number} tickOf
+ */
 function countUpTo(entries, tick, tickOf) {
   let [low, high] = [0, entries.length];
   while (low < high) {

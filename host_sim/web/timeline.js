@@ -1,38 +1,50 @@
+// @ts-check
 /* The strip above the scrubber: a mark for every event that one can jump to. */
 
+import { contextOf } from "./elements.js";
+import { REASON } from "./generated.js";
 import { paletteOf } from "./palette.js";
-import { REASON } from "./reasons.js";
 
-/** Reason whose colour an event's mark has, and the mark's height as a share of the strip. */
+/**
+ * @typedef {import("./run_data.js").RobotData} RobotData
+ * @typedef {import("./types.js").EventKind} EventKind
+ */
+
+/**
+ * The reason whose colour an event's mark has, and the mark's height as a share of the strip.
+ * @type {Record<EventKind, [number, number]>}
+ */
 const MARKS = {
-  trial: [REASON.trial, 0.6],
-  boredom: [REASON.boredom, 0.6],
-  eat: [REASON.eat, 0.8],
-  lesson: [REASON.remembered, 1],
-  environment: [REASON.stop, 1],
+  trial: [REASON.TRIAL, 0.6],
+  boredom: [REASON.BOREDOM, 0.6],
+  eat: [REASON.EAT, 0.8],
+  lesson: [REASON.REMEMBERED, 1],
+  environment: [REASON.STOP, 1],
 };
 const THUMB_PX = 8;
 
 /**
  * @param {HTMLCanvasElement} canvas
- * @param {import("./run_data.js").RunData} data
+ * @param {RobotData} robot - Whose events to mark.
+ * @param {{first: number, last: number}} ticks - Those at the ends of the strip.
  */
-export function drawMarks(canvas, data) {
+export function drawMarks(canvas, robot, { first, last }) {
   const palette = paletteOf(canvas);
   const context = sizedContext(canvas);
   const [width, height] = [canvas.clientWidth - 2 * THUMB_PX, canvas.clientHeight];
-  for (const [tick, kind] of data.run.events) {
+  for (const [tick, kind] of robot.run.events) {
     const [reason, share] = MARKS[kind];
-    const x = THUMB_PX + ((tick - data.first) / Math.max(1, data.last - data.first)) * width;
+    const x = THUMB_PX + ((tick - first) / Math.max(1, last - first)) * width;
     context.fillStyle = palette.reasons[reason];
     context.fillRect(x - 1, height * (1 - share), 2, height * share);
   }
 }
 
+/** @param {HTMLCanvasElement} canvas */
 function sizedContext(canvas) {
   canvas.width = Math.round(canvas.clientWidth * devicePixelRatio);
   canvas.height = Math.round(canvas.clientHeight * devicePixelRatio);
-  const context = canvas.getContext("2d");
+  const context = contextOf(canvas);
   context.scale(devicePixelRatio, devicePixelRatio);
   return context;
 }

@@ -8,11 +8,12 @@ import pytest
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from tests.runs.support import octet
-from tests.web.support import CHROMIUM, Faults, Watched, start_watched, wait_for
+from tests.web.support import CHROMIUM, READY, Faults, Watched, start_watched, wait_for
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
+    """Not for the session: while Playwright is at work, no other test in this process can run an event loop."""
     if not shutil.which(CHROMIUM):
         pytest.skip(f"chromium: {CHROMIUM} is missing")
     with sync_playwright() as playwright:
@@ -41,11 +42,12 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
     """Opens pages in fresh profiles; none may complain or ask anyone but its own server."""
     opened = []
 
-    def open_one(url: str, ready: str = "window.octet?.scene?.state", **context) -> Page:
+    def open_one(url: str, ready: str = READY, prepare: Callable[[Page], object] = lambda _: None, **context) -> Page:
         faults = Faults(url.partition("?")[0])
         page = browser.new_context(**context).new_page()
         opened.append((page, faults))
         faults.listen(page)
+        prepare(page)
         page.goto(url)
         wait_for(page, ready)
         return page
@@ -57,8 +59,8 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
 
 
 @pytest.fixture(scope="session")
-def kept(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The page of a run of two environments."""
-    out = tmp_path_factory.mktemp("kept")
+    out = tmp_path_factory.mktemp("recorded")
     assert octet("run", "--bus", "none", "--environments", "2", "--quiet", "--out", out).returncode == 0
     return out / "replay.html"

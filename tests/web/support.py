@@ -18,6 +18,9 @@ from host_sim.protocol.codec import DecodedFrame, Protocol
 from tests.runs.support import ROOT, start_octet
 
 CHROMIUM = "/usr/bin/chromium"
+READY = "window.octet?.scene?.state"
+"""Whether a page shows a run."""
+
 SCREENS = ROOT / "build/reports/screens"
 _READY_S = 20.0
 _END_S = 20.0
@@ -98,7 +101,7 @@ class Faults:
 
 
 def run_in(page: Path) -> dict[str, Any]:
-    """The run in a kept page, but for its title."""
+    """The run in the page of a recorded run, but for its title."""
     text = page.read_text().partition('<script type="application/json" id="run">')[2].partition("</script>")[0]
     return {**json.loads(text), "title": None}
 
@@ -112,7 +115,7 @@ def wait_for(page: Page, condition: str, argument: Any = None) -> None:
     """Waits until something is so on a page. Playwright's own wait needs `eval`, which the page forbids."""
     give_up = time.monotonic() + _WAIT_S
     while not page.evaluate(condition, argument):
-        assert time.monotonic() < give_up, f"waited in vain: {condition}"
+        assert time.monotonic() < give_up, f"timed out waiting for: {condition}"
         page.wait_for_timeout(10)
 
 
@@ -123,12 +126,12 @@ def wait_for_text(page: Page, selector: str, text: str) -> None:
 
 def pause(page: Page) -> None:
     page.click("#play")
-    wait_for(page, "!octet.scene.play.playing")
+    wait_for(page, "!octet.play.playing")
 
 
 def full_speed(page: Page) -> None:
     page.select_option("#speed", "0")
-    wait_for(page, "octet.scene.play.speed === 0")
+    wait_for(page, "octet.play.speed === 0")
 
 
 def place_on_page(page: Page, x: float, y: float) -> tuple[float, float]:
@@ -151,5 +154,5 @@ def eventually(is_so: Callable[[], bool], what: str, limit_s: float = 10.0) -> N
     """Waits for something outside of the browser."""
     give_up = time.monotonic() + limit_s
     while not is_so():
-        assert time.monotonic() < give_up, f"waited in vain: {what}"
+        assert time.monotonic() < give_up, f"timed out waiting for: {what}"
         time.sleep(0.02)

@@ -1,4 +1,4 @@
-"""A person watches a run and meddles."""
+"""A person watches a run and interacts with it."""
 
 import math
 
@@ -30,7 +30,7 @@ def test_a_single_decision_is_one_action(watch, open_page):
     pause(page)
     before = state(page)["action"]
     page.click("#decision")
-    wait_for(page, "action => octet.scene.state.action !== action && !octet.scene.play.playing", before)
+    wait_for(page, "action => octet.scene.state.action !== action && !octet.play.playing", before)
     assert state(page)["action"] == (before + 1) % 128
 
 
@@ -103,11 +103,11 @@ def test_food_is_dragged_elsewhere(watch, open_page):
     wait_for(page, "octet.scene.environment.food[0][1] > 2680")
 
 
-def test_a_run_that_was_meddled_with_replays(watch, open_page):
+def test_a_run_that_a_person_changed_replays(watch, open_page):
     watched = watch("--seed", "4")
     page = open_page(watched.url)
-    for meddle in ("#lift", "#add-bar", "#cells li:nth-child(3) button", "#freeze", "#lift", "#next", "#erase"):
-        page.click(meddle)
+    for control in ("#lift", "#add-bar", "#cells li:nth-child(3) button", "#freeze", "#lift", "#next", "#erase"):
+        page.click(control)
         page.wait_for_timeout(100)
     page.fill("#seed", "8")
     page.press("#seed", "Enter")
@@ -145,7 +145,7 @@ def test_two_pages_see_the_same_run(watch, open_page):
     watched = watch()
     one, two = open_page(watched.url), open_page(watched.url)
     pause(one)
-    wait_for(two, "!octet.scene.play.playing")
+    wait_for(two, "!octet.play.playing")
     tick = state(one)["tick"]
     wait_for(two, "tick => octet.scene.state.tick === tick", tick)
     assert state(one) == state(two)
@@ -163,10 +163,10 @@ def test_a_closed_page_harms_nothing(watch, open_page):
 def test_keyboard_alone(watch, open_page):
     page = open_page(watch("--seed", "3").url)
     page.keyboard.press("Space")
-    wait_for(page, "!octet.scene.play.playing")
+    wait_for(page, "!octet.play.playing")
     action = state(page)["action"]
     page.keyboard.press(".")
-    wait_for(page, "action => octet.scene.state.action !== action && !octet.scene.play.playing", action)
+    wait_for(page, "action => octet.scene.state.action !== action && !octet.play.playing", action)
     page.keyboard.press("Tab")
     assert page.evaluate("document.activeElement.id") == "arena"
     for _ in range(5):
@@ -196,7 +196,7 @@ def test_the_end_of_the_run_is_said(watch, open_page):
     watched = watch("--environments", "1")
     page = open_page(watched.url)
     full_speed(page)
-    wait_for(page, "octet.scene.play.done")
+    wait_for(page, "octet.play.done")
     wait_for_text(page, "#status", "all done")
     assert watched.end() == 0
     wait_for_text(page, "#status", "the run has ended")
@@ -207,4 +207,4 @@ def test_the_place_of_a_click_is_where_the_robot_is(watch, open_page):
     pause(page)
     now = state(page)
     page.mouse.click(*place_on_page(page, now["x"], now["y"]))
-    assert page.evaluate("octet.scene.selected.kind") == "robot"
+    assert page.evaluate("octet.scene.item.kind") == "robot"

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page
 
+from tests.web.fake_run import HOME, FakeRun, robot_state
 from tests.web.support import SCREENS, pause, wait_for
 
 SIZES = {"phone": (390, 844, 2), "laptop": (1280, 800, 1), "projector": (1920, 1080, 1)}
@@ -43,11 +44,11 @@ def check(page: Page, name: str) -> None:
 
 @pytest.fixture
 def look(open_page) -> Callable[..., Page]:
-    def open_look(url: str, scheme: str, size: str) -> Page:
+    def open_look(url: str, scheme: str, size: str, **more) -> Page:
         width, height, ratio = SIZES[size]
         viewport = {"width": width, "height": height}
         return open_page(
-            url, viewport=viewport, device_scale_factor=ratio, color_scheme=scheme, reduced_motion="reduce"
+            url, viewport=viewport, device_scale_factor=ratio, color_scheme=scheme, reduced_motion="reduce", **more
         )
 
     return open_look
@@ -59,28 +60,48 @@ def test_live(watch, look):
         page = look(url, scheme, size)
         wait_for(page, "octet.scene.trail.length > 20")
         check(page, f"live-{scheme}-{size}")
-        assert page.evaluate("octet.renderer.canvas.width") == page.evaluate(
-            "Math.round(octet.renderer.canvas.clientWidth * devicePixelRatio)"
+        assert page.evaluate("octet.view.renderer.canvas.width") == page.evaluate(
+            "Math.round(octet.view.renderer.canvas.clientWidth * devicePixelRatio)"
         )
 
 
-def test_meddling(watch, look):
+def test_interaction(watch, look):
     page = look(watch("--seed", "2").url, "light", "laptop")
     pause(page)
     page.click("#add-bar")
-    wait_for(page, "octet.scene.selected?.kind === 'bar'")
+    wait_for(page, "octet.scene.item?.kind === 'bar'")
     page.click("#lift")
-    wait_for(page, "octet.scene.ghost && octet.scene.play")
+    wait_for(page, "octet.scene.ghosts.size === 1")
     page.click("#cells li:nth-child(3) button")
     wait_for(page, "octet.scene.state.memory[2] === 1")
     page.click("summary")
-    check(page, "meddling-light-laptop")
+    check(page, "interaction-light-laptop")
 
 
-def test_kept(kept, look):
+def test_replay(recorded, look):
     for scheme, size in LOOKS:
-        page = look(kept.as_uri(), scheme, size)
+        page = look(recorded.as_uri(), scheme, size)
         page.click("#pin")
         page.evaluate("octet.go(Math.floor(octet.data.last * 0.4))")
         page.wait_for_timeout(60)
-        check(page, f"kept-{scheme}-{size}")
+        check(page, f"replay-{scheme}-{size}")
+
+
+def test_many_robots(look):
+    states = [
+        robot_state(node, 350 + 470 * (node - 1), 400 + 310 * (node - 1), reason=node - 1) for node in range(1, 9)
+    ]
+    run = FakeRun(states)
+    for scheme, size in LOOKS:
+        page = look(HOME, scheme, size, prepare=run.serve)
+        run.send(
+            trails=[
+                [n for step in range(40) for n in (s["x"] + 9 * step, s["y"] - step * step / 4, 1)] for s in states
+            ]
+        )
+        page.keyboard.press("6")
+        wait_for(
+            page,
+            "octet.scene.trail.length > 20 && document.querySelector('#robots [aria-pressed=true]').value === '6'",
+        )
+        check(page, f"many-{scheme}-{size}")

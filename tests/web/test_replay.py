@@ -8,12 +8,10 @@ from playwright.sync_api import Page
 
 from tests.web.support import wait_for
 
-READY = "window.octet?.scene?.state"
-
 
 @pytest.fixture
-def page(kept: Path, open_page: Callable[..., Page]) -> Page:
-    return open_page(kept.as_uri())
+def page(recorded: Path, open_page: Callable[..., Page]) -> Page:
+    return open_page(recorded.as_uri())
 
 
 def tick(page: Page) -> int:
@@ -46,7 +44,7 @@ def test_it_jumps_to_the_next_event_and_back(page, kind):
     page.evaluate("octet.go(10)")
     page.click("#after")
     at = tick(page)
-    assert [at, kind] in page.evaluate("octet.data.run.events")
+    assert [at, kind] in page.evaluate("octet.robot.run.events")
     assert at > 10
     page.evaluate("tick => octet.go(tick + 1)", at)
     page.click("#before")

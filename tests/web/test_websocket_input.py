@@ -1,4 +1,4 @@
-"""What comes in over the WebSocket is checked at the door: refused, counted, and the run goes on unharmed."""
+"""Bad input over the WebSocket is refused and counted, and the run goes on unharmed."""
 
 import asyncio
 import contextlib
@@ -46,7 +46,7 @@ async def message(ws: Socket) -> dict[str, Any]:
 
 
 async def tick(ws: Socket) -> int:
-    return (await message(ws))["state"]["tick"]
+    return (await message(ws))["states"][0]["tick"]
 
 
 async def refused(ws: Socket) -> int:

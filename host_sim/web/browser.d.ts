@@ -1,0 +1,7 @@
+/* What browsers have and the compiler's library does not know yet. */
+
+declare class DecompressionStream implements GenericTransformStream {
+  constructor(format: "deflate");
+  readonly readable: ReadableStream;
+  readonly writable: WritableStream;
+}

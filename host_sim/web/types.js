@@ -1,0 +1,156 @@
+// @ts-check
+/* The shapes of what the server sends and takes. What the fields mean stands where they are made: Measures,
+   EnvironmentScene and State in host_sim/view/state.py, Trial and Lesson in host_sim/view/history.py, Message in
+   host_sim/live/feed.py, Run in host_sim/report/replay_page.py. */
+
+/**
+ * @typedef {Object} Measures
+ * @property {number} width
+ * @property {number} height
+ * @property {number} body
+ * @property {number} track
+ * @property {number} reach
+ * @property {number} beam
+ * @property {number} eat
+ * @property {number} bar
+ * @property {number} tick_ms
+ * @property {number} boredom
+ */
+
+/**
+ * @typedef {Object} EnvironmentScene
+ * @property {number} number
+ * @property {number} of
+ * @property {number} seed
+ * @property {number} first_tick
+ * @property {number[][]} bars
+ * @property {number[][]} food
+ */
+
+/**
+ * @typedef {Object} State
+ * @property {number} node
+ * @property {number} tick
+ * @property {number} x
+ * @property {number} y
+ * @property {number} heading
+ * @property {number} lifted
+ * @property {number} feel
+ * @property {number} bump
+ * @property {number} beacon
+ * @property {number} left
+ * @property {number} right
+ * @property {number} reason
+ * @property {number} repeat_count
+ * @property {number} action
+ * @property {number} pattern
+ * @property {number[]} eaten
+ * @property {number[]} memory
+ * @property {number[]} uses
+ * @property {number[]} learned
+ * @property {number} frozen
+ * @property {Trial | null} trial
+ */
+
+/**
+ * @typedef {Object} Trial
+ * @property {number} tick
+ * @property {number} cell
+ * @property {number} side
+ * @property {number | null} helped
+ */
+
+/**
+ * @typedef {Object} Lesson
+ * @property {number} node
+ * @property {number} tick
+ * @property {number} cell
+ * @property {number} side
+ * @property {number} by_hand
+ */
+
+/**
+ * @typedef {Object} Play
+ * @property {boolean} playing
+ * @property {number} speed
+ * @property {boolean} done
+ * @property {number} rate
+ * @property {boolean} stays
+ */
+
+/**
+ * @typedef {Object} Health
+ * @property {number} sent
+ * @property {number} lost
+ * @property {number} refused
+ * @property {number} late
+ * @property {number} orders_refused
+ */
+
+/**
+ * What the live page receives; `states` and `trails` have one entry per robot.
+ * @typedef {Object} Message
+ * @property {Measures} [measures]
+ * @property {EnvironmentScene} [environment]
+ * @property {number} at
+ * @property {State[]} states
+ * @property {number[][]} trails
+ * @property {Lesson[]} lessons
+ * @property {Play} play
+ * @property {Health} health
+ * @property {string[]} [notes]
+ */
+
+/** @typedef {"environment" | "trial" | "lesson" | "boredom" | "eat"} EventKind */
+
+/**
+ * What a recorded run has of each robot.
+ * @typedef {Object} RobotRun
+ * @property {number} node
+ * @property {[number, number[]][]} memory
+ * @property {[number, Trial | null][]} trials
+ * @property {Lesson[]} lessons
+ * @property {[number, number][]} turns
+ * @property {[number, EventKind][]} events
+ * @property {string[]} columns
+ * @property {string} data
+ */
+
+/**
+ * A recorded run.
+ * @typedef {Object} Run
+ * @property {number} version
+ * @property {string} title
+ * @property {Measures} measures
+ * @property {number} first_tick
+ * @property {number} ticks
+ * @property {[number, EnvironmentScene][]} scenes
+ * @property {[number, number[]][]} eaten
+ * @property {RobotRun[]} robots
+ */
+
+/**
+ * A place in the arena, mm.
+ * @typedef {{x: number, y: number}} Place
+ */
+
+/**
+ * A place as commands have it: whole mm, [x, y].
+ * @typedef {[number, number]} WirePlace
+ */
+
+/**
+ * What the live page sends.
+ * @typedef {{do: "play" | "pause" | "decision" | "next"}
+ *   | {do: "speed", factor: number}
+ *   | {do: "seed", seed: number}
+ *   | {do: "write", node: number, cell: number, side: number}
+ *   | {do: "erase", node: number}
+ *   | {do: "freeze", node: number, on: number}
+ *   | {do: "add_bar", a: WirePlace, b: WirePlace}
+ *   | {do: "move_bar", id: number, a: WirePlace, b: WirePlace}
+ *   | {do: "remove_bar", id: number}
+ *   | {do: "move_food", id: number, at: WirePlace}
+ *   | {do: "lift", node: number}
+ *   | {do: "put", node: number, at: WirePlace, heading: number}} Command
+ */

@@ -1,0 +1,78 @@
+"""The page says what the terminal says, whatever the numbers of reasons and sides are."""
+
+import re
+from collections.abc import Callable
+
+import pytest
+from playwright.sync_api import Page
+
+from host_sim.paths import WEB
+from host_sim.view import phrases
+from tests.web.fake_run import HOME, FakeRun, robot_state
+
+SAY = """async (lists) => {
+  const { lessonSentence, sentence } = await import("/phrases.js");
+  return [lists[0].map((state) => sentence(state, false)), lists[1].map(lessonSentence)];
+}"""
+LEFT, RIGHT = {"left": -9, "right": 9}, {"left": 9, "right": -9}
+STATES = [
+    robot_state(1, 0, 0, **fields)
+    for reason in range(8)
+    for pattern in range(8)
+    for fields in (
+        {"reason": reason, "pattern": pattern, **LEFT, "repeat_count": 10},
+        {"reason": reason, "pattern": pattern, **RIGHT, "beacon": 1250, "repeat_count": 3},
+        {"reason": reason, "pattern": pattern, **RIGHT, "lifted": 1},
+    )
+]
+LESSONS = [
+    {"tick": 0, "cell": cell, "side": side, "by_hand": by_hand}
+    for cell in range(1, 8)
+    for side, by_hand in ((1, 0), (2, 0), (0, 1), (1, 1), (2, 1))
+]
+
+
+def test_the_sentences_are_those_of_the_terminal(open_page):
+    page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)]).serve)
+
+    sentences, lessons = page.evaluate(SAY, [STATES, LESSONS])
+
+    assert sentences == [phrases.sentence(state) for state in STATES]
+    assert lessons == [phrases.lesson_sentence(lesson) for lesson in LESSONS]
+
+
+def renumbered() -> str:
+    """generated.js with every reason one number up, and left and right swapped."""
+    text = (WEB / "generated.js").read_text()
+    text = re.sub(r"(?<=REASON = )\{[^}]*\}", lambda match: _rotated(match[0]), text)
+    text = re.sub(r"(?<=SIDE = )\{[^}]*\}", "{ NOTHING: 0, LEFT: 2, RIGHT: 1 }", text)
+    return re.sub(r"(?<=SIDES = )\[[^]]*\]", '["nothing", "right", "left"]', text)
+
+
+def _rotated(table: str) -> str:
+    numbers = [int(number) for number in re.findall(r": (\d+)", table)]
+    rotated = iter(numbers[1:] + numbers[:1])
+    return re.sub(r": \d+", lambda _: f": {next(rotated)}", table)
+
+
+def words(open_page: Callable[..., Page], parts: dict[str, str], turned: bool) -> list[list[str]]:
+    """What a page with other parts says, of states and lessons in its numbers."""
+    page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)], parts).serve)
+    states = [{**state, "reason": (state["reason"] + turned) % 8} for state in STATES]
+    lessons = [{**lesson, "side": (0, 2, 1)[lesson["side"]] if turned else lesson["side"]} for lesson in LESSONS]
+    return page.evaluate(SAY, [states, lessons])
+
+
+def test_other_numbers_change_no_word(open_page):
+    assert words(open_page, {"generated.js": renumbered()}, turned=True) == words(open_page, {}, turned=False)
+
+
+@pytest.mark.parametrize(("name", "number"), [("REASON.TRIAL", "5"), ("SIDE.LEFT", "1")])
+def test_a_number_that_stands_by_hand_is_noticed(open_page, name, number):
+    text = (WEB / "phrases.js").read_text()
+    by_hand = text.replace(name, number)
+    assert by_hand != text
+
+    said = words(open_page, {"generated.js": renumbered(), "phrases.js": by_hand}, turned=True)
+
+    assert said != words(open_page, {}, turned=False)
