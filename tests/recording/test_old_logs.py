@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.cli.replay_command import replay
-from host_sim.client.frame_log import read_log
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import LAYOUT_HASH
+from host_sim.recording.log_reader import read_log
+from host_sim.recording.replay import replay
 from host_sim.recording.resimulation import resimulate
 
 OLD = Path(__file__).with_name("data") / "version_1_0.log"
@@ -28,13 +28,13 @@ def test_the_old_log_has_a_hash_of_its_own_time():
 
 
 def test_an_old_log_replays_without_a_difference():
-    outcome = replay(OLD, Protocol())
+    outcome = replay(OLD, list(read_log(OLD)), Protocol())
 
     assert (outcome.drives, outcome.difference) == (DRIVES, None)
 
 
 def test_an_old_log_is_found_again_in_its_world():
-    found = resimulate(OLD, Protocol())
+    found = resimulate(OLD)
 
     assert (found.seed, found.stopped) == (21, True)
 
@@ -46,7 +46,7 @@ def test_an_old_log_with_two_drives_exchanged_differs(tmp_path):
     lines[drives[100]], lines[drives[101]] = lines[drives[101]], lines[drives[100]]
     changed.write_text("".join(lines))
 
-    assert replay(changed, Protocol()).difference is not None
+    assert replay(changed, list(read_log(changed)), Protocol()).difference is not None
 
 
 def test_a_log_with_a_hash_of_no_layout_known_is_refused(tmp_path):
@@ -54,4 +54,4 @@ def test_a_log_with_a_hash_of_no_layout_known_is_refused(tmp_path):
     other.write_text(OLD.read_text().replace("2778\n", "2779\n"))
 
     with pytest.raises(OctetError, match=r"another octet\.dbc"):
-        replay(other, Protocol())
+        replay(other, list(read_log(other)), Protocol())

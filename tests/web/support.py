@@ -13,8 +13,8 @@ from typing import Any
 
 from playwright.sync_api import Page
 
-from host_sim.client.frame_log import read_log
 from host_sim.protocol.codec import DecodedFrame, Protocol
+from host_sim.recording.log_reader import read_log
 from tests.runs.support import ROOT, start_octet
 
 CHROMIUM = "/usr/bin/chromium"

@@ -222,7 +222,7 @@ def test_a_person_acts_on_one_robot_of_a_live_run(watch, open_page):
         [0, 0],
     ]
     assert watched.end() == 0
-    assert [(edit["do"], edit["node"]) for edit in watched.params()["edits"]] == [("lift", 2)]
+    assert [(edit["do"], edit["robot"]) for edit in watched.params()["edits"]] == [("lift", 1)]
 
 
 def test_a_recorded_run_shows_each_robot_as_it_was(tmp_path, open_page):
