@@ -49,6 +49,7 @@ class Panel:
         robot_s: How long it took, s, in the robots' time.
         trails: For each robot and each control tick, where it ended (x and y in mm) and the reason of its drive.
         starts: For each robot, where it was after the first tick.
+        nodes: Each robot's number on the bus.
     """
 
     scene: EnvironmentScene
@@ -56,6 +57,7 @@ class Panel:
     robot_s: float
     trails: Sequence[Sequence[tuple[float, float, int]]]
     starts: Sequence[Pose]
+    nodes: Sequence[int]
 
 
 def write_picture(path: Path, trajectory: Trajectory) -> None:
@@ -90,6 +92,7 @@ def _panel(trajectory: Trajectory, first: int, end: int) -> Panel:
         robot_s=(end - first) * trajectory.params.tick_s,
         trails=trails,
         starts=[track.pose(first) for track in trajectory.tracks],
+        nodes=[track.node for track in trajectory.tracks],
     )
 
 
@@ -108,7 +111,7 @@ def draw_run(params: SimParams, panels: Sequence[Panel], memories: Mapping[int, 
         raise ValueError(f"no picture of {len(panels)} environments and these memories: {memories}")
     rows = [_legend(params), *_environment_rows(panels[-_MOST_ENVIRONMENTS:], params)]
     for node, memory in list(memories.items())[:_MOST_MEMORIES]:
-        rows.append(_memory_row(f"robot {node}" if len(memories) > 1 else "The robot", memory, params))
+        rows.append(_memory_row(f"Robot {node}" if len(memories) > 1 else "The robot", memory, params))
     return _stacked(rows).quantize()
 
 
@@ -138,7 +141,19 @@ def _environment(panel: Panel, params: SimParams, width_px: int) -> Image.Image:
     for start, trail in zip(panel.starts, panel.trails, strict=True):
         draw_robot(plan, start, 2 * params.body_radius_mm, PAPER)
         draw_robot(plan, _end(start, trail), 2 * params.body_radius_mm, INK)
-    return plan.done()
+    image = plan.done()
+    if len(panel.nodes) > 1:
+        _write_nodes(image, panel, params)
+    return image
+
+
+def _write_nodes(image: Image.Image, panel: Panel, params: SimParams) -> None:
+    """Each robot's number below the place where it starts and the one where it ends."""
+    px_per_mm = image.width / params.width_mm
+    for node, start, trail in zip(panel.nodes, panel.starts, panel.trails, strict=True):
+        for x, y in (start[:2], _end(start, trail)[:2]):
+            place = x * px_per_mm, (y + 1.5 * params.body_radius_mm) * px_per_mm
+            write(image, place, str(node), _TEXT_PX, "mm")
 
 
 def _end(start: Pose, trail: Sequence[tuple[float, float, int]]) -> Pose:
