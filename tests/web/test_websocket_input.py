@@ -171,7 +171,7 @@ def test_a_page_that_stops_reading_holds_nothing_up(watched):
         deaf.sendall(handshake.encode())
         talk(watched, full_speed)
         first = talk(watched, tick)
-        eventually(lambda: talk(watched, tick) > first + 20_000, "the run races on")
+        eventually(lambda: talk(watched, tick) > first + 5_000, "5000 ticks, which take 100 s in real time", 60.0)
         assert memory_mb(watched.process.pid) < 400
 
 
