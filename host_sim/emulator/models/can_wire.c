@@ -1,0 +1,157 @@
+#include "host_sim/emulator/models/can_wire.h"
+
+#include <string.h>
+
+#include "host_sim/emulator/models/bxcan_model.h"
+
+enum {
+    STANDARD_BITS = 47,   /* of a frame without data, with the pause after it */
+    EXTENDED_BITS = 67,
+    ERROR_BITS = 40       /* of a frame that is destroyed early, with error flags and the pause after them */
+};
+
+static bool push(struct frame_queue *queue, const struct frame *frame)
+{
+    if (queue->count == WIRE_QUEUE_MAX)
+        return false;
+    queue->frames[(queue->first + queue->count++) % WIRE_QUEUE_MAX] = *frame;
+    return true;
+}
+
+static bool pop(struct frame_queue *queue, struct frame *out)
+{
+    if (queue->count == 0)
+        return false;
+    *out = queue->frames[queue->first];
+    queue->first = (queue->first + 1) % WIRE_QUEUE_MAX;
+    queue->count--;
+    return true;
+}
+
+static uint64_t bits(const struct frame *frame)
+{
+    unsigned fixed = frame->id & FRAME_EXTENDED ? EXTENDED_BITS : STANDARD_BITS;
+    unsigned bytes = frame->len < 8 ? frame->len : 8;
+
+    return frame->id & FRAME_REMOTE ? fixed : fixed + 8 * bytes;
+}
+
+/* As the bits come on the wire: the first 11 of the identifier, then whether it is extended, its rest, remote or not. */
+static uint32_t rank(const struct frame *frame)
+{
+    uint32_t remote = frame->id & FRAME_REMOTE ? 1 : 0;
+    uint32_t id = frame->id & 0x1FFFFFFFu;
+
+    if (frame->id & FRAME_EXTENDED)
+        return id >> 18 << 20 | 1u << 19 | (id & 0x3FFFFu) << 1 | remote;
+    return id << 20 | remote;
+}
+
+void wire_open(struct can_wire *wire)
+{
+    memset(wire, 0, sizeof *wire);
+    wire->sender = WIRE_IDLE;
+}
+
+bool wire_put(struct can_wire *wire, const struct frame *frame)
+{
+    return push(&wire->waiting, frame);
+}
+
+bool wire_fetch(struct can_wire *wire, struct frame *out)
+{
+    return pop(&wire->heard, out);
+}
+
+/* Every controller that takes part but the sender. Returns how many. */
+static unsigned deliver(struct can_wire *wire, bool destroyed)
+{
+    unsigned listeners = 0;
+
+    for (unsigned n = 0; n < wire->node_count; n++)
+        if ((int)n != wire->sender && bxcan_listens(wire->nodes[n])) {
+            listeners++;
+            bxcan_arrived(wire->nodes[n], &wire->passing, destroyed);
+        }
+    return listeners;
+}
+
+static void finish(struct can_wire *wire)
+{
+    unsigned listeners = deliver(wire, wire->shorted && wire->sender != WIRE_WORLD);
+
+    if (wire->sender != WIRE_WORLD) {
+        struct bxcan *sender = wire->nodes[wire->sender];
+
+        if (wire->shorted)
+            bxcan_failed(sender, BXCAN_BIT_DOMINANT);
+        else if (wire->alone && listeners == 0)
+            bxcan_failed(sender, BXCAN_NO_ACKNOWLEDGE);
+        else
+            bxcan_sent(sender);
+        if (!wire->shorted && !wire->alone)
+            (void)push(&wire->heard, &wire->passing);
+    }
+    wire->sender = WIRE_IDLE;
+}
+
+/* Puts the first frame of the world on the wire, if anybody is there to take it. */
+static void begin_world(struct can_wire *wire, bool anybody)
+{
+    if (wire->shorted && anybody)
+        wire->waiting.count = 0;
+    if (anybody && wire->waiting.count > 0) {
+        wire->passing = wire->waiting.frames[wire->waiting.first];
+        wire->sender = WIRE_WORLD;
+    }
+}
+
+/* A controller with a frame of higher priority takes the wire from whoever had it so far. */
+static void arbitrate(struct can_wire *wire)
+{
+    struct frame offer;
+
+    for (unsigned n = 0; n < wire->node_count; n++) {
+        if (!bxcan_listens(wire->nodes[n]) || !bxcan_offer(wire->nodes[n], &offer))
+            continue;
+        if (wire->sender != WIRE_IDLE && rank(&offer) >= rank(&wire->passing)) {
+            bxcan_lost_arbitration(wire->nodes[n]);
+            continue;
+        }
+        if (wire->sender >= 0)
+            bxcan_lost_arbitration(wire->nodes[wire->sender]);
+        wire->passing = offer;
+        wire->sender = (int)n;
+    }
+}
+
+static void begin(struct can_wire *wire)
+{
+    bool anybody = false;
+    struct frame taken;
+
+    for (unsigned n = 0; n < wire->node_count; n++)
+        anybody = anybody || bxcan_listens(wire->nodes[n]);
+    begin_world(wire, anybody);
+    arbitrate(wire);
+    if (wire->sender == WIRE_WORLD)
+        (void)pop(&wire->waiting, &taken);
+    wire->ends_ns = wire->now_ns + WIRE_BIT_NS * (wire->shorted ? ERROR_BITS : bits(&wire->passing));
+}
+
+uint64_t wire_advance(struct can_wire *wire, uint64_t now_ns)
+{
+    uint64_t next = UINT64_MAX;
+
+    wire->now_ns = now_ns;
+    if (wire->sender != WIRE_IDLE && wire->ends_ns <= now_ns)
+        finish(wire);
+    for (unsigned n = 0; n < wire->node_count; n++) {
+        uint64_t due = bxcan_advance(wire->nodes[n]);
+
+        next = due < next ? due : next;
+    }
+    if (wire->sender == WIRE_IDLE && !wire->busy)
+        begin(wire);
+    return wire->sender != WIRE_IDLE && wire->ends_ns < next ? wire->ends_ns : next;
+}
