@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from host_sim.errors import OctetError
+
 ROOT = Path(__file__).resolve().parent.parent
 """The folder of the project."""
 
@@ -10,3 +12,19 @@ BUILD = ROOT / "build"
 
 WEB = ROOT / "host_sim" / "web"
 """The page's own files."""
+
+
+def image_path(board: str, link: str) -> Path:
+    """Where an image is.
+
+    Args:
+        board: `stm32f405` or `stm32f103`: a preset of CMake.
+        link: `bxcan` or `slcan`.
+
+    Raises:
+        OctetError: It is not built.
+    """
+    path = BUILD / board / f"octet-{board}-{link}.elf"
+    if not path.exists():
+        raise OctetError(f"the image {path} is not built: run tools/setup images")
+    return path

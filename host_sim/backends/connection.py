@@ -86,7 +86,7 @@ def _in_qemu(stack: ExitStack) -> Connection:
 
 
 def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
-    from host_sim.emulator.start import start_board  # noqa: PLC0415 - Unicorn is there for tests and emulation only
+    from host_sim.emulator.board import start_board  # noqa: PLC0415 - says what to install if Unicorn is missing
 
     board = start_board(name)
     stack.callback(board.close)

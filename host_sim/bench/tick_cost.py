@@ -1,49 +1,76 @@
 """What a tick costs: instructions from the senses that are seen in the FIFO to the drive in the mailbox."""
 
-from dataclasses import dataclass, field
+from collections.abc import Callable
 
 from host_sim.bench.short_run import step_through
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
-from host_sim.emulator.board import EmulatedBoard
-from host_sim.emulator.can_frame import CanFrame
-from host_sim.emulator.start import start_board
+from host_sim.emulator.board import EmulatedBoard, start_board
+from host_sim.emulator.registers import Register
 from host_sim.protocol.codec import Protocol
 from host_sim.sim.make import assemble
 from host_sim.sim.run_config import RunConfig
 
 _READY_S = 5.0
+_RF0R, _MAILBOXES, _RI0R = 0x0C, (0x180, 0x190, 0x1A0), 0x1B0
+_FMP, _RFOM, _TXRQ = 3, 1 << 5, 1
+_ID_SHIFT = 21
 
 
-@dataclass
 class TickCost:
-    """Counts each tick of a board, to within a basic block.
+    """Counts each tick of a board, to within a basic block, by watching the registers of its CAN controller.
 
     Attributes:
-        board: Which one.
         counts: Instructions of each tick so far.
     """
 
-    board: EmulatedBoard
-    counts: list[int] = field(default_factory=list)
-    _begun: int = 0
+    def __init__(self, board: EmulatedBoard) -> None:
+        """Begins to watch.
 
-    def __post_init__(self) -> None:
+        Args:
+            board: Which one.
+        """
         protocol = Protocol()
         self._senses, self._drive = protocol.id_of("SENSES"), protocol.id_of("DRIVE")
-        self._core, can = self.board.hardware.core, self.board.hardware.can
-        can.on_requested = self._note_requested
-        for fifo in can.fifos:
-            fifo.on_seen = self._note_seen
+        self._core, self._registers = board.hardware.core, board.hardware.can.registers
+        self._begun, self._is_news = 0, True
+        self.counts: list[int] = []
+        _watch(self._registers[_RF0R], self._note_status, self._note_release)
+        for mailbox in _MAILBOXES:
+            _watch(self._registers[mailbox], lambda _value: None, self._note_request)
 
-    def _note_seen(self, frame: CanFrame) -> None:
-        if frame.id == self._senses:
+    def _note_status(self, value: int) -> None:
+        if not (value & _FMP and self._is_news):
+            return
+        self._is_news = False
+        if self._registers[_RI0R].read() >> _ID_SHIFT == self._senses:
             self._begun = self._core.instructions
 
-    def _note_requested(self, frame: CanFrame) -> None:
-        if frame.id == self._drive:
+    def _note_release(self, value: int) -> None:
+        self._is_news = self._is_news or bool(value & _RFOM)
+
+    def _note_request(self, value: int) -> None:
+        if value & _TXRQ and value >> _ID_SHIFT == self._drive:
             self.counts.append(self._core.instructions - self._begun)
+
+
+def _watch(register: Register, on_read: Callable[[int], None], on_write: Callable[[int], None]) -> None:
+    """Has two functions told what is read from a register and written to it."""
+    read, write = register.on_read, register.on_write
+    assert read is not None
+    assert write is not None
+
+    def seen() -> int:
+        value = read()
+        on_read(value)
+        return value
+
+    def written(value: int) -> None:
+        write(value)
+        on_write(value)
+
+    register.on_read, register.on_write = seen, written
 
 
 def count_ticks(name: str, seed: int, ticks: int) -> list[int]:

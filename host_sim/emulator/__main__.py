@@ -1,39 +1,78 @@
-"""`python -m host_sim.emulator`: an emulated board on a CAN bus."""
+"""`python -m host_sim.emulator`: puts an emulated board on a CAN bus, until interrupted."""
 
 import argparse
 import sys
+import time
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import can
 
+from host_sim.emulator.can import CanFrame
 from host_sim.emulator.chips import CHIPS
-from host_sim.emulator.joined import JoinedBoard
-from host_sim.emulator.start import start_board
 from host_sim.errors import OctetError
+from host_sim.protocol.codec import Frame
 from host_sim.transport.buses import open_bus
 
-_EXAMPLES = """\
-examples:
-  python -m host_sim.emulator --board stm32f405 --bus socketcan:vcan0
-"""
+if TYPE_CHECKING:
+    from host_sim.emulator.board import EmulatedBoard
+
+_EXAMPLE = "example: python -m host_sim.emulator --board stm32f405 --bus socketcan:vcan0"
+_SLICE_S = 0.001
+
+
+class JoinedBoard:
+    """Carries frames between a board and a bus.
+
+    The board's time follows the wall clock, and never runs ahead of it. Where this computer cannot keep up, it falls
+    behind: what the board counts as silence is never the computer's fault.
+    """
+
+    def __init__(self, board: "EmulatedBoard", bus: can.BusABC) -> None:
+        """Joins them as of now.
+
+        Args:
+            board: Up and running.
+            bus: Open; the caller closes it.
+        """
+        self._board, self._bus = board, bus
+        self._now_s = time.monotonic()
+
+    def step(self) -> None:
+        """Waits for a frame for a millisecond at most, and brings the board up to the present.
+
+        Raises:
+            BoardError: The image does what the hardware does not allow.
+            can.CanError: The bus is gone.
+        """
+        message = self._bus.recv(_SLICE_S)
+        if message is not None and not message.is_error_frame:
+            data = bytes(message.dlc) if message.is_remote_frame else bytes(message.data)
+            frame = CanFrame(message.arbitration_id, data, message.is_extended_id, message.is_remote_frame)
+            self._board.put(frame)
+        behind_s = time.monotonic() - self._now_s
+        self._now_s += min(behind_s, _SLICE_S)
+        for answer in self._board.pass_time(min(behind_s, _SLICE_S)):
+            self._bus.send(_message(answer))
+
+
+def _message(frame: Frame) -> can.Message:
+    return can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=False)
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="python -m host_sim.emulator",
-        description=__doc__,
-        epilog=_EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
-    parser.add_argument("--board", choices=CHIPS, default="stm32f405", help="which (stm32f405)")
-    parser.add_argument("--bus", metavar="INTERFACE:CHANNEL", required=True, help="the python-can bus to put it on")
+    parser = argparse.ArgumentParser(prog="python -m host_sim.emulator", description=__doc__, epilog=_EXAMPLE)
+    parser.add_argument("--board", choices=CHIPS, default="stm32f405", help="which board (default: %(default)s)")
+    parser.add_argument("--bus", metavar="INTERFACE:CHANNEL", required=True, help="the python-can bus that it joins")
     return parser
 
 
-def _join(board: str, bus: str) -> None:
+def _join(name: str, bus: str) -> None:
+    from host_sim.emulator.board import start_board  # noqa: PLC0415 - says what to install if Unicorn is missing
+
     with open_bus(bus) as opened:
-        joined = JoinedBoard(start_board(board), opened)
-        sys.stdout.write(f"octet: an emulated {board} listens on {bus}\n")
+        joined = JoinedBoard(start_board(name), opened)
+        sys.stdout.write(f"octet: an emulated {name} listens on {bus}\n")
         sys.stdout.flush()
         try:
             while True:

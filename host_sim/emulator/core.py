@@ -1,34 +1,40 @@
 """The processor core: Unicorn's, joined to the clock and the registers. The only file that knows Unicorn."""
 
+import struct
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, cast
 
-from unicorn import (
-    UC_ARCH_ARM,
-    UC_ERR_INSN_INVALID,
-    UC_HOOK_BLOCK,
-    UC_HOOK_MEM_INVALID,
-    UC_MODE_MCLASS,
-    UC_MODE_THUMB,
-    UC_PROT_EXEC,
-    UC_PROT_READ,
-)
-from unicorn.arm_const import (
-    UC_ARM_REG_LR,
-    UC_ARM_REG_PC,
-    UC_ARM_REG_R0,
-    UC_ARM_REG_R1,
-    UC_ARM_REG_R2,
-    UC_ARM_REG_R3,
-    UC_ARM_REG_R12,
-    UC_ARM_REG_SP,
-    UC_ARM_REG_XPSR,
-)
-from unicorn.unicorn import Uc, UcError
-
 from host_sim.emulator.clock import Clock
-from host_sim.emulator.errors import BoardError
+from host_sim.emulator.registers import BoardError
+from host_sim.errors import OctetError
+
+try:
+    from unicorn import (
+        UC_ARCH_ARM,
+        UC_ERR_INSN_INVALID,
+        UC_HOOK_BLOCK,
+        UC_HOOK_MEM_INVALID,
+        UC_MODE_MCLASS,
+        UC_MODE_THUMB,
+        UC_PROT_EXEC,
+        UC_PROT_READ,
+    )
+    from unicorn.arm_const import (
+        UC_ARM_REG_LR,
+        UC_ARM_REG_PC,
+        UC_ARM_REG_R0,
+        UC_ARM_REG_R1,
+        UC_ARM_REG_R2,
+        UC_ARM_REG_R3,
+        UC_ARM_REG_R12,
+        UC_ARM_REG_SP,
+        UC_ARM_REG_XPSR,
+    )
+    from unicorn.unicorn import Uc, UcError
+except ImportError as error:
+    raise OctetError("unicorn is not installed: run tools/setup emulator") from error
 
 PAGE = 0x1000
 _THUMB = 1
@@ -51,6 +57,9 @@ _RETURN_TO_THREAD = 0xFFFFFFF9
 _HARD_FAULT = 3
 _IBUSERR, _PRECISERR, _STKERR, _UNDEFINSTR = 1 << 8, 1 << 9, 1 << 12, 1 << 16
 _WIDE_PREFIXES = (0b11101, 0b11110, 0b11111)
+
+_ELF_HEADER, _PROGRAM_HEADER = struct.Struct("<4s5B7x2H5I3H"), struct.Struct("<8I")
+_ELF_32_BITS, _ELF_ARM, _ELF_LOADED = 1, 40, 1
 
 
 @dataclass(frozen=True)
@@ -230,3 +239,27 @@ class Core:
 
     def _word(self, address: int) -> int:
         return int.from_bytes(self._uc.mem_read(address, 4), "little")
+
+
+def load_segments(path: Path) -> list[tuple[int, bytes]]:
+    """What an image puts where: (address, bytes), as a probe writes it.
+
+    Args:
+        path: The `.elf`.
+
+    Raises:
+        OctetError: It is no image for an ARM core.
+    """
+    try:
+        data = path.read_bytes()
+        magic, bits, *_, machine, _, _, table, _, _, _, _, count = _ELF_HEADER.unpack_from(data)
+        if magic != b"\x7fELF" or bits != _ELF_32_BITS or machine != _ELF_ARM:
+            raise OctetError(f"cannot read the image {path}: it is no 32-bit ELF file for ARM")
+        headers = [_PROGRAM_HEADER.unpack_from(data, table + i * _PROGRAM_HEADER.size) for i in range(count)]
+    except (OSError, struct.error) as error:
+        raise OctetError(f"cannot read the image {path}: {error}") from error
+    return [
+        (at, data[offset : offset + size])
+        for kind, offset, _, at, size, *_ in headers
+        if kind == _ELF_LOADED and size
+    ]

@@ -1,19 +1,23 @@
-"""The chip's own flash: what both families have alike. While it works, the core stands still."""
+"""The chip's own flash, of both families (F1: PM0075, F4: RM0090 3). While it works, the core stands still."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from host_sim.emulator.clock import Clock
-from host_sim.emulator.errors import BoardError, PowerCut
-from host_sim.emulator.registers import Peripheral, Register
+from host_sim.emulator.clock import SECOND, Clock
+from host_sim.emulator.registers import BoardError, Peripheral, PowerCut, Register
 
 BASE = 0x08000000
-ERASED = 0xFF
+_ERASED = b"\xff"
 _KEYS = (0x45670123, 0xCDEF89AB)
 _WAIT_STATES = 7
 _UNFINISHED = 0x0F
 """Bits of a byte that are not written yet when the power goes in the middle."""
+
+_PG, _ERASE = 1 << 0, 1 << 1
+_F1_PGERR = 1 << 2
+_F4_OPERR, _F4_PGPERR, _F4_PGSERR = 1 << 1, 1 << 6, 1 << 7
+_F4_SNB_SHIFT, _F4_PSIZE_SHIFT = 3, 8
 
 
 @dataclass(frozen=True)
@@ -38,62 +42,61 @@ class FlashKind:
         hz_per_wait_state: Each wait state lets the core run faster by so much.
         write_span: Time to write one unit, fs.
         erase_span: Time to erase a page, fs.
+        start: Bit STRT of CR.
+        lock: Bit LOCK of CR.
+        failure: Flag of SR for what went wrong inside.
     """
 
     pages: Sequence[int]
     hz_per_wait_state: int
     write_span: int
     erase_span: int
+    start: int
+    lock: int
+    failure: int
 
 
 class Flash(Peripheral):
     """Memory that survives, and the registers through which it is changed.
 
     Attributes:
+        kind: What it is like.
         memory: All of its bytes.
         operations: Writes and erasures so far.
         erasures: These alone.
         code_end: Offset in the memory up to which the image lies; it must not change that.
     """
 
-    def __init__(
-        self, clock: Clock, kind: FlashKind, faults: FlashFaults, *, lock: int, registers: dict[int, Register]
-    ) -> None:
+    kind: FlashKind
+
+    def __init__(self, clock: Clock, faults: FlashFaults) -> None:
         """An erased flash.
 
         Args:
             clock: The board's.
-            kind: The chip's.
             faults: How it misbehaves.
-            lock: Bit LOCK of CR.
-            registers: What the family adds, by offset.
         """
-        self._clock, self._kind, self._faults, self._lock = clock, kind, faults, lock
-        self.memory = bytearray([ERASED]) * sum(kind.pages)
-        self.operations = self.erasures = 0
-        self.code_end = 0
-        self._keys_taken = 0
-        self._acr, self._cr = Register("ACR"), Register("CR", lock, on_write=self._write_cr)
+        self._clock, self._faults = clock, faults
+        self.memory = bytearray(_ERASED) * sum(self.kind.pages)
+        self.operations = self.erasures = self.code_end = self._keys_taken = 0
+        self._acr = Register("ACR")
+        self._cr = Register("CR", self.kind.lock, on_write=self._write_cr)
         self._sr = Register("SR", on_write=self._write_sr)
-        common = {0x00: self._acr, 0x04: Register("KEYR", on_write=self._write_key), 0x0C: self._sr, 0x10: self._cr}
-        super().__init__("FLASH", common | registers, clocked=True)
-
-    @abstractmethod
-    def start_bit(self) -> int:
-        """Bit STRT of CR."""
+        registers = {
+            0x00: self._acr,
+            0x04: Register("KEYR", on_write=self._write_key),
+            0x0C: self._sr,
+            0x10: self._cr,
+        }
+        super().__init__("FLASH", registers, clocked=True)
 
     @abstractmethod
     def refusal(self, offset: int, size: int, value: int) -> int:
         """Flags of SR for a write that the hardware refuses; 0 for one that it does."""
 
     @abstractmethod
-    def page_to_erase(self) -> int | None:
-        """Number of the page that the registers name; None if no page is to be erased."""
-
-    @property
-    @abstractmethod
-    def failure(self) -> int:
-        """Flag of SR for what went wrong inside."""
+    def page_to_erase(self) -> int:
+        """Number of the page that the registers name."""
 
     def reset(self) -> None:
         """As in `Peripheral`; the memory stays."""
@@ -102,7 +105,7 @@ class Flash(Peripheral):
 
     def core_hz_max(self) -> int:
         """The fastest clock that it can follow as it is set up."""
-        return ((self._acr.value & _WAIT_STATES) + 1) * self._kind.hz_per_wait_state
+        return ((self._acr.value & _WAIT_STATES) + 1) * self.kind.hz_per_wait_state
 
     def read(self, offset: int, size: int) -> int:
         """What the core reads from the memory."""
@@ -123,22 +126,22 @@ class Flash(Peripheral):
         old = self.memory[offset : offset + size]
         whole = bytes(was & new for was, new in zip(old, value.to_bytes(size, "little"), strict=True))
         self._change(offset, whole, bytes(was & (new | _UNFINISHED) for was, new in zip(old, whole, strict=True)))
-        self._clock.skip(self._kind.write_span)
+        self._clock.skip(self.kind.write_span)
 
     def _erase(self, page: int) -> None:
-        if page >= len(self._kind.pages):
-            raise BoardError(f"page {page} of the flash was to be erased, of {len(self._kind.pages)}")
-        size, offset = self._kind.pages[page], sum(self._kind.pages[:page])
+        if page >= len(self.kind.pages):
+            raise BoardError(f"page {page} of the flash was to be erased, of {len(self.kind.pages)}")
+        size, offset = self.kind.pages[page], sum(self.kind.pages[:page])
         self._protect(offset)
         self.erasures += 1
-        half = bytes([ERASED]) * (size // 2)
+        half = _ERASED * (size // 2)
         self._change(offset, half * 2, half + bytes(self.memory[offset + size // 2 : offset + size]))
-        self._clock.skip(self._kind.erase_span)
+        self._clock.skip(self.kind.erase_span)
 
     def _change(self, offset: int, whole: bytes, partial: bytes) -> None:
         self.operations += 1
         if self.operations in self._faults.failing:
-            self._sr.value |= self.failure
+            self._sr.value |= self.kind.failure
             return
         cut = self.operations == self._faults.cut_at
         self.memory[offset : offset + len(whole)] = partial if cut else whole
@@ -150,13 +153,11 @@ class Flash(Peripheral):
             raise BoardError(f"the image was about to change itself at 0x{BASE + offset:08X}")
 
     def _write_cr(self, value: int) -> None:
-        if self._cr.value & self._lock:
+        if self._cr.value & self.kind.lock:
             raise BoardError("FLASH CR was written while it is locked")
-        start = self.start_bit()
-        self._cr.value = value & ~start
-        page = self.page_to_erase()
-        if value & start and page is not None:
-            self._erase(page)
+        self._cr.value = value & ~self.kind.start
+        if value & self.kind.start and value & _ERASE:
+            self._erase(self.page_to_erase())
 
     def _write_key(self, value: int) -> None:
         """Both keys in order, and only once: a wrong one locks until reset."""
@@ -165,10 +166,63 @@ class Flash(Peripheral):
         self._keys_taken += 1
         if self._keys_taken == len(_KEYS):
             self._keys_taken = 0
-            self._cr.value &= ~self._lock
+            self._cr.value &= ~self.kind.lock
 
     def _write_sr(self, value: int) -> None:
         self._sr.value &= ~value
+
+
+class FlashF1(Flash):
+    """The STM32F103C8's: a half-word is written once between two erasures, but 0 can be written over anything."""
+
+    kind = FlashKind(
+        pages=(1024,) * 64,
+        hz_per_wait_state=24_000_000,
+        write_span=52 * SECOND // 10**6,
+        erase_span=30 * SECOND // 1000,
+        start=1 << 6,
+        lock=1 << 7,
+        failure=_F1_PGERR,
+    )
+
+    def __init__(self, clock: Clock, faults: FlashFaults) -> None:
+        """As in `Flash`."""
+        super().__init__(clock, faults)
+        self._address = self.registers[0x14] = Register("AR")
+
+    def refusal(self, offset: int, size: int, value: int) -> int:
+        """As in `Flash`."""
+        half_word, erased = 2, 0xFFFF
+        programming = self._cr.value & _PG and size == half_word
+        return 0 if programming and (self.read(offset, size) == erased or value == 0) else _F1_PGERR
+
+    def page_to_erase(self) -> int:
+        """As in `Flash`."""
+        return (self._address.value - BASE) // self.kind.pages[0]
+
+
+class FlashF4(Flash):
+    """The STM32F405's: bits can be cleared at any time, by units of the size that CR says."""
+
+    kind = FlashKind(
+        pages=(16 << 10,) * 4 + (64 << 10,) + (128 << 10,) * 7,
+        hz_per_wait_state=30_000_000,
+        write_span=16 * SECOND // 10**6,
+        erase_span=SECOND // 2,
+        start=1 << 16,
+        lock=1 << 31,
+        failure=_F4_OPERR,
+    )
+
+    def refusal(self, offset: int, size: int, value: int) -> int:  # noqa: ARG002 - any place, any value
+        """As in `Flash`."""
+        if not self._cr.value & _PG:
+            return _F4_PGSERR
+        return 0 if size == 1 << (self._cr.value >> _F4_PSIZE_SHIFT & 3) else _F4_PGPERR
+
+    def page_to_erase(self) -> int:
+        """As in `Flash`."""
+        return self._cr.value >> _F4_SNB_SHIFT & 0xF
 
 
 Factory = Callable[[Clock, FlashFaults], Flash]

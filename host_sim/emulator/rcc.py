@@ -1,23 +1,30 @@
-"""Reset and clock control: what both families have alike."""
+"""Reset and clock control, of both families (F1: RM0008 7.3, F4: RM0090 7.3)."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from host_sim.emulator.clock import SECOND, Clock
-from host_sim.emulator.errors import BoardError
-from host_sim.emulator.registers import Peripheral, Register
+from host_sim.emulator.registers import BoardError, Peripheral, Register
 
-_STARTUP = {0: 0, 16: SECOND // 1000, 24: SECOND // 5000}
-"""Time from an oscillator's ON bit in CR, by its number, to the READY bit above it: HSI, HSE, PLL."""
+HSI, HSE, PLL = 0, 16, 24
+"""The oscillators, by the number of their ON bit in CR; READY is the bit above."""
 
-HSE_ON, PLL_ON = 16, 24
-_SOURCES = (0, HSE_ON, PLL_ON)
+_STARTUP = {HSI: 0, HSE: SECOND // 1000, PLL: SECOND // 5000}
+"""Time from ON to READY."""
+
+_SOURCES = (HSI, HSE, PLL)
+"""Of the core's clock, as SW in CFGR numbers them."""
+
 _HPRE_SHIFT = 4
 _RMVF = 1 << 24
 _ALL_FLAGS = 0xFE000000
 RESET_FLAGS = {"power": 1 << 27 | 1 << 26, "software": 1 << 28 | 1 << 26, "watchdog": 1 << 29 | 1 << 26}
 """Flags of CSR by the cause of a reset; each drives the reset pin too."""
+
+_F1_PLLSRC, _F1_PLLXTPRE, _F1_MUL_SHIFT, _F1_MUL_MAX = 1 << 16, 1 << 17, 18, 16
+_F1_PLL_SETUP = 0x3F << 16
+_F4_PLLSRC, _F4_PLLCFGR_RESET = 1 << 22, 0x24003010
 
 
 @dataclass(frozen=True)
@@ -67,14 +74,14 @@ class Rcc(Peripheral):
         """As after power-up.
 
         Args:
-            registers: What the family adds, by offset; CFGR is among them.
+            registers: What the family adds, by offset.
             clock: Of the core.
             oscillators: Their speeds.
             flash_hz: Gives the fastest clock that the flash can follow as it is set up.
             faults: How it misbehaves.
         """
         self._clock, self._oscillators, self._flash_hz = clock, oscillators, flash_hz
-        self._dead = {bit for bit, dead in ((HSE_ON, faults.crystal_dead), (PLL_ON, faults.pll_dead)) if dead}
+        self._dead = {source for source, dead in ((HSE, faults.crystal_dead), (PLL, faults.pll_dead)) if dead}
         self._ready_at: dict[int, int] = {}
         self._gates: dict[tuple[int, int], Peripheral] = {}
         self._cr = Register("CR", 1, on_read=self._read_cr, on_write=self._write_cr)
@@ -83,8 +90,12 @@ class Rcc(Peripheral):
         self.restart("power")
 
     @abstractmethod
-    def pll_hz(self, internal: int, crystal: int) -> int:
-        """The PLL's speed as it is set up, from the speeds of its sources."""
+    def pll_source(self) -> int:
+        """Which oscillator the PLL is set up to follow."""
+
+    @abstractmethod
+    def pll_hz(self) -> int:
+        """The PLL's speed as it is set up."""
 
     @abstractmethod
     def prescalers(self) -> tuple[int, int]:
@@ -112,7 +123,7 @@ class Rcc(Peripheral):
         noted = self._csr.value & _ALL_FLAGS
         super().reset()
         self._csr.value = noted
-        self._ready_at = {0: self._clock.now}
+        self._ready_at = {HSI: self._clock.now}
         self._clock.set_hz(self._oscillators.internal)
 
     def apb1_hz(self) -> int:
@@ -122,6 +133,14 @@ class Rcc(Peripheral):
     def apb2_hz(self) -> int:
         """Speed of the bus that USART1 hangs on."""
         return self._hclk() >> max(self.prescalers()[1] - 3, 0)
+
+    def refuse_while_pll_runs(self, register: str) -> None:
+        """Refuses that the PLL is set up in a register while it is on."""
+        if self._cr.value >> PLL & 1:
+            raise BoardError(f"RCC {register} was written to set up the PLL while it is on")
+
+    def _source_hz(self) -> int:
+        return self._oscillators.crystal if self.pll_source() == HSE else self._oscillators.internal
 
     def _write_gates(self, offset: int, value: int) -> None:
         self.registers[offset].value = value
@@ -136,6 +155,8 @@ class Rcc(Peripheral):
         return self._cr.value | sum(2 << source for source in _SOURCES if self._ready(source))
 
     def _write_cr(self, value: int) -> None:
+        if value & ~self._cr.value & 1 << PLL and not self._ready(self.pll_source()):
+            raise BoardError("RCC CR was written to start the PLL from an oscillator that does not run")
         self._cr.value = value & ~sum(2 << source for source in _SOURCES)
         for source in _SOURCES:
             if not value >> source & 1:
@@ -163,10 +184,8 @@ class Rcc(Peripheral):
                 raise BoardError(f"RCC CFGR was written so that the {name} runs at {hz} Hz, where {limit} is allowed")
 
     def _hclk(self) -> int:
-        oscillators = self._oscillators
-        internal, crystal = oscillators.internal, oscillators.crystal
         source = self.cfgr.value >> 2 & 3
-        hz = (internal, crystal, self.pll_hz(internal, crystal) if source > 1 else 0)[source]
+        hz = self.pll_hz() if source > 1 else (self._oscillators.internal, self._oscillators.crystal)[source]
         divisor = self.cfgr.value >> _HPRE_SHIFT & 0xF
         return hz >> max(divisor - 7, 0)
 
@@ -175,3 +194,77 @@ class Rcc(Peripheral):
         slow = value & 1
         noted = 0 if value & _RMVF else self._csr.value & _ALL_FLAGS
         self._csr.value = noted | slow | slow << 1
+
+
+def _plain(names: Mapping[int, str]) -> dict[int, Register]:
+    return {offset: Register(name) for offset, name in names.items()}
+
+
+class RccF1(Rcc):
+    """The F1's: the PLL is set up in CFGR."""
+
+    csr_offset = 0x24
+
+    def __init__(
+        self, clock: Clock, oscillators: Oscillators, flash_hz: Callable[[], int], faults: RccFaults
+    ) -> None:
+        """As in `Rcc`."""
+        self.cfgr = Register("CFGR", on_write=self._write_cfgr)
+        plain = _plain(
+            {0x08: "CIR", 0x0C: "APB2RSTR", 0x10: "APB1RSTR", 0x18: "APB2ENR", 0x1C: "APB1ENR", 0x20: "BDCR"}
+        )
+        registers = plain | {0x04: self.cfgr, 0x14: Register("AHBENR", 0x14)}
+        super().__init__(registers, clock, oscillators, flash_hz, faults)
+
+    def pll_source(self) -> int:
+        """As in `Rcc`."""
+        return HSE if self.cfgr.value & _F1_PLLSRC else HSI
+
+    def pll_hz(self) -> int:
+        """As in `Rcc`."""
+        halved = self.pll_source() == HSI or bool(self.cfgr.value & _F1_PLLXTPRE)
+        return (self._source_hz() >> halved) * min((self.cfgr.value >> _F1_MUL_SHIFT & 0xF) + 2, _F1_MUL_MAX)
+
+    def prescalers(self) -> tuple[int, int]:
+        """As in `Rcc`."""
+        return self.cfgr.value >> 8 & 7, self.cfgr.value >> 11 & 7
+
+    def _write_cfgr(self, value: int) -> None:
+        if (value ^ self.cfgr.value) & _F1_PLL_SETUP:
+            self.refuse_while_pll_runs("CFGR")
+        self._switch(value)
+
+
+class RccF4(Rcc):
+    """The F4's: the PLL has a register of its own."""
+
+    csr_offset = 0x74
+
+    def __init__(
+        self, clock: Clock, oscillators: Oscillators, flash_hz: Callable[[], int], faults: RccFaults
+    ) -> None:
+        """As in `Rcc`."""
+        self.cfgr = Register("CFGR", on_write=self._switch)
+        self._pllcfgr = Register("PLLCFGR", _F4_PLLCFGR_RESET, on_write=self._write_pllcfgr)
+        plain = _plain({0x0C: "CIR", 0x10: "AHB1RSTR", 0x20: "APB1RSTR", 0x24: "APB2RSTR", 0x40: "APB1ENR"})
+        plain |= _plain({0x44: "APB2ENR", 0x70: "BDCR"})
+        registers = plain | {0x04: self._pllcfgr, 0x08: self.cfgr, 0x30: Register("AHB1ENR", 0x00100000)}
+        super().__init__(registers, clock, oscillators, flash_hz, faults)
+
+    def pll_source(self) -> int:
+        """As in `Rcc`."""
+        return HSE if self._pllcfgr.value & _F4_PLLSRC else HSI
+
+    def pll_hz(self) -> int:
+        """As in `Rcc`."""
+        setting = self._pllcfgr.value
+        m, n, p = setting & 0x3F, setting >> 6 & 0x1FF, ((setting >> 16 & 3) + 1) * 2
+        return self._source_hz() * n // max(m, 1) // p
+
+    def prescalers(self) -> tuple[int, int]:
+        """As in `Rcc`."""
+        return self.cfgr.value >> 10 & 7, self.cfgr.value >> 13 & 7
+
+    def _write_pllcfgr(self, value: int) -> None:
+        self.refuse_while_pll_runs("PLLCFGR")
+        self._pllcfgr.value = value

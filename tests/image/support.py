@@ -2,9 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from host_sim.emulator.board import EmulatedBoard
-from host_sim.emulator.hardware import Faults
-from host_sim.emulator.start import start_board
+from host_sim.emulator.board import EmulatedBoard, Faults, start_board
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.robot_io import Senses
 

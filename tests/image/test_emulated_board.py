@@ -6,11 +6,11 @@ from itertools import pairwise
 import pytest
 from host_sim.emulator.tick_cost import count_ticks
 
-from host_sim.emulator.bxcan import CanFaults
-from host_sim.emulator.can_frame import CanFrame
+from host_sim.bench.tick_cost import count_ticks
+from host_sim.emulator.board import Faults
+from host_sim.emulator.can import CanFaults, CanFrame
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.flash import FlashFaults
-from host_sim.emulator.hardware import Faults
 from host_sim.emulator.rcc import RccFaults
 from tests.image.support import BOARDS, LEARN_LEFT, Talk, counted, is_rest, talk_to
 
@@ -112,7 +112,7 @@ def test_it_works_without(name, dead):
 
 
 def test_a_controller_that_never_gets_ready_is_tried_again_and_nothing_moves(name):
-    talk = talk_to(name, Faults(can=CanFaults(inak_stuck=True)))
+    talk = talk_to(name, Faults(can=CanFaults(init_stuck=True)))
 
     said = talk.wait(0.1)
 
@@ -122,7 +122,7 @@ def test_a_controller_that_never_gets_ready_is_tried_again_and_nothing_moves(nam
 
 
 def test_it_does_with_two_mailboxes(name):
-    talk = talk_to(name, Faults(can=CanFaults(stuck_mailboxes=frozenset({0}))))
+    talk = talk_to(name, Faults(can=CanFaults(stuck_mailboxes=0b001)))
     talk.start()
 
     drives = talk.live(100)
@@ -135,11 +135,11 @@ def test_stuck_mailboxes_cost_frames_and_no_more(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
-    mailboxes = talk.board.hardware.can.mailboxes
+    model = talk.board.hardware.can.model
 
-    mailboxes.stuck = frozenset({0, 1, 2})
+    model.stuck_mailboxes = 0b111
     during = talk.live(20)
-    mailboxes.stuck = frozenset()
+    model.stuck_mailboxes = 0
     talk.live(5)
 
     assert during == []
@@ -158,7 +158,7 @@ def test_frames_lost_in_the_controller_are_counted(name):
     talk.board.hardware.clock.skip(5 * SECOND // 1000)  # the core stands still meanwhile
     talk.wait(0.02)
 
-    assert talk.board.hardware.can.fifos[0].overruns == 3
+    assert talk.board.hardware.can.model.fifos[0].overruns == 3
     report = counted(talk.ask())
     assert report.pop("missed") == 3
     assert report
@@ -170,9 +170,9 @@ def test_after_bus_off_it_joins_again(name):
     talk.start()
     talk.live(5)
 
-    talk.board.hardware.wire.shorted = True
+    talk.board.hardware.can.wire.shorted = True
     during = talk.live(20)
-    talk.board.hardware.wire.shorted = False
+    talk.board.hardware.can.wire.shorted = False
     first = talk.wait(0.5)
 
     assert during == []
@@ -188,9 +188,9 @@ def test_what_waited_during_bus_off_is_not_sent_afterwards(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
-    talk.board.hardware.wire.shorted = True
+    talk.board.hardware.can.wire.shorted = True
     talk.live(20)
-    talk.board.hardware.wire.shorted = False
+    talk.board.hardware.can.wire.shorted = False
     talk.wait(0.5)
 
     fresh = talk.live(1)
@@ -203,13 +203,13 @@ def test_a_lone_robot_is_passive_and_drives_on_when_the_other_comes_back(name):
     talk.start()
     talk.live(5)
 
-    talk.board.hardware.wire.alone = True
+    talk.board.hardware.can.wire.alone = True
     talk.wait(1.0)
-    passive = talk.board.hardware.can.errors.passive
-    talk.board.hardware.wire.alone = False
+    errors = talk.board.hardware.can.model.tec
+    talk.board.hardware.can.wire.alone = False
     talk.wait(0.05)
 
-    assert passive
+    assert errors == 128  # passive
     assert len(talk.live(10)) == 10
     assert talk.board.resets == []
 

@@ -6,7 +6,7 @@ from host_sim.backends.connection import Connection
 from host_sim.bench.equality import IMAGES, REFERENCE, compare, first_difference, record
 from host_sim.bench.short_run import run_ticks
 from host_sim.cli.run_options import BOARDS
-from host_sim.emulator.start import start_board
+from host_sim.emulator.board import start_board
 
 TICKS = 2000
 LEARNED = b"141#00"

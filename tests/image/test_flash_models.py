@@ -3,10 +3,8 @@
 import pytest
 
 from host_sim.emulator.clock import SECOND
-from host_sim.emulator.errors import BoardError, PowerCut
-from host_sim.emulator.flash import FlashFaults
-from host_sim.emulator.flash_f1 import FlashF1
-from host_sim.emulator.flash_f4 import FlashF4
+from host_sim.emulator.flash import FlashF1, FlashF4, FlashFaults
+from host_sim.emulator.registers import BoardError, PowerCut
 from tests.image.support import read, write
 
 KEYR, SR, CR = 0x04, 0x0C, 0x10

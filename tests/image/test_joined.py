@@ -1,6 +1,5 @@
 """An emulated board on a python-can bus, and the command that puts it there."""
 
-import json
 import signal
 import subprocess
 import sys
@@ -13,9 +12,8 @@ import pytest
 from host_sim.backends.connection import connect
 from host_sim.bench.equality import REFERENCE, first_difference, record
 from host_sim.bench.short_run import run_ticks
-from host_sim.emulator.__main__ import main
-from host_sim.emulator.joined import JoinedBoard
-from host_sim.emulator.start import start_board
+from host_sim.emulator.__main__ import JoinedBoard, main
+from host_sim.emulator.board import start_board
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.robot_io import Senses
 
@@ -95,12 +93,25 @@ def test_a_bus_that_cannot_be_had_is_one_line(capsys):
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_the_cost_of_ticks_is_printed_as_json(capsys):
-    assert main(["--count-instructions", "--ticks", "100", "--board", "stm32f103"]) == 0
+WITHOUT_UNICORN = """
+import runpy, sys
+sys.modules["unicorn"] = None
+sys.argv[1:] = sys.argv[2:]
+runpy.run_module(sys.argv[0], run_name="__main__")
+"""
 
-    cost = json.loads(capsys.readouterr().out)
-    assert (cost["board"], cost["ticks"]) == ("stm32f103", 100)
-    assert 500 < cost["mean"] <= cost["worst"]
+
+@pytest.mark.parametrize(
+    "words", ["host_sim.emulator --bus virtual:octet-test", "host_sim run --robot emulated --environments 1"]
+)
+def test_without_unicorn_one_line_says_what_to_install(words, tmp_path):
+    module, *arguments = words.split()
+    command = [sys.executable, "-c", WITHOUT_UNICORN.replace("sys.argv[0]", repr(module)), "", *arguments]
+
+    result = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=False)
+
+    assert result.returncode == 1
+    assert result.stderr == "octet: unicorn is not installed: run tools/setup emulator\n"
 
 
 @pytest.fixture

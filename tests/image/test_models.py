@@ -3,18 +3,13 @@
 import pytest
 
 from host_sim.backends.robot_process import PROGRAM
-from host_sim.emulator.address_space import AddressSpace
+from host_sim.emulator.can import BxCan, CanFaults, CanFrame, _models
 from host_sim.emulator.chips import STM32F103, STM32F405
 from host_sim.emulator.clock import SECOND
-from host_sim.emulator.core import PAGE, Core
-from host_sim.emulator.elf import load_segments
-from host_sim.emulator.errors import BoardError
-from host_sim.emulator.gpio import gpio_f1, gpio_f4
+from host_sim.emulator.core import PAGE, Core, load_segments
 from host_sim.emulator.rcc import RccFaults
-from host_sim.emulator.registers import Peripheral, Register
-from host_sim.emulator.system_control import SystemControl
-from host_sim.emulator.systick import SysTick
-from host_sim.emulator.watchdog import Watchdog
+from host_sim.emulator.registers import AddressSpace, BoardError, Peripheral, Register
+from host_sim.emulator.system import SystemControl, SysTick, Watchdog, gpio_f1, gpio_f4
 from host_sim.errors import OctetError
 from tests.image.support import read, write
 
@@ -139,6 +134,24 @@ def test_a_clock_too_fast_for_the_flash_is_an_error(clock):
         write(rcc, 0x08, 5 << 10 | 4 << 13 | 2)
 
 
+PLL_F4, PLL_F1 = 7 << 24 | 1 << 22 | 336 << 6 | 12, 4 << 8 | 1 << 16 | 7 << 18
+
+
+@pytest.mark.parametrize(
+    ("chip", "setup", "value", "register"), [(STM32F405, 0x04, PLL_F4, "PLLCFGR"), (STM32F103, 0x04, PLL_F1, "CFGR")]
+)
+def test_a_pll_needs_its_source_and_is_set_up_while_it_is_off(clock, chip, setup, value, register):
+    rcc = rcc_of(chip, clock)
+    write(rcc, setup, value)
+
+    with pytest.raises(BoardError, match="from an oscillator that does not run"):
+        start(rcc, clock, 24)
+    start(rcc, clock, 16)
+    start(rcc, clock, 24)
+    with pytest.raises(BoardError, match=f"RCC {register} was written to set up the PLL while it is on"):
+        write(rcc, setup, value ^ 1 << 18)
+
+
 def test_causes_of_resets_are_noted_until_cleared(clock):
     rcc = rcc_of(STM32F405, clock)
     rcc.restart("watchdog")
@@ -188,7 +201,7 @@ def test_what_is_no_image_for_arm_is_named(tmp_path):
     other.write_bytes(b"not even that")
     with pytest.raises(OctetError, match="cannot read the image"):
         load_segments(other)
-    with pytest.raises(OctetError, match="for another machine: EM_X86_64"):
+    with pytest.raises(OctetError, match="no 32-bit ELF file for ARM"):
         load_segments(PROGRAM)
 
 
@@ -258,3 +271,48 @@ def test_events_happen_in_their_order_while_time_is_skipped(clock):
     clock.skip(10)
 
     assert seen == [("a", 3), ("b", 5), ("a", 9)]
+
+
+def controller(clock, heard, timing):
+    """A controller on its way from initialization to the bus."""
+    can = BxCan(clock, lambda: 42_000_000, 14, CanFaults(), heard.append)
+    write(can, 0x00, 1)
+    clock.skip(SECOND // 10_000)
+    write(can, 0x1C, timing)
+    write(can, 0x00, 4)
+    return can
+
+
+def test_the_model_of_can_sends_and_receives_frames_of_any_kind(clock):
+    heard = []
+    can = controller(clock, heard, 9 << 16 | 2 << 20 | 5)
+    for offset, value in ((0x20C, 1), (0x240, 0), (0x244, 0), (0x21C, 1), (0x200, 0)):  # let everything pass
+        write(can, offset, value)
+    can.put(CanFrame(0x1ABCDEF0, b"\x01\x02", extended=True))
+
+    clock.skip(SECOND // 1000)
+    for offset, value in ((0x194, 2), (0x198, 0xBBAA), (0x19C, 0), (0x190, 0x81 << 21 | 3)):
+        write(can, offset, value)
+    clock.skip(SECOND // 1000)
+
+    assert (read(can, 0x0C), read(can, 0x1B0), read(can, 0x1B8)) == (1, 0x1ABCDEF0 << 3 | 4, 0x0201)
+    assert heard == [CanFrame(0x81, bytes(2), remote=True)]
+
+
+def test_what_the_model_of_can_refuses_is_an_error_at_once_or_when_time_passes(clock):
+    can = controller(clock, [], 9 << 16 | 2 << 20 | 6)
+
+    with pytest.raises(BoardError, match="428571 bit/s"):
+        clock.skip(SECOND // 1000)
+    with pytest.raises(BoardError, match="FIFO 0 was read, but the FIFO is empty"):
+        read(can, 0x1B0)
+    with pytest.raises(BoardError, match="interrupts"):
+        write(can, 0x14, 1)
+
+
+def test_models_that_are_not_built_are_named_with_how_to_build_them(monkeypatch, tmp_path):
+    monkeypatch.setattr("host_sim.emulator.can.LIBRARY", tmp_path / "none.so")
+    _models.cache_clear()
+
+    with pytest.raises(OctetError, match="build them with tools/setup"):
+        _models()

@@ -2,11 +2,10 @@
 
 import pytest
 
-from host_sim.emulator.can_frame import CanFrame
+from host_sim.emulator.can import CanFrame
 from host_sim.emulator.clock import SECOND, Clock
-from host_sim.emulator.errors import BoardError
-from host_sim.emulator.slcan_line import SlcanLine
-from host_sim.emulator.usart import Usart
+from host_sim.emulator.registers import BoardError
+from host_sim.emulator.serial import SlcanLine, Usart
 from tests.image.support import read, write
 
 

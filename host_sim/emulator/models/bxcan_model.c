@@ -164,7 +164,7 @@ static struct frame frame_in(const struct bxcan_mailbox *box)
     frame.len = (uint8_t)(len < 8 ? len : 8);
     if (id & RTR)
         frame.id |= FRAME_REMOTE;
-    for (unsigned i = 0; i < frame.len; i++)
+    for (unsigned i = 0; i < 8 && i < len; i++)
         frame.data[i] = (uint8_t)(box->words[2 + i / 4] >> 8 * (i % 4));
     return frame;
 }

@@ -1,11 +1,12 @@
-"""USART1 (RM0090 30, RM0008 27), polled, with a line at 115,200 baud: 8 bits, no parity."""
+"""USART1 (RM0090 30, RM0008 27), polled, on a line at 115,200 baud (8N1) that carries frames as slcan text."""
 
 from collections import deque
 from collections.abc import Callable
 
+from host_sim.emulator.can import CanFrame
 from host_sim.emulator.clock import NEVER, SECOND, Clock
-from host_sim.emulator.errors import BoardError
-from host_sim.emulator.registers import Peripheral, Register, ignore
+from host_sim.emulator.registers import BoardError, Peripheral, Register, ignore
+from host_sim.transport.slcan_link import decode
 
 BAUD = 115_200
 _BYTE_SPAN = 10 * SECOND // BAUD
@@ -13,6 +14,7 @@ _RATE_TOLERANCE = 0.02
 _ORE, _RXNE, _TC, _TXE = 1 << 3, 1 << 5, 1 << 6, 1 << 7
 _RE, _UE, _INTERRUPTS = 1 << 2, 1 << 13, 0x1F0
 _NAMES = {0x08: "BRR", 0x10: "CR2", 0x14: "CR3", 0x18: "GTPR"}
+_LINE_END = ord("\r")
 _UNDER_WAY_MAX = 2
 """Bytes on their way out: one on the line, one behind it."""
 
@@ -101,3 +103,26 @@ class Usart(Peripheral):
         if value & _UE and abs(rate - BAUD) > BAUD * _RATE_TOLERANCE:
             raise BoardError(f"USART1 was set up for {rate:.0f} baud, on a line of {BAUD}")
         self._cr1.value = value
+
+
+class SlcanLine:
+    """Puts together what the board sends byte by byte."""
+
+    def __init__(self, heard: Callable[[CanFrame], None]) -> None:
+        """At the beginning of a line.
+
+        Args:
+            heard: Takes each frame.
+        """
+        self._heard = heard
+        self._text = bytearray()
+
+    def take(self, byte: int) -> None:
+        """The board has sent that. A line that is no frame is nobody's, and dropped."""
+        if byte != _LINE_END:
+            self._text.append(byte)
+            return
+        frame = decode(bytes(self._text))
+        self._text.clear()
+        if frame is not None:
+            self._heard(CanFrame(frame.id, frame.data))

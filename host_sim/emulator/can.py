@@ -1,0 +1,162 @@
+"""CAN: the model of bxCAN and of the wire, which is C (`models/`), as a peripheral of the board."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, NamedTuple
+
+import cffi
+
+from host_sim.emulator.clock import NEVER, SECOND, Clock
+from host_sim.emulator.registers import BoardError, Peripheral, Register
+from host_sim.errors import OctetError
+from host_sim.paths import BUILD, ROOT
+
+LIBRARY = BUILD / "host" / "host_sim" / "emulator" / "models" / "liboctet_models.so"
+_MODELS = ROOT / "host_sim" / "emulator" / "models"
+_HEADERS = (ROOT / "hal" / "link" / "link.h", _MODELS / "can_wire.h", _MODELS / "bxcan_model.h")
+_NS = SECOND // 10**9
+_NEVER_NS = 2**64 - 1
+_MCR, _MAILBOX, _OUTPUT, _BANK = 0x00, 0x180, 0x1B0, 0x240
+_NAMED = {0x00: "MCR", 0x04: "MSR", 0x08: "TSR", 0x0C: "RF0R", 0x10: "RF1R", 0x14: "IER", 0x18: "ESR", 0x1C: "BTR"}
+_FILTERS = {0x200: "FMR", 0x204: "FM1R", 0x20C: "FS1R", 0x214: "FFA1R", 0x21C: "FA1R"}
+_EXTENDED, _REMOTE, _ID = 1 << 31, 1 << 30, (1 << 29) - 1
+
+
+class CanFrame(NamedTuple):
+    """One frame of any kind.
+
+    Attributes:
+        id: 11 bits, or 29.
+        data: 0..8 bytes; of a remote frame, its length is what counts.
+        extended: The identifier has 29 bits.
+        remote: It asks for data and has none.
+    """
+
+    id: int
+    data: bytes = b""
+    extended: bool = False
+    remote: bool = False
+
+
+@dataclass(frozen=True)
+class CanFaults:
+    """How a controller can misbehave.
+
+    Attributes:
+        init_stuck: Initialization is never acknowledged.
+        stuck_mailboxes: Bit n: the frames of mailbox n never leave.
+    """
+
+    init_stuck: bool = False
+    stuck_mailboxes: int = 0
+
+
+@cache
+def _models() -> tuple[Any, Any]:
+    """The models, declared by their own headers."""
+    ffi = cffi.FFI()
+    for header in _HEADERS:
+        ffi.cdef("\n".join(line for line in header.read_text().splitlines() if not line.startswith("#")))
+    try:
+        return ffi, ffi.dlopen(str(LIBRARY))
+    except OSError as error:
+        raise OctetError(f"cannot load the models of hardware: {error}; build them with tools/setup") from error
+
+
+def _names(banks: int) -> dict[int, str]:
+    """Names of the registers by offset."""
+    names = _NAMED | _FILTERS
+    for base, words, count in ((_MAILBOX, ("TI", "TDT", "TDL", "TDH"), 3), (_OUTPUT, ("RI", "RDT", "RDL", "RDH"), 2)):
+        names |= {base + 16 * n + 4 * i: f"{word}{n}R" for n in range(count) for i, word in enumerate(words)}
+    return names | {_BANK + 8 * bank + 4 * half: f"F{bank}R{half + 1}" for bank in range(banks) for half in range(2)}
+
+
+class BxCan(Peripheral):
+    """The controller, with its wire and one more node there that stands for the rest of the world.
+
+    Attributes:
+        model: The C model, `struct bxcan`.
+        wire: Its bus, `struct can_wire`.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        bus_hz: Callable[[], int],
+        banks: int,
+        faults: CanFaults,
+        heard: Callable[[CanFrame], None],
+    ) -> None:
+        """A controller that sleeps.
+
+        Args:
+            clock: The board's.
+            bus_hz: Gives the speed of the controller's clock.
+            banks: Number of filter banks.
+            faults: How it misbehaves.
+            heard: Takes what the board has sent.
+
+        Raises:
+            OctetError: The models are not built.
+        """
+        ffi, self._library = _models()
+        self._clock, self._bus_hz, self._heard, self._ffi = clock, bus_hz, heard, ffi
+        self._frame: Any = ffi.new("struct frame *")
+        self._data = ffi.buffer(self._frame.data)
+        self.wire: Any = ffi.new("struct can_wire *")
+        self.model: Any = ffi.new("struct bxcan *")
+        self._library.wire_open(self.wire)
+        self._library.bxcan_open(self.model, self.wire, banks)
+        self.model.init_stuck, self.model.stuck_mailboxes = faults.init_stuck, faults.stuck_mailboxes
+        super().__init__("CAN1", {offset: self._register(offset, name) for offset, name in _names(banks).items()})
+        clock.add(self._due)
+
+    def reset(self) -> None:
+        """As in `Peripheral`."""
+        super().reset()
+        self._library.bxcan_reset(self.model)
+
+    def put(self, frame: CanFrame) -> None:
+        """The rest of the world wants to send a frame; where too many are waiting already, it is lost."""
+        flags = (_EXTENDED if frame.extended else 0) | (_REMOTE if frame.remote else 0)
+        self._frame.id, self._frame.len = frame.id | flags, len(frame.data)
+        self._data[:] = frame.data.ljust(8, b"\0")
+        self._library.wire_put(self.wire, self._frame)
+        self._clock.expect(self._clock.now)
+
+    def _register(self, offset: int, name: str) -> Register:
+        model, read, write = self.model, self._library.bxcan_read, self._library.bxcan_write
+
+        def on_read() -> int:
+            value: int = read(model, offset)
+            if value < 0:
+                self._refuse()
+            return value
+
+        def on_write(value: int) -> None:
+            self.wire.now_ns = self._clock.now // _NS
+            if offset == _MCR:
+                model.clock_hz = self._bus_hz()
+            if not write(model, offset, value):
+                self._refuse()
+            self._clock.expect(self._clock.now)
+
+        return Register(name, on_read=on_read, on_write=on_write)
+
+    def _due(self) -> int:
+        due: int = self._library.wire_advance(self.wire, self._clock.now // _NS)
+        if self.model.refusal[0] != b"\0":
+            self._refuse()
+        while self.wire.heard.count:
+            self._library.wire_fetch(self.wire, self._frame)
+            frame = self._frame
+            remote = bool(frame.id & _REMOTE)
+            data = bytes(frame.len) if remote else self._data[: frame.len]
+            self._heard(CanFrame(frame.id & _ID, data, bool(frame.id & _EXTENDED), remote))
+        return NEVER if due == _NEVER_NS else due * _NS
+
+    def _refuse(self) -> None:
+        reason = self._ffi.string(self.model.refusal).decode()
+        self.model.refusal = b""
+        raise BoardError(reason)

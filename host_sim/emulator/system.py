@@ -1,0 +1,233 @@
+"""What every chip has: the core's timer and control block, the watchdog, and pins."""
+
+from collections.abc import Callable
+
+from host_sim.emulator.clock import NEVER, SECOND, Clock
+from host_sim.emulator.registers import BoardError, Peripheral, Register
+
+_ENABLE, _TICKINT, _CLKSOURCE, _COUNTFLAG = 1, 2, 4, 1 << 16
+_COUNT_MAX, _SYSTICK_DIVISOR = 0xFFFFFF, 8
+_START, _FEED, _UNLOCK, _RELOAD_MAX = 0xCCCC, 0xAAAA, 0x5555, 0xFFF
+_KEY, _KEY_MASK, _SYSRESETREQ, _AIRCR_READ = 0x05FA0000, 0xFFFF0000, 1 << 2, 0xFA050000
+_FORCED, _BFARVALID = 1 << 30, 1 << 15
+_PINS = 0xFFFF
+
+
+class SysTick(Peripheral):
+    """The core's own timer (PM0214 4.5), polled: counts down from LOAD to 0, over and over."""
+
+    def __init__(self, clock: Clock) -> None:
+        """At rest.
+
+        Args:
+            clock: The board's.
+        """
+        self._clock = clock
+        self._since = self._wraps = 0
+        self._ctrl = Register("CTRL", on_read=self._read_ctrl, on_write=self._write_ctrl)
+        self._load = Register("LOAD", on_write=self._write_load)
+        super().__init__(
+            "SysTick",
+            {
+                0x0: self._ctrl,
+                0x4: self._load,
+                0x8: Register("VAL", on_read=self._read_val, on_write=self._restart, steady=False),
+                0xC: Register("CALIB"),
+            },
+            clocked=True,
+        )
+
+    def _counted(self) -> int:
+        """Counts since the last restart."""
+        if not self._ctrl.value & _ENABLE:
+            return 0
+        return (self._clock.cycles - self._since) // (1 if self._ctrl.value & _CLKSOURCE else _SYSTICK_DIVISOR)
+
+    def _restart(self, value: int) -> None:  # noqa: ARG002 - whatever is written, the count is 0
+        self._since, self._wraps = self._clock.cycles, 0
+
+    def _read_val(self) -> int:
+        return -self._counted() % (self._load.value + 1)
+
+    def _read_ctrl(self) -> int:
+        wraps = self._counted() // (self._load.value + 1)
+        flag = _COUNTFLAG if wraps > self._wraps else 0
+        self._wraps = wraps
+        return self._ctrl.value | flag
+
+    def _write_ctrl(self, value: int) -> None:
+        if value & _TICKINT:
+            raise BoardError("SysTick's interrupt was enabled, which is not modelled")
+        self._ctrl.value = value
+        self._restart(0)
+
+    def _write_load(self, value: int) -> None:
+        self._load.value = value & _COUNT_MAX
+
+
+class Watchdog(Peripheral):
+    """The independent watchdog (RM0090 21, RM0008 19): resets the board when it is not fed, and cannot be stopped."""
+
+    def __init__(self, clock: Clock, slow_hz: int, bite: Callable[[], None]) -> None:
+        """At rest.
+
+        Args:
+            clock: The board's.
+            slow_hz: Speed of its own oscillator.
+            bite: Resets the board.
+        """
+        self._clock, self._slow_hz, self._bite = clock, slow_hz, bite
+        self._expires = NEVER
+        self._started = self._unlocked = False
+        self._prescaler = Register("PR", on_write=self._write_prescaler)
+        self._reload = Register("RLR", _RELOAD_MAX, on_write=self._write_reload)
+        key = Register("KR", on_write=self._write_key, idle=True)
+        super().__init__(
+            "IWDG", {0x0: key, 0x4: self._prescaler, 0x8: self._reload, 0xC: Register("SR")}, clocked=True
+        )
+        clock.add(self._due)
+
+    def reset(self) -> None:
+        """As in `Peripheral`."""
+        super().reset()
+        self._started = self._unlocked = False
+        self._expires = NEVER
+
+    def _write_key(self, value: int) -> None:
+        self._unlocked = value == _UNLOCK
+        self._started = self._started or value == _START
+        if self._started and value in (_START, _FEED):
+            period = SECOND // self._slow_hz * (4 << min(self._prescaler.value, 6))
+            self._expires = self._clock.now + (self._reload.value + 1) * period
+            self._clock.expect(self._expires)
+
+    def _write_prescaler(self, value: int) -> None:
+        if self._unlocked:
+            self._prescaler.value = value & 7
+
+    def _write_reload(self, value: int) -> None:
+        if self._unlocked:
+            self._reload.value = value & _RELOAD_MAX
+
+    def _due(self) -> int:
+        if self._expires <= self._clock.now:
+            self._expires = NEVER
+            self._bite()
+        return self._expires
+
+
+class SystemControl(Peripheral):
+    """The core's system control block (PM0214 4.4): notes faults, and takes the request to reset."""
+
+    def __init__(self, cpuid: int, restart: Callable[[], None]) -> None:
+        """No fault.
+
+        Args:
+            cpuid: What the core calls itself.
+            restart: Resets the board.
+        """
+        self._restart = restart
+        self._icsr, self._bfar = Register("ICSR"), Register("BFAR")
+        self._cfsr, self._hfsr = (self._clearing(name) for name in ("CFSR", "HFSR"))
+        plain = {0x08: "VTOR", 0x10: "SCR", 0x14: "CCR", 0x18: "SHPR1", 0x1C: "SHPR2", 0x20: "SHPR3", 0x24: "SHCSR"}
+        plain |= {0x30: "DFSR", 0x34: "MMFAR", 0x88: "CPACR"}
+        super().__init__(
+            "SCB",
+            {offset: Register(name) for offset, name in plain.items()}
+            | {
+                0x00: Register("CPUID", cpuid),
+                0x04: self._icsr,
+                0x0C: Register("AIRCR", on_read=lambda: _AIRCR_READ, on_write=self._write_aircr),
+                0x28: self._cfsr,
+                0x2C: self._hfsr,
+                0x38: self._bfar,
+            },
+            clocked=True,
+        )
+
+    def note_fault(self, cause: int, address: int | None) -> None:
+        """A fault became a hard fault.
+
+        Args:
+            cause: Bits of CFSR.
+            address: That could not be reached, if it was that.
+        """
+        self._icsr.value = 3
+        self._cfsr.value |= cause | (0 if address is None else _BFARVALID)
+        self._hfsr.value |= _FORCED
+        self._bfar.value = address or 0
+
+    @staticmethod
+    def _clearing(name: str) -> Register:
+        """A register in which ones clear bits."""
+        register = Register(name)
+
+        def write(value: int) -> None:
+            register.value &= ~value
+
+        register.on_write = write
+        return register
+
+    def _write_aircr(self, value: int) -> None:
+        if value & _KEY_MASK != _KEY:
+            raise BoardError(f"SCB AIRCR was written without its key: 0x{value:08X}")
+        if value & _SYSRESETREQ:
+            self._restart()
+
+
+class Gpio(Peripheral):
+    """One port of pins: what is written shows, nothing is joined to them.
+
+    Attributes:
+        output: ODR: the levels that it drives.
+    """
+
+    def __init__(self, name: str, setup: dict[int, Register], *, data: int, lock: int) -> None:
+        """All pins are inputs.
+
+        Args:
+            name: Of the port.
+            setup: The family's registers for modes and functions, by offset.
+            data: Offset of IDR; ODR and BSRR follow.
+            lock: Offset of LCKR.
+        """
+        self.output = Register("ODR")
+        super().__init__(
+            name,
+            setup
+            | {
+                data: Register("IDR", on_read=lambda: self.output.value),
+                data + 4: self.output,
+                data + 8: Register("BSRR", on_write=self._write_bsrr),
+                lock: Register("LCKR"),
+            },
+        )
+
+    def level(self, pin: int) -> bool:
+        """Whether a pin is driven high."""
+        return bool(self.output.value >> pin & 1)
+
+    def clear(self, pins: int) -> None:
+        """Drives pins low."""
+        self.output.value &= ~pins
+
+    def _write_bsrr(self, value: int) -> None:
+        self.clear(value >> 16)
+        self.output.value |= value & _PINS
+
+
+def gpio_f1(name: str) -> Gpio:
+    """A port of the STM32F1 (RM0008 9.2)."""
+    setup = {
+        0x00: Register("CRL", 0x44444444),
+        0x04: Register("CRH", 0x44444444),
+    }
+    port = Gpio(name, setup, data=0x08, lock=0x18)
+    port.registers[0x14] = Register("BRR", on_write=port.clear)
+    return port
+
+
+def gpio_f4(name: str) -> Gpio:
+    """A port of the STM32F4 (RM0090 8.4)."""
+    names = {0x00: "MODER", 0x04: "OTYPER", 0x08: "OSPEEDR", 0x0C: "PUPDR", 0x20: "AFRL", 0x24: "AFRH"}
+    return Gpio(name, {offset: Register(name) for offset, name in names.items()}, data=0x10, lock=0x1C)
