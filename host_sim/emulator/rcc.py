@@ -134,10 +134,9 @@ class Rcc(Peripheral):
         """Speed of the bus that USART1 hangs on."""
         return self._hclk() >> max(self.prescalers()[1] - 3, 0)
 
-    def refuse_while_pll_runs(self, register: str) -> None:
-        """Refuses that the PLL is set up in a register while it is on."""
-        if self._cr.value >> PLL & 1:
-            raise BoardError(f"RCC {register} was written to set up the PLL while it is on")
+    def pll_is_on(self) -> bool:
+        """Whether the PLL is switched on: then it cannot be set up."""
+        return bool(self._cr.value >> PLL & 1)
 
     def _source_hz(self) -> int:
         return self._oscillators.crystal if self.pll_source() == HSE else self._oscillators.internal
@@ -230,9 +229,9 @@ class RccF1(Rcc):
         return self.cfgr.value >> 8 & 7, self.cfgr.value >> 11 & 7
 
     def _write_cfgr(self, value: int) -> None:
-        if (value ^ self.cfgr.value) & _F1_PLL_SETUP:
-            self.refuse_while_pll_runs("CFGR")
-        self._switch(value)
+        """The PLL's fields stay as they are while it is on."""
+        kept = _F1_PLL_SETUP if self.pll_is_on() else 0
+        self._switch(value & ~kept | self.cfgr.value & kept)
 
 
 class RccF4(Rcc):
@@ -266,5 +265,6 @@ class RccF4(Rcc):
         return self.cfgr.value >> 10 & 7, self.cfgr.value >> 13 & 7
 
     def _write_pllcfgr(self, value: int) -> None:
-        self.refuse_while_pll_runs("PLLCFGR")
+        if self.pll_is_on():
+            raise BoardError("RCC PLLCFGR was written while the PLL is on")
         self._pllcfgr.value = value
