@@ -152,10 +152,13 @@ static void test_it_joins_the_bus_eleven_bits_after_init(void)
     TEST_ASSERT_EQUAL_HEX32(0, read(MSR) & INAK);
 }
 
-static void test_it_does_not_join_a_bus_that_is_never_idle(void)
+static void test_it_neither_sends_on_a_bus_that_is_never_idle_nor_joins_it(void)
 {
-    enter_init(&can);
     wire.busy = true;
+    request(0, 0x81);
+    pass_us(1000);
+    TEST_ASSERT_EQUAL_UINT(0, wire.heard.count);
+    enter_init(&can);
     write(MCR, TXFP);
     pass_us(100000);
     TEST_ASSERT_EQUAL_HEX32(INAK, read(MSR) & INAK);
@@ -176,9 +179,11 @@ static void test_bit_timing_can_be_written_in_init_only(void)
 
 static void test_asking_for_the_mode_that_is_changes_nothing(void)
 {
+    can.bus_off = true;
     write(MCR, TXFP | RFLM);
-    pass_us(30);
+    pass_us(30 + RECOVERY_US);
     TEST_ASSERT_EQUAL_HEX32(0, read(MSR) & (INAK | SLAK));
+    TEST_ASSERT_EQUAL_HEX32(BOFF, read(ESR) & BOFF);
 }
 
 static void test_a_master_reset_empties_everything_and_sleeps(void)
@@ -224,6 +229,10 @@ static void test_what_became_of_a_frame_is_cleared_by_writing_ones(void)
     TEST_ASSERT_EQUAL_HEX32(RQCP | TXOK, read(TSR) >> 8 & 0xFF);
     write(TSR, RQCP << 8);
     TEST_ASSERT_EQUAL_HEX32(0, read(TSR) >> 8 & 0xFF);
+    request(1, 0x81);
+    pass_us(300);
+    request(1, 0x81);
+    TEST_ASSERT_EQUAL_HEX32(0, read(TSR) >> 8 & 0xFF);   /* a new request clears them too */
 }
 
 static void request_three(uint32_t mcr)
@@ -281,6 +290,7 @@ static void test_a_request_is_given_up_unless_it_is_on_the_wire(void)
     request(1, 0x82);
     pass_us(10);
     write(TSR, ABRQ | ABRQ << 8);
+    TEST_ASSERT_EQUAL_HEX32(RQCP << 8, read(TSR) & 0xFFFF);
     pass_us(1000);
     ASSERT_HEARD(0x81);
     TEST_ASSERT_EQUAL_HEX32((RQCP | TXOK) | RQCP << 8, read(TSR) & 0xFFFF);
@@ -351,10 +361,33 @@ static void test_without_a_second_try_lost_arbitration_is_the_end(void)
     TEST_ASSERT_EQUAL_HEX32(RQCP | ALST, read(TSR) & 0xFF);
 }
 
-static void test_controllers_acknowledge_each_other_and_the_lower_identifier_goes_first(void)
+static void test_the_same_frame_goes_to_the_world_first(void)
+{
+    (void)wire_put(&wire, &(struct frame){.id = 0x100});
+    request(0, 0x100);
+    pass_us(100);
+    TEST_ASSERT_EQUAL_HEX32(0x100, take());
+}
+
+static void join_other(void)
 {
     bxcan_open(&other, &wire, 14);
     join(&other, TXFP);
+}
+
+static void test_a_frame_that_lost_to_another_controller_can_be_given_up_at_once(void)
+{
+    join_other();
+    request(0, 0x200);
+    request_from(&other, 0, 0x100);
+    pass_us(10);
+    write(TSR, ABRQ);
+    TEST_ASSERT_EQUAL_HEX32(RQCP, read(TSR) & 0xFF);
+}
+
+static void test_controllers_acknowledge_each_other_and_the_lower_identifier_goes_first(void)
+{
+    join_other();
     wire.alone = true;
     request(0, 0x200);
     request_from(&other, 0, 0x100);
@@ -427,7 +460,9 @@ static void test_an_output_mailbox_is_read_only_and_only_when_there_is_a_frame(v
 static void test_a_received_frame_reads_as_it_was_sent(void)
 {
     (void)wire_put(&wire, &(struct frame){.id = FRAME_EXTENDED | 0x1ABCDEF0, .len = 5, .data = {1, 2, 3, 4, 5}});
-    pass_us(300);
+    pass_us(213);
+    TEST_ASSERT_EQUAL_HEX32(0, read(RF0R));
+    pass_us(1);
     TEST_ASSERT_EQUAL_HEX32(0x1ABCDEF0u << 3 | 4, read(OUTPUT_0));
     TEST_ASSERT_EQUAL_HEX32(5, read(OUTPUT_0 + 4) & 0xF);
     TEST_ASSERT_EQUAL_HEX32(0x04030201, read(OUTPUT_0 + 8));
@@ -438,8 +473,8 @@ static void test_a_received_frame_reads_as_it_was_sent(void)
 
 static void test_filters_let_through_what_they_say(void)
 {
-    static const struct frame frames[] = {{.id = 0xC1}, {.id = FRAME_EXTENDED | 0xC1 << 18}, {.id = FRAME_REMOTE | 0xC1},
-                                          {.id = 0xC2}};
+    static const struct frame frames[] = {{.id = 0xC1}, {.id = FRAME_EXTENDED | 0xC1 << 18 | 5 << 15},
+                                          {.id = FRAME_REMOTE | 0xC1}, {.id = 0xC2}};
     static const struct {
         uint32_t wide, list, bank[2], passes;   /* bit n: frames[n] */
     } cases[] = {
@@ -448,6 +483,7 @@ static void test_filters_let_through_what_they_say(void)
         {1, 1, {0xC1u << 21 | 2, 0xC2u << 21}, 12},
         {0, 1, {0xC1u << 5 | 0x700u << 21, 0x700u << 5 | 0xC2u << 21}, 9},
         {0, 0, {0xC0u << 5 | 0x7FCu << 21, 0x7FFu << 5 | 0x7FFu << 21}, 15},
+        {0, 1, {0xC1u << 5 | 8 | 5, 0}, 2},
         {0, 0, {8 | 8u << 16, 8 | 8u << 16}, 2},           /* extended */
         {0, 0, {0xC1u << 5 | 0xFFF8u << 16, 0x700u << 5 | 0xFFE0u << 16}, 1},
     };
@@ -570,14 +606,39 @@ static void test_a_frame_waits_for_a_node_that_is_in_init(void)
 
 static void test_successes_make_up_for_errors(void)
 {
-    bxcan_open(&other, &wire, 14);
-    join(&other, TXFP);
+    join_other();
     request_shorted(5);
     TEST_ASSERT_EQUAL_UINT(5, other.rec);
     wire.shorted = false;
     pass_us(400);
     TEST_ASSERT_EQUAL_UINT(5 * 8 - 1, read(ESR) >> 16 & 0xFF);
     TEST_ASSERT_EQUAL_UINT(4, other.rec);
+}
+
+static void test_a_destroyed_frame_that_was_given_up_is_over(void)
+{
+    request_shorted(0);
+    pass_us(10);
+    write(TSR, ABRQ);
+    pass_us(ERROR_US);
+    TEST_ASSERT_EQUAL_HEX32(RQCP | TERR, read(TSR) & 0xFF);
+}
+
+static void test_a_shorted_bus_makes_the_world_give_up_its_frames(void)
+{
+    wire.shorted = true;
+    bring(5);
+    wire.shorted = false;
+    pass_us(300);
+    TEST_ASSERT_EQUAL_HEX32(0, read(RF0R));
+}
+
+static void test_a_frame_received_ends_the_passive_state_and_clears_the_last_error(void)
+{
+    can.rec = 200;
+    write(ESR, 7 << 4);
+    bring(5);
+    TEST_ASSERT_EQUAL_HEX32(120u << 24 | EWGF, read(ESR));
 }
 
 static void test_without_a_second_try_a_destroyed_frame_is_over(void)
@@ -613,7 +674,7 @@ int main(void)
     RUN_TEST(test_init_is_acknowledged_but_not_at_once);
     RUN_TEST(test_init_can_be_asked_for_in_vain);
     RUN_TEST(test_it_joins_the_bus_eleven_bits_after_init);
-    RUN_TEST(test_it_does_not_join_a_bus_that_is_never_idle);
+    RUN_TEST(test_it_neither_sends_on_a_bus_that_is_never_idle_nor_joins_it);
     RUN_TEST(test_another_speed_than_the_bus_is_refused);
     RUN_TEST(test_bit_timing_can_be_written_in_init_only);
     RUN_TEST(test_asking_for_the_mode_that_is_changes_nothing);
@@ -632,6 +693,8 @@ int main(void)
     RUN_TEST(test_a_data_frame_goes_before_a_remote_one_and_that_before_an_extended_one);
     RUN_TEST(test_a_frame_that_lost_arbitration_can_be_given_up);
     RUN_TEST(test_without_a_second_try_lost_arbitration_is_the_end);
+    RUN_TEST(test_the_same_frame_goes_to_the_world_first);
+    RUN_TEST(test_a_frame_that_lost_to_another_controller_can_be_given_up_at_once);
     RUN_TEST(test_controllers_acknowledge_each_other_and_the_lower_identifier_goes_first);
     RUN_TEST(test_three_frames_wait_in_their_order);
     RUN_TEST(test_the_flags_of_a_fifo_are_cleared_by_writing_ones);
@@ -650,6 +713,9 @@ int main(void)
     RUN_TEST(test_a_node_that_is_bus_off_neither_sends_nor_receives);
     RUN_TEST(test_a_frame_waits_for_a_node_that_is_in_init);
     RUN_TEST(test_successes_make_up_for_errors);
+    RUN_TEST(test_a_destroyed_frame_that_was_given_up_is_over);
+    RUN_TEST(test_a_shorted_bus_makes_the_world_give_up_its_frames);
+    RUN_TEST(test_a_frame_received_ends_the_passive_state_and_clears_the_last_error);
     RUN_TEST(test_without_a_second_try_a_destroyed_frame_is_over);
     RUN_TEST(test_the_last_error_is_told_until_it_is_written_over);
     RUN_TEST(test_the_world_can_have_only_so_many_frames_waiting);

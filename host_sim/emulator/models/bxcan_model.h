@@ -12,8 +12,7 @@ enum {
     BXCAN_MAILBOXES = 3,
     BXCAN_FIFO_DEPTH = 3,
     BXCAN_BANKS_MAX = 28,
-    BXCAN_REFUSAL_MAX = 96,
-    BXCAN_SIZE = 0x400     /* bytes from its first register to behind its last */
+    BXCAN_REFUSAL_MAX = 96
 };
 
 enum bxcan_mode { BXCAN_NORMAL = 0, BXCAN_INIT = 1, BXCAN_SLEEP = 2 };   /* as MSR tells */

@@ -36,8 +36,8 @@ static uint64_t bits(const struct frame *frame)
     return frame->id & FRAME_REMOTE ? fixed : fixed + 8 * bytes;
 }
 
-/* As the bits come on the wire: the first 11 of the identifier, then whether it is extended, its rest, remote or not. */
-static uint32_t rank(const struct frame *frame)
+/* The lowest wins. As the bits come: 11 of the identifier, whether it is extended, its rest, whether it is remote. */
+static uint32_t priority(const struct frame *frame)
 {
     uint32_t remote = frame->id & FRAME_REMOTE ? 1 : 0;
     uint32_t id = frame->id & 0x1FFFFFFFu;
@@ -114,7 +114,7 @@ static void arbitrate(struct can_wire *wire)
     for (unsigned n = 0; n < wire->node_count; n++) {
         if (!bxcan_listens(wire->nodes[n]) || !bxcan_offer(wire->nodes[n], &offer))
             continue;
-        if (wire->sender != WIRE_IDLE && rank(&offer) >= rank(&wire->passing)) {
+        if (wire->sender != WIRE_IDLE && priority(&offer) >= priority(&wire->passing)) {
             bxcan_lost_arbitration(wire->nodes[n]);
             continue;
         }
