@@ -183,7 +183,7 @@ class EmulatedBoard:
             serial: Its frames go over the serial line, as slcan text, rather than over the bus.
 
         Raises:
-            OctetError: There is no such image.
+            OctetError: The image cannot be read.
             BoardError: It does what the hardware does not allow.
         """
         self.resets: list[str] = []
@@ -205,11 +205,11 @@ class EmulatedBoard:
             self.put(CanFrame(frame.id, frame.data))
 
     def put(self, frame: CanFrame) -> None:
-        """Whoever is on the bus wants to send a frame of any kind."""
+        """Another node on the bus wants to send a frame of any kind."""
         self.hardware.can.put(frame)
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """As in `Link`. The time is the board's: it goes no faster than the wall's, but may go more slowly.
+        """As in `Link`. Time is the board's: never faster than the wall clock, but it may be slower.
 
         Raises:
             BoardError: The image does what the hardware does not allow.
@@ -289,7 +289,7 @@ def start_board(name: str, faults: Faults | None = None, link: str = "bxcan") ->
         link: `bxcan` or `slcan`: which of its images.
 
     Raises:
-        UsageError: There is no such board.
+        UsageError: No board has that name.
         OctetError: Its image is not built.
         BoardError: The image does what the hardware does not allow.
     """

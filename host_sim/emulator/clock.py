@@ -55,7 +55,7 @@ class Clock:
         self.horizon = min(self.horizon, *moments, NEVER)
 
     def execute(self, cycles: int) -> None:
-        """Passes the time of so many cycles."""
+        """Passes the time of a number of cycles."""
         self.cycles += cycles
         self.now += cycles * self.period
         if self.now >= self.horizon:

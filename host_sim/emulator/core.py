@@ -122,7 +122,7 @@ class Core:
     def add_registers(
         self, base: int, size: int, read: Callable[[int, int], int], write: Callable[[int, int, int], None]
     ) -> None:
-        """Addresses behind which is no memory.
+        """Addresses of registers rather than memory.
 
         Args:
             base: First of them, a multiple of `PAGE`.
@@ -227,7 +227,7 @@ class Core:
         self._pc = self._word(self._vectors + 4 * _HARD_FAULT)
 
     def _stack_registers(self) -> bool:
-        """False where there is no memory for them; the handler begins all the same."""
+        """False if the stack is not in memory; the handler begins all the same."""
         saved = b"".join(self._uc.reg_read(register).to_bytes(4, "little") for register in _STACKED)
         stack = (self._uc.reg_read(UC_ARM_REG_SP) & ~7) - len(saved)
         self._uc.reg_write(UC_ARM_REG_SP, stack)
@@ -248,13 +248,13 @@ def load_segments(path: Path) -> list[tuple[int, bytes]]:
         path: The `.elf`.
 
     Raises:
-        OctetError: It is no image for an ARM core.
+        OctetError: The file is not an image for an ARM core.
     """
     try:
         data = path.read_bytes()
         magic, bits, *_, machine, _, _, table, _, _, _, _, count = _ELF_HEADER.unpack_from(data)
         if magic != b"\x7fELF" or bits != _ELF_32_BITS or machine != _ELF_ARM:
-            raise OctetError(f"cannot read the image {path}: it is no 32-bit ELF file for ARM")
+            raise OctetError(f"cannot read the image {path}: not a 32-bit ELF file for ARM")
         headers = [_PROGRAM_HEADER.unpack_from(data, table + i * _PROGRAM_HEADER.size) for i in range(count)]
     except (OSError, struct.error) as error:
         raise OctetError(f"cannot read the image {path}: {error}") from error

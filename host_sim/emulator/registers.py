@@ -35,7 +35,7 @@ class Register:
         on_read: Gives what is read; None: what was written.
         on_write: Takes what is written; None: it is kept.
         steady: Its value tells what has happened; a running counter's tells only the time.
-        idle: Writing it is no sign of work: a watchdog's food.
+        idle: Writing it does not count as work: feeding a watchdog.
         value: What it holds.
     """
 

@@ -118,7 +118,7 @@ class SlcanLine:
         self._text = bytearray()
 
     def take(self, byte: int) -> None:
-        """The board has sent that. A line that is no frame is nobody's, and dropped."""
+        """The board has sent a byte. A line that is not a frame is dropped."""
         if byte != _LINE_END:
             self._text.append(byte)
             return

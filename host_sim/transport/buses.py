@@ -24,7 +24,7 @@ def open_bus(bus: str, ids: Sequence[int] = ()) -> can.BusABC:
             for all.
 
     Raises:
-        UsageError: It is no such name, or cannot be opened.
+        UsageError: The name is not one of a bus, or the bus cannot be opened.
     """
     interface, colon, channel = bus.partition(":")
     if not (interface and colon and channel):

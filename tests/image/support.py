@@ -50,7 +50,7 @@ class Talk:
         return self.protocol.encode_senses(Senses(self.tick % 4096, feel, False, False, 0, 0, 0))
 
     def live(self, ticks: int, feel: int = 0) -> list[DecodedFrame]:
-        """So many ticks in their time; returns the drives."""
+        """Runs a number of ticks in real time; returns the drives."""
         before = len(self.heard)
         for _ in range(ticks):
             self.board.send(self.senses(feel))
@@ -59,7 +59,7 @@ class Talk:
 
     def wait(self, span_s: float) -> list[DecodedFrame]:
         said = [self.protocol.decode(frame) for frame in self.board.pass_time(span_s)]
-        assert None not in said, "the board sent what is no frame of ours"
+        assert None not in said, "the board sent a frame that the protocol does not have"
         self.heard.extend(said)
         return said
 

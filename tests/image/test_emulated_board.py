@@ -127,7 +127,7 @@ def test_it_does_with_two_mailboxes(name):
 
     drives = talk.live(100)
 
-    # The first frame that got stuck is lost for ever: nobody can tell.
+    # The first frame that got stuck is lost, and the driver cannot know.
     assert len(drives) >= 99
 
 

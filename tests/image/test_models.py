@@ -204,7 +204,7 @@ def test_what_is_no_image_for_arm_is_named(tmp_path):
     other.write_bytes(b"not even that")
     with pytest.raises(OctetError, match="cannot read the image"):
         load_segments(other)
-    with pytest.raises(OctetError, match="no 32-bit ELF file for ARM"):
+    with pytest.raises(OctetError, match="not a 32-bit ELF file for ARM"):
         load_segments(PROGRAM)
 
 

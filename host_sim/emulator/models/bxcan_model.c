@@ -15,7 +15,7 @@ enum {
     EWGF = 1 << 0, EPVF = 1 << 1, BOFF = 1 << 2,
 
     WARNING = 96,
-    IDLE_NS = 11 * WIRE_BIT_NS,          /* recessive for so long, a bus is idle: to join, or to leave */
+    IDLE_NS = 11 * WIRE_BIT_NS,          /* 11 recessive bits: the bus is idle, and can be joined or left */
     RECOVERY_NS = 128 * IDLE_NS
 };
 

@@ -64,7 +64,8 @@ bool bxcan_write_filters(struct bxcan *can, uint32_t offset, uint32_t value)
 
     if (offset >= BANK_0) {
         if (!in_init && can->filters.words[FA1R] >> bank & 1u)
-            return bxcan_refuse(can, "CAN1 F%uR%u was written while its filter is active", (unsigned)bank, offset / 4 % 2 + 1u);
+            return bxcan_refuse(can, "CAN1 F%uR%u was written while its filter is active", (unsigned)bank,
+                                offset / 4 % 2 + 1u);
         can->filters.banks[(offset - BANK_0) / 4] = value;
         return true;
     }
@@ -134,7 +135,7 @@ static uint32_t word_at(const uint8_t *bytes)
     return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
 
-/* The output mailbox of a FIFO. Nobody asked for a time stamp, so it may be anything. */
+/* The output mailbox of a FIFO. The time stamp is undefined outside time-triggered mode. */
 int64_t bxcan_read_output(struct bxcan *can, uint32_t at)
 {
     const struct bxcan_fifo *fifo = &can->fifos[at / 16];

@@ -89,7 +89,7 @@ void bxcan_sent(struct bxcan *can)
     can->on_wire = -1;
 }
 
-/* A frame that nobody acknowledges takes a lone node no farther than passive. */
+/* Missing acknowledgements take a node as far as error passive, and no further. */
 void bxcan_failed(struct bxcan *can, enum bxcan_error error)
 {
     can->last_error = error;

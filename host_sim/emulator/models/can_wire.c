@@ -95,18 +95,18 @@ static void finish(struct can_wire *wire)
     wire->sender = WIRE_IDLE;
 }
 
-/* Puts the first frame of the world on the wire, if anybody is there to take it. */
-static void begin_world(struct can_wire *wire, bool anybody)
+/* Puts the first frame of the world on the wire if a controller listens. */
+static void begin_world(struct can_wire *wire, bool listened)
 {
-    if (wire->shorted && anybody)
+    if (wire->shorted && listened)
         wire->waiting.count = 0;
-    if (anybody && wire->waiting.count > 0) {
+    if (listened && wire->waiting.count > 0) {
         wire->passing = wire->waiting.frames[wire->waiting.first];
         wire->sender = WIRE_WORLD;
     }
 }
 
-/* A controller with a frame of higher priority takes the wire from whoever had it so far. */
+/* A controller with a frame of higher priority takes the wire from the node that had it. */
 static void arbitrate(struct can_wire *wire)
 {
     struct frame offer;
@@ -127,12 +127,12 @@ static void arbitrate(struct can_wire *wire)
 
 static void begin(struct can_wire *wire)
 {
-    bool anybody = false;
+    bool listened = false;
     struct frame taken;
 
     for (unsigned n = 0; n < wire->node_count; n++)
-        anybody = anybody || bxcan_listens(wire->nodes[n]);
-    begin_world(wire, anybody);
+        listened = listened || bxcan_listens(wire->nodes[n]);
+    begin_world(wire, listened);
     arbitrate(wire);
     if (wire->sender == WIRE_WORLD)
         (void)pop(&wire->waiting, &taken);

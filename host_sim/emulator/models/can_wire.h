@@ -34,7 +34,7 @@ struct can_wire {
     struct bxcan *nodes[WIRE_NODES_MAX];
     struct frame passing;        /* on the wire */
     struct frame_queue waiting;  /* what the world wants to send */
-    struct frame_queue heard;    /* what the world has received, and nobody has fetched */
+    struct frame_queue heard;    /* what the world has received: wire_fetch takes it */
 };
 
 enum wire_sender { WIRE_IDLE = -1, WIRE_WORLD = -2 };
@@ -50,6 +50,6 @@ bool wire_fetch(struct can_wire *wire, struct frame *out);
 
 uint64_t wire_advance(struct can_wire *wire, uint64_t now_ns);
         /* Lets happen what is due by now, on the wire and in its controllers. Returns when something is next due,
-           UINT64_MAX for never; whoever skips that moment makes it happen late. */
+           UINT64_MAX for never: call again at that moment, since what is skipped happens late. */
 
 #endif
