@@ -1,13 +1,22 @@
 """What the tests of images share: a talk with a board, frame by frame."""
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
+from host_sim.backends.connection import Connection
+from host_sim.bench.short_run import step_through
+from host_sim.client.frame_log import FrameLog
+from host_sim.client.handshake import handshake
+from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.board import EmulatedBoard, Faults, start_board
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.robot_io import Senses
+from host_sim.sim.make import assemble
+from host_sim.sim.run_config import RunConfig
 
 BOARDS = ("stm32f405", "stm32f103")
 TICK_S = 0.02
+READY_S = 5.0
 COUNTERS = (
     "silences",
     "missed",
@@ -71,6 +80,15 @@ class Talk:
         self.order("stop")
         self.wait(0.02)
         return self.last("HEARTBEAT") | self.last("FAULTS") | self.last("HEALTH")
+
+
+def run_robot(connection: Connection, seed: int, ticks: int, log: Path) -> RobotClient:
+    """A run of a number of ticks with a robot that is there already; returns its client, as it was at the end."""
+    client = RobotClient(connection.link, Protocol(), FrameLog(log), status=connection.status)
+    handshake(client, READY_S)
+    step_through(assemble([client], RunConfig(seed=seed)), ticks)
+    client.log.close()
+    return client
 
 
 def talk_to(name: str, faults: Faults | None = None, lockstep: int = 0) -> Talk:

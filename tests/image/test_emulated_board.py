@@ -4,7 +4,6 @@ import time
 from itertools import pairwise
 
 import pytest
-from host_sim.emulator.tick_cost import count_ticks
 
 from host_sim.bench.tick_cost import count_ticks
 from host_sim.emulator.board import Faults

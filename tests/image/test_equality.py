@@ -4,9 +4,9 @@ import pytest
 
 from host_sim.backends.connection import Connection
 from host_sim.bench.equality import IMAGES, REFERENCE, compare, first_difference, record
-from host_sim.bench.short_run import run_ticks
 from host_sim.cli.run_options import BOARDS
 from host_sim.emulator.board import start_board
+from tests.image.support import run_robot
 
 TICKS = 2000
 LEARNED = b"141#00"
@@ -62,6 +62,6 @@ def test_the_slcan_image_does_the_same_on_an_emulated_serial_line(board, tmp_pat
     record(REFERENCE, 4, 300, logs[0])
     emulated = start_board(board, link="slcan")
 
-    run_ticks(Connection(emulated, board, emulated.status), 4, 300, logs[1])
+    run_robot(Connection(emulated, board, emulated.status), 4, 300, logs[1])
 
     assert first_difference(*logs) is None

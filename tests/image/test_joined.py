@@ -4,18 +4,18 @@ import signal
 import subprocess
 import sys
 import time
-from contextlib import ExitStack
 
 import can
 import pytest
 
-from host_sim.backends.connection import connect
 from host_sim.bench.equality import REFERENCE, first_difference, record
 from host_sim.bench.short_run import run_ticks
+from host_sim.client.frame_log import FrameLog
 from host_sim.emulator.__main__ import JoinedBoard, main
 from host_sim.emulator.board import start_board
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.robot_io import Senses
+from host_sim.sim.run_config import RunConfig
 
 PROTOCOL = Protocol()
 STOP = PROTOCOL.encode("COMMAND", {"counter": 1, "opcode": 1, "lockstep": 0})
@@ -130,8 +130,7 @@ def test_on_a_socketcan_bus_it_does_what_the_host_build_does(tmp_path):
     logs = [tmp_path / "host.log", tmp_path / "vcan.log"]
     record(REFERENCE, 3, 500, logs[0])
 
-    with ExitStack() as stack:
-        run_ticks(connect(stack, "socketcan:vcan0", "external", 1), 3, 500, logs[1])
+    run_ticks(RunConfig(seed=3, bus="socketcan:vcan0", robot="external"), 500, FrameLog(logs[1]))
 
     assert first_difference(*logs) is None
 

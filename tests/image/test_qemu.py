@@ -12,11 +12,11 @@ import pytest
 
 from host_sim.backends.connection import connect
 from host_sim.backends.qemu import Qemu
-from host_sim.bench.short_run import run_ticks
 from host_sim.errors import OctetError, RobotError, UsageError
 from host_sim.paths import image_path
 from host_sim.protocol.codec import Frame
 from host_sim.transport.slcan_link import SlcanLink
+from tests.image.support import run_robot
 
 ROBOT = "import time, host_sim.backends.qemu as q; robot = q.Qemu(); print(robot.pid, flush=True); time.sleep(60)"
 
@@ -48,7 +48,7 @@ def is_running(pid):
 def test_a_robot_in_qemu_learns_and_its_process_ends(tmp_path):
     with ExitStack() as stack:
         connection = connect(stack, "fd", "qemu", 1)
-        session = run_ticks(connection, 1, 1000, tmp_path / "run.log")
+        session = run_robot(connection, 1, 1000, tmp_path / "run.log")
 
     assert any(session.memory)
     assert set(session.faults.values()) == {0}
