@@ -7,7 +7,7 @@ from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, SAME_LA
 from host_sim.protocol.signal_layout import MessageLayout, places
 from host_sim.robot_io import Drive, Senses
 
-__all__ = ["CONTROL", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "crc8"]
+__all__ = ["CONTROL", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "crc8", "node_of"]
 
 DBC = ROOT / "hal" / "protocol" / "octet.dbc"
 CONTROL = tuple(name for name, message in MESSAGES.items() if message.signals[0].name == "crc")

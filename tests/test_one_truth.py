@@ -1,0 +1,124 @@
+"""No number or word of the robot's stands by hand beside octet.dbc and robot.toml.
+
+Three ways of copying one are found: a constant with the name of a word that is given a number, an enum of the robot's
+that is written out, and the name of a pattern in a string. Tests may name the numbers that they expect; what helps
+several tests may not.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import pytest
+
+from tools.robot_words.model import read
+
+ROOT = Path(__file__).resolve().parents[1]
+ROBOT = read(ROOT / "hal/protocol/octet.dbc", ROOT / "hal/protocol/robot.toml")
+FOLDERS = ("firmware", "hal", "host_sim", "tests", "tools")
+SUFFIXES = {".c", ".h", ".py", ".js", ".html", ""}
+NOT_SCANNED = (
+    "host_sim/protocol/generated.py",
+    "host_sim/web/generated.js",
+    "tests/firmware/oracles/",  # a second opinion has numbers of its own
+    "tools/robot_words/",  # what the numbers are written with
+)
+
+SPANS = ("cell_count", "cell_max", "node_max", "tick_span", "tick_mask", "action_span", "odometer_span")
+
+
+def either(words: Iterable[str]) -> str:
+    """A pattern for any of the words, in capitals."""
+    return "|".join(sorted((word.upper() for word in words), key=len, reverse=True))
+
+
+PLAIN = either((*ROBOT.enums["reason"], *ROBOT.enums["side"], *(p.name for p in ROBOT.parameters), *SPANS))
+# The words of commands and behaviours mean much else besides.
+PREFIXED = "|".join(
+    f"{name.upper()}_(?:{either(words)})" for name, words in {**ROBOT.enums, "profile": ROBOT.profiles}.items()
+)
+CONSTANT = f"(?:{PREFIXED}|(?:TURN_)?(?:{PLAIN}))"
+# Words that mean nothing else, so that they are telling in any spelling; left and right are also wheels.
+TELLING = "|".join(word for name in ("reason", "result") for word in ROBOT.enums[name] if "_" in word)
+CAMEL = "|".join(re.sub(r"_(\w)", lambda match: match[1].upper(), word) for word in TELLING.split("|"))
+COPIES = {
+    "a constant with a number": re.compile(
+        rf"\b_?{CONSTANT}\b\]?\s*(?::[^=\n]*)?[=:]\s*\{{?-?\d",
+        re.ASCII,
+    ),
+    "several constants with numbers": re.compile(
+        rf"^\s*(?:\w+, )*_?{CONSTANT}(?:, \w+)+ = \d", re.ASCII | re.MULTILINE
+    ),
+    "a table with a number": re.compile(rf"\b[\"']?(?:{TELLING}|{CAMEL})[\"']?\s*:\s*\d"),
+    "an enum of the robot's": re.compile(rf"\benum (?:{'|'.join([*ROBOT.enums, 'parameter', 'profile'])})\s*\{{"),
+    "the name of a pattern": re.compile(
+        "|".join(f"[\"'`]{re.escape(name)}[\"'`]" for name in ROBOT.patterns if " " in name)
+    ),
+    "several sensors' names": re.compile(r"[\"']front-(?:left|right)[\"'],\s*[\"']front"),
+}
+
+
+def copies_in(text: str) -> list[str]:
+    """What is copied in a text, each with how."""
+    return [f"{what}: {match[0].strip()}" for what, pattern in COPIES.items() for match in pattern.finditer(text)]
+
+
+def scanned() -> Iterator[Path]:
+    """All files in which nothing may be copied."""
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*")):
+            name = path.relative_to(ROOT).as_posix()
+            is_source = path.is_file() and path.suffix in SUFFIXES and "__pycache__" not in path.parts
+            is_test = folder == "tests" and path.name.startswith("test_")
+            if is_source and not is_test and not name.startswith(NOT_SCANNED):
+                yield path
+
+
+def test_nothing_of_the_robots_is_copied_by_hand():
+    paths = list(scanned())
+    copies = {str(path.relative_to(ROOT)): copies_in(path.read_text()) for path in paths}
+
+    assert len(paths) > 200
+    assert {name: found for name, found in copies.items() if found} == {}
+
+
+CANARIES = {
+    "a reason in C": "enum { REASON_TRIAL = 5 };",
+    "a reason in Python": "_REMEMBERED = 4",
+    "a typed reason in Python": "TRIAL: Final = 5",
+    "some reasons in Python": "WANDER, TOWARD_FOOD = 1, 2",
+    "sides in Python": "_LEFT, _RIGHT = 1, 2",
+    "reasons in JavaScript": "export const REASON = { stop: 0, towardFood: 2 };",
+    "a reason in a Python table": 'NAMES = {"look_around": 3}',
+    "a side in JavaScript": "const LEFT = 1;",
+    "an opcode in C": "#define X 1\nstatic const int OPCODE_START = 2;",
+    "a result in Python": "RESULT_DONE = 0",
+    "a parameter's default in C": "static const uint8_t d[] = {[BOREDOM_LIMIT] = 10};",
+    "a parameter's range in C": "static const struct range r[] = {[TURN_DEG] = {1, 180}};",
+    "a parameter in Python": "TURN_DEG = 10",
+    "how many cells there are": "CELL_COUNT = 8",
+    "how ticks wrap": "_TICK_MASK = 4095",
+    "an enum": "enum side { A, B };",
+    "a pattern's name": 'x = "front and front-right"',
+    "sensors' names": 'x = ("front-right", "front")',
+}
+
+
+@pytest.mark.parametrize("text", CANARIES.values(), ids=CANARIES)
+def test_a_copy_is_found(text):
+    assert copies_in(text)
+
+
+FINE = {
+    "a name used": "if (reason == REASON_TRIAL) x = 1;",
+    "a name from a name": "TRIAL = Reason.TRIAL",
+    "wheels": 'signals = {"left": -251, "right": 251}; left = 0; right: 0',
+    "a setting": 'settings = {"boredom_limit": 5}',
+    "a sentence": "nothing in the way; 1 left",
+    "a use of an enum": "enum side side = SIDE_LEFT;",
+}
+
+
+@pytest.mark.parametrize("text", FINE.values(), ids=FINE)
+def test_what_is_no_copy_is_let_through(text):
+    assert copies_in(text) == []
