@@ -5,8 +5,8 @@ import { isForPage } from "./elements.js";
 
 /** @typedef {import("./arena_editor.js").ArenaEditor} ArenaEditor */
 
-const STEP_MM = 50;
-const SMALL_STEP_MM = 10;
+const NUDGE_MM = 50;
+const SMALL_NUDGE_MM = 10;
 const TURN = Math.PI / 12;
 const ARROWS = new Map([
   ["arrowleft", { x: -1, y: 0 }], ["arrowright", { x: 1, y: 0 }],
@@ -35,7 +35,7 @@ export function bindArenaKeys(canvas, editor) {
  */
 function arrowAction({ key, shiftKey }, editor) {
   const arrow = ARROWS.get(key.toLowerCase());
-  const step = shiftKey ? SMALL_STEP_MM : STEP_MM;
+  const step = shiftKey ? SMALL_NUDGE_MM : NUDGE_MM;
   return arrow && (() => editor.nudge({ x: arrow.x * step, y: arrow.y * step }));
 }
 
