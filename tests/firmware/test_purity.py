@@ -60,3 +60,17 @@ def test_the_core_is_the_same_everywhere_and_counts_in_whole_numbers(path):
 
     assert guards == ([f"#ifndef OCTET_{path.stem.upper()}_H"] if path.suffix == ".h" else [])
     assert re.findall(r"\b(?:float|double)\b|\d\.\d+f?\b", re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)) == []
+
+
+def included_from_the_body(text: str) -> list[str]:
+    """The headers of hal/ that a source includes."""
+    return re.findall(r'^#\s*include "(hal/[^"]+)"', text, re.MULTILINE)
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "firmware").rglob("*.[ch]")), ids=lambda path: path.name)
+def test_only_main_knows_that_there_is_a_body(path):
+    assert included_from_the_body(path.read_text()) == (["hal/hal.h"] if path.name == "main.c" else [])
+
+
+def test_a_header_of_the_body_is_noticed():
+    assert included_from_the_body('#include <stdint.h>\n#include "hal/link/link.h"\n') == ["hal/link/link.h"]

@@ -51,14 +51,14 @@ def with_messages_turned_round(folder: Path) -> str:
     return changed("".join(messages), "".join(reversed(messages)))
 
 
-NEW_PARAMETER = 'EV_ patience_s: 0 [0|9] "s" 1 13 DUMMY_NODE_VECTOR0 Vector__XXX;'
+NEW_PARAMETER = 'EV_ patience_s: 0 [0|9] "s" 1 99 DUMMY_NODE_VECTOR0 Vector__XXX;'
 
 SAME = {
     "a mended comment": lambda _: changed('CM_ SG_ 129 reason "', 'CM_ SG_ 129 reason "In short: '),
-    "a new profile": lambda _: changed('2 "never"', '2 "never" 3 "searcher"'),
+    "a new profile": lambda _: changed('2 "never"', '2 "never" 99 "searcher"'),
     "another name of a choice": lambda _: changed('3 "look_around"', '3 "glance"'),
     "another unit": lambda _: changed('"mm/s"', '"km/h"'),
-    "another range": lambda _: changed("[0|12]", "[0|99]"),
+    "another range": lambda _: changed("[0|31]", "[0|30]"),
     "a new parameter": lambda _: changed("\nEV_ turn_deg:", f"\n{NEW_PARAMETER}\nEV_ turn_deg:"),
     "line ends of Windows": lambda _: TEXT.replace("\n", "\r\n").encode(),
     "another order of messages": with_messages_turned_round,
@@ -104,14 +104,14 @@ def test_parameters_survive_another_tool(tmp_path):
 
 
 UNFIT = {
-    "a parameter without a description": ('12 "tick_ms" ;', '12 "tick_ms" 13 "patience_s" ;', "EV_ lines"),
-    "a description of no parameter": (' 12 "tick_ms" ;', " ;", "EV_ lines"),
-    "a parameter with another number": ('"deg" 45 1 DUMMY', '"deg" 45 13 DUMMY', "EV_ lines"),
+    "a parameter without a description": ('0 "turn_deg"', '0 "turn_deg" 99 "patience_s"', "EV_ lines"),
+    "a description of no parameter": ('0 "turn_deg" ', "", "EV_ lines"),
+    "a parameter with another number": ('"deg" 45 1 DUMMY', '"deg" 45 99 DUMMY', "EV_ lines"),
     "a default out of its range": ('[1|180] "deg" 45 1', '[1|180] "deg" 200 1', "trial_deg"),
     "a range that no byte holds": ('[1|250] "mm" 12', '[1|256] "mm" 12', "step_mm"),
     "a parameter without a comment": ('CM_ EV_ reach_mm "Food nearer than this is eaten.";', "", "reach_mm"),
     "two lists of profiles": ('VAL_ 385 profile 0 "article"', 'VAL_ 385 profile 0 "paper"', "profile"),
-    "profiles with a gap": ('2 "never"', '3 "never"', "not 0, 1, 2"),
+    "profiles with a gap": ('2 "never"', '98 "never"', "not 0, 1, 2"),
     "two lists of opcodes": ('VAL_ 257 opcode 1 "stop"', 'VAL_ 257 opcode 1 "halt"', "opcode"),
     "a cell with a range of its own": (
         "SG_ cell_3 : 24|8@1+ (1,0) [0|2]",
@@ -159,7 +159,7 @@ def test_words_that_do_not_fit_the_dbc_are_refused(old, new, words, tmp_path):
 
 
 def test_a_refusal_is_one_line_and_leaves_no_file(tmp_path):
-    (tmp_path / "octet.dbc").write_text(changed('2 "never"', '3 "never"'))
+    (tmp_path / "octet.dbc").write_text(changed('2 "never"', '98 "never"'))
     command = [sys.executable, ROOT / "tools/generate", "--dbc", tmp_path / "octet.dbc", "--c", tmp_path / "words.h"]
 
     done = subprocess.run(command, capture_output=True, text=True, check=False)
