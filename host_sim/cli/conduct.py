@@ -81,10 +81,12 @@ def _boredom_limit(options: RunOptions) -> int:
 
 
 def _memories(options: RunOptions) -> list[Memory | None]:
-    """What each robot is to begin with; a file that is not there yet is begun with nothing learned."""
-    if options.memory is None:
-        return []
-    return [load_memory(path) or _NOTHING for path in _memory_paths(options)]
+    """What each robot is to begin with.
+
+    A robot that we start has nothing learned yet where there is no file; an external one is told so.
+    """
+    missing = _NOTHING if options.config.robot == "external" else None
+    return [load_memory(path) or missing for path in _memory_paths(options)]
 
 
 def _memory_paths(options: RunOptions) -> list[Path]:

@@ -56,9 +56,9 @@ class Summary:
     def for_people(self) -> str:
         """A few lines."""
         several = len(self.robots) > 1
-        learned = [f"learned   {self._whose(robot) if several else ''}{_learned(robot)}" for robot in self.robots]
+        memories = [f"memory    {self._whose(robot) if several else ''}{_cells(robot)}" for robot in self.robots]
         speed = f"speed     {self.real_time_factor:.0f} x real time on {self.bus}, {self.wall_s:.1f} s"
-        return "\n".join([*learned, speed])
+        return "\n".join([*memories, speed])
 
     def _whose(self, robot: dict[str, Any]) -> str:
         return f"robot {robot['node']}: "
@@ -146,6 +146,6 @@ def _deeds(robot: RobotResult) -> dict[str, Any]:
     }
 
 
-def _learned(robot: dict[str, Any]) -> str:
+def _cells(robot: dict[str, Any]) -> str:
     cells = enumerate(robot["memory"])
     return "; ".join(f"{PATTERNS[pattern]}: {SIDES[side]}" for pattern, side in cells if side) or "nothing"
