@@ -18,8 +18,8 @@ def image_path(board: str, link: str) -> Path:
     """Where an image is.
 
     Args:
-        board: `stm32f405` or `stm32f103`: a preset of CMake.
-        link: `bxcan` or `slcan`.
+        board: Its name, as in hal/stm32/boards: a preset of CMake.
+        link: One that its chip has, such as `bxcan` or `slcan`.
 
     Raises:
         OctetError: It is not built.

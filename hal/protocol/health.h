@@ -13,18 +13,13 @@ enum reset_cause {
     RESET_CRASH       /* it did what it must not: see struct crash */
 };
 
-/* Numbers as a Cortex-M has them. */
-enum crash_cause { CRASH_NMI = 2, CRASH_HARD_FAULT, CRASH_MEMORY_FAULT, CRASH_BUS_FAULT, CRASH_USAGE_FAULT };
+enum { CRASH_VALUES_MAX = 13 };   /* that octet.dbc has names for */
 
-enum crash_register {
-    CRASH_PC, CRASH_LR, CRASH_PSR, CRASH_SP, CRASH_R0, CRASH_R1, CRASH_R2, CRASH_R3, CRASH_R12,
-    CRASH_CFSR, CRASH_HFSR, CRASH_MMFAR, CRASH_BFAR,
-    CRASH_REGISTER_COUNT
-};
-
+/* What the machine knew when it crashed, in numbers that octet.dbc has words for; only the port knows what they mean. */
 struct crash {
-    uint32_t cause;                             /* an enum crash_cause, or the number of another exception */
-    uint32_t registers[CRASH_REGISTER_COUNT];   /* as they were when it happened */
+    uint8_t cause;
+    uint8_t count;                      /* of values, 1..CRASH_VALUES_MAX */
+    uint32_t values[CRASH_VALUES_MAX];  /* the name of a value is its place */
 };
 
 struct health {

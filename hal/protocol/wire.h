@@ -32,7 +32,7 @@ struct wire {
     bool knows_counter;
     bool lockstep;                /* the sender's clock rules */
     struct health health;         /* to be reported; whoever knows it keeps it up to date */
-    uint8_t crash_register;       /* to be told next, an enum crash_register */
+    uint8_t crash_value;          /* place of the one to be told next */
 };
 
 void wire_init(struct wire *wire, uint8_t node);

@@ -82,17 +82,18 @@ static void write_health(const struct wire *wire, struct frame *frame)
     (void)octet_health_pack(frame->data, &health, sizeof frame->data);
 }
 
-/* One register with each report, round and round. */
+/* One value with each report, round and round. */
 static void write_crash(struct wire *wire, struct frame *frame)
 {
     struct octet_crash_t crash = {
-        .cause = (uint8_t)wire->health.crash->cause,
-        .name = wire->crash_register,
-        .value = wire->health.crash->registers[wire->crash_register],
+        .cause = wire->health.crash->cause,
+        .name = wire->crash_value,
+        .value = wire->health.crash->values[wire->crash_value],
     };
 
     (void)octet_crash_pack(frame->data, &crash, sizeof frame->data);
-    wire->crash_register = (uint8_t)((wire->crash_register + 1u) % CRASH_REGISTER_COUNT);
+    if (++wire->crash_value >= wire->health.crash->count)
+        wire->crash_value = 0;
 }
 
 static void write_drive(const struct drive *drive, struct frame *frame)

@@ -1,4 +1,5 @@
-/* chip.h: what one chip does in its own way. Each has its folder with these, its registers and its linker script. */
+/* chip.h: what each chip does in its own way. Each has a folder with these and mcu_light, flash.h, its registers, its linker
+ * script, and chip.cmake, which names the links that it has and the shared drivers that they are made of. */
 #ifndef OCTET_CHIP_H
 #define OCTET_CHIP_H
 
@@ -7,8 +8,8 @@
 
 struct clocks {
     uint32_t core_hz;
-    uint32_t can_hz;     /* of bxCAN, APB1 */
-    uint32_t usart_hz;   /* of USART1, APB2 */
+    uint32_t can_hz;     /* of the CAN controller */
+    uint32_t usart_hz;   /* of the serial port */
     bool exact;          /* false: from the internal oscillator, good to 1 % */
 };
 
@@ -20,9 +21,6 @@ uint32_t chip_reset_flags(void);
         /* RCC_CSR: what has reset the chip since the last call. */
 
 void pins_start(void);
-        /* Power for all peripherals in use; the board's LED, CAN and USART1 pins as such. */
-
-void pins_light(bool on);
-        /* The board's LED. */
+        /* Power for all peripherals in use; the pins of the board's LED, CAN and serial port as such. */
 
 #endif

@@ -1,25 +1,25 @@
+/* An STM32 as the port's microcontroller. */
+#include "hal/port/cortex_m/mcu.h"
 #include "hal/stm32/machine.h"
-
 #include "hal/stm32/registers.h"
 
 enum {
-    SYSTICK_SPAN = 1 << 24,
-    SYSTICK_ON = 1,              /* from an eighth of the core's clock, no interrupt */
-    SYSTICK_DIVISOR = 8,
     WATCHDOG_UNLOCK = 0x5555,
     WATCHDOG_FEED = 0xAAAA,
     WATCHDOG_ON = 0xCCCC,
     WATCHDOG_BY_32 = 3,
-    WATCHDOG_COUNTS = 2000,      /* 2 s at 32 kHz on an F4, 1.6 s at 40 kHz on an F1 */
+    WATCHDOG_COUNTS = 2000,      /* 2 s at 32 kHz on an F4 or a G4, 1.6 s at 40 kHz on an F1 */
     WATCHDOG_WAIT_MAX = 200000   /* looks: its clock is slow, the change takes up to 5 periods of it */
 };
 
-static struct {
-    struct clocks clocks;
-    uint32_t seen;   /* SysTick's value, which counts down, as of the last look */
-    uint32_t rest;   /* counts that make no whole millisecond yet */
-    uint32_t ms;
-} machine;           /* there is one, and whoever asks for the time has no place to keep it */
+enum {                           /* in RCC_CSR: RM0008 7.3.10, RM0090 7.3.21, RM0440 7.4.28 */
+    FLAG_PIN = 1 << 26,
+    FLAG_POWER_ON = 1 << 27,     /* or a supply that was too low */
+    FLAG_SOFTWARE = 1 << 28,
+    FLAG_WATCHDOGS = 3 << 29
+};
+
+static struct clocks clocks;     /* there is one machine */
 
 /* First of all: whatever hangs from here on ends in a reset. Where the update does not end, the longest period stays. */
 static void start_watchdog(void)
@@ -33,39 +33,32 @@ static void start_watchdog(void)
     IWDG.kr = WATCHDOG_FEED;
 }
 
-static void start_time(void)
-{
-    SYSTICK.load = SYSTICK_SPAN - 1;
-    SYSTICK.val = 0;
-    SYSTICK.ctrl = SYSTICK_ON;
-}
-
-void machine_start(void)
+uint32_t mcu_start(void)
 {
     start_watchdog();
-    machine.clocks = clock_start();
+    clocks = clock_start();
     pins_start();
-    start_time();
+    return clocks.core_hz;
 }
 
 struct clocks machine_clocks(void)
 {
-    return machine.clocks;
+    return clocks;
 }
 
-uint32_t machine_ms(void)
-{
-    uint32_t per_ms = machine.clocks.core_hz / SYSTICK_DIVISOR / 1000u;
-    uint32_t now = SYSTICK.val;
-
-    machine.rest += (machine.seen - now) & (SYSTICK_SPAN - 1);
-    machine.seen = now;
-    machine.ms += machine.rest / per_ms;
-    machine.rest %= per_ms;
-    return machine.ms;
-}
-
-void machine_feed(void)
+void mcu_feed(void)
 {
     IWDG.kr = WATCHDOG_FEED;
+}
+
+/* Each reset sets the pin's flag too. */
+enum reset_cause mcu_reset_cause(void)
+{
+    uint32_t flags = chip_reset_flags();
+
+    if (flags & FLAG_POWER_ON || !(flags & (FLAG_PIN | FLAG_SOFTWARE | FLAG_WATCHDOGS)))
+        return RESET_POWER_ON;
+    if (flags & FLAG_WATCHDOGS)
+        return RESET_WATCHDOG;
+    return flags & FLAG_SOFTWARE ? RESET_SOFTWARE : RESET_PIN;
 }

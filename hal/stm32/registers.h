@@ -1,8 +1,8 @@
-/* registers.h: the peripherals that all our chips have alike, register by register.
+/* registers.h: the peripherals that several of our chips have alike, register by register.
  *
  * Behind each register: what an access does (rw; r: read only; w1c: writing 1 clears the bit, 0 leaves it; w1s: writing 1
- * sets it; w: write only) and where the manuals describe it: F4 is RM0090, F1 is RM0008, PM is PM0214 and PM0056. The
- * objects lie where the linker script puts them; a test defines its own. */
+ * sets it; w: write only) and where the manuals describe it: F4 is RM0090, F1 is RM0008. The objects lie where the chip's
+ * linker script puts them, which says which instance they are; a test defines its own. */
 #ifndef OCTET_REGISTERS_H
 #define OCTET_REGISTERS_H
 
@@ -56,33 +56,8 @@ struct watchdog_registers {   /* F4 21.4.5, F1 19.4.5 */
     uint32_t sr;              /* r    update under way */
 };
 
-struct systick_registers {    /* PM0214 4.5, PM0056 4.5 */
-    uint32_t ctrl;            /* rw; reading clears bit 16 */
-    uint32_t load;            /* rw   24 bits */
-    uint32_t val;             /* rw; any write sets 0   24 bits, counts down */
-    uint32_t calib;           /* r */
-};
-
-struct system_registers {     /* PM0214 4.4, PM0056 4.4 */
-    uint32_t cpuid;           /* r */
-    uint32_t icsr;            /* rw, some bits w */
-    uint32_t vtor;            /* rw */
-    uint32_t aircr;           /* rw, with a key in the high half */
-    uint32_t scr;             /* rw */
-    uint32_t ccr;             /* rw */
-    uint32_t shpr[3];         /* rw */
-    uint32_t shcsr;           /* rw */
-    uint32_t cfsr;            /* w1c  configurable fault status */
-    uint32_t hfsr;            /* w1c  hard fault status */
-    uint32_t dfsr;            /* w1c */
-    uint32_t mmfar;           /* rw   address of a memory fault */
-    uint32_t bfar;            /* rw   address of a bus fault */
-};
-
 extern volatile struct can_registers CAN1;
-extern volatile struct usart_registers USART1;
+extern volatile struct usart_registers UART;
 extern volatile struct watchdog_registers IWDG;
-extern volatile struct systick_registers SYSTICK;
-extern volatile struct system_registers SCB;
 
 #endif

@@ -1,4 +1,4 @@
-/* uart.h: single bytes over USART1, 8 bits, no parity. Nothing here waits. */
+/* uart.h: single bytes over the serial port of the chip, 8 bits, no parity. Nothing here waits. */
 #ifndef OCTET_UART_H
 #define OCTET_UART_H
 

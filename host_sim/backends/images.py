@@ -1,4 +1,4 @@
 """The images that are flashed, and the boards that they are for."""
 
-BOARDS = ("stm32f405", "stm32f103")
+BOARDS = ("feather_stm32f405", "blue_pill")
 """Boards that can be emulated."""

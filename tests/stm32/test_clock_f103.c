@@ -5,7 +5,7 @@
 #include <unity.h>
 
 #include "hal/stm32/chip.h"
-#include "hal/stm32/f103/registers_f103.h"
+#include "hal/stm32/stm32f103/registers.h"
 
 enum { HSERDY = 1 << 17, PLLRDY = 1 << 25, FORGET = 1 << 24 };
 

@@ -6,7 +6,7 @@
 #include <unity.h>
 
 #include "hal/stm32/chip.h"
-#include "hal/stm32/f405/registers_f405.h"
+#include "hal/stm32/stm32f405/registers.h"
 
 enum { HSION = 1, HSERDY = 1 << 17, PLLRDY = 1 << 25, FROM_HSE = 1 << 22, FORGET = 1 << 24 };
 

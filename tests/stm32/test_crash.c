@@ -1,10 +1,9 @@
-#include "hal/stm32/crash.h"
+#include "hal/port/cortex_m/crash.h"
 
 #include <unity.h>
 
-#include "hal/stm32/registers.h"
-
-enum { PIN = 1 << 26, POWER_ON = 1 << 27, SOFTWARE = 1 << 28, INDEPENDENT = 1 << 29, WINDOW = 1 << 30 };
+#include "hal/port/cortex_m/core.h"
+#include "octet.h"
 
 volatile struct system_registers SCB;
 
@@ -13,7 +12,7 @@ static const uint32_t stack[16] = {[4] = 0x10, 0x11, 0x12, 0x13, 0x1C, 0x0800AAA
 
 void setUp(void)
 {
-    (void)crash_reset_cause(POWER_ON);
+    (void)crash_reset_cause(RESET_POWER_ON);
     SCB.cfsr = 0x8200;
     SCB.hfsr = 0x40000000;
     SCB.mmfar = 0xE000ED34;
@@ -35,7 +34,7 @@ static void test_after_power_on_there_is_no_crash(void)
 static void test_a_crash_is_known_after_the_reset(void)
 {
     crash_at(&stack[4]);
-    TEST_ASSERT_EQUAL(RESET_CRASH, crash_reset_cause(SOFTWARE | PIN));
+    TEST_ASSERT_EQUAL(RESET_CRASH, crash_reset_cause(RESET_SOFTWARE));
     TEST_ASSERT_NOT_NULL(crash_last());
     TEST_ASSERT_EQUAL_UINT32(CRASH_BUS_FAULT, crash_last()->cause);
 }
@@ -45,8 +44,8 @@ static void test_a_crash_keeps_all_registers(void)
     const uint32_t *registers;
 
     crash_at(&stack[4]);
-    (void)crash_reset_cause(SOFTWARE);
-    registers = crash_last()->registers;
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    registers = crash_last()->values;
     TEST_ASSERT_EQUAL_HEX32(0x10, registers[CRASH_R0]);
     TEST_ASSERT_EQUAL_HEX32(0x11, registers[CRASH_R1]);
     TEST_ASSERT_EQUAL_HEX32(0x12, registers[CRASH_R2]);
@@ -67,48 +66,83 @@ static void test_a_stack_pointer_out_of_the_stack_is_kept_and_not_followed(void)
     static const uint32_t elsewhere[8] = {1, 2, 3, 4, 5, 6, 7, 8};
 
     crash_at(elsewhere);
-    (void)crash_reset_cause(SOFTWARE);
-    TEST_ASSERT_EQUAL_HEX32((uint32_t)(uintptr_t)elsewhere, crash_last()->registers[CRASH_SP]);
-    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->registers[CRASH_PC]);
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    TEST_ASSERT_EQUAL_HEX32((uint32_t)(uintptr_t)elsewhere, crash_last()->values[CRASH_SP]);
+    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_PC]);
 }
 
 static void test_a_frame_below_the_stack_is_not_followed(void)
 {
     crash_keep(CRASH_BUS_FAULT, &stack[4], stack + 5, stack + 16);
-    (void)crash_reset_cause(SOFTWARE);
-    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->registers[CRASH_R0]);
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
 }
 
 static void test_a_frame_that_ends_beyond_the_stack_is_not_followed(void)
 {
     crash_at(&stack[9]);
-    (void)crash_reset_cause(SOFTWARE);
-    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->registers[CRASH_R0]);
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
 }
 
 static void test_an_old_crash_is_still_told_but_was_not_the_cause(void)
 {
     crash_at(&stack[4]);
-    (void)crash_reset_cause(SOFTWARE);
-    TEST_ASSERT_EQUAL(RESET_SOFTWARE, crash_reset_cause(SOFTWARE));
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    TEST_ASSERT_EQUAL(RESET_SOFTWARE, crash_reset_cause(RESET_SOFTWARE));
     TEST_ASSERT_NOT_NULL(crash_last());
 }
 
 static void test_power_on_forgets_the_crash(void)
 {
     crash_at(&stack[4]);
-    TEST_ASSERT_EQUAL(RESET_POWER_ON, crash_reset_cause(POWER_ON | PIN));
+    TEST_ASSERT_EQUAL(RESET_POWER_ON, crash_reset_cause(RESET_POWER_ON));
     TEST_ASSERT_NULL(crash_last());
 }
 
-static void test_each_cause_is_told_by_its_flag(void)
+static void test_a_reset_of_another_kind_is_told_as_it_is(void)
 {
-    TEST_ASSERT_EQUAL(RESET_PIN, crash_reset_cause(PIN));
-    TEST_ASSERT_EQUAL(RESET_WATCHDOG, crash_reset_cause(INDEPENDENT | PIN));
-    TEST_ASSERT_EQUAL(RESET_WATCHDOG, crash_reset_cause(WINDOW | PIN));
-    TEST_ASSERT_EQUAL(RESET_SOFTWARE, crash_reset_cause(SOFTWARE | PIN));
-    TEST_ASSERT_EQUAL(RESET_POWER_ON, crash_reset_cause(POWER_ON | PIN));
-    TEST_ASSERT_EQUAL(RESET_POWER_ON, crash_reset_cause(0));
+    static const enum reset_cause causes[] = {RESET_PIN, RESET_WATCHDOG, RESET_SOFTWARE, RESET_POWER_ON};
+
+    for (unsigned i = 0; i < sizeof causes / sizeof causes[0]; i++)
+        TEST_ASSERT_EQUAL(causes[i], crash_reset_cause(causes[i]));
+}
+
+static void test_a_button_pressed_right_after_a_crash_does_not_hide_the_crash(void)
+{
+    crash_at(&stack[4]);
+    TEST_ASSERT_EQUAL(RESET_PIN, crash_reset_cause(RESET_PIN));
+    TEST_ASSERT_NOT_NULL(crash_last());
+}
+
+static void test_a_crash_has_as_many_values_as_the_dbc_has_names(void)
+{
+    crash_at(&stack[4]);
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    TEST_ASSERT_EQUAL_UINT8(CRASH_REGISTER_COUNT, crash_last()->count);
+    TEST_ASSERT_EQUAL(CRASH_VALUES_MAX, CRASH_REGISTER_COUNT);
+}
+
+static void test_crash_causes_and_registers_are_those_of_the_dbc(void)
+{
+    TEST_ASSERT_EQUAL(OCTET_CRASH_CAUSE_NMI_CHOICE, CRASH_NMI);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_CAUSE_HARD_FAULT_CHOICE, CRASH_HARD_FAULT);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_CAUSE_MEMORY_FAULT_CHOICE, CRASH_MEMORY_FAULT);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_CAUSE_BUS_FAULT_CHOICE, CRASH_BUS_FAULT);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_CAUSE_USAGE_FAULT_CHOICE, CRASH_USAGE_FAULT);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_PC_CHOICE, CRASH_PC);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_LR_CHOICE, CRASH_LR);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_PSR_CHOICE, CRASH_PSR);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_SP_CHOICE, CRASH_SP);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_R0_CHOICE, CRASH_R0);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_R1_CHOICE, CRASH_R1);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_R2_CHOICE, CRASH_R2);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_R3_CHOICE, CRASH_R3);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_R12_CHOICE, CRASH_R12);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_CFSR_CHOICE, CRASH_CFSR);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_HFSR_CHOICE, CRASH_HFSR);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_MMFAR_CHOICE, CRASH_MMFAR);
+    TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_BFAR_CHOICE, CRASH_BFAR);
 }
 
 int main(void)
@@ -122,6 +156,9 @@ int main(void)
     RUN_TEST(test_a_frame_that_ends_beyond_the_stack_is_not_followed);
     RUN_TEST(test_an_old_crash_is_still_told_but_was_not_the_cause);
     RUN_TEST(test_power_on_forgets_the_crash);
-    RUN_TEST(test_each_cause_is_told_by_its_flag);
+    RUN_TEST(test_a_reset_of_another_kind_is_told_as_it_is);
+    RUN_TEST(test_a_button_pressed_right_after_a_crash_does_not_hide_the_crash);
+    RUN_TEST(test_a_crash_has_as_many_values_as_the_dbc_has_names);
+    RUN_TEST(test_crash_causes_and_registers_are_those_of_the_dbc);
     return UNITY_END();
 }

@@ -4,7 +4,7 @@
 #include <unity.h>
 
 #include "hal/flash_store/flash.h"
-#include "hal/stm32/f103/registers_f103.h"
+#include "hal/stm32/stm32f103/registers.h"
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
 

@@ -4,7 +4,7 @@
 #include <unity.h>
 
 #include "hal/flash_store/flash.h"
-#include "hal/stm32/f405/registers_f405.h"
+#include "hal/stm32/stm32f405/registers.h"
 #include "hal/stm32/machine.h"
 
 enum { WORDS = 4096, BUSY = 1 << 16, PROTECTED = 1 << 4, START = 1 << 16, FOREVER = 1 << 30 };

@@ -1,5 +1,6 @@
 """tools/flash: what it makes of boards, images and probes, with stand-ins for the programs that it calls."""
 
+import json
 import os
 import subprocess
 import sys
@@ -13,7 +14,7 @@ sys.path.insert(0, str(ROOT))
 from tools.flashing import FlashError  # noqa: E402 - found by the line above
 from tools.flashing.images import Image, all_boards, build, choose_board, identify  # noqa: E402
 from tools.flashing.probes import Probe, choose_probe, find_probes  # noqa: E402
-from tools.flashing.programs import Plan, check_chip, make_plan, write  # noqa: E402
+from tools.flashing.programs import CHIP_IDS, Plan, check_chip, make_plan, write  # noqa: E402
 
 BOARDS = all_boards()
 STLINK, OTHER = Probe("stlink", "A1"), Probe("cmsis-dap", "B2")
@@ -48,13 +49,24 @@ def flash(*options: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run([ROOT / "tools" / "flash", *options], capture_output=True, text=True, check=False)
 
 
-def test_every_board_has_a_preset() -> None:
-    presets = {board.name: (board.chip, board.preset) for board in BOARDS.values()}
-    assert presets == {
-        "blue_pill": ("stm32f103", "stm32f103"),
-        "feather_stm32f405": ("stm32f405", "stm32f405"),
-        "olimex_stm32_h405": ("stm32f405", "stm32h405"),
+def test_every_board_has_a_chip_and_its_links() -> None:
+    assert {board.name: (board.chip, *board.links) for board in BOARDS.values()} == {
+        "blue_pill": ("stm32f103", "bxcan", "slcan"),
+        "feather_stm32f405": ("stm32f405", "bxcan", "slcan"),
+        "olimex_stm32_h405": ("stm32f405", "bxcan", "slcan"),
     }
+
+
+def test_every_board_has_a_preset_of_its_name() -> None:
+    presets = json.loads((ROOT / "CMakePresets.json").read_text())
+    hidden = {preset["name"] for preset in presets["configurePresets"] if preset.get("hidden")}
+    for kind in ("configurePresets", "buildPresets"):
+        names = {preset["name"] for preset in presets[kind]} - hidden
+        assert names == {"host", "host-san", *BOARDS}
+
+
+def test_every_chip_is_known_to_the_programs() -> None:
+    assert {board.chip for board in BOARDS.values()} == CHIP_IDS.keys()
 
 
 def test_a_board_that_does_not_exist_is_refused() -> None:
@@ -63,7 +75,7 @@ def test_a_board_that_does_not_exist_is_refused() -> None:
 
 
 def test_a_link_that_does_not_exist_is_refused() -> None:
-    with pytest.raises(FlashError, match="no link usb; there are bxcan, slcan"):
+    with pytest.raises(FlashError, match="no link usb on blue_pill; there are bxcan, slcan"):
         build(BOARDS["blue_pill"], "usb")
 
 

@@ -1,6 +1,13 @@
 # The board that OCTET_BOARD names, and what its chip is made of.
-include(${PROJECT_SOURCE_DIR}/hal/stm32/boards/${OCTET_BOARD}.cmake)
-string(REGEX REPLACE "^stm32" "" OCTET_CHIP_SHORT ${OCTET_CHIP})
+set(OCTET_STM32 ${PROJECT_SOURCE_DIR}/hal/stm32)
+if(NOT EXISTS ${OCTET_STM32}/boards/${OCTET_BOARD}.cmake)
+  file(GLOB boards RELATIVE ${OCTET_STM32}/boards ${OCTET_STM32}/boards/*.cmake)
+  string(REPLACE ".cmake" "" boards "${boards}")
+  list(JOIN boards ", " boards)
+  message(FATAL_ERROR "no board '${OCTET_BOARD}'; choose from: ${boards}")
+endif()
+include(${OCTET_STM32}/boards/${OCTET_BOARD}.cmake)
+include(${OCTET_STM32}/${OCTET_CHIP}/chip.cmake)
 
 # octet_define_pins(TARGET): what the board's file says, as board.h reads it.
 function(octet_define_pins target)
@@ -11,18 +18,19 @@ function(octet_define_pins target)
   target_compile_definitions(${target} PRIVATE OCTET_LED_HIGH=${OCTET_LED_HIGH} OCTET_CRYSTAL_MHZ=${OCTET_CRYSTAL_MHZ})
 endfunction()
 
-# octet_image(LINK LIBRARY...): the robot on this chip, over that link: .elf, .bin, .hex and .map.
+# octet_image(LINK LIBRARY...): the robot on this board, over that link: .elf, .bin, .hex and .map.
 function(octet_image link)
-  set(image octet-${OCTET_CHIP}-${link})
+  set(image octet-${OCTET_BOARD}-${link})
+  set(script ${OCTET_STM32}/${OCTET_CHIP}/${OCTET_CHIP}.ld)
+  set(sections ${PROJECT_SOURCE_DIR}/hal/port/cortex_m)
   add_executable(${image})
-  target_link_libraries(${image} PRIVATE octet_main octet_core octet_can_body octet_flash_store octet_stm32 ${ARGN})
-  set(script ${CMAKE_CURRENT_SOURCE_DIR}/${OCTET_CHIP_SHORT}/${OCTET_CHIP}.ld)
-  target_link_options(${image} PRIVATE
-    -T ${script} -L ${CMAKE_CURRENT_SOURCE_DIR} -Wl,-Map=${PROJECT_BINARY_DIR}/${image}.map)
+  target_link_libraries(${image} PRIVATE
+    octet_main octet_core octet_can_body octet_flash_store octet_cortex_m ${ARGN})
+  target_link_options(${image} PRIVATE -T ${script} -L ${sections} -Wl,-Map=${PROJECT_BINARY_DIR}/${image}.map)
   set_target_properties(${image} PROPERTIES
     SUFFIX .elf
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}
-    LINK_DEPENDS "${script};${CMAKE_CURRENT_SOURCE_DIR}/sections.ld")
+    LINK_DEPENDS "${script};${sections}/sections.ld")
   foreach(format binary:bin ihex:hex)
     string(REGEX MATCH "(.*):(.*)" _ ${format})
     add_custom_command(TARGET ${image} POST_BUILD

@@ -1,6 +1,5 @@
 """Boards, and the images that are built for them."""
 
-import json
 import re
 import subprocess
 from dataclasses import dataclass
@@ -9,7 +8,7 @@ from pathlib import Path
 from tools.flashing import FlashError
 
 ROOT = Path(__file__).resolve().parents[2]
-LINKS = ("bxcan", "slcan")
+STM32 = Path("hal", "stm32")
 _SET = re.compile(r"^set\((\w+) ([^)]*)\)", re.MULTILINE)
 _IDENTITY = re.compile(rb"octet-image board=(\S+) chip=(\S+) version=(\S+) dbc=(\w+)\0")
 
@@ -19,14 +18,14 @@ class Board:
     """A board that we build for.
 
     Attributes:
-        name: Of its file in hal/stm32/boards.
-        chip: stm32f405 or stm32f103.
-        preset: The CMake preset that builds for it.
+        name: Of its file in hal/stm32/boards, and of the CMake preset that builds for it.
+        chip: Such as stm32f405.
+        links: That the chip has, such as bxcan and slcan.
     """
 
     name: str
     chip: str
-    preset: str
+    links: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -48,14 +47,17 @@ class Image:
     dbc: str
 
 
+def _settings(path: Path) -> dict[str, str]:
+    return dict(_SET.findall(path.read_text()))
+
+
 def all_boards(root: Path = ROOT) -> dict[str, Board]:
     """Every board by its name."""
-    presets = json.loads((root / "CMakePresets.json").read_text())["configurePresets"]
-    by_board = {preset.get("cacheVariables", {}).get("OCTET_BOARD"): preset["name"] for preset in presets}
     boards = {}
-    for path in sorted((root / "hal" / "stm32" / "boards").glob("*.cmake")):
-        chip = dict(_SET.findall(path.read_text()))["OCTET_CHIP"]
-        boards[path.stem] = Board(path.stem, chip, by_board[path.stem])
+    for path in sorted((root / STM32 / "boards").glob("*.cmake")):
+        chip = _settings(path)["OCTET_CHIP"]
+        links = _settings(root / STM32 / chip / "chip.cmake")["OCTET_LINKS"]
+        boards[path.stem] = Board(path.stem, chip, tuple(links.split()))
     return boards
 
 
@@ -74,15 +76,15 @@ def build(board: Board, link: str, root: Path = ROOT) -> Path:
     """Brings the image for a board and a link up to date.
 
     Raises:
-        FlashError: There is no such link, or it does not build.
+        FlashError: The board has no such link, or it does not build.
     """
-    if link not in LINKS:
-        raise FlashError(f"no link {link}; there are {', '.join(LINKS)}")
-    for command in (["--preset", board.preset], ["--build", "--preset", board.preset]):
+    if link not in board.links:
+        raise FlashError(f"no link {link} on {board.name}; there are {', '.join(board.links)}")
+    for command in (["--preset", board.name], ["--build", "--preset", board.name]):
         done = subprocess.run(["cmake", *command], cwd=root, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise FlashError(f"cmake {' '.join(command)} failed; run it to see why")
-    return root / "build" / board.preset / f"octet-{board.chip}-{link}.elf"
+    return root / "build" / board.name / f"octet-{board.name}-{link}.elf"
 
 
 def identify(path: Path, board: Board) -> Image:

@@ -17,7 +17,10 @@ CHIP_IDS = {"stm32f405": 0x413, "stm32f103": 0x410}
 """DBGMCU_IDCODE, bits 0..11: RM0090 38.6.1, RM0008 31.6.1."""
 
 _IDCODE = "0xE0042000"
-_TARGETS = {"stm32f405": ("stm32f4x", "stm32f405rg"), "stm32f103": ("stm32f1x", "stm32f103c8")}
+_TARGETS = {
+    "stm32f405": ("stm32f4x", "stm32f405rg"),
+    "stm32f103": ("stm32f1x", "stm32f103c8"),
+}
 _OPENOCD_INTERFACES = {"stlink": "stlink", "cmsis-dap": "cmsis-dap", "jlink": "jlink"}
 _TIMEOUT_S = 120
 

@@ -1,6 +1,7 @@
+#include "hal/port/cortex_m/mcu.h"
 #include "hal/stm32/board.h"
 #include "hal/stm32/chip.h"
-#include "hal/stm32/f103/registers_f103.h"
+#include "hal/stm32/stm32f103/registers.h"
 
 enum {
     CAN1_ON = 1u << 25,           /* in apb1enr */
@@ -40,7 +41,7 @@ void pins_start(void)
     set_mode(BOARD_LED, OUTPUT_2_MHZ);
 }
 
-void pins_light(bool on)
+void mcu_light(bool on)
 {
     GPIO[BOARD_LED.port].at.bsrr = 1u << (BOARD_LED.number + (on == BOARD_LED_HIGH ? 0u : 16u));
 }

@@ -1,6 +1,6 @@
-/* registers_f103.h: what the STM32F103 has in its own way (RM0008, flash: PM0075). Notation as in registers.h. */
-#ifndef OCTET_REGISTERS_F103_H
-#define OCTET_REGISTERS_F103_H
+/* stm32f103/registers.h: what the STM32F103 has in its own way (RM0008, flash: PM0075). Notation as in hal/stm32/registers.h. */
+#ifndef OCTET_STM32F103_REGISTERS_H
+#define OCTET_STM32F103_REGISTERS_H
 
 #include <stdint.h>
 

@@ -2,9 +2,10 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "hal/stm32/crash.h"
-#include "hal/stm32/machine.h"
-#include "hal/stm32/registers.h"
+#include "hal/port/cortex_m/core.h"
+#include "hal/port/cortex_m/crash.h"
+#include "hal/port/cortex_m/mcu.h"
+#include "hal/port/cortex_m/systick.h"
 
 enum {
     ICSR_VECTOR = 0x1FF,      /* number of the exception under way */
@@ -47,7 +48,7 @@ void startup_reset(void)
 {
     memcpy(data_start, data_image, (size_t)((char *)data_end - (char *)data_start));
     memset(bss_start, 0, (size_t)((char *)bss_end - (char *)bss_start));
-    machine_start();
+    systick_start(mcu_start());
     (void)main(0, NULL);
     restart();   /* main ends where its body cannot be had: once more, from the beginning */
 }

@@ -1,6 +1,6 @@
 /* 168 MHz from the board's crystal, or from the internal 16 MHz. */
 #include "hal/stm32/chip.h"
-#include "hal/stm32/f405/registers_f405.h"
+#include "hal/stm32/stm32f405/registers.h"
 
 enum {
     CSR_FORGET = 1 << 24,

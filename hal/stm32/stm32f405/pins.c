@@ -1,6 +1,7 @@
+#include "hal/port/cortex_m/mcu.h"
 #include "hal/stm32/board.h"
 #include "hal/stm32/chip.h"
-#include "hal/stm32/f405/registers_f405.h"
+#include "hal/stm32/stm32f405/registers.h"
 
 enum {
     GPIO_A_TO_C = 7,              /* in ahb1enr */
@@ -39,7 +40,7 @@ void pins_start(void)
     set_bits(&GPIO[BOARD_LED.port].at.moder, 2u * BOARD_LED.number, 2, OUTPUT);
 }
 
-void pins_light(bool on)
+void mcu_light(bool on)
 {
     GPIO[BOARD_LED.port].at.bsrr = 1u << (BOARD_LED.number + (on == BOARD_LED_HIGH ? 0u : 16u));
 }

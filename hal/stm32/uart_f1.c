@@ -1,3 +1,4 @@
+/* The serial port of an STM32F1, F2 or F4 (RM0008 27, RM0090 30): one status register, one data register. */
 #include "hal/stm32/uart.h"
 
 #include "hal/stm32/registers.h"
@@ -13,32 +14,32 @@ enum {
 
 void uart_start(uint32_t clock_hz, uint32_t baud)
 {
-    USART1.brr = (clock_hz + baud / 2) / baud;
-    USART1.cr2 = 0;
-    USART1.cr3 = 0;
-    USART1.cr1 = CR1_UE | CR1_TE | CR1_RE;
+    UART.brr = (clock_hz + baud / 2) / baud;
+    UART.cr2 = 0;
+    UART.cr3 = 0;
+    UART.cr1 = CR1_UE | CR1_TE | CR1_RE;
 }
 
 void uart_stop(void)
 {
-    USART1.cr1 = 0;
+    UART.cr1 = 0;
 }
 
 int uart_get(void)
 {
-    uint32_t status = USART1.sr;
+    uint32_t status = UART.sr;
     int byte;
 
     if (!(status & (SR_RXNE | SR_ERRORS)))
         return UART_NOTHING;
-    byte = USART1.dr & 0xFF;   /* clears the errors as well */
+    byte = UART.dr & 0xFF;   /* clears the errors as well */
     return status & SR_ERRORS ? UART_DAMAGED : byte;
 }
 
 bool uart_put(uint8_t byte)
 {
-    if (!(USART1.sr & SR_TXE))
+    if (!(UART.sr & SR_TXE))
         return false;
-    USART1.dr = byte;
+    UART.dr = byte;
     return true;
 }

@@ -1,6 +1,6 @@
-/* registers_f405.h: what the STM32F405 has in its own way (RM0090). Notation as in registers.h. */
-#ifndef OCTET_REGISTERS_F405_H
-#define OCTET_REGISTERS_F405_H
+/* stm32f405/registers.h: what the STM32F405 has in its own way (RM0090). Notation as in hal/stm32/registers.h. */
+#ifndef OCTET_STM32F405_REGISTERS_H
+#define OCTET_STM32F405_REGISTERS_H
 
 #include <stdint.h>
 

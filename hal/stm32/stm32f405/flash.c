@@ -1,7 +1,7 @@
 /* Sectors 1 and 2 (RM0090 3.6). The core stands still while one is written or erased. */
 #include "hal/flash_store/flash.h"
 
-#include "hal/stm32/f405/registers_f405.h"
+#include "hal/stm32/stm32f405/registers.h"
 #include "hal/stm32/machine.h"
 
 enum {

@@ -1,11 +1,12 @@
-/* A microcontroller as a port. */
+/* A Cortex-M microcontroller as a port. */
 #include "hal/can_body/port.h"
 
 #include "hal/flash_store/flash.h"
 #include "hal/flash_store/flash_store.h"
-#include "hal/stm32/crash.h"
-#include "hal/stm32/machine.h"
-#include "hal/stm32/registers.h"
+#include "hal/port/cortex_m/core.h"
+#include "hal/port/cortex_m/crash.h"
+#include "hal/port/cortex_m/mcu.h"
+#include "hal/port/cortex_m/systick.h"
 
 enum { BLINK_SLOWLY = 9, BLINK_FAST = 7 };   /* bit of the milliseconds: about 1 Hz, 4 Hz */
 
@@ -19,17 +20,17 @@ int port_open(struct port *port, int argc, char *const argv[])
     *port = (struct port){
         .link = "",   /* there is one, linked in */
         .node = OCTET_NODE,
-        .reset_cause = crash_reset_cause(chip_reset_flags()),
+        .reset_cause = crash_reset_cause(mcu_reset_cause()),
         .crash = crash_last(),
     };
-    pins_light(true);
+    mcu_light(true);
     return 0;
 }
 
 void port_ready(const struct port *port)
 {
     (void)port;
-    pins_light(false);
+    mcu_light(false);
 }
 
 uint32_t port_clock_ms(void)
@@ -39,8 +40,8 @@ uint32_t port_clock_ms(void)
 
 void port_alive(bool outage)
 {
-    machine_feed();
-    pins_light(machine_ms() >> (outage ? BLINK_FAST : BLINK_SLOWLY) & 1u);
+    mcu_feed();
+    mcu_light(machine_ms() >> (outage ? BLINK_FAST : BLINK_SLOWLY) & 1u);
 }
 
 int port_load(uint8_t memory[CELL_COUNT])

@@ -1,6 +1,6 @@
 /* 72 MHz from the board's 8 MHz crystal, or 64 MHz from the internal oscillator. */
 #include "hal/stm32/chip.h"
-#include "hal/stm32/f103/registers_f103.h"
+#include "hal/stm32/stm32f103/registers.h"
 
 #if OCTET_CRYSTAL_MHZ != 8
 #error "the PLL's factor below is for 8 MHz"

@@ -1,7 +1,7 @@
 /* The last two pages (PM0075 2.3). The core stands still while one is written or erased. */
 #include "hal/flash_store/flash.h"
 
-#include "hal/stm32/f103/registers_f103.h"
+#include "hal/stm32/stm32f103/registers.h"
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
 

@@ -1,0 +1,32 @@
+/* crash.h: what becomes of a robot that does what it must not, and how it knows of it afterwards. */
+#ifndef OCTET_CRASH_H
+#define OCTET_CRASH_H
+
+#include "hal/protocol/health.h"
+
+enum {
+    CRASH_FRAME_WORDS = 8   /* what the core pushes when an exception comes: r0..r3, r12, lr, pc, psr */
+};
+
+/* The exceptions that end a program, by the core's own numbers. */
+enum crash_cause { CRASH_NMI = 2, CRASH_HARD_FAULT, CRASH_MEMORY_FAULT, CRASH_BUS_FAULT, CRASH_USAGE_FAULT };
+
+/* The values of a struct crash, in this order. */
+enum crash_register {
+    CRASH_PC, CRASH_LR, CRASH_PSR, CRASH_SP, CRASH_R0, CRASH_R1, CRASH_R2, CRASH_R3, CRASH_R12,
+    CRASH_CFSR, CRASH_HFSR, CRASH_MMFAR, CRASH_BFAR,
+    CRASH_REGISTER_COUNT
+};
+
+void crash_keep(uint32_t cause, const uint32_t *frame, const uint32_t *lowest, const uint32_t *end);
+        /* Notes what an exception found, in RAM that a reset leaves alone. frame is read only if it lies within
+           lowest..end. */
+
+enum reset_cause crash_reset_cause(enum reset_cause cause);
+        /* Why the program last started, given what the chip says of it: a reset that followed a crash is RESET_CRASH.
+           To be called once, at start. */
+
+const struct crash *crash_last(void);
+        /* The last crash since power-up, or null. */
+
+#endif

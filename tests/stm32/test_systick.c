@@ -1,0 +1,69 @@
+#include "hal/port/cortex_m/systick.h"
+
+#include <string.h>
+
+#include <unity.h>
+
+#include "hal/port/cortex_m/core.h"
+
+enum { SPAN = 1 << 24, CORE_HZ = 168000000, PER_MS = CORE_HZ / 8 / 1000 };
+
+volatile struct systick_registers SYSTICK;
+
+static void passes(uint32_t counts)
+{
+    SYSTICK.val = (SYSTICK.val - counts) & (SPAN - 1);
+}
+
+void setUp(void)
+{
+    memset((void *)&SYSTICK, 0, sizeof SYSTICK);
+    systick_start(CORE_HZ);
+}
+
+void tearDown(void) {}
+
+static void test_the_timer_runs_free_from_an_eighth_of_the_clock(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(SPAN - 1, SYSTICK.load);
+    TEST_ASSERT_EQUAL_HEX32(1, SYSTICK.ctrl);
+}
+
+static void test_a_millisecond_passes_after_21000_counts(void)
+{
+    uint32_t start = machine_ms();
+
+    passes(PER_MS - 1);
+    TEST_ASSERT_EQUAL_UINT32(0, machine_ms() - start);
+    passes(1);
+    TEST_ASSERT_EQUAL_UINT32(1, machine_ms() - start);
+}
+
+static void test_no_count_is_lost_however_often_it_is_asked(void)
+{
+    uint32_t start = machine_ms();
+
+    for (uint64_t counts = 0; counts < 100ull * SPAN; counts += 4999) {
+        (void)machine_ms();
+        passes(4999);
+    }
+    TEST_ASSERT_UINT32_WITHIN(1, 100ull * SPAN / PER_MS, machine_ms() - start);
+}
+
+static void test_half_a_second_without_asking_is_noticed_in_full(void)
+{
+    uint32_t start = machine_ms();
+
+    passes(500 * PER_MS);
+    TEST_ASSERT_EQUAL_UINT32(500, machine_ms() - start);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_timer_runs_free_from_an_eighth_of_the_clock);
+    RUN_TEST(test_a_millisecond_passes_after_21000_counts);
+    RUN_TEST(test_no_count_is_lost_however_often_it_is_asked);
+    RUN_TEST(test_half_a_second_without_asking_is_noticed_in_full);
+    return UNITY_END();
+}
