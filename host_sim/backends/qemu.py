@@ -39,7 +39,7 @@ class Qemu:
             OctetError: QEMU is not installed, or the image is not built.
             RobotError: It ended, or the robot did not speak in time.
         """
-        image = image or image_path("stm32f405", "slcan")
+        image = image or image_path("feather_stm32f405", "slcan")
         if shutil.which(PROGRAM) is None:
             raise OctetError(f"{PROGRAM} is not installed: run tools/setup images")
         ours, theirs = socket.socketpair()

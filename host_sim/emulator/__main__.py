@@ -17,7 +17,7 @@ from host_sim.transport.buses import open_bus
 if TYPE_CHECKING:
     from host_sim.emulator.board import EmulatedBoard
 
-_EXAMPLE = "example: python -m host_sim.emulator --board stm32f405 --bus socketcan:vcan0"
+_EXAMPLE = "example: python -m host_sim.emulator --board feather_stm32f405 --bus socketcan:vcan0"
 _SLICE_S = 0.001
 
 
@@ -62,7 +62,7 @@ def _message(frame: Frame) -> can.Message:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m host_sim.emulator", description=__doc__, epilog=_EXAMPLE)
-    parser.add_argument("--board", choices=CHIPS, default="stm32f405", help="which board (default: %(default)s)")
+    parser.add_argument("--board", choices=CHIPS, default="feather_stm32f405", help="which board (default: %(default)s)")
     parser.add_argument("--bus", metavar="INTERFACE:CHANNEL", required=True, help="the python-can bus that it joins")
     return parser
 

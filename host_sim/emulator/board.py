@@ -284,7 +284,7 @@ def start_board(name: str, faults: Faults | None = None, link: str = "bxcan") ->
     """A board with the image that the build leaves for it, up and running.
 
     Args:
-        name: `stm32f405` or `stm32f103`.
+        name: `feather_stm32f405` or `blue_pill`.
         faults: How its hardware misbehaves.
         link: `bxcan` or `slcan`: which of its images.
 

@@ -68,7 +68,7 @@ GPIO_STRIDE = 0x400
 _MHZ = 1_000_000
 
 STM32F405 = Chip(
-    name="stm32f405",
+    name="feather_stm32f405",
     cpuid=0x410FC241,
     slow_hz=32_000,
     oscillators=Oscillators(internal=16 * _MHZ, crystal=12 * _MHZ, core_max=168 * _MHZ, apb1_max=42 * _MHZ),
@@ -89,7 +89,7 @@ STM32F405 = Chip(
 """Adafruit Feather STM32F405."""
 
 STM32F103 = Chip(
-    name="stm32f103",
+    name="blue_pill",
     cpuid=0x411FC231,
     slow_hz=40_000,
     oscillators=Oscillators(internal=8 * _MHZ, crystal=8 * _MHZ, core_max=72 * _MHZ, apb1_max=36 * _MHZ),

@@ -14,7 +14,7 @@ from host_sim.robot_io import Senses
 from host_sim.sim.make import assemble
 from host_sim.sim.run_config import RunConfig
 
-BOARDS = ("stm32f405", "stm32f103")
+BOARDS = ("feather_stm32f405", "blue_pill")
 TICK_S = 0.02
 READY_S = 5.0
 COUNTERS = (

@@ -18,7 +18,7 @@ NOISE_PER_TICK = 200
 """Ten thousand frames a second."""
 
 
-LED_PINS = {"stm32f405": 1, "stm32f103": 13}
+LED_PINS = {"feather_stm32f405": 1, "blue_pill": 13}
 """Of port C."""
 
 
@@ -276,7 +276,7 @@ def test_the_memory_survives_a_loss_of_power(name):
 
 
 def test_a_flash_that_is_full_is_erased_and_written_again():
-    talk = talk_to("stm32f103")  # its pages are the smaller ones
+    talk = talk_to("blue_pill")  # its pages are the smaller ones
     for i in range(300):
         learn(talk, LEARN_LEFT << i % 2)
     flash = talk.board.hardware.flash
@@ -373,7 +373,7 @@ def test_noise_on_its_own_identifiers_is_counted_and_does_not_cost_a_tick(name):
 
 
 def test_the_same_run_takes_the_same_instructions():
-    first, second = (count_ticks("stm32f405", 7, 300) for _ in range(2))
+    first, second = (count_ticks("feather_stm32f405", 7, 300) for _ in range(2))
 
     assert first == second
 

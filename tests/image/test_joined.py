@@ -27,7 +27,7 @@ def joined():
         can.Bus(interface="virtual", channel="octet-test") as near,
         can.Bus(interface="virtual", channel="octet-test") as far,
     ):
-        yield JoinedBoard(start_board("stm32f103"), near), far
+        yield JoinedBoard(start_board("blue_pill"), near), far
 
 
 def send(bus, frame, **kind):
@@ -83,7 +83,7 @@ def test_the_command_serves_until_the_bus_is_gone(monkeypatch, capsys):
 
     assert main(["--bus", "virtual:octet-test"]) == 1
     output = capsys.readouterr()
-    assert output.out == "octet: an emulated stm32f405 listens on virtual:octet-test\n"
+    assert output.out == "octet: an emulated feather_stm32f405 listens on virtual:octet-test\n"
     assert output.err == "octet: the bus virtual:octet-test is gone: it broke\n"
 
 
@@ -116,7 +116,7 @@ def test_without_unicorn_one_line_says_what_to_install(words, tmp_path):
 
 @pytest.fixture
 def board_on_vcan():
-    command = [sys.executable, "-m", "host_sim.emulator", "--board", "stm32f103", "--bus", "socketcan:vcan0"]
+    command = [sys.executable, "-m", "host_sim.emulator", "--board", "blue_pill", "--bus", "socketcan:vcan0"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert "listens" in process.stdout.readline()
     yield process

@@ -89,7 +89,7 @@ def test_an_image_that_is_not_built_is_named_with_how_to_build_it(monkeypatch, t
     monkeypatch.setattr("host_sim.paths.BUILD", tmp_path)
 
     with pytest.raises(OctetError, match="tools/setup images"):
-        image_path("stm32f405", "slcan")
+        image_path("feather_stm32f405", "slcan")
 
 
 def test_what_is_no_image_ends_qemu_with_its_reason(tmp_path):
@@ -113,7 +113,7 @@ def test_an_emulator_brings_its_own_bus_and_node(robot):
 
 
 def test_a_board_that_does_not_exist_is_named():
-    with ExitStack() as stack, pytest.raises(UsageError, match="no board 'stm32f999'; there are stm32f405,"):
+    with ExitStack() as stack, pytest.raises(UsageError, match="no board 'stm32f999'; there are feather_stm32f405,"):
         connect(stack, "fd", "emulated", 1, board="stm32f999")
 
 

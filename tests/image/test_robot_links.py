@@ -14,11 +14,11 @@ PROTOCOL = Protocol()
 COUNTERS = itertools.cycle(range(16))  # the robots live longer than a test, and remember the last one
 PATIENCE_S = 5.0
 ROBOTS = {
-    "in process": ("none", "spawn", "stm32f405"),
-    "socket pair": ("fd", "spawn", "stm32f405"),
-    "qemu": ("fd", "qemu", "stm32f405"),
-    "emulated stm32f405": ("fd", "emulated", "stm32f405"),
-    "emulated stm32f103": ("fd", "emulated", "stm32f103"),
+    "in process": ("none", "spawn", "feather_stm32f405"),
+    "socket pair": ("fd", "spawn", "feather_stm32f405"),
+    "qemu": ("fd", "qemu", "feather_stm32f405"),
+    "emulated feather_stm32f405": ("fd", "emulated", "feather_stm32f405"),
+    "emulated blue_pill": ("fd", "emulated", "blue_pill"),
 }
 
 
