@@ -5,13 +5,21 @@
 
 #include "hal/flash_store/flash.h"
 
-enum { WORDS = 4, TRIES_MAX = 4 };   /* of a record; worn places passed over in one go */
+enum { TRIES_MAX = 4 };   /* worn places passed over in one go */
 
 struct record {
     uint32_t number;
     uint8_t memory[CELL_COUNT];
     uint32_t crc;
 };
+
+/* A record's place: as many whole write units as it takes. Words 1 and 2 are the eight bytes. */
+union place {
+    struct record record;
+    uint32_t words[FLASH_UNIT_MAX / 4];
+};
+
+enum content { BLANK, RECORD, RUBBISH };
 
 /* CRC-32 as in Ethernet: polynomial 0xEDB88320 reflected, start and final xor all ones. */
 static uint32_t crc_of(const struct record *record)
@@ -28,70 +36,87 @@ static uint32_t crc_of(const struct record *record)
     return ~crc;
 }
 
-static uint32_t records_per_page(void)
+static uint32_t size_of_place(void)
 {
-    return flash_page_size() / sizeof(struct record);
+    uint32_t unit = flash_unit();
+
+    return unit > sizeof(struct record) ? unit : sizeof(struct record);
 }
 
-static struct record record_at(unsigned page, uint32_t place)
+static enum content look(unsigned page, uint32_t offset, union place *out)
 {
-    struct record record;
+    uint32_t size = size_of_place();
+    uint32_t all = UINT32_MAX;
 
-    memcpy(&record, (const char *)flash_page(page) + place * sizeof record, sizeof record);
-    return record;
+    if (flash_read(page, offset, out->words, size) < 0)
+        return RUBBISH;
+    for (unsigned i = 0; i < size / 4; i++)
+        all &= out->words[i];
+    if (all == UINT32_MAX)
+        return BLANK;
+    return out->record.crc == crc_of(&out->record) ? RECORD : RUBBISH;
 }
 
-static bool is_blank(unsigned page, uint32_t place)
-{
-    const uint8_t *byte = (const uint8_t *)flash_page(page) + place * sizeof(struct record);
-    uint8_t all = 0xFF;
-
-    for (unsigned i = 0; i < sizeof(struct record); i++)
-        all &= byte[i];
-    return all == 0xFF;
-}
-
-/* The first place from which on all is blank: what comes before is written, or half written, or worn. */
+/* Where the rest of a page begins that is blank: what comes before is written, or half written, or worn. */
 static uint32_t used_of(unsigned page)
 {
-    uint32_t used = records_per_page();
+    uint32_t size = size_of_place();
+    uint32_t used = flash_page_size();
+    union place place;
 
-    while (used > 0 && is_blank(page, used - 1))
-        used--;
+    while (used > 0 && look(page, used - size, &place) == BLANK)
+        used -= size;
     return used;
 }
 
-static void look_at_page(struct flash_store *store, uint8_t page, uint8_t memory[CELL_COUNT])
+static bool has_record(const struct flash_store *store)
 {
-    uint32_t used = used_of(page);
+    return store->newest != FLASH_STORE_NOWHERE;
+}
 
-    for (uint32_t place = 0; place < used; place++) {
-        struct record record = record_at(page, place);
+/* Numbers wrap; those of two records that are there at once lie close together. */
+static bool is_newer(const struct flash_store *store, uint32_t number)
+{
+    return !has_record(store) || number - store->number - 1 < UINT32_MAX / 2;
+}
 
-        if (record.number <= store->number || record.crc != crc_of(&record))
-            continue;
-        store->number = record.number;
-        store->kept = page;
-        memcpy(memory, record.memory, CELL_COUNT);
-    }
+static void read_page(struct flash_store *store, uint8_t page, uint8_t memory[CELL_COUNT])
+{
+    union place place;
+
+    for (uint32_t at = 0; at < flash_page_size(); at += size_of_place())
+        if (look(page, at, &place) == RECORD && is_newer(store, place.record.number)) {
+            store->number = place.record.number;
+            store->newest = (uint16_t)at;
+            store->kept = page;
+            memcpy(memory, place.record.memory, CELL_COUNT);
+        }
 }
 
 int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
 {
-    *store = (struct flash_store){.number = 0};
+    *store = (struct flash_store){.newest = FLASH_STORE_NOWHERE};
     for (uint8_t page = 0; page < FLASH_PAGES; page++)
-        look_at_page(store, page, memory);
+        read_page(store, page, memory);
     store->page = store->kept;
-    store->next = used_of(store->page);
-    if (store->number > 0)
+    store->next = (uint16_t)used_of(store->page);
+    if (has_record(store))
         return 1;
     return used_of(0) + used_of(1) == 0 ? 0 : HAL_E_STORE;
+}
+
+static bool is_stored(const struct flash_store *store, const union place *wanted)
+{
+    union place place;
+
+    return has_record(store) && look(store->kept, store->newest, &place) == RECORD &&
+           place.words[1] == wanted->words[1] && place.words[2] == wanted->words[2];
 }
 
 /* Goes on in the page that can be spared. 0, or as flash_store_save. */
 static int turn_page(struct flash_store *store, bool may_erase)
 {
-    uint8_t spare = store->number > 0 ? 1 - store->kept : 1 - store->page;
+    uint8_t spare = 1 - (has_record(store) ? store->kept : store->page);
 
     if (used_of(spare) > 0) {
         if (!may_erase)
@@ -104,33 +129,41 @@ static int turn_page(struct flash_store *store, bool may_erase)
     return 0;
 }
 
-static bool append(struct flash_store *store, const struct record *record)
+static bool append(struct flash_store *store, const union place *place)
 {
-    uint32_t offset = store->next * (uint32_t)sizeof *record;
-    uint32_t words[WORDS];
+    uint32_t size = size_of_place();
+    uint16_t here = store->next;
 
-    memcpy(words, record, sizeof words);
-    store->next++;
-    for (unsigned i = 0; i < WORDS; i++)
-        if (flash_write(store->page, offset + 4 * i, words[i]) < 0)
-            return false;
-    store->number = record->number;
+    store->next = (uint16_t)(here + size);
+    if (flash_write(store->page, here, place->words, size) < 0)
+        return false;
+    store->number = place->record.number;
+    store->newest = here;
     store->kept = store->page;
     return true;
 }
 
+static void make_record(union place *place, uint32_t number, const uint8_t memory[CELL_COUNT])
+{
+    memset(place, 0xFF, sizeof *place);
+    place->record.number = number;
+    memcpy(place->record.memory, memory, CELL_COUNT);
+    place->record.crc = crc_of(&place->record);
+}
+
 int flash_store_save(struct flash_store *store, const uint8_t memory[CELL_COUNT], bool may_erase)
 {
-    struct record record = {.number = store->number + 1};
+    union place place;
 
-    memcpy(record.memory, memory, CELL_COUNT);
-    record.crc = crc_of(&record);
+    make_record(&place, store->number + 1, memory);
+    if (is_stored(store, &place))
+        return 0;
     for (unsigned tries = 0; tries < TRIES_MAX; tries++) {
-        int result = store->next < records_per_page() ? 0 : turn_page(store, may_erase);
+        int result = store->next < flash_page_size() ? 0 : turn_page(store, may_erase);
 
         if (result != 0)
             return result;
-        if (append(store, &record))
+        if (append(store, &place))
             return 0;
     }
     return HAL_E_STORE;

@@ -3,15 +3,12 @@
 
 #include <stdbool.h>
 
+#include "hal/stm32/can_timing.h"
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
 #include "hal/stm32/registers.h"
 
 enum {
-    BITRATE = 500000,
-    QUANTA_MAX = 18,              /* of a bit; a bit of 8..18 gives a sample point at 85..89 % */
-    QUANTA_MIN = 8,
-    PRESCALER_MAX = 1024,
     INIT_MS = 2,                  /* to enter initialization: the frame under way ends first */
     RECOVERY_MS = 250,            /* from bus-off to the next try: four times what a full bus needs */
     IDS_PER_BANK = 4,
@@ -44,17 +41,13 @@ struct link {
 
 static struct link the_link;   /* one controller */
 
-/* Sets up the bit, resynchronization by up to 2 quanta. False: the clock has no such divisor. */
-static bool set_bit_timing(uint32_t clock_hz)
+/* Of a bit of so many quanta, one of which comes before all that can be set. */
+static void set_bit_timing(uint32_t clock_hz, uint32_t quanta)
 {
-    uint32_t ratio = clock_hz / BITRATE;
+    uint32_t before = quanta - 1u - CAN_QUANTA_AFTER;
+    uint32_t prescaler = clock_hz / (CAN_BITRATE * quanta);
 
-    for (uint32_t quanta = QUANTA_MAX; quanta >= QUANTA_MIN; quanta--)
-        if (ratio % quanta == 0 && ratio / quanta <= PRESCALER_MAX) {
-            CAN1.btr = 1u << 24 | 1u << 20 | (quanta - 4u) << 16 | (ratio / quanta - 1u);
-            return clock_hz % BITRATE == 0;
-        }
-    return false;
+    CAN1.btr = (CAN_QUANTA_JUMP - 1u) << 24 | (CAN_QUANTA_AFTER - 1u) << 20 | (before - 1u) << 16 | (prescaler - 1u);
 }
 
 static bool enter_init(void)
@@ -97,9 +90,13 @@ static void set_filters(const uint16_t ids[], size_t count)
 
 int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count)
 {
+    uint32_t clock_hz = machine_clocks().can_hz;
+    uint32_t quanta = can_quanta(clock_hz);
+
     (void)name;
-    if (id_count > LINK_IDS_MAX || !enter_init() || !set_bit_timing(machine_clocks().can_hz))
+    if (id_count > LINK_IDS_MAX || quanta == 0 || !enter_init())
         return LINK_E_OPEN;
+    set_bit_timing(clock_hz, quanta);
     CAN1.ier = 0;
     set_filters(ids, id_count);
     leave_init();

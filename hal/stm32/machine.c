@@ -56,9 +56,11 @@ enum reset_cause mcu_reset_cause(void)
 {
     uint32_t flags = chip_reset_flags();
 
-    if (flags & FLAG_POWER_ON || !(flags & (FLAG_PIN | FLAG_SOFTWARE | FLAG_WATCHDOGS)))
+    if (flags & FLAG_POWER_ON)
         return RESET_POWER_ON;
     if (flags & FLAG_WATCHDOGS)
         return RESET_WATCHDOG;
-    return flags & FLAG_SOFTWARE ? RESET_SOFTWARE : RESET_PIN;
+    if (flags & FLAG_SOFTWARE)
+        return RESET_SOFTWARE;
+    return flags & FLAG_PIN ? RESET_PIN : RESET_POWER_ON;
 }

@@ -4,12 +4,20 @@
 
 #include <unity.h>
 
+enum { RECORD_SIZE = 16, UNREADABLE = 3 };
+
 struct fake_flash fake_flash;
 
-void fake_flash_clear(void)
+void fake_flash_clear(const struct fake_flash_kind *kind)
 {
     memset(&fake_flash, 0, sizeof fake_flash);
     memset(fake_flash.bytes, 0xFF, sizeof fake_flash.bytes);
+    fake_flash.kind = *kind;
+}
+
+uint32_t fake_flash_place(void)
+{
+    return fake_flash.kind.unit > RECORD_SIZE ? fake_flash.kind.unit : RECORD_SIZE;
 }
 
 bool flash_exists(void)
@@ -19,12 +27,32 @@ bool flash_exists(void)
 
 uint32_t flash_page_size(void)
 {
-    return FAKE_PAGE_SIZE;
+    return FAKE_RECORDS * fake_flash_place();
 }
 
-const void *flash_page(unsigned page)
+uint32_t flash_unit(void)
 {
-    return fake_flash.bytes[page];
+    return fake_flash.kind.unit;
+}
+
+static uint32_t mask_of(uint32_t offset, uint32_t count)
+{
+    return (uint32_t)(((1ull << count / 4) - 1) << offset / 4);
+}
+
+static void assert_within(unsigned page, uint32_t offset, uint32_t count)
+{
+    TEST_ASSERT_LESS_THAN_UINT(FLASH_PAGES, page);
+    TEST_ASSERT_EQUAL_UINT32(0, offset % fake_flash.kind.unit);
+    TEST_ASSERT_EQUAL_UINT32(0, count % fake_flash.kind.unit);
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(flash_page_size(), offset + count);
+}
+
+int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
+{
+    assert_within(page, offset, count);
+    memcpy(words, &fake_flash.bytes[page][offset], count);
+    return fake_flash.unreadable[page] & mask_of(offset, count) ? -1 : 0;
 }
 
 static bool power_fails_now(void)
@@ -35,43 +63,51 @@ static bool power_fails_now(void)
 /* Not begun, half its bits, or all of them. */
 static uint8_t half_written(uint8_t old, uint8_t byte)
 {
-    static const uint8_t kept[] = {0xFF, 0x5A, 0x00};
+    static const uint8_t kept[FAKE_DAMAGES] = {0xFF, 0x5A, 0x00, 0x5A};
 
     return old & (uint8_t)(byte | kept[fake_flash.damage]);
 }
 
-static void write_half(uint8_t *at, const uint8_t half[2])
+static void spoil(unsigned page, uint32_t offset, uint32_t count)
 {
-    bool cut = power_fails_now();
-
-    TEST_ASSERT_EQUAL_HEX8(0xFF, at[0]);   /* no real flash takes a second write */
-    TEST_ASSERT_EQUAL_HEX8(0xFF, at[1]);
-    for (unsigned i = 0; i < 2; i++)
-        at[i] = cut ? half_written(at[i], half[i]) : half[i];
-    if (cut)
-        longjmp(fake_flash.cut, 1);
+    if (fake_flash.damage == UNREADABLE && fake_flash.kind.corrects)
+        fake_flash.unreadable[page] |= mask_of(offset, count);
 }
 
-int flash_write(unsigned page, uint32_t offset, uint32_t word)
+static void write_step(unsigned page, uint32_t offset, const uint8_t *bytes)
 {
     uint8_t *at = &fake_flash.bytes[page][offset];
-    uint8_t bytes[4];
+    bool cut = power_fails_now();
 
-    TEST_ASSERT_EQUAL_UINT32(0, offset % 4);
-    if (fake_flash.worn[page] >> offset / 16 & 1)
+    for (unsigned i = 0; i < fake_flash.kind.step; i++) {
+        TEST_ASSERT_EQUAL_HEX8(0xFF, at[i]);   /* no real flash takes a second write */
+        at[i] = cut ? half_written(at[i], bytes[i]) : bytes[i];
+    }
+    TEST_ASSERT_EQUAL_HEX32(0, fake_flash.unreadable[page] & mask_of(offset, fake_flash.kind.step));
+    if (cut) {
+        spoil(page, offset, fake_flash.kind.step);
+        longjmp(fake_flash.cut, 1);
+    }
+}
+
+int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
+{
+    assert_within(page, offset, count);
+    fake_flash.writes++;
+    if (fake_flash.worn[page] >> offset / fake_flash_place() & 1)
         return -1;
-    memcpy(bytes, &word, sizeof bytes);
-    write_half(at, bytes);
-    write_half(at + 2, bytes + 2);
+    for (uint32_t done = 0; done < count; done += fake_flash.kind.step)
+        write_step(page, offset + done, (const uint8_t *)words + done);
     return 0;
 }
 
 /* Not begun, every other byte, or nearly done: the last byte is still what it was. */
-static void half_erase(uint8_t *bytes)
+static void half_erase(unsigned page)
 {
-    for (unsigned i = 0; i + 1 < FAKE_PAGE_SIZE; i++)
-        if (fake_flash.damage == 2 || (fake_flash.damage == 1 && i % 2 == 0))
-            bytes[i] = 0xFF;
+    for (unsigned i = 0; i + 1 < flash_page_size(); i++)
+        if (fake_flash.damage == 2 || (fake_flash.damage != 0 && i % 2 == 0))
+            fake_flash.bytes[page][i] = 0xFF;
+    spoil(page, 0, flash_page_size());
 }
 
 int flash_erase(unsigned page)
@@ -82,9 +118,10 @@ int flash_erase(unsigned page)
         return 0;
     fake_flash.erases++;
     if (power_fails_now()) {
-        half_erase(fake_flash.bytes[page]);
+        half_erase(page);
         longjmp(fake_flash.cut, 1);
     }
-    memset(fake_flash.bytes[page], 0xFF, FAKE_PAGE_SIZE);
+    memset(fake_flash.bytes[page], 0xFF, FAKE_PAGE_MAX);
+    fake_flash.unreadable[page] = 0;
     return 0;
 }

@@ -52,29 +52,54 @@ static void test_a_controller_that_is_locked_after_reset_is_one(void)
     TEST_ASSERT_FALSE(flash_exists());
 }
 
-static void test_pages_are_1_kb_and_the_stores(void)
+static void test_pages_are_1_kb_written_by_words(void)
 {
     TEST_ASSERT_EQUAL_UINT32(1024, flash_page_size());
-    TEST_ASSERT_EQUAL_PTR(STORE[1], flash_page(1));
+    TEST_ASSERT_EQUAL_UINT32(4, flash_unit());
+}
+
+static void test_it_reads_what_lies_there(void)
+{
+    uint32_t words[2];
+
+    STORE[1][10] = 0x5678;
+    TEST_ASSERT_EQUAL(0, flash_read(1, 20, words, sizeof words));
+    TEST_ASSERT_EQUAL_HEX32(0xFFFF5678, words[0]);
+    TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFF, words[1]);
+}
+
+static int write_one(unsigned page, uint32_t offset, uint32_t word)
+{
+    return flash_write(page, offset, &word, sizeof word);
 }
 
 static void test_a_word_is_written_in_halves_the_lower_first_in_place(void)
 {
-    TEST_ASSERT_EQUAL(0, flash_write(1, 20, 0x12345678));
+    TEST_ASSERT_EQUAL(0, write_one(1, 20, 0x12345678));
     TEST_ASSERT_EQUAL_HEX16(0x5678, STORE[1][10]);
     TEST_ASSERT_EQUAL_HEX16(0x1234, STORE[1][11]);
     TEST_ASSERT_EQUAL_UINT(2, controller.operations);
 }
 
+static void test_words_follow_each_other(void)
+{
+    static const uint32_t words[] = {0x12345678, 0x9ABCDEF0};
+
+    TEST_ASSERT_EQUAL(0, flash_write(0, 8, words, sizeof words));
+    TEST_ASSERT_EQUAL_HEX16(0x1234, STORE[0][5]);
+    TEST_ASSERT_EQUAL_HEX16(0xDEF0, STORE[0][6]);
+    TEST_ASSERT_EQUAL_HEX16(0x9ABC, STORE[0][7]);
+}
+
 static void test_the_line_is_pumped_after_each_half(void)
 {
-    (void)flash_write(0, 0, 1);
+    (void)write_one(0, 0, 1);
     TEST_ASSERT_EQUAL_UINT(2, controller.pumped);
 }
 
 static void test_the_keys_come_in_their_order_and_it_is_locked_again(void)
 {
-    (void)flash_write(0, 0, 1);
+    (void)write_one(0, 0, 1);
     TEST_ASSERT_EQUAL_HEX32(0xCDEF89AB, FLASH.keyr);   /* the second of two */
     TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
 }
@@ -85,7 +110,7 @@ static void test_either_half_that_is_refused_fails(void)
         setUp();
         controller.error = NOT_ERASED;
         controller.failing = n;
-        TEST_ASSERT_EQUAL(-1, flash_write(0, 0, 1));
+        TEST_ASSERT_EQUAL(-1, write_one(0, 0, 1));
         TEST_ASSERT_EQUAL_UINT(n, controller.operations);
         TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
     }
@@ -94,7 +119,7 @@ static void test_either_half_that_is_refused_fails(void)
 static void test_a_write_that_never_ends_is_given_up(void)
 {
     controller.busy_ms = FOREVER;
-    TEST_ASSERT_EQUAL(-1, flash_write(0, 0, 1));
+    TEST_ASSERT_EQUAL(-1, write_one(0, 0, 1));
     TEST_ASSERT_EQUAL_UINT(1, controller.operations);
 }
 
@@ -115,7 +140,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_controller_that_is_locked_after_reset_is_one);
-    RUN_TEST(test_pages_are_1_kb_and_the_stores);
+    RUN_TEST(test_pages_are_1_kb_written_by_words);
+    RUN_TEST(test_it_reads_what_lies_there);
+    RUN_TEST(test_words_follow_each_other);
     RUN_TEST(test_a_word_is_written_in_halves_the_lower_first_in_place);
     RUN_TEST(test_the_line_is_pumped_after_each_half);
     RUN_TEST(test_the_keys_come_in_their_order_and_it_is_locked_again);

@@ -46,22 +46,40 @@ static void test_a_controller_that_is_locked_after_reset_is_one(void)
     TEST_ASSERT_FALSE(flash_exists());
 }
 
-static void test_pages_are_16_kb_and_the_stores(void)
+static void test_pages_are_16_kb_written_by_words(void)
 {
     TEST_ASSERT_EQUAL_UINT32(16384, flash_page_size());
-    TEST_ASSERT_EQUAL_PTR(STORE[1], flash_page(1));
+    TEST_ASSERT_EQUAL_UINT32(4, flash_unit());
 }
 
-static void test_a_word_is_written_where_it_belongs_four_bytes_at_once(void)
+static void test_it_reads_what_lies_there(void)
 {
-    TEST_ASSERT_EQUAL(0, flash_write(1, 20, 0x12345678));
+    uint32_t words[2];
+
+    STORE[1][5] = 0x12345678;
+    TEST_ASSERT_EQUAL(0, flash_read(1, 20, words, sizeof words));
+    TEST_ASSERT_EQUAL_HEX32(0x12345678, words[0]);
+    TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFF, words[1]);
+}
+
+static int write_one(unsigned page, uint32_t offset, uint32_t word)
+{
+    return flash_write(page, offset, &word, sizeof word);
+}
+
+static void test_words_are_written_where_they_belong_four_bytes_at_once(void)
+{
+    static const uint32_t words[] = {0x12345678, 0x9ABCDEF0};
+
+    TEST_ASSERT_EQUAL(0, flash_write(1, 20, words, sizeof words));
     TEST_ASSERT_EQUAL_HEX32(0x12345678, STORE[1][5]);
+    TEST_ASSERT_EQUAL_HEX32(0x9ABCDEF0, STORE[1][6]);
     TEST_ASSERT_EQUAL_HEX32(0x201, controller.setting);
 }
 
 static void test_the_keys_come_in_their_order_and_it_is_locked_again(void)
 {
-    (void)flash_write(0, 0, 1);
+    (void)write_one(0, 0, 1);
     TEST_ASSERT_EQUAL_HEX32(0xCDEF89AB, FLASH.keyr);   /* the second of two */
     TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
 }
@@ -69,14 +87,14 @@ static void test_the_keys_come_in_their_order_and_it_is_locked_again(void)
 static void test_a_write_that_is_refused_fails(void)
 {
     controller.error = PROTECTED;
-    TEST_ASSERT_EQUAL(-1, flash_write(0, 0, 1));
+    TEST_ASSERT_EQUAL(-1, write_one(0, 0, 1));
     TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
 }
 
 static void test_a_write_that_never_ends_is_given_up(void)
 {
     controller.busy_ms = FOREVER;
-    TEST_ASSERT_EQUAL(-1, flash_write(0, 0, 1));
+    TEST_ASSERT_EQUAL(-1, write_one(0, 0, 1));
     TEST_ASSERT_LESS_THAN_UINT32(10, controller.now_ms);
     TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
 }
@@ -106,8 +124,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_controller_that_is_locked_after_reset_is_one);
-    RUN_TEST(test_pages_are_16_kb_and_the_stores);
-    RUN_TEST(test_a_word_is_written_where_it_belongs_four_bytes_at_once);
+    RUN_TEST(test_pages_are_16_kb_written_by_words);
+    RUN_TEST(test_it_reads_what_lies_there);
+    RUN_TEST(test_words_are_written_where_they_belong_four_bytes_at_once);
     RUN_TEST(test_the_keys_come_in_their_order_and_it_is_locked_again);
     RUN_TEST(test_a_write_that_is_refused_fails);
     RUN_TEST(test_a_write_that_never_ends_is_given_up);

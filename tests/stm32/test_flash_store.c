@@ -6,18 +6,25 @@
 
 #include "fake_flash.h"
 
-enum { DAMAGES = 3, OPERATIONS_MAX = 9 };   /* of one save: an erase and eight half-words */
+/* As an F1 has it, an F4, a G4, and chips that we have not met yet. */
+static const struct fake_flash_kind KINDS[] = {{4, 2, false}, {4, 4, false}, {8, 8, true}, {16, 16, true}, {32, 32, true}};
 
+#define FOR_EACH_KIND for (kind = KINDS; kind < KINDS + sizeof KINDS / sizeof KINDS[0]; kind++)
+
+static const struct fake_flash_kind *kind = KINDS;
 static struct flash_store store;
 static uint8_t found[CELL_COUNT];
 
 void setUp(void)
 {
-    fake_flash_clear();
+    fake_flash_clear(kind);
     memset(&store, 0xA5, sizeof store);
 }
 
-void tearDown(void) {}
+void tearDown(void)
+{
+    kind = KINDS;
+}
 
 /* Any two differ in every byte but the first, so that a mix of two is neither. */
 static const uint8_t *memory_number(unsigned n)
@@ -67,10 +74,105 @@ static void test_what_was_saved_is_found(void)
 
 static void test_the_newest_of_many_is_found(void)
 {
-    for (unsigned count = 1; count <= 5 * FAKE_RECORDS; count++) {
+    FOR_EACH_KIND
+        for (unsigned count = 1; count <= 5 * FAKE_RECORDS; count++) {
+            setUp();
+            save_many(count);
+            assert_found(count - 1);
+        }
+}
+
+/* ---- records as they lie in robots' flash since the first firmware */
+
+static const uint8_t SECOND_OF_ALL[] = {0x02, 0x00, 0x00, 0x00, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0xED, 0x7A, 0xC2, 0x36};
+static const uint8_t LAST_OF_ALL[] = {0xFF, 0xFF, 0xFF, 0xFF, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0xE2, 0xDD, 0xD3, 0x5E};
+
+static void test_the_layout_is_what_it_always_was(void)
+{
+    static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
+
+    save_many(1);
+    TEST_ASSERT_EQUAL(0, flash_store_save(&store, memory, true));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(SECOND_OF_ALL, &fake_flash.bytes[0][16], sizeof SECOND_OF_ALL);
+}
+
+static void test_a_longer_unit_is_filled_up(void)
+{
+    for (kind = KINDS; kind->unit < 32; kind++)
+        continue;
+    setUp();
+    save_many(2);
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, &fake_flash.bytes[0][16], 16);
+    TEST_ASSERT_EQUAL_HEX8(2, fake_flash.bytes[0][32]);
+}
+
+static void test_numbers_wrap(void)
+{
+    FOR_EACH_KIND {
         setUp();
-        save_many(count);
-        assert_found(count - 1);
+        memcpy(fake_flash.bytes[0], LAST_OF_ALL, sizeof LAST_OF_ALL);
+        TEST_ASSERT_EQUAL(1, start());
+        for (unsigned n = 0; n < 3 * FAKE_RECORDS; n++) {
+            TEST_ASSERT_EQUAL(0, save(n));
+            assert_found(n);
+        }
+    }
+}
+
+static void test_what_the_bytes_mean_is_the_robots_business(void)
+{
+    static const uint8_t none[CELL_COUNT] = {9, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
+
+    save_many(1);
+    TEST_ASSERT_EQUAL(0, flash_store_save(&store, none, true));
+    TEST_ASSERT_EQUAL(1, start());
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(none, found, CELL_COUNT);
+}
+
+/* ---- wear */
+
+static void test_what_is_stored_already_is_not_written_again(void)
+{
+    FOR_EACH_KIND {
+        setUp();
+        save_many(3);
+        fake_flash.writes = 0;
+        for (unsigned i = 0; i < 10 * FAKE_RECORDS; i++)
+            TEST_ASSERT_EQUAL(0, save(2));
+        assert_found(2);
+        TEST_ASSERT_EQUAL(0, save(2));
+        TEST_ASSERT_EQUAL_UINT(0, fake_flash.writes + fake_flash.erases);
+    }
+}
+
+static void test_what_was_stored_earlier_is_written_again(void)
+{
+    save_many(3);
+    TEST_ASSERT_EQUAL(0, save(1));
+    assert_found(1);
+}
+
+static void test_a_change_of_any_one_byte_is_stored(void)
+{
+    uint8_t memory[CELL_COUNT] = {0};
+
+    save_many(1);
+    for (unsigned p = 0; p < CELL_COUNT; p++) {
+        memory[p] ^= 2;
+        TEST_ASSERT_EQUAL(0, flash_store_save(&store, memory, true));
+        TEST_ASSERT_EQUAL(1, start());
+        TEST_ASSERT_EQUAL_HEX8_ARRAY(memory, found, CELL_COUNT);
+    }
+}
+
+static void test_what_does_not_read_back_any_more_is_written_again(void)
+{
+    for (unsigned byte = 0; byte < 16; byte++) {
+        setUp();
+        save_many(3);
+        fake_flash.bytes[0][2 * 16 + byte] ^= 1;
+        TEST_ASSERT_EQUAL(0, save(2));
+        assert_found(2);
     }
 }
 
@@ -223,21 +325,54 @@ static void cut_twice(unsigned before, unsigned first, unsigned second, unsigned
     assert_found(102);
 }
 
+/* Of one save: an erase, and a record step by step. */
+static unsigned operations_of(const struct fake_flash_kind *of)
+{
+    return 1 + fake_flash_place() / of->step;
+}
+
+static void cut_everywhere(unsigned before)
+{
+    unsigned end = operations_of(kind) + 1;
+
+    for (unsigned first = 1; first <= end; first++)
+        for (unsigned second = 1; second <= end; second++)
+            for (unsigned damage = 0; damage < FAKE_DAMAGES; damage++)
+                cut_twice(before, first, second, damage);
+}
+
 static void test_power_cut_anywhere_twice_in_a_row_leaves_old_or_new(void)
 {
-    for (unsigned before = 0; before <= 3 * FAKE_RECORDS; before++)
-        for (unsigned first = 1; first <= OPERATIONS_MAX + 1; first++)
-            for (unsigned second = 1; second <= OPERATIONS_MAX + 1; second++)
-                for (unsigned damage = 0; damage < DAMAGES; damage++)
-                    cut_twice(before, first, second, damage);
+    FOR_EACH_KIND {
+        setUp();
+        for (unsigned before = 0; before <= 3 * FAKE_RECORDS; before++)
+            cut_everywhere(before);
+    }
 }
 
 static void test_the_power_cuts_reach_every_operation(void)
 {
-    save_many(2 * FAKE_RECORDS);
-    fake_flash.operations = 0;
-    TEST_ASSERT_EQUAL(0, save(99));
-    TEST_ASSERT_EQUAL_UINT(OPERATIONS_MAX, fake_flash.operations);
+    FOR_EACH_KIND {
+        setUp();
+        save_many(2 * FAKE_RECORDS);
+        fake_flash.operations = 0;
+        TEST_ASSERT_EQUAL(0, save(99));
+        TEST_ASSERT_EQUAL_UINT(operations_of(kind), fake_flash.operations);
+    }
+}
+
+static void test_an_unreadable_unit_is_passed_over_and_no_blank_flash(void)
+{
+    for (kind = KINDS; !kind->corrects; kind++)
+        continue;
+    setUp();
+    save_many(2);
+    fake_flash.unreadable[0] = 1u << 16 / 4;
+    assert_found(0);
+    fake_flash.unreadable[0] |= 1;
+    TEST_ASSERT_EQUAL(HAL_E_STORE, start());
+    TEST_ASSERT_EQUAL(0, save(5));
+    assert_found(5);
 }
 
 int main(void)
@@ -246,6 +381,14 @@ int main(void)
     RUN_TEST(test_a_blank_flash_holds_no_memory);
     RUN_TEST(test_what_was_saved_is_found);
     RUN_TEST(test_the_newest_of_many_is_found);
+    RUN_TEST(test_the_layout_is_what_it_always_was);
+    RUN_TEST(test_a_longer_unit_is_filled_up);
+    RUN_TEST(test_numbers_wrap);
+    RUN_TEST(test_what_the_bytes_mean_is_the_robots_business);
+    RUN_TEST(test_what_is_stored_already_is_not_written_again);
+    RUN_TEST(test_what_was_stored_earlier_is_written_again);
+    RUN_TEST(test_a_change_of_any_one_byte_is_stored);
+    RUN_TEST(test_what_does_not_read_back_any_more_is_written_again);
     RUN_TEST(test_a_page_is_erased_once_for_a_page_of_records);
     RUN_TEST(test_random_bytes_are_no_memory_and_the_robot_starts);
     RUN_TEST(test_zeros_are_no_memory);
@@ -261,5 +404,6 @@ int main(void)
     RUN_TEST(test_a_page_worn_all_over_never_costs_the_memory_in_the_other);
     RUN_TEST(test_power_cut_anywhere_twice_in_a_row_leaves_old_or_new);
     RUN_TEST(test_the_power_cuts_reach_every_operation);
+    RUN_TEST(test_an_unreadable_unit_is_passed_over_and_no_blank_flash);
     return UNITY_END();
 }

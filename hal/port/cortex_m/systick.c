@@ -18,7 +18,6 @@ void systick_start(uint32_t core_hz)
 {
     timer.per_ms = core_hz / DIVISOR / 1000u;
     timer.seen = 0;
-    timer.ms = 0;
     SYSTICK.load = SPAN - 1;
     SYSTICK.val = 0;
     SYSTICK.ctrl = ON;

@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 void systick_start(uint32_t core_hz);
-        /* Time begins at 0 ms. */
+        /* Time passes from here on. To be called once. */
 
 uint32_t machine_ms(void);
         /* Milliseconds since systick_start; wraps. To be asked at least every 0.7 s, else it falls behind. */

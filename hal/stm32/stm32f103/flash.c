@@ -1,6 +1,8 @@
 /* The last two pages (PM0075 2.3). The core stands still while one is written or erased. */
 #include "hal/flash_store/flash.h"
 
+#include <string.h>
+
 #include "hal/stm32/stm32f103/registers.h"
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
@@ -30,9 +32,15 @@ uint32_t flash_page_size(void)
     return PAGE_SIZE;
 }
 
-const void *flash_page(unsigned page)
+uint32_t flash_unit(void)
 {
-    return (const void *)STORE[page];
+    return 4;   /* two halves of a word, one after the other */
+}
+
+int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
+{
+    memcpy(words, (const char *)STORE[page] + offset, count);
+    return 0;
 }
 
 static void unlock(uint32_t setting)
@@ -43,8 +51,8 @@ static void unlock(uint32_t setting)
     FLASH.cr = setting;
 }
 
-/* Locks again as well. */
-static int finish(uint32_t limit_ms)
+/* Waits for what is under way. */
+static int wait(uint32_t limit_ms)
 {
     uint32_t start = machine_ms();
     uint32_t status;
@@ -52,28 +60,34 @@ static int finish(uint32_t limit_ms)
     do
         status = FLASH.sr;
     while (status & SR_BUSY && machine_ms() - start <= limit_ms);
-    FLASH.cr = CR_LOCK;
     line_pump();
     return status & (SR_BUSY | SR_ERRORS) ? -1 : 0;
+}
+
+static int lock(int result)
+{
+    FLASH.cr = CR_LOCK;
+    return result;
 }
 
 static int write_half(volatile uint16_t *at, uint16_t half)
 {
     int result;
 
-    unlock(CR_WRITE);
     *at = half;
-    result = finish(WRITE_MS);
+    result = wait(WRITE_MS);
     return result == 0 && *at == half ? 0 : -1;
 }
 
-int flash_write(unsigned page, uint32_t offset, uint32_t word)
+int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
 {
     volatile uint16_t *at = &STORE[page][offset / 2];
+    int result = 0;
 
-    if (write_half(at, (uint16_t)word) < 0)
-        return -1;
-    return write_half(at + 1, (uint16_t)(word >> 16));
+    unlock(CR_WRITE);
+    for (uint32_t i = 0; i < count / 2 && result == 0; i++)
+        result = write_half(&at[i], (uint16_t)(words[i / 2] >> 16 * (i % 2)));
+    return lock(result);
 }
 
 int flash_erase(unsigned page)
@@ -81,5 +95,5 @@ int flash_erase(unsigned page)
     unlock(CR_ERASE);
     FLASH.ar = (uint32_t)(uintptr_t)STORE[page];
     FLASH.cr = CR_ERASE | CR_START;
-    return finish(ERASE_MS);
+    return lock(wait(ERASE_MS));
 }

@@ -1,6 +1,8 @@
 /* Sectors 1 and 2 (RM0090 3.6). The core stands still while one is written or erased. */
 #include "hal/flash_store/flash.h"
 
+#include <string.h>
+
 #include "hal/stm32/stm32f405/registers.h"
 #include "hal/stm32/machine.h"
 
@@ -33,9 +35,15 @@ uint32_t flash_page_size(void)
     return SECTOR_SIZE;
 }
 
-const void *flash_page(unsigned page)
+uint32_t flash_unit(void)
 {
-    return (const void *)STORE[page];
+    return 4;
+}
+
+int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
+{
+    memcpy(words, (const char *)STORE[page] + offset, count);
+    return 0;
 }
 
 static void unlock(uint32_t setting)
@@ -46,8 +54,8 @@ static void unlock(uint32_t setting)
     FLASH.cr = CR_WORDS | setting;
 }
 
-/* Locks again as well. */
-static int finish(uint32_t limit_ms)
+/* Waits for what is under way. */
+static int wait(uint32_t limit_ms)
 {
     uint32_t start = machine_ms();
     uint32_t status;
@@ -55,18 +63,33 @@ static int finish(uint32_t limit_ms)
     do
         status = FLASH.sr;
     while (status & SR_BUSY && machine_ms() - start <= limit_ms);
-    FLASH.cr = CR_LOCK;
     return status & (SR_BUSY | SR_ERRORS) ? -1 : 0;
 }
 
-int flash_write(unsigned page, uint32_t offset, uint32_t word)
+static int lock(int result)
+{
+    FLASH.cr = CR_LOCK;
+    return result;
+}
+
+static int write_word(volatile uint32_t *at, uint32_t word)
 {
     int result;
 
+    *at = word;
+    result = wait(WRITE_MS);
+    return result == 0 && *at == word ? 0 : -1;
+}
+
+int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
+{
+    volatile uint32_t *at = &STORE[page][offset / 4];
+    int result = 0;
+
     unlock(CR_WRITE);
-    STORE[page][offset / 4] = word;
-    result = finish(WRITE_MS);
-    return result == 0 && STORE[page][offset / 4] == word ? 0 : -1;
+    for (uint32_t i = 0; i < count / 4 && result == 0; i++)
+        result = write_word(&at[i], words[i]);
+    return lock(result);
 }
 
 int flash_erase(unsigned page)
@@ -75,5 +98,5 @@ int flash_erase(unsigned page)
 
     unlock(setting);
     FLASH.cr = CR_WORDS | setting | CR_START;
-    return finish(ERASE_MS);
+    return lock(wait(ERASE_MS));
 }
