@@ -1,0 +1,176 @@
+/* bxCAN, the controller of STM32F1, F2 and F4 (RM0090 32, RM0008 24). */
+#include "hal/stm32/can_controller.h"
+
+#include "hal/stm32/can_timing.h"
+#include "hal/stm32/machine.h"
+#include "hal/stm32/registers.h"
+
+enum {
+    IDS_PER_BANK = 4,
+    MAILBOXES = 3,
+
+    MCR_INRQ = 1 << 0,
+    MCR_TXFP = 1 << 2,            /* mailboxes leave in the order of request */
+    MSR_INAK = 1 << 0,
+    TSR_ABRQ_ALL = 1 << 7 | 1 << 15 | 1 << 23,
+    TSR_TME0 = 1 << 26,
+    RFR_FMP = 3,
+    RFR_FOVR = 1 << 4,
+    RFR_RFOM = 1 << 5,
+    ESR_EPVF = 1 << 1,
+    ESR_BOFF = 1 << 2,
+    FMR_FINIT = 1,
+    ID_TXRQ = 1 << 0,
+    ID_RTR = 1 << 1,
+    ID_IDE = 1 << 2,
+    STANDARD_AT = 21,
+    EXTENDED_AT = 3
+};
+
+bool can_stop(void)
+{
+    uint32_t start = machine_ms();
+
+    CAN1.mcr = MCR_TXFP | MCR_INRQ;
+    while (!(CAN1.msr & MSR_INAK))
+        if (machine_ms() - start > CAN_STOP_MS)
+            return false;
+    return true;
+}
+
+void can_start(void)
+{
+    CAN1.mcr = MCR_TXFP;
+}
+
+bool can_has_joined(void)
+{
+    return !(CAN1.msr & MSR_INAK);
+}
+
+/* As lists of four identifiers a bank, data frames only. A bank that is not full repeats the first. */
+static void set_filters(const uint16_t ids[], size_t count)
+{
+    uint32_t banks = (uint32_t)(count + IDS_PER_BANK - 1) / IDS_PER_BANK;
+    uint32_t in_use = (1u << banks) - 1u;
+
+    CAN1.fmr |= FMR_FINIT;
+    CAN1.fa1r = 0;
+    CAN1.fs1r = 0;
+    CAN1.ffa1r = 0;
+    CAN1.fm1r = in_use;
+    for (size_t i = 0; i < banks * IDS_PER_BANK; i += 2) {
+        uint32_t low = ids[i < count ? i : 0];
+        uint32_t high = ids[i + 1 < count ? i + 1 : 0];
+
+        CAN1.bank[i / IDS_PER_BANK][i / 2 % 2] = high << STANDARD_AT | low << (STANDARD_AT - 16);
+    }
+    CAN1.fa1r = in_use;
+    CAN1.fmr &= ~(uint32_t)FMR_FINIT;
+}
+
+void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_t id_count)
+{
+    uint32_t before = quanta - 1u - CAN_QUANTA_AFTER;
+
+    CAN1.btr = (CAN_QUANTA_JUMP - 1u) << 24 | (CAN_QUANTA_AFTER - 1u) << 20 | (before - 1u) << 16 | (prescaler - 1u);
+    CAN1.ier = 0;
+    set_filters(ids, id_count);
+}
+
+static uint32_t id_from(uint32_t reg)
+{
+    uint32_t id = reg & ID_IDE ? FRAME_EXTENDED | reg >> EXTENDED_AT : reg >> STANDARD_AT;
+
+    return reg & ID_RTR ? id | FRAME_REMOTE : id;
+}
+
+static uint8_t byte_of(const uint32_t data[2], unsigned i)
+{
+    return (uint8_t)(data[i / 4u] >> 8u * (i % 4u));
+}
+
+static void take(struct frame *out)
+{
+    uint32_t data[2] = {CAN1.received[0].data[0], CAN1.received[0].data[1]};
+    uint32_t said = CAN1.received[0].length & 15u;
+    uint32_t len = said < 8 ? said : 8;
+
+    *out = (struct frame){.id = id_from(CAN1.received[0].id), .len = (uint8_t)len};
+    for (unsigned i = 0; i < len; i++)
+        out->data[i] = byte_of(data, i);
+    CAN1.rf0r = RFR_RFOM;
+}
+
+int can_take(struct frame *out)
+{
+    uint32_t fifo = CAN1.rf0r;
+
+    if (fifo & RFR_FOVR) {
+        CAN1.rf0r = RFR_FOVR;
+        return LINK_E_GARBLED;
+    }
+    if (!(fifo & RFR_FMP) || fifo & RFR_RFOM)
+        return 0;
+    take(out);
+    return 1;
+}
+
+/* Number of a free mailbox, or MAILBOXES. */
+static unsigned free_mailbox(void)
+{
+    uint32_t status = CAN1.tsr;
+    unsigned n = 0;
+
+    while (n < MAILBOXES && !(status & (uint32_t)TSR_TME0 << n))
+        n++;
+    return n;
+}
+
+static uint32_t word_of(const uint8_t data[4])
+{
+    return data[0] | (uint32_t)data[1] << 8 | (uint32_t)data[2] << 16 | (uint32_t)data[3] << 24;
+}
+
+static void write_mailbox(volatile struct can_mailbox *mailbox, const struct frame *frame)
+{
+    mailbox->length = frame->len;
+    mailbox->data[0] = word_of(&frame->data[0]);
+    mailbox->data[1] = word_of(&frame->data[4]);
+    mailbox->id = frame->id << STANDARD_AT | ID_TXRQ;
+}
+
+bool can_put(const struct frame *frame)
+{
+    unsigned n = free_mailbox();
+
+    if (n < MAILBOXES)
+        write_mailbox(&CAN1.sent[n], frame);
+    return n < MAILBOXES;
+}
+
+unsigned can_drop(void)
+{
+    unsigned waiting = 0;
+
+    for (unsigned n = 0; n < MAILBOXES; n++)
+        waiting += !(CAN1.tsr & (uint32_t)TSR_TME0 << n);
+    CAN1.tsr = TSR_ABRQ_ALL;
+    return waiting;
+}
+
+static enum bus_state state_of(uint32_t status)
+{
+    if (status & ESR_BOFF)
+        return BUS_OFF;
+    return status & ESR_EPVF ? BUS_PASSIVE : BUS_ACTIVE;
+}
+
+void can_status(struct link_health *out)
+{
+    uint32_t status = CAN1.esr;
+
+    out->state = state_of(status);
+    out->tx_errors = (uint8_t)(status >> 16);
+    out->rx_errors = (uint8_t)(status >> 24);
+}

@@ -1,0 +1,35 @@
+/* can_controller.h: a chip's own CAN controller, as the link over it needs it. Exactly one implementation is linked in. */
+#ifndef OCTET_CAN_CONTROLLER_H
+#define OCTET_CAN_CONTROLLER_H
+
+#include <stdbool.h>
+
+#include "hal/link/link.h"
+
+enum { CAN_STOP_MS = 2 };   /* the frame under way ends first */
+
+bool can_stop(void);
+        /* Leaves the bus; from here on it can be set up. False: it does not answer within CAN_STOP_MS. */
+
+void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_t id_count);
+        /* The bit, as in can_timing.h, and the identifiers to listen for, up to LINK_IDS_MAX: data frames only. */
+
+void can_start(void);
+        /* Joins the bus once that has been idle for 11 bits, without waiting for it; after bus-off, 128 times as long. */
+
+bool can_has_joined(void);
+
+int can_take(struct frame *out);
+        /* What has come, the oldest first: 1, 0 for nothing, or LINK_E_GARBLED where some were lost. */
+
+bool can_put(const struct frame *frame);
+        /* To be sent. False: there is no room for it now. Frames of one identifier leave in the order in which they were
+           put. */
+
+unsigned can_drop(void);
+        /* Forgets what waits to be sent; returns how many frames that was. One under way may still arrive. */
+
+void can_status(struct link_health *out);
+        /* Fills in state, tx_errors and rx_errors. */
+
+#endif

@@ -1,0 +1,118 @@
+/* Frames over the chip's own CAN controller. Nothing here waits without a bound. */
+#include "hal/link/link.h"
+
+#include <stdbool.h>
+
+#include "hal/stm32/can_controller.h"
+#include "hal/stm32/can_timing.h"
+#include "hal/stm32/line.h"
+#include "hal/stm32/machine.h"
+
+enum { RECOVERY_MS = 250 };   /* from bus-off to the next try: four times what a full bus needs */
+
+struct link {
+    uint32_t off_ms;   /* when the last try to recover from bus-off began */
+    bool off;          /* bus-off, and not yet recovered */
+    uint8_t bus_offs;
+    uint8_t dropped;   /* both as in struct link_health */
+};
+
+static struct link the_link;   /* one controller */
+
+int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count)
+{
+    uint32_t clock_hz = machine_clocks().can_hz;
+    uint32_t quanta = can_quanta(clock_hz);
+
+    (void)name;
+    if (id_count > LINK_IDS_MAX || quanta == 0 || !can_stop())
+        return LINK_E_OPEN;
+    can_set_up(clock_hz / (CAN_BITRATE * quanta), quanta, ids, id_count);
+    can_start();
+    the_link = (struct link){.off = false};
+    *link = &the_link;
+    return 0;
+}
+
+static void count(uint8_t *counter, unsigned more)
+{
+    *counter = (uint8_t)(*counter + more < UINT8_MAX ? *counter + more : UINT8_MAX);
+}
+
+static enum bus_state state_now(void)
+{
+    struct link_health now;
+
+    can_status(&now);
+    return now.state;
+}
+
+/* What waits to be sent would be out of date by the time it could be. */
+static void recover(struct link *link)
+{
+    uint32_t now = machine_ms();
+
+    if (link->off && now - link->off_ms < RECOVERY_MS)
+        return;
+    if (!link->off)
+        count(&link->bus_offs, 1);
+    count(&link->dropped, can_drop());
+    link->off = true;
+    link->off_ms = now;
+    if (can_stop())
+        can_start();
+}
+
+static bool is_up(struct link *link)
+{
+    if (state_now() == BUS_OFF) {
+        recover(link);
+        return false;
+    }
+    link->off = false;
+    return can_has_joined();
+}
+
+int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
+{
+    uint32_t start = machine_ms();
+    bool up;
+    int result;
+
+    do {
+        up = is_up(link);
+        result = can_take(out);
+    } while (result == 0 && machine_ms() - start < wait_ms);
+    return result == 0 && !up ? LINK_E_DOWN : result;
+}
+
+int link_send(struct link *link, const struct frame *frame)
+{
+    uint32_t start = machine_ms();
+
+    if (!is_up(link))
+        return LINK_E_DOWN;
+    while (!can_put(frame))
+        if (machine_ms() - start > LINK_SEND_MS) {
+            count(&link->dropped, can_drop());
+            return LINK_E_FULL;
+        }
+    return 0;
+}
+
+/* The controller keeps three frames by itself. */
+void line_pump(void)
+{
+}
+
+void link_health(const struct link *link, struct link_health *out)
+{
+    *out = (struct link_health){.bus_offs = link->bus_offs, .dropped = link->dropped};
+    can_status(out);
+}
+
+void link_close(struct link *link)
+{
+    if (link)
+        (void)can_stop();
+}
