@@ -58,13 +58,12 @@ static enum content look(unsigned page, uint32_t offset, union place *out)
 }
 
 /* Where the rest of a page begins that is blank: what comes before is written, or half written, or worn. */
-static uint32_t used_of(unsigned page)
+static uint32_t used_of(unsigned page, union place *scratch)
 {
     uint32_t size = size_of_place();
     uint32_t used = flash_page_size();
-    union place place;
 
-    while (used > 0 && look(page, used - size, &place) == BLANK)
+    while (used > 0 && look(page, used - size, scratch) == BLANK)
         used -= size;
     return used;
 }
@@ -80,48 +79,49 @@ static bool is_newer(const struct flash_store *store, uint32_t number)
     return !has_record(store) || number - store->number - 1 < UINT32_MAX / 2;
 }
 
-static void read_page(struct flash_store *store, uint8_t page, uint8_t memory[CELL_COUNT])
+static void find_newest(struct flash_store *store, uint8_t page, union place *found, uint8_t memory[CELL_COUNT])
 {
-    union place place;
-
     for (uint32_t at = 0; at < flash_page_size(); at += size_of_place())
-        if (look(page, at, &place) == RECORD && is_newer(store, place.record.number)) {
-            store->number = place.record.number;
+        if (look(page, at, found) == RECORD && is_newer(store, found->record.number)) {
+            store->number = found->record.number;
             store->newest = (uint16_t)at;
             store->kept = page;
-            memcpy(memory, place.record.memory, CELL_COUNT);
+            memcpy(memory, found->record.memory, CELL_COUNT);
         }
 }
 
 int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
 {
-    *store = (struct flash_store){.newest = FLASH_STORE_NOWHERE};
-    for (uint8_t page = 0; page < FLASH_PAGES; page++)
-        read_page(store, page, memory);
-    store->page = store->kept;
-    store->next = (uint16_t)used_of(store->page);
-    if (has_record(store))
-        return 1;
-    return used_of(0) + used_of(1) == 0 ? 0 : HAL_E_STORE;
-}
-
-static bool is_stored(const struct flash_store *store, const union place *wanted)
-{
     union place place;
 
-    return has_record(store) && look(store->kept, store->newest, &place) == RECORD &&
-           place.words[1] == wanted->words[1] && place.words[2] == wanted->words[2];
+    *store = (struct flash_store){.newest = FLASH_STORE_NOWHERE};
+    for (uint8_t page = 0; page < FLASH_PAGES; page++)
+        find_newest(store, page, &place, memory);
+    store->page = store->kept;
+    store->next = (uint16_t)used_of(store->page, &place);
+    if (has_record(store))
+        return 1;
+    return used_of(0, &place) + used_of(1, &place) == 0 ? 0 : HAL_E_STORE;
+}
+
+static bool is_stored(const struct flash_store *store, union place *scratch, const uint8_t memory[CELL_COUNT])
+{
+    uint32_t wanted[CELL_COUNT / 4];
+
+    memcpy(wanted, memory, sizeof wanted);
+    return has_record(store) && look(store->kept, store->newest, scratch) == RECORD &&
+           scratch->words[1] == wanted[0] && scratch->words[2] == wanted[1];
 }
 
 /* Goes on in the page that can be spared. 0, or as flash_store_save. */
-static int turn_page(struct flash_store *store, bool may_erase)
+static int turn_page(struct flash_store *store, union place *scratch, bool may_erase)
 {
     uint8_t spare = 1 - (has_record(store) ? store->kept : store->page);
 
-    if (used_of(spare) > 0) {
+    if (used_of(spare, scratch) > 0) {
         if (!may_erase)
             return FLASH_STORE_LATER;
-        if (flash_erase(spare) < 0 || used_of(spare) > 0)
+        if (flash_erase(spare) < 0 || used_of(spare, scratch) > 0)
             return HAL_E_STORE;
     }
     store->page = spare;
@@ -155,14 +155,14 @@ int flash_store_save(struct flash_store *store, const uint8_t memory[CELL_COUNT]
 {
     union place place;
 
-    make_record(&place, store->number + 1, memory);
-    if (is_stored(store, &place))
+    if (is_stored(store, &place, memory))
         return 0;
     for (unsigned tries = 0; tries < TRIES_MAX; tries++) {
-        int result = store->next < flash_page_size() ? 0 : turn_page(store, may_erase);
+        int result = store->next < flash_page_size() ? 0 : turn_page(store, &place, may_erase);
 
         if (result != 0)
             return result;
+        make_record(&place, store->number + 1, memory);
         if (append(store, &place))
             return 0;
     }

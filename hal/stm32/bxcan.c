@@ -13,7 +13,8 @@ enum {
     MCR_TXFP = 1 << 2,            /* mailboxes leave in the order of request */
     MSR_INAK = 1 << 0,
     TSR_ABRQ_ALL = 1 << 7 | 1 << 15 | 1 << 23,
-    TSR_TME0 = 1 << 26,
+    TSR_TME0 = 1 << 26,           /* mailbox 0 is free */
+    TSR_TME_ALL = 7 << 26,
     RFR_FMP = 3,
     RFR_FOVR = 1 << 4,
     RFR_RFOM = 1 << 5,
@@ -43,9 +44,11 @@ void can_start(void)
     CAN1.mcr = MCR_TXFP;
 }
 
-bool can_has_joined(void)
+enum can_state can_state(void)
 {
-    return !(CAN1.msr & MSR_INAK);
+    if (CAN1.esr & ESR_BOFF)
+        return CAN_LOST;
+    return CAN1.msr & MSR_INAK ? CAN_JOINING : CAN_JOINED;
 }
 
 /* As lists of four identifiers a bank, data frames only. A bank that is not full repeats the first. */
@@ -116,17 +119,6 @@ int can_take(struct frame *out)
     return 1;
 }
 
-/* Number of a free mailbox, or MAILBOXES. */
-static unsigned free_mailbox(void)
-{
-    uint32_t status = CAN1.tsr;
-    unsigned n = 0;
-
-    while (n < MAILBOXES && !(status & (uint32_t)TSR_TME0 << n))
-        n++;
-    return n;
-}
-
 static uint32_t word_of(const uint8_t data[4])
 {
     return data[0] | (uint32_t)data[1] << 8 | (uint32_t)data[2] << 16 | (uint32_t)data[3] << 24;
@@ -142,11 +134,15 @@ static void write_mailbox(volatile struct can_mailbox *mailbox, const struct fra
 
 bool can_put(const struct frame *frame)
 {
-    unsigned n = free_mailbox();
+    uint32_t status = CAN1.tsr;
+    unsigned n = 0;
 
-    if (n < MAILBOXES)
-        write_mailbox(&CAN1.sent[n], frame);
-    return n < MAILBOXES;
+    if (!(status & TSR_TME_ALL))
+        return false;
+    while (!(status & (uint32_t)TSR_TME0 << n))
+        n++;
+    write_mailbox(&CAN1.sent[n], frame);
+    return true;
 }
 
 unsigned can_drop(void)

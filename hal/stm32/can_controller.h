@@ -17,7 +17,10 @@ void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_
 void can_start(void);
         /* Joins the bus once that has been idle for 11 bits, without waiting for it; after bus-off, 128 times as long. */
 
-bool can_has_joined(void);
+enum can_state { CAN_JOINING, CAN_JOINED, CAN_LOST };
+
+enum can_state can_state(void);
+        /* CAN_LOST: bus-off, until can_stop and can_start have had their effect. */
 
 int can_take(struct frame *out);
         /* What has come, the oldest first: 1, 0 for nothing, or LINK_E_GARBLED where some were lost. */

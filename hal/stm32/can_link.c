@@ -39,14 +39,6 @@ static void count(uint8_t *counter, unsigned more)
     *counter = (uint8_t)(*counter + more < UINT8_MAX ? *counter + more : UINT8_MAX);
 }
 
-static enum bus_state state_now(void)
-{
-    struct link_health now;
-
-    can_status(&now);
-    return now.state;
-}
-
 /* What waits to be sent would be out of date by the time it could be. */
 static void recover(struct link *link)
 {
@@ -65,12 +57,13 @@ static void recover(struct link *link)
 
 static bool is_up(struct link *link)
 {
-    if (state_now() == BUS_OFF) {
+    enum can_state state = can_state();
+
+    if (state == CAN_LOST)
         recover(link);
-        return false;
-    }
-    link->off = false;
-    return can_has_joined();
+    else
+        link->off = false;
+    return state == CAN_JOINED;
 }
 
 int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)

@@ -23,7 +23,7 @@ def built(folder: Path, preset: str) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in (folder / "build" / preset).glob("octet-*")}
 
 
-@pytest.mark.parametrize("preset", ["feather_stm32f405", "blue_pill"])
+@pytest.mark.parametrize("preset", ["feather_stm32f405", "blue_pill", "nucleo_g431rb"])
 def test_two_builds_from_different_folders_give_the_same_bytes(preset: str, tmp_path: Path) -> None:
     here = built(tmp_path / "here", preset)
     there = built(tmp_path / "a longer way" / "there", preset)

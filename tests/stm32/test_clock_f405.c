@@ -28,7 +28,6 @@ static void test_the_registers_lie_where_the_manual_has_them(void)
     TEST_ASSERT_EQUAL_HEX(0x40, offsetof(struct rcc_registers, apb1enr));
     TEST_ASSERT_EQUAL_HEX(0x44, offsetof(struct rcc_registers, apb2enr));
     TEST_ASSERT_EQUAL_HEX(0x74, offsetof(struct rcc_registers, csr));
-    TEST_ASSERT_EQUAL_HEX(0x400, sizeof(struct gpio_port));
 }
 
 static void test_without_crystal_and_pll_it_runs_from_the_internal_oscillator(void)

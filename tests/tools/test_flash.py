@@ -53,6 +53,7 @@ def test_every_board_has_a_chip_and_its_links() -> None:
     assert {board.name: (board.chip, *board.links) for board in BOARDS.values()} == {
         "blue_pill": ("stm32f103", "bxcan", "slcan"),
         "feather_stm32f405": ("stm32f405", "bxcan", "slcan"),
+        "nucleo_g431rb": ("stm32g431", "fdcan", "slcan"),
         "olimex_stm32_h405": ("stm32f405", "bxcan", "slcan"),
     }
 
@@ -77,6 +78,8 @@ def test_a_board_that_does_not_exist_is_refused() -> None:
 def test_a_link_that_does_not_exist_is_refused() -> None:
     with pytest.raises(FlashError, match="no link usb on blue_pill; there are bxcan, slcan"):
         build(BOARDS["blue_pill"], "usb")
+    with pytest.raises(FlashError, match="no link bxcan on nucleo_g431rb; there are fdcan, slcan"):
+        build(BOARDS["nucleo_g431rb"], "bxcan")
 
 
 def test_an_image_says_what_it_is(tmp_path: Path) -> None:

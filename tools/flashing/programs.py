@@ -13,13 +13,14 @@ from tools.flashing import FlashError
 from tools.flashing.images import Image
 from tools.flashing.probes import Probe
 
-CHIP_IDS = {"stm32f405": 0x413, "stm32f103": 0x410}
-"""DBGMCU_IDCODE, bits 0..11: RM0090 38.6.1, RM0008 31.6.1."""
+CHIP_IDS = {"stm32f405": 0x413, "stm32f103": 0x410, "stm32g431": 0x468}
+"""DBGMCU_IDCODE, bits 0..11: RM0090 38.6.1, RM0008 31.6.1, RM0440 47.6.1."""
 
 _IDCODE = "0xE0042000"
 _TARGETS = {
     "stm32f405": ("stm32f4x", "stm32f405rg"),
     "stm32f103": ("stm32f1x", "stm32f103c8"),
+    "stm32g431": ("stm32g4x", "stm32g431rb"),
 }
 _OPENOCD_INTERFACES = {"stlink": "stlink", "cmsis-dap": "cmsis-dap", "jlink": "jlink"}
 _TIMEOUT_S = 120

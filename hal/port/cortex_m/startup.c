@@ -19,6 +19,7 @@ extern uint32_t stack_bottom[], stack_top[], data_start[], data_end[], data_imag
 int main(int argc, char *argv[]);
 void startup_reset(void);
 void startup_crash(void);
+void startup_nmi(void) __attribute__((weak, alias("startup_crash")));   /* a chip may have its own */
 void startup_crashed(const uint32_t *frame);
 
 struct vectors {              /* PM0214 2.3.4, PM0056 2.3.4 */
@@ -31,7 +32,7 @@ __attribute__((section(".vectors"), used))
 static const struct vectors vectors = {
     stack_top,
     {
-        startup_reset, startup_crash, startup_crash, startup_crash, startup_crash, startup_crash, NULL, NULL, NULL, NULL,
+        startup_reset, startup_nmi, startup_crash, startup_crash, startup_crash, startup_crash, NULL, NULL, NULL, NULL,
         startup_crash, startup_crash, NULL, startup_crash, startup_crash,
     },
 };

@@ -1,4 +1,4 @@
-# STM32F103: its own drivers, the links that it has, and the shared drivers that each link is made of.
+# STM32F103: its own drivers, and the links that it has with what each is made of.
 set(OCTET_CHIP_SOURCES clock.c pins.c flash.c)
 set(OCTET_LINKS bxcan slcan)
 set(OCTET_LINK_bxcan can_link.c can_timing.c bxcan.c)

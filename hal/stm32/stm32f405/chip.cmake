@@ -1,5 +1,6 @@
-# STM32F405: its own drivers, the links that it has, and the shared drivers that each link is made of.
+# STM32F405: its own drivers, those that it shares, and the links that it has with what each is made of.
 set(OCTET_CHIP_SOURCES clock.c pins.c flash.c)
+set(OCTET_SHARED_SOURCES gpio_f4.c)
 set(OCTET_LINKS bxcan slcan)
 set(OCTET_LINK_bxcan can_link.c can_timing.c bxcan.c)
 set(OCTET_LINK_slcan uart_slcan_link.c uart_f1.c)

@@ -27,25 +27,7 @@ struct flash_registers {      /* 3.9.8 */
     uint32_t cr;              /* rw once unlocked, STRT w1s   3.9.5 */
 };
 
-struct gpio_registers {       /* 8.4.11 */
-    uint32_t moder;           /* rw   two bits a pin */
-    uint32_t otyper;          /* rw */
-    uint32_t ospeedr;         /* rw */
-    uint32_t pupdr;           /* rw   two bits a pin */
-    uint32_t idr;             /* r */
-    uint32_t odr;             /* rw */
-    uint32_t bsrr;            /* w    low half sets, high half clears */
-    uint32_t lckr;            /* rw */
-    uint32_t afr[2];          /* rw   four bits a pin */
-};
-
 extern volatile struct rcc_registers RCC;
 extern volatile struct flash_registers FLASH;
-struct gpio_port {             /* one each 1 KB */
-    struct gpio_registers at;
-    uint32_t reserved[246];
-};
-
-extern volatile struct gpio_port GPIO[9];   /* A..I */
 
 #endif

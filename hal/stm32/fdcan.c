@@ -1,0 +1,178 @@
+/* FDCAN, the controller of STM32G0, G4 and their like (RM0440 44), in classic CAN mode. */
+#include "hal/stm32/can_controller.h"
+
+#include "hal/stm32/can_timing.h"
+#include "hal/stm32/fdcan_registers.h"
+#include "hal/stm32/machine.h"
+
+enum {
+    CCCR_INIT = 1 << 0,
+    CCCR_CCE = 1 << 1,
+    RXGFC_REJECT = 1 << 0 | 1 << 1 | 2 << 2 | 2 << 4,   /* remote frames, and what no filter matches */
+    RXGFC_FILTERS_AT = 16,
+    FILTER_TWO_IDS = 1 << 30,
+    FILTER_TO_FIFO_0 = 1 << 27,
+    TXBC_BY_IDENTIFIER = 1 << 24,
+    TXFQS_NEXT_AT = 16,
+    BUFFERS_ALL = 7,
+    RXF0S_LEVEL = 15,
+    RXF0S_FIRST_AT = 8,
+    RXF0S_LOST = 1 << 25,
+    IR_RF0L = 1 << 2,
+    PSR_ACTIVITY = 3 << 3,         /* 0: not yet in step with the bus */
+    PSR_EP = 1 << 5,
+    PSR_BO = 1 << 7,
+    ID_EXTENDED = 1 << 30,
+    ID_REMOTE = 1 << 29,
+    ID_MASK = (1 << 29) - 1,
+    STANDARD_AT = 18,
+    LENGTH_AT = 16
+};
+
+/* CCE gives access to all that sets it up. It also makes the controller forget what waits to be sent and what has come. */
+bool can_stop(void)
+{
+    uint32_t start = machine_ms();
+
+    FDCAN.cccr = CCCR_INIT;
+    do
+        if (machine_ms() - start > CAN_STOP_MS)
+            return false;
+    while (!(FDCAN.cccr & CCCR_INIT));
+    FDCAN.cccr = CCCR_INIT | CCCR_CCE;
+    return true;
+}
+
+void can_start(void)
+{
+    FDCAN.cccr = 0;
+}
+
+enum can_state can_state(void)
+{
+    uint32_t status = FDCAN.psr;
+
+    if (status & PSR_BO)
+        return CAN_LOST;
+    return FDCAN.cccr & CCCR_INIT || !(status & PSR_ACTIVITY) ? CAN_JOINING : CAN_JOINED;
+}
+
+/* Two identifiers a filter; an odd one is there twice. */
+static void set_filters(const uint16_t ids[], size_t count)
+{
+    uint32_t filters = (uint32_t)(count + 1) / 2;
+
+    for (size_t i = 0; i < filters; i++) {
+        uint32_t first = ids[2 * i];
+        uint32_t second = ids[2 * i + 1 < count ? 2 * i + 1 : 2 * i];
+
+        FDCAN_RAM.standard_filters[i] = FILTER_TWO_IDS | FILTER_TO_FIFO_0 | first << 16 | second;
+    }
+    FDCAN.rxgfc = RXGFC_REJECT | filters << RXGFC_FILTERS_AT;
+}
+
+void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_t id_count)
+{
+    uint32_t before = quanta - 1u - CAN_QUANTA_AFTER;
+
+    FDCAN.nbtp = (CAN_QUANTA_JUMP - 1u) << 25 | (prescaler - 1u) << 16 | (before - 1u) << 8 | (CAN_QUANTA_AFTER - 1u);
+    FDCAN.txbc = TXBC_BY_IDENTIFIER;
+    FDCAN.ie = 0;
+    FDCAN.ile = 0;
+    set_filters(ids, id_count);
+    FDCAN.ir = IR_RF0L;
+}
+
+static uint32_t id_from(uint32_t word)
+{
+    uint32_t id = word & ID_MASK;
+
+    id = word & ID_EXTENDED ? FRAME_EXTENDED | id : id >> STANDARD_AT;
+    return word & ID_REMOTE ? id | FRAME_REMOTE : id;
+}
+
+static void read_element(const volatile struct fdcan_element *element, struct frame *out)
+{
+    uint32_t data[2] = {element->data[0], element->data[1]};
+    uint32_t said = element->control >> LENGTH_AT & 15u;
+    uint32_t len = said < 8 ? said : 8;
+
+    *out = (struct frame){.id = id_from(element->id), .len = (uint8_t)len};
+    for (unsigned i = 0; i < len; i++)
+        out->data[i] = (uint8_t)(data[i / 4u] >> 8u * (i % 4u));
+}
+
+int can_take(struct frame *out)
+{
+    uint32_t fifo = FDCAN.rxf0s;
+    uint32_t first = fifo >> RXF0S_FIRST_AT & 3u;
+
+    if (fifo & RXF0S_LOST) {
+        FDCAN.ir = IR_RF0L;
+        return LINK_E_GARBLED;
+    }
+    if (!(fifo & RXF0S_LEVEL))
+        return 0;
+    read_element(&FDCAN_RAM.received_0[first], out);
+    FDCAN.rxf0a = first;
+    return 1;
+}
+
+/* The lowest identifier leaves first, whichever was put first; but two that are equal would leave by buffer, so that the second
+ * has to wait. The last free buffer is for a frame that outranks all that wait: less urgent ones never hold it up. */
+static bool has_room(uint32_t id)
+{
+    uint32_t waiting = FDCAN.txbrp & BUFFERS_ALL;
+    bool outranks_all = true;
+    unsigned count = 0;
+
+    for (unsigned n = 0; n < FDCAN_ELEMENTS; n++)
+        if (waiting >> n & 1u) {
+            uint32_t other = FDCAN_RAM.sent[n].id;
+
+            if (other == id)
+                return false;
+            outranks_all = outranks_all && id < other;
+            count++;
+        }
+    return count + 1 < FDCAN_ELEMENTS || (count < FDCAN_ELEMENTS && outranks_all);
+}
+
+static uint32_t word_of(const uint8_t data[4])
+{
+    return data[0] | (uint32_t)data[1] << 8 | (uint32_t)data[2] << 16 | (uint32_t)data[3] << 24;
+}
+
+bool can_put(const struct frame *frame)
+{
+    uint32_t id = frame->id << STANDARD_AT;
+    uint32_t next = FDCAN.txfqs >> TXFQS_NEXT_AT & 3u;
+    volatile struct fdcan_element *element = &FDCAN_RAM.sent[next];
+
+    if (!has_room(id))
+        return false;
+    element->id = id;
+    element->control = (uint32_t)frame->len << LENGTH_AT;
+    element->data[0] = word_of(&frame->data[0]);
+    element->data[1] = word_of(&frame->data[4]);
+    FDCAN.txbar = 1u << next;
+    return true;
+}
+
+unsigned can_drop(void)
+{
+    uint32_t waiting = FDCAN.txbrp & BUFFERS_ALL;
+
+    FDCAN.txbcr = waiting;
+    return (waiting & 1u) + (waiting >> 1 & 1u) + (waiting >> 2);
+}
+
+void can_status(struct link_health *out)
+{
+    uint32_t status = FDCAN.psr;
+    uint32_t errors = FDCAN.ecr;
+
+    out->state = status & PSR_BO ? BUS_OFF : status & PSR_EP ? BUS_PASSIVE : BUS_ACTIVE;
+    out->tx_errors = (uint8_t)errors;
+    out->rx_errors = (uint8_t)(errors >> 8 & 0x7Fu);
+}

@@ -1,0 +1,6 @@
+# STM32G431: its own drivers, those that it shares, and the links that it has with what each is made of.
+set(OCTET_CHIP_SOURCES clock.c pins.c flash.c nmi.c)
+set(OCTET_SHARED_SOURCES gpio_f4.c)
+set(OCTET_LINKS fdcan slcan)
+set(OCTET_LINK_fdcan can_link.c can_timing.c fdcan.c)
+set(OCTET_LINK_slcan uart_slcan_link.c uart_g4.c)

@@ -1,0 +1,20 @@
+#include "hal/stm32/chip.h"
+#include "hal/stm32/gpio_f4.h"
+#include "hal/stm32/stm32g431/registers.h"
+
+enum {
+    GPIO_A_TO_C = 7,              /* in ahb2enr */
+    FDCAN_ON = 1u << 25,          /* in apb1enr1 */
+    USART2_ON = 1u << 17,
+    CCIPR_FDCAN_PCLK1 = 2u << 24, /* else straight from the crystal, which may not be there */
+    AF_USART2 = 7,
+    AF_FDCAN1 = 9
+};
+
+void pins_start(void)
+{
+    RCC.ahb2enr |= GPIO_A_TO_C;
+    RCC.ccipr = CCIPR_FDCAN_PCLK1;
+    RCC.apb1enr1 |= FDCAN_ON | USART2_ON;
+    gpio_start(AF_FDCAN1, AF_USART2);
+}

@@ -1,0 +1,48 @@
+/* stm32g431/registers.h: what the STM32G431 has in its own way (RM0440). Notation as in hal/stm32/registers.h. */
+#ifndef OCTET_STM32G431_REGISTERS_H
+#define OCTET_STM32G431_REGISTERS_H
+
+#include <stdint.h>
+
+struct rcc_registers {        /* 7.4 */
+    uint32_t cr;              /* rw, ready bits r */
+    uint32_t icscr;           /* rw */
+    uint32_t cfgr;            /* rw, SWS r */
+    uint32_t pllcfgr;         /* rw while the PLL is off */
+    uint32_t reserved_1[2];
+    uint32_t cier;            /* rw */
+    uint32_t cifr;            /* r */
+    uint32_t cicr;            /* w1c */
+    uint32_t reserved_2;
+    uint32_t ahb_rstr[3];     /* rw */
+    uint32_t reserved_3;
+    uint32_t apb_rstr[3];     /* rw */
+    uint32_t reserved_4;
+    uint32_t ahb1enr;         /* rw */
+    uint32_t ahb2enr;         /* rw */
+    uint32_t ahb3enr;         /* rw */
+    uint32_t reserved_5;
+    uint32_t apb1enr1;        /* rw */
+    uint32_t apb1enr2;        /* rw */
+    uint32_t apb2enr;         /* rw */
+    uint32_t reserved_6[9];
+    uint32_t ccipr;           /* rw   clocks of peripherals */
+    uint32_t reserved_7;
+    uint32_t bdcr;            /* rw */
+    uint32_t csr;             /* reset flags r, RMVF rw */
+};
+
+struct flash_registers {      /* 5.7 */
+    uint32_t acr;             /* rw */
+    uint32_t pdkeyr;          /* w */
+    uint32_t keyr;            /* w */
+    uint32_t optkeyr;         /* w */
+    uint32_t sr;              /* w1c, BSY r */
+    uint32_t cr;              /* rw once unlocked, STRT w1s */
+    uint32_t eccr;            /* flags w1c, address r   error correction */
+};
+
+extern volatile struct rcc_registers RCC;
+extern volatile struct flash_registers FLASH;
+
+#endif

@@ -1,0 +1,171 @@
+#include "fdcan_model.h"
+
+#include <string.h>
+
+#include "hal/stm32/fdcan_registers.h"
+
+enum {
+    INIT = 1, CCE = 2, BY_IDENTIFIER = 1 << 24,
+    EXTENDED = 1 << 30, REMOTE = 1 << 29,
+    NOTHING_READ = 0xFF,        /* no place of the FIFO: the driver has not written RXF0A since */
+    NEW = 1, LOST = 4,          /* in IR */
+    IDLE = 1 << 3, BUS_OFF_FLAG = 1 << 7
+};
+
+volatile struct fdcan_registers FDCAN;
+volatile struct fdcan_ram FDCAN_RAM;
+struct fdcan_model fdcan;
+
+void fdcan_reset(void)
+{
+    memset((void *)&FDCAN, 0, sizeof FDCAN);
+    memset((void *)&FDCAN_RAM, 0xA5, sizeof FDCAN_RAM);
+    memset(&fdcan, 0, sizeof fdcan);
+    FDCAN.cccr = INIT;
+    FDCAN.nbtp = 0x06000A03;
+    FDCAN.psr = 0x707;
+    FDCAN.ie = FDCAN.ile = 3;   /* as a boot loader may leave them */
+    FDCAN.rxf0a = NOTHING_READ;
+    fdcan.in_init = true;
+    fdcan.clocks = (struct clocks){80000000, 80000000, 80000000, true};
+    fdcan_step();
+}
+
+static void forget_all(void)
+{
+    FDCAN.txbrp = FDCAN.txbar = 0;
+    fdcan.waiting = fdcan.first = 0;
+    fdcan.lost = false;
+}
+
+static void step_mode(void)
+{
+    bool wanted = FDCAN.cccr & INIT;
+
+    if (fdcan.ignores_init)
+        FDCAN.cccr &= ~(uint32_t)INIT;
+    else if (wanted && !fdcan.in_init)
+        fdcan.inits++;
+    if (!wanted && fdcan.in_init) {
+        fdcan.recovering = fdcan.bus_off;
+        fdcan.recovering_us = fdcan.now_us;
+    }
+    fdcan.in_init = wanted && !fdcan.ignores_init;
+    fdcan.joined = !fdcan.in_init && !fdcan.bus_off && (fdcan.joined || !fdcan.bus_busy);
+    if (fdcan.in_init && FDCAN.cccr & CCE)
+        forget_all();
+}
+
+static void step_recovery(void)
+{
+    if (fdcan.recovering && !fdcan.stays_off && fdcan.now_us - fdcan.recovering_us >= MODEL_RECOVERY_US) {
+        fdcan.recovering = fdcan.bus_off = false;
+        fdcan.bus_offs_recovered++;
+    }
+    FDCAN.psr = 0x707u | (fdcan.joined ? IDLE : 0u) | (fdcan.bus_off ? BUS_OFF_FLAG : 0u) | (FDCAN.psr & 0x60u);
+}
+
+/* By identifier, and equal ones by number. In a FIFO it would be the oldest, which no driver of ours asks for. */
+static int next_to_send(void)
+{
+    int next = -1;
+
+    for (int n = 0; n < FDCAN_ELEMENTS; n++)
+        if (FDCAN.txbrp >> n & 1u && (next < 0 || FDCAN_RAM.sent[n].id < FDCAN_RAM.sent[next].id))
+            next = n;
+    return FDCAN.txbc & BY_IDENTIFIER ? next : -1;
+}
+
+static void send_from(int n)
+{
+    const volatile struct fdcan_element *element = &FDCAN_RAM.sent[n];
+    struct frame *frame = &fdcan.sent[fdcan.sent_count++ % MODEL_SENT_MAX];
+
+    *frame = (struct frame){.id = element->id >> 18, .len = (uint8_t)(element->control >> 16 & 15u)};
+    memcpy(frame->data, (const void *)element->data, 8);
+    FDCAN.txbrp &= ~(1u << n);
+}
+
+static void step_transmit(void)
+{
+    int next;
+
+    FDCAN.txbrp |= FDCAN.txbar;
+    for (unsigned n = 0; n < FDCAN_ELEMENTS; n++)
+        fdcan.cancelled += (FDCAN.txbrp & FDCAN.txbcr) >> n & 1u;
+    FDCAN.txbrp &= ~FDCAN.txbcr;
+    FDCAN.txbar = FDCAN.txbcr = 0;
+    while (fdcan.joined && !fdcan.bus_busy && (next = next_to_send()) >= 0)
+        send_from(next);
+    FDCAN.txfqs = 1u << 21;
+    for (unsigned n = FDCAN_ELEMENTS; n-- > 0;)
+        if (!(FDCAN.txbrp >> n & 1u))
+            FDCAN.txfqs = n << 16;
+}
+
+static void step_receive(void)
+{
+    if (FDCAN.rxf0a != NOTHING_READ && fdcan.waiting > 0 && FDCAN.rxf0a == fdcan.first) {
+        fdcan.first = (fdcan.first + 1) % FDCAN_ELEMENTS;
+        fdcan.waiting--;
+    }
+    FDCAN.rxf0a = NOTHING_READ;
+    if (FDCAN.ir == LOST)   /* written: what it shows has NEW as well */
+        fdcan.lost = false;
+    FDCAN.ir = NEW | (fdcan.lost ? LOST : 0u);
+    FDCAN.rxf0s = fdcan.waiting | fdcan.first << 8 | (fdcan.lost ? 1u << 25 : 0u);
+}
+
+void fdcan_step(void)
+{
+    step_mode();
+    step_recovery();
+    step_transmit();
+    step_receive();
+}
+
+static void store(const struct frame *frame)
+{
+    volatile struct fdcan_element *element = &FDCAN_RAM.received_0[(fdcan.first + fdcan.waiting++) % FDCAN_ELEMENTS];
+
+    element->id = frame->id & FRAME_EXTENDED ? EXTENDED | (frame->id & 0x1FFFFFFFu) : (frame->id & 0x7FFu) << 18;
+    if (frame->id & FRAME_REMOTE)
+        element->id |= REMOTE;
+    element->control = 0x8100ABCDu | (uint32_t)frame->len << 16;   /* a filter's number and a time stamp that nobody asked for */
+    memcpy((void *)element->data, frame->data, 8);
+}
+
+void fdcan_bring(const struct frame *frame)
+{
+    fdcan_step();
+    if (fdcan.waiting == MODEL_FIFO_DEPTH)
+        fdcan.lost = true;
+    else
+        store(frame);
+    fdcan_step();
+}
+
+bool fdcan_filter_passes(uint32_t id)
+{
+    unsigned filters = FDCAN.rxgfc >> 16 & 31u;
+
+    for (unsigned n = 0; n < filters; n++) {
+        uint32_t filter = FDCAN_RAM.standard_filters[n];
+
+        if (filter >> 27 == (1u << 3 | 1u) && ((filter >> 16 & 0x7FFu) == id || (filter & 0x7FFu) == id))
+            return true;
+    }
+    return !(FDCAN.rxgfc >> 4 & 2u);
+}
+
+uint32_t machine_ms(void)
+{
+    fdcan.now_us += MODEL_LOOK_US;
+    fdcan_step();
+    return fdcan.now_us / 1000;
+}
+
+struct clocks machine_clocks(void)
+{
+    return fdcan.clocks;
+}

@@ -1,0 +1,56 @@
+/* fdcan_model.h: FDCAN as its manual has it, behind registers and message RAM in RAM. It looks at them, and time passes, whenever
+ * the driver asks for the time. */
+#ifndef OCTET_FDCAN_MODEL_H
+#define OCTET_FDCAN_MODEL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "hal/link/link.h"
+#include "hal/stm32/machine.h"
+
+enum {
+    MODEL_SENT_MAX = 64,
+    MODEL_FIFO_DEPTH = 3,
+    MODEL_LOOK_US = 50,        /* from one look at the clock to the next */
+    MODEL_RECOVERY_US = 3000   /* 129 times 11 bits at 500 kbit/s, and a little */
+};
+
+struct fdcan_model {
+    struct clocks clocks;
+    uint32_t now_us;
+
+    bool ignores_init;         /* INIT is never read back */
+    bool bus_busy;             /* nothing can be sent, and the bus cannot be joined */
+    bool bus_off;
+    bool stays_off;            /* the idle times that end bus-off never come */
+    bool joined;
+    bool recovering;
+    uint32_t recovering_us;
+    unsigned inits;            /* times that init was entered */
+    unsigned bus_offs_recovered;
+    bool in_init;
+
+    struct frame sent[MODEL_SENT_MAX];
+    unsigned sent_count;
+    unsigned cancelled;
+
+    unsigned first, waiting;   /* of the elements of FIFO 0 */
+    bool lost;
+};
+
+extern struct fdcan_model fdcan;
+
+void fdcan_reset(void);
+        /* As after a reset, with garbage wherever the manual promises nothing. */
+
+void fdcan_step(void);
+        /* Looks at the registers, as each machine_ms does, but no time passes. */
+
+void fdcan_bring(const struct frame *frame);
+        /* A frame arrives that the filters let through. A fourth one is lost. */
+
+bool fdcan_filter_passes(uint32_t id);
+        /* Would the filters let a data frame with this standard identifier through? */
+
+#endif
