@@ -54,7 +54,7 @@ enum can_state can_state(void)
 
     if (status & PSR_BO)
         return CAN_LOST;
-    return FDCAN.cccr & CCCR_INIT || !(status & PSR_ACTIVITY) ? CAN_JOINING : CAN_JOINED;
+    return status & PSR_ACTIVITY ? CAN_JOINED : CAN_JOINING;
 }
 
 /* Two identifiers a filter; an odd one is there twice. */

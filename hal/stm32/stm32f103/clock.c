@@ -1,5 +1,6 @@
 /* 72 MHz from the board's 8 MHz crystal, or 64 MHz from the internal oscillator. */
 #include "hal/stm32/chip.h"
+#include "hal/stm32/comes_up.h"
 #include "hal/stm32/stm32f103/registers.h"
 
 #if OCTET_CRYSTAL_MHZ != 8
@@ -8,7 +9,6 @@
 
 enum {
     CSR_FORGET = 1 << 24,
-    WAIT_MAX = 10000,            /* looks at a flag: some 5 ms at 8 MHz; a crystal starts in 2 ms, the PLL in 0.2 ms */
     HSION = 1u << 0,
     HSEON = 1u << 16,
     HSERDY = 1u << 17,
@@ -24,14 +24,6 @@ enum {
     ACR_2_WAITS = 2,             /* above 48 MHz */
     ACR_PREFETCH = 1u << 4
 };
-
-static bool comes_up(volatile const uint32_t *reg, uint32_t mask, uint32_t wanted)
-{
-    for (unsigned i = 0; i < WAIT_MAX; i++)
-        if ((*reg & mask) == wanted)
-            return true;
-    return false;
-}
 
 static bool start_crystal(void)
 {

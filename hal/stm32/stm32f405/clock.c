@@ -1,10 +1,10 @@
 /* 168 MHz from the board's crystal, or from the internal 16 MHz. */
 #include "hal/stm32/chip.h"
+#include "hal/stm32/comes_up.h"
 #include "hal/stm32/stm32f405/registers.h"
 
 enum {
     CSR_FORGET = 1 << 24,
-    WAIT_MAX = 20000,          /* looks at a flag: some 5 ms at 16 MHz; a crystal starts in 2 ms, the PLL in 0.3 ms */
     HSION = 1u << 0,
     HSEON = 1u << 16,
     HSERDY = 1u << 17,
@@ -23,14 +23,6 @@ enum {
     ACR_5_WAITS = 5,             /* at 168 MHz and 3.3 V, 3.5.1 */
     ACR_CACHES = 3u << 8         /* prefetch and instruction cache; a data cache would remember what the store was */
 };
-
-static bool comes_up(volatile const uint32_t *reg, uint32_t mask, uint32_t wanted)
-{
-    for (unsigned i = 0; i < WAIT_MAX; i++)
-        if ((*reg & mask) == wanted)
-            return true;
-    return false;
-}
 
 static bool start_crystal(void)
 {

@@ -3,6 +3,7 @@
  * The chip can do 170 MHz, after a voltage boost and a rest at half speed; a tick takes 3,000 instructions, and from 80 MHz
  * a bit of CAN has 16 quanta. */
 #include "hal/stm32/chip.h"
+#include "hal/stm32/comes_up.h"
 #include "hal/stm32/stm32g431/registers.h"
 
 #if OCTET_CRYSTAL_MHZ % 4 != 0
@@ -11,7 +12,6 @@
 
 enum {
     CSR_FORGET = 1 << 23,
-    WAIT_MAX = 20000,            /* looks at a flag: some 5 ms at 16 MHz; a crystal starts in 2 ms, the PLL in 0.1 ms */
     HSEON = 1u << 16,
     HSERDY = 1u << 17,
     PLLON = 1u << 24,
@@ -32,14 +32,6 @@ enum {
     ACR_CACHES = 3u << 8,        /* prefetch and instruction cache; a data cache would remember what the store was */
     ACR_DEBUGGER = 1u << 18
 };
-
-static bool comes_up(volatile const uint32_t *reg, uint32_t mask, uint32_t wanted)
-{
-    for (unsigned i = 0; i < WAIT_MAX; i++)
-        if ((*reg & mask) == wanted)
-            return true;
-    return false;
-}
 
 static bool start_crystal(void)
 {
