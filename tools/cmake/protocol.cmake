@@ -18,6 +18,10 @@ add_custom_command(
   DEPENDS ${OCTET_DBC}
   COMMENT "Generating the wire's C code from octet.dbc"
   VERBATIM)
+# Beside the command that makes it: a target elsewhere would not know of the command.
+add_library(octet_dbc STATIC ${OCTET_GENERATED}/octet.c)
+target_include_directories(octet_dbc SYSTEM PUBLIC ${OCTET_GENERATED})
+
 add_custom_command(
   OUTPUT ${OCTET_GENERATED}/robot_words.h
   COMMAND ${python} ${generate} --c ${OCTET_GENERATED}/robot_words.h
