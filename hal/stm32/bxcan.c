@@ -1,6 +1,8 @@
 /* bxCAN, the controller of STM32F1, F2 and F4 (RM0090 32, RM0008 24). */
 #include "hal/stm32/can_controller.h"
 
+#include <string.h>
+
 #include "hal/stm32/can_timing.h"
 #include "hal/stm32/machine.h"
 #include "hal/stm32/registers.h"
@@ -88,11 +90,6 @@ static uint32_t id_from(uint32_t reg)
     return reg & ID_RTR ? id | FRAME_REMOTE : id;
 }
 
-static uint8_t byte_of(const uint32_t data[2], unsigned i)
-{
-    return (uint8_t)(data[i / 4u] >> 8u * (i % 4u));
-}
-
 static void take(struct frame *out)
 {
     uint32_t data[2] = {CAN1.received[0].data[0], CAN1.received[0].data[1]};
@@ -100,8 +97,7 @@ static void take(struct frame *out)
     uint32_t len = said < 8 ? said : 8;
 
     *out = (struct frame){.id = id_from(CAN1.received[0].id), .len = (uint8_t)len};
-    for (unsigned i = 0; i < len; i++)
-        out->data[i] = byte_of(data, i);
+    memcpy(out->data, data, len);   /* the core has the first byte lowest, too */
     CAN1.rf0r = RFR_RFOM;
 }
 

@@ -1,6 +1,8 @@
 /* FDCAN, the controller of STM32G0, G4 and their like (RM0440 44), in classic CAN mode. */
 #include "hal/stm32/can_controller.h"
 
+#include <string.h>
+
 #include "hal/stm32/can_timing.h"
 #include "hal/stm32/fdcan_registers.h"
 #include "hal/stm32/machine.h"
@@ -98,8 +100,7 @@ static void read_element(const volatile struct fdcan_element *element, struct fr
     uint32_t len = said < 8 ? said : 8;
 
     *out = (struct frame){.id = id_from(element->id), .len = (uint8_t)len};
-    for (unsigned i = 0; i < len; i++)
-        out->data[i] = (uint8_t)(data[i / 4u] >> 8u * (i % 4u));
+    memcpy(out->data, data, len);   /* the core has the first byte lowest, too */
 }
 
 int can_take(struct frame *out)
