@@ -62,7 +62,9 @@ def _message(frame: Frame) -> can.Message:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog="python -m host_sim.emulator", description=__doc__, epilog=_EXAMPLE)
-    parser.add_argument("--board", choices=CHIPS, default="feather_stm32f405", help="which board (default: %(default)s)")
+    parser.add_argument(
+        "--board", choices=CHIPS, default="feather_stm32f405", help="which board (default: %(default)s)"
+    )
     parser.add_argument("--bus", metavar="INTERFACE:CHANNEL", required=True, help="the python-can bus that it joins")
     return parser
 
