@@ -4,6 +4,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -117,12 +118,16 @@ def test_a_moved_folder_is_repaired_without_a_network(tree: Tree) -> None:
     assert done.returncode == 0
     assert tree.installed() == []
     assert "cmake" in calls
-    assert (tree.folder / ".venv/bin/script").read_text() == f"#!{tree.folder}/.venv/bin/python\n"
 
 
-def test_scripts_name_the_python_of_the_place_where_they_end_up(tree: Tree) -> None:
-    tree.setup()
-    assert (tree.folder / ".venv/bin/script").read_text() == f"#!{tree.folder}/.venv/bin/python\n"
+def test_scripts_run_where_they_end_up_and_after_each_move(tree: Tree) -> None:
+    for name in ("there", "a tree again", "there"):
+        tree.setup()
+        script = tree.folder / ".venv/bin/script"
+        script.chmod(0o755)
+        subprocess.run([script, "word"], env={**os.environ, "CALLS": str(tree.calls)}, check=True)
+        assert tree.calls.read_text().splitlines()[-1] == f"python {script} word"
+        tree.folder = tree.folder.rename(tree.folder.with_name(name))
 
 
 def test_a_changed_lock_file_is_installed(tree: Tree) -> None:
@@ -244,3 +249,17 @@ def test_octet_sets_up_what_the_options_need(words: str, tmp_path: Path) -> None
     shutil.copy(ROOT / "tools/octet", tmp_path / "tools")
     said = subprocess.check_output([tmp_path / "tools/octet", *words.split()], text=True)
     assert said.splitlines() == [STAGES[words], f"-m host_sim {words}"]
+
+
+@pytest.mark.parametrize("package", ["unicorn", "elftools"])
+def test_without_the_emulator_the_stage_that_brings_it_is_named(package: str) -> None:
+    program = (
+        "import importlib.util, sys\n"
+        "find = importlib.util.find_spec\n"
+        f"importlib.util.find_spec = lambda name, *rest: None if name == {package!r} else find(name, *rest)\n"
+        "from host_sim.cli.main import main\n"
+        "sys.exit(main(['run', '--robot', 'emulated', '--environments', '1']))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr == f"octet: {package} is not installed: run tools/setup emulator\n"
