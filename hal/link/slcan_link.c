@@ -145,6 +145,8 @@ static int write_by(int64_t deadline, int fd, const char *text, size_t len)
         ssize_t took = write(fd, text, len);
         if (took == 0 || (took < 0 && errno != EAGAIN && errno != EINTR))
             return LINK_E_CLOSED;
+        if (took < 0 && errno == EINTR && deadline_left_ms(deadline) > 0)
+            continue;   /* a signal, not a full line: no rest */
         if (took < 0 && !deadline_pause(deadline))
             return LINK_E_FULL;
         if (took < 0)
