@@ -18,7 +18,8 @@ ROOT = Path(__file__).resolve().parents[2]
 LOCKS = ("requirements.lock", "requirements-emulator.lock", "requirements-tests.lock")
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
-# cmake and tools/generate make what they are to make. With a file beside the notes, installing that lock fails, as without a network.
+# cmake and tools/generate make what they are to make. With a file beside the notes, installing that lock fails, as
+# without a network.
 STAND_IN = """#!/bin/bash
 [ "$*" = --version ] || echo "${0##*/} $*" >>"$CALLS"
 case "${0##*/} $*" in
@@ -166,6 +167,14 @@ def test_a_later_stage_adds_to_what_is_there(tree: Tree) -> None:
     tree.setup("run")
     tree.setup("emulator")
     assert tree.installed() == ["requirements-emulator.lock"]
+
+
+def test_a_new_venv_has_the_stages_of_the_old_one(tree: Tree) -> None:
+    tree.setup("emulator")
+    tree.change("requirements.lock")
+    tree.setup("run")
+    assert tree.installed() == ["requirements.lock", "requirements-emulator.lock"]
+    assert tree.setup("emulator")[1] == ["ninja"]
 
 
 def test_a_stage_that_was_broken_off_is_resumed(tree: Tree) -> None:
