@@ -4,7 +4,6 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -258,17 +257,3 @@ def test_octet_sets_up_what_the_options_need(words: str, tmp_path: Path) -> None
     shutil.copy(ROOT / "tools/octet", tmp_path / "tools")
     said = subprocess.check_output([tmp_path / "tools/octet", *words.split()], text=True)
     assert said.splitlines() == [STAGES[words], f"-m host_sim {words}"]
-
-
-@pytest.mark.parametrize("package", ["unicorn", "elftools"])
-def test_without_the_emulator_the_stage_that_brings_it_is_named(package: str) -> None:
-    program = (
-        "import importlib.util, sys\n"
-        "find = importlib.util.find_spec\n"
-        f"importlib.util.find_spec = lambda name, *rest: None if name == {package!r} else find(name, *rest)\n"
-        "from host_sim.cli.main import main\n"
-        "sys.exit(main(['run', '--robot', 'emulated', '--environments', '1']))\n"
-    )
-    done = subprocess.run([sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True, check=False)
-    assert done.returncode == 1
-    assert done.stderr == f"octet: {package} is not installed: run tools/setup emulator\n"
