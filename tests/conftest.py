@@ -1,14 +1,19 @@
 """No test is skipped in silence: a skip is a failure, unless `--allow-missing NAME` allows skips for that reason.
 
 A test that cannot run says `pytest.skip("NAME: what is missing")`.
+
+With `--progress FILE`, tools/test can tell at any time what has passed and what is running.
 """
 
+import json
 from collections.abc import Generator
+from pathlib import Path
 
 import pytest
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--progress", metavar="FILE", help="append a line of JSON whenever a test begins or ends")
     parser.addoption("--allow-missing", action="append", default=[], metavar="NAME", help="allow skips due to NAME")
 
 
@@ -35,3 +40,34 @@ def pytest_make_collect_report(
     report = yield
     fail_if_skipped(report, collector.config)
     return report
+
+
+class Progress:
+    """Notes what happens to each test: [event, test, reason]."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def note(self, event: str, test: str, reason: str = "") -> None:
+        with self.path.open("a") as file:
+            file.write(json.dumps([event, test, reason]) + "\n")
+
+    def pytest_runtest_logstart(self, nodeid: str) -> None:
+        self.note("running", nodeid)
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        if report.skipped:
+            reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
+            self.note("skipped", report.nodeid, reason.removeprefix("Skipped: "))
+        elif report.failed or report.when == "call":
+            self.note(report.outcome, report.nodeid)
+
+    def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+        if report.failed:
+            self.note("failed", report.nodeid)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    path = config.getoption("progress")
+    if path and not hasattr(config, "workerinput"):  # what runs in xdist's workers is heard by their controller
+        config.pluginmanager.register(Progress(Path(path)))

@@ -2,31 +2,36 @@
 
 #include <stdlib.h>
 
-struct session *session_open(uint8_t node, const uint8_t memory[CELL_COUNT])
+struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT])
 {
-    struct session *session = malloc(sizeof *session);
+    struct octet *octet = malloc(sizeof *octet);
 
-    if (!session)
+    if (!octet)
         return NULL;
-    robot_init(&session->robot, 0);
-    (void)memory_adopt(&session->robot.brain.memory, memory);
-    wire_init(&session->wire, node);
-    return session;
+    robot_init(&octet->robot, 0);
+    (void)memory_adopt(&octet->robot.brain.memory, memory);
+    wire_init(&octet->wire, node);
+    return octet;
 }
 
-size_t session_exchange(struct session *session, const struct frame *in, struct frame out[WIRE_FRAMES_MAX])
+size_t octet_exchange(struct octet *octet, const struct frame *in)
 {
     struct input input;
     struct output output;
-    enum input_kind kind = wire_read(&session->wire, in, &input);
+    enum input_kind kind = wire_read(&octet->wire, in, &input);
 
     if (kind == INPUT_SILENCE)
         return 0;
-    robot_respond(&session->robot, kind, &input, &output);
-    return wire_write(&session->wire, &output, out);
+    robot_respond(&octet->robot, kind, &input, &output);
+    return wire_write(&octet->wire, &output, octet->answers);
 }
 
-void session_close(struct session *session)
+const struct frame *octet_answers(const struct octet *octet)
 {
-    free(session);
+    return octet->answers;
+}
+
+void octet_close(struct octet *octet)
+{
+    free(octet);
 }

@@ -6,20 +6,24 @@
 #include "firmware/robot.h"
 #include "hal/protocol/wire.h"
 
-struct session {
+struct octet {
     struct robot robot;
     struct wire wire;
+    struct frame answers[WIRE_FRAMES_MAX];
 };
 
-struct session *session_open(uint8_t node, const uint8_t memory[CELL_COUNT]);
-        /* A robot as after power-up, with what was stored; nothing, if that is no memory. node is 1..NODE_MAX.
-           Null where the machine has no room. */
+struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT]);
+        /* A robot as after power-up, with what was stored; empty if that is not a memory. node is 1..NODE_MAX.
+           Null if the machine is out of memory. */
 
-size_t session_exchange(struct session *session, const struct frame *in, struct frame out[WIRE_FRAMES_MAX]);
-        /* Takes one frame and returns how many frames the robot answers, 0..WIRE_FRAMES_MAX. A frame that is stale,
-           damaged or foreign is counted and gets no answer. */
+size_t octet_exchange(struct octet *octet, const struct frame *in);
+        /* Takes one frame and returns how many frames the robot answers. A frame that is stale, damaged or foreign is
+           counted and gets no answer. */
 
-void session_close(struct session *session);
-        /* Frees it. A null session is fine. */
+const struct frame *octet_answers(const struct octet *octet);
+        /* The answers to the last frame, in order. The address stays the same until octet_close. */
+
+void octet_close(struct octet *octet);
+        /* Frees it. A null octet is fine. */
 
 #endif

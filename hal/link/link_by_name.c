@@ -1,7 +1,5 @@
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "hal/link/link_kind.h"
 
@@ -63,6 +61,5 @@ void link_health(const struct link *link, struct link_health *out)
 void link_close(struct link *link)
 {
     if (link != NULL)
-        close(link->fd);
-    free(link);
+        link->kind->close(link);
 }

@@ -6,7 +6,6 @@
 
 struct link {
     const struct link_kind *kind;
-    int fd;
 };
 
 struct link_request {
@@ -21,7 +20,8 @@ struct link_kind {
     int (*open)(struct link **link, struct link_request *request);
     int (*receive)(struct link *link, struct frame *out, uint32_t wait_ms);
     int (*send)(struct link *link, const struct frame *frame);
-};      /* Contracts as in link.h. A link is one block from malloc that begins with its struct link. */
+    void (*close)(struct link *link);   /* never of a null link: gives back all that open took */
+};      /* Contracts as in link.h. Each kind's own struct begins with its struct link. */
 
 extern const struct link_kind LINK_KIND_SOCKETCAN, LINK_KIND_FD, LINK_KIND_SLCAN;
 

@@ -15,6 +15,7 @@
 
 struct slcan_link {
     struct link link;               /* first: a pointer to it is one to the whole */
+    int fd;
     struct slcan_decoder decoder;
     char bytes[256];                /* read and not yet decoded: at..end */
     size_t at, end;
@@ -59,7 +60,8 @@ static struct slcan_link *open_line(const char *path, speed_t speed)
         return NULL;
     struct slcan_link *made = set_raw(fd, speed) == 0 ? calloc(1, sizeof *made) : NULL;
     if (made != NULL) {
-        made->link = (struct link){&LINK_KIND_SLCAN, fd};
+        made->link.kind = &LINK_KIND_SLCAN;
+        made->fd = fd;
         return made;
     }
     int error = errno;   /* which close may change */
@@ -113,7 +115,7 @@ static int decode(struct slcan_link *slcan, struct frame *out)
 /* Reads what there is, maybe nothing, or LINK_E_CLOSED. */
 static int refill(struct slcan_link *slcan)
 {
-    ssize_t got = read(slcan->link.fd, slcan->bytes, sizeof slcan->bytes);
+    ssize_t got = read(slcan->fd, slcan->bytes, sizeof slcan->bytes);
     if (got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR))
         return LINK_E_CLOSED;
     slcan->at = 0;
@@ -132,7 +134,7 @@ static int receive(struct link *link, struct frame *out, uint32_t wait_ms)
         result = refill(slcan);
         if (result == 0)
             result = decode(slcan, out);
-    } while (result == 0 && deadline_await_input(link->fd, deadline));
+    } while (result == 0 && deadline_await_input(slcan->fd, deadline));
     return result;
 }
 
@@ -143,6 +145,8 @@ static int write_by(int64_t deadline, int fd, const char *text, size_t len)
         ssize_t took = write(fd, text, len);
         if (took == 0 || (took < 0 && errno != EAGAIN && errno != EINTR))
             return LINK_E_CLOSED;
+        if (took < 0 && errno == EINTR && deadline_left_ms(deadline) > 0)
+            continue;   /* a signal, not a full line: no rest */
         if (took < 0 && !deadline_pause(deadline))
             return LINK_E_FULL;
         if (took < 0)
@@ -160,9 +164,15 @@ static int send_frame(struct link *link, const struct frame *frame)
     char text[1 + SLCAN_TEXT_MAX] = "\r";
     size_t prefix = slcan->cut_short ? 1 : 0;
     size_t len = prefix + slcan_encode(text + prefix, frame);
-    int result = write_by(deadline_in_ms(LINK_SEND_MS), link->fd, text, len);
+    int result = write_by(deadline_in_ms(LINK_SEND_MS), slcan->fd, text, len);
     slcan->cut_short = result != 0;
     return result;
 }
 
-const struct link_kind LINK_KIND_SLCAN = {"slcan:", open_slcan, receive, send_frame};
+static void close_line(struct link *link)
+{
+    close(((struct slcan_link *)link)->fd);
+    free(link);
+}
+
+const struct link_kind LINK_KIND_SLCAN = {"slcan:", open_slcan, receive, send_frame, close_line};

@@ -20,6 +20,7 @@ typedef char flags_are_the_kernels
 
 struct socket_link {
     struct link link;   /* first: a pointer to it is one to the whole */
+    int fd;
     uint32_t wait_ms;   /* what the kernel was last told; 0: nothing yet */
 };
 
@@ -34,7 +35,7 @@ static int wrap(struct link **link, const struct link_kind *kind, int fd)
     struct socket_link *made = calloc(1, sizeof *made);
     if (made == NULL)
         return -1;
-    made->link = (struct link){kind, fd};
+    *made = (struct socket_link){.link = {kind}, .fd = fd};
     *link = &made->link;
     return 0;
 }
@@ -112,11 +113,11 @@ static ssize_t receive_within(struct socket_link *socket, struct can_frame *raw,
 {
     if (wait_ms != 0 && wait_ms != socket->wait_ms) {
         struct timeval wait = {wait_ms / 1000, (suseconds_t)(wait_ms % 1000) * 1000};
-        if (setsockopt(socket->link.fd, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait) != 0)
+        if (setsockopt(socket->fd, SOL_SOCKET, SO_RCVTIMEO, &wait, sizeof wait) != 0)
             return -1;
         socket->wait_ms = wait_ms;
     }
-    return recv(socket->link.fd, raw, sizeof *raw, MSG_TRUNC | (wait_ms == 0 ? MSG_DONTWAIT : 0));
+    return recv(socket->fd, raw, sizeof *raw, MSG_TRUNC | (wait_ms == 0 ? MSG_DONTWAIT : 0));
 }
 
 static int receive(struct link *link, struct frame *out, uint32_t wait_ms)
@@ -131,7 +132,7 @@ static int receive(struct link *link, struct frame *out, uint32_t wait_ms)
         if (size > 0)
             return unpack(out, &raw, (size_t)size);
         if (size == 0)
-            return closed_or_empty(link->fd);
+            return closed_or_empty(socket->fd);
         if (errno == EAGAIN)
             return silence;
         if (errno == ENETDOWN)
@@ -151,11 +152,12 @@ static int send_error(int error)
 /* A full queue is tried again each millisecond: poll does not tell when an interface has room. */
 static int send_frame(struct link *link, const struct frame *frame)
 {
+    int fd = ((struct socket_link *)link)->fd;
     struct can_frame raw = {.can_id = frame->id, .len = frame->len};
     memcpy(raw.data, frame->data, frame->len);
     int64_t deadline = deadline_in_ms(LINK_SEND_MS);
     do {
-        if (send(link->fd, &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) == (ssize_t)sizeof raw)
+        if (send(fd, &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) == (ssize_t)sizeof raw)
             return 0;
         if (errno != EAGAIN && errno != ENOBUFS && errno != EINTR)
             return send_error(errno);
@@ -163,5 +165,11 @@ static int send_frame(struct link *link, const struct frame *frame)
     return LINK_E_FULL;
 }
 
-const struct link_kind LINK_KIND_SOCKETCAN = {"socketcan:", open_socketcan, receive, send_frame};
-const struct link_kind LINK_KIND_FD = {"fd:", open_fd, receive, send_frame};
+static void close_socket(struct link *link)
+{
+    close(((struct socket_link *)link)->fd);
+    free(link);
+}
+
+const struct link_kind LINK_KIND_SOCKETCAN = {"socketcan:", open_socketcan, receive, send_frame, close_socket};
+const struct link_kind LINK_KIND_FD = {"fd:", open_fd, receive, send_frame, close_socket};

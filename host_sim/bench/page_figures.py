@@ -1,4 +1,7 @@
-"""How fast the pages are, in a real browser: drawing, lag, the cost of being watched, and a kept page's start."""
+"""How fast the pages are, in a real browser: drawing, lag, the cost of being watched, and a kept page's start.
+
+`tools/setup tests` brings the browser.
+"""
 
 import json
 import os

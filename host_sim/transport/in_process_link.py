@@ -14,14 +14,14 @@ from host_sim.paths import BUILD
 from host_sim.protocol.codec import Frame
 
 LIBRARY = BUILD / "host" / "hal" / "library" / "liboctet.so"
-_FRAMES_MAX = 7
 
 _DECLARATIONS = """
 struct frame { uint32_t id; uint8_t len; uint8_t data[8]; };
-struct session;
-struct session *session_open(uint8_t node, const uint8_t memory[8]);
-size_t session_exchange(struct session *session, const struct frame *in, struct frame *out);
-void session_close(struct session *session);
+struct octet;
+struct octet *octet_open(uint8_t node, const uint8_t memory[8]);
+size_t octet_exchange(struct octet *octet, const struct frame *in);
+const struct frame *octet_answers(const struct octet *octet);
+void octet_close(struct octet *octet);
 """
 
 
@@ -54,9 +54,9 @@ class InProcessLink:
         self._ffi = cffi.FFI()
         self._ffi.cdef(_DECLARATIONS)
         self._library = load_library(self._ffi, library)
-        self._session = self._ffi.gc(self._library.session_open(node, bytes(memory)), self._library.session_close)
+        self._octet = self._ffi.gc(self._library.octet_open(node, bytes(memory)), self._library.octet_close)
         self._in: Any = self._ffi.new("struct frame *")
-        self._out: Any = self._ffi.new("struct frame[]", _FRAMES_MAX)
+        self._out: Any = self._library.octet_answers(self._octet)
         self._answers: deque[Frame] = deque()
 
     def send(self, frame: Frame) -> None:
@@ -64,7 +64,7 @@ class InProcessLink:
         data = frame.data
         self._in.id, self._in.len = frame.id, len(data)
         self._ffi.memmove(self._in.data, data, len(data))
-        count = self._library.session_exchange(self._session, self._in, self._out)
+        count = self._library.octet_exchange(self._octet, self._in)
         for i in range(count):
             out = self._out[i]
             self._answers.append(Frame(out.id, self._ffi.buffer(out.data, out.len)[:]))

@@ -1,5 +1,6 @@
 """A python-can bus over a socket pair: SocketCAN's 16-byte frames, one a datagram, with no CAN in the kernel."""
 
+import math
 import select
 import socket
 import struct
@@ -9,15 +10,18 @@ from typing import Any
 import can
 
 _FRAME = struct.Struct("=IB3x8s")  # struct can_frame of Linux, in the machine's own byte order
+_DATA_MAX = 8
 _EXTENDED, _REMOTE, _ERROR = 0x80000000, 0x40000000, 0x20000000
 _FLAGS = _EXTENDED | _REMOTE | _ERROR
-SEND_TIMEOUT_S = 1.0
 
 
 class SocketPairBus(can.BusABC):
     """One end of a `SOCK_SEQPACKET` socket pair. The far end is a process that opened its own end as `fd:N`.
 
     Registered with python-can as interface `octet`; its channel is the number of the open socket.
+
+    Attributes:
+        garbled: Datagrams received so far that are not frames; they are skipped.
     """
 
     def __init__(self, channel: Any = None, can_filters: Any = None, **kwargs: Any) -> None:
@@ -36,6 +40,7 @@ class SocketPairBus(can.BusABC):
             self._socket.setblocking(False)
         except (OSError, TypeError, ValueError) as error:
             raise can.CanInitializationError(f"channel {channel!r} is no open socket: {error}") from error
+        self.garbled = 0
         self.channel_info = f"socket pair, fd {channel}"
         super().__init__(channel=channel, can_filters=can_filters, **kwargs)
 
@@ -48,7 +53,7 @@ class SocketPairBus(can.BusABC):
 
         Args:
             msg: The frame.
-            timeout: Seconds to wait for room; None for one second.
+            timeout: Seconds to wait for room; None blocks until there is some.
 
         Raises:
             can.CanOperationError: The far end is closed, or made no room in time.
@@ -56,43 +61,84 @@ class SocketPairBus(can.BusABC):
         flags = (_EXTENDED if msg.is_extended_id else 0) | (_REMOTE if msg.is_remote_frame else 0)
         packed = _FRAME.pack(msg.arbitration_id | flags, msg.dlc, bytes(msg.data))
         try:
+            sent = self._try_send(packed) or self._send_by(_deadline(timeout), packed)
+        except (OSError, ValueError) as error:  # ValueError: this end was shut down
+            raise can.CanOperationError(f"the far end is closed: {error}") from error
+        if not sent:
+            raise can.CanOperationError(f"the far end made no room for {timeout} s")
+
+    def _try_send(self, packed: bytes) -> bool:
+        try:
             self._socket.send(packed)
         except BlockingIOError:
-            self._send_later(packed, SEND_TIMEOUT_S if timeout is None else timeout)
-        except OSError as error:
-            raise can.CanOperationError(f"the far end is closed: {error}") from error
+            return False
+        return True
 
-    def _send_later(self, packed: bytes, timeout: float) -> None:
-        if not select.select([], [self._socket], [], timeout)[1]:
-            raise can.CanOperationError(f"the far end made no room for {timeout} s")
-        self._socket.send(packed)
+    def _send_by(self, deadline: float, packed: bytes) -> bool:
+        while self._await(select.POLLOUT, deadline):
+            if self._try_send(packed):
+                return True
+        return False
 
     def _recv_internal(self, timeout: float | None) -> tuple[can.Message | None, bool]:
         try:
-            packed = self._socket.recv(_FRAME.size)
-        except BlockingIOError:
-            if not select.select([self._socket], [], [], timeout)[0]:
-                return None, False
-            packed = self._socket.recv(_FRAME.size)
-        except OSError as error:
+            packed = self._try_receive()
+            if packed is None:
+                packed = self._receive_by(_deadline(timeout))
+        except (OSError, ValueError) as error:
             raise can.CanOperationError(f"the far end is closed: {error}") from error
-        if not packed:
-            raise can.CanOperationError("the far end is closed")
-        return (self._message_from(packed) if len(packed) == _FRAME.size else None), False
+        return (None if packed is None else self._message_from(packed)), False
+
+    def _try_receive(self) -> bytes | None:
+        """The next datagram that is a frame, if it has come."""
+        while True:
+            try:
+                packed = self._socket.recv(_FRAME.size + 1)
+            except BlockingIOError:
+                return None
+            if len(packed) == _FRAME.size and packed[4] <= _DATA_MAX:
+                return packed
+            if not packed and self._poll(select.POLLRDHUP, 0):  # an empty datagram reads like the end
+                raise ConnectionResetError("it sends no more")
+            self.garbled += 1
+
+    def _receive_by(self, deadline: float) -> bytes | None:
+        while self._await(select.POLLIN, deadline):
+            packed = self._try_receive()
+            if packed is not None:
+                return packed
+        return None
+
+    def _await(self, event: int, deadline: float) -> bool:
+        """Whether the event comes before the deadline, on the monotonic clock."""
+        if deadline == math.inf:
+            return self._poll(event, None)
+        left_s = deadline - time.monotonic()
+        return left_s > 0 and self._poll(event, math.ceil(left_s * 1000))
+
+    def _poll(self, event: int, timeout_ms: int | None) -> bool:
+        poll = select.poll()
+        poll.register(self._socket, event)
+        return bool(poll.poll(timeout_ms))
 
     def _message_from(self, packed: bytes) -> can.Message:
         can_id, length, data = _FRAME.unpack(packed)
+        remote = bool(can_id & _REMOTE)
         return can.Message(
             timestamp=time.time(),
             arbitration_id=can_id & ~_FLAGS,
             is_extended_id=bool(can_id & _EXTENDED),
-            is_remote_frame=bool(can_id & _REMOTE),
+            is_remote_frame=remote,
             is_error_frame=bool(can_id & _ERROR),
             dlc=length,
-            data=data[:length],
+            data=None if remote else data[:length],
         )
 
     def shutdown(self) -> None:
         """Closes this end."""
         super().shutdown()
         self._socket.close()
+
+
+def _deadline(timeout: float | None) -> float:
+    return math.inf if timeout is None else time.monotonic() + timeout

@@ -21,8 +21,8 @@ _HEADERS = [
 
 
 def library_path() -> Path:
-    """Where liboctet.so is: OCTET_LIBRARY, or the host build."""
-    return Path(os.environ.get("OCTET_LIBRARY", ROOT / "build/host/hal/library/liboctet.so"))
+    """The library of all functions: OCTET_LIBRARY, or that of the build for tests."""
+    return Path(os.environ.get("OCTET_LIBRARY", ROOT / "build/host-vcan/tests/firmware/liboctet_core_open.so"))
 
 
 GENERATED = library_path().parents[2] / "generated"

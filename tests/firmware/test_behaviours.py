@@ -7,17 +7,15 @@ Where a case has a random outcome, the brain is given a generator state that yie
 import importlib
 import itertools
 import random
-import subprocess
 from collections import Counter
 from functools import cache, partial
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pytest
 
 from host_sim.protocol.generated import PROFILES
-from tests.firmware.octet_c import GENERATED, ROOT, library_path, load
+from tests.firmware.octet_c import library_path, load
 from tests.firmware.oracles.listing import Action, Listing
 
 FFI, C = load()
@@ -220,16 +218,10 @@ class Brains:
 
 
 @pytest.fixture(scope="module")
-def brains(tmp_path_factory: pytest.TempPathFactory):
-    """Makes `Brains`, with batch.c compiled against the library under test."""
-    library, batch = library_path(), tmp_path_factory.mktemp("batch") / "batch.so"
-    source = Path(__file__).with_name("batch.c")
-    link = [library, f"-Wl,-rpath,{library.parent}"]
-    subprocess.run(
-        ["gcc", "-O2", "-shared", "-fPIC", "-I", ROOT, "-I", GENERATED, "-o", batch, source, *link], check=True
-    )
+def brains():
+    """Makes `Brains`."""
     FFI.cdef("void brain_next_each(struct action *, struct brain *, struct config *, struct senses *, size_t);")
-    ask = FFI.dlopen(str(batch)).brain_next_each
+    ask = FFI.dlopen(str(library_path())).brain_next_each
     return partial(Brains, ask)
 
 

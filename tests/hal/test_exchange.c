@@ -1,7 +1,5 @@
 #include "hal/library/exchange.h"
 
-#include <string.h>
-
 #include <unity.h>
 
 #include "hal/protocol/crc8.h"
@@ -9,19 +7,19 @@
 
 static const uint8_t STORED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 1};
 
-static struct session *session;
-static struct frame out[WIRE_FRAMES_MAX];
+static struct octet *octet;
+static const struct frame *out;
 
 void setUp(void)
 {
-    memset(out, 0, sizeof out);
-    session = session_open(1, STORED);
-    TEST_ASSERT_NOT_NULL(session);
+    octet = octet_open(1, STORED);
+    TEST_ASSERT_NOT_NULL(octet);
+    out = octet_answers(octet);
 }
 
 void tearDown(void)
 {
-    session_close(session);
+    octet_close(octet);
 }
 
 static struct frame sealed(struct frame frame)
@@ -50,7 +48,7 @@ static struct frame command_frame(uint8_t opcode)
 
 static size_t exchange(struct frame in)
 {
-    return session_exchange(session, &in, out);
+    return octet_exchange(octet, &in);
 }
 
 static void test_senses_are_answered_with_a_drive(void)
@@ -64,6 +62,14 @@ static void test_a_command_is_answered_before_its_report(void)
     TEST_ASSERT_EQUAL_size_t(5, exchange(command_frame(OPCODE_STOP)));
     TEST_ASSERT_EQUAL_UINT32(OCTET_ANSWER_FRAME_ID, out[0].id);
     TEST_ASSERT_EQUAL_UINT32(OCTET_HEARTBEAT_FRAME_ID, out[1].id);
+}
+
+static void test_answers_stay_where_they_are(void)
+{
+    exchange(senses_frame(1));
+    TEST_ASSERT_EQUAL_PTR(out, octet_answers(octet));
+    exchange(command_frame(OPCODE_STOP));
+    TEST_ASSERT_EQUAL_PTR(out, octet_answers(octet));
 }
 
 static void test_a_started_robot_drives(void)
@@ -82,47 +88,47 @@ static void test_a_damaged_frame_is_counted_and_not_answered(void)
 
     damaged.data[0] ^= 1;
     TEST_ASSERT_EQUAL_size_t(0, exchange(damaged));
-    TEST_ASSERT_EQUAL_UINT8(1, session->wire.faults[FAULT_DAMAGED]);
+    TEST_ASSERT_EQUAL_UINT8(1, octet->wire.faults[FAULT_DAMAGED]);
 }
 
 static void test_stale_senses_do_not_reach_the_robot(void)
 {
     exchange(senses_frame(0));
     TEST_ASSERT_EQUAL_size_t(0, exchange(senses_frame(0)));
-    TEST_ASSERT_EQUAL_UINT16(20, session->robot.part_ms);   /* one tick */
+    TEST_ASSERT_EQUAL_UINT16(20, octet->robot.part_ms);   /* one tick */
 }
 
-static void test_a_session_begins_stopped(void)
+static void test_a_robot_begins_stopped(void)
 {
-    TEST_ASSERT_FALSE(session->robot.running);
+    TEST_ASSERT_FALSE(octet->robot.running);
 }
 
-static void test_a_session_begins_with_what_was_stored(void)
+static void test_a_robot_begins_with_what_was_stored(void)
 {
-    TEST_ASSERT_EQUAL_UINT8_ARRAY(STORED, session->robot.brain.memory.cell, CELL_COUNT);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(STORED, octet->robot.brain.memory.cell, CELL_COUNT);
 }
 
 static void test_from_what_is_no_memory_nothing_is_known(void)
 {
     static const uint8_t none[CELL_COUNT] = {0, 3}, nothing[CELL_COUNT] = {0};
 
-    session_close(session);
-    session = session_open(1, none);
-    TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, session->robot.brain.memory.cell, CELL_COUNT);
+    octet_close(octet);
+    octet = octet_open(1, none);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, octet->robot.brain.memory.cell, CELL_COUNT);
 }
 
-static void test_two_sessions_do_not_know_each_other(void)
+static void test_two_robots_do_not_know_each_other(void)
 {
-    struct session *other = session_open(2, STORED);
+    struct octet *other = octet_open(2, STORED);
 
     exchange(command_frame(OPCODE_START));
     TEST_ASSERT_FALSE(other->robot.running);
-    session_close(other);
+    octet_close(other);
 }
 
-static void test_closing_no_session_is_fine(void)
+static void test_closing_no_robot_is_fine(void)
 {
-    session_close(NULL);
+    octet_close(NULL);
 }
 
 int main(void)
@@ -130,13 +136,14 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_senses_are_answered_with_a_drive);
     RUN_TEST(test_a_command_is_answered_before_its_report);
+    RUN_TEST(test_answers_stay_where_they_are);
     RUN_TEST(test_a_started_robot_drives);
     RUN_TEST(test_a_damaged_frame_is_counted_and_not_answered);
     RUN_TEST(test_stale_senses_do_not_reach_the_robot);
-    RUN_TEST(test_a_session_begins_stopped);
-    RUN_TEST(test_a_session_begins_with_what_was_stored);
+    RUN_TEST(test_a_robot_begins_stopped);
+    RUN_TEST(test_a_robot_begins_with_what_was_stored);
     RUN_TEST(test_from_what_is_no_memory_nothing_is_known);
-    RUN_TEST(test_two_sessions_do_not_know_each_other);
-    RUN_TEST(test_closing_no_session_is_fine);
+    RUN_TEST(test_two_robots_do_not_know_each_other);
+    RUN_TEST(test_closing_no_robot_is_fine);
     return UNITY_END();
 }

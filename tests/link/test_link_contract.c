@@ -1,4 +1,5 @@
 /* What link.h promises, asked of the kind of link that the first argument names: fd, slcan, or socketcan [IFACE]. */
+#include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -282,6 +283,26 @@ static void test_a_link_opens_again_after_a_close(void)
     assert_receives(&HELLO);
 }
 
+static int open_descriptors(void)
+{
+    int count = 0;
+    for (int fd = 0; fd < 1024; fd++) count += fcntl(fd, F_GETFD) != -1;
+    return count;
+}
+
+static void test_closing_gives_back_every_descriptor(void)
+{
+    close_near();
+    rig->close();
+    int before = open_descriptors();
+
+    open_near();
+    close_near();
+    rig->close();
+
+    TEST_ASSERT_EQUAL_INT(before, open_descriptors());
+}
+
 static void test_closing_no_link_is_fine(void)
 {
     link_close(NULL);
@@ -353,6 +374,7 @@ static void run_for_all(void)
     RUN_TEST(test_extended_and_remote_frames_are_filtered_where_that_is_possible);
     RUN_TEST(test_extended_and_remote_frames_can_be_sent);
     RUN_TEST(test_a_link_opens_again_after_a_close);
+    RUN_TEST(test_closing_gives_back_every_descriptor);
     RUN_TEST(test_closing_no_link_is_fine);
 }
 

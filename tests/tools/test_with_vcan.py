@@ -3,11 +3,11 @@
 import os
 import signal
 import subprocess
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+
+from tests.tools.processes import alive, soon
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 WITH_VCAN = TOOLS / "with-vcan"
@@ -73,22 +73,6 @@ def test_what_it_started_ends_with_it(tmp_path: Path) -> None:
     assert soon(lambda: not any(alive(pid) for pid in family))
 
 
-def soon(condition: Callable[[], bool]) -> bool:
-    """Whether the condition comes true within 30 seconds."""
-    deadline = time.monotonic() + 30
-    while not condition() and time.monotonic() < deadline:
-        time.sleep(0.05)
-    return condition()
-
-
 def descendants(pid: int) -> list[int]:
     children = [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
     return children + [pid for child in children for pid in descendants(child)]
-
-
-def alive(pid: int) -> bool:
-    """Whether the process exists and is more than a zombie that nobody has waited for."""
-    try:
-        return "\nState:\tZ" not in Path(f"/proc/{pid}/status").read_text()
-    except (FileNotFoundError, ProcessLookupError):
-        return False

@@ -12,17 +12,6 @@ file(GLOB generator CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tools/robot_words/*.
 set(OCTET_GENERATED ${PROJECT_BINARY_DIR}/generated)
 file(MAKE_DIRECTORY ${OCTET_GENERATED})
 add_custom_command(
-  OUTPUT ${OCTET_GENERATED}/octet.c ${OCTET_GENERATED}/octet.h
-  COMMAND ${CANTOOLS} generate_c_source --no-floating-point-numbers --database-name octet ${OCTET_DBC}
-  WORKING_DIRECTORY ${OCTET_GENERATED}
-  DEPENDS ${OCTET_DBC}
-  COMMENT "Generating the wire's C code from octet.dbc"
-  VERBATIM)
-# Beside the command that makes it: a target elsewhere would not know of the command.
-add_library(octet_dbc STATIC ${OCTET_GENERATED}/octet.c)
-target_include_directories(octet_dbc SYSTEM PUBLIC ${OCTET_GENERATED})
-
-add_custom_command(
   OUTPUT ${OCTET_GENERATED}/robot_words.h
   COMMAND ${python} ${generate} --c ${OCTET_GENERATED}/robot_words.h
   DEPENDS ${OCTET_DBC} ${words} ${generate} ${generator}

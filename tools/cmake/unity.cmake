@@ -1,7 +1,7 @@
 # Unity, the unit-test framework: tools/setup fetches it into UNITY_DIR, pinned by hash.
 set(UNITY_DIR ${PROJECT_SOURCE_DIR}/build/unity CACHE PATH "where unity.c and its headers are")
 if(NOT EXISTS ${UNITY_DIR}/unity.c)
-  message(FATAL_ERROR "Unity is not in ${UNITY_DIR}: run tools/setup")
+  message(FATAL_ERROR "Unity is not in ${UNITY_DIR}: run tools/setup tests")
 endif()
 
 add_library(unity STATIC ${UNITY_DIR}/unity.c)

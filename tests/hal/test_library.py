@@ -1,0 +1,13 @@
+"""What liboctet.so shows to those who load it."""
+
+import subprocess
+
+from host_sim.transport.in_process_link import LIBRARY
+
+
+def test_the_library_exports_its_own_functions_and_nothing_else():
+    symbols = subprocess.check_output(["nm", "--dynamic", "--defined-only", LIBRARY], text=True)
+
+    names = [line.split()[-1] for line in symbols.splitlines()]
+
+    assert sorted(names) == ["octet_answers", "octet_close", "octet_exchange", "octet_open"]

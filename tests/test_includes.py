@@ -1,0 +1,93 @@
+"""The floors of the C code: an include only goes down, as `MAY_INCLUDE` has it."""
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+
+# For each file or folder, what may be included from elsewhere; the longest name that fits a file counts.
+MAY_INCLUDE = {
+    "firmware/": (),
+    "firmware/main.c": ("hal/hal.h",),
+    "hal/hal.h": ("firmware/io.h",),
+    "hal/link/": (),
+    "hal/protocol/": ("firmware/io.h", "hal/link/link.h"),
+    "hal/can_body/": ("firmware/io.h", "hal/hal.h", "hal/link/link.h", "hal/protocol/"),
+    "hal/flash_store/": ("firmware/io.h",),
+    "hal/port/": ("firmware/io.h", "hal/can_body/port.h"),
+    "hal/stm32/": ("hal/can_body/port.h", "hal/flash_store/", "hal/link/", "hal/port/"),
+    "hal/library/": ("firmware/", "hal/protocol/"),
+}
+GENERATED = ("octet.h", "build_id.h", "robot_words.h")
+
+# To become none.
+EXCEPTIONS = {
+    ("hal/flash_store/flash_store.h", "hal/hal.h"),
+    ("hal/port/posix/file_store.h", "hal/hal.h"),
+    ("hal/port/posix/posix_port.c", "hal/protocol/wire.h"),
+    ("hal/protocol/health.h", "hal/hal.h"),
+    ("hal/stm32/crash.h", "hal/protocol/health.h"),
+}
+
+
+def includes(root: Path) -> list[tuple[str, str]]:
+    """Every include between our own files: who, and whom."""
+    files = sorted(file for folder in ("firmware", "hal") for file in (root / folder).rglob("*.[ch]"))
+    found = [
+        (file.relative_to(root).as_posix(), name) for file in files for name in INCLUDE.findall(file.read_text())
+    ]
+    return [(file, name) for file, name in found if name not in GENERATED]
+
+
+def goes_down(file: str, name: str) -> bool:
+    fitting = [place for place in MAY_INCLUDE if file.startswith(place)]
+    if not fitting:
+        return False
+    floor = max(fitting, key=len)
+    folder = "/".join(file.split("/")[:2]) + "/" if file.startswith("hal/") else "firmware/"
+    return name.startswith((folder, *MAY_INCLUDE[floor])) or name == file
+
+
+def upward(root: Path) -> set[tuple[str, str]]:
+    return {arrow for arrow in includes(root) if not goes_down(*arrow)}
+
+
+def test_every_include_goes_down_but_for_the_exceptions_which_are_all_needed():
+    assert upward(ROOT) == EXCEPTIONS
+
+
+def test_there_are_includes_to_look_at():
+    assert len(includes(ROOT)) > 50
+
+
+PLANTED = [
+    ("firmware/brain.c", "hal/hal.h"),
+    ("firmware/main.c", "hal/link/link.h"),
+    ("hal/hal.h", "firmware/robot.h"),
+    ("hal/hal.h", "hal/link/link.h"),
+    ("hal/link/slcan.c", "hal/protocol/wire.h"),
+    ("hal/link/slcan.c", "firmware/io.h"),
+    ("hal/protocol/crc8.c", "hal/can_body/port.h"),
+    ("hal/can_body/can_body.c", "hal/port/posix/file_store.h"),
+    ("hal/can_body/can_body.c", "firmware/robot.h"),
+    ("hal/port/posix/posix_port.c", "firmware/robot.h"),
+    ("hal/stm32/planted.c", "hal/hal.h"),
+    ("hal/library/exchange.c", "hal/can_body/port.h"),
+    ("hal/a_new_folder/planted.c", "hal/hal.h"),
+]
+
+
+@pytest.mark.parametrize("arrow", PLANTED, ids=" ".join)
+def test_an_include_that_goes_up_or_across_is_found(arrow, tmp_path):
+    for folder in ("firmware", "hal"):
+        shutil.copytree(ROOT / folder, tmp_path / folder)
+    file = tmp_path / arrow[0]
+    file.parent.mkdir(exist_ok=True)
+    with file.open("a") as text:
+        text.write(f'\n#  include "{arrow[1]}"\n')
+
+    assert upward(tmp_path) == EXCEPTIONS | {arrow}

@@ -1,0 +1,253 @@
+"""Back to back: what one end sends, the other receives, in python-can's manners."""
+
+import contextlib
+import select
+import socket
+import struct
+import threading
+import time
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import can
+import pytest
+
+from host_sim.transport.socket_pair_bus import SocketPairBus
+
+SOON_S = 2.0
+
+
+class Pair(NamedTuple):
+    """Two buses, each the far end of the other."""
+
+    left: can.BusABC
+    right: can.BusABC
+
+
+@pytest.fixture
+def pair() -> Iterator[Pair]:
+    ends = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    buses = Pair(*(can.Bus(interface="octet", channel=end.detach()) for end in ends))
+    yield buses
+    for bus in buses:
+        bus.shutdown()
+
+
+@pytest.fixture
+def raw() -> Iterator[tuple[SocketPairBus, socket.socket]]:
+    """A bus, and the bare socket at its far end."""
+    near, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    bus = SocketPairBus(near.detach())
+    yield bus, far
+    far.close()
+    bus.shutdown()
+
+
+MESSAGES = {
+    "standard": can.Message(arbitration_id=0x1AB, is_extended_id=False, data=[1, 2, 3, 4, 5, 6, 7, 8]),
+    "extended": can.Message(arbitration_id=0x1FFFFFFF, is_extended_id=True, data=[0xFF] * 8),
+    "extended with a small identifier": can.Message(arbitration_id=1, is_extended_id=True, data=[1]),
+    "remote": can.Message(arbitration_id=0x123, is_extended_id=False, is_remote_frame=True, dlc=4),
+    "extended remote": can.Message(arbitration_id=0x12345, is_extended_id=True, is_remote_frame=True, dlc=8),
+    **{f"{n} bytes": can.Message(arbitration_id=0x7FF, is_extended_id=False, data=range(n)) for n in range(8)},
+}
+
+
+@pytest.mark.parametrize("message", MESSAGES.values(), ids=MESSAGES)
+def test_a_message_arrives_as_it_was_both_ways(pair, message):
+    for sender, receiver in (pair, reversed(pair)):
+        sender.send(message)
+
+        got = receiver.recv(SOON_S)
+
+        assert got is not None
+        assert got.equals(message, timestamp_delta=None, check_channel=False, check_direction=False)
+        assert got.is_rx
+
+
+def test_messages_keep_their_order(pair):
+    for number in range(100):
+        pair.left.send(can.Message(arbitration_id=number, is_extended_id=False))
+
+    assert [pair.right.recv(SOON_S).arbitration_id for _ in range(100)] == list(range(100))
+
+
+def test_what_is_sent_does_not_come_back(pair):
+    pair.left.send(MESSAGES["standard"])
+
+    assert pair.left.recv(0.05) is None
+
+
+def test_timestamps_are_the_time_of_day_and_rise(pair):
+    before = time.time()
+    for _ in range(2):
+        pair.left.send(MESSAGES["standard"])
+    first, second = pair.right.recv(SOON_S), pair.right.recv(SOON_S)
+
+    assert before <= first.timestamp <= second.timestamp <= time.time()
+
+
+def test_only_what_the_filters_let_through_is_received(pair):
+    pair.right.set_filters([{"can_id": 0x100, "can_mask": 0x7F0, "extended": False}])
+    for number in (0x0FF, 0x100, 0x10F, 0x110):
+        pair.left.send(can.Message(arbitration_id=number, is_extended_id=False))
+    pair.left.send(can.Message(arbitration_id=0x100, is_extended_id=True))
+
+    got = [pair.right.recv(SOON_S).arbitration_id for _ in range(2)]
+
+    assert got == [0x100, 0x10F]
+    assert pair.right.recv(0.05) is None
+
+
+def test_select_tells_when_there_is_something_to_receive(pair):
+    assert select.select([pair.right], [], [], 0)[0] == []
+    pair.left.send(MESSAGES["standard"])
+    assert select.select([pair.right], [], [], SOON_S)[0] == [pair.right]
+
+
+def test_a_wait_ends_after_its_time(pair):
+    start = time.monotonic()
+
+    assert pair.left.recv(0.1) is None
+    assert 0.1 <= time.monotonic() - start < SOON_S
+
+
+def test_a_wait_without_a_limit_lasts_until_a_message_comes(pair):
+    later = threading.Timer(0.2, pair.right.send, [MESSAGES["standard"]])
+    later.start()
+
+    assert pair.left.recv(None) is not None
+    later.join()
+
+
+def test_threads_may_share_a_bus():
+    ends = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    left, right = (can.ThreadSafeBus(interface="octet", channel=end.detach()) for end in ends)
+    senders = [threading.Thread(target=left.send, args=[MESSAGES["standard"]]) for _ in range(10)]
+    for sender in senders:
+        sender.start()
+
+    assert all(right.recv(SOON_S) for _ in senders)
+    for sender in senders:
+        sender.join()
+    left.shutdown()
+    right.shutdown()
+
+
+def test_a_bus_can_be_shut_down_twice(pair):
+    pair.left.shutdown()
+    pair.left.shutdown()
+
+
+def test_a_bus_that_was_shut_down_neither_sends_nor_receives(pair):
+    pair.left.shutdown()
+
+    with pytest.raises(can.CanOperationError):
+        pair.left.send(MESSAGES["standard"])
+    with pytest.raises(can.CanOperationError):
+        pair.left.recv(0)
+
+
+@pytest.mark.parametrize("channel", [None, "x", -1, 987_654])
+def test_a_channel_that_is_not_an_open_socket_is_refused(channel):
+    with pytest.raises(can.CanInitializationError, match=repr(channel)):
+        SocketPairBus(channel)
+
+
+def has_room(bus: can.BusABC) -> bool:
+    try:
+        bus.send(MESSAGES["standard"], timeout=0)
+    except can.CanOperationError:
+        return False
+    return True
+
+
+def fill(bus: can.BusABC) -> None:
+    """Sends until the far end has no more room."""
+    while has_room(bus):
+        pass
+
+
+def test_a_send_waits_its_time_for_room(raw):
+    bus, _ = raw
+    fill(bus)
+    start = time.monotonic()
+
+    with pytest.raises(can.CanOperationError, match="no room"):
+        bus.send(MESSAGES["standard"], timeout=0.1)
+
+    assert 0.1 <= time.monotonic() - start < SOON_S
+
+
+def test_a_send_without_a_limit_waits_until_there_is_room(raw):
+    bus, far = raw
+    fill(bus)
+    far.setblocking(False)
+
+    def drain() -> None:
+        with contextlib.suppress(BlockingIOError):
+            while far.recv(16):
+                pass
+
+    later = threading.Timer(1.5, drain)
+    later.start()
+    start = time.monotonic()
+    bus.send(MESSAGES["standard"])
+
+    assert time.monotonic() - start > 1.0
+    later.join()
+
+
+def test_a_far_end_that_closes_while_a_send_waits_is_an_error_of_the_bus(raw):
+    bus, far = raw
+    fill(bus)
+    later = threading.Timer(0.2, far.close)
+    later.start()
+
+    with pytest.raises(can.CanOperationError, match="closed"):
+        bus.send(MESSAGES["standard"], timeout=SOON_S)
+    later.join()
+
+
+def test_a_far_end_that_left_messages_unread_is_an_error_of_the_bus(raw):
+    bus, far = raw
+    bus.send(MESSAGES["standard"])
+    later = threading.Timer(0.2, far.close)
+    later.start()
+
+    with pytest.raises(can.CanOperationError, match="closed"):
+        bus.recv(SOON_S)
+    later.join()
+    with pytest.raises(can.CanOperationError, match="closed"):
+        bus.send(MESSAGES["standard"])
+
+
+def test_what_was_sent_before_the_far_end_closed_still_arrives(raw):
+    bus, far = raw
+    far.send(frame(0x123))
+    far.close()
+
+    assert bus.recv(SOON_S).arbitration_id == 0x123
+    with pytest.raises(can.CanOperationError, match="closed"):
+        bus.recv(SOON_S)
+
+
+def frame(can_id: int, length: int = 0) -> bytes:
+    return struct.pack("=IB3x8s", can_id, length, b"")
+
+
+JUNK = {"nothing": b"", "a byte": b"x", "15 bytes": bytes(15), "17 bytes": bytes(17), "72 bytes": bytes(72)}
+JUNK |= {"a length of 9": frame(0x123, 9), "a length of 255": frame(0x123, 255)}
+
+
+@pytest.mark.parametrize("junk", JUNK.values(), ids=JUNK)
+@pytest.mark.parametrize("timeout", [0, SOON_S, None])
+def test_what_is_not_a_frame_is_counted_and_skipped(raw, junk, timeout):
+    bus, far = raw
+    far.send(junk)
+    far.send(junk)
+    far.send(frame(0x123))
+
+    assert bus.recv(timeout).arbitration_id == 0x123
+    assert bus.garbled == 2
+    assert bus.recv(0) is None

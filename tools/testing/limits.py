@@ -1,0 +1,88 @@
+"""Running a command that may not take for ever."""
+
+import math
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Iterable, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+NO_LIMIT = math.inf
+_LOOK_S = 0.2
+_END_S = 10.0
+_HOW = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """When to stop.
+
+    Attributes:
+        total_min: Minutes for everything, from `begun` on; infinite where there is no limit.
+        stall_min: Minutes in which at least one test must begin or end.
+        begun: On the monotonic clock.
+    """
+
+    total_min: float
+    stall_min: float
+    begun: float
+
+    def passed(self, quiet_s: float = 0.0) -> str:
+        """The limit that has been reached, in words; empty if none has.
+
+        Args:
+            quiet_s: Seconds since a test last began or ended.
+        """
+        if time.monotonic() - self.begun >= 60 * self.total_min:
+            return f"the time limit of {self.total_min:g} min was reached (--time-limit)"
+        if quiet_s >= 60 * self.stall_min:
+            return f"no test began or ended for {self.stall_min:g} min (--stall-limit)"
+        return ""
+
+
+def run_within(limits: Limits, command: Sequence[str], folder: Path, reports: Iterable[Path]) -> tuple[bool, str]:
+    """Runs a command, with all that it starts in a process group of its own, and stops it at a limit.
+
+    Args:
+        limits: When.
+        command: Its words.
+        folder: Where it runs.
+        reports: Files that grow as tests begin and end; with none, it cannot stall.
+
+    Returns:
+        Whether it ended well, and the limit that stopped it, in words; empty if none did.
+    """
+    watched = list(reports)
+    process = subprocess.Popen(command, cwd=folder, start_new_session=True)
+    try:
+        last, sizes = time.monotonic(), _sizes(watched)
+        while True:
+            try:
+                return process.wait(_LOOK_S) == 0, ""
+            except subprocess.TimeoutExpired:
+                pass
+            if (now := _sizes(watched)) != sizes or not watched:
+                last, sizes = time.monotonic(), now
+            if why := limits.passed(time.monotonic() - last):
+                return False, why
+    finally:
+        if process.returncode is None:
+            _stop(process)
+
+
+def _sizes(files: Sequence[Path]) -> list[int]:
+    return [file.stat().st_size if file.exists() else -1 for file in files]
+
+
+def _stop(process: "subprocess.Popen[bytes]") -> None:
+    """Ends a group: in good order if it can, by force if it must."""
+    for number in _HOW:
+        os.killpg(process.pid, number)
+        with suppress(subprocess.TimeoutExpired):
+            process.wait(_END_S)
+            break
+    with suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
