@@ -84,12 +84,14 @@ def test_a_robot_that_is_killed_ends_the_run_with_one_line(tmp_path):
 def test_garbage_on_the_bus_is_refused_and_the_robot_learns_as_ever(run):
     words = ("--environments", "1", "--limit-s", "20", "--seed", "3")
     quiet = run(*words, "--bus", "none")
-    # Random frames of every kind with identifiers around the robot's own.
-    garbage = subprocess.Popen(["cangen", "vcan0", "-g", "2", "-I", "i", "-L", "i", "-m"])
+    # Random frames of every kind and identifier, and frames with that of SENSES that are a byte too short.
+    everywhere = subprocess.Popen(["cangen", "vcan0", "-g", "2", "-I", "i", "-L", "i", "-m"])
+    cut_short = subprocess.Popen(["cangen", "vcan0", "-g", "5", "-I", "0C1", "-L", "7"])
 
     done = run(*words, *VCAN)
-    garbage.kill()
-    garbage.wait()
+    for garbage in (everywhere, cut_short):
+        garbage.kill()
+        garbage.wait()
 
     assert (done.code, done.errors) == (0, "")
     frames = done.summary["robots"][0]["frames"]
