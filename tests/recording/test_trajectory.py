@@ -148,7 +148,8 @@ def test_senses_that_contradict_the_world_are_named(short):
     lines[index] = f"{stamp} {channel} {changed.id:03X}#{changed.data.hex().upper()}\n"
     short.log.write_text("".join(lines))
 
-    with pytest.raises(OctetError, match=rf"at {recorded.time_us / 1e6:.2f} s feel \d+ and not \d+; .*--no-world"):
+    when = f"at {recorded.time_us / 1e6:.2f} s"
+    with pytest.raises(OctetError, match=rf"{when} feel is \d+, expected \d+; .*--no-world"):
         resimulate(short.log)
 
 
@@ -177,7 +178,7 @@ def test_without_a_seed_the_way_is_reckoned_from_the_odometers(short):
 
 
 def test_in_the_open_all_of_the_way_lies_in_the_arena(kept):
-    found = resimulate(kept.log, in_the_open=True).trajectory
+    found = resimulate(kept.log, ignore_world=True).trajectory
 
     x, y, _ = found.tracks[0].poses().T
     assert x.min() > 0
@@ -191,7 +192,7 @@ def test_a_log_without_its_end_gives_what_it_has_and_says_so(short, tmp_path, ca
     short.log.write_text("".join(lines[:401]))
 
     assert main(["replay", str(short.log), "--html", str(tmp_path / "page.html")]) == 0
-    assert capsys.readouterr().err == f"octet: {short.log} ends before its run does; what it has is shown\n"
+    assert capsys.readouterr().err == f"octet: {short.log} ends before the run does; showing what it has\n"
     assert not resimulate(short.log).stopped
 
 

@@ -19,7 +19,7 @@ WRONG = {
     "a node out of range": (["--node", "64"], "1 to 63"),
     "an unknown parameter": (["--set", "colour=3"], "turn_deg"),
     "a parameter without a value": (["--set", "turn_deg"], "turn_deg"),
-    "a parameter out of the robot's range": (["--set", "turn_deg=999"], "out_of_range"),
+    "a parameter out of the robot's range": (["--set", "turn_deg=999"], "from 1 to 180 deg"),
     "a bus without a channel": (["--bus", "socketcan"], "INTERFACE:CHANNEL"),
     "an unknown interface": (["--bus", "carrier:pigeon"], "pigeon"),
     "a CAN interface that does not exist": (["--bus", "socketcan:nowhere0"], "nowhere0"),
