@@ -119,7 +119,7 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
         "--memory",
         type=Path,
         metavar="FILE",
-        help="load the eight bytes from FILE before the run if it exists, and save them afterwards (default: no file)",
+        help="load the eight bytes from FILE before the run, if it exists; save them afterwards (default: no file)",
     )
     add(
         "--out",

@@ -98,7 +98,7 @@ def _signal_row(signal: Signal) -> str:
 
 
 def _range(signal: Signal) -> str:
-    """A range of 0..0 is read as none at all: then it is that of the value table."""
+    """The range of a signal. cantools reads a range of 0..0 as none: the value table gives it then."""
     if signal.minimum is None:
         return f"{min(signal.choices or [0])}..{max(signal.choices or [0])}"
     return f"{signal.minimum}..{signal.maximum}"
