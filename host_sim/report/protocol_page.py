@@ -27,8 +27,8 @@ head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/oc
 2. **start** with profile and seed, then optionally **set** for parameters and **write** for the memory. Each command
    is answered.
 3. SENSES with tick n; the robot answers DRIVE with tick n. This repeats every 20 ms of robot time.
-4. The robot's other frames of a tick (MEMORY when it has learned, HEARTBEAT and FAULTS once a second) come before that
-   tick's DRIVE: DRIVE is always the last.
+4. The robot's other frames of a tick (MEMORY when it has learned, HEARTBEAT and FAULTS once a second) come before
+   that tick's DRIVE: DRIVE is always the last.
 
 If nothing fresh comes for 100 ms, the robot sends a DRIVE with speed 0, reason stop and the last tick that it
 received, and waits. Its memory and its current action stay; it continues with the next SENSES. Of the SENSES that

@@ -104,9 +104,9 @@ def test_what_is_no_run_is_one_line_and_leaves_nothing(short, tmp_path, capsys, 
 
     assert main([command[0], str(short.log), command[1], str(made)]) == code
 
-    told = capsys.readouterr().err
-    assert re.fullmatch(r"octet: .*\n", told)
-    assert named in told
+    message = capsys.readouterr().err
+    assert re.fullmatch(r"octet: .*\n", message)
+    assert named in message
     assert not made.exists()
 
 

@@ -122,9 +122,9 @@ def test_the_still_is_the_picture_that_a_run_leaves(tmp_path):
 )
 def test_a_clip_of_nothing_is_wrong_usage(short, capsys, words, named):
     assert main(["picture", str(short.log), *words]) == 2
-    told = capsys.readouterr().err
-    assert re.fullmatch(r"octet: .*\n", told)
-    assert named in told
+    message = capsys.readouterr().err
+    assert re.fullmatch(r"octet: .*\n", message)
+    assert named in message
 
 
 def test_a_clip_without_end_is_refused(kept, tmp_path, capsys):
