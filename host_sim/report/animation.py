@@ -115,7 +115,7 @@ def _frame_ticks(trajectory: Trajectory, clip: Clip) -> list[int]:
     if not ticks:
         raise UsageError(f"there is nothing between these times: the run is {trajectory.ticks * tick_s:.2f} s long")
     if len(ticks) > FRAMES_MAX:
-        raise UsageError(f"{len(ticks)} frames are more than {FRAMES_MAX}: shorten it with --from, --to or --speed")
+        raise UsageError(f"{len(ticks)} frames are more than {FRAMES_MAX}: use --from, --to or --speed")
     return ticks
 
 

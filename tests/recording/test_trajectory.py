@@ -157,7 +157,7 @@ def test_a_run_with_another_limit_needs_its_world_file(tmp_path):
     run = record_run(tmp_path, seed=2, environments=2, limit_s=3.0)
     world_path(run.log).unlink()
 
-    with pytest.raises(OctetError, match=r"world of seed 2: at \d+\.\d\d s .* put the run\.world\.json"):
+    with pytest.raises(OctetError, match=r"world of seed 2: at \d+\.\d\d s .* put that run's run\.world\.json"):
         resimulate(run.log)
 
 

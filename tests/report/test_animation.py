@@ -129,7 +129,7 @@ def test_a_clip_of_nothing_is_wrong_usage(short, capsys, words, named):
 
 def test_a_clip_without_end_is_refused(kept, tmp_path, capsys):
     assert main(["picture", str(kept.log), "--gif", str(tmp_path / "x.gif")]) == 2
-    assert "600 the most" in capsys.readouterr().err
+    assert "more than 600: use --from" in capsys.readouterr().err
 
 
 def test_the_images_of_the_readme_are_small_and_whole():
