@@ -1,1 +1,1 @@
-"""The world that the robot lives in: its arena, its senses, and the wire to the firmware."""
+"""The simulator of the robot's world: the arena, the robot's senses, and the link to the firmware."""

@@ -1,4 +1,4 @@
-"""Files that are written all or nothing."""
+"""Atomic file writes."""
 
 from pathlib import Path
 
@@ -6,10 +6,10 @@ from host_sim.errors import OctetError
 
 
 def write_bytes(path: Path, content: bytes) -> None:
-    """Writes a file all or nothing: what was there stays until the new one is whole.
+    """Writes a file atomically: an existing file stays as it is until the new one is complete.
 
     Raises:
-        OctetError: The disk did not take it.
+        OctetError: The file cannot be written.
     """
     part = path.with_name(path.name + ".part")
     try:

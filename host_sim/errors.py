@@ -1,4 +1,4 @@
-"""What can go wrong for a user, each with one line that says what was wrong and what to do."""
+"""The errors that a user can see. Each message is one line that says what was wrong and what to do."""
 
 
 class OctetError(Exception):
@@ -8,13 +8,13 @@ class OctetError(Exception):
 
 
 class UsageError(OctetError):
-    """The command makes no sense as it was given: it ends with exit code 2, and nothing was changed."""
+    """The command line is invalid: the command ends with exit code 2, and nothing was changed."""
 
     exit_code = 2
 
 
 class RobotError(OctetError):
-    """The robot is gone, silent, or not the one we can talk to."""
+    """The robot has ended, does not answer, or uses another protocol."""
 
 
 class RefusedError(RobotError):

@@ -1,28 +1,28 @@
-"""Where things are in the project's folder."""
+"""Paths within the project."""
 
 from pathlib import Path
 
 from host_sim.errors import OctetError
 
 ROOT = Path(__file__).resolve().parent.parent
-"""The folder of the project."""
+"""The project's root folder."""
 
 BUILD = ROOT / "build"
-"""What is made when building."""
+"""Build output."""
 
 WEB = ROOT / "host_sim" / "web"
-"""The page's own files."""
+"""The HTML, CSS and JavaScript of the pages."""
 
 
 def image_path(board: str, link: str) -> Path:
-    """Where an image is.
+    """Path of a firmware image.
 
     Args:
-        board: Its name, as in hal/stm32/boards: a preset of CMake.
-        link: One that its chip has, such as `bxcan` or `slcan`.
+        board: Name of the board, as in hal/stm32/boards; also the name of its CMake preset.
+        link: A link that its chip has, such as `bxcan` or `slcan`.
 
     Raises:
-        OctetError: It is not built.
+        OctetError: The image is not built.
     """
     path = BUILD / board / f"octet-{board}-{link}.elf"
     if not path.exists():

@@ -1,4 +1,4 @@
-"""What travels between a body and its robot at each control tick, in the bus's own whole numbers.
+"""What a body and its robot exchange at each control tick, in the integer units of the bus.
 
 The observation, field by field:
 
@@ -8,9 +8,9 @@ The observation, field by field:
 | feel           | proximity: right 1, front-right 2, front 4, front-left 8, left 16   | 0   | 31   | bits   |
 | bump           | the body touches something                                          | 0   | 1    |        |
 | look           | food is seen straight ahead                                         | 0   | 1    |        |
-| beacon_mm      | distance from the middle of the body to that food; 0: none          | 0   | 8191 | mm     |
-| odometer_left  | way of the left wheel, forward counts up, wraps                     | 0   | 4095 | 0.1 mm |
-| odometer_right | way of the right wheel, forward counts up, wraps                    | 0   | 4095 | 0.1 mm |
+| beacon_mm      | distance from the centre of the body to that food; 0: none          | 0   | 8191 | mm     |
+| odometer_left  | distance rolled by the left wheel, forward counts up, wraps         | 0   | 4095 | 0.1 mm |
+| odometer_right | distance rolled by the right wheel, forward counts up, wraps        | 0   | 4095 | 0.1 mm |
 
 The action, field by field:
 
@@ -53,7 +53,7 @@ class Drive(NamedTuple):
 
 
 NOTHING_SENSED = Senses(tick=0, feel=0, bump=False, look=False, beacon_mm=0, odometer_left=0, odometer_right=0)
-"""Of a body that has not sensed yet."""
+"""The senses of a body that has not sensed anything yet."""
 
 REST = Drive(tick=0, left_mm_s=0, right_mm_s=0, reason=0, repeat_count=0, action=0, eat=False)
 """Wheels at rest."""

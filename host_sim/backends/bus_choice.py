@@ -1,4 +1,4 @@
-"""`--bus auto`: a virtual CAN bus of our own where the kernel lets anyone have one, else a socket pair."""
+"""`--bus auto`: a private virtual CAN bus where the kernel allows one without root, else a socket pair."""
 
 import os
 import subprocess
@@ -12,16 +12,16 @@ _CHOSEN = "OCTET_VCAN_CHOSEN"
 
 
 def choose_bus(bus: str, robot: str) -> str:
-    """The bus that a name stands for.
+    """Resolves `auto` to a bus.
 
-    With `auto` this may start the whole command anew where there is a bus, and then does not return.
+    With `auto` this may start the whole command again in a network namespace with a bus, and then does not return.
 
     Args:
-        bus: As given.
-        robot: As given; only a robot that we start can be put on a bus that we choose.
+        bus: The bus as given on the command line.
+        robot: The kind of robot as given; only a spawned robot can be put on a chosen bus.
 
     Returns:
-        The name, with `auto` made up as `fd` or as `socketcan:vcan0`.
+        The name of the bus, with `auto` replaced by `fd` or `socketcan:vcan0`.
     """
     if bus != "auto":
         return bus

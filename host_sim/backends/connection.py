@@ -1,4 +1,4 @@
-"""From the names that a person types to a robot at the end of a link."""
+"""Connects to a robot that is named on the command line, and starts it first where needed."""
 
 import socket
 from collections.abc import Callable
@@ -21,13 +21,13 @@ _IMAGE_NODE = 1
 
 @dataclass(frozen=True)
 class Connection:
-    """A robot within reach.
+    """A connection to a robot.
 
     Attributes:
-        link: Carries frames to it and back.
-        bus: The bus's name, as the summary gives it.
-        status: Tells how the robot's process is, and raises RobotError if it has ended.
-        pid: Number of that process; None if it is not ours.
+        link: Carries frames to the robot and back.
+        bus: Name of the bus, as in the summary.
+        status: Describes the state of the robot's process, and raises RobotError if it has ended.
+        pid: Process id of the robot; None if it was not started as a process.
     """
 
     link: Link
@@ -36,46 +36,47 @@ class Connection:
     pid: int | None = None
 
 
-def connect(  # noqa: PLR0913, PLR0917 - what a person can say about it
+def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
     stack: ExitStack, bus: str, robot: str, node: int, board: str = "", shared: bool = False
 ) -> Connection:
-    """Opens a bus and, unless it is there already, starts a robot on it.
+    """Opens a bus and, unless the robot is external, starts a robot on it.
 
     Args:
-        stack: Ends all that is opened here when it closes.
-        bus: `none`, `fd`, or a python-can `INTERFACE:CHANNEL`. Robots in emulators bring their own: any but the last.
-        robot: `spawn` to start one, `external` for one that is on the bus, `qemu` or `emulated` for the image that
-            is flashed.
-        node: 1..63.
+        stack: Closes everything that is opened here.
+        bus: `none`, `fd`, or python-can's `INTERFACE:CHANNEL`; for emulated robots, which bring their own bus, `none`
+            or `fd`.
+        robot: `spawn` to start the firmware, `external` for a robot that is on the bus already, `qemu` or `emulated`
+            to run the flash image.
+        node: Node number of the robot, 1..63.
         board: One of `BOARDS`, for an emulated robot; empty for the first.
-        shared: Whether other robots of this run are on the bus, each with a connection of its own.
+        shared: Whether other robots of this run are on the same bus, each with its own connection.
 
     Raises:
-        UsageError: The names make no sense together, or the bus cannot be opened.
-        OctetError: Something to be built or installed is not there.
+        UsageError: The options contradict each other, or the bus cannot be opened.
+        OctetError: Something that must be built or installed is missing.
         RobotError: The robot does not start.
     """
     if robot in _EMULATORS:
         return _in_emulator(stack, bus, robot, node, board or BOARDS[0])
     if bus in ("none", "fd") and robot == "external":
-        raise UsageError(f"--robot external needs a bus that it is on: --bus INTERFACE:CHANNEL, not --bus {bus}")
+        raise UsageError(f"--robot external needs --bus INTERFACE:CHANNEL, the bus that it is on, not --bus {bus}")
     if bus == "none":
         return Connection(InProcessLink(node), bus, lambda: "runs in this process")
     if bus == "fd":
         return _over_socket_pair(stack, node)
     if shared and bus.partition(":")[0] != "socketcan":
-        raise UsageError(f"several robots can be on socketcan, fd or none, not on {bus}: leave out --robots")
+        raise UsageError(f"several robots need the bus socketcan, fd or none, not {bus}: leave out --robots")
     return _over_bus(stack, bus, robot, node)
 
 
 def _in_emulator(stack: ExitStack, bus: str, robot: str, node: int, board: str) -> Connection:
     if bus not in ("none", "fd"):
         raise UsageError(
-            f"--robot {robot} brings its own bus: leave out --bus {bus}; or put a board on that one with"
-            f" python -m host_sim.emulator --bus {bus}, and say --robot external"
+            f"--robot {robot} brings its own bus: leave out --bus {bus}; or start a board on that bus with"
+            f" python -m host_sim.emulator --bus {bus}, and use --robot external"
         )
     if node != _IMAGE_NODE:
-        raise UsageError(f"the image that is flashed is node {_IMAGE_NODE}, not {node}: leave out --node, --robots")
+        raise UsageError(f"the flash image is node {_IMAGE_NODE}, not {node}: leave out --node and --robots")
     return _in_qemu(stack) if robot == "qemu" else _on_emulated_board(stack, board)
 
 
@@ -108,9 +109,9 @@ def _over_bus(stack: ExitStack, bus: str, robot: str, node: int) -> Connection:
     stack.callback(link.close)
     interface = bus.partition(":")[0]
     if robot == "external":
-        return Connection(link, bus, lambda: "is not ours to watch")
+        return Connection(link, bus, lambda: "was not started here")
     if interface != "socketcan":
-        raise UsageError(f"a robot can be started on socketcan or fd, not on {interface}: say --robot external")
+        raise UsageError(f"a robot cannot be started on {interface}, only on socketcan or fd: use --robot external")
     process = RobotProcess(bus, node)
     stack.callback(process.close)
     return Connection(link, bus, process.status, process.pid)

@@ -1,4 +1,4 @@
-"""The images that are flashed, and the boards that they are for."""
+"""The boards that flash images are built for."""
 
 BOARDS = ("feather_stm32f405", "blue_pill")
 """Boards that can be emulated."""

@@ -13,31 +13,31 @@ from host_sim.transport.slcan_link import SlcanLink
 
 PROGRAM = "qemu-system-arm"
 MACHINE = "netduinoplus2"
-"""A board of QEMU's with an STM32F405."""
+"""A board with an STM32F405 that QEMU emulates."""
 
 _READY_S = 10.0
 _END_S = 2.0
 _PAUSE_S = 0.05
-"""What the robot says at once has no such gaps."""
+"""The robot's first reports follow each other without gaps as long as this."""
 
 
 class Qemu:
-    """One running QEMU. It ends with `close`, and at the latest with this process.
+    """A running QEMU. It ends with `close`, or when this process ends.
 
     Attributes:
         link: Carries frames to the image and back.
-        pid: The process's number.
+        pid: Process id.
     """
 
     def __init__(self, image: Path | None = None) -> None:
-        """Starts it and waits until the robot inside has reported: left alone, it does so once a second.
+        """Starts QEMU and waits for the robot's first reports, which it sends once a second without being asked.
 
         Args:
-            image: The `.elf`; None for the one that the build leaves.
+            image: The `.elf` file; None for the one that was built here.
 
         Raises:
             OctetError: QEMU is not installed, or the image is not built.
-            RobotError: It ended, or the robot did not speak in time.
+            RobotError: QEMU ended, or the robot did not report in time.
         """
         image = image or image_path("feather_stm32f405", "slcan")
         if shutil.which(PROGRAM) is None:
@@ -45,7 +45,7 @@ class Qemu:
         ours, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(
-                _order(image, theirs.fileno()),
+                _command_line(image, theirs.fileno()),
                 pass_fds=[theirs.fileno()],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
@@ -60,10 +60,10 @@ class Qemu:
             raise
 
     def status(self) -> str:
-        """How the process is, in a few words.
+        """The state of the process, in a few words.
 
         Raises:
-            RobotError: It has ended; says what it printed.
+            RobotError: It has ended; the message has what it printed.
         """
         code = self._process.poll()
         if code is None:
@@ -73,7 +73,7 @@ class Qemu:
         raise RobotError(f"QEMU ended with exit code {code} and printed: {printed or 'nothing'}")
 
     def close(self) -> None:
-        """Ends the process. It has nothing to save."""
+        """Kills the process, which has nothing to save."""
         self._process.kill()
         self._process.wait()
         self.link.close()
@@ -89,13 +89,13 @@ class Qemu:
             self.status()
             raise
         if frame is None:
-            raise RobotError(f"the robot in QEMU said nothing for {_READY_S:g} s; it {self.status()}")
+            raise RobotError(f"the robot in QEMU sent nothing for {_READY_S:g} s; it {self.status()}")
         while self.link.receive(_PAUSE_S) is not None:
             continue
 
 
-def _order(image: Path, serial: int) -> list[str]:
-    """The command line; `setpriv` ends QEMU where this process ends without a chance to."""
+def _command_line(image: Path, serial: int) -> list[str]:
+    """The command line; `setpriv` ends QEMU even if this process is killed."""
     return [
         *("setpriv", "--pdeathsig", "KILL", PROGRAM, "-M", MACHINE, "-display", "none", "-monitor", "none"),
         *("-chardev", f"socket,id=uart,fd={serial}", "-serial", "chardev:uart", "-kernel", os.fspath(image)),

@@ -1,4 +1,4 @@
-"""The firmware as a process of its own, as it runs on the host."""
+"""The host build of the firmware, in its own process."""
 
 import os
 import select
@@ -17,34 +17,34 @@ _PRINTED_CHARS = 400
 
 
 class RobotProcess:
-    """One running robot. It ends with `close`, and at the latest with this process.
+    """A running robot. It ends with `close`, or when this process ends.
 
     Attributes:
-        pid: The process's number.
+        pid: Process id.
     """
 
     def __init__(self, link: str, node: int, pass_fds: Sequence[int] = (), program: Path = PROGRAM) -> None:
-        """Starts it and waits until it listens.
+        """Starts the robot and waits until it listens.
 
         Args:
-            link: Its link, as the robot's own command line takes it: `socketcan:vcan0`, `fd:5`.
-            node: 1..63.
-            pass_fds: Open files that it inherits.
+            link: Its link, as on the firmware's command line: `socketcan:vcan0`, `fd:5`.
+            node: Node number, 1..63.
+            pass_fds: File descriptors that it inherits.
             program: The firmware.
 
         Raises:
-            OctetError: The program is not there.
-            RobotError: It ended, or did not get ready in time; says what it printed.
+            OctetError: The program is missing.
+            RobotError: The process ended, or was not ready in time; the message has what it printed.
         """
-        order = [os.fspath(program), "--with-parent", "--node", str(node), link]
+        command = [os.fspath(program), "--with-parent", "--node", str(node), link]
         try:
             self._process = subprocess.Popen(
-                order,
+                command,
                 pass_fds=pass_fds,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
-                start_new_session=True,  # a Ctrl-C in the terminal is for us: we stop the robot in good order
+                start_new_session=True,  # Ctrl-C in the terminal must not reach the robot: it is stopped in order
             )
         except OSError as error:
             raise OctetError(f"cannot start the firmware: {error}; build it with tools/setup") from error
@@ -60,10 +60,10 @@ class RobotProcess:
             raise
 
     def status(self) -> str:
-        """How the process is, in a few words, with what it printed.
+        """The state of the process in a few words, with what it printed.
 
         Raises:
-            RobotError: It has ended.
+            RobotError: The process has ended.
         """
         code = self._process.poll()
         if code is None:
@@ -72,7 +72,7 @@ class RobotProcess:
         raise RobotError(f"the robot {how} and {self._quoted()}")
 
     def close(self) -> None:
-        """Ends the process, by force if it must be."""
+        """Terminates the process, and kills it if it does not end in time."""
         self._process.terminate()
         try:
             self._process.wait(_END_S)

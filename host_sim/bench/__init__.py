@@ -1,1 +1,1 @@
-"""How fast it all is, and whether it is the same everywhere: `tools/bench`."""
+"""`tools/bench`: measures speed, and compares runs of all firmware images."""

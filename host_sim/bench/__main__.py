@@ -13,12 +13,13 @@ from host_sim.bench.page_figures import page_figures
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Measures and tells; the exit code is 1 if a bar was missed."""
-    parser = argparse.ArgumentParser(prog="tools/bench", description="Measures speed, each beside a reference.")
+    """Measures and prints; the exit code is 1 if a figure misses its target."""
+    description = "Measures speed, each figure beside a reference. The exit code is 1 if a figure misses its target."
+    parser = argparse.ArgumentParser(prog="tools/bench", description=description)
     add = parser.add_argument
-    add("--json", action="store_true", help="print JSON, not a table")
+    add("--json", action="store_true", help="print JSON instead of a table")
     add("--equality", action="store_true", help="instead, compare long runs of all images with the host's")
-    add("--vcan", action="store_true", help="instead, only the pair of figures for vcan0, which must exist")
+    add("--vcan", action="store_true", help="instead, measure only on vcan0, which must exist, and print JSON")
     options = parser.parse_args(arguments)
     if options.equality:
         return 0 if compare_images() else 1

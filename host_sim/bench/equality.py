@@ -1,4 +1,4 @@
-"""Whether one and the same firmware does the same everywhere: every frame of it, byte for byte."""
+"""Compares the firmware's frames on the host with those of the flash images, byte for byte."""
 
 from collections.abc import Iterator, Sequence
 from itertools import zip_longest
@@ -11,19 +11,19 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.sim.run_config import RunConfig
 
 REFERENCE = "host"
-"""The firmware built for the host, in this process: what the others are held against."""
+"""The firmware built for the host, in this process: the reference for the images."""
 
 IMAGES = ("qemu", *BOARDS)
-"""Where the images that are flashed run."""
+"""Where the flash images run."""
 
 
 class Verdict(NamedTuple):
-    """How one run compares with the reference's.
+    """The comparison of one run with the reference.
 
     Attributes:
-        seed: The run's.
+        seed: The run's seed.
         where: One of `IMAGES`.
-        difference: None if all frames are the same; else the first line that is not, for people.
+        difference: The first line that differs, as text; None if all frames are the same.
     """
 
     seed: int
@@ -36,12 +36,12 @@ def record(where: str, seed: int, ticks: int, log: Path) -> None:
 
     Args:
         where: `REFERENCE`, or one of `IMAGES`.
-        seed: Of environments and random turns.
-        ticks: Its length.
-        log: The file for its frames.
+        seed: Seed for environments and random turns.
+        ticks: Number of ticks.
+        log: File for the frames.
 
     Raises:
-        OctetError: The robot cannot be had there, or it fails.
+        OctetError: The robot cannot be started there, or it fails.
     """
     robots = {REFERENCE: "spawn", **dict.fromkeys(BOARDS, "emulated")}
     board = where if where in BOARDS else ""
@@ -63,10 +63,10 @@ def compare(seeds: Sequence[int], ticks: int, folder: Path, images: Sequence[str
     """Compares runs on the host and on images.
 
     Args:
-        seeds: One run each.
-        ticks: Length of each.
-        folder: For the logs; that of the reference and of a run that differs are left there.
-        images: Some of `IMAGES`.
+        seeds: Seeds of the runs.
+        ticks: Number of ticks of each run.
+        folder: Folder for the logs; those of the reference and of runs that differ stay there.
+        images: The images to compare, from `IMAGES`.
 
     Yields:
         A verdict for each seed and image.

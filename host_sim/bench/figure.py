@@ -1,10 +1,10 @@
-"""One measured figure, with the bar that it is to reach and the reference that it is held against."""
+"""One measured figure, with its target and its reference."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 ROUNDS = 3
-"""Each is measured so often and the best taken: the rest is what else the machine was doing."""
+"""Number of measurements of each figure. The best counts: the others were disturbed by other work of the machine."""
 
 
 @dataclass(frozen=True)
@@ -13,14 +13,14 @@ class Figure:
 
     Attributes:
         name: What was measured.
-        value: How much.
-        unit: Of the value.
-        bar: What it is to reach, in words; empty if it may be anything.
-        reached: Whether it does, and its ratio too.
-        bound: What bounds it.
-        reference: What it is held against, and how much that is; empty if nothing is.
-        ratio: Value by that of the reference; None without one.
-        ratio_bar: What the ratio is to reach, in words; empty if it may be anything.
+        value: Measured value.
+        unit: Unit of the value.
+        bar: Target for the value, such as ">= 5000"; empty if there is none.
+        reached: Whether value and ratio reach their targets.
+        bound: What limits it.
+        reference: Name and value of the reference; empty if there is none.
+        ratio: Value divided by that of the reference; None without one.
+        ratio_bar: Target for the ratio; empty if there is none.
     """
 
     name: str
@@ -36,7 +36,7 @@ class Figure:
 
 @dataclass(frozen=True)
 class Rate:
-    """Something done so many times a second, with the least that is wanted; 0 for anything."""
+    """A rate per second and its target; 0 for no target."""
 
     name: str
     per_second: float
@@ -44,7 +44,7 @@ class Rate:
 
 
 def rate_figure(ours: Rate, reference: Rate, bound: str) -> Figure:
-    """A figure in ticks a second, beside a reference; its `at_least` is that of the ratio."""
+    """A figure in ticks per second, beside a reference; `reference.at_least` is the target for the ratio."""
     ratio = ours.per_second / reference.per_second
     return Figure(
         name=ours.name,
@@ -60,17 +60,17 @@ def rate_figure(ours: Rate, reference: Rate, bound: str) -> Figure:
 
 
 def most_figure(name: str, value: float, unit: str, at_most: float, bound: str) -> Figure:
-    """A figure that is to stay below a bar."""
+    """A figure whose target is to stay below a limit."""
     return Figure(name, round(value, 2), unit, f"< {at_most:g}", value < at_most, bound)
 
 
 def best(measure: Callable[[], float]) -> float:
-    """The greatest of some rounds."""
+    """The greatest of `ROUNDS` measurements."""
     return max(measure() for _ in range(ROUNDS))
 
 
 def table(figures: Sequence[Figure]) -> str:
-    """The figures for people."""
+    """The figures as a table."""
     rows = [("figure", "measured", "bar", "reference", "ratio", "bar", "", "bounded by")]
     for figure in figures:
         ratio = "" if figure.ratio is None else f"{figure.ratio:.2f}"

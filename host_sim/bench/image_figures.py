@@ -1,4 +1,4 @@
-"""How fast the images that are flashed run on boards that are not there, and whether they do what the host does."""
+"""The speed of the flash images in emulators, and their comparison with the host."""
 
 import time
 from pathlib import Path
@@ -18,7 +18,7 @@ _AT_LEAST = 200
 
 
 def image_figures() -> list[Figure]:
-    """Lockstep with each image, in a whole run with physics and log."""
+    """Figures for lockstep with each image, in a whole run with physics and log."""
     emulated = [
         rate_figure(
             Rate(f"bxCAN image on an emulated {board}", _ticks_per_second("emulated", board), _AT_LEAST),
@@ -32,7 +32,11 @@ def image_figures() -> list[Figure]:
 
 
 def compare_images() -> bool:
-    """Long runs of the host build, of the QEMU image and of both emulated boards: are all frames the same?"""
+    """Compares long runs in QEMU and on the emulated boards with the host's, and prints the results.
+
+    Returns:
+        Whether all frames are the same.
+    """
     equal = True
     with TemporaryDirectory() as folder:
         for seed, where, difference in compare(range(1, _EQUAL_SEEDS + 1), _EQUAL_TICKS, Path(folder)):

@@ -1,4 +1,4 @@
-"""How fast world and robot take turns: over a socket pair, over vcan, and in one process."""
+"""The speed of lockstep: over a socket pair, over vcan, and in one process."""
 
 import json
 import os
@@ -29,7 +29,7 @@ _SEED = 1
 
 
 def lockstep_figures() -> list[Figure]:
-    """Every figure of lockstep, and of the core alone."""
+    """All figures for lockstep, for the core alone and for the start of a run."""
     return [
         rate_figure(
             Rate("lockstep over a socket pair, with physics", best(lambda: _ticks_per_second("fd", _LIMIT_S)), 5000),
@@ -48,14 +48,14 @@ def lockstep_figures() -> list[Figure]:
 
 
 def measure_vcan() -> dict[str, float]:
-    """Reference and our own figure, where vcan0 exists: the best of some, taken in turn."""
+    """Ticks per second on vcan0, of the reference and of ours: the best of `ROUNDS`, measured in turn."""
     pairs = [(_python_can_turns_per_second(), _ticks_per_second(_VCAN, _VCAN_LIMIT_S)) for _ in range(ROUNDS)]
     return {"reference": max(reference for reference, _ in pairs), "ours": max(ours for _, ours in pairs)}
 
 
 def _vcan_figure() -> Figure:
-    order = [os.fspath(ROOT / "tools" / "with-vcan"), sys.executable, "-m", "host_sim.bench", "--vcan"]
-    pair = json.loads(subprocess.run(order, capture_output=True, text=True, check=True).stdout)
+    command = [os.fspath(ROOT / "tools" / "with-vcan"), sys.executable, "-m", "host_sim.bench", "--vcan"]
+    pair = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
     return rate_figure(
         Rate("lockstep over vcan, with physics", pair["ours"]),
         Rate("python-can with a C echo", pair["reference"], 0.8),
@@ -64,7 +64,7 @@ def _vcan_figure() -> Figure:
 
 
 def _ticks_per_second(bus: str, limit_s: float) -> float:
-    """Lockstep with physics and log: ticks by wall time, from the first to the last."""
+    """Ticks per second in lockstep with physics and log, from the first tick to the last."""
     config = RunConfig(seed=_SEED, environments=3, limit_s=limit_s, bus=bus)
     with TemporaryDirectory() as folder, ExitStack() as stack:
         log = FrameLog(Path(folder) / "run.log")
@@ -76,7 +76,7 @@ def _ticks_per_second(bus: str, limit_s: float) -> float:
 
 
 def _arena_ticks_per_second() -> float:
-    """The arena alone, its robot turning in place."""
+    """Ticks per second of the arena alone, its robot turning in place."""
     arena = Arena(generate(_SEED, 1, SimParams()), SimParams())
     began = time.perf_counter()
     for tick in range(_TURNS):
@@ -90,20 +90,20 @@ def _c_turns_per_second() -> float:
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     program = os.fspath(_REFERENCE / "octet-pingpong")
     with ours, theirs:
-        echo_order = [program, "echo", f"fd:{theirs.fileno()}"]
-        with subprocess.Popen(echo_order, pass_fds=[theirs.fileno()], stdout=subprocess.DEVNULL) as echo:
-            ping_order = [program, "ping", f"fd:{ours.fileno()}", str(_TURNS * 2)]
+        echo_command = [program, "echo", f"fd:{theirs.fileno()}"]
+        with subprocess.Popen(echo_command, pass_fds=[theirs.fileno()], stdout=subprocess.DEVNULL) as echo:
+            ping_command = [program, "ping", f"fd:{ours.fileno()}", str(_TURNS * 2)]
             fds = [ours.fileno()]
-            ping = subprocess.run(ping_order, pass_fds=fds, capture_output=True, text=True, check=True)
+            ping = subprocess.run(ping_command, pass_fds=fds, capture_output=True, text=True, check=True)
             echo.terminate()
     return 1e6 / float(ping.stdout)
 
 
 def _python_can_turns_per_second() -> float:
     """python-can and a C echo taking turns on vcan0."""
-    order = [os.fspath(_REFERENCE / "octet-pingpong"), "echo", _VCAN]
+    command = [os.fspath(_REFERENCE / "octet-pingpong"), "echo", _VCAN]
     message = can.Message(arbitration_id=0x0C1, data=bytes(8), is_extended_id=False)
-    with subprocess.Popen(order, stdout=subprocess.PIPE) as echo, can.Bus("vcan0", "socketcan") as bus:
+    with subprocess.Popen(command, stdout=subprocess.PIPE) as echo, can.Bus("vcan0", "socketcan") as bus:
         assert echo.stdout is not None
         echo.stdout.readline()
         began = time.perf_counter()
@@ -116,18 +116,18 @@ def _python_can_turns_per_second() -> float:
 
 
 def _core_tick_ns() -> float:
-    order = [os.fspath(_REFERENCE / "octet-core-tick")]
-    return float(subprocess.run(order, capture_output=True, text=True, check=True).stdout)
+    command = [os.fspath(_REFERENCE / "octet-core-tick")]
+    return float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
 
 
 def _start_s() -> float:
-    """The fastest of some starts of `tools/run`: to its end, which is later than its first tick."""
+    """The shortest of `ROUNDS` whole runs of `tools/run` with one robot second."""
     return min(_one_start_s() for _ in range(ROUNDS))
 
 
 def _one_start_s() -> float:
     with TemporaryDirectory() as folder:
-        order = [f"{ROOT}/tools/run", "--environments", "1", "--limit-s", "1", "--quiet", "--out", folder]
+        command = [f"{ROOT}/tools/run", "--environments", "1", "--limit-s", "1", "--quiet", "--out", folder]
         began = time.perf_counter()
-        subprocess.run(order, check=True)
+        subprocess.run(command, check=True)
         return time.perf_counter() - began

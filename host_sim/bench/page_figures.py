@@ -1,6 +1,6 @@
-"""How fast the pages are, in a real browser: drawing, lag, the cost of being watched, and a kept page's start.
+"""The speed of the pages in a real browser: drawing, lag, the cost of watching, and the start of a recorded page.
 
-`tools/setup tests` brings the browser.
+`tools/setup tests` installs the browser.
 """
 
 import json
@@ -25,7 +25,7 @@ _READY = "window.octet?.scene?.state"
 _WIDTH, _HEIGHT = 1280, 800
 _FRAMES, _LAGS, _LAG_PAUSE_MS = 200, 40, 50.0
 _WATCHED_ENVIRONMENTS = 40  # long enough for the opening of the page not to count
-_PATIENCE_S = 30.0
+_TIMEOUT_S = 30.0
 # Reading a pixel makes the browser finish the drawing.
 _TIME_DRAWING = """() => {
     const draw = octet.renderer.draw.bind(octet.renderer);
@@ -40,7 +40,7 @@ _TIME_DRAWING = """() => {
 
 
 def page_figures() -> list[Figure]:
-    """Every figure of the pages."""
+    """All figures for the pages."""
     with sync_playwright() as playwright, TemporaryDirectory() as folder:
         browser = playwright.chromium.launch(executable_path=_CHROMIUM, args=["--no-sandbox"])
         try:
@@ -54,7 +54,7 @@ def _figures(browser: Browser, folder: Path) -> list[Figure]:
     alone = best(lambda: _watched_ticks_per_second(None, folder))
     watched = best(lambda: _watched_ticks_per_second(browser, folder))
     loss = 100 * (1 - watched / alone)
-    ready_ms = min(_kept_page_ms(browser, folder) for _ in range(ROUNDS))
+    ready_ms = min(_recorded_page_ms(browser, folder) for _ in range(ROUNDS))
     return [
         most_figure("drawing one frame, median", drawing_ms, "ms", 4, "canvas without a graphics card"),
         most_figure("state on the page behind the robot, median", lag_ms, "ms", 100, "the page's 60 frames a second"),
@@ -65,18 +65,18 @@ def _figures(browser: Browser, folder: Path) -> list[Figure]:
             bar="<= 10",
             reached=loss <= 10,  # noqa: PLR2004 - as the bar says
             bound="two cores: the browser takes most of one",
-            reference=f"watched by nobody: {alone:.0f} ticks/s",
+            reference=f"without a page: {alone:.0f} ticks/s",
             ratio=round(watched / alone, 2),
         ),
-        most_figure("a kept page, to its first picture", ready_ms, "ms", 1000, "unpacking and laying out"),
+        most_figure("a recorded page, to its first picture", ready_ms, "ms", 1000, "unpacking and laying out"),
     ]
 
 
 @contextmanager
 def _watched_run(folder: Path, *words: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """A run that serves a page: its process, and the address."""
-    order = [sys.executable, "-m", "host_sim", *words, "--bus", "none", "--port", "0", "--out", os.fspath(folder)]
-    with subprocess.Popen(order, stdout=subprocess.PIPE, text=True) as process:
+    """A run that serves a page: its process, and the page's address."""
+    command = [sys.executable, "-m", "host_sim", *words, "--bus", "none", "--port", "0", "--out", os.fspath(folder)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         try:
             address = next(match[0] for line in process.stdout if (match := re.search(r"http://\S+", line)))
@@ -86,11 +86,11 @@ def _watched_run(folder: Path, *words: str) -> Iterator[tuple[subprocess.Popen[s
 
 
 def _wait_for(page: Page, expression: str) -> None:
-    """Asks again and again: the page's own policy lets no one evaluate within it."""
-    give_up = time.monotonic() + _PATIENCE_S
+    """Waits for an expression by polling: the page's content security policy forbids evaluating within the page."""
+    give_up = time.monotonic() + _TIMEOUT_S
     while not page.evaluate(f"Boolean({expression})"):
         if time.monotonic() > give_up:
-            raise OctetError(f"the page did not come to {expression} within {_PATIENCE_S:g} s")
+            raise OctetError(f"on the page, {expression} did not become true within {_TIMEOUT_S:g} s")
 
 
 def _open(browser: Browser, address: str) -> Page:
@@ -115,7 +115,7 @@ def _drawing_and_lag_ms(browser: Browser, folder: Path) -> tuple[float, float]:
 
 
 def _watched_ticks_per_second(browser: Browser | None, folder: Path) -> float:
-    """A run at full speed that serves a page, from its summary; with a browser, that page is open all the while."""
+    """Ticks per second of a run at full speed that serves a page, which is open in the browser, if there is one."""
     words = ("run", "--watch", "--environments", str(_WATCHED_ENVIRONMENTS))
     with _watched_run(folder, *words) as (process, address):
         page = None if browser is None else _open(browser, address)
@@ -128,7 +128,7 @@ def _watched_ticks_per_second(browser: Browser | None, folder: Path) -> float:
     return float(ticks / summary["wall_s"])
 
 
-def _kept_page_ms(browser: Browser, folder: Path) -> float:
+def _recorded_page_ms(browser: Browser, folder: Path) -> float:
     began = time.perf_counter()
     page = _open(browser, (folder / "replay.html").as_uri())
     ready_ms = (time.perf_counter() - began) * 1e3

@@ -1,4 +1,4 @@
-"""A run of so many ticks, for comparing and measuring robots."""
+"""Runs of a given number of ticks, for comparing and measuring robots."""
 
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
@@ -9,18 +9,18 @@ from host_sim.sim.simulation import Simulation
 
 
 def run_ticks(config: RunConfig, ticks: int, log: FrameLog) -> RobotClient:
-    """Lets a robot learn, one environment after the other, until that many ticks have passed.
+    """Runs a robot in one environment after the other for a number of ticks.
 
     Args:
-        config: What to run; its number of environments does not count.
-        ticks: How many.
-        log: Gets the frames; it is closed.
+        config: The configuration; its number of environments is ignored.
+        ticks: Number of ticks.
+        log: Log for the frames; closed at the end.
 
     Returns:
-        The robot's client, as it was at the end.
+        The robot's client, at the end of the run.
 
     Raises:
-        RobotError: The robot is gone.
+        RobotError: The robot has ended or does not answer.
     """
     try:
         with make(config, log) as simulation:
@@ -31,10 +31,14 @@ def run_ticks(config: RunConfig, ticks: int, log: FrameLog) -> RobotClient:
 
 
 def step_through(simulation: Simulation, ticks: int) -> None:
-    """Steps through one environment after the other until that many ticks have passed, and stops the robot.
+    """Steps through one environment after the other for a number of ticks, then stops the robot.
+
+    Args:
+        simulation: The simulation, before its first environment.
+        ticks: Number of ticks.
 
     Raises:
-        RobotError: The robot is gone.
+        RobotError: The robot has ended or does not answer.
     """
     number = 0
     while simulation.tick < ticks:

@@ -22,14 +22,14 @@ class TickCost:
     """Counts each tick of a board, to within a basic block, by watching the registers of its CAN controller.
 
     Attributes:
-        counts: Instructions of each tick so far.
+        counts: Number of instructions of each tick so far.
     """
 
     def __init__(self, board: EmulatedBoard) -> None:
-        """Begins to watch.
+        """Starts watching.
 
         Args:
-            board: Which one.
+            board: The board to watch.
         """
         protocol = Protocol()
         self._senses, self._drive = protocol.id_of("SENSES"), protocol.id_of("DRIVE")
@@ -56,7 +56,7 @@ class TickCost:
 
 
 def _watch(register: Register, on_read: Callable[[int], None], on_write: Callable[[int], None]) -> None:
-    """Has two functions told what is read from a register and written to it."""
+    """Has two functions called with every value that is read from a register, and written to it."""
     read, write = register.on_read, register.on_write
     assert read is not None
     assert write is not None
@@ -74,15 +74,15 @@ def _watch(register: Register, on_read: Callable[[int], None], on_write: Callabl
 
 
 def count_ticks(name: str, seed: int, ticks: int) -> list[int]:
-    """Instructions of each tick of a real run.
+    """The number of instructions of each tick of a run on an emulated board.
 
     Args:
-        name: Of the board.
-        seed: Of environments and random turns.
-        ticks: How many.
+        name: Name of the board.
+        seed: Seed for environments and random turns.
+        ticks: Number of ticks.
 
     Raises:
-        OctetError: The board or its image cannot be had, or it fails.
+        OctetError: The board's image is not built, or the board fails.
     """
     board = start_board(name)
     try:

@@ -1,4 +1,4 @@
-"""Conducts a run from its start to the files that it leaves behind."""
+"""Conducts a run from its start to its output files."""
 
 import argparse
 import sys
@@ -30,7 +30,7 @@ from host_sim.sim.make import Memory, make, start_robots
 from host_sim.sim.simulation import EpisodeResult, Simulation
 
 LOG, SUMMARY, PICTURE, PAGE = "run.log", "summary.json", "arena.png", "replay.html"
-"""What a run leaves in its output folder."""
+"""The files in a run's output folder."""
 
 _NOTHING = (0,) * CELL_COUNT
 
@@ -38,18 +38,19 @@ _NOTHING = (0,) * CELL_COUNT
 def conduct_watched(arguments: argparse.Namespace, watch: WatchOptions) -> Summary:
     """Conducts a run that people watch.
 
-    The page keeps the time, so the robot waits for it; a bus in a network of its own would hide the page.
+    The page sets the pace, so the robot waits for it (lockstep). `--bus auto` means `fd` here: in a network namespace
+    with its own bus, no browser could reach the page.
     """
     options = run_options(arguments, "fd" if arguments.bus == "auto" else arguments.bus, watch)
     return conduct(replace(options, config=replace(options.config, real_time=False)))
 
 
 def conduct(options: RunOptions) -> Summary:
-    """Does a run and leaves log, world file, summary, picture and page in its folder.
+    """Conducts a run and writes log, world file, summary, picture and page to its folder.
 
     Raises:
-        UsageError: The options cannot be meant; nothing was changed.
-        OctetError: The run could not go on; the log up to there is kept.
+        UsageError: The options are invalid; nothing was changed.
+        OctetError: The run could not continue; its log up to there was written.
     """
     memories = _memories(options)
     _make_folder(options.out)
@@ -57,7 +58,9 @@ def conduct(options: RunOptions) -> Summary:
         listener = _open_listener(stack, options.watch)
         log = FrameLog(options.out / LOG)
         stack.callback(log.close)
-        simulation = stack.enter_context(make(options.config, log, memories, lambda it: _tell(options, it)))
+        simulation = stack.enter_context(
+            make(options.config, log, memories, lambda client: _print_robot(options, client))
+        )
         recorder = RunRecorder.of(simulation, _boredom_limit(options))
         began = time.monotonic()
         episodes = _simulate(simulation, recorder, options, listener)
@@ -70,7 +73,7 @@ def conduct(options: RunOptions) -> Summary:
     return summary
 
 
-def _tell(options: RunOptions, client: RobotClient) -> None:
+def _print_robot(options: RunOptions, client: RobotClient) -> None:
     if options.talks:
         config = options.config
         print(f"robot     node {client.node} on {client.bus}, profile {config.profile}, seed {config.seed}")
@@ -81,9 +84,10 @@ def _boredom_limit(options: RunOptions) -> int:
 
 
 def _memories(options: RunOptions) -> list[Memory | None]:
-    """What each robot is to begin with.
+    """Each robot's memory at its start, from its file.
 
-    A robot that we start has nothing learned yet where there is no file; an external one is told so.
+    Where the file does not exist yet: a robot that is started here has an empty memory; that of an external one is
+    erased.
     """
     missing = _NOTHING if options.config.robot == "external" else None
     return [load_memory(path) or missing for path in _memory_paths(options)]
@@ -123,7 +127,7 @@ def _simulate(
 
 
 def _run_through(simulation: Simulation, options: RunOptions) -> list[EpisodeResult]:
-    """As fast as it goes, or as real time does."""
+    """Runs all environments, as fast as possible or in real time."""
     progress = Progress()
     if options.talks:
         simulation.watch = _each(simulation.watch, progress)
@@ -141,7 +145,7 @@ def _run_through(simulation: Simulation, options: RunOptions) -> list[EpisodeRes
 
 
 def _each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], object]:
-    """One watcher that calls several."""
+    """A function that calls several watchers."""
 
     def watch(simulation: Simulation) -> None:
         for watcher in watchers:
@@ -153,7 +157,7 @@ def _each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], o
 def _show(
     simulation: Simulation, recorder: RunRecorder, options: RunOptions, listener: Listener | None
 ) -> Sequence[EpisodeResult]:
-    """Lets people watch and interfere: in a browser, or without a listener in the terminal."""
+    """Runs with people watching: in the browser, or in the terminal if there is no listener."""
     assert options.watch is not None
     live = PacedRun(
         simulation,
@@ -172,7 +176,7 @@ def _show(
 
 
 def _write_outputs(options: RunOptions, summary: Summary, trajectory: Trajectory) -> None:
-    """Writes and prints what is left of a run: what was learned first."""
+    """Writes and prints the results of a run, the memories first: they are worth the most."""
     for path, robot in zip(_memory_paths(options), summary.robots, strict=False):
         save_memory(path, robot["memory"])
     summary.write(options.out / SUMMARY)

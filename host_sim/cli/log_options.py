@@ -1,4 +1,4 @@
-"""What a person can say about a recorded log, on the command line."""
+"""The command-line options for a recorded log."""
 
 import argparse
 import sys
@@ -13,23 +13,28 @@ if TYPE_CHECKING:
 
 
 def add_log_options(parser: argparse.ArgumentParser) -> None:
-    """Adds the log, and how to read it."""
+    """Adds the options that `replay` and `picture` share."""
     add = parser.add_argument
-    add("log", type=Path, metavar="RUN.LOG", help="as a run left it, or candump -L")
+    add("log", type=Path, metavar="RUN.LOG", help="log of a run, or of candump -L")
     add(
         "--node",
         type=number(1, NODE_MAX),
         default=1,
-        help="the robot's number on the bus, of several the first one's (default: %(default)s)",
+        metavar="NODE",
+        help="the robot's number on the bus; with several robots, that of the first (default: %(default)s)",
     )
-    add("--no-world", action="store_true", help="draw the way by the odometers alone, as for a log of a real body")
+    add(
+        "--no-world",
+        action="store_true",
+        help="ignore seed and world file and draw the path from the odometers only, as for a real body",
+    )
 
 
 def resimulated(arguments: argparse.Namespace) -> "Resimulation":
-    """The run in a log; a log that is cut short is said to be, on stderr."""
+    """The run in a log; a log that is cut short is reported on stderr."""
     from host_sim.recording.resimulation import resimulate
 
-    found = resimulate(arguments.log, arguments.node, in_the_open=arguments.no_world)
-    if not found.stopped:
-        print(f"octet: {arguments.log} ends before its run does; what it has is shown", file=sys.stderr)
-    return found
+    result = resimulate(arguments.log, arguments.node, ignore_world=arguments.no_world)
+    if not result.stopped:
+        print(f"octet: {arguments.log} ends before the run does; showing what it has", file=sys.stderr)
+    return result

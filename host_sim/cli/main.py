@@ -1,4 +1,4 @@
-"""The command line: `tools/octet COMMAND ...`. Each module here whose name ends in _command is a command."""
+"""The command line, `tools/octet COMMAND ...`. Each module of this package named *_command adds one command."""
 
 import importlib
 import os
@@ -13,13 +13,13 @@ from host_sim.errors import OctetError
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Does what the command line says.
+    """Runs a command.
 
     Args:
-        arguments: The words after the program's name; None for those that it was started with.
+        arguments: The arguments after the program's name; None for those of this process.
 
     Returns:
-        The exit code: 0 done, 1 fault, 2 wrong usage, 130 interrupted.
+        The exit code: 0 success, 1 error, 2 wrong usage, 130 interrupted.
     """
     parser = Parser(prog="tools/octet", description="Octet: a robot that learns with eight bytes of memory.")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
@@ -32,11 +32,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"octet: {error}", file=sys.stderr)
         code = error.exit_code
     except BrokenPipeError:
-        # Whoever read our output has had enough; what is left of it must not fail a second time at exit.
+        # The reader of stdout has closed it; the rest of the output must not fail a second time at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = 1
     except KeyboardInterrupt:
-        print("octet: interrupted; what was recorded is kept", file=sys.stderr)
+        print("octet: interrupted; the log so far was written", file=sys.stderr)
         code = 130
     return code
 

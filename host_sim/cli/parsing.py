@@ -1,4 +1,4 @@
-"""Reads what a person types: a parser that says what is wrong in one line, and argument types with ranges."""
+"""Parsing of the command line: one-line error messages, and argument types with ranges."""
 
 import argparse
 import math
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
 
 class Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line."""
+    """An argument parser whose errors are one line each."""
 
     def error(self, message: str) -> NoReturn:
-        """As in `argparse.ArgumentParser`, but raises.
+        """As in `argparse.ArgumentParser`, but raises instead of exiting.
 
         Raises:
             UsageError: Always.
@@ -36,15 +36,15 @@ def add_command(  # noqa: PLR0913 - what a command's help is made of
     """Adds a subcommand.
 
     Args:
-        commands: Of the whole command line.
-        name: What a person types.
-        run: Does it, and returns the exit code.
+        commands: The subcommands of the command line.
+        name: Name of the subcommand.
+        run: Runs it, and returns the exit code.
         summary: Its line in the list of commands.
-        description: What its own help begins with.
-        epilog: What its own help ends with, such as examples.
+        description: First lines of its help text.
+        epilog: Last lines of its help text, such as examples.
 
     Returns:
-        Its parser, for its options.
+        The subcommand's parser, to which options can be added.
     """
     formatter = argparse.RawDescriptionHelpFormatter
     parser = commands.add_parser(
@@ -55,7 +55,7 @@ def add_command(  # noqa: PLR0913 - what a command's help is made of
 
 
 def number(low: float, high: float, kind: type[int] | type[float] = int) -> Callable[[str], int | float]:
-    """An argument type: a number within a range."""
+    """An argument type: a number from `low` to `high`."""
 
     def parse(text: str) -> int | float:
         try:
@@ -70,20 +70,22 @@ def number(low: float, high: float, kind: type[int] | type[float] = int) -> Call
 
 
 def setting(text: str) -> tuple[str, int]:
-    """An argument type: NAME=VALUE of a parameter."""
+    """An argument type: NAME=VALUE for a parameter, the value within the parameter's range."""
     name, _, value = text.partition("=")
     if name not in PARAMETERS:
-        raise argparse.ArgumentTypeError(f"no parameter {name!r}; there are {', '.join(PARAMETERS)}")
+        raise argparse.ArgumentTypeError(f"unknown parameter {name!r}; choose from {', '.join(PARAMETERS)}")
     _, low, high, _, unit, _ = PARAMETERS[name]
     if not value.isdecimal() or not low <= int(value) <= high:
-        raise argparse.ArgumentTypeError(f"{name} takes a whole number from {low} to {high} {unit}, not {value!r}")
+        unit = f" {unit}" if unit else ""
+        raise argparse.ArgumentTypeError(f"{name} must be a whole number from {low} to {high}{unit}, not {value!r}")
     return name, int(value)
 
 
 def parameter_table() -> str:
-    """Every parameter, with its range, unit and default, for a help text."""
+    """Every parameter with its range, unit, default and meaning, for a help text."""
     lines = ["parameters for --set:"]
-    for name, it in PARAMETERS.items():
-        unit = f" {it.unit}" if it.unit else ""
-        lines.append(f"  {name:18} {it.minimum}..{it.maximum}{unit} (default: {it.default}): {it.comment}")
+    for name, parameter in PARAMETERS.items():
+        values = f"{parameter.minimum}..{parameter.maximum} {parameter.unit}"
+        default = f"(default: {parameter.default})"
+        lines.append(f"  {name:16}  {values:13}  {default:14}  {parameter.comment}")
     return "\n".join(lines)

@@ -1,4 +1,4 @@
-"""`tools/octet picture`: an animation or a picture of a recorded log."""
+"""`tools/octet picture`: draws a recorded run as a picture or an animation."""
 
 import argparse
 from pathlib import Path
@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 examples:
-  tools/octet picture out/run.log --png run.png                    the whole run, as `run` leaves it
-  tools/octet picture out/run.log --gif trial.gif --from 12 --to 20
+  tools/octet picture out/run.log --png run.png                      one picture of the whole run
+  tools/octet picture out/run.log --gif trial.gif --from 0 --to 5    its first five seconds, animated
 """
 
 
@@ -24,31 +24,43 @@ def add(commands: "Subparsers") -> None:
         commands,
         "picture",
         _picture,
-        summary="make an animation or a picture of a recorded log",
-        description="Draws a recorded run, for a README or a lesson.",
+        summary="draw a recorded run as a picture or an animation",
+        description="Draws a recorded run as a PNG picture, an animated GIF, or both.",
         epilog=_EXAMPLES,
     )
     add_log_options(parser)
     add, time = parser.add_argument, number(0, 1e9, float)
-    add("--gif", type=Path, metavar="FILE", help="an animation, of about 45 s at most")
-    add("--png", type=Path, metavar="FILE", help="one picture of the whole run")
+    add("--png", type=Path, metavar="FILE", help="write a picture of the whole run to FILE")
+    add("--gif", type=Path, metavar="FILE", help="write an animation to FILE, at most 600 frames, about 45 s")
     add(
         "--from",
         type=time,
         default=0.0,
         metavar="S",
         dest="from_s",
-        help="first robot second (default: %(default)s)",
+        help="start of the animation, s of robot time (default: %(default)g)",
     )
-    add("--to", type=time, metavar="S", dest="to_s", help="last robot second (default: the last of the run)")
+    add(
+        "--to",
+        type=time,
+        metavar="S",
+        dest="to_s",
+        help="end of the animation, s of robot time (default: end of the run)",
+    )
     add(
         "--speed",
         type=number(0.1, 1000, float),
         default=1.0,
         metavar="X",
-        help="factor to real time (default: %(default)s)",
+        help="speed of the animation, as a multiple of real time (default: %(default)g)",
     )
-    add("--width", type=number(320, 1280), default=640, metavar="PX", help="of the animation (default: %(default)s)")
+    add(
+        "--width",
+        type=number(320, 1280),
+        default=640,
+        metavar="PX",
+        help="width of the animation, pixels (default: %(default)s)",
+    )
 
 
 def _picture(arguments: argparse.Namespace) -> int:

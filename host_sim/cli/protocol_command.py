@@ -1,4 +1,4 @@
-"""`tools/octet protocol`: the description of the bus protocol."""
+"""`tools/octet protocol`: prints the description of the bus protocol."""
 
 import argparse
 import sys
@@ -17,7 +17,8 @@ def add(commands: "Subparsers") -> None:
         "protocol",
         _protocol,
         summary="print the description of the bus protocol",
-        description="Prints docs/protocol.md, made from hal/protocol/octet.dbc.",
+        description="Prints docs/protocol.md, generated from hal/protocol/octet.dbc.",
+        epilog="example:\n  tools/octet protocol > docs/protocol.md",
     )
 
 

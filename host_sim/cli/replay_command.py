@@ -1,4 +1,4 @@
-"""`tools/octet replay`: a recorded log against the firmware of today, or as a page."""
+"""`tools/octet replay`: compares a recorded log with the current firmware, or writes it as a page."""
 
 import argparse
 from pathlib import Path
@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 examples:
-  tools/octet replay out/run.log                     does today's firmware do the same?
-  tools/octet replay out/run.log --html run.html     a page to look at and keep
+  tools/octet replay out/run.log                     does the current firmware do the same?
+  tools/octet replay out/run.log --html run.html     write the run as a page to play in a browser
 """
 
 
@@ -23,12 +23,15 @@ def add(commands: "Subparsers") -> None:
         commands,
         "replay",
         _replay,
-        summary="compare a recorded log with the firmware, or make a page of it",
-        description="Feeds the senses of a recorded log to the firmware and compares its drives with the log's.",
+        summary="compare a recorded log with the current firmware, or write it as a page",
+        description="Feeds the senses of a recorded log to the current firmware and compares its drives with the\n"
+        "log's. The exit code is 1 if they differ.",
         epilog=_EXAMPLES,
     )
     add_log_options(parser)
-    parser.add_argument("--html", type=Path, metavar="FILE", help="make a page of it instead, to play in a browser")
+    parser.add_argument(
+        "--html", type=Path, metavar="FILE", help="instead, write the run to FILE as a page to play in a browser"
+    )
 
 
 def _replay(arguments: argparse.Namespace) -> int:
@@ -36,7 +39,7 @@ def _replay(arguments: argparse.Namespace) -> int:
 
 
 def _compare(log: Path, first_node: int) -> int:
-    """Compares every robot from a node on; a log without that node is refused."""
+    """Compares the robots from a node on; the log must have the first of them."""
     from host_sim.protocol.codec import Protocol
     from host_sim.recording.log_reader import nodes_in, read_log
     from host_sim.recording.replay import replay, report
@@ -54,7 +57,7 @@ def _compare(log: Path, first_node: int) -> int:
 def _write_page(arguments: argparse.Namespace) -> int:
     from host_sim.report.replay_page import write_page
 
-    found = resimulated(arguments)
-    write_page(arguments.html, found.trajectory, found.title)
+    result = resimulated(arguments)
+    write_page(arguments.html, result.trajectory, result.title)
     print(f"wrote     {arguments.html}")
     return 0

@@ -1,4 +1,4 @@
-"""`tools/octet run`: a robot, its environments, and what they leave behind."""
+"""`tools/octet run`: lets a robot learn in simulated environments."""
 
 import argparse
 from typing import TYPE_CHECKING
@@ -11,12 +11,12 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 examples:
-  tools/run                                          five environments, as in the article
-  tools/run --seed 7 --environments 1 --real-time    one, as fast as a real robot
-  tools/run --memory robot.mem                       resume from what was learned last time
+  tools/run                                          one robot, five environments
+  tools/run --seed 7 --environments 1 --real-time    one environment, as fast as a real robot
+  tools/run --memory robot.mem                       resume with the memory in robot.mem, and save it there
   tools/run --set turn_deg=20 --set boredom_limit=6  other parameters
   tools/run --robots 4                               four robots in the same environments
-  tools/run --robot emulated --board {board}  the very image that is flashed
+  tools/run --robot emulated --board {board}       the flash image on an emulated board
   tools/run --bus socketcan:can0 --robot external --real-time
                                                      a real robot on a real bus
 """
@@ -30,15 +30,16 @@ def add(commands: "Subparsers") -> None:
         commands,
         "run",
         _run,
-        summary="let a robot learn in the simulated arena",
-        description="A robot made of the real firmware learns to find its food in random environments.",
+        summary="let a robot learn in simulated environments",
+        description="Runs the real firmware in random simulated environments, where it learns to find food.\n"
+        "`tools/run` is short for `tools/octet run`.",
         epilog=f"{parameter_table()}\n\n{_EXAMPLES.format(board=BOARDS[-1])}",
     )
     add_run_options(run)
     run.add_argument(
         "--real-time", action="store_true", help="run at wall-clock speed instead of as fast as possible"
     )
-    run.add_argument("--watch", action="store_true", help="show it in the browser meanwhile")
+    run.add_argument("--watch", action="store_true", help="show the run in the browser")
     add_watch_options(run)
 
 

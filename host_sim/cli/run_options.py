@@ -1,4 +1,4 @@
-"""What a person can say about a run, on the command line."""
+"""The command-line options for a run."""
 
 import argparse
 from dataclasses import dataclass, fields
@@ -10,8 +10,14 @@ from host_sim.protocol.generated import NODE_MAX, PROFILES
 from host_sim.sim.run_config import ROBOTS, RunConfig
 
 _DEFAULT = " (default: %(default)s)"
-_BUS_HELP = "auto, fd (socket pair), none (in this process), or python-can's INTERFACE:CHANNEL (default: %(default)s)"
-_ROBOT_HELP = "start one, wait for one on the bus, or run the flash image in QEMU or on an emulated board" + _DEFAULT
+_BUS_HELP = (
+    "where the robot is: none (in this process), fd (socket pair), python-can's INTERFACE:CHANNEL, or "
+    "auto (virtual CAN if available, else fd)" + _DEFAULT
+)
+_ROBOT_HELP = (
+    "spawn: start the firmware here; external: wait for a robot on the bus; "
+    "qemu, emulated: run the flash image in QEMU or on an emulated board" + _DEFAULT
+)
 
 
 @dataclass(frozen=True)
@@ -19,11 +25,11 @@ class WatchOptions:
     """How people watch a run.
 
     Attributes:
-        listen: Address for others to reach us at; None for this machine only.
-        port: Where to listen; 0 for any port that is free.
-        speed: To begin with, times real time; 0 is as fast as it goes.
-        stays: Whether to go on serving after the last environment.
-        terminal: Whether to draw it in the terminal instead of serving it.
+        listen: Address to listen on for other machines; None for this machine only.
+        port: Port to listen on; 0 for any free port.
+        speed: Initial speed as a multiple of real time; 0 is as fast as possible.
+        stays: Whether the page is still served after the last environment.
+        terminal: Whether the run is drawn in the terminal rather than served.
     """
 
     listen: str | None = None
@@ -35,15 +41,15 @@ class WatchOptions:
 
 @dataclass(frozen=True)
 class RunOptions:
-    """A run, and what is to become of it.
+    """A run and its outputs.
 
     Attributes:
-        config: The run.
-        memory: File to load the memory from before, and to save it to after.
-        out: Folder for what the run leaves behind.
-        quiet: Say nothing.
-        json: Print the summary alone.
-        watch: How to show it to people; None for not at all.
+        config: Configuration of the run.
+        memory: File to load the memory from before the run, and to save it to afterwards; None for no file.
+        out: Folder for the output files.
+        quiet: Whether to print nothing.
+        json: Whether to print only the summary, as JSON.
+        watch: How people watch the run; None if they do not.
     """
 
     config: RunConfig
@@ -55,66 +61,102 @@ class RunOptions:
 
     @property
     def talks(self) -> bool:
-        """Whether to tell people how it goes."""
+        """Whether to print progress and results as text."""
         return not (self.quiet or self.json)
 
 
 def add_run_options(parser: argparse.ArgumentParser) -> None:
-    """Adds what `run` and `watch` have in common."""
+    """Adds the options that `run` and `watch` share."""
     add, default = parser.add_argument, RunConfig()
-    add("--seed", type=number(0, 2**32 - 1), default=default.seed, help="of environments and random turns" + _DEFAULT)
+    add(
+        "--seed",
+        type=number(0, 2**32 - 1),
+        default=default.seed,
+        metavar="SEED",
+        help="seed for environments and random turns, 0..4294967295" + _DEFAULT,
+    )
     add(
         "--environments",
         type=number(1, 1000),
         default=default.environments,
         metavar="N",
-        help="how many, one after the other" + _DEFAULT,
+        help="number of environments, one after the other" + _DEFAULT,
     )
     add(
         "--robots",
         type=number(1, NODE_MAX),
         default=default.robots,
         metavar="N",
-        help="how many, in the same environments" + _DEFAULT,
+        help="number of robots, in the same environments" + _DEFAULT,
     )
-    add("--profile", choices=tuple(PROFILES), default=default.profile, help="what the robot behaves like" + _DEFAULT)
+    add("--profile", choices=tuple(PROFILES), default=default.profile, help="the robot's behaviour" + _DEFAULT)
     add(
-        "--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help="change a parameter; see below"
+        "--set",
+        type=setting,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="change a parameter; may be repeated (default: the values below)",
     )
     add("--bus", default="auto", help=_BUS_HELP)
     add("--robot", choices=ROBOTS, default=default.robot, help=_ROBOT_HELP)
-    add("--board", choices=BOARDS, default=BOARDS[0], help="the board that is emulated" + _DEFAULT)
-    add("--node", type=number(1, NODE_MAX), default=default.node, help="the robot's number on the bus" + _DEFAULT)
+    add("--board", choices=BOARDS, default=BOARDS[0], help="the board for --robot emulated" + _DEFAULT)
+    add(
+        "--node",
+        type=number(1, NODE_MAX),
+        default=default.node,
+        metavar="NODE",
+        help=f"the robot's number on the bus, 1..{NODE_MAX}; further robots get the next ones" + _DEFAULT,
+    )
     add(
         "--limit-s",
         type=number(1, 36000, float),
         default=default.limit_s,
-        help="robot time for each environment, s" + _DEFAULT,
+        metavar="S",
+        help="time limit for each environment, s of robot time (default: %(default)g)",
     )
-    add("--memory", type=Path, metavar="FILE", help="load the eight bytes from FILE before, save them after")
-    add("--out", type=Path, default=Path("out"), metavar="DIR", help="where log, summary and pictures go" + _DEFAULT)
-    add("--json", action="store_true", help="print the summary, and nothing else")
+    add(
+        "--memory",
+        type=Path,
+        metavar="FILE",
+        help="load the eight bytes from FILE before the run, if it exists; save them afterwards (default: no file)",
+    )
+    add(
+        "--out",
+        type=Path,
+        default=Path("out"),
+        metavar="DIR",
+        help="folder for page, picture, summary and log" + _DEFAULT,
+    )
+    add("--json", action="store_true", help="print only the summary, as JSON")
     add("--quiet", action="store_true", help="print nothing")
 
 
 def add_watch_options(parser: argparse.ArgumentParser) -> None:
-    """Adds where a page is served."""
+    """Adds the options for serving a page."""
     add = parser.add_argument
     add(
         "--port",
         type=number(0, 65535),
         default=WatchOptions().port,
-        help="the port of the page; 0 for any free port" + _DEFAULT,
+        metavar="PORT",
+        help="port that the page is served on; 0 for any free port" + _DEFAULT,
     )
     add(
         "--listen",
         metavar="ADDRESS",
-        help="let other machines with the token watch (default: this machine only)",
+        help="address that the page is served on, for other machines with the token (default: this machine only)",
     )
 
 
 def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | None = None) -> RunOptions:
-    """The options in parsed arguments."""
+    """The options of a run.
+
+    Args:
+        arguments: The parsed command line.
+        bus: The bus, resolved.
+        watch: How people watch the run; None if they do not.
+    """
     names = {field.name for field in fields(RunConfig)} & vars(arguments).keys()
     given = {name: getattr(arguments, name) for name in names}
     config = RunConfig(**{**given, "settings": dict(arguments.set), "bus": bus})

@@ -1,4 +1,4 @@
-"""`tools/octet watch`: a run in the browser, or in the terminal, with controls."""
+"""`tools/octet watch`: shows a run in the browser or in the terminal, with controls."""
 
 import argparse
 from typing import TYPE_CHECKING
@@ -11,11 +11,11 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 examples:
-  tools/octet watch                                  one robot, five environments, your browser
-  tools/octet watch --robots 3                       three of them
-  tools/octet watch --seed 7 --memory robot.mem      other environments, and what was learned last time
-  tools/octet watch --listen 0.0.0.0                 for a classroom: prints an address with a token
-  tools/octet watch --terminal                       where there is no browser, as over ssh
+  tools/octet watch                                  one robot, five environments
+  tools/octet watch --robots 3                       three robots in the same environments
+  tools/octet watch --seed 7 --memory robot.mem      other environments, with the memory in robot.mem
+  tools/octet watch --listen 0.0.0.0                 for other machines too: prints an address with a token
+  tools/octet watch --terminal                       without a browser, for example over ssh
 """
 
 
@@ -26,12 +26,12 @@ def add(commands: "Subparsers") -> None:
         "watch",
         _watch,
         summary="watch a robot learn in the browser, and interfere",
-        description="The same run as `run`, in real time in the browser, with controls. Ctrl-C ends it.",
+        description="Shows a run in the browser, in real time, with controls. Ctrl-C ends it.",
         epilog=f"{parameter_table()}\n\n{_EXAMPLES}",
     )
     add_run_options(watch)
     add_watch_options(watch)
-    watch.add_argument("--terminal", action="store_true", help="draw it in this terminal instead, as over ssh")
+    watch.add_argument("--terminal", action="store_true", help="draw the run in this terminal instead of a browser")
 
 
 def _watch(arguments: argparse.Namespace) -> int:

@@ -1,1 +1,1 @@
-"""The conversation with a robot."""
+"""The host's side of the protocol: commands, senses, drives, and how they are paced."""

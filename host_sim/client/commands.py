@@ -1,4 +1,4 @@
-"""What a robot is told to do: start, stop, and changes of its memory."""
+"""Commands to a robot: start, stop, and changes of its memory."""
 
 from collections.abc import Mapping, Sequence
 
@@ -8,18 +8,18 @@ from host_sim.client.robot_client import RobotClient
 def start(
     client: RobotClient, seed: int, profile: int, settings: Mapping[str, int], memory: Sequence[int] | None
 ) -> None:
-    """Sets the robot going: it moves with the next senses.
+    """Starts the robot: it moves with the next senses.
 
     Args:
-        client: The robot's.
-        seed: 0..2**32 - 1, of its random turns.
+        client: The robot's client.
+        seed: Seed for its random turns, 0..2**32 - 1.
         profile: Number of its profile.
         settings: Parameters to set, by name.
-        memory: Eight cells to write first; None leaves the robot its own.
+        memory: Eight cells to write; None leaves the robot's memory as it is.
 
     Raises:
-        RefusedError: It refuses something.
-        RobotError: It does not answer.
+        RefusedError: The robot refuses a command.
+        RobotError: The robot does not answer.
     """
     client.command("start", profile=profile, seed=seed)
     for name, value in settings.items():
@@ -29,25 +29,25 @@ def start(
 
 
 def stop(client: RobotClient) -> None:
-    """Brings the wheels to rest and takes the robot's last report.
+    """Stops the robot's wheels and receives its final reports.
 
     Raises:
-        RobotError: It does not answer.
+        RobotError: The robot does not answer.
     """
     client.command("stop")
     client.expect("MEMORY", "stop")
 
 
 def write_cells(client: RobotClient, sides: Mapping[int, int]) -> None:
-    """Writes cells of the memory, and waits for the memory that this leaves.
+    """Writes cells of the memory and waits until the robot reports its new memory.
 
     Args:
-        client: The robot's.
-        sides: For each cell to write, what it is to hold: 0 nothing, 1 left, 2 right.
+        client: The robot's client.
+        sides: New content by cell, 0..7: 0 nothing, 1 left, 2 right.
 
     Raises:
-        RefusedError: The robot refuses it.
-        RobotError: It does not answer.
+        RefusedError: The robot refuses the command.
+        RobotError: The robot does not answer.
     """
     mask = sum(1 << cell for cell in sides)
     client.command("write", mask=mask, cells=sum(side << 2 * cell for cell, side in sides.items()))
@@ -55,7 +55,7 @@ def write_cells(client: RobotClient, sides: Mapping[int, int]) -> None:
 
 
 def erase_memory(client: RobotClient) -> None:
-    """Erases all cells, and waits for the memory that this leaves.
+    """Erases all cells and waits until the robot reports its new memory.
 
     Raises:
         RobotError: The robot does not answer.
@@ -65,9 +65,9 @@ def erase_memory(client: RobotClient) -> None:
 
 
 def freeze(client: RobotClient, on: bool) -> None:
-    """Has the robot learn no more, or learn again.
+    """Stops the robot's learning, or lets it learn again.
 
     Raises:
-        RobotError: It does not answer.
+        RobotError: The robot does not answer.
     """
     client.command("freeze", freeze=int(on))

@@ -1,6 +1,6 @@
-"""The log of a run's frames, written as they come. The format is candump's (`candump -L`).
+"""The log of a run's frames, written during the run in candump's format (`candump -L`).
 
-Time stamps are robot time, so that a log depends on seed and options, and on nothing else.
+Time stamps are in robot time, so that a log depends only on the seed and the options.
 """
 
 import hashlib
@@ -11,28 +11,28 @@ from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import Frame
 
 CHANNEL = "octet"
-"""The interface's name in every log, whatever bus it was."""
+"""The interface name in every log, whatever the bus was."""
 
 _FLUSH_LINES = 4096
 _STAMP = f"({{:010d}}.{{:06d}}) {CHANNEL}"
 
 
 def line_of(time_us: int, frame: Frame) -> str:
-    """The log's line for a frame, without its end."""
+    """The log's line for a frame, without the line end."""
     return f"{_STAMP.format(*divmod(time_us, 1_000_000))} {frame.id:03X}#{frame.data.hex().upper()}"
 
 
 class FrameLog:
-    """Writes a log beside the old one of the same name, and takes its place when closed: nothing is lost before.
+    """Writes a log to `PATH.part`, which replaces an old log of the same name only when it is closed.
 
-    Without a path it writes nothing, and knows the digest all the same.
+    Without a path nothing is written; the digest is computed all the same.
     """
 
     def __init__(self, path: Path | None = None) -> None:
         """Opens `PATH.part`.
 
         Raises:
-            UsageError: The folder cannot be written.
+            UsageError: The folder is not writable.
         """
         self._path = path or Path(os.devnull)
         self._part = self._path if path is None else path.with_name(path.name + ".part")
@@ -46,25 +46,29 @@ class FrameLog:
             raise UsageError(f"cannot write {self._part}: {reason}") from None
 
     def set_time(self, time_us: int) -> None:
-        """Dates the frames that follow, in robot time."""
+        """Sets the time stamp of the frames that follow.
+
+        Args:
+            time_us: Robot time since the start of the run, us.
+        """
         seconds, micros = divmod(time_us, 1_000_000)
         self._stamp = _STAMP.format(seconds, micros)
 
     def add(self, frame: Frame) -> None:
-        """Records a frame as of now."""
+        """Records a frame with the current time stamp."""
         frame_id, data = frame
         self._lines.append(f"{self._stamp} {frame_id:03X}#{data.hex().upper()}\n")
         if len(self._lines) >= _FLUSH_LINES:
             self._flush()
 
     def close(self) -> str:
-        """Ends the log; once more does nothing. One without a frame leaves no file, and the old one stays.
+        """Closes the log; closing it again does nothing. A log without frames does not replace the old one.
 
         Returns:
-            SHA-256 of its bytes, in hexadecimal.
+            SHA-256 of the log's bytes, in hexadecimal.
 
         Raises:
-            OctetError: The disk did not take it; what it took is in `PATH.part`.
+            OctetError: The file cannot be written; `PATH.part` holds what could be.
         """
         if self._file.closed:
             return self._digest.hexdigest()

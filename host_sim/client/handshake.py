@@ -1,4 +1,4 @@
-"""Getting to know a robot: it is stopped, says who it is, and is refused if it speaks another protocol."""
+"""The handshake: the robot stops, identifies itself, and is rejected if it uses another protocol."""
 
 import time
 
@@ -8,16 +8,16 @@ from host_sim.protocol.codec import DecodedFrame
 
 
 def handshake(client: RobotClient, timeout_s: float, retry_s: float | None = None) -> None:
-    """Stops the robot and gets to know it; the log begins with this.
+    """Stops the robot and receives its reports; the log begins with these frames.
 
     Args:
-        client: Has said nothing yet.
-        timeout_s: Wall time to wait for the robot.
-        retry_s: Wall time after which to ask again, for a robot that may not be there yet. None for one that is known
-            to listen: it is asked once, so that the log is the same however long it takes.
+        client: A client that has not sent anything yet.
+        timeout_s: Time to wait for the robot, s of wall-clock time.
+        retry_s: Time after which to send the command again, for a robot that may not be on the bus yet, s of
+            wall-clock time. None for a robot that is listening: the command is sent once.
 
     Raises:
-        RobotError: None answers, or one that was built from another layout of the messages.
+        RobotError: The robot does not answer, or was built from another layout of the messages.
     """
     client.recording = False
     give_up = time.monotonic() + timeout_s
@@ -27,7 +27,7 @@ def handshake(client: RobotClient, timeout_s: float, retry_s: float | None = Non
         if answer is not None:
             break
         if time.monotonic() >= give_up:
-            raise RobotError(f"no robot of node {client.node} answered for {timeout_s:g} s; {client.account()}")
+            raise RobotError(f"no robot answered as node {client.node} within {timeout_s:g} s; {client.account()}")
     _check_hash(client, client.expect("HEARTBEAT", "stop"))
     assert client.last is not None
     for frame in (stop, answer, client.last):

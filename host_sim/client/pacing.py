@@ -1,4 +1,4 @@
-"""The two ways for world and robots to keep time: each waiting for the other, or all by the wall clock."""
+"""The two ways for world and robots to keep time: in lockstep, or by the wall clock."""
 
 import time
 from collections.abc import Sequence
@@ -9,32 +9,32 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.robot_io import REST, Drive, Senses
 
 HOLD_TICKS = 5
-"""A body goes on with its last drive for so many ticks (100 ms); then its wheels stop."""
+"""A body without a new drive continues with its last one for this many ticks (100 ms); then its wheels stop."""
 
 
 class Pace(Protocol):
-    """Takes world and robots through one tick together."""
+    """Takes the world and its robots through one tick."""
 
     def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
-        """Tells each robot its senses.
+        """Sends each robot its senses.
 
         Returns:
-            What the wheels of each are to do in this tick.
+            Each robot's drive for this tick.
 
         Raises:
-            RobotError: A robot is gone.
+            RobotError: A robot has ended, or did not answer by its client's deadline.
         """
 
 
 class Lockstep:
-    """World and robots wait for each other: the result is the same at any speed, and on any machine."""
+    """World and robots wait for each other: the result is the same at any speed and on any machine."""
 
     def __init__(self, clients: Sequence[RobotClient]) -> None:
-        """Keeps time with these robots."""
+        """Paces the robots of these clients."""
         self._clients = clients
 
     def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
-        """As in `Pace`; a robot that does not answer by its client's deadline is gone."""
+        """As in `Pace`."""
         drives = []
         for client, sensed in zip(self._clients, senses, strict=True):
             client.send_senses(sensed)
@@ -48,14 +48,14 @@ class Lockstep:
 
 @dataclass
 class _Wheels:
-    """What the wheels of one robot do while no answer comes."""
+    """The last drive of one robot, for ticks without an answer."""
 
     client: RobotClient
     drive: Drive | None = None
     waited: int = 0
 
     def turn(self, fresh: Drive | None, tick: int, tick_s: float) -> Drive:
-        """The drive that came; else the last one for `HOLD_TICKS` ticks, then rest, until the deadline."""
+        """The fresh drive, if any; else the last one for `HOLD_TICKS` ticks, then rest, until the deadline."""
         if fresh is not None:
             self.drive, self.waited = fresh, 0
             return fresh
@@ -67,12 +67,12 @@ class _Wheels:
 
 
 def held(last: Drive | None, waited: int, tick: int) -> Drive:
-    """What a body does in a tick without a drive.
+    """The drive that a body applies in a tick without a fresh one.
 
     Args:
         last: The last drive; None if there was none.
-        waited: Ticks since then.
-        tick: The tick, 0..4095.
+        waited: Number of ticks since then.
+        tick: Number of the tick, 0..4095.
     """
     if last is None or waited > HOLD_TICKS:
         return REST._replace(tick=tick)
@@ -80,31 +80,31 @@ def held(last: Drive | None, waited: int, tick: int) -> Drive:
 
 
 class RealTime:
-    """A tick takes its time, and nobody waits: a late answer counts when it comes, as on a real body."""
+    """Ticks follow the wall clock and wait for no robot: a late answer applies when it comes, as on a real body."""
 
     def __init__(self, clients: Sequence[RobotClient], tick_s: float) -> None:
-        """Begins with the wheels at rest.
+        """Starts with the wheels at rest.
 
         Args:
-            clients: The robots'.
-            tick_s: Length of a tick on the wall clock.
+            clients: The robots' clients.
+            tick_s: Length of a tick, s of wall-clock time.
         """
         self._tick_s = tick_s
         self._wheels = [_Wheels(client) for client in clients]
         self._next_s = time.monotonic()
 
     def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
-        """As in `Pace`: the answers, or what bodies do without."""
+        """As in `Pace`: the drives are the robots' answers, or `held` ones where no answer came."""
         for wheels, sensed in zip(self._wheels, senses, strict=True):
             wheels.client.send_senses(sensed)
-        # A host that was held up does not hurry to make up for it: that would not be real time either.
+        # A host that was delayed does not catch up: that would not be real time either.
         self._next_s = max(self._next_s + self._tick_s, time.monotonic())
         fresh = self._newest()
         both = zip(self._wheels, fresh, senses, strict=True)
         return [wheels.turn(drive, sensed.tick, self._tick_s) for wheels, drive, sensed in both]
 
     def _newest(self) -> list[Drive | None]:
-        """For each robot the last drive that comes before the tick is over."""
+        """For each robot, the last drive that comes before the tick is over."""
         fresh: list[Drive | None] = [None] * len(self._wheels)
         while (left_s := self._next_s - time.monotonic()) > 0:
             for i, wheels in enumerate(self._wheels):

@@ -1,4 +1,4 @@
-"""A client of one robot: commands and their answers, senses out, drives in, everything recorded."""
+"""A client for one robot: sends commands and senses, receives answers and drives, and logs every frame."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -15,7 +15,7 @@ from host_sim.transport.link import Link
 T = TypeVar("T")
 
 DEADLINE_S = 5.0
-"""The robot's time to answer, on the wall clock, before it counts as gone."""
+"""Time for the robot to answer before it is given up, s of wall-clock time."""
 
 _TICK_MASK = TICK_SPAN - 1
 _COUNTER_MASK = 15
@@ -26,13 +26,13 @@ _FROM_ROBOT = frozenset({"ANSWER", "MEMORY", "HEARTBEAT", "FAULTS", "HEALTH", "C
 
 @dataclass
 class FrameCounts:
-    """What became of frames.
+    """Frame counters of a client; `summary.frame_counts` adds those that the robot reports.
 
     Attributes:
-        sent: Frames sent to the robot.
-        received: Frames taken from it.
-        lost: Senses that got no drive in time, and senses that the robot says it missed.
-        refused: Frames that came and were damaged, stale or foreign, here or, as it says, at the robot.
+        sent: Number of frames sent to the robot.
+        received: Number of valid frames received from it.
+        lost: Number of senses that were not answered in time.
+        refused: Number of frames that were damaged, stale or foreign.
     """
 
     sent: int = 0
@@ -48,24 +48,23 @@ class RobotClient:
     Attributes:
         link: Carries the frames.
         protocol: Encodes and decodes them.
-        log: Gets every frame sent, and every one taken from the robot, in their order.
-        lockstep: Whether the robot is to wait for us however long we take (up to 10 s), rather than stop its wheels
-            after 100 ms without senses.
-        status: Says in a few words how the robot's process is, and raises RobotError if it has ended.
-        bus: Where the robot is, by name.
-        deadline_s: Wall time for the robot to answer.
-        memory: The eight cells, as the robot last said.
-        faults: The robot's own fault counters, as it last said.
-        frames: What became of the frames.
-        last: The last frame taken from the robot.
-        recording: Whether what comes from the robot goes into the log.
+        log: Records every frame sent and every valid frame received, in order.
+        lockstep: Whether the robot waits up to 10 s for senses, rather than stop its wheels after 100 ms without.
+        status: Describes the state of the robot's process, and raises RobotError if it has ended.
+        bus: Name of the bus that the robot is on.
+        deadline_s: Time for the robot to answer, s of wall-clock time.
+        memory: The eight cells, as last reported by the robot.
+        faults: The robot's fault counters, as last reported by it.
+        frames: Frame counters.
+        last: The last valid frame received from the robot.
+        recording: Whether received frames are logged.
     """
 
     link: Link
     protocol: Protocol
     log: FrameLog
     lockstep: bool = True
-    status: Callable[[], str] = lambda: "is not ours to watch"
+    status: Callable[[], str] = lambda: "was not started here"
     bus: str = ""
     deadline_s: float = DEADLINE_S
     memory: tuple[int, ...] = (0,) * CELL_COUNT
@@ -79,15 +78,19 @@ class RobotClient:
 
     @property
     def node(self) -> int:
-        """The robot's number on the bus."""
+        """The robot's node number on the bus."""
         return self.protocol.node
 
     def command(self, opcode: str, **signals: int) -> None:
-        """Gives one command and waits for its answer.
+        """Sends a command and waits for its answer.
+
+        Args:
+            opcode: Name of the command.
+            **signals: The command's signals, by name.
 
         Raises:
-            RefusedError: The robot refuses it.
-            RobotError: It does not answer.
+            RefusedError: The robot refuses the command.
+            RobotError: The robot does not answer.
         """
         command = self.send_command(opcode, signals)
         self.log.add(command)
@@ -95,7 +98,7 @@ class RobotClient:
             raise RobotError(f"the robot did not answer {opcode} within {self.deadline_s:g} s; {self.account()}")
 
     def send_command(self, opcode: str, signals: Mapping[str, int]) -> Frame:
-        """Sends a command, waits for nothing and records nothing."""
+        """Sends a command without waiting for its answer, and without logging it."""
         self._counter = (self._counter + 1) & _COUNTER_MASK
         fixed = {"counter": self._counter, "opcode": Opcode[opcode.upper()], "lockstep": int(self.lockstep)}
         frame = self.protocol.encode("COMMAND", {**fixed, **signals})
@@ -104,10 +107,11 @@ class RobotClient:
         return frame
 
     def await_answer(self, timeout_s: float) -> Frame | None:
-        """The answer to the last command; None if none comes in time.
+        """The answer to the last command, or None after `timeout_s`.
 
         Raises:
             RefusedError: The robot refuses the command.
+            RobotError: The robot has ended.
         """
         give_up = time.monotonic() + timeout_s
         while (answer := self.receive("ANSWER", give_up - time.monotonic())) is not None:
@@ -120,10 +124,14 @@ class RobotClient:
         return None
 
     def expect(self, name: str, after: str) -> DecodedFrame:
-        """The next message of that name, which the robot sends after a command.
+        """The next message of a kind that the robot sends after a command.
+
+        Args:
+            name: Name of the message.
+            after: The command, for the error message.
 
         Raises:
-            RobotError: It sends none.
+            RobotError: The robot does not send it.
         """
         decoded = self.receive(name, self.deadline_s)
         if decoded is None:
@@ -131,7 +139,7 @@ class RobotClient:
         return decoded
 
     def send_senses(self, senses: Senses) -> None:
-        """Sends the senses of one tick."""
+        """Sends the senses of one tick, and logs them."""
         frame = self.protocol.encode_senses(senses)
         self._sent_tick = senses.tick
         self.link.send(frame)
@@ -139,10 +147,10 @@ class RobotClient:
         self.log.add(frame)  # while the robot thinks
 
     def receive_drive(self, timeout_s: float) -> Drive | None:
-        """The next fresh drive, or None if none comes in time; 0 polls. Anything else that comes is accepted too.
+        """The next fresh drive, or None after `timeout_s`; 0 polls. Other messages are accepted too.
 
         Raises:
-            RobotError: The robot is gone.
+            RobotError: The robot has ended.
         """
         wait_s = min(timeout_s, _LOOK_ALIVE_S)
         frame = self.link.receive(wait_s)
@@ -152,14 +160,14 @@ class RobotClient:
         return self._receive(self._accept_drive, timeout_s - wait_s if frame is None else timeout_s)
 
     def receive(self, name: str, timeout_s: float) -> DecodedFrame | None:
-        """The next message of that name, or None if none comes in time. Anything else that comes is accepted too.
+        """The next message of a kind, or None after `timeout_s`. Other messages are accepted too.
 
         Args:
-            name: The message, any but DRIVE.
-            timeout_s: How long to wait; 0 polls.
+            name: Name of the message, any but DRIVE.
+            timeout_s: Time to wait, s; 0 polls.
 
         Raises:
-            RobotError: The robot is gone.
+            RobotError: The robot has ended.
         """
 
         def accept(frame: Frame) -> DecodedFrame | None:
@@ -169,26 +177,26 @@ class RobotClient:
         return self._receive(accept, timeout_s)
 
     def late(self, tick: int) -> RobotError:
-        """The fault that a drive did not come by the deadline, with all that is known."""
+        """The error for a drive that did not come by the deadline."""
         return RobotError(f"the robot did not answer tick {tick} within {self.deadline_s:g} s; {self.account()}")
 
     def account(self) -> str:
-        """For messages: the last frame from the robot, and how its process is."""
+        """The last frame from the robot and the state of its process, for error messages."""
         last = "none" if self.last is None else self.protocol.describe(self.last)
         return f"last frame from it: {last}; it {self.status()}"
 
     def _receive(self, accept: Callable[[Frame], T | None], timeout_s: float) -> T | None:
-        """Takes what comes until it is what is waited for, or time is up."""
+        """Receives frames until one is accepted, or until the timeout."""
         give_up = None
         wait_s = timeout_s
         while True:
             frame = self.link.receive(min(wait_s, _LOOK_ALIVE_S))
             if frame is None:
                 self.status()
-            elif (found := accept(frame)) is not None:
-                return found
-            # The clock is asked only now: most often the first frame is the one, and there are kernels where asking
-            # takes longer than all the rest.
+            elif (result := accept(frame)) is not None:
+                return result
+            # The clock is read only now: usually the first frame is accepted, and on some kernels reading the clock
+            # takes longer than everything else.
             now = time.monotonic()
             if give_up is None:
                 give_up = now + timeout_s - (min(wait_s, _LOOK_ALIVE_S) if frame is None else 0.0)
@@ -197,13 +205,13 @@ class RobotClient:
                 return None
 
     def _accept_drive(self, frame: Frame) -> Drive | None:
-        """A drive that answers senses which were sent and not answered yet. None for any other frame."""
+        """The drive in a frame, if it answers senses that were not answered yet; None for any other frame."""
         drive = self.protocol.decode_drive(frame)
         if drive is None:
             self._accept_report(frame)
             return None
         ahead = (drive.tick - self._drive.tick) & _TICK_MASK
-        # A robot that hears nothing stops its wheels, and says so with the tick that it last heard.
+        # A robot that receives nothing stops its wheels, and reports so with the last tick that it received.
         rests = ahead == 0 and drive.reason == Reason.STOP and not self.lockstep
         if not rests and not 0 < ahead <= (self._sent_tick - self._drive.tick) & _TICK_MASK:
             self.frames.refused += 1
@@ -215,7 +223,7 @@ class RobotClient:
         return drive
 
     def _accept_report(self, frame: Frame) -> DecodedFrame | None:
-        """What the robot says of itself, noted; None for what is not from it, is damaged, or is no memory."""
+        """The report in a frame; None if the frame is damaged, not from the robot, or holds an invalid memory."""
         decoded = self.protocol.decode(frame)
         if decoded is not None and decoded.name == "DRIVE":
             self._accept_drive(frame)
@@ -230,7 +238,7 @@ class RobotClient:
         return decoded
 
     def _note(self, decoded: DecodedFrame) -> bool:
-        """Keeps faults and memory. False: these eight bytes are no memory."""
+        """Stores the faults or the memory in a report; False if the memory is invalid."""
         if decoded.name == "FAULTS":
             self.faults = dict(decoded.signals)
         if decoded.name == "MEMORY":

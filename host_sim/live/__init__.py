@@ -1,1 +1,1 @@
-"""A run that people watch, and meddle with."""
+"""Live runs: people watch them and interfere."""

@@ -1,4 +1,4 @@
-"""A run in the browser."""
+"""Shows a live run in the browser."""
 
 import asyncio
 import os
@@ -12,15 +12,15 @@ from host_sim.live.server import Listener, LiveServer
 
 
 def watch_run(live: PacedRun, listener: Listener, say: Callable[[str], object]) -> None:
-    """Takes a run from its begin to its end while people watch; Ctrl-C ends it in good command.
+    """Plays a whole run while people watch; Ctrl-C ends it in order.
 
     Args:
-        live: The run.
-        listener: Where they come in.
-        say: Prints its address.
+        live: The run, before its first environment.
+        listener: The socket that the page is served on.
+        say: Prints a line, with the page's address.
 
     Raises:
-        RobotError: The robot is gone.
+        RobotError: A robot has ended or does not answer.
     """
     live.begin()
     asyncio.run(_serve(live, listener, say))
@@ -38,6 +38,6 @@ async def _serve(live: PacedRun, listener: Listener, say: Callable[[str], object
 
 
 def _on_a_desktop() -> bool:
-    """Whether someone sits before a screen here who would like to see a browser."""
+    """Whether this is an interactive session on a desktop, where a browser can be opened."""
     screen = sys.platform == "darwin" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
     return screen and sys.stdout.isatty()

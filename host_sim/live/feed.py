@@ -1,4 +1,4 @@
-"""What one watching page is told: only what it does not know yet, and only the latest of it."""
+"""The messages to one watching page: only what has changed, and only the latest state."""
 
 import json
 import time
@@ -13,7 +13,7 @@ from host_sim.view.history import Lesson
 from host_sim.view.state import environment_scene, measures, states
 
 TRAIL_MAX = 3000
-"""A page that joins late gets so many ticks of the trail."""
+"""Maximum number of ticks in the trail of a page that joins late."""
 
 _POINTS_MAX = 200
 _NOTES_MAX = 8
@@ -21,34 +21,34 @@ _NOTES_MAX = 8
 
 @dataclass
 class PageFeed:
-    """Knows what one page knows. However seldom it is asked, what it holds does not grow.
+    """Tracks what one page has been sent. Its size is bounded, however seldom the page is updated.
 
     Attributes:
         live: The run that the page watches.
-        notes: What the page's person is to be told: commands that could not be carried out.
+        notes: Messages to show on the page, about commands that could not be carried out.
     """
 
     live: PacedRun
     notes: deque[str] = field(default_factory=lambda: deque(maxlen=_NOTES_MAX))
     _layout: int = -1
     _environments: int = 0
-    _told: tuple[int, int] = (-1, -1)
+    _sent: tuple[int, int] = (-1, -1)
     _trail: int = 0
     _lessons: dict[int, int] = field(default_factory=dict)
 
     def next(self) -> str | None:
-        """The message that brings the page up to date, or None if it is.
+        """The message that brings the page up to date as JSON, or None if it is up to date.
 
-        Its fields: `states`, one a robot, and if they are new `environment` and `measures`, as in view/state.py;
+        Its fields: `states`, one per robot, and if they are new `environment` and `measures`, as in view/state.py;
         `trails`, for each robot the ticks since the last message as [x, y, reason, ...], thinned out if many;
-        `lessons`, those since, of all robots; `play`, what the controls show; `health`; `notes`, if there are any;
-        `at`, the wall clock's time in ms since 1970.
+        `lessons`, those of all robots since the last message; `play`, the state of the controls; `health`; `notes`,
+        if there are any; `at`, wall-clock time in ms since 1970.
         """
         now = (self.live.simulation.tick, self.live.change)
-        if now == self._told and not self.notes:
+        if now == self._sent and not self.notes:
             return None
-        first = self._told == (-1, -1)
-        self._told = now
+        first = self._sent == (-1, -1)
+        self._sent = now
         limit = self.live.recorder.trajectory.boredom_limit
         message: dict[str, Any] = {"measures": measures(self.live.params, limit)} if first else {}
         if self.live.layout != self._layout:
@@ -76,11 +76,11 @@ class PageFeed:
         return {"environment": scene}
 
     def _first_tick(self) -> int:
-        """The first tick of the environment."""
+        """The first tick of the current environment."""
         return self.live.simulation.record.begun[-1].first_tick
 
     def _new_trails(self) -> list[list[float]]:
-        """What is new of each robot's trail; all of it where the environment has just begun."""
+        """The new part of each robot's trail; the whole trail if the environment has just begun."""
         tracks = self.live.recorder.trajectory.tracks
         end = tracks[0].ticks
         first = max(self._trail, end - TRAIL_MAX, tracks[0].first_tick)
@@ -89,7 +89,7 @@ class PageFeed:
         return [_points(track, first, end, step) for track in tracks]
 
     def _new_lessons(self) -> list[Lesson]:
-        """The lessons since the last message, each robot's latest."""
+        """The lessons since the last message, at most `_POINTS_MAX` per robot."""
         new = []
         for i, history in enumerate(self.live.recorder.histories):
             new += history.lessons[self._lessons.get(i, 0) :][-_POINTS_MAX:]
@@ -107,7 +107,7 @@ class PageFeed:
         }
 
     def _health(self) -> dict[str, int]:
-        """What became of the frames of all robots."""
+        """The frame counters of all robots together, and those of the page."""
         counts = [frame_counts(client) for client in self.live.simulation.clients]
         return {
             **{name: sum(count[name] for count in counts) for name in ("sent", "lost", "refused")},
@@ -117,7 +117,7 @@ class PageFeed:
 
 
 def _points(track: RobotTrack, first: int, end: int, step: int) -> list[float]:
-    """[x, y, reason, ...] of some ticks."""
+    """[x, y, reason, ...] of every `step`-th tick from `first` to before `end`."""
     points: list[float] = []
     for tick in range(first, end, step):
         row, pose = track.row(tick), track.pose(tick)

@@ -1,4 +1,4 @@
-"""A run that people watch and meddle with: paced by the wall's clock, its commands carried out between two ticks."""
+"""A run that people watch and interfere with: paced by the wall clock, with commands carried out between ticks."""
 
 import asyncio
 import time
@@ -28,7 +28,7 @@ from host_sim.world.edits import Edit, EditError, Lift, Put
 from host_sim.world.params import SimParams
 
 COMMANDS_MAX = 256
-"""So many commands may wait for the next tick; more are refused."""
+"""Maximum number of commands that wait for the next tick; more are refused."""
 
 _SLICE_S = 0.008
 _IDLE_S = 0.02
@@ -40,23 +40,23 @@ Reject = Callable[[str], None]
 
 @dataclass
 class PacedRun:
-    """Takes a simulation through its run, a few ticks at a time, with the event loop's other work in between.
+    """Plays a simulation a few ticks at a time, with the event loop's other work in between.
 
     Attributes:
-        simulation: Not begun yet.
-        recorder: Takes the simulation down; we tell it what people do.
+        simulation: The simulation, before its first environment.
+        recorder: Records the simulation, and what people do to the robots' memories.
         restart: Restarts the robots with another seed.
-        ended: Told of each environment that has ended.
+        ended: Called with the result of each environment.
         stays: Whether to wait for commands after the last environment rather than end.
-        speed: Times real time, or `FULL_SPEED`.
-        playing: Whether it goes on.
-        done: Whether the last environment is behind it.
-        episodes: The environments that have ended.
-        layout: Counts the changes of the arena, by a person or with a new environment.
-        change: Counts the changes of anything that a page shows while no tick passes.
-        rate: Ticks a second, lately.
-        late: Ticks that began more than 0.1 s after their time.
-        refused: Commands that were none, or too many at once.
+        speed: Speed as a multiple of real time, or `FULL_SPEED`.
+        playing: Whether the run is not paused.
+        done: Whether the last environment has ended.
+        episodes: The results of the environments so far.
+        layout: Number of changes of the arena, by a person or with a new environment.
+        change: Number of changes that a page shows and that happened between ticks.
+        rate: Current rate, ticks per second.
+        late: Number of ticks that began more than 0.1 s late.
+        refused: Number of messages that were not valid commands, or were too many at once.
     """
 
     simulation: Simulation
@@ -81,15 +81,15 @@ class PacedRun:
 
     @property
     def params(self) -> SimParams:
-        """The measures."""
+        """The dimensions of the world."""
         return self.simulation.params
 
     def offer(self, command: PageCommand, reject: Reject) -> None:
-        """Takes a command, to be carried out before the next tick.
+        """Queues a command, to be carried out before the next tick.
 
         Args:
-            command: What to do.
-            reject: Told in words if it cannot be done.
+            command: The command.
+            reject: Called with a message if the command cannot be carried out.
         """
         if len(self._commands) < COMMANDS_MAX:
             self._commands.append((command, reject))
@@ -97,7 +97,7 @@ class PacedRun:
             self.refused += 1
 
     def close(self) -> None:
-        """Lets the run end with the tick under way."""
+        """Ends the run after the current tick."""
         self._closed = True
 
     def begin(self) -> None:
@@ -105,10 +105,10 @@ class PacedRun:
         self._enter(1)
 
     async def play(self) -> None:
-        """Goes on from `begin` until all is done, or closed.
+        """Plays the run after `begin`, until it is done or closed.
 
         Raises:
-            RobotError: The robot is gone.
+            RobotError: A robot has ended or does not answer.
         """
         while not self._closed and (self.stays or not self.done):
             self._execute_all()
@@ -127,7 +127,7 @@ class PacedRun:
             self.layout += 1
             self.change += 1
 
-    def _go_on(self) -> None:
+    def _enter_next(self) -> None:
         if not self.done:
             self._end_episode()
             self._enter(self.simulation.record.begun[-1].number + 1)
@@ -139,7 +139,7 @@ class PacedRun:
             self.ended(episode)
 
     def _run_slice(self) -> None:
-        """Does the ticks that are due, as long as others can wait."""
+        """Runs the ticks that are due, for at most `_SLICE_S`."""
         began = time.monotonic()
         if began - self._next_s > _LATE_S:
             self.late += self._next_s > 0.0 and self.speed != FULL_SPEED
@@ -155,9 +155,9 @@ class PacedRun:
         simulation = self.simulation
         simulation.step()
         if self._stop_at_action is not None and simulation.drives[0].action != self._stop_at_action:
-            self._stand_still()
+            self._pause()
         if simulation.over:
-            self._go_on()
+            self._enter_next()
 
     def _spare_s(self) -> float:
         return 0.0 if self.speed == FULL_SPEED else max(0.0, min(_IDLE_S, self._next_s - time.monotonic()))
@@ -169,14 +169,14 @@ class PacedRun:
             self._rate_from = self.simulation.tick, now
 
     def _idle(self) -> None:
-        """A robot in lockstep says that it hears nothing while we pause; that is as it should be, and no news."""
+        """Discards the reports of robots while the run is paused: they receive nothing, and report that."""
         self._next_s = self.rate = 0.0
         for client in self.simulation.clients:
             while client.link.receive(0.0) is not None:
                 pass
             client.status()
 
-    def _stand_still(self) -> None:
+    def _pause(self) -> None:
         self.playing, self._stop_at_action = False, None
         self.change += 1
 
@@ -198,7 +198,7 @@ class PacedRun:
             case Speed(factor):
                 self.speed, self._next_s = factor, 0.0
             case NextEnvironment():
-                self._go_on()
+                self._enter_next()
             case NewSeed(seed):
                 self._start_over(seed)
             case WriteCell() | EraseMemory() | Freeze():
@@ -228,7 +228,7 @@ class PacedRun:
         self._enter(1)
 
     def _command(self, command: WriteCell | EraseMemory | Freeze) -> None:
-        """Tells the robot, in its own words: a real one obeys as well."""
+        """Sends a robot a command over the bus, as a real one needs it too."""
         index = self._index(command.node)
         client, history = self.simulation.clients[index], self.recorder.histories[index]
         self.simulation.set_clock()
@@ -243,10 +243,10 @@ class PacedRun:
         history.relearn(self.simulation.tick, client.memory)
 
     def _index(self, node: int | None) -> int:
-        """The place of a robot among the robots; None is the first.
+        """The index of the robot with a node number; None stands for the first.
 
         Raises:
-            EditError: There is no such robot.
+            EditError: No robot has this node number.
         """
         nodes = self.simulation.nodes
         if node is not None and node not in nodes:

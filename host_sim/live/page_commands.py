@@ -1,4 +1,4 @@
-"""What a watching page may ask for, checked where it comes in."""
+"""The commands of a watching page, parsed and validated."""
 
 import json
 from collections.abc import Callable, Mapping
@@ -10,7 +10,7 @@ from host_sim.world.edits import Edit, edit_from, pose_from, whole
 from host_sim.world.geometry import Pose
 
 TEXT_MAX = 4096
-"""No command is longer, in bytes."""
+"""Maximum length of a command, bytes."""
 
 FULL_SPEED = 0.0
 _SPEED_MIN, _SPEED_MAX = 0.25, 1000.0
@@ -19,38 +19,38 @@ _SEED_MAX = 2**32 - 1
 
 @dataclass(frozen=True)
 class Play:
-    """Go on, or stand still: the world, and the robot in it."""
+    """Continue the run, or pause it."""
 
     on: bool
 
 
 @dataclass(frozen=True)
 class OneDecision:
-    """Go on until the robot has decided once more, and then stand still."""
+    """Continue the run until the first robot begins its next action, then pause."""
 
 
 @dataclass(frozen=True)
 class Speed:
-    """So many times real time; `FULL_SPEED` is as fast as it goes."""
+    """Set the speed as a multiple of real time, 0.25..1000; `FULL_SPEED` is as fast as possible."""
 
     factor: float
 
 
 @dataclass(frozen=True)
 class NextEnvironment:
-    """Leave this environment as it is for the next one."""
+    """End this environment and begin the next one."""
 
 
 @dataclass(frozen=True)
 class NewSeed:
-    """Start over with the environments and random turns of a seed. The memory stays."""
+    """Start over with the environments and random turns of another seed. The memories stay."""
 
     seed: int
 
 
 @dataclass(frozen=True)
 class WriteCell:
-    """Write one cell of a robot's memory: side 0 nothing, 1 left, 2 right. Without a node, of the first robot's."""
+    """Write one cell, 1..7, of a robot's memory: side 0 nothing, 1 left, 2 right. No node means the first robot."""
 
     cell: int
     side: int
@@ -66,7 +66,7 @@ class EraseMemory:
 
 @dataclass(frozen=True)
 class Freeze:
-    """A robot is to learn no more, or to learn again."""
+    """Stop a robot's learning, or let it learn again."""
 
     on: bool
     node: int | None = None
@@ -92,20 +92,20 @@ PageCommand = Play | OneDecision | Speed | NextEnvironment | NewSeed | RobotComm
 
 
 def page_command_from(text: str) -> PageCommand:
-    """The order in a message.
+    """The command in a message.
 
     Args:
         text: A JSON object with the command's name in `do`, and its fields.
 
     Raises:
-        ValueError: It is no command, or one with fields that are missing, of a wrong type or out of bounds.
+        ValueError: The text is not a command, or a field is missing, of the wrong type, or out of range.
     """
     try:
         fields = json.loads(text)
     except RecursionError:
         raise ValueError("too many brackets") from None
     if not isinstance(fields, dict):
-        raise ValueError("no object")
+        raise ValueError("not an object")
     parse = _PARSERS.get(str(fields.get("do")))
     command = edit_from(fields) if parse is None else parse(fields)
     if command is None:

@@ -1,4 +1,4 @@
-"""What a person sees while a run goes on."""
+"""The progress line of a run."""
 
 import sys
 import time
@@ -14,20 +14,20 @@ _SIGNS = {Side.NOTHING: ".", Side.LEFT: "L", Side.RIGHT: "R"}
 
 
 class Progress:
-    """One line that is rewritten in a terminal; nothing where the output is no terminal."""
+    """One line, rewritten during the run; prints nothing if the output is not a terminal."""
 
     def __init__(self, out: TextIO = sys.stderr) -> None:
         """Starts the clock.
 
         Args:
-            out: Where to write.
+            out: Stream to write to.
         """
         self._out = out
         self._shown = out.isatty()
         self._ticks, self._ticks_then, self._then = 0, 0, time.monotonic()
 
     def __call__(self, simulation: Simulation) -> None:
-        """Takes notice of one tick."""
+        """Counts a tick, and now and then rewrites the line."""
         self._ticks += 1
         if self._shown and self._ticks % _EVERY_TICKS == 0:
             self._show(simulation)

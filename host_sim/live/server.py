@@ -1,4 +1,4 @@
-"""Serves a live run to browsers: the page and its parts over HTTP, the run itself over one WebSocket a page."""
+"""Serves a live run to browsers: the page and its parts over HTTP, the run itself over one WebSocket per page."""
 
 import asyncio
 import contextlib
@@ -17,7 +17,7 @@ from host_sim.paths import WEB
 
 PAGES_MAX = 32
 FRAME_S, RACING_FRAME_S = 1 / 60, 1 / 30
-"""A page is told of changes so often, at most; the second at full speed, where nobody could follow anyway."""
+"""Minimum time between two messages to a page; the second at full speed, which is too fast to follow anyway."""
 
 _REFUSALS_MAX = 100
 _ANYWHERE = ("0.0.0.0", "::")
@@ -31,24 +31,24 @@ _HEADERS = {
 
 
 class Listener:
-    """The place where pages knock: taken before the run begins, so that a port in use spoils nothing.
+    """The listening socket of the server, opened before the run begins: a port in use must not spoil a run.
 
     Attributes:
-        host: The address that it listens on.
-        port: Its port.
-        token: What a page's address must carry; None where only this machine can reach us.
-        socket: Listens.
+        host: Address that it listens on.
+        port: Port that it listens on.
+        token: Secret that a page's address must contain; None if only this machine can connect.
+        socket: The socket.
     """
 
     def __init__(self, listen: str | None, port: int) -> None:
-        """Opens it.
+        """Opens the socket.
 
         Args:
-            listen: An address for others to reach us at, with a token; None for this machine only, without.
-            port: The port; 0 for any that is free.
+            listen: Address to listen on for other machines, with a token; None for this machine only, without one.
+            port: Port to listen on; 0 for any free port.
 
         Raises:
-            UsageError: The address cannot be had.
+            UsageError: The address does not exist or is in use.
         """
         self.host = listen or "127.0.0.1"
         self.token = None if listen is None else secrets.token_urlsafe(16)
@@ -64,7 +64,7 @@ class Listener:
 
     @property
     def url(self) -> str:
-        """What a person opens."""
+        """The page's address."""
         host = f"[{self.host}]" if self.socket.family is socket.AF_INET6 else self.host
         if self.host in _ANYWHERE:
             host = socket.gethostname()
@@ -73,14 +73,19 @@ class Listener:
 
 
 class LiveServer:
-    """The pages that watch one run.
+    """Serves one run to its pages.
 
     Attributes:
-        pages: How many watch.
+        pages: Number of pages that watch.
     """
 
     def __init__(self, live: PacedRun, listener: Listener) -> None:
-        """Serves nothing yet."""
+        """Prepares the server; `serving` starts it.
+
+        Args:
+            live: The run.
+            listener: The socket to serve on.
+        """
         self.pages = 0
         self._live, self._listener = live, listener
         self._sockets: set[web.WebSocketResponse] = set()
@@ -91,7 +96,7 @@ class LiveServer:
 
     @contextlib.asynccontextmanager
     async def serving(self) -> AsyncIterator[None]:
-        """Serves while the context lasts."""
+        """Serves until the context is left."""
         runner = web.AppRunner(self._app, access_log=None, shutdown_timeout=1.0)
         await runner.setup()
         try:
@@ -116,7 +121,7 @@ class LiveServer:
         self._check_token(request)
         self._check_origin(request)
         if self.pages >= PAGES_MAX:
-            raise web.HTTPServiceUnavailable(text=f"{PAGES_MAX} pages watch already\n")
+            raise web.HTTPServiceUnavailable(text=f"{PAGES_MAX} pages are watching already\n")
         page = web.WebSocketResponse(max_msg_size=TEXT_MAX, heartbeat=20.0, compress=False, timeout=1.0)
         await page.prepare(request)
         self._sockets.add(page)
@@ -132,7 +137,7 @@ class LiveServer:
         return page
 
     async def _receive(self, page: web.WebSocketResponse, feed: PageFeed) -> None:
-        """Takes commands until the page goes, or has talked too much nonsense."""
+        """Accepts commands until the page disconnects, or has sent too many invalid messages."""
         refusals = 0
         while refusals < _REFUSALS_MAX:
             message = await page.receive()
@@ -144,7 +149,7 @@ class LiveServer:
             else:
                 self._live.refused += message.type is WSMsgType.ERROR
                 return
-        await page.close(code=WSCloseCode.POLICY_VIOLATION, message=b"too much nonsense")
+        await page.close(code=WSCloseCode.POLICY_VIOLATION, message=b"too many invalid messages")
 
     def _accept(self, text: str, feed: PageFeed) -> bool:
         try:
@@ -165,7 +170,7 @@ class LiveServer:
             raise web.HTTPForbidden(text="the address must end with ?token=..., as octet printed it\n")
 
     def _check_origin(self, request: web.Request) -> None:
-        """Only our own page may open a socket: any page in the same browser could try."""
+        """Allows only our own page to open a socket: any other page in the same browser could try."""
         port = self._listener.port
         ours = {f"http://127.0.0.1:{port}", f"http://localhost:{port}"}
         if self._listener.token is not None:
@@ -176,7 +181,7 @@ class LiveServer:
 
 
 async def _send(page: web.WebSocketResponse, feed: PageFeed) -> None:
-    """Tells a page the latest, as fast as it reads and no faster."""
+    """Sends a page the latest state, as fast as it reads."""
     with contextlib.suppress(ConnectionError):
         while not page.closed:
             message = feed.next()

@@ -1,4 +1,4 @@
-"""`tools/octet watch --terminal`: a run in a terminal, for a robot that is reached over ssh."""
+"""`tools/octet watch --terminal`: shows a run in a terminal, for example over ssh."""
 
 import asyncio
 import contextlib
@@ -15,26 +15,26 @@ from host_sim.view.state import environment_scene, states
 _EVERY_S = 0.1
 _KEYS = "q quits   space pauses   . one decision   + - speed   n next"
 _SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1000.0)
-"""The speeds that + and - go through; beyond the last one, as fast as it goes."""
+"""The speeds that + and - step through, as multiples of real time; above the last one, as fast as possible."""
 
 
 def watch_in_terminal(live: PacedRun) -> None:
-    """Takes a run from its begin to its end on the whole screen of the terminal, which is as before in the end.
+    """Plays a whole run on the full screen of the terminal, which is restored at the end.
 
     Args:
-        live: The run. What it prints meanwhile would spoil the picture.
+        live: The run, before its first environment. It must not print anything.
 
     Raises:
-        UsageError: There is no terminal, or none that a picture can be drawn in.
-        RobotError: The robot is gone.
+        UsageError: Standard input or output is not a terminal, or the terminal cannot position its cursor.
+        RobotError: A robot has ended or does not answer.
     """
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        raise UsageError("--terminal draws on a terminal, and this is none: leave it out, or use ssh -t")
+        raise UsageError("--terminal needs a terminal, and this is not one: leave it out, or use ssh -t")
     live.begin()
     try:
         curses.wrapper(lambda screen: asyncio.run(_show(live, screen)))
     except curses.error as error:
-        raise UsageError(f"cannot draw in this terminal ({error}): set TERM to what it is, such as xterm") from None
+        raise UsageError(f"cannot draw in this terminal ({error}): set TERM to its type, such as xterm") from None
 
 
 async def _show(live: PacedRun, screen: "curses.window") -> None:
@@ -53,13 +53,13 @@ async def _show(live: PacedRun, screen: "curses.window") -> None:
 
 
 def _close_on_signals(live: PacedRun) -> None:
-    """Ctrl-C, and a terminal that goes away, end the run in good command."""
+    """Ends the run in order on Ctrl-C, and when the terminal is closed."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         asyncio.get_running_loop().add_signal_handler(number, live.close)
 
 
 def _press(live: PacedRun, key: int) -> None:
-    """Does what a key says."""
+    """Carries out the command of a key."""
     commands: dict[int, PageCommand] = {
         ord(" "): Play(not live.playing),
         ord("."): OneDecision(),
@@ -89,7 +89,7 @@ def _draw(live: PacedRun, screen: "curses.window") -> None:
     rows, columns = screen.getmaxyx()
     screen.erase()
     for row, line in enumerate(draw_text(_view(live), columns, rows)):
-        # The last place of all stays free: the screen would scroll.
+        # The last character of the last row stays empty: writing it would scroll the screen.
         screen.addnstr(row, 0, line, columns - (row == rows - 1))
     screen.refresh()
 

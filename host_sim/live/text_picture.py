@@ -1,4 +1,4 @@
-"""A run in plain characters: arena, senses, memory and reason, for a screen of any size from 60 x 20 up."""
+"""Draws a run as text: arena, senses, memory and reason, on a screen of at least 60 x 20 characters."""
 
 import math
 import textwrap
@@ -12,7 +12,7 @@ from host_sim.world.geometry import Point, Pose
 from host_sim.world.params import SimParams
 
 COLUMNS_MIN, ROWS_MIN = 60, 20
-"""The smallest screen that has room for it all."""
+"""Minimum size of the screen, characters."""
 
 _PANEL, _ROWS_BELOW = 22, 4
 _TALL = 2.0
@@ -24,16 +24,16 @@ _FRONT = ((4, "\\"), (2, "|"), (1, "/"))
 
 @dataclass(frozen=True)
 class View:
-    """What to draw.
+    """The contents of the picture.
 
     Attributes:
-        params: The measures.
+        params: The dimensions of the world.
         scene: The arena.
-        states: The robots after the tick; the first one's senses and memory are shown.
-        trails: Where each robot was in this arena.
-        boredom_limit: The remembered turn in a row after which it is bored.
-        pace: How fast it goes, in words.
-        keys: Which keys do what.
+        states: The robots' states; senses and memory are those of the first robot.
+        trails: Each robot's positions in this arena.
+        boredom_limit: Number of remembered turns in a row at which a robot is bored.
+        pace: The speed, in words.
+        keys: The keys and their meaning.
     """
 
     params: SimParams
@@ -46,24 +46,24 @@ class View:
 
     @property
     def state(self) -> State:
-        """The first robot's."""
+        """The first robot's state."""
         return self.states[0]
 
 
 def draw_text(view: View, columns: int, rows: int) -> list[str]:
-    """The picture, line by line.
+    """Draws the picture.
 
     Args:
-        view: What to draw.
-        columns: Width of the screen.
-        rows: Height of the screen.
+        view: The contents.
+        columns: Width of the screen, characters.
+        rows: Height of the screen, lines.
 
     Returns:
-        At most `rows` lines of at most `columns` characters; on a screen that is too small, one that says so.
+        At most `rows` lines of at most `columns` characters; on a screen that is too small, a message.
     """
     if columns < COLUMNS_MIN or rows < ROWS_MIN:
-        told = f"{columns} x {rows} characters are too few: {COLUMNS_MIN} x {ROWS_MIN} are the least"
-        return textwrap.wrap(told, columns)[:rows]
+        message = f"{columns} x {rows} characters are too few: at least {COLUMNS_MIN} x {ROWS_MIN} are needed"
+        return textwrap.wrap(message, columns)[:rows]
     arena = _draw_arena(view, columns - _PANEL, rows - _ROWS_BELOW - 1)
     panel = _draw_panel(view)
     width = len(arena[0])
@@ -81,7 +81,7 @@ def _head(view: View) -> str:
 
 
 def _draw_arena(view: View, columns: int, rows: int) -> list[str]:
-    """The arena in its frame, as large as there is room, its sides as long as they are in the world."""
+    """The arena in its frame, as large as fits, true to scale."""
     canvas = _Canvas(view.params, columns - 2, rows - 2)
     for trail in view.trails:
         canvas.mark(trail, _TRAIL)
@@ -97,7 +97,7 @@ def _draw_arena(view: View, columns: int, rows: int) -> list[str]:
 
 
 class _Canvas:
-    """Characters over the arena's floor; one is twice as high as wide."""
+    """A grid of characters over the arena's floor; a character is twice as high as wide."""
 
     def __init__(self, params: SimParams, columns: int, rows: int) -> None:
         per_row = max(params.height_mm / rows, params.width_mm / columns * _TALL)
@@ -118,7 +118,7 @@ class _Canvas:
         self.mark(((a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part) for part in parts), sign)
 
     def robot(self, pose: Pose, sign: str) -> None:
-        """Puts a robot, and a stroke beside it, where it looks."""
+        """Puts a robot, and a stroke beside it in the direction of its heading."""
         column, row = self._place(pose[:2])
         eighth = round(pose.heading_rad / (math.pi / 4))
         nose = round(math.cos(eighth * math.pi / 4)), round(math.sin(eighth * math.pi / 4))
@@ -138,7 +138,7 @@ class _Canvas:
 
 
 def _draw_panel(view: View) -> list[str]:
-    """Senses, boredom and the memory: for each cell its sensors, what it holds, and how often it was used."""
+    """Senses, boredom and memory: for each cell its sensors, its content, and how often it was used."""
     state = view.state
     feelers = " ".join(sign if state["feel"] & FEEL[name] else "." for name, sign in _FEELERS)
     count = min(state["repeat_count"], view.boredom_limit)
@@ -162,5 +162,5 @@ def _draw_cell(state: State, cell: int) -> str:
 
 
 def _padded(lines: Sequence[str], count: int) -> list[str]:
-    """So many lines, the last ones empty."""
+    """Exactly `count` lines: cut, or filled up with empty ones."""
     return [*lines, *[""] * (count - len(lines))][:count]

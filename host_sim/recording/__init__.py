@@ -1,1 +1,1 @@
-"""A run that has been: its log, its world, and what is worked out from them."""
+"""Recorded runs: log and world file, and what can be derived from them."""

@@ -1,4 +1,4 @@
-"""Where a robot went as far as its odometers tell: for logs of real bodies, whose world nobody knows."""
+"""A robot's path by dead reckoning from its odometers, for logs of real bodies, whose world is not known."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,21 +19,21 @@ _MARGIN_MM = 500.0
 
 @dataclass(frozen=True)
 class _Body:
-    """A body of which only the pose is known."""
+    """A body whose pose is all that is known."""
 
     pose: Pose
     lifted: bool = False
 
 
 def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
-    """The trajectory of a recording in an empty arena, large enough for it, in whose middle it lies.
+    """The trajectory of a recording, centred in an empty arena that is large enough for it.
 
     Args:
-        recording: Has at least one tick.
-        node: The robot's number on the bus.
-        params: The measures; the arena's size counts as the least.
+        recording: A recording of at least one tick.
+        node: The robot's node number on the bus.
+        params: The dimensions of the world; the arena has at least their size.
     """
-    poses = _ways([tick.senses for tick in recording.ticks], params)
+    poses = _poses([tick.senses for tick in recording.ticks], params)
     params, poses = _framed(poses, params)
     recorder = RunRecorder(params, recording.boredom_limit, {node: recording.first_memory})
     recorder.enter(EnvironmentScene(number=1, of=1, seed=0, first_tick=0, bars=[], food=[]))
@@ -43,25 +43,25 @@ def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
     return recorder.trajectory
 
 
-def _ways(senses: Sequence[Senses], params: SimParams) -> list[Pose]:
-    """The pose after each tick, that is when the next one's odometers are read; the first heading is 0."""
+def _poses(senses: Sequence[Senses], params: SimParams) -> list[Pose]:
+    """The pose after each tick, that is, when the next one's odometers are read; the first heading is 0."""
     pose = Pose(0.0, 0.0, 0.0)
     poses = []
     for before, after in pairwise(senses):
-        left_mm = _way_mm(before.odometer_left, after.odometer_left)
-        right_mm = _way_mm(before.odometer_right, after.odometer_right)
+        left_mm = _distance_mm(before.odometer_left, after.odometer_left)
+        right_mm = _distance_mm(before.odometer_right, after.odometer_right)
         pose = rolled(pose, left_mm, right_mm, params.wheel_track_mm)
         poses.append(pose)
     return [*poses, pose]
 
 
-def _way_mm(before: int, after: int) -> float:
-    """The way between two counts, which wrap; it is less than half a round either way."""
+def _distance_mm(before: int, after: int) -> float:
+    """The distance between two counts, which wrap, provided that it is less than half of their range."""
     return ((after - before + ODOMETER_SPAN // 2) % ODOMETER_SPAN - ODOMETER_SPAN // 2) / ODOMETER_COUNTS_PER_MM
 
 
 def _framed(poses: Sequence[Pose], params: SimParams) -> tuple[SimParams, list[Pose]]:
-    """An arena with the way in its middle."""
+    """An arena with the path in its middle."""
     left, right = min(pose.x_mm for pose in poses), max(pose.x_mm for pose in poses)
     top, bottom = min(pose.y_mm for pose in poses), max(pose.y_mm for pose in poses)
     width = max(params.width_mm, right - left + 2 * _MARGIN_MM)

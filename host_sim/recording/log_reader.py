@@ -1,4 +1,4 @@
-"""Reads frame logs back, every line checked: those of `FrameLog`, and candump's own (`candump -L`)."""
+"""Reads frame logs, those of `FrameLog` and of `candump -L`, and checks every line."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -12,59 +12,64 @@ _LINE = re.compile(r"\((\d+)\.(\d{6})\) (\S+) ([0-9A-F]{3})#((?:[0-9A-F]{2}){0,8
 
 
 class Recorded(NamedTuple):
-    """One line of a log: robot time in µs, and the frame."""
+    """One line of a log: robot time in us, and the frame."""
 
     time_us: int
     frame: Frame
 
 
 def read_log(path: Path) -> Iterator[Recorded]:
-    """Reads a log, ours or candump's own.
+    """Reads a log of `FrameLog` or of `candump -L`.
 
     Yields:
-        Each frame in its order.
+        Each frame, in order.
 
     Raises:
         UsageError: The file cannot be read.
-        OctetError: A line is no frame, or the last line is cut short; names the line.
+        OctetError: The file is empty, a line is not a frame, or the last line is cut short.
     """
     try:
         text = path.read_text(encoding="ascii")
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
     except UnicodeDecodeError:
-        raise UsageError(f"{path} is no frame log: it is not even text") from None
+        raise UsageError(f"{path} is not a frame log: it is not text") from None
     if not text:
-        raise OctetError(f"{path} is empty: no frame log")
+        raise OctetError(f"{path} is not a frame log: it is empty")
     for number, line in enumerate(text.splitlines(keepends=True), start=1):
         match = _LINE.fullmatch(line.rstrip("\n"))
         if match is None or not line.endswith("\n"):
-            raise OctetError(f"{path}, line {number}: no frame as candump -L writes it, or cut short: {line[:60]!r}")
+            raise OctetError(f"{path}, line {number}: not a frame in candump -L format, or cut short: {line[:60]!r}")
         seconds, micros, _, frame_id, data = match.groups()
         yield Recorded(int(seconds) * 1_000_000 + int(micros), Frame(int(frame_id, 16), bytes.fromhex(data)))
 
 
 def nodes_in(lines: Sequence[Recorded]) -> list[int]:
-    """The nodes that are in a log, in their order: those that have sent a heartbeat."""
+    """The nodes that have sent a heartbeat in a log, in ascending order."""
     heartbeats = {node: Protocol(node).id_of("HEARTBEAT") for node in sorted({node_of(it.frame.id) for it in lines})}
     ids = {line.frame.id for line in lines}
     return [node for node, heartbeat in heartbeats.items() if heartbeat in ids]
 
 
 def lines_of(lines: Sequence[Recorded], node: int) -> list[Recorded]:
-    """The lines of a log without those of other nodes that are in it."""
+    """The lines of a log without those of the other nodes that have sent a heartbeat."""
     others = set(nodes_in(lines)) - {node}
     return [line for line in lines if node_of(line.frame.id) not in others]
 
 
 def check_protocol(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> None:
-    """Sees that a log is one of this protocol.
+    """Checks that a log was recorded with this protocol.
+
+    Args:
+        path: Where the lines come from, for messages.
+        lines: The log.
+        protocol: The protocol of the robot's node.
 
     Raises:
-        OctetError: It is of another, of another node, or of no run.
+        OctetError: The log has no heartbeat of this node, or was recorded with another protocol.
     """
-    said = (protocol.decode(line.frame) for line in lines)
-    heartbeat = next((what for what in said if what is not None and what.name == "HEARTBEAT"), None)
+    messages = (protocol.decode(line.frame) for line in lines)
+    heartbeat = next((message for message in messages if message is not None and message.name == "HEARTBEAT"), None)
     if heartbeat is None:
         raise OctetError(f"{path} has no heartbeat of node {protocol.node}: not a log of a run, or cut short")
     if not protocol.fits(heartbeat.signals["dbc_hash"]):
@@ -72,6 +77,6 @@ def check_protocol(path: Path, lines: Sequence[Recorded], protocol: Protocol) ->
 
 
 def first_memory(lines: Sequence[Recorded], protocol: Protocol) -> bytes:
-    """What the robot remembered before the run: it says so in the handshake."""
+    """The robot's memory before the run, which it reports in the handshake: eight bytes."""
     memory_id = protocol.id_of("MEMORY")
     return next((line.frame.data for line in lines if line.frame.id == memory_id), bytes(8))

@@ -1,4 +1,4 @@
-"""The eight bytes in a file: exactly eight bytes, cell 0 first."""
+"""Memory files: exactly eight bytes, cell 0 first."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,10 +9,10 @@ from host_sim.protocol.generated import CELL_COUNT, CELL_MAX, SIDES
 
 
 def load_memory(path: Path) -> tuple[int, ...] | None:
-    """The memory in a file; None if there is no such file yet.
+    """The memory in a file, or None if the file does not exist.
 
     Raises:
-        UsageError: The file cannot be read, or does not hold a memory.
+        UsageError: The file cannot be read, or is not a memory file.
     """
     try:
         content = path.read_bytes()
@@ -32,16 +32,16 @@ def load_memory(path: Path) -> tuple[int, ...] | None:
 
 
 def save_memory(path: Path, memory: Sequence[int]) -> None:
-    """Writes a memory, all or nothing.
+    """Writes a memory file atomically.
 
     Raises:
-        OctetError: The disk did not take it.
+        OctetError: The file cannot be written.
     """
     write_bytes(path, bytes(memory))
 
 
 def memory_path(path: Path, node: int, robots: int) -> Path:
-    """The file of one robot's memory: the path as it is for one robot, and with the node's number for several.
+    """The memory file of a robot: the path itself in a run with one robot, else with the node number added.
 
     >>> memory_path(Path("robot.mem"), node=2, robots=3).name
     'robot-2.mem'

@@ -1,4 +1,4 @@
-"""What a log says of robot and body, tick by tick."""
+"""Turns the frames of a log into ticks."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -17,10 +17,10 @@ class Tick(NamedTuple):
     """One control tick.
 
     Attributes:
-        senses: What the body sensed.
-        drive: What its wheels did: the robot's answer, or what a body does without one.
-        memory: The eight cells with which the robot answered.
-        frozen: Whether the robot does not learn.
+        senses: The body's senses.
+        drive: The drive that the body applied: the robot's answer, or the `held` one without an answer.
+        memory: The robot's eight cells when it answered.
+        frozen: Whether learning was frozen.
     """
 
     senses: Senses
@@ -31,14 +31,14 @@ class Tick(NamedTuple):
 
 @dataclass
 class Recording:
-    """A log, understood.
+    """One robot's part of a log.
 
     Attributes:
-        seed: With which the robot was started; None if that is not in the log.
-        boredom_limit: The remembered turn in a row after which the robot is bored.
+        seed: Seed that the robot was started with; None if the log does not have its start.
+        boredom_limit: Number of remembered turns in a row at which the robot is bored.
         first_memory: The eight cells before the first tick.
-        ticks: In their order; one whose answer is cut off is left out.
-        stopped: Whether the log ends with the robot at rest: else it is cut short, or the run was.
+        ticks: The ticks, in order, without a last one whose answer is cut off.
+        stopped: Whether the log ends with a stop command; if not, the log or the run was cut short.
     """
 
     seed: int | None = None
@@ -49,26 +49,26 @@ class Recording:
 
 
 def read_recording(log: Path, lines: Sequence[Recorded], protocol: Protocol) -> Recording:
-    """Understands one robot's part of a log.
+    """Reads one robot's part of a log.
 
     Args:
         log: Where the lines come from, for messages.
         lines: The whole log.
-        protocol: Of the robot's node.
+        protocol: The protocol of the robot's node.
 
     Raises:
-        OctetError: It is no log, one of another protocol or node, or one without a tick.
+        OctetError: The log is of another protocol, or has no heartbeat or no tick of this node.
     """
     ours = lines_of(lines, protocol.node)
     check_protocol(log, ours, protocol)
     recording = _Reader(protocol, first_memory(ours, protocol)).read(line.frame for line in ours)
     if not recording.ticks:
-        raise OctetError(f"{log} has no tick in which the robot moves: a run that never began, or cut short")
+        raise OctetError(f"{log} has no tick in which the robot moves: the run never began, or the log is cut short")
     return recording
 
 
 class _Reader:
-    """Puts frames together to ticks. A tick ends with the next SENSES or command: drives after it come too late."""
+    """Groups frames into ticks. A tick ends with the next SENSES or COMMAND: drives after that are too late."""
 
     def __init__(self, protocol: Protocol, memory: bytes) -> None:
         self._protocol = protocol
@@ -81,45 +81,45 @@ class _Reader:
         self._frozen, self._lockstep = False, True
 
     def read(self, frames: Iterable[Frame]) -> Recording:
-        """Takes all frames in their order, but those that are damaged or of another node."""
+        """Reads all frames in order; skips damaged ones and those of other nodes."""
         for frame in frames:
             if drive := self._protocol.decode_drive(frame):
                 self._fresh = drive
-            elif said := self._protocol.decode(frame):
-                self._accept(said)
+            elif decoded := self._protocol.decode(frame):
+                self._accept(decoded)
         self._end_tick()
         return self._recording
 
-    def _accept(self, said: DecodedFrame) -> None:
-        if said.name == "SENSES":
+    def _accept(self, decoded: DecodedFrame) -> None:
+        if decoded.name == "SENSES":
             self._end_tick()
-            self._senses = _senses_from(said)
-        elif said.name == "MEMORY":
-            self._remember(tuple(said.signals.values()))
-        elif said.name == "COMMAND":
+            self._senses = _senses_from(decoded)
+        elif decoded.name == "MEMORY":
+            self._accept_memory(tuple(decoded.signals.values()))
+        elif decoded.name == "COMMAND":
             self._end_tick()
-            self._obey(said.signals)
+            self._accept_command(decoded.signals)
 
     def _end_tick(self) -> None:
         if self._senses is not None and (self._fresh is not None or not self._lockstep):
-            tick = Tick(self._senses, self._taken(self._senses.tick), self._memory, self._frozen)
+            tick = Tick(self._senses, self._applied(self._senses.tick), self._memory, self._frozen)
             self._recording.ticks.append(tick)
         self._senses, self._fresh = None, None
 
-    def _taken(self, tick: int) -> Drive:
-        """What the wheels do: the answer, or the one before for a while, then rest. As in `RealTime`."""
+    def _applied(self, tick: int) -> Drive:
+        """The drive that the body applied: the answer, else the previous one for a while, then rest (`RealTime`)."""
         if self._fresh is not None:
             self._last, self._waited = self._fresh, 0
             return self._fresh
         self._waited += 1
         return held(self._last, self._waited, tick)
 
-    def _remember(self, memory: tuple[int, ...]) -> None:
+    def _accept_memory(self, memory: tuple[int, ...]) -> None:
         self._memory = memory
         if not self._recording.ticks and self._senses is None:
             self._recording.first_memory = memory
 
-    def _obey(self, signals: dict[str, int]) -> None:
+    def _accept_command(self, signals: dict[str, int]) -> None:
         opcode = signals["opcode"]
         self._lockstep = bool(signals["lockstep"])
         self._recording.stopped = opcode == Opcode.STOP
@@ -132,9 +132,9 @@ class _Reader:
             self._frozen = bool(signals["freeze"])
 
 
-def _senses_from(said: DecodedFrame) -> Senses:
+def _senses_from(decoded: DecodedFrame) -> Senses:
     """The senses in a decoded SENSES frame."""
-    signals = said.signals
+    signals = decoded.signals
     return Senses(
         tick=signals["tick"],
         feel=signals["feel"],

@@ -1,4 +1,4 @@
-"""A recorded log against the firmware of today."""
+"""Compares a recorded log with the current firmware."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,12 +14,12 @@ _TO_ROBOT = ("SENSES", "COMMAND")
 
 @dataclass(frozen=True)
 class Difference:
-    """The first tick at which the firmware does something else than the log.
+    """The first drive that differs between log and firmware.
 
     Attributes:
-        time_us: Robot time.
-        recorded: What the log has; None if it has nothing.
-        replayed: What the firmware says now; None if it says nothing.
+        time_us: Robot time, us.
+        recorded: The drive in the log; None if the log has none.
+        replayed: The drive of the current firmware; None if it sends none.
     """
 
     time_us: int
@@ -29,11 +29,11 @@ class Difference:
 
 @dataclass(frozen=True)
 class Replay:
-    """How a replay went.
+    """The result of a replay.
 
     Attributes:
-        drives: Drives that were the same.
-        difference: The first that was not; None if all were.
+        drives: Number of equal drives.
+        difference: The first difference; None if there is none.
     """
 
     drives: int
@@ -41,15 +41,15 @@ class Replay:
 
 
 def replay(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> Replay:
-    """Feeds one robot's senses and commands in a log to the firmware and compares its drives.
+    """Feeds one robot's senses and commands from a log to the firmware and compares its drives with the log's.
 
     Args:
         path: Where the lines come from, for messages.
         lines: The whole log.
-        protocol: Of the robot's node.
+        protocol: The protocol of the robot's node.
 
     Raises:
-        OctetError: It is no log, or one of another protocol or node.
+        OctetError: The log is of another protocol, has no heartbeat of this node, or holds a damaged frame.
     """
     lines = lines_of(lines, protocol.node)
     check_protocol(path, lines, protocol)
@@ -67,7 +67,7 @@ def replay(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> Replay:
             pending.update(_drives_for(link, frame, protocol))
         elif decoded.name == "DRIVE":
             answer = pending.pop(decoded.signals["tick"], None)
-            # On its own clock a robot that heard nothing also says so; here it always hears.
+            # On its own clock a robot that received nothing reports a stop; here it receives everything.
             if answer != frame and not (answer is None and not lockstep and decoded.signals["reason"] == 0):
                 return Replay(drives, Difference(time_us, frame, answer))
             drives += answer is not None
@@ -77,7 +77,7 @@ def replay(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> Replay:
 
 
 def report(outcome: Replay, path: Path, protocol: Protocol) -> str:
-    """The outcome for people."""
+    """The outcome as text."""
     if outcome.difference is None:
         return f"{path}: {outcome.drives} drives, no difference"
     difference = outcome.difference
@@ -97,5 +97,9 @@ def _described(frame: Frame | None, protocol: Protocol) -> str:
 def _drives_for(link: InProcessLink, frame: Frame, protocol: Protocol) -> dict[int, Frame]:
     """The drives with which the firmware answers a frame, by tick."""
     link.send(frame)
-    decoded = ((answer, protocol.decode(answer)) for answer in link.taken())
-    return {what.signals["tick"]: answer for answer, what in decoded if what is not None and what.name == "DRIVE"}
+    answers = ((answer, protocol.decode(answer)) for answer in link.taken())
+    return {
+        decoded.signals["tick"]: answer
+        for answer, decoded in answers
+        if decoded is not None and decoded.name == "DRIVE"
+    }

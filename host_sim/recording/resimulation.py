@@ -1,4 +1,4 @@
-"""From a log back to where the robot was: its world is built anew, and its drives move the body through it again."""
+"""Reconstructs a run from its log: rebuilds the world and moves the robots through it with their recorded drives."""
 
 from collections import deque
 from collections.abc import Sequence
@@ -22,17 +22,17 @@ from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
 
 _LIMIT_S = 600.0
-"""How long a run stays in an environment, unless told otherwise."""
+"""Default time limit of a run for each environment."""
 
 
 @dataclass(frozen=True)
 class Resimulation:
-    """A run that was found again.
+    """A reconstructed run.
 
     Attributes:
-        trajectory: Every tick of it.
-        seed: Its seed; None if its world is not known.
-        stopped: Whether the log has its end; else it is cut short, or the run was.
+        trajectory: Every tick of the run.
+        seed: The run's seed; None if its world is not known.
+        stopped: Whether the log has the end of the run; if not, the log or the run was cut short.
     """
 
     trajectory: Trajectory
@@ -41,33 +41,34 @@ class Resimulation:
 
     @property
     def title(self) -> str:
-        """What to call it."""
+        """The run's title."""
         return "a robot on its way" if self.seed is None else f"seed {self.seed}"
 
 
-def resimulate(log: Path, node: int = 1, *, in_the_open: bool = False) -> Resimulation:
-    """Finds a run again from its log, and from the world file beside it if there is one.
+def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False) -> Resimulation:
+    """Reconstructs a run from its log, and from the world file beside it if there is one.
 
-    Without a world file, the environments are those of the seed with which the robot was started, one after the other
-    as in a usual run. Without a seed, or in the open, odometers give the way, and around it there is nothing.
+    Without a world file, the environments are those of the seed that the robot was started with, one after the other,
+    as in a default run. Without a seed, or if the world is ignored, the path is that of the robot's odometers, in an
+    empty arena.
 
     Args:
-        log: As a run left it, or `candump -L`.
-        node: The robot's number on the bus; the first one's, of several.
-        in_the_open: Whether to ask neither world file nor seed; then this robot alone is found.
+        log: A log of a run, or of `candump -L`.
+        node: The robot's node number on the bus; the first robot's if there are several.
+        ignore_world: Whether to ignore world file and seed; only this robot is reconstructed then.
 
     Raises:
         UsageError: A file cannot be read.
-        OctetError: The log is no log of this protocol, or the world is not the one in which it was recorded.
+        OctetError: The log is not one of this protocol, or was recorded in another world.
     """
     lines = list(read_log(log))
     recording = read_recording(log, lines, Protocol(node))
-    record = None if in_the_open else _world_record(log, lines, recording, node)
+    record = None if ignore_world else _world_record(log, lines, recording, node)
     if record is None:
         return Resimulation(reckon(recording, node, SimParams()), None, recording.stopped)
     others = range(node + 1, node + record.robots)
     recordings = {node: recording} | {other: read_recording(log, lines, Protocol(other)) for other in others}
-    trajectory = _Walk(log, SimParams(), record, recordings).walk()
+    trajectory = _Resimulator(log, SimParams(), record, recordings).run()
     return Resimulation(trajectory, record.seed, recording.stopped)
 
 
@@ -82,8 +83,8 @@ def _world_record(log: Path, lines: Sequence[Recorded], recording: Recording, no
     return WorldRecord(recording.seed, 1, round(_LIMIT_S / SimParams().tick_s), robots)
 
 
-class _Walk:
-    """One way through the environments of a record; where it names none, one follows the other as in a run."""
+class _Resimulator:
+    """Repeats a run in the environments of a record or, if it lists none, in one after the other as in a run."""
 
     def __init__(self, log: Path, params: SimParams, record: WorldRecord, recordings: dict[int, Recording]) -> None:
         self._log, self._params, self._record = log, params, record
@@ -95,15 +96,15 @@ class _Walk:
         memories = {node: recording.first_memory for node, recording in recordings.items()}
         self._recorder = RunRecorder(params, self._recordings[0].boredom_limit, memories)
 
-    def walk(self) -> Trajectory:
-        """Goes all of it, as far as every robot's recording does."""
+    def run(self) -> Trajectory:
+        """Repeats every tick that all robots' recordings have."""
         for tick, robots in enumerate(zip(*(recording.ticks for recording in self._recordings), strict=False)):
-            self._walk_tick(tick, robots)
+            self._run_tick(tick, robots)
         for _, scene in self._recorder.trajectory.scenes:
             scene["of"] = max(self._record.environments, self._begun.number)
         return self._recorder.trajectory
 
-    def _walk_tick(self, tick: int, robots: Sequence[Tick]) -> None:
+    def _run_tick(self, tick: int, robots: Sequence[Tick]) -> None:
         arena = self._prepare(tick)
         for node, body, robot in zip(self._nodes, arena.bodies, robots, strict=True):
             self._check(tick, node, body.sense(tick), robot.senses)
@@ -122,14 +123,14 @@ class _Walk:
         return [history.node for history in self._recorder.histories]
 
     def _prepare(self, tick: int) -> Arena:
-        """The arena of a tick, with what a person did to it before."""
+        """The arena of a tick, after a person's changes before that tick."""
         arena, changed = self._arena, False
         begun = self._due(tick)
         if begun is not None:
             arena = self._enter(begun)
             changed = True
         if arena is None:
-            raise self._misfit(tick, "it begins later")
+            raise self._mismatch(tick, "the first environment begins later")
         while self._edits and self._edits[0].tick == tick:
             self._edit(arena, tick, self._edits.popleft().edit)
             changed = True
@@ -143,12 +144,12 @@ class _Walk:
         self._arena = Arena(layout, self._params, odometers)
         if begun.number == 1 or begun.seed != self._begun.seed:
             for history in self._recorder.histories:
-                history.trial = None  # a run that starts over has no last trial
+                history.trial = None  # a restarted run has no last trial
         self._begun = begun
         return self._arena
 
     def _due(self, tick: int) -> Begun | None:
-        """The environment that begins with a tick; of several in one tick, the last."""
+        """The environment that begins with a tick, the last one if there are several; None if none does."""
         begun = None
         while self._planned and self._planned[0].first_tick == tick:
             begun = self._planned.popleft()
@@ -163,19 +164,19 @@ class _Walk:
         try:
             make_edit(arena, edit, self._params)
         except EditError as error:
-            raise self._misfit(tick, str(error)) from None
+            raise self._mismatch(tick, str(error)) from None
 
     def _check(self, tick: int, node: int, simulated: Senses, recorded: Senses) -> None:
         if simulated == recorded:
             return
         pairs = zip(Senses._fields, recorded, simulated, strict=True)
         who = f"node {node}: " if self._record.robots > 1 else ""
-        what = ", ".join(f"{name} {a:d} and not {b:d}" for name, a, b in pairs if a != b)
-        raise self._misfit(tick, who + what)
+        what = ", ".join(f"{name} is {a:d}, expected {b:d}" for name, a, b in pairs if a != b)
+        raise self._mismatch(tick, who + what)
 
-    def _misfit(self, tick: int, what: str) -> OctetError:
+    def _mismatch(self, tick: int, what: str) -> OctetError:
         world = f"seed {self._record.seed}" if self._runs_on else str(world_path(self._log))
         return OctetError(
             f"{self._log} was not recorded in the world of {world}: at {tick * self._params.tick_s:.2f} s {what}; "
-            f"put the {world_path(self._log).name} of that run beside it, or leave the world out with --no-world"
+            f"put that run's {world_path(self._log).name} beside the log, or ignore the world with --no-world"
         )

@@ -1,4 +1,4 @@
-"""Takes a run down as it goes: lets its trajectory grow tick by tick."""
+"""Records the trajectory of a run, tick by tick."""
 
 from collections.abc import Mapping, Sequence
 from struct import Struct
@@ -16,17 +16,17 @@ T = TypeVar("T")
 Memory = Sequence[int]
 
 TICKS_MAX = 1_000_000
-"""Of longer runs the last environments are kept: 58 MB, and some 5 MB as a page."""
+"""Maximum length of a trajectory: 58 MB, and some 5 MB as a page. Longer runs retain their last environments."""
 
 _PACKED = Struct(f"={len(ROW)}h")
 
 
 class BodyState(Protocol):
-    """As much of a body as is taken down."""
+    """The recorded part of a body's state."""
 
     @property
     def pose(self) -> Pose:
-        """Where the robot is and looks."""
+        """The robot's position and heading."""
 
     @property
     def lifted(self) -> bool:
@@ -34,20 +34,20 @@ class BodyState(Protocol):
 
 
 class RunRecorder:
-    """Called after each tick of a simulation, or told each tick by `enter` and `add`.
+    """Records each tick, either called after each tick of a simulation or through `enter` and `add`.
 
     Attributes:
-        trajectory: What was taken down so far: as far as `TICKS_MAX`, and the environment under way.
-        histories: What each robot has come to.
+        trajectory: The trajectory so far: at most `TICKS_MAX` ticks before the current environment.
+        histories: Each robot's learning history.
     """
 
     def __init__(self, params: SimParams, boredom_limit: int, memories: Mapping[int, Memory]) -> None:
-        """Waits for the first tick.
+        """Starts an empty recording.
 
         Args:
-            params: The measures.
-            boredom_limit: The remembered turn in a row after which a robot is bored.
-            memories: For each robot, by its node, the eight cells that it begins with.
+            params: The dimensions of the world.
+            boredom_limit: Number of remembered turns in a row at which a robot is bored.
+            memories: Each robot's eight cells before the first tick, by node number.
         """
         self.histories = [LearningHistory(node, memory) for node, memory in memories.items()]
         tracks = [RobotTrack(history.node, lessons=history.lessons) for history in self.histories]
@@ -58,13 +58,13 @@ class RunRecorder:
 
     @classmethod
     def of(cls, simulation: Simulation, boredom_limit: int) -> "RunRecorder":
-        """Takes down a simulation that has not begun yet."""
+        """A recorder for a simulation that has not begun yet, called after each of its ticks."""
         memories = {client.node: client.memory for client in simulation.clients}
         simulation.watch = recorder = cls(simulation.params, boredom_limit, memories)
         return recorder
 
     def __call__(self, simulation: Simulation) -> None:
-        """Takes down the tick that has just ended."""
+        """Records the tick that has just ended."""
         record, arena = simulation.record, simulation.arena
         if (layouts := len(record.begun) + len(record.edits)) != self._layouts:
             self._layouts = layouts
@@ -75,7 +75,7 @@ class RunRecorder:
             self.eaten(arena.food.eaten, simulation.drives)
 
     def enter(self, scene: EnvironmentScene) -> None:
-        """An environment begins with the next tick, or a person has changed the present one."""
+        """Records that the next tick begins an environment, or that a person has changed the current one."""
         trajectory = self.trajectory
         if not trajectory.scenes or _name(trajectory.scenes[-1][1]) != _name(scene):
             _note(trajectory.meals, trajectory.ticks, [0] * len(scene["food"]))
@@ -85,14 +85,14 @@ class RunRecorder:
         self._forget(next((first for first in begun if trajectory.ticks - first <= TICKS_MAX), begun[-1]))
 
     def add(self, robot: int, body: BodyState, senses: Senses, drive: Drive, memory: Memory) -> None:
-        """Adds a robot's tick.
+        """Adds one robot's tick.
 
         Args:
-            robot: Its place among the robots; each is added once a tick.
-            body: Has moved.
-            senses: The tick's.
-            drive: The tick's.
-            memory: The eight cells after the robot's answer.
+            robot: Index of the robot; each robot is added once per tick.
+            body: Its body, after its move.
+            senses: Its senses.
+            drive: Its drive.
+            memory: Its eight cells after its answer.
         """
         history, track = self.histories[robot], self.trajectory.tracks[robot]
         if drive.action != self._actions[robot] or memory != self._memories[robot]:
@@ -102,11 +102,11 @@ class RunRecorder:
         track.rows_flat.frombytes(_PACKED.pack(*senses, *drive, history.pattern, body.lifted, history.frozen))
 
     def eaten(self, eaten: Sequence[bool], drives: Sequence[Drive]) -> None:
-        """Food was eaten in the tick that was added last.
+        """Records that food was eaten in the last tick added.
 
         Args:
             eaten: For each piece of food, whether it was eaten by the end of that tick.
-            drives: The robots' in that tick.
+            drives: The robots' drives in that tick.
         """
         trajectory = self.trajectory
         _note(trajectory.meals, trajectory.ticks - 1, [int(is_eaten) for is_eaten in eaten])
@@ -115,7 +115,7 @@ class RunRecorder:
                 track.meals.append(trajectory.ticks - 1)
 
     def _take(self, robot: int, senses: Senses, drive: Drive, memory: Memory) -> None:
-        """Notes what can change with an action or a frame of the memory."""
+        """Records what can change with a new action or a MEMORY frame."""
         history, track = self.histories[robot], self.trajectory.tracks[robot]
         tick = track.ticks
         history.take(tick, senses, drive, memory)
@@ -123,7 +123,7 @@ class RunRecorder:
         _note(track.trials, tick, history.trial)
 
     def _forget(self, first: int) -> None:
-        """Keeps only what is from a tick on."""
+        """Drops everything before a tick."""
         trajectory = self.trajectory
         if first <= trajectory.first_tick:
             return
@@ -137,7 +137,7 @@ class RunRecorder:
 
 
 def _note(changes: Changes[T], tick: int, value: T) -> None:
-    """Adds a value if it is news, in place of one of the same tick."""
+    """Adds a value if it has changed; it replaces a value of the same tick."""
     if changes and changes[-1][1] == value:
         return
     if changes and changes[-1][0] == tick:
@@ -146,10 +146,10 @@ def _note(changes: Changes[T], tick: int, value: T) -> None:
 
 
 def _since(changes: Changes[T], first: int) -> Changes[T]:
-    """The changes from a tick on, beginning with what holds then."""
+    """The changes from a tick on, beginning with the value at that tick."""
     return [(first, at(changes, first)), *(change for change in changes if change[0] > first)]
 
 
 def _name(scene: EnvironmentScene) -> tuple[int, int, int]:
-    """What tells an environment from the one before."""
+    """What identifies an environment."""
     return scene["seed"], scene["number"], scene["first_tick"]

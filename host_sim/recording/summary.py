@@ -1,4 +1,4 @@
-"""What a run came to, as `summary.json` and as a few lines for people."""
+"""The results of a run, as `summary.json` and as a few lines of text."""
 
 import json
 from collections.abc import Sequence
@@ -17,19 +17,20 @@ _COUNTED = {"trials": Reason.TRIAL, "remembered_turns": Reason.REMEMBERED, "bore
 
 @dataclass(frozen=True)
 class Summary:
-    """The whole of `summary.json`.
+    """The contents of `summary.json`.
 
     Attributes:
-        seed: Of environments and random turns.
-        profile: What the robots behaved like, by name.
+        seed: Seed for environments and random turns.
+        profile: Name of the robots' behaviour.
         bus: Where the robots were: none, fd, INTERFACE:CHANNEL, qemu, or an emulated board.
-        environments: One entry each: finished, food_eaten, ticks, robot_s, and robots, with for each robot its node,
-            food_eaten, trials, remembered_turns, boredom_turns, collisions and memory (the eight cells at its end).
-        robots: One entry each: node, memory (the eight cells at the end), frames (sent, received, lost, refused) and
-            faults, the robot's own fault counters.
-        log_sha256: Of run.log.
-        wall_s: How long it took.
-        real_time_factor: Robot time by wall time.
+        environments: One entry per environment: finished, food_eaten, ticks, robot_s, and robots, with each robot's
+            node, food_eaten, trials, remembered_turns, boredom_turns, collisions and memory (the eight cells at the
+            end of the environment).
+        robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, lost, refused)
+            and faults, the robot's own fault counters.
+        log_sha256: SHA-256 of run.log, in hexadecimal.
+        wall_s: Duration of the run, s of wall-clock time.
+        real_time_factor: Robot time divided by wall-clock time.
     """
 
     seed: int
@@ -49,12 +50,12 @@ class Summary:
         """Writes `summary.json`.
 
         Raises:
-            OctetError: The disk did not take it.
+            OctetError: The file cannot be written.
         """
         write_bytes(path, self.to_json().encode())
 
     def for_people(self) -> str:
-        """A few lines."""
+        """A few lines of text: what each robot has learned, and the speed."""
         several = len(self.robots) > 1
         memories = [f"memory    {self._whose(robot) if several else ''}{_cells(robot)}" for robot in self.robots]
         speed = f"speed     {self.real_time_factor:.0f} x real time on {self.bus}, {self.wall_s:.1f} s"
@@ -71,14 +72,14 @@ def summarize(
     log_sha256: str,
     wall_s: float,
 ) -> Summary:
-    """Sums up a run that has ended.
+    """Summarizes a run that has ended.
 
     Args:
-        config: What was asked for.
-        clients: The robots, at its end.
-        episodes: What happened in each environment.
-        log_sha256: Of the log.
-        wall_s: How long it took, s.
+        config: The configuration of the run.
+        clients: The robots' clients, at the end of the run.
+        episodes: The result of each environment.
+        log_sha256: SHA-256 of the log, in hexadecimal.
+        wall_s: Duration of the run, s of wall-clock time.
     """
     robot_s = sum(episode.robot_s for episode in episodes)
     return Summary(
@@ -94,11 +95,11 @@ def summarize(
 
 
 def environment_line(number: int, episode: EpisodeResult) -> str:
-    """One line for people about one environment.
+    """The result of one environment in one line.
 
     Args:
-        number: 1 for the first.
-        episode: What happened there.
+        number: Number of the environment, from 1.
+        episode: Its result.
     """
     end = "all food found" if episode.finished else f"{sum(episode.eaten)} of {len(episode.eaten)} food found"
     trials, known, bored = (episode.begun(reason) for reason in (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM))
@@ -109,7 +110,7 @@ def environment_line(number: int, episode: EpisodeResult) -> str:
 
 
 def frame_counts(client: RobotClient) -> dict[str, int]:
-    """What became of a robot's frames: sent, received, lost, refused; what it says of its own side is in it."""
+    """A robot's frame counters: sent, received, lost and refused, including those that the robot reports."""
     faults, frames = client.faults, asdict(client.frames)
     frames["lost"] += faults.get("missed", 0)
     frames["refused"] += sum(faults.get(kind, 0) for kind in ("stale", "damaged", "foreign"))
@@ -131,12 +132,11 @@ def _environment(episode: EpisodeResult) -> dict[str, Any]:
         "food_eaten": sum(episode.eaten),
         "ticks": episode.ticks,
         "robot_s": episode.robot_s,
-        "robots": [_deeds(robot) for robot in episode.robots],
+        "robots": [_robot_in_environment(robot) for robot in episode.robots],
     }
 
 
-def _deeds(robot: RobotResult) -> dict[str, Any]:
-    """What a robot did in an environment."""
+def _robot_in_environment(robot: RobotResult) -> dict[str, Any]:
     return {
         "node": robot.node,
         "food_eaten": robot.food_eaten,

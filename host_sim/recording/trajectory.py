@@ -1,4 +1,4 @@
-"""A run, tick by tick, as there is to see of it: what pages, pictures, animations and the tests are made from."""
+"""The visible part of a run, tick by tick. Pages, pictures and animations are made from it."""
 
 from array import array
 from bisect import bisect_right
@@ -20,16 +20,16 @@ from host_sim.world.params import SimParams
 
 T = TypeVar("T")
 Changes = list[tuple[int, T]]
-"""What changes seldom: from which tick on, and what."""
+"""A value that changes seldom: pairs of the tick from which it holds, and the value."""
 
 ROW = (*Senses._fields, *Drive._fields, "pattern", "lifted", "frozen")
-"""What is kept of a robot at each tick, in 16 bits each, beside its pose."""
+"""The fields that are recorded for each robot and tick besides its pose, 16 bits each."""
 
 AXES = len(Pose._fields)
 
 
 class Event(NamedTuple):
-    """Something to jump to: kind is environment, trial, lesson, boredom or eat."""
+    """An event that a page can jump to; `kind` is environment, trial, lesson, boredom or eat."""
 
     tick: int
     kind: str
@@ -40,15 +40,15 @@ class RobotTrack:
     """One robot's part of a run.
 
     Attributes:
-        node: Its number on the bus.
-        first_tick: The first tick that is kept.
+        node: Its node number on the bus.
+        first_tick: The first tick that is retained.
         memories: The eight cells.
-        trials: The last trial, under way or judged.
-        lessons: All that was learned or written by hand.
+        trials: The last trial, current or ended.
+        lessons: All changes of cells, learned or made by hand.
         meals: The ticks in which it ate.
         poses_flat: x and y in mm, heading in rad, tick after tick.
         rows_flat: The fields of `ROW`, tick after tick.
-        old_turns: Remembered turns of ticks that are no longer kept.
+        old_turns: Remembered turns of ticks that are no longer retained, as in `turns`.
     """
 
     node: int
@@ -63,45 +63,45 @@ class RobotTrack:
 
     @property
     def ticks(self) -> int:
-        """The number of ticks so far, those no longer kept too."""
+        """The number of ticks so far, including those that are no longer retained."""
         return self.first_tick + len(self.poses_flat) // AXES
 
     def row(self, tick: int) -> dict[str, int]:
-        """The fields of `ROW` at a tick that is kept."""
+        """The fields of `ROW` at a retained tick."""
         at_row = tick - self.first_tick
         return dict(zip(ROW, self.rows_flat[at_row * len(ROW) : (at_row + 1) * len(ROW)], strict=True))
 
     def pose(self, tick: int) -> Pose:
-        """The pose after a tick that is kept."""
+        """The pose after a retained tick."""
         at_row = tick - self.first_tick
         return Pose(*self.poses_flat[at_row * AXES : (at_row + 1) * AXES])
 
     def poses(self) -> NDArray[np.float64]:
-        """A view of the poses: shape (ticks, 3), x and y in mm, heading in rad. Add no tick while it lives."""
+        """A view of the poses: shape (ticks, 3), x and y in mm, heading in rad. Do not add ticks while it exists."""
         return np.frombuffer(self.poses_flat, np.float64).reshape(-1, AXES)
 
     def column(self, name: str) -> NDArray[np.int16]:
-        """A field of `ROW` by tick. A view, as `poses` is."""
+        """A view of one field of `ROW`: shape (ticks,). Do not add ticks while it exists."""
         return np.frombuffer(self.rows_flat, np.int16).reshape(-1, len(ROW))[:, ROW.index(name)]
 
     def begun(self, reason: int) -> NDArray[np.int64]:
-        """The ticks in which actions with that reason began."""
+        """The ticks in which actions with a reason began."""
         news = np.diff(self.column("action"), prepend=np.int16(-1)) != 0
         return np.flatnonzero(news & (self.column("reason") == reason)) + self.first_tick
 
     def turns(self) -> list[tuple[int, int]]:
-        """Each remembered turn of the whole run: its first tick, and the cell that it was remembered from."""
+        """Each remembered turn of the whole run: its first tick, and the cell that it used."""
         ticks = self.begun(Reason.REMEMBERED)
         cells = self.column("pattern")[ticks - self.first_tick]
         return [*self.old_turns, *zip(ticks.tolist(), cells.tolist(), strict=True)]
 
     def uses(self, tick: int) -> list[int]:
-        """How often each cell was used until a tick."""
+        """For each cell, the number of remembered turns that used it, up to a tick."""
         cells = [cell for begun, cell in self.turns() if begun <= tick]
         return [cells.count(cell) for cell in range(CELL_COUNT)]
 
     def learned(self, tick: int) -> list[int]:
-        """For each cell, the tick of its last change until a tick; -1 if there was none."""
+        """For each cell, the tick of its last change up to a tick; -1 if there was none."""
         learned = [-1] * CELL_COUNT
         for lesson in self.lessons:
             if lesson["tick"] <= tick:
@@ -111,14 +111,14 @@ class RobotTrack:
 
 @dataclass
 class Trajectory:
-    """All robots of a run. A `RunRecorder` lets it grow.
+    """The visible part of a run, recorded by a `RunRecorder`.
 
     Attributes:
-        params: The measures.
-        boredom_limit: The remembered turn in a row after which a robot is bored.
+        params: The dimensions of the world.
+        boredom_limit: Number of remembered turns in a row at which a robot is bored.
         tracks: The robots, in the order of their nodes.
-        scenes: The environments, and what people made of them.
-        meals: For each piece of the scene's food, 1 if it is eaten.
+        scenes: The environments, each again after every change by a person.
+        meals: For each piece of the scene's food, 1 if it was eaten, else 0.
     """
 
     params: SimParams
@@ -129,23 +129,23 @@ class Trajectory:
 
     @property
     def first_tick(self) -> int:
-        """The first tick that is kept."""
+        """The first tick that is retained."""
         return self.tracks[0].first_tick
 
     @property
     def ticks(self) -> int:
-        """The number of ticks so far, those no longer kept too."""
+        """The number of ticks so far, including those that are no longer retained."""
         return self.tracks[0].ticks
 
     def at(self, tick: int, robot: int = 0) -> State:
-        """The state of a robot after a tick, equal to what `view.state.state` said then.
+        """The state of a robot after a tick, equal to that of `view.state.state` at the time.
 
         Args:
-            tick: Which.
-            robot: Its place among `tracks`.
+            tick: Number of the tick.
+            robot: Index of the robot in `tracks`.
 
         Raises:
-            IndexError: There is no such tick, or it is kept no longer.
+            IndexError: The tick does not exist, or is no longer retained.
         """
         if not self.first_tick <= tick < self.ticks:
             raise IndexError(f"tick {tick} of {self.first_tick}..{self.ticks - 1}")
@@ -176,7 +176,7 @@ class Trajectory:
         )
 
     def events(self, robot: int = 0) -> list[Event]:
-        """All of a robot's that can be jumped to, in the order of ticks."""
+        """A robot's events in the order of their ticks."""
         track = self.tracks[robot]
         lessons = (lesson for lesson in track.lessons if not lesson["by_hand"])
         return sorted(
@@ -190,11 +190,11 @@ class Trajectory:
         )
 
     def begun(self) -> list[int]:
-        """The first tick of each environment that is kept."""
+        """The first tick of each retained environment."""
         numbers = [(0, 0), *((tick, scene["number"]) for tick, scene in self.scenes)]
         return [tick for (_, old), (tick, new) in pairwise(numbers) if new != old]
 
 
 def at(changes: Sequence[tuple[int, T]], tick: int) -> T:
-    """What holds at a tick."""
+    """The value that holds at a tick."""
     return changes[bisect_right(changes, tick, key=itemgetter(0)) - 1][1]

@@ -1,7 +1,7 @@
-"""`run.world.json`, beside a run's log: which environments the robot was in, and what a person did to them, by tick.
+"""`run.world.json` beside a run's log: the environments of the run and what a person changed in them, by tick.
 
-The log has what the robot sensed, did and was told; this has the world that it did so in. Log and world file together
-give the whole run again.
+The log holds the robot's senses, drives and commands, this file the world around it. Together they are enough to
+reconstruct the whole run.
 """
 
 import json
@@ -20,10 +20,10 @@ _SEED_MAX, _TICK_MAX, _NUMBER_MAX = 2**32 - 1, 2**53, 1_000_000
 
 
 def write_world(record: WorldRecord, path: Path) -> None:
-    """Writes the file, all or nothing.
+    """Writes a world file atomically.
 
     Raises:
-        OctetError: The disk did not take it.
+        OctetError: The file cannot be written.
     """
     content = {
         "format": _FORMAT,
@@ -38,7 +38,7 @@ def write_world(record: WorldRecord, path: Path) -> None:
 
 
 def world_path(log: Path) -> Path:
-    """Where the world file of a log is: `run.world.json` beside `run.log`."""
+    """The path of a log's world file: `run.world.json` beside `run.log`."""
     return log.with_suffix(".world.json")
 
 
@@ -47,17 +47,17 @@ def read_world(path: Path) -> WorldRecord:
 
     Raises:
         UsageError: The file cannot be read.
-        OctetError: It is no world file, or one of another format; says what is wrong.
+        OctetError: The file is not a world file of this format; the message says why.
     """
     try:
         content = json.loads(path.read_bytes())
         if not isinstance(content, dict) or content.get("format") != _FORMAT:
-            raise ValueError(f'no object with "format": {_FORMAT}')
+            raise ValueError(f'expected an object with "format": {_FORMAT}')
         return _record(content)
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
     except (ValueError, RecursionError) as error:
-        raise OctetError(f"{path} is no world file of this version: {error}") from None
+        raise OctetError(f"{path} is not a world file of this version: {error}") from None
 
 
 def _record(content: dict[str, Any]) -> WorldRecord:

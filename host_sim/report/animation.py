@@ -37,7 +37,7 @@ from host_sim.world.geometry import Pose, ahead_of
 from host_sim.world.params import SimParams
 
 FRAMES_MAX = 600
-"""A clip of more frames is refused: it would be no short one."""
+"""Maximum number of frames of a clip."""
 
 _FRAME_MS = 80
 _HOLD_MS = 1000
@@ -52,13 +52,13 @@ _COLOURS = (PAPER, FLOOR, INK, OBSTACLE, CONE_LIT, CONE_DARK, _BEAM, _IN_USE, _L
 
 @dataclass(frozen=True)
 class Clip:
-    """What part of a run to show, and how.
+    """The part of a run to show, and how.
 
     Attributes:
-        from_s: Robot time at which it begins, s.
-        to_s: Robot time at which it ends; None for the end of the run.
-        speed: Robot seconds to a second. A lesson and all else worth a look is held for a moment, at this speed too.
-        width_px: Width of the picture.
+        from_s: Start, s of robot time.
+        to_s: End, s of robot time; None for the end of the run.
+        speed: Speed as a multiple of real time. Each event is held for one second divided by it.
+        width_px: Width of the animation.
     """
 
     from_s: float = 0.0
@@ -68,11 +68,11 @@ class Clip:
 
 
 def write_gif(path: Path, trajectory: Trajectory, clip: Clip) -> None:
-    """Writes an animated GIF that begins anew at its end; equal clips give equal bytes.
+    """Writes an animated GIF that loops for ever; equal clips give equal bytes.
 
     Raises:
-        UsageError: There is nothing of the run between the two times, or too much for a clip.
-        OctetError: The disk did not take it.
+        UsageError: The run has nothing between the two times, or more than `FRAMES_MAX` frames.
+        OctetError: The file cannot be written.
     """
     ticks = _frame_ticks(trajectory, clip)
     holds, palette = _holds(trajectory, clip), _palette()
@@ -85,7 +85,7 @@ def write_gif(path: Path, trajectory: Trajectory, clip: Clip) -> None:
 
 
 def draw_frame(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image:
-    """One tick: above the reason, then the arena, then the memory."""
+    """Draws one tick: at the top the reason, then the arena, then the memory."""
     state, inner_px = trajectory.at(tick), width_px - 2 * _MARGIN_PX
     lesson = next((lesson for lesson in trajectory.tracks[0].lessons if lesson["tick"] == tick), None)
     arena = _draw_arena(trajectory, tick, inner_px)
@@ -106,7 +106,7 @@ def _fitting_px(words: str, room_px: int) -> int:
 
 
 def _frame_ticks(trajectory: Trajectory, clip: Clip) -> list[int]:
-    """The ticks to show: at even distances, and those to be held."""
+    """The ticks to show: evenly spaced ones, and those with an event."""
     tick_s = trajectory.params.tick_s
     first = max(round(clip.from_s / tick_s), trajectory.first_tick)
     end = trajectory.ticks if clip.to_s is None else min(round(clip.to_s / tick_s) + 1, trajectory.ticks)
@@ -115,12 +115,12 @@ def _frame_ticks(trajectory: Trajectory, clip: Clip) -> list[int]:
     if not ticks:
         raise UsageError(f"there is nothing between these times: the run is {trajectory.ticks * tick_s:.2f} s long")
     if len(ticks) > FRAMES_MAX:
-        raise UsageError(f"{len(ticks)} frames are too many, {FRAMES_MAX} the most: use --from, --to or --speed")
+        raise UsageError(f"{len(ticks)} frames are more than {FRAMES_MAX}: use --from, --to or --speed")
     return ticks
 
 
 def _holds(trajectory: Trajectory, clip: Clip) -> dict[int, int]:
-    """How long to hold which ticks, ms."""
+    """How long to hold each tick with an event, ms, by tick."""
     return {tick: round(_HOLD_MS / clip.speed) for tick, kind in trajectory.events() if kind != "environment"}
 
 
@@ -167,7 +167,7 @@ def _draw_cones(plan: Plan, state: State, params: SimParams) -> None:
 
 
 def _draw_trail(plan: Plan, trajectory: Trajectory, track: RobotTrack, tick: int) -> None:
-    """The last of the way, as far as it is in this environment."""
+    """Draws the last `_TRAIL_S` of a robot's path, within this environment."""
     begun = at(trajectory.scenes, tick)["first_tick"]
     first = max(tick - round(_TRAIL_S / trajectory.params.tick_s), begun, track.first_tick)
     rows = slice(first - track.first_tick, tick + 1 - track.first_tick)
@@ -176,7 +176,7 @@ def _draw_trail(plan: Plan, trajectory: Trajectory, track: RobotTrack, tick: int
 
 
 def _draw_memory(state: State, lesson: Lesson | None, params: SimParams, width_px: int) -> Image.Image:
-    """The cells with what they hold; the one learned, else the one in use, or tried for, is lit."""
+    """The cells with their content. The cell just learned, else the one in use or on trial, is highlighted."""
     row = Image.new("RGB", (CELL_COUNT * width_px, width_px), PAPER)
     in_use = state["pattern"] if state["reason"] in _TURNING else None
     lit, lit_colour = (lesson["cell"], _LEARNED) if lesson else (in_use, _IN_USE)

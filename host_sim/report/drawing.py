@@ -1,4 +1,4 @@
-"""What every picture of the robot is drawn with: a plan in mm, its colours, robot, food, cones and cells."""
+"""Drawing for all pictures: a plan in mm, its colours, and the robot, food, cones and cells on it."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -25,7 +25,7 @@ _UP = -math.pi / 2
 
 
 class Mark(NamedTuple):
-    """How a reason shows in the path: higher layers are drawn over lower ones."""
+    """How a reason is drawn on a path; higher layers are drawn over lower ones."""
 
     words: str
     colour: str
@@ -50,33 +50,33 @@ PATHS = (Reason.WANDER, Reason.TOWARD_FOOD)
 
 
 class Plan:
-    """A surface to draw on in mm, smooth when it is done."""
+    """A drawing surface in mm with smooth edges."""
 
     def __init__(self, width_mm: float, height_mm: float, width_px: int, colour: str) -> None:
-        """Begins with one colour all over; the height in pixels follows."""
+        """Starts with a background of one colour; the height in pixels follows from the proportions."""
         self._size_px = width_px, round(width_px * height_mm / width_mm)
         self._px_per_mm = width_px * _OVERSIZE / width_mm
         self._image = Image.new("RGB", (self._size_px[0] * _OVERSIZE, self._size_px[1] * _OVERSIZE), colour)
         self._draw = ImageDraw.Draw(self._image)
 
     def disc(self, middle: Point, diameter_mm: float, colour: str) -> None:
-        """A filled disc."""
+        """Draws a filled disc."""
         x, y = self._pixels([middle])[0]
         radius = diameter_mm * self._px_per_mm / 2
         self._draw.ellipse((x - radius, y - radius, x + radius, y + radius), colour)
 
     def line(self, points: Sequence[Point], width_mm: float, colour: str) -> None:
-        """A line with round ends and corners."""
+        """Draws a line with round ends and corners."""
         self._draw.line(self._pixels(points), colour, max(1, round(width_mm * self._px_per_mm)), joint="curve")
         for end in (points[0], points[-1]):
             self.disc(end, width_mm, colour)
 
     def polygon(self, points: Sequence[Point], colour: str) -> None:
-        """A filled polygon."""
+        """Draws a filled polygon."""
         self._draw.polygon(self._pixels(points), colour)
 
     def done(self) -> Image.Image:
-        """The drawing in its final size."""
+        """The finished image."""
         return self._image.resize(self._size_px, Image.Resampling.BOX)
 
     def _pixels(self, points: Sequence[Point]) -> list[Point]:
@@ -84,7 +84,7 @@ class Plan:
 
 
 def draw_mark(plan: Plan, reason: int, points: Sequence[Point], scale: float = 1.0) -> None:
-    """A way as a line, or a turn as a dot, as `MARKS` has it."""
+    """Draws a path as a line, or a turn as a dot, in the style of its reason in `MARKS`."""
     _, colour, width_mm, _ = MARKS[Reason(reason)]
     if len(points) > 1:
         plan.line(points, width_mm * scale, colour)
@@ -93,12 +93,12 @@ def draw_mark(plan: Plan, reason: int, points: Sequence[Point], scale: float = 1
 
 
 def draw_trail(plan: Plan, start: Point, trail: Sequence[tuple[float, float, int]]) -> None:
-    """Ways as lines, turns as dots, in the order of their layers.
+    """Draws a trail, paths as lines and turns as dots, in the order of their layers.
 
     Args:
-        plan: To draw on.
-        start: Where it begins.
-        trail: For each control tick, where it ended (x and y in mm) and the reason of its drive, 0..7.
+        plan: The plan to draw on.
+        start: Start of the trail, mm.
+        trail: For each control tick, the position at its end (x and y in mm) and the reason of its drive, 0..7.
     """
     points = [start, *((x, y) for x, y, _ in trail)]
     runs = [(reason, [i for i, _ in ticks]) for reason, ticks in groupby(enumerate(trail), lambda t: t[1][2])]
@@ -109,14 +109,14 @@ def draw_trail(plan: Plan, start: Point, trail: Sequence[tuple[float, float, int
 
 
 def draw_food(plan: Plan, middle: Point, diameter: float, eaten: bool) -> None:
-    """A full disc, or an empty ring once it is eaten."""
+    """Draws a piece of food: a disc, or a ring once it is eaten."""
     plan.disc(middle, diameter, _FOOD)
     if eaten:
         plan.disc(middle, diameter * 0.7, FLOOR)
 
 
 def draw_obstacles(plan: Plan, bars: Iterable[Sequence[Point]], params: SimParams) -> None:
-    """The bars, each the two ends of its middle line, and the walls."""
+    """Draws the bars, given by the ends of their centre lines in mm, and the walls."""
     for bar in bars:
         plan.line(bar, params.bar_thickness_mm, OBSTACLE)
     right, bottom = params.width_mm, params.height_mm
@@ -124,7 +124,7 @@ def draw_obstacles(plan: Plan, bars: Iterable[Sequence[Point]], params: SimParam
 
 
 def draw_robot(plan: Plan, pose: Pose, diameter: float, colour: str) -> None:
-    """A disc with a line to where it looks."""
+    """Draws a robot: a disc with a line in the direction of its heading."""
     plan.disc(pose[:2], diameter, INK)
     plan.disc(pose[:2], diameter * 0.86, colour)
     nose = [ahead_of(pose, diameter * 0.08), ahead_of(pose, diameter * 0.34)]
@@ -132,14 +132,14 @@ def draw_robot(plan: Plan, pose: Pose, diameter: float, colour: str) -> None:
 
 
 def draw_cone(plan: Plan, pose: Pose, bearing_deg: float, reach_mm: float, colour: str) -> None:
-    """A sensor's cone."""
+    """Draws a sensor's cone."""
     corners = [ahead_of(pose, math.hypot(x, y), math.atan2(y, x)) for x, y in cone_outline(bearing_deg, reach_mm)]
     plan.polygon(corners, colour)
     plan.line([*corners, corners[0]], reach_mm / 20, PAPER)
 
 
 def draw_cell(pattern: int, side: int, params: SimParams, width_px: int, colour: str = PAPER) -> Image.Image:
-    """One cell: the robot, looking up, its front cones lit or not, and an arrow round it for the turn."""
+    """One cell: the robot facing up with its front cones lit or dark, and an arrow around it for the turn."""
     reach = params.body_radius_mm + params.sensor_reach_mm
     plan = Plan(3.6 * reach, 2.5 * reach, width_px, colour)
     pose = Pose(1.8 * reach, 1.75 * reach, _UP)
@@ -152,7 +152,7 @@ def draw_cell(pattern: int, side: int, params: SimParams, width_px: int, colour:
 
 
 def _draw_arrow(plan: Plan, pose: Pose, radius_mm: float, side: int) -> None:
-    """An arrow round the robot: side -1 to its left, 1 to its right."""
+    """Draws an arrow around the robot: side -1 to its left, 1 to its right."""
     arc = [ahead_of(pose, radius_mm, side * math.radians(bearing)) for bearing in range(0, 76, 5)]
     plan.line(arc, radius_mm / 14, INK)
     base, tip = side * math.radians(75), side * math.radians(100)
@@ -161,5 +161,5 @@ def _draw_arrow(plan: Plan, pose: Pose, radius_mm: float, side: int) -> None:
 
 
 def write(image: Image.Image, place: Point, text: str, size_px: int, anchor: str) -> None:
-    """A line of text; `anchor` as Pillow has it."""
+    """Writes a line of text; `anchor` is a text anchor of Pillow."""
     ImageDraw.Draw(image).text(place, text, INK, ImageFont.load_default(size_px), anchor=anchor)

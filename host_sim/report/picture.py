@@ -1,4 +1,4 @@
-"""One picture of a whole run: every environment with the robots' paths, and below the cells of their memories."""
+"""One picture of a whole run: every environment with the robots' paths, and below them the robots' memories."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -41,15 +41,15 @@ _MOST_MEMORIES = 8
 
 @dataclass(frozen=True)
 class Panel:
-    """What happened in one environment, as far as the picture shows it.
+    """One environment of the picture.
 
     Attributes:
-        scene: Where everything was at its end.
-        eaten: For each piece of food, whether it was eaten.
-        robot_s: How long it took, s, in the robots' time.
-        trails: For each robot and each control tick, where it ended (x and y in mm) and the reason of its drive.
-        starts: For each robot, where it was after the first tick.
-        nodes: Each robot's number on the bus.
+        scene: The scene at its end.
+        eaten: For each piece of food, 1 if it was eaten, else 0.
+        robot_s: Duration, s of robot time.
+        trails: For each robot and control tick, the position at its end (x and y in mm) and the reason of its drive.
+        starts: Each robot's pose after the first tick.
+        nodes: Each robot's node number on the bus.
     """
 
     scene: EnvironmentScene
@@ -64,12 +64,12 @@ def write_picture(path: Path, trajectory: Trajectory) -> None:
     """Writes the picture of a run as PNG, below 400 kB for one robot; equal runs give equal bytes.
 
     Args:
-        path: The file; one that is there is replaced.
-        trajectory: The run, of at least one tick. Of more than nine environments the last nine are shown, of more
-            than eight robots the memories of the first eight.
+        path: The file to write; an existing one is replaced.
+        trajectory: The run, of at least one tick. At most the last nine environments and the memories of the first
+            eight robots are shown.
 
     Raises:
-        OctetError: The disk did not take it.
+        OctetError: The file cannot be written.
     """
     begun = trajectory.begun()
     panels = [_panel(trajectory, first, end) for first, end in pairwise([*begun, trajectory.ticks])]
@@ -80,7 +80,7 @@ def write_picture(path: Path, trajectory: Trajectory) -> None:
 
 
 def _panel(trajectory: Trajectory, first: int, end: int) -> Panel:
-    """What happened from one tick to before another, in the scene of the last of them."""
+    """The panel of the environment from tick `first` to before tick `end`."""
     rows = slice(first - trajectory.first_tick, end - trajectory.first_tick)
     trails = []
     for track in trajectory.tracks:
@@ -100,12 +100,12 @@ def draw_run(params: SimParams, panels: Sequence[Panel], memories: Mapping[int, 
     """The picture of a run.
 
     Args:
-        params: The measures.
-        panels: What happened, in order, at least one; of more than nine the last nine are shown.
-        memories: For each robot, by its node, the eight cells at the end: 0 nothing, 1 left, 2 right.
+        params: The dimensions of the world.
+        panels: The environments in order, at least one; at most the last nine are shown.
+        memories: Each robot's eight cells at the end, by node number: 0 nothing, 1 left, 2 right.
 
     Raises:
-        ValueError: There is no environment, or there are not eight cells.
+        ValueError: There is no environment, or a memory does not have eight cells.
     """
     if not panels or any(len(memory) != CELL_COUNT for memory in memories.values()):
         raise ValueError(f"no picture of {len(panels)} environments and these memories: {memories}")
@@ -148,7 +148,7 @@ def _environment(panel: Panel, params: SimParams, width_px: int) -> Image.Image:
 
 
 def _write_nodes(image: Image.Image, panel: Panel, params: SimParams) -> None:
-    """Each robot's number below the place where it starts and the one where it ends."""
+    """Writes each robot's number below its start and its end."""
     px_per_mm = image.width / params.width_mm
     for node, start, trail in zip(panel.nodes, panel.starts, panel.trails, strict=True):
         for x, y in (start[:2], _end(start, trail)[:2]):
@@ -157,7 +157,7 @@ def _write_nodes(image: Image.Image, panel: Panel, params: SimParams) -> None:
 
 
 def _end(start: Pose, trail: Sequence[tuple[float, float, int]]) -> Pose:
-    """Where a trail ends, looking along its last way."""
+    """The end of a trail, with the heading of its last move."""
     points = [(x, y) for x, y, _ in trail]
     if not points:
         return start
@@ -184,7 +184,7 @@ def _legend(params: SimParams) -> Image.Image:
 
 
 def _draw_signs(plan: Plan, middles: Sequence[Point], params: SimParams) -> None:
-    """Start, end, food left and food eaten."""
+    """Draws the signs for start, end, food left and food eaten."""
     body, food = 0.5 * _LEGEND_PX_PER_MM * 2 * params.body_radius_mm, 0.7 * _LEGEND_PX_PER_MM * FOOD_MM
     for middle, colour in zip(middles[:2], (PAPER, INK), strict=True):
         draw_robot(plan, Pose(*middle, 0.0), body, colour)
@@ -193,13 +193,13 @@ def _draw_signs(plan: Plan, middles: Sequence[Point], params: SimParams) -> None
 
 
 def _memory_row(whose: str, memory: Sequence[int], params: SimParams) -> Image.Image:
-    """The eight cells: what the front sensors feel, and the turn learned for it."""
+    """The eight cells: each pattern of the front sensors, and the turn learned for it."""
     cells = [_cell(pattern, side, params) for pattern, side in enumerate(memory)]
     return _titled(f"{whose}'s memory: one cell for each pattern of its three front sensors", _abreast(cells, 0))
 
 
 def _cell(pattern: int, side: int, params: SimParams) -> Image.Image:
-    """One cell, and in words what it holds."""
+    """One cell, with its content in words."""
     width_px = _WIDTH_PX // CELL_COUNT
     drawing = draw_cell(pattern, side, params, width_px)
     image = Image.new("RGB", (width_px, drawing.height + 2 * _LINE_PX), PAPER)

@@ -1,4 +1,4 @@
-"""docs/protocol.md, made from `hal/protocol/octet.dbc`: `tools/octet protocol > docs/protocol.md`."""
+"""docs/protocol.md, generated from `hal/protocol/octet.dbc`: `tools/octet protocol > docs/protocol.md`."""
 
 from collections.abc import Iterable
 
@@ -12,8 +12,8 @@ from host_sim.protocol.generated import PARAMETERS
 _HEAD = """\
 # The wire
 
-Made from [`octet.dbc`](../hal/protocol/octet.dbc) by `tools/octet protocol`; the C, Python and JavaScript code comes
-from the same file. Any tool that reads DBC files shows the traffic in plain words; `cantools` is in `.venv/bin`:
+Generated from [`octet.dbc`](../hal/protocol/octet.dbc) by `tools/octet protocol`, as is the code in C, Python and
+JavaScript. Any tool that reads DBC files can decode the traffic; `cantools` is in `.venv/bin`:
 
 ```sh
 tools/run --environments 1 --limit-s 2 --quiet
@@ -22,25 +22,26 @@ head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/oc
 
 ## A conversation
 
-1. **stop** (COMMAND). The robot answers with ANSWER, HEARTBEAT, FAULTS and MEMORY: who it is, how it fares, what it
-   knows. HEARTBEAT has the hash of the messages' layout; the simulator talks to no robot with another one.
-2. **start** with profile and seed, then perhaps **set** for parameters and **write** for the memory, each answered.
-3. SENSES with tick n; the robot answers DRIVE with tick n. And so on, every 20 ms of robot time.
-4. A frame of the robot's own that goes with a tick (MEMORY when it has learned, HEARTBEAT and FAULTS once a second)
-   comes before that tick's DRIVE: with the DRIVE all has been said.
+1. **stop** (COMMAND). The robot answers with ANSWER, HEARTBEAT, FAULTS and MEMORY: its identity, its fault counters
+   and its memory. HEARTBEAT has the hash of the messages' layout; the simulator rejects a robot with another hash.
+2. **start** with profile and seed, then optionally **set** for parameters and **write** for the memory. Each command
+   is answered.
+3. SENSES with tick n; the robot answers DRIVE with tick n. This repeats every 20 ms of robot time.
+4. The robot's other frames of a tick (MEMORY when it has learned, HEARTBEAT and FAULTS once a second) come before
+   that tick's DRIVE: DRIVE is always the last.
 
-Nothing fresh for 100 ms: the robot sends a DRIVE with speed 0, reason stop and the last tick that it heard, and
-waits. Its memory and the action under way stay; with the next SENSES it goes on. What queued up meanwhile is dropped
-but for the newest. With `lockstep` set in the last COMMAND the limit is 10 s: a simulator may take its time.
+If nothing fresh comes for 100 ms, the robot sends a DRIVE with speed 0, reason stop and the last tick that it
+received, and waits. Its memory and its current action stay; it continues with the next SENSES. Of the SENSES that
+queued up meanwhile, only the newest are used. With `lockstep` set in the last COMMAND the limit is 10 s, so that a
+simulator may take its time.
 
-A frame is taken if its identifier, length and CRC are right, and its tick or counter is news: a tick up to half a
-span ahead of the last, a counter that differs from the last. All else is refused, counted in FAULTS, and changes
-nothing.
+A frame is accepted if its identifier, length and CRC are right, and its tick or counter is new: a tick up to half
+the range ahead of the last one, a counter that differs from the last one. All other frames are refused: they are
+counted in FAULTS, and change nothing.
 
 ## Identifiers
 
-Node 1 has the identifiers below; node n, up to {nodes}, adds n - 1. The smaller the identifier, the sooner it gets
-the bus.
+Node 1 has the identifiers below; node n, up to {nodes}, adds n - 1. A smaller identifier has priority on the bus.
 
 """
 
@@ -98,7 +99,7 @@ def _signal_row(signal: Signal) -> str:
 
 
 def _range(signal: Signal) -> str:
-    """A range of 0..0 is read as none at all: then it is that of the value table."""
+    """The range of a signal. cantools reads a range of 0..0 as none: the value table gives it then."""
     if signal.minimum is None:
         return f"{min(signal.choices or [0])}..{max(signal.choices or [0])}"
     return f"{signal.minimum}..{signal.maximum}"

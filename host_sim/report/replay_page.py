@@ -1,40 +1,40 @@
 r"""A run as one HTML page that needs no server.
 
-The page is `web/replay.html` with what it refers to put in its place, so that the template opens as it is:
+The page is `web/replay.html` with the files that it refers to inserted, so that the template can be opened as it is:
 - `<link rel="stylesheet" href="X">` becomes the style sheet;
-- `<script type="module" src="X"></script>` becomes that module with all that it imports, directly or not, before it,
-  each in a function of its own. An import is one line, `import { a, b } from "./y.js";`, an export the word before a
+- `<script type="module" src="X"></script>` becomes that module, after all modules that it imports, directly or not,
+  each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
   declaration;
-- `<script type="application/json" id="run"></script>` gets the run, each `<` in it as `\u003c`.
+- `<script type="application/json" id="run"></script>` gets the run, with each `<` written as `\u003c`.
 
 The run is one object. Measures, EnvironmentScene and State are as in view/state.py, Trial and Lesson as in
-view/history.py. What comes second in a pair holds from that tick on, until the next pair's; the first is from tick
-`first_tick` on.
+view/history.py. The value in a pair holds from the pair's tick until that of the next pair; the first pair is that of
+tick `first_tick`.
 
     version      2
-    title        for people, such as "seed 7, 3 environments"
+    title        the page's title, such as "seed 7, 3 environments"
     measures     Measures
-    first_tick   the first tick on the page; 0 but for very long runs, whose last part it shows
-    ticks        how many there are
+    first_tick   the first tick on the page; 0 except for very long runs, of which it shows the last part
+    ticks        number of ticks
     scenes       [[tick, EnvironmentScene], ...]: one for each environment and for each change of it by a person
     eaten        [[tick, [0 or 1 for each piece of the scene's food]], ...]
-    robots       one object a robot, in the order of their nodes:
-        node         its number on the bus
+    robots       one object per robot, in the order of their nodes:
+        node         its node number on the bus
         memory       [[tick, [8 cells]], ...]
         trials       [[tick, Trial or null], ...]: State.trial
-        lessons      [Lesson, ...], those before first_tick too
-        turns        [[tick, cell], ...]: each use of a cell, those before first_tick too: State.uses counts them
-        events       [[tick, kind], ...], in their order: kind is "environment", "trial", "lesson", "boredom" or "eat"
+        lessons      [Lesson, ...], including those before first_tick
+        turns        [[tick, cell], ...]: each use of a cell, including those before first_tick; see State.uses
+        events       [[tick, kind], ...], in order: kind is "environment", "trial", "lesson", "boredom" or "eat"
         columns      the names of the columns, in the order of the data
         data         base64 of a zlib stream (DecompressionStream "deflate") of the columns
 
-State n is `state` of tick n: what the robot sensed and answered, and where that left it. A column has one whole
-number for each tick. Their names are those in State; x and y are in 0.1 mm, heading is in mrad:
+A column has one whole number for each tick, the field of that name in the tick's State. x and y are in 0.1 mm,
+heading is in mrad:
 
     x y heading lifted feel bump beacon left right reason repeat_count action pattern frozen
 
-A column is kept as its differences, the first from 0, each "zigzag" (0, -1, 1, -2, ... is 0, 1, 2, 3, ...), as 32-bit
-numbers, in planes: the low bytes of all `ticks` differences, then the next higher bytes, and so on. So, in
+A column is stored as its differences, the first from 0, each zigzag-encoded (0, -1, 1, -2, ... is 0, 1, 2, 3, ...)
+as a 32-bit number, in planes: the low bytes of all `ticks` differences, then the next higher bytes, and so on. In
 JavaScript, with the inflated bytes b, column c, n ticks and value = 0 before the first:
 
     const low = 4 * c * n;
@@ -73,18 +73,18 @@ def write_page(path: Path, trajectory: Trajectory, title: str) -> None:
     """Writes the page of a run; equal runs give equal bytes.
 
     Args:
-        path: The file; one that is there is replaced.
+        path: The file to write; an existing one is replaced.
         trajectory: The run, of at least one tick.
-        title: For people.
+        title: Title of the page.
 
     Raises:
-        OctetError: The disk did not take it.
+        OctetError: The file cannot be written.
     """
     write_bytes(path, page(run_data(trajectory, title)).encode())
 
 
 def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:
-    """The run as the page has it; see above."""
+    """The run in the page's format; see above."""
     return {
         "version": 2,
         "title": title,
@@ -113,10 +113,10 @@ def _robot_data(trajectory: Trajectory, robot: int) -> dict[str, Any]:
 
 
 def pack(columns: NDArray[np.int64]) -> str:
-    """The text of columns.
+    """Encodes columns as text; see above.
 
     Args:
-        columns: Shape (columns, ticks), differences from tick to tick within 31 bits.
+        columns: Shape (columns, ticks); differences from tick to tick must fit in 31 bits.
     """
     steps = np.diff(columns, axis=1, prepend=0)
     zigzag = (steps << 1 ^ steps >> 63).astype("<u4")
@@ -125,12 +125,12 @@ def pack(columns: NDArray[np.int64]) -> str:
 
 
 def page(run: dict[str, Any]) -> str:
-    """The page's text."""
+    """The page's HTML."""
     text = (WEB / _TEMPLATE).read_text(encoding="utf-8")
     text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", text)
     text = _SCRIPT.sub(lambda match: f'<script type="module">\n{_bundle(match[1])}</script>', text)
-    told = json.dumps(run, separators=(",", ":")).replace("<", "\\u003c")
-    return text.replace(_RUN, _RUN.replace("></", f">{told}</"))
+    run_text = json.dumps(run, separators=(",", ":")).replace("<", "\\u003c")
+    return text.replace(_RUN, _RUN.replace("></", f">{run_text}</"))
 
 
 def _columns(track: RobotTrack) -> dict[str, NDArray[np.int64]]:
@@ -141,13 +141,13 @@ def _columns(track: RobotTrack) -> dict[str, NDArray[np.int64]]:
 
 
 def _bundle(name: str) -> str:
-    """A module and, before it, all that it imports, as one: no script can end the element that it is in."""
+    """A module and all that it imports, as one script; `</script` is escaped so that it cannot end the element."""
     modules = "".join(_as_function(module) for module in _in_order(name, set()))
     return f"const modules = {{}};\n{modules}".replace("</script", "<\\/script")
 
 
 def _as_function(name: str) -> str:
-    """A module as a function that is called and gives what it exports."""
+    """A module as a function that is called once and returns the module's exports."""
     text = _read(name)
     exported = ", ".join(match[2] for match in _EXPORT.finditer(text))
     body = _EXPORT.sub(r"\1", _IMPORT.sub(r'const \1 = modules["\2"];', text))
@@ -155,7 +155,7 @@ def _as_function(name: str) -> str:
 
 
 def _in_order(name: str, seen: set[str]) -> Iterator[str]:
-    """The modules that one needs, each after those that it needs itself."""
+    """A module and the modules that it imports, each after its own imports."""
     if name not in seen:
         seen.add(name)
         for _, needed in _IMPORT.findall(_read(name)):

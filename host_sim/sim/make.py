@@ -29,7 +29,7 @@ def make(
     memories: Sequence[Memory | None] = (),
     ready: Callable[[RobotClient], object] = lambda _: None,
 ) -> Iterator[Simulation]:
-    """Puts a run together: the robots are started and wait for their first senses.
+    """Puts a run together: starts the robots, which then wait for their first senses.
 
     >>> with make(RunConfig(seed=1, environments=1, limit_s=2.0)) as simulation:
     ...     for episode in simulation.run():
@@ -45,17 +45,17 @@ def make(
     (0, 200)
 
     Args:
-        config: What to put together; by default, what an empty command line means, in this process.
-        log: Gets every frame; the caller closes it. By default they are forgotten.
-        memories: For each robot the eight cells to write at its start; None, or no entry, leaves it its own.
-        ready: Called with each robot's client when it has answered.
+        config: The run; by default, that of a command line without options, with the robot in this process.
+        log: Records every frame; the caller closes it. By default frames are discarded.
+        memories: For each robot, the eight cells to write at its start; None, or no entry, leaves its memory alone.
+        ready: Called with each robot's client once the robot has answered.
 
     Yields:
-        The simulation, before its first environment. The robots end with the context.
+        The simulation, before its first environment. Leaving the context ends the robots.
 
     Raises:
-        UsageError: The configuration cannot be meant.
-        OctetError: Something to be built or installed is not there.
+        UsageError: The configuration is invalid.
+        OctetError: Something that must be built or installed is missing.
         RobotError: A robot does not answer.
     """
     config = config or RunConfig()
@@ -73,10 +73,10 @@ def make(
 
 
 def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequence[Memory | None] = ()) -> Simulation:
-    """Starts robots that have been connected, and puts a world around them. For everything else there is `make`.
+    """Starts robots that are connected already and puts a world around them; `make` connects them too.
 
     Raises:
-        UsageError: A robot refuses what it is told.
+        UsageError: A robot refuses its configuration.
         RobotError: A robot does not answer.
     """
     params = SimParams()
@@ -86,10 +86,10 @@ def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequen
 
 
 def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Sequence[Memory | None] = ()) -> None:
-    """Starts each robot with a seed of its own: the first with the run's, the others with those that follow.
+    """Starts each robot with its own seed: the first with the run's seed, each other one with the next number.
 
     Raises:
-        UsageError: A robot refuses what it is told.
+        UsageError: A robot refuses its configuration.
         RobotError: A robot does not answer.
     """
     for index, client in enumerate(clients):
@@ -104,7 +104,7 @@ def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Se
 def _check(config: RunConfig, params: SimParams) -> None:
     if config.nodes.stop - 1 > NODE_MAX:
         last = config.nodes.stop - 1
-        raise UsageError(f"nodes go up to {NODE_MAX}: {config.robots} robots from node {config.node} on need {last}")
+        raise UsageError(f"{config.robots} robots from node {config.node} need node {last}; the last is {NODE_MAX}")
     if config.robots == 1:
         return
     try:

@@ -1,28 +1,28 @@
-"""What a run is made of, as data: seeds, robots, and where they come from."""
+"""The configuration of a run, as data: seed, robots, and where they run."""
 
 from dataclasses import dataclass, field
 
 ROBOTS = ("spawn", "external", "qemu", "emulated")
-"""How a robot gets there."""
+"""The ways to get a robot."""
 
 
 @dataclass(frozen=True)
 class RunConfig:
-    """A run; the ranges are checked where a person's words are read.
+    """The configuration of a run. The command line checks the ranges.
 
     Attributes:
-        seed: Of environments and random turns, 0..2**32 - 1.
-        environments: How many, one after the other.
-        limit_s: Robot time for each environment, s.
-        robots: How many are in each environment, at least 1.
-        node: The first robot's number on the bus, 1..63; the others follow.
-        profile: What the robots behave like, by name.
-        settings: Parameters that differ from the profile's, by name.
+        seed: Seed for environments and random turns, 0..2**32 - 1.
+        environments: Number of environments, one after the other.
+        limit_s: Time limit for each environment, s of robot time.
+        robots: Number of robots in each environment, at least 1.
+        node: Node number of the first robot on the bus, 1..63; the others follow.
+        profile: Name of the robots' behaviour.
+        settings: Parameters to change from their defaults, by name.
         bus: Where the robots are: none (in this process), fd (socket pairs), or python-can's INTERFACE:CHANNEL.
-        robot: How they get there, one of `ROBOTS`: spawn them, wait for external ones, or run the flash image in qemu
-            or emulated.
-        board: Which board is emulated.
-        real_time: Whether to keep pace with the wall clock rather than run in lockstep, as fast as it goes.
+        robot: One of `ROBOTS`: spawn starts the firmware, external waits for a robot on the bus, qemu and emulated
+            run the flash image in QEMU or on an emulated board.
+        board: Name of the emulated board; empty for the first.
+        real_time: Whether to run at wall-clock speed rather than in lockstep, as fast as possible.
     """
 
     seed: int = 1
@@ -39,5 +39,5 @@ class RunConfig:
 
     @property
     def nodes(self) -> range:
-        """The robots' numbers on the bus."""
+        """The robots' node numbers on the bus."""
         return range(self.node, self.node + self.robots)

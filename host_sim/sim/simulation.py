@@ -20,10 +20,10 @@ class RobotResult:
     """What one robot did in one environment.
 
     Attributes:
-        node: Its number on the bus.
+        node: Its node number on the bus.
         begun: Number of actions begun, by reason.
-        food_eaten: Pieces of food that it ate.
-        collisions: How often its body began to touch something.
+        food_eaten: Number of pieces of food that it ate.
+        collisions: Number of times that its body began to touch something.
         memory: The eight cells at the end.
     """
 
@@ -39,10 +39,10 @@ class EpisodeResult:
     """What happened in one environment.
 
     Attributes:
-        layout: Where everything was at the end.
-        tick_s: Length of a tick.
+        layout: The layout at the end.
+        tick_s: Length of a tick, s.
         robots: What each robot did.
-        ticks: How many there were.
+        ticks: Number of ticks.
         eaten: For each piece of food, whether it was eaten.
     """
 
@@ -63,30 +63,30 @@ class EpisodeResult:
         return round(self.ticks * self.tick_s, 3)
 
     def begun(self, reason: int) -> int:
-        """How many actions were begun for a reason, by all robots."""
+        """The number of actions that all robots began for a reason."""
         return sum(robot.begun.get(reason, 0) for robot in self.robots)
 
 
 @dataclass
 class Simulation:
-    """Puts started robots through their environments: `run` does it all; `enter`, `step` and `leave` bit by bit.
+    """Takes started robots through their environments: all at once with `run`, or with `enter`, `step` and `leave`.
 
     `make` builds one.
 
     Attributes:
-        params: The measures.
-        clients: The robots, at least one, in the order of their starts.
+        params: The dimensions of the world.
+        clients: The robots, at least one, in the order of their start poses.
         pace: How world and robots keep time.
-        seed: Of the environments.
-        environments: How many.
-        limit_s: Robot time after which an environment ends, finished or not.
-        watch: Called after each tick.
-        record: Which environments there were, and what a person did to them.
+        seed: Seed for the environments.
+        environments: Number of environments.
+        limit_s: Robot time after which an environment ends, finished or not, s.
+        watch: Called with the simulation after each tick.
+        record: The environments so far, and what a person changed in them.
         tick: Number of the next tick.
-        arena: Of the environment entered last.
-        episode: What has happened there so far.
-        senses: Each robot's, of the last tick.
-        drives: Each robot's, of the last tick.
+        arena: The arena of the current environment.
+        episode: What has happened in it so far.
+        senses: Each robot's senses at the last tick.
+        drives: Each robot's drive at the last tick.
     """
 
     params: SimParams
@@ -118,18 +118,18 @@ class Simulation:
 
     @property
     def nodes(self) -> list[int]:
-        """The robots' numbers on the bus."""
+        """The robots' node numbers on the bus."""
         return [client.node for client in self.clients]
 
     def run(self) -> Iterator[EpisodeResult]:
-        """Runs it.
+        """Runs all environments.
 
         Yields:
-            Each environment's result when it has ended.
+            The result of each environment, when it has ended.
 
         Raises:
-            RobotError: A robot is gone.
-            NoRoomError: There is no room for so many robots.
+            RobotError: A robot has ended or does not answer.
+            NoRoomError: An environment has no room for all the robots.
         """
         for number in range(1, self.environments + 1):
             self.enter(number)
@@ -138,10 +138,13 @@ class Simulation:
             yield self.leave()
 
     def enter(self, number: int) -> None:
-        """Begins the environment of that number.
+        """Begins an environment.
+
+        Args:
+            number: Number of the environment, from 1.
 
         Raises:
-            NoRoomError: There is no room for so many robots.
+            NoRoomError: The environment has no room for all the robots.
         """
         layout = generate(self.seed, number, self.params, len(self.clients))
         self.arena = Arena(layout, self.params, self._odometers)
@@ -149,10 +152,10 @@ class Simulation:
         self.record.begin(Begun(self.seed, number, self.tick))
 
     def step(self) -> None:
-        """Does one tick.
+        """Simulates one tick.
 
         Raises:
-            RobotError: A robot is gone.
+            RobotError: A robot has ended or does not answer.
         """
         self.clients[0].log.set_time(round(self.tick * self.params.tick_s * 1e6))
         bodies, before = self.arena.bodies, self.drives
@@ -171,7 +174,7 @@ class Simulation:
         self.watch(self)
 
     def leave(self) -> EpisodeResult:
-        """Ends the environment, finished or not."""
+        """Ends the environment, finished or not, and returns its result."""
         arena, episode = self.arena, self.episode
         self._odometers = [body.odometer for body in arena.bodies]
         episode.layout, episode.eaten = arena.layout, arena.food.eaten
@@ -180,14 +183,14 @@ class Simulation:
         return episode
 
     def edit(self, edit: Edit) -> None:
-        """Lets a person change the world before the next tick.
+        """Makes a person's change to the world, before the next tick.
 
         Raises:
-            EditError: It cannot be done; nothing was changed.
+            EditError: The change cannot be made; nothing was changed.
         """
         make_edit(self.arena, edit, self.params)
         self.record.add(Edited(self.tick, edit))
 
     def set_clock(self) -> None:
-        """Dates what is recorded from now on with the next tick."""
+        """Sets the log's time to that of the next tick."""
         self.clients[0].log.set_time(round(self.tick * self.params.tick_s * 1e6))

@@ -1,4 +1,4 @@
-"""Which environments a robot was in, and what a person did to them, by tick."""
+"""The environments of a run and what a person changed in them, by tick."""
 
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -7,7 +7,7 @@ from host_sim.world.edits import Edit, MoveBar, MoveFood
 
 
 class Begun(NamedTuple):
-    """An environment, with the first tick in it. The one before it ended there, finished or not."""
+    """An environment and its first tick, at which the previous one ended, finished or not."""
 
     seed: int
     number: int
@@ -15,7 +15,7 @@ class Begun(NamedTuple):
 
 
 class Edited(NamedTuple):
-    """An edit, with the tick before whose senses it was made. Edits of one tick are in their order."""
+    """An edit and its tick: it was made before the senses of that tick. Edits of one tick keep their order."""
 
     tick: int
     edit: Edit
@@ -23,15 +23,15 @@ class Edited(NamedTuple):
 
 @dataclass
 class WorldRecord:
-    """What `run.world.json` holds.
+    """The contents of `run.world.json`.
 
     Attributes:
-        seed: Of the run.
-        environments: How many the run was to have.
-        limit_ticks: Ticks after which an environment ends, finished or not.
-        robots: How many are in each environment.
-        begun: The environments in the order in which they began.
-        edits: What a person did, in order.
+        seed: The run's seed.
+        environments: The planned number of environments.
+        limit_ticks: Number of ticks after which an environment ends, finished or not.
+        robots: Number of robots in each environment.
+        begun: The environments, in the order in which they began.
+        edits: What a person changed, in order.
     """
 
     seed: int
@@ -42,19 +42,19 @@ class WorldRecord:
     edits: list[Edited] = field(default_factory=list)
 
     def begin(self, begun: Begun) -> None:
-        """Adds an environment. An edit after the last tick of the one before is forgotten: no robot sensed it."""
+        """Adds an environment. Edits after the last tick of the previous one are dropped: no robot sensed them."""
         while self.edits and self.edits[-1].tick == begun.first_tick:
             self.edits.pop()
         self.begun.append(begun)
 
     def add(self, edited: Edited) -> None:
-        """Adds an edit. Dragging a thing about between two ticks leaves only where it came to lie."""
+        """Adds an edit. When a thing is dragged between two ticks, only its last position is recorded."""
         if self.edits and _dragged(self.edits[-1]) == _dragged(edited) is not None:
             self.edits.pop()
         self.edits.append(edited)
 
 
 def _dragged(edited: Edited) -> tuple[int, type, int] | None:
-    """When and what is moved by an edit; None for other edits."""
+    """The tick of an edit that moves a thing, and which thing; None for other edits."""
     edit = edited.edit
     return (edited.tick, type(edit), edit.id) if isinstance(edit, (MoveBar, MoveFood)) else None

@@ -1,1 +1,1 @@
-"""What any display shows of a run."""
+"""The state of a run, as every display shows it."""

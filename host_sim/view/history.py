@@ -1,4 +1,4 @@
-"""What a robot has learned in a run so far: trials and their verdicts, lessons, how often each cell was used."""
+"""What a robot has learned in a run: its trials and their results, its lessons, and the use of each cell."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -9,13 +9,13 @@ from host_sim.robot_io import Drive, Senses
 
 
 class Trial(TypedDict):
-    """A random turn that was tried because the pattern's cell was empty.
+    """A random turn, tried because the pattern's cell was empty.
 
     Attributes:
-        tick: When it began.
-        cell: The pattern.
-        side: Which way it turned: 1 left, 2 right.
-        helped: 1 if fewer front sensors saw something afterwards, 0 if not; None while the turn lasts.
+        tick: Tick in which it began.
+        cell: The pattern, 1..7.
+        side: Direction of the turn: 1 left, 2 right.
+        helped: 1 if fewer front sensors were triggered afterwards, 0 if not; None during the turn.
     """
 
     tick: int
@@ -25,13 +25,13 @@ class Trial(TypedDict):
 
 
 class Lesson(TypedDict):
-    """A cell that changed.
+    """A change of a cell.
 
     Attributes:
-        node: Whose.
-        tick: When.
-        cell: Which, 1..7.
-        side: What it holds now: 0 nothing, 1 left, 2 right.
+        node: Node number of the robot.
+        tick: Tick of the change.
+        cell: The cell, 1..7.
+        side: Its new content: 0 nothing, 1 left, 2 right.
         by_hand: 1 if a person wrote or erased it, 0 if the robot learned it.
     """
 
@@ -43,24 +43,28 @@ class Lesson(TypedDict):
 
 
 def pattern_of(feel: int) -> int:
-    """The three front sensors of a feel: bit 0 front-right, bit 1 front, bit 2 front-left."""
+    """The pattern of the three front sensors: bit 0 front-right, bit 1 front, bit 2 front-left.
+
+    >>> pattern_of(0b00110)
+    3
+    """
     return feel >> 1 & 7
 
 
 @dataclass
 class LearningHistory:
-    """Takes every tick of a run in its order.
+    """One robot's history, built from every tick of a run in order.
 
     Attributes:
-        node: The robot's number on the bus.
+        node: The robot's node number on the bus.
         memory: The eight cells.
-        frozen: Whether the robot does not learn; whoever gives the command sets it.
-        pattern: The front sensors when the action under way was decided.
-        uses: For each cell, the remembered turns it was used for.
+        frozen: Whether learning is frozen; set by the caller that sends the command.
+        pattern: The front sensors' pattern when the current action was decided, 0..7.
+        uses: For each cell, the number of remembered turns that used it.
         learned: For each cell, the tick of its last change; -1 if there was none.
-        trial: The last trial.
-        trials: How many there were.
-        lessons: All lessons.
+        trial: The last trial, or None.
+        trials: Number of trials.
+        lessons: All lessons, in order.
     """
 
     node: int = 1
@@ -75,7 +79,14 @@ class LearningHistory:
     _action: int = -1
 
     def take(self, tick: int, senses: Senses, drive: Drive, memory: Sequence[int]) -> None:
-        """Takes a tick: what was sensed, what the robot answered, and its memory after the answer."""
+        """Adds a tick.
+
+        Args:
+            tick: Number of the tick, from the start of the run.
+            senses: The senses of the tick.
+            drive: The robot's answer.
+            memory: The eight cells after the answer.
+        """
         judged = None
         if drive.action != self._action:
             self._action = drive.action
@@ -86,7 +97,13 @@ class LearningHistory:
             self.relearn(tick, memory, judged)
 
     def relearn(self, tick: int, memory: Sequence[int], trial: Trial | None = None) -> None:
-        """Takes a changed memory: what the trial just judged does not explain was written by hand."""
+        """Adds a lesson for each cell that changed.
+
+        Args:
+            tick: Number of the tick.
+            memory: The eight cells now.
+            trial: The trial that has just ended, if any: a change that it does not explain was made by hand.
+        """
         for cell, (before, side) in enumerate(zip(self.memory, memory, strict=True)):
             if side != before:
                 learned = trial is not None and (trial["cell"], trial["side"], trial["helped"]) == (cell, side, 1)
@@ -95,7 +112,7 @@ class LearningHistory:
         self.memory = memory
 
     def _judge(self) -> Trial | None:
-        """The trial that ends with the reading which decides the next action."""
+        """Ends the current trial, if any, with the senses that decide the next action, and returns it."""
         if self.trial is None or self.trial["helped"] is not None:
             return None
         fewer = self.pattern.bit_count() < self.trial["cell"].bit_count()

@@ -1,4 +1,4 @@
-"""What a robot does and why, in its own words; the page has the same."""
+"""What a robot does and why, in its own words. The pages use the same sentences."""
 
 from host_sim.protocol.generated import PATTERNS, SIDES, Reason, Side
 from host_sim.view.history import Lesson
@@ -8,7 +8,7 @@ _WANDERING = "Nothing in my way: I drive on and look about for food."
 
 
 def sentence(state: State) -> str:
-    """What a tick shows, in one sentence."""
+    """A robot's state in one sentence."""
     if state["lifted"]:
         return "Someone has picked me up: my wheels turn in the air."
     side = SIDES[Side.LEFT if state["left"] < state["right"] else Side.RIGHT]
@@ -30,7 +30,7 @@ def _toward_food(beacon_mm: int) -> str:
 
 
 def lesson_sentence(lesson: Lesson) -> str:
-    """What a cell has changed to, in one sentence."""
+    """A change of a cell in one sentence."""
     name = PATTERNS[lesson["cell"]]
     how = "Written by hand" if lesson["by_hand"] else "Learned"
     return f"{how}: {name} blocked, turn {SIDES[lesson['side']]}." if lesson["side"] else f"Erased by hand: {name}."

@@ -1,4 +1,4 @@
-"""What there is to see of a run, in plain JSON: the one shape that every view draws, live or kept.
+"""The visible state of a run as plain JSON types: the one form that every view draws, live or recorded.
 
 Ticks are counted from the start of the run and do not wrap. Lengths are in mm, x to the right and y down; headings in
 mrad, 0 along +x, positive to the right. Sides: 0 nothing, 1 left, 2 right. Reasons: as in octet.dbc, 0..7.
@@ -19,19 +19,19 @@ __all__ = ["EnvironmentScene", "Lesson", "Measures", "State", "Trial", "environm
 
 
 class Measures(TypedDict):
-    """The measures that a drawing needs, mm unless said.
+    """The dimensions that a drawing needs, in mm unless stated otherwise.
 
     Attributes:
-        width: Of the arena, inside.
-        height: Of the arena, inside.
+        width: Inside width of the arena.
+        height: Inside height of the arena.
         body: Radius of the robot.
         track: Distance between its wheels.
         reach: How far the sensor cones reach beyond the body.
         beam: Width of the corridor in which food is seen.
-        eat: Food nearer than this to the robot's middle can be eaten.
+        eat: Food nearer than this to the robot's centre can be eaten.
         bar: Thickness of an obstacle.
         tick_ms: Length of a tick, ms of robot time.
-        boredom: The remembered turn in a row after which the robot is bored.
+        boredom: Number of remembered turns in a row at which the robot is bored.
     """
 
     width: float
@@ -47,14 +47,14 @@ class Measures(TypedDict):
 
 
 class EnvironmentScene(TypedDict):
-    """One arena. DecodedFrame when it begins, and anew whenever a person has changed its obstacles or food.
+    """One environment's arena. A new scene begins with each environment and each change of its obstacles or food.
 
     Attributes:
-        number: 1 for the first.
-        of: How many the run has.
-        seed: That it was drawn from.
+        number: Number of the environment, from 1.
+        of: Number of environments in the run.
+        seed: Seed that it was drawn from.
         first_tick: Its first tick.
-        bars: For each obstacle: its id, then both ends of its middle line: [id, ax, ay, bx, by].
+        bars: For each obstacle its id and both ends of its centre line: [id, ax, ay, bx, by].
         food: For each piece of food, eaten or not: [x, y].
     """
 
@@ -67,29 +67,29 @@ class EnvironmentScene(TypedDict):
 
 
 class State(TypedDict):
-    """All that changes from tick to tick: what the robot sensed at this tick, what it did, and where that left it.
+    """One robot's state: what it sensed at a tick, what it did, and where it was afterwards.
 
     Attributes:
-        node: The robot's number on the bus.
+        node: The robot's node number on the bus.
         tick: Number of the tick.
-        x: Middle of the robot after the tick, to 0.1 mm.
-        y: The same.
-        heading: -3142..3142 mrad after the tick.
-        lifted: 1 while a person holds the robot in the air.
+        x: Centre of the robot after the tick, to 0.1 mm.
+        y: Likewise.
+        heading: Heading after the tick, -3142..3142 mrad.
+        lifted: 1 while a person holds the robot in the air, else 0.
         feel: Proximity, one bit each: right 1, front-right 2, front 4, front-left 8, left 16.
-        bump: 1 if the body touched something.
+        bump: 1 if the body touched something, else 0.
         beacon: Distance to the food seen straight ahead; 0 if none is seen.
         left: Speed of the left wheel, mm/s, forward positive.
-        right: Speed of the right wheel.
-        reason: Why it does what it does.
-        repeat_count: Remembered turns since the way was last clear, 0..255.
-        action: Number of the action under way, 0..127, wraps.
+        right: Speed of the right wheel, likewise.
+        reason: Reason of the action.
+        repeat_count: Number of remembered turns since the way was last clear, 0..255.
+        action: Number of the current action, 0..127, wraps.
         pattern: The three front sensors when that action was decided: bit 0 front-right, 1 front, 2 front-left.
-        eaten: For each piece of food, 1 if it was eaten.
+        eaten: For each piece of food, 1 if it was eaten, else 0.
         memory: The eight cells, each a side.
-        uses: For each cell, how often it was used.
-        learned: For each cell, the tick at which it last changed; -1 if never in this run.
-        frozen: 1 if the robot does not learn.
+        uses: For each cell, the number of remembered turns that used it.
+        learned: For each cell, the tick of its last change; -1 if there was none in this run.
+        frozen: 1 if learning is frozen, else 0.
         trial: The last trial of the run, or None.
     """
 
@@ -117,7 +117,7 @@ class State(TypedDict):
 
 
 def measures(params: SimParams, boredom_limit: int) -> Measures:
-    """The measures of a world, and the robot's parameter `boredom_limit`."""
+    """The dimensions of a world, and the robot's parameter `boredom_limit`."""
     return Measures(
         width=params.width_mm,
         height=params.height_mm,
@@ -133,7 +133,13 @@ def measures(params: SimParams, boredom_limit: int) -> Measures:
 
 
 def environment_scene(begun: Begun, of: int, arena: Arena) -> EnvironmentScene:
-    """The arena as it is now, in the environment that began so, of as many."""
+    """The scene of an arena as it is now.
+
+    Args:
+        begun: The environment.
+        of: Number of environments in the run.
+        arena: Its arena.
+    """
     return EnvironmentScene(
         number=begun.number,
         of=of,
@@ -144,18 +150,18 @@ def environment_scene(begun: Begun, of: int, arena: Arena) -> EnvironmentScene:
     )
 
 
-def state(  # noqa: PLR0913, PLR0917 - all that a display shows
+def state(  # noqa: PLR0913, PLR0917 - everything that a display shows
     tick: int, body: Body, eaten: Sequence[bool], senses: Senses, drive: Drive, history: LearningHistory
 ) -> State:
     """A robot's state after a tick.
 
     Args:
-        tick: Its number.
-        body: Has moved.
+        tick: Number of the tick.
+        body: The robot's body, after its move.
         eaten: For each piece of food, whether it was eaten.
-        senses: The tick's.
-        drive: The tick's.
-        history: Has taken the tick.
+        senses: The senses of the tick.
+        drive: The drive of the tick.
+        history: The robot's history, including the tick.
     """
     x, y, heading = body.pose
     return State(
@@ -184,7 +190,7 @@ def state(  # noqa: PLR0913, PLR0917 - all that a display shows
 
 
 def states(simulation: Simulation, histories: Sequence[LearningHistory]) -> list[State]:
-    """The state of each robot of a simulation after its last tick; `histories` have taken it."""
+    """The state of each robot after the last tick of a simulation, which `histories` must include."""
     arena, tick = simulation.arena, max(0, simulation.tick - 1)
     eaten = arena.food.eaten
     return [

@@ -1,1 +1,1 @@
-"""The world: environments, arena, sensors, and one robot's way through them."""
+"""The world: environments, arena, and the bodies and sensors of the robots in it."""

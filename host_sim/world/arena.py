@@ -23,18 +23,18 @@ class Arena:
 
     Attributes:
         bodies: The robots' bodies, in the order of the layout's starts.
-        food: What there is to eat, shared by all.
-        obstacles: The bars by their ids, at first 0, 1, ... as in the layout; `settle` after a change.
+        food: The food, shared by all robots.
+        obstacles: Walls and bars, the bars by id: at first 0, 1, ... as in the layout. Call `settle` after a change.
     """
 
     def __init__(self, layout: Layout, params: SimParams, odometers: Sequence[Point] = ()) -> None:
-        """Builds the space and senses once, so that the first `sense` is right.
+        """Builds the space and runs the sensors once, so that the first `sense` is right.
 
         Args:
-            layout: Obstacles, food and starts: there is a robot at each start.
-            params: The measures.
-            odometers: For each robot the way of its left and its right wheel so far, mm, where it comes from another
-                arena; none for robots that have not moved yet.
+            layout: Obstacles, food and start poses; a robot is placed at each start.
+            params: The dimensions of the world.
+            odometers: For each robot that comes from another arena, the distances that its left and right wheels have
+                rolled so far, mm; empty for robots that have not moved yet.
         """
         self._starts = layout.starts
         self._space = pymunk.Space()
@@ -52,16 +52,16 @@ class Arena:
 
     @property
     def body(self) -> Body:
-        """The first robot's, for where there is one."""
+        """The first robot's body, for runs with one robot."""
         return self.bodies[0]
 
     @property
     def layout(self) -> Layout:
-        """The layout as it is now, with its first starts."""
+        """The layout as it is now, with the original start poses."""
         return Layout(tuple(self.obstacles.bars.values()), tuple(self.food.at), self._starts[0], self._starts[1:])
 
     def settle(self) -> None:
-        """Senses anew after a change of the obstacles or of where a body is."""
+        """Updates the sensors after an obstacle or a body was moved."""
         for body in self.bodies:
             body.place()
 
@@ -78,7 +78,7 @@ class Arena:
             body.touches -= 1
 
     def _press(self, arbiter: pymunk.Arbiter, _space: pymunk.Space, _data: None) -> None:
-        """Tells the bodies how deep they overlap: the normal leads from the first shape into the second."""
+        """Passes the depth of an overlap to its bodies; the normal points from the first shape into the second."""
         contact = arbiter.contact_point_set
         depth_mm, normal = -contact.points[0].distance, contact.normal
         for body, way in zip(self._touched(arbiter), (1.0, -1.0), strict=False):

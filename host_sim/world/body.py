@@ -1,4 +1,4 @@
-"""One robot's body: it rolls as its wheels do, feels and sees, and is pushed out of what it runs into."""
+"""One robot's body: it moves with its wheels, senses, and is pushed out of whatever it runs into."""
 
 import math
 
@@ -22,32 +22,32 @@ _COUNTS_PER_MM = 10
 class Body:
     """A disc with two wheels, five proximity cones and a beam that sees food.
 
-    Each tick is `sense`, perhaps `eat`, then `move`. Chipmunk finds overlaps; the motion itself is worked out here,
+    Each tick is `sense`, optionally `eat`, then `move`. Chipmunk finds overlaps; the motion itself is computed here,
     exactly: the wheels roll the body along an arc, and a body pressed into an obstacle is pushed straight out of it,
     so it stops or slides. Another robot's disc is an obstacle like any other.
 
     Attributes:
-        pose: Where it is and looks.
+        pose: Its position and heading.
         disc: Its shape in the space.
         feel: One bit for each cone with something in it, as of the space's last step: right 1, front-right 2,
             front 4, front-left 8, left 16.
-        collisions: How often it has begun to touch something.
-        touches: What it touches now: how many things.
-        lifted: Whether someone holds it in the air.
+        collisions: Number of times that it has begun to touch something.
+        touches: Number of things that it touches now.
+        lifted: Whether a person holds it in the air.
     """
 
-    def __init__(  # noqa: PLR0913, PLR0917 - where it is, and what it was
+    def __init__(  # noqa: PLR0913, PLR0917 - its surroundings and its state
         self, space: pymunk.Space, food: Food, params: SimParams, index: int, start: Pose, odometer: Point
     ) -> None:
-        """Puts it into a space.
+        """Adds the body to a space.
 
         Args:
             space: Holds the obstacles.
-            food: What there is to eat.
-            params: The measures.
-            index: 0, 1, ..., its own in this space.
+            food: The food in the arena.
+            params: The dimensions of the world.
+            index: 0, 1, ...; unique in the space.
             start: Its first pose.
-            odometer: Way of the left and the right wheel so far, mm, where the robot comes from another arena.
+            odometer: Distances rolled by the left and the right wheel in earlier arenas, mm.
         """
         self.feel = self.collisions = self.touches = 0
         self.lifted = False
@@ -61,7 +61,7 @@ class Body:
         self._sight = sight_filter(index + 1)
         self.disc = pymunk.Circle(self._body, params.body_radius_mm)
         self.disc.collision_type, self.disc.filter = DISC, disc_filter(index + 1)
-        # Where it is to be first, before Chipmunk looks at it.
+        # Chipmunk must find the body where it starts.
         self._body.position, self._body.angle = start[:2], start.heading_rad
         space.add(self._body, self.disc)
         self._overlaps = dict.fromkeys(CONE_BEARINGS_DEG, 0)
@@ -70,14 +70,14 @@ class Body:
 
     @property
     def odometer(self) -> Point:
-        """Way of the left and the right wheel since the first arena, mm, forward positive; slip counts as way."""
+        """Distances rolled by the left and the right wheel since the first arena, mm, forward positive, with slip."""
         return self._left_mm, self._right_mm
 
     def sense(self, tick: int) -> Senses:
-        """What the robot senses where it stands. Food is seen in a corridor straight ahead where nothing hides it.
+        """What the robot senses where it stands. Food is seen in a corridor straight ahead if nothing hides it.
 
         Args:
-            tick: Number of the control tick; it is wrapped to 0..4095.
+            tick: Number of the control tick; wrapped to 0..4095.
         """
         self._seen_id, beacon_mm = -1, 0
         if not self.lifted:
@@ -116,8 +116,8 @@ class Body:
         """Lets the wheels roll for one control tick.
 
         Args:
-            left_mm_s: Speed of the left wheel, forward positive; cut to the greatest that the measures allow.
-            right_mm_s: Speed of the right wheel, the same.
+            left_mm_s: Speed of the left wheel, mm/s, forward positive; limited to `SimParams.max_wheel_speed_mm_s`.
+            right_mm_s: Speed of the right wheel, likewise.
         """
         limit, tick_s = self._params.max_wheel_speed_mm_s, self._params.tick_s
         left_mm = max(-limit, min(limit, left_mm_s)) * tick_s
@@ -133,16 +133,16 @@ class Body:
             self._push_out(before)
 
     def lift(self) -> None:
-        """Takes it off the floor: its wheels turn, it senses nothing and goes nowhere."""
+        """Lifts the body off the floor: its wheels still turn, but it does not move or sense anything."""
         self.lifted = True
 
     def put(self, pose: Pose) -> None:
-        """Puts it down where there is room for it."""
+        """Puts the body down. The caller makes sure that there is room for it."""
         self.lifted = False
         self.pose = pose
 
     def place(self) -> None:
-        """Puts it where it has come to, and finds what it and its cones overlap there."""
+        """Moves its shapes to its pose and finds what the body and its cones overlap there."""
         x, y, heading = self.pose
         self._depth_mm = 0.0
         self._body.position = self._in_the_air if self.lifted else (x, y)
@@ -150,12 +150,12 @@ class Body:
         self._space.step(self._params.tick_s)
 
     def press(self, depth_mm: float, normal: Point) -> None:
-        """Remembers the deepest overlap of this step, with its normal from the body into what it touches."""
+        """Records an overlap if it is the deepest of this step; the normal points from the body into the obstacle."""
         if depth_mm > self._depth_mm:
             self._depth_mm, self._normal = depth_mm, normal
 
     def _push_out(self, before: Pose) -> None:
-        """Frees the body from the deepest overlap, again and again; if wedged, back to where it was."""
+        """Pushes the body out of its deepest overlap, repeatedly; a wedged body goes back to where it was."""
         for _ in range(_PUSHES):
             push_mm = self._depth_mm - _TOUCH_MM / 2
             x, y, heading = self.pose
@@ -170,7 +170,7 @@ class Body:
         return self._space.segment_query_first(self.pose[:2], food, 0.0, self._sight) is not None
 
     def _add_cone(self, bit: int, collision_type: int, cone_filter: pymunk.ShapeFilter) -> None:
-        """Chipmunk reports when a cone begins and ceases to overlap something, so that reading costs nothing."""
+        """Adds a cone. Chipmunk reports when it begins and ceases to overlap something: reading it costs nothing."""
         params, space = self._params, self._space
         reach_mm = params.body_radius_mm + params.sensor_reach_mm
         cone = pymunk.Poly(self._body, cone_outline(CONE_BEARINGS_DEG[bit], reach_mm))
@@ -191,9 +191,9 @@ class Body:
 
 
 def rolled(pose: Pose, left_mm: float, right_mm: float, track_mm: float) -> Pose:
-    """The pose after the wheels have rolled so far, each at its own steady speed: an arc.
+    """The pose after each wheel has rolled its distance at a constant speed: the body follows an arc.
 
-    Left farther than right turns right, which is the positive way.
+    If the left wheel rolls farther than the right one, the body turns right, which is the positive direction.
 
     >>> rolled(Pose(0.0, 0.0, 0.0), left_mm=10.0, right_mm=-10.0, track_mm=160.0).heading_rad
     0.125

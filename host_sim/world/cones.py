@@ -5,25 +5,25 @@ import math
 from host_sim.world.geometry import Point
 
 CONE_BEARINGS_DEG = {1: 90.0, 2: 45.0, 4: 0.0, 8: -45.0, 16: -90.0}
-"""The middle of each cone, to the right of the heading, by its bit of feel. There is no gap from -112.5 to +112.5."""
+"""Bearing of each cone's axis, clockwise from the heading, by its bit of feel: -112.5..112.5 without a gap."""
 
 _CONE_WIDTH_DEG = 45.0
 _ARC_STEPS = 4
 
 
 def cone_outline(bearing_deg: float, reach_mm: float) -> list[Point]:
-    """The corners of a cone of 45 degrees with its tip in the body's middle, as seen by a body that looks along +x.
+    """The corners of a cone of 45 degrees whose tip is the body's centre, in the frame of a body that faces +x.
 
     Args:
-        bearing_deg: Where the cone's middle points, to the right of the heading.
-        reach_mm: Its length from the middle of the body.
+        bearing_deg: Bearing of the cone's axis, clockwise from the heading.
+        reach_mm: Its length from the centre of the body.
 
     Returns:
-        Six corners of a convex polygon; its outer edge is within 0.4 mm of the arc.
+        Six corners of a convex polygon, x and y in mm; its outer edge is within 0.4 mm of the arc.
     """
     step = math.radians(_CONE_WIDTH_DEG) / _ARC_STEPS
     first = math.radians(bearing_deg - _CONE_WIDTH_DEG / 2)
-    # Corners as much outside the arc as the middles of the edges are inside.
+    # The corners are as far outside the arc as the middles of the edges are inside it.
     corner_mm = 2 * reach_mm / (1 + math.cos(step / 2))
     angles = [first + step * i for i in range(_ARC_STEPS + 1)]
     return [(0.0, 0.0), *((corner_mm * math.cos(a), corner_mm * math.sin(a)) for a in angles)]

@@ -1,4 +1,4 @@
-"""What a person can do to the world while robots are in it: carried out where it can be, and written down as JSON."""
+"""Changes that a person can make to the world while robots are in it, and their form as JSON."""
 
 import math
 from collections.abc import Callable, Collection, Iterable, Mapping
@@ -14,10 +14,10 @@ from host_sim.world.layouts import clearance_mm
 from host_sim.world.params import SimParams
 
 BARS_MAX = 40
-"""No arena has more obstacles."""
+"""Maximum number of obstacles in an arena."""
 
 SIZE_MAX_MM = 100_000
-"""No place is farther than this from the arena's corner."""
+"""Maximum coordinate in an edit, mm."""
 
 HEADING_MAX_MRAD = 3142
 _ID_MAX = 1_000_000
@@ -26,14 +26,14 @@ _ROBOTS_MAX = 10_000
 
 @dataclass(frozen=True)
 class AddBar:
-    """A new obstacle stands there; it gets the next id."""
+    """Adds an obstacle, which gets the next id."""
 
     bar: Bar
 
 
 @dataclass(frozen=True)
 class MoveBar:
-    """An obstacle stands elsewhere from now on."""
+    """Moves an obstacle."""
 
     id: int
     bar: Bar
@@ -41,14 +41,14 @@ class MoveBar:
 
 @dataclass(frozen=True)
 class RemoveBar:
-    """An obstacle is taken away."""
+    """Removes an obstacle."""
 
     id: int
 
 
 @dataclass(frozen=True)
 class MoveFood:
-    """A piece of food, eaten or not, lies elsewhere from now on."""
+    """Moves a piece of food, eaten or not."""
 
     id: int
     at: Point
@@ -56,14 +56,14 @@ class MoveFood:
 
 @dataclass(frozen=True)
 class Lift:
-    """A robot, counted from 0, is held in the air: its wheels turn, it senses nothing and goes nowhere."""
+    """Lifts a robot, counted from 0: its wheels still turn, but it does not move or sense anything."""
 
     robot: int = 0
 
 
 @dataclass(frozen=True)
 class Put:
-    """A robot, counted from 0, is put down."""
+    """Puts a lifted robot, counted from 0, down."""
 
     pose: Pose
     robot: int = 0
@@ -73,17 +73,17 @@ Edit = AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put
 
 
 def edit_from(fields: Mapping[str, Any]) -> Edit | None:
-    """The edit in a JSON object, by its `do`; None if it names no edit.
+    """The edit in a JSON object, by its field `do`; None if that does not name an edit.
 
     Raises:
-        ValueError: A field is missing, of a wrong type or out of all bounds.
+        ValueError: A field is missing, of the wrong type, or out of range.
     """
     parse = _PARSERS.get(str(fields.get("do")))
     return None if parse is None else parse(fields)
 
 
 def edit_to(edit: Edit) -> dict[str, Any]:
-    """The JSON object of an edit: `edit_from` gives back an equal edit."""
+    """The JSON object of an edit, from which `edit_from` makes an equal edit."""
     match edit:
         case AddBar(bar):
             return {"do": "add_bar", **_ends(bar)}
@@ -101,7 +101,7 @@ def edit_to(edit: Edit) -> dict[str, Any]:
 
 
 def whole(fields: Mapping[str, Any], name: str, low: int, high: int) -> int:
-    """A field that must hold a whole number within bounds.
+    """A field that must hold a whole number from `low` to `high`.
 
     Raises:
         ValueError: It does not.
@@ -128,10 +128,10 @@ def _bar(fields: Mapping[str, Any]) -> Bar:
 
 
 def pose_from(fields: Mapping[str, Any]) -> Pose:
-    """The pose in a JSON object: `at`, and `heading` in mrad.
+    """The pose in a JSON object: `at`, [x, y] in mm, and `heading` in mrad.
 
     Raises:
-        ValueError: A field is missing, of a wrong type or out of all bounds.
+        ValueError: A field is missing, of the wrong type, or out of range.
     """
     return Pose(*_point(fields, "at"), whole(fields, "heading", -HEADING_MAX_MRAD, HEADING_MAX_MRAD) / 1000)
 
@@ -155,7 +155,7 @@ def _ends(bar: Bar) -> dict[str, list[int]]:
 
 
 def _which(robot: int) -> dict[str, int]:
-    """The field that names a robot; the first needs none."""
+    """The field that names a robot; it is left out for the first."""
     return {"robot": robot} if robot else {}
 
 
@@ -164,14 +164,14 @@ def _whole_point(point: Point) -> list[int]:
 
 
 class EditError(ValueError):
-    """An edit that cannot be made in this world as it is; says why, in words for people."""
+    """An edit that cannot be made in the world as it is; the message says why."""
 
 
 def make_edit(arena: Arena, edit: Edit, params: SimParams) -> None:
     """Makes one edit, between two ticks. Equal edits at equal ticks give equal runs.
 
     Raises:
-        EditError: Nothing was changed.
+        EditError: The edit cannot be made; nothing was changed.
     """
     _MAKERS[type(edit)](arena, edit, params)
     arena.settle()

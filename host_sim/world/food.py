@@ -1,4 +1,4 @@
-"""The food in an arena, which all of its robots share."""
+"""The food in an arena, shared by all its robots."""
 
 from collections.abc import Sequence
 
@@ -6,11 +6,11 @@ from host_sim.world.geometry import Point
 
 
 class Food:
-    """Pieces of food by their ids: 0, 1, ... as in the layout.
+    """Pieces of food by id: 0, 1, ... as in the layout.
 
     Attributes:
-        at: Where each piece is, or was before it was eaten.
-        uneaten: The pieces that are left, by their ids.
+        at: Position of each piece, eaten or not.
+        uneaten: Positions of the pieces that are left, by id.
     """
 
     def __init__(self, at: Sequence[Point]) -> None:
@@ -24,11 +24,15 @@ class Food:
         return [food_id not in self.uneaten for food_id in range(len(self.at))]
 
     def eat(self, food_id: int) -> None:
-        """Takes a piece away."""
+        """Removes a piece.
+
+        Raises:
+            KeyError: It was eaten before.
+        """
         del self.uneaten[food_id]
 
     def move(self, food_id: int, at: Point) -> None:
-        """Lays a piece elsewhere; one that was eaten stays eaten."""
+        """Moves a piece; an eaten one stays eaten."""
         self.at[food_id] = at
         if food_id in self.uneaten:
             self.uneaten[food_id] = at

@@ -16,13 +16,13 @@ _TRIES = 1000
 
 @dataclass(frozen=True)
 class Layout:
-    """Where everything is at first.
+    """The initial layout of an environment.
 
     Attributes:
         bars: The obstacles.
-        food: The middles of the pieces of food.
-        start: The first robot's first pose.
-        other_starts: Those of further robots.
+        food: Centers of the pieces of food.
+        start: The first robot's start pose.
+        other_starts: The other robots' start poses.
     """
 
     bars: tuple[Bar, ...]
@@ -32,28 +32,28 @@ class Layout:
 
     @property
     def starts(self) -> tuple[Pose, ...]:
-        """Every robot's first pose."""
+        """Every robot's start pose."""
         return self.start, *self.other_starts
 
 
 class NoRoomError(ValueError):
-    """There are more robots than fit into a layout.
+    """More robots than fit into an environment.
 
     Attributes:
-        fitting: How many do.
+        fitting: Number of robots that fit.
     """
 
     def __init__(self, number: int, fitting: int) -> None:
-        """For the environment of that number."""
+        """Describes the environment of that number."""
         super().__init__(f"there is room for {fitting} robots in environment {number}")
         self.fitting = fitting
 
 
 def generate(seed: int, number: int, params: SimParams, robots: int = 1) -> Layout:
-    """Draws the layout that belongs to a seed and a number: the same for ever, on every Python.
+    """Draws the layout for a seed and a number: always the same one, with every version of Python.
 
-    Where a robot starts and where food lies, nothing else is within reach of the sensors, and a body's middle can get
-    from each start to every piece of food. Further robots leave the layout as it is for one.
+    The layout is fair: nothing is within sensor reach of a start or of a piece of food, and every piece can be
+    reached from each start. More robots do not change the rest of the layout.
 
     >>> layout = generate(seed=1, number=1, params=SimParams())
     >>> len(layout.bars), len(layout.food), len(layout.starts)
@@ -61,16 +61,16 @@ def generate(seed: int, number: int, params: SimParams, robots: int = 1) -> Layo
 
     Args:
         seed: The run's seed, any integer.
-        number: Which environment of the run, any integer.
-        params: The measures.
-        robots: How many start in it, at least 1.
+        number: Number of the environment, any integer.
+        params: The dimensions of the world.
+        robots: Number of robots, at least 1.
 
     Returns:
-        The first layout drawn that is fair in this sense.
+        The first fair layout drawn.
 
     Raises:
         ValueError: The world is so crowded that 1000 draws gave no fair layout.
-        NoRoomError: There is no room for so many robots.
+        NoRoomError: There is no room for all the robots.
     """
     draws = random.Random(f"octet {seed} {number}")
     for _ in range(_TRIES):
@@ -86,7 +86,7 @@ def clearance_mm(points: NDArray[np.float64], bars: tuple[Bar, ...], params: Sim
     Args:
         points: Shape (n, 2), x and y in mm.
         bars: The obstacles.
-        params: The measures.
+        params: The dimensions of the world.
 
     Returns:
         Shape (n,), mm; negative inside an obstacle or beyond a wall.
@@ -99,7 +99,7 @@ def clearance_mm(points: NDArray[np.float64], bars: tuple[Bar, ...], params: Sim
 
 
 def _distance_mm(x: NDArray[np.float64], y: NDArray[np.float64], bar: Bar) -> NDArray[np.float64]:
-    """Distances from points to the middle line of a bar."""
+    """Distances from points to the centre line of a bar."""
     (ax, ay), (bx, by) = bar
     dx, dy = bx - ax, by - ay
     along = np.clip(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0, 1.0)
@@ -107,7 +107,7 @@ def _distance_mm(x: NDArray[np.float64], y: NDArray[np.float64], bar: Bar) -> ND
 
 
 def _with_robots(layout: Layout, number: int, robots: int, seed: int, params: SimParams) -> Layout:
-    """The layout with a start for each robot; those of fewer robots are among those of more."""
+    """The layout with a start for each robot; adding robots does not move the starts of the others."""
     draws = random.Random(f"octet {seed} {number} starts")
     reach_mm = params.body_radius_mm + params.sensor_reach_mm
     way, starts = _reachable(layout, params), [layout.start]
@@ -136,7 +136,7 @@ def _draw(draws: random.Random, params: SimParams) -> Layout:
 
 
 def _draw_bar(draws: random.Random, params: SimParams) -> Bar:
-    """A bar of any length and angle, anywhere inside the walls."""
+    """A bar of random length and angle, anywhere inside the walls."""
     half = (_between(draws, *params.bar_length_mm) - params.bar_thickness_mm) / 2
     angle = _between(draws, 0.0, math.pi)
     dx, dy = half * math.cos(angle), half * math.sin(angle)
@@ -147,12 +147,12 @@ def _draw_bar(draws: random.Random, params: SimParams) -> Bar:
 
 
 def _between(draws: random.Random, low: float, high: float) -> float:
-    # Of all the generator's methods only random() is promised to stay the same from one Python to the next.
+    # random() is the only method of the generator that is guaranteed to stay the same across versions of Python.
     return low + (high - low) * draws.random()
 
 
 def _is_fair(layout: Layout, params: SimParams) -> bool:
-    """Nothing is in sensor reach at the start or at the food, and a way for the body leads to each piece of food."""
+    """Whether nothing is within sensor reach of the start or the food, and the body can get to all the food."""
     places = np.array([layout.start[:2], *layout.food])
     reach_mm = params.body_radius_mm + params.sensor_reach_mm
     if clearance_mm(places, layout.bars, params).min() < reach_mm:
@@ -162,12 +162,12 @@ def _is_fair(layout: Layout, params: SimParams) -> bool:
 
 
 def _cell(point: Point) -> tuple[int, int]:
-    """Row and column of a point on the grid of the flood fill, which has a border of one cell."""
+    """Row and column of a point on the flood-fill grid, which has a border of one cell."""
     return 1 + int(point[1] / _CELL_MM), 1 + int(point[0] / _CELL_MM)
 
 
 def _reachable(layout: Layout, params: SimParams) -> NDArray[np.bool_]:
-    """The cells of the grid that the middle of the body can get to from the start: shape (rows, columns)."""
+    """The grid cells that the centre of the body can get to from the start: shape (rows, columns)."""
     free = _free(layout.bars, params)
     columns, frontier = free.shape[1], [int(np.ravel_multi_index(_cell(layout.start[:2]), free.shape))]
     unvisited = bytearray(free.tobytes())
@@ -181,10 +181,10 @@ def _reachable(layout: Layout, params: SimParams) -> NDArray[np.bool_]:
 
 
 def _free(bars: tuple[Bar, ...], params: SimParams) -> NDArray[np.bool_]:
-    """The cells in which the middle of the body may be anywhere, inside a border of cells in which it may not."""
+    """The grid cells in which the centre of the body may be anywhere, inside a border of cells where it may not."""
     rows, columns = math.ceil(params.height_mm / _CELL_MM), math.ceil(params.width_mm / _CELL_MM)
     y, x = (np.indices((rows, columns)) + 0.5) * _CELL_MM
     room = clearance_mm(np.column_stack([x.ravel(), y.ravel()]), bars, params)
-    # Clearance shrinks by at most the way gone, and no point of a cell is farther than this from its middle.
+    # Clearance changes by at most the distance moved, and no point of a cell is farther than this from its centre.
     corner_mm = _CELL_MM * math.sqrt(0.5)
     return np.pad(room.reshape(rows, columns) >= params.body_radius_mm + corner_mm, 1)

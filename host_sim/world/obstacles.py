@@ -1,4 +1,4 @@
-"""The walls and bars of an arena in a pymunk space. Bars can be added, moved and taken away."""
+"""The walls and bars of an arena in a pymunk space. Bars can be added, moved and removed."""
 
 import pymunk
 
@@ -10,14 +10,14 @@ _WALL_MM = 100.0
 
 
 class Obstacles:
-    """What stands in the robot's way.
+    """The obstacles of an arena.
 
     Attributes:
-        bars: The bars by their ids: 0, 1, ... in the order in which they came. An id is never used again.
+        bars: The bars by id: 0, 1, ... in the order in which they were added. Ids are never reused.
     """
 
     def __init__(self, space: pymunk.Space, bars: tuple[Bar, ...], params: SimParams) -> None:
-        """Sets up bars and walls in a space."""
+        """Adds bars and walls to a space."""
         self.bars: dict[int, Bar] = {}
         self._space, self._radius_mm = space, params.bar_thickness_mm / 2
         self._shapes: dict[int, pymunk.Segment] = {}
@@ -32,12 +32,20 @@ class Obstacles:
         self._next_id += 1
 
     def move(self, bar_id: int, bar: Bar) -> None:
-        """Puts one of the bars elsewhere."""
+        """Moves a bar.
+
+        Raises:
+            KeyError: There is no bar with this id.
+        """
         self._space.remove(self._shapes[bar_id])
         self._put(bar_id, bar)
 
     def remove(self, bar_id: int) -> None:
-        """Takes one of the bars away."""
+        """Removes a bar.
+
+        Raises:
+            KeyError: There is no bar with this id.
+        """
         self._space.remove(self._shapes.pop(bar_id))
         del self.bars[bar_id]
 
@@ -46,7 +54,7 @@ class Obstacles:
         self._shapes[bar_id] = self._add_segment(bar.a, bar.b, self._radius_mm)
 
     def _add_walls(self, params: SimParams) -> None:
-        # The middle lines of the walls lie outside by their radius: the inside faces are the arena's edge.
+        # The centre lines of the walls lie outside by their radius, so that the inside faces are the arena's edge.
         left, top = -_WALL_MM, -_WALL_MM
         right, bottom = params.width_mm + _WALL_MM, params.height_mm + _WALL_MM
         corners = [(left, top), (right, top), (right, bottom), (left, bottom)]

@@ -1,26 +1,26 @@
-"""The measures of a world: arena, body and senses."""
+"""The dimensions of a world: arena, body and sensors."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class SimParams:
-    """The measures of arena, body and senses. The defaults are the article's screen at 5 mm a pixel.
+    """The dimensions of arena, body and sensors. The defaults are the article's screen at 5 mm per pixel.
 
     Attributes:
         width_mm: Inside width of the walled arena.
         height_mm: Inside height of the walled arena.
-        body_radius_mm: Radius of the robot, a disc that turns about its middle.
+        body_radius_mm: Radius of the robot, a disc that turns about its centre.
         wheel_track_mm: Distance between the two driven wheels.
         sensor_reach_mm: How far the proximity cones reach beyond the body.
         beam_width_mm: Width of the corridor straight ahead in which food is seen.
-        eat_reach_mm: Food nearer than this to the middle of the body can be eaten.
+        eat_reach_mm: Food nearer than this to the centre of the body can be eaten.
         bar_count: Number of obstacles.
         bar_thickness_mm: Thickness of an obstacle, and the diameter of its round ends.
-        bar_length_mm: Least and greatest length of an obstacle, round ends included.
-        food_bands_mm: Least and greatest x of each piece of food.
+        bar_length_mm: Minimum and maximum length of an obstacle, round ends included.
+        food_bands_mm: Minimum and maximum x of each piece of food.
         tick_s: Length of a control tick.
-        max_wheel_speed_mm_s: Faster wheel speeds, either way, are cut to this.
+        max_wheel_speed_mm_s: Limit of the wheel speeds, forward and backward.
     """
 
     width_mm: float = 4000.0

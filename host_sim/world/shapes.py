@@ -1,4 +1,4 @@
-"""Collision types and filters: who meets whom in a pymunk space."""
+"""Collision types and filters: which shapes collide in a pymunk space."""
 
 import pymunk
 
@@ -9,7 +9,7 @@ DISC = 2
 """Collision type of the robots' discs."""
 
 CONES = 100
-"""Collision types from here on are those of cones, each its own."""
+"""First collision type of the cones; each cone has its own."""
 
 _OBSTACLES, _DISCS, _CONES = 1, 2, 4
 
@@ -17,15 +17,15 @@ OBSTACLE_FILTER = pymunk.ShapeFilter(categories=_OBSTACLES)
 
 
 def disc_filter(group: int) -> pymunk.ShapeFilter:
-    """The filter of a body's disc: it meets everything but its own cones."""
+    """The filter of a body's disc: it collides with everything but its own cones."""
     return pymunk.ShapeFilter(group=group, categories=_DISCS)
 
 
 def cone_filter(group: int) -> pymunk.ShapeFilter:
-    """The filter of a body's cones: they meet obstacles and the discs of other bodies."""
+    """The filter of a body's cones: they detect obstacles and the discs of other bodies."""
     return pymunk.ShapeFilter(group=group, categories=_CONES, mask=_OBSTACLES | _DISCS)
 
 
 def sight_filter(group: int) -> pymunk.ShapeFilter:
-    """The filter of a body's view: obstacles and other bodies hide what is behind them."""
+    """The filter of a body's line of sight: obstacles and other bodies hide what is behind them."""
     return pymunk.ShapeFilter(group=group, mask=_OBSTACLES | _DISCS)

@@ -85,7 +85,7 @@ def test_a_robot_of_another_dbc_is_refused(client_with):
 
 
 def test_no_robot_at_all_is_named(client_with):
-    with pytest.raises(RobotError, match="no robot of node 1 answered"):
+    with pytest.raises(RobotError, match="no robot answered as node 1"):
         handshake(client_with(lambda _: []), 0.5)
 
 

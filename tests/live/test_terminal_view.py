@@ -259,4 +259,4 @@ def test_without_a_terminal_it_is_wrong_usage(tmp_path):
     done = subprocess.run(command, input="", capture_output=True, text=True, timeout=DEADLINE_S, check=False)
 
     assert done.returncode == 2
-    assert re.fullmatch(r"octet: --terminal draws on a terminal.*\n", done.stderr)
+    assert re.fullmatch(r"octet: --terminal needs a terminal.*\n", done.stderr)

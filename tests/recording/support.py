@@ -82,7 +82,7 @@ def without(log: Path, name: str, **signals: int) -> None:
 
     def stays(line: str) -> bool:
         frame_id, data = line.split()[2].split("#")
-        said = protocol.decode(Frame(int(frame_id, 16), bytes.fromhex(data)))
-        return said is None or said.name != name or not signals.items() <= said.signals.items()
+        decoded = protocol.decode(Frame(int(frame_id, 16), bytes.fromhex(data)))
+        return decoded is None or decoded.name != name or not signals.items() <= decoded.signals.items()
 
     log.write_text("".join(filter(stays, log.read_text().splitlines(keepends=True))))

@@ -81,7 +81,7 @@ def make_world_folder(log: Path) -> None:
 BAD = {
     cut_inside_a_line: (1, "cut short"),
     cut_before_the_first_tick: (1, "no tick"),
-    make_binary: (2, "not even text"),
+    make_binary: (2, "it is not text"),
     make_text: (1, "line 1"),
     make_empty: (1, "empty"),
     remove: (2, "No such file"),
@@ -90,7 +90,7 @@ BAD = {
     take_the_world_of_another_seed: (1, "not recorded in the world of"),
     let_the_world_begin_later: (1, "begins later"),
     edit_what_cannot_be: (1, "no number 77"),
-    make_world_no_json: (1, "no world file"),
+    make_world_no_json: (1, "not a world file"),
     make_world_folder: (2, "directory"),
 }
 
@@ -104,9 +104,9 @@ def test_what_is_no_run_is_one_line_and_leaves_nothing(short, tmp_path, capsys, 
 
     assert main([command[0], str(short.log), command[1], str(made)]) == code
 
-    told = capsys.readouterr().err
-    assert re.fullmatch(r"octet: .*\n", told)
-    assert named in told
+    message = capsys.readouterr().err
+    assert re.fullmatch(r"octet: .*\n", message)
+    assert named in message
     assert not made.exists()
 
 

@@ -21,9 +21,9 @@ DRIVES = 250
 
 
 def test_the_old_log_has_a_hash_of_its_own_time():
-    said = [Protocol().decode(line.frame) for line in read_log(OLD)]
+    messages = [Protocol().decode(line.frame) for line in read_log(OLD)]
 
-    assert {what.signals["dbc_hash"] for what in said if what.name == "HEARTBEAT"} == {HASH}
+    assert {message.signals["dbc_hash"] for message in messages if message.name == "HEARTBEAT"} == {HASH}
     assert HASH != LAYOUT_HASH
 
 
@@ -34,9 +34,9 @@ def test_an_old_log_replays_without_a_difference():
 
 
 def test_an_old_log_is_found_again_in_its_world():
-    found = resimulate(OLD)
+    result = resimulate(OLD)
 
-    assert (found.seed, found.stopped) == (21, True)
+    assert (result.seed, result.stopped) == (21, True)
 
 
 def test_an_old_log_with_two_drives_exchanged_differs(tmp_path):

@@ -46,20 +46,20 @@ def assert_equal(one: Trajectory, other: Trajectory) -> None:
 def test_the_state_at_a_tick_is_that_of_the_log(tmp_path, seed):
     log = record_run(tmp_path, seed, environments=2, limit_s=60.0).log
     protocol = Protocol()
-    said = [protocol.decode(line.frame) for line in read_log(log)]
-    senses = [what.signals for what in said if what.name == "SENSES"]
-    drives = [what.signals for what in said if what.name == "DRIVE"]
+    messages = [protocol.decode(line.frame) for line in read_log(log)]
+    senses = [message.signals for message in messages if message.name == "SENSES"]
+    drives = [message.signals for message in messages if message.name == "DRIVE"]
 
-    found = resimulate(log).trajectory
+    trajectory = resimulate(log).trajectory
 
-    assert found.ticks == len(senses) == len(drives)
-    assert found.tracks[0].column("beacon_mm").tolist() == [frame["beacon"] for frame in senses]
+    assert trajectory.ticks == len(senses) == len(drives)
+    assert trajectory.tracks[0].column("beacon_mm").tolist() == [frame["beacon"] for frame in senses]
     for name in ("tick", "feel", "bump", "look", "odometer_left", "odometer_right"):
-        assert found.tracks[0].column(name).tolist() == [frame[name] for frame in senses]
+        assert trajectory.tracks[0].column(name).tolist() == [frame[name] for frame in senses]
     for name in ("reason", "repeat_count", "action", "eat"):
-        assert found.tracks[0].column(name).tolist() == [frame[name] for frame in drives]
+        assert trajectory.tracks[0].column(name).tolist() == [frame[name] for frame in drives]
     for name in ("left", "right"):
-        assert found.tracks[0].column(f"{name}_mm_s").tolist() == [frame[name] for frame in drives]
+        assert trajectory.tracks[0].column(f"{name}_mm_s").tolist() == [frame[name] for frame in drives]
 
 
 def test_the_log_gives_what_was_seen_as_it_went(kept):
@@ -70,10 +70,10 @@ def test_without_a_world_file_the_environments_are_those_of_the_seed(tmp_path):
     run = record_run(tmp_path, seed=2, environments=2)
     world_path(run.log).unlink()
 
-    found = resimulate(run.log)
+    result = resimulate(run.log)
 
-    assert found.seed == 2
-    assert_equal(found.trajectory, run.trajectory)
+    assert result.seed == 2
+    assert_equal(result.trajectory, run.trajectory)
 
 
 def meddle(simulation: Simulation, run_recorder: RunRecorder) -> None:
@@ -93,14 +93,14 @@ def meddle(simulation: Simulation, run_recorder: RunRecorder) -> None:
 def test_what_people_did_happens_again(tmp_path):
     run = record_run(tmp_path, seed=3, environments=2, limit_s=12.0, meddle=meddle)
 
-    found = resimulate(run.log).trajectory
+    trajectory = resimulate(run.log).trajectory
 
-    assert_equal(found, run.trajectory)
-    assert [tick for tick, _ in found.scenes] == [0, 100, 150, 180, 200, 600]
-    assert found.at(160)["lifted"] == 1
-    assert found.at(299)["frozen"] == 0
-    assert found.at(300)["frozen"] == 1
-    assert {"node": 1, "tick": 250, "cell": 1, "side": 2, "by_hand": 1} in found.tracks[0].lessons
+    assert_equal(trajectory, run.trajectory)
+    assert [tick for tick, _ in trajectory.scenes] == [0, 100, 150, 180, 200, 600]
+    assert trajectory.at(160)["lifted"] == 1
+    assert trajectory.at(299)["frozen"] == 0
+    assert trajectory.at(300)["frozen"] == 1
+    assert {"node": 1, "tick": 250, "cell": 1, "side": 2, "by_hand": 1} in trajectory.tracks[0].lessons
 
 
 def test_what_people_did_live_happens_again(tmp_path):
@@ -148,7 +148,8 @@ def test_senses_that_contradict_the_world_are_named(short):
     lines[index] = f"{stamp} {channel} {changed.id:03X}#{changed.data.hex().upper()}\n"
     short.log.write_text("".join(lines))
 
-    with pytest.raises(OctetError, match=rf"at {recorded.time_us / 1e6:.2f} s feel \d+ and not \d+; .*--no-world"):
+    when = f"at {recorded.time_us / 1e6:.2f} s"
+    with pytest.raises(OctetError, match=rf"{when} feel is \d+, expected \d+; .*--no-world"):
         resimulate(short.log)
 
 
@@ -156,7 +157,7 @@ def test_a_run_with_another_limit_needs_its_world_file(tmp_path):
     run = record_run(tmp_path, seed=2, environments=2, limit_s=3.0)
     world_path(run.log).unlink()
 
-    with pytest.raises(OctetError, match=r"world of seed 2: at \d+\.\d\d s .* put the run\.world\.json"):
+    with pytest.raises(OctetError, match=r"world of seed 2: at \d+\.\d\d s .* put that run's run\.world\.json"):
         resimulate(run.log)
 
 
@@ -164,11 +165,11 @@ def test_without_a_seed_the_way_is_reckoned_from_the_odometers(short):
     world_path(short.log).unlink()
     without(short.log, "COMMAND", opcode=2)
 
-    found = resimulate(short.log)
+    result = resimulate(short.log)
 
-    assert found.seed is None
-    assert found.trajectory.scenes[0][1]["bars"] == []
-    seen, reckoned = short.trajectory.tracks[0].poses(), found.trajectory.tracks[0].poses()
+    assert result.seed is None
+    assert result.trajectory.scenes[0][1]["bars"] == []
+    seen, reckoned = short.trajectory.tracks[0].poses(), result.trajectory.tracks[0].poses()
     assert np.hypot(*np.diff(reckoned[:300, :2], axis=0).T) == pytest.approx(
         np.hypot(*np.diff(seen[:300, :2], axis=0).T), abs=0.15
     )
@@ -177,13 +178,13 @@ def test_without_a_seed_the_way_is_reckoned_from_the_odometers(short):
 
 
 def test_in_the_open_all_of_the_way_lies_in_the_arena(kept):
-    found = resimulate(kept.log, in_the_open=True).trajectory
+    trajectory = resimulate(kept.log, ignore_world=True).trajectory
 
-    x, y, _ = found.tracks[0].poses().T
+    x, y, _ = trajectory.tracks[0].poses().T
     assert x.min() > 0
     assert y.min() > 0
-    assert x.max() < found.params.width_mm
-    assert y.max() < found.params.height_mm
+    assert x.max() < trajectory.params.width_mm
+    assert y.max() < trajectory.params.height_mm
 
 
 def test_a_log_without_its_end_gives_what_it_has_and_says_so(short, tmp_path, capsys):
@@ -191,7 +192,7 @@ def test_a_log_without_its_end_gives_what_it_has_and_says_so(short, tmp_path, ca
     short.log.write_text("".join(lines[:401]))
 
     assert main(["replay", str(short.log), "--html", str(tmp_path / "page.html")]) == 0
-    assert capsys.readouterr().err == f"octet: {short.log} ends before its run does; what it has is shown\n"
+    assert capsys.readouterr().err == f"octet: {short.log} ends before the run does; showing what it has\n"
     assert not resimulate(short.log).stopped
 
 
@@ -227,16 +228,16 @@ def test_on_its_own_clock_a_body_holds_a_drive_for_a_while_and_then_rests(short,
 def test_of_a_very_long_run_the_last_environments_are_kept(kept, monkeypatch):
     monkeypatch.setattr(run_recorder_module, "TICKS_MAX", 1000)
 
-    found = resimulate(kept.log).trajectory
+    trajectory = resimulate(kept.log).trajectory
 
     first = kept.trajectory.scenes[1][0]
-    assert found.first_tick == first
-    assert found.ticks == kept.trajectory.ticks
-    assert found.at(first) == kept.trajectory.at(first)
-    assert found.at(found.ticks - 1) == kept.trajectory.at(found.ticks - 1)
-    assert found.events() == [event for event in kept.trajectory.events() if event.tick >= first]
+    assert trajectory.first_tick == first
+    assert trajectory.ticks == kept.trajectory.ticks
+    assert trajectory.at(first) == kept.trajectory.at(first)
+    assert trajectory.at(trajectory.ticks - 1) == kept.trajectory.at(trajectory.ticks - 1)
+    assert trajectory.events() == [event for event in kept.trajectory.events() if event.tick >= first]
     with pytest.raises(IndexError):
-        found.at(first - 1)
+        trajectory.at(first - 1)
 
 
 def test_several_robots_are_found_again(tmp_path):
@@ -246,7 +247,7 @@ def test_several_robots_are_found_again(tmp_path):
         recorder = run_through(simulation)
     write_world(simulation.record, tmp_path / "run.world.json")
 
-    found = resimulate(tmp_path / "run.log").trajectory
+    trajectory = resimulate(tmp_path / "run.log").trajectory
 
-    assert [track.node for track in found.tracks] == [1, 2, 3]
-    assert_equal(found, recorder.trajectory)
+    assert [track.node for track in trajectory.tracks] == [1, 2, 3]
+    assert_equal(trajectory, recorder.trajectory)

@@ -74,7 +74,7 @@ GOOD = {"format": 1, "seed": 1, "of": 5, "limit_ticks": 9, "environments": [], "
 def test_a_damaged_file_is_refused(tmp_path, change):
     path = tmp_path / "run.world.json"
     path.write_text(json.dumps({**GOOD, **change}))
-    with pytest.raises(OctetError, match="no world file"):
+    with pytest.raises(OctetError, match="not a world file"):
         read_world(path)
 
 
@@ -82,7 +82,7 @@ def test_a_damaged_file_is_refused(tmp_path, change):
 def test_what_is_no_object_is_refused(tmp_path, content):
     path = tmp_path / "run.world.json"
     path.write_bytes(content)
-    with pytest.raises(OctetError, match="no world file"):
+    with pytest.raises(OctetError, match="not a world file"):
         read_world(path)
 
 

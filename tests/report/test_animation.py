@@ -122,14 +122,14 @@ def test_the_still_is_the_picture_that_a_run_leaves(tmp_path):
 )
 def test_a_clip_of_nothing_is_wrong_usage(short, capsys, words, named):
     assert main(["picture", str(short.log), *words]) == 2
-    told = capsys.readouterr().err
-    assert re.fullmatch(r"octet: .*\n", told)
-    assert named in told
+    message = capsys.readouterr().err
+    assert re.fullmatch(r"octet: .*\n", message)
+    assert named in message
 
 
 def test_a_clip_without_end_is_refused(kept, tmp_path, capsys):
     assert main(["picture", str(kept.log), "--gif", str(tmp_path / "x.gif")]) == 2
-    assert "600 the most" in capsys.readouterr().err
+    assert "more than 600: use --from" in capsys.readouterr().err
 
 
 def test_the_images_of_the_readme_are_small_and_whole():

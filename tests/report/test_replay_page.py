@@ -130,9 +130,9 @@ def test_columns_come_out_as_they_went_in(columns):
 
 
 def test_a_reckoned_way_makes_a_page_as_well(kept):
-    found: Trajectory = resimulate(kept.log, in_the_open=True).trajectory
+    trajectory: Trajectory = resimulate(kept.log, ignore_world=True).trajectory
 
-    run = run_in(page(run_data(found, "somewhere")))
+    run = run_in(page(run_data(trajectory, "somewhere")))
 
     assert run["scenes"][0][1]["food"] == []
     assert run["ticks"] == kept.trajectory.ticks

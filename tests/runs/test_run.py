@@ -204,7 +204,7 @@ def test_each_of_several_robots_has_its_memory_file(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("--robots", "2", "--node", "63", "--bus", "none"), "nodes go up to 63"),
+        (("--robots", "2", "--node", "63", "--bus", "none"), "the last is 63"),
         (("--robots", "64", "--bus", "none"), "1 to 63"),
         (("--robots", "2", "--bus", "virtual:x", "--robot", "external"), "socketcan, fd or none"),
     ],
