@@ -1,19 +1,62 @@
 """Atomic file writes."""
 
+import os
+import stat
+import tempfile
 from pathlib import Path
 
 from host_sim.errors import OctetError
 
 
 def write_bytes(path: Path, content: bytes) -> None:
-    """Writes a file atomically: an existing file stays as it is until the new one is complete.
+    """Writes a file atomically: an existing file stays as it is until the new one is complete and on the disk.
+
+    A link stays a link: the file that it names is written. An existing file keeps its mode and its owner.
 
     Raises:
-        OctetError: The file cannot be written.
+        OctetError: The file cannot be written, or is not a regular file, such as a device.
     """
-    part = path.with_name(path.name + ".part")
     try:
-        part.write_bytes(content)
-        part.replace(path)
+        target = Path(os.path.realpath(path))
+        before = target.stat() if target.exists() else None
+        if before is not None and not stat.S_ISREG(before.st_mode):
+            raise OctetError(f"cannot write {path}: it is not a regular file")
+        descriptor, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        try:
+            _fill(descriptor, content, before)
+            Path(name).replace(target)
+        except BaseException:
+            Path(name).unlink()
+            raise
+        _sync_folder(target.parent)
     except OSError as error:
         raise OctetError(f"cannot write {path}: {error.strerror}") from error
+
+
+def _fill(descriptor: int, content: bytes, before: os.stat_result | None) -> None:
+    with os.fdopen(descriptor, "wb") as file:
+        file.write(content)
+        file.flush()
+        if before is None:
+            os.fchmod(descriptor, 0o666 & ~_umask())
+        else:
+            os.fchmod(descriptor, stat.S_IMODE(before.st_mode))
+            if os.geteuid() == 0:
+                os.fchown(descriptor, before.st_uid, before.st_gid)
+        os.fsync(descriptor)
+
+
+def _umask() -> int:
+    """The process's mask, which can only be read by setting it."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def _sync_folder(folder: Path) -> None:
+    """A rename is on the disk once its folder is."""
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -19,7 +19,7 @@ from host_sim.live.progress import Progress
 from host_sim.live.server import Listener
 from host_sim.live.terminal_view import watch_in_terminal
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS
-from host_sim.recording.memory_file import load_memory, memory_path, save_memory
+from host_sim.recording.memory_file import MemorySaver, load_memory, memory_path
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, environment_line, summarize
 from host_sim.recording.trajectory import Trajectory
@@ -52,16 +52,18 @@ def conduct(options: RunOptions) -> Summary:
         UsageError: The options are invalid; nothing was changed.
         OctetError: The run could not continue; its log up to there was written.
     """
-    memories = _memories(options)
+    loaded = [load_memory(path) for path in _memory_paths(options)]
     _make_folder(options.out)
     with ExitStack() as stack:
         listener = _open_listener(stack, options.watch)
         log = FrameLog(options.out / LOG)
         stack.callback(log.close)
+        memories = _first_memories(options, loaded)
         simulation = stack.enter_context(
             make(options.config, log, memories, lambda client: _print_robot(options, client))
         )
         recorder = RunRecorder.of(simulation, _boredom_limit(options))
+        _save_memories(stack, simulation, options, loaded)
         began = time.monotonic()
         episodes = _simulate(simulation, recorder, options, listener)
         for client in simulation.clients:
@@ -83,14 +85,33 @@ def _boredom_limit(options: RunOptions) -> int:
     return options.config.settings.get("boredom_limit", PARAMETERS["boredom_limit"].default)
 
 
-def _memories(options: RunOptions) -> list[Memory | None]:
+def _first_memories(options: RunOptions, loaded: Sequence[Memory | None]) -> list[Memory | None]:
     """Each robot's memory at its start, from its file.
 
     Where the file does not exist yet: a robot that is started here has an empty memory; that of an external one is
     erased.
     """
     missing = _NOTHING if options.config.robot == "external" else None
-    return [load_memory(path) or missing for path in _memory_paths(options)]
+    return [memory or missing for memory in loaded]
+
+
+def _save_memories(
+    stack: ExitStack, simulation: Simulation, options: RunOptions, loaded: Sequence[Memory | None]
+) -> None:
+    """Saves each memory as soon as it has changed, and once more when the run ends, however it does."""
+    savers = [
+        MemorySaver(path, memory, lambda line: print(f"octet: {line}", file=sys.stderr))
+        for path, memory in zip(_memory_paths(options), loaded, strict=True)
+    ]
+    if not savers:
+        return
+
+    def save(simulation: Simulation) -> None:
+        for saver, client in zip(savers, simulation.clients, strict=True):
+            saver.save(client.memory)
+
+    stack.callback(save, simulation)
+    simulation.watch = _each(simulation.watch, save)
 
 
 def _memory_paths(options: RunOptions) -> list[Path]:
@@ -176,9 +197,7 @@ def _show(
 
 
 def _write_outputs(options: RunOptions, summary: Summary, trajectory: Trajectory) -> None:
-    """Writes and prints the results of a run, the memories first: they are worth the most."""
-    for path, robot in zip(_memory_paths(options), summary.robots, strict=False):
-        save_memory(path, robot["memory"])
+    """Writes and prints the results of a run."""
     summary.write(options.out / SUMMARY)
     if trajectory.ticks:
         write_picture(options.out / PICTURE, trajectory)

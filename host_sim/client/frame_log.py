@@ -3,8 +3,10 @@
 Time stamps are in robot time, so that a log depends only on the seed and the options.
 """
 
+import errno
 import hashlib
 import os
+import stat
 from pathlib import Path
 
 from host_sim.errors import OctetError, UsageError
@@ -23,7 +25,7 @@ def line_of(time_us: int, frame: Frame) -> str:
 
 
 class FrameLog:
-    """Writes a log to `PATH.part`, which replaces an old log of the same name only when it is closed.
+    """Writes a log to `PATH.part`, which replaces an old log of the same name only when it is closed, and whole.
 
     Without a path nothing is written; the digest is computed all the same.
     """
@@ -39,8 +41,9 @@ class FrameLog:
         self.set_time(0)
         self._lines: list[str] = []
         self._digest = hashlib.sha256()
+        self._failed = False
         try:
-            self._file = self._part.open("wb")
+            self._file = open(self._part, "wb", opener=_open_regular)  # noqa: SIM115 - closed by close()
         except OSError as error:
             reason = f"{error.strerror}; choose another folder with --out"
             raise UsageError(f"cannot write {self._part}: {reason}") from None
@@ -72,6 +75,9 @@ class FrameLog:
         """
         if self._file.closed:
             return self._digest.hexdigest()
+        if self._failed:
+            self._file.close()
+            return self._digest.hexdigest()
         self._flush()
         try:
             self._file.close()
@@ -92,4 +98,16 @@ class FrameLog:
         try:
             self._file.write(block)
         except OSError as error:
+            self._failed = True
             raise OctetError(f"cannot write {self._part}: {error.strerror}") from error
+
+
+def _open_regular(path: str, flags: int) -> int:
+    """Opens a file without following a link, and without waiting for the reader of a pipe."""
+    if path == os.devnull:
+        return os.open(path, flags)
+    descriptor = os.open(path, flags | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+    if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+        os.close(descriptor)
+        raise OSError(errno.EINVAL, "it is not a regular file")
+    return descriptor

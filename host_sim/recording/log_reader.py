@@ -7,8 +7,10 @@ from typing import NamedTuple
 
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import Frame, Protocol, node_of
+from host_sim.regular_file import read_bytes
 
-_LINE = re.compile(r"\((\d+)\.(\d{6})\) (\S+) ([0-9A-F]{3})#((?:[0-9A-F]{2}){0,8})")
+_SIZE_MAX = 2_000_000_000
+_LINE = re.compile(r"\((\d{1,12})\.(\d{6})\) (\S+) ([0-9A-F]{3})#((?:[0-9A-F]{2}){0,8})")
 
 
 class Recorded(NamedTuple):
@@ -29,7 +31,7 @@ def read_log(path: Path) -> Iterator[Recorded]:
         OctetError: The file is empty, a line is not a frame, or the last line is cut short.
     """
     try:
-        text = path.read_text(encoding="ascii")
+        text = read_bytes(path, _SIZE_MAX).decode("ascii")
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
     except UnicodeDecodeError:

@@ -1,11 +1,15 @@
 """Memory files: exactly eight bytes, cell 0 first."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import UsageError
 from host_sim.protocol.generated import CELL_COUNT, CELL_MAX, SIDES
+from host_sim.regular_file import read_bytes
+
+_SIZE_MAX = 4096
+"""Larger files are not looked at."""
 
 
 def load_memory(path: Path) -> tuple[int, ...] | None:
@@ -15,11 +19,9 @@ def load_memory(path: Path) -> tuple[int, ...] | None:
         UsageError: The file cannot be read, or is not a memory file.
     """
     try:
-        content = path.read_bytes()
+        content = read_bytes(path, _SIZE_MAX)
     except FileNotFoundError:
         return None
-    except OSError as error:
-        raise UsageError(f"cannot read the memory file {path}: {error.strerror}") from None
     if len(content) != CELL_COUNT:
         raise UsageError(f"{path} is not a memory file: {len(content)} bytes, expected {CELL_COUNT} (file unchanged)")
     for cell, (value, most) in enumerate(zip(content, CELL_MAX, strict=True)):
@@ -31,13 +33,45 @@ def load_memory(path: Path) -> tuple[int, ...] | None:
     return tuple(content)
 
 
-def save_memory(path: Path, memory: Sequence[int]) -> None:
-    """Writes a memory file atomically.
+class MemorySaver:
+    """Keeps a memory file up to date while a robot learns.
 
-    Raises:
-        OctetError: The file cannot be written.
+    What the file held before is never lost to a memory that knows less, as that of a robot that was reset: it is kept
+    beside it, as `FILE.1`.
     """
-    write_bytes(path, bytes(memory))
+
+    def __init__(self, path: Path, loaded: Sequence[int] | None, report: Callable[[str], object]) -> None:
+        """Saves nothing yet.
+
+        Args:
+            path: The memory file.
+            loaded: The eight cells that it holds; None if it does not exist yet.
+            report: Called with one line when the old memory is kept.
+        """
+        self._path, self._report = path, report
+        self._saved = None if loaded is None else tuple(loaded)
+        self._backed_up = False
+
+    def save(self, memory: Sequence[int]) -> None:
+        """Saves a memory if it has changed.
+
+        Raises:
+            OctetError: The file cannot be written; the old one is unchanged.
+        """
+        if memory == self._saved:
+            return
+        if self._saved is not None and any(old and not new for old, new in zip(self._saved, memory, strict=True)):
+            self._back_up(self._saved)
+        write_bytes(self._path, bytes(memory))
+        self._saved = tuple(memory)
+
+    def _back_up(self, old: Sequence[int]) -> None:
+        """Keeps the first memory that knew more; later ones of the same run are this run's own doing."""
+        if not self._backed_up:
+            kept = self._path.with_name(self._path.name + ".1")
+            write_bytes(kept, bytes(old))
+            self._report(f"cells of {self._path} were erased; the memory before that is in {kept}")
+            self._backed_up = True
 
 
 def memory_path(path: Path, node: int, robots: int) -> Path:

@@ -12,10 +12,12 @@ from typing import Any
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import NODE_MAX
+from host_sim.regular_file import read_bytes
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
 from host_sim.world.edits import edit_from, edit_to, whole
 
 _FORMAT = 1
+_SIZE_MAX = 16_000_000
 _SEED_MAX, _TICK_MAX, _NUMBER_MAX = 2**32 - 1, 2**53, 1_000_000
 
 
@@ -50,7 +52,7 @@ def read_world(path: Path) -> WorldRecord:
         OctetError: The file is not a world file of this format; the message says why.
     """
     try:
-        content = json.loads(path.read_bytes())
+        content = json.loads(read_bytes(path, _SIZE_MAX))
         if not isinstance(content, dict) or content.get("format") != _FORMAT:
             raise ValueError(f'expected an object with "format": {_FORMAT}')
         return _record(content)

@@ -1,6 +1,8 @@
 """Whatever is typed wrong gets one clear line and an exit code, and nothing is overwritten."""
 
 import os
+import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -75,16 +77,19 @@ def test_an_output_folder_that_is_a_file_is_refused(tmp_path):
     assert in_the_way.read_text() == "mine"
 
 
-def test_a_full_disk_is_named(tmp_path):
-    out = tmp_path / "out"
-    out.mkdir()
-    (out / "run.log.part").symlink_to("/dev/full")
+def no_large_files() -> None:
+    """No file may be larger than 100 kB: as good as a disk with no more room."""
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000))
 
-    done = octet("run", "--bus", "none", "--environments", "1", "--out", out)
+
+def test_a_full_disk_is_named_and_the_old_log_stays(tmp_path):
+    (tmp_path / "run.log").write_text("old")
+
+    done = octet("run", "--bus", "none", "--environments", "1", "--out", tmp_path, preexec_fn=no_large_files)
 
     assert done.returncode == 1
-    assert "No space left" in done.stderr
-    assert done.stderr.count("\n") == 1
+    assert re.fullmatch(r"octet: cannot write .*run\.log\.part: File too large\n", done.stderr)
+    assert (tmp_path / "run.log").read_text() == "old"
 
 
 NO_LOGS = {

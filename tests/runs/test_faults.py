@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from tests.runs.support import octet, robot_of, start_octet, wait_for_lines
+from tests.runs.support import octet, robot_of, start_octet, wait_for_lines, wait_until
 
 LONG = ("--environments", "20", "--bus", "fd", "--quiet")
 
@@ -35,6 +35,33 @@ def test_a_robot_that_is_killed_ends_the_run_with_one_line(long_run, tmp_path):
     assert "far end is closed" in errors or "killed by signal 9" in errors
     assert octet("replay", tmp_path / "run.log").returncode in (0, 1)
     assert (tmp_path / "run.log").read_bytes().endswith(b"\n")
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_whatever_ends_the_simulator_the_last_lesson_is_in_the_memory_file(tmp_path, number):
+    memory = tmp_path / "robot.mem"
+    process = start_octet("run", "--out", tmp_path, "--memory", memory, *LONG)
+    wait_until(lambda: memory.exists() and any(memory.read_bytes()), "a lesson")
+
+    process.send_signal(number)
+    process.communicate(timeout=20)
+
+    learned = memory.read_bytes()
+    assert len(learned) == 8
+    assert any(learned)
+
+
+def test_a_robot_that_is_killed_leaves_what_it_had_learned(tmp_path):
+    memory = tmp_path / "robot.mem"
+    process = start_octet("run", "--out", tmp_path, "--memory", memory, *LONG)
+    robot = robot_of(process)
+    wait_until(lambda: memory.exists() and any(memory.read_bytes()), "a lesson")
+
+    os.kill(robot, signal.SIGKILL)
+    process.communicate(timeout=20)
+
+    assert process.returncode == 1
+    assert any(memory.read_bytes())
 
 
 def test_a_robot_that_hangs_is_named_with_its_tick_and_last_frame(long_run):

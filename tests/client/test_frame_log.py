@@ -1,0 +1,88 @@
+"""The log of a run: whole, or not in the place of the old one."""
+
+import hashlib
+import os
+from pathlib import Path
+
+import pytest
+
+from host_sim.client.frame_log import FrameLog, line_of
+from host_sim.errors import OctetError, UsageError
+from host_sim.protocol.codec import Frame
+
+FRAME = Frame(0x081, bytes(range(8)))
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "run.log"
+
+
+def test_what_is_added_is_written_and_its_digest_is_returned(path):
+    log = FrameLog(path)
+    log.set_time(1_020_000)
+    log.add(FRAME)
+
+    digest = log.close()
+
+    assert path.read_text() == line_of(1_020_000, FRAME) + "\n"
+    assert digest == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def test_the_old_log_stays_until_the_new_one_is_closed(path):
+    path.write_text("old")
+    log = FrameLog(path)
+    log.add(FRAME)
+
+    assert path.read_text() == "old"
+    log.close()
+    assert path.read_text() != "old"
+
+
+def test_a_log_without_a_frame_does_not_replace_the_old_one(path):
+    path.write_text("old")
+
+    FrameLog(path).close()
+
+    assert path.read_text() == "old"
+    assert [file.name for file in path.parent.iterdir()] == ["run.log"]
+
+
+def test_a_log_that_could_not_be_written_does_not_replace_the_old_one(path):
+    path.write_text("old")
+    log = FrameLog(path)
+    log._file.close()
+    log._file = Path("/dev/full").open("wb", buffering=0)  # noqa: SIM115 - the log closes it
+
+    with pytest.raises(OctetError, match=r"cannot write .*run\.log\.part: No space left on device"):
+        add_many(log)
+    log.close()
+
+    assert path.read_text() == "old"
+
+
+def add_many(log):
+    for _ in range(5000):
+        log.add(FRAME)
+
+
+def make_pipe(part):
+    os.mkfifo(part)
+
+
+def make_link(part):
+    (part.parent / "elsewhere").write_text("mine")
+    part.symlink_to("elsewhere")
+
+
+@pytest.mark.parametrize("make", [make_pipe, make_link])
+def test_a_part_file_that_is_something_else_is_refused_and_left(path, make):
+    part = path.with_name("run.log.part")
+    make(part)
+
+    with pytest.raises(UsageError, match="choose another folder"):
+        FrameLog(path)
+
+    assert not path.exists()
+    elsewhere = path.parent / "elsewhere"
+    assert not elsewhere.exists() or elsewhere.read_text() == "mine"
