@@ -1,15 +1,26 @@
 """The command line, `tools/octet COMMAND ...`. Each module of this package named *_command adds one command."""
 
+import contextlib
 import importlib
 import os
 import pkgutil
+import signal
 import sys
 from collections.abc import Iterator, Sequence
-from types import ModuleType
+from types import FrameType, ModuleType
+from typing import NoReturn
 
 from host_sim import cli
 from host_sim.cli.parsing import Parser
 from host_sim.errors import OctetError
+
+
+class _EndedBySignal(KeyboardInterrupt):
+    """SIGTERM or SIGHUP: ends a command as Ctrl-C does."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__()
+        self.number = number
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -19,26 +30,49 @@ def main(arguments: Sequence[str] | None = None) -> int:
         arguments: The arguments after the program's name; None for those of this process.
 
     Returns:
-        The exit code: 0 success, 1 error, 2 wrong usage, 130 interrupted.
+        The exit code: 0 success, 1 error, 2 wrong usage, 128 and the signal's number where a signal ended it.
     """
+    with _signals_raised():
+        try:
+            return _run(arguments)
+        except OctetError as error:
+            print(f"octet: {error}", file=sys.stderr)
+            return error.exit_code
+        except BrokenPipeError:
+            # The reader of stdout has closed it; the rest of the output must not fail a second time at exit.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return 1
+        except KeyboardInterrupt as end:
+            number = end.number if isinstance(end, _EndedBySignal) else signal.SIGINT
+            print(f"octet: ended by {signal.Signals(number).name}; the log so far was written", file=sys.stderr)
+            return 128 + number
+
+
+def _run(arguments: Sequence[str] | None) -> int:
     parser = Parser(prog="tools/octet", description="Octet: a robot that learns with eight bytes of memory.")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
     for module in _command_modules():
         module.add(commands)
-    try:
-        parsed = parser.parse_args(arguments)
-        code: int = parsed.command(parsed)
-    except OctetError as error:
-        print(f"octet: {error}", file=sys.stderr)
-        code = error.exit_code
-    except BrokenPipeError:
-        # The reader of stdout has closed it; the rest of the output must not fail a second time at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        code = 1
-    except KeyboardInterrupt:
-        print("octet: interrupted; the log so far was written", file=sys.stderr)
-        code = 130
+    parsed = parser.parse_args(arguments)
+    code: int = parsed.command(parsed)
     return code
+
+
+@contextlib.contextmanager
+def _signals_raised() -> Iterator[None]:
+    """Has SIGTERM and SIGHUP raise here, unless the process was started to ignore them, as by nohup."""
+    numbers = [n for n in (signal.SIGTERM, signal.SIGHUP) if signal.getsignal(n) == signal.SIG_DFL]
+    for number in numbers:
+        signal.signal(number, _raise_end)
+    try:
+        yield
+    finally:
+        for number in numbers:
+            signal.signal(number, signal.SIG_DFL)
+
+
+def _raise_end(number: int, _frame: FrameType | None) -> NoReturn:
+    raise _EndedBySignal(number)
 
 
 def _command_modules() -> Iterator[ModuleType]:

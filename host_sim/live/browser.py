@@ -28,7 +28,7 @@ def watch_run(live: PacedRun, listener: Listener, say: Callable[[str], object]) 
 
 async def _serve(live: PacedRun, listener: Listener, say: Callable[[str], object]) -> None:
     loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM):
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         loop.add_signal_handler(number, live.close)
     async with LiveServer(live, listener).serving():
         say(f"watch     {listener.url}  (Ctrl-C ends it)")

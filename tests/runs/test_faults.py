@@ -88,15 +88,17 @@ def test_a_robot_does_not_outlive_its_simulator(long_run):
     assert not os.path.exists(f"/proc/{robot}/exe")  # noqa: PTH110
 
 
-def test_an_interrupted_run_keeps_what_it_recorded(long_run, tmp_path):
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_run_that_is_ended_by_a_signal_keeps_what_it_recorded(long_run, tmp_path, number):
     process, _ = long_run
 
-    process.send_signal(signal.SIGINT)
+    process.send_signal(number)
 
     _, errors = process.communicate(timeout=20)
-    assert process.returncode == 130
-    assert errors.startswith("octet: interrupted")
+    assert process.returncode == 128 + number
+    assert errors == f"octet: ended by {number.name}; the log so far was written\n"
     assert (tmp_path / "run.log").read_bytes().count(b"\n") >= 4000
+    assert not list(tmp_path.glob("*.part"))
 
 
 def hold_up(pid: int, seconds: float) -> None:
