@@ -12,7 +12,7 @@ from host_sim.cli.run_options import RunOptions, WatchOptions, run_options
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import RobotError, UsageError
+from host_sim.errors import RobotError
 from host_sim.live.browser import watch_run
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.progress import Progress
@@ -20,6 +20,7 @@ from host_sim.live.server import Listener
 from host_sim.live.terminal_view import watch_in_terminal
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS
 from host_sim.recording.memory_file import MemorySaver, load_memory, memory_path
+from host_sim.recording.run_folder import run_folder
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, environment_line, summarize
 from host_sim.recording.trajectory import Trajectory
@@ -53,25 +54,25 @@ def conduct(options: RunOptions) -> Summary:
         OctetError: The run could not continue; its log up to there was written.
     """
     loaded = [load_memory(path) for path in _memory_paths(options)]
-    _make_folder(options.out)
-    with ExitStack() as stack:
-        listener = _open_listener(stack, options.watch)
-        log = FrameLog(options.out / LOG)
-        stack.callback(log.close)
-        memories = _first_memories(options, loaded)
-        simulation = stack.enter_context(
-            make(options.config, log, memories, lambda client: _print_robot(options, client))
-        )
-        recorder = RunRecorder.of(simulation, _boredom_limit(options))
-        _save_memories(stack, simulation, options, loaded)
-        began = time.monotonic()
-        episodes = _simulate(simulation, recorder, options, listener)
-        for client in simulation.clients:
-            stop(client)
-        wall_s = time.monotonic() - began
-        log_sha256 = log.close()
-    summary = summarize(options.config, simulation.clients, episodes, log_sha256, wall_s)
-    _write_outputs(options, summary, recorder.trajectory)
+    with run_folder(options.out):
+        with ExitStack() as stack:
+            listener = _open_listener(stack, options.watch)
+            log = FrameLog(options.out / LOG)
+            stack.callback(log.close)
+            memories = _first_memories(options, loaded)
+            simulation = stack.enter_context(
+                make(options.config, log, memories, lambda client: _print_robot(options, client))
+            )
+            recorder = RunRecorder.of(simulation, _boredom_limit(options))
+            _save_memories(stack, simulation, options, loaded)
+            began = time.monotonic()
+            episodes = _simulate(simulation, recorder, options, listener)
+            for client in simulation.clients:
+                stop(client)
+            wall_s = time.monotonic() - began
+            log_sha256 = log.close()
+        summary = summarize(options.config, simulation.clients, episodes, log_sha256, wall_s)
+        _write_outputs(options, summary, recorder.trajectory)
     return summary
 
 
@@ -119,13 +120,6 @@ def _memory_paths(options: RunOptions) -> list[Path]:
     return (
         [] if options.memory is None else [memory_path(options.memory, node, config.robots) for node in config.nodes]
     )
-
-
-def _make_folder(path: Path) -> None:
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UsageError(f"cannot make the folder {path}: {error.strerror}; choose another with --out") from None
 
 
 def _open_listener(stack: ExitStack, watch: WatchOptions | None) -> Listener | None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from host_sim.client.robot_client import RobotClient
+from host_sim.protocol.generated import TICK_SPAN
 from host_sim.robot_io import REST, Drive, Senses
 
 HOLD_TICKS = 5
@@ -55,28 +56,34 @@ class _Wheels:
     waited: int = 0
 
     def turn(self, fresh: Drive | None, tick: int, tick_s: float) -> Drive:
-        """The fresh drive, if any; else the last one for `HOLD_TICKS` ticks, then rest, until the deadline."""
+        """The drive that the body applies.
+
+        Raises:
+            RobotError: There was no answer for longer than the client's deadline.
+        """
         if fresh is not None:
             self.drive, self.waited = fresh, 0
-            return fresh
-        self.client.frames.lost += 1
-        self.waited += 1
+        else:
+            self.client.frames.lost += 1
+            self.waited += 1
         if self.waited * tick_s > self.client.deadline_s:
             raise self.client.late(tick)
-        return held(self.drive, self.waited, tick)
+        return applied(self.drive, tick, fresh is not None)
 
 
-def held(last: Drive | None, waited: int, tick: int) -> Drive:
-    """The drive that a body applies in a tick without a fresh one.
+def applied(last: Drive | None, tick: int, came: bool) -> Drive:
+    """The drive that a body applies in a tick: the last one, until it is more than `HOLD_TICKS` ticks old, then rest.
+
+    Its age counts from the senses that it answers, not from when it came.
 
     Args:
         last: The last drive; None if there was none.
-        waited: Number of ticks since then.
         tick: Number of the tick, 0..4095.
+        came: Whether the last drive came in this tick; food is eaten only then.
     """
-    if last is None or waited > HOLD_TICKS:
+    if last is None or (tick - last.tick) % TICK_SPAN > HOLD_TICKS:
         return REST._replace(tick=tick)
-    return last._replace(eat=False)
+    return last if came else last._replace(eat=False)
 
 
 class RealTime:
@@ -94,7 +101,7 @@ class RealTime:
         self._next_s = time.monotonic()
 
     def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
-        """As in `Pace`: the drives are the robots' answers, or `held` ones where no answer came."""
+        """As in `Pace`: the drives are the robots' answers, or earlier ones that are still held."""
         for wheels, sensed in zip(self._wheels, senses, strict=True):
             wheels.client.send_senses(sensed)
         # A host that was delayed does not catch up: that would not be real time either.

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
 
-from host_sim.client.pacing import held
+from host_sim.client.pacing import applied
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Opcode
@@ -18,7 +18,7 @@ class Tick(NamedTuple):
 
     Attributes:
         senses: The body's senses.
-        drive: The drive that the body applied: the robot's answer, or the `held` one without an answer.
+        drive: The drive that the body applied: the robot's answer, or an earlier one that was still held.
         memory: The robot's eight cells when it answered.
         frozen: Whether learning was frozen.
     """
@@ -77,7 +77,6 @@ class _Reader:
         self._senses: Senses | None = None
         self._fresh: Drive | None = None
         self._last: Drive | None = None
-        self._waited = 0
         self._frozen, self._lockstep = False, True
 
     def read(self, frames: Iterable[Frame]) -> Recording:
@@ -108,11 +107,9 @@ class _Reader:
 
     def _applied(self, tick: int) -> Drive:
         """The drive that the body applied: the answer, else the previous one for a while, then rest (`RealTime`)."""
-        if self._fresh is not None:
-            self._last, self._waited = self._fresh, 0
-            return self._fresh
-        self._waited += 1
-        return held(self._last, self._waited, tick)
+        came = self._fresh is not None
+        self._last = self._fresh or self._last
+        return applied(self._last, tick, came)
 
     def _accept_memory(self, memory: tuple[int, ...]) -> None:
         self._memory = memory

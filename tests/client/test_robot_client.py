@@ -188,3 +188,23 @@ def test_in_real_time_a_robot_that_is_back_is_obeyed_again(client_with):
     assert resting.left_mm_s == 0
     assert back.tick == 8
     assert back.left_mm_s > 0
+
+
+def test_in_real_time_a_drive_that_was_held_up_for_long_is_not_applied(client_with):
+    client = started(client_with(lockstep=False, deadline_s=5.0))
+    pace, late = RealTime([client], 0.02), []
+
+    def hold_up(frame: Frame) -> list[Frame]:
+        late.append(frame)
+        return []
+
+    client.link.tamper = hold_up
+    for tick in range(HOLD_TICKS + 3):
+        exchange(pace, senses(tick))
+    first = next(frame for frame in late if is_a("DRIVE")(frame))
+    client.link.tamper = lambda _: [first]
+
+    drive = exchange(pace, senses(HOLD_TICKS + 3))
+
+    assert PROTOCOL.decode_drive(first).left_mm_s > 0
+    assert (drive.left_mm_s, drive.right_mm_s) == (0, 0)

@@ -131,3 +131,13 @@ def test_frames_of_other_nodes_are_not_ours():
 def test_a_node_out_of_range_is_refused(node):
     with pytest.raises(ValueError, match=r"1\.\.63"):
         Protocol(node)
+
+
+def test_a_command_with_an_opcode_that_does_not_exist_is_decoded_without_its_signals():
+    frame = Frame(0x041, bytes.fromhex("66A9010000000000"))
+
+    decoded = Protocol().decode(frame)
+
+    assert decoded is not None
+    assert decoded.signals == {"crc": 0x66, "counter": 9, "opcode": 10, "lockstep": 1}
+    assert Protocol().describe(frame) == "COMMAND counter=9 opcode=10 lockstep=lockstep"

@@ -139,3 +139,22 @@ def test_in_real_time_a_held_up_robot_stops_and_then_goes_on(tmp_path):
     assert (process.returncode, errors) == (0, "")
     assert '"ticks": 200' in output
     assert octet("replay", tmp_path / "run.log").returncode in (0, 1)
+
+
+def test_a_second_run_does_not_write_to_the_folder_of_the_first(long_run, tmp_path):
+    process, _ = long_run
+
+    second = octet("run", "--out", tmp_path, "--bus", "none", "--environments", "1")
+
+    assert second.returncode == 2
+    assert f"is in use by another run (process {process.pid})" in second.stderr
+    assert second.stderr.count("\n") == 1
+    assert process.poll() is None
+
+
+def test_the_folder_of_a_run_that_was_killed_is_free_again(long_run, tmp_path):
+    process, _ = long_run
+    process.kill()
+    process.wait()
+
+    assert octet("run", "--out", tmp_path, "--bus", "none", "--environments", "1", "--limit-s", "1").returncode == 0
