@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "hal/hal.h"
 #include "hal/protocol/health.h"
 
 struct port {

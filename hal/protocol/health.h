@@ -2,7 +2,6 @@
 #ifndef OCTET_HEALTH_H
 #define OCTET_HEALTH_H
 
-#include "hal/hal.h"
 #include "hal/link/link.h"
 
 enum reset_cause {

@@ -3,6 +3,7 @@
 #ifndef OCTET_WIRE_H
 #define OCTET_WIRE_H
 
+#include "firmware/io.h"
 #include "hal/protocol/health.h"
 
 enum {

@@ -1,5 +1,7 @@
 #include "hal/port/cortex_m/crash.h"
 
+#include <stdbool.h>
+
 #include "hal/port/cortex_m/core.h"
 
 enum {

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include "hal/can_body/port.h"
-#include "hal/protocol/wire.h"
 #include "hal/port/posix/file_store.h"
 
 static const char USAGE[] =
