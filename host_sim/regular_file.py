@@ -25,7 +25,7 @@ def read_bytes(path: Path, limit: int) -> bytes:
                 raise UsageError(f"cannot read {path}: it is not a regular file")
             if status.st_size > limit:
                 raise UsageError(f"cannot read {path}: {status.st_size} bytes, at most {limit} are accepted")
-            return file.read(limit + 1)
+            return file.read(status.st_size)
     except FileNotFoundError:
         raise
     except OSError as error:

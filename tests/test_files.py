@@ -3,6 +3,7 @@
 import errno
 import os
 import stat
+import tracemalloc
 from pathlib import Path
 
 import pytest
@@ -114,3 +115,14 @@ def test_what_never_ends_or_is_too_large_is_refused_at_once(tmp_path, make, why)
 
     with pytest.raises(UsageError, match=why):
         read_bytes(tmp_path / "a", 8)
+
+
+def test_a_small_file_takes_little_memory_whatever_the_limit(tmp_path):
+    (tmp_path / "a").write_bytes(b"12345678")
+
+    tracemalloc.start()
+    read_bytes(tmp_path / "a", 2_000_000_000)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+
+    assert peak < 1_000_000
