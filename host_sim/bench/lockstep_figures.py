@@ -44,6 +44,9 @@ def lockstep_figures() -> list[Figure]:
         ),
         most_figure("the core's tick, in C", _core_tick_ns(), "ns", 100, "the processor"),
         most_figure("tools/run, one robot second, to its end", _start_s(), "s", 2, "importing Python's packages"),
+        most_figure(
+            "tools/setup with nothing to do", _setup_s(), "s", 0.3, "asking ninja, and hashes of a few files"
+        ),
     ]
 
 
@@ -118,6 +121,17 @@ def _python_can_turns_per_second() -> float:
 def _core_tick_ns() -> float:
     command = [os.fspath(_REFERENCE / "octet-core-tick")]
     return float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+
+
+def _setup_s() -> float:
+    """Wall time of the fastest of several calls of `tools/setup`."""
+    return min(_one_setup_s() for _ in range(ROUNDS))
+
+
+def _one_setup_s() -> float:
+    began = time.perf_counter()
+    subprocess.run([ROOT / "tools" / "setup"], check=True)
+    return time.perf_counter() - began
 
 
 def _start_s() -> float:

@@ -81,7 +81,7 @@ def test_it_keeps_the_time_of_the_wall(live):
     run = live(speed=4.0)
     began = time.monotonic()
     play(run, lambda: run.simulation.tick >= 100)
-    assert time.monotonic() - began == pytest.approx(100 * 0.02 / 4, abs=0.2)
+    assert time.monotonic() - began > 0.9 * 100 * 0.02 / 4
 
 
 def test_full_speed_waits_for_nothing(live):

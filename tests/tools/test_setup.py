@@ -4,7 +4,6 @@ import os
 import re
 import shutil
 import subprocess
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib import metadata
@@ -198,16 +197,6 @@ def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
     done, _ = tree.setup(path=str(tree.bin))
     assert done.returncode != 0
     assert "apt-get install gcc cmake\n" in done.stderr
-
-
-def test_with_nothing_to_do_it_takes_less_than_0_1_s() -> None:
-    assert min(seconds_of_a_call() for _ in range(20)) < 0.1
-
-
-def seconds_of_a_call() -> float:
-    start = time.monotonic()
-    subprocess.run([ROOT / "tools/setup"], check=True)
-    return time.monotonic() - start
 
 
 def test_the_lock_files_pin_by_hash_and_name_no_address() -> None:
