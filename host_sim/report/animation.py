@@ -46,7 +46,6 @@ _MARGIN_PX, _LINE_PX, _TEXT_PX = 10, 26, 15
 _CLOCK_PX = 70
 _BEAM, _IN_USE, _LEARNED = "#d8efe7", "#fdeecb", "#bfe5d8"
 _TURNING = (Reason.REMEMBERED, Reason.TRIAL)
-_MARK_COLOURS = tuple(mark.colour for mark in MARKS.values())
 _COLOURS = (PAPER, FLOOR, INK, OBSTACLE, CONE_LIT, CONE_DARK, _BEAM, _IN_USE, _LEARNED)
 
 
