@@ -23,6 +23,7 @@ bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
     brain->profile = profile;
     brain->repeat_count = 0;
     brain->awaits = 0;
+    brain->wants_ranges = false;
     brain->learns = begin(brain);
     return true;
 }

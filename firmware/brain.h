@@ -23,6 +23,7 @@ struct brain {
     uint8_t tried_pattern;   /* on trial: the pattern in which the turn was tried, */
     uint8_t tried_side;      /* and where to */
     bool learns;             /* as the profile has it; false: what is in the memory is not stored */
+    bool wants_ranges;       /* true: the behaviour decides by range_mm */
     bool frozen;             /* true: it learns no more */
     bool changed;            /* true: the memory is no longer what was last reported */
 };

@@ -7,7 +7,7 @@ static enum result stop(struct robot *robot)
     return RESULT_DONE;
 }
 
-static enum result start(struct robot *robot, const struct command *command)
+static enum result start(struct robot *robot, const struct command *command, uint32_t *value)
 {
     if (!brain_start(&robot->brain, command->which, command->value))
         return RESULT_UNKNOWN_PROFILE;
@@ -16,6 +16,7 @@ static enum result start(struct robot *robot, const struct command *command)
     robot->action = 0;
     motion_start(&robot->motion);
     robot->running = true;
+    *value = robot->brain.wants_ranges ? ANSWER_WANTS_RANGES : 0;
     return RESULT_DONE;
 }
 
@@ -35,9 +36,17 @@ static enum result set(struct robot *robot, const struct command *command)
     return RESULT_DONE;
 }
 
+static enum result get(const struct robot *robot, const struct command *command, uint32_t *value)
+{
+    if (command->which >= PARAMETER_COUNT)
+        return RESULT_UNKNOWN_PARAMETER;
+    *value = robot->config.value[command->which];
+    return RESULT_DONE;
+}
+
 static enum result write_memory(struct robot *robot, const struct command *command)
 {
-    if (!memory_write(&robot->brain.memory, command->which, (uint16_t)command->value))
+    if (!memory_write(&robot->brain.memory, command->which >> 4 & 1u, command->which, command->value))
         return RESULT_OUT_OF_RANGE;
     robot->brain.changed = true;
     return RESULT_DONE;
@@ -56,13 +65,13 @@ static enum result freeze(struct robot *robot, const struct command *command)
     return RESULT_DONE;
 }
 
-enum result robot_execute(struct robot *robot, const struct command *command)
+enum result robot_execute(struct robot *robot, const struct command *command, uint32_t *value)
 {
     switch (command->opcode) {
     case OPCODE_STOP:
         return stop(robot);
     case OPCODE_START:
-        return start(robot, command);
+        return start(robot, command, value);
     case OPCODE_RESUME:
         return resume(robot);
     case OPCODE_SET:
@@ -73,6 +82,10 @@ enum result robot_execute(struct robot *robot, const struct command *command)
         return erase_memory(robot);
     case OPCODE_FREEZE:
         return freeze(robot, command);
+    case OPCODE_GET:
+        return get(robot, command, value);
+    case OPCODE_REPORT:
+        return RESULT_DONE;
     default:
         return RESULT_UNKNOWN_COMMAND;
     }

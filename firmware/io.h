@@ -7,20 +7,23 @@
 
 #include "robot_words.h"
 
+enum { RANGE_NONE = 255 };   /* nothing within a sensor's reach, or not told */
+
 /* What the body senses at one control tick. */
 struct senses {
-    uint16_t tick;            /* 0..TICK_SPAN-1, wraps */
+    uint8_t tick;             /* wraps */
     uint8_t feel;             /* proximity, the sum of the FEEL_ bits */
     bool bump;                /* the body touches an obstacle */
     bool look;                /* food is seen straight ahead */
     uint16_t beacon_mm;       /* distance from the middle of the body to that food; 0: none seen */
     uint16_t odometer_left;   /* 0.1 mm, forward counts up, wraps at ODOMETER_SPAN */
     uint16_t odometer_right;
+    uint8_t range_mm[FEEL_COUNT];   /* beyond the body's rim, sensor by sensor as in feel; RANGE_NONE where nothing is */
 };
 
 /* What the wheels are to do until the next tick. */
 struct drive {
-    uint16_t tick;            /* of the senses that this answers */
+    uint8_t tick;             /* of the senses that this answers */
     int16_t left_mm_s;        /* -2047..2047, forward positive */
     int16_t right_mm_s;
     enum reason reason;
@@ -31,8 +34,9 @@ struct drive {
 
 struct command {
     enum opcode opcode;   /* other values arrive too; the robot refuses them */
-    uint8_t which;        /* start: profile. set: parameter. write: mask of cells. freeze: 1 or 0 */
-    uint32_t value;       /* start: seed. set: value. write: two bits a cell, cell p at bit 2p */
+    uint8_t which;        /* start: profile. set, get: parameter. freeze: 1 or 0. write: bit 4 for the upper four cells,
+                             bit i of 0..3 to write the i-th of the four */
+    uint32_t value;       /* start: seed. set: value. write: a byte for each of the four cells, the first one lowest */
 };
 
 enum input_kind { INPUT_SILENCE = 0, INPUT_SENSES = 1, INPUT_COMMAND = 2 };
@@ -49,11 +53,17 @@ struct report {
     uint16_t uptime_s;   /* robot time: counted in ticks, wraps */
 };
 
+enum { ANSWER_WANTS_RANGES = 1 };   /* start: the behaviour decides by range_mm */
+
 /* What one tick or one command calls for: the parts that a flag marks. */
 struct output {
     bool has_answer, has_report, has_memory, has_drive;   /* to be sent */
+    bool whole_report;                                    /* the report is waited for; else there is time for it */
+    bool silent;                                          /* all this is said because no senses came */
+    bool contradiction, denied;                           /* of the senses, and by the wheels: faults of the body */
     bool store;                                           /* the memory has changed, and is to be stored */
     enum result answer;
+    uint32_t answer_value;                                /* get: the parameter's value. start: ANSWER_WANTS_RANGES or 0 */
     struct report report;
     uint8_t memory[CELL_COUNT];
     struct drive drive;

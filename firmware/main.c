@@ -24,7 +24,7 @@ static int run_once(struct robot *robot, struct hal *hal)
     result = hal_send(hal, &out);
     /* After the drive has gone, since storing may take long. The body counts what it could not store. */
     if (out.store)
-        (void)hal_store(hal, out.memory);
+        (void)hal_store(hal, out.memory, !robot->running);
     return result;
 }
 

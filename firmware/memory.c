@@ -34,12 +34,12 @@ bool memory_adopt(struct memory *memory, const uint8_t cells[CELL_COUNT])
     return true;
 }
 
-bool memory_write(struct memory *memory, uint8_t mask, uint16_t sides)
+bool memory_write(struct memory *memory, unsigned half, uint8_t mask, uint32_t bytes)
 {
     struct memory wanted = *memory;
 
-    for (unsigned p = 0; p < CELL_COUNT; p++)
-        if (mask & (1u << p))
-            wanted.cell[p] = (uint8_t)(((unsigned)sides >> (2 * p)) & 3u);
+    for (unsigned i = 0; i < CELL_COUNT / 2; i++)
+        if (mask & (1u << i))
+            wanted.cell[CELL_COUNT / 2 * half + i] = (uint8_t)(bytes >> 8 * i);
     return memory_adopt(memory, wanted.cell);
 }

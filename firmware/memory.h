@@ -19,8 +19,8 @@ void memory_learn(struct memory *memory, uint8_t pattern, enum side side);
 bool memory_adopt(struct memory *memory, const uint8_t cells[CELL_COUNT]);
         /* Takes over all cells. False, and nothing is changed, if they are no memory. */
 
-bool memory_write(struct memory *memory, uint8_t mask, uint16_t sides);
-        /* Sets cell p to bits 2p and 2p+1 of sides for each bit p of mask. False, and nothing is changed, if one of
-           these is no side, or is one for cell 0. */
+bool memory_write(struct memory *memory, unsigned half, uint8_t mask, uint32_t bytes);
+        /* Sets the i-th cell of a half, 0 for the lower four and 1 for the upper, to byte i of bytes for each bit i, 0..3,
+           of mask. False, and nothing is changed, if they are no memory then. */
 
 #endif

@@ -29,25 +29,28 @@ static void go_on(struct robot *robot, const struct senses *senses)
         begin_next_action(robot, senses);
 }
 
-static void drive_init(struct drive *drive, const struct robot *robot, bool moving)
+/* At rest. */
+static void drive_init(struct drive *drive, const struct robot *robot, enum reason reason)
 {
     *drive = (struct drive){
         .tick = robot->tick,
-        .reason = moving ? (enum reason)robot->reason : REASON_STOP,
+        .reason = reason,
         .repeat_count = robot->brain.repeat_count,
         .action = robot->action,
+        .eat = reason == REASON_EAT,
     };
-    if (moving)
-        motion_drive(&robot->motion, &robot->config, drive);
-    drive->eat = drive->reason == REASON_EAT;
 }
 
 void robot_step(struct robot *robot, const struct senses *senses, struct drive *drive)
 {
     robot->tick = senses->tick;
-    if (robot->running)
-        go_on(robot, senses);
-    drive_init(drive, robot, robot->running);
+    if (!robot->running) {
+        drive_init(drive, robot, REASON_STOP);
+        return;
+    }
+    go_on(robot, senses);
+    drive_init(drive, robot, (enum reason)robot->reason);
+    motion_drive(&robot->motion, &robot->config, drive);
 }
 
 /* One tick of robot time. True: it makes a second full. */
@@ -68,7 +71,6 @@ static void add_report(const struct robot *robot, struct output *out)
     out->report.frozen = robot->brain.frozen;
     out->report.profile = robot->brain.profile;
     out->report.uptime_s = robot->uptime_s;
-    out->has_memory = true;
 }
 
 static void respond_to_senses(struct robot *robot, const struct senses *senses, struct output *out)
@@ -82,17 +84,22 @@ static void respond_to_senses(struct robot *robot, const struct senses *senses, 
 
 static void respond_to_command(struct robot *robot, const struct command *command, struct output *out)
 {
-    out->answer = robot_execute(robot, command);
+    out->answer = robot_execute(robot, command, &out->answer_value);
     out->has_answer = true;
-    if (command->opcode == OPCODE_STOP)
+    out->whole_report = command->opcode == OPCODE_STOP || command->opcode == OPCODE_REPORT;
+    if (out->whole_report)
         add_report(robot, out);
+    if (command->opcode != OPCODE_STOP)
+        return;
+    drive_init(&out->drive, robot, REASON_STOP);
+    out->has_drive = true;
 }
 
 /* The brain is not asked and the motion not touched: with the next senses all goes on where it was. */
 static void respond_to_silence(struct robot *robot, struct output *out)
 {
-    drive_init(&out->drive, robot, false);
-    out->has_drive = robot->running;
+    drive_init(&out->drive, robot, REASON_SILENCE);
+    out->has_drive = out->silent = true;
     robot->silences++;
     if (robot->silences < REPORT_SILENCES)
         return;
@@ -110,7 +117,7 @@ void robot_respond(struct robot *robot, enum input_kind kind, const struct input
     else
         respond_to_silence(robot, out);
     out->store = robot->brain.changed && robot->brain.learns;
-    out->has_memory = out->has_memory || robot->brain.changed;
+    out->has_memory = robot->brain.changed;
     for (unsigned p = 0; p < CELL_COUNT; p++)
         out->memory[p] = robot->brain.memory.cell[p];
     robot->brain.changed = false;

@@ -9,8 +9,8 @@ struct robot {
     uint8_t reason;       /* of the action under way */
     uint8_t action;       /* its number, 0..127 */
     uint8_t silences;     /* in a row */
+    uint8_t tick;         /* of the last senses */
     struct config config;
-    uint16_t tick;        /* of the last senses */
     uint16_t part_ms;     /* of the second that has begun */
     uint16_t uptime_s;    /* robot time since power-up, counted in ticks, wraps */
     struct brain brain;
@@ -23,8 +23,8 @@ void robot_init(struct robot *robot, uint32_t seed);
 void robot_step(struct robot *robot, const struct senses *senses, struct drive *drive);
         /* One tick: fills *drive for these senses. A stopped robot's wheels rest. */
 
-enum result robot_execute(struct robot *robot, const struct command *command);
-        /* Carries out one command, or says why not and changes nothing. */
+enum result robot_execute(struct robot *robot, const struct command *command, uint32_t *value);
+        /* Carries out one command, or says why not and changes nothing. *value is set where the answer has one. */
 
 void robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
         /* Fills *out with all that one input calls for: the drive for senses, rest for silence, the answer to a

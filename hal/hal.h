@@ -6,10 +6,7 @@
 
 #include "firmware/io.h"
 
-enum {
-    HAL_SILENCE_MS = 100,      /* without senses for so long, the wheels stop */
-    HAL_LOCKSTEP_MS = 10000    /* the same where the sender's clock rules, which may pause */
-};
+enum { HAL_SILENCE_MS = 100 };   /* without senses for this long, the wheels stop */
 
 enum hal_error {
     HAL_E_BODY = -1,     /* the body cannot be reached; said on the console where there is one */
@@ -38,10 +35,10 @@ int hal_load(struct hal *hal, uint8_t memory[CELL_COUNT]);
         /* The memory as last stored. 1: filled. 0: none was ever stored. HAL_E_STORE: what is there is no memory;
            it is left as it is. memory is written to only with result 1. */
 
-int hal_store(struct hal *hal, const uint8_t memory[CELL_COUNT]);
+int hal_store(struct hal *hal, const uint8_t memory[CELL_COUNT], bool at_rest);
         /* All or nothing: after a loss of power inside, hal_load gives the old memory or the new one. 0, or
-           HAL_E_STORE, counted, with the old one still there. A body that would need long puts it off until the next
-           silence, when the wheels stand: 0, and until then hal_load gives the old one. */
+           HAL_E_STORE, counted, with the old one still there. at_rest: the wheels stand, and it may take a second. If not,
+           a body that would need long puts it off until the next silence: 0, and until then hal_load gives the old one. */
 
 uint32_t hal_entropy(struct hal *hal);
         /* A number that differs from one power-up to the next as well as this body can. Never fails. */

@@ -4,7 +4,7 @@ The observation, field by field:
 
 | field          | meaning                                                             | min | max  | unit   |
 | -------------- | ------------------------------------------------------------------- | --- | ---- | ------ |
-| tick           | number of the control tick, wraps                                   | 0   | 4095 | ticks  |
+| tick           | number of the control tick, wraps                                   | 0   | 255  | ticks  |
 | feel           | proximity: right 1, front-right 2, front 4, front-left 8, left 16   | 0   | 31   | bits   |
 | bump           | the body touches something                                          | 0   | 1    |        |
 | look           | food is seen straight ahead                                         | 0   | 1    |        |
@@ -16,10 +16,10 @@ The action, field by field:
 
 | field        | meaning                                                | min   | max  | unit  |
 | ------------ | ------------------------------------------------------ | ----- | ---- | ----- |
-| tick         | tick of the senses that this answers                   | 0     | 4095 | ticks |
+| tick         | tick of the senses that this answers                   | 0     | 255  | ticks |
 | left_mm_s    | speed of the left wheel, forward positive              | -2047 | 2047 | mm/s  |
 | right_mm_s   | speed of the right wheel, forward positive             | -2047 | 2047 | mm/s  |
-| reason       | why, a `Reason` of octet.dbc                           | 0     | 7    |       |
+| reason       | why, a `Reason` of octet.dbc                           | 0     | 8    |       |
 | repeat_count | remembered turns since the way was last clear          | 0     | 255  | turns |
 | action       | number of the action, one more for each new one, wraps | 0     | 127  |       |
 | eat          | eat the food that is seen straight ahead               | 0     | 1    |       |

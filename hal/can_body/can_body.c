@@ -2,17 +2,39 @@
 #include "hal/can_body/port.h"
 #include "hal/protocol/wire.h"
 
-enum { DRAIN_MAX = 4096 };   /* frames looked at to find the newest senses: more than any queue holds */
+enum {
+    DRAIN_MAX = 4096,     /* frames looked at to find the newest senses: more than any queue holds */
+    LAPSE_SILENCES = 10   /* a lockstep's owner may pause; after this many silences another may take over */
+};
 
 struct hal {
     struct link *link;
     struct wire wire;
     uint32_t heard_ms;   /* when senses last came, or silence was last reported */
     uint32_t silent_ms;  /* since then, as of the last look at the clock: there is one for each thing that comes */
-    bool outage;         /* silence was reported, and no fresh senses have come since */
+    unsigned silences;   /* in a row; stays at LAPSE_SILENCES */
+    bool outage;         /* the senses have failed to come; none have since */
     bool unstored;       /* storing this was put off: */
     uint8_t memory[CELL_COUNT];
 };
+
+static int receive_frame(struct hal *hal, struct frame *frame, uint32_t wait_ms)
+{
+    int result = link_receive(hal->link, frame, wait_ms);
+
+    if (result == LINK_E_GARBLED)
+        wire_count(&hal->wire, FAULT_DAMAGED);
+    return result;
+}
+
+static void send_boot(struct hal *hal)
+{
+    struct frame boot;
+
+    wire_boot(&hal->wire, &boot);
+    if (link_send(hal->link, &boot) < 0)
+        wire_count(&hal->wire, FAULT_UNSENT);
+}
 
 int hal_open(struct hal **hal, int argc, char *const argv[])
 {
@@ -26,25 +48,19 @@ int hal_open(struct hal **hal, int argc, char *const argv[])
     wire_init(&body.wire, port.node);
     body.wire.health.reset_cause = port.reset_cause;
     body.wire.health.crash = port.crash;
+    body.wire.health.clock_exact = port.clock_exact;
     wire_ids(&body.wire, ids);
     result = link_open(&body.link, port.link, ids, WIRE_LISTEN_COUNT);
     if (result < 0)
         return result == LINK_E_NAME ? HAL_E_USAGE : HAL_E_BODY;
     body.heard_ms = port_clock_ms();
     body.silent_ms = 0;
+    body.silences = 0;
     body.outage = false;
+    send_boot(&body);
     port_ready(&port);
     *hal = &body;
     return 0;
-}
-
-static int receive_frame(struct hal *hal, struct frame *frame, uint32_t wait_ms)
-{
-    int result = link_receive(hal->link, frame, wait_ms);
-
-    if (result == LINK_E_GARBLED)
-        wire_count(&hal->wire, FAULT_DAMAGED);
-    return result;
 }
 
 static int counted(struct hal *hal, int result)
@@ -57,30 +73,40 @@ static int counted(struct hal *hal, int result)
 /* Counts a failure to store; one that was put off stays to be done. */
 static int stored(struct hal *hal, int result)
 {
-    hal->unstored = result == PORT_LATER;
+    hal->unstored = hal->wire.health.unstored = result == PORT_LATER;
     return counted(hal, hal->unstored ? 0 : result);
 }
 
-static uint32_t limit_ms(const struct hal *hal)
+/* Where the sender's clock counts, silence is no fault, and nothing is passed over: it may pause. */
+static void note_silence(struct hal *hal)
 {
-    return hal->wire.lockstep ? HAL_LOCKSTEP_MS : HAL_SILENCE_MS;
-}
-
-static void note_outage(struct hal *hal)
-{
-    wire_outage(&hal->wire);
-    hal->outage = true;
+    if (hal->silences < LAPSE_SILENCES)
+        hal->silences++;
+    if (!hal->wire.session.lockstep)
+        hal->outage = true;
+    if (hal->outage || hal->silences == LAPSE_SILENCES)
+        wire_outage(&hal->wire);
 }
 
 /* The wheels stand, and nobody waits for an answer: time for what takes long. */
 static int report_silence(struct hal *hal)
 {
-    note_outage(hal);
+    note_silence(hal);
     if (hal->unstored)
         (void)stored(hal, port_store(hal->memory, PORT_AT_REST));
     hal->heard_ms = port_clock_ms();
     hal->silent_ms = 0;
     return INPUT_SILENCE;
+}
+
+/* What was asked before is answered as before, and is no input. */
+static enum input_kind read_frame(struct hal *hal, const struct frame *frame, struct input *in)
+{
+    enum input_kind kind = wire_read(&hal->wire, frame, in);
+
+    if (hal->wire.again && link_send(hal->link, hal->wire.again) < 0)
+        wire_count(&hal->wire, FAULT_UNSENT);
+    return kind;
 }
 
 /* After an outage the queue holds what was true long ago: of all that waits, only the newest senses count. A command
@@ -93,9 +119,10 @@ static int take_newest(struct hal *hal, struct input *in)
     for (unsigned i = 0; i < DRAIN_MAX && (result == 1 || result == LINK_E_GARBLED); i++) {
         enum input_kind kind = INPUT_SILENCE;
 
+        hal->wire.session.knows_tick = false;   /* the sender may have begun to count anew meanwhile */
         result = receive_frame(hal, &frame, 0);
         if (result == 1)
-            kind = wire_read(&hal->wire, &frame, in);
+            kind = read_frame(hal, &frame, in);
         if (kind != INPUT_SILENCE)
             wire_count(&hal->wire, FAULT_STALE);   /* the senses before it */
         if (kind == INPUT_COMMAND)
@@ -109,12 +136,13 @@ static int take_senses(struct hal *hal, struct input *in)
     int result = INPUT_SENSES;
 
     /* A robot that was held up itself finds its senses waiting, and has heard of no silence. */
-    if (hal->silent_ms >= limit_ms(hal) && !hal->outage)
-        note_outage(hal);
+    if (hal->silent_ms >= HAL_SILENCE_MS && !hal->outage)
+        note_silence(hal);
     if (hal->outage)
         result = take_newest(hal, in);
     if (result == INPUT_SENSES) {
         hal->outage = false;
+        hal->silences = 0;
         hal->heard_ms += hal->silent_ms;
         hal->silent_ms = 0;
     }
@@ -131,14 +159,8 @@ static int receive_input(struct hal *hal, struct input *in, uint32_t wait_ms)
     hal->silent_ms = port_clock_ms() - hal->heard_ms;
     if (result != 1)
         return result == LINK_E_CLOSED ? HAL_E_CLOSED : INPUT_SILENCE;
-    kind = wire_read(&hal->wire, &frame, in);
+    kind = read_frame(hal, &frame, in);
     return kind == INPUT_SENSES ? take_senses(hal, in) : (int)kind;
-}
-
-/* A lockstep's long wait is waited in pieces, with a sign of life between them. */
-static uint32_t slice_of(uint32_t wait_ms)
-{
-    return wait_ms < HAL_SILENCE_MS ? wait_ms : HAL_SILENCE_MS;
 }
 
 int hal_receive(struct hal *hal, struct input *in)
@@ -146,10 +168,10 @@ int hal_receive(struct hal *hal, struct input *in)
     int result = INPUT_SILENCE;
 
     while (result == INPUT_SILENCE) {
-        if (hal->silent_ms >= limit_ms(hal))
+        if (hal->silent_ms >= HAL_SILENCE_MS)
             return report_silence(hal);
         port_alive(hal->outage);
-        result = receive_input(hal, in, slice_of(limit_ms(hal) - hal->silent_ms));
+        result = receive_input(hal, in, HAL_SILENCE_MS - hal->silent_ms);
     }
     return result;
 }
@@ -178,11 +200,11 @@ int hal_load(struct hal *hal, uint8_t memory[CELL_COUNT])
     return counted(hal, port_load(memory));
 }
 
-int hal_store(struct hal *hal, const uint8_t memory[CELL_COUNT])
+int hal_store(struct hal *hal, const uint8_t memory[CELL_COUNT], bool at_rest)
 {
     for (unsigned p = 0; p < CELL_COUNT; p++)
         hal->memory[p] = memory[p];
-    return stored(hal, port_store(memory, PORT_QUICKLY));
+    return stored(hal, port_store(memory, at_rest ? PORT_AT_REST : PORT_QUICKLY));
 }
 
 uint32_t hal_entropy(struct hal *hal)

@@ -2,6 +2,7 @@
 #ifndef OCTET_PORT_H
 #define OCTET_PORT_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "hal/hal.h"
@@ -12,6 +13,7 @@ struct port {
     uint8_t node;       /* 1..63 */
     enum reset_cause reset_cause;
     const struct crash *crash;   /* the last since power-up; null for none */
+    bool clock_exact;   /* port_clock_ms and the bus run at their right speed */
 };
 
 int port_open(struct port *port, int argc, char *const argv[]);

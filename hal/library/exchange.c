@@ -11,7 +11,17 @@ struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT])
     robot_init(&octet->robot, 0);
     (void)memory_adopt(&octet->robot.brain.memory, memory);
     wire_init(&octet->wire, node);
+    octet->wire.health.clock_exact = true;
+    wire_boot(&octet->wire, octet->answers);   /* nobody listens yet */
     return octet;
+}
+
+static size_t say_again(struct octet *octet)
+{
+    if (!octet->wire.again)
+        return 0;
+    octet->answers[0] = *octet->wire.again;
+    return 1;
 }
 
 size_t octet_exchange(struct octet *octet, const struct frame *in)
@@ -21,7 +31,7 @@ size_t octet_exchange(struct octet *octet, const struct frame *in)
     enum input_kind kind = wire_read(&octet->wire, in, &input);
 
     if (kind == INPUT_SILENCE)
-        return 0;
+        return say_again(octet);
     robot_respond(&octet->robot, kind, &input, &output);
     return wire_write(&octet->wire, &output, octet->answers);
 }

@@ -17,8 +17,8 @@ struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT]);
            Null if the machine is out of memory. */
 
 size_t octet_exchange(struct octet *octet, const struct frame *in);
-        /* Takes one frame and returns how many frames the robot answers. A frame that is stale, damaged or foreign is
-           counted and gets no answer. */
+        /* Takes one frame and returns how many frames the robot answers: 0 to one that is stale, damaged or foreign, which
+           is counted. */
 
 const struct frame *octet_answers(const struct octet *octet);
         /* The answers to the last frame, in order. The address stays the same until octet_close. */

@@ -2,6 +2,8 @@
 #ifndef OCTET_HEALTH_H
 #define OCTET_HEALTH_H
 
+#include <stdbool.h>
+
 #include "hal/link/link.h"
 
 enum reset_cause {
@@ -23,6 +25,8 @@ struct crash {
 
 struct health {
     enum reset_cause reset_cause;
+    bool unstored;      /* what was learned last waits to be stored */
+    bool clock_exact;   /* the clock is as exact as the bus needs */
     struct link_health bus;
     const struct crash *crash;   /* null for none */
 };

@@ -3,55 +3,60 @@
 #ifndef OCTET_WIRE_H
 #define OCTET_WIRE_H
 
-#include "firmware/io.h"
 #include "hal/protocol/health.h"
+#include "hal/protocol/session.h"
 
 enum {
-    WIRE_LISTEN_COUNT = 2,   /* identifiers that the robot listens for */
-    WIRE_FRAMES_MAX = 7      /* that one output makes */
+    WIRE_LISTEN_COUNT = 5,   /* identifiers that the robot listens for */
+    WIRE_FRAMES_MAX = 11     /* that one output makes */
 };
 
-enum fault {
-    FAULT_SILENCE,   /* no senses came for the silence limit */
-    FAULT_MISSED,    /* a tick's senses never came */
-    FAULT_STALE,     /* came twice, or too late */
-    FAULT_DAMAGED,   /* wrong CRC or length, or no frame at all */
-    FAULT_FOREIGN,   /* not for this node */
-    FAULT_UNSENT,    /* the bus did not take it in time */
-    FAULT_REFUSED,   /* a command that was understood and refused */
-    FAULT_UNSAVED,   /* the memory could not be stored, or was none */
-    FAULT_COUNT
-};
+/* The messages that count themselves. */
+enum counted { COUNTED_EMERGENCY, COUNTED_MEMORY, COUNTED_HEARTBEAT, COUNTED_BOOT, COUNTED_FAULTS, COUNTED_CRASH,
+               COUNTED_HEALTH, COUNTED_KINDS };
 
 struct wire {
-    uint8_t node;                 /* 1..63 */
-    uint8_t faults[FAULT_COUNT];  /* each stays at 255 */
-    uint16_t tick;                /* of the last senses taken */
-    uint8_t counter;              /* of the last command taken, */
-    uint8_t opcode;               /* and what it was: both go into its answer */
-    bool knows_tick;              /* false: whatever tick comes next is taken */
-    bool knows_counter;
-    bool lockstep;                /* the sender's clock rules */
-    struct health health;         /* to be reported; whoever knows it keeps it up to date */
-    uint8_t crash_value;          /* place of the one to be told next */
+    uint8_t node;                    /* 1..NODE_MAX */
+    uint8_t faults[FAULT_COUNT];     /* each stays at 255 */
+    uint16_t news;                   /* kinds of faults that no EMERGENCY has told yet, bit i for kind i, */
+    uint8_t first_news;              /* and the first of them */
+    struct session session;
+    uint8_t counters[COUNTED_KINDS]; /* of the next message of each kind */
+    uint8_t part;                    /* of the report under way: which is sent next */
+    bool wants_ranges;               /* the behaviour asks for RANGES */
+    bool has_ranges;                 /* they have come: */
+    uint8_t ranges_tick;
+    uint8_t range_mm[FEEL_COUNT];
+    bool twin;                       /* another robot with this number was heard since the last start */
+    bool unasked;                    /* the stop under way is the wire's own, and has no answer */
+    struct frame drive, answer;      /* as last sent, to be sent again when asked again */
+    struct frame refusal;
+    const struct frame *again;       /* what wire_read has to be sent; null for nothing */
+    struct health health;            /* to be reported; whoever knows it keeps it up to date */
+    uint8_t crash_value;             /* place of the one to be told next */
 };
 
 void wire_init(struct wire *wire, uint8_t node);
         /* node is 1..NODE_MAX. */
 
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT]);
-        /* The identifiers to listen for. */
+        /* The identifiers to listen for. The robot's own are among them: whoever sends those has its number. */
+
+void wire_boot(struct wire *wire, struct frame *frame);
+        /* The message that it has come up. */
 
 enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct input *in);
         /* INPUT_SENSES or INPUT_COMMAND: fresh, whole and for us, and that part of *in is filled. INPUT_SILENCE: none of
-           that; it is counted, and *in is untouched. */
+           that, and *in is untouched; it is counted, or it was said before: then wire->again is what was answered, to be
+           sent once more. A twin is heard as a command to stop. */
 
 size_t wire_write(struct wire *wire, const struct output *out, struct frame frames[WIRE_FRAMES_MAX]);
-        /* Returns how many frames the marked parts make, 0..WIRE_FRAMES_MAX; the drive is last. */
+        /* Returns how many frames the marked parts make, 0..WIRE_FRAMES_MAX; the drive is last. A report is spread over this
+           output and those after it, one frame each, unless it is marked whole. */
 
 void wire_outage(struct wire *wire);
-        /* The senses have failed to come: counted if they had been coming, and the next tick need not follow the
-           last. */
+        /* The senses have failed to come: counted if they had been coming. The next tick need not follow the last, and
+           the owner has lost the robot. In lockstep only the latter. */
 
 uint32_t wire_id(const struct wire *wire, uint32_t id_of_node_1);
         /* octet.dbc has the identifiers of node 1: the same for this node. */

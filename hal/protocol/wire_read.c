@@ -1,22 +1,21 @@
 #include "hal/protocol/wire.h"
 
-#include "hal/protocol/crc8.h"
+#include "hal/protocol/e2e.h"
 #include "octet.h"
-
-static bool is_whole(const struct frame *frame, uint8_t len)
-{
-    return frame->len == len && frame->data[0] == crc8_of_frame(frame);
-}
 
 void wire_init(struct wire *wire, uint8_t node)
 {
-    *wire = (struct wire){.node = node};
+    *wire = (struct wire){.node = node, .part = UINT8_MAX};
 }
 
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT])
 {
-    ids[0] = (uint16_t)wire_id(wire, OCTET_SENSES_FRAME_ID);
-    ids[1] = (uint16_t)wire_id(wire, OCTET_COMMAND_FRAME_ID);
+    static const uint16_t of_node_1[WIRE_LISTEN_COUNT] = {
+        OCTET_SENSES_FRAME_ID, OCTET_RANGES_FRAME_ID, OCTET_COMMAND_FRAME_ID, OCTET_DRIVE_FRAME_ID, OCTET_HEARTBEAT_FRAME_ID,
+    };
+
+    for (unsigned i = 0; i < WIRE_LISTEN_COUNT; i++)
+        ids[i] = (uint16_t)wire_id(wire, of_node_1[i]);
 }
 
 uint32_t wire_id(const struct wire *wire, uint32_t id_of_node_1)
@@ -28,7 +27,12 @@ static void count_many(struct wire *wire, enum fault fault, unsigned more)
 {
     unsigned sum = wire->faults[fault] + more;
 
+    if (more == 0)
+        return;
     wire->faults[fault] = (uint8_t)(sum < UINT8_MAX ? sum : UINT8_MAX);
+    if (wire->news == 0)
+        wire->first_news = (uint8_t)fault;
+    wire->news = (uint16_t)(wire->news | 1u << fault);
 }
 
 void wire_count(struct wire *wire, enum fault fault)
@@ -38,9 +42,12 @@ void wire_count(struct wire *wire, enum fault fault)
 
 void wire_outage(struct wire *wire)
 {
-    if (wire->knows_tick)
+    wire->session.hears = false;
+    if (wire->session.lockstep)
+        return;
+    if (wire->session.knows_tick)
         wire_count(wire, FAULT_SILENCE);
-    wire->knows_tick = false;
+    wire->session.knows_tick = false;
 }
 
 static enum input_kind refused(struct wire *wire, enum fault fault)
@@ -49,38 +56,72 @@ static enum input_kind refused(struct wire *wire, enum fault fault)
     return INPUT_SILENCE;
 }
 
-/* Fresh is up to half a span ahead of the last; what is behind it came twice, or too late. */
-static bool is_fresh(struct wire *wire, uint16_t tick)
+static enum input_kind say_again(struct wire *wire, const struct frame *frame)
 {
-    unsigned ahead = (unsigned)(tick - wire->tick) % TICK_SPAN;
+    if (frame->len != 0)
+        wire->again = frame;
+    return INPUT_SILENCE;
+}
 
-    if (wire->knows_tick && (ahead == 0 || ahead >= TICK_SPAN / 2))
-        return false;
-    if (wire->knows_tick)
-        count_many(wire, FAULT_MISSED, ahead - 1);
-    wire->tick = tick;
-    wire->knows_tick = true;
-    return true;
+static bool have_ranges(const struct wire *wire, uint8_t tick)
+{
+    return wire->has_ranges && wire->ranges_tick == tick;
+}
+
+static void fill_senses(const struct wire *wire, const struct octet_senses_t *got, struct senses *senses)
+{
+    *senses = (struct senses){
+        .tick = got->tick,
+        .feel = got->feel,
+        .bump = got->bump,
+        .look = got->look,
+        .beacon_mm = got->beacon,
+        .odometer_left = got->odometer_left,
+        .odometer_right = got->odometer_right,
+    };
+    for (unsigned i = 0; i < FEEL_COUNT; i++)
+        senses->range_mm[i] = have_ranges(wire, got->tick) ? wire->range_mm[i] : RANGE_NONE;
 }
 
 static enum input_kind read_senses(struct wire *wire, const struct frame *frame, struct senses *senses)
 {
     struct octet_senses_t got;
+    unsigned missed;
 
-    if (!is_whole(frame, OCTET_SENSES_LENGTH) || octet_senses_unpack(&got, frame->data, frame->len) != 0)
+    if (!e2e_is_whole(frame, OCTET_SENSES_LENGTH) || octet_senses_unpack(&got, frame->data, frame->len) != 0)
         return refused(wire, FAULT_DAMAGED);
-    if (!is_fresh(wire, got.tick))
+    /* In lockstep both come again. */
+    if (wire->session.lockstep && wire->wants_ranges && !have_ranges(wire, got.tick))
+        return refused(wire, FAULT_MISSED);
+    switch (session_senses(&wire->session, got.tick, got.counter, &missed)) {
+    case ARRIVAL_AGAIN:
+        return say_again(wire, &wire->drive);
+    case ARRIVAL_STALE:
         return refused(wire, FAULT_STALE);
-    *senses = (struct senses){
-        .tick = got.tick,
-        .feel = got.feel,
-        .bump = got.bump,
-        .look = got.look,
-        .beacon_mm = got.beacon,
-        .odometer_left = got.odometer_left,
-        .odometer_right = got.odometer_right,
-    };
+    case ARRIVAL_FRESH:
+        break;
+    }
+    count_many(wire, FAULT_MISSED, missed);
+    fill_senses(wire, &got, senses);
     return INPUT_SENSES;
+}
+
+static enum input_kind read_ranges(struct wire *wire, const struct frame *frame)
+{
+    struct octet_ranges_t got;
+
+    if (!e2e_is_whole(frame, OCTET_RANGES_LENGTH) || octet_ranges_unpack(&got, frame->data, frame->len) != 0)
+        return refused(wire, FAULT_DAMAGED);
+    if (!wire->wants_ranges)
+        return refused(wire, FAULT_FOREIGN);
+    wire->has_ranges = true;
+    wire->ranges_tick = got.tick;
+    wire->range_mm[0] = got.range_right;
+    wire->range_mm[1] = got.range_front_right;
+    wire->range_mm[2] = got.range_front;
+    wire->range_mm[3] = got.range_front_left;
+    wire->range_mm[4] = got.range_left;
+    return INPUT_SILENCE;
 }
 
 static struct command command_from(const struct octet_command_t *got)
@@ -96,9 +137,13 @@ static struct command command_from(const struct octet_command_t *got)
         command.which = got->parameter;
         command.value = got->value;
         break;
+    case OPCODE_GET:
+        command.which = got->wanted;
+        break;
     case OPCODE_WRITE:
-        command.which = got->mask;
-        command.value = got->cells;
+        command.which = (uint8_t)(got->half << 4 | got->mask);
+        command.value = (uint32_t)got->byte_0 | (uint32_t)got->byte_1 << 8 | (uint32_t)got->byte_2 << 16
+            | (uint32_t)got->byte_3 << 24;
         break;
     case OPCODE_FREEZE:
         command.which = got->freeze;
@@ -109,30 +154,65 @@ static struct command command_from(const struct octet_command_t *got)
     return command;
 }
 
+static enum input_kind refuse_command(struct wire *wire, const struct frame *command, enum result why)
+{
+    const struct octet_answer_t answer = {
+        .counter = e2e_counter(command),
+        .opcode = command->data[1] >> 4,
+        .result = (uint8_t)why,
+    };
+
+    wire->refusal = (struct frame){.id = wire_id(wire, OCTET_ANSWER_FRAME_ID), .len = OCTET_ANSWER_LENGTH};
+    (void)octet_answer_pack(wire->refusal.data, &answer, sizeof wire->refusal.data);
+    e2e_protect(&wire->refusal);
+    wire_count(wire, why == RESULT_OWNED ? FAULT_REFUSED : FAULT_STALE);
+    return say_again(wire, &wire->refusal);
+}
+
 static enum input_kind read_command(struct wire *wire, const struct frame *frame, struct command *command)
 {
     struct octet_command_t got;
+    enum result why;
 
-    if (!is_whole(frame, OCTET_COMMAND_LENGTH) || octet_command_unpack(&got, frame->data, frame->len) < 0)
+    if (!e2e_is_whole(frame, OCTET_COMMAND_LENGTH) || octet_command_unpack(&got, frame->data, frame->len) < 0)
         return refused(wire, FAULT_DAMAGED);
-    if (wire->knows_counter && got.counter == wire->counter)
-        return refused(wire, FAULT_STALE);
-    wire->counter = got.counter;
-    wire->knows_counter = true;
-    wire->opcode = got.opcode;
-    wire->lockstep = got.lockstep;
-    /* Whoever stops or starts the robot may count its ticks from anywhere. */
-    if (got.opcode == OPCODE_STOP || got.opcode == OPCODE_START)
-        wire->knows_tick = false;
+    switch (session_command(&wire->session, frame, &why)) {
+    case ARRIVAL_AGAIN:
+        return say_again(wire, &wire->answer);
+    case ARRIVAL_STALE:
+        return refuse_command(wire, frame, why);
+    case ARRIVAL_FRESH:
+        break;
+    }
     *command = command_from(&got);
+    return INPUT_COMMAND;
+}
+
+/* Two robots with one number: the wheels rest until somebody starts the one that is left. */
+static enum input_kind meet_twin(struct wire *wire, const struct frame *frame, uint8_t len, struct command *command)
+{
+    if (!e2e_is_whole(frame, len))
+        return refused(wire, FAULT_DAMAGED);
+    wire_count(wire, FAULT_TWIN);
+    if (wire->twin)
+        return INPUT_SILENCE;
+    wire->twin = wire->unasked = true;
+    *command = (struct command){.opcode = OPCODE_STOP};
     return INPUT_COMMAND;
 }
 
 enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct input *in)
 {
+    wire->again = NULL;
     if (frame->id == wire_id(wire, OCTET_SENSES_FRAME_ID))
         return read_senses(wire, frame, &in->senses);
+    if (frame->id == wire_id(wire, OCTET_RANGES_FRAME_ID))
+        return read_ranges(wire, frame);
     if (frame->id == wire_id(wire, OCTET_COMMAND_FRAME_ID))
         return read_command(wire, frame, &in->command);
+    if (frame->id == wire_id(wire, OCTET_DRIVE_FRAME_ID))
+        return meet_twin(wire, frame, OCTET_DRIVE_LENGTH, &in->command);
+    if (frame->id == wire_id(wire, OCTET_HEARTBEAT_FRAME_ID))
+        return meet_twin(wire, frame, OCTET_HEARTBEAT_LENGTH, &in->command);
     return refused(wire, FAULT_FOREIGN);
 }

@@ -41,6 +41,11 @@ uint32_t mcu_start(void)
     return clocks.core_hz;
 }
 
+bool mcu_clock_is_exact(void)
+{
+    return clocks.exact;
+}
+
 struct clocks machine_clocks(void)
 {
     return clocks;

@@ -3,6 +3,9 @@
 from collections.abc import Mapping, Sequence
 
 from host_sim.client.robot_client import RobotClient
+from host_sim.protocol.generated import CELL_COUNT
+
+_HALF = CELL_COUNT // 2
 
 
 def start(
@@ -21,7 +24,7 @@ def start(
         RefusedError: The robot refuses a command.
         RobotError: The robot does not answer.
     """
-    client.command("start", profile=profile, seed=seed)
+    client.command("start", profile=profile, seed=seed, lockstep=int(client.lockstep))
     for name, value in settings.items():
         client.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)
     if memory is not None:
@@ -35,7 +38,7 @@ def stop(client: RobotClient) -> None:
         RobotError: The robot does not answer.
     """
     client.command("stop")
-    client.expect("MEMORY", "stop")
+    client.await_rest("stop")
 
 
 def write_cells(client: RobotClient, sides: Mapping[int, int]) -> None:
@@ -49,9 +52,12 @@ def write_cells(client: RobotClient, sides: Mapping[int, int]) -> None:
         RefusedError: The robot refuses the command.
         RobotError: The robot does not answer.
     """
-    mask = sum(1 << cell for cell in sides)
-    client.command("write", mask=mask, cells=sum(side << 2 * cell for cell, side in sides.items()))
-    client.expect("MEMORY", "write")
+    for half in range(2):
+        cells = {cell % _HALF: side for cell, side in sides.items() if cell // _HALF == half}
+        if cells:
+            content = {f"byte_{i}": cells.get(i, 0) for i in range(_HALF)}
+            client.command("write", mask=sum(1 << i for i in cells), half=half, **content)
+            _await_memory(client, "write")
 
 
 def erase_memory(client: RobotClient) -> None:
@@ -61,7 +67,7 @@ def erase_memory(client: RobotClient) -> None:
         RobotError: The robot does not answer.
     """
     client.command("erase")
-    client.expect("MEMORY", "erase")
+    _await_memory(client, "erase")
 
 
 def freeze(client: RobotClient, on: bool) -> None:
@@ -71,3 +77,9 @@ def freeze(client: RobotClient, on: bool) -> None:
         RobotError: The robot does not answer.
     """
     client.command("freeze", freeze=int(on))
+
+
+def _await_memory(client: RobotClient, after: str) -> None:
+    """Waits for both halves of the memory."""
+    while client.expect("MEMORY", after).signals["half"] == 0:
+        pass

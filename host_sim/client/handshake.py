@@ -33,11 +33,11 @@ def handshake(client: RobotClient, timeout_s: float, retry_s: float | None = Non
     for frame in (stop, answer, client.last):
         client.log.add(frame)
     client.recording = True
-    client.expect("MEMORY", "stop")
+    client.await_rest("stop")
 
 
 def _check_hash(client: RobotClient, heartbeat: DecodedFrame) -> None:
-    theirs, ours = heartbeat.signals["dbc_hash"], client.protocol.dbc_hash
+    theirs, ours = heartbeat.signals["layout"], client.protocol.layout
     if not client.protocol.fits(theirs):
         hashes = f"hash {theirs:04X}, ours {ours:04X}"
         raise RobotError(f"the robot was built from another octet.dbc ({hashes}): rebuild it")

@@ -78,7 +78,7 @@ def applied(last: Drive | None, tick: int, came: bool) -> Drive:
 
     Args:
         last: The last drive; None if there was none.
-        tick: Number of the tick, 0..4095.
+        tick: Number of the tick, 0..255.
         came: Whether the last drive came in this tick; food is eaten only then.
     """
     if last is None or (tick - last.tick) % TICK_SPAN > HOLD_TICKS:

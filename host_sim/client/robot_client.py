@@ -7,8 +7,9 @@ from typing import TypeVar
 
 from host_sim.client.frame_log import FrameLog
 from host_sim.errors import RefusedError, RobotError
-from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
+from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, CELL_MAX, TICK_SPAN, Opcode, Reason
+from host_sim.protocol.memory_report import MemoryReport
 from host_sim.robot_io import REST, Drive, Senses
 from host_sim.transport.link import Link
 
@@ -18,10 +19,9 @@ DEADLINE_S = 5.0
 """Time for the robot to answer before it is given up, s of wall-clock time."""
 
 _TICK_MASK = TICK_SPAN - 1
-_COUNTER_MASK = 15
 _LOOK_ALIVE_S = 0.2
 _NO_DRIVE = REST._replace(tick=_TICK_MASK)
-_FROM_ROBOT = frozenset({"ANSWER", "MEMORY", "HEARTBEAT", "FAULTS", "HEALTH", "CRASH"})
+_FROM_ROBOT = frozenset({"ANSWER", "EMERGENCY", "MEMORY", "HEARTBEAT", "BOOT", "FAULTS", "HEALTH", "CRASH"})
 
 
 @dataclass
@@ -49,7 +49,8 @@ class RobotClient:
         link: Carries the frames.
         protocol: Encodes and decodes them.
         log: Records every frame sent and every valid frame received, in order.
-        lockstep: Whether the robot waits up to 10 s for senses, rather than stop its wheels after 100 ms without.
+        lockstep: Whether the simulator's clock counts: the robot waits for senses as long as they take.
+        owner: Number of this simulator, 1..255, by which the robot knows whom it obeys.
         status: Describes the state of the robot's process, and raises RobotError if it has ended.
         bus: Name of the bus that the robot is on.
         deadline_s: Time for the robot to answer, s of wall-clock time.
@@ -64,6 +65,7 @@ class RobotClient:
     protocol: Protocol
     log: FrameLog
     lockstep: bool = True
+    owner: int = 1
     status: Callable[[], str] = lambda: "was not started here"
     bus: str = ""
     deadline_s: float = DEADLINE_S
@@ -73,7 +75,9 @@ class RobotClient:
     last: Frame | None = None
     recording: bool = True
     _counter: int = 0
+    _senses_counter: int = COUNTERS - 1
     _sent_tick: int = 0
+    _report: MemoryReport = field(default_factory=MemoryReport)
     _drive: Drive = _NO_DRIVE
 
     @property
@@ -99,8 +103,8 @@ class RobotClient:
 
     def send_command(self, opcode: str, signals: Mapping[str, int]) -> Frame:
         """Sends a command without waiting for its answer, and without logging it."""
-        self._counter = (self._counter + 1) & _COUNTER_MASK
-        fixed = {"counter": self._counter, "opcode": Opcode[opcode.upper()], "lockstep": int(self.lockstep)}
+        self._counter = (self._counter + 1) % COUNTERS
+        fixed = {"counter": self._counter, "opcode": Opcode[opcode.upper()], "owner": self.owner}
         frame = self.protocol.encode("COMMAND", {**fixed, **signals})
         self.link.send(frame)
         self.frames.sent += 1
@@ -140,7 +144,8 @@ class RobotClient:
 
     def send_senses(self, senses: Senses) -> None:
         """Sends the senses of one tick, and logs them."""
-        frame = self.protocol.encode_senses(senses)
+        self._senses_counter = (self._senses_counter + 1) % COUNTERS
+        frame = self.protocol.encode_senses(senses, self._senses_counter)
         self._sent_tick = senses.tick
         self.link.send(frame)
         self.frames.sent += 1
@@ -210,10 +215,10 @@ class RobotClient:
         if drive is None:
             self._accept_report(frame)
             return None
+        if drive.reason == Reason.SILENCE:
+            return self._accept_rest(drive, frame)
         ahead = (drive.tick - self._drive.tick) & _TICK_MASK
-        # A robot that receives nothing stops its wheels, and reports so with the last tick that it received.
-        rests = ahead == 0 and drive.reason == Reason.STOP and not self.lockstep
-        if not rests and not 0 < ahead <= (self._sent_tick - self._drive.tick) & _TICK_MASK:
+        if drive.reason == Reason.STOP or not 0 < ahead <= (self._sent_tick - self._drive.tick) & _TICK_MASK:
             self.frames.refused += 1
             return None
         self._drive, self.last = drive, frame
@@ -222,11 +227,44 @@ class RobotClient:
             self.log.add(frame)
         return drive
 
+    def _accept_rest(self, drive: Drive, frame: Frame) -> Drive | None:
+        """A robot that hears no senses says that its wheels rest; in lockstep, that only tells of a slow host."""
+        if self.lockstep:
+            return None
+        self.last = frame
+        self.frames.received += 1
+        if self.recording:
+            self.log.add(frame)
+        return drive
+
+    def await_rest(self, after: str) -> None:
+        """Waits for the DRIVE at rest that ends the answer to a stop, and logs it.
+
+        Raises:
+            RobotError: It does not come.
+        """
+
+        def accept(frame: Frame) -> Drive | None:
+            drive = self.protocol.decode_drive(frame)
+            if drive is None:
+                self._accept_report(frame)
+            if drive is None or drive.reason != Reason.STOP:
+                return None
+            self.last = frame
+            self.frames.received += 1
+            self.log.add(frame)
+            return drive
+
+        if self._receive(accept, self.deadline_s) is None:
+            raise RobotError(f"the robot sent no DRIVE after {after}; {self.account()}")
+
     def _accept_report(self, frame: Frame) -> DecodedFrame | None:
         """The report in a frame; None if the frame is damaged, not from the robot, or holds an invalid memory."""
         decoded = self.protocol.decode(frame)
         if decoded is not None and decoded.name == "DRIVE":
             self._accept_drive(frame)
+            return None
+        if decoded is not None and decoded.signals.get("silent") and self.lockstep:
             return None
         if decoded is None or decoded.name not in _FROM_ROBOT or not self._note(decoded):
             self.frames.refused += 1
@@ -240,10 +278,11 @@ class RobotClient:
     def _note(self, decoded: DecodedFrame) -> bool:
         """Stores the faults or the memory in a report; False if the memory is invalid."""
         if decoded.name == "FAULTS":
-            self.faults = dict(decoded.signals)
+            counters = (signal for signal in decoded.signals.items() if signal[0] not in ("crc", "counter", "page"))
+            self.faults = self.faults | dict(counters)
         if decoded.name == "MEMORY":
-            cells = tuple(decoded.signals.values())
-            if any(cell > most for cell, most in zip(cells, CELL_MAX, strict=True)):
+            cells = self._report.join(decoded)
+            if cells is not None and any(cell > most for cell, most in zip(cells, CELL_MAX, strict=True)):
                 return False
-            self.memory = cells
+            self.memory = cells or self.memory
         return True

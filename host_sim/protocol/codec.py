@@ -7,13 +7,14 @@ from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, SAME_LA
 from host_sim.protocol.signal_layout import MessageLayout, places
 from host_sim.robot_io import Drive, Senses
 
-__all__ = ["CONTROL", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "crc8", "node_of"]
+__all__ = ["COUNTERS", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "counter_of", "crc8", "node_of"]
 
 DBC = ROOT / "hal" / "protocol" / "octet.dbc"
-CONTROL = tuple(name for name, message in MESSAGES.items() if message.signals[0].name == "crc")
-"""The messages that carry a CRC."""
+COUNTERS = 15
+"""Alive counters go from 0 to one less, and round again."""
 
 _LENGTH = 8
+_COUNTER_START = 8
 # The fields of `Senses` and of `Drive` whose signals have other names: a signal has its unit beside its name.
 _SIGNALS = {"beacon_mm": "beacon", "left_mm_s": "left", "right_mm_s": "right"}
 _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
@@ -49,19 +50,19 @@ _CRC_TABLE = _crc_table()
 
 
 def crc8(frame_id: int, data: bytes) -> int:
-    """CRC-8 SAE J1850 over an identifier, low byte first, and all data but byte 0, where the result is kept."""
-    crc = _CRC_TABLE[_CRC_TABLE[0xFF ^ (frame_id & 0xFF)] ^ (frame_id >> 8)]
+    """The CRC of AUTOSAR's E2E profile 1, over an identifier, low byte first, and all data but byte 0, its place."""
+    crc = _CRC_TABLE[_CRC_TABLE[frame_id & 0xFF] ^ (frame_id >> 8)]
     for byte in data[1:]:
         crc = _CRC_TABLE[crc ^ byte]
-    return crc ^ 0xFF
+    return crc
 
 
 class Protocol:
     """Encodes and decodes the frames of one node.
 
     Attributes:
-        node: 1..63.
-        dbc_hash: Hash of the messages' layout; see `fits`.
+        node: 1..31.
+        layout: Hash of the messages' layout; see `fits`.
     """
 
     def __init__(self, node: int = 1) -> None:
@@ -73,15 +74,15 @@ class Protocol:
         if not 1 <= node <= NODE_MAX:
             raise ValueError(f"node is 1..{NODE_MAX}, not {node}")
         self.node = node
-        self.dbc_hash = LAYOUT_HASH
+        self.layout = LAYOUT_HASH
         self._by_id = {self.id_of(name): message for name, message in MESSAGES.items()}
         self._senses_id = self.id_of("SENSES")
         self._drive_id = self.id_of("DRIVE")
 
     @staticmethod
-    def fits(dbc_hash: int) -> bool:
+    def fits(layout: int) -> bool:
         """Whether a robot or a log with this hash has the messages laid out as here."""
-        return dbc_hash in SAME_LAYOUT
+        return layout in SAME_LAYOUT
 
     def id_of(self, name: str) -> int:
         """The identifier of a message for this node."""
@@ -96,7 +97,7 @@ class Protocol:
         return {choice: number for number, choice in _signal(name, signal).choices.items()}
 
     def encode(self, name: str, signals: dict[str, int]) -> Frame:
-        """A frame of a message that carries a CRC.
+        """A frame of a message.
 
         Args:
             name: The message.
@@ -108,9 +109,14 @@ class Protocol:
         """
         return _protected(self.id_of(name), _LAYOUTS[name].pack({**signals, "crc": 0}))
 
-    def encode_senses(self, senses: Senses) -> Frame:
-        """The frame that tells the robot its senses."""
-        word = 0
+    def encode_senses(self, senses: Senses, counter: int) -> Frame:
+        """The frame that tells the robot its senses.
+
+        Args:
+            senses: What is sensed.
+            counter: Alive counter, 0..14; it goes on with the tick.
+        """
+        word = counter << _COUNTER_START
         for value, (start, _, _) in zip(senses, _SENSES, strict=True):
             word |= value << start
         data = word.to_bytes(_LENGTH, "little")
@@ -121,14 +127,14 @@ class Protocol:
         message = self._by_id.get(frame.id)
         if message is None or len(frame.data) != message.length:
             return None
-        if message.name in CONTROL and frame.data[0] != crc8(frame.id, frame.data):
+        if not _is_protected(frame):
             return None
         return DecodedFrame(message.name, _LAYOUTS[message.name].unpack(frame.data))
 
     def decode_drive(self, frame: Frame) -> Drive | None:
         """The drive in a frame; None if it is no whole DRIVE of this node."""
         data = frame.data
-        if frame.id != self._drive_id or len(data) != _LENGTH or data[0] != crc8(frame.id, data):
+        if frame.id != self._drive_id or len(data) != _LENGTH or not _is_protected(frame):
             return None
         word, values = int.from_bytes(data, "little"), []
         for start, mask, sign in _DRIVE:
@@ -154,8 +160,17 @@ def _signal(name: str, signal: str) -> Signal:
 
 
 def node_of(frame_id: int) -> int:
-    """The node that an identifier belongs to, 1..63; 0 for one of no node."""
+    """The node that an identifier belongs to, 1..31; 0 for one of no node."""
     return frame_id % (NODE_MAX + 1)
+
+
+def counter_of(frame: Frame) -> int:
+    """The alive counter in a frame with at least two bytes; a whole one has 0..14."""
+    return frame.data[1] & 15
+
+
+def _is_protected(frame: Frame) -> bool:
+    return counter_of(frame) < COUNTERS and frame.data[0] == crc8(frame.id, frame.data)
 
 
 def _protected(frame_id: int, data: bytes) -> Frame:

@@ -7,6 +7,8 @@ from typing import NamedTuple
 
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import Frame, Protocol, node_of
+from host_sim.protocol.generated import CELL_COUNT
+from host_sim.protocol.memory_report import MemoryReport
 from host_sim.regular_file import read_bytes
 
 _SIZE_MAX = 2_000_000_000
@@ -74,11 +76,13 @@ def check_protocol(path: Path, lines: Sequence[Recorded], protocol: Protocol) ->
     heartbeat = next((message for message in messages if message is not None and message.name == "HEARTBEAT"), None)
     if heartbeat is None:
         raise OctetError(f"{path} has no heartbeat of node {protocol.node}: not a log of a run, or cut short")
-    if not protocol.fits(heartbeat.signals["dbc_hash"]):
+    if not protocol.fits(heartbeat.signals["layout"]):
         raise OctetError(f"{path} was recorded with another octet.dbc: replay it with the version that wrote it")
 
 
 def first_memory(lines: Sequence[Recorded], protocol: Protocol) -> bytes:
     """The robot's memory before the run, which it reports in the handshake: eight bytes."""
-    memory_id = protocol.id_of("MEMORY")
-    return next((line.frame.data for line in lines if line.frame.id == memory_id), bytes(8))
+    report, memory_id = MemoryReport(), protocol.id_of("MEMORY")
+    messages = (protocol.decode(line.frame) for line in lines if line.frame.id == memory_id)
+    memories = (report.join(message) for message in messages if message is not None)
+    return bytes(next((memory for memory in memories if memory is not None), (0,) * CELL_COUNT))

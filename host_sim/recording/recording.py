@@ -9,6 +9,7 @@ from host_sim.client.pacing import applied
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Opcode
+from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import Recorded, check_protocol, first_memory, lines_of
 from host_sim.robot_io import Drive, Senses
 
@@ -73,6 +74,7 @@ class _Reader:
     def __init__(self, protocol: Protocol, memory: bytes) -> None:
         self._protocol = protocol
         self._memory = tuple(memory)
+        self._report = MemoryReport()
         self._recording = Recording(first_memory=self._memory)
         self._senses: Senses | None = None
         self._fresh: Drive | None = None
@@ -94,7 +96,9 @@ class _Reader:
             self._end_tick()
             self._senses = _senses_from(decoded)
         elif decoded.name == "MEMORY":
-            self._accept_memory(tuple(decoded.signals.values()))
+            memory = self._report.join(decoded)
+            if memory is not None:
+                self._accept_memory(memory)
         elif decoded.name == "COMMAND":
             self._end_tick()
             self._accept_command(decoded.signals)
@@ -118,10 +122,9 @@ class _Reader:
 
     def _accept_command(self, signals: dict[str, int]) -> None:
         opcode = signals["opcode"]
-        self._lockstep = bool(signals["lockstep"])
         self._recording.stopped = opcode == Opcode.STOP
         if opcode == Opcode.START:
-            self._frozen = False
+            self._frozen, self._lockstep = False, bool(signals["lockstep"])
             self._recording.seed = signals["seed"] if self._recording.seed is None else self._recording.seed
         elif opcode == Opcode.SET and signals["parameter"] == PARAMETERS["boredom_limit"].number:
             self._recording.boredom_limit = signals["value"]

@@ -6,7 +6,7 @@ import cantools
 from cantools.database.can import Database, Message
 from cantools.database.can.signal import Signal
 
-from host_sim.protocol.codec import CONTROL, DBC, NODE_MAX
+from host_sim.protocol.codec import DBC, NODE_MAX
 from host_sim.protocol.generated import PARAMETERS
 
 _HEAD = """\
@@ -22,22 +22,44 @@ head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/oc
 
 ## A conversation
 
-1. **stop** (COMMAND). The robot answers with ANSWER, HEARTBEAT, FAULTS and MEMORY: its identity, its fault counters
-   and its memory. HEARTBEAT has the hash of the messages' layout; the simulator rejects a robot with another hash.
-2. **start** with profile and seed, then optionally **set** for parameters and **write** for the memory. Each command
-   is answered.
-3. SENSES with tick n; the robot answers DRIVE with tick n. This repeats every 20 ms of robot time.
-4. The robot's other frames of a tick (MEMORY when it has learned, HEARTBEAT and FAULTS once a second) come before
-   that tick's DRIVE: DRIVE is always the last.
+1. At power-up the robot sends BOOT.
+2. **stop** (COMMAND). The robot answers with ANSWER, then all its reports: HEARTBEAT, BOOT, both halves of MEMORY,
+   both pages of FAULTS, CRASH if it has crashed, and HEALTH, which is always the last of them; then a DRIVE at
+   rest. HEARTBEAT has the hash of the messages' layout; the simulator rejects a robot with another hash.
+3. **start** with profile and seed, then optionally **set** for parameters and **write** for the memory. Each
+   command is answered; the answer to **start** says whether the robot wants RANGES.
+4. SENSES with tick n; the robot answers DRIVE with tick n. This repeats every 20 ms of robot time.
+5. The robot's other frames of a tick (MEMORY when it has learned; once a second each report, one of them in each of
+   the first ticks of the second; EMERGENCY after a fault) come before that tick's DRIVE: DRIVE is always the last.
 
-If nothing fresh comes for 100 ms, the robot sends a DRIVE with speed 0, reason stop and the last tick that it
-received, and waits. Its memory and its current action stay; it continues with the next SENSES. Of the SENSES that
-queued up meanwhile, only the newest are used. With `lockstep` set in the last COMMAND the limit is 10 s, so that a
-simulator may take its time.
+## Protection
 
-A frame is accepted if its identifier, length and CRC are right, and its tick or counter is new: a tick up to half
-the range ahead of the last one, a counter that differs from the last one. All other frames are refused: they are
-counted in FAULTS, and change nothing.
+Every message is protected as in AUTOSAR E2E profile 1, with its identifier as Data ID: a CRC over all but its own
+byte, and an alive counter from 0 to 14. The counter of SENSES and RANGES goes on with the tick, and a DRIVE has
+that of the SENSES that it answers. A frame is accepted if its identifier, length and CRC are right and its tick or
+counter goes on: up to 14 ticks ahead of the last tick, 1 to 7 ahead of the owner's last command. All other frames
+are refused: they are counted in FAULTS, told at once by EMERGENCY, and change nothing.
+
+## Silence
+
+If no fresh SENSES come for 100 ms, the robot sends a DRIVE at rest with reason **silence** and the last tick that
+it received, every 100 ms, also when it is stopped, and a HEARTBEAT with `silent` set every second. Its memory and
+its current action stay; it continues with the next SENSES. Of the SENSES that queued up meanwhile, only the newest
+are used.
+
+## Lockstep
+
+A robot that was started with `lockstep` lets the sender's clock count: silence is no fault then, and the robot
+takes the SENSES of tick n + 1 only after those of tick n. The same SENSES again are answered by the same DRIVE
+again, and change nothing: on a bus that loses frames, repeating is all that a simulator needs to do. The same holds
+for a COMMAND, in lockstep or not.
+
+## Owner
+
+**start** makes the sender the robot's owner, until **stop**, or until its SENSES have failed to come for 100 ms (in
+lockstep for a second). Meanwhile the commands of other senders are refused, but for **stop**. HEARTBEAT names the
+owner. A robot that hears a DRIVE or a HEARTBEAT with its own identifiers has a twin: it stops, and counts it in
+FAULTS.
 
 ## Identifiers
 
@@ -52,7 +74,7 @@ def page() -> str:
     assert isinstance(database, Database)
     messages = sorted(database.messages, key=lambda message: message.frame_id)
     rows = [_message_row(message) for message in messages]
-    head = ["| identifier | message | bytes | from | protected |", "| --- | --- | --- | --- | --- |"]
+    head = ["| identifier | message | bytes | from |", "| --- | --- | --- | --- |"]
     overview = _HEAD.format(nodes=NODE_MAX) + "\n".join([*head, *rows]) + "\n"
     return overview + "".join(_section(message) for message in messages) + _parameters()
 
@@ -67,16 +89,9 @@ def _parameters() -> str:
 
 
 def _message_row(message: Message) -> str:
-    protected = "counter, CRC-8" if message.name == "COMMAND" else "tick, CRC-8"
-    if message.name == "ANSWER":
-        protected = "CRC-8"
     sender = ", ".join(message.senders)
     name = f"[{message.name}](#{message.name.lower()})"
-    return f"| 0x{message.frame_id:03X} | {name} | {message.length} | {sender} | {_if_control(message, protected)} |"
-
-
-def _if_control(message: Message, text: str) -> str:
-    return text if message.name in CONTROL else ""
+    return f"| 0x{message.frame_id:03X} | {name} | {message.length} | {sender} |"
 
 
 def _section(message: Message) -> str:

@@ -11,7 +11,7 @@ from host_sim.client.handshake import handshake
 from host_sim.client.pacing import HOLD_TICKS, Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.errors import RefusedError, RobotError
-from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.codec import Frame, Protocol, crc8
 from host_sim.robot_io import NOTHING_SENSED, Drive, Senses
 from host_sim.transport.in_process_link import InProcessLink
 
@@ -64,6 +64,11 @@ def exchange(pace: Pace, sensed: Senses) -> Drive:
     return drive
 
 
+def resealed(frame: Frame, data: bytes) -> Frame:
+    """The frame with other data, and the CRC that belongs to it."""
+    return Frame(frame.id, bytes((crc8(frame.id, data),)) + data[1:])
+
+
 def is_a(name: str) -> Callable[[Frame], bool]:
     return lambda frame: frame.id == PROTOCOL.id_of(name)
 
@@ -78,7 +83,7 @@ def test_a_robot_answers_each_tick(client_with):
 
 def test_a_robot_of_another_dbc_is_refused(client_with):
     def older(frame: Frame) -> list[Frame]:
-        return [frame._replace(data=frame.data[:6] + b"\x00\x00")] if is_a("HEARTBEAT")(frame) else [frame]
+        return [resealed(frame, frame.data[:6] + b"\x00\x00")] if is_a("HEARTBEAT")(frame) else [frame]
 
     with pytest.raises(RobotError, match=r"another octet.dbc \(hash 0000, ours"):
         handshake(client_with(older), 1.0)
@@ -104,7 +109,9 @@ def test_a_drive_that_never_comes_is_named_with_tick_and_last_frame(client_with)
     exchange(pace, senses(0))
     client.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
 
-    with pytest.raises(RobotError, match=r"did not answer tick 1 within 0.3 s; last frame from it: DRIVE tick=0"):
+    with pytest.raises(
+        RobotError, match=r"did not answer tick 1 within 0.3 s; last frame from it: DRIVE counter=0 tick=0"
+    ):
         exchange(pace, senses(1))
 
 
@@ -119,7 +126,8 @@ def test_a_damaged_drive_is_refused_and_counted(client_with):
 
 
 def test_a_drive_that_comes_twice_counts_once(client_with):
-    client = started(client_with(lambda frame: [frame, frame] if is_a("DRIVE")(frame) else [frame]))
+    client = started(client_with())
+    client.link.tamper = lambda frame: [frame, frame] if is_a("DRIVE")(frame) else [frame]
     pace = Lockstep([client])
 
     for tick in range(10):
@@ -129,7 +137,7 @@ def test_a_drive_that_comes_twice_counts_once(client_with):
 
 
 def test_frames_of_nobody_are_refused_and_not_recorded(client_with):
-    strange = [Frame(-1, b""), Frame(0x7FF, bytes(8)), Frame(PROTOCOL.id_of("SENSES"), bytes(8)), Frame(0x81, b"")]
+    strange = [Frame(-1, b""), Frame(0x7FF, bytes(8)), Frame(PROTOCOL.id_of("SENSES"), bytes(8)), Frame(0x41, b"")]
     client = started(client_with())
     client.link.tamper = lambda frame: [*strange, frame]
 
@@ -139,9 +147,10 @@ def test_frames_of_nobody_are_refused_and_not_recorded(client_with):
 
 
 def test_a_memory_frame_that_is_no_memory_is_refused(client_with):
-    forged = Frame(PROTOCOL.id_of("MEMORY"), bytes([0, 3, 0, 0, 0, 0, 0, 0]))
+    halves = [{"counter": 0, "half": half, **{f"cell_{4 * half + i}": 3 for i in range(4)}} for half in range(2)]
+    forged = [PROTOCOL.encode("MEMORY", signals) for signals in halves]
     client = started(client_with())
-    client.link.tamper = lambda frame: [forged, frame]
+    client.link.tamper = lambda frame: [*forged, frame]
 
     exchange(Lockstep([client]), senses(0))
 

@@ -16,7 +16,7 @@ _HEADERS = [
     "firmware/random.h",
     "firmware/brain.h",
     "hal/link/link.h",
-    "hal/protocol/crc8.h",
+    "hal/protocol/e2e.h",
 ]
 
 

@@ -109,7 +109,7 @@ def decide_side_by_side(profile: str, oracle: type[Listing], decisions: int) -> 
         # When both sense the same
         robot.reading = random_reading(dice)
         senses.feel, senses.look, senses.beacon_mm = robot.reading
-        senses.odometer_left = senses.tick = i & 4095  # of no concern to the brain
+        senses.odometer_left = senses.tick = i & 255  # of no concern to the brain
         expected, action = next(search), C.brain_next(brain, config, senses)
         # Then both do the same, and know the same
         assert (names[action.reason], action.turn_deg, action.forward_mm) == ("REASON_" + expected[0], *expected[1:])

@@ -2,15 +2,17 @@
 
 #include "firmware/robot.h"
 
-enum { CLEAR = 0, FRONT = 4, PATTERN_FRONT = 2 };
+enum { UPPER = 16 /* half of the memory */, CLEAR = 0, FRONT = 4, PATTERN_FRONT = 2 };
 
 static struct robot robot;
+
+static uint32_t value_told;
 
 static enum result execute(enum opcode opcode, unsigned which, uint32_t value)
 {
     const struct command command = {.opcode = opcode, .which = (uint8_t)which, .value = value};
 
-    return robot_execute(&robot, &command);
+    return robot_execute(&robot, &command, &value_told);
 }
 
 static struct drive step(uint8_t feel)
@@ -27,7 +29,7 @@ void setUp(void)
 {
     robot_init(&robot, 1);
     TEST_ASSERT_EQUAL(RESULT_DONE, execute(OPCODE_START, PROFILE_ARTICLE, 42));
-    TEST_ASSERT_EQUAL(RESULT_DONE, execute(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_LEFT << 2 * PATTERN_FRONT));
+    TEST_ASSERT_EQUAL(RESULT_DONE, execute(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_LEFT << 8 * PATTERN_FRONT));
     robot.brain.changed = false;
     step(FRONT);
 }
@@ -45,7 +47,7 @@ static void assert_refused(enum result why, enum opcode opcode, unsigned which, 
 static void test_an_unknown_command_changes_nothing(void)
 {
     assert_refused(RESULT_UNKNOWN_COMMAND, (enum opcode)0, 0, 0);
-    for (unsigned opcode = OPCODE_FREEZE + 1; opcode <= UINT8_MAX; opcode++)
+    for (unsigned opcode = OPCODE_REPORT + 1; opcode <= UINT8_MAX; opcode++)
         assert_refused(RESULT_UNKNOWN_COMMAND, (enum opcode)opcode, 0, 0);
 }
 
@@ -157,23 +159,40 @@ static void test_a_value_out_of_range_changes_nothing(void)
     }
 }
 
+static void test_get_tells_one_parameter(void)
+{
+    execute(OPCODE_SET, STEP_MM, 100);
+    TEST_ASSERT_EQUAL(RESULT_DONE, execute(OPCODE_GET, STEP_MM, 0));
+    TEST_ASSERT_EQUAL_UINT32(100, value_told);
+}
+
+static void test_get_of_an_unknown_parameter_changes_nothing(void)
+{
+    assert_refused(RESULT_UNKNOWN_PARAMETER, OPCODE_GET, PARAMETER_COUNT, 0);
+}
+
+static void test_a_report_changes_nothing(void)
+{
+    assert_refused(RESULT_DONE, OPCODE_REPORT, 0, 0);
+}
+
 static void test_write_sets_the_cells_of_the_mask(void)
 {
     static const uint8_t expected[CELL_COUNT] = {0, 0, SIDE_LEFT, 0, 0, 0, 0, SIDE_RIGHT};
 
-    TEST_ASSERT_EQUAL(RESULT_DONE, execute(OPCODE_WRITE, 1u << 7, SIDE_RIGHT << 14));
+    TEST_ASSERT_EQUAL(RESULT_DONE, execute(OPCODE_WRITE, UPPER | 1u << 3, (uint32_t)SIDE_RIGHT << 24));
     TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, robot.brain.memory.cell, CELL_COUNT);
 }
 
 static void test_what_was_written_is_to_be_stored(void)
 {
-    execute(OPCODE_WRITE, 1u << 7, SIDE_RIGHT << 14);
+    execute(OPCODE_WRITE, UPPER | 1u << 3, (uint32_t)SIDE_RIGHT << 24);
     TEST_ASSERT_TRUE(robot.brain.changed);
 }
 
 static void test_writing_what_is_no_side_changes_nothing(void)
 {
-    assert_refused(RESULT_OUT_OF_RANGE, OPCODE_WRITE, 0xFF, 3u << 14);
+    assert_refused(RESULT_OUT_OF_RANGE, OPCODE_WRITE, UPPER | 0xF, 3u << 24);
     assert_refused(RESULT_OUT_OF_RANGE, OPCODE_WRITE, 0x01, SIDE_LEFT);
 }
 
@@ -222,6 +241,9 @@ int main(void)
     RUN_TEST(test_set_changes_one_parameter);
     RUN_TEST(test_an_unknown_parameter_changes_nothing);
     RUN_TEST(test_a_value_out_of_range_changes_nothing);
+    RUN_TEST(test_get_tells_one_parameter);
+    RUN_TEST(test_get_of_an_unknown_parameter_changes_nothing);
+    RUN_TEST(test_a_report_changes_nothing);
     RUN_TEST(test_write_sets_the_cells_of_the_mask);
     RUN_TEST(test_what_was_written_is_to_be_stored);
     RUN_TEST(test_writing_what_is_no_side_changes_nothing);

@@ -74,11 +74,12 @@ static void test_a_turn_for_a_clear_way_is_not_adopted(void)
     assert_as_learned();
 }
 
-static void test_writing_takes_two_bits_for_each_cell(void)
+static void test_writing_takes_a_byte_for_each_cell(void)
 {
     static const uint8_t expected[CELL_COUNT] = {0, 2, 1, 0, 1, 2, 0, 1};
 
-    TEST_ASSERT_TRUE(memory_write(&memory, 0xFF, 2 << 2 | 1 << 4 | 1 << 8 | 2 << 10 | 1 << 14));
+    TEST_ASSERT_TRUE(memory_write(&memory, 0, 0xF, 0x00010200));
+    TEST_ASSERT_TRUE(memory_write(&memory, 1, 0xF, 0x01000201));
     TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, memory.cell, CELL_COUNT);
 }
 
@@ -86,26 +87,27 @@ static void test_writing_leaves_the_cells_beside_the_mask(void)
 {
     static const uint8_t expected[CELL_COUNT] = {0, 1, 2, 0, 2, 1, 2, 1};
 
-    TEST_ASSERT_TRUE(memory_write(&memory, 1u << 3 | 1u << 7, 1u << 14));
+    TEST_ASSERT_TRUE(memory_write(&memory, 0, 1u << 3, 0x00FFFFFF));
+    TEST_ASSERT_TRUE(memory_write(&memory, 1, 1u << 3, 0x01FFFFFF));
     TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, memory.cell, CELL_COUNT);
 }
 
 static void test_writing_ignores_the_sides_beside_the_mask(void)
 {
-    TEST_ASSERT_TRUE(memory_write(&memory, 0, 0xFFFF));
+    TEST_ASSERT_TRUE(memory_write(&memory, 1, 0, 0xFFFFFFFF));
     assert_as_learned();
 }
 
 static void test_writing_what_is_no_side_changes_nothing(void)
 {
-    /* Cell 7 is no side; cells 1..6 would be emptied. */
-    TEST_ASSERT_FALSE(memory_write(&memory, 0xFE, 3u << 14));
+    /* Cell 7 is no side; cells 4..6 would be emptied. */
+    TEST_ASSERT_FALSE(memory_write(&memory, 1, 0xF, 3u << 24));
     assert_as_learned();
 }
 
 static void test_writing_a_turn_for_a_clear_way_changes_nothing(void)
 {
-    TEST_ASSERT_FALSE(memory_write(&memory, 0xFF, SIDE_LEFT));
+    TEST_ASSERT_FALSE(memory_write(&memory, 0, 0xF, SIDE_LEFT));
     assert_as_learned();
 }
 
@@ -119,7 +121,7 @@ int main(void)
     RUN_TEST(test_a_lesson_replaces_an_older_one);
     RUN_TEST(test_cells_that_are_no_side_are_not_adopted);
     RUN_TEST(test_a_turn_for_a_clear_way_is_not_adopted);
-    RUN_TEST(test_writing_takes_two_bits_for_each_cell);
+    RUN_TEST(test_writing_takes_a_byte_for_each_cell);
     RUN_TEST(test_writing_leaves_the_cells_beside_the_mask);
     RUN_TEST(test_writing_ignores_the_sides_beside_the_mask);
     RUN_TEST(test_writing_what_is_no_side_changes_nothing);

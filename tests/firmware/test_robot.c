@@ -51,7 +51,6 @@ static void assert_at_rest(void)
     TEST_ASSERT_TRUE(out.has_drive);
     TEST_ASSERT_EQUAL_INT16(0, out.drive.left_mm_s);
     TEST_ASSERT_EQUAL_INT16(0, out.drive.right_mm_s);
-    TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
     TEST_ASSERT_FALSE(out.drive.eat);
 }
 
@@ -80,8 +79,8 @@ static void test_after_power_up_it_knows_nothing(void)
 
 static void test_a_drive_answers_the_tick_of_its_senses(void)
 {
-    sense((struct senses){.tick = 4095});
-    TEST_ASSERT_EQUAL_UINT16(4095, out.drive.tick);
+    sense((struct senses){.tick = 255});
+    TEST_ASSERT_EQUAL_UINT8(255, out.drive.tick);
 }
 
 static void test_a_clear_way_is_driven(void)
@@ -163,21 +162,23 @@ static void test_actions_are_numbered_0_to_127_round_and_round(void)
     TEST_ASSERT_EQUAL_UINT(300, changes);
 }
 
-static void test_silence_rests_the_wheels(void)
+static void test_silence_rests_the_wheels_and_says_so(void)
 {
     feel(CLEAR);
     silence();
     assert_at_rest();
+    TEST_ASSERT_EQUAL(REASON_SILENCE, out.drive.reason);
+    TEST_ASSERT_TRUE(out.silent);
 }
 
 static void test_a_drive_in_silence_names_the_last_tick_and_action(void)
 {
     uint8_t number;
 
-    sense((struct senses){.tick = 4095});
+    sense((struct senses){.tick = 255});
     number = out.drive.action;
     silence();
-    TEST_ASSERT_EQUAL_UINT16(4095, out.drive.tick);
+    TEST_ASSERT_EQUAL_UINT8(255, out.drive.tick);
     TEST_ASSERT_EQUAL_UINT8(number, out.drive.action);
 }
 
@@ -210,11 +211,19 @@ static void test_after_silence_it_goes_on_where_it_was(void)
     TEST_ASSERT_EQUAL(expected.reason, out.drive.reason);
 }
 
-static void test_a_stopped_robot_says_nothing_to_silence(void)
+static void test_a_stopped_robot_says_in_silence_that_it_rests(void)
 {
     command(OPCODE_STOP, 0, 0);
     silence();
-    TEST_ASSERT_FALSE(out.has_drive);
+    assert_at_rest();
+}
+
+static void test_stop_rests_the_wheels_at_once(void)
+{
+    feel(CLEAR);
+    command(OPCODE_STOP, 0, 0);
+    assert_at_rest();
+    TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
 }
 
 static void test_every_tenth_silence_brings_a_report(void)
@@ -242,12 +251,14 @@ static void test_a_report_comes_once_a_second(void)
     }
 }
 
-static void test_the_memory_comes_with_each_report(void)
+static void test_a_report_has_the_memory(void)
 {
-    for (unsigned tick = 1; tick <= MANY; tick++) {
+    learned(SIDE_RIGHT);
+    for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++)
         feel(CLEAR);
-        TEST_ASSERT_EQUAL(out.has_report, out.has_memory);
-    }
+    TEST_ASSERT_TRUE(out.has_report);
+    TEST_ASSERT_FALSE(out.has_memory);   /* it has not changed: the report brings it */
+    TEST_ASSERT_EQUAL_UINT8(SIDE_RIGHT, out.memory[PATTERN_FRONT]);
 }
 
 static void test_a_stopped_robot_reports_too(void)
@@ -291,7 +302,18 @@ static void test_stop_is_answered_with_a_report(void)
     command(OPCODE_STOP, 0, 0);
     TEST_ASSERT_TRUE(out.has_answer);
     TEST_ASSERT_TRUE(out.has_report);
+    TEST_ASSERT_TRUE(out.whole_report);
     TEST_ASSERT_FALSE(out.report.running);
+}
+
+static void test_a_report_is_made_when_it_is_asked_for(void)
+{
+    command(OPCODE_REPORT, 0, 0);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_TRUE(out.has_report);
+    TEST_ASSERT_TRUE(out.whole_report);
+    TEST_ASSERT_TRUE(out.report.running);
+    TEST_ASSERT_FALSE(out.has_drive);
 }
 
 static void test_the_report_tells_a_frozen_robot(void)
@@ -325,7 +347,7 @@ static void test_senses_are_driven_and_not_answered(void)
 
 static void test_a_written_memory_is_sent_and_stored_once(void)
 {
-    command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_LEFT << 2 * PATTERN_FRONT);
+    command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_LEFT << 8 * PATTERN_FRONT);
     TEST_ASSERT_TRUE(out.has_memory);
     TEST_ASSERT_TRUE(out.store);
     TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, out.memory[PATTERN_FRONT]);
@@ -360,7 +382,7 @@ static void test_the_turns_of_a_fixed_robot_are_sent_and_not_stored(void)
 static void test_what_is_written_to_a_robot_that_does_not_learn_is_not_stored(void)
 {
     command(OPCODE_START, PROFILE_FIXED, 1);
-    command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_RIGHT << 2 * PATTERN_FRONT);
+    command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_RIGHT << 8 * PATTERN_FRONT);
     TEST_ASSERT_EQUAL_UINT8(SIDE_RIGHT, out.memory[PATTERN_FRONT]);
     TEST_ASSERT_FALSE(out.store);
 }
@@ -377,7 +399,6 @@ static void test_the_report_tells_the_profile(void)
 static void test_a_report_alone_stores_nothing(void)
 {
     command(OPCODE_STOP, 0, 0);
-    TEST_ASSERT_TRUE(out.has_memory);
     TEST_ASSERT_FALSE(out.store);
 }
 
@@ -395,20 +416,22 @@ int main(void)
     RUN_TEST(test_the_drive_tells_the_repeat_count);
     RUN_TEST(test_an_action_keeps_its_number_while_it_lasts);
     RUN_TEST(test_actions_are_numbered_0_to_127_round_and_round);
-    RUN_TEST(test_silence_rests_the_wheels);
+    RUN_TEST(test_silence_rests_the_wheels_and_says_so);
     RUN_TEST(test_a_drive_in_silence_names_the_last_tick_and_action);
     RUN_TEST(test_silence_changes_nothing_but_its_count);
     RUN_TEST(test_after_silence_it_goes_on_where_it_was);
-    RUN_TEST(test_a_stopped_robot_says_nothing_to_silence);
+    RUN_TEST(test_a_stopped_robot_says_in_silence_that_it_rests);
+    RUN_TEST(test_stop_rests_the_wheels_at_once);
     RUN_TEST(test_every_tenth_silence_brings_a_report);
     RUN_TEST(test_senses_begin_the_count_of_silences_anew);
     RUN_TEST(test_a_report_comes_once_a_second);
-    RUN_TEST(test_the_memory_comes_with_each_report);
+    RUN_TEST(test_a_report_has_the_memory);
     RUN_TEST(test_a_stopped_robot_reports_too);
     RUN_TEST(test_reports_keep_to_the_second_with_any_tick);
     RUN_TEST(test_uptime_counts_seconds);
     RUN_TEST(test_uptime_wraps);
     RUN_TEST(test_stop_is_answered_with_a_report);
+    RUN_TEST(test_a_report_is_made_when_it_is_asked_for);
     RUN_TEST(test_the_report_tells_a_frozen_robot);
     RUN_TEST(test_a_command_is_answered_and_not_driven);
     RUN_TEST(test_a_refusal_is_answered);

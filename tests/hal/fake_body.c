@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "hal/protocol/crc8.h"
+#include "wire_frames.h"
 
 struct fake fake;
 struct hal *hal;
@@ -127,6 +127,8 @@ void setUp(void)
 {
     memset(&fake, 0, sizeof fake);
     TEST_ASSERT_EQUAL(0, open_body());
+    TEST_ASSERT_EQUAL_UINT32(OCTET_BOOT_FRAME_ID, fake.sent[0].id);
+    fake.sends = 0;
 }
 
 void tearDown(void) {}
@@ -137,27 +139,14 @@ void happens(uint32_t at_ms, int result, struct frame frame)
     fake.script[fake.events++] = (struct event){.at_ms = at_ms, .result = result, .frame = frame};
 }
 
-static struct frame sealed(struct frame frame)
+void senses_come(uint32_t at_ms, unsigned ticks)
 {
-    frame.data[0] = crc8_of_frame(&frame);
-    return frame;
-}
-
-void senses_come(uint32_t at_ms, uint16_t tick)
-{
-    const struct octet_senses_t senses = {.tick = tick};
-    struct frame frame = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH};
-
-    octet_senses_pack(frame.data, &senses, sizeof frame.data);
-    happens(at_ms, 1, sealed(frame));
+    happens(at_ms, 1, senses_frame(NODE, ticks));
 }
 
 void command_comes(uint32_t at_ms, struct octet_command_t command)
 {
-    struct frame frame = {.id = OCTET_COMMAND_FRAME_ID, .len = OCTET_COMMAND_LENGTH};
-
-    octet_command_pack(frame.data, &command, sizeof frame.data);
-    happens(at_ms, 1, sealed(frame));
+    happens(at_ms, 1, command_frame(command));
 }
 
 void noise_comes(uint32_t at_ms)
@@ -170,14 +159,25 @@ int receive(void)
     return hal_receive(hal, &in);
 }
 
+static const struct frame *sent(uint32_t id, unsigned half)
+{
+    for (unsigned i = fake.sends; i-- > 0;)
+        if (fake.sent[i].id == id && fake.sent[i].data[1] >> 4 == half)
+            return &fake.sent[i];
+    TEST_FAIL_MESSAGE("it was not sent");
+    return NULL;
+}
+
 struct octet_faults_t faults(void)
 {
-    const struct output out = {.has_report = true};
+    const struct output out = {.has_report = true, .whole_report = true};
     struct octet_faults_t reported;
 
     fake.failing_send = NEVER;
     TEST_ASSERT_EQUAL(0, hal_send(hal, &out));
-    TEST_ASSERT_EQUAL(0, octet_faults_unpack(&reported, fake.sent[fake.sends - 1].data, OCTET_FAULTS_LENGTH));
+    for (unsigned page = 0; page < 2; page++)
+        TEST_ASSERT_EQUAL(0, octet_faults_unpack(&reported, sent(OCTET_FAULTS_FRAME_ID, page)->data, OCTET_FAULTS_LENGTH));
+    reported.crc = reported.counter = reported.page = 0;
     return reported;
 }
 

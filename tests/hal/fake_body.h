@@ -9,7 +9,7 @@
 #include "hal/protocol/wire.h"
 #include "octet.h"
 
-enum { NODE = 1, SCRIPT_MAX = 64, SENT_MAX = 256, NEVER = 0, FRAMES = WIRE_FRAMES_MAX - 1 /* no crash */ };
+enum { NODE = 1, SCRIPT_MAX = 64, SENT_MAX = 256, NEVER = 0, FRAMES = WIRE_FRAMES_MAX - 2 /* no crash, no fault */ };
 
 /* What the fake link does, in order: at a time, a result of link_receive, with a frame if that is 1. */
 struct event {
@@ -43,7 +43,7 @@ int open_body(void);
         /* Opens it again, as things are; result of hal_open. */
 
 void happens(uint32_t at_ms, int result, struct frame frame);
-void senses_come(uint32_t at_ms, uint16_t tick);
+void senses_come(uint32_t at_ms, unsigned ticks);
 void command_comes(uint32_t at_ms, struct octet_command_t command);
 void noise_comes(uint32_t at_ms);
         /* One more event of the script. */

@@ -20,7 +20,7 @@ static void test_a_closed_link_takes_no_drive(void)
 
 static void assert_only_frame_n_is_lost(unsigned n, int failure)
 {
-    const struct output out = {.has_answer = true, .has_report = true, .has_memory = true, .has_drive = true};
+    const struct output out = {.has_answer = true, .has_report = true, .whole_report = true, .has_drive = true};
 
     setUp();
     fake.failing_send = n;
@@ -80,7 +80,7 @@ static void test_a_memory_is_loaded_and_stored_through_the_port(void)
     fake.store_result = 1;
     TEST_ASSERT_EQUAL(1, hal_load(hal, memory));
     fake.store_result = 0;
-    TEST_ASSERT_EQUAL(0, hal_store(hal, memory));
+    TEST_ASSERT_EQUAL(0, hal_store(hal, memory, false));
     assert_faults((struct octet_faults_t){.unsaved = 0});
 }
 
@@ -89,7 +89,7 @@ static void test_a_memory_that_could_not_be_stored_is_counted(void)
     static const uint8_t memory[CELL_COUNT] = {0, 2};
 
     fake.store_result = HAL_E_STORE;
-    TEST_ASSERT_EQUAL(HAL_E_STORE, hal_store(hal, memory));
+    TEST_ASSERT_EQUAL(HAL_E_STORE, hal_store(hal, memory, false));
     assert_faults((struct octet_faults_t){.unsaved = 1});
 }
 
@@ -115,7 +115,7 @@ static void store_later(void)
     static const uint8_t memory[CELL_COUNT] = {0, 2};
 
     fake.needs_rest = true;
-    TEST_ASSERT_EQUAL(0, hal_store(hal, memory));
+    TEST_ASSERT_EQUAL(0, hal_store(hal, memory, false));
 }
 
 static void test_storing_that_takes_long_waits_for_a_silence(void)
@@ -125,6 +125,23 @@ static void test_storing_that_takes_long_waits_for_a_silence(void)
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT(1, fake.stores);
     assert_faults((struct octet_faults_t){.unsaved = 0});
+}
+
+static void test_at_rest_what_takes_long_is_stored_at_once(void)
+{
+    static const uint8_t memory[CELL_COUNT] = {0, 2};
+
+    fake.needs_rest = true;
+    TEST_ASSERT_EQUAL(0, hal_store(hal, memory, true));
+    TEST_ASSERT_EQUAL_UINT(1, fake.stores);
+}
+
+static void test_health_tells_of_what_was_put_off(void)
+{
+    store_later();
+    (void)faults();
+    TEST_ASSERT_EQUAL_UINT32(OCTET_HEALTH_FRAME_ID, fake.sent[fake.sends - 1].id);
+    TEST_ASSERT_EQUAL_HEX8(1u << 6, fake.sent[fake.sends - 1].data[1] & 1u << 6);
 }
 
 static void test_what_was_put_off_is_stored_once(void)
@@ -162,6 +179,8 @@ int main(void)
     RUN_TEST(test_a_stored_memory_that_is_none_is_counted);
     RUN_TEST(test_a_memory_never_stored_is_no_fault);
     RUN_TEST(test_storing_that_takes_long_waits_for_a_silence);
+    RUN_TEST(test_at_rest_what_takes_long_is_stored_at_once);
+    RUN_TEST(test_health_tells_of_what_was_put_off);
     RUN_TEST(test_what_was_put_off_is_stored_once);
     RUN_TEST(test_what_was_put_off_and_could_not_be_stored_is_counted);
     RUN_TEST(test_entropy_is_the_ports);

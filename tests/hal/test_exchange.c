@@ -2,8 +2,7 @@
 
 #include <unity.h>
 
-#include "hal/protocol/crc8.h"
-#include "octet.h"
+#include "wire_frames.h"
 
 static const uint8_t STORED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 1};
 
@@ -22,69 +21,72 @@ void tearDown(void)
     octet_close(octet);
 }
 
-static struct frame sealed(struct frame frame)
-{
-    frame.data[0] = crc8_of_frame(&frame);
-    return frame;
-}
-
-static struct frame senses_frame(uint16_t tick)
-{
-    const struct octet_senses_t senses = {.tick = tick};
-    struct frame frame = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH};
-
-    octet_senses_pack(frame.data, &senses, sizeof frame.data);
-    return sealed(frame);
-}
-
-static struct frame command_frame(uint8_t opcode)
-{
-    const struct octet_command_t command = {.opcode = opcode, .counter = 1};
-    struct frame frame = {.id = OCTET_COMMAND_FRAME_ID, .len = OCTET_COMMAND_LENGTH};
-
-    octet_command_pack(frame.data, &command, sizeof frame.data);
-    return sealed(frame);
-}
-
 static size_t exchange(struct frame in)
 {
     return octet_exchange(octet, &in);
 }
 
+static struct frame command_of(uint8_t opcode)
+{
+    return command_frame((struct octet_command_t){.opcode = opcode, .counter = 1, .owner = 1, .lockstep = 1});
+}
+
 static void test_senses_are_answered_with_a_drive(void)
 {
-    TEST_ASSERT_EQUAL_size_t(1, exchange(senses_frame(7)));
+    TEST_ASSERT_EQUAL_size_t(1, exchange(senses_frame(1, 7)));
     TEST_ASSERT_EQUAL_UINT32(OCTET_DRIVE_FRAME_ID, out[0].id);
 }
 
 static void test_a_command_is_answered_before_its_report(void)
 {
-    TEST_ASSERT_EQUAL_size_t(5, exchange(command_frame(OPCODE_STOP)));
+    TEST_ASSERT_EQUAL_size_t(9, exchange(command_of(OPCODE_STOP)));
     TEST_ASSERT_EQUAL_UINT32(OCTET_ANSWER_FRAME_ID, out[0].id);
     TEST_ASSERT_EQUAL_UINT32(OCTET_HEARTBEAT_FRAME_ID, out[1].id);
 }
 
 static void test_answers_stay_where_they_are(void)
 {
-    exchange(senses_frame(1));
+    exchange(senses_frame(1, 1));
     TEST_ASSERT_EQUAL_PTR(out, octet_answers(octet));
-    exchange(command_frame(OPCODE_STOP));
+    exchange(command_of(OPCODE_STOP));
     TEST_ASSERT_EQUAL_PTR(out, octet_answers(octet));
+}
+
+/* Clear of obstacles, as far as it can feel. */
+static struct frame clear_way(unsigned ticks)
+{
+    struct frame frame = senses_frame(1, ticks);
+
+    frame.data[2] &= 0x0F;
+    frame.data[3] = 0;
+    return protected_frame(frame);
 }
 
 static void test_a_started_robot_drives(void)
 {
     struct octet_drive_t drive;
 
-    exchange(command_frame(OPCODE_START));
-    exchange(senses_frame(0));
+    exchange(command_of(OPCODE_START));
+    exchange(clear_way(0));
     octet_drive_unpack(&drive, out[0].data, out[0].len);
     TEST_ASSERT_GREATER_THAN_INT16(0, drive.left);
 }
 
+static void test_in_lockstep_senses_again_are_answered_as_before(void)
+{
+    struct frame before;
+
+    exchange(command_of(OPCODE_START));
+    TEST_ASSERT_EQUAL_size_t(1, exchange(senses_frame(1, 0)));
+    before = out[0];
+    TEST_ASSERT_EQUAL_size_t(1, exchange(senses_frame(1, 0)));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &out[0], sizeof before);
+    TEST_ASSERT_EQUAL_UINT16(20, octet->robot.part_ms);   /* one tick */
+}
+
 static void test_a_damaged_frame_is_counted_and_not_answered(void)
 {
-    struct frame damaged = senses_frame(0);
+    struct frame damaged = senses_frame(1, 0);
 
     damaged.data[0] ^= 1;
     TEST_ASSERT_EQUAL_size_t(0, exchange(damaged));
@@ -93,8 +95,8 @@ static void test_a_damaged_frame_is_counted_and_not_answered(void)
 
 static void test_stale_senses_do_not_reach_the_robot(void)
 {
-    exchange(senses_frame(0));
-    TEST_ASSERT_EQUAL_size_t(0, exchange(senses_frame(0)));
+    exchange(senses_frame(1, 0));
+    TEST_ASSERT_EQUAL_size_t(0, exchange(senses_frame(1, 0)));
     TEST_ASSERT_EQUAL_UINT16(20, octet->robot.part_ms);   /* one tick */
 }
 
@@ -121,7 +123,7 @@ static void test_two_robots_do_not_know_each_other(void)
 {
     struct octet *other = octet_open(2, STORED);
 
-    exchange(command_frame(OPCODE_START));
+    exchange(command_of(OPCODE_START));
     TEST_ASSERT_FALSE(other->robot.running);
     octet_close(other);
 }
@@ -138,6 +140,7 @@ int main(void)
     RUN_TEST(test_a_command_is_answered_before_its_report);
     RUN_TEST(test_answers_stay_where_they_are);
     RUN_TEST(test_a_started_robot_drives);
+    RUN_TEST(test_in_lockstep_senses_again_are_answered_as_before);
     RUN_TEST(test_a_damaged_frame_is_counted_and_not_answered);
     RUN_TEST(test_stale_senses_do_not_reach_the_robot);
     RUN_TEST(test_a_robot_begins_stopped);

@@ -4,10 +4,9 @@
 
 #include <unity.h>
 
-#include "hal/protocol/crc8.h"
-#include "octet.h"
+#include "wire_frames.h"
 
-enum { NODE = 1, ID_BITS = 11, BITS = ID_BITS + 64 };
+enum { NODE = 1, OWNER = 1, ID_BITS = 11, BITS = ID_BITS + 64 };
 
 static struct wire wire;
 static struct input in;
@@ -29,43 +28,14 @@ static void expect(enum fault fault, uint8_t count)
     expected_faults[fault] = count;
 }
 
-static struct frame sealed(struct frame frame)
-{
-    frame.data[0] = crc8_of_frame(&frame);
-    return frame;
-}
-
-static struct frame senses_frame(unsigned node, uint16_t tick)
-{
-    const struct octet_senses_t senses = {
-        .tick = tick, .feel = 21, .bump = 1, .look = 1, .beacon = 8191, .odometer_left = 4095, .odometer_right = 1};
-    struct frame frame = {.id = OCTET_SENSES_FRAME_ID + node - 1u, .len = OCTET_SENSES_LENGTH};
-
-    TEST_ASSERT_EQUAL(OCTET_SENSES_LENGTH, octet_senses_pack(frame.data, &senses, sizeof frame.data));
-    return sealed(frame);
-}
-
-static struct frame command_frame(struct octet_command_t command)
-{
-    struct frame frame = {.id = OCTET_COMMAND_FRAME_ID, .len = OCTET_COMMAND_LENGTH};
-
-    TEST_ASSERT_EQUAL(OCTET_COMMAND_LENGTH, octet_command_pack(frame.data, &command, sizeof frame.data));
-    return sealed(frame);
-}
-
-static struct frame plain_command(uint8_t opcode, uint8_t counter)
-{
-    return command_frame((struct octet_command_t){.opcode = opcode, .counter = counter});
-}
-
 static enum input_kind read(struct frame frame)
 {
     return wire_read(&wire, &frame, &in);
 }
 
-static enum input_kind read_tick(uint16_t tick)
+static enum input_kind read_tick(unsigned ticks)
 {
-    return read(senses_frame(NODE, tick));
+    return read(senses_frame(NODE, ticks));
 }
 
 /* Reads what must not get through. */
@@ -77,16 +47,37 @@ static void refuse(struct frame frame)
     TEST_ASSERT_EQUAL_MEMORY(&before, &in, sizeof in);
 }
 
+static struct frame command_of(enum opcode opcode, uint8_t counter, uint8_t owner)
+{
+    return command_frame((struct octet_command_t){.opcode = (uint8_t)opcode, .counter = counter, .owner = owner});
+}
+
+/* The robot's answer, as hal_send would send it; the last frame that it makes. */
+static struct frame respond(struct output out)
+{
+    struct frame frames[WIRE_FRAMES_MAX];
+
+    return frames[wire_write(&wire, &out, frames) - 1];
+}
+
+static void start(uint8_t lockstep, uint32_t value)
+{
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
+                                         .opcode = OPCODE_START, .counter = 1, .owner = OWNER, .lockstep = lockstep})));
+    respond((struct output){.has_answer = true, .answer_value = value});
+}
+
 static void test_senses_arrive_whole(void)
 {
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(4095));
-    TEST_ASSERT_EQUAL_UINT16(4095, in.senses.tick);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(255));
+    TEST_ASSERT_EQUAL_UINT8(255, in.senses.tick);
     TEST_ASSERT_EQUAL_UINT8(21, in.senses.feel);
     TEST_ASSERT_TRUE(in.senses.bump);
     TEST_ASSERT_TRUE(in.senses.look);
     TEST_ASSERT_EQUAL_UINT16(8191, in.senses.beacon_mm);
     TEST_ASSERT_EQUAL_UINT16(4095, in.senses.odometer_left);
     TEST_ASSERT_EQUAL_UINT16(1, in.senses.odometer_right);
+    TEST_ASSERT_EACH_EQUAL_UINT8(RANGE_NONE, in.senses.range_mm, FEEL_COUNT);
 }
 
 static void assert_command(enum opcode opcode, unsigned which, uint32_t value)
@@ -99,22 +90,30 @@ static void assert_command(enum opcode opcode, unsigned which, uint32_t value)
 static void test_start_brings_profile_and_seed(void)
 {
     TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
-                                       .opcode = OPCODE_START, .profile = 200, .seed = 0xFFFFFFFF})));
-    assert_command(OPCODE_START, 200, 0xFFFFFFFF);
+                                         .opcode = OPCODE_START, .profile = 100, .lockstep = 1, .seed = 0xFFFFFFFF})));
+    assert_command(OPCODE_START, 100, 0xFFFFFFFF);
 }
 
 static void test_set_brings_parameter_and_value(void)
 {
     TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
-                                       .opcode = OPCODE_SET, .parameter = 12, .value = 65535})));
+                                         .opcode = OPCODE_SET, .parameter = 12, .value = 65535})));
     assert_command(OPCODE_SET, 12, 65535);
 }
 
-static void test_write_brings_mask_and_cells(void)
+static void test_get_brings_its_parameter(void)
 {
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
-                                       .opcode = OPCODE_WRITE, .mask = 0xFE, .cells = 0xAAA8})));
-    assert_command(OPCODE_WRITE, 0xFE, 0xAAA8);
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){.opcode = OPCODE_GET, .wanted = 12})));
+    assert_command(OPCODE_GET, 12, 0);
+}
+
+static void test_write_brings_half_mask_and_bytes(void)
+{
+    TEST_ASSERT_EQUAL(INPUT_COMMAND,
+                      read(command_frame((struct octet_command_t){.opcode = OPCODE_WRITE, .mask = 9, .half = 1,
+                                                                  .byte_0 = 0x11, .byte_1 = 0x22, .byte_2 = 0x33,
+                                                                  .byte_3 = 0xFF})));
+    assert_command(OPCODE_WRITE, 0x19, 0xFF332211);
 }
 
 static void test_freeze_brings_its_flag(void)
@@ -125,20 +124,12 @@ static void test_freeze_brings_its_flag(void)
 
 static void test_other_opcodes_bring_no_arguments(void)
 {
-    static const uint8_t opcodes[] = {OPCODE_STOP, OPCODE_RESUME, OPCODE_ERASE, 0, 8, 15};
+    static const uint8_t opcodes[] = {OPCODE_STOP, OPCODE_RESUME, OPCODE_ERASE, OPCODE_REPORT, 0, 10, 15};
 
     for (uint8_t i = 0; i < sizeof opcodes; i++) {
-        TEST_ASSERT_EQUAL(INPUT_COMMAND, read(plain_command(opcodes[i], i)));
+        TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_of((enum opcode)opcodes[i], i, OWNER)));
         assert_command((enum opcode)opcodes[i], 0, 0);
     }
-}
-
-static void test_each_command_says_whose_clock_rules(void)
-{
-    read(command_frame((struct octet_command_t){.opcode = OPCODE_RESUME, .counter = 1, .lockstep = 1}));
-    TEST_ASSERT_TRUE(wire.lockstep);
-    read(command_frame((struct octet_command_t){.opcode = OPCODE_RESUME, .counter = 2, .lockstep = 0}));
-    TEST_ASSERT_FALSE(wire.lockstep);
 }
 
 static void test_each_node_hears_its_own_frames(void)
@@ -151,19 +142,15 @@ static void test_each_node_hears_its_own_frames(void)
 
 static void test_no_node_hears_anothers_frames(void)
 {
-    unsigned foreign = 0;
-
-    for (uint8_t node = 1; node <= NODE_MAX; node++)
-        if (node != NODE) {
-            refuse(senses_frame(node, 0));
-            foreign++;
-        }
-    expect(FAULT_FOREIGN, (uint8_t)foreign);
+    for (uint8_t node = 2; node <= NODE_MAX; node++)
+        refuse(senses_frame(node, 0));
+    expect(FAULT_FOREIGN, NODE_MAX - 1);
 }
 
 static void test_the_first_and_the_last_node_listen_for_their_own(void)
 {
-    static const uint16_t expected[2][WIRE_LISTEN_COUNT] = {{193, 65}, {193 + 62, 65 + 62}};
+    static const uint16_t expected[2][WIRE_LISTEN_COUNT] = {{0x101, 0x121, 0x021, 0x041, 0x6A1},
+                                                            {0x11F, 0x13F, 0x03F, 0x05F, 0x6BF}};
     static const uint8_t nodes[2] = {1, NODE_MAX};
     uint16_t ids[WIRE_LISTEN_COUNT];
 
@@ -174,10 +161,10 @@ static void test_the_first_and_the_last_node_listen_for_their_own(void)
     }
 }
 
-static void test_what_robots_send_is_foreign_to_robots(void)
+static void test_other_messages_of_robots_are_foreign(void)
 {
-    refuse((struct frame){.id = OCTET_DRIVE_FRAME_ID, .len = 8});
-    refuse((struct frame){.id = OCTET_ANSWER_FRAME_ID, .len = 3});
+    refuse((struct frame){.id = OCTET_ANSWER_FRAME_ID, .len = OCTET_ANSWER_LENGTH});
+    refuse((struct frame){.id = OCTET_MEMORY_FRAME_ID, .len = OCTET_MEMORY_LENGTH});
     expect(FAULT_FOREIGN, 2);
 }
 
@@ -230,7 +217,7 @@ static void refuse_every_flip(const struct frame good)
 
 static void test_senses_with_one_or_two_flipped_bits_are_refused(void)
 {
-    refuse_every_flip(senses_frame(NODE, 1234));
+    refuse_every_flip(senses_frame(NODE, 123));
 }
 
 static void test_a_command_with_one_or_two_flipped_bits_is_refused(void)
@@ -241,18 +228,19 @@ static void test_a_command_with_one_or_two_flipped_bits_is_refused(void)
 static void test_a_frame_of_another_length_is_damaged(void)
 {
     for (uint8_t len = 0; len < 8; len++) {
-        struct frame senses = senses_frame(NODE, 0), command = plain_command(OPCODE_STOP, 0);
+        struct frame senses = senses_frame(NODE, 0), command = command_of(OPCODE_STOP, 0, OWNER), ranges = ranges_frame(0);
 
-        senses.len = command.len = len;
-        refuse(sealed(senses));
-        refuse(sealed(command));
+        senses.len = command.len = ranges.len = len;
+        refuse(protected_frame(senses));
+        refuse(protected_frame(command));
+        refuse(protected_frame(ranges));
     }
-    expect(FAULT_DAMAGED, 16);
+    expect(FAULT_DAMAGED, 24);
 }
 
 static void test_damaged_senses_do_not_move_the_tick(void)
 {
-    struct frame damaged = senses_frame(NODE, 100);
+    struct frame damaged = senses_frame(NODE, 10);
 
     read_tick(1);
     damaged.data[0] ^= 1;
@@ -261,52 +249,19 @@ static void test_damaged_senses_do_not_move_the_tick(void)
     TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(2));
 }
 
-static void test_any_tick_may_be_the_first(void)
-{
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(3000));
-}
-
-static void test_the_tick_wraps(void)
-{
-    read_tick(4095);
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(0));
-}
-
-static void test_senses_that_come_twice_are_stale(void)
-{
-    read_tick(5);
-    refuse(senses_frame(NODE, 5));
-    expect(FAULT_STALE, 1);
-}
-
-static void test_senses_from_behind_are_stale(void)
+static void test_stale_senses_are_counted_and_not_answered(void)
 {
     read_tick(5);
     refuse(senses_frame(NODE, 4));
-    refuse(senses_frame(NODE, (5 + 2048) % 4096));   /* as far behind as ahead */
-    expect(FAULT_STALE, 2);
-}
-
-static void test_stale_senses_do_not_move_the_tick(void)
-{
-    read_tick(5);
-    refuse(senses_frame(NODE, 3));
     expect(FAULT_STALE, 1);
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(6));
+    TEST_ASSERT_NULL(wire.again);
 }
 
 static void test_ticks_that_never_came_are_counted(void)
 {
-    read_tick(4094);
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(2));   /* without 4095, 0 and 1 */
+    read_tick(254);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(258));
     expect(FAULT_MISSED, 3);
-}
-
-static void test_the_farthest_tick_ahead_is_fresh(void)
-{
-    read_tick(0);
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(2047));
-    expect(FAULT_MISSED, 255);   /* 2046, and the counter stays at 255 */
 }
 
 static void test_after_an_outage_any_tick_is_taken(void)
@@ -330,45 +285,171 @@ static void test_before_the_first_senses_there_is_no_outage(void)
     wire_outage(&wire);
 }
 
-static void test_after_stop_or_start_any_tick_is_taken(void)
+static void test_in_lockstep_an_outage_is_no_fault(void)
 {
-    read_tick(100);
-    read(plain_command(OPCODE_STOP, 0));
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(50));
-    read(plain_command(OPCODE_START, 1));
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(20));
-}
-
-static void test_after_other_commands_the_tick_must_follow(void)
-{
-    read_tick(100);
-    read(plain_command(OPCODE_RESUME, 0));
-    refuse(senses_frame(NODE, 50));
+    start(1, 0);
+    read_tick(5);
+    wire_outage(&wire);
+    refuse(senses_frame(NODE, 9));   /* the tick must go on as before */
     expect(FAULT_STALE, 1);
 }
 
-static void test_a_command_that_comes_twice_is_stale(void)
+static void test_an_outage_loses_the_owner_the_robot(void)
 {
-    read(plain_command(OPCODE_ERASE, 7));
-    refuse(plain_command(OPCODE_ERASE, 7));
-    expect(FAULT_STALE, 1);
+    start(1, 0);
+    wire_outage(&wire);
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_of(OPCODE_ERASE, 9, OWNER + 1)));
 }
 
-static void test_any_other_counter_is_a_new_command(void)
+static void test_in_lockstep_senses_again_are_answered_as_before(void)
 {
-    for (uint8_t counter = 0; counter < 16; counter++)
-        TEST_ASSERT_EQUAL(INPUT_COMMAND, read(plain_command(OPCODE_ERASE, counter)));
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(plain_command(OPCODE_ERASE, 3)));
+    struct frame drive;
+
+    start(1, 0);
+    read_tick(5);
+    drive = respond((struct output){.has_drive = true, .drive = {.tick = 5, .left_mm_s = 200}});
+    refuse(senses_frame(NODE, 5));
+    TEST_ASSERT_NOT_NULL(wire.again);
+    TEST_ASSERT_EQUAL_MEMORY(&drive, wire.again, sizeof drive);
+}
+
+static void test_what_was_said_in_silence_is_not_said_again(void)
+{
+    struct frame drive;
+
+    start(1, 0);
+    read_tick(5);
+    drive = respond((struct output){.has_drive = true, .drive = {.tick = 5, .left_mm_s = 200}});
+    respond((struct output){.has_drive = true, .silent = true, .drive = {.tick = 5}});
+    refuse(senses_frame(NODE, 5));
+    TEST_ASSERT_EQUAL_MEMORY(&drive, wire.again, sizeof drive);
+}
+
+static void test_a_command_again_is_answered_as_before(void)
+{
+    struct frame answer;
+
+    read(command_of(OPCODE_ERASE, 7, OWNER));
+    answer = respond((struct output){.has_answer = true});
+    refuse(command_of(OPCODE_ERASE, 7, OWNER));
+    TEST_ASSERT_NOT_NULL(wire.again);
+    TEST_ASSERT_EQUAL_MEMORY(&answer, wire.again, sizeof answer);
+}
+
+static void assert_answer(enum result result, uint8_t counter)
+{
+    struct octet_answer_t answer;
+
+    TEST_ASSERT_NOT_NULL(wire.again);
+    TEST_ASSERT_TRUE(e2e_is_whole(wire.again, OCTET_ANSWER_LENGTH));
+    TEST_ASSERT_EQUAL_UINT32(OCTET_ANSWER_FRAME_ID, wire.again->id);
+    TEST_ASSERT_EQUAL(0, octet_answer_unpack(&answer, wire.again->data, wire.again->len));
+    TEST_ASSERT_EQUAL_UINT8(result, answer.result);
+    TEST_ASSERT_EQUAL_UINT8(counter, answer.counter);
+}
+
+static void test_a_command_of_another_sender_is_answered_with_the_reason(void)
+{
+    start(0, 0);
+    refuse(command_of(OPCODE_ERASE, 2, OWNER + 1));
+    assert_answer(RESULT_OWNED, 2);
+    expect(FAULT_REFUSED, 1);
+}
+
+static void test_an_old_command_is_answered_with_the_reason(void)
+{
+    start(0, 0);
+    refuse(command_of(OPCODE_ERASE, 0, OWNER));
+    assert_answer(RESULT_OUT_OF_SEQUENCE, 0);
+    expect(FAULT_STALE, 1);
 }
 
 static void test_a_damaged_command_does_not_use_up_its_counter(void)
 {
-    struct frame damaged = plain_command(OPCODE_ERASE, 7);
+    struct frame damaged = command_of(OPCODE_ERASE, 7, OWNER);
 
     damaged.data[7] ^= 1;
     refuse(damaged);
     expect(FAULT_DAMAGED, 1);
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(plain_command(OPCODE_ERASE, 7)));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_of(OPCODE_ERASE, 7, OWNER)));
+}
+
+static void test_ranges_that_nobody_asked_for_are_foreign(void)
+{
+    refuse(ranges_frame(0));
+    expect(FAULT_FOREIGN, 1);
+}
+
+static void test_ranges_go_with_the_senses_of_their_tick(void)
+{
+    static const uint8_t expected[FEEL_COUNT] = {11, 22, 33, 44, 55};
+
+    start(1, ANSWER_WANTS_RANGES);
+    refuse(ranges_frame(7));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(7));
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, in.senses.range_mm, FEEL_COUNT);
+}
+
+static void test_in_lockstep_senses_wait_for_their_ranges(void)
+{
+    start(1, ANSWER_WANTS_RANGES);
+    refuse(ranges_frame(6));
+    refuse(senses_frame(NODE, 7));
+    expect(FAULT_MISSED, 1);
+    refuse(ranges_frame(7));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(7));
+}
+
+static void test_on_its_own_clock_senses_do_without_their_ranges(void)
+{
+    start(0, ANSWER_WANTS_RANGES);
+    refuse(ranges_frame(6));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(7));
+    TEST_ASSERT_EACH_EQUAL_UINT8(RANGE_NONE, in.senses.range_mm, FEEL_COUNT);
+}
+
+static struct frame of_a_twin(uint32_t id, uint8_t len)
+{
+    return protected_frame((struct frame){.id = id, .len = len});
+}
+
+static void test_a_twin_stops_the_robot(void)
+{
+    start(1, 0);
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(of_a_twin(OCTET_DRIVE_FRAME_ID, OCTET_DRIVE_LENGTH)));
+    TEST_ASSERT_EQUAL(OPCODE_STOP, in.command.opcode);
+    expect(FAULT_TWIN, 1);
+}
+
+static void test_a_stop_for_a_twin_has_no_answer_and_no_owner(void)
+{
+    struct output out = {.has_answer = true, .has_drive = true};
+    struct frame frames[WIRE_FRAMES_MAX];
+
+    start(1, 0);
+    read(of_a_twin(OCTET_HEARTBEAT_FRAME_ID, OCTET_HEARTBEAT_LENGTH));
+    TEST_ASSERT_EQUAL_size_t(2, wire_write(&wire, &out, frames));
+    TEST_ASSERT_EQUAL_UINT32(OCTET_EMERGENCY_FRAME_ID, frames[0].id);
+    TEST_ASSERT_EQUAL_UINT8(0, wire.session.owner);
+    expect(FAULT_TWIN, 1);
+}
+
+static void test_a_twin_stops_the_robot_once_for_each_start(void)
+{
+    const struct frame heard = of_a_twin(OCTET_HEARTBEAT_FRAME_ID, OCTET_HEARTBEAT_LENGTH);
+
+    read(heard);
+    respond((struct output){.has_answer = true, .has_drive = true});
+    refuse(heard);
+    start(1, 0);
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(heard));
+    expect(FAULT_TWIN, 3);
+}
+
+static void test_a_damaged_frame_of_a_twin_is_damaged(void)
+{
+    refuse((struct frame){.id = OCTET_DRIVE_FRAME_ID, .len = 8, .data = {1}});
+    expect(FAULT_DAMAGED, 1);
 }
 
 static void test_every_counter_stays_at_255(void)
@@ -386,34 +467,40 @@ int main(void)
     RUN_TEST(test_senses_arrive_whole);
     RUN_TEST(test_start_brings_profile_and_seed);
     RUN_TEST(test_set_brings_parameter_and_value);
-    RUN_TEST(test_write_brings_mask_and_cells);
+    RUN_TEST(test_get_brings_its_parameter);
+    RUN_TEST(test_write_brings_half_mask_and_bytes);
     RUN_TEST(test_freeze_brings_its_flag);
     RUN_TEST(test_other_opcodes_bring_no_arguments);
-    RUN_TEST(test_each_command_says_whose_clock_rules);
     RUN_TEST(test_each_node_hears_its_own_frames);
     RUN_TEST(test_no_node_hears_anothers_frames);
     RUN_TEST(test_the_first_and_the_last_node_listen_for_their_own);
-    RUN_TEST(test_what_robots_send_is_foreign_to_robots);
+    RUN_TEST(test_other_messages_of_robots_are_foreign);
     RUN_TEST(test_extended_remote_and_error_frames_are_foreign);
     RUN_TEST(test_senses_with_one_or_two_flipped_bits_are_refused);
     RUN_TEST(test_a_command_with_one_or_two_flipped_bits_is_refused);
     RUN_TEST(test_a_frame_of_another_length_is_damaged);
     RUN_TEST(test_damaged_senses_do_not_move_the_tick);
-    RUN_TEST(test_any_tick_may_be_the_first);
-    RUN_TEST(test_the_tick_wraps);
-    RUN_TEST(test_senses_that_come_twice_are_stale);
-    RUN_TEST(test_senses_from_behind_are_stale);
-    RUN_TEST(test_stale_senses_do_not_move_the_tick);
+    RUN_TEST(test_stale_senses_are_counted_and_not_answered);
     RUN_TEST(test_ticks_that_never_came_are_counted);
-    RUN_TEST(test_the_farthest_tick_ahead_is_fresh);
     RUN_TEST(test_after_an_outage_any_tick_is_taken);
     RUN_TEST(test_an_outage_is_counted_once_however_long);
     RUN_TEST(test_before_the_first_senses_there_is_no_outage);
-    RUN_TEST(test_after_stop_or_start_any_tick_is_taken);
-    RUN_TEST(test_after_other_commands_the_tick_must_follow);
-    RUN_TEST(test_a_command_that_comes_twice_is_stale);
-    RUN_TEST(test_any_other_counter_is_a_new_command);
+    RUN_TEST(test_in_lockstep_an_outage_is_no_fault);
+    RUN_TEST(test_an_outage_loses_the_owner_the_robot);
+    RUN_TEST(test_in_lockstep_senses_again_are_answered_as_before);
+    RUN_TEST(test_what_was_said_in_silence_is_not_said_again);
+    RUN_TEST(test_a_command_again_is_answered_as_before);
+    RUN_TEST(test_a_command_of_another_sender_is_answered_with_the_reason);
+    RUN_TEST(test_an_old_command_is_answered_with_the_reason);
     RUN_TEST(test_a_damaged_command_does_not_use_up_its_counter);
+    RUN_TEST(test_ranges_that_nobody_asked_for_are_foreign);
+    RUN_TEST(test_ranges_go_with_the_senses_of_their_tick);
+    RUN_TEST(test_in_lockstep_senses_wait_for_their_ranges);
+    RUN_TEST(test_on_its_own_clock_senses_do_without_their_ranges);
+    RUN_TEST(test_a_twin_stops_the_robot);
+    RUN_TEST(test_a_stop_for_a_twin_has_no_answer_and_no_owner);
+    RUN_TEST(test_a_twin_stops_the_robot_once_for_each_start);
+    RUN_TEST(test_a_damaged_frame_of_a_twin_is_damaged);
     RUN_TEST(test_every_counter_stays_at_255);
     return UNITY_END();
 }

@@ -9,6 +9,7 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.board import EmulatedBoard, Faults, start_board
+from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.robot_io import Senses
 from host_sim.sim.make import assemble
@@ -26,11 +27,13 @@ COUNTERS = (
     "unsent",
     "refused",
     "unsaved",
+    "twins",
+    "contradictions",
+    "denied",
     "bus_offs",
     "dropped",
 )
-LEARN_LEFT = 0b01_00
-"""Cells of a write command: cell 1 is left."""
+LEFT, RIGHT = 1, 2
 
 
 @dataclass
@@ -45,18 +48,20 @@ class Talk:
     protocol: Protocol = field(default_factory=Protocol)
 
     def order(self, opcode: str, **signals: int) -> None:
-        self.counter = (self.counter + 1) % 16
+        self.counter = (self.counter + 1) % COUNTER_SPAN
         number = self.protocol.choices("COMMAND", "opcode")[opcode]
-        fixed = {"counter": self.counter, "opcode": number, "lockstep": self.lockstep}
+        fixed = {"counter": self.counter, "opcode": number, "owner": 1}
         self.board.send(self.protocol.encode("COMMAND", {**fixed, **signals}))
         self.wait(0.005)
 
     def start(self) -> None:
-        self.order("start", profile=0, seed=1)
+        self.order("start", profile=0, seed=1, lockstep=self.lockstep)
 
     def senses(self, feel: int = 0) -> Frame:
         self.tick += 1
-        return self.protocol.encode_senses(Senses(self.tick % 4096, feel, False, False, 0, 0, 0))
+        return self.protocol.encode_senses(
+            Senses(self.tick % 256, feel, False, False, 0, 0, 0), self.tick % COUNTER_SPAN
+        )
 
     def live(self, ticks: int, feel: int = 0) -> list[DecodedFrame]:
         """Runs a number of ticks in real time; returns the drives."""
@@ -76,10 +81,26 @@ class Talk:
         return next(said.signals for said in reversed(self.heard) if said.name == name)
 
     def ask(self) -> dict[str, int]:
-        """Stops the robot; returns what it says of itself: HEARTBEAT, FAULTS, HEALTH together."""
+        """Stops the robot; returns what it says of itself: all its reports together."""
+        before = len(self.heard)
         self.order("stop")
         self.wait(0.02)
-        return self.last("HEARTBEAT") | self.last("FAULTS") | self.last("HEALTH")
+        report: dict[str, int] = {}
+        for said in self.heard[before:]:
+            report |= said.signals
+        return report
+
+    @property
+    def memory(self) -> tuple[int, ...]:
+        """The eight cells, as last reported."""
+        cells = {
+            name: value
+            for said in self.heard
+            if said.name == "MEMORY"
+            for name, value in said.signals.items()
+            if name.startswith("cell_")
+        }
+        return tuple(cells[f"cell_{cell}"] for cell in range(8))
 
 
 def run_robot(connection: Connection, seed: int, ticks: int, log: Path) -> RobotClient:

@@ -18,7 +18,7 @@ from host_sim.robot_io import Senses
 from host_sim.sim.run_config import RunConfig
 
 PROTOCOL = Protocol()
-STOP = PROTOCOL.encode("COMMAND", {"counter": 1, "opcode": 1, "lockstep": 0})
+STOP = PROTOCOL.encode("COMMAND", {"counter": 1, "opcode": 1, "owner": 1})
 
 
 @pytest.fixture
@@ -50,12 +50,12 @@ def test_it_answers_on_the_bus(joined):
 
     send(bus, STOP)
 
-    assert heard(board, bus, "MEMORY")[:2] == ["ANSWER", "HEARTBEAT"]
+    assert [name for name in heard(board, bus, "HEALTH") if name != "BOOT"][:2] == ["ANSWER", "HEARTBEAT"]
 
 
 def test_it_takes_senses_beside_frames_of_other_kinds(joined):
     board, bus = joined
-    senses = PROTOCOL.encode_senses(Senses(0, 0, False, False, 0, 0, 0))
+    senses = PROTOCOL.encode_senses(Senses(0, 0, False, False, 0, 0, 0), 0)
     bus.send(can.Message(arbitration_id=senses.id, is_remote_frame=True, dlc=8, is_extended_id=False))
     bus.send(can.Message(arbitration_id=senses.id, data=senses.data, is_extended_id=True))
 

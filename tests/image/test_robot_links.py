@@ -7,12 +7,15 @@ from contextlib import ExitStack
 import pytest
 
 from host_sim.backends.connection import connect
+from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.generated import Reason
 from host_sim.robot_io import Senses
 
 PROTOCOL = Protocol()
-COUNTERS = itertools.cycle(range(16))  # the robots live longer than a test, and remember the last one
+COUNTERS = itertools.cycle(range(COUNTER_SPAN))  # the robots live longer than a test, and remember the last one
 PATIENCE_S = 5.0
+KINDS = ("stale", "damaged", "foreign", "refused")
 ROBOTS = {
     "in process": ("none", "spawn", "feather_stm32f405"),
     "socket pair": ("fd", "spawn", "feather_stm32f405"),
@@ -37,20 +40,28 @@ def link(connection):
 
 
 def order():
-    return PROTOCOL.encode("COMMAND", {"counter": next(COUNTERS), "opcode": 1, "lockstep": 1})
+    return PROTOCOL.encode("COMMAND", {"counter": next(COUNTERS), "opcode": 1, "owner": 1})
 
 
 def senses(tick):
-    return PROTOCOL.encode_senses(Senses(tick, 0, False, False, 0, 0, 0))
+    return PROTOCOL.encode_senses(Senses(tick, 0, False, False, 0, 0, 0), tick % COUNTER_SPAN)
+
+
+def receive(link, timeout_s):
+    """The next message, but for what the robot says of itself while it hears nothing."""
+    while (frame := link.receive(timeout_s)) is not None:
+        said = PROTOCOL.decode(frame)
+        assert said is not None, frame
+        if not said.signals.get("silent") and said.signals.get("reason") != Reason.SILENCE:
+            return said
+    return None
 
 
 def hear_until(link, name):
     said = []
     while not said or said[-1].name != name:
-        frame = link.receive(PATIENCE_S)
-        assert frame is not None, f"no {name}, only {said}"
-        said.append(PROTOCOL.decode(frame))
-        assert said[-1] is not None, frame
+        said.append(receive(link, PATIENCE_S))
+        assert said[-1] is not None, f"no {name}, only {said}"
     return said
 
 
@@ -58,18 +69,21 @@ def ask(link):
     """Stops the robot; returns what it answers."""
     link.send(order())
     said = hear_until(link, "ANSWER")
-    return said + hear_until(link, "MEMORY")
+    return said + hear_until(link, "DRIVE")
 
 
 def faults(link):
-    return next(said.signals for said in ask(link) if said.name == "FAULTS")
+    report = {}
+    for said in ask(link):
+        report |= said.signals if said.name == "FAULTS" else {}
+    return report
 
 
 def test_a_command_is_answered_once_and_in_full(link):
     names = [said.name for said in ask(link)]
 
-    assert names == ["ANSWER", "HEARTBEAT", "HEALTH", "FAULTS", "MEMORY"]
-    assert link.receive(0.05) is None
+    assert names == ["ANSWER", "HEARTBEAT", "BOOT", "MEMORY", "MEMORY", "FAULTS", "FAULTS", "HEALTH", "DRIVE"]
+    assert receive(link, 0.05) is None
 
 
 def test_frames_keep_their_order(link):
@@ -83,37 +97,48 @@ def test_frames_keep_their_order(link):
 
 def test_receiving_waits_as_long_as_told_and_no_longer(link):
     began = time.monotonic()
-    assert link.receive(0.0) is None
+    assert receive(link, 0.0) is None
     looked_s = time.monotonic() - began
-    assert link.receive(0.1) is None
+    assert receive(link, 0.1) is None
     waited_s = time.monotonic() - began - looked_s
 
     assert looked_s < 0.05
     assert 0.1 <= waited_s < 1.0
 
 
-@pytest.mark.parametrize("damage", ["length", "crc", "repeat"])
+@pytest.mark.parametrize("damage", ["length", "crc"])
 def test_a_bad_frame_gets_no_answer_and_is_counted(link, damage):
     before = faults(link)
     good = order()
     link.send(good)
-    hear_until(link, "MEMORY")
+    hear_until(link, "DRIVE")
     bad = {
         "length": Frame(good.id, good.data[:5]),
         "crc": Frame(good.id, bytes((good.data[0] ^ 1,)) + good.data[1:]),
-        "repeat": good,
     }[damage]
 
     link.send(bad)
 
-    assert link.receive(0.05) is None
-    counted = "stale" if damage == "repeat" else "damaged"
-    assert faults(link)[counted] == before[counted] + 1
+    assert receive(link, 0.05) is None
+    assert faults(link)["damaged"] == before["damaged"] + 1
+
+
+def test_a_command_again_is_answered_again_and_not_carried_out_again(link):
+    before = faults(link)
+    command = order()
+    link.send(command)
+    (answer, *_) = hear_until(link, "DRIVE")
+
+    link.send(command)
+
+    assert receive(link, PATIENCE_S) == answer
+    assert receive(link, 0.05) is None
+    assert {name: faults(link)[name] for name in KINDS} == {name: before[name] for name in KINDS}
 
 
 def test_frames_for_others_get_no_answer(link):
-    for frame_id in (0x000, 0x042, 0x0C2, 0x181, 0x7FF):
+    for frame_id in (0x000, 0x022, 0x102, 0x181, 0x7FF):
         link.send(Frame(frame_id, bytes(8)))
 
-    assert link.receive(0.05) is None
-    assert len(ask(link)) == 5
+    assert receive(link, 0.05) is None
+    assert ask(link)[0].name == "ANSWER"

@@ -6,7 +6,7 @@ import random
 import cantools
 import pytest
 
-from host_sim.protocol.codec import CONTROL, DBC, NODE_MAX, crc8
+from host_sim.protocol.codec import DBC, NODE_MAX, crc8
 from tests.firmware.octet_c import load
 
 DATABASE = cantools.database.load_file(DBC)
@@ -19,8 +19,11 @@ SIGNALS = [
 RANDOM_VALUES = 1000
 
 # Signals that are neither a quantity nor a choice: codes, bit sets, numbers that only tell one thing from another.
-PLAIN = {"crc", "counter", "seed", "value", "mask", "cells", "feel", "action", "version_major", "version_minor"}
-PLAIN |= {"dbc_hash", "commit"}
+PLAIN = {"crc", "counter", "owner", "seed", "value", "which", "mask", "kinds", "feel", "action", "layout", "commit"}
+PLAIN |= {"version_major", "version_minor", *(f"byte_{i}" for i in range(4)), *(f"cell_{i}" for i in range(8))}
+
+# What CANopen gives a meaning: NMT, SYNC and EMCY, TIME, PDOs and SDOs, node guarding and heartbeat, LSS.
+CANOPEN = [range(0x001), range(0x080, 0x101), range(0x180, 0x680), range(0x700, 0x780), range(0x7E4, 0x7E6)]
 
 
 @pytest.fixture(scope="module")
@@ -109,7 +112,9 @@ def test_both_sides_compute_the_same_crc(c_side):
     dice = random.Random(1)
     for _ in range(RANDOM_VALUES):
         frame_id, data = dice.randrange(0x800), dice.randbytes(dice.randint(1, 8))
-        assert crc8(frame_id, data) == c_side[1].crc8_of_frame(c_frame(c_side, frame_id, data))
+        frame = c_frame(c_side, frame_id, data)
+        c_side[1].e2e_protect(frame)
+        assert crc8(frame_id, data) == frame.data[0]
 
 
 def flipped(frame_id, data, bits):
@@ -121,7 +126,7 @@ def flipped(frame_id, data, bits):
 
 
 @pytest.mark.parametrize("node", [1, NODE_MAX])
-@pytest.mark.parametrize("name", CONTROL)
+@pytest.mark.parametrize("name", MESSAGES)
 def test_the_crc_finds_every_flip_of_one_or_two_bits(name, node):
     dice = random.Random(node)
     frame_id = MESSAGES[name].frame_id + node - 1
@@ -137,6 +142,7 @@ def test_no_two_messages_of_any_two_nodes_share_an_identifier():
     ids = [message.frame_id + node - 1 for message in DATABASE.messages for node in range(1, NODE_MAX + 1)]
     assert len(set(ids)) == len(ids)
     assert max(ids) < 0x800
+    assert not [frame_id for frame_id in ids for taken in CANOPEN if frame_id in taken]
 
 
 def test_control_of_any_node_comes_before_reports_of_any_other():

@@ -26,19 +26,20 @@ int main(void)
     struct robot robot;
     struct senses senses = {0};
     struct drive drive = {0};
+    uint32_t none;
     double began;
 
     robot_init(&robot, 1);
-    if (robot_execute(&robot, &start) != RESULT_DONE)
+    if (robot_execute(&robot, &start, &none) != RESULT_DONE)
         return 1;
     began = now_ns();
     for (uint32_t tick = 0; tick < TICKS; tick++) {
-        senses.tick = (uint16_t)(tick % 4096u);
+        senses.tick = (uint8_t)(tick % TICK_SPAN);
         senses.feel = (uint8_t)((tick >> 6) % 7u == 0 ? (tick >> 9) % 32u : 0u);
         senses.odometer_left = rolled(senses.odometer_left, drive.left_mm_s);
         senses.odometer_right = rolled(senses.odometer_right, drive.right_mm_s);
         robot_step(&robot, &senses, &drive);
     }
     printf("%.2f\n", (now_ns() - began) / TICKS);
-    return drive.tick == (TICKS - 1) % 4096 ? 0 : 1;
+    return drive.tick == (TICKS - 1) % TICK_SPAN ? 0 : 1;
 }

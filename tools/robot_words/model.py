@@ -94,7 +94,8 @@ def read(dbc: Path, words: Path) -> Description:
         "reason": _choices(signal("DRIVE.reason")),
         "opcode": _same_choices(signal("COMMAND.opcode"), signal("ANSWER.opcode")),
         "result": _choices(signal("ANSWER.result")),
-        "side": _choices(signal("MEMORY.cell_1")),
+        "fault": _choices(signal("EMERGENCY.first")),
+        "side": {name: number for number, name in enumerate(toml["sides"])},
     }
     meanings = {name: toml.get(name, {}) for name in enums}
     _check_meanings(enums, meanings)
@@ -107,7 +108,7 @@ def read(dbc: Path, words: Path) -> Description:
         profiles=_listed(_same_choices(signal("COMMAND.profile"), signal("HEARTBEAT.profile")), "profile"),
         patterns=_patterns(toml["patterns"]),
         feel=_feel(toml["feel"], signal("SENSES.feel")),
-        cell_max=_cell_max(database.get_message_by_name("MEMORY"), enums["side"]),
+        cell_max=_cell_max(toml["cell_max"], database.get_message_by_name("MEMORY")),
         node_max=_node_max(toml["node_max"], database),
         tick_span=1 << signal("SENSES.tick").length,
         action_span=1 << signal("DRIVE.action").length,
@@ -203,18 +204,12 @@ def _feel(names: Sequence[str], signal: Signal) -> Sequence[str]:
     return names
 
 
-def _cell_max(memory: Message, sides: Mapping[str, int]) -> list[int]:
-    """The greatest value of each cell: of its names, which are those of the sides from 0 on, and of its range."""
-    greatest = []
-    for cell in sorted(memory.signals, key=lambda signal: signal.start):
-        choices = _choices(cell)
-        if list(choices.items()) != list(sides.items())[: len(choices)] or len(choices) == 0:
-            raise DescriptionError(f"MEMORY.{cell.name}: {choices} are not the first of {dict(sides)}")
-        # A range of 0..0 is read as none at all.
-        if int(cell.maximum or 0) != len(choices) - 1:
-            raise DescriptionError(f"MEMORY.{cell.name}: its range ends at {cell.maximum}, its names do not")
-        greatest.append(len(choices) - 1)
-    return greatest
+def _cell_max(cell_max: Sequence[int], memory: Message) -> Sequence[int]:
+    """The greatest value of each cell; the two halves of a MEMORY carry them all."""
+    cells = [signal.name for signal in memory.signals if signal.name.startswith("cell_")]
+    if sorted(cells) != [f"cell_{cell}" for cell in range(len(cell_max))]:
+        raise DescriptionError(f"cell_max has {len(cell_max)} numbers, and MEMORY {', '.join(sorted(cells))}")
+    return cell_max
 
 
 def _node_max(node_max: int, database: Database) -> int:

@@ -28,6 +28,8 @@ def _numbers(robot: Description) -> str:
     numbers = {
         "CELL_COUNT": len(robot.cell_max),
         "NODE_MAX": robot.node_max,
+        "FAULT_COUNT": len(robot.enums["fault"]),
+        "FEEL_COUNT": len(robot.feel),
         "TICK_SPAN": robot.tick_span,
         "ACTION_SPAN": robot.action_span,
         "ODOMETER_SPAN": robot.odometer_span,

@@ -22,6 +22,7 @@ int port_open(struct port *port, int argc, char *const argv[])
         .node = OCTET_NODE,
         .reset_cause = crash_reset_cause(mcu_reset_cause()),
         .crash = crash_last(),
+        .clock_exact = mcu_clock_is_exact(),
     };
     mcu_light(true);
     return 0;

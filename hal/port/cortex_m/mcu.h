@@ -10,6 +10,9 @@
 uint32_t mcu_start(void);
         /* Watchdog, clocks and pins, in this order; returns the core's clock in Hz. Each wait has a bound. */
 
+bool mcu_clock_is_exact(void);
+        /* Whether the clock that mcu_start found comes from a crystal: the bus needs it. */
+
 enum reset_cause mcu_reset_cause(void);
         /* What has reset the chip since the last call. A reset that the core asked for is RESET_SOFTWARE. */
 

@@ -15,7 +15,7 @@
 static const char USAGE[] =
     "usage: octet-robot [--node N] [--memory FILE] [--with-parent] LINK\n"
     "  LINK           socketcan:IFACE, fd:N or slcan:PATH\n"
-    "  --node N       which robot on the bus this is, 1..63 (1)\n"
+    "  --node N       which robot on the bus this is, 1..31 (1)\n"
     "  --memory FILE  load the eight bytes from FILE at start, store them there when they change\n"
     "  --with-parent  end when the process that started this one ends\n"
     "example: octet-robot --node 2 socketcan:vcan0\n";
@@ -73,7 +73,7 @@ int port_open(struct port *port, int argc, char *const argv[])
     };
     int option;
 
-    *port = (struct port){.node = 1};
+    *port = (struct port){.node = 1, .clock_exact = true};
     while ((option = getopt_long(argc, argv, "", options, NULL)) != -1) {
         int result = take_option(port, option);
 

@@ -1,0 +1,25 @@
+/* e2e.h: the protection of every message, as in AUTOSAR E2E profile 1: a CRC in byte 0, an alive counter in the low half of
+ * byte 1. The Data ID is the CAN identifier. */
+#ifndef OCTET_E2E_H
+#define OCTET_E2E_H
+
+#include <stdbool.h>
+
+#include "hal/link/link.h"
+
+enum { E2E_COUNTERS = 15 };   /* counters are 0..14 */
+
+void e2e_protect(struct frame *frame);
+        /* Puts the CRC into byte 0 of a frame that is complete but for it. len is 2..8. */
+
+bool e2e_is_whole(const struct frame *frame, uint8_t len);
+        /* Whether it has this length, the right CRC, and a counter. */
+
+uint8_t e2e_counter(const struct frame *frame);
+
+uint8_t e2e_next(uint8_t counter);
+
+unsigned e2e_ahead(uint8_t from, uint8_t to);
+        /* How many steps lead from one counter to the other, 0..14. */
+
+#endif

@@ -1,0 +1,138 @@
+#include "hal/protocol/e2e.h"
+
+#include <unity.h>
+
+static struct frame frame;
+
+void setUp(void)
+{
+    frame = (struct frame){.id = 0x101, .len = 8, .data = {0, 0x34, 0x12, 0xFF, 0x00, 0xA5, 0x5A, 0x81}};
+    e2e_protect(&frame);
+}
+
+void tearDown(void) {}
+
+static uint8_t crc_of(struct frame some)
+{
+    e2e_protect(&some);
+    return some.data[0];
+}
+
+/* Of the AUTOSAR specification of E2E profile 1, with its Data ID 0x0123: eight bytes 0, counter 0. */
+static void test_the_published_example(void)
+{
+    frame = (struct frame){.id = 0x123, .len = 8};
+    TEST_ASSERT_EQUAL_HEX8(0xCC, crc_of(frame));
+}
+
+/* The catalogue of CRCs has 0x37 for "123456789" with this polynomial from 0 to 0: here two digits in the identifier. */
+static void test_the_published_check_value(void)
+{
+    frame = (struct frame){.id = '1' | '2' << 8, .len = 8, .data = {0, '3', '4', '5', '6', '7', '8', '9'}};
+    TEST_ASSERT_EQUAL_HEX8(0x37, crc_of(frame));
+}
+
+static void test_byte_0_where_the_crc_is_kept_is_not_covered(void)
+{
+    const uint8_t crc = frame.data[0];
+
+    for (unsigned value = 0; value <= UINT8_MAX; value++) {
+        frame.data[0] = (uint8_t)value;
+        TEST_ASSERT_EQUAL_HEX8(crc, crc_of(frame));
+    }
+}
+
+static void test_bytes_beyond_the_length_are_not_covered(void)
+{
+    uint8_t crc;
+
+    frame.len = 3;
+    crc = crc_of(frame);
+    frame.data[3] ^= 0xFF;
+    TEST_ASSERT_EQUAL_HEX8(crc, crc_of(frame));
+}
+
+static void test_a_frame_sent_to_the_next_node_is_not_whole(void)
+{
+    frame.id++;
+    TEST_ASSERT_FALSE(e2e_is_whole(&frame, 8));
+}
+
+static void test_a_frame_of_another_length_is_not_whole(void)
+{
+    for (uint8_t len = 0; len < 8; len++)
+        TEST_ASSERT_FALSE(e2e_is_whole(&frame, len));
+    TEST_ASSERT_TRUE(e2e_is_whole(&frame, 8));
+}
+
+static void test_counter_15_is_none(void)
+{
+    frame.data[1] |= 15;
+    e2e_protect(&frame);
+    TEST_ASSERT_FALSE(e2e_is_whole(&frame, 8));
+}
+
+static void flip(unsigned bit)
+{
+    enum { ID_BITS = 11 };
+
+    if (bit < ID_BITS)
+        frame.id ^= 1u << bit;
+    else
+        frame.data[(bit - ID_BITS) / 8] ^= (uint8_t)(1u << (bit - ID_BITS) % 8);
+}
+
+static void test_every_flip_of_one_or_two_bits_is_found(void)
+{
+    enum { BITS = 11 + 64 };
+
+    for (unsigned i = 0; i < BITS; i++) {
+        flip(i);
+        TEST_ASSERT_FALSE(e2e_is_whole(&frame, 8));
+        for (unsigned j = 0; j < i; j++) {
+            flip(j);
+            TEST_ASSERT_FALSE(e2e_is_whole(&frame, 8));
+            flip(j);
+        }
+        flip(i);
+    }
+    TEST_ASSERT_TRUE(e2e_is_whole(&frame, 8));   /* the clean control */
+}
+
+static void test_counters_go_from_0_to_14_and_round_again(void)
+{
+    uint8_t counter = 0;
+
+    for (unsigned i = 1; i <= 30; i++) {
+        counter = e2e_next(counter);
+        TEST_ASSERT_EQUAL_UINT8(i % 15, counter);
+    }
+}
+
+static void test_how_far_one_counter_is_ahead_of_another(void)
+{
+    for (uint8_t from = 0; from < E2E_COUNTERS; from++) {
+        uint8_t to = from;
+
+        for (unsigned steps = 0; steps < E2E_COUNTERS; steps++) {
+            TEST_ASSERT_EQUAL_UINT(steps, e2e_ahead(from, to));
+            to = e2e_next(to);
+        }
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_published_example);
+    RUN_TEST(test_the_published_check_value);
+    RUN_TEST(test_byte_0_where_the_crc_is_kept_is_not_covered);
+    RUN_TEST(test_bytes_beyond_the_length_are_not_covered);
+    RUN_TEST(test_a_frame_sent_to_the_next_node_is_not_whole);
+    RUN_TEST(test_a_frame_of_another_length_is_not_whole);
+    RUN_TEST(test_counter_15_is_none);
+    RUN_TEST(test_every_flip_of_one_or_two_bits_is_found);
+    RUN_TEST(test_counters_go_from_0_to_14_and_round_again);
+    RUN_TEST(test_how_far_one_counter_is_ahead_of_another);
+    return UNITY_END();
+}

@@ -1,0 +1,52 @@
+#include "wire_frames.h"
+
+#include <unity.h>
+
+struct frame protected_frame(struct frame frame)
+{
+    e2e_protect(&frame);
+    return frame;
+}
+
+struct frame senses_frame(unsigned node, unsigned ticks)
+{
+    const struct octet_senses_t senses = {
+        .counter = (uint8_t)(ticks % E2E_COUNTERS),
+        .tick = (uint8_t)ticks,
+        .feel = 21,
+        .bump = 1,
+        .look = 1,
+        .beacon = 8191,
+        .odometer_left = 4095,
+        .odometer_right = 1,
+    };
+    struct frame frame = {.id = OCTET_SENSES_FRAME_ID + node - 1u, .len = OCTET_SENSES_LENGTH};
+
+    TEST_ASSERT_EQUAL(OCTET_SENSES_LENGTH, octet_senses_pack(frame.data, &senses, sizeof frame.data));
+    return protected_frame(frame);
+}
+
+struct frame ranges_frame(unsigned ticks)
+{
+    const struct octet_ranges_t ranges = {
+        .counter = (uint8_t)(ticks % E2E_COUNTERS),
+        .tick = (uint8_t)ticks,
+        .range_right = 11,
+        .range_front_right = 22,
+        .range_front = 33,
+        .range_front_left = 44,
+        .range_left = 55,
+    };
+    struct frame frame = {.id = OCTET_RANGES_FRAME_ID, .len = OCTET_RANGES_LENGTH};
+
+    TEST_ASSERT_EQUAL(OCTET_RANGES_LENGTH, octet_ranges_pack(frame.data, &ranges, sizeof frame.data));
+    return protected_frame(frame);
+}
+
+struct frame command_frame(struct octet_command_t command)
+{
+    struct frame frame = {.id = OCTET_COMMAND_FRAME_ID, .len = OCTET_COMMAND_LENGTH};
+
+    TEST_ASSERT_EQUAL(OCTET_COMMAND_LENGTH, octet_command_pack(frame.data, &command, sizeof frame.data));
+    return protected_frame(frame);
+}
