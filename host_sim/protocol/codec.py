@@ -15,6 +15,7 @@ COUNTERS = 15
 
 _LENGTH = 8
 _COUNTER_START = 8
+_COUNTER_MASK = 15
 # The fields of `Senses` and of `Drive` whose signals have other names: a signal has its unit beside its name.
 _SIGNALS = {"beacon_mm": "beacon", "left_mm_s": "left", "right_mm_s": "right"}
 _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
@@ -134,7 +135,11 @@ class Protocol:
     def decode_drive(self, frame: Frame) -> Drive | None:
         """The drive in a frame; None if it is no whole DRIVE of this node."""
         data = frame.data
-        if frame.id != self._drive_id or len(data) != _LENGTH or not _is_protected(frame):
+        if frame.id != self._drive_id or len(data) != _LENGTH:
+            return None
+        if (
+            data[0] != crc8(frame.id, data) or data[1] & _COUNTER_MASK >= COUNTERS
+        ):  # as `_is_protected`, without a call
             return None
         word, values = int.from_bytes(data, "little"), []
         for start, mask, sign in _DRIVE:
@@ -166,7 +171,7 @@ def node_of(frame_id: int) -> int:
 
 def counter_of(frame: Frame) -> int:
     """The alive counter in a frame with at least two bytes; a whole one has 0..14."""
-    return frame.data[1] & 15
+    return frame.data[1] & _COUNTER_MASK
 
 
 def _is_protected(frame: Frame) -> bool:

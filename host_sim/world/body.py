@@ -15,7 +15,7 @@ _IN_THE_AIR_MM = -10_000.0
 # A pushed-out body stays this deep in the obstacle, so that it goes on touching and does not bounce.
 _TOUCH_MM = 0.01
 _PUSHES = 8
-_TICK_MASK = 255
+_BYTE_MASK = 255
 _COUNTER_MASK = 4095
 _COUNTS_PER_MM = 10
 
@@ -93,7 +93,7 @@ class Body:
                     self._seen_id, beacon_mm = food_id, distance_mm
         self._seen_mm = beacon_mm
         return Senses(
-            tick=tick & _TICK_MASK,
+            tick=tick & _BYTE_MASK,
             feel=self.feel,
             bump=self.touches > 0,
             look=beacon_mm > 0,

@@ -109,9 +109,7 @@ def test_a_drive_that_never_comes_is_named_with_tick_and_last_frame(client_with)
     exchange(pace, senses(0))
     client.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
 
-    with pytest.raises(
-        RobotError, match=r"did not answer tick 1 within 0.3 s; last frame from it: DRIVE counter=0 tick=0"
-    ):
+    with pytest.raises(RobotError, match=r"tick 1 within 0.3 s; last frame from it: DRIVE counter=0 tick=0"):
         exchange(pace, senses(1))
 
 

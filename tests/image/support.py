@@ -33,7 +33,6 @@ COUNTERS = (
     "bus_offs",
     "dropped",
 )
-LEFT, RIGHT = 1, 2
 
 
 @dataclass

@@ -11,7 +11,8 @@ from host_sim.emulator.can import CanFaults, CanFrame
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.flash import FlashFaults
 from host_sim.emulator.rcc import RccFaults
-from tests.image.support import BOARDS, LEFT, RIGHT, Talk, counted, is_rest, talk_to
+from host_sim.protocol.generated import Side
+from tests.image.support import BOARDS, Talk, counted, is_rest, talk_to
 
 WORST_TICK = 3000
 NOISE_PER_TICK = 200
@@ -260,7 +261,7 @@ def memory_after_power_up(talk: Talk) -> tuple[int, ...]:
 
 def test_the_memory_survives_a_loss_of_power(name):
     talk = talk_to(name)
-    learn(talk, LEFT)
+    learn(talk, Side.LEFT)
     talk.wait(1.0)
 
     assert memory_after_power_up(talk) == (0, 1, 0, 0, 0, 0, 0, 0)
@@ -269,7 +270,7 @@ def test_the_memory_survives_a_loss_of_power(name):
 def test_a_flash_that_is_full_is_erased_and_written_again():
     talk = talk_to("blue_pill")  # its pages are the smaller ones
     for i in range(300):
-        learn(talk, (LEFT, RIGHT)[i % 2])
+        learn(talk, (Side.LEFT, Side.RIGHT)[i % 2])
     flash = talk.board.hardware.flash
 
     assert flash.erasures > 0
@@ -280,7 +281,7 @@ def test_a_flash_that_is_full_is_erased_and_written_again():
 def test_a_memory_that_cannot_be_stored_is_counted_and_the_robot_goes_on(name):
     talk = talk_to(name, Faults(flash=FlashFaults(failing=frozenset(range(1, 1000)))))
     talk.start()
-    learn(talk, LEFT)
+    learn(talk, Side.LEFT)
 
     assert len(talk.live(50)) == 50
     assert talk.ask()["unsaved"] > 0
@@ -292,9 +293,9 @@ def test_a_loss_of_power_while_storing_leaves_the_old_memory_or_the_new(name):
     while cut_at < operations:
         cut_at += 1
         talk = talk_to(name, Faults(flash=FlashFaults(cut_at=cut_at)))
-        learn(talk, LEFT)
+        learn(talk, Side.LEFT)
         talk.wait(0.2)
-        learn(talk, RIGHT)
+        learn(talk, Side.RIGHT)
         talk.wait(0.2)
         found.add(memory_after_power_up(talk))
         operations = talk.board.hardware.flash.operations

@@ -119,7 +119,7 @@ def test_a_drive_is_read_with_its_signs():
         "action": 127,
     }
 
-    drive = PROTOCOL.decode_drive(PROTOCOL.encode("DRIVE", signals))
+    drive = PROTOCOL.decode_drive(PROTOCOL.encode("DRIVE", {"counter": 9, **signals}))
 
     assert drive == Drive(tick=9, left_mm_s=-251, right_mm_s=251, reason=5, repeat_count=3, action=127, eat=True)
 

@@ -8,7 +8,7 @@ import pytest
 
 from host_sim.cli.main import main
 from host_sim.client.frame_log import line_of
-from host_sim.protocol.codec import Protocol
+from host_sim.protocol.codec import Protocol, crc8
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.world_file import world_path
 
@@ -46,9 +46,12 @@ def make_other_protocol(log: Path) -> None:
     """As one that was recorded with another octet.dbc."""
     heartbeat = Protocol().id_of("HEARTBEAT")
     lines = []
-    for time_us, frame in read_log(log):
-        last = bytes(byte ^ 0xFF for byte in frame.data[-2:]) if frame.id == heartbeat else frame.data[-2:]
-        lines.append(line_of(time_us, frame._replace(data=frame.data[:-2] + last)))
+    for time_us, recorded in read_log(log):
+        frame = recorded
+        if frame.id == heartbeat:
+            other = frame.data[:-2] + bytes(byte ^ 0xFF for byte in frame.data[-2:])
+            frame = frame._replace(data=bytes((crc8(frame.id, other),)) + other[1:])
+        lines.append(line_of(time_us, frame))
     log.write_text("".join(f"{line}\n" for line in lines))
 
 

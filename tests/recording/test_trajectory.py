@@ -48,7 +48,7 @@ def test_the_state_at_a_tick_is_that_of_the_log(tmp_path, seed):
     protocol = Protocol()
     messages = [protocol.decode(line.frame) for line in read_log(log)]
     senses = [message.signals for message in messages if message.name == "SENSES"]
-    drives = [message.signals for message in messages if message.name == "DRIVE"]
+    drives = [message.signals for message in messages if message.name == "DRIVE" and message.signals["reason"]]
 
     trajectory = resimulate(log).trajectory
 
@@ -207,16 +207,17 @@ def heartbeat_of(log: Path) -> Frame:
 
 def test_on_its_own_clock_a_body_holds_a_drive_for_a_while_and_then_rests(short, tmp_path):
     protocol = Protocol()
-    start = {"counter": 1, "opcode": 2, "lockstep": 0, "profile": 0, "seed": 5}
+    start = {"counter": 1, "opcode": 2, "owner": 1, "lockstep": 0, "profile": 0, "seed": 5}
     drive = Drive(0, 200, 190, 1, 0, 3, False)
-    signals = {"tick": 0, "reason": 1, "left": 200, "right": 190, "repeat_count": 0, "eat": 0, "action": 3}
+    moving = {"left": 200, "right": 190, "repeat_count": 0, "eat": 0, "action": 3}
+    signals = {"counter": 0, "tick": 0, "reason": 1, **moving}
     log = write_log(
         tmp_path / "own_clock.log",
         heartbeat_of(short.log),
         protocol.encode("COMMAND", start),
-        protocol.encode_senses(senses(0)),
+        protocol.encode_senses(senses(0), 0),
         protocol.encode("DRIVE", signals),
-        *(protocol.encode_senses(senses(tick)) for tick in range(1, 8)),
+        *(protocol.encode_senses(senses(tick), tick) for tick in range(1, 8)),
     )
 
     recording = read_recording(log, list(read_log(log)), protocol)
