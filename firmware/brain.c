@@ -40,3 +40,8 @@ struct action brain_next(struct brain *brain, const struct config *config, const
         return (struct action){.reason = REASON_STOP};
     }
 }
+
+void brain_forget_trial(struct brain *brain)
+{
+    brain->awaits = 0;
+}

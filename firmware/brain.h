@@ -32,6 +32,9 @@ bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed);
         /* Ready for its first decision, as that profile decides. What was learned stays. False, and nothing is changed,
            if there is no such profile. */
 
+void brain_forget_trial(struct brain *brain);
+        /* The action that has ended was not carried out: there is no verdict to be had of it. */
+
 struct action brain_next(struct brain *brain, const struct config *config, const struct senses *senses);
         /* The previous action has ended with these senses: judges it, and says what to do next. */
 

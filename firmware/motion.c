@@ -11,7 +11,8 @@ enum {
     WAY_LIMIT = 16000,                             /* of way_left: likewise */
     WAY_PRECISION = 5,                             /* 0.25 mm, as the sum of two wheels' counts */
     COUNTS_PER_MM = 2 * ODOMETER_COUNTS_PER_MM,    /* of both wheels together */
-    TIMEOUT_MARGIN_TICKS = 25                            /* beyond twice the ticks that an action needs */
+    TIMEOUT_MARGIN_TICKS = 25,                     /* beyond twice the ticks that an action needs */
+    CREDIBLE_MM_S = 600                            /* twice and more what a wheel is ever told */
 };
 
 static uint32_t magnitude(int32_t x)
@@ -79,6 +80,22 @@ void motion_start(struct motion *motion)
 void motion_lift(struct motion *motion)
 {
     motion->referenced = false;
+}
+
+/* Odometers that jump do not measure: the body that counts has begun anew. */
+bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
+                        unsigned ticks)
+{
+    uint32_t farthest = ticks * config->value[TICK_MS] * CREDIBLE_MM_S * ODOMETER_COUNTS_PER_MM / 1000u;
+
+    return !motion->referenced
+        || (magnitude(counts_between(motion->odometer_left, senses->odometer_left)) <= farthest
+            && magnitude(counts_between(motion->odometer_right, senses->odometer_right)) <= farthest);
+}
+
+bool motion_gave_up(const struct motion *motion)
+{
+    return motion->kind != REST && motion->ticks_left == 0;
 }
 
 void motion_track(struct motion *motion, const struct senses *senses)

@@ -22,6 +22,13 @@ void motion_start(struct motion *motion);
 void motion_lift(struct motion *motion);
         /* The wheels may turn unseen from here to the next motion_track: that is not the robot's way. */
 
+bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
+                        unsigned ticks);
+        /* Whether wheels can have turned as far as the odometers say, in so many ticks since the last motion_track. */
+
+bool motion_gave_up(const struct motion *motion);
+        /* Whether the action has taken so long that the wheels cannot have obeyed. */
+
 void motion_track(struct motion *motion, const struct senses *senses);
         /* Takes in what the wheels have done since the last tick. Call once for each senses. */
 

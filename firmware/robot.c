@@ -2,7 +2,8 @@
 
 enum {
     SECOND_MS = 1000,      /* a report is due once a second of robot time, */
-    REPORT_SILENCES = 10   /* or, where no tick comes, with every tenth silence */
+    REPORT_SILENCES = 10,  /* or, where no tick comes, with every tenth silence */
+    DENIALS_MAX = 3        /* actions in a row that the wheels do not carry out, then the robot stops */
 };
 
 void robot_init(struct robot *robot, uint32_t seed)
@@ -22,11 +23,31 @@ static void begin_next_action(struct robot *robot, const struct senses *senses)
     robot->action = (uint8_t)((robot->action + 1u) % ACTION_SPAN);
 }
 
-static void go_on(struct robot *robot, const struct senses *senses)
+/* From wheels that do not obey there is nothing to learn, and driving on blindly is not safe. */
+static void note_denial(struct robot *robot)
 {
+    brain_forget_trial(&robot->brain);
+    robot->denials++;
+    if (robot->denials >= DENIALS_MAX)
+        robot->running = false;
+}
+
+/* True: the wheels did not do what they were told. */
+static bool go_on(struct robot *robot, const struct senses *senses)
+{
+    bool denied;
+
     motion_track(&robot->motion, senses);
-    if (motion_ended(&robot->motion, &robot->config, senses))
+    if (!motion_ended(&robot->motion, &robot->config, senses))
+        return false;
+    denied = motion_gave_up(&robot->motion);
+    if (denied)
+        note_denial(robot);
+    else
+        robot->denials = 0;
+    if (robot->running)
         begin_next_action(robot, senses);
+    return denied;
 }
 
 /* At rest. */
@@ -41,16 +62,42 @@ static void drive_init(struct drive *drive, const struct robot *robot, enum reas
     };
 }
 
+/* Food at no distance, or a distance to none: neither is believed. Wheels that jump have been carried, or count anew. */
+static bool make_credible(struct robot *robot, struct senses *senses)
+{
+    unsigned ticks = (uint8_t)(senses->tick - robot->tick);
+    bool food = senses->look == (senses->beacon_mm != 0);
+    bool wheels = robot->silences > 0 || motion_is_credible(&robot->motion, &robot->config, senses, ticks);
+
+    if (!food) {
+        senses->look = false;
+        senses->beacon_mm = 0;
+    }
+    if (!wheels)
+        motion_lift(&robot->motion);
+    return food && wheels;
+}
+
+static void step(struct robot *robot, const struct senses *sensed, struct output *out)
+{
+    struct senses senses = *sensed;
+
+    if (robot->running) {
+        out->contradiction = !make_credible(robot, &senses);
+        out->denied = go_on(robot, &senses);
+    }
+    robot->tick = senses.tick;
+    drive_init(&out->drive, robot, robot->running ? (enum reason)robot->reason : REASON_STOP);
+    if (robot->running)
+        motion_drive(&robot->motion, &robot->config, &out->drive);
+}
+
 void robot_step(struct robot *robot, const struct senses *senses, struct drive *drive)
 {
-    robot->tick = senses->tick;
-    if (!robot->running) {
-        drive_init(drive, robot, REASON_STOP);
-        return;
-    }
-    go_on(robot, senses);
-    drive_init(drive, robot, (enum reason)robot->reason);
-    motion_drive(&robot->motion, &robot->config, drive);
+    struct output out;
+
+    step(robot, senses, &out);
+    *drive = out.drive;
 }
 
 /* One tick of robot time. True: it makes a second full. */
@@ -75,8 +122,8 @@ static void add_report(const struct robot *robot, struct output *out)
 
 static void respond_to_senses(struct robot *robot, const struct senses *senses, struct output *out)
 {
+    step(robot, senses, out);
     robot->silences = 0;
-    robot_step(robot, senses, &out->drive);
     out->has_drive = true;
     if (pass_time(robot))
         add_report(robot, out);
