@@ -14,6 +14,9 @@ struct hal {
     uint32_t silent_ms;  /* since then, as of the last look at the clock: there is one for each thing that comes */
     unsigned silences;   /* in a row; stays at LAPSE_SILENCES */
     bool outage;         /* the senses have failed to come; none have since */
+    bool announced;      /* this has been sent: */
+    struct frame boot;
+    struct frame frames[WIRE_FRAMES_MAX];   /* on their way out */
     bool unstored;       /* storing this was put off: */
     uint8_t memory[CELL_COUNT];
 };
@@ -27,13 +30,11 @@ static int receive_frame(struct hal *hal, struct frame *frame, uint32_t wait_ms)
     return result;
 }
 
-static void send_boot(struct hal *hal)
+/* A bus takes a while to come up, and nobody may be there yet: that is no fault. */
+static void announce(struct hal *hal)
 {
-    struct frame boot;
-
-    wire_boot(&hal->wire, &boot);
-    if (link_send(hal->link, &boot) < 0)
-        wire_count(&hal->wire, FAULT_UNSENT);
+    if (!hal->announced)
+        hal->announced = link_send(hal->link, &hal->boot) == 0;
 }
 
 int hal_open(struct hal **hal, int argc, char *const argv[])
@@ -57,7 +58,8 @@ int hal_open(struct hal **hal, int argc, char *const argv[])
     body.silent_ms = 0;
     body.silences = 0;
     body.outage = false;
-    send_boot(&body);
+    wire_boot(&body.wire, &body.boot);
+    body.announced = false;
     port_ready(&port);
     *hal = &body;
     return 0;
@@ -159,6 +161,7 @@ static int receive_input(struct hal *hal, struct input *in, uint32_t wait_ms)
     hal->silent_ms = port_clock_ms() - hal->heard_ms;
     if (result != 1)
         return result == LINK_E_CLOSED ? HAL_E_CLOSED : INPUT_SILENCE;
+    announce(hal);   /* before the answer */
     kind = read_frame(hal, &frame, in);
     return kind == INPUT_SENSES ? take_senses(hal, in) : (int)kind;
 }
@@ -171,6 +174,7 @@ int hal_receive(struct hal *hal, struct input *in)
         if (hal->silent_ms >= HAL_SILENCE_MS)
             return report_silence(hal);
         port_alive(hal->outage);
+        announce(hal);
         result = receive_input(hal, in, HAL_SILENCE_MS - hal->silent_ms);
     }
     return result;
@@ -178,14 +182,13 @@ int hal_receive(struct hal *hal, struct input *in)
 
 int hal_send(struct hal *hal, const struct output *out)
 {
-    struct frame frames[WIRE_FRAMES_MAX];
     size_t count;
 
     if (out->has_report)
         link_health(hal->link, &hal->wire.health.bus);
-    count = wire_write(&hal->wire, out, frames);
+    count = wire_write(&hal->wire, out, hal->frames);
     for (size_t i = 0; i < count; i++) {
-        int result = link_send(hal->link, &frames[i]);
+        int result = link_send(hal->link, &hal->frames[i]);
 
         if (result == LINK_E_CLOSED)
             return HAL_E_CLOSED;

@@ -34,7 +34,8 @@ class TickCost:
         protocol = Protocol()
         self._senses, self._drive = protocol.id_of("SENSES"), protocol.id_of("DRIVE")
         self._core, self._registers = board.hardware.core, board.hardware.can.registers
-        self._begun, self._is_news = 0, True
+        self._begun: int | None = None
+        self._is_news = True
         self.counts: list[int] = []
         _watch(self._registers[_RF0R], self._note_status, self._note_release)
         for mailbox in _MAILBOXES:
@@ -51,8 +52,9 @@ class TickCost:
         self._is_news = self._is_news or bool(value & _RFOM)
 
     def _note_request(self, value: int) -> None:
-        if value & _TXRQ and value >> _ID_SHIFT == self._drive:
+        if value & _TXRQ and value >> _ID_SHIFT == self._drive and self._begun is not None:
             self.counts.append(self._core.instructions - self._begun)
+            self._begun = None
 
 
 def _watch(register: Register, on_read: Callable[[int], None], on_write: Callable[[int], None]) -> None:

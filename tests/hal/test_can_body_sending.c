@@ -1,6 +1,25 @@
 /* Sending and storing, and a link that fails on plan. */
 #include "fake_body.h"
 
+static void test_it_says_that_it_has_come_up_before_anything_else(void)
+{
+    senses_come(20, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL_UINT(1, fake.sends);
+    TEST_ASSERT_EQUAL_UINT32(OCTET_BOOT_FRAME_ID, fake.sent[0].id);
+}
+
+static void test_it_says_so_again_until_the_bus_is_up_and_counts_no_fault(void)
+{
+    fake.failing_send = 1;
+    fake.failure = LINK_E_DOWN;
+    senses_come(20, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL_UINT(2, fake.sends);
+    TEST_ASSERT_EQUAL_UINT32(OCTET_BOOT_FRAME_ID, fake.sent[1].id);
+    assert_faults((struct octet_faults_t){.unsent = 0});
+}
+
 static void test_a_drive_goes_out(void)
 {
     const struct output out = {.has_drive = true};
@@ -168,6 +187,8 @@ static void test_entropy_is_the_ports(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_it_says_that_it_has_come_up_before_anything_else);
+    RUN_TEST(test_it_says_so_again_until_the_bus_is_up_and_counts_no_fault);
     RUN_TEST(test_a_drive_goes_out);
     RUN_TEST(test_a_closed_link_takes_no_drive);
     RUN_TEST(test_a_frame_that_the_bus_does_not_take_is_counted_and_the_rest_goes_out);

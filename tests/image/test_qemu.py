@@ -98,9 +98,9 @@ def test_what_is_no_image_ends_qemu_with_its_reason(tmp_path):
 
 
 def test_an_image_that_says_nothing_is_given_up(monkeypatch):
-    monkeypatch.setattr("host_sim.backends.qemu._READY_S", 0.05)
+    monkeypatch.setattr("host_sim.backends.qemu._READY_S", 0.001)
 
-    with pytest.raises(RobotError, match=r"sent nothing for 0\.05 s; it is running in QEMU"):
+    with pytest.raises(RobotError, match=r"sent nothing for 0\.001 s; it is running in QEMU"):
         Qemu()
 
 
