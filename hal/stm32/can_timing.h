@@ -5,7 +5,7 @@
 #include <stdint.h>
 
 enum {
-    CAN_BITRATE = 500000,
+    CAN_BITRATE = OCTET_CAN_BITRATE,   /* as the build was told */
     CAN_QUANTA_AFTER = 2,   /* behind the sample point, which is thus at 75..89 % of the bit */
     CAN_QUANTA_JUMP = 2     /* that a bit may grow or shrink by to keep step with the other nodes */
 };

@@ -50,7 +50,10 @@ def test_it_answers_on_the_bus(joined):
 
     send(bus, STOP)
 
-    assert [name for name in heard(board, bus, "HEALTH") if name not in ("BOOT", "EMERGENCY")][:2] == ["ANSWER", "HEARTBEAT"]
+    assert [name for name in heard(board, bus, "HEALTH") if name not in ("BOOT", "EMERGENCY")][:2] == [
+        "ANSWER",
+        "HEARTBEAT",
+    ]
 
 
 def test_it_takes_senses_beside_frames_of_other_kinds(joined):

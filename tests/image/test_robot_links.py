@@ -52,7 +52,11 @@ def receive(link, timeout_s):
     while (frame := link.receive(timeout_s)) is not None:
         said = PROTOCOL.decode(frame)
         assert said is not None, frame
-        if said.name not in ("BOOT", "EMERGENCY") and not said.signals.get("silent") and said.signals.get("reason") != Reason.SILENCE:
+        if (
+            said.name not in ("BOOT", "EMERGENCY")
+            and not said.signals.get("silent")
+            and said.signals.get("reason") != Reason.SILENCE
+        ):
             return said
     return None
 

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tools.flashing import FlashError  # noqa: E402 - found by the line above
-from tools.flashing.images import Image, all_boards, build, choose_board, identify  # noqa: E402
+from tools.flashing.images import Image, all_boards, build, choose_board, identify, node_max  # noqa: E402
 from tools.flashing.probes import Probe, choose_probe, find_probes  # noqa: E402
 from tools.flashing.programs import CHIP_IDS, Plan, check_chip, make_plan, write  # noqa: E402
 
@@ -28,13 +28,13 @@ def plug_in(usb: Path, name: str, **attributes: str) -> None:
 
 def image_file(folder: Path, board: str, chip: str) -> Path:
     path = folder / "image.elf"
-    identity = f"octet-image board={board} chip={chip} version=1.0-3-gabc dbc=7827"
+    identity = f"octet-image board={board} chip={chip} node=2 bitrate=250000 version=1.0-3-gabc dbc=7827"
     path.write_bytes(b"\x7fELF..\0" + identity.encode() + b"\0..")
     return path
 
 
 def image_for(chip: str) -> Image:
-    return Image(Path("octet.elf"), "blue_pill", chip, "1", "0")
+    return Image(Path("octet.elf"), "blue_pill", chip, "1", "500000", "1", "0")
 
 
 def installed(folder: Path, monkeypatch: pytest.MonkeyPatch, **programs: str) -> None:
@@ -77,14 +77,15 @@ def test_a_board_that_does_not_exist_is_refused() -> None:
 
 def test_a_link_that_does_not_exist_is_refused() -> None:
     with pytest.raises(FlashError, match="no link usb on blue_pill; there are bxcan, slcan"):
-        build(BOARDS["blue_pill"], "usb")
+        build(BOARDS["blue_pill"], "usb", 1, 500_000)
     with pytest.raises(FlashError, match="no link bxcan on nucleo_g431rb; there are fdcan, slcan"):
-        build(BOARDS["nucleo_g431rb"], "bxcan")
+        build(BOARDS["nucleo_g431rb"], "bxcan", 1, 500_000)
 
 
 def test_an_image_says_what_it_is(tmp_path: Path) -> None:
     image = identify(image_file(tmp_path, "blue_pill", "stm32f103"), BOARDS["blue_pill"])
     assert (image.chip, image.version, image.dbc) == ("stm32f103", "1.0-3-gabc", "7827")
+    assert (image.node, image.bitrate) == ("2", "250000")
 
 
 def test_an_image_for_another_board_is_refused(tmp_path: Path) -> None:
@@ -184,8 +185,28 @@ def test_a_dry_run_says_what_it_would_do_and_calls_nothing(tmp_path: Path, monke
 
     result = flash("blue_pill", "bxcan", *options)
 
-    assert [line.split()[0] for line in result.stdout.splitlines()] == ["image", "board", "check", "write"]
+    assert [line.split()[0] for line in result.stdout.splitlines()] == ["image", "robot", "board", "check", "write"]
     assert not called.exists()
+
+
+def test_an_image_is_built_for_a_node_and_a_bit_rate() -> None:
+    board = BOARDS["blue_pill"]
+
+    image = identify(build(board, "bxcan", node_max(), 125_000), board)
+
+    assert (image.node, image.bitrate) == (str(node_max()), "125000")
+
+
+def test_a_node_that_the_protocol_does_not_have_is_refused() -> None:
+    with pytest.raises(FlashError, match="cmake --build"):
+        build(BOARDS["blue_pill"], "bxcan", node_max() + 1, 500_000)
+
+
+def test_an_image_built_earlier_keeps_its_node(tmp_path: Path) -> None:
+    result = flash("blue_pill", "bxcan", f"--image={tmp_path}", "--node=2")
+
+    assert result.returncode == 2
+    assert "leave out --node and --bitrate" in result.stderr
 
 
 def test_what_cannot_be_done_is_one_line_and_ends_with_1() -> None:

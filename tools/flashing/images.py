@@ -10,7 +10,7 @@ from tools.flashing import FlashError
 ROOT = Path(__file__).resolve().parents[2]
 STM32 = Path("hal", "stm32")
 _SET = re.compile(r"^set\((\w+) ([^)]*)\)", re.MULTILINE)
-_IDENTITY = re.compile(rb"octet-image board=(\S+) chip=(\S+) version=(\S+) dbc=(\w+)\0")
+_IDENTITY = re.compile(rb"octet-image board=(\S+) chip=(\S+) node=(\d+) bitrate=(\d+) version=(\S+) dbc=(\w+)\0")
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,8 @@ class Image:
         path: The .elf file; .bin and .hex lie beside it.
         board: That it was built for.
         chip: Of that board.
+        node: Which robot on the bus it is.
+        bitrate: Of the CAN bus, bit/s; no matter for a serial line.
         version: What `git describe` said.
         dbc: Hash of the protocol.
     """
@@ -43,6 +45,8 @@ class Image:
     path: Path
     board: str
     chip: str
+    node: str
+    bitrate: str
     version: str
     dbc: str
 
@@ -61,6 +65,13 @@ def all_boards(root: Path = ROOT) -> dict[str, Board]:
     return boards
 
 
+def node_max(root: Path = ROOT) -> int:
+    """The last node that the protocol has identifiers for."""
+    found = re.search(r"^node_max = (\d+)", (root / "hal" / "protocol" / "robot.toml").read_text(), re.MULTILINE)
+    assert found is not None
+    return int(found[1])
+
+
 def choose_board(name: str, boards: dict[str, Board]) -> Board:
     """The board of that name.
 
@@ -72,19 +83,21 @@ def choose_board(name: str, boards: dict[str, Board]) -> Board:
     return boards[name]
 
 
-def build(board: Board, link: str, root: Path = ROOT) -> Path:
-    """Brings the image for a board and a link up to date.
+def build(board: Board, link: str, node: int, bitrate: int, root: Path = ROOT) -> Path:
+    """Brings the image for a board and a link up to date, in a folder of its own: the usual images stay as they are.
 
     Raises:
         FlashError: The board has no such link, or it does not build.
     """
     if link not in board.links:
         raise FlashError(f"no link {link} on {board.name}; there are {', '.join(board.links)}")
-    for command in (["--preset", board.name], ["--build", "--preset", board.name]):
+    folder = root / "build" / "flash" / board.name
+    settings = [f"-DOCTET_NODE={node}", f"-DOCTET_CAN_BITRATE={bitrate}"]
+    for command in (["--preset", board.name, "-B", str(folder), *settings], ["--build", str(folder)]):
         done = subprocess.run(["cmake", *command], cwd=root, capture_output=True, text=True, check=False)
         if done.returncode != 0:
             raise FlashError(f"cmake {' '.join(command)} failed; run it to see why")
-    return root / "build" / board.name / f"octet-{board.name}-{link}.elf"
+    return folder / f"octet-{board.name}-{link}.elf"
 
 
 def identify(path: Path, board: Board) -> Image:

@@ -8,6 +8,9 @@
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/port/cortex_m/systick.h"
 
+/* Else it does not compile. */
+enum { NODE_IS_IN_RANGE = 1 / (OCTET_NODE >= 1 && OCTET_NODE <= NODE_MAX) };
+
 enum { BLINK_SLOWLY = 9, BLINK_FAST = 7 };   /* bit of the milliseconds: about 1 Hz, 4 Hz */
 
 static struct flash_store store;                                /* there is one */
