@@ -11,6 +11,7 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.board import EmulatedBoard, Faults, start_board
 from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
+from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, TICK_SPAN
 from host_sim.robot_io import Senses
 from host_sim.sim.make import assemble
 from host_sim.sim.run_config import RunConfig
@@ -44,6 +45,7 @@ class Talk:
     heard: list[DecodedFrame] = field(default_factory=list)
     tick: int = -1
     counter: int = 0
+    odometers: list[int] = field(default_factory=lambda: [0, 0])
     protocol: Protocol = field(default_factory=Protocol)
 
     def order(self, opcode: str, **signals: int) -> None:
@@ -58,9 +60,17 @@ class Talk:
 
     def senses(self, feel: int = 0) -> Frame:
         self.tick += 1
+        self.roll()
         return self.protocol.encode_senses(
-            Senses(self.tick % 256, feel, False, False, 0, 0, 0), self.tick % COUNTER_SPAN
+            Senses(self.tick % TICK_SPAN, feel, False, False, 0, *self.odometers), self.tick % COUNTER_SPAN
         )
+
+    def roll(self) -> None:
+        """The wheels do as they were told last."""
+        drive = next((said.signals for said in reversed(self.heard) if said.name == "DRIVE"), {"left": 0, "right": 0})
+        speeds = (drive["left"], drive["right"])
+        turned = (round(speed * TICK_S * ODOMETER_COUNTS_PER_MM) for speed in speeds)
+        self.odometers = [(at + more) % ODOMETER_SPAN for at, more in zip(self.odometers, turned, strict=True)]
 
     def live(self, ticks: int, feel: int = 0) -> list[DecodedFrame]:
         """Runs a number of ticks in real time; returns the drives."""

@@ -376,6 +376,7 @@ def test_the_worst_tick_stays_within_its_bar(name):
 
 def test_a_board_that_hears_nothing_says_nothing_and_takes_its_time(name):
     talk = talk_to(name)
+    assert [said.name for said in talk.wait(0.01)] == ["BOOT"]
     began = time.monotonic()
 
     assert talk.board.receive(0.05) is None
