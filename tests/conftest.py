@@ -3,13 +3,21 @@
 A test that cannot run says `pytest.skip("NAME: what is missing")`.
 
 With `--progress FILE`, tools/test can tell at any time what has passed and what is running.
+
+What Python compiles is kept, here and in each process that a test starts, whatever the environment says: else every one
+of them would compile all libraries anew.
 """
 
 import json
+import os
+import sys
 from collections.abc import Generator
 from pathlib import Path
 
 import pytest
+
+sys.dont_write_bytecode = False
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -16,8 +16,8 @@ ROOT = Path(__file__).resolve().parents[2]
 LOCKS = ("requirements.lock", "requirements-emulator.lock", "requirements-tests.lock")
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
-# cmake and tools/generate make what they are to make. With a file beside the notes, installing that lock fails, as
-# without a network.
+# cmake, tools/generate and the download of Unity make what they are to make. With a file beside the notes, installing
+# that lock fails, as without a network.
 STAND_IN = """#!/bin/bash
 [ "$*" = --version ] || echo "${0##*/} $*" >>"$CALLS"
 case "${0##*/} $*" in
@@ -27,6 +27,10 @@ case "${0##*/} $*" in
     ;;
   "python tools/generate"*) touch "$3" "$5" ;;
   cmake*) mkdir -p "$2" ;;
+  *" download "*)
+    mkdir -p build/unity/its/tests/c/test_framework && touch build/unity/its/tests/c/test_framework/unity.c
+    tar -czf build/unity/cantools-1.tar.gz -C build/unity its
+    ;;
   *install*--require-hashes*) [ ! -e "$CALLS.no-${!#}" ] ;;
 esac
 """
@@ -47,6 +51,7 @@ class Tree:
             "hal/protocol/octet.dbc",
             "hal/protocol/robot.toml",
             "tools/generate",
+            "tools/unity.lock",
             "tools/robot_words/model.py",
         ):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -69,6 +74,10 @@ class Tree:
     def installed(self) -> list[str]:
         """The lock files whose packages the last call installed."""
         return [line.split()[-1] for line in self.calls.read_text().splitlines() if "--require-hashes" in line]
+
+    def built(self) -> list[str]:
+        """The folders that the last call configured."""
+        return [line.split()[2] for line in self.calls.read_text().splitlines() if line.startswith("cmake -B")]
 
     @contextmanager
     def offline(self, lock: str) -> Iterator[None]:
@@ -100,6 +109,28 @@ def test_the_second_call_only_asks_ninja_and_says_nothing(tree: Tree) -> None:
     done, calls = tree.setup()
     assert calls == ["ninja"]
     assert done.stdout + done.stderr == ""
+
+
+def test_the_stages_that_read_sources_only_need_no_compiler(tree: Tree) -> None:
+    for stage in ("lint", "types"):
+        done, calls = tree.setup(stage)
+        assert done.returncode == 0
+        assert "cmake" not in calls
+
+
+def test_the_stages_of_c_tests_build_what_they_run_and_no_image(tree: Tree) -> None:
+    done, _ = tree.setup("c")
+    assert done.returncode == 0
+    assert tree.built() == ["build/host-san"]
+    assert (tree.folder / "build/unity/unity.c").exists()
+
+
+def test_a_build_that_fails_fails_the_set_up_and_the_others_end(tree: Tree) -> None:
+    (tree.bin / "cmake").write_text(STAND_IN + '[ "$2" != build/blue_pill ]\n')
+    done, _ = tree.setup("images")
+    assert done.returncode == 1
+    assert {path.parent.name for path in tree.folder.glob("build/*/stamp")} >= {"host", "nucleo_g431rb"}
+    assert not (tree.folder / "build/blue_pill/stamp").exists()
 
 
 def test_an_interrupted_set_up_is_repaired(tree: Tree) -> None:
@@ -187,7 +218,7 @@ def test_a_stage_that_does_not_exist_is_answered_with_those_there_are(tree: Tree
     done, calls = tree.setup("run", "tets")
     assert done.returncode == 2
     assert calls == []
-    assert all(f"{stage}:" in done.stderr for stage in ("run", "images", "emulator", "tests", "vcan"))
+    assert all(f"{stage}:" in done.stderr for stage in ("run", "images", "emulator", "vcan", "tests"))
 
 
 def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
@@ -236,13 +267,22 @@ STAGES = {
 }
 
 
+def octet(folder: Path, *words: str, **environment: str) -> list[str]:
+    """What `tools/octet` asks of tools/setup and of Python, each a line: stand-ins for them print it."""
+    for program in ("tools/setup", ".venv/bin/python"):
+        stand_in = folder / program
+        stand_in.parent.mkdir(parents=True)
+        stand_in.write_text('#!/bin/sh\necho "$@" $PYTHONDONTWRITEBYTECODE\n')
+        stand_in.chmod(0o755)
+    shutil.copy(ROOT / "tools/octet", folder / "tools")
+    command = [folder / "tools/octet", *words]
+    return subprocess.check_output(command, env={**os.environ, **environment}, text=True).splitlines()
+
+
 @pytest.mark.parametrize("words", STAGES)
 def test_octet_sets_up_what_the_options_need(words: str, tmp_path: Path) -> None:
-    for program in ("tools/setup", ".venv/bin/python"):
-        stand_in = tmp_path / program
-        stand_in.parent.mkdir(parents=True)
-        stand_in.write_text('#!/bin/sh\necho "$@"\n')
-        stand_in.chmod(0o755)
-    shutil.copy(ROOT / "tools/octet", tmp_path / "tools")
-    said = subprocess.check_output([tmp_path / "tools/octet", *words.split()], text=True)
-    assert said.splitlines() == [STAGES[words], f"-m host_sim {words}"]
+    assert octet(tmp_path, *words.split()) == [STAGES[words], f"-m host_sim {words}"]
+
+
+def test_what_python_compiles_for_a_run_is_kept_whatever_the_environment_says(tmp_path: Path) -> None:
+    assert octet(tmp_path, "run", PYTHONDONTWRITEBYTECODE="1")[1] == "-m host_sim run"

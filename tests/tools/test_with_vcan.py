@@ -1,9 +1,13 @@
 """tools/with-vcan, for real: a bus is started for each."""
 
 import os
+import shutil
 import signal
 import subprocess
+import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -11,6 +15,7 @@ from tests.tools.processes import alive, soon
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 WITH_VCAN = TOOLS / "with-vcan"
+NOBODY = 65534
 
 Finished = subprocess.CompletedProcess[str]
 
@@ -19,6 +24,12 @@ Finished = subprocess.CompletedProcess[str]
 def _a_way_to_a_bus() -> None:
     if subprocess.run([TOOLS / "setup", "vcan"], check=False).returncode != 0:
         pytest.skip("vcan: tools/with-vcan has no way to a bus")
+
+
+@pytest.fixture(scope="module")
+def way() -> str:
+    """How a bus is had here."""
+    return subprocess.check_output([WITH_VCAN, "--how"], text=True).strip()
 
 
 @pytest.fixture(scope="module")
@@ -45,20 +56,34 @@ def test_the_bus_is_there_and_nothing_else_is_in_the_error_output(finished: Fini
     assert finished.stderr.count("\n") == 1
 
 
-def test_a_megabyte_comes_through_unharmed() -> None:
-    data = "".join(f"{number:015}\n" for number in range(65536))
-    script = "for number in range(65536): print(f'{number:015}')"
+def test_a_quarter_of_a_megabyte_comes_through_unharmed() -> None:
+    data = "".join(f"{number:015}\n" for number in range(16384))
+    script = "for number in range(16384): print(f'{number:015}')"
     assert subprocess.check_output([WITH_VCAN, "python3", "-c", script], text=True) == data
 
 
-def test_two_at_once_do_not_hear_each_other() -> None:
-    script = "(sleep 0.5; cansend vcan0 {frame}) & candump -n 2 -T 2000 vcan0"
-    both = [
-        subprocess.Popen([WITH_VCAN, "bash", "-c", script.format(frame=frame)], stdout=subprocess.PIPE, text=True)
-        for frame in ("101#", "102#")
-    ]
-    heard = [process.communicate(timeout=60)[0].split() for process in both]
-    assert heard == [["vcan0", "101", "[0]"], ["vcan0", "102", "[0]"]]
+# Sends a frame until candump hears it, and once both listen another one, until it is heard: so would be the other's.
+TALK = """
+candump -L vcan0 >{me} &
+until grep -q '#AA' {me}; do cansend vcan0 {me}#AA; sleep 0.05; done
+touch {me}.listens
+until [ -e {other}.listens ]; do sleep 0.05; done
+until grep -q '#BB' {me}; do cansend vcan0 {me}#BB; sleep 0.05; done
+touch {me}.said
+until [ -e {other}.said ]; do sleep 0.05; done
+"""
+
+
+def test_two_at_once_do_not_hear_each_other(tmp_path: Path) -> None:
+    names = ("101", "102")
+    scripts = [TALK.format(me=me, other=other) for me, other in (names, names[::-1])]
+
+    both = [subprocess.Popen([WITH_VCAN, "bash", "-c", script], cwd=tmp_path) for script in scripts]
+
+    assert [process.wait(timeout=120) for process in both] == [0, 0]
+    for name in names:
+        heard = {line.split()[2] for line in (tmp_path / name).read_text().splitlines()}
+        assert heard == {f"{name}#AA", f"{name}#BB"}
 
 
 def test_what_it_started_ends_with_it(tmp_path: Path) -> None:
@@ -71,6 +96,101 @@ def test_what_it_started_ends_with_it(tmp_path: Path) -> None:
 
     assert process.wait(timeout=10) in (143, -signal.SIGTERM)
     assert soon(lambda: not any(alive(pid) for pid in family))
+
+
+def test_the_next_call_removes_the_folder_of_one_that_was_killed_and_of_no_other(tmp_path: Path, way: str) -> None:
+    started, goes_on = tmp_path / "started", tmp_path / "goes on"
+    wait = f"while [ ! -e '{goes_on}' ]; do sleep 0.05; done; exit 5"
+    first = subprocess.Popen([WITH_VCAN, "bash", "-c", wait])
+    killed = subprocess.Popen([WITH_VCAN, "bash", "-c", f"touch '{started}'; {wait}"])
+    assert soon(started.exists)
+    family = [killed.pid, *descendants(killed.pid)]
+    left = folders_of(killed.pid)
+    assert len(left) == (1 if way == "user-mode-linux" else 0)
+
+    killed.kill()
+    killed.wait()
+    assert soon(lambda: not any(alive(pid) for pid in family))
+    subprocess.run([WITH_VCAN, "true"], check=True)
+    goes_on.touch()
+
+    assert first.wait(timeout=60) == 5
+    assert not any(folder.exists() for folder in left)
+
+
+def folders_of(pid: int) -> list[Path]:
+    """The folders of tools/with-vcan that a process has open."""
+    targets = [os.readlink(link) for link in Path(f"/proc/{pid}/fd").iterdir()]  # noqa: PTH115 - some are no files
+    return [Path(target) for target in targets if target.startswith("/tmp/octet-vcan.")]
+
+
+@pytest.fixture
+def as_an_ordinary_user() -> Iterator[tuple[Path, Sequence[str]]]:
+    """A folder of an ordinary user, with a copy of tools/with-vcan, and what makes a command run as that user."""
+    with TemporaryDirectory() as folder:
+        become: list[str] = []
+        for name in ("with-vcan", "legacy-fpu"):
+            shutil.copy(TOOLS / name, folder)
+        if os.geteuid() == 0:
+            os.chown(folder, NOBODY, NOBODY)
+            become = ["setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"]
+        yield Path(folder), become
+
+
+def test_an_ordinary_user_owns_its_files_and_may_set_up_the_bus(as_an_ordinary_user) -> None:
+    folder, become = as_an_ordinary_user
+    script = "touch file; test -O file && test -O . && ip link set vcan0 down && ip link set vcan0 up"
+
+    done = subprocess.run([*become, "./with-vcan", "bash", "-c", script], cwd=folder, check=False)
+
+    assert done.returncode == 0
+    assert (folder / "file").owner() == folder.owner()
+
+
+# Under this no process may trace another: what a container's seccomp profile may forbid.
+FORBID = """
+import ctypes, os, struct, sys
+program = [(0x20, 0, 0), (0x15, 1, 101), (0x06, 0, 0x00050001), (0x06, 0, 0x7FFF0000)]
+code = ctypes.create_string_buffer(b"".join(struct.pack("=HBBI", it[0], 0, it[1], it[2]) for it in program))
+class Program(ctypes.Structure):
+    _fields_ = (("length", ctypes.c_ushort), ("filter", ctypes.c_void_p))
+libc = ctypes.CDLL(None)
+assert libc.prctl(38, 1, 0, 0, 0) == 0
+assert libc.prctl(22, 2, ctypes.byref(Program(len(program), ctypes.addressof(code))), 0, 0) == 0
+os.execv(sys.argv[1], sys.argv[1:])
+"""
+
+
+def missing(*launcher: str, **environment: str) -> str:
+    command = [*launcher, str(WITH_VCAN), "--missing"]
+    return subprocess.check_output(command, env={**os.environ, **environment}, text=True)
+
+
+def test_forbidden_tracing_is_named() -> None:
+    assert "ptrace" in missing(sys.executable, "-c", FORBID)
+    assert "ptrace" not in missing()
+
+
+def test_a_missing_command_is_named_with_its_package() -> None:
+    hidden = {
+        "BASH_FUNC_command%%": '() { [ "$*" != "-v ip" ] && builtin command "$@"; }'
+    }  # asked instead of bash's own
+    assert missing(**hidden) == "the command ip (Debian's package iproute2)\n"
+
+
+def test_what_fails_inside_is_named(tmp_path: Path, way: str) -> None:
+    text = WITH_VCAN.read_text()
+    assert "net/can/can-raw" in text
+    shutil.copy(TOOLS / "legacy-fpu", tmp_path)
+    broken = tmp_path / "with-vcan"
+    broken.write_text(text.replace("net/can/can-raw", "net/can/nosuch"))
+
+    done = subprocess.run(["bash", broken, "true"], capture_output=True, text=True, check=False)
+
+    inside = way == "user-mode-linux"
+    assert done.returncode == int(inside)
+    assert ("in User-Mode Linux this failed: insmod" in done.stderr) == inside
+    assert "panic" not in done.stderr.lower()
 
 
 def descendants(pid: int) -> list[int]:

@@ -5,15 +5,33 @@ import os
 import signal
 import subprocess
 import time
-from collections.abc import Iterable, Sequence
-from contextlib import suppress
+from collections.abc import Generator, Iterable, Sequence
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+
+T = TypeVar("T")
+Steps = Generator[None, None, T]
+"""Work that pauses wherever other work may go on; what it returns is its result."""
 
 NO_LIMIT = math.inf
 _LOOK_S = 0.2
 _END_S = 10.0
+_OVER = object()
 _HOW = (signal.SIGINT, signal.SIGTERM, signal.SIGKILL)
+
+
+class Ended(NamedTuple):
+    """How a command ended.
+
+    Attributes:
+        well: With exit code 0.
+        why: The limit that stopped it, in words; empty if none did.
+    """
+
+    well: bool
+    why: str = ""
 
 
 @dataclass(frozen=True)
@@ -43,34 +61,47 @@ class Limits:
         return ""
 
 
-def run_within(limits: Limits, command: Sequence[str], folder: Path, reports: Iterable[Path]) -> tuple[bool, str]:
+def run_within(limits: Limits, command: Sequence[str], reports: Iterable[Path], **options: Any) -> Steps[Ended]:
     """Runs a command, with all that it starts in a process group of its own, and stops it at a limit.
+
+    It is stopped as well when the generator is closed.
 
     Args:
         limits: When.
         command: Its words.
-        folder: Where it runs.
         reports: Files that grow as tests begin and end; with none, it cannot stall.
+        options: For `subprocess.Popen`.
+
+    Yields:
+        Nothing, while it runs.
 
     Returns:
-        Whether it ended well, and the limit that stopped it, in words; empty if none did.
+        How it ended.
     """
     watched = list(reports)
-    process = subprocess.Popen(command, cwd=folder, start_new_session=True)
+    process = subprocess.Popen(command, start_new_session=True, **options)
     try:
         last, sizes = time.monotonic(), _sizes(watched)
-        while True:
-            try:
-                return process.wait(_LOOK_S) == 0, ""
-            except subprocess.TimeoutExpired:
-                pass
+        while process.poll() is None:
+            yield
             if (now := _sizes(watched)) != sizes or not watched:
                 last, sizes = time.monotonic(), now
             if why := limits.passed(time.monotonic() - last):
-                return False, why
+                return Ended(False, why)
+        return Ended(process.returncode == 0)
     finally:
         if process.returncode is None:
             _stop(process)
+
+
+def side_by_side(*lanes: Steps[None]) -> None:
+    """Lets generators run until the last has ended, each as far as its next `yield` at a time."""
+    with ExitStack() as stack:
+        for lane in lanes:
+            stack.callback(lane.close)
+        going = list(lanes)
+        while going := [lane for lane in going if next(lane, _OVER) is not _OVER]:
+            time.sleep(_LOOK_S)
 
 
 def _sizes(files: Sequence[Path]) -> list[int]:
