@@ -5,17 +5,20 @@ from pathlib import Path
 
 import pytest
 
-from tests.runs.support import Run, assert_healthy, octet
+from tests.runs.support import Run, assert_healthy, octet, octet_process
 
 
 @pytest.fixture
 def run(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Callable[..., Run]]:
-    """Does a run into a folder of its own; after the test, not a frame may have been lost or refused in any."""
+    """Does a run into a folder of its own; after the test, not a frame may have been lost or refused in any.
+
+    With `process=True` it is a process of its own, and draws its picture.
+    """
     done: list[Run] = []
 
-    def start(*words: str | Path) -> Run:
+    def start(*words: str | Path, process: bool = False) -> Run:
         out = tmp_path / f"out{len(done) + 1}"
-        ended = octet("run", "--out", out, *words)
+        ended = (octet_process if process else octet)("run", "--out", out, *words)
         done.append(Run(ended.returncode, ended.stdout, ended.stderr, out))
         return done[-1]
 

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from tests.runs.support import ROBOT, ROOT, octet
+from tests.runs.support import ROBOT, ROOT, octet, octet_process
 
 WRONG = {
     "an unknown profile": (["--profile", "genius"], "genius"),
@@ -85,7 +85,7 @@ def no_large_files() -> None:
 def test_a_full_disk_is_named_and_the_old_log_stays(tmp_path):
     (tmp_path / "run.log").write_text("old")
 
-    done = octet("run", "--bus", "none", "--environments", "1", "--out", tmp_path, preexec_fn=no_large_files)
+    done = octet_process("run", "--bus", "none", "--environments", "1", "--out", tmp_path, preexec_fn=no_large_files)
 
     assert done.returncode == 1
     assert re.fullmatch(r"octet: cannot write .*run\.log\.part: File too large\n", done.stderr)
@@ -148,7 +148,7 @@ def test_a_robot_with_another_layout_of_messages_is_refused(tmp_path):
     subprocess.run([sys.executable, ROOT / "tools/generate", "--dbc", dbc, "--python", python], check=True)
     (tmp_path / "build").symlink_to(ROOT / "build")
 
-    done = octet("run", "--bus", "fd", "--out", tmp_path / "out", cwd=tmp_path)
+    done = octet_process("run", "--bus", "fd", "--out", tmp_path / "out", cwd=tmp_path)
 
     assert done.returncode == 1
     assert "another octet.dbc" in done.stderr

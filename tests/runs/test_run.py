@@ -19,7 +19,7 @@ def test_a_run_finishes_its_environments_and_says_so(run):
 
 
 def test_a_run_leaves_log_summary_and_picture(run):
-    done = run("--environments", "1", "--bus", "none")
+    done = run("--environments", "1", "--limit-s", "10", "--bus", "none", process=True)
 
     assert (done.out / "arena.png").read_bytes().startswith(b"\x89PNG")
     assert hashlib.sha256(done.log).hexdigest() == done.summary["log_sha256"]
@@ -40,14 +40,14 @@ def test_the_summary_has_all_that_is_promised(run):
 
 
 def test_json_prints_the_summary_and_nothing_else(run):
-    done = run("--environments", "1", "--bus", "fd", "--json")
+    done = run("--environments", "1", "--limit-s", "10", "--bus", "fd", "--json", process=True)
 
     assert json.loads(done.output) == done.summary
     assert done.errors == ""
 
 
 def test_quiet_prints_nothing(run):
-    done = run("--environments", "1", "--bus", "none", "--quiet")
+    done = run("--environments", "1", "--limit-s", "10", "--bus", "none", "--quiet", process=True)
 
     assert (done.code, done.output, done.errors) == (0, "", "")
 
@@ -73,9 +73,9 @@ def test_a_robot_behind_a_socket_pair_and_one_in_this_process_leave_the_same_byt
 
 
 def test_the_same_run_again_leaves_the_same_bytes(run):
-    words = ("--environments", "2", "--seed", "5", "--bus", "none")
+    words = ("--environments", "2", "--limit-s", "40", "--seed", "5", "--bus", "none")
 
-    once, again = run(*words), run(*words)
+    once, again = run(*words, process=True), run(*words, process=True)
 
     assert once.log == again.log
     assert (once.out / "arena.png").read_bytes() == (again.out / "arena.png").read_bytes()
