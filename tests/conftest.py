@@ -4,8 +4,8 @@ A test that cannot run says `pytest.skip("NAME: what is missing")`.
 
 With `--progress FILE`, tools/test can tell at any time what has passed and what is running.
 
-What Python compiles is kept, here and in each process that a test starts, whatever the environment says: else every one
-of them would compile all libraries anew.
+What Python compiles is kept, here and in each process that a test starts, whatever the environment says: else every
+one of them would compile all libraries anew.
 """
 
 import json

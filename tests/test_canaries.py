@@ -240,7 +240,7 @@ def unit_tests_pass(folder: Path, module: str, objects: list[Path], *more: str |
     """Builds a module's unit tests with the firmware and with what is more, and runs them."""
     (test,) = (ROOT / "tests/firmware").rglob(f"test_{module}.c")
     program = compiled(folder / "test", *INCLUDE, test, *objects, *more, "-lm")
-    return subprocess.run([program], capture_output=True, timeout=20, check=False).returncode == 0
+    return subprocess.run([program], capture_output=True, timeout=600, check=False).returncode == 0
 
 
 def planted(folder: Path, function: str, body: str) -> list[str | Path]:

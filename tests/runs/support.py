@@ -49,6 +49,7 @@ def octet(*words: str | Path) -> Ended:
     output, errors = io.StringIO(), io.StringIO()
     with (
         mock.patch("host_sim.cli.conduct.write_picture", lambda path, _: path.touch()),
+        mock.patch("os.execve", side_effect=AssertionError("`--bus auto` needs a process of its own")),
         contextlib.redirect_stdout(output),
         contextlib.redirect_stderr(errors),
     ):

@@ -3,12 +3,15 @@
 import contextlib
 import os
 import random
+import re
 import signal
 import time
+from pathlib import Path
 
 import pytest
 
 from tests.runs.support import octet, robot_of, start_octet, wait_for_lines, wait_until
+from tests.tools.processes import alive
 
 LONG = ("--environments", "20", "--bus", "fd", "--quiet")
 
@@ -29,7 +32,7 @@ def test_a_robot_that_is_killed_ends_the_run_with_one_line(long_run, tmp_path):
 
     os.kill(robot, signal.SIGKILL)
 
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate()
     assert process.returncode == 1
     assert errors.count("\n") == 1
     assert "far end is closed" in errors or "killed by signal 9" in errors
@@ -44,7 +47,7 @@ def test_whatever_ends_the_simulator_the_last_lesson_is_in_the_memory_file(tmp_p
     wait_until(lambda: memory.exists() and any(memory.read_bytes()), "a lesson")
 
     process.send_signal(number)
-    process.communicate(timeout=20)
+    process.communicate()
 
     learned = memory.read_bytes()
     assert len(learned) == 8
@@ -58,7 +61,7 @@ def test_a_robot_that_is_killed_leaves_what_it_had_learned(tmp_path):
     wait_until(lambda: memory.exists() and any(memory.read_bytes()), "a lesson")
 
     os.kill(robot, signal.SIGKILL)
-    process.communicate(timeout=20)
+    process.communicate()
 
     assert process.returncode == 1
     assert any(memory.read_bytes())
@@ -69,7 +72,7 @@ def test_a_robot_that_hangs_is_named_with_its_tick_and_last_frame(long_run):
 
     os.kill(robot, signal.SIGSTOP)
 
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate()
     assert process.returncode == 1
     assert "did not answer tick" in errors
     assert "last frame from it: DRIVE" in errors
@@ -82,10 +85,7 @@ def test_a_robot_does_not_outlive_its_simulator(long_run):
     process.kill()
     process.wait()
 
-    give_up = time.monotonic() + 10
-    while os.path.exists(f"/proc/{robot}/exe") and time.monotonic() < give_up:  # noqa: PTH110 - no file of ours
-        time.sleep(0.01)
-    assert not os.path.exists(f"/proc/{robot}/exe")  # noqa: PTH110
+    wait_until(lambda: not alive(robot), "the end of the robot")
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
@@ -94,22 +94,27 @@ def test_a_run_that_is_ended_by_a_signal_keeps_what_it_recorded(long_run, tmp_pa
 
     process.send_signal(number)
 
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate()
     assert process.returncode == 128 + number
     assert errors == f"octet: ended by {number.name}; the log so far was written\n"
     assert (tmp_path / "run.log").read_bytes().count(b"\n") >= 4000
     assert not list(tmp_path.glob("*.part"))
 
 
+def waits_of(pid: int) -> int:
+    """How often a process has waited for something: a robot does once a tick."""
+    return int(re.search(r"\nvoluntary_ctxt_switches:\s*(\d+)", Path(f"/proc/{pid}/status").read_text())[1])
+
+
 def hold_up(pid: int, seconds: float) -> None:
-    """Up to twice the 100 ms after which a robot on its own clock stops."""
+    """Stops a process for a while; a robot on its own clock stops its wheels after 100 ms."""
     os.kill(pid, signal.SIGSTOP)
     time.sleep(seconds)
     os.kill(pid, signal.SIGCONT)
 
 
 def test_delays_on_either_side_change_nothing(tmp_path, run):
-    words = ("--environments", "2", "--bus", "fd", "--quiet")
+    words = ("--environments", "2", "--limit-s", "40", "--bus", "fd", "--quiet")
     undisturbed = run(*words)
     chance = random.Random(1)
     process = start_octet("run", "--out", tmp_path / "delayed", *words)
@@ -129,13 +134,11 @@ def test_in_real_time_a_held_up_robot_stops_and_then_goes_on(tmp_path):
     words = ("--environments", "1", "--bus", "fd", "--limit-s", "4", "--real-time", "--json")
     process = start_octet("run", "--out", tmp_path, *words)
     robot = robot_of(process)
-    time.sleep(1.5)
+    wait_until(lambda: waits_of(robot) > 50, "fifty ticks of the robot")
 
-    os.kill(robot, signal.SIGSTOP)
-    time.sleep(0.8)
-    os.kill(robot, signal.SIGCONT)
+    hold_up(robot, 0.8)
 
-    output, errors = process.communicate(timeout=30)
+    output, errors = process.communicate()
     assert (process.returncode, errors) == (0, "")
     assert '"ticks": 200' in output
     assert octet("replay", tmp_path / "run.log").returncode in (0, 1)

@@ -6,8 +6,8 @@ from pathlib import Path
 
 
 def soon(condition: Callable[[], bool]) -> bool:
-    """Whether the condition comes true within 30 seconds."""
-    deadline = time.monotonic() + 30
+    """Whether the condition comes true within ten minutes: long enough for any machine that is at work at all."""
+    deadline = time.monotonic() + 600
     while not condition() and time.monotonic() < deadline:
         time.sleep(0.05)
     return condition()

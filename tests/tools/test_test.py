@@ -87,9 +87,7 @@ class Project:
     def run(self, *words: str) -> tuple[int, str]:
         """The exit code, and what was printed."""
         environment = {**os.environ, "PYTEST_XDIST_AUTO_NUM_WORKERS": "1"}
-        done = subprocess.run(
-            self.command(*words), env=environment, capture_output=True, text=True, timeout=120, check=False
-        )
+        done = subprocess.run(self.command(*words), env=environment, capture_output=True, text=True, check=False)
         return done.returncode, done.stdout
 
 
@@ -262,7 +260,7 @@ def test_ended_from_outside_it_leaves_nothing_behind(project):
     process = subprocess.Popen(project.command("c", "python"), stdout=subprocess.DEVNULL)
     assert soon(lambda: all(note.exists() and note.read_text() != "" for note in notes))
     process.send_signal(signal.SIGTERM)
-    process.wait(timeout=60)
+    process.wait()
 
     assert soon(lambda: not any(alive(int(note.read_text())) for note in notes))
 
