@@ -8,7 +8,7 @@ from host_sim.cli.run_options import BOARDS
 from host_sim.emulator.board import start_board
 from tests.image.support import run_robot
 
-TICKS = 2000
+TICKS = 700
 MEMORY = b" 681#"
 
 

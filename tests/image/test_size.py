@@ -3,7 +3,10 @@
 import json
 import subprocess
 import sys
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 
@@ -23,8 +26,12 @@ edge: { sourcename: "a.c:small" targetname: "memset" label: "a.c:2:2" }
 """
 
 
-def size(*options: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([ROOT / "tools" / "size", *options], capture_output=True, text=True, check=False)
+def size_script() -> ModuleType:
+    """tools/size as a module."""
+    loader = SourceFileLoader("tools_size", str(ROOT / "tools" / "size"))
+    module = module_from_spec(spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
 
 
 def graph(text: str) -> CallGraph:
@@ -33,25 +40,33 @@ def graph(text: str) -> CallGraph:
     return made
 
 
-def test_everything_is_within_its_budget() -> None:
-    result = size()
-
-    assert result.returncode == 0, result.stdout + result.stderr
-    tables = {line for line in result.stdout.splitlines() if not line.startswith(" ")}
-    assert {"octet-blue_pill-bxcan", "octet-feather_stm32f405-slcan", "octet-nucleo_g431rb-fdcan"} <= tables
-    assert {"core on Cortex-M0", "core on RV32"} <= tables
-
-
-def test_what_is_over_its_limit_is_named_and_fails(tmp_path: Path) -> None:
+def test_everything_is_within_its_budget_but_for_one_limit_that_was_lowered(tmp_path: Path) -> None:
     budget = json.loads((ROOT / "tools" / "size_budget.json").read_text())
     budget["limits"]["octet-blue_pill-bxcan"]["flash"] = 4000
     tight = tmp_path / "budget.json"
     tight.write_text(json.dumps(budget))
 
-    result = size(f"--budget={tight}")
+    command = [ROOT / "tools" / "size", f"--budget={tight}"]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
 
-    assert result.returncode == 1
-    assert result.stdout.count("OVER ITS LIMIT") == 1
+    over = [line.split() for line in result.stdout.splitlines() if "OVER ITS LIMIT" in line]
+    assert result.returncode == 1, result.stderr
+    assert [line[0] for line in over] == ["flash"], result.stdout
+    tables = {line for line in result.stdout.splitlines() if not line.startswith(" ")}
+    assert {"octet-blue_pill-bxcan", "octet-feather_stm32f405-slcan", "octet-nucleo_g431rb-fdcan"} <= tables
+    assert {"core on Cortex-M0", "core on RV32"} <= tables
+
+
+@pytest.mark.parametrize(("flash", "code"), [(100, 0), (101, 1)])
+def test_the_exit_code_is_1_if_and_only_if_a_limit_is_passed(
+    flash: int, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    script = size_script()
+    (tmp_path / "budget.json").write_text('{"limits": {"an image": {"flash": 100}}, "recorded": {}}')
+    monkeypatch.setattr(script, "measured", lambda: ({"an image": {"flash": flash}}, {}))
+    monkeypatch.setattr(sys, "argv", ["tools/size", f"--budget={tmp_path}/budget.json"])
+
+    assert script.main() == code
 
 
 def test_the_worst_stack_is_that_of_the_deepest_way() -> None:
