@@ -1,6 +1,7 @@
 """What is built depends on the sources and the presets, and on nothing that the caller's environment holds."""
 
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -8,21 +9,72 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 CANARY = "OCTET_CANARY"
-VARIABLES = ("CFLAGS", "CPPFLAGS", "LDFLAGS")
+FLAGS = ("CFLAGS", "CPPFLAGS", "LDFLAGS")
+PLACES = ("CPATH", "C_INCLUDE_PATH", "COMPILER_PATH", "GCC_EXEC_PREFIX", "LIBRARY_PATH")
+PRESETS = ("host", "blue_pill")
 
 
-def configured(folder: Path, preset: str, *options: str) -> str:
+def configure(folder: Path, preset: str, *options: str) -> str:
     """What ninja would do, configured with flags in the environment."""
-    environment = {**os.environ, **{name: f"-D{CANARY}_{name}" for name in VARIABLES}}
+    environment = {**os.environ, **{name: f"-D{CANARY}_{name}" for name in FLAGS}}
     command = ["cmake", "-B", folder, "--preset", preset, *options]
     subprocess.run(command, cwd=ROOT, env=environment, check=True, capture_output=True)
     return (folder / "build.ninja").read_text()
 
 
-@pytest.mark.parametrize("preset", ["host", "blue_pill"])
-def test_flags_of_the_environment_reach_no_build(preset: str, tmp_path: Path) -> None:
-    assert CANARY not in configured(tmp_path / "build", preset)
+@pytest.fixture(scope="module", params=PRESETS)
+def configured(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder in which a preset is configured with flags in the environment."""
+    folder = tmp_path_factory.mktemp(request.param)
+    configure(folder, request.param)
+    return folder
+
+
+@pytest.fixture
+def misled(tmp_path: Path) -> dict[str, str]:
+    """An environment in which a compiler finds a header that stops it, before its own, and a linker that fails."""
+    (tmp_path / "stdint.h").write_text("#error misled\n")
+    (tmp_path / "as").write_text("#!/bin/sh\nexit 1\n")
+    (tmp_path / "as").chmod(0o755)
+    return {**os.environ, **dict.fromkeys(PLACES, f"{tmp_path}/")}
+
+
+def test_flags_of_the_environment_reach_no_build(configured: Path) -> None:
+    assert CANARY not in (configured / "build.ninja").read_text()
 
 
 def test_flags_that_reach_a_build_are_seen(tmp_path: Path) -> None:
-    assert CANARY in configured(tmp_path / "build", "host", f"-DCMAKE_C_FLAGS=-D{CANARY}")
+    assert CANARY in configure(tmp_path / "build", "host", f"-DCMAKE_C_FLAGS=-D{CANARY}")
+
+
+def test_places_of_the_environment_mislead_no_compiler(configured: Path, misled: dict[str, str]) -> None:
+    (target,) = [
+        line.split()[1].rstrip(":")
+        for line in (configured / "build.ninja").read_text().splitlines()
+        if re.match(r"build \S*/pattern\.c\.o(bj)?:", line)
+    ]
+
+    done = subprocess.run(
+        ["ninja", "-C", configured, target], env=misled, capture_output=True, text=True, check=False
+    )
+
+    assert done.returncode == 0, done.stdout
+
+
+@pytest.mark.parametrize("compiler", ["gcc", "arm-none-eabi-gcc"])
+def test_places_that_mislead_a_compiler_are_noticed(compiler: str, misled: dict[str, str], tmp_path: Path) -> None:
+    source = tmp_path / "one.c"
+    source.write_text("#include <stdint.h>\nint32_t one;\n")
+
+    done = subprocess.run([compiler, "-c", source], cwd=tmp_path, env=misled, capture_output=True, check=False)
+
+    assert done.returncode != 0
+
+
+@pytest.mark.parametrize("rule", ["C_COMPILER", "C_EXECUTABLE_LINKER"])
+def test_compiler_and_linker_are_called_without_them(configured: Path, rule: str) -> None:
+    rules = re.split(r"^rule ", (configured / "CMakeFiles/rules.ninja").read_text(), flags=re.MULTILINE)[1:]
+    commands = [line for text in rules if text.startswith(rule) for line in text.splitlines() if "command =" in line]
+
+    assert commands
+    assert all(f"-u {name} " in command for command in commands for name in PLACES)
