@@ -230,6 +230,21 @@ def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
     assert "apt-get install gcc cmake\n" in done.stderr
 
 
+def test_packages_alone_are_installed_without_a_venv_or_a_build(tree: Tree) -> None:
+    done, calls = tree.setup("--packages", "c")
+    assert (done.returncode, set(calls) - {"python3"}) == (0, set())  # python3 is asked whether it can make a venv
+    assert not (tree.folder / ".venv").exists()
+
+
+def test_packages_alone_that_cannot_be_installed_are_named(tree: Tree) -> None:
+    for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink"):
+        (tree.bin / name).symlink_to(str(shutil.which(name)))
+    (tree.bin / "cmake").unlink()
+    done, _ = tree.setup("--packages", "c", path=str(tree.bin))
+    assert done.returncode != 0
+    assert "apt-get install gcc cmake\n" in done.stderr
+
+
 def test_the_lock_files_pin_by_hash_and_name_no_address() -> None:
     for path in (*(ROOT / name for name in LOCKS), ROOT / "tools/unity.lock"):
         text = path.read_text()
