@@ -14,8 +14,11 @@ import sys
 from collections.abc import Generator
 from pathlib import Path
 
+import hypothesis
 import pytest
 
+hypothesis.settings.register_profile("octet", deadline=None)  # a busy machine is no fault
+hypothesis.settings.load_profile("octet")
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
