@@ -179,6 +179,7 @@ def _show(
         recorder,
         lambda seed: start_robots(simulation.clients, replace(options.config, seed=seed)),
         stays=options.watch.stays,
+        waits=options.watch.stays and listener is not None,
         speed=options.watch.speed,
     )
     if listener is None:

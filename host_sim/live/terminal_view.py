@@ -100,7 +100,7 @@ def _view(live: PacedRun) -> View:
     first = max(begun.first_tick, trajectory.first_tick) - trajectory.first_tick
     return View(
         live.params,
-        environment_scene(begun, simulation.environments, simulation.arena),
+        environment_scene(simulation.record.begun, simulation.environments, simulation.arena),
         states(simulation, live.recorder.histories),
         [[(x, y) for x, y, _ in track.poses()[first:].tolist()] for track in trajectory.tracks],
         trajectory.boredom_limit,

@@ -22,7 +22,7 @@ LEARNED_MEMORY = [0, 1, 2, 1, 2, 1, 2, 0]
 FOOD_GREEN, TRIAL_ORANGE, BORED_PINK = (0, 158, 115), (213, 94, 0), (204, 121, 167)
 
 
-SCENE = EnvironmentScene(number=1, of=1, seed=1, first_tick=0, bars=[], food=[[1000.0, 2000.0]])
+SCENE = EnvironmentScene(number=1, of=1, seed=1, first_tick=0, start_tick=0, bars=[], food=[[1000.0, 2000.0]])
 START = Pose(2000.0, 1500.0, 0.0)
 Trail = Sequence[tuple[float, float, int]]
 
@@ -42,7 +42,7 @@ def busy_panel(seed: int) -> Panel:
         y = min(2900.0, max(100.0, y + draws.uniform(-20, 20)))
         trail.append((x, y, draws.choice((1, 1, 1, 3, 3, 2, 4, 5, 6))))
     arena = Arena(generate(seed, 1, PARAMS), PARAMS)
-    return panel(trail, (1, 0, 1), 600.0, environment_scene(Begun(seed, 1, 0), 1, arena))
+    return panel(trail, (1, 0, 1), 600.0, environment_scene([Begun(seed, 1, 0)], 1, arena))
 
 
 def png(*panels: Panel, memory: Sequence[int] = EMPTY_MEMORY) -> bytes:

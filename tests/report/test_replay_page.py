@@ -32,15 +32,23 @@ def unpacked(data: str, columns: int) -> list[list[int]]:
 def state_in(run: dict, robot: dict, columns: dict[str, list[int]], tick: int) -> State:
     """The state of a robot at a tick, from what the page holds."""
     row = {name: values[tick - run["first_tick"]] for name, values in columns.items()}
-    lessons = [(lesson["cell"], lesson["tick"]) for lesson in robot["lessons"] if lesson["tick"] <= tick]
+    start = at(run["scenes"], tick)["start_tick"]
+    last = [None] * 8
+    for lesson in robot["lessons"]:
+        if start <= lesson["tick"] <= tick:
+            last[lesson["cell"]] = lesson
+    since = [lesson["tick"] if lesson else start for lesson in last]
     return State(
         **{**row, "x": row["x"] / 10, "y": row["y"] / 10},
         node=robot["node"],
         tick=tick,
         eaten=at(run["eaten"], tick),
         memory=at(robot["memory"], tick),
-        uses=[sum(turn <= tick and used == cell for turn, used in robot["turns"]) for cell in range(8)],
-        learned=[max((when for what, when in lessons if what == cell), default=-1) for cell in range(8)],
+        uses=[
+            sum(since[cell] <= turn <= tick and used == cell for turn, used in robot["turns"]) for cell in range(8)
+        ],
+        learned=[lesson["tick"] if lesson else -1 for lesson in last],
+        by_hand=[lesson["by_hand"] if lesson else 0 for lesson in last],
         trial=at(robot["trials"], tick),
     )
 

@@ -25,13 +25,13 @@ def test_it_pauses_and_plays_again(watch, open_page):
     wait_for(page, "tick => octet.scene.state.tick > tick", tick)
 
 
-def test_a_single_decision_is_one_action(watch, open_page):
-    page = open_page(watch().url)
+def test_a_single_decision_is_more_than_a_step(watch, open_page):
+    page = open_page(watch("--seed", "1").url)
     pause(page)
-    before = state(page)["action"]
+    before = state(page)
     page.click("#decision")
-    wait_for(page, "action => octet.scene.state.action !== action && !octet.play.playing", before)
-    assert state(page)["action"] == (before + 1) % 128
+    wait_for(page, "tick => octet.scene.state.tick > tick && !octet.play.playing", before["tick"])
+    assert not {before["reason"], state(page)["reason"]} <= {1, 3}
 
 
 def test_next_environment_and_a_new_seed(watch, open_page):
