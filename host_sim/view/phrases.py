@@ -22,6 +22,7 @@ def sentence(state: State) -> str:
         Reason.TRIAL: f"{blocked}: I do not know what helps yet, so I try turning {side}.",
         Reason.BOREDOM: f"{state['repeat_count']} turns in a row, and still blocked. I am bored: about face!",
         Reason.EAT: "Food! I eat it.",
+        Reason.SILENCE: "I hear nothing from my body: my wheels rest.",
     }[Reason(state["reason"])]
 
 

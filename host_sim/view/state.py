@@ -1,7 +1,7 @@
 """The visible state of a run as plain JSON types: the one form that every view draws, live or recorded.
 
 Ticks are counted from the start of the run and do not wrap. Lengths are in mm, x to the right and y down; headings in
-mrad, 0 along +x, positive to the right. Sides: 0 nothing, 1 left, 2 right. Reasons: as in octet.dbc, 0..7.
+mrad, 0 along +x, positive to the right. Sides: 0 nothing, 1 left, 2 right. Reasons: as in octet.dbc.
 """
 
 from collections.abc import Sequence

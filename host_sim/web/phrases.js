@@ -30,6 +30,7 @@ const REASONS = [
   [REASON.BOREDOM, "is bored",
     (state) => `${state.repeat_count} turns in a row, and still blocked. I am bored: about face!`],
   [REASON.EAT, "eats", () => "Food! I eat it."],
+  [REASON.SILENCE, "hears nothing", () => "I hear nothing from my body: my wheels rest."],
 ];
 
 const SENTENCES = new Map(REASONS.map(([reason, , words]) => [reason, words]));

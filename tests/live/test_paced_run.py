@@ -203,6 +203,7 @@ def test_after_the_pause_the_next_environment_begins(live, monkeypatch):
 
 def test_the_pause_can_be_cut_short(live, monkeypatch):
     run = over_soon(live, monkeypatch, pause_s=1000.0)
+    run.simulation.record.limit_ticks = 1000
     order(run, NextEnvironment())
 
     assert [begun.number for begun in run.simulation.record.begun] == [1, 2]

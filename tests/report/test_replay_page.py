@@ -38,15 +38,14 @@ def state_in(run: dict, robot: dict, columns: dict[str, list[int]], tick: int) -
         if start <= lesson["tick"] <= tick:
             last[lesson["cell"]] = lesson
     since = [lesson["tick"] if lesson else start for lesson in last]
+    turns = [cell for turn, cell in robot["turns"] if since[cell] <= turn <= tick]
     return State(
         **{**row, "x": row["x"] / 10, "y": row["y"] / 10},
         node=robot["node"],
         tick=tick,
         eaten=at(run["eaten"], tick),
         memory=at(robot["memory"], tick),
-        uses=[
-            sum(since[cell] <= turn <= tick and used == cell for turn, used in robot["turns"]) for cell in range(8)
-        ],
+        uses=[turns.count(cell) for cell in range(8)],
         learned=[lesson["tick"] if lesson else -1 for lesson in last],
         by_hand=[lesson["by_hand"] if lesson else 0 for lesson in last],
         trial=at(robot["trials"], tick),

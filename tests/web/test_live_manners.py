@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from itertools import pairwise
 
 import pytest
 from playwright.sync_api import Page
@@ -131,7 +132,7 @@ def test_the_body_does_not_flicker_while_it_wanders(page, run):
 def test_the_body_does_not_flicker_between_turns_and_steps(page, run):
     seen = colours(page, run, [4, 1] * 10)
 
-    assert sum(a != b for a, b in zip(seen, seen[1:], strict=False)) <= 2
+    assert sum(a != b for a, b in pairwise(seen)) <= 2
 
 
 def test_what_matters_more_is_seen_at_once(page, run):
@@ -235,7 +236,7 @@ def test_a_cell_says_who_filled_it_and_an_empty_one_says_nothing(page, run):
     wait_for_text(page, "#cells", "written")
 
     said = page.locator(".cell-history").all_inner_texts()
-    assert said[1:4] == ["written 0:01.0, used 4×", "learned 0:02.0, used 7×", ""]
+    assert said[1:4] == ["written 0:01.0, used 4\u00d7", "learned 0:02.0, used 7\u00d7", ""]
 
 
 def test_an_end_of_an_obstacle_turns_it(page, run):

@@ -207,7 +207,7 @@ def test_only_the_page_and_its_parts_are_served(watched):
 @pytest.mark.parametrize("words", [(), ("--listen", "127.0.0.1")], ids=["this machine", "other machines"])
 def test_a_page_needs_the_token(watch, words):
     watched = watch(*words)
-    home, query = watched.url.split("?")
+    home, _ = watched.url.split("?")
 
     async def get(address: str) -> int:
         async with aiohttp.ClientSession() as session, session.get(address) as response:
