@@ -45,6 +45,15 @@ def watch(tmp_path: Path) -> Iterator[Callable[..., Watched]]:
         watched.process.communicate()
 
 
+@pytest.fixture(scope="module")
+def module_watch(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
+    """A run to watch, for all tests of a module that only ask its server."""
+    watched = start_watched(tmp_path_factory.mktemp("watched") / "run")
+    yield watched
+    watched.process.kill()
+    watched.process.communicate()
+
+
 @pytest.fixture
 def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
     """Opens pages in fresh profiles; none may complain or ask anyone but its own server."""
