@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from host_sim.report.picture import Panel, draw_run
+from host_sim.report.picture import Panel, draw_run, omissions
 from host_sim.sim.world_record import Begun
 from host_sim.view.state import EnvironmentScene, environment_scene
 from host_sim.world.arena import Arena
@@ -73,7 +73,12 @@ def test_all_pictures_are_equally_wide_and_grow_by_the_row() -> None:
     shapes = {n: picture(*[panel()] * n).shape for n in (3, 4, 6, 7, 9, 10)}
 
     assert {width for _, width, _ in shapes.values()} == {1680}
-    assert shapes[3] < shapes[4] == shapes[6] < shapes[7] == shapes[9] == shapes[10]
+    assert shapes[3] < shapes[4] == shapes[6] < shapes[7] == shapes[9] < shapes[10]
+
+
+def test_what_a_picture_leaves_out_is_said() -> None:
+    assert omissions(9, 8) == []
+    assert omissions(20, 9) == ["the last 9 of 20 environments", "the memories of the first 8 of 9 robots"]
 
 
 def test_longer_runs_show_their_last_nine_environments() -> None:

@@ -14,7 +14,19 @@ from tests.web.support import wait_for
 DESKTOPS = [(1024, 768), (1280, 720), (1366, 657), (1440, 900), (1920, 1080)]
 PHONES = [(390, 844), (844, 390)]
 SIZES = DESKTOPS + PHONES
-LIVE = ("#floor", "#play", "#decision", "#speed", "#doing", "#cells", "#freeze", "#erase", "#lift", "#add-bar", "#next")
+LIVE = (
+    "#floor",
+    "#play",
+    "#decision",
+    "#speed",
+    "#doing",
+    "#cells",
+    "#freeze",
+    "#erase",
+    "#lift",
+    "#add-bar",
+    "#next",
+)
 REPLAY = ("#floor", "#play", "#scrub", "#doing", "#cells", "#pin", "#before", "#after")
 SCHEMES = ("light", "dark")
 THREE_SIZES = [(390, 844), (1024, 768), (1920, 1080)]
@@ -66,8 +78,13 @@ def fill(run: FakeRun) -> None:
     """Long words in every place."""
     trial = {"tick": 1, "cell": 7, "side": 1, "helped": 1, "frozen": 0}
     run.states[0] |= {
-        **{"reason": 5, "pattern": 6, "trial": trial, "tick": 5000, "memory": [0, 1, 2, 1, 2, 1, 2, 1]},
-        **{"learned": [-1, *[4000] * 7], "uses": [0, *[322] * 7]},
+        "reason": 5,
+        "pattern": 6,
+        "trial": trial,
+        "tick": 5000,
+        "memory": [0, 1, 2, 1, 2, 1, 2, 1],
+        "learned": [-1, *[4000] * 7],
+        "uses": [0, *[322] * 7],
     }
     lesson = {"node": 1, "tick": 5, "cell": 7, "side": 1, "by_hand": 0}
     run.send(lessons=[{**lesson, "tick": tick} for tick in range(30)])
