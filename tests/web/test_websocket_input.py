@@ -54,6 +54,10 @@ async def refused(ws: Socket) -> int:
     return (await message(ws))["health"]["orders_refused"]
 
 
+def test_the_run_begins_when_someone_watches(watch):
+    assert talk(watch(), tick) <= 2
+
+
 JUNK = [
     "",
     "no JSON",
