@@ -2,6 +2,7 @@
 
 import math
 
+from host_sim.protocol.generated import Opcode
 from tests.runs.support import octet
 from tests.web.support import drag, full_speed, pause, place_on_page, run_in, state, wait_for, wait_for_text
 
@@ -59,8 +60,11 @@ def test_a_pressed_cell_is_a_command_on_the_bus(watch, open_page):
     page.click("#freeze")
     wait_for(page, "octet.scene.state.frozen === 1")
     assert watched.end() == 0
-    opcodes = [(c["opcode"], c.get("mask"), c.get("cells"), c.get("freeze")) for c in watched.commands()]
-    assert opcodes[-4:-1] == [(5, 1 << 7, 1 << 14, None), (6, None, None, None), (7, None, None, 1)]
+    names = ("opcode", "half", "mask", "byte_3", "freeze")
+    write, erase, freeze = [{name: c[name] for name in names if name in c} for c in watched.commands()][-4:-1]
+    assert write == {"opcode": Opcode.WRITE, "half": 1, "mask": 8, "byte_3": 1}
+    assert erase == {"opcode": Opcode.ERASE}
+    assert freeze == {"opcode": Opcode.FREEZE, "freeze": 1}
 
 
 def test_an_obstacle_dragged_into_its_way_makes_it_learn_anew(watch, open_page):
