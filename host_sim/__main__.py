@@ -1,8 +1,20 @@
 """`python -m host_sim`: the same as `tools/octet`."""
 
+import signal
 import sys
 
-from host_sim.cli.main import main
+
+def _main() -> int:
+    """Runs the command; until it is loaded, Ctrl-C ends the process without a traceback."""
+    interruptible = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if interruptible:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+    from host_sim.cli.main import main  # noqa: PLC0415 - this takes the time
+
+    if interruptible:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    return main()
+
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(_main())

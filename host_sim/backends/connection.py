@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from host_sim.backends.images import BOARDS
 from host_sim.backends.qemu import Qemu
 from host_sim.backends.robot_process import RobotProcess
-from host_sim.errors import UsageError
-from host_sim.protocol.codec import Protocol
+from host_sim.errors import RobotError, UsageError
+from host_sim.protocol.codec import Frame, Protocol
 from host_sim.transport.buses import open_bus
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.link import BusLink, Link
@@ -101,7 +101,35 @@ def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
         stack.callback(link.close)
         process = RobotProcess(f"fd:{theirs.fileno()}", node, [theirs.fileno()])
     stack.callback(process.close)
-    return Connection(link, "fd", process.status, process.pid)
+    return Connection(_ProcessLink(link, process), "fd", process.status, process.pid)
+
+
+@dataclass(frozen=True)
+class _ProcessLink:
+    """The link to a process, which says how the process ended when the link is closed."""
+
+    link: Link
+    process: RobotProcess
+
+    def send(self, frame: Frame) -> None:
+        """As in `Link`."""
+        try:
+            self.link.send(frame)
+        except RobotError:
+            self.process.account_for_silence()
+            raise
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """As in `Link`."""
+        try:
+            return self.link.receive(timeout_s)
+        except RobotError:
+            self.process.account_for_silence()
+            raise
+
+    def close(self) -> None:
+        """As in `Link`."""
+        self.link.close()
 
 
 def _over_bus(stack: ExitStack, bus: str, robot: str, node: int) -> Connection:

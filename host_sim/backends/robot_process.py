@@ -1,7 +1,9 @@
 """The host build of the firmware, in its own process."""
 
+import contextlib
 import os
 import select
+import signal
 import subprocess
 import time
 from collections.abc import Sequence
@@ -68,8 +70,18 @@ class RobotProcess:
         code = self._process.poll()
         if code is None:
             return f"is running and {self._quoted()}"
-        how = f"was killed by signal {-code}" if code < 0 else f"ended with exit code {code}"
+        how = f"was killed by signal {_signal_name(-code)}" if code < 0 else f"ended with exit code {code}"
         raise RobotError(f"the robot {how} and {self._quoted()}")
+
+    def account_for_silence(self) -> None:
+        """Waits a moment for the end of a robot whose link is closed: the link closes before the process has ended.
+
+        Raises:
+            RobotError: The process has ended; the message says how.
+        """
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(_END_S)
+        self.status()
 
     def close(self) -> None:
         """Terminates the process, and kills it if it does not end in time."""
@@ -102,4 +114,13 @@ class RobotProcess:
     def _quoted(self) -> str:
         self._read()
         text = " / ".join(self._printed.decode(errors="replace").split("\n")).strip(" /")
-        return f"printed: {text[-_PRINTED_CHARS:]}" if text else "printed nothing"
+        if len(text) > _PRINTED_CHARS:
+            text = f"{text[: _PRINTED_CHARS * 3 // 4]} ... {text[-_PRINTED_CHARS // 4 :]}"
+        return f"printed: {text}" if text else "printed nothing"
+
+
+def _signal_name(number: int) -> str:
+    """A signal by number and name, such as 9 (SIGKILL)."""
+    with contextlib.suppress(ValueError):  # a real-time signal has no name
+        return f"{number} ({signal.Signals(number).name})"
+    return f"{number}"

@@ -1,39 +1,36 @@
 """Conducts a run from its start to its output files."""
 
 import argparse
+import json
 import sys
-import time
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
 
+from host_sim.cli.interruption import interrupted_between_ticks
+from host_sim.cli.outputs import LOG, PAGE, PICTURE, SUMMARY, Outputs
 from host_sim.cli.run_options import RunOptions, WatchOptions, run_options
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import RobotError
+from host_sim.errors import OctetError
 from host_sim.live.browser import watch_run
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.progress import Progress
 from host_sim.live.server import Listener
 from host_sim.live.terminal_view import watch_in_terminal
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS
-from host_sim.recording.memory_file import MemorySaver, load_memory, memory_path
+from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_path
 from host_sim.recording.run_folder import run_folder
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.recording.summary import Summary, environment_line, summarize
-from host_sim.recording.trajectory import Trajectory
-from host_sim.recording.world_file import world_path, write_world
-from host_sim.report.picture import write_picture
-from host_sim.report.replay_page import write_page
+from host_sim.recording.summary import Summary, environment_line
+from host_sim.regular_file import read_bytes
 from host_sim.sim.make import Memory, make, start_robots
-from host_sim.sim.simulation import EpisodeResult, Simulation
-
-LOG, SUMMARY, PICTURE, PAGE = "run.log", "summary.json", "arena.png", "replay.html"
-"""The files in a run's output folder."""
+from host_sim.sim.simulation import Simulation
 
 _NOTHING = (0,) * CELL_COUNT
+_SUMMARY_MAX = 10_000_000
 
 
 def conduct_watched(arguments: argparse.Namespace, watch: WatchOptions) -> Summary:
@@ -47,14 +44,17 @@ def conduct_watched(arguments: argparse.Namespace, watch: WatchOptions) -> Summa
 
 
 def conduct(options: RunOptions) -> Summary:
-    """Conducts a run and writes log, world file, summary, picture and page to its folder.
+    """Conducts a run and writes log, world file, summary, picture and page to its folder, however the run ends.
 
     Raises:
         UsageError: The options are invalid; nothing was changed.
-        OctetError: The run could not continue; its log up to there was written.
+        OctetError: The run could not continue; what was recorded up to there was written.
     """
     loaded = [load_memory(path) for path in _memory_paths(options)]
+    for path in _memory_paths(options):
+        check_writable(path)
     with run_folder(options.out):
+        _announce(options, loaded)
         with ExitStack() as stack:
             listener = _open_listener(stack, options.watch)
             log = FrameLog(options.out / LOG)
@@ -65,15 +65,46 @@ def conduct(options: RunOptions) -> Summary:
             )
             recorder = RunRecorder.of(simulation, _boredom_limit(options))
             _save_memories(stack, simulation, options, loaded)
-            began = time.monotonic()
-            episodes = _simulate(simulation, recorder, options, listener)
-            for client in simulation.clients:
-                stop(client)
-            wall_s = time.monotonic() - began
-            log_sha256 = log.close()
-        summary = summarize(options.config, simulation.clients, episodes, log_sha256, wall_s)
-        _write_outputs(options, summary, recorder.trajectory)
+            outputs = Outputs(options, simulation, recorder, log)
+            try:
+                _simulate(outputs, listener)
+                for client in simulation.clients:
+                    stop(client)
+            except BaseException as end:
+                _write_what_there_is(outputs, end)
+                raise
+            summary = outputs.write()
+    _print_results(options, summary)
     return summary
+
+
+def _announce(options: RunOptions, loaded: Sequence[Memory | None]) -> None:
+    """Says what this run will overwrite, and which memories begin empty."""
+    if not options.talks:
+        return
+    for path, memory in zip(_memory_paths(options), loaded, strict=True):
+        if memory is None:
+            print(f"memory    {path} does not exist yet: the robot begins with an empty memory")
+    if (options.out / LOG).exists():
+        print(f"replaces  the run in {options.out}{_seed_of(options.out / SUMMARY)}")
+
+
+def _seed_of(summary: Path) -> str:
+    """The seed in a summary, for a message; empty if there is none."""
+    try:
+        return f" (seed {json.loads(read_bytes(summary, _SUMMARY_MAX))['seed']})"
+    except (OSError, ValueError, LookupError, TypeError):
+        return ""
+
+
+def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
+    """Writes a run that did not come to its end; it is that end which is reported, not what fails here."""
+    with suppress(OctetError):
+        if isinstance(end, KeyboardInterrupt):
+            for client in outputs.simulation.clients:
+                stop(client)
+    with suppress(OctetError):
+        outputs.write()
 
 
 def _print_robot(options: RunOptions, client: RobotClient) -> None:
@@ -130,33 +161,28 @@ def _open_listener(stack: ExitStack, watch: WatchOptions | None) -> Listener | N
     return listener
 
 
-def _simulate(
-    simulation: Simulation, recorder: RunRecorder, options: RunOptions, listener: Listener | None
-) -> Sequence[EpisodeResult]:
-    try:
-        if options.watch is None:
-            return _run_through(simulation, options)
-        return _show(simulation, recorder, options, listener)
-    finally:
-        write_world(simulation.record, world_path(options.out / LOG))
+def _simulate(outputs: Outputs, listener: Listener | None) -> None:
+    if outputs.options.watch is None:
+        _run_through(outputs)
+    else:
+        _show(outputs, outputs.options.watch, listener)
 
 
-def _run_through(simulation: Simulation, options: RunOptions) -> list[EpisodeResult]:
+def _run_through(outputs: Outputs) -> None:
     """Runs all environments, as fast as possible or in real time."""
-    progress = Progress()
-    if options.talks:
+    progress, simulation, talks = Progress(), outputs.simulation, outputs.options.talks
+    if talks:
         simulation.watch = _each(simulation.watch, progress)
-    episodes: list[EpisodeResult] = []
     try:
-        for episode in simulation.run():
-            episodes.append(episode)
-            if options.talks:
-                progress.clear()
-                print(environment_line(len(episodes), episode))
-    except RobotError:
+        with interrupted_between_ticks(simulation):
+            for episode in simulation.run():
+                outputs.episodes.append(episode)
+                if talks:
+                    progress.clear()
+                    print(environment_line(len(outputs.episodes), episode))
+    except BaseException:
         progress.clear()
         raise
-    return episodes
 
 
 def _each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], object]:
@@ -169,35 +195,30 @@ def _each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], o
     return watch
 
 
-def _show(
-    simulation: Simulation, recorder: RunRecorder, options: RunOptions, listener: Listener | None
-) -> Sequence[EpisodeResult]:
+def _show(outputs: Outputs, watch: WatchOptions, listener: Listener | None) -> None:
     """Runs with people watching: in the browser, or in the terminal if there is no listener."""
-    assert options.watch is not None
+    simulation, options = outputs.simulation, outputs.options
     live = PacedRun(
         simulation,
-        recorder,
+        outputs.recorder,
         lambda seed: start_robots(simulation.clients, replace(options.config, seed=seed)),
-        stays=options.watch.stays,
-        speed=options.watch.speed,
+        episodes=outputs.episodes,
+        stays=watch.stays,
+        waits=watch.stays and listener is not None,
+        speed=watch.speed,
     )
     if listener is None:
         watch_in_terminal(live)
-        return live.episodes
+        return
     if options.talks:
         live.ended = lambda episode: print(environment_line(len(live.episodes), episode))
     watch_run(live, listener, lambda line: print(line, file=sys.stdout if options.talks else sys.stderr, flush=True))
-    return live.episodes
 
 
-def _write_outputs(options: RunOptions, summary: Summary, trajectory: Trajectory) -> None:
-    """Writes and prints the results of a run."""
-    summary.write(options.out / SUMMARY)
-    if trajectory.ticks:
-        write_picture(options.out / PICTURE, trajectory)
-        write_page(options.out / PAGE, trajectory, f"seed {options.config.seed}")
+def _print_results(options: RunOptions, summary: Summary) -> None:
     if options.json:
         sys.stdout.write(summary.to_json())
     elif options.talks:
         print(summary.for_people())
-        print(f"wrote     {', '.join(str(options.out / name) for name in (PAGE, PICTURE, SUMMARY, LOG))}")
+        files = (options.out / name for name in (PAGE, PICTURE, SUMMARY, LOG))
+        print(f"wrote     {', '.join(str(path) for path in files if path.exists())}")

@@ -64,6 +64,21 @@ class FrameLog:
         if len(self._lines) >= _FLUSH_LINES:
             self._flush()
 
+    def flush(self) -> None:
+        """Writes what has been recorded.
+
+        Raises:
+            OctetError: The file cannot be written, now or before.
+        """
+        if self._failed:
+            raise OctetError(f"cannot write {self._part}: an earlier write failed")
+        self._flush()
+        try:
+            self._file.flush()
+        except OSError as error:
+            self._failed = True
+            raise OctetError(f"cannot write {self._part}: {error.strerror}") from error
+
     def close(self) -> str:
         """Closes the log; closing it again does nothing. A log without frames does not replace the old one.
 

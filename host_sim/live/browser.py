@@ -31,7 +31,7 @@ async def _serve(live: PacedRun, listener: Listener, say: Callable[[str], object
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         loop.add_signal_handler(number, live.close)
     async with LiveServer(live, listener).serving():
-        say(f"watch     {listener.url}  (Ctrl-C ends it)")
+        say(f"watch     {listener.url}  ({'begins when the page is open; ' if live.waits else ''}Ctrl-C ends it)")
         if _on_a_desktop():
             webbrowser.open(listener.url)
         await live.play()

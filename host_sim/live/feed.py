@@ -31,6 +31,7 @@ class PageFeed:
     live: PacedRun
     notes: deque[str] = field(default_factory=lambda: deque(maxlen=_NOTES_MAX))
     _layout: int = -1
+    _start: int = -1
     _environments: int = 0
     _sent: tuple[int, int] = (-1, -1)
     _trail: int = 0
@@ -72,7 +73,10 @@ class PageFeed:
         if len(simulation.record.begun) != self._environments:
             self._environments = len(simulation.record.begun)
             self._trail = max(self._first_tick(), simulation.tick - TRAIL_MAX)
-        scene = environment_scene(simulation.record.begun[-1], simulation.environments, simulation.arena)
+        scene = environment_scene(simulation.record.begun, simulation.environments, simulation.arena)
+        if scene["start_tick"] != self._start:
+            self._start = scene["start_tick"]
+            self._lessons.clear()
         return {"environment": scene}
 
     def _first_tick(self) -> int:
@@ -89,10 +93,13 @@ class PageFeed:
         return [_points(track, first, end, step) for track in tracks]
 
     def _new_lessons(self) -> list[Lesson]:
-        """The lessons since the last message, at most `_POINTS_MAX` per robot."""
+        """The lessons since the last message, or since the run was started over; at most `_POINTS_MAX` per robot."""
         new = []
         for i, history in enumerate(self.live.recorder.histories):
-            new += history.lessons[self._lessons.get(i, 0) :][-_POINTS_MAX:]
+            sent = self._lessons.get(i)
+            if sent is None:
+                sent = sum(lesson["tick"] < self._start for lesson in history.lessons)
+            new += history.lessons[sent:][-_POINTS_MAX:]
             self._lessons[i] = len(history.lessons)
         return new
 
@@ -104,6 +111,25 @@ class PageFeed:
             "done": live.done,
             "rate": round(live.rate),
             "stays": live.stays,
+            "ended": self._ended(),
+        }
+
+    def _ended(self) -> dict[str, Any] | None:
+        """How the environment that has just ended went, and all since the run was started over; else None."""
+        live = self.live
+        since = live.episodes[live.started_over :]
+        if live.ended_at is None or not since:
+            return None
+        last = since[-1]
+        return {
+            "number": live.simulation.record.begun[-1].number,
+            "finished": last.finished,
+            "eaten": sum(last.eaten),
+            "food": len(last.eaten),
+            "robot_s": last.robot_s,
+            "environments": len(since),
+            "environments_finished": sum(episode.finished for episode in since),
+            "environments_robot_s": round(sum(episode.robot_s for episode in since), 3),
         }
 
     def _health(self) -> dict[str, int]:

@@ -22,7 +22,9 @@ from host_sim.live.page_commands import (
     Speed,
     WriteCell,
 )
+from host_sim.protocol.generated import Reason
 from host_sim.recording.run_recorder import RunRecorder
+from host_sim.robot_io import Drive
 from host_sim.sim.simulation import EpisodeResult, Simulation
 from host_sim.world.edits import Edit, EditError, Lift, Put
 from host_sim.world.params import SimParams
@@ -30,10 +32,16 @@ from host_sim.world.params import SimParams
 COMMANDS_MAX = 256
 """Maximum number of commands that wait for the next tick; more are refused."""
 
+PAUSE_S = 2.0
+"""Pause after each environment except at full speed, s of wall-clock time, so that its end can be seen."""
+
 _SLICE_S = 0.008
 _IDLE_S = 0.02
 _LATE_S = 0.1
 _RATE_S = 0.5
+
+_STEPS = {Reason.WANDER: Reason.WANDER, Reason.LOOK_AROUND: Reason.WANDER, Reason.TOWARD_FOOD: Reason.TOWARD_FOOD}
+"""The reasons of small steps: several of them with the same value here make one decision."""
 
 Reject = Callable[[str], None]
 
@@ -48,10 +56,13 @@ class PacedRun:
         restart: Restarts the robots with another seed.
         ended: Called with the result of each environment.
         stays: Whether to wait for commands after the last environment rather than end.
+        waits: Whether the first tick waits for someone to watch; `seen` ends the wait.
         speed: Speed as a multiple of real time, or `FULL_SPEED`.
         playing: Whether the run is not paused.
         done: Whether the last environment has ended.
+        ended_at: Tick at which the current environment ended, before the pause; None while it goes on.
         episodes: The results of the environments so far.
+        started_over: Number of episodes before the run was last started over.
         layout: Number of changes of the arena, by a person or with a new environment.
         change: Number of changes that a page shows and that happened between ticks.
         rate: Current rate, ticks per second.
@@ -64,10 +75,13 @@ class PacedRun:
     restart: Callable[[int], None]
     ended: Callable[[EpisodeResult], object] = lambda _: None
     stays: bool = True
+    waits: bool = False
     speed: float = 1.0
     playing: bool = True
     done: bool = False
+    ended_at: int | None = None
     episodes: list[EpisodeResult] = field(default_factory=list)
+    started_over: int = 0
     layout: int = 0
     change: int = 0
     rate: float = 0.0
@@ -75,8 +89,9 @@ class PacedRun:
     refused: int = 0
     _commands: deque[tuple[PageCommand, Reject]] = field(default_factory=deque)
     _closed: bool = False
-    _stop_at_action: int | None = None
+    _decided: Drive | None = None
     _next_s: float = 0.0
+    _resume_s: float = 0.0
     _rate_from: tuple[int, float] = (0, 0.0)
 
     @property
@@ -85,16 +100,22 @@ class PacedRun:
         return self.simulation.params
 
     def offer(self, command: PageCommand, reject: Reject) -> None:
-        """Queues a command, to be carried out before the next tick.
+        """Queues a command, to be carried out before the next tick. Of several `NewSeed`, only the last is.
 
         Args:
             command: The command.
             reject: Called with a message if the command cannot be carried out.
         """
+        if isinstance(command, NewSeed):
+            self._commands = deque(other for other in self._commands if not isinstance(other[0], NewSeed))
         if len(self._commands) < COMMANDS_MAX:
             self._commands.append((command, reject))
         else:
             self.refused += 1
+
+    def seen(self) -> None:
+        """Begins the run if it waits for someone to watch."""
+        self.waits = False
 
     def close(self) -> None:
         """Ends the run after the current tick."""
@@ -112,7 +133,7 @@ class PacedRun:
         """
         while not self._closed and (self.stays or not self.done):
             self._execute_all()
-            if self.playing and not self.done:
+            if self.playing and not (self.done or self.waits or self._pauses()):
                 self._run_slice()
                 await asyncio.sleep(self._spare_s())
             else:
@@ -121,22 +142,44 @@ class PacedRun:
         self._end_episode()
 
     def _enter(self, number: int) -> None:
-        self.done = number > self.simulation.environments
-        if not self.done:
-            self.simulation.enter(number)
-            self.layout += 1
-            self.change += 1
+        self.simulation.enter(number)
+        self.done, self.ended_at = False, None
+        self.layout += 1
+        self.change += 1
+
+    @property
+    def _number(self) -> int:
+        """The number of the current environment."""
+        return self.simulation.record.begun[-1].number
+
+    @property
+    def _is_last(self) -> bool:
+        return self._number >= self.simulation.environments
 
     def _enter_next(self) -> None:
-        if not self.done:
-            self._end_episode()
-            self._enter(self.simulation.record.begun[-1].number + 1)
+        if self._is_last:
+            raise EditError("this is the last environment: start over to see more")
+        self._end_episode()
+        self._enter(self._number + 1)
 
     def _end_episode(self) -> None:
-        if not self.done:
+        """Ends the environment unless it has ended."""
+        if self.ended_at is None:
+            self.ended_at = self.simulation.tick
+            self._resume_s = time.monotonic() + PAUSE_S
+            self.change += 1
             episode = self.simulation.leave()
             self.episodes.append(episode)
             self.ended(episode)
+
+    def _pauses(self) -> bool:
+        """Whether the pause after an environment goes on; begins the next one after it."""
+        if self.ended_at is None:
+            return False
+        if self.speed != FULL_SPEED and time.monotonic() < self._resume_s:
+            return True
+        self._enter_next()
+        return False
 
     def _run_slice(self) -> None:
         """Runs the ticks that are due, for at most `_SLICE_S`."""
@@ -145,7 +188,7 @@ class PacedRun:
             self.late += self._next_s > 0.0 and self.speed != FULL_SPEED
             self._next_s = began
         now = began
-        while now >= self._next_s and now - began < _SLICE_S and self.playing and not self.done:
+        while now >= self._next_s and now - began < _SLICE_S and self.playing and self.ended_at is None:
             self._tick()
             self._next_s = now if self.speed == FULL_SPEED else self._next_s + self.params.tick_s / self.speed
             now = time.monotonic()
@@ -154,10 +197,19 @@ class PacedRun:
     def _tick(self) -> None:
         simulation = self.simulation
         simulation.step()
-        if self._stop_at_action is not None and simulation.drives[0].action != self._stop_at_action:
+        if self._has_decided(simulation.drives[0]):
             self._pause()
         if simulation.over:
-            self._enter_next()
+            self._end_episode()
+            self.done = self._is_last
+
+    def _has_decided(self, drive: Drive) -> bool:
+        """Whether the robot has made the decision that it was to stop at."""
+        before = self._decided
+        if before is None or drive.action == before.action:
+            return False
+        step = _STEPS.get(Reason(drive.reason))
+        return step is None or step != _STEPS.get(Reason(before.reason))
 
     def _spare_s(self) -> float:
         return 0.0 if self.speed == FULL_SPEED else max(0.0, min(_IDLE_S, self._next_s - time.monotonic()))
@@ -177,11 +229,13 @@ class PacedRun:
             client.status()
 
     def _pause(self) -> None:
-        self.playing, self._stop_at_action = False, None
+        self.playing, self._decided = False, None
         self.change += 1
 
     def _execute_all(self) -> None:
-        while self._commands:
+        """Carries out the commands that wait, for at most `_SLICE_S`: pages must not wait for many."""
+        began = time.monotonic()
+        while self._commands and time.monotonic() - began < _SLICE_S:
             command, reject = self._commands.popleft()
             try:
                 self._execute(command)
@@ -192,15 +246,15 @@ class PacedRun:
     def _execute(self, command: PageCommand) -> None:
         match command:
             case Play(on):
-                self.playing, self._stop_at_action = on, None
+                self.playing, self._decided = on, None
             case OneDecision():
-                self.playing, self._stop_at_action = True, self.simulation.drives[0].action
+                self.playing, self._decided = True, self.simulation.drives[0]
             case Speed(factor):
                 self.speed, self._next_s = factor, 0.0
             case NextEnvironment():
                 self._enter_next()
-            case NewSeed(seed):
-                self._start_over(seed)
+            case NewSeed(seed, keep):
+                self._start_over(seed, keep)
             case WriteCell() | EraseMemory() | Freeze():
                 self._command(command)
             case _:
@@ -208,7 +262,9 @@ class PacedRun:
 
     def _edit(self, command: LiftRobot | PutRobot | Edit) -> None:
         if self.done:
-            raise EditError("the run is over: choose a new seed")
+            raise EditError("the run is over: start over to see more")
+        if self.ended_at is not None:
+            raise EditError("this environment is over: the next one begins in a moment")
         match command:
             case LiftRobot(node):
                 self.simulation.edit(Lift(self._index(node)))
@@ -218,13 +274,19 @@ class PacedRun:
                 self.simulation.edit(command)
         self.layout += 1
 
-    def _start_over(self, seed: int) -> None:
+    def _start_over(self, seed: int, keep: bool) -> None:
+        """Begins anew. The memory is erased before the start, so that it is no lesson of the new run."""
+        simulation = self.simulation
         self._end_episode()
-        self.simulation.seed = seed
-        self.simulation.set_clock()
+        self.started_over = len(self.episodes)
+        simulation.seed = seed
+        simulation.set_clock()
+        if not keep:
+            for client in simulation.clients:
+                erase_memory(client)
         self.restart(seed)
-        for history in self.recorder.histories:
-            history.frozen, history.trial = False, None
+        for client, history in zip(simulation.clients, self.recorder.histories, strict=True):
+            history.restart(simulation.tick, client.memory)
         self._enter(1)
 
     def _command(self, command: WriteCell | EraseMemory | Freeze) -> None:

@@ -26,7 +26,10 @@ class Play:
 
 @dataclass(frozen=True)
 class OneDecision:
-    """Continue the run until the first robot begins its next action, then pause."""
+    """Continue the run until the first robot has decided anew, then pause.
+
+    Each turn is a decision; the steps of wandering, or of the way to food, are one together.
+    """
 
 
 @dataclass(frozen=True)
@@ -43,9 +46,10 @@ class NextEnvironment:
 
 @dataclass(frozen=True)
 class NewSeed:
-    """Start over with the environments and random turns of another seed. The memories stay."""
+    """Start over with the environments and random turns of a seed; the robots learn from nothing unless `keep`."""
 
     seed: int
+    keep: bool = False
 
 
 @dataclass(frozen=True)
@@ -122,6 +126,11 @@ def _speed(fields: Mapping[str, Any]) -> Speed:
     return Speed(float(factor))
 
 
+def _flag(fields: Mapping[str, Any], name: str) -> int:
+    """An optional field that holds 0 or 1; 0 if it is missing."""
+    return whole(fields, name, 0, 1) if name in fields else 0
+
+
 def _node(fields: Mapping[str, Any]) -> int | None:
     return whole(fields, "node", 1, NODE_MAX) if "node" in fields else None
 
@@ -132,7 +141,7 @@ _PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand]] = {
     "decision": lambda _: OneDecision(),
     "speed": _speed,
     "next": lambda _: NextEnvironment(),
-    "seed": lambda fields: NewSeed(whole(fields, "seed", 0, _SEED_MAX)),
+    "seed": lambda fields: NewSeed(whole(fields, "seed", 0, _SEED_MAX), bool(_flag(fields, "keep"))),
     "write": lambda fields: WriteCell(
         whole(fields, "cell", 1, CELL_COUNT - 1), whole(fields, "side", 0, max(Side)), _node(fields)
     ),

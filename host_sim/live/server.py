@@ -2,17 +2,22 @@
 
 import asyncio
 import contextlib
+import ipaddress
 import os
 import secrets
 import socket
-from collections.abc import AsyncIterator
+import sys
+from collections.abc import AsyncIterator, Awaitable, Callable
 
 from aiohttp import WSCloseCode, WSMsgType, web
+from yarl import URL
 
 from host_sim.errors import UsageError
+from host_sim.live.connections import Connections, one_line_logger, report_to
 from host_sim.live.feed import PageFeed
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX, page_command_from
+from host_sim.live.token_file import local_token
 from host_sim.paths import WEB
 
 PAGES_MAX = 32
@@ -30,13 +35,16 @@ _HEADERS = {
 }
 
 
+_Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
+
+
 class Listener:
     """The listening socket of the server, opened before the run begins: a port in use must not spoil a run.
 
     Attributes:
         host: Address that it listens on.
         port: Port that it listens on.
-        token: Secret that a page's address must contain; None if only this machine can connect.
+        token: Secret that a page's address must contain: other users of this machine can connect, too.
         socket: The socket.
     """
 
@@ -44,14 +52,14 @@ class Listener:
         """Opens the socket.
 
         Args:
-            listen: Address to listen on for other machines, with a token; None for this machine only, without one.
+            listen: Address to listen on for other machines; None for this machine only.
             port: Port to listen on; 0 for any free port.
 
         Raises:
             UsageError: The address does not exist or is in use.
         """
         self.host = listen or "127.0.0.1"
-        self.token = None if listen is None else secrets.token_urlsafe(16)
+        self.token = secrets.token_urlsafe(16) if listen else local_token()
         try:
             family, *_, address = socket.getaddrinfo(self.host, port, type=socket.SOCK_STREAM)[0]
             self.socket = socket.create_server((address[0], port), family=family)
@@ -68,8 +76,32 @@ class Listener:
         host = f"[{self.host}]" if self.socket.family is socket.AF_INET6 else self.host
         if self.host in _ANYWHERE:
             host = socket.gethostname()
-        query = "" if self.token is None else f"?token={self.token}"
-        return f"http://{host}:{self.port}/{query}"
+        return f"http://{host}:{self.port}/?token={self.token}"
+
+    def is_ours(self, host: str) -> bool:
+        """Whether a request's Host header is an address, or a name of this machine that the user knows.
+
+        A page of another site can have its own name resolve to this machine (DNS rebinding); its requests then come
+        with that name.
+        """
+        name = _host_name(host)
+        return name in ("localhost", self.host.lower(), socket.gethostname().lower()) or _is_address(name)
+
+
+def _host_name(host: str) -> str | None:
+    """The name in a Host header, without the port; None if it is not a host."""
+    try:
+        return URL(f"http://{host}").host
+    except ValueError:
+        return None
+
+
+def _is_address(name: str | None) -> bool:
+    try:
+        ipaddress.ip_address(name or "")
+    except ValueError:
+        return False
+    return True
 
 
 class LiveServer:
@@ -89,7 +121,8 @@ class LiveServer:
         self.pages = 0
         self._live, self._listener = live, listener
         self._sockets: set[web.WebSocketResponse] = set()
-        self._app = web.Application(client_max_size=TEXT_MAX)
+        self._app = web.Application(client_max_size=TEXT_MAX, middlewares=[self._check_host])
+        self._app.on_response_prepare.append(_secure)
         self._app.router.add_get("/", self._page)
         self._app.router.add_get("/live", self._socket)
         self._app.router.add_get("/{name}", self._part)
@@ -97,15 +130,29 @@ class LiveServer:
     @contextlib.asynccontextmanager
     async def serving(self) -> AsyncIterator[None]:
         """Serves until the context is left."""
+        logger, loop = one_line_logger(sys.stderr), asyncio.get_running_loop()
+        loop.set_exception_handler(report_to(logger))
         runner = web.AppRunner(self._app, access_log=None, shutdown_timeout=1.0)
         await runner.setup()
+        assert runner.server is not None
+        self._connections = Connections(runner.server, _HEADERS, logger)
+        server = await loop.create_server(self._connections, sock=self._listener.socket)
         try:
-            await web.SockSite(runner, self._listener.socket).start()
             yield
         finally:
             for page in list(self._sockets):
                 await _say_goodbye(page)
+            server.close()
             await runner.cleanup()
+            for handler in logger.handlers:
+                handler.close()
+
+    @web.middleware
+    async def _check_host(self, request: web.Request, handler: _Handler) -> web.StreamResponse:
+        if not self._listener.is_ours(request.host):
+            self._live.refused += 1
+            raise web.HTTPForbidden(text="the address must be the one that octet printed\n")
+        return await handler(request)
 
     async def _page(self, request: web.Request) -> web.StreamResponse:
         self._check_token(request)
@@ -123,9 +170,11 @@ class LiveServer:
         if self.pages >= PAGES_MAX:
             raise web.HTTPServiceUnavailable(text=f"{PAGES_MAX} pages are watching already\n")
         page = web.WebSocketResponse(max_msg_size=TEXT_MAX, heartbeat=20.0, compress=False, timeout=1.0)
+        self._connections.keep(request)
         await page.prepare(request)
         self._sockets.add(page)
         self.pages += 1
+        self._live.seen()
         feed = PageFeed(self._live)
         sender = asyncio.create_task(_send(page, feed))
         try:
@@ -163,19 +212,14 @@ class LiveServer:
         return True
 
     def _check_token(self, request: web.Request) -> None:
-        token = self._listener.token
         given = request.query.get("token", "")
-        if token is not None and not secrets.compare_digest(given.encode(), token.encode()):
+        if not secrets.compare_digest(given.encode(), self._listener.token.encode()):
             self._live.refused += 1
             raise web.HTTPForbidden(text="the address must end with ?token=..., as octet printed it\n")
 
     def _check_origin(self, request: web.Request) -> None:
         """Allows only our own page to open a socket: any other page in the same browser could try."""
-        port = self._listener.port
-        ours = {f"http://127.0.0.1:{port}", f"http://localhost:{port}"}
-        if self._listener.token is not None:
-            ours.add(f"http://{request.host}")
-        if request.headers.get("Origin") not in ours:
+        if request.headers.get("Origin") != f"http://{request.host}":
             self._live.refused += 1
             raise web.HTTPForbidden(text="only octet's own page may connect\n")
 
@@ -200,4 +244,8 @@ def _parts() -> set[str]:
 
 
 def _file(name: str) -> web.FileResponse:
-    return web.FileResponse(WEB / name, headers=_HEADERS)
+    return web.FileResponse(WEB / name)
+
+
+async def _secure(_request: web.Request, response: web.StreamResponse) -> None:
+    response.headers.update(_HEADERS)

@@ -13,7 +13,7 @@ from host_sim.live.text_picture import View, draw_text
 from host_sim.view.state import environment_scene, states
 
 _EVERY_S = 0.1
-_KEYS = "q quits   space pauses   . one decision   + - speed   n next"
+_KEYS = "q quit   space pause   . one decision   + - speed   n next"
 _SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1000.0)
 """The speeds that + and - step through, as multiples of real time; above the last one, as fast as possible."""
 
@@ -30,11 +30,21 @@ def watch_in_terminal(live: PacedRun) -> None:
     """
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         raise UsageError("--terminal needs a terminal, and this is not one: leave it out, or use ssh -t")
+    try:
+        curses.setupterm()
+    except curses.error as error:
+        raise _cannot_draw(str(error)) from None
+    if not curses.tigetstr("cup"):
+        raise _cannot_draw("it cannot position its cursor")
     live.begin()
     try:
         curses.wrapper(lambda screen: asyncio.run(_show(live, screen)))
     except curses.error as error:
-        raise UsageError(f"cannot draw in this terminal ({error}): set TERM to its type, such as xterm") from None
+        raise _cannot_draw(str(error)) from None
+
+
+def _cannot_draw(why: str) -> UsageError:
+    return UsageError(f"cannot draw in this terminal ({why}): set TERM to its type, such as xterm")
 
 
 async def _show(live: PacedRun, screen: "curses.window") -> None:
@@ -100,7 +110,7 @@ def _view(live: PacedRun) -> View:
     first = max(begun.first_tick, trajectory.first_tick) - trajectory.first_tick
     return View(
         live.params,
-        environment_scene(begun, simulation.environments, simulation.arena),
+        environment_scene(simulation.record.begun, simulation.environments, simulation.arena),
         states(simulation, live.recorder.histories),
         [[(x, y) for x, y, _ in track.poses()[first:].tolist()] for track in trajectory.tracks],
         trajectory.boredom_limit,

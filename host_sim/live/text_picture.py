@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from host_sim.protocol.generated import FEEL, PATTERNS, SIDES, Reason
-from host_sim.view.phrases import sentence
+from host_sim.view.phrases import sentence, verdict
 from host_sim.view.state import EnvironmentScene, State
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.params import SimParams
@@ -14,7 +14,7 @@ from host_sim.world.params import SimParams
 COLUMNS_MIN, ROWS_MIN = 60, 20
 """Minimum size of the screen, characters."""
 
-_PANEL, _ROWS_BELOW = 22, 4
+_PANEL, _ROWS_BELOW, _WORD_ROWS = 22, 6, 2
 _TALL = 2.0
 _FOOD, _EATEN, _BAR, _TRAIL, _ROBOT = "O", "x", "#", ".", "@"
 _NOSES = "-\\|/"
@@ -68,7 +68,8 @@ def draw_text(view: View, columns: int, rows: int) -> list[str]:
     panel = _draw_panel(view)
     width = len(arena[0])
     middle = [f"{left:{width}}  {right}" for left, right in zip(arena, _padded(panel, len(arena)), strict=True)]
-    words = _padded(textwrap.wrap(sentence(view.state), columns), 2)
+    texts = sentence(view.state), verdict(view.state["trial"])
+    words = [line for text in texts for line in _padded(textwrap.wrap(text, columns), _WORD_ROWS)]
     return [line[:columns].rstrip() for line in (_head(view), *middle, "", *words, view.keys)]
 
 

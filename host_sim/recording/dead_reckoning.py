@@ -36,8 +36,9 @@ def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
     poses = _poses([tick.senses for tick in recording.ticks], params)
     params, poses = _framed(poses, params)
     recorder = RunRecorder(params, recording.boredom_limit, {node: recording.first_memory})
-    recorder.enter(EnvironmentScene(number=1, of=1, seed=0, first_tick=0, bars=[], food=[]))
+    recorder.enter(EnvironmentScene(number=1, of=1, seed=0, first_tick=0, start_tick=0, bars=[], food=[]))
     for tick, pose in zip(recording.ticks, poses, strict=True):
+        recorder.between(0, tick.started, tick.written)
         recorder.histories[0].frozen = tick.frozen
         recorder.add(0, _Body(pose), tick.senses, tick.drive, tick.memory)
     return recorder.trajectory

@@ -30,7 +30,7 @@ def read_log(path: Path) -> Iterator[Recorded]:
 
     Raises:
         UsageError: The file cannot be read.
-        OctetError: The file is empty, a line is not a frame, or the last line is cut short.
+        OctetError: The file is empty, or a line is not a frame. A last line without its end is left out.
     """
     try:
         text = read_bytes(path, _SIZE_MAX).decode("ascii")
@@ -40,10 +40,13 @@ def read_log(path: Path) -> Iterator[Recorded]:
         raise UsageError(f"{path} is not a frame log: it is not text") from None
     if not text:
         raise OctetError(f"{path} is not a frame log: it is empty")
-    for number, line in enumerate(text.splitlines(keepends=True), start=1):
-        match = _LINE.fullmatch(line.rstrip("\n"))
-        if match is None or not line.endswith("\n"):
-            raise OctetError(f"{path}, line {number}: not a frame in candump -L format, or cut short: {line[:60]!r}")
+    whole, _, cut = text.rpartition("\n")
+    if not whole:
+        raise OctetError(f"{path} is not a frame log: no whole line, only {cut[:60]!r}")
+    for number, line in enumerate(whole.split("\n"), start=1):
+        match = _LINE.fullmatch(line)
+        if match is None:
+            raise OctetError(f"{path}, line {number}: not a frame in candump -L format: {line[:60]!r}")
         seconds, micros, _, frame_id, data = match.groups()
         yield Recorded(int(seconds) * 1_000_000 + int(micros), Frame(int(frame_id, 16), bytes.fromhex(data)))
 

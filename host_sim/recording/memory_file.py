@@ -1,5 +1,7 @@
 """Memory files: exactly eight bytes, cell 0 first."""
 
+import os
+import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -31,6 +33,23 @@ def load_memory(path: Path) -> tuple[int, ...] | None:
                 f"{path} is not a memory file: cell {cell} holds {value}, allowed is {allowed} (file unchanged)"
             )
     return tuple(content)
+
+
+def check_writable(path: Path) -> None:
+    """Checks that a memory file can be written, so that nothing is learned that cannot be saved.
+
+    Raises:
+        UsageError: It cannot.
+    """
+    target = Path(os.path.realpath(path))
+    try:
+        if target.exists() and not target.is_file():
+            raise UsageError(f"cannot write {path}: it is not a regular file")
+        descriptor, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        os.close(descriptor)
+        Path(name).unlink()
+    except OSError as error:
+        raise UsageError(f"cannot write {path}: {error.strerror}; choose another file with --memory") from None
 
 
 class MemorySaver:

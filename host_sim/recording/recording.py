@@ -22,12 +22,16 @@ class Tick(NamedTuple):
         drive: The drive that the body applied: the robot's answer, or an earlier one that was still held.
         memory: The robot's eight cells when it answered.
         frozen: Whether learning was frozen.
+        started: The robot's eight cells when it was started again since the tick before; None if it was not.
+        written: Its eight cells after each report between the two ticks, since it was started if it was.
     """
 
     senses: Senses
     drive: Drive
     memory: tuple[int, ...]
     frozen: bool
+    started: tuple[int, ...] | None = None
+    written: tuple[tuple[int, ...], ...] = ()
 
 
 @dataclass
@@ -80,6 +84,8 @@ class _Reader:
         self._fresh: Drive | None = None
         self._last: Drive | None = None
         self._frozen, self._lockstep = False, True
+        self._started: tuple[int, ...] | None = None
+        self._written: list[tuple[int, ...]] = []
 
     def read(self, frames: Iterable[Frame]) -> Recording:
         """Reads all frames in order; skips damaged ones and those of other nodes."""
@@ -105,8 +111,11 @@ class _Reader:
 
     def _end_tick(self) -> None:
         if self._senses is not None and (self._fresh is not None or not self._lockstep):
-            tick = Tick(self._senses, self._applied(self._senses.tick), self._memory, self._frozen)
+            between = self._started, tuple(self._written)
+            tick = Tick(self._senses, self._applied(self._senses.tick), self._memory, self._frozen, *between)
             self._recording.ticks.append(tick)
+            self._started = None
+            self._written.clear()
         self._senses, self._fresh = None, None
 
     def _applied(self, tick: int) -> Drive:
@@ -116,15 +125,22 @@ class _Reader:
         return applied(self._last, tick, came)
 
     def _accept_memory(self, memory: tuple[int, ...]) -> None:
+        changed = memory != self._memory
         self._memory = memory
-        if not self._recording.ticks and self._senses is None:
+        if self._senses is not None:
+            return
+        if not self._recording.ticks:
             self._recording.first_memory = memory
+        elif changed:
+            self._written.append(memory)
 
     def _accept_command(self, signals: dict[str, int]) -> None:
         opcode = signals["opcode"]
         self._recording.stopped = opcode == Opcode.STOP
         if opcode == Opcode.START:
             self._frozen, self._lockstep = False, bool(signals["lockstep"])
+            self._started = self._memory if self._recording.ticks else None
+            self._written.clear()
             self._recording.seed = signals["seed"] if self._recording.seed is None else self._recording.seed
         elif opcode == Opcode.SET and signals["parameter"] == PARAMETERS["boredom_limit"].number:
             self._recording.boredom_limit = signals["value"]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.generated import Opcode
 from host_sim.recording.log_reader import Recorded, check_protocol, first_memory, lines_of
 from host_sim.transport.in_process_link import InProcessLink
 
@@ -34,10 +35,12 @@ class Replay:
     Attributes:
         drives: Number of equal drives.
         difference: The first difference; None if there is none.
+        stopped: Whether the log has the end of the run.
     """
 
     drives: int
     difference: Difference | None
+    stopped: bool = True
 
 
 def replay(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> Replay:
@@ -55,7 +58,7 @@ def replay(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> Replay:
     check_protocol(path, lines, protocol)
     link = InProcessLink(protocol.node, first_memory(lines, protocol))
     pending: dict[int, Frame] = {}
-    drives, lockstep = 0, True
+    drives, lockstep, stopped = 0, True, False
     for time_us, frame in lines:
         decoded = protocol.decode(frame)
         if decoded is None:
@@ -64,6 +67,7 @@ def replay(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> Replay:
             lockstep = bool(decoded.signals.get("lockstep", lockstep))
             if pending and lockstep:
                 return Replay(drives, Difference(time_us, None, pending.popitem()[1]))
+            stopped = decoded.signals.get("opcode") == Opcode.STOP
             pending.update(_drives_for(link, frame, protocol))
         elif decoded.name == "DRIVE":
             answer = pending.pop(decoded.signals["tick"], None)
@@ -71,15 +75,16 @@ def replay(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> Replay:
             if answer != frame and not (answer is None and not lockstep and decoded.signals["reason"] == 0):
                 return Replay(drives, Difference(time_us, frame, answer))
             drives += answer is not None
-    if pending and lockstep:
+    if pending and lockstep and stopped:
         return Replay(drives, Difference(lines[-1].time_us, None, pending.popitem()[1]))
-    return Replay(drives, None)
+    return Replay(drives, None, stopped)
 
 
 def report(outcome: Replay, path: Path, protocol: Protocol) -> str:
     """The outcome as text."""
     if outcome.difference is None:
-        return f"{path}: {outcome.drives} drives, no difference"
+        ending = "" if outcome.stopped else "; the log ends before the run does"
+        return f"{path}: {outcome.drives} drives, no difference{ending}"
     difference = outcome.difference
     return "\n".join(
         (

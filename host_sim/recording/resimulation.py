@@ -92,6 +92,7 @@ class _Resimulator:
         self._runs_on = not record.begun
         self._planned, self._edits = deque(record.begun), deque(record.edits)
         self._begun = Begun(record.seed, 0, 0)
+        self._all_begun: list[Begun] = []
         self._arena: Arena | None = None
         memories = {node: recording.first_memory for node, recording in recordings.items()}
         self._recorder = RunRecorder(params, self._recordings[0].boredom_limit, memories)
@@ -113,6 +114,7 @@ class _Resimulator:
             ate |= robot.drive.eat and body.eat()
             body.move(robot.drive.left_mm_s, robot.drive.right_mm_s)
         for i, robot in enumerate(robots):
+            self._recorder.between(i, robot.started, robot.written)
             self._recorder.histories[i].frozen = robot.frozen
             self._recorder.add(i, arena.bodies[i], robot.senses, robot.drive, robot.memory)
         if ate:
@@ -135,17 +137,15 @@ class _Resimulator:
             self._edit(arena, tick, self._edits.popleft().edit)
             changed = True
         if changed:
-            self._recorder.enter(environment_scene(self._begun, self._record.environments, arena))
+            self._recorder.enter(environment_scene(self._all_begun, self._record.environments, arena))
         return arena
 
     def _enter(self, begun: Begun) -> Arena:
         odometers = [body.odometer for body in self._arena.bodies] if self._arena else []
         layout = generate(begun.seed, begun.number, self._params, self._record.robots)
         self._arena = Arena(layout, self._params, odometers)
-        if begun.number == 1 or begun.seed != self._begun.seed:
-            for history in self._recorder.histories:
-                history.trial = None  # a restarted run has no last trial
         self._begun = begun
+        self._all_begun.append(begun)
         return self._arena
 
     def _due(self, tick: int) -> Begun | None:

@@ -68,7 +68,7 @@ class RunRecorder:
         record, arena = simulation.record, simulation.arena
         if (layouts := len(record.begun) + len(record.edits)) != self._layouts:
             self._layouts = layouts
-            self.enter(environment_scene(record.begun[-1], record.environments, arena))
+            self.enter(environment_scene(record.begun, record.environments, arena))
         for i, client in enumerate(simulation.clients):
             self.add(i, arena.bodies[i], simulation.senses[i], simulation.drives[i], client.memory)
         if len(arena.food.uneaten) != self.trajectory.meals[-1][1].count(0):
@@ -100,6 +100,20 @@ class RunRecorder:
             self._take(robot, senses, drive, memory)
         track.poses_flat.extend(body.pose)
         track.rows_flat.frombytes(_PACKED.pack(*senses, *drive, history.pattern, body.lifted, history.frozen))
+
+    def between(self, robot: int, started: Memory | None, written: Sequence[Memory]) -> None:
+        """Records what happened to one robot between the last tick and the next one.
+
+        Args:
+            robot: Index of the robot.
+            started: Its eight cells when it was started again; None if it was not.
+            written: Its eight cells after each report since then.
+        """
+        history, tick = self.histories[robot], self.trajectory.tracks[robot].ticks
+        if started is not None:
+            history.restart(tick, started)
+        for memory in written:
+            history.relearn(tick, memory)
 
     def eaten(self, eaten: Sequence[bool], drives: Sequence[Drive]) -> None:
         """Records that food was eaten in the last tick added.

@@ -95,18 +95,19 @@ class RobotTrack:
         cells = self.column("pattern")[ticks - self.first_tick]
         return [*self.old_turns, *zip(ticks.tolist(), cells.tolist(), strict=True)]
 
-    def uses(self, tick: int) -> list[int]:
-        """For each cell, the number of remembered turns that used it, up to a tick."""
-        cells = [cell for begun, cell in self.turns() if begun <= tick]
+    def uses(self, start: int, tick: int) -> list[int]:
+        """For each cell, the number of remembered turns that used its content at a tick; as in `State.uses`."""
+        since = [lesson["tick"] if lesson else start for lesson in self.last_lessons(start, tick)]
+        cells = [cell for begun, cell in self.turns() if since[cell] <= begun <= tick]
         return [cells.count(cell) for cell in range(CELL_COUNT)]
 
-    def learned(self, tick: int) -> list[int]:
-        """For each cell, the tick of its last change up to a tick; -1 if there was none."""
-        learned = [-1] * CELL_COUNT
+    def last_lessons(self, start: int, tick: int) -> list[Lesson | None]:
+        """For each cell, its last change from tick `start` up to a tick; None if there was none."""
+        last: list[Lesson | None] = [None] * CELL_COUNT
         for lesson in self.lessons:
-            if lesson["tick"] <= tick:
-                learned[lesson["cell"]] = lesson["tick"]
-        return learned
+            if start <= lesson["tick"] <= tick:
+                last[lesson["cell"]] = lesson
+        return last
 
 
 @dataclass
@@ -151,6 +152,8 @@ class Trajectory:
             raise IndexError(f"tick {tick} of {self.first_tick}..{self.ticks - 1}")
         track = self.tracks[robot]
         row, (x, y, heading) = track.row(tick), track.pose(tick)
+        start = at(self.scenes, tick)["start_tick"]
+        lessons = track.last_lessons(start, tick)
         return State(
             node=track.node,
             tick=tick,
@@ -169,8 +172,9 @@ class Trajectory:
             pattern=row["pattern"],
             eaten=at(self.meals, tick),
             memory=at(track.memories, tick),
-            uses=track.uses(tick),
-            learned=track.learned(tick),
+            uses=track.uses(start, tick),
+            learned=[lesson["tick"] if lesson else -1 for lesson in lessons],
+            by_hand=[lesson["by_hand"] if lesson else 0 for lesson in lessons],
             frozen=row["frozen"],
             trial=at(track.trials, tick),
         )

@@ -42,6 +42,7 @@ MARKS = {
     Reason.TRIAL: Mark("trial turn", "#d55e00", 68.0, 4),
     Reason.BOREDOM: Mark("bored, about face", "#cc79a7", 68.0, 4),
     Reason.EAT: Mark("eats", "#000000", 44.0, 5),
+    Reason.SILENCE: Mark("hears nothing", "#8c564b", 44.0, 5),
 }
 """By reason; colours after Okabe and Ito, which colour-blind people can tell apart."""
 

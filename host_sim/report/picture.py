@@ -109,10 +109,30 @@ def draw_run(params: SimParams, panels: Sequence[Panel], memories: Mapping[int, 
     """
     if not panels or any(len(memory) != CELL_COUNT for memory in memories.values()):
         raise ValueError(f"no picture of {len(panels)} environments and these memories: {memories}")
-    rows = [_legend(params), *_environment_rows(panels[-_MOST_ENVIRONMENTS:], params)]
+    rows = [_legend(params), *(_line(text) for text in omissions(len(panels), len(memories)))]
+    rows += _environment_rows(panels[-_MOST_ENVIRONMENTS:], params)
     for node, memory in list(memories.items())[:_MOST_MEMORIES]:
         rows.append(_memory_row(f"Robot {node}" if len(memories) > 1 else "The robot", memory, params))
     return _stacked(rows).quantize()
+
+
+def omissions(environments: int, robots: int) -> list[str]:
+    """What a picture of so many environments and robots leaves out, in words.
+
+    >>> omissions(environments=20, robots=1)
+    ['the last 9 of 20 environments']
+    """
+    texts = []
+    if environments > _MOST_ENVIRONMENTS:
+        texts.append(f"the last {_MOST_ENVIRONMENTS} of {environments} environments")
+    if robots > _MOST_MEMORIES:
+        texts.append(f"the memories of the first {_MOST_MEMORIES} of {robots} robots")
+    return texts
+
+
+def _line(text: str) -> Image.Image:
+    """A line of text."""
+    return _titled(text, Image.new("RGB", (_WIDTH_PX, 1), PAPER))
 
 
 def _environment_rows(panels: Sequence[Panel], params: SimParams) -> list[Image.Image]:

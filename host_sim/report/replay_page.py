@@ -22,7 +22,7 @@ tick `first_tick`.
         node         its node number on the bus
         memory       [[tick, [8 cells]], ...]
         trials       [[tick, Trial or null], ...]: State.trial
-        lessons      [Lesson, ...], including those before first_tick
+        lessons      [Lesson, ...], including those before first_tick, without those after the last tick
         turns        [[tick, cell], ...]: each use of a cell, including those before first_tick; see State.uses
         events       [[tick, kind], ...], in order: kind is "environment", "trial", "lesson", "boredom" or "eat"
         columns      the names of the columns, in the order of the data
@@ -104,7 +104,7 @@ def _robot_data(trajectory: Trajectory, robot: int) -> dict[str, Any]:
         "node": track.node,
         "memory": track.memories,
         "trials": track.trials,
-        "lessons": track.lessons,
+        "lessons": [lesson for lesson in track.lessons if lesson["tick"] < trajectory.ticks],
         "turns": track.turns(),
         "events": trajectory.events(robot),
         "columns": list(columns),

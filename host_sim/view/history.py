@@ -16,12 +16,14 @@ class Trial(TypedDict):
         cell: The pattern, 1..7.
         side: Direction of the turn: 1 left, 2 right.
         helped: 1 if fewer front sensors were triggered afterwards, 0 if not; None during the turn.
+        frozen: 1 if learning was frozen when it ended, else 0.
     """
 
     tick: int
     cell: int
     side: int
     helped: int | None
+    frozen: int
 
 
 class Lesson(TypedDict):
@@ -60,8 +62,9 @@ class LearningHistory:
         memory: The eight cells.
         frozen: Whether learning is frozen; set by the caller that sends the command.
         pattern: The front sensors' pattern when the current action was decided, 0..7.
-        uses: For each cell, the number of remembered turns that used it.
+        uses: For each cell, the number of remembered turns that used its present content.
         learned: For each cell, the tick of its last change; -1 if there was none.
+        by_hand: For each cell, 1 if a person made its last change, else 0.
         trial: The last trial, or None.
         trials: Number of trials.
         lessons: All lessons, in order.
@@ -73,6 +76,7 @@ class LearningHistory:
     pattern: int = 0
     uses: list[int] = field(default_factory=lambda: [0] * CELL_COUNT)
     learned: list[int] = field(default_factory=lambda: [-1] * CELL_COUNT)
+    by_hand: list[int] = field(default_factory=lambda: [0] * CELL_COUNT)
     trial: Trial | None = None
     trials: int = 0
     lessons: list[Lesson] = field(default_factory=list)
@@ -87,14 +91,15 @@ class LearningHistory:
             drive: The robot's answer.
             memory: The eight cells after the answer.
         """
-        judged = None
-        if drive.action != self._action:
+        judged, begins = None, drive.action != self._action
+        if begins:
             self._action = drive.action
             self.pattern = pattern_of(senses.feel)
             judged = self._judge()
-            self._begin(tick, drive)
         if memory != self.memory:
             self.relearn(tick, memory, judged)
+        if begins:
+            self._begin(tick, drive)
 
     def relearn(self, tick: int, memory: Sequence[int], trial: Trial | None = None) -> None:
         """Adds a lesson for each cell that changed.
@@ -108,15 +113,27 @@ class LearningHistory:
             if side != before:
                 learned = trial is not None and (trial["cell"], trial["side"], trial["helped"]) == (cell, side, 1)
                 self.lessons.append(Lesson(node=self.node, tick=tick, cell=cell, side=side, by_hand=int(not learned)))
-                self.learned[cell] = tick
+                self.learned[cell], self.by_hand[cell], self.uses[cell] = tick, int(not learned), 0
         self.memory = memory
+
+    def restart(self, tick: int, memory: Sequence[int]) -> None:
+        """Begins anew, as the robot has been started again; earlier lessons stay in the list.
+
+        Args:
+            tick: Number of the next tick. Lessons of this tick are dropped: no tick of either run was after them.
+            memory: The eight cells now.
+        """
+        while self.lessons and self.lessons[-1]["tick"] >= tick:
+            self.lessons.pop()
+        self.memory, self.frozen, self.trial = memory, False, None
+        self.uses, self.by_hand, self.learned = [0] * CELL_COUNT, [0] * CELL_COUNT, [-1] * CELL_COUNT
 
     def _judge(self) -> Trial | None:
         """Ends the current trial, if any, with the senses that decide the next action, and returns it."""
         if self.trial is None or self.trial["helped"] is not None:
             return None
         fewer = self.pattern.bit_count() < self.trial["cell"].bit_count()
-        self.trial = {**self.trial, "helped": int(fewer)}
+        self.trial = {**self.trial, "helped": int(fewer), "frozen": int(self.frozen)}
         return self.trial
 
     def _begin(self, tick: int, drive: Drive) -> None:
@@ -124,5 +141,5 @@ class LearningHistory:
             self.uses[self.pattern] += 1
         elif drive.reason == Reason.TRIAL:
             side = 1 if drive.left_mm_s < drive.right_mm_s else 2
-            self.trial = Trial(tick=tick, cell=self.pattern, side=side, helped=None)
+            self.trial = Trial(tick=tick, cell=self.pattern, side=side, helped=None, frozen=0)
             self.trials += 1

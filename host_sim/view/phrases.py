@@ -1,7 +1,7 @@
 """What a robot does and why, in its own words. The pages use the same sentences."""
 
 from host_sim.protocol.generated import PATTERNS, SIDES, Reason, Side
-from host_sim.view.history import Lesson
+from host_sim.view.history import Lesson, Trial
 from host_sim.view.state import State
 
 _WANDERING = "Nothing in my way: I drive on and look about for food."
@@ -22,7 +22,18 @@ def sentence(state: State) -> str:
         Reason.TRIAL: f"{blocked}: I do not know what helps yet, so I try turning {side}.",
         Reason.BOREDOM: f"{state['repeat_count']} turns in a row, and still blocked. I am bored: about face!",
         Reason.EAT: "Food! I eat it.",
+        Reason.SILENCE: "I hear nothing from my body: my wheels rest.",
     }[Reason(state["reason"])]
+
+
+def verdict(trial: Trial | None) -> str:
+    """How a trial went, in one or two sentences; empty if there was none, or if it still goes on."""
+    if trial is None or trial["helped"] is None:
+        return ""
+    what = f"Last try: {PATTERNS[trial['cell']]} blocked, I turned {SIDES[trial['side']]}."
+    if not trial["helped"]:
+        return f"{what} It did not help, so I forgot it."
+    return f"{what} It helped{', but my learning was frozen.' if trial['frozen'] else ', so I remembered it!'}"
 
 
 def _toward_food(beacon_mm: int) -> str:

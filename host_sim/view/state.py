@@ -1,7 +1,7 @@
 """The visible state of a run as plain JSON types: the one form that every view draws, live or recorded.
 
 Ticks are counted from the start of the run and do not wrap. Lengths are in mm, x to the right and y down; headings in
-mrad, 0 along +x, positive to the right. Sides: 0 nothing, 1 left, 2 right. Reasons: as in octet.dbc, 0..7.
+mrad, 0 along +x, positive to the right. Sides: 0 nothing, 1 left, 2 right. Reasons: as in octet.dbc.
 """
 
 from collections.abc import Sequence
@@ -54,6 +54,7 @@ class EnvironmentScene(TypedDict):
         of: Number of environments in the run.
         seed: Seed that it was drawn from.
         first_tick: Its first tick.
+        start_tick: First tick since the run was last started over: clocks count from here.
         bars: For each obstacle its id and both ends of its centre line: [id, ax, ay, bx, by].
         food: For each piece of food, eaten or not: [x, y].
     """
@@ -62,6 +63,7 @@ class EnvironmentScene(TypedDict):
     of: int
     seed: int
     first_tick: int
+    start_tick: int
     bars: list[list[float]]
     food: list[list[float]]
 
@@ -87,8 +89,9 @@ class State(TypedDict):
         pattern: The three front sensors when that action was decided: bit 0 front-right, 1 front, 2 front-left.
         eaten: For each piece of food, 1 if it was eaten, else 0.
         memory: The eight cells, each a side.
-        uses: For each cell, the number of remembered turns that used it.
-        learned: For each cell, the tick of its last change; -1 if there was none in this run.
+        uses: For each cell, the number of remembered turns that used its present content.
+        learned: For each cell, the tick of its last change; -1 if there was none since the run was started over.
+        by_hand: For each cell, 1 if a person made its last change, else 0.
         frozen: 1 if learning is frozen, else 0.
         trial: The last trial of the run, or None.
     """
@@ -112,6 +115,7 @@ class State(TypedDict):
     memory: list[int]
     uses: list[int]
     learned: list[int]
+    by_hand: list[int]
     frozen: int
     trial: Trial | None
 
@@ -132,19 +136,21 @@ def measures(params: SimParams, boredom_limit: int) -> Measures:
     )
 
 
-def environment_scene(begun: Begun, of: int, arena: Arena) -> EnvironmentScene:
+def environment_scene(begun: Sequence[Begun], of: int, arena: Arena) -> EnvironmentScene:
     """The scene of an arena as it is now.
 
     Args:
-        begun: The environment.
+        begun: The environments of the run so far.
         of: Number of environments in the run.
-        arena: Its arena.
+        arena: The arena of the last one.
     """
+    last = begun[-1]
     return EnvironmentScene(
-        number=begun.number,
+        number=last.number,
         of=of,
-        seed=begun.seed,
-        first_tick=begun.first_tick,
+        seed=last.seed,
+        first_tick=last.first_tick,
+        start_tick=next((it.first_tick for it in reversed(begun) if it.number == 1), last.first_tick),
         bars=[[bar_id, *(round(c, 1) for c in (*bar.a, *bar.b))] for bar_id, bar in arena.obstacles.bars.items()],
         food=[[round(x, 1), round(y, 1)] for x, y in arena.food.at],
     )
@@ -184,6 +190,7 @@ def state(  # noqa: PLR0913, PLR0917 - everything that a display shows
         memory=list(history.memory),
         uses=list(history.uses),
         learned=list(history.learned),
+        by_hand=list(history.by_hand),
         frozen=int(history.frozen),
         trial=history.trial,
     )

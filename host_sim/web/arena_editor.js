@@ -3,7 +3,7 @@
 
 import { byId, setText, typedById } from "./elements.js";
 import { allItems, whole } from "./hit_testing.js";
-import { endsOf, movedBar, turnedBar, wirePlace } from "./placement.js";
+import { endsOf, insideWalls, movedBar, turnedBar, wirePlace } from "./placement.js";
 
 /**
  * @typedef {import("./scene.js").Ghost} Ghost
@@ -58,6 +58,13 @@ export class ArenaEditor {
     }
     const which = states.length > 1 ? `robot ${this.robot.node}` : "the robot";
     setText(byId("lift"), `${this.robot.lifted ? "Put down" : "Pick up"} ${which}`);
+  }
+
+  /** Something could not be done: no robot is about to be lifted, and no obstacle about to come. */
+  onRefusal() {
+    this.lifting.clear();
+    this.barPending = false;
+    this.changed = true;
   }
 
   /** The state of the robot that the buttons act on: that of the panel. */
@@ -121,12 +128,12 @@ export class ArenaEditor {
   }
 
   /**
-   * Draws a robot where a person holds it.
+   * Draws a robot where a person holds it, which is never beyond the walls.
    * @param {number} node
    * @param {Ghost} ghost
    */
   hold(node, ghost) {
-    this.scene.ghosts.set(node, ghost);
+    this.scene.ghosts.set(node, insideWalls(ghost, this.scene.measures));
     this.changed = true;
   }
 

@@ -2,15 +2,14 @@
 /* The eight cells: for each pattern its picture, what was learned, when, and how often it was used. */
 
 import { CELL_COUNT, PATTERNS, REASON, SIDE, SIDES } from "./generated.js";
-import { binary, clock } from "./phrases.js";
+import { binary } from "./phrases.js";
 import { CONES, patternBit } from "./sensors.js";
 
 /**
- * @typedef {import("./types.js").Measures} Measures
- * @typedef {import("./types.js").State} State
+ * @typedef {import("./scene.js").Scene} Scene
  *
  * What a cell shows; `then` is what it held at another time.
- * @typedef {{cell: number, side: number, when: string, uses: number, inUse: boolean, trying: number,
+ * @typedef {{cell: number, side: number, when: string, byHand: boolean, uses: number, inUse: boolean, trying: number,
  *   then: number | null}} Facts
  *
  * The elements of a cell.
@@ -36,13 +35,12 @@ export class CellsView {
   }
 
   /**
-   * @param {State} state
-   * @param {Measures} measures
+   * @param {Scene} scene
    * @param {number[]} [then] - A memory to compare with.
    */
-  show(state, measures, then) {
+  show(scene, then) {
     this.cells.forEach((parts, cell) => {
-      const facts = factsOf(state, measures, cell, then);
+      const facts = factsOf(scene, cell, then);
       const key = JSON.stringify(facts);
       if (this.shown[cell] !== key) fillCell(parts, facts);
       this.shown[cell] = key;
@@ -51,18 +49,19 @@ export class CellsView {
 }
 
 /**
- * @param {State} state
- * @param {Measures} measures
+ * @param {Scene} scene
  * @param {number} cell
  * @param {number[]} [then]
  * @returns {Facts}
  */
-function factsOf(state, measures, cell, then) {
+function factsOf(scene, cell, then) {
+  const { state } = scene;
   const about = state.pattern === cell && !state.lifted;
   return {
     cell,
     side: state.memory[cell],
-    when: state.learned[cell] < 0 ? "" : clock(state.learned[cell], measures),
+    when: state.learned[cell] < 0 ? "" : scene.clock(state.learned[cell]),
+    byHand: Boolean(state.by_hand[cell]),
     uses: state.uses[cell],
     inUse: about && state.reason === REASON.REMEMBERED,
     trying: about && state.reason === REASON.TRIAL && state.trial ? state.trial.side : SIDE.NOTHING,
@@ -96,9 +95,9 @@ function sideWords({ cell, side, trying }) {
 }
 
 /** @param {Facts} facts */
-function historyOf({ cell, side, when, uses }) {
-  if (cell === 0) return "";
-  const learned = side !== SIDE.NOTHING && when ? `learned ${when}` : "";
+function historyOf({ cell, side, when, byHand, uses }) {
+  if (cell === 0 || side === SIDE.NOTHING) return "";
+  const learned = when && `${byHand ? "written" : "learned"} ${when}`;
   return [learned, uses ? `used ${uses}×` : ""].filter(Boolean).join(", ");
 }
 

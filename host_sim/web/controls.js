@@ -2,6 +2,7 @@
 /* The live page's buttons and keys for time, memory and run. */
 
 import { byId, isForPage, setText, typedById } from "./elements.js";
+import { ending } from "./phrases.js";
 
 /**
  * @typedef {import("./scene.js").Scene} Scene
@@ -11,6 +12,8 @@ import { byId, isForPage, setText, typedById } from "./elements.js";
 
 /** @type {Record<string, string>} */
 const KEYS = { " ": "play", ".": "decision", n: "next" };
+/** What has no effect once the run is over. */
+const NEEDS_A_RUN = ["play", "decision", "lift", "add-bar"];
 
 /** Sends what a person asks for, and shows how things stand. */
 export class Controls {
@@ -22,6 +25,7 @@ export class Controls {
     this.node = 0;
     this.speed = typedById("speed", HTMLSelectElement);
     this.seed = typedById("seed", HTMLInputElement);
+    this.keep = typedById("keep", HTMLInputElement);
     this.bindButtons();
     document.addEventListener("keydown", (event) => this.onKey(event));
   }
@@ -37,7 +41,9 @@ export class Controls {
     setText(byId("play"), play.playing ? "Pause" : "Play");
     setText(byId("status"), statusOf(play));
     setText(byId("fact-speed"), play.rate ? `${((play.rate * measures.tick_ms) / 1000).toFixed(1)} ×` : "0 ×");
-    for (const id of Object.values(KEYS)) typedById(id, HTMLButtonElement).disabled = play.done;
+    for (const id of NEEDS_A_RUN) typedById(id, HTMLButtonElement).disabled = play.done;
+    typedById("next", HTMLButtonElement).disabled = play.done || environment.number >= environment.of;
+    showEnding(play);
     if (document.activeElement !== this.speed) this.speed.value = `${play.speed}`;
     const empty = this.seed.value === "" && document.activeElement !== this.seed;
     if (empty) this.seed.value = `${environment.seed + 1}`;
@@ -69,7 +75,7 @@ export class Controls {
   /** @param {SubmitEvent} event */
   startOver(event) {
     event.preventDefault();
-    this.send({ do: "seed", seed: Number(this.seed.value) });
+    this.send({ do: "seed", seed: Number(this.seed.value), keep: Number(this.keep.checked) });
     this.seed.value = "";
     this.seed.blur();
   }
@@ -88,8 +94,18 @@ export class Controls {
   }
 }
 
+/**
+ * Says over the arena how the environment ended, or the run.
+ * @param {Play} play
+ */
+function showEnding({ ended, done }) {
+  const [heading, text] = ended ? ending(ended, done) : ["", ""];
+  setText(byId("banner"), ended ? `${heading}\n${text}` : "");
+}
+
 /** @param {Play} play */
 function statusOf(play) {
   if (play.done) return play.stays ? "all done: start over with a seed" : "all done";
+  if (play.ended) return "on to the next environment";
   return play.playing ? "live" : "paused";
 }

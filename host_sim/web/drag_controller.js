@@ -19,6 +19,8 @@ import { endsOf, movedBar, wirePlace } from "./placement.js";
 const LIFT_AFTER_MM = 30;
 const CLICK_MM = 1;
 const SEND_EVERY_MS = 30;
+/** Half of what a finger needs to hit. */
+const FINGER_PX = 22;
 
 /** Selects what is pressed, and moves it with the pointer. */
 export class DragController {
@@ -48,7 +50,8 @@ export class DragController {
   begin(event) {
     const { scene } = this.editor;
     const from = this.renderer.placeOf(event);
-    const item = itemAt(scene, from);
+    const slack = event.pointerType === "touch" ? this.renderer.lengthOf(FINGER_PX) : 0;
+    const item = itemAt(scene, from, slack);
     this.editor.select(item);
     if (!item) return;
     this.renderer.canvas.setPointerCapture(event.pointerId);

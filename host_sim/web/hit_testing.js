@@ -10,15 +10,44 @@
 const BAR_END_MM = 70;
 const BAR_SIDE_MM = 60;
 const FOOD_REACH_MM = 90;
+const END_SHARE = 0.25;
 
 /**
  * The item at a place, if there is one.
  * @param {Scene} scene
  * @param {Place} at - mm
+ * @param {number} [slack] - For a finger: if nothing lies there, the nearest item within these mm.
  * @returns {Item | undefined}
  */
-export function itemAt(scene, at) {
-  return robotAt(scene, at) ?? foodAt(scene, at) ?? barAt(scene, at);
+export function itemAt(scene, at, slack = 0) {
+  return robotAt(scene, at) ?? foodAt(scene, at) ?? barAt(scene, at) ?? nearest(scene, at, slack);
+}
+
+/**
+ * @param {Scene} scene
+ * @param {Place} at
+ * @param {number} slack
+ * @returns {Item | undefined}
+ */
+function nearest(scene, at, slack) {
+  const found = [
+    ...scene.states.map((state) => ({ item: whole("robot", state.node), away: distance(at, scene.poseOf(state)) })),
+    ...scene.environment.food.map(([x, y], id) => ({ item: whole("food", id), away: distance(at, { x, y }) })),
+    ...scene.environment.bars.map((bar) => nearBar(bar, at)),
+  ];
+  return found.filter(({ away }) => away <= slack).sort((p, q) => p.away - q.away)[0]?.item;
+}
+
+/**
+ * A bar for a finger: its outer quarters are its ends.
+ * @param {number[]} bar
+ * @param {Place} at
+ * @returns {{item: Item, away: number}}
+ */
+function nearBar(bar, at) {
+  const { along, away } = besideBar(bar, at);
+  const part = along < END_SHARE ? "a" : along > 1 - END_SHARE ? "b" : "whole";
+  return { item: { kind: "bar", id: bar[0], part }, away };
 }
 
 /**
@@ -80,12 +109,22 @@ function barAt({ environment }, at) {
  * @param {Place} at
  * @returns {Item["part"] | undefined}
  */
-function partAt([, ax, ay, bx, by], at) {
+function partAt(bar, at) {
+  const [, ax, ay, bx, by] = bar;
   if (distance(at, { x: ax, y: ay }) < BAR_END_MM) return "a";
   if (distance(at, { x: bx, y: by }) < BAR_END_MM) return "b";
+  return besideBar(bar, at).away < BAR_SIDE_MM ? "whole" : undefined;
+}
+
+/**
+ * The nearest point of a bar: how far along it, 0..1, and how far away, mm.
+ * @param {number[]} bar
+ * @param {Place} at
+ */
+function besideBar([, ax, ay, bx, by], at) {
   const [dx, dy] = [bx - ax, by - ay];
   const along = Math.min(1, Math.max(0, ((at.x - ax) * dx + (at.y - ay) * dy) / (dx * dx + dy * dy)));
-  return distance(at, { x: ax + along * dx, y: ay + along * dy }) < BAR_SIDE_MM ? "whole" : undefined;
+  return { along, away: distance(at, { x: ax + along * dx, y: ay + along * dy }) };
 }
 
 /**

@@ -2,11 +2,11 @@
 /* The list of what was learned, the newest first. */
 
 import { byId } from "./elements.js";
-import { clock, lessonSentence } from "./phrases.js";
+import { lessonSentence } from "./phrases.js";
 
 /**
+ * @typedef {import("./scene.js").Scene} Scene
  * @typedef {import("./types.js").Lesson} Lesson
- * @typedef {import("./types.js").Measures} Measures
  */
 
 /** Fills the element `lessons`. */
@@ -17,24 +17,23 @@ export class LessonsView {
   }
 
   /**
-   * @param {number} node - The robot whose lessons they are.
-   * @param {Lesson[]} lessons - The oldest first.
-   * @param {Measures} [measures] - To say when.
+   * @param {Scene} scene
+   * @param {Lesson[]} lessons - Those of the robot that the panel shows, the oldest first.
    */
-  show(node, lessons, measures) {
-    const key = [node, lessons.length, lessons.at(-1)?.tick].join();
+  show(scene, lessons) {
+    const key = [scene.node, scene.environment.start_tick, lessons.length, lessons.at(-1)?.tick].join();
     if (this.key === key) return;
     this.key = key;
-    this.list.replaceChildren(...lessons.map((lesson) => itemFor(lesson, measures)).reverse());
+    this.list.replaceChildren(...lessons.map((lesson) => itemFor(lesson, scene)).reverse());
   }
 }
 
 /**
  * @param {Lesson} lesson
- * @param {Measures} [measures]
+ * @param {Scene} scene
  */
-function itemFor(lesson, measures) {
+function itemFor(lesson, scene) {
   const item = document.createElement("li");
-  item.textContent = `${measures ? `${clock(lesson.tick, measures)} ` : ""}${lessonSentence(lesson)}`;
+  item.textContent = `${scene.clock(lesson.tick)} ${lessonSentence(lesson)}`;
   return item;
 }

@@ -3,6 +3,8 @@
 
 import { byId, setText } from "./elements.js";
 import { LiveView } from "./live_view.js";
+import { Note } from "./note.js";
+import { restarted } from "./phrases.js";
 import { Scene } from "./scene.js";
 
 /**
@@ -11,7 +13,6 @@ import { Scene } from "./scene.js";
  */
 
 const RECONNECT_MS = 1000;
-const NOTE_MS = 5000;
 const GOING_AWAY = 1001;
 
 /** Connects, and connects again; draws at most once a frame of the screen. */
@@ -28,6 +29,7 @@ class LivePage {
     /** How old the state was when it was last drawn, for measurements. */
     this.timing = { lagMs: 0 };
     this.note = new Note();
+    this.hasEnded = false;
     this.socket = this.connect();
     requestAnimationFrame(() => this.frame());
   }
@@ -49,14 +51,15 @@ class LivePage {
   }
 
   /**
-   * A run that has ended is over; anything else may come back.
+   * Connects again: the next run may come to the same address.
    * @param {CloseEvent} event
    */
   onClose(event) {
-    const ended = event.code === GOING_AWAY;
-    setText(byId("status"), ended ? "the run has ended" : "no connection, trying again");
+    this.hasEnded ||= event.code === GOING_AWAY;
+    const lost = this.hasEnded ? "the run has ended; waiting for the next one" : "no connection, trying again";
+    setText(byId("status"), lost);
     document.body.classList.add("lost");
-    if (!ended) setTimeout(() => (this.socket = this.connect()), RECONNECT_MS);
+    setTimeout(() => (this.socket = this.connect()), RECONNECT_MS);
   }
 
   /** @param {Command} command */
@@ -67,14 +70,22 @@ class LivePage {
   /** @param {Message} message */
   accept(message) {
     const { measures, environment, states } = message;
-    if (measures) document.body.classList.remove("lost");
+    if (measures) this.onConnected();
+    const startedOver = !measures && environment && environment.start_tick !== this.scene?.environment.start_tick;
     if (measures && environment) {
       this.view ??= new LiveView(new Scene(measures, environment, states), (command) => this.send(command));
     }
     this.view?.accept(message);
+    if (startedOver) this.note.show(restarted(environment, states));
+    if (message.notes) this.view?.editor.onRefusal();
     message.notes?.forEach((text) => this.note.show(text));
     this.message = message;
     this.isNew = true;
+  }
+
+  onConnected() {
+    this.hasEnded = false;
+    document.body.classList.remove("lost");
   }
 
   frame() {
@@ -85,20 +96,6 @@ class LivePage {
       this.timing.lagMs = Date.now() - message.at;
     }
     requestAnimationFrame(() => this.frame());
-  }
-}
-
-/** Tells a person for a while what could not be done. */
-class Note {
-  constructor() {
-    this.timer = 0;
-  }
-
-  /** @param {string} text */
-  show(text) {
-    setText(byId("note"), text);
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => setText(byId("note"), ""), NOTE_MS);
   }
 }
 

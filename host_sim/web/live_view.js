@@ -73,6 +73,7 @@ export class LiveView {
     const before = scene.environment;
     const isNew = before.number !== environment.number || before.seed !== environment.seed;
     if (isNew) scene.trails.forEach((trail) => trail.clear());
+    if (before.start_tick !== environment.start_tick) this.lessons.clear();
     scene.environment = environment;
     this.editor.onEnvironment();
   }
@@ -88,11 +89,12 @@ export class LiveView {
     const { scene } = this;
     this.editor.onStates(this.drag.robot);
     this.editor.changed = false;
+    this.panel.settle(scene, !play.playing);
     this.renderer.draw(scene);
     this.panel.show(scene, { exact: !play.playing });
     this.controls.show(scene, play);
     this.picker.show();
-    this.lessonsView.show(scene.node, this.lessons.get(scene.node) ?? []);
+    this.lessonsView.show(scene, this.lessons.get(scene.node) ?? []);
     for (const [name, count] of Object.entries(health)) setText(byId(`health-${name}`), `${count}`);
   }
 }

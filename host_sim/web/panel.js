@@ -1,11 +1,11 @@
 // @ts-check
 /* What is written beside the arena: what a robot does and why, how bored it is, how the run stands. */
 
+import { CalmStates } from "./calm_states.js";
 import { CellsView } from "./cells_view.js";
 import { byId, setText } from "./elements.js";
-import { REASON } from "./generated.js";
 import { REASON_KEYS } from "./palette.js";
-import { REASON_NAMES, clock, sentence, verdict } from "./phrases.js";
+import { REASON_NAMES, sentence, verdict } from "./phrases.js";
 
 /**
  * @typedef {import("./scene.js").Scene} Scene
@@ -13,14 +13,14 @@ import { REASON_NAMES, clock, sentence, verdict } from "./phrases.js";
  * @typedef {import("./types.js").State} State
  */
 
-/** A sentence stays this long before one that matters less: people read more slowly than robots decide. */
-const HOLD_MS = 700;
-/** How much each reason matters. */
-const LIFTED_WEIGHT = 9;
-const WEIGHT = new Map([
-  [REASON.STOP, 0], [REASON.WANDER, 1], [REASON.TOWARD_FOOD, 2], [REASON.LOOK_AROUND, 1],
-  [REASON.REMEMBERED, 3], [REASON.TRIAL, 4], [REASON.BOREDOM, 5], [REASON.EAT, 5],
-]);
+/**
+ * What else is drawn in the arena, by its name in the style sheet.
+ * @type {[string, string][]}
+ */
+const THINGS = [
+  ["cone", "sensor: something is near"], ["cone-dark", "sensor: nothing is near"], ["beam", "looks for food"],
+  ["food", "food"], ["eaten", "food that was eaten"], ["bar", "obstacle, wall"],
+];
 const MEMORY = "Memory: eight bytes, all it ever learns";
 
 /** Fills the elements of a page that have these ids: doing why boredom facts legend cells memory-title. */
@@ -29,8 +29,17 @@ export class Panel {
   constructor(onPress) {
     this.cells = new CellsView(byId("cells"), onPress);
     this.legend = makeLegend(byId("legend"));
-    this.held = { node: -1, weight: -1, until: 0 };
+    this.calm = new CalmStates();
     this.reason = -1;
+  }
+
+  /**
+   * Decides which states the words and the colours in the arena tell of.
+   * @param {Scene} scene
+   * @param {boolean} exact - Whether to tell every move.
+   */
+  settle(scene, exact) {
+    scene.shown = this.calm.shown(scene.states, exact);
   }
 
   /**
@@ -39,11 +48,11 @@ export class Panel {
    */
   show(scene, { exact, then }) {
     const { state, measures } = scene;
-    this.showSentence(state, exact);
+    this.showSentence(scene.shown.get(state.node) ?? state, exact);
     this.showBoredom(state, measures);
     this.showFacts(scene);
     setText(byId("memory-title"), scene.states.length > 1 ? MEMORY.replace(":", ` of robot ${state.node}:`) : MEMORY);
-    this.cells.show(state, measures, then);
+    this.cells.show(scene, then);
   }
 
   /**
@@ -51,14 +60,9 @@ export class Panel {
    * @param {boolean} exact
    */
   showSentence(state, exact) {
-    const now = performance.now();
-    const weight = (state.lifted ? LIFTED_WEIGHT : WEIGHT.get(state.reason)) ?? 0;
-    const holds = state.node === this.held.node && weight < this.held.weight && now < this.held.until;
-    if (!exact && holds) return;
-    this.held = { node: state.node, weight, until: now + HOLD_MS };
     setText(byId("doing"), sentence(state, exact));
     setText(byId("why"), verdict(state));
-    this.showReason(!exact && state.reason === REASON.LOOK_AROUND ? REASON.WANDER : state.reason);
+    this.showReason(state.reason);
   }
 
   /** @param {number} reason */
@@ -85,21 +89,28 @@ export class Panel {
   }
 
   /** @param {Scene} scene */
-  showFacts({ environment, state, measures }) {
+  showFacts(scene) {
+    const { environment, state } = scene;
     const left = environment.food.length - state.eaten.reduce((sum, eaten) => sum + eaten, 0);
     setText(byId("fact-environment"), `${environment.number} of ${environment.of}`);
     setText(byId("fact-food"), `${left} of ${environment.food.length}`);
-    setText(byId("fact-time"), clock(state.tick, measures));
+    setText(byId("fact-time"), scene.clock(state.tick));
     setText(byId("fact-seed"), `${environment.seed}`);
   }
 }
 
 /** @param {HTMLElement} list */
 function makeLegend(list) {
-  return REASON_NAMES.map((name, reason) => {
+  const add = (/** @type {string} */ text) => {
     const item = list.appendChild(document.createElement("li"));
-    item.textContent = name;
+    item.textContent = text;
+    return item;
+  };
+  const reasons = REASON_NAMES.map((name, reason) => {
+    const item = add(name);
     item.dataset.reason = REASON_KEYS[reason];
     return item;
   });
+  for (const [name, text] of THINGS) add(text).dataset.thing = name;
+  return reasons;
 }

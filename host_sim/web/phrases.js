@@ -4,6 +4,8 @@
 import { PATTERNS, REASON, SIDE, SIDES } from "./generated.js";
 
 /**
+ * @typedef {import("./types.js").Ended} Ended
+ * @typedef {import("./types.js").EnvironmentScene} EnvironmentScene
  * @typedef {import("./types.js").Lesson} Lesson
  * @typedef {import("./types.js").Measures} Measures
  * @typedef {import("./types.js").State} State
@@ -28,6 +30,7 @@ const REASONS = [
   [REASON.BOREDOM, "is bored",
     (state) => `${state.repeat_count} turns in a row, and still blocked. I am bored: about face!`],
   [REASON.EAT, "eats", () => "Food! I eat it."],
+  [REASON.SILENCE, "hears nothing", () => "I hear nothing from my body: my wheels rest."],
 ];
 
 const SENTENCES = new Map(REASONS.map(([reason, , words]) => [reason, words]));
@@ -51,11 +54,11 @@ export function sentence(state, exact) {
  * @param {State} state
  * @returns {string}
  */
-export function verdict({ trial, frozen }) {
+export function verdict({ trial }) {
   if (!trial || trial.helped === null) return "";
   const what = `Last try: ${PATTERNS[trial.cell]} blocked, I turned ${SIDES[trial.side]}.`;
-  if (!trial.helped) return `${what} It did not help, so I forget it.`;
-  return `${what} It helped${frozen ? ", but I may not learn now." : ", so I remember it!"}`;
+  if (!trial.helped) return `${what} It did not help, so I forgot it.`;
+  return `${what} It helped${trial.frozen ? ", but my learning was frozen." : ", so I remembered it!"}`;
 }
 
 /**
@@ -71,13 +74,41 @@ export function lessonSentence(lesson) {
 }
 
 /**
+ * How an environment ended, and after the last one how all did: a heading and a sentence.
+ * @param {Ended} ended
+ * @param {boolean} done - Whether it was the last one.
+ * @returns {[string, string]}
+ */
+export function ending(ended, done) {
+  const food = ended.finished ? "All food found" : `${ended.eaten} of ${ended.food} food found`;
+  if (!done) return [food, `environment ${ended.number}, ${minutes(ended.robot_s)}`];
+  const { environments, environments_finished, environments_robot_s } = ended;
+  const all = `${environments_finished} of ${environments} environments finished`;
+  return ["ALL DONE", `${all}, ${minutes(environments_robot_s)}`];
+}
+
+/**
+ * What "start over" has done.
+ * @param {EnvironmentScene} environment
+ * @param {State[]} states
+ */
+export function restarted({ seed }, states) {
+  const empty = states.every(({ memory }) => memory.every((side) => side === SIDE.NOTHING));
+  return `Started over with seed ${seed}: ${empty ? "empty memory" : "the memory was kept"}, learning is on.`;
+}
+
+/**
  * Robot time of a tick, such as 1:05.2.
- * @param {number} tick
+ * @param {number} tick - Counted from where the clock begins.
  * @param {Measures} measures
  * @returns {string}
  */
 export function clock(tick, measures) {
-  const seconds = (tick * measures.tick_ms) / 1000;
+  return minutes((tick * measures.tick_ms) / 1000);
+}
+
+/** @param {number} seconds */
+function minutes(seconds) {
   return `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, "0")}`;
 }
 

@@ -12,6 +12,8 @@
  * @typedef {{a: Place, b: Place}} Ends
  */
 
+const WALL_GAP_MM = 2;
+
 /**
  * The two ends of a bar by its id, if it is there.
  * @param {EnvironmentScene} environment
@@ -24,19 +26,61 @@ export function endsOf(environment, id) {
 }
 
 /**
- * A bar's ends moved, both or one; it keeps its length at a wall.
+ * A bar moved as a whole, or turned about one end so that the other follows a pointer. It keeps its length.
  * @param {Ends} ends
- * @param {Item["part"]} part
+ * @param {Item["part"]} part - The end that follows, or "whole".
  * @param {Place} by
  * @param {Measures} measures
  */
 export function movedBar(ends, part, by, measures) {
-  const step = part === "whole" ? roomFor(ends, by, measures) : by;
-  const moved = (/** @type {"a" | "b"} */ name) => {
-    if (part !== "whole" && part !== name) return wirePlace(ends[name], measures);
-    return wirePlace({ x: ends[name].x + step.x, y: ends[name].y + step.y }, measures);
-  };
-  return { a: moved("a"), b: moved("b") };
+  const moved = part === "whole" ? shifted(ends, roomFor(ends, by, measures)) : swung(ends, part, by);
+  const fits = isInside(moved.a, measures) && isInside(moved.b, measures);
+  const { a, b } = fits ? moved : ends;
+  return { a: wirePlace(a, measures), b: wirePlace(b, measures) };
+}
+
+/**
+ * @param {Ends} ends
+ * @param {Place} by
+ * @returns {Ends}
+ */
+function shifted({ a, b }, by) {
+  return { a: { x: a.x + by.x, y: a.y + by.y }, b: { x: b.x + by.x, y: b.y + by.y } };
+}
+
+/**
+ * @param {Ends} ends
+ * @param {"a" | "b"} part
+ * @param {Place} by
+ * @returns {Ends}
+ */
+function swung(ends, part, by) {
+  const [end, pivot] = part === "a" ? [ends.a, ends.b] : [ends.b, ends.a];
+  const length = Math.hypot(end.x - pivot.x, end.y - pivot.y);
+  const [dx, dy] = [end.x + by.x - pivot.x, end.y + by.y - pivot.y];
+  const scale = length / (Math.hypot(dx, dy) || 1);
+  return { ...ends, [part]: { x: pivot.x + dx * scale, y: pivot.y + dy * scale } };
+}
+
+/**
+ * The nearest place where a robot does not touch a wall.
+ * @template {Place} P
+ * @param {P} at
+ * @param {Measures} measures
+ * @returns {P}
+ */
+export function insideWalls(at, { width, height, body }) {
+  const room = (/** @type {number} */ value, /** @type {number} */ size) =>
+    Math.min(size - body - WALL_GAP_MM, Math.max(body + WALL_GAP_MM, value));
+  return { ...at, x: room(at.x, width), y: room(at.y, height) };
+}
+
+/**
+ * @param {Place} at
+ * @param {Measures} measures
+ */
+function isInside({ x, y }, { width, height }) {
+  return x >= 0 && y >= 0 && x <= width && y <= height;
 }
 
 /**

@@ -57,6 +57,15 @@ export class Renderer {
     return { x: (at.clientX - box.left) / perMm - MARGIN_MM, y: (at.clientY - box.top) / perMm - MARGIN_MM };
   }
 
+  /**
+   * A length on the page as one in the arena.
+   * @param {number} px
+   * @returns {number} mm
+   */
+  lengthOf(px) {
+    return (px * this.canvas.width) / (this.scale * this.canvas.getBoundingClientRect().width);
+  }
+
   watchColours() {
     const again = () => (this.palette = paletteOf(this.canvas));
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);

@@ -5,7 +5,6 @@ import { byId, isForPage, setText, typedById } from "./elements.js";
 import { itemAt } from "./hit_testing.js";
 import { LessonsView } from "./lessons_view.js";
 import { Panel } from "./panel.js";
-import { clock } from "./phrases.js";
 import { Renderer } from "./renderer.js";
 import { RobotPicker } from "./robot_picker.js";
 import { RunData } from "./run_data.js";
@@ -113,15 +112,10 @@ class Player {
   /** Compares the memory of now with that of other times; once more ends that. */
   pin() {
     this.pinned = this.pinned === undefined ? this.tick : undefined;
-    const words = this.pinned === undefined ? "Compare with now" : `Compared with ${this.clockAt(this.pinned)}`;
+    const words = this.pinned === undefined ? "Compare with now" : `Compared with ${this.scene.clock(this.pinned)}`;
     setText(byId("pin"), words);
     byId("pin").setAttribute("aria-pressed", `${this.pinned !== undefined}`);
     this.stale = true;
-  }
-
-  /** @param {number} tick */
-  clockAt(tick) {
-    return clock(tick, this.data.measures);
   }
 
   /** @param {number} now */
@@ -143,13 +137,14 @@ class Player {
   draw() {
     const { scene, robot, tick } = this;
     this.stale = false;
+    this.panel.settle(scene, !this.playing);
     this.renderer.draw(scene);
     const then = this.pinned === undefined ? undefined : robot.memoryAt(this.pinned);
     this.panel.show(scene, { exact: !this.playing, then });
     this.picker.show();
-    this.lessonsView.show(scene.node, robot.lessonsUpTo(tick), scene.measures);
+    this.lessonsView.show(scene, robot.lessonsUpTo(tick, scene.environment.start_tick));
     this.scrub.value = `${tick}`;
-    this.scrub.setAttribute("aria-valuetext", this.clockAt(tick));
+    this.scrub.setAttribute("aria-valuetext", scene.clock(tick));
   }
 
   /** @param {MouseEvent} event */

@@ -36,7 +36,7 @@ export function drawRobot(context, scene, state, palette) {
   if (scene.isHeld(state)) drawAir(context, measures, palette);
   else drawCones(context, state.feel, measures, palette);
   if (item?.kind === "robot" && item.id === state.node) drawRing(context, measures.body * 1.12, palette.of.select);
-  drawBody(context, state, measures, palette);
+  drawBody(context, palette.reasons[scene.reasonOf(state)], measures, palette);
   context.restore();
   if (scene.states.length > 1) drawNumber(context, scene, state, palette);
   drawTrial(context, state, measures, palette);
@@ -102,16 +102,16 @@ function drawCones(context, feel, measures, palette) {
 
 /**
  * @param {CanvasRenderingContext2D} context
- * @param {State} state
+ * @param {string} colour
  * @param {Measures} measures
  * @param {Palette} palette
  */
-function drawBody(context, state, measures, palette) {
+function drawBody(context, colour, measures, palette) {
   const wheel = { length: 70, width: 24 };
   context.fillStyle = palette.of.ink;
   circle(context, 0, 0, measures.body);
   context.fill();
-  context.fillStyle = palette.reasons[state.reason];
+  context.fillStyle = colour;
   circle(context, 0, 0, measures.body * 0.86);
   context.fill();
   context.fillStyle = palette.of.ink;

@@ -51,7 +51,8 @@ export class RunData {
    */
   statesAt(tick) {
     const eaten = latest(this.run.eaten, tick);
-    return this.robots.map((robot) => robot.stateAt(tick, eaten));
+    const start = this.sceneAt(tick).start_tick;
+    return this.robots.map((robot) => robot.stateAt(tick, start, eaten));
   }
 
   /** @param {number} tick */
@@ -96,10 +97,12 @@ export class RobotData {
 
   /**
    * @param {number} tick
+   * @param {number} start - The first tick since the run was started over.
    * @param {number[]} eaten
    * @returns {State}
    */
-  stateAt(tick, eaten) {
+  stateAt(tick, start, eaten) {
+    const lessons = this.lastLessons(tick, start);
     const at = (/** @type {string} */ column) => this.columns[column][tick - this.first];
     return {
       node: this.run.node,
@@ -119,8 +122,9 @@ export class RobotData {
       pattern: at("pattern"),
       eaten,
       memory: this.memoryAt(tick),
-      uses: this.usesAt(tick),
-      learned: this.learnedAt(tick),
+      uses: this.usesAt(tick, lessons.map((lesson) => lesson?.tick ?? start)),
+      learned: lessons.map((lesson) => lesson?.tick ?? -1),
+      by_hand: lessons.map((lesson) => lesson?.by_hand ?? 0),
       frozen: at("frozen"),
       trial: latest(this.run.trials, tick),
     };
@@ -132,29 +136,36 @@ export class RobotData {
   }
 
   /**
-   * How often each cell was used, up to a tick.
+   * How often the content of each cell was used, up to a tick.
    * @param {number} tick
+   * @param {number[]} since - For each cell, the first tick to count.
    */
-  usesAt(tick) {
+  usesAt(tick, since) {
     const uses = Array.from({ length: CELL_COUNT }, () => 0);
-    const count = countUpTo(this.run.turns, tick, ([at]) => at);
-    for (let i = 0; i < count; i += 1) uses[this.run.turns[i][1]] += 1;
+    const turns = this.run.turns.slice(0, countUpTo(this.run.turns, tick, ([at]) => at));
+    for (const [at, cell] of turns) uses[cell] += Number(at >= since[cell]);
     return uses;
   }
 
   /**
-   * When each cell last changed, up to a tick; -1 if it did not.
+   * The last change of each cell up to a tick; undefined if it did not change.
    * @param {number} tick
+   * @param {number} start - The first tick to count.
    */
-  learnedAt(tick) {
-    const learned = Array.from({ length: CELL_COUNT }, () => -1);
-    for (const lesson of this.lessonsUpTo(tick)) learned[lesson.cell] = lesson.tick;
-    return learned;
+  lastLessons(tick, start) {
+    /** @type {(Lesson | undefined)[]} */
+    const last = Array.from({ length: CELL_COUNT }, () => undefined);
+    for (const lesson of this.lessonsUpTo(tick, start)) last[lesson.cell] = lesson;
+    return last;
   }
 
-  /** @param {number} tick */
-  lessonsUpTo(tick) {
-    return this.run.lessons.slice(0, countUpTo(this.run.lessons, tick, (lesson) => lesson.tick));
+  /**
+   * @param {number} tick
+   * @param {number} start - The first tick to count.
+   */
+  lessonsUpTo(tick, start) {
+    const tickOf = (/** @type {Lesson} */ lesson) => lesson.tick;
+    return this.run.lessons.slice(countUpTo(this.run.lessons, start - 1, tickOf), countUpTo(this.run.lessons, tick, tickOf));
   }
 
   /**

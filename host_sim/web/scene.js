@@ -1,6 +1,7 @@
 // @ts-check
 /* What a page shows: the world, its robots, and what a person has selected or holds. */
 
+import { clock } from "./phrases.js";
 import { trailsFor } from "./trail.js";
 
 /**
@@ -22,7 +23,8 @@ import { trailsFor } from "./trail.js";
 
 /**
  * `states` and `trails` have one entry per robot, in the same order; `node` is the robot that the panel shows,
- * `item` what is selected in the arena, `ghosts` has the robots that are held, by node.
+ * `item` what is selected in the arena, `ghosts` has the robots that are held, by node, `shown` the states that words
+ * and colours tell of, by node.
  */
 export class Scene {
   /**
@@ -40,6 +42,8 @@ export class Scene {
     this.item = undefined;
     /** @type {Map<number, Ghost>} */
     this.ghosts = new Map();
+    /** @type {Map<number, State>} */
+    this.shown = new Map();
   }
 
   /** The state of the robot that the panel shows. */
@@ -64,6 +68,22 @@ export class Scene {
    */
   poseOf(state) {
     return this.ghosts.get(state.node) ?? state;
+  }
+
+  /**
+   * The reason whose colour a robot has: what it does, or did a moment ago.
+   * @param {State} state
+   */
+  reasonOf({ node, reason }) {
+    return this.shown.get(node)?.reason ?? reason;
+  }
+
+  /**
+   * Robot time since the run was started over.
+   * @param {number} tick
+   */
+  clock(tick) {
+    return clock(tick - this.environment.start_tick, this.measures);
   }
 
   /**

@@ -15,9 +15,10 @@ const TAIL_POINTS = 24;
 const REDRAW_MS = 100;
 const JUMP_MM = 150;
 /** Width of the mark of each reason, mm, in drawing order: what matters more lies on top. */
-const WIDTH_MM = new Map([
+export const WIDTH_MM = new Map([
   [REASON.LOOK_AROUND, 30], [REASON.STOP, 30], [REASON.WANDER, 14], [REASON.TOWARD_FOOD, 20],
   [REASON.REMEMBERED, 36], [REASON.BOREDOM, 60], [REASON.TRIAL, 60], [REASON.EAT, 44],
+  [REASON.SILENCE, 44],
 ]);
 
 /** Keeps a picture of the trails, so that most frames draw their newest points only. */

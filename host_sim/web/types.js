@@ -23,6 +23,7 @@
  * @property {number} of
  * @property {number} seed
  * @property {number} first_tick
+ * @property {number} start_tick
  * @property {number[][]} bars
  * @property {number[][]} food
  */
@@ -48,6 +49,7 @@
  * @property {number[]} memory
  * @property {number[]} uses
  * @property {number[]} learned
+ * @property {number[]} by_hand
  * @property {number} frozen
  * @property {Trial | null} trial
  */
@@ -58,6 +60,7 @@
  * @property {number} cell
  * @property {number} side
  * @property {number | null} helped
+ * @property {number} frozen
  */
 
 /**
@@ -76,6 +79,20 @@
  * @property {boolean} done
  * @property {number} rate
  * @property {boolean} stays
+ * @property {Ended | null} ended
+ */
+
+/**
+ * An environment that has just ended, and all that have since the run was started over.
+ * @typedef {Object} Ended
+ * @property {number} number
+ * @property {boolean} finished
+ * @property {number} eaten
+ * @property {number} food
+ * @property {number} robot_s
+ * @property {number} environments
+ * @property {number} environments_finished
+ * @property {number} environments_robot_s
  */
 
 /**
@@ -143,7 +160,7 @@
  * What the live page sends.
  * @typedef {{do: "play" | "pause" | "decision" | "next"}
  *   | {do: "speed", factor: number}
- *   | {do: "seed", seed: number}
+ *   | {do: "seed", seed: number, keep: number}
  *   | {do: "write", node: number, cell: number, side: number}
  *   | {do: "erase", node: number}
  *   | {do: "freeze", node: number, on: number}

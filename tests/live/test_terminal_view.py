@@ -23,6 +23,7 @@ from host_sim.live.page_commands import FULL_SPEED
 from host_sim.live.terminal_view import faster, slower
 from host_sim.live.text_picture import View, draw_text
 from host_sim.recording.trajectory import Trajectory, at
+from host_sim.view.history import Trial
 from host_sim.view.phrases import sentence
 from host_sim.world.params import SimParams
 from tests.recording.support import finished
@@ -73,6 +74,22 @@ def test_on_a_screen_too_small_it_says_how_large(view, columns, rows):
     assert len(lines) <= rows
     assert max(map(len, lines)) <= columns
     assert re.match(r"\d", lines[0])
+
+
+@pytest.mark.parametrize("columns", [60, 80])
+def test_all_keys_are_named_on_the_smallest_screen(view, columns):
+    lines = draw_text(replace(view, keys=terminal_view._KEYS), columns, 20)
+
+    assert lines[-1] == terminal_view._KEYS
+
+
+@pytest.mark.parametrize(("helped", "said"), [(0, "It did not help, so I forgot it."), (1, "so I remembered it!")])
+def test_it_says_whether_a_try_helped(view, helped, said):
+    trial = Trial(tick=160, cell=7, side=1, helped=helped, frozen=0)
+    lines = draw_text(replace(view, states=[{**view.state, "trial": trial}]), 60, 20)
+
+    assert said in " ".join(" ".join(lines).split())
+    assert len(lines) <= 20
 
 
 @pytest.mark.parametrize(
@@ -227,7 +244,7 @@ def test_the_terminal_is_as_before_when_it_ends(terminal, tmp_path, leave):
     assert LEAVE_FULL_SCREEN in terminal.output
     assert b"Traceback" not in terminal.output
     assert terminal.after == terminal.before
-    assert (tmp_path / "run.log").exists()
+    assert {"run.log", "summary.json", "replay.html"} <= {path.name for path in tmp_path.iterdir()}
 
 
 def test_keys_do_what_they_say(terminal, tmp_path):
@@ -243,8 +260,9 @@ def test_keys_do_what_they_say(terminal, tmp_path):
     assert [environment["number"] for environment in begun] == [1, 2]
 
 
-def test_a_terminal_that_is_unknown_is_one_line(tmp_path):
-    terminal = Terminal(tmp_path, "--quiet", term="teletype-of-1930")
+@pytest.mark.parametrize("term", ["teletype-of-1930", "dumb"])
+def test_a_terminal_that_cannot_draw_is_one_line(tmp_path, term):
+    terminal = Terminal(tmp_path, "--quiet", term=term)
 
     code = terminal.end()
 

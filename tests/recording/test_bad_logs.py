@@ -13,8 +13,8 @@ from host_sim.recording.log_reader import read_log
 from host_sim.recording.world_file import world_path
 
 
-def cut_inside_a_line(log: Path) -> None:
-    log.write_bytes(log.read_bytes()[:-7])
+def cut_inside_its_first_line(log: Path) -> None:
+    log.write_bytes(log.read_bytes()[:20])
 
 
 def cut_before_the_first_tick(log: Path) -> None:
@@ -82,7 +82,7 @@ def make_world_folder(log: Path) -> None:
 
 
 BAD = {
-    cut_inside_a_line: (1, "cut short"),
+    cut_inside_its_first_line: (1, "no whole line"),
     cut_before_the_first_tick: (1, "no tick"),
     make_binary: (2, "it is not text"),
     make_text: (1, "line 1"),

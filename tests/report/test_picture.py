@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from host_sim.report.picture import Panel, draw_run
+from host_sim.report.picture import Panel, draw_run, omissions
 from host_sim.sim.world_record import Begun
 from host_sim.view.state import EnvironmentScene, environment_scene
 from host_sim.world.arena import Arena
@@ -22,7 +22,7 @@ LEARNED_MEMORY = [0, 1, 2, 1, 2, 1, 2, 0]
 FOOD_GREEN, TRIAL_ORANGE, BORED_PINK = (0, 158, 115), (213, 94, 0), (204, 121, 167)
 
 
-SCENE = EnvironmentScene(number=1, of=1, seed=1, first_tick=0, bars=[], food=[[1000.0, 2000.0]])
+SCENE = EnvironmentScene(number=1, of=1, seed=1, first_tick=0, start_tick=0, bars=[], food=[[1000.0, 2000.0]])
 START = Pose(2000.0, 1500.0, 0.0)
 Trail = Sequence[tuple[float, float, int]]
 
@@ -42,7 +42,7 @@ def busy_panel(seed: int) -> Panel:
         y = min(2900.0, max(100.0, y + draws.uniform(-20, 20)))
         trail.append((x, y, draws.choice((1, 1, 1, 3, 3, 2, 4, 5, 6))))
     arena = Arena(generate(seed, 1, PARAMS), PARAMS)
-    return panel(trail, (1, 0, 1), 600.0, environment_scene(Begun(seed, 1, 0), 1, arena))
+    return panel(trail, (1, 0, 1), 600.0, environment_scene([Begun(seed, 1, 0)], 1, arena))
 
 
 def png(*panels: Panel, memory: Sequence[int] = EMPTY_MEMORY) -> bytes:
@@ -73,7 +73,12 @@ def test_all_pictures_are_equally_wide_and_grow_by_the_row() -> None:
     shapes = {n: picture(*[panel()] * n).shape for n in (3, 4, 6, 7, 9, 10)}
 
     assert {width for _, width, _ in shapes.values()} == {1680}
-    assert shapes[3] < shapes[4] == shapes[6] < shapes[7] == shapes[9] == shapes[10]
+    assert shapes[3] < shapes[4] == shapes[6] < shapes[7] == shapes[9] < shapes[10]
+
+
+def test_what_a_picture_leaves_out_is_said() -> None:
+    assert omissions(9, 8) == []
+    assert omissions(20, 9) == ["the last 9 of 20 environments", "the memories of the first 8 of 9 robots"]
 
 
 def test_longer_runs_show_their_last_nine_environments() -> None:

@@ -32,15 +32,22 @@ def unpacked(data: str, columns: int) -> list[list[int]]:
 def state_in(run: dict, robot: dict, columns: dict[str, list[int]], tick: int) -> State:
     """The state of a robot at a tick, from what the page holds."""
     row = {name: values[tick - run["first_tick"]] for name, values in columns.items()}
-    lessons = [(lesson["cell"], lesson["tick"]) for lesson in robot["lessons"] if lesson["tick"] <= tick]
+    start = at(run["scenes"], tick)["start_tick"]
+    last = [None] * 8
+    for lesson in robot["lessons"]:
+        if start <= lesson["tick"] <= tick:
+            last[lesson["cell"]] = lesson
+    since = [lesson["tick"] if lesson else start for lesson in last]
+    turns = [cell for turn, cell in robot["turns"] if since[cell] <= turn <= tick]
     return State(
         **{**row, "x": row["x"] / 10, "y": row["y"] / 10},
         node=robot["node"],
         tick=tick,
         eaten=at(run["eaten"], tick),
         memory=at(robot["memory"], tick),
-        uses=[sum(turn <= tick and used == cell for turn, used in robot["turns"]) for cell in range(8)],
-        learned=[max((when for what, when in lessons if what == cell), default=-1) for cell in range(8)],
+        uses=[turns.count(cell) for cell in range(8)],
+        learned=[lesson["tick"] if lesson else -1 for lesson in last],
+        by_hand=[lesson["by_hand"] if lesson else 0 for lesson in last],
         trial=at(robot["trials"], tick),
     )
 
@@ -140,5 +147,7 @@ def test_a_reckoned_way_makes_a_page_as_well(kept):
 
 @pytest.mark.parametrize("name", ["nowhere/page.html", "."])
 def test_a_page_that_cannot_be_written_is_one_line(short, tmp_path, capsys, name):
+    before = set(tmp_path.rglob("*"))
     assert main(["replay", str(short.log), "--html", str(tmp_path / name)]) == 1
+    assert set(tmp_path.rglob("*")) == before
     assert re.fullmatch(r"octet: cannot write .*\n", capsys.readouterr().err)

@@ -115,15 +115,19 @@ def test_a_replay_of_no_log_says_so_in_one_line(tmp_path, content):
     assert str(log) in done.stderr
 
 
-def test_a_log_cut_in_the_middle_of_a_line_names_the_line(run, tmp_path):
+@pytest.mark.parametrize("cut_off", [1, 7, 30, 50, 70, 90, 110])
+def test_a_log_cut_anywhere_is_compared_as_far_as_it_goes(run, tmp_path, cut_off):
     done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
     cut = tmp_path / "cut.log"
-    cut.write_bytes(done.log[: len(done.log) // 2 - 7])
+    cut.write_bytes(done.log[: len(done.log) // 2 - cut_off])
 
     replayed = octet("replay", cut)
 
-    assert replayed.returncode == 1
-    assert "cut short" in replayed.stderr
+    assert (replayed.returncode, replayed.stderr) == (0, "")
+    assert "no difference; the log ends before the run does" in replayed.stdout
+    page = octet("replay", cut, "--html", tmp_path / "cut.html")
+    assert page.returncode == 0
+    assert page.stderr == f"octet: {cut} ends before the run does; showing what it has\n"
 
 
 def test_a_log_of_another_protocol_is_refused(run, tmp_path):

@@ -22,6 +22,14 @@ def browser() -> Iterator[Browser]:
         browser.close()
 
 
+@pytest.fixture(scope="module", autouse=True)
+def state_home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+    """The token of this machine's pages is not that of the person who runs the tests."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
+        yield
+
+
 @pytest.fixture
 def watch(tmp_path: Path) -> Iterator[Callable[..., Watched]]:
     """Starts runs to watch; ends what is left of them."""
@@ -35,6 +43,15 @@ def watch(tmp_path: Path) -> Iterator[Callable[..., Watched]]:
     for watched in started:
         watched.process.kill()
         watched.process.communicate()
+
+
+@pytest.fixture(scope="module")
+def module_watch(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
+    """A run to watch, for all tests of a module that only ask its server."""
+    watched = start_watched(tmp_path_factory.mktemp("watched") / "run")
+    yield watched
+    watched.process.kill()
+    watched.process.communicate()
 
 
 @pytest.fixture

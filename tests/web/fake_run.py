@@ -21,6 +21,7 @@ ENVIRONMENT = EnvironmentScene(
     of=5,
     seed=7,
     first_tick=0,
+    start_tick=0,
     bars=[[0, 2600, 500, 3400, 700]],
     food=[[500, 2500], [2000, 2600], [3500, 2500]],
 )
@@ -35,7 +36,7 @@ TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html"}
 def robot_state(node: int, x: float, y: float, **fields: Any) -> State:
     """The state of a robot that wanders, but for some fields."""
     numbers = dict.fromkeys([name for name in State.__annotations__ if name != "trial"], 0)
-    lists = {"eaten": [0] * 3, "memory": [0] * 8, "uses": [0] * 8, "learned": [-1] * 8}
+    lists = {"eaten": [0] * 3, "memory": [0] * 8, "uses": [0] * 8, "learned": [-1] * 8, "by_hand": [0] * 8}
     return State(
         **{**numbers, **lists, "reason": 1, "trial": None, "node": node, "x": x, "y": y, "tick": 9, **fields}
     )
@@ -80,7 +81,7 @@ class FakeRun:
             "states": self.states,
             "trails": [[state["x"], state["y"], state["reason"]] for state in self.states],
             "lessons": [],
-            "play": {"playing": False, "speed": 1, "done": False, "rate": 50, "stays": True},
+            "play": {"playing": False, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None},
             "health": {"sent": 0, "lost": 0, "refused": 0, "late": 0, "orders_refused": 0},
             **fields,
         }

@@ -2,6 +2,7 @@
 
 import math
 
+from host_sim.protocol.generated import Opcode
 from tests.runs.support import octet
 from tests.web.support import drag, full_speed, pause, place_on_page, run_in, state, wait_for, wait_for_text
 
@@ -25,13 +26,13 @@ def test_it_pauses_and_plays_again(watch, open_page):
     wait_for(page, "tick => octet.scene.state.tick > tick", tick)
 
 
-def test_a_single_decision_is_one_action(watch, open_page):
-    page = open_page(watch().url)
+def test_a_single_decision_is_more_than_a_step(watch, open_page):
+    page = open_page(watch("--seed", "1").url)
     pause(page)
-    before = state(page)["action"]
+    before = state(page)
     page.click("#decision")
-    wait_for(page, "action => octet.scene.state.action !== action && !octet.play.playing", before)
-    assert state(page)["action"] == (before + 1) % 128
+    wait_for(page, "tick => octet.scene.state.tick > tick && !octet.play.playing", before["tick"])
+    assert not {before["reason"], state(page)["reason"]} <= {1, 3}
 
 
 def test_next_environment_and_a_new_seed(watch, open_page):
@@ -59,8 +60,11 @@ def test_a_pressed_cell_is_a_command_on_the_bus(watch, open_page):
     page.click("#freeze")
     wait_for(page, "octet.scene.state.frozen === 1")
     assert watched.end() == 0
-    opcodes = [(c["opcode"], c.get("mask"), c.get("cells"), c.get("freeze")) for c in watched.commands()]
-    assert opcodes[-4:-1] == [(5, 1 << 7, 1 << 14, None), (6, None, None, None), (7, None, None, 1)]
+    names = ("opcode", "half", "mask", "byte_3", "freeze")
+    write, erase, freeze = [{name: c[name] for name in names if name in c} for c in watched.commands()][-4:-1]
+    assert write == {"opcode": Opcode.WRITE, "half": 1, "mask": 8, "byte_3": 1}
+    assert erase == {"opcode": Opcode.ERASE}
+    assert freeze == {"opcode": Opcode.FREEZE, "freeze": 1}
 
 
 def test_an_obstacle_dragged_into_its_way_makes_it_learn_anew(watch, open_page):

@@ -7,6 +7,8 @@ import pytest
 from playwright.sync_api import Page
 
 from host_sim.paths import WEB
+from host_sim.protocol.generated import Reason
+from host_sim.report.drawing import MARKS
 from host_sim.view import phrases
 from tests.web.fake_run import HOME, FakeRun, robot_state
 
@@ -17,7 +19,7 @@ SAY = """async (lists) => {
 LEFT, RIGHT = {"left": -9, "right": 9}, {"left": 9, "right": -9}
 STATES = [
     robot_state(1, 0, 0, **fields)
-    for reason in range(8)
+    for reason in Reason
     for pattern in range(8)
     for fields in (
         {"reason": reason, "pattern": pattern, **LEFT, "repeat_count": 10},
@@ -58,7 +60,7 @@ def _rotated(table: str) -> str:
 def words(open_page: Callable[..., Page], parts: dict[str, str], turned: bool) -> list[list[str]]:
     """What a page with other parts says, of states and lessons in its numbers."""
     page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)], parts).serve)
-    states = [{**state, "reason": (state["reason"] + turned) % 8} for state in STATES]
+    states = [{**state, "reason": (state["reason"] + turned) % len(Reason)} for state in STATES]
     lessons = [{**lesson, "side": (0, 2, 1)[lesson["side"]] if turned else lesson["side"]} for lesson in LESSONS]
     return page.evaluate(SAY, [states, lessons])
 
@@ -76,3 +78,11 @@ def test_a_number_that_stands_by_hand_is_noticed(open_page, name, number):
     said = words(open_page, {"generated.js": renumbered(), "phrases.js": by_hand}, turned=True)
 
     assert said != words(open_page, {}, turned=False)
+
+
+def test_every_reason_has_its_colours_its_name_and_its_width(open_page):
+    page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)]).serve)
+
+    assert page.evaluate("octet.view.renderer.palette.reasons.every((colour) => /^#/.test(colour))")
+    assert page.locator("#legend [data-reason]").count() == len(Reason) == len(MARKS)
+    assert page.evaluate("import('/trail_layer.js').then(({ WIDTH_MM }) => WIDTH_MM.size)") == len(Reason)

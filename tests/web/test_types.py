@@ -134,7 +134,7 @@ def test_the_typedef_of_a_message_is_what_a_live_run_sends(watch, open_page):
     first, later = page.evaluate(
         """() => new Promise((resolve) => {
           const seen = [];
-          const socket = new WebSocket(`ws://${location.host}/live`);
+          const socket = new WebSocket(`ws://${location.host}/live${location.search}`);
           socket.onmessage = ({ data }) => {
             seen.push(data);
             if (seen.length === 2) resolve(seen);

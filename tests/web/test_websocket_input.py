@@ -28,9 +28,10 @@ def watched(watch) -> Iterator[Watched]:
     assert set(watched.summary()["robots"][0]["faults"].values()) == {0}
 
 
-def talk(watched: Watched, what: Callable[[Socket], Awaitable[Any]], query: str = "", **headers: str) -> Any:
+def talk(watched: Watched, what: Callable[[Socket], Awaitable[Any]], query: str | None = None, **headers: str) -> Any:
     """Opens a WebSocket as the page would, and does something with it."""
-    home = watched.url.split("?")[0]
+    home, ours = watched.url.split("?")
+    query = f"?{ours}" if query is None else query
     headers = {"Origin": home.rstrip("/"), **headers}
 
     async def connect() -> Any:
@@ -51,6 +52,10 @@ async def tick(ws: Socket) -> int:
 
 async def refused(ws: Socket) -> int:
     return (await message(ws))["health"]["orders_refused"]
+
+
+def test_the_run_begins_when_someone_watches(watch):
+    assert talk(watch(), tick) <= 2
 
 
 JUNK = [
@@ -155,8 +160,9 @@ def test_a_foreign_origin_is_refused(watched):
 
 def test_a_page_that_stops_reading_holds_nothing_up(watched):
     host, port = watched.url.split("/")[2].split(":")
+    query = watched.url.partition("?")[2]
     handshake = (
-        f"GET /live HTTP/1.1\r\nHost: {host}:{port}\r\nOrigin: http://{host}:{port}\r\n"
+        f"GET /live?{query} HTTP/1.1\r\nHost: {host}:{port}\r\nOrigin: http://{host}:{port}\r\n"
         "Upgrade: websocket\r\nConnection: Upgrade\r\n"
         "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n"
     )
@@ -176,23 +182,25 @@ def test_a_page_that_stops_reading_holds_nothing_up(watched):
 
 
 def test_no_more_pages_than_fit(watched):
-    home = watched.url
+    home, query = watched.url.split("?")
+    headers = {"Origin": home.rstrip("/")}
 
     async def crowd() -> int:
         async with aiohttp.ClientSession() as session, contextlib.AsyncExitStack() as stack:
             for _ in range(32):
-                ws = session.ws_connect(f"{home}live", headers={"Origin": home.rstrip("/")})
-                await stack.enter_async_context(ws)
+                await stack.enter_async_context(session.ws_connect(f"{home}live?{query}", headers=headers))
             with pytest.raises(aiohttp.WSServerHandshakeError) as refusal:
-                await session.ws_connect(f"{home}live", headers={"Origin": home.rstrip("/")})
+                await session.ws_connect(f"{home}live?{query}", headers=headers)
             return refusal.value.status
 
     assert asyncio.run(crowd()) == 503
 
 
 def test_only_the_page_and_its_parts_are_served(watched):
+    home = watched.url.split("?")[0]
+
     async def get(path: str) -> int:
-        async with aiohttp.ClientSession() as session, session.get(f"{watched.url}{path}") as response:
+        async with aiohttp.ClientSession() as session, session.get(f"{home}{path}") as response:
             return response.status
 
     for path in ("live.html", "../cli.py", "%2e%2e%2fcli.py", "replay.html", "nothing.js"):
@@ -200,9 +208,10 @@ def test_only_the_page_and_its_parts_are_served(watched):
     assert asyncio.run(get("live.js")) == 200
 
 
-def test_other_machines_need_the_token(watch):
-    watched = watch("--listen", "127.0.0.1")
-    home, query = watched.url.split("?")
+@pytest.mark.parametrize("words", [(), ("--listen", "127.0.0.1")], ids=["this machine", "other machines"])
+def test_a_page_needs_the_token(watch, words):
+    watched = watch(*words)
+    home, _ = watched.url.split("?")
 
     async def get(address: str) -> int:
         async with aiohttp.ClientSession() as session, session.get(address) as response:
@@ -212,8 +221,8 @@ def test_other_machines_need_the_token(watch):
     assert asyncio.run(get(f"{home}?token=guess")) == 403
     assert asyncio.run(get(watched.url)) == 200
     with pytest.raises(aiohttp.WSServerHandshakeError):
-        talk(watched, tick)
-    assert talk(watched, tick, query=f"?{query}") >= 0
+        talk(watched, tick, query="")
+    assert talk(watched, tick) >= 0
 
 
 def test_a_port_in_use_is_one_clear_line(tmp_path):

@@ -1,0 +1,90 @@
+"""The output folder of a run: one run, whole, however it ended."""
+
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from host_sim.cli.run_options import RunOptions
+from host_sim.client.frame_log import FrameLog
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.recording.summary import Summary, summarize
+from host_sim.recording.world_file import world_path, write_world
+from host_sim.report.picture import write_picture
+from host_sim.report.replay_page import write_page
+from host_sim.sim.simulation import EpisodeResult, Simulation
+
+LOG, SUMMARY, PICTURE, PAGE = "run.log", "summary.json", "arena.png", "replay.html"
+"""The files in a run's output folder, beside the world file of the log."""
+
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+@dataclass
+class Outputs:
+    """What a run leaves behind.
+
+    Attributes:
+        options: The run's options.
+        simulation: Its simulation.
+        recorder: Its recording.
+        log: Its log.
+        episodes: The results of its environments so far.
+    """
+
+    options: RunOptions
+    simulation: Simulation
+    recorder: RunRecorder
+    log: FrameLog
+    episodes: list[EpisodeResult] = field(default_factory=list)
+    _began_s: float = field(default_factory=time.monotonic)
+
+    def write(self) -> Summary:
+        """Writes all files; signals wait until then. Files of an earlier run go before the first one is replaced.
+
+        Raises:
+            OctetError: A file cannot be written.
+        """
+        wall_s = time.monotonic() - self._began_s
+        if len(self.episodes) < len(self.simulation.record.begun):
+            self.episodes.append(self.simulation.leave())
+        with _undisturbed():
+            digest = self._replace_log()
+            summary = summarize(self.options.config, self.simulation.clients, self.episodes, digest, wall_s)
+            summary.write(self.options.out / SUMMARY)
+            self._draw()
+        return summary
+
+    def _replace_log(self) -> str:
+        """Closes the log, with its world file beside it. A log that could not be written leaves the earlier run.
+
+        Returns:
+            SHA-256 of the log.
+
+        Raises:
+            OctetError: The log could not be written.
+        """
+        out = self.options.out
+        self.log.flush()
+        for path in (out / SUMMARY, out / PICTURE, out / PAGE, world_path(out / LOG)):
+            path.unlink(missing_ok=True)
+        digest = self.log.close()
+        write_world(self.simulation.record, world_path(out / LOG))
+        return digest
+
+    def _draw(self) -> None:
+        trajectory = self.recorder.trajectory
+        if trajectory.ticks:
+            write_picture(self.options.out / PICTURE, trajectory)
+            write_page(self.options.out / PAGE, trajectory, f"seed {self.options.config.seed}")
+
+
+@contextmanager
+def _undisturbed() -> Iterator[None]:
+    """Holds signals back."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -1,0 +1,168 @@
+"""However a run ends, its folder holds that run, whole; and nothing is overwritten or lost without a word."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from host_sim.backends.robot_process import RobotProcess
+from host_sim.errors import RobotError
+from tests.runs.support import octet, robot_of, start_octet, wait_for_lines
+
+FILES = ("run.log", "run.world.json", "summary.json", "arena.png", "replay.html")
+SHORT = ("--environments", "1", "--limit-s", "5", "--bus", "none")
+LONG = ("--environments", "30", "--bus", "fd", "--seed", "8")
+
+
+def title(out: Path) -> str:
+    """The title of the page."""
+    text = (out / "replay.html").read_text().partition('id="run">')[2].partition("</script>")[0]
+    return json.loads(text)["title"]
+
+
+def assert_whole(out: Path, seed: int) -> None:
+    """All files are there, and of one run."""
+    assert sorted(path.name for path in out.iterdir()) == sorted(FILES)
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["seed"] == seed
+    assert title(out) == f"seed {seed}"
+    assert json.loads((out / "run.world.json").read_text())["seed"] == seed
+    replayed = octet("replay", out / "run.log")
+    assert replayed.returncode == 0, replayed.stdout + replayed.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
+    assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
+    process = start_octet("run", *LONG, "--quiet", "--out", tmp_path)
+    wait_for_lines(tmp_path / "run.log", 4000)
+
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=30)
+
+    assert process.returncode == 128 + number
+    assert errors.count("\n") == 1
+    assert_whole(tmp_path, 8)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
+def test_a_watched_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
+    assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
+    process = start_octet("run", "--watch", "--port", "0", *LONG, "--out", tmp_path)
+    wait_for_lines(tmp_path / "run.log", 4000)
+
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=30)
+
+    assert (process.returncode, errors) == (0, "")
+    assert_whole(tmp_path, 8)
+
+
+def test_a_robot_that_is_killed_leaves_one_whole_run_and_is_named(tmp_path):
+    assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
+    process = start_octet("run", *LONG, "--quiet", "--out", tmp_path)
+    robot = robot_of(process)
+    wait_for_lines(tmp_path / "run.log", 4000)
+
+    os.kill(robot, signal.SIGKILL)
+    _, errors = process.communicate(timeout=30)
+
+    assert process.returncode == 1
+    assert errors.startswith("octet: the robot was killed by signal 9 (SIGKILL) and printed: ")
+    assert errors.count("\n") == 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(FILES)
+    assert json.loads((tmp_path / "summary.json").read_text())["seed"] == 8
+
+
+def test_ctrl_c_while_the_program_is_loaded_is_no_traceback():
+    interrupt = (
+        "import os, runpy, signal, sys\n"
+        "moment = sys.argv.pop(1)\n"
+        "class Finder:\n"
+        "    def find_spec(self, name, path=None, target=None):\n"
+        "        if name == moment: os.kill(os.getpid(), signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Finder())\n"
+        "runpy.run_module('host_sim', run_name='__main__')\n"
+    )
+    for moment in ("host_sim.cli.main", "host_sim.errors", "host_sim.cli.run_options"):
+        command = [sys.executable, "-c", interrupt, moment, "run", "--help"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert done.returncode in (-signal.SIGINT, 130), done
+        assert "Traceback" not in done.stderr
+
+
+def test_what_is_overwritten_is_said(tmp_path):
+    assert octet("run", *SHORT, "--seed", "3", "--quiet", "--out", tmp_path).returncode == 0
+
+    done = octet("run", *SHORT, "--out", tmp_path)
+
+    assert f"replaces  the run in {tmp_path} (seed 3)\n" in done.stdout
+
+
+@pytest.mark.parametrize("summary", [b"", b"{", b"[]", b"\xff\xfe", b"{}"])
+def test_a_summary_that_is_none_does_no_harm(tmp_path, summary):
+    (tmp_path / "run.log").write_text("old")
+    (tmp_path / "summary.json").write_bytes(summary)
+
+    done = octet("run", *SHORT, "--out", tmp_path)
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert f"replaces  the run in {tmp_path}\n" in done.stdout
+
+
+def test_a_memory_file_that_is_not_there_is_named(tmp_path):
+    memory = tmp_path / "typo.mem"
+
+    done = octet("run", *SHORT, "--out", tmp_path, "--memory", memory)
+
+    assert f"memory    {memory} does not exist yet: the robot begins with an empty memory\n" in done.stdout
+    assert memory.exists()
+    assert "does not exist yet" not in octet("run", *SHORT, "--out", tmp_path, "--memory", memory).stdout
+
+
+@pytest.mark.parametrize("where", ["nowhere/robot.mem", "file/robot.mem"])
+def test_a_memory_file_that_cannot_be_written_is_named_before_the_run(tmp_path, where):
+    (tmp_path / "file").write_text("no folder")
+    done = octet("run", *SHORT, "--out", tmp_path / "out", "--memory", tmp_path / where)
+
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert where in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def crashing_robot(folder: Path, then: str) -> RobotProcess:
+    """A robot that is ready, and then does something."""
+    program = folder / "robot"
+    program.write_text(f"#!/bin/sh\necho octet-robot: node 1 listens\n{then}\n")
+    program.chmod(0o755)
+    return RobotProcess("fd:0", 1, program=program)
+
+
+@pytest.mark.parametrize(
+    ("then", "said"),
+    [
+        (
+            "sleep 0.2; echo heap-buffer-overflow >&2; exit 3",
+            "ended with exit code 3 and printed: .*heap-buffer-over",
+        ),
+        (
+            "sleep 0.2; yes stack | head -1000; echo the end; exit 1",
+            "printed: octet-robot.*stack.* \\.\\.\\. .*the end",
+        ),
+        ("sleep 0.2; kill -SEGV $$", r"was killed by signal 11 \(SIGSEGV\)"),
+        ("sleep 0.2; kill -40 $$", "was killed by signal 40 and"),
+    ],
+)
+def test_a_robot_that_crashes_is_quoted(tmp_path, then, said):
+    robot = crashing_robot(tmp_path, then)
+
+    with pytest.raises(RobotError, match=said) as error:
+        robot.account_for_silence()
+
+    assert "\n" not in str(error.value)
+    robot.close()

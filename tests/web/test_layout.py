@@ -1,0 +1,160 @@
+"""All that matters is in view at every size, fingers can hit it, and axe-core finds nothing wrong."""
+
+import itertools
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page
+
+from tests.web.fake_run import HOME, FakeRun, robot_state
+from tests.web.support import wait_for
+
+DESKTOPS = [(1024, 768), (1280, 720), (1366, 657), (1440, 900), (1920, 1080)]
+PHONES = [(390, 844), (844, 390)]
+SIZES = DESKTOPS + PHONES
+LIVE = (
+    "#floor",
+    "#play",
+    "#decision",
+    "#speed",
+    "#doing",
+    "#cells",
+    "#freeze",
+    "#erase",
+    "#lift",
+    "#add-bar",
+    "#next",
+)
+REPLAY = ("#floor", "#play", "#scrub", "#doing", "#cells", "#pin", "#before", "#after")
+SCHEMES = ("light", "dark")
+THREE_SIZES = [(390, 844), (1024, 768), (1920, 1080)]
+
+TOO_SMALL = """() => [...document.querySelectorAll("button, select, input, summary")]
+  .map((element) => element.closest("label.check") ?? element)
+  .filter((element) => element.checkVisibility())
+  .map((element) => [element.id || element.textContent, element.getBoundingClientRect()])
+  .filter(([, { width, height }]) => width < 44 || height < 44)
+  .map(([name, { width, height }]) => `${name}: ${width} x ${height}`)"""
+
+# How far from the middle of each item, at right angles to a bar, a finger may be: px.
+REACH = """async () => {
+  const { itemAt } = await import("/hit_testing.js");
+  const { scene, renderer } = octet.view;
+  const [, ax, ay, bx, by] = scene.environment.bars[0];
+  const length = Math.hypot(bx - ax, by - ay);
+  const [nx, ny] = [(ay - by) / length, (bx - ax) / length];
+  const [fx, fy] = scene.environment.food[0];
+  const middles = {
+    robot: [scene.state.x, scene.state.y], food: [fx, fy], bar: [(ax + bx) / 2, (ay + by) / 2],
+  };
+  const slack = renderer.lengthOf(22);
+  const off = renderer.lengthOf(21);
+  return Object.entries(middles)
+    .filter(([kind, [x, y]]) => itemAt(scene, { x: x + nx * off, y: y + ny * off }, slack)?.kind !== kind)
+    .map(([kind]) => kind);
+}"""
+
+
+def out_of_view(page: Page, selectors: tuple[str, ...], size: tuple[int, int]) -> list[str]:
+    """What is not wholly in the window."""
+    outside = []
+    for selector in selectors:
+        box = page.locator(selector).bounding_box()
+        assert box is not None, selector
+        right, bottom = box["x"] + box["width"], box["y"] + box["height"]
+        if box["x"] < 0 or box["y"] < 0 or right > size[0] + 0.5 or bottom > size[1] + 0.5:
+            outside.append(f"{selector} {box}")
+    return outside
+
+
+def resize(page: Page, size: tuple[int, int]) -> None:
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    wait_for(page, "([width, height]) => innerWidth === width && innerHeight === height", list(size))
+
+
+def fill(run: FakeRun) -> None:
+    """Long words in every place."""
+    trial = {"tick": 1, "cell": 7, "side": 1, "helped": 1, "frozen": 0}
+    run.states[0] |= {
+        "reason": 5,
+        "pattern": 6,
+        "trial": trial,
+        "tick": 5000,
+        "memory": [0, 1, 2, 1, 2, 1, 2, 1],
+        "learned": [-1, *[4000] * 7],
+        "uses": [0, *[322] * 7],
+    }
+    lesson = {"node": 1, "tick": 5, "cell": 7, "side": 1, "by_hand": 0}
+    run.send(lessons=[{**lesson, "tick": tick} for tick in range(30)])
+
+
+@pytest.fixture
+def live(open_page: Callable[..., Page]) -> Page:
+    run = FakeRun([robot_state(1, 800, 700)])
+    page = open_page(HOME, prepare=run.serve)
+    fill(run)
+    wait_for(page, "document.querySelector('#lessons').children.length === 30")
+    return page
+
+
+def test_the_live_page_has_all_that_matters_in_view(live):
+    for size in SIZES:
+        resize(live, size)
+        assert out_of_view(live, LIVE, size) == [], size
+        assert live.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
+        arena = live.locator("#floor").bounding_box()
+        assert arena["height"] >= min(size[1] * 0.5, size[0] * 0.7), size
+
+
+def test_the_replay_has_all_that_matters_in_view_even_while_it_compares(recorded: Path, open_page):
+    page = open_page(recorded.as_uri())
+    page.click("#pin")
+    page.evaluate("octet.go(octet.data.last)")
+    wait_for(page, "document.querySelectorAll('.cell.changed').length > 0")
+    for size in SIZES:
+        resize(page, size)
+        assert out_of_view(page, REPLAY, size) == [], size
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
+
+
+def test_fingers_can_hit_everything_on_a_phone(live):
+    for size in PHONES:
+        resize(live, size)
+        assert live.evaluate(TOO_SMALL) == [], size
+        wait_for(live, "octet.view.renderer.size.width === octet.view.renderer.canvas.clientWidth")
+        live.wait_for_timeout(50)
+        assert live.evaluate(REACH) == [], size
+
+
+def test_the_arena_stays_in_view_when_an_obstacle_is_added_on_a_phone(live):
+    for size in PHONES:
+        resize(live, size)
+        live.click("#add-bar")
+        assert out_of_view(live, ("#floor",), size) == [], size
+
+
+def violations(page: Page) -> list[str]:
+    return [f"{it['id']}: {it['nodes'][0]['html'][:90]}" for it in Axe().run(page).response["violations"]]
+
+
+def test_axe_finds_nothing_on_the_live_page(live):
+    for scheme, size in itertools.product(SCHEMES, THREE_SIZES):
+        live.emulate_media(color_scheme=scheme)
+        resize(live, size)
+        assert violations(live) == [], (scheme, size)
+
+
+def test_axe_finds_nothing_on_the_replay(recorded: Path, open_page):
+    page = open_page(recorded.as_uri())
+    for scheme, size in itertools.product(SCHEMES, THREE_SIZES):
+        page.emulate_media(color_scheme=scheme)
+        resize(page, size)
+        assert violations(page) == [], (scheme, size)
+
+
+def test_axe_finds_what_is_wrong(live):
+    live.evaluate("document.querySelector('#legend').innerHTML = '<p style=\"color: #ccc\">grey</p>'")
+
+    assert violations(live) != []
