@@ -3,6 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "hal/flash_store/crc32.h"
 #include "hal/flash_store/flash.h"
 
 enum { TRIES_MAX = 4 };   /* worn places passed over in one go */
@@ -19,21 +20,15 @@ union place {
     uint32_t words[FLASH_UNIT_MAX / 4];
 };
 
-enum content { BLANK, RECORD, RUBBISH };
+/* A mark is a record whose CRC is inverted: firmware that knows no marks passes it over like any rubbish. */
+enum content { BLANK, RECORD, MARK, RUBBISH };
 
-/* CRC-32 as in Ethernet: polynomial 0xEDB88320 reflected, start and final xor all ones. */
 static uint32_t crc_of(const struct record *record)
 {
     uint8_t bytes[offsetof(struct record, crc)];
-    uint32_t crc = UINT32_MAX;
 
     memcpy(bytes, record, sizeof bytes);
-    for (unsigned i = 0; i < sizeof bytes; i++) {
-        crc ^= bytes[i];
-        for (unsigned bit = 0; bit < 8; bit++)
-            crc = crc >> 1 ^ (crc & 1u ? 0xEDB88320u : 0);
-    }
-    return ~crc;
+    return crc32(bytes, sizeof bytes);
 }
 
 static uint32_t size_of_place(void)
@@ -47,6 +42,7 @@ static enum content look(unsigned page, uint32_t offset, union place *out)
 {
     uint32_t size = size_of_place();
     uint32_t all = UINT32_MAX;
+    uint32_t difference;
 
     if (flash_read(page, offset, out->words, size) < 0)
         return RUBBISH;
@@ -54,7 +50,10 @@ static enum content look(unsigned page, uint32_t offset, union place *out)
         all &= out->words[i];
     if (all == UINT32_MAX)
         return BLANK;
-    return out->record.crc == crc_of(&out->record) ? RECORD : RUBBISH;
+    difference = out->record.crc ^ crc_of(&out->record);
+    if (difference == UINT32_MAX)
+        return MARK;
+    return difference == 0 ? RECORD : RUBBISH;
 }
 
 /* Where the rest of a page begins that is blank: what comes before is written, or half written, or worn. */
@@ -90,27 +89,32 @@ static void find_newest(struct flash_store *store, uint8_t page, union place *fo
         }
 }
 
-int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
+static void make_record(union place *place, uint32_t number, const uint8_t memory[CELL_COUNT])
 {
-    union place place;
-
-    *store = (struct flash_store){.newest = FLASH_STORE_NOWHERE};
-    for (uint8_t page = 0; page < FLASH_PAGES; page++)
-        find_newest(store, page, &place, memory);
-    store->page = store->kept;
-    store->next = (uint16_t)used_of(store->page, &place);
-    if (has_record(store))
-        return 1;
-    return used_of(0, &place) + used_of(1, &place) == 0 ? 0 : HAL_E_STORE;
+    memset(place, 0xFF, sizeof *place);
+    place->record.number = number;
+    memcpy(place->record.memory, memory, CELL_COUNT);
+    place->record.crc = crc_of(&place->record);
 }
 
-static bool is_stored(const struct flash_store *store, union place *scratch, const uint8_t memory[CELL_COUNT])
+/* Blank behind a mark. A page that is blank without one may owe that to an erase which lost its power: it would not hold
+ * for long what is written to it. */
+static bool is_erased(unsigned page, union place *scratch)
 {
-    uint32_t wanted[CELL_COUNT / 4];
+    return used_of(page, scratch) == size_of_place() && look(page, 0, scratch) == MARK;
+}
 
-    memcpy(wanted, memory, sizeof wanted);
-    return has_record(store) && look(store->kept, store->newest, scratch) == RECORD &&
-           scratch->words[1] == wanted[0] && scratch->words[2] == wanted[1];
+/* A mark that cannot be written is done without: the page is in use from now on, and its records are as good a sign. */
+static int erase(unsigned page, union place *scratch)
+{
+    static const uint8_t nothing[CELL_COUNT] = {0};
+
+    if (flash_erase(page) < 0 || used_of(page, scratch) > 0)
+        return HAL_E_STORE;
+    make_record(scratch, 0, nothing);
+    scratch->record.crc = ~scratch->record.crc;
+    (void)flash_write(page, 0, scratch->words, size_of_place());
+    return 0;
 }
 
 /* Goes on in the page that can be spared. 0, or as flash_store_save. */
@@ -118,15 +122,49 @@ static int turn_page(struct flash_store *store, union place *scratch, bool may_e
 {
     uint8_t spare = 1 - (has_record(store) ? store->kept : store->page);
 
-    if (used_of(spare, scratch) > 0) {
+    if (!is_erased(spare, scratch)) {
         if (!may_erase)
             return FLASH_STORE_LATER;
-        if (flash_erase(spare) < 0 || used_of(spare, scratch) > 0)
+        if (erase(spare, scratch) < 0)
             return HAL_E_STORE;
     }
     store->page = spare;
-    store->next = 0;
+    store->next = (uint16_t)size_of_place();
     return 0;
+}
+
+/* What follows the newest record was tried in vain. It may read well another day: its numbers are taken. */
+static void go_on_behind_newest(struct flash_store *store, union place *scratch)
+{
+    store->page = store->kept;
+    store->next = (uint16_t)used_of(store->page, scratch);
+    store->number += (store->next - store->newest) / size_of_place() - 1;
+}
+
+int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
+{
+    union place place;
+    bool blank = true;
+
+    *store = (struct flash_store){.newest = FLASH_STORE_NOWHERE, .page = 1, .next = (uint16_t)flash_page_size()};
+    for (uint8_t page = 0; page < FLASH_PAGES; page++) {
+        find_newest(store, page, &place, memory);
+        blank = blank && (used_of(page, &place) == 0 || is_erased(page, &place));
+    }
+    if (has_record(store))
+        go_on_behind_newest(store, &place);
+    if (store->next == flash_page_size())
+        (void)turn_page(store, &place, true);   /* saving tries again where this fails */
+    if (has_record(store))
+        return 1;
+    return blank ? 0 : HAL_E_STORE;
+}
+
+/* A later try that failed may turn out to be whole after a reset: then the newest record is not the last word. */
+static bool is_stored(const struct flash_store *store, union place *scratch, const uint8_t memory[CELL_COUNT])
+{
+    return has_record(store) && look(store->kept, store->newest, scratch) == RECORD &&
+           scratch->record.number == store->number && memcmp(scratch->record.memory, memory, CELL_COUNT) == 0;
 }
 
 static bool append(struct flash_store *store, const union place *place)
@@ -137,18 +175,9 @@ static bool append(struct flash_store *store, const union place *place)
     store->next = (uint16_t)(here + size);
     if (flash_write(store->page, here, place->words, size) < 0)
         return false;
-    store->number = place->record.number;
     store->newest = here;
     store->kept = store->page;
     return true;
-}
-
-static void make_record(union place *place, uint32_t number, const uint8_t memory[CELL_COUNT])
-{
-    memset(place, 0xFF, sizeof *place);
-    place->record.number = number;
-    memcpy(place->record.memory, memory, CELL_COUNT);
-    place->record.crc = crc_of(&place->record);
 }
 
 int flash_store_save(struct flash_store *store, const uint8_t memory[CELL_COUNT], bool may_erase)
@@ -162,7 +191,7 @@ int flash_store_save(struct flash_store *store, const uint8_t memory[CELL_COUNT]
 
         if (result != 0)
             return result;
-        make_record(&place, store->number + 1, memory);
+        make_record(&place, ++store->number, memory);
         if (append(store, &place))
             return 0;
     }

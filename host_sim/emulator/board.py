@@ -30,7 +30,9 @@ from host_sim.paths import image_path
 from host_sim.protocol.codec import Frame
 from host_sim.transport.slcan_link import encode
 
-_BOOT_S = 0.05
+_BOOT_S = 0.6
+"""Enough to erase a page of flash."""
+
 _WINDOWS = ((0x40000000, 0x80000), (0xE000E000, PAGE))
 """(base, bytes) of where registers can be."""
 

@@ -3,6 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 from host_sim.emulator.clock import SECOND, Clock
 from host_sim.emulator.registers import BoardError, Peripheral, PowerCut, Register
@@ -78,6 +79,7 @@ class Flash(Peripheral):
         """
         self._clock, self._faults = clock, faults
         self.memory = bytearray(_ERASED) * sum(self.kind.pages)
+        self._half_erased: set[int] = set()
         self.operations = self.erasures = self.code_end = self._keys_taken = 0
         self._acr = Register("ACR")
         self._cr = Register("CR", self.kind.lock, on_write=self._write_cr)
@@ -115,10 +117,12 @@ class Flash(Peripheral):
         """The core writes to the memory.
 
         Raises:
-            BoardError: That is where the image is.
+            BoardError: That is where the image is, or what is written there would not last.
             PowerCut: The power went in the middle.
         """
         self._protect(offset)
+        if self._page_of(offset) in self._half_erased:
+            raise BoardError(f"page {self._page_of(offset)} of the flash was written, but its erase was cut short")
         flags = self.refusal(offset, size, value)
         if flags:
             self._sr.value |= flags
@@ -134,8 +138,9 @@ class Flash(Peripheral):
         size, offset = self.kind.pages[page], sum(self.kind.pages[:page])
         self._protect(offset)
         self.erasures += 1
-        half = _ERASED * (size // 2)
-        self._change(offset, half * 2, half + bytes(self.memory[offset + size // 2 : offset + size]))
+        self._half_erased.add(page)
+        self._change(offset, _ERASED * size, _ERASED * size)  # cut short, it reads blank and is not
+        self._half_erased.discard(page)
         self._clock.skip(self.kind.erase_span)
 
     def _change(self, offset: int, whole: bytes, partial: bytes) -> None:
@@ -147,6 +152,9 @@ class Flash(Peripheral):
         self.memory[offset : offset + len(whole)] = partial if cut else whole
         if cut:
             raise PowerCut
+
+    def _page_of(self, offset: int) -> int:
+        return next(page for page, end in enumerate(accumulate(self.kind.pages)) if offset < end)
 
     def _protect(self, offset: int) -> None:
         if offset < self.code_end:

@@ -284,6 +284,7 @@ def test_a_memory_that_cannot_be_stored_is_counted_and_the_robot_goes_on(name):
     learn(talk, Side.LEFT)
 
     assert len(talk.live(50)) == 50
+    talk.wait(1.5)  # at rest there is time to erase, in vain
     assert talk.ask()["unsaved"] > 0
     assert talk.board.resets == []
 

@@ -144,3 +144,22 @@ def test_a_write_can_be_cut_in_the_middle(clock):
         flash.write(0x100, 2, 0)
 
     assert flash.read(0x100, 2) == 0x0F0F
+
+
+@pytest.mark.parametrize("make", [f1, f4])
+def test_a_page_whose_erase_was_cut_short_reads_blank_and_must_not_be_written(clock, make):
+    flash = make(clock, cut_at=1)
+    page, size = 3, flash.kind.pages[3]
+    start = sum(flash.kind.pages[:page])
+    flash.memory[start : start + size] = bytes(size)
+    if make is f1:
+        write(flash, CR, 1 << 1)
+        write(flash, 0x14, 0x08000000 + start)
+    erase = (1 << 1 | 1 << 6) if make is f1 else (1 << 1 | page << 3 | 1 << 16)
+
+    with pytest.raises(PowerCut):
+        write(flash, CR, erase)
+
+    assert flash.read(start, 4) == 0xFFFFFFFF
+    with pytest.raises(BoardError, match="cut short"):
+        flash.write(start, 2, 0)

@@ -94,17 +94,18 @@ int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t
 {
     assert_within(page, offset, count);
     fake_flash.writes++;
+    TEST_ASSERT_FALSE_MESSAGE(fake_flash.weak[page], "written to a page whose erase was cut short");
     if (fake_flash.worn[page] >> offset / fake_flash_place() & 1)
         return -1;
     for (uint32_t done = 0; done < count; done += fake_flash.kind.step)
         write_step(page, offset + done, (const uint8_t *)words + done);
-    return 0;
+    return fake_flash.write_fails ? -1 : 0;
 }
 
-/* Not begun, every other byte, or nearly done: the last byte is still what it was. */
+/* Not begun, every other byte, or all of them to all appearances. */
 static void half_erase(unsigned page)
 {
-    for (unsigned i = 0; i + 1 < flash_page_size(); i++)
+    for (unsigned i = 0; i < flash_page_size(); i++)
         if (fake_flash.damage == 2 || (fake_flash.damage != 0 && i % 2 == 0))
             fake_flash.bytes[page][i] = 0xFF;
     spoil(page, 0, flash_page_size());
@@ -117,7 +118,8 @@ int flash_erase(unsigned page)
     if (fake_flash.erase_does_nothing)
         return 0;
     fake_flash.erases++;
-    if (power_fails_now()) {
+    fake_flash.weak[page] = power_fails_now();
+    if (fake_flash.weak[page]) {
         half_erase(page);
         longjmp(fake_flash.cut, 1);
     }

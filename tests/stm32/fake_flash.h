@@ -29,6 +29,8 @@ struct fake_flash {
     unsigned writes, erases;
     bool erase_fails;
     bool erase_does_nothing;    /* and says that it did */
+    bool write_fails;           /* says so, though all is written */
+    bool weak[FLASH_PAGES];     /* its erase was cut short: what is written there decays, and nobody may */
     uint8_t worn[FLASH_PAGES];  /* bit r: record r of the page takes no writes */
 };
 

@@ -1,0 +1,48 @@
+#include "hal/flash_store/crc32.h"
+
+#include <string.h>
+
+#include <unity.h>
+
+void setUp(void) {}
+
+void tearDown(void) {}
+
+static uint32_t crc_of(const char *text)
+{
+    return crc32((const uint8_t *)text, strlen(text));
+}
+
+/* The check value of CRC-32/ISO-HDLC in the catalogue of parametrised CRC algorithms; zlib's crc32 gives all of these. */
+static void test_known_answers(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0xCBF43926, crc_of("123456789"));
+    TEST_ASSERT_EQUAL_HEX32(0x00000000, crc_of(""));
+    TEST_ASSERT_EQUAL_HEX32(0xE8B7BE43, crc_of("a"));
+    TEST_ASSERT_EQUAL_HEX32(0x414FA339, crc_of("The quick brown fox jumps over the lazy dog"));
+}
+
+static void test_zeros_and_ones_count(void)
+{
+    static const uint8_t zeros[4] = {0, 0, 0, 0}, ones[4] = {0xFF, 0xFF, 0xFF, 0xFF};
+
+    TEST_ASSERT_EQUAL_HEX32(0x2144DF1C, crc32(zeros, sizeof zeros));
+    TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFF, crc32(ones, sizeof ones));
+}
+
+static void test_the_count_is_kept_to(void)
+{
+    static const uint8_t bytes[3] = {'a', 'b', 'c'};
+
+    TEST_ASSERT_EQUAL_HEX32(0xE8B7BE43, crc32(bytes, 1));
+    TEST_ASSERT_EQUAL_HEX32(0x352441C2, crc32(bytes, 3));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_known_answers);
+    RUN_TEST(test_zeros_and_ones_count);
+    RUN_TEST(test_the_count_is_kept_to);
+    return UNITY_END();
+}
