@@ -9,14 +9,11 @@
 
 enum {
     IDS_PER_BANK = 4,
-    MAILBOXES = 3,
 
-    MCR_INRQ = 1 << 0,
-    MCR_TXFP = 1 << 2,            /* mailboxes leave in the order of request */
+    MCR_INRQ = 1 << 0,            /* without TXFP beside it: the lowest identifier leaves first */
     MSR_INAK = 1 << 0,
-    TSR_ABRQ_ALL = 1 << 7 | 1 << 15 | 1 << 23,
-    TSR_TME0 = 1 << 26,           /* mailbox 0 is free */
-    TSR_TME_ALL = 7 << 26,
+    TSR_ABRQ0 = 1 << 7,           /* gives mailbox 0 up; the others' are 8 bits up each */
+    TSR_TME_AT = 26,              /* a bit for each mailbox: it is free */
     RFR_FMP = 3,
     RFR_FOVR = 1 << 4,
     RFR_RFOM = 1 << 5,
@@ -34,7 +31,7 @@ bool can_stop(void)
 {
     uint32_t start = machine_ms();
 
-    CAN1.mcr = MCR_TXFP | MCR_INRQ;
+    CAN1.mcr = MCR_INRQ;
     while (!(CAN1.msr & MSR_INAK))
         if (machine_ms() - start > CAN_STOP_MS)
             return false;
@@ -43,7 +40,7 @@ bool can_stop(void)
 
 void can_start(void)
 {
-    CAN1.mcr = MCR_TXFP;
+    CAN1.mcr = 0;
 }
 
 enum can_state can_state(void)
@@ -128,27 +125,50 @@ static void write_mailbox(volatile struct can_mailbox *mailbox, const struct fra
     mailbox->id = frame->id << STANDARD_AT | ID_TXRQ;
 }
 
+static uint32_t taken(void)
+{
+    return ~CAN1.tsr >> TSR_TME_AT & ((1u << CAN_BUFFERS) - 1u);
+}
+
+static uint32_t id_in(unsigned n)
+{
+    return CAN1.sent[n].id >> STANDARD_AT;
+}
+
+/* Equal identifiers leave by number of mailbox. */
 bool can_put(const struct frame *frame)
 {
-    uint32_t status = CAN1.tsr;
-    unsigned n = 0;
+    uint32_t waiting = taken();
+    unsigned n = CAN_BUFFERS;
 
-    if (!(status & TSR_TME_ALL))
-        return false;
-    while (!(status & (uint32_t)TSR_TME0 << n))
+    while (n > 0 && !(waiting >> (n - 1) & 1u && id_in(n - 1) == frame->id))
+        n--;
+    while (n < CAN_BUFFERS && waiting >> n & 1u)
         n++;
+    if (n == CAN_BUFFERS)
+        return false;
     write_mailbox(&CAN1.sent[n], frame);
     return true;
 }
 
-unsigned can_drop(void)
+uint32_t can_waiting(uint32_t ids[CAN_BUFFERS])
 {
-    unsigned waiting = 0;
+    uint32_t waiting = taken();
 
-    for (unsigned n = 0; n < MAILBOXES; n++)
-        waiting += !(CAN1.tsr & (uint32_t)TSR_TME0 << n);
-    CAN1.tsr = TSR_ABRQ_ALL;
+    for (unsigned n = 0; n < CAN_BUFFERS; n++)
+        if (waiting >> n & 1u)
+            ids[n] = id_in(n);
     return waiting;
+}
+
+void can_abort(uint32_t buffers)
+{
+    uint32_t request = 0;
+
+    for (unsigned n = 0; n < CAN_BUFFERS; n++)
+        if (buffers >> n & 1u)
+            request |= (uint32_t)TSR_ABRQ0 << 8 * n;
+    CAN1.tsr = request;
 }
 
 static enum bus_state state_of(uint32_t status)

@@ -6,7 +6,10 @@
 
 #include "hal/link/link.h"
 
-enum { CAN_STOP_MS = 2 };   /* the frame under way ends first */
+enum {
+    CAN_STOP_MS = 2,   /* the frame under way ends first */
+    CAN_BUFFERS = 3    /* for frames to be sent */
+};
 
 bool can_stop(void);
         /* Leaves the bus; from here on it can be set up. False: it does not answer within CAN_STOP_MS. */
@@ -26,11 +29,15 @@ int can_take(struct frame *out);
         /* What has come, the oldest first: 1, 0 for nothing, or LINK_E_GARBLED where some were lost. */
 
 bool can_put(const struct frame *frame);
-        /* To be sent. False: there is no room for it now. Frames of one identifier leave in the order in which they were
-           put. */
+        /* To be sent: the lowest identifier leaves first, and of equal ones the one that was put first. False: there is no
+           buffer free in which that would hold. */
 
-unsigned can_drop(void);
-        /* Forgets what waits to be sent; returns how many frames that was. One under way may still arrive. */
+uint32_t can_waiting(uint32_t ids[CAN_BUFFERS]);
+        /* Bit n: a frame in buffer n waits to be sent or is under way, and ids[n] is its identifier. */
+
+void can_abort(uint32_t buffers);
+        /* Forgets what waits to be sent in these, a bit each. One under way may still arrive, and keeps its buffer until
+           then. */
 
 void can_status(struct link_health *out);
         /* Fills in state, tx_errors and rx_errors. */

@@ -4,6 +4,7 @@
 #include <stdbool.h>
 
 #include "hal/stm32/can_controller.h"
+#include "hal/stm32/can_queue.h"
 #include "hal/stm32/can_timing.h"
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
@@ -13,8 +14,8 @@ enum { RECOVERY_MS = 250 };   /* from bus-off to the next try: four times what a
 struct link {
     uint32_t off_ms;   /* when the last try to recover from bus-off began */
     bool off;          /* bus-off, and not yet recovered */
-    uint8_t bus_offs;
-    uint8_t dropped;   /* both as in struct link_health */
+    uint8_t bus_offs;  /* as in struct link_health */
+    struct can_queue queue;
 };
 
 static struct link the_link;   /* one controller */
@@ -34,11 +35,6 @@ int link_open(struct link **link, const char *name, const uint16_t ids[], size_t
     return 0;
 }
 
-static void count(uint8_t *counter, unsigned more)
-{
-    *counter = (uint8_t)(*counter + more < UINT8_MAX ? *counter + more : UINT8_MAX);
-}
-
 /* What waits to be sent would be out of date by the time it could be. */
 static void recover(struct link *link)
 {
@@ -46,9 +42,9 @@ static void recover(struct link *link)
 
     if (link->off && now - link->off_ms < RECOVERY_MS)
         return;
-    if (!link->off)
-        count(&link->bus_offs, 1);
-    count(&link->dropped, can_drop());
+    if (!link->off && link->bus_offs < UINT8_MAX)
+        link->bus_offs++;
+    can_queue_drop(&link->queue);
     link->off = true;
     link->off_ms = now;
     if (can_stop())
@@ -74,6 +70,8 @@ int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
 
     do {
         up = is_up(link);
+        if (link->queue.count > 0)
+            (void)can_queue_pump(&link->queue);
         result = can_take(out);
     } while (result == 0 && machine_ms() - start < wait_ms);
     return result == 0 && !up ? LINK_E_DOWN : result;
@@ -81,26 +79,19 @@ int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
 
 int link_send(struct link *link, const struct frame *frame)
 {
-    uint32_t start = machine_ms();
-
     if (!is_up(link))
         return LINK_E_DOWN;
-    while (!can_put(frame))
-        if (machine_ms() - start > LINK_SEND_MS) {
-            count(&link->dropped, can_drop());
-            return LINK_E_FULL;
-        }
-    return 0;
+    return can_queue_put(&link->queue, frame) ? 0 : LINK_E_FULL;
 }
 
-/* The controller keeps three frames by itself. */
+/* The controller keeps three received frames by itself. */
 void line_pump(void)
 {
 }
 
 void link_health(const struct link *link, struct link_health *out)
 {
-    *out = (struct link_health){.bus_offs = link->bus_offs, .dropped = link->dropped};
+    *out = (struct link_health){.bus_offs = link->bus_offs, .dropped = link->queue.dropped};
     can_status(out);
 }
 

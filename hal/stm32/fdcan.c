@@ -16,7 +16,7 @@ enum {
     FILTER_TO_FIFO_0 = 1 << 27,
     TXBC_BY_IDENTIFIER = 1 << 24,
     TXFQS_NEXT_AT = 16,
-    BUFFERS_ALL = 7,
+    TXFQS_FULL = 1 << 21,
     RXF0S_LEVEL = 15,
     RXF0S_FIRST_AT = 8,
     RXF0S_LOST = 1 << 25,
@@ -119,40 +119,36 @@ int can_take(struct frame *out)
     return 1;
 }
 
-/* The lowest identifier leaves first, whichever was put first; but two that are equal would leave by buffer, so that the second
- * has to wait. The last free buffer is for a frame that outranks all that wait: less urgent ones never hold it up. */
-static bool has_room(uint32_t id)
-{
-    uint32_t waiting = FDCAN.txbrp & BUFFERS_ALL;
-    bool outranks_all = true;
-    unsigned count = 0;
-
-    for (unsigned n = 0; n < FDCAN_ELEMENTS; n++)
-        if (waiting >> n & 1u) {
-            uint32_t other = FDCAN_RAM.sent[n].id;
-
-            if (other == id)
-                return false;
-            outranks_all = outranks_all && id < other;
-            count++;
-        }
-    return count + 1 < FDCAN_ELEMENTS || (count < FDCAN_ELEMENTS && outranks_all);
-}
-
 static uint32_t word_of(const uint8_t data[4])
 {
     return data[0] | (uint32_t)data[1] << 8 | (uint32_t)data[2] << 16 | (uint32_t)data[3] << 24;
 }
 
+static uint32_t id_in(unsigned n)
+{
+    return FDCAN_RAM.sent[n].id >> STANDARD_AT;
+}
+
+/* Equal identifiers leave by number of buffer. */
+static bool would_overtake(uint32_t buffer, uint32_t id)
+{
+    uint32_t waiting = FDCAN.txbrp;
+
+    for (uint32_t n = buffer + 1; n < CAN_BUFFERS; n++)
+        if (waiting >> n & 1u && id_in(n) == id)
+            return true;
+    return false;
+}
+
 bool can_put(const struct frame *frame)
 {
-    uint32_t id = frame->id << STANDARD_AT;
-    uint32_t next = FDCAN.txfqs >> TXFQS_NEXT_AT & 3u;
+    uint32_t fifo = FDCAN.txfqs;
+    uint32_t next = fifo >> TXFQS_NEXT_AT & 3u;
     volatile struct fdcan_element *element = &FDCAN_RAM.sent[next];
 
-    if (!has_room(id))
+    if (fifo & TXFQS_FULL || would_overtake(next, frame->id))
         return false;
-    element->id = id;
+    element->id = frame->id << STANDARD_AT;
     element->control = (uint32_t)frame->len << LENGTH_AT;
     element->data[0] = word_of(&frame->data[0]);
     element->data[1] = word_of(&frame->data[4]);
@@ -160,12 +156,19 @@ bool can_put(const struct frame *frame)
     return true;
 }
 
-unsigned can_drop(void)
+uint32_t can_waiting(uint32_t ids[CAN_BUFFERS])
 {
-    uint32_t waiting = FDCAN.txbrp & BUFFERS_ALL;
+    uint32_t waiting = FDCAN.txbrp;
 
-    FDCAN.txbcr = waiting;
-    return (waiting & 1u) + (waiting >> 1 & 1u) + (waiting >> 2);
+    for (unsigned n = 0; n < CAN_BUFFERS; n++)
+        if (waiting >> n & 1u)
+            ids[n] = id_in(n);
+    return waiting;
+}
+
+void can_abort(uint32_t buffers)
+{
+    FDCAN.txbcr = buffers;
 }
 
 void can_status(struct link_health *out)

@@ -1,4 +1,7 @@
-"""What a tick costs: instructions from the senses that are seen in the FIFO to the drive in the mailbox."""
+"""What a tick costs: instructions from the senses that are seen in the FIFO to the drive in the mailbox.
+
+What the robot spends on waiting until its other frames have left is not counted: that is the wire's time.
+"""
 
 from collections.abc import Callable
 
@@ -13,8 +16,8 @@ from host_sim.sim.make import assemble
 from host_sim.sim.run_config import RunConfig
 
 _READY_S = 5.0
-_RF0R, _MAILBOXES, _RI0R = 0x0C, (0x180, 0x190, 0x1A0), 0x1B0
-_FMP, _RFOM, _TXRQ = 3, 1 << 5, 1
+_TSR, _RF0R, _MAILBOXES, _RI0R = 0x08, 0x0C, (0x180, 0x190, 0x1A0), 0x1B0
+_FMP, _RFOM, _TXRQ, _ALL_FREE = 3, 1 << 5, 1, 7 << 26
 _ID_SHIFT = 21
 
 
@@ -36,7 +39,9 @@ class TickCost:
         self._core, self._registers = board.hardware.core, board.hardware.can.registers
         self._begun: int | None = None
         self._is_news = True
+        self._transmit_status, self._seen = 0, 0
         self.counts: list[int] = []
+        _watch(self._registers[_TSR], self._note_waiting, lambda _value: None)
         _watch(self._registers[_RF0R], self._note_status, self._note_release)
         for mailbox in _MAILBOXES:
             _watch(self._registers[mailbox], lambda _value: None, self._note_request)
@@ -48,10 +53,18 @@ class TickCost:
         if self._registers[_RI0R].read() >> _ID_SHIFT == self._senses:
             self._begun = self._core.instructions
 
+    def _note_waiting(self, status: int) -> None:
+        """Takes off what has passed since the last look, if mailboxes were taken then and nothing has changed."""
+        now = self._core.instructions
+        if status == self._transmit_status and status & _ALL_FREE != _ALL_FREE and self._begun is not None:
+            self._begun += now - self._seen
+        self._transmit_status, self._seen = status, now
+
     def _note_release(self, value: int) -> None:
         self._is_news = self._is_news or bool(value & _RFOM)
 
     def _note_request(self, value: int) -> None:
+        self._transmit_status = 0
         if value & _TXRQ and value >> _ID_SHIFT == self._drive and self._begun is not None:
             self.counts.append(self._core.instructions - self._begun)
             self._begun = None

@@ -27,6 +27,7 @@ void fdcan_reset(void)
     FDCAN.ie = FDCAN.ile = 3;   /* as a boot loader may leave them */
     FDCAN.rxf0a = NOTHING_READ;
     fdcan.in_init = true;
+    fdcan.on_wire = -1;
     fdcan.clocks = (struct clocks){80000000, 80000000, 80000000, true};
     fdcan_step();
 }
@@ -34,6 +35,7 @@ void fdcan_reset(void)
 static void forget_all(void)
 {
     FDCAN.txbrp = FDCAN.txbar = 0;
+    fdcan.on_wire = -1;
     fdcan.waiting = fdcan.first = 0;
     fdcan.lost = false;
 }
@@ -65,6 +67,11 @@ static void step_recovery(void)
     FDCAN.psr = 0x707u | (fdcan.joined ? IDLE : 0u) | (fdcan.bus_off ? BUS_OFF_FLAG : 0u) | (FDCAN.psr & 0x60u);
 }
 
+static bool wins(uint32_t id)
+{
+    return fdcan.occupied_by == 0 || id < fdcan.occupied_by;
+}
+
 /* By identifier, and equal ones by number. In a FIFO it would be the oldest, which no driver of ours asks for. */
 static int next_to_send(void)
 {
@@ -73,30 +80,39 @@ static int next_to_send(void)
     for (int n = 0; n < FDCAN_ELEMENTS; n++)
         if (FDCAN.txbrp >> n & 1u && (next < 0 || FDCAN_RAM.sent[n].id < FDCAN_RAM.sent[next].id))
             next = n;
-    return FDCAN.txbc & BY_IDENTIFIER ? next : -1;
+    return next >= 0 && FDCAN.txbc & BY_IDENTIFIER && wins(FDCAN_RAM.sent[next].id >> 18) ? next : -1;
 }
 
-static void send_from(int n)
+static void end_transmission(void)
 {
-    const volatile struct fdcan_element *element = &FDCAN_RAM.sent[n];
+    const volatile struct fdcan_element *element = &FDCAN_RAM.sent[fdcan.on_wire];
     struct frame *frame = &fdcan.sent[fdcan.sent_count++ % MODEL_SENT_MAX];
 
     *frame = (struct frame){.id = element->id >> 18, .len = (uint8_t)(element->control >> 16 & 15u)};
     memcpy(frame->data, (const void *)element->data, 8);
-    FDCAN.txbrp &= ~(1u << n);
+    FDCAN.txbrp &= ~(1u << fdcan.on_wire);
+    fdcan.on_wire = -1;
+}
+
+/* A request is given up at once, unless its frame is on the wire: that one is let go to its end. */
+static void take_requests(void)
+{
+    uint32_t under_way = fdcan.on_wire >= 0 ? 1u << fdcan.on_wire : 0u;
+
+    FDCAN.txbrp |= FDCAN.txbar;
+    FDCAN.txbrp &= ~FDCAN.txbcr | under_way;
+    FDCAN.txbar = FDCAN.txbcr = 0;
 }
 
 static void step_transmit(void)
 {
-    int next;
-
-    FDCAN.txbrp |= FDCAN.txbar;
-    for (unsigned n = 0; n < FDCAN_ELEMENTS; n++)
-        fdcan.cancelled += (FDCAN.txbrp & FDCAN.txbcr) >> n & 1u;
-    FDCAN.txbrp &= ~FDCAN.txbcr;
-    FDCAN.txbar = FDCAN.txbcr = 0;
-    while (fdcan.joined && !fdcan.bus_busy && (next = next_to_send()) >= 0)
-        send_from(next);
+    take_requests();
+    if (fdcan.on_wire >= 0 && fdcan.now_us - fdcan.on_wire_us >= MODEL_FRAME_US)
+        end_transmission();
+    if (fdcan.on_wire < 0 && fdcan.joined && !fdcan.bus_busy) {
+        fdcan.on_wire = next_to_send();
+        fdcan.on_wire_us = fdcan.now_us;
+    }
     FDCAN.txfqs = 1u << 21;
     for (unsigned n = FDCAN_ELEMENTS; n-- > 0;)
         if (!(FDCAN.txbrp >> n & 1u))

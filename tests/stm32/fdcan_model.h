@@ -13,7 +13,8 @@ enum {
     MODEL_SENT_MAX = 64,
     MODEL_FIFO_DEPTH = 3,
     MODEL_LOOK_US = 50,        /* from one look at the clock to the next */
-    MODEL_RECOVERY_US = 3000   /* 129 times 11 bits at 500 kbit/s, and a little */
+    MODEL_RECOVERY_US = 3000,  /* 129 times 11 bits at 500 kbit/s, and a little */
+    MODEL_FRAME_US = 250       /* on the wire */
 };
 
 struct fdcan_model {
@@ -22,6 +23,7 @@ struct fdcan_model {
 
     bool ignores_init;         /* INIT is never read back */
     bool bus_busy;             /* nothing can be sent, and the bus cannot be joined */
+    uint32_t occupied_by;      /* identifier that others send without a pause; 0: nobody does */
     bool bus_off;
     bool stays_off;            /* the idle times that end bus-off never come */
     bool joined;
@@ -33,7 +35,8 @@ struct fdcan_model {
 
     struct frame sent[MODEL_SENT_MAX];
     unsigned sent_count;
-    unsigned cancelled;
+    int on_wire;               /* buffer whose frame the wire carries, or -1 */
+    uint32_t on_wire_us;       /* since when */
 
     unsigned first, waiting;   /* of the elements of FIFO 0 */
     bool lost;

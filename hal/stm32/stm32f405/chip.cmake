@@ -2,5 +2,5 @@
 set(OCTET_CHIP_SOURCES clock.c pins.c flash.c)
 set(OCTET_SHARED_SOURCES gpio_f4.c)
 set(OCTET_LINKS bxcan slcan)
-set(OCTET_LINK_bxcan can_link.c can_timing.c bxcan.c)
+set(OCTET_LINK_bxcan can_link.c can_queue.c can_timing.c bxcan.c)
 set(OCTET_LINK_slcan uart_slcan_link.c uart_f1.c)

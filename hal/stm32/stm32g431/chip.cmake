@@ -2,5 +2,5 @@
 set(OCTET_CHIP_SOURCES clock.c pins.c flash.c nmi.c)
 set(OCTET_SHARED_SOURCES gpio_f4.c)
 set(OCTET_LINKS fdcan slcan)
-set(OCTET_LINK_fdcan can_link.c can_timing.c fdcan.c)
+set(OCTET_LINK_fdcan can_link.c can_queue.c can_timing.c fdcan.c)
 set(OCTET_LINK_slcan uart_slcan_link.c uart_g4.c)

@@ -1,0 +1,134 @@
+#include "hal/stm32/can_queue.h"
+
+#include "hal/stm32/can_controller.h"
+#include "hal/stm32/machine.h"
+
+enum {
+    STUCK_MS = 1,    /* on an idle bus a frame leaves every 0.27 ms, */
+    DRAIN_MS = 4     /* and all that can wait within 3 ms */
+};
+
+static void note_dropped(struct can_queue *queue, unsigned more)
+{
+    unsigned sum = queue->dropped + more;
+
+    queue->dropped = (uint8_t)(sum < UINT8_MAX ? sum : UINT8_MAX);
+}
+
+static unsigned count_of(uint32_t buffers)
+{
+    return (buffers & 1u) + (buffers >> 1 & 1u) + (buffers >> 2 & 1u);
+}
+
+void can_queue_drop(struct can_queue *queue)
+{
+    uint32_t ids[CAN_BUFFERS];
+    uint32_t waiting = can_waiting(ids);
+
+    can_abort(waiting);
+    note_dropped(queue, count_of(waiting) + queue->count);
+    queue->count = 0;
+}
+
+/* The controller's last buffer is for what is urgent. */
+unsigned can_queue_pump(struct can_queue *queue)
+{
+    uint32_t ids[CAN_BUFFERS];
+    uint32_t now = machine_ms();
+    unsigned inside = count_of(can_waiting(ids));
+    unsigned waiting = inside + queue->count;
+
+    if (waiting == 0 || waiting < queue->waiting)
+        queue->moved_ms = now;
+    queue->waiting = waiting;
+    if (queue->count > 0 && inside < CAN_BUFFERS - 1u && can_put(&queue->frames[queue->first])) {
+        queue->first = (uint8_t)((queue->first + 1u) % CAN_QUEUE_MAX);
+        queue->count--;
+    }
+    return waiting;
+}
+
+/* Waits until no more frames than that are left to go. False: they do not go. */
+static bool drain(struct can_queue *queue, unsigned left)
+{
+    uint32_t start = machine_ms(), now = start;
+
+    while (can_queue_pump(queue) > left) {
+        if (now - queue->moved_ms > STUCK_MS || now - start > DRAIN_MS)
+            return false;
+        now = machine_ms();
+    }
+    return true;
+}
+
+static bool is_urgent(const struct can_queue *queue, uint32_t id)
+{
+    uint32_t ids[CAN_BUFFERS];
+    uint32_t waiting = can_waiting(ids);
+
+    for (unsigned n = 0; n < CAN_BUFFERS; n++)
+        if (waiting >> n & 1u && ids[n] <= id)
+            return false;
+    for (unsigned i = 0; i < queue->count; i++)
+        if (queue->frames[(queue->first + i) % CAN_QUEUE_MAX].id <= id)
+            return false;
+    return true;
+}
+
+/* Where all buffers are taken, the least urgent frame gives way. */
+static void make_room(struct can_queue *queue)
+{
+    uint32_t ids[CAN_BUFFERS];
+    unsigned last = 0;
+
+    if (count_of(can_waiting(ids)) < CAN_BUFFERS)
+        return;
+    for (unsigned n = 1; n < CAN_BUFFERS; n++)
+        if (ids[n] > ids[last])
+            last = n;
+    can_abort(1u << last);
+    note_dropped(queue, 1);
+}
+
+static bool put_first(struct can_queue *queue, const struct frame *frame)
+{
+    uint32_t start = machine_ms();
+
+    if (!drain(queue, 0))
+        make_room(queue);
+    while (!can_put(frame))
+        if (machine_ms() - start > LINK_SEND_MS)
+            return false;
+    return true;
+}
+
+static bool put_last(struct can_queue *queue, const struct frame *frame)
+{
+    if (!drain(queue, CAN_QUEUE_MAX - 1) && queue->count == CAN_QUEUE_MAX)
+        return false;
+    queue->frames[(queue->first + queue->count++) % CAN_QUEUE_MAX] = *frame;
+    return true;
+}
+
+static bool put(struct can_queue *queue, const struct frame *frame)
+{
+    unsigned waiting = can_queue_pump(queue);
+
+    if (waiting > 0 && machine_ms() - queue->moved_ms > LINK_SEND_MS) {
+        can_queue_drop(queue);
+        waiting = can_queue_pump(queue);
+    }
+    if (waiting == 0)
+        return can_put(frame);
+    return is_urgent(queue, frame->id) ? put_first(queue, frame) : put_last(queue, frame);
+}
+
+bool can_queue_put(struct can_queue *queue, const struct frame *frame)
+{
+    bool taken = put(queue, frame);
+
+    if (!taken)
+        note_dropped(queue, 1);
+    (void)can_queue_pump(queue);
+    return taken;
+}

@@ -1,0 +1,77 @@
+#include <stddef.h>
+
+#include <unity.h>
+
+#include "bxcan_registers.h"
+#include "hal/link/link.h"
+#include "hal/stm32/registers.h"
+
+static const uint16_t WANTED[] = {0x0C1, 0x041};
+static struct link *link_here;
+
+void setUp(void)
+{
+    registers_reset();
+    TEST_ASSERT_EQUAL(0, link_open(&link_here, "", WANTED, 2));
+    registers_pass_us(100);
+}
+
+void tearDown(void) {}
+
+static void test_the_registers_lie_where_the_manual_has_them(void)
+{
+    TEST_ASSERT_EQUAL_HEX(0x01C, offsetof(struct can_registers, btr));
+    TEST_ASSERT_EQUAL_HEX(0x180, offsetof(struct can_registers, sent));
+    TEST_ASSERT_EQUAL_HEX(0x1B0, offsetof(struct can_registers, received));
+    TEST_ASSERT_EQUAL_HEX(0x200, offsetof(struct can_registers, fmr));
+    TEST_ASSERT_EQUAL_HEX(0x204, offsetof(struct can_registers, fm1r));
+    TEST_ASSERT_EQUAL_HEX(0x20C, offsetof(struct can_registers, fs1r));
+    TEST_ASSERT_EQUAL_HEX(0x214, offsetof(struct can_registers, ffa1r));
+    TEST_ASSERT_EQUAL_HEX(0x21C, offsetof(struct can_registers, fa1r));
+    TEST_ASSERT_EQUAL_HEX(0x240, offsetof(struct can_registers, bank));
+}
+
+static void test_it_wakes_up_and_the_lowest_identifier_leaves_first(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0, CAN1.mcr);
+}
+
+static void test_mailboxes_are_written_whole(void)
+{
+    struct frame frame = {.id = 0x7A5, .len = 8};
+
+    TEST_ASSERT_EQUAL(0, link_send(link_here, &frame));
+    TEST_ASSERT_EQUAL_HEX32(0x7A5u << 21 | 1u, CAN1.sent[0].id);
+    TEST_ASSERT_EQUAL_HEX32(8, CAN1.sent[0].length);
+}
+
+static void test_a_frame_being_released_does_not_come_twice(void)
+{
+    struct frame frame;
+
+    can.release_slow = true;
+    for (uint8_t n = 1; n <= 2; n++)
+        TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = 0x0C1, .len = 1, .data = {n}}));
+    registers_pass_us(600);
+    for (uint8_t n = 1; n <= 2; n++) {
+        TEST_ASSERT_EQUAL(1, link_receive(link_here, &frame, 1));
+        TEST_ASSERT_EQUAL_UINT8(n, frame.data[0]);
+    }
+    TEST_ASSERT_EQUAL(0, link_receive(link_here, &frame, 1));
+}
+
+static void test_no_interrupt_is_asked_for(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0, CAN1.ier);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_registers_lie_where_the_manual_has_them);
+    RUN_TEST(test_it_wakes_up_and_the_lowest_identifier_leaves_first);
+    RUN_TEST(test_mailboxes_are_written_whole);
+    RUN_TEST(test_a_frame_being_released_does_not_come_twice);
+    RUN_TEST(test_no_interrupt_is_asked_for);
+    return UNITY_END();
+}

@@ -1,0 +1,109 @@
+#include <stddef.h>
+
+#include <unity.h>
+
+#include "fdcan_model.h"
+#include "hal/link/link.h"
+#include "hal/stm32/fdcan_registers.h"
+
+static const uint16_t WANTED[] = {0x0C1, 0x041};
+static struct link *link_here;
+
+void setUp(void)
+{
+    fdcan_reset();
+    TEST_ASSERT_EQUAL(0, link_open(&link_here, "", WANTED, 2));
+    fdcan_step();
+}
+
+void tearDown(void) {}
+
+static void test_the_registers_lie_where_the_manual_has_them(void)
+{
+    TEST_ASSERT_EQUAL_HEX(0x018, offsetof(struct fdcan_registers, cccr));
+    TEST_ASSERT_EQUAL_HEX(0x01C, offsetof(struct fdcan_registers, nbtp));
+    TEST_ASSERT_EQUAL_HEX(0x040, offsetof(struct fdcan_registers, ecr));
+    TEST_ASSERT_EQUAL_HEX(0x044, offsetof(struct fdcan_registers, psr));
+    TEST_ASSERT_EQUAL_HEX(0x050, offsetof(struct fdcan_registers, ir));
+    TEST_ASSERT_EQUAL_HEX(0x05C, offsetof(struct fdcan_registers, ile));
+    TEST_ASSERT_EQUAL_HEX(0x080, offsetof(struct fdcan_registers, rxgfc));
+    TEST_ASSERT_EQUAL_HEX(0x090, offsetof(struct fdcan_registers, rxf0s));
+    TEST_ASSERT_EQUAL_HEX(0x094, offsetof(struct fdcan_registers, rxf0a));
+    TEST_ASSERT_EQUAL_HEX(0x0C0, offsetof(struct fdcan_registers, txbc));
+    TEST_ASSERT_EQUAL_HEX(0x0C4, offsetof(struct fdcan_registers, txfqs));
+    TEST_ASSERT_EQUAL_HEX(0x0C8, offsetof(struct fdcan_registers, txbrp));
+    TEST_ASSERT_EQUAL_HEX(0x0CC, offsetof(struct fdcan_registers, txbar));
+    TEST_ASSERT_EQUAL_HEX(0x0D0, offsetof(struct fdcan_registers, txbcr));
+    TEST_ASSERT_EQUAL_HEX(0x0E8, offsetof(struct fdcan_registers, txefa));
+}
+
+static void test_the_message_ram_is_laid_out_as_the_manual_has_it(void)
+{
+    TEST_ASSERT_EQUAL_HEX(0x070, offsetof(struct fdcan_ram, extended_filters));
+    TEST_ASSERT_EQUAL_HEX(0x0B0, offsetof(struct fdcan_ram, received_0));
+    TEST_ASSERT_EQUAL_HEX(0x188, offsetof(struct fdcan_ram, received_1));
+    TEST_ASSERT_EQUAL_HEX(0x260, offsetof(struct fdcan_ram, events));
+    TEST_ASSERT_EQUAL_HEX(0x278, offsetof(struct fdcan_ram, sent));
+    TEST_ASSERT_EQUAL_HEX(0x350, sizeof(struct fdcan_ram));
+}
+
+static void test_it_speaks_classic_can_without_test_modes_and_the_lowest_identifier_first(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0, FDCAN.cccr);
+    TEST_ASSERT_EQUAL_HEX32(1 << 24, FDCAN.txbc);
+}
+
+static void test_no_frame_but_those_wanted_gets_in(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(3 | 2 << 2 | 2 << 4, FDCAN.rxgfc & 0xFFFF);
+    TEST_ASSERT_EQUAL_HEX32(0, FDCAN.rxgfc >> 24);   /* no extended filters */
+}
+
+static void test_an_odd_number_of_identifiers_fits(void)
+{
+    static const uint16_t three[] = {0x0C1, 0x041, 0x7FF};
+
+    fdcan_reset();
+    TEST_ASSERT_EQUAL(0, link_open(&link_here, "", three, 3));
+    for (uint32_t id = 0; id <= 0x7FF; id++)
+        TEST_ASSERT_EQUAL(id == 0x0C1 || id == 0x041 || id == 0x7FF, fdcan_filter_passes(id));
+}
+
+static void test_buffers_are_written_whole(void)
+{
+    struct frame frame = {.id = 0x7A5, .len = 8};
+
+    TEST_ASSERT_EQUAL(0, link_send(link_here, &frame));
+    TEST_ASSERT_EQUAL_HEX32(0x7A5u << 18, FDCAN_RAM.sent[0].id);
+    TEST_ASSERT_EQUAL_HEX32(8u << 16, FDCAN_RAM.sent[0].control);
+}
+
+static void test_the_places_of_the_fifo_are_gone_through_in_a_ring(void)
+{
+    struct frame frame;
+
+    for (uint8_t n = 0; n < 10; n++) {
+        fdcan_bring(&(struct frame){.id = 0x0C1, .len = 1, .data = {n}});
+        TEST_ASSERT_EQUAL(1, link_receive(link_here, &frame, 1));
+        TEST_ASSERT_EQUAL_UINT8(n, frame.data[0]);
+    }
+}
+
+static void test_no_interrupt_is_asked_for(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0, FDCAN.ie | FDCAN.ile);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_registers_lie_where_the_manual_has_them);
+    RUN_TEST(test_the_message_ram_is_laid_out_as_the_manual_has_it);
+    RUN_TEST(test_it_speaks_classic_can_without_test_modes_and_the_lowest_identifier_first);
+    RUN_TEST(test_no_frame_but_those_wanted_gets_in);
+    RUN_TEST(test_an_odd_number_of_identifiers_fits);
+    RUN_TEST(test_buffers_are_written_whole);
+    RUN_TEST(test_the_places_of_the_fifo_are_gone_through_in_a_ring);
+    RUN_TEST(test_no_interrupt_is_asked_for);
+    return UNITY_END();
+}
