@@ -15,7 +15,8 @@ struct clocks {
 
 struct clocks clock_start(void);
         /* The fastest clock that comes up: crystal and PLL, else internal oscillator and PLL, else the internal
-           oscillator as it is. Each wait has a bound; a few milliseconds in all. */
+           oscillator as it is. Each wait has a bound: a few milliseconds in all with a crystal that starts as it should,
+           0.12 s at the most. Leaves systick at the speed after reset. */
 
 uint32_t chip_reset_flags(void);
         /* RCC_CSR: what has reset the chip since the last call. */

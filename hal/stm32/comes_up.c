@@ -1,9 +1,13 @@
 #include "hal/stm32/comes_up.h"
 
-bool comes_up(volatile const uint32_t *reg, uint32_t mask, uint32_t wanted)
+#include "hal/port/cortex_m/systick.h"
+
+bool comes_up(volatile const uint32_t *reg, uint32_t mask, uint32_t wanted, uint32_t limit_ms)
 {
-    for (unsigned i = 0; i < COMES_UP_LOOKS; i++)
-        if ((*reg & mask) == wanted)
-            return true;
-    return false;
+    uint32_t start = machine_ms();
+
+    while ((*reg & mask) != wanted)
+        if (machine_ms() - start > limit_ms)
+            return false;
+    return true;
 }

@@ -63,6 +63,8 @@ class Hardware:
         usart: The serial port, with slcan on its line.
         flash: The flash.
         pins: The ports, from A.
+        rcc: The clocks.
+        watchdog: The independent watchdog.
         faults: What the image did that the core cannot do.
     """
 
@@ -88,11 +90,12 @@ class Hardware:
         self.core.on_fault = self._note_fault
         self.flash = chip.flash(self.clock, faults.flash)
         self.pins = [chip.gpio(f"GPIO{letter}") for letter in "ABCDEFGHI"[: len(chip.gpio_gates)]]
-        self._rcc = chip.rcc(self.clock, chip.oscillators, self.flash.core_hz_max, faults.rcc)
-        self.can = BxCan(self.clock, self._rcc.apb1_hz, chip.can_banks, faults.can, heard)
-        self.usart = Usart(self.clock, self._rcc.apb2_hz, SlcanLine(heard).take)
+        self.rcc = chip.rcc(self.clock, chip.oscillators, self.flash.core_hz_max, faults.rcc)
+        self.flash.on_wait_states = self.rcc.check_speeds
+        self.can = BxCan(self.clock, self.rcc.apb1_hz, chip.can_banks, faults.can, heard)
+        self.usart = Usart(self.clock, self.rcc.apb2_hz, SlcanLine(heard).take)
         self._scb = SystemControl(chip.cpuid, lambda: restart("software"))
-        self._watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))
+        self.watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))
         self._peripherals = self._always_clocked() + self._gated()
         self._map()
 
@@ -129,14 +132,14 @@ class Hardware:
                 self.core.clear_ram(base, size)
         for _, peripheral in self._peripherals:
             peripheral.reset()
-        self._rcc.restart(cause)
+        self.rcc.restart(cause)
         self.core.reset()
 
     def _always_clocked(self) -> list[tuple[int, Peripheral]]:
         return [
-            (self.chip.rcc_base, self._rcc),
+            (self.chip.rcc_base, self.rcc),
             (self.chip.flash_base, self.flash),
-            (WATCHDOG_BASE, self._watchdog),
+            (WATCHDOG_BASE, self.watchdog),
             (SYSTICK_BASE, SysTick(self.clock)),
             (SCB_BASE, self._scb),
         ]
@@ -150,7 +153,7 @@ class Hardware:
             gated.append((AFIO_BASE, Peripheral("AFIO", {0x00: Register("EVCR"), 0x04: Register("MAPR")})))
             gates.append(chip.afio_gate)
         for gate, (_, peripheral) in zip(gates, gated, strict=True):
-            self._rcc.add_gate(*gate, peripheral)
+            self.rcc.add_gate(*gate, peripheral)
         return gated
 
     def _map(self) -> None:
@@ -197,7 +200,7 @@ class EmulatedBoard:
         self.hardware.flash_image(load_segments(image))
         self._clock = self.hardware.clock
         self._clock.add(self._due)
-        self._run_until(round(_BOOT_S * SECOND))
+        self._said.extend(self._listen(round(_BOOT_S * SECOND)))
 
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
@@ -230,13 +233,8 @@ class EmulatedBoard:
         Returns:
             What it sent meanwhile.
         """
-        end = self._clock.now + round(span_s * SECOND)
-        heard: list[Frame] = []
-        while self._clock.now < end:
-            self._run_until(end)
-            heard.extend(Frame(frame.id, frame.data) for frame in self._said)
-            self._said.clear()
-        return heard
+        said = self._listen(round(span_s * SECOND))
+        return [Frame(frame.id, frame.data) for frame in said]
 
     def cut_power(self) -> None:
         """Off and on again: only the flash is as before."""
@@ -249,6 +247,16 @@ class EmulatedBoard:
     def close(self) -> None:
         """As in `Link`."""
         self._said.clear()
+
+    def _listen(self, span: int) -> list[CanFrame]:
+        """Lets so much time pass; returns all that was said until then."""
+        end = self._clock.now + span
+        heard: list[CanFrame] = []
+        while self._clock.now < end:
+            self._run_until(end)
+            heard.extend(self._said)
+            self._said.clear()
+        return heard
 
     def _run_until(self, moment: int) -> None:
         """Runs until the board says something, at the latest until then."""

@@ -71,7 +71,9 @@ STM32F405 = Chip(
     name="feather_stm32f405",
     cpuid=0x410FC241,
     slow_hz=32_000,
-    oscillators=Oscillators(internal=16 * _MHZ, crystal=12 * _MHZ, core_max=168 * _MHZ, apb1_max=42 * _MHZ),
+    oscillators=Oscillators(
+        internal=16 * _MHZ, crystal=12 * _MHZ, core_max=168 * _MHZ, apb1_max=42 * _MHZ, apb2_max=84 * _MHZ
+    ),
     ram=((0x20000000, 128 << 10), (0x10000000, 64 << 10)),
     system_rom=0x1FFF7000,
     rcc=RccF4,
@@ -92,7 +94,9 @@ STM32F103 = Chip(
     name="blue_pill",
     cpuid=0x411FC231,
     slow_hz=40_000,
-    oscillators=Oscillators(internal=8 * _MHZ, crystal=8 * _MHZ, core_max=72 * _MHZ, apb1_max=36 * _MHZ),
+    oscillators=Oscillators(
+        internal=8 * _MHZ, crystal=8 * _MHZ, core_max=72 * _MHZ, apb1_max=36 * _MHZ, apb2_max=72 * _MHZ
+    ),
     ram=((0x20000000, 20 << 10),),
     system_rom=0x1FFFF000,
     rcc=RccF1,

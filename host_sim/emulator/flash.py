@@ -57,6 +57,10 @@ class FlashKind:
     failure: int
 
 
+def _disregard() -> None:
+    """Does nothing about it."""
+
+
 class Flash(Peripheral):
     """Memory that survives, and the registers through which it is changed.
 
@@ -66,6 +70,7 @@ class Flash(Peripheral):
         operations: Writes and erasures so far.
         erasures: These alone.
         code_end: Offset in the memory up to which the image lies; it must not change that.
+        on_wait_states: Called when they have changed.
     """
 
     kind: FlashKind
@@ -81,7 +86,8 @@ class Flash(Peripheral):
         self.memory = bytearray(_ERASED) * sum(self.kind.pages)
         self._half_erased: set[int] = set()
         self.operations = self.erasures = self.code_end = self._keys_taken = 0
-        self._acr = Register("ACR")
+        self.on_wait_states: Callable[[], None] = _disregard
+        self._acr = Register("ACR", on_write=self._write_acr)
         self._cr = Register("CR", self.kind.lock, on_write=self._write_cr)
         self._sr = Register("SR", on_write=self._write_sr)
         registers = {
@@ -159,6 +165,10 @@ class Flash(Peripheral):
     def _protect(self, offset: int) -> None:
         if offset < self.code_end:
             raise BoardError(f"the image was about to change itself at 0x{BASE + offset:08X}")
+
+    def _write_acr(self, value: int) -> None:
+        self._acr.value = value
+        self.on_wait_states()
 
     def _write_cr(self, value: int) -> None:
         if self._cr.value & self.kind.lock:

@@ -10,8 +10,8 @@ from host_sim.emulator.registers import BoardError, Peripheral, Register
 HSI, HSE, PLL = 0, 16, 24
 """The oscillators, by the number of their ON bit in CR; READY is the bit above."""
 
-_STARTUP = {HSI: 0, HSE: SECOND // 1000, PLL: SECOND // 5000}
-"""Time from ON to READY."""
+_STARTUP = {HSI: 0, PLL: SECOND // 5000}
+"""Time from ON to READY; the crystal's is its own."""
 
 _SOURCES = (HSI, HSE, PLL)
 """Of the core's clock, as SW in CFGR numbers them."""
@@ -25,6 +25,8 @@ RESET_FLAGS = {"power": 1 << 27 | 1 << 26, "software": 1 << 28 | 1 << 26, "watch
 _F1_PLLSRC, _F1_PLLXTPRE, _F1_MUL_SHIFT, _F1_MUL_MAX = 1 << 16, 1 << 17, 18, 16
 _F1_PLL_SETUP = 0x3F << 16
 _F4_PLLSRC, _F4_PLLCFGR_RESET = 1 << 22, 0x24003010
+_F4_PLL_IN, _F4_PLL_INSIDE = (950_000, 2_100_000), (100_000_000, 432_000_000)
+"""Hz, from and to: behind its first divisor, and of its oscillator (datasheet, 5.3.10)."""
 
 
 @dataclass(frozen=True)
@@ -34,10 +36,12 @@ class RccFaults:
     Attributes:
         crystal_dead: The external oscillator never starts.
         pll_dead: The PLL never locks.
+        crystal_s: Time that the external oscillator takes to start.
     """
 
     crystal_dead: bool = False
     pll_dead: bool = False
+    crystal_s: float = 0.001
 
 
 @dataclass(frozen=True)
@@ -49,12 +53,14 @@ class Oscillators:
         crystal: HSE.
         core_max: Fastest core clock that the chip allows.
         apb1_max: The same for the slower peripheral bus.
+        apb2_max: The same for the faster one.
     """
 
     internal: int
     crystal: int
     core_max: int
     apb1_max: int
+    apb2_max: int
 
 
 class Rcc(Peripheral):
@@ -82,6 +88,7 @@ class Rcc(Peripheral):
         """
         self._clock, self._oscillators, self._flash_hz = clock, oscillators, flash_hz
         self._dead = {source for source, dead in ((HSE, faults.crystal_dead), (PLL, faults.pll_dead)) if dead}
+        self._startup = _STARTUP | {HSE: round(faults.crystal_s * SECOND)}
         self._ready_at: dict[int, int] = {}
         self._gates: dict[tuple[int, int], Peripheral] = {}
         self._cr = Register("CR", 1, on_read=self._read_cr, on_write=self._write_cr)
@@ -96,6 +103,13 @@ class Rcc(Peripheral):
     @abstractmethod
     def pll_hz(self) -> int:
         """The PLL's speed as it is set up."""
+
+    def check_pll(self) -> None:
+        """As it is set up, when it is switched on.
+
+        Raises:
+            BoardError: It cannot lock on that.
+        """
 
     @abstractmethod
     def prescalers(self) -> tuple[int, int]:
@@ -125,6 +139,15 @@ class Rcc(Peripheral):
         self._csr.value = noted
         self._ready_at = {HSI: self._clock.now}
         self._clock.set_hz(self._oscillators.internal)
+
+    def core_hz(self) -> int:
+        """Speed of the core."""
+        return self._hclk()
+
+    def follows_crystal(self) -> bool:
+        """Whether the core's clock comes from the external oscillator, and is thus exact."""
+        source = _SOURCES[self.cfgr.value >> 2 & 3]
+        return (self.pll_source() if source == PLL else source) == HSE
 
     def apb1_hz(self) -> int:
         """Speed of the bus that CAN hangs on."""
@@ -156,31 +179,42 @@ class Rcc(Peripheral):
     def _write_cr(self, value: int) -> None:
         if value & ~self._cr.value & 1 << PLL and not self._ready(self.pll_source()):
             raise BoardError("RCC CR was written to start the PLL from an oscillator that does not run")
+        if value & ~self._cr.value & 1 << PLL:
+            self.check_pll()
         self._cr.value = value & ~sum(2 << source for source in _SOURCES)
         for source in _SOURCES:
             if not value >> source & 1:
                 self._ready_at.pop(source, None)
             elif source not in self._ready_at and source not in self._dead:
-                self._ready_at[source] = self._clock.now + _STARTUP[source]
+                self._ready_at[source] = self._clock.now + self._startup[source]
 
     def _switch(self, value: int) -> None:
         """Takes a new CFGR: SWS follows SW if that clock runs."""
         source = value & 3
         if not self._ready(_SOURCES[source]):
             source = self.cfgr.value >> 2 & 3
+        # The new source counts at once, the new divisors some cycles later.
+        self.cfgr.value = self.cfgr.value & ~0xF | value & 3 | source << 2
+        self.check_speeds()
         self.cfgr.value = value & ~0xC | source << 2
-        self._check_speeds()
+        self.check_speeds()
         self._clock.set_hz(self._hclk())
 
-    def _check_speeds(self) -> None:
+    def check_speeds(self) -> None:
+        """To be called whenever something changes on which a limit depends.
+
+        Raises:
+            BoardError: Something runs faster than it may.
+        """
         limits = {
             "core": (self._hclk(), self._oscillators.core_max),
             "core, with the flash's wait states,": (self._hclk(), self._flash_hz()),
             "APB1": (self.apb1_hz(), self._oscillators.apb1_max),
+            "APB2": (self.apb2_hz(), self._oscillators.apb2_max),
         }
         for name, (hz, limit) in limits.items():
             if hz > limit:
-                raise BoardError(f"RCC CFGR was written so that the {name} runs at {hz} Hz, where {limit} is allowed")
+                raise BoardError(f"the clocks were set so that the {name} runs at {hz} Hz, where {limit} is allowed")
 
     def _hclk(self) -> int:
         source = self.cfgr.value >> 2 & 3
@@ -228,6 +262,11 @@ class RccF1(Rcc):
         """As in `Rcc`."""
         return self.cfgr.value >> 8 & 7, self.cfgr.value >> 11 & 7
 
+    def check_pll(self) -> None:
+        """As in `Rcc`."""
+        if self.pll_hz() > self._oscillators.core_max:
+            raise BoardError(f"RCC CR was written to start the PLL at {self.pll_hz()} Hz, which it cannot make")
+
     def _write_cfgr(self, value: int) -> None:
         """The PLL's fields stay as they are while it is on."""
         kept = _F1_PLL_SETUP if self.pll_is_on() else 0
@@ -263,6 +302,14 @@ class RccF4(Rcc):
     def prescalers(self) -> tuple[int, int]:
         """As in `Rcc`."""
         return self.cfgr.value >> 10 & 7, self.cfgr.value >> 13 & 7
+
+    def check_pll(self) -> None:
+        """As in `Rcc`."""
+        fed = self._source_hz() // max(self._pllcfgr.value & 0x3F, 1)
+        inside = fed * (self._pllcfgr.value >> 6 & 0x1FF)
+        for name, hz, (low, high) in (("input", fed, _F4_PLL_IN), ("oscillator", inside, _F4_PLL_INSIDE)):
+            if not low <= hz <= high:
+                raise BoardError(f"RCC CR was written to start the PLL with its {name} at {hz} Hz, not {low}..{high}")
 
     def _write_pllcfgr(self, value: int) -> None:
         if self.pll_is_on():

@@ -93,6 +93,12 @@ class Watchdog(Peripheral):
         self._started = self._unlocked = False
         self._expires = NEVER
 
+    def period_s(self) -> float:
+        """Seconds from one feeding to the bite; 0 where it is not started."""
+        return (
+            (self._reload.value + 1) * (4 << min(self._prescaler.value, 6)) / self._slow_hz if self._started else 0.0
+        )
+
     def _write_key(self, value: int) -> None:
         self._unlocked = value == _UNLOCK
         self._started = self._started or value == _START
@@ -102,12 +108,16 @@ class Watchdog(Peripheral):
             self._clock.expect(self._expires)
 
     def _write_prescaler(self, value: int) -> None:
-        if self._unlocked:
-            self._prescaler.value = value & 7
+        self._assert_unlocked("PR")
+        self._prescaler.value = value & 7
 
     def _write_reload(self, value: int) -> None:
-        if self._unlocked:
-            self._reload.value = value & _RELOAD_MAX
+        self._assert_unlocked("RLR")
+        self._reload.value = value & _RELOAD_MAX
+
+    def _assert_unlocked(self, name: str) -> None:
+        if not self._unlocked:
+            raise BoardError(f"IWDG {name} was written while it is locked, which has no effect")
 
     def _due(self) -> int:
         if self._expires <= self._clock.now:

@@ -122,7 +122,10 @@ def run_robot(connection: Connection, seed: int, ticks: int, log: Path) -> Robot
 
 
 def talk_to(name: str, faults: Faults | None = None, lockstep: int = 0) -> Talk:
-    return Talk(start_board(name, faults), lockstep)
+    talk = Talk(start_board(name, faults), lockstep)
+    talk.wait(0.001)
+    talk.heard.clear()  # what it said while it waited for this
+    return talk
 
 
 def is_rest(said: DecodedFrame) -> bool:

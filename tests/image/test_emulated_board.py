@@ -92,13 +92,39 @@ def test_in_lockstep_it_waits_longer_than_its_watchdog_would(name):
     assert counted(talk.ask()) == {}
 
 
-@pytest.mark.parametrize("dead", [RccFaults(crystal_dead=True), RccFaults(pll_dead=True)], ids=["crystal", "pll"])
-def test_it_works_without(name, dead):
+INTERNAL_MHZ = {"feather_stm32f405": (168, 16), "blue_pill": (64, 8)}
+"""What the internal oscillator makes of the core's clock, with the PLL and without."""
+
+
+@pytest.mark.parametrize("crystal_s", [0.001, 0.099])
+def test_it_runs_at_full_speed_from_its_crystal(name, crystal_s):
+    talk = talk_to(name, Faults(rcc=RccFaults(crystal_s=crystal_s)))
+    hardware = talk.board.hardware
+
+    assert hardware.rcc.core_hz() == hardware.chip.oscillators.core_max
+    assert hardware.rcc.follows_crystal()
+    assert talk.ask()["clock"] == 1
+
+
+@pytest.mark.parametrize(
+    "dead",
+    [RccFaults(crystal_dead=True), RccFaults(pll_dead=True), RccFaults(crystal_s=0.2)],
+    ids=["crystal", "pll", "slow"],
+)
+def test_it_works_without_and_says_so(name, dead):
     talk = talk_to(name, Faults(rcc=dead))
     talk.start()
+    with_pll, without = INTERNAL_MHZ[name]
 
+    assert talk.board.hardware.rcc.core_hz() == (without if dead.pll_dead else with_pll) * 1_000_000
     assert len(talk.live(50)) == 50
-    assert counted(talk.ask()) == {}
+    report = talk.ask()
+    assert counted(report) == {}
+    assert report["clock"] == 0
+
+
+def test_its_watchdog_waits_for_2_s_or_a_little_less(name):
+    assert 1.5 <= talk_to(name).board.hardware.watchdog.period_s() <= 2.1
 
 
 def test_a_controller_that_never_gets_ready_is_tried_again_and_nothing_moves(name):
@@ -231,6 +257,21 @@ def test_a_crash_is_told_afterwards(name):
     assert talk.board.resets == ["software"]
     causes = talk.protocol.choices("BOOT", "reset_cause")
     assert talk.last("BOOT")["reset_cause"] == causes["crash"]
+    names = {number: register for register, number in talk.protocol.choices("CRASH", "name").items()}
+    told = {names[said.signals["name"]]: said.signals["value"] for said in talk.heard if said.name == "CRASH"}
+    assert told["pc"] == 0x60000000
+
+
+@pytest.mark.parametrize("depth", [0, 8, 300, 600, 900])
+def test_a_crash_is_told_wherever_the_stack_is(name, depth):
+    talk = talk_to(name)
+    stack_top = int.from_bytes(talk.board.hardware.flash.memory[:4], "little")
+
+    talk.board.hardware.core.derail(0x60000000, stack=stack_top - depth)
+    talk.wait(0.1)
+    for _ in range(20):
+        talk.ask()
+
     names = {number: register for register, number in talk.protocol.choices("CRASH", "name").items()}
     told = {names[said.signals["name"]]: said.signals["value"] for said in talk.heard if said.name == "CRASH"}
     assert told["pc"] == 0x60000000
@@ -375,9 +416,10 @@ def test_the_worst_tick_stays_within_its_bar(name):
     assert max(count_ticks(name, 1, 3000)) <= WORST_TICK
 
 
-def test_a_board_that_hears_nothing_says_nothing_and_takes_its_time(name):
+def test_a_board_that_has_nothing_to_say_takes_its_time(name):
     talk = talk_to(name)
-    assert [said.name for said in talk.wait(0.01)] == ["BOOT"]
+    while not talk.wait(0.001):
+        pass  # until it has told that all is silent, which is news every 0.1 s
     began = time.monotonic()
 
     assert talk.board.receive(0.05) is None

@@ -3,6 +3,7 @@
 import pytest
 
 from host_sim.backends.robot_process import PROGRAM
+from host_sim.emulator.board import start_board
 from host_sim.emulator.can import BxCan, CanFaults, CanFrame, _models
 from host_sim.emulator.chips import STM32F103, STM32F405
 from host_sim.emulator.clock import SECOND
@@ -62,12 +63,25 @@ def test_a_watchdog_bites_when_its_time_is_over(clock):
     assert len(bites) == 1
 
 
-def test_a_watchdog_that_is_locked_keeps_its_time(clock):
+@pytest.mark.parametrize("register", [0x4, 0x8])
+def test_a_watchdog_that_is_locked_is_not_set_up(clock, register):
     watchdog = Watchdog(clock, 32_000, lambda: None)
 
-    write(watchdog, 0x8, 5)
+    with pytest.raises(BoardError, match="locked"):
+        write(watchdog, register, 5)
 
     assert read(watchdog, 0x8) == 0xFFF
+
+
+def test_a_watchdog_tells_its_period(clock):
+    watchdog = Watchdog(clock, 32_000, lambda: None)
+    write(watchdog, 0x0, 0x5555)
+    write(watchdog, 0x4, 3)
+    write(watchdog, 0x8, 1999)
+    stopped = watchdog.period_s()
+    write(watchdog, 0x0, 0xCCCC)
+
+    assert (stopped, watchdog.period_s()) == (0, 2)
 
 
 @pytest.mark.parametrize("make", [gpio_f1, gpio_f4])
@@ -98,10 +112,59 @@ def test_an_f4_runs_at_168_mhz(clock):
     assert start(rcc, clock, 16)
     write(rcc, 0x04, 7 << 24 | 1 << 22 | 336 << 6 | 12)
     assert start(rcc, clock, 24)
+    write(rcc, 0x08, 5 << 10 | 4 << 13)
     write(rcc, 0x08, 5 << 10 | 4 << 13 | 2)
 
     assert read(rcc, 0x08) >> 2 & 3 == 2
-    assert (clock.period, rcc.apb1_hz()) == (SECOND // 168_000_000, 42_000_000)
+    assert (clock.period, rcc.core_hz()) == (SECOND // 168_000_000, 168_000_000)
+    assert (rcc.apb1_hz(), rcc.apb2_hz()) == (42_000_000, 84_000_000)
+    assert rcc.follows_crystal()
+
+
+@pytest.mark.parametrize(
+    ("before", "switch", "name"),
+    [
+        (5 << 10 | 4 << 13, 4 << 10 | 4 << 13, "APB1 runs at 84000000 Hz, where 42000000"),
+        (5 << 10 | 4 << 13, 5 << 10, "APB2 runs at 168000000 Hz, where 84000000"),
+        (0, 5 << 10 | 4 << 13, "APB1 runs at 168000000 Hz"),
+    ],
+    ids=["APB1", "APB2", "all in one write"],
+)
+def test_a_bus_that_is_too_fast_even_for_a_moment_is_an_error(clock, before, switch, name):
+    rcc = rcc_of(STM32F405, clock)
+    start(rcc, clock, 16)
+    write(rcc, 0x04, 7 << 24 | 1 << 22 | 336 << 6 | 12)
+    start(rcc, clock, 24)
+    write(rcc, 0x08, before)
+
+    with pytest.raises(BoardError, match=name):
+        write(rcc, 0x08, switch | 2)
+
+
+@pytest.mark.parametrize(
+    ("chip", "setup"),
+    [
+        (STM32F405, 1 << 22 | 336 << 6 | 6),
+        (STM32F405, 1 << 22 | 336 << 6 | 24),
+        (STM32F405, 1 << 22 | 440 << 6 | 12),
+        (STM32F405, 1 << 22 | 90 << 6 | 12),
+        (STM32F103, 1 << 16 | 8 << 18),
+    ],
+)
+def test_a_pll_is_not_asked_for_what_it_cannot_make(clock, chip, setup):
+    rcc = rcc_of(chip, clock)
+    start(rcc, clock, 16)
+    write(rcc, 0x04, setup)
+
+    with pytest.raises(BoardError, match="start the PLL"):
+        start(rcc, clock, 24)
+
+
+def test_flash_that_becomes_too_slow_for_the_clock_is_an_error():
+    board = start_board("blue_pill")
+
+    with pytest.raises(BoardError, match="wait states, runs at 72000000 Hz, where 24000000"):
+        write(board.hardware.flash, 0x00, 0)
 
 
 def test_an_f1_runs_at_72_mhz(clock):
@@ -129,6 +192,7 @@ def test_a_clock_too_fast_for_the_flash_is_an_error(clock):
     start(rcc, clock, 16)
     write(rcc, 0x04, 1 << 22 | 336 << 6 | 12)
     start(rcc, clock, 24)
+    write(rcc, 0x08, 5 << 10 | 4 << 13)
 
     with pytest.raises(BoardError, match="flash's wait states, runs at 168000000 Hz, where 30000000"):
         write(rcc, 0x08, 5 << 10 | 4 << 13 | 2)

@@ -25,7 +25,6 @@ void setUp(void)
 {
     rig_reset();
     TEST_ASSERT_EQUAL(0, open_it());
-    rig_pass_us(100);
 }
 
 void tearDown(void) {}
@@ -131,6 +130,19 @@ static void test_the_filters_hold_eight_identifiers_and_not_nine(void)
     rig_pass_us(100);
     for (unsigned i = 0; i < 9; i++)
         TEST_ASSERT_EQUAL(i < 8, rig_passes_filters(ids[i]));
+}
+
+static void test_an_idle_bus_is_joined_at_once(void)
+{
+    TEST_ASSERT_EQUAL(0, try_to_send(HEARTBEAT, 0));
+}
+
+static void test_a_bus_that_cannot_be_joined_holds_up_nobody(void)
+{
+    rig_reset();
+    rig_block(true);
+    TEST_ASSERT_EQUAL(0, open_it());
+    TEST_ASSERT_LESS_THAN_UINT32(10, rig_ms());
 }
 
 /* ---- sending */
@@ -450,6 +462,8 @@ int main(void)
     RUN_TEST(test_a_controller_that_does_not_answer_is_given_up_soon);
     RUN_TEST(test_the_filters_pass_what_is_wanted_and_nothing_else);
     RUN_TEST(test_the_filters_hold_eight_identifiers_and_not_nine);
+    RUN_TEST(test_an_idle_bus_is_joined_at_once);
+    RUN_TEST(test_a_bus_that_cannot_be_joined_holds_up_nobody);
     RUN_TEST(test_a_frame_goes_out_as_it_is);
     RUN_TEST(test_on_an_idle_bus_frames_leave_in_the_order_sent);
     RUN_TEST(test_frames_of_one_identifier_never_overtake_each_other);

@@ -2,30 +2,53 @@
 
 #include <unity.h>
 
-void setUp(void) {}
+#include "hal/port/cortex_m/systick.h"
+
+enum { LIMIT_MS = 7 };
+
+static volatile uint32_t reg;
+static uint32_t now_ms, ready_ms;
+
+uint32_t machine_ms(void)
+{
+    if (now_ms >= ready_ms)
+        reg = 0xF0;
+    return now_ms++;
+}
+
+void setUp(void)
+{
+    reg = 0;
+    now_ms = ready_ms = 0;
+}
 
 void tearDown(void) {}
 
 static void test_what_is_there_is_seen(void)
 {
-    volatile const uint32_t reg = 0xF0;
-
-    TEST_ASSERT_TRUE(comes_up(&reg, 0x30, 0x30));
-    TEST_ASSERT_TRUE(comes_up(&reg, 0x0F, 0));
+    TEST_ASSERT_TRUE(comes_up(&reg, 0x30, 0x30, LIMIT_MS));
+    TEST_ASSERT_TRUE(comes_up(&reg, 0x0F, 0, LIMIT_MS));
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(2, now_ms);
 }
 
-static void test_what_never_comes_is_given_up(void)
+static void test_what_comes_in_time_is_waited_for(void)
 {
-    volatile const uint32_t reg = 0xF0;
+    ready_ms = LIMIT_MS;
+    TEST_ASSERT_TRUE(comes_up(&reg, 0x30, 0x30, LIMIT_MS));
+}
 
-    TEST_ASSERT_FALSE(comes_up(&reg, 0x31, 0x31));
-    TEST_ASSERT_FALSE(comes_up(&reg, 0x30, 0x10));
+static void test_what_never_comes_is_given_up_in_time(void)
+{
+    TEST_ASSERT_FALSE(comes_up(&reg, 0x31, 0x31, LIMIT_MS));
+    TEST_ASSERT_UINT32_WITHIN(1, LIMIT_MS + 2, now_ms);
+    TEST_ASSERT_FALSE(comes_up(&reg, 0x30, 0x10, LIMIT_MS));
 }
 
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_what_is_there_is_seen);
-    RUN_TEST(test_what_never_comes_is_given_up);
+    RUN_TEST(test_what_comes_in_time_is_waited_for);
+    RUN_TEST(test_what_never_comes_is_given_up_in_time);
     return UNITY_END();
 }

@@ -54,11 +54,14 @@ void startup_reset(void)
     restart();   /* main ends where its body cannot be had: once more, from the beginning */
 }
 
-/* The stack may be what is broken: begins a new one. */
+/* The stack may be what is broken: begins a new one, in the half where the frame that the core has pushed is not. */
 __attribute__((naked)) void startup_crash(void)
 {
     __asm__ volatile("mrs r0, msp\n\t"
-                     "ldr r1, =stack_top\n\t"
+                     "ldr r1, =stack_middle\n\t"
+                     "cmp r0, r1\n\t"
+                     "it lo\n\t"
+                     "ldrlo r1, =stack_top\n\t"
                      "msr msp, r1\n\t"
                      "b startup_crashed");
 }

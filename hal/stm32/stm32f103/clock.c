@@ -1,4 +1,5 @@
 /* 72 MHz from the board's 8 MHz crystal, or 64 MHz from the internal oscillator. */
+#include "hal/port/cortex_m/systick.h"
 #include "hal/stm32/chip.h"
 #include "hal/stm32/comes_up.h"
 #include "hal/stm32/stm32f103/registers.h"
@@ -28,21 +29,21 @@ enum {
 static bool start_crystal(void)
 {
     RCC.cr |= HSEON;
-    return comes_up(&RCC.cr, HSERDY, HSERDY);
+    return comes_up(&RCC.cr, HSERDY, HSERDY, CRYSTAL_MS);
 }
 
 static bool start_pll(uint32_t setting)
 {
     RCC.cfgr = CFGR_APB1_BY_2 | setting;
     RCC.cr |= PLLON;
-    return comes_up(&RCC.cr, PLLRDY, PLLRDY);
+    return comes_up(&RCC.cr, PLLRDY, PLLRDY, SWITCH_MS);
 }
 
 static bool switch_to_pll(uint32_t setting)
 {
     FLASH.acr = ACR_PREFETCH | ACR_2_WAITS;   /* before the clock gets faster */
     RCC.cfgr = CFGR_APB1_BY_2 | setting | CFGR_SW_PLL;
-    return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL);
+    return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL, SWITCH_MS);
 }
 
 struct clocks clock_start(void)
@@ -50,9 +51,12 @@ struct clocks clock_start(void)
     static const struct clocks best = {72000000, 36000000, 72000000, true};
     static const struct clocks good = {64000000, 32000000, 64000000, false};
     static const struct clocks slow = {8000000, 8000000, 8000000, false};
-    bool exact = start_crystal();
-    uint32_t setting = exact ? PLL_FROM_HSE | PLL_BY_9 : PLL_BY_16;
+    bool exact;
+    uint32_t setting;
 
+    systick_start(slow.core_hz);
+    exact = start_crystal();
+    setting = exact ? PLL_FROM_HSE | PLL_BY_9 : PLL_BY_16;
     if (start_pll(setting) && switch_to_pll(setting))
         return exact ? best : good;
     RCC.cfgr = 0;

@@ -1,4 +1,5 @@
 /* 168 MHz from the board's crystal, or from the internal 16 MHz. */
+#include "hal/port/cortex_m/systick.h"
 #include "hal/stm32/chip.h"
 #include "hal/stm32/comes_up.h"
 #include "hal/stm32/stm32f405/registers.h"
@@ -27,21 +28,23 @@ enum {
 static bool start_crystal(void)
 {
     RCC.cr |= HSEON;
-    return comes_up(&RCC.cr, HSERDY, HSERDY);
+    return comes_up(&RCC.cr, HSERDY, HSERDY, CRYSTAL_MS);
 }
 
 static bool start_pll(uint32_t source, uint32_t source_mhz)
 {
     RCC.pllcfgr = PLL_Q_7 | source | PLL_P_2 | (uint32_t)PLL_N << 6 | source_mhz;
     RCC.cr |= PLLON;
-    return comes_up(&RCC.cr, PLLRDY, PLLRDY);
+    return comes_up(&RCC.cr, PLLRDY, PLLRDY, SWITCH_MS);
 }
 
+/* The flash and the buses are slowed down before the clock gets faster. */
 static bool switch_to_pll(void)
 {
-    FLASH.acr = ACR_CACHES | ACR_5_WAITS;   /* before the clock gets faster */
+    FLASH.acr = ACR_CACHES | ACR_5_WAITS;
+    RCC.cfgr = CFGR_APB1_BY_4 | CFGR_APB2_BY_2;
     RCC.cfgr = CFGR_APB1_BY_4 | CFGR_APB2_BY_2 | CFGR_SW_PLL;
-    return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL);
+    return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL, SWITCH_MS);
 }
 
 struct clocks clock_start(void)
@@ -53,6 +56,7 @@ struct clocks clock_start(void)
      * clock controller, as QEMU's, runs at full speed at once. */
     if (!(RCC.cr & HSION))
         return fast;
+    systick_start(slow.core_hz);
     fast.exact = start_crystal();
     if (!start_pll(fast.exact ? PLL_FROM_HSE : 0, fast.exact ? OCTET_CRYSTAL_MHZ : HSI_MHZ))
         return slow;

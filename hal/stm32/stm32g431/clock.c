@@ -2,6 +2,7 @@
  *
  * The chip can do 170 MHz, after a voltage boost and a rest at half speed; a tick takes 3,000 instructions, and from 80 MHz
  * a bit of CAN has 16 quanta. */
+#include "hal/port/cortex_m/systick.h"
 #include "hal/stm32/chip.h"
 #include "hal/stm32/comes_up.h"
 #include "hal/stm32/stm32g431/registers.h"
@@ -36,24 +37,24 @@ enum {
 static bool start_crystal(void)
 {
     RCC.cr |= HSEON;
-    return comes_up(&RCC.cr, HSERDY, HSERDY);
+    return comes_up(&RCC.cr, HSERDY, HSERDY, CRYSTAL_MS);
 }
 
 static bool start_pll(uint32_t source, uint32_t source_mhz)
 {
     RCC.pllcfgr = PLL_R_2 | PLL_R_ON | PLL_N_40 | (source_mhz / PLL_IN_MHZ - 1) << 4 | source;
     RCC.cr |= PLLON;
-    return comes_up(&RCC.cr, PLLRDY, PLLRDY);
+    return comes_up(&RCC.cr, PLLRDY, PLLRDY, SWITCH_MS);
 }
 
 /* The flash is slowed down before the clock gets faster. */
 static bool switch_to_pll(void)
 {
     FLASH.acr = ACR_DEBUGGER | ACR_CACHES | ACR_2_WAITS;
-    if (!comes_up(&FLASH.acr, ACR_WAITS, ACR_2_WAITS))
+    if (!comes_up(&FLASH.acr, ACR_WAITS, ACR_2_WAITS, SWITCH_MS))
         return false;
     RCC.cfgr = CFGR_SW_PLL;
-    return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL);
+    return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL, SWITCH_MS);
 }
 
 struct clocks clock_start(void)
@@ -61,9 +62,11 @@ struct clocks clock_start(void)
     static const struct clocks best = {80000000, 80000000, 80000000, true};
     static const struct clocks good = {80000000, 80000000, 80000000, false};
     static const struct clocks slow = {16000000, 16000000, 16000000, false};
-    bool exact = start_crystal();
-    bool fast = exact ? start_pll(PLL_FROM_HSE, OCTET_CRYSTAL_MHZ) : start_pll(PLL_FROM_HSI, HSI_MHZ);
+    bool exact, fast;
 
+    systick_start(slow.core_hz);
+    exact = start_crystal();
+    fast = exact ? start_pll(PLL_FROM_HSE, OCTET_CRYSTAL_MHZ) : start_pll(PLL_FROM_HSI, HSI_MHZ);
     if (fast && switch_to_pll())
         return exact ? best : good;
     RCC.cfgr = CFGR_SW_HSI;
