@@ -24,6 +24,45 @@ static void test_the_sequence_is_that_of_xoroshiro64_star_star(void)
         TEST_ASSERT_EQUAL_UINT32(published[i], random_next(&dice));
 }
 
+/* From another implementation, in JavaScript: the seed goes twice through splitmix32 as bryc publishes it, which is the state of
+ * xoroshiro64** as its authors do; a draw takes the highest bits until they are below n. */
+static const struct {
+    uint32_t seed, state[2], next[4];
+    uint8_t draws[12];   /* below 2, 3, 10, 60, 129, 200, 255, 1, 2, 3, 10, 60 */
+} ANSWERS[] = {
+    {0, {0x64625032, 0xD9C0799C}, {0x89E2144C, 0xF487E881, 0x67A247E0, 0x2D35B771}, {1, 0, 7, 45, 116, 180, 74, 0, 0, 2, 9, 11}},
+    {1, {0x5E2D1772, 0x14E498F0}, {0x51E16C10, 0xFD494FAC, 0x12079E58, 0x1427CC18}, {1, 1, 2, 20, 12, 158, 107, 0, 1, 2, 1, 12}},
+    {2, {0x0860B879, 0xAAC14680}, {0xA656DDF4, 0x4516356E, 0x3DE2F580, 0x24DDB744}, {0, 1, 4, 22, 27, 124, 9, 0, 0, 1, 0, 33}},
+    {42, {0x20E44818, 0x0895A923}, {0x3D80F523, 0x7AA37413, 0xEB48EF7E, 0x96612DCD}, {1, 2, 6, 34, 111, 43, 101, 0, 0, 1, 8, 9}},
+    {0x80000000, {0x859DC57D, 0xEB16DB32}, {0x477691D8, 0x19837701, 0x1B44A3BD, 0x9DFBB372},
+     {1, 1, 9, 46, 88, 86, 148, 0, 0, 0, 2, 47}},
+    {0xFFFFFFFF, {0xEB721C8A, 0xFFE8BD34}, {0xEECBC0E3, 0xF457028A, 0x4BF68741, 0xDB3AEF8F},
+     {0, 0, 4, 22, 22, 63, 108, 0, 1, 1, 3, 31}},
+};
+
+enum { ANSWER_COUNT = sizeof ANSWERS / sizeof ANSWERS[0] };
+
+static void test_a_seed_gives_the_known_state_and_sequence(void)
+{
+    for (unsigned i = 0; i < ANSWER_COUNT; i++) {
+        random_seed(&dice, ANSWERS[i].seed);
+        TEST_ASSERT_EQUAL_HEX32_ARRAY(ANSWERS[i].state, dice.state, 2);
+        for (unsigned n = 0; n < 4; n++)
+            TEST_ASSERT_EQUAL_HEX32(ANSWERS[i].next[n], random_next(&dice));
+    }
+}
+
+static void test_draws_are_the_known_ones(void)
+{
+    static const uint8_t below[12] = {2, 3, 10, 60, 129, 200, 255, 1, 2, 3, 10, 60};
+
+    for (unsigned i = 0; i < ANSWER_COUNT; i++) {
+        random_seed(&dice, ANSWERS[i].seed);
+        for (unsigned n = 0; n < 12; n++)
+            TEST_ASSERT_EQUAL_UINT8(ANSWERS[i].draws[n], random_below(&dice, below[n]));
+    }
+}
+
 static void test_equal_seeds_give_equal_sequences(void)
 {
     struct random twin;
@@ -127,6 +166,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_sequence_is_that_of_xoroshiro64_star_star);
+    RUN_TEST(test_a_seed_gives_the_known_state_and_sequence);
+    RUN_TEST(test_draws_are_the_known_ones);
     RUN_TEST(test_equal_seeds_give_equal_sequences);
     RUN_TEST(test_neighbouring_seeds_give_different_sequences);
     RUN_TEST(test_the_first_draw_of_neighbouring_seeds_is_fair);

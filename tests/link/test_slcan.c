@@ -139,6 +139,23 @@ static void test_more_than_the_time_after_the_data_is_garbled(void)
     assert_garbled_once("t1231AAEA5F0\r");
 }
 
+/* What a longer line has left in the decoder is no part of a shorter one. */
+static void test_a_line_cut_short_is_garbled_whatever_came_before_it(void)
+{
+    static const char *const cut[] = {"t\r", "t12\r", "t123\r", "t12321\r", "t1232112\r", "t12300\r", "T1234567\r", "t1230012\r"};
+
+    for (unsigned i = 0; i < sizeof cut / sizeof cut[0]; i++) {
+        struct slcan_decoder decoder = {.len = 0};
+        struct frame frame;
+
+        for (const char *c = "T1234567881122334455667788AAAA\r"; *c != '\0'; c++)
+            (void)slcan_decode(&decoder, *c, &frame);
+        for (const char *c = cut[i]; *c != '\r'; c++)
+            TEST_ASSERT_EQUAL(SLCAN_NOTHING, slcan_decode(&decoder, *c, &frame));
+        TEST_ASSERT_EQUAL_MESSAGE(SLCAN_GARBLED, slcan_decode(&decoder, '\r', &frame), cut[i]);
+    }
+}
+
 static void test_what_no_frame_can_hold_is_garbled(void)
 {
     assert_garbled_once("t8000\r");
@@ -205,6 +222,7 @@ int main(void)
     RUN_TEST(test_a_line_too_long_counts_once);
     RUN_TEST(test_a_line_of_any_length_counts_once);
     RUN_TEST(test_more_than_the_time_after_the_data_is_garbled);
+    RUN_TEST(test_a_line_cut_short_is_garbled_whatever_came_before_it);
     RUN_TEST(test_what_no_frame_can_hold_is_garbled);
     RUN_TEST(test_what_is_garbled_leaves_the_frame_alone);
     RUN_TEST(test_frames_are_written_in_upper_case);
