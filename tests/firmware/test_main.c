@@ -108,7 +108,7 @@ static void assert_wakes_with(const uint8_t cells[CELL_COUNT])
 {
     command_comes(OPCODE_REPORT, 0, 0);
     TEST_ASSERT_EQUAL(0, run());
-    TEST_ASSERT_TRUE(last_sent()->has_memory);
+    TEST_ASSERT_TRUE(last_sent()->has_report);
     TEST_ASSERT_EQUAL_UINT8_ARRAY(cells, last_sent()->memory, CELL_COUNT);
 }
 
