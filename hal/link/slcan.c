@@ -49,7 +49,7 @@ static uint32_t read_id(struct cursor *text, char type)
 static void read_end(struct cursor *text)
 {
     if (text->at < text->end)
-        read_hex(text, TIME_DIGITS);
+        (void)read_hex(text, TIME_DIGITS);
     text->bad |= text->at < text->end;
 }
 

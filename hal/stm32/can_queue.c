@@ -106,7 +106,8 @@ static bool put_last(struct can_queue *queue, const struct frame *frame)
 {
     if (!drain(queue, CAN_QUEUE_MAX - 1) && queue->count == CAN_QUEUE_MAX)
         return false;
-    queue->frames[(queue->first + queue->count++) % CAN_QUEUE_MAX] = *frame;
+    queue->frames[(queue->first + queue->count) % CAN_QUEUE_MAX] = *frame;
+    queue->count++;
     return true;
 }
 

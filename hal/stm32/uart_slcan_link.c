@@ -96,13 +96,14 @@ static bool send_byte(struct link *link, char byte, uint32_t start)
 /* A line cut short is ended first, lest it spoil this one. */
 int link_send(struct link *link, const struct frame *frame)
 {
-    char text[1 + SLCAN_TEXT_MAX] = "\r";
+    char text[1 + SLCAN_TEXT_MAX];
     size_t prefix = link->cut_short ? 1 : 0;
-    size_t len = prefix + slcan_encode(text + prefix, frame);
+    size_t len = prefix + slcan_encode(&text[1], frame);
     uint32_t start = machine_ms();
     size_t sent = 0;
 
-    while (sent < len && send_byte(link, text[sent], start))
+    text[0] = '\r';
+    while (sent < len && send_byte(link, text[1 - prefix + sent], start))
         sent++;
     if (sent > 0)
         link->cut_short = sent < len;

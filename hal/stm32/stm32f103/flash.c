@@ -47,7 +47,7 @@ int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 static void unlock(uint32_t setting)
 {
     FLASH.keyr = 0x45670123;
-    FLASH.keyr = 0xCDEF89AB;
+    FLASH.keyr = 0xCDEF89ABu;
     FLASH.sr = SR_ERRORS | SR_DONE;
     FLASH.cr = setting;
 }

@@ -1,0 +1,1 @@
+"""What tools/misra is made of."""

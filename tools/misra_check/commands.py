@@ -1,0 +1,57 @@
+"""The compiler's commands for the sources to check."""
+
+import json
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TypedDict
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILDS = ("feather_stm32f405", "blue_pill", "nucleo_g431rb")
+"""A source that several of them have is checked as the first has it."""
+
+CHECKED = ("firmware", "hal")
+
+
+class CheckError(Exception):
+    """It cannot be checked; says why."""
+
+
+class Command(TypedDict):
+    """One command of a compilation database."""
+
+    directory: str
+    command: str
+    file: str
+
+
+def built_sources() -> list[Command]:
+    """A command for each source of ours that a build has.
+
+    Raises:
+        CheckError: A build is missing.
+    """
+    commands: dict[Path, Command] = {}
+    for build in BUILDS:
+        for command in _commands_of(ROOT / "build" / build):
+            source = Path(command["directory"], command["file"]).resolve()
+            if source.is_relative_to(ROOT) and source.relative_to(ROOT).parts[0] in CHECKED:
+                commands.setdefault(source, {**command, "file": str(source)})
+    return list(commands.values())
+
+
+def lone_sources(sources: Sequence[Path]) -> list[Command]:
+    """A command for each of these."""
+    return [
+        {"directory": str(ROOT), "command": f"cc -std=c99 -I{ROOT} -c {source}", "file": str(source.resolve())}
+        for source in sources
+    ]
+
+
+def _commands_of(build: Path) -> list[Command]:
+    try:
+        result = subprocess.run(("ninja", "-C", build, "-t", "compdb"), capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise CheckError(f"cannot read {build}: {error}; run tools/setup tests") from error
+    listed: list[Command] = json.loads(result.stdout[result.stdout.index("[") :])
+    return [command for command in listed if command["file"].endswith(".c")]

@@ -1,0 +1,71 @@
+"""Runs cppcheck's MISRA addon."""
+
+import json
+import os
+import re
+import subprocess
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tools.misra_check.commands import ROOT, CheckError, Command
+
+_FINDING = re.compile(r"(?P<file>.+):(?P<line>\d+) misra-c2012-(?P<rule>[\d.]+)$")
+_ERROR = re.compile(r".+ (syntaxError|preprocessorErrorDirective|internalError|internalAstError)$")
+
+
+@dataclass(frozen=True, order=True)
+class Finding:
+    """One line that deviates.
+
+    Attributes:
+        rule: Its number, as `15.6`.
+        file: Where, from the root of the project.
+        line: Which one.
+    """
+
+    rule: str
+    file: str
+    line: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}: rule {self.rule}"
+
+
+def findings(commands: Sequence[Command]) -> list[Finding]:
+    """All findings in these sources, each once.
+
+    Raises:
+        CheckError: cppcheck is missing, or does not understand a source.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        project = Path(folder, "compile_commands.json")
+        project.write_text(json.dumps(commands))
+        output = _run(project)
+    found = set()
+    for line in output.splitlines():
+        if _ERROR.fullmatch(line):
+            raise CheckError(f"cppcheck does not understand {line}")
+        if match := _FINDING.fullmatch(line):
+            found.add(Finding(match["rule"], _relative(match["file"]), int(match["line"])))
+    return sorted(found)
+
+
+def _run(project: Path) -> str:
+    options = ("--addon=misra", "--std=c99", "--platform=unix32", "--quiet", f"-j{os.cpu_count() or 1}")
+    template = "--template={file}:{line} {id}"
+    try:
+        result = subprocess.run(
+            ("cppcheck", f"--project={project}", *options, template), capture_output=True, text=True, check=False
+        )
+    except OSError as error:
+        raise CheckError(f"cannot run cppcheck: {error}; tools/setup tests installs it") from error
+    if result.returncode != 0 or "Bailing out" in result.stdout:
+        raise CheckError(f"cppcheck failed: {result.stdout}{result.stderr}")
+    return result.stderr
+
+
+def _relative(file: str) -> str:
+    path = Path(file).resolve()
+    return str(path.relative_to(ROOT)) if path.is_relative_to(ROOT) else str(path)
