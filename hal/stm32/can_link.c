@@ -9,10 +9,7 @@
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
 
-enum {
-    RECOVERY_MS = 250,   /* from bus-off to the next try: four times what a full bus needs */
-    JOIN_MS = 2          /* what a bus that is in use takes to be idle for 11 bits */
-};
+enum { RECOVERY_MS = 250 };   /* from bus-off to the next try: four times what a full bus needs */
 
 struct link {
     uint32_t off_ms;   /* when the last try to recover from bus-off began */
@@ -23,16 +20,6 @@ struct link {
 
 static struct link the_link;   /* one controller */
 
-/* So that what is sent first finds the bus. One that is not to be had now is joined later. */
-static void join(void)
-{
-    uint32_t start = machine_ms();
-
-    can_start();
-    while (can_state() == CAN_JOINING && machine_ms() - start <= JOIN_MS)
-        continue;
-}
-
 int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count)
 {
     uint32_t clock_hz = machine_clocks().can_hz;
@@ -42,7 +29,7 @@ int link_open(struct link **link, const char *name, const uint16_t ids[], size_t
     if (id_count > LINK_IDS_MAX || quanta == 0 || !can_stop())
         return LINK_E_OPEN;
     can_set_up(clock_hz / (CAN_BITRATE * quanta), quanta, ids, id_count);
-    join();
+    can_start();
     the_link = (struct link){.off = false};
     *link = &the_link;
     return 0;

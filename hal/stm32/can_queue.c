@@ -1,11 +1,13 @@
 #include "hal/stm32/can_queue.h"
 
 #include "hal/stm32/can_controller.h"
+#include "hal/stm32/can_timing.h"
 #include "hal/stm32/machine.h"
 
 enum {
-    STUCK_MS = 1,    /* on an idle bus a frame leaves every 0.27 ms, */
-    DRAIN_MS = 4     /* and all that can wait within 3 ms */
+    FRAME_BITS = 135,   /* of a full frame with all its stuff bits, and the pause after it */
+    STUCK_MS = 1000 * FRAME_BITS / CAN_BITRATE + 1,   /* on an idle bus a frame leaves in less */
+    DRAIN_MS = 1000 * FRAME_BITS * (CAN_QUEUE_MAX + CAN_BUFFERS) / CAN_BITRATE + 1   /* and all that can wait */
 };
 
 static void note_dropped(struct can_queue *queue, unsigned more)

@@ -21,9 +21,9 @@ struct can_queue {
 };
 
 bool can_queue_put(struct can_queue *queue, const struct frame *frame);
-        /* False, and counted: the bus takes nothing. One that is more urgent than all that waits overtakes them where none of
-           them has left for 2 ms, or not all within 5 ms; if the controller is full, the least urgent frame there is
-           dropped for it. What has waited for LINK_SEND_MS without any of it leaving is out of date, and dropped. */
+        /* False, and counted: the bus takes nothing. One that is more urgent than all that waits overtakes them where they do
+           not leave as fast as they would on an idle bus; if the controller is full, the least urgent frame there is dropped
+           for it. What has waited for LINK_SEND_MS without any of it leaving is out of date, and dropped. */
 
 unsigned can_queue_pump(struct can_queue *queue);
         /* Hands a frame on to the controller if one fits. Returns how many have not left. */

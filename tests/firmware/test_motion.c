@@ -374,6 +374,19 @@ static void test_wild_odometers_make_no_wild_speeds(void)
     }
 }
 
+static void test_either_wheel_that_jumps_is_not_credible(void)
+{
+    struct senses senses = {.odometer_left = 0};
+
+    config_reset(&config);
+    motion = (struct motion){.referenced = true};
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 1));
+    senses.odometer_left = 2000;
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+    senses = (struct senses){.odometer_right = 2000};
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+}
+
 /* The same way each time, so that the error grows to its limit. */
 static void test_a_body_that_spins_by_itself_overflows_nothing(void)
 {
@@ -421,6 +434,7 @@ int main(void)
     RUN_TEST(test_steps_are_exact_at_both_ends_of_every_range);
     RUN_TEST(test_stuck_wheels_are_given_up_at_both_ends_of_every_range);
     RUN_TEST(test_wild_odometers_make_no_wild_speeds);
+    RUN_TEST(test_either_wheel_that_jumps_is_not_credible);
     RUN_TEST(test_a_body_that_spins_by_itself_overflows_nothing);
     return UNITY_END();
 }

@@ -167,6 +167,21 @@ static void test_what_was_answered_is_answered_again_at_once(void)
     TEST_ASSERT_EQUAL_MEMORY(&fake.sent[fake.sends - 2], &fake.sent[fake.sends - 1], sizeof(struct frame));
 }
 
+static void test_an_answer_again_that_does_not_leave_is_counted(void)
+{
+    const struct output drive = {.has_drive = true};
+
+    start_in_lockstep();
+    senses_come(0, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL(0, hal_send(hal, &drive));
+    senses_come(50, 0);
+    fake.failure = LINK_E_FULL;
+    fake.failing_send = fake.sends + 1;
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    assert_faults((struct octet_faults_t){.unsent = 1});
+}
+
 static void test_after_an_outage_the_last_senses_count_whatever_their_number(void)
 {
     static const unsigned ticks[] = {1500, 1501, 1502, 0, 1, 2};
@@ -317,6 +332,7 @@ int main(void)
     RUN_TEST(test_in_lockstep_nothing_is_passed_over_after_silence);
     RUN_TEST(test_in_lockstep_another_may_take_over_after_a_second);
     RUN_TEST(test_what_was_answered_is_answered_again_at_once);
+    RUN_TEST(test_an_answer_again_that_does_not_leave_is_counted);
     RUN_TEST(test_after_an_outage_the_last_senses_count_whatever_their_number);
     RUN_TEST(test_after_an_outage_only_the_newest_senses_count);
     RUN_TEST(test_noise_among_what_queued_up_is_passed_over);

@@ -197,6 +197,13 @@ static void test_in_lockstep_the_last_tick_may_come_again(void)
     TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, tick(5));
 }
 
+static void test_in_lockstep_the_last_tick_with_another_counter_is_stale(void)
+{
+    start(1);
+    tick(5);
+    TEST_ASSERT_EQUAL(ARRIVAL_STALE, session_senses(&session, 5, 6, &missed));
+}
+
 static void test_on_its_own_clock_the_last_tick_again_is_stale(void)
 {
     tick(5);
@@ -242,6 +249,7 @@ int main(void)
     RUN_TEST(test_stale_senses_change_nothing);
     RUN_TEST(test_in_lockstep_only_the_next_tick_is_fresh);
     RUN_TEST(test_in_lockstep_the_last_tick_may_come_again);
+    RUN_TEST(test_in_lockstep_the_last_tick_with_another_counter_is_stale);
     RUN_TEST(test_on_its_own_clock_the_last_tick_again_is_stale);
     RUN_TEST(test_after_start_and_stop_any_tick_is_taken);
     RUN_TEST(test_after_a_refused_start_the_tick_must_go_on);

@@ -301,6 +301,14 @@ static void test_an_outage_loses_the_owner_the_robot(void)
     TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_of(OPCODE_ERASE, 9, OWNER + 1)));
 }
 
+static void test_in_lockstep_senses_again_before_any_answer_have_none(void)
+{
+    start(1, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(0));
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, read_tick(0));
+    TEST_ASSERT_NULL(wire.again);
+}
+
 static void test_in_lockstep_senses_again_are_answered_as_before(void)
 {
     struct frame drive;
@@ -487,6 +495,7 @@ int main(void)
     RUN_TEST(test_before_the_first_senses_there_is_no_outage);
     RUN_TEST(test_in_lockstep_an_outage_is_no_fault);
     RUN_TEST(test_an_outage_loses_the_owner_the_robot);
+    RUN_TEST(test_in_lockstep_senses_again_before_any_answer_have_none);
     RUN_TEST(test_in_lockstep_senses_again_are_answered_as_before);
     RUN_TEST(test_what_was_said_in_silence_is_not_said_again);
     RUN_TEST(test_a_command_again_is_answered_as_before);

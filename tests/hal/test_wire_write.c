@@ -62,6 +62,17 @@ static void assert_ids(const uint32_t expected[], size_t count)
     }
 }
 
+static void test_the_parts_of_a_report_wait_for_drives_in_answer_to_senses(void)
+{
+    out.has_report = true;
+    TEST_ASSERT_EQUAL_size_t(0, write());
+    out.has_report = false;
+    out.has_drive = out.silent = true;
+    TEST_ASSERT_EQUAL_size_t(1, write());
+    out.silent = false;
+    TEST_ASSERT_EQUAL_size_t(2, write());
+}
+
 static void test_all_marks_make_all_frames_the_drive_last(void)
 {
     static const uint32_t ids[WIRE_FRAMES_MAX] = {0x141, 0x161, 0x6A1, 0x6C1, 0x681, 0x681, 0x781, 0x781, 0x7A1, 0x7C1, 0x041};
@@ -420,6 +431,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_no_mark_makes_no_frame);
+    RUN_TEST(test_the_parts_of_a_report_wait_for_drives_in_answer_to_senses);
     RUN_TEST(test_all_marks_make_all_frames_the_drive_last);
     RUN_TEST(test_the_last_node_writes_its_own_identifiers);
     RUN_TEST(test_a_report_is_spread_over_the_drives_of_many_ticks);

@@ -303,6 +303,16 @@ static void test_closing_gives_back_every_descriptor(void)
     TEST_ASSERT_EQUAL_INT(before, open_descriptors());
 }
 
+static void test_a_link_that_cannot_know_says_that_the_bus_is_fine(void)
+{
+    struct link_health health;
+
+    memset(&health, 0xEE, sizeof health);
+    link_health(near, &health);
+    TEST_ASSERT_EQUAL(BUS_ACTIVE, health.state);
+    TEST_ASSERT_EQUAL_UINT(0, health.tx_errors + health.rx_errors + health.bus_offs + health.dropped);
+}
+
 static void test_closing_no_link_is_fine(void)
 {
     link_close(NULL);
@@ -375,6 +385,7 @@ static void run_for_all(void)
     RUN_TEST(test_extended_and_remote_frames_can_be_sent);
     RUN_TEST(test_a_link_opens_again_after_a_close);
     RUN_TEST(test_closing_gives_back_every_descriptor);
+    RUN_TEST(test_a_link_that_cannot_know_says_that_the_bus_is_fine);
     RUN_TEST(test_closing_no_link_is_fine);
 }
 

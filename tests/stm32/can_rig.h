@@ -40,7 +40,10 @@ void rig_block(bool blocked);
         /* The bus is never idle: nothing can be sent, and it cannot be joined. */
 
 void rig_occupy(uint32_t id);
-        /* From here on other nodes send frames of this identifier without a pause, for at least 200 ms. */
+        /* From here on other nodes send frames of this identifier without a pause, for at least 200 ms. 0: they stop. */
+
+void rig_stick(void);
+        /* From here on the controller neither sends what it has nor gives it up. */
 
 void rig_lose_bus(void);
 bool rig_has_lost_bus(void);

@@ -28,6 +28,7 @@ void fdcan_reset(void)
     FDCAN.rxf0a = NOTHING_READ;
     fdcan.in_init = true;
     fdcan.on_wire = -1;
+    fdcan.frame_us = 250;
     fdcan.clocks = (struct clocks){80000000, 80000000, 80000000, true};
     fdcan_step();
 }
@@ -100,16 +101,16 @@ static void take_requests(void)
     uint32_t under_way = fdcan.on_wire >= 0 ? 1u << fdcan.on_wire : 0u;
 
     FDCAN.txbrp |= FDCAN.txbar;
-    FDCAN.txbrp &= ~FDCAN.txbcr | under_way;
+    FDCAN.txbrp &= ~(fdcan.sticks ? 0 : FDCAN.txbcr) | under_way;
     FDCAN.txbar = FDCAN.txbcr = 0;
 }
 
 static void step_transmit(void)
 {
     take_requests();
-    if (fdcan.on_wire >= 0 && fdcan.now_us - fdcan.on_wire_us >= MODEL_FRAME_US)
+    if (fdcan.on_wire >= 0 && fdcan.now_us - fdcan.on_wire_us >= fdcan.frame_us)
         end_transmission();
-    if (fdcan.on_wire < 0 && fdcan.joined && !fdcan.bus_busy) {
+    if (fdcan.on_wire < 0 && fdcan.joined && !fdcan.bus_busy && !fdcan.sticks) {
         fdcan.on_wire = next_to_send();
         fdcan.on_wire_us = fdcan.now_us;
     }

@@ -13,8 +13,7 @@ enum {
     MODEL_SENT_MAX = 64,
     MODEL_FIFO_DEPTH = 3,
     MODEL_LOOK_US = 50,        /* from one look at the clock to the next */
-    MODEL_RECOVERY_US = 3000,  /* 129 times 11 bits at 500 kbit/s, and a little */
-    MODEL_FRAME_US = 250       /* on the wire */
+    MODEL_RECOVERY_US = 3000   /* 129 times 11 bits at 500 kbit/s, and a little */
 };
 
 struct fdcan_model {
@@ -24,6 +23,8 @@ struct fdcan_model {
     bool ignores_init;         /* INIT is never read back */
     bool bus_busy;             /* nothing can be sent, and the bus cannot be joined */
     uint32_t occupied_by;      /* identifier that others send without a pause; 0: nobody does */
+    uint32_t frame_us;         /* that a frame takes on the wire */
+    bool sticks;               /* what waits neither leaves nor is given up */
     bool bus_off;
     bool stays_off;            /* the idle times that end bus-off never come */
     bool joined;

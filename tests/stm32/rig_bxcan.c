@@ -70,9 +70,15 @@ void rig_block(bool blocked)
 
 void rig_occupy(uint32_t id)
 {
-    for (unsigned i = 0; i < 1000; i++)
+    wire.waiting.count = 0;
+    for (unsigned i = 0; id != 0 && i < 1000; i++)
         TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = id, .len = 8}));
     registers_pass_us(0);
+}
+
+void rig_stick(void)
+{
+    can.stuck_mailboxes = 7;
 }
 
 void rig_lose_bus(void)

@@ -71,6 +71,11 @@ void rig_occupy(uint32_t id)
     fdcan.occupied_by = id;
 }
 
+void rig_stick(void)
+{
+    fdcan.sticks = true;
+}
+
 void rig_lose_bus(void)
 {
     fdcan.bus_off = true;

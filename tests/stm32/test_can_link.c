@@ -25,6 +25,7 @@ void setUp(void)
 {
     rig_reset();
     TEST_ASSERT_EQUAL(0, open_it());
+    rig_pass_us(100);
 }
 
 void tearDown(void) {}
@@ -132,19 +133,6 @@ static void test_the_filters_hold_eight_identifiers_and_not_nine(void)
         TEST_ASSERT_EQUAL(i < 8, rig_passes_filters(ids[i]));
 }
 
-static void test_an_idle_bus_is_joined_at_once(void)
-{
-    TEST_ASSERT_EQUAL(0, try_to_send(HEARTBEAT, 0));
-}
-
-static void test_a_bus_that_cannot_be_joined_holds_up_nobody(void)
-{
-    rig_reset();
-    rig_block(true);
-    TEST_ASSERT_EQUAL(0, open_it());
-    TEST_ASSERT_LESS_THAN_UINT32(10, rig_ms());
-}
-
 /* ---- sending */
 
 static void test_a_frame_goes_out_as_it_is(void)
@@ -216,6 +204,37 @@ static void test_what_is_urgent_takes_the_place_of_what_is_least_so(void)
     assert_sent(1, ANSWER, 2);
     assert_sent(2, HEARTBEAT, 0);
     TEST_ASSERT_EQUAL_UINT8(1, health().dropped);
+}
+
+static void test_what_is_less_urgent_than_what_waits_stays_behind_it(void)
+{
+    rig_occupy(0x300);
+    send_numbered(HEALTH, 0);
+    send_numbered(HEALTH, 1);
+    send_numbered(ANSWER, 2);
+    send_numbered(MEMORY, 3);
+    rig_pass_us(600);
+    send_numbered(HEARTBEAT, 4);
+    rig_occupy(0);
+    wait_ms(5);
+    TEST_ASSERT_EQUAL_UINT(5, rig_sent_count());
+    assert_sent(0, ANSWER, 2);
+    for (unsigned n = 1; n < 5; n++)
+        if (rig_sent(n)->id == MEMORY)
+            assert_sent(n + 1, HEARTBEAT, 4);
+}
+
+static void test_a_controller_that_sticks_is_given_up_in_time(void)
+{
+    uint32_t start;
+
+    rig_stick();
+    send_numbered(HEALTH, 0);
+    send_numbered(HEARTBEAT, 1);
+    send_numbered(ANSWER, 2);
+    start = rig_ms();
+    TEST_ASSERT_EQUAL(LINK_E_FULL, try_to_send(DRIVE, 3));
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + LINK_SEND_MS + 6, rig_ms());
 }
 
 /* Sends until no more is taken; returns how many were. */
@@ -462,13 +481,13 @@ int main(void)
     RUN_TEST(test_a_controller_that_does_not_answer_is_given_up_soon);
     RUN_TEST(test_the_filters_pass_what_is_wanted_and_nothing_else);
     RUN_TEST(test_the_filters_hold_eight_identifiers_and_not_nine);
-    RUN_TEST(test_an_idle_bus_is_joined_at_once);
-    RUN_TEST(test_a_bus_that_cannot_be_joined_holds_up_nobody);
     RUN_TEST(test_a_frame_goes_out_as_it_is);
     RUN_TEST(test_on_an_idle_bus_frames_leave_in_the_order_sent);
     RUN_TEST(test_frames_of_one_identifier_never_overtake_each_other);
     RUN_TEST(test_a_drive_leaves_at_once_whatever_else_waits);
     RUN_TEST(test_what_is_urgent_takes_the_place_of_what_is_least_so);
+    RUN_TEST(test_what_is_less_urgent_than_what_waits_stays_behind_it);
+    RUN_TEST(test_a_controller_that_sticks_is_given_up_in_time);
     RUN_TEST(test_a_bus_that_takes_nothing_is_waited_for_no_longer_than_promised);
     RUN_TEST(test_what_no_bus_takes_is_dropped_and_counted_and_the_newest_drive_leaves);
     RUN_TEST(test_what_waits_leaves_while_the_robot_listens);

@@ -89,6 +89,20 @@ static void test_the_places_of_the_fifo_are_gone_through_in_a_ring(void)
     }
 }
 
+/* Others' frames between ours: each of ours leaves, but slowly. */
+static void test_a_drive_does_not_wait_for_all_of_many_that_leave_slowly(void)
+{
+    uint32_t start;
+
+    fdcan.frame_us = 800;
+    for (uint8_t n = 0; n < 9; n++)
+        TEST_ASSERT_EQUAL(0, link_send(link_here, &(struct frame){.id = 0x6A1, .len = 1, .data = {n}}));
+    start = fdcan.now_us;
+    TEST_ASSERT_EQUAL(0, link_send(link_here, &(struct frame){.id = 0x041}));
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + 6000, fdcan.now_us);
+    TEST_ASSERT_LESS_THAN_UINT(8, fdcan.sent_count);
+}
+
 static void test_no_interrupt_is_asked_for(void)
 {
     TEST_ASSERT_EQUAL_HEX32(0, FDCAN.ie | FDCAN.ile);
@@ -104,6 +118,7 @@ int main(void)
     RUN_TEST(test_an_odd_number_of_identifiers_fits);
     RUN_TEST(test_buffers_are_written_whole);
     RUN_TEST(test_the_places_of_the_fifo_are_gone_through_in_a_ring);
+    RUN_TEST(test_a_drive_does_not_wait_for_all_of_many_that_leave_slowly);
     RUN_TEST(test_no_interrupt_is_asked_for);
     return UNITY_END();
 }

@@ -17,11 +17,14 @@ static struct {
     uint32_t now_ms, busy_ms, error;
     unsigned operations, failing;   /* the n-th fails, counted from 1 */
     unsigned pumped;
+    volatile uint16_t *worn;        /* does not keep what is written */
 } controller;
 
 uint32_t machine_ms(void)
 {
     controller.operations += controller.now_ms == 0;
+    if (controller.worn)
+        *controller.worn = 0;
     FLASH.sr = controller.now_ms < controller.busy_ms ? BUSY : 0u;
     if (controller.error != 0 && controller.operations == controller.failing)
         FLASH.sr |= controller.error;
@@ -116,6 +119,13 @@ static void test_either_half_that_is_refused_fails(void)
     }
 }
 
+static void test_what_does_not_read_back_fails_and_ends_the_write(void)
+{
+    controller.worn = &STORE[1][10];
+    TEST_ASSERT_EQUAL(-1, write_one(1, 20, 0x12345678));
+    TEST_ASSERT_EQUAL_HEX16(0xFFFF, STORE[1][11]);
+}
+
 static void test_a_write_that_never_ends_is_given_up(void)
 {
     controller.busy_ms = FOREVER;
@@ -147,6 +157,7 @@ int main(void)
     RUN_TEST(test_the_line_is_pumped_after_each_half);
     RUN_TEST(test_the_keys_come_in_their_order_and_it_is_locked_again);
     RUN_TEST(test_either_half_that_is_refused_fails);
+    RUN_TEST(test_what_does_not_read_back_fails_and_ends_the_write);
     RUN_TEST(test_a_write_that_never_ends_is_given_up);
     RUN_TEST(test_a_page_is_erased_by_its_address);
     RUN_TEST(test_an_erase_that_never_ends_is_given_up);

@@ -17,6 +17,7 @@ volatile uint32_t STORE[FLASH_PAGES][WORDS];
 static struct {
     uint32_t now_ms, busy_ms, error;
     uint32_t setting;      /* of FLASH.cr while it works */
+    volatile uint32_t *worn;   /* does not keep what is written */
 } controller;
 
 uint32_t machine_ms(void)
@@ -25,6 +26,8 @@ uint32_t machine_ms(void)
         controller.setting = FLASH.cr;
     if (FLASH.cr & START && controller.busy_ms == 0 && controller.error == 0)
         memset((void *)STORE[(FLASH.cr >> 3 & 15) - 1], 0xFF, sizeof STORE[0]);
+    if (controller.worn)
+        *controller.worn = 0;
     FLASH.sr = controller.error | (controller.now_ms < controller.busy_ms ? BUSY : 0u);
     return controller.now_ms++;
 }
@@ -91,6 +94,16 @@ static void test_a_write_that_is_refused_fails(void)
     TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
 }
 
+static void test_what_does_not_read_back_fails_and_ends_the_write(void)
+{
+    static const uint32_t words[] = {1, 2};
+
+    controller.worn = &STORE[1][5];
+    TEST_ASSERT_EQUAL(-1, flash_write(1, 20, words, sizeof words));
+    TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFF, STORE[1][6]);
+    TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
+}
+
 static void test_a_write_that_never_ends_is_given_up(void)
 {
     controller.busy_ms = FOREVER;
@@ -129,6 +142,7 @@ int main(void)
     RUN_TEST(test_words_are_written_where_they_belong_four_bytes_at_once);
     RUN_TEST(test_the_keys_come_in_their_order_and_it_is_locked_again);
     RUN_TEST(test_a_write_that_is_refused_fails);
+    RUN_TEST(test_what_does_not_read_back_fails_and_ends_the_write);
     RUN_TEST(test_a_write_that_never_ends_is_given_up);
     RUN_TEST(test_each_page_is_a_sector_and_erased_by_itself);
     RUN_TEST(test_an_erase_may_take_most_of_a_second_and_no_more);

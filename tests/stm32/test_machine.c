@@ -11,7 +11,7 @@ enum { PIN = 1 << 26, POWER_ON = 1 << 27, SOFTWARE = 1 << 28, INDEPENDENT = 1 <<
 
 volatile struct watchdog_registers IWDG;
 
-static bool pins_started;
+static bool pins_started, exact;
 static uint32_t reset_flags;
 
 uint32_t chip_reset_flags(void)
@@ -22,7 +22,7 @@ uint32_t chip_reset_flags(void)
 struct clocks clock_start(void)
 {
     TEST_ASSERT_EQUAL_HEX32(0xAAAA, IWDG.kr);   /* the watchdog watches the clocks start */
-    return (struct clocks){168000000, 42000000, 84000000, true};
+    return (struct clocks){168000000, 42000000, 84000000, exact};
 }
 
 void pins_start(void)
@@ -34,6 +34,7 @@ void setUp(void)
 {
     memset((void *)&IWDG, 0, sizeof IWDG);
     pins_started = false;
+    exact = true;
     (void)mcu_start();
 }
 
@@ -56,6 +57,10 @@ static void test_the_clocks_are_as_they_started(void)
 {
     TEST_ASSERT_EQUAL_UINT32(168000000, mcu_start());
     TEST_ASSERT_EQUAL_UINT32(42000000, machine_clocks().can_hz);
+    TEST_ASSERT_TRUE(mcu_clock_is_exact());
+    exact = false;
+    (void)mcu_start();
+    TEST_ASSERT_FALSE(mcu_clock_is_exact());
 }
 
 static void test_each_cause_of_a_reset_is_told_by_its_flag(void)

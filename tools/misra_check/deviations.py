@@ -51,7 +51,7 @@ def read(path: Path) -> list[Deviation]:
     try:
         rows = _toml.loads(path.read_text())["deviation"]
         table = [Deviation(row["rule"], tuple(row["where"]), row["why"]) for row in rows]
-    except (OSError, _toml.TOMLDecodeError, KeyError) as error:
+    except (OSError, _toml.TOMLDecodeError, KeyError, TypeError) as error:
         raise CheckError(f"cannot read {path}: {error!r}") from error
     for row in table:
         if not row.why.strip() or not row.where:

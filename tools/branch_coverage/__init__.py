@@ -1,0 +1,1 @@
+"""What tools/coverage is made of."""
