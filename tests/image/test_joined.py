@@ -50,7 +50,7 @@ def test_it_answers_on_the_bus(joined):
 
     send(bus, STOP)
 
-    assert [name for name in heard(board, bus, "HEALTH") if name not in ("BOOT", "EMERGENCY")][:2] == [
+    assert [name for name in heard(board, bus, "HEALTH") if name not in ("BOOT", "DRIVE")][:2] == [
         "ANSWER",
         "HEARTBEAT",
     ]
