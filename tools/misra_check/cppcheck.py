@@ -42,7 +42,7 @@ def findings(commands: Sequence[Command]) -> list[Finding]:
     with tempfile.TemporaryDirectory() as folder:
         project = Path(folder, "compile_commands.json")
         project.write_text(json.dumps(commands))
-        output = _run(project)
+        output = _run(project, folder)
     found = set()
     for line in output.splitlines():
         if _ERROR.fullmatch(line):
@@ -52,8 +52,9 @@ def findings(commands: Sequence[Command]) -> list[Finding]:
     return sorted(found)
 
 
-def _run(project: Path) -> str:
-    options = ("--addon=misra", "--std=c99", "--platform=unix32", "--quiet", f"-j{os.cpu_count() or 1}")
+def _run(project: Path, scratch: str) -> str:
+    kind = ("--addon=misra", "--std=c99", "--platform=unix32")
+    options = (*kind, "--quiet", f"-j{os.cpu_count() or 1}", f"--cppcheck-build-dir={scratch}")
     template = "--template={file}:{line} {id}"
     try:
         result = subprocess.run(
