@@ -22,6 +22,7 @@ class Arena:
     0
 
     Attributes:
+        space: The pymunk space that they are in.
         bodies: The robots' bodies, in the order of the layout's starts.
         food: The food, shared by all robots.
         obstacles: Walls and bars, the bars by id: at first 0, 1, ... as in the layout. Call `settle` after a change.
@@ -37,17 +38,17 @@ class Arena:
                 rolled so far, mm; empty for robots that have not moved yet.
         """
         self._starts = layout.starts
-        self._space = pymunk.Space()
+        self.space = pymunk.Space()
         self.food = Food(layout.food)
-        self.obstacles = Obstacles(self._space, layout.bars, params)
+        self.obstacles = Obstacles(self.space, layout.bars, params)
         self.bodies = [
-            Body(self._space, self.food, params, index, start, odometers[index] if odometers else (0.0, 0.0))
+            Body(self.space, self.food, params, index, start, odometers[index] if odometers else (0.0, 0.0))
             for index, start in enumerate(self._starts)
         ]
         self._by_disc = {body.disc: body for body in self.bodies}
         touching = {"begin": self._begin, "pre_solve": self._press, "separate": self._separate}
-        self._space.on_collision(DISC, OBSTACLE, **touching)
-        self._space.on_collision(DISC, DISC, **touching)
+        self.space.on_collision(DISC, OBSTACLE, **touching)
+        self.space.on_collision(DISC, DISC, **touching)
         self.settle()
 
     @property

@@ -1,6 +1,7 @@
 """One robot's body: it moves with its wheels, senses, and is pushed out of whatever it runs into."""
 
 import math
+from typing import Any
 
 import pymunk
 
@@ -29,7 +30,11 @@ class Body:
 
     Attributes:
         pose: Its position and heading.
+        in_space: Itself in the space.
         disc: Its shape in the space.
+        first_cone: Collision type of the cone of the lowest bit of feel; those of the others follow.
+        sight: Filter of its line of sight.
+        in_the_air: Where the space has it while it is lifted, mm.
         feel: One bit for each cone with something in it, as of the space's last step: right 1, front-right 2,
             front 4, front-left 8, left 16.
         collisions: Number of times that it has begun to touch something.
@@ -53,26 +58,49 @@ class Body:
         self.feel = self.collisions = self.touches = 0
         self.lifted = False
         self._space, self._food, self._params = space, food, params
-        self._in_the_air = _IN_THE_AIR_MM, _IN_THE_AIR_MM * (index + 1)
+        self.in_the_air = _IN_THE_AIR_MM, _IN_THE_AIR_MM * (index + 1)
         self.pose = start
         self._left_mm, self._right_mm = odometer
         self._depth_mm, self._normal = 0.0, (0.0, 0.0)
         self._seen_id, self._seen_mm = -1, 0
-        self._body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
-        self._sight = sight_filter(index + 1)
-        self.disc = pymunk.Circle(self._body, params.body_radius_mm)
+        self.in_space = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
+        self.sight = sight_filter(index + 1)
+        self.disc = pymunk.Circle(self.in_space, params.body_radius_mm)
         self.disc.collision_type, self.disc.filter = DISC, disc_filter(index + 1)
         # Chipmunk must find the body where it starts.
-        self._body.position, self._body.angle = start[:2], start.heading_rad
-        space.add(self._body, self.disc)
+        self.in_space.position, self.in_space.angle = start[:2], start.heading_rad
+        space.add(self.in_space, self.disc)
         self._overlaps = dict.fromkeys(CONE_BEARINGS_DEG, 0)
-        for number, bit in enumerate(CONE_BEARINGS_DEG, CONES + index * len(CONE_BEARINGS_DEG)):
+        self.first_cone = CONES + index * len(CONE_BEARINGS_DEG)
+        for number, bit in enumerate(CONE_BEARINGS_DEG, self.first_cone):
             self._add_cone(bit, number, cone_filter(index + 1))
 
     @property
     def odometer(self) -> Point:
         """Distances rolled by the left and the right wheel since the first arena, mm, forward positive, with slip."""
         return self._left_mm, self._right_mm
+
+    @property
+    def state(self) -> tuple[float, ...]:
+        """All that changes in it, as plain numbers in the order of `struct body` in `native/world.h`.
+
+        Setting it to an earlier value leaves the shapes in the space where they are.
+        """
+        return (
+            *self.pose,
+            *(self._left_mm, self._right_mm),
+            *(self._depth_mm, *self._normal),
+            *(self._seen_id, self._seen_mm),
+            *(self.touches, self.collisions, *self._overlaps.values()),
+            *(self.feel, self.lifted),
+        )
+
+    @state.setter
+    def state(self, state: tuple[Any, ...]) -> None:
+        x, y, heading, self._left_mm, self._right_mm, self._depth_mm, normal_x, normal_y, *whole = state
+        self.pose, self._normal = Pose(x, y, heading), (normal_x, normal_y)
+        self._seen_id, self._seen_mm, self.touches, self.collisions, *overlaps, self.feel, self.lifted = whole
+        self._overlaps = dict(zip(self._overlaps, overlaps, strict=True))
 
     def sense(self, tick: int) -> Senses:
         """What the robot senses where it stands. Food is seen in a corridor straight ahead if nothing hides it.
@@ -88,7 +116,7 @@ class Body:
                 dx, dy = food[0] - x, food[1] - y
                 if dx * ahead_x + dy * ahead_y <= 0.0 or abs(dy * ahead_x - dx * ahead_y) > half:
                     continue
-                distance_mm = max(1, round(math.hypot(dx, dy)))
+                distance_mm = max(1, round(math.sqrt(dx * dx + dy * dy)))
                 if (beacon_mm == 0 or distance_mm < beacon_mm) and not self._is_hidden(food):
                     self._seen_id, beacon_mm = food_id, distance_mm
         self._seen_mm = beacon_mm
@@ -146,8 +174,8 @@ class Body:
         """Moves its shapes to its pose and finds what the body and its cones overlap there."""
         x, y, heading = self.pose
         self._depth_mm = 0.0
-        self._body.position = self._in_the_air if self.lifted else (x, y)
-        self._body.angle = heading
+        self.in_space.position = self.in_the_air if self.lifted else (x, y)
+        self.in_space.angle = heading
         self._space.step(self._params.tick_s)
 
     def press(self, depth_mm: float, normal: Point) -> None:
@@ -168,13 +196,13 @@ class Body:
         self.place()
 
     def _is_hidden(self, food: Point) -> bool:
-        return self._space.segment_query_first(self.pose[:2], food, 0.0, self._sight) is not None
+        return self._space.segment_query_first(self.pose[:2], food, 0.0, self.sight) is not None
 
     def _add_cone(self, bit: int, collision_type: int, cone_filter: pymunk.ShapeFilter) -> None:
         """Adds a cone. Chipmunk reports when it begins and ceases to overlap something: reading it costs nothing."""
         params, space = self._params, self._space
         reach_mm = params.body_radius_mm + params.sensor_reach_mm
-        cone = pymunk.Poly(self._body, cone_outline(CONE_BEARINGS_DEG[bit], reach_mm))
+        cone = pymunk.Poly(self.in_space, cone_outline(CONE_BEARINGS_DEG[bit], reach_mm))
         cone.sensor = True
         cone.collision_type, cone.filter = collision_type, cone_filter
         space.add(cone)

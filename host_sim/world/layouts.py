@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.world.geometry import Bar, Point, Pose
+from host_sim.world.native_library import NoNativeError
+from host_sim.world.native_reach import Grid, native_reach
 from host_sim.world.params import SimParams
 
 _CELL_MM = 25.0
@@ -168,9 +170,25 @@ def _cell(point: Point) -> tuple[int, int]:
 
 def _reachable(layout: Layout, params: SimParams) -> NDArray[np.bool_]:
     """The grid cells that the centre of the body can get to from the start: shape (rows, columns)."""
-    free = _free(layout.bars, params)
-    columns, frontier = free.shape[1], [int(np.ravel_multi_index(_cell(layout.start[:2]), free.shape))]
-    unvisited = bytearray(free.tobytes())
+    grid = _grid(params)
+    row, column = _cell(layout.start[:2])
+    start = row * (grid.columns + 2) + column
+    try:
+        return native_reach(layout.bars, start, grid, params)
+    except NoNativeError:
+        return _flooded(_free(layout.bars, grid, params), start)
+
+
+def _grid(params: SimParams) -> Grid:
+    rows, columns = math.ceil(params.height_mm / _CELL_MM), math.ceil(params.width_mm / _CELL_MM)
+    # Clearance changes by at most the distance moved, and no point of a cell is farther than this from its centre.
+    corner_mm = _CELL_MM * math.sqrt(0.5)
+    return Grid(rows, columns, _CELL_MM, params.body_radius_mm + corner_mm)
+
+
+def _flooded(free: NDArray[np.bool_], start: int) -> NDArray[np.bool_]:
+    """The free cells that can be got to: what `native_reach` finds, in Python."""
+    columns, frontier, unvisited = free.shape[1], [start], bytearray(free.tobytes())
     while frontier:
         cell = frontier.pop()
         if unvisited[cell]:
@@ -180,11 +198,8 @@ def _reachable(layout: Layout, params: SimParams) -> NDArray[np.bool_]:
     return free & ~left
 
 
-def _free(bars: tuple[Bar, ...], params: SimParams) -> NDArray[np.bool_]:
+def _free(bars: tuple[Bar, ...], grid: Grid, params: SimParams) -> NDArray[np.bool_]:
     """The grid cells in which the centre of the body may be anywhere, inside a border of cells where it may not."""
-    rows, columns = math.ceil(params.height_mm / _CELL_MM), math.ceil(params.width_mm / _CELL_MM)
-    y, x = (np.indices((rows, columns)) + 0.5) * _CELL_MM
+    y, x = (np.indices((grid.rows, grid.columns)) + 0.5) * grid.cell_mm
     room = clearance_mm(np.column_stack([x.ravel(), y.ravel()]), bars, params)
-    # Clearance changes by at most the distance moved, and no point of a cell is farther than this from its centre.
-    corner_mm = _CELL_MM * math.sqrt(0.5)
-    return np.pad(room.reshape(rows, columns) >= params.body_radius_mm + corner_mm, 1)
+    return np.pad(room.reshape(grid.rows, grid.columns) >= grid.room_mm, 1)

@@ -6,6 +6,7 @@ endif()
 
 add_library(unity STATIC ${UNITY_DIR}/unity.c)
 target_include_directories(unity SYSTEM PUBLIC ${UNITY_DIR})
+target_compile_definitions(unity PUBLIC UNITY_INCLUDE_DOUBLE)   # for the world; the robot knows only whole numbers
 
 # octet_test(NAME LIBRARY...): a test program from test_NAME.c in the current folder.
 function(octet_test name)

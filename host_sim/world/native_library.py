@@ -1,0 +1,48 @@
+"""Loads libraries of C code that were built from the very headers that declare them here."""
+
+import hashlib
+import os
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import cffi
+
+
+class NoNativeError(Exception):
+    """The C code cannot be used; the message says why."""
+
+
+def load_native(library: Path, prefix: str, headers: Sequence[Path]) -> tuple[Any, Any]:
+    """A library, and the interface to it as its headers declare it.
+
+    Args:
+        library: The library.
+        prefix: What the names of its functions begin with; `PREFIXstamp` gives the digests of the headers that it was
+            built from.
+        headers: Its headers, those that include others after them. cffi reads everything but preprocessor lines.
+
+    Raises:
+        NoNativeError: The library is missing, or was built from other headers.
+    """
+    if not library.exists():
+        raise NoNativeError(f"{library.name} is missing")
+    ffi: Any = cffi.FFI()
+    ffi.cdef(f"const char *{prefix}stamp(void);")
+    for header in headers:
+        ffi.cdef(declarations(header))
+    try:
+        loaded = ffi.dlopen(os.fspath(library))
+        stamp: Any = ffi.string(getattr(loaded, f"{prefix}stamp")())
+    except (OSError, AttributeError) as error:
+        raise NoNativeError(f"{library.name} cannot be loaded ({error})") from None
+    if stamp.decode() != "".join(hashlib.sha256(header.read_bytes()).hexdigest() for header in headers):
+        raise NoNativeError(f"{library.name} was built from other sources")
+    return ffi, loaded
+
+
+def declarations(header: Path) -> str:
+    """What a header declares, as cffi reads it: without comments and the preprocessor's lines."""
+    text = re.sub(r"/\*.*?\*/", " ", header.read_text(encoding="utf-8"), flags=re.DOTALL)
+    return re.sub(r"^#(.*\\\n)*.*$", "", text, flags=re.MULTILINE)

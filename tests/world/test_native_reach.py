@@ -1,0 +1,80 @@
+"""Layouts that are checked in C against those that are checked in Python."""
+
+import math
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from host_sim.world import layouts, native_reach
+from host_sim.world.geometry import Bar, Pose
+from host_sim.world.layouts import Layout, generate
+from host_sim.world.native_library import NoNativeError
+from host_sim.world.native_reach import HEADER
+from host_sim.world.params import SimParams
+
+PARAMS = SimParams()
+SEEDS = range(300)
+
+
+def random_bar(draws: random.Random) -> Bar:
+    """A bar anywhere, often along the middles of cells or exactly at the limit from them."""
+    x, y = draws.uniform(0.0, 4000.0), draws.uniform(0.0, 3000.0)
+    if draws.random() < 0.5:
+        x, y = 12.5 + 25.0 * (x // 25.0), 12.5 + 25.0 * (y // 25.0)
+    angle, length = draws.choice([0.0, math.pi / 2, draws.uniform(0.0, 3.0)]), draws.uniform(10.0, 1500.0)
+    return Bar((x, y), (x + length * math.cos(angle), y + length * math.sin(angle)))
+
+
+def test_the_same_cells_are_reached_in_300_crowded_layouts():
+    grid, unlike = layouts._grid(PARAMS), 0
+    for seed in SEEDS:
+        draws = random.Random(seed)
+        bars = tuple(random_bar(draws) for _ in range(draws.randint(0, 20)))
+        start = draws.randrange(grid.rows + 2) * (grid.columns + 2) + draws.randint(1, grid.columns)
+        if not (1 <= start // (grid.columns + 2) <= grid.rows):
+            continue
+
+        in_c = native_reach.native_reach(bars, start, grid, PARAMS)
+        in_python = layouts._flooded(layouts._free(bars, grid, PARAMS), start)
+
+        assert np.array_equal(in_c, in_python), seed
+        unlike += 0 < in_python.sum() < layouts._free(bars, grid, PARAMS).sum()
+    assert unlike > 20, "hardly a layout had a free cell that cannot be reached"
+
+
+def without_library(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    native_reach._loaded.cache_clear()
+    monkeypatch.setattr(native_reach, "LIBRARY", folder / "none.so")
+
+
+@pytest.fixture
+def fresh():
+    yield
+    native_reach._loaded.cache_clear()
+
+
+@pytest.mark.usefixtures("fresh")
+def test_without_the_library_the_same_layouts_are_drawn(tmp_path, monkeypatch):
+    in_c = [generate(seed, 1, PARAMS, robots) for seed in SEEDS[:20] for robots in (1, 4)]
+    without_library(monkeypatch, tmp_path)
+
+    assert [generate(seed, 1, PARAMS, robots) for seed in SEEDS[:20] for robots in (1, 4)] == in_c
+
+
+@pytest.mark.usefixtures("fresh")
+def test_a_library_of_another_version_is_not_used(tmp_path, monkeypatch):
+    other = tmp_path / "reach.h"
+    other.write_text(HEADER.read_text() + "/* newer */\n")
+    native_reach._loaded.cache_clear()
+    monkeypatch.setattr(native_reach, "HEADER", other)
+
+    with pytest.raises(NoNativeError, match="was built from other sources"):
+        native_reach._loaded()
+
+
+def test_a_start_in_a_blocked_cell_reaches_nothing():
+    layout = Layout((Bar((900.0, 1000.0), (1100.0, 1000.0)),), (), Pose(1000.0, 1000.0, 0.0))
+
+    assert not layouts._reachable(layout, PARAMS).any()

@@ -1,0 +1,18 @@
+# octet_native_library(TARGET STATIC_LIBRARY PREFIX HEADER...): a shared library for Python of all that a static one holds.
+# Its function PREFIXstamp returns the SHA-256 of each header, one after the other: Python compares them with those that
+# it reads, and so finds a library that was built from others.
+function(octet_native_library target static prefix)
+  set(texts "")
+  foreach(header ${ARGN})
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
+    file(SHA256 ${header} digest)
+    string(APPEND texts ${digest})
+  endforeach()
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${prefix}stamp.c)
+  file(CONFIGURE OUTPUT ${source} CONTENT
+    "const char *${prefix}stamp(void);\n\nconst char *${prefix}stamp(void)\n{\n    return \"${texts}\";\n}\n")
+  add_library(${target} SHARED ${source})
+  target_link_libraries(${target} PRIVATE octet_warnings -Wl,--whole-archive ${static} -Wl,--no-whole-archive)
+  string(REGEX REPLACE "_shared$" "" name ${target})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
+endfunction()
