@@ -22,17 +22,27 @@ MAY_INCLUDE = {
     "hal/port/cortex_m/": ("hal/hal.h", "hal/can_body/port.h", "hal/flash_store/", "hal/protocol/health.h"),
     "hal/stm32/": ("hal/can_body/port.h", "hal/flash_store/", "hal/link/", "hal/port/"),
     "hal/library/": ("firmware/", "hal/protocol/"),
+    "host_sim/world/native/": ("firmware/io.h",),
+    "host_sim/sim/native/": ("firmware/pattern.h", "hal/link/link.h", "hal/protocol/e2e.h", "host_sim/world/native/"),
 }
+FOLDERS = ("firmware", "hal", "host_sim/world/native", "host_sim/sim/native")
 GENERATED = ("octet.h", "build_id.h", "robot_words.h")
 
 
 def includes(root: Path) -> list[tuple[str, str]]:
     """Every include between our own files: who, and whom."""
-    files = sorted(file for folder in ("firmware", "hal") for file in (root / folder).rglob("*.[ch]"))
+    files = sorted(file for folder in FOLDERS for file in (root / folder).rglob("*.[ch]"))
     found = [
         (file.relative_to(root).as_posix(), name) for file in files for name in INCLUDE.findall(file.read_text())
     ]
     return [(file, name) for file, name in found if name not in GENERATED]
+
+
+def own_folder(file: str) -> str:
+    """The folder whose files may include each other."""
+    if file.startswith("hal/"):
+        return "/".join(file.split("/")[:2]) + "/"
+    return "firmware/" if file.startswith("firmware/") else f"{Path(file).parent.as_posix()}/"
 
 
 def goes_down(file: str, name: str) -> bool:
@@ -40,7 +50,7 @@ def goes_down(file: str, name: str) -> bool:
     if not fitting:
         return False
     floor = max(fitting, key=len)
-    folder = "/".join(file.split("/")[:2]) + "/" if file.startswith("hal/") else "firmware/"
+    folder = own_folder(file)
     return name.startswith((folder, *MAY_INCLUDE[floor])) or name == file
 
 
@@ -70,12 +80,17 @@ PLANTED = [
     ("hal/stm32/planted.c", "hal/hal.h"),
     ("hal/library/exchange.c", "hal/can_body/port.h"),
     ("hal/a_new_folder/planted.c", "hal/hal.h"),
+    ("hal/protocol/crc8.c", "host_sim/world/native/world.h"),
+    ("host_sim/world/native/world.c", "hal/protocol/wire.h"),
+    ("host_sim/world/native/world.c", "firmware/robot.h"),
+    ("host_sim/world/native/world.c", "host_sim/sim/native/loop.h"),
+    ("host_sim/sim/native/loop.c", "hal/library/exchange.h"),
 ]
 
 
 @pytest.mark.parametrize("arrow", PLANTED, ids=" ".join)
 def test_an_include_that_goes_up_or_across_is_found(arrow, tmp_path):
-    for folder in ("firmware", "hal"):
+    for folder in FOLDERS:
         shutil.copytree(ROOT / folder, tmp_path / folder)
     file = tmp_path / arrow[0]
     file.parent.mkdir(exist_ok=True)

@@ -45,7 +45,7 @@ def step_through(simulation: Simulation, ticks: int) -> None:
         number += 1
         simulation.enter(number)
         while not simulation.over and simulation.tick < ticks:
-            simulation.step()
+            simulation.step(ticks - simulation.tick)
         simulation.leave()
     simulation.set_clock()
     stop(simulation.clients[0])

@@ -79,6 +79,11 @@ class FrameLog:
             self._failed = True
             raise OctetError(f"cannot write {self._part}: {error.strerror}") from error
 
+    def add_block(self, text: bytes) -> None:
+        """Records lines that were written elsewhere, each with its line end."""
+        self._flush()
+        self._write(text)
+
     def close(self) -> str:
         """Closes the log; closing it again does nothing. A log without frames does not replace the old one.
 
@@ -109,6 +114,9 @@ class FrameLog:
     def _flush(self) -> None:
         block = "".join(self._lines).encode("ascii")
         self._lines.clear()
+        self._write(block)
+
+    def _write(self, block: bytes) -> None:
         self._digest.update(block)
         try:
             self._file.write(block)

@@ -1,7 +1,7 @@
 """A client for one robot: sends commands and senses, receives answers and drives, and logs every frame."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeVar
 
@@ -59,6 +59,7 @@ class RobotClient:
         frames: Frame counters.
         last: The last valid frame received from the robot.
         recording: Whether received frames are logged.
+        senses_counter: Alive counter of the last SENSES.
     """
 
     link: Link
@@ -74,8 +75,8 @@ class RobotClient:
     frames: FrameCounts = field(default_factory=FrameCounts)
     last: Frame | None = None
     recording: bool = True
+    senses_counter: int = COUNTERS - 1
     _counter: int = 0
-    _senses_counter: int = COUNTERS - 1
     _sent_tick: int = 0
     _report: MemoryReport = field(default_factory=MemoryReport)
     _drive: Drive = _NO_DRIVE
@@ -144,8 +145,8 @@ class RobotClient:
 
     def send_senses(self, senses: Senses) -> None:
         """Sends the senses of one tick, and logs them."""
-        self._senses_counter = (self._senses_counter + 1) % COUNTERS
-        frame = self.protocol.encode_senses(senses, self._senses_counter)
+        self.senses_counter = (self.senses_counter + 1) % COUNTERS
+        frame = self.protocol.encode_senses(senses, self.senses_counter)
         self._sent_tick = senses.tick
         self.link.send(frame)
         self.frames.sent += 1
@@ -180,6 +181,26 @@ class RobotClient:
             return decoded if decoded is not None and decoded.name == name else None
 
         return self._receive(accept, timeout_s)
+
+    def catch_up(self, ticks: int, drive: Drive, frame: Frame, received: int) -> None:
+        """Takes over ticks whose frames were exchanged and logged elsewhere.
+
+        Args:
+            ticks: Number of ticks.
+            drive: The robot's last drive.
+            frame: Its frame.
+            received: Number of frames received from the robot.
+        """
+        self._sent_tick, self._drive, self.last = drive.tick, drive, frame
+        self.frames.sent += ticks
+        self.frames.received += received
+
+    def take_reports(self, reports: Sequence[Frame]) -> None:
+        """Takes over reports of the robot that came in such ticks, in order."""
+        for frame in reports:
+            decoded = self.protocol.decode(frame)
+            if decoded is not None:
+                self._note(decoded)
 
     def late(self, tick: int) -> RobotError:
         """The error for a drive that did not come by the deadline."""

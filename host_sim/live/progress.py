@@ -27,9 +27,9 @@ class Progress:
         self._ticks, self._ticks_then, self._then = 0, 0, time.monotonic()
 
     def __call__(self, simulation: Simulation) -> None:
-        """Counts a tick, and now and then rewrites the line."""
-        self._ticks += 1
-        if self._shown and self._ticks % _EVERY_TICKS == 0:
+        """Counts the ticks, and now and then rewrites the line."""
+        if self._shown and simulation.tick >= self._ticks + _EVERY_TICKS:
+            self._ticks = simulation.tick
             self._show(simulation)
 
     def clear(self) -> None:

@@ -1,11 +1,13 @@
 """Records the trajectory of a run, tick by tick."""
 
+from array import array
 from collections.abc import Mapping, Sequence
 from struct import Struct
 from typing import Protocol, TypeVar
 
 from host_sim.recording.trajectory import AXES, ROW, Changes, RobotTrack, Trajectory, at
 from host_sim.robot_io import Drive, Senses
+from host_sim.sim.native_loop import RobotBlock
 from host_sim.sim.simulation import Simulation
 from host_sim.view.history import LearningHistory
 from host_sim.view.state import EnvironmentScene, environment_scene
@@ -18,6 +20,7 @@ Memory = Sequence[int]
 TICKS_MAX = 1_000_000
 """Maximum length of a trajectory: 58 MB, and some 5 MB as a page. Longer runs retain their last environments."""
 
+_ACTION, _PATTERN, _FROZEN = (ROW.index(name) for name in ("action", "pattern", "frozen"))
 _PACKED = Struct(f"={len(ROW)}h")
 
 
@@ -70,7 +73,10 @@ class RunRecorder:
             self._layouts = layouts
             self.enter(environment_scene(record.begun, record.environments, arena))
         for i, client in enumerate(simulation.clients):
-            self.add(i, arena.bodies[i], simulation.senses[i], simulation.drives[i], client.memory)
+            if simulation.loop is None:
+                self.add(i, arena.bodies[i], simulation.senses[i], simulation.drives[i], client.memory)
+            else:
+                self.add_block(i, simulation.loop.block(i), client.memory)
         if len(arena.food.uneaten) != self.trajectory.meals[-1][1].count(0):
             self.eaten(arena.food.eaten, simulation.drives)
 
@@ -97,7 +103,7 @@ class RunRecorder:
         history, track = self.histories[robot], self.trajectory.tracks[robot]
         if drive.action != self._actions[robot] or memory != self._memories[robot]:
             self._actions[robot], self._memories[robot] = drive.action, memory
-            self._take(robot, senses, drive, memory)
+            self._take(robot, track.ticks, senses, drive, memory)
         track.poses_flat.extend(body.pose)
         track.rows_flat.frombytes(_PACKED.pack(*senses, *drive, history.pattern, body.lifted, history.frozen))
 
@@ -115,6 +121,29 @@ class RunRecorder:
         for memory in written:
             history.relearn(tick, memory)
 
+    def add_block(self, robot: int, block: RobotBlock, memory: Memory) -> None:
+        """Adds one robot's ticks of a block: what a robot eats or reports belongs to the last one, and ended it.
+
+        Args:
+            robot: Index of the robot; each robot is added once per block.
+            block: Its ticks.
+            memory: Its eight cells after the last one.
+        """
+        history, track = self.histories[robot], self.trajectory.tracks[robot]
+        rows, first, last = memoryview(block.rows).cast("h"), track.ticks, len(block.rows) // _PACKED.size - 1
+        is_new = self._actions[robot] < 0 or block.memory != self._memories[robot]
+        for tick in sorted({0, last, *block.decisions} if is_new else {last, *block.decisions}):
+            if tick:
+                history.pass_over(*_action_and_pattern(rows, tick - 1))
+            senses, drive = _exchanged(rows, tick)
+            self._take(robot, first + tick, senses, drive, memory if tick == last else block.memory)
+        self._actions[robot], self._memories[robot] = history.action, memory
+        track.poses_flat.frombytes(block.poses)
+        track.rows_flat.frombytes(block.rows)
+        if history.frozen:
+            ones = array("h", [1]) * (last + 1)
+            track.rows_flat[(first - track.first_tick) * len(ROW) + _FROZEN :: len(ROW)] = ones
+
     def eaten(self, eaten: Sequence[bool], drives: Sequence[Drive]) -> None:
         """Records that food was eaten in the last tick added.
 
@@ -128,10 +157,9 @@ class RunRecorder:
             if drive.eat:
                 track.meals.append(trajectory.ticks - 1)
 
-    def _take(self, robot: int, senses: Senses, drive: Drive, memory: Memory) -> None:
+    def _take(self, robot: int, tick: int, senses: Senses, drive: Drive, memory: Memory) -> None:
         """Records what can change with a new action or a MEMORY frame."""
         history, track = self.histories[robot], self.trajectory.tracks[robot]
-        tick = track.ticks
         history.take(tick, senses, drive, memory)
         _note(track.memories, tick, list(history.memory))
         _note(track.trials, tick, history.trial)
@@ -148,6 +176,18 @@ class RunRecorder:
             track.memories, track.trials = _since(track.memories, first), _since(track.trials, first)
             track.first_tick = first
         trajectory.scenes, trajectory.meals = _since(trajectory.scenes, first), _since(trajectory.meals, first)
+
+
+def _exchanged(rows: "memoryview[int]", tick: int) -> tuple[Senses, Drive]:
+    """The senses and the drive in one of these rows."""
+    row = rows[tick * len(ROW) : (tick + 1) * len(ROW)].tolist()
+    count = len(Senses._fields)
+    return Senses._make(row[:count]), Drive._make(row[count : count + len(Drive._fields)])
+
+
+def _action_and_pattern(rows: "memoryview[int]", tick: int) -> tuple[int, int]:
+    row = tick * len(ROW)
+    return rows[row + _ACTION], rows[row + _PATTERN]
 
 
 def _note(changes: Changes[T], tick: int, value: T) -> None:

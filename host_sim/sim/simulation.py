@@ -1,18 +1,24 @@
 """A run: robots in one environment after the other, their memories carried over."""
 
+import logging
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from host_sim.client.pacing import Pace
+from host_sim.client.pacing import Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
+from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
+from host_sim.transport.in_process_link import InProcessLink
 from host_sim.world.arena import Arena
 from host_sim.world.edits import Edit, make_edit
 from host_sim.world.geometry import Point
 from host_sim.world.layouts import Layout, generate
+from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
+
+_LOG = logging.getLogger(__name__)
 
 
 @dataclass
@@ -80,11 +86,15 @@ class Simulation:
         seed: Seed for the environments.
         environments: Number of environments.
         limit_s: Robot time after which an environment ends, finished or not, s.
-        watch: Called with the simulation after each tick.
+        watch: Called with the simulation after each step.
+        block_ticks: Maximum number of ticks of a step of `run` where the loop in C can be used: `watch` finds them in
+            `loop`. Set it to 1 for a `watch` that is to be called for each tick.
+        native: Whether to use the loop in C where that can be: with robots in this process, in lockstep.
         record: The environments so far, and what a person changed in them.
         tick: Number of the next tick.
         arena: The arena of the current environment.
         episode: What has happened in it so far.
+        loop: The loop in C; None where it cannot be used.
         senses: Each robot's senses at the last tick.
         drives: Each robot's drive at the last tick.
     """
@@ -96,10 +106,13 @@ class Simulation:
     environments: int
     limit_s: float
     watch: Callable[["Simulation"], object] = lambda _: None
+    block_ticks: int = BLOCK_TICKS
+    native: bool = True
     record: WorldRecord = field(init=False)
     tick: int = 0
     arena: Arena = field(init=False)
     episode: EpisodeResult = field(init=False)
+    loop: NativeLoop | None = field(init=False, default=None)
     senses: list[Senses] = field(init=False)
     drives: Sequence[Drive] = field(init=False)
     _odometers: list[Point] = field(init=False)
@@ -134,7 +147,7 @@ class Simulation:
         for number in range(1, self.environments + 1):
             self.enter(number)
             while not self.over:
-                self.step()
+                self.step(self.block_ticks)
             yield self.leave()
 
     def enter(self, number: int) -> None:
@@ -149,15 +162,48 @@ class Simulation:
         layout = generate(self.seed, number, self.params, len(self.clients))
         self.arena = Arena(layout, self.params, self._odometers)
         self.episode = EpisodeResult(layout, self.params.tick_s, [RobotResult(node) for node in self.nodes])
+        self._enter_loop()
         self.record.begin(Begun(self.seed, number, self.tick))
 
-    def step(self) -> None:
-        """Simulates one tick.
+    def _enter_loop(self) -> None:
+        links = [client.link for client in self.clients if isinstance(client.link, InProcessLink)]
+        if not self.native or len(links) != len(self.clients) or not isinstance(self.pace, Lockstep):
+            return
+        try:
+            self.loop = self.loop or NativeLoop(self.clients, links, self.clients[0].log)
+            self.loop.enter(self.arena, self.params)
+        except NoNativeError as error:
+            self.native, self.loop = False, None
+            _LOG.warning("octet: ticks are slower, for they run in Python: %s; tools/setup may help", error)
+
+    def step(self, ticks_max: int = 1) -> None:
+        """Simulates one tick or, where the loop in C can be used, a block of ticks.
+
+        Args:
+            ticks_max: Maximum number of ticks.
 
         Raises:
             RobotError: A robot has ended or does not answer.
         """
-        self.clients[0].log.set_time(round(self.tick * self.params.tick_s * 1e6))
+        if self.loop is None:
+            self._step_once()
+        else:
+            self._step_in_c(self.loop, ticks_max)
+        self.watch(self)
+
+    def _step_in_c(self, loop: NativeLoop, ticks_max: int) -> None:
+        left = self.record.limit_ticks - self.episode.ticks
+        ticks = loop.run(self.tick, max(1, min(ticks_max, left)))
+        lasts = [loop.last(i) for i in range(len(self.clients))]
+        self.senses, self.drives = [senses for senses, _ in lasts], [drive for _, drive in lasts]
+        for i, robot in enumerate(self.episode.robots):
+            robot.begun, robot.food_eaten = loop.begun(i), loop.food_eaten(i)
+        self.tick += ticks
+        self.episode.ticks += ticks
+        self._set_time(self.tick - 1)
+
+    def _step_once(self) -> None:
+        self._set_time(self.tick)
         bodies, before = self.arena.bodies, self.drives
         for i, body in enumerate(bodies):
             self.senses[i] = body.sense(self.tick)
@@ -171,7 +217,6 @@ class Simulation:
                 begun[drive.reason] = begun.get(drive.reason, 0) + 1
         self.tick += 1
         self.episode.ticks += 1
-        self.watch(self)
 
     def leave(self) -> EpisodeResult:
         """Ends the environment, finished or not, and returns its result."""
@@ -193,4 +238,7 @@ class Simulation:
 
     def set_clock(self) -> None:
         """Sets the log's time to that of the next tick."""
-        self.clients[0].log.set_time(round(self.tick * self.params.tick_s * 1e6))
+        self._set_time(self.tick)
+
+    def _set_time(self, tick: int) -> None:
+        self.clients[0].log.set_time(round(tick * self.params.tick_s * 1e6))

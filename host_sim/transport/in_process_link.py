@@ -5,7 +5,7 @@ import time
 from collections import deque
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import cffi
 
@@ -37,6 +37,14 @@ def load_library(ffi: cffi.FFI, path: Path = LIBRARY) -> Any:
         raise OctetError(f"cannot load the firmware: {error}; build it with tools/setup") from error
 
 
+class RobotPointers(NamedTuple):
+    """Addresses by which C code reaches a robot: the robot itself and two functions of `hal/library/exchange.h`."""
+
+    octet: int
+    exchange: int
+    answers: int
+
+
 class InProcessLink:
     """A robot that answers within `send`. It knows no time but the ticks, and is never late."""
 
@@ -58,6 +66,13 @@ class InProcessLink:
         self._in: Any = self._ffi.new("struct frame *")
         self._out: Any = self._library.octet_answers(self._octet)
         self._answers: deque[Frame] = deque()
+
+    @property
+    def pointers(self) -> RobotPointers:
+        """Where the robot is; it stays there as long as this link exists."""
+        library = self._library
+        things = (self._octet, library.octet_exchange, library.octet_answers)
+        return RobotPointers(*(int(self._ffi.cast("uintptr_t", thing)) for thing in things))
 
     def send(self, frame: Frame) -> None:
         """As in `Link`."""

@@ -67,6 +67,7 @@ class LearningHistory:
         by_hand: For each cell, 1 if a person made its last change, else 0.
         trial: The last trial, or None.
         trials: Number of trials.
+        action: Number of the current action; -1 before the first.
         lessons: All lessons, in order.
     """
 
@@ -80,7 +81,7 @@ class LearningHistory:
     trial: Trial | None = None
     trials: int = 0
     lessons: list[Lesson] = field(default_factory=list)
-    _action: int = -1
+    action: int = -1
 
     def take(self, tick: int, senses: Senses, drive: Drive, memory: Sequence[int]) -> None:
         """Adds a tick.
@@ -91,15 +92,24 @@ class LearningHistory:
             drive: The robot's answer.
             memory: The eight cells after the answer.
         """
-        judged, begins = None, drive.action != self._action
+        judged, begins = None, drive.action != self.action
         if begins:
-            self._action = drive.action
+            self.action = drive.action
             self.pattern = pattern_of(senses.feel)
             judged = self._judge()
         if memory != self.memory:
             self.relearn(tick, memory, judged)
         if begins:
             self._begin(tick, drive)
+
+    def pass_over(self, action: int, pattern: int) -> None:
+        """Skips ticks in which no remembered turn and no trial began or ended, and the memory stayed the same.
+
+        Args:
+            action: Number of the action in the last of these ticks.
+            pattern: The pattern when it was decided.
+        """
+        self.action, self.pattern = action, pattern
 
     def relearn(self, tick: int, memory: Sequence[int], trial: Trial | None = None) -> None:
         """Adds a lesson for each cell that changed.

@@ -1,4 +1,4 @@
-"""One tick in process stays a short way through few files: a reader can follow it, and it is fast."""
+"""One tick in Python stays a short way through few files: a reader can follow it, and it is fast."""
 
 import sys
 from pathlib import Path
@@ -13,7 +13,7 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 
 PACKAGE = str(Path(host_sim.__file__).parent)
-CALLS_MAX, FILES_MAX = 20, 8
+CALLS_MAX, FILES_MAX = 24, 8
 ORDINARY_TICK = 21
 """In the middle of a turn: no action begins, and no report is due."""
 
@@ -21,6 +21,7 @@ ORDINARY_TICK = 21
 @pytest.fixture
 def simulation():
     with make(RunConfig(environments=1)) as made:
+        made.native = False
         RunRecorder.of(made, boredom_limit=10)
         made.enter(1)
         while made.tick < ORDINARY_TICK:

@@ -1,0 +1,78 @@
+#include "host_sim/sim/native/robot_wire.h"
+
+#include <string.h>
+
+#include "hal/protocol/e2e.h"
+#include "octet.h"
+
+void robot_wire_senses(struct loop_robot *robot, const struct senses *senses, struct frame *out)
+{
+    struct octet_senses_t message = {
+        .counter = e2e_next(robot->senses_counter),
+        .tick = senses->tick,
+        .feel = senses->feel,
+        .bump = senses->bump,
+        .look = senses->look,
+        .beacon = senses->beacon_mm,
+        .odometer_left = senses->odometer_left,
+        .odometer_right = senses->odometer_right,
+    };
+
+    robot->senses_counter = message.counter;
+    out->id = robot->senses_id;
+    out->len = OCTET_SENSES_LENGTH;
+    (void)octet_senses_pack(out->data, &message, sizeof out->data);
+    e2e_protect(out);
+}
+
+bool robot_wire_drive(const struct frame *frame, uint8_t tick, struct drive *out)
+{
+    struct octet_drive_t message;
+
+    if (octet_drive_unpack(&message, frame->data, frame->len) != 0)
+        return false;
+    out->tick = message.tick;
+    out->left_mm_s = message.left;
+    out->right_mm_s = message.right;
+    out->reason = message.reason;
+    out->repeat_count = message.repeat_count;
+    out->eat = message.eat;
+    out->action = message.action;
+    return message.tick == tick && message.reason != REASON_STOP && message.reason != REASON_SILENCE;
+}
+
+enum { KIND = 1, CONTENT = 2 };   /* bytes: the counter and, in its upper half, which page this is; all that is told */
+
+static bool same_kind(const struct frame *a, const struct frame *b)
+{
+    return a->id == b->id && a->data[KIND] >> 4 == b->data[KIND] >> 4;
+}
+
+/* The last report of this kind; null if there was none. */
+static struct frame *known(struct loop_robot *robot, const struct frame *frame)
+{
+    for (size_t i = 0; i < robot->known_count; i++)
+        if (same_kind(&robot->known[i], frame))
+            return &robot->known[i];
+    return NULL;
+}
+
+static bool is_news(struct loop_robot *robot, const struct frame *frame)
+{
+    struct frame *before = known(robot, frame);
+
+    if (before && memcmp(before->data + CONTENT, frame->data + CONTENT, sizeof frame->data - CONTENT) == 0)
+        return false;
+    if (!before && robot->known_count < LOOP_KINDS_MAX)
+        before = &robot->known[robot->known_count++];
+    if (before)
+        *before = *frame;
+    return true;
+}
+
+void robot_wire_report(struct loop_robot *robot, const struct frame *frame)
+{
+    robot->has_news |= frame->id != robot->heartbeat_id && is_news(robot, frame);
+    if (robot->report_count < LOOP_FRAMES_MAX)
+        robot->reports[robot->report_count++] = *frame;
+}

@@ -1,0 +1,255 @@
+"""The tick loop in C against the readable one: logs byte for byte, and all that is recorded and counted."""
+
+import logging
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from host_sim.client.commands import erase_memory, freeze, start, stop, write_cells
+from host_sim.client.frame_log import FrameLog
+from host_sim.errors import RobotError
+from host_sim.protocol.generated import PROFILES
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.sim import native_loop
+from host_sim.sim import simulation as simulation_module
+from host_sim.sim.make import make
+from host_sim.sim.native_loop import BLOCK_TICKS
+from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import EpisodeResult, Simulation
+from host_sim.world import munk_pointers
+from host_sim.world.edits import AddBar, Lift, MoveFood, Put, RemoveBar
+from host_sim.world.geometry import Bar, Pose
+from host_sim.world.native_library import NoNativeError
+
+Change = Callable[[Simulation, RunRecorder], object]
+
+
+@dataclass
+class Outcome:
+    """All that a run leaves behind."""
+
+    log: bytes
+    episodes: Sequence[EpisodeResult]
+    recorder: RunRecorder
+    clients: Sequence[tuple]
+    senses: Sequence
+    drives: Sequence
+
+
+def outcome(
+    folder: Path,
+    config: RunConfig,
+    native: bool,
+    block_ticks: int = BLOCK_TICKS,
+    changes: dict[int, Change] | None = None,
+) -> Outcome:
+    """Does a run, with changes before some of its ticks."""
+    log = FrameLog(folder / "run.log")
+    with make(config, log) as simulation:
+        simulation.native = native
+        recorder = RunRecorder.of(simulation, boredom_limit=10)
+        episodes = [
+            episode_of(simulation, recorder, number, block_ticks, changes or {})
+            for number in range(1, 1 + config.environments)
+        ]
+        assert (simulation.loop is not None) == native
+        for client in simulation.clients:
+            stop(client)
+        clients = [(client.memory, client.faults, client.frames, client.last) for client in simulation.clients]
+        log.close()
+        return Outcome(
+            (folder / "run.log").read_bytes(), episodes, recorder, clients, simulation.senses, simulation.drives
+        )
+
+
+def episode_of(
+    simulation: Simulation, recorder: RunRecorder, number: int, block_ticks: int, changes: dict[int, Change]
+) -> EpisodeResult:
+    simulation.enter(number)
+    while not simulation.over:
+        if simulation.tick in changes:
+            changes[simulation.tick](simulation, recorder)
+        coming = min((tick for tick in changes if tick > simulation.tick), default=sys.maxsize)
+        simulation.step(min(block_ticks, coming - simulation.tick))
+    return simulation.leave()
+
+
+def assert_equal(one: Outcome, other: Outcome) -> None:
+    assert one.log == other.log
+    assert one.episodes == other.episodes
+    assert one.clients == other.clients
+    assert (one.senses, one.drives) == (other.senses, other.drives)
+    assert one.recorder.trajectory == other.recorder.trajectory
+    assert one.recorder.histories == other.recorder.histories
+
+
+def assert_alike(folder: Path, config: RunConfig, changes: dict[int, Change] | None = None) -> Outcome:
+    """In Python and in C, in blocks and tick by tick."""
+    readable = outcome(folder, config, native=False, changes=changes)
+    for block_ticks in (BLOCK_TICKS, 7, 1):
+        assert_equal(readable, outcome(folder, config, True, block_ticks, changes))
+    return readable
+
+
+@pytest.mark.parametrize(("seed", "robots"), [(1, 1), (2, 3)])
+def test_a_run_is_the_same(tmp_path, seed, robots):
+    readable = assert_alike(tmp_path, RunConfig(seed=seed, robots=robots, environments=2, limit_s=25.0))
+
+    assert any(history.lessons for history in readable.recorder.histories)
+
+
+def test_an_environment_that_is_finished_is_the_same(tmp_path):
+    readable = assert_alike(tmp_path, RunConfig(seed=5, environments=1))
+
+    assert readable.episodes[0].finished
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_every_behaviour_is_the_same(tmp_path, profile):
+    config = RunConfig(seed=4, environments=1, limit_s=20.0, profile=profile)
+
+    assert_equal(outcome(tmp_path, config, native=False), outcome(tmp_path, config, native=True))
+
+
+def press_freeze(simulation: Simulation, recorder: RunRecorder) -> None:
+    freeze(simulation.clients[0], on=True)
+    recorder.histories[0].frozen = True
+
+
+CHANGES: dict[int, Change] = {
+    100: lambda simulation, _: simulation.edit(AddBar(Bar((0.0, 0.0), (0.0, 900.0)))),
+    150: lambda simulation, _: simulation.edit(Lift()),
+    170: lambda simulation, _: simulation.edit(Put(Pose(*simulation.arena.body.pose[:2], 1.0))),
+    200: lambda simulation, _: write_cells(simulation.clients[0], {1: 2, 4: 1}),
+    201: lambda simulation, _: erase_memory(simulation.clients[0]),
+    300: lambda simulation, _: simulation.edit(MoveFood(1, (50.0, 2950.0))),
+    400: lambda simulation, _: simulation.edit(RemoveBar(0)),
+    1200: press_freeze,
+    1400: lambda simulation, _: write_cells(simulation.clients[0], {6: 1}),
+}
+
+
+def test_a_run_in_which_people_meddle_is_the_same(tmp_path):
+    assert_alike(tmp_path, RunConfig(seed=6, environments=1, limit_s=40.0), CHANGES)
+
+
+def test_what_is_learned_again_after_a_command_is_told_again(tmp_path):
+    """The same memory was reported long before: as a report of that kind it is no news, but for the command."""
+
+    def learn(simulation: Simulation, _: RunRecorder) -> None:
+        write_cells(simulation.clients[0], {1: 1})
+
+    def erase(simulation: Simulation, _: RunRecorder) -> None:
+        erase_memory(simulation.clients[0])
+
+    config = RunConfig(seed=1, environments=1, limit_s=50.0)
+
+    assert_alike(tmp_path, config, {10: learn, 20: erase, 1000: erase, 1500: erase})
+
+
+def test_reports_that_wait_from_before_are_logged_in_the_first_tick(tmp_path):
+    """A robot that starts with a memory of its own reports it, and the report is not waited for."""
+
+    def start_again(simulation: Simulation, _: RunRecorder) -> None:
+        for _ in range(300):
+            start(simulation.clients[0], seed=9, profile=PROFILES["fixed"], settings={}, memory=None)
+
+    config = RunConfig(seed=1, environments=1, limit_s=10.0, profile="fixed")
+
+    assert_alike(tmp_path, config, {100: start_again})
+
+
+def test_a_robot_that_stays_silent_is_named():
+    with make(RunConfig(environments=1)) as simulation:
+        simulation.enter(1)
+        simulation.step(30)
+        loop, ffi = simulation.loop._loop, simulation.loop._ffi
+        loop.exchange = silent = ffi.callback("size_t(struct octet *, const struct frame *)", lambda *_: 0)
+
+        with pytest.raises(RobotError, match="did not answer tick 30 "):
+            simulation.step(30)
+
+        assert simulation.tick == 30
+        assert silent
+
+
+def test_only_robots_in_this_process_are_run_by_it():
+    with make(RunConfig(environments=1, limit_s=1.0, bus="fd")) as simulation:
+        simulation.enter(1)
+        assert simulation.loop is None
+
+
+def remove_library(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(native_loop, "LIBRARY", tmp_path / "liboctet_loop.so")
+
+
+def break_library(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "liboctet_loop.so").write_text("no library")
+    monkeypatch.setattr(native_loop, "LIBRARY", tmp_path / "liboctet_loop.so")
+
+
+def break_headers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    other = tmp_path / "loop.h"
+    other.write_text(native_loop.HEADERS[-1].read_text() + "/* newer */\n")
+    monkeypatch.setattr(native_loop, "HEADERS", (*native_loop.HEADERS[:-1], other))
+
+
+def break_pymunk(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
+    monkeypatch.setitem(sys.modules, "pymunk._chipmunk_cffi", None)
+
+
+def break_function(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
+    monkeypatch.setitem(munk_pointers._TYPES, "cpSpaceStep", "void(*)(struct cpSpace *, float)")
+
+
+def break_name(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
+    monkeypatch.setitem(munk_pointers._TYPES, "cpSpaceStepTwice", "void(*)(struct cpSpace *)")
+
+
+def break_layout(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
+    monkeypatch.setitem(munk_pointers._LAYOUTS, "struct cpVect", "struct munk_filter")
+
+
+BROKEN = {
+    remove_library: "liboctet_loop.so is missing",
+    break_library: "liboctet_loop.so cannot be loaded",
+    break_headers: "liboctet_loop.so was built from other sources",
+    break_pymunk: "hands out no pointers",
+    break_function: "has no such cpSpaceStep",
+    break_name: "has no such cpSpaceStepTwice",
+    break_layout: "has another struct cpVect",
+}
+
+
+@pytest.fixture
+def fresh():
+    """The library is loaded anew."""
+    native_loop._loaded.cache_clear()
+    yield
+    native_loop._loaded.cache_clear()
+
+
+@pytest.mark.usefixtures("fresh")
+@pytest.mark.parametrize(("damage", "reason"), BROKEN.items(), ids=lambda part: getattr(part, "__name__", ""))
+def test_where_it_cannot_be_used_one_line_says_so_and_python_goes_on(tmp_path, monkeypatch, caplog, damage, reason):
+    config = RunConfig(seed=3, environments=2, limit_s=2.0)
+    expected = outcome(tmp_path, config, native=False)
+    damage(monkeypatch, tmp_path)
+
+    with make(config) as simulation, caplog.at_level(logging.WARNING):
+        episodes = list(simulation.run())
+
+    assert episodes == expected.episodes
+    assert [record.name for record in caplog.records] == [simulation_module.__name__]
+    assert reason in caplog.text
+    assert "\n" not in caplog.records[0].getMessage()
+
+
+def test_an_object_without_its_pointer_is_refused():
+    ffi, _ = native_loop._loaded()
+
+    with pytest.raises(NoNativeError, match=r"no object\._space"):
+        munk_pointers.own_pointer(ffi, "struct munk_space *", object(), "_space")
