@@ -9,7 +9,10 @@ from dataclasses import asdict
 from host_sim.bench.figure import table
 from host_sim.bench.image_figures import compare_images, image_figures
 from host_sim.bench.lockstep_figures import lockstep_figures, measure_vcan
+from host_sim.bench.native_equality import compare_loops
 from host_sim.bench.page_figures import page_figures
+
+_LOOP_TICKS = 10_000_000
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -19,16 +22,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
     add = parser.add_argument
     add("--json", action="store_true", help="print JSON instead of a table")
     add("--equality", action="store_true", help="instead, compare long runs of all images with the host's")
+    add("--loops", action="store_true", help="instead, compare ten million ticks in C with those in Python")
     add("--vcan", action="store_true", help="instead, measure only on vcan0, which must exist, and print JSON")
     options = parser.parse_args(arguments)
     if options.equality:
         return 0 if compare_images() else 1
+    if options.loops:
+        return 0 if _compare_loops() else 1
     if options.vcan:
         print(json.dumps(measure_vcan()))
         return 0
     figures = [*lockstep_figures(), *image_figures(), *page_figures()]
     print(json.dumps([asdict(figure) for figure in figures], indent=2) if options.json else table(figures))
     return 0 if all(figure.reached for figure in figures) else 1
+
+
+def _compare_loops() -> bool:
+    """Compares both tick loops, and prints the results; whether all is the same."""
+    equal = True
+    for seed, ticks, difference in compare_loops(_LOOP_TICKS):
+        print(f"seed {seed}, {ticks} ticks: {difference or 'equal'}", flush=True)
+        equal = equal and difference is None
+    return equal
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import socket
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,16 +16,16 @@ import can
 from host_sim.bench.figure import ROUNDS, Figure, Rate, best, most_figure, rate_figure
 from host_sim.client.frame_log import FrameLog
 from host_sim.paths import BUILD, ROOT
+from host_sim.protocol.generated import PARAMETERS
+from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.arena import Arena
-from host_sim.world.layouts import generate
-from host_sim.world.params import SimParams
+from host_sim.sim.simulation import Simulation
 
 _REFERENCE = BUILD / "host" / "tools" / "reference"
 _VCAN = "socketcan:vcan0"
 _TURNS, _VCAN_TURNS = 20_000, 2_000
-_LIMIT_S, _VCAN_LIMIT_S = 60.0, 20.0
+_LIMIT_S, _VCAN_LIMIT_S, _WHOLE_S = 60.0, 20.0, 600.0
 _SEED = 1
 
 
@@ -37,11 +38,7 @@ def lockstep_figures() -> list[Figure]:
             "waking two processes a tick, then Python",
         ),
         _vcan_figure(),
-        rate_figure(
-            Rate("in process, with physics and log", best(lambda: _ticks_per_second("none", _LIMIT_S)), 50_000),
-            Rate("the arena alone", best(_arena_ticks_per_second)),
-            "Python: arena, codec and log in equal parts",
-        ),
+        _in_process_figure(),
         most_figure("the core's tick, in C", _core_tick_ns(), "ns", 100, "the processor"),
         most_figure("tools/run, one robot second, to its end", _start_s(), "s", 2, "importing Python's packages"),
         most_figure(
@@ -56,6 +53,26 @@ def measure_vcan() -> dict[str, float]:
     return {"reference": max(reference for reference, _ in pairs), "ours": max(ours for _, ours in pairs)}
 
 
+def _in_process_figure() -> Figure:
+    """The loop in C beside the readable one, in turn."""
+    pairs = [
+        [_ticks_per_second("none", _WHOLE_S, _recorded(native)) for native in (True, False)] for _ in range(ROUNDS)
+    ]
+    return rate_figure(
+        Rate("in process, with physics, log and trajectory", max(in_c for in_c, _ in pairs), 500_000),
+        Rate("the same in Python", max(in_python for _, in_python in pairs), 12),
+        "Munk2D's step",
+    )
+
+
+def _recorded(native: bool) -> Callable[[Simulation], object]:
+    def prepare(simulation: Simulation) -> None:
+        simulation.native = native
+        RunRecorder.of(simulation, PARAMETERS["boredom_limit"].default)
+
+    return prepare
+
+
 def _vcan_figure() -> Figure:
     command = [os.fspath(ROOT / "tools" / "with-vcan"), sys.executable, "-m", "host_sim.bench", "--vcan"]
     pair = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
@@ -66,26 +83,17 @@ def _vcan_figure() -> Figure:
     )
 
 
-def _ticks_per_second(bus: str, limit_s: float) -> float:
+def _ticks_per_second(bus: str, limit_s: float, prepare: Callable[[Simulation], object] = lambda _: None) -> float:
     """Ticks per second in lockstep with physics and log, from the first tick to the last."""
     config = RunConfig(seed=_SEED, environments=3, limit_s=limit_s, bus=bus)
     with TemporaryDirectory() as folder, ExitStack() as stack:
         log = FrameLog(Path(folder) / "run.log")
         stack.callback(log.close)
         simulation = stack.enter_context(make(config, log))
+        prepare(simulation)
         began = time.perf_counter()
         ticks = sum(episode.ticks for episode in simulation.run())
         return ticks / (time.perf_counter() - began)
-
-
-def _arena_ticks_per_second() -> float:
-    """Ticks per second of the arena alone, its robot turning in place."""
-    arena = Arena(generate(_SEED, 1, SimParams()), SimParams())
-    began = time.perf_counter()
-    for tick in range(_TURNS):
-        arena.body.sense(tick)
-        arena.body.move(200, -200)
-    return _TURNS / (time.perf_counter() - began)
 
 
 def _c_turns_per_second() -> float:

@@ -1,0 +1,131 @@
+"""Compares the tick loop in C with the readable one: log, trajectory and results of runs in which people meddle."""
+
+import random
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from itertools import count
+from typing import NamedTuple
+
+from host_sim.client.commands import erase_memory, stop, write_cells
+from host_sim.client.frame_log import FrameLog
+from host_sim.protocol.generated import PARAMETERS, PROFILES
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.recording.trajectory import Trajectory
+from host_sim.sim.make import make
+from host_sim.sim.native_loop import BLOCK_TICKS
+from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import EpisodeResult, Simulation
+from host_sim.world.edits import AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar
+from host_sim.world.geometry import Bar, Point, Pose
+
+_ENVIRONMENTS, _LIMIT_S = 2, 300.0
+_ROBOTS_MAX = 3
+_CHANGE_EVERY_TICKS = 400
+
+
+class LoopVerdict(NamedTuple):
+    """The comparison of one run.
+
+    Attributes:
+        seed: The run's seed.
+        ticks: Its ticks, all robots together.
+        difference: What differs; None if nothing does.
+    """
+
+    seed: int
+    ticks: int
+    difference: str | None
+
+
+class _Outcome(NamedTuple):
+    log: str
+    results: list[EpisodeResult]
+    trajectory: Trajectory
+
+
+def compare_loops(ticks: int) -> Iterator[LoopVerdict]:
+    """Compares runs of every behaviour with one robot or several, until they have so many ticks in all.
+
+    Yields:
+        A verdict for each run.
+
+    Raises:
+        RobotError: A robot does not answer.
+    """
+    done, profiles = 0, sorted(PROFILES)
+    for seed in count(1):
+        if done >= ticks:
+            return
+        config = RunConfig(
+            seed=seed,
+            environments=_ENVIRONMENTS,
+            limit_s=_LIMIT_S,
+            robots=1 + seed % _ROBOTS_MAX,
+            profile=profiles[seed % len(profiles)],
+        )
+        readable, in_c = _run(config, native=False), _run(config, native=True)
+        differences = [name for name, a, b in zip(_Outcome._fields, readable, in_c, strict=True) if a != b]
+        run_ticks = config.robots * readable.trajectory.ticks
+        done += run_ticks
+        yield LoopVerdict(seed, run_ticks, ", ".join(differences) or None)
+
+
+def _run(config: RunConfig, native: bool) -> _Outcome:
+    log, draws, results = FrameLog(), random.Random(config.seed), []
+    with make(config, log) as simulation:
+        simulation.native = native
+        recorder = RunRecorder.of(simulation, PARAMETERS["boredom_limit"].default)
+        for number in range(1, config.environments + 1):
+            simulation.enter(number)
+            while not simulation.over:
+                _meddle(simulation, draws)
+                _run_on(simulation, simulation.tick + draws.randint(1, _CHANGE_EVERY_TICKS))
+            results.append(simulation.leave())
+        for client in simulation.clients:
+            stop(client)
+    return _Outcome(log.close(), results, recorder.trajectory)
+
+
+def _run_on(simulation: Simulation, tick: int) -> None:
+    while not simulation.over and simulation.tick < tick:
+        simulation.step(min(BLOCK_TICKS, tick - simulation.tick))
+
+
+def _meddle(simulation: Simulation, draws: random.Random) -> None:
+    """Does what a person may do between two ticks; what cannot be done is left."""
+    client = simulation.clients[draws.randrange(len(simulation.clients))]
+    simulation.set_clock()
+    if draws.random() < 0.1:  # noqa: PLR2004 - seldom
+        erase_memory(client)
+    elif draws.random() < 0.1:  # noqa: PLR2004 - seldom
+        write_cells(client, {draws.randint(1, 7): draws.randint(0, 2)})
+    with suppress(EditError):
+        simulation.edit(_EDITS[draws.randrange(len(_EDITS))](simulation, draws))
+
+
+def _point(simulation: Simulation, draws: random.Random) -> Point:
+    return draws.uniform(0.0, simulation.params.width_mm), draws.uniform(0.0, simulation.params.height_mm)
+
+
+def _bar(simulation: Simulation, draws: random.Random) -> Bar:
+    a = _point(simulation, draws)
+    return Bar(a, (min(simulation.params.width_mm, a[0] + draws.uniform(50.0, 400.0)), a[1]))
+
+
+def _bar_id(simulation: Simulation, draws: random.Random) -> int:
+    return draws.choice(list(simulation.arena.obstacles.bars) or [0])
+
+
+_EDITS: list[Callable[[Simulation, random.Random], Edit]] = [
+    lambda simulation, draws: AddBar(_bar(simulation, draws)),
+    lambda simulation, draws: MoveBar(_bar_id(simulation, draws), _bar(simulation, draws)),
+    lambda simulation, draws: RemoveBar(_bar_id(simulation, draws)),
+    lambda simulation, draws: MoveFood(draws.randrange(len(simulation.arena.food.at)), _point(simulation, draws)),
+    lambda simulation, draws: Lift(draws.randrange(len(simulation.clients))),
+    *[
+        lambda simulation, draws: Put(
+            Pose(*_point(simulation, draws), draws.uniform(-3.0, 3.0)), draws.randrange(len(simulation.clients))
+        )
+    ]
+    * 3,
+]
