@@ -20,7 +20,7 @@ Memory = Sequence[int]
 TICKS_MAX = 1_000_000
 """Maximum length of a trajectory: 58 MB, and some 5 MB as a page. Longer runs retain their last environments."""
 
-_ACTION, _PATTERN, _FROZEN = (ROW.index(name) for name in ("action", "pattern", "frozen"))
+_PATTERN, _FROZEN = ROW.index("pattern"), ROW.index("frozen")
 _PACKED = Struct(f"={len(ROW)}h")
 
 
@@ -134,7 +134,7 @@ class RunRecorder:
         is_new = self._actions[robot] < 0 or block.memory != self._memories[robot]
         for tick in sorted({0, last, *block.decisions} if is_new else {last, *block.decisions}):
             if tick:
-                history.pass_over(*_action_and_pattern(rows, tick - 1))
+                history.pass_over(_exchanged(rows, tick - 1)[1], rows[(tick - 1) * len(ROW) + _PATTERN])
             senses, drive = _exchanged(rows, tick)
             self._take(robot, first + tick, senses, drive, memory if tick == last else block.memory)
         self._actions[robot], self._memories[robot] = history.action, memory
@@ -183,11 +183,6 @@ def _exchanged(rows: "memoryview[int]", tick: int) -> tuple[Senses, Drive]:
     row = rows[tick * len(ROW) : (tick + 1) * len(ROW)].tolist()
     count = len(Senses._fields)
     return Senses._make(row[:count]), Drive._make(row[count : count + len(Drive._fields)])
-
-
-def _action_and_pattern(rows: "memoryview[int]", tick: int) -> tuple[int, int]:
-    row = tick * len(ROW)
-    return rows[row + _ACTION], rows[row + _PATTERN]
 
 
 def _note(changes: Changes[T], tick: int, value: T) -> None:

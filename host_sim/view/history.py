@@ -102,14 +102,14 @@ class LearningHistory:
         if begins:
             self._begin(tick, drive)
 
-    def pass_over(self, action: int, pattern: int) -> None:
+    def pass_over(self, drive: Drive, pattern: int) -> None:
         """Skips ticks in which no remembered turn and no trial began or ended, and the memory stayed the same.
 
         Args:
-            action: Number of the action in the last of these ticks.
-            pattern: The pattern when it was decided.
+            drive: The robot's answer in the last of these ticks.
+            pattern: The pattern when its action was decided.
         """
-        self.action, self.pattern = action, pattern
+        self.action, self.pattern = drive.action, pattern
 
     def relearn(self, tick: int, memory: Sequence[int], trial: Trial | None = None) -> None:
         """Adds a lesson for each cell that changed.

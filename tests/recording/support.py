@@ -32,7 +32,7 @@ class Kept:
 
 
 def record_run(
-    folder: Path, seed: int = 1, environments: int = 1, limit_s: float = 600.0, meddle: Meddle = lambda *_: None
+    folder: Path, seed: int = 1, environments: int = 1, limit_s: float = 600.0, meddle: Meddle | None = None
 ) -> Kept:
     """Does a run; `meddle` is called before each tick."""
     folder.mkdir(exist_ok=True)
@@ -45,14 +45,17 @@ def record_run(
     return Kept(log, recorder.trajectory)
 
 
-def run_through(simulation: Simulation, meddle: Meddle = lambda *_: None) -> RunRecorder:
+def run_through(simulation: Simulation, meddle: Meddle | None = None) -> RunRecorder:
     """Runs a simulation to its end; `meddle` is called before each tick."""
     recorder = RunRecorder.of(simulation, PARAMETERS["boredom_limit"].default)
     for number in range(1, simulation.environments + 1):
         simulation.enter(number)
         while not simulation.over:
-            meddle(simulation, recorder)
-            simulation.step()
+            if meddle is None:
+                simulation.step(simulation.block_ticks)
+            else:
+                meddle(simulation, recorder)
+                simulation.step()
         simulation.leave()
     return recorder
 
