@@ -128,14 +128,15 @@ class NativeLoop:
     def last(self, index: int) -> tuple[Senses, Drive]:
         """A robot's senses and drive in the last tick."""
         first = (self._loop.ticks - 1) * self._library.LOOP_ROW
-        numbers = list(self._robots[index].rows[first : first + _DRIVE_END])
+        numbers = self._ffi.unpack(self._robots[index].rows + first, _DRIVE_END)
         senses = Senses._make(numbers[:_SENSES_END])
         drive = Drive._make(numbers[_SENSES_END:])
         return senses._replace(bump=bool(senses.bump), look=bool(senses.look)), drive
 
     def begun(self, index: int) -> dict[int, int]:
         """Number of actions that a robot has begun since `enter`, by reason."""
-        return {reason: count for reason, count in enumerate(self._robots[index].begun) if count}
+        counts = self._ffi.unpack(self._robots[index].begun, self._library.LOOP_REASONS)
+        return {reason: count for reason, count in enumerate(counts) if count}
 
     def food_eaten(self, index: int) -> int:
         """Number of pieces of food that a robot has eaten since `enter`."""
@@ -172,11 +173,10 @@ class NativeLoop:
         robot.senses_counter, self._memories[index] = client.senses_counter, client.memory
         if client.frames.sent != self._sent[index]:
             robot.known_count = 0
-        waiting = self._links[index].taken()
-        self._waiting[index] = robot.waiting = self._ffi.new(
-            "struct frame[]", [(frame.id, len(frame.data), frame.data.ljust(_LENGTH, b"\0")) for frame in waiting]
-        )
-        robot.waiting_count = len(waiting)
+        if waiting := self._links[index].taken():
+            frames = [(frame.id, len(frame.data), frame.data.ljust(_LENGTH, b"\0")) for frame in waiting]
+            self._waiting[index] = robot.waiting = self._ffi.new("struct frame[]", frames)
+            robot.waiting_count = len(waiting)
 
     def _catch_up(self, index: int, client: RobotClient) -> None:
         robot, ticks = self._robots[index], int(self._loop.ticks)

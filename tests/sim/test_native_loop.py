@@ -154,8 +154,8 @@ def test_reports_that_wait_from_before_are_logged_in_the_first_tick(tmp_path):
     """A robot that starts with a memory of its own reports it, and the report is not waited for."""
 
     def start_again(simulation: Simulation, _: RunRecorder) -> None:
-        for _ in range(300):
-            start(simulation.clients[0], seed=9, profile=PROFILES["fixed"], settings={}, memory=None)
+        for profile in [*["fixed"] * 100, "never"]:
+            start(simulation.clients[0], seed=9, profile=PROFILES[profile], settings={}, memory=None)
 
     config = RunConfig(seed=1, environments=1, limit_s=10.0, profile="fixed")
 

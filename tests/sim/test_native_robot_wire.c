@@ -131,6 +131,15 @@ static void test_when_there_are_too_many_kinds_all_are_news(void)
     TEST_ASSERT_EQUAL_size_t(LOOP_FRAMES_MAX, robot.report_count);
 }
 
+static void test_of_too_many_reports_the_last_are_kept(void)
+{
+    for (unsigned i = 0; i < LOOP_FRAMES_MAX + 3; i++)
+        (void)is_news(FAULTS, 0, 1, (uint8_t)i);
+    TEST_ASSERT_EQUAL_size_t(LOOP_FRAMES_MAX, robot.report_count);
+    TEST_ASSERT_EQUAL_UINT8(3, robot.reports[0].data[2]);
+    TEST_ASSERT_EQUAL_UINT8(LOOP_FRAMES_MAX + 2, robot.reports[LOOP_FRAMES_MAX - 1].data[2]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -142,5 +151,6 @@ int main(void)
     RUN_TEST(test_each_page_is_a_report_of_its_own);
     RUN_TEST(test_a_heartbeat_is_no_news);
     RUN_TEST(test_when_there_are_too_many_kinds_all_are_news);
+    RUN_TEST(test_of_too_many_reports_the_last_are_kept);
     return UNITY_END();
 }

@@ -73,6 +73,7 @@ static bool is_news(struct loop_robot *robot, const struct frame *frame)
 void robot_wire_report(struct loop_robot *robot, const struct frame *frame)
 {
     robot->has_news |= frame->id != robot->heartbeat_id && is_news(robot, frame);
-    if (robot->report_count < LOOP_FRAMES_MAX)
-        robot->reports[robot->report_count++] = *frame;
+    if (robot->report_count == LOOP_FRAMES_MAX)
+        memmove(robot->reports, robot->reports + 1, --robot->report_count * sizeof *frame);
+    robot->reports[robot->report_count++] = *frame;
 }

@@ -11,6 +11,7 @@ bool robot_wire_drive(const struct frame *frame, uint8_t tick, struct drive *out
         /* Fills *out from a DRIVE. Whether it answers the senses of this tick. */
 
 void robot_wire_report(struct loop_robot *robot, const struct frame *frame);
-        /* Notes a report of this tick, and whether it says something new: more than the time, and that it was sent again. */
+        /* Notes a report of this tick, and whether it says something new: more than the time, and that it was sent again.
+           Of more than LOOP_FRAMES_MAX the last are kept. */
 
 #endif
