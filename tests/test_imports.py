@@ -75,3 +75,11 @@ def test_an_exception_that_is_no_longer_needed_is_found(project):
     assert arrow in config.read_text()
 
     assert lint(project).returncode != 0
+
+
+def test_a_run_in_this_process_imports_nothing_that_only_others_need():
+    script = "import sys, host_sim.sim.make; print(*{'aiohttp', 'can', 'cantools', 'PIL'} & set(sys.modules))"
+
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+
+    assert done.stdout.split() == []

@@ -10,10 +10,8 @@ from host_sim.backends.qemu import Qemu
 from host_sim.backends.robot_process import RobotProcess
 from host_sim.errors import RobotError, UsageError
 from host_sim.protocol.codec import Frame, Protocol
-from host_sim.transport.buses import open_bus
 from host_sim.transport.in_process_link import InProcessLink
-from host_sim.transport.link import BusLink, Link
-from host_sim.transport.socket_pair_bus import SocketPairBus
+from host_sim.transport.link import Link
 
 _EMULATORS = ("qemu", "emulated")
 _IMAGE_NODE = 1
@@ -94,7 +92,13 @@ def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
     return Connection(board, f"emulated {name}", board.status)
 
 
+# A run in this process needs no python-can, which makes up a quarter of its imports' time.
+
+
 def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
+    from host_sim.transport.bus_link import BusLink  # noqa: PLC0415 - see above
+    from host_sim.transport.socket_pair_bus import SocketPairBus  # noqa: PLC0415 - see above
+
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     with theirs:
         link = BusLink(SocketPairBus(ours.detach()))
@@ -133,6 +137,9 @@ class _ProcessLink:
 
 
 def _over_bus(stack: ExitStack, bus: str, robot: str, node: int) -> Connection:
+    from host_sim.transport.bus_link import BusLink  # noqa: PLC0415 - see above
+    from host_sim.transport.buses import open_bus  # noqa: PLC0415 - see above
+
     link = BusLink(open_bus(bus, Protocol(node).ids_from("ROBOT")))
     stack.callback(link.close)
     interface = bus.partition(":")[0]
