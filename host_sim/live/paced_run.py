@@ -196,7 +196,8 @@ class PacedRun:
 
     def _tick(self) -> None:
         simulation = self.simulation
-        simulation.step()
+        in_blocks = self.speed == FULL_SPEED and self._decided is None
+        simulation.step(simulation.block_ticks if in_blocks else 1)
         if self._has_decided(simulation.drives[0]):
             self._pause()
         if simulation.over:

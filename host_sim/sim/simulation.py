@@ -87,8 +87,8 @@ class Simulation:
         environments: Number of environments.
         limit_s: Robot time after which an environment ends, finished or not, s.
         watch: Called with the simulation after each step.
-        block_ticks: Maximum number of ticks of a step of `run` where the loop in C can be used: `watch` finds them in
-            `loop`. Set it to 1 for a `watch` that is to be called for each tick.
+        block_ticks: Maximum number of ticks of a step at full speed where the loop in C can be used: `watch` finds
+            them in `loop`. Set it to 1 for a `watch` that is to be called for each tick.
         native: Whether to use the loop in C where that can be: with robots in this process, in lockstep.
         record: The environments so far, and what a person changed in them.
         tick: Number of the next tick.

@@ -123,7 +123,7 @@ def test_what_people_did_live_happens_again(tmp_path):
             for order in orders.get(simulation.tick, ()):
                 live.offer(order, complaints.append)
 
-        simulation.watch = watch
+        simulation.watch, simulation.block_ticks = watch, 1
         live = PacedRun(
             simulation, recorder, lambda seed: start_robots(simulation.clients, replace(config, seed=seed))
         )
