@@ -1,54 +1,70 @@
-"""Reads frame logs, those of `FrameLog` and of `candump -L`, and checks every line."""
+"""Reads the robots' frames from a log, whoever wrote it: a run, candump, python-can, asc2log or CANoe."""
 
-import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
 
-from host_sim.errors import OctetError, UsageError
-from host_sim.protocol.codec import Frame, Protocol, node_of
+from host_sim.errors import OctetError
+from host_sim.protocol.codec import NODE_MAX, Protocol, node_of
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.protocol.memory_report import MemoryReport
-from host_sim.regular_file import read_bytes
+from host_sim.recording.log_files import frames_in
+from host_sim.recording.log_text import Recorded
 
-_SIZE_MAX = 2_000_000_000
-_LINE = re.compile(r"\((\d{1,12})\.(\d{6})\) (\S+) ([0-9A-F]{3})#((?:[0-9A-F]{2}){0,8})")
+__all__ = ["LogReader", "Recorded", "check_protocol", "first_memory", "lines_of", "nodes_in", "read_log"]
+
+FOREIGN = "foreign"
+"""The kind of frames with 11-bit identifiers that belong to no message of any node."""
+
+_OURS = frozenset(
+    frame_id
+    for node in range(1, NODE_MAX + 1)
+    for sender in ("SIM", "ROBOT")
+    for frame_id in Protocol(node).ids_from(sender)
+)
 
 
-class Recorded(NamedTuple):
-    """One line of a log: robot time in us, and the frame."""
+class LogReader:
+    """The frames of the robots in a log. Each iteration reads the file again, a line at a time.
 
-    time_us: int
-    frame: Frame
-
-
-def read_log(path: Path) -> Iterator[Recorded]:
-    """Reads a log of `FrameLog` or of `candump -L`.
-
-    Yields:
-        Each frame, in order.
-
-    Raises:
-        UsageError: The file cannot be read.
-        OctetError: The file is empty, or a line is not a frame. A last line without its end is left out.
+    Attributes:
+        path: The log.
+        skipped: Number of other frames by their kind, as of the last iteration.
     """
-    try:
-        text = read_bytes(path, _SIZE_MAX).decode("ascii")
-    except OSError as error:
-        raise UsageError(f"cannot read {path}: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise UsageError(f"{path} is not a frame log: it is not text") from None
-    if not text:
-        raise OctetError(f"{path} is not a frame log: it is empty")
-    whole, _, cut = text.rpartition("\n")
-    if not whole:
-        raise OctetError(f"{path} is not a frame log: no whole line, only {cut[:60]!r}")
-    for number, line in enumerate(whole.split("\n"), start=1):
-        match = _LINE.fullmatch(line)
-        if match is None:
-            raise OctetError(f"{path}, line {number}: not a frame in candump -L format: {line[:60]!r}")
-        seconds, micros, _, frame_id, data = match.groups()
-        yield Recorded(int(seconds) * 1_000_000 + int(micros), Frame(int(frame_id, 16), bytes.fromhex(data)))
+
+    def __init__(self, path: Path) -> None:
+        """Opens nothing yet."""
+        self.path = path
+        self.skipped: Counter[str] = Counter()
+
+    def __iter__(self) -> Iterator[Recorded]:
+        """Yields each frame of a robot or for one, in order.
+
+        Raises:
+            UsageError: The file cannot be read, or is not a log.
+            OctetError: It is empty, damaged or cut short; the message names file and line.
+        """
+        skipped = self.skipped = Counter()
+        for read in frames_in(self.path):
+            if isinstance(read, str):
+                skipped[read] += 1
+            elif read.frame.id in _OURS:
+                yield read
+            else:
+                skipped[FOREIGN] += 1
+
+    def note(self) -> str | None:
+        """One line about the frames that were skipped; None if there were none."""
+        if not self.skipped:
+            return None
+        *others, last = [f"{count} {kind}" for kind, count in sorted(self.skipped.items())]
+        counts = f"{', '.join(others)} and {last}" if others else last
+        return f"{self.path}: skipped {counts} frame{'' if self.skipped.total() == 1 else 's'}"
+
+
+def read_log(path: Path) -> LogReader:
+    """The log in a file; see `LogReader`."""
+    return LogReader(path)
 
 
 def nodes_in(lines: Sequence[Recorded]) -> list[int]:
