@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
-LOCKS = ("requirements.lock", "requirements-emulator.lock", "requirements-tests.lock")
+LOCKS = ("requirements.lock", "requirements-emulator.lock", "requirements-export.lock", "requirements-tests.lock")
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
 # cmake, tools/generate and the download of Unity make what they are to make. With a file beside the notes, installing
@@ -218,7 +218,7 @@ def test_a_stage_that_does_not_exist_is_answered_with_those_there_are(tree: Tree
     done, calls = tree.setup("run", "tets")
     assert done.returncode == 2
     assert calls == []
-    assert all(f"{stage}:" in done.stderr for stage in ("run", "images", "emulator", "vcan", "tests"))
+    assert all(f"{stage}:" in done.stderr for stage in ("run", "images", "emulator", "export", "tests", "vcan"))
 
 
 def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
