@@ -5,7 +5,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from host_sim.errors import OctetError
-from host_sim.protocol.codec import NODE_MAX, Protocol, node_of
+from host_sim.protocol.codec import Protocol, node_of
+from host_sim.protocol.every_node import IDS
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_files import frames_in
@@ -15,13 +16,6 @@ __all__ = ["LogReader", "Recorded", "check_protocol", "first_memory", "lines_of"
 
 FOREIGN = "foreign"
 """The kind of frames with 11-bit identifiers that belong to no message of any node."""
-
-_OURS = frozenset(
-    frame_id
-    for node in range(1, NODE_MAX + 1)
-    for sender in ("SIM", "ROBOT")
-    for frame_id in Protocol(node).ids_from(sender)
-)
 
 
 class LogReader:
@@ -48,7 +42,7 @@ class LogReader:
         for read in frames_in(self.path):
             if isinstance(read, str):
                 skipped[read] += 1
-            elif read.frame.id in _OURS:
+            elif read.frame.id in IDS:
                 yield read
             else:
                 skipped[FOREIGN] += 1
