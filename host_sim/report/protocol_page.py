@@ -8,6 +8,7 @@ from cantools.database.can.signal import Signal
 
 from host_sim.protocol.codec import DBC, NODE_MAX
 from host_sim.protocol.generated import PARAMETERS
+from host_sim.report.bus_load import COMFORTABLE, load_tables
 
 _HEAD = """\
 # The wire
@@ -18,6 +19,13 @@ JavaScript. Any tool that reads DBC files can decode the traffic; `cantools` is 
 ```sh
 tools/run --environments 1 --limit-s 2 --quiet
 head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/octet.dbc
+```
+
+`octet.dbc` has the identifiers of node 1. A file for other nodes, or for several together, has the node in every
+name, as in `N3_SENSES_feel`, and start values and the parameters of the end-to-end protection besides:
+
+```sh
+tools/octet dbc --nodes 1-8 > out/robots.dbc
 ```
 
 ## A conversation
@@ -67,6 +75,19 @@ Node 1 has the identifiers below; node n, up to {nodes}, adds n - 1. A smaller i
 
 """
 
+_LOAD = f"""
+## Bus load
+
+What the messages take at worst, stuff bits and the gap between frames included, as `tools/octet load` computes it
+from the messages' lengths and cycle times; in brackets, robots that ask for RANGES. A bus whose regular traffic stays
+within {COMFORTABLE:.0%} delivers every frame in time. What was on a bus in fact is counted from a log:
+
+```sh
+tools/octet load out/run.log
+```
+
+"""
+
 
 def page() -> str:
     """The text of docs/protocol.md."""
@@ -76,7 +97,7 @@ def page() -> str:
     rows = [_message_row(message) for message in messages]
     head = ["| identifier | message | bytes | from |", "| --- | --- | --- | --- |"]
     overview = _HEAD.format(nodes=NODE_MAX) + "\n".join([*head, *rows]) + "\n"
-    return overview + "".join(_section(message) for message in messages) + _parameters()
+    return overview + "".join(_section(message) for message in messages) + _parameters() + _LOAD + load_tables()
 
 
 def _parameters() -> str:

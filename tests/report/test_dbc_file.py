@@ -6,6 +6,7 @@ from itertools import chain
 
 import cantools
 import pytest
+from crccheck.crc import Crc8GsmA
 
 from host_sim.cli.main import main
 from host_sim.client.commands import stop
@@ -75,6 +76,22 @@ def test_cycle_times_send_types_and_start_values_are_there(dbc):
     assert (memory.cycle_time, memory.send_type) == (1000, "CyclicAndEvent")
     for message in dbc.messages:
         assert all(signal.raw_initial == max(signal.minimum or 0, 0) for signal in message.signals)
+
+
+def test_the_attributes_tell_how_each_frame_is_protected(dbc, log):
+    """The CRC by a library that knows nothing of the robots, and the counter, from nothing but the attributes."""
+    counters: dict[int, list[int]] = {}
+    for _, frame in log:
+        values = {name: it.value for name, it in dbc.get_message_by_frame_id(frame.id).dbc.attributes.items()}
+        assert (values["E2EProfile"], values["E2EDataLength"]) == (1, 8 * len(frame.data))
+        place = values["E2ECRCOffset"] // 8
+        others = frame.data[:place] + frame.data[place + 1 :]
+        assert frame.data[place] == Crc8GsmA.calc(values["E2EDataID"].to_bytes(2, "little") + others)
+        counter = int.from_bytes(frame.data, "little") >> values["E2ECounterOffset"] & 15
+        counters.setdefault(frame.id, []).append(counter)
+
+    senses = counters[Protocol(2).id_of("SENSES")]
+    assert senses == [(senses[0] + i) % 15 for i in range(len(senses))]
 
 
 def test_one_node_is_the_same_as_its_part_of_many(dbc):
