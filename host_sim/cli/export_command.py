@@ -4,7 +4,6 @@ import argparse
 import sys
 from collections.abc import Callable, Iterable
 from functools import partial
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -49,12 +48,14 @@ def add(commands: "Subparsers") -> None:
 
 def _export(arguments: argparse.Namespace) -> int:
     from host_sim.atomic_file import replacing
+    from host_sim.export.libraries import library
     from host_sim.recording.log_reader import read_log
 
     wanted = {name: getattr(arguments, name) for name in _FORMATS if getattr(arguments, name) is not None}
     if not wanted:
         raise UsageError(f"give {', '.join(f'--{name} FILE' for name in _FORMATS)}, or several of them")
-    _check_libraries(wanted)
+    for name in wanted.keys() & _LIBRARIES.keys():
+        library(_LIBRARIES[name])
     log = read_log(arguments.log)
     if next(iter(log), None) is None:
         raise OctetError(f"{log.note()}: there is no frame of a robot")
@@ -65,13 +66,6 @@ def _export(arguments: argparse.Namespace) -> int:
         print(f"octet: {note}", file=sys.stderr)
     print(f"wrote     {', '.join(map(str, wanted.values()))}")
     return 0
-
-
-def _check_libraries(names: Iterable[str]) -> None:
-    for name in names:
-        library = _LIBRARIES.get(name)
-        if library is not None and find_spec(library) is None:
-            raise UsageError(f"--{name} needs {library}, which is not installed: run tools/setup export")
 
 
 def _writer(name: str) -> "Callable[[Path, Iterable[Recorded]], None]":

@@ -10,6 +10,7 @@ import can
 import numpy as np
 from can.io.generic import MessageWriter
 
+from host_sim.export.libraries import library
 from host_sim.recording.log_text import Recorded
 
 _CHUNK = 50_000
@@ -59,19 +60,19 @@ _DATA_FRAME = np.dtype(
 
 def write_mf4(path: Path, frames: Iterable[Recorded]) -> None:
     """Writes frames as the bus logging of ASAM MDF 4, from which a DBC file extracts the signals."""
-    from asammdf import MDF, Signal, Source  # noqa: PLC0415 - an optional library
-
+    asammdf = library("asammdf")
     every = iter(frames)
     first = next(every)
     start_us = first.time_us
-    source = Source("CAN", "CAN", "", Source.SOURCE_BUS, Source.BUS_TYPE_CAN)
-    with MDF(version="4.10") as mdf:
+    kinds = asammdf.Source
+    source = kinds("CAN", "CAN", "", kinds.SOURCE_BUS, kinds.BUS_TYPE_CAN)
+    with asammdf.MDF(version="4.10") as mdf:
         mdf.start_time = datetime.fromtimestamp(start_us / 1e6, timezone.utc)
         for i, chunk in enumerate(_chunks(chain([first], every))):
             times = np.array([it.time_us - start_us for it in chunk]) / 1e6
             samples = _samples(chunk)
             if i == 0:
-                mdf.append(Signal(samples, times, name="CAN_DataFrame", source=source))
+                mdf.append(asammdf.Signal(samples, times, name="CAN_DataFrame", source=source))
             else:
                 mdf.extend(0, [(times, None), (samples, None)])
         with path.open("wb") as file:

@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
 
+from host_sim.export.libraries import library
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES
 from host_sim.recording.log_text import Recorded
@@ -59,9 +60,7 @@ def write_csv(path: Path, frames: Iterable[Recorded]) -> None:
 
 def write_parquet(path: Path, frames: Iterable[Recorded]) -> None:
     """Writes the table as Parquet."""
-    import pyarrow  # type: ignore[import-untyped]  # noqa: PLC0415 - an optional library
-    from pyarrow import parquet  # noqa: PLC0415 - likewise
-
+    pyarrow, parquet = library("pyarrow"), library("pyarrow.parquet")
     kinds = {"time_s": pyarrow.float64(), "message": pyarrow.string(), "data": pyarrow.string()}
     schema = pyarrow.schema([(name, kinds.get(name, pyarrow.int64())) for name in COLUMNS])
     every = rows(frames)

@@ -21,12 +21,7 @@ tools/run --environments 1 --limit-s 2 --quiet
 head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/octet.dbc
 ```
 
-`octet.dbc` has the identifiers of node 1. A file for other nodes, or for several together, has the node in every
-name, as in `N3_SENSES_feel`, and start values and the parameters of the end-to-end protection besides:
-
-```sh
-tools/octet dbc --nodes 1-8 > out/robots.dbc
-```
+`octet.dbc` has the identifiers of node 1; [`tools/octet dbc`](logs.md#dbc-files) prints a file for any nodes.
 
 ## A conversation
 
@@ -80,11 +75,8 @@ _LOAD = f"""
 
 What the messages take at worst, stuff bits and the gap between frames included, as `tools/octet load` computes it
 from the messages' lengths and cycle times; in brackets, robots that ask for RANGES. A bus whose regular traffic stays
-within {COMFORTABLE:.0%} delivers every frame in time. What was on a bus in fact is counted from a log:
-
-```sh
-tools/octet load out/run.log
-```
+within {COMFORTABLE:.0%} delivers every frame in time. [With a log](logs.md#bus-load), the command counts what was
+there.
 
 """
 

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+import sys
 from collections import Counter
 from pathlib import Path
 
@@ -13,7 +14,6 @@ from small_mcap import JSONDecoderFactory, read_message_decoded
 from vblf.can import CanMessage
 from vblf.reader import BlfReader
 
-from host_sim.cli import export_command
 from host_sim.cli.main import main
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.every_node import hear
@@ -133,12 +133,20 @@ def test_what_was_skipped_is_said(log, tmp_path, capsys):
 
 
 def test_a_missing_library_is_named_with_the_command_that_installs_it(log, tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(export_command, "find_spec", lambda _: None)
+    monkeypatch.setitem(sys.modules, "asammdf", None)
 
     assert main(["export", str(log), "--mf4", str(tmp_path / "a.mf4")]) == 2
 
-    assert re.fullmatch(r"octet: --mf4 needs asammdf.*: run tools/setup export\n", capsys.readouterr().err)
+    assert re.fullmatch(r"octet: this format needs asammdf.*: run tools/setup export\n", capsys.readouterr().err)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_no_other_command_loads_the_libraries_of_exports():
+    loaded = (
+        "import sys, host_sim.transport.buses; print(sorted({'asammdf', 'pandas', 'pyarrow'} & set(sys.modules)))"
+    )
+
+    assert subprocess.check_output([sys.executable, "-c", loaded], text=True) == "[]\n"
 
 
 @pytest.mark.parametrize(

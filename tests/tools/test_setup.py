@@ -192,6 +192,22 @@ def test_a_stage_installs_only_what_it_needs(tree: Tree) -> None:
     assert tree.setup("emulator")[1] == ["ninja"]
 
 
+def test_the_libraries_of_exports_stand_apart_and_are_installed_once(tree: Tree) -> None:
+    tree.setup("export")
+    assert tree.installed() == ["requirements.lock", "requirements-export.lock"]
+    (line,) = [line for line in tree.calls.read_text().splitlines() if line.endswith(" requirements-export.lock")]
+    assert " --target build/export " in line
+    assert tree.setup("export")[1] == ["ninja"]
+
+
+def test_exports_whose_installation_was_broken_off_are_installed_again(tree: Tree) -> None:
+    with tree.offline("requirements-export.lock"):
+        assert tree.setup("export")[0].returncode != 0
+    assert tree.setup("run")[1] == ["ninja"]
+    assert tree.setup("export")[0].returncode == 0
+    assert tree.installed() == ["requirements-export.lock"]
+
+
 def test_a_later_stage_adds_to_what_is_there(tree: Tree) -> None:
     tree.setup("run")
     tree.setup("emulator")
