@@ -85,8 +85,11 @@ def _draw(lines: list[str], out: TextIO) -> None:
 
 
 def _receive(bus: can.BusABC, timeout_s: float) -> can.Message | None:
+    """The next frame; text of a serial line that is none counts as an error frame."""
     try:
         return bus.recv(timeout_s)
+    except ValueError:
+        return can.Message(is_error_frame=True)
     except (can.CanError, OSError) as error:
         raise OctetError(f"the bus is gone: {error}") from None
 

@@ -4,6 +4,8 @@ A frame with an 11-bit identifier and n bytes of data has 47 + 8 n bits, the gap
 five equal bits in a row, CAN adds a stuff bit; at worst one for every four of the first 34 + 8 n bits.
 """
 
+import re
+
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.generated import MESSAGES, Message
 
@@ -12,6 +14,7 @@ OPTIONAL = ("RANGES",)
 
 _STUFFABLE, _FIXED = 34, 13
 _RUN = 5
+_STUFFED = re.compile("00000(?:11110000)*(?:1111)?|11111(?:00001111)*(?:0000)?")
 _CRC_POLYNOMIAL = 0x4599
 
 
@@ -21,14 +24,24 @@ def worst_bits(length: int) -> int:
     return stuffable + _FIXED + (stuffable - 1) // (_RUN - 1)
 
 
+def _crc_table() -> tuple[int, ...]:
+    table = []
+    for byte in range(256):
+        crc = byte << 7
+        for _ in range(8):
+            crc = (crc << 1) ^ (_CRC_POLYNOMIAL if crc & 0x4000 else 0)
+        table.append(crc & 0x7FFF)
+    return tuple(table)
+
+
+_CRC_TABLE = _crc_table()
+
+
 def crc15(data: bytes) -> int:
     """The CRC of CAN 2.0. Leading zero bits do not change it."""
     crc = 0
     for byte in data:
-        crc ^= byte << 7
-        for _ in range(8):
-            crc = (crc << 1) ^ (_CRC_POLYNOMIAL if crc & 0x4000 else 0)
-        crc &= 0x7FFF
+        crc = (crc << 8 & 0x7FFF) ^ _CRC_TABLE[(crc >> 7) ^ byte]
     return crc
 
 
@@ -42,14 +55,8 @@ def frame_bits(frame: Frame) -> int:
 
 
 def _stuff_bits(bits: str) -> int:
-    count, last, run = 0, "", 0
-    for bit in bits:
-        run = run + 1 if bit == last else 1
-        last = bit
-        if run == _RUN:
-            count += 1
-            last, run = ("1" if bit == "0" else "0"), 1
-    return count
+    """How many stuff bits there are: one after five equal bits; it counts as the first of the bits that follow."""
+    return sum(1 + (len(run) - _RUN) // (_RUN - 1) for run in _STUFFED.findall(bits))
 
 
 def frames_a_second(message: Message) -> float:
