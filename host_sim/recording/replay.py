@@ -116,14 +116,21 @@ class _Comparison:
 
     def _compare_drive(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
         answer = self._pending.pop(decoded.signals["tick"], None)
-        # On its own clock a robot that received nothing says so; here it receives everything.
-        if answer is None and not self._lockstep and decoded.signals["reason"] == Reason.SILENCE:
+        if answer is None and self._needs_no_senses(decoded.signals["reason"]):
             return None
         if answer is None and frame == self._drive:
             return None
         self._drive = frame
         self.drives += answer == frame
         return None if answer == frame else Difference(self._time_us, frame, answer)
+
+    def _needs_no_senses(self, reason: int) -> bool:
+        """Whether a robot sends such a drive by itself.
+
+        On its own clock, one that received nothing says so; here it receives everything. With wire 1, it did not
+        answer a stop by a drive, but said that it rested when it received nothing.
+        """
+        return (reason == Reason.SILENCE and not self._lockstep) or (reason == Reason.STOP and self._log.is_old)
 
     def _compare_memory(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
         recorded = self._recorded.join(decoded)

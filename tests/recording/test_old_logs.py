@@ -1,7 +1,7 @@
 """Logs of earlier versions are still good: of wire 1, every frame is written anew as frames of today's.
 
 `data/version_1_0.log` is a run of 5 s in which the robot learned one cell; its HEARTBEATs carry the hash of the DBC
-file of that time.
+file of that time. The other logs are of the last version with wire 1.
 """
 
 from pathlib import Path
@@ -118,6 +118,23 @@ def test_an_old_log_replays_without_a_difference_and_is_said_to_be_old(capsys):
 
     said = capsys.readouterr().out
     assert f"{DRIVES} drives, no difference; an old log: only drives and memories were compared\n" in said
+
+
+def test_each_robot_of_an_old_log_is_compared(capsys):
+    assert main(["replay", str(OLD.with_name("wire_1_three_robots.log"))]) == 0
+
+    assert capsys.readouterr().out.count(": 150 drives, no difference; an old log") == 3
+
+
+def test_an_old_log_of_real_time_replays_without_a_difference():
+    outcome = replay(read_log(OLD.with_name("wire_1_own_clock.log")), Protocol())
+
+    assert (outcome.drives, outcome.difference) == (99, None)
+
+
+@pytest.mark.parametrize("name", ["wire_1_three_robots.log", "wire_1_own_clock.log"])
+def test_old_logs_are_found_again_in_their_worlds(name):
+    assert resimulate(OLD.with_name(name)).stopped
 
 
 def test_an_old_log_is_found_again_in_its_world():
