@@ -39,7 +39,8 @@ def frames_in(path: Path) -> Iterator[Recorded | str]:
 
     Raises:
         UsageError: The file cannot be read, or is not a log.
-        OctetError: It is empty, damaged or cut short; the message names file and line.
+        OctetError: It is empty or damaged; the message names file and line. A last line of text without its end is
+            left out.
     """
     with _open(path) as file:
         try:
@@ -74,6 +75,11 @@ def _reader_for(path: Path, file: BinaryIO) -> Callable[[Path, BinaryIO], Iterat
 def _text(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
     reader = LineReader(deltas=_has_deltas(file))
     for number, line in enumerate(_lines(file), start=1):
+        if len(line) < _LINE_MAX and not line.endswith(b"\n"):
+            if number == 1 and line.isascii():
+                raise OctetError(f"{path} is not a frame log: no whole line, only {line[:60].decode('ascii')!r}")
+            if line.isascii():
+                return  # cut short while it was written
         try:
             read = reader.read(line)
         except ValueError as error:

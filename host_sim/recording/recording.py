@@ -87,6 +87,7 @@ class _Reader:
                 self._accept_memory(memory)
         elif decoded.name == "COMMAND":
             self._end_tick()
+            self._begun = None
             self._accept_command(decoded.signals)
 
     def _begin_tick(self, senses: Senses) -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
-from host_sim.protocol.generated import Reason
+from host_sim.protocol.generated import Opcode, Reason
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, first_memory, frames_of
 from host_sim.transport.in_process_link import InProcessLink
@@ -36,11 +36,13 @@ class Replay:
         drives: Number of equal drives.
         difference: The first difference; None if there is none.
         old: Whether the log was recorded with an earlier wire.
+        stopped: Whether the log has the end of the run.
     """
 
     drives: int
     difference: Difference | None
-    old: bool
+    old: bool = False
+    stopped: bool = True
 
 
 def replay(log: LogReader, protocol: Protocol) -> Replay:
@@ -58,7 +60,8 @@ def replay(log: LogReader, protocol: Protocol) -> Replay:
     for line in frames_of(log, protocol.node):
         if difference := comparison.accept(line):
             return Replay(comparison.drives, difference, log.is_old)
-    return Replay(comparison.drives, comparison.end(), log.is_old)
+    difference = comparison.end() if comparison.stopped else None  # a log that was cut off has no last answer
+    return Replay(comparison.drives, difference, log.is_old, comparison.stopped)
 
 
 class _Comparison:
@@ -66,10 +69,12 @@ class _Comparison:
 
     Attributes:
         drives: Number of equal drives so far.
+        stopped: Whether the last command so far was to stop.
     """
 
     def __init__(self, log: LogReader, protocol: Protocol) -> None:
         self.drives = 0
+        self.stopped = False
         self._log, self._protocol = log, protocol
         self._link = InProcessLink(protocol.node, first_memory(log, protocol))
         self._pending: dict[int, Frame] = {}
@@ -90,6 +95,7 @@ class _Comparison:
             # What was lost on a bus is sent again, and answered again.
             difference = self.end() if frame != self._sent else None
             self._sent = frame
+            self.stopped = decoded.signals.get("opcode") == Opcode.STOP
             self._lockstep = bool(decoded.signals.get("lockstep", self._lockstep))
             self._feed(frame)
             return difference
@@ -144,7 +150,8 @@ def report(outcome: Replay, path: Path, protocol: Protocol) -> str:
     """The outcome as text."""
     if outcome.difference is None:
         old = "; an old log: only drives and memories were compared" if outcome.old else ""
-        return f"{path}: {outcome.drives} drives, no difference{old}"
+        ending = "" if outcome.stopped else "; the log ends before the run does"
+        return f"{path}: {outcome.drives} drives, no difference{old}{ending}"
     difference = outcome.difference
     return "\n".join(
         (

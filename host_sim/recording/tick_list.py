@@ -15,12 +15,16 @@ class Tick(NamedTuple):
         drive: The drive that the body applied: the robot's answer, or an earlier one that was still held.
         memory: The robot's eight cells when it answered.
         frozen: Whether learning was frozen.
+        started: The robot's eight cells when it was started again since the tick before; None if it was not.
+        written: Its eight cells after each report between the two ticks, since it was started if it was.
     """
 
     senses: Senses
     drive: Drive
     memory: tuple[int, ...]
     frozen: bool
+    started: tuple[int, ...] | None = None
+    written: tuple[tuple[int, ...], ...] = ()
 
 
 _SENSES, _ALL = len(Senses._fields), len(Senses._fields) + len(Drive._fields)
@@ -35,6 +39,8 @@ class TickList:
         self._frozen = bytearray()
         self._memories: list[tuple[int, ...]] = []
         self._memory = array("L")  # of each tick, the place of its memory
+        self._started: dict[int, tuple[int, ...]] = {}
+        self._written: dict[int, tuple[tuple[int, ...], ...]] = {}
 
     def __len__(self) -> int:
         return len(self._frozen)
@@ -50,10 +56,16 @@ class TickList:
             _drive(numbers[_SENSES:]),
             self._memories[self._memory[i]],
             bool(self._frozen[i]),
+            self._started.get(i),
+            self._written.get(i, ()),
         )
 
     def append(self, tick: Tick) -> None:
         """Adds a tick at the end."""
+        if tick.started is not None:
+            self._started[len(self)] = tick.started
+        if tick.written:
+            self._written[len(self)] = tick.written
         self._numbers.extend(tick.senses)
         self._numbers.extend(tick.drive)
         self._frozen.append(tick.frozen)
