@@ -3,15 +3,31 @@
 import os
 import stat
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from host_sim.errors import OctetError
 
 
 def write_bytes(path: Path, content: bytes) -> None:
-    """Writes a file atomically: an existing file stays as it is until the new one is complete and on the disk.
+    """Writes a file as `replacing` does.
+
+    Raises:
+        OctetError: As in `replacing`.
+    """
+    with replacing(path) as part:
+        part.write_bytes(content)
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[Path]:
+    """Replaces a file atomically: an existing file stays as it is until the new one is complete and on the disk.
 
     A link stays a link: the file that it names is written. An existing file keeps its mode and its owner.
+
+    Yields:
+        Where to write the new content: an empty file in the same folder. An exception leaves the old file as it is.
 
     Raises:
         OctetError: The file cannot be written, or is not a regular file, such as a device.
@@ -22,8 +38,10 @@ def write_bytes(path: Path, content: bytes) -> None:
         if before is not None and not stat.S_ISREG(before.st_mode):
             raise OctetError(f"cannot write {path}: it is not a regular file")
         descriptor, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+        os.close(descriptor)
         try:
-            _fill(descriptor, content, before)
+            yield Path(name)
+            _finish(name, before)
             Path(name).replace(target)
         except BaseException:
             Path(name).unlink()
@@ -33,10 +51,10 @@ def write_bytes(path: Path, content: bytes) -> None:
         raise OctetError(f"cannot write {path}: {error.strerror}") from error
 
 
-def _fill(descriptor: int, content: bytes, before: os.stat_result | None) -> None:
-    with os.fdopen(descriptor, "wb") as file:
-        file.write(content)
-        file.flush()
+def _finish(name: str, before: os.stat_result | None) -> None:
+    """Gives the new file the old one's mode and owner, or those of a new file, and waits until it is on the disk."""
+    descriptor = os.open(name, os.O_RDONLY)
+    try:
         if before is None:
             os.fchmod(descriptor, 0o666 & ~_umask())
         else:
@@ -44,6 +62,8 @@ def _fill(descriptor: int, content: bytes, before: os.stat_result | None) -> Non
             if os.geteuid() == 0:
                 os.fchown(descriptor, before.st_uid, before.st_gid)
         os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
 
 
 def _umask() -> int:

@@ -3,12 +3,13 @@
 import os
 import stat
 from pathlib import Path
+from typing import BinaryIO
 
 from host_sim.errors import UsageError
 
 
-def read_bytes(path: Path, limit: int) -> bytes:
-    """The content of a regular file.
+def open_bytes(path: Path, limit: int) -> BinaryIO:
+    """Opens a regular file for reading.
 
     Args:
         path: The file. A pipe or a device is refused before a byte of it is read: some never end.
@@ -16,20 +17,30 @@ def read_bytes(path: Path, limit: int) -> bytes:
 
     Raises:
         FileNotFoundError: There is no such file.
-        UsageError: It cannot be read, is not a regular file, or is larger than the limit.
+        UsageError: It cannot be opened, is not a regular file, or is larger than the limit.
     """
     try:
-        with open(path, "rb", opener=_open_without_waiting) as file:
-            status = os.fstat(file.fileno())
-            if not stat.S_ISREG(status.st_mode):
-                raise UsageError(f"cannot read {path}: it is not a regular file")
-            if status.st_size > limit:
-                raise UsageError(f"cannot read {path}: {status.st_size} bytes, at most {limit} are accepted")
-            return file.read(status.st_size)
+        file = open(path, "rb", opener=_open_without_waiting)  # noqa: SIM115 - the caller closes it
     except FileNotFoundError:
         raise
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
+    status = os.fstat(file.fileno())
+    if stat.S_ISREG(status.st_mode) and status.st_size <= limit:
+        return file
+    file.close()
+    if not stat.S_ISREG(status.st_mode):
+        raise UsageError(f"cannot read {path}: it is not a regular file")
+    raise UsageError(f"cannot read {path}: {status.st_size} bytes, at most {limit} are accepted")
+
+
+def read_bytes(path: Path, limit: int) -> bytes:
+    """The content of a regular file; otherwise as `open_bytes`."""
+    with open_bytes(path, limit) as file:
+        try:
+            return file.read(os.fstat(file.fileno()).st_size)
+        except OSError as error:
+            raise UsageError(f"cannot read {path}: {error.strerror}") from None
 
 
 def _open_without_waiting(path: str, flags: int) -> int:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def add_log_options(parser: argparse.ArgumentParser) -> None:
     """Adds the options that `replay` and `picture` share."""
     add = parser.add_argument
-    add("log", type=Path, metavar="RUN.LOG", help="log of a run, or of candump -L")
+    add("log", type=Path, metavar="RUN.LOG", help="log of a run, of candump or of python-can; ASC or BLF")
     add(
         "--node",
         type=number(1, NODE_MAX),
@@ -35,6 +35,8 @@ def resimulated(arguments: argparse.Namespace) -> "Resimulation":
     from host_sim.recording.resimulation import resimulate
 
     result = resimulate(arguments.log, arguments.node, ignore_world=arguments.no_world)
+    if result.note:
+        print(f"octet: {result.note}", file=sys.stderr)
     if not result.stopped:
         print(f"octet: {arguments.log} ends before the run does; showing what it has", file=sys.stderr)
     return result

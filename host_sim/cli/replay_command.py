@@ -1,6 +1,7 @@
 """`tools/octet replay`: compares a recorded log with the current firmware, or writes it as a page."""
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -44,13 +45,15 @@ def _compare(log: Path, first_node: int) -> int:
     from host_sim.recording.log_reader import nodes_in, read_log
     from host_sim.recording.replay import replay, report
 
-    lines = list(read_log(log))
+    lines = read_log(log)
     equal = True
     for node in sorted({first_node, *(node for node in nodes_in(lines) if node > first_node)}):
         protocol = Protocol(node)
-        outcome = replay(log, lines, protocol)
+        outcome = replay(lines, protocol)
         print(report(outcome, log, protocol))
         equal = equal and outcome.difference is None
+    if note := lines.note():
+        print(f"octet: {note}", file=sys.stderr)
     return 0 if equal else 1
 
 

@@ -1,37 +1,16 @@
 """Turns the frames of a log into ticks."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import NamedTuple
 
 from host_sim.client.pacing import applied
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Opcode
 from host_sim.protocol.memory_report import MemoryReport
-from host_sim.recording.log_reader import Recorded, check_protocol, first_memory, lines_of
+from host_sim.recording.log_reader import LogReader, check_protocol, first_memory, frames_of
+from host_sim.recording.tick_list import Tick, TickList
 from host_sim.robot_io import Drive, Senses
-
-
-class Tick(NamedTuple):
-    """One control tick.
-
-    Attributes:
-        senses: The body's senses.
-        drive: The drive that the body applied: the robot's answer, or an earlier one that was still held.
-        memory: The robot's eight cells when it answered.
-        frozen: Whether learning was frozen.
-        started: The robot's eight cells when it was started again since the tick before; None if it was not.
-        written: Its eight cells after each report between the two ticks, since it was started if it was.
-    """
-
-    senses: Senses
-    drive: Drive
-    memory: tuple[int, ...]
-    frozen: bool
-    started: tuple[int, ...] | None = None
-    written: tuple[tuple[int, ...], ...] = ()
 
 
 @dataclass
@@ -49,26 +28,27 @@ class Recording:
     seed: int | None = None
     boredom_limit: int = PARAMETERS["boredom_limit"].default
     first_memory: tuple[int, ...] = (0,) * CELL_COUNT
-    ticks: list[Tick] = field(default_factory=list)
+    ticks: TickList = field(default_factory=TickList)
     stopped: bool = False
 
 
-def read_recording(log: Path, lines: Sequence[Recorded], protocol: Protocol) -> Recording:
+def read_recording(log: LogReader, protocol: Protocol) -> Recording:
     """Reads one robot's part of a log.
 
     Args:
-        log: Where the lines come from, for messages.
-        lines: The whole log.
+        log: The log.
         protocol: The protocol of the robot's node.
 
     Raises:
         OctetError: The log is of another protocol, or has no heartbeat or no tick of this node.
     """
-    ours = lines_of(lines, protocol.node)
-    check_protocol(log, ours, protocol)
-    recording = _Reader(protocol, first_memory(ours, protocol)).read(line.frame for line in ours)
+    check_protocol(log, protocol)
+    ours = frames_of(log, protocol.node)
+    recording = _Reader(protocol, first_memory(log, protocol)).read(line.frame for line in ours)
     if not recording.ticks:
-        raise OctetError(f"{log} has no tick in which the robot moves: the run never began, or the log is cut short")
+        raise OctetError(
+            f"{log.path} has no tick in which the robot moves: the run never began, or the log is cut short"
+        )
     return recording
 
 
@@ -81,6 +61,7 @@ class _Reader:
         self._report = MemoryReport()
         self._recording = Recording(first_memory=self._memory)
         self._senses: Senses | None = None
+        self._begun: Senses | None = None
         self._fresh: Drive | None = None
         self._last: Drive | None = None
         self._frozen, self._lockstep = False, True
@@ -99,15 +80,21 @@ class _Reader:
 
     def _accept(self, decoded: DecodedFrame) -> None:
         if decoded.name == "SENSES":
-            self._end_tick()
-            self._senses = _senses_from(decoded)
+            self._begin_tick(_senses_from(decoded))
         elif decoded.name == "MEMORY":
             memory = self._report.join(decoded)
             if memory is not None:
                 self._accept_memory(memory)
         elif decoded.name == "COMMAND":
             self._end_tick()
+            self._begun = None
             self._accept_command(decoded.signals)
+
+    def _begin_tick(self, senses: Senses) -> None:
+        """Begins a tick, unless its senses were only sent again."""
+        if senses != self._begun:
+            self._end_tick()
+            self._begun = self._senses = senses
 
     def _end_tick(self) -> None:
         if self._senses is not None and (self._fresh is not None or not self._lockstep):

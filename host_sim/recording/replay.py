@@ -1,13 +1,13 @@
 """Compares a recorded log with the current firmware."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from host_sim.errors import OctetError
-from host_sim.protocol.codec import Frame, Protocol
-from host_sim.protocol.generated import Opcode
-from host_sim.recording.log_reader import Recorded, check_protocol, first_memory, lines_of
+from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
+from host_sim.protocol.generated import Opcode, Reason
+from host_sim.protocol.memory_report import MemoryReport
+from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, first_memory, frames_of
 from host_sim.transport.in_process_link import InProcessLink
 
 _TO_ROBOT = ("SENSES", "COMMAND")
@@ -15,12 +15,12 @@ _TO_ROBOT = ("SENSES", "COMMAND")
 
 @dataclass(frozen=True)
 class Difference:
-    """The first drive that differs between log and firmware.
+    """The first drive or memory that differs between log and firmware.
 
     Attributes:
         time_us: Robot time, us.
-        recorded: The drive in the log; None if the log has none.
-        replayed: The drive of the current firmware; None if it sends none.
+        recorded: The frame in the log; None if the log has none.
+        replayed: That of the current firmware; None if it sends none.
     """
 
     time_us: int
@@ -35,56 +35,123 @@ class Replay:
     Attributes:
         drives: Number of equal drives.
         difference: The first difference; None if there is none.
+        old: Whether the log was recorded with an earlier wire.
         stopped: Whether the log has the end of the run.
     """
 
     drives: int
     difference: Difference | None
+    old: bool = False
     stopped: bool = True
 
 
-def replay(path: Path, lines: Sequence[Recorded], protocol: Protocol) -> Replay:
-    """Feeds one robot's senses and commands from a log to the firmware and compares its drives with the log's.
+def replay(log: LogReader, protocol: Protocol) -> Replay:
+    """Feeds one robot's senses and commands from a log to the firmware, and compares drives and memories.
 
     Args:
-        path: Where the lines come from, for messages.
-        lines: The whole log.
+        log: The log.
         protocol: The protocol of the robot's node.
 
     Raises:
         OctetError: The log is of another protocol, has no heartbeat of this node, or holds a damaged frame.
     """
-    lines = lines_of(lines, protocol.node)
-    check_protocol(path, lines, protocol)
-    link = InProcessLink(protocol.node, first_memory(lines, protocol))
-    pending: dict[int, Frame] = {}
-    drives, lockstep, stopped = 0, True, False
-    for time_us, frame in lines:
-        decoded = protocol.decode(frame)
+    check_protocol(log, protocol)
+    comparison = _Comparison(log, protocol)
+    for line in frames_of(log, protocol.node):
+        if difference := comparison.accept(line):
+            return Replay(comparison.drives, difference, log.is_old)
+    difference = comparison.end() if comparison.stopped else None  # a log that was cut off has no last answer
+    return Replay(comparison.drives, difference, log.is_old, comparison.stopped)
+
+
+class _Comparison:
+    """Follows one robot's part of a log with the firmware.
+
+    Attributes:
+        drives: Number of equal drives so far.
+        stopped: Whether the last command so far was to stop.
+    """
+
+    def __init__(self, log: LogReader, protocol: Protocol) -> None:
+        self.drives = 0
+        self.stopped = False
+        self._log, self._protocol = log, protocol
+        self._link = InProcessLink(protocol.node, first_memory(log, protocol))
+        self._pending: dict[int, Frame] = {}
+        self._lockstep, self._time_us = True, 0
+        self._sent: Frame | None = None
+        self._drive: Frame | None = None
+        self._recorded, self._replayed = MemoryReport(), MemoryReport()
+        self._memory: tuple[int, ...] | None = None
+
+    def accept(self, line: Recorded) -> Difference | None:
+        """Compares one frame of the log; None if it is as the firmware has it."""
+        self._time_us, frame = line
+        decoded = self._protocol.decode(frame)
         if decoded is None:
-            raise OctetError(f"{path}: damaged or foreign frame at {time_us / 1e6:.2f} s: {protocol.describe(frame)}")
+            time_s = self._time_us / 1e6
+            raise OctetError(f"{self._log.path}: damaged frame at {time_s:.2f} s: {self._protocol.describe(frame)}")
         if decoded.name in _TO_ROBOT:
-            lockstep = bool(decoded.signals.get("lockstep", lockstep))
-            if pending and lockstep:
-                return Replay(drives, Difference(time_us, None, pending.popitem()[1]))
-            stopped = decoded.signals.get("opcode") == Opcode.STOP
-            pending.update(_drives_for(link, frame, protocol))
-        elif decoded.name == "DRIVE":
-            answer = pending.pop(decoded.signals["tick"], None)
-            # On its own clock a robot that received nothing reports a stop; here it receives everything.
-            if answer != frame and not (answer is None and not lockstep and decoded.signals["reason"] == 0):
-                return Replay(drives, Difference(time_us, frame, answer))
-            drives += answer is not None
-    if pending and lockstep and stopped:
-        return Replay(drives, Difference(lines[-1].time_us, None, pending.popitem()[1]))
-    return Replay(drives, None, stopped)
+            # What was lost on a bus is sent again, and answered again.
+            difference = self.end() if frame != self._sent else None
+            self._sent = frame
+            self.stopped = decoded.signals.get("opcode") == Opcode.STOP
+            self._lockstep = bool(decoded.signals.get("lockstep", self._lockstep))
+            self._feed(frame)
+            return difference
+        if decoded.name == "DRIVE":
+            return self._compare_drive(frame, decoded)
+        return self._compare_memory(frame, decoded) if decoded.name == "MEMORY" else None
+
+    def end(self) -> Difference | None:
+        """The drive of the firmware that the log does not have."""
+        if not self._pending or not self._lockstep:
+            return None
+        return Difference(self._time_us, None, self._pending.popitem()[1])
+
+    def _feed(self, frame: Frame) -> None:
+        self._link.send(frame)
+        for answer in self._link.taken():
+            decoded = self._protocol.decode(answer)
+            if decoded is None:
+                continue
+            if decoded.name == "DRIVE" and not (self._log.is_old and decoded.signals["reason"] == Reason.STOP):
+                self._pending[decoded.signals["tick"]] = answer
+            elif decoded.name == "MEMORY":
+                self._memory = self._replayed.join(decoded) or self._memory
+
+    def _compare_drive(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
+        answer = self._pending.pop(decoded.signals["tick"], None)
+        if answer is None and self._needs_no_senses(decoded.signals["reason"]):
+            return None
+        if answer is None and frame == self._drive:
+            return None
+        self._drive = frame
+        self.drives += answer == frame
+        return None if answer == frame else Difference(self._time_us, frame, answer)
+
+    def _needs_no_senses(self, reason: int) -> bool:
+        """Whether a robot sends such a drive by itself.
+
+        On its own clock, one that received nothing says so; here it receives everything. With wire 1, it did not
+        answer a stop by a drive, but said that it rested when it received nothing.
+        """
+        return (reason == Reason.SILENCE and not self._lockstep) or (reason == Reason.STOP and self._log.is_old)
+
+    def _compare_memory(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
+        recorded = self._recorded.join(decoded)
+        if recorded is None or self._memory is None or recorded == self._memory or not self._lockstep:
+            return None
+        cells = {f"cell_{i}": cell for i, cell in enumerate(self._memory)}
+        return Difference(self._time_us, frame, self._protocol.encode("MEMORY", decoded.signals | cells))
 
 
 def report(outcome: Replay, path: Path, protocol: Protocol) -> str:
     """The outcome as text."""
     if outcome.difference is None:
+        old = "; an old log: only drives and memories were compared" if outcome.old else ""
         ending = "" if outcome.stopped else "; the log ends before the run does"
-        return f"{path}: {outcome.drives} drives, no difference{ending}"
+        return f"{path}: {outcome.drives} drives, no difference{old}{ending}"
     difference = outcome.difference
     return "\n".join(
         (
@@ -97,14 +164,3 @@ def report(outcome: Replay, path: Path, protocol: Protocol) -> str:
 
 def _described(frame: Frame | None, protocol: Protocol) -> str:
     return "nothing" if frame is None else protocol.describe(frame)
-
-
-def _drives_for(link: InProcessLink, frame: Frame, protocol: Protocol) -> dict[int, Frame]:
-    """The drives with which the firmware answers a frame, by tick."""
-    link.send(frame)
-    answers = ((answer, protocol.decode(answer)) for answer in link.taken())
-    return {
-        decoded.signals["tick"]: answer
-        for answer, decoded in answers
-        if decoded is not None and decoded.name == "DRIVE"
-    }

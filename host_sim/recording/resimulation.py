@@ -8,9 +8,10 @@ from pathlib import Path
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.recording.dead_reckoning import reckon
-from host_sim.recording.log_reader import Recorded, nodes_in, read_log
-from host_sim.recording.recording import Recording, Tick, read_recording
+from host_sim.recording.log_reader import LogReader, nodes_in, read_log
+from host_sim.recording.recording import Recording, read_recording
 from host_sim.recording.run_recorder import RunRecorder
+from host_sim.recording.tick_list import Tick
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import read_world, world_path
 from host_sim.robot_io import Senses
@@ -33,11 +34,13 @@ class Resimulation:
         trajectory: Every tick of the run.
         seed: The run's seed; None if its world is not known.
         stopped: Whether the log has the end of the run; if not, the log or the run was cut short.
+        note: One line about the frames of the log that were skipped; None if there were none.
     """
 
     trajectory: Trajectory
     seed: int | None
     stopped: bool
+    note: str | None
 
     @property
     def title(self) -> str:
@@ -61,18 +64,18 @@ def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False) -> Resim
         UsageError: A file cannot be read.
         OctetError: The log is not one of this protocol, or was recorded in another world.
     """
-    lines = list(read_log(log))
-    recording = read_recording(log, lines, Protocol(node))
+    lines = read_log(log)
+    recording = read_recording(lines, Protocol(node))
     record = None if ignore_world else _world_record(log, lines, recording, node)
     if record is None:
-        return Resimulation(reckon(recording, node, SimParams()), None, recording.stopped)
+        return Resimulation(reckon(recording, node, SimParams()), None, recording.stopped, lines.note())
     others = range(node + 1, node + record.robots)
-    recordings = {node: recording} | {other: read_recording(log, lines, Protocol(other)) for other in others}
+    recordings = {node: recording} | {other: read_recording(lines, Protocol(other)) for other in others}
     trajectory = _Resimulator(log, SimParams(), record, recordings).run()
-    return Resimulation(trajectory, record.seed, recording.stopped)
+    return Resimulation(trajectory, record.seed, recording.stopped, lines.note())
 
 
-def _world_record(log: Path, lines: Sequence[Recorded], recording: Recording, node: int) -> WorldRecord | None:
+def _world_record(log: Path, lines: LogReader, recording: Recording, node: int) -> WorldRecord | None:
     path = world_path(log)
     if path.exists():
         return read_world(path)

@@ -8,6 +8,7 @@ from cantools.database.can.signal import Signal
 
 from host_sim.protocol.codec import DBC, NODE_MAX
 from host_sim.protocol.generated import PARAMETERS
+from host_sim.report.bus_load import COMFORTABLE, load_tables
 
 _HEAD = """\
 # The wire
@@ -19,6 +20,8 @@ JavaScript. Any tool that reads DBC files can decode the traffic; `cantools` is 
 tools/run --environments 1 --limit-s 2 --quiet
 head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/octet.dbc
 ```
+
+`octet.dbc` has the identifiers of node 1; [`tools/octet dbc`](logs.md#dbc-files) prints a file for any nodes.
 
 ## A conversation
 
@@ -67,6 +70,16 @@ Node 1 has the identifiers below; node n, up to {nodes}, adds n - 1. A smaller i
 
 """
 
+_LOAD = f"""
+## Bus load
+
+What the messages take at worst, stuff bits and the gap between frames included, as `tools/octet load` computes it
+from the messages' lengths and cycle times; in brackets, robots that ask for RANGES. A bus whose regular traffic stays
+within {COMFORTABLE:.0%} delivers every frame in time. [With a log](logs.md#bus-load), the command counts what was
+there.
+
+"""
+
 
 def page() -> str:
     """The text of docs/protocol.md."""
@@ -76,7 +89,7 @@ def page() -> str:
     rows = [_message_row(message) for message in messages]
     head = ["| identifier | message | bytes | from |", "| --- | --- | --- | --- |"]
     overview = _HEAD.format(nodes=NODE_MAX) + "\n".join([*head, *rows]) + "\n"
-    return overview + "".join(_section(message) for message in messages) + _parameters()
+    return overview + "".join(_section(message) for message in messages) + _parameters() + _LOAD + load_tables()
 
 
 def _parameters() -> str:

@@ -220,7 +220,7 @@ def test_on_its_own_clock_a_body_holds_a_drive_for_a_while_and_then_rests(short,
         *(protocol.encode_senses(senses(tick), tick) for tick in range(1, 8)),
     )
 
-    recording = read_recording(log, list(read_log(log)), protocol)
+    recording = read_recording(read_log(log), protocol)
 
     rest = [REST._replace(tick=tick) for tick in (6, 7)]
     assert [tick.drive for tick in recording.ticks] == [drive] * 6 + rest

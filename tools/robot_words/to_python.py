@@ -42,12 +42,16 @@ class Signal(NamedTuple):
 
 
 class Message(NamedTuple):
-    """A message of node 1; node n adds n - 1 to the identifier."""
+    """A message of node 1; node n adds n - 1 to the identifier.
+
+    `cycle_ms` is the time between two of them; 0 for one that is sent only when something happens.
+    """
 
     name: str
     id: int
     length: int
     sender: str
+    cycle_ms: int
     signals: tuple[Signal, ...]
 
 '''
@@ -100,7 +104,7 @@ def _parameter(parameter: Parameter) -> str:
 def _message(message: Message) -> str:
     (sender,) = message.senders
     signals = "".join(map(_signal, sorted(message.signals, key=_place)))
-    values = f"{message.name!r}, {message.frame_id}, {message.length}, {sender!r}"
+    values = f"{message.name!r}, {message.frame_id}, {message.length}, {sender!r}, {message.cycle_time or 0}"
     return f"    {message.name!r}: Message({values}, (\n{signals}    )),\n"
 
 

@@ -1,0 +1,45 @@
+"""`tools/octet load`: how much of a CAN bus the robots take."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from host_sim.cli.parsing import add_command
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+
+_EXAMPLES = """\
+examples:
+  tools/octet load                   what 1, 2, 3... robots take at worst at each bit rate
+  tools/octet load out/run.log       what was on the bus, stuff bits counted, against the worst case
+"""
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "load",
+        _load,
+        summary="how much of a CAN bus the robots take",
+        description="Prints how much of a CAN bus the robots take: at worst, by octet.dbc, or in a log.\n"
+        "In brackets: robots that ask for RANGES too.",
+        epilog=_EXAMPLES,
+    )
+    parser.add_argument("log", type=Path, nargs="?", metavar="LOG", help="a log; without one: the worst case")
+
+
+def _load(arguments: argparse.Namespace) -> int:
+    from host_sim.recording.log_reader import read_log
+    from host_sim.report.bus_load import load_tables, measure, measured_text
+
+    if arguments.log is None:
+        sys.stdout.write(load_tables())
+        return 0
+    log = read_log(arguments.log)
+    sys.stdout.write(measured_text(measure(log)))
+    if note := log.note():
+        print(f"octet: {note}", file=sys.stderr)
+    return 0

@@ -1,0 +1,1 @@
+"""Recorded logs as files that other programs read."""

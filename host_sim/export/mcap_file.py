@@ -1,0 +1,93 @@
+"""Messages as MCAP, the format of Foxglove and ROS 2.
+
+Each message of each robot has a topic, such as /robot_1/SENSES. A message is JSON: the raw number of each signal by
+its name, and the name of the number where it has one.
+"""
+
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from host_sim.export.libraries import library
+from host_sim.protocol.every_node import Heard, hear
+from host_sim.protocol.generated import MESSAGES
+from host_sim.recording.log_text import Recorded
+
+DAMAGED = "damaged"
+"""The topic of frames with a wrong CRC or length."""
+
+_WORD = "_name"
+"""Behind the name of a signal: the name of its number."""
+
+_CHOICES = {
+    name: {signal.name: signal.choices for signal in message.signals if signal.choices}
+    for name, message in MESSAGES.items()
+}
+
+
+def write_mcap(path: Path, frames: Iterable[Recorded]) -> None:
+    """Writes frames as MCAP."""
+    with path.open("wb") as file:
+        writer = library("mcap.writer").Writer(file)
+        writer.start(profile="", library="octet")
+        topics = _Topics(writer)
+        for number, (time_us, frame) in enumerate(frames):
+            heard = hear(frame)
+            if heard is not None:
+                writer.add_message(
+                    channel_id=topics.channel(heard),
+                    log_time=time_us * 1000,
+                    publish_time=time_us * 1000,
+                    sequence=number,
+                    data=json.dumps(_said(heard, frame.data)).encode("ascii"),
+                )
+        writer.finish()
+
+
+class _Topics:
+    """The channels of a file, each registered when its first message comes."""
+
+    def __init__(self, writer: Any) -> None:
+        self._writer = writer
+        self._schemas: dict[str, int] = {}
+        self._channels: dict[tuple[int, str], int] = {}
+
+    def channel(self, heard: Heard) -> int:
+        name = DAMAGED if heard.signals is None else heard.name
+        key = (heard.node, name)
+        if key not in self._channels:
+            topic = f"/robot_{heard.node}/{name}"
+            schema_id = self._schema(name)
+            self._channels[key] = self._writer.register_channel(
+                topic=topic, message_encoding="json", schema_id=schema_id
+            )
+        return self._channels[key]
+
+    def _schema(self, name: str) -> int:
+        if name not in self._schemas:
+            schema = json.dumps({"type": "object", "properties": _properties(name)})
+            self._schemas[name] = self._writer.register_schema(
+                name=name, encoding="jsonschema", data=schema.encode("ascii")
+            )
+        return self._schemas[name]
+
+
+def _properties(name: str) -> dict[str, dict[str, str]]:
+    if name == DAMAGED:
+        return {"message": {"type": "string"}, "data": {"type": "string"}}
+    signals = MESSAGES[name].signals
+    numbers = {signal.name: {"type": "integer"} for signal in signals}
+    return numbers | {f"{signal.name}{_WORD}": {"type": "string"} for signal in signals if signal.choices}
+
+
+def _said(heard: Heard, data: bytes) -> dict[str, int | str]:
+    if heard.signals is None:
+        return {"message": heard.name, "data": data.hex().upper()}
+    choices = _CHOICES[heard.name]
+    words = {
+        f"{name}{_WORD}": choices[name][number]
+        for name, number in heard.signals.items()
+        if number in choices.get(name, {})
+    }
+    return heard.signals | words

@@ -1,0 +1,1 @@
+"""What is on a bus, live: every robot decoded, and what looks wrong."""

@@ -1,0 +1,171 @@
+"""One robot as it is heard on a bus: what it says, how often, what was lost, and what looks wrong."""
+
+from collections import deque
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from host_sim.protocol.codec import COUNTERS
+from host_sim.protocol.generated import MESSAGES, SAME_LAYOUT, Opcode
+
+WINDOW_S = 2.0
+"""Rates are those of the last seconds."""
+
+_HEARTBEATS_MISSED_S = 3.0
+_ANSWER_S = 0.5
+# An ANSWER has its command's counter, and a command may come from anybody.
+_NOT_COUNTED = ("ANSWER", "COMMAND")
+_OF_TICKS = ("SENSES", "RANGES", "DRIVE")
+
+
+@dataclass
+class MessageWatch:
+    """What was heard of one message.
+
+    Attributes:
+        frames: Number of whole frames.
+        damaged: Number of frames with a wrong CRC or length.
+        lost: Number of frames that are missing, by the alive counter.
+        repeated: Number of frames that came again.
+        signals: What the last one said.
+        last_s: When it came.
+    """
+
+    frames: int = 0
+    damaged: int = 0
+    lost: int = 0
+    repeated: int = 0
+    signals: dict[str, int] = field(default_factory=dict)
+    last_s: float = 0.0
+    _recent: deque[float] = field(default_factory=deque)
+    _follows: bool = False
+
+    def rate(self, now_s: float) -> float:
+        """Frames a second of late."""
+        while self._recent and self._recent[0] <= now_s - WINDOW_S:
+            self._recent.popleft()
+        return len(self._recent) / WINDOW_S
+
+    def add(self, name: str, signals: dict[str, int], now_s: float) -> None:
+        """Counts a whole frame."""
+        if self._follows and name not in _NOT_COUNTED:
+            self._follow_counter(signals)
+        self.frames += 1
+        self._follows = True
+        self.signals, self.last_s = signals, now_s
+        self._recent.append(now_s)
+        self.rate(now_s)
+
+    def begin_anew(self) -> None:
+        """The next frame's counter may be any."""
+        self._follows = False
+
+    def _follow_counter(self, signals: dict[str, int]) -> None:
+        ahead = (signals["counter"] - self.signals["counter"]) % COUNTERS
+        self.lost += max(0, ahead - 1)
+        self.repeated += signals == self.signals
+
+
+class RobotWatch:
+    """Follows the frames of one robot, and those for it.
+
+    Attributes:
+        node: The robot's node number.
+        messages: What was heard of each message.
+    """
+
+    def __init__(self, node: int, now_s: float) -> None:
+        """Has heard nothing yet."""
+        self.node = node
+        self.messages = {name: MessageWatch() for name in MESSAGES}
+        self._first_s = now_s
+        self._faults: dict[str, int] = {}
+        self._cells: dict[str, int] = {}
+        self._boots = 0
+
+    def accept(self, name: str, signals: dict[str, int] | None, now_s: float) -> None:
+        """Takes a frame in.
+
+        Args:
+            name: The message.
+            signals: What it says; None if it is damaged.
+            now_s: The time, s.
+        """
+        message = self.messages[name]
+        if signals is None:
+            message.damaged += 1
+            return
+        self._notice_start(name, signals, now_s)
+        message.add(name, signals, now_s)
+        if name == "FAULTS":
+            self._faults |= {key: n for key, n in signals.items() if key not in ("crc", "counter", "page")}
+        if name == "MEMORY":
+            self._cells |= {key: n for key, n in signals.items() if key.startswith("cell_")}
+
+    def _notice_start(self, name: str, signals: dict[str, int], now_s: float) -> None:
+        """With a start the counters of SENSES and DRIVE begin anew, and all of a robot's when it boots."""
+        if name == "COMMAND" and signals["opcode"] == Opcode.START:
+            self._begin_anew(_OF_TICKS)
+        if name == "BOOT" and not self._reports(now_s):
+            self._boots += 1
+            self._begin_anew(self.messages)
+
+    def _reports(self, now_s: float) -> bool:
+        """Whether it answers a command, which may ask for all reports."""
+        answer = self.messages["ANSWER"]
+        return answer.frames > 0 and now_s - answer.last_s < _ANSWER_S
+
+    def _begin_anew(self, names: Iterable[str]) -> None:
+        for name in names:
+            self.messages[name].begin_anew()
+
+    @property
+    def memory(self) -> list[int]:
+        """The cells of its memory that were heard."""
+        return [number for _, number in sorted(self._cells.items())]
+
+    def said(self, name: str, signal: str) -> int | None:
+        """The number that a signal had when it was last heard; None if it never was."""
+        return self.messages[name].signals.get(signal)
+
+    def total(self, count: str) -> int:
+        """The sum of a count (`frames`, `damaged`, `lost`, `repeated`) over all messages."""
+        return sum(getattr(message, count) for message in self.messages.values())
+
+    def wrong(self, now_s: float) -> list[str]:
+        """What looks wrong, each in a few words that stay the same while it lasts."""
+        return [*self._wrong_on_the_bus(now_s), *self._wrong_in_the_robot()]
+
+    def _wrong_on_the_bus(self, now_s: float) -> Iterator[str]:
+        heartbeat, senses, drive = (self.messages[name] for name in ("HEARTBEAT", "SENSES", "DRIVE"))
+        since_s = now_s - (heartbeat.last_s if heartbeat.frames else self._first_s)
+        if since_s > _HEARTBEATS_MISSED_S:
+            yield "no heartbeat"
+        if senses.last_s > drive.last_s and now_s - max(drive.last_s, self._first_s) > _ANSWER_S:
+            yield "does not answer its SENSES"
+        if heartbeat.frames and self.said("HEARTBEAT", "layout") not in SAME_LAYOUT:
+            yield f"another octet.dbc (layout {self.said('HEARTBEAT', 'layout'):04X})"
+        owner, sender = self.said("HEARTBEAT", "owner"), self.said("COMMAND", "owner")
+        if owner and sender and owner != sender:
+            yield f"commands of {sender}, but its owner is {owner}"
+        for name, message in self.messages.items():
+            if message.damaged:
+                yield f"damaged {name} frames"
+            if message.lost:
+                yield f"lost {name} frames"
+
+    def _wrong_in_the_robot(self) -> Iterator[str]:
+        running = self.said("HEARTBEAT", "state")
+        if running and self.said("HEARTBEAT", "silent"):
+            yield "runs, and hears no senses"
+        if self._boots:
+            yield f"started anew {self._boots} times" if self._boots > 1 else "started anew"
+        choices = {signal.name: signal.choices for signal in MESSAGES["HEALTH"].signals}
+        if state := self.said("HEALTH", "bus_state"):
+            yield f"its CAN controller is {choices['bus_state'].get(state, state)}"
+        if self.said("HEALTH", "clock") == 0:
+            yield "its clock is inexact"
+        if self.messages["CRASH"].frames:
+            yield "has crashed since power-up"
+        for name, number in self._faults.items():
+            if number:
+                yield f"counts faults: {name}"

@@ -1,0 +1,152 @@
+"""Opens log files: text, Vector's ASC and BLF, each of them plain or compressed by gzip."""
+
+import gzip
+import io
+import struct
+import zlib
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from functools import partial
+from itertools import dropwhile
+from pathlib import Path
+from typing import BinaryIO, TextIO, cast
+
+import can
+
+from host_sim.errors import OctetError, UsageError
+from host_sim.protocol.codec import Frame
+from host_sim.recording.log_text import (
+    ERROR,
+    EXTENDED,
+    FD,
+    REMOTE,
+    LineReader,
+    Recorded,
+    counts_from_the_line_before,
+    is_relative,
+)
+from host_sim.regular_file import open_bytes
+
+_SIZE_MAX = 64_000_000_000
+_LINE_MAX = 4096
+_GZIP, _BLF = b"\x1f\x8b", b"LOGG"
+_ASC = (b"date ", b"base ", b"// version")
+_DAMAGED = (gzip.BadGzipFile, EOFError, zlib.error)
+
+
+def frames_in(path: Path) -> Iterator[Recorded | str]:
+    """The frames of a log file, one after the other; of a frame that the protocol does not use, only its kind.
+
+    Raises:
+        UsageError: The file cannot be read, or is not a log.
+        OctetError: It is empty or damaged; the message names file and line. A last line of text without its end is
+            left out.
+    """
+    with _open(path) as file:
+        try:
+            yield from _reader_for(path, file)(path, file)
+        except _DAMAGED as error:
+            raise OctetError(f"{path} is damaged, or cut short: {error or type(error).__name__}") from None
+
+
+@contextmanager
+def _open(path: Path) -> Iterator[BinaryIO]:
+    """The file's content, uncompressed."""
+    with ExitStack() as stack:
+        try:
+            file = stack.enter_context(open_bytes(path, _SIZE_MAX))
+        except FileNotFoundError as error:
+            raise UsageError(f"cannot read {path}: {error.strerror}") from None
+        compressed = file.read(len(_GZIP)) == _GZIP
+        file.seek(0)
+        yield cast("BinaryIO", stack.enter_context(gzip.GzipFile(fileobj=file))) if compressed else file
+
+
+def _reader_for(path: Path, file: BinaryIO) -> Callable[[Path, BinaryIO], Iterator[Recorded | str]]:
+    first = file.readline(_LINE_MAX)
+    file.seek(0)
+    if not first:
+        raise OctetError(f"{path} is not a frame log: it is empty")
+    if first.startswith(_BLF):
+        return _blf
+    return _asc if first.lower().startswith(_ASC) else _text
+
+
+def _text(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
+    reader = LineReader(deltas=_has_deltas(file))
+    for number, line in enumerate(_lines(file), start=1):
+        if len(line) < _LINE_MAX and not line.endswith(b"\n"):
+            if number == 1 and line.isascii():
+                raise OctetError(f"{path} is not a frame log: no whole line, only {line[:60].decode('ascii')!r}")
+            if line.isascii():
+                return  # cut short while it was written
+        try:
+            read = reader.read(line)
+        except ValueError as error:
+            raise _not_a_frame(path, number, line, str(error)) from None
+        if read is not None:
+            yield read
+
+
+def _lines(file: BinaryIO) -> Iterator[bytes]:
+    return iter(partial(file.readline, _LINE_MAX), b"")
+
+
+def _has_deltas(file: BinaryIO) -> bool:
+    """Looks through the whole log, but only if its time stamps leave room for doubt."""
+    first = next(dropwhile(lambda line: not line.strip(), _lines(file)), b"")
+    deltas = is_relative(first) and counts_from_the_line_before(_lines(file))
+    file.seek(0)
+    return deltas
+
+
+def _not_a_frame(path: Path, number: int, line: bytes, why: str) -> OctetError:
+    if not line.isascii() or b"\0" in line:
+        return UsageError(f"{path} is not a frame log: it is not text, from line {number} on")
+    return OctetError(f"{path}, line {number}: {why}: {line[:60].decode('ascii')!r}")
+
+
+class _NumberedLines:
+    """A text file for `can.ASCReader` that knows the number of the line that it has given last."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._text = io.TextIOWrapper(file, encoding="cp1252", errors="replace")
+        self.number = 0
+
+    def __iter__(self) -> Iterator[str]:
+        for line in iter(partial(self._text.readline, _LINE_MAX), ""):
+            self.number += 1
+            yield line
+
+    def close(self) -> None:
+        """As in a file."""
+        self._text.close()
+
+
+def _asc(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
+    text = _NumberedLines(file)
+    try:
+        for message in can.ASCReader(cast("TextIO", text)):
+            yield _from(message)
+    except (ValueError, IndexError) as error:
+        raise OctetError(f"{path}, line {text.number}: not a frame in ASC format: {error}") from None
+
+
+def _blf(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
+    try:
+        for message in can.BLFReader(file):
+            yield _from(message)
+    except (can.io.blf.BLFParseError, ValueError, struct.error) as error:
+        raise OctetError(f"{path} is a damaged BLF file, or one cut short: {error}") from None
+
+
+def _from(message: can.Message) -> Recorded | str:
+    if message.is_error_frame:
+        return ERROR
+    if message.is_fd:
+        return FD
+    if message.is_remote_frame:
+        return REMOTE
+    if message.is_extended_id:
+        return EXTENDED
+    return Recorded(round(message.timestamp * 1_000_000), Frame(message.arbitration_id, bytes(message.data)))

@@ -1,0 +1,149 @@
+"""Frames as text, one line each: what candump prints in its several formats, and what python-can and asc2log write.
+
+| written by                          | a line                                                             |
+| ----------------------------------- | ------------------------------------------------------------------ |
+| `candump -L`, `-l`; a run's own log | `(1700000000.020000) can0 041#C3110100`                            |
+| python-can, asc2log, `candump -Lx`  | the same, with ` R` or ` T` behind it                              |
+| `candump -ta`, `log2long`           | ` (1700000000.020000)  can0  041   [4]  C3 11 01 00`               |
+| `candump -tA`                       | ` (2026-11-21 18:26:30.020000)  can0  041   [4]  C3 11 01 00`      |
+| `candump -tz`, `candump -td`        | ` (000.020000)  can0  041   [4]  C3 11 01 00`                      |
+| `candump`                           | `  can0  041   [4]  C3 11 01 00`: without a time, which is then 0   |
+| `candump -x`, `-a`, `-c`            | with `RX - -` or `TX B E`, with the bytes as text, with colours     |
+"""
+
+import calendar
+import re
+from binascii import unhexlify
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from host_sim.protocol.codec import Frame
+
+
+class Recorded(NamedTuple):
+    """One frame of a log: its time in us, which is robot time in a run's own log, and the frame."""
+
+    time_us: int
+    frame: Frame
+
+
+EXTENDED, REMOTE, FD, XL, ERROR = "extended", "remote", "FD", "XL", "error"
+"""The kinds of frames that the robot's protocol does not use."""
+
+_HEX2 = rb"[0-9A-Fa-f]{2}"
+_STAMP = rb"\((\d{1,12})\.(\d{6})(?:\d{3})?\)"
+_END = rb"(?: [RT])?\r?\n"
+_FRAME = re.compile(_STAMP + rb" +\S+ +([0-9A-Fa-f]{3})#((?:" + _HEX2 + rb"){0,8})(?:_[9A-Fa-f])?" + _END)
+_OTHER = re.compile(
+    _STAMP + rb" +\S+ +(?:([0-9A-Fa-f]{3}|[0-9A-Fa-f]{8})#"
+    rb"(?:(R[0-9A-Fa-f]?)|(#[0-9A-Fa-f](?:" + _HEX2 + rb"){0,64})|(?:" + _HEX2 + rb"){0,8})(?:_[9A-Fa-f])?"
+    rb"|([0-9A-Fa-f]{3,5}#" + _HEX2 + rb":" + _HEX2 + rb":[0-9A-Fa-f]{8}#(?:" + _HEX2 + rb")+))" + _END
+)
+_LONG = re.compile(
+    rb" *(?:\(([^)]*)\))? +\S+(?: +[RT]X +[B-] [E-])? +([0-9A-Fa-f]{3}|[0-9A-Fa-f]{8}) +"
+    rb"[\[{]([0-9A-Fa-f]{1,2})[\]}] *"
+    rb"(?:(remote request)|((?:" + _HEX2 + rb"(?: (?=[0-9A-Fa-f]))?)*)(?: +'.*')?(?: +ERRORFRAME)?) *\r?\n"
+)
+_SECONDS = re.compile(rb"(\d{1,12})\.(\d{6})(?:\d{3})?")
+_DATE = re.compile(rb"(\d{4})-(\d\d)-(\d\d) (\d\d):(\d\d):(\d\d)\.(\d{6})(?:\d{3})?")
+_RELATIVE = re.compile(rb" +\((\d{3,9})\.(\d{6})")
+_COLOUR = re.compile(rb"\x1b\[[\d;]*m")
+_ERROR_FLAG = 0x20000000
+_SILENT = (b"\n", b"\r\n")
+
+
+class LineReader:
+    """Reads the lines of one log, in order.
+
+    Attributes:
+        deltas: Whether each relative time stamp counts from the one before it (`candump -td`).
+    """
+
+    def __init__(self, *, deltas: bool = False) -> None:
+        self.deltas = deltas
+        self._time_us = 0
+
+    def read(self, line: bytes) -> Recorded | str | None:
+        """The frame in a line with its line end; the kind of a frame that the protocol does not use.
+
+        None: the line says nothing; it is empty, or explains an error frame (`candump -e`).
+
+        Raises:
+            ValueError: It is no such line, or cut short.
+        """
+        match = _FRAME.fullmatch(line)
+        if match is not None:
+            seconds, micros, frame_id, data = match.groups()
+            return Recorded(int(seconds) * 1_000_000 + int(micros), Frame(int(frame_id, 16), unhexlify(data)))
+        return self._read_other(_COLOUR.sub(b"", line))
+
+    def _read_other(self, line: bytes) -> Recorded | str | None:
+        if line in _SILENT or (line.startswith(b"\t") and line.endswith(b"\n")):
+            return None
+        if match := _OTHER.fullmatch(line):
+            *_, frame_id, remote, fd, xl = match.groups()
+            return XL if xl else _kind(frame_id, fd=fd is not None, remote=remote is not None)
+        if match := _LONG.fullmatch(line):
+            return self._read_long(match)
+        raise ValueError("not a frame, or cut short")
+
+    def _read_long(self, match: re.Match[bytes]) -> Recorded | str:
+        stamp, frame_id, length, remote, data = match.groups()
+        time_us = self._time_of(stamp)
+        fd = len(length) > 1
+        if remote or fd or len(frame_id) > 3:  # noqa: PLR2004 - the digits of an 11-bit identifier
+            return _kind(frame_id, fd=fd, remote=remote is not None)
+        content = bytes.fromhex(data.decode("ascii"))
+        if len(content) != min(int(length, 16), 8):
+            raise ValueError(f"a frame of {int(length, 16)} bytes with {len(content)}")
+        return Recorded(time_us, Frame(int(frame_id, 16), content))
+
+    def _time_of(self, stamp: bytes | None) -> int:
+        if stamp is None:
+            return 0
+        time_us = time_in(stamp)
+        if self.deltas:
+            time_us += self._time_us
+        self._time_us = time_us
+        return time_us
+
+
+def time_in(stamp: bytes) -> int:
+    """The time in a stamp, us: seconds, or a date, which is read as UTC.
+
+    Raises:
+        ValueError: It is neither.
+    """
+    if match := _SECONDS.fullmatch(stamp):
+        return int(match[1]) * 1_000_000 + int(match[2])
+    if match := _DATE.fullmatch(stamp):
+        *date, micros = (int(number) for number in match.groups())
+        return calendar.timegm((*date, 0, 0, 0)) * 1_000_000 + micros
+    raise ValueError("not a time stamp")
+
+
+def counts_from_the_line_before(lines: Iterable[bytes]) -> bool:
+    """Whether the relative time stamps of a log are differences: if so, they go back somewhere."""
+    last = 0
+    for line in lines:
+        match = _RELATIVE.match(line)
+        if match is None:
+            continue
+        time_us = int(match[1]) * 1_000_000 + int(match[2])
+        if time_us < last:
+            return True
+        last = time_us
+    return False
+
+
+def is_relative(line: bytes) -> bool:
+    """Whether a line has a relative time stamp: one of `candump -tz` or `-td`."""
+    return _RELATIVE.match(line) is not None
+
+
+def _kind(frame_id: bytes, *, fd: bool, remote: bool) -> str:
+    if len(frame_id) > 3 and int(frame_id, 16) & _ERROR_FLAG:  # noqa: PLR2004 - as above
+        return ERROR
+    if fd:
+        return FD
+    return REMOTE if remote else EXTENDED

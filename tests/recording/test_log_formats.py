@@ -1,0 +1,208 @@
+"""Logs that other programs write: the robots' frames are read, others are skipped and counted by their kind."""
+
+import gzip
+import subprocess
+import tracemalloc
+from pathlib import Path
+
+import can
+import pytest
+
+from host_sim.errors import OctetError, UsageError
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.recording.log_reader import Recorded, read_log
+
+ID = Protocol().id_of("SENSES")
+DATA = bytes.fromhex("C311000000000000")
+SPACED = "C3 11 00 00 00 00 00 00"
+BINARY = "11000011 00010001 00000000 00000000 00000000 00000000 00000000 00000000"
+S = 1_000_000
+T = 1_795_285_590 * S + 648_617
+"""2026-11-21 18:26:30.648617, in us."""
+
+
+def frames(*times_us: int) -> list[Recorded]:
+    return [Recorded(time_us, Frame(ID, DATA)) for time_us in times_us]
+
+
+def read(path: Path, text: str | bytes) -> tuple[list[Recorded], dict[str, int]]:
+    path.write_bytes(text.encode() if isinstance(text, str) else text)
+    log = read_log(path)
+    return list(log), dict(log.skipped)
+
+
+COMPACT = f"(1795285590.648617) can0 {ID:03X}#{DATA.hex().upper()}"
+LINES = {
+    "a run, candump -L": (COMPACT, T),
+    "candump -L -x: received": (f"{COMPACT} R", T),
+    "candump -L -x: sent": (f"{COMPACT} T", T),
+    "candump -L, DLC above 8": (f"{COMPACT}_9", T),
+    "candump -L, nanoseconds": (COMPACT.replace("648617", "648617999"), T),
+    "another program, small digits": (COMPACT.lower().replace("C", "c"), T),
+    "another program, carriage returns": (f"{COMPACT}\r", T),
+    "candump -t a": (f" (1795285590.648617)  vcan0  {ID:03X}   [8]  {SPACED}", T),
+    "candump -t a, several interfaces": (f" (1795285590.648617)   can0       {ID:03X}   [8]  {SPACED}", T),
+    "candump -t A": (f" (2026-11-21 18:26:30.648617)  vcan0  {ID:03X}   [8]  {SPACED}", T),
+    "candump -t z": (f" (000.020000)  vcan0  {ID:03X}   [8]  {SPACED}", 20_000),
+    "candump": (f"  vcan0  {ID:03X}   [8]  {SPACED}", 0),
+    "candump -x -a": (f" (1795285590.648617)  vcan0  TX - -  {ID:03X}   [8]  {SPACED}   '......'..'", T),
+    "candump -c": (f" (1795285590.648617)  \x1b[1m\x1b[34mvcan0\x1b[0m  {ID:03X}   [8]  {SPACED}", T),
+    "log2long": (f"(1795285590.648617)  octet       {ID:03X}   [8]  {SPACED}   '........'", T),
+}
+
+
+@pytest.mark.parametrize(("line", "time_us"), LINES.values(), ids=LINES)
+def test_a_line_of_each_kind_is_read(tmp_path, line, time_us):
+    assert read(tmp_path / "a.log", f"{line}\n{line}\n") == (frames(time_us, time_us), {})
+
+
+def test_time_stamps_that_are_differences_are_added_up(tmp_path):
+    lines = "".join(f" (000.{us:06d})  vcan0  {ID:03X}   [8]  {SPACED}\n" for us in (0, 20_000, 19_000, 21_000))
+
+    assert read(tmp_path / "a.log", lines)[0] == frames(0, 20_000, 39_000, 60_000)
+
+
+OTHERS = {
+    "(0.000000) can0 12345678#C311": "extended",
+    "(0.000000) can0 123#R": "remote",
+    "(0.000000) can0 123#R8 R": "remote",
+    "(0.000000) can0 12345678#R": "remote",
+    "(0.000000) can0 123##1AABBCC": "FD",
+    "(0.000000) can0 20000080#0000000000000000": "error",
+    "(0.000000) can0 20000080# R": "error",
+    "(0.000000) can0 00123#81:00:12345678#1122334455667788AABB": "XL",
+    "(0.000000) can0 7FF#0102": "foreign",
+    " (1795285590.664608)  vcan0  12345678   [2]  C3 11": "extended",
+    " (1795285590.718756)  vcan0       123   [3]  remote request": "remote",
+    " (1795285590.856751)  vcan0  RX B -       7FF  [03]  AA BB CC                  '...'": "FD",
+    " (1795285590.866404)  vcan0  20000080   [8]  00 00 00 00 00 00 00 00   ERRORFRAME": "error",
+    " (1795285590.846822)  vcan0       7FF   [0] ": "foreign",
+}
+
+
+@pytest.mark.parametrize(("line", "kind"), OTHERS.items())
+def test_a_frame_that_is_no_robot_s_is_skipped_and_counted(tmp_path, line, kind):
+    assert read(tmp_path / "a.log", f"{COMPACT}\n{line}\n{COMPACT}\n") == (frames(T, T), {kind: 1})
+
+
+def test_what_was_skipped_is_one_line(tmp_path):
+    path = tmp_path / "a.log"
+    path.write_text("".join(f"{line}\n" for line in list(OTHERS)[:5]))
+    log = read_log(path)
+    assert log.note() is None
+
+    list(log)
+
+    assert log.note() == f"{path}: skipped 1 FD, 1 extended and 3 remote frames"
+
+
+def test_empty_lines_and_explanations_of_errors_say_nothing(tmp_path):
+    assert read(tmp_path / "a.log", f"\n{COMPACT}\n\tbus-error\n\r\n") == (frames(T), {})
+
+
+MALFORMED = {
+    "an odd number of digits": COMPACT[:-1],
+    "nine bytes": f"{COMPACT}00",
+    "no identifier": "(0.000000) can0 #00",
+    "no time": f"can0 {ID:03X}#00",
+    "a huge time": f"({'9' * 400}.000000) can0 {ID:03X}#00",
+    "fewer bytes than said": f"  can0  {ID:03X}   [8]  C3 11",
+    "bytes in reverse": f"  can0  {ID:03X}   [8]  {SPACED.replace(' ', '`')}",
+    "bits": f"  can0  {ID:03X}   [8]  {BINARY}",
+    "a date of no calendar": f" (20261-11-21 18:26)  can0  {ID:03X}   [0] ",
+    "words": "Dear robot,",
+    "a long line": "x" * 100_000,
+}
+
+
+@pytest.mark.parametrize("line", MALFORMED.values(), ids=MALFORMED)
+def test_a_malformed_line_is_named_with_its_number(tmp_path, line):
+    with pytest.raises(OctetError, match=r"a\.log, line 3: "):
+        read(tmp_path / "a.log", f"{COMPACT}\n{COMPACT}\n{line}\n{COMPACT}\n")
+
+
+def test_a_last_line_without_an_end_is_left_out(tmp_path):
+    assert read(tmp_path / "a.log", f"{COMPACT}\n{COMPACT}") == (frames(T), {})
+
+
+def message(time_s: float, **fields: object) -> can.Message:
+    return can.Message(timestamp=time_s, channel=0, **{"is_extended_id": False, **fields})
+
+
+MESSAGES = [
+    message(1000.0, arbitration_id=ID, data=DATA),
+    message(1000.02, arbitration_id=0x12345, is_extended_id=True, data=DATA),
+    message(1000.02, arbitration_id=ID, is_remote_frame=True, dlc=8),
+    message(1000.02, arbitration_id=ID, is_fd=True, data=bytes(12)),
+    message(1000.02, is_error_frame=True),
+    message(1000.02, arbitration_id=0x7FF, data=DATA),
+    message(1000.04, arbitration_id=ID, data=DATA, is_rx=False),
+]
+SKIPPED = {"extended": 1, "remote": 1, "FD": 1, "error": 1, "foreign": 1}
+
+
+@pytest.mark.parametrize("suffix", [".log", ".asc", ".blf", ".log.gz", ".asc.gz"])
+def test_logs_of_python_can_are_read(tmp_path, suffix):
+    path = tmp_path / f"a{suffix}"
+    with can.Logger(path) as logger:
+        for it in MESSAGES:
+            logger.on_message_received(it)
+
+    log = read_log(path)
+    read = list(log)
+
+    assert [it.frame for it in read] == [Frame(ID, DATA)] * 2
+    assert read[1].time_us - read[0].time_us == 40_000
+    assert log.skipped == SKIPPED
+
+
+def test_what_asc2log_writes_is_read(tmp_path):
+    with can.Logger(tmp_path / "a.asc") as logger:
+        for it in MESSAGES:
+            logger.on_message_received(it)
+    subprocess.run(["asc2log", "-I", tmp_path / "a.asc", "-O", tmp_path / "a.log"], check=True, capture_output=True)
+
+    log = read_log(tmp_path / "a.log")
+
+    assert [it.frame for it in log] == [Frame(ID, DATA)] * 2
+    assert log.skipped == SKIPPED
+
+
+def test_a_malformed_line_of_an_asc_file_is_named_with_its_number(tmp_path):
+    text = (
+        f"date Sat Nov 21 18:26:30 2026\nbase hex  timestamps absolute\n 0.0 1 {ID:X} Rx d 1 00\n 0.1 1 Q Rx d 1 00\n"
+    )
+
+    with pytest.raises(OctetError, match=r"a\.asc, line 4: "):
+        read(tmp_path / "a.asc", text)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"LOGG" + bytes(200), gzip.compress(b"x" * 4000)[:-20], b"\x1f\x8b\x08\x00" + bytes(40)],
+    ids=["BLF", "cut gzip", "garbage as gzip"],
+)
+def test_a_damaged_file_is_one_line(tmp_path, content):
+    with pytest.raises(OctetError, match=r"^\S+a\.log[^\n]+$"):
+        read(tmp_path / "a.log", content)
+
+
+def test_what_is_not_text_is_said_to_be_none(tmp_path):
+    with pytest.raises(UsageError, match="not text"):
+        read(tmp_path / "a.log", bytes(range(256)))
+
+
+@pytest.mark.parametrize("name", ["big.log", "big.log.gz"])
+def test_a_log_is_read_a_line_at_a_time(tmp_path, name):
+    path = tmp_path / name
+    text = f"{COMPACT}\n".encode() * 60_000
+    path.write_bytes(gzip.compress(text, 1) if name.endswith(".gz") else text)
+    assert len(text) > 2_500_000
+
+    tracemalloc.start()
+    count = sum(1 for _ in read_log(path))
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+
+    assert count == 60_000
+    assert peak < 500_000

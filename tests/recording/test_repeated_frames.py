@@ -1,0 +1,43 @@
+"""On a bus that loses frames, what was lost is sent again; a log of such a bus tells the same run."""
+
+from host_sim.protocol.codec import Protocol
+from host_sim.recording.log_reader import read_log
+from host_sim.recording.recording import read_recording
+from host_sim.recording.replay import replay
+
+
+def with_repeats(log) -> None:
+    """As candump sees it: in one tick of five the answer is lost and the senses come again, in one it comes twice."""
+    protocol = Protocol()
+    senses, drive = (f" {protocol.id_of(name):03X}#" for name in ("SENSES", "DRIVE"))
+    lines = []
+    for line in log.read_text().splitlines(keepends=True):
+        lines.append(line)
+        if senses in line and len(lines) % 5 == 0:
+            lines.append(line)
+        if drive in line and len(lines) % 7 == 0:
+            lines.append(line)
+    log.write_text("".join(lines))
+
+
+def test_a_log_with_repeated_frames_is_the_same_run(short):
+    clean = read_recording(read_log(short.log), Protocol())
+    drives = replay(read_log(short.log), Protocol()).drives
+    size = short.log.stat().st_size
+
+    with_repeats(short.log)
+
+    assert short.log.stat().st_size > 1.1 * size
+    assert list(read_recording(read_log(short.log), Protocol()).ticks) == list(clean.ticks)
+    outcome = replay(read_log(short.log), Protocol())
+    assert (outcome.drives, outcome.difference) == (drives, None)
+
+
+def test_a_drive_that_is_missing_for_good_is_still_found(short):
+    protocol = Protocol()
+    lines = short.log.read_text().splitlines(keepends=True)
+    drives = [i for i, line in enumerate(lines) if f" {protocol.id_of('DRIVE'):03X}#" in line]
+    del lines[drives[100]]
+    short.log.write_text("".join(lines))
+
+    assert replay(read_log(short.log), protocol).difference is not None

@@ -1,0 +1,149 @@
+"""The DBC and KCD files for any nodes, loaded by cantools."""
+
+import re
+from contextlib import ExitStack
+from itertools import chain
+
+import cantools
+import pytest
+from crccheck.crc import Crc8GsmA
+
+from host_sim.cli.main import main
+from host_sim.client.commands import stop
+from host_sim.protocol.codec import NODE_MAX, Protocol
+from host_sim.protocol.every_node import hear
+from host_sim.protocol.generated import MESSAGES
+from host_sim.recording.log_reader import read_log
+from host_sim.report.dbc_file import dbc_text, kcd_text
+from host_sim.sim.run_config import RunConfig
+from tests.recording.support import open_simulation, run_through
+
+NODES = (1, 2, 3, NODE_MAX)
+
+
+@pytest.fixture(scope="module")
+def dbc():
+    return cantools.database.load_string(dbc_text(NODES), "dbc")
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    """Three robots, for two seconds."""
+    path = tmp_path_factory.mktemp("run") / "run.log"
+    with ExitStack() as stack:
+        simulation = open_simulation(stack, path, RunConfig(environments=1, limit_s=2.0, robots=3))
+        run_through(simulation)
+        for client in simulation.clients:
+            stop(client)
+    return list(read_log(path))
+
+
+def test_a_log_of_several_robots_is_decoded_with_one_file(dbc, log):
+    together: dict[str, int] = {}
+    expected: dict[str, int] = {}
+    for _, frame in log:
+        heard = hear(frame)
+        together |= dbc.decode_message(frame.id, frame.data, decode_choices=False)
+        expected |= {f"N{heard.node}_{heard.name}_{name}": number for name, number in heard.signals.items()}
+
+        assert together == expected
+
+    assert {name.split("_")[0] for name in together} == {"N1", "N2", "N3"}
+
+
+def test_no_two_signals_have_one_name(dbc):
+    names = [signal.name for message in dbc.messages for signal in message.signals]
+
+    assert len(names) == len(set(names)) == len(NODES) * sum(len(message.signals) for message in MESSAGES.values())
+    assert all(re.fullmatch(r"[A-Za-z_]\w{0,31}", name) for name in names)  # what older tools accept
+
+
+def test_identifiers_and_senders_are_those_of_the_node(dbc):
+    for node in NODES:
+        for name, message in MESSAGES.items():
+            found = dbc.get_message_by_name(f"N{node}_{name}")
+            assert found.frame_id == Protocol(node).id_of(name)
+            assert found.senders == ["SIM" if message.sender == "SIM" else f"ROBOT_{node}"]
+            receivers = set(chain.from_iterable(signal.receivers for signal in found.signals))
+            assert receivers == {f"ROBOT_{node}" if message.sender == "SIM" else "SIM"}
+
+
+def test_cycle_times_send_types_and_start_values_are_there(dbc):
+    senses, answer, memory = (dbc.get_message_by_name(f"N2_{name}") for name in ("SENSES", "ANSWER", "MEMORY"))
+
+    assert (senses.cycle_time, senses.send_type) == (20, "Cyclic")
+    assert (answer.cycle_time or 0, answer.send_type) == (0, "Event")
+    assert (memory.cycle_time, memory.send_type) == (1000, "CyclicAndEvent")
+    for message in dbc.messages:
+        assert all(signal.raw_initial == max(signal.minimum or 0, 0) for signal in message.signals)
+
+
+def test_the_attributes_tell_how_each_frame_is_protected(dbc, log):
+    """The CRC by a library that knows nothing of the robots, and the counter, from nothing but the attributes."""
+    counters: dict[int, list[int]] = {}
+    for _, frame in log:
+        values = {name: it.value for name, it in dbc.get_message_by_frame_id(frame.id).dbc.attributes.items()}
+        assert (values["E2EProfile"], values["E2EDataLength"]) == (1, 8 * len(frame.data))
+        place = values["E2ECRCOffset"] // 8
+        others = frame.data[:place] + frame.data[place + 1 :]
+        assert frame.data[place] == Crc8GsmA.calc(values["E2EDataID"].to_bytes(2, "little") + others)
+        counter = int.from_bytes(frame.data, "little") >> values["E2ECounterOffset"] & 15
+        counters.setdefault(frame.id, []).append(counter)
+
+    senses = counters[Protocol(2).id_of("SENSES")]
+    assert senses == [(senses[0] + i) % 15 for i in range(len(senses))]
+
+
+def test_one_node_is_the_same_as_its_part_of_many(dbc):
+    alone = cantools.database.load_string(dbc_text([3]), "dbc")
+
+    assert [contents(it) for it in alone.messages] == [contents(it) for it in dbc.messages if it.name[:3] == "N3_"]
+
+
+def test_the_kcd_file_loses_only_what_kcd_has_no_place_for(dbc):
+    kcd = cantools.database.load_string(kcd_text(NODES), "kcd")
+
+    found = {message.name: contents(message) for message in kcd.messages}
+    assert found == {message.name: contents(message) for message in dbc.messages}
+
+
+def contents(message) -> dict[str, object]:
+    """What a message says, but for its start values and attributes."""
+    fields = ("start", "length", "byte_order", "is_signed", "minimum", "maximum", "unit", "choices", "comment")
+    multiplexing = ("is_multiplexer", "multiplexer_ids", "multiplexer_signal")
+    return {
+        "identifier": message.frame_id,
+        "length": message.length,
+        "comment": message.comment,
+        "senders": message.senders,
+        "cycle": message.cycle_time or 0,
+        "signals": {
+            signal.name: [
+                getattr(signal, field) for field in (*fields, *multiplexing, "receivers", "scale", "offset")
+            ]
+            for signal in message.signals
+        },
+    }
+
+
+@pytest.mark.parametrize(
+    ("words", "nodes"),
+    [("--nodes 1-3", "123"), ("--nodes 3,1-2", "123"), ("--node 2", "2"), ("--nodes 2", "2")],
+)
+def test_nodes_are_named_on_the_command_line(capsys, words, nodes):
+    assert main(["dbc", *words.split()]) == 0
+
+    assert capsys.readouterr().out == dbc_text(map(int, nodes))
+
+
+@pytest.mark.parametrize("words", ["0-1", "2-1", f"1-{NODE_MAX + 1}", "1,", "one", ""])
+def test_nodes_that_do_not_exist_are_refused(capsys, words):
+    assert main(["dbc", "--nodes", words]) == 2
+
+    assert re.fullmatch(r"octet: argument --nodes: .*\n", capsys.readouterr().err)
+
+
+def test_kcd_is_printed_when_asked_for(capsys):
+    assert main(["dbc", "--node", "1", "--kcd"]) == 0
+
+    assert capsys.readouterr().out == kcd_text([1])
