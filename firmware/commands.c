@@ -46,9 +46,8 @@ static enum result get(const struct robot *robot, const struct command *command,
 
 static enum result write_memory(struct robot *robot, const struct command *command)
 {
-    if (!memory_write(&robot->brain.memory, command->which >> 4 & 1u, command->which, command->value))
+    if (!brain_write(&robot->brain, command->which, command->value))
         return RESULT_OUT_OF_RANGE;
-    robot->brain.changed = true;
     return RESULT_DONE;
 }
 

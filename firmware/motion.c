@@ -114,12 +114,17 @@ void motion_track(struct motion *motion, const struct senses *senses)
         motion->ticks_left--;
 }
 
+static bool has_turned(const struct motion *motion, const struct config *config)
+{
+    return magnitude(motion->turn_left) <= turn_per_degree(config) / TURN_PRECISION;
+}
+
 bool motion_ended(const struct motion *motion, const struct config *config, const struct senses *senses)
 {
     if (motion->ticks_left == 0)
         return true;
     if (motion->kind == TURN)
-        return magnitude(motion->turn_left) <= turn_per_degree(config) / TURN_PRECISION;
+        return has_turned(motion, config) || (motion->until_food && senses->look);
     return motion->way_left <= WAY_PRECISION || pattern_of(senses->feel) != 0;
 }
 
@@ -142,10 +147,11 @@ static uint16_t timeout_ticks(const struct motion *motion, const struct config *
 
 void motion_begin(struct motion *motion, const struct config *config, const struct action *action)
 {
-    /* A turn that the wheels refused is not made up for: it would come as a surprise much later. */
-    if (motion->kind == TURN && motion->ticks_left == 0)
+    /* A turn that was not finished is not made up for: it would come as a surprise much later. */
+    if (motion->kind == TURN && !has_turned(motion, config))
         motion->turn_left = 0;
     motion->kind = (uint8_t)kind_of(action);
+    motion->until_food = action->until_food;
     motion->turn_left += action->turn_deg * (int32_t)turn_per_degree(config);
     motion->way_left = (int16_t)(action->forward_mm * COUNTS_PER_MM);
     motion->ticks_left = timeout_ticks(motion, config);

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import UsageError
-from host_sim.protocol.generated import CELL_COUNT, CELL_MAX, SIDES
+from host_sim.protocol.generated import CELL_COUNT
+from host_sim.protocol.memory_kinds import kinds_of
 from host_sim.regular_file import read_bytes
 
 _SIZE_MAX = 4096
@@ -26,12 +27,8 @@ def load_memory(path: Path) -> tuple[int, ...] | None:
         return None
     if len(content) != CELL_COUNT:
         raise UsageError(f"{path} is not a memory file: {len(content)} bytes, expected {CELL_COUNT} (file unchanged)")
-    for cell, (value, most) in enumerate(zip(content, CELL_MAX, strict=True)):
-        if value > most:
-            allowed = ", ".join(f"{side} {name}" for side, name in enumerate(SIDES[: most + 1]))
-            raise UsageError(
-                f"{path} is not a memory file: cell {cell} holds {value}, allowed is {allowed} (file unchanged)"
-            )
+    if not kinds_of(tuple(content)):
+        raise UsageError(f"{path} is not a memory file: no behaviour writes {content.hex(' ')} (file unchanged)")
     return tuple(content)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from host_sim.atomic_file import write_bytes
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import PATTERNS, SIDES, Reason
+from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import EpisodeResult, RobotResult
 
@@ -147,5 +148,5 @@ def _robot_in_environment(robot: RobotResult) -> dict[str, Any]:
 
 
 def _cells(robot: dict[str, Any]) -> str:
-    cells = enumerate(robot["memory"])
+    cells = enumerate(sides_of(tuple(robot["memory"])))
     return "; ".join(f"{PATTERNS[pattern]}: {SIDES[side]}" for pattern, side in cells if side) or "nothing"
