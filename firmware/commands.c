@@ -15,6 +15,7 @@ static enum result start(struct robot *robot, const struct command *command, uin
     robot->brain.frozen = false;
     robot->action = 0;
     motion_start(&robot->motion);
+    perception_start(&robot->perception);
     robot->running = true;
     *value = robot->brain.wants_ranges ? ANSWER_WANTS_RANGES : 0;
     return RESULT_DONE;

@@ -15,6 +15,7 @@ struct motion {
     uint8_t kind;              /* what is under way */
     bool referenced;           /* the odometers above hold */
     bool until_food;           /* the turn ends when food is seen */
+    uint8_t rest_ticks;        /* at rest after what is under way, before the action has ended */
 };
 
 void motion_start(struct motion *motion);
@@ -36,6 +37,9 @@ void motion_track(struct motion *motion, const struct senses *senses);
 bool motion_ended(const struct motion *motion, const struct config *config, const struct senses *senses);
         /* Is the action done with: turned to within 1/8 degree or to food, driven to within 0.25 mm, stopped by an
            obstacle ahead, or given up? True before the first action, too. */
+
+bool motion_rest(struct motion *motion, const struct config *config);
+        /* Begins the rest that is part of the action, if there is one still to come. Call when motion_ended. */
 
 void motion_begin(struct motion *motion, const struct config *config, const struct action *action);
         /* Starts a turn, a step, or one tick of rest. */

@@ -57,6 +57,9 @@ FUNCTIONS = {
     "feel_memory_is": ("bool", "const uint8_t cells[CELL_COUNT]"),
     "confidence_changed": ("uint8_t", "uint8_t cell, int by"),
     "brain_start": ("bool", "struct brain *brain, uint8_t profile, uint32_t seed"),
+    "perception_filter": ("uint8_t", "struct perception *perception, const struct config *config, uint8_t feel"),
+    "perception_decide": ("void", "struct perception *perception, const struct config *config, uint8_t feel"),
+    "motion_rest": ("bool", "struct motion *motion, const struct config *config"),
     "motion_begin": ("void", "struct motion *motion, const struct config *config, const struct action *action"),
     "motion_track": ("void", "struct motion *motion, const struct senses *senses"),
     "motion_ended": ("bool", "const struct motion *motion, const struct config *config, const struct senses *senses"),
@@ -196,6 +199,23 @@ FAULTS = {
     ),
     "an unknown profile is that of the article": Fault(
         "brain", "brain_start", "return real(brain, profile < PROFILE_COUNT ? profile : PROFILE_ARTICLE, seed);"
+    ),
+    "a filter believes any of three ticks": Fault(
+        "perception",
+        "perception_filter",
+        """
+        uint8_t any = feel | perception->before[0] | perception->before[1];
+        uint8_t filtered = real(perception, config, feel);
+        return config->value[FILTER] ? any : filtered;
+        """,
+    ),
+    "distrust is for ever": Fault(
+        "perception",
+        "perception_decide",
+        "real(perception, config, feel | perception->in_a_row[2] ? feel | 4 : feel);",
+    ),
+    "a trial is judged before the filter has settled": Fault(
+        "perception", "motion_rest", "(void)config; motion->rest_ticks = 0; return false;"
     ),
     "turns forget what the last one missed": Fault(
         "motion", "motion_begin", "motion->turn_left = 0; real(motion, config, action);"

@@ -2,6 +2,8 @@
 
 #include "firmware/pattern.h"
 
+enum { FILTER_TICKS = 2 };   /* after these, what is filtered is of the same place */
+
 static struct action turn(enum reason reason, enum side side, unsigned degrees)
 {
     int sign = side == SIDE_RIGHT ? 1 : -1;
@@ -45,10 +47,12 @@ static struct action turn_as_learned(struct brain *brain, const struct config *c
 static struct action try_a_turn(struct brain *brain, const struct config *config)
 {
     enum side side = random_below(&brain->random, 2) + 1 == SIDE_LEFT ? SIDE_LEFT : SIDE_RIGHT;
+    struct action trial = turn(REASON_TRIAL, side, config->value[TRIAL_DEG]);
 
     brain->tried_side = (uint8_t)side;
     brain->awaits = AWAITS_VERDICT;
-    return turn(REASON_TRIAL, side, config->value[TRIAL_DEG]);
+    trial.rest_ticks = config->value[FILTER] ? FILTER_TICKS : 0;
+    return trial;
 }
 
 /* The top of the listing's loop. */

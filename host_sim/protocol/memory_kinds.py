@@ -17,13 +17,13 @@ _CELLS = {
     MemoryKind.SIDES: {0, *_TURNS},
     MemoryKind.CONFIDENCE: {0, *(sure << _SIDE_BITS | side for sure in _CONFIDENCES for side in _TURNS)},
 }
-_REMEMBERED = 4096
+_CACHED = 4096
 _READINGS = range(1 << len(FEEL))
 _MARK = 0b1111
 _BESIDE = (0, FEEL["RIGHT"], FEEL["LEFT"], FEEL["RIGHT"] | FEEL["LEFT"])
 
 
-@lru_cache(_REMEMBERED)
+@lru_cache(_CACHED)
 def kinds_of(memory: Memory) -> list[MemoryKind]:
     """The kinds of memory that some bytes can be; none if they are no memory.
 
@@ -35,7 +35,7 @@ def kinds_of(memory: Memory) -> list[MemoryKind]:
     return [kind for kind in MemoryKind if _is(memory, kind)]
 
 
-@lru_cache(_REMEMBERED)
+@lru_cache(_CACHED)
 def sides_of(memory: Memory) -> Memory:
     """The turn for each pattern: what people are shown of a memory of any kind.
 

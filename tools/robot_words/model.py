@@ -181,7 +181,7 @@ def _parameters(database: Database, choices: Mapping[str, int]) -> list[Paramete
 
 
 def _check_parameter(parameter: Parameter) -> None:
-    """The robot keeps each in a byte: that makes the whole robot 64 bytes."""
+    """The robot keeps each in a byte."""
     if not 0 <= parameter.minimum <= parameter.default <= parameter.maximum <= _BYTE_MAX:
         raise DescriptionError(f"{parameter.name}: 0 <= minimum <= default <= maximum <= {_BYTE_MAX} does not hold")
     if not parameter.comment or not parameter.unit:
