@@ -56,7 +56,7 @@ class Summary:
         write_bytes(path, self.to_json().encode())
 
     def for_people(self) -> str:
-        """A few lines of text: the article's ALL DONE if no food is left, what each robot has learned, and the speed."""
+        """A few lines of text: ALL DONE if no food is left, what each robot has learned, and the speed."""
         several = len(self.robots) > 1
         memories = [f"memory    {self._whose(robot) if several else ''}{_cells(robot)}" for robot in self.robots]
         speed = f"speed     {self.real_time_factor:.0f} x real time on {self.bus}, {self.wall_s:.1f} s"
