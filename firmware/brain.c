@@ -1,8 +1,13 @@
 #include "firmware/brain.h"
 
 #include "firmware/behaviours/behaviour.h"
+#include "firmware/memory_kind.h"
 
-#define BEGIN(profile, name) \
+#define KIND(profile, name, kind) [profile] = kind,
+
+static const uint8_t kind_of[PROFILE_COUNT] = {ROBOT_BEHAVIOURS(KIND)};
+
+#define BEGIN(profile, name, kind) \
     case profile:            \
         return name##_begin(brain);
 
@@ -24,11 +29,39 @@ bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
     brain->repeat_count = 0;
     brain->awaits = 0;
     brain->wants_ranges = false;
+    brain->used = 0;
+    brain->changed = memory_translate(&brain->memory, (enum memory_kind)kind_of[profile]) || brain->changed;
     brain->learns = begin(brain);
     return true;
 }
 
-#define NEXT(profile, name) \
+static bool understands(uint8_t profile, const struct memory *memory)
+{
+    return memory_is(memory->cell, (enum memory_kind)kind_of[profile]);
+}
+
+bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT])
+{
+    if (!memory_adopt(&brain->memory, cells))
+        return false;
+    if (understands(brain->profile, &brain->memory))
+        return true;
+    /* Each kind is some profile's. */
+    for (brain->profile = 0; !understands(brain->profile, &brain->memory); brain->profile++)
+        ;
+    brain->learns = begin(brain);
+    return true;
+}
+
+bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes)
+{
+    if (!memory_write(&brain->memory, (enum memory_kind)kind_of[brain->profile], which, bytes))
+        return false;
+    brain->changed = true;
+    return true;
+}
+
+#define NEXT(profile, name, kind) \
     case profile:           \
         return name##_next(brain, config, senses);
 

@@ -12,6 +12,8 @@ struct action {
     enum reason reason;
     uint8_t forward_mm;   /* 0 for no step */
     int16_t turn_deg;     /* right positive; 0 for no turn */
+    uint8_t rest_ticks;   /* at rest after that, for the sensors to settle */
+    bool until_food;      /* the turn ends when food is seen; what was left of it is not made up for */
 };
 
 struct brain {
@@ -20,8 +22,11 @@ struct brain {
     uint8_t profile;         /* of the behaviour that decides, an enum profile */
     uint8_t repeat_count;    /* remembered turns since the way was last clear; stays at 255 */
     uint8_t awaits;          /* what the action under way leaves to be done when it ends; 0 for nothing */
-    uint8_t tried_pattern;   /* on trial: the pattern in which the turn was tried, */
-    uint8_t tried_side;      /* and where to */
+    uint8_t tried_feel;      /* what was sensed when the last turn away from something began */
+    uint8_t tried_side;      /* on trial: where to */
+    uint8_t used;            /* used_cells.h: bit p for cell p */
+    bool chasing, ate;       /* searcher: it was going to food; the last step led to it */
+    uint16_t since_mm;       /* searcher: way since it last looked around or saw food */
     bool learns;             /* as the profile has it; false: what is in the memory is not stored */
     bool wants_ranges;       /* true: the behaviour decides by range_mm */
     bool frozen;             /* true: it learns no more */
@@ -29,8 +34,15 @@ struct brain {
 };
 
 bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed);
-        /* Ready for its first decision, as that profile decides. What was learned stays. False, and nothing is changed,
-           if there is no such profile. */
+        /* Ready for its first decision, as that profile decides. What was learned stays, translated to what the profile
+           understands. False, and nothing is changed, if there is no such profile. */
+
+bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT]);
+        /* Takes over a memory. If the profile does not understand it, the first one that does is chosen. False, and
+           nothing is changed, if the bytes are no memory. */
+
+bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes);
+        /* As memory_write, in a memory of the profile's kind. */
 
 void brain_forget_trial(struct brain *brain);
         /* The action that has ended was not carried out: there is no verdict to be had of it. */

@@ -15,6 +15,7 @@ static enum result start(struct robot *robot, const struct command *command, uin
     robot->brain.frozen = false;
     robot->action = 0;
     motion_start(&robot->motion);
+    perception_start(&robot->perception);
     robot->running = true;
     *value = robot->brain.wants_ranges ? ANSWER_WANTS_RANGES : 0;
     return RESULT_DONE;
@@ -46,9 +47,8 @@ static enum result get(const struct robot *robot, const struct command *command,
 
 static enum result write_memory(struct robot *robot, const struct command *command)
 {
-    if (!memory_write(&robot->brain.memory, command->which >> 4 & 1u, command->which, command->value))
+    if (!brain_write(&robot->brain, command->which, command->value))
         return RESULT_OUT_OF_RANGE;
-    robot->brain.changed = true;
     return RESULT_DONE;
 }
 

@@ -1,6 +1,6 @@
 #include "firmware/config.h"
 
-/* A byte holds each: that makes the whole robot 64 bytes. */
+/* A byte holds each: that keeps the robot small. */
 #define RANGE(parameter, minimum, maximum, initial) [parameter] = {minimum, maximum},
 
 static const struct {

@@ -9,7 +9,7 @@ static void wake(struct robot *robot, struct hal *hal)
     robot_init(robot, hal_entropy(hal));
     /* A memory that cannot be read, or is none, leaves the robot to learn anew. */
     if (hal_load(hal, cells) == 1)
-        (void)memory_adopt(&robot->brain.memory, cells);
+        (void)brain_adopt(&robot->brain, cells);
 }
 
 static int run_once(struct robot *robot, struct hal *hal)

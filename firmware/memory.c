@@ -1,14 +1,12 @@
 #include "firmware/memory.h"
 
-static bool is_valid(const uint8_t cells[CELL_COUNT])
-{
-    static const uint8_t max[CELL_COUNT] = ROBOT_CELL_MAX;
+#include "firmware/memory_kind.h"
 
-    for (unsigned p = 0; p < CELL_COUNT; p++)
-        if (cells[p] > max[p])
-            return false;
-    return true;
-}
+enum {
+    SIDE_BITS = 3,   /* of a cell */
+    HALF = CELL_COUNT / 2,
+    UPPER_HALF = 1 << 4
+};
 
 void memory_erase(struct memory *memory)
 {
@@ -17,7 +15,7 @@ void memory_erase(struct memory *memory)
 
 enum side memory_recall(const struct memory *memory, uint8_t pattern)
 {
-    return (enum side)memory->cell[pattern];
+    return (enum side)(memory->cell[pattern] & SIDE_BITS);
 }
 
 void memory_learn(struct memory *memory, uint8_t pattern, enum side side)
@@ -25,21 +23,30 @@ void memory_learn(struct memory *memory, uint8_t pattern, enum side side)
     memory->cell[pattern] = (uint8_t)side;
 }
 
+static bool is_of_some_kind(const uint8_t cells[CELL_COUNT])
+{
+    for (unsigned kind = 0; kind < MEMORY_KIND_COUNT; kind++)
+        if (memory_is(cells, (enum memory_kind)kind))
+            return true;
+    return false;
+}
+
 bool memory_adopt(struct memory *memory, const uint8_t cells[CELL_COUNT])
 {
-    if (!is_valid(cells))
+    if (!is_of_some_kind(cells))
         return false;
     for (unsigned p = 0; p < CELL_COUNT; p++)
         memory->cell[p] = cells[p];
     return true;
 }
 
-bool memory_write(struct memory *memory, unsigned half, uint8_t mask, uint32_t bytes)
+bool memory_write(struct memory *memory, enum memory_kind kind, uint8_t which, uint32_t bytes)
 {
     struct memory wanted = *memory;
+    unsigned first = which & UPPER_HALF ? HALF : 0;
 
-    for (unsigned i = 0; i < CELL_COUNT / 2; i++)
-        if (mask & (1u << i))
-            wanted.cell[CELL_COUNT / 2 * half + i] = (uint8_t)(bytes >> 8 * i);
-    return memory_adopt(memory, wanted.cell);
+    for (unsigned i = 0; i < HALF; i++)
+        if (which & (1u << i))
+            wanted.cell[first + i] = (uint8_t)(bytes >> 8 * i);
+    return memory_is(wanted.cell, kind) && memory_adopt(memory, wanted.cell);
 }

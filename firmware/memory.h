@@ -1,26 +1,30 @@
-/* memory.h: the eight bytes, all that the robot ever learns. One cell for each pattern holds the turn to make. */
+/* memory.h: the eight bytes, all that the robot ever learns.
+ *
+ * What they mean is the behaviour's: their kind (see docs/behaviours.md). In two kinds each pattern has a cell, with the
+ * turn to make in its two lowest bits; in the third each reading of all five sensors has two bits. The bytes tell their
+ * kind, so that a memory is never taken for one of another kind. An empty memory, all zeros, is one of every kind. */
 #ifndef OCTET_MEMORY_H
 #define OCTET_MEMORY_H
 
 #include "firmware/io.h"
 
 struct memory {
-    uint8_t cell[CELL_COUNT];   /* an enum side for each pattern; cell 0, nothing in the way, stays empty */
+    uint8_t cell[CELL_COUNT];
 };
 
 void memory_erase(struct memory *memory);
 
 enum side memory_recall(const struct memory *memory, uint8_t pattern);
-        /* The turn learned for pattern 0..7; SIDE_NOTHING where nothing is. */
+        /* The turn learned for pattern 0..7, where each has a cell; SIDE_NOTHING where nothing is. */
 
 void memory_learn(struct memory *memory, uint8_t pattern, enum side side);
-        /* Remembers side for pattern 1..7. */
+        /* Remembers side for pattern 1..7, as a side and nothing else. */
 
 bool memory_adopt(struct memory *memory, const uint8_t cells[CELL_COUNT]);
-        /* Takes over all cells. False, and nothing is changed, if they are no memory. */
+        /* Takes over all cells. False, and nothing is changed, if they are a memory of no kind. */
 
-bool memory_write(struct memory *memory, unsigned half, uint8_t mask, uint32_t bytes);
-        /* Sets the i-th cell of a half, 0 for the lower four and 1 for the upper, to byte i of bytes for each bit i, 0..3,
-           of mask. False, and nothing is changed, if they are no memory then. */
+bool memory_write(struct memory *memory, enum memory_kind kind, uint8_t which, uint32_t bytes);
+        /* Sets the i-th cell of a half, the lower four or with bit 4 of which the upper, to byte i of bytes for each bit i,
+           0..3, of which. False, and nothing is changed, if they are no memory of that kind then. */
 
 #endif

@@ -48,6 +48,8 @@ static uint32_t full_speed(const struct motion *motion, const struct config *con
 /* Of the action under way: still to be made, both wheels' counts together, right or forward positive. */
 static int32_t counts_left(const struct motion *motion)
 {
+    if (motion->kind == REST)
+        return 0;
     if (motion->kind == TURN)
         return motion->turn_left / TURN_UNIT;
     return motion->kind == STEP ? motion->way_left : 0;
@@ -114,13 +116,36 @@ void motion_track(struct motion *motion, const struct senses *senses)
         motion->ticks_left--;
 }
 
+static bool has_turned(const struct motion *motion, const struct config *config)
+{
+    return magnitude(motion->turn_left) <= turn_per_degree(config) / TURN_PRECISION;
+}
+
 bool motion_ended(const struct motion *motion, const struct config *config, const struct senses *senses)
 {
     if (motion->ticks_left == 0)
         return true;
     if (motion->kind == TURN)
-        return magnitude(motion->turn_left) <= turn_per_degree(config) / TURN_PRECISION;
-    return motion->way_left <= WAY_PRECISION || pattern_of(senses->feel) != 0;
+        return has_turned(motion, config) || (motion->until_food && senses->look);
+    return motion->kind == STEP && (motion->way_left <= WAY_PRECISION || pattern_of(senses->feel) != 0);
+}
+
+/* A turn that was not finished is not made up for: it would come as a surprise much later. */
+static void leave_turn(struct motion *motion, const struct config *config)
+{
+    if (motion->kind == TURN && !has_turned(motion, config))
+        motion->turn_left = 0;
+}
+
+bool motion_rest(struct motion *motion, const struct config *config)
+{
+    if (motion->rest_ticks == 0)
+        return false;
+    leave_turn(motion, config);
+    motion->kind = REST;
+    motion->ticks_left = motion->rest_ticks;
+    motion->rest_ticks = 0;
+    return true;
 }
 
 static enum kind kind_of(const struct action *action)
@@ -142,10 +167,10 @@ static uint16_t timeout_ticks(const struct motion *motion, const struct config *
 
 void motion_begin(struct motion *motion, const struct config *config, const struct action *action)
 {
-    /* A turn that the wheels refused is not made up for: it would come as a surprise much later. */
-    if (motion->kind == TURN && motion->ticks_left == 0)
-        motion->turn_left = 0;
+    leave_turn(motion, config);
     motion->kind = (uint8_t)kind_of(action);
+    motion->until_food = action->until_food;
+    motion->rest_ticks = action->rest_ticks;
     motion->turn_left += action->turn_deg * (int32_t)turn_per_degree(config);
     motion->way_left = (int16_t)(action->forward_mm * COUNTS_PER_MM);
     motion->ticks_left = timeout_ticks(motion, config);

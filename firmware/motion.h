@@ -14,6 +14,8 @@ struct motion {
     uint16_t ticks_left;       /* then the action is given up: the wheels do not obey */
     uint8_t kind;              /* what is under way */
     bool referenced;           /* the odometers above hold */
+    bool until_food;           /* the turn ends when food is seen */
+    uint8_t rest_ticks;        /* at rest after what is under way, before the action has ended */
 };
 
 void motion_start(struct motion *motion);
@@ -33,8 +35,11 @@ void motion_track(struct motion *motion, const struct senses *senses);
         /* Takes in what the wheels have done since the last tick. Call once for each senses. */
 
 bool motion_ended(const struct motion *motion, const struct config *config, const struct senses *senses);
-        /* Is the action done with: turned to within 1/8 degree, driven to within 0.25 mm, stopped by an obstacle ahead,
-           or given up? True before the first action, too. */
+        /* Is the action done with: turned to within 1/8 degree or to food, driven to within 0.25 mm, stopped by an
+           obstacle ahead, or given up? True before the first action, too. */
+
+bool motion_rest(struct motion *motion, const struct config *config);
+        /* Begins the rest that is part of the action, if there is one still to come. Call when motion_ended. */
 
 void motion_begin(struct motion *motion, const struct config *config, const struct action *action);
         /* Starts a turn, a step, or one tick of rest. */

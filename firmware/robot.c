@@ -32,19 +32,29 @@ static void note_denial(struct robot *robot)
         robot->running = false;
 }
 
-/* True: the wheels did not do what they were told. */
-static bool go_on(struct robot *robot, const struct senses *senses)
+static bool has_ended(struct robot *robot, const struct senses *senses)
 {
+    return motion_ended(&robot->motion, &robot->config, senses)
+        && (motion_gave_up(&robot->motion) || !motion_rest(&robot->motion, &robot->config));
+}
+
+/* True: the wheels did not do what they were told. */
+static bool go_on(struct robot *robot, struct senses *senses)
+{
+    uint8_t feel = perception_filter(&robot->perception, &robot->config, senses->feel);
     bool denied;
 
+    senses->feel = perception_believed(&robot->perception, &robot->config, feel);
     motion_track(&robot->motion, senses);
-    if (!motion_ended(&robot->motion, &robot->config, senses))
+    if (!has_ended(robot, senses))
         return false;
     denied = motion_gave_up(&robot->motion);
     if (denied)
         note_denial(robot);
     else
         robot->denials = 0;
+    perception_decide(&robot->perception, &robot->config, feel);
+    senses->feel = perception_believed(&robot->perception, &robot->config, feel);
     if (robot->running)
         begin_next_action(robot, senses);
     return denied;

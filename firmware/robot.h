@@ -3,6 +3,7 @@
 #define OCTET_ROBOT_H
 
 #include "firmware/motion.h"
+#include "firmware/perception.h"
 
 struct robot {
     bool running;
@@ -12,6 +13,7 @@ struct robot {
     uint8_t denials;      /* actions in a row that the wheels did not carry out */
     uint8_t tick;         /* of the last senses */
     struct config config;
+    struct perception perception;
     uint16_t part_ms;     /* of the second that has begun */
     uint16_t uptime_s;    /* robot time since power-up, counted in ticks, wraps */
     struct brain brain;

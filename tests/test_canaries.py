@@ -46,7 +46,20 @@ FUNCTIONS = {
     "article_next": NEXT,
     "fixed_next": NEXT,
     "never_next": NEXT,
+    "rearmed_next": NEXT,
+    "recheck_next": NEXT,
+    "forgetful_next": NEXT,
+    "adaptive_next": NEXT,
+    "searcher_next": NEXT,
+    "five_next": NEXT,
+    "memory_is": ("bool", "const uint8_t cells[CELL_COUNT], enum memory_kind kind"),
+    "memory_translate": ("bool", "struct memory *memory, enum memory_kind kind"),
+    "feel_memory_is": ("bool", "const uint8_t cells[CELL_COUNT]"),
+    "confidence_changed": ("uint8_t", "uint8_t cell, int by"),
     "brain_start": ("bool", "struct brain *brain, uint8_t profile, uint32_t seed"),
+    "perception_filter": ("uint8_t", "struct perception *perception, const struct config *config, uint8_t feel"),
+    "perception_decide": ("void", "struct perception *perception, const struct config *config, uint8_t feel"),
+    "motion_rest": ("bool", "struct motion *motion, const struct config *config"),
     "motion_begin": ("void", "struct motion *motion, const struct config *config, const struct action *action"),
     "motion_track": ("void", "struct motion *motion, const struct senses *senses"),
     "motion_ended": ("bool", "const struct motion *motion, const struct config *config, const struct senses *senses"),
@@ -117,14 +130,14 @@ FAULTS = {
         "listing_trial_helped",
         """
         return brain->awaits == AWAITS_VERDICT
-            && pattern_count(pattern_of(senses->feel)) <= pattern_count(brain->tried_pattern);
+            && pattern_count(pattern_of(senses->feel)) <= pattern_count(pattern_of(brain->tried_feel));
         """,
     ),
     "the lesson goes to another cell": Fault(
         "article",
         "article_next",
         """
-        uint8_t tried = brain->tried_pattern, before = brain->memory.cell[tried];
+        uint8_t tried = pattern_of(brain->tried_feel), before = brain->memory.cell[tried];
         struct action action = real(brain, config, senses);
         if (brain->memory.cell[tried] != before) {
             brain->memory.cell[pattern_of(senses->feel)] = brain->memory.cell[tried];
@@ -155,8 +168,54 @@ FAULTS = {
     ),
     "fixed learns": Fault("fixed", "fixed_next", "return article_next(brain, config, senses);"),
     "never remembers": Fault("never", "never_next", "return fixed_next(brain, config, senses);"),
+    "rearmed is bored once": Fault("rearmed", "rearmed_next", "return article_next(brain, config, senses);"),
+    "recheck checks nothing": Fault("recheck", "recheck_next", "return article_next(brain, config, senses);"),
+    "forgetful forgets nothing": Fault("forgetful", "forgetful_next", "return rearmed_next(brain, config, senses);"),
+    "adaptive forgets at once": Fault("adaptive", "adaptive_next", "return forgetful_next(brain, config, senses);"),
+    "searcher does not search": Fault("searcher", "searcher_next", "return adaptive_next(brain, config, senses);"),
+    "five has three sensors": Fault(
+        "five",
+        "five_next",
+        "struct senses front = *senses; front.feel &= 14; return real(brain, config, &front);",
+    ),
+    "a memory is of every kind": Fault(
+        "memory_kind", "memory_is", "(void)real; (void)cells; (void)kind; return true;"
+    ),
+    "a memory of another kind is used as it is": Fault(
+        "brain", "memory_translate", "(void)memory; return kind != MEMORY_KIND_SIDES && false;"
+    ),
+    "a memory without its mark is taken": Fault(
+        "feel_memory",
+        "feel_memory_is",
+        """
+        uint8_t marked[CELL_COUNT];
+        memcpy(marked, cells, sizeof marked);
+        marked[0] |= 0x0F;
+        return real(marked);
+        """,
+    ),
+    "an empty cell is praised": Fault(
+        "confidence", "confidence_changed", "return cell ? real(cell, by) : by > 0 ? 4 : 0;"
+    ),
     "an unknown profile is that of the article": Fault(
         "brain", "brain_start", "return real(brain, profile < PROFILE_COUNT ? profile : PROFILE_ARTICLE, seed);"
+    ),
+    "a filter believes any of three ticks": Fault(
+        "perception",
+        "perception_filter",
+        """
+        uint8_t any = feel | perception->before[0] | perception->before[1];
+        uint8_t filtered = real(perception, config, feel);
+        return config->value[FILTER] ? any : filtered;
+        """,
+    ),
+    "distrust is for ever": Fault(
+        "perception",
+        "perception_decide",
+        "real(perception, config, feel | perception->in_a_row[2] ? feel | 4 : feel);",
+    ),
+    "a trial is judged before the filter has settled": Fault(
+        "perception", "motion_rest", "(void)config; motion->rest_ticks = 0; return false;"
     ),
     "turns forget what the last one missed": Fault(
         "motion", "motion_begin", "motion->turn_left = 0; real(motion, config, action);"
@@ -210,6 +269,9 @@ CANARY = """\
 
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
+#include "firmware/confidence.h"
+#include "firmware/feel_memory.h"
+#include "firmware/memory_kind.h"
 #include "firmware/pattern.h"
 #include "firmware/robot.h"
 

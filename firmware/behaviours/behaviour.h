@@ -7,12 +7,13 @@
 
 #include "firmware/brain.h"
 
-/* bool NAME_begin(brain): A run begins; all of *brain but the memory is as new. True if it learns, so that its memory is
- * to be stored. It may put something into the memory, and sets brain->changed if it does.
+/* bool NAME_begin(brain): A run begins; the memory is of the behaviour's kind, and all that is in *brain for every
+ * behaviour is as new. True if it learns, so that its memory is to be stored. It may put something into the memory, and
+ * sets brain->changed if it does.
  *
  * struct action NAME_next(brain, config, senses): As brain_next. */
-#define BEHAVIOUR_DECLARE(profile, name)    \
-    bool name##_begin(struct brain *brain); \
+#define BEHAVIOUR_DECLARE(profile, name, kind) \
+    bool name##_begin(struct brain *brain);    \
     struct action name##_next(struct brain *brain, const struct config *config, const struct senses *senses);
 
 ROBOT_BEHAVIOURS(BEHAVIOUR_DECLARE)

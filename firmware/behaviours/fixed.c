@@ -1,6 +1,7 @@
 /* fixed: the article's "simple coding solution": every front pattern has its programmed turn. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
+#include "firmware/pattern.h"
 
 bool fixed_begin(struct brain *brain)
 {
@@ -14,5 +15,5 @@ bool fixed_begin(struct brain *brain)
 
 struct action fixed_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
-    return listing_next(brain, config, senses, &brain->memory);
+    return listing_next(brain, config, senses, memory_recall(&brain->memory, pattern_of(senses->feel)));
 }

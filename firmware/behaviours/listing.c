@@ -2,6 +2,8 @@
 
 #include "firmware/pattern.h"
 
+enum { FILTER_TICKS = 2 };   /* after these, what is filtered is of the same place */
+
 static struct action turn(enum reason reason, enum side side, unsigned degrees)
 {
     int sign = side == SIDE_RIGHT ? 1 : -1;
@@ -9,7 +11,7 @@ static struct action turn(enum reason reason, enum side side, unsigned degrees)
     return (struct action){.reason = reason, .turn_deg = (int16_t)(sign * (int)degrees)};
 }
 
-static struct action step_forward(struct brain *brain, const struct config *config, const struct senses *senses)
+struct action listing_step(struct brain *brain, const struct config *config, const struct senses *senses)
 {
     brain->repeat_count = 0;
     brain->awaits = AWAITS_LOOK;
@@ -38,44 +40,51 @@ static struct action turn_as_learned(struct brain *brain, const struct config *c
 {
     if (brain->repeat_count < UINT8_MAX)
         brain->repeat_count++;
-    if (brain->repeat_count == config->value[BOREDOM_LIMIT])
-        brain->awaits = AWAITS_BOREDOM;
+    brain->awaits = brain->repeat_count == config->value[BOREDOM_LIMIT] ? AWAITS_BOREDOM : AWAITS_CHECK;
     return turn(REASON_REMEMBERED, side, config->value[TURN_DEG]);
 }
 
-static struct action try_a_turn(struct brain *brain, const struct config *config, uint8_t pattern)
+static struct action try_a_turn(struct brain *brain, const struct config *config)
 {
     enum side side = random_below(&brain->random, 2) + 1 == SIDE_LEFT ? SIDE_LEFT : SIDE_RIGHT;
+    struct action trial = turn(REASON_TRIAL, side, config->value[TRIAL_DEG]);
 
-    brain->tried_pattern = pattern;
     brain->tried_side = (uint8_t)side;
     brain->awaits = AWAITS_VERDICT;
-    return turn(REASON_TRIAL, side, config->value[TRIAL_DEG]);
+    trial.rest_ticks = config->value[FILTER] ? FILTER_TICKS : 0;
+    return trial;
 }
 
 /* The top of the listing's loop. */
 static struct action decide(struct brain *brain, const struct config *config, const struct senses *senses,
-                            const struct memory *known)
+                            enum side known)
 {
-    uint8_t pattern = pattern_of(senses->feel);
-    enum side side = memory_recall(known, pattern);
-
-    if (pattern == 0)
-        return step_forward(brain, config, senses);
-    if (side == SIDE_NOTHING)
-        return try_a_turn(brain, config, pattern);
-    return turn_as_learned(brain, config, side);
+    if (pattern_of(senses->feel) == 0)
+        return listing_step(brain, config, senses);
+    brain->tried_feel = senses->feel;
+    if (known == SIDE_NOTHING)
+        return try_a_turn(brain, config);
+    return turn_as_learned(brain, config, known);
 }
 
 /* Fewer sensors triggered than before the turn: that is all the robot knows of good and bad. */
+static bool turn_helped(const struct brain *brain, const struct senses *senses)
+{
+    return pattern_count(pattern_of(senses->feel)) < pattern_count(pattern_of(brain->tried_feel));
+}
+
 bool listing_trial_helped(const struct brain *brain, const struct senses *senses)
 {
-    return brain->awaits == AWAITS_VERDICT
-        && pattern_count(pattern_of(senses->feel)) < pattern_count(brain->tried_pattern);
+    return brain->awaits == AWAITS_VERDICT && turn_helped(brain, senses);
+}
+
+bool listing_remembered_in_vain(const struct brain *brain, const struct senses *senses)
+{
+    return (brain->awaits == AWAITS_CHECK || brain->awaits == AWAITS_BOREDOM) && !turn_helped(brain, senses);
 }
 
 struct action listing_next(struct brain *brain, const struct config *config, const struct senses *senses,
-                           const struct memory *known)
+                           enum side known)
 {
     uint8_t awaited = brain->awaits;
 

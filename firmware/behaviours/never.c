@@ -10,7 +10,5 @@ bool never_begin(struct brain *brain)
 
 struct action never_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
-    static const struct memory nothing = {{SIDE_NOTHING}};
-
-    return listing_next(brain, config, senses, &nothing);
+    return listing_next(brain, config, senses, SIDE_NOTHING);
 }

@@ -9,7 +9,7 @@ struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT])
     if (!octet)
         return NULL;
     robot_init(&octet->robot, 0);
-    (void)memory_adopt(&octet->robot.brain.memory, memory);
+    (void)brain_adopt(&octet->robot.brain, memory);
     wire_init(&octet->wire, node);
     octet->wire.health.clock_exact = true;
     wire_boot(&octet->wire, octet->answers);   /* nobody listens yet */

@@ -31,7 +31,7 @@ class Verdict(NamedTuple):
     difference: str | None
 
 
-def record(where: str, seed: int, ticks: int, log: Path) -> None:
+def record(where: str, seed: int, ticks: int, log: Path, profile: str = "article") -> None:
     """Records a run.
 
     Args:
@@ -39,13 +39,15 @@ def record(where: str, seed: int, ticks: int, log: Path) -> None:
         seed: Seed for environments and random turns.
         ticks: Number of ticks.
         log: File for the frames.
+        profile: Name of the robot's behaviour.
 
     Raises:
         OctetError: The robot cannot be started there, or it fails.
     """
     robots = {REFERENCE: "spawn", **dict.fromkeys(BOARDS, "emulated")}
     board = where if where in BOARDS else ""
-    run_ticks(RunConfig(seed=seed, robot=robots.get(where, where), board=board), ticks, FrameLog(log))
+    config = RunConfig(seed=seed, profile=profile, robot=robots.get(where, where), board=board)
+    run_ticks(config, ticks, FrameLog(log))
 
 
 def first_difference(reference: Path, other: Path) -> str | None:

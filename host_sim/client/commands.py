@@ -3,9 +3,11 @@
 from collections.abc import Mapping, Sequence
 
 from host_sim.client.robot_client import RobotClient
-from host_sim.protocol.generated import CELL_COUNT
+from host_sim.protocol.generated import CELL_COUNT, MEMORY_KINDS, PROFILES, MemoryKind
+from host_sim.protocol.memory_kinds import translated, with_sides
 
 _HALF = CELL_COUNT // 2
+_KINDS = {number: MEMORY_KINDS[name] for name, number in PROFILES.items()}
 
 
 def start(
@@ -18,17 +20,18 @@ def start(
         seed: Seed for its random turns, 0..2**32 - 1.
         profile: Number of its profile.
         settings: Parameters to set, by name.
-        memory: Eight cells to write; None leaves the robot's memory as it is.
+        memory: Eight bytes to write, translated to what the profile understands; None leaves the robot's as it is.
 
     Raises:
         RefusedError: The robot refuses a command.
         RobotError: The robot does not answer.
     """
     client.command("start", profile=profile, seed=seed, lockstep=int(client.lockstep))
+    client.memory_kind = _KINDS[profile]
     for name, value in settings.items():
         client.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)
     if memory is not None:
-        write_cells(client, dict(enumerate(memory)))
+        _write(client, dict(enumerate(translated(tuple(memory), client.memory_kind))))
 
 
 def stop(client: RobotClient) -> None:
@@ -42,22 +45,20 @@ def stop(client: RobotClient) -> None:
 
 
 def write_cells(client: RobotClient, sides: Mapping[int, int]) -> None:
-    """Writes cells of the memory and waits until the robot reports its new memory.
+    """Writes turns for patterns and waits until the robot reports its new memory.
 
     Args:
         client: The robot's client.
-        sides: New content by cell, 0..7: 0 nothing, 1 left, 2 right.
+        sides: New turn by pattern, 1..7: 0 nothing, 1 left, 2 right.
 
     Raises:
         RefusedError: The robot refuses the command.
         RobotError: The robot does not answer.
     """
-    for half in range(2):
-        cells = {cell % _HALF: side for cell, side in sides.items() if cell // _HALF == half}
-        if cells:
-            content = {f"byte_{i}": cells.get(i, 0) for i in range(_HALF)}
-            client.command("write", mask=sum(1 << i for i in cells), half=half, **content)
-            _await_memory(client, "write")
+    before = client.memory
+    after = with_sides(before, client.memory_kind, sides.items())
+    named = sides if client.memory_kind != MemoryKind.ALL_SENSORS else ()
+    _write(client, {i: byte for i, byte in enumerate(after) if byte != before[i] or i in named})
 
 
 def erase_memory(client: RobotClient) -> None:
@@ -77,6 +78,19 @@ def freeze(client: RobotClient, on: bool) -> None:
         RobotError: The robot does not answer.
     """
     client.command("freeze", freeze=int(on))
+
+
+def _write(client: RobotClient, content: Mapping[int, int]) -> None:
+    """Writes some bytes of the memory. What is all zeros is erased: no half of another memory may be left."""
+    if len(content) == CELL_COUNT and not any(content.values()):
+        erase_memory(client)
+        return
+    for half in range(2):
+        cells = {i % _HALF: byte for i, byte in content.items() if i // _HALF == half}
+        if cells:
+            content_of_half = {f"byte_{i}": cells.get(i, 0) for i in range(_HALF)}
+            client.command("write", mask=sum(1 << i for i in cells), half=half, **content_of_half)
+            _await_memory(client, "write")
 
 
 def _await_memory(client: RobotClient, after: str) -> None:

@@ -8,7 +8,8 @@ from typing import TypeVar
 from host_sim.client.frame_log import FrameLog
 from host_sim.errors import RefusedError, RobotError
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol
-from host_sim.protocol.generated import CELL_COUNT, CELL_MAX, TICK_SPAN, Opcode, Reason
+from host_sim.protocol.generated import CELL_COUNT, TICK_SPAN, MemoryKind, Opcode, Reason
+from host_sim.protocol.memory_kinds import kinds_of
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.robot_io import REST, Drive, Senses
 from host_sim.transport.link import Link
@@ -54,7 +55,8 @@ class RobotClient:
         status: Describes the state of the robot's process, and raises RobotError if it has ended.
         bus: Name of the bus that the robot is on.
         deadline_s: Time for the robot to answer, s of wall-clock time.
-        memory: The eight cells, as last reported by the robot.
+        memory: The eight bytes, as last reported by the robot.
+        memory_kind: What they mean to the behaviour with which it was started.
         faults: The robot's fault counters, as last reported by it.
         frames: Frame counters.
         last: The last valid frame received from the robot.
@@ -71,6 +73,7 @@ class RobotClient:
     bus: str = ""
     deadline_s: float = DEADLINE_S
     memory: tuple[int, ...] = (0,) * CELL_COUNT
+    memory_kind: MemoryKind = MemoryKind.SIDES
     faults: dict[str, int] = field(default_factory=dict)
     frames: FrameCounts = field(default_factory=FrameCounts)
     last: Frame | None = None
@@ -303,7 +306,7 @@ class RobotClient:
             self.faults = self.faults | dict(counters)
         if decoded.name == "MEMORY":
             cells = self._report.join(decoded)
-            if cells is not None and any(cell > most for cell, most in zip(cells, CELL_MAX, strict=True)):
+            if cells is not None and not kinds_of(cells):
                 return False
             self.memory = cells or self.memory
         return True

@@ -5,6 +5,7 @@ import time
 from typing import TextIO
 
 from host_sim.protocol.generated import Side
+from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.simulation import Simulation
 
 _EVERY_TICKS = 64
@@ -46,7 +47,8 @@ class Progress:
         speed = (self._ticks - self._ticks_then) * tick_s / (now - self._then)
         self._ticks_then, self._then = self._ticks, now
         memories = " ".join(
-            "".join(_SIGNS[Side(cell)] for cell in client.memory) for client in simulation.clients[:_MEMORIES_MAX]
+            "".join(_SIGNS[Side(side)] for side in sides_of(client.memory))
+            for client in simulation.clients[:_MEMORIES_MAX]
         )
         eaten = simulation.arena.food.eaten
         self._out.write(

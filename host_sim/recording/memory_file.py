@@ -7,7 +7,8 @@ from pathlib import Path
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import UsageError
-from host_sim.protocol.generated import CELL_COUNT, CELL_MAX, SIDES
+from host_sim.protocol.generated import CELL_COUNT
+from host_sim.protocol.memory_kinds import Memory, kinds_of, sides_of
 from host_sim.regular_file import read_bytes
 
 _SIZE_MAX = 4096
@@ -26,12 +27,8 @@ def load_memory(path: Path) -> tuple[int, ...] | None:
         return None
     if len(content) != CELL_COUNT:
         raise UsageError(f"{path} is not a memory file: {len(content)} bytes, expected {CELL_COUNT} (file unchanged)")
-    for cell, (value, most) in enumerate(zip(content, CELL_MAX, strict=True)):
-        if value > most:
-            allowed = ", ".join(f"{side} {name}" for side, name in enumerate(SIDES[: most + 1]))
-            raise UsageError(
-                f"{path} is not a memory file: cell {cell} holds {value}, allowed is {allowed} (file unchanged)"
-            )
+    if not kinds_of(tuple(content)):
+        raise UsageError(f"{path} is not a memory file: no behaviour writes {content.hex(' ')} (file unchanged)")
     return tuple(content)
 
 
@@ -55,8 +52,8 @@ def check_writable(path: Path) -> None:
 class MemorySaver:
     """Keeps a memory file up to date while a robot learns.
 
-    What the file held before is never lost to a memory that knows less, as that of a robot that was reset: it is kept
-    beside it, as `FILE.1`.
+    What the file held before is never lost to a memory that knows less, as that of a robot that was reset or that
+    forgets: it is kept beside it, as `FILE.1`. What was learned in the same run may be forgotten without a word.
     """
 
     def __init__(self, path: Path, loaded: Sequence[int] | None, report: Callable[[str], object]) -> None:
@@ -68,8 +65,7 @@ class MemorySaver:
             report: Called with one line when the old memory is kept.
         """
         self._path, self._report = path, report
-        self._saved = None if loaded is None else tuple(loaded)
-        self._backed_up = False
+        self._held = self._saved = None if loaded is None else tuple(loaded)
 
     def save(self, memory: Sequence[int]) -> None:
         """Saves a memory if it has changed.
@@ -79,18 +75,21 @@ class MemorySaver:
         """
         if memory == self._saved:
             return
-        if self._saved is not None and any(old and not new for old, new in zip(self._saved, memory, strict=True)):
-            self._back_up(self._saved)
+        if self._held is not None and _knows_more(self._held, tuple(memory)):
+            self._back_up(self._held)
         write_bytes(self._path, bytes(memory))
         self._saved = tuple(memory)
 
-    def _back_up(self, old: Sequence[int]) -> None:
-        """Keeps the first memory that knew more; later ones of the same run are this run's own doing."""
-        if not self._backed_up:
-            kept = self._path.with_name(self._path.name + ".1")
-            write_bytes(kept, bytes(old))
-            self._report(f"cells of {self._path} were erased; the memory before that is in {kept}")
-            self._backed_up = True
+    def _back_up(self, held: Memory) -> None:
+        kept = self._path.with_name(self._path.name + ".1")
+        write_bytes(kept, bytes(held))
+        self._report(f"cells of {self._path} were erased; the memory before that is in {kept}")
+        self._held = None
+
+
+def _knows_more(old: Memory, new: Memory) -> bool:
+    """Whether there is a pattern for which only the old memory has a turn."""
+    return any(before and not after for before, after in zip(sides_of(old), sides_of(new), strict=True))
 
 
 def memory_path(path: Path, node: int, robots: int) -> Path:

@@ -71,7 +71,8 @@ def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False) -> Resim
         return Resimulation(reckon(recording, node, SimParams()), None, recording.stopped, lines.note())
     others = range(node + 1, node + record.robots)
     recordings = {node: recording} | {other: read_recording(lines, Protocol(other)) for other in others}
-    trajectory = _Resimulator(log, SimParams(), record, recordings).run()
+    params = SimParams(front_extra_mm=record.front_extra_mm)
+    trajectory = _Resimulator(log, params, record, recordings).run()
     return Resimulation(trajectory, record.seed, recording.stopped, lines.note())
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from host_sim.atomic_file import write_bytes
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import PATTERNS, SIDES, Reason
+from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import EpisodeResult, RobotResult
 
@@ -55,11 +56,12 @@ class Summary:
         write_bytes(path, self.to_json().encode())
 
     def for_people(self) -> str:
-        """A few lines of text: what each robot has learned, and the speed."""
+        """A few lines of text: ALL DONE if no food is left, what each robot has learned, and the speed."""
         several = len(self.robots) > 1
         memories = [f"memory    {self._whose(robot) if several else ''}{_cells(robot)}" for robot in self.robots]
         speed = f"speed     {self.real_time_factor:.0f} x real time on {self.bus}, {self.wall_s:.1f} s"
-        return "\n".join([*memories, speed])
+        done = ["ALL DONE"] if all(environment["finished"] for environment in self.environments) else []
+        return "\n".join([*done, *memories, speed])
 
     def _whose(self, robot: dict[str, Any]) -> str:
         return f"robot {robot['node']}: "
@@ -147,5 +149,5 @@ def _robot_in_environment(robot: RobotResult) -> dict[str, Any]:
 
 
 def _cells(robot: dict[str, Any]) -> str:
-    cells = enumerate(robot["memory"])
+    cells = enumerate(sides_of(tuple(robot["memory"])))
     return "; ".join(f"{PATTERNS[pattern]}: {SIDES[side]}" for pattern, side in cells if side) or "nothing"

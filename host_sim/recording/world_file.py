@@ -18,6 +18,7 @@ from host_sim.world.edits import edit_from, edit_to, whole
 
 _FORMAT = 1
 _SIZE_MAX = 16_000_000
+_FRONT_EXTRA_MAX_MM = 100.0
 _SEED_MAX, _TICK_MAX, _NUMBER_MAX = 2**32 - 1, 2**53, 1_000_000
 
 
@@ -33,6 +34,7 @@ def write_world(record: WorldRecord, path: Path) -> None:
         "of": record.environments,
         "limit_ticks": record.limit_ticks,
         "robots": record.robots,
+        "front_extra_mm": record.front_extra_mm,
         "environments": [begun._asdict() for begun in record.begun],
         "edits": [{"tick": tick, **edit_to(edit)} for tick, edit in record.edits],
     }
@@ -75,7 +77,16 @@ def _record(content: dict[str, Any]) -> WorldRecord:
         whole(content, "robots", 1, NODE_MAX) if "robots" in content else 1,
         begun,
         edits,
+        _front_extra_mm(content),
     )
+
+
+def _front_extra_mm(content: dict[str, Any]) -> float:
+    """A file that does not say is of a world with five equal cones."""
+    extra_mm = content.get("front_extra_mm", 0.0)
+    if not isinstance(extra_mm, float) or not 0.0 <= extra_mm <= _FRONT_EXTRA_MAX_MM:
+        raise ValueError(f"front_extra_mm must be a decimal number from 0.0 to {_FRONT_EXTRA_MAX_MM}")
+    return extra_mm
 
 
 def _objects(content: dict[str, Any], name: str) -> Iterator[dict[str, Any]]:

@@ -121,6 +121,7 @@ class Simulation:
         robots = len(self.clients)
         limit_ticks = round(self.limit_s / self.params.tick_s)
         self.record = WorldRecord(self.seed, self.environments, limit_ticks, robots)
+        self.record.front_extra_mm = self.params.front_extra_mm
         self.senses, self.drives = [NOTHING_SENSED] * robots, [REST] * robots
         self._odometers = [(0.0, 0.0)] * robots
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from host_sim.world.edits import Edit, MoveBar, MoveFood
+from host_sim.world.params import SimParams
 
 
 class Begun(NamedTuple):
@@ -32,6 +33,7 @@ class WorldRecord:
         robots: Number of robots in each environment.
         begun: The environments, in the order in which they began.
         edits: What a person changed, in order.
+        front_extra_mm: As in `SimParams`.
     """
 
     seed: int
@@ -40,6 +42,7 @@ class WorldRecord:
     robots: int = 1
     begun: list[Begun] = field(default_factory=list)
     edits: list[Edited] = field(default_factory=list)
+    front_extra_mm: float = SimParams.front_extra_mm
 
     def begin(self, begun: Begun) -> None:
         """Adds an environment. Edits after the last tick of the previous one are dropped: no robot sensed them."""

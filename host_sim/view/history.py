@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import TypedDict
 
 from host_sim.protocol.generated import CELL_COUNT, Reason
+from host_sim.protocol.memory_kinds import sides_of
 from host_sim.robot_io import Drive, Senses
 
 
@@ -34,7 +35,7 @@ class Lesson(TypedDict):
         tick: Tick of the change.
         cell: The cell, 1..7.
         side: Its new content: 0 nothing, 1 left, 2 right.
-        by_hand: 1 if a person wrote or erased it, 0 if the robot learned it.
+        by_hand: 1 if a person wrote or erased it, 0 if the robot learned or forgot it.
     """
 
     node: int
@@ -59,7 +60,7 @@ class LearningHistory:
 
     Attributes:
         node: The robot's node number on the bus.
-        memory: The eight cells.
+        memory: The turn for each pattern, whatever kind of memory the robot has.
         frozen: Whether learning is frozen; set by the caller that sends the command.
         pattern: The front sensors' pattern when the current action was decided, 0..7.
         uses: For each cell, the number of remembered turns that used its present content.
@@ -82,6 +83,10 @@ class LearningHistory:
     trials: int = 0
     lessons: list[Lesson] = field(default_factory=list)
     action: int = -1
+    _reason: int = Reason.STOP
+
+    def __post_init__(self) -> None:
+        self.memory = sides_of(tuple(self.memory))
 
     def take(self, tick: int, senses: Senses, drive: Drive, memory: Sequence[int]) -> None:
         """Adds a tick.
@@ -90,15 +95,15 @@ class LearningHistory:
             tick: Number of the tick, from the start of the run.
             senses: The senses of the tick.
             drive: The robot's answer.
-            memory: The eight cells after the answer.
+            memory: The eight bytes after the answer.
         """
-        judged, begins = None, drive.action != self.action
+        judged, forgets, begins = None, False, drive.action != self.action
         if begins:
             self.action = drive.action
             self.pattern = pattern_of(senses.feel)
             judged = self._judge()
-        if memory != self.memory:
-            self.relearn(tick, memory, judged)
+            forgets = Reason.REMEMBERED in (drive.reason, self._reason) or drive.reason == Reason.BOREDOM
+        self.relearn(tick, memory, judged, forgets=forgets)
         if begins:
             self._begin(tick, drive)
 
@@ -109,22 +114,27 @@ class LearningHistory:
             drive: The robot's answer in the last of these ticks.
             pattern: The pattern when its action was decided.
         """
-        self.action, self.pattern = drive.action, pattern
+        self.action, self._reason, self.pattern = drive.action, drive.reason, pattern
 
-    def relearn(self, tick: int, memory: Sequence[int], trial: Trial | None = None) -> None:
-        """Adds a lesson for each cell that changed.
+    def relearn(self, tick: int, memory: Sequence[int], trial: Trial | None = None, *, forgets: bool = False) -> None:
+        """Adds a lesson for each pattern whose turn changed.
 
         Args:
             tick: Number of the tick.
-            memory: The eight cells now.
-            trial: The trial that has just ended, if any: a change that it does not explain was made by hand.
+            memory: The eight bytes now.
+            trial: The trial that has just ended, if any: a turn that it does not explain was written by hand.
+            forgets: Whether the robot itself may just have erased what it used.
         """
-        for cell, (before, side) in enumerate(zip(self.memory, memory, strict=True)):
+        sides = sides_of(tuple(memory))
+        if sides == self.memory:
+            return
+        for cell, (before, side) in enumerate(zip(self.memory, sides, strict=True)):
             if side != before:
                 learned = trial is not None and (trial["cell"], trial["side"], trial["helped"]) == (cell, side, 1)
-                self.lessons.append(Lesson(node=self.node, tick=tick, cell=cell, side=side, by_hand=int(not learned)))
-                self.learned[cell], self.by_hand[cell], self.uses[cell] = tick, int(not learned), 0
-        self.memory = memory
+                itself = learned or (forgets and not side)
+                self.lessons.append(Lesson(node=self.node, tick=tick, cell=cell, side=side, by_hand=int(not itself)))
+                self.learned[cell], self.by_hand[cell], self.uses[cell] = tick, int(not itself), 0
+        self.memory = sides
 
     def restart(self, tick: int, memory: Sequence[int]) -> None:
         """Begins anew, as the robot has been started again; earlier lessons stay in the list.
@@ -135,7 +145,7 @@ class LearningHistory:
         """
         while self.lessons and self.lessons[-1]["tick"] >= tick:
             self.lessons.pop()
-        self.memory, self.frozen, self.trial = memory, False, None
+        self.memory, self.frozen, self.trial = sides_of(tuple(memory)), False, None
         self.uses, self.by_hand, self.learned = [0] * CELL_COUNT, [0] * CELL_COUNT, [-1] * CELL_COUNT
 
     def _judge(self) -> Trial | None:
@@ -147,6 +157,7 @@ class LearningHistory:
         return self.trial
 
     def _begin(self, tick: int, drive: Drive) -> None:
+        self._reason = drive.reason
         if drive.reason == Reason.REMEMBERED:
             self.uses[self.pattern] += 1
         elif drive.reason == Reason.TRIAL:

@@ -13,6 +13,7 @@ def sentence(state: State) -> str:
         return "Someone has picked me up: my wheels turn in the air."
     side = SIDES[Side.LEFT if state["left"] < state["right"] else Side.RIGHT]
     blocked = f"{PATTERNS[state['pattern']].capitalize()} blocked"
+    turns = state["repeat_count"] or "Many"
     return {
         Reason.STOP: "I am standing still.",
         Reason.WANDER: _WANDERING,
@@ -20,7 +21,7 @@ def sentence(state: State) -> str:
         Reason.LOOK_AROUND: _WANDERING,
         Reason.REMEMBERED: f"{blocked}: I remember that turning {side} helped.",
         Reason.TRIAL: f"{blocked}: I do not know what helps yet, so I try turning {side}.",
-        Reason.BOREDOM: f"{state['repeat_count']} turns in a row, and still blocked. I am bored: about face!",
+        Reason.BOREDOM: f"{turns} turns in a row, and still blocked. I am bored: about face!",
         Reason.EAT: "Food! I eat it.",
         Reason.SILENCE: "I hear nothing from my body: my wheels rest.",
     }[Reason(state["reason"])]
@@ -43,5 +44,7 @@ def _toward_food(beacon_mm: int) -> str:
 def lesson_sentence(lesson: Lesson) -> str:
     """A change of a cell in one sentence."""
     name = PATTERNS[lesson["cell"]]
+    if not lesson["side"]:
+        return f"{'Erased by hand' if lesson['by_hand'] else 'Forgotten'}: {name}."
     how = "Written by hand" if lesson["by_hand"] else "Learned"
-    return f"{how}: {name} blocked, turn {SIDES[lesson['side']]}." if lesson["side"] else f"Erased by hand: {name}."
+    return f"{how}: {name} blocked, turn {SIDES[lesson['side']]}."

@@ -28,7 +28,7 @@ const REASONS = [
   [REASON.TRIAL, "tries",
     (state) => `${blocked(state)}: I do not know what helps yet, so I try turning ${trialSide(state)}.`],
   [REASON.BOREDOM, "is bored",
-    (state) => `${state.repeat_count} turns in a row, and still blocked. I am bored: about face!`],
+    (state) => `${state.repeat_count || "Many"} turns in a row, and still blocked. I am bored: about face!`],
   [REASON.EAT, "eats", () => "Food! I eat it."],
   [REASON.SILENCE, "hears nothing", () => "I hear nothing from my body: my wheels rest."],
 ];
@@ -68,8 +68,8 @@ export function verdict({ trial }) {
  */
 export function lessonSentence(lesson) {
   const name = PATTERNS[lesson.cell];
+  if (!lesson.side) return `${lesson.by_hand ? "Erased by hand" : "Forgotten"}: ${name}.`;
   if (!lesson.by_hand) return `Learned: ${name} blocked, turn ${SIDES[lesson.side]}.`;
-  if (!lesson.side) return `Erased by hand: ${name}.`;
   return `Written by hand: ${name} blocked, turn ${SIDES[lesson.side]}.`;
 }
 

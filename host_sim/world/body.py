@@ -6,7 +6,7 @@ from typing import Any
 import pymunk
 
 from host_sim.robot_io import Senses
-from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline
+from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline, cone_reach_mm
 from host_sim.world.food import Food
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.params import SimParams
@@ -201,8 +201,7 @@ class Body:
     def _add_cone(self, bit: int, collision_type: int, cone_filter: pymunk.ShapeFilter) -> None:
         """Adds a cone. Chipmunk reports when it begins and ceases to overlap something: reading it costs nothing."""
         params, space = self._params, self._space
-        reach_mm = params.body_radius_mm + params.sensor_reach_mm
-        cone = pymunk.Poly(self.in_space, cone_outline(CONE_BEARINGS_DEG[bit], reach_mm))
+        cone = pymunk.Poly(self.in_space, cone_outline(CONE_BEARINGS_DEG[bit], cone_reach_mm(bit, params)))
         cone.sensor = True
         cone.collision_type, cone.filter = collision_type, cone_filter
         space.add(cone)

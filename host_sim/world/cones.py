@@ -3,12 +3,23 @@
 import math
 
 from host_sim.world.geometry import Point
+from host_sim.world.params import SimParams
 
 CONE_BEARINGS_DEG = {1: 90.0, 2: 45.0, 4: 0.0, 8: -45.0, 16: -90.0}
 """Bearing of each cone's axis, clockwise from the heading, by its bit of feel: -112.5..112.5 without a gap."""
 
+_FRONT = 4
 _CONE_WIDTH_DEG = 45.0
 _ARC_STEPS = 4
+
+
+def cone_reach_mm(bit: int, params: SimParams) -> float:
+    """The length of a cone from the centre of the body.
+
+    >>> [cone_reach_mm(bit, SimParams()) for bit in CONE_BEARINGS_DEG]
+    [160.0, 160.0, 160.5, 160.0, 160.0]
+    """
+    return params.body_radius_mm + params.sensor_reach_mm + (params.front_extra_mm if bit == _FRONT else 0.0)
 
 
 def cone_outline(bearing_deg: float, reach_mm: float) -> list[Point]:

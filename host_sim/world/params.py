@@ -13,6 +13,9 @@ class SimParams:
         body_radius_mm: Radius of the robot, a disc that turns about its centre.
         wheel_track_mm: Distance between the two driven wheels.
         sensor_reach_mm: How far the proximity cones reach beyond the body.
+        front_extra_mm: How much farther the front one reaches. With five equal cones exactly 45 degrees apart, a
+            trial turn of 45 degrees carries a wall from the front cone exactly into its neighbour, and the robot
+            could never learn what to do about a wall straight ahead. No real ring of sensors is that exact.
         beam_width_mm: Width of the corridor straight ahead in which food is seen.
         eat_reach_mm: Food nearer than this to the centre of the body can be eaten.
         bar_count: Number of obstacles.
@@ -28,6 +31,7 @@ class SimParams:
     body_radius_mm: float = 100.0
     wheel_track_mm: float = 160.0
     sensor_reach_mm: float = 60.0
+    front_extra_mm: float = 0.5
     beam_width_mm: float = 100.0
     eat_reach_mm: float = 150.0
     bar_count: int = 6

@@ -13,6 +13,7 @@ _HEADERS = [
     "firmware/pattern.h",
     "firmware/config.h",
     "firmware/memory.h",
+    "firmware/memory_kind.h",
     "firmware/random.h",
     "firmware/brain.h",
     "hal/link/link.h",

@@ -22,6 +22,13 @@ static struct action next(uint8_t feel)
     return brain_next(&brain, &config, &senses);
 }
 
+static struct action next_with_food_near(void)
+{
+    const struct senses senses = {.look = true, .beacon_mm = 1};
+
+    return brain_next(&brain, &config, &senses);
+}
+
 static void test_every_profile_can_be_started(void)
 {
     for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
@@ -72,10 +79,67 @@ static void test_a_start_forgets_what_was_awaited(void)
 {
     for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
         brain_start(&brain, PROFILE_ARTICLE, 1);
-        next(0);   /* a step, after which it would look around */
+        next(0);   /* a step, after which it would eat */
         brain_start(&brain, profile, 1);
-        TEST_ASSERT_EQUAL(REASON_WANDER, next(0).reason);
+        TEST_ASSERT_TRUE(next_with_food_near().reason == REASON_TOWARD_FOOD);   /* not: eat */
     }
+}
+
+static const uint8_t SURE[CELL_COUNT] = {0, 13, 6};
+static const uint8_t OF_ALL_SENSORS[CELL_COUNT] = {0x2F};
+
+static void test_a_start_translates_the_memory_for_the_profile(void)
+{
+    static const uint8_t expected[CELL_COUNT] = {0, 1, 2};
+
+    TEST_ASSERT_TRUE(brain_adopt(&brain, SURE));
+    brain.changed = false;
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_ARTICLE, 1));
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, brain.memory.cell, CELL_COUNT);
+    TEST_ASSERT_TRUE(brain.changed);
+}
+
+static void test_a_start_leaves_a_memory_that_the_profile_understands(void)
+{
+    TEST_ASSERT_TRUE(brain_adopt(&brain, SURE));
+    brain.changed = false;
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(SURE, brain.memory.cell, CELL_COUNT);
+    TEST_ASSERT_FALSE(brain.changed);
+}
+
+static void test_an_adopted_memory_chooses_the_first_profile_that_understands_it(void)
+{
+    static const uint8_t sides[CELL_COUNT] = {0, 1};
+
+    brain_start(&brain, PROFILE_REARMED, 1);
+    TEST_ASSERT_TRUE(brain_adopt(&brain, sides));
+    TEST_ASSERT_EQUAL_UINT8(PROFILE_REARMED, brain.profile);
+    TEST_ASSERT_TRUE(brain_adopt(&brain, SURE));
+    TEST_ASSERT_EQUAL_UINT8(PROFILE_ADAPTIVE, brain.profile);
+    TEST_ASSERT_TRUE(brain_adopt(&brain, OF_ALL_SENSORS));
+    TEST_ASSERT_EQUAL_UINT8(PROFILE_FIVE, brain.profile);
+    TEST_ASSERT_TRUE(brain.learns);
+}
+
+static void test_bytes_that_are_no_memory_change_nothing(void)
+{
+    static const uint8_t none[CELL_COUNT] = {0, 3};
+    const struct brain before = brain;
+
+    TEST_ASSERT_FALSE(brain_adopt(&brain, none));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &brain, sizeof brain);
+}
+
+static void test_what_is_written_must_be_of_the_profiles_kind(void)
+{
+    brain_start(&brain, PROFILE_ARTICLE, 1);
+    brain.changed = false;
+    TEST_ASSERT_FALSE(brain_write(&brain, 1u << 1, 5u << 8));
+    TEST_ASSERT_FALSE(brain.changed);
+    brain_start(&brain, PROFILE_ADAPTIVE, 1);
+    TEST_ASSERT_TRUE(brain_write(&brain, 1u << 1, 5u << 8));
+    TEST_ASSERT_TRUE(brain.changed);
 }
 
 int main(void)
@@ -87,5 +151,10 @@ int main(void)
     RUN_TEST(test_what_the_article_learns_is_stored_and_what_others_know_is_not);
     RUN_TEST(test_a_start_ends_the_count_of_whatever_went_before);
     RUN_TEST(test_a_start_forgets_what_was_awaited);
+    RUN_TEST(test_a_start_translates_the_memory_for_the_profile);
+    RUN_TEST(test_a_start_leaves_a_memory_that_the_profile_understands);
+    RUN_TEST(test_an_adopted_memory_chooses_the_first_profile_that_understands_it);
+    RUN_TEST(test_bytes_that_are_no_memory_change_nothing);
+    RUN_TEST(test_what_is_written_must_be_of_the_profiles_kind);
     return UNITY_END();
 }

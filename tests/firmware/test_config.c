@@ -11,6 +11,7 @@ static const struct {
     {BOREDOM_LIMIT, 1, 10, 254},    {BOREDOM_MIN_DEG, 1, 150, 180}, {BOREDOM_CHOICES, 1, 60, 180},
     {SPEED_MM_S, 20, 200, 250},     {TURN_SPEED_DEG_S, 30, 180, 250},
     {WHEEL_TRACK_MM, 80, 160, 250}, {TICK_MS, 10, 20, 100},
+    {FILTER, 0, 0, 1},              {DISTRUST, 0, 0, 255},
 };
 
 enum { EXPECTED = sizeof expected / sizeof expected[0] };

@@ -402,6 +402,61 @@ static void test_a_body_that_spins_by_itself_overflows_nothing(void)
     }
 }
 
+static bool tick_seeing_food(bool look)
+{
+    struct senses senses = sensed();
+
+    senses.look = look;
+    return motion_ended(&motion, &config, &senses);
+}
+
+static void test_a_turn_for_food_ends_when_food_is_seen(void)
+{
+    const struct action around = {.turn_deg = 360, .until_food = true};
+
+    motion_begin(&motion, &config, &around);
+    for (unsigned i = 0; i < 10; i++)
+        TEST_ASSERT_FALSE(tick());
+    TEST_ASSERT_FALSE(tick_seeing_food(false));
+    TEST_ASSERT_TRUE(tick_seeing_food(true));
+}
+
+static void test_any_other_turn_does_not(void)
+{
+    begin(180, 0);
+    tick();
+    TEST_ASSERT_FALSE(tick_seeing_food(true));
+}
+
+static void test_what_was_left_of_a_turn_for_food_is_forgotten(void)
+{
+    const struct action around = {.turn_deg = 360, .until_food = true};
+    long before;
+
+    motion_begin(&motion, &config, &around);
+    for (unsigned i = 0; i < 10; i++)
+        tick();
+    TEST_ASSERT_TRUE(tick_seeing_food(true));
+    before = heading_mdeg();
+    act(-90, 0);
+    TEST_ASSERT_INT_WITHIN(HALF, before - 90000, heading_mdeg());
+}
+
+static void test_the_rest_after_an_action_is_part_of_it(void)
+{
+    const struct action trial = {.turn_deg = 45, .rest_ticks = 2};
+
+    motion_begin(&motion, &config, &trial);
+    while (!tick())
+        ;
+    TEST_ASSERT_TRUE(motion_rest(&motion, &config));
+    TEST_ASSERT_EQUAL(0, driven().left_mm_s);
+    TEST_ASSERT_FALSE(tick());
+    TEST_ASSERT_EQUAL(0, driven().left_mm_s);
+    TEST_ASSERT_TRUE(tick());
+    TEST_ASSERT_FALSE(motion_rest(&motion, &config));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -436,5 +491,9 @@ int main(void)
     RUN_TEST(test_wild_odometers_make_no_wild_speeds);
     RUN_TEST(test_either_wheel_that_jumps_is_not_credible);
     RUN_TEST(test_a_body_that_spins_by_itself_overflows_nothing);
+    RUN_TEST(test_a_turn_for_food_ends_when_food_is_seen);
+    RUN_TEST(test_any_other_turn_does_not);
+    RUN_TEST(test_what_was_left_of_a_turn_for_food_is_forgotten);
+    RUN_TEST(test_the_rest_after_an_action_is_part_of_it);
     return UNITY_END();
 }

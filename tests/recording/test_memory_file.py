@@ -5,6 +5,8 @@ import os
 import pytest
 
 from host_sim.errors import UsageError
+from host_sim.protocol.generated import MemoryKind
+from host_sim.protocol.memory_kinds import translated
 from host_sim.recording.memory_file import MemorySaver, load_memory
 
 NOTHING, SOME, MORE = (0,) * 8, (0, 1, 0, 0, 2, 0, 0, 0), (0, 1, 0, 1, 2, 0, 0, 0)
@@ -61,6 +63,26 @@ def test_of_one_run_the_first_memory_that_knew_more_is_kept(path, reported):
 
     assert load_memory(path.with_name("robot.mem.1")) == MORE
     assert len(reported) == 1
+
+
+def test_what_was_learned_in_this_run_is_forgotten_without_a_word(path, reported):
+    saver = MemorySaver(path, SOME, reported.append)
+    saver.save(MORE)
+    saver.save(SOME)
+    assert reported == []
+
+
+def test_a_memory_of_another_kind_that_knows_as_much_leaves_nothing_beside_it(path, reported):
+    path.write_bytes(bytes(SOME))
+    MemorySaver(path, SOME, reported.append).save(translated(SOME, MemoryKind.ALL_SENSORS))
+    assert reported == []
+
+
+@pytest.mark.parametrize("content", [b"\0\3\0\0\0\0\0\0", b"\0\1\5\0\0\0\0\0", b"\x1e" + b"\0" * 7])
+def test_bytes_that_no_behaviour_writes_are_refused(path, content):
+    path.write_bytes(content)
+    with pytest.raises(UsageError, match=f"no behaviour writes {content.hex(' ')}"):
+        load_memory(path)
 
 
 def test_an_unchanged_memory_is_not_written(path, reported):

@@ -22,7 +22,7 @@ EDITS = [
 
 
 def record() -> WorldRecord:
-    return WorldRecord(1, 5, 30000, 2, [Begun(1, 1, 0), Begun(1, 2, 7)], list(EDITS))
+    return WorldRecord(1, 5, 30000, 2, [Begun(1, 1, 0), Begun(1, 2, 7)], list(EDITS), 0.25)
 
 
 def test_what_was_written_is_read(tmp_path):
@@ -30,6 +30,12 @@ def test_what_was_written_is_read(tmp_path):
     write_world(record(), path)
     assert path.name == "run.world.json"
     assert read_world(path) == record()
+
+
+def test_a_file_that_does_not_say_is_of_a_world_with_five_equal_cones(tmp_path):
+    path = tmp_path / "run.world.json"
+    path.write_text(json.dumps(GOOD))
+    assert read_world(path).front_extra_mm == 0.0
 
 
 def test_dragging_between_two_ticks_leaves_the_last_place_only():
@@ -61,6 +67,9 @@ GOOD = {"format": 1, "seed": 1, "of": 5, "limit_ticks": 9, "environments": [], "
         {"seed": 1.0},
         {"of": 0},
         {"limit_ticks": "9"},
+        {"front_extra_mm": 1},
+        {"front_extra_mm": -0.5},
+        {"front_extra_mm": 1e9},
         {"environments": {}},
         {"environments": [1]},
         {"environments": [{"seed": 1, "number": 0, "first_tick": 0}]},

@@ -49,8 +49,8 @@ BAD_MEMORIES = {
     "cut short": (bytes(7), "7 bytes"),
     "too long": (bytes(9), "9 bytes"),
     "empty": (b"", "0 bytes"),
-    "of no action": (bytes([0, 1, 3, 0, 0, 0, 0, 0]), "cell 2 holds 3"),
-    "with something in cell 0": (bytes([1, 0, 0, 0, 0, 0, 0, 0]), "cell 0 holds 1"),
+    "of no action": (bytes([0, 1, 3, 0, 0, 0, 0, 0]), "no behaviour writes 00 01 03"),
+    "with something in cell 0": (bytes([1, 0, 0, 0, 0, 0, 0, 0]), "no behaviour writes 01 00"),
 }
 
 

@@ -16,6 +16,13 @@ def test_a_run_finishes_its_environments_and_says_so(run):
     assert [environment["finished"] for environment in done.summary["environments"]] == [True, True]
     assert all(environment["food_eaten"] == 3 for environment in done.summary["environments"])
     assert "all food found" in done.output
+    assert "ALL DONE" in done.output
+
+
+def test_a_run_that_leaves_food_is_not_all_done(run):
+    done = run("--environments", "1", "--bus", "none", "--limit-s", "1")
+
+    assert "ALL DONE" not in done.output
 
 
 def test_a_run_leaves_log_summary_and_picture(run):

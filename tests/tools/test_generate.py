@@ -55,7 +55,7 @@ NEW_PARAMETER = 'EV_ patience_s: 0 [0|9] "s" 1 99 DUMMY_NODE_VECTOR0 Vector__XXX
 
 SAME = {
     "a mended comment": lambda _: changed('CM_ SG_ 65 reason "', 'CM_ SG_ 65 reason "In short: '),
-    "a new profile": lambda _: changed('2 "never"', '2 "never" 99 "searcher"'),
+    "a new profile": lambda _: changed('2 "never"', '2 "never" 99 "lazy"'),
     "another name of a choice": lambda _: changed('3 "look_around"', '3 "glance"'),
     "another unit": lambda _: changed('"mm/s"', '"km/h"'),
     "another range": lambda _: changed("[0|31]", "[0|30]"),
@@ -116,7 +116,7 @@ UNFIT = {
     "two lists of profiles": ('VAL_ 1697 profile 0 "article"', 'VAL_ 1697 profile 0 "paper"', "profile"),
     "profiles with a gap": ('2 "never"', '98 "never"', "not 0, 1, 2"),
     "two lists of opcodes": ('VAL_ 321 opcode 1 "stop"', 'VAL_ 321 opcode 1 "halt"', "opcode"),
-    "a cell too few": ("SG_ cell_7 m1", "SG_ cell_8 m1", "cell_max has 8 numbers"),
+    "a cell too few": ("SG_ cell_7 m1", "SG_ cell_8 m1", "there are 8 patterns"),
     "a signal that is no whole number": (
         "SG_ beacon : 27|13@1+ (1,0)",
         "SG_ beacon : 27|13@1+ (0.5,0)",
@@ -145,6 +145,9 @@ UNFIT_WORDS = {
     "a pattern without a name": ('"101" = "front-left and front-right"\n', "", "[patterns]"),
     "two patterns of one name": ('"010" = "front"', '"010" = "front-right"', "[patterns]"),
     "a sensor too few": ('["right", "front-right"', '["front-right"', "feel names 4"),
+    "a profile without a kind of memory": ('never = "sides"\n', "", "[memory] is of"),
+    "a kind of memory that no profile has": ('five = "all_sensors"', 'five = "sides"', "[memory] has"),
+    "a kind of memory that is not explained": ('five = "all_sensors"', 'five = "colours"', "[memory] has"),
     "the meaning of no reason": ('trial = "blocked', 'tried = "blocked', "[reason] explains tried"),
 }
 

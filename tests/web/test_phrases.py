@@ -30,7 +30,7 @@ STATES = [
 LESSONS = [
     {"tick": 0, "cell": cell, "side": side, "by_hand": by_hand}
     for cell in range(1, 8)
-    for side, by_hand in ((1, 0), (2, 0), (0, 1), (1, 1), (2, 1))
+    for side, by_hand in ((0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1))
 ]
 
 

@@ -12,6 +12,8 @@ from host_sim.world.params import SimParams
 
 PARAMS = SimParams()
 START = Pose(2000.0, 1500.0, 0.7)
+CORNER_MM = 0.386
+"""How far a cone's outline is outside its arc in the middle of the cone."""
 REACH_MM = PARAMS.body_radius_mm + PARAMS.sensor_reach_mm
 
 
@@ -90,6 +92,12 @@ def test_obstacles_on_both_sides_set_both_bits() -> None:
 def test_cones_reach_60_mm_give_or_take_one(bearing_deg: float) -> None:
     assert feel(peg(bearing_deg, 59.0))
     assert not feel(peg(bearing_deg, 61.0))
+
+
+@pytest.mark.parametrize(("bearing_deg", "bits"), [(-90, 0), (-45, 0), (0, 4), (45, 0), (90, 0)])
+def test_only_the_front_cone_sees_half_a_millimetre_farther(bearing_deg: float, bits: int) -> None:
+    assert feel(peg(bearing_deg, 60.0 + CORNER_MM + 0.05)) == bits
+    assert feel(peg(bearing_deg, 60.5 + CORNER_MM + 0.05)) == 0
 
 
 def test_a_cone_is_cut_to_its_reach() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 _PYTHON = ROOT / ".venv" / "bin" / "python"
 _COMMON = ("-std=c99", "-ffreestanding", "-Os", "-ffunction-sections", "-fdata-sections", "-Wall", "-Werror")
-_ENTRIES = ("robot_init", "robot_respond", "memory_adopt")
+_ENTRIES = ("robot_init", "robot_respond", "brain_adopt")
 _STATE = '#include "firmware/robot.h"\nstruct robot the_robot;\n'
 
 

@@ -49,9 +49,10 @@ class Description:
         meanings: What a word means, for some.
         parameters: By rising number, from 0 without a gap.
         profiles: Names by number, from 0 without a gap.
+        memory: For each profile, what its eight bytes are: one of the enum `memory_kind`.
         patterns: Names by number.
         feel: Names of the proximity sensors, from bit 0 on.
-        cell_max: The greatest value of each cell.
+        cell_count: Number of bytes of a memory.
         node_max: The last node.
         tick_span: Ticks are numbered below it, and wrap.
         action_span: Actions likewise.
@@ -66,9 +67,10 @@ class Description:
     meanings: Mapping[str, Mapping[str, str]]
     parameters: Sequence[Parameter]
     profiles: Sequence[str]
+    memory: Mapping[str, str]
     patterns: Sequence[str]
     feel: Sequence[str]
-    cell_max: Sequence[int]
+    cell_count: int
     node_max: int
     tick_span: int
     action_span: int
@@ -96,7 +98,9 @@ def read(dbc: Path, words: Path) -> Description:
         "result": _choices(signal("ANSWER.result")),
         "fault": _choices(signal("EMERGENCY.first")),
         "side": {name: number for number, name in enumerate(toml["sides"])},
+        "memory_kind": {kind: number for number, kind in enumerate(toml["memory_kind"])},
     }
+    profiles = _listed(_same_choices(signal("COMMAND.profile"), signal("HEARTBEAT.profile")), "profile")
     meanings = {name: toml.get(name, {}) for name in enums}
     _check_meanings(enums, meanings)
     hashed = layout_hash(database)
@@ -105,10 +109,11 @@ def read(dbc: Path, words: Path) -> Description:
         enums=enums,
         meanings=meanings,
         parameters=_parameters(database, _choices(signal("COMMAND.parameter"))),
-        profiles=_listed(_same_choices(signal("COMMAND.profile"), signal("HEARTBEAT.profile")), "profile"),
+        profiles=profiles,
+        memory=_memory(toml["memory"], profiles, enums["memory_kind"]),
         patterns=_patterns(toml["patterns"]),
         feel=_feel(toml["feel"], signal("SENSES.feel")),
-        cell_max=_cell_max(toml["cell_max"], database.get_message_by_name("MEMORY")),
+        cell_count=_cell_count(toml["patterns"], database.get_message_by_name("MEMORY")),
         node_max=_node_max(toml["node_max"], database),
         tick_span=1 << signal("SENSES.tick").length,
         action_span=1 << signal("DRIVE.action").length,
@@ -176,7 +181,7 @@ def _parameters(database: Database, choices: Mapping[str, int]) -> list[Paramete
 
 
 def _check_parameter(parameter: Parameter) -> None:
-    """The robot keeps each in a byte: that makes the whole robot 64 bytes."""
+    """The robot keeps each in a byte."""
     if not 0 <= parameter.minimum <= parameter.default <= parameter.maximum <= _BYTE_MAX:
         raise DescriptionError(f"{parameter.name}: 0 <= minimum <= default <= maximum <= {_BYTE_MAX} does not hold")
     if not parameter.comment or not parameter.unit:
@@ -188,6 +193,15 @@ def _check_meanings(enums: Mapping[str, Mapping[str, int]], meanings: Mapping[st
         unknown = sorted(set(words) - set(enums[name]))
         if unknown:
             raise DescriptionError(f"[{name}] explains {', '.join(unknown)}, which octet.dbc does not have")
+
+
+def _memory(kinds: Mapping[str, str], profiles: Sequence[str], known: Mapping[str, int]) -> Mapping[str, str]:
+    """Each profile's kind of memory; each kind is some profile's, so that a stored memory always finds one."""
+    if sorted(kinds) != sorted(profiles):
+        raise DescriptionError(f"[memory] is of {', '.join(sorted(kinds))}, the profiles are {', '.join(profiles)}")
+    if set(kinds.values()) != set(known):
+        raise DescriptionError(f"[memory] has {', '.join(sorted(set(kinds.values())))}, not each of [memory_kind]")
+    return kinds
 
 
 def _patterns(names: Mapping[str, str]) -> list[str]:
@@ -204,12 +218,12 @@ def _feel(names: Sequence[str], signal: Signal) -> Sequence[str]:
     return names
 
 
-def _cell_max(cell_max: Sequence[int], memory: Message) -> Sequence[int]:
-    """The greatest value of each cell; the two halves of a MEMORY carry them all."""
+def _cell_count(patterns: Mapping[str, str], memory: Message) -> int:
+    """A cell for each pattern; the two halves of a MEMORY carry them all."""
     cells = [signal.name for signal in memory.signals if signal.name.startswith("cell_")]
-    if sorted(cells) != [f"cell_{cell}" for cell in range(len(cell_max))]:
-        raise DescriptionError(f"cell_max has {len(cell_max)} numbers, and MEMORY {', '.join(sorted(cells))}")
-    return cell_max
+    if sorted(cells) != [f"cell_{cell}" for cell in range(len(patterns))]:
+        raise DescriptionError(f"there are {len(patterns)} patterns, and MEMORY has {', '.join(sorted(cells))}")
+    return len(cells)
 
 
 def _node_max(node_max: int, database: Database) -> int:

@@ -15,6 +15,7 @@ def header(robot: Description) -> str:
     """The text of robot_words.h."""
     parts = [_HEAD, _numbers(robot)]
     parts += [_enum(name, words, robot.meanings[name]) for name, words in robot.enums.items()]
+    parts += [f"enum {{ MEMORY_KIND_COUNT = {len(robot.enums['memory_kind'])} }};\n"]
     parts += [_parameters(robot), _profiles(robot), "#endif\n"]
     return "\n".join(parts)
 
@@ -26,7 +27,7 @@ def c_name(*words: str) -> str:
 
 def _numbers(robot: Description) -> str:
     numbers = {
-        "CELL_COUNT": len(robot.cell_max),
+        "CELL_COUNT": robot.cell_count,
         "NODE_MAX": robot.node_max,
         "FAULT_COUNT": len(robot.enums["fault"]),
         "FEEL_COUNT": len(robot.feel),
@@ -38,8 +39,7 @@ def _numbers(robot: Description) -> str:
         **{c_name("feel", name): 1 << bit for bit, name in enumerate(robot.feel)},
     }
     lines = ",\n".join(f"    {name} = {number}" for name, number in numbers.items())
-    cell_max = ", ".join(str(value) for value in robot.cell_max)
-    return f"enum {{\n{lines}\n}};\n\n/* The greatest value of each cell. */\n#define ROBOT_CELL_MAX {{{cell_max}}}\n"
+    return f"enum {{\n{lines}\n}};\n"
 
 
 def _enum(name: str, words: Mapping[str, int], meanings: Mapping[str, str]) -> str:
@@ -63,8 +63,12 @@ def _parameters(robot: Description) -> str:
 
 def _profiles(robot: Description) -> str:
     names = "\n".join(f"    {c_name('profile', name)}," for name in robot.profiles)
-    rows = " \\\n".join(f"    X({c_name('profile', name)}, {name})" for name in robot.profiles)
+    rows = " \\\n".join(
+        f"    X({c_name('profile', name)}, {name}, {c_name('memory_kind', robot.memory[name])})"
+        for name in robot.profiles
+    )
     return (
         f"enum profile {{\n{names}\n    PROFILE_COUNT\n}};\n\n"
-        f"/* X(profile, name) for each: the behaviour of that name. */\n#define ROBOT_BEHAVIOURS(X) \\\n{rows}\n"
+        "/* X(profile, name, memory_kind) for each: the behaviour of that name. */\n"
+        f"#define ROBOT_BEHAVIOURS(X) \\\n{rows}\n"
     )

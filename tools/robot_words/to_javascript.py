@@ -15,7 +15,7 @@ def module(robot: Description) -> str:
         exports[name.upper()] = {c_name(word): number for word, number in robot.enums[name].items()}
     exports["SIDES"] = list(robot.enums["side"])
     exports["PATTERNS"] = list(robot.patterns)
-    exports["CELL_COUNT"] = len(robot.cell_max)
+    exports["CELL_COUNT"] = robot.cell_count
     exports["FEEL"] = {c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}
     exports["PROFILES"] = list(robot.profiles)
     exports["PARAMETERS"] = {

@@ -60,7 +60,7 @@ class Message(NamedTuple):
 def module(robot: Description) -> str:
     """The text of generated.py."""
     parts = [_HEAD]
-    parts += [_enum(name.capitalize(), words) for name, words in robot.enums.items()]
+    parts += [_enum(name, words) for name, words in robot.enums.items()]
     parts += [f"{name} = {value}\n" for name, value in _constants(robot).items()]
     parts.append(_dict("PARAMETERS: dict[str, Parameter]", map(_parameter, robot.parameters)))
     parts.append(_dict("MESSAGES: dict[str, Message]", map(_message, robot.messages)))
@@ -69,18 +69,19 @@ def module(robot: Description) -> str:
 
 def _enum(name: str, words: Mapping[str, int]) -> str:
     lines = "".join(f"    {c_name(word)} = {number}\n" for word, number in words.items())
-    return f'\nclass {name}(IntEnum):\n    """Numbers of {name.lower()}, as on the wire."""\n\n{lines}\n'
+    title = name.title().replace("_", "")
+    return f'\nclass {title}(IntEnum):\n    """Numbers of {name.replace("_", " ")}, as in the C."""\n\n{lines}\n'
 
 
 def _constants(robot: Description) -> dict[str, str]:
     same = sorted({robot.layout_hash, *robot.same_layout})
     return {
         "\nPROFILES: dict[str, int]": repr({name: number for number, name in enumerate(robot.profiles)}),
+        "MEMORY_KINDS: dict[str, MemoryKind]": _memory_kinds(robot),
         "PATTERNS: tuple[str, ...]": repr(tuple(robot.patterns)),
         "SIDES: tuple[str, ...]": repr(tuple(robot.enums["side"])),
         "FEEL: dict[str, int]": repr({c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}),
-        "CELL_COUNT": str(len(robot.cell_max)),
-        "CELL_MAX: tuple[int, ...]": repr(tuple(robot.cell_max)),
+        "CELL_COUNT": str(robot.cell_count),
         "NODE_MAX": str(robot.node_max),
         "TICK_SPAN": str(robot.tick_span),
         "ACTION_SPAN": str(robot.action_span),
@@ -89,6 +90,11 @@ def _constants(robot: Description) -> dict[str, str]:
         "LAYOUT_HASH": f"0x{robot.layout_hash:04X}",
         "SAME_LAYOUT: frozenset[int]": f"frozenset(({', '.join(f'0x{number:04X}' for number in same)},))",
     }
+
+
+def _memory_kinds(robot: Description) -> str:
+    kinds = (f"{name!r}: MemoryKind.{c_name(robot.memory[name])}" for name in robot.profiles)
+    return f"{{{', '.join(kinds)}}}"
 
 
 def _dict(declared: str, entries: Iterable[str]) -> str:

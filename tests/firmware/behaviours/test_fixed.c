@@ -48,7 +48,7 @@ static void test_every_pattern_has_its_turn(void)
 
 static void test_what_a_person_writes_is_used(void)
 {
-    TEST_ASSERT_TRUE(memory_write(&brain.memory, 0, 1u << 1, SIDE_RIGHT << 8));
+    TEST_ASSERT_TRUE(memory_write(&brain.memory, MEMORY_KIND_SIDES, 1u << 1, SIDE_RIGHT << 8));
     TEST_ASSERT_EQUAL(10, next(1).turn_deg);
 }
 

@@ -13,5 +13,5 @@ class Oracle(Listing):
         turns = (TURN_RIGHT if pattern in (0b100, 0b110) else TURN_LEFT for pattern in range(1, 8))
         return bytes((0, *turns))
 
-    def learn(self, pattern: int, side: int) -> None:
+    def learn(self, feel: int, side: int) -> None:
         """Nothing."""

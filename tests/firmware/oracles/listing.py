@@ -19,6 +19,7 @@ class Action(NamedTuple):
     why: str
     turn_deg: int = 0
     forward_mm: int = 0
+    until_food: bool = False
 
 
 class Robot(Protocol):
@@ -30,67 +31,106 @@ class Robot(Protocol):
     def random(self, n: int) -> int: ...
 
 
+def pattern(feel: int) -> int:
+    """The listing's Senses: the three front sensors."""
+    return (feel >> 1) & 7
+
+
 def count_sensors(senses: int) -> int:
     """The listing's CountSensors."""
     return bin(senses).count("1")
 
 
 class Listing:
-    """The listing's variables and its Search routine.
+    """The listing's variables and its Search routine, with places where a behaviour may do more.
 
     Attributes:
         mem: The learned memory, Mem[].
         repeat_count: RepeatCount; it has no upper limit here.
+        frozen: Whether nothing is learned.
     """
 
-    def __init__(self, robot: Robot, mem: MutableMapping[int, int] | bytearray, repeat_count: int = 0) -> None:
-        self.robot, self.mem, self.repeat_count = robot, mem, repeat_count
+    STATE: tuple[str, ...] = ()
+    """Names of further attributes, which are fields of the brain as well, beside those that each behaviour has."""
+
+    def __init__(
+        self, robot: Robot, mem: MutableMapping[int, int] | bytearray, repeat_count: int = 0, frozen: bool = False
+    ) -> None:
+        self.robot, self.mem, self.repeat_count, self.frozen = robot, mem, repeat_count, frozen
 
     @staticmethod
     def begin(cells: bytes) -> bytes:
         """The memory with which a run begins, from what it was before."""
         return cells
 
-    def recall(self, pattern: int) -> int:
-        """What is known for a pattern."""
-        return self.mem[pattern]
+    def recall(self, feel: int) -> int:
+        """What is known for a reading of the five sensors."""
+        return self.mem[pattern(feel)]
 
-    def learn(self, pattern: int, side: int) -> None:
+    def learn(self, feel: int, side: int) -> None:
         """Takes a lesson."""
-        self.mem[pattern] = side
+        self.mem[pattern(feel)] = side
 
-    def search(self) -> Iterator[Action]:  # noqa: C901, PLR0912  # as long as the listing
+    def find_way_clear(self) -> None:
+        """The way is clear at the top of the loop."""
+
+    def begin_remembered(self, feel: int) -> None:
+        """A remembered turn is about to begin."""
+
+    def end_remembered(self, feel: int) -> None:
+        """A remembered turn, begun at a reading, has ended."""
+
+    def begin_about_face(self) -> None:
+        """Bored, it is about to turn about."""
+
+    def search(self) -> Iterator[Action]:
         """Search, for ever: the food never runs out."""
-        robot, mem = self.robot, self.recall
         while True:  # while FoodCnt
-            senses = (robot.feel() >> 1) & 7  # Senses = (rFeel()>>1)&7
-            if senses == 0:  # if Senses=0
+            senses = self.robot.feel()  # Senses = (rFeel()>>1)&7
+            if pattern(senses) == 0:  # if Senses=0
+                self.find_way_clear()
                 self.repeat_count = 0  # RepeatCount = 0
-                yield Action("TOWARD_FOOD" if robot.look() else "WANDER", forward_mm=DIST_MM)  # rForward Dist
-                if robot.look():  # if rLook(0)=Green
-                    if robot.beacon_mm() < REACH_MM:  # if rBeacon(Green)<30
-                        yield Action("EAT")  # x = rGPSx() ... FoodCnt--
-                elif robot.random(2):  # else: if random(2)
-                    yield Action("LOOK_AROUND", 2 + robot.random(10))  # rTurn 2 +random(10)
-                else:  # else
-                    yield Action("LOOK_AROUND", -(2 + robot.random(10)))  # rTurn -(2+random(10))
-            elif mem(senses):  # else: if Mem[Senses]
-                if mem(senses) == TURN_LEFT:  # if Mem[Senses] = TurnLeft
-                    yield Action("REMEMBERED", -DEG)  # then rTurn -Deg
-                elif mem(senses) == TURN_RIGHT:  # if Mem[Senses] = TurnRight
-                    yield Action("REMEMBERED", DEG)  # then rTurn Deg
-                self.repeat_count += 1  # RepeatCount++
-                if self.repeat_count == 10:  # if RepeatCount=10
-                    yield Action("BOREDOM", 150 + robot.random(60))  # then rturn (150+random(60))
+                yield from self.go_forward()
+            elif self.recall(senses):  # else: if Mem[Senses]
+                yield from self.turn_as_remembered(senses)
             else:  # else
-                cnt = count_sensors(senses)  # call CountSensors(Senses,Cnt)
-                old_senses = senses  # OldSenses = Senses
-                r = robot.random(2) + 1  # r=random(2)+1
-                if r == TURN_LEFT:  # if r=TurnLeft
-                    yield Action("TRIAL", -45)  # then rTurn -45
-                if r == TURN_RIGHT:  # if r=TurnRight
-                    yield Action("TRIAL", 45)  # then rTurn 45
-                senses = (robot.feel() >> 1) & 7  # Senses = (rFeel()>>1)&7
-                new_cnt = count_sensors(senses)  # call CountSensors(Senses,NewCnt)
-                if new_cnt < cnt:  # if NewCnt<Cnt
-                    self.learn(old_senses, r)  # then Mem[OldSenses]=r
+                yield from self.try_a_turn(senses)
+
+    def go_forward(self) -> Iterator[Action]:
+        """The way is clear."""
+        robot = self.robot
+        yield Action("TOWARD_FOOD" if robot.look() else "WANDER", forward_mm=DIST_MM)  # rForward Dist
+        if robot.look():  # if rLook(0)=Green
+            if robot.beacon_mm() < REACH_MM:  # if rBeacon(Green)<30
+                yield Action("EAT")  # x = rGPSx() ... FoodCnt--
+        elif robot.random(2):  # else: if random(2)
+            yield Action("LOOK_AROUND", 2 + robot.random(10))  # rTurn 2 +random(10)
+        else:  # else
+            yield Action("LOOK_AROUND", -(2 + robot.random(10)))  # rTurn -(2+random(10))
+
+    def turn_as_remembered(self, senses: int) -> Iterator[Action]:
+        """Blocked, and the memory knows a turn."""
+        self.begin_remembered(senses)
+        if self.recall(senses) == TURN_LEFT:  # if Mem[Senses] = TurnLeft
+            yield Action("REMEMBERED", -DEG)  # then rTurn -Deg
+        elif self.recall(senses) == TURN_RIGHT:  # if Mem[Senses] = TurnRight
+            yield Action("REMEMBERED", DEG)  # then rTurn Deg
+        self.end_remembered(senses)
+        self.repeat_count += 1  # RepeatCount++
+        if self.repeat_count == 10:  # if RepeatCount=10
+            self.begin_about_face()
+            yield Action("BOREDOM", 150 + self.robot.random(60))  # then rturn (150+random(60))
+
+    def try_a_turn(self, senses: int) -> Iterator[Action]:
+        """Blocked, and the memory knows nothing."""
+        cnt = count_sensors(pattern(senses))  # call CountSensors(Senses,Cnt)
+        old_senses = senses  # OldSenses = Senses
+        r = self.robot.random(2) + 1  # r=random(2)+1
+        if r == TURN_LEFT:  # if r=TurnLeft
+            yield Action("TRIAL", -45)  # then rTurn -45
+        if r == TURN_RIGHT:  # if r=TurnRight
+            yield Action("TRIAL", 45)  # then rTurn 45
+        senses = self.robot.feel()  # Senses = (rFeel()>>1)&7
+        new_cnt = count_sensors(pattern(senses))  # call CountSensors(Senses,NewCnt)
+        if new_cnt < cnt and not self.frozen:  # if NewCnt<Cnt
+            self.learn(old_senses, r)  # then Mem[OldSenses]=r

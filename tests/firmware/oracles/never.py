@@ -6,10 +6,10 @@ from tests.firmware.oracles.listing import Listing
 class Oracle(Listing):
     """It has a memory and makes no use of it."""
 
-    def recall(self, pattern: int) -> int:
+    def recall(self, feel: int) -> int:
         """Nothing."""
-        del pattern
+        del feel
         return 0
 
-    def learn(self, pattern: int, side: int) -> None:
+    def learn(self, feel: int, side: int) -> None:
         """Nothing."""

@@ -1,0 +1,24 @@
+/* adaptive: as forgetful, but a cell that has proved its worth is not forgotten at once. */
+#include "firmware/behaviours/behaviour.h"
+#include "firmware/behaviours/listing.h"
+#include "firmware/behaviours/used_cells.h"
+#include "firmware/pattern.h"
+
+enum { CONFIDENCE = 1, PRAISE = 1 };
+
+bool adaptive_begin(struct brain *brain)
+{
+    (void)brain;
+    return true;
+}
+
+struct action adaptive_next(struct brain *brain, const struct config *config, const struct senses *senses)
+{
+    uint8_t pattern = pattern_of(senses->feel);
+    struct action action;
+
+    used_cells_learn(brain, senses, CONFIDENCE);
+    action = listing_next(brain, config, senses, memory_recall(&brain->memory, pattern));
+    used_cells_judge(brain, &action, pattern, PRAISE);
+    return action;
+}

@@ -1,0 +1,20 @@
+/* five: the article's robot with a turn for each reading of all five sensors. The front three still say what is in the
+ * way, and judge a trial. */
+#include "firmware/behaviours/behaviour.h"
+#include "firmware/behaviours/listing.h"
+#include "firmware/feel_memory.h"
+
+bool five_begin(struct brain *brain)
+{
+    (void)brain;
+    return true;
+}
+
+struct action five_next(struct brain *brain, const struct config *config, const struct senses *senses)
+{
+    if (listing_trial_helped(brain, senses) && !brain->frozen) {
+        feel_memory_learn(&brain->memory, brain->tried_feel, (enum side)brain->tried_side);
+        brain->changed = true;
+    }
+    return listing_next(brain, config, senses, feel_memory_recall(&brain->memory, senses->feel));
+}

@@ -1,0 +1,50 @@
+#include "firmware/behaviours/used_cells.h"
+
+#include "firmware/behaviours/listing.h"
+#include "firmware/confidence.h"
+#include "firmware/pattern.h"
+
+enum { BLAME = -2 };
+
+static void set_cell(struct brain *brain, uint8_t pattern, uint8_t value)
+{
+    if (brain->memory.cell[pattern] == value || brain->frozen)
+        return;
+    brain->memory.cell[pattern] = value;
+    brain->changed = true;
+}
+
+void used_cells_learn(struct brain *brain, const struct senses *senses, unsigned confidence)
+{
+    uint8_t pattern = pattern_of(brain->tried_feel);
+
+    if (!listing_trial_helped(brain, senses) || brain->frozen)
+        return;
+    set_cell(brain, pattern, confidence_cell((enum side)brain->tried_side, confidence));
+    brain->used |= (uint8_t)(1u << pattern);
+}
+
+static void end_episode(struct brain *brain, int change)
+{
+    for (uint8_t p = 1; p < CELL_COUNT; p++)
+        if (brain->used & (1u << p) && change != 0)
+            set_cell(brain, p, confidence_changed(brain->memory.cell[p], change));
+    brain->used = 0;
+}
+
+void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern, int praise)
+{
+    switch (action->reason) {
+    case REASON_REMEMBERED:
+        brain->used |= (uint8_t)(1u << pattern);
+        return;
+    case REASON_TRIAL:
+        return;
+    case REASON_BOREDOM:
+        brain->repeat_count = 0;
+        end_episode(brain, BLAME);
+        return;
+    default:   /* the way is clear */
+        end_episode(brain, praise);
+    }
+}

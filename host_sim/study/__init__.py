@@ -1,0 +1,1 @@
+"""Comparing behaviours: the same worlds for each, in process, on all cores."""

@@ -1,0 +1,95 @@
+#include "firmware/brain.h"
+
+#include <unity.h>
+
+enum { CLEAR = 0, FRONT = FEEL_FRONT, ALL_THREE = 14 };
+enum { PATTERN_FRONT = 2, PATTERN_ALL_THREE = 7 };
+
+static struct brain brain;
+static struct config config;
+
+void setUp(void)
+{
+    brain = (struct brain){.frozen = false};
+    config_reset(&config);
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_ADAPTIVE, 1));
+}
+
+void tearDown(void) {}
+
+static struct action next(uint8_t feel)
+{
+    const struct senses senses = {.feel = feel};
+
+    return brain_next(&brain, &config, &senses);
+}
+
+static void remembered_turns(unsigned count)
+{
+    for (unsigned i = 0; i < count; i++)
+        TEST_ASSERT_EQUAL(REASON_REMEMBERED, next(FRONT).reason);
+}
+
+enum { LEFT_1 = 5, LEFT_2 = 9, LEFT_3 = 13 };   /* left, with that confidence */
+
+static void test_a_lesson_has_confidence_1_and_a_clear_way_adds_1(void)
+{
+    next(ALL_THREE);
+    next(FRONT);
+    TEST_ASSERT_EQUAL(1, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
+    next(CLEAR);
+    TEST_ASSERT_EQUAL(2, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
+}
+
+static void test_confidence_ends_at_3(void)
+{
+    brain.memory.cell[PATTERN_FRONT] = LEFT_3;
+    next(FRONT);
+    next(CLEAR);
+    TEST_ASSERT_EQUAL_UINT8(LEFT_3, brain.memory.cell[PATTERN_FRONT]);
+    TEST_ASSERT_FALSE(brain.changed);
+}
+
+static void test_boredom_takes_2(void)
+{
+    brain.memory.cell[PATTERN_FRONT] = LEFT_3;
+    remembered_turns(10);
+    next(FRONT);
+    TEST_ASSERT_EQUAL_UINT8(LEFT_1, brain.memory.cell[PATTERN_FRONT]);
+    remembered_turns(10);
+    next(FRONT);
+    TEST_ASSERT_EQUAL_UINT8(0, brain.memory.cell[PATTERN_FRONT]);
+}
+
+static void test_a_cell_that_was_not_used_is_not_judged(void)
+{
+    brain.memory.cell[PATTERN_FRONT] = LEFT_2;
+    brain.memory.cell[PATTERN_ALL_THREE] = LEFT_2;
+    remembered_turns(10);
+    next(FRONT);
+    next(CLEAR);
+    TEST_ASSERT_EQUAL_UINT8(LEFT_2, brain.memory.cell[PATTERN_ALL_THREE]);
+}
+
+static void test_a_frozen_brain_neither_praises_nor_blames(void)
+{
+    brain.memory.cell[PATTERN_FRONT] = LEFT_2;
+    brain.frozen = true;
+    remembered_turns(1);
+    next(CLEAR);
+    next(FRONT);   /* looks around */
+    remembered_turns(10);
+    next(FRONT);
+    TEST_ASSERT_EQUAL_UINT8(LEFT_2, brain.memory.cell[PATTERN_FRONT]);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_lesson_has_confidence_1_and_a_clear_way_adds_1);
+    RUN_TEST(test_confidence_ends_at_3);
+    RUN_TEST(test_boredom_takes_2);
+    RUN_TEST(test_a_cell_that_was_not_used_is_not_judged);
+    RUN_TEST(test_a_frozen_brain_neither_praises_nor_blames);
+    return UNITY_END();
+}

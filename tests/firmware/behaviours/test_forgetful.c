@@ -1,0 +1,96 @@
+#include "firmware/brain.h"
+
+#include <unity.h>
+
+enum { CLEAR = 0, FRONT_RIGHT = FEEL_FRONT_RIGHT, FRONT = FEEL_FRONT, ALL_THREE = 14 };
+enum { PATTERN_FRONT_RIGHT = 1, PATTERN_FRONT = 2, PATTERN_ALL_THREE = 7 };
+
+static struct brain brain;
+static struct config config;
+
+void setUp(void)
+{
+    brain = (struct brain){.frozen = false};
+    config_reset(&config);
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_FORGETFUL, 1));
+}
+
+void tearDown(void) {}
+
+static struct action next(uint8_t feel)
+{
+    const struct senses senses = {.feel = feel};
+
+    return brain_next(&brain, &config, &senses);
+}
+
+static void remembered_turns(unsigned count)
+{
+    for (unsigned i = 0; i < count; i++)
+        TEST_ASSERT_EQUAL(REASON_REMEMBERED, next(FRONT).reason);
+}
+
+static void test_bored_it_forgets_what_it_has_used(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    memory_learn(&brain.memory, PATTERN_FRONT_RIGHT, SIDE_LEFT);
+    memory_learn(&brain.memory, PATTERN_ALL_THREE, SIDE_LEFT);
+    next(FRONT_RIGHT);
+    remembered_turns(9);
+    TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT_RIGHT));
+    TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_ALL_THREE));
+    TEST_ASSERT_TRUE(brain.changed);
+}
+
+static void test_what_led_to_a_clear_way_is_not_forgotten(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    memory_learn(&brain.memory, PATTERN_FRONT_RIGHT, SIDE_LEFT);
+    next(FRONT_RIGHT);
+    next(CLEAR);
+    next(FRONT);   /* looks around */
+    remembered_turns(10);
+    next(FRONT);
+    TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT_RIGHT));
+}
+
+static void test_a_lesson_just_learned_is_forgotten_too(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    next(ALL_THREE);
+    remembered_turns(10);
+    TEST_ASSERT_TRUE(memory_recall(&brain.memory, PATTERN_ALL_THREE) != SIDE_NOTHING);
+    next(FRONT);
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_ALL_THREE));
+}
+
+static void test_bored_it_begins_to_count_anew(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    remembered_turns(10);
+    next(FRONT);
+    TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
+}
+
+static void test_a_frozen_brain_forgets_nothing(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    brain.frozen = true;
+    remembered_turns(10);
+    TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
+    TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT));
+    TEST_ASSERT_FALSE(brain.changed);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_bored_it_forgets_what_it_has_used);
+    RUN_TEST(test_what_led_to_a_clear_way_is_not_forgotten);
+    RUN_TEST(test_a_lesson_just_learned_is_forgotten_too);
+    RUN_TEST(test_bored_it_begins_to_count_anew);
+    RUN_TEST(test_a_frozen_brain_forgets_nothing);
+    return UNITY_END();
+}

@@ -1,0 +1,66 @@
+#include "firmware/brain.h"
+
+#include <unity.h>
+
+enum { CLEAR = 0, FRONT = FEEL_FRONT, ALL_THREE = 14 };
+enum { PATTERN_FRONT = 2, PATTERN_ALL_THREE = 7 };
+
+static struct brain brain;
+static struct config config;
+
+void setUp(void)
+{
+    brain = (struct brain){.frozen = false};
+    config_reset(&config);
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_REARMED, 1));
+}
+
+void tearDown(void) {}
+
+static struct action next(uint8_t feel)
+{
+    const struct senses senses = {.feel = feel};
+
+    return brain_next(&brain, &config, &senses);
+}
+
+static void remembered_turns(unsigned count)
+{
+    for (unsigned i = 0; i < count; i++)
+        TEST_ASSERT_EQUAL(REASON_REMEMBERED, next(FRONT).reason);
+}
+
+static void test_boredom_strikes_again_after_ten_more_turns(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    for (unsigned i = 0; i < 3; i++) {
+        remembered_turns(10);
+        TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
+        TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
+    }
+}
+
+static void test_it_learns_as_the_article_does(void)
+{
+    next(ALL_THREE);
+    next(CLEAR);
+    TEST_ASSERT_TRUE(memory_recall(&brain.memory, PATTERN_ALL_THREE) != SIDE_NOTHING);
+    TEST_ASSERT_TRUE(brain.learns);
+}
+
+static void test_bored_it_keeps_what_it_knows(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    remembered_turns(10);
+    next(FRONT);
+    TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_boredom_strikes_again_after_ten_more_turns);
+    RUN_TEST(test_it_learns_as_the_article_does);
+    RUN_TEST(test_bored_it_keeps_what_it_knows);
+    return UNITY_END();
+}

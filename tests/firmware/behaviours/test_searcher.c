@@ -1,0 +1,107 @@
+#include "firmware/brain.h"
+
+#include <unity.h>
+
+enum { CLEAR = 0, ALL_THREE = 14 };
+enum { PATTERN_ALL_THREE = 7 };
+
+static struct brain brain;
+static struct config config;
+
+void setUp(void)
+{
+    brain = (struct brain){.frozen = false};
+    config_reset(&config);
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
+}
+
+void tearDown(void) {}
+
+static struct action next(uint8_t feel)
+{
+    const struct senses senses = {.feel = feel};
+
+    return brain_next(&brain, &config, &senses);
+}
+
+static struct action next_seeing_food(uint16_t beacon_mm)
+{
+    const struct senses senses = {.look = true, .beacon_mm = beacon_mm};
+
+    return brain_next(&brain, &config, &senses);
+}
+
+static void steps(unsigned count)
+{
+    for (unsigned i = 0; i < count; i++)
+        TEST_ASSERT_EQUAL(REASON_WANDER, next(CLEAR).reason);
+}
+
+static void assert_turns_once_around(void)
+{
+    struct action action = next(CLEAR);
+
+    TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, action.reason);
+    TEST_ASSERT_TRUE(action.turn_deg == 360 || action.turn_deg == -360);
+    TEST_ASSERT_TRUE(action.until_food);
+}
+
+static void test_it_begins_by_turning_once_around(void)
+{
+    assert_turns_once_around();
+}
+
+static void test_it_drives_a_metre_straight_on_between_two_turns(void)
+{
+    assert_turns_once_around();
+    steps(84);   /* of 12 mm */
+    assert_turns_once_around();
+}
+
+static void test_it_goes_to_what_it_sees(void)
+{
+    TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(900).reason);
+    TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(150).reason);
+    TEST_ASSERT_EQUAL(REASON_EAT, next_seeing_food(149).reason);
+}
+
+static void test_after_a_meal_it_looks_for_the_next(void)
+{
+    next_seeing_food(155);
+    next_seeing_food(149);
+    assert_turns_once_around();
+}
+
+static void test_when_it_has_lost_the_food_it_drives_on_a_little(void)
+{
+    next_seeing_food(900);
+    steps(17);
+    assert_turns_once_around();
+}
+
+static void test_it_learns_as_adaptive_does(void)
+{
+    next(ALL_THREE);
+    next(CLEAR);
+    TEST_ASSERT_EQUAL(2, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
+}
+
+static void test_a_turn_around_ends_the_count(void)
+{
+    brain.repeat_count = 7;
+    assert_turns_once_around();
+    TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_it_begins_by_turning_once_around);
+    RUN_TEST(test_it_drives_a_metre_straight_on_between_two_turns);
+    RUN_TEST(test_it_goes_to_what_it_sees);
+    RUN_TEST(test_after_a_meal_it_looks_for_the_next);
+    RUN_TEST(test_when_it_has_lost_the_food_it_drives_on_a_little);
+    RUN_TEST(test_it_learns_as_adaptive_does);
+    RUN_TEST(test_a_turn_around_ends_the_count);
+    return UNITY_END();
+}

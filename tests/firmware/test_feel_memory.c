@@ -1,0 +1,97 @@
+#include "firmware/feel_memory.h"
+
+#include <unity.h>
+
+enum { FIRST_BLOCKED = FEEL_FRONT_RIGHT, ALL = 31 };
+
+static struct memory memory;
+
+void setUp(void)
+{
+    memory_erase(&memory);
+}
+
+void tearDown(void) {}
+
+static bool is_blocked(uint8_t feel)
+{
+    return (feel & (FEEL_FRONT_RIGHT | FEEL_FRONT | FEEL_FRONT_LEFT)) != 0;
+}
+
+static void test_each_reading_has_two_bits_of_its_own(void)
+{
+    for (uint8_t feel = 0; feel <= ALL; feel++)
+        if (is_blocked(feel))
+            feel_memory_learn(&memory, feel, feel % 3);
+    for (uint8_t feel = 0; feel <= ALL; feel++)
+        if (is_blocked(feel))
+            TEST_ASSERT_EQUAL(feel % 3, feel_memory_recall(&memory, feel));
+}
+
+static void test_reading_n_is_at_bit_2n(void)
+{
+    static const uint8_t expected[CELL_COUNT] = {0x2F, 0, 0, 0, 0, 0, 0, 0x40};
+
+    feel_memory_learn(&memory, 2, SIDE_RIGHT);
+    feel_memory_learn(&memory, ALL, SIDE_LEFT);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, memory.cell, CELL_COUNT);
+}
+
+static void test_a_lesson_replaces_an_older_one(void)
+{
+    feel_memory_learn(&memory, ALL, SIDE_RIGHT);
+    feel_memory_learn(&memory, ALL, SIDE_LEFT);
+    TEST_ASSERT_EQUAL(SIDE_LEFT, feel_memory_recall(&memory, ALL));
+}
+
+static void test_what_was_learned_is_such_a_memory(void)
+{
+    for (uint8_t feel = FIRST_BLOCKED; feel <= ALL; feel++)
+        if (is_blocked(feel)) {
+            feel_memory_learn(&memory, feel, SIDE_RIGHT);
+            TEST_ASSERT_TRUE(feel_memory_is(memory.cell));
+        }
+}
+
+static void test_an_empty_one_is_such_a_memory(void)
+{
+    TEST_ASSERT_TRUE(feel_memory_is(memory.cell));
+}
+
+static void test_without_the_mark_it_is_none(void)
+{
+    feel_memory_learn(&memory, ALL, SIDE_RIGHT);
+    for (unsigned bit = 0; bit < 4; bit++) {
+        struct memory unmarked = memory;
+
+        unmarked.cell[0] &= (uint8_t)~(1u << bit);
+        TEST_ASSERT_FALSE(feel_memory_is(unmarked.cell));
+    }
+}
+
+static void test_with_a_turn_for_a_clear_way_it_is_none(void)
+{
+    feel_memory_learn(&memory, FEEL_LEFT, SIDE_RIGHT);
+    TEST_ASSERT_FALSE(feel_memory_is(memory.cell));
+}
+
+static void test_with_what_is_no_side_it_is_none(void)
+{
+    feel_memory_learn(&memory, ALL, SIDE_RIGHT);
+    memory.cell[CELL_COUNT - 1] = 0xC0;
+    TEST_ASSERT_FALSE(feel_memory_is(memory.cell));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_each_reading_has_two_bits_of_its_own);
+    RUN_TEST(test_reading_n_is_at_bit_2n);
+    RUN_TEST(test_a_lesson_replaces_an_older_one);
+    RUN_TEST(test_what_was_learned_is_such_a_memory);
+    RUN_TEST(test_an_empty_one_is_such_a_memory);
+    RUN_TEST(test_without_the_mark_it_is_none);
+    RUN_TEST(test_with_a_turn_for_a_clear_way_it_is_none);
+    RUN_TEST(test_with_what_is_no_side_it_is_none);
+    return UNITY_END();
+}

@@ -1,0 +1,205 @@
+#include "firmware/perception.h"
+
+#include "firmware/robot.h"
+
+#include <unity.h>
+
+enum { FRONT = FEEL_FRONT, LEFT = FEEL_LEFT, ALL = 31, LIMIT = 32 };
+
+static struct perception perception;
+static struct config config;
+
+void setUp(void)
+{
+    perception_start(&perception);
+    config_reset(&config);
+}
+
+void tearDown(void) {}
+
+static uint8_t filtered(uint8_t feel)
+{
+    return perception_filter(&perception, &config, feel);
+}
+
+static void decide(uint8_t feel, unsigned times)
+{
+    for (unsigned i = 0; i < times; i++)
+        perception_decide(&perception, &config, feel);
+}
+
+static uint8_t believed(uint8_t feel)
+{
+    return perception_believed(&perception, &config, feel);
+}
+
+static void test_by_default_all_is_believed_at_once(void)
+{
+    decide(ALL, 300);
+    for (uint8_t feel = 0; feel <= ALL; feel++)
+        TEST_ASSERT_EQUAL_HEX8(feel, believed(filtered(feel)));
+}
+
+static void test_filtered_each_bit_is_what_two_of_three_ticks_say(void)
+{
+    config_set(&config, FILTER, 1);
+    for (unsigned cases = 0; cases < 8; cases++) {
+        const unsigned bit[] = {cases & 1u, cases >> 1 & 1u, cases >> 2};
+        unsigned sum = bit[0] + bit[1] + bit[2];
+
+        perception_start(&perception);
+        filtered((uint8_t)(FRONT * bit[0] | LEFT * (1u - bit[0])));
+        filtered((uint8_t)(FRONT * bit[1] | LEFT * (1u - bit[1])));
+        TEST_ASSERT_EQUAL_HEX8(sum >= 2 ? FRONT : LEFT,
+                               filtered((uint8_t)(FRONT * bit[2] | LEFT * (1u - bit[2]))));
+    }
+}
+
+static void test_a_sensor_is_distrusted_after_so_many_decisions_in_a_row(void)
+{
+    config_set(&config, DISTRUST, LIMIT);
+    decide(FRONT, LIMIT - 1);
+    TEST_ASSERT_EQUAL_HEX8(FRONT, believed(FRONT));
+    decide(FRONT, 1);
+    TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
+}
+
+static void test_the_other_sensors_are_still_believed(void)
+{
+    config_set(&config, DISTRUST, LIMIT);
+    decide(FRONT, LIMIT);
+    TEST_ASSERT_EQUAL_HEX8(ALL & ~FRONT, believed(ALL));
+}
+
+static void test_it_stays_distrusted_however_long_it_goes_on(void)
+{
+    config_set(&config, DISTRUST, 255);
+    decide(FRONT, 1000);
+    TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
+}
+
+static void test_one_quiet_decision_restores_trust(void)
+{
+    config_set(&config, DISTRUST, LIMIT);
+    decide(FRONT, LIMIT);
+    decide(0, 1);
+    TEST_ASSERT_EQUAL_HEX8(FRONT, believed(FRONT));
+}
+
+/* The whole robot, on wheels that do as they are told. */
+
+static struct robot robot;
+static struct senses senses;
+
+static void start(uint8_t parameter, uint8_t value)
+{
+    const struct command command = {.opcode = OPCODE_START, .which = PROFILE_ARTICLE, .value = 1};
+    uint32_t answer;
+
+    robot_init(&robot, 0);
+    TEST_ASSERT_EQUAL(RESULT_DONE, robot_execute(&robot, &command, &answer));
+    config_set(&robot.config, parameter, value);
+}
+
+static uint16_t rolled(uint16_t odometer, int speed_mm_s)
+{
+    int counts = speed_mm_s * ODOMETER_COUNTS_PER_MM * config.value[TICK_MS] / 1000;
+
+    return (uint16_t)((odometer + counts) & (ODOMETER_SPAN - 1));
+}
+
+static struct drive step(uint8_t feel)
+{
+    struct drive drive;
+
+    senses.feel = feel;
+    robot_step(&robot, &senses, &drive);
+    senses.tick++;
+    senses.odometer_left = rolled(senses.odometer_left, drive.left_mm_s);
+    senses.odometer_right = rolled(senses.odometer_right, drive.right_mm_s);
+    return drive;
+}
+
+static void test_a_glitch_of_one_tick_does_not_end_a_filtered_step(void)
+{
+    start(FILTER, 1);
+    TEST_ASSERT_EQUAL(REASON_WANDER, step(0).reason);
+    TEST_ASSERT_EQUAL(REASON_WANDER, step(FRONT).reason);
+    TEST_ASSERT_EQUAL(200, step(0).left_mm_s);
+}
+
+static void test_a_glitch_of_one_tick_ends_a_step_by_default(void)
+{
+    start(FILTER, 0);
+    TEST_ASSERT_EQUAL(REASON_WANDER, step(0).reason);
+    TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, step(FRONT).reason);
+}
+
+/* Returns for how many ticks the robot rests at the end of a trial. */
+static unsigned ticks_at_rest_in_a_trial(void)
+{
+    unsigned rested = 0;
+
+    while (step(FRONT).reason != REASON_TRIAL)
+        ;
+    for (uint8_t action = robot.action;;) {
+        const struct drive drive = step(FRONT);
+
+        if (robot.action != action)
+            return rested;
+        rested += drive.left_mm_s == 0;
+    }
+}
+
+static void test_filtered_a_trial_is_judged_after_two_ticks_at_rest(void)
+{
+    start(FILTER, 1);
+    TEST_ASSERT_EQUAL_UINT(2, ticks_at_rest_in_a_trial());
+}
+
+static void test_by_default_a_trial_is_judged_at_once(void)
+{
+    start(FILTER, 0);
+    TEST_ASSERT_EQUAL_UINT(0, ticks_at_rest_in_a_trial());
+}
+
+static unsigned ticks_until_it_drives_on(void)
+{
+    unsigned ticks = 0;
+
+    while (step(FRONT).reason != REASON_WANDER)
+        TEST_ASSERT_LESS_THAN_UINT(20000, ticks++);
+    return ticks;
+}
+
+static void test_a_sensor_that_is_stuck_blocks_no_robot_that_distrusts_it(void)
+{
+    start(DISTRUST, LIMIT);
+    ticks_until_it_drives_on();
+}
+
+static void test_a_start_trusts_again(void)
+{
+    start(DISTRUST, LIMIT);
+    ticks_until_it_drives_on();
+    start(DISTRUST, LIMIT);
+    TEST_ASSERT_EQUAL(REASON_TRIAL, step(FRONT).reason);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_by_default_all_is_believed_at_once);
+    RUN_TEST(test_filtered_each_bit_is_what_two_of_three_ticks_say);
+    RUN_TEST(test_a_sensor_is_distrusted_after_so_many_decisions_in_a_row);
+    RUN_TEST(test_the_other_sensors_are_still_believed);
+    RUN_TEST(test_it_stays_distrusted_however_long_it_goes_on);
+    RUN_TEST(test_one_quiet_decision_restores_trust);
+    RUN_TEST(test_a_glitch_of_one_tick_does_not_end_a_filtered_step);
+    RUN_TEST(test_a_glitch_of_one_tick_ends_a_step_by_default);
+    RUN_TEST(test_filtered_a_trial_is_judged_after_two_ticks_at_rest);
+    RUN_TEST(test_by_default_a_trial_is_judged_at_once);
+    RUN_TEST(test_a_sensor_that_is_stuck_blocks_no_robot_that_distrusts_it);
+    RUN_TEST(test_a_start_trusts_again);
+    return UNITY_END();
+}
