@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+from host_sim.protocol.codec import crc8
 from tests.runs.support import ROBOT, ROOT, octet, octet_process
 
 WRONG = {
@@ -18,7 +19,7 @@ WRONG = {
     "a negative seed": (["--seed", "-1"], "'-1'"),
     "no environments": (["--environments", "0"], "1 to 1000"),
     "a limit that is not a number": (["--limit-s", "nan"], "'nan'"),
-    "a node out of range": (["--node", "64"], "1 to 63"),
+    "a node out of range": (["--node", "32"], "1 to 31"),
     "an unknown parameter": (["--set", "colour=3"], "turn_deg"),
     "a parameter without a value": (["--set", "turn_deg"], "turn_deg"),
     "a parameter out of its range": (["--set", "turn_deg=999"], "1 to 180 deg"),
@@ -130,11 +131,18 @@ def test_a_log_cut_anywhere_is_compared_as_far_as_it_goes(run, tmp_path, cut_off
     assert page.stderr == f"octet: {cut} ends before the run does; showing what it has\n"
 
 
+def with_another_layout(line: str) -> str:
+    """A heartbeat of a robot whose messages lie elsewhere."""
+    head, data = line.rstrip("\n").split("#")
+    frame_id, content = int(head[-3:], 16), bytes.fromhex(data)[:-2] + bytes(2)
+    return f"{head}#{crc8(frame_id, content):02X}{content[1:].hex().upper()}\n"
+
+
 def test_a_log_of_another_protocol_is_refused(run, tmp_path):
     done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
     other = tmp_path / "other.log"
     lines = done.log.decode().splitlines(keepends=True)
-    other.write_text("".join(line[:-5] + "0000\n" if " 181#" in line else line for line in lines))
+    other.write_text("".join(with_another_layout(line) if " 6A1#" in line else line for line in lines))
 
     replayed = octet("replay", other)
 
