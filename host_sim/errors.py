@@ -19,3 +19,40 @@ class RobotError(OctetError):
 
 class RefusedError(RobotError):
     """The robot understood a command and refused it; nothing was changed."""
+
+
+class SessionLostError(RobotError):
+    """The robot no longer behaves as the one that was started here; the message says how that was noticed.
+
+    Attributes:
+        contradicts: Whether two frames in the robot's name contradict each other.
+        booted: Whether the robot said that it has started anew.
+        silent: Whether the robot did not answer in time.
+    """
+
+    def __init__(
+        self, message: str, *, contradicts: bool = False, booted: bool = False, silent: bool = False
+    ) -> None:
+        """Takes the message."""
+        super().__init__(message)
+        self.contradicts, self.booted, self.silent = contradicts, booted, silent
+
+
+class RivalError(RobotError):
+    """Somebody else commands the robot."""
+
+
+class TwinError(RobotError):
+    """Two robots have the same node number."""
+
+
+class FirmwareError(RobotError):
+    """The robot runs another firmware than at the start of the run, or one that this simulator does not know."""
+
+
+class LinkDownError(RobotError):
+    """The line to the robot is gone: the other end is closed, the bus is down, the adapter is unplugged."""
+
+
+class DoubtfulError(OctetError):
+    """The run went on to its end and its files were written, but its result is not to be trusted."""

@@ -3,18 +3,23 @@
 import socket
 from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from host_sim.backends.images import BOARDS
 from host_sim.backends.qemu import Qemu
 from host_sim.backends.robot_process import RobotProcess
-from host_sim.errors import RobotError, UsageError
-from host_sim.protocol.codec import Frame, Protocol
+from host_sim.client.robot_client import DEADLINE_S
+from host_sim.errors import UsageError
+from host_sim.protocol.codec import Protocol
 from host_sim.transport.in_process_link import InProcessLink
+from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
+from host_sim.transport.reconnecting_link import ReconnectingLink
 
 _EMULATORS = ("qemu", "emulated")
 _IMAGE_NODE = 1
+_EMULATED_S = 30.0
+"""An emulator on a busy machine may take its time."""
 
 
 @dataclass(frozen=True)
@@ -26,16 +31,28 @@ class Connection:
         bus: Name of the bus, as in the summary.
         status: Describes the state of the robot's process, and raises RobotError if it has ended.
         pid: Process id of the robot; None if it was not started as a process.
+        line: What happens to the line below the frames.
+        deadline_s: Time for the robot to answer, s of wall-clock time.
+        answers_at_once: Whether the robot answers within `send`, or not at all.
     """
 
     link: Link
     bus: str
     status: Callable[[], str]
     pid: int | None = None
+    line: LineStats = field(default_factory=LineStats)
+    deadline_s: float = DEADLINE_S
+    answers_at_once: bool = False
 
 
 def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
-    stack: ExitStack, bus: str, robot: str, node: int, board: str = "", shared: bool = False
+    stack: ExitStack,
+    bus: str,
+    robot: str,
+    node: int,
+    board: str = "",
+    shared: bool = False,
+    reconnect_s: float = 0.0,
 ) -> Connection:
     """Opens a bus and, unless the robot is external, starts a robot on it.
 
@@ -45,9 +62,10 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
             or `fd`.
         robot: `spawn` to start the firmware, `external` for a robot that is on the bus already, `qemu` or `emulated`
             to run the flash image.
-        node: Node number of the robot, 1..63.
+        node: Node number of the robot, 1..31.
         board: One of `BOARDS`, for an emulated robot; empty for the first.
         shared: Whether other robots of this run are on the same bus, each with its own connection.
+        reconnect_s: Time to wait for a bus that is gone, s of wall-clock time.
 
     Raises:
         UsageError: The options contradict each other, or the bus cannot be opened.
@@ -59,12 +77,12 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
     if bus in ("none", "fd") and robot == "external":
         raise UsageError(f"--robot external needs --bus INTERFACE:CHANNEL, the bus that it is on, not --bus {bus}")
     if bus == "none":
-        return Connection(InProcessLink(node), bus, lambda: "runs in this process")
+        return Connection(InProcessLink(node), bus, lambda: "runs in this process", answers_at_once=True)
     if bus == "fd":
         return _over_socket_pair(stack, node)
     if shared and bus.partition(":")[0] != "socketcan":
         raise UsageError(f"several robots need the bus socketcan, fd or none, not {bus}: leave out --robots")
-    return _over_bus(stack, bus, robot, node)
+    return _over_bus(stack, bus, robot, node, reconnect_s)
 
 
 def _in_emulator(stack: ExitStack, bus: str, robot: str, node: int, board: str) -> Connection:
@@ -81,7 +99,8 @@ def _in_emulator(stack: ExitStack, bus: str, robot: str, node: int, board: str) 
 def _in_qemu(stack: ExitStack) -> Connection:
     qemu = Qemu()
     stack.callback(qemu.close)
-    return Connection(qemu.link, "qemu", qemu.status, qemu.pid)
+    qemu.link.explain = qemu.account_for_silence
+    return Connection(qemu.link, "qemu", qemu.status, qemu.pid, deadline_s=_EMULATED_S)
 
 
 def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
@@ -89,7 +108,7 @@ def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
 
     board = start_board(name)
     stack.callback(board.close)
-    return Connection(board, f"emulated {name}", board.status)
+    return Connection(board, f"emulated {name}", board.status, deadline_s=_EMULATED_S)
 
 
 # A run in this process needs no python-can, which makes up a quarter of its imports' time.
@@ -100,53 +119,29 @@ def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
     from host_sim.transport.socket_pair_bus import SocketPairBus  # noqa: PLC0415 - see above
 
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    line = LineStats()
     with theirs:
-        link = BusLink(SocketPairBus(ours.detach()))
+        link = BusLink(SocketPairBus(ours.detach()), line)
         stack.callback(link.close)
         process = RobotProcess(f"fd:{theirs.fileno()}", node, [theirs.fileno()])
     stack.callback(process.close)
-    return Connection(_ProcessLink(link, process), "fd", process.status, process.pid)
+    link.explain = process.account_for_silence
+    return Connection(link, "fd", process.status, process.pid, line)
 
 
-@dataclass(frozen=True)
-class _ProcessLink:
-    """The link to a process, which says how the process ended when the link is closed."""
+def _over_bus(stack: ExitStack, bus: str, robot: str, node: int, reconnect_s: float) -> Connection:
+    from host_sim.transport.buses import open_bus_link  # noqa: PLC0415 - see above
 
-    link: Link
-    process: RobotProcess
-
-    def send(self, frame: Frame) -> None:
-        """As in `Link`."""
-        try:
-            self.link.send(frame)
-        except RobotError:
-            self.process.account_for_silence()
-            raise
-
-    def receive(self, timeout_s: float) -> Frame | None:
-        """As in `Link`."""
-        try:
-            return self.link.receive(timeout_s)
-        except RobotError:
-            self.process.account_for_silence()
-            raise
-
-    def close(self) -> None:
-        """As in `Link`."""
-        self.link.close()
-
-
-def _over_bus(stack: ExitStack, bus: str, robot: str, node: int) -> Connection:
-    from host_sim.transport.bus_link import BusLink  # noqa: PLC0415 - see above
-    from host_sim.transport.buses import open_bus  # noqa: PLC0415 - see above
-
-    link = BusLink(open_bus(bus, Protocol(node).ids_from("ROBOT")))
+    line, protocol = LineStats(), Protocol(node)
+    # What only simulators send is listened for as well: whoever sends it commands the same robot.
+    ids = [*protocol.ids_from("ROBOT"), *protocol.ids_from("SIM")]
+    link = ReconnectingLink(f"the bus {bus}", lambda: open_bus_link(bus, ids, line), line, reconnect_s)
     stack.callback(link.close)
     interface = bus.partition(":")[0]
     if robot == "external":
-        return Connection(link, bus, lambda: "was not started here")
+        return Connection(link, bus, lambda: "was not started here", line=line)
     if interface != "socketcan":
         raise UsageError(f"a robot cannot be started on {interface}, only on socketcan or fd: use --robot external")
     process = RobotProcess(bus, node)
     stack.callback(process.close)
-    return Connection(link, bus, process.status, process.pid)
+    return Connection(link, bus, process.status, process.pid, line)

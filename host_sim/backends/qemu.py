@@ -72,6 +72,16 @@ class Qemu:
         printed = self._process.stderr.read().decode(errors="replace").strip().replace("\n", " / ")
         raise RobotError(f"QEMU ended with exit code {code} and printed: {printed or 'nothing'}")
 
+    def account_for_silence(self) -> None:
+        """Waits a moment for the end of a process whose line is closed.
+
+        Raises:
+            RobotError: The process has ended; the message says how.
+        """
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(_END_S)
+        self.status()
+
     def close(self) -> None:
         """Kills the process, which has nothing to save."""
         self._process.kill()
@@ -84,9 +94,7 @@ class Qemu:
         try:
             frame = self.link.receive(_READY_S)
         except RobotError:
-            with suppress(subprocess.TimeoutExpired):
-                self._process.wait(_END_S)
-            self.status()
+            self.account_for_silence()
             raise
         if frame is None:
             raise RobotError(f"the robot in QEMU sent nothing for {_READY_S:g} s; it {self.status()}")

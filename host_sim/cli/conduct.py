@@ -8,13 +8,15 @@ from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
 
+from host_sim.atomic_file import write_bytes
 from host_sim.cli.interruption import interrupted_between_ticks
 from host_sim.cli.outputs import LOG, PAGE, PICTURE, SUMMARY, Outputs
 from host_sim.cli.run_options import RunOptions, WatchOptions, run_options
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import OctetError
+from host_sim.errors import DoubtfulError, OctetError
+from host_sim.faults.faulty_link import FaultyLink
 from host_sim.live.browser import watch_run
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.progress import Progress
@@ -29,6 +31,9 @@ from host_sim.regular_file import read_bytes
 from host_sim.sim.make import Memory, make, start_robots
 from host_sim.sim.simulation import Simulation
 
+FAULTS = "faults.txt"
+"""The faults that were made on purpose, in the folder of a run."""
+
 _NOTHING = (0,) * CELL_COUNT
 _SUMMARY_MAX = 10_000_000
 
@@ -36,11 +41,13 @@ _SUMMARY_MAX = 10_000_000
 def conduct_watched(arguments: argparse.Namespace, watch: WatchOptions) -> Summary:
     """Conducts a run that people watch.
 
-    The page sets the pace, so the robot waits for it (lockstep). `--bus auto` means `fd` here: in a network namespace
-    with its own bus, no browser could reach the page.
+    The page sets the pace, so the robot waits for it (lockstep); an external robot has its own clock, and the page
+    follows. `--bus auto` means `fd` here: in a network namespace with its own bus, no browser could reach the page.
     """
+    external = arguments.robot == "external"
+    watch = replace(watch, speed=1.0) if external else watch
     options = run_options(arguments, "fd" if arguments.bus == "auto" else arguments.bus, watch)
-    return conduct(replace(options, config=replace(options.config, real_time=False)))
+    return conduct(replace(options, config=replace(options.config, real_time=external)))
 
 
 def conduct(options: RunOptions) -> Summary:
@@ -63,6 +70,7 @@ def conduct(options: RunOptions) -> Summary:
             simulation = stack.enter_context(
                 make(options.config, log, memories, lambda client: _print_robot(options, client))
             )
+            stack.callback(_write_faults, options.out / FAULTS, simulation.clients)
             recorder = RunRecorder.of(simulation, _boredom_limit(options))
             _save_memories(stack, simulation, options, loaded)
             outputs = Outputs(options, simulation, recorder, log)
@@ -75,6 +83,7 @@ def conduct(options: RunOptions) -> Summary:
                 raise
             summary = outputs.write()
     _print_results(options, summary)
+    _check_trust(summary)
     return summary
 
 
@@ -105,6 +114,21 @@ def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
                 stop(client)
     with suppress(OctetError):
         outputs.write()
+
+
+def _check_trust(summary: Summary) -> None:
+    if summary.incidents:
+        first, *more = summary.incidents
+        others = f" (and {len(more)} more in {SUMMARY})" if more else ""
+        raise DoubtfulError(f"the result is not to be trusted: {first}{others}")
+
+
+def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
+    """Writes the faults that were made, as rules for single frames."""
+    schedules = [client.link.schedule for client in clients if isinstance(client.link, FaultyLink)]
+    if schedules:
+        rules = [str(rule) for schedule in schedules for rule in schedule.struck]
+        write_bytes(path, "".join(f"{rule}\n" for rule in rules).encode())
 
 
 def _print_robot(options: RunOptions, client: RobotClient) -> None:

@@ -6,6 +6,8 @@ from pathlib import Path
 
 from host_sim.backends.images import BOARDS
 from host_sim.cli.parsing import number, setting
+from host_sim.faults.bus_faults import FAULTS
+from host_sim.faults.rule import read_rules
 from host_sim.protocol.generated import NODE_MAX, PROFILES
 from host_sim.sim.run_config import ROBOTS, RunConfig
 
@@ -108,6 +110,7 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
         metavar="NODE",
         help=f"the robot's number on the bus, 1..{NODE_MAX}; further robots get the next ones" + _DEFAULT,
     )
+    _add_session_options(parser)
     add(
         "--limit-s",
         type=number(1, 36000, float),
@@ -130,6 +133,40 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
     )
     add("--json", action="store_true", help="print only the summary, as JSON")
     add("--quiet", action="store_true", help="print nothing")
+
+
+def _add_session_options(parser: argparse.ArgumentParser) -> None:
+    """Adds the options for a bus that others use too, or that fails."""
+    add, default = parser.add_argument, RunConfig()
+    add(
+        "--owner",
+        type=number(1, 255),
+        default=default.owner,
+        metavar="N",
+        help="number of this simulator, by which robots on a shared bus know whom they obey, 1..255" + _DEFAULT,
+    )
+    add(
+        "--reconnect-s",
+        type=number(0, 3600, float),
+        default=default.reconnect_s,
+        metavar="S",
+        help="time to wait for a bus or an adapter that is gone, s (default: %(default)g)",
+    )
+    add(
+        "--fault",
+        action="append",
+        default=[],
+        metavar="RULE",
+        help="make a fault on the way to the robot and back: NAME[:CHANCE%%][:SIZE][@FIRST[-LAST]][/to|/from], where "
+        f"NAME is {', '.join(FAULTS)} and frames are counted from 1; @FILE: rules from a file; may be repeated",
+    )
+    add(
+        "--fault-seed",
+        type=number(0, 2**32 - 1),
+        default=default.fault_seed,
+        metavar="SEED",
+        help="seed for the faults" + _DEFAULT,
+    )
 
 
 def add_watch_options(parser: argparse.ArgumentParser) -> None:
@@ -159,5 +196,6 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
     """
     names = {field.name for field in fields(RunConfig)} & vars(arguments).keys()
     given = {name: getattr(arguments, name) for name in names}
-    config = RunConfig(**{**given, "settings": dict(arguments.set), "bus": bus})
+    faults = tuple(rule for text in arguments.fault for rule in read_rules(text))
+    config = RunConfig(**{**given, "settings": dict(arguments.set), "bus": bus, "faults": faults})
     return RunOptions(config, arguments.memory, arguments.out, arguments.quiet, arguments.json, watch)

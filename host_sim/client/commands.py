@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
 from host_sim.protocol.generated import CELL_COUNT, MEMORY_KINDS, PROFILES, MemoryKind
 from host_sim.protocol.memory_kinds import translated, with_sides
 
@@ -26,12 +27,14 @@ def start(
         RefusedError: The robot refuses a command.
         RobotError: The robot does not answer.
     """
+    client.session = None
     client.command("start", profile=profile, seed=seed, lockstep=int(client.lockstep))
     client.memory_kind = _KINDS[profile]
     for name, value in settings.items():
         client.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)
     if memory is not None:
         _write(client, dict(enumerate(translated(tuple(memory), client.memory_kind))))
+    client.session = Session(seed, profile, settings)
 
 
 def stop(client: RobotClient) -> None:
@@ -40,8 +43,9 @@ def stop(client: RobotClient) -> None:
     Raises:
         RobotError: The robot does not answer.
     """
-    client.command("stop")
-    client.await_rest("stop")
+    client.session = None
+    client.demand_reports("stop")
+    client.check_settled()
 
 
 def write_cells(client: RobotClient, sides: Mapping[int, int]) -> None:
@@ -68,7 +72,7 @@ def erase_memory(client: RobotClient) -> None:
         RobotError: The robot does not answer.
     """
     client.command("erase")
-    _await_memory(client, "erase")
+    client.await_memory()
 
 
 def freeze(client: RobotClient, on: bool) -> None:
@@ -78,6 +82,8 @@ def freeze(client: RobotClient, on: bool) -> None:
         RobotError: The robot does not answer.
     """
     client.command("freeze", freeze=int(on))
+    if client.session is not None:
+        client.session.frozen = on
 
 
 def _write(client: RobotClient, content: Mapping[int, int]) -> None:
@@ -90,10 +96,4 @@ def _write(client: RobotClient, content: Mapping[int, int]) -> None:
         if cells:
             content_of_half = {f"byte_{i}": cells.get(i, 0) for i in range(_HALF)}
             client.command("write", mask=sum(1 << i for i in cells), half=half, **content_of_half)
-            _await_memory(client, "write")
-
-
-def _await_memory(client: RobotClient, after: str) -> None:
-    """Waits for both halves of the memory."""
-    while client.expect("MEMORY", after).signals["half"] == 0:
-        pass
+            client.await_memory()

@@ -1,43 +1,52 @@
 """The handshake: the robot stops, identifies itself, and is rejected if it uses another protocol."""
 
-import time
-
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import RobotError
-from host_sim.protocol.codec import DecodedFrame
+from host_sim.errors import RivalError, RobotError
+from host_sim.protocol.codec import Frame
+
+_LISTEN_S = 0.1
+"""A robot that is driven by another simulator receives senses more often than this."""
 
 
-def handshake(client: RobotClient, timeout_s: float, retry_s: float | None = None) -> None:
+def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) -> None:
     """Stops the robot and receives its reports; the log begins with these frames.
 
     Args:
-        client: A client that has not sent anything yet.
-        timeout_s: Time to wait for the robot, s of wall-clock time.
-        retry_s: Time after which to send the command again, for a robot that may not be on the bus yet, s of
-            wall-clock time. None for a robot that is listening: the command is sent once.
+        client: A client whose robot is not started.
+        timeout_s: Time to wait for the robot, s.
+        shared: Whether others may be on the bus: they are listened for first.
 
     Raises:
-        RobotError: The robot does not answer, or was built from another layout of the messages.
+        FirmwareError: The robot was built from another layout of the messages.
+        RivalError: Another simulator drives the robot.
+        RobotError: The robot does not answer.
     """
-    client.recording = False
-    give_up = time.monotonic() + timeout_s
-    while True:
-        stop = client.send_command("stop", {})
-        answer = client.await_answer(retry_s or timeout_s)
-        if answer is not None:
-            break
-        if time.monotonic() >= give_up:
+    held: list[Frame] = []
+    client.inbox.record = held.append
+    try:
+        if shared:
+            _listen(client)
+        client.reports.forget()
+        client.expect_reports("stop")
+        if client.ask("stop", {}, timeout_s) is None:
             raise RobotError(f"no robot answered as node {client.node} within {timeout_s:g} s; {client.account()}")
-    _check_hash(client, client.expect("HEARTBEAT", "stop"))
-    assert client.last is not None
-    for frame in (stop, answer, client.last):
+        assert client.inbox.last is not None
+        held[:] = [client.inbox.asked, client.inbox.last]
+        if not client.await_reports():
+            client.demand_reports("stop")
+        client.firmware = client.firmware or client.reports.boot
+    finally:
+        client.inbox.record = client.log.add
+    for frame in held:
         client.log.add(frame)
-    client.recording = True
-    client.await_rest("stop")
 
 
-def _check_hash(client: RobotClient, heartbeat: DecodedFrame) -> None:
-    theirs, ours = heartbeat.signals["layout"], client.protocol.layout
-    if not client.protocol.fits(theirs):
-        hashes = f"hash {theirs:04X}, ours {ours:04X}"
-        raise RobotError(f"the robot was built from another octet.dbc ({hashes}): rebuild it")
+def _listen(client: RobotClient) -> None:
+    """Makes sure that nobody else drives the robot, before it is stopped."""
+    client.listen(_LISTEN_S)
+    rival = client.inbox.rival
+    if rival is not None:
+        raise RivalError(
+            f"node {client.node} is driven by another simulator: heard {client.protocol.describe(rival)}; "
+            "end that one, or use another --node"
+        )

@@ -1,17 +1,22 @@
-"""A client for one robot: sends commands and senses, receives answers and drives, and logs every frame."""
+"""A client for one robot: sends commands and senses until they are answered, and logs every frame once."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TypeVar
 
 from host_sim.client.frame_log import FrameLog
-from host_sim.errors import RefusedError, RobotError
+from host_sim.client.inbox import Inbox
+from host_sim.client.incident import Incident
+from host_sim.client.robot_reports import RobotReports
+from host_sim.client.round_trip import RoundTrip
+from host_sim.client.session import FrameCounts, Session
+from host_sim.errors import RefusedError, RivalError, RobotError, SessionLostError
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol
-from host_sim.protocol.generated import CELL_COUNT, TICK_SPAN, MemoryKind, Opcode, Reason
-from host_sim.protocol.memory_kinds import kinds_of
-from host_sim.protocol.memory_report import MemoryReport
-from host_sim.robot_io import REST, Drive, Senses
+from host_sim.protocol.generated import MemoryKind, Opcode, Result
+from host_sim.robot_io import Drive, Senses
+from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
 
 T = TypeVar("T")
@@ -19,27 +24,15 @@ T = TypeVar("T")
 DEADLINE_S = 5.0
 """Time for the robot to answer before it is given up, s of wall-clock time."""
 
-_TICK_MASK = TICK_SPAN - 1
 _LOOK_ALIVE_S = 0.2
-_NO_DRIVE = REST._replace(tick=_TICK_MASK)
-_FROM_ROBOT = frozenset({"ANSWER", "EMERGENCY", "MEMORY", "HEARTBEAT", "BOOT", "FAULTS", "HEALTH", "CRASH"})
-
-
-@dataclass
-class FrameCounts:
-    """Frame counters of a client; `summary.frame_counts` adds those that the robot reports.
-
-    Attributes:
-        sent: Number of frames sent to the robot.
-        received: Number of valid frames received from it.
-        lost: Number of senses that were not answered in time.
-        refused: Number of frames that were damaged, stale or foreign.
-    """
-
-    sent: int = 0
-    received: int = 0
-    lost: int = 0
-    refused: int = 0
+_REPEAT_S = 0.1
+_REPORT_S = 1.0
+_REPORT_DEMANDS = 20
+_DUST_S = 1e-6
+_JUMP = 7
+_TIMED_TICKS = 16
+_WAITING_MAX = 64
+_NO_FRAME = Frame(-1, b"")
 
 
 @dataclass
@@ -49,19 +42,20 @@ class RobotClient:
     Attributes:
         link: Carries the frames.
         protocol: Encodes and decodes them.
-        log: Records every frame sent and every valid frame received, in order.
+        log: Records every frame sent and every valid frame received, in order. What is repeated, and what a robot
+            says only because it waits, is left out: the log does not depend on how long things took.
         lockstep: Whether the simulator's clock counts: the robot waits for senses as long as they take.
         owner: Number of this simulator, 1..255, by which the robot knows whom it obeys.
         status: Describes the state of the robot's process, and raises RobotError if it has ended.
         bus: Name of the bus that the robot is on.
         deadline_s: Time for the robot to answer, s of wall-clock time.
-        memory: The eight bytes, as last reported by the robot.
-        memory_kind: What they mean to the behaviour with which it was started.
-        faults: The robot's fault counters, as last reported by it.
-        frames: Frame counters.
-        last: The last valid frame received from the robot.
-        recording: Whether received frames are logged.
-        senses_counter: Alive counter of the last SENSES.
+        now: Tells the time in which the link waits, s.
+        line: What happens to the line below the frames.
+        round_trip: How long answers take.
+        incidents: What happened that makes the result of the run doubtful.
+        firmware: The signals of the BOOT in the handshake, which name the firmware.
+        memory_kind: What the bytes of its memory mean to the behaviour with which it was started.
+        inbox: Takes in what comes.
     """
 
     link: Link
@@ -72,118 +66,225 @@ class RobotClient:
     status: Callable[[], str] = lambda: "was not started here"
     bus: str = ""
     deadline_s: float = DEADLINE_S
-    memory: tuple[int, ...] = (0,) * CELL_COUNT
+    now: Callable[[], float] = time.monotonic
+    line: LineStats = field(default_factory=LineStats)
+    round_trip: RoundTrip = field(default_factory=RoundTrip)
+    incidents: list[Incident] = field(default_factory=list)
+    firmware: Mapping[str, int] = field(default_factory=dict)
     memory_kind: MemoryKind = MemoryKind.SIDES
-    faults: dict[str, int] = field(default_factory=dict)
-    frames: FrameCounts = field(default_factory=FrameCounts)
-    last: Frame | None = None
-    recording: bool = True
-    senses_counter: int = COUNTERS - 1
+    inbox: Inbox = field(init=False)
     _counter: int = 0
-    _sent_tick: int = 0
-    _report: MemoryReport = field(default_factory=MemoryReport)
-    _drive: Drive = _NO_DRIVE
+    _senses: Frame = _NO_FRAME
+    _sent_s: float = 0.0
+    _timed: bool = False
+    _lossy: bool = False
+    _unsettled: int | None = None
+
+    def __post_init__(self) -> None:
+        self.inbox = Inbox(self.protocol, self.log.add, self.now, self.lockstep, self.owner)
+        self._take_drive = self.inbox.take_drive
 
     @property
     def node(self) -> int:
         """The robot's node number on the bus."""
         return self.protocol.node
 
-    def command(self, opcode: str, **signals: int) -> None:
-        """Sends a command and waits for its answer.
+    @property
+    def reports(self) -> RobotReports:
+        """What the robot has reported."""
+        return self.inbox.reports
+
+    @property
+    def memory(self) -> tuple[int, ...]:
+        """The eight cells, as last reported by the robot."""
+        return self.inbox.reports.memory
+
+    @property
+    def faults(self) -> dict[str, int]:
+        """The robot's fault counters, as last reported by it."""
+        return self.inbox.reports.faults
+
+    @property
+    def frames(self) -> FrameCounts:
+        """Frame counters."""
+        return self.inbox.counts
+
+    @property
+    def session(self) -> Session | None:
+        """How the robot was started; None while it is stopped."""
+        return self.inbox.session
+
+    @session.setter
+    def session(self, session: Session | None) -> None:
+        self.inbox.session = session
+
+    @property
+    def last(self) -> Frame | None:
+        """The last valid frame received from the robot."""
+        return self.inbox.last
+
+    @property
+    def tick(self) -> int:
+        """Number of the last tick whose senses were sent, from 0."""
+        return self.inbox.tick
+
+    def distrust(self, what: str) -> None:
+        """Notes that something happened which makes the result of the run doubtful."""
+        self.incidents.append(Incident(self.tick, self.node, what))
+
+    def command(self, opcode: str, **signals: int) -> DecodedFrame:
+        """Sends a command until it is answered.
 
         Args:
             opcode: Name of the command.
             **signals: The command's signals, by name.
 
+        Returns:
+            The answer.
+
         Raises:
             RefusedError: The robot refuses the command.
             RobotError: The robot does not answer.
         """
-        command = self.send_command(opcode, signals)
-        self.log.add(command)
-        if self.await_answer(self.deadline_s) is None:
+        answer = self.ask(opcode, signals, self.deadline_s)
+        if answer is None:
             raise RobotError(f"the robot did not answer {opcode} within {self.deadline_s:g} s; {self.account()}")
+        return answer
 
-    def send_command(self, opcode: str, signals: Mapping[str, int]) -> Frame:
-        """Sends a command without waiting for its answer, and without logging it."""
-        self._counter = (self._counter + 1) % COUNTERS
-        fixed = {"counter": self._counter, "opcode": Opcode[opcode.upper()], "owner": self.owner}
-        frame = self.protocol.encode("COMMAND", {**fixed, **signals})
-        self.link.send(frame)
-        self.frames.sent += 1
-        return frame
+    def ask(self, opcode: str, signals: Mapping[str, int], timeout_s: float) -> DecodedFrame | None:
+        """As `command`, but None if there is no answer in time.
 
-    def await_answer(self, timeout_s: float) -> Frame | None:
-        """The answer to the last command, or None after `timeout_s`.
+        A command whose counter the robot does not take is sent with another one: in a session that was cut short, the
+        robot counted on from other commands.
+        """
+        answer = None
+        for jump in (1, _JUMP, _JUMP):
+            self._counter = (self._counter + jump) % COUNTERS
+            answer = self._ask_once(self._command(opcode, signals), timeout_s)
+            if answer is None or answer.signals["result"] != Result.OUT_OF_SEQUENCE:
+                break
+        if answer is None or answer.signals["result"] == Result.DONE:
+            return answer
+        if answer.signals["result"] == Result.OWNED:
+            raise RivalError(f"node {self.node} obeys another simulator (tick {self.tick}): end one of the two")
+        assert self.inbox.last is not None
+        raise RefusedError(f"the robot refused a command: {self.protocol.describe(self.inbox.last)}")
+
+    def demand_reports(self, opcode: str) -> None:
+        """Asks with `report` or `stop` until every report has come, and after a stop until the wheels rest.
 
         Raises:
-            RefusedError: The robot refuses the command.
-            RobotError: The robot has ended.
+            RobotError: The robot does not answer.
         """
-        give_up = time.monotonic() + timeout_s
-        while (answer := self.receive("ANSWER", give_up - time.monotonic())) is not None:
-            if answer.signals["counter"] != self._counter:
-                continue
-            if answer.signals["result"] != 0:
-                assert self.last is not None
-                raise RefusedError(f"the robot refused a command: {self.protocol.describe(self.last)}")
-            return self.last
-        return None
+        self.expect_reports(opcode)
+        for _ in range(_REPORT_DEMANDS):
+            self.reports.await_end()
+            self.command(opcode)
+            if self.await_reports():
+                return
+        raise RobotError(f"the robot did not report all after {opcode}; {self.account()}")
 
-    def expect(self, name: str, after: str) -> DecodedFrame:
-        """The next message of a kind that the robot sends after a command.
+    def expect_reports(self, opcode: str) -> None:
+        """Prepares for the reports that `report` or `stop` asks for."""
+        self.reports.await_all()
+        self.inbox.reporting, self.inbox.rested = True, opcode != "stop"
 
-        Args:
-            name: Name of the message.
-            after: The command, for the error message.
+    def await_reports(self) -> bool:
+        """Whether every report comes that was asked for; False as soon as one is known to be missing."""
+        give_up = self.now() + self.deadline_s
+        while not (self.reports.complete and self.inbox.rested):
+            heard = self._receive(self._take_any, _REPORT_S)
+            if heard is None or self.now() > give_up or (self.reports.ended and not self.reports.complete):
+                return False
+        self.inbox.reporting = False
+        return True
+
+    def await_memory(self) -> None:
+        """Waits for the memory that the robot reports after a change, and asks for it if it was lost on the way.
 
         Raises:
-            RobotError: The robot does not send it.
+            RobotError: The robot does not report it.
         """
-        decoded = self.receive(name, self.deadline_s)
-        if decoded is None:
-            raise RobotError(f"the robot sent no {name} after {after}; {self.account()}")
-        return decoded
+        if self._receive(self.inbox.take_memory, _REPORT_S) is None:
+            self.demand_reports("report")
+
+    def listen(self, seconds: float) -> None:
+        """Takes in what comes, for some time."""
+        self._receive(self.inbox.take, seconds)
 
     def send_senses(self, senses: Senses) -> None:
         """Sends the senses of one tick, and logs them."""
-        self.senses_counter = (self.senses_counter + 1) % COUNTERS
-        frame = self.protocol.encode_senses(senses, self.senses_counter)
-        self._sent_tick = senses.tick
+        inbox = self.inbox
+        inbox.ticks += 1
+        inbox.sent_tick = senses.tick
+        inbox.sent_counter = counter = inbox.ticks % COUNTERS
+        self._senses = frame = self.protocol.encode_senses(senses, counter)
+        # On some kernels, reading the clock takes longer than all the rest.
+        self._timed = inbox.ticks % _TIMED_TICKS == 0 or not self.round_trip.is_sure
+        if self._timed:
+            self._sent_s = self.now()
         self.link.send(frame)
-        self.frames.sent += 1
-        self.log.add(frame)  # while the robot thinks
+        inbox.counts.sent += 1
+        inbox.record(frame)  # while the robot thinks
+
+    def repeat_senses(self) -> None:
+        """Sends the senses of the last tick again."""
+        self.inbox.owed += 1
+        self._repeat(self._senses)
+
+    def await_drive(self) -> Drive:
+        """In lockstep: the answer to the last senses, which are repeated until it comes.
+
+        Raises:
+            SessionLostError: The robot does not answer by the deadline, may no longer be the one that was started, or
+                no longer be alone.
+            RobotError: The robot has ended.
+        """
+        frame = self.link.receive(self.round_trip.timeout_s)
+        drive = None if frame is None else self._take_drive(frame)
+        if drive is None:
+            return self._await_late_drive(was_silent=frame is None)
+        if self._timed:
+            self.round_trip.sample(self.now() - self._sent_s)
+        return drive
 
     def receive_drive(self, timeout_s: float) -> Drive | None:
-        """The next fresh drive, or None after `timeout_s`; 0 polls. Other messages are accepted too.
+        """The next fresh drive, or None after `timeout_s`; 0 polls. Other messages are taken in too.
 
         Raises:
+            SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
             RobotError: The robot has ended.
         """
-        wait_s = min(timeout_s, _LOOK_ALIVE_S)
-        frame = self.link.receive(wait_s)
-        drive = None if frame is None else self._accept_drive(frame)
-        if drive is not None or timeout_s == 0.0:
-            return drive
-        return self._receive(self._accept_drive, timeout_s - wait_s if frame is None else timeout_s)
+        return self._receive(self._take_drive, timeout_s)
 
-    def receive(self, name: str, timeout_s: float) -> DecodedFrame | None:
-        """The next message of a kind, or None after `timeout_s`. Other messages are accepted too.
-
-        Args:
-            name: Name of the message, any but DRIVE.
-            timeout_s: Time to wait, s; 0 polls.
+    def settle(self) -> None:
+        """At the end of an environment: makes sure that the reported memory is the robot's, if frames get lost.
 
         Raises:
-            RobotError: The robot has ended.
+            SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
+            RobotError: The robot does not answer.
         """
+        if self.inbox.owed:
+            self._receive(self._take_owed, self.round_trip.timeout_s)
+        self._lossy = self._lossy or self.inbox.owed > 0
+        self.inbox.owed = 0
+        self.reports.gap = None
+        self._unsettled = None if self._lossy else self.tick
+        if self._lossy:
+            self.demand_reports("report")
 
-        def accept(frame: Frame) -> DecodedFrame | None:
-            decoded = self._accept_report(frame)
-            return decoded if decoded is not None and decoded.name == name else None
+    def check_settled(self) -> None:
+        """Notes if it has turned out since that a memory was lost at the end of an environment."""
+        if self._unsettled is not None and self.reports.gap:
+            self.distrust(
+                f"an environment ended at tick {self._unsettled}, and its last memory may have been lost on the way"
+            )
+        self._unsettled = None
 
-        return self._receive(accept, timeout_s)
+    @property
+    def senses_counter(self) -> int:
+        """Alive counter of the last SENSES."""
+        return self.inbox.ticks % COUNTERS
 
     def catch_up(self, ticks: int, drive: Drive, frame: Frame, received: int) -> None:
         """Takes over ticks whose frames were exchanged and logged elsewhere.
@@ -194,16 +295,25 @@ class RobotClient:
             frame: Its frame.
             received: Number of frames received from the robot.
         """
-        self._sent_tick, self._drive, self.last = drive.tick, drive, frame
+        self.inbox.catch_up(ticks, drive, frame)
+        self.reports.forget()
         self.frames.sent += ticks
         self.frames.received += received
 
     def take_reports(self, reports: Sequence[Frame]) -> None:
-        """Takes over reports of the robot that came in such ticks, in order."""
+        """Takes over reports of the robot that came in such ticks, in order; those in between are not told."""
+        self._unsettled = None
         for frame in reports:
             decoded = self.protocol.decode(frame)
             if decoded is not None:
-                self._note(decoded)
+                self.reports.take(decoded)
+
+    def rest(self) -> None:
+        """Stops the wheels, without waiting for an answer."""
+        self.session = None
+        self._counter = (self._counter + 1) % COUNTERS
+        with suppress(RobotError):
+            self.link.send(self._command("stop", {}))
 
     def late(self, tick: int) -> RobotError:
         """The error for a drive that did not come by the deadline."""
@@ -211,102 +321,76 @@ class RobotClient:
 
     def account(self) -> str:
         """The last frame from the robot and the state of its process, for error messages."""
-        last = "none" if self.last is None else self.protocol.describe(self.last)
-        return f"last frame from it: {last}; it {self.status()}"
+        last = self.inbox.last
+        said = "none" if last is None else self.protocol.describe(last)
+        return f"last frame from it: {said}; it {self.status()}{self.line.account()}"
 
-    def _receive(self, accept: Callable[[Frame], T | None], timeout_s: float) -> T | None:
-        """Receives frames until one is accepted, or until the timeout."""
-        give_up = None
-        wait_s = timeout_s
+    def _command(self, opcode: str, signals: Mapping[str, int]) -> Frame:
+        fixed = {"counter": self._counter, "opcode": Opcode[opcode.upper()], "owner": self.owner}
+        return self.protocol.encode("COMMAND", {**fixed, **signals})
+
+    def _ask_once(self, command: Frame, timeout_s: float) -> DecodedFrame | None:
+        self.inbox.expect_answer(command)
+        self.inbox.record(command)
+        self.frames.sent += 1
+        began, repeated = self.now(), self.frames.repeated
+        self.link.send(command)
+        answer = self._await(lambda: self._repeat(command), self.inbox.take_answer, timeout_s)
+        if answer is not None and self.frames.repeated == repeated:
+            self.round_trip.sample(self.now() - began)
+        return answer
+
+    def _await_late_drive(self, *, was_silent: bool) -> Drive:
+        if was_silent:
+            self.status()
+            self.repeat_senses()
+        drive = self._await(self.repeat_senses, self._take_drive, self.deadline_s)
+        if drive is None:
+            raise SessionLostError("it does not answer", silent=True)
+        if self._timed:
+            self.round_trip.note(self.now() - self._sent_s)
+        return drive
+
+    def _await(self, repeat: Callable[[], None], take: Callable[[Frame], T | None], timeout_s: float) -> T | None:
+        """Receives frames until one is what was waited for; what was sent is repeated when that takes too long."""
+        left_s, wait_s = timeout_s, self.round_trip.timeout_s
         while True:
-            frame = self.link.receive(min(wait_s, _LOOK_ALIVE_S))
+            result = self._receive(take, min(wait_s, left_s))
+            left_s -= wait_s
+            if result is not None or left_s <= 0:
+                return result
+            repeat()
+            wait_s = min(self.round_trip.timeout_s, _REPEAT_S)
+
+    def _repeat(self, frame: Frame) -> None:
+        if self.round_trip.is_sure:
+            self.round_trip.back_off()
+        self.link.send(frame)
+        self.frames.repeated += 1
+
+    def _receive(self, take: Callable[[Frame], T | None], timeout_s: float) -> T | None:
+        """Receives frames until one is what was waited for, or until the timeout.
+
+        Only the time of waiting counts: a host that was held up, or a line that was gone, costs the robot nothing.
+        """
+        left_s, spare = timeout_s, _WAITING_MAX
+        while True:
+            asked_s, before_s = min(left_s, _LOOK_ALIVE_S), self.now()
+            frame = self.link.receive(asked_s)
             if frame is None:
                 self.status()
-            elif (result := accept(frame)) is not None:
+            elif (result := take(frame)) is not None:
                 return result
-            # The clock is read only now: usually the first frame is accepted, and on some kernels reading the clock
-            # takes longer than everything else.
-            now = time.monotonic()
-            if give_up is None:
-                give_up = now + timeout_s - (min(wait_s, _LOOK_ALIVE_S) if frame is None else 0.0)
-            wait_s = give_up - now
-            if wait_s <= 0.0:
+            left_s = max(left_s - min(self.now() - before_s, asked_s), 0.0)
+            spare -= left_s <= _DUST_S  # what waits already is taken in, even if this host was held up
+            if left_s <= _DUST_S and (frame is None or not spare or not timeout_s):
                 return None
 
-    def _accept_drive(self, frame: Frame) -> Drive | None:
-        """The drive in a frame, if it answers senses that were not answered yet; None for any other frame."""
-        drive = self.protocol.decode_drive(frame)
-        if drive is None:
-            self._accept_report(frame)
-            return None
-        if drive.reason == Reason.SILENCE:
-            return self._accept_rest(drive, frame)
-        ahead = (drive.tick - self._drive.tick) & _TICK_MASK
-        if drive.reason == Reason.STOP or not 0 < ahead <= (self._sent_tick - self._drive.tick) & _TICK_MASK:
-            self.frames.refused += 1
-            return None
-        self._drive, self.last = drive, frame
-        self.frames.received += 1
-        if self.recording:
-            self.log.add(frame)
-        return drive
-
-    def _accept_rest(self, drive: Drive, frame: Frame) -> Drive | None:
-        """A robot that hears no senses says that its wheels rest; in lockstep, that only tells of a slow host."""
-        if self.lockstep:
-            return None
-        self.last = frame
-        self.frames.received += 1
-        if self.recording:
-            self.log.add(frame)
-        return drive
-
-    def await_rest(self, after: str) -> None:
-        """Waits for the DRIVE at rest that ends the answer to a stop, and logs it.
-
-        Raises:
-            RobotError: It does not come.
-        """
-
-        def accept(frame: Frame) -> Drive | None:
-            drive = self.protocol.decode_drive(frame)
-            if drive is None:
-                self._accept_report(frame)
-            if drive is None or drive.reason != Reason.STOP:
-                return None
-            self.last = frame
-            self.frames.received += 1
-            self.log.add(frame)
-            return drive
-
-        if self._receive(accept, self.deadline_s) is None:
-            raise RobotError(f"the robot sent no DRIVE after {after}; {self.account()}")
-
-    def _accept_report(self, frame: Frame) -> DecodedFrame | None:
-        """The report in a frame; None if the frame is damaged, not from the robot, or holds an invalid memory."""
-        decoded = self.protocol.decode(frame)
-        if decoded is not None and decoded.name == "DRIVE":
-            self._accept_drive(frame)
-            return None
-        if decoded is not None and decoded.signals.get("silent") and self.lockstep:
-            return None
-        if decoded is None or decoded.name not in _FROM_ROBOT or not self._note(decoded):
-            self.frames.refused += 1
-            return None
-        self.last = frame
-        self.frames.received += 1
-        if self.recording:
-            self.log.add(frame)
-        return decoded
-
-    def _note(self, decoded: DecodedFrame) -> bool:
-        """Stores the faults or the memory in a report; False if the memory is invalid."""
-        if decoded.name == "FAULTS":
-            counters = (signal for signal in decoded.signals.items() if signal[0] not in ("crc", "counter", "page"))
-            self.faults = self.faults | dict(counters)
-        if decoded.name == "MEMORY":
-            cells = self._report.join(decoded)
-            if cells is not None and not kinds_of(cells):
-                return False
-            self.memory = cells or self.memory
+    def _take_any(self, frame: Frame) -> bool:
+        self.inbox.take(frame)
         return True
+
+    def _take_owed(self, frame: Frame) -> bool | None:
+        """True when each of the repeated senses was answered."""
+        self.inbox.take(frame)
+        return self.inbox.owed == 0 or None

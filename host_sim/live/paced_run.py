@@ -251,7 +251,7 @@ class PacedRun:
             case OneDecision():
                 self.playing, self._decided = True, self.simulation.drives[0]
             case Speed(factor):
-                self.speed, self._next_s = factor, 0.0
+                self._set_speed(factor)
             case NextEnvironment():
                 self._enter_next()
             case NewSeed(seed, keep):
@@ -260,6 +260,11 @@ class PacedRun:
                 self._command(command)
             case _:
                 self._edit(command)
+
+    def _set_speed(self, factor: float) -> None:
+        if factor != 1.0 and not self.simulation.clients[0].lockstep:
+            raise EditError("the robot has a clock of its own and runs at its own speed")
+        self.speed, self._next_s = factor, 0.0
 
     def _edit(self, command: LiftRobot | PutRobot | Edit) -> None:
         if self.done:

@@ -97,6 +97,10 @@ class Protocol:
         """The value table of a signal: number by name."""
         return {choice: number for number, choice in _signal(name, signal).choices.items()}
 
+    def choice(self, name: str, signal: str, number: int) -> str:
+        """The name of a signal's number; the number itself if it has none."""
+        return _signal(name, signal).choices.get(number, str(number))
+
     def encode(self, name: str, signals: dict[str, int]) -> Frame:
         """A frame of a message.
 

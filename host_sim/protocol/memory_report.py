@@ -3,26 +3,29 @@
 from host_sim.protocol.codec import DecodedFrame
 from host_sim.protocol.generated import CELL_COUNT
 
+_HALVES = 2
+
 
 class MemoryReport:
-    """Joins the two halves of a memory."""
+    """Joins the two halves of a memory, in whichever order they come."""
 
     def __init__(self) -> None:
         """Has not seen any half yet."""
-        self._lower: DecodedFrame | None = None
+        self._halves: dict[int, DecodedFrame] = {}
 
     def join(self, decoded: DecodedFrame) -> tuple[int, ...] | None:
-        """The eight cells when their second half has come; None after the first, or if one of them was lost.
+        """The eight cells when both halves have come; None after the first, or if one of them was lost.
 
         Args:
             decoded: A MEMORY.
         """
-        lower, self._lower = self._lower, None
-        if decoded.signals["half"] == 0:
-            self._lower = decoded
+        half, counter = decoded.signals["half"], decoded.signals["counter"]
+        if half not in range(_HALVES):
             return None
-        if lower is None or lower.signals["counter"] != decoded.signals["counter"]:
+        other = self._halves.get(1 - half)
+        self._halves = {half: decoded}
+        if other is None or other.signals["counter"] != counter:
             return None
-        both = lower.signals | decoded.signals
-        cells = tuple(both.get(f"cell_{cell}", -1) for cell in range(CELL_COUNT))
-        return cells if min(cells) >= 0 else None
+        self._halves = {}
+        both = other.signals | decoded.signals
+        return tuple(both[f"cell_{cell}"] for cell in range(CELL_COUNT))

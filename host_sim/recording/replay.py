@@ -11,6 +11,7 @@ from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, f
 from host_sim.transport.in_process_link import InProcessLink
 
 _TO_ROBOT = ("SENSES", "COMMAND")
+_AT_REST = (Reason.STOP, Reason.SILENCE)
 
 
 @dataclass(frozen=True)
@@ -115,7 +116,7 @@ class _Comparison:
             decoded = self._protocol.decode(answer)
             if decoded is None:
                 continue
-            if decoded.name == "DRIVE" and not (self._log.is_old and decoded.signals["reason"] == Reason.STOP):
+            if decoded.name == "DRIVE" and decoded.signals["reason"] != Reason.STOP:
                 self._pending[decoded.signals["tick"]] = answer
             elif decoded.name == "MEMORY":
                 self._memory = self._replayed.join(decoded) or self._memory
@@ -133,10 +134,10 @@ class _Comparison:
     def _needs_no_senses(self, reason: int) -> bool:
         """Whether a robot sends such a drive by itself.
 
-        On its own clock, one that received nothing says so; here it receives everything. With wire 1, it did not
-        answer a stop by a drive, but said that it rested when it received nothing.
+        A stopped robot rests, and a stop is sent again until all its reports have come. On its own clock,
+        one that received nothing says so; here it receives everything.
         """
-        return (reason == Reason.SILENCE and not self._lockstep) or (reason == Reason.STOP and self._log.is_old)
+        return reason == Reason.STOP or (reason == Reason.SILENCE and not self._lockstep)
 
     def _compare_memory(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
         recorded = self._recorded.join(decoded)

@@ -13,6 +13,8 @@ from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import EpisodeResult, RobotResult
 
+_FAULTS_MAX = 255
+_REFUSED = ("stale", "damaged", "foreign")
 _COUNTED = {"trials": Reason.TRIAL, "remembered_turns": Reason.REMEMBERED, "boredom_turns": Reason.BOREDOM}
 
 
@@ -27,8 +29,11 @@ class Summary:
         environments: One entry per environment: finished, food_eaten, ticks, robot_s, and robots, with each robot's
             node, food_eaten, trials, remembered_turns, boredom_turns, collisions and memory (the eight cells at the
             end of the environment).
-        robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, lost, refused)
-            and faults, the robot's own fault counters.
+        robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, repeated,
+            duplicate, lost, refused), faults (the robot's own fault counters), saturated (those of them that stand at
+            255, their limit, and may be more), round_trip_ms (mean time of an answer), line (outages and unsent
+            frames).
+        incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run.
         log_sha256: SHA-256 of run.log, in hexadecimal.
         wall_s: Duration of the run, s of wall-clock time.
         real_time_factor: Robot time divided by wall-clock time.
@@ -39,6 +44,7 @@ class Summary:
     bus: str
     environments: list[dict[str, Any]]
     robots: list[dict[str, Any]]
+    incidents: list[str]
     log_sha256: str
     wall_s: float
     real_time_factor: float
@@ -61,7 +67,12 @@ class Summary:
         memories = [f"memory    {self._whose(robot) if several else ''}{_cells(robot)}" for robot in self.robots]
         speed = f"speed     {self.real_time_factor:.0f} x real time on {self.bus}, {self.wall_s:.1f} s"
         done = ["ALL DONE"] if all(environment["finished"] for environment in self.environments) else []
-        return "\n".join([*done, *memories, speed])
+        links = [
+            f"link      {self._whose(robot) if several else ''}{line}"
+            for robot in self.robots
+            if (line := _link(robot))
+        ]
+        return "\n".join([*done, *memories, *links, speed])
 
     def _whose(self, robot: dict[str, Any]) -> str:
         return f"robot {robot['node']}: "
@@ -90,6 +101,7 @@ def summarize(
         bus=clients[0].bus,
         environments=[_environment(episode) for episode in episodes],
         robots=[_robot(client) for client in clients],
+        incidents=[str(incident) for client in clients for incident in client.incidents],
         log_sha256=log_sha256,
         wall_s=round(wall_s, 3),
         real_time_factor=round(robot_s / wall_s, 2),
@@ -112,20 +124,43 @@ def environment_line(number: int, episode: EpisodeResult) -> str:
 
 
 def frame_counts(client: RobotClient) -> dict[str, int]:
-    """A robot's frame counters: sent, received, lost and refused, including those that the robot reports."""
-    faults, frames = client.faults, asdict(client.frames)
-    frames["lost"] += faults.get("missed", 0)
-    frames["refused"] += sum(faults.get(kind, 0) for kind in ("stale", "damaged", "foreign"))
+    """A robot's frame counters; refused includes the frames that the robot refused."""
+    frames = asdict(client.frames)
+    frames["refused"] += sum(client.faults.get(kind, 0) for kind in _REFUSED)
     return frames
 
 
 def _robot(client: RobotClient) -> dict[str, Any]:
+    mean_s = client.round_trip.mean_s
     return {
         "node": client.node,
         "memory": list(client.memory),
         "frames": frame_counts(client),
         "faults": client.faults,
+        "saturated": [name for name, count in client.faults.items() if count == _FAULTS_MAX],
+        "round_trip_ms": None if mean_s is None else round(mean_s * 1000, 3),
+        "line": {"outages": client.line.outages, "unsent": client.line.unsent},
     }
+
+
+def _link(robot: dict[str, Any]) -> str:
+    """What was not as it should be between simulator and robot; empty if nothing."""
+    frames, faults, saturated = robot["frames"], robot["faults"], robot["saturated"]
+    counts = {
+        "repeated": frames["repeated"],
+        "lost": frames["lost"],
+        "refused": frames["refused"],
+        "unsent": robot["line"]["unsent"],
+    }
+    parts = [f"{count} frames {name}" for name, count in counts.items() if count]
+    parts += [f"gone {robot['line']['outages']} times"] if robot["line"]["outages"] else []
+    parts += [f"robot counted {name}: {_count(faults[name], name in saturated)}" for name in faults if faults[name]]
+    slow = f"; an answer takes {robot['round_trip_ms']:.0f} ms" if parts and robot["round_trip_ms"] else ""
+    return ", ".join(parts) + slow
+
+
+def _count(count: int, saturated: bool) -> str:
+    return f"{count} or more" if saturated else str(count)
 
 
 def _environment(episode: EpisodeResult) -> dict[str, Any]:

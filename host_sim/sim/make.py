@@ -3,22 +3,27 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 
-from host_sim.backends.connection import connect
+from host_sim.backends.connection import Connection, connect
 from host_sim.client.commands import start
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.errors import RefusedError, UsageError
+from host_sim.faults.faulty_link import FaultyLink
+from host_sim.faults.rule import Rule
+from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.transport.clock import VirtualClock, WallClock
+from host_sim.transport.link import Link
 from host_sim.world.layouts import NoRoomError, generate
 from host_sim.world.params import SimParams
 
 Memory = Sequence[int]
 
-_SPAWNED_S, _EXTERNAL_S, _RETRY_S = 5.0, 15.0, 0.5
+_EXTERNAL_S = 15.0
 _SEED_SPAN = 2**32
 
 
@@ -115,17 +120,33 @@ def _check(config: RunConfig, params: SimParams) -> None:
 
 
 def _connected(stack: ExitStack, config: RunConfig, node: int, log: FrameLog) -> RobotClient:
-    connection = connect(stack, config.bus, config.robot, node, config.board, shared=config.robots > 1)
+    several = config.robots > 1
+    connection = connect(stack, config.bus, config.robot, node, config.board, several, config.reconnect_s)
+    link, now = _with_faults(connection, config, node)
     client = RobotClient(
-        connection.link,
+        link,
         Protocol(node),
         log,
         lockstep=not config.real_time,
+        owner=config.owner,
         status=connection.status,
         bus=connection.bus,
+        deadline_s=connection.deadline_s,
+        now=now,
+        line=connection.line,
     )
-    if config.robot == "external":
-        handshake(client, _EXTERNAL_S, retry_s=_RETRY_S)
-    else:
-        handshake(client, _SPAWNED_S)
+    external = config.robot == "external"
+    handshake(client, _EXTERNAL_S if external else client.deadline_s, shared=external)
     return client
+
+
+def _with_faults(connection: Connection, config: RunConfig, node: int) -> tuple[Link, Callable[[], float]]:
+    """The link with the faults that were asked for, and the time that waiting on it takes.
+
+    A robot in this process answers at once; what is late there is late in a time of its own, which costs none.
+    """
+    clock = VirtualClock() if connection.answers_at_once and config.faults else WallClock()
+    if not config.faults:
+        return connection.link, clock.now
+    schedule = Schedule([Rule.parse(rule) for rule in config.faults], config.fault_seed, Protocol(node))
+    return FaultyLink(connection.link, schedule, clock), clock.now

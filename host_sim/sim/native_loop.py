@@ -181,7 +181,6 @@ class NativeLoop:
     def _catch_up(self, index: int, client: RobotClient) -> None:
         robot, ticks = self._robots[index], int(self._loop.ticks)
         client.catch_up(ticks, self.last(index)[1], _frame(robot.drive), robot.received)
-        client.senses_counter = robot.senses_counter
         client.frames.refused += robot.refused
         robot.received = robot.refused = 0
         if robot.has_news:

@@ -15,13 +15,17 @@ class RunConfig:
         environments: Number of environments, one after the other.
         limit_s: Time limit for each environment, s of robot time.
         robots: Number of robots in each environment, at least 1.
-        node: Node number of the first robot on the bus, 1..63; the others follow.
+        node: Node number of the first robot on the bus, 1..31; the others follow.
         profile: Name of the robots' behaviour.
         settings: Parameters to change from their defaults, by name.
         bus: Where the robots are: none (in this process), fd (socket pairs), or python-can's INTERFACE:CHANNEL.
         robot: One of `ROBOTS`: spawn starts the firmware, external waits for a robot on the bus, qemu and emulated
             run the flash image in QEMU or on an emulated board.
         board: Name of the emulated board; empty for the first.
+        owner: Number of this simulator, 1..255, by which robots on a shared bus know whom they obey.
+        reconnect_s: Time to wait for a bus or a serial line that is gone, s of wall-clock time.
+        faults: Faults to make on the way to the robots and back, as `host_sim.faults.rule` has them.
+        fault_seed: Seed for them.
         real_time: Whether to run at wall-clock speed rather than in lockstep, as fast as possible.
     """
 
@@ -35,6 +39,10 @@ class RunConfig:
     bus: str = "none"
     robot: str = ROBOTS[0]
     board: str = ""
+    owner: int = 1
+    reconnect_s: float = 10.0
+    faults: tuple[str, ...] = ()
+    fault_seed: int = 1
     real_time: bool = False
 
     @property

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from host_sim.client.pacing import Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.supervision import settle
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop
@@ -116,6 +117,7 @@ class Simulation:
     senses: list[Senses] = field(init=False)
     drives: Sequence[Drive] = field(init=False)
     _odometers: list[Point] = field(init=False)
+    _settled: bool = False
 
     def __post_init__(self) -> None:
         robots = len(self.clients)
@@ -165,6 +167,7 @@ class Simulation:
         self.episode = EpisodeResult(layout, self.params.tick_s, [RobotResult(node) for node in self.nodes])
         self._enter_loop()
         self.record.begin(Begun(self.seed, number, self.tick))
+        self._settled = False
 
     def _enter_loop(self) -> None:
         links = [client.link for client in self.clients if isinstance(client.link, InProcessLink)]
@@ -222,6 +225,10 @@ class Simulation:
     def leave(self) -> EpisodeResult:
         """Ends the environment, finished or not, and returns its result."""
         arena, episode = self.arena, self.episode
+        if self.over and not self._settled:
+            self._settled = True
+            for client in self.clients:
+                settle(client)
         self._odometers = [body.odometer for body in arena.bodies]
         episode.layout, episode.eaten = arena.layout, arena.food.eaten
         for robot, body, client in zip(episode.robots, arena.bodies, self.clients, strict=True):

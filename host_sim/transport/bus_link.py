@@ -1,38 +1,63 @@
 """A link over a python-can bus."""
 
+import errno
+from collections.abc import Callable
+
 import can
 
-from host_sim.errors import RobotError
+from host_sim.errors import LinkDownError
 from host_sim.protocol.codec import Frame
+from host_sim.transport.line_stats import LineStats
+
+_SEND_S = 0.1
+_NO_FRAME = Frame(-1, b"")
 
 
 class BusLink:
-    """A link over any python-can bus."""
+    """A link over any python-can bus.
 
-    def __init__(self, bus: can.BusABC) -> None:
+    Attributes:
+        explain: Called when the line is gone, before the error is raised; it may raise one that says more.
+    """
+
+    def __init__(self, bus: can.BusABC, stats: LineStats | None = None) -> None:
         """Takes over the bus: `close` shuts it down."""
+        self.explain: Callable[[], object] = lambda: None
         self._bus = bus
+        self._stats = stats or LineStats()
 
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
         message = can.Message(arbitration_id=frame.id, data=frame.data, is_extended_id=False, check=False)
         try:
-            self._bus.send(message, timeout=1.0)
+            self._bus.send(message, timeout=_SEND_S)
         except (can.CanError, OSError) as error:
-            raise RobotError(f"cannot send to the robot: {error}") from error
+            if not _has_no_room(error):
+                self.explain()
+                raise LinkDownError(f"cannot send to the robot: {error}") from error
+            self._stats.unsent += 1
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """As in `Link`. Frames with a 29-bit identifier, remote and error frames are no one's here: id -1."""
+        """As in `Link`."""
         try:
             message = self._bus.recv(timeout_s)
         except (can.CanError, OSError) as error:
-            raise RobotError(f"cannot hear the robot: {error}") from error
+            self.explain()
+            raise LinkDownError(f"cannot hear the robot: {error}") from error
+        except (ValueError, LookupError):  # what some of python-can's interfaces make of noise on the line
+            return _NO_FRAME
         if message is None:
             return None
-        if message.is_extended_id or message.is_remote_frame or message.is_error_frame:
-            return Frame(-1, b"")
+        if message.is_extended_id or message.is_remote_frame or message.is_error_frame or message.is_fd:
+            return _NO_FRAME
         return Frame(message.arbitration_id, bytes(message.data))
 
     def close(self) -> None:
         """As in `Link`."""
         self._bus.shutdown()
+
+
+def _has_no_room(error: Exception) -> bool:
+    """Whether a frame could not be sent because others wait, on a line that is there."""
+    code = getattr(error, "error_code", None) or getattr(error, "errno", None)
+    return code == errno.ENOBUFS or (code is None and isinstance(error, can.CanOperationError))

@@ -1,5 +1,6 @@
-"""From the name that a person types to an open python-can bus."""
+"""From the name that a person types to an open link on a bus."""
 
+import logging
 from collections.abc import Sequence
 from typing import Any
 
@@ -7,12 +8,32 @@ import can
 from can.typechecking import CanFilter
 
 from host_sim.errors import UsageError
+from host_sim.transport.bus_link import BusLink
+from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import Link
+from host_sim.transport.serial_line import open_serial_line
 
 BITRATE = 500_000
 """Bits a second, for buses that are set up when opened."""
 
-
 _ID_MASK = 0x7FF
+
+
+def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats) -> Link:
+    """Opens a link on a bus: on a serial port for `slcan:DEVICE`, else by python-can.
+
+    Args:
+        bus: `INTERFACE:CHANNEL`.
+        ids: The 11-bit identifiers to listen for.
+        stats: Counts what happens to the line.
+
+    Raises:
+        UsageError: The name is not one of a bus, or the bus cannot be opened.
+    """
+    interface, _, channel = bus.partition(":")
+    if interface == "slcan" and channel:
+        return open_serial_line(channel, BITRATE, ids, stats)
+    return BusLink(open_bus(bus, ids), stats)
 
 
 def open_bus(bus: str, ids: Sequence[int] = ()) -> can.BusABC:
@@ -20,8 +41,7 @@ def open_bus(bus: str, ids: Sequence[int] = ()) -> can.BusABC:
 
     Args:
         bus: `INTERFACE:CHANNEL`.
-        ids: The 11-bit identifiers to listen for; the kernel or the adapter lets no others through where it can. None
-            for all.
+        ids: The 11-bit identifiers to listen for, none for all; the kernel lets no others through where it can.
 
     Raises:
         UsageError: The name is not one of a bus, or the bus cannot be opened.
@@ -36,8 +56,16 @@ def open_bus(bus: str, ids: Sequence[int] = ()) -> can.BusABC:
         extra["sleep_after_open"] = 0.0
     if interface != "socketcan":
         extra["bitrate"] = BITRATE
+    _silence_python_can()
     try:
         return can.Bus(interface=interface, channel=channel, can_filters=filters or None, **extra)
     except (can.CanError, can.CanInterfaceNotImplementedError, OSError, ValueError, ImportError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}") from error
+
+
+def _silence_python_can() -> None:
+    """What python-can logs without being asked is in its exceptions as well, in one line."""
+    logger = logging.getLogger("can")
+    if not logger.handlers:
+        logger.addHandler(logging.NullHandler())

@@ -9,17 +9,17 @@ class Link(Protocol):
     """Carries single frames to one robot and back."""
 
     def send(self, frame: Frame) -> None:
-        """Sends one frame.
+        """Sends one frame, or counts it as unsent where there is no room for it.
 
         Raises:
-            RobotError: It cannot be sent.
+            LinkDownError: The line is gone.
         """
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """The next frame, or None if none comes for so long; 0 just looks.
+        """The next frame, or None after `timeout_s`; 0 polls. Something received that is no such frame has the id -1.
 
         Raises:
-            RobotError: The robot is gone.
+            LinkDownError: The line is gone.
         """
 
     def close(self) -> None:

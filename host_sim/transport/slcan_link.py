@@ -1,15 +1,33 @@
-"""Frames as slcan text over a stream socket: `tIIILDD..` and a carriage return for each."""
+"""Frames as slcan text over a stream, a socket or a serial line: `tIIILDD..` and a carriage return for each."""
 
+import os
 import re
 import select
-import socket
+import time
+from collections.abc import Callable, Sequence
+from typing import Protocol
 
-from host_sim.errors import RobotError
+from host_sim.errors import LinkDownError
 from host_sim.protocol.codec import Frame
+from host_sim.transport.line_stats import LineStats
 
 _LINE = re.compile(rb"t([0-9A-Fa-f]{3})([0-8])((?:[0-9A-Fa-f]{2}){0,8})")
+_ENDS = re.compile(rb"[\r\a]")
+_ACKNOWLEDGED = (b"", b"z", b"Z")
 _CHUNK = 4096
-_SEND_S = 1.0
+_LINE_MAX = 64
+_SEND_S = 0.1
+_NO_FRAME = Frame(-1, b"")
+
+
+class Stream(Protocol):
+    """An open file that can be read and written: a connected socket, a serial port."""
+
+    def fileno(self) -> int:
+        """Its file descriptor."""
+
+    def close(self) -> None:
+        """Closes it."""
 
 
 def encode(frame: Frame) -> bytes:
@@ -26,39 +44,88 @@ def decode(line: bytes) -> Frame | None:
 
 
 class SlcanLink:
-    """A link over one end of a connected stream socket, which `close` closes."""
+    """A link over a stream, which `close` closes. Noise on the line costs the frames that it hits, and no more.
 
-    def __init__(self, end: socket.socket) -> None:
-        """Takes over the socket."""
-        self._socket = end
-        self._socket.settimeout(_SEND_S)
-        self._text = b""
+    Attributes:
+        explain: Called when the line is gone, before the error is raised; it may raise one that says more.
+    """
+
+    def __init__(self, end: Stream, stats: LineStats | None = None, ids: Sequence[int] = ()) -> None:
+        """Takes over the stream.
+
+        Args:
+            end: The stream.
+            stats: Counts what happens to the line.
+            ids: The identifiers to listen for; frames with others are skipped. None for all.
+        """
+        self.explain: Callable[[], object] = lambda: None
+        self._end = end
+        self._ids = frozenset(ids)
+        self._stats = stats or LineStats()
+        self._fd = end.fileno()
+        os.set_blocking(self._fd, False)
+        self._lines: list[bytes] = []
+        self._rest = b""
 
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
+        self.write(encode(frame))
+
+    def write(self, text: bytes) -> None:
+        """Sends any text; what there is no room for in time is lost."""
+        give_up = time.monotonic() + _SEND_S
         try:
-            self._socket.sendall(encode(frame))
+            while text and self._await(select.POLLOUT, give_up - time.monotonic()):
+                text = text[os.write(self._fd, text) :]
         except OSError as error:
-            raise RobotError(f"cannot send to the robot: {error}") from error
+            self.explain()
+            raise LinkDownError(f"cannot send to the robot: {error}") from error
+        self._stats.unsent += bool(text)
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """As in `Link`. A line that is no frame of ours has the id -1."""
-        while b"\r" not in self._text:
-            if not select.select([self._socket], [], [], timeout_s)[0]:
-                return None
+        """As in `Link`."""
+        frame = self._next()
+        if frame is not None:
+            return frame
+        give_up = time.monotonic() + timeout_s
+        left_s = timeout_s
+        while frame is None and left_s >= 0 and self._await(select.POLLIN, left_s):
             self._refill()
-        line, _, self._text = self._text.partition(b"\r")
-        return decode(line) or Frame(-1, b"")
+            frame = self._next()
+            left_s = give_up - time.monotonic()
+        return frame
 
     def close(self) -> None:
         """As in `Link`."""
-        self._socket.close()
+        self._end.close()
+
+    def _next(self) -> Frame | None:
+        """The next frame of those that have come; None if there is none for us."""
+        while self._lines:
+            line = self._lines.pop()
+            if line in _ACKNOWLEDGED:
+                continue
+            frame = decode(line)
+            if frame is None or not self._ids or frame.id in self._ids:
+                return frame or _NO_FRAME
+        return None
+
+    def _await(self, event: int, timeout_s: float) -> bool:
+        poll = select.poll()
+        poll.register(self._fd, event)
+        return bool(poll.poll(max(timeout_s, 0.0) * 1000))
 
     def _refill(self) -> None:
         try:
-            chunk = self._socket.recv(_CHUNK)
+            chunk = os.read(self._fd, _CHUNK)
+        except BlockingIOError:
+            return
         except OSError as error:
-            raise RobotError(f"cannot hear the robot: {error}") from error
+            self.explain()
+            raise LinkDownError(f"cannot hear the robot: {error}") from error
         if not chunk:
-            raise RobotError("cannot hear the robot: its end of the line is closed")
-        self._text += chunk
+            self.explain()
+            raise LinkDownError("cannot hear the robot: its end of the line is closed")
+        *lines, rest = _ENDS.split(self._rest + chunk)
+        self._lines = lines[::-1]
+        self._rest = rest[-_LINE_MAX:]

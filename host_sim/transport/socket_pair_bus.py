@@ -1,5 +1,6 @@
 """A python-can bus over a socket pair: SocketCAN's 16-byte frames, one a datagram, with no CAN in the kernel."""
 
+import errno
 import math
 import select
 import socket
@@ -63,7 +64,7 @@ class SocketPairBus(can.BusABC):
         try:
             sent = self._try_send(packed) or self._send_by(_deadline(timeout), packed)
         except (OSError, ValueError) as error:  # ValueError: this end was shut down
-            raise can.CanOperationError(f"the far end is closed: {error}") from error
+            raise can.CanOperationError("the far end is closed", errno.EPIPE) from error
         if not sent:
             raise can.CanOperationError(f"the far end made no room for {timeout} s")
 
@@ -86,7 +87,7 @@ class SocketPairBus(can.BusABC):
             if packed is None:
                 packed = self._receive_by(_deadline(timeout))
         except (OSError, ValueError) as error:
-            raise can.CanOperationError(f"the far end is closed: {error}") from error
+            raise can.CanOperationError("the far end is closed", errno.EPIPE) from error
         return (None if packed is None else self._message_from(packed)), False
 
     def _try_receive(self) -> bytes | None:

@@ -128,7 +128,7 @@ def test_frames_go_over_the_line_as_text(line):
     assert link.receive(0.0) is None
 
 
-@pytest.mark.parametrize("text", [b"t0812FF\r", b"t0811FF00\r", b"T000000810\r", b"nonsense\r", b"\r", b"t0819\r"])
+@pytest.mark.parametrize("text", [b"t0812FF\r", b"t0811FF00\r", b"T000000810\r", b"nonsense\r", b"t0819\r"])
 def test_a_line_that_is_not_a_data_frame_has_no_identifier(line, text):
     link, far = line
 

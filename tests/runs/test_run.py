@@ -36,13 +36,25 @@ def test_a_run_leaves_log_summary_and_picture(run):
 def test_the_summary_has_all_that_is_promised(run):
     summary = run("--environments", "1", "--bus", "none").summary
 
-    top = {"seed", "profile", "bus", "environments", "robots", "log_sha256", "wall_s", "real_time_factor"}
+    top = {
+        "seed",
+        "profile",
+        "bus",
+        "environments",
+        "robots",
+        "incidents",
+        "log_sha256",
+        "wall_s",
+        "real_time_factor",
+    }
+    robot = {"node", "memory", "frames", "faults", "saturated", "round_trip_ms", "line"}
     deeds = {"node", "food_eaten", "trials", "remembered_turns", "boredom_turns", "collisions", "memory"}
     assert top == summary.keys()
     assert {"finished", "food_eaten", "ticks", "robot_s", "robots"} == summary["environments"][0].keys()
     assert deeds == summary["environments"][0]["robots"][0].keys()
-    assert {"node", "memory", "frames", "faults"} == summary["robots"][0].keys()
-    assert {"sent", "received", "lost", "refused"} == summary["robots"][0]["frames"].keys()
+    assert robot == summary["robots"][0].keys()
+    frames = {"sent", "received", "repeated", "duplicate", "lost", "refused"}
+    assert frames == summary["robots"][0]["frames"].keys()
     assert len(summary["robots"][0]["memory"]) == 8
 
 
@@ -66,8 +78,8 @@ def test_python_can_reads_the_log(run):
         messages = list(reader)
 
     ticks = done.summary["environments"][0]["ticks"]
-    assert sum(message.arbitration_id == 0xC1 for message in messages) == ticks
-    assert sum(message.arbitration_id == 0x81 for message in messages) == ticks
+    assert sum(message.arbitration_id == 0x101 for message in messages) == ticks
+    assert sum(message.arbitration_id == 0x41 for message in messages) == ticks + 2  # and one at each stop
 
 
 @pytest.mark.parametrize("seed", [0, 7, 2**32 - 1])
@@ -106,9 +118,9 @@ def test_a_replay_of_a_run_finds_no_difference(run):
 def test_a_replay_names_the_first_drive_that_differs(run, tmp_path):
     done = run("--environments", "1", "--bus", "none")
     lines = done.log.decode().splitlines(keepends=True)
-    at = next(i for i, line in enumerate(lines) if i > 500 and " 081#" in line)
+    at = next(i for i, line in enumerate(lines) if i > 500 and " 041#" in line)
     # The same tick said by another robot: a drive of another tick, whole and with a true CRC.
-    lines[at] = lines[at - 100 : at][[" 081#" in line for line in lines[at - 100 : at]].index(True)]
+    lines[at] = lines[at - 100 : at][[" 041#" in line for line in lines[at - 100 : at]].index(True)]
     changed = tmp_path / "changed.log"
     changed.write_text("".join(lines))
 
@@ -116,7 +128,7 @@ def test_a_replay_names_the_first_drive_that_differs(run, tmp_path):
 
     assert replayed.returncode == 1
     assert "differs" in replayed.stdout
-    assert replayed.stdout.count("DRIVE tick=") >= 1
+    assert replayed.stdout.count("DRIVE counter=") >= 1
 
 
 def test_settings_change_the_run_and_its_replay_knows_them(run):
@@ -128,11 +140,11 @@ def test_settings_change_the_run_and_its_replay_knows_them(run):
 
 
 def test_another_node_has_its_own_identifiers(run):
-    done = run("--environments", "1", "--bus", "fd", "--node", "63")
+    done = run("--environments", "1", "--bus", "fd", "--node", "31")
 
     identifiers = {line.split()[2][:3] for line in done.log.decode().splitlines()}
-    assert {"07F", "0BF", "0FF"} <= identifiers
-    assert octet("replay", "--node", "63", done.out / "run.log").returncode == 0
+    assert {"03F", "05F", "11F"} <= identifiers
+    assert octet("replay", "--node", "31", done.out / "run.log").returncode == 0
 
 
 def test_a_short_time_limit_ends_an_environment_unfinished(run):
@@ -178,7 +190,7 @@ def test_several_robots_leave_one_log_and_an_entry_each(run):
     assert [robot["node"] for robot in done.summary["robots"]] == [1, 2, 3]
     assert [len(environment["robots"]) for environment in done.summary["environments"]] == [3, 3]
     identifiers = {line.split()[2][:3] for line in done.log.decode().splitlines()}
-    assert {"0C1", "0C2", "0C3", "081", "082", "083"} <= identifiers
+    assert {"101", "102", "103", "041", "042", "043"} <= identifiers
     replayed = octet("replay", done.out / "run.log")
     assert (replayed.returncode, replayed.stdout.count("no difference")) == (0, 3)
 
@@ -194,7 +206,7 @@ def test_the_first_of_several_robots_begins_as_it_would_alone(run):
     together = run("--robots", "2", "--environments", "1", "--limit-s", "1", "--bus", "none")
 
     def first_senses(log: bytes) -> str:
-        return next(line.split()[2] for line in log.decode().splitlines() if " 0C1#" in line)
+        return next(line.split()[2] for line in log.decode().splitlines() if " 101#" in line)
 
     assert first_senses(alone.log) == first_senses(together.log)
 
@@ -211,8 +223,8 @@ def test_each_of_several_robots_has_its_memory_file(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("--robots", "2", "--node", "63", "--bus", "none"), "the last is 63"),
-        (("--robots", "64", "--bus", "none"), "1 to 63"),
+        (("--robots", "2", "--node", "31", "--bus", "none"), "the last is 31"),
+        (("--robots", "32", "--bus", "none"), "1 to 31"),
         (("--robots", "2", "--bus", "virtual:x", "--robot", "external"), "socketcan, fd or none"),
     ],
 )

@@ -1,64 +1,59 @@
-"""A robot behind a serial line: slcan text through two ptys, with python-can's own slcan on our side."""
+"""A robot behind a serial line: slcan text through two ptys, clean and noisy, plugged and unplugged."""
 
+import json
 import os
-import pty
-import selectors
+import re
 import subprocess
-import threading
-import tty
+from collections.abc import Callable, Iterator
 
 import pytest
 
-from tests.runs.support import ROBOT, octet
+from tests.runs.cable import Cable, Socket
+from tests.runs.support import ROBOT, octet, start_octet, wait_until
 
-
-class Cable:
-    """Two ptys whose masters are joined: what goes into one comes out of the other."""
-
-    def __init__(self) -> None:
-        pairs = [pty.openpty() for _ in range(2)]
-        self.masters = [master for master, _ in pairs]
-        self.slaves = [slave for _, slave in pairs]
-        for slave in self.slaves:
-            tty.setraw(slave)
-        self.ends = [os.ttyname(slave) for slave in self.slaves]
-        self._stop_read, self._stop_write = os.pipe()
-        self._thread = threading.Thread(target=self._pump)
-        self._thread.start()
-
-    def _pump(self) -> None:
-        selector = selectors.DefaultSelector()
-        for here, there in (self.masters, self.masters[::-1]):
-            selector.register(here, selectors.EVENT_READ, there)
-        selector.register(self._stop_read, selectors.EVENT_READ, None)
-        while self._stop_read not in (ready := {key.fd: key.data for key, _ in selector.select()}):
-            for here, there in ready.items():
-                os.write(there, os.read(here, 4096))
-        selector.close()
-
-    def close(self) -> None:
-        os.write(self._stop_write, b".")
-        self._thread.join()
-        for fd in (*self.masters, *self.slaves, self._stop_read, self._stop_write):
-            os.close(fd)
+LEARNED = bytes([0, 1, 1, 1, 2, 1, 2, 1])
+SOME_TICKS = 6000
+"""Bytes on the line by which a run is under way: some hundred ticks."""
 
 
 @pytest.fixture
-def serial_robot():
-    """The name of the tty that leads to a robot which is already there."""
-    cable = Cable()
-    robot = subprocess.Popen([os.fspath(ROBOT), f"slcan:{cable.ends[0]}"], stdout=subprocess.PIPE)
-    assert b"listens" in robot.stdout.readline()
-    yield cable.ends[1]
-    robot.kill()
-    robot.communicate()
-    cable.close()
+def robot_on() -> Iterator[Callable[[Cable], subprocess.Popen]]:
+    """Starts a robot at the first end of a cable."""
+    robots = []
+
+    def start(cable: Cable) -> subprocess.Popen:
+        robot = subprocess.Popen([os.fspath(ROBOT), f"slcan:{cable.ends[0]}"], stdout=subprocess.PIPE)
+        robots.append(robot)
+        assert b"listens" in robot.stdout.readline()
+        return robot
+
+    yield start
+    for robot in robots:
+        robot.kill()
+        robot.communicate()
 
 
-def test_over_slcan_a_run_leaves_the_same_bytes(run, serial_robot):
+@pytest.fixture
+def cable() -> Iterator[Cable]:
+    plugged = Cable()
+    yield plugged
+    plugged.close()
+
+
+def external(cable: Cable) -> tuple[str, ...]:
+    return ("--bus", f"slcan:{cable.ends[1]}", "--robot", "external")
+
+
+def drives_in(log: bytes) -> list[bytes]:
+    """The drives in a log that answer senses."""
+    return [line for line in re.findall(rb" (041#\w+)", log) if line[8:9] != b"0"]
+
+
+def test_over_slcan_a_run_leaves_the_same_bytes(run, robot_on, cable):
     words = ("--environments", "1", "--limit-s", "20")
+    robot_on(cable)
 
-    over_slcan = run(*words, "--bus", f"slcan:{serial_robot}", "--robot", "external")
+    over_slcan = run(*words, *external(cable))
     within = run(*words, "--bus", "none")
 
     assert (over_slcan.code, over_slcan.errors) == (0, "")
@@ -66,8 +61,9 @@ def test_over_slcan_a_run_leaves_the_same_bytes(run, serial_robot):
     assert octet("replay", over_slcan.out / "run.log").returncode == 0
 
 
-def test_an_external_robot_can_be_run_again_and_keeps_its_memory(run, serial_robot):
-    words = ("--environments", "1", "--limit-s", "40", "--bus", f"slcan:{serial_robot}", "--robot", "external")
+def test_an_external_robot_can_be_run_again_and_keeps_its_memory(run, robot_on, cable):
+    words = ("--environments", "1", "--limit-s", "40", *external(cable))
+    robot_on(cable)
 
     first, second = run(*words), run(*words)
 
@@ -76,3 +72,100 @@ def test_an_external_robot_can_be_run_again_and_keeps_its_memory(run, serial_rob
     kept = zip(first.memory, second.memory, strict=True)
     assert all(now == before for before, now in kept if before)
     assert octet("replay", second.out / "run.log").returncode == 0
+
+
+@pytest.mark.faulty
+def test_noise_on_the_line_slows_a_run_and_changes_nothing(run, robot_on, cable):
+    words = ("--environments", "1", "--limit-s", "5")
+    robot_on(cable)
+    cable.noise = 0.01
+
+    noisy = run(*words, *external(cable))
+
+    clean = run(*words, "--bus", "none")
+    assert (noisy.code, noisy.errors) == (0, "")
+    assert drives_in(noisy.log) == drives_in(clean.log)
+    assert noisy.memory == clean.memory
+    frames = noisy.summary["robots"][0]["frames"]
+    assert frames["repeated"] > 0
+    assert frames["refused"] > 0
+
+
+@pytest.mark.faulty
+def test_an_adapter_that_is_unplugged_and_plugged_in_again_is_waited_for(robot_on, tmp_path):
+    socket = Socket(tmp_path / "tty")
+    first = Cable()
+    robot = robot_on(first)
+    socket.plug(first.ends[1])
+    words = ("--environments", "1", "--limit-s", "12", "--bus", f"slcan:{socket.path}", "--robot", "external")
+    (tmp_path / "robot.mem").write_bytes(LEARNED)
+    process = start_octet("run", "--out", tmp_path / "out", "--memory", tmp_path / "robot.mem", *words)
+    wait_until(lambda: first.passed > SOME_TICKS, "ticks")
+
+    robot.kill()
+    socket.unplug()
+    first.close()
+    second = Cable()
+    robot_on(second)
+    socket.plug(second.ends[1])
+
+    output, errors = process.communicate(timeout=100)
+    second.close()
+    assert process.returncode == 1
+    assert re.fullmatch(
+        r"octet: the result is not to be trusted: at tick \d+ \(node 1\) the robot restarted.*\n", errors
+    )
+    assert "gone 1 times" in output
+    assert (tmp_path / "robot.mem").read_bytes() == LEARNED
+
+
+@pytest.mark.faulty
+def test_a_line_that_stays_away_ends_the_run_with_one_line(robot_on, tmp_path):
+    socket, cable = Socket(tmp_path / "tty"), Cable()
+    robot_on(cable)
+    socket.plug(cable.ends[1])
+    words = ("--environments", "9", "--reconnect-s", "0.5", "--bus", f"slcan:{socket.path}", "--robot", "external")
+    process = start_octet("run", "--out", tmp_path / "out", *words)
+    wait_until(lambda: cable.passed > SOME_TICKS, "ticks")
+
+    socket.unplug()  # before its tty has another owner: the next cable of any test may get the same one
+    cable.close()
+
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 1
+    assert re.fullmatch(r"octet: the bus slcan:\S+ has been gone for 0.5 s: .*\n", errors)
+
+
+@pytest.mark.faulty
+@pytest.mark.parametrize("more", [(), ("--real-time",)], ids=["in lockstep", "in real time"])
+def test_a_robot_that_restarts_goes_on_with_its_memory_and_the_result_is_doubted(robot_on, cable, tmp_path, more):
+    words = ("--environments", "1", "--limit-s", "8", *external(cable), *more)
+    memory = tmp_path / "robot.mem"
+    memory.write_bytes(LEARNED)
+    robot = robot_on(cable)
+    process = start_octet("run", "--out", tmp_path / "out", "--memory", memory, *words)
+    wait_until(lambda: cable.passed > SOME_TICKS, "ticks")
+
+    robot.kill()
+    robot.wait()
+    robot_on(cable)
+
+    _, errors = process.communicate(timeout=100)
+    assert process.returncode == 1
+    assert "not to be trusted: at tick" in errors
+    assert "its memory restored" in errors
+    assert errors.count("\n") == 1
+    assert memory.read_bytes() == LEARNED
+
+
+@pytest.mark.faulty
+def test_watching_an_external_robot_is_in_real_time_on_its_own_clock(robot_on, cable, tmp_path):
+    robot_on(cable)
+    words = ("--environments", "1", "--limit-s", "3", "--port", "0", "--json", *external(cable))
+
+    done = octet("run", "--watch", "--out", tmp_path, *words)
+
+    assert (done.returncode, "not to be trusted" in done.stderr) == (0, False), done.stderr
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    assert summary["environments"][0]["ticks"] == 150
+    assert summary["wall_s"] > 2.5

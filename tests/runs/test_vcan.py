@@ -87,7 +87,7 @@ def test_garbage_on_the_bus_is_refused_and_the_robot_learns_as_ever(run):
     quiet = run(*words, "--bus", "none")
     # Random frames of every kind and identifier, and frames with that of SENSES that are a byte too short.
     everywhere = subprocess.Popen(["cangen", "vcan0", "-g", "2", "-I", "i", "-L", "i", "-m"])
-    cut_short = subprocess.Popen(["cangen", "vcan0", "-g", "5", "-I", "0C1", "-L", "7"])
+    cut_short = subprocess.Popen(["cangen", "vcan0", "-g", "5", "-I", "101", "-L", "7"])
 
     done = run(*words, *VCAN)
     for garbage in (everywhere, cut_short):
@@ -103,7 +103,7 @@ def test_garbage_on_the_bus_is_refused_and_the_robot_learns_as_ever(run):
 
 
 def drives_in(log: bytes) -> list[bytes]:
-    return re.findall(rb" (081#\w+)", log)
+    return re.findall(rb" (041#\w+)", log)
 
 
 def test_an_interface_that_vanishes_ends_the_run_with_one_line(tmp_path):

@@ -1,0 +1,58 @@
+"""Tells new messages from repeated and late ones, by their alive counters."""
+
+from enum import Enum, auto
+
+from host_sim.protocol.codec import COUNTERS, Frame, counter_of
+
+_AHEAD_MAX = COUNTERS // 2
+
+
+class Arrival(Enum):
+    """What a message is, compared with the last one of its kind."""
+
+    NEW = auto()
+    """The next one, or one of the few after it."""
+    AGAIN = auto()
+    """The last one once more, byte for byte."""
+    LATE = auto()
+    """An earlier one."""
+    OTHER = auto()
+    """The last one's counter with other content: its sender began anew, or is another one."""
+    ELSEWHERE = auto()
+    """The second of two that follow each other, but not the last one: late ones, or those of another sender."""
+
+
+class Freshness:
+    """Follows the alive counter of one kind of message."""
+
+    def __init__(self) -> None:
+        """Takes any message for new."""
+        self._last: Frame | None = None
+        self._late: Frame | None = None
+
+    def judge(self, frame: Frame) -> Arrival:
+        """Compares a message with those before it."""
+        if self._last is None:
+            return self._take(frame, Arrival.NEW)
+        ahead = _ahead(self._last, frame)
+        if frame == self._last:
+            return Arrival.AGAIN
+        if ahead == 0:
+            return self._take(frame, Arrival.OTHER)
+        if ahead <= _AHEAD_MAX:
+            return self._take(frame, Arrival.NEW)
+        return self._judge_late(frame)
+
+    def _judge_late(self, frame: Frame) -> Arrival:
+        late, self._late = self._late, frame
+        if late is not None and _ahead(late, frame) == 1:
+            return self._take(frame, Arrival.ELSEWHERE)
+        return Arrival.LATE
+
+    def _take(self, frame: Frame, arrival: Arrival) -> Arrival:
+        self._last, self._late = frame, None
+        return arrival
+
+
+def _ahead(before: Frame, after: Frame) -> int:
+    return (counter_of(after) - counter_of(before)) % COUNTERS

@@ -1,0 +1,273 @@
+"""Takes in every frame that comes from a robot's side: answers, drives, reports, and what should not come at all."""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from host_sim.client.freshness import Arrival
+from host_sim.client.robot_reports import REPORTS, RobotReports
+from host_sim.client.session import FrameCounts, Session
+from host_sim.errors import FirmwareError, SessionLostError
+from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol, counter_of
+from host_sim.protocol.generated import TICK_SPAN, Fault, Reason
+from host_sim.robot_io import REST, Drive
+
+_TICK_MASK = TICK_SPAN - 1
+_RIVAL_S = 1.0
+_COMMANDS_KNOWN = COUNTERS - 1
+_NO_ANSWER = frozenset((int(Reason.STOP), int(Reason.SILENCE)))
+_NO_FRAME = Frame(-1, b"\0\0")
+
+
+@dataclass
+class Inbox:
+    """Sorts the frames of one robot into what is new, what is old, and what does not belong.
+
+    Attributes:
+        protocol: Decodes them.
+        record: Called with each valid frame that is new, for the log.
+        now: Tells the time, s.
+        lockstep: Whether the simulator's clock counts, so that only the last senses are answered.
+        owner: Number of this simulator.
+        counts: Frame counters.
+        reports: What the robot has reported.
+        session: How the robot was started; None while it is stopped.
+        last: The last valid frame from the robot.
+        ticks: Number of ticks whose senses were sent.
+        sent_tick: Number of the last of them, as on the wire.
+        sent_counter: Alive counter of the last of them.
+        reporting: Whether a whole report is awaited.
+        rested: Whether a stopped robot has said that its wheels rest, or need not say so.
+        rival: The frame by which another simulator was heard for the second time; None while there is none.
+        owed: Number of repeated senses whose answers have not come yet.
+    """
+
+    protocol: Protocol
+    record: Callable[[Frame], object]
+    now: Callable[[], float]
+    lockstep: bool
+    owner: int
+    counts: FrameCounts = field(default_factory=FrameCounts)
+    reports: RobotReports = field(default_factory=RobotReports)
+    session: Session | None = None
+    last: Frame | None = None
+    ticks: int = 0
+    sent_tick: int = 0
+    sent_counter: int = 0
+    reporting: bool = False
+    rested: bool = False
+    rival: Frame | None = None
+    owed: int = 0
+    _rival_s: float | None = None
+    _asked: deque[Frame] = field(default_factory=lambda: deque(maxlen=_COMMANDS_KNOWN))
+    _answered: bool = True
+    _drive: Drive = REST
+    _drive_tick: int = 0
+    _drive_frame: Frame = _NO_FRAME
+
+    @property
+    def tick(self) -> int:
+        """Number of the last tick whose senses were sent, from 0."""
+        return max(self.ticks - 1, 0)
+
+    @property
+    def asked(self) -> Frame:
+        """The last command."""
+        return self._asked[-1]
+
+    def expect_answer(self, command: Frame) -> None:
+        """A command is about to be sent."""
+        self._asked.append(command)
+        self._answered = False
+
+    def catch_up(self, ticks: int, drive: Drive, frame: Frame) -> None:
+        """Takes over ticks whose frames were exchanged elsewhere, with the last drive and its frame."""
+        self.ticks += ticks
+        self.sent_tick, self.sent_counter = drive.tick, self.ticks % COUNTERS
+        self._drive, self._drive_tick, self._drive_frame, self.last = drive, self.ticks, frame, frame
+
+    def take(self, frame: Frame) -> None:
+        """Takes in a frame, whatever it is.
+
+        Raises:
+            SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
+            FirmwareError: The robot was built from another layout of the messages.
+        """
+        self.take_drive(frame)
+
+    def take_drive(self, frame: Frame) -> Drive | None:
+        """The drive in a frame, if it answers senses that were not answered yet; other frames are taken in.
+
+        Raises:
+            SessionLostError: As in `take`.
+            FirmwareError: As in `take`.
+        """
+        drive = self.protocol.decode_drive(frame)
+        if drive is None:
+            self._take_other(frame)
+            return None
+        # The usual case first: this is the way of each tick.
+        if drive.tick != self.sent_tick or frame.data[1] & 15 != self.sent_counter or drive.reason in _NO_ANSWER:
+            return self._take_other_drive(drive, frame)
+        if self.session is None or self._drive_tick == self.ticks:
+            self._take_old_drive(drive, frame)
+            return None
+        self._drive, self._drive_tick, self._drive_frame = drive, self.ticks, frame
+        self.last = frame
+        self.counts.received += 1
+        self.record(frame)
+        return drive
+
+    def take_answer(self, frame: Frame) -> DecodedFrame | None:
+        """The answer to the last command, once; other frames are taken in.
+
+        Raises:
+            SessionLostError: As in `take`.
+            FirmwareError: As in `take`.
+        """
+        decoded = self.protocol.decode(frame)
+        if decoded is None or decoded.name != "ANSWER":
+            self.take(frame)
+            return None
+        return self._take_any_answer(frame, decoded)
+
+    def take_memory(self, frame: Frame) -> bool | None:
+        """True when a frame completes a new memory; other frames are taken in.
+
+        Raises:
+            SessionLostError: As in `take`.
+            FirmwareError: As in `take`.
+        """
+        before = self.reports.memories
+        self.take(frame)
+        return self.reports.memories != before or None
+
+    def _take_other_drive(self, drive: Drive, frame: Frame) -> Drive | None:
+        """A drive that does not answer the last senses: it may be late, old, or tell that the robot rests."""
+        if drive.reason == Reason.SILENCE:
+            return self._take_silence(drive, frame)
+        behind = (self.sent_tick - drive.tick) & _TICK_MASK
+        tick = self.ticks - behind
+        is_new = tick > self._drive_tick and (counter_of(frame) - tick) % COUNTERS == 0
+        if drive.reason == Reason.STOP:
+            return self._take_stop(drive, frame, is_new=is_new and (behind == 0 or not self.lockstep))
+        if not is_new or self.lockstep or behind >= TICK_SPAN // 2 or self.session is None:
+            self._take_old_drive(drive, frame)
+            return None
+        self._drive, self._drive_tick, self._drive_frame = drive, tick, frame
+        self._accept(frame)
+        return drive
+
+    def _take_old_drive(self, drive: Drive, frame: Frame) -> None:
+        """A drive that came twice or late."""
+        self.counts.duplicate += 1
+        self.owed -= self.owed > 0
+        if self._contradicts(drive, frame):
+            self._lose("sent two different drives for one tick", contradicts=True)
+
+    def _take_stop(self, drive: Drive, frame: Frame, *, is_new: bool) -> Drive | None:
+        """A stopped robot rests; so does one that should be running, where something is wrong."""
+        if self.session is None and not self.rested:
+            self.rested = True
+            self._accept(frame)
+        elif is_new and self.session is not None and self.session.halted:
+            self._drive_tick = self.ticks - ((self.sent_tick - drive.tick) & _TICK_MASK)
+            self._accept(frame)
+            return drive
+        else:
+            self.counts.duplicate += 1
+            if is_new:
+                self._lose("rests, though it was started")
+        return None
+
+    def _contradicts(self, drive: Drive, frame: Frame) -> bool:
+        """Whether a drive is another answer to the senses that were answered last."""
+        same = drive.tick == self._drive.tick and counter_of(frame) == counter_of(self._drive_frame)
+        return same and frame != self._drive_frame
+
+    def _take_silence(self, drive: Drive, frame: Frame) -> Drive | None:
+        """In lockstep, silence only tells of a slow host; on its own clock, the robot rests."""
+        if self.lockstep or self.session is None:
+            self.counts.duplicate += 1
+            return None
+        self._accept(frame)
+        return drive
+
+    def _take_other(self, frame: Frame) -> None:
+        decoded = self.protocol.decode(frame)
+        if decoded is not None and decoded.name == "ANSWER":
+            self._take_any_answer(frame, decoded)
+        elif decoded is not None and decoded.name in REPORTS:
+            self._take_report(frame, decoded)
+        else:
+            self.counts.refused += 1
+            if decoded is not None:
+                self._hear_rival(frame)
+
+    def _take_any_answer(self, frame: Frame, decoded: DecodedFrame) -> DecodedFrame | None:
+        matching = [asked for asked in self._asked if counter_of(asked) == counter_of(frame)]
+        if not matching or matching[-1].data[1] != frame.data[1]:
+            self.counts.refused += 1
+            self._lose(f"answered what was not asked here: {self.protocol.describe(frame)}")
+            return None
+        if self._answered or matching[-1] != self._asked[-1]:
+            self.counts.duplicate += 1
+            return None
+        self._answered = True
+        self._accept(frame)
+        return decoded
+
+    def _take_report(self, frame: Frame, decoded: DecodedFrame) -> None:
+        if decoded.signals.get("silent"):
+            self.counts.duplicate += 1
+            self._check_heartbeat(decoded)
+            return
+        arrival = self.reports.judge(frame, decoded)
+        if arrival in (Arrival.AGAIN, Arrival.LATE):
+            self.counts.duplicate += 1
+            return
+        if arrival != Arrival.NEW and self.session is not None:
+            self.counts.refused += 1
+            self._lose(f"counts its {decoded.name} anew", contradicts=arrival == Arrival.OTHER)
+        if not self.reports.take(decoded):
+            self.counts.refused += 1
+            return
+        self._accept(frame)
+        self._check_report(decoded)
+
+    def _check_report(self, decoded: DecodedFrame) -> None:
+        if decoded.name == "HEARTBEAT":
+            self._check_heartbeat(decoded)
+        elif decoded.name == "EMERGENCY" and decoded.signals["kinds"] >> Fault.TWIN & 1:
+            self._lose("hears another robot with its number")
+        elif decoded.name == "BOOT" and not self.reporting:
+            self._lose("started anew", booted=True)
+
+    def _check_heartbeat(self, decoded: DecodedFrame) -> None:
+        theirs, ours = decoded.signals["layout"], self.protocol.layout
+        if not self.protocol.fits(theirs):
+            self._lose("reports another layout of the messages")
+            hashes = f"hash {theirs:04X}, ours {ours:04X}"
+            raise FirmwareError(f"the robot was built from another octet.dbc ({hashes}): rebuild it")
+        if not decoded.signals["state"] and self.session is not None and not self.session.halted:
+            self._lose("reports that it is stopped")
+        if decoded.signals["owner"] not in (0, self.owner):
+            self._lose(f"obeys simulator {decoded.signals['owner']}")
+
+    def _hear_rival(self, frame: Frame) -> None:
+        """Only simulators send these. One may be noise whose CRC is right by chance; two within a second are not."""
+        now = self.now()
+        if self._rival_s is not None and now - self._rival_s <= _RIVAL_S:
+            self.rival = frame
+            self._lose("is commanded by somebody else too")
+        self._rival_s = now
+
+    def _accept(self, frame: Frame) -> None:
+        self.last = frame
+        self.counts.received += 1
+        self.record(frame)
+
+    def _lose(self, how: str, *, contradicts: bool = False, booted: bool = False) -> None:
+        """The robot may no longer be the one that was started, or no longer be alone; supervision finds out."""
+        if self.session is not None:
+            raise SessionLostError(f"it {how} (tick {self.tick})", contradicts=contradicts, booted=booted)

@@ -1,0 +1,100 @@
+"""What a robot has reported: its memory, its state, its identity and its faults."""
+
+from host_sim.client.freshness import Arrival, Freshness
+from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame
+from host_sim.protocol.generated import CELL_COUNT
+from host_sim.protocol.memory_kinds import kinds_of
+from host_sim.protocol.memory_report import MemoryReport
+
+REPORTS = frozenset({"EMERGENCY", "MEMORY", "HEARTBEAT", "BOOT", "FAULTS", "CRASH", "HEALTH"})
+"""The messages that a robot sends of its own accord, beside DRIVE."""
+
+_WHOLE = frozenset({"HEARTBEAT", "BOOT", "MEMORY", "FAULTS 0", "FAULTS 1", "HEALTH"})
+_PARTS = ("half", "page")
+_NOT_FAULTS = ("crc", "counter", "page")
+
+
+class RobotReports:
+    """The last reports of one robot.
+
+    Attributes:
+        memory: The eight cells.
+        faults: The robot's fault counters, by name; each stays at 255.
+        heartbeat: The signals of its HEARTBEAT; empty before the first.
+        boot: The signals of its BOOT, which names the firmware; empty before the first.
+        memories: Number of whole memories so far.
+        ended: Whether the last one of a whole report has come since `await_end`.
+        gap: Number of memories that were lost on the way before the first one since this was last set to None.
+    """
+
+    def __init__(self) -> None:
+        """Has not heard of the robot yet."""
+        self.memory: tuple[int, ...] = (0,) * CELL_COUNT
+        self.faults: dict[str, int] = {}
+        self.heartbeat: dict[str, int] = {}
+        self.boot: dict[str, int] = {}
+        self.memories = 0
+        self.gap: int | None = None
+        self.forget()
+
+    def forget(self) -> None:
+        """Starts over with the alive counters; what was reported stays."""
+        self._fresh: dict[str, Freshness] = {}
+        self._joined = MemoryReport()
+        self._memory_counter: int | None = None
+        self.await_all()
+
+    def await_all(self) -> None:
+        """From now on, `complete` waits for each report."""
+        self._heard: set[str] = set()
+        self.await_end()
+
+    def await_end(self) -> None:
+        """From now on, `ended` waits for the last report."""
+        self.ended = False
+
+    @property
+    def complete(self) -> bool:
+        """Whether each report has come since `await_all`."""
+        return self._heard >= _WHOLE
+
+    def judge(self, frame: Frame, decoded: DecodedFrame) -> Arrival:
+        """Compares a report with those of its kind before it."""
+        return self._fresh.setdefault(_kind(decoded), Freshness()).judge(frame)
+
+    def take(self, decoded: DecodedFrame) -> bool:
+        """Stores a report.
+
+        Returns:
+            False if it is the second half of an invalid memory, which is not stored.
+        """
+        if decoded.name == "MEMORY":
+            return self._take_memory(decoded)
+        if decoded.name == "FAULTS":
+            self.faults |= {name: count for name, count in decoded.signals.items() if name not in _NOT_FAULTS}
+        elif decoded.name == "HEARTBEAT":
+            self.heartbeat = decoded.signals
+        elif decoded.name == "BOOT":
+            self.boot = decoded.signals
+        self._heard.add(_kind(decoded))
+        self.ended = self.ended or decoded.name == "HEALTH"
+        return True
+
+    def _take_memory(self, decoded: DecodedFrame) -> bool:
+        memory, counter = self._joined.join(decoded), decoded.signals["counter"]
+        if memory is None:
+            return True
+        if not kinds_of(memory):
+            return False
+        if self.gap is None:
+            self.gap = 0 if self._memory_counter is None else (counter - self._memory_counter - 1) % COUNTERS
+        self.memory, self._memory_counter = memory, counter
+        self.memories += 1
+        self._heard.add("MEMORY")
+        return True
+
+
+def _kind(decoded: DecodedFrame) -> str:
+    """The message's name, with the number of its part where it has several."""
+    parts = [f" {decoded.signals[part]}" for part in _PARTS if part in decoded.signals]
+    return decoded.name + "".join(parts)

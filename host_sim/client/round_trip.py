@@ -1,0 +1,50 @@
+"""How long to wait before a frame is sent again, from how long answers have taken so far."""
+
+_LEAST_S, _MOST_S = 0.01, 0.25
+_FIRST_S = 0.2
+# Most is little for a network, whose users must not add to its load; on a bus a frame more costs nobody anything.
+_GAIN, _VARIATION_GAIN = 1 / 8, 1 / 4
+_VARIATIONS = 4
+
+
+class RoundTrip:
+    """Estimates the round trip as RFC 6298 does for TCP: smoothed, with its variation, doubled where it is too short.
+
+    >>> trip = RoundTrip()
+    >>> trip.sample(0.05)
+    >>> round(trip.timeout_s, 3)
+    0.15
+
+    Attributes:
+        timeout_s: Time after which an answer is taken for lost, s.
+        is_sure: Whether no answer has come later than expected since the last sample.
+        mean_s: Mean time from a frame to its answer lately, s; None before the first.
+    """
+
+    def __init__(self) -> None:
+        """Knows nothing yet."""
+        self.timeout_s = _FIRST_S
+        self.is_sure = False
+        self.mean_s: float | None = None
+        self._smoothed_s: float | None = None
+        self._variation_s = 0.0
+
+    def sample(self, seconds: float) -> None:
+        """Learns from the answer to a frame that was sent once: of several, none could tell which was answered."""
+        self.is_sure = True
+        if self._smoothed_s is None:
+            self._smoothed_s, self._variation_s = seconds, seconds / 2
+        else:
+            self._variation_s += _VARIATION_GAIN * (abs(seconds - self._smoothed_s) - self._variation_s)
+            self._smoothed_s += _GAIN * (seconds - self._smoothed_s)
+        self.timeout_s = min(max(self._smoothed_s + _VARIATIONS * self._variation_s, _LEAST_S), _MOST_S)
+        self.note(seconds)
+
+    def note(self, seconds: float) -> None:
+        """Counts in how long an answer took, repeats and all."""
+        self.mean_s = seconds if self.mean_s is None else self.mean_s + _GAIN * (seconds - self.mean_s)
+
+    def back_off(self) -> None:
+        """Waits twice as long from now on, until an answer comes to a frame that was sent once."""
+        self.is_sure = False
+        self.timeout_s = min(2 * self.timeout_s, _MOST_S)

@@ -1,0 +1,45 @@
+"""What a robot was told when it was started, and how it went on."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass
+class Session:
+    """How a robot was started, so that it can be started again.
+
+    Attributes:
+        seed: Seed for its random turns.
+        profile: Number of its profile.
+        settings: Parameters that were set, by name.
+        frozen: Whether it was told not to learn.
+        halted: Whether it has stopped because its wheels did not do what they were told.
+    """
+
+    seed: int
+    profile: int
+    settings: Mapping[str, int]
+    frozen: bool = False
+    halted: bool = False
+
+
+@dataclass
+class FrameCounts:
+    """Frame counters of a client; `summary.frame_counts` adds those that the robot reports.
+
+    Attributes:
+        sent: Number of frames sent to the robot, each counted once.
+        received: Number of valid frames received from it, each counted once.
+        repeated: Number of frames sent again because no answer came in time.
+        duplicate: Number of valid frames received that were old news: answers to repeated frames, late or doubled
+            ones, and a waiting robot's signs of life.
+        lost: Number of senses that were not answered in time.
+        refused: Number of frames that were damaged or foreign.
+    """
+
+    sent: int = 0
+    received: int = 0
+    repeated: int = 0
+    duplicate: int = 0
+    lost: int = 0
+    refused: int = 0

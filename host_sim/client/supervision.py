@@ -1,0 +1,162 @@
+"""Finds out what has become of a robot that no longer takes part in its session, and starts it again if it can."""
+
+from host_sim.client.commands import freeze, start
+from host_sim.client.handshake import handshake
+from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
+from host_sim.errors import FirmwareError, RivalError, SessionLostError, TwinError
+from host_sim.protocol.codec import COUNTERS
+from host_sim.robot_io import Drive
+
+_FIRMWARE = ("commit", "modified", "version_major", "version_minor")
+_ATTEMPTS = 5
+_LAST_S = 1.0
+_AHEAD_MAX = COUNTERS // 2
+
+
+def drive_after(client: RobotClient, lost: SessionLostError) -> Drive:
+    """In lockstep, for a robot that was lost: the answer to the last senses, once the robot takes part again.
+
+    Raises:
+        TwinError: As in `recover`.
+        RivalError: As in `recover`.
+        FirmwareError: As in `recover`.
+        RobotError: The robot does not answer, or is lost again and again.
+    """
+    for _ in range(_ATTEMPTS):
+        recover(client, lost)
+        client.repeat_senses()
+        try:
+            return client.await_drive()
+        except SessionLostError as again:
+            if again.silent:
+                raise client.late(client.tick) from None
+            lost = again
+    raise lost
+
+
+def settle(client: RobotClient) -> None:
+    """Makes sure that the memory that was reported last is the robot's.
+
+    Raises:
+        RobotError: As in `recover`.
+    """
+    client.check_settled()
+    try:
+        client.settle()
+    except SessionLostError as lost:
+        recover(client, lost)
+
+
+def recover(client: RobotClient, lost: SessionLostError) -> None:
+    """Asks a robot how it is. One that has started anew is started again, with the memory that it had.
+
+    Raises:
+        TwinError: Two robots have this node number.
+        RivalError: Somebody else commands the robot.
+        FirmwareError: The robot runs another firmware than before.
+        RobotError: The robot does not answer.
+    """
+    session, memory, before = client.session, client.memory, _State(client)
+    assert session is not None
+    client.session = None
+    _check_rival(client)
+    _ask_how_it_is(client, lost)
+    if _has_restarted(client, before, lost):
+        _check_firmware(client)
+        _start_again(client, session, memory)
+        return
+    _check_twins(client, before)
+    session.halted = _has_halted(client, before)
+    if not session.halted:
+        _check_owner(client, lost)
+    client.session = session
+    if lost.contradicts:
+        client.distrust(f"somebody sends frames in the robot's name: {lost}")
+
+
+def _ask_how_it_is(client: RobotClient, lost: SessionLostError) -> None:
+    client.reports.forget()
+    client.expect_reports("report")
+    if client.ask("report", {}, _LAST_S if lost.silent else client.deadline_s) is None:
+        raise client.late(client.tick)
+    if not client.await_reports():
+        client.demand_reports("report")
+
+
+class _State:
+    """What the robot had reported before it was lost."""
+
+    def __init__(self, client: RobotClient) -> None:
+        reports = client.reports
+        self.boot, self.heartbeat, self.faults = reports.boot, reports.heartbeat, dict(reports.faults)
+
+
+def _has_restarted(client: RobotClient, before: _State, lost: SessionLostError) -> bool:
+    """A robot that starts anew is stopped, says so, and counts its time and its BOOTs from 0 again."""
+    after = client.reports
+    if after.heartbeat["state"]:
+        return False
+    ahead = (after.boot["counter"] - before.boot.get("counter", 0)) % COUNTERS
+    went_back = after.heartbeat["uptime"] < before.heartbeat.get("uptime", 0)
+    return lost.booted or went_back or not 1 <= ahead <= _AHEAD_MAX
+
+
+def _check_firmware(client: RobotClient) -> None:
+    was, now = client.firmware, client.reports.boot
+    if any(was[name] != now[name] for name in _FIRMWARE):
+        raise FirmwareError(
+            f"node {client.node} came back with another firmware at tick {client.tick}: commit {now['commit']:06x}, "
+            f"not {was['commit']:06x}"
+        )
+
+
+def _start_again(client: RobotClient, session: Session, memory: tuple[int, ...]) -> None:
+    cause = client.protocol.choice("BOOT", "reset_cause", client.reports.boot["reset_cause"])
+    kept = client.memory == memory
+    try:
+        handshake(client, client.deadline_s)
+        start(client, session.seed, session.profile, session.settings, None if kept else memory)
+        if session.frozen:
+            freeze(client, True)
+    finally:
+        client.reports.memory = memory  # what it had learned is not lost, even if it cannot be written back
+    client.distrust(
+        f"the robot restarted ({cause}) with its memory {'kept' if kept else 'restored'}, and was started again"
+    )
+
+
+def _check_rival(client: RobotClient) -> None:
+    rival = client.inbox.rival
+    if rival is not None:
+        client.rest()
+        raise RivalError(
+            f"another simulator commands node {client.node}, heard at tick {client.tick}: "
+            f"{client.protocol.describe(rival)}; end one of the two, or use another --node"
+        )
+
+
+def _check_twins(client: RobotClient, before: _State) -> None:
+    if client.faults.get("twins", 0) > before.faults.get("twins", 0):
+        client.rest()
+        raise TwinError(
+            f"two robots are node {client.node} on this bus, seen at tick {client.tick}: give each its own number"
+        )
+
+
+def _has_halted(client: RobotClient, before: _State) -> bool:
+    """Whether the robot has stopped because of its wheels: no one else's fault, and it stays where it is."""
+    if client.reports.heartbeat["state"] or client.faults["denied"] == before.faults.get("denied", 0):
+        return False
+    client.distrust("the wheels did not do what they were told, and the robot has stopped")
+    return True
+
+
+def _check_owner(client: RobotClient, lost: SessionLostError) -> None:
+    heartbeat = client.reports.heartbeat
+    if heartbeat["owner"] not in (0, client.owner):
+        client.rest()
+        raise RivalError(f"simulator {heartbeat['owner']} has taken over node {client.node} at tick {client.tick}")
+    if not heartbeat["state"]:
+        client.rest()
+        raise RivalError(f"somebody else stopped node {client.node}: {lost}")

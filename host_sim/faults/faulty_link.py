@@ -1,0 +1,118 @@
+"""A link on which a schedule's faults happen, around any other link."""
+
+import math
+from collections import deque
+from dataclasses import dataclass, field
+
+from host_sim.faults.bus_faults import Passing
+from host_sim.faults.rule import DIRECTIONS, Direction
+from host_sim.faults.schedule import Schedule
+from host_sim.protocol.codec import Frame
+from host_sim.transport.clock import Clock, WallClock
+from host_sim.transport.link import Link
+
+_BEHIND_S = 0.3
+"""A frame that waits to be overtaken arrives after this time, even if no other frame has come."""
+
+
+@dataclass
+class _Held:
+    """A frame that has not arrived yet: it is due at a time, or when enough frames have overtaken it."""
+
+    frame: Frame
+    due_s: float
+    behind: int
+
+
+@dataclass
+class _Way:
+    """One direction of a link: the frames that are held up, and those that have arrived."""
+
+    held: list[_Held] = field(default_factory=list)
+    arrived: deque[Frame] = field(default_factory=deque)
+
+    def put(self, passing: Passing, now_s: float) -> None:
+        """Takes a frame, which arrives at once or later."""
+        if not passing.delay_s and not passing.behind:
+            self._arrive(passing.frame)
+            return
+        due_s = now_s + passing.delay_s + (_BEHIND_S if passing.behind else 0.0)
+        self.held.append(_Held(passing.frame, due_s, passing.behind))
+
+    def deliver(self, now_s: float) -> None:
+        """Lets every frame arrive that is due."""
+        while self.held and self.next_s() <= now_s:
+            due = min(self.held, key=lambda held: held.due_s)
+            self.held.remove(due)
+            self._arrive(due.frame)
+
+    def next_s(self) -> float:
+        """The time at which the next frame is due."""
+        return min((held.due_s for held in self.held), default=math.inf)
+
+    def _arrive(self, frame: Frame) -> None:
+        self.arrived.append(frame)
+        for held in self.held:
+            held.behind -= 1
+            if held.behind == 0:
+                held.due_s = -math.inf
+
+
+class FaultyLink:
+    """A link between the simulator and another link, whose frames meet with faults in both directions.
+
+    Attributes:
+        schedule: The faults, and a record of them.
+    """
+
+    def __init__(self, link: Link, schedule: Schedule, clock: Clock | None = None) -> None:
+        """Takes over a link: `close` closes it.
+
+        Args:
+            link: Where the robot is.
+            schedule: The faults.
+            clock: The time in which frames are late; by default that of the wall clock.
+        """
+        self.schedule = schedule
+        self._link, self._clock = link, clock or WallClock()
+        self._ways: dict[Direction, _Way] = {direction: _Way() for direction in DIRECTIONS}
+
+    def send(self, frame: Frame) -> None:
+        """As in `Link`."""
+        self._let_pass(frame, "to")
+        self._deliver()
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """As in `Link`."""
+        way = self._ways["from"]
+        give_up = self._clock.now() + timeout_s
+        while True:
+            self._deliver()
+            if way.arrived:
+                return way.arrived.popleft()
+            now = self._clock.now()
+            wait_s = min(give_up, *(each.next_s() for each in self._ways.values())) - now
+            frame = self._clock.receive(self._link, max(wait_s, 0.0))
+            if frame is not None:
+                self._let_pass(frame, "from")
+            elif self._clock.now() >= give_up:
+                self._deliver()
+                return way.arrived.popleft() if way.arrived else None
+
+    def close(self) -> None:
+        """As in `Link`. Frames that are still on their way are lost."""
+        self._link.close()
+
+    def _let_pass(self, frame: Frame, direction: Direction) -> None:
+        now = self._clock.now()
+        for passing in self.schedule.passing(frame, direction):
+            self._ways[direction].put(passing, now)
+
+    def _deliver(self) -> None:
+        """Hands over every frame that has arrived by now: the robot's at once, ours when they are asked for."""
+        now = self._clock.now()
+        for way in self._ways.values():
+            way.deliver(now)
+        arrived = self._ways["to"].arrived
+        while arrived:
+            self._link.send(arrived.popleft())

@@ -1,0 +1,123 @@
+"""Rules: which frames meet with which fault, as a person writes them."""
+
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal, get_args
+
+from host_sim.errors import UsageError
+from host_sim.regular_file import read_bytes
+
+Direction = Literal["to", "from"]
+"""To the robot, or from it."""
+
+DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
+
+_RULE = re.compile(
+    r"(?P<name>[a-z]+)"
+    r"(?::(?P<chance>\d{1,3}(?:\.\d{1,3})?)%)?"
+    r"(?::(?P<size>[A-Za-z0-9-]{1,20}))?"
+    r"(?:@(?P<first>\d{1,9})(?P<until>-(?P<last>\d{1,9})?)?)?"
+    r"(?:/(?P<direction>to|from))?"
+)
+_ENDLESS = 10**9
+_FILE_MAX = 16_000_000
+_CERTAIN = 100.0
+
+
+@dataclass(frozen=True)
+class Rule:
+    """One fault, and the frames that it may befall.
+
+    `NAME[:CHANCE%][:SIZE][@FIRST[-[LAST]]][/to|/from]`:
+
+    >>> Rule.parse("drop:30%")
+    Rule(name='drop', chance=30.0, size='', first=1, last=1000000000, directions=('to', 'from'))
+    >>> str(Rule.parse("delay:0-300ms@100-200/from"))
+    'delay:0-300ms@100-200/from'
+
+    Attributes:
+        name: Name of the fault.
+        chance: Chance for each frame, percent.
+        size: How large the fault is, in the fault's own terms; empty for its default.
+        first: Number of the first frame, from 1; each direction has its own numbers.
+        last: Number of the last frame.
+        directions: The directions in which frames are affected.
+    """
+
+    name: str
+    chance: float = _CERTAIN
+    size: str = ""
+    first: int = 1
+    last: int = _ENDLESS
+    directions: tuple[Direction, ...] = DIRECTIONS
+
+    @staticmethod
+    def parse(text: str) -> "Rule":
+        """Reads a rule.
+
+        Raises:
+            UsageError: It is not written as one.
+        """
+        match = _RULE.fullmatch(text)
+        if match is None:
+            raise UsageError(f"{text!r} is not a fault: write NAME[:CHANCE%][:SIZE][@FIRST[-LAST]][/to|/from]")
+        first = int(match["first"] or 1)
+        last = int(match["last"] or _ENDLESS) if match["until"] or not match["first"] else first
+        rule = Rule(match["name"], float(match["chance"] or _CERTAIN), match["size"] or "", first, last)
+        if rule.chance > _CERTAIN or not 1 <= first <= last:
+            raise UsageError(f"{text!r} is not a fault: its chance is over 100 %, or its frames run backwards")
+        return rule if match["direction"] is None else rule.only(DIRECTIONS[match["direction"] == "from"])
+
+    def only(self, direction: Direction) -> "Rule":
+        """This rule for one direction only."""
+        return replace(self, directions=(direction,))
+
+    @property
+    def is_certain(self) -> bool:
+        """Whether every frame is affected."""
+        return self.chance == _CERTAIN
+
+    @property
+    def is_single(self) -> bool:
+        """Whether the rule is about one frame of each direction at most."""
+        return self.first == self.last
+
+    def at(self, number: int, direction: Direction) -> "Rule":
+        """The rule for a single frame, without chance: what is recorded when this rule has struck."""
+        return Rule(self.name, _CERTAIN, self.size, number, number, (direction,))
+
+    def covers(self, number: int, direction: Direction) -> bool:
+        """Whether the rule is about a frame."""
+        return self.first <= number <= self.last and direction in self.directions
+
+    def __str__(self) -> str:
+        chance = "" if self.is_certain else f":{self.chance:g}%"
+        size = f":{self.size}" if self.size else ""
+        direction = "" if self.directions == DIRECTIONS else f"/{self.directions[0]}"
+        return f"{self.name}{chance}{size}{self._frames()}{direction}"
+
+    def _frames(self) -> str:
+        if (self.first, self.last) == (1, _ENDLESS):
+            return ""
+        if self.is_single:
+            return f"@{self.first}"
+        return f"@{self.first}-{'' if self.last == _ENDLESS else self.last}"
+
+
+def read_rules(text: str) -> list[str]:
+    """The rules in a word of the command line: one rule, or for `@FILE` one in each line of a file.
+
+    Raises:
+        UsageError: The file cannot be read, or what is written is no rule.
+    """
+    if not text.startswith("@"):
+        return [str(Rule.parse(text))]
+    path = Path(text[1:])
+    try:
+        lines = read_bytes(path, _FILE_MAX).decode().splitlines()
+    except OSError as error:
+        raise UsageError(f"cannot read {path}: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise UsageError(f"{path} is not a list of faults: it is not text") from None
+    return [str(Rule.parse(line)) for line in lines if line and not line.startswith("#")]

@@ -1,0 +1,78 @@
+"""A schedule of faults: rules, drawn frame by frame from a seed, with a record of what they did."""
+
+from collections.abc import Sequence
+from random import Random
+
+from host_sim.faults.bus_faults import Fault, Passing, make_fault
+from host_sim.faults.rule import DIRECTIONS, Direction, Rule
+from host_sim.protocol.codec import Frame, Protocol
+
+RECORD_MAX = 100_000
+"""Number of faults that are recorded; later ones are only counted."""
+
+
+class _Rolled:
+    """One rule with its fault, and a chance of its own for each direction."""
+
+    def __init__(self, rule: Rule, fault: Fault, seed: int) -> None:
+        self.rule, self.fault, self._seed = rule, fault, seed
+        self._chances: dict[Direction, Random] = {}
+        if not rule.is_certain:
+            self._chances = {direction: Random(f"{seed} {rule} {direction}") for direction in DIRECTIONS}
+
+    def strikes(self, number: int, direction: Direction) -> bool:
+        """Whether the fault befalls a frame. Each frame that is covered is asked about once."""
+        if not self.rule.covers(number, direction):
+            return False
+        return self.rule.is_certain or self._chances[direction].random() * 100 < self.rule.chance
+
+    def dice(self, number: int, direction: Direction) -> Random:
+        """The dice of a frame: the same in a run with the rule and in one with the recorded fault."""
+        return Random(f"{self._seed} {self.rule.name} {number} {direction}")
+
+
+class Schedule:
+    """Faults for the frames of one link. The same rules and seed befall the same frames in the same way.
+
+    Attributes:
+        struck: Each fault so far, as a rule for one frame: with the same seed they make the same faults again.
+        count: Number of faults so far.
+    """
+
+    def __init__(self, rules: Sequence[Rule], seed: int, protocol: Protocol) -> None:
+        """Prepares the faults.
+
+        Args:
+            rules: Applied in this order, those for a single frame first.
+            seed: Seed for all that is random.
+            protocol: The protocol of the node that forged frames are for.
+
+        Raises:
+            UsageError: There is no such fault, or not of that size.
+        """
+        rolled = [_Rolled(rule, make_fault(rule.name, rule.size, protocol), seed) for rule in rules]
+        self._wide = [each for each in rolled if not each.rule.is_single]
+        self._single: dict[int, list[_Rolled]] = {}
+        for each in rolled:
+            if each.rule.is_single:
+                self._single.setdefault(each.rule.first, []).append(each)
+        self._numbers = dict.fromkeys(DIRECTIONS, 0)
+        self.struck: list[Rule] = []
+        self.count = 0
+
+    def passing(self, frame: Frame, direction: Direction) -> list[Passing]:
+        """What arrives of the next frame in a direction, in order."""
+        self._numbers[direction] += 1
+        number = self._numbers[direction]
+        arriving = [Passing(frame)]
+        for rolled in (*self._single.get(number, ()), *self._wide):
+            if rolled.strikes(number, direction):
+                dice = rolled.dice(number, direction)
+                arriving = [after for before in arriving for after in rolled.fault.apply(before, dice)]
+                self._record(rolled.rule.at(number, direction))
+        return arriving
+
+    def _record(self, rule: Rule) -> None:
+        self.count += 1
+        if len(self.struck) < RECORD_MAX:
+            self.struck.append(rule)

@@ -1,0 +1,90 @@
+"""A line that comes back: a bus that goes down and up, an adapter that is unplugged and plugged in again."""
+
+import time
+from collections.abc import Callable
+from contextlib import suppress
+
+from host_sim.errors import LinkDownError, OctetError, RobotError
+from host_sim.protocol.codec import Frame
+from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import Link
+
+_PAUSE_S = 0.1
+
+
+class ReconnectingLink:
+    """Opens a link again whenever it is gone. What is sent meanwhile is lost; `receive` waits until it is back."""
+
+    def __init__(self, name: str, open_link: Callable[[], Link], stats: LineStats, patience_s: float) -> None:
+        """Opens the link for the first time.
+
+        Args:
+            name: Name of the line, for messages.
+            open_link: Opens it.
+            stats: Counts what happens to it.
+            patience_s: Time to wait for it when it is gone, s of wall-clock time.
+
+        Raises:
+            OctetError: It cannot be opened.
+        """
+        self._name, self._open_link, self._stats, self._patience_s = name, open_link, stats, patience_s
+        self._link: Link | None = open_link()
+        self._gone_since: float | None = None
+
+    def send(self, frame: Frame) -> None:
+        """As in `Link`, but a line that is gone only costs the frame."""
+        if self._link is None:
+            self._stats.unsent += 1
+            return
+        try:
+            self._link.send(frame)
+        except LinkDownError as error:
+            self._stats.unsent += 1
+            self._note_gone(error)
+        else:
+            self._gone_since = None
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """As in `Link`.
+
+        A line that is gone is waited for, whatever the timeout, and then the result is None: something has to be sent
+        before it is known whether the line works again.
+
+        Raises:
+            RobotError: The line has been gone for too long.
+        """
+        if self._gone_since is None and self._link is not None:
+            try:
+                return self._link.receive(timeout_s)
+            except LinkDownError as error:
+                self._note_gone(error)
+        self._wait()
+        return None
+
+    def close(self) -> None:
+        """As in `Link`."""
+        if self._link is not None:
+            self._link.close()
+            self._link = None
+
+    def _note_gone(self, error: LinkDownError) -> None:
+        if self._gone_since is None:
+            self._gone_since = time.monotonic()
+            self._stats.outages += 1
+        self._stats.reason = str(error)
+        with suppress(OSError, RobotError):
+            self.close()
+        self._link = None
+
+    def _wait(self) -> None:
+        """Waits until the line can be opened."""
+        assert self._gone_since is not None
+        while True:
+            if time.monotonic() - self._gone_since > self._patience_s:
+                raise RobotError(f"{self._name} has been gone for {self._patience_s:g} s: {self._stats.reason}")
+            time.sleep(_PAUSE_S)
+            if self._link is not None:
+                return
+            with suppress(OctetError):
+                self._link = self._open_link()
+                return

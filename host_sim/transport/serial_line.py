@@ -1,0 +1,47 @@
+"""An slcan adapter, or a robot that speaks slcan itself, on a serial port."""
+
+from collections.abc import Sequence
+
+import serial  # type: ignore[import-untyped]  # pyserial has no types
+
+from host_sim.errors import UsageError
+from host_sim.transport.line_stats import LineStats
+from host_sim.transport.slcan_link import SlcanLink
+
+_BAUD = 115_200
+_BIT_RATES = {
+    10_000: 0,
+    20_000: 1,
+    50_000: 2,
+    100_000: 3,
+    125_000: 4,
+    250_000: 5,
+    500_000: 6,
+    800_000: 7,
+    1_000_000: 8,
+}
+
+
+def open_serial_line(channel: str, bitrate: int, ids: Sequence[int], stats: LineStats) -> SlcanLink:
+    """Opens a serial port and the bus behind it.
+
+    Args:
+        channel: The port's device, with `@BAUD` if its speed is not 115200.
+        bitrate: Bits a second of the bus.
+        ids: The 11-bit identifiers to listen for; none for all.
+        stats: Counts what happens to the line.
+
+    Raises:
+        UsageError: There is no such port, or it has no such speed.
+    """
+    device, at, baud = channel.partition("@")
+    if at and not baud.isdecimal():
+        raise UsageError(f"a serial port's speed is a number of baud, not {baud!r}")
+    try:
+        port = serial.Serial(device, int(baud or _BAUD), timeout=0)
+    except (serial.SerialException, OSError, ValueError) as error:
+        raise UsageError(f"cannot open the bus slcan:{channel}: {str(error).splitlines()[0]}") from error
+    link = SlcanLink(port, stats, ids)
+    # An end of line first, for what may be left of an older one; then close, speed, open.
+    link.write(b"\rC\rS%d\rO\r" % _BIT_RATES[bitrate])
+    return link

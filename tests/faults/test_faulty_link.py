@@ -1,0 +1,172 @@
+"""A link with faults: each does to the frames what its name says, and a recorded one does it again."""
+
+from collections import deque
+
+import pytest
+
+from host_sim.faults.faulty_link import FaultyLink
+from host_sim.faults.rule import Rule
+from host_sim.faults.schedule import Schedule
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.generated import Opcode
+from host_sim.transport.clock import VirtualClock
+
+PROTOCOL = Protocol()
+SENT = [Frame(0x123, bytes([number] * 8)) for number in range(20)]
+
+
+class Mirror:
+    """A far end that sends back what it receives."""
+
+    def __init__(self) -> None:
+        self.heard: list[Frame] = []
+        self.waiting: deque[Frame] = deque()
+
+    def send(self, frame: Frame) -> None:
+        self.heard.append(frame)
+        self.waiting.append(frame)
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        assert timeout_s == 0.0  # with a virtual clock nobody waits
+        return self.waiting.popleft() if self.waiting else None
+
+    def close(self) -> None:
+        self.waiting.clear()
+
+
+class Journey:
+    """Frames that went through a link with faults: what the far end heard, and what came back, with its time."""
+
+    def __init__(self, *rules: str | Rule, seed: int = 1) -> None:
+        self.mirror, self.clock = Mirror(), VirtualClock()
+        parsed = [rule if isinstance(rule, Rule) else Rule.parse(rule) for rule in rules]
+        self.link = FaultyLink(self.mirror, Schedule(parsed, seed, PROTOCOL), self.clock)
+        self.back: list[Frame] = []
+        self.times: list[float] = []
+        for frame in SENT:
+            self.link.send(frame)
+            self._listen(0.01)
+        self._listen(1.0)
+
+    def _listen(self, seconds: float) -> None:
+        while (frame := self.link.receive(seconds)) is not None:
+            self.back.append(frame)
+            self.times.append(self.clock.now())
+
+    @property
+    def heard(self) -> list[Frame]:
+        return self.mirror.heard
+
+
+def test_without_a_rule_every_frame_passes_as_it_was():
+    journey = Journey()
+
+    assert (journey.heard, journey.back) == (SENT, SENT)
+
+
+def test_drop_loses_the_frames_that_it_names():
+    journey = Journey("drop@3-5/to")
+
+    assert journey.heard == SENT[:2] + SENT[5:]
+
+
+def test_a_chance_befalls_some_frames_and_both_ways():
+    journey = Journey("drop:30%")
+
+    assert len(SENT) > len(journey.heard) > len(journey.back) > 0
+
+
+def test_duplicate_lets_a_frame_arrive_again():
+    journey = Journey("duplicate:2@4/to")
+
+    assert journey.heard == SENT[:3] + [SENT[3]] * 3 + SENT[4:]
+
+
+def test_reorder_lets_later_frames_pass():
+    journey = Journey("reorder:2@4/to")
+
+    assert journey.heard == [*SENT[:3], SENT[4], SENT[5], SENT[3], *SENT[6:]]
+
+
+def test_a_frame_that_nobody_overtakes_arrives_all_the_same():
+    journey = Journey("reorder:5@20/to")
+
+    assert journey.heard == SENT
+
+
+def test_delay_makes_a_frame_late():
+    prompt, late = Journey(), Journey("delay:50ms@20/from")
+
+    assert late.back == SENT
+    assert late.times[-1] - prompt.times[-1] == pytest.approx(0.05, abs=0.001)
+
+
+def test_a_delay_within_bounds_varies_and_keeps_to_them():
+    journey = Journey("delay:5-300ms/to")
+
+    assert sorted(journey.heard) == SENT
+    assert journey.heard != SENT
+
+
+def test_corrupt_changes_one_bit():
+    journey = Journey("corrupt@4/to")
+
+    (changed,) = set(journey.heard) - set(SENT)
+    assert (int.from_bytes(changed.data, "big") ^ int.from_bytes(SENT[3].data, "big")).bit_count() == 1
+
+
+def test_truncate_cuts_a_frame_short():
+    journey = Journey("truncate:3@4/to")
+
+    assert journey.heard[3] == Frame(0x123, SENT[3].data[:3])
+
+
+def test_flood_lets_others_talk():
+    journey = Journey("flood:50@4/to")
+
+    foreign = [frame for frame in journey.heard if frame not in SENT]
+    assert len(foreign) == 50
+    assert [frame for frame in journey.heard if frame in SENT] == SENT
+    assert {len(frame.data) for frame in foreign} == set(range(9))
+
+
+def test_forge_sends_a_command_in_our_name():
+    journey = Journey("forge:stop@4/to")
+
+    (forged,) = set(journey.heard) - set(SENT)
+    decoded = PROTOCOL.decode(forged)
+    assert decoded is not None
+    assert (decoded.name, decoded.signals["opcode"]) == ("COMMAND", Opcode.STOP)
+
+
+EVERYTHING = (
+    "drop:20%",
+    "duplicate:20%",
+    "reorder:20%",
+    "delay:20%:0-300ms",
+    "corrupt:20%",
+    "truncate:20%",
+    "flood:9%",
+)
+
+
+def test_the_same_seed_makes_the_same_faults():
+    first, again, other = Journey(*EVERYTHING), Journey(*EVERYTHING), Journey(*EVERYTHING, seed=2)
+
+    assert (first.heard, first.back, first.times) == (again.heard, again.back, again.times)
+    assert first.heard != other.heard
+
+
+def test_recorded_faults_happen_again():
+    first = Journey(*EVERYTHING)
+
+    again = Journey(*(Rule.parse(str(rule)) for rule in first.link.schedule.struck))
+
+    assert (again.heard, again.back, again.times) == (first.heard, first.back, first.times)
+    assert first.link.schedule.count == again.link.schedule.count > 20
+
+
+def test_a_fault_befalls_a_frame_whatever_happened_to_the_others():
+    alone, among_others = Journey("corrupt@9/to"), Journey("drop@2/to", "corrupt@9/to")
+
+    assert alone.heard[8:] == among_others.heard[7:]

@@ -1,0 +1,70 @@
+"""Rules for faults, as a person writes them."""
+
+import pytest
+
+from host_sim.errors import UsageError
+from host_sim.faults.bus_faults import FAULTS
+from host_sim.faults.rule import Rule
+from host_sim.faults.schedule import Schedule
+from host_sim.protocol.codec import Protocol
+
+TEXTS = [
+    "drop",
+    "drop:30%",
+    "drop:0.5%@7/to",
+    "duplicate:10%:2@100-200",
+    "reorder:5%:3/from",
+    "delay:0-300ms@100-",
+    "corrupt:1%:13",
+    "truncate:2",
+    "flood:50@9",
+    "forge:stop@17/to",
+    "forge:MEMORY/from",
+    "forge",
+]
+
+
+@pytest.mark.parametrize("text", TEXTS)
+def test_a_rule_is_written_as_it_was_read(text):
+    assert str(Rule.parse(text)) == text
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_each_fault_has_a_default_size(name):
+    Schedule([Rule.parse(name)], 1, Protocol())
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "drop:",
+        "drop:30",
+        "drop:101%",
+        "drop@0",
+        "drop@9-3",
+        "drop/up",
+        "drop:30%:30%",
+        "delay:fast",
+        "delay:300-0ms",
+        "duplicate:0",
+        "corrupt:65",
+        "truncate:9",
+        "flood:1001",
+        "forge:fire",
+        "forge:STOP",
+        "meteor",
+    ],
+)
+def test_what_is_no_fault_is_refused_in_one_line(text):
+    with pytest.raises(UsageError) as refused:
+        Schedule([Rule.parse(text)], 1, Protocol())
+
+    assert "\n" not in str(refused.value)
+
+
+def test_frames_are_counted_from_one_and_up_to_the_last():
+    rule = Rule.parse("drop@2-3/to")
+
+    assert [rule.covers(number, "to") for number in range(1, 5)] == [False, True, True, False]
+    assert not rule.covers(2, "from")

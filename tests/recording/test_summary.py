@@ -1,0 +1,58 @@
+"""The counters of a run, as people and programs read them."""
+
+import json
+
+import pytest
+
+from host_sim.client.frame_log import FrameLog
+from host_sim.client.robot_client import RobotClient
+from host_sim.protocol.codec import Protocol
+from host_sim.recording.summary import Summary, frame_counts, summarize
+from host_sim.sim.run_config import RunConfig
+from host_sim.transport.in_process_link import InProcessLink
+
+
+@pytest.fixture
+def client():
+    log = FrameLog()
+    yield RobotClient(InProcessLink(), Protocol(), log, bus="none")
+    log.close()
+
+
+def summary_of(client: RobotClient) -> Summary:
+    return summarize(RunConfig(), [client], [], "", 1.0)
+
+
+def test_a_loss_is_counted_once(client):
+    client.frames.lost = 3
+    client.reports.faults = {"missed": 2}
+
+    assert frame_counts(client)["lost"] == 3
+
+
+def test_a_counter_at_its_limit_says_so(client):
+    client.reports.faults = {"missed": 255, "stale": 254}
+
+    summary = summary_of(client)
+
+    assert json.loads(summary.to_json())["robots"][0]["saturated"] == ["missed"]
+    assert "missed: 255 or more" in summary.for_people()
+    assert "stale: 254" in summary.for_people()
+    assert "254 or more" not in summary.for_people()
+
+
+def test_a_sound_run_says_nothing_about_its_link(client):
+    assert "link" not in summary_of(client).for_people()
+
+
+def test_what_happened_to_the_line_is_said(client):
+    client.line.outages, client.frames.repeated = 2, 7
+    client.round_trip.note(0.3)
+
+    assert "link      7 frames repeated, gone 2 times; an answer takes 300 ms" in summary_of(client).for_people()
+
+
+def test_incidents_are_listed(client):
+    client.distrust("the robot restarted")
+
+    assert summary_of(client).incidents == ["at tick 0 (node 1) the robot restarted"]

@@ -1,0 +1,110 @@
+"""A line that goes away and comes back, and one that stays away."""
+
+from collections import deque
+
+import pytest
+
+from host_sim.errors import LinkDownError, RobotError, UsageError
+from host_sim.protocol.codec import Frame
+from host_sim.transport.line_stats import LineStats
+from host_sim.transport.reconnecting_link import ReconnectingLink
+
+FRAME = Frame(0x123, b"\x01")
+
+
+class Line:
+    """A line in the hands of a test: whether it is there, and what was sent over it."""
+
+    def __init__(self) -> None:
+        self.is_there = True
+        self.opened = 0
+        self.sent: list[Frame] = []
+        self.waiting: deque[Frame] = deque()
+
+    def open(self) -> "Line":
+        self._check(UsageError)
+        self.opened += 1
+        return self
+
+    def send(self, frame: Frame) -> None:
+        self._check(LinkDownError)
+        self.sent.append(frame)
+
+    def receive(self, timeout_s: float) -> Frame | None:  # noqa: ARG002 - as in `Link`
+        self._check(LinkDownError)
+        return self.waiting.popleft() if self.waiting else None
+
+    def close(self) -> None:
+        pass
+
+    def _check(self, error: type[Exception]) -> None:
+        if not self.is_there:
+            raise error("no such device")
+
+
+@pytest.fixture
+def line():
+    return Line()
+
+
+def reconnecting(line: Line, stats: LineStats | None = None, patience_s: float = 5.0) -> ReconnectingLink:
+    return ReconnectingLink("the bus x", line.open, stats or LineStats(), patience_s)
+
+
+def test_frames_pass_over_a_line_that_is_there(line):
+    link = reconnecting(line)
+    line.waiting.append(FRAME)
+
+    link.send(FRAME)
+
+    assert line.sent == [FRAME]
+    assert link.receive(0.0) == FRAME
+
+
+def test_what_is_sent_while_the_line_is_gone_is_counted(line):
+    stats = LineStats()
+    link = reconnecting(line, stats)
+    line.is_there = False
+
+    link.send(FRAME)
+    link.send(FRAME)
+
+    assert (stats.unsent, stats.outages, stats.reason) == (2, 1, "no such device")
+
+
+def test_a_line_that_is_back_is_opened_again(line):
+    link = reconnecting(line)
+    line.is_there = False
+    link.send(FRAME)
+    line.is_there = True
+    line.waiting.append(FRAME)
+
+    assert link.receive(0.0) is None  # something must be sent first
+    link.send(FRAME)
+
+    assert line.opened == 2
+    assert line.sent == [FRAME]
+    assert link.receive(0.0) == FRAME
+
+
+def test_a_line_that_stays_away_is_given_up(line):
+    link = reconnecting(line, patience_s=0.3)
+    line.is_there = False
+
+    with pytest.raises(RobotError, match=r"the bus x has been gone for 0.3 s: no such device"):
+        link.receive(0.0)
+
+
+def test_a_line_that_comes_and_goes_counts_each_time(line):
+    stats = LineStats()
+    link = reconnecting(line, stats)
+
+    for _ in range(3):
+        line.is_there = False
+        link.send(FRAME)
+        line.is_there = True
+        link.receive(0.0)
+        link.send(FRAME)
+
+    assert stats.outages == 3
+    assert len(line.sent) == 3

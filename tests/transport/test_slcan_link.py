@@ -1,0 +1,108 @@
+"""slcan text as it comes over a real line: in pieces, with acknowledgements, and with noise."""
+
+import os
+import socket
+from collections.abc import Iterator
+from random import Random
+
+import pytest
+
+from host_sim.errors import LinkDownError
+from host_sim.protocol.codec import Frame
+from host_sim.transport.line_stats import LineStats
+from host_sim.transport.slcan_link import SlcanLink, encode
+
+FRAME = Frame(0x123, b"\x01\x02\x03")
+NO_FRAME = Frame(-1, b"")
+
+
+@pytest.fixture
+def ends() -> Iterator[tuple[SlcanLink, socket.socket]]:
+    near, far = socket.socketpair()
+    yield SlcanLink(near), far
+    near.close()
+    far.close()
+
+
+def test_a_frame_may_come_in_pieces(ends):
+    link, far = ends
+    text = encode(FRAME)
+
+    far.send(text[:4])
+    assert link.receive(0.0) is None
+    far.send(text[4:])
+
+    assert link.receive(0.5) == FRAME
+
+
+def test_what_an_adapter_acknowledges_is_no_frame(ends):
+    link, far = ends
+
+    far.send(b"\r\rz\rZ\r\a" + encode(FRAME))
+
+    assert link.receive(0.5) == FRAME
+
+
+@pytest.mark.parametrize("noise", [b"\xff\xfe\r", b"t12\r", b"t1239\r", b"t1233010\r", b"T00000123301\r", b"tXYZ0\r"])
+def test_a_line_that_is_no_frame_costs_no_other(ends, noise):
+    link, far = ends
+
+    far.send(noise + encode(FRAME))
+
+    assert [link.receive(0.5), link.receive(0.5)] == [NO_FRAME, FRAME]
+
+
+def test_frames_with_other_identifiers_are_skipped():
+    near, far = socket.socketpair()
+    link = SlcanLink(near, ids=[0x123])
+
+    far.send(encode(Frame(0x124, b"")) * 5 + encode(FRAME))
+
+    assert link.receive(0.5) == FRAME
+    near.close()
+    far.close()
+
+
+def test_any_bytes_are_survived(ends):
+    link, far = ends
+    far.setblocking(False)
+    dice = Random(1)
+
+    for _ in range(200):
+        far.send(dice.randbytes(200))
+        while link.receive(0.0) is not None:
+            pass
+    far.send(b"\r" + encode(FRAME))
+
+    heard = [link.receive(0.0) for _ in range(3)]
+    assert FRAME in heard
+
+
+def test_a_stream_of_noise_does_not_hold_up_who_waits(ends):
+    link, far = ends
+    far.setblocking(False)
+    far.send(b"x" * 60_000)
+
+    assert link.receive(0.05) is None
+
+
+def test_an_end_that_is_closed_is_an_error(ends):
+    link, far = ends
+    far.close()
+
+    with pytest.raises(LinkDownError, match="its end of the line is closed"):
+        link.receive(0.5)
+
+
+def test_what_there_is_no_room_for_is_lost_and_not_waited_for():
+    read_end, write_end = os.pipe()
+    os.set_blocking(write_end, False)
+    with os.fdopen(read_end, "rb"), os.fdopen(write_end, "wb", buffering=0) as stream:
+        stats = LineStats()
+        link = SlcanLink(stream, stats)
+        for _ in range(8000):
+            if stats.unsent:
+                break
+            link.send(FRAME)
+
+        assert stats.unsent == 1
