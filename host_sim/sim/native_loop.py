@@ -26,6 +26,7 @@ BLOCK_TICKS = 256
 _LINES_A_TICK = 3
 _LENGTH = 8
 _SENSES_END = len(Senses._fields)
+_REASON = _SENSES_END + Drive._fields.index("reason")
 _DRIVE_END = _SENSES_END + len(Drive._fields)
 
 
@@ -124,6 +125,12 @@ class NativeLoop:
             robot.decisions[0 : robot.decision_count],
             self._memories[index],
         )
+
+    def reasons(self, index: int) -> Sequence[int]:
+        """A robot's reason in each tick of the last block."""
+        row = self._library.LOOP_ROW
+        numbers: Sequence[int] = self._ffi.unpack(self._robots[index].rows, self._loop.ticks * row)
+        return numbers[_REASON::row]
 
     def last(self, index: int) -> tuple[Senses, Drive]:
         """A robot's senses and drive in the last tick."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from host_sim.protocol.generated import Reason
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.make import make
+from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.study.faults import FAULTS
@@ -68,7 +69,12 @@ class _BlockedTimes:
         self._avoiding = False
 
     def __call__(self, simulation: Simulation) -> None:
-        avoids = simulation.drives[0].reason in _AVOIDING
+        loop = simulation.loop
+        for reason in [simulation.drives[0].reason] if loop is None else loop.reasons(0):
+            self._add(reason)
+
+    def _add(self, reason: int) -> None:
+        avoids = reason in _AVOIDING
         if avoids and not self._avoiding:
             self.ticks.append(0)
         if avoids:
@@ -86,7 +92,8 @@ def run_trial(trial: Trial) -> list[Row]:
     with make(config) as simulation:
         for number in range(1, trial.environments + 1):
             simulation.enter(number)
-            if number >= trial.fault_from:
+            if trial.fault != "none" and number >= trial.fault_from:
+                simulation.native, simulation.loop = False, None  # the loop in C has sound bodies only
                 simulation.arena.bodies[:] = [FAULTS[trial.fault](simulation.arena.body, dice)]
             rows.append(_run_environment(simulation, Row(trial.profile, trial.seed, number)))
     return rows
@@ -95,7 +102,7 @@ def run_trial(trial: Trial) -> list[Row]:
 def _run_environment(simulation: Simulation, row: Row) -> Row:
     simulation.watch = blocked = _BlockedTimes()
     while not simulation.over:
-        simulation.step()
+        simulation.step(BLOCK_TICKS)
     episode = simulation.leave()
     row.finished, row.robot_s, row.collisions = episode.finished, episode.robot_s, episode.robots[0].collisions
     row.blocked_s = [round(ticks * episode.tick_s, 3) for ticks in blocked.ticks]

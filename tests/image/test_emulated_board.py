@@ -14,7 +14,7 @@ from host_sim.emulator.rcc import RccFaults
 from host_sim.protocol.generated import Side
 from tests.image.support import BOARDS, Talk, counted, is_rest, talk_to
 
-WORST_TICK = 3000
+WORST_TICK = 3600
 NOISE_PER_TICK = 200
 """Ten thousand frames a second."""
 

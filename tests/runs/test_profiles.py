@@ -29,7 +29,7 @@ def test_a_run_of_each_profile_is_replayed_without_a_difference(profile, tmp_pat
         (episode,) = simulation.run()
     log.close()
 
-    outcome = replay(path, list(read_log(path)), Protocol())
+    outcome = replay(read_log(path), Protocol())
 
     assert outcome.difference is None
     assert outcome.drives >= episode.ticks
@@ -51,7 +51,6 @@ def test_a_start_with_another_profile_translates_what_was_learned():
         (client,) = simulation.clients
         learned = client.memory
         client.command("start", profile=PROFILES["article"], seed=1, lockstep=1)
-        client.expect("MEMORY", "start")
-        client.expect("MEMORY", "start")
+        client.await_memory()
 
     assert (kinds_of(learned), client.memory) == ([MemoryKind.CONFIDENCE], SIDES)
