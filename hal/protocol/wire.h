@@ -27,6 +27,7 @@ struct wire {
     bool has_ranges;                 /* they have come: */
     uint8_t ranges_tick;
     uint8_t range_mm[FEEL_COUNT];
+    uint8_t strangers;               /* frames with our own identifiers since the last heartbeat: one may be noise */
     bool twin;                       /* another robot with this number was heard since the last start */
     bool unasked;                    /* the stop under way is the wire's own, and has no answer */
     struct frame drive, answer;      /* as last sent, to be sent again when asked again */

@@ -87,6 +87,7 @@ static void write_heartbeat(struct wire *wire, const struct output *out, struct 
 
     if (!out->silent)
         (void)count_up(wire, COUNTED_HEARTBEAT);
+    wire->strangers = 0;
     (void)octet_heartbeat_pack(frame->data, &heartbeat, sizeof frame->data);
     e2e_protect(frame);
 }
@@ -272,6 +273,7 @@ static void write_result(struct wire *wire, const struct output *out, struct fra
     session_executed(&wire->session, out->answer);
     if (out->answer == RESULT_DONE && frames->first[frames->count - 1].data[1] >> 4 == OPCODE_START) {
         wire->twin = wire->has_ranges = false;
+        wire->strangers = 0;
         wire->wants_ranges = out->answer_value & ANSWER_WANTS_RANGES;
     }
 }

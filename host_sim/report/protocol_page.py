@@ -61,8 +61,8 @@ for a COMMAND, in lockstep or not.
 
 **start** makes the sender the robot's owner, until **stop**, or until its SENSES have failed to come for 100 ms (in
 lockstep for a second). Meanwhile the commands of other senders are refused, but for **stop**. HEARTBEAT names the
-owner. A robot that hears a DRIVE or a HEARTBEAT with its own identifiers has a twin: it stops, and counts it in
-FAULTS.
+owner. A robot that hears two DRIVEs or HEARTBEATs with its own identifiers within a second has a twin: it stops. Each
+is counted in FAULTS.
 
 ## Identifiers
 

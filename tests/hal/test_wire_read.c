@@ -423,10 +423,24 @@ static struct frame of_a_twin(uint32_t id, uint8_t len)
 
 static void test_a_twin_stops_the_robot(void)
 {
+    const struct frame heard = of_a_twin(OCTET_DRIVE_FRAME_ID, OCTET_DRIVE_LENGTH);
+
     start(1, 0);
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(of_a_twin(OCTET_DRIVE_FRAME_ID, OCTET_DRIVE_LENGTH)));
+    refuse(heard);
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(heard));
     TEST_ASSERT_EQUAL(OPCODE_STOP, in.command.opcode);
-    expect(FAULT_TWIN, 1);
+    expect(FAULT_TWIN, 2);
+}
+
+/* Of 10,000 frames of noise a second, now and then one has our identifier and a right CRC. */
+static void test_one_frame_a_second_makes_no_twin(void)
+{
+    start(1, 0);
+    for (unsigned second = 0; second < 10; second++) {
+        refuse(of_a_twin(OCTET_DRIVE_FRAME_ID, OCTET_DRIVE_LENGTH));
+        respond((struct output){.has_report = true, .has_drive = true});
+    }
+    expect(FAULT_TWIN, 10);
 }
 
 static void test_a_stop_for_a_twin_has_no_answer_and_no_owner(void)
@@ -435,23 +449,26 @@ static void test_a_stop_for_a_twin_has_no_answer_and_no_owner(void)
     struct frame frames[WIRE_FRAMES_MAX];
 
     start(1, 0);
-    read(of_a_twin(OCTET_HEARTBEAT_FRAME_ID, OCTET_HEARTBEAT_LENGTH));
+    for (unsigned i = 0; i < 2; i++)
+        read(of_a_twin(OCTET_HEARTBEAT_FRAME_ID, OCTET_HEARTBEAT_LENGTH));
     TEST_ASSERT_EQUAL_size_t(2, wire_write(&wire, &out, frames));
     TEST_ASSERT_EQUAL_UINT32(OCTET_EMERGENCY_FRAME_ID, frames[0].id);
     TEST_ASSERT_EQUAL_UINT8(0, wire.session.owner);
-    expect(FAULT_TWIN, 1);
+    expect(FAULT_TWIN, 2);
 }
 
 static void test_a_twin_stops_the_robot_once_for_each_start(void)
 {
     const struct frame heard = of_a_twin(OCTET_HEARTBEAT_FRAME_ID, OCTET_HEARTBEAT_LENGTH);
 
-    read(heard);
+    refuse(heard);
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(heard));
     respond((struct output){.has_answer = true, .has_drive = true});
     refuse(heard);
     start(1, 0);
+    refuse(heard);
     TEST_ASSERT_EQUAL(INPUT_COMMAND, read(heard));
-    expect(FAULT_TWIN, 3);
+    expect(FAULT_TWIN, 5);
 }
 
 static void test_a_damaged_frame_of_a_twin_is_damaged(void)
@@ -507,6 +524,7 @@ int main(void)
     RUN_TEST(test_in_lockstep_senses_wait_for_their_ranges);
     RUN_TEST(test_on_its_own_clock_senses_do_without_their_ranges);
     RUN_TEST(test_a_twin_stops_the_robot);
+    RUN_TEST(test_one_frame_a_second_makes_no_twin);
     RUN_TEST(test_a_stop_for_a_twin_has_no_answer_and_no_owner);
     RUN_TEST(test_a_twin_stops_the_robot_once_for_each_start);
     RUN_TEST(test_a_damaged_frame_of_a_twin_is_damaged);
