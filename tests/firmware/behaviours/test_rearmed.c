@@ -1,34 +1,11 @@
-#include "firmware/brain.h"
-
-#include <unity.h>
-
-enum { CLEAR = 0, FRONT = FEEL_FRONT, ALL_THREE = 14 };
-enum { PATTERN_FRONT = 2, PATTERN_ALL_THREE = 7 };
-
-static struct brain brain;
-static struct config config;
+#include "brain_rig.h"
 
 void setUp(void)
 {
-    brain = (struct brain){.frozen = false};
-    config_reset(&config);
-    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_REARMED, 1));
+    begin(PROFILE_REARMED);
 }
 
 void tearDown(void) {}
-
-static struct action next(uint8_t feel)
-{
-    const struct senses senses = {.feel = feel};
-
-    return brain_next(&brain, &config, &senses);
-}
-
-static void remembered_turns(unsigned count)
-{
-    for (unsigned i = 0; i < count; i++)
-        TEST_ASSERT_EQUAL(REASON_REMEMBERED, next(FRONT).reason);
-}
 
 static void test_boredom_strikes_again_after_ten_more_turns(void)
 {

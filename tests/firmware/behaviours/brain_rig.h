@@ -1,0 +1,24 @@
+/* brain_rig.h: a brain that decides, and what the tests of its behaviours ask of it. */
+#ifndef OCTET_BRAIN_RIG_H
+#define OCTET_BRAIN_RIG_H
+
+#include <unity.h>
+
+#include "firmware/brain.h"
+
+enum { CLEAR = 0, FRONT_RIGHT = FEEL_FRONT_RIGHT, FRONT = FEEL_FRONT, ALL_THREE = 14 };
+enum { PATTERN_FRONT_RIGHT = 1, PATTERN_FRONT = 2, PATTERN_ALL_THREE = 7 };
+
+extern struct brain brain;
+extern struct config config;
+
+void begin(enum profile profile);
+        /* Empty, with the default parameters. */
+
+struct action next(uint8_t feel);
+        /* The last action has ended with these sensors triggered. */
+
+void remembered_turns(unsigned count);
+        /* Blocked in front, it makes so many remembered turns. */
+
+#endif
