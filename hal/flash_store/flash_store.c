@@ -107,7 +107,7 @@ static bool is_erased(unsigned page, union place *scratch)
 /* A mark that cannot be written is done without: the page is in use from now on, and its records are as good a sign. */
 static int erase(unsigned page, union place *scratch)
 {
-    static const uint8_t nothing[CELL_COUNT] = {0};
+    static const uint8_t nothing[CELL_COUNT];   /* zeros */
 
     if (flash_erase(page) < 0 || used_of(page, scratch) > 0)
         return HAL_E_STORE;
