@@ -47,8 +47,9 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT])
     if (understands(brain->profile, &brain->memory))
         return true;
     /* Each kind is some profile's. */
-    for (brain->profile = 0; !understands(brain->profile, &brain->memory); brain->profile++)
-        ;
+    brain->profile = 0;
+    while (!understands(brain->profile, &brain->memory))
+        brain->profile++;
     brain->learns = begin(brain);
     return true;
 }

@@ -5,7 +5,7 @@
 enum {
     SIDE_BITS = 3,   /* of a cell */
     HALF = CELL_COUNT / 2,
-    UPPER_HALF = 1 << 4
+    UPPER_HALF = 16  /* bit 4 of which */
 };
 
 void memory_erase(struct memory *memory)
@@ -48,5 +48,8 @@ bool memory_write(struct memory *memory, enum memory_kind kind, uint8_t which, u
     for (unsigned i = 0; i < HALF; i++)
         if (which & (1u << i))
             wanted.cell[first + i] = (uint8_t)(bytes >> 8 * i);
-    return memory_is(wanted.cell, kind) && memory_adopt(memory, wanted.cell);
+    if (!memory_is(wanted.cell, kind))
+        return false;
+    *memory = wanted;
+    return true;
 }

@@ -52,7 +52,7 @@ static int32_t counts_left(const struct motion *motion)
         return 0;
     if (motion->kind == TURN)
         return motion->turn_left / TURN_UNIT;
-    return motion->kind == STEP ? motion->way_left : 0;
+    return motion->way_left;
 }
 
 /* The wheel speed that covers counts in one tick, rounded, or the limit where that takes longer. */

@@ -34,11 +34,12 @@ void perception_decide(struct perception *perception, const struct config *confi
 uint8_t perception_believed(const struct perception *perception, const struct config *config, uint8_t feel)
 {
     uint8_t distrust = config->value[DISTRUST];
+    uint8_t believed = feel;
 
     if (distrust == 0)
         return feel;
     for (unsigned i = 0; i < FEEL_COUNT; i++)
         if (perception->in_a_row[i] >= distrust)
-            feel &= (uint8_t)~(1u << i);
-    return feel;
+            believed &= (uint8_t)~(1u << i);
+    return believed;
 }

@@ -46,5 +46,6 @@ void used_cells_judge(struct brain *brain, const struct action *action, uint8_t 
         return;
     default:   /* the way is clear */
         end_episode(brain, praise);
+        return;
     }
 }
