@@ -60,6 +60,16 @@ static void test_a_frozen_brain_neither_praises_nor_blames(void)
     TEST_ASSERT_EQUAL_UINT8(LEFT_2, brain.memory.cell[PATTERN_FRONT]);
 }
 
+static void test_a_frozen_brain_learns_nothing_from_a_trial_that_helped(void)
+{
+    brain.frozen = true;
+    TEST_ASSERT_EQUAL(REASON_TRIAL, next(ALL_THREE).reason);
+    next(FRONT);
+    TEST_ASSERT_EQUAL_UINT8(0, brain.memory.cell[PATTERN_ALL_THREE]);
+    TEST_ASSERT_EQUAL_UINT8(0, brain.used);
+    TEST_ASSERT_FALSE(brain.changed);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -68,5 +78,6 @@ int main(void)
     RUN_TEST(test_boredom_takes_2);
     RUN_TEST(test_a_cell_that_was_not_used_is_not_judged);
     RUN_TEST(test_a_frozen_brain_neither_praises_nor_blames);
+    RUN_TEST(test_a_frozen_brain_learns_nothing_from_a_trial_that_helped);
     return UNITY_END();
 }

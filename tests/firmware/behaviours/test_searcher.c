@@ -1,9 +1,10 @@
 #include "firmware/brain.h"
+#include "firmware/memory_kind.h"
 
 #include <unity.h>
 
-enum { CLEAR = 0, ALL_THREE = 14 };
-enum { PATTERN_ALL_THREE = 7 };
+enum { CLEAR = 0, FRONT = FEEL_FRONT, ALL_THREE = 14 };
+enum { PATTERN_FRONT = 2, PATTERN_ALL_THREE = 7 };
 
 static struct brain brain;
 static struct config config;
@@ -93,6 +94,27 @@ static void test_a_turn_around_ends_the_count(void)
     TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
 }
 
+static void test_it_turns_around_either_way(void)
+{
+    unsigned to_the_right = 0;
+    unsigned turns = 100;
+
+    for (uint32_t seed = 0; seed < turns; seed++) {
+        TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, seed));
+        to_the_right += next(CLEAR).turn_deg > 0;
+    }
+    TEST_ASSERT_UINT_WITHIN(20, turns / 2, to_the_right);
+}
+
+static void test_boredom_turns_it_about_though_the_way_is_clear(void)
+{
+    memory_put(&brain.memory, MEMORY_KIND_CONFIDENCE, PATTERN_FRONT, SIDE_LEFT);
+    for (unsigned i = 0; i < config.value[BOREDOM_LIMIT]; i++)
+        TEST_ASSERT_EQUAL(REASON_REMEMBERED, next(FRONT).reason);
+    TEST_ASSERT_EQUAL(REASON_BOREDOM, next(CLEAR).reason);
+    TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(CLEAR).reason);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -103,5 +125,7 @@ int main(void)
     RUN_TEST(test_when_it_has_lost_the_food_it_drives_on_a_little);
     RUN_TEST(test_it_learns_as_adaptive_does);
     RUN_TEST(test_a_turn_around_ends_the_count);
+    RUN_TEST(test_it_turns_around_either_way);
+    RUN_TEST(test_boredom_turns_it_about_though_the_way_is_clear);
     return UNITY_END();
 }
