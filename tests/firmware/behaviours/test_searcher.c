@@ -1,29 +1,13 @@
-#include "firmware/brain.h"
+#include "brain_rig.h"
+
 #include "firmware/memory_kind.h"
-
-#include <unity.h>
-
-enum { CLEAR = 0, FRONT = FEEL_FRONT, ALL_THREE = 14 };
-enum { PATTERN_FRONT = 2, PATTERN_ALL_THREE = 7 };
-
-static struct brain brain;
-static struct config config;
 
 void setUp(void)
 {
-    brain = (struct brain){.frozen = false};
-    config_reset(&config);
-    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
+    begin(PROFILE_SEARCHER);
 }
 
 void tearDown(void) {}
-
-static struct action next(uint8_t feel)
-{
-    const struct senses senses = {.feel = feel};
-
-    return brain_next(&brain, &config, &senses);
-}
 
 static struct action next_seeing_food(uint16_t beacon_mm)
 {
@@ -109,8 +93,7 @@ static void test_it_turns_around_either_way(void)
 static void test_boredom_turns_it_about_though_the_way_is_clear(void)
 {
     memory_put(&brain.memory, MEMORY_KIND_CONFIDENCE, PATTERN_FRONT, SIDE_LEFT);
-    for (unsigned i = 0; i < config.value[BOREDOM_LIMIT]; i++)
-        TEST_ASSERT_EQUAL(REASON_REMEMBERED, next(FRONT).reason);
+    remembered_turns(config.value[BOREDOM_LIMIT]);
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(CLEAR).reason);
     TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(CLEAR).reason);
 }
