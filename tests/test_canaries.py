@@ -301,7 +301,8 @@ def objects(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 def unit_tests_pass(folder: Path, module: str, objects: list[Path], *more: str | Path) -> bool:
     """Builds a module's unit tests with the firmware and with what is more, and runs them."""
     (test,) = (ROOT / "tests/firmware").rglob(f"test_{module}.c")
-    program = compiled(folder / "test", *INCLUDE, test, *objects, *more, "-lm")
+    rigs = test.parent.glob("*_rig.c")
+    program = compiled(folder / "test", *INCLUDE, test, *rigs, *objects, *more, "-lm")
     return subprocess.run([program], capture_output=True, timeout=600, check=False).returncode == 0
 
 
