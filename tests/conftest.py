@@ -25,6 +25,7 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--progress", metavar="FILE", help="append a line of JSON whenever a test begins or ends")
+    parser.addoption("--decisions", type=int, default=200_000, help="of each behaviour, held against its oracle")
     parser.addoption("--allow-missing", action="append", default=[], metavar="NAME", help="allow skips due to NAME")
 
 
