@@ -15,6 +15,7 @@ from host_sim.transport.link import Link
 from host_sim.transport.serial_line import open_serial_line
 
 _ID_MASK = 0x7FF
+_STALE_MAX = 10_000
 
 
 def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats, bitrate: int = BIT_RATE) -> Link:
@@ -58,10 +59,20 @@ def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.
         extra["bitrate"] = bitrate
     _silence_python_can()
     try:
-        return can.Bus(interface=interface, channel=channel, can_filters=filters or None, **extra)
+        opened = can.Bus(interface=interface, channel=channel, can_filters=filters or None, **extra)
+        if filters:
+            _forget_unfiltered(opened)
+        return opened
     except (can.CanError, can.CanInterfaceNotImplementedError, OSError, ValueError, ImportError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}") from error
+
+
+def _forget_unfiltered(bus: can.BusABC) -> None:
+    """A socket hears everything between being bound and getting its filters; what came by then is of no use."""
+    for _ in range(_STALE_MAX):
+        if bus.recv(0.0) is None:
+            return
 
 
 def _silence_python_can() -> None:

@@ -31,12 +31,12 @@ RCVBUFFORCE = 33
 
 
 @contextmanager
-def robots_at(ttys: dict[int, str]) -> Iterator[None]:
-    """Robots at the ends of serial lines, by node."""
+def robots_at(links: dict[int, str]) -> Iterator[None]:
+    """Robots that are there already, by node, each with its link."""
     robots = []
     try:
-        for node, name in ttys.items():
-            command = [os.fspath(ROBOT), "--node", str(node), f"slcan:{name}"]
+        for node, link in links.items():
+            command = [os.fspath(ROBOT), "--node", str(node), link]
             robots.append(subprocess.Popen(command, stdout=subprocess.PIPE))
             assert b"listens" in robots[-1].stdout.readline()
         yield
@@ -54,7 +54,7 @@ def adapter() -> Iterator[Callable[..., Adapter]]:
         def plug(*nodes: int) -> Adapter:
             plugged = Adapter(*nodes)
             stack.callback(plugged.close)
-            stack.enter_context(robots_at(plugged.robots))
+            stack.enter_context(robots_at({node: f"slcan:{tty}" for node, tty in plugged.robots.items()}))
             return plugged
 
         yield plug
@@ -100,6 +100,17 @@ def test_the_adapter_is_told_the_bit_rate(run, adapter, words, order):
 
     assert done.code == 0
     assert plugged.orders == [b"C", order, b"O"]
+
+
+@pytest.mark.vcan
+def test_robots_that_are_on_a_bus_already_do_what_they_do_elsewhere(run):
+    words = (*WORDS, "--limit-s", "5", "--robots", "3", "--node", "4")
+
+    with robots_at(dict.fromkeys((4, 5, 6), "socketcan:vcan0")):
+        there = run(*words, "--bus", "socketcan:vcan0", "--robot", "external")
+
+    assert (there.code, there.errors) == (0, "")
+    assert there.log == run(*words, "--bus", "none").log
 
 
 @dataclass
