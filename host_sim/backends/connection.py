@@ -5,16 +5,15 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 
+from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.images import BOARDS
 from host_sim.backends.qemu import Qemu
 from host_sim.backends.robot_process import RobotProcess
 from host_sim.client.robot_client import DEADLINE_S
 from host_sim.errors import UsageError
-from host_sim.protocol.codec import Protocol
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
-from host_sim.transport.reconnecting_link import ReconnectingLink
 
 _EMULATORS = ("qemu", "emulated")
 _IMAGE_NODE = 1
@@ -51,8 +50,7 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
     robot: str,
     node: int,
     board: str = "",
-    shared: bool = False,
-    reconnect_s: float = 0.0,
+    lines: BusLines | None = None,
 ) -> Connection:
     """Opens a bus and, unless the robot is external, starts a robot on it.
 
@@ -64,8 +62,7 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
             to run the flash image.
         node: Node number of the robot, 1..31.
         board: One of `BOARDS`, for an emulated robot; empty for the first.
-        shared: Whether other robots of this run are on the same bus, each with its own connection.
-        reconnect_s: Time to wait for a bus that is gone, s of wall-clock time.
+        lines: The lines to all robots of this run on that bus; by default, this one is alone.
 
     Raises:
         UsageError: The options contradict each other, or the bus cannot be opened.
@@ -80,9 +77,7 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
         return Connection(InProcessLink(node), bus, lambda: "runs in this process", answers_at_once=True)
     if bus == "fd":
         return _over_socket_pair(stack, node)
-    if shared and bus.partition(":")[0] != "socketcan":
-        raise UsageError(f"several robots need the bus socketcan, fd or none, not {bus}: leave out --robots")
-    return _over_bus(stack, bus, robot, node, reconnect_s)
+    return _over_bus(stack, lines or BusLines(bus, [node]), robot, node)
 
 
 def _in_emulator(stack: ExitStack, bus: str, robot: str, node: int, board: str) -> Connection:
@@ -129,15 +124,10 @@ def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
     return Connection(link, "fd", process.status, process.pid, line)
 
 
-def _over_bus(stack: ExitStack, bus: str, robot: str, node: int, reconnect_s: float) -> Connection:
-    from host_sim.transport.buses import open_bus_link  # noqa: PLC0415 - see above
-
-    line, protocol = LineStats(), Protocol(node)
-    # What only simulators send is listened for as well: whoever sends it commands the same robot.
-    ids = [*protocol.ids_from("ROBOT"), *protocol.ids_from("SIM")]
-    link = ReconnectingLink(f"the bus {bus}", lambda: open_bus_link(bus, ids, line), line, reconnect_s)
-    stack.callback(link.close)
+def _over_bus(stack: ExitStack, lines: BusLines, robot: str, node: int) -> Connection:
+    bus = lines.bus
     interface = bus.partition(":")[0]
+    link, line = lines.open(stack, node)
     if robot == "external":
         return Connection(link, bus, lambda: "was not started here", line=line)
     if interface != "socketcan":

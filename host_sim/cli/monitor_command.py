@@ -5,12 +5,11 @@ import math
 import sys
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, number
+from host_sim.cli.parsing import add_bitrate, add_command, number
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
 
-_BITRATE = 500_000
 _EXAMPLES = """\
 examples:
   tools/octet monitor socketcan:can0              a table of the robots, on a terminal
@@ -33,13 +32,7 @@ def add(commands: "Subparsers") -> None:
     add = parser.add_argument
     add("bus", metavar="BUS", help="any bus of python-can: INTERFACE:CHANNEL, such as socketcan:can0")
     add("--all", action="store_true", help="other frames too; without it, the kernel keeps them away")
-    add(
-        "--bitrate",
-        type=number(10_000, 1_000_000),
-        default=_BITRATE,
-        metavar="BITS",
-        help="bits a second, of which the load is a share (default: %(default)s)",
-    )
+    add_bitrate(parser)
     add("--limit-s", type=number(0.1, 1e9, float), default=math.inf, metavar="S", help="end after S seconds")
 
 
@@ -51,7 +44,7 @@ def _monitor(arguments: argparse.Namespace) -> int:
     watch = BusWatch(arguments.bitrate)
     limit_s: float = arguments.limit_s
 
-    with open_bus(arguments.bus) as bus:
+    with open_bus(arguments.bus, bitrate=arguments.bitrate) as bus:
         if not arguments.all:
             filter_robots(bus)
         try:

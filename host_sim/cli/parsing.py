@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from host_sim.errors import UsageError
 from host_sim.protocol.generated import PARAMETERS
+from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
 
 if TYPE_CHECKING:
     Subparsers = argparse._SubParsersAction["Parser"]
@@ -67,6 +68,19 @@ def number(low: float, high: float, kind: type[int] | type[float] = int) -> Call
         return value
 
     return parse
+
+
+def add_bitrate(parser: argparse.ArgumentParser) -> None:
+    """Adds the option for the bit rate of a bus."""
+    parser.add_argument(
+        "--bitrate",
+        type=int,
+        choices=BIT_RATES,
+        default=BIT_RATE,
+        metavar="BITS",
+        help=f"bits a second of the bus: {', '.join(map(str, BIT_RATES))}; set up in an adapter that is not the"
+        " kernel's (default: %(default)s)",
+    )
 
 
 def setting(text: str) -> tuple[str, int]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 from host_sim.backends.images import BOARDS
-from host_sim.cli.parsing import number, setting
+from host_sim.cli.parsing import add_bitrate, number, setting
 from host_sim.faults.bus_faults import FAULTS
 from host_sim.faults.rule import read_rules
 from host_sim.protocol.generated import NODE_MAX, PROFILES
@@ -101,6 +101,7 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
         help="change a parameter; may be repeated (default: the values below)",
     )
     add("--bus", default="auto", help=_BUS_HELP)
+    add_bitrate(parser)
     add("--robot", choices=ROBOTS, default=default.robot, help=_ROBOT_HELP)
     add("--board", choices=BOARDS, default=BOARDS[0], help="the board for --robot emulated" + _DEFAULT)
     add(

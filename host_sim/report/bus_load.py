@@ -8,9 +8,7 @@ from host_sim.protocol.every_node import hear
 from host_sim.protocol.frame_bits import OPTIONAL, frame_bits, frames_a_second, robot_bits_a_second, worst_bits
 from host_sim.protocol.generated import MESSAGES, Message
 from host_sim.recording.log_text import Recorded
-
-BIT_RATES = (125_000, 250_000, 500_000, 1_000_000)
-"""The usual bit rates, bits a second."""
+from host_sim.transport.bit_rates import BIT_RATES
 
 COMFORTABLE = 0.7
 """The share of a bus that its regular traffic may take, so that every frame comes in time."""

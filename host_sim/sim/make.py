@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 
+from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.connection import Connection, connect
 from host_sim.client.commands import start
 from host_sim.client.frame_log import FrameLog
@@ -70,8 +71,9 @@ def make(
             log = FrameLog()
             stack.callback(log.close)
         clients = []
+        lines = BusLines(config.bus, config.nodes, config.bitrate, config.reconnect_s)
         for node in config.nodes:
-            client = _connected(stack, config, node, log)
+            client = _connected(stack, config, node, lines, log)
             ready(client)
             clients.append(client)
         yield assemble(clients, config, memories)
@@ -119,9 +121,8 @@ def _check(config: RunConfig, params: SimParams) -> None:
         raise UsageError(f"{config.robots} robots are too many for seed {config.seed}: {error}") from None
 
 
-def _connected(stack: ExitStack, config: RunConfig, node: int, log: FrameLog) -> RobotClient:
-    several = config.robots > 1
-    connection = connect(stack, config.bus, config.robot, node, config.board, several, config.reconnect_s)
+def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:
+    connection = connect(stack, config.bus, config.robot, node, config.board, lines)
     link, now = _with_faults(connection, config, node)
     client = RobotClient(
         link,

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass, field
 
+from host_sim.transport.bit_rates import BIT_RATE
+
 ROBOTS = ("spawn", "external", "qemu", "emulated")
 """The ways to get a robot."""
 
@@ -19,6 +21,7 @@ class RunConfig:
         profile: Name of the robots' behaviour.
         settings: Parameters to change from their defaults, by name.
         bus: Where the robots are: none (in this process), fd (socket pairs), or python-can's INTERFACE:CHANNEL.
+        bitrate: Bits a second of the bus, for an adapter that is set up when opened.
         robot: One of `ROBOTS`: spawn starts the firmware, external waits for a robot on the bus, qemu and emulated
             run the flash image in QEMU or on an emulated board.
         board: Name of the emulated board; empty for the first.
@@ -37,6 +40,7 @@ class RunConfig:
     profile: str = "article"
     settings: dict[str, int] = field(default_factory=dict)
     bus: str = "none"
+    bitrate: int = BIT_RATE
     robot: str = ROBOTS[0]
     board: str = ""
     owner: int = 1

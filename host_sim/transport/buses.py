@@ -8,40 +8,41 @@ import can
 from can.typechecking import CanFilter
 
 from host_sim.errors import UsageError
+from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.transport.bus_link import BusLink
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
 from host_sim.transport.serial_line import open_serial_line
 
-BITRATE = 500_000
-"""Bits a second, for buses that are set up when opened."""
-
 _ID_MASK = 0x7FF
+_STALE_MAX = 10_000
 
 
-def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats) -> Link:
+def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats, bitrate: int = BIT_RATE) -> Link:
     """Opens a link on a bus: on a serial port for `slcan:DEVICE`, else by python-can.
 
     Args:
         bus: `INTERFACE:CHANNEL`.
         ids: The 11-bit identifiers to listen for.
         stats: Counts what happens to the line.
+        bitrate: Bits a second, for a bus that is set up when opened.
 
     Raises:
         UsageError: The name is not one of a bus, or the bus cannot be opened.
     """
     interface, _, channel = bus.partition(":")
     if interface == "slcan" and channel:
-        return open_serial_line(channel, BITRATE, ids, stats)
-    return BusLink(open_bus(bus, ids), stats)
+        return open_serial_line(channel, bitrate, ids, stats)
+    return BusLink(open_bus(bus, ids, bitrate), stats)
 
 
-def open_bus(bus: str, ids: Sequence[int] = ()) -> can.BusABC:
+def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.BusABC:
     """Opens a python-can bus.
 
     Args:
         bus: `INTERFACE:CHANNEL`.
         ids: The 11-bit identifiers to listen for, none for all; the kernel lets no others through where it can.
+        bitrate: Bits a second, for a bus that is set up when opened.
 
     Raises:
         UsageError: The name is not one of a bus, or the bus cannot be opened.
@@ -55,13 +56,23 @@ def open_bus(bus: str, ids: Sequence[int] = ()) -> can.BusABC:
         # Its default is to sleep for 2 s, for adapters that reset when opened.
         extra["sleep_after_open"] = 0.0
     if interface != "socketcan":
-        extra["bitrate"] = BITRATE
+        extra["bitrate"] = bitrate
     _silence_python_can()
     try:
-        return can.Bus(interface=interface, channel=channel, can_filters=filters or None, **extra)
+        opened = can.Bus(interface=interface, channel=channel, can_filters=filters or None, **extra)
+        if filters:
+            _forget_unfiltered(opened)
+        return opened
     except (can.CanError, can.CanInterfaceNotImplementedError, OSError, ValueError, ImportError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}") from error
+
+
+def _forget_unfiltered(bus: can.BusABC) -> None:
+    """A socket hears everything between being bound and getting its filters; what came by then is of no use."""
+    for _ in range(_STALE_MAX):
+        if bus.recv(0.0) is None:
+            return
 
 
 def _silence_python_can() -> None:

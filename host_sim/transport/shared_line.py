@@ -1,0 +1,66 @@
+"""One line for several robots, where a bus can be opened only once: an adapter on a serial port."""
+
+import time
+from collections import deque
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from host_sim.protocol.codec import Frame
+from host_sim.transport.link import Link
+
+_WAITING_MAX = 4096
+_OVERTIME_MAX = 256
+"""So many frames are taken from the line after the time is up: those that wait already, but no endless flood."""
+
+
+class SharedLine:
+    """Sorts the frames of a line by whom they are for."""
+
+    def __init__(self, line: Link, ids: Mapping[int, Sequence[int]]) -> None:
+        """Shares a line, which remains the caller's to close.
+
+        Args:
+            line: The line.
+            ids: The identifiers that each robot's link is to hear, by node.
+        """
+        self._line = line
+        self._waiting: dict[int, deque[Frame]] = {node: deque(maxlen=_WAITING_MAX) for node in ids}
+        self._owners = {frame_id: self._waiting[node] for node, its_ids in ids.items() for frame_id in its_ids}
+
+    def share(self, node: int) -> Link:
+        """A link that hears what comes for one robot from now on, and whatever noise comes while it listens.
+
+        Frames for it that come while others listen wait for it; of too many, the oldest are lost.
+        """
+        self._waiting[node].clear()
+        return _Share(self._line, self._owners, self._waiting[node])
+
+
+@dataclass
+class _Share:
+    """One robot's part of a line."""
+
+    line: Link
+    owners: Mapping[int, deque[Frame]]
+    mine: deque[Frame]
+
+    def send(self, frame: Frame) -> None:
+        """As in `Link`."""
+        self.line.send(frame)
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """As in `Link`."""
+        if self.mine:
+            return self.mine.popleft()
+        give_up, left_s, overtime = time.monotonic() + timeout_s, timeout_s, 0
+        while overtime < _OVERTIME_MAX and (frame := self.line.receive(left_s)) is not None:
+            owner = self.owners.get(frame.id, self.mine)
+            if owner is self.mine:
+                return frame
+            owner.append(frame)
+            left_s = max(give_up - time.monotonic(), 0.0)
+            overtime += not left_s
+        return None
+
+    def close(self) -> None:
+        """As in `Link`; the line stays open for the others."""

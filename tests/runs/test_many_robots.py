@@ -1,0 +1,188 @@
+"""Many robots on one bus: on vcan, and behind one slcan adapter."""
+
+import os
+import re
+import socket
+import subprocess
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+
+import can
+import pytest
+
+from host_sim.cli.main import main
+from host_sim.client.robot_reports import REPORTS
+from host_sim.protocol.codec import Frame
+from host_sim.protocol.every_node import hear
+from host_sim.recording.log_reader import read_log
+from host_sim.report.bus_load import measure
+from tests.runs.cable import Adapter
+from tests.runs.support import ROBOT, Run, assert_healthy, octet
+
+MANY = 28
+BIT_RATE = 500_000
+WORDS = ("--environments", "1", "--seed", "4")
+LAST = can.Message(arbitration_id=0x7FF, is_extended_id=False)
+"""A frame that is no robot's: nothing of the run comes after it."""
+RCVBUFFORCE = 33
+"""SO_RCVBUFFORCE of Linux: room for the frames of a run, for when others have the processor."""
+
+
+@contextmanager
+def robots_at(links: dict[int, str]) -> Iterator[None]:
+    """Robots that are there already, by node, each with its link."""
+    robots = []
+    try:
+        for node, link in links.items():
+            command = [os.fspath(ROBOT), "--node", str(node), link]
+            robots.append(subprocess.Popen(command, stdout=subprocess.PIPE))
+            assert b"listens" in robots[-1].stdout.readline()
+        yield
+    finally:
+        for robot in robots:
+            robot.kill()
+            robot.communicate()
+
+
+@pytest.fixture
+def adapter() -> Iterator[Callable[..., Adapter]]:
+    """Plugs in an adapter with robots of these nodes behind it."""
+    with ExitStack() as stack:
+
+        def plug(*nodes: int) -> Adapter:
+            plugged = Adapter(*nodes)
+            stack.callback(plugged.close)
+            stack.enter_context(robots_at({node: f"slcan:{tty}" for node, tty in plugged.robots.items()}))
+            return plugged
+
+        yield plug
+
+
+def external(plugged: Adapter, *words: str) -> tuple[str, ...]:
+    return ("--bus", f"slcan:{plugged.host}", "--robot", "external", *words)
+
+
+def test_robots_behind_one_adapter_do_what_they_do_elsewhere(run, adapter):
+    words = (*WORDS, "--limit-s", "5", "--robots", "3", "--node", "4")
+
+    behind = run(*words, *external(adapter(4, 5, 6)))
+
+    within = run(*words, "--bus", "none")
+    assert (behind.code, behind.errors) == (0, "")
+    assert behind.log == within.log
+    assert [robot["node"] for robot in behind.summary["robots"]] == [4, 5, 6]
+
+
+def test_a_robot_that_is_missing_behind_the_adapter_is_named(run, adapter, monkeypatch):
+    monkeypatch.setattr("host_sim.sim.make._EXTERNAL_S", 0.5)
+
+    done = run(*WORDS, "--robots", "3", *external(adapter(1, 2)))
+
+    assert done.code == 1
+    assert "no robot answered as node 3" in done.errors
+
+
+@pytest.mark.parametrize(
+    ("words", "order"),
+    [
+        ((), b"S6"),
+        (("--bitrate", "125000"), b"S4"),
+        (("--bitrate", "250000"), b"S5"),
+        (("--bitrate", "1000000"), b"S8"),
+    ],
+)
+def test_the_adapter_is_told_the_bit_rate(run, adapter, words, order):
+    plugged = adapter(1)
+
+    done = run(*WORDS, "--limit-s", "1", *external(plugged, *words))
+
+    assert done.code == 0
+    assert plugged.orders == [b"C", order, b"O"]
+
+
+@pytest.mark.vcan
+def test_robots_that_are_on_a_bus_already_do_what_they_do_elsewhere(run):
+    words = (*WORDS, "--limit-s", "5", "--robots", "3", "--node", "4")
+
+    with robots_at(dict.fromkeys((4, 5, 6), "socketcan:vcan0")):
+        there = run(*words, "--bus", "socketcan:vcan0", "--robot", "external")
+
+    assert (there.code, there.errors) == (0, "")
+    assert there.log == run(*words, "--bus", "none").log
+
+
+@dataclass
+class Crowd:
+    """A run with as many robots as a bus has room for, and what another reader heard of it."""
+
+    run: Run
+    heard: list[can.Message]
+
+
+def on_vcan() -> can.BusABC:
+    return can.Bus(interface="socketcan", channel="vcan0")
+
+
+@contextmanager
+def listener() -> Iterator[list[can.Message]]:
+    """What python-can hears on vcan0, in a thread of its own."""
+    heard: list[can.Message] = []
+    with on_vcan() as bus, on_vcan() as end:
+        bus.socket.setsockopt(socket.SOL_SOCKET, RCVBUFFORCE, 8_000_000)
+
+        def listen() -> None:
+            while (message := bus.recv()).arbitration_id != LAST.arbitration_id:
+                heard.append(message)
+
+        thread = threading.Thread(target=listen)
+        thread.start()
+        try:
+            yield heard
+        finally:
+            end.send(LAST)
+            thread.join()
+
+
+@pytest.fixture(scope="module")
+def crowd(tmp_path_factory) -> Crowd:
+    out = tmp_path_factory.mktemp("crowd")
+    with listener() as heard:
+        done = octet("run", "--out", out, *WORDS, "--limit-s", "3", "--robots", str(MANY), "--bus", "socketcan:vcan0")
+    return Crowd(Run(done.returncode, done.stdout, done.stderr, out), heard)
+
+
+@pytest.mark.vcan
+def test_no_robot_of_a_full_bus_loses_a_frame(crowd):
+    summary = crowd.run.summary
+
+    assert (crowd.run.code, crowd.run.errors) == (0, "")
+    assert [robot["node"] for robot in summary["robots"]] == list(range(1, 1 + MANY))
+    assert_healthy(summary)
+    ticks = summary["environments"][0]["ticks"]
+    assert all(min(it["frames"]["sent"], it["frames"]["received"]) > ticks for it in summary["robots"])
+
+
+@pytest.mark.vcan
+def test_another_reader_of_a_full_bus_sees_the_frames_of_the_log(crowd):
+    logged = {it.frame for it in read_log(crowd.run.out / "run.log")}
+    on_the_bus = {Frame(it.arbitration_id, bytes(it.data)) for it in crowd.heard}
+
+    assert logged <= on_the_bus
+    # What a robot says only because it waits, or when all is over, is left out of the log.
+    assert {hear(frame).name for frame in on_the_bus - logged} <= {"DRIVE", *REPORTS}
+
+
+@pytest.mark.vcan
+def test_a_full_bus_takes_what_is_computed(crowd, capsys):
+    log = list(read_log(crowd.run.out / "run.log"))
+    load = measure(it for it in log if it.time_us)  # without the start, which takes no time in a log
+
+    assert main(["load"]) == 0
+
+    (computed,) = re.findall(rf"^\| {MANY} (?:[^|]*\|){{3}} +(\d+)%", capsys.readouterr().out, re.MULTILINE)
+    at_worst = sum(share.worst for share in load.messages.values()) / load.seconds / BIT_RATE
+    assert load.nodes == set(range(1, 1 + MANY))
+    assert at_worst == pytest.approx(int(computed) / 100, rel=0.03)
+    assert 0.8 * at_worst < load.bits_a_second / BIT_RATE < at_worst

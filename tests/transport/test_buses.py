@@ -1,0 +1,58 @@
+"""Opening buses of python-can."""
+
+import can
+import pytest
+
+from host_sim.transport.buses import open_bus, open_bus_link
+from host_sim.transport.line_stats import LineStats
+
+
+@pytest.fixture
+def opened(monkeypatch) -> list[dict]:
+    """What python-can was asked to open."""
+    calls: list[dict] = []
+    monkeypatch.setattr(can, "Bus", lambda **options: calls.append(options))
+    return calls
+
+
+def test_an_adapter_is_set_up_with_the_bit_rate(opened):
+    open_bus("pcan:PCAN_USBBUS1", bitrate=125_000)
+
+    assert opened[0]["bitrate"] == 125_000
+
+
+def test_the_kernel_has_set_the_bit_rate_of_its_own_interfaces(opened):
+    open_bus("socketcan:can0", bitrate=125_000)
+
+    assert "bitrate" not in opened[0]
+
+
+class Bus:
+    """A bus on which frames came before it had its filters."""
+
+    def __init__(self, frames: int) -> None:
+        self.frames = frames
+
+    def recv(self, _timeout: float) -> can.Message | None:
+        self.frames -= 1
+        return can.Message() if self.frames >= 0 else None
+
+
+def test_what_comes_before_the_filters_are_set_is_forgotten(monkeypatch):
+    monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=3))
+
+    link = open_bus_link("socketcan:can0", [0x41], LineStats())
+
+    assert link.receive(0.0) is None
+
+
+def test_without_filters_nothing_is_forgotten(monkeypatch):
+    monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=3))
+
+    assert open_bus("socketcan:can0").recv(0.0) is not None
+
+
+def test_a_bus_that_never_falls_silent_is_opened_all_the_same(monkeypatch):
+    monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=10**9))
+
+    assert open_bus("socketcan:can0", [0x41]).recv(0.0) is not None
