@@ -1,4 +1,4 @@
-"""Each behaviour decides as its oracle does: a million times at random, and in every case there is.
+"""Each behaviour decides as its oracle does: at random, and in every case there is.
 
 The oracle of the profile NAME is `Oracle` in `oracles/NAME.py`.
 Where a case has a random outcome, the brain is given a generator state that yields it.
