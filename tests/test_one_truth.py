@@ -24,7 +24,16 @@ NOT_SCANNED = (
     "tools/robot_words/",  # what the numbers are written with
 )
 
-SPANS = ("cell_count", "node_max", "tick_span", "tick_mask", "action_span", "odometer_span")
+SPANS = (
+    "cell_count",
+    "node_max",
+    "tick_span",
+    "tick_mask",
+    "action_span",
+    "odometer_span",
+    "range_none",
+    "answer_wants_ranges",
+)
 
 
 def either(words: Iterable[str]) -> str:
