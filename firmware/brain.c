@@ -13,6 +13,7 @@ static const uint8_t kind_of[PROFILE_COUNT] = {ROBOT_BEHAVIOURS(KIND)};
 
 static bool begin(struct brain *brain)
 {
+    brain->wants_ranges = false;
     switch (brain->profile) {
         ROBOT_BEHAVIOURS(BEGIN)
     default:
@@ -28,7 +29,6 @@ bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
     brain->profile = profile;
     brain->repeat_count = 0;
     brain->awaits = 0;
-    brain->wants_ranges = false;
     brain->used = 0;
     brain->changed = memory_translate(&brain->memory, (enum memory_kind)kind_of[profile]) || brain->changed;
     brain->learns = begin(brain);

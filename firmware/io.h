@@ -7,8 +7,6 @@
 
 #include "robot_words.h"
 
-enum { RANGE_NONE = 255 };   /* nothing within a sensor's reach, or not told */
-
 /* What the body senses at one control tick. */
 struct senses {
     uint8_t tick;             /* wraps */
@@ -18,7 +16,7 @@ struct senses {
     uint16_t beacon_mm;       /* distance from the middle of the body to that food; 0: none seen */
     uint16_t odometer_left;   /* 0.1 mm, forward counts up, wraps at ODOMETER_SPAN */
     uint16_t odometer_right;
-    uint8_t range_mm[FEEL_COUNT];   /* beyond the body's rim, sensor by sensor as in feel; RANGE_NONE where nothing is */
+    uint8_t range_mm[FEEL_COUNT];   /* beyond the body's rim, sensor by sensor as in feel; RANGE_NONE: nothing in reach, or not told */
 };
 
 /* What the wheels are to do until the next tick. */
@@ -52,8 +50,6 @@ struct report {
     uint8_t profile;
     uint16_t uptime_s;   /* robot time: counted in ticks, wraps */
 };
-
-enum { ANSWER_WANTS_RANGES = 1 };   /* start: the behaviour decides by range_mm */
 
 /* What one tick or one command calls for: the parts that a flag marks. */
 struct output {

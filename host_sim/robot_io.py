@@ -12,6 +12,9 @@ The observation, field by field:
 | odometer_left  | distance rolled by the left wheel, forward counts up, wraps         | 0   | 4095 | 0.1 mm |
 | odometer_right | distance rolled by the right wheel, forward counts up, wraps        | 0   | 4095 | 0.1 mm |
 
+The distances, for a robot that asks for them: for each proximity sensor in the order of feel's bits, whole mm from
+the body's rim to the nearest thing in its cone, None where nothing is within its reach.
+
 The action, field by field:
 
 | field        | meaning                                                | min   | max  | unit  |
@@ -40,6 +43,16 @@ class Senses(NamedTuple):
     odometer_right: int
 
 
+class Ranges(NamedTuple):
+    """How far away what is near is; see above."""
+
+    right: int | None = None
+    front_right: int | None = None
+    front: int | None = None
+    front_left: int | None = None
+    left: int | None = None
+
+
 class Drive(NamedTuple):
     """What the wheels are to do until the next tick; the table above has the ranges."""
 
@@ -51,6 +64,9 @@ class Drive(NamedTuple):
     action: int
     eat: bool
 
+
+NOTHING_NEAR = Ranges()
+"""The distances of a body with nothing within reach."""
 
 NOTHING_SENSED = Senses(tick=0, feel=0, bump=False, look=False, beacon_mm=0, odometer_left=0, odometer_right=0)
 """The senses of a body that has not sensed anything yet."""

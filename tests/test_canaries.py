@@ -52,6 +52,7 @@ FUNCTIONS = {
     "adaptive_next": NEXT,
     "searcher_next": NEXT,
     "five_next": NEXT,
+    "distance_next": NEXT,
     "memory_is": ("bool", "const uint8_t cells[CELL_COUNT], enum memory_kind kind"),
     "memory_translate": ("bool", "struct memory *memory, enum memory_kind kind"),
     "feel_memory_is": ("bool", "const uint8_t cells[CELL_COUNT]"),
@@ -178,6 +179,7 @@ FAULTS = {
         "five_next",
         "struct senses front = *senses; front.feel &= 14; return real(brain, config, &front);",
     ),
+    "distance does not measure": Fault("distance", "distance_next", "return article_next(brain, config, senses);"),
     "a memory is of every kind": Fault(
         "memory_kind", "memory_is", "(void)real; (void)cells; (void)kind; return true;"
     ),

@@ -24,7 +24,7 @@ NOT_SCANNED = (
     "tools/robot_words/",  # what the numbers are written with
 )
 
-SPANS = ("cell_count", "node_max", "tick_span", "tick_mask", "action_span", "odometer_span")
+SPANS = ("cell_count", "node_max", "tick_span", "tick_mask", "action_span", "odometer_span", "range_none")
 
 
 def either(words: Iterable[str]) -> str:

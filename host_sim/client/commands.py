@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
-from host_sim.protocol.generated import CELL_COUNT, MEMORY_KINDS, PROFILES, MemoryKind
+from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, MEMORY_KINDS, PROFILES, MemoryKind
 from host_sim.protocol.memory_kinds import translated, with_sides
 
 _HALF = CELL_COUNT // 2
@@ -28,7 +28,8 @@ def start(
         RobotError: The robot does not answer.
     """
     client.session = None
-    client.command("start", profile=profile, seed=seed, lockstep=int(client.lockstep))
+    answer = client.command("start", profile=profile, seed=seed, lockstep=int(client.lockstep))
+    client.wants_ranges = bool(answer.signals["value"] & ANSWER_WANTS_RANGES)
     client.memory_kind = _KINDS[profile]
     for name, value in settings.items():
         client.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)

@@ -15,7 +15,7 @@ from host_sim.client.session import FrameCounts, Session
 from host_sim.errors import RefusedError, RivalError, RobotError, SessionLostError
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import MemoryKind, Opcode, Result
-from host_sim.robot_io import Drive, Senses
+from host_sim.robot_io import NOTHING_NEAR, Drive, Ranges, Senses
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
 
@@ -55,6 +55,8 @@ class RobotClient:
         incidents: What happened that makes the result of the run doubtful.
         firmware: The signals of the BOOT in the handshake, which name the firmware.
         memory_kind: What the bytes of its memory mean to the behaviour with which it was started.
+        wants_ranges: Whether it was started with a behaviour that decides by distances.
+        ranges: The distances that go before the next senses, where they are wanted.
         inbox: Takes in what comes.
     """
 
@@ -72,9 +74,12 @@ class RobotClient:
     incidents: list[Incident] = field(default_factory=list)
     firmware: Mapping[str, int] = field(default_factory=dict)
     memory_kind: MemoryKind = MemoryKind.SIDES
+    wants_ranges: bool = False
+    ranges: Ranges = NOTHING_NEAR
     inbox: Inbox = field(init=False)
     _counter: int = 0
     _senses: Frame = _NO_FRAME
+    _ranges: Frame = _NO_FRAME
     _sent_s: float = 0.0
     _timed: bool = False
     _lossy: bool = False
@@ -213,12 +218,14 @@ class RobotClient:
         self._receive(self.inbox.take, seconds)
 
     def send_senses(self, senses: Senses) -> None:
-        """Sends the senses of one tick, and logs them."""
+        """Sends the senses of one tick, after the distances if the robot wants them, and logs them."""
         inbox = self.inbox
         inbox.ticks += 1
         inbox.sent_tick = senses.tick
         inbox.sent_counter = counter = inbox.ticks % COUNTERS
         self._senses = frame = self.protocol.encode_senses(senses, counter)
+        if self.wants_ranges:
+            self._send_ranges(senses.tick, counter)
         # On some kernels, reading the clock takes longer than all the rest.
         self._timed = inbox.ticks % _TIMED_TICKS == 0 or not self.round_trip.is_sure
         if self._timed:
@@ -228,7 +235,9 @@ class RobotClient:
         inbox.record(frame)  # while the robot thinks
 
     def repeat_senses(self) -> None:
-        """Sends the senses of the last tick again."""
+        """Sends the senses of the last tick again, and the distances that went before them."""
+        if self.wants_ranges:
+            self._repeat(self._ranges)
         self.inbox.owed += 1
         self._repeat(self._senses)
 
@@ -328,6 +337,12 @@ class RobotClient:
     def _command(self, opcode: str, signals: Mapping[str, int]) -> Frame:
         fixed = {"counter": self._counter, "opcode": Opcode[opcode.upper()], "owner": self.owner}
         return self.protocol.encode("COMMAND", {**fixed, **signals})
+
+    def _send_ranges(self, tick: int, counter: int) -> None:
+        self._ranges = self.protocol.encode_ranges(self.ranges, tick, counter)
+        self.link.send(self._ranges)
+        self.inbox.counts.sent += 1
+        self.inbox.record(self._ranges)
 
     def _ask_once(self, command: Frame, timeout_s: float) -> DecodedFrame | None:
         self.inbox.expect_answer(command)

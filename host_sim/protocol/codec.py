@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 from host_sim.paths import ROOT
-from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, SAME_LAYOUT, Signal
+from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, RANGE_NONE, SAME_LAYOUT, Signal
 from host_sim.protocol.signal_layout import MessageLayout, places
-from host_sim.robot_io import Drive, Senses
+from host_sim.robot_io import Drive, Ranges, Senses
 
 __all__ = ["COUNTERS", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "counter_of", "crc8", "node_of"]
 
@@ -126,6 +126,18 @@ class Protocol:
             word |= value << start
         data = word.to_bytes(_LENGTH, "little")
         return Frame(self._senses_id, bytes((crc8(self._senses_id, data),)) + data[1:])
+
+    def encode_ranges(self, ranges: Ranges, tick: int, counter: int) -> Frame:
+        """The frame that tells the robot distances, before its senses.
+
+        Args:
+            ranges: The distances.
+            tick: Tick of the senses, 0..255.
+            counter: Their alive counter.
+        """
+        pairs = zip(ranges._fields, ranges, strict=True)
+        distances = {f"range_{sensor}": RANGE_NONE if mm is None else mm for sensor, mm in pairs}
+        return self.encode("RANGES", {"counter": counter, "tick": tick, **distances})
 
     def decode(self, frame: Frame) -> DecodedFrame | None:
         """What a frame says; None if it is not this node's, of a wrong length, or damaged."""

@@ -92,6 +92,9 @@ class _Comparison:
         if decoded is None:
             time_s = self._time_us / 1e6
             raise OctetError(f"{self._log.path}: damaged frame at {time_s:.2f} s: {self._protocol.describe(frame)}")
+        if decoded.name == "RANGES":
+            self._feed(frame)
+            return None
         if decoded.name in _TO_ROBOT:
             # What was lost on a bus is sent again, and answered again.
             difference = self.end() if frame != self._sent else None

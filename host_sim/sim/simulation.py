@@ -90,7 +90,8 @@ class Simulation:
         watch: Called with the simulation after each step.
         block_ticks: Maximum number of ticks of a step at full speed where the loop in C can be used: `watch` finds
             them in `loop`. Set it to 1 for a `watch` that is to be called for each tick.
-        native: Whether to use the loop in C where that can be: with robots in this process, in lockstep.
+        native: Whether to use the loop in C where that can be: with robots in this process, in lockstep,
+            that want no distances.
         record: The environments so far, and what a person changed in them.
         tick: Number of the next tick.
         arena: The arena of the current environment.
@@ -117,6 +118,7 @@ class Simulation:
     senses: list[Senses] = field(init=False)
     drives: Sequence[Drive] = field(init=False)
     _odometers: list[Point] = field(init=False)
+    _measuring: list[int] = field(default_factory=list)
     _settled: bool = False
 
     def __post_init__(self) -> None:
@@ -165,11 +167,15 @@ class Simulation:
         layout = generate(self.seed, number, self.params, len(self.clients))
         self.arena = Arena(layout, self.params, self._odometers)
         self.episode = EpisodeResult(layout, self.params.tick_s, [RobotResult(node) for node in self.nodes])
+        self._measuring = [i for i, client in enumerate(self.clients) if client.wants_ranges]
         self._enter_loop()
         self.record.begin(Begun(self.seed, number, self.tick))
         self._settled = False
 
     def _enter_loop(self) -> None:
+        if self._measuring:
+            self.loop = None  # it knows no distances
+            return
         links = [client.link for client in self.clients if isinstance(client.link, InProcessLink)]
         if not self.native or len(links) != len(self.clients) or not isinstance(self.pace, Lockstep):
             return
@@ -211,6 +217,8 @@ class Simulation:
         bodies, before = self.arena.bodies, self.drives
         for i, body in enumerate(bodies):
             self.senses[i] = body.sense(self.tick)
+        for i in self._measuring:
+            self.clients[i].ranges = self.arena.ranges(i)
         self.drives = self.pace.exchange(self.senses)
         for i, (body, drive) in enumerate(zip(bodies, self.drives, strict=True)):
             if drive.eat and body.eat():

@@ -4,12 +4,14 @@ from collections.abc import Sequence
 
 import pymunk
 
+from host_sim.robot_io import Ranges
 from host_sim.world.body import Body
 from host_sim.world.food import Food
-from host_sim.world.geometry import Point
+from host_sim.world.geometry import Capsule, Point
 from host_sim.world.layouts import Layout
 from host_sim.world.obstacles import Obstacles
 from host_sim.world.params import SimParams
+from host_sim.world.ranges import ranges_of
 from host_sim.world.shapes import DISC, OBSTACLE
 
 
@@ -37,7 +39,7 @@ class Arena:
             odometers: For each robot that comes from another arena, the distances that its left and right wheels have
                 rolled so far, mm; empty for robots that have not moved yet.
         """
-        self._starts = layout.starts
+        self._starts, self._params = layout.starts, params
         self.space = pymunk.Space()
         self.food = Food(layout.food)
         self.obstacles = Obstacles(self.space, layout.bars, params)
@@ -60,6 +62,15 @@ class Arena:
     def layout(self) -> Layout:
         """The layout as it is now, with the original start poses."""
         return Layout(tuple(self.obstacles.bars.values()), tuple(self.food.at), self._starts[0], self._starts[1:])
+
+    def ranges(self, index: int) -> Ranges:
+        """What a robot's sensors measure where it stands: walls, bars and other robots."""
+        body, radius_mm = self.bodies[index], self._params.body_radius_mm
+        if body.lifted:
+            return ranges_of(body.pose, (), self._params)
+        others = [other.pose[:2] for other in self.bodies if other is not body and not other.lifted]
+        discs = [Capsule(middle, middle, radius_mm) for middle in others]
+        return ranges_of(body.pose, [*self.obstacles.capsules, *discs], self._params)
 
     def settle(self) -> None:
         """Updates the sensors after an obstacle or a body was moved."""

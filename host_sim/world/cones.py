@@ -8,8 +8,10 @@ from host_sim.world.params import SimParams
 CONE_BEARINGS_DEG = {1: 90.0, 2: 45.0, 4: 0.0, 8: -45.0, 16: -90.0}
 """Bearing of each cone's axis, clockwise from the heading, by its bit of feel: -112.5..112.5 without a gap."""
 
+CONE_WIDTH_DEG = 45.0
+"""From edge to edge."""
+
 _FRONT = 4
-_CONE_WIDTH_DEG = 45.0
 _ARC_STEPS = 4
 
 
@@ -32,8 +34,8 @@ def cone_outline(bearing_deg: float, reach_mm: float) -> list[Point]:
     Returns:
         Six corners of a convex polygon, x and y in mm; its outer edge is within 0.4 mm of the arc.
     """
-    step = math.radians(_CONE_WIDTH_DEG) / _ARC_STEPS
-    first = math.radians(bearing_deg - _CONE_WIDTH_DEG / 2)
+    step = math.radians(CONE_WIDTH_DEG) / _ARC_STEPS
+    first = math.radians(bearing_deg - CONE_WIDTH_DEG / 2)
     # The corners are as far outside the arc as the middles of the edges are inside it.
     corner_mm = 2 * reach_mm / (1 + math.cos(step / 2))
     angles = [first + step * i for i in range(_ARC_STEPS + 1)]

@@ -26,6 +26,14 @@ class Bar(NamedTuple):
     b: Point
 
 
+class Capsule(NamedTuple):
+    """All points that are no farther than the radius from a line: a bar, a wall or, if its ends are equal, a disc."""
+
+    a: Point
+    b: Point
+    radius_mm: float
+
+
 def ahead_of(pose: Pose, distance_mm: float, bearing_rad: float = 0.0) -> Point:
     """The point at a distance and bearing from a pose.
 

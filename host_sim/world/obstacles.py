@@ -2,7 +2,7 @@
 
 import pymunk
 
-from host_sim.world.geometry import Bar, Point
+from host_sim.world.geometry import Bar, Capsule, Point
 from host_sim.world.params import SimParams
 from host_sim.world.shapes import OBSTACLE, OBSTACLE_FILTER
 
@@ -14,6 +14,7 @@ class Obstacles:
 
     Attributes:
         bars: The bars by id: 0, 1, ... in the order in which they were added. Ids are never reused.
+        walls: The four walls; their inside faces are the arena's edge.
     """
 
     def __init__(self, space: pymunk.Space, bars: tuple[Bar, ...], params: SimParams) -> None:
@@ -24,7 +25,14 @@ class Obstacles:
         self._next_id = 0
         for bar in bars:
             self.add(bar)
-        self._add_walls(params)
+        self.walls = _walls(params)
+        for wall in self.walls:
+            self._add_segment(wall.a, wall.b, wall.radius_mm)
+
+    @property
+    def capsules(self) -> list[Capsule]:
+        """All of them, walls and bars."""
+        return [*self.walls, *(Capsule(bar.a, bar.b, self._radius_mm) for bar in self.bars.values())]
 
     def add(self, bar: Bar) -> None:
         """Adds a bar; it gets the next id."""
@@ -53,17 +61,17 @@ class Obstacles:
         self.bars[bar_id] = bar
         self._shapes[bar_id] = self._add_segment(bar.a, bar.b, self._radius_mm)
 
-    def _add_walls(self, params: SimParams) -> None:
-        # The centre lines of the walls lie outside by their radius, so that the inside faces are the arena's edge.
-        left, top = -_WALL_MM, -_WALL_MM
-        right, bottom = params.width_mm + _WALL_MM, params.height_mm + _WALL_MM
-        corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
-        for a, b in zip(corners, corners[1:] + corners[:1], strict=True):
-            self._add_segment(a, b, _WALL_MM)
-
     def _add_segment(self, a: Point, b: Point, radius_mm: float) -> pymunk.Segment:
         shape = pymunk.Segment(self._space.static_body, a, b, radius_mm)
         shape.collision_type = OBSTACLE
         shape.filter = OBSTACLE_FILTER
         self._space.add(shape)
         return shape
+
+
+def _walls(params: SimParams) -> list[Capsule]:
+    # Their centre lines lie outside by their radius.
+    left, top = -_WALL_MM, -_WALL_MM
+    right, bottom = params.width_mm + _WALL_MM, params.height_mm + _WALL_MM
+    corners = [(left, top), (right, top), (right, bottom), (left, bottom)]
+    return [Capsule(a, b, _WALL_MM) for a, b in zip(corners, corners[1:] + corners[:1], strict=True)]

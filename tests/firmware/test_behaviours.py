@@ -41,6 +41,7 @@ class Reading(NamedTuple):
     feel: int
     look: bool = False
     beacon_mm: int = 0
+    range_mm: tuple[int, ...] = (255,) * 5
 
 
 def default_config():
@@ -78,6 +79,9 @@ class SensingRobot:
     def beacon_mm(self) -> int:
         return self.reading.beacon_mm
 
+    def ranges_mm(self) -> tuple[int, ...]:
+        return self.reading.range_mm
+
     def random(self, n: int) -> int:
         return C.random_below(self.dice, n)
 
@@ -101,7 +105,8 @@ def repeat_count_during(action: Action, listing: Listing) -> int:
 
 def random_reading(dice: random.Random) -> Reading:
     beacon_mm = dice.choice([0, 1, 149, 150, 151, 8191, dice.randrange(300)])
-    return Reading(dice.randrange(32), dice.random() < 0.5, beacon_mm)
+    range_mm = tuple(dice.choices([*range(62), 255], k=5))
+    return Reading(dice.randrange(32), dice.random() < 0.5, beacon_mm, range_mm)
 
 
 def random_state(oracle: type[Listing], dice: random.Random) -> dict[str, int]:
@@ -131,7 +136,7 @@ def decide_side_by_side(profile: str, oracle: type[Listing], decisions: int) -> 
             search = listing.search()
         # When both sense the same
         robot.reading, robot.readings = random_reading(dice), 0
-        senses.feel, senses.look, senses.beacon_mm = robot.reading
+        senses.feel, senses.look, senses.beacon_mm, senses.range_mm = robot.reading
         senses.odometer_left = senses.tick = i & 255  # of no concern to the brain
         expected, action = next(search), C.brain_next(brain, config, senses)
         # Then both do the same, and know the same

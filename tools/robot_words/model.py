@@ -54,6 +54,8 @@ class Description:
         feel: Names of the proximity sensors, from bit 0 on.
         cell_count: Number of bytes of a memory.
         node_max: The last node.
+        range_none: A distance where nothing is within reach.
+        answer_wants_ranges: The bit of an answer by which a robot asks for distances.
         tick_span: Ticks are numbered below it, and wrap.
         action_span: Actions likewise.
         odometer_span: Odometers count below it, and wrap.
@@ -72,6 +74,8 @@ class Description:
     feel: Sequence[str]
     cell_count: int
     node_max: int
+    range_none: int
+    answer_wants_ranges: int
     tick_span: int
     action_span: int
     odometer_span: int
@@ -115,6 +119,8 @@ def read(dbc: Path, words: Path) -> Description:
         feel=_feel(toml["feel"], signal("SENSES.feel")),
         cell_count=_cell_count(toml["patterns"], database.get_message_by_name("MEMORY")),
         node_max=_node_max(toml["node_max"], database),
+        range_none=toml["range_none"],
+        answer_wants_ranges=toml["answer_wants_ranges"],
         tick_span=1 << signal("SENSES.tick").length,
         action_span=1 << signal("DRIVE.action").length,
         odometer_span=1 << signal("SENSES.odometer_left").length,

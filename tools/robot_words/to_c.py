@@ -29,6 +29,8 @@ def _numbers(robot: Description) -> str:
     numbers = {
         "CELL_COUNT": robot.cell_count,
         "NODE_MAX": robot.node_max,
+        "RANGE_NONE": robot.range_none,
+        "ANSWER_WANTS_RANGES": robot.answer_wants_ranges,
         "FAULT_COUNT": len(robot.enums["fault"]),
         "FEEL_COUNT": len(robot.feel),
         "TICK_SPAN": robot.tick_span,

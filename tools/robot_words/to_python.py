@@ -83,6 +83,8 @@ def _constants(robot: Description) -> dict[str, str]:
         "FEEL: dict[str, int]": repr({c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}),
         "CELL_COUNT": str(robot.cell_count),
         "NODE_MAX": str(robot.node_max),
+        "RANGE_NONE": str(robot.range_none),
+        "ANSWER_WANTS_RANGES": str(robot.answer_wants_ranges),
         "TICK_SPAN": str(robot.tick_span),
         "ACTION_SPAN": str(robot.action_span),
         "ODOMETER_SPAN": str(robot.odometer_span),

@@ -28,6 +28,7 @@ class Robot(Protocol):
     def feel(self) -> int: ...
     def look(self) -> bool: ...
     def beacon_mm(self) -> int: ...
+    def ranges_mm(self) -> tuple[int, ...]: ...
     def random(self, n: int) -> int: ...
 
 
@@ -71,6 +72,10 @@ class Listing:
         """Takes a lesson."""
         self.mem[pattern(feel)] = side
 
+    def remembered_deg(self) -> int:
+        """The size of a remembered turn."""
+        return DEG
+
     def find_way_clear(self) -> None:
         """The way is clear at the top of the loop."""
 
@@ -112,9 +117,11 @@ class Listing:
         """Blocked, and the memory knows a turn."""
         self.begin_remembered(senses)
         if self.recall(senses) == TURN_LEFT:  # if Mem[Senses] = TurnLeft
-            yield Action("REMEMBERED", -DEG)  # then rTurn -Deg
+            yield Action("REMEMBERED", -self.remembered_deg())  # then rTurn -Deg
         elif self.recall(senses) == TURN_RIGHT:  # if Mem[Senses] = TurnRight
-            yield Action("REMEMBERED", DEG)  # then rTurn Deg
+            yield Action("REMEMBERED", self.remembered_deg())  # then rTurn Deg
+        else:
+            raise AssertionError("another behaviour's memory: the listing would turn nowhere, for ever")
         self.end_remembered(senses)
         self.repeat_count += 1  # RepeatCount++
         if self.repeat_count == 10:  # if RepeatCount=10

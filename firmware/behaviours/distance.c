@@ -1,0 +1,37 @@
+/* distance: the article's robot, but the nearer the thing in its way, the bigger the remembered turn: TURN_DEG where it is as
+ * far as the sensors reach, FARTHER_DEG more where it touches the body, and in proportion between, to the nearest degree. */
+#include "firmware/behaviours/behaviour.h"
+
+enum {
+    REACH_OF_SENSORS_MM = 60,
+    FARTHER_DEG = 20,
+    MM_A_DEGREE = REACH_OF_SENSORS_MM / FARTHER_DEG
+};
+
+bool distance_begin(struct brain *brain)
+{
+    brain->wants_ranges = true;
+    return true;
+}
+
+/* Of what the three front sensors see; REACH_OF_SENSORS_MM if they see nothing, or are not told. */
+static int nearest_mm(const struct senses *senses)
+{
+    int nearest = REACH_OF_SENSORS_MM;
+
+    for (unsigned i = 0; i < FEEL_COUNT; i++) {
+        if ((1u << i & (FEEL_FRONT_RIGHT | FEEL_FRONT | FEEL_FRONT_LEFT)) != 0u && senses->range_mm[i] < nearest)
+            nearest = senses->range_mm[i];
+    }
+    return nearest;
+}
+
+struct action distance_next(struct brain *brain, const struct config *config, const struct senses *senses)
+{
+    struct action action = article_next(brain, config, senses);
+    int farther_deg = (REACH_OF_SENSORS_MM - nearest_mm(senses) + MM_A_DEGREE / 2) / MM_A_DEGREE;
+
+    if (action.reason == REASON_REMEMBERED)
+        action.turn_deg = (int16_t)(action.turn_deg + (action.turn_deg > 0 ? farther_deg : -farther_deg));
+    return action;
+}

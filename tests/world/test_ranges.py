@@ -1,0 +1,148 @@
+"""How far away the robot measures things to be: exactly, against what can be worked out by hand or point by point."""
+
+import math
+import random
+
+import pytest
+
+from host_sim.robot_io import NOTHING_NEAR, Ranges
+from host_sim.world.arena import Arena
+from host_sim.world.cones import CONE_BEARINGS_DEG
+from host_sim.world.geometry import Bar, Capsule, Pose, ahead_of
+from host_sim.world.layouts import Layout, generate
+from host_sim.world.params import SimParams
+from host_sim.world.ranges import ranges_of
+
+PARAMS = SimParams()
+START = Pose(2000.0, 1500.0, 0.7)
+RADIUS_MM = PARAMS.body_radius_mm
+
+
+def peg(bearing_deg: float, gap_mm: float, radius_mm: float = 20.0) -> Capsule:
+    """A disc whose near face is so far from the body's rim."""
+    middle = ahead_of(START, RADIUS_MM + gap_mm + radius_mm, math.radians(bearing_deg))
+    return Capsule(middle, middle, radius_mm)
+
+
+def measured(*things: Capsule) -> Ranges:
+    return ranges_of(START, things, PARAMS)
+
+
+@pytest.mark.parametrize(("place", "bearing_deg"), list(enumerate(CONE_BEARINGS_DEG.values())))
+@pytest.mark.parametrize(("gap_mm", "range_mm"), [(0.0, 0), (0.4, 0), (0.6, 1), (30.4, 30), (59.9, 60)])
+def test_a_thing_in_one_cone_is_measured_there_alone(place, bearing_deg, gap_mm, range_mm):
+    expected = [None] * 5
+    expected[place] = range_mm
+
+    assert list(measured(peg(bearing_deg, gap_mm, 5.0))) == expected
+
+
+@pytest.mark.parametrize(
+    ("bearing_deg", "gap_mm", "seen"), [(45, 59.99, True), (45, 60.01, False), (0, 60.49, True), (0, 60.51, False)]
+)
+def test_the_front_cone_reaches_half_a_millimetre_farther(bearing_deg, gap_mm, seen):
+    assert (measured(peg(bearing_deg, gap_mm)) != NOTHING_NEAR) == seen
+
+
+def test_a_wall_ahead_is_farther_away_in_the_cones_beside():
+    gap_mm = 30.0
+    wall = Capsule((4100.0, -100.0), (4100.0, 3100.0), 100.0)
+    beside_mm = (RADIUS_MM + gap_mm) / math.cos(math.radians(22.5)) - RADIUS_MM
+
+    ranges = ranges_of(Pose(4000.0 - RADIUS_MM - gap_mm, 1500.0, 0.0), [wall], PARAMS)
+
+    assert ranges == Ranges(None, round(beside_mm), round(gap_mm), round(beside_mm), None)
+
+
+def test_what_is_behind_is_not_measured():
+    assert measured(peg(180.0, 5.0), peg(-130.0, 5.0)) == NOTHING_NEAR
+
+
+def test_the_nearest_of_several_things_counts():
+    assert measured(peg(0.0, 40.0), peg(5.0, 20.0), peg(-5.0, 50.0)).front == 20
+
+
+def test_what_the_body_is_pressed_into_is_at_no_distance():
+    assert measured(peg(0.0, -0.01)).front == 0
+
+
+def outline_point(bar: Capsule, part: float) -> tuple[float, float]:
+    """A point of a capsule's outline, part 0..1 of the way round in angle and along the sides."""
+    (ax, ay), (bx, by), radius_mm = bar
+    way = math.atan2(by - ay, bx - ax)
+    quarter, rest = divmod(4 * part, 1.0)
+    if quarter in (0, 2):  # a side
+        side = way + (math.pi / 2 if quarter == 0 else -math.pi / 2)
+        return (
+            ax + rest * (bx - ax) + radius_mm * math.cos(side),
+            ay + rest * (by - ay) + radius_mm * math.sin(side),
+        )
+    (x, y), angle = ((bx, by), way - math.pi / 2) if quarter == 1 else ((ax, ay), way + math.pi / 2)
+    return x + radius_mm * math.cos(angle + rest * math.pi), y + radius_mm * math.sin(angle + rest * math.pi)
+
+
+def point_by_point(bar: Capsule, points: int) -> list[float]:
+    """The least distance in each cone, of many points on a bar's outline."""
+    found = [math.inf] * 5
+    for i in range(points):
+        x, y = outline_point(bar, i / points)
+        dx, dy = x - START.x_mm, y - START.y_mm
+        bearing_deg = math.degrees(math.remainder(math.atan2(dy, dx) - START.heading_rad, math.tau))
+        for place, axis_deg in enumerate(CONE_BEARINGS_DEG.values()):
+            if abs(bearing_deg - axis_deg) <= 22.5:
+                found[place] = min(found[place], math.hypot(dx, dy) - RADIUS_MM)
+    return found
+
+
+def test_any_bar_is_measured_as_it_is_point_by_point():
+    dice, compared = random.Random(1), 0
+    for _ in range(150):
+        gap_mm, bearing = dice.uniform(1.0, 55.0), dice.uniform(-math.pi, math.pi)
+        x, y = ahead_of(START, RADIUS_MM + gap_mm + 20.0, bearing)
+        # Any bar beside the body: along its rim, or away from it.
+        end = ahead_of(Pose(x, y, START.heading_rad), dice.uniform(0.1, 400.0), bearing + dice.uniform(-1.5, 1.5))
+        bar = Capsule((x, y), end, 20.0)
+        for range_mm, exact_mm in zip(measured(bar), point_by_point(bar, 2000), strict=True):
+            if range_mm is None:
+                assert exact_mm > PARAMS.sensor_reach_mm - 0.5
+            else:
+                assert range_mm == pytest.approx(exact_mm, abs=0.9)
+                compared += 1
+    assert compared > 100
+
+
+def test_what_is_measured_is_felt():
+    """Chipmunk's cones have corners where these are round: they differ by up to 0.4 mm."""
+    layout, dice, agreed = generate(3, 1, PARAMS), random.Random(2), 0
+    arena = Arena(layout, PARAMS)
+    for _ in range(100):
+        x, y = dice.choice(layout.bars).a
+        beside = ahead_of(Pose(x, y, 0.0), dice.uniform(125.0, 185.0), dice.uniform(-math.pi, math.pi))
+        arena.body.put(Pose(*beside, dice.uniform(-math.pi, math.pi)))
+        arena.settle()
+        feel = arena.body.sense(0).feel
+        for bit, range_mm in zip(CONE_BEARINGS_DEG, arena.ranges(0), strict=True):
+            if range_mm is not None and range_mm < 59:
+                assert feel & bit
+                agreed += 1
+    assert agreed > 50
+
+
+def test_robots_measure_each_other_and_none_that_is_in_the_air():
+    there = Pose(2000.0 + 2 * RADIUS_MM + 25.0, 1500.0, 0.0)
+    arena = Arena(Layout((), (), Pose(2000.0, 1500.0, 0.0), (there,)), PARAMS)
+    assert (arena.ranges(0).front, arena.ranges(1)) == (25, NOTHING_NEAR)
+
+    arena.bodies[1].lift()
+    arena.settle()
+    assert arena.ranges(0) == NOTHING_NEAR
+    assert arena.ranges(1) == NOTHING_NEAR
+
+
+def test_a_body_in_the_air_measures_nothing():
+    x, y = ahead_of(START, RADIUS_MM + 30.0)
+    arena = Arena(Layout((Bar((x, y), (x + 100.0, y)),), (), START), PARAMS)
+    assert arena.ranges(0) != NOTHING_NEAR
+
+    arena.body.lift()
+    assert arena.ranges(0) == NOTHING_NEAR
