@@ -120,8 +120,6 @@ class Listing:
             yield Action("REMEMBERED", -self.remembered_deg())  # then rTurn -Deg
         elif self.recall(senses) == TURN_RIGHT:  # if Mem[Senses] = TurnRight
             yield Action("REMEMBERED", self.remembered_deg())  # then rTurn Deg
-        else:
-            raise AssertionError("another behaviour's memory: the listing would turn nowhere, for ever")
         self.end_remembered(senses)
         self.repeat_count += 1  # RepeatCount++
         if self.repeat_count == 10:  # if RepeatCount=10
