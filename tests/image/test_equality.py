@@ -19,7 +19,7 @@ def test_all_images_do_what_the_host_build_does(seed, tmp_path):
     assert [(verdict.where, verdict.difference) for verdict in verdicts] == [(image, None) for image in IMAGES]
     log = (tmp_path / f"{REFERENCE}-{seed}.log").read_bytes()
     memories = {line.split(b"#")[1][4:] for line in log.splitlines() if MEMORY in line}  # without CRC and counter
-    assert len(memories) > 2, "it learned while it was watched"
+    assert len(memories) > 1, "it learned while it was watched"
 
 
 def test_another_seed_is_another_run(tmp_path):

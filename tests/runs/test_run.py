@@ -225,7 +225,7 @@ def test_each_of_several_robots_has_its_memory_file(run, tmp_path):
     [
         (("--robots", "2", "--node", "31", "--bus", "none"), "the last is 31"),
         (("--robots", "32", "--bus", "none"), "1 to 31"),
-        (("--robots", "2", "--bus", "virtual:x", "--robot", "external"), "socketcan, fd or none"),
+        (("--robots", "2", "--robot", "qemu"), "leave out --node and --robots"),
     ],
 )
 def test_robots_that_cannot_be_are_one_line(run, words, named):
