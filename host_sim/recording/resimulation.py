@@ -149,7 +149,6 @@ class _Resimulator:
         layout = generate(begun.seed, begun.number, self._params, self._record.robots)
         self._arena = Arena(layout, self._params, odometers)
         self._begun = begun
-        self._all_begun.append(begun)
         return self._arena
 
     def _due(self, tick: int) -> Begun | None:
@@ -157,11 +156,13 @@ class _Resimulator:
         begun = None
         while self._planned and self._planned[0].first_tick == tick:
             begun = self._planned.popleft()
+            self._all_begun.append(begun)
         if not self._runs_on:
             return begun
         over = self._arena is None or not self._arena.food.uneaten
         if over or tick - self._begun.first_tick >= self._record.limit_ticks:
             begun = Begun(self._begun.seed, self._begun.number + 1, tick)
+            self._all_begun.append(begun)
         return begun
 
     def _edit(self, arena: Arena, tick: int, edit: Edit) -> None:
