@@ -30,9 +30,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def fail_if_skipped(report: pytest.TestReport | pytest.CollectReport, config: pytest.Config) -> None:
-    if not report.skipped or hasattr(report, "wasxfail") or not isinstance(report.longrepr, tuple):
+    if not report.skipped:
         return
-    reason = report.longrepr[2].removeprefix("Skipped: ")
+    # An expected failure that is not run, or that fails, is reported as skipped, too.
+    expected = getattr(report, "wasxfail", None)
+    reason = report.longrepr[2].removeprefix("Skipped: ") if expected is None else f"xfail: {expected}"
     if reason.split(":")[0] not in config.getoption("allow_missing"):
         report.outcome = "failed"
         report.longrepr = f"skipped, which counts as failed: {reason}"

@@ -16,6 +16,11 @@ SKIPS = {
     "by a mark": "import pytest\n@pytest.mark.skip(reason='bus: there is none')\ndef test_it():\n    pass\n",
 }
 SKIPPED_FILE = "import pytest\npytest.skip('bus: there is none', allow_module_level=True)\n"
+EXPECTED_FAILURES = {
+    "run": "import pytest\n@pytest.mark.xfail(reason='bus: known')\ndef test_it():\n    assert 0\n",
+    "not run": "import pytest\n@pytest.mark.xfail(run=False, reason='bus: known')\ndef test_it():\n    pass\n",
+    "at run time": "import pytest\ndef test_it():\n    pytest.xfail('bus: known')\n",
+}
 PASSES = "def test_it():\n    pass\n"
 
 
@@ -52,3 +57,10 @@ def test_a_skip_that_the_caller_allowed_by_name_does_not_fail_the_run(tmp_path):
 
 def test_allowing_one_name_allows_no_other(tmp_path):
     assert run_pytest(tmp_path, [SKIPS["in a test"]], "--allow-missing=browser").returncode != 0
+
+
+def test_an_expected_failure_fails_the_run_whatever_the_caller_allowed(tmp_path):
+    done = run_pytest(tmp_path, [*EXPECTED_FAILURES.values(), PASSES], "--allow-missing=bus")
+
+    assert done.stdout.splitlines()[-1].startswith("2 failed, 1 passed, 1 error in")
+    assert "skipped, which counts as failed: xfail: " in done.stdout
