@@ -7,6 +7,7 @@ from pathlib import Path
 
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import NODE_MAX, Protocol
+from host_sim.protocol.generated import TICK_SPAN
 from host_sim.recording.dead_reckoning import reckon
 from host_sim.recording.log_reader import LogReader, nodes_in, read_log
 from host_sim.recording.recording import Recording, read_recording
@@ -112,7 +113,7 @@ class _Resimulator:
     def _run_tick(self, tick: int, robots: Sequence[Tick]) -> None:
         arena = self._prepare(tick)
         for node, body, robot in zip(self._nodes, arena.bodies, robots, strict=True):
-            self._check(tick, node, body.sense(tick), robot.senses)
+            self._check(tick, node, body.sense(tick % TICK_SPAN), robot.senses)
         ate = False
         for body, robot in zip(arena.bodies, robots, strict=True):
             ate |= robot.drive.eat and body.eat()

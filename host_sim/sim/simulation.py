@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from host_sim.client.pacing import Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import settle
-from host_sim.protocol.generated import CELL_COUNT
+from host_sim.protocol.generated import CELL_COUNT, TICK_SPAN
 from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
@@ -216,7 +216,7 @@ class Simulation:
         self._set_time(self.tick)
         bodies, before = self.arena.bodies, self.drives
         for i, body in enumerate(bodies):
-            self.senses[i] = body.sense(self.tick)
+            self.senses[i] = body.sense(self.tick % TICK_SPAN)
         for i in self._measuring:
             self.clients[i].ranges = self.arena.ranges(i)
         self.drives = self.pace.exchange(self.senses)

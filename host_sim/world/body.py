@@ -16,7 +16,6 @@ _IN_THE_AIR_MM = -10_000.0
 # A pushed-out body stays this deep in the obstacle, so that it goes on touching and does not bounce.
 _TOUCH_MM = 0.01
 _PUSHES = 8
-_BYTE_MASK = 255
 _COUNTER_MASK = 4095
 _COUNTS_PER_MM = 10
 
@@ -106,7 +105,7 @@ class Body:
         """What the robot senses where it stands. Food is seen in a corridor straight ahead if nothing hides it.
 
         Args:
-            tick: Number of the control tick; wrapped to 0..255.
+            tick: Number of the control tick, as the robot is to be told it.
         """
         self._seen_id, beacon_mm = -1, 0
         if not self.lifted:
@@ -121,7 +120,7 @@ class Body:
                     self._seen_id, beacon_mm = food_id, distance_mm
         self._seen_mm = beacon_mm
         return Senses(
-            tick=tick & _BYTE_MASK,
+            tick=tick,
             feel=self.feel,
             bump=self.touches > 0,
             look=beacon_mm > 0,

@@ -1,4 +1,4 @@
-"""One tick in Python stays a short way through few files: a reader can follow it, and it is fast."""
+"""One tick in Python: a short way through few files, so that a reader can follow it; told as a number that wraps."""
 
 import sys
 from pathlib import Path
@@ -7,6 +7,7 @@ from types import FrameType
 import pytest
 
 import host_sim
+from host_sim.protocol.generated import TICK_SPAN
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
@@ -51,3 +52,13 @@ def test_a_tick_takes_few_calls_and_files(simulation):
     assert simulation.drives[0].action == before, "this is no ordinary tick"
     assert 10 < len(files) <= CALLS_MAX
     assert len(set(files)) <= FILES_MAX
+
+
+def test_the_robot_is_told_the_tick_as_it_fits_the_wire(simulation):
+    told = []
+    for _ in range(TICK_SPAN):
+        simulation.step()
+        told.append(simulation.senses[0].tick)
+
+    first = ORDINARY_TICK
+    assert told == [*range(first, TICK_SPAN), *range(first)]

@@ -129,10 +129,6 @@ def test_odometers_go_on_from_the_arena_before() -> None:
     assert arena.body.odometer == (12.5, -0.3)
 
 
-def test_ticks_wrap() -> None:
-    assert [arena_with().body.sense(tick).tick for tick in (0, 255, 256, 10_000)] == [0, 255, 0, 16]
-
-
 @pytest.mark.parametrize(
     ("heading_deg", "axis", "stop_mm"),
     [(0, 0, PARAMS.width_mm - RADIUS), (90, 1, PARAMS.height_mm - RADIUS), (180, 0, RADIUS), (-90, 1, RADIUS)],

@@ -58,8 +58,8 @@ static void test_senses_are_those_of_the_body(void)
     body->left_mm = 12.34;
     body->right_mm = -0.1;
     world.food[1] = (struct food){1200.0, 1000.0, false};
-    world_sense(&world, body, TICK_SPAN + 5, &senses);
-    TEST_ASSERT_EQUAL_UINT16(5, senses.tick);
+    world_sense(&world, body, TICK_SPAN - 5, &senses);
+    TEST_ASSERT_EQUAL_UINT16(TICK_SPAN - 5, senses.tick);
     TEST_ASSERT_EQUAL_HEX8(FEEL_LEFT, senses.feel);
     TEST_ASSERT_TRUE(senses.bump && senses.look);
     TEST_ASSERT_EQUAL_UINT16(200, senses.beacon_mm);

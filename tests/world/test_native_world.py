@@ -4,6 +4,7 @@ import random
 
 import pytest
 
+from host_sim.protocol.generated import TICK_SPAN
 from host_sim.world.arena import Arena
 from host_sim.world.edits import AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar, make_edit
 from host_sim.world.geometry import Bar, Point, Pose
@@ -64,8 +65,9 @@ class Pair:
 
     def tick(self, tick: int) -> None:
         bodies = self.python.bodies
-        senses = [body.sense(tick) for body in bodies]
-        assert [self.c.sense(i, tick) for i in range(len(bodies))] == senses
+        told = tick % TICK_SPAN
+        senses = [body.sense(told) for body in bodies]
+        assert [self.c.sense(i, told) for i in range(len(bodies))] == senses
         for i, body in enumerate(bodies):
             wheels = drive(self.draws)
             if self.draws.random() < 0.5:

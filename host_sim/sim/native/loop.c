@@ -59,8 +59,10 @@ static bool take_answers(struct loop *loop, struct loop_robot *robot, struct tur
 /* All robots hear their senses before the first one's answer is read. */
 static bool exchange(struct loop *loop, struct turn turns[])
 {
+    uint8_t tick = (uint8_t)(loop->tick % TICK_SPAN);
+
     for (size_t i = 0; i < loop->robot_count; i++)
-        world_sense(loop->world, &loop->world->bodies[i], loop->tick, &turns[i].senses);
+        world_sense(loop->world, &loop->world->bodies[i], tick, &turns[i].senses);
     for (size_t i = 0; i < loop->robot_count; i++)
         send_senses(loop, &loop->robots[i], &turns[i].senses);
     for (size_t i = 0; i < loop->robot_count; i++)

@@ -51,10 +51,10 @@ static uint16_t odometer(double rolled_mm)
     return (uint16_t)((long long)rint(rolled_mm * ODOMETER_COUNTS_PER_MM) & (ODOMETER_SPAN - 1));
 }
 
-void world_sense(struct world *world, struct body *body, uint32_t tick, struct senses *out)
+void world_sense(struct world *world, struct body *body, uint8_t tick, struct senses *out)
 {
     sight_look(world, body);
-    out->tick = (uint8_t)(tick & (TICK_SPAN - 1));
+    out->tick = tick;
     out->feel = body->feel;
     out->bump = body->touches > 0;
     out->look = body->seen_mm > 0;

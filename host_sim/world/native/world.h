@@ -87,8 +87,8 @@ void world_borrow(struct world *world);
 void world_return(struct world *world);
         /* Gives them back, as they were. */
 
-void world_sense(struct world *world, struct body *body, uint32_t tick, struct senses *out);
-        /* What the robot senses where it stands. tick is wrapped. */
+void world_sense(struct world *world, struct body *body, uint8_t tick, struct senses *out);
+        /* What the robot senses where it stands. tick is as the robot is to be told it. */
 
 bool world_eat(struct world *world, struct body *body);
         /* Eats the food that was last sensed straight ahead, if it is near enough and still there. */
