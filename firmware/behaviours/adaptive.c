@@ -1,8 +1,6 @@
 /* adaptive: as forgetful, but a cell that has proved its worth is not forgotten at once. */
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/listing.h"
 #include "firmware/behaviours/used_cells.h"
-#include "firmware/pattern.h"
 
 enum { CONFIDENCE = 1, PRAISE = 1 };
 
@@ -14,11 +12,5 @@ bool adaptive_begin(struct brain *brain)
 
 struct action adaptive_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
-    uint8_t pattern = pattern_of(senses->feel);
-    struct action action;
-
-    used_cells_learn(brain, senses, CONFIDENCE);
-    action = listing_next(brain, config, senses, memory_recall(&brain->memory, pattern));
-    used_cells_judge(brain, &action, pattern, PRAISE);
-    return action;
+    return used_cells_next(brain, config, senses, CONFIDENCE, PRAISE);
 }

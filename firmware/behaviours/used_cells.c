@@ -49,3 +49,15 @@ void used_cells_judge(struct brain *brain, const struct action *action, uint8_t 
         return;
     }
 }
+
+struct action used_cells_next(struct brain *brain, const struct config *config, const struct senses *senses,
+                              unsigned confidence, int praise)
+{
+    uint8_t pattern = pattern_of(senses->feel);
+    struct action action;
+
+    used_cells_learn(brain, senses, confidence);
+    action = listing_next(brain, config, senses, memory_recall(&brain->memory, pattern));
+    used_cells_judge(brain, &action, pattern, praise);
+    return action;
+}

@@ -15,4 +15,8 @@ void used_cells_judge(struct brain *brain, const struct action *action, uint8_t 
         /* Takes note of the action that was chosen with that pattern in sight. An about-face, which takes a confidence
            of 2 from each used cell, also ends the repeat count. */
 
+struct action used_cells_next(struct brain *brain, const struct config *config, const struct senses *senses,
+                              unsigned confidence, int praise);
+        /* The listing's next action, with both of these around it. */
+
 #endif
