@@ -77,7 +77,7 @@ class Outputs:
         trajectory = self.recorder.trajectory
         if trajectory.ticks:
             write_picture(self.options.out / PICTURE, trajectory)
-            write_page(self.options.out / PAGE, trajectory, f"seed {self.options.config.seed}")
+            write_page(self.options.out / PAGE, trajectory, self.simulation.record.title)
 
 
 @contextmanager

@@ -10,6 +10,7 @@ from host_sim.faults.bus_faults import FAULTS
 from host_sim.faults.rule import read_rules
 from host_sim.protocol.generated import NODE_MAX, PROFILES
 from host_sim.sim.run_config import ROBOTS, RunConfig
+from host_sim.world.world_names import WORLD_NAMES
 
 _DEFAULT = " (default: %(default)s)"
 _BUS_HELP = (
@@ -83,6 +84,12 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
         default=default.environments,
         metavar="N",
         help="number of environments, one after the other" + _DEFAULT,
+    )
+    add(
+        "--world",
+        default=default.world,
+        metavar="WORLD",
+        help=f"what they are drawn from: {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml" + _DEFAULT,
     )
     add(
         "--robots",
@@ -195,6 +202,9 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
         bus: The bus, resolved.
         watch: How people watch the run; None if they do not.
     """
+    from host_sim.world.worlds import world_of
+
+    world_of(arguments.world)  # a mistake in it is found before anything is begun
     names = {field.name for field in fields(RunConfig)} & vars(arguments).keys()
     given = {name: getattr(arguments, name) for name in names}
     faults = tuple(rule for text in arguments.fault for rule in read_rules(text))

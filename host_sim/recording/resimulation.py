@@ -20,7 +20,6 @@ from host_sim.sim.world_record import Begun, WorldRecord
 from host_sim.view.state import environment_scene
 from host_sim.world.arena import Arena
 from host_sim.world.edits import Edit, EditError, make_edit
-from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
 
 _LIMIT_S = 600.0
@@ -33,20 +32,25 @@ class Resimulation:
 
     Attributes:
         trajectory: Every tick of the run.
-        seed: The run's seed; None if its world is not known.
+        record: The run's world; None if it is not known.
         stopped: Whether the log has the end of the run; if not, the log or the run was cut short.
         note: One line about the frames of the log that were skipped; None if there were none.
     """
 
     trajectory: Trajectory
-    seed: int | None
+    record: WorldRecord | None
     stopped: bool
     note: str | None
 
     @property
+    def seed(self) -> int | None:
+        """The run's seed, if its world is known."""
+        return self.record and self.record.seed
+
+    @property
     def title(self) -> str:
         """The run's title."""
-        return "a robot on its way" if self.seed is None else f"seed {self.seed}"
+        return self.record.title if self.record else "a robot on its way"
 
 
 def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False) -> Resimulation:
@@ -69,12 +73,12 @@ def resimulate(log: Path, node: int = 1, *, ignore_world: bool = False) -> Resim
     recording = read_recording(lines, Protocol(node))
     record = None if ignore_world else _world_record(log, lines, recording, node)
     if record is None:
-        return Resimulation(reckon(recording, node, SimParams()), None, recording.stopped, lines.note())
+        trajectory = reckon(recording, node, SimParams())
+        return Resimulation(trajectory, None, recording.stopped, lines.note())
     others = range(node + 1, node + record.robots)
     recordings = {node: recording} | {other: read_recording(lines, Protocol(other)) for other in others}
-    params = SimParams(front_extra_mm=record.front_extra_mm)
-    trajectory = _Resimulator(log, params, record, recordings).run()
-    return Resimulation(trajectory, record.seed, recording.stopped, lines.note())
+    trajectory = _Resimulator(log, record, recordings).run()
+    return Resimulation(trajectory, record, recording.stopped, lines.note())
 
 
 def _world_record(log: Path, lines: LogReader, recording: Recording, node: int) -> WorldRecord | None:
@@ -91,8 +95,8 @@ def _world_record(log: Path, lines: LogReader, recording: Recording, node: int) 
 class _Resimulator:
     """Repeats a run in the environments of a record or, if it lists none, in one after the other as in a run."""
 
-    def __init__(self, log: Path, params: SimParams, record: WorldRecord, recordings: dict[int, Recording]) -> None:
-        self._log, self._params, self._record = log, params, record
+    def __init__(self, log: Path, record: WorldRecord, recordings: dict[int, Recording]) -> None:
+        self._log, self._params, self._record = log, record.world.params, record
         self._recordings = list(recordings.values())
         self._runs_on = not record.begun
         self._planned, self._edits = deque(record.begun), deque(record.edits)
@@ -100,7 +104,7 @@ class _Resimulator:
         self._all_begun: list[Begun] = []
         self._arena: Arena | None = None
         memories = {node: recording.first_memory for node, recording in recordings.items()}
-        self._recorder = RunRecorder(params, self._recordings[0].boredom_limit, memories)
+        self._recorder = RunRecorder(self._params, self._recordings[0].boredom_limit, memories)
 
     def run(self) -> Trajectory:
         """Repeats every tick that all robots' recordings have."""
@@ -147,7 +151,7 @@ class _Resimulator:
 
     def _enter(self, begun: Begun) -> Arena:
         odometers = [body.odometer for body in self._arena.bodies] if self._arena else []
-        layout = generate(begun.seed, begun.number, self._params, self._record.robots)
+        layout = self._record.world.generate(begun.seed, begun.number, self._record.robots)
         self._arena = Arena(layout, self._params, odometers)
         self._begun = begun
         return self._arena

@@ -25,6 +25,7 @@ class Summary:
     Attributes:
         seed: Seed for environments and random turns.
         profile: Name of the robots' behaviour.
+        world: Name of the world, or path of its file.
         bus: Where the robots were: none, fd, INTERFACE:CHANNEL, qemu, or an emulated board.
         environments: One entry per environment: finished, food_eaten, ticks, robot_s, and robots, with each robot's
             node, food_eaten, trials, remembered_turns, boredom_turns, collisions and memory (the eight cells at the
@@ -41,6 +42,7 @@ class Summary:
 
     seed: int
     profile: str
+    world: str
     bus: str
     environments: list[dict[str, Any]]
     robots: list[dict[str, Any]]
@@ -98,6 +100,7 @@ def summarize(
     return Summary(
         seed=config.seed,
         profile=config.profile,
+        world=config.world,
         bus=clients[0].bus,
         environments=[_environment(episode) for episode in episodes],
         robots=[_robot(client) for client in clients],

@@ -6,6 +6,7 @@ reconstruct the whole run.
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,11 @@ from host_sim.protocol.codec import NODE_MAX
 from host_sim.regular_file import read_bytes
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
 from host_sim.world.edits import edit_from, edit_to, whole
+from host_sim.world.layouts import World
+from host_sim.world.world_names import RANDOM, WORLD_NAMES
+from host_sim.world.worlds import world_of
+from host_sim.world.written_layout import WrittenLayout
+from host_sim.world.written_world import content_of, world_from
 
 _FORMAT = 1
 _SIZE_MAX = 16_000_000
@@ -34,7 +40,8 @@ def write_world(record: WorldRecord, path: Path) -> None:
         "of": record.environments,
         "limit_ticks": record.limit_ticks,
         "robots": record.robots,
-        "front_extra_mm": record.front_extra_mm,
+        "front_extra_mm": record.world.params.front_extra_mm,
+        **_world_content(record.world),
         "environments": [begun._asdict() for begun in record.begun],
         "edits": [{"tick": tick, **edit_to(edit)} for tick, edit in record.edits],
     }
@@ -77,8 +84,26 @@ def _record(content: dict[str, Any]) -> WorldRecord:
         whole(content, "robots", 1, NODE_MAX) if "robots" in content else 1,
         begun,
         edits,
-        _front_extra_mm(content),
+        _world(content),
     )
+
+
+def _world_content(world: World) -> dict[str, Any]:
+    """The field that names a world, or has all of it if a person wrote it; it is left out for the random one."""
+    if isinstance(world.draw, WrittenLayout):
+        return {"world": {"name": world.name, **content_of(world.draw, world.params)}}
+    return {} if world.name == RANDOM else {"world": world.name}
+
+
+def _world(content: dict[str, Any]) -> World:
+    world = content.get("world", RANDOM)
+    if isinstance(world, dict):
+        made = world_from({key: value for key, value in world.items() if key != "name"}, str(world.get("name")))
+    elif world in WORLD_NAMES:
+        made = world_of(world)
+    else:
+        raise ValueError(f"there is no world {world!r}")
+    return replace(made, params=replace(made.params, front_extra_mm=_front_extra_mm(content)))
 
 
 def _front_extra_mm(content: dict[str, Any]) -> float:

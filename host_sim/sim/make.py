@@ -19,8 +19,8 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.transport.clock import VirtualClock, WallClock
 from host_sim.transport.link import Link
-from host_sim.world.layouts import NoRoomError, generate
-from host_sim.world.params import SimParams
+from host_sim.world.layouts import NoRoomError, World
+from host_sim.world.worlds import world_of
 
 Memory = Sequence[int]
 
@@ -65,7 +65,7 @@ def make(
         RobotError: A robot does not answer.
     """
     config = config or RunConfig()
-    _check(config, SimParams())
+    _check(config, world_of(config.world))
     with ExitStack() as stack:
         if log is None:
             log = FrameLog()
@@ -83,13 +83,13 @@ def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequen
     """Starts robots that are connected already and puts a world around them; `make` connects them too.
 
     Raises:
-        UsageError: A robot refuses its configuration.
+        UsageError: There is no such world, or a robot refuses its configuration.
         RobotError: A robot does not answer.
     """
-    params = SimParams()
+    world = world_of(config.world)
     start_robots(clients, config, memories)
-    pace: Pace = RealTime(clients, params.tick_s) if config.real_time else Lockstep(clients)
-    return Simulation(params, clients, pace, config.seed, config.environments, config.limit_s)
+    pace: Pace = RealTime(clients, world.params.tick_s) if config.real_time else Lockstep(clients)
+    return Simulation(world, clients, pace, config.seed, config.environments, config.limit_s)
 
 
 def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Sequence[Memory | None] = ()) -> None:
@@ -108,7 +108,7 @@ def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Se
             raise UsageError(f"{refused}; give values within the robot's range") from refused
 
 
-def _check(config: RunConfig, params: SimParams) -> None:
+def _check(config: RunConfig, world: World) -> None:
     if config.nodes.stop - 1 > NODE_MAX:
         last = config.nodes.stop - 1
         raise UsageError(f"{config.robots} robots from node {config.node} need node {last}; the last is {NODE_MAX}")
@@ -116,7 +116,7 @@ def _check(config: RunConfig, params: SimParams) -> None:
         return
     try:
         for number in range(1, config.environments + 1):
-            generate(config.seed, number, params, config.robots)
+            world.generate(config.seed, number, config.robots)
     except NoRoomError as error:
         raise UsageError(f"{config.robots} robots are too many for seed {config.seed}: {error}") from None
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from host_sim.transport.bit_rates import BIT_RATE
+from host_sim.world.world_names import RANDOM
 
 ROBOTS = ("spawn", "external", "qemu", "emulated")
 """The ways to get a robot."""
@@ -15,6 +16,7 @@ class RunConfig:
     Attributes:
         seed: Seed for environments and random turns, 0..2**32 - 1.
         environments: Number of environments, one after the other.
+        world: Name of the world that they are drawn from, or path of a file that describes one.
         limit_s: Time limit for each environment, s of robot time.
         robots: Number of robots in each environment, at least 1.
         node: Node number of the first robot on the bus, 1..31; the others follow.
@@ -34,6 +36,7 @@ class RunConfig:
 
     seed: int = 1
     environments: int = 5
+    world: str = RANDOM
     limit_s: float = 600.0
     robots: int = 1
     node: int = 1

@@ -15,7 +15,7 @@ from host_sim.transport.in_process_link import InProcessLink
 from host_sim.world.arena import Arena
 from host_sim.world.edits import Edit, make_edit
 from host_sim.world.geometry import Point
-from host_sim.world.layouts import Layout, generate
+from host_sim.world.layouts import Layout, World
 from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
 
@@ -81,7 +81,7 @@ class Simulation:
     `make` builds one.
 
     Attributes:
-        params: The dimensions of the world.
+        world: What the environments are drawn from.
         clients: The robots, at least one, in the order of their start poses.
         pace: How world and robots keep time.
         seed: Seed for the environments.
@@ -101,7 +101,7 @@ class Simulation:
         drives: Each robot's drive at the last tick.
     """
 
-    params: SimParams
+    world: World
     clients: Sequence[RobotClient]
     pace: Pace
     seed: int
@@ -124,10 +124,14 @@ class Simulation:
     def __post_init__(self) -> None:
         robots = len(self.clients)
         limit_ticks = round(self.limit_s / self.params.tick_s)
-        self.record = WorldRecord(self.seed, self.environments, limit_ticks, robots)
-        self.record.front_extra_mm = self.params.front_extra_mm
+        self.record = WorldRecord(self.seed, self.environments, limit_ticks, robots, world=self.world)
         self.senses, self.drives = [NOTHING_SENSED] * robots, [REST] * robots
         self._odometers = [(0.0, 0.0)] * robots
+
+    @property
+    def params(self) -> SimParams:
+        """The dimensions of the world."""
+        return self.world.params
 
     @property
     def over(self) -> bool:
@@ -164,7 +168,7 @@ class Simulation:
         Raises:
             NoRoomError: The environment has no room for all the robots.
         """
-        layout = generate(self.seed, number, self.params, len(self.clients))
+        layout = self.world.generate(self.seed, number, len(self.clients))
         self.arena = Arena(layout, self.params, self._odometers)
         self.episode = EpisodeResult(layout, self.params.tick_s, [RobotResult(node) for node in self.nodes])
         self._measuring = [i for i, client in enumerate(self.clients) if client.wants_ranges]

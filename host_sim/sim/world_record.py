@@ -4,7 +4,9 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from host_sim.world.edits import Edit, MoveBar, MoveFood
-from host_sim.world.params import SimParams
+from host_sim.world.layouts import World
+from host_sim.world.world_names import RANDOM
+from host_sim.world.worlds import world_of
 
 
 class Begun(NamedTuple):
@@ -33,7 +35,7 @@ class WorldRecord:
         robots: Number of robots in each environment.
         begun: The environments, in the order in which they began.
         edits: What a person changed, in order.
-        front_extra_mm: As in `SimParams`.
+        world: What the environments were drawn from.
     """
 
     seed: int
@@ -42,7 +44,12 @@ class WorldRecord:
     robots: int = 1
     begun: list[Begun] = field(default_factory=list)
     edits: list[Edited] = field(default_factory=list)
-    front_extra_mm: float = SimParams.front_extra_mm
+    world: World = field(default_factory=lambda: world_of(RANDOM))
+
+    @property
+    def title(self) -> str:
+        """The run's title."""
+        return f"seed {self.seed}" + ("" if self.world.name == RANDOM else f", {self.world.name}")
 
     def begin(self, begun: Begun) -> None:
         """Adds an environment. Edits after the last tick of the previous one are dropped: no robot sensed them."""

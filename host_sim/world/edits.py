@@ -10,11 +10,9 @@ import numpy as np
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
 from host_sim.world.geometry import Bar, Point, Pose
-from host_sim.world.layouts import clearance_mm
 from host_sim.world.params import SimParams
-
-BARS_MAX = 40
-"""Maximum number of obstacles in an arena."""
+from host_sim.world.reach import clearance_mm
+from host_sim.world.written_world import BARS_MAX
 
 SIZE_MAX_MM = 100_000
 """Maximum coordinate in an edit, mm."""

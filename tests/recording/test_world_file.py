@@ -9,6 +9,9 @@ from host_sim.recording.world_file import read_world, world_path, write_world
 from host_sim.sim.world_record import Begun, Edited, WorldRecord
 from host_sim.world.edits import AddBar, Lift, MoveBar, MoveFood, Put, RemoveBar
 from host_sim.world.geometry import Bar, Pose
+from host_sim.world.layouts import World
+from host_sim.world.params import SimParams
+from host_sim.world.worlds import world_of
 
 BAR = Bar((10.0, 20.0), (300.0, 40.0))
 EDITS = [
@@ -22,7 +25,8 @@ EDITS = [
 
 
 def record() -> WorldRecord:
-    return WorldRecord(1, 5, 30000, 2, [Begun(1, 1, 0), Begun(1, 2, 7)], list(EDITS), 0.25)
+    world = World("random", SimParams(front_extra_mm=0.25))
+    return WorldRecord(1, 5, 30000, 2, [Begun(1, 1, 0), Begun(1, 2, 7)], list(EDITS), world)
 
 
 def test_what_was_written_is_read(tmp_path):
@@ -32,10 +36,33 @@ def test_what_was_written_is_read(tmp_path):
     assert read_world(path) == record()
 
 
+@pytest.mark.parametrize("name", ["corridors", "small"])
+def test_a_world_with_a_name_is_read_by_its_name(tmp_path, name):
+    path = tmp_path / "run.world.json"
+    write_world(WorldRecord(1, 5, 30000, world=world_of(name)), path)
+    assert json.loads(path.read_text())["world"] == name
+    assert read_world(path).world == world_of(name)
+
+
+def test_a_world_of_a_persons_own_is_in_the_file(tmp_path):
+    path, own = tmp_path / "run.world.json", tmp_path / "my.toml"
+    own.write_text("start = [400, 400.5, 30]\nfood = [[500, 500]]\nbars = [[9, 9, 99, 99]]")
+    world = world_of(str(own))
+    write_world(WorldRecord(1, 5, 30000, world=world), path)
+    own.unlink()
+    assert read_world(path).world == world
+
+
+def test_the_random_world_is_not_named(tmp_path):
+    path = tmp_path / "run.world.json"
+    write_world(WorldRecord(1, 5, 30000), path)
+    assert "world" not in json.loads(path.read_text())
+
+
 def test_a_file_that_does_not_say_is_of_a_world_with_five_equal_cones(tmp_path):
     path = tmp_path / "run.world.json"
     path.write_text(json.dumps(GOOD))
-    assert read_world(path).front_extra_mm == 0.0
+    assert read_world(path).world.params.front_extra_mm == 0.0
 
 
 def test_dragging_between_two_ticks_leaves_the_last_place_only():
@@ -70,6 +97,10 @@ GOOD = {"format": 1, "seed": 1, "of": 5, "limit_ticks": 9, "environments": [], "
         {"front_extra_mm": 1},
         {"front_extra_mm": -0.5},
         {"front_extra_mm": 1e9},
+        {"world": "moon"},
+        {"world": []},
+        {"world": {"name": "my.toml"}},
+        {"world": {"name": "my.toml", "food": [[1e308, 5]]}},
         {"environments": {}},
         {"environments": [1]},
         {"environments": [{"seed": 1, "number": 0, "first_tick": 0}]},

@@ -39,6 +39,7 @@ def test_the_summary_has_all_that_is_promised(run):
     top = {
         "seed",
         "profile",
+        "world",
         "bus",
         "environments",
         "robots",

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from host_sim.robot_io import Senses
 from host_sim.world.arena import Arena
 from host_sim.world.geometry import Bar, Point, Pose, ahead_of
-from host_sim.world.layouts import Layout, clearance_mm, generate
+from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams
+from host_sim.world.reach import clearance_mm
 
 PARAMS = SimParams()
 MIDDLE = Pose(2000.0, 1500.0, 0.7)

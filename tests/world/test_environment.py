@@ -8,8 +8,9 @@ import pytest
 
 from host_sim.world.body import rolled
 from host_sim.world.geometry import Bar, Pose, ahead_of
-from host_sim.world.layouts import Layout, NoRoomError, clearance_mm, generate
+from host_sim.world.layouts import Layout, NoRoomError, generate
 from host_sim.world.params import SimParams
+from host_sim.world.reach import clearance_mm
 
 PARAMS = SimParams()
 

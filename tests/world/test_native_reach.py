@@ -7,12 +7,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from host_sim.world import layouts, native_reach
-from host_sim.world.geometry import Bar, Pose
-from host_sim.world.layouts import Layout, generate
+from host_sim.world import native_reach
+from host_sim.world.geometry import Bar
+from host_sim.world.layouts import generate
 from host_sim.world.native_library import NoNativeError
 from host_sim.world.native_reach import HEADER
 from host_sim.world.params import SimParams
+from host_sim.world.reach import Reach, flooded, free_cells, grid_of
 
 PARAMS = SimParams()
 SEEDS = range(300)
@@ -28,7 +29,7 @@ def random_bar(draws: random.Random) -> Bar:
 
 
 def test_the_same_cells_are_reached_in_300_crowded_layouts():
-    grid, unlike = layouts._grid(PARAMS), 0
+    grid, unlike = grid_of(PARAMS), 0
     for seed in SEEDS:
         draws = random.Random(seed)
         bars = tuple(random_bar(draws) for _ in range(draws.randint(0, 20)))
@@ -37,10 +38,10 @@ def test_the_same_cells_are_reached_in_300_crowded_layouts():
             continue
 
         in_c = native_reach.native_reach(bars, start, grid, PARAMS)
-        in_python = layouts._flooded(layouts._free(bars, grid, PARAMS), start)
+        in_python = flooded(free_cells(bars, grid, PARAMS), start)
 
         assert np.array_equal(in_c, in_python), seed
-        unlike += 0 < in_python.sum() < layouts._free(bars, grid, PARAMS).sum()
+        unlike += 0 < in_python.sum() < free_cells(bars, grid, PARAMS).sum()
     assert unlike > 20, "hardly a layout had a free cell that cannot be reached"
 
 
@@ -75,6 +76,6 @@ def test_a_library_of_another_version_is_not_used(tmp_path, monkeypatch):
 
 
 def test_a_start_in_a_blocked_cell_reaches_nothing():
-    layout = Layout((Bar((900.0, 1000.0), (1100.0, 1000.0)),), (), Pose(1000.0, 1000.0, 0.0))
+    bars = (Bar((900.0, 1000.0), (1100.0, 1000.0)),)
 
-    assert not layouts._reachable(layout, PARAMS).any()
+    assert not Reach(bars, (1000.0, 1000.0), PARAMS).cells.any()

@@ -1,0 +1,53 @@
+"""`tools/octet world`: checks a world, and draws one of its environments."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from host_sim.cli.parsing import add_command, number
+from host_sim.world.world_names import WORLD_NAMES
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+
+_EXAMPLES = """\
+examples:
+  tools/octet world corridors --png corridors.png              the first environment of seed 1
+  tools/octet world corridors --seed 7 --number 2 --png b.png  the second one of seed 7
+  tools/octet world my.toml                                    is there a mistake in my file?
+"""
+_DEFAULT = " (default: %(default)s)"
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "world",
+        _world,
+        summary="check a world, and draw one of its environments",
+        description="Checks a world, and says what an environment of it has. Exit code 2: there is a mistake in it.",
+        epilog=_EXAMPLES,
+    )
+    add = parser.add_argument
+    add("world", metavar="WORLD", help=f"one of {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml")
+    add("--seed", type=number(0, 2**32 - 1), default=1, metavar="SEED", help="the run's seed" + _DEFAULT)
+    add("--number", type=number(1, 1000), default=1, metavar="N", help="number of the environment" + _DEFAULT)
+    add("--png", type=Path, metavar="FILE", help="draw it to FILE")
+    add("--width", type=number(100, 4000), default=640, metavar="PX", help="width of the picture" + _DEFAULT)
+
+
+def _world(arguments: argparse.Namespace) -> int:
+    from host_sim.report.world_picture import write_world_picture
+    from host_sim.world.worlds import world_of
+
+    world = world_of(arguments.world)
+    layout, params = world.generate(arguments.seed, arguments.number), world.params
+    print(
+        f"{world.name}: {params.width_mm:g} x {params.height_mm:g} mm, {len(layout.bars)} obstacles, "
+        f"{len(layout.food)} pieces of food, all of which can be reached"
+    )
+    if arguments.png is not None:
+        write_world_picture(arguments.png, layout, params, arguments.width)
+        print(f"wrote     {arguments.png}")
+    return 0

@@ -1,0 +1,54 @@
+"""The worlds that a run can take place in, by name, and those in files."""
+
+import difflib
+from pathlib import Path
+
+from host_sim.errors import UsageError
+from host_sim.world.corridors import draw_corridors
+from host_sim.world.dead_ends import draw_dead_ends
+from host_sim.world.layout_file import read_layout_file
+from host_sim.world.layouts import World
+from host_sim.world.params import SimParams
+from host_sim.world.world_names import RANDOM, WORLD_NAMES
+
+_SMALL = SimParams(
+    width_mm=2000.0,
+    height_mm=1500.0,
+    bar_count=2,
+    bar_length_mm=(200.0, 500.0),
+    food_bands_mm=((0.0, 600.0), (600.0, 1400.0), (1400.0, 2000.0)),
+)
+
+_WORLDS = {
+    world.name: world
+    for world in (
+        World(RANDOM, SimParams()),
+        World("corridors", SimParams(), draw_corridors),
+        World("dead-ends", SimParams(), draw_dead_ends),
+        World("posts", SimParams(bar_count=24, bar_length_mm=(80.0, 120.0))),
+        World("crowded", SimParams(bar_count=14, bar_length_mm=(300.0, 800.0))),
+        World("small", _SMALL),
+    )
+}
+
+
+def world_of(text: str) -> World:
+    """The world with a name, or the one in a file.
+
+    >>> world_of("small").params.width_mm
+    2000.0
+
+    Args:
+        text: One of `WORLD_NAMES`, or the path of a file whose name ends with .toml.
+
+    Raises:
+        UsageError: There is no such world, or the file does not describe one.
+    """
+    if text in _WORLDS:
+        return _WORLDS[text]
+    if text.endswith(".toml"):
+        return read_layout_file(Path(text))
+    near = difflib.get_close_matches(text, WORLD_NAMES, 1)
+    names = f"choose from {', '.join(WORLD_NAMES)}, or name a file ending in .toml"
+    meant = f"did you mean {near[0]}?" if near else names
+    raise UsageError(f"there is no world {text!r}: {meant}")

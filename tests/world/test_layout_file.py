@@ -1,0 +1,137 @@
+"""Worlds that a person writes: read as they are meant, and a mistake is named with its line."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from host_sim.errors import UsageError
+from host_sim.world.geometry import Bar, Pose
+from host_sim.world.layouts import World, is_fair
+from host_sim.world.worlds import world_of
+from host_sim.world.written_layout import WrittenLayout
+from host_sim.world.written_world import content_of, world_from
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+
+FULL = """\
+# A comment.
+size = [3000, 2000]
+start = [300, 300, 90]  # looks down
+food = [
+  [2700, 300],  # far [away]
+  [1500, 1000],
+]
+bars = [[1000, 0, 1000, 1400], [2000, 600, 2000, 2000]]
+"""
+
+
+def read(folder: Path, text: str) -> World:
+    path = folder / "my.toml"
+    path.write_text(text)
+    return world_of(str(path))
+
+
+def test_a_file_is_read_as_it_is_meant(tmp_path):
+    world = read(tmp_path, FULL)
+
+    layout = world.generate(1, 1)
+    assert (world.name, world.params.width_mm, world.params.height_mm) == ("my.toml", 3000.0, 2000.0)
+    assert layout.bars == (Bar((1000.0, 0.0), (1000.0, 1400.0)), Bar((2000.0, 600.0), (2000.0, 2000.0)))
+    assert layout.food == ((2700.0, 300.0), (1500.0, 1000.0))
+    assert layout.start == pytest.approx(Pose(300.0, 300.0, 1.5707963))
+
+
+def test_all_environments_have_the_same_layout(tmp_path):
+    world = read(tmp_path, FULL)
+
+    assert world.generate(1, 1) == world.generate(2, 7)
+
+
+def test_a_start_that_is_left_out_is_drawn_for_each_environment_and_fair(tmp_path):
+    world = read(tmp_path, re.sub("start.*", "", FULL))
+
+    layouts = [world.generate(1, number) for number in range(1, 30)]
+    assert len({layout.start for layout in layouts}) == len(layouts)
+    assert all(is_fair(layout, world.params) for layout in layouts)
+
+
+def test_food_is_enough_for_a_world(tmp_path):
+    layout = read(tmp_path, "food = [[3500, 400]]").generate(1, 1)
+
+    assert (layout.bars, layout.food) == ((), ((3500.0, 400.0),))
+
+
+def test_where_only_the_place_of_the_food_has_room_the_robot_starts_there(tmp_path):
+    box = [[100, 100, 100, 460], [460, 100, 460, 460], [100, 100, 460, 100], [100, 460, 460, 460]]
+
+    assert read(tmp_path, f"food = [[280, 280]]\nbars = {box}").generate(1, 1).start[:2] == (280.0, 280.0)
+
+
+def test_a_world_can_be_written_out_and_made_again(tmp_path):
+    world = read(tmp_path, FULL)
+    assert isinstance(world.draw, WrittenLayout)
+
+    assert world_from(content_of(world.draw, world.params), "my.toml") == world
+
+
+def test_the_example_in_the_documents_is_the_file_beside_them():
+    text = (DOCS / "worlds/two_walls.toml").read_text()
+
+    assert f"```toml\n{text}```" in (DOCS / "worlds.md").read_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "meant"),
+    [
+        ("size = [3000", 1, "this is not TOML"),
+        ("food = [[500, 500]]\nfood = []", 2, "this is not TOML"),
+        ("\n\nsize = [", 3, "this is not TOML"),
+        ("", 1, "a world needs food"),
+        ("# c\nfood = []", 2, "a world needs food"),
+        ("food = [[500, 500]]\nbar = []", 2, "there is no 'bar': did you mean 'bars'?"),
+        ("food = [[500, 500]]\n[wall]", 2, "there is no 'wall': a world has size, start, food, bars"),
+        ("food = [[500, 500]]\nsize = [100, 100]", 2, "size must be [width, height] in mm, from [600, 600]"),
+        ("food = [[500, 500]]\nsize = 3", 2, "size must be [width, height]: 2 numbers"),
+        ("food = 3", 1, "food must be a list of at most 20"),
+        (f"food = {[[500, 500]] * 21}", 1, "food must be a list of at most 20"),
+        ("food = [\n  [500, 500], # [one]\n  [1, true],\n]", 3, "food 2 must be [x, y]: 2 numbers"),
+        ("food = [\n  [nan, 500],\n]", 2, "food 1 must be [x, y]: 2 numbers"),
+        ("food = [3]", 1, "food 1 must be [x, y]: 2 numbers"),
+        ("food = [\n[500, 500],\n[5000, 3]]", 3, "food 2: [5000, 3] is outside of the arena, whose size is [4000"),
+        ("food = [\n[500, 500],\n[100, 500]]", 3, "food 2 is only 100 mm away from an obstacle or a wall; 160 mm"),
+        ("food = [[500, 500]]\nbars = [\n[100, 500, 900, 500]]", 1, "food 1 is inside an obstacle; 160 mm"),
+        ("food = [[500, 500]]\nstart = [50, 500, 0]", 2, "the start is only 50 mm away"),
+        ("food = [[500, 500]]\nstart = [50, 500]", 2, "start must be [x, y, heading]: 3 numbers"),
+        ("food = [[500, 500]]\nbars = [\n[9, 9, 99, 99],\n[3, 4, 3, 5]]", 4, "bar 2 must be at least 40 mm long"),
+        ("food = [[500, 500]]\nbars = [[3, 4, 3]]", 2, "bar 1 must be [x, y, x, y]: 4 numbers"),
+        (
+            "start = [500, 500, 0]\nfood = [\n[3000, 500],\n]\nbars = [[2000, 0, 2000, 3000]]",
+            3,
+            "food 1 cannot be reached from the start: the robot does not fit through",
+        ),
+        (
+            "food = [\n[500, 500],\n[3000, 500]]\nbars = [[2000, 0, 2000, 2900]]",
+            3,
+            "food 2 cannot be reached from food 1",
+        ),
+    ],
+)
+def test_a_mistake_is_named_with_its_line_and_what_was_meant(tmp_path, text, line, meant):
+    with pytest.raises(UsageError) as raised:
+        read(tmp_path, text)
+
+    assert str(raised.value).startswith(f"{tmp_path}/my.toml:{line}: {meant}")
+
+
+@pytest.mark.parametrize("content", [b"\xff\xfe", b"x = " + b"[" * 100_000, b"\0"])
+def test_what_is_no_text_for_people_is_refused(tmp_path, content):
+    (tmp_path / "my.toml").write_bytes(content)
+
+    with pytest.raises(UsageError, match=r"my\.toml"):
+        world_of(str(tmp_path / "my.toml"))
+
+
+def test_a_missing_file_is_said():
+    with pytest.raises(UsageError, match=r"cannot read nowhere\.toml"):
+        world_of("nowhere.toml")

@@ -1,0 +1,114 @@
+"""Worlds by name: each is fair, drawn from the seed, and as it is said to be."""
+
+import math
+
+import numpy as np
+import pytest
+
+from host_sim.errors import UsageError
+from host_sim.world.layouts import Layout, World, generate
+from host_sim.world.params import SimParams
+from host_sim.world.reach import clearance_mm
+from host_sim.world.world_names import WORLD_NAMES
+from host_sim.world.worlds import world_of
+
+SEEDS = range(15)
+
+
+def can_reach(world: World, layout: Layout, goal: tuple[float, float]) -> bool:
+    """A second opinion on the proof: steps of 20 mm from place to place where the body fits."""
+    params, step = world.params, 20.0
+    y, x = np.mgrid[0 : params.height_mm : step, 0 : params.width_mm : step]
+    places = np.column_stack([x.ravel(), y.ravel()])
+    free = (clearance_mm(places, layout.bars, params) >= params.body_radius_mm).reshape(x.shape)
+    reached = np.zeros_like(free)
+    reached[round(layout.start.y_mm / step), round(layout.start.x_mm / step)] = True
+    while True:
+        grown = reached.copy()
+        grown[1:] |= reached[:-1]
+        grown[:-1] |= reached[1:]
+        grown[:, 1:] |= reached[:, :-1]
+        grown[:, :-1] |= reached[:, 1:]
+        grown &= free
+        if (grown == reached).all():
+            return bool(reached[round(goal[1] / step), round(goal[0] / step)])
+        reached = grown
+
+
+@pytest.mark.parametrize("name", WORLD_NAMES)
+def test_every_environment_of_every_world_is_fair(name):
+    world = world_of(name)
+    needed_mm = world.params.body_radius_mm + world.params.sensor_reach_mm
+    for seed in SEEDS:
+        layout = world.generate(seed, 1)
+
+        assert clearance_mm(np.array([layout.start[:2], *layout.food]), layout.bars, world.params).min() >= needed_mm
+        assert all(can_reach(world, layout, food) for food in layout.food)
+
+
+@pytest.mark.parametrize("name", WORLD_NAMES)
+def test_a_seed_and_a_number_name_one_environment(name):
+    world = world_of(name)
+
+    assert world.generate(3, 2) == world.generate(3, 2)
+    assert len({world.generate(seed, number) for seed in (1, 2) for number in (1, 2)}) == 4
+
+
+@pytest.mark.parametrize("name", WORLD_NAMES)
+def test_several_robots_find_room_in_every_world(name):
+    assert len(world_of(name).generate(5, 1, robots=3).starts) == 3
+
+
+@pytest.mark.parametrize(
+    ("name", "start", "first_bar"),
+    [
+        ("corridors", (2503.1, 1695.2), (0.0, 750.0)),
+        ("dead-ends", (463.8, 2493.4), (2227.9, 2010.7)),
+        ("small", (1657.3, 673.9), (1195.2, 546.9)),
+    ],
+)
+def test_the_environments_of_a_world_stay_the_same_for_ever(name, start, first_bar):
+    layout = world_of(name).generate(1, 1)
+
+    assert layout.start[:2] == pytest.approx(start, abs=0.1)
+    assert layout.bars[0].a == pytest.approx(first_bar, abs=0.1)
+
+
+def test_the_random_world_is_that_of_generate():
+    assert world_of("random").generate(7, 2, 3) == generate(7, 2, SimParams(), 3)
+
+
+def test_all_bars_are_inside_the_arena():
+    for name in WORLD_NAMES:
+        world = world_of(name)
+        for x, y in (end for seed in SEEDS for bar in world.generate(seed, 1).bars for end in bar):
+            assert 0 <= x <= world.params.width_mm
+            assert 0 <= y <= world.params.height_mm
+
+
+def test_corridors_run_up_and_down_or_across_with_doors_that_are_wide_enough():
+    upright = set()
+    for seed in SEEDS:
+        bars = world_of("corridors").generate(seed, 1).bars
+        across = {bar.a[0] == bar.b[0] for bar in bars}
+        assert len(across) == 1
+        upright |= across
+        doors = [math.dist(first.b, second.a) for first, second in zip(bars[::2], bars[1::2], strict=True)]
+        assert all(450 <= door <= 650 for door in doors)
+
+    assert upright == {True, False}
+
+
+def test_dead_ends_are_pockets_of_three_bars():
+    for back, left, right in zip(*[iter(world_of("dead-ends").generate(4, 1).bars)] * 3, strict=True):
+        assert (left.a, right.a) == back
+        assert math.dist(*left) == pytest.approx(math.dist(*right))
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [("corridor", "did you mean corridors?"), ("moon", "choose from random, corridors"), ("", "choose from")],
+)
+def test_a_world_that_there_is_not_is_refused_with_what_was_meant(text, meant):
+    with pytest.raises(UsageError, match=meant.replace("?", r"\?")):
+        world_of(text)
