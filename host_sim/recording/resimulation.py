@@ -45,7 +45,7 @@ class Resimulation:
     @property
     def seed(self) -> int | None:
         """The run's seed, if its world is known."""
-        return self.record and self.record.seed
+        return None if self.record is None else self.record.seed
 
     @property
     def title(self) -> str:
