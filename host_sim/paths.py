@@ -16,6 +16,9 @@ EXPORT_LIBRARIES = BUILD / "export"
 WEB = ROOT / "host_sim" / "web"
 """The HTML, CSS and JavaScript of the pages."""
 
+PAGE_WASM = BUILD / "page" / "host_sim" / "web" / "native" / "page.wasm"
+"""Robots and their world as WebAssembly, from `tools/setup page`."""
+
 
 def image_path(board: str, link: str) -> Path:
     """Path of a firmware image.

@@ -1,11 +1,6 @@
-r"""A run as one HTML page that needs no server.
+"""A run as one HTML page that needs no server.
 
-The page is `web/replay.html` with the files that it refers to inserted, so that the template can be opened as it is:
-- `<link rel="stylesheet" href="X">` becomes the style sheet;
-- `<script type="module" src="X"></script>` becomes that module, after all modules that it imports, directly or not,
-  each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
-  declaration;
-- `<script type="application/json" id="run"></script>` gets the run, with each `<` written as `\u003c`.
+The page is `web/replay.html` as `page_bundle` puts it together; its element `run` has the run.
 
 The run is one object. Measures, EnvironmentScene and State are as in view/state.py, Trial and Lesson as in
 view/history.py. The value in a pair holds from the pair's tick until that of the next pair; the first pair is that of
@@ -43,10 +38,7 @@ JavaScript, with the inflated bytes b, column c, n ticks and value = 0 before th
 """
 
 import base64
-import json
-import re
 import zlib
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -54,16 +46,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.atomic_file import write_bytes
-from host_sim.paths import WEB
 from host_sim.recording.trajectory import RobotTrack, Trajectory
+from host_sim.report.page_bundle import page_of, with_data
 from host_sim.view.state import measures
 
 _TEMPLATE = "replay.html"
-_STYLE = re.compile(r'<link rel="stylesheet" href="([\w.-]+)">')
-_SCRIPT = re.compile(r'<script type="module" src="([\w.-]+)"></script>')
-_RUN = '<script type="application/json" id="run"></script>'
-_IMPORT = re.compile(r'^import (\{[^}]*\}) from "\./([\w.-]+)";$', re.MULTILINE)
-_EXPORT = re.compile(r"^export ((?:async )?(?:function|const|let|class) (\w+))", re.MULTILINE)
 _FIELDS = {"beacon": "beacon_mm", "left": "left_mm_s", "right": "right_mm_s"}
 _SENSED = ("lifted", "feel", "bump", "beacon")
 _DONE = ("left", "right", "reason", "repeat_count", "action", "pattern", "frozen")
@@ -126,11 +113,7 @@ def pack(columns: NDArray[np.int64]) -> str:
 
 def page(run: dict[str, Any]) -> str:
     """The page's HTML."""
-    text = (WEB / _TEMPLATE).read_text(encoding="utf-8")
-    text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", text)
-    text = _SCRIPT.sub(lambda match: f'<script type="module">\n{_bundle(match[1])}</script>', text)
-    run_text = json.dumps(run, separators=(",", ":")).replace("<", "\\u003c")
-    return text.replace(_RUN, _RUN.replace("></", f">{run_text}</"))
+    return with_data(page_of(_TEMPLATE), "run", run)
 
 
 def _columns(track: RobotTrack) -> dict[str, NDArray[np.int64]]:
@@ -138,30 +121,3 @@ def _columns(track: RobotTrack) -> dict[str, NDArray[np.int64]]:
     x, y, heading = np.rint(track.poses() * (10, 10, 1000)).astype(np.int64).T
     rows = {name: track.column(_FIELDS.get(name, name)).astype(np.int64) for name in (*_SENSED, *_DONE)}
     return {"x": x, "y": y, "heading": heading, **rows}
-
-
-def _bundle(name: str) -> str:
-    """A module and all that it imports, as one script; `</script` is escaped so that it cannot end the element."""
-    modules = "".join(_as_function(module) for module in _in_order(name, set()))
-    return f"const modules = {{}};\n{modules}".replace("</script", "<\\/script")
-
-
-def _as_function(name: str) -> str:
-    """A module as a function that is called once and returns the module's exports."""
-    text = _read(name)
-    exported = ", ".join(match[2] for match in _EXPORT.finditer(text))
-    body = _EXPORT.sub(r"\1", _IMPORT.sub(r'const \1 = modules["\2"];', text))
-    return f'modules["{name}"] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n'
-
-
-def _in_order(name: str, seen: set[str]) -> Iterator[str]:
-    """A module and the modules that it imports, each after its own imports."""
-    if name not in seen:
-        seen.add(name)
-        for _, needed in _IMPORT.findall(_read(name)):
-            yield from _in_order(needed, seen)
-        yield name
-
-
-def _read(name: str) -> str:
-    return (WEB / name).read_text(encoding="utf-8")

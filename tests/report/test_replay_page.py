@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from host_sim.cli.main import main
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.trajectory import Trajectory, at
-from host_sim.report import replay_page
+from host_sim.report import page_bundle
 from host_sim.report.replay_page import pack, page, run_data, write_page
 from host_sim.view.state import State
 from tests.recording.support import record_run
@@ -113,7 +113,7 @@ def test_nothing_in_a_run_ends_the_script_that_holds_it(kept):
 
 
 def test_modules_come_once_each_after_what_they_need(tmp_path, monkeypatch):
-    monkeypatch.setattr(replay_page, "WEB", tmp_path)
+    monkeypatch.setattr(page_bundle, "WEB", tmp_path)
     link, script = '<link rel="stylesheet" href="s.css">', '<script type="module" src="a.js"></script>'
     (tmp_path / "replay.html").write_text(link + script)
     (tmp_path / "s.css").write_text("p { margin: 0 }\n")

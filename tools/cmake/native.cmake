@@ -2,6 +2,9 @@
 # Its function PREFIXstamp returns the SHA-256 of each header, one after the other: Python compares them with those that
 # it reads, and so finds a library that was built from others.
 function(octet_native_library target static prefix)
+  if(CMAKE_CROSSCOMPILING)
+    return()   # Python runs on the host
+  endif()
   set(texts "")
   foreach(header ${ARGN})
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})

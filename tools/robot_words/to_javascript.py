@@ -11,7 +11,7 @@ _HEAD = "/* Made by tools/generate from octet.dbc and robot.toml. */\n"
 def module(robot: Description) -> str:
     """The text of generated.js: one declaration a line."""
     exports: dict[str, object] = {}
-    for name in ("reason", "side"):
+    for name in ("reason", "side", "opcode"):
         exports[name.upper()] = {c_name(word): number for word, number in robot.enums[name].items()}
     exports["SIDES"] = list(robot.enums["side"])
     exports["PATTERNS"] = list(robot.patterns)
@@ -19,8 +19,12 @@ def module(robot: Description) -> str:
     exports["FEEL"] = {c_name(name): 1 << bit for bit, name in enumerate(robot.feel)}
     exports["PROFILES"] = list(robot.profiles)
     exports["PARAMETERS"] = {
-        p.name: {"min": p.minimum, "max": p.maximum, "default": p.default, "unit": p.unit} for p in robot.parameters
+        p.name: {"min": p.minimum, "max": p.maximum, "default": p.default, "unit": p.unit, "meaning": p.comment}
+        for p in robot.parameters
     }
+    exports["NODE_MAX"] = robot.node_max
+    exports["ANSWER_WANTS_RANGES"] = robot.answer_wants_ranges
+    exports["FRAMES"] = {message.name: message.frame_id for message in robot.messages}
     lines = [f"export const {name} = {_literal(value)};" for name, value in exports.items()]
     return "\n".join([_HEAD, *lines, ""])
 

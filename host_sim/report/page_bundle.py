@@ -1,0 +1,59 @@
+"""Pages as single files: a template of `web/` with the files that it refers to inserted.
+
+So that a template can be opened as it is:
+- `<link rel="stylesheet" href="X">` becomes the style sheet;
+- `<script type="module" src="X"></script>` becomes that module, after all modules that it imports, directly or not,
+  each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
+  declaration.
+"""
+
+import json
+import re
+from collections.abc import Iterator
+
+from host_sim.paths import WEB
+
+_STYLE = re.compile(r'<link rel="stylesheet" href="([\w.-]+)">')
+_SCRIPT = re.compile(r'<script type="module" src="([\w.-]+)"></script>')
+_IMPORT = re.compile(r'^import (\{[^}]*\}) from "\./([\w.-]+)";$', re.MULTILINE)
+_EXPORT = re.compile(r"^export ((?:async )?(?:function|const|let|class) (\w+))", re.MULTILINE)
+
+
+def page_of(template: str) -> str:
+    """A template with its style sheet and its modules inserted."""
+    text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", _read(template))
+    return _SCRIPT.sub(lambda match: f'<script type="module">\n{bundle(match[1])}</script>', text)
+
+
+def with_data(text: str, element_id: str, data: object) -> str:
+    r"""A page whose empty element `<script type="application/json" id="...">` holds data, each `<` as `\u003c`."""
+    element = f'<script type="application/json" id="{element_id}"></script>'
+    inserted = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
+    return text.replace(element, element.replace("></", f">{inserted}</"))
+
+
+def bundle(name: str) -> str:
+    """A module and all that it imports, as one script; `</script` is escaped so that it cannot end the element."""
+    modules = "".join(_as_function(module) for module in _in_order(name, set()))
+    return f"const modules = {{}};\n{modules}".replace("</script", "<\\/script")
+
+
+def _as_function(name: str) -> str:
+    """A module as a function that is called once and returns the module's exports."""
+    text = _read(name)
+    exported = ", ".join(match[2] for match in _EXPORT.finditer(text))
+    body = _EXPORT.sub(r"\1", _IMPORT.sub(r'const \1 = modules["\2"];', text))
+    return f'modules["{name}"] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n'
+
+
+def _in_order(name: str, seen: set[str]) -> Iterator[str]:
+    """A module and the modules that it imports, each after its own imports."""
+    if name not in seen:
+        seen.add(name)
+        for _, needed in _IMPORT.findall(_read(name)):
+            yield from _in_order(needed, seen)
+        yield name
+
+
+def _read(name: str) -> str:
+    return (WEB / name).read_text(encoding="utf-8")
