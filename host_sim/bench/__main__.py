@@ -22,7 +22,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     add = parser.add_argument
     add("--json", action="store_true", help="print JSON instead of a table")
     add("--equality", action="store_true", help="instead, compare long runs of all images with the host's")
-    add("--loops", action="store_true", help="instead, compare ten million ticks in C with those in Python")
+    add(
+        "--loops",
+        action="store_true",
+        help="instead, compare ten million ticks in C, both ways, with those in Python",
+    )
     add("--vcan", action="store_true", help="instead, measure only on vcan0, which must exist, and print JSON")
     options = parser.parse_args(arguments)
     if options.equality:
@@ -38,7 +42,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _compare_loops() -> bool:
-    """Compares both tick loops, and prints the results; whether all is the same."""
+    """Compares the tick loops, and prints the results; whether all is the same."""
     equal = True
     for seed, ticks, difference in compare_loops(_LOOP_TICKS):
         print(f"seed {seed}, {ticks} ticks: {difference or 'equal'}", flush=True)

@@ -1,4 +1,7 @@
-"""Compares the tick loop in C with the readable one: log, trajectory and results of runs in which people meddle."""
+"""Compares the tick loop in C, on pymunk's physics and by plain geometry, with the readable one.
+
+What is compared is the log, the trajectory and the results of runs in which people meddle.
+"""
 
 import random
 from collections.abc import Callable, Iterator
@@ -63,17 +66,22 @@ def compare_loops(ticks: int) -> Iterator[LoopVerdict]:
             robots=1 + seed % _ROBOTS_MAX,
             profile=profiles[seed % len(profiles)],
         )
-        readable, in_c = _run(config, native=False), _run(config, native=True)
-        differences = [name for name, a, b in zip(_Outcome._fields, readable, in_c, strict=True) if a != b]
+        readable = _run(config, native=False)
+        differences = [
+            f"{name} {'by plain geometry' if plain else 'on physics'}"
+            for plain in (False, True)
+            for name, a, b in zip(_Outcome._fields, readable, _run(config, True, plain), strict=True)
+            if a != b
+        ]
         run_ticks = config.robots * readable.trajectory.ticks
         done += run_ticks
         yield LoopVerdict(seed, run_ticks, ", ".join(differences) or None)
 
 
-def _run(config: RunConfig, native: bool) -> _Outcome:
+def _run(config: RunConfig, native: bool, plain: bool = False) -> _Outcome:
     log, draws, results = FrameLog(), random.Random(config.seed), []
     with make(config, log) as simulation:
-        simulation.native = native
+        simulation.native, simulation.plain = native, plain
         recorder = RunRecorder.of(simulation, PARAMETERS["boredom_limit"].default)
         for number in range(1, config.environments + 1):
             simulation.enter(number)

@@ -75,13 +75,18 @@ class NativeLoop:
             self._bind(robot, client, link)
         self._world: NativeWorld
 
-    def enter(self, arena: Arena, params: SimParams) -> None:
+    def enter(self, arena: Arena, params: SimParams, plain: bool = False) -> None:
         """Puts the robots into another arena.
+
+        Args:
+            arena: The arena.
+            params: The dimensions of the world.
+            plain: Whether to use plain geometry, which is faster, rather than pymunk's physics.
 
         Raises:
             NoNativeError: pymunk's functions cannot be called from C.
         """
-        self._world = NativeWorld(self._ffi, self._library, arena, params)
+        self._world = NativeWorld(self._ffi, self._library, arena, params, plain)
         self._loop.world = self._world.world
         for robot in self._robots:
             robot.begun, robot.food_eaten = [0] * self._library.LOOP_REASONS, 0

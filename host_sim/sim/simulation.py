@@ -92,6 +92,7 @@ class Simulation:
             them in `loop`. Set it to 1 for a `watch` that is to be called for each tick.
         native: Whether to use the loop in C where that can be: with robots in this process, in lockstep,
             that want no distances.
+        plain: Whether that loop uses plain geometry rather than pymunk's physics: faster, with the same results.
         record: The environments so far, and what a person changed in them.
         tick: Number of the next tick.
         arena: The arena of the current environment.
@@ -110,6 +111,7 @@ class Simulation:
     watch: Callable[["Simulation"], object] = lambda _: None
     block_ticks: int = BLOCK_TICKS
     native: bool = True
+    plain: bool = False
     record: WorldRecord = field(init=False)
     tick: int = 0
     arena: Arena = field(init=False)
@@ -185,7 +187,7 @@ class Simulation:
             return
         try:
             self.loop = self.loop or NativeLoop(self.clients, links, self.clients[0].log)
-            self.loop.enter(self.arena, self.params)
+            self.loop.enter(self.arena, self.params, self.plain)
         except NoNativeError as error:
             self.native, self.loop = False, None
             _LOG.warning("octet: ticks are slower, for they run in Python: %s; tools/setup may help", error)

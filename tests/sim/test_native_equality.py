@@ -5,6 +5,7 @@ import pytest
 from host_sim.bench import native_equality
 from host_sim.bench.native_equality import compare_loops
 from host_sim.world.native_world import NativeWorld
+from host_sim.world.plain_space import PlainSpace
 
 
 @pytest.fixture(autouse=True)
@@ -12,7 +13,7 @@ def _short(monkeypatch):
     monkeypatch.setattr(native_equality, "_LIMIT_S", 20.0)
 
 
-def test_both_loops_do_the_same():
+def test_all_loops_do_the_same():
     verdicts = list(compare_loops(15_000))
 
     assert [verdict.difference for verdict in verdicts] == [None] * len(verdicts)
@@ -28,4 +29,20 @@ def test_a_wheel_track_that_differs_in_the_last_places_is_found(monkeypatch):
 
     monkeypatch.setattr(NativeWorld, "__init__", build)
 
-    assert "trajectory" in next(compare_loops(1)).difference
+    difference = next(compare_loops(1)).difference
+    assert "trajectory on physics" in difference
+    assert "trajectory by plain geometry" in difference
+
+
+def test_a_cone_that_reaches_a_little_farther_in_plain_geometry_is_found(monkeypatch):
+    built = PlainSpace.__init__
+
+    def build(self, *arguments) -> None:
+        built(self, *arguments)
+        self._space.sensor_reach_mm += 1.0
+
+    monkeypatch.setattr(PlainSpace, "__init__", build)
+
+    difference = next(compare_loops(1)).difference
+    assert "log by plain geometry" in difference
+    assert "on physics" not in difference

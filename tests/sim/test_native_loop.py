@@ -24,6 +24,8 @@ from host_sim.world.edits import AddBar, Lift, MoveFood, Put, RemoveBar
 from host_sim.world.geometry import Bar, Pose
 from host_sim.world.native_library import NoNativeError
 
+READABLE, ON_PHYSICS, PLAIN = "in Python", "in C, on pymunk's physics", "in C, by plain geometry"
+
 Change = Callable[[Simulation, RunRecorder], object]
 
 
@@ -42,20 +44,20 @@ class Outcome:
 def outcome(
     folder: Path,
     config: RunConfig,
-    native: bool,
+    kind: str,
     block_ticks: int = BLOCK_TICKS,
     changes: dict[int, Change] | None = None,
 ) -> Outcome:
     """Does a run, with changes before some of its ticks."""
     log = FrameLog(folder / "run.log")
     with make(config, log) as simulation:
-        simulation.native = native
+        simulation.native, simulation.plain = kind != READABLE, kind == PLAIN
         recorder = RunRecorder.of(simulation, boredom_limit=10)
         episodes = [
             episode_of(simulation, recorder, number, block_ticks, changes or {})
             for number in range(1, 1 + config.environments)
         ]
-        assert (simulation.loop is not None) == native
+        assert (simulation.loop is not None) == (kind != READABLE)
         for client in simulation.clients:
             stop(client)
         clients = [(client.memory, client.faults, client.frames, client.last) for client in simulation.clients]
@@ -87,10 +89,11 @@ def assert_equal(one: Outcome, other: Outcome) -> None:
 
 
 def assert_alike(folder: Path, config: RunConfig, changes: dict[int, Change] | None = None) -> Outcome:
-    """In Python and in C, in blocks and tick by tick."""
-    readable = outcome(folder, config, native=False, changes=changes)
+    """In Python and in C, in blocks and tick by tick, on pymunk's physics and by plain geometry."""
+    readable = outcome(folder, config, READABLE, changes=changes)
     for block_ticks in (BLOCK_TICKS, 7, 1):
-        assert_equal(readable, outcome(folder, config, True, block_ticks, changes))
+        assert_equal(readable, outcome(folder, config, ON_PHYSICS, block_ticks, changes))
+    assert_equal(readable, outcome(folder, config, PLAIN, changes=changes))
     return readable
 
 
@@ -111,7 +114,7 @@ def test_an_environment_that_is_finished_is_the_same(tmp_path):
 def test_every_behaviour_is_the_same(tmp_path, profile):
     config = RunConfig(seed=4, environments=1, limit_s=20.0, profile=profile)
 
-    assert_equal(outcome(tmp_path, config, native=False), outcome(tmp_path, config, native=True))
+    assert_equal(outcome(tmp_path, config, READABLE), outcome(tmp_path, config, ON_PHYSICS))
 
 
 def press_freeze(simulation: Simulation, recorder: RunRecorder) -> None:
@@ -236,7 +239,7 @@ def fresh():
 @pytest.mark.parametrize(("damage", "reason"), BROKEN.items(), ids=lambda part: getattr(part, "__name__", ""))
 def test_where_it_cannot_be_used_one_line_says_so_and_python_goes_on(tmp_path, monkeypatch, caplog, damage, reason):
     config = RunConfig(seed=3, environments=2, limit_s=2.0)
-    expected = outcome(tmp_path, config, native=False)
+    expected = outcome(tmp_path, config, READABLE)
     damage(monkeypatch, tmp_path)
 
     with make(config) as simulation, caplog.at_level(logging.WARNING):

@@ -5,17 +5,19 @@
 enum { BODIES = 3, FOOD = 4, OBSTACLE = 1, DISC = 2, CONES = 100 };
 
 struct fake_munk fake;
+struct munk_world fake_space;
 
 static struct body bodies[BODIES];
 static struct food food[FOOD];
-static struct cone cones[BODIES * WORLD_CONES];
-static struct loan loans[WORLD_LOANS + BODIES * WORLD_LOANS_EACH];
+static struct munk_place places[BODIES];
+static struct munk_cone cones[BODIES * WORLD_CONES];
+static struct munk_loan loans[MUNK_LOANS + BODIES * MUNK_LOANS_EACH];
 static struct world *opened;
-static char places[BODIES];   /* whose addresses stand for discs */
+static char discs[BODIES];   /* whose addresses stand for discs */
 
 struct munk_shape *fake_disc(size_t body)
 {
-    return (struct munk_shape *)(void *)&places[body];
+    return (struct munk_shape *)(void *)&discs[body];
 }
 
 static void step(struct munk_space *space, double seconds)
@@ -79,7 +81,7 @@ static struct munk_contacts get_contacts(struct munk_arbiter *arbiter)
     return fake.contacts;
 }
 
-const struct munk fake_functions = {step, add_handler, query, set_position, set_angle, get_shapes, get_contacts};
+static const struct munk functions = {step, add_handler, query, set_position, set_angle, get_shapes, get_contacts};
 
 struct munk_handler *fake_handler(uintptr_t type_a, uintptr_t type_b)
 {
@@ -96,15 +98,17 @@ void fake_open(struct world *world, size_t body_count, size_t food_count)
     memset(&fake, 0, sizeof fake);
     memset(bodies, 0, sizeof bodies);
     memset(food, 0, sizeof food);
-    *world = (struct world){.munk = &fake_functions, .params = params, .obstacle_type = OBSTACLE, .disc_type = DISC,
-        .body_count = body_count, .food_count = food_count, .bodies = bodies, .food = food, .cones = cones,
-        .loans = loans};
+    *world = (struct world){.params = params, .body_count = body_count, .food_count = food_count, .bodies = bodies,
+        .food = food};
+    fake_space = (struct munk_world){.munk = &functions, .obstacle_type = OBSTACLE, .disc_type = DISC,
+        .places = places, .cones = cones, .loans = loans};
     for (size_t i = 0; i < body_count; i++) {
         bodies[i].x_mm = bodies[i].y_mm = 1000.0;
         bodies[i].seen = -1;
-        bodies[i].disc = fake_disc(i);
-        bodies[i].in_the_air.x = -10000.0;
-        bodies[i].first_cone = CONES + i * WORLD_CONES;
+        places[i] = (struct munk_place){.disc = fake_disc(i), .in_the_air = {-10000.0, 0.0},
+            .first_cone = CONES + i * WORLD_CONES};
     }
+    world_begin(world);
+    munk_space_borrow(&fake_space, world);
     opened = world;
 }

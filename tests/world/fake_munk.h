@@ -2,7 +2,7 @@
 #ifndef FAKE_MUNK_H
 #define FAKE_MUNK_H
 
-#include "host_sim/world/native/world.h"
+#include "host_sim/world/native/munk_space.h"
 
 enum { FAKE_HANDLERS = 64, FAKE_STEPS = 16 };
 
@@ -12,7 +12,7 @@ struct fake_munk {
     struct munk_shape *shapes[2];      /* of every arbiter */
     struct munk_contacts contacts;     /* of every arbiter */
     double depths[FAKE_STEPS];         /* that body 0 has after each step, one after the other; 0 after the last */
-    struct munk_vector normal;         /* of these overlaps */
+    struct vector normal;              /* of these overlaps */
     size_t steps;
     double step_s;
     struct munk_vector position;       /* last set */
@@ -23,10 +23,10 @@ struct fake_munk {
 
 extern struct fake_munk fake;
 
-extern const struct munk fake_functions;
+extern struct munk_world fake_space;
 
 void fake_open(struct world *world, size_t body_count, size_t food_count);
-        /* A world of bodies at (1000, 1000) that face +x, and of food that a test places. */
+        /* A world of bodies at (1000, 1000) that face +x, and of food that a test places. fake_space is its space. */
 
 struct munk_handler *fake_handler(uintptr_t type_a, uintptr_t type_b);
         /* The handler of a pair; null if nobody asked for it. */

@@ -44,29 +44,12 @@ static void test_a_heading_stays_within_half_a_turn(void)
     TEST_ASSERT_TRUE(body->heading_rad > -3.2 && body->heading_rad < -3.0);
 }
 
-static void test_the_space_has_the_body_at_its_pose(void)
-{
-    body->heading_rad = 0.5;
-    body_place(&world, body);
-    TEST_ASSERT_EQUAL_DOUBLE(1000.0, fake.position.x);
-    TEST_ASSERT_EQUAL_DOUBLE(0.5, fake.angle);
-    TEST_ASSERT_EQUAL_DOUBLE(0.02, fake.step_s);
-}
-
-static void test_the_space_has_a_lifted_body_in_the_air(void)
-{
-    body->lifted = true;
-    body_place(&world, body);
-    TEST_ASSERT_EQUAL_DOUBLE(-10000.0, fake.position.x);
-    TEST_ASSERT_EQUAL_DOUBLE(1000.0, body->x_mm);
-}
-
 static void test_a_body_is_pushed_out_to_a_hairs_breadth(void)
 {
     body->depth_mm = 3.0;
     body->normal.x = fake.normal.x = 1.0;
     fake.depths[0] = 0.005;
-    body_push_out(&world, body, 990.0, 1000.0);
+    body_push_out(&world, body, (struct vector){990.0, 1000.0});
     TEST_ASSERT_EQUAL_size_t(1, fake.steps);
     TEST_ASSERT_EQUAL_DOUBLE(1000.0 - (3.0 - 0.005), body->x_mm);
 }
@@ -77,7 +60,7 @@ static void test_a_wedged_body_goes_back(void)
     body->normal.x = fake.normal.x = 1.0;
     for (unsigned i = 0; i < 8; i++)
         fake.depths[i] = 3.0;
-    body_push_out(&world, body, 990.0, 980.0);
+    body_push_out(&world, body, (struct vector){990.0, 980.0});
     TEST_ASSERT_EQUAL_size_t(9, fake.steps);
     TEST_ASSERT_EQUAL_DOUBLE(990.0, body->x_mm);
     TEST_ASSERT_EQUAL_DOUBLE(980.0, body->y_mm);
@@ -90,7 +73,7 @@ static void test_the_last_push_may_be_enough(void)
     body->normal.x = fake.normal.x = 1.0;
     for (unsigned i = 0; i < 7; i++)
         fake.depths[i] = 3.0;
-    body_push_out(&world, body, 0.0, 0.0);
+    body_push_out(&world, body, (struct vector){0.0, 0.0});
     TEST_ASSERT_EQUAL_size_t(8, fake.steps);
     TEST_ASSERT_TRUE(body->x_mm > 900.0);
 }
@@ -102,8 +85,6 @@ int main(void)
     RUN_TEST(test_the_left_wheel_turns_the_body_right);
     RUN_TEST(test_an_arc_ends_to_the_right_of_where_it_began);
     RUN_TEST(test_a_heading_stays_within_half_a_turn);
-    RUN_TEST(test_the_space_has_the_body_at_its_pose);
-    RUN_TEST(test_the_space_has_a_lifted_body_in_the_air);
     RUN_TEST(test_a_body_is_pushed_out_to_a_hairs_breadth);
     RUN_TEST(test_a_wedged_body_goes_back);
     RUN_TEST(test_the_last_push_may_be_enough);

@@ -72,11 +72,9 @@ static void test_eaten_food_is_not_seen(void)
 
 static void test_hidden_food_is_not_seen(void)
 {
-    body->sight.group = 7;
     put(0, 300.0, 0.0);
     fake.hides = true;
     assert_sees(-1, 0);
-    TEST_ASSERT_EQUAL_UINT(7, fake.sight.group);
 }
 
 static void test_food_under_the_body_is_a_millimetre_away(void)

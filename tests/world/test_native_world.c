@@ -4,8 +4,6 @@
 
 #include "tests/world/fake_munk.h"
 
-enum { OBSTACLE = 1, DISC = 2 };
-
 static struct world world;
 static struct body *body;
 
@@ -16,38 +14,6 @@ void setUp(void)
 }
 
 void tearDown(void) {}
-
-static void owner(struct munk_arbiter *arbiter, struct munk_space *space, void *data)
-{
-    (void)arbiter;
-    (void)space;
-    (void)data;
-}
-
-static void test_handlers_are_given_back_as_they_were(void)
-{
-    struct munk_handler *handler;
-
-    world_borrow(&world);
-    world_return(&world);
-    handler = fake_handler(DISC, OBSTACLE);
-    handler->begin = handler->pre_solve = handler->separate = owner;
-    handler->data = &world;
-    world_borrow(&world);
-    TEST_ASSERT_TRUE(handler->begin != owner && handler->pre_solve != owner && handler->separate != owner);
-    world_return(&world);
-    TEST_ASSERT_TRUE(handler->begin == owner && handler->pre_solve == owner && handler->separate == owner);
-    TEST_ASSERT_EQUAL_PTR(&world, handler->data);
-}
-
-static void test_every_pair_of_every_body_is_borrowed(void)
-{
-    world_borrow(&world);
-    TEST_ASSERT_EQUAL_size_t(WORLD_LOANS + 2 * WORLD_LOANS_EACH, fake.handler_count);
-    TEST_ASSERT_EQUAL_size_t(fake.handler_count, world.loan_count);
-    world_return(&world);
-    TEST_ASSERT_EQUAL_size_t(0, world.loan_count);
-}
 
 static void test_senses_are_those_of_the_body(void)
 {
@@ -136,8 +102,6 @@ static void test_a_body_that_runs_into_something_is_pushed_out(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_handlers_are_given_back_as_they_were);
-    RUN_TEST(test_every_pair_of_every_body_is_borrowed);
     RUN_TEST(test_senses_are_those_of_the_body);
     RUN_TEST(test_a_body_that_senses_nothing);
     RUN_TEST(test_food_within_reach_is_eaten);

@@ -1,4 +1,4 @@
-"""The arena in C against the readable one: senses, poses and food, bit for bit."""
+"""Both arenas in C against the readable one: senses, poses and food, bit for bit."""
 
 import random
 
@@ -6,14 +6,17 @@ import pytest
 
 from host_sim.protocol.generated import TICK_SPAN
 from host_sim.world.arena import Arena
+from host_sim.world.body import Body
+from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline, cone_reach_mm
 from host_sim.world.edits import AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar, make_edit
 from host_sim.world.geometry import Bar, Point, Pose
 from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
-from tests.world.native_c import CArena
+from tests.world.native_c import CArena, load
 
 PARAMS = SimParams()
 TICKS = 2500
+TOUCH_MM = 0.01
 
 
 def drive(draws: random.Random) -> tuple[int, int]:
@@ -54,77 +57,110 @@ def refusal(arena: Arena, edit: Edit) -> str:
     return ""
 
 
-class Pair:
-    """One arena in Python and an equal one in C."""
+def state(body: Body) -> tuple[float, ...]:
+    """A body's state. In a corner two overlaps may be equally deep: whichever was found first has set the normal."""
+    depth_at, normal_at = 5, slice(6, 8)
+    parts = list(body.state)
+    if parts[depth_at] <= TOUCH_MM:
+        parts[normal_at] = ()
+    return tuple(parts)
+
+
+class Three:
+    """One arena in Python and two equal ones in C: on pymunk's physics, and by plain geometry."""
 
     def __init__(self, seed: int, robots: int) -> None:
         layout = generate(seed, 1, PARAMS, robots)
-        self.python, self.arena = Arena(layout, PARAMS), Arena(layout, PARAMS)
-        self.c = CArena(self.arena, PARAMS)
+        self.python = Arena(layout, PARAMS)
+        self.in_c = [CArena(Arena(layout, PARAMS), PARAMS, plain) for plain in (False, True)]
         self.draws = random.Random(seed)
 
     def tick(self, tick: int) -> None:
         bodies = self.python.bodies
         told = tick % TICK_SPAN
         senses = [body.sense(told) for body in bodies]
-        assert [self.c.sense(i, told) for i in range(len(bodies))] == senses
+        for c in self.in_c:
+            assert [c.sense(i, told) for i in range(len(bodies))] == senses
         for i, body in enumerate(bodies):
             wheels = drive(self.draws)
             if self.draws.random() < 0.5:
-                assert self.c.eat(i) == body.eat()
+                eaten = body.eat()
+                assert [c.eat(i) for c in self.in_c] == [eaten, eaten]
             body.move(*wheels)
-            self.c.move(i, *wheels)
+            for c in self.in_c:
+                c.move(i, *wheels)
 
     def edit(self) -> None:
-        """Makes the same change in both, if it can be made."""
-        self.c.native.give_back()
-        self.compare()
+        """Makes the same change in all, if it can be made."""
+        self.give_back()
         edit = random_edit(self.draws, len(self.python.bodies))
-        assert refusal(self.arena, edit) == refusal(self.python, edit)
-        self.c.native.borrow()
+        expected = refusal(self.python, edit)
+        for c in self.in_c:
+            assert refusal(c.arena, edit) == expected
+            c.native.borrow()
+
+    def give_back(self) -> None:
+        for c in self.in_c:
+            c.native.give_back()
+        self.compare()
 
     def compare(self) -> None:
-        """The whole state, while the arena is given back."""
-        assert [body.state for body in self.arena.bodies] == [body.state for body in self.python.bodies]
-        assert self.arena.food.eaten == self.python.food.eaten
-
-    def close(self) -> None:
-        self.c.native.give_back()
-        self.compare()
+        """The whole state, while the arenas are given back."""
+        for c in self.in_c:
+            assert [state(body) for body in c.arena.bodies] == [state(body) for body in self.python.bodies]
+            assert c.arena.food.eaten == self.python.food.eaten
 
 
 @pytest.mark.parametrize(("seed", "robots"), [(1, 1), (2, 1), (3, 2), (4, 5)])
 def test_bumping_bodies_sense_and_move_alike(seed, robots):
-    pair = Pair(seed, robots)
+    three = Three(seed, robots)
 
     for tick in range(TICKS // robots):
-        pair.tick(tick)
+        three.tick(tick)
 
-    pair.close()
-    assert any(body.collisions > 3 for body in pair.python.bodies), "hardly anything was touched"
+    three.give_back()
+    assert any(body.collisions > 3 for body in three.python.bodies), "hardly anything was touched"
 
 
 @pytest.mark.parametrize(("seed", "robots"), [(5, 1), (6, 3)])
 def test_they_do_so_whatever_a_person_changes_between_the_ticks(seed, robots):
-    pair = Pair(seed, robots)
+    three = Three(seed, robots)
 
     for tick in range(TICKS // robots):
         if tick % 7 == 0:
-            pair.edit()
-        pair.tick(tick)
+            three.edit()
+        three.tick(tick)
 
-    pair.close()
+    three.give_back()
 
 
-def test_after_it_is_given_back_an_arena_goes_on_in_python():
-    pair = Pair(7, 1)
+def test_after_they_are_given_back_arenas_go_on_in_python():
+    three = Three(7, 1)
     for tick in range(300):
-        pair.tick(tick)
-    pair.close()
+        three.tick(tick)
+    three.give_back()
 
     for tick in range(300):
-        wheels = drive(pair.draws)
-        for arena in (pair.python, pair.arena):
+        wheels = drive(three.draws)
+        for arena in (three.python, *(c.arena for c in three.in_c)):
             arena.body.sense(tick)
             arena.body.move(*wheels)
-        pair.compare()
+        three.compare()
+
+
+def test_the_cones_of_plain_geometry_are_those_of_the_readable_arena():
+    c = CArena(Arena(generate(1, 1, PARAMS), PARAMS), PARAMS, plain=True)
+    cones = c.ffi.cast("struct plain_world *", c.native.world.space).cones
+
+    for n, (bit, bearing_deg) in enumerate(CONE_BEARINGS_DEG.items()):
+        corners = [(corner.x, corner.y) for corner in cones.of[n].corners]
+        assert corners == cone_outline(bearing_deg, cone_reach_mm(bit, PARAMS))
+
+
+def test_the_walls_of_plain_geometry_are_those_of_the_readable_arena():
+    ffi, library = load()
+    walls = ffi.new("struct capsule[]", library.WALLS)
+    library.capsule_set_walls(walls, PARAMS.width_mm, PARAMS.height_mm)
+
+    readable = Arena(generate(1, 1, PARAMS), PARAMS).obstacles.walls
+    assert [((wall.a.x, wall.a.y), (wall.b.x, wall.b.y), wall.radius_mm) for wall in walls] == readable

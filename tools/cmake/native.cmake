@@ -1,4 +1,4 @@
-# octet_native_library(TARGET STATIC_LIBRARY PREFIX HEADER...): a shared library for Python of all that a static one holds.
+# octet_native_library(TARGET STATIC_LIBRARIES PREFIX HEADER...): a shared library for Python of all that static ones hold.
 # Its function PREFIXstamp returns the SHA-256 of each header, one after the other: Python compares them with those that
 # it reads, and so finds a library that was built from others.
 function(octet_native_library target static prefix)

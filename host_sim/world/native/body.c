@@ -1,6 +1,6 @@
 #include "host_sim/world/native/body.h"
 
-#include <math.h>
+#include "host_sim/world/native/trig.h"
 
 static const double TAU = 6.283185307179586476925286766559;
 /* A pushed-out body stays this deep in the obstacle, so that it goes on touching and does not bounce. */
@@ -8,28 +8,47 @@ static const double TOUCH_MM = 0.01;
 
 enum { PUSHES = 8 };
 
+void body_face(struct body *body)
+{
+    body->ahead_rad = body->heading_rad;
+    body->ahead.x = trig_cos(body->heading_rad);
+    body->ahead.y = trig_sin(body->heading_rad);
+}
+
+/* The same direction within half a turn. Up to a turn and a half this is what remainder() says, to the last bit. */
+static double within_half_a_turn(double angle_rad)
+{
+    while (angle_rad > TAU / 2)
+        angle_rad -= TAU;
+    while (angle_rad < -TAU / 2)
+        angle_rad += TAU;
+    return angle_rad;
+}
+
 void body_roll(struct body *body, double left_mm, double right_mm, double track_mm)
 {
     double turn = (left_mm - right_mm) / track_mm, way_mm = (left_mm + right_mm) / 2;
-    double half = turn / 2;
-    double chord_mm = half == 0.0 ? way_mm : way_mm * sin(half) / half;
+    double half = turn / 2, chord_mm = half == 0.0 ? way_mm : way_mm * trig_sin(half) / half;
+    struct vector along = body->ahead;
 
-    body->x_mm += chord_mm * cos(body->heading_rad + half);
-    body->y_mm += chord_mm * sin(body->heading_rad + half);
-    body->heading_rad = remainder(body->heading_rad + turn, TAU);
+    if (half != 0.0) {
+        along.x = trig_cos(body->heading_rad + half);
+        along.y = trig_sin(body->heading_rad + half);
+    }
+    body->x_mm += chord_mm * along.x;
+    body->y_mm += chord_mm * along.y;
+    body->heading_rad = within_half_a_turn(body->heading_rad + turn);
+    if (body->heading_rad != body->ahead_rad)
+        body_face(body);
 }
 
-void body_place(const struct world *world, struct body *body)
+void body_place(struct world *world, struct body *body)
 {
-    struct munk_vector at = {body->x_mm, body->y_mm};
-
     body->depth_mm = 0.0;
-    world->munk->cpBodySetPosition(body->in_space, body->lifted ? body->in_the_air : at);
-    world->munk->cpBodySetAngle(body->in_space, body->heading_rad);
-    world->munk->cpSpaceStep(world->space, world->params.tick_s);
+    world->space->place(world, body);
 }
 
-void body_push_out(const struct world *world, struct body *body, double before_x_mm, double before_y_mm)
+void body_push_out(struct world *world, struct body *body, struct vector before)
 {
     for (unsigned i = 0; i < PUSHES && body->depth_mm > TOUCH_MM; i++) {
         double push_mm = body->depth_mm - TOUCH_MM / 2;
@@ -39,8 +58,8 @@ void body_push_out(const struct world *world, struct body *body, double before_x
         body_place(world, body);
     }
     if (body->depth_mm > TOUCH_MM) {
-        body->x_mm = before_x_mm;
-        body->y_mm = before_y_mm;
+        body->x_mm = before.x;
+        body->y_mm = before.y;
         body_place(world, body);
     }
 }

@@ -1,54 +1,19 @@
 #include "host_sim/world/native/world.h"
 
-#include <math.h>
-
 #include "host_sim/world/native/body.h"
-#include "host_sim/world/native/contacts.h"
 #include "host_sim/world/native/sight.h"
+#include "host_sim/world/native/vector_sums.h"
 
-/* Gets a handler, notes what it was, and returns it. */
-static struct munk_handler *borrow(struct world *world, uintptr_t type_a, uintptr_t type_b)
+void world_begin(struct world *world)
 {
-    struct munk_handler *handler = world->munk->cpSpaceAddCollisionHandler(world->space, type_a, type_b);
-    struct loan *loan = &world->loans[world->loan_count++];
-
-    loan->handler = handler;
-    loan->before = *handler;
-    return handler;
-}
-
-static void borrow_cones(struct world *world, struct body *body, struct cone *cones)
-{
-    for (uint8_t n = 0; n < WORLD_CONES; n++) {
-        cones[n].body = body;
-        cones[n].number = n;
-        contacts_of_cone(borrow(world, body->first_cone + n, world->obstacle_type), &cones[n]);
-        contacts_of_cone(borrow(world, body->first_cone + n, world->disc_type), &cones[n]);
-    }
-}
-
-void world_borrow(struct world *world)
-{
-    world->loan_count = 0;
-    contacts_of_discs(borrow(world, world->disc_type, world->obstacle_type), world);
-    contacts_of_discs(borrow(world, world->disc_type, world->disc_type), world);
     for (size_t i = 0; i < world->body_count; i++)
-        borrow_cones(world, &world->bodies[i], &world->cones[i * WORLD_CONES]);
-}
-
-void world_return(struct world *world)
-{
-    while (world->loan_count > 0) {
-        const struct loan *loan = &world->loans[--world->loan_count];
-
-        *loan->handler = loan->before;
-    }
+        body_face(&world->bodies[i]);
 }
 
 /* The wheel's counter after a distance. */
 static uint16_t odometer(double rolled_mm)
 {
-    return (uint16_t)((long long)rint(rolled_mm * ODOMETER_COUNTS_PER_MM) & (ODOMETER_SPAN - 1));
+    return (uint16_t)((long long)vector_whole(rolled_mm * ODOMETER_COUNTS_PER_MM) & (ODOMETER_SPAN - 1));
 }
 
 void world_sense(struct world *world, struct body *body, uint8_t tick, struct senses *out)
@@ -78,15 +43,15 @@ bool world_eat(struct world *world, struct body *body)
 /* The way of a wheel in one tick. */
 static double way_mm(const struct world_params *params, int speed_mm_s)
 {
-    double limit = params->max_wheel_speed_mm_s;
+    double limit = params->max_wheel_speed_mm_s, speed = speed_mm_s;
 
-    return fmax(-limit, fmin(limit, speed_mm_s)) * params->tick_s;
+    return (speed > limit ? limit : speed < -limit ? -limit : speed) * params->tick_s;
 }
 
 void world_move(struct world *world, struct body *body, int left_mm_s, int right_mm_s)
 {
     double left_mm = way_mm(&world->params, left_mm_s), right_mm = way_mm(&world->params, right_mm_s);
-    double before_x_mm = body->x_mm, before_y_mm = body->y_mm;
+    struct vector before = {body->x_mm, body->y_mm};
 
     body->left_mm += left_mm;
     body->right_mm += right_mm;
@@ -94,7 +59,7 @@ void world_move(struct world *world, struct body *body, int left_mm_s, int right
         return;
     body_roll(body, left_mm, right_mm, world->params.wheel_track_mm);
     body_place(world, body);
-    body_push_out(world, body, before_x_mm, before_y_mm);
+    body_push_out(world, body, before);
 }
 
 size_t world_food_left(const struct world *world)

@@ -1,15 +1,14 @@
 /* world.h: an arena's control ticks in C: what the bodies sense, what they eat, how they move.
  *
  * host_sim/world/arena.py and body.py are the readable reference; here the same sums are done in the same order, so that
- * all results are equal, bit for bit. pymunk builds the space; from world_borrow to world_return its collisions are
- * handled here. The caller provides all memory, and keeps it in place meanwhile. */
+ * all results are equal, bit for bit. The caller provides all memory, and keeps it in place meanwhile. */
 #ifndef OCTET_WORLD_H
 #define OCTET_WORLD_H
 
 #include <stddef.h>
 
 #include "firmware/io.h"
-#include "host_sim/world/native/munk.h"
+#include "host_sim/world/native/space.h"
 
 enum { WORLD_CONES = 5 };   /* of a body; cone n sets bit n of feel */
 
@@ -35,8 +34,8 @@ struct body {
     double heading_rad;
     double left_mm;               /* rolled by the wheels so far */
     double right_mm;
-    double depth_mm;              /* of its deepest overlap in the last step, */
-    struct munk_vector normal;    /* and its direction, out of the body */
+    double depth_mm;              /* of its deepest overlap since it was placed, */
+    struct vector normal;         /* and its direction, out of the body */
     int32_t seen;                 /* the food last sensed straight ahead; -1: none */
     int32_t seen_mm;
     int32_t touches;              /* things that it touches now */
@@ -44,48 +43,22 @@ struct body {
     int32_t overlaps[WORLD_CONES];   /* things in each cone */
     uint8_t feel;
     bool lifted;                  /* a person holds it in the air */
-    /* Its place in the space: */
-    struct munk_body *in_space;
-    struct munk_shape *disc;
-    struct munk_vector in_the_air;
-    struct munk_filter sight;
-    uintptr_t first_cone;         /* collision type of cone 0; the others follow */
-};
-
-/* Data of a cone's collision handlers. */
-struct cone {
-    struct body *body;
-    uint8_t number;
-};
-
-/* A collision handler of the space, and what it was before. */
-struct loan {
-    struct munk_handler *handler;
-    struct munk_handler before;
+    /* What follows from its heading: */
+    double ahead_rad;             /* the heading of */
+    struct vector ahead;          /* one millimetre straight ahead */
 };
 
 struct world {
-    const struct munk *munk;
-    struct munk_space *space;
+    struct space *space;
     struct world_params params;
-    uintptr_t obstacle_type;   /* collision types of obstacles and of the bodies' discs */
-    uintptr_t disc_type;
     size_t body_count;
     size_t food_count;
     struct body *bodies;
     struct food *food;
-    struct cone *cones;        /* WORLD_CONES for each body */
-    struct loan *loans;        /* WORLD_LOANS in all, and WORLD_LOANS_EACH for each body */
-    size_t loan_count;
 };
 
-enum { WORLD_LOANS = 2, WORLD_LOANS_EACH = 2 * WORLD_CONES };
-
-void world_borrow(struct world *world);
-        /* Takes over the collision handlers of the space. */
-
-void world_return(struct world *world);
-        /* Gives them back, as they were. */
+void world_begin(struct world *world);
+        /* To be called once the bodies' poses have been set from outside. */
 
 void world_sense(struct world *world, struct body *body, uint8_t tick, struct senses *out);
         /* What the robot senses where it stands. tick is as the robot is to be told it. */

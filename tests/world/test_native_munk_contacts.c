@@ -9,7 +9,6 @@ static struct world world;
 void setUp(void)
 {
     fake_open(&world, 2, 0);
-    world_borrow(&world);
 }
 
 void tearDown(void) {}

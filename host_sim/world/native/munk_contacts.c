@@ -1,8 +1,8 @@
-#include "host_sim/world/native/contacts.h"
+#include "host_sim/world/native/munk_contacts.h"
 
 static void enter_cone(struct munk_arbiter *arbiter, struct munk_space *space, void *data)
 {
-    const struct cone *cone = data;
+    const struct munk_cone *cone = data;
 
     (void)arbiter;
     (void)space;
@@ -12,7 +12,7 @@ static void enter_cone(struct munk_arbiter *arbiter, struct munk_space *space, v
 
 static void leave_cone(struct munk_arbiter *arbiter, struct munk_space *space, void *data)
 {
-    const struct cone *cone = data;
+    const struct munk_cone *cone = data;
 
     (void)arbiter;
     (void)space;
@@ -27,7 +27,7 @@ static void ignore(struct munk_arbiter *arbiter, struct munk_space *space, void 
     (void)data;
 }
 
-void contacts_of_cone(struct munk_handler *handler, struct cone *cone)
+void munk_contacts_of_cone(struct munk_handler *handler, struct munk_cone *cone)
 {
     handler->begin = enter_cone;
     handler->pre_solve = ignore;
@@ -35,22 +35,22 @@ void contacts_of_cone(struct munk_handler *handler, struct cone *cone)
     handler->data = cone;
 }
 
-static struct body *body_of(const struct world *world, const struct munk_shape *shape)
+static struct body *body_of(const struct munk_world *space, const struct munk_shape *shape)
 {
-    for (size_t i = 0; i < world->body_count; i++)
-        if (world->bodies[i].disc == shape)
-            return &world->bodies[i];
+    for (size_t i = 0; i < space->world->body_count; i++)
+        if (space->places[i].disc == shape)
+            return &space->world->bodies[i];
     return NULL;
 }
 
 /* The bodies that an arbiter's shapes belong to; null for an obstacle. */
-static void find_touched(const struct world *world, struct munk_arbiter *arbiter, struct body *touched[2])
+static void find_touched(const struct munk_world *space, struct munk_arbiter *arbiter, struct body *touched[2])
 {
     struct munk_shape *a, *b;
 
-    world->munk->cpArbiterGetShapes(arbiter, &a, &b);
-    touched[0] = body_of(world, a);
-    touched[1] = body_of(world, b);
+    space->munk->cpArbiterGetShapes(arbiter, &a, &b);
+    touched[0] = body_of(space, a);
+    touched[1] = body_of(space, b);
 }
 
 static void begin_touch(struct munk_arbiter *arbiter, struct munk_space *space, void *data)
@@ -82,27 +82,27 @@ static void press(struct body *body, double depth_mm, struct munk_vector normal)
 {
     if (body && depth_mm > body->depth_mm) {
         body->depth_mm = depth_mm;
-        body->normal = normal;
+        body->normal = (struct vector){normal.x, normal.y};
     }
 }
 
 static void press_touched(struct munk_arbiter *arbiter, struct munk_space *space, void *data)
 {
-    const struct world *world = data;
-    struct munk_contacts contacts = world->munk->cpArbiterGetContactPointSet(arbiter);
+    const struct munk_world *here = data;
+    struct munk_contacts contacts = here->munk->cpArbiterGetContactPointSet(arbiter);
     struct munk_vector back = {-contacts.normal.x, -contacts.normal.y};
     struct body *touched[2];
 
     (void)space;
-    find_touched(world, arbiter, touched);
+    find_touched(here, arbiter, touched);
     press(touched[0], -contacts.points[0].distance, contacts.normal);
     press(touched[1], -contacts.points[0].distance, back);
 }
 
-void contacts_of_discs(struct munk_handler *handler, struct world *world)
+void munk_contacts_of_discs(struct munk_handler *handler, struct munk_world *space)
 {
     handler->begin = begin_touch;
     handler->pre_solve = press_touched;
     handler->separate = end_touch;
-    handler->data = world;
+    handler->data = space;
 }

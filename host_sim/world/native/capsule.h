@@ -1,0 +1,50 @@
+/* capsule.h: a straight thing with round ends: a bar or a wall, or a disc, whose ends are the same. The sums are those of
+ * Munk2D, in its order, so that their results are, too. */
+#ifndef OCTET_CAPSULE_H
+#define OCTET_CAPSULE_H
+
+#include <stdbool.h>
+
+#include "host_sim/world/native/vector.h"
+
+struct capsule {
+    struct vector a;      /* ends of its centre line */
+    struct vector b;
+    double radius_mm;
+    struct vector side;   /* one millimetre square to it; nothing for a disc */
+    struct vector low;    /* corners of the box around it */
+    struct vector high;
+};
+
+/* How a disc lies to a capsule. */
+struct contact {
+    double apart_mm2;       /* square of the distance from the disc's centre to the centre line */
+    bool touches;           /* if so: */
+    double depth_mm;        /* of the overlap */
+    struct vector normal;   /* from the disc into the capsule */
+};
+
+enum { WALLS = 4 };
+
+void capsule_set(struct capsule *capsule, struct vector a, struct vector b, double radius_mm);
+
+void capsule_set_walls(struct capsule walls[WALLS], double width_mm, double height_mm);
+        /* The walls around an arena with a corner at (0, 0); their insides are its edge. */
+
+bool capsule_is_near(const struct capsule *capsule, struct vector point, double reach_mm);
+        /* Whether it may be within reach of a point: false only if it is not. */
+
+struct vector capsule_nearest(struct vector a, struct vector b, struct vector point);
+        /* The point of a centre line that is nearest to a point. */
+
+void capsule_meet_disc(const struct capsule *capsule, struct vector centre, double radius_mm, struct contact *out);
+
+void capsule_meet_discs(struct vector one, struct vector other, double radius_mm, struct contact *out);
+        /* The same for two discs of one size; the normal is from the first one into the other. */
+
+bool capsule_hides(const struct capsule *capsule, struct vector from, struct vector to);
+        /* Whether it is on the straight way between two points. */
+
+bool capsule_disc_hides(struct vector centre, double radius_mm, struct vector from, struct vector to);
+
+#endif

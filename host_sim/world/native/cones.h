@@ -1,0 +1,25 @@
+/* cones.h: the five proximity cones around the front of a body, as host_sim/world/cones.py has them. */
+#ifndef OCTET_CONES_H
+#define OCTET_CONES_H
+
+#include "host_sim/world/native/capsule.h"
+
+enum { CONES = 5, CONE_CORNERS = 6 };
+
+/* The outline of a cone as a body sees it that faces +x: its tip is the body's centre. */
+struct cone {
+    struct vector corners[CONE_CORNERS];
+};
+
+struct cones {
+    struct cone of[CONES];   /* cone n sets bit n of feel */
+    double reach_mm;         /* of the corner that is farthest from the centre */
+};
+
+void cones_set(struct cones *cones, double reach_mm, double front_extra_mm);
+        /* Lays out the cones. They reach so far from the centre of the body, the front one a little farther. */
+
+bool cones_overlap(const struct cone *cone, const struct capsule *thing);
+        /* Whether a thing, as the body sees it, is at least partly within a cone. */
+
+#endif

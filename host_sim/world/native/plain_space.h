@@ -1,0 +1,36 @@
+/* plain_space.h: a space by plain geometry: discs and cones among capsules. It needs no other library. */
+#ifndef OCTET_PLAIN_SPACE_H
+#define OCTET_PLAIN_SPACE_H
+
+#include "host_sim/world/native/cones.h"
+#include "host_sim/world/native/world.h"
+
+/* Where a body was last placed. */
+struct plain_place {
+    struct vector at;
+    bool lifted;
+};
+
+struct plain_world {
+    struct space space;
+    double body_radius_mm;
+    double sensor_reach_mm;        /* beyond the body, of all cones but the front one */
+    double front_extra_mm;         /* how much farther that one reaches */
+    size_t capsule_count;
+    struct capsule *capsules;      /* walls and bars */
+    struct plain_place *places;    /* one for each body */
+    size_t words;                  /* PLAIN_WORDS(capsule_count + body_count) */
+    uint64_t *touching;            /* words for each body, and once more: a bit for each thing that it touches */
+    struct cones cones;
+};
+
+enum { PLAIN_WORD_BITS = 64 };
+#define PLAIN_WORDS(things) (((things) + PLAIN_WORD_BITS - 1) / PLAIN_WORD_BITS)
+
+void plain_space_take(struct plain_world *space, struct world *world);
+        /* Becomes the world's space. The bodies are where they are, and what they overlap is not new to them. */
+
+void plain_space_settle(struct world *world);
+        /* Brings everything up to date once obstacles or bodies were moved. */
+
+#endif

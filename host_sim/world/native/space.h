@@ -1,0 +1,22 @@
+/* space.h: all that the world asks of geometry. A world is given one of several spaces when it is set up:
+ * munk_space.h, on pymunk's physics, or plain_space.h, on nothing. Their answers are equal, bit for bit. */
+#ifndef OCTET_SPACE_H
+#define OCTET_SPACE_H
+
+#include <stdbool.h>
+
+#include "host_sim/world/native/vector.h"
+
+struct world;
+struct body;
+
+/* The first member of every space. */
+struct space {
+    void (*place)(struct world *world, struct body *body);
+            /* Finds what a body and its cones overlap at its pose, and what its being there means to other bodies. Sets
+               overlaps, feel and touches, counts collisions, and notes the deepest overlap in depth_mm and normal. */
+    bool (*hides)(const struct world *world, const struct body *body, struct vector point);
+            /* Whether an obstacle or another body is between a body and a point. */
+};
+
+#endif

@@ -1,0 +1,10 @@
+/* vector.h: a place on the arena's floor, or a way across it. */
+#ifndef OCTET_VECTOR_H
+#define OCTET_VECTOR_H
+
+struct vector {
+    double x;   /* mm, to the right */
+    double y;   /* mm, down */
+};
+
+#endif
