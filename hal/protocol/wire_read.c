@@ -88,7 +88,7 @@ static void fill_senses(const struct wire *wire, const struct octet_senses_t *go
 static enum input_kind read_senses(struct wire *wire, const struct frame *frame, struct senses *senses)
 {
     struct octet_senses_t got;
-    unsigned missed;
+    unsigned missed = 0;
 
     if (!e2e_is_whole(frame, OCTET_SENSES_LENGTH) || octet_senses_unpack(&got, frame->data, frame->len) != 0)
         return refused(wire, FAULT_DAMAGED);
@@ -176,9 +176,9 @@ static enum input_kind refuse_command(struct wire *wire, const struct request *r
 
 static enum input_kind read_command(struct wire *wire, const struct frame *frame, struct command *command)
 {
-    struct octet_command_t got;
+    struct octet_command_t got = {0};
     struct request request;
-    enum result why;
+    enum result why = RESULT_DONE;
 
     if (!e2e_is_whole(frame, OCTET_COMMAND_LENGTH) || octet_command_unpack(&got, frame->data, frame->len) < 0)
         return refused(wire, FAULT_DAMAGED);
