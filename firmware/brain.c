@@ -46,9 +46,9 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT])
         return false;
     if (understands(brain->profile, &brain->memory))
         return true;
-    /* Each kind is some profile's. */
+    /* Each kind is some profile's, so that the last one need not be asked. */
     brain->profile = 0;
-    while (!understands(brain->profile, &brain->memory))
+    while (brain->profile < PROFILE_COUNT - 1 && !understands(brain->profile, &brain->memory))
         brain->profile++;
     brain->learns = begin(brain);
     return true;

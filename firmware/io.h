@@ -60,7 +60,7 @@ struct output {
     bool store;                                           /* the memory has changed, and is to be stored */
     enum result answer;
     uint32_t answer_value;                                /* get: the parameter's value. start: ANSWER_WANTS_RANGES or 0 */
-    struct report report;
+    struct report report;                                 /* these two are told in full, due or not */
     uint8_t memory[CELL_COUNT];
     struct drive drive;
 };

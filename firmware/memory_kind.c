@@ -40,13 +40,18 @@ void memory_put(struct memory *memory, enum memory_kind kind, uint8_t pattern, e
 /* The turn that more of the readings with that pattern have; where as many have either, none. */
 static enum side side_of_most(const struct memory *memory, uint8_t pattern)
 {
-    unsigned count[SIDE_RIGHT + 1] = {0};
+    unsigned left = 0;
+    unsigned right = 0;
 
-    for (unsigned i = 0; i < BESIDE_COUNT; i++)
-        count[feel_memory_recall(memory, reading(pattern, i))]++;
-    if (count[SIDE_LEFT] == count[SIDE_RIGHT])
+    for (unsigned i = 0; i < BESIDE_COUNT; i++) {
+        enum side side = feel_memory_recall(memory, reading(pattern, i));
+
+        left += side == SIDE_LEFT;
+        right += side == SIDE_RIGHT;
+    }
+    if (left == right)
         return SIDE_NOTHING;
-    return count[SIDE_LEFT] > count[SIDE_RIGHT] ? SIDE_LEFT : SIDE_RIGHT;
+    return left > right ? SIDE_LEFT : SIDE_RIGHT;
 }
 
 bool memory_translate(struct memory *memory, enum memory_kind kind)

@@ -171,7 +171,7 @@ void motion_begin(struct motion *motion, const struct config *config, const stru
     motion->kind = (uint8_t)kind_of(action);
     motion->until_food = action->until_food;
     motion->rest_ticks = action->rest_ticks;
-    motion->turn_left += action->turn_deg * (int32_t)turn_per_degree(config);
+    motion->turn_left = clamped(motion->turn_left + action->turn_deg * (int32_t)turn_per_degree(config), TURN_LIMIT);
     motion->way_left = (int16_t)(action->forward_mm * COUNTS_PER_MM);
     motion->ticks_left = timeout_ticks(motion, config);
 }

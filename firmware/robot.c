@@ -121,9 +121,11 @@ static bool pass_time(struct robot *robot)
     return true;
 }
 
-static void add_report(const struct robot *robot, struct output *out)
+/* What may be told, whether it is due or not: a report takes many ticks. */
+static void describe(const struct robot *robot, struct output *out)
 {
-    out->has_report = true;
+    for (unsigned p = 0; p < CELL_COUNT; p++)
+        out->memory[p] = robot->brain.memory.cell[p];
     out->report.running = robot->running;
     out->report.frozen = robot->brain.frozen;
     out->report.profile = robot->brain.profile;
@@ -135,17 +137,14 @@ static void respond_to_senses(struct robot *robot, const struct senses *senses, 
     step(robot, senses, out);
     robot->silences = 0;
     out->has_drive = true;
-    if (pass_time(robot))
-        add_report(robot, out);
+    out->has_report = pass_time(robot);
 }
 
 static void respond_to_command(struct robot *robot, const struct command *command, struct output *out)
 {
     out->answer = robot_execute(robot, command, &out->answer_value);
     out->has_answer = true;
-    out->whole_report = command->opcode == OPCODE_STOP || command->opcode == OPCODE_REPORT;
-    if (out->whole_report)
-        add_report(robot, out);
+    out->has_report = out->whole_report = command->opcode == OPCODE_STOP || command->opcode == OPCODE_REPORT;
     if (command->opcode != OPCODE_STOP)
         return;
     drive_init(&out->drive, robot, REASON_STOP);
@@ -161,7 +160,7 @@ static void respond_to_silence(struct robot *robot, struct output *out)
     if (robot->silences < REPORT_SILENCES)
         return;
     robot->silences = 0;
-    add_report(robot, out);
+    out->has_report = true;
 }
 
 void robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out)
@@ -175,7 +174,6 @@ void robot_respond(struct robot *robot, enum input_kind kind, const struct input
         respond_to_silence(robot, out);
     out->store = robot->brain.changed && robot->brain.learns;
     out->has_memory = robot->brain.changed;
-    for (unsigned p = 0; p < CELL_COUNT; p++)
-        out->memory[p] = robot->brain.memory.cell[p];
     robot->brain.changed = false;
+    describe(robot, out);
 }

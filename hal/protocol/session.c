@@ -25,62 +25,52 @@ enum arrival session_senses(struct session *session, uint8_t tick, uint8_t count
     return ARRIVAL_FRESH;
 }
 
-static enum opcode opcode_of(const struct frame *command)
+static bool are_same(const struct request *one, const struct request *other)
 {
-    return (enum opcode)(command->data[1] >> 4);
-}
-
-static uint8_t owner_of(const struct frame *command)
-{
-    return command->data[2];
-}
-
-static bool are_same(const struct frame *one, const struct frame *other)
-{
-    for (unsigned i = 0; i < sizeof one->data; i++)
-        if (one->data[i] != other->data[i])
-            return false;
-    return one->len == other->len;
+    return one->counter == other->counter && one->owner == other->owner && one->lockstep == other->lockstep
+        && one->command.opcode == other->command.opcode && one->command.which == other->command.which
+        && one->command.value == other->command.value;
 }
 
 /* Whoever it comes from, stop is obeyed: but not one of the owner's that has been under way for long. */
-static enum result judge(const struct session *session, const struct frame *command)
+static enum result judge(const struct session *session, const struct request *request)
 {
-    unsigned ahead = e2e_ahead(e2e_counter(&session->command), e2e_counter(command));
+    unsigned ahead = e2e_ahead(session->request.counter, request->counter);
 
     if (session->owner == 0 || !session->hears)
         return RESULT_DONE;
-    if (owner_of(command) != session->owner)
-        return opcode_of(command) == OPCODE_STOP ? RESULT_DONE : RESULT_OWNED;
+    if (request->owner != session->owner)
+        return request->command.opcode == OPCODE_STOP ? RESULT_DONE : RESULT_OWNED;
     return ahead >= 1 && ahead <= COMMANDS_AHEAD ? RESULT_DONE : RESULT_OUT_OF_SEQUENCE;
 }
 
-enum arrival session_command(struct session *session, const struct frame *command, enum result *why)
+enum arrival session_request(struct session *session, const struct request *request, enum result *why)
 {
-    if (are_same(&session->command, command))
+    if (session->knows_request && are_same(&session->request, request))
         return ARRIVAL_AGAIN;
-    *why = judge(session, command);
+    *why = judge(session, request);
     if (*why != RESULT_DONE)
         return ARRIVAL_STALE;
-    session->command = *command;
+    session->request = *request;
+    session->knows_request = true;
     return ARRIVAL_FRESH;
 }
 
 static void begin(struct session *session)
 {
-    session->owner = owner_of(&session->command);
+    session->owner = session->request.owner;
     session->hears = true;
     session->knows_tick = false;
 }
 
 void session_executed(struct session *session, enum result result)
 {
-    enum opcode opcode = opcode_of(&session->command);
+    enum opcode opcode = session->request.command.opcode;
 
     if (result != RESULT_DONE)
         return;
     if (opcode == OPCODE_START)
-        session->lockstep = session->command.data[3] >> 7;
+        session->lockstep = session->request.lockstep;
     if (opcode == OPCODE_START || opcode == OPCODE_RESUME)
         begin(session);
     else if (opcode == OPCODE_STOP)

@@ -3,12 +3,20 @@
 #define OCTET_SESSION_H
 
 #include "firmware/io.h"
-#include "hal/link/link.h"
 
 enum { SESSION_WINDOW = 14 };   /* ticks ahead of the last that are taken where the robot's own clock counts */
 
+/* A COMMAND as it was sent. */
+struct request {
+    struct command command;   /* what the robot is to do */
+    uint8_t counter;
+    uint8_t owner;            /* who asks for it */
+    bool lockstep;            /* start: the owner's clock counts */
+};
+
 struct session {
-    struct frame command;   /* the last one taken; len 0 for none yet */
+    struct request request; /* the last one taken, */
+    bool knows_request;     /* if there was one */
     uint8_t owner;          /* who started the robot; 0 for nobody */
     bool hears;             /* the owner's senses come */
     bool lockstep;          /* the owner's clock counts */
@@ -23,12 +31,12 @@ enum arrival session_senses(struct session *session, uint8_t tick, uint8_t count
         /* Senses have come. Fresh: they are the next ones, and *missed is the number of ticks that were left out. Again:
            in lockstep, those of the last tick. */
 
-enum arrival session_command(struct session *session, const struct frame *command, enum result *why);
-        /* A whole COMMAND has come. Fresh: it is to be carried out, and is session->command now. Again: it is that one, once
+enum arrival session_request(struct session *session, const struct request *request, enum result *why);
+        /* A whole COMMAND has come. Fresh: it is to be carried out, and is session->request now. Again: it is that one, once
            more. Stale: it is refused, and *why says why. */
 
 void session_executed(struct session *session, enum result result);
-        /* session->command has been carried out, or refused by the robot. */
+        /* session->request has been carried out, or refused by the robot. */
 
 void session_end(struct session *session);
         /* The robot has been stopped: nobody owns it, and any tick may come next. */

@@ -3,6 +3,7 @@
 #ifndef OCTET_WIRE_H
 #define OCTET_WIRE_H
 
+#include "hal/link/link.h"
 #include "hal/protocol/health.h"
 #include "hal/protocol/session.h"
 
@@ -22,7 +23,7 @@ struct wire {
     uint8_t first_news;              /* and the first of them */
     struct session session;
     uint8_t counters[COUNTED_KINDS]; /* of the next message of each kind */
-    uint8_t part;                    /* of the report under way: which is sent next */
+    uint8_t part;                    /* of the report under way: which is sent next; 0 for none */
     bool wants_ranges;               /* the behaviour asks for RANGES */
     bool has_ranges;                 /* they have come: */
     uint8_t ranges_tick;
@@ -53,7 +54,7 @@ enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct i
 
 size_t wire_write(struct wire *wire, const struct output *out, struct frame frames[WIRE_FRAMES_MAX]);
         /* Returns how many frames the marked parts make, 0..WIRE_FRAMES_MAX; the drive is last. A report is spread over this
-           output and those after it, one frame each, unless it is marked whole. */
+           output and those after it, one part each, unless it is marked whole; a new memory goes first. */
 
 void wire_outage(struct wire *wire);
         /* The senses have failed to come: counted if they had been coming. The next tick need not follow the last, and

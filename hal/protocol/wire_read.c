@@ -7,7 +7,7 @@ enum { STRANGERS_MIN = 2 };   /* within a second make a twin: of noise, one fram
 
 void wire_init(struct wire *wire, uint8_t node)
 {
-    *wire = (struct wire){.node = node, .part = UINT8_MAX};
+    *wire = (struct wire){.node = node};
 }
 
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT])
@@ -88,7 +88,7 @@ static void fill_senses(const struct wire *wire, const struct octet_senses_t *go
 static enum input_kind read_senses(struct wire *wire, const struct frame *frame, struct senses *senses)
 {
     struct octet_senses_t got;
-    unsigned missed;
+    unsigned missed = 0;
 
     if (!e2e_is_whole(frame, OCTET_SENSES_LENGTH) || octet_senses_unpack(&got, frame->data, frame->len) != 0)
         return refused(wire, FAULT_DAMAGED);
@@ -126,41 +126,44 @@ static enum input_kind read_ranges(struct wire *wire, const struct frame *frame)
     return INPUT_SILENCE;
 }
 
-static struct command command_from(const struct octet_command_t *got)
+static struct request request_from(const struct octet_command_t *got)
 {
-    struct command command = {.opcode = (enum opcode)got->opcode};
+    struct request request = {.counter = got->counter, .owner = got->owner};
+    struct command *command = &request.command;
 
+    command->opcode = (enum opcode)got->opcode;
     switch (got->opcode) {
     case OPCODE_START:
-        command.which = got->profile;
-        command.value = got->seed;
+        command->which = got->profile;
+        command->value = got->seed;
+        request.lockstep = got->lockstep;
         break;
     case OPCODE_SET:
-        command.which = got->parameter;
-        command.value = got->value;
+        command->which = got->parameter;
+        command->value = got->value;
         break;
     case OPCODE_GET:
-        command.which = got->wanted;
+        command->which = got->wanted;
         break;
     case OPCODE_WRITE:
-        command.which = (uint8_t)(got->half << 4 | got->mask);
-        command.value = (uint32_t)got->byte_0 | (uint32_t)got->byte_1 << 8 | (uint32_t)got->byte_2 << 16
+        command->which = (uint8_t)(got->half << 4 | got->mask);
+        command->value = (uint32_t)got->byte_0 | (uint32_t)got->byte_1 << 8 | (uint32_t)got->byte_2 << 16
             | (uint32_t)got->byte_3 << 24;
         break;
     case OPCODE_FREEZE:
-        command.which = got->freeze;
+        command->which = got->freeze;
         break;
     default:
         break;
     }
-    return command;
+    return request;
 }
 
-static enum input_kind refuse_command(struct wire *wire, const struct frame *command, enum result why)
+static enum input_kind refuse_command(struct wire *wire, const struct request *request, enum result why)
 {
     const struct octet_answer_t answer = {
-        .counter = e2e_counter(command),
-        .opcode = command->data[1] >> 4,
+        .counter = request->counter,
+        .opcode = (uint8_t)request->command.opcode,
         .result = (uint8_t)why,
     };
 
@@ -173,20 +176,22 @@ static enum input_kind refuse_command(struct wire *wire, const struct frame *com
 
 static enum input_kind read_command(struct wire *wire, const struct frame *frame, struct command *command)
 {
-    struct octet_command_t got;
-    enum result why;
+    struct octet_command_t got = {0};
+    struct request request;
+    enum result why = RESULT_DONE;
 
     if (!e2e_is_whole(frame, OCTET_COMMAND_LENGTH) || octet_command_unpack(&got, frame->data, frame->len) < 0)
         return refused(wire, FAULT_DAMAGED);
-    switch (session_command(&wire->session, frame, &why)) {
+    request = request_from(&got);
+    switch (session_request(&wire->session, &request, &why)) {
     case ARRIVAL_AGAIN:
         return say_again(wire, &wire->answer);
     case ARRIVAL_STALE:
-        return refuse_command(wire, frame, why);
+        return refuse_command(wire, &request, why);
     case ARRIVAL_FRESH:
         break;
     }
-    *command = command_from(&got);
+    *command = request.command;
     return INPUT_COMMAND;
 }
 

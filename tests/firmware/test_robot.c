@@ -362,6 +362,16 @@ static void test_a_report_has_the_memory(void)
     TEST_ASSERT_EQUAL_UINT8(SIDE_RIGHT, out.memory[PATTERN_FRONT]);
 }
 
+static void test_what_a_report_tells_is_there_when_none_is_due(void)
+{
+    robot.uptime_s = 77;
+    feel(CLEAR);
+    TEST_ASSERT_FALSE(out.has_report);
+    TEST_ASSERT_TRUE(out.report.running);
+    TEST_ASSERT_EQUAL_UINT16(77, out.report.uptime_s);
+    TEST_ASSERT_EQUAL_UINT8(PROFILE_ARTICLE, out.report.profile);
+}
+
 static void test_a_stopped_robot_reports_too(void)
 {
     robot_init(&robot, 1);
@@ -535,6 +545,7 @@ int main(void)
     RUN_TEST(test_senses_begin_the_count_of_silences_anew);
     RUN_TEST(test_a_report_comes_once_a_second);
     RUN_TEST(test_a_report_has_the_memory);
+    RUN_TEST(test_what_a_report_tells_is_there_when_none_is_due);
     RUN_TEST(test_a_stopped_robot_reports_too);
     RUN_TEST(test_reports_keep_to_the_second_with_any_tick);
     RUN_TEST(test_uptime_counts_seconds);

@@ -2,7 +2,7 @@
 
 #include <unity.h>
 
-#include "wire_frames.h"
+#include "hal/protocol/e2e.h"
 
 enum { OURS = 1, THEIRS = 2 };
 
@@ -20,17 +20,16 @@ void tearDown(void) {}
 
 static enum arrival command(enum opcode opcode, uint8_t counter, uint8_t owner)
 {
-    const struct frame frame =
-        command_frame((struct octet_command_t){.opcode = (uint8_t)opcode, .counter = counter, .owner = owner});
+    const struct request request = {.command = {.opcode = opcode}, .counter = counter, .owner = owner};
 
-    return session_command(&session, &frame, &why);
+    return session_request(&session, &request, &why);
 }
 
-static enum arrival start(uint8_t lockstep)
+static enum arrival start(bool lockstep)
 {
-    const struct frame frame = command_frame(
-        (struct octet_command_t){.opcode = OPCODE_START, .counter = 1, .owner = OURS, .lockstep = lockstep});
-    enum arrival arrival = session_command(&session, &frame, &why);
+    const struct request request = {
+        .command = {.opcode = OPCODE_START}, .counter = 1, .owner = OURS, .lockstep = lockstep};
+    enum arrival arrival = session_request(&session, &request, &why);
 
     session_executed(&session, RESULT_DONE);
     return arrival;
@@ -146,6 +145,27 @@ static void test_the_same_command_again_is_told_apart(void)
     TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, command(OPCODE_ERASE, 2, OURS));
 }
 
+static void test_a_command_that_differs_in_anything_is_another(void)
+{
+    static const struct request first = {{OPCODE_SET, 1, 2}, 3, OURS, false};
+    static const struct request others[] = {
+        {{OPCODE_GET, 1, 2}, 3, OURS, false}, {{OPCODE_SET, 2, 2}, 3, OURS, false},
+        {{OPCODE_SET, 1, 3}, 3, OURS, false}, {{OPCODE_SET, 1, 2}, 4, OURS, false},
+        {{OPCODE_SET, 1, 2}, 3, THEIRS, false}, {{OPCODE_SET, 1, 2}, 3, OURS, true},
+    };
+
+    for (unsigned i = 0; i < sizeof others / sizeof *others; i++) {
+        TEST_ASSERT_EQUAL(ARRIVAL_FRESH, session_request(&session, &first, &why));
+        TEST_ASSERT_EQUAL(ARRIVAL_FRESH, session_request(&session, &others[i], &why));
+    }
+}
+
+static void test_the_first_command_is_none_again_whatever_it_is(void)
+{
+    TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command((enum opcode)0, 0, 0));
+    TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, command((enum opcode)0, 0, 0));
+}
+
 static void test_any_tick_may_be_the_first(void)
 {
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, tick(200));
@@ -242,6 +262,8 @@ int main(void)
     RUN_TEST(test_the_owners_counter_goes_on_by_1_to_7);
     RUN_TEST(test_an_owners_old_stop_does_not_stop_the_robot);
     RUN_TEST(test_the_same_command_again_is_told_apart);
+    RUN_TEST(test_a_command_that_differs_in_anything_is_another);
+    RUN_TEST(test_the_first_command_is_none_again_whatever_it_is);
     RUN_TEST(test_any_tick_may_be_the_first);
     RUN_TEST(test_up_to_14_ticks_ahead_are_fresh);
     RUN_TEST(test_ticks_that_were_left_out_are_counted);

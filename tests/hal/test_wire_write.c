@@ -103,6 +103,16 @@ static void test_a_report_is_spread_over_the_drives_of_many_ticks(void)
     }
 }
 
+static void test_a_new_memory_holds_the_report_up(void)
+{
+    static const uint32_t ids[] = {0x681, 0x681, 0x041}, next[] = {0x6A1, 0x041};
+
+    out = (struct output){.has_report = true, .has_memory = true, .has_drive = true};
+    assert_ids(ids, 3);
+    out = (struct output){.has_drive = true};
+    assert_ids(next, 2);
+}
+
 static void test_in_silence_there_is_a_heartbeat_and_nothing_else(void)
 {
     static const uint32_t ids[] = {0x6A1, 0x041};
@@ -435,6 +445,7 @@ int main(void)
     RUN_TEST(test_all_marks_make_all_frames_the_drive_last);
     RUN_TEST(test_the_last_node_writes_its_own_identifiers);
     RUN_TEST(test_a_report_is_spread_over_the_drives_of_many_ticks);
+    RUN_TEST(test_a_new_memory_holds_the_report_up);
     RUN_TEST(test_in_silence_there_is_a_heartbeat_and_nothing_else);
     RUN_TEST(test_wheel_speeds_keep_sign_and_size);
     RUN_TEST(test_a_drive_arrives_whole);

@@ -1,0 +1,18 @@
+/* frames.h: the frames of one output, while they are being written. */
+#ifndef OCTET_FRAMES_H
+#define OCTET_FRAMES_H
+
+#include "hal/protocol/wire.h"
+
+struct frames {
+    struct frame *first;
+    size_t count;
+};
+
+struct frame *frames_add(struct frames *frames, const struct wire *wire, uint32_t id_of_node_1, uint8_t len);
+        /* One more, with data all 0. */
+
+uint8_t frames_count_up(struct wire *wire, enum counted kind);
+        /* Returns the alive counter for a message of this kind; the next one gets another. */
+
+#endif

@@ -1,0 +1,25 @@
+/* slcan: whatever bytes come, and whatever frame is written. */
+#include "hal/link/slcan.h"
+#include "tests/proof/any.h"
+
+static void write_any_frame(void)
+{
+    char text[SLCAN_TEXT_MAX];
+    struct frame frame = {.id = any_u32, .len = any_between(0, sizeof frame.data)};
+
+    for (unsigned i = 0; i < sizeof frame.data; i++)
+        frame.data[i] = any_u8;
+    (void)slcan_encode(text, &frame);
+}
+
+int main(void)
+{
+    struct slcan_decoder decoder = {.len = 0};
+    struct frame frame;
+
+    while (any_bool()) {
+        (void)slcan_decode(&decoder, (char)any_u8, &frame);
+        write_any_frame();
+    }
+    return 0;
+}
