@@ -17,7 +17,8 @@ def folder(tmp_path, monkeypatch):
     c_interface.cache_clear()
 
 
-def test_what_was_read_is_not_read_again(folder, monkeypatch):
+@pytest.mark.usefixtures("folder")
+def test_what_was_read_is_not_read_again(monkeypatch):
     c_interface(DECLARATIONS)
     c_interface.cache_clear()
     monkeypatch.setattr(cffi, "FFI", None)
