@@ -1,11 +1,15 @@
 """`python -m host_sim`: the same as `tools/octet`."""
 
+import gc
 import signal
 import sys
+
+_OBJECTS_A_COLLECTION = 50_000
 
 
 def _main() -> int:
     """Runs the command; until it is loaded, Ctrl-C ends the process without a traceback."""
+    gc.set_threshold(_OBJECTS_A_COLLECTION)  # what is loaded is no garbage, and looking for some takes time
     interruptible = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if interruptible:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

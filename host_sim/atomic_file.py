@@ -2,7 +2,6 @@
 
 import os
 import stat
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -32,6 +31,8 @@ def replacing(path: Path) -> Iterator[Path]:
     Raises:
         OctetError: The file cannot be written, or is not a regular file, such as a device.
     """
+    import tempfile  # noqa: PLC0415 - a run begins sooner, for it ends with this
+
     try:
         target = Path(os.path.realpath(path))
         before = target.stat() if target.exists() else None

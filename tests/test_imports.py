@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.cli.main import main
+
 ROOT = Path(__file__).resolve().parent.parent
 LINT_IMPORTS = "from importlinter.cli import lint_imports_command; lint_imports_command()"
 
@@ -81,9 +83,61 @@ def test_an_exception_that_is_no_longer_needed_is_found(project):
     assert lint(project).returncode != 0
 
 
-def test_a_run_in_this_process_imports_nothing_that_only_others_need():
-    script = "import sys, host_sim.sim.make; print(*{'aiohttp', 'can', 'cantools', 'PIL'} & set(sys.modules))"
+ELSEWHERE = {
+    "PIL",
+    "aiohttp",
+    "asyncio",
+    "can",
+    "cantools",
+    "concurrent",
+    "gymnasium",
+    "host_sim.backends.qemu",
+    "host_sim.faults.faulty_link",
+    "host_sim.live.server",
+    "host_sim.report",
+    "host_sim.study",
+    "multiprocessing",
+    "pandas",
+    "pyarrow",
+    "pycparser",
+    "subprocess",
+}
+"""What only other runs and other commands need, or a run later than in its first tick."""
+
+
+def loaded_at_the_first_tick(folder: Path, first: str = "") -> set[str]:
+    """What of all this a run in this process has loaded then."""
+    module = "host_sim.bench.first_tick"
+    script = f"{first}\nimport runpy; runpy.run_module({module!r}, run_name='__main__', alter_sys=True)"
+    command = [sys.executable, "-c", script, str(folder), *ELSEWHERE]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    return set(done.stdout.split()[1:])
+
+
+def test_a_run_in_this_process_loads_nothing_that_only_others_need(tmp_path):
+    loaded_at_the_first_tick(tmp_path)  # the first run after a build reads C code, and keeps what it read
+
+    assert loaded_at_the_first_tick(tmp_path) == set()
+
+
+def test_what_is_loaded_in_vain_is_found(tmp_path):
+    assert loaded_at_the_first_tick(tmp_path, "import PIL, host_sim.report") == {"PIL", "host_sim.report"}
+
+
+def test_only_the_command_that_is_called_is_loaded():
+    script = "import sys, host_sim.cli.main as m; m.main(['load']); print(*sys.modules)"
 
     done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
 
-    assert done.stdout.split() == []
+    commands = {name for name in done.stdout.split() if name.endswith("_command")}
+    assert commands == {"host_sim.cli.load_command"}
+
+
+@pytest.mark.parametrize("module", sorted(path.stem for path in (ROOT / "host_sim/cli").glob("*_command.py")))
+def test_a_command_has_the_name_of_its_module(module, capsys):
+    name = module.removesuffix("_command")
+
+    with pytest.raises(SystemExit):
+        main([name, "--help"])
+
+    assert capsys.readouterr().out.startswith(f"usage: tools/octet {name} ")

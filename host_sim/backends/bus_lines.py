@@ -3,13 +3,15 @@
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from host_sim.protocol.codec import Protocol
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
-from host_sim.transport.reconnecting_link import ReconnectingLink
-from host_sim.transport.shared_line import SharedLine
+
+if TYPE_CHECKING:
+    from host_sim.transport.shared_line import SharedLine
 
 
 @dataclass
@@ -27,7 +29,7 @@ class BusLines:
     nodes: Sequence[int]
     bitrate: int = BIT_RATE
     reconnect_s: float = 0.0
-    _shared: SharedLine | None = None
+    _shared: "SharedLine | None" = None
     _shared_stats: LineStats = field(default_factory=LineStats)
 
     def open(self, stack: ExitStack, node: int) -> tuple[Link, LineStats]:
@@ -44,13 +46,16 @@ class BusLines:
             stats = LineStats()
             return self._opened(stack, [node], stats), stats
         if self._shared is None:
+            from host_sim.transport.shared_line import SharedLine  # noqa: PLC0415 - only for a bus that lines share
+
             line = self._opened(stack, self.nodes, self._shared_stats)
             self._shared = SharedLine(line, {other: _ids(other) for other in self.nodes})
         return self._shared.share(node), self._shared_stats
 
     def _opened(self, stack: ExitStack, nodes: Sequence[int], stats: LineStats) -> Link:
-        # A run in this process needs no python-can, which makes up a quarter of its imports' time.
+        # A run in this process needs neither of these, and python-can makes up a quarter of its imports' time.
         from host_sim.transport.buses import open_bus_link  # noqa: PLC0415 - see above
+        from host_sim.transport.reconnecting_link import ReconnectingLink  # noqa: PLC0415 - see above
 
         ids = [frame_id for node in nodes for frame_id in _ids(node)]
         link = ReconnectingLink(

@@ -1,14 +1,11 @@
 """Connects to a robot that is named on the command line, and starts it first where needed."""
 
-import socket
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 
 from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.images import BOARDS
-from host_sim.backends.qemu import Qemu
-from host_sim.backends.robot_process import RobotProcess
 from host_sim.client.robot_client import DEADLINE_S
 from host_sim.errors import UsageError
 from host_sim.transport.in_process_link import InProcessLink
@@ -91,7 +88,12 @@ def _in_emulator(stack: ExitStack, bus: str, robot: str, node: int, board: str) 
     return _in_qemu(stack) if robot == "qemu" else _on_emulated_board(stack, board)
 
 
+# Each way to a robot loads what it needs: a run in this process begins sooner without python-can and processes.
+
+
 def _in_qemu(stack: ExitStack) -> Connection:
+    from host_sim.backends.qemu import Qemu  # noqa: PLC0415 - see above
+
     qemu = Qemu()
     stack.callback(qemu.close)
     qemu.link.explain = qemu.account_for_silence
@@ -106,10 +108,10 @@ def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
     return Connection(board, f"emulated {name}", board.status, deadline_s=_EMULATED_S)
 
 
-# A run in this process needs no python-can, which makes up a quarter of its imports' time.
-
-
 def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
+    import socket  # noqa: PLC0415 - see above
+
+    from host_sim.backends.robot_process import RobotProcess  # noqa: PLC0415 - see above
     from host_sim.transport.bus_link import BusLink  # noqa: PLC0415 - see above
     from host_sim.transport.socket_pair_bus import SocketPairBus  # noqa: PLC0415 - see above
 
@@ -125,6 +127,8 @@ def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
 
 
 def _over_bus(stack: ExitStack, lines: BusLines, robot: str, node: int) -> Connection:
+    from host_sim.backends.robot_process import RobotProcess  # noqa: PLC0415 - see above
+
     bus = lines.bus
     interface = bus.partition(":")[0]
     link, line = lines.open(stack, node)

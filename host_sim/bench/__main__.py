@@ -11,6 +11,7 @@ from host_sim.bench.image_figures import compare_images, image_figures
 from host_sim.bench.lockstep_figures import lockstep_figures, measure_vcan
 from host_sim.bench.native_equality import compare_loops
 from host_sim.bench.page_figures import page_figures
+from host_sim.bench.start_figures import start_figure
 
 _LOOP_TICKS = 10_000_000
 
@@ -36,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.vcan:
         print(json.dumps(measure_vcan()))
         return 0
-    figures = [*lockstep_figures(), *image_figures(), *page_figures()]
+    figures = [start_figure(), *lockstep_figures(), *image_figures(), *page_figures()]
     print(json.dumps([asdict(figure) for figure in figures], indent=2) if options.json else table(figures))
     return 0 if all(figure.reached for figure in figures) else 1
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from host_sim.atomic_file import write_bytes
 from host_sim.cli.interruption import interrupted_between_ticks
@@ -16,12 +17,7 @@ from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
 from host_sim.errors import DoubtfulError, OctetError
-from host_sim.faults.faulty_link import FaultyLink
-from host_sim.live.browser import watch_run
-from host_sim.live.paced_run import PacedRun
 from host_sim.live.progress import Progress
-from host_sim.live.server import Listener
-from host_sim.live.terminal_view import watch_in_terminal
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS
 from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_path
 from host_sim.recording.run_folder import run_folder
@@ -30,6 +26,9 @@ from host_sim.recording.summary import Summary, environment_line
 from host_sim.regular_file import read_bytes
 from host_sim.sim.make import Memory, make, start_robots
 from host_sim.sim.simulation import Simulation
+
+if TYPE_CHECKING:
+    from host_sim.live.server import Listener
 
 FAULTS = "faults.txt"
 """The faults that were made on purpose, in the folder of a run."""
@@ -70,7 +69,8 @@ def conduct(options: RunOptions) -> Summary:
             simulation = stack.enter_context(
                 make(options.config, log, memories, lambda client: _print_robot(options, client))
             )
-            stack.callback(_write_faults, options.out / FAULTS, simulation.clients)
+            if options.config.faults:
+                stack.callback(_write_faults, options.out / FAULTS, simulation.clients)
             recorder = RunRecorder.of(simulation, _boredom_limit(options))
             _save_memories(stack, simulation, options, loaded)
             outputs = Outputs(options, simulation, recorder, log)
@@ -125,6 +125,8 @@ def _check_trust(summary: Summary) -> None:
 
 def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
     """Writes the faults that were made, as rules for single frames."""
+    from host_sim.faults.faulty_link import FaultyLink
+
     schedules = [client.link.schedule for client in clients if isinstance(client.link, FaultyLink)]
     if schedules:
         rules = [str(rule) for schedule in schedules for rule in schedule.struck]
@@ -177,15 +179,17 @@ def _memory_paths(options: RunOptions) -> list[Path]:
     )
 
 
-def _open_listener(stack: ExitStack, watch: WatchOptions | None) -> Listener | None:
+def _open_listener(stack: ExitStack, watch: WatchOptions | None) -> "Listener | None":
     if watch is None or watch.terminal:
         return None
+    from host_sim.live.server import Listener  # a run that nobody watches begins without the server
+
     listener = Listener(watch.listen, watch.port)
     stack.callback(listener.socket.close)
     return listener
 
 
-def _simulate(outputs: Outputs, listener: Listener | None) -> None:
+def _simulate(outputs: Outputs, listener: "Listener | None") -> None:
     if outputs.options.watch is None:
         _run_through(outputs)
     else:
@@ -219,8 +223,10 @@ def _each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], o
     return watch
 
 
-def _show(outputs: Outputs, watch: WatchOptions, listener: Listener | None) -> None:
+def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") -> None:
     """Runs with people watching: in the browser, or in the terminal if there is no listener."""
+    from host_sim.live.paced_run import PacedRun
+
     simulation, options = outputs.simulation, outputs.options
     live = PacedRun(
         simulation,
@@ -232,8 +238,12 @@ def _show(outputs: Outputs, watch: WatchOptions, listener: Listener | None) -> N
         speed=watch.speed,
     )
     if listener is None:
+        from host_sim.live.terminal_view import watch_in_terminal
+
         watch_in_terminal(live)
         return
+    from host_sim.live.browser import watch_run
+
     if options.talks:
         live.ended = lambda episode: print(environment_line(len(live.episodes), episode))
     watch_run(live, listener, lambda line: print(line, file=sys.stdout if options.talks else sys.stderr, flush=True))

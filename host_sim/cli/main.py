@@ -1,4 +1,4 @@
-"""The command line, `tools/octet COMMAND ...`. Each module of this package named *_command adds one command."""
+"""The command line, `tools/octet COMMAND ...`. Each module NAME_command of this package adds a command NAME."""
 
 import contextlib
 import importlib
@@ -7,12 +7,14 @@ import pkgutil
 import signal
 import sys
 from collections.abc import Iterator, Sequence
-from types import FrameType, ModuleType
+from types import FrameType
 from typing import NoReturn
 
 from host_sim import cli
 from host_sim.cli.parsing import Parser
 from host_sim.errors import OctetError
+
+_SUFFIX = "_command"
 
 
 class _EndedBySignal(KeyboardInterrupt):
@@ -51,9 +53,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(arguments: Sequence[str] | None) -> int:
     parser = Parser(prog="tools/octet", description="Octet: a robot that learns with eight bytes of memory.")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
-    for module in _command_modules():
-        module.add(commands)
-    parsed = parser.parse_args(arguments)
+    given = sys.argv[1:] if arguments is None else arguments
+    for name in _modules_for(given):
+        importlib.import_module(f"host_sim.cli.{name}").add(commands)
+    parsed = parser.parse_args(given)
     code: int = parsed.command(parsed)
     return code
 
@@ -75,7 +78,8 @@ def _raise_end(number: int, _frame: FrameType | None) -> NoReturn:
     raise _EndedBySignal(number)
 
 
-def _command_modules() -> Iterator[ModuleType]:
-    for info in pkgutil.iter_modules(cli.__path__):
-        if info.name.endswith("_command"):
-            yield importlib.import_module(f"host_sim.cli.{info.name}")
+def _modules_for(arguments: Sequence[str]) -> list[str]:
+    """The module of the command that is called, so that it does not wait for the others to load; else all modules."""
+    names = [info.name for info in pkgutil.iter_modules(cli.__path__) if info.name.endswith(_SUFFIX)]
+    called = arguments[0].replace("-", "_") + _SUFFIX if arguments else ""
+    return [called] if called in names else names

@@ -11,8 +11,6 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
 from host_sim.recording.world_file import world_path, write_world
-from host_sim.report.picture import write_picture
-from host_sim.report.replay_page import write_page
 from host_sim.sim.simulation import EpisodeResult, Simulation
 
 LOG, SUMMARY, PICTURE, PAGE = "run.log", "summary.json", "arena.png", "replay.html"
@@ -74,6 +72,10 @@ class Outputs:
         return digest
 
     def _draw(self) -> None:
+        # Loaded late: a run begins the sooner.
+        from host_sim.report.picture import write_picture
+        from host_sim.report.replay_page import write_page
+
         trajectory = self.recorder.trajectory
         if trajectory.ticks:
             write_picture(self.options.out / PICTURE, trajectory)

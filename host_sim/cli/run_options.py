@@ -1,13 +1,13 @@
 """The command-line options for a run."""
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 
 from host_sim.backends.images import BOARDS
 from host_sim.cli.parsing import add_bitrate, number, setting
 from host_sim.faults.bus_faults import FAULTS
-from host_sim.faults.rule import read_rules
 from host_sim.protocol.generated import NODE_MAX, PROFILES
 from host_sim.sim.run_config import ROBOTS, RunConfig
 from host_sim.world.world_names import WORLD_NAMES
@@ -207,6 +207,14 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
     world_of(arguments.world)  # a mistake in it is found before anything is begun
     names = {field.name for field in fields(RunConfig)} & vars(arguments).keys()
     given = {name: getattr(arguments, name) for name in names}
-    faults = tuple(rule for text in arguments.fault for rule in read_rules(text))
-    config = RunConfig(**{**given, "settings": dict(arguments.set), "bus": bus, "faults": faults})
+    config = RunConfig(**{**given, "settings": dict(arguments.set), "bus": bus, "faults": _rules(arguments.fault)})
     return RunOptions(config, arguments.memory, arguments.out, arguments.quiet, arguments.json, watch)
+
+
+def _rules(texts: Sequence[str]) -> tuple[str, ...]:
+    """The rules that the command line gives for faults."""
+    if not texts:
+        return ()
+    from host_sim.faults.rule import read_rules
+
+    return tuple(rule for text in texts for rule in read_rules(text))

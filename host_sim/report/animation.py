@@ -2,10 +2,9 @@
 
 from dataclasses import dataclass
 from io import BytesIO
-from itertools import combinations
 from pathlib import Path
 
-from PIL import Image, ImageColor, ImageFont
+from PIL import Image, ImageFont
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import UsageError
@@ -16,9 +15,6 @@ from host_sim.report.drawing import (
     CONE_LIT,
     FLOOR,
     FOOD_MM,
-    INK,
-    MARKS,
-    OBSTACLE,
     PAPER,
     Plan,
     draw_cell,
@@ -29,6 +25,7 @@ from host_sim.report.drawing import (
     draw_trail,
     write,
 )
+from host_sim.report.palette import BEAM, IN_USE, LEARNED, in_palette
 from host_sim.view.history import Lesson
 from host_sim.view.phrases import lesson_sentence, sentence
 from host_sim.view.state import State
@@ -44,9 +41,7 @@ _HOLD_MS = 1000
 _TRAIL_S = 12.0
 _MARGIN_PX, _LINE_PX, _TEXT_PX = 10, 26, 15
 _CLOCK_PX = 70
-_BEAM, _IN_USE, _LEARNED = "#d8efe7", "#fdeecb", "#bfe5d8"
 _TURNING = (Reason.REMEMBERED, Reason.TRIAL)
-_COLOURS = (PAPER, FLOOR, INK, OBSTACLE, CONE_LIT, CONE_DARK, _BEAM, _IN_USE, _LEARNED)
 
 
 @dataclass(frozen=True)
@@ -74,10 +69,9 @@ def write_gif(path: Path, trajectory: Trajectory, clip: Clip) -> None:
         OctetError: The file cannot be written.
     """
     ticks = _frame_ticks(trajectory, clip)
-    holds, palette = _holds(trajectory, clip), _palette()
+    holds = _holds(trajectory, clip)
     durations = [_FRAME_MS + holds.get(tick, 0) for tick in ticks]
-    frames = (draw_frame(trajectory, tick, clip.width_px) for tick in ticks)
-    first, *others = (frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames)
+    first, *others = (in_palette(draw_frame(trajectory, tick, clip.width_px)) for tick in ticks)
     content = BytesIO()
     first.save(content, "GIF", save_all=True, append_images=others, duration=durations, loop=0)
     write_bytes(path, content.getvalue())
@@ -123,26 +117,13 @@ def _holds(trajectory: Trajectory, clip: Clip) -> dict[int, int]:
     return {tick: round(_HOLD_MS / clip.speed) for tick, kind in trajectory.events() if kind != "environment"}
 
 
-def _palette() -> Image.Image:
-    """The colours of all frames, each with its blends into paper and floor and half-way into every other."""
-    bases = dict.fromkeys(
-        ImageColor.getrgb(colour) for colour in (*_COLOURS, *(mark.colour for mark in MARKS.values()))
-    )
-    blends = [(a, b, 0.5) for a, b in combinations(bases, 2)]
-    blends += [(a, ImageColor.getrgb(b), part) for a in bases for b in (PAPER, FLOOR) for part in (0.25, 0.75)]
-    mixed = [tuple(round(x + (y - x) * part) for x, y in zip(a, b, strict=True)) for a, b, part in blends]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette([value for colour in [*bases, *mixed] for value in colour])
-    return palette
-
-
 def _draw_arena(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image:
     params, scene = trajectory.params, at(trajectory.scenes, tick)
     states = [trajectory.at(tick, robot) for robot in range(len(trajectory.tracks))]
     plan = Plan(params.width_mm, params.height_mm, width_px, FLOOR)
     for state in states:
         if state["beacon"]:
-            plan.line([_pose(state)[:2], ahead_of(_pose(state), state["beacon"])], params.beam_width_mm, _BEAM)
+            plan.line([_pose(state)[:2], ahead_of(_pose(state), state["beacon"])], params.beam_width_mm, BEAM)
     for track in trajectory.tracks:
         _draw_trail(plan, trajectory, track, tick)
     for state in states:
@@ -178,7 +159,7 @@ def _draw_memory(state: State, lesson: Lesson | None, params: SimParams, width_p
     """The cells with their content. The cell just learned, else the one in use or on trial, is highlighted."""
     row = Image.new("RGB", (CELL_COUNT * width_px, width_px), PAPER)
     in_use = state["pattern"] if state["reason"] in _TURNING else None
-    lit, lit_colour = (lesson["cell"], _LEARNED) if lesson else (in_use, _IN_USE)
+    lit, lit_colour = (lesson["cell"], LEARNED) if lesson else (in_use, IN_USE)
     for pattern, side in enumerate(state["memory"]):
         colour = lit_colour if pattern == lit else PAPER
         cell = Image.new("RGB", (width_px, width_px), colour)

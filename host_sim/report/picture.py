@@ -28,6 +28,7 @@ from host_sim.report.drawing import (
     draw_trail,
     write,
 )
+from host_sim.report.palette import in_palette
 from host_sim.view.state import EnvironmentScene
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.params import SimParams
@@ -75,7 +76,7 @@ def write_picture(path: Path, trajectory: Trajectory) -> None:
     panels = [_panel(trajectory, first, end) for first, end in pairwise([*begun, trajectory.ticks])]
     memories = {track.node: at(track.memories, trajectory.ticks - 1) for track in trajectory.tracks}
     content = BytesIO()
-    draw_run(trajectory.params, panels, memories).save(content, "PNG", optimize=True)
+    draw_run(trajectory.params, panels, memories).save(content, "PNG")
     write_bytes(path, content.getvalue())
 
 
@@ -113,7 +114,7 @@ def draw_run(params: SimParams, panels: Sequence[Panel], memories: Mapping[int, 
     rows += _environment_rows(panels[-_MOST_ENVIRONMENTS:], params)
     for node, memory in list(memories.items())[:_MOST_MEMORIES]:
         rows.append(_memory_row(f"Robot {node}" if len(memories) > 1 else "The robot", memory, params))
-    return _stacked(rows).quantize()
+    return in_palette(_stacked(rows))
 
 
 def omissions(environments: int, robots: int) -> list[str]:

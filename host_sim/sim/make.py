@@ -11,9 +11,6 @@ from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.errors import RefusedError, UsageError
-from host_sim.faults.faulty_link import FaultyLink
-from host_sim.faults.rule import Rule
-from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
@@ -149,5 +146,10 @@ def _with_faults(connection: Connection, config: RunConfig, node: int) -> tuple[
     clock = VirtualClock() if connection.answers_at_once and config.faults else WallClock()
     if not config.faults:
         return connection.link, clock.now
+    # A run without faults, as most are, begins without loading them.
+    from host_sim.faults.faulty_link import FaultyLink  # noqa: PLC0415 - see above
+    from host_sim.faults.rule import Rule  # noqa: PLC0415 - see above
+    from host_sim.faults.schedule import Schedule  # noqa: PLC0415 - see above
+
     schedule = Schedule([Rule.parse(rule) for rule in config.faults], config.fault_seed, Protocol(node))
     return FaultyLink(connection.link, schedule, clock), clock.now

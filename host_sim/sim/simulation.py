@@ -1,6 +1,5 @@
 """A run: robots in one environment after the other, their memories carried over."""
 
-import logging
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -18,8 +17,6 @@ from host_sim.world.geometry import Point
 from host_sim.world.layouts import Layout, World
 from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
-
-_LOG = logging.getLogger(__name__)
 
 
 @dataclass
@@ -190,7 +187,7 @@ class Simulation:
             self.loop.enter(self.arena, self.params, self.plain)
         except NoNativeError as error:
             self.native, self.loop = False, None
-            _LOG.warning("octet: ticks are slower, for they run in Python: %s; tools/setup may help", error)
+            _warn(f"octet: ticks are slower, for they run in Python: {error}; tools/setup may help")
 
     def step(self, ticks_max: int = 1) -> None:
         """Simulates one tick or, where the loop in C can be used, a block of ticks.
@@ -264,3 +261,9 @@ class Simulation:
 
     def _set_time(self, tick: int) -> None:
         self.clients[0].log.set_time(round(tick * self.params.tick_s * 1e6))
+
+
+def _warn(line: str) -> None:
+    import logging  # noqa: PLC0415 - which a run that has nothing to say begins sooner without
+
+    logging.getLogger(__name__).warning(line)

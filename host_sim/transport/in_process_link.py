@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import cffi
-
+from host_sim.c_interface import c_interface
 from host_sim.errors import OctetError
 from host_sim.paths import BUILD
 from host_sim.protocol.codec import Frame
@@ -25,7 +24,7 @@ void octet_close(struct octet *octet);
 """
 
 
-def load_library(ffi: cffi.FFI, path: Path = LIBRARY) -> Any:
+def load_library(ffi: Any, path: Path = LIBRARY) -> Any:
     """The firmware as a library.
 
     Raises:
@@ -59,10 +58,11 @@ class InProcessLink:
         Raises:
             OctetError: The library cannot be loaded.
         """
-        self._ffi = cffi.FFI()
-        self._ffi.cdef(_DECLARATIONS)
-        self._library = load_library(self._ffi, library)
-        self._octet = self._ffi.gc(self._library.octet_open(node, bytes(memory)), self._library.octet_close)
+        self._ffi = c_interface(_DECLARATIONS)
+        self._library = loaded = load_library(self._ffi, library)
+        opened = loaded.octet_open(node, bytes(memory))
+        # This function holds the library, which else might be unloaded before the robot is closed.
+        self._octet = self._ffi.gc(opened, lambda octet: loaded.octet_close(octet))  # noqa: PLW0108 - see above
         self._in: Any = self._ffi.new("struct frame *")
         self._out: Any = self._library.octet_answers(self._octet)
         self._answers: deque[Frame] = deque()

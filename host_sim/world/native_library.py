@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import cffi
+from host_sim.c_interface import c_interface
 
 
 class NoNativeError(Exception):
@@ -28,10 +28,7 @@ def load_native(library: Path, prefix: str, headers: Sequence[Path]) -> tuple[An
     """
     if not library.exists():
         raise NoNativeError(f"{library.name} is missing")
-    ffi: Any = cffi.FFI()
-    ffi.cdef(f"const char *{prefix}stamp(void);")
-    for header in headers:
-        ffi.cdef(declarations(header))
+    ffi = c_interface("\n".join((f"const char *{prefix}stamp(void);", *map(declarations, headers))))
     try:
         loaded = ffi.dlopen(os.fspath(library))
         stamp: Any = ffi.string(getattr(loaded, f"{prefix}stamp")())

@@ -47,7 +47,7 @@ def busy_panel(seed: int) -> Panel:
 
 def png(*panels: Panel, memory: Sequence[int] = EMPTY_MEMORY) -> bytes:
     content = BytesIO()
-    draw_run(PARAMS, panels, {1: memory}).save(content, "PNG", optimize=True)
+    draw_run(PARAMS, panels, {1: memory}).save(content, "PNG")
     return content.getvalue()
 
 
@@ -135,7 +135,7 @@ def test_a_run_without_environments_or_with_too_few_cells_is_refused(environment
 
 def test_each_of_several_robots_has_its_path_and_its_memory() -> None:
     alone = draw_run(PARAMS, [panel()], {1: EMPTY_MEMORY})
-    trail = [(2600.0, 1500.0, 1), (2900.0, 1500.0, 5), (2900.0, 900.0, 1)]
+    trail = [(2900.0, 1500.0, 1), (2900.0, 1500.0, 5), (2900.0, 900.0, 1)]
     two = Panel(SCENE, (0,), 145.0, [(), trail], [START, Pose(2600.0, 1500.0, 0.0)], [1, 2])
 
     both = draw_run(PARAMS, [two], {1: EMPTY_MEMORY, 2: LEARNED_MEMORY})

@@ -48,7 +48,7 @@ def octet(*words: str | Path) -> Ended:
     """`tools/octet WORDS` by a call in this process, and without its picture: a hundred of them are to be cheap."""
     output, errors = io.StringIO(), io.StringIO()
     with (
-        mock.patch("host_sim.cli.outputs.write_picture", lambda path, _: path.touch()),
+        mock.patch("host_sim.report.picture.write_picture", lambda path, _: path.touch()),
         mock.patch("os.execve", side_effect=AssertionError("`--bus auto` needs a process of its own")),
         contextlib.redirect_stdout(output),
         contextlib.redirect_stderr(errors),

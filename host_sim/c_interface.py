@@ -1,0 +1,64 @@
+"""Interfaces to C code, made from its declarations. Reading C takes a third of a start, so each is read only once."""
+
+import contextlib
+import hashlib
+import importlib.util
+import io
+import sys
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import _cffi_backend
+
+from host_sim.paths import BUILD
+
+FOLDER = BUILD / "cffi"
+"""What was read, as modules of Python."""
+
+
+@cache
+def c_interface(declarations: str) -> Any:
+    """An interface to C code: all that an `FFI` object of cffi has, except that it takes no more declarations.
+
+    >>> ffi = c_interface("struct point { int x, y; };")
+    >>> ffi.new("struct point *", (3, 4)).y
+    4
+
+    Args:
+        declarations: What the C code declares, as `FFI.cdef` reads it.
+    """
+    made_by = f"{_cffi_backend.__version__} {sys.implementation.cache_tag}"
+    name = "octet_" + hashlib.sha256(f"{made_by}\n{declarations}".encode()).hexdigest()[:16]
+    path = FOLDER / f"{name}.py"
+    try:
+        if not path.exists():
+            _write(path, declarations)
+        return _load(path)
+    except OSError:
+        return _read(declarations)  # nobody may write here, or the disk is full
+
+
+def _read(declarations: str) -> Any:
+    import cffi  # noqa: PLC0415 - which takes time that a start seldom needs
+
+    ffi: Any = cffi.FFI()
+    ffi.cdef(declarations)
+    return ffi
+
+
+def _write(path: Path, declarations: str) -> None:
+    """Writes the module. Processes may do so at once, for cffi renames it when it is complete."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    ffi = _read(declarations)
+    ffi.set_source(path.stem, None)
+    with contextlib.redirect_stdout(io.StringIO()):  # where cffi says that it writes
+        ffi.emit_python_code(str(path))
+
+
+def _load(path: Path) -> Any:
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    assert spec and spec.loader  # noqa: PT018 - it ends in .py
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.ffi
