@@ -13,24 +13,24 @@ static void take_any_parameters(struct config *config)
 
 static void take_any_senses(struct senses *senses)
 {
-    senses->tick = any_u8;
-    senses->feel = any_u8 & FEEL_ALL;
+    senses->tick = any_u8();
+    senses->feel = any_u8() & FEEL_ALL;
     senses->bump = any_bool();
     senses->look = any_bool();
-    senses->beacon_mm = any_u16;
-    senses->odometer_left = any_u16;
-    senses->odometer_right = any_u16;
+    senses->beacon_mm = any_u16();
+    senses->odometer_left = any_u16();
+    senses->odometer_right = any_u16();
     for (unsigned i = 0; i < FEEL_COUNT; i++)
-        senses->range_mm[i] = any_u8;
+        senses->range_mm[i] = any_u8();
 }
 
 static void take_any_command(struct command *command)
 {
-    uint8_t opcode = any_u8;
+    uint8_t opcode = any_u8();
 
     command->opcode = opcode == OPCODE_SET ? OPCODE_REPORT : (enum opcode)opcode;
-    command->which = any_u8;
-    command->value = any_u32;
+    command->which = any_u8();
+    command->value = any_u32();
 }
 
 static void wake_with_any_memory(struct robot *robot)
@@ -38,24 +38,23 @@ static void wake_with_any_memory(struct robot *robot)
     uint8_t cells[CELL_COUNT];
 
     for (unsigned p = 0; p < CELL_COUNT; p++)
-        cells[p] = any_u8;
-    robot_init(robot, any_u32);
+        cells[p] = any_u8();
+    robot_init(robot, any_u32());
     (void)brain_adopt(&robot->brain, cells);
 }
 
-int main(void)
+void exercise(void)
 {
     struct robot robot;
     struct input in;
     struct output out;
 
     wake_with_any_memory(&robot);
-    while (any_bool()) {
+    while (any_more()) {
         take_any_parameters(&robot.config);
         take_any_senses(&in.senses);
         take_any_command(&in.command);
         robot_respond(&robot, any_bool() ? INPUT_SENSES : any_bool() ? INPUT_COMMAND : INPUT_SILENCE, &in, &out);
         //@ assert fits_the_wire: !out.has_drive || (-2047 <= out.drive.left_mm_s <= 2047 && -2047 <= out.drive.right_mm_s <= 2047);
     }
-    return 0;
 }

@@ -5,21 +5,20 @@
 static void write_any_frame(void)
 {
     char text[SLCAN_TEXT_MAX];
-    struct frame frame = {.id = any_u32, .len = any_between(0, sizeof frame.data)};
+    struct frame frame = {.id = any_u32(), .len = any_between(0, sizeof frame.data)};
 
     for (unsigned i = 0; i < sizeof frame.data; i++)
-        frame.data[i] = any_u8;
+        frame.data[i] = any_u8();
     (void)slcan_encode(text, &frame);
 }
 
-int main(void)
+void exercise(void)
 {
     struct slcan_decoder decoder = {.len = 0};
     struct frame frame;
 
-    while (any_bool()) {
-        (void)slcan_decode(&decoder, (char)any_u8, &frame);
+    while (any_more()) {
+        (void)slcan_decode(&decoder, (char)any_u8(), &frame);
         write_any_frame();
     }
-    return 0;
 }

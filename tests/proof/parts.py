@@ -1,0 +1,18 @@
+"""The parts that are proved and fuzzed: each has a harness NAME.c here, and these sources."""
+
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+HERE = Path(__file__).parent
+GENERATED = ROOT / "build/host-san/generated"
+INCLUDED = (f"-I{ROOT}", f"-I{GENERATED}", "-DOCTET_VERSION_MAJOR=1", "-DOCTET_VERSION_MINOR=0")
+
+_CORE = sorted({*(ROOT / "firmware").rglob("*.c")} - {ROOT / "firmware/main.c"})
+
+PARTS = {
+    "core": _CORE,
+    "config": _CORE,
+    "wire": [*sorted((ROOT / "hal/protocol").glob("*.c")), *_CORE, GENERATED / "octet.c"],
+    "slcan": [ROOT / "hal/link/slcan.c"],
+    "store": [ROOT / "hal/flash_store/flash_store.c", ROOT / "hal/flash_store/crc32.c"],
+}
