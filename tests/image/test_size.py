@@ -13,7 +13,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.image_size.stack import CallGraph, StackError, worst_stack  # noqa: E402 - found by the line above
+from tools.image_size.pieces import read_pieces  # noqa: E402 - found by the line above
+from tools.image_size.stack import CallGraph, StackError, worst_stack  # noqa: E402
 
 GRAPH = """
 node: { title: "top" label: "top\\na.c:1:1\\n16 bytes (static)" }
@@ -40,9 +41,10 @@ def graph(text: str) -> CallGraph:
     return made
 
 
-def test_everything_is_within_its_budget_but_for_one_limit_that_was_lowered(tmp_path: Path) -> None:
+def test_everything_is_within_its_budget_but_for_the_limits_that_were_lowered(tmp_path: Path) -> None:
     budget = json.loads((ROOT / "tools" / "size_budget.json").read_text())
-    budget["limits"]["octet-blue_pill-bxcan"]["flash"] = 4000
+    budget["limits"]["octet-blue_pill-bxcan"] |= {"flash": 4000, "stack": 200}
+    budget["limits"]["worst tick on blue_pill"]["instructions"] = 1000
     tight = tmp_path / "budget.json"
     tight.write_text(json.dumps(budget))
 
@@ -51,10 +53,21 @@ def test_everything_is_within_its_budget_but_for_one_limit_that_was_lowered(tmp_
 
     over = [line.split() for line in result.stdout.splitlines() if "OVER ITS LIMIT" in line]
     assert result.returncode == 1, result.stderr
-    assert [line[0] for line in over] == ["flash"], result.stdout
+    assert [line[0] for line in over] == ["flash", "stack", "instructions"], result.stdout
     tables = {line for line in result.stdout.splitlines() if not line.startswith(" ")}
     assert {"octet-blue_pill-bxcan", "octet-feather_stm32f405-slcan", "octet-nucleo_g431rb-fdcan"} <= tables
     assert {"core on Cortex-M0", "core on RV32"} <= tables
+
+
+def test_nearly_all_of_an_image_is_known_by_its_file() -> None:
+    pieces = read_pieces(ROOT / "build" / "blue_pill" / "octet-blue_pill-bxcan.elf")
+
+    flash = sum(piece.flash for piece in pieces)
+    motion = [piece for piece in pieces if piece.module == "motion"]
+    rest = [piece.flash for piece in pieces if piece.module == "rest"]
+    assert sum(piece.flash for piece in motion) > 300
+    assert "startup_reset" in {piece.symbol for piece in motion}, "nothing was put into the main loop"
+    assert 0 <= sum(rest) < flash // 50
 
 
 @pytest.mark.parametrize(("flash", "code"), [(100, 0), (101, 1)])

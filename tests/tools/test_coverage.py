@@ -11,6 +11,7 @@ sys.path.insert(0, str(ROOT))
 
 from tools.branch_coverage.measure import Gap, MeasureError, measure  # noqa: E402 - found by the line above
 from tools.branch_coverage.reasons import compare, read  # noqa: E402
+from tools.reason_table import TableError  # noqa: E402
 
 SOURCE = """int main(int argc, char *argv[])
 {
@@ -93,5 +94,5 @@ def test_a_table_with_parts_missing_is_an_error(tmp_path, text):
     table = tmp_path / "table.toml"
     table.write_text(text)
 
-    with pytest.raises(MeasureError):
+    with pytest.raises(TableError):
         read(table)

@@ -18,7 +18,7 @@ function(octet_define_pins target)
   target_compile_definitions(${target} PRIVATE OCTET_LED_HIGH=${OCTET_LED_HIGH} OCTET_CRYSTAL_MHZ=${OCTET_CRYSTAL_MHZ})
 endfunction()
 
-# octet_image(LINK LIBRARY...): the robot on this board, over that link: .elf, .bin, .hex and .map.
+# octet_image(LINK LIBRARY...): the robot on this board, over that link: .elf, .bin and .hex.
 function(octet_image link)
   set(image octet-${OCTET_BOARD}-${link})
   set(script ${OCTET_STM32}/${OCTET_CHIP}/${OCTET_CHIP}.ld)
@@ -26,7 +26,7 @@ function(octet_image link)
   add_executable(${image})
   target_link_libraries(${image} PRIVATE
     octet_main octet_core octet_can_body octet_flash_store octet_cortex_m ${ARGN})
-  target_link_options(${image} PRIVATE -T ${script} -L ${sections} -Wl,-Map=${PROJECT_BINARY_DIR}/${image}.map)
+  target_link_options(${image} PRIVATE -T ${script} -L ${sections})
   set_target_properties(${image} PROPERTIES
     SUFFIX .elf
     RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}

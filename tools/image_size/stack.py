@@ -1,8 +1,8 @@
-"""The worst stack of an image, from the call graphs that the compiler leaves beside its objects."""
+"""The worst stack of an image, from the call graphs that the compiler leaves beside what it makes."""
 
 import re
 from collections import defaultdict
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -60,22 +60,22 @@ class CallGraph:
         return self.frames.get(function, LIBRARY) + deepest, [function, *way]
 
 
-def read_graph(build: Path, objects: Collection[str]) -> CallGraph:
-    """The call graph of the objects of an image, as built in a folder.
+def read_graph(build: Path, image: str) -> CallGraph:
+    """The call graph of an image: what was compiled as it was linked, and the files that were compiled before.
 
     Args:
         build: The build folder.
-        objects: Names of object files, such as `crc8.c.obj`.
+        image: The image's name.
 
     Raises:
         StackError: It is missing, or says that the stack cannot be known.
     """
     graph = CallGraph()
-    for path in sorted(build.rglob("*.ci")):
-        if path.with_suffix(".obj").name in objects:
-            graph.add(path.read_text())
-    if not graph.frames:
-        raise StackError(f"no call graph in {build}")
+    linked = sorted(build.glob(f"{image}.elf.ltrans*.ci"))
+    if not linked:
+        raise StackError(f"no call graph of {image} in {build}")
+    for path in (*linked, *sorted(build.glob("*/**/*.ci"))):
+        graph.add(path.read_text())
     return graph
 
 

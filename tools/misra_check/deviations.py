@@ -1,32 +1,25 @@
 """The table of deviations, and whether the findings are what it says."""
 
-import importlib
-import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatch
 from pathlib import Path
+from typing import NamedTuple
 
-from tools.misra_check.commands import CheckError
 from tools.misra_check.cppcheck import Finding
-
-# Python 3.10 has none of its own.
-_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+from tools.reason_table import read_table
 
 
-@dataclass(frozen=True)
-class Deviation:
-    """A rule that is not kept.
+class Deviation(NamedTuple):
+    """A rule that is not kept; the table says why.
 
     Attributes:
         rule: Its number.
         where: Patterns of files; `*` also stands for any folders.
-        why: The reason.
     """
 
     rule: str
     where: Sequence[str]
-    why: str
 
 
 @dataclass(frozen=True)
@@ -46,17 +39,9 @@ def read(path: Path) -> list[Deviation]:
     """The table in a file.
 
     Raises:
-        CheckError: It cannot be read, or a row lacks a part.
+        TableError: It cannot be read, or a row lacks a part.
     """
-    try:
-        rows = _toml.loads(path.read_text())["deviation"]
-        table = [Deviation(row["rule"], tuple(row["where"]), row["why"]) for row in rows]
-    except (OSError, _toml.TOMLDecodeError, KeyError, TypeError) as error:
-        raise CheckError(f"cannot read {path}: {error!r}") from error
-    for row in table:
-        if not row.why.strip() or not row.where:
-            raise CheckError(f"{path}: rule {row.rule} has no reason or no files")
-    return table
+    return [Deviation(*row) for row in read_table(path, "deviation", "rule", "where")]
 
 
 def verdict(found: Iterable[Finding], table: Sequence[Deviation]) -> Verdict:

@@ -66,7 +66,7 @@ __attribute__((naked)) void startup_crash(void)
                      "b startup_crashed");
 }
 
-void startup_crashed(const uint32_t *frame)
+__attribute__((used)) void startup_crashed(const uint32_t *frame)   /* by the lines above, which the linker cannot read */
 {
     crash_keep(SCB.icsr & ICSR_VECTOR, frame, stack_bottom, stack_top);
     restart();
