@@ -25,9 +25,9 @@ DEADLINE_S = 5.0
 """Time for the robot to answer before it is given up, s of wall-clock time."""
 
 _LOOK_ALIVE_S = 0.2
-_REPEAT_S = 0.1
+_REPEAT_S = 0.05
 _REPORT_S = 1.0
-_REPORT_DEMANDS = 20
+_REPORT_DEMANDS = 100
 _DUST_S = 1e-6
 _JUMP = 7
 _TIMED_TICKS = 16
@@ -197,12 +197,19 @@ class RobotClient:
     def await_reports(self) -> bool:
         """Whether every report comes that was asked for; False as soon as one is known to be missing."""
         give_up = self.now() + self.deadline_s
-        while not (self.reports.complete and self.inbox.rested):
+        self.inbox.silent = False
+        while not (self._has_reported and self.reports.ended):
             heard = self._receive(self._take_any, _REPORT_S)
-            if heard is None or self.now() > give_up or (self.reports.ended and not self.reports.complete):
-                return False
-        self.inbox.reporting = False
-        return True
+            if heard is None or self.inbox.silent or self.now() > give_up:
+                break
+            if self.reports.ended and not self.reports.complete:
+                break
+        self.inbox.reporting = not self._has_reported
+        return self._has_reported
+
+    @property
+    def _has_reported(self) -> bool:
+        return self.reports.complete and self.inbox.rested
 
     def await_memory(self) -> None:
         """Waits for the memory that the robot reports after a change, and asks for it if it was lost on the way.
@@ -275,7 +282,7 @@ class RobotClient:
         """
         if self.inbox.owed:
             self._receive(self._take_owed, self.round_trip.timeout_s)
-        self._lossy = self._lossy or self.inbox.owed > 0
+        self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.missing > 0
         self.inbox.owed = 0
         self.reports.gap = None
         self._unsettled = None if self._lossy else self.tick
