@@ -282,7 +282,7 @@ class RobotClient:
         """
         if self.inbox.owed:
             self._receive(self._take_owed, self.round_trip.timeout_s)
-        self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.missing > 0
+        self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.lost > 0
         self.inbox.owed = 0
         self.reports.gap = None
         self._unsettled = None if self._lossy else self.tick

@@ -65,7 +65,7 @@ class RobotReports:
         Args:
             frame: The report.
             decoded: The same, decoded.
-            missing: Number of frames so far that are known to be lost. Where they explain a jump of the alive counter,
+            missing: Number of frames so far that are known to be lost. Where they explain a jump of the counter,
                 the report is new.
         """
         kind = _kind(decoded)
