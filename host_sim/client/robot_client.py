@@ -83,6 +83,7 @@ class RobotClient:
     _sent_s: float = 0.0
     _timed: bool = False
     _lossy: bool = False
+    _owed_tick: int = 0
     _unsettled: int | None = None
 
     def __post_init__(self) -> None:
@@ -245,7 +246,9 @@ class RobotClient:
         """Sends the senses of the last tick again, and the distances that went before them."""
         if self.wants_ranges:
             self._repeat(self._ranges)
+        self._note_lost_answers(self.inbox.ticks - 1)
         self.inbox.owed += 1
+        self._owed_tick = self.inbox.ticks
         self._repeat(self._senses)
 
     def await_drive(self) -> Drive:
@@ -280,14 +283,19 @@ class RobotClient:
             SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
             RobotError: The robot does not answer.
         """
-        if self.inbox.owed:
-            self._receive(self._take_owed, self.round_trip.timeout_s)
+        self._note_lost_answers(self.inbox.ticks)
+        if self.inbox.owed and not self._lossy:
+            self._receive(self._take_owed, self.deadline_s)
         self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.lost > 0
         self.inbox.owed = 0
         self.reports.gap = None
         self._unsettled = None if self._lossy else self.tick
         if self._lossy:
             self.demand_reports("report")
+
+    def _note_lost_answers(self, ticks: int) -> None:
+        """Answers come in order: those that are still owed from before the last answered tick are lost."""
+        self._lossy = self._lossy or (self.inbox.owed > 0 and self._owed_tick < ticks)
 
     def check_settled(self) -> None:
         """Notes if it has turned out since that a memory was lost at the end of an environment."""
