@@ -1,7 +1,7 @@
 """A robot in real time behind a serial line on which many of the bytes are damaged.
 
-`.venv/bin/python -m tests.runs.noise 600` prints the figures of 600 s of robot time with 5 % of the bytes damaged; its
-exit code is 1 if the run did not go on to its end, or something wrong was learned. A sample is among the tests.
+`.venv/bin/python -m tests.runs.noise 600` prints the figures of 600 s of robot time with 5 % of the bytes damaged.
+The exit code is 1 if the run did not go on to its end, or something wrong was learned. A sample is among the tests.
 """
 
 import argparse
