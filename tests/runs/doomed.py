@@ -174,7 +174,7 @@ def _be_doomed(folder: Path, doom: Doom, witness: Witness, words: Sequence[str])
             signal.signal(number, signal.SIG_DFL if number != signal.SIGINT else signal.default_int_handler)
         with (
             mock.patch.object(MemorySaver, "save", witness.watch(MemorySaver.save)),
-            mock.patch("host_sim.cli.outputs.write_picture", lambda path, _: path.touch()),
+            mock.patch("host_sim.report.picture.write_picture", lambda path, _: path.touch()),
         ):
             doom()
             code = main([*_WORDS, "--out", f"{folder}/out", "--memory", f"{folder}/robot.mem", *words])
