@@ -140,7 +140,7 @@ static int take_senses(struct hal *hal, struct input *in)
     /* A robot that was held up itself finds its senses waiting, and has heard of no silence. */
     if (hal->silent_ms >= HAL_SILENCE_MS && !hal->outage)
         note_silence(hal);
-    if (hal->outage)
+    if (hal->outage && !hal->wire.session.lockstep)
         result = take_newest(hal, in);
     if (result == INPUT_SENSES) {
         hal->outage = false;

@@ -35,7 +35,7 @@ def start(
         client.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)
     if memory is not None:
         _write(client, dict(enumerate(translated(tuple(memory), client.memory_kind))))
-    client.session = Session(seed, profile, settings)
+    client.session = Session(seed, profile, settings, missing=client.frames.missing)
 
 
 def stop(client: RobotClient) -> None:

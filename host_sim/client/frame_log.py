@@ -7,6 +7,7 @@ import errno
 import hashlib
 import os
 import stat
+from contextlib import suppress
 from pathlib import Path
 
 from host_sim.errors import OctetError, UsageError
@@ -96,7 +97,8 @@ class FrameLog:
         if self._file.closed:
             return self._digest.hexdigest()
         if self._failed:
-            self._file.close()
+            with suppress(OSError):  # as before
+                self._file.close()
             return self._digest.hexdigest()
         self._flush()
         try:

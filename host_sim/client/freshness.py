@@ -6,6 +6,9 @@ from host_sim.protocol.codec import COUNTERS, Frame, counter_of
 
 _AHEAD_MAX = COUNTERS // 2
 
+GAP_MIN = _AHEAD_MAX + 1
+"""A message that so many others were lost before looks like a late one."""
+
 
 class Arrival(Enum):
     """What a message is, compared with the last one of its kind."""
@@ -30,8 +33,13 @@ class Freshness:
         self._last: Frame | None = None
         self._late: Frame | None = None
 
-    def judge(self, frame: Frame) -> Arrival:
-        """Compares a message with those before it."""
+    def judge(self, frame: Frame, *, gap: bool = False) -> Arrival:
+        """Compares a message with those before it.
+
+        Args:
+            frame: The message.
+            gap: Whether so many may have been lost since the last one that its counter tells nothing.
+        """
         if self._last is None:
             return self._take(frame, Arrival.NEW)
         ahead = _ahead(self._last, frame)
@@ -41,11 +49,11 @@ class Freshness:
             return self._take(frame, Arrival.OTHER)
         if ahead <= _AHEAD_MAX:
             return self._take(frame, Arrival.NEW)
-        return self._judge_late(frame)
+        return self._judge_late(frame, _AHEAD_MAX if gap else 1)
 
-    def _judge_late(self, frame: Frame) -> Arrival:
+    def _judge_late(self, frame: Frame, ahead_max: int) -> Arrival:
         late, self._late = self._late, frame
-        if late is not None and _ahead(late, frame) == 1:
+        if late is not None and 1 <= _ahead(late, frame) <= ahead_max:
             return self._take(frame, Arrival.ELSEWHERE)
         return Arrival.LATE
 

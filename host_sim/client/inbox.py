@@ -38,6 +38,7 @@ class Inbox:
         sent_counter: Alive counter of the last of them.
         reporting: Whether a whole report is awaited.
         rested: Whether a stopped robot has said that its wheels rest, or need not say so.
+        silent: Whether the robot has said that it hears nothing: all that it was to say before has been sent.
         rival: The frame by which another simulator was heard for the second time; None while there is none.
         owed: Number of repeated senses whose answers have not come yet.
     """
@@ -56,6 +57,7 @@ class Inbox:
     sent_counter: int = 0
     reporting: bool = False
     rested: bool = False
+    silent: bool = False
     rival: Frame | None = None
     owed: int = 0
     _rival_s: float | None = None
@@ -187,6 +189,7 @@ class Inbox:
 
     def _take_silence(self, drive: Drive, frame: Frame) -> Drive | None:
         """In lockstep, silence only tells of a slow host; on its own clock, the robot rests."""
+        self.silent = True
         if self.lockstep or self.session is None:
             self.counts.duplicate += 1
             return None
@@ -220,9 +223,10 @@ class Inbox:
     def _take_report(self, frame: Frame, decoded: DecodedFrame) -> None:
         if decoded.signals.get("silent"):
             self.counts.duplicate += 1
+            self.silent = True
             self._check_heartbeat(decoded)
             return
-        arrival = self.reports.judge(frame, decoded)
+        arrival = self.reports.judge(frame, decoded, self.counts.missing)
         if arrival in (Arrival.AGAIN, Arrival.LATE):
             self.counts.duplicate += 1
             return

@@ -1,6 +1,5 @@
 """The two ways for world and robots to keep time: in lockstep, or by the wall clock."""
 
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -105,12 +104,13 @@ class RealTime:
         """Starts with the wheels at rest.
 
         Args:
-            clients: The robots' clients.
-            tick_s: Length of a tick, s of wall-clock time.
+            clients: The robots' clients, which have the same time.
+            tick_s: Length of a tick, s.
         """
         self._tick_s = tick_s
         self._wheels = [_Wheels(client) for client in clients]
-        self._next_s = time.monotonic()
+        self._now = clients[0].now
+        self._next_s = self._now()
 
     def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
         """As in `Pace`: the drives are the robots' answers, or earlier ones that are still held."""
@@ -118,7 +118,7 @@ class RealTime:
         for wheels, sensed in zip(self._wheels, senses, strict=True):
             wheels.client.send_senses(sensed)
         # A host that was delayed does not catch up: that would not be real time either.
-        self._next_s = max(self._next_s, time.monotonic()) + self._tick_s
+        self._next_s = max(self._next_s, self._now()) + self._tick_s
         fresh = self._listen(self._next_s, until_all_answer=True)
         newest = [drive or before for drive, before in zip(fresh, early, strict=True)]
         both = zip(self._wheels, newest, senses, strict=True)
@@ -127,7 +127,7 @@ class RealTime:
     def _listen(self, end_s: float, *, until_all_answer: bool) -> list[Drive | None]:
         """For each robot, the last drive that comes before a time."""
         fresh: list[Drive | None] = [None] * len(self._wheels)
-        while (left_s := end_s - time.monotonic()) > 0:
+        while (left_s := end_s - self._now()) > 0:
             if until_all_answer and all(self._is_answer(drive, i) for i, drive in enumerate(fresh)):
                 break
             for i, wheels in enumerate(self._wheels):

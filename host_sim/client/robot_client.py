@@ -25,9 +25,9 @@ DEADLINE_S = 5.0
 """Time for the robot to answer before it is given up, s of wall-clock time."""
 
 _LOOK_ALIVE_S = 0.2
-_REPEAT_S = 0.1
+_REPEAT_S = 0.05
 _REPORT_S = 1.0
-_REPORT_DEMANDS = 20
+_REPORT_DEMANDS = 100
 _DUST_S = 1e-6
 _JUMP = 7
 _TIMED_TICKS = 16
@@ -83,6 +83,7 @@ class RobotClient:
     _sent_s: float = 0.0
     _timed: bool = False
     _lossy: bool = False
+    _owed_tick: int = 0
     _unsettled: int | None = None
 
     def __post_init__(self) -> None:
@@ -197,12 +198,19 @@ class RobotClient:
     def await_reports(self) -> bool:
         """Whether every report comes that was asked for; False as soon as one is known to be missing."""
         give_up = self.now() + self.deadline_s
-        while not (self.reports.complete and self.inbox.rested):
+        self.inbox.silent = False
+        while not (self._has_reported and self.reports.ended):
             heard = self._receive(self._take_any, _REPORT_S)
-            if heard is None or self.now() > give_up or (self.reports.ended and not self.reports.complete):
-                return False
-        self.inbox.reporting = False
-        return True
+            if heard is None or self.inbox.silent or self.now() > give_up:
+                break
+            if self.reports.ended and not self.reports.complete:
+                break
+        self.inbox.reporting = not self._has_reported
+        return self._has_reported
+
+    @property
+    def _has_reported(self) -> bool:
+        return self.reports.complete and self.inbox.rested
 
     def await_memory(self) -> None:
         """Waits for the memory that the robot reports after a change, and asks for it if it was lost on the way.
@@ -238,7 +246,9 @@ class RobotClient:
         """Sends the senses of the last tick again, and the distances that went before them."""
         if self.wants_ranges:
             self._repeat(self._ranges)
+        self._note_lost_answers(self.inbox.ticks - 1)
         self.inbox.owed += 1
+        self._owed_tick = self.inbox.ticks
         self._repeat(self._senses)
 
     def await_drive(self) -> Drive:
@@ -273,14 +283,19 @@ class RobotClient:
             SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
             RobotError: The robot does not answer.
         """
-        if self.inbox.owed:
-            self._receive(self._take_owed, self.round_trip.timeout_s)
-        self._lossy = self._lossy or self.inbox.owed > 0
+        self._note_lost_answers(self.inbox.ticks)
+        if self.inbox.owed and not self._lossy:
+            self._receive(self._take_owed, self.deadline_s)
+        self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.lost > 0
         self.inbox.owed = 0
         self.reports.gap = None
         self._unsettled = None if self._lossy else self.tick
         if self._lossy:
             self.demand_reports("report")
+
+    def _note_lost_answers(self, ticks: int) -> None:
+        """Answers come in order: those that are still owed from before the last answered tick are lost."""
+        self._lossy = self._lossy or (self.inbox.owed > 0 and self._owed_tick < ticks)
 
     def check_settled(self) -> None:
         """Notes if it has turned out since that a memory was lost at the end of an environment."""

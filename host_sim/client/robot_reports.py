@@ -1,6 +1,6 @@
 """What a robot has reported: its memory, its state, its identity and its faults."""
 
-from host_sim.client.freshness import Arrival, Freshness
+from host_sim.client.freshness import GAP_MIN, Arrival, Freshness
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.protocol.memory_kinds import kinds_of
@@ -40,6 +40,7 @@ class RobotReports:
     def forget(self) -> None:
         """Starts over with the alive counters; what was reported stays."""
         self._fresh: dict[str, Freshness] = {}
+        self._missing: dict[str, int] = {}
         self._joined = MemoryReport()
         self._memory_counter: int | None = None
         self.await_all()
@@ -58,9 +59,21 @@ class RobotReports:
         """Whether each report has come since `await_all`."""
         return self._heard >= _WHOLE
 
-    def judge(self, frame: Frame, decoded: DecodedFrame) -> Arrival:
-        """Compares a report with those of its kind before it."""
-        return self._fresh.setdefault(_kind(decoded), Freshness()).judge(frame)
+    def judge(self, frame: Frame, decoded: DecodedFrame, missing: int) -> Arrival:
+        """Compares a report with those of its kind before it.
+
+        Args:
+            frame: The report.
+            decoded: The same, decoded.
+            missing: Number of frames so far that are known to be lost. Where they explain a jump of the counter,
+                the report is new.
+        """
+        kind = _kind(decoded)
+        gap = missing - self._missing.get(kind, missing) >= GAP_MIN
+        arrival = self._fresh.setdefault(kind, Freshness()).judge(frame, gap=gap)
+        if arrival not in (Arrival.AGAIN, Arrival.LATE):
+            self._missing[kind] = missing
+        return Arrival.NEW if gap and arrival in (Arrival.OTHER, Arrival.ELSEWHERE) else arrival
 
     def take(self, decoded: DecodedFrame) -> bool:
         """Stores a report.

@@ -14,6 +14,7 @@ class Session:
         settings: Parameters that were set, by name.
         frozen: Whether it was told not to learn.
         halted: Whether it has stopped because its wheels did not do what they were told.
+        missing: Number of frames that were missing before it was started.
     """
 
     seed: int
@@ -21,6 +22,7 @@ class Session:
     settings: Mapping[str, int]
     frozen: bool = False
     halted: bool = False
+    missing: int = 0
 
 
 @dataclass
@@ -43,3 +45,8 @@ class FrameCounts:
     duplicate: int = 0
     lost: int = 0
     refused: int = 0
+
+    @property
+    def missing(self) -> int:
+        """Number of frames that are known not to have come, or not whole."""
+        return self.lost + self.repeated + self.refused

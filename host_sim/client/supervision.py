@@ -11,6 +11,8 @@ from host_sim.robot_io import Drive
 _FIRMWARE = ("commit", "modified", "version_major", "version_minor")
 _ATTEMPTS = 5
 _LAST_S = 1.0
+_LOST_MIN = 50
+"""With so many frames missing since its start, it is the line that keeps a robot's wheels from obeying."""
 _AHEAD_MAX = COUNTERS // 2
 
 
@@ -67,9 +69,10 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
         _start_again(client, session, memory)
         return
     _check_twins(client, before)
-    session.halted = _has_halted(client, before)
-    if not session.halted:
-        _check_owner(client, lost)
+    if _has_halted(client, before):
+        _note_halt(client, session)
+        return
+    _check_owner(client, lost)
     client.session = session
     if lost.contradicts:
         client.distrust(f"somebody sends frames in the robot's name: {lost}")
@@ -146,10 +149,19 @@ def _check_twins(client: RobotClient, before: _State) -> None:
 
 def _has_halted(client: RobotClient, before: _State) -> bool:
     """Whether the robot has stopped because of its wheels: no one else's fault, and it stays where it is."""
-    if client.reports.heartbeat["state"] or client.faults["denied"] == before.faults.get("denied", 0):
-        return False
-    client.distrust("the wheels did not do what they were told, and the robot has stopped")
-    return True
+    return not client.reports.heartbeat["state"] and client.faults["denied"] != before.faults.get("denied", 0)
+
+
+def _note_halt(client: RobotClient, session: Session) -> None:
+    """Leaves a robot at rest whose wheels do not obey; one whose drives get lost is started again."""
+    if client.frames.missing - session.missing < _LOST_MIN:
+        session.halted, client.session = True, session
+        client.distrust("the wheels did not do what they were told, and the robot has stopped")
+        return
+    start(client, session.seed, session.profile, session.settings, None)
+    if session.frozen:
+        freeze(client, True)
+    client.distrust("the robot stopped, for too many of its drives were lost, and was started again")
 
 
 def _check_owner(client: RobotClient, lost: SessionLostError) -> None:

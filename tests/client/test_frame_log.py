@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import resource
 from pathlib import Path
 
 import pytest
@@ -86,3 +87,16 @@ def test_a_part_file_that_is_something_else_is_refused_and_left(path, make):
     assert not path.exists()
     elsewhere = path.parent / "elsewhere"
     assert not elsewhere.exists() or elsewhere.read_text() == "mine"
+
+
+def test_a_log_on_a_full_disk_fails_once(tmp_path):
+    log = FrameLog(tmp_path / "run.log")
+    log.add(Frame(1, bytes(8)))
+    _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (10, most))
+    try:
+        with pytest.raises(OctetError, match="File too large"):
+            log.flush()
+        assert log.close() == log.close()
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))

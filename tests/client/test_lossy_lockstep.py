@@ -13,6 +13,7 @@ FAULTS = {
     "frames overtake each other": ("reorder:30%:2",),
     "frames are late": ("delay:0-300ms",),
     "bits flip": ("corrupt:20%",),
+    "two in three are damaged": ("corrupt:68%",),
     "frames end early": ("truncate:20%",),
     "others talk": ("flood:5%:20",),
     "one way only is bad": ("drop:50%/to",),

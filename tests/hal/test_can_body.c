@@ -138,6 +138,17 @@ static void test_in_lockstep_nothing_is_passed_over_after_silence(void)
     }
 }
 
+static void test_in_lockstep_senses_that_came_again_meanwhile_are_not_stale(void)
+{
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    start_in_lockstep();
+    for (unsigned i = 0; i < 3; i++)
+        senses_come(150, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    assert_faults((struct octet_faults_t){.silences = 0});
+}
+
 static enum input_kind other_owner_starts(uint32_t at_ms)
 {
     command_comes(at_ms, (struct octet_command_t){.opcode = OPCODE_START, .counter = 9, .owner = 2});
@@ -330,6 +341,7 @@ int main(void)
     RUN_TEST(test_a_command_does_not_break_the_silence);
     RUN_TEST(test_in_lockstep_silence_is_no_fault);
     RUN_TEST(test_in_lockstep_nothing_is_passed_over_after_silence);
+    RUN_TEST(test_in_lockstep_senses_that_came_again_meanwhile_are_not_stale);
     RUN_TEST(test_in_lockstep_another_may_take_over_after_a_second);
     RUN_TEST(test_what_was_answered_is_answered_again_at_once);
     RUN_TEST(test_an_answer_again_that_does_not_leave_is_counted);

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
@@ -64,6 +64,12 @@ def octet_process(*words: str | Path, **kwargs) -> Ended:
     """`tools/octet WORDS` as a person starts it, without setting up anew."""
     command = [sys.executable, "-m", "host_sim", *map(os.fspath, words)]
     return subprocess.run(command, capture_output=True, text=True, check=False, **kwargs)
+
+
+def is_right(memory: Sequence[int]) -> bool:
+    """Whether nothing wrong was learned: from what is on one side, the robot turns to the other."""
+    right = {1: (0, 1), 3: (0, 1), 4: (0, 2), 6: (0, 2)}
+    return all(memory[pattern] in sides for pattern, sides in right.items())
 
 
 def assert_healthy(summary: dict) -> None:

@@ -1,0 +1,187 @@
+"""Runs in processes of their own that meet their end on the way, and what of their memory is left."""
+
+import mmap
+import os
+import resource
+import signal
+import sys
+import tempfile
+import traceback
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+from unittest import mock
+
+import host_sim
+from host_sim.cli.main import main
+from host_sim.recording.memory_file import MemorySaver
+
+BEFORE = bytes([0, 0, 0, 0, 0, 0, 0, 2])
+"""What the memory files hold at first."""
+
+_CELLS = 8
+_TRACED = (str(Path(host_sim.__file__).parent), tempfile.__file__)
+_WORDS = ("run", "--environments", "1", "--limit-s", "25", "--seed", "12", "--bus", "none", "--quiet")
+
+Doom = Callable[[], None]
+Save = Callable[[MemorySaver, Sequence[int]], None]
+
+
+class Witness:
+    """What a run was about to save, in memory that outlives its process."""
+
+    def __init__(self) -> None:
+        self._map = mmap.mmap(-1, mmap.PAGESIZE)
+        self._put(0, BEFORE)
+        self._put(1, BEFORE)
+        self.is_saving = False
+
+    def _put(self, at: int, content: bytes) -> None:
+        self._map[at * _CELLS : (at + 1) * _CELLS] = content
+
+    def _get(self, at: int) -> bytes:
+        return self._map[at * _CELLS : (at + 1) * _CELLS]
+
+    def _number(self, at: int) -> int:
+        return int.from_bytes(self._get(at), "big")
+
+    def watch(self, save: Save) -> Save:
+        """`MemorySaver.save`, watched."""
+
+        def watched(saver: MemorySaver, memory: Sequence[int]) -> None:
+            self._put(2, (self.saves + (bytes(memory) != self.last)).to_bytes(_CELLS, "big"))
+            self._put(0, bytes(memory))
+            self.is_saving = self.last != self.saved
+            save(saver, memory)
+            self.is_saving = False
+            self._put(1, bytes(memory))
+
+        return watched
+
+    def note_instructions(self, every: int, of_saving: int) -> None:
+        """Notes how many Python instructions there were so far."""
+        self._put(3, every.to_bytes(_CELLS, "big"))
+        self._put(4, of_saving.to_bytes(_CELLS, "big"))
+
+    @property
+    def last(self) -> bytes:
+        """What was to be saved last."""
+        return self._get(0)
+
+    @property
+    def saved(self) -> bytes:
+        """What was saved last for certain: the last one, or the one before it."""
+        return self._get(1)
+
+    @property
+    def saves(self) -> int:
+        """Number of different memories that were to be saved, one after the other."""
+        return self._number(2)
+
+    @property
+    def instructions(self) -> int:
+        """Number of Python instructions of a run to which nothing happens."""
+        return self._number(3)
+
+    @property
+    def saving(self) -> int:
+        """Number of those that saved a memory."""
+        return self._number(4)
+
+
+@dataclass(frozen=True)
+class Fate:
+    """How a run ended, and what it left.
+
+    Attributes:
+        status: As `os.waitstatus_to_exitcode` has it.
+        memory: What is in its memory file.
+        errors: What it printed to stderr.
+        witness: What it was about to save.
+    """
+
+    status: int
+    memory: bytes
+    errors: str
+    witness: Witness
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether what was learned last is in the file, whole."""
+        return self.memory in (self.witness.last, self.witness.saved)
+
+    @property
+    def is_orderly(self) -> bool:
+        """Whether the run said in at most one line what was wrong."""
+        return self.errors.count("\n") <= 1 and "Traceback" not in self.errors
+
+
+def at_instruction(number: int, signal_number: int, witness: Witness, *, only_saving: bool = False) -> Doom:
+    """A signal of the process to itself at one of its own Python instructions, counted from its beginning.
+
+    Args:
+        number: Number of the instruction, from 1; 0 for none.
+        signal_number: The signal.
+        witness: Told how many instructions there are.
+        only_saving: Whether only those count that save a memory.
+    """
+    counts = {False: 0, True: 0}
+
+    def trace(frame: FrameType, event: str, _: object) -> Callable[..., object] | None:
+        if event == "opcode":
+            counts[False] += 1
+            counts[True] += witness.is_saving
+            if counts[only_saving] == number and (witness.is_saving or not only_saving):
+                os.kill(os.getpid(), signal_number)
+            elif not number:
+                witness.note_instructions(*counts.values())
+        elif event == "call":
+            if not frame.f_code.co_filename.startswith(_TRACED):
+                return None
+            frame.f_trace_opcodes = True
+        return trace
+
+    return lambda: sys.settrace(trace)
+
+
+def with_full_disk(size: int) -> Doom:
+    """No file can grow beyond a size: as if the disk were full."""
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
+
+
+def run_doomed(folder: Path, doom: Doom, witness: Witness, *words: str) -> Fate:
+    """Does a run in a process of its own, which begins with its doom."""
+    memory = folder / "robot.mem"
+    memory.write_bytes(BEFORE)
+    errors, said = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.dup2(said, 2)
+        _be_doomed(folder, doom, witness, words)
+    os.close(said)
+    with os.fdopen(errors) as pipe:
+        text = pipe.read()
+    _, status = os.waitpid(child, 0)
+    return Fate(os.waitstatus_to_exitcode(status), memory.read_bytes(), text, witness)
+
+
+def _be_doomed(folder: Path, doom: Doom, witness: Witness, words: Sequence[str]) -> None:
+    """The process of the run; it does not return."""
+    code = 70
+    try:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_DFL if number != signal.SIGINT else signal.default_int_handler)
+        with (
+            mock.patch.object(MemorySaver, "save", witness.watch(MemorySaver.save)),
+            mock.patch("host_sim.report.picture.write_picture", lambda path, _: path.touch()),
+        ):
+            doom()
+            code = main([*_WORDS, "--out", f"{folder}/out", "--memory", f"{folder}/robot.mem", *words])
+            sys.settrace(None)
+    except BaseException:
+        sys.settrace(None)
+        traceback.print_exc()
+    finally:
+        sys.stderr.flush()
+        os._exit(code)
