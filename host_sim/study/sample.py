@@ -29,6 +29,9 @@ class Sample:
         turns: Turns of all contacts.
         cleared: Number of contacts after which the way was clear.
         known_s: Robot time until a turn was known for patterns 1, 3, 4 and 6, s; infinite if it never was.
+        blocked_at: For each of the first robot's first contacts, how long it took, s; NaN where there was none.
+        wrong_at: For each of the first robot's first contacts after the change, 1 if it knew a wrong turn then, else
+            0; NaN where there was none.
         recovery: Contacts after the change until no wrong turn was known; infinite if there always was one, and NaN
             without a change.
     """
@@ -45,8 +48,13 @@ class Sample:
     turns: Floats
     cleared: Floats
     known_s: Floats
+    blocked_at: Floats
+    wrong_at: Floats
     recovery: Floats
 
+
+CURVE = 100
+"""Number of contacts in a curve."""
 
 _TRAPPED_S = 60.0
 
@@ -78,7 +86,7 @@ def _of(table: Columns, condition: str, seeds: NDArray[np.int64]) -> Columns:
 def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
     runs, environments, contacts = tables["runs"], tables["environments"], tables["contacts"]
     count = len(seeds)
-    index = np.searchsorted(seeds, contacts["seed"])
+    index, first = np.searchsorted(seeds, contacts["seed"]), contacts["robot"] == 0
 
     def each(column: NDArray[Any]) -> Floats:
         return column.astype(np.float64).reshape(count, -1)
@@ -103,8 +111,19 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
         turns=total(contacts["trials"] + contacts["remembered"] + contacts["boredoms"]),
         cleared=total(contacts["cleared"]),
         known_s=np.nan_to_num(runs["known_s"].astype(np.float64), nan=np.inf),
+        blocked_at=_curve(index, contacts["blocked_s"], first, count),
+        wrong_at=_curve(index, contacts["wrong"], first & contacts["changed"], count),
         recovery=np.array([_recovery(contacts, environments, seed) for seed in seeds]),
     )
+
+
+def _curve(index: NDArray[np.int64], values: NDArray[Any], wanted: NDArray[np.bool_], count: int) -> Floats:
+    """The first wanted values of each seed; rows of a seed are neighbours."""
+    curve = np.full((count, CURVE), np.nan)
+    for seed in range(count):
+        found = values[wanted & (index == seed)][:CURVE]
+        curve[seed, : len(found)] = found
+    return curve
 
 
 def _recovery(contacts: Columns, environments: Columns, seed: int) -> float:
