@@ -16,7 +16,9 @@ def test_each_plot_is_a_picture(tmp_path):
     paths = draw_plots(few, tmp_path / "new/plots")
 
     assert [path.stem for path in paths] == ["learning", "survival", "score", "recovery"]
-    assert all(Image.open(path).size == (770, 462) for path in paths)
+    for path in paths:
+        with Image.open(path) as picture:
+            assert picture.size == (770, 462)
 
 
 def test_without_a_change_there_is_no_recovery_to_draw(tmp_path):
