@@ -10,9 +10,6 @@ ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build"
 """Build output."""
 
-EXPORT_LIBRARIES = BUILD / "export"
-"""The Python libraries that only exports need, from `tools/setup export`."""
-
 WEB = ROOT / "host_sim" / "web"
 """The HTML, CSS and JavaScript of the pages."""
 

@@ -1,24 +1,29 @@
 """`tools/octet compare`: behaviours side by side in the same worlds."""
 
 import argparse
-import os
-import sys
-from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import add_command, number, setting
+from host_sim.cli.study_command import add_workers, with_progress, workers_of
+from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.generated import PROFILES
-from host_sim.study.faults import FAULTS
-from host_sim.study.table import table
-from host_sim.study.trial import Trial, run_trial
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from host_sim.cli.parsing import Subparsers
+    from host_sim.study.plan import Plan
+    from host_sim.study.sample import Sample
 
 _EXAMPLES = """\
 examples:
-  tools/octet compare article fixed never --seeds 40         what learning and remembering are worth
-  tools/octet compare article forgetful --fault swapped      with the motors' plugs exchanged
+  tools/octet compare out/studies/learned                           what came of a study
+  tools/octet compare out/studies/learned --plots out/plots         the same, and as pictures
+  tools/octet compare article fixed never --seeds 40                what learning and remembering are worth
+  tools/octet compare article forgetful --change swapped@env1       with the motors' plugs exchanged
+
+Of a study with goals, the exit code is 1 if one of them is missed.
 """
 _DEFAULT = " (default: %(default)s)"
 
@@ -29,34 +34,70 @@ def add(commands: "Subparsers") -> None:
         commands,
         "compare",
         _compare,
-        summary="measure behaviours in the same worlds",
-        description="Runs each profile with the same seeds, in process and on all cores, and prints a table.",
+        summary="compare the conditions of a study, or behaviours at once",
+        description="Prints what came of a study, or runs each profile with the same seeds and prints that.",
         epilog=_EXAMPLES,
     )
     add = parser.add_argument
-    add("profiles", nargs="+", choices=PROFILES, metavar="PROFILE", help=f"one of {', '.join(PROFILES)}")
-    add("--seeds", type=number(1, 100_000), default=20, metavar="N", help="number of seeds, from 1 on" + _DEFAULT)
-    add("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + _DEFAULT)
-    add("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + _DEFAULT)
-    add("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help="change a parameter for all")
-    add("--fault", choices=FAULTS, default="none", help="what is wrong with the body" + _DEFAULT)
-    add("--fault-from", type=number(1, 1000), default=1, metavar="N", help="from environment N on" + _DEFAULT)
-    add("--jobs", type=number(1, 1024), default=os.cpu_count(), metavar="N", help="processes" + _DEFAULT)
+    words = f"folder of a study; or profiles, of {', '.join(PROFILES)}"
+    add("what", nargs="+", metavar="STUDY|PROFILE", help=words)
+    add("--difference", type=number(0, 100, float), default=5, metavar="PERCENT", help="that matters" + _DEFAULT)
+    add("--plots", type=Path, metavar="FOLDER", help="draw plots into this folder")
+    profiles = parser.add_argument_group("with profiles").add_argument
+    profiles("--seeds", type=number(1, 100_000), default=20, metavar="N", help="number of seeds" + _DEFAULT)
+    profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + _DEFAULT)
+    profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + _DEFAULT)
+    profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help="change a parameter")
+    profiles("--change", default="", metavar="CHANGE", help="what happens to the body, such as swapped@env3")
+    add_workers(parser)
 
 
 def _compare(arguments: argparse.Namespace) -> int:
+    from host_sim.study.goals import judge
+    from host_sim.study.table import table
+
+    folder = Path(arguments.what[0])
+    plan, samples = _of_study(folder) if folder.is_dir() else _of_profiles(arguments)
+    print(f"{plan.title}: {len(samples[0].seeds)} seeds of {plan.environments} environments each")
+    print(table(samples, arguments.difference / 100))
+    if arguments.plots:
+        from host_sim.study.plots import draw_plots
+
+        print(f"wrote     {', '.join(map(str, draw_plots(samples, arguments.plots)))}")
+    judged = judge(plan.goals, samples)
+    for each in judged:
+        print(each)
+    return 0 if all(each.is_reached for each in judged) else 1
+
+
+def _of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
+    from host_sim.study.folder import PLAN_FILE, StudyFolder
+    from host_sim.study.plan_file import read_plan
+    from host_sim.study.sample import samples_of
+
+    folder = StudyFolder(path)
+    plan = read_plan(path / PLAN_FILE)
+    samples = samples_of(folder.tables(), [condition.name for condition in plan.conditions])
+    if not len(samples[0].seeds):
+        raise OctetError(f"no seed in {path} has a run of each condition yet: go on with tools/octet study")
+    return plan, samples
+
+
+def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]]":
+    from host_sim.study.faults import change_of
+    from host_sim.study.plan import Condition, Plan
+    from host_sim.study.sample import samples_of
+    from host_sim.study.tables import tables_of
+    from host_sim.study.toml_lines import meant
+
+    for word in arguments.what:
+        if word not in PROFILES:
+            raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
+    if arguments.change:
+        change_of(arguments.change)
     a = arguments
-    trials = [
-        Trial(profile, seed, a.environments, dict(a.set), a.fault, a.fault_from)
-        for seed in range(a.first, a.first + a.seeds)
-        for profile in dict.fromkeys(a.profiles)
-    ]
-    rows = []
-    with ProcessPoolExecutor(a.jobs) as processes:
-        for done, result in enumerate(processes.map(run_trial, trials), 1):
-            rows += result
-            if sys.stderr.isatty():
-                print(f"\r{done} of {len(trials)} runs", end="" if done < len(trials) else "\n", file=sys.stderr)
-    print(f"{a.seeds} seeds of {a.environments} environments each, body: {a.fault}")
-    print(table(rows))
-    return 0
+    names = list(dict.fromkeys(a.what))
+    conditions = [Condition(name, name, dict(a.set), change=a.change) for name in names]
+    plan = Plan(" ".join(names), conditions, a.first, a.seeds, a.environments)
+    runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]
+    return plan, samples_of(tables_of(runs), names)

@@ -48,14 +48,14 @@ def add(commands: "Subparsers") -> None:
 
 def _export(arguments: argparse.Namespace) -> int:
     from host_sim.atomic_file import replacing
-    from host_sim.export.libraries import library
+    from host_sim.extra_library import library
     from host_sim.recording.log_reader import read_log
 
     wanted = {name: getattr(arguments, name) for name in _FORMATS if getattr(arguments, name) is not None}
     if not wanted:
         raise UsageError(f"give {', '.join(f'--{name} FILE' for name in _FORMATS)}, or several of them")
     for name in wanted.keys() & _LIBRARIES.keys():
-        library(_LIBRARIES[name])
+        library(_LIBRARIES[name], "export")
     log = read_log(arguments.log)
     if next(iter(log), None) is None:
         raise OctetError(f"{log.note()}: there is no frame of a robot")

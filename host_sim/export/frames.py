@@ -10,7 +10,7 @@ import can
 import numpy as np
 from can.io.generic import MessageWriter
 
-from host_sim.export.libraries import library
+from host_sim.extra_library import library
 from host_sim.recording.log_text import Recorded
 
 _CHUNK = 50_000
@@ -60,7 +60,7 @@ _DATA_FRAME = np.dtype(
 
 def write_mf4(path: Path, frames: Iterable[Recorded]) -> None:
     """Writes frames as the bus logging of ASAM MDF 4, from which a DBC file extracts the signals."""
-    asammdf = library("asammdf")
+    asammdf = library("asammdf", "export")
     every = iter(frames)
     first = next(every)
     start_us = first.time_us

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from host_sim.export.libraries import library
+from host_sim.extra_library import library
 from host_sim.protocol.every_node import Heard, hear
 from host_sim.protocol.generated import MESSAGES
 from host_sim.recording.log_text import Recorded
@@ -29,7 +29,7 @@ _CHOICES = {
 def write_mcap(path: Path, frames: Iterable[Recorded]) -> None:
     """Writes frames as MCAP."""
     with path.open("wb") as file:
-        writer = library("mcap.writer").Writer(file)
+        writer = library("mcap.writer", "export").Writer(file)
         writer.start(profile="", library="octet")
         topics = _Topics(writer)
         for number, (time_us, frame) in enumerate(frames):

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
 
-from host_sim.export.libraries import library
+from host_sim.extra_library import library
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES
 from host_sim.recording.log_text import Recorded
@@ -60,7 +60,7 @@ def write_csv(path: Path, frames: Iterable[Recorded]) -> None:
 
 def write_parquet(path: Path, frames: Iterable[Recorded]) -> None:
     """Writes the table as Parquet."""
-    pyarrow, parquet = library("pyarrow"), library("pyarrow.parquet")
+    pyarrow, parquet = (library(name, "export") for name in ("pyarrow", "pyarrow.parquet"))
     kinds = {"time_s": pyarrow.float64(), "message": pyarrow.string(), "data": pyarrow.string()}
     schema = pyarrow.schema([(name, kinds.get(name, pyarrow.int64())) for name in COLUMNS])
     every = rows(frames)

@@ -1,9 +1,11 @@
 """Bodies that are not as the robot expects: a sensor that is stuck or noisy, sensors or motors that are swapped."""
 
 import random
+import re
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
+from host_sim.errors import UsageError
 from host_sim.protocol.generated import FEEL
 from host_sim.robot_io import Senses
 from host_sim.world.body import Body
@@ -63,10 +65,34 @@ class _Swapped(_FaultyBody):
 
 
 FAULTS: dict[str, Callable[[Body, random.Random], Any]] = {
-    "none": lambda body, _: body,
     "noise": _Noisy,
     "stuck-front": _StuckOn,
     "mirrored": _Mirrored,
     "swapped": _Swapped,
 }
 """What can be wrong with a body, by name: makes one of a sound body and a generator of random numbers."""
+
+OTHER_WAY_ROUND = frozenset(("swapped", "mirrored"))
+"""The faults with which each turn leads to the other side than the senses say."""
+
+
+class Change(NamedTuple):
+    """A fault, and the environment in which it begins, from 1."""
+
+    fault: str
+    environment: int
+
+
+def change_of(text: str) -> Change:
+    """A change as people write it.
+
+    >>> change_of("swapped@env6")
+    Change(fault='swapped', environment=6)
+
+    Raises:
+        UsageError: It is none.
+    """
+    found = re.fullmatch(r"([\w-]+)@env([1-9]\d{0,3})", text)
+    if not found or found[1] not in FAULTS:
+        raise UsageError(f"{text!r} is no change such as swapped@env6; there are {', '.join(FAULTS)}")
+    return Change(found[1], int(found[2]))

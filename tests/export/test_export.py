@@ -137,7 +137,7 @@ def test_a_missing_library_is_named_with_the_command_that_installs_it(log, tmp_p
 
     assert main(["export", str(log), "--mf4", str(tmp_path / "a.mf4")]) == 2
 
-    assert re.fullmatch(r"octet: this format needs asammdf.*: run tools/setup export\n", capsys.readouterr().err)
+    assert re.fullmatch(r"octet: this needs asammdf.*: run tools/setup export\n", capsys.readouterr().err)
     assert list(tmp_path.iterdir()) == []
 
 

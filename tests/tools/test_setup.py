@@ -13,7 +13,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
-LOCKS = ("requirements.lock", "requirements-emulator.lock", "requirements-export.lock", "requirements-tests.lock")
+EXTRAS = ("export", "study", "cluster")
+LOCKS = tuple(f"requirements{name}.lock" for name in ("", "-emulator", *(f"-{it}" for it in EXTRAS), "-tests"))
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
 # cmake, tools/generate and the download of Unity make what they are to make. With a file beside the notes, installing
@@ -192,12 +193,18 @@ def test_a_stage_installs_only_what_it_needs(tree: Tree) -> None:
     assert tree.setup("emulator")[1] == ["ninja"]
 
 
-def test_the_libraries_of_exports_stand_apart_and_are_installed_once(tree: Tree) -> None:
-    tree.setup("export")
-    assert tree.installed() == ["requirements.lock", "requirements-export.lock"]
-    (line,) = [line for line in tree.calls.read_text().splitlines() if line.endswith(" requirements-export.lock")]
-    assert " --target build/export " in line
-    assert tree.setup("export")[1] == ["ninja"]
+@pytest.mark.parametrize("name", ["export", "study"])
+def test_extra_libraries_stand_apart_and_are_installed_once(tree: Tree, name: str) -> None:
+    tree.setup(name)
+    assert tree.installed() == ["requirements.lock", f"requirements-{name}.lock"]
+    (line,) = [line for line in tree.calls.read_text().splitlines() if line.endswith(f" requirements-{name}.lock")]
+    assert f" --target build/{name} " in line
+    assert tree.setup(name)[1] == ["ninja"]
+
+
+def test_a_cluster_is_for_studies(tree: Tree) -> None:
+    tree.setup("cluster")
+    assert tree.installed()[1:] == ["requirements-study.lock", "requirements-cluster.lock"]
 
 
 def test_exports_whose_installation_was_broken_off_are_installed_again(tree: Tree) -> None:
@@ -234,7 +241,7 @@ def test_a_stage_that_does_not_exist_is_answered_with_those_there_are(tree: Tree
     done, calls = tree.setup("run", "tets")
     assert done.returncode == 2
     assert calls == []
-    assert all(f"{stage}:" in done.stderr for stage in ("run", "images", "emulator", "export", "tests", "vcan"))
+    assert all(f"{stage}:" in done.stderr for stage in ("run", "images", "emulator", *EXTRAS, "tests", "vcan"))
 
 
 def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:

@@ -1,0 +1,116 @@
+"""Contacts: the times that a robot was blocked, from the first turn until the way was clear."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from host_sim.protocol.generated import Reason
+from host_sim.protocol.memory_kinds import Memory, sides_of
+from host_sim.recording.trajectory import ROW
+from host_sim.sim.native_loop import NativeLoop
+from host_sim.sim.simulation import Simulation
+from host_sim.view.history import pattern_of
+
+_AVOIDING = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
+_COLUMNS = [ROW.index(name) for name in ("feel", "reason", "action")]
+
+Ticks = NDArray[np.int16]
+"""Shape (ticks, 3): what the proximity sensors said, why the robot did what it did, and the number of the action."""
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A time that a robot was blocked.
+
+    Attributes:
+        tick: The tick of its environment in which it began.
+        pattern: What the front sensors said then, 1..7.
+        blocked_ticks: How long it took until the way was clear.
+        trials: Random turns.
+        remembered: Remembered turns.
+        boredoms: About-faces.
+        cleared: Whether the way became clear; if not, the environment ended first.
+        sides: The turn for each pattern that the robot knew in the end, 0 nothing, 1 left, 2 right.
+    """
+
+    tick: int
+    pattern: int
+    blocked_ticks: int
+    trials: int
+    remembered: int
+    boredoms: int
+    cleared: bool
+    sides: Memory
+
+    @property
+    def turns(self) -> int:
+        """All turns."""
+        return self.trials + self.remembered + self.boredoms
+
+
+@dataclass
+class ContactWatch:
+    """Watches one robot in one environment, as `Simulation.watch` does.
+
+    Attributes:
+        index: The robot, from 0.
+    """
+
+    index: int
+    _ticks: list[Ticks] = field(default_factory=list)
+    _count: int = 0
+    _memories: list[tuple[int, Memory]] = field(default_factory=list)
+
+    def __call__(self, simulation: Simulation) -> None:
+        """Takes the ticks of the last step."""
+        if simulation.loop is None:
+            feel, drive = simulation.senses[self.index].feel, simulation.drives[self.index]
+            self._add(np.array([[feel, drive.reason, drive.action]], np.int16))
+        else:
+            self._add(_ticks_of(simulation.loop, self.index))
+        memory = simulation.clients[self.index].memory
+        if not self._memories or self._memories[-1][1] != memory:
+            self._memories.append((self._count, memory))
+
+    def contacts(self) -> list[Contact]:
+        """The contacts of the environment."""
+        return list(_contacts(np.concatenate(self._ticks), self._memories)) if self._ticks else []
+
+    def memories(self) -> Sequence[tuple[int, Memory]]:
+        """The eight bytes after each change, and the number of ticks until then."""
+        return self._memories
+
+    def _add(self, ticks: Ticks) -> None:
+        self._ticks.append(ticks)
+        self._count += len(ticks)
+
+
+def _ticks_of(loop: NativeLoop, index: int) -> Ticks:
+    return np.frombuffer(loop.block(index).rows, np.int16).reshape(-1, len(ROW))[:, _COLUMNS]
+
+
+def _contacts(ticks: Ticks, memories: Sequence[tuple[int, Memory]]) -> Iterator[Contact]:
+    feel, reason, action = ticks.T
+    avoiding = np.isin(reason, _AVOIDING)
+    edges = np.flatnonzero(np.diff(avoiding, prepend=False, append=False))
+    begun = np.diff(action, prepend=np.int16(-1)) != 0
+    for first, end in edges.reshape(-1, 2).tolist():
+        turns = reason[first:end][begun[first:end]].tolist()
+        yield Contact(
+            tick=first,
+            pattern=pattern_of(int(feel[first])),
+            blocked_ticks=end - first,
+            trials=turns.count(Reason.TRIAL),
+            remembered=turns.count(Reason.REMEMBERED),
+            boredoms=turns.count(Reason.BOREDOM),
+            cleared=end < len(ticks),
+            sides=sides_of(_memory_at(memories, end)),
+        )
+
+
+def _memory_at(memories: Sequence[tuple[int, Memory]], ticks: int) -> Memory:
+    """The eight bytes as last reported by then."""
+    known = [memory for count, memory in memories if count <= ticks]
+    return known[-1] if known else memories[0][1]
