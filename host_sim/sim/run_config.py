@@ -19,6 +19,7 @@ class RunConfig:
         world: Name of the world that they are drawn from, or path of a file that describes one.
         limit_s: Time limit for each environment, s of robot time.
         robots: Number of robots in each environment, at least 1.
+        worlds: Whether the robots share one world, or each has its own: one or own.
         node: Node number of the first robot on the bus, 1..31; the others follow.
         profile: Name of the robots' behaviour.
         settings: Parameters to change from their defaults, by name.
@@ -39,6 +40,7 @@ class RunConfig:
     world: str = RANDOM
     limit_s: float = 600.0
     robots: int = 1
+    worlds: str = "one"
     node: int = 1
     profile: str = "article"
     settings: dict[str, int] = field(default_factory=dict)
