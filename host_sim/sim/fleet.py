@@ -7,6 +7,7 @@ from host_sim.errors import UsageError
 from host_sim.protocol.generated import NODE_MAX
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.geometry import Pose
 from host_sim.world.layouts import NoRoomError, generate
 from host_sim.world.params import SimParams
 
@@ -28,23 +29,30 @@ class FleetResult:
         robot: Number of the robot, from 1.
         seed: Its seed. In its own world it does, tick by tick, what it does alone in a run with this seed.
         environment: Number of the environment, from 1.
-        finished: Whether all the food of its world was eaten.
+        eaten: For each piece of food in its world, whether it was eaten.
         food_eaten: Number of pieces of food that it ate.
         ticks: Number of ticks.
         begun: Number of actions begun, by reason.
         collisions: Number of times that its body began to touch something.
         memory: Its eight cells at the end.
+        pose: Where it was at the end.
     """
 
     robot: int
     seed: int
     environment: int
-    finished: bool
+    eaten: tuple[bool, ...]
     food_eaten: int
     ticks: int
     begun: dict[int, int]
     collisions: int
     memory: tuple[int, ...]
+    pose: Pose
+
+    @property
+    def finished(self) -> bool:
+        """Whether all the food of its world was eaten."""
+        return all(self.eaten)
 
 
 def is_fleet(config: RunConfig) -> bool:
@@ -118,19 +126,20 @@ class _Run:
     def _leave(self, world: int) -> Iterator[FleetResult]:
         """Ends an environment."""
         fleet = self._fleet
-        finished = all(fleet.eaten(world))
+        eaten = tuple(fleet.eaten(world))
         for index in self._robots_of(world):
             self._ticks += fleet.ticks(index)
             yield FleetResult(
                 robot=index + 1,
                 seed=self._seed(index),
                 environment=self._entered[world],
-                finished=finished,
+                eaten=eaten,
                 food_eaten=fleet.food_eaten(index),
                 ticks=fleet.ticks(index),
                 begun=fleet.begun(index),
                 collisions=fleet.collisions(index),
                 memory=fleet.memory(index),
+                pose=fleet.pose(index),
             )
 
 

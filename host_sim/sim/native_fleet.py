@@ -7,7 +7,7 @@ from typing import Any
 from host_sim.errors import OctetError, UsageError
 from host_sim.paths import BUILD, ROOT
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
-from host_sim.world.geometry import Capsule
+from host_sim.world.geometry import Capsule, Pose
 from host_sim.world.layouts import Layout
 from host_sim.world.native_library import NoNativeError, load_native
 from host_sim.world.params import SimParams
@@ -132,10 +132,10 @@ class NativeFleet:
         self._library.fleet_memory(self._ffi.addressof(self._robots[index]), cells)
         return tuple(cells)
 
-    def pose(self, index: int) -> tuple[float, float, float]:
-        """A robot's x and y in mm and heading in rad."""
+    def pose(self, index: int) -> Pose:
+        """Where a robot is."""
         body = self._bodies[index]
-        return body.x_mm, body.y_mm, body.heading_rad
+        return Pose(body.x_mm, body.y_mm, body.heading_rad)
 
     def _bind(self) -> None:
         ffi, size = self._ffi, self._library.fleet_core_size()

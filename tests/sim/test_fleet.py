@@ -24,12 +24,13 @@ def results_with_frames(config: RunConfig, number_from: int = 1) -> list[FleetRe
                         index + number_from,
                         config.seed + index,
                         number,
-                        episode.finished,
+                        tuple(episode.eaten),
                         robot.food_eaten,
                         episode.ticks,
                         robot.begun,
                         robot.collisions,
                         robot.memory,
+                        simulation.arena.bodies[index].pose,
                     )
                 )
     return results
