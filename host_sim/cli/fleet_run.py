@@ -13,8 +13,9 @@ from host_sim.recording.run_folder import run_folder
 from host_sim.report.fleet_picture import write_fleet_picture
 from host_sim.sim.fleet import FleetResult, run_fleet
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.layouts import Layout, generate
+from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
+from host_sim.world.worlds import world_of
 
 SUMMARY, TABLE, PICTURE = "summary.json", "robots.csv", "fleet.png"
 """The files of a fleet in its output folder."""
@@ -29,8 +30,9 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
         UsageError: The options do not suit a fleet; nothing was changed.
         OctetError: The run could not be made.
     """
-    config, params = options.config, SimParams()
+    config = options.config
     _check(options)
+    params = world_of(config.world).params
     results: list[FleetResult] = []
     progress = _Progress(options, results)
     run = run_fleet(config, progress)
@@ -44,7 +46,7 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
         progress.clear()
         summary = summarize_fleet(config, results, params.tick_s, time.monotonic() - began)
         write_bytes(options.out / TABLE, table(results).encode())
-        write_fleet_picture(options.out / PICTURE, results, params, _world(config, params, results))
+        write_fleet_picture(options.out / PICTURE, results, params, _shared(config, results))
         write_bytes(options.out / SUMMARY, summary.to_json().encode())
     _print(options, summary)
     return summary
@@ -91,14 +93,12 @@ class _Progress:
             sys.stderr.flush()
 
 
-def _world(
-    config: RunConfig, params: SimParams, results: Sequence[FleetResult]
-) -> tuple[Layout, Sequence[bool]] | None:
+def _shared(config: RunConfig, results: Sequence[FleetResult]) -> tuple[Layout, Sequence[bool]] | None:
     """The last environment of robots that share one, and which food they left."""
     if config.worlds == "own":
         return None
     last = [result for result in results if result.environment == config.environments]
-    return generate(config.seed, config.environments, params, config.robots), last[0].eaten
+    return world_of(config.world).generate(config.seed, config.environments, config.robots), last[0].eaten
 
 
 def _print(options: RunOptions, summary: FleetSummary) -> None:

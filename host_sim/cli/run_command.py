@@ -4,7 +4,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import add_command, parameter_table
-from host_sim.cli.run_options import WatchOptions, add_run_options, add_watch_options, run_options
+from host_sim.cli.run_options import RunOptions, WatchOptions, add_run_options, add_watch_options, run_options
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -27,7 +27,7 @@ def add(commands: "Subparsers") -> None:
     """Adds the command."""
     from host_sim.backends.images import BOARDS
     from host_sim.protocol.generated import NODE_MAX
-    from host_sim.sim.fleet import FLEET_MAX, WORLDS
+    from host_sim.sim.run_config import FLEET_MAX, WORLDS
 
     run = add_command(
         commands,
@@ -55,22 +55,24 @@ def add(commands: "Subparsers") -> None:
 def _run(arguments: argparse.Namespace) -> int:
     from host_sim.backends.bus_choice import choose_bus
     from host_sim.cli.conduct import conduct, conduct_watched
-    from host_sim.cli.fleet_run import conduct_fleet
-    from host_sim.errors import UsageError
     from host_sim.protocol.generated import NODE_MAX
-    from host_sim.sim.fleet import is_fleet
 
     arguments.worlds = arguments.worlds or ("one" if arguments.robots <= NODE_MAX else "own")
     options = run_options(arguments, arguments.bus)
-    if is_fleet(options.config):
-        if arguments.watch:
-            raise UsageError(
-                f"a fleet cannot be watched: take up to {NODE_MAX} robots in one world, or leave --watch out"
-            )
-        conduct_fleet(options)
+    if options.config.is_fleet:
+        _run_fleet(options, arguments.watch)
     elif arguments.watch:
         speed = 1.0 if arguments.real_time else 0.0
         conduct_watched(arguments, WatchOptions(arguments.listen, arguments.port, speed, stays=False))
     else:
         conduct(run_options(arguments, choose_bus(arguments.bus, arguments.robot)))
     return 0
+
+
+def _run_fleet(options: RunOptions, watch: bool) -> None:
+    from host_sim.cli.fleet_run import conduct_fleet
+    from host_sim.errors import UsageError
+
+    if watch:
+        raise UsageError("a fleet cannot be watched: take up to 31 robots in one world, or leave --watch out")
+    conduct_fleet(options)

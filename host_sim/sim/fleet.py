@@ -4,18 +4,11 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from host_sim.errors import UsageError
-from host_sim.protocol.generated import NODE_MAX
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.geometry import Pose
-from host_sim.world.layouts import NoRoomError, generate
-from host_sim.world.params import SimParams
-
-FLEET_MAX = 10_000
-"""Maximum number of robots of a fleet."""
-
-WORLDS = ("one", "own")
-"""What the robots of a run may share: one world, or none."""
+from host_sim.world.layouts import NoRoomError, World
+from host_sim.world.worlds import world_of
 
 _SEED_SPAN = 2**32
 _BLOCK_TICKS = 1000
@@ -55,11 +48,6 @@ class FleetResult:
         return all(self.eaten)
 
 
-def is_fleet(config: RunConfig) -> bool:
-    """Whether a run has no bus: its robots are in worlds of their own, or more than a bus has node numbers."""
-    return config.worlds == "own" or config.robots > NODE_MAX
-
-
 def run_fleet(config: RunConfig, progress: Callable[[int], object] = lambda _: None) -> Iterator[FleetResult]:
     """Runs a fleet.
 
@@ -84,11 +72,12 @@ class _Run:
     """A fleet under way."""
 
     def __init__(self, config: RunConfig) -> None:
-        self._config, self._params = config, SimParams()
+        self._config, self._world = config, world_of(config.world)
+        params = self._world.params
         self._own = config.worlds == "own"
         if not self._own:
-            _check_room(config, self._params)
-        self._fleet = NativeFleet(config.robots, config.robots if self._own else 1, self._params)
+            _check_room(config, self._world)
+        self._fleet = NativeFleet(config.robots, config.robots if self._own else 1, params)
         for index in range(config.robots):
             self._fleet.start(index, self._seed(index), config.profile, config.settings)
         self._entered = [0] * self._fleet.worlds
@@ -119,8 +108,8 @@ class _Run:
     def _enter(self, world: int, number: int) -> None:
         """Begins an environment; world 0 is the only one, or the first robot's."""
         robots = 1 if self._own else self._config.robots
-        layout = generate(self._seed(world), number, self._params, robots)
-        self._fleet.enter(world, layout, round(self._config.limit_s / self._params.tick_s))
+        layout = self._world.generate(self._seed(world), number, robots)
+        self._fleet.enter(world, layout, round(self._config.limit_s / self._world.params.tick_s))
         self._entered[world] = number
 
     def _leave(self, world: int) -> Iterator[FleetResult]:
@@ -143,10 +132,10 @@ class _Run:
             )
 
 
-def _check_room(config: RunConfig, params: SimParams) -> None:
+def _check_room(config: RunConfig, world: World) -> None:
     try:
         for number in range(1, config.environments + 1):
-            generate(config.seed, number, params, config.robots)
+            world.generate(config.seed, number, config.robots)
     except NoRoomError as error:
         raise UsageError(
             f"{config.robots} robots are too many for one world with seed {config.seed}: {error}; "

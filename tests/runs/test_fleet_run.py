@@ -70,8 +70,9 @@ def test_a_robot_of_the_fleet_is_the_robot_of_a_run_with_its_seed(fleet, tmp_pat
     assert int(last["trials"]) == alone["environments"][1]["robots"][0]["trials"]
 
 
-def test_a_fleet_in_one_world_is_drawn_there(tmp_path):
-    done = octet("run", "--robots", "35", "--worlds", "one", *SHORT, "--json", "--out", tmp_path)
+@pytest.mark.parametrize("world", ["random", "posts"])
+def test_a_fleet_in_one_world_is_drawn_there(tmp_path, world):
+    done = octet("run", "--robots", "35", "--worlds", "one", "--world", world, *SHORT, "--json", "--out", tmp_path)
 
     assert json.loads(done.stdout)["worlds"] == "one"
     with Image.open(tmp_path / "fleet.png") as picture:
@@ -79,6 +80,7 @@ def test_a_fleet_in_one_world_is_drawn_there(tmp_path):
 
 
 REFUSED = {
+    "an unknown world": (("--world", "corridor"), "did you mean corridors?"),
     "too many for one world": (("--worlds", "one"), "1000 robots are too many for one world with seed 3"),
     "a bus": (("--bus", "fd"), "leave --bus fd out"),
     "memory files": (("--memory", "robot.mem"), "leave --memory out"),

@@ -59,6 +59,13 @@ def test_robots_in_one_world_do_what_they_do_on_a_bus(robots):
     assert list(run_fleet(config)) == results_with_frames(config)
 
 
+@pytest.mark.parametrize("world", ["corridors", "small"])
+def test_they_do_so_in_other_worlds(world):
+    config = RunConfig(seed=1, robots=4, environments=2, limit_s=20.0, world=world)
+
+    assert list(run_fleet(config)) == results_with_frames(config)
+
+
 def test_an_environment_that_is_finished_is_the_same():
     config = RunConfig(seed=5, environments=1)
 
