@@ -23,7 +23,7 @@ MAY_INCLUDE = {
     "hal/stm32/": ("hal/can_body/port.h", "hal/flash_store/", "hal/link/", "hal/port/"),
     "hal/library/": ("firmware/", "hal/protocol/"),
     "host_sim/world/native/": ("firmware/io.h",),
-    "host_sim/sim/native/": ("firmware/pattern.h", "hal/link/link.h", "hal/protocol/e2e.h", "host_sim/world/native/"),
+    "host_sim/sim/native/": ("firmware/", "hal/link/link.h", "hal/protocol/e2e.h", "host_sim/world/native/"),
 }
 FOLDERS = ("firmware", "hal", "host_sim/world/native", "host_sim/sim/native")
 GENERATED = ("octet.h", "build_id.h", "robot_words.h")

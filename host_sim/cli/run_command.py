@@ -4,7 +4,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import add_command, parameter_table
-from host_sim.cli.run_options import WatchOptions, add_run_options, add_watch_options, run_options
+from host_sim.cli.run_options import RunOptions, WatchOptions, add_run_options, add_watch_options, run_options
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -16,6 +16,7 @@ examples:
   tools/run --memory robot.mem                       resume with the memory in robot.mem, and save it there
   tools/run --set turn_deg=20 --set boredom_limit=6  other parameters
   tools/run --robots 4                               four robots in the same environments
+  tools/run --robots 1000                            a fleet: a thousand robots, each in its own world
   tools/run --robot emulated --board {board}       the flash image on an emulated board
   tools/run --bus socketcan:can0 --robot external --real-time
                                                      a real robot on a real bus
@@ -25,6 +26,8 @@ examples:
 def add(commands: "Subparsers") -> None:
     """Adds the command."""
     from host_sim.backends.images import BOARDS
+    from host_sim.protocol.generated import NODE_MAX
+    from host_sim.sim.run_config import FLEET_MAX, WORLDS
 
     run = add_command(
         commands,
@@ -35,7 +38,13 @@ def add(commands: "Subparsers") -> None:
         "`tools/run` is short for `tools/octet run`.",
         epilog=f"{parameter_table()}\n\n{_EXAMPLES.format(board=BOARDS[-1])}",
     )
-    add_run_options(run)
+    add_run_options(run, FLEET_MAX)
+    run.add_argument(
+        "--worlds",
+        choices=WORLDS,
+        help=f"whether the robots share one world, or each has its own (default: one up to {NODE_MAX} robots, "
+        "else own); more robots, or robots in worlds of their own, have no bus and no log",
+    )
     run.add_argument(
         "--real-time", action="store_true", help="run at wall-clock speed instead of as fast as possible"
     )
@@ -46,10 +55,24 @@ def add(commands: "Subparsers") -> None:
 def _run(arguments: argparse.Namespace) -> int:
     from host_sim.backends.bus_choice import choose_bus
     from host_sim.cli.conduct import conduct, conduct_watched
+    from host_sim.protocol.generated import NODE_MAX
 
-    if arguments.watch:
+    arguments.worlds = arguments.worlds or ("one" if arguments.robots <= NODE_MAX else "own")
+    options = run_options(arguments, arguments.bus)
+    if options.config.is_fleet:
+        _run_fleet(options, arguments.watch)
+    elif arguments.watch:
         speed = 1.0 if arguments.real_time else 0.0
         conduct_watched(arguments, WatchOptions(arguments.listen, arguments.port, speed, stays=False))
     else:
         conduct(run_options(arguments, choose_bus(arguments.bus, arguments.robot)))
     return 0
+
+
+def _run_fleet(options: RunOptions, watch: bool) -> None:
+    from host_sim.cli.fleet_run import conduct_fleet
+    from host_sim.errors import UsageError
+
+    if watch:
+        raise UsageError("a fleet cannot be watched: take up to 31 robots in one world, or leave --watch out")
+    conduct_fleet(options)

@@ -68,8 +68,13 @@ class RunOptions:
         return not (self.quiet or self.json)
 
 
-def add_run_options(parser: argparse.ArgumentParser) -> None:
-    """Adds the options that `run` and `watch` share."""
+def add_run_options(parser: argparse.ArgumentParser, robots_max: int = NODE_MAX) -> None:
+    """Adds the options that `run` and `watch` share.
+
+    Args:
+        parser: Parser of the command.
+        robots_max: Maximum number of robots.
+    """
     add, default = parser.add_argument, RunConfig()
     add(
         "--seed",
@@ -93,10 +98,10 @@ def add_run_options(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--robots",
-        type=number(1, NODE_MAX),
+        type=number(1, robots_max),
         default=default.robots,
         metavar="N",
-        help="number of robots, in the same environments" + _DEFAULT,
+        help=f"number of robots, up to {robots_max}" + _DEFAULT,
     )
     add("--profile", choices=tuple(PROFILES), default=default.profile, help="the robot's behaviour" + _DEFAULT)
     add(

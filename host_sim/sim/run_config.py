@@ -2,11 +2,18 @@
 
 from dataclasses import dataclass, field
 
+from host_sim.protocol.generated import NODE_MAX
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.world.world_names import RANDOM
 
 ROBOTS = ("spawn", "external", "qemu", "emulated")
 """The ways to get a robot."""
+
+FLEET_MAX = 10_000
+"""Maximum number of robots of a fleet."""
+
+WORLDS = ("one", "own")
+"""Whether the robots of a run share one world, or each has its own."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +26,7 @@ class RunConfig:
         world: Name of the world that they are drawn from, or path of a file that describes one.
         limit_s: Time limit for each environment, s of robot time.
         robots: Number of robots in each environment, at least 1.
+        worlds: One of `WORLDS`.
         node: Node number of the first robot on the bus, 1..31; the others follow.
         profile: Name of the robots' behaviour.
         settings: Parameters to change from their defaults, by name.
@@ -39,6 +47,7 @@ class RunConfig:
     world: str = RANDOM
     limit_s: float = 600.0
     robots: int = 1
+    worlds: str = WORLDS[0]
     node: int = 1
     profile: str = "article"
     settings: dict[str, int] = field(default_factory=dict)
@@ -51,6 +60,11 @@ class RunConfig:
     faults: tuple[str, ...] = ()
     fault_seed: int = 1
     real_time: bool = False
+
+    @property
+    def is_fleet(self) -> bool:
+        """Whether the robots have no bus: each has its own world, or they are more than a bus has node numbers."""
+        return self.worlds == "own" or self.robots > NODE_MAX
 
     @property
     def nodes(self) -> range:

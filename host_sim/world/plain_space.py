@@ -6,6 +6,13 @@ from host_sim.world.arena import Arena
 from host_sim.world.params import SimParams
 
 
+def cones_in_c(ffi: Any, library: Any, params: SimParams) -> Any:
+    """The bodies' cones, a `struct cones *`."""
+    cones = ffi.new("struct cones *")
+    library.cones_set(cones, params.body_radius_mm + params.sensor_reach_mm, params.front_extra_mm)
+    return cones
+
+
 class PlainSpace:
     """The walls and bars of an arena as plain geometry, and its robots among them."""
 
@@ -24,8 +31,9 @@ class PlainSpace:
         self._capsules: Any = None
         self._touching: Any = None
         self._space: Any = ffi.new("struct plain_world *")
-        self._space.body_radius_mm, self._space.sensor_reach_mm = params.body_radius_mm, params.sensor_reach_mm
-        self._space.front_extra_mm, self._space.places = params.front_extra_mm, self._places
+        self._cones = cones_in_c(ffi, library, params)
+        self._space.body_radius_mm, self._space.cones = params.body_radius_mm, self._cones
+        self._space.places = self._places
         self._world: Any = None
 
     def take(self, world: Any) -> None:

@@ -1,11 +1,14 @@
 """A sample of the comparison that `tools/bench --loops` makes over ten million ticks, and its canary."""
 
+from dataclasses import replace
+
 import pytest
 
 from host_sim.bench import native_equality
 from host_sim.bench.native_equality import compare_loops
+from host_sim.world import plain_space
 from host_sim.world.native_world import NativeWorld
-from host_sim.world.plain_space import PlainSpace
+from host_sim.world.params import SimParams
 
 
 @pytest.fixture(autouse=True)
@@ -35,13 +38,12 @@ def test_a_wheel_track_that_differs_in_the_last_places_is_found(monkeypatch):
 
 
 def test_a_cone_that_reaches_a_little_farther_in_plain_geometry_is_found(monkeypatch):
-    built = PlainSpace.__init__
+    laid_out = plain_space.cones_in_c
 
-    def build(self, *arguments) -> None:
-        built(self, *arguments)
-        self._space.sensor_reach_mm += 1.0
+    def lay_out(ffi, library, params: SimParams) -> object:
+        return laid_out(ffi, library, replace(params, sensor_reach_mm=61.0))
 
-    monkeypatch.setattr(PlainSpace, "__init__", build)
+    monkeypatch.setattr(plain_space, "cones_in_c", lay_out)
 
     difference = next(compare_loops(1)).difference
     assert "log by plain geometry" in difference

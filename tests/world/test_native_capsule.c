@@ -74,15 +74,13 @@ static void test_the_walls_insides_are_the_arenas_edge(void)
         }
 }
 
-static void test_a_thing_is_near_as_far_as_one_reaches(void)
+static void test_a_thing_is_at_least_as_far_away_as_its_box(void)
 {
     static const struct vector FAR[] = {{879.0, 1100.0}, {1121.0, 1100.0}, {1000.0, 1089.0}, {1000.0, 1131.0}};
 
-    TEST_ASSERT_TRUE(capsule_is_near(&bar, (struct vector){1000.0, 1110.0}, 0.0));
-    for (unsigned i = 0; i < sizeof FAR / sizeof *FAR; i++) {
-        TEST_ASSERT_FALSE(capsule_is_near(&bar, FAR[i], 0.5));
-        TEST_ASSERT_TRUE(capsule_is_near(&bar, FAR[i], 1.0));
-    }
+    TEST_ASSERT_EQUAL_DOUBLE(-20.0, capsule_apart_mm(&bar, (struct vector){1000.0, 1110.0}));
+    for (unsigned i = 0; i < sizeof FAR / sizeof *FAR; i++)
+        TEST_ASSERT_EQUAL_DOUBLE(1.0, capsule_apart_mm(&bar, FAR[i]));
 }
 
 static bool hides(double x, double y)
@@ -132,7 +130,7 @@ int main(void)
     RUN_TEST(test_a_disc_on_the_centre_line_is_pushed_sideways);
     RUN_TEST(test_two_discs);
     RUN_TEST(test_the_walls_insides_are_the_arenas_edge);
-    RUN_TEST(test_a_thing_is_near_as_far_as_one_reaches);
+    RUN_TEST(test_a_thing_is_at_least_as_far_away_as_its_box);
     RUN_TEST(test_a_capsule_hides_what_is_behind_it);
     RUN_TEST(test_its_round_ends_hide_too);
     RUN_TEST(test_everything_is_hidden_from_inside);

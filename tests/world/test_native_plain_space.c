@@ -9,6 +9,7 @@ static struct body bodies[BODIES];
 static struct capsule capsules[CAPSULES];
 static struct plain_place places[BODIES];
 static uint64_t touching[(BODIES + 1) * WORDS];
+static struct cones cones;
 static struct plain_world space;
 static struct world world;
 static struct body *body;
@@ -25,8 +26,8 @@ void setUp(void)
     capsule_set_walls(capsules, 4000.0, 3000.0);
     capsule_set(&capsules[WALLS], (struct vector){2000.0, 500.0}, (struct vector){2000.0, 1500.0}, 20.0);
     world = (struct world){.params = params, .body_count = BODIES, .bodies = bodies};
-    space = (struct plain_world){.body_radius_mm = 100.0, .sensor_reach_mm = 60.0, .front_extra_mm = 0.5,
-        .capsule_count = CAPSULES, .capsules = capsules, .places = places, .words = WORDS, .touching = touching};
+    space = (struct plain_world){.body_radius_mm = 100.0, .cones = &cones, .capsule_count = CAPSULES, .capsules = capsules, .places = places, .words = WORDS, .touching = touching};
+    cones_set(&cones, 160.0, 0.5);
     world_begin(&world);
     plain_space_take(&space, &world);
     body = &bodies[0];

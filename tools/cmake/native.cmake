@@ -15,7 +15,8 @@ function(octet_native_library target static prefix)
   file(CONFIGURE OUTPUT ${source} CONTENT
     "const char *${prefix}stamp(void);\n\nconst char *${prefix}stamp(void)\n{\n    return \"${texts}\";\n}\n")
   add_library(${target} SHARED ${source})
-  target_link_libraries(${target} PRIVATE octet_warnings -Wl,--whole-archive ${static} -Wl,--no-whole-archive)
+  target_link_libraries(${target} PRIVATE octet_warnings -Wl,--whole-archive ${static} -Wl,--no-whole-archive
+    -Wl,-Bsymbolic-functions)
   string(REGEX REPLACE "_shared$" "" name ${target})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
 endfunction()

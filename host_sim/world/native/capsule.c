@@ -43,13 +43,16 @@ void capsule_set_walls(struct capsule walls[WALLS], double width_mm, double heig
         capsule_set(&walls[i], corners[i], corners[(i + 1) % WALLS], WALL_MM);
 }
 
-bool capsule_is_near(const struct capsule *capsule, struct vector point, double reach_mm)
+double capsule_apart_mm(const struct capsule *capsule, struct vector point)
 {
-    return point.x >= capsule->low.x - reach_mm && point.x <= capsule->high.x + reach_mm
-        && point.y >= capsule->low.y - reach_mm && point.y <= capsule->high.y + reach_mm;
+    double across_mm = more(capsule->low.x - point.x, point.x - capsule->high.x);
+    double down_mm = more(capsule->low.y - point.y, point.y - capsule->high.y);
+
+    return more(across_mm, down_mm);
 }
 
-struct vector capsule_nearest(struct vector a, struct vector b, struct vector point)
+/* The point of a centre line that is nearest to a point. */
+static struct vector nearest_of(struct vector a, struct vector b, struct vector point)
 {
     struct vector way = vector_to(a, b);
     double part = clamped(vector_dot(way, vector_to(a, point)) / vector_dot(way, way));
@@ -89,7 +92,7 @@ static void meet(const struct disc *disc, const struct disc *other, struct vecto
 void capsule_meet_disc(const struct capsule *capsule, struct vector centre, double radius_mm, struct contact *out)
 {
     const struct disc disc = {centre, radius_mm, centre};
-    const struct disc nearest = {capsule_nearest(capsule->a, capsule->b, centre), capsule->radius_mm, {0.0, 0.0}};
+    const struct disc nearest = {nearest_of(capsule->a, capsule->b, centre), capsule->radius_mm, {0.0, 0.0}};
 
     meet(&disc, &nearest, capsule->side, out);
 }
@@ -105,7 +108,7 @@ void capsule_meet_discs(struct vector one, struct vector other, double radius_mm
 static bool is_inside(struct vector a, struct vector b, double radius_mm, struct vector point)
 {
     /* From b, as Munk2D has it. */
-    return vector_length(vector_to(capsule_nearest(b, a, point), point)) - radius_mm <= 0.0;
+    return vector_length(vector_to(nearest_of(b, a, point), point)) - radius_mm <= 0.0;
 }
 
 /* Whether a way from outside a disc goes into it before its end. */
@@ -144,8 +147,17 @@ static bool goes_into(const struct capsule *capsule, struct vector from, struct 
     return enters_disc(capsule->a, radius_mm, from, to) || enters_disc(capsule->b, radius_mm, from, to);
 }
 
+/* Whether a way passes the box around a capsule on one side. */
+static bool is_aside(const struct capsule *capsule, struct vector from, struct vector to)
+{
+    return (from.x < capsule->low.x && to.x < capsule->low.x) || (from.x > capsule->high.x && to.x > capsule->high.x)
+        || (from.y < capsule->low.y && to.y < capsule->low.y) || (from.y > capsule->high.y && to.y > capsule->high.y);
+}
+
 bool capsule_hides(const struct capsule *capsule, struct vector from, struct vector to)
 {
+    if (is_aside(capsule, from, to))
+        return false;
     return is_inside(capsule->a, capsule->b, capsule->radius_mm, from) || goes_into(capsule, from, to);
 }
 

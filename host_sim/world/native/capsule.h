@@ -31,11 +31,8 @@ void capsule_set(struct capsule *capsule, struct vector a, struct vector b, doub
 void capsule_set_walls(struct capsule walls[WALLS], double width_mm, double height_mm);
         /* The walls around an arena with a corner at (0, 0); their insides are its edge. */
 
-bool capsule_is_near(const struct capsule *capsule, struct vector point, double reach_mm);
-        /* Whether it may be within reach of a point: false only if it is not. */
-
-struct vector capsule_nearest(struct vector a, struct vector b, struct vector point);
-        /* The point of a centre line that is nearest to a point. */
+double capsule_apart_mm(const struct capsule *capsule, struct vector point);
+        /* What its distance from a point is at least: that of the box around it. Negative within the box. */
 
 void capsule_meet_disc(const struct capsule *capsule, struct vector centre, double radius_mm, struct contact *out);
 

@@ -38,9 +38,15 @@ void cones_set(struct cones *cones, double reach_mm, double front_extra_mm)
 
 static bool is_close(const struct capsule *thing, struct vector point)
 {
-    struct vector way = vector_to(point, capsule_nearest(thing->a, thing->b, point));
+    struct vector line = vector_to(thing->a, thing->b), way = vector_to(thing->a, point);
+    double along = vector_dot(way, line), square = vector_dot(line, line), aside = vector_cross(line, way);
+    double limit = thing->radius_mm * thing->radius_mm;
 
-    return vector_dot(way, way) <= thing->radius_mm * thing->radius_mm;
+    if (along > 0.0 && along < square)
+        return aside * aside <= limit * square;
+    if (along > 0.0)
+        way = vector_to(thing->b, point);
+    return vector_dot(way, way) <= limit;
 }
 
 /* Whether all corners are farther from the line of a thing's middle, on the same side, than its radius. */

@@ -2,6 +2,9 @@
 
 #include "host_sim/world/native/vector_sums.h"
 
+static const double MARGIN_MM = 0.001;   /* far more than rounding */
+static const double FREE_MAX_MM = 1e6;
+
 static struct plain_world *of(const struct world *world)
 {
     return (struct plain_world *)world->space;
@@ -46,7 +49,7 @@ static void feel(struct finding *finding, struct vector a, struct vector b, doub
     const struct capsule thing = {.a = seen_from(body, a), .b = seen_from(body, b), .radius_mm = radius_mm};
 
     for (unsigned n = 0; n < CONES; n++)
-        if (cones_overlap(&finding->space->cones.of[n], &thing)) {
+        if (cones_overlap(&finding->space->cones->of[n], &thing)) {
             body->overlaps[n]++;
             body->feel = (uint8_t)(body->feel | 1u << n);
         }
@@ -54,7 +57,7 @@ static void feel(struct finding *finding, struct vector a, struct vector b, doub
 
 static bool is_far(const struct plain_world *space, const struct contact *contact, double radius_mm)
 {
-    double reach_mm = space->cones.reach_mm + radius_mm;
+    double reach_mm = space->cones->reach_mm + radius_mm;
 
     return contact->apart_mm2 > reach_mm * reach_mm;
 }
@@ -67,23 +70,45 @@ static void touch(struct finding *finding, const struct contact *contact, size_t
     press(finding->body, contact);
 }
 
-static void meet_capsules(struct finding *finding)
+/* How far a body may go before it could feel a thing that it is so far away from. */
+static double way_to(const struct plain_world *space, double apart_mm)
+{
+    return apart_mm - space->cones->reach_mm - MARGIN_MM;
+}
+
+/* Meets one capsule. Returns how far away it is at least. */
+static double meet_capsule(struct finding *finding, size_t number)
 {
     const struct plain_world *space = finding->space;
-    struct vector at = position(finding->body);
+    const struct capsule *capsule = &space->capsules[number];
+    double apart_mm = capsule_apart_mm(capsule, position(finding->body));
+    struct contact contact;
 
+    if (apart_mm > space->cones->reach_mm)
+        return apart_mm;
+    capsule_meet_disc(capsule, position(finding->body), space->body_radius_mm, &contact);
+    if (is_far(space, &contact, capsule->radius_mm))
+        return vector_root(contact.apart_mm2) - capsule->radius_mm;
+    touch(finding, &contact, number);
+    feel(finding, capsule->a, capsule->b, capsule->radius_mm);
+    return 0.0;
+}
+
+static void meet_capsules(struct finding *finding, struct plain_place *place)
+{
+    const struct plain_world *space = finding->space;
+    double free_mm = place->free_mm;
+
+    if (free_mm > 0.0)
+        return;
+    free_mm = FREE_MAX_MM;
     for (size_t i = 0; i < space->capsule_count; i++) {
-        const struct capsule *capsule = &space->capsules[i];
-        struct contact contact;
+        double way_mm = way_to(space, meet_capsule(finding, i));
 
-        if (!capsule_is_near(capsule, at, space->cones.reach_mm))
-            continue;
-        capsule_meet_disc(capsule, at, space->body_radius_mm, &contact);
-        if (is_far(space, &contact, capsule->radius_mm))
-            continue;
-        touch(finding, &contact, i);
-        feel(finding, capsule->a, capsule->b, capsule->radius_mm);
+        if (way_mm < free_mm)
+            free_mm = way_mm;
     }
+    place->free_mm = free_mm;
 }
 
 static void meet_bodies(struct finding *finding, const struct world *world)
@@ -138,7 +163,7 @@ static void find(struct world *world, struct body *body)
     for (size_t i = 0; i < space->words; i++)
         finding.touching[i] = 0;
     if (!body->lifted) {
-        meet_capsules(&finding);
+        meet_capsules(&finding, &space->places[index_of(world, body)]);
         meet_bodies(&finding, world);
     }
     count_touches(&finding, &space->touching[index_of(world, body) * space->words]);
@@ -148,16 +173,24 @@ static void find(struct world *world, struct body *body)
 static bool may_notice(const struct plain_world *space, const struct body *body, const struct plain_place *other)
 {
     struct vector way = vector_to(position(body), other->at);
-    double reach_mm = space->cones.reach_mm + space->body_radius_mm;
+    double reach_mm = space->cones->reach_mm + space->body_radius_mm;
 
     return !body->lifted && !other->lifted && vector_dot(way, way) <= reach_mm * reach_mm;
+}
+
+/* How far a body may still go after a move. */
+static double free_after(const struct plain_place *place, const struct body *body)
+{
+    struct vector way = vector_to(place->at, position(body));
+
+    return place->free_mm - (way.x < 0.0 ? -way.x : way.x) - (way.y < 0.0 ? -way.y : way.y);
 }
 
 static void place(struct world *world, struct body *body)
 {
     struct plain_world *space = of(world);
     struct plain_place *place = &space->places[index_of(world, body)];
-    const struct plain_place before = *place, now = {position(body), body->lifted};
+    const struct plain_place before = *place, now = {position(body), body->lifted, free_after(place, body)};
 
     *place = now;
     find(world, body);
@@ -190,12 +223,11 @@ void plain_space_take(struct plain_world *space, struct world *world)
 {
     space->space = (struct space){place, hides};
     world->space = &space->space;
-    cones_set(&space->cones, space->body_radius_mm + space->sensor_reach_mm, space->front_extra_mm);
     for (size_t i = 0; i < world->body_count; i++) {
         struct body *body = &world->bodies[i];
         int32_t collisions = body->collisions;
 
-        space->places[i] = (struct plain_place){position(body), body->lifted};
+        space->places[i] = (struct plain_place){position(body), body->lifted, 0.0};
         find(world, body);
         body->collisions = collisions;
     }
@@ -203,6 +235,8 @@ void plain_space_take(struct plain_world *space, struct world *world)
 
 void plain_space_settle(struct world *world)
 {
+    for (size_t i = 0; i < world->body_count; i++)
+        of(world)->places[i].free_mm = 0.0;
     for (size_t i = 0; i < world->body_count; i++) {
         world->bodies[i].depth_mm = 0.0;
         place(world, &world->bodies[i]);

@@ -9,19 +9,18 @@
 struct plain_place {
     struct vector at;
     bool lifted;
+    double free_mm;   /* how far it may go from there before it could feel an obstacle; 0: not known */
 };
 
 struct plain_world {
     struct space space;
     double body_radius_mm;
-    double sensor_reach_mm;        /* beyond the body, of all cones but the front one */
-    double front_extra_mm;         /* how much farther that one reaches */
+    const struct cones *cones;
     size_t capsule_count;
     struct capsule *capsules;      /* walls and bars */
     struct plain_place *places;    /* one for each body */
     size_t words;                  /* PLAIN_WORDS(capsule_count + body_count) */
     uint64_t *touching;            /* words for each body, and once more: a bit for each thing that it touches */
-    struct cones cones;
 };
 
 enum { PLAIN_WORD_BITS = 64 };

@@ -1,0 +1,111 @@
+"""Runs a fleet and writes its summary, its table and its picture."""
+
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from host_sim.atomic_file import write_bytes
+from host_sim.cli.run_options import RunOptions
+from host_sim.errors import UsageError
+from host_sim.recording.fleet_summary import FleetSummary, environment_line, summarize_fleet, table
+from host_sim.recording.run_folder import run_folder
+from host_sim.report.fleet_picture import write_fleet_picture
+from host_sim.sim.fleet import FleetResult, run_fleet
+from host_sim.sim.run_config import RunConfig
+from host_sim.world.layouts import Layout
+from host_sim.world.params import SimParams
+from host_sim.world.worlds import world_of
+
+SUMMARY, TABLE, PICTURE = "summary.json", "robots.csv", "fleet.png"
+"""The files of a fleet in its output folder."""
+
+_EVERY_S = 0.25
+
+
+def conduct_fleet(options: RunOptions) -> FleetSummary:
+    """Conducts the run of a fleet and writes its files.
+
+    Raises:
+        UsageError: The options do not suit a fleet; nothing was changed.
+        OctetError: The run could not be made.
+    """
+    config = options.config
+    _check(options)
+    params = world_of(config.world).params
+    results: list[FleetResult] = []
+    progress = _Progress(options, results)
+    run = run_fleet(config, progress)
+    with run_folder(options.out):
+        if options.talks:
+            where = "all in one world" if config.worlds == "one" else "each in its own world"
+            print(f"fleet     {config.robots} robots, {where}, profile {config.profile}, seeds from {config.seed}")
+        began = time.monotonic()
+        for result in run:
+            results.append(result)  # noqa: PERF402 - the progress reads it meanwhile
+        progress.clear()
+        summary = summarize_fleet(config, results, params.tick_s, time.monotonic() - began)
+        write_bytes(options.out / TABLE, table(results).encode())
+        write_fleet_picture(options.out / PICTURE, results, params, _shared(config, results))
+        write_bytes(options.out / SUMMARY, summary.to_json().encode())
+    _print(options, summary)
+    return summary
+
+
+def _check(options: RunOptions) -> None:
+    """Refuses what a fleet does not have."""
+    config, default = options.config, RunConfig()
+    fleets = "a fleet (more than 31 robots, or --worlds own)"
+    if config.bus not in {"auto", "none"}:
+        raise UsageError(f"{fleets} has no bus: leave --bus {config.bus} out, or run fewer robots in one world")
+    unsuited = {
+        "--robot": config.robot != default.robot,
+        "--node": config.node != default.node,
+        "--fault": config.faults != default.faults,
+        "--memory": options.memory is not None,
+        "--real-time": config.real_time,
+    }
+    for name in (name for name, given in unsuited.items() if given):
+        raise UsageError(f"{fleets} has no bus and keeps its memories in {TABLE}: leave {name} out")
+
+
+class _Progress:
+    """A line on a terminal, rewritten during the run."""
+
+    def __init__(self, options: RunOptions, results: Sequence[FleetResult]) -> None:
+        config = options.config
+        self._planned, self._results = config.robots * config.environments, results
+        self._shown = options.talks and sys.stderr.isatty()
+        self._began = self._then = time.monotonic()
+
+    def __call__(self, ticks: int) -> None:
+        now = time.monotonic()
+        if not self._shown or now - self._then < _EVERY_S:
+            return
+        self._then = now
+        speed = ticks * SimParams.tick_s / (now - self._began)
+        sys.stderr.write(f"\r\x1b[K{len(self._results)} of {self._planned} environments   {speed:.0f} x real time")
+        sys.stderr.flush()
+
+    def clear(self) -> None:
+        if self._shown:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
+
+
+def _shared(config: RunConfig, results: Sequence[FleetResult]) -> tuple[Layout, Sequence[bool]] | None:
+    """The last environment of robots that share one, and which food they left."""
+    if config.worlds == "own":
+        return None
+    last = [result for result in results if result.environment == config.environments]
+    return world_of(config.world).generate(config.seed, config.environments, config.robots), last[0].eaten
+
+
+def _print(options: RunOptions, summary: FleetSummary) -> None:
+    if options.json:
+        sys.stdout.write(summary.to_json())
+    elif options.talks:
+        for environment in summary.environments:
+            print(environment_line(environment, summary.robots))
+        print(summary.for_people())
+        print(f"wrote     {', '.join(str(Path(options.out) / name) for name in (PICTURE, TABLE, SUMMARY))}")

@@ -1,0 +1,143 @@
+"""A fleet: up to thousands of robots without a bus, each in a world of its own or all in one."""
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+
+from host_sim.errors import UsageError
+from host_sim.sim.native_fleet import NativeFleet
+from host_sim.sim.run_config import RunConfig
+from host_sim.world.geometry import Pose
+from host_sim.world.layouts import NoRoomError, World
+from host_sim.world.worlds import world_of
+
+_SEED_SPAN = 2**32
+_BLOCK_TICKS = 1000
+
+
+@dataclass(frozen=True)
+class FleetResult:
+    """What one robot of a fleet did in one environment.
+
+    Attributes:
+        robot: Number of the robot, from 1.
+        seed: Its seed. In its own world it does, tick by tick, what it does alone in a run with this seed.
+        environment: Number of the environment, from 1.
+        eaten: For each piece of food in its world, whether it was eaten.
+        food_eaten: Number of pieces of food that it ate.
+        ticks: Number of ticks.
+        begun: Number of actions begun, by reason.
+        collisions: Number of times that its body began to touch something.
+        memory: Its eight cells at the end.
+        pose: Where it was at the end.
+    """
+
+    robot: int
+    seed: int
+    environment: int
+    eaten: tuple[bool, ...]
+    food_eaten: int
+    ticks: int
+    begun: dict[int, int]
+    collisions: int
+    memory: tuple[int, ...]
+    pose: Pose
+
+    @property
+    def finished(self) -> bool:
+        """Whether all the food of its world was eaten."""
+        return all(self.eaten)
+
+
+def run_fleet(config: RunConfig, progress: Callable[[int], object] = lambda _: None) -> Iterator[FleetResult]:
+    """Runs a fleet.
+
+    >>> [result.seed for result in run_fleet(RunConfig(seed=7, robots=2, worlds="own", environments=1, limit_s=1.0))]
+    [7, 8]
+
+    Args:
+        config: The run; of its options for buses and boards, none may be set.
+        progress: Called now and then with the number of ticks that all robots have run so far.
+
+    Yields:
+        The result of each robot in each environment, once it has ended.
+
+    Raises:
+        UsageError: The robots do not fit into their world, or refuse their configuration.
+        OctetError: Something that must be built is missing.
+    """
+    return _Run(config).results(progress)
+
+
+class _Run:
+    """A fleet under way."""
+
+    def __init__(self, config: RunConfig) -> None:
+        self._config, self._world = config, world_of(config.world)
+        params = self._world.params
+        self._own = config.worlds == "own"
+        if not self._own:
+            _check_room(config, self._world)
+        self._fleet = NativeFleet(config.robots, config.robots if self._own else 1, params)
+        for index in range(config.robots):
+            self._fleet.start(index, self._seed(index), config.profile, config.settings)
+        self._entered = [0] * self._fleet.worlds
+        self._ticks = 0
+
+    def results(self, progress: Callable[[int], object]) -> Iterator[FleetResult]:
+        """Takes all robots through their environments."""
+        fleet = self._fleet
+        for world in range(fleet.worlds):
+            self._enter(world, 1)
+        active = list(range(fleet.worlds))
+        while active:
+            fleet.run(_BLOCK_TICKS)
+            progress(self._ticks + sum(fleet.ticks(index) for world in active for index in self._robots_of(world)))
+            for world in [world for world in active if fleet.is_over(world)]:
+                yield from self._leave(world)
+                if self._entered[world] == self._config.environments:
+                    active.remove(world)
+                else:
+                    self._enter(world, self._entered[world] + 1)
+
+    def _seed(self, index: int) -> int:
+        return (self._config.seed + index) % _SEED_SPAN
+
+    def _robots_of(self, world: int) -> Iterable[int]:
+        return (world,) if self._own else range(self._fleet.robots)
+
+    def _enter(self, world: int, number: int) -> None:
+        """Begins an environment; world 0 is the only one, or the first robot's."""
+        robots = 1 if self._own else self._config.robots
+        layout = self._world.generate(self._seed(world), number, robots)
+        self._fleet.enter(world, layout, round(self._config.limit_s / self._world.params.tick_s))
+        self._entered[world] = number
+
+    def _leave(self, world: int) -> Iterator[FleetResult]:
+        """Ends an environment."""
+        fleet = self._fleet
+        eaten = tuple(fleet.eaten(world))
+        for index in self._robots_of(world):
+            self._ticks += fleet.ticks(index)
+            yield FleetResult(
+                robot=index + 1,
+                seed=self._seed(index),
+                environment=self._entered[world],
+                eaten=eaten,
+                food_eaten=fleet.food_eaten(index),
+                ticks=fleet.ticks(index),
+                begun=fleet.begun(index),
+                collisions=fleet.collisions(index),
+                memory=fleet.memory(index),
+                pose=fleet.pose(index),
+            )
+
+
+def _check_room(config: RunConfig, world: World) -> None:
+    try:
+        for number in range(1, config.environments + 1):
+            world.generate(config.seed, number, config.robots)
+    except NoRoomError as error:
+        raise UsageError(
+            f"{config.robots} robots are too many for one world with seed {config.seed}: {error}; "
+            f"take fewer, or --worlds own"
+        ) from None

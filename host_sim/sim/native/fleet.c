@@ -1,0 +1,88 @@
+#include "host_sim/sim/native/fleet.h"
+
+#include "firmware/robot.h"
+
+struct fleet_core {
+    struct robot robot;
+    struct input in;   /* its last senses */
+};
+
+size_t fleet_core_size(void)
+{
+    return sizeof(struct fleet_core);
+}
+
+void fleet_wake(struct fleet_robot *robot)
+{
+    static const uint8_t nothing[CELL_COUNT] = {0};
+
+    robot_init(&robot->core->robot, 0);
+    (void)brain_adopt(&robot->core->robot.brain, nothing);
+}
+
+int fleet_command(struct fleet_robot *robot, int opcode, uint8_t which, uint32_t value, uint32_t *answer)
+{
+    const struct command command = {.opcode = (enum opcode)opcode, .which = which, .value = value};
+
+    *answer = 0;
+    return (int)robot_execute(&robot->core->robot, &command, answer);
+}
+
+void fleet_memory(const struct fleet_robot *robot, uint8_t *cells)
+{
+    for (unsigned i = 0; i < CELL_COUNT; i++)
+        cells[i] = robot->core->robot.brain.memory.cell[i];
+}
+
+static void sense(struct fleet_robot *robot)
+{
+    world_sense(robot->world, robot->body, (uint8_t)(robot->tick % TICK_SPAN), &robot->core->in.senses);
+}
+
+/* What the core makes of its senses, and what that does in the world. */
+static void act(struct fleet_robot *robot)
+{
+    struct output out;
+
+    robot_respond(&robot->core->robot, INPUT_SENSES, &robot->core->in, &out);
+    if (out.drive.action != robot->action && (unsigned)out.drive.reason < FLEET_REASONS)
+        robot->begun[out.drive.reason]++;
+    robot->action = out.drive.action;
+    if (out.drive.eat)
+        robot->food_eaten += world_eat(robot->world, robot->body);
+    world_move(robot->world, robot->body, out.drive.left_mm_s, out.drive.right_mm_s);
+    robot->tick++;
+    robot->ticks++;
+}
+
+static bool is_over(const struct fleet_robot *robot)
+{
+    return robot->ticks >= robot->ticks_max || world_food_left(robot->world) == 0;
+}
+
+size_t fleet_run_alone(struct fleet_robot robots[], size_t count, uint32_t ticks)
+{
+    size_t left = 0;
+
+    for (size_t i = 0; i < count; i++) {
+        struct fleet_robot *robot = &robots[i];
+
+        for (uint32_t tick = 0; tick < ticks && !is_over(robot); tick++) {
+            sense(robot);
+            act(robot);
+        }
+        left += !is_over(robot);
+    }
+    return left;
+}
+
+size_t fleet_run_together(struct fleet_robot robots[], size_t count, uint32_t ticks)
+{
+    for (uint32_t tick = 0; tick < ticks && !is_over(robots); tick++) {
+        for (size_t i = 0; i < count; i++)
+            sense(&robots[i]);
+        for (size_t i = 0; i < count; i++)
+            act(&robots[i]);
+    }
+    return is_over(robots) ? 0 : count;
+}

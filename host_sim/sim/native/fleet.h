@@ -1,0 +1,45 @@
+/* fleet.h: many robots at once, each with its own core, without a wire: the core is handed its senses, and drives.
+ *
+ * What a robot senses and does is what it would sense and do in a run of loop.h, where frames carry the same. The caller
+ * provides all memory. */
+#ifndef OCTET_FLEET_H
+#define OCTET_FLEET_H
+
+#include "host_sim/world/native/world.h"
+
+struct fleet_core;   /* a robot's firmware: fleet_core_size() bytes */
+
+enum { FLEET_REASONS = 16 };
+
+struct fleet_robot {
+    struct fleet_core *core;
+    struct world *world;
+    struct body *body;                /* its own in that world */
+    uint32_t tick;                    /* number of its next tick */
+    uint32_t ticks;                   /* in this environment so far */
+    uint32_t ticks_max;               /* after which it ends, finished or not */
+    uint8_t action;                   /* the last drive's */
+    uint32_t begun[FLEET_REASONS];    /* actions begun in this environment, by reason */
+    uint32_t food_eaten;              /* in this environment */
+};
+
+size_t fleet_core_size(void);
+        /* The bytes of a core; those of the next one may follow. */
+
+void fleet_wake(struct fleet_robot *robot);
+        /* A core as after power-up, with an empty memory. */
+
+int fleet_command(struct fleet_robot *robot, int opcode, uint8_t which, uint32_t value, uint32_t *answer);
+        /* Has the core carry out one command. 0, or a result that says why not. */
+
+void fleet_memory(const struct fleet_robot *robot, uint8_t *cells);
+        /* Copies a core's memory: CELL_COUNT bytes. */
+
+size_t fleet_run_alone(struct fleet_robot robots[], size_t count, uint32_t ticks);
+        /* Runs each robot in its own world for a number of ticks, one robot after the other, or to the end of its
+           environment. Returns how many are not at its end. */
+
+size_t fleet_run_together(struct fleet_robot robots[], size_t count, uint32_t ticks);
+        /* The same for robots that share a world: they sense each other, tick by tick. */
+
+#endif

@@ -1,0 +1,185 @@
+"""Robots by the thousand in C (`native/fleet.h`): each with its own core, without a wire."""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Any
+
+from host_sim.errors import OctetError, UsageError
+from host_sim.paths import BUILD, ROOT
+from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
+from host_sim.world.geometry import Capsule, Pose
+from host_sim.world.layouts import Layout
+from host_sim.world.native_library import NoNativeError, load_native
+from host_sim.world.params import SimParams
+from host_sim.world.plain_space import cones_in_c
+
+LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_fleet.so"
+_WORLD = ROOT / "host_sim" / "world" / "native"
+_NAMES = ("vector", "space", "world", "capsule", "cones", "plain_space")
+HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), ROOT / "host_sim" / "sim" / "native" / "fleet.h")
+
+
+class NativeFleet:
+    """Robots, and one or several worlds that they are in.
+
+    Attributes:
+        robots: Their number.
+        worlds: The number of worlds: 1, or as many as there are robots.
+    """
+
+    def __init__(self, robots: int, worlds: int, params: SimParams) -> None:
+        """Makes room.
+
+        Args:
+            robots: Number of robots.
+            worlds: 1, or as many as there are robots.
+            params: The dimensions of the worlds.
+
+        Raises:
+            OctetError: The library cannot be used.
+        """
+        self.robots, self.worlds = robots, worlds
+        self._params = params
+        try:
+            self._ffi, self._library = loaded()
+        except NoNativeError as error:
+            raise OctetError(f"a fleet runs in C, but {error}; build it with tools/setup") from None
+        ffi = self._ffi
+        self._each = robots // worlds  # in one world
+        # cffi frees what no name holds any more.
+        self._things: list[tuple[Any, ...]] = [()] * worlds
+        self._cones = cones_in_c(ffi, self._library, params)
+        self._cores = ffi.new("char[]", robots * self._library.fleet_core_size())
+        self._bodies: Any = ffi.new("struct body[]", robots)
+        self._places: Any = ffi.new("struct plain_place[]", robots)
+        self._worlds: Any = ffi.new("struct world[]", worlds)
+        self._spaces: Any = ffi.new("struct plain_world[]", worlds)
+        self._robots: Any = ffi.new("struct fleet_robot[]", robots)
+        self._bind()
+
+    def start(self, index: int, seed: int, profile: str, settings: Mapping[str, int]) -> None:
+        """Starts a robot with an empty memory.
+
+        Raises:
+            UsageError: It refuses, or wants what a fleet does not have.
+        """
+        robot = self._robots[index]
+        self._library.fleet_wake(self._ffi.addressof(robot))
+        if self._command(robot, Opcode.START, PROFILES[profile], seed) & ANSWER_WANTS_RANGES:
+            raise UsageError(f"profile {profile} needs distances, which a fleet's robots are not told; take another")
+        for name, value in settings.items():
+            self._command(robot, Opcode.SET, PARAMETERS[name].number, value)
+
+    def enter(self, world: int, layout: Layout, ticks_max: int) -> None:
+        """Puts the robots of a world into another environment, their odometers as they are.
+
+        Args:
+            world: Index of the world.
+            layout: The environment.
+            ticks_max: Number of ticks after which it ends, finished or not.
+        """
+        there = self._worlds[world]
+        self._lay_out(world, layout)
+        for i, pose in enumerate(layout.starts):
+            index = world * self._each + i
+            body, robot = self._bodies[index], self._robots[index]
+            body.x_mm, body.y_mm, body.heading_rad = pose
+            body.seen, body.collisions, body.depth_mm = -1, 0, 0.0
+            robot.ticks, robot.ticks_max, robot.food_eaten = 0, ticks_max, 0
+            robot.begun = [0] * self._library.FLEET_REASONS
+        pointer = self._ffi.addressof(there)
+        self._library.world_begin(pointer)
+        self._library.plain_space_take(self._ffi.addressof(self._spaces[world]), pointer)
+
+    def run(self, ticks: int) -> int:
+        """Runs all robots for a number of ticks, or to the ends of their environments.
+
+        Returns:
+            The number of robots whose environment has not ended.
+        """
+        run = self._library.fleet_run_alone if self.worlds == self.robots else self._library.fleet_run_together
+        return int(run(self._robots, self.robots, ticks))
+
+    def is_over(self, world: int) -> bool:
+        """Whether a world's environment has ended."""
+        robot = self._robots[world * self._each]
+        return bool(robot.ticks >= robot.ticks_max) or all(self.eaten(world))
+
+    def eaten(self, world: int) -> list[bool]:
+        """For each piece of food in a world, whether it has been eaten."""
+        there = self._worlds[world]
+        return [bool(food.eaten) for food in there.food[0 : there.food_count]]
+
+    def ticks(self, index: int) -> int:
+        """Number of ticks of a robot in its environment so far."""
+        return int(self._robots[index].ticks)
+
+    def begun(self, index: int) -> dict[int, int]:
+        """Number of actions that a robot has begun in its environment, by reason."""
+        return {reason: count for reason, count in enumerate(self._robots[index].begun) if count}
+
+    def food_eaten(self, index: int) -> int:
+        """Number of pieces of food that a robot has eaten in its environment."""
+        return int(self._robots[index].food_eaten)
+
+    def collisions(self, index: int) -> int:
+        """Number of times that a robot's body has begun to touch something in its environment."""
+        return int(self._bodies[index].collisions)
+
+    def memory(self, index: int) -> tuple[int, ...]:
+        """A robot's eight cells."""
+        cells = self._ffi.new("uint8_t[]", CELL_COUNT)
+        self._library.fleet_memory(self._ffi.addressof(self._robots[index]), cells)
+        return tuple(cells)
+
+    def pose(self, index: int) -> Pose:
+        """Where a robot is."""
+        body = self._bodies[index]
+        return Pose(body.x_mm, body.y_mm, body.heading_rad)
+
+    def _bind(self) -> None:
+        ffi, size = self._ffi, self._library.fleet_core_size()
+        for index, robot in enumerate(self._robots):
+            world = index // self._each
+            robot.core = ffi.cast("struct fleet_core *", self._cores + index * size)
+            robot.world, robot.body = ffi.addressof(self._worlds[world]), ffi.addressof(self._bodies[index])
+        for world, (there, space) in enumerate(zip(self._worlds, self._spaces, strict=True)):
+            there.params = {name: getattr(self._params, name) for name, _ in ffi.typeof("struct world_params").fields}
+            there.bodies, there.body_count = self._bodies + world * self._each, self._each
+            space.body_radius_mm, space.cones = self._params.body_radius_mm, self._cones
+            space.places = self._places + world * self._each
+
+    def _lay_out(self, world: int, layout: Layout) -> None:
+        ffi, library, params = self._ffi, self._library, self._params
+        bars = [Capsule(bar.a, bar.b, params.bar_thickness_mm / 2) for bar in layout.bars]
+        count = library.WALLS + len(bars)
+        capsules, food = ffi.new("struct capsule[]", count), ffi.new("struct food[]", len(layout.food))
+        library.capsule_set_walls(capsules, params.width_mm, params.height_mm)
+        for i, (a, b, radius_mm) in enumerate(bars, library.WALLS):
+            library.capsule_set(capsules + i, [*a], [*b], radius_mm)
+        for there, (x, y) in zip(food, layout.food, strict=True):
+            there.x_mm, there.y_mm = x, y
+        words = -(-(count + self._each) // library.PLAIN_WORD_BITS)
+        touching = ffi.new("uint64_t[]", words * (self._each + 1))
+        self._things[world] = capsules, food, touching
+        there, space = self._worlds[world], self._spaces[world]
+        there.food, there.food_count = food, len(layout.food)
+        space.capsules, space.capsule_count, space.touching, space.words = capsules, count, touching, words
+
+    def _command(self, robot: Any, opcode: int, which: int, value: int) -> int:
+        answer = self._ffi.new("uint32_t *")
+        if self._library.fleet_command(self._ffi.addressof(robot), opcode, which, value, answer):
+            raise UsageError(
+                f"the robot refuses {Opcode(opcode).name.lower()} {which} {value}: check profile and --set"
+            )
+        return int(answer[0])
+
+
+@cache
+def loaded() -> tuple[Any, Any]:
+    """The library.
+
+    Raises:
+        NoNativeError: It cannot be used.
+    """
+    return load_native(LIBRARY, "fleet_", HEADERS)

@@ -1,0 +1,112 @@
+"""`tools/run` with a fleet: its files, its lines, and what it refuses."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from tests.runs.support import octet
+
+SHORT = ("--environments", "2", "--limit-s", "20", "--seed", "3")
+
+
+def table(folder: Path) -> list[dict[str, str]]:
+    with (folder / "robots.csv").open() as file:
+        return list(csv.DictReader(file))
+
+
+@pytest.fixture(scope="module")
+def fleet(tmp_path_factory) -> tuple[str, Path]:
+    """A run of forty robots: what it said, and its folder."""
+    folder = tmp_path_factory.mktemp("fleet")
+    done = octet("run", "--robots", "40", *SHORT, "--out", folder)
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout, folder
+
+
+def test_more_robots_than_a_bus_has_numbers_have_a_world_each(fleet):
+    text, _ = fleet
+
+    assert text.startswith("fleet     40 robots, each in its own world, profile article, seeds from 3\n")
+    assert "environment 2   " in text
+    assert "learned   front-right: left " in text
+
+
+def test_the_table_has_a_row_for_each_robot_and_environment(fleet):
+    rows = table(fleet[1])
+
+    assert [(row["robot"], row["environment"]) for row in rows] == [
+        (str(robot), number) for robot in range(1, 41) for number in "12"
+    ]
+    assert rows[-1]["seed"] == "42"
+    assert all(int(row["ticks"]) <= 1000 for row in rows)
+
+
+def test_the_summary_sums_the_table_up(fleet):
+    summary, rows = json.loads((fleet[1] / "summary.json").read_text()), table(fleet[1])
+
+    assert summary["robot_ticks"] == sum(int(row["ticks"]) for row in rows)
+    for environment in summary["environments"]:
+        assert all(sum(counts) == 40 for counts in environment["learned"])
+    right = [row for row in rows if row["environment"] == "2" and row["memory"][2:4] == "01"]
+    assert summary["environments"][1]["learned"][1][1] == len(right) > 0
+
+
+def test_the_picture_shows_all_of_it(fleet):
+    with Image.open(fleet[1] / "fleet.png") as picture:
+        assert picture.width == 1680
+        assert len(picture.getcolors()) > 20
+
+
+def test_a_robot_of_the_fleet_is_the_robot_of_a_run_with_its_seed(fleet, tmp_path):
+    done = octet("run", "--environments", "2", "--limit-s", "20", "--seed", "9", "--bus", "none", "--out", tmp_path)
+
+    alone = json.loads((tmp_path / "summary.json").read_text())
+    last = next(row for row in reversed(table(fleet[1])) if row["seed"] == "9")
+    assert done.returncode == 0
+    assert last["memory"] == bytes(alone["robots"][0]["memory"]).hex()
+    assert int(last["trials"]) == alone["environments"][1]["robots"][0]["trials"]
+
+
+@pytest.mark.parametrize("world", ["random", "posts"])
+def test_a_fleet_in_one_world_is_drawn_there(tmp_path, world):
+    done = octet("run", "--robots", "35", "--worlds", "one", "--world", world, *SHORT, "--json", "--out", tmp_path)
+
+    assert json.loads(done.stdout)["worlds"] == "one"
+    with Image.open(tmp_path / "fleet.png") as picture:
+        assert picture.height > 1300
+
+
+REFUSED = {
+    "an unknown world": (("--world", "corridor"), "did you mean corridors?"),
+    "too many for one world": (("--worlds", "one"), "1000 robots are too many for one world with seed 3"),
+    "a bus": (("--bus", "fd"), "leave --bus fd out"),
+    "memory files": (("--memory", "robot.mem"), "leave --memory out"),
+    "real time": (("--real-time",), "leave --real-time out"),
+    "another robot": (("--robot", "emulated"), "leave --robot out"),
+    "a node number": (("--node", "5"), "leave --node out"),
+    "faults": (("--fault", "drop:1%"), "leave --fault out"),
+    "people who watch": (("--watch",), "a fleet cannot be watched"),
+    "distances": (("--profile", "distance"), "profile distance needs distances"),
+    "more than a fleet can be": (("--robots", "10001"), "1 to 10000"),
+}
+
+
+@pytest.mark.parametrize(("words", "reason"), REFUSED.values(), ids=REFUSED)
+def test_what_a_fleet_does_not_have_is_refused(tmp_path, words, reason):
+    done = octet("run", "--robots", "1000", *SHORT, "--out", tmp_path / "out", *words)
+
+    assert done.returncode == 2
+    assert done.stderr.startswith("octet: ")
+    assert done.stderr.count("\n") == 1
+    assert reason in done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_fleets_are_for_run_only():
+    done = octet("watch", "--robots", "32")
+
+    assert done.returncode == 2
+    assert "1 to 31" in done.stderr

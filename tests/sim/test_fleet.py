@@ -1,0 +1,113 @@
+"""Fleets against runs of single robots, and of several in one world: the same results, robot by robot."""
+
+from dataclasses import replace
+
+import pytest
+
+from host_sim.errors import UsageError
+from host_sim.protocol.generated import PROFILES, Reason
+from host_sim.sim.fleet import FleetResult, run_fleet
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
+
+OWN = RunConfig(seed=11, robots=3, worlds="own", environments=2, limit_s=60.0)
+
+
+def results_with_frames(config: RunConfig, number_from: int = 1) -> list[FleetResult]:
+    """What the robots of an ordinary run do, as a fleet's results."""
+    results = []
+    with make(config) as simulation:
+        for number, episode in enumerate(simulation.run(), 1):
+            for index, robot in enumerate(episode.robots):
+                results.append(
+                    FleetResult(
+                        index + number_from,
+                        config.seed + index,
+                        number,
+                        tuple(episode.eaten),
+                        robot.food_eaten,
+                        episode.ticks,
+                        robot.begun,
+                        robot.collisions,
+                        robot.memory,
+                        simulation.arena.bodies[index].pose,
+                    )
+                )
+    return results
+
+
+def in_order(results: list[FleetResult]) -> list[FleetResult]:
+    return sorted(results, key=lambda result: (result.robot, result.environment))
+
+
+@pytest.mark.parametrize("profile", [profile for profile in PROFILES if profile != "distance"])
+def test_each_robot_in_its_own_world_does_what_it_does_alone(profile):
+    config = replace(OWN, profile=profile, settings={"boredom_limit": 6})
+    alone = [
+        result
+        for i in range(config.robots)
+        for result in results_with_frames(replace(config, seed=config.seed + i, robots=1, worlds="one"), i + 1)
+    ]
+
+    assert in_order(list(run_fleet(config))) == alone
+
+
+@pytest.mark.parametrize("robots", [1, 5, 31])
+def test_robots_in_one_world_do_what_they_do_on_a_bus(robots):
+    config = RunConfig(seed=1, robots=robots, environments=2, limit_s=20.0)
+
+    assert list(run_fleet(config)) == results_with_frames(config)
+
+
+@pytest.mark.parametrize("world", ["corridors", "small"])
+def test_they_do_so_in_other_worlds(world):
+    config = RunConfig(seed=1, robots=4, environments=2, limit_s=20.0, world=world)
+
+    assert list(run_fleet(config)) == results_with_frames(config)
+
+
+def test_an_environment_that_is_finished_is_the_same():
+    config = RunConfig(seed=5, environments=1)
+
+    (result,) = run_fleet(replace(config, worlds="own"))
+
+    assert result.finished
+    assert [result] == results_with_frames(config)
+
+
+def test_more_robots_than_a_bus_has_numbers_meet_in_one_world():
+    config = RunConfig(seed=1, robots=50, environments=1, limit_s=20.0)
+
+    results = list(run_fleet(config))
+
+    assert len(results) == 50
+    assert sum(result.collisions for result in results) < 50
+    assert any(result.begun.get(Reason.TRIAL) for result in results)
+
+
+def test_more_robots_than_fit_say_how_many_fit():
+    with pytest.raises(
+        UsageError, match=r"there is room for \d+ robots in environment 1; take fewer, or --worlds own"
+    ):
+        run_fleet(RunConfig(robots=1000))
+
+
+def test_a_behaviour_that_measures_distances_is_refused():
+    with pytest.raises(UsageError, match="profile distance needs distances"):
+        run_fleet(replace(OWN, profile="distance"))
+
+
+def test_the_last_seed_is_followed_by_the_first():
+    seeds = [result.seed for result in run_fleet(replace(OWN, seed=2**32 - 1, environments=1, limit_s=1.0))]
+
+    assert seeds == [2**32 - 1, 0, 1]
+
+
+@pytest.mark.parametrize("worlds", ["own", "one"])
+def test_progress_counts_every_robots_ticks(worlds):
+    counts: list[int] = []
+
+    results = list(run_fleet(replace(OWN, worlds=worlds), counts.append))
+
+    assert counts[-1] == sum(result.ticks for result in results)
+    assert counts == sorted(counts)

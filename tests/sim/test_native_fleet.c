@@ -1,0 +1,112 @@
+#include "host_sim/sim/native/fleet.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+#include "host_sim/world/native/plain_space.h"
+
+enum { ROBOTS = 2, WORDS = PLAIN_WORDS(WALLS + ROBOTS), TICKS = 50 };
+
+static struct body bodies[ROBOTS];
+static struct food food[1];
+static struct capsule walls[WALLS];
+static struct plain_place places[ROBOTS];
+static uint64_t touching[(ROBOTS + 1) * WORDS];
+static struct cones cones;
+static struct plain_world space;
+static struct world world;
+static struct fleet_robot robots[ROBOTS];
+static uint32_t answer;
+
+/* Two robots far from each other, and food that neither sees. */
+void setUp(void)
+{
+    static const struct world_params params = {160.0, 100.0, 150.0, 0.02, 500.0};
+
+    memset(robots, 0, sizeof robots);
+    memset(touching, 0, sizeof touching);
+    food[0] = (struct food){2000.0, 100.0, false};
+    capsule_set_walls(walls, 4000.0, 3000.0);
+    cones_set(&cones, 160.0, 0.5);
+    world = (struct world){.params = params, .body_count = ROBOTS, .bodies = bodies, .food_count = 1, .food = food};
+    space = (struct plain_world){.body_radius_mm = 100.0, .cones = &cones, .capsule_count = WALLS, .capsules = walls,
+        .places = places, .words = WORDS, .touching = touching};
+    for (unsigned i = 0; i < ROBOTS; i++) {
+        bodies[i] = (struct body){.x_mm = 1000.0 + 2000.0 * i, .y_mm = 1500.0, .seen = -1};
+        robots[i] = (struct fleet_robot){.core = malloc(fleet_core_size()), .world = &world, .body = &bodies[i],
+            .ticks_max = TICKS};
+        fleet_wake(&robots[i]);
+        TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(&robots[i], OPCODE_START, PROFILE_ARTICLE, 7 + i, &answer));
+    }
+    world_begin(&world);
+    plain_space_take(&space, &world);
+}
+
+void tearDown(void)
+{
+    for (unsigned i = 0; i < ROBOTS; i++)
+        free(robots[i].core);
+}
+
+static void test_a_robot_runs_so_many_ticks(void)
+{
+    TEST_ASSERT_EQUAL_size_t(1, fleet_run_alone(robots, 1, 20));
+    TEST_ASSERT_EQUAL_UINT32(20, robots[0].tick);
+    TEST_ASSERT_EQUAL_UINT32(0, robots[1].tick);
+    TEST_ASSERT_TRUE(bodies[0].x_mm > 1000.0);
+    TEST_ASSERT_GREATER_THAN_UINT32(0, robots[0].begun[REASON_WANDER]);
+}
+
+static void test_an_environment_ends_when_its_time_is_up(void)
+{
+    TEST_ASSERT_EQUAL_size_t(0, fleet_run_alone(robots, 1, TICKS + 1));
+    TEST_ASSERT_EQUAL_UINT32(TICKS, robots[0].ticks);
+}
+
+static void test_an_environment_ends_when_the_food_is_eaten(void)
+{
+    food[0] = (struct food){1200.0, 1500.0, false};
+    TEST_ASSERT_EQUAL_size_t(0, fleet_run_alone(robots, 1, TICKS));
+    TEST_ASSERT_TRUE(food[0].eaten);
+    TEST_ASSERT_EQUAL_UINT32(1, robots[0].food_eaten);
+    TEST_ASSERT_EQUAL_UINT32(1, robots[0].begun[REASON_EAT]);
+    TEST_ASSERT_TRUE(robots[0].ticks < TICKS);
+}
+
+static void test_robots_of_one_world_go_on_together(void)
+{
+    TEST_ASSERT_EQUAL_size_t(ROBOTS, fleet_run_together(robots, ROBOTS, 20));
+    TEST_ASSERT_EQUAL_UINT32(20, robots[0].tick);
+    TEST_ASSERT_EQUAL_UINT32(20, robots[1].tick);
+    TEST_ASSERT_EQUAL_size_t(0, fleet_run_together(robots, ROBOTS, TICKS));
+    TEST_ASSERT_EQUAL_UINT32(TICKS, robots[1].ticks);
+}
+
+static void test_a_command_that_the_core_refuses_says_why(void)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PROFILE, fleet_command(robots, OPCODE_START, 200, 1, &answer));
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(robots, OPCODE_START, PROFILE_DISTANCE, 1, &answer));
+    TEST_ASSERT_EQUAL_UINT32(ANSWER_WANTS_RANGES, answer);
+}
+
+static void test_a_memory_is_the_cores(void)
+{
+    uint8_t cells[CELL_COUNT];
+
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(robots, OPCODE_START, PROFILE_FIXED, 1, &answer));
+    fleet_memory(robots, cells);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0, 1, 1, 1, 2, 1, 2, 1}), cells, CELL_COUNT);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_robot_runs_so_many_ticks);
+    RUN_TEST(test_an_environment_ends_when_its_time_is_up);
+    RUN_TEST(test_an_environment_ends_when_the_food_is_eaten);
+    RUN_TEST(test_robots_of_one_world_go_on_together);
+    RUN_TEST(test_a_command_that_the_core_refuses_says_why);
+    RUN_TEST(test_a_memory_is_the_cores);
+    return UNITY_END();
+}
