@@ -13,7 +13,13 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
-LOCKS = ("requirements.lock", "requirements-emulator.lock", "requirements-export.lock", "requirements-tests.lock")
+LOCKS = (
+    "requirements.lock",
+    "requirements-emulator.lock",
+    "requirements-gym.lock",
+    "requirements-export.lock",
+    "requirements-tests.lock",
+)
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
 # cmake, tools/generate and the download of Unity make what they are to make. With a file beside the notes, installing
