@@ -25,8 +25,8 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
     >>> env = ArenaParallelEnv(robots=2)
     >>> senses, infos = env.reset(seed=1)
     >>> senses, rewards, terminations, truncations, infos = env.step({"robot_1": 0, "robot_2": 1})
-    >>> rewards
-    {'robot_1': -0.0008, 'robot_2': -0.0008}
+    >>> sorted(rewards), infos["robot_1"]
+    (['robot_1', 'robot_2'], {'robot_s': 0.06, 'food_left': 3})
     """
 
     metadata = {"name": "octet_arena_v0", "render_modes": []}  # noqa: RUF012 - as PettingZoo has it

@@ -22,12 +22,7 @@ HEADERS = (*native_world.HEADERS, ROOT / "host_sim" / "gymnasium_envs" / "native
 class Deed(IntEnum):
     """What a brain may do; as in `native/told.h`."""
 
-    FORWARD = 0
-    LEFT = 1
-    RIGHT = 2
-    TRY_LEFT = 3
-    TRY_RIGHT = 4
-    TURN_ABOUT = 5
+    FORWARD, TURN_LEFT, TURN_RIGHT, TRY_LEFT, TRY_RIGHT, TURN_ABOUT = range(6)
 
 
 class TickLimits(NamedTuple):

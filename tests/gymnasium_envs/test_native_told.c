@@ -52,7 +52,7 @@ static void step(uint8_t first, uint8_t second)
     told_step(&told, 1, deeds);
 }
 
-void test_it_begins_with_senses(void)
+static void test_it_begins_with_senses(void)
 {
     begin();
 
@@ -62,7 +62,7 @@ void test_it_begins_with_senses(void)
     TEST_ASSERT_EQUAL_UINT32(1, told.food_left);
 }
 
-void test_who_is_done_sooner_rests(void)
+static void test_who_is_done_sooner_rests(void)
 {
     begin();
     step(TOLD_FORWARD, TOLD_TURN_ABOUT);
@@ -73,13 +73,13 @@ void test_who_is_done_sooner_rests(void)
     TEST_ASSERT_GREATER_THAN_UINT32(40, told.tick);
 }
 
-void test_food_is_eaten_at_the_end_of_a_step_forward(void)
+static void test_food_is_eaten_at_the_end_of_a_step_forward(void)
 {
     bodies[0].x_mm = 1860.0;
     begin();
-    step(TOLD_LEFT, TOLD_LEFT);
+    step(TOLD_TURN_LEFT, TOLD_TURN_LEFT);
     TEST_ASSERT_EQUAL_UINT32(0, robots[0].food_eaten);
-    step(TOLD_RIGHT, TOLD_RIGHT);
+    step(TOLD_TURN_RIGHT, TOLD_TURN_RIGHT);
     step(TOLD_FORWARD, TOLD_FORWARD);
 
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].food_eaten);
@@ -87,7 +87,7 @@ void test_food_is_eaten_at_the_end_of_a_step_forward(void)
     TEST_ASSERT_EQUAL_UINT32(0, told.food_left);
 }
 
-void test_where_no_food_is_left_nothing_happens(void)
+static void test_where_no_food_is_left_nothing_happens(void)
 {
     food.eaten = true;
     begin();
@@ -96,7 +96,7 @@ void test_where_no_food_is_left_nothing_happens(void)
     TEST_ASSERT_EQUAL_UINT32(0, told.tick);
 }
 
-void test_a_step_ends_when_its_time_is_up(void)
+static void test_a_step_ends_when_its_time_is_up(void)
 {
     told.step_ticks = 2;
     begin();
@@ -105,7 +105,7 @@ void test_a_step_ends_when_its_time_is_up(void)
     TEST_ASSERT_EQUAL_UINT32(2, told.tick);
 }
 
-void test_a_step_that_is_cut_off_eats(void)
+static void test_a_step_that_is_cut_off_eats(void)
 {
     bodies[0].x_mm = 1860.0;
     told.step_ticks = 1;
@@ -115,7 +115,7 @@ void test_a_step_that_is_cut_off_eats(void)
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].food_eaten);
 }
 
-void test_nothing_happens_after_the_time_of_the_world(void)
+static void test_nothing_happens_after_the_time_of_the_world(void)
 {
     told.limit_ticks = 3;
     begin();
@@ -125,14 +125,14 @@ void test_nothing_happens_after_the_time_of_the_world(void)
     TEST_ASSERT_EQUAL_UINT32(3, told.tick);
 }
 
-void test_bumps_are_counted_step_by_step(void)
+static void test_bumps_are_counted_step_by_step(void)
 {
     uint32_t bumps = 0;
 
     bodies[0].x_mm = 3880.0;
     begin();
     for (unsigned i = 0; i < 20; i++) {
-        step(TOLD_FORWARD, TOLD_LEFT);
+        step(TOLD_FORWARD, TOLD_TURN_LEFT);
         bumps += robots[0].collisions;
     }
 

@@ -17,9 +17,9 @@ static struct action action_of(uint8_t deed, const struct config *config)
     int16_t turn_deg = config->value[TURN_DEG], try_deg = config->value[TRIAL_DEG];
 
     switch (deed) {
-    case TOLD_LEFT:
+    case TOLD_TURN_LEFT:
         return (struct action){.turn_deg = (int16_t)-turn_deg};
-    case TOLD_RIGHT:
+    case TOLD_TURN_RIGHT:
         return (struct action){.turn_deg = turn_deg};
     case TOLD_TRY_LEFT:
         return (struct action){.turn_deg = (int16_t)-try_deg};

@@ -7,13 +7,13 @@
 
 /* What a brain may do. Turns are as large as the article's. */
 enum told_deed {
-    TOLD_FORWARD = 0,       /* a step, which ends early at an obstacle, and at whose end the robot eats what is within reach */
-    TOLD_LEFT = 1,          /* as a remembered turn */
-    TOLD_RIGHT = 2,
-    TOLD_TRY_LEFT = 3,      /* as a trial */
-    TOLD_TRY_RIGHT = 4,
-    TOLD_TURN_ABOUT = 5,
-    TOLD_DEEDS = 6
+    TOLD_FORWARD,      /* a step, which ends early at an obstacle; at its end the robot eats what is within reach */
+    TOLD_TURN_LEFT,    /* as a remembered turn */
+    TOLD_TURN_RIGHT,
+    TOLD_TRY_LEFT,     /* as a trial */
+    TOLD_TRY_RIGHT,
+    TOLD_TURN_ABOUT,
+    TOLD_DEEDS
 };
 
 enum { TOLD_SENSES = 7 };   /* the fields of struct senses up to the odometers, in their order */
