@@ -14,7 +14,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 EXTRAS = ("export", "study", "cluster")
-LOCKS = tuple(f"requirements{name}.lock" for name in ("", "-emulator", *(f"-{it}" for it in EXTRAS), "-tests"))
+STAGES = ("", "-emulator", "-gym", *(f"-{it}" for it in EXTRAS), "-tests")
+LOCKS = tuple(f"requirements{name}.lock" for name in STAGES)
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
 # cmake, tools/generate and the download of Unity make what they are to make. With a file beside the notes, installing

@@ -1,0 +1,50 @@
+/* told.h: robots whose brain is outside. Whoever learns says what to do next; it is done by the firmware's own motion, in
+ * the world of host_sim/world/native. The caller provides all memory. */
+#ifndef OCTET_TOLD_H
+#define OCTET_TOLD_H
+
+#include "host_sim/world/native/world.h"
+
+/* What a brain may do. Turns are as large as the article's. */
+enum told_deed {
+    TOLD_FORWARD,      /* a step, which ends early at an obstacle; at its end the robot eats what is within reach */
+    TOLD_TURN_LEFT,    /* as a remembered turn */
+    TOLD_TURN_RIGHT,
+    TOLD_TRY_LEFT,     /* as a trial */
+    TOLD_TRY_RIGHT,
+    TOLD_TURN_ABOUT,
+    TOLD_DEEDS
+};
+
+enum { TOLD_SENSES = 7 };   /* the fields of struct senses up to the odometers, in their order */
+
+/* One robot after what it was told to do. */
+struct told_robot {
+    int32_t senses[TOLD_SENSES];
+    uint32_t food_eaten;    /* meanwhile, */
+    uint32_t collisions;    /* and times that it has begun to touch something */
+};
+
+/* A world whose robots are told what to do. */
+struct told {
+    struct world *world;
+    struct motion *motions;       /* TOLD_MOTION bytes for each body */
+    struct told_robot *robots;    /* one for each body */
+    uint32_t tick;                /* number of the next tick */
+    uint32_t limit_ticks;         /* after which nothing happens any more */
+    uint32_t step_ticks;          /* after which a step ends, whatever is under way */
+    uint32_t food_left;           /* pieces */
+};
+
+size_t told_motion_size(void);
+        /* Bytes that a body's motion takes. */
+
+void told_begin(struct told *told);
+        /* Robots at rest, and what they sense. */
+
+void told_step(struct told all[], size_t count, const uint8_t deeds[]);
+        /* In several worlds with equally many bodies: has each robot do its deed. In each world it ends when the last robot
+           has; those that are done sooner rest. It ends earlier when all food is eaten and when the time of the step or of
+           the world is up. */
+
+#endif
