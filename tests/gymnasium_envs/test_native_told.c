@@ -10,6 +10,7 @@ enum { BODIES = 2, WORDS = PLAIN_WORDS(WALLS + BODIES), ODOMETER = 5 };
 
 static struct body bodies[BODIES];
 static struct food food;
+static struct cones cones;
 static struct capsule capsules[WALLS];
 static struct plain_place places[BODIES];
 static uint64_t touching[(BODIES + 1) * WORDS];
@@ -29,9 +30,10 @@ void setUp(void)
     for (unsigned i = 0; i < BODIES; i++)
         bodies[i] = (struct body){.x_mm = 1000.0, .y_mm = 1000.0 + 1000.0 * i, .seen = -1};
     food = (struct food){2000.0, 1000.0, false};
+    cones_set(&cones, 160.0, 0.5);
     capsule_set_walls(capsules, 4000.0, 3000.0);
     world = (struct world){.params = params, .body_count = BODIES, .bodies = bodies, .food_count = 1, .food = &food};
-    space = (struct plain_world){.body_radius_mm = 100.0, .sensor_reach_mm = 60.0, .front_extra_mm = 0.5,
+    space = (struct plain_world){.body_radius_mm = 100.0, .cones = &cones,
         .capsule_count = WALLS, .capsules = capsules, .places = places, .words = WORDS, .touching = touching};
     told = (struct told){.world = &world, .motions = motions, .robots = robots, .limit_ticks = 1000, .step_ticks = 1000};
 }

@@ -10,7 +10,7 @@
 
 enum {
     FIRST = 250,          /* soon after it ticks and counters wrap */
-    TICKS = 20,
+    TICKS = 8,
     ROOM = 2,
     LATE_TICKS = 2,
     STATES_MAX = 1 << 17
