@@ -81,16 +81,8 @@ class InProcessLink:
 
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
-        self.hear_others()
-        self._exchange(frame)
-
-    def hear_others(self) -> None:
-        """Hands over what the robot has not heard yet of others."""
         if self._relay is not None:
-            for frame in self._relay.take(self._node):
-                self._exchange(frame)
-
-    def _exchange(self, frame: Frame) -> None:
+            self.hear_others()
         data = frame.data
         self._in.id, self._in.len = frame.id, len(data)
         self._ffi.memmove(self._in.data, data, len(data))
@@ -101,6 +93,12 @@ class InProcessLink:
             self._answers.append(answer)
             if self._relay is not None:
                 self._relay.hear(self._node, answer)
+
+    def hear_others(self) -> None:
+        """Hands over what the robot has not heard yet of others."""
+        if self._relay is not None:
+            for frame in self._relay.take(self._node):
+                self.send(frame)
 
     def receive(self, timeout_s: float) -> Frame | None:
         """As in `Link`. What is not there yet will not come: waiting passes the time, no more."""
