@@ -1,4 +1,4 @@
-"""How soon robots know their four lessons, alone and where they teach each other: `python -m host_sim.study.sharing`."""
+"""How soon robots know four lessons, alone and where they teach each other: `python -m host_sim.study.sharing`."""
 
 import argparse
 import math
