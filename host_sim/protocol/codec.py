@@ -7,7 +7,18 @@ from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, RANGE_N
 from host_sim.protocol.signal_layout import MessageLayout, places
 from host_sim.robot_io import Drive, Ranges, Senses
 
-__all__ = ["COUNTERS", "DBC", "MEMORY_IDS", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "counter_of", "crc8", "node_of"]
+__all__ = [
+    "COUNTERS",
+    "DBC",
+    "MEMORY_IDS",
+    "NODE_MAX",
+    "DecodedFrame",
+    "Frame",
+    "Protocol",
+    "counter_of",
+    "crc8",
+    "node_of",
+]
 
 DBC = ROOT / "hal" / "protocol" / "octet.dbc"
 COUNTERS = 15
