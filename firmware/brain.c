@@ -29,7 +29,7 @@ bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
     brain->profile = profile;
     brain->repeat_count = 0;
     brain->awaits = 0;
-    brain->used = 0;
+    brain->used = brain->unlearned = 0;
     brain->changed = memory_translate(&brain->memory, (enum memory_kind)kind_of[profile]) || brain->changed;
     brain->learns = begin(brain);
     return true;
@@ -73,6 +73,26 @@ struct action brain_next(struct brain *brain, const struct config *config, const
     default:
         return (struct action){.reason = REASON_STOP};
     }
+}
+
+static bool may_take(const struct brain *brain, uint8_t pattern)
+{
+    return memory_recall(&brain->memory, pattern) == SIDE_NOTHING && !(brain->unlearned & (1u << pattern));
+}
+
+bool brain_take_votes(struct brain *brain, const int8_t votes[CELL_COUNT])
+{
+    enum memory_kind kind = (enum memory_kind)kind_of[brain->profile];
+    bool took = false;
+
+    if (!brain->learns || brain->frozen || kind == MEMORY_KIND_ALL_SENSORS)
+        return false;
+    for (uint8_t p = 1; p < CELL_COUNT; p++)
+        if (votes[p] != 0 && may_take(brain, p)) {
+            memory_put(&brain->memory, kind, p, votes[p] > 0 ? SIDE_RIGHT : SIDE_LEFT);
+            took = true;
+        }
+    return took;
 }
 
 void brain_forget_trial(struct brain *brain)

@@ -25,6 +25,7 @@ struct brain {
     uint8_t tried_feel;      /* what was sensed when the last turn away from something began */
     uint8_t tried_side;      /* on trial: where to */
     uint8_t used;            /* used_cells.h: bit p for cell p */
+    uint8_t unlearned;       /* likewise: boredom has emptied it since the start */
     bool chasing, ate;       /* searcher: it was going to food; the last step led to it */
     uint16_t since_mm;       /* searcher: way since it last looked around or saw food */
     bool learns;             /* as the profile has it; false: what is in the memory is not stored */
@@ -43,6 +44,11 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT]);
 
 bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes);
         /* As memory_write, in a memory of the profile's kind. */
+
+bool brain_take_votes(struct brain *brain, const int8_t votes[CELL_COUNT]);
+        /* Each cell that is empty, though not from boredom, takes the side that more other robots know for its pattern: right
+           where the number is positive, left where it is negative. Only where each pattern has a cell, and the robot
+           learns. True if the memory is another one now; brain->changed stays as it is. */
 
 void brain_forget_trial(struct brain *brain);
         /* The action that has ended was not carried out: there is no verdict to be had of it. */

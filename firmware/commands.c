@@ -16,6 +16,7 @@ static enum result start(struct robot *robot, const struct command *command, uin
     robot->action = 0;
     motion_start(&robot->motion);
     perception_start(&robot->perception);
+    sharing_start(&robot->sharing);
     robot->running = true;
     *value = robot->brain.wants_ranges ? ANSWER_WANTS_RANGES : 0;
     return RESULT_DONE;

@@ -37,11 +37,18 @@ struct command {
     uint32_t value;       /* start: seed. set: value. write: a byte for each of the four cells, the first one lowest */
 };
 
-enum input_kind { INPUT_SILENCE = 0, INPUT_SENSES = 1, INPUT_COMMAND = 2 };
+/* Half of what another robot says that it has learned. */
+struct peer {
+    bool upper;                    /* the upper four cells, not the lower */
+    uint8_t cell[CELL_COUNT / 2];
+};
+
+enum input_kind { INPUT_SILENCE = 0, INPUT_SENSES = 1, INPUT_COMMAND = 2, INPUT_PEER = 3 };
 
 struct input {
     struct senses senses;     /* filled with INPUT_SENSES */
     struct command command;   /* filled with INPUT_COMMAND */
+    struct peer peer;         /* filled with INPUT_PEER */
 };
 
 /* How the robot is, once a second. */

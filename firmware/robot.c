@@ -132,12 +132,23 @@ static void describe(const struct robot *robot, struct output *out)
     out->report.uptime_s = robot->uptime_s;
 }
 
+/* A second is over. What was learned from others is told by the report, a tick later, as every second: so it makes no
+ * difference to them who was asked first in this tick. */
+static bool take_votes(struct robot *robot)
+{
+    bool took = robot->running && robot->sharing.whole && brain_take_votes(&robot->brain, robot->sharing.votes);
+
+    sharing_begin_second(&robot->sharing, &robot->config);
+    return took;
+}
+
 static void respond_to_senses(struct robot *robot, const struct senses *senses, struct output *out)
 {
     step(robot, senses, out);
     robot->silences = 0;
     out->has_drive = true;
     out->has_report = pass_time(robot);
+    out->store = out->has_report && take_votes(robot);
 }
 
 static void respond_to_command(struct robot *robot, const struct command *command, struct output *out)
@@ -170,9 +181,11 @@ void robot_respond(struct robot *robot, enum input_kind kind, const struct input
         respond_to_senses(robot, &in->senses, out);
     else if (kind == INPUT_COMMAND)
         respond_to_command(robot, &in->command, out);
+    else if (kind == INPUT_PEER)
+        sharing_hear(&robot->sharing, &in->peer);
     else
         respond_to_silence(robot, out);
-    out->store = robot->brain.changed && robot->brain.learns;
+    out->store = out->store || (robot->brain.changed && robot->brain.learns);
     out->has_memory = robot->brain.changed;
     robot->brain.changed = false;
     describe(robot, out);

@@ -4,6 +4,7 @@
 
 #include "firmware/motion.h"
 #include "firmware/perception.h"
+#include "firmware/sharing.h"
 
 struct robot {
     bool running;
@@ -14,6 +15,7 @@ struct robot {
     uint8_t tick;         /* of the last senses */
     struct config config;
     struct perception perception;
+    struct sharing sharing;
     uint16_t part_ms;     /* of the second that has begun */
     uint16_t uptime_s;    /* robot time since power-up, counted in ticks, wraps */
     struct brain brain;
@@ -31,6 +33,6 @@ enum result robot_execute(struct robot *robot, const struct command *command, ui
 
 void robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
         /* Fills *out with all that one input calls for: the drive for senses, rest for silence, the answer to a
-           command, and a report and the memory whenever they are due. */
+           command, nothing for another robot's memory, and a report and the memory whenever they are due. */
 
 #endif

@@ -23,7 +23,9 @@ int hal_open(struct hal **hal, int argc, char *const argv[]);
 
 int hal_receive(struct hal *hal, struct input *in);
         /* Waits for the next senses or command, in the order in which they came. INPUT_SENSES or INPUT_COMMAND: that
-           part of *in is filled. INPUT_SILENCE: no senses for HAL_SILENCE_MS, said again after each such time.
+           part of *in is filled. INPUT_PEER: so is that, with half of the memory of another robot that this body hears:
+           of each half of each robot the first one in a second, from report to report, and only where each pattern has a cell. A body
+           that hears no other robots never says so. INPUT_SILENCE: no senses for HAL_SILENCE_MS, said again after each such time.
            Frames that are stale, damaged or not ours are counted and skipped, and do not break the silence.
            Never waits longer than the silence limit. HAL_E_CLOSED ends the robot. */
 

@@ -24,11 +24,20 @@ void used_cells_learn(struct brain *brain, const struct senses *senses, unsigned
     brain->used |= (uint8_t)(1u << pattern);
 }
 
+static void change_used(struct brain *brain, uint8_t pattern, int change)
+{
+    uint8_t before = brain->memory.cell[pattern];
+
+    set_cell(brain, pattern, confidence_changed(before, change));
+    if (before != 0 && brain->memory.cell[pattern] == 0)
+        brain->unlearned |= (uint8_t)(1u << pattern);
+}
+
 static void end_episode(struct brain *brain, int change)
 {
     for (uint8_t p = 1; p < CELL_COUNT; p++)
         if (brain->used & (1u << p) && change != 0)
-            set_cell(brain, p, confidence_changed(brain->memory.cell[p], change));
+            change_used(brain, p, change);
     brain->used = 0;
 }
 

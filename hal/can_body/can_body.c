@@ -125,7 +125,7 @@ static int take_newest(struct hal *hal, struct input *in)
         result = receive_frame(hal, &frame, 0);
         if (result == 1)
             kind = read_frame(hal, &frame, in);
-        if (kind != INPUT_SILENCE)
+        if (kind == INPUT_SENSES || kind == INPUT_COMMAND)
             wire_count(&hal->wire, FAULT_STALE);   /* the senses before it */
         if (kind == INPUT_COMMAND)
             return INPUT_COMMAND;

@@ -14,7 +14,9 @@
 
 enum {
     LINK_SEND_MS = 10,   /* a frame that the bus does not take for so long is given up */
-    LINK_IDS_MAX = 8     /* identifiers that a link can listen for */
+    LINK_IDS_MAX = 8,    /* identifiers that a link can listen for */
+    LINK_FAMILY_BITS = 0x1F,
+    LINK_FAMILY = 0x8000 /* with an identifier: it and all that differ from it in these bits only, as one */
 };
 
 struct frame {
@@ -45,8 +47,9 @@ struct link_health {
 struct link;   /* one open link */
 
 int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count);
-        /* 0, or LINK_E_NAME or LINK_E_OPEN with *link untouched. ids: the identifiers to listen for; a link that can
-           filter lets no others through, one that cannot delivers all. At most LINK_IDS_MAX. */
+        /* 0, or LINK_E_NAME or LINK_E_OPEN with *link untouched. ids: the identifiers to listen for, or whole families of
+           them with LINK_FAMILY; a link that can filter lets no others through, one that cannot delivers all. Where a
+           family comes faster than it is received, it does not push out what else comes. At most LINK_IDS_MAX. */
 
 int link_receive(struct link *link, struct frame *out, uint32_t wait_ms);
         /* 1: *out filled. 0: nothing for wait_ms (0: just looks). Or LINK_E_GARBLED at once for each thing that is no

@@ -44,8 +44,10 @@ static int wrap(struct link **link, const struct link_kind *kind, int fd)
 static int filter(int fd, const struct link_request *request)
 {
     struct can_filter wanted[LINK_IDS_MAX];
-    for (size_t i = 0; i < request->id_count; i++)
-        wanted[i] = (struct can_filter){request->ids[i], CAN_SFF_MASK | CAN_EFF_FLAG | CAN_RTR_FLAG};
+    for (size_t i = 0; i < request->id_count; i++) {
+        canid_t any = request->ids[i] & LINK_FAMILY ? LINK_FAMILY_BITS : 0;
+        wanted[i] = (struct can_filter){request->ids[i] & CAN_SFF_MASK, (CAN_SFF_MASK & ~any) | CAN_EFF_FLAG | CAN_RTR_FLAG};
+    }
     return setsockopt(fd, SOL_CAN_RAW, CAN_RAW_FILTER, wanted, (socklen_t)(request->id_count * sizeof wanted[0]));
 }
 

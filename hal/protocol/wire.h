@@ -8,7 +8,7 @@
 #include "hal/protocol/session.h"
 
 enum {
-    WIRE_LISTEN_COUNT = 5,   /* identifiers that the robot listens for */
+    WIRE_LISTEN_COUNT = 6,   /* identifiers that the robot listens for, and one family */
     WIRE_FRAMES_MAX = 11     /* that one output makes */
 };
 
@@ -28,6 +28,7 @@ struct wire {
     bool has_ranges;                 /* they have come: */
     uint8_t ranges_tick;
     uint8_t range_mm[FEEL_COUNT];
+    uint32_t told_lower, told_upper; /* bit n - 1: node n has told this half of its memory since the last report */
     uint8_t strangers;               /* frames with our own identifiers since the last heartbeat: one may be noise */
     bool twin;                       /* another robot with this number was heard since the last start */
     bool unasked;                    /* the stop under way is the wire's own, and has no answer */
@@ -42,13 +43,15 @@ void wire_init(struct wire *wire, uint8_t node);
         /* node is 1..NODE_MAX. */
 
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT]);
-        /* The identifiers to listen for. The robot's own are among them: whoever sends those has its number. */
+        /* The identifiers to listen for, as link_open takes them. The robot's own are among them: whoever sends those has
+           its number. */
 
 void wire_boot(struct wire *wire, struct frame *frame);
         /* The message that it has come up. */
 
 enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct input *in);
-        /* INPUT_SENSES or INPUT_COMMAND: fresh, whole and for us, and that part of *in is filled. INPUT_SILENCE: none of
+        /* INPUT_SENSES or INPUT_COMMAND: fresh, whole and for us, and that part of *in is filled. INPUT_PEER: so is that,
+           as hal_receive has it. INPUT_SILENCE: none of
            that, and *in is untouched; it is counted, or it was said before: then wire->again is what was answered, to be
            sent once more. A twin is heard as a command to stop. */
 

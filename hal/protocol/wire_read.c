@@ -3,7 +3,14 @@
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
-enum { STRANGERS_MIN = 2 };   /* within a second make a twin: of noise, one frame in some thousands has a right CRC */
+enum {
+    STRANGERS_MIN = 2,   /* within a second make a twin: of noise, one frame in some thousands has a right CRC */
+    MEMORY_FAMILY = (int)OCTET_MEMORY_FRAME_ID - 1,
+    HALF = CELL_COUNT / 2
+};
+
+typedef char a_family_holds_the_memories_of_all_nodes
+    [((int)MEMORY_FAMILY & (int)LINK_FAMILY_BITS) == 0 && (int)NODE_MAX == (int)LINK_FAMILY_BITS ? 1 : -1];
 
 void wire_init(struct wire *wire, uint8_t node)
 {
@@ -12,12 +19,13 @@ void wire_init(struct wire *wire, uint8_t node)
 
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT])
 {
-    static const uint16_t of_node_1[WIRE_LISTEN_COUNT] = {
+    static const uint16_t of_node_1[WIRE_LISTEN_COUNT - 1] = {
         OCTET_SENSES_FRAME_ID, OCTET_RANGES_FRAME_ID, OCTET_COMMAND_FRAME_ID, OCTET_DRIVE_FRAME_ID, OCTET_HEARTBEAT_FRAME_ID,
     };
 
-    for (unsigned i = 0; i < WIRE_LISTEN_COUNT; i++)
+    for (unsigned i = 0; i < WIRE_LISTEN_COUNT - 1; i++)
         ids[i] = (uint16_t)wire_id(wire, of_node_1[i]);
+    ids[WIRE_LISTEN_COUNT - 1] = LINK_FAMILY | MEMORY_FAMILY;
 }
 
 uint32_t wire_id(const struct wire *wire, uint32_t id_of_node_1)
@@ -209,6 +217,31 @@ static enum input_kind meet_twin(struct wire *wire, const struct frame *frame, u
     return INPUT_COMMAND;
 }
 
+/* Its first byte tells what a memory is: where each pattern has a cell, that of pattern 0 is empty. */
+static bool is_news_of_peer(struct wire *wire, const struct frame *frame)
+{
+    uint32_t node = 1u << ((frame->id & LINK_FAMILY_BITS) - 1);
+    bool upper = frame->data[1] >> 4;
+    uint32_t *told = upper ? &wire->told_upper : &wire->told_lower;
+
+    if ((*told & node) || (upper ? !(wire->told_lower & node) : frame->data[2] != 0))
+        return false;
+    *told |= node;
+    return true;
+}
+
+static enum input_kind read_peer(struct wire *wire, const struct frame *frame, struct peer *peer)
+{
+    if (!e2e_is_whole(frame, OCTET_MEMORY_LENGTH))
+        return refused(wire, FAULT_DAMAGED);
+    if (!is_news_of_peer(wire, frame))
+        return INPUT_SILENCE;
+    peer->upper = frame->data[1] >> 4;
+    for (unsigned i = 0; i < HALF; i++)
+        peer->cell[i] = frame->data[2 + i];
+    return INPUT_PEER;
+}
+
 enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct input *in)
 {
     wire->again = NULL;
@@ -222,5 +255,9 @@ enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct i
         return meet_twin(wire, frame, OCTET_DRIVE_LENGTH, &in->command);
     if (frame->id == wire_id(wire, OCTET_HEARTBEAT_FRAME_ID))
         return meet_twin(wire, frame, OCTET_HEARTBEAT_LENGTH, &in->command);
+    if (frame->id == wire_id(wire, OCTET_MEMORY_FRAME_ID))
+        return meet_twin(wire, frame, OCTET_MEMORY_LENGTH, &in->command);
+    if (frame->id > MEMORY_FAMILY && frame->id <= MEMORY_FAMILY + NODE_MAX)
+        return read_peer(wire, frame, &in->peer);
     return refused(wire, FAULT_FOREIGN);
 }

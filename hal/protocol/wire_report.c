@@ -169,8 +169,10 @@ void wire_report(struct wire *wire, const struct output *out, struct frames *fra
         write_whole_report(wire, out, frames);
         return;
     }
-    if (out->has_report)
+    if (out->has_report) {
         wire->part = PART_HEARTBEAT;
+        wire->told_lower = wire->told_upper = 0;
+    }
     if (out->has_memory)
         write_memory(wire, out->memory, frames);
     else if (out->has_drive && !out->silent)

@@ -103,7 +103,7 @@ size_t wire_write(struct wire *wire, const struct output *out, struct frame fram
     note(wire, out);
     if (out->has_answer)
         write_result(wire, out, &written);
-    if (wire->news)
+    if (wire->news && (out->has_answer || out->has_report || out->has_drive))
         write_emergency(wire, &written);
     wire_report(wire, out, &written);
     if (out->has_drive)

@@ -8,7 +8,7 @@
 #include "hal/stm32/registers.h"
 
 enum {
-    IDS_PER_BANK = 4,
+    FIFOS = 2,
 
     MCR_INRQ = 1 << 0,            /* without TXFP beside it: the lowest identifier leaves first */
     MSR_INAK = 1 << 0,
@@ -24,7 +24,8 @@ enum {
     ID_RTR = 1 << 1,
     ID_IDE = 1 << 2,
     STANDARD_AT = 21,
-    EXTENDED_AT = 3
+    EXTENDED_AT = 3,
+    ID_BITS = 0x7FF
 };
 
 bool can_stop(void)
@@ -50,24 +51,25 @@ enum can_state can_state(void)
     return CAN1.msr & MSR_INAK ? CAN_JOINING : CAN_JOINED;
 }
 
-/* As lists of four identifiers a bank, data frames only. A bank that is not full repeats the first. */
+/* A bank each, with a mask: data frames only. Families go to a FIFO of their own. */
 static void set_filters(const uint16_t ids[], size_t count)
 {
-    uint32_t banks = (uint32_t)(count + IDS_PER_BANK - 1) / IDS_PER_BANK;
-    uint32_t in_use = (1u << banks) - 1u;
+    uint32_t families = 0;
 
     CAN1.fmr |= FMR_FINIT;
     CAN1.fa1r = 0;
-    CAN1.fs1r = 0;
-    CAN1.ffa1r = 0;
-    CAN1.fm1r = in_use;
-    for (size_t i = 0; i < banks * IDS_PER_BANK; i += 2) {
-        uint32_t low = ids[i < count ? i : 0];
-        uint32_t high = ids[i + 1 < count ? i + 1 : 0];
+    CAN1.fs1r = (1u << count) - 1u;
+    CAN1.fm1r = 0;
+    for (size_t i = 0; i < count; i++) {
+        bool family = ids[i] & LINK_FAMILY;
+        uint32_t same = (uint32_t)ID_BITS & ~(family ? LINK_FAMILY_BITS : 0u);
 
-        CAN1.bank[i / IDS_PER_BANK][i / 2 % 2] = high << STANDARD_AT | low << (STANDARD_AT - 16);
+        CAN1.bank[i][0] = (ids[i] & same) << STANDARD_AT;
+        CAN1.bank[i][1] = same << STANDARD_AT | ID_IDE | ID_RTR;
+        families |= (family ? 1u : 0u) << i;
     }
-    CAN1.fa1r = in_use;
+    CAN1.ffa1r = families;
+    CAN1.fa1r = (1u << count) - 1u;
     CAN1.fmr &= ~(uint32_t)FMR_FINIT;
 }
 
@@ -87,29 +89,38 @@ static uint32_t id_from(uint32_t reg)
     return reg & ID_RTR ? id | FRAME_REMOTE : id;
 }
 
-static void take(struct frame *out)
+static void read_mailbox(const volatile struct can_mailbox *received, struct frame *out)
 {
-    uint32_t data[2] = {CAN1.received[0].data[0], CAN1.received[0].data[1]};
-    uint32_t said = CAN1.received[0].length & 15u;
+    uint32_t data[2] = {received->data[0], received->data[1]};
+    uint32_t said = received->length & 15u;
     uint32_t len = said < 8 ? said : 8;
 
-    *out = (struct frame){.id = id_from(CAN1.received[0].id), .len = (uint8_t)len};
+    *out = (struct frame){.id = id_from(received->id), .len = (uint8_t)len};
     memcpy(out->data, data, len);   /* the core has the first byte lowest, too */
-    CAN1.rf0r = RFR_RFOM;
 }
 
-int can_take(struct frame *out)
+static int take_from(unsigned n, struct frame *out)
 {
-    uint32_t fifo = CAN1.rf0r;
+    uint32_t fifo = CAN1.rfr[n];
 
     if (fifo & RFR_FOVR) {
-        CAN1.rf0r = RFR_FOVR;
+        CAN1.rfr[n] = RFR_FOVR;
         return LINK_E_GARBLED;
     }
     if (!(fifo & RFR_FMP) || fifo & RFR_RFOM)
         return 0;
-    take(out);
+    read_mailbox(&CAN1.received[n], out);
+    CAN1.rfr[n] = RFR_RFOM;
     return 1;
+}
+
+int can_take(struct frame *out)
+{
+    int result = 0;
+
+    for (unsigned n = 0; n < FIFOS && result == 0; n++)
+        result = take_from(n, out);
+    return result;
 }
 
 static uint32_t word_of(const uint8_t data[4])

@@ -15,7 +15,7 @@ bool can_stop(void);
         /* Leaves the bus; from here on it can be set up. False: it does not answer within CAN_STOP_MS. */
 
 void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_t id_count);
-        /* The bit, as in can_timing.h, and the identifiers to listen for, up to LINK_IDS_MAX: data frames only. */
+        /* The bit, as in can_timing.h, and the identifiers to listen for, as in link_open: data frames only. */
 
 void can_start(void);
         /* Joins the bus once that has been idle for 11 bits, without waiting for it; after bus-off, 128 times as long. */
@@ -26,7 +26,8 @@ enum can_state can_state(void);
         /* CAN_LOST: bus-off, until can_stop and can_start have had their effect. */
 
 int can_take(struct frame *out);
-        /* What has come, the oldest first: 1, 0 for nothing, or LINK_E_GARBLED where some were lost. */
+        /* What has come, the oldest first, of families after all else: 1, 0 for nothing, or LINK_E_GARBLED where some were
+           lost. */
 
 bool can_put(const struct frame *frame);
         /* To be sent: the lowest identifier leaves first, and of equal ones the one that was put first. False: there is no

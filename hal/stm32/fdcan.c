@@ -7,20 +7,25 @@
 #include "hal/stm32/fdcan_registers.h"
 #include "hal/stm32/machine.h"
 
+static const uint32_t FILTER_WITH_MASK = 1u << 31;
+
 enum {
     CCCR_INIT = 1 << 0,
     CCCR_CCE = 1 << 1,
     RXGFC_REJECT = 1 << 0 | 1 << 1 | 2 << 2 | 2 << 4,   /* remote frames, and what no filter matches */
     RXGFC_FILTERS_AT = 16,
-    FILTER_TWO_IDS = 1 << 30,
+    FIFOS = 2,
     FILTER_TO_FIFO_0 = 1 << 27,
+    FILTER_TO_FIFO_1 = 2 << 27,
+    ID_BITS = 0x7FF,
     TXBC_BY_IDENTIFIER = 1 << 24,
     TXFQS_NEXT_AT = 16,
     TXFQS_FULL = 1 << 21,
-    RXF0S_LEVEL = 15,
-    RXF0S_FIRST_AT = 8,
-    RXF0S_LOST = 1 << 25,
+    RXFS_LEVEL = 15,
+    RXFS_FIRST_AT = 8,
+    RXFS_LOST = 1 << 25,
     IR_RF0L = 1 << 2,
+    IR_RF1L = 1 << 5,
     PSR_ACTIVITY = 3 << 3,         /* 0: not yet in step with the bus */
     PSR_EP = 1 << 5,
     PSR_BO = 1 << 7,
@@ -59,18 +64,17 @@ enum can_state can_state(void)
     return status & PSR_ACTIVITY ? CAN_JOINED : CAN_JOINING;
 }
 
-/* Two identifiers a filter; an odd one is there twice. */
+/* Each with a mask. Families go to a FIFO of their own. */
 static void set_filters(const uint16_t ids[], size_t count)
 {
-    uint32_t filters = (uint32_t)(count + 1) / 2;
+    for (size_t i = 0; i < count; i++) {
+        bool family = ids[i] & LINK_FAMILY;
+        uint32_t same = (uint32_t)ID_BITS & ~(family ? LINK_FAMILY_BITS : 0u);
 
-    for (size_t i = 0; i < filters; i++) {
-        uint32_t first = ids[2 * i];
-        uint32_t second = ids[2 * i + 1 < count ? 2 * i + 1 : 2 * i];
-
-        FDCAN_RAM.standard_filters[i] = FILTER_TWO_IDS | FILTER_TO_FIFO_0 | first << 16 | second;
+        FDCAN_RAM.standard_filters[i] = FILTER_WITH_MASK | (uint32_t)(family ? FILTER_TO_FIFO_1 : FILTER_TO_FIFO_0)
+            | (ids[i] & same) << 16 | same;
     }
-    FDCAN.rxgfc = RXGFC_REJECT | filters << RXGFC_FILTERS_AT;
+    FDCAN.rxgfc = RXGFC_REJECT | (uint32_t)count << RXGFC_FILTERS_AT;
 }
 
 void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_t id_count)
@@ -82,7 +86,7 @@ void can_set_up(uint32_t prescaler, uint32_t quanta, const uint16_t ids[], size_
     FDCAN.ie = 0;
     FDCAN.ile = 0;
     set_filters(ids, id_count);
-    FDCAN.ir = IR_RF0L;
+    FDCAN.ir = IR_RF0L | IR_RF1L;
 }
 
 static uint32_t id_from(uint32_t word)
@@ -103,20 +107,29 @@ static void read_element(const volatile struct fdcan_element *element, struct fr
     memcpy(out->data, data, len);   /* the core has the first byte lowest, too */
 }
 
-int can_take(struct frame *out)
+static int take_from(unsigned n, struct frame *out)
 {
-    uint32_t fifo = FDCAN.rxf0s;
-    uint32_t first = fifo >> RXF0S_FIRST_AT & 3u;
+    uint32_t fifo = FDCAN.rxf[n].status;
+    uint32_t first = fifo >> RXFS_FIRST_AT & 3u;
 
-    if (fifo & RXF0S_LOST) {
-        FDCAN.ir = IR_RF0L;
+    if (fifo & RXFS_LOST) {
+        FDCAN.ir = n == 0 ? IR_RF0L : IR_RF1L;
         return LINK_E_GARBLED;
     }
-    if (!(fifo & RXF0S_LEVEL))
+    if (!(fifo & RXFS_LEVEL))
         return 0;
-    read_element(&FDCAN_RAM.received_0[first], out);
-    FDCAN.rxf0a = first;
+    read_element(&FDCAN_RAM.received[n][first], out);
+    FDCAN.rxf[n].read = first;
     return 1;
+}
+
+int can_take(struct frame *out)
+{
+    int result = 0;
+
+    for (unsigned n = 0; n < FIFOS && result == 0; n++)
+        result = take_from(n, out);
+    return result;
 }
 
 static uint32_t word_of(const uint8_t data[4])

@@ -5,6 +5,11 @@
 
 #include <stdint.h>
 
+struct fdcan_fifo {
+    uint32_t status;          /* r */
+    uint32_t read;            /* rw   place of the element that has been read: releases it */
+};
+
 struct fdcan_registers {      /* 44.4 */
     uint32_t crel;            /* r */
     uint32_t endn;            /* r */
@@ -32,10 +37,7 @@ struct fdcan_registers {      /* 44.4 */
     uint32_t xidam;           /* rw while CCE */
     uint32_t hpms;            /* r */
     uint32_t reserved_5;
-    uint32_t rxf0s;           /* r    receive FIFO 0 */
-    uint32_t rxf0a;           /* rw   place of the element that has been read: releases it */
-    uint32_t rxf1s;           /* r */
-    uint32_t rxf1a;           /* rw */
+    struct fdcan_fifo rxf[2]; /* receive FIFO 0, 1 */
     uint32_t reserved_6[8];
     uint32_t txbc;            /* rw while CCE   buffers as a FIFO, or as a queue by identifier */
     uint32_t txfqs;           /* r    the next buffer that is free */
@@ -61,8 +63,7 @@ enum { FDCAN_FILTERS = 28, FDCAN_ELEMENTS = 3 };
 struct fdcan_ram {            /* 44.3.14; rw by whole words, no reset value */
     uint32_t standard_filters[FDCAN_FILTERS];
     uint32_t extended_filters[8][2];
-    struct fdcan_element received_0[FDCAN_ELEMENTS];
-    struct fdcan_element received_1[FDCAN_ELEMENTS];
+    struct fdcan_element received[2][FDCAN_ELEMENTS];   /* FIFO 0, 1 */
     uint32_t events[3][2];
     struct fdcan_element sent[FDCAN_ELEMENTS];
 };

@@ -18,8 +18,7 @@ struct can_registers {        /* F4 32.9.5, F1 24.9.5 */
     uint32_t mcr;             /* rw   master control           F4 32.9.2, F1 24.9.2 */
     uint32_t msr;             /* r, bits 4..2 w1c   master status */
     uint32_t tsr;             /* r, bits 0..3, 8..11, 16..19 w1c, ABRQ bits w1s   transmit status */
-    uint32_t rf0r;            /* r, bits 3, 4 w1c, bit 5 w1s   receive FIFO 0 */
-    uint32_t rf1r;            /* as rf0r, FIFO 1 */
+    uint32_t rfr[2];          /* r, bits 3, 4 w1c, bit 5 w1s   receive FIFO 0, 1 */
     uint32_t ier;             /* rw   interrupt enable */
     uint32_t esr;             /* bits 6..4 rw, else r   error status */
     uint32_t btr;             /* rw in initialization only   bit timing */

@@ -9,6 +9,7 @@ from host_sim.protocol.codec import Protocol
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
+from host_sim.transport.relay import Relay
 
 if TYPE_CHECKING:
     from host_sim.transport.shared_line import SharedLine
@@ -23,14 +24,19 @@ class BusLines:
         nodes: The robots.
         bitrate: Bits a second, for a bus that is set up when opened.
         reconnect_s: Time to wait for a bus that is gone, s of wall-clock time.
+        relay: What the robots hear of each other where there is no bus; None for one robot.
     """
 
     bus: str
     nodes: Sequence[int]
     bitrate: int = BIT_RATE
     reconnect_s: float = 0.0
+    relay: Relay | None = field(init=False)
     _shared: "SharedLine | None" = None
     _shared_stats: LineStats = field(default_factory=LineStats)
+
+    def __post_init__(self) -> None:
+        self.relay = Relay(self.nodes) if len(self.nodes) > 1 else None
 
     def open(self, stack: ExitStack, node: int) -> tuple[Link, LineStats]:
         """The line to a robot, and what happens to it.

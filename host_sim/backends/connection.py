@@ -11,6 +11,7 @@ from host_sim.errors import UsageError
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
+from host_sim.transport.relay import Relay, RelayedLink
 
 _EMULATORS = ("qemu", "emulated")
 _IMAGE_NODE = 1
@@ -70,11 +71,13 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
         return _in_emulator(stack, bus, robot, node, board or BOARDS[0])
     if bus in ("none", "fd") and robot == "external":
         raise UsageError(f"--robot external needs --bus INTERFACE:CHANNEL, the bus that it is on, not --bus {bus}")
+    lines = lines or BusLines(bus, [node])
     if bus == "none":
-        return Connection(InProcessLink(node), bus, lambda: "runs in this process", answers_at_once=True)
+        link = InProcessLink(node, relay=lines.relay)
+        return Connection(link, bus, lambda: "runs in this process", answers_at_once=True)
     if bus == "fd":
-        return _over_socket_pair(stack, node)
-    return _over_bus(stack, lines or BusLines(bus, [node]), robot, node)
+        return _over_socket_pair(stack, node, lines.relay)
+    return _over_bus(stack, lines, robot, node)
 
 
 def _in_emulator(stack: ExitStack, bus: str, robot: str, node: int, board: str) -> Connection:
@@ -108,7 +111,7 @@ def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
     return Connection(board, f"emulated {name}", board.status, deadline_s=_EMULATED_S)
 
 
-def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
+def _over_socket_pair(stack: ExitStack, node: int, relay: Relay | None) -> Connection:
     import socket  # noqa: PLC0415 - see above
 
     from host_sim.backends.robot_process import RobotProcess  # noqa: PLC0415 - see above
@@ -123,7 +126,7 @@ def _over_socket_pair(stack: ExitStack, node: int) -> Connection:
         process = RobotProcess(f"fd:{theirs.fileno()}", node, [theirs.fileno()])
     stack.callback(process.close)
     link.explain = process.account_for_silence
-    return Connection(link, "fd", process.status, process.pid, line)
+    return Connection(RelayedLink(link, relay, node) if relay else link, "fd", process.status, process.pid, line)
 
 
 def _over_bus(stack: ExitStack, lines: BusLines, robot: str, node: int) -> Connection:

@@ -7,11 +7,24 @@ from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, RANGE_N
 from host_sim.protocol.signal_layout import MessageLayout, places
 from host_sim.robot_io import Drive, Ranges, Senses
 
-__all__ = ["COUNTERS", "DBC", "NODE_MAX", "DecodedFrame", "Frame", "Protocol", "counter_of", "crc8", "node_of"]
+__all__ = [
+    "COUNTERS",
+    "DBC",
+    "MEMORY_IDS",
+    "NODE_MAX",
+    "DecodedFrame",
+    "Frame",
+    "Protocol",
+    "counter_of",
+    "crc8",
+    "node_of",
+]
 
 DBC = ROOT / "hal" / "protocol" / "octet.dbc"
 COUNTERS = 15
 """Alive counters go from 0 to one less, and round again."""
+MEMORY_IDS = range(MESSAGES["MEMORY"].id, MESSAGES["MEMORY"].id + NODE_MAX)
+"""The identifiers by which robots hear what others have learned."""
 
 _LENGTH = 8
 _COUNTER_START = 8

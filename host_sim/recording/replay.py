@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from host_sim.errors import OctetError
-from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
+from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, node_of
 from host_sim.protocol.generated import Opcode, Reason
 from host_sim.protocol.memory_report import MemoryReport
-from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, first_memory, frames_of
+from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, first_memory
 from host_sim.transport.in_process_link import InProcessLink
 
 _TO_ROBOT = ("SENSES", "COMMAND")
@@ -47,7 +47,7 @@ class Replay:
 
 
 def replay(log: LogReader, protocol: Protocol) -> Replay:
-    """Feeds one robot's senses and commands from a log to the firmware, and compares drives and memories.
+    """Feeds what one robot has heard, by a log, to the firmware, and compares drives and memories.
 
     Args:
         log: The log.
@@ -58,8 +58,10 @@ def replay(log: LogReader, protocol: Protocol) -> Replay:
     """
     check_protocol(log, protocol)
     comparison = _Comparison(log, protocol)
-    for line in frames_of(log, protocol.node):
-        if difference := comparison.accept(line):
+    for line in log:
+        if line.frame.id in MEMORY_IDS and line.frame.id != protocol.id_of("MEMORY"):
+            comparison.overhear(line.frame)
+        elif node_of(line.frame.id) == protocol.node and (difference := comparison.accept(line)):
             return Replay(comparison.drives, difference, log.is_old)
     difference = comparison.end() if comparison.stopped else None  # a log that was cut off has no last answer
     return Replay(comparison.drives, difference, log.is_old, comparison.stopped)
@@ -106,6 +108,10 @@ class _Comparison:
         if decoded.name == "DRIVE":
             return self._compare_drive(frame, decoded)
         return self._compare_memory(frame, decoded) if decoded.name == "MEMORY" else None
+
+    def overhear(self, frame: Frame) -> None:
+        """The robot hears another one's memory."""
+        self._link.send(frame)
 
     def end(self) -> Difference | None:
         """The drive of the firmware that the log does not have."""

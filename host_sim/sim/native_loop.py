@@ -182,6 +182,7 @@ class NativeLoop:
     def _look_up(self, index: int, client: RobotClient) -> None:
         """Takes over what commands may have changed. After one, even what a robot reported long ago may be news."""
         robot = self._robots[index]
+        self._links[index].hear_others()
         robot.senses_counter, self._memories[index] = client.senses_counter, client.memory
         if client.frames.sent != self._sent[index]:
             robot.known_count = 0

@@ -11,6 +11,7 @@ from host_sim.c_interface import c_interface
 from host_sim.errors import OctetError
 from host_sim.paths import BUILD
 from host_sim.protocol.codec import Frame
+from host_sim.transport.relay import Relay
 
 LIBRARY = BUILD / "host" / "hal" / "library" / "liboctet.so"
 
@@ -47,13 +48,16 @@ class RobotPointers(NamedTuple):
 class InProcessLink:
     """A robot that answers within `send`. It knows no time but the ticks, and is never late."""
 
-    def __init__(self, node: int = 1, memory: Sequence[int] = (0,) * 8, library: Path = LIBRARY) -> None:
+    def __init__(
+        self, node: int = 1, memory: Sequence[int] = (0,) * 8, library: Path = LIBRARY, relay: Relay | None = None
+    ) -> None:
         """Wakes a robot.
 
         Args:
-            node: 1..63.
+            node: 1..31.
             memory: Eight cells that it wakes up with.
             library: The firmware.
+            relay: What it hears of other robots; None if it is alone.
 
         Raises:
             OctetError: The library cannot be loaded.
@@ -66,6 +70,7 @@ class InProcessLink:
         self._in: Any = self._ffi.new("struct frame *")
         self._out: Any = self._library.octet_answers(self._octet)
         self._answers: deque[Frame] = deque()
+        self._node, self._relay = node, relay
 
     @property
     def pointers(self) -> RobotPointers:
@@ -76,13 +81,24 @@ class InProcessLink:
 
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
+        if self._relay is not None:
+            self.hear_others()
         data = frame.data
         self._in.id, self._in.len = frame.id, len(data)
         self._ffi.memmove(self._in.data, data, len(data))
         count = self._library.octet_exchange(self._octet, self._in)
         for i in range(count):
             out = self._out[i]
-            self._answers.append(Frame(out.id, self._ffi.buffer(out.data, out.len)[:]))
+            answer = Frame(out.id, self._ffi.buffer(out.data, out.len)[:])
+            self._answers.append(answer)
+            if self._relay is not None:
+                self._relay.hear(self._node, answer)
+
+    def hear_others(self) -> None:
+        """Hands over what the robot has not heard yet of others."""
+        if self._relay is not None:
+            for frame in self._relay.take(self._node):
+                self.send(frame)
 
     def receive(self, timeout_s: float) -> Frame | None:
         """As in `Link`. What is not there yet will not come: waiting passes the time, no more."""

@@ -16,6 +16,10 @@ _HEADERS = [
     "firmware/memory_kind.h",
     "firmware/random.h",
     "firmware/brain.h",
+    "firmware/motion.h",
+    "firmware/perception.h",
+    "firmware/sharing.h",
+    "firmware/robot.h",
     "hal/link/link.h",
     "hal/protocol/e2e.h",
 ]

@@ -111,7 +111,13 @@ def random_reading(dice: random.Random) -> Reading:
 
 def random_state(oracle: type[Listing], dice: random.Random) -> dict[str, int]:
     """What a behaviour may have in mind beside its memory when a decision begins."""
-    ranges = {"used": range(0, 256, 2), "since_mm": range(0, 1013, 4), "chasing": range(2), "ate": range(2)}
+    ranges = {
+        "used": range(0, 256, 2),
+        "unlearned": range(0, 256, 2),
+        "since_mm": range(0, 1013, 4),
+        "chasing": range(2),
+        "ate": range(2),
+    }
     return {name: dice.choice(ranges[name]) for name in oracle.STATE}
 
 

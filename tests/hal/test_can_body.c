@@ -1,6 +1,8 @@
 /* Opening and receiving: what comes, silence, and outages. */
 #include "fake_body.h"
 
+#include "wire_frames.h"
+
 static void test_it_listens_for_what_the_wire_wants(void)
 {
     static const struct wire wire = {.node = NODE};
@@ -227,6 +229,23 @@ static void test_noise_among_what_queued_up_is_passed_over(void)
     assert_faults((struct octet_faults_t){.stale = 1, .foreign = 1, .damaged = 1});
 }
 
+static void test_another_robots_memory_is_received_and_does_not_break_the_silence(void)
+{
+    happens(50, 1, memory_frame(NODE + 1, 0, 0));
+    TEST_ASSERT_EQUAL(INPUT_PEER, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
+}
+
+static void test_another_robots_memory_that_queued_up_is_passed_over(void)
+{
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    senses_come(150, 0);
+    happens(150, 1, memory_frame(NODE + 1, 0, 0));
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    assert_faults((struct octet_faults_t){.stale = 0});
+}
+
 static void test_without_an_outage_nothing_is_passed_over(void)
 {
     for (unsigned tick = 0; tick < 30; tick++)
@@ -348,6 +367,8 @@ int main(void)
     RUN_TEST(test_after_an_outage_the_last_senses_count_whatever_their_number);
     RUN_TEST(test_after_an_outage_only_the_newest_senses_count);
     RUN_TEST(test_noise_among_what_queued_up_is_passed_over);
+    RUN_TEST(test_another_robots_memory_is_received_and_does_not_break_the_silence);
+    RUN_TEST(test_another_robots_memory_that_queued_up_is_passed_over);
     RUN_TEST(test_without_an_outage_nothing_is_passed_over);
     RUN_TEST(test_after_an_outage_a_queued_command_comes_first);
     RUN_TEST(test_senses_that_a_queued_command_outdates_do_not_end_the_outage);

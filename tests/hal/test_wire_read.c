@@ -149,8 +149,10 @@ static void test_no_node_hears_anothers_frames(void)
 
 static void test_the_first_and_the_last_node_listen_for_their_own(void)
 {
-    static const uint16_t expected[2][WIRE_LISTEN_COUNT] = {{0x101, 0x121, 0x021, 0x041, 0x6A1},
-                                                            {0x11F, 0x13F, 0x03F, 0x05F, 0x6BF}};
+    static const uint16_t expected[2][WIRE_LISTEN_COUNT] = {
+        {0x101, 0x121, 0x021, 0x041, 0x6A1, LINK_FAMILY | 0x680},
+        {0x11F, 0x13F, 0x03F, 0x05F, 0x6BF, LINK_FAMILY | 0x680},
+    };
     static const uint8_t nodes[2] = {1, NODE_MAX};
     uint16_t ids[WIRE_LISTEN_COUNT];
 
@@ -164,7 +166,65 @@ static void test_the_first_and_the_last_node_listen_for_their_own(void)
 static void test_other_messages_of_robots_are_foreign(void)
 {
     refuse((struct frame){.id = OCTET_ANSWER_FRAME_ID, .len = OCTET_ANSWER_LENGTH});
-    refuse((struct frame){.id = OCTET_MEMORY_FRAME_ID, .len = OCTET_MEMORY_LENGTH});
+    refuse((struct frame){.id = OCTET_FAULTS_FRAME_ID, .len = OCTET_FAULTS_LENGTH});
+    expect(FAULT_FOREIGN, 2);
+}
+
+static void assert_peer(bool upper, uint8_t first)
+{
+    const uint8_t expected[] = {first, 1, 2, 1};
+
+    TEST_ASSERT_EQUAL(upper, in.peer.upper);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, in.peer.cell, CELL_COUNT / 2);
+}
+
+static void test_every_other_robots_memory_is_heard(void)
+{
+    for (uint8_t node = 2; node <= NODE_MAX; node++) {
+        TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(node, 0, 0)));
+        assert_peer(false, 0);
+        TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(node, 1, 2)));
+        assert_peer(true, 2);
+    }
+}
+
+static void test_a_memory_is_heard_once_from_report_to_report(void)
+{
+    TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(2, 1, 0)));
+    refuse(memory_frame(2, 0, 0));
+    refuse(memory_frame(2, 1, 0));
+    respond((struct output){.has_drive = true});
+    refuse(memory_frame(2, 0, 0));
+    respond((struct output){.has_drive = true, .has_report = true});
+    TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(2, 1, 0)));
+}
+
+static void test_a_memory_of_all_sensors_is_not_heard(void)
+{
+    refuse(memory_frame(2, 0, 0x0F));
+    refuse(memory_frame(2, 1, 0));
+}
+
+static void test_an_upper_half_alone_is_not_heard(void)
+{
+    refuse(memory_frame(2, 1, 0));
+}
+
+static void test_a_damaged_memory_is_counted(void)
+{
+    struct frame frame = memory_frame(2, 0, 0);
+
+    frame.data[3] ^= 1;
+    refuse(frame);
+    expect(FAULT_DAMAGED, 1);
+}
+
+static void test_the_identifiers_beside_the_memories_are_foreign(void)
+{
+    refuse(memory_frame(0, 0, 0));
+    refuse(memory_frame(NODE_MAX + 3, 0, 0));   /* a heartbeat's, of node 2 */
     expect(FAULT_FOREIGN, 2);
 }
 
@@ -471,6 +531,13 @@ static void test_a_twin_stops_the_robot_once_for_each_start(void)
     expect(FAULT_TWIN, 5);
 }
 
+static void test_a_twin_is_known_by_its_memory_too(void)
+{
+    refuse(memory_frame(NODE, 0, 0));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(memory_frame(NODE, 1, 0)));
+    expect(FAULT_TWIN, 2);
+}
+
 static void test_a_damaged_frame_of_a_twin_is_damaged(void)
 {
     refuse((struct frame){.id = OCTET_DRIVE_FRAME_ID, .len = 8, .data = {1}});
@@ -500,6 +567,12 @@ int main(void)
     RUN_TEST(test_no_node_hears_anothers_frames);
     RUN_TEST(test_the_first_and_the_last_node_listen_for_their_own);
     RUN_TEST(test_other_messages_of_robots_are_foreign);
+    RUN_TEST(test_every_other_robots_memory_is_heard);
+    RUN_TEST(test_a_memory_is_heard_once_from_report_to_report);
+    RUN_TEST(test_a_memory_of_all_sensors_is_not_heard);
+    RUN_TEST(test_an_upper_half_alone_is_not_heard);
+    RUN_TEST(test_a_damaged_memory_is_counted);
+    RUN_TEST(test_the_identifiers_beside_the_memories_are_foreign);
     RUN_TEST(test_extended_remote_and_error_frames_are_foreign);
     RUN_TEST(test_senses_with_one_or_two_flipped_bits_are_refused);
     RUN_TEST(test_a_command_with_one_or_two_flipped_bits_is_refused);
@@ -527,6 +600,7 @@ int main(void)
     RUN_TEST(test_one_frame_a_second_makes_no_twin);
     RUN_TEST(test_a_stop_for_a_twin_has_no_answer_and_no_owner);
     RUN_TEST(test_a_twin_stops_the_robot_once_for_each_start);
+    RUN_TEST(test_a_twin_is_known_by_its_memory_too);
     RUN_TEST(test_a_damaged_frame_of_a_twin_is_damaged);
     RUN_TEST(test_every_counter_stays_at_255);
     return UNITY_END();

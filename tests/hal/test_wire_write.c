@@ -51,6 +51,13 @@ static void test_no_mark_makes_no_frame(void)
     TEST_ASSERT_EQUAL_size_t(0, write());
 }
 
+static void test_faults_are_not_told_where_nothing_else_is(void)
+{
+    wire_count(&wire, FAULT_DAMAGED);
+    TEST_ASSERT_EQUAL_size_t(0, write());
+    expect(FAULT_DAMAGED, 1);
+}
+
 static void assert_ids(const uint32_t expected[], size_t count)
 {
     TEST_ASSERT_EQUAL_size_t(count, write());
@@ -441,6 +448,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_no_mark_makes_no_frame);
+    RUN_TEST(test_faults_are_not_told_where_nothing_else_is);
     RUN_TEST(test_the_parts_of_a_report_wait_for_drives_in_answer_to_senses);
     RUN_TEST(test_all_marks_make_all_frames_the_drive_last);
     RUN_TEST(test_the_last_node_writes_its_own_identifiers);

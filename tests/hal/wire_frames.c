@@ -43,6 +43,19 @@ struct frame ranges_frame(unsigned ticks)
     return protected_frame(frame);
 }
 
+struct frame memory_frame(unsigned node, unsigned half, uint8_t first)
+{
+    const struct octet_memory_t memory = {
+        .half = (uint8_t)half,
+        .cell_0 = first, .cell_1 = 1, .cell_2 = 2, .cell_3 = 1,
+        .cell_4 = first, .cell_5 = 1, .cell_6 = 2, .cell_7 = 1,
+    };
+    struct frame frame = {.id = OCTET_MEMORY_FRAME_ID + node - 1u, .len = OCTET_MEMORY_LENGTH};
+
+    TEST_ASSERT_EQUAL(OCTET_MEMORY_LENGTH, octet_memory_pack(frame.data, &memory, sizeof frame.data));
+    return protected_frame(frame);
+}
+
 struct frame command_frame(struct octet_command_t command)
 {
     struct frame frame = {.id = OCTET_COMMAND_FRAME_ID, .len = OCTET_COMMAND_LENGTH};

@@ -13,6 +13,9 @@ struct frame senses_frame(unsigned node, unsigned ticks);
 struct frame ranges_frame(unsigned ticks);
         /* 11, 22, 33, 44 and 55 mm, for node 1. */
 
+struct frame memory_frame(unsigned node, unsigned half, uint8_t first);
+        /* Half of the memory of a robot, whose four cells are first, 1, 2 and 1. */
+
 struct frame command_frame(struct octet_command_t command);
         /* For node 1. */
 

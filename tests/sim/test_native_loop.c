@@ -6,7 +6,7 @@
 #include "octet.h"
 #include "tests/world/fake_munk.h"
 
-enum { ROBOTS = 2, TICKS = 8, SENSES = 0x101, DRIVE = 0x041, FAULTS = 0x781 };
+enum { ROBOTS = 2, TICKS = 8, SENSES = 0x101, DRIVE = 0x041, FAULTS = 0x781, MEMORY = 0x681 };
 
 /* A robot that answers as the test says. */
 struct octet {
@@ -15,8 +15,11 @@ struct octet {
     bool eat;
     bool silent;
     uint8_t faults;        /* told each tick; 0: no report */
+    bool tells_memory;     /* each tick */
+    unsigned memories;     /* of others that were heard, */
+    struct frame memory;   /* and the last of them */
     struct frame heard;
-    struct frame answers[2];
+    struct frame answers[3];
 };
 
 static struct octet octets[ROBOTS];
@@ -43,10 +46,17 @@ static size_t exchange(struct octet *octet, const struct frame *in)
     struct octet_senses_t senses;
     size_t count = 0;
 
+    if (in->id >= MEMORY && in->id < MEMORY + ROBOTS) {
+        octet->memory = *in;
+        octet->memories++;
+        return 0;
+    }
     octet->heard = *in;
     (void)octet_senses_unpack(&senses, in->data, in->len);
     if (octet->faults)
         octet->answers[count++] = (struct frame){.id = FAULTS, .len = 8, .data = {0, 0, octet->faults}};
+    if (octet->tells_memory)
+        octet->answers[count++] = (struct frame){.id = MEMORY + (uint32_t)(octet - octets), .len = 6};
     if (!octet->silent)
         octet->answers[count++] = drive_of(octet, senses.tick);
     return count;
@@ -108,6 +118,18 @@ static void test_all_robots_hear_their_senses_before_any_answer_is_read(void)
     for (unsigned i = 0; i < 4; i++)
         TEST_ASSERT_EQUAL_STRING_LEN(ids[i], text + i * (loop.log.used / 4) + LOG_STAMP, 3);
     TEST_ASSERT_EQUAL_HEX32(SENSES + 1, octets[1].heard.id);
+}
+
+static void test_a_memory_is_heard_by_the_others(void)
+{
+    octets[0].tells_memory = true;
+    octets[0].faults = 1;
+    loop_run(&loop, 1);
+    TEST_ASSERT_EQUAL_UINT(0, octets[0].memories);
+    TEST_ASSERT_EQUAL_UINT(1, octets[1].memories);
+    TEST_ASSERT_EQUAL_HEX32(MEMORY, octets[1].memory.id);
+    loop_run(&loop, 2);
+    TEST_ASSERT_EQUAL_UINT(3, octets[1].memories);
 }
 
 static void test_ticks_are_recorded(void)
@@ -237,6 +259,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_block_runs_as_many_ticks_as_asked_for);
     RUN_TEST(test_all_robots_hear_their_senses_before_any_answer_is_read);
+    RUN_TEST(test_a_memory_is_heard_by_the_others);
     RUN_TEST(test_ticks_are_recorded);
     RUN_TEST(test_actions_are_counted_when_they_begin);
     RUN_TEST(test_the_pattern_is_that_of_the_tick_in_which_the_action_began);

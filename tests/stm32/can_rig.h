@@ -26,8 +26,8 @@ struct rig_bit rig_bit(void);
 void rig_bring(const struct frame *frame);
         /* Arrives over the bus. */
 
-bool rig_passes_filters(uint32_t id);
-        /* Would a data frame with this standard identifier reach the driver? */
+int rig_fifo_for(uint32_t id);
+        /* In which of its FIFOs a data frame with this standard identifier would reach the driver, or -1. */
 
 void rig_open_filters(void);
         /* From here on every frame does. */

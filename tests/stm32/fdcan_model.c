@@ -8,7 +8,8 @@ enum {
     INIT = 1, CCE = 2, BY_IDENTIFIER = 1 << 24,
     EXTENDED = 1 << 30, REMOTE = 1 << 29,
     NOTHING_READ = 0xFF,        /* no place of the FIFO: the driver has not written RXF0A since */
-    NEW = 1, LOST = 4,          /* in IR */
+    NEW = 1 | 1 << 3,           /* in IR, of both FIFOs */
+    LOST_0 = 1 << 2, LOST_1 = 1 << 5,
     IDLE = 1 << 3, BUS_OFF_FLAG = 1 << 7
 };
 
@@ -25,7 +26,7 @@ void fdcan_reset(void)
     FDCAN.nbtp = 0x06000A03;
     FDCAN.psr = 0x707;
     FDCAN.ie = FDCAN.ile = 3;   /* as a boot loader may leave them */
-    FDCAN.rxf0a = NOTHING_READ;
+    FDCAN.rxf[0].read = FDCAN.rxf[1].read = NOTHING_READ;
     fdcan.in_init = true;
     fdcan.on_wire = -1;
     fdcan.frame_us = 250;
@@ -37,8 +38,7 @@ static void forget_all(void)
 {
     FDCAN.txbrp = FDCAN.txbar = 0;
     fdcan.on_wire = -1;
-    fdcan.waiting = fdcan.first = 0;
-    fdcan.lost = false;
+    memset(fdcan.fifos, 0, sizeof fdcan.fifos);
 }
 
 static void step_mode(void)
@@ -120,17 +120,25 @@ static void step_transmit(void)
             FDCAN.txfqs = n << 16;
 }
 
+static void step_fifo(unsigned n, uint32_t cleared)
+{
+    if (FDCAN.rxf[n].read != NOTHING_READ && fdcan.fifos[n].waiting > 0 && FDCAN.rxf[n].read == fdcan.fifos[n].first) {
+        fdcan.fifos[n].first = (fdcan.fifos[n].first + 1) % FDCAN_ELEMENTS;
+        fdcan.fifos[n].waiting--;
+    }
+    FDCAN.rxf[n].read = NOTHING_READ;
+    if (cleared & (n == 0 ? LOST_0 : LOST_1))
+        fdcan.fifos[n].lost = false;
+    FDCAN.rxf[n].status = fdcan.fifos[n].waiting | fdcan.fifos[n].first << 8 | (fdcan.fifos[n].lost ? 1u << 25 : 0u);
+}
+
 static void step_receive(void)
 {
-    if (FDCAN.rxf0a != NOTHING_READ && fdcan.waiting > 0 && FDCAN.rxf0a == fdcan.first) {
-        fdcan.first = (fdcan.first + 1) % FDCAN_ELEMENTS;
-        fdcan.waiting--;
-    }
-    FDCAN.rxf0a = NOTHING_READ;
-    if (FDCAN.ir == LOST)   /* written: what it shows has NEW as well */
-        fdcan.lost = false;
-    FDCAN.ir = NEW | (fdcan.lost ? LOST : 0u);
-    FDCAN.rxf0s = fdcan.waiting | fdcan.first << 8 | (fdcan.lost ? 1u << 25 : 0u);
+    uint32_t cleared = FDCAN.ir & NEW ? 0 : FDCAN.ir;   /* written: what it shows has NEW as well */
+
+    for (unsigned n = 0; n < 2; n++)
+        step_fifo(n, cleared);
+    FDCAN.ir = NEW | (fdcan.fifos[0].lost ? LOST_0 : 0u) | (fdcan.fifos[1].lost ? LOST_1 : 0u);
 }
 
 void fdcan_step(void)
@@ -141,9 +149,10 @@ void fdcan_step(void)
     step_receive();
 }
 
-static void store(const struct frame *frame)
+static void store(unsigned n, const struct frame *frame)
 {
-    volatile struct fdcan_element *element = &FDCAN_RAM.received_0[(fdcan.first + fdcan.waiting++) % FDCAN_ELEMENTS];
+    unsigned place = (fdcan.fifos[n].first + fdcan.fifos[n].waiting++) % FDCAN_ELEMENTS;
+    volatile struct fdcan_element *element = &FDCAN_RAM.received[n][place];
 
     element->id = frame->id & FRAME_EXTENDED ? EXTENDED | (frame->id & 0x1FFFFFFFu) : (frame->id & 0x7FFu) << 18;
     if (frame->id & FRAME_REMOTE)
@@ -154,25 +163,29 @@ static void store(const struct frame *frame)
 
 void fdcan_bring(const struct frame *frame)
 {
+    unsigned n = fdcan_fifo_for(frame->id) == 1;
+
     fdcan_step();
-    if (fdcan.waiting == MODEL_FIFO_DEPTH)
-        fdcan.lost = true;
+    if (fdcan.fifos[n].waiting == MODEL_FIFO_DEPTH)
+        fdcan.fifos[n].lost = true;
     else
-        store(frame);
+        store(n, frame);
     fdcan_step();
 }
 
-bool fdcan_filter_passes(uint32_t id)
+/* Filters with a mask are all that our driver makes use of. */
+int fdcan_fifo_for(uint32_t id)
 {
     unsigned filters = FDCAN.rxgfc >> 16 & 31u;
 
     for (unsigned n = 0; n < filters; n++) {
         uint32_t filter = FDCAN_RAM.standard_filters[n];
+        uint32_t to = filter >> 27 & 7u;
 
-        if (filter >> 27 == (1u << 3 | 1u) && ((filter >> 16 & 0x7FFu) == id || (filter & 0x7FFu) == id))
-            return true;
+        if (filter >> 30 == 2 && ((filter >> 16 ^ id) & filter & 0x7FFu) == 0 && (to == 1 || to == 2))
+            return (int)to - 1;
     }
-    return !(FDCAN.rxgfc >> 4 & 2u);
+    return FDCAN.rxgfc >> 4 & 2u ? -1 : 0;
 }
 
 uint32_t machine_ms(void)

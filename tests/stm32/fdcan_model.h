@@ -39,8 +39,10 @@ struct fdcan_model {
     int on_wire;               /* buffer whose frame the wire carries, or -1 */
     uint32_t on_wire_us;       /* since when */
 
-    unsigned first, waiting;   /* of the elements of FIFO 0 */
-    bool lost;
+    struct {
+        unsigned first, waiting;   /* of the elements */
+        bool lost;
+    } fifos[2];
 };
 
 extern struct fdcan_model fdcan;
@@ -52,9 +54,9 @@ void fdcan_step(void);
         /* Looks at the registers, as each machine_ms does, but no time passes. */
 
 void fdcan_bring(const struct frame *frame);
-        /* A frame arrives that the filters let through. A fourth one is lost. */
+        /* A frame arrives, in FIFO 0 if no filter has a place for it. A fourth one is lost. */
 
-bool fdcan_filter_passes(uint32_t id);
-        /* Would the filters let a data frame with this standard identifier through? */
+int fdcan_fifo_for(uint32_t id);
+        /* The FIFO that the filters send a data frame with this standard identifier to, or -1. */
 
 #endif

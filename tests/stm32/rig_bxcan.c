@@ -40,11 +40,11 @@ void rig_bring(const struct frame *frame)
     registers_pass_us(300);
 }
 
-bool rig_passes_filters(uint32_t id)
+int rig_fifo_for(uint32_t id)
 {
     struct frame frame = {.id = id};
 
-    return bxcan_fifo_for(&can, &frame) == 0;
+    return bxcan_fifo_for(&can, &frame);
 }
 
 void rig_open_filters(void)

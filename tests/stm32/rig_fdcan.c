@@ -41,9 +41,9 @@ void rig_bring(const struct frame *frame)
     fdcan_bring(frame);
 }
 
-bool rig_passes_filters(uint32_t id)
+int rig_fifo_for(uint32_t id)
 {
-    return fdcan_filter_passes(id);
+    return fdcan_fifo_for(id);
 }
 
 /* The model's own filters are asked about, and let everything in. */

@@ -118,7 +118,23 @@ static void test_a_controller_that_does_not_answer_is_given_up_soon(void)
 static void test_the_filters_pass_what_is_wanted_and_nothing_else(void)
 {
     for (uint32_t id = 0; id <= 0x7FF; id++)
-        TEST_ASSERT_EQUAL(id == WANTED[0] || id == WANTED[1], rig_passes_filters(id));
+        TEST_ASSERT_EQUAL(id == WANTED[0] || id == WANTED[1] ? 0 : -1, rig_fifo_for(id));
+}
+
+static void open_family(void)
+{
+    static const uint16_t ids[] = {0x0C1, LINK_FAMILY | 0x680};
+
+    rig_reset();
+    TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, 2));
+    rig_pass_us(100);
+}
+
+static void test_a_family_is_let_through_whole_and_waits_apart(void)
+{
+    open_family();
+    for (uint32_t id = 0; id <= 0x7FF; id++)
+        TEST_ASSERT_EQUAL(id == 0x0C1 ? 0 : id >= 0x680 && id <= 0x69F ? 1 : -1, rig_fifo_for(id));
 }
 
 static void test_the_filters_hold_eight_identifiers_and_not_nine(void)
@@ -130,7 +146,7 @@ static void test_the_filters_hold_eight_identifiers_and_not_nine(void)
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, LINK_IDS_MAX));
     rig_pass_us(100);
     for (unsigned i = 0; i < 9; i++)
-        TEST_ASSERT_EQUAL(i < 8, rig_passes_filters(ids[i]));
+        TEST_ASSERT_EQUAL(i < 8 ? 0 : -1, rig_fifo_for(ids[i]));
 }
 
 /* ---- sending */
@@ -352,6 +368,19 @@ static void test_lost_frames_are_said_once_and_the_others_come(void)
     TEST_ASSERT_EQUAL(0, link_receive(link_here, &frame, 0));
 }
 
+static void test_a_family_that_overruns_pushes_out_nothing_else(void)
+{
+    struct frame frame;
+
+    open_family();
+    for (uint8_t n = 0; n < 5; n++)
+        rig_bring(&(struct frame){.id = 0x681u + n, .len = 1});
+    rig_bring(&(struct frame){.id = 0x0C1, .len = 1, .data = {7}});
+    assert_receives(&(struct frame){.id = 0x0C1, .len = 1, .data = {7}});
+    TEST_ASSERT_EQUAL(LINK_E_GARBLED, link_receive(link_here, &frame, 0));
+    assert_receives(&(struct frame){.id = 0x681, .len = 1});
+}
+
 static void test_there_is_nothing_to_pump(void)
 {
     line_pump();
@@ -480,6 +509,7 @@ int main(void)
     RUN_TEST(test_a_clock_without_a_divisor_for_500_kbit_s_does_not_open);
     RUN_TEST(test_a_controller_that_does_not_answer_is_given_up_soon);
     RUN_TEST(test_the_filters_pass_what_is_wanted_and_nothing_else);
+    RUN_TEST(test_a_family_is_let_through_whole_and_waits_apart);
     RUN_TEST(test_the_filters_hold_eight_identifiers_and_not_nine);
     RUN_TEST(test_a_frame_goes_out_as_it_is);
     RUN_TEST(test_on_an_idle_bus_frames_leave_in_the_order_sent);
@@ -498,6 +528,7 @@ int main(void)
     RUN_TEST(test_extended_and_remote_frames_are_told_apart);
     RUN_TEST(test_silence_is_waited_out);
     RUN_TEST(test_lost_frames_are_said_once_and_the_others_come);
+    RUN_TEST(test_a_family_that_overruns_pushes_out_nothing_else);
     RUN_TEST(test_there_is_nothing_to_pump);
     RUN_TEST(test_a_bus_not_yet_joined_is_down);
     RUN_TEST(test_bus_off_is_down_for_the_time_asked);

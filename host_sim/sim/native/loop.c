@@ -128,6 +128,25 @@ static bool act(struct loop *loop, size_t index, const struct drive *drive)
     return eaten;
 }
 
+/* As on a bus, the others hear what a robot says of its memory. They answer nothing, so that their own answers stay. */
+static void pass_on(struct loop *loop, size_t from, const struct frame *frame)
+{
+    for (size_t i = 0; i < loop->robot_count; i++)
+        if (i != from)
+            (void)loop->exchange(loop->robots[i].octet, frame);
+}
+
+static void pass_memories_on(struct loop *loop)
+{
+    for (size_t i = 0; i < loop->robot_count; i++) {
+        const struct frame *answers = loop->answers(loop->robots[i].octet);
+
+        for (size_t k = 0; k < loop->robots[i].answer_count; k++)
+            if (robot_wire_is_memory(&answers[k]))
+                pass_on(loop, i, &answers[k]);
+    }
+}
+
 /* One tick; true if the block may go on after it. */
 static bool run_tick(struct loop *loop)
 {
@@ -137,6 +156,7 @@ static bool run_tick(struct loop *loop)
     log_lines_stamp(&loop->log, (uint64_t)rint(loop->tick * loop->world->params.tick_s * 1e6));
     if (!exchange(loop, turns))
         return false;
+    pass_memories_on(loop);
     for (size_t i = 0; i < loop->robot_count; i++) {
         goes_on &= !act(loop, i, &turns[i].drive) && !loop->robots[i].has_news;
         record(loop, i, &turns[i]);

@@ -77,3 +77,8 @@ void robot_wire_report(struct loop_robot *robot, const struct frame *frame)
         memmove(robot->reports, robot->reports + 1, --robot->report_count * sizeof *frame);
     robot->reports[robot->report_count++] = *frame;
 }
+
+bool robot_wire_is_memory(const struct frame *frame)
+{
+    return frame->id >= OCTET_MEMORY_FRAME_ID && frame->id < OCTET_MEMORY_FRAME_ID + NODE_MAX;
+}

@@ -14,4 +14,7 @@ void robot_wire_report(struct loop_robot *robot, const struct frame *frame);
         /* Notes a report of this tick, and whether it says something new: more than the time, and that it was sent again.
            Of more than LOOP_FRAMES_MAX the last are kept. */
 
+bool robot_wire_is_memory(const struct frame *frame);
+        /* Whether it is half of some robot's memory. */
+
 #endif

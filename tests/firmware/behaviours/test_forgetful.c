@@ -51,6 +51,24 @@ static void test_bored_it_begins_to_count_anew(void)
     TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
 }
 
+static void test_it_knows_what_boredom_has_emptied(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    remembered_turns(10);
+    TEST_ASSERT_EQUAL_HEX8(0, brain.unlearned);
+    next(FRONT);
+    TEST_ASSERT_EQUAL_HEX8(1u << PATTERN_FRONT, brain.unlearned);
+}
+
+static void test_what_a_person_has_emptied_was_not_boredom(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    remembered_turns(10);
+    memory_erase(&brain.memory);
+    next(FRONT);
+    TEST_ASSERT_EQUAL_HEX8(0, brain.unlearned);
+}
+
 static void test_a_frozen_brain_forgets_nothing(void)
 {
     memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
@@ -59,6 +77,7 @@ static void test_a_frozen_brain_forgets_nothing(void)
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT));
     TEST_ASSERT_FALSE(brain.changed);
+    TEST_ASSERT_EQUAL_HEX8(0, brain.unlearned);
 }
 
 int main(void)
@@ -68,6 +87,8 @@ int main(void)
     RUN_TEST(test_what_led_to_a_clear_way_is_not_forgotten);
     RUN_TEST(test_a_lesson_just_learned_is_forgotten_too);
     RUN_TEST(test_bored_it_begins_to_count_anew);
+    RUN_TEST(test_it_knows_what_boredom_has_emptied);
+    RUN_TEST(test_what_a_person_has_emptied_was_not_boredom);
     RUN_TEST(test_a_frozen_brain_forgets_nothing);
     return UNITY_END();
 }

@@ -31,4 +31,5 @@ class Oracle(Forgetful):
                 confidence, side = divmod(self.mem[cell], 4)
                 confidence = min(3, confidence + change)
                 self.mem[cell] = side + 4 * confidence if confidence > 0 else 0
+                self.unlearned |= (confidence <= 0) << cell
         self.used = 0

@@ -6,10 +6,13 @@ from tests.firmware.oracles.listing import Listing, pattern
 class Oracle(Listing):
     """As the listing, but boredom can strike again, and what led to it is forgotten."""
 
-    STATE = ("used",)
+    STATE = ("used", "unlearned")
 
     used = 0
     """Bit p for cell p."""
+
+    unlearned = 0
+    """The same for those that boredom has emptied."""
 
     def learn(self, feel: int, side: int) -> None:
         """A lesson counts as used."""
@@ -29,5 +32,6 @@ class Oracle(Listing):
         self.repeat_count = 0
         for cell in range(1, 8):
             if self.used >> cell & 1 and not self.frozen:
+                self.unlearned |= (self.mem[cell] != 0) << cell
                 self.mem[cell] = 0
         self.used = 0

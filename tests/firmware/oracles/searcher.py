@@ -9,7 +9,7 @@ from tests.firmware.oracles.listing import DIST_MM, REACH_MM, Action
 class Oracle(Adaptive):
     """It drives straight on, turns once around after a metre without looking, and goes straight to what it sees."""
 
-    STATE = ("used", "since_mm", "chasing", "ate")
+    STATE = ("used", "unlearned", "since_mm", "chasing", "ate")
 
     since_mm = 1000
     chasing = ate = False

@@ -1,0 +1,64 @@
+"""Robots that each have a line of their own still hear each other's memories, as on a bus."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from host_sim.protocol.codec import MEMORY_IDS, Frame
+from host_sim.transport.link import Link
+
+
+class Relay:
+    """Passes memories on. Each robot hears those of the others, in order, before the next frame for itself."""
+
+    def __init__(self, nodes: Iterable[int]) -> None:
+        """Begins with nothing to pass on.
+
+        Args:
+            nodes: The robots.
+        """
+        self._waiting: dict[int, list[Frame]] = {node: [] for node in nodes}
+
+    def hear(self, node: int, frame: Frame) -> None:
+        """Notes what a robot has sent, if it is for the others."""
+        if frame.id not in MEMORY_IDS:
+            return
+        for other, waiting in self._waiting.items():
+            if other != node:
+                waiting.append(frame)
+
+    def take(self, node: int) -> list[Frame]:
+        """What a robot has not heard yet; once."""
+        waiting, self._waiting[node] = self._waiting[node], []
+        return waiting
+
+
+@dataclass(frozen=True)
+class RelayedLink:
+    """A link to a robot that hears others.
+
+    Attributes:
+        link: Carries the frames.
+        relay: What the robots hear of each other.
+        node: The robot.
+    """
+
+    link: Link
+    relay: Relay
+    node: int
+
+    def send(self, frame: Frame) -> None:
+        """As in `Link`."""
+        for heard in self.relay.take(self.node):
+            self.link.send(heard)
+        self.link.send(frame)
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """As in `Link`."""
+        frame = self.link.receive(timeout_s)
+        if frame is not None:
+            self.relay.hear(self.node, frame)
+        return frame
+
+    def close(self) -> None:
+        """As in `Link`."""
+        self.link.close()

@@ -1,0 +1,232 @@
+#include "firmware/sharing.h"
+
+#include "firmware/confidence.h"
+#include "firmware/robot.h"
+
+#include <string.h>
+
+#include <unity.h>
+
+enum { CELL_FRONT = 2, TICKS_A_SECOND = 50 };
+
+static struct robot robot;
+static struct output out;
+
+static void respond(enum input_kind kind, struct input in)
+{
+    robot_respond(&robot, kind, &in, &out);
+}
+
+static void start(enum profile profile, uint8_t share)
+{
+    respond(INPUT_COMMAND, (struct input){.command = {.opcode = OPCODE_START, .which = (uint8_t)profile}});
+    respond(INPUT_COMMAND, (struct input){.command = {.opcode = OPCODE_SET, .which = SHARE, .value = share}});
+}
+
+static void hear(bool upper, const uint8_t cells[CELL_COUNT / 2])
+{
+    struct input in = {.peer.upper = upper};
+
+    memcpy(in.peer.cell, cells, sizeof in.peer.cell);
+    respond(INPUT_PEER, in);
+}
+
+static void hear_front(uint8_t cell)
+{
+    hear(false, (const uint8_t[]){0, 0, cell, 0});
+}
+
+static uint16_t rolled(uint16_t odometer, int16_t mm_s)
+{
+    return (uint16_t)((odometer + mm_s * ODOMETER_COUNTS_PER_MM / TICKS_A_SECOND) & (ODOMETER_SPAN - 1));
+}
+
+/* To the tick in which the second is full, on wheels that obey. */
+static void pass_second(void)
+{
+    static struct senses senses;
+
+    do {
+        respond(INPUT_SENSES, (struct input){.senses = senses});
+        senses.tick++;
+        senses.odometer_left = rolled(senses.odometer_left, out.drive.left_mm_s);
+        senses.odometer_right = rolled(senses.odometer_right, out.drive.right_mm_s);
+    } while (!out.has_report);
+}
+
+void setUp(void)
+{
+    robot_init(&robot, 1);
+    start(PROFILE_ADAPTIVE, 1);
+    pass_second();
+}
+
+void tearDown(void) {}
+
+static void assert_cell(uint8_t expected)
+{
+    TEST_ASSERT_EQUAL_HEX8(expected, robot.brain.memory.cell[CELL_FRONT]);
+}
+
+static void test_an_empty_cell_takes_the_side_that_has_more_votes_with_the_least_confidence(void)
+{
+    hear_front(confidence_cell(SIDE_RIGHT, 3));
+    hear_front(confidence_cell(SIDE_LEFT, 1));
+    hear_front(confidence_cell(SIDE_LEFT, 1));
+    pass_second();
+    assert_cell(confidence_cell(SIDE_LEFT, 1));
+}
+
+static void test_where_each_side_has_as_many_votes_nothing_is_taken(void)
+{
+    hear_front(confidence_cell(SIDE_RIGHT, 3));
+    hear_front(confidence_cell(SIDE_LEFT, 1));
+    pass_second();
+    assert_cell(0);
+}
+
+static void test_each_cell_of_both_halves_is_taken(void)
+{
+    static const uint8_t lower[] = {0, 1, 2, 1}, upper[] = {2, 1, 2, 1};
+    static const uint8_t expected[CELL_COUNT] = {0, 5, 6, 5, 6, 5, 6, 5};
+
+    hear(true, upper);
+    hear(false, lower);
+    pass_second();
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, robot.brain.memory.cell, CELL_COUNT);
+}
+
+static void test_where_a_cell_is_a_side_it_takes_a_side(void)
+{
+    start(PROFILE_ARTICLE, 1);
+    pass_second();
+    hear_front(confidence_cell(SIDE_RIGHT, 3));
+    pass_second();
+    assert_cell(SIDE_RIGHT);
+}
+
+static void test_what_is_no_cell_has_no_vote(void)
+{
+    static const uint8_t others[] = {0, 3, 4, 7, 8, 11, 15, 16, 17, 0x10, 0x80, 0xFF};
+
+    for (unsigned i = 0; i < sizeof others; i++)
+        hear_front(others[i]);
+    pass_second();
+    assert_cell(0);
+}
+
+static void test_a_cell_that_knows_a_turn_keeps_it(void)
+{
+    robot.brain.memory.cell[CELL_FRONT] = confidence_cell(SIDE_RIGHT, 1);
+    hear_front(SIDE_LEFT);
+    pass_second();
+    assert_cell(confidence_cell(SIDE_RIGHT, 1));
+}
+
+static void test_a_cell_that_boredom_has_emptied_stays_empty_until_the_next_start(void)
+{
+    robot.brain.unlearned = 1u << CELL_FRONT;
+    hear_front(SIDE_LEFT);
+    pass_second();
+    assert_cell(0);
+    start(PROFILE_ADAPTIVE, 1);
+    pass_second();
+    hear_front(SIDE_LEFT);
+    pass_second();
+    assert_cell(confidence_cell(SIDE_LEFT, 1));
+}
+
+static void test_votes_are_those_of_the_second(void)
+{
+    hear_front(SIDE_LEFT);
+    hear_front(SIDE_LEFT);
+    robot.brain.frozen = true;
+    pass_second();
+    robot.brain.frozen = false;
+    hear_front(SIDE_RIGHT);
+    pass_second();
+    assert_cell(confidence_cell(SIDE_RIGHT, 1));
+}
+
+static void test_a_second_that_began_before_the_start_does_not_count(void)
+{
+    start(PROFILE_ADAPTIVE, 1);
+    hear_front(SIDE_LEFT);
+    pass_second();
+    assert_cell(0);
+}
+
+static void test_nothing_is_taken_while_it_is_off(void)
+{
+    start(PROFILE_ADAPTIVE, 0);
+    for (unsigned i = 0; i < 3; i++) {
+        hear_front(SIDE_LEFT);
+        pass_second();
+    }
+    assert_cell(0);
+}
+
+static void test_nothing_is_taken_by_a_robot_that_is_frozen_or_stopped(void)
+{
+    robot.brain.frozen = true;
+    hear_front(SIDE_LEFT);
+    pass_second();
+    assert_cell(0);
+    robot.brain.frozen = false;
+    respond(INPUT_COMMAND, (struct input){.command = {.opcode = OPCODE_STOP}});
+    hear_front(SIDE_LEFT);
+    pass_second();
+    assert_cell(0);
+}
+
+static void test_a_profile_that_does_not_learn_or_has_no_cell_for_a_pattern_takes_nothing(void)
+{
+    static const enum profile profiles[] = {PROFILE_NEVER, PROFILE_FIVE};
+    static const uint8_t nothing[CELL_COUNT] = {0};
+
+    for (unsigned i = 0; i < 2; i++) {
+        start(profiles[i], 1);
+        pass_second();
+        hear_front(SIDE_LEFT);
+        pass_second();
+        TEST_ASSERT_EQUAL_HEX8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
+    }
+}
+
+static void test_what_was_taken_is_stored_and_told_by_the_report(void)
+{
+    hear_front(SIDE_LEFT);
+    pass_second();
+    TEST_ASSERT_TRUE(out.store);
+    TEST_ASSERT_FALSE(out.has_memory);
+    TEST_ASSERT_EQUAL_HEX8(confidence_cell(SIDE_LEFT, 1), out.memory[CELL_FRONT]);
+    pass_second();
+    TEST_ASSERT_FALSE(out.store);
+}
+
+static void test_to_hear_another_calls_for_nothing(void)
+{
+    memset(&out, 0xA5, sizeof out);
+    hear_front(SIDE_LEFT);
+    TEST_ASSERT_FALSE(out.has_answer || out.has_report || out.has_memory || out.has_drive || out.store);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_an_empty_cell_takes_the_side_that_has_more_votes_with_the_least_confidence);
+    RUN_TEST(test_where_each_side_has_as_many_votes_nothing_is_taken);
+    RUN_TEST(test_each_cell_of_both_halves_is_taken);
+    RUN_TEST(test_where_a_cell_is_a_side_it_takes_a_side);
+    RUN_TEST(test_what_is_no_cell_has_no_vote);
+    RUN_TEST(test_a_cell_that_knows_a_turn_keeps_it);
+    RUN_TEST(test_a_cell_that_boredom_has_emptied_stays_empty_until_the_next_start);
+    RUN_TEST(test_votes_are_those_of_the_second);
+    RUN_TEST(test_a_second_that_began_before_the_start_does_not_count);
+    RUN_TEST(test_nothing_is_taken_while_it_is_off);
+    RUN_TEST(test_nothing_is_taken_by_a_robot_that_is_frozen_or_stopped);
+    RUN_TEST(test_a_profile_that_does_not_learn_or_has_no_cell_for_a_pattern_takes_nothing);
+    RUN_TEST(test_what_was_taken_is_stored_and_told_by_the_report);
+    RUN_TEST(test_to_hear_another_calls_for_nothing);
+    return UNITY_END();
+}
