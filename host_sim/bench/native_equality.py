@@ -18,12 +18,28 @@ from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import EpisodeResult, Simulation
-from host_sim.world.edits import AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar
-from host_sim.world.geometry import Bar, Point, Pose
+from host_sim.world.edits import (
+    AddBar,
+    AddPlant,
+    ChangeBody,
+    ChangePlant,
+    Edit,
+    EditError,
+    Lift,
+    MoveBar,
+    MoveFood,
+    Put,
+    RemoveBar,
+)
+from host_sim.world.geometry import Bar, Plant, Point, Pose
 
 _ENVIRONMENTS, _LIMIT_S = 2, 300.0
 _ROBOTS_MAX = 3
 _CHANGE_EVERY_TICKS = 400
+_BODY_FAULTS = (
+    *("mirror", "swap-motors", "stuck-on:front", "stuck-off:left", "noise:50/1000", "weak-motor:right:70%"),
+    *("repair", "repair"),
+)
 
 
 class LoopVerdict(NamedTuple):
@@ -129,6 +145,11 @@ _EDITS: list[Callable[[Simulation, random.Random], Edit]] = [
     lambda simulation, draws: MoveBar(_bar_id(simulation, draws), _bar(simulation, draws)),
     lambda simulation, draws: RemoveBar(_bar_id(simulation, draws)),
     lambda simulation, draws: MoveFood(draws.randrange(len(simulation.arena.food.at)), _point(simulation, draws)),
+    lambda simulation, draws: AddPlant(Plant(_point(simulation, draws), draws.randint(20, 200))),
+    lambda simulation, draws: ChangePlant(0, Plant(_point(simulation, draws), draws.randint(20, 200))),
+    lambda simulation, draws: ChangeBody(
+        draws.choice(_BODY_FAULTS), draws.randrange(len(simulation.clients)), simulation.seed
+    ),
     lambda simulation, draws: Lift(draws.randrange(len(simulation.clients))),
     *[
         lambda simulation, draws: Put(

@@ -199,6 +199,7 @@ def _simulate(outputs: Outputs, listener: "Listener | None") -> None:
 def _run_through(outputs: Outputs) -> None:
     """Runs all environments, as fast as possible or in real time."""
     progress, simulation, talks = Progress(), outputs.simulation, outputs.options.talks
+    _say_refused(simulation, progress.clear)
     if talks:
         simulation.watch = _each(simulation.watch, progress)
     try:
@@ -211,6 +212,21 @@ def _run_through(outputs: Outputs) -> None:
     except BaseException:
         progress.clear()
         raise
+
+
+def _say_refused(simulation: Simulation, before: Callable[[], object] = lambda: None) -> None:
+    """Has changes that cannot be made reported when they are due."""
+    said = 0
+
+    def say(simulation: Simulation) -> None:
+        nonlocal said
+        for refused in simulation.record.refused[said:]:
+            said += 1
+            before()
+            seconds = refused.tick * simulation.params.tick_s
+            print(f"octet: at {seconds:.2f} s {refused.what} could not happen: {refused.why}", file=sys.stderr)
+
+    simulation.watch = _each(simulation.watch, say)
 
 
 def _each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], object]:
@@ -244,6 +260,7 @@ def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") ->
         return
     from host_sim.live.browser import watch_run
 
+    _say_refused(simulation)
     if options.talks:
         live.ended = lambda episode: print(environment_line(len(live.episodes), episode))
     watch_run(live, listener, lambda line: print(line, file=sys.stdout if options.talks else sys.stderr, flush=True))
@@ -256,3 +273,4 @@ def _print_results(options: RunOptions, summary: Summary) -> None:
         print(summary.for_people())
         files = (options.out / name for name in (PAGE, PICTURE, SUMMARY, LOG))
         print(f"wrote     {', '.join(str(path) for path in files if path.exists())}")
+        print(summary.ending())

@@ -97,6 +97,15 @@ def add_run_options(parser: argparse.ArgumentParser, robots_max: int = NODE_MAX)
         help=f"what they are drawn from: {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml" + _DEFAULT,
     )
     add(
+        "--change",
+        action="append",
+        default=[],
+        metavar="CHANGE",
+        help="let something change: NAME@120s, NAME@env6 or NAME@env6+20s of robot time, where NAME is plant, grow, "
+        "swap-motors, mirror, stuck-on:SENSOR, stuck-off:SENSOR, noise:10/1000, weak-motor:left:60%% or repair, and "
+        "/2 at the end means the second robot only; or a file with a change in each line; may be repeated",
+    )
+    add(
         "--robots",
         type=number(1, robots_max),
         default=default.robots,
@@ -207,12 +216,15 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
         bus: The bus, resolved.
         watch: How people watch the run; None if they do not.
     """
+    from host_sim.world.changes import read_changes
     from host_sim.world.worlds import world_of
 
     world_of(arguments.world)  # a mistake in it is found before anything is begun
+    changes = tuple(change for text in arguments.change for change in read_changes(text))
     names = {field.name for field in fields(RunConfig)} & vars(arguments).keys()
     given = {name: getattr(arguments, name) for name in names}
-    config = RunConfig(**{**given, "settings": dict(arguments.set), "bus": bus, "faults": _rules(arguments.fault)})
+    faults = _rules(arguments.fault)
+    config = RunConfig(**{**given, "settings": dict(arguments.set), "bus": bus, "faults": faults, "changes": changes})
     return RunOptions(config, arguments.memory, arguments.out, arguments.quiet, arguments.json, watch)
 
 

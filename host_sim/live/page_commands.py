@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from host_sim.protocol.generated import CELL_COUNT, NODE_MAX, Side
-from host_sim.world.edits import Edit, edit_from, pose_from, whole
+from host_sim.world.edit_json import edit_from, pose_from, whole
+from host_sim.world.edits import Edit
 from host_sim.world.geometry import Pose
 
 TEXT_MAX = 4096

@@ -117,11 +117,11 @@ class _Resimulator:
     def _run_tick(self, tick: int, robots: Sequence[Tick]) -> None:
         arena = self._prepare(tick)
         for node, body, robot in zip(self._nodes, arena.bodies, robots, strict=True):
-            self._check(tick, node, body.sense(tick % TICK_SPAN), robot.senses)
+            self._check(tick, node, body.faults.sensed(body.sense(tick % TICK_SPAN), tick), robot.senses)
         ate = False
         for body, robot in zip(arena.bodies, robots, strict=True):
             ate |= robot.drive.eat and body.eat()
-            body.move(robot.drive.left_mm_s, robot.drive.right_mm_s)
+            body.move(*body.faults.driven(robot.drive.left_mm_s, robot.drive.right_mm_s))
         for i, robot in enumerate(robots):
             self._recorder.between(i, robot.started, robot.written)
             self._recorder.histories[i].frozen = robot.frozen
@@ -150,9 +150,11 @@ class _Resimulator:
         return arena
 
     def _enter(self, begun: Begun) -> Arena:
-        odometers = [body.odometer for body in self._arena.bodies] if self._arena else []
+        before = self._arena.bodies if self._arena else ()
         layout = self._record.world.generate(begun.seed, begun.number, self._record.robots)
-        self._arena = Arena(layout, self._params, odometers)
+        self._arena = Arena(layout, self._params, before)
+        if begun.number == 1:
+            self._arena.repair()
         self._begun = begun
         return self._arena
 

@@ -11,7 +11,8 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import PATTERNS, SIDES, Reason
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.run_config import RunConfig
-from host_sim.sim.simulation import EpisodeResult, RobotResult
+from host_sim.sim.simulation import EpisodeResult, RobotResult, Simulation
+from host_sim.sim.world_record import WorldRecord
 
 _FAULTS_MAX = 255
 _REFUSED = ("stale", "damaged", "foreign")
@@ -34,6 +35,8 @@ class Summary:
             duplicate, lost, refused), faults (the robot's own fault counters), saturated (those of them that stand at
             255, their limit, and may be more), round_trip_ms (mean time of an answer), line (outages and unsent
             frames).
+        changes: The changes that were asked for: those that happened, those refused because they could not be, and
+            those missed, for which the run or their environment was too short.
         incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run.
         log_sha256: SHA-256 of run.log, in hexadecimal.
         wall_s: Duration of the run, s of wall-clock time.
@@ -46,6 +49,7 @@ class Summary:
     bus: str
     environments: list[dict[str, Any]]
     robots: list[dict[str, Any]]
+    changes: dict[str, list[str]]
     incidents: list[str]
     log_sha256: str
     wall_s: float
@@ -64,17 +68,25 @@ class Summary:
         write_bytes(path, self.to_json().encode())
 
     def for_people(self) -> str:
-        """A few lines of text: ALL DONE if no food is left, what each robot has learned, and the speed."""
+        """A few lines of text: what each robot has learned, what changed, and the speed."""
         several = len(self.robots) > 1
         memories = [f"memory    {self._whose(robot) if several else ''}{_cells(robot)}" for robot in self.robots]
         speed = f"speed     {self.real_time_factor:.0f} x real time on {self.bus}, {self.wall_s:.1f} s"
-        done = ["ALL DONE"] if all(environment["finished"] for environment in self.environments) else []
         links = [
             f"link      {self._whose(robot) if several else ''}{line}"
             for robot in self.robots
             if (line := _link(robot))
         ]
-        return "\n".join([*done, *memories, *links, speed])
+        words = {"happened": "happened", "refused": "could not happen", "missed": "came after the end"}
+        parts = [f"{len(self.changes[kind])} {text}" for kind, text in words.items() if self.changes[kind]]
+        changes = [f"changes   {', '.join(parts)}"] if parts else []
+        return "\n".join([*memories, *changes, *links, speed])
+
+    def ending(self) -> str:
+        """The last line for people: ALL DONE if no food is left."""
+        finished = sum(environment["finished"] for environment in self.environments)
+        count = len(self.environments)
+        return "ALL DONE" if finished == count else f"done      {finished} of {count} environments finished"
 
     def _whose(self, robot: dict[str, Any]) -> str:
         return f"robot {robot['node']}: "
@@ -82,7 +94,7 @@ class Summary:
 
 def summarize(
     config: RunConfig,
-    clients: Sequence[RobotClient],
+    simulation: Simulation,
     episodes: Sequence[EpisodeResult],
     log_sha256: str,
     wall_s: float,
@@ -91,11 +103,12 @@ def summarize(
 
     Args:
         config: The configuration of the run.
-        clients: The robots' clients, at the end of the run.
+        simulation: The run, at its end.
         episodes: The result of each environment.
         log_sha256: SHA-256 of the log, in hexadecimal.
         wall_s: Duration of the run, s of wall-clock time.
     """
+    clients, record = simulation.clients, simulation.record
     robot_s = sum(episode.robot_s for episode in episodes)
     return Summary(
         seed=config.seed,
@@ -104,11 +117,18 @@ def summarize(
         bus=clients[0].bus,
         environments=[_environment(episode) for episode in episodes],
         robots=[_robot(client) for client in clients],
+        changes=_changes(config, record),
         incidents=[str(incident) for client in clients for incident in client.incidents],
         log_sha256=log_sha256,
         wall_s=round(wall_s, 3),
         real_time_factor=round(robot_s / wall_s, 2),
     )
+
+
+def _changes(config: RunConfig, record: WorldRecord) -> dict[str, list[str]]:
+    refused = [refused.what for refused in record.refused]
+    missed = [change for change in config.changes if change not in {*record.happened, *refused}]
+    return {"happened": record.happened, "refused": refused, "missed": missed}
 
 
 def environment_line(number: int, episode: EpisodeResult) -> str:

@@ -14,8 +14,8 @@ from host_sim.atomic_file import write_bytes
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import NODE_MAX
 from host_sim.regular_file import read_bytes
-from host_sim.sim.world_record import Begun, Edited, WorldRecord
-from host_sim.world.edits import edit_from, edit_to, whole
+from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
+from host_sim.world.edit_json import edit_from, edit_to, whole
 from host_sim.world.layouts import World
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
 from host_sim.world.worlds import world_of
@@ -24,6 +24,7 @@ from host_sim.world.written_world import content_of, world_from
 
 _FORMAT = 1
 _SIZE_MAX = 16_000_000
+_TEXT_MAX = 1000
 _FRONT_EXTRA_MAX_MM = 100.0
 _SEED_MAX, _TICK_MAX, _NUMBER_MAX = 2**32 - 1, 2**53, 1_000_000
 
@@ -44,6 +45,7 @@ def write_world(record: WorldRecord, path: Path) -> None:
         **_world_content(record.world),
         "environments": [begun._asdict() for begun in record.begun],
         "edits": [{"tick": tick, **edit_to(edit)} for tick, edit in record.edits],
+        **({"refused": [refused._asdict() for refused in record.refused]} if record.refused else {}),
     }
     write_bytes(path, (json.dumps(content) + "\n").encode())
 
@@ -84,8 +86,16 @@ def _record(content: dict[str, Any]) -> WorldRecord:
         whole(content, "robots", 1, NODE_MAX) if "robots" in content else 1,
         begun,
         edits,
+        [_refused(entry) for entry in _objects(content, "refused")] if "refused" in content else [],
         _world(content),
     )
+
+
+def _refused(entry: dict[str, Any]) -> Refused:
+    texts = [entry.get(name) for name in ("what", "why")]
+    if not all(isinstance(text, str) and len(text) <= _TEXT_MAX for text in texts):
+        raise ValueError(f"what and why must be texts of at most {_TEXT_MAX} characters")
+    return Refused(whole(entry, "tick", 0, _TICK_MAX), str(texts[0]), str(texts[1]))
 
 
 def _world_content(world: World) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.transport.clock import VirtualClock, WallClock
 from host_sim.transport.link import Link
+from host_sim.world.changes import Change
 from host_sim.world.layouts import NoRoomError, World
 from host_sim.world.worlds import world_of
 
@@ -86,7 +87,8 @@ def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequen
     world = world_of(config.world)
     start_robots(clients, config, memories)
     pace: Pace = RealTime(clients, world.params.tick_s) if config.real_time else Lockstep(clients)
-    return Simulation(world, clients, pace, config.seed, config.environments, config.limit_s)
+    changes = [Change.parse(change) for change in config.changes]
+    return Simulation(world, clients, pace, config.seed, config.environments, config.limit_s, changes=changes)
 
 
 def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Sequence[Memory | None] = ()) -> None:
@@ -109,6 +111,8 @@ def _check(config: RunConfig, world: World) -> None:
     if config.nodes.stop - 1 > NODE_MAX:
         last = config.nodes.stop - 1
         raise UsageError(f"{config.robots} robots from node {config.node} need node {last}; the last is {NODE_MAX}")
+    for change in (Change.parse(text) for text in config.changes):
+        _check_change(change, config)
     if config.robots == 1:
         return
     try:
@@ -116,6 +120,13 @@ def _check(config: RunConfig, world: World) -> None:
             world.generate(config.seed, number, config.robots)
     except NoRoomError as error:
         raise UsageError(f"{config.robots} robots are too many for seed {config.seed}: {error}") from None
+
+
+def _check_change(change: Change, config: RunConfig) -> None:
+    if (change.number or 1) > config.environments:
+        raise UsageError(f"the change {change} never comes: there are {config.environments} environments")
+    if (change.robot or 1) > config.robots:
+        raise UsageError(f"the change {change} is for a robot that is not there: there are {config.robots}")
 
 
 def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:

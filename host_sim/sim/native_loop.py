@@ -1,6 +1,7 @@
 """The tick loop in C (`native/`) for robots in this process: a block of ticks a call, with the same frames."""
 
 from collections.abc import Sequence
+from dataclasses import asdict
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -12,6 +13,7 @@ from host_sim.robot_io import Drive, Senses
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.world import native_world
 from host_sim.world.arena import Arena
+from host_sim.world.body_faults import SOUND
 from host_sim.world.native_library import load_native
 from host_sim.world.native_world import NativeWorld
 from host_sim.world.params import SimParams
@@ -64,6 +66,7 @@ class NativeLoop:
         """
         self._ffi, self._library = _loaded()
         self._clients, self._links, self._log = clients, links, log
+        self._faults = [SOUND] * len(clients)
         self._sent, self._memories = [-1] * len(clients), [client.memory for client in clients]
         self._kept: list[Any] = []  # what C code points to, and Python must not free
         self._waiting: dict[int, Any] = {}
@@ -183,6 +186,8 @@ class NativeLoop:
         """Takes over what commands may have changed. After one, even what a robot reported long ago may be news."""
         robot = self._robots[index]
         self._links[index].hear_others()
+        if (faults := self._world.arena.bodies[index].faults) is not self._faults[index]:
+            self._faults[index], robot.faults = faults, asdict(faults)
         robot.senses_counter, self._memories[index] = client.senses_counter, client.memory
         if client.frames.sent != self._sent[index]:
             robot.known_count = 0

@@ -37,6 +37,7 @@ class RunConfig:
         board: Name of the emulated board; empty for the first.
         owner: Number of this simulator, 1..255, by which robots on a shared bus know whom they obey.
         reconnect_s: Time to wait for a bus or a serial line that is gone, s of wall-clock time.
+        changes: What the world and the bodies are to meet with, as `host_sim.world.changes` has it.
         faults: Faults to make on the way to the robots and back, as `host_sim.faults.rule` has them.
         fault_seed: Seed for them.
         real_time: Whether to run at wall-clock speed rather than in lockstep, as fast as possible.
@@ -57,6 +58,7 @@ class RunConfig:
     board: str = ""
     owner: int = 1
     reconnect_s: float = 10.0
+    changes: tuple[str, ...] = ()
     faults: tuple[str, ...] = ()
     fault_seed: int = 1
     real_time: bool = False

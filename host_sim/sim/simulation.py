@@ -8,12 +8,16 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import settle
 from host_sim.protocol.generated import CELL_COUNT, TICK_SPAN
 from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
+from host_sim.sim.change_schedule import ChangeSchedule
 from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop
-from host_sim.sim.world_record import Begun, Edited, WorldRecord
+from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.world.arena import Arena
-from host_sim.world.edits import Edit, make_edit
-from host_sim.world.geometry import Point
+from host_sim.world.body import Body
+from host_sim.world.body_faults import SOUND
+from host_sim.world.change_effects import edits_of
+from host_sim.world.changes import Change
+from host_sim.world.edits import Edit, EditError, make_edit
 from host_sim.world.layouts import Layout, World
 from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
@@ -85,11 +89,13 @@ class Simulation:
         environments: Number of environments.
         limit_s: Robot time after which an environment ends, finished or not, s.
         watch: Called with the simulation after each step.
+        changes: What the world and the bodies are to meet with.
         block_ticks: Maximum number of ticks of a step at full speed where the loop in C can be used: `watch` finds
             them in `loop`. Set it to 1 for a `watch` that is to be called for each tick.
         native: Whether to use the loop in C where that can be: with robots in this process, in lockstep,
             that want no distances.
         plain: Whether that loop uses plain geometry rather than pymunk's physics: faster, with the same results.
+        params: The dimensions of the world.
         record: The environments so far, and what a person changed in them.
         tick: Number of the next tick.
         arena: The arena of the current environment.
@@ -106,9 +112,11 @@ class Simulation:
     environments: int
     limit_s: float
     watch: Callable[["Simulation"], object] = lambda _: None
+    changes: Sequence[Change] = ()
     block_ticks: int = BLOCK_TICKS
     native: bool = True
     plain: bool = False
+    params: SimParams = field(init=False)
     record: WorldRecord = field(init=False)
     tick: int = 0
     arena: Arena = field(init=False)
@@ -116,21 +124,17 @@ class Simulation:
     loop: NativeLoop | None = field(init=False, default=None)
     senses: list[Senses] = field(init=False)
     drives: Sequence[Drive] = field(init=False)
-    _odometers: list[Point] = field(init=False)
+    _before: Sequence[Body] = ()
     _measuring: list[int] = field(default_factory=list)
     _settled: bool = False
+    _schedule: ChangeSchedule = field(init=False)
 
     def __post_init__(self) -> None:
-        robots = len(self.clients)
+        robots, self.params = len(self.clients), self.world.params
         limit_ticks = round(self.limit_s / self.params.tick_s)
         self.record = WorldRecord(self.seed, self.environments, limit_ticks, robots, world=self.world)
+        self._schedule = ChangeSchedule(self.changes, self.params.tick_s)
         self.senses, self.drives = [NOTHING_SENSED] * robots, [REST] * robots
-        self._odometers = [(0.0, 0.0)] * robots
-
-    @property
-    def params(self) -> SimParams:
-        """The dimensions of the world."""
-        return self.world.params
 
     @property
     def over(self) -> bool:
@@ -168,11 +172,14 @@ class Simulation:
             NoRoomError: The environment has no room for all the robots.
         """
         layout = self.world.generate(self.seed, number, len(self.clients))
-        self.arena = Arena(layout, self.params, self._odometers)
+        self.arena = Arena(layout, self.params, self._before)
+        if number == 1:
+            self.arena.repair()
         self.episode = EpisodeResult(layout, self.params.tick_s, [RobotResult(node) for node in self.nodes])
         self._measuring = [i for i, client in enumerate(self.clients) if client.wants_ranges]
         self._enter_loop()
         self.record.begin(Begun(self.seed, number, self.tick))
+        self._schedule.enter(number, self.tick)
         self._settled = False
 
     def _enter_loop(self) -> None:
@@ -198,6 +205,8 @@ class Simulation:
         Raises:
             RobotError: A robot has ended or does not answer.
         """
+        if self.tick >= self._schedule.next_tick:
+            self._surprise()
         if self.loop is None:
             self._step_once()
         else:
@@ -206,7 +215,7 @@ class Simulation:
 
     def _step_in_c(self, loop: NativeLoop, ticks_max: int) -> None:
         left = self.record.limit_ticks - self.episode.ticks
-        ticks = loop.run(self.tick, max(1, min(ticks_max, left)))
+        ticks = loop.run(self.tick, max(1, min(ticks_max, left, self._schedule.next_tick - self.tick)))
         lasts = [loop.last(i) for i in range(len(self.clients))]
         self.senses, self.drives = [senses for senses, _ in lasts], [drive for _, drive in lasts]
         for i, robot in enumerate(self.episode.robots):
@@ -219,14 +228,16 @@ class Simulation:
         self._set_time(self.tick)
         bodies, before = self.arena.bodies, self.drives
         for i, body in enumerate(bodies):
-            self.senses[i] = body.sense(self.tick % TICK_SPAN)
+            sensed = body.sense(self.tick % TICK_SPAN)
+            self.senses[i] = sensed if body.faults is SOUND else body.faults.sensed(sensed, self.tick)
         for i in self._measuring:
-            self.clients[i].ranges = self.arena.ranges(i)
+            self.clients[i].ranges = bodies[i].faults.measured(self.arena.ranges(i))
         self.drives = self.pace.exchange(self.senses)
         for i, (body, drive) in enumerate(zip(bodies, self.drives, strict=True)):
             if drive.eat and body.eat():
                 self.episode.robots[i].food_eaten += 1
-            body.move(drive.left_mm_s, drive.right_mm_s)
+            speeds = drive.left_mm_s, drive.right_mm_s
+            body.move(*(speeds if body.faults is SOUND else body.faults.driven(*speeds)))
             if drive.action != before[i].action:
                 begun = self.episode.robots[i].begun
                 begun[drive.reason] = begun.get(drive.reason, 0) + 1
@@ -240,7 +251,7 @@ class Simulation:
             self._settled = True
             for client in self.clients:
                 settle(client)
-        self._odometers = [body.odometer for body in arena.bodies]
+        self._before = arena.bodies
         episode.layout, episode.eaten = arena.layout, arena.food.eaten
         for robot, body, client in zip(episode.robots, arena.bodies, self.clients, strict=True):
             robot.collisions, robot.memory = body.collisions, client.memory
@@ -254,6 +265,19 @@ class Simulation:
         """
         make_edit(self.arena, edit, self.params)
         self.record.add(Edited(self.tick, edit))
+
+    def _surprise(self) -> None:
+        for change in self._schedule.due(self.tick):
+            self._happen(change)
+
+    def _happen(self, change: Change) -> None:
+        """Makes a change; what cannot be is noted, and the run goes on."""
+        try:
+            for edit in edits_of(change, self.arena, self.params, self.seed):
+                self.edit(edit)
+            self.record.happened.append(str(change))
+        except EditError as error:
+            self.record.refused.append(Refused(self.tick, str(change), str(error)))
 
     def set_clock(self) -> None:
         """Sets the log's time to that of the next tick."""

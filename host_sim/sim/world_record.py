@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from host_sim.world.edits import Edit, MoveBar, MoveFood
+from host_sim.world.edits import ChangeBody, ChangePlant, Edit, MoveBar, MoveFood
 from host_sim.world.layouts import World
 from host_sim.world.world_names import RANDOM
 from host_sim.world.worlds import world_of
@@ -15,6 +15,14 @@ class Begun(NamedTuple):
     seed: int
     number: int
     first_tick: int
+
+
+class Refused(NamedTuple):
+    """A change that a schedule asked for and that could not be made, with the tick before which it was due."""
+
+    tick: int
+    what: str
+    why: str
 
 
 class Edited(NamedTuple):
@@ -35,7 +43,9 @@ class WorldRecord:
         robots: Number of robots in each environment.
         begun: The environments, in the order in which they began.
         edits: What a person changed, in order.
+        refused: The changes of a schedule that could not be made, in order.
         world: What the environments were drawn from.
+        happened: The changes of a schedule that were made, in order; they are among the edits, too.
     """
 
     seed: int
@@ -44,7 +54,9 @@ class WorldRecord:
     robots: int = 1
     begun: list[Begun] = field(default_factory=list)
     edits: list[Edited] = field(default_factory=list)
+    refused: list[Refused] = field(default_factory=list)
     world: World = field(default_factory=lambda: world_of(RANDOM))
+    happened: list[str] = field(default_factory=list, compare=False)
 
     @property
     def title(self) -> str:
@@ -52,9 +64,14 @@ class WorldRecord:
         return f"seed {self.seed}" + ("" if self.world.name == RANDOM else f", {self.world.name}")
 
     def begin(self, begun: Begun) -> None:
-        """Adds an environment. Edits after the last tick of the previous one are dropped: no robot sensed them."""
+        """Adds an environment. Edits after the last tick of the previous one are dropped: no robot sensed them.
+
+        What is wrong with a body goes on, unless the run begins anew.
+        """
+        last: list[Edited] = []
         while self.edits and self.edits[-1].tick == begun.first_tick:
-            self.edits.pop()
+            last.insert(0, self.edits.pop())
+        self.edits += [it for it in last if isinstance(it.edit, ChangeBody) and begun.number > 1]
         self.begun.append(begun)
 
     def add(self, edited: Edited) -> None:
@@ -67,4 +84,4 @@ class WorldRecord:
 def _dragged(edited: Edited) -> tuple[int, type, int] | None:
     """The tick of an edit that moves a thing, and which thing; None for other edits."""
     edit = edited.edit
-    return (edited.tick, type(edit), edit.id) if isinstance(edit, (MoveBar, MoveFood)) else None
+    return (edited.tick, type(edit), edit.id) if isinstance(edit, (MoveBar, MoveFood, ChangePlant)) else None

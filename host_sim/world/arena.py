@@ -6,8 +6,9 @@ import pymunk
 
 from host_sim.robot_io import Ranges
 from host_sim.world.body import Body
+from host_sim.world.body_faults import SOUND
 from host_sim.world.food import Food
-from host_sim.world.geometry import Capsule, Point
+from host_sim.world.geometry import Capsule
 from host_sim.world.layouts import Layout
 from host_sim.world.obstacles import Obstacles
 from host_sim.world.params import SimParams
@@ -30,23 +31,25 @@ class Arena:
         obstacles: Walls and bars, the bars by id: at first 0, 1, ... as in the layout. Call `settle` after a change.
     """
 
-    def __init__(self, layout: Layout, params: SimParams, odometers: Sequence[Point] = ()) -> None:
+    def __init__(self, layout: Layout, params: SimParams, before: Sequence[Body] = ()) -> None:
         """Builds the space and runs the sensors once, so that the first `sense` is right.
 
         Args:
             layout: Obstacles, food and start poses; a robot is placed at each start.
             params: The dimensions of the world.
-            odometers: For each robot that comes from another arena, the distances that its left and right wheels have
-                rolled so far, mm; empty for robots that have not moved yet.
+            before: For each robot that comes from another arena its body there, whose odometer and faults go on;
+                empty for robots that have not moved yet.
         """
         self._starts, self._params = layout.starts, params
         self.space = pymunk.Space()
         self.food = Food(layout.food)
         self.obstacles = Obstacles(self.space, layout.bars, params)
         self.bodies = [
-            Body(self.space, self.food, params, index, start, odometers[index] if odometers else (0.0, 0.0))
+            Body(self.space, self.food, params, index, start, before[index].odometer if before else (0.0, 0.0))
             for index, start in enumerate(self._starts)
         ]
+        for body, earlier in zip(self.bodies, before, strict=False):
+            body.faults = earlier.faults
         self._by_disc = {body.disc: body for body in self.bodies}
         touching = {"begin": self._begin, "pre_solve": self._press, "separate": self._separate}
         self.space.on_collision(DISC, OBSTACLE, **touching)
@@ -71,6 +74,11 @@ class Arena:
         others = [other.pose[:2] for other in self.bodies if other is not body and not other.lifted]
         discs = [Capsule(middle, middle, radius_mm) for middle in others]
         return ranges_of(body.pose, [*self.obstacles.capsules, *discs], self._params)
+
+    def repair(self) -> None:
+        """Makes all bodies sound."""
+        for body in self.bodies:
+            body.faults = SOUND
 
     def settle(self) -> None:
         """Updates the sensors after an obstacle or a body was moved."""

@@ -6,6 +6,7 @@ from typing import Any
 import pymunk
 
 from host_sim.robot_io import Senses
+from host_sim.world.body_faults import SOUND
 from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline, cone_reach_mm
 from host_sim.world.food import Food
 from host_sim.world.geometry import Point, Pose
@@ -39,6 +40,8 @@ class Body:
         collisions: Number of times that it has begun to touch something.
         touches: Number of things that it touches now.
         lifted: Whether a person holds it in the air.
+        faults: What is wrong with it. Whoever tells the robot what it senses, and the body what the robot says, takes
+            it into account.
     """
 
     def __init__(  # noqa: PLR0913, PLR0917 - its surroundings and its state
@@ -55,7 +58,7 @@ class Body:
             odometer: Distances rolled by the left and the right wheel in earlier arenas, mm.
         """
         self.feel = self.collisions = self.touches = 0
-        self.lifted = False
+        self.lifted, self.faults = False, SOUND
         self._space, self._food, self._params = space, food, params
         self.in_the_air = _IN_THE_AIR_MM, _IN_THE_AIR_MM * (index + 1)
         self.pose = start

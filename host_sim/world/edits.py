@@ -1,7 +1,7 @@
-"""Changes that a person can make to the world while robots are in it, and their form as JSON."""
+"""Changes of the world while robots are in it, by a person or a schedule."""
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,17 +9,17 @@ import numpy as np
 
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
-from host_sim.world.geometry import Bar, Point, Pose
+from host_sim.world.body_faults import noise_key, with_fault
+from host_sim.world.geometry import Bar, Plant, Point, Pose
 from host_sim.world.params import SimParams
 from host_sim.world.reach import clearance_mm
 from host_sim.world.written_world import BARS_MAX
 
-SIZE_MAX_MM = 100_000
-"""Maximum coordinate in an edit, mm."""
+PLANTS_MAX = 20
+"""Maximum number of plants in an arena."""
 
-HEADING_MAX_MRAD = 3142
-_ID_MAX = 1_000_000
-_ROBOTS_MAX = 10_000
+PLANT_MIN_MM, PLANT_MAX_MM = 20, 500
+"""Radius of the smallest and of the largest plant."""
 
 
 @dataclass(frozen=True)
@@ -67,98 +67,41 @@ class Put:
     robot: int = 0
 
 
-Edit = AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put
+@dataclass(frozen=True)
+class AddPlant:
+    """Puts a plant down, which gets the next id of the plants."""
+
+    plant: Plant
 
 
-def edit_from(fields: Mapping[str, Any]) -> Edit | None:
-    """The edit in a JSON object, by its field `do`; None if that does not name an edit.
+@dataclass(frozen=True)
+class ChangePlant:
+    """Moves a plant or lets it grow."""
 
-    Raises:
-        ValueError: A field is missing, of the wrong type, or out of range.
+    id: int
+    plant: Plant
+
+
+@dataclass(frozen=True)
+class RemovePlant:
+    """Removes a plant."""
+
+    id: int
+
+
+@dataclass(frozen=True)
+class ChangeBody:
+    """Breaks something in the body of a robot, counted from 0, or repairs it.
+
+    `what` is as in `with_fault`; when noise strikes follows from the seed.
     """
-    parse = _PARSERS.get(str(fields.get("do")))
-    return None if parse is None else parse(fields)
+
+    what: str
+    robot: int = 0
+    seed: int = 0
 
 
-def edit_to(edit: Edit) -> dict[str, Any]:
-    """The JSON object of an edit, from which `edit_from` makes an equal edit."""
-    match edit:
-        case AddBar(bar):
-            return {"do": "add_bar", **_ends(bar)}
-        case MoveBar(bar_id, bar):
-            return {"do": "move_bar", "id": bar_id, **_ends(bar)}
-        case RemoveBar(bar_id):
-            return {"do": "remove_bar", "id": bar_id}
-        case MoveFood(food_id, at):
-            return {"do": "move_food", "id": food_id, "at": _whole_point(at)}
-        case Lift(robot):
-            return {"do": "lift", **_which(robot)}
-        case Put(pose, robot):
-            heading = round(pose.heading_rad * 1000)
-            return {"do": "put", **_which(robot), "at": _whole_point(pose[:2]), "heading": heading}
-
-
-def whole(fields: Mapping[str, Any], name: str, low: int, high: int) -> int:
-    """A field that must hold a whole number from `low` to `high`.
-
-    Raises:
-        ValueError: It does not.
-    """
-    return _whole(fields.get(name), name, low, high)
-
-
-def _whole(value: object, name: str, low: int, high: int) -> int:
-    if type(value) is not int or not low <= value <= high:
-        raise ValueError(f"{name} must be a whole number from {low} to {high}")
-    return value
-
-
-def _point(fields: Mapping[str, Any], name: str) -> Point:
-    value = fields.get(name)
-    if not isinstance(value, list) or len(value) != 2:  # noqa: PLR2004 - x and y
-        raise ValueError(f"{name} must be [x, y]")
-    x, y = (_whole(number, name, 0, SIZE_MAX_MM) for number in value)
-    return float(x), float(y)
-
-
-def _bar(fields: Mapping[str, Any]) -> Bar:
-    return Bar(_point(fields, "a"), _point(fields, "b"))
-
-
-def pose_from(fields: Mapping[str, Any]) -> Pose:
-    """The pose in a JSON object: `at`, [x, y] in mm, and `heading` in mrad.
-
-    Raises:
-        ValueError: A field is missing, of the wrong type, or out of range.
-    """
-    return Pose(*_point(fields, "at"), whole(fields, "heading", -HEADING_MAX_MRAD, HEADING_MAX_MRAD) / 1000)
-
-
-def _robot_index(fields: Mapping[str, Any]) -> int:
-    return whole(fields, "robot", 0, _ROBOTS_MAX) if "robot" in fields else 0
-
-
-_PARSERS: dict[str, Callable[[Mapping[str, Any]], Edit]] = {
-    "add_bar": lambda fields: AddBar(_bar(fields)),
-    "move_bar": lambda fields: MoveBar(whole(fields, "id", 0, _ID_MAX), _bar(fields)),
-    "remove_bar": lambda fields: RemoveBar(whole(fields, "id", 0, _ID_MAX)),
-    "move_food": lambda fields: MoveFood(whole(fields, "id", 0, _ID_MAX), _point(fields, "at")),
-    "lift": lambda fields: Lift(_robot_index(fields)),
-    "put": lambda fields: Put(pose_from(fields), _robot_index(fields)),
-}
-
-
-def _ends(bar: Bar) -> dict[str, list[int]]:
-    return {"a": _whole_point(bar.a), "b": _whole_point(bar.b)}
-
-
-def _which(robot: int) -> dict[str, int]:
-    """The field that names a robot; it is left out for the first."""
-    return {"robot": robot} if robot else {}
-
-
-def _whole_point(point: Point) -> list[int]:
-    return [round(point[0]), round(point[1])]
+Edit = AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put | AddPlant | ChangePlant | RemovePlant | ChangeBody
 
 
 class EditError(ValueError):
@@ -199,6 +142,32 @@ def _move_food(arena: Arena, edit: MoveFood, params: SimParams) -> None:
     arena.food.move(edit.id, edit.at)
 
 
+def _add_plant(arena: Arena, edit: AddPlant, params: SimParams) -> None:
+    if len(arena.obstacles.plants) >= PLANTS_MAX:
+        raise EditError(f"there are {PLANTS_MAX} plants already")
+    _check_plant(arena, edit.plant, params)
+    arena.obstacles.plant(edit.plant)
+
+
+def _change_plant(arena: Arena, edit: ChangePlant, params: SimParams) -> None:
+    _check_known(edit.id, arena.obstacles.plants)
+    _check_plant(arena, edit.plant, params)
+    arena.obstacles.change_plant(edit.id, edit.plant)
+
+
+def _remove_plant(arena: Arena, edit: RemovePlant, _params: SimParams) -> None:
+    _check_known(edit.id, arena.obstacles.plants)
+    arena.obstacles.remove_plant(edit.id)
+
+
+def _change_body(arena: Arena, edit: ChangeBody, _params: SimParams) -> None:
+    body = _robot(arena, edit.robot)
+    try:
+        body.faults = with_fault(body.faults, edit.what, noise_key(edit.seed, edit.robot))
+    except ValueError as error:
+        raise EditError(f"{edit.what!r} cannot happen to a body: {error}") from None
+
+
 def _lift(arena: Arena, edit: Lift, _params: SimParams) -> None:
     body = _robot(arena, edit.robot)
     if body.lifted:
@@ -212,7 +181,7 @@ def _put(arena: Arena, edit: Put, params: SimParams) -> None:
         raise EditError("the robot is not in the air")
     others = [other for other in arena.bodies if not (other is body or other.lifted)]
     apart_mm = min((math.dist(edit.pose[:2], other.pose[:2]) for other in others), default=math.inf)
-    room_mm = _room_mm(edit.pose[:2], arena.obstacles.bars.values(), params)
+    room_mm = _room_mm(edit.pose[:2], arena.obstacles.bars.values(), params, arena.obstacles.plants.values())
     if min(room_mm, apart_mm - params.body_radius_mm) < params.body_radius_mm:
         raise EditError("there is no room for the robot")
     body.put(edit.pose)
@@ -231,6 +200,10 @@ _MAKERS: dict[type, Callable[[Arena, Any, SimParams], None]] = {
     MoveFood: _move_food,
     Lift: _lift,
     Put: _put,
+    AddPlant: _add_plant,
+    ChangePlant: _change_plant,
+    RemovePlant: _remove_plant,
+    ChangeBody: _change_body,
 }
 
 
@@ -244,6 +217,20 @@ def _check_bar(arena: Arena, bar: Bar, params: SimParams) -> None:
         raise EditError("the robot stands there")
 
 
+def _check_plant(arena: Arena, plant: Plant, params: SimParams) -> None:
+    _check_inside(plant.at, params)
+    if not PLANT_MIN_MM <= plant.radius_mm <= PLANT_MAX_MM:
+        raise EditError(f"a plant has a radius of {PLANT_MIN_MM} to {PLANT_MAX_MM} mm, not {plant.radius_mm:g}")
+    standing = (body for body in arena.bodies if not body.lifted)
+    if any(_beside_mm(body.pose[:2], plant) < params.body_radius_mm for body in standing):
+        raise EditError("the robot stands there")
+
+
+def _beside_mm(point: Point, plant: Plant) -> float:
+    """The distance from a point to a plant."""
+    return math.dist(point, plant.at) - plant.radius_mm
+
+
 def _check_inside(point: Point, params: SimParams) -> None:
     if not (0 <= point[0] <= params.width_mm and 0 <= point[1] <= params.height_mm):
         raise EditError("that is outside of the arena")
@@ -254,6 +241,6 @@ def _check_known(number: int, known: Collection[int]) -> None:
         raise EditError(f"there is no number {number}")
 
 
-def _room_mm(point: Point, bars: Iterable[Bar], params: SimParams) -> float:
-    """The distance from a point to the nearest of these bars or a wall."""
-    return float(clearance_mm(np.array([point]), tuple(bars), params)[0])
+def _room_mm(point: Point, bars: Iterable[Bar], params: SimParams, plants: Iterable[Plant] = ()) -> float:
+    """The distance from a point to the nearest of these bars and plants or a wall."""
+    return float(clearance_mm(np.array([point]), tuple(bars), params, tuple(plants))[0])

@@ -26,6 +26,13 @@ class Bar(NamedTuple):
     b: Point
 
 
+class Plant(NamedTuple):
+    """A round obstacle that can grow: its centre and its radius, in mm."""
+
+    at: Point
+    radius_mm: float
+
+
 class Capsule(NamedTuple):
     """All points that are no farther than the radius from a line: a bar, a wall or, if its ends are equal, a disc."""
 

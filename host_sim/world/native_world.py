@@ -11,7 +11,7 @@ from host_sim.world.plain_space import PlainSpace
 
 _NATIVE = ROOT / "host_sim" / "world" / "native"
 _STATE = Struct("=8d9iB?")
-_NAMES = ("vector", "space", "world", "munk", "munk_space", "capsule", "cones", "plain_space")
+_NAMES = ("vector", "space", "world", "munk", "munk_space", "capsule", "cones", "plain_space", "body_faults")
 HEADERS = tuple(_NATIVE / f"{name}.h" for name in _NAMES)
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.world.geometry import Bar, Point
+from host_sim.world.geometry import Bar, Plant, Point
 from host_sim.world.native_library import NoNativeError
 from host_sim.world.native_reach import Grid, native_reach
 from host_sim.world.params import SimParams
@@ -13,13 +13,16 @@ from host_sim.world.params import SimParams
 _CELL_MM = 25.0
 
 
-def clearance_mm(points: NDArray[np.float64], bars: tuple[Bar, ...], params: SimParams) -> NDArray[np.float64]:
+def clearance_mm(
+    points: NDArray[np.float64], bars: tuple[Bar, ...], params: SimParams, plants: tuple[Plant, ...] = ()
+) -> NDArray[np.float64]:
     """Distances from points to the nearest obstacle or wall.
 
     Args:
         points: Shape (n, 2), x and y in mm.
-        bars: The obstacles.
+        bars: The bars among the obstacles.
         params: The dimensions of the world.
+        plants: The plants among them.
 
     Returns:
         Shape (n,), mm; negative inside an obstacle or beyond a wall.
@@ -28,6 +31,8 @@ def clearance_mm(points: NDArray[np.float64], bars: tuple[Bar, ...], params: Sim
     nearest = np.minimum(np.minimum(x, params.width_mm - x), np.minimum(y, params.height_mm - y))
     for bar in bars:
         nearest = np.minimum(nearest, _distance_mm(x, y, bar) - params.bar_thickness_mm / 2)
+    for (at_x, at_y), radius_mm in plants:
+        nearest = np.minimum(nearest, np.hypot(x - at_x, y - at_y) - radius_mm)
     return nearest
 
 
@@ -50,15 +55,15 @@ class Reach:
         cells: Which cells it can get to: shape (rows, columns), with a border of one cell that it cannot.
     """
 
-    def __init__(self, bars: tuple[Bar, ...], start: Point, params: SimParams) -> None:
-        """Finds the places."""
+    def __init__(
+        self, bars: tuple[Bar, ...], start: Point, params: SimParams, plants: tuple[Plant, ...] = ()
+    ) -> None:
+        """Finds the places among bars and plants."""
         grid = grid_of(params)
         row, column = cell_of(start)
         first = row * (grid.columns + 2) + column
-        try:
-            self.cells = native_reach(bars, first, grid, params)
-        except NoNativeError:
-            self.cells = flooded(free_cells(bars, grid, params), first)
+        in_c = None if plants else _in_c(bars, first, grid, params)  # which knows no plants
+        self.cells = flooded(free_cells(bars, grid, params, plants), first) if in_c is None else in_c
 
     def __contains__(self, point: Point) -> bool:
         """Whether it can get to the cell of a point."""
@@ -68,6 +73,13 @@ class Reach:
         """The middles of the cells that it can get to: shape (n, 2), x and y in mm."""
         rows, columns = np.nonzero(self.cells)
         return np.asarray((np.column_stack([columns, rows]) - 0.5) * _CELL_MM, np.float64)
+
+
+def _in_c(bars: tuple[Bar, ...], start: int, grid: Grid, params: SimParams) -> NDArray[np.bool_] | None:
+    try:
+        return native_reach(bars, start, grid, params)
+    except NoNativeError:
+        return None
 
 
 def cell_of(point: Point) -> tuple[int, int]:
@@ -95,8 +107,10 @@ def flooded(free: NDArray[np.bool_], start: int) -> NDArray[np.bool_]:
     return free & ~left
 
 
-def free_cells(bars: tuple[Bar, ...], grid: Grid, params: SimParams) -> NDArray[np.bool_]:
+def free_cells(
+    bars: tuple[Bar, ...], grid: Grid, params: SimParams, plants: tuple[Plant, ...] = ()
+) -> NDArray[np.bool_]:
     """The cells in which the centre of the body may be anywhere, inside a border of cells where it may not."""
     y, x = (np.indices((grid.rows, grid.columns)) + 0.5) * grid.cell_mm
-    room = clearance_mm(np.column_stack([x.ravel(), y.ravel()]), bars, params)
+    room = clearance_mm(np.column_stack([x.ravel(), y.ravel()]), bars, params, plants)
     return np.pad(room.reshape(grid.rows, grid.columns) >= grid.room_mm, 1)

@@ -1,6 +1,7 @@
 """The counters of a run, as people and programs read them."""
 
 import json
+from types import SimpleNamespace
 
 import pytest
 
@@ -9,6 +10,7 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import Protocol
 from host_sim.recording.summary import Summary, frame_counts, summarize
 from host_sim.sim.run_config import RunConfig
+from host_sim.sim.world_record import WorldRecord
 from host_sim.transport.in_process_link import InProcessLink
 
 
@@ -20,7 +22,7 @@ def client():
 
 
 def summary_of(client: RobotClient) -> Summary:
-    return summarize(RunConfig(), [client], [], "", 1.0)
+    return summarize(RunConfig(), SimpleNamespace(clients=[client], record=WorldRecord(1, 1, 1)), [], "", 1.0)
 
 
 def test_a_loss_is_counted_once(client):

@@ -6,13 +6,25 @@ import pytest
 
 from host_sim.errors import OctetError, UsageError
 from host_sim.recording.world_file import read_world, world_path, write_world
-from host_sim.sim.world_record import Begun, Edited, WorldRecord
-from host_sim.world.edits import AddBar, Lift, MoveBar, MoveFood, Put, RemoveBar
-from host_sim.world.geometry import Bar, Pose
+from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
+from host_sim.world.edits import (
+    AddBar,
+    AddPlant,
+    ChangeBody,
+    ChangePlant,
+    Lift,
+    MoveBar,
+    MoveFood,
+    Put,
+    RemoveBar,
+    RemovePlant,
+)
+from host_sim.world.geometry import Bar, Plant, Pose
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
 
+PLANT = Plant((500.0, 600.0), 80.0)
 BAR = Bar((10.0, 20.0), (300.0, 40.0))
 EDITS = [
     Edited(3, AddBar(BAR)),
@@ -21,12 +33,25 @@ EDITS = [
     Edited(9, MoveFood(2, (1.0, 2.0))),
     Edited(9, Lift()),
     Edited(12, Put(Pose(100.0, 200.0, -3.1))),
+    Edited(13, AddPlant(PLANT)),
+    Edited(14, ChangePlant(0, PLANT._replace(radius_mm=120.0))),
+    Edited(15, ChangeBody("noise:10/1000", 1, 7)),
+    Edited(16, RemovePlant(0)),
 ]
 
 
 def record() -> WorldRecord:
     world = World("random", SimParams(front_extra_mm=0.25))
-    return WorldRecord(1, 5, 30000, 2, [Begun(1, 1, 0), Begun(1, 2, 7)], list(EDITS), world)
+    return WorldRecord(
+        1,
+        5,
+        30000,
+        2,
+        [Begun(1, 1, 0), Begun(1, 2, 7)],
+        list(EDITS),
+        [Refused(12, "plant@1s", "the robot stands there")],
+        world,
+    )
 
 
 def test_what_was_written_is_read(tmp_path):
@@ -75,6 +100,21 @@ def test_dragging_between_two_ticks_leaves_the_last_place_only():
     assert places == [(5, 0, 3.0), (5, 1, 9.0), (6, 1, 10.0)]
 
 
+def test_edits_after_an_environments_last_tick_are_dropped_but_not_what_is_wrong_with_a_body():
+    kept = WorldRecord(1, 5, 30000)
+    for edit in (AddBar(BAR), ChangeBody("mirror"), AddPlant(PLANT)):
+        kept.add(Edited(5, edit))
+    kept.begin(Begun(1, 2, 5))
+    assert kept.edits == [Edited(5, ChangeBody("mirror"))]
+
+
+def test_a_run_that_begins_anew_begins_with_sound_bodies():
+    kept = WorldRecord(1, 5, 30000)
+    kept.add(Edited(5, ChangeBody("mirror")))
+    kept.begin(Begun(2, 1, 5))
+    assert kept.edits == []
+
+
 def test_equal_edits_in_a_row_that_move_nothing_are_all_kept():
     kept = WorldRecord(1, 5, 30000)
     kept.add(Edited(5, AddBar(BAR)))
@@ -105,6 +145,13 @@ GOOD = {"format": 1, "seed": 1, "of": 5, "limit_ticks": 9, "environments": [], "
         {"environments": [1]},
         {"environments": [{"seed": 1, "number": 0, "first_tick": 0}]},
         {"environments": [{"seed": 1, "number": n, "first_tick": 9 - n} for n in (1, 2)]},
+        {"refused": [1]},
+        {"refused": [{"tick": 1, "what": "plant@1s"}]},
+        {"refused": [{"tick": 1, "what": "plant@1s", "why": "x" * 1001}]},
+        {"edits": [{"tick": 1, "do": "body", "what": "explode"}]},
+        {"edits": [{"tick": 1, "do": "body", "what": 3}]},
+        {"edits": [{"tick": 1, "do": "body", "what": "mirror", "seed": -1}]},
+        {"edits": [{"tick": 1, "do": "plant", "at": [1, 2], "radius": 1000}]},
         {"edits": [{"tick": 1, "do": "dance"}]},
         {"edits": [{"do": "lift"}]},
         {"edits": [{"tick": 1, "do": "put", "at": [0, 0]}]},

@@ -16,13 +16,14 @@ def test_a_run_finishes_its_environments_and_says_so(run):
     assert [environment["finished"] for environment in done.summary["environments"]] == [True, True]
     assert all(environment["food_eaten"] == 3 for environment in done.summary["environments"])
     assert "all food found" in done.output
-    assert "ALL DONE" in done.output
+    assert done.output.splitlines()[-1] == "ALL DONE"
 
 
 def test_a_run_that_leaves_food_is_not_all_done(run):
     done = run("--environments", "1", "--bus", "none", "--limit-s", "1")
 
     assert "ALL DONE" not in done.output
+    assert done.output.splitlines()[-1] == "done      0 of 1 environments finished"
 
 
 def test_a_run_leaves_log_summary_and_picture(run):
@@ -43,6 +44,7 @@ def test_the_summary_has_all_that_is_promised(run):
         "bus",
         "environments",
         "robots",
+        "changes",
         "incidents",
         "log_sha256",
         "wall_s",

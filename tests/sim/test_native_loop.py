@@ -39,6 +39,8 @@ class Outcome:
     clients: Sequence[tuple]
     senses: Sequence
     drives: Sequence
+    edits: int
+    refused: Sequence
 
 
 def outcome(
@@ -63,7 +65,8 @@ def outcome(
         clients = [(client.memory, client.faults, client.frames, client.last) for client in simulation.clients]
         log.close()
         return Outcome(
-            (folder / "run.log").read_bytes(), episodes, recorder, clients, simulation.senses, simulation.drives
+            *((folder / "run.log").read_bytes(), episodes, recorder, clients, simulation.senses, simulation.drives),
+            *(len(simulation.record.edits), simulation.record.refused),
         )
 
 
@@ -133,6 +136,19 @@ CHANGES: dict[int, Change] = {
     1200: press_freeze,
     1400: lambda simulation, _: write_cells(simulation.clients[0], {6: 1}),
 }
+
+
+SURPRISES = (
+    *("plant:600,700@2s", "plant@3s", "grow@5s", "mirror@4s", "swap-motors@6s/2", "stuck-on:front@7s/1"),
+    *("stuck-off:left@8s", "noise:100/1000@env1+9s", "weak-motor:left:60%@env2/2", "repair@env2+5s/1"),
+)
+
+
+def test_a_run_full_of_surprises_is_the_same(tmp_path):
+    readable = assert_alike(tmp_path, RunConfig(seed=6, robots=2, environments=2, limit_s=15.0, changes=SURPRISES))
+
+    assert not readable.refused
+    assert readable.edits == 14
 
 
 def test_a_run_in_which_people_meddle_is_the_same(tmp_path):

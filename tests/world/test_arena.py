@@ -122,7 +122,9 @@ def test_odometers_count_tenths_of_a_mm_and_wrap() -> None:
 
 def test_odometers_go_on_from_the_arena_before() -> None:
     layout = Layout((), (), MIDDLE)
-    arena = Arena(layout, PARAMS, odometers=[(12.5, -0.3)])
+    before = Arena(layout, PARAMS)
+    before.body.state = (*before.body.state[:3], 12.5, -0.3, *before.body.state[5:])
+    arena = Arena(layout, PARAMS, before.bodies)
 
     senses = arena.body.sense(0)
 

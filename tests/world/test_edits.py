@@ -5,10 +5,26 @@ import math
 import pytest
 
 from host_sim.world.arena import Arena
-from host_sim.world.edits import BARS_MAX, AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar, make_edit
-from host_sim.world.geometry import Bar, Pose
+from host_sim.world.edits import (
+    PLANTS_MAX,
+    AddBar,
+    AddPlant,
+    ChangeBody,
+    ChangePlant,
+    Edit,
+    EditError,
+    Lift,
+    MoveBar,
+    MoveFood,
+    Put,
+    RemoveBar,
+    RemovePlant,
+    make_edit,
+)
+from host_sim.world.geometry import Bar, Plant, Pose
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
+from host_sim.world.written_world import BARS_MAX
 
 PARAMS = SimParams()
 FAR = Bar((500.0, 500.0), (900.0, 500.0))
@@ -117,6 +133,14 @@ def test_a_robot_put_down_before_a_wall_feels_it(arena):
         MoveFood(2, (10.0, 10.0)),
         MoveFood(0, (10.0, 3001.0)),
         Put(Pose(600.0, 1500.0, 0.0)),
+        AddPlant(Plant((2150.0, 1500.0), 80.0)),
+        AddPlant(Plant((600.0, 1500.0), 10.0)),
+        AddPlant(Plant((600.0, 1500.0), 501.0)),
+        AddPlant(Plant((4100.0, 1500.0), 80.0)),
+        ChangePlant(0, Plant((600.0, 1500.0), 80.0)),
+        RemovePlant(0),
+        ChangeBody("explode"),
+        ChangeBody("mirror", 1),
     ],
 )
 def test_what_cannot_be_changes_nothing(arena, impossible):
@@ -138,6 +162,33 @@ def test_there_is_no_room_for_the_robot_in_a_bar_or_a_wall(arena, place):
     with pytest.raises(EditError, match="no room"):
         edit(arena, Put(Pose(*place, 0.0)))
     assert arena.body.lifted
+
+
+def test_a_plant_can_be_moved_and_taken_away(arena):
+    edit(arena, AddPlant(Plant((600.0, 1500.0), 80.0)), ChangePlant(0, Plant((2230.0, 1500.0), 80.0)))
+    assert feel(arena) == FRONT
+    edit(arena, RemovePlant(0))
+    assert feel(arena) == 0
+
+
+def test_a_plant_does_not_grow_into_the_robot(arena):
+    edit(arena, AddPlant(Plant((2230.0, 1500.0), 80.0)))
+    with pytest.raises(EditError, match="the robot stands there"):
+        edit(arena, ChangePlant(0, Plant((2230.0, 1500.0), 131.0)))
+    edit(arena, ChangePlant(0, Plant((2230.0, 1500.0), 129.0)))
+
+
+def test_there_is_no_room_for_the_robot_in_a_plant(arena):
+    edit(arena, Lift(), AddPlant(Plant((600.0, 1500.0), 80.0)))
+    with pytest.raises(EditError, match="no room"):
+        edit(arena, Put(Pose(600.0, 1679.0, 0.0)))
+    edit(arena, Put(Pose(600.0, 1681.0, 0.0)))
+
+
+def test_there_are_not_more_plants_than_fit(arena):
+    edit(arena, *[AddPlant(Plant((600.0, 1500.0), 80.0))] * PLANTS_MAX)
+    with pytest.raises(EditError, match="already"):
+        edit(arena, AddPlant(Plant((600.0, 1500.0), 80.0)))
 
 
 def test_the_arena_does_not_fill_up_for_ever(arena):

@@ -61,8 +61,10 @@ static bool exchange(struct loop *loop, struct turn turns[])
 {
     uint8_t tick = (uint8_t)(loop->tick % TICK_SPAN);
 
-    for (size_t i = 0; i < loop->robot_count; i++)
+    for (size_t i = 0; i < loop->robot_count; i++) {
         world_sense(loop->world, &loop->world->bodies[i], tick, &turns[i].senses);
+        body_faults_sense(&loop->robots[i].faults, loop->tick, &turns[i].senses);
+    }
     for (size_t i = 0; i < loop->robot_count; i++)
         send_senses(loop, &loop->robots[i], &turns[i].senses);
     for (size_t i = 0; i < loop->robot_count; i++)
@@ -121,10 +123,12 @@ static void record(struct loop *loop, size_t index, const struct turn *turn)
 static bool act(struct loop *loop, size_t index, const struct drive *drive)
 {
     struct body *body = &loop->world->bodies[index];
+    struct drive wheels = *drive;
     bool eaten = drive->eat && world_eat(loop->world, body);
 
     loop->robots[index].food_eaten += eaten;
-    world_move(loop->world, body, drive->left_mm_s, drive->right_mm_s);
+    body_faults_drive(&loop->robots[index].faults, &wheels);
+    world_move(loop->world, body, wheels.left_mm_s, wheels.right_mm_s);
     return eaten;
 }
 

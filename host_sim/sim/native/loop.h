@@ -7,6 +7,7 @@
 
 #include "hal/link/link.h"
 #include "host_sim/sim/native/log_lines.h"
+#include "host_sim/world/native/body_faults.h"
 #include "host_sim/world/native/world.h"
 
 struct octet;   /* a robot as a library call: hal/library/exchange.h */
@@ -25,6 +26,7 @@ struct loop_robot {
     uint32_t drive_id;
     uint32_t heartbeat_id;
     uint8_t senses_counter;           /* of the last SENSES */
+    struct body_faults faults;        /* what is wrong with its body */
     bool begun_any;                   /* an action has begun, with this pattern: */
     uint8_t pattern;
     uint8_t action;                   /* the last drive's */

@@ -1,0 +1,193 @@
+"""What can be wrong with a body: in its sensors, its motors, or the wires between them and the robot.
+
+`native/body_faults.c` does the same in C.
+"""
+
+import difflib
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from host_sim.robot_io import Ranges, Senses
+from host_sim.world.cones import CONE_BEARINGS_DEG
+
+_BITS = tuple(CONE_BEARINGS_DEG)
+_SENSORS = {name.replace("_", "-"): bit for name, bit in zip(Ranges._fields, _BITS, strict=True)}
+_MIRRORED = tuple(
+    sum(_BITS[-1 - place] for place, bit in enumerate(_BITS) if feel & bit) for feel in range(1 << len(_BITS))
+)
+_FULL_PERCENT = 100
+_NOISE_OF_MAX = 1_000_000
+_MASK_64 = (1 << 64) - 1
+_STREAMS = 8
+"""Random numbers of a tick: at least one for each sensor."""
+
+
+@dataclass(frozen=True)
+class BodyFaults:
+    """What is wrong with a body.
+
+    Attributes:
+        mirrored: Whether the ring of sensors is mounted the other way round.
+        noise: Each sensor is wrong in so many
+        noise_of: of so many ticks,
+        noise_key: which follow from this number and the number of the tick.
+        stuck_on: Sensors that always see something, as bits of feel.
+        stuck_off: Sensors that never see anything.
+        swapped: Whether each motor, with its odometer, has the other one's plug.
+        left_lost_percent: Speed that the left motor lacks, percent of what it is told.
+        right_lost_percent: That of the right one.
+    """
+
+    mirrored: bool = False
+    noise: int = 0
+    noise_of: int = 1
+    noise_key: int = 0
+    stuck_on: int = 0
+    stuck_off: int = 0
+    swapped: bool = False
+    left_lost_percent: int = 0
+    right_lost_percent: int = 0
+
+    def sensed(self, senses: Senses, tick: int) -> Senses:
+        """What the robot is told of what its body senses.
+
+        Args:
+            senses: What a sound body senses there.
+            tick: Number of the tick in the run.
+        """
+        feel = _MIRRORED[senses.feel] if self.mirrored else senses.feel
+        feel = ((feel ^ self._wrong(tick)) | self.stuck_on) & ~self.stuck_off
+        left, right = senses.odometer_left, senses.odometer_right
+        if self.swapped:
+            left, right = right, left
+        return senses._replace(feel=feel, odometer_left=left, odometer_right=right)
+
+    def measured(self, ranges: Ranges) -> Ranges:
+        """What the robot is told of the distances; noise does not change them."""
+        distances = reversed(ranges) if self.mirrored else iter(ranges)
+        pairs = zip(distances, _BITS, strict=True)
+        return Ranges._make(
+            None if self.stuck_off & bit else 0 if self.stuck_on & bit else distance for distance, bit in pairs
+        )
+
+    def driven(self, left_mm_s: int, right_mm_s: int) -> tuple[int, int]:
+        """The speeds at which the left and the right wheel turn when the robot tells them these."""
+        if self.swapped:
+            left_mm_s, right_mm_s = right_mm_s, left_mm_s
+        return _weakened(left_mm_s, self.left_lost_percent), _weakened(right_mm_s, self.right_lost_percent)
+
+    def _wrong(self, tick: int) -> int:
+        """The sensors that are wrong in a tick, as bits of feel."""
+        if not self.noise:
+            return 0
+        first = self.noise_key + tick * _STREAMS
+        return sum(bit for n, bit in enumerate(_BITS) if _chance(first + n) % self.noise_of < self.noise)
+
+
+SOUND = BodyFaults()
+"""Nothing is wrong."""
+
+Fault = Callable[[BodyFaults, tuple[str, ...]], BodyFaults]
+
+
+def noise_key(seed: int, robot: int) -> int:
+    """Where a robot's noise begins among all random numbers."""
+    return _mixed(seed * 10_000 + robot)
+
+
+def with_fault(faults: BodyFaults, what: str, key: int = 0) -> BodyFaults:
+    """The faults of a body after one more.
+
+    >>> with_fault(SOUND, "weak-motor:left:60%").driven(100, 100)
+    (60, 100)
+
+    Args:
+        faults: What was wrong before.
+        what: The fault, such as "stuck-on:front"; docs/worlds.md has all.
+        key: The robot's `noise_key`.
+
+    Raises:
+        ValueError: There is no such fault; the message says what was meant.
+    """
+    name = what.partition(":")[0]
+    if name not in _FAULTS:
+        near = difflib.get_close_matches(name, _FAULTS, 1)
+        raise ValueError(f"did you mean {near[0]!r}?" if near else f"choose from {', '.join(_FAULTS)}")
+    pattern, make, form = _FAULTS[name]
+    match = re.fullmatch(pattern, what.removeprefix(name))
+    if match is None:
+        raise ValueError(f"write {form}")
+    return make(replace(faults, noise_key=key) if name == "noise" else faults, match.groups())
+
+
+def _mirror(faults: BodyFaults, _: tuple[str, ...]) -> BodyFaults:
+    return replace(faults, mirrored=not faults.mirrored)
+
+
+def _make_noise(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
+    noise, noise_of = int(words[0]), int(words[1])
+    if not noise <= noise_of <= _NOISE_OF_MAX or not noise_of:
+        raise ValueError(f"{noise} of {noise_of} ticks cannot be; at most all of {_NOISE_OF_MAX}")
+    return replace(faults, noise=noise, noise_of=noise_of)
+
+
+def _stick_on(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
+    bit = _SENSORS[words[0]]
+    return replace(faults, stuck_on=faults.stuck_on | bit, stuck_off=faults.stuck_off & ~bit)
+
+
+def _stick_off(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
+    bit = _SENSORS[words[0]]
+    return replace(faults, stuck_off=faults.stuck_off | bit, stuck_on=faults.stuck_on & ~bit)
+
+
+def _swap_motors(faults: BodyFaults, _: tuple[str, ...]) -> BodyFaults:
+    return replace(faults, swapped=not faults.swapped)
+
+
+def _weaken(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
+    side, lost_percent = words[0], _FULL_PERCENT - int(words[1])
+    if lost_percent < 0:
+        raise ValueError(f"a motor has at most {_FULL_PERCENT}%")
+    if side == "left":
+        return replace(faults, left_lost_percent=lost_percent)
+    return replace(faults, right_lost_percent=lost_percent)
+
+
+def _repair(_faults: BodyFaults, _: tuple[str, ...]) -> BodyFaults:
+    return SOUND
+
+
+_SENSOR = f":({'|'.join(_SENSORS)})"
+_SENSOR_FORM = f"with SENSOR one of {', '.join(_SENSORS)}"
+_FAULTS: dict[str, tuple[str, Fault, str]] = {
+    "swap-motors": ("", _swap_motors, "swap-motors"),
+    "mirror": ("", _mirror, "mirror"),
+    "stuck-on": (_SENSOR, _stick_on, f"stuck-on:SENSOR, {_SENSOR_FORM}"),
+    "stuck-off": (_SENSOR, _stick_off, f"stuck-off:SENSOR, {_SENSOR_FORM}"),
+    "noise": (r":(\d{1,7})/(\d{1,7})", _make_noise, "noise:N/TICKS, such as noise:10/1000"),
+    "weak-motor": (r":(left|right):(\d{1,3})%", _weaken, "weak-motor:left:60% or weak-motor:right:60%"),
+    "repair": ("", _repair, "repair"),
+}
+
+FAULT_NAMES = tuple(_FAULTS)
+"""What a fault begins with."""
+
+
+def _weakened(speed_mm_s: int, lost_percent: int) -> int:
+    """Whole mm/s, toward 0."""
+    return int(speed_mm_s * (_FULL_PERCENT - lost_percent) / _FULL_PERCENT) if lost_percent else speed_mm_s
+
+
+def _chance(number: int) -> int:
+    """A random number of 32 bits, the same for the same number."""
+    return _mixed(number) >> 32
+
+
+def _mixed(number: int) -> int:
+    """The SplitMix64 generator's number after this one."""
+    mixed = (number + 0x9E3779B97F4A7C15) & _MASK_64
+    mixed = ((mixed ^ mixed >> 30) * 0xBF58476D1CE4E5B9) & _MASK_64
+    mixed = ((mixed ^ mixed >> 27) * 0x94D049BB133111EB) & _MASK_64
+    return mixed ^ mixed >> 31

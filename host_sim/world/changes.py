@@ -1,0 +1,128 @@
+"""Changes that a run is to meet with, as a person writes them: a plant that is put down, motors that are swapped."""
+
+import difflib
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from host_sim.errors import UsageError
+from host_sim.regular_file import read_bytes
+from host_sim.world.body_faults import FAULT_NAMES, SOUND, with_fault
+
+PLANT, GROW = "plant", "grow"
+CHANGE_NAMES = (PLANT, GROW, *FAULT_NAMES)
+"""What can happen."""
+
+_WHEN = r"(?:(?P<from_start>\d{1,6}(?:\.\d{1,3})?)s|env(?P<number>\d{1,4})(?:\+(?P<after>\d{1,6}(?:\.\d{1,3})?)s)?)"
+_CHANGE = re.compile(rf"(?P<what>[^@\s]+)@{_WHEN}(?:/(?P<robot>\d{{1,2}}))?")
+_FORM = "write NAME@120s, NAME@env6 or NAME@env6+20s, such as plant@120s"
+_DETAILS = {
+    PLANT: (re.compile(r"(?::(\d{1,4}),(\d{1,4}))?"), "plant, or plant:X,Y for a place in mm"),
+    GROW: (re.compile(r"(?::(\d{1,3}))?"), "grow, or grow:MM for so many mm"),
+}
+_FILE_MAX = 1_000_000
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change, and when it is due.
+
+    `NAME[:DETAILS]@WHEN[/ROBOT]`:
+
+    >>> Change.parse("weak-motor:left:60%@env6+20s/2")
+    Change(what='weak-motor:left:60%', number=6, after_s=20.0, robot=2)
+    >>> str(Change.parse("plant@120s"))
+    'plant@120s'
+
+    Attributes:
+        what: What happens, with its details.
+        number: The environment that it happens in; None for a time that counts from the start of the run.
+        after_s: Robot time since the start of that environment, or of the run, s.
+        robot: The robot that it happens to, counted from 1; None for all.
+    """
+
+    what: str
+    number: int | None = None
+    after_s: float = 0.0
+    robot: int | None = None
+
+    @staticmethod
+    def parse(text: str) -> "Change":
+        """Reads a change.
+
+        Raises:
+            UsageError: It is not written as one; the message says what was meant.
+        """
+        match = _CHANGE.fullmatch(text)
+        if match is None:
+            raise UsageError(f"{text!r} is not a change: {_FORM}")
+        if problem := _problem(match["what"]):
+            raise UsageError(f"{text!r} is not a change: {problem}")
+        if match["robot"] and match["what"].partition(":")[0] in _DETAILS:
+            raise UsageError(f"{text!r} is not a change: only what happens to a body is for one robot")
+        number, robot = (None if match[name] is None else int(match[name]) for name in ("number", "robot"))
+        if 0 in {number, robot}:
+            raise UsageError(f"{text!r} is not a change: environments and robots are counted from 1")
+        return Change(match["what"], number, float(match["from_start"] or match["after"] or 0), robot)
+
+    @property
+    def name(self) -> str:
+        """What happens, without its details."""
+        return self.what.partition(":")[0]
+
+    @property
+    def numbers(self) -> list[int]:
+        """The numbers in the details, mm."""
+        return [int(number) for number in re.findall(r"\d+", self.what)]
+
+    def __str__(self) -> str:
+        seconds = f"{self.after_s:g}s"
+        when = seconds if self.number is None else f"env{self.number}" + (f"+{seconds}" if self.after_s else "")
+        return f"{self.what}@{when}" + (f"/{self.robot}" if self.robot else "")
+
+
+def _problem(what: str) -> str | None:
+    """What is wrong with a change, and what was meant; None if nothing is."""
+    name = what.partition(":")[0]
+    if name not in CHANGE_NAMES:
+        near = difflib.get_close_matches(name, CHANGE_NAMES, 1)
+        return f"did you mean {near[0]!r}?" if near else f"choose from {', '.join(CHANGE_NAMES)}"
+    if name in _DETAILS:
+        pattern, form = _DETAILS[name]
+        return None if pattern.fullmatch(what.removeprefix(name)) else f"write {form}"
+    try:
+        with_fault(SOUND, what)
+    except ValueError as error:
+        return str(error)
+    return None
+
+
+def read_changes(text: str) -> list[str]:
+    """The changes in a word of the command line: one change, or those in a file, one in each line.
+
+    A file is a word without an @, or after one: changes.txt, @changes.txt. In it, # begins a comment.
+
+    Raises:
+        UsageError: The file cannot be read, or what is written is no change; the message names the line.
+    """
+    if "@" in text.removeprefix("@"):
+        return [str(Change.parse(text))]
+    path = Path(text.removeprefix("@"))
+    try:
+        lines = read_bytes(path, _FILE_MAX).decode().splitlines()
+    except OSError as error:
+        raise UsageError(f"{text!r} is neither a change nor a file of changes ({error.strerror}): {_FORM}") from None
+    except UnicodeDecodeError:
+        raise UsageError(f"{path} is not a list of changes: it is not text") from None
+    changes = []
+    for number, line in enumerate(lines, 1):
+        if word := line.partition("#")[0].strip():
+            changes.append(_in_line(path, number, word))
+    return changes
+
+
+def _in_line(path: Path, number: int, word: str) -> str:
+    try:
+        return str(Change.parse(word))
+    except UsageError as error:
+        raise UsageError(f"{path}:{number}: {error}") from None

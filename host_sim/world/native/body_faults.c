@@ -1,0 +1,56 @@
+#include "host_sim/world/native/body_faults.h"
+
+enum { STREAMS = 8, FULL_PERCENT = 100 };   /* random numbers of a tick: at least one for each sensor */
+
+static uint8_t mirror(uint8_t feel)
+{
+    unsigned mirrored = 0;
+
+    for (unsigned n = 0; n < FEEL_COUNT; n++)
+        mirrored |= ((unsigned)feel >> n & 1u) << (FEEL_COUNT - 1 - n);
+    return (uint8_t)mirrored;
+}
+
+/* 32 bits of the SplitMix64 generator's number after this one. */
+static uint32_t chance(uint64_t number)
+{
+    uint64_t mixed = number + 0x9E3779B97F4A7C15u;
+
+    mixed = (mixed ^ mixed >> 30) * 0xBF58476D1CE4E5B9u;
+    mixed = (mixed ^ mixed >> 27) * 0x94D049BB133111EBu;
+    return (uint32_t)((mixed ^ mixed >> 31) >> 32);
+}
+
+/* The sensors that are wrong in a tick. */
+static uint8_t wrong(const struct body_faults *faults, uint32_t tick)
+{
+    uint64_t first = faults->noise_key + (uint64_t)tick * STREAMS;
+    unsigned bits = 0;
+
+    if (faults->noise == 0)
+        return 0;
+    for (unsigned n = 0; n < FEEL_COUNT; n++)
+        bits |= (unsigned)(chance(first + n) % faults->noise_of < faults->noise) << n;
+    return (uint8_t)bits;
+}
+
+void body_faults_sense(const struct body_faults *faults, uint32_t tick, struct senses *senses)
+{
+    uint8_t feel = faults->mirrored ? mirror(senses->feel) : senses->feel;
+    uint16_t left = senses->odometer_left;
+
+    senses->feel = (uint8_t)(((feel ^ wrong(faults, tick)) | faults->stuck_on) & ~faults->stuck_off);
+    if (faults->swapped) {
+        senses->odometer_left = senses->odometer_right;
+        senses->odometer_right = left;
+    }
+}
+
+void body_faults_drive(const struct body_faults *faults, struct drive *drive)
+{
+    int left = faults->swapped ? drive->right_mm_s : drive->left_mm_s;
+    int right = faults->swapped ? drive->left_mm_s : drive->right_mm_s;
+
+    drive->left_mm_s = (int16_t)(left * (FULL_PERCENT - faults->left_lost_percent) / FULL_PERCENT);
+    drive->right_mm_s = (int16_t)(right * (FULL_PERCENT - faults->right_lost_percent) / FULL_PERCENT);
+}

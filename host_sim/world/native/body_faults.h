@@ -1,0 +1,27 @@
+/* body_faults.h: what is wrong with a body, between what it senses and what its robot is told, and back to its motors.
+ *
+ * BodyFaults in host_sim/world/body_faults.py is the readable reference. */
+#ifndef OCTET_BODY_FAULTS_H
+#define OCTET_BODY_FAULTS_H
+
+#include "firmware/io.h"
+
+struct body_faults {
+    bool mirrored;           /* the ring of sensors is mounted the other way round */
+    bool swapped;            /* each motor, with its odometer, has the other one's plug */
+    uint8_t stuck_on;        /* sensors, as bits of feel */
+    uint8_t stuck_off;
+    uint8_t left_lost_percent;    /* speed that a motor lacks, of what it is told: 0..100 */
+    uint8_t right_lost_percent;
+    uint32_t noise;          /* each sensor is wrong in so many */
+    uint32_t noise_of;       /* of so many ticks; not 0 where noise is not */
+    uint64_t noise_key;      /* from which it follows in which */
+};   /* all 0: nothing is wrong */
+
+void body_faults_sense(const struct body_faults *faults, uint32_t tick, struct senses *senses);
+        /* Makes what the body senses into what the robot is told. tick is the number of the tick in the run. */
+
+void body_faults_drive(const struct body_faults *faults, struct drive *drive);
+        /* Makes what the robot says into what the wheels do. */
+
+#endif

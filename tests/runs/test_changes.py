@@ -1,0 +1,98 @@
+"""Runs in which the world and the bodies change: recorded, repeated, and refused when they cannot be."""
+
+import pytest
+
+from host_sim.recording.resimulation import resimulate
+from tests.runs.support import octet
+
+BRIEF = ("--environments", "2", "--limit-s", "8", "--bus", "none", "--seed", "6")
+ALL = (
+    *("plant@2s", "plant:600,700@2s", "grow@3s", "swap-motors@env2", "mirror@4s", "stuck-on:front@5s"),
+    *("stuck-off:left@5.5s", "noise:10/1000@1s", "weak-motor:left:60%@env2+2s", "repair@env2+4s"),
+)
+
+
+def words(changes) -> list[str]:
+    return [word for change in changes for word in ("--change", change)]
+
+
+@pytest.mark.faulty
+def test_a_run_full_of_changes_can_be_repeated_from_its_log(run):
+    done = run(*BRIEF, *words(ALL))
+
+    again = resimulate(done.out / "run.log")
+    assert (done.code, done.errors) == (0, "")
+    assert sorted(done.summary["changes"]["happened"]) == sorted(ALL)
+    assert "changes   10 happened\n" in done.output
+    assert again.trajectory.ticks == 800
+    assert octet("replay", done.out / "run.log").returncode == 0
+
+
+@pytest.mark.faulty
+def test_the_page_made_from_the_log_is_that_of_the_run(run, tmp_path):
+    done = run(*BRIEF, *words(ALL))
+    page = tmp_path / "again.html"
+
+    assert octet("replay", done.out / "run.log", "--html", page).returncode == 0
+    assert page.read_bytes() == (done.out / "replay.html").read_bytes()
+
+
+@pytest.mark.faulty
+def test_changes_depend_on_seed_and_options_only(run):
+    assert run(*BRIEF, *words(ALL)).log == run(*BRIEF[:4], "--bus", "fd", *BRIEF[6:], *words(ALL)).log
+
+
+def test_another_seed_has_other_noise_and_a_run_without_changes_none(run):
+    logs = {run(*BRIEF, *words(changes)).log for changes in ([], ["noise:100/1000@0s"], ["noise:0/1000@0s"])}
+
+    assert len(logs) == 2
+
+
+def test_a_change_that_cannot_be_is_said_when_it_is_due_and_counted_and_the_run_goes_on(run):
+    done = run(*BRIEF, "--change", "grow@2s", "--change", "plant:3999,2999@env2+99s")
+
+    assert done.code == 0
+    assert done.errors == "octet: at 2.00 s grow@2s could not happen: there is no plant in this environment\n"
+    assert done.summary["changes"] == {
+        "happened": [],
+        "refused": ["grow@2s"],
+        "missed": ["plant:3999,2999@env2+99s"],
+    }
+    assert "changes   1 could not happen, 1 came after the end\n" in done.output
+    assert len(done.summary["environments"]) == 2
+
+
+def test_a_plant_on_the_robot_cannot_be(run):
+    done = run(*BRIEF, "--change", "plant:100,100@0s", "--world", "small", "--seed", "1")
+    x, y = (round(place) for place in resimulate(done.out / "run.log").trajectory.tracks[0].pose(0)[:2])
+
+    again = run("--world", "small", *BRIEF, "--seed", "1", "--change", f"plant:{x},{y}@0s")
+
+    assert f"plant:{x},{y}@0s could not happen: the robot stands there" in again.errors
+
+
+@pytest.mark.parametrize(
+    ("change", "why"),
+    [
+        ("plnat@5s", "'plnat@5s' is not a change: did you mean 'plant'?"),
+        ("swap-motors@env6", "the change swap-motors@env6 never comes: there are 2 environments"),
+        ("swap-motors@5s/2", "the change swap-motors@5s/2 is for a robot that is not there: there are 1"),
+    ],
+)
+def test_a_mistake_ends_the_run_before_it_begins(run, change, why):
+    done = run(*BRIEF, "--change", change)
+
+    assert (done.code, done.errors) == (2, f"octet: {why}\n")
+    assert not (done.out / "run.log").exists()
+
+
+def test_a_mistake_in_a_schedule_names_its_line(run, tmp_path):
+    schedule = tmp_path / "day.txt"
+    schedule.write_text("# a day\nplant@5s\nnoise@6s\n")
+
+    done = run(*BRIEF, "--change", schedule)
+
+    assert done.code == 2
+    assert done.errors == (
+        f"octet: {schedule}:3: 'noise@6s' is not a change: write noise:N/TICKS, such as noise:10/1000\n"
+    )
