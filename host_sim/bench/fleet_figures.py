@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable
 from itertools import count
+from unittest.mock import patch
 
 from host_sim.bench.figure import ROUNDS, Figure, Rate, rate_figure
 from host_sim.sim.make import make
@@ -90,16 +91,8 @@ def _layouts(params: SimParams) -> float:
 
 def _layouts_in_python(params: SimParams) -> float:
     """Layouts per second without the library."""
-    in_c = reach.native_reach
-    reach.native_reach = _no_reach
-    try:
+    with patch.object(reach, "native_reach", side_effect=NoNativeError):
         return _layouts(params)
-    finally:
-        reach.native_reach = in_c
-
-
-def _no_reach(*_: object) -> None:
-    raise NoNativeError
 
 
 def _per_second(run: Callable[[], int]) -> float:
