@@ -166,7 +166,7 @@ def test_reports_that_wait_from_before_are_logged_in_the_first_tick(tmp_path):
 
 
 def test_a_run_that_ends_while_a_report_is_under_way_is_the_same(tmp_path):
-    """Once a second a robot reports, some of it a tick later: what is told again after a stop then is known already."""
+    """Once a second a robot reports, some of it a tick later: what it tells again after a stop between is known."""
     for ticks in range(95, 105):
         config = RunConfig(seed=1, environments=1, limit_s=ticks / 50)
 
