@@ -61,7 +61,7 @@ def _in_process_figure() -> Figure:
     return rate_figure(
         Rate("in process, with physics, log and trajectory", max(in_c for in_c, _ in pairs), 500_000),
         Rate("the same in Python", max(in_python for _, in_python in pairs), 12),
-        "Munk2D's step",
+        "recording, and Munk2D's step near obstacles",
     )
 
 

@@ -29,7 +29,12 @@ class FrameLog:
     """Writes a log to `PATH.part`, which replaces an old log of the same name only when it is closed, and whole.
 
     Without a path nothing is written; the digest is computed all the same.
+
+    Attributes:
+        keeps: Whether frames are worth handing over.
     """
+
+    keeps = True
 
     def __init__(self, path: Path | None = None) -> None:
         """Opens `PATH.part`.
@@ -125,6 +130,21 @@ class FrameLog:
         except OSError as error:
             self._failed = True
             raise OctetError(f"cannot write {self._part}: {error.strerror}") from error
+
+
+class NoLog(FrameLog):
+    """Takes frames and keeps nothing, not even a digest."""
+
+    keeps = False
+
+    def set_time(self, time_us: int) -> None:
+        """Does nothing."""
+
+    def add(self, frame: Frame) -> None:
+        """Does nothing."""
+
+    def add_block(self, text: bytes) -> None:
+        """Does nothing."""
 
 
 def _open_regular(path: str, flags: int) -> int:

@@ -330,6 +330,7 @@ class RobotClient:
         for frame in reports:
             decoded = self.protocol.decode(frame)
             if decoded is not None:
+                self.reports.judge(frame, decoded, self.frames.missing)
                 self.reports.take(decoded)
 
     def rest(self) -> None:

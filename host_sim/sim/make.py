@@ -6,7 +6,7 @@ from contextlib import ExitStack, contextmanager
 from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.connection import Connection, connect
 from host_sim.client.commands import start
-from host_sim.client.frame_log import FrameLog
+from host_sim.client.frame_log import FrameLog, NoLog
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
@@ -66,7 +66,7 @@ def make(
     _check(config, world_of(config.world))
     with ExitStack() as stack:
         if log is None:
-            log = FrameLog()
+            log = NoLog()
             stack.callback(log.close)
         clients = []
         lines = BusLines(config.bus, config.nodes, config.bitrate, config.reconnect_s)

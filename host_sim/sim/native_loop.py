@@ -110,13 +110,15 @@ class NativeLoop:
         self._loop.tick = tick
         for index, client in enumerate(self._clients):
             self._look_up(index, client)
-        self._make_room(sum(robot.waiting_count for robot in self._robots))
+        if self._log.keeps:
+            self._make_room(sum(robot.waiting_count for robot in self._robots))
         self._world.borrow()
         try:
             self._library.loop_run(self._loop, min(ticks_max, BLOCK_TICKS))
         finally:
             self._world.give_back()
-        self._log.add_block(self._ffi.buffer(self._text, self._loop.log.used)[:])
+        if self._log.keeps:
+            self._log.add_block(self._ffi.buffer(self._text, self._loop.log.used)[:])
         if self._loop.ticks:
             for index, client in enumerate(self._clients):
                 self._catch_up(index, client)
@@ -201,7 +203,7 @@ class NativeLoop:
         client.catch_up(ticks, self.last(index)[1], _frame(robot.drive), robot.received)
         client.frames.refused += robot.refused
         robot.received = robot.refused = 0
-        if robot.has_news:
+        if robot.report_count:
             client.take_reports([_frame(report) for report in robot.reports[0 : robot.report_count]])
         self._sent[index] = client.frames.sent
 

@@ -13,6 +13,8 @@ _TYPES = {
     "cpSpaceAddCollisionHandler": "struct cpCollisionHandler *(*)(struct cpSpace *, uintptr_t, uintptr_t)",
     "cpSpaceSegmentQueryFirst": "struct cpShape *(*)(struct cpSpace *, struct cpVect, struct cpVect, double, "
     "struct cpShapeFilter, struct cpSegmentQueryInfo *)",
+    "cpSpacePointQueryNearest": "struct cpShape *(*)(struct cpSpace *, struct cpVect, double, struct cpShapeFilter, "
+    "struct cpPointQueryInfo *)",
     "cpBodySetPosition": "void(*)(struct cpBody *, struct cpVect)",
     "cpBodySetAngle": "void(*)(struct cpBody *, double)",
     "cpArbiterGetShapes": "void(*)(struct cpArbiter *, struct cpShape * *, struct cpShape * *)",
@@ -23,6 +25,7 @@ _LAYOUTS = {
     "struct cpShapeFilter": "struct munk_filter",
     "struct cpContactPointSet": "struct munk_contacts",
     "struct cpSegmentQueryInfo": "struct munk_hit",
+    "struct cpPointQueryInfo": "struct munk_nearest",
     "struct cpCollisionHandler": "struct munk_handler",
 }
 

@@ -48,7 +48,7 @@ class NativeWorld:
         """
         self.arena, self._ffi, self._library = arena, ffi, library
         self._space: NativeSpace = (
-            PlainSpace(ffi, library, arena, params) if plain else MunkSpace(ffi, library, arena)
+            PlainSpace(ffi, library, arena, params) if plain else MunkSpace(ffi, library, arena, params)
         )
         bodies, food = len(arena.bodies), len(arena.food.at)
         # cffi frees what no name holds any more.

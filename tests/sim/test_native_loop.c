@@ -132,6 +132,15 @@ static void test_a_memory_is_heard_by_the_others(void)
     TEST_ASSERT_EQUAL_UINT(3, octets[1].memories);
 }
 
+static void test_without_a_text_nothing_is_logged(void)
+{
+    loop.log.text = NULL;
+    loop.log_size = 0;
+    loop_run(&loop, TICKS);
+    TEST_ASSERT_EQUAL_UINT32(TICKS, loop.ticks);
+    TEST_ASSERT_EQUAL_size_t(0, loop.log.used);
+}
+
 static void test_ticks_are_recorded(void)
 {
     world.bodies[1].feel = FEEL_FRONT;
@@ -260,6 +269,7 @@ int main(void)
     RUN_TEST(test_a_block_runs_as_many_ticks_as_asked_for);
     RUN_TEST(test_all_robots_hear_their_senses_before_any_answer_is_read);
     RUN_TEST(test_a_memory_is_heard_by_the_others);
+    RUN_TEST(test_without_a_text_nothing_is_logged);
     RUN_TEST(test_ticks_are_recorded);
     RUN_TEST(test_actions_are_counted_when_they_begin);
     RUN_TEST(test_the_pattern_is_that_of_the_tick_in_which_the_action_began);

@@ -181,6 +181,27 @@ def test_reports_that_wait_from_before_are_logged_in_the_first_tick(tmp_path):
     assert_alike(tmp_path, config, {100: start_again})
 
 
+def test_a_run_that_ends_while_a_report_is_under_way_is_the_same(tmp_path):
+    """Once a second a robot reports, some of it a tick later: what it tells again after a stop between is known."""
+    for ticks in range(95, 105):
+        config = RunConfig(seed=1, environments=1, limit_s=ticks / 50)
+
+        assert_equal(outcome(tmp_path, config, READABLE), outcome(tmp_path, config, PLAIN))
+
+
+@pytest.mark.parametrize("native", [True, False])
+def test_a_run_without_a_log_is_the_same(tmp_path, native):
+    config = RunConfig(seed=3, environments=2, limit_s=20.0)
+
+    with make(config) as simulation:
+        simulation.native = native
+        episodes = list(simulation.run())
+        digest = simulation.clients[0].log.close()
+
+    assert episodes == outcome(tmp_path, config, READABLE).episodes
+    assert digest == FrameLog().close()
+
+
 def test_a_robot_that_stays_silent_is_named():
     with make(RunConfig(environments=1)) as simulation:
         simulation.enter(1)

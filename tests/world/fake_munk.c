@@ -56,6 +56,18 @@ static struct munk_shape *query(struct munk_space *space, struct munk_vector sta
     return fake.hides ? fake_disc(BODIES - 1) : NULL;
 }
 
+static struct munk_shape *nearest(struct munk_space *space, struct munk_vector point, double distance_max,
+    struct munk_filter filter, struct munk_nearest *out)
+{
+    (void)space;
+    (void)point;
+    (void)filter;
+    if (fake.nearest_mm >= distance_max)
+        return NULL;
+    out->distance = fake.nearest_mm;
+    return fake_disc(BODIES - 1);
+}
+
 static void set_position(struct munk_body *body, struct munk_vector position)
 {
     (void)body;
@@ -81,7 +93,7 @@ static struct munk_contacts get_contacts(struct munk_arbiter *arbiter)
     return fake.contacts;
 }
 
-static const struct munk functions = {step, add_handler, query, set_position, set_angle, get_shapes, get_contacts};
+static const struct munk functions = {step, add_handler, query, nearest, set_position, set_angle, get_shapes, get_contacts};
 
 struct munk_handler *fake_handler(uintptr_t type_a, uintptr_t type_b)
 {
@@ -101,6 +113,7 @@ void fake_open(struct world *world, size_t body_count, size_t food_count)
     *world = (struct world){.params = params, .body_count = body_count, .food_count = food_count, .bodies = bodies,
         .food = food};
     fake_space = (struct munk_world){.munk = &functions, .obstacle_type = OBSTACLE, .disc_type = DISC,
+        .reach_mm = 160.0,
         .places = places, .cones = cones, .loans = loans};
     for (size_t i = 0; i < body_count; i++) {
         bodies[i].x_mm = bodies[i].y_mm = 1000.0;

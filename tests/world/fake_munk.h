@@ -19,6 +19,7 @@ struct fake_munk {
     double angle;
     bool hides;                        /* something is in every line of sight */
     struct munk_filter sight;          /* of the last query */
+    double nearest_mm;                 /* how far away the nearest obstacle is */
 };
 
 extern struct fake_munk fake;

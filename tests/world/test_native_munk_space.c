@@ -62,6 +62,63 @@ static void test_the_space_has_a_lifted_body_in_the_air(void)
     TEST_ASSERT_EQUAL_DOUBLE(1000.0, world.bodies[0].x_mm);
 }
 
+static void move(double x_mm)
+{
+    world.bodies[0].x_mm = x_mm;
+    world.space->place(&world, &world.bodies[0]);
+}
+
+static void test_a_body_that_is_alone_is_only_placed_where_it_could_feel_something(void)
+{
+    world.body_count = 1;
+    fake.nearest_mm = 260.0;
+    move(1000.0);
+    move(1099.0);
+    TEST_ASSERT_EQUAL_size_t(1, fake.steps);
+    move(1100.0);
+    TEST_ASSERT_EQUAL_size_t(2, fake.steps);
+    TEST_ASSERT_EQUAL_DOUBLE(1100.0, fake.position.x);
+}
+
+static void test_in_the_open_nothing_is_as_near_as_one_looks(void)
+{
+    world.body_count = 1;
+    fake.nearest_mm = 5000.0;
+    move(1000.0);
+    move(1600.0);
+    TEST_ASSERT_EQUAL_size_t(1, fake.steps);
+    move(1650.0);
+    TEST_ASSERT_EQUAL_size_t(2, fake.steps);
+}
+
+static void test_near_an_obstacle_and_with_others_a_body_is_always_placed(void)
+{
+    fake.nearest_mm = 260.0;
+    move(1000.0);
+    move(1001.0);
+    TEST_ASSERT_EQUAL_size_t(2, fake.steps);
+    world.body_count = 1;
+    fake.nearest_mm = 160.0;
+    move(1002.0);
+    move(1003.0);
+    TEST_ASSERT_EQUAL_size_t(4, fake.steps);
+    fake.nearest_mm = 260.0;
+    world.bodies[0].feel = FEEL_FRONT;
+    move(1004.0);
+    move(1005.0);
+    TEST_ASSERT_EQUAL_size_t(6, fake.steps);
+}
+
+static void test_a_space_is_given_back_with_the_body_at_its_place(void)
+{
+    world.body_count = 1;
+    fake.nearest_mm = 260.0;
+    move(1000.0);
+    move(1050.0);
+    munk_space_return(&fake_space);
+    TEST_ASSERT_EQUAL_DOUBLE(1050.0, fake.position.x);
+}
+
 static void test_what_is_in_a_bodys_line_of_sight_hides(void)
 {
     fake_space.places[1].sight.group = 7;
@@ -78,6 +135,10 @@ int main(void)
     RUN_TEST(test_every_pair_of_every_body_is_borrowed);
     RUN_TEST(test_the_space_has_the_body_at_its_pose);
     RUN_TEST(test_the_space_has_a_lifted_body_in_the_air);
+    RUN_TEST(test_a_body_that_is_alone_is_only_placed_where_it_could_feel_something);
+    RUN_TEST(test_in_the_open_nothing_is_as_near_as_one_looks);
+    RUN_TEST(test_near_an_obstacle_and_with_others_a_body_is_always_placed);
+    RUN_TEST(test_a_space_is_given_back_with_the_body_at_its_place);
     RUN_TEST(test_what_is_in_a_bodys_line_of_sight_hides);
     return UNITY_END();
 }

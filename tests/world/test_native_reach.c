@@ -42,7 +42,7 @@ static void test_nothing_is_reached_from_a_blocked_cell(void)
 
 static void test_a_bar_across_the_arena_parts_it(void)
 {
-    bar = (struct reach_bar){40.0, 0.0, 40.0, 60.0};
+    bar = (struct reach_bar){.ax_mm = 40.0, .ay_mm = 0.0, .bx_mm = 40.0, .by_mm = 60.0};
     reach.bar_count = 1;
     TEST_ASSERT_EQUAL_UINT(8, reached(2, 2));
     TEST_ASSERT_EQUAL_UINT8(0, cells[2 * STRIDE + 4]);
@@ -51,7 +51,7 @@ static void test_a_bar_across_the_arena_parts_it(void)
 
 static void test_a_cell_exactly_at_the_limit_is_free(void)
 {
-    bar = (struct reach_bar){0.0, 27.0, 80.0, 27.0};   /* its face is 10 mm off the middles of row 2 */
+    bar = (struct reach_bar){.ax_mm = 0.0, .ay_mm = 27.0, .bx_mm = 80.0, .by_mm = 27.0};   /* its face is 10 mm off the middles of row 2 */
     reach.bar_count = 1;
     TEST_ASSERT_EQUAL_UINT(6, reached(2, 2));
     bar.ay_mm = bar.by_mm = 26.999;

@@ -13,12 +13,18 @@ struct turn {
 
 enum { TURNS_MAX = NODE_MAX };
 
+static void log_frame(struct loop *loop, const struct frame *frame)
+{
+    if (loop->log.text)
+        log_lines_add(&loop->log, frame);
+}
+
 static void send_senses(struct loop *loop, struct loop_robot *robot, const struct senses *senses)
 {
     struct frame frame = {0};
 
     robot_wire_senses(robot, senses, &frame);
-    log_lines_add(&loop->log, &frame);
+    log_frame(loop, &frame);
     robot->answer_count = loop->exchange(robot->octet, &frame);
 }
 
@@ -36,7 +42,7 @@ static bool take_frame(struct loop *loop, struct loop_robot *robot, const struct
     else
         robot_wire_report(robot, frame);
     robot->received++;
-    log_lines_add(&loop->log, frame);
+    log_frame(loop, frame);
     return is_drive;
 }
 
@@ -157,7 +163,8 @@ static bool run_tick(struct loop *loop)
     struct turn turns[TURNS_MAX];
     bool goes_on = true;
 
-    log_lines_stamp(&loop->log, (uint64_t)rint(loop->tick * loop->world->params.tick_s * 1e6));
+    if (loop->log.text)
+        log_lines_stamp(&loop->log, (uint64_t)rint(loop->tick * loop->world->params.tick_s * 1e6));
     if (!exchange(loop, turns))
         return false;
     pass_memories_on(loop);
@@ -176,7 +183,7 @@ static bool has_room(const struct loop *loop)
 
     for (size_t i = 0; i < loop->robot_count; i++)
         lines += 1 + LOOP_FRAMES_MAX + loop->robots[i].waiting_count;
-    return loop->log_size - loop->log.used >= lines * LOG_LINE_MAX;
+    return !loop->log.text || loop->log_size - loop->log.used >= lines * LOG_LINE_MAX;
 }
 
 void loop_run(struct loop *loop, uint32_t ticks_max)

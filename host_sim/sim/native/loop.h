@@ -58,13 +58,14 @@ struct loop {
     struct loop_robot *robots;
     uint32_t tick;                    /* number of the next tick */
     uint32_t ticks;                   /* done in the block */
-    struct log_lines log;
+    struct log_lines log;             /* without text: nothing is logged */
     size_t log_size;
     int32_t silent;                   /* the robot that did not answer; -1: none */
 };
 
 void loop_run(struct loop *loop, uint32_t ticks_max);
-        /* Runs a block of ticks. The log must have room for one tick's lines. It ends earlier after a tick in which food was eaten or a robot reported something new,
-           when the log is full, and when a robot does not answer; that tick is not counted. */
+        /* Runs a block of ticks. The log must have room for one tick's lines. It ends earlier after a tick in
+           which food was eaten or a robot reported something new, when the log is full, and when a robot does not answer;
+           that tick is not counted. */
 
 #endif

@@ -40,6 +40,13 @@ struct munk_hit {
     double alpha;
 };
 
+struct munk_nearest {
+    const struct munk_shape *shape;
+    struct munk_vector point;
+    double distance;
+    struct munk_vector gradient;
+};
+
 /* What is called when two shapes begin to touch, in each step in which they do, and when they cease to. */
 struct munk_handler {
     uintptr_t type_a;
@@ -57,6 +64,8 @@ struct munk {
     struct munk_handler *(*cpSpaceAddCollisionHandler)(struct munk_space *space, uintptr_t type_a, uintptr_t type_b);
     struct munk_shape *(*cpSpaceSegmentQueryFirst)(struct munk_space *space, struct munk_vector start,
         struct munk_vector end, double radius, struct munk_filter filter, struct munk_hit *out);
+    struct munk_shape *(*cpSpacePointQueryNearest)(struct munk_space *space, struct munk_vector point,
+        double distance_max, struct munk_filter filter, struct munk_nearest *out);
     void (*cpBodySetPosition)(struct munk_body *body, struct munk_vector position);
     void (*cpBodySetAngle)(struct munk_body *body, double angle);
     void (*cpArbiterGetShapes)(struct munk_arbiter *arbiter, struct munk_shape **a, struct munk_shape **b);

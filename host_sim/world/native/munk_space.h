@@ -34,6 +34,9 @@ struct munk_world {
     struct world *world;
     uintptr_t obstacle_type;   /* collision types of obstacles and of the bodies' discs */
     uintptr_t disc_type;
+    double reach_mm;           /* of a body's cones, from its centre to their farthest corners */
+    double free_mm;            /* how far a body that is alone may go before it could feel anything; 0: not known */
+    struct vector placed;      /* where the space last had that body */
     struct munk_place *places; /* one for each body */
     struct munk_cone *cones;   /* WORLD_CONES for each body */
     struct munk_loan *loans;   /* MUNK_LOANS in all, and MUNK_LOANS_EACH for each body */

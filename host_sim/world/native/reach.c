@@ -5,6 +5,22 @@
 
 static const double DOUBT = 1e-9;   /* of a squared distance: far more than rounding, far less than matters */
 
+/* A wider limit than the bar's: beyond it there is no doubt. */
+static void set_box(const struct reach *reach, struct reach_bar *bar)
+{
+    double limit = (reach->room_mm + reach->bar_radius_mm) * (1.0 + DOUBT);
+
+    bar->left_mm = (bar->ax_mm < bar->bx_mm ? bar->ax_mm : bar->bx_mm) - limit;
+    bar->right_mm = (bar->ax_mm < bar->bx_mm ? bar->bx_mm : bar->ax_mm) + limit;
+    bar->top_mm = (bar->ay_mm < bar->by_mm ? bar->ay_mm : bar->by_mm) - limit;
+    bar->bottom_mm = (bar->ay_mm < bar->by_mm ? bar->by_mm : bar->ay_mm) + limit;
+}
+
+static bool is_off_the_box(const struct reach_bar *bar, double x, double y)
+{
+    return x < bar->left_mm || x > bar->right_mm || y < bar->top_mm || y > bar->bottom_mm;
+}
+
 static bool is_clear_of(const struct reach *reach, const struct reach_bar *bar, double x, double y)
 {
     double dx = bar->bx_mm - bar->ax_mm, dy = bar->by_mm - bar->ay_mm;
@@ -25,10 +41,12 @@ static bool is_free(const struct reach *reach, uint32_t row, uint32_t column)
 {
     double x = (column + 0.5) * reach->cell_mm, y = (row + 0.5) * reach->cell_mm;
 
-    if (fmin(fmin(x, reach->width_mm - x), fmin(y, reach->height_mm - y)) < reach->room_mm)
+    if (x < reach->room_mm || reach->width_mm - x < reach->room_mm)
+        return false;
+    if (y < reach->room_mm || reach->height_mm - y < reach->room_mm)
         return false;
     for (size_t i = 0; i < reach->bar_count; i++)
-        if (!is_clear_of(reach, &reach->bars[i], x, y))
+        if (!is_off_the_box(&reach->bars[i], x, y) && !is_clear_of(reach, &reach->bars[i], x, y))
             return false;
     return true;
 }
@@ -68,6 +86,8 @@ void reach_find(const struct reach *reach, uint32_t start, uint8_t *cells)
 {
     size_t count = (size_t)(reach->rows + 2) * (reach->columns + 2);
 
+    for (size_t i = 0; i < reach->bar_count; i++)
+        set_box(reach, &reach->bars[i]);
     for (size_t i = 0; i < count; i++)
         cells[i] = UNKNOWN;
     flood(reach, start, cells);

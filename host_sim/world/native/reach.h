@@ -10,6 +10,10 @@ struct reach_bar {
     double ay_mm;
     double bx_mm;
     double by_mm;
+    double left_mm;   /* the box of the places that are too near to it: set by reach_find */
+    double top_mm;
+    double right_mm;
+    double bottom_mm;
 };
 
 struct reach {
@@ -21,7 +25,7 @@ struct reach {
     uint32_t rows;               /* of the grid, without its border of one blocked cell */
     uint32_t columns;
     size_t bar_count;
-    const struct reach_bar *bars;
+    struct reach_bar *bars;
     uint32_t *stack;             /* room for as many cells as there are, with the border */
 };
 
