@@ -171,3 +171,32 @@
  *   | {do: "lift", node: number}
  *   | {do: "put", node: number, at: WirePlace, heading: number}} Command
  */
+
+/**
+ * How a robot of an experiment is started.
+ * @typedef {Object} RobotSetup
+ * @property {string} profile
+ * @property {Record<string, number>} settings
+ * @property {number[] | null} memory
+ */
+
+/**
+ * What a person changes between two ticks: the world, as in world files, or a robot, counted from 0. A start is that of
+ * the robot with another behaviour; its memory stays.
+ * @typedef {import("./world_edits.js").WorldEdit
+ *   | {do: "write", robot: number, cell: number, side: number}
+ *   | {do: "erase", robot: number}
+ *   | {do: "freeze", robot: number, on: number}
+ *   | {do: "set", robot: number, parameter: string, value: number}
+ *   | {do: "start", robot: number, profile: string}} Change
+ */
+
+/**
+ * All that a simulated run depends on. Changes are made before the senses of their tick, and are in the order of ticks.
+ * @typedef {Object} Experiment
+ * @property {number} seed
+ * @property {number} environments
+ * @property {number} limit_ticks
+ * @property {RobotSetup[]} robots
+ * @property {(Change & {tick: number})[]} changes
+ */
