@@ -151,7 +151,7 @@ function addSpan(parent, name) {
  * The robot from above with its three front sensors, those of the pattern lit.
  * @param {number} pattern
  */
-function pictureOf(pattern) {
+export function pictureOf(pattern) {
   const svg = document.createElementNS(SVG, "svg");
   svg.setAttribute("viewBox", "-34 -34 68 50");
   svg.setAttribute("aria-hidden", "true");

@@ -59,6 +59,16 @@ export class NativeRun {
   }
 
   /**
+   * What a COMMAND says, as in `struct command`.
+   * @param {Uint8Array} data
+   */
+  readCommand(data) {
+    this.bytes.set(data);
+    const opcode = this.c.page_read_command();
+    return { opcode, which: this.c.page_command_which(), value: this.c.page_command_value() >>> 0 };
+  }
+
+  /**
    * A robot's eight bytes.
    * @param {number} robot
    */

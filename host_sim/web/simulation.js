@@ -62,14 +62,20 @@ export class Simulation {
    * @returns {Generator<number, void>} The number of each.
    */
   *run() {
-    const { environments, limit_ticks } = this.experiment;
-    for (let number = 1; number <= environments; number += 1) {
+    const { environments, limit_ticks, ticks_max = Infinity } = this.experiment;
+    for (let number = 1; number <= environments && this.tick < ticks_max; number += 1) {
       this.enter(number);
-      const end = this.tick + limit_ticks;
+      const end = Math.min(this.tick + limit_ticks, ticks_max);
       while (this.tick < end && this.eaten.includes(0)) this.runBlock(end);
       yield number;
     }
     for (const robot of this.bodies.keys()) this.stop(robot);
+  }
+
+  /** Runs all that is left. */
+  finish() {
+    const run = this.run();
+    while (!run.next().done) continue;
   }
 
   /** What was recorded so far. */
@@ -296,7 +302,7 @@ export class Simulation {
     this.putDown(robot, [...at, heading / 1000]);
   }
 
-  /** @param {Extract<Change, {do: "write" | "erase" | "freeze" | "set" | "start"}>} change */
+  /** @param {Exclude<Change, import("./world_edits.js").WorldEdit>} change */
   changeRobot(change) {
     const { robot } = change;
     const { history } = this.recorder.tracks[robot];
@@ -304,6 +310,7 @@ export class Simulation {
     if (change.do === "write") this.writeSide(robot, change.cell, change.side);
     else if (change.do === "erase") this.command(robot, OPCODE.ERASE);
     else if (change.do === "set") this.set(robot, change.parameter, change.value);
+    else if (change.do === "command") this.command(robot, change.opcode, change.which, change.value);
     else if (change.do === "freeze") {
       this.native.command(robot, OPCODE.FREEZE, change.on);
       history.frozen = change.on;

@@ -182,13 +182,14 @@
 
 /**
  * What a person changes between two ticks: the world, as in world files, or a robot, counted from 0. A start is that of
- * the robot with another behaviour; its memory stays.
+ * the robot with another behaviour; its memory stays. A command is one as a log has it: `struct command`.
  * @typedef {import("./world_edits.js").WorldEdit
  *   | {do: "write", robot: number, cell: number, side: number}
  *   | {do: "erase", robot: number}
  *   | {do: "freeze", robot: number, on: number}
  *   | {do: "set", robot: number, parameter: string, value: number}
- *   | {do: "start", robot: number, profile: string}} Change
+ *   | {do: "start", robot: number, profile: string}
+ *   | {do: "command", robot: number, opcode: number, which: number, value: number}} Change
  */
 
 /**
@@ -199,4 +200,5 @@
  * @property {number} limit_ticks
  * @property {RobotSetup[]} robots
  * @property {(Change & {tick: number})[]} changes
+ * @property {number} [ticks_max] - Of a run that was ended early.
  */

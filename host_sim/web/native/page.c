@@ -154,6 +154,46 @@ int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t v
     return -1;
 }
 
+static struct command command_of(const struct octet_command_t *message)
+{
+    uint32_t bytes = message->byte_0 | (uint32_t)message->byte_1 << 8 | (uint32_t)message->byte_2 << 16
+                     | (uint32_t)message->byte_3 << 24;
+    struct command command = {.opcode = (enum opcode)message->opcode};
+
+    if (command.opcode == OPCODE_START) {
+        command.which = message->profile;
+        command.value = message->seed;
+    } else if (command.opcode == OPCODE_SET) {
+        command.which = message->parameter;
+        command.value = message->value;
+    } else if (command.opcode == OPCODE_WRITE) {
+        command.which = (uint8_t)(message->half << HALF | message->mask);
+        command.value = bytes;
+    } else if (command.opcode == OPCODE_FREEZE) {
+        command.which = message->freeze;
+    }
+    return command;
+}
+
+uint32_t page_read_command(void)
+{
+    struct octet_command_t message = {0};
+
+    (void)octet_command_unpack(&message, page_bytes(), OCTET_COMMAND_LENGTH);
+    page_state()->command = command_of(&message);
+    return page_state()->command.opcode;
+}
+
+uint32_t page_command_which(void)
+{
+    return page_state()->command.which;
+}
+
+uint32_t page_command_value(void)
+{
+    return page_state()->command.value;
+}
+
 void page_send_ranges(uint32_t robot, uint32_t tick)
 {
     const struct loop_robot *to = &page_state()->robots[robot];

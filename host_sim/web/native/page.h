@@ -41,6 +41,7 @@ struct page {
     struct frame waiting[PAGE_ROBOTS_MAX][PAGE_WAITING_MAX];
     uint8_t counters[PAGE_ROBOTS_MAX];   /* of the last command */
     uint32_t answer_value;
+    struct command command;              /* read last */
     uint8_t bytes[PAGE_BYTES];
     double dimensions[PAGE_DIMENSIONS];
 };
@@ -67,6 +68,15 @@ int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t v
 
 uint32_t page_answer_value(void);
         /* The value of that answer. */
+
+uint32_t page_read_command(void);
+        /* Reads page_bytes() as a COMMAND. Returns its opcode, */
+
+uint32_t page_command_which(void);
+        /* and then what struct command has of it: which */
+
+uint32_t page_command_value(void);
+        /* and value. */
 
 void page_send_ranges(uint32_t robot, uint32_t tick);
         /* Sends and logs the distances in page_bytes(), which go before the senses of a tick. */
