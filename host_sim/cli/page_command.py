@@ -22,8 +22,7 @@ def add(commands: "Subparsers") -> None:
         "page",
         _page,
         summary="write the robot and its world as one web page",
-        description="Writes a page with the robot's own firmware and its world as WebAssembly. It needs no server and "
-        "no network.",
+        description="Writes a page with the robot's own firmware and its world. It needs no server and no network.",
         epilog=_EXAMPLE,
     )
     parser.add_argument("file", type=Path, metavar="FILE", help="the page to write, such as octet.html")

@@ -159,7 +159,7 @@ class LabPage {
       lane.take(run);
       lane.go(this.tick, true);
       if (isFirst || lane === this.lane) this.onScene();
-      for (const [, why] of refusals ?? []) this.refuse(lane, why);
+      for (const [place, why] of refusals ?? []) this.refuse(lane, place, why);
       if (done) this.onResize();
       setText(byId("status"), done ? "the real firmware, in this page" : "running ahead");
     });
@@ -168,12 +168,15 @@ class LabPage {
   /**
    * A change could not be made: it goes.
    * @param {Lane} lane
+   * @param {number} place - Of the change among the experiment's.
    * @param {string} why
    */
-  refuse(lane, why) {
+  refuse(lane, place, why) {
     this.note.show(why);
     this.editor?.onRefusal();
-    if (lane.undo()) this.simulate(lane);
+    const changes = lane.experiment.changes.filter((_, i) => i !== place);
+    lane.experiment = { ...lane.experiment, changes };
+    this.simulate(lane);
   }
 
   /**
@@ -256,7 +259,7 @@ class LabPage {
       each.figure.classList.toggle("selected", each === lane);
     }
     this.panel.settle(scene, !this.playing);
-    this.panel.show(scene, { exact: !this.playing, then: this.otherMemory() });
+    this.panel.show(scene, { exact: !this.playing, ...this.otherMemory() });
     this.picker?.show();
     this.desk.show();
     this.showParting();
@@ -268,7 +271,8 @@ class LabPage {
   /** The memory in the first other run, to compare with. */
   otherMemory() {
     const other = this.lanes.find((lane) => lane !== this.lane && lane.scene);
-    return other?.scene?.states[Math.min(this.lane.robot, other.scene.states.length - 1)].memory;
+    const states = other?.scene?.states ?? [];
+    return { then: states[Math.min(this.lane.robot, states.length - 1)]?.memory, where: `in ${other?.name}` };
   }
 
   showParting() {
