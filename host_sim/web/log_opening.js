@@ -11,7 +11,7 @@ import { Simulation } from "./simulation.js";
  * @typedef {import("./types.js").Change} Change
  * @typedef {import("./types.js").Experiment} Experiment
  * @typedef {import("./types.js").RobotSetup} RobotSetup
- * @typedef {import("./world_edits.js").WorldEdit} WorldEdit
+ * @typedef {import("./types.js").WorldEdit} WorldEdit
  *
  * @typedef {{experiment: Experiment, news: string}} Opened
  *

@@ -24,7 +24,7 @@ import { AXES, ROW } from "./native_run.js";
 const PLACES = {
   lifted: 15, feel: 1, bump: 2, beacon: 4, left: 8, right: 9, reason: 10, repeat_count: 11, action: 12, pattern: 14,
 };
-const EAT = 13;
+const MEAL_PLACE = 13;
 /** Of x, y and heading in a column. */
 const SCALES = /** @type {const} */ ([["x", 10], ["y", 10], ["heading", 1000]]);
 const NAMES = ["x", "y", "heading", ...Object.keys(PLACES), "frozen"];
@@ -121,7 +121,7 @@ class Track {
       this.take(this.ticks + tick, tickOf(block.rows, tick), tick === last ? after : before);
     }
     this.isNew = false;
-    this.eats = block.rows[last * ROW + EAT] !== 0;
+    this.eats = block.rows[last * ROW + MEAL_PLACE] !== 0;
     this.append(block);
   }
 

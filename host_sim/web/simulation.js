@@ -271,10 +271,10 @@ export class Simulation {
   /** @param {Change} change */
   change(change) {
     if ("robot" in change && change.do !== "lift" && change.do !== "put") this.changeRobot(change);
-    else this.changeWorld(/** @type {import("./world_edits.js").WorldEdit} */ (change));
+    else this.changeWorld(/** @type {import("./types.js").WorldEdit} */ (change));
   }
 
-  /** @param {import("./world_edits.js").WorldEdit} edit */
+  /** @param {import("./types.js").WorldEdit} edit */
   changeWorld(edit) {
     if (edit.do === "lift") this.lift(edit.robot ?? 0);
     else if (edit.do === "put") this.put(edit.robot ?? 0, edit);
@@ -302,7 +302,7 @@ export class Simulation {
     this.putDown(robot, [...at, heading / 1000]);
   }
 
-  /** @param {Exclude<Change, import("./world_edits.js").WorldEdit>} change */
+  /** @param {Exclude<Change, import("./types.js").WorldEdit>} change */
   changeRobot(change) {
     const { robot } = change;
     const { history } = this.recorder.tracks[robot];

@@ -181,9 +181,19 @@
  */
 
 /**
+ * A change of the world, as world files have it.
+ * @typedef {{do: "add_bar", a: [number, number], b: [number, number]}
+ *   | {do: "move_bar", id: number, a: [number, number], b: [number, number]}
+ *   | {do: "remove_bar", id: number}
+ *   | {do: "move_food", id: number, at: [number, number]}
+ *   | {do: "lift", robot?: number}
+ *   | {do: "put", robot?: number, at: [number, number], heading: number}} WorldEdit
+ */
+
+/**
  * What a person changes between two ticks: the world, as in world files, or a robot, counted from 0. A start is that of
  * the robot with another behaviour; its memory stays. A command is one as a log has it: `struct command`.
- * @typedef {import("./world_edits.js").WorldEdit
+ * @typedef {WorldEdit
  *   | {do: "write", robot: number, cell: number, side: number}
  *   | {do: "erase", robot: number}
  *   | {do: "freeze", robot: number, on: number}

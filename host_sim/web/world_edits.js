@@ -8,17 +8,10 @@ import { clearance } from "./layouts.js";
  * @typedef {import("./layouts.js").Layout} Layout
  * @typedef {import("./layouts.js").Pose} Pose
  * @typedef {import("./layouts.js").SimParams} SimParams
+ * @typedef {import("./types.js").WorldEdit} WorldEdit
  *
  * Where a robot is, and whether a person holds it.
  * @typedef {{x: number, y: number, lifted: boolean}} Standing
- *
- * A change of the world, as world files have it.
- * @typedef {{do: "add_bar", a: [number, number], b: [number, number]}
- *   | {do: "move_bar", id: number, a: [number, number], b: [number, number]}
- *   | {do: "remove_bar", id: number}
- *   | {do: "move_food", id: number, at: [number, number]}
- *   | {do: "lift", robot?: number}
- *   | {do: "put", robot?: number, at: [number, number], heading: number}} WorldEdit
  */
 
 /** A change that cannot be made. */
