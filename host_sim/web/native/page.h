@@ -26,6 +26,7 @@ enum { PAGE_WIDTH_MM, PAGE_HEIGHT_MM, PAGE_BODY_MM, PAGE_TRACK_MM, PAGE_REACH_MM
 struct page_world {
     struct world world;
     struct plain_world space;
+    struct cones cones;
     struct body bodies[PAGE_ROBOTS_MAX];
     struct food food[PAGE_FOOD_MAX];
     struct capsule capsules[WALLS + PAGE_BARS_MAX];

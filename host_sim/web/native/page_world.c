@@ -20,12 +20,12 @@ static void set_world(struct page_world *of, const double dimensions[PAGE_DIMENS
     };
     of->space = (struct plain_world){
         .body_radius_mm = d[PAGE_BODY_MM],
-        .sensor_reach_mm = d[PAGE_REACH_MM],
-        .front_extra_mm = d[PAGE_FRONT_EXTRA_MM],
+        .cones = &of->cones,
         .capsules = of->capsules,
         .places = of->places,
         .touching = of->touching,
     };
+    cones_set(&of->cones, d[PAGE_BODY_MM] + d[PAGE_REACH_MM], d[PAGE_FRONT_EXTRA_MM]);
     of->world.bodies = of->bodies;
     of->world.food = of->food;
 }
