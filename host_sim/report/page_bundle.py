@@ -15,14 +15,16 @@ from host_sim.paths import WEB
 
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w.-]+)">')
 _SCRIPT = re.compile(r'<script type="module" src="([\w.-]+)"></script>')
+_WORKER = re.compile(r'(<script type="text/plain" id="[\w-]+" data-module="([\w.-]+)">)</script>')
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "\./([\w.-]+)";$', re.MULTILINE)
-_EXPORT = re.compile(r"^export ((?:async )?(?:function|const|let|class) (\w+))", re.MULTILINE)
+_EXPORT = re.compile(r"^export ((?:async )?(?:function\*?|const|let|class) (\w+))", re.MULTILINE)
 
 
 def page_of(template: str) -> str:
     """A template with its style sheet and its modules inserted."""
     text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", _read(template))
-    return _SCRIPT.sub(lambda match: f'<script type="module">\n{bundle(match[1])}</script>', text)
+    text = _SCRIPT.sub(lambda match: f'<script type="module">\n{bundle(match[1])}</script>', text)
+    return _WORKER.sub(lambda match: f"{match[1]}\n{bundle(match[2])}</script>", text)
 
 
 def with_data(text: str, element_id: str, data: object) -> str:

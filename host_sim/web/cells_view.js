@@ -8,9 +8,10 @@ import { CONES, patternBit } from "./sensors.js";
 /**
  * @typedef {import("./scene.js").Scene} Scene
  *
- * What a cell shows; `then` is what it held at another time.
+ * What a cell shows; `then` is what it held at another time,
+ * or in another run.
  * @typedef {{cell: number, side: number, when: string, byHand: boolean, uses: number, inUse: boolean, trying: number,
- *   then: number | null}} Facts
+ *   then: number | null, where: string}} Facts
  *
  * The elements of a cell.
  * @typedef {{button: HTMLElement, name: HTMLElement, side: HTMLElement, history: HTMLElement, then: HTMLElement}} Parts
@@ -36,11 +37,12 @@ export class CellsView {
 
   /**
    * @param {Scene} scene
-   * @param {number[]} [then] - A memory to compare with.
+   * @param {number[]} [then] - A memory to compare with,
+   * @param {string} [where] - and when or where it is.
    */
-  show(scene, then) {
+  show(scene, then, where = "then") {
     this.cells.forEach((parts, cell) => {
-      const facts = factsOf(scene, cell, then);
+      const facts = { ...factsOf(scene, cell, then), where };
       const key = JSON.stringify(facts);
       if (this.shown[cell] !== key) fillCell(parts, facts);
       this.shown[cell] = key;
@@ -52,7 +54,7 @@ export class CellsView {
  * @param {Scene} scene
  * @param {number} cell
  * @param {number[]} [then]
- * @returns {Facts}
+ * @returns {Omit<Facts, "where">}
  */
 function factsOf(scene, cell, then) {
   const { state } = scene;
@@ -81,7 +83,7 @@ function fillCell(parts, facts) {
   button.classList.toggle("changed", facts.then !== null && facts.then !== facts.side);
   parts.side.textContent = sideWords(facts);
   parts.history.textContent = historyOf(facts);
-  parts.then.textContent = facts.then === null ? "" : `then: ${facts.then ? SIDES[facts.then] : "empty"}`;
+  parts.then.textContent = facts.then === null ? "" : `${facts.where}: ${facts.then ? SIDES[facts.then] : "empty"}`;
   const words = [parts.name, parts.side, parts.history, parts.then].map(({ textContent }) => textContent);
   button.setAttribute("aria-label", `Cell ${facts.cell}, ${words.filter(Boolean).join(", ")}`);
 }
@@ -151,7 +153,7 @@ function addSpan(parent, name) {
  * The robot from above with its three front sensors, those of the pattern lit.
  * @param {number} pattern
  */
-function pictureOf(pattern) {
+export function pictureOf(pattern) {
   const svg = document.createElementNS(SVG, "svg");
   svg.setAttribute("viewBox", "-34 -34 68 50");
   svg.setAttribute("aria-hidden", "true");

@@ -26,19 +26,27 @@ export function replayLog(module, text) {
   /** @type {string[][]} */
   const answers = Array.from({ length: ROBOTS_MAX }, () => []);
   let frames = 0;
-  for (const [index, line] of text.split("\n").entries()) {
-    const frame = line && frameOf(line, index + 1);
-    if (!frame) continue;
+  for (const { line, robot, base, words, data } of framesOf(text)) {
     frames += 1;
-    const { robot, base, words, data } = frame;
     if (TO_ROBOT.includes(base)) {
       for (const said of run.exchange(robot, { id: base + robot, data })) answers[robot].push(wordsOf(said));
     } else {
       const replayed = answers[robot].shift() ?? "nothing";
-      if (replayed !== words) return { frames, difference: { line: index + 1, recorded: words, replayed } };
+      if (replayed !== words) return { frames, difference: { line, recorded: words, replayed } };
     }
   }
   return { frames, difference: undefined };
+}
+
+/**
+ * The frames of a log that are a robot's.
+ * @param {string} text
+ */
+export function* framesOf(text) {
+  for (const [index, line] of text.split("\n").entries()) {
+    const frame = line && frameOf(line, index + 1);
+    if (frame) yield { line: index + 1, ...frame };
+  }
 }
 
 /**

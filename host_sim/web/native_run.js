@@ -17,6 +17,9 @@ const LENGTH_AT = 4;
 const DATA_AT = 5;
 /** As in native/page.h. */
 export const ROBOTS_MAX = 4;
+/** Numbers of a tick and of a pose: LOOP_ROW and LOOP_POSE in host_sim/sim/native/loop.h. */
+export const ROW = 17;
+export const AXES = 3;
 
 /** A run's robots, with an empty memory each. */
 export class NativeRun {
@@ -56,6 +59,16 @@ export class NativeRun {
   }
 
   /**
+   * What a COMMAND says, as in `struct command`.
+   * @param {Uint8Array} data
+   */
+  readCommand(data) {
+    this.bytes.set(data);
+    const opcode = this.c.page_read_command();
+    return { opcode, which: this.c.page_command_which(), value: this.c.page_command_value() >>> 0 };
+  }
+
+  /**
    * A robot's eight bytes.
    * @param {number} robot
    */
@@ -76,6 +89,27 @@ export class NativeRun {
     const lines = this.bytesAt(this.c.page_log(), this.c.page_log_used()).slice();
     this.c.page_clear_log();
     return lines;
+  }
+
+  /** What C has recorded of a robot in the last block, which had so many ticks.
+   * @param {number} robot
+   * @param {number} ticks
+   */
+  block(robot, ticks) {
+    const { c } = this;
+    const { buffer } = c.memory;
+    const rows = new Int16Array(buffer, c.page_rows(robot), ticks * ROW);
+    const poses = new Float64Array(buffer, c.page_poses(robot), ticks * AXES);
+    return { ticks, rows, poses, decisions: new Uint32Array(buffer, c.page_decisions(robot), c.page_decision_count(robot)) };
+  }
+
+  /**
+   * Builds an arena.
+   * @param {number[]} dimensions - In the order of native/page.h.
+   */
+  build(dimensions) {
+    new Float64Array(this.c.memory.buffer, this.c.page_dimensions(), dimensions.length).set(dimensions);
+    this.c.page_build();
   }
 
   /** What is handed over to C. */

@@ -44,15 +44,16 @@ export class Panel {
 
   /**
    * @param {Scene} scene
-   * @param {{exact: boolean, then?: number[]}} how - Whether to tell every move, and a memory to compare with.
+   * @param {{exact: boolean, then?: number[], where?: string}} how - Whether to tell every move, and a memory to compare
+   *   with, and when or where it is.
    */
-  show(scene, { exact, then }) {
+  show(scene, { exact, then, where }) {
     const { state, measures } = scene;
     this.showSentence(scene.shown.get(state.node) ?? state, exact);
     this.showBoredom(state, measures);
     this.showFacts(scene);
     setText(byId("memory-title"), scene.states.length > 1 ? MEMORY.replace(":", ` of robot ${state.node}:`) : MEMORY);
-    this.cells.show(scene, then);
+    this.cells.show(scene, then, where);
   }
 
   /**

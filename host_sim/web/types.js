@@ -171,3 +171,44 @@
  *   | {do: "lift", node: number}
  *   | {do: "put", node: number, at: WirePlace, heading: number}} Command
  */
+
+/**
+ * How a robot of an experiment is started.
+ * @typedef {Object} RobotSetup
+ * @property {string} profile
+ * @property {Record<string, number>} settings
+ * @property {number[] | null} memory
+ */
+
+/**
+ * A change of the world, as world files have it.
+ * @typedef {{do: "add_bar", a: [number, number], b: [number, number]}
+ *   | {do: "move_bar", id: number, a: [number, number], b: [number, number]}
+ *   | {do: "remove_bar", id: number}
+ *   | {do: "move_food", id: number, at: [number, number]}
+ *   | {do: "lift", robot?: number}
+ *   | {do: "put", robot?: number, at: [number, number], heading: number}} WorldEdit
+ */
+
+/**
+ * What a person changes between two ticks: the world, as in world files, or a robot, counted from 0. A start is that of
+ * the robot with another behaviour; its memory stays. A command is one as a log has it: `struct command`.
+ * @typedef {WorldEdit
+ *   | {do: "write", robot: number, cell: number, side: number}
+ *   | {do: "erase", robot: number}
+ *   | {do: "freeze", robot: number, on: number}
+ *   | {do: "set", robot: number, parameter: string, value: number}
+ *   | {do: "start", robot: number, profile: string}
+ *   | {do: "command", robot: number, opcode: number, which: number, value: number}} Change
+ */
+
+/**
+ * All that a simulated run depends on. Changes are made before the senses of their tick, and are in the order of ticks.
+ * @typedef {Object} Experiment
+ * @property {number} seed
+ * @property {number} environments
+ * @property {number} limit_ticks
+ * @property {RobotSetup[]} robots
+ * @property {(Change & {tick: number})[]} changes
+ * @property {number} [ticks_max] - Of a run that was ended early.
+ */

@@ -97,7 +97,7 @@ class Faults:
             self.seen.append(f"console {kind}: {text}")
 
     def _request(self, url: str) -> None:
-        if not url.startswith((self.home, "data:")):
+        if not url.startswith((self.home, "data:", "blob:")):
             self.seen.append(f"request: {url}")
 
 

@@ -23,6 +23,7 @@ def module(robot: Description) -> str:
         for p in robot.parameters
     }
     exports["NODE_MAX"] = robot.node_max
+    exports["RANGE_NONE"] = robot.range_none
     exports["ANSWER_WANTS_RANGES"] = robot.answer_wants_ranges
     exports["FRAMES"] = {message.name: message.frame_id for message in robot.messages}
     lines = [f"export const {name} = {_literal(value)};" for name, value in exports.items()]

@@ -154,6 +154,67 @@ int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t v
     return -1;
 }
 
+static struct command command_of(const struct octet_command_t *message)
+{
+    uint32_t bytes = message->byte_0 | (uint32_t)message->byte_1 << 8 | (uint32_t)message->byte_2 << 16
+                     | (uint32_t)message->byte_3 << 24;
+    struct command command = {.opcode = (enum opcode)message->opcode};
+
+    if (command.opcode == OPCODE_START) {
+        command.which = message->profile;
+        command.value = message->seed;
+    } else if (command.opcode == OPCODE_SET) {
+        command.which = message->parameter;
+        command.value = message->value;
+    } else if (command.opcode == OPCODE_WRITE) {
+        command.which = (uint8_t)(message->half << HALF | message->mask);
+        command.value = bytes;
+    } else if (command.opcode == OPCODE_FREEZE) {
+        command.which = message->freeze;
+    }
+    return command;
+}
+
+uint32_t page_read_command(void)
+{
+    struct octet_command_t message = {0};
+
+    (void)octet_command_unpack(&message, page_bytes(), OCTET_COMMAND_LENGTH);
+    page_state()->command = command_of(&message);
+    return page_state()->command.opcode;
+}
+
+uint32_t page_command_which(void)
+{
+    return page_state()->command.which;
+}
+
+uint32_t page_command_value(void)
+{
+    return page_state()->command.value;
+}
+
+void page_send_ranges(uint32_t robot, uint32_t tick)
+{
+    const struct loop_robot *to = &page_state()->robots[robot];
+    const uint8_t *range = page_bytes();
+    struct frame frame = {.id = wire_id(&octet_of(robot)->wire, OCTET_RANGES_FRAME_ID), .len = OCTET_RANGES_LENGTH};
+    const struct octet_ranges_t message = {
+        .counter = e2e_next(to->senses_counter),
+        .tick = (uint8_t)(tick & (TICK_SPAN - 1)),
+        .range_right = range[0],
+        .range_front_right = range[1],
+        .range_front = range[2],
+        .range_front_left = range[3],
+        .range_left = range[4],
+    };
+
+    (void)octet_ranges_pack(frame.data, &message, sizeof frame.data);
+    e2e_protect(&frame);
+    log_lines_add(&page_state()->loop.log, &frame);
+    hear(robot, &frame);
+}
+
 uint32_t page_answer_value(void)
 {
     return page_state()->answer_value;

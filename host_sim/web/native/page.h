@@ -7,22 +7,44 @@
 
 #include "hal/library/exchange.h"
 #include "host_sim/sim/native/loop.h"
+#include "host_sim/world/native/plain_space.h"
 
 enum {
     PAGE_ROBOTS_MAX = 4,
     PAGE_TICKS_MAX = 256,   /* of a block */
     PAGE_WAITING_MAX = 64,  /* frames of a robot that nobody has taken yet */
+    PAGE_BARS_MAX = 40,
+    PAGE_FOOD_MAX = 8,
     PAGE_BYTES = 8
+};
+
+/* The dimensions of a world, as in SimParams. */
+enum { PAGE_WIDTH_MM, PAGE_HEIGHT_MM, PAGE_BODY_MM, PAGE_TRACK_MM, PAGE_REACH_MM, PAGE_FRONT_EXTRA_MM, PAGE_BEAM_MM,
+       PAGE_EAT_MM, PAGE_BAR_MM, PAGE_TICK_S, PAGE_SPEED_MM_S, PAGE_DIMENSIONS };
+
+/* Where robots are. */
+struct page_world {
+    struct world world;
+    struct plain_world space;
+    struct cones cones;
+    struct body bodies[PAGE_ROBOTS_MAX];
+    struct food food[PAGE_FOOD_MAX];
+    struct capsule capsules[WALLS + PAGE_BARS_MAX];
+    struct plain_place places[PAGE_ROBOTS_MAX];
+    uint64_t touching[PLAIN_WORDS(WALLS + PAGE_BARS_MAX + PAGE_ROBOTS_MAX) * (PAGE_ROBOTS_MAX + 1)];
 };
 
 /* A run. */
 struct page {
+    struct page_world world;
     struct loop loop;
     struct loop_robot robots[PAGE_ROBOTS_MAX];
     struct frame waiting[PAGE_ROBOTS_MAX][PAGE_WAITING_MAX];
     uint8_t counters[PAGE_ROBOTS_MAX];   /* of the last command */
     uint32_t answer_value;
+    struct command command;              /* read last */
     uint8_t bytes[PAGE_BYTES];
+    double dimensions[PAGE_DIMENSIONS];
 };
 
 struct page *page_state(void);
@@ -47,6 +69,18 @@ int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t v
 
 uint32_t page_answer_value(void);
         /* The value of that answer. */
+
+uint32_t page_read_command(void);
+        /* Reads page_bytes() as a COMMAND. Returns its opcode, */
+
+uint32_t page_command_which(void);
+        /* and then what struct command has of it: which */
+
+uint32_t page_command_value(void);
+        /* and value. */
+
+void page_send_ranges(uint32_t robot, uint32_t tick);
+        /* Sends and logs the distances in page_bytes(), which go before the senses of a tick. */
 
 void page_take_reports(uint32_t robot);
         /* Logs all that the robot has said since. */
@@ -73,5 +107,51 @@ size_t page_log_used(void);
         /* and their length. */
 
 void page_clear_log(void);
+
+/* page_world.c: the world around them. What is placed is settled by page_enter and page_settle. */
+
+double *page_dimensions(void);
+        /* Where JavaScript puts the dimensions of arena and bodies: PAGE_DIMENSIONS numbers. */
+
+void page_build(void);
+        /* Builds the arena by its dimensions. */
+
+void page_put_bar(uint32_t index, double ax_mm, double ay_mm, double bx_mm, double by_mm);
+        /* Places obstacle 0, 1, ... */
+
+void page_put_food(uint32_t index, double x_mm, double y_mm);
+
+void page_put_body(uint32_t robot, double x_mm, double y_mm, double heading_rad);
+        /* Places a robot on the floor. */
+
+void page_lift(uint32_t robot);
+
+void page_enter(uint32_t bars, uint32_t food);
+        /* An environment begins with so many obstacles, and so much food, none of it eaten. */
+
+void page_settle(uint32_t bars);
+        /* A person has changed something, and there are so many obstacles now. */
+
+uint32_t page_run(uint32_t tick, uint32_t ticks_max);
+        /* Runs a block of up to PAGE_TICKS_MAX ticks, as loop_run does. Returns how many have been run. */
+
+uint32_t page_is_eaten(uint32_t food);
+
+const int16_t *page_rows(uint32_t robot);
+        /* Of the block: LOOP_ROW numbers for each tick, */
+
+const double *page_poses(uint32_t robot);
+        /* LOOP_POSE numbers for each tick, */
+
+const uint32_t *page_decisions(uint32_t robot);
+        /* the ticks with decisions, */
+
+uint32_t page_decision_count(uint32_t robot);
+        /* and how many they are. */
+
+double page_sin(double angle_rad);
+        /* The world's own: the same in each browser. */
+
+double page_cos(double angle_rad);
 
 #endif

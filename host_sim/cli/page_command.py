@@ -1,0 +1,36 @@
+"""`tools/octet page`: writes the robot and its world as one web page."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from host_sim.cli.parsing import add_command
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+
+_EXAMPLE = """\
+example:
+  tools/octet page octet.html
+"""
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "page",
+        _page,
+        summary="write the robot and its world as one web page",
+        description="Writes a page with the robot's own firmware and its world. It needs no server and no network.",
+        epilog=_EXAMPLE,
+    )
+    parser.add_argument("file", type=Path, metavar="FILE", help="the page to write, such as octet.html")
+
+
+def _page(arguments: argparse.Namespace) -> int:
+    from host_sim.report.octet_page import write_octet_page
+
+    size = write_octet_page(arguments.file)
+    print(f"wrote     {arguments.file} ({round(size / 1000)} KB)")
+    return 0

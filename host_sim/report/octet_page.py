@@ -1,0 +1,45 @@
+"""`octet.html`: the robot itself, its world and the laboratory around them, in one page without a server."""
+
+import base64
+from dataclasses import asdict
+from pathlib import Path
+
+from host_sim.atomic_file import write_bytes
+from host_sim.errors import OctetError
+from host_sim.paths import PAGE_WASM
+from host_sim.report.page_bundle import page_of, with_data
+from host_sim.world.params import SimParams
+
+_TEMPLATE = "octet.html"
+
+
+def write_octet_page(path: Path) -> int:
+    """Writes the page; the same sources give the same bytes.
+
+    Args:
+        path: The file to write; an existing one is replaced.
+
+    Returns:
+        Its size in bytes.
+
+    Raises:
+        OctetError: The WebAssembly is not built, or the file cannot be written.
+    """
+    text = octet_page().encode()
+    write_bytes(path, text)
+    return len(text)
+
+
+def octet_page() -> str:
+    """The page's HTML. Its element `parts` has the WebAssembly in base64 and the dimensions of the world.
+
+    Raises:
+        OctetError: The WebAssembly is not built.
+    """
+    try:
+        wasm = PAGE_WASM.read_bytes()
+    except OSError as error:
+        raise OctetError(f"cannot read {PAGE_WASM}: {error.strerror}; build it with tools/setup page") from None
+    return with_data(
+        page_of(_TEMPLATE), "parts", {"wasm": base64.b64encode(wasm).decode(), "params": asdict(SimParams())}
+    )

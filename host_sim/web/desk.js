@@ -1,0 +1,173 @@
+// @ts-check
+/* The desk beside the arena: the run, the parameters, the listing, the curves and the files, one at a time. */
+
+import { Bench } from "./bench.js";
+import { Curves, csvOf } from "./curves.js";
+import { byId, setText, typedById } from "./elements.js";
+import { memoryIn, save, worldText } from "./files.js";
+import { PROFILES } from "./generated.js";
+import { experimentOf } from "./lane.js";
+import { actionStart } from "./lane_events.js";
+import { LessonsView } from "./lessons_view.js";
+import { ListingView } from "./listing_view.js";
+
+/**
+ * @typedef {import("./lane.js").Lane} Lane
+ * @typedef {import("./types.js").Change} Change
+ * @typedef {import("./types.js").Experiment} Experiment
+ *
+ * The page, as far as the desk knows it.
+ * @typedef {Object} Lab
+ * @property {Lane} lane
+ * @property {Lane[]} lanes
+ * @property {number} tick
+ * @property {import("./layouts.js").SimParams} params
+ * @property {import("./simulator.js").Simulator} simulator
+ * @property {(change: Change) => void} change
+ * @property {(lane: Lane) => void} simulate
+ * @property {(lane: Lane) => void} removeLane
+ * @property {(experiment: Experiment) => void} begin
+ */
+
+const TABS = ["run", "parameters", "listing", "curves", "files"];
+
+/** Shows and changes the selected run. */
+export class Desk {
+  /** @param {Lab} lab */
+  constructor(lab) {
+    this.lab = lab;
+    this.tab = TABS[0];
+    this.bench = new Bench((parameter, value) => this.set(parameter, value));
+    this.listing = new ListingView();
+    this.curves = new Curves();
+    this.lessons = new LessonsView();
+    this.behaviour = typedById("behaviour", HTMLSelectElement);
+    this.behaviour.append(...PROFILES.map((name) => new Option(name, name)));
+    this.frozen = 0;
+    this.bindTabs();
+    this.bindRun();
+    this.bindFiles();
+  }
+
+  bindTabs() {
+    for (const tab of TABS) byId(`tab-${tab}`).addEventListener("click", () => this.open(tab));
+    byId("tabs").addEventListener("keydown", ({ key }) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[key];
+      if (!step) return;
+      this.open(TABS[(TABS.indexOf(this.tab) + step + TABS.length) % TABS.length]);
+      byId(`tab-${this.tab}`).focus();
+    });
+  }
+
+  /** @param {string} tab */
+  open(tab) {
+    this.tab = tab;
+    for (const name of TABS) {
+      byId(`tab-${name}`).setAttribute("aria-selected", `${name === tab}`);
+      byId(`tab-${name}`).tabIndex = name === tab ? 0 : -1;
+      byId(`panel-${name}`).hidden = name !== tab;
+    }
+    this.show();
+  }
+
+  bindRun() {
+    const { lab } = this;
+    const on = (/** @type {string} */ id, /** @type {() => void} */ action) => byId(id).addEventListener("click", action);
+    byId("new-run").addEventListener("submit", (event) => this.newRun(event));
+    this.behaviour.addEventListener("change", () => this.choose(this.behaviour.value));
+    byId("curve").addEventListener("change", () => this.show());
+    on("erase", () => lab.change({ do: "erase", robot: lab.lane.robot }));
+    on("freeze", () => lab.change({ do: "freeze", robot: lab.lane.robot, on: 1 - this.frozen }));
+    on("remove-lane", () => lab.removeLane(lab.lane));
+    on("undo", () => {
+      if (lab.lane.undo()) lab.simulate(lab.lane);
+    });
+  }
+
+  bindFiles() {
+    const on = (/** @type {string} */ id, /** @type {() => unknown} */ action) => byId(id).addEventListener("click", action);
+    on("save-csv", () => save("octet.csv", [csvOf(this.lab.lanes)]));
+    on("save-log", async () => save("run.log", await this.lab.simulator.log(this.lab.lane.experiment)));
+    on("save-world", () => {
+      const { experiment, data } = this.lab.lane;
+      if (data) save("run.world.json", [worldText(experiment, data, this.lab.params.front_extra_mm)]);
+    });
+    on("save-memory", () => save("robot.mem", [Uint8Array.from(this.lab.lane.scene?.state.memory ?? [])]));
+    const input = typedById("open", HTMLInputElement);
+    input.addEventListener("change", () => {
+      this.openFiles([...(input.files ?? [])]).catch((error) => setText(byId("file-news"), error.message));
+      input.value = "";
+    });
+  }
+
+  /** @param {SubmitEvent} event */
+  newRun(event) {
+    event.preventDefault();
+    const number = (/** @type {string} */ id) => Number(typedById(id, HTMLInputElement).value);
+    const wanted = { seed: number("seed"), environments: number("environments"), robots: number("robot-count") };
+    this.lab.begin(experimentOf({ ...wanted, profile: this.behaviour.value }));
+  }
+
+  /** Whether a change is to hold from the start of the run. */
+  get fromStart() {
+    return typedById("when", HTMLSelectElement).value === "start";
+  }
+
+  /** @param {string} profile */
+  choose(profile) {
+    const { lane } = this.lab;
+    if (!this.fromStart) this.lab.change({ do: "start", robot: lane.robot, profile });
+    else {
+      lane.setUp({ profile });
+      this.lab.simulate(lane);
+    }
+  }
+
+  /**
+   * @param {string} parameter
+   * @param {number} value
+   */
+  set(parameter, value) {
+    const { lane } = this.lab;
+    if (!this.fromStart) this.lab.change({ do: "set", robot: lane.robot, parameter, value });
+    else {
+      lane.setUp({ settings: { ...lane.setup.settings, [parameter]: value } });
+      this.lab.simulate(lane);
+    }
+  }
+
+  /** @param {File[]} files */
+  async openFiles(files) {
+    const named = (/** @type {string} */ end) => files.find(({ name }) => name.endsWith(end));
+    const [memory, log, world] = [named(".mem"), named(".log"), named(".json")];
+    if (memory) {
+      this.lab.lane.setUp({ memory: await memoryIn(memory) });
+      this.lab.simulate(this.lab.lane);
+      setText(byId("file-news"), `The robot begins with ${memory.name}.`);
+    }
+    if (!log) return;
+    setText(byId("file-news"), `reading ${log.name}`);
+    const opened = await this.lab.simulator.open(await log.text(), world ? await world.text() : "");
+    if (!opened) return;
+    this.lab.begin(opened.experiment);
+    setText(byId("file-news"), opened.news);
+  }
+
+  show() {
+    const { lane, lanes, tick } = this.lab;
+    const { scene, data } = lane;
+    if (!scene || !data) return;
+    const { state } = scene;
+    const setup = lane.setupAt(tick);
+    this.frozen = state.frozen;
+    if (document.activeElement !== this.behaviour) this.behaviour.value = setup.profile;
+    byId("freeze").setAttribute("aria-pressed", `${Boolean(state.frozen)}`);
+    setText(byId("freeze"), state.frozen ? "Learning is frozen" : "Freeze learning");
+    typedById("undo", HTMLButtonElement).disabled = lane.experiment.changes.length === 0;
+    const robot = data.robots[lane.robot];
+    if (this.tab === "run") this.lessons.show(scene, robot.lessonsUpTo(state.tick, scene.environment.start_tick));
+    if (this.tab === "parameters") this.bench.show(setup.settings);
+    if (this.tab === "listing") this.listing.show(state, actionStart(robot, state.tick));
+    if (this.tab === "curves") this.curves.show(lanes, tick);
+  }
+}

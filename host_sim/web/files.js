@@ -1,0 +1,48 @@
+// @ts-check
+/* Files that the page writes and reads. */
+
+import { CELL_COUNT } from "./generated.js";
+
+/**
+ * Lets the browser save a file.
+ * @param {string} name
+ * @param {BlobPart[]} parts
+ */
+export function save(name, parts) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob(parts));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href));
+}
+
+/**
+ * A memory file's bytes.
+ * @param {File} file
+ */
+export async function memoryIn(file) {
+  const bytes = [...new Uint8Array(await file.arrayBuffer())];
+  if (bytes.length !== CELL_COUNT) throw new Error(`${file.name} is no memory: it has ${bytes.length} bytes, not ${CELL_COUNT}`);
+  return bytes;
+}
+
+/**
+ * The world file of a run, as host_sim/recording/world_file.py writes it.
+ * @param {import("./types.js").Experiment} experiment
+ * @param {import("./run_data.js").RunData} data
+ * @param {number} frontExtraMm
+ */
+export function worldText({ seed, environments, limit_ticks, robots, changes }, data, frontExtraMm) {
+  const begun = data.robots[0].run.events.filter(([, kind]) => kind === "environment");
+  const world = {
+    format: 1,
+    seed,
+    of: environments,
+    limit_ticks,
+    robots: robots.length,
+    front_extra_mm: frontExtraMm,
+    environments: begun.map(([tick]) => ({ seed, number: data.sceneAt(tick).number, first_tick: tick })),
+    edits: changes.filter((change) => ["add_bar", "move_bar", "remove_bar", "move_food", "lift", "put"].includes(change.do)),
+  };
+  return `${JSON.stringify(world)}\n`;
+}

@@ -1,0 +1,121 @@
+// @ts-check
+/* The experiment that a recorded log is of: what its commands say, and what its world file has. */
+
+import { CELL_COUNT, FRAMES, OPCODE, PARAMETERS, PROFILES } from "./generated.js";
+import { framesOf, replayLog } from "./log_replay.js";
+import { NativeRun } from "./native_run.js";
+import { Simulation } from "./simulation.js";
+
+/**
+ * @typedef {import("./layouts.js").SimParams} SimParams
+ * @typedef {import("./types.js").Change} Change
+ * @typedef {import("./types.js").Experiment} Experiment
+ * @typedef {import("./types.js").RobotSetup} RobotSetup
+ * @typedef {import("./types.js").WorldEdit} WorldEdit
+ *
+ * @typedef {{experiment: Experiment, news: string}} Opened
+ *
+ * What a world file has.
+ * @typedef {{of: number, limit_ticks: number, edits: (WorldEdit & {tick: number})[]}} World
+ */
+
+const LIMIT_TICKS = 30_000;
+const ENVIRONMENTS_MAX = 10_000;
+const HALF = CELL_COUNT / 2;
+
+/**
+ * @param {WebAssembly.Module} module - page.wasm, compiled.
+ * @param {SimParams} params
+ * @param {string} text - The log.
+ * @param {string} world - The text of its world file; empty if there is none.
+ * @returns {Opened}
+ */
+export function openLog(module, params, text, world) {
+  const read = experimentIn(module, text, world ? worldIn(world) : undefined);
+  const simulation = new Simulation(module, read, params, true);
+  simulation.finish();
+  const experiment = { ...read, environments: Math.min(read.environments, simulation.scene.number) };
+  return { experiment, news: comparison(module, text, simulation.log ?? []) };
+}
+
+/**
+ * @param {string} text
+ * @returns {World}
+ */
+function worldIn(text) {
+  const world = JSON.parse(text);
+  if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error("that is no world file: open a run.world.json");
+  return world;
+}
+
+/**
+ * @param {WebAssembly.Module} module
+ * @param {string} text
+ * @param {World | undefined} world
+ * @returns {Experiment}
+ */
+function experimentIn(module, text, world) {
+  const native = new NativeRun(module, 1);
+  /** @type {RobotSetup[]} */
+  const robots = [];
+  /** @type {(Change & {tick: number})[]} */
+  const changes = [];
+  let [seed, ticks] = [0, 0];
+  for (const { robot, base, data } of framesOf(text)) {
+    if (base === FRAMES.SENSES && robot === 0) ticks += 1;
+    if (base !== FRAMES.COMMAND) continue;
+    const command = native.readCommand(data);
+    if (ticks > 0) changes.push({ do: "command", robot, ...command, tick: ticks });
+    else if (command.opcode === OPCODE.START && robot === 0) seed = command.value;
+    if (ticks === 0) robots[robot] = setUp(robots[robot], command);
+  }
+  if (!robots.length || !ticks) throw new Error("this log has no robot of nodes 1 to 4 that was started");
+  const [environments, limit_ticks] = world ? [world.of, world.limit_ticks] : [ENVIRONMENTS_MAX, LIMIT_TICKS];
+  const during = changes.filter((change) => change.tick < ticks);
+  const all = [...during, ...(world?.edits ?? [])].sort((a, b) => a.tick - b.tick);
+  return { seed, environments, limit_ticks, robots, changes: all, ticks_max: ticks };
+}
+
+/**
+ * How a robot is started, with one more command.
+ * @param {RobotSetup | undefined} before
+ * @param {{opcode: number, which: number, value: number}} command
+ * @returns {RobotSetup}
+ */
+function setUp(before, { opcode, which, value }) {
+  const setup = before ?? { profile: PROFILES[0], settings: {}, memory: null };
+  if (opcode === OPCODE.START) return { ...setup, profile: PROFILES[which], settings: {} };
+  if (opcode === OPCODE.SET) return { ...setup, settings: { ...setup.settings, [Object.keys(PARAMETERS)[which]]: value } };
+  if (opcode === OPCODE.ERASE) return { ...setup, memory: Array.from({ length: CELL_COUNT }, () => 0) };
+  if (opcode === OPCODE.WRITE) return { ...setup, memory: written(setup.memory, which, value) };
+  return setup;
+}
+
+/**
+ * @param {number[] | null} memory
+ * @param {number} which
+ * @param {number} value
+ */
+function written(memory, which, value) {
+  const first = which >> HALF ? HALF : 0;
+  const bytes = memory ?? Array.from({ length: CELL_COUNT }, () => 0);
+  return bytes.map((byte, i) => (i >= first && i < first + HALF && (which >> (i - first)) & 1 ? (value >>> (8 * (i - first))) & 255 : byte));
+}
+
+/**
+ * How the log and what was simulated compare.
+ * @param {WebAssembly.Module} module
+ * @param {string} text
+ * @param {Uint8Array[]} simulated
+ */
+function comparison(module, text, simulated) {
+  const decoder = new TextDecoder();
+  const lines = simulated.map((part) => decoder.decode(part)).join("").split("\n");
+  const recorded = text.split("\n");
+  const at = recorded.findIndex((line, i) => line !== lines[i]);
+  if (at < 0) return "This is the run of the log, byte for byte.";
+  const { difference } = replayLog(module, text);
+  const line = `From line ${at + 1} on, the log and this page's run differ`;
+  if (difference) return `${line}: the robot in the log was built from other sources (line ${difference.line}).`;
+  return `${line}: open the log together with its run.world.json.`;
+}

@@ -1,0 +1,41 @@
+"""Experiments that a page runs in Node, and how the command line says them."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from host_sim.world.params import SimParams
+from tests.web.node import in_node
+
+RUNS = """
+const [params, ...experiments] = texts.map((text) => JSON.parse(text));
+return experiments.map((experiment) => {
+  const simulation = new modules["simulation.js"].Simulation(page, experiment, params, true);
+  for (const _ of simulation.run());
+  const log = Buffer.concat(simulation.log).toString("latin1");
+  return { log, run: simulation.result().run };
+});
+"""
+"""The log and the run of each experiment."""
+
+
+def experiment(profile: str, seed: int, robots: int = 1, **more: Any) -> dict[str, Any]:
+    setup = {"profile": profile, "settings": {}, "memory": None}
+    return {"seed": seed, "environments": 2, "limit_ticks": 1000, "robots": [setup] * robots, "changes": [], **more}
+
+
+def words(wanted: dict[str, Any]) -> list[str]:
+    """The same for the command line."""
+    profile = wanted["robots"][0]["profile"]
+    options = {"seed": wanted["seed"], "environments": wanted["environments"], "limit-s": wanted["limit_ticks"] / 50}
+    words = [word for name, value in options.items() for word in (f"--{name}", str(value))]
+    return [*words, "--profile", profile, "--robots", str(len(wanted["robots"]))]
+
+
+def run_in_page(folder: Path, *wanted: dict[str, Any]) -> Sequence[dict[str, Any]]:
+    files = [folder / f"{i}.json" for i in range(len(wanted) + 1)]
+    for file, content in zip(files, (asdict(SimParams()), *wanted), strict=True):
+        file.write_text(json.dumps(content))
+    return in_node(folder, "simulation.js", RUNS, *files)

@@ -1,0 +1,268 @@
+"""octet.html in Chromium: one file without a server that runs the real robot."""
+
+import hashlib
+import itertools
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page
+
+from host_sim.protocol.generated import PARAMETERS
+from tests.runs.support import octet
+from tests.web.support import wait_for, wait_for_text
+from tests.web.test_layout import TOO_SMALL, out_of_view, resize
+from tests.web.test_screens import check
+
+READY = "window.octet?.scene?.state && octet.last > 0"
+DONE = "document.querySelector('#status').textContent === 'the real firmware, in this page'"
+SIZE_MAX = 500_000
+SIZES = [(1024, 768), (1366, 657), (1440, 900), (1920, 1080)]
+PHONES = [(390, 844), (844, 390)]
+IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#cells")
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory) -> Path:
+    path = tmp_path_factory.mktemp("page") / "octet.html"
+    done = octet("page", path)
+    assert (done.returncode, done.stderr) == (0, "")
+    return path
+
+
+@pytest.fixture
+def page(file: Path, open_page: Callable[..., Page]) -> Page:
+    page = open_page(file.as_uri(), ready=READY)
+    wait_for(page, DONE)
+    return page
+
+
+def simulated(page: Page) -> None:
+    """Waits until every run is simulated as it was changed."""
+    wait_for(page, "octet.simulator.running === undefined && octet.simulator.queued.size === 0")
+
+
+def saved(page: Page, button: str) -> bytes:
+    with page.expect_download() as download:
+        page.evaluate("id => document.querySelector(id).click()", button)
+    return Path(download.value.path()).read_bytes()
+
+
+def test_the_page_is_one_small_file(file):
+    assert file.stat().st_size < SIZE_MAX
+
+
+def test_the_page_is_the_same_from_the_same_sources(file, tmp_path):
+    assert octet("page", tmp_path / "again.html").returncode == 0
+
+    assert (tmp_path / "again.html").read_bytes() == file.read_bytes()
+
+
+def test_a_page_that_cannot_be_written_is_told_in_one_line(tmp_path):
+    done = octet("page", tmp_path / "no" / "such" / "octet.html")
+
+    assert done.returncode != 0
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_its_log_is_that_of_tools_run(page, tmp_path):
+    assert octet("run", "--bus", "none", "--seed", "1", "--quiet", "--out", tmp_path).returncode == 0
+
+    log = saved(page, "#save-log")
+
+    assert hashlib.sha256(log).hexdigest() == hashlib.sha256((tmp_path / "run.log").read_bytes()).hexdigest()
+
+
+def test_a_changed_cell_makes_another_future_beside_the_first(page):
+    page.evaluate("octet.go(2200)")
+    page.click("#what-if")
+    page.click("#cells li:nth-child(2) button")
+    simulated(page)
+
+    wait_for_text(page, "#parting", "A and B part at 0:50.5 (tick 2523)")
+    assert "Their memories differ: front-right." in page.inner_text("#parting")
+    assert page.evaluate("octet.lanes.map((lane) => lane.experiment.changes.length)") == [0, 1]
+    same = "octet.lanes.map((lane) => [...lane.data.robots[0].columns.x.slice(0, 2523)].join())"
+    one, other = page.evaluate(same)
+    assert one == other
+
+
+@pytest.mark.parametrize("change", ["behaviour", "parameter", "obstacle"])
+def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, change):
+    page.evaluate("octet.go(1000)")
+    page.click("#what-if")
+    if change == "behaviour":
+        page.select_option("#behaviour", "searcher")
+    elif change == "parameter":
+        page.click("#tab-parameters")
+        page.locator(".slider input").first.fill("90")
+        page.locator(".slider input").first.dispatch_event("change")
+    else:
+        page.click("#add-plant")
+    simulated(page)
+
+    wait_for_text(page, "#parting", "A and B part at")
+
+
+def test_what_was_changed_is_replayed_by_the_host(page, tmp_path):
+    page.evaluate("octet.go(400)")
+    page.click("#add-plant")
+    simulated(page)
+    page.click("#grow")
+    page.click("#lift")
+    simulated(page)
+    page.click("#lift")
+    page.evaluate("octet.go(700)")
+    page.click("#cells li:nth-child(3) button")
+    page.click("#freeze")
+    page.select_option("#behaviour", "adaptive")
+    simulated(page)
+    (tmp_path / "run.log").write_bytes(saved(page, "#save-log"))
+    (tmp_path / "run.world.json").write_bytes(saved(page, "#save-world"))
+
+    assert "no difference" in octet("replay", tmp_path / "run.log").stdout
+    done = octet("replay", tmp_path / "run.log", "--html", tmp_path / "replay.html")
+    assert (done.returncode, done.stderr) == (0, "")
+    edits = json.loads((tmp_path / "run.world.json").read_text())["edits"]
+    assert [edit["do"] for edit in edits] == ["add_bar", "move_bar", "lift", "put"]
+
+
+def test_a_change_that_cannot_be_made_is_told_and_dropped(page):
+    page.evaluate("octet.go(300)")
+    page.evaluate(
+        "(() => { const { x, y } = octet.scene.state; const at = [Math.round(x), Math.round(y)];"
+        " octet.change({ do: 'add_bar', a: at, b: [at[0] + 300, at[1]] }); })()"
+    )
+
+    wait_for_text(page, "#note", "the robot stands there")
+    wait_for(page, "octet.lane.experiment.changes.length === 0")
+
+
+def test_a_recorded_log_is_opened_and_is_the_same_run(page, tmp_path):
+    words = ("--profile", "adaptive", "--environments", "2", "--seed", "9", "--set", "turn_deg=20")
+    assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words).returncode == 0
+    page.click("#tab-files")
+
+    page.set_input_files("#open", [tmp_path / "run.log", tmp_path / "run.world.json"])
+
+    wait_for_text(page, "#file-news", "byte for byte")
+    simulated(page)
+    assert saved(page, "#save-log") == (tmp_path / "run.log").read_bytes()
+
+
+def test_a_file_that_is_no_log_is_told(page, tmp_path):
+    (tmp_path / "run.log").write_text("hello\n")
+    page.click("#tab-files")
+
+    page.set_input_files("#open", tmp_path / "run.log")
+
+    wait_for_text(page, "#file-news", "line 1 is no frame of a log")
+
+
+def test_a_memory_goes_out_and_comes_back(page, tmp_path):
+    page.evaluate("octet.go(octet.last)")
+    memory = saved(page, "#save-memory")
+    (tmp_path / "robot.mem").write_bytes(memory)
+    page.click("#tab-files")
+
+    page.set_input_files("#open", tmp_path / "robot.mem")
+
+    wait_for_text(page, "#file-news", "The robot begins with robot.mem.")
+    simulated(page)
+    page.evaluate("octet.go(0)")
+    assert bytes(page.evaluate("octet.scene.state.memory")) == memory
+
+
+def test_the_table_is_saved_for_a_spreadsheet(page):
+    page.click("#tab-curves")
+
+    lines = saved(page, "#save-csv").decode().splitlines()
+
+    assert lines[0].startswith("run,robot,behaviour,seed,environment,finished,time s,trials")
+    assert len(lines) == 6
+
+
+def test_each_parameter_has_a_slider_with_its_range(page):
+    sliders = "[...document.querySelectorAll('.slider input')]"
+    ranges = page.evaluate(f"{sliders}.map(({{ title, min, max }}) => [title, Number(min), Number(max)])")
+
+    assert ranges == [[name, it.minimum, it.maximum] for name, it in PARAMETERS.items()]
+
+
+@pytest.mark.parametrize("kind", ["obstacle", "decision", "lesson"])
+def test_it_goes_to_the_next_one(page, kind):
+    page.select_option("#kind", kind)
+    page.evaluate("octet.go(60)")
+    page.click("#after")
+    here = page.evaluate("octet.tick")
+    actions, patterns = page.evaluate(
+        "[octet.lane.data.robots[0].columns.action, octet.lane.data.robots[0].columns.pattern].map((it) => [...it])"
+    )
+    lessons = [lesson["tick"] for lesson in page.evaluate("octet.lane.data.robots[0].run.lessons")]
+
+    wanted = {
+        "obstacle": lambda tick: patterns[tick] and not patterns[tick - 1],
+        "decision": lambda tick: actions[tick] != actions[tick - 1],
+        "lesson": lambda tick: tick in lessons,
+    }[kind]
+    assert here == next(tick for tick in range(61, len(actions)) if wanted(tick))
+
+
+@pytest.mark.parametrize(
+    ("reason", "line"), [(5, "if r=Turn"), (4, "if Mem[Senses] = Turn"), (1, "rForward Dist"), (7, "FoodCnt--")]
+)
+def test_the_line_is_lit_that_the_robot_executes(page, reason, line):
+    page.click("#tab-listing")
+    page.evaluate("reason => octet.go(octet.lane.data.robots[0].columns.reason.indexOf(reason))", reason)
+
+    wait_for(
+        page,
+        "line => [...document.querySelectorAll('#listing [aria-current]')].some((it) => it.innerText.includes(line))",
+        line,
+    )
+
+
+def test_all_that_matters_is_in_view(page):
+    for size in SIZES:
+        resize(page, size)
+        page.wait_for_timeout(50)
+        assert out_of_view(page, IN_VIEW, size) == [], size
+    for size in (*SIZES, *PHONES):
+        resize(page, size)
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
+
+
+def test_fingers_can_hit_everything_on_a_phone(page):
+    for size, tab in itertools.product(PHONES, ("run", "parameters", "curves", "files")):
+        resize(page, size)
+        page.click(f"#tab-{tab}")
+        assert page.evaluate(TOO_SMALL) == [], (size, tab)
+
+
+def violations(page: Page) -> list[str]:
+    return [f"{it['id']}: {it['nodes'][0]['html'][:90]}" for it in Axe().run(page).response["violations"]]
+
+
+def test_axe_finds_nothing(page):
+    page.click("#what-if")
+    page.evaluate("octet.go(3000)")
+    simulated(page)
+    for scheme, size in itertools.product(("light", "dark"), (PHONES[0], SIZES[0], SIZES[-1])):
+        page.emulate_media(color_scheme=scheme)
+        resize(page, size)
+        assert violations(page) == [], (scheme, size)
+    for scheme, tab in itertools.product(("light", "dark"), ("parameters", "listing", "curves", "files")):
+        page.emulate_media(color_scheme=scheme)
+        page.click(f"#tab-{tab}")
+        assert violations(page) == [], (scheme, tab)
+
+
+def test_screens(page):
+    page.evaluate("octet.go(3000)")
+    for scheme, size in itertools.product(("light", "dark"), (*SIZES[:1], *SIZES[2:3], PHONES[0])):
+        page.emulate_media(color_scheme=scheme)
+        resize(page, size)
+        page.wait_for_timeout(60)
+        check(page, f"octet-{scheme}-{size[0]}")
