@@ -14,7 +14,7 @@ size_t fleet_core_size(void)
 
 void fleet_wake(struct fleet_robot *robot)
 {
-    static const uint8_t nothing[CELL_COUNT] = {0};
+    static const uint8_t nothing[CELL_COUNT] = {SIDE_NOTHING};
 
     robot_init(&robot->core->robot, 0);
     (void)brain_adopt(&robot->core->robot.brain, nothing);
