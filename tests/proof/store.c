@@ -44,7 +44,7 @@ int flash_erase(unsigned page)
 void exercise(void)
 {
     struct flash_store store;
-    uint8_t memory[CELL_COUNT] = {SIDE_NOTHING};
+    uint8_t memory[CELL_COUNT] = {0};
 
     (void)flash_store_open(&store, memory);
     while (any_more()) {
