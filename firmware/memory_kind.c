@@ -46,8 +46,10 @@ static enum side side_of_most(const struct memory *memory, uint8_t pattern)
     for (unsigned i = 0; i < BESIDE_COUNT; i++) {
         enum side side = feel_memory_recall(memory, reading(pattern, i));
 
-        left += side == SIDE_LEFT;
-        right += side == SIDE_RIGHT;
+        if (side == SIDE_LEFT)
+            left++;
+        if (side == SIDE_RIGHT)
+            right++;
     }
     if (left == right)
         return SIDE_NOTHING;

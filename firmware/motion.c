@@ -12,7 +12,10 @@ enum {
     WAY_PRECISION = 5,                             /* 0.25 mm, as the sum of two wheels' counts */
     COUNTS_PER_MM = 2 * ODOMETER_COUNTS_PER_MM,    /* of both wheels together */
     TIMEOUT_MARGIN_TICKS = 25,                     /* beyond twice the ticks that an action needs */
-    CREDIBLE_MM_S = 600                            /* twice and more what a wheel is ever told */
+    PACE_MARGIN_TICKS = 6,                         /* for drives that come late and for the end, which is slower */
+    HOLD_TICKS = 5,                                /* without a drive a body goes on for so long, and then rests */
+    CREDIBLE_EIGHTHS = 13,                         /* of the fastest that a wheel is told, it may be seen to roll, */
+    CREDIBLE_COUNTS = 2                            /* and so much more, in fewer ticks than a count takes */
 };
 
 static uint32_t magnitude(int32_t x)
@@ -84,11 +87,19 @@ void motion_lift(struct motion *motion)
     motion->referenced = false;
 }
 
-/* Odometers that jump do not measure: the body that counts has begun anew. */
+static uint32_t fastest_mm_s(const struct config *config)
+{
+    uint32_t turning = wheel_speed_turning(config);
+
+    return turning > config->value[SPEED_MM_S] ? turning : config->value[SPEED_MM_S];
+}
+
+/* Odometers that jump do not measure: the body that counts has begun anew, or counts too much. */
 bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
                         unsigned ticks)
 {
-    uint32_t farthest = ticks * config->value[TICK_MS] * CREDIBLE_MM_S * ODOMETER_COUNTS_PER_MM / 1000u;
+    uint32_t way = ticks * config->value[TICK_MS] * fastest_mm_s(config) * ODOMETER_COUNTS_PER_MM / 1000u;
+    uint32_t farthest = way * CREDIBLE_EIGHTHS / 8u + CREDIBLE_COUNTS;
 
     return !motion->referenced
         || (magnitude(counts_between(motion->odometer_left, senses->odometer_left)) <= farthest
@@ -98,6 +109,26 @@ bool motion_is_credible(const struct motion *motion, const struct config *config
 bool motion_gave_up(const struct motion *motion)
 {
     return motion->kind != REST && motion->ticks_left == 0;
+}
+
+bool motion_is_denied(const struct motion *motion)
+{
+    uint32_t gone = motion->ticks_gone, needed = motion->ticks_needed;
+
+    if (motion_gave_up(motion))
+        return true;
+    return needed != 0 && 4 * gone > 7 * needed + 4 * PACE_MARGIN_TICKS;
+}
+
+static void pass_time(struct motion *motion, uint8_t tick)
+{
+    unsigned ticks = (uint8_t)(tick - motion->tick);
+
+    motion->tick = tick;
+    if (motion->ticks_left > 0)
+        motion->ticks_left--;
+    if (motion->kind == TURN)
+        motion->ticks_gone = (uint16_t)(motion->ticks_gone + (ticks < HOLD_TICKS ? ticks : HOLD_TICKS));
 }
 
 void motion_track(struct motion *motion, const struct senses *senses)
@@ -112,8 +143,7 @@ void motion_track(struct motion *motion, const struct senses *senses)
     motion->odometer_left = senses->odometer_left;
     motion->odometer_right = senses->odometer_right;
     motion->referenced = true;
-    if (motion->ticks_left > 0)
-        motion->ticks_left--;
+    pass_time(motion, senses->tick);
 }
 
 static bool has_turned(const struct motion *motion, const struct config *config)
@@ -155,14 +185,25 @@ static enum kind kind_of(const struct action *action)
     return action->forward_mm != 0 ? STEP : REST;
 }
 
+static uint32_t ticks_at_full_speed(const struct motion *motion, const struct config *config, uint32_t counts)
+{
+    return counts / (full_speed(motion, config) * COUNTS_PER_MM * config->value[TICK_MS] / 1000);
+}
+
 /* Ticks to allow: twice what the action needs at full speed, and a little. */
 static uint16_t timeout_ticks(const struct motion *motion, const struct config *config)
 {
-    uint32_t counts_per_tick = full_speed(motion, config) * COUNTS_PER_MM * config->value[TICK_MS] / 1000;
-
     if (motion->kind == REST)
         return 1;
-    return (uint16_t)(2 * magnitude(counts_left(motion)) / counts_per_tick + TIMEOUT_MARGIN_TICKS);
+    return (uint16_t)(ticks_at_full_speed(motion, config, 2 * magnitude(counts_left(motion))) + TIMEOUT_MARGIN_TICKS);
+}
+
+/* A turn that food may end is over before its time, and a step is too short to tell. */
+static uint16_t ticks_that_count(const struct motion *motion, const struct config *config)
+{
+    if (motion->kind != TURN || motion->until_food)
+        return 0;
+    return (uint16_t)ticks_at_full_speed(motion, config, magnitude(counts_left(motion)));
 }
 
 void motion_begin(struct motion *motion, const struct config *config, const struct action *action)
@@ -174,6 +215,8 @@ void motion_begin(struct motion *motion, const struct config *config, const stru
     motion->turn_left = clamped(motion->turn_left + action->turn_deg * (int32_t)turn_per_degree(config), TURN_LIMIT);
     motion->way_left = (int16_t)(action->forward_mm * COUNTS_PER_MM);
     motion->ticks_left = timeout_ticks(motion, config);
+    motion->ticks_needed = ticks_that_count(motion, config);
+    motion->ticks_gone = 0;
 }
 
 void motion_drive(const struct motion *motion, const struct config *config, struct drive *drive)

@@ -12,6 +12,9 @@ struct motion {
     uint16_t odometer_left;    /* as of the last tick */
     uint16_t odometer_right;
     uint16_t ticks_left;       /* then the action is given up: the wheels do not obey */
+    uint16_t ticks_needed;     /* by the turn under way at full speed; 0: its pace does not count */
+    uint16_t ticks_gone;       /* with that turn, */
+    uint8_t tick;              /* and the last of them */
     uint8_t kind;              /* what is under way */
     bool referenced;           /* the odometers above hold */
     bool until_food;           /* the turn ends when food is seen */
@@ -26,10 +29,16 @@ void motion_lift(struct motion *motion);
 
 bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
                         unsigned ticks);
-        /* Whether wheels can have turned as far as the odometers say, in so many ticks since the last motion_track. */
+        /* Whether wheels can have turned as far as the odometers say, in so many ticks since the last motion_track: 13/8 of
+           the fastest that they are ever told. */
 
 bool motion_gave_up(const struct motion *motion);
         /* Whether the action has taken so long that the wheels cannot have obeyed. */
+
+bool motion_is_denied(const struct motion *motion);
+        /* Whether the wheels have not done what they were told in the action that has ended: it was given up, or it was a
+           turn that took 7/4 of its time at full speed and more than 6 ticks beyond that: wheels or odometers make half
+           of what they should. Those that make twice as much are not credible, see there. */
 
 void motion_track(struct motion *motion, const struct senses *senses);
         /* Takes in what the wheels have done since the last tick. Call once for each senses. */

@@ -43,7 +43,7 @@ TELLING = "|".join(word for name in ("reason", "result") for word in ROBOT.enums
 CAMEL = "|".join(re.sub(r"_(\w)", lambda match: match[1].upper(), word) for word in TELLING.split("|"))
 COPIES = {
     "a constant with a number": re.compile(
-        rf"\b_?{CONSTANT}\b\]?\s*(?::[^=\n]*)?[=:]\s*\{{?-?\d",
+        rf"\b_?{CONSTANT}\b\]?\s*(?::[^=\n]*)?[=:]\s*(?!\{{0\}})\{{?-?\d",  # but an array may begin as zeros
         re.ASCII,
     ),
     "several constants with numbers": re.compile(

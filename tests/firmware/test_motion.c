@@ -11,8 +11,9 @@ static const double PI = 3.14159265358979323846;
 /* Two wheels that do exactly as they are told, and count their way. */
 static struct {
     double left_mm, right_mm;
-    double grip;   /* the part of the wanted speed that the wheels make, 0..1 */
+    double grip;   /* wheels make this part of the wanted speed; more than 1 if they are faster, or count too much */
     uint8_t feel;
+    uint8_t tick;
 } body;
 
 static struct config config;
@@ -27,6 +28,7 @@ static uint16_t counted(double mm)
 static struct senses sensed(void)
 {
     return (struct senses){
+        .tick = body.tick,
         .feel = body.feel,
         .odometer_left = counted(body.left_mm),
         .odometer_right = counted(body.right_mm),
@@ -60,6 +62,7 @@ static bool tick(void)
     const struct drive drive = driven();
     struct senses senses;
 
+    body.tick++;
     body.left_mm += body.grip * drive.left_mm_s * config.value[TICK_MS] / 1000.0;
     body.right_mm += body.grip * drive.right_mm_s * config.value[TICK_MS] / 1000.0;
     senses = sensed();
@@ -292,6 +295,66 @@ static void test_slow_wheels_are_not_given_up(void)
     TEST_ASSERT_INT_WITHIN(HALF, 210000, heading_mdeg());
 }
 
+static const int PACED[] = {-210, -150, -45, 45, 150, 210};
+
+static void test_wheels_that_turn_at_half_the_speed_are_denied(void)
+{
+    static const double factors[] = {0.3, 0.4, 0.5};
+
+    for (unsigned i = 0; i < sizeof PACED / sizeof *PACED; i++)
+        for (unsigned k = 0; k < sizeof factors / sizeof *factors; k++) {
+            stand_at(0.0, 0.0);
+            body.grip = factors[k];
+            act(PACED[i], 0);
+            TEST_ASSERT_TRUE(motion_is_denied(&motion));
+        }
+}
+
+static void test_wheels_that_are_a_little_off_are_not_denied(void)
+{
+    static const double factors[] = {0.6, 0.8, 1.0, 1.2};
+
+    for (unsigned i = 0; i < sizeof PACED / sizeof *PACED; i++)
+        for (unsigned k = 0; k < sizeof factors / sizeof *factors; k++) {
+            stand_at(0.0, 0.0);
+            body.grip = factors[k];
+            act(PACED[i], 0);
+            TEST_ASSERT_FALSE(motion_is_denied(&motion));
+        }
+}
+
+/* At full speed each wheel makes 251 mm/s in a turn, 50 counts a tick. */
+static void test_odometers_that_count_twice_the_way_are_not_credible(void)
+{
+    struct senses senses = sensed();
+
+    senses.odometer_left = (uint16_t)(senses.odometer_left + 60);
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 1));
+    senses.odometer_left = (uint16_t)(senses.odometer_left + 40);
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 2));
+}
+
+static void test_ticks_that_were_never_sensed_count_for_the_pace(void)
+{
+    begin(150, 0);
+    for (unsigned senses = 0; !tick(); senses++) {
+        body.tick += 2;   /* of three ticks, the senses of one come */
+        TEST_ASSERT_LESS_THAN_UINT(100, senses);
+    }
+    TEST_ASSERT_TRUE(motion_is_denied(&motion));
+}
+
+static void test_an_outage_counts_as_long_as_wheels_are_held(void)
+{
+    begin(45, 0);
+    (void)tick();
+    body.tick += 100;
+    while (!tick())
+        continue;
+    TEST_ASSERT_FALSE(motion_is_denied(&motion));
+}
+
 static void test_what_happens_while_lifted_is_not_the_robots_way(void)
 {
     struct senses senses;
@@ -484,6 +547,11 @@ int main(void)
     RUN_TEST(test_a_step_against_stuck_wheels_is_given_up);
     RUN_TEST(test_a_turn_that_was_given_up_is_not_made_up_for);
     RUN_TEST(test_slow_wheels_are_not_given_up);
+    RUN_TEST(test_wheels_that_turn_at_half_the_speed_are_denied);
+    RUN_TEST(test_wheels_that_are_a_little_off_are_not_denied);
+    RUN_TEST(test_odometers_that_count_twice_the_way_are_not_credible);
+    RUN_TEST(test_ticks_that_were_never_sensed_count_for_the_pace);
+    RUN_TEST(test_an_outage_counts_as_long_as_wheels_are_held);
     RUN_TEST(test_what_happens_while_lifted_is_not_the_robots_way);
     RUN_TEST(test_turns_are_exact_at_both_ends_of_every_range);
     RUN_TEST(test_steps_are_exact_at_both_ends_of_every_range);

@@ -208,6 +208,33 @@ static void test_from_wheels_that_do_not_obey_nothing_is_learned(void)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
 }
 
+/* A trial with wheels or odometers that make a multiple, or a part, of what they are told. */
+static void try_with(unsigned times, unsigned of)
+{
+    static const uint8_t nothing[CELL_COUNT] = {0};
+
+    for (unsigned ticks = 0; !out.denied && ticks < MANY; ticks++) {
+        out.drive.left_mm_s = (int16_t)(out.drive.left_mm_s * (int)times / (int)of);
+        out.drive.right_mm_s = (int16_t)(out.drive.right_mm_s * (int)times / (int)of);
+        obey(ticks < 3 ? FRONT : CLEAR);
+    }
+    TEST_ASSERT_TRUE(out.denied);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
+}
+
+static void test_from_wheels_that_turn_at_half_the_speed_nothing_is_learned(void)
+{
+    try_with(1, 2);
+}
+
+static void test_from_odometers_that_count_a_multiple_nothing_is_learned(void)
+{
+    for (unsigned times = 2; times <= 4; times++) {
+        setUp();
+        try_with(times, 1);
+    }
+}
+
 static void test_wheels_that_obey_again_are_forgiven(void)
 {
     while (!out.denied)
@@ -530,6 +557,8 @@ int main(void)
     RUN_TEST(test_wheels_that_obey_are_no_fault);
     RUN_TEST(test_wheels_that_do_not_obey_stop_the_robot);
     RUN_TEST(test_from_wheels_that_do_not_obey_nothing_is_learned);
+    RUN_TEST(test_from_wheels_that_turn_at_half_the_speed_nothing_is_learned);
+    RUN_TEST(test_from_odometers_that_count_a_multiple_nothing_is_learned);
     RUN_TEST(test_wheels_that_obey_again_are_forgiven);
     RUN_TEST(test_food_at_no_distance_is_not_eaten);
     RUN_TEST(test_a_distance_to_no_food_is_a_contradiction);
