@@ -48,7 +48,7 @@ class RobotTrack:
         meals: The ticks in which it ate.
         poses_flat: x and y in mm, heading in rad, tick after tick.
         rows_flat: The fields of `ROW`, tick after tick.
-        old_turns: Remembered turns of ticks that are no longer retained, as in `turns`.
+        old_turns: Remembered turns of ticks that are no longer retained: first tick and cell, one after the other.
     """
 
     node: int
@@ -59,7 +59,7 @@ class RobotTrack:
     meals: list[int] = field(default_factory=list)
     poses_flat: "array[float]" = field(default_factory=lambda: array("d"))
     rows_flat: "array[int]" = field(default_factory=lambda: array("h"))
-    old_turns: list[tuple[int, int]] = field(default_factory=list)
+    old_turns: "array[int]" = field(default_factory=lambda: array("q"))
 
     @property
     def ticks(self) -> int:
@@ -93,7 +93,13 @@ class RobotTrack:
         """Each remembered turn of the whole run: its first tick, and the cell that it used."""
         ticks = self.begun(Reason.REMEMBERED)
         cells = self.column("pattern")[ticks - self.first_tick]
-        return [*self.old_turns, *zip(ticks.tolist(), cells.tolist(), strict=True)]
+        old = zip(self.old_turns[::2], self.old_turns[1::2], strict=True)
+        return [*old, *zip(ticks.tolist(), cells.tolist(), strict=True)]
+
+    def forget_turns(self, first: int) -> None:
+        """Notes the turns before a tick, which is about to become the first that is retained, in `old_turns`."""
+        known = len(self.old_turns) // 2
+        self.old_turns.extend(number for turn in self.turns()[known:] if turn[0] < first for number in turn)
 
     def uses(self, start: int, tick: int) -> list[int]:
         """For each cell, the number of remembered turns that used its content at a tick; as in `State.uses`."""
@@ -120,6 +126,7 @@ class Trajectory:
         tracks: The robots, in the order of their nodes.
         scenes: The environments, each again after every change by a person.
         meals: For each piece of the scene's food, 1 if it was eaten, else 0.
+        environments: Number of environments so far, including those that are no longer retained.
     """
 
     params: SimParams
@@ -127,6 +134,7 @@ class Trajectory:
     tracks: list[RobotTrack]
     scenes: Changes[EnvironmentScene] = field(default_factory=list)
     meals: Changes[list[int]] = field(default_factory=list)
+    environments: int = 0
 
     @property
     def first_tick(self) -> int:
