@@ -17,8 +17,8 @@ from host_sim.world.params import SimParams
 T = TypeVar("T")
 Memory = Sequence[int]
 
-TICKS_MAX = 600_000
-"""Length that a trajectory may have: 35 MB, and some 3 MB as a page. Longer runs retain their last environments."""
+TICKS_MAX = 450_000
+"""Length that a trajectory may have: 26 MB, and some 2 MB as a page. Longer runs retain their last environments."""
 
 _SLACK = 8
 """A trajectory gets longer by this part of its length before it is cut: cutting moves all that is retained."""
@@ -176,6 +176,7 @@ class RunRecorder:
             return
         for track in trajectory.tracks:
             track.forget_turns(first)
+            track.action_before = track.row(first - 1)["action"]
             del track.poses_flat[: (first - track.first_tick) * AXES]
             del track.rows_flat[: (first - track.first_tick) * len(ROW)]
             track.memories, track.trials = _since(track.memories, first), _since(track.trials, first)

@@ -48,6 +48,7 @@ class RobotTrack:
         meals: The ticks in which it ate.
         poses_flat: x and y in mm, heading in rad, tick after tick.
         rows_flat: The fields of `ROW`, tick after tick.
+        action_before: Number of the action in the tick before the first that is retained; -1 if there was none.
         old_turns: Remembered turns of ticks that are no longer retained: first tick and cell, one after the other.
     """
 
@@ -59,6 +60,7 @@ class RobotTrack:
     meals: list[int] = field(default_factory=list)
     poses_flat: "array[float]" = field(default_factory=lambda: array("d"))
     rows_flat: "array[int]" = field(default_factory=lambda: array("h"))
+    action_before: int = -1
     old_turns: "array[int]" = field(default_factory=lambda: array("q"))
 
     @property
@@ -86,20 +88,22 @@ class RobotTrack:
 
     def begun(self, reason: int) -> NDArray[np.int64]:
         """The ticks in which actions with a reason began."""
-        news = np.diff(self.column("action"), prepend=np.int16(-1)) != 0
+        news = np.diff(self.column("action"), prepend=np.int16(self.action_before)) != 0
         return np.flatnonzero(news & (self.column("reason") == reason)) + self.first_tick
 
     def turns(self) -> list[tuple[int, int]]:
         """Each remembered turn of the whole run: its first tick, and the cell that it used."""
-        ticks = self.begun(Reason.REMEMBERED)
-        cells = self.column("pattern")[ticks - self.first_tick]
         old = zip(self.old_turns[::2], self.old_turns[1::2], strict=True)
-        return [*old, *zip(ticks.tolist(), cells.tolist(), strict=True)]
+        return [*old, *self._retained_turns()]
 
     def forget_turns(self, first: int) -> None:
         """Notes the turns before a tick, which is about to become the first that is retained, in `old_turns`."""
-        known = len(self.old_turns) // 2
-        self.old_turns.extend(number for turn in self.turns()[known:] if turn[0] < first for number in turn)
+        self.old_turns.extend(number for turn in self._retained_turns() if turn[0] < first for number in turn)
+
+    def _retained_turns(self) -> list[tuple[int, int]]:
+        ticks = self.begun(Reason.REMEMBERED)
+        cells = self.column("pattern")[ticks - self.first_tick]
+        return list(zip(ticks.tolist(), cells.tolist(), strict=True))
 
     def uses(self, start: int, tick: int) -> list[int]:
         """For each cell, the number of remembered turns that used its content at a tick; as in `State.uses`."""
