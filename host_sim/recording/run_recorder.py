@@ -17,8 +17,11 @@ from host_sim.world.params import SimParams
 T = TypeVar("T")
 Memory = Sequence[int]
 
-TICKS_MAX = 1_000_000
-"""Maximum length of a trajectory: 58 MB, and some 5 MB as a page. Longer runs retain their last environments."""
+TICKS_MAX = 450_000
+"""Length that a trajectory may have: 26 MB, and some 2 MB as a page. Longer runs retain their last environments."""
+
+_SLACK = 8
+"""A trajectory gets longer by this part of its length before it is cut: cutting moves all that is retained."""
 
 _PATTERN, _FROZEN = ROW.index("pattern"), ROW.index("frozen")
 _PACKED = Struct(f"={len(ROW)}h")
@@ -40,7 +43,7 @@ class RunRecorder:
     """Records each tick, either called after each tick of a simulation or through `enter` and `add`.
 
     Attributes:
-        trajectory: The trajectory so far: at most `TICKS_MAX` ticks before the current environment.
+        trajectory: The trajectory so far: about `TICKS_MAX` ticks before the current environment.
         histories: Each robot's learning history.
     """
 
@@ -85,10 +88,12 @@ class RunRecorder:
         trajectory = self.trajectory
         if not trajectory.scenes or _name(trajectory.scenes[-1][1]) != _name(scene):
             _note(trajectory.meals, trajectory.ticks, [0] * len(scene["food"]))
+            trajectory.environments += 1
         trajectory.scenes.append((trajectory.ticks, scene))
         self._actions = [-1] * len(self._actions)
-        begun = [scene["first_tick"] for _, scene in trajectory.scenes]
-        self._forget(next((first for first in begun if trajectory.ticks - first <= TICKS_MAX), begun[-1]))
+        if trajectory.ticks - trajectory.first_tick > TICKS_MAX + TICKS_MAX // _SLACK:
+            begun = [scene["first_tick"] for _, scene in trajectory.scenes]
+            self._forget(next((first for first in begun if trajectory.ticks - first <= TICKS_MAX), begun[-1]))
 
     def add(self, robot: int, body: BodyState, senses: Senses, drive: Drive, memory: Memory) -> None:
         """Adds one robot's tick.
@@ -170,7 +175,8 @@ class RunRecorder:
         if first <= trajectory.first_tick:
             return
         for track in trajectory.tracks:
-            track.old_turns = [turn for turn in track.turns() if turn[0] < first]
+            track.forget_turns(first)
+            track.action_before = track.row(first - 1)["action"]
             del track.poses_flat[: (first - track.first_tick) * AXES]
             del track.rows_flat[: (first - track.first_tick) * len(ROW)]
             track.memories, track.trials = _since(track.memories, first), _since(track.trials, first)

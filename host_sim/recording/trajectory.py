@@ -48,7 +48,8 @@ class RobotTrack:
         meals: The ticks in which it ate.
         poses_flat: x and y in mm, heading in rad, tick after tick.
         rows_flat: The fields of `ROW`, tick after tick.
-        old_turns: Remembered turns of ticks that are no longer retained, as in `turns`.
+        action_before: Number of the action in the tick before the first that is retained; -1 if there was none.
+        old_turns: Remembered turns of ticks that are no longer retained: first tick and cell, one after the other.
     """
 
     node: int
@@ -59,7 +60,8 @@ class RobotTrack:
     meals: list[int] = field(default_factory=list)
     poses_flat: "array[float]" = field(default_factory=lambda: array("d"))
     rows_flat: "array[int]" = field(default_factory=lambda: array("h"))
-    old_turns: list[tuple[int, int]] = field(default_factory=list)
+    action_before: int = -1
+    old_turns: "array[int]" = field(default_factory=lambda: array("q"))
 
     @property
     def ticks(self) -> int:
@@ -86,14 +88,22 @@ class RobotTrack:
 
     def begun(self, reason: int) -> NDArray[np.int64]:
         """The ticks in which actions with a reason began."""
-        news = np.diff(self.column("action"), prepend=np.int16(-1)) != 0
+        news = np.diff(self.column("action"), prepend=np.int16(self.action_before)) != 0
         return np.flatnonzero(news & (self.column("reason") == reason)) + self.first_tick
 
     def turns(self) -> list[tuple[int, int]]:
         """Each remembered turn of the whole run: its first tick, and the cell that it used."""
+        old = zip(self.old_turns[::2], self.old_turns[1::2], strict=True)
+        return [*old, *self._retained_turns()]
+
+    def forget_turns(self, first: int) -> None:
+        """Notes the turns before a tick, which is about to become the first that is retained, in `old_turns`."""
+        self.old_turns.extend(number for turn in self._retained_turns() if turn[0] < first for number in turn)
+
+    def _retained_turns(self) -> list[tuple[int, int]]:
         ticks = self.begun(Reason.REMEMBERED)
         cells = self.column("pattern")[ticks - self.first_tick]
-        return [*self.old_turns, *zip(ticks.tolist(), cells.tolist(), strict=True)]
+        return list(zip(ticks.tolist(), cells.tolist(), strict=True))
 
     def uses(self, start: int, tick: int) -> list[int]:
         """For each cell, the number of remembered turns that used its content at a tick; as in `State.uses`."""
@@ -120,6 +130,7 @@ class Trajectory:
         tracks: The robots, in the order of their nodes.
         scenes: The environments, each again after every change by a person.
         meals: For each piece of the scene's food, 1 if it was eaten, else 0.
+        environments: Number of environments so far, including those that are no longer retained.
     """
 
     params: SimParams
@@ -127,6 +138,7 @@ class Trajectory:
     tracks: list[RobotTrack]
     scenes: Changes[EnvironmentScene] = field(default_factory=list)
     meals: Changes[list[int]] = field(default_factory=list)
+    environments: int = 0
 
     @property
     def first_tick(self) -> int:

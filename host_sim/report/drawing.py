@@ -18,8 +18,9 @@ FOOD_MM = 100.0
 FRONT_BITS = (FEEL["FRONT_RIGHT"], FEEL["FRONT"], FEEL["FRONT_LEFT"])
 """The bits of feel that make the pattern: front-right, front, front-left."""
 
-# Everything but text is drawn this many times too large and then shrunk, for smooth edges.
-_OVERSIZE = 3
+# Everything but text is drawn this many times too large and then shrunk, for smooth edges. What is wide is smooth
+# with less, and would take much memory.
+_OVERSIZE, _WIDE_OVERSIZE, _WIDE_PX = 3, 2, 1000
 _FOOD, _FRAME_MM = "#009e73", 16.0
 _UP = -math.pi / 2
 
@@ -55,9 +56,11 @@ class Plan:
 
     def __init__(self, width_mm: float, height_mm: float, width_px: int, colour: str) -> None:
         """Starts with a background of one colour; the height in pixels follows from the proportions."""
+        self._oversize = _OVERSIZE if width_px < _WIDE_PX else _WIDE_OVERSIZE
+        self._px_per_mm = width_px * self._oversize / width_mm
         self._size_px = width_px, round(width_px * height_mm / width_mm)
-        self._px_per_mm = width_px * _OVERSIZE / width_mm
-        self._image = Image.new("RGB", (self._size_px[0] * _OVERSIZE, self._size_px[1] * _OVERSIZE), colour)
+        large_px = self._size_px[0] * self._oversize, self._size_px[1] * self._oversize
+        self._image = Image.new("RGB", large_px, colour)
         self._draw = ImageDraw.Draw(self._image)
 
     def disc(self, middle: Point, diameter_mm: float, colour: str) -> None:
@@ -78,7 +81,7 @@ class Plan:
 
     def done(self) -> Image.Image:
         """The finished image."""
-        return self._image.reduce(_OVERSIZE)
+        return self._image.resize(self._size_px, Image.Resampling.BOX)
 
     def _pixels(self, points: Sequence[Point]) -> list[Point]:
         return [(x * self._px_per_mm, y * self._px_per_mm) for x, y in points]

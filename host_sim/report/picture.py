@@ -1,11 +1,12 @@
 """One picture of a whole run: every environment with the robots' paths, and below them the robots' memories."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import BytesIO
-from itertools import pairwise
+from itertools import islice, pairwise
 from pathlib import Path
+from typing import Protocol
 
 from PIL import Image
 
@@ -72,12 +73,25 @@ def write_picture(path: Path, trajectory: Trajectory) -> None:
     Raises:
         OctetError: The file cannot be written.
     """
-    begun = trajectory.begun()
-    panels = [_panel(trajectory, first, end) for first, end in pairwise([*begun, trajectory.ticks])]
     memories = {track.node: at(track.memories, trajectory.ticks - 1) for track in trajectory.tracks}
     content = BytesIO()
-    draw_run(trajectory.params, panels, memories).save(content, "PNG")
+    picture = draw_run(trajectory.params, _Panels(trajectory), memories, trajectory.environments)
+    picture.save(content, "PNG")
     write_bytes(path, content.getvalue())
+
+
+class _Panels:
+    """The panels of a run's last environments, each made when it is drawn: many thousand points take much memory."""
+
+    def __init__(self, trajectory: Trajectory) -> None:
+        self._trajectory = trajectory
+        self._parts = list(pairwise([*trajectory.begun(), trajectory.ticks]))[-_MOST_ENVIRONMENTS:]
+
+    def __len__(self) -> int:
+        return len(self._parts)
+
+    def __iter__(self) -> Iterator[Panel]:
+        return (_panel(self._trajectory, first, end) for first, end in self._parts)
 
 
 def _panel(trajectory: Trajectory, first: int, end: int) -> Panel:
@@ -97,21 +111,32 @@ def _panel(trajectory: Trajectory, first: int, end: int) -> Panel:
     )
 
 
-def draw_run(params: SimParams, panels: Sequence[Panel], memories: Mapping[int, Sequence[int]]) -> Image.Image:
+class Panels(Protocol):
+    """Panels in their order."""
+
+    def __len__(self) -> int: ...
+
+    def __iter__(self) -> Iterator[Panel]: ...
+
+
+def draw_run(
+    params: SimParams, panels: Panels, memories: Mapping[int, Sequence[int]], environments: int = 0
+) -> Image.Image:
     """The picture of a run.
 
     Args:
         params: The dimensions of the world.
         panels: The environments in order, at least one; at most the last nine are shown.
         memories: Each robot's eight cells at the end, by node number: 0 nothing, 1 left, 2 right.
+        environments: Number of environments of the run, if there are more than panels.
 
     Raises:
         ValueError: There is no environment, or a memory does not have eight cells.
     """
-    if not panels or any(len(memory) != CELL_COUNT for memory in memories.values()):
+    if not len(panels) or any(len(memory) != CELL_COUNT for memory in memories.values()):
         raise ValueError(f"no picture of {len(panels)} environments and these memories: {memories}")
-    rows = [_legend(params), *(_line(text) for text in omissions(len(panels), len(memories)))]
-    rows += _environment_rows(panels[-_MOST_ENVIRONMENTS:], params)
+    rows = [_legend(params), *(_line(text) for text in omissions(max(environments, len(panels)), len(memories)))]
+    rows += _environment_rows(panels, params)
     for node, memory in list(memories.items())[:_MOST_MEMORIES]:
         rows.append(_memory_row(f"Robot {node}" if len(memories) > 1 else "The robot", memory, params))
     return in_palette(_stacked(rows))
@@ -136,11 +161,12 @@ def _line(text: str) -> Image.Image:
     return _titled(text, Image.new("RGB", (_WIDTH_PX, 1), PAPER))
 
 
-def _environment_rows(panels: Sequence[Panel], params: SimParams) -> list[Image.Image]:
-    """The environments, side by side, each under its caption."""
+def _environment_rows(panels: Panels, params: SimParams) -> list[Image.Image]:
+    """The last environments, side by side, each under its caption."""
     columns = min(_COLUMNS, len(panels))
     width_px = (_WIDTH_PX - (columns - 1) * _GAP_PX) // columns
-    images = [_titled(_caption(panel), _environment(panel, params, width_px)) for panel in panels]
+    shown = islice(panels, max(0, len(panels) - _MOST_ENVIRONMENTS), None)
+    images = [_titled(_caption(panel), _environment(panel, params, width_px)) for panel in shown]
     return [_abreast(images[first : first + columns], _GAP_PX) for first in range(0, len(images), columns)]
 
 

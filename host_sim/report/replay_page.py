@@ -39,6 +39,7 @@ JavaScript, with the inflated bytes b, column c, n ticks and value = 0 before th
 
 import base64
 import zlib
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -52,8 +53,10 @@ from host_sim.view.state import measures
 
 _TEMPLATE = "replay.html"
 _FIELDS = {"beacon": "beacon_mm", "left": "left_mm_s", "right": "right_mm_s"}
+_POSE = {"x": (0, 10), "y": (1, 10), "heading": (2, 1000)}
 _SENSED = ("lifted", "feel", "bump", "beacon")
 _DONE = ("left", "right", "reason", "repeat_count", "action", "pattern", "frozen")
+_COLUMNS = (*_POSE, *_SENSED, *_DONE)
 
 
 def write_page(path: Path, trajectory: Trajectory, title: str) -> None:
@@ -74,7 +77,7 @@ def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:
     """The run in the page's format; see above."""
     return {
         "version": 2,
-        "title": title,
+        "title": ", ".join([title, *omissions(trajectory)]),
         "measures": measures(trajectory.params, trajectory.boredom_limit),
         "first_tick": trajectory.first_tick,
         "ticks": trajectory.ticks - trajectory.first_tick,
@@ -84,9 +87,14 @@ def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:
     }
 
 
+def omissions(trajectory: Trajectory) -> list[str]:
+    """What the page of a very long run leaves out, in words."""
+    kept = len(trajectory.begun())
+    return [f"the last {kept} of {trajectory.environments} environments"] if kept < trajectory.environments else []
+
+
 def _robot_data(trajectory: Trajectory, robot: int) -> dict[str, Any]:
     track = trajectory.tracks[robot]
-    columns = _columns(track)
     return {
         "node": track.node,
         "memory": track.memories,
@@ -94,21 +102,28 @@ def _robot_data(trajectory: Trajectory, robot: int) -> dict[str, Any]:
         "lessons": [lesson for lesson in track.lessons if lesson["tick"] < trajectory.ticks],
         "turns": track.turns(),
         "events": trajectory.events(robot),
-        "columns": list(columns),
-        "data": pack(np.array(list(columns.values()))),
+        "columns": list(_COLUMNS),
+        "data": pack(_column(track, name) for name in _COLUMNS),
     }
 
 
-def pack(columns: NDArray[np.int64]) -> str:
-    """Encodes columns as text; see above.
+def pack(columns: Iterable[NDArray[np.int64]]) -> str:
+    """Encodes columns as text, one at a time, for all of a long run's take much memory; see above.
 
     Args:
-        columns: Shape (columns, ticks); differences from tick to tick must fit in 31 bits.
+        columns: Each of shape (ticks,); differences from tick to tick must fit in 31 bits.
     """
-    steps = np.diff(columns, axis=1, prepend=0)
+    stream = zlib.compressobj()
+    parts = [stream.compress(_planes(column)) for column in columns]
+    return base64.b64encode(b"".join([*parts, stream.flush()])).decode("ascii")
+
+
+def _planes(column: NDArray[np.int64]) -> bytes:
+    """A column's differences, byte by byte."""
+    steps = np.diff(column, prepend=0)
     zigzag = (steps << 1 ^ steps >> 63).astype("<u4")
-    planes = zigzag.view(np.uint8).reshape(*columns.shape, 4).transpose(0, 2, 1)
-    return base64.b64encode(zlib.compress(planes.tobytes())).decode("ascii")
+    planes: bytes = zigzag.view(np.uint8).reshape(-1, 4).T.tobytes()
+    return planes
 
 
 def page(run: dict[str, Any]) -> str:
@@ -116,8 +131,9 @@ def page(run: dict[str, Any]) -> str:
     return with_data(page_of(_TEMPLATE), "run", run)
 
 
-def _columns(track: RobotTrack) -> dict[str, NDArray[np.int64]]:
-    """Every column, as whole numbers."""
-    x, y, heading = np.rint(track.poses() * (10, 10, 1000)).astype(np.int64).T
-    rows = {name: track.column(_FIELDS.get(name, name)).astype(np.int64) for name in (*_SENSED, *_DONE)}
-    return {"x": x, "y": y, "heading": heading, **rows}
+def _column(track: RobotTrack, name: str) -> NDArray[np.int64]:
+    """A column, as whole numbers."""
+    if name not in _POSE:
+        return track.column(_FIELDS.get(name, name)).astype(np.int64)
+    axis, scale = _POSE[name]
+    return np.asarray(np.rint(track.poses()[:, axis] * scale), np.int64)

@@ -1,0 +1,89 @@
+"""Of a long run no more is retained than of a shorter one, and what is left out is said."""
+
+from contextlib import ExitStack
+
+import pytest
+
+from host_sim.recording import run_recorder as run_recorder_module
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.report.picture import write_picture
+from host_sim.report.replay_page import omissions, run_data
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
+
+TICKS_MAX, LIMIT_S, EPISODE_TICKS = 1000, 4.0, 200
+
+
+@pytest.fixture(autouse=True)
+def short_memory(monkeypatch):
+    monkeypatch.setattr(run_recorder_module, "TICKS_MAX", TICKS_MAX)
+
+
+def recorded(environments: int) -> RunRecorder:
+    config = RunConfig(seed=5, environments=environments, limit_s=LIMIT_S)
+    with ExitStack() as stack:
+        simulation = stack.enter_context(make(config))
+        recorder = RunRecorder.of(simulation, boredom_limit=10)
+        for _ in simulation.run():
+            pass
+    return recorder
+
+
+def retained(recorder: RunRecorder) -> dict[str, int]:
+    trajectory, (track,) = recorder.trajectory, recorder.trajectory.tracks
+    return {
+        "poses": len(track.poses_flat),
+        "rows": len(track.rows_flat),
+        "scenes": len(trajectory.scenes),
+        "meals": len(trajectory.meals),
+        "memories": len(track.memories),
+        "trials": len(track.trials),
+    }
+
+
+def test_a_run_of_sixty_environments_retains_no_more_than_one_of_twenty():
+    short, long = retained(recorded(20)), retained(recorded(60))
+
+    room = TICKS_MAX * 9 // 8 + 2 * EPISODE_TICKS
+    assert long["poses"] <= 3 * room
+    assert long["rows"] <= 17 * room
+    assert long["scenes"] <= room // EPISODE_TICKS
+    assert all(long[name] <= short[name] + 8 for name in ("meals", "memories", "trials"))
+
+
+def test_it_is_cut_rarely(monkeypatch):
+    cuts = []
+    forget = RunRecorder._forget
+    monkeypatch.setattr(RunRecorder, "_forget", lambda self, first: (cuts.append(first), forget(self, first)))
+    monkeypatch.setattr(run_recorder_module, "TICKS_MAX", 8 * TICKS_MAX)
+
+    recorded(60)
+
+    assert 1 <= len(cuts) <= 3
+
+
+def test_turns_that_are_no_longer_retained_still_count():
+    trajectory, whole = recorded(30).trajectory, None
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(run_recorder_module, "TICKS_MAX", 10**9)
+        whole = recorded(30).trajectory
+
+    assert trajectory.first_tick > whole.first_tick == 0
+    assert trajectory.tracks[0].turns() == whole.tracks[0].turns()
+
+
+def test_page_and_picture_say_what_they_leave_out(tmp_path, monkeypatch):
+    trajectory = recorded(30).trajectory
+    kept = len(trajectory.begun())
+    said = []
+    monkeypatch.setattr("host_sim.report.picture.omissions", lambda *counts: said.append(counts) or [])
+
+    write_picture(tmp_path / "run.png", trajectory)
+
+    assert 0 < kept < 30
+    assert run_data(trajectory, "seed 5")["title"] == f"seed 5, the last {kept} of 30 environments"
+    assert said == [(30, 1)]
+
+
+def test_a_short_run_leaves_nothing_out():
+    assert omissions(recorded(3).trajectory) == []
