@@ -1,5 +1,5 @@
 /* five: the article's robot with a turn for each reading of all five sensors. The front three still say what is in the
- * way, and judge a trial. */
+ * way, and judge a trial. Boredom can strike again, as in rearmed. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
 #include "firmware/feel_memory.h"
@@ -12,9 +12,14 @@ bool five_begin(struct brain *brain)
 
 struct action five_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
+    struct action action;
+
     if (listing_trial_helped(brain, senses) && !brain->frozen) {
         feel_memory_learn(&brain->memory, brain->tried_feel, (enum side)brain->tried_side);
         brain->changed = true;
     }
-    return listing_next(brain, config, senses, feel_memory_recall(&brain->memory, senses->feel));
+    action = listing_next(brain, config, senses, feel_memory_recall(&brain->memory, senses->feel));
+    if (action.reason == REASON_BOREDOM)
+        brain->repeat_count = 0;
+    return action;
 }

@@ -1,4 +1,5 @@
-/* never: it remembers nothing: each time that it is blocked, it tries. */
+/* never: it remembers nothing: each time that it is blocked, it tries. After too many trials in a row the next one is a
+ * bigger turn: by trials alone a robot has eight directions, which a corner can block all. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
 
@@ -10,5 +11,15 @@ bool never_begin(struct brain *brain)
 
 struct action never_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
-    return listing_next(brain, config, senses, SIDE_NOTHING);
+    struct action action = listing_next(brain, config, senses, SIDE_NOTHING);
+    int sign = action.turn_deg < 0 ? -1 : 1;
+
+    if (action.reason != REASON_TRIAL)
+        return action;
+    if (brain->repeat_count + 1 < config->value[BOREDOM_LIMIT]) {
+        brain->repeat_count++;
+        return action;
+    }
+    brain->repeat_count = 0;
+    return (struct action){.reason = REASON_BOREDOM, .turn_deg = (int16_t)(sign * config->value[BOREDOM_MIN_DEG])};
 }

@@ -10,7 +10,9 @@ enum {
     PRAISE = 1,
     LOOK_EVERY_MM = 1000,   /* way between two turns around */
     LOOK_AGAIN_MM = 200,    /* after losing sight of food: way to the next one */
-    WHOLE_TURN_DEG = 360
+    MISSES_MAX = 4,         /* so many times the way to the next look is twice as long */
+    WHOLE_TURN_DEG = 360,
+    LEAVE_CHOICES = 180     /* of the direction in which it goes on where it has seen no food, one degree apart */
 };
 
 bool searcher_begin(struct brain *brain)
@@ -18,32 +20,43 @@ bool searcher_begin(struct brain *brain)
     brain->since_mm = LOOK_EVERY_MM;
     brain->chasing = false;
     brain->ate = false;
+    brain->misses = 0;
     return true;
 }
 
 static struct action look_all_around(struct brain *brain)
 {
     int sign = random_below(&brain->random, 2) ? 1 : -1;
+    int more = random_below(&brain->random, LEAVE_CHOICES);
 
     brain->since_mm = 0;
     return (struct action){
         .reason = REASON_LOOK_AROUND,
-        .turn_deg = (int16_t)(sign * WHOLE_TURN_DEG),
+        .turn_deg = (int16_t)(sign * (WHOLE_TURN_DEG + more)),
         .until_food = true,
     };
+}
+
+/* Food that was lost sight of once and again is in a place that it cannot be reached from: each time it goes farther. */
+static void miss(struct brain *brain)
+{
+    brain->since_mm = (int16_t)(LOOK_EVERY_MM - (LOOK_AGAIN_MM << brain->misses));
+    if (brain->misses < MISSES_MAX)
+        brain->misses++;
 }
 
 static void note_what_is_seen(struct brain *brain, bool look)
 {
     if (brain->ate) {
         brain->ate = false;
+        brain->misses = 0;
         brain->chasing = false;
         brain->since_mm = LOOK_EVERY_MM;
     }
     if (look)
         brain->since_mm = 0;
     else if (brain->chasing)
-        brain->since_mm = LOOK_EVERY_MM - LOOK_AGAIN_MM;
+        miss(brain);
     brain->chasing = look;
 }
 
@@ -60,7 +73,7 @@ static struct action go_on(struct brain *brain, const struct config *config, con
 static bool step_led_to_food(struct brain *brain, const struct config *config, const struct senses *senses)
 {
     brain->awaits = AWAITS_NOTHING;
-    brain->since_mm = (uint16_t)(senses->look ? 0 : brain->since_mm + config->value[STEP_MM]);
+    brain->since_mm = (int16_t)(senses->look ? 0 : brain->since_mm + config->value[STEP_MM]);
     brain->ate = senses->look && senses->beacon_mm < config->value[REACH_MM];
     return brain->ate;
 }

@@ -1,4 +1,5 @@
 #include "firmware/brain.h"
+#include "firmware/feel_memory.h"
 
 #include <unity.h>
 
@@ -44,6 +45,13 @@ static void test_the_side_sensors_do_not_judge_a_trial(void)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
+static void test_boredom_can_strike_again(void)
+{
+    feel_memory_learn(&brain.memory, FRONT, SIDE_LEFT);
+    for (unsigned i = 1; i <= 22; i++)
+        TEST_ASSERT_EQUAL(i % 11 == 0 ? REASON_BOREDOM : REASON_REMEMBERED, next(FRONT).reason);
+}
+
 static void test_a_frozen_brain_learns_nothing(void)
 {
     brain.frozen = true;
@@ -59,6 +67,7 @@ int main(void)
     RUN_TEST(test_the_side_sensors_tell_readings_apart);
     RUN_TEST(test_the_side_sensors_alone_are_not_in_the_way);
     RUN_TEST(test_the_side_sensors_do_not_judge_a_trial);
+    RUN_TEST(test_boredom_can_strike_again);
     RUN_TEST(test_a_frozen_brain_learns_nothing);
     return UNITY_END();
 }

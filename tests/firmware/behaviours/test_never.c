@@ -48,11 +48,24 @@ static void test_a_trial_that_helps_teaches_nothing(void)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-static void test_it_is_never_bored(void)
+static void test_every_tenth_trial_in_a_row_is_a_bigger_turn(void)
 {
-    for (unsigned i = 0; i < MANY; i++)
-        TEST_ASSERT_EQUAL(REASON_TRIAL, next(ALL_THREE).reason);
-    TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
+    for (unsigned i = 1; i <= MANY; i++) {
+        struct action action = next(ALL_THREE);
+
+        TEST_ASSERT_EQUAL(i % 10 == 0 ? REASON_BOREDOM : REASON_TRIAL, action.reason);
+        TEST_ASSERT_TRUE(i % 10 != 0 || action.turn_deg == -150 || action.turn_deg == 150);
+        TEST_ASSERT_EQUAL_UINT8(i % 10, brain.repeat_count);
+    }
+}
+
+static void test_a_clear_way_ends_the_trials_in_a_row(void)
+{
+    for (unsigned i = 1; i < 10; i++)
+        next(ALL_THREE);
+    next(0);
+    next(0);   /* looks around */
+    TEST_ASSERT_EQUAL(REASON_TRIAL, next(ALL_THREE).reason);
 }
 
 static void test_it_leaves_the_memory_as_it_is(void)
@@ -67,7 +80,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_every_blockage_is_a_trial);
     RUN_TEST(test_a_trial_that_helps_teaches_nothing);
-    RUN_TEST(test_it_is_never_bored);
+    RUN_TEST(test_every_tenth_trial_in_a_row_is_a_bigger_turn);
+    RUN_TEST(test_a_clear_way_ends_the_trials_in_a_row);
     RUN_TEST(test_it_leaves_the_memory_as_it_is);
     return UNITY_END();
 }

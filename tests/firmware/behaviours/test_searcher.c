@@ -27,7 +27,7 @@ static void assert_turns_once_around(void)
     struct action action = next(CLEAR);
 
     TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, action.reason);
-    TEST_ASSERT_TRUE(action.turn_deg == 360 || action.turn_deg == -360);
+    TEST_ASSERT_INT_WITHIN(90, 449, action.turn_deg < 0 ? -action.turn_deg : action.turn_deg);
     TEST_ASSERT_TRUE(action.until_food);
 }
 
@@ -62,6 +62,41 @@ static void test_when_it_has_lost_the_food_it_drives_on_a_little(void)
     next_seeing_food(900);
     steps(17);
     assert_turns_once_around();
+}
+
+/* Lost again and again, the food is in a place that it cannot be reached from. */
+static void test_each_time_that_it_has_lost_food_it_drives_on_twice_as_far(void)
+{
+    static const unsigned ways[] = {17, 34, 67, 134, 267, 267};   /* in steps of 12 mm: 200 mm and on */
+
+    for (unsigned i = 0; i < sizeof ways / sizeof ways[0]; i++) {
+        next_seeing_food(900);
+        steps(ways[i]);
+        assert_turns_once_around();
+    }
+    next_seeing_food(155);
+    next_seeing_food(149);   /* a meal */
+    assert_turns_once_around();
+    next_seeing_food(900);
+    steps(ways[0]);
+    assert_turns_once_around();
+}
+
+static void test_it_goes_on_in_any_direction(void)
+{
+    bool seen[180] = {false};
+    unsigned directions = 0;
+
+    for (uint32_t seed = 0; seed < 4000; seed++) {
+        int turn_deg;
+
+        TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, seed));
+        turn_deg = next(CLEAR).turn_deg;
+        seen[(turn_deg < 0 ? -turn_deg : turn_deg) - 360] = true;
+    }
+    for (unsigned i = 0; i < 180; i++)
+        directions += seen[i];
+    TEST_ASSERT_EQUAL_UINT(180, directions);
 }
 
 static void test_it_learns_as_adaptive_does(void)
@@ -106,6 +141,8 @@ int main(void)
     RUN_TEST(test_it_goes_to_what_it_sees);
     RUN_TEST(test_after_a_meal_it_looks_for_the_next);
     RUN_TEST(test_when_it_has_lost_the_food_it_drives_on_a_little);
+    RUN_TEST(test_each_time_that_it_has_lost_food_it_drives_on_twice_as_far);
+    RUN_TEST(test_it_goes_on_in_any_direction);
     RUN_TEST(test_it_learns_as_adaptive_does);
     RUN_TEST(test_a_turn_around_ends_the_count);
     RUN_TEST(test_it_turns_around_either_way);

@@ -9,6 +9,10 @@ class Oracle(Listing):
     The four bits of readings 0 and 1, in which nothing is in the way, are set as soon as something was learned.
     """
 
+    def begin_about_face(self) -> None:
+        """Boredom can strike again."""
+        self.repeat_count = 0
+
     def recall(self, feel: int) -> int:
         """The two bits of a reading."""
         return int.from_bytes(bytes(self.mem), "little") >> 2 * feel & 3

@@ -7,11 +7,12 @@ from tests.firmware.oracles.listing import DIST_MM, REACH_MM, Action
 
 
 class Oracle(Adaptive):
-    """It drives straight on, turns once around after a metre without looking, and goes straight to what it sees."""
+    """It drives straight on, looks around after a metre without looking, and goes straight to what it sees."""
 
-    STATE = ("used", "unlearned", "since_mm", "chasing", "ate")
+    STATE = ("used", "unlearned", "since_mm", "misses", "chasing", "ate")
 
     since_mm = 1000
+    misses = 0
     chasing = ate = False
 
     def go_forward(self) -> Iterator[Action]:
@@ -19,16 +20,19 @@ class Oracle(Adaptive):
         robot = self.robot
         if self.ate:
             self.ate = self.chasing = False
-            self.since_mm = 1000
+            self.since_mm, self.misses = 1000, 0
         if robot.look():
             self.since_mm = 0
             self.chasing = True
         elif self.chasing:
             self.chasing = False
-            self.since_mm = 800
+            self.since_mm = 1000 - 200 * 2**self.misses
+            self.misses = min(4, self.misses + 1)
         if not robot.look() and self.since_mm >= 1000:
             self.since_mm = 0
-            yield Action("LOOK_AROUND", 360 if robot.random(2) else -360, until_food=True)
+            to_the_right = robot.random(2)
+            degrees = 360 + robot.random(180)
+            yield Action("LOOK_AROUND", degrees if to_the_right else -degrees, until_food=True)
             return
         yield Action("TOWARD_FOOD" if robot.look() else "WANDER", forward_mm=DIST_MM)
         self.since_mm += DIST_MM
