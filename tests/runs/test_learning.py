@@ -13,6 +13,7 @@ from host_sim.protocol.generated import Side
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import EpisodeResult
+from host_sim.study.trial import Trial, run_trial
 
 SEEDS = range(1, 41)
 PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
@@ -40,6 +41,15 @@ def environments(runs) -> list[EpisodeResult]:
 def last(runs) -> list[tuple[int, ...]]:
     """Each robot's memory in the end."""
     return [episodes[-1].robots[0].memory for episodes in runs]
+
+
+def blocked_s(profile: str) -> float:
+    """How long a robot of a profile is blocked, s: the mean of all times that it is."""
+    trials = [Trial(profile, seed) for seed in SEEDS[:20]]
+    with ProcessPoolExecutor(2) as processes:
+        rows = [row for run in processes.map(run_trial, trials) for row in run.rows]
+    times = [contact.blocked_ticks * row.tick_s for row in rows for robot in row.contacts for contact in robot]
+    return statistics.mean(times)
 
 
 def share(truths: list[bool]) -> float:
@@ -79,3 +89,9 @@ def test_hardly_a_robot_ever_touches_anything(environments):
 
 def test_an_environment_takes_a_few_minutes(environments):
     assert 100 < statistics.median(episode.robot_s for episode in environments) < 220
+
+
+def test_a_learner_is_not_far_from_one_that_is_programmed_and_far_from_one_that_never_remembers():
+    learned, programmed, never = map(blocked_s, ("article", "fixed", "never"))
+
+    assert programmed < learned < 0.6 * never
