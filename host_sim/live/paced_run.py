@@ -196,8 +196,9 @@ class PacedRun:
 
     def _tick(self) -> None:
         simulation = self.simulation
-        in_blocks = self.speed == FULL_SPEED and self._decided is None
+        in_blocks, changes = self.speed == FULL_SPEED and self._decided is None, simulation.record.changes
         simulation.step(simulation.block_ticks if in_blocks else 1)
+        self.layout += simulation.record.changes - changes
         if self._has_decided(simulation.drives[0]):
             self._pause()
         if simulation.over:

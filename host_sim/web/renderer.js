@@ -4,7 +4,7 @@
 import { contextOf } from "./elements.js";
 import { paletteOf } from "./palette.js";
 import { drawLook, drawRobot } from "./robot_view.js";
-import { circle } from "./shapes.js";
+import { circle, drawPlant } from "./shapes.js";
 import { TrailLayer } from "./trail_layer.js";
 
 /**
@@ -43,6 +43,7 @@ export class Renderer {
     for (const state of states) drawLook(context, scene, state, palette);
     this.drawFood(scene);
     this.drawBars(scene);
+    for (const plant of scene.environment.plants ?? []) drawPlant(context, plant, palette.of);
     for (const state of states) drawRobot(context, scene, state, palette);
   }
 
