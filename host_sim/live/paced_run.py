@@ -223,12 +223,9 @@ class PacedRun:
             self._rate_from = self.simulation.tick, now
 
     def _idle(self) -> None:
-        """Discards the reports of robots while the run is paused: they receive nothing, and report that."""
+        """Discards the reports of robots while the run is paused."""
         self._next_s = self.rate = 0.0
-        for client in self.simulation.clients:
-            while client.link.receive(0.0) is not None:
-                pass
-            client.status()
+        discard_reports(self.simulation)
 
     def _pause(self) -> None:
         self.playing, self._decided = False, None
@@ -321,3 +318,11 @@ class PacedRun:
         if node is not None and node not in nodes:
             raise EditError(f"there is no robot {node}; there are {', '.join(map(str, nodes))}")
         return 0 if node is None else nodes.index(node)
+
+
+def discard_reports(simulation: Simulation) -> None:
+    """Discards what robots report between two ticks: they receive nothing, and say so."""
+    for client in simulation.clients:
+        while client.link.receive(0.0) is not None:
+            pass
+        client.status()

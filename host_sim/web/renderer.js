@@ -95,7 +95,7 @@ export class Renderer {
   drawFloor(measures) {
     const { context, palette } = this;
     context.fillStyle = palette.of.bar;
-    context.fillRect(-MARGIN_MM, -MARGIN_MM, measures.width + 2 * MARGIN_MM, measures.height + 2 * MARGIN_MM);
+    context.fillRect(-MARGIN_MM, -MARGIN_MM, this.canvas.width / this.scale, this.canvas.height / this.scale);
     context.fillStyle = palette.of.floor;
     context.fillRect(0, 0, measures.width, measures.height);
     context.fillStyle = palette.of.grid;
