@@ -22,9 +22,9 @@ from host_sim.world.edits import (
     AddBar,
     AddPlant,
     ChangeBody,
-    ChangePlant,
     Edit,
     EditError,
+    GrowPlant,
     Lift,
     MoveBar,
     MoveFood,
@@ -146,7 +146,7 @@ _EDITS: list[Callable[[Simulation, random.Random], Edit]] = [
     lambda simulation, draws: RemoveBar(_bar_id(simulation, draws)),
     lambda simulation, draws: MoveFood(draws.randrange(len(simulation.arena.food.at)), _point(simulation, draws)),
     lambda simulation, draws: AddPlant(Plant(_point(simulation, draws), draws.randint(20, 200))),
-    lambda simulation, draws: ChangePlant(0, Plant(_point(simulation, draws), draws.randint(20, 200))),
+    lambda _, draws: GrowPlant(0, draws.randint(20, 200)),
     lambda simulation, draws: ChangeBody(
         draws.choice(_BODY_FAULTS), draws.randrange(len(simulation.clients)), simulation.seed
     ),

@@ -3,6 +3,7 @@
 import argparse
 import json
 import sys
+import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
@@ -35,6 +36,7 @@ FAULTS = "faults.txt"
 
 _NOTHING = (0,) * CELL_COUNT
 _SUMMARY_MAX = 10_000_000
+_PAUSE_STEP_S = 0.05
 
 
 def conduct_watched(arguments: argparse.Namespace, watch: WatchOptions) -> Summary:
@@ -209,9 +211,21 @@ def _run_through(outputs: Outputs) -> None:
                 if talks:
                     progress.clear()
                     print(environment_line(len(outputs.episodes), episode))
+                if outputs.options.config.real_time and len(outputs.episodes) < simulation.environments:
+                    _pause(simulation)
     except BaseException:
         progress.clear()
         raise
+
+
+def _pause(simulation: Simulation) -> None:
+    """Lets people see how an environment ended. No robot time passes, and nothing of it is logged."""
+    from host_sim.live.paced_run import PAUSE_S, discard_reports
+
+    end_s = time.monotonic() + PAUSE_S
+    while time.monotonic() < end_s:
+        discard_reports(simulation)
+        time.sleep(_PAUSE_STEP_S)
 
 
 def _say_refused(simulation: Simulation, before: Callable[[], object] = lambda: None) -> None:

@@ -61,6 +61,7 @@ def _check(options: RunOptions) -> None:
     unsuited = {
         "--robot": config.robot != default.robot,
         "--node": config.node != default.node,
+        "--change": config.changes != default.changes,
         "--fault": config.faults != default.faults,
         "--memory": options.memory is not None,
         "--real-time": config.real_time,

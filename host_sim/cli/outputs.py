@@ -12,6 +12,7 @@ from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
 from host_sim.recording.world_file import world_path, write_world
 from host_sim.sim.simulation import EpisodeResult, Simulation
+from host_sim.view.news import news_of
 
 LOG, SUMMARY, PICTURE, PAGE = "run.log", "summary.json", "arena.png", "replay.html"
 """The files in a run's output folder, beside the world file of the log."""
@@ -77,6 +78,7 @@ class Outputs:
         from host_sim.report.replay_page import write_page
 
         trajectory = self.recorder.trajectory
+        trajectory.news = news_of(self.simulation.record)
         if trajectory.ticks:
             write_picture(self.options.out / PICTURE, trajectory)
             write_page(self.options.out / PAGE, trajectory, self.simulation.record.title)

@@ -10,6 +10,7 @@ from host_sim.live.paced_run import PacedRun
 from host_sim.recording.summary import frame_counts
 from host_sim.recording.trajectory import RobotTrack
 from host_sim.view.history import Lesson
+from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene, measures, states
 
 TRAIL_MAX = 3000
@@ -17,6 +18,7 @@ TRAIL_MAX = 3000
 
 _POINTS_MAX = 200
 _NOTES_MAX = 8
+_NEWS_MAX = 8
 
 
 @dataclass
@@ -40,7 +42,8 @@ class PageFeed:
     def next(self) -> str | None:
         """The message that brings the page up to date as JSON, or None if it is up to date.
 
-        Its fields: `states`, one per robot, and if they are new `environment` and `measures`, as in view/state.py;
+        Its fields: `states`, one per robot, and if they are new `environment` and `measures`, as in view/state.py,
+        with `news`, the last changes of the world and the bodies, as [tick, sentence];
         `trails`, for each robot the ticks since the last message as [x, y, reason, ...], thinned out if many;
         `lessons`, those of all robots since the last message; `play`, the state of the controls; `health`; `notes`,
         if there are any; `at`, wall-clock time in ms since 1970.
@@ -77,7 +80,8 @@ class PageFeed:
         if scene["start_tick"] != self._start:
             self._start = scene["start_tick"]
             self._lessons.clear()
-        return {"environment": scene}
+        news = [it for it in news_of(simulation.record) if it[0] >= scene["start_tick"]]
+        return {"environment": scene, "news": news[-_NEWS_MAX:]}
 
     def _first_tick(self) -> int:
         """The first tick of the current environment."""

@@ -196,8 +196,9 @@ class PacedRun:
 
     def _tick(self) -> None:
         simulation = self.simulation
-        in_blocks = self.speed == FULL_SPEED and self._decided is None
+        in_blocks, changes = self.speed == FULL_SPEED and self._decided is None, simulation.record.changes
         simulation.step(simulation.block_ticks if in_blocks else 1)
+        self.layout += simulation.record.changes - changes
         if self._has_decided(simulation.drives[0]):
             self._pause()
         if simulation.over:
@@ -222,12 +223,9 @@ class PacedRun:
             self._rate_from = self.simulation.tick, now
 
     def _idle(self) -> None:
-        """Discards the reports of robots while the run is paused: they receive nothing, and report that."""
+        """Discards the reports of robots while the run is paused."""
         self._next_s = self.rate = 0.0
-        for client in self.simulation.clients:
-            while client.link.receive(0.0) is not None:
-                pass
-            client.status()
+        discard_reports(self.simulation)
 
     def _pause(self) -> None:
         self.playing, self._decided = False, None
@@ -320,3 +318,11 @@ class PacedRun:
         if node is not None and node not in nodes:
             raise EditError(f"there is no robot {node}; there are {', '.join(map(str, nodes))}")
         return 0 if node is None else nodes.index(node)
+
+
+def discard_reports(simulation: Simulation) -> None:
+    """Discards what robots report between two ticks: they receive nothing, and say so."""
+    for client in simulation.clients:
+        while client.link.receive(0.0) is not None:
+            pass
+        client.status()

@@ -10,6 +10,8 @@ from host_sim.errors import UsageError
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, NextEnvironment, OneDecision, PageCommand, Play, Speed
 from host_sim.live.text_picture import View, draw_text
+from host_sim.recording.summary import environment_line
+from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene, states
 
 _EVERY_S = 0.1
@@ -116,12 +118,24 @@ def _view(live: PacedRun) -> View:
         trajectory.boredom_limit,
         _pace(live),
         _KEYS,
+        _news(live, begun.first_tick),
     )
+
+
+def _news(live: PacedRun, first_tick: int) -> str:
+    """How the run or the environment ended or, while it goes on, what last changed in it."""
+    since = live.episodes[live.started_over :]
+    if live.done:
+        return f"ALL DONE: {sum(episode.finished for episode in since)} of {len(since)} environments finished"
+    if live.ended_at is not None and since:
+        return environment_line(len(since), since[-1]).partition(";")[0]
+    news = [sentence for tick, sentence in news_of(live.simulation.record) if tick >= first_tick]
+    return news[-1] if news else ""
 
 
 def _pace(live: PacedRun) -> str:
     if live.done:
-        return "over"
+        return "all done"
     if not live.playing:
         return "paused"
     speed = live.speed if live.speed != FULL_SPEED else live.rate * live.params.tick_s

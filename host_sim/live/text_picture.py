@@ -16,7 +16,8 @@ COLUMNS_MIN, ROWS_MIN = 60, 20
 
 _PANEL, _ROWS_BELOW, _WORD_ROWS = 22, 6, 2
 _TALL = 2.0
-_FOOD, _EATEN, _BAR, _TRAIL, _ROBOT = "O", "x", "#", ".", "@"
+_FOOD, _EATEN, _BAR, _PLANT, _TRAIL, _ROBOT = "O", "x", "#", "*", ".", "@"
+_DISC_STEPS = 8
 _NOSES = "-\\|/"
 _FEELERS = (("LEFT", "<"), ("FRONT_LEFT", "\\"), ("FRONT", "|"), ("FRONT_RIGHT", "/"), ("RIGHT", ">"))
 _FRONT = ((4, "\\"), (2, "|"), (1, "/"))
@@ -34,6 +35,7 @@ class View:
         boredom_limit: Number of remembered turns in a row at which a robot is bored.
         pace: The speed, in words.
         keys: The keys and their meaning.
+        news: What has just changed or ended, in a sentence; empty if nothing did.
     """
 
     params: SimParams
@@ -43,6 +45,7 @@ class View:
     boredom_limit: int
     pace: str
     keys: str
+    news: str = ""
 
     @property
     def state(self) -> State:
@@ -70,7 +73,7 @@ def draw_text(view: View, columns: int, rows: int) -> list[str]:
     middle = [f"{left:{width}}  {right}" for left, right in zip(arena, _padded(panel, len(arena)), strict=True)]
     texts = sentence(view.state), verdict(view.state["trial"])
     words = [line for text in texts for line in _padded(textwrap.wrap(text, columns), _WORD_ROWS)]
-    return [line[:columns].rstrip() for line in (_head(view), *middle, "", *words, view.keys)]
+    return [line[:columns].rstrip() for line in (_head(view), *middle, view.news, *words, view.keys)]
 
 
 def _head(view: View) -> str:
@@ -88,6 +91,8 @@ def _draw_arena(view: View, columns: int, rows: int) -> list[str]:
         canvas.mark(trail, _TRAIL)
     for _, ax, ay, bx, by in view.scene["bars"]:
         canvas.line((ax, ay), (bx, by), _BAR)
+    for _, x, y, radius in view.scene.get("plants", []):
+        canvas.disc((x, y), radius, _PLANT)
     for (x, y), eaten in zip(view.scene["food"], view.state["eaten"], strict=True):
         canvas.mark([(x, y)], _EATEN if eaten else _FOOD)
     for state in view.states:
@@ -117,6 +122,13 @@ class _Canvas:
         steps = self.columns + len(self.rows)
         parts = [i / steps for i in range(steps + 1)]
         self.mark(((a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part) for part in parts), sign)
+
+    def disc(self, middle: Point, radius_mm: float, sign: str) -> None:
+        """Puts signs all over a disc."""
+        steps = [radius_mm * part / _DISC_STEPS for part in range(-_DISC_STEPS, _DISC_STEPS + 1)]
+        self.mark(
+            ((middle[0] + x, middle[1] + y) for x in steps for y in steps if math.hypot(x, y) <= radius_mm), sign
+        )
 
     def robot(self, pose: Pose, sign: str) -> None:
         """Puts a robot, and a stroke beside it in the direction of its heading."""

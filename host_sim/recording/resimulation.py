@@ -17,6 +17,7 @@ from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import read_world, world_path
 from host_sim.robot_io import Senses
 from host_sim.sim.world_record import Begun, WorldRecord
+from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene
 from host_sim.world.arena import Arena
 from host_sim.world.edits import Edit, EditError, make_edit
@@ -112,6 +113,7 @@ class _Resimulator:
             self._run_tick(tick, robots)
         for _, scene in self._recorder.trajectory.scenes:
             scene["of"] = max(self._record.environments, self._begun.number)
+        self._recorder.trajectory.news = news_of(self._record)
         return self._recorder.trajectory
 
     def _run_tick(self, tick: int, robots: Sequence[Tick]) -> None:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from host_sim.protocol.generated import CELL_COUNT, Reason
 from host_sim.robot_io import Drive, Senses
 from host_sim.view.history import Lesson, Trial
+from host_sim.view.news import News
 from host_sim.view.state import EnvironmentScene, State
 from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams
@@ -29,7 +30,7 @@ AXES = len(Pose._fields)
 
 
 class Event(NamedTuple):
-    """An event that a page can jump to; `kind` is environment, trial, lesson, boredom or eat."""
+    """An event that a page can jump to; `kind` is environment, change, trial, lesson, boredom or eat."""
 
     tick: int
     kind: str
@@ -129,6 +130,7 @@ class Trajectory:
         boredom_limit: Number of remembered turns in a row at which a robot is bored.
         tracks: The robots, in the order of their nodes.
         scenes: The environments, each again after every change by a person.
+        news: What changed in the world and the bodies, in sentences.
         meals: For each piece of the scene's food, 1 if it was eaten, else 0.
         environments: Number of environments so far, including those that are no longer retained.
     """
@@ -139,6 +141,7 @@ class Trajectory:
     scenes: Changes[EnvironmentScene] = field(default_factory=list)
     meals: Changes[list[int]] = field(default_factory=list)
     environments: int = 0
+    news: list[News] = field(default_factory=list)
 
     @property
     def first_tick(self) -> int:
@@ -198,12 +201,17 @@ class Trajectory:
         return sorted(
             (
                 *(Event(tick, "environment") for tick in self.begun()),
+                *(Event(tick, "change") for tick in dict.fromkeys(tick for tick, _ in self.retained_news())),
                 *(Event(tick, "trial") for tick in track.begun(Reason.TRIAL).tolist()),
                 *(Event(tick, "boredom") for tick in track.begun(Reason.BOREDOM).tolist()),
                 *(Event(lesson["tick"], "lesson") for lesson in lessons if lesson["tick"] >= self.first_tick),
                 *(Event(tick, "eat") for tick in track.meals if tick >= self.first_tick),
             )
         )
+
+    def retained_news(self) -> list[News]:
+        """The news of the ticks that are retained."""
+        return [news for news in self.news if self.first_tick <= news[0] < self.ticks]
 
     def begun(self) -> list[int]:
         """The first tick of each retained environment."""

@@ -21,6 +21,7 @@ from host_sim.report.drawing import (
     draw_cone,
     draw_food,
     draw_obstacles,
+    draw_plants,
     draw_robot,
     draw_trail,
     write,
@@ -86,7 +87,8 @@ def draw_frame(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image:
     frame = Image.new("RGB", (width_px, 2 * _MARGIN_PX + _LINE_PX + arena.height + cells.height), PAPER)
     frame.paste(arena, (_MARGIN_PX, _LINE_PX))
     frame.paste(cells, ((width_px - cells.width) // 2, _LINE_PX + arena.height + _MARGIN_PX))
-    words = lesson_sentence(lesson) if lesson else sentence(state)
+    news = next((words for at, words in reversed(trajectory.news) if at == tick), None)
+    words = news or (lesson_sentence(lesson) if lesson else sentence(state))
     write(frame, (_MARGIN_PX, _LINE_PX / 2), words, _fitting_px(words, inner_px - _CLOCK_PX), "lm")
     clock = f"{tick * trajectory.params.tick_s:.1f} s"
     write(frame, (width_px - _MARGIN_PX, _LINE_PX / 2), clock, _TEXT_PX, "rm")
@@ -129,6 +131,7 @@ def _draw_arena(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image
     for state in states:
         _draw_cones(plan, state, params)
     draw_obstacles(plan, (((ax, ay), (bx, by)) for _, ax, ay, bx, by in scene["bars"]), params)
+    draw_plants(plan, scene.get("plants", []))
     for (x, y), eaten in zip(scene["food"], states[0]["eaten"], strict=True):
         draw_food(plan, (x, y), FOOD_MM, bool(eaten))
     for state in states:

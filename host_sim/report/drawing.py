@@ -21,6 +21,7 @@ FRONT_BITS = (FEEL["FRONT_RIGHT"], FEEL["FRONT"], FEEL["FRONT_LEFT"])
 # Everything but text is drawn this many times too large and then shrunk, for smooth edges. What is wide is smooth
 # with less, and would take much memory.
 _OVERSIZE, _WIDE_OVERSIZE, _WIDE_PX = 3, 2, 1000
+_LEAF, _POT, _LEAVES = "#5b7f2b", "#8c564b", 8
 _FOOD, _FRAME_MM = "#009e73", 16.0
 _UP = -math.pi / 2
 
@@ -125,6 +126,16 @@ def draw_obstacles(plan: Plan, bars: Iterable[Sequence[Point]], params: SimParam
         plan.line(bar, params.bar_thickness_mm, OBSTACLE)
     right, bottom = params.width_mm, params.height_mm
     plan.line([(0, 0), (right, 0), (right, bottom), (0, bottom), (0, 0)], _FRAME_MM, OBSTACLE)
+
+
+def draw_plants(plan: Plan, plants: Iterable[Sequence[float]]) -> None:
+    """Draws plants, given by id, centre and radius in mm: leaves around a pot, as large as they are."""
+    for _, x, y, radius in plants:
+        plan.disc((x, y), 2 * radius, _LEAF)
+        for leaf in range(_LEAVES):
+            vein = [ahead_of(Pose(x, y, leaf * math.tau / _LEAVES), radius * part) for part in (0.4, 0.85)]
+            plan.line(vein, radius / 12, FLOOR)
+        plan.disc((x, y), 0.7 * radius, _POT)
 
 
 def draw_robot(plan: Plan, pose: Pose, diameter: float, colour: str) -> None:

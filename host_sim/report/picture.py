@@ -25,6 +25,7 @@ from host_sim.report.drawing import (
     draw_food,
     draw_mark,
     draw_obstacles,
+    draw_plants,
     draw_robot,
     draw_trail,
     write,
@@ -39,6 +40,7 @@ _WIDTH_PX, _MARGIN_PX, _GAP_PX = 1608, 36, 24
 _LEGEND_COLUMNS, _LINE_PX, _TEXT_PX, _HEADING_PX = 6, 30, 18, 21
 _LEGEND_PX_PER_MM = 0.25
 _MOST_MEMORIES = 8
+_MOST_NEWS = 12
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,7 @@ class Panel:
         trails: For each robot and control tick, the position at its end (x and y in mm) and the reason of its drive.
         starts: Each robot's pose after the first tick.
         nodes: Each robot's node number on the bus.
+        news: What changed in it, each with the time since its start, s of robot time.
     """
 
     scene: EnvironmentScene
@@ -60,6 +63,7 @@ class Panel:
     trails: Sequence[Sequence[tuple[float, float, int]]]
     starts: Sequence[Pose]
     nodes: Sequence[int]
+    news: Sequence[tuple[float, str]] = ()
 
 
 def write_picture(path: Path, trajectory: Trajectory) -> None:
@@ -108,6 +112,7 @@ def _panel(trajectory: Trajectory, first: int, end: int) -> Panel:
         trails=trails,
         starts=[track.pose(first) for track in trajectory.tracks],
         nodes=[track.node for track in trajectory.tracks],
+        news=[((tick - first) * trajectory.params.tick_s, it) for tick, it in trajectory.news if first <= tick < end],
     )
 
 
@@ -156,18 +161,37 @@ def omissions(environments: int, robots: int) -> list[str]:
     return texts
 
 
+def _news(panel: Panel) -> list[str]:
+    """What changed in an environment, a line each."""
+    name = f"environment {panel.scene['number']}"
+    return [f"{name}, after {seconds:.0f} s: {sentence}" for seconds, sentence in panel.news]
+
+
+def _lines(texts: Sequence[str]) -> list[Image.Image]:
+    """The lines of a paragraph as one image; none if there are none."""
+    sheet = Image.new("RGB", (_WIDTH_PX, len(texts) * _LINE_PX), PAPER)
+    for number, text in enumerate(texts):
+        write(sheet, (0, (number + 0.4) * _LINE_PX), text, _TEXT_PX, "lm")
+    return [sheet] if texts else []
+
+
 def _line(text: str) -> Image.Image:
     """A line of text."""
     return _titled(text, Image.new("RGB", (_WIDTH_PX, 1), PAPER))
 
 
 def _environment_rows(panels: Panels, params: SimParams) -> list[Image.Image]:
-    """The last environments, side by side, each under its caption."""
+    """The last environments, side by side, each under its caption; then what changed in them."""
     columns = min(_COLUMNS, len(panels))
     width_px = (_WIDTH_PX - (columns - 1) * _GAP_PX) // columns
     shown = islice(panels, max(0, len(panels) - _MOST_ENVIRONMENTS), None)
-    images = [_titled(_caption(panel), _environment(panel, params, width_px)) for panel in shown]
-    return [_abreast(images[first : first + columns], _GAP_PX) for first in range(0, len(images), columns)]
+    images, news = [], []
+    for panel in shown:
+        images.append(_titled(_caption(panel), _environment(panel, params, width_px)))
+        news += _news(panel)
+    rows = [_abreast(images[first : first + columns], _GAP_PX) for first in range(0, len(images), columns)]
+    more = len(news) - _MOST_NEWS
+    return rows + _lines(news if more <= 0 else [*news[:_MOST_NEWS], f"and {more} more changes"])
 
 
 def _caption(panel: Panel) -> str:
@@ -183,6 +207,7 @@ def _environment(panel: Panel, params: SimParams, width_px: int) -> Image.Image:
     for start, trail in zip(panel.starts, panel.trails, strict=True):
         draw_trail(plan, start[:2], trail)
     draw_obstacles(plan, (((ax, ay), (bx, by)) for _, ax, ay, bx, by in panel.scene["bars"]), params)
+    draw_plants(plan, panel.scene.get("plants", []))
     for (x, y), eaten in zip(panel.scene["food"], panel.eaten, strict=True):
         draw_food(plan, (x, y), FOOD_MM, bool(eaten))
     for start, trail in zip(panel.starts, panel.trails, strict=True):

@@ -12,6 +12,7 @@ tick `first_tick`.
     first_tick   the first tick on the page; 0 except for very long runs, of which it shows the last part
     ticks        number of ticks
     scenes       [[tick, EnvironmentScene], ...]: one for each environment and for each change of it by a person
+    news         [[tick, sentence], ...]: what changed in the world and the bodies
     eaten        [[tick, [0 or 1 for each piece of the scene's food]], ...]
     robots       one object per robot, in the order of their nodes:
         node         its node number on the bus
@@ -19,7 +20,8 @@ tick `first_tick`.
         trials       [[tick, Trial or null], ...]: State.trial
         lessons      [Lesson, ...], including those before first_tick, without those after the last tick
         turns        [[tick, cell], ...]: each use of a cell, including those before first_tick; see State.uses
-        events       [[tick, kind], ...], in order: kind is "environment", "trial", "lesson", "boredom" or "eat"
+        events       [[tick, kind], ...], in order: kind is "environment", "change", "trial", "lesson", "boredom" or
+                     "eat"
         columns      the names of the columns, in the order of the data
         data         base64 of a zlib stream (DecompressionStream "deflate") of the columns
 
@@ -82,6 +84,7 @@ def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:
         "first_tick": trajectory.first_tick,
         "ticks": trajectory.ticks - trajectory.first_tick,
         "scenes": trajectory.scenes,
+        "news": trajectory.retained_news(),
         "eaten": trajectory.meals,
         "robots": [_robot_data(trajectory, robot) for robot in range(len(trajectory.tracks))],
     }

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from host_sim.world.edits import ChangeBody, ChangePlant, Edit, MoveBar, MoveFood
+from host_sim.world.edits import ChangeBody, Edit, MoveBar, MoveFood
 from host_sim.world.layouts import World
 from host_sim.world.world_names import RANDOM
 from host_sim.world.worlds import world_of
@@ -63,6 +63,11 @@ class WorldRecord:
         """The run's title."""
         return f"seed {self.seed}" + ("" if self.world.name == RANDOM else f", {self.world.name}")
 
+    @property
+    def changes(self) -> int:
+        """Number of changes of a schedule that were due."""
+        return len(self.happened) + len(self.refused)
+
     def begin(self, begun: Begun) -> None:
         """Adds an environment. Edits after the last tick of the previous one are dropped: no robot sensed them.
 
@@ -84,4 +89,4 @@ class WorldRecord:
 def _dragged(edited: Edited) -> tuple[int, type, int] | None:
     """The tick of an edit that moves a thing, and which thing; None for other edits."""
     edit = edited.edit
-    return (edited.tick, type(edit), edit.id) if isinstance(edit, (MoveBar, MoveFood, ChangePlant)) else None
+    return (edited.tick, type(edit), edit.id) if isinstance(edit, (MoveBar, MoveFood)) else None

@@ -41,6 +41,22 @@ def _toward_food(beacon_mm: int) -> str:
     return f"I see food {beacon_mm / 1000:.2f} m ahead: I drive toward it." if beacon_mm else _WANDERING
 
 
+def body_sentence(what: str) -> str:
+    """What has happened to a body, a fault of `host_sim.world.body_faults`, in one sentence."""
+    name, _, details = what.partition(":")
+    if name == "weak-motor":
+        side, _, share = details.partition(":")
+        return f"The {side} motor turns at {share} of its speed."
+    return {
+        "swap-motors": "The plugs of the motors were swapped.",
+        "mirror": "The ring of sensors was mounted the other way round.",
+        "stuck-on": f"The {details} sensor is stuck: it always sees something.",
+        "stuck-off": f"The {details} sensor is dead: it never sees anything.",
+        "noise": f"Each sensor is wrong in {details.replace('/', ' of ')} ticks.",
+        "repair": "The body was repaired.",
+    }[name]
+
+
 def lesson_sentence(lesson: Lesson) -> str:
     """A change of a cell in one sentence."""
     name = PATTERNS[lesson["cell"]]

@@ -46,7 +46,17 @@ class Measures(TypedDict):
     boredom: int
 
 
-class EnvironmentScene(TypedDict):
+class _SceneWithoutPlants(TypedDict):
+    number: int
+    of: int
+    seed: int
+    first_tick: int
+    start_tick: int
+    bars: list[list[float]]
+    food: list[list[float]]
+
+
+class EnvironmentScene(_SceneWithoutPlants, total=False):
     """One environment's arena. A new scene begins with each environment and each change of its obstacles or food.
 
     Attributes:
@@ -57,15 +67,10 @@ class EnvironmentScene(TypedDict):
         start_tick: First tick since the run was last started over: clocks count from here.
         bars: For each obstacle its id and both ends of its centre line: [id, ax, ay, bx, by].
         food: For each piece of food, eaten or not: [x, y].
+        plants: For each plant its id, its centre and its radius: [id, x, y, radius]; left out where there are none.
     """
 
-    number: int
-    of: int
-    seed: int
-    first_tick: int
-    start_tick: int
-    bars: list[list[float]]
-    food: list[list[float]]
+    plants: list[list[float]]
 
 
 class State(TypedDict):
@@ -145,7 +150,7 @@ def environment_scene(begun: Sequence[Begun], of: int, arena: Arena) -> Environm
         arena: The arena of the last one.
     """
     last = begun[-1]
-    return EnvironmentScene(
+    scene = EnvironmentScene(
         number=last.number,
         of=of,
         seed=last.seed,
@@ -154,6 +159,9 @@ def environment_scene(begun: Sequence[Begun], of: int, arena: Arena) -> Environm
         bars=[[bar_id, *(round(c, 1) for c in (*bar.a, *bar.b))] for bar_id, bar in arena.obstacles.bars.items()],
         food=[[round(x, 1), round(y, 1)] for x, y in arena.food.at],
     )
+    if plants := arena.obstacles.plants:
+        scene["plants"] = [[plant_id, *at, radius_mm] for plant_id, (at, radius_mm) in plants.items()]
+    return scene
 
 
 def state(  # noqa: PLR0913, PLR0917 - everything that a display shows

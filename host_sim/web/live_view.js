@@ -45,11 +45,12 @@ export class LiveView {
   }
 
   /** @param {Message} message */
-  accept({ measures, environment, states, trails, lessons }) {
+  accept({ measures, environment, states, trails, lessons, news }) {
     const { scene } = this;
     if (measures && environment) this.restart(new Scene(measures, environment, states));
     if (environment) this.enter(environment);
     scene.states = states;
+    scene.news = news ?? scene.news;
     trails.forEach((points, i) => {
       for (let at = 0; at < points.length; at += 3) scene.trails[i].add(points[at], points[at + 1], points[at + 2]);
     });
@@ -94,6 +95,7 @@ export class LiveView {
     this.panel.show(scene, { exact: !play.playing });
     this.controls.show(scene, play);
     this.picker.show();
+    setText(byId("news"), scene.lastNews);
     this.lessonsView.show(scene, this.lessons.get(scene.node) ?? []);
     for (const [name, count] of Object.entries(health)) setText(byId(`health-${name}`), `${count}`);
   }

@@ -4,7 +4,7 @@
 import { contextOf } from "./elements.js";
 import { paletteOf } from "./palette.js";
 import { drawLook, drawRobot } from "./robot_view.js";
-import { circle } from "./shapes.js";
+import { circle, drawPlant } from "./shapes.js";
 import { TrailLayer } from "./trail_layer.js";
 
 /**
@@ -43,6 +43,7 @@ export class Renderer {
     for (const state of states) drawLook(context, scene, state, palette);
     this.drawFood(scene);
     this.drawBars(scene);
+    for (const plant of scene.environment.plants ?? []) drawPlant(context, plant, palette.of);
     for (const state of states) drawRobot(context, scene, state, palette);
   }
 
@@ -94,7 +95,7 @@ export class Renderer {
   drawFloor(measures) {
     const { context, palette } = this;
     context.fillStyle = palette.of.bar;
-    context.fillRect(-MARGIN_MM, -MARGIN_MM, measures.width + 2 * MARGIN_MM, measures.height + 2 * MARGIN_MM);
+    context.fillRect(-MARGIN_MM, -MARGIN_MM, this.canvas.width / this.scale, this.canvas.height / this.scale);
     context.fillStyle = palette.of.floor;
     context.fillRect(0, 0, measures.width, measures.height);
     context.fillStyle = palette.of.grid;

@@ -37,6 +37,7 @@ class Player {
     this.panel = new Panel();
     this.lessonsView = new LessonsView();
     this.scene = new Scene(data.measures, data.sceneAt(data.first), data.statesAt(data.first));
+    this.scene.news = data.run.news ?? [];
     this.picker = new RobotPicker(this.scene, (node) => this.select(node));
     data.trailsAt(data.first, this.scene.trails);
     this.bind();
@@ -142,6 +143,7 @@ class Player {
     const then = this.pinned === undefined ? undefined : robot.memoryAt(this.pinned);
     this.panel.show(scene, { exact: !this.playing, then });
     this.picker.show();
+    setText(byId("news"), scene.lastNews);
     this.lessonsView.show(scene, robot.lessonsUpTo(tick, scene.environment.start_tick));
     this.scrub.value = `${tick}`;
     this.scrub.setAttribute("aria-valuetext", scene.clock(tick));

@@ -6,6 +6,7 @@ import { trailsFor } from "./trail.js";
 
 /**
  * @typedef {import("./types.js").Measures} Measures
+ * @typedef {import("./types.js").News} News
  * @typedef {import("./types.js").EnvironmentScene} EnvironmentScene
  * @typedef {import("./types.js").State} State
  */
@@ -38,6 +39,8 @@ export class Scene {
     this.states = states;
     this.trails = trailsFor(states.length);
     this.node = states[0].node;
+    /** @type {News[]} */
+    this.news = [];
     /** @type {Item | undefined} */
     this.item = undefined;
     /** @type {Map<number, Ghost>} */
@@ -76,6 +79,13 @@ export class Scene {
    */
   reasonOf({ node, reason }) {
     return this.shown.get(node)?.reason ?? reason;
+  }
+
+  /** What last changed in this environment, with its time; empty if nothing did. */
+  get lastNews() {
+    const { environment, news, state } = this;
+    const known = news.filter(([tick]) => tick >= environment.first_tick && tick <= state.tick);
+    return known.slice(-1).map(([tick, sentence]) => `${this.clock(tick)} ${sentence}`).join("");
   }
 
   /**

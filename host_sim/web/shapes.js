@@ -1,6 +1,7 @@
 // @ts-check
 /* Shapes on a canvas. */
 
+const LEAVES = 8;
 const FONT = "system-ui, sans-serif";
 
 /**
@@ -28,6 +29,26 @@ export function drawDisc(context, { x, y, radius, ground, edge, width }) {
   context.strokeStyle = edge;
   context.lineWidth = width;
   context.stroke();
+}
+
+/**
+ * A plant: leaves around a pot, as large as they are.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number[]} plant
+ * @param {{plant: string, floor: string, bar: string}} colours
+ */
+export function drawPlant(context, [, x, y, radius], { plant, floor, bar }) {
+  drawDisc(context, { x, y, radius, ground: plant, edge: plant, width: 1 });
+  context.strokeStyle = floor;
+  context.lineWidth = radius / 12;
+  for (let leaf = 0; leaf < LEAVES; leaf += 1) {
+    const [dx, dy] = [Math.cos, Math.sin].map((part) => radius * part((leaf * 2 * Math.PI) / LEAVES));
+    context.beginPath();
+    context.moveTo(x + 0.4 * dx, y + 0.4 * dy);
+    context.lineTo(x + 0.85 * dx, y + 0.85 * dy);
+    context.stroke();
+  }
+  drawDisc(context, { x, y, radius: 0.35 * radius, ground: bar, edge: floor, width: 6 });
 }
 
 /**

@@ -20,6 +20,7 @@ const MARKS = {
   eat: [REASON.EAT, 0.8],
   lesson: [REASON.REMEMBERED, 1],
   environment: [REASON.STOP, 1],
+  change: [REASON.STOP, 1],
 };
 const THUMB_PX = 8;
 
@@ -31,12 +32,13 @@ const THUMB_PX = 8;
 export function drawMarks(canvas, robot, { first, last }) {
   const palette = paletteOf(canvas);
   const context = sizedContext(canvas);
-  const [width, height] = [canvas.clientWidth - 2 * THUMB_PX, canvas.clientHeight];
+  const [length, height] = [canvas.clientWidth - 2 * THUMB_PX, canvas.clientHeight];
   for (const [tick, kind] of robot.run.events) {
     const [reason, share] = MARKS[kind];
-    const x = THUMB_PX + ((tick - first) / Math.max(1, last - first)) * width;
-    context.fillStyle = palette.reasons[reason];
-    context.fillRect(x - 1, height * (1 - share), 2, height * share);
+    const x = THUMB_PX + ((tick - first) / Math.max(1, last - first)) * length;
+    context.fillStyle = kind === "change" ? palette.of.plant : palette.reasons[reason];
+    const width = kind === "change" ? 4 : 2;
+    context.fillRect(x - width / 2, height * (1 - share), width, height * share);
   }
 }
 

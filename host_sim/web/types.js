@@ -26,6 +26,7 @@
  * @property {number} start_tick
  * @property {number[][]} bars
  * @property {number[][]} food
+ * @property {number[][]} [plants]
  */
 
 /**
@@ -115,10 +116,16 @@
  * @property {Lesson[]} lessons
  * @property {Play} play
  * @property {Health} health
+ * @property {News[]} [news]
  * @property {string[]} [notes]
  */
 
-/** @typedef {"environment" | "trial" | "lesson" | "boredom" | "eat"} EventKind */
+/**
+ * What changed in the world or the bodies before a tick, in a sentence.
+ * @typedef {[number, string]} News
+ */
+
+/** @typedef {"environment" | "change" | "trial" | "lesson" | "boredom" | "eat"} EventKind */
 
 /**
  * What a recorded run has of each robot.
@@ -142,6 +149,7 @@
  * @property {number} first_tick
  * @property {number} ticks
  * @property {[number, EnvironmentScene][]} scenes
+ * @property {News[]} [news]
  * @property {[number, number[]][]} eaten
  * @property {RobotRun[]} robots
  */

@@ -8,7 +8,7 @@ import numpy as np
 
 from host_sim.world.arena import Arena
 from host_sim.world.changes import GROW, PLANT, Change
-from host_sim.world.edits import AddPlant, ChangeBody, ChangePlant, Edit, EditError
+from host_sim.world.edits import AddPlant, ChangeBody, Edit, EditError, GrowPlant
 from host_sim.world.geometry import Plant, Point
 from host_sim.world.params import SimParams
 from host_sim.world.reach import Reach, clearance_mm
@@ -39,10 +39,7 @@ def _growth(arena: Arena, numbers: Sequence[int]) -> list[Edit]:
     if not arena.obstacles.plants:
         raise EditError("there is no plant in this environment")
     growth_mm = numbers[0] if numbers else _GROWTH_MM
-    return [
-        ChangePlant(plant_id, plant._replace(radius_mm=plant.radius_mm + growth_mm))
-        for plant_id, plant in arena.obstacles.plants.items()
-    ]
+    return [GrowPlant(plant_id, plant.radius_mm + growth_mm) for plant_id, plant in arena.obstacles.plants.items()]
 
 
 def _place(arena: Arena, params: SimParams, seed: int) -> Point:

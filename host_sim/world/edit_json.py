@@ -10,8 +10,8 @@ from host_sim.world.edits import (
     AddBar,
     AddPlant,
     ChangeBody,
-    ChangePlant,
     Edit,
+    GrowPlant,
     Lift,
     MoveBar,
     MoveFood,
@@ -87,7 +87,11 @@ def _robot_index(fields: Mapping[str, Any]) -> int:
 
 
 def _plant(fields: Mapping[str, Any]) -> Plant:
-    return Plant(_point(fields, "at"), float(whole(fields, "radius", PLANT_MIN_MM, PLANT_MAX_MM)))
+    return Plant(_point(fields, "at"), _radius_mm(fields))
+
+
+def _radius_mm(fields: Mapping[str, Any]) -> float:
+    return float(whole(fields, "radius", PLANT_MIN_MM, PLANT_MAX_MM))
 
 
 def _fault(fields: Mapping[str, Any]) -> str:
@@ -110,7 +114,7 @@ _PARSERS: dict[str, Callable[[Mapping[str, Any]], Edit]] = {
     "lift": lambda fields: Lift(_robot_index(fields)),
     "put": lambda fields: Put(pose_from(fields), _robot_index(fields)),
     "plant": lambda fields: AddPlant(_plant(fields)),
-    "change_plant": lambda fields: ChangePlant(whole(fields, "id", 0, _ID_MAX), _plant(fields)),
+    "grow_plant": lambda fields: GrowPlant(whole(fields, "id", 0, _ID_MAX), _radius_mm(fields)),
     "remove_plant": lambda fields: RemovePlant(whole(fields, "id", 0, _ID_MAX)),
     "body": lambda fields: ChangeBody(_fault(fields), _robot_index(fields), _seed(fields)),
 }
@@ -145,7 +149,7 @@ _WRITERS: dict[type, tuple[str, Callable[[Any], dict[str, Any]]]] = {
     Lift: ("lift", lambda edit: _which(edit.robot)),
     Put: ("put", lambda edit: {**_which(edit.robot), **_pose_fields(edit.pose)}),
     AddPlant: ("plant", lambda edit: _plant_fields(edit.plant)),
-    ChangePlant: ("change_plant", lambda edit: {"id": edit.id, **_plant_fields(edit.plant)}),
+    GrowPlant: ("grow_plant", lambda edit: {"id": edit.id, "radius": round(edit.radius_mm)}),
     RemovePlant: ("remove_plant", lambda edit: {"id": edit.id}),
     ChangeBody: ("body", lambda edit: {"what": edit.what, **_which(edit.robot), "seed": edit.seed}),
 }

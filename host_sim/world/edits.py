@@ -75,11 +75,11 @@ class AddPlant:
 
 
 @dataclass(frozen=True)
-class ChangePlant:
-    """Moves a plant or lets it grow."""
+class GrowPlant:
+    """Gives a plant another radius."""
 
     id: int
-    plant: Plant
+    radius_mm: float
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class ChangeBody:
     seed: int = 0
 
 
-Edit = AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put | AddPlant | ChangePlant | RemovePlant | ChangeBody
+Edit = AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put | AddPlant | GrowPlant | RemovePlant | ChangeBody
 
 
 class EditError(ValueError):
@@ -149,10 +149,11 @@ def _add_plant(arena: Arena, edit: AddPlant, params: SimParams) -> None:
     arena.obstacles.plant(edit.plant)
 
 
-def _change_plant(arena: Arena, edit: ChangePlant, params: SimParams) -> None:
+def _grow_plant(arena: Arena, edit: GrowPlant, params: SimParams) -> None:
     _check_known(edit.id, arena.obstacles.plants)
-    _check_plant(arena, edit.plant, params)
-    arena.obstacles.change_plant(edit.id, edit.plant)
+    grown = arena.obstacles.plants[edit.id]._replace(radius_mm=edit.radius_mm)
+    _check_plant(arena, grown, params)
+    arena.obstacles.change_plant(edit.id, grown)
 
 
 def _remove_plant(arena: Arena, edit: RemovePlant, _params: SimParams) -> None:
@@ -201,7 +202,7 @@ _MAKERS: dict[type, Callable[[Arena, Any, SimParams], None]] = {
     Lift: _lift,
     Put: _put,
     AddPlant: _add_plant,
-    ChangePlant: _change_plant,
+    GrowPlant: _grow_plant,
     RemovePlant: _remove_plant,
     ChangeBody: _change_body,
 }

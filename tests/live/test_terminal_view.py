@@ -25,6 +25,7 @@ from host_sim.live.text_picture import View, draw_text
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.view.history import Trial
 from host_sim.view.phrases import sentence
+from host_sim.view.state import EnvironmentScene
 from host_sim.world.params import SimParams
 from tests.recording.support import finished
 
@@ -278,3 +279,12 @@ def test_without_a_terminal_it_is_wrong_usage(tmp_path):
 
     assert done.returncode == 2
     assert re.fullmatch(r"octet: --terminal needs a terminal.*\n", done.stderr)
+
+
+def test_it_shows_plants_and_says_what_happened(view):
+    scene = EnvironmentScene(**view.scene, plants=[[0, 2000.0, 1500.0, 200.0]])
+
+    lines = draw_text(replace(view, scene=scene, news="A plant was put down."), 100, 30)
+
+    assert any("*" in line for line in lines)
+    assert "A plant was put down." in lines

@@ -11,7 +11,7 @@ from host_sim.world.edits import (
     AddBar,
     AddPlant,
     ChangeBody,
-    ChangePlant,
+    GrowPlant,
     Lift,
     MoveBar,
     MoveFood,
@@ -34,7 +34,7 @@ EDITS = [
     Edited(9, Lift()),
     Edited(12, Put(Pose(100.0, 200.0, -3.1))),
     Edited(13, AddPlant(PLANT)),
-    Edited(14, ChangePlant(0, PLANT._replace(radius_mm=120.0))),
+    Edited(14, GrowPlant(0, 120.0)),
     Edited(15, ChangeBody("noise:10/1000", 1, 7)),
     Edited(16, RemovePlant(0)),
 ]

@@ -2,6 +2,7 @@
 
 import random
 from collections.abc import Sequence
+from dataclasses import replace
 from io import BytesIO
 
 import numpy as np
@@ -143,3 +144,12 @@ def test_each_of_several_robots_has_its_path_and_its_memory() -> None:
     assert both.height > alone.height + 150
     orange = [count(np.asarray(image.convert("RGB")), TRIAL_ORANGE) for image in (alone, both)]
     assert orange[1] > orange[0]
+
+
+def test_a_plant_is_drawn_and_news_are_told_below_the_environments():
+    scene = EnvironmentScene(**SCENE, plants=[[0, 1000.0, 500.0, 300.0]])
+    bare, planted = (draw_run(PARAMS, [panel(scene=one)], {1: EMPTY_MEMORY}) for one in (SCENE, scene))
+    told = draw_run(PARAMS, [replace(panel(), news=[(20.0, "A plant was put down.")])], {1: EMPTY_MEMORY})
+
+    assert np.any(np.asarray(bare.convert("RGB")) != np.asarray(planted.convert("RGB")))
+    assert told.height > bare.height

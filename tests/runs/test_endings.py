@@ -11,6 +11,7 @@ import pytest
 
 from host_sim.backends.robot_process import RobotProcess
 from host_sim.errors import RobotError
+from host_sim.live.paced_run import PAUSE_S
 from tests.runs.support import octet, robot_of, start_octet, wait_for_lines
 
 FILES = ("run.log", "run.world.json", "summary.json", "arena.png", "replay.html")
@@ -166,3 +167,16 @@ def test_a_robot_that_crashes_is_quoted(tmp_path, then, said):
 
     assert "\n" not in str(error.value)
     robot.close()
+
+
+def test_a_run_in_real_time_pauses_after_an_environment_and_the_log_knows_nothing_of_it(tmp_path):
+    words = ("run", "--bus", "fd", "--environments", "2", "--limit-s", "1")
+    paused, at_once = tmp_path / "paused", tmp_path / "at once"
+
+    assert octet(*words, "--real-time", "--out", paused).returncode == 0
+    assert octet(*words, "--out", at_once).returncode == 0
+
+    summaries = [json.loads((out / "summary.json").read_text()) for out in (paused, at_once)]
+    assert [[it["ticks"] for it in summary["environments"]] for summary in summaries] == [[50, 50]] * 2
+    assert summaries[0]["wall_s"] >= 2 + PAUSE_S
+    assert octet("replay", paused / "run.log").returncode == 0

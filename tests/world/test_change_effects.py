@@ -7,7 +7,7 @@ import pytest
 from host_sim.world.arena import Arena
 from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change
-from host_sim.world.edits import AddPlant, ChangeBody, ChangePlant, EditError, make_edit
+from host_sim.world.edits import AddPlant, ChangeBody, EditError, GrowPlant, make_edit
 from host_sim.world.geometry import Bar, Plant, Pose
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams
@@ -74,8 +74,8 @@ def test_all_plants_grow():
     grown = happen(arena, "grow@2s")
     more = happen(arena, "grow:7@2s")
 
-    assert [type(edit) for edit in grown] == [ChangePlant] * 2
-    assert [edit.plant.radius_mm for edit in (*grown, *more)] == [120.0] * 2 + [127.0] * 2
+    assert [type(edit) for edit in grown] == [GrowPlant] * 2
+    assert [edit.radius_mm for edit in (*grown, *more)] == [120.0] * 2 + [127.0] * 2
 
 
 def test_where_there_is_no_plant_none_grows():

@@ -10,9 +10,9 @@ from host_sim.world.edits import (
     AddBar,
     AddPlant,
     ChangeBody,
-    ChangePlant,
     Edit,
     EditError,
+    GrowPlant,
     Lift,
     MoveBar,
     MoveFood,
@@ -137,7 +137,7 @@ def test_a_robot_put_down_before_a_wall_feels_it(arena):
         AddPlant(Plant((600.0, 1500.0), 10.0)),
         AddPlant(Plant((600.0, 1500.0), 501.0)),
         AddPlant(Plant((4100.0, 1500.0), 80.0)),
-        ChangePlant(0, Plant((600.0, 1500.0), 80.0)),
+        GrowPlant(0, 80.0),
         RemovePlant(0),
         ChangeBody("explode"),
         ChangeBody("mirror", 1),
@@ -164,8 +164,10 @@ def test_there_is_no_room_for_the_robot_in_a_bar_or_a_wall(arena, place):
     assert arena.body.lifted
 
 
-def test_a_plant_can_be_moved_and_taken_away(arena):
-    edit(arena, AddPlant(Plant((600.0, 1500.0), 80.0)), ChangePlant(0, Plant((2230.0, 1500.0), 80.0)))
+def test_a_plant_can_grow_and_be_taken_away(arena):
+    edit(arena, AddPlant(Plant((2250.0, 1500.0), 80.0)))
+    assert feel(arena) == 0
+    edit(arena, GrowPlant(0, 100.0))
     assert feel(arena) == FRONT
     edit(arena, RemovePlant(0))
     assert feel(arena) == 0
@@ -174,8 +176,8 @@ def test_a_plant_can_be_moved_and_taken_away(arena):
 def test_a_plant_does_not_grow_into_the_robot(arena):
     edit(arena, AddPlant(Plant((2230.0, 1500.0), 80.0)))
     with pytest.raises(EditError, match="the robot stands there"):
-        edit(arena, ChangePlant(0, Plant((2230.0, 1500.0), 131.0)))
-    edit(arena, ChangePlant(0, Plant((2230.0, 1500.0), 129.0)))
+        edit(arena, GrowPlant(0, 131.0))
+    edit(arena, GrowPlant(0, 129.0))
 
 
 def test_there_is_no_room_for_the_robot_in_a_plant(arena):

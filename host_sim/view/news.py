@@ -1,0 +1,37 @@
+"""What changed in the world and the bodies during a run, in plain sentences."""
+
+from itertools import groupby
+
+from host_sim.sim.world_record import Edited, WorldRecord
+from host_sim.view.phrases import body_sentence
+from host_sim.world.edits import AddPlant, ChangeBody, GrowPlant, RemovePlant
+
+News = tuple[int, str]
+"""The tick before which something changed, and a sentence."""
+
+_PLANTS = {
+    AddPlant: "A plant was put down.",
+    GrowPlant: "A plant has grown.",
+    RemovePlant: "A plant was removed.",
+}
+_SHOWN = (*_PLANTS, ChangeBody)
+
+
+def news_of(record: WorldRecord) -> list[News]:
+    """All that changed, in order, and what could not; what a person moved by hand is not among it."""
+    told = [(tick, sentence) for (tick, sentence), _ in groupby(_sentences(record))]
+    refused = [(refused.tick, f"{refused.what} could not happen: {refused.why}.") for refused in record.refused]
+    return sorted([*told, *refused], key=lambda news: news[0])
+
+
+def _sentences(record: WorldRecord) -> list[News]:
+    edits = [edited for edited in record.edits if isinstance(edited.edit, _SHOWN)]
+    return [(edited.tick, _sentence(edited, edits, record.robots)) for edited in edits]
+
+
+def _sentence(edited: Edited, edits: list[Edited], robots: int) -> str:
+    edit = edited.edit
+    if not isinstance(edit, ChangeBody):
+        return _PLANTS[type(edit)]
+    everyone = sum((tick, it.what) == (edited.tick, edit.what) for tick, it in edits if isinstance(it, ChangeBody))
+    return ("" if everyone == robots else f"Robot {edit.robot + 1}: ") + body_sentence(edit.what)
