@@ -8,7 +8,7 @@ static int32_t distance_mm(const struct world *world, const struct body *body, c
     double aside_mm = way.y * body->ahead.x - way.x * body->ahead.y, half_mm = world->params.beam_width_mm / 2;
     double whole_mm;
 
-    if (vector_dot(way, body->ahead) <= 0.0 || aside_mm > half_mm || aside_mm < -half_mm)
+    if (aside_mm > half_mm || aside_mm < -half_mm || vector_dot(way, body->ahead) <= 0.0)
         return 0;
     whole_mm = vector_whole(vector_length(way));
     return whole_mm < 1.0 ? 1 : (int32_t)whole_mm;
