@@ -310,12 +310,16 @@ void plain_space_take(struct plain_world *space, struct world *world)
     space->space = (struct space){place, hides};
     world->space = &space->space;
     for (size_t i = 0; i < world->body_count; i++) {
-        struct body *body = &world->bodies[i];
-        int32_t collisions = body->collisions;
+        const struct body *body = &world->bodies[i];
 
         space->places[i] = (struct plain_place){position(body), body->lifted, 0.0};
         if (space->grid)
             plain_grid_put(space->grid, (uint32_t)i, position(body));
+    }
+    for (size_t i = 0; i < world->body_count; i++) {
+        struct body *body = &world->bodies[i];
+        int32_t collisions = body->collisions;
+
         find(world, body);
         body->collisions = collisions;
     }
