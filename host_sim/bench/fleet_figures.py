@@ -10,11 +10,13 @@ from host_sim.sim.make import make
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.sim.run_config import RunConfig
 from host_sim.world import reach
+from host_sim.world.hall import hall_of
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
+from host_sim.world.worlds import world_of
 
-_FLEET, _TOGETHER, _TICKS, _BLOCK_TICKS, _ENDLESS = 1000, 60, 2000, 256, 10**9
+_FLEET, _TICKS, _BLOCK_TICKS, _ENDLESS = 1000, 2000, 256, 10**9
 _LAYOUTS = 40
 
 
@@ -22,11 +24,11 @@ def fleet_figures() -> list[Figure]:
     """All figures. What is compared is measured in turn."""
     params = SimParams()
     alone = [generate(seed, 1, params) for seed in range(1, _FLEET + 1)]
-    together = generate(1, 1, params, _TOGETHER)
+    together, hall = hall_of(world_of("random"), 1, 1, _FLEET)
     rounds = [
         (
-            _robot_ticks(alone),
-            _robot_ticks([together]),
+            _robot_ticks(alone, params),
+            _robot_ticks([together], hall),
             _ticks_without_log(),
             _layouts(params),
             _layouts_in_python(params),
@@ -39,7 +41,9 @@ def fleet_figures() -> list[Figure]:
         rate_figure(
             Rate("fleet of 1,000, each in its own world", own, 4_000_000), Rate(reference, single), "trigonometry"
         ),
-        rate_figure(Rate("60 robots in one world", one, 1_000_000), Rate(reference, single), "who is near whom"),
+        rate_figure(
+            Rate("fleet of 1,000, all in one hall", one, 1_000_000), Rate(reference, single), "who is near whom"
+        ),
         rate_figure(
             Rate("in process, plain geometry, without a log", single, 1_000_000),
             Rate("a fleet's robots", own),
@@ -53,9 +57,9 @@ def fleet_figures() -> list[Figure]:
     ]
 
 
-def _robot_ticks(layouts: list[Layout]) -> float:
+def _robot_ticks(layouts: list[Layout], params: SimParams) -> float:
     """Ticks per second of all robots of a fleet together, with one world for each layout."""
-    params, robots = SimParams(), sum(len(layout.starts) for layout in layouts)
+    robots = sum(len(layout.starts) for layout in layouts)
     fleet = NativeFleet(robots, len(layouts), params)
     for index in range(robots):
         fleet.start(index, index + 1, "article", {})

@@ -11,9 +11,8 @@ from host_sim.errors import UsageError
 from host_sim.recording.fleet_summary import FleetSummary, environment_line, summarize_fleet, table
 from host_sim.recording.run_folder import run_folder
 from host_sim.report.fleet_picture import write_fleet_picture
-from host_sim.sim.fleet import FleetResult, run_fleet
+from host_sim.sim.fleet import FleetResult, run_fleet, shared_world
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
 
@@ -21,6 +20,7 @@ SUMMARY, TABLE, PICTURE = "summary.json", "robots.csv", "fleet.png"
 """The files of a fleet in its output folder."""
 
 _EVERY_S = 0.25
+_WHERE = {"one": "all in one world", "own": "each in its own world", "hall": "all in one hall"}
 
 
 def conduct_fleet(options: RunOptions) -> FleetSummary:
@@ -32,21 +32,20 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
     """
     config = options.config
     _check(options)
-    params = world_of(config.world).params
     results: list[FleetResult] = []
     progress = _Progress(options, results)
     run = run_fleet(config, progress)
     with run_folder(options.out):
         if options.talks:
-            where = "all in one world" if config.worlds == "one" else "each in its own world"
-            print(f"fleet     {config.robots} robots, {where}, profile {config.profile}, seeds from {config.seed}")
+            what = f"{config.robots} robots, {_WHERE[config.worlds]}, profile {config.profile}"
+            print(f"fleet     {what}, seeds from {config.seed}")
         began = time.monotonic()
         for result in run:
             results.append(result)  # noqa: PERF402 - the progress reads it meanwhile
         progress.clear()
-        summary = summarize_fleet(config, results, params.tick_s, time.monotonic() - began)
+        summary = summarize_fleet(config, results, SimParams.tick_s, time.monotonic() - began)
         write_bytes(options.out / TABLE, table(results).encode())
-        write_fleet_picture(options.out / PICTURE, results, params, _shared(config, results))
+        _draw(options.out / PICTURE, config, results)
         write_bytes(options.out / SUMMARY, summary.to_json().encode())
     _print(options, summary)
     return summary
@@ -94,12 +93,13 @@ class _Progress:
             sys.stderr.flush()
 
 
-def _shared(config: RunConfig, results: Sequence[FleetResult]) -> tuple[Layout, Sequence[bool]] | None:
-    """The last environment of robots that share one, and which food they left."""
+def _draw(path: Path, config: RunConfig, results: Sequence[FleetResult]) -> None:
     if config.worlds == "own":
-        return None
-    last = [result for result in results if result.environment == config.environments]
-    return world_of(config.world).generate(config.seed, config.environments, config.robots), last[0].eaten
+        write_fleet_picture(path, results, world_of(config.world).params)
+        return
+    layout, params = shared_world(config, config.environments)
+    eaten = next(result.eaten for result in results if result.environment == config.environments)
+    write_fleet_picture(path, results, params, (layout, eaten))
 
 
 def _print(options: RunOptions, summary: FleetSummary) -> None:

@@ -42,8 +42,8 @@ def add(commands: "Subparsers") -> None:
     run.add_argument(
         "--worlds",
         choices=WORLDS,
-        help=f"whether the robots share one world, or each has its own (default: one up to {NODE_MAX} robots, "
-        "else own); more robots, or robots in worlds of their own, have no bus and no log",
+        help="whether the robots share one world, each has its own, or all share a hall of as many worlds as they "
+        f"need (default: one up to {NODE_MAX} robots, else own); in one world, {NODE_MAX} have a bus",
     )
     run.add_argument(
         "--real-time", action="store_true", help="run at wall-clock speed instead of as fast as possible"

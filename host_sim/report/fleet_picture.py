@@ -144,7 +144,7 @@ def _arena(results: Sequence[FleetResult], layout: Layout, eaten: Sequence[bool]
         draw_robot(plan, result.pose, 2 * params.body_radius_mm, INK)
     image = plan.done()
     px_per_mm = _WIDTH_PX / params.width_mm
-    for result in results[:_MOST_NAMES]:
+    for result in results if len(results) <= _MOST_NAMES else ():
         place = result.pose.x_mm * px_per_mm, (result.pose.y_mm + 1.4 * params.body_radius_mm) * px_per_mm
         write(image, place, str(result.robot), _TEXT_PX, "mm")
     found = f"{sum(eaten)} of {len(eaten)} food found"

@@ -7,7 +7,9 @@ from host_sim.errors import UsageError
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.geometry import Pose
-from host_sim.world.layouts import NoRoomError, World
+from host_sim.world.hall import hall_of
+from host_sim.world.layouts import Layout, NoRoomError
+from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
 
 _SEED_SPAN = 2**32
@@ -75,8 +77,9 @@ class _Run:
         self._config, self._world = config, world_of(config.world)
         params = self._world.params
         self._own = config.worlds == "own"
-        if not self._own:
-            _check_room(config, self._world)
+        self._shared = [] if self._own else _shared_worlds(config)
+        if self._shared:
+            params = self._shared[0][1]
         self._fleet = NativeFleet(config.robots, config.robots if self._own else 1, params)
         for index in range(config.robots):
             self._fleet.start(index, self._seed(index), config.profile, config.settings)
@@ -107,8 +110,7 @@ class _Run:
 
     def _enter(self, world: int, number: int) -> None:
         """Begins an environment; world 0 is the only one, or the first robot's."""
-        robots = 1 if self._own else self._config.robots
-        layout = self._world.generate(self._seed(world), number, robots)
+        layout = self._world.generate(self._seed(world), number) if self._own else self._shared[number - 1][0]
         self._fleet.enter(world, layout, round(self._config.limit_s / self._world.params.tick_s))
         self._entered[world] = number
 
@@ -132,12 +134,24 @@ class _Run:
             )
 
 
-def _check_room(config: RunConfig, world: World) -> None:
+def shared_world(config: RunConfig, number: int) -> tuple[Layout, SimParams]:
+    """An environment of robots that share one, and its dimensions.
+
+    Raises:
+        NoRoomError: There is no room for all the robots.
+    """
+    world = world_of(config.world)
+    if config.worlds == "hall":
+        return hall_of(world, config.seed, number, config.robots)
+    return world.generate(config.seed, number, config.robots), world.params
+
+
+def _shared_worlds(config: RunConfig) -> list[tuple[Layout, SimParams]]:
     try:
-        for number in range(1, config.environments + 1):
-            world.generate(config.seed, number, config.robots)
+        return [shared_world(config, number) for number in range(1, config.environments + 1)]
     except NoRoomError as error:
+        where = "a hall of such worlds" if config.worlds == "hall" else "one world"
         raise UsageError(
-            f"{config.robots} robots are too many for one world with seed {config.seed}: {error}; "
+            f"{config.robots} robots are too many for {where} with seed {config.seed}: {error}; "
             f"take fewer, or --worlds own"
         ) from None

@@ -1,7 +1,9 @@
 """Robots by the thousand in C (`native/fleet.h`): each with its own core, without a wire."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
+from itertools import accumulate
+from math import ceil
 from typing import Any
 
 from host_sim.errors import OctetError, UsageError
@@ -15,8 +17,10 @@ from host_sim.world.plain_space import cones_in_c
 
 LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_fleet.so"
 _WORLD = ROOT / "host_sim" / "world" / "native"
-_NAMES = ("vector", "space", "world", "capsule", "cones", "plain_space")
+_NAMES = ("vector", "space", "world", "capsule", "cones", "plain_grid", "plain_space")
 HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), ROOT / "host_sim" / "sim" / "native" / "fleet.h")
+
+_CELL_MM, _GRID_FROM = 500.0, 8
 
 
 class NativeFleet:
@@ -48,6 +52,7 @@ class NativeFleet:
         self._each = robots // worlds  # in one world
         # cffi frees what no name holds any more.
         self._things: list[tuple[Any, ...]] = [()] * worlds
+        self._grids: list[tuple[Any, ...]] = [()] * worlds
         self._cones = cones_in_c(ffi, self._library, params)
         self._cores = ffi.new("char[]", robots * self._library.fleet_core_size())
         self._bodies: Any = ffi.new("struct body[]", robots)
@@ -159,12 +164,33 @@ class NativeFleet:
             library.capsule_set(capsules + i, [*a], [*b], radius_mm)
         for there, (x, y) in zip(food, layout.food, strict=True):
             there.x_mm, there.y_mm = x, y
+        if self._each >= _GRID_FROM:
+            self._lay_grid(world, [(there.low, there.high) for there in capsules])
         words = -(-(count + self._each) // library.PLAIN_WORD_BITS)
         touching = ffi.new("uint64_t[]", words * (self._each + 1))
         self._things[world] = capsules, food, touching
         there, space = self._worlds[world], self._spaces[world]
         there.food, there.food_count = food, len(layout.food)
         space.capsules, space.capsule_count, space.touching, space.words = capsules, count, touching, words
+
+    def _lay_grid(self, world: int, boxes: Sequence[tuple[Any, Any]]) -> None:
+        """Lays a grid over a world: in each of its cells, the capsules that can be felt from there."""
+        ffi, params, reach_mm = self._ffi, self._params, self._cones.reach_mm
+        columns, rows = ceil(params.width_mm / _CELL_MM), ceil(params.height_mm / _CELL_MM)
+        cells: list[list[int]] = [[] for _ in range(columns * rows)]
+        for number, (low, high) in enumerate(boxes):
+            for row in _cells(low.y - reach_mm, high.y + reach_mm, rows):
+                for column in _cells(low.x - reach_mm, high.x + reach_mm, columns):
+                    cells[row * columns + column].append(number)
+        parts = (
+            ffi.new("uint32_t[]", [0, *accumulate(map(len, cells))]),
+            ffi.new("uint32_t[]", [number for cell in cells for number in cell] or [0]),
+            ffi.new("uint32_t[]", columns * rows),
+            *(ffi.new("uint32_t[]", self._each) for _ in range(2)),
+        )
+        grid = ffi.new("struct plain_grid *", (_CELL_MM, columns, rows, *parts))
+        self._grids[world] = grid, *parts
+        self._spaces[world].grid = grid
 
     def _command(self, robot: Any, opcode: int, which: int, value: int) -> int:
         answer = self._ffi.new("uint32_t *")
@@ -173,6 +199,11 @@ class NativeFleet:
                 f"the robot refuses {Opcode(opcode).name.lower()} {which} {value}: check profile and --set"
             )
         return int(answer[0])
+
+
+def _cells(low_mm: float, high_mm: float, count: int) -> range:
+    """The columns, or the rows, that a stretch touches; places outside belong to the nearest."""
+    return range(max(0, min(count - 1, int(low_mm / _CELL_MM))), max(0, min(count - 1, int(high_mm / _CELL_MM))) + 1)
 
 
 @cache

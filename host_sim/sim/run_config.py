@@ -12,8 +12,8 @@ ROBOTS = ("spawn", "external", "qemu", "emulated")
 FLEET_MAX = 10_000
 """Maximum number of robots of a fleet."""
 
-WORLDS = ("one", "own")
-"""Whether the robots of a run share one world, or each has its own."""
+WORLDS = ("one", "own", "hall")
+"""Whether the robots of a run share one world, each has its own, or all share a hall of as many as they need."""
 
 
 @dataclass(frozen=True)
@@ -65,8 +65,8 @@ class RunConfig:
 
     @property
     def is_fleet(self) -> bool:
-        """Whether the robots have no bus: each has its own world, or they are more than a bus has node numbers."""
-        return self.worlds == "own" or self.robots > NODE_MAX
+        """Whether the robots have no bus: they do not share one world, or are more than a bus has node numbers."""
+        return self.worlds != "one" or self.robots > NODE_MAX
 
     @property
     def nodes(self) -> range:

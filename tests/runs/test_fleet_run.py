@@ -79,6 +79,14 @@ def test_a_fleet_in_one_world_is_drawn_there(tmp_path, world):
         assert picture.height > 1300
 
 
+def test_a_hall_is_drawn_whole(tmp_path):
+    done = octet("run", "--robots", "120", "--worlds", "hall", *SHORT, "--out", tmp_path)
+
+    assert done.stdout.startswith("fleet     120 robots, all in one hall")
+    with Image.open(tmp_path / "fleet.png") as picture:
+        assert picture.height > 1200
+
+
 REFUSED = {
     "an unknown world": (("--world", "corridor"), "did you mean corridors?"),
     "too many for one world": (("--worlds", "one"), "1000 robots are too many for one world with seed 3"),

@@ -6,9 +6,13 @@ import pytest
 
 from host_sim.errors import UsageError
 from host_sim.protocol.generated import PROFILES, Reason
+from host_sim.sim import fleet, native_fleet
 from host_sim.sim.fleet import FleetResult, run_fleet
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.geometry import Pose
+from host_sim.world.layouts import Layout
+from host_sim.world.params import SimParams
 
 OWN = RunConfig(seed=11, robots=3, worlds="own", environments=2, limit_s=60.0)
 
@@ -90,6 +94,42 @@ def test_more_robots_than_fit_say_how_many_fit():
         UsageError, match=r"there is room for \d+ robots in environment 1; take fewer, or --worlds own"
     ):
         run_fleet(RunConfig(robots=1000))
+
+
+def test_a_hall_has_room_for_more():
+    config = RunConfig(seed=1, robots=140, worlds="hall", environments=2, limit_s=10.0)
+
+    results = list(run_fleet(config))
+
+    assert len(results) == 280
+    assert max(result.pose.x_mm for result in results) > 8000.0
+    assert max(result.pose.y_mm for result in results) > 6000.0
+    assert all(len(result.eaten) == 27 for result in results)
+
+
+@pytest.mark.parametrize("worlds", ["one", "hall"])
+def test_with_a_grid_robots_do_what_they_do_without(monkeypatch, worlds):
+    config = RunConfig(seed=2, robots=60, worlds=worlds, environments=1, limit_s=40.0)
+    with_a_grid = list(run_fleet(config))
+
+    monkeypatch.setattr(native_fleet, "_GRID_FROM", 1000)
+
+    assert list(run_fleet(config)) == with_a_grid
+    assert sum(result.begun.get(Reason.REMEMBERED, 0) for result in with_a_grid) > 100
+
+
+def test_food_is_not_seen_from_farther_than_a_robot_can_be_told(monkeypatch):
+    hall = Layout((), ((11_000.0, 1000.0),), Pose(2000.0, 1000.0, 0.0))
+    monkeypatch.setattr(
+        fleet,
+        "shared_world",
+        lambda *_: (hall, SimParams(width_mm=16_000.0, bar_count=0, food_bands_mm=((0.0, 0.0),))),
+    )
+
+    (result,) = run_fleet(RunConfig(seed=1, worlds="hall", environments=1, limit_s=1.0))
+
+    assert Reason.WANDER in result.begun
+    assert Reason.TOWARD_FOOD not in result.begun
 
 
 def test_a_behaviour_that_measures_distances_is_refused():

@@ -94,16 +94,52 @@ static double meet_capsule(struct finding *finding, size_t number)
     return 0.0;
 }
 
+/* The capsules that can be felt from a place, or all of them. */
+struct choice {
+    const uint32_t *numbers;   /* null: 0, 1, 2... */
+    size_t count;
+};
+
+static struct choice capsules_near(const struct plain_world *space, struct vector at)
+{
+    const struct plain_grid *grid = space->grid;
+    uint32_t cell;
+
+    if (!grid)
+        return (struct choice){NULL, space->capsule_count};
+    cell = plain_grid_cell(grid, at);
+    return (struct choice){grid->numbers + grid->firsts[cell], grid->firsts[cell + 1] - grid->firsts[cell]};
+}
+
+static size_t chosen(const struct choice *choice, size_t i)
+{
+    return choice->numbers ? choice->numbers[i] : i;
+}
+
+/* The bodies around a place, or all of them. */
+static size_t bodies_near(const struct world *world, struct vector at, uint32_t bodies[PLAIN_NEAR_MAX])
+{
+    const struct plain_grid *grid = of(world)->grid;
+    size_t count = world->body_count < PLAIN_NEAR_MAX ? world->body_count : PLAIN_NEAR_MAX;
+
+    if (grid)
+        return plain_grid_near(grid, at, bodies);
+    for (size_t i = 0; i < count; i++)
+        bodies[i] = (uint32_t)i;
+    return count;
+}
+
 static void meet_capsules(struct finding *finding, struct plain_place *place)
 {
     const struct plain_world *space = finding->space;
-    double free_mm = place->free_mm;
+    struct vector at = position(finding->body);
+    const struct choice near = capsules_near(space, at);
+    double free_mm = space->grid ? plain_grid_border_mm(space->grid, at) - MARGIN_MM : FREE_MAX_MM;
 
-    if (free_mm > 0.0)
+    if (place->free_mm > 0.0)
         return;
-    free_mm = FREE_MAX_MM;
-    for (size_t i = 0; i < space->capsule_count; i++) {
-        double way_mm = way_to(space, meet_capsule(finding, i));
+    for (size_t i = 0; i < near.count; i++) {
+        double way_mm = way_to(space, meet_capsule(finding, chosen(&near, i)));
 
         if (way_mm < free_mm)
             free_mm = way_mm;
@@ -111,23 +147,28 @@ static void meet_capsules(struct finding *finding, struct plain_place *place)
     place->free_mm = free_mm;
 }
 
-static void meet_bodies(struct finding *finding, const struct world *world)
+static void meet_body(struct finding *finding, const struct body *other, size_t number)
 {
     const struct plain_world *space = finding->space;
-    struct vector at = position(finding->body);
+    struct vector at = position(other);
+    struct contact contact;
 
-    for (size_t i = 0; i < world->body_count; i++) {
-        struct vector other = position(&world->bodies[i]);
-        struct contact contact;
+    if (other == finding->body || other->lifted)
+        return;
+    capsule_meet_discs(position(finding->body), at, space->body_radius_mm, &contact);
+    if (is_far(space, &contact, space->body_radius_mm))
+        return;
+    touch(finding, &contact, space->capsule_count + number);
+    feel(finding, at, at, space->body_radius_mm);
+}
 
-        if (&world->bodies[i] == finding->body || world->bodies[i].lifted)
-            continue;
-        capsule_meet_discs(at, other, space->body_radius_mm, &contact);
-        if (is_far(space, &contact, space->body_radius_mm))
-            continue;
-        touch(finding, &contact, space->capsule_count + i);
-        feel(finding, other, other, space->body_radius_mm);
-    }
+static void meet_bodies(struct finding *finding, const struct world *world)
+{
+    uint32_t near[PLAIN_NEAR_MAX];
+    size_t count = world->body_count > 1 ? bodies_near(world, position(finding->body), near) : 0;
+
+    for (size_t i = 0; i < count; i++)
+        meet_body(finding, &world->bodies[near[i]], near[i]);
 }
 
 static int32_t ones(uint64_t word)
@@ -186,34 +227,79 @@ static double free_after(const struct plain_place *place, const struct body *bod
     return place->free_mm - (way.x < 0.0 ? -way.x : way.x) - (way.y < 0.0 ? -way.y : way.y);
 }
 
-static void place(struct world *world, struct body *body)
+/* Has others notice that a body has moved. */
+static void tell_others(struct world *world, const struct body *body, const struct plain_place *before)
 {
     struct plain_world *space = of(world);
-    struct plain_place *place = &space->places[index_of(world, body)];
-    const struct plain_place before = *place, now = {position(body), body->lifted, free_after(place, body)};
+    const struct plain_place *now = &space->places[index_of(world, body)];
+    uint32_t near[PLAIN_NEAR_MAX];
+    size_t count = bodies_near(world, now->at, near);
 
-    *place = now;
-    find(world, body);
-    for (size_t i = 0; i < world->body_count; i++) {
-        struct body *other = &world->bodies[i];
+    for (size_t i = 0; i < count; i++) {
+        struct body *other = &world->bodies[near[i]];
 
-        if (other != body && (may_notice(space, other, &before) || may_notice(space, other, &now)))
+        if (other != body && (may_notice(space, other, before) || may_notice(space, other, now)))
             find(world, other);
     }
 }
 
+static void place(struct world *world, struct body *body)
+{
+    struct plain_world *space = of(world);
+    struct plain_place *place = &space->places[index_of(world, body)];
+    const struct plain_place before = *place;
+
+    place->free_mm = free_after(place, body);
+    place->at = position(body);
+    place->lifted = body->lifted;
+    if (space->grid)
+        plain_grid_put(space->grid, (uint32_t)index_of(world, body), place->at);
+    find(world, body);
+    if (world->body_count > 1)
+        tell_others(world, body, &before);
+}
+
+/* A way along which something may hide what is at its end. */
+struct view {
+    const struct world *world;
+    const struct body *body;
+    struct vector from;
+    struct vector to;
+};
+
+/* Whether one of the things around a place on the way hides its end. */
+static bool is_hidden_near(const struct view *view, struct vector at)
+{
+    const struct plain_world *space = of(view->world);
+    const struct choice near = capsules_near(space, at);
+    uint32_t bodies[PLAIN_NEAR_MAX];
+    size_t count = view->world->body_count > 1 ? bodies_near(view->world, at, bodies) : 0;
+
+    for (size_t i = 0; i < near.count; i++)
+        if (capsule_hides(&space->capsules[chosen(&near, i)], view->from, view->to))
+            return true;
+    for (size_t i = 0; i < count; i++) {
+        const struct body *other = &view->world->bodies[bodies[i]];
+
+        if (other != view->body && !other->lifted
+            && capsule_disc_hides(position(other), space->body_radius_mm, view->from, view->to))
+            return true;
+    }
+    return false;
+}
+
 static bool hides(const struct world *world, const struct body *body, struct vector point)
 {
-    const struct plain_world *space = of(world);
-    struct vector from = position(body);
+    const struct view view = {world, body, position(body), point};
+    const struct plain_grid *grid = of(world)->grid;
+    struct vector way = vector_to(view.from, point);
+    double length_mm = vector_length(way), step_mm = grid ? grid->cell_mm / 2 : 2 * length_mm + 1.0;
 
-    for (size_t i = 0; i < space->capsule_count; i++)
-        if (capsule_hides(&space->capsules[i], from, point))
-            return true;
-    for (size_t i = 0; i < world->body_count; i++) {
-        const struct body *other = &world->bodies[i];
+    /* What is in the way can be felt from the nearest of these places. */
+    for (double far_mm = 0.0; far_mm < length_mm + step_mm / 2; far_mm += step_mm) {
+        double share = length_mm > 0.0 ? far_mm / length_mm : 0.0;
 
-        if (other != body && !other->lifted && capsule_disc_hides(position(other), space->body_radius_mm, from, point))
+        if (is_hidden_near(&view, vector_add(view.from, vector_scale(way, share))))
             return true;
     }
     return false;
@@ -224,10 +310,16 @@ void plain_space_take(struct plain_world *space, struct world *world)
     space->space = (struct space){place, hides};
     world->space = &space->space;
     for (size_t i = 0; i < world->body_count; i++) {
+        const struct body *body = &world->bodies[i];
+
+        space->places[i] = (struct plain_place){position(body), body->lifted, 0.0};
+        if (space->grid)
+            plain_grid_put(space->grid, (uint32_t)i, position(body));
+    }
+    for (size_t i = 0; i < world->body_count; i++) {
         struct body *body = &world->bodies[i];
         int32_t collisions = body->collisions;
 
-        space->places[i] = (struct plain_place){position(body), body->lifted, 0.0};
         find(world, body);
         body->collisions = collisions;
     }

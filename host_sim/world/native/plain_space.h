@@ -3,6 +3,7 @@
 #define OCTET_PLAIN_SPACE_H
 
 #include "host_sim/world/native/cones.h"
+#include "host_sim/world/native/plain_grid.h"
 #include "host_sim/world/native/world.h"
 
 /* Where a body was last placed. */
@@ -18,6 +19,7 @@ struct plain_world {
     const struct cones *cones;
     size_t capsule_count;
     struct capsule *capsules;      /* walls and bars */
+    struct plain_grid *grid;       /* null: whatever there is is looked at; for at most PLAIN_NEAR_MAX bodies */
     struct plain_place *places;    /* one for each body */
     size_t words;                  /* PLAIN_WORDS(capsule_count + body_count) */
     uint64_t *touching;            /* words for each body, and once more: a bit for each thing that it touches */

@@ -1,31 +1,53 @@
 #include "host_sim/world/native/sight.h"
 #include "host_sim/world/native/vector_sums.h"
 
-/* Distance to food within the corridor, whole mm; 0 for food outside it. */
-static int32_t distance_mm(const struct world *world, const struct body *body, const struct food *food)
+static const double FAR_MM = 8191.0;   /* farther food is not seen: a robot could not be told */
+
+static struct vector way_to(const struct body *body, const struct food *food)
 {
-    struct vector way = {food->x_mm - body->x_mm, food->y_mm - body->y_mm};
-    double aside_mm = way.y * body->ahead.x - way.x * body->ahead.y, half_mm = world->params.beam_width_mm / 2;
+    return (struct vector){food->x_mm - body->x_mm, food->y_mm - body->y_mm};
+}
+
+/* Whether food is in the corridor, ahead or behind: asked first, for it seldom is. */
+static bool is_in_line(const struct world *world, const struct body *body, const struct food *food)
+{
+    struct vector way = way_to(body, food);
+
+    return __builtin_fabs(way.y * body->ahead.x - way.x * body->ahead.y) <= world->params.beam_width_mm / 2;
+}
+
+/* Distance to food in the corridor, whole mm; 0 for food that is eaten, behind or too far away. */
+static int32_t distance_mm(const struct body *body, const struct food *food)
+{
+    struct vector way = way_to(body, food);
     double whole_mm;
 
-    if (vector_dot(way, body->ahead) <= 0.0 || aside_mm > half_mm || aside_mm < -half_mm)
+    if (food->eaten || vector_dot(way, body->ahead) <= 0.0)
         return 0;
     whole_mm = vector_whole(vector_length(way));
+    if (whole_mm > FAR_MM)
+        return 0;
     return whole_mm < 1.0 ? 1 : (int32_t)whole_mm;
+}
+
+/* Sees a piece of food, if it is nearer than what was seen before and nothing hides it. */
+static void look_at(const struct world *world, struct body *body, size_t number)
+{
+    const struct food *food = &world->food[number];
+    int32_t far_mm = distance_mm(body, food);
+    struct vector at = {food->x_mm, food->y_mm};
+
+    if (far_mm > 0 && (body->seen < 0 || far_mm < body->seen_mm) && !world->space->hides(world, body, at)) {
+        body->seen = (int32_t)number;
+        body->seen_mm = far_mm;
+    }
 }
 
 void sight_look(const struct world *world, struct body *body)
 {
     body->seen = -1;
     body->seen_mm = 0;
-    for (size_t i = 0; i < world->food_count && !body->lifted; i++) {
-        const struct food *food = &world->food[i];
-        int32_t far_mm = food->eaten ? 0 : distance_mm(world, body, food);
-        struct vector at = {food->x_mm, food->y_mm};
-
-        if (far_mm > 0 && (body->seen < 0 || far_mm < body->seen_mm) && !world->space->hides(world, body, at)) {
-            body->seen = (int32_t)i;
-            body->seen_mm = far_mm;
-        }
-    }
+    for (size_t i = 0; i < world->food_count && !body->lifted; i++)
+        if (is_in_line(world, body, &world->food[i]))
+            look_at(world, body, i);
 }

@@ -1,0 +1,34 @@
+/* plain_grid.h: what is near a place, for worlds with many bodies: capsules and bodies by the cells of a grid. */
+#ifndef OCTET_PLAIN_GRID_H
+#define OCTET_PLAIN_GRID_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "host_sim/world/native/vector.h"
+
+enum { PLAIN_NEAR_MAX = 256 };   /* bodies in nine cells; there is no room for half as many */
+
+struct plain_grid {
+    double cell_mm;            /* more than from the middle of a body to that of another one which it feels */
+    uint32_t columns;
+    uint32_t rows;
+    const uint32_t *firsts;    /* for each cell, row by row, where its capsules begin in numbers; and where the last end */
+    const uint32_t *numbers;   /* of the capsules that can be felt from within a cell */
+    uint32_t *heads;           /* for each cell, one more than the number of a body in it; 0: none */
+    uint32_t *nexts;           /* the same for each body: the next one in its cell */
+    uint32_t *cells;           /* for each body, one more than its cell; 0: none */
+};
+
+uint32_t plain_grid_cell(const struct plain_grid *grid, struct vector at);
+        /* The cell of a place; the nearest one for a place outside. */
+
+double plain_grid_border_mm(const struct plain_grid *grid, struct vector at);
+        /* How far it is at least to another cell. */
+
+void plain_grid_put(struct plain_grid *grid, uint32_t body, struct vector at);
+
+size_t plain_grid_near(const struct plain_grid *grid, struct vector at, uint32_t bodies[PLAIN_NEAR_MAX]);
+        /* The bodies in the cell of a place and in those around it. */
+
+#endif
