@@ -14,6 +14,7 @@ import csv
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 from host_sim.extra_library import library
 from host_sim.protocol.every_node import hear
@@ -60,13 +61,28 @@ def write_csv(path: Path, frames: Iterable[Recorded]) -> None:
 
 def write_parquet(path: Path, frames: Iterable[Recorded]) -> None:
     """Writes the table as Parquet."""
-    pyarrow, parquet = (library(name, "export") for name in ("pyarrow", "pyarrow.parquet"))
+    parquet = library("pyarrow.parquet", "export")
+    with parquet.ParquetWriter(path, _schema(), compression="zstd") as writer:
+        for batch in _batches(frames):
+            writer.write_batch(batch)
+
+
+def arrow_table(frames: Iterable[Recorded]) -> Any:
+    """The table as a `pyarrow.Table`."""
+    return library("pyarrow", "export").Table.from_batches(_batches(frames), schema=_schema())
+
+
+def _schema() -> Any:
+    pyarrow = library("pyarrow", "export")
     kinds = {"time_s": pyarrow.float64(), "message": pyarrow.string(), "data": pyarrow.string()}
-    schema = pyarrow.schema([(name, kinds.get(name, pyarrow.int64())) for name in COLUMNS])
-    every = rows(frames)
-    with parquet.ParquetWriter(path, schema, compression="zstd") as writer:
-        while chunk := list(islice(every, _CHUNK)):
-            columns = [
-                pyarrow.array(column, it.type) for column, it in zip(zip(*chunk, strict=True), schema, strict=True)
-            ]
-            writer.write_batch(pyarrow.record_batch(columns, schema=schema))
+    return pyarrow.schema([(name, kinds.get(name, pyarrow.int64())) for name in COLUMNS])
+
+
+def _batches(frames: Iterable[Recorded]) -> Iterator[Any]:
+    """The table, some rows at a time."""
+    pyarrow, schema, every = library("pyarrow", "export"), _schema(), rows(frames)
+    while chunk := list(islice(every, _CHUNK)):
+        columns = [
+            pyarrow.array(column, it.type) for column, it in zip(zip(*chunk, strict=True), schema, strict=True)
+        ]
+        yield pyarrow.record_batch(columns, schema=schema)

@@ -1,0 +1,74 @@
+"""The programming interface: the same runs as by the command line, and tables of them."""
+
+import hashlib
+import json
+
+import numpy as np
+import pytest
+
+from host_sim.api import RunConfig, UsageError, log_table, resimulate, run
+from host_sim.cli.main import main
+
+CONFIG = RunConfig(seed=3, environments=2, limit_s=20)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("api")
+
+
+@pytest.fixture(scope="module")
+def done(folder):
+    return run(CONFIG, log=folder / "run.log")
+
+
+def test_it_is_the_run_of_the_command_line(done, folder, tmp_path):
+    options = ["--bus", "none", "--seed", "3", "--environments", "2", "--limit-s", "20", "--quiet"]
+    assert main(["run", *options, "--out", str(tmp_path)]) == 0
+
+    assert json.loads((tmp_path / "summary.json").read_text())["log_sha256"] == done.log_sha256
+    assert hashlib.sha256((folder / "run.log").read_bytes()).hexdigest() == done.log_sha256
+    assert (folder / "run.world.json").read_bytes() == (tmp_path / "run.world.json").read_bytes()
+
+
+def test_without_a_log_it_is_the_same_run(done):
+    assert run(CONFIG).log_sha256 == done.log_sha256
+
+
+def test_each_environment_is_told_as_it_ends():
+    told = []
+
+    ended = run(CONFIG, each=told.append)
+
+    assert told == ended.episodes
+
+
+def test_a_memory_is_begun_with():
+    cells = (0, 2, 2, 2, 1, 1, 1, 1)
+
+    assert run(RunConfig(environments=1, limit_s=1), memories=[cells]).memories == [cells]
+
+
+def test_ticks_are_columns_of_equal_length(done, folder):
+    ticks, again = done.ticks(), resimulate(folder / "run.log").trajectory
+
+    assert {column.shape for column in ticks.values()} == {(done.trajectory.ticks,)}
+    assert np.array_equal(ticks["feel"], again.tracks[0].column("feel"))
+    assert ticks["tick"][300] == ticks["tick_number"][300] % 256
+    assert (ticks["x"][-1], ticks["y"][-1]) == tuple(again.tracks[0].pose(again.ticks - 1)[:2])
+
+
+def test_a_log_is_a_table_of_arrow_and_of_pandas(done, folder):
+    table = log_table(folder / "run.log")
+    frames = table.to_pandas()
+
+    assert table.column_names[:3] == ["time_s", "node", "message"]
+    assert len(frames) == len((folder / "run.log").read_text().splitlines())
+    assert frames["SENSES.feel"].dropna().tolist() == done.ticks()["feel"].tolist()
+
+
+def test_what_is_wrong_is_an_error_of_one_line(tmp_path):
+    with pytest.raises(UsageError, match=r"^32 robots from node 1 need node 32; the last is 31$"):
+        run(RunConfig(robots=32))
+    with pytest.raises(UsageError, match="cannot write"):
+        run(CONFIG, log=tmp_path / "nowhere" / "run.log")
