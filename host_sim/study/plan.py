@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from host_sim.study.trial import Trial
+from host_sim.world.world_names import RANDOM
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Condition:
     name: str
     profile: str
     settings: dict[str, int] = field(default_factory=dict)
-    world: str = "random"
+    world: str = RANDOM
     change: str = ""
     robots: int = 1
 
@@ -91,6 +92,7 @@ class Plan:
             seed=seed,
             environments=self.environments,
             settings=condition.settings,
+            world=condition.world,
             change=condition.change,
             limit_s=self.limit_s,
             robots=condition.robots,

@@ -6,6 +6,7 @@
 | seed        | its seed                                                                             |
 | profile     | the behaviour                                                                        |
 | settings    | parameters that differ from their defaults, as JSON                                  |
+| world       | where the environments are drawn from                                                |
 | change      | what happened to the body; empty for nothing                                         |
 | robots      | number of robots                                                                     |
 | known_s     | robot time until a turn was known for patterns 1, 3, 4 and 6, s, the robots' mean    |
@@ -136,6 +137,7 @@ def _run(run: Run) -> Row:
     return {
         "profile": trial.profile,
         "settings": json.dumps(trial.settings, sort_keys=True),
+        "world": trial.world,
         "change": trial.change,
         "robots": trial.robots,
         "known_s": float("nan") if None in known else float(np.mean([time for time in known if time is not None])),

@@ -14,6 +14,7 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.study.contacts import Contact, ContactWatch
 from host_sim.study.faults import FAULTS, OTHER_WAY_ROUND, change_of
+from host_sim.world.world_names import RANDOM
 
 PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
 """The turn away from what is beside the robot, for each pattern in which something is on one side only."""
@@ -28,6 +29,7 @@ class Trial:
         seed: Seed for environments and random turns.
         environments: Number of environments.
         settings: Parameters to change from their defaults, by name.
+        world: Name of the world that the environments are drawn from.
         change: What happens to the body, as `host_sim.study.faults` has it; empty for nothing.
         limit_s: Time limit for each environment, s of robot time.
         robots: Number of robots in each environment.
@@ -38,6 +40,7 @@ class Trial:
     seed: int
     environments: int = 5
     settings: dict[str, int] = field(default_factory=dict)
+    world: str = RANDOM
     change: str = ""
     limit_s: float = 600.0
     robots: int = 1
@@ -63,7 +66,7 @@ class Trial:
         sets = "".join(f" --set {name}={value}" for name, value in sorted(self.settings.items()))
         return (
             f"tools/run --bus none --seed {self.seed} --profile {self.profile} --environments {self.environments}"
-            f" --limit-s {self.limit_s:g} --robots {self.robots}{sets}"
+            f" --limit-s {self.limit_s:g} --robots {self.robots} --world {self.world}{sets}"
         )
 
 
@@ -127,7 +130,7 @@ def run_trial(trial: Trial) -> Run:
 
 
 def _config(trial: Trial) -> RunConfig:
-    names = ("seed", "environments", "profile", "settings", "limit_s", "robots")
+    names = ("seed", "environments", "profile", "settings", "world", "limit_s", "robots")
     return RunConfig(**{name: getattr(trial, name) for name in names})
 
 

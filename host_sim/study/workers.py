@@ -3,7 +3,7 @@
 import ctypes
 import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, CancelledError, Executor, ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, ProcessPoolExecutor, wait
 from typing import Any, NamedTuple
 
 from host_sim.errors import OctetError, UsageError
@@ -15,6 +15,7 @@ _CHUNK_MAX = 16
 _CHUNKS_A_PROCESS = 8
 _CLUSTER_CHUNK = 100
 _CONNECT_S = 10
+_CHECK_S = 1.0
 _RETRIES = 3
 _BREAKS_MAX = 3
 _PR_SET_PDEATHSIG = 1
@@ -26,10 +27,12 @@ class Workers(NamedTuple):
     Attributes:
         open: Makes an executor.
         chunk: Number of runs to hand over at once, given the number of all.
+        check: Raises OctetError if they are out of reach.
     """
 
     open: Callable[[], Executor]
     chunk: Callable[[int], int]
+    check: Callable[[], None] = lambda: None
 
 
 class Chunk(NamedTuple):
@@ -56,12 +59,20 @@ def cluster(address: str) -> Workers:
     Raises:
         UsageError: Dask is not installed, or the scheduler does not answer.
     """
-    distributed = library("distributed", "cluster")
+    distributed, dask = library("distributed", "cluster"), library("dask", "cluster")
+    dask.config.set({"distributed.comm.timeouts.connect": f"{_CONNECT_S}s"})
     try:
         client = distributed.Client(address, timeout=_CONNECT_S)
     except (OSError, ValueError) as error:
         raise UsageError(f"no Dask scheduler answers at {address}: {str(error).splitlines()[0]}") from None
-    return Workers(open=lambda: _Cluster(client), chunk=lambda _: _CLUSTER_CHUNK)
+
+    def check() -> None:
+        if client.status in ("closing", "closed"):
+            raise OctetError(
+                f"the cluster at {address} is gone; what was made is there, and the same command goes on"
+            )
+
+    return Workers(open=lambda: _Cluster(client), chunk=lambda _: _CLUSTER_CHUNK, check=check)
 
 
 class _Cluster(Executor):
@@ -114,12 +125,14 @@ def _run_until_broken(left: list[Sequence[Trial]], workers: Workers) -> Iterator
     executor = workers.open()
     try:
         futures = {executor.submit(run_chunk, trials): trials for trials in left}
-        for future in as_completed(futures):
-            runs, code = future.result()
-            if code != code_version():
-                raise OctetError("a worker has another version of robot or world; what was made here is there")
-            left.remove(futures.pop(future))
-            yield runs
+        while futures:
+            workers.check()
+            for future in wait(futures, _CHECK_S, FIRST_COMPLETED).done:
+                runs, code = future.result()
+                if code != code_version():
+                    raise OctetError("a worker has another version of robot or world; what was made here is there")
+                left.remove(futures.pop(future))
+                yield runs
     except (BrokenExecutor, CancelledError):
         pass
     finally:

@@ -34,6 +34,10 @@ def test_every_combination_is_a_condition_and_the_seeds_are_the_same(plan):
 
 def test_a_condition_is_named_by_what_varies(plan):
     assert [it.name for it in plan('profiles = ["article"]\nrobots = [1, 4]').conditions] == ["1 robots", "4 robots"]
+    assert [it.world for it in plan('profiles = ["article"]\nworlds = ["small", "posts"]').conditions] == [
+        "small",
+        "posts",
+    ]
     assert [it.name for it in plan('profiles = ["article"]').conditions] == ["article"]
 
 
@@ -49,6 +53,7 @@ def test_a_condition_is_named_by_what_varies(plan):
         ('profiles = "article"', ':1: profiles is a list of words, such as profiles = ["article"]'),
         ('profiles = ["article", "article"]', ":1: profiles: something is there twice"),
         ('profiles = ["article"]\nchanges = ["swaped@env1"]', ":2: changes: 'swaped@env1' is no change"),
+        ('profiles = ["article"]\nworlds = ["smal"]', ":2: worlds: there is no world 'smal': did you mean small?"),
         ('profiles = ["article"]\nrobots = [0]', ":2: robots is a whole number from 1 to 31, not 0"),
         ('profiles = ["article"]\nrobots = []', ":2: robots is a whole number"),
         ('profiles = ["article"]\ntitle = 3', ":2: title is a line of text, not 3"),

@@ -20,7 +20,9 @@ def test_equal_trials_give_equal_rows():
 
 
 def test_the_command_of_a_run_repeats_it(tmp_path):
-    trial = Trial("adaptive", 5, environments=2, settings={"filter": 1, "turn_deg": 20}, limit_s=60.0, robots=2)
+    trial = Trial(
+        "adaptive", 5, environments=2, settings={"filter": 1, "turn_deg": 20}, world="posts", limit_s=60.0, robots=2
+    )
     run = run_trial(trial)
 
     assert main(["run", *shlex.split(trial.command())[1:], "--quiet", "--out", str(tmp_path)]) == 0
