@@ -57,7 +57,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     from host_sim.study.table import table
 
     folder = Path(arguments.what[0])
-    plan, samples = _of_study(folder) if folder.is_dir() else _of_profiles(arguments)
+    plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
     print(f"{plan.title}: {len(samples[0].seeds)} seeds of {plan.environments} environments each")
     print(table(samples, arguments.difference / 100))
     if arguments.plots:
@@ -70,7 +70,12 @@ def _compare(arguments: argparse.Namespace) -> int:
     return 0 if all(each.is_reached for each in judged) else 1
 
 
-def _of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
+def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
+    """The plan of the study in a folder, and what its rows say.
+
+    Raises:
+        OctetError: There is none, or nothing to compare in it yet.
+    """
     from host_sim.study.folder import PLAN_FILE, StudyFolder
     from host_sim.study.plan_file import read_plan
     from host_sim.study.sample import samples_of

@@ -12,8 +12,6 @@ from host_sim.study.plan import Goal
 from host_sim.study.table import table
 from tests.study.support import contact, row, run, samples
 
-LEFT_OF_LEFT = (0, 0, 0, 0, 1, 0, 0, 0)
-
 
 def value(name: str, *runs) -> float:
     (sample,) = samples(*runs)
@@ -62,9 +60,9 @@ def after_swap(seed: int, *sides) -> object:
 
 
 def test_recovery_is_counted_in_contacts_after_the_change():
-    right, wrong = LEFT_OF_LEFT, (0, 0, 0, 0, 2, 0, 0, 0)  # with swapped motors the other turn leads away
+    right, half, wrong = ((0, *known, 0, 0, 0) for known in ((2, 0, 0, 1), (2, 0, 0, 0), (2, 0, 0, 2)))
 
-    runs = [after_swap(1, wrong, wrong, right), after_swap(2, right), after_swap(3, wrong)]
+    runs = [after_swap(1, wrong, half, right), after_swap(2, right), after_swap(3, wrong)]
 
     assert value("recovery", *runs) == 3
     assert value("recovered", *runs) == pytest.approx(100 * 2 / 3)
