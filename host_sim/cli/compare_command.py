@@ -21,7 +21,7 @@ examples:
   tools/octet compare out/studies/learned                           what came of a study
   tools/octet compare out/studies/learned --plots out/plots         the same, and as pictures
   tools/octet compare article fixed never --seeds 40                what learning and remembering are worth
-  tools/octet compare article forgetful --change swapped@env1       with the motors' plugs exchanged
+  tools/octet compare article forgetful --change swap-motors@env1      with the motors' plugs exchanged
 
 Of a study with goals, the exit code is 1 if one of them is missed.
 """
@@ -48,7 +48,7 @@ def add(commands: "Subparsers") -> None:
     profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + _DEFAULT)
     profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + _DEFAULT)
     profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help="change a parameter")
-    profiles("--change", default="", metavar="CHANGE", help="what happens to the body, such as swapped@env3")
+    profiles("--change", default="", metavar="CHANGE", help="as of tools/run")
     add_workers(parser)
 
 
@@ -89,17 +89,17 @@ def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
 
 
 def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]]":
-    from host_sim.study.faults import change_of
     from host_sim.study.plan import Condition, Plan
     from host_sim.study.sample import samples_of
     from host_sim.study.tables import tables_of
     from host_sim.study.toml_lines import meant
+    from host_sim.world.changes import Change
 
     for word in arguments.what:
         if word not in PROFILES:
             raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
     if arguments.change:
-        change_of(arguments.change)
+        Change.parse(arguments.change)
     a = arguments
     names = list(dict.fromkeys(a.what))
     conditions = [Condition(name, name, dict(a.set), change=a.change) for name in names]

@@ -17,7 +17,7 @@ class Condition:
         profile: The behaviour.
         settings: Parameters to change from their defaults, by name.
         world: Name of the world that the environments are drawn from.
-        change: What happens to the body; empty for nothing.
+        change: What the world and the bodies meet with; empty for nothing.
         robots: Number of robots in each environment.
     """
 

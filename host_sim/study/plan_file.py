@@ -10,10 +10,10 @@ from typing import Any
 from host_sim.errors import UsageError
 from host_sim.protocol.generated import PARAMETERS, PROFILES
 from host_sim.regular_file import read_bytes
-from host_sim.study.faults import change_of
 from host_sim.study.figures import FIGURES
 from host_sim.study.plan import Condition, Goal, Plan
 from host_sim.study.toml_lines import line_of, meant
+from host_sim.world.changes import Change
 from host_sim.world.world_names import RANDOM
 from host_sim.world.worlds import world_of
 
@@ -173,7 +173,7 @@ def _is_one_of(words: dict[str, Any]) -> Callable[[str], str]:
 
 
 def _is_change(word: str) -> str:
-    return "" if word == _NO_CHANGE else _mistake(change_of, word)
+    return "" if word == _NO_CHANGE else _mistake(Change.parse, word)
 
 
 def _is_world(word: str) -> str:
