@@ -21,6 +21,7 @@ examples:
   tools/octet compare out/studies/learned                           what came of a study
   tools/octet compare out/studies/learned --plots out/plots         the same, and as pictures
   tools/octet compare article fixed never --seeds 40                what learning and remembering are worth
+  tools/octet compare article --seeds 2 --robot emulated            the flash image, on an emulated board
   tools/octet compare article forgetful --change swap-motors@env1      with the motors' plugs exchanged
 
 Of a study with goals, the exit code is 1 if one of them is missed.
@@ -49,6 +50,7 @@ def add(commands: "Subparsers") -> None:
     profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + _DEFAULT)
     profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help="change a parameter")
     profiles("--change", default="", metavar="CHANGE", help="as of tools/run")
+    profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + _DEFAULT)
     add_workers(parser)
 
 
@@ -102,7 +104,7 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
         Change.parse(arguments.change)
     a = arguments
     names = list(dict.fromkeys(a.what))
-    conditions = [Condition(name, name, dict(a.set), change=a.change) for name in names]
+    conditions = [Condition(name, name, dict(a.set), change=a.change, robot=a.robot) for name in names]
     plan = Plan(" ".join(names), conditions, a.first, a.seeds, a.environments)
     runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]
     return plan, samples_of(tables_of(runs), names)

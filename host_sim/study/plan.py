@@ -19,6 +19,7 @@ class Condition:
         world: Name of the world that the environments are drawn from.
         change: What the world and the bodies meet with; empty for nothing.
         robots: Number of robots in each environment.
+        robot: Where they come from, as in `Trial`.
     """
 
     name: str
@@ -27,6 +28,7 @@ class Condition:
     world: str = RANDOM
     change: str = ""
     robots: int = 1
+    robot: str = "spawn"
 
 
 @dataclass(frozen=True)
@@ -96,5 +98,6 @@ class Plan:
             change=condition.change,
             limit_s=self.limit_s,
             robots=condition.robots,
+            robot=condition.robot,
             condition=condition.name,
         )

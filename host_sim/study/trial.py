@@ -33,6 +33,7 @@ class Trial:
         change: What the world and the bodies meet with, as `host_sim.world.changes` has it; empty for nothing.
         limit_s: Time limit for each environment, s of robot time.
         robots: Number of robots in each environment.
+        robot: Where they come from: `spawn` for this process, `emulated` for the flash image on an emulated board.
         condition: What the run's condition is called: all runs that differ only in the seed have the same.
     """
 
@@ -44,6 +45,7 @@ class Trial:
     change: str = ""
     limit_s: float = 600.0
     robots: int = 1
+    robot: str = "spawn"
     condition: str = ""
 
     @property
@@ -119,7 +121,7 @@ def run_trial(trial: Trial) -> Run:
 
 
 def _config(trial: Trial) -> RunConfig:
-    names = ("seed", "environments", "profile", "settings", "world", "limit_s", "robots")
+    names = ("seed", "environments", "profile", "settings", "world", "limit_s", "robots", "robot")
     changes = (trial.change,) if trial.change else ()
     return RunConfig(**{name: getattr(trial, name) for name in names}, changes=changes)
 
