@@ -50,7 +50,7 @@ def draw_plots(
 def _draw(plot: Draw, samples: Sequence[Sample], path: Path) -> Path:
     figure = library("matplotlib.figure", "study").Figure(figsize=_SIZE_INCHES, dpi=_DPI, layout="constrained")
     axes = figure.subplots()
-    axes.set_prop_cycle(color=_COLOURS)
+    axes.set_prop_cycle(color=_COLOURS, linestyle=("-", "--") * (len(_COLOURS) // 2))  # lines may lie on one another
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(alpha=0.25)
     plot(axes, samples)

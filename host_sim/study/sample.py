@@ -18,6 +18,7 @@ class Sample:
 
     Attributes:
         name: The condition.
+        robots: Number of robots in each environment.
         seeds: The seeds, ascending.
         finished: For each environment, 1 if all food was eaten, else 0.
         robot_s: For each environment, robot time, s.
@@ -37,6 +38,7 @@ class Sample:
     """
 
     name: str
+    robots: int
     seeds: NDArray[np.int64]
     finished: Floats
     robot_s: Floats
@@ -102,6 +104,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
     trapped[index[long], contacts["environment"][long] - 1] = 1
     return Sample(
         name=name,
+        robots=int(robots.max(initial=1)),
         seeds=seeds,
         finished=each(environments["finished"]),
         robot_s=each(environments["robot_s"]),
@@ -112,7 +115,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
         blocked_s=total(contacts["blocked_s"]),
         turns=total(contacts["trials"] + contacts["remembered"] + contacts["boredoms"]),
         cleared=total(contacts["cleared"]),
-        known_s=np.nan_to_num(runs["known_s"].astype(np.float64), nan=np.inf),
+        known_s=runs["known_s"].astype(np.float64),
         blocked_at=_curve(index, contacts["blocked_s"], first, count),
         wrong_at=_curve(index, contacts["wrong"], first & contacts["changed"], count),
         recovery=np.array([_recovery(contacts, environments, seed) for seed in seeds]),

@@ -9,7 +9,7 @@
 | world       | where the environments are drawn from                                                |
 | change      | what world and bodies met with; empty for nothing                                    |
 | robots      | number of robots                                                                     |
-| known_s     | robot time until a turn was known for patterns 1, 3, 4 and 6, s, the robots' mean    |
+| known_s     | robot time until a turn was known for patterns 1, 3, 4 and 6, s, the robots' median  |
 | log_sha256  | digest of its log                                                                    |
 | code        | version of the sources                                                               |
 | command     | what repeats it                                                                      |
@@ -140,7 +140,7 @@ def _run(run: Run) -> Row:
         "world": trial.world,
         "change": trial.change,
         "robots": trial.robots,
-        "known_s": float("nan") if None in known else float(np.mean([time for time in known if time is not None])),
+        "known_s": float(np.median([np.inf if time is None else time for time in known])),
         "log_sha256": run.log_sha256,
         "code": code_version(),
         "command": trial.command(),

@@ -1,11 +1,14 @@
 """docs/learning.md: each number in it is that of its table, and one command makes all of it anew."""
 
+import importlib
 import re
+import shlex
 from pathlib import Path
 
 import pytest
 
 from host_sim.cli.main import main
+from host_sim.cli.parsing import Parser
 from host_sim.errors import OctetError
 from host_sim.study.document import fill, write_table
 from tests.study.support import row, run, samples
@@ -24,6 +27,18 @@ def test_each_number_is_that_of_its_table():
 
 def test_each_measured_number_is_from_a_table():
     assert MEASURED.findall(NOT_PROSE.sub("", LEARNING.read_text())) == []
+
+
+def test_the_commands_that_take_too_long_for_a_test_are_written_as_they_should_be():
+    blocks = re.findall(r"^```sh by-hand\n(.*?)^```$", LEARNING.read_text(), re.DOTALL | re.MULTILINE)
+    lines = [shlex.split(line) for block in blocks for line in block.splitlines()]
+
+    assert len(lines) >= 6
+    for program, *words in lines:
+        assert program == "tools/octet"
+        parser = Parser()
+        importlib.import_module(f"host_sim.cli.{words[0]}_command").add(parser.add_subparsers())
+        assert parser.parse_args(words).command
 
 
 @pytest.fixture
