@@ -4,6 +4,7 @@ import ctypes
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, ProcessPoolExecutor, wait
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 from host_sim.errors import OctetError, UsageError
@@ -85,7 +86,8 @@ class _Cluster(Executor):
         return self._executor.submit(call, *arguments, **named)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        self._executor.shutdown(wait=wait and not cancel_futures)
+        with suppress(Exception):  # a cluster that is gone cannot be told
+            self._executor.shutdown(wait=wait and not cancel_futures)
 
 
 def run_chunk(trials: Sequence[Trial]) -> Chunk:
