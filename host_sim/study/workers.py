@@ -83,7 +83,10 @@ class _Cluster(Executor):
         self._executor = client.get_executor(retries=_RETRIES, pure=False)
 
     def submit(self, call: Any, /, *arguments: Any, **named: Any) -> Any:
-        return self._executor.submit(call, *arguments, **named)
+        try:
+            return self._executor.submit(call, *arguments, **named)
+        except Exception as error:
+            raise BrokenExecutor from error
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         with suppress(Exception):  # a cluster that is gone cannot be told
@@ -124,6 +127,7 @@ def run_all(trials: Sequence[Trial], workers: Workers, chunk: int = 0) -> Iterat
 
 def _run_until_broken(left: list[Sequence[Trial]], workers: Workers) -> Iterator[Sequence[Run]]:
     """Makes what is left, and takes it off the list, until all is made or a worker has died."""
+    workers.check()
     executor = workers.open()
     try:
         futures = {executor.submit(run_chunk, trials): trials for trials in left}
