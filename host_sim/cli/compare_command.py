@@ -21,7 +21,8 @@ examples:
   tools/octet compare out/studies/learned                           what came of a study
   tools/octet compare out/studies/learned --plots out/plots         the same, and as pictures
   tools/octet compare article fixed never --seeds 40                what learning and remembering are worth
-  tools/octet compare article forgetful --change swapped@env1       with the motors' plugs exchanged
+  tools/octet compare article --seeds 2 --robot emulated            the flash image, on an emulated board
+  tools/octet compare article forgetful --change swap-motors@env1      with the motors' plugs exchanged
 
 Of a study with goals, the exit code is 1 if one of them is missed.
 """
@@ -48,7 +49,8 @@ def add(commands: "Subparsers") -> None:
     profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + _DEFAULT)
     profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + _DEFAULT)
     profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help="change a parameter")
-    profiles("--change", default="", metavar="CHANGE", help="what happens to the body, such as swapped@env3")
+    profiles("--change", default="", metavar="CHANGE", help="as of tools/run")
+    profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + _DEFAULT)
     add_workers(parser)
 
 
@@ -57,7 +59,7 @@ def _compare(arguments: argparse.Namespace) -> int:
     from host_sim.study.table import table
 
     folder = Path(arguments.what[0])
-    plan, samples = _of_study(folder) if folder.is_dir() else _of_profiles(arguments)
+    plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
     print(f"{plan.title}: {len(samples[0].seeds)} seeds of {plan.environments} environments each")
     print(table(samples, arguments.difference / 100))
     if arguments.plots:
@@ -70,7 +72,12 @@ def _compare(arguments: argparse.Namespace) -> int:
     return 0 if all(each.is_reached for each in judged) else 1
 
 
-def _of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
+def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
+    """The plan of the study in a folder, and what its rows say.
+
+    Raises:
+        OctetError: There is none, or nothing to compare in it yet.
+    """
     from host_sim.study.folder import PLAN_FILE, StudyFolder
     from host_sim.study.plan_file import read_plan
     from host_sim.study.sample import samples_of
@@ -84,20 +91,20 @@ def _of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
 
 
 def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]]":
-    from host_sim.study.faults import change_of
     from host_sim.study.plan import Condition, Plan
     from host_sim.study.sample import samples_of
     from host_sim.study.tables import tables_of
     from host_sim.study.toml_lines import meant
+    from host_sim.world.changes import Change
 
     for word in arguments.what:
         if word not in PROFILES:
             raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
     if arguments.change:
-        change_of(arguments.change)
+        Change.parse(arguments.change)
     a = arguments
     names = list(dict.fromkeys(a.what))
-    conditions = [Condition(name, name, dict(a.set), change=a.change) for name in names]
+    conditions = [Condition(name, name, dict(a.set), change=a.change, robot=a.robot) for name in names]
     plan = Plan(" ".join(names), conditions, a.first, a.seeds, a.environments)
     runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]
     return plan, samples_of(tables_of(runs), names)

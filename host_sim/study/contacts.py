@@ -1,7 +1,8 @@
 """Contacts: the times that a robot was blocked, from the first turn until the way was clear."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +21,24 @@ Ticks = NDArray[np.int16]
 """Shape (ticks, 3): what the proximity sensors said, why the robot did what it did, and the number of the action."""
 
 
+class BodyState(NamedTuple):
+    """What has happened to a robot's world and body.
+
+    Attributes:
+        is_changed: Whether a change of the run's schedule has been made.
+        is_reversed: Whether each turn leads to the other side than the senses say.
+    """
+
+    is_changed: bool = False
+    is_reversed: bool = False
+
+
+T = TypeVar("T")
+
+Course = list[tuple[int, T]]
+"""What something was in the course of an environment: each value, and the tick from which on it was so."""
+
+
 @dataclass(frozen=True)
 class Contact:
     """A time that a robot was blocked.
@@ -32,6 +51,7 @@ class Contact:
         remembered: Remembered turns.
         boredoms: About-faces.
         cleared: Whether the way became clear; if not, the environment ended first.
+        body: What had happened to the body before.
         sides: The turn for each pattern that the robot knew in the end, 0 nothing, 1 left, 2 right.
     """
 
@@ -42,6 +62,7 @@ class Contact:
     remembered: int
     boredoms: int
     cleared: bool
+    body: BodyState
     sides: Memory
 
     @property
@@ -61,26 +82,34 @@ class ContactWatch:
     index: int
     _ticks: list[Ticks] = field(default_factory=list)
     _count: int = 0
-    _memories: list[tuple[int, Memory]] = field(default_factory=list)
+    _memories: Course[Memory] = field(default_factory=list)
+    _bodies: Course[BodyState] = field(default_factory=list)
 
     def __call__(self, simulation: Simulation) -> None:
         """Takes the ticks of the last step."""
+        _note(self._bodies, self._count, _state(simulation, self.index))
         if simulation.loop is None:
             feel, drive = simulation.senses[self.index].feel, simulation.drives[self.index]
             self._add(np.array([[feel, drive.reason, drive.action]], np.int16))
         else:
             self._add(_ticks_of(simulation.loop, self.index))
-        memory = simulation.clients[self.index].memory
-        if not self._memories or self._memories[-1][1] != memory:
-            self._memories.append((self._count, memory))
+        _note(self._memories, self._count, simulation.clients[self.index].memory)
 
     def contacts(self) -> list[Contact]:
         """The contacts of the environment."""
-        return list(_contacts(np.concatenate(self._ticks), self._memories)) if self._ticks else []
+        if not self._ticks:
+            return []
+        return list(_contacts(np.concatenate(self._ticks), self._memories, self._bodies))
 
-    def memories(self) -> Sequence[tuple[int, Memory]]:
-        """The eight bytes after each change, and the number of ticks until then."""
+    @property
+    def memories(self) -> Course[Memory]:
+        """The eight bytes, as reported."""
         return self._memories
+
+    @property
+    def body(self) -> BodyState:
+        """What has happened to the body."""
+        return self._bodies[-1][1]
 
     def _add(self, ticks: Ticks) -> None:
         self._ticks.append(ticks)
@@ -91,7 +120,22 @@ def _ticks_of(loop: NativeLoop, index: int) -> Ticks:
     return np.frombuffer(loop.block(index).rows, np.int16).reshape(-1, len(ROW))[:, _COLUMNS]
 
 
-def _contacts(ticks: Ticks, memories: Sequence[tuple[int, Memory]]) -> Iterator[Contact]:
+def _state(simulation: Simulation, index: int) -> BodyState:
+    faults = simulation.arena.bodies[index].faults
+    return BodyState(bool(simulation.record.happened), faults.swapped != faults.mirrored)
+
+
+def _note(course: Course[T], ticks: int, value: T) -> None:
+    if not course or course[-1][1] != value:
+        course.append((ticks, value))
+
+
+def _at(course: Course[T], tick: int) -> T:
+    """What it was at a tick; before the first one, what it was then."""
+    return next((value for begun, value in reversed(course) if begun <= tick), course[0][1])
+
+
+def _contacts(ticks: Ticks, memories: Course[Memory], bodies: Course[BodyState]) -> Iterator[Contact]:
     feel, reason, action = ticks.T
     avoiding = np.isin(reason, _AVOIDING)
     edges = np.flatnonzero(np.diff(avoiding, prepend=False, append=False))
@@ -106,11 +150,6 @@ def _contacts(ticks: Ticks, memories: Sequence[tuple[int, Memory]]) -> Iterator[
             remembered=turns.count(Reason.REMEMBERED),
             boredoms=turns.count(Reason.BOREDOM),
             cleared=end < len(ticks),
-            sides=sides_of(_memory_at(memories, end)),
+            body=_at(bodies, first),
+            sides=sides_of(_at(memories, end)),
         )
-
-
-def _memory_at(memories: Sequence[tuple[int, Memory]], ticks: int) -> Memory:
-    """The eight bytes as last reported by then."""
-    known = [memory for count, memory in memories if count <= ticks]
-    return known[-1] if known else memories[0][1]

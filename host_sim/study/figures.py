@@ -73,6 +73,7 @@ def _recovered(sample: Sample, take: Take) -> Any:
 
 _TOWARD = "robots that in the end know a turn toward what is beside them"
 _SCORE = "Heiserman's: turns after which the way was clear, of all turns"
+_RECOVERED = "robots that after the change know what to do beside things again, and no wrong turn"
 _KNOWN = "robot time until a turn is known for patterns 1, 3, 4 and 6, median"
 
 FIGURES: dict[str, Figure] = {
@@ -88,7 +89,7 @@ FIGURES: dict[str, Figure] = {
     "bumped": Figure("bumps", "environments in which a body touched something", " %", 1, _mean("bumped", 100)),
     "score": Figure("score", _SCORE, "", 2, _share("cleared", "turns")),
     "known_s": Figure("known", _KNOWN, " s", 0, _median("known_s")),
-    "recovered": Figure("recovered", "robots that after the change know no wrong turn", " %", 1, _recovered),
+    "recovered": Figure("recovered", _RECOVERED, " %", 1, _recovered),
     "recovery": Figure("after", "contacts until then, median", " contacts", 0, _median("recovery")),
 }
 """Each figure by its name in a study's goals."""

@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from host_sim.study.trial import Trial
+from host_sim.world.world_names import RANDOM
 
 
 @dataclass(frozen=True)
@@ -16,16 +17,18 @@ class Condition:
         profile: The behaviour.
         settings: Parameters to change from their defaults, by name.
         world: Name of the world that the environments are drawn from.
-        change: What happens to the body; empty for nothing.
+        change: What the world and the bodies meet with; empty for nothing.
         robots: Number of robots in each environment.
+        robot: Where they come from, as in `Trial`.
     """
 
     name: str
     profile: str
     settings: dict[str, int] = field(default_factory=dict)
-    world: str = "random"
+    world: str = RANDOM
     change: str = ""
     robots: int = 1
+    robot: str = "spawn"
 
 
 @dataclass(frozen=True)
@@ -91,8 +94,10 @@ class Plan:
             seed=seed,
             environments=self.environments,
             settings=condition.settings,
+            world=condition.world,
             change=condition.change,
             limit_s=self.limit_s,
             robots=condition.robots,
+            robot=condition.robot,
             condition=condition.name,
         )

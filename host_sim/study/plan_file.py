@@ -10,17 +10,19 @@ from typing import Any
 from host_sim.errors import UsageError
 from host_sim.protocol.generated import PARAMETERS, PROFILES
 from host_sim.regular_file import read_bytes
-from host_sim.study.faults import change_of
 from host_sim.study.figures import FIGURES
 from host_sim.study.plan import Condition, Goal, Plan
 from host_sim.study.toml_lines import line_of, meant
+from host_sim.world.changes import Change
+from host_sim.world.world_names import RANDOM
+from host_sim.world.worlds import world_of
 
 _toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
 
 _SIZE_MAX = 1_000_000
 _SEED_MAX = 2**32 - 1
 _KEYS = (
-    *("title", "profiles", "robots", "changes", "seeds", "first_seed", "environments", "limit_s"),
+    *("title", "profiles", "robots", "worlds", "changes", "seeds", "first_seed", "environments", "limit_s"),
     *("settings", "goals"),
 )
 _GOAL_KEYS = ("figure", "condition", "against", "at_least", "at_most")
@@ -69,21 +71,23 @@ class _Reader:
     def _conditions(self) -> list[Condition]:
         profiles = self._words("profiles", _is_one_of(PROFILES))
         settings = self._settings() or {_PLAIN: {}}
+        worlds = self._words("worlds", _is_world, [RANDOM])
         changes = self._words("changes", _is_change, [_NO_CHANGE])
         robots = self._content.get("robots", [1])
         for count in robots if isinstance(robots, list) and robots else [None]:
             self._check_number(count, "robots", 1, 31)
-        every = itertools.product(profiles, settings, changes, robots)
-        several = [len(values) > 1 for values in (profiles, settings, changes, robots)]
+        every = itertools.product(profiles, settings, worlds, changes, robots)
+        several = [len(values) > 1 for values in (profiles, settings, worlds, changes, robots)]
         return [
             Condition(
-                name=_name([profile, setting, change, f"{count} robots"], several),
+                name=_name([profile, setting, world, change, f"{count} robots"], several),
                 profile=profile,
                 settings=settings[setting],
+                world=world,
                 change="" if change == _NO_CHANGE else change,
                 robots=count,
             )
-            for profile, setting, change, count in every
+            for profile, setting, world, change, count in every
         ]
 
     def _settings(self) -> dict[str, dict[str, int]]:
@@ -169,9 +173,17 @@ def _is_one_of(words: dict[str, Any]) -> Callable[[str], str]:
 
 
 def _is_change(word: str) -> str:
+    return "" if word == _NO_CHANGE else _mistake(Change.parse, word)
+
+
+def _is_world(word: str) -> str:
+    return _mistake(world_of, word)
+
+
+def _mistake(read: Callable[[str], object], word: str) -> str:
+    """What a reader says is wrong with a word."""
     try:
-        if word != _NO_CHANGE:
-            change_of(word)
+        read(word)
     except UsageError as error:
         return str(error)
     return ""

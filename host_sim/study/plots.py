@@ -22,12 +22,16 @@ _CREATURES, _CONTACTS = 200, 100
 Draw = Callable[[Any, Sequence[Sample]], None]
 
 
-def draw_plots(samples: Sequence[Sample], folder: Path) -> list[Path]:
+def draw_plots(
+    samples: Sequence[Sample], folder: Path, prefix: str = "", only: Sequence[str] | None = None
+) -> list[Path]:
     """Draws the plots for which there are data.
 
     Args:
         samples: The conditions.
         folder: Where the PNG files go; made if it is not there.
+        prefix: What their names begin with.
+        only: Names of the plots wanted; by default all.
 
     Returns:
         Their paths.
@@ -39,13 +43,14 @@ def draw_plots(samples: Sequence[Sample], folder: Path) -> list[Path]:
     if any(np.isfinite(sample.wrong_at).any() for sample in samples):
         plots["recovery"] = _recovery
     folder.mkdir(parents=True, exist_ok=True)
-    return [_draw(plot, samples, folder / f"{name}.png") for name, plot in plots.items()]
+    wanted = {name: plot for name, plot in plots.items() if only is None or name in only}
+    return [_draw(plot, samples, folder / f"{prefix}{name}.png") for name, plot in wanted.items()]
 
 
 def _draw(plot: Draw, samples: Sequence[Sample], path: Path) -> Path:
     figure = library("matplotlib.figure", "study").Figure(figsize=_SIZE_INCHES, dpi=_DPI, layout="constrained")
     axes = figure.subplots()
-    axes.set_prop_cycle(color=_COLOURS)
+    axes.set_prop_cycle(color=_COLOURS, linestyle=("-", "--") * (len(_COLOURS) // 2))  # lines may lie on one another
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(alpha=0.25)
     plot(axes, samples)

@@ -18,6 +18,7 @@ class Sample:
 
     Attributes:
         name: The condition.
+        robots: Number of robots in each environment.
         seeds: The seeds, ascending.
         finished: For each environment, 1 if all food was eaten, else 0.
         robot_s: For each environment, robot time, s.
@@ -32,11 +33,12 @@ class Sample:
         blocked_at: For each of the first robot's first contacts, how long it took, s; NaN where there was none.
         wrong_at: For each of the first robot's first contacts after the change, 1 if it knew a wrong turn then, else
             0; NaN where there was none.
-        recovery: Contacts after the change until no wrong turn was known; infinite if there always was one, and NaN
-            without a change.
+        recovery: Contacts after the change until the turns for patterns 1 and 4 were right, and no wrong one known;
+            infinite if that never was, and NaN without a change.
     """
 
     name: str
+    robots: int
     seeds: NDArray[np.int64]
     finished: Floats
     robot_s: Floats
@@ -57,6 +59,8 @@ CURVE = 100
 """Number of contacts in a curve."""
 
 _TRAPPED_S = 60.0
+_BESIDE = (1, 4)
+"""The patterns of a thing beside the robot."""
 
 
 def samples_of(tables: Tables, conditions: Sequence[str] = ()) -> list[Sample]:
@@ -100,6 +104,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
     trapped[index[long], contacts["environment"][long] - 1] = 1
     return Sample(
         name=name,
+        robots=int(robots.max(initial=1)),
         seeds=seeds,
         finished=each(environments["finished"]),
         robot_s=each(environments["robot_s"]),
@@ -110,7 +115,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
         blocked_s=total(contacts["blocked_s"]),
         turns=total(contacts["trials"] + contacts["remembered"] + contacts["boredoms"]),
         cleared=total(contacts["cleared"]),
-        known_s=np.nan_to_num(runs["known_s"].astype(np.float64), nan=np.inf),
+        known_s=runs["known_s"].astype(np.float64),
         blocked_at=_curve(index, contacts["blocked_s"], first, count),
         wrong_at=_curve(index, contacts["wrong"], first & contacts["changed"], count),
         recovery=np.array([_recovery(contacts, environments, seed) for seed in seeds]),
@@ -127,9 +132,10 @@ def _curve(index: NDArray[np.int64], values: NDArray[Any], wanted: NDArray[np.bo
 
 
 def _recovery(contacts: Columns, environments: Columns, seed: int) -> float:
-    """The number of the first robot's contacts after the change up to the first with which it knows no wrong turn."""
+    """The number of the first robot's contacts after the change up to the one with which it has recovered."""
     if not environments["changed"][environments["seed"] == seed].any():
         return float("nan")
     ours = (contacts["seed"] == seed) & contacts["changed"] & (contacts["robot"] == 0)
-    right = np.flatnonzero(~contacts["wrong"][ours])
-    return float(right[0] + 1) if len(right) else float("inf")
+    knows = [all(sides[pattern] != "0" for pattern in _BESIDE) for sides in contacts["sides"][ours]]
+    recovered = np.flatnonzero(np.array(knows, bool) & ~contacts["wrong"][ours])
+    return float(recovered[0] + 1) if len(recovered) else float("inf")

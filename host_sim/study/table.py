@@ -35,8 +35,9 @@ def table(samples: Sequence[Sample], difference: float = 0.05) -> str:
 
 def _others(samples: Sequence[Sample]) -> list[str]:
     """The figures that only some studies have."""
-    changed = any(np.isfinite(sample.recovery).any() for sample in samples)
-    return ["recovered", "recovery"] if changed else []
+    changed = any(not np.isnan(sample.recovery).all() for sample in samples)
+    several = any(sample.robots > 1 for sample in samples)
+    return ["recovered", "recovery"] * changed + ["known_s"] * several
 
 
 def _figure(name: str, sample: Sample) -> str:

@@ -6,9 +6,10 @@
 | seed        | its seed                                                                             |
 | profile     | the behaviour                                                                        |
 | settings    | parameters that differ from their defaults, as JSON                                  |
-| change      | what happened to the body; empty for nothing                                         |
+| world       | where the environments are drawn from                                                |
+| change      | what world and bodies met with; empty for nothing                                    |
 | robots      | number of robots                                                                     |
-| known_s     | robot time until a turn was known for patterns 1, 3, 4 and 6, s, the robots' mean    |
+| known_s     | robot time until a turn was known for patterns 1, 3, 4 and 6, s, the robots' median  |
 | log_sha256  | digest of its log                                                                    |
 | code        | version of the sources                                                               |
 | command     | what repeats it                                                                      |
@@ -22,7 +23,7 @@
 | robot_s      | robot time, s                                                                       |
 | collisions   | times that a body began to touch something                                          |
 | wrong        | robots that know a wrong turn for pattern 1, 3, 4 or 6 in the end                   |
-| changed      | whether the change was in force                                                     |
+| changed      | whether the change had been made                                                    |
 | sides        | the turns that each robot knows in the end, for patterns 0 to 7: 0, 1 left, 2 right |
 
 | contacts    | a time that a robot was blocked                                                      |
@@ -32,7 +33,7 @@
 | environment | as above                                                                             |
 | robot       | the robot, from 0                                                                    |
 | number      | the contacts of this robot, counted from 1 through all environments                  |
-| changed     | whether the change was in force                                                      |
+| changed     | whether the change had been made                                                     |
 | begun_s     | robot time from the start of the environment, s                                      |
 | pattern     | what the front sensors said, 1 to 7                                                  |
 | blocked_s   | robot time until the way was clear, s                                                |
@@ -136,9 +137,10 @@ def _run(run: Run) -> Row:
     return {
         "profile": trial.profile,
         "settings": json.dumps(trial.settings, sort_keys=True),
+        "world": trial.world,
         "change": trial.change,
         "robots": trial.robots,
-        "known_s": float("nan") if None in known else float(np.mean([time for time in known if time is not None])),
+        "known_s": float(np.median([np.inf if time is None else time for time in known])),
         "log_sha256": run.log_sha256,
         "code": code_version(),
         "command": trial.command(),
@@ -152,8 +154,8 @@ def _environments(run: Run) -> Iterator[Row]:
             "finished": row.finished,
             "robot_s": row.robot_s,
             "collisions": row.collisions,
-            "wrong": row.wrong,
-            "changed": row.is_changed,
+            "wrong": sum(map(knows_wrong, row.sides, row.bodies)),
+            "changed": any(body.is_changed for body in row.bodies),
             "sides": " ".join(_digits(sides) for sides in row.sides),
         }
 
@@ -161,7 +163,6 @@ def _environments(run: Run) -> Iterator[Row]:
 def _contacts(run: Run) -> Iterator[Row]:
     numbers: Counter[int] = Counter()
     for row in run.rows:
-        proper = run.trial.proper(row.number)
         for robot, contacts in enumerate(row.contacts):
             for contact in contacts:
                 numbers[robot] += 1
@@ -169,7 +170,7 @@ def _contacts(run: Run) -> Iterator[Row]:
                     "environment": row.number,
                     "robot": robot,
                     "number": numbers[robot],
-                    "changed": row.is_changed,
+                    "changed": contact.body.is_changed,
                     "begun_s": round(contact.tick * row.tick_s, 3),
                     "pattern": contact.pattern,
                     "blocked_s": round(contact.blocked_ticks * row.tick_s, 3),
@@ -178,7 +179,7 @@ def _contacts(run: Run) -> Iterator[Row]:
                     "boredoms": contact.boredoms,
                     "cleared": contact.cleared,
                     "sides": _digits(contact.sides),
-                    "wrong": knows_wrong(contact.sides, proper),
+                    "wrong": knows_wrong(contact.sides, contact.body),
                 }
 
 

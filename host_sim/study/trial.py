@@ -1,6 +1,5 @@
 """One run of a study: robots in some environments, and what it shows of their behaviour."""
 
-import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -12,11 +11,13 @@ from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.study.contacts import Contact, ContactWatch
-from host_sim.study.faults import FAULTS, OTHER_WAY_ROUND, change_of
+from host_sim.study.contacts import BodyState, Contact, ContactWatch, Course
+from host_sim.world.world_names import RANDOM
 
 PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
 """The turn away from what is beside the robot, for each pattern in which something is on one side only."""
+
+_OTHER = {Side.LEFT: Side.RIGHT, Side.RIGHT: Side.LEFT}
 
 
 @dataclass(frozen=True)
@@ -28,9 +29,11 @@ class Trial:
         seed: Seed for environments and random turns.
         environments: Number of environments.
         settings: Parameters to change from their defaults, by name.
-        change: What happens to the body, as `host_sim.study.faults` has it; empty for nothing.
+        world: Name of the world that the environments are drawn from.
+        change: What the world and the bodies meet with, as `host_sim.world.changes` has it; empty for nothing.
         limit_s: Time limit for each environment, s of robot time.
         robots: Number of robots in each environment.
+        robot: Where they come from: `spawn` for this process, `emulated` for the flash image on an emulated board.
         condition: What the run's condition is called: all runs that differ only in the seed have the same.
     """
 
@@ -38,9 +41,11 @@ class Trial:
     seed: int
     environments: int = 5
     settings: dict[str, int] = field(default_factory=dict)
+    world: str = RANDOM
     change: str = ""
     limit_s: float = 600.0
     robots: int = 1
+    robot: str = "spawn"
     condition: str = ""
 
     @property
@@ -48,22 +53,13 @@ class Trial:
         """What tells the runs of a study apart."""
         return self.condition or self.profile, self.seed
 
-    def is_changed(self, environment: int) -> bool:
-        """Whether the change is in force in an environment."""
-        return bool(self.change) and environment >= change_of(self.change).environment
-
-    def proper(self, environment: int) -> dict[int, Side]:
-        """The turn for each of the patterns of `PROPER` that leads away, as the robot has to ask for it."""
-        if self.is_changed(environment) and change_of(self.change).fault in OTHER_WAY_ROUND:
-            return {pattern: Side(Side.LEFT + Side.RIGHT - side) for pattern, side in PROPER.items()}
-        return PROPER
-
     def command(self) -> str:
         """A command that repeats the run."""
+        change = f" --change {self.change}" if self.change else ""
         sets = "".join(f" --set {name}={value}" for name, value in sorted(self.settings.items()))
         return (
             f"tools/run --bus none --seed {self.seed} --profile {self.profile} --environments {self.environments}"
-            f" --limit-s {self.limit_s:g} --robots {self.robots}{sets}"
+            f" --limit-s {self.limit_s:g} --robots {self.robots} --world {self.world}{change}{sets}"
         )
 
 
@@ -78,8 +74,7 @@ class Row:
         contacts: Each robot's contacts.
         collisions: Number of times that a body began to touch something.
         sides: The turns for each pattern that each robot knows in the end.
-        wrong: Number of robots that know a wrong turn for pattern 1, 3, 4 or 6 in the end.
-        is_changed: Whether the change was in force.
+        bodies: What has happened to each robot's body.
         tick_s: Length of a tick, s.
     """
 
@@ -89,8 +84,7 @@ class Row:
     contacts: list[list[Contact]]
     collisions: int
     sides: list[Memory]
-    wrong: int
-    is_changed: bool
+    bodies: list[BodyState]
     tick_s: float
 
 
@@ -127,18 +121,14 @@ def run_trial(trial: Trial) -> Run:
 
 
 def _config(trial: Trial) -> RunConfig:
-    names = ("seed", "environments", "profile", "settings", "limit_s", "robots")
-    return RunConfig(**{name: getattr(trial, name) for name in names})
+    names = ("seed", "environments", "profile", "settings", "world", "limit_s", "robots", "robot")
+    changes = (trial.change,) if trial.change else ()
+    return RunConfig(**{name: getattr(trial, name) for name in names}, changes=changes)
 
 
 def _rows(trial: Trial, simulation: Simulation, known_s: list[float | None]) -> Iterator[Row]:
-    dice = random.Random(trial.seed)
     for number in range(1, trial.environments + 1):
         simulation.enter(number)
-        if trial.is_changed(number):
-            simulation.native, simulation.loop = False, None  # the loop in C has sound bodies only
-            bodies = simulation.arena.bodies
-            bodies[:] = [FAULTS[change_of(trial.change).fault](body, dice) for body in bodies]
         yield _run_environment(simulation, trial, number, known_s)
 
 
@@ -155,28 +145,26 @@ def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s:
     episode = simulation.leave()
     for index, each in enumerate(watches):
         if known_s[index] is None:
-            known_s[index] = _known_s(each.memories(), first_tick, episode.tick_s)
-    sides = [sides_of(robot.memory) for robot in episode.robots]
-    proper = trial.proper(number)
+            known_s[index] = _known_s(each.memories, first_tick, episode.tick_s)
     return Row(
         number=number,
         finished=episode.finished,
         robot_s=episode.robot_s,
         contacts=[each.contacts() for each in watches],
         collisions=sum(robot.collisions for robot in episode.robots),
-        sides=sides,
-        wrong=sum(knows_wrong(known, proper) for known in sides),
-        is_changed=trial.is_changed(number),
+        sides=[sides_of(robot.memory) for robot in episode.robots],
+        bodies=[each.body for each in watches],
         tick_s=episode.tick_s,
     )
 
 
-def knows_wrong(sides: Sequence[int], proper: dict[int, Side]) -> bool:
-    """Whether a turn is known that leads toward what is beside the robot."""
-    return any(sides[pattern] not in (Side.NOTHING, side) for pattern, side in proper.items())
+def knows_wrong(sides: Sequence[int], body: BodyState) -> bool:
+    """Whether a turn is known for one of the patterns of `PROPER` that leads toward what is beside the robot."""
+    wrong = {pattern: side if body.is_reversed else _OTHER[side] for pattern, side in PROPER.items()}
+    return any(sides[pattern] == side for pattern, side in wrong.items())
 
 
-def _known_s(memories: Sequence[tuple[int, Memory]], first_tick: int, tick_s: float) -> float | None:
+def _known_s(memories: Course[Memory], first_tick: int, tick_s: float) -> float | None:
     for ticks, memory in memories:
         if all(sides_of(memory)[pattern] for pattern in PROPER):
             return round((first_tick + ticks) * tick_s, 3)

@@ -3,7 +3,8 @@
 import ctypes
 import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import BrokenExecutor, CancelledError, Executor, ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, ProcessPoolExecutor, wait
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 from host_sim.errors import OctetError, UsageError
@@ -15,6 +16,7 @@ _CHUNK_MAX = 16
 _CHUNKS_A_PROCESS = 8
 _CLUSTER_CHUNK = 100
 _CONNECT_S = 10
+_CHECK_S = 1.0
 _RETRIES = 3
 _BREAKS_MAX = 3
 _PR_SET_PDEATHSIG = 1
@@ -26,10 +28,12 @@ class Workers(NamedTuple):
     Attributes:
         open: Makes an executor.
         chunk: Number of runs to hand over at once, given the number of all.
+        check: Raises OctetError if they are out of reach.
     """
 
     open: Callable[[], Executor]
     chunk: Callable[[int], int]
+    check: Callable[[], None] = lambda: None
 
 
 class Chunk(NamedTuple):
@@ -56,12 +60,20 @@ def cluster(address: str) -> Workers:
     Raises:
         UsageError: Dask is not installed, or the scheduler does not answer.
     """
-    distributed = library("distributed", "cluster")
+    distributed, dask = library("distributed", "cluster"), library("dask", "cluster")
+    dask.config.set({"distributed.comm.timeouts.connect": f"{_CONNECT_S}s"})
     try:
         client = distributed.Client(address, timeout=_CONNECT_S)
     except (OSError, ValueError) as error:
         raise UsageError(f"no Dask scheduler answers at {address}: {str(error).splitlines()[0]}") from None
-    return Workers(open=lambda: _Cluster(client), chunk=lambda _: _CLUSTER_CHUNK)
+
+    def check() -> None:
+        if client.status in ("closing", "closed"):
+            raise OctetError(
+                f"the cluster at {address} is gone; what was made is there, and the same command goes on"
+            )
+
+    return Workers(open=lambda: _Cluster(client), chunk=lambda _: _CLUSTER_CHUNK, check=check)
 
 
 class _Cluster(Executor):
@@ -71,10 +83,14 @@ class _Cluster(Executor):
         self._executor = client.get_executor(retries=_RETRIES, pure=False)
 
     def submit(self, call: Any, /, *arguments: Any, **named: Any) -> Any:
-        return self._executor.submit(call, *arguments, **named)
+        try:
+            return self._executor.submit(call, *arguments, **named)
+        except Exception as error:
+            raise BrokenExecutor from error
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        self._executor.shutdown(wait=wait and not cancel_futures)
+        with suppress(Exception):  # a cluster that is gone cannot be told
+            self._executor.shutdown(wait=wait and not cancel_futures)
 
 
 def run_chunk(trials: Sequence[Trial]) -> Chunk:
@@ -111,15 +127,18 @@ def run_all(trials: Sequence[Trial], workers: Workers, chunk: int = 0) -> Iterat
 
 def _run_until_broken(left: list[Sequence[Trial]], workers: Workers) -> Iterator[Sequence[Run]]:
     """Makes what is left, and takes it off the list, until all is made or a worker has died."""
+    workers.check()
     executor = workers.open()
     try:
         futures = {executor.submit(run_chunk, trials): trials for trials in left}
-        for future in as_completed(futures):
-            runs, code = future.result()
-            if code != code_version():
-                raise OctetError("a worker has another version of robot or world; what was made here is there")
-            left.remove(futures.pop(future))
-            yield runs
+        while futures:
+            workers.check()
+            for future in wait(futures, _CHECK_S, FIRST_COMPLETED).done:
+                runs, code = future.result()
+                if code != code_version():
+                    raise OctetError("a worker has another version of robot or world; what was made here is there")
+                left.remove(futures.pop(future))
+                yield runs
     except (BrokenExecutor, CancelledError):
         pass
     finally:

@@ -37,7 +37,6 @@ def test_a_missed_goal_is_an_exit_code(tmp_path, capsys, word, bound, code):
         ["artcle"],
         ["article", "--change", "gremlin@env1"],
         ["article", "--set", "filter=2"],
-        ["article", "--dask", "tcp://127.0.0.1:1"],
         ["."],
         [],
     ],

@@ -7,7 +7,7 @@ from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.study.contacts import ContactWatch, _contacts
 from host_sim.study.trial import Trial, run_trial
-from tests.study.support import NOTHING
+from tests.study.support import NOTHING, SOUND, SWAPPED
 
 FRONT_RIGHT = 0b00010
 LEARNED = (0, 1, 0, 0, 0, 0, 0, 0)
@@ -23,11 +23,12 @@ def test_a_contact_is_from_the_first_turn_to_the_clear_way():
         (FRONT_RIGHT, Reason.BOREDOM, 6),
     ]
 
-    first, second = _contacts(np.array(ticks, np.int16), [(0, NOTHING), (5, LEARNED)])
+    first, second = _contacts(np.array(ticks, np.int16), [(0, NOTHING), (5, LEARNED)], [(0, SOUND), (8, SWAPPED)])
 
     assert (first.tick, first.pattern, first.blocked_ticks, first.cleared) == (1, 1, 6, True)
     assert (first.trials, first.remembered, first.boredoms, first.turns) == (1, 2, 0, 3)
     assert first.sides == LEARNED
+    assert (first.body, second.body) == (SOUND, SWAPPED)
     assert (second.tick, second.blocked_ticks, second.boredoms, second.cleared) == (8, 1, 1, False)
 
 

@@ -10,9 +10,10 @@ from host_sim.study.figures import FIGURES
 from host_sim.study.goals import judge
 from host_sim.study.plan import Goal
 from host_sim.study.table import table
-from tests.study.support import contact, row, run, samples
+from tests.study.support import SWAPPED, contact, row, run, samples
 
 LEFT_OF_LEFT = (0, 0, 0, 0, 1, 0, 0, 0)
+"""A turn toward what is beside the robot, where its body is sound."""
 
 
 def value(name: str, *runs) -> float:
@@ -52,19 +53,25 @@ def test_the_score_is_the_part_of_the_turns_that_cleared_the_way():
 
 
 def test_wrong_is_what_is_known_in_the_last_environment():
-    assert value("wrong", run("a", 1, row(wrong=1), row(number=2)), run("a", 2, row(), row(number=2, wrong=1))) == 50
+    wrong, right = row(sides=[LEFT_OF_LEFT]), row(number=2)
+
+    assert value("wrong", run("a", 1, wrong, right), run("a", 2, right, wrong)) == 50
+
+
+def test_what_is_wrong_is_the_other_way_round_in_a_body_that_is():
+    assert value("wrong", run("a", 1, row(sides=[LEFT_OF_LEFT], bodies=[SWAPPED]))) == 0
 
 
 def after_swap(seed: int, *sides) -> object:
     """A run whose motors are swapped in its second environment, with what is known after each contact there."""
-    contacts = [contact(sides=known) for known in sides]
-    return run("a", seed, row(), row(number=2, is_changed=True, contacts=contacts), change="swapped@env2")
+    contacts = [contact(sides=known, body=SWAPPED) for known in sides]
+    return run("a", seed, row(), row(number=2, bodies=[SWAPPED], contacts=contacts))
 
 
 def test_recovery_is_counted_in_contacts_after_the_change():
-    right, wrong = LEFT_OF_LEFT, (0, 0, 0, 0, 2, 0, 0, 0)  # with swapped motors the other turn leads away
+    right, half, wrong = ((0, *known, 0, 0, 0) for known in ((2, 0, 0, 1), (2, 0, 0, 0), (2, 0, 0, 2)))
 
-    runs = [after_swap(1, wrong, wrong, right), after_swap(2, right), after_swap(3, wrong)]
+    runs = [after_swap(1, wrong, half, right), after_swap(2, right), after_swap(3, wrong)]
 
     assert value("recovery", *runs) == 3
     assert value("recovered", *runs) == pytest.approx(100 * 2 / 3)
@@ -111,7 +118,12 @@ def test_conditions_are_compared_on_the_seeds_that_all_have():
 
 def test_the_table_has_a_line_for_each_condition():
     runs = [
-        run("a", 1, row(100.0, [contact(0.5)]), row(300.0, [contact(61.0)], number=2, finished=False, wrong=1)),
+        run(
+            "a",
+            1,
+            row(100.0, [contact(0.5)]),
+            row(300.0, [contact(61.0)], number=2, finished=False, sides=[LEFT_OF_LEFT]),
+        ),
         run("b", 1, row(50.0), row(150.0, number=2, collisions=1)),
     ]
 

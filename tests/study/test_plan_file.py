@@ -21,19 +21,23 @@ def plan(tmp_path):
 
 def test_every_combination_is_a_condition_and_the_seeds_are_the_same(plan):
     found = plan(
-        'profiles = ["article", "fixed"]\nchanges = ["none", "swapped@env2"]\nseeds = 2\nfirst_seed = 7\n'
+        'profiles = ["article", "fixed"]\nchanges = ["none", "swap-motors@env2"]\nseeds = 2\nfirst_seed = 7\n'
         "[settings.plain]\n[settings.careful]\nfilter = 1\n"
     )
 
     names = [condition.name for condition in found.conditions]
     assert len(names) == 8
-    assert names[:3] == ["article plain none", "article plain swapped@env2", "article careful none"]
+    assert names[:3] == ["article plain none", "article plain swap-motors@env2", "article careful none"]
     assert [(trial.condition, trial.seed) for trial in found.trials()] == [(n, s) for s in (7, 8) for n in names]
     assert found.conditions[2].settings == {"filter": 1}
 
 
 def test_a_condition_is_named_by_what_varies(plan):
     assert [it.name for it in plan('profiles = ["article"]\nrobots = [1, 4]').conditions] == ["1 robots", "4 robots"]
+    assert [it.world for it in plan('profiles = ["article"]\nworlds = ["small", "posts"]').conditions] == [
+        "small",
+        "posts",
+    ]
     assert [it.name for it in plan('profiles = ["article"]').conditions] == ["article"]
 
 
@@ -48,7 +52,11 @@ def test_a_condition_is_named_by_what_varies(plan):
         ('profiles = ["article"]\nseeds = true', ":2: seeds is a whole number"),
         ('profiles = "article"', ':1: profiles is a list of words, such as profiles = ["article"]'),
         ('profiles = ["article", "article"]', ":1: profiles: something is there twice"),
-        ('profiles = ["article"]\nchanges = ["swaped@env1"]', ":2: changes: 'swaped@env1' is no change"),
+        (
+            'profiles = ["article"]\nchanges = ["swap-motor@env1"]',
+            ":2: changes: 'swap-motor@env1' is not a change: did you",
+        ),
+        ('profiles = ["article"]\nworlds = ["smal"]', ":2: worlds: there is no world 'smal': did you mean small?"),
         ('profiles = ["article"]\nrobots = [0]', ":2: robots is a whole number from 1 to 31, not 0"),
         ('profiles = ["article"]\nrobots = []', ":2: robots is a whole number"),
         ('profiles = ["article"]\ntitle = 3', ":2: title is a line of text, not 3"),

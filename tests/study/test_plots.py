@@ -6,11 +6,11 @@ from PIL import Image
 
 from host_sim.study.heiserman import CLASSES, scores
 from host_sim.study.plots import draw_plots
-from tests.study.support import contact, row, run, samples
+from tests.study.support import SWAPPED, contact, row, run, samples
 
 
 def test_each_plot_is_a_picture(tmp_path):
-    changed = row(number=2, contacts=[contact()], is_changed=True)
+    changed = row(number=2, contacts=[contact(body=SWAPPED)], bodies=[SWAPPED])
     few = samples(*(run(name, seed, row(10.0 * seed), changed) for name in "ab" for seed in (1, 2)))
 
     paths = draw_plots(few, tmp_path / "new/plots")

@@ -6,11 +6,9 @@ import shlex
 import pytest
 
 from host_sim.cli.main import main
-from host_sim.errors import UsageError
-from host_sim.protocol.generated import FEEL
-from host_sim.robot_io import NOTHING_SENSED
-from host_sim.study.faults import FAULTS, change_of
-from host_sim.study.trial import Trial, run_trial
+from host_sim.study.contacts import BodyState
+from host_sim.study.trial import Trial, knows_wrong, run_trial
+from tests.study.support import SWAPPED
 
 
 def test_equal_trials_give_equal_rows():
@@ -20,7 +18,9 @@ def test_equal_trials_give_equal_rows():
 
 
 def test_the_command_of_a_run_repeats_it(tmp_path):
-    trial = Trial("adaptive", 5, environments=2, settings={"filter": 1, "turn_deg": 20}, limit_s=60.0, robots=2)
+    trial = Trial(
+        "adaptive", 5, environments=2, settings={"filter": 1, "turn_deg": 20}, world="posts", limit_s=60.0, robots=2
+    )
     run = run_trial(trial)
 
     assert main(["run", *shlex.split(trial.command())[1:], "--quiet", "--out", str(tmp_path)]) == 0
@@ -33,43 +33,30 @@ def blocked_ticks(run) -> list[int]:
 
 
 def test_with_a_mirrored_ring_from_birth_the_path_is_the_same_and_the_cells_are_exchanged():
-    sound, mirrored = (run_trial(Trial("article", 3, 1, change=change)) for change in ("", "mirrored@env1"))
+    sound, mirrored = (run_trial(Trial("article", 3, 1, change=change)) for change in ("", "mirror@env1"))
 
     assert mirrored.rows[0].robot_s == sound.rows[0].robot_s
     assert blocked_ticks(mirrored) == blocked_ticks(sound)
     assert mirrored.rows[0].sides[0] == tuple(sound.rows[0].sides[0][cell] for cell in (0, 4, 2, 6, 1, 5, 3, 7))
 
 
-def test_what_is_wrong_with_a_mirrored_ring_is_the_other_way_round():
-    wrong = [run_trial(Trial("fixed", 3, 1, change=change)).rows[0].wrong for change in ("", "mirrored@env1")]
+@pytest.mark.parametrize(("change", "is_wrong"), [("", False), ("mirror@env1", True), ("swap-motors@env1", True)])
+def test_what_is_wrong_with_a_reversed_body_is_the_other_way_round(change, is_wrong):
+    (row,) = run_trial(Trial("fixed", 3, 1, change=change, limit_s=5)).rows
 
-    assert wrong == [0, 1]
-
-
-@pytest.mark.parametrize("fault", ["noise", "stuck-front", "swapped"])
-def test_any_other_fault_makes_another_run(fault):
-    sound, faulty = (run_trial(Trial("article", 3, 1, change=change, limit_s=60)) for change in ("", f"{fault}@env1"))
-
-    assert sound.rows[0].contacts != faulty.rows[0].contacts
+    assert knows_wrong(row.sides[0], row.bodies[0]) == is_wrong
 
 
-def test_a_fault_can_begin_later():
-    sound, late = (run_trial(Trial("article", 3, 2, change=change)).rows for change in ("", "mirrored@env2"))
+def test_a_change_of_the_world_leaves_the_turns_as_they_are():
+    (row,) = run_trial(Trial("fixed", 3, 1, change="plant@env1", limit_s=5)).rows
 
-    assert sound[0] == late[0]
-    assert sound[1] != late[1]
-    assert [row.is_changed for row in late] == [False, True]
+    assert row.bodies == [BodyState(is_changed=True, is_reversed=False)]
 
 
-@pytest.mark.parametrize("text", ["swapped", "swapped@env0", "gremlin@env1", "swapped@1", ""])
-def test_what_is_no_change_is_said_with_those_there_are(text):
-    with pytest.raises(UsageError, match=r"is no change such as swapped@env6; there are noise,"):
-        change_of(text)
+def test_a_change_can_come_later_and_between_two_contacts():
+    sound, late = (run_trial(Trial("article", 3, 1, change=change)).rows[0] for change in ("", "mirror@60s"))
 
-
-def test_a_mirrored_ring_has_right_for_left():
-    class Feeling:
-        def sense(self, _tick):
-            return NOTHING_SENSED._replace(feel=FEEL["RIGHT"] | FEEL["FRONT_LEFT"])
-
-    assert FAULTS["mirrored"](Feeling(), None).sense(0).feel == FEEL["LEFT"] | FEEL["FRONT_RIGHT"]
+    before = [contact for contact in late.contacts[0] if contact.tick < 3000]
+    assert before == [contact for contact in sound.contacts[0] if contact.tick < 3000]
+    assert {contact.body.is_changed for contact in before} == {False}
+    assert {contact.body for contact in late.contacts[0][len(before) :]} == {SWAPPED}

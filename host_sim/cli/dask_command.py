@@ -1,0 +1,44 @@
+"""`tools/octet dask`: a scheduler or a worker for `tools/octet study --dask`."""
+
+import argparse
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from host_sim.cli.parsing import add_command
+from host_sim.extra_library import library
+from host_sim.paths import BUILD, ROOT
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+
+_EXAMPLES = """\
+examples:
+  tools/octet dask scheduler                                     on one machine; prints its address
+  tools/octet dask worker tcp://host:8786                        on each machine that is to work
+  tools/octet study studies/learned.toml --dask tcp://host:8786  anywhere
+
+Who can reach the scheduler can run any program on the workers: use it in a network of your own only.
+"""
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "dask",
+        _dask,
+        summary="be the scheduler or a worker of a cluster for studies",
+        description="Starts Dask's own scheduler or worker, which find Octet and its libraries.",
+        epilog=_EXAMPLES,
+    )
+    parser.add_argument("role", choices=("scheduler", "worker"), help="what to be")
+    parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help="options of Dask; --help lists them")
+
+
+def _dask(arguments: argparse.Namespace) -> int:
+    library("distributed", "cluster")
+    places = os.pathsep.join(map(str, (ROOT, BUILD / "cluster")))  # for the processes that Dask starts, too
+    module = f"distributed.cli.dask_{arguments.role}"
+    words = [sys.executable, "-m", module, *arguments.words]
+    os.execve(sys.executable, words, {**os.environ, "PYTHONPATH": places})

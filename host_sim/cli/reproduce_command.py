@@ -1,0 +1,62 @@
+"""`tools/octet reproduce`: makes the tables, the plots and the numbers of docs/learning.md anew."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from host_sim.cli.parsing import add_command
+from host_sim.cli.study_command import add_workers, run_study, workers_of
+from host_sim.errors import UsageError
+from host_sim.paths import ROOT
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+
+_DOCUMENT = "learning.md"
+_PLOTS = {"learned": ("learning", "survival"), "swapped": ("recovery",), "score": ("score",)}
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "reproduce",
+        _reproduce,
+        summary="measure all of docs/learning.md anew",
+        description="Runs every study of a folder and writes the document's tables, plots and numbers.",
+    )
+    add = parser.add_argument
+    add("--studies", type=Path, default=ROOT / "studies", metavar="FOLDER", help="folder of the studies")
+    add("--docs", type=Path, default=ROOT / "docs", metavar="FOLDER", help=f"folder with {_DOCUMENT}")
+    add("--out", type=Path, default=Path("out/reproduce"), metavar="FOLDER", help="folder for the rows")
+    add("--only", metavar="NAME", help="run one study only")
+    add_workers(parser)
+
+
+def _reproduce(arguments: argparse.Namespace) -> int:
+    from host_sim.atomic_file import write_bytes
+    from host_sim.study.document import fill
+
+    a = arguments
+    paths = sorted(path for path in a.studies.glob("*.toml") if a.only in (None, path.stem))
+    if not paths:
+        raise UsageError(f"there is no study {a.only or ''} in {a.studies}".replace("  ", " "))
+    for path in paths:
+        _reproduce_study(path, arguments)
+    document = a.docs / _DOCUMENT
+    write_bytes(document, fill(document.read_text(), a.docs).encode())
+    print(f"wrote     {document}")
+    return 0
+
+
+def _reproduce_study(path: Path, arguments: argparse.Namespace) -> None:
+    from host_sim.cli.compare_command import of_study
+    from host_sim.study.document import TABLES, write_table
+    from host_sim.study.plots import draw_plots
+
+    name, docs = path.stem, arguments.docs
+    runs = run_study(path, arguments.out / name, workers_of(arguments), arguments.chunk)
+    _, samples = of_study(arguments.out / name)
+    write_table(samples, docs / TABLES / f"{name}.csv")
+    draw_plots(samples, docs / "images", f"{name}-", _PLOTS.get(name, ()))
+    print(f"{name:9} {runs}", flush=True)
