@@ -45,6 +45,7 @@ export function openLog(module, params, text, world) {
 function worldIn(text) {
   const world = JSON.parse(text);
   if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error("that is no world file: open a run.world.json");
+  if (world.world !== undefined) throw new Error("this page knows the random world only: this log is of another one");
   return world;
 }
 
@@ -84,7 +85,7 @@ function experimentIn(module, text, world) {
  */
 function setUp(before, { opcode, which, value }) {
   const setup = before ?? { profile: PROFILES[0], settings: {}, memory: null };
-  if (opcode === OPCODE.START) return { ...setup, profile: PROFILES[which], settings: {} };
+  if (opcode === OPCODE.START) return { ...setup, profile: PROFILES[which], settings: {}, seed: value };
   if (opcode === OPCODE.SET) return { ...setup, settings: { ...setup.settings, [Object.keys(PARAMETERS)[which]]: value } };
   if (opcode === OPCODE.ERASE) return { ...setup, memory: Array.from({ length: CELL_COUNT }, () => 0) };
   if (opcode === OPCODE.WRITE) return { ...setup, memory: written(setup.memory, which, value) };

@@ -111,7 +111,8 @@ export class Simulation {
    */
   startRobot(robot, profile) {
     const { native } = this;
-    native.command(robot, OPCODE.START, PROFILES.indexOf(profile), this.experiment.seed + robot);
+    const { seed = this.experiment.seed + robot } = this.experiment.robots[robot];
+    native.command(robot, OPCODE.START, PROFILES.indexOf(profile), seed);
     this.wantsRanges[robot] = Boolean(native.c.page_answer_value() & ANSWER_WANTS_RANGES);
     for (const [name, value] of Object.entries(this.experiment.robots[robot].settings)) this.set(robot, name, value);
   }
