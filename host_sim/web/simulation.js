@@ -222,6 +222,7 @@ export class Simulation {
     if (measures) this.sendRanges();
     const ticks = this.native.c.page_run(this.tick, measures ? 1 : Math.min(next - this.tick, BLOCK_TICKS));
     this.keepLog();
+    if (!ticks) throw new Error(`a robot does not answer tick ${this.tick}: it was not started, or was stopped`);
     this.bodies.forEach((_, robot) => this.record(robot, ticks, before[robot]));
     this.tick += ticks;
     this.recorder.eat(this.eaten);
