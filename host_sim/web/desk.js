@@ -43,6 +43,7 @@ export class Desk {
     this.lessons = new LessonsView();
     this.behaviour = typedById("behaviour", HTMLSelectElement);
     this.behaviour.append(...PROFILES.map((name) => new Option(name, name)));
+    this.robotSeed = typedById("robot-seed", HTMLInputElement);
     this.frozen = 0;
     this.bindTabs();
     this.bindRun();
@@ -75,6 +76,7 @@ export class Desk {
     const on = (/** @type {string} */ id, /** @type {() => void} */ action) => byId(id).addEventListener("click", action);
     byId("new-run").addEventListener("submit", (event) => this.newRun(event));
     this.behaviour.addEventListener("change", () => this.choose(this.behaviour.value));
+    this.robotSeed.addEventListener("change", () => this.reseed());
     byId("curve").addEventListener("change", () => this.show());
     on("erase", () => lab.change({ do: "erase", robot: lab.lane.robot }));
     on("freeze", () => lab.change({ do: "freeze", robot: lab.lane.robot, on: 1 - this.frozen }));
@@ -106,6 +108,13 @@ export class Desk {
     const number = (/** @type {string} */ id) => Number(typedById(id, HTMLInputElement).value);
     const wanted = { seed: number("seed"), environments: number("environments"), robots: number("robot-count") };
     this.lab.begin(experimentOf({ ...wanted, profile: this.behaviour.value }));
+  }
+
+  /** The robot begins with other random turns. */
+  reseed() {
+    if (!this.robotSeed.checkValidity() || this.robotSeed.value === "") return;
+    this.lab.lane.setUp({ seed: Number(this.robotSeed.value) });
+    this.lab.simulate(this.lab.lane);
   }
 
   /** Whether a change is to hold from the start of the run. */
@@ -161,6 +170,9 @@ export class Desk {
     const setup = lane.setupAt(tick);
     this.frozen = state.frozen;
     if (document.activeElement !== this.behaviour) this.behaviour.value = setup.profile;
+    if (document.activeElement !== this.robotSeed) {
+      this.robotSeed.value = `${lane.setup.seed ?? lane.experiment.seed + lane.robot}`;
+    }
     byId("freeze").setAttribute("aria-pressed", `${Boolean(state.frozen)}`);
     setText(byId("freeze"), state.frozen ? "Learning is frozen" : "Freeze learning");
     typedById("undo", HTMLButtonElement).disabled = lane.experiment.changes.length === 0;

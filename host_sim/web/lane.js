@@ -106,7 +106,8 @@ export class Lane {
     if (!scene) return;
     this.renderer.draw(scene);
     const { seed } = this.experiment;
-    const text = `${this.name}: ${this.setupAt(tick).profile}, seed ${seed}`;
+    const own = this.setup.seed ?? seed;
+    const text = `${this.name}: ${this.setupAt(tick).profile}, seed ${seed}${own === seed ? "" : `, its own ${own}`}`;
     if (this.caption.textContent !== text) this.caption.textContent = text;
   }
 
@@ -131,11 +132,11 @@ export class Lane {
   }
 
   /**
-   * Starts the selected robot, or all of them, in another way.
+   * Starts the selected robot in another way.
    * @param {Partial<RobotSetup>} setup
    */
   setUp(setup) {
-    const robots = this.experiment.robots.map((it) => ({ ...it, ...setup }));
+    const robots = this.experiment.robots.map((it, robot) => (robot === this.robot ? { ...it, ...setup } : it));
     this.experiment = { ...this.experiment, robots };
   }
 

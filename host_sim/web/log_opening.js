@@ -22,6 +22,12 @@ import { Simulation } from "./simulation.js";
 const LIMIT_TICKS = 30_000;
 const ENVIRONMENTS_MAX = 10_000;
 const HALF = CELL_COUNT / 2;
+const NO_WORLD = "that is no world file: open a run.world.json";
+/** What each change of the world must have. */
+const EDITS = new Map([
+  ["add_bar", ["a", "b"]], ["move_bar", ["id", "a", "b"]], ["remove_bar", ["id"]], ["move_food", ["id", "at"]],
+  ["lift", []], ["put", ["at", "heading"]],
+]);
 
 /**
  * @param {WebAssembly.Module} module - page.wasm, compiled.
@@ -43,9 +49,39 @@ export function openLog(module, params, text, world) {
  * @returns {World}
  */
 function worldIn(text) {
-  const world = JSON.parse(text);
-  if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error("that is no world file: open a run.world.json");
+  const world = parsed(text);
+  if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
+  if (world.world !== undefined) throw new Error("this page knows the random world only: this log is of another one");
+  if (!isCount(world.of) || !isCount(world.limit_ticks) || !world.edits.every(isEdit)) throw new Error(NO_WORLD);
   return world;
+}
+
+/** @param {string} text */
+function parsed(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    throw new Error(NO_WORLD);
+  }
+}
+
+/** @param {unknown} number */
+function isCount(number) {
+  return Number.isInteger(number) && Number(number) > 0;
+}
+
+/** @param {Record<string, unknown> | null} edit */
+function isEdit(edit) {
+  const fields = EDITS.get(`${edit?.do}`);
+  return edit !== null && Number.isInteger(edit.tick) && Boolean(fields?.every((name) => isField(edit[name])));
+}
+
+/**
+ * A whole number, or a place.
+ * @param {unknown} value
+ */
+function isField(value) {
+  return Array.isArray(value) ? value.length === 2 && value.every(Number.isInteger) : Number.isInteger(value);
 }
 
 /**
@@ -84,7 +120,8 @@ function experimentIn(module, text, world) {
  */
 function setUp(before, { opcode, which, value }) {
   const setup = before ?? { profile: PROFILES[0], settings: {}, memory: null };
-  if (opcode === OPCODE.START) return { ...setup, profile: PROFILES[which], settings: {} };
+  if (opcode === OPCODE.START && !PROFILES[which]) throw new Error("this log has a behaviour that this page does not know");
+  if (opcode === OPCODE.START) return { ...setup, profile: PROFILES[which], settings: {}, seed: value };
   if (opcode === OPCODE.SET) return { ...setup, settings: { ...setup.settings, [Object.keys(PARAMETERS)[which]]: value } };
   if (opcode === OPCODE.ERASE) return { ...setup, memory: Array.from({ length: CELL_COUNT }, () => 0) };
   if (opcode === OPCODE.WRITE) return { ...setup, memory: written(setup.memory, which, value) };
@@ -111,8 +148,9 @@ function written(memory, which, value) {
 function comparison(module, text, simulated) {
   const decoder = new TextDecoder();
   const lines = simulated.map((part) => decoder.decode(part)).join("").split("\n");
-  const recorded = text.split("\n");
+  const recorded = text.trimEnd().split("\n");
   const at = recorded.findIndex((line, i) => line !== lines[i]);
+  if (at < 0 && lines.length > recorded.length + 1) return "The log ends before the run does; this is its run so far, byte for byte.";
   if (at < 0) return "This is the run of the log, byte for byte.";
   const { difference } = replayLog(module, text);
   const line = `From line ${at + 1} on, the log and this page's run differ`;

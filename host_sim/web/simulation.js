@@ -111,7 +111,8 @@ export class Simulation {
    */
   startRobot(robot, profile) {
     const { native } = this;
-    native.command(robot, OPCODE.START, PROFILES.indexOf(profile), this.experiment.seed + robot);
+    const { seed = this.experiment.seed + robot } = this.experiment.robots[robot];
+    native.command(robot, OPCODE.START, PROFILES.indexOf(profile), seed);
     this.wantsRanges[robot] = Boolean(native.c.page_answer_value() & ANSWER_WANTS_RANGES);
     for (const [name, value] of Object.entries(this.experiment.robots[robot].settings)) this.set(robot, name, value);
   }
@@ -221,6 +222,7 @@ export class Simulation {
     if (measures) this.sendRanges();
     const ticks = this.native.c.page_run(this.tick, measures ? 1 : Math.min(next - this.tick, BLOCK_TICKS));
     this.keepLog();
+    if (!ticks) throw new Error(`a robot does not answer tick ${this.tick}: it was not started, or was stopped`);
     this.bodies.forEach((_, robot) => this.record(robot, ticks, before[robot]));
     this.tick += ticks;
     this.recorder.eat(this.eaten);

@@ -186,6 +186,7 @@
  * @property {string} profile
  * @property {Record<string, number>} settings
  * @property {number[] | null} memory
+ * @property {number} [seed] - Of its random turns; by default the experiment's, plus its place among the robots.
  */
 
 /**

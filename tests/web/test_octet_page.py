@@ -3,16 +3,16 @@
 import hashlib
 import itertools
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Page
+from playwright.sync_api import Browser, Page
 
 from host_sim.protocol.generated import PARAMETERS
 from tests.runs.support import octet
-from tests.web.support import wait_for, wait_for_text
+from tests.web.support import Faults, wait_for, wait_for_text
 from tests.web.test_layout import TOO_SMALL, out_of_view, resize
 from tests.web.test_screens import check
 
@@ -37,6 +37,19 @@ def page(file: Path, open_page: Callable[..., Page]) -> Page:
     page = open_page(file.as_uri(), ready=READY)
     wait_for(page, DONE)
     return page
+
+
+@pytest.fixture(scope="module")
+def shared(file: Path, browser: Browser) -> Iterator[Page]:
+    """One page for all tests that only look around in it."""
+    page = browser.new_context().new_page()
+    faults = Faults(file.as_uri())
+    faults.listen(page)
+    page.goto(file.as_uri())
+    wait_for(page, DONE)
+    yield page
+    page.context.close()
+    assert faults.seen == []
 
 
 def simulated(page: Page) -> None:
@@ -89,7 +102,7 @@ def test_a_changed_cell_makes_another_future_beside_the_first(page):
     assert one == other
 
 
-@pytest.mark.parametrize("change", ["behaviour", "parameter", "obstacle"])
+@pytest.mark.parametrize("change", ["behaviour", "parameter", "obstacle", "seed"])
 def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, change):
     page.evaluate("octet.go(1000)")
     page.click("#what-if")
@@ -99,8 +112,11 @@ def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, ch
         page.click("#tab-parameters")
         page.locator(".slider input").first.fill("90")
         page.locator(".slider input").first.dispatch_event("change")
-    else:
+    elif change == "obstacle":
         page.click("#add-plant")
+    else:
+        page.fill("#robot-seed", "77")
+        page.locator("#robot-seed").blur()
     simulated(page)
 
     wait_for_text(page, "#parting", "A and B part at")
@@ -175,32 +191,32 @@ def test_a_memory_goes_out_and_comes_back(page, tmp_path):
     assert bytes(page.evaluate("octet.scene.state.memory")) == memory
 
 
-def test_the_table_is_saved_for_a_spreadsheet(page):
-    page.click("#tab-curves")
+def test_the_table_is_saved_for_a_spreadsheet(shared):
+    shared.click("#tab-curves")
 
-    lines = saved(page, "#save-csv").decode().splitlines()
+    lines = saved(shared, "#save-csv").decode().splitlines()
 
     assert lines[0].startswith("run,robot,behaviour,seed,environment,finished,time s,trials")
     assert len(lines) == 6
 
 
-def test_each_parameter_has_a_slider_with_its_range(page):
+def test_each_parameter_has_a_slider_with_its_range(shared):
     sliders = "[...document.querySelectorAll('.slider input')]"
-    ranges = page.evaluate(f"{sliders}.map(({{ title, min, max }}) => [title, Number(min), Number(max)])")
+    ranges = shared.evaluate(f"{sliders}.map(({{ title, min, max }}) => [title, Number(min), Number(max)])")
 
     assert ranges == [[name, it.minimum, it.maximum] for name, it in PARAMETERS.items()]
 
 
 @pytest.mark.parametrize("kind", ["obstacle", "decision", "lesson"])
-def test_it_goes_to_the_next_one(page, kind):
-    page.select_option("#kind", kind)
-    page.evaluate("octet.go(60)")
-    page.click("#after")
-    here = page.evaluate("octet.tick")
-    actions, patterns = page.evaluate(
+def test_it_goes_to_the_next_one(shared, kind):
+    shared.select_option("#kind", kind)
+    shared.evaluate("octet.go(60)")
+    shared.click("#after")
+    here = shared.evaluate("octet.tick")
+    actions, patterns = shared.evaluate(
         "[octet.lane.data.robots[0].columns.action, octet.lane.data.robots[0].columns.pattern].map((it) => [...it])"
     )
-    lessons = [lesson["tick"] for lesson in page.evaluate("octet.lane.data.robots[0].run.lessons")]
+    lessons = [lesson["tick"] for lesson in shared.evaluate("octet.lane.data.robots[0].run.lessons")]
 
     wanted = {
         "obstacle": lambda tick: patterns[tick] and not patterns[tick - 1],
@@ -213,32 +229,32 @@ def test_it_goes_to_the_next_one(page, kind):
 @pytest.mark.parametrize(
     ("reason", "line"), [(5, "if r=Turn"), (4, "if Mem[Senses] = Turn"), (1, "rForward Dist"), (7, "FoodCnt--")]
 )
-def test_the_line_is_lit_that_the_robot_executes(page, reason, line):
-    page.click("#tab-listing")
-    page.evaluate("reason => octet.go(octet.lane.data.robots[0].columns.reason.indexOf(reason))", reason)
+def test_the_line_is_lit_that_the_robot_executes(shared, reason, line):
+    shared.click("#tab-listing")
+    shared.evaluate("reason => octet.go(octet.lane.data.robots[0].columns.reason.indexOf(reason))", reason)
 
     wait_for(
-        page,
+        shared,
         "line => [...document.querySelectorAll('#listing [aria-current]')].some((it) => it.innerText.includes(line))",
         line,
     )
 
 
-def test_all_that_matters_is_in_view(page):
+def test_all_that_matters_is_in_view(shared):
     for size in SIZES:
-        resize(page, size)
-        page.wait_for_timeout(50)
-        assert out_of_view(page, IN_VIEW, size) == [], size
+        resize(shared, size)
+        shared.wait_for_timeout(50)
+        assert out_of_view(shared, IN_VIEW, size) == [], size
     for size in (*SIZES, *PHONES):
-        resize(page, size)
-        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
+        resize(shared, size)
+        assert shared.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
 
 
-def test_fingers_can_hit_everything_on_a_phone(page):
+def test_fingers_can_hit_everything_on_a_phone(shared):
     for size, tab in itertools.product(PHONES, ("run", "parameters", "curves", "files")):
-        resize(page, size)
-        page.click(f"#tab-{tab}")
-        assert page.evaluate(TOO_SMALL) == [], (size, tab)
+        resize(shared, size)
+        shared.click(f"#tab-{tab}")
+        assert shared.evaluate(TOO_SMALL) == [], (size, tab)
 
 
 def violations(page: Page) -> list[str]:
@@ -259,10 +275,10 @@ def test_axe_finds_nothing(page):
         assert violations(page) == [], (scheme, tab)
 
 
-def test_screens(page):
-    page.evaluate("octet.go(3000)")
+def test_screens(shared):
+    shared.evaluate("octet.go(3000)")
     for scheme, size in itertools.product(("light", "dark"), (*SIZES[:1], *SIZES[2:3], PHONES[0])):
-        page.emulate_media(color_scheme=scheme)
-        resize(page, size)
-        page.wait_for_timeout(60)
-        check(page, f"octet-{scheme}-{size[0]}")
+        shared.emulate_media(color_scheme=scheme)
+        resize(shared, size)
+        shared.wait_for_timeout(60)
+        check(shared, f"octet-{scheme}-{size[0]}")
