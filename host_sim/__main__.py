@@ -4,7 +4,7 @@ import gc
 import signal
 import sys
 
-_OBJECTS_A_COLLECTION = 50_000
+_OBJECTS_A_COLLECTION = 10_000
 
 
 def _main() -> int:

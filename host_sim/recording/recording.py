@@ -1,7 +1,7 @@
 """Turns the frames of a log into ticks."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 
 from host_sim.client.pacing import applied
 from host_sim.errors import OctetError
@@ -9,7 +9,7 @@ from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Opcode
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import LogReader, check_protocol, first_memory, frames_of
-from host_sim.recording.tick_list import Tick, TickList
+from host_sim.recording.tick import Tick
 from host_sim.robot_io import Drive, Senses
 
 
@@ -21,14 +21,14 @@ class Recording:
         seed: Seed that the robot was started with; None if the log does not have its start.
         boredom_limit: Number of remembered turns in a row at which the robot is bored.
         first_memory: The eight cells before the first tick.
-        ticks: The ticks, in order, without a last one whose answer is cut off.
+        ticks: The ticks, in order, without a last one whose answer is cut off. Each iteration reads the log again.
         stopped: Whether the log ends with a stop command; if not, the log or the run was cut short.
     """
 
     seed: int | None = None
     boredom_limit: int = PARAMETERS["boredom_limit"].default
     first_memory: tuple[int, ...] = (0,) * CELL_COUNT
-    ticks: TickList = field(default_factory=TickList)
+    ticks: Iterable[Tick] = ()
     stopped: bool = False
 
 
@@ -43,23 +43,49 @@ def read_recording(log: LogReader, protocol: Protocol) -> Recording:
         OctetError: The log is of another protocol, or has no heartbeat or no tick of this node.
     """
     check_protocol(log, protocol)
-    ours = frames_of(log, protocol.node)
-    recording = _Reader(protocol, first_memory(log, protocol)).read(line.frame for line in ours)
-    if not recording.ticks:
+    ticks = _Ticks(log, protocol)
+    reader = ticks.reader()
+    for _ in reader.read(ticks.frames()):
+        pass
+    recording = replace(reader.recording, ticks=ticks)
+    if not reader.ticks:
         raise OctetError(
             f"{log.path} has no tick in which the robot moves: the run never began, or the log is cut short"
         )
     return recording
 
 
+class _Ticks:
+    """The ticks of one robot in a log, which stay there: a run of an hour has 180,000."""
+
+    def __init__(self, log: LogReader, protocol: Protocol) -> None:
+        self._log, self._protocol = log, protocol
+        self._first_memory = first_memory(log, protocol)
+
+    def __iter__(self) -> Iterator[Tick]:
+        return self.reader().read(self.frames())
+
+    def reader(self) -> "_Reader":
+        return _Reader(self._protocol, self._first_memory)
+
+    def frames(self) -> Iterator[Frame]:
+        return (line.frame for line in frames_of(self._log, self._protocol.node))
+
+
 class _Reader:
-    """Groups frames into ticks. A tick ends with the next SENSES or COMMAND: drives after that are too late."""
+    """Groups frames into ticks. A tick ends with the next SENSES or COMMAND: drives after that are too late.
+
+    Attributes:
+        recording: What is known of the recording so far, without its ticks.
+        ticks: Number of ticks so far.
+    """
 
     def __init__(self, protocol: Protocol, memory: bytes) -> None:
         self._protocol = protocol
         self._memory = tuple(memory)
         self._report = MemoryReport()
-        self._recording = Recording(first_memory=self._memory)
+        self.recording = Recording(first_memory=self._memory)
+        self.ticks = 0
         self._senses: Senses | None = None
         self._begun: Senses | None = None
         self._fresh: Drive | None = None
@@ -68,41 +94,42 @@ class _Reader:
         self._started: tuple[int, ...] | None = None
         self._written: list[tuple[int, ...]] = []
 
-    def read(self, frames: Iterable[Frame]) -> Recording:
+    def read(self, frames: Iterable[Frame]) -> Iterator[Tick]:
         """Reads all frames in order; skips damaged ones and those of other nodes."""
         for frame in frames:
             if drive := self._protocol.decode_drive(frame):
                 self._fresh = drive
             elif decoded := self._protocol.decode(frame):
-                self._accept(decoded)
-        self._end_tick()
-        return self._recording
+                yield from self._accept(decoded)
+        yield from self._end_tick()
 
-    def _accept(self, decoded: DecodedFrame) -> None:
+    def _accept(self, decoded: DecodedFrame) -> Iterator[Tick]:
         if decoded.name == "SENSES":
-            self._begin_tick(_senses_from(decoded))
+            yield from self._begin_tick(_senses_from(decoded))
         elif decoded.name == "MEMORY":
             memory = self._report.join(decoded)
             if memory is not None:
                 self._accept_memory(memory)
         elif decoded.name == "COMMAND":
-            self._end_tick()
+            yield from self._end_tick()
             self._begun = None
             self._accept_command(decoded.signals)
 
-    def _begin_tick(self, senses: Senses) -> None:
+    def _begin_tick(self, senses: Senses) -> Iterator[Tick]:
         """Begins a tick, unless its senses were only sent again."""
         if senses != self._begun:
-            self._end_tick()
+            yield from self._end_tick()
             self._begun = self._senses = senses
 
-    def _end_tick(self) -> None:
-        if self._senses is not None and (self._fresh is not None or not self._lockstep):
+    def _end_tick(self) -> Iterator[Tick]:
+        """The tick that has ended; none if there is none, or no answer to it."""
+        senses, fresh = self._senses, self._fresh
+        if senses is not None and (fresh is not None or not self._lockstep):
             between = self._started, tuple(self._written)
-            tick = Tick(self._senses, self._applied(self._senses.tick), self._memory, self._frozen, *between)
-            self._recording.ticks.append(tick)
+            self.ticks += 1
             self._started = None
             self._written.clear()
+            yield Tick(senses, self._applied(senses.tick), self._memory, self._frozen, *between)
         self._senses, self._fresh = None, None
 
     def _applied(self, tick: int) -> Drive:
@@ -116,21 +143,21 @@ class _Reader:
         self._memory = memory
         if self._senses is not None:
             return
-        if not self._recording.ticks:
-            self._recording.first_memory = memory
+        if not self.ticks:
+            self.recording.first_memory = memory
         elif changed:
             self._written.append(memory)
 
     def _accept_command(self, signals: dict[str, int]) -> None:
         opcode = signals["opcode"]
-        self._recording.stopped = opcode == Opcode.STOP
+        self.recording.stopped = opcode == Opcode.STOP
         if opcode == Opcode.START:
             self._frozen, self._lockstep = False, bool(signals["lockstep"])
-            self._started = self._memory if self._recording.ticks else None
+            self._started = self._memory if self.ticks else None
             self._written.clear()
-            self._recording.seed = signals["seed"] if self._recording.seed is None else self._recording.seed
+            self.recording.seed = signals["seed"] if self.recording.seed is None else self.recording.seed
         elif opcode == Opcode.SET and signals["parameter"] == PARAMETERS["boredom_limit"].number:
-            self._recording.boredom_limit = signals["value"]
+            self.recording.boredom_limit = signals["value"]
         elif opcode == Opcode.FREEZE:
             self._frozen = bool(signals["freeze"])
 

@@ -12,7 +12,7 @@ from host_sim.recording.dead_reckoning import reckon
 from host_sim.recording.log_reader import LogReader, nodes_in, read_log
 from host_sim.recording.recording import Recording, read_recording
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.recording.tick_list import Tick
+from host_sim.recording.tick import Tick
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import read_world, world_path
 from host_sim.robot_io import Senses

@@ -4,7 +4,10 @@ from contextlib import ExitStack
 
 import pytest
 
+from host_sim.protocol.codec import Protocol
 from host_sim.recording import run_recorder as run_recorder_module
+from host_sim.recording.log_reader import LogReader
+from host_sim.recording.recording import read_recording
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.report.picture import write_picture
 from host_sim.report.replay_page import omissions, run_data
@@ -87,3 +90,22 @@ def test_page_and_picture_say_what_they_leave_out(tmp_path, monkeypatch):
 
 def test_a_short_run_leaves_nothing_out():
     assert omissions(recorded(3).trajectory) == []
+
+
+def test_the_ticks_of_a_log_stay_in_the_log(kept):
+    class CountedLog(LogReader):
+        lines = 0
+
+        def __iter__(self):
+            for line in super().__iter__():
+                self.lines += 1
+                yield line
+
+    log = CountedLog(kept.log)
+    ticks = read_recording(log, Protocol()).ticks
+    log.lines = 0
+    tick = next(iter(ticks))
+
+    assert log.lines < 30
+    assert tick == next(iter(ticks))
+    assert sum(1 for _ in ticks) == kept.trajectory.ticks
