@@ -10,6 +10,7 @@ from host_sim.bench.figure import table
 from host_sim.bench.fleet_figures import fleet_figures
 from host_sim.bench.image_figures import compare_images, image_figures
 from host_sim.bench.lockstep_figures import lockstep_figures, measure_vcan
+from host_sim.bench.memory_figures import memory_figure
 from host_sim.bench.native_equality import compare_loops
 from host_sim.bench.page_figures import page_figures
 from host_sim.bench.start_figures import start_figure
@@ -38,7 +39,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.vcan:
         print(json.dumps(measure_vcan()))
         return 0
-    figures = [start_figure(), *fleet_figures(), *lockstep_figures(), *image_figures(), *page_figures()]
+    figures = [
+        start_figure(),
+        memory_figure(),
+        *fleet_figures(),
+        *lockstep_figures(),
+        *image_figures(),
+        *page_figures(),
+    ]
     print(json.dumps([asdict(figure) for figure in figures], indent=2) if options.json else table(figures))
     return 0 if all(figure.reached for figure in figures) else 1
 
