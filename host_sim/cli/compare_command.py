@@ -1,6 +1,7 @@
 """`tools/octet compare`: behaviours side by side in the same worlds."""
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -87,7 +88,7 @@ def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
     samples = samples_of(folder.tables(), [condition.name for condition in plan.conditions])
     if not len(samples[0].seeds):
         raise OctetError(f"no seed in {path} has a run of each condition yet: go on with tools/octet study")
-    return plan, samples
+    return replace(plan, title=folder.about["title"]), samples
 
 
 def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]]":

@@ -30,6 +30,15 @@ def test_a_missed_goal_is_an_exit_code(tmp_path, capsys, word, bound, code):
     assert ("MISSED" in printed) == (code == 1)
 
 
+def test_a_study_without_a_title_is_called_as_its_file(tmp_path, capsys):
+    (tmp_path / "mine.toml").write_text('profiles = ["fixed"]\nseeds = 1\nenvironments = 1\nlimit_s = 5\n')
+    assert main(["study", str(tmp_path / "mine.toml"), "--out", str(tmp_path / "out"), "--jobs", "1"]) == 0
+
+    assert main(["compare", str(tmp_path / "out")]) == 0
+
+    assert "mine: 1 seeds" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     "words",
     [
