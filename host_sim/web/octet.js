@@ -14,7 +14,6 @@ import { Simulator } from "./simulator.js";
 import { drawMarks } from "./timeline.js";
 
 /**
- * @typedef {import("./lane.js").Lane} LaneType
  * @typedef {import("./types.js").Change} Change
  * @typedef {import("./types.js").Experiment} Experiment
  */
@@ -32,8 +31,10 @@ class LabPage {
     /** @type {number | undefined} */
     this.frameAt = undefined;
     this.stale = true;
+    /** The runs, and what they were simulated from, that the words about their parting are of. */
+    this.partingKey = "";
     this.note = new Note();
-    /** @type {LaneType[]} */
+    /** @type {Lane[]} */
     this.lanes = [];
     this.lane = this.addLane(experimentOf({ seed: 1, environments: 5, robots: 1, profile: "article" }));
     this.scrub = typedById("scrub", HTMLInputElement);
@@ -283,9 +284,6 @@ class LabPage {
     this.partingKey = key;
     setText(byId("parting"), other ? partingWords(first, other) : "");
   }
-
-  /** @type {string | undefined} */
-  partingKey = undefined;
 
   /** @param {KeyboardEvent} event */
   onKey(event) {

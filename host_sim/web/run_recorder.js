@@ -82,7 +82,7 @@ export class RunRecorder {
     const { measures, ticks, scenes, eaten } = this;
     const begun = scenes.filter(([, { number }], i) => number !== (scenes[i - 1]?.[1].number ?? 0));
     const robots = this.tracks.map((track) => track.result(begun.map(([tick]) => tick)));
-    const run = { version: 2, title, measures, first_tick: 0, ticks, scenes, eaten, robots };
+    const run = { version: 2, title, measures, first_tick: 0, ticks, scenes, news: [], eaten, robots };
     return { run, columns: this.tracks.map((track) => track.trimmed()) };
   }
 }
