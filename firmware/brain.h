@@ -28,7 +28,7 @@ struct brain {
     uint8_t unlearned;       /* likewise: boredom has emptied it since the start */
     bool chasing, ate;       /* searcher: it was going to food; the last step led to it */
     uint8_t misses;          /* searcher: times that it has lost sight of food since its last meal */
-    int16_t since_mm;        /* searcher: way since it last looked around or saw food; below 0, that much more to go */
+    uint16_t since_mm;       /* searcher: way since it last looked around or saw food */
     bool learns;             /* as the profile has it; false: what is in the memory is not stored */
     bool wants_ranges;       /* true: the behaviour decides by range_mm */
     bool frozen;             /* true: it learns no more */

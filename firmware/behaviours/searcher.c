@@ -10,7 +10,7 @@ enum {
     PRAISE = 1,
     LOOK_EVERY_MM = 1000,   /* way between two turns around */
     LOOK_AGAIN_MM = 200,    /* after losing sight of food: way to the next one */
-    MISSES_MAX = 4,         /* so many times the way to the next look is twice as long */
+    MISSES_MAX = 2,         /* so many times the way to the next look is twice as long */
     WHOLE_TURN_DEG = 360,
     LEAVE_CHOICES = 180     /* of the direction in which it goes on where it has seen no food, one degree apart */
 };
@@ -40,7 +40,7 @@ static struct action look_all_around(struct brain *brain)
 /* Food that was lost sight of once and again is in a place that it cannot be reached from: each time it goes farther. */
 static void miss(struct brain *brain)
 {
-    brain->since_mm = (int16_t)(LOOK_EVERY_MM - (LOOK_AGAIN_MM << brain->misses));
+    brain->since_mm = (uint16_t)(LOOK_EVERY_MM - (LOOK_AGAIN_MM << brain->misses));
     if (brain->misses < MISSES_MAX)
         brain->misses++;
 }
@@ -73,7 +73,7 @@ static struct action go_on(struct brain *brain, const struct config *config, con
 static bool step_led_to_food(struct brain *brain, const struct config *config, const struct senses *senses)
 {
     brain->awaits = AWAITS_NOTHING;
-    brain->since_mm = (int16_t)(senses->look ? 0 : brain->since_mm + config->value[STEP_MM]);
+    brain->since_mm = (uint16_t)(senses->look ? 0 : brain->since_mm + config->value[STEP_MM]);
     brain->ate = senses->look && senses->beacon_mm < config->value[REACH_MM];
     return brain->ate;
 }

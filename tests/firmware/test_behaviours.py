@@ -114,8 +114,8 @@ def random_state(oracle: type[Listing], dice: random.Random) -> dict[str, int]:
     ranges = {
         "used": range(0, 256, 2),
         "unlearned": range(0, 256, 2),
-        "since_mm": range(-2200, 1013, 4),
-        "misses": range(5),
+        "since_mm": range(0, 1013, 4),
+        "misses": range(3),
         "chasing": range(2),
         "ate": range(2),
     }

@@ -27,7 +27,7 @@ class Oracle(Adaptive):
         elif self.chasing:
             self.chasing = False
             self.since_mm = 1000 - 200 * 2**self.misses
-            self.misses = min(4, self.misses + 1)
+            self.misses = min(2, self.misses + 1)
         if not robot.look() and self.since_mm >= 1000:
             self.since_mm = 0
             to_the_right = robot.random(2)
