@@ -38,6 +38,9 @@ FAULTS = (
 )
 """In a minute, 6,000 frames: three of each kind, and thirty bursts of foreign frames."""
 
+FORGED = "in the robot's name"
+"""Of some hundred thousand random frames, one looks like the robot's: that is noticed, and does no harm."""
+
 TICKS_PER_HOUR = 180_000
 GROWTH_MAX_MB = 100.0
 """A trajectory keeps up to a million ticks, 58 MB; nothing else may grow."""
@@ -104,9 +107,10 @@ def hours(count: float, step: float, folder: Path) -> Iterator[tuple[str, bool]]
             said = (
                 f"{number * step:7.2f} h  {vitals}; log {(size - before) / 1e6:.1f} MB more; page {page} bytes; "
                 f"{frames.repeated} repeated, {frames.refused} refused, {frames.lost} lost; "
-                f"{len(client.incidents)} incidents; {len(run.episodes)} environments"
+                f"{len(run.episodes)} environments; {'; '.join(map(str, client.incidents)) or 'no incidents'}"
             )
-            yield said, not (vitals.has_grown(first) or frames.lost or client.incidents)
+            doubted = any(FORGED not in incident.text for incident in client.incidents)
+            yield said, not (vitals.has_grown(first) or frames.lost or doubted)
         stop(client)
     log.close()
 
