@@ -184,7 +184,6 @@ class RobotClient:
         """
         self.expect_reports(opcode)
         for _ in range(_REPORT_DEMANDS):
-            self.reports.await_end()
             self.command(opcode)
             if self.await_reports():
                 return
@@ -196,8 +195,12 @@ class RobotClient:
         self.inbox.reporting, self.inbox.rested = True, opcode != "stop"
 
     def await_reports(self) -> bool:
-        """Whether every report comes that was asked for; False as soon as one is known to be missing."""
+        """Whether every report comes that was asked for; False as soon as one is known to be missing.
+
+        It ends after the answer: what was on its way before that may be the end of an older one.
+        """
         give_up = self.now() + self.deadline_s
+        self.reports.await_end()
         self.inbox.silent = False
         while not (self._has_reported and self.reports.ended):
             heard = self._receive(self._take_any, _REPORT_S)

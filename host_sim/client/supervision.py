@@ -64,14 +64,14 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
     client.session = None
     _check_rival(client)
     _ask_how_it_is(client, lost)
+    if _has_halted(client, before):
+        _note_halt(client, session)
+        return
     if _has_restarted(client, before, lost):
         _check_firmware(client)
         _start_again(client, session, memory)
         return
     _check_twins(client, before)
-    if _has_halted(client, before):
-        _note_halt(client, session)
-        return
     _check_owner(client, lost)
     client.session = session
     if lost.contradicts:
@@ -149,7 +149,7 @@ def _check_twins(client: RobotClient, before: _State) -> None:
 
 def _has_halted(client: RobotClient, before: _State) -> bool:
     """Whether the robot has stopped because of its wheels: no one else's fault, and it stays where it is."""
-    return not client.reports.heartbeat["state"] and client.faults["denied"] != before.faults.get("denied", 0)
+    return not client.reports.heartbeat["state"] and client.faults["denied"] > before.faults.get("denied", 0)
 
 
 def _note_halt(client: RobotClient, session: Session) -> None:

@@ -321,3 +321,15 @@ def test_a_run_that_nobody_meddles_with_has_no_incidents():
         run(client, 50)
 
     assert client.incidents == []
+
+
+def test_a_report_that_was_on_its_way_is_not_taken_for_the_one_that_was_asked_for():
+    link = MeddledLink()
+    client = learned(link)
+
+    link.put(command(Opcode.REPORT, owner=1))
+    link.waiting.popleft()
+    drives = drive_for(client, 5, LEARNED)
+
+    assert [drive.tick for drive in drives] == [(LEARNED + tick) % 256 for tick in range(5)]
+    assert client.incidents == []

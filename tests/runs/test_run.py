@@ -227,7 +227,7 @@ def test_each_of_several_robots_has_its_memory_file(run, tmp_path):
     ("words", "named"),
     [
         (("--robots", "2", "--node", "31", "--bus", "none"), "the last is 31"),
-        (("--robots", "32", "--bus", "none"), "1 to 31"),
+        (("--robots", "32", "--bus", "fd"), "has no bus"),
         (("--robots", "2", "--robot", "qemu"), "leave out --node and --robots"),
     ],
 )

@@ -100,6 +100,12 @@ def test_an_error_is_one_line_and_many_are_a_number():
     assert isinstance(logger, logging.Logger)
 
 
+def test_other_machines_are_not_listened_to(monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    with Listener(None, 0).socket as listening:
+        assert listening.getsockname()[0] == "127.0.0.1"
+
+
 def test_the_address_always_has_a_token(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
     for listen in (None, "127.0.0.1"):
