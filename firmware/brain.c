@@ -29,7 +29,8 @@ bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
     brain->profile = profile;
     brain->repeat_count = 0;
     brain->awaits = 0;
-    brain->used = brain->unlearned = 0;
+    brain->used = 0;
+    brain->unlearned = 0;
     brain->changed = memory_translate(&brain->memory, (enum memory_kind)kind_of[profile]) || brain->changed;
     brain->learns = begin(brain);
     return true;

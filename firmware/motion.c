@@ -12,7 +12,8 @@ enum {
     WAY_PRECISION = 5,                             /* 0.25 mm, as the sum of two wheels' counts */
     COUNTS_PER_MM = 2 * ODOMETER_COUNTS_PER_MM,    /* of both wheels together */
     TIMEOUT_MARGIN_TICKS = 25,                     /* beyond twice the ticks that an action needs */
-    PACE_MARGIN_TICKS = 6,                         /* for drives that come late and for the end, which is slower */
+    ANY_PACE = UINT16_MAX,                         /* of pace_left: never used up */
+    PACE_MARGIN_TICKS = 7,                         /* for drives that come late and for the end, which is slower */
     HOLD_TICKS = 5,                                /* without a drive a body goes on for so long, and then rests */
     CREDIBLE_EIGHTHS = 13,                         /* of the fastest that a wheel is told, it may be seen to roll, */
     CREDIBLE_COUNTS = 2                            /* and so much more, in fewer ticks than a count takes */
@@ -79,7 +80,7 @@ static int32_t counts_between(uint16_t before, uint16_t now)
 
 void motion_start(struct motion *motion)
 {
-    *motion = (struct motion){.kind = REST};
+    *motion = (struct motion){.kind = REST, .pace_left = ANY_PACE};
 }
 
 void motion_lift(struct motion *motion)
@@ -113,22 +114,20 @@ bool motion_gave_up(const struct motion *motion)
 
 bool motion_is_denied(const struct motion *motion)
 {
-    uint32_t gone = motion->ticks_gone, needed = motion->ticks_needed;
-
-    if (motion_gave_up(motion))
-        return true;
-    return needed != 0 && 4 * gone > 7 * needed + 4 * PACE_MARGIN_TICKS;
+    return motion_gave_up(motion) || motion->pace_left == 0;
 }
 
 static void pass_time(struct motion *motion, uint8_t tick)
 {
     unsigned ticks = (uint8_t)(tick - motion->tick);
 
+    if (ticks > HOLD_TICKS)
+        ticks = HOLD_TICKS;
     motion->tick = tick;
     if (motion->ticks_left > 0)
         motion->ticks_left--;
     if (motion->kind == TURN)
-        motion->ticks_gone = (uint16_t)(motion->ticks_gone + (ticks < HOLD_TICKS ? ticks : HOLD_TICKS));
+        motion->pace_left = (uint16_t)(ticks < motion->pace_left ? motion->pace_left - ticks : 0u);
 }
 
 void motion_track(struct motion *motion, const struct senses *senses)
@@ -199,11 +198,11 @@ static uint16_t timeout_ticks(const struct motion *motion, const struct config *
 }
 
 /* A turn that food may end is over before its time, and a step is too short to tell. */
-static uint16_t ticks_that_count(const struct motion *motion, const struct config *config)
+static uint16_t pace_ticks(const struct motion *motion, const struct config *config)
 {
     if (motion->kind != TURN || motion->until_food)
-        return 0;
-    return (uint16_t)ticks_at_full_speed(motion, config, magnitude(counts_left(motion)));
+        return ANY_PACE;
+    return (uint16_t)(ticks_at_full_speed(motion, config, magnitude(counts_left(motion))) * 7u / 4u + PACE_MARGIN_TICKS);
 }
 
 void motion_begin(struct motion *motion, const struct config *config, const struct action *action)
@@ -215,8 +214,7 @@ void motion_begin(struct motion *motion, const struct config *config, const stru
     motion->turn_left = clamped(motion->turn_left + action->turn_deg * (int32_t)turn_per_degree(config), TURN_LIMIT);
     motion->way_left = (int16_t)(action->forward_mm * COUNTS_PER_MM);
     motion->ticks_left = timeout_ticks(motion, config);
-    motion->ticks_needed = ticks_that_count(motion, config);
-    motion->ticks_gone = 0;
+    motion->pace_left = pace_ticks(motion, config);
 }
 
 void motion_drive(const struct motion *motion, const struct config *config, struct drive *drive)

@@ -12,9 +12,8 @@ struct motion {
     uint16_t odometer_left;    /* as of the last tick */
     uint16_t odometer_right;
     uint16_t ticks_left;       /* then the action is given up: the wheels do not obey */
-    uint16_t ticks_needed;     /* by the turn under way at full speed; 0: its pace does not count */
-    uint16_t ticks_gone;       /* with that turn, */
-    uint8_t tick;              /* and the last of them */
+    uint16_t pace_left;        /* ticks: then the turn has taken too long to be believed */
+    uint8_t tick;              /* as of the last senses */
     uint8_t kind;              /* what is under way */
     bool referenced;           /* the odometers above hold */
     bool until_food;           /* the turn ends when food is seen */

@@ -4,56 +4,7 @@
 
 #include <unity.h>
 
-enum { CLEAR = 0, FRONT = 4, PATTERN_FRONT = 2, TICKS_PER_SECOND = 50, MANY = 1000 };
-
-static struct robot robot;
-static struct output out;
-static struct senses wheels;   /* of a body that obeys */
-
-static void respond_to(enum input_kind kind, const struct input *in)
-{
-    memset(&out, 0xA5, sizeof out);   /* whatever was there before */
-    robot_respond(&robot, kind, in, &out);
-}
-
-static void sense(struct senses senses)
-{
-    const struct input in = {.senses = senses};
-
-    respond_to(INPUT_SENSES, &in);
-}
-
-static void feel(uint8_t feel)
-{
-    sense((struct senses){.feel = feel});
-}
-
-static void silence(void)
-{
-    static const struct input nothing;
-
-    respond_to(INPUT_SILENCE, &nothing);
-}
-
-static void command(enum opcode opcode, uint8_t which, uint32_t value)
-{
-    const struct input in = {.command = {.opcode = opcode, .which = which, .value = value}};
-
-    respond_to(INPUT_COMMAND, &in);
-}
-
-static void learned(enum side side)
-{
-    memory_learn(&robot.brain.memory, PATTERN_FRONT, side);
-}
-
-static void assert_at_rest(void)
-{
-    TEST_ASSERT_TRUE(out.has_drive);
-    TEST_ASSERT_EQUAL_INT16(0, out.drive.left_mm_s);
-    TEST_ASSERT_EQUAL_INT16(0, out.drive.right_mm_s);
-    TEST_ASSERT_FALSE(out.drive.eat);
-}
+#include "robot_rig.h"
 
 void setUp(void)
 {
@@ -148,16 +99,6 @@ static void test_an_action_keeps_its_number_while_it_lasts(void)
     TEST_ASSERT_EQUAL_UINT8(number, out.drive.action);
 }
 
-/* Wheels that do as they are told: 0.2 counts a tick for each mm/s. */
-static void obey(uint8_t feel_there)
-{
-    wheels.tick++;
-    wheels.feel = feel_there;
-    wheels.odometer_left = (uint16_t)((wheels.odometer_left + out.drive.left_mm_s / 5) & (ODOMETER_SPAN - 1));
-    wheels.odometer_right = (uint16_t)((wheels.odometer_right + out.drive.right_mm_s / 5) & (ODOMETER_SPAN - 1));
-    sense(wheels);
-}
-
 static void test_actions_are_numbered_0_to_127_round_and_round(void)
 {
     uint8_t last = out.drive.action;
@@ -172,122 +113,6 @@ static void test_actions_are_numbered_0_to_127_round_and_round(void)
         changes++;
     }
     TEST_ASSERT_EQUAL_UINT(300, changes);
-}
-
-static void test_wheels_that_obey_are_no_fault(void)
-{
-    for (unsigned i = 0; i < MANY; i++) {
-        obey(i / 100 % 2 ? FRONT : CLEAR);
-        TEST_ASSERT_FALSE(out.denied);
-        TEST_ASSERT_FALSE(out.contradiction);
-    }
-}
-
-/* As against a wall, or with a motor that is dead. */
-static void test_wheels_that_do_not_obey_stop_the_robot(void)
-{
-    unsigned denials = 0, ticks = 0;
-
-    while (robot.running && ticks++ < MANY) {
-        sense((struct senses){.tick = (uint8_t)ticks, .feel = FRONT, .bump = true});
-        denials += out.denied;
-    }
-    TEST_ASSERT_EQUAL_UINT(3, denials);
-    assert_at_rest();
-    TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
-}
-
-static void test_from_wheels_that_do_not_obey_nothing_is_learned(void)
-{
-    static const uint8_t nothing[CELL_COUNT] = {0};
-    unsigned ticks = 0;
-
-    while (!out.denied && ticks++ < MANY)
-        sense((struct senses){.tick = (uint8_t)ticks, .feel = ticks < 10 ? FRONT : CLEAR});
-    TEST_ASSERT_TRUE(out.denied);
-    TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
-}
-
-/* A trial with wheels or odometers that make a multiple, or a part, of what they are told. */
-static void try_with(unsigned times, unsigned of)
-{
-    static const uint8_t nothing[CELL_COUNT] = {0};
-
-    for (unsigned ticks = 0; !out.denied && ticks < MANY; ticks++) {
-        out.drive.left_mm_s = (int16_t)(out.drive.left_mm_s * (int)times / (int)of);
-        out.drive.right_mm_s = (int16_t)(out.drive.right_mm_s * (int)times / (int)of);
-        obey(ticks < 3 ? FRONT : CLEAR);
-    }
-    TEST_ASSERT_TRUE(out.denied);
-    TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
-}
-
-static void test_from_wheels_that_turn_at_half_the_speed_nothing_is_learned(void)
-{
-    try_with(1, 2);
-}
-
-static void test_from_odometers_that_count_a_multiple_nothing_is_learned(void)
-{
-    for (unsigned times = 2; times <= 4; times++) {
-        setUp();
-        try_with(times, 1);
-    }
-}
-
-static void test_wheels_that_obey_again_are_forgiven(void)
-{
-    while (!out.denied)
-        sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
-    for (unsigned i = 0; i < 100; i++)
-        obey(FRONT);
-    TEST_ASSERT_EQUAL_UINT8(0, robot.denials);
-    TEST_ASSERT_TRUE(robot.running);
-}
-
-static void test_food_at_no_distance_is_not_eaten(void)
-{
-    sense((struct senses){.tick = 0, .look = true, .beacon_mm = 0});
-    TEST_ASSERT_TRUE(out.contradiction);
-    TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
-    for (unsigned i = 0; i < 100; i++) {
-        wheels.look = true;
-        obey(CLEAR);
-        TEST_ASSERT_FALSE(out.drive.eat);
-    }
-}
-
-static void test_a_distance_to_no_food_is_a_contradiction(void)
-{
-    sense((struct senses){.beacon_mm = 100});
-    TEST_ASSERT_TRUE(out.contradiction);
-}
-
-/* A body that has begun anew counts from 0. */
-static void test_odometers_that_jump_turn_nothing(void)
-{
-    int32_t before;
-
-    wheels.odometer_left = wheels.odometer_right = 2000;
-    learned(SIDE_LEFT);
-    for (unsigned i = 0; i < 3; i++)
-        obey(FRONT);
-    before = robot.motion.turn_left;
-    wheels.odometer_left = wheels.odometer_right = 0;
-    wheels.tick++;
-    sense(wheels);
-    TEST_ASSERT_TRUE(out.contradiction);
-    TEST_ASSERT_EQUAL_INT32(before, robot.motion.turn_left);
-}
-
-static void test_after_silence_wheels_may_have_rolled_far(void)
-{
-    obey(CLEAR);
-    silence();
-    wheels.odometer_left = wheels.odometer_right = 500;
-    wheels.tick++;
-    sense(wheels);
-    TEST_ASSERT_FALSE(out.contradiction);
 }
 
 static void test_silence_rests_the_wheels_and_says_so(void)
@@ -554,16 +379,6 @@ int main(void)
     RUN_TEST(test_the_drive_tells_the_repeat_count);
     RUN_TEST(test_an_action_keeps_its_number_while_it_lasts);
     RUN_TEST(test_actions_are_numbered_0_to_127_round_and_round);
-    RUN_TEST(test_wheels_that_obey_are_no_fault);
-    RUN_TEST(test_wheels_that_do_not_obey_stop_the_robot);
-    RUN_TEST(test_from_wheels_that_do_not_obey_nothing_is_learned);
-    RUN_TEST(test_from_wheels_that_turn_at_half_the_speed_nothing_is_learned);
-    RUN_TEST(test_from_odometers_that_count_a_multiple_nothing_is_learned);
-    RUN_TEST(test_wheels_that_obey_again_are_forgiven);
-    RUN_TEST(test_food_at_no_distance_is_not_eaten);
-    RUN_TEST(test_a_distance_to_no_food_is_a_contradiction);
-    RUN_TEST(test_odometers_that_jump_turn_nothing);
-    RUN_TEST(test_after_silence_wheels_may_have_rolled_far);
     RUN_TEST(test_silence_rests_the_wheels_and_says_so);
     RUN_TEST(test_a_drive_in_silence_names_the_last_tick_and_action);
     RUN_TEST(test_silence_changes_nothing_but_its_count);

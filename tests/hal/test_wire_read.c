@@ -6,65 +6,11 @@
 
 #include "wire_frames.h"
 
-enum { NODE = 1, OWNER = 1, ID_BITS = 11, BITS = ID_BITS + 64 };
-
-static struct wire wire;
-static struct input in;
-static uint8_t expected_faults[FAULT_COUNT];   /* after each test: no other fault was counted */
-
-void setUp(void)
-{
-    wire_init(&wire, NODE);
-    memset(expected_faults, 0, sizeof expected_faults);
-}
-
-void tearDown(void)
-{
-    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected_faults, wire.faults, FAULT_COUNT);
-}
-
-static void expect(enum fault fault, uint8_t count)
-{
-    expected_faults[fault] = count;
-}
-
-static enum input_kind read(struct frame frame)
-{
-    return wire_read(&wire, &frame, &in);
-}
-
-static enum input_kind read_tick(unsigned ticks)
-{
-    return read(senses_frame(NODE, ticks));
-}
-
-/* Reads what must not get through. */
-static void refuse(struct frame frame)
-{
-    const struct input before = in;
-
-    TEST_ASSERT_EQUAL(INPUT_SILENCE, read(frame));
-    TEST_ASSERT_EQUAL_MEMORY(&before, &in, sizeof in);
-}
+#include "reading_rig.h"
 
 static struct frame command_of(enum opcode opcode, uint8_t counter, uint8_t owner)
 {
     return command_frame((struct octet_command_t){.opcode = (uint8_t)opcode, .counter = counter, .owner = owner});
-}
-
-/* The robot's answer, as hal_send would send it; the last frame that it makes. */
-static struct frame respond(struct output out)
-{
-    struct frame frames[WIRE_FRAMES_MAX];
-
-    return frames[wire_write(&wire, &out, frames) - 1];
-}
-
-static void start(uint8_t lockstep, uint32_t value)
-{
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
-                                         .opcode = OPCODE_START, .counter = 1, .owner = OWNER, .lockstep = lockstep})));
-    respond((struct output){.has_answer = true, .answer_value = value});
 }
 
 static void test_senses_arrive_whole(void)
@@ -89,28 +35,28 @@ static void assert_command(enum opcode opcode, unsigned which, uint32_t value)
 
 static void test_start_brings_profile_and_seed(void)
 {
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){
                                          .opcode = OPCODE_START, .profile = 100, .lockstep = 1, .seed = 0xFFFFFFFF})));
     assert_command(OPCODE_START, 100, 0xFFFFFFFF);
 }
 
 static void test_set_brings_parameter_and_value(void)
 {
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){
                                          .opcode = OPCODE_SET, .parameter = 12, .value = 65535})));
     assert_command(OPCODE_SET, 12, 65535);
 }
 
 static void test_get_brings_its_parameter(void)
 {
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){.opcode = OPCODE_GET, .wanted = 12})));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){.opcode = OPCODE_GET, .wanted = 12})));
     assert_command(OPCODE_GET, 12, 0);
 }
 
 static void test_write_brings_half_mask_and_bytes(void)
 {
     TEST_ASSERT_EQUAL(INPUT_COMMAND,
-                      read(command_frame((struct octet_command_t){.opcode = OPCODE_WRITE, .mask = 9, .half = 1,
+                      hear(command_frame((struct octet_command_t){.opcode = OPCODE_WRITE, .mask = 9, .half = 1,
                                                                   .byte_0 = 0x11, .byte_1 = 0x22, .byte_2 = 0x33,
                                                                   .byte_3 = 0xFF})));
     assert_command(OPCODE_WRITE, 0x19, 0xFF332211);
@@ -118,7 +64,7 @@ static void test_write_brings_half_mask_and_bytes(void)
 
 static void test_freeze_brings_its_flag(void)
 {
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_frame((struct octet_command_t){.opcode = OPCODE_FREEZE, .freeze = 1})));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){.opcode = OPCODE_FREEZE, .freeze = 1})));
     assert_command(OPCODE_FREEZE, 1, 0);
 }
 
@@ -127,7 +73,7 @@ static void test_other_opcodes_bring_no_arguments(void)
     static const uint8_t opcodes[] = {OPCODE_STOP, OPCODE_RESUME, OPCODE_ERASE, OPCODE_REPORT, 0, 10, 15};
 
     for (uint8_t i = 0; i < sizeof opcodes; i++) {
-        TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_of((enum opcode)opcodes[i], i, OWNER)));
+        TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_of((enum opcode)opcodes[i], i, OWNER)));
         assert_command((enum opcode)opcodes[i], 0, 0);
     }
 }
@@ -136,7 +82,7 @@ static void test_each_node_hears_its_own_frames(void)
 {
     for (uint8_t node = 1; node <= NODE_MAX; node++) {
         wire_init(&wire, node);
-        TEST_ASSERT_EQUAL(INPUT_SENSES, read(senses_frame(node, 0)));
+        TEST_ASSERT_EQUAL(INPUT_SENSES, hear(senses_frame(node, 0)));
     }
 }
 
@@ -181,24 +127,24 @@ static void assert_peer(bool upper, uint8_t first)
 static void test_every_other_robots_memory_is_heard(void)
 {
     for (uint8_t node = 2; node <= NODE_MAX; node++) {
-        TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(node, 0, 0)));
+        TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(node, 0, 0)));
         assert_peer(false, 0);
-        TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(node, 1, 2)));
+        TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(node, 1, 2)));
         assert_peer(true, 2);
     }
 }
 
 static void test_a_memory_is_heard_once_from_report_to_report(void)
 {
-    TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(2, 0, 0)));
-    TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(2, 1, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
     refuse(memory_frame(2, 0, 0));
     refuse(memory_frame(2, 1, 0));
     respond((struct output){.has_drive = true});
     refuse(memory_frame(2, 0, 0));
     respond((struct output){.has_drive = true, .has_report = true});
-    TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(2, 0, 0)));
-    TEST_ASSERT_EQUAL(INPUT_PEER, read(memory_frame(2, 1, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
 }
 
 static void test_a_memory_of_all_sensors_is_not_heard(void)
@@ -272,7 +218,7 @@ static void refuse_every_flip(const struct frame good)
             refuse_and_count(two);
         }
     }
-    TEST_ASSERT_NOT_EQUAL(INPUT_SILENCE, read(good));   /* the clean control */
+    TEST_ASSERT_NOT_EQUAL(INPUT_SILENCE, hear(good));   /* the clean control */
 }
 
 static void test_senses_with_one_or_two_flipped_bits_are_refused(void)
@@ -358,7 +304,7 @@ static void test_an_outage_loses_the_owner_the_robot(void)
 {
     start(1, 0);
     wire_outage(&wire);
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_of(OPCODE_ERASE, 9, OWNER + 1)));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_of(OPCODE_ERASE, 9, OWNER + 1)));
 }
 
 static void test_in_lockstep_senses_again_before_any_answer_have_none(void)
@@ -397,7 +343,7 @@ static void test_a_command_again_is_answered_as_before(void)
 {
     struct frame answer;
 
-    read(command_of(OPCODE_ERASE, 7, OWNER));
+    hear(command_of(OPCODE_ERASE, 7, OWNER));
     answer = respond((struct output){.has_answer = true});
     refuse(command_of(OPCODE_ERASE, 7, OWNER));
     TEST_ASSERT_NOT_NULL(wire.again);
@@ -439,109 +385,7 @@ static void test_a_damaged_command_does_not_use_up_its_counter(void)
     damaged.data[7] ^= 1;
     refuse(damaged);
     expect(FAULT_DAMAGED, 1);
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(command_of(OPCODE_ERASE, 7, OWNER)));
-}
-
-static void test_ranges_that_nobody_asked_for_are_foreign(void)
-{
-    refuse(ranges_frame(0));
-    expect(FAULT_FOREIGN, 1);
-}
-
-static void test_ranges_go_with_the_senses_of_their_tick(void)
-{
-    static const uint8_t expected[FEEL_COUNT] = {11, 22, 33, 44, 55};
-
-    start(1, ANSWER_WANTS_RANGES);
-    refuse(ranges_frame(7));
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(7));
-    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, in.senses.range_mm, FEEL_COUNT);
-}
-
-static void test_in_lockstep_senses_wait_for_their_ranges(void)
-{
-    start(1, ANSWER_WANTS_RANGES);
-    refuse(ranges_frame(6));
-    refuse(senses_frame(NODE, 7));
-    expect(FAULT_MISSED, 1);
-    refuse(ranges_frame(7));
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(7));
-}
-
-static void test_on_its_own_clock_senses_do_without_their_ranges(void)
-{
-    start(0, ANSWER_WANTS_RANGES);
-    refuse(ranges_frame(6));
-    TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(7));
-    TEST_ASSERT_EACH_EQUAL_UINT8(RANGE_NONE, in.senses.range_mm, FEEL_COUNT);
-}
-
-static struct frame of_a_twin(uint32_t id, uint8_t len)
-{
-    return protected_frame((struct frame){.id = id, .len = len});
-}
-
-static void test_a_twin_stops_the_robot(void)
-{
-    const struct frame heard = of_a_twin(OCTET_DRIVE_FRAME_ID, OCTET_DRIVE_LENGTH);
-
-    start(1, 0);
-    refuse(heard);
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(heard));
-    TEST_ASSERT_EQUAL(OPCODE_STOP, in.command.opcode);
-    expect(FAULT_TWIN, 2);
-}
-
-/* Of 10,000 frames of noise a second, now and then one has our identifier and a right CRC. */
-static void test_one_frame_a_second_makes_no_twin(void)
-{
-    start(1, 0);
-    for (unsigned second = 0; second < 10; second++) {
-        refuse(of_a_twin(OCTET_DRIVE_FRAME_ID, OCTET_DRIVE_LENGTH));
-        respond((struct output){.has_report = true, .has_drive = true});
-    }
-    expect(FAULT_TWIN, 10);
-}
-
-static void test_a_stop_for_a_twin_has_no_answer_and_no_owner(void)
-{
-    struct output out = {.has_answer = true, .has_drive = true};
-    struct frame frames[WIRE_FRAMES_MAX];
-
-    start(1, 0);
-    for (unsigned i = 0; i < 2; i++)
-        read(of_a_twin(OCTET_HEARTBEAT_FRAME_ID, OCTET_HEARTBEAT_LENGTH));
-    TEST_ASSERT_EQUAL_size_t(2, wire_write(&wire, &out, frames));
-    TEST_ASSERT_EQUAL_UINT32(OCTET_EMERGENCY_FRAME_ID, frames[0].id);
-    TEST_ASSERT_EQUAL_UINT8(0, wire.session.owner);
-    expect(FAULT_TWIN, 2);
-}
-
-static void test_a_twin_stops_the_robot_once_for_each_start(void)
-{
-    const struct frame heard = of_a_twin(OCTET_HEARTBEAT_FRAME_ID, OCTET_HEARTBEAT_LENGTH);
-
-    refuse(heard);
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(heard));
-    respond((struct output){.has_answer = true, .has_drive = true});
-    refuse(heard);
-    start(1, 0);
-    refuse(heard);
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(heard));
-    expect(FAULT_TWIN, 5);
-}
-
-static void test_a_twin_is_known_by_its_memory_too(void)
-{
-    refuse(memory_frame(NODE, 0, 0));
-    TEST_ASSERT_EQUAL(INPUT_COMMAND, read(memory_frame(NODE, 1, 0)));
-    expect(FAULT_TWIN, 2);
-}
-
-static void test_a_damaged_frame_of_a_twin_is_damaged(void)
-{
-    refuse((struct frame){.id = OCTET_DRIVE_FRAME_ID, .len = 8, .data = {1}});
-    expect(FAULT_DAMAGED, 1);
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_of(OPCODE_ERASE, 7, OWNER)));
 }
 
 static void test_every_counter_stays_at_255(void)
@@ -592,16 +436,6 @@ int main(void)
     RUN_TEST(test_a_command_of_another_sender_is_answered_with_the_reason);
     RUN_TEST(test_an_old_command_is_answered_with_the_reason);
     RUN_TEST(test_a_damaged_command_does_not_use_up_its_counter);
-    RUN_TEST(test_ranges_that_nobody_asked_for_are_foreign);
-    RUN_TEST(test_ranges_go_with_the_senses_of_their_tick);
-    RUN_TEST(test_in_lockstep_senses_wait_for_their_ranges);
-    RUN_TEST(test_on_its_own_clock_senses_do_without_their_ranges);
-    RUN_TEST(test_a_twin_stops_the_robot);
-    RUN_TEST(test_one_frame_a_second_makes_no_twin);
-    RUN_TEST(test_a_stop_for_a_twin_has_no_answer_and_no_owner);
-    RUN_TEST(test_a_twin_stops_the_robot_once_for_each_start);
-    RUN_TEST(test_a_twin_is_known_by_its_memory_too);
-    RUN_TEST(test_a_damaged_frame_of_a_twin_is_damaged);
     RUN_TEST(test_every_counter_stays_at_255);
     return UNITY_END();
 }

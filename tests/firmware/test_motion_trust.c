@@ -1,0 +1,199 @@
+#include "firmware/motion.h"
+
+#include <math.h>
+
+#include <unity.h>
+
+#include "motion_rig.h"
+
+void setUp(void)
+{
+    config_reset(&config);
+    random_seed(&dice, 1);
+    stand_at(0.0, 0.0);
+}
+
+void tearDown(void) {}
+
+static void test_a_turn_against_stuck_wheels_is_given_up(void)
+{
+    body.grip = 0.0;
+    TEST_ASSERT_LESS_OR_EQUAL_UINT(2 * 59 + 25, act(210, 0));   /* 59 ticks at full speed */
+}
+
+static void test_a_step_against_stuck_wheels_is_given_up(void)
+{
+    body.grip = 0.0;
+    TEST_ASSERT_LESS_OR_EQUAL_UINT(2 * 3 + 25, act(0, 12));
+}
+
+static void test_a_turn_that_was_given_up_is_not_made_up_for(void)
+{
+    body.grip = 0.0;
+    act(210, 0);
+    body.grip = 1.0;
+    act(10, 0);
+    TEST_ASSERT_INT_WITHIN(HALF, 10000, heading_mdeg());
+}
+
+static void test_slow_wheels_are_not_given_up(void)
+{
+    body.grip = 0.6;
+    act(210, 0);
+    TEST_ASSERT_INT_WITHIN(HALF, 210000, heading_mdeg());
+}
+
+static const int PACED[] = {-210, -150, -45, 45, 150, 210};
+
+static void test_wheels_that_turn_at_half_the_speed_are_denied(void)
+{
+    static const double factors[] = {0.3, 0.4, 0.5};
+
+    for (unsigned i = 0; i < sizeof PACED / sizeof *PACED; i++)
+        for (unsigned k = 0; k < sizeof factors / sizeof *factors; k++) {
+            stand_at(0.0, 0.0);
+            body.grip = factors[k];
+            act(PACED[i], 0);
+            TEST_ASSERT_TRUE(motion_is_denied(&motion));
+        }
+}
+
+static void test_wheels_that_are_a_little_off_are_not_denied(void)
+{
+    static const double factors[] = {0.6, 0.8, 1.0, 1.2};
+
+    for (unsigned i = 0; i < sizeof PACED / sizeof *PACED; i++)
+        for (unsigned k = 0; k < sizeof factors / sizeof *factors; k++) {
+            stand_at(0.0, 0.0);
+            body.grip = factors[k];
+            act(PACED[i], 0);
+            TEST_ASSERT_FALSE(motion_is_denied(&motion));
+        }
+}
+
+/* At full speed each wheel makes 251 mm/s in a turn, 50 counts a tick. */
+static void test_odometers_that_count_twice_the_way_are_not_credible(void)
+{
+    struct senses senses = sensed();
+
+    senses.odometer_left = (uint16_t)(senses.odometer_left + 60);
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 1));
+    senses.odometer_left = (uint16_t)(senses.odometer_left + 40);
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 2));
+}
+
+static void test_ticks_that_were_never_sensed_count_for_the_pace(void)
+{
+    begin(150, 0);
+    for (unsigned senses = 0; !tick(); senses++) {
+        body.tick += 2;   /* of three ticks, the senses of one come */
+        TEST_ASSERT_LESS_THAN_UINT(100, senses);
+    }
+    TEST_ASSERT_TRUE(motion_is_denied(&motion));
+}
+
+static void test_an_outage_counts_as_long_as_wheels_are_held(void)
+{
+    begin(45, 0);
+    (void)tick();
+    body.tick += 100;
+    while (!tick())
+        continue;
+    TEST_ASSERT_FALSE(motion_is_denied(&motion));
+}
+
+static void test_what_happens_while_lifted_is_not_the_robots_way(void)
+{
+    struct senses senses;
+
+    begin(90, 0);
+    (void)tick();
+    motion_lift(&motion);
+    body.left_mm += 123.0;
+    senses = sensed();
+    motion_track(&motion, &senses);
+    while (!tick())
+        ;
+    TEST_ASSERT_INT_WITHIN(HALF, lround(1000.0 * (90.0 + 123.0 / 160.0 * 180.0 / PI)), heading_mdeg());
+}
+
+static void test_stuck_wheels_are_given_up_at_both_ends_of_every_range(void)
+{
+    for (unsigned corner = 0; corner < 16; corner++) {
+        set_corner(corner);
+        stand_at(0.0, 0.0);
+        body.grip = 0.0;
+        TEST_ASSERT_GREATER_THAN_UINT(25, act(359, 0));
+        TEST_ASSERT_GREATER_THAN_UINT(25, act(0, 500));
+    }
+}
+
+static uint16_t random_odometer(void)
+{
+    return (uint16_t)(random_next(&dice) & (ODOMETER_SPAN - 1));
+}
+
+/* Odometers gone mad: the sanitizers watch for overflow, this test for speeds that do not fit the wire. */
+static void test_wild_odometers_make_no_wild_speeds(void)
+{
+    for (unsigned i = 0; i < 200000; i++) {
+        const struct senses senses = {.odometer_left = random_odometer(), .odometer_right = random_odometer()};
+
+        if (i % 1000 == 0)
+            set_corner(i / 1000 % 16);
+        motion_track(&motion, &senses);
+        if (motion_ended(&motion, &config, &senses) || random_below(&dice, 50) == 0)
+            begin(random_below(&dice, 2) ? 359 : -359, random_below(&dice, 2) * 500u);
+        TEST_ASSERT_INT16_WITHIN(1257, 0, driven().left_mm_s);
+        TEST_ASSERT_INT16_WITHIN(1257, 0, driven().right_mm_s);
+    }
+}
+
+static void test_either_wheel_that_jumps_is_not_credible(void)
+{
+    struct senses senses = {.odometer_left = 0};
+
+    config_reset(&config);
+    motion = (struct motion){.referenced = true};
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 1));
+    senses.odometer_left = 2000;
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+    senses = (struct senses){.odometer_right = 2000};
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+}
+
+/* The same way each time, so that the error grows to its limit. */
+static void test_a_body_that_spins_by_itself_overflows_nothing(void)
+{
+    uint16_t odometer = 0;
+
+    for (unsigned i = 0; i < 10000; i++) {
+        const struct senses senses = {.odometer_left = odometer, .odometer_right = (uint16_t)(4095 - odometer)};
+
+        motion_track(&motion, &senses);
+        begin(i < 5000 ? -359 : 359, 0);
+        odometer = (uint16_t)((odometer + 2000) % ODOMETER_SPAN);
+        TEST_ASSERT_INT16_WITHIN(2047, 0, driven().left_mm_s);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_turn_against_stuck_wheels_is_given_up);
+    RUN_TEST(test_a_step_against_stuck_wheels_is_given_up);
+    RUN_TEST(test_a_turn_that_was_given_up_is_not_made_up_for);
+    RUN_TEST(test_slow_wheels_are_not_given_up);
+    RUN_TEST(test_wheels_that_turn_at_half_the_speed_are_denied);
+    RUN_TEST(test_wheels_that_are_a_little_off_are_not_denied);
+    RUN_TEST(test_odometers_that_count_twice_the_way_are_not_credible);
+    RUN_TEST(test_ticks_that_were_never_sensed_count_for_the_pace);
+    RUN_TEST(test_an_outage_counts_as_long_as_wheels_are_held);
+    RUN_TEST(test_what_happens_while_lifted_is_not_the_robots_way);
+    RUN_TEST(test_stuck_wheels_are_given_up_at_both_ends_of_every_range);
+    RUN_TEST(test_wild_odometers_make_no_wild_speeds);
+    RUN_TEST(test_either_wheel_that_jumps_is_not_credible);
+    RUN_TEST(test_a_body_that_spins_by_itself_overflows_nothing);
+    return UNITY_END();
+}

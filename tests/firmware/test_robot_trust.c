@@ -1,0 +1,146 @@
+#include "firmware/robot.h"
+
+#include <unity.h>
+
+#include "robot_rig.h"
+
+void setUp(void)
+{
+    wheels = (struct senses){.tick = 0};
+    robot_init(&robot, 1);
+    command(OPCODE_START, PROFILE_ARTICLE, 1);
+}
+
+void tearDown(void) {}
+
+static void test_wheels_that_obey_are_no_fault(void)
+{
+    for (unsigned i = 0; i < MANY; i++) {
+        obey(i / 100 % 2 ? FRONT : CLEAR);
+        TEST_ASSERT_FALSE(out.denied);
+        TEST_ASSERT_FALSE(out.contradiction);
+    }
+}
+
+/* As against a wall, or with a motor that is dead. */
+static void test_wheels_that_do_not_obey_stop_the_robot(void)
+{
+    unsigned denials = 0, ticks = 0;
+
+    while (robot.running && ticks++ < MANY) {
+        sense((struct senses){.tick = (uint8_t)ticks, .feel = FRONT, .bump = true});
+        denials += out.denied;
+    }
+    TEST_ASSERT_EQUAL_UINT(3, denials);
+    assert_at_rest();
+    TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
+}
+
+static void test_from_wheels_that_do_not_obey_nothing_is_learned(void)
+{
+    static const uint8_t nothing[CELL_COUNT] = {0};
+    unsigned ticks = 0;
+
+    while (!out.denied && ticks++ < MANY)
+        sense((struct senses){.tick = (uint8_t)ticks, .feel = ticks < 10 ? FRONT : CLEAR});
+    TEST_ASSERT_TRUE(out.denied);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
+}
+
+/* A trial with wheels or odometers that make a multiple, or a part, of what they are told. */
+static void try_with(unsigned times, unsigned of)
+{
+    static const uint8_t nothing[CELL_COUNT] = {0};
+
+    for (unsigned ticks = 0; !out.denied && ticks < MANY; ticks++) {
+        out.drive.left_mm_s = (int16_t)(out.drive.left_mm_s * (int)times / (int)of);
+        out.drive.right_mm_s = (int16_t)(out.drive.right_mm_s * (int)times / (int)of);
+        obey(ticks < 3 ? FRONT : CLEAR);
+    }
+    TEST_ASSERT_TRUE(out.denied);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
+}
+
+static void test_from_wheels_that_turn_at_half_the_speed_nothing_is_learned(void)
+{
+    try_with(1, 2);
+}
+
+static void test_from_odometers_that_count_a_multiple_nothing_is_learned(void)
+{
+    for (unsigned times = 2; times <= 4; times++) {
+        setUp();
+        try_with(times, 1);
+    }
+}
+
+static void test_wheels_that_obey_again_are_forgiven(void)
+{
+    while (!out.denied)
+        sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
+    for (unsigned i = 0; i < 100; i++)
+        obey(FRONT);
+    TEST_ASSERT_EQUAL_UINT8(0, robot.denials);
+    TEST_ASSERT_TRUE(robot.running);
+}
+
+static void test_food_at_no_distance_is_not_eaten(void)
+{
+    sense((struct senses){.tick = 0, .look = true, .beacon_mm = 0});
+    TEST_ASSERT_TRUE(out.contradiction);
+    TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
+    for (unsigned i = 0; i < 100; i++) {
+        wheels.look = true;
+        obey(CLEAR);
+        TEST_ASSERT_FALSE(out.drive.eat);
+    }
+}
+
+static void test_a_distance_to_no_food_is_a_contradiction(void)
+{
+    sense((struct senses){.beacon_mm = 100});
+    TEST_ASSERT_TRUE(out.contradiction);
+}
+
+/* A body that has begun anew counts from 0. */
+static void test_odometers_that_jump_turn_nothing(void)
+{
+    int32_t before;
+
+    wheels.odometer_left = wheels.odometer_right = 2000;
+    learned(SIDE_LEFT);
+    for (unsigned i = 0; i < 3; i++)
+        obey(FRONT);
+    before = robot.motion.turn_left;
+    wheels.odometer_left = wheels.odometer_right = 0;
+    wheels.tick++;
+    sense(wheels);
+    TEST_ASSERT_TRUE(out.contradiction);
+    TEST_ASSERT_EQUAL_INT32(before, robot.motion.turn_left);
+}
+
+static void test_after_silence_wheels_may_have_rolled_far(void)
+{
+    obey(CLEAR);
+    silence();
+    wheels.odometer_left = wheels.odometer_right = 500;
+    wheels.tick++;
+    sense(wheels);
+    TEST_ASSERT_FALSE(out.contradiction);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_wheels_that_obey_are_no_fault);
+    RUN_TEST(test_wheels_that_do_not_obey_stop_the_robot);
+    RUN_TEST(test_from_wheels_that_do_not_obey_nothing_is_learned);
+    RUN_TEST(test_from_wheels_that_turn_at_half_the_speed_nothing_is_learned);
+    RUN_TEST(test_from_odometers_that_count_a_multiple_nothing_is_learned);
+    RUN_TEST(test_wheels_that_obey_again_are_forgiven);
+    RUN_TEST(test_food_at_no_distance_is_not_eaten);
+    RUN_TEST(test_a_distance_to_no_food_is_a_contradiction);
+    RUN_TEST(test_odometers_that_jump_turn_nothing);
+    RUN_TEST(test_after_silence_wheels_may_have_rolled_far);
+    return UNITY_END();
+}

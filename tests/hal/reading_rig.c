@@ -1,0 +1,59 @@
+#include "reading_rig.h"
+
+#include <string.h>
+
+#include <unity.h>
+
+struct wire wire;
+struct input in;
+uint8_t expected_faults[FAULT_COUNT];   /* after each test: no other fault was counted */
+
+void setUp(void)
+{
+    wire_init(&wire, NODE);
+    memset(expected_faults, 0, sizeof expected_faults);
+}
+
+void tearDown(void)
+{
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected_faults, wire.faults, FAULT_COUNT);
+}
+
+void expect(enum fault fault, uint8_t count)
+{
+    expected_faults[fault] = count;
+}
+
+enum input_kind hear(struct frame frame)
+{
+    return wire_read(&wire, &frame, &in);
+}
+
+enum input_kind read_tick(unsigned ticks)
+{
+    return hear(senses_frame(NODE, ticks));
+}
+
+/* Reads what must not get through. */
+void refuse(struct frame frame)
+{
+    const struct input before = in;
+
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, hear(frame));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &in, sizeof in);
+}
+
+/* The robot's answer, as hal_send would send it; the last frame that it makes. */
+struct frame respond(struct output out)
+{
+    struct frame frames[WIRE_FRAMES_MAX];
+
+    return frames[wire_write(&wire, &out, frames) - 1];
+}
+
+void start(uint8_t lockstep, uint32_t value)
+{
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){
+                                         .opcode = OPCODE_START, .counter = 1, .owner = OWNER, .lockstep = lockstep})));
+    respond((struct output){.has_answer = true, .answer_value = value});
+}

@@ -1,0 +1,245 @@
+#include "hal/protocol/wire.h"
+
+#include <string.h>
+
+#include <unity.h>
+
+#include "firmware/config.h"
+#include "firmware/memory.h"
+#include "wire_frames.h"
+
+#include "writing_rig.h"
+
+static void test_the_parts_of_a_report_wait_for_drives_in_answer_to_senses(void)
+{
+    out.has_report = true;
+    TEST_ASSERT_EQUAL_size_t(0, write_out());
+    out.has_report = false;
+    out.has_drive = out.silent = true;
+    TEST_ASSERT_EQUAL_size_t(1, write_out());
+    out.silent = false;
+    TEST_ASSERT_EQUAL_size_t(2, write_out());
+}
+
+static void test_a_report_is_spread_over_the_drives_of_many_ticks(void)
+{
+    static const uint32_t ids[] = {0x6A1, 0x681, 0x781, 0x781, 0, 0x7C1, 0};
+
+    for (unsigned i = 0; i < sizeof ids / sizeof ids[0]; i++) {
+        out = (struct output){.has_report = i == 0, .has_drive = true};
+        TEST_ASSERT_EQUAL_size_t(ids[i] == 0 ? 1 : ids[i] == 0x681 ? 3 : 2, write_out());
+        TEST_ASSERT_EQUAL_HEX32(ids[i] == 0 ? 0x041 : ids[i], frames[0].id);
+    }
+}
+
+static void test_a_new_memory_holds_the_report_up(void)
+{
+    static const uint32_t ids[] = {0x681, 0x681, 0x041}, next[] = {0x6A1, 0x041};
+
+    out = (struct output){.has_report = true, .has_memory = true, .has_drive = true};
+    assert_ids(ids, 3);
+    out = (struct output){.has_drive = true};
+    assert_ids(next, 2);
+}
+
+static void test_in_silence_there_is_a_heartbeat_and_nothing_else(void)
+{
+    static const uint32_t ids[] = {0x6A1, 0x041};
+
+    out = (struct output){.has_report = true, .silent = true, .has_drive = true};
+    assert_ids(ids, 2);
+    out.has_report = false;
+    assert_ids(ids + 1, 1);
+}
+
+static struct octet_heartbeat_t heartbeat_sent(void)
+{
+    struct octet_heartbeat_t sent;
+
+    out.has_report = out.has_drive = true;
+    write_out();
+    TEST_ASSERT_EQUAL(0, octet_heartbeat_unpack(&sent, frames[0].data, frames[0].len));
+    return sent;
+}
+
+static void test_each_heartbeat_counts_on_but_for_those_of_silence(void)
+{
+    static const uint8_t counters[] = {0, 1, 2, 2, 2, 3};
+
+    for (unsigned i = 0; i < sizeof counters; i++) {
+        out.silent = i == 2 || i == 3;
+        TEST_ASSERT_EQUAL_UINT8(counters[i], heartbeat_sent().counter);
+    }
+}
+
+static void test_a_heartbeat_tells_of_silence(void)
+{
+    out.silent = true;
+    TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_SILENT_SILENT_CHOICE, heartbeat_sent().silent);
+}
+
+static void test_a_heartbeat_names_the_owner(void)
+{
+    answer_to((struct octet_command_t){.opcode = OPCODE_START, .owner = 200}, RESULT_DONE);
+    out = (struct output){.has_answer = false};
+    TEST_ASSERT_EQUAL_UINT8(200, heartbeat_sent().owner);
+}
+
+static void test_a_heartbeat_tells_how_the_robot_fares(void)
+{
+    struct octet_heartbeat_t sent;
+
+    out.report.running = true;
+    out.report.uptime_s = 65535;
+    sent = heartbeat_sent();
+    TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_STATE_RUNNING_CHOICE, sent.state);
+    TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_FROZEN_LEARNING_CHOICE, sent.frozen);
+    TEST_ASSERT_EQUAL_UINT16(65535, sent.uptime);
+}
+
+static void test_a_heartbeat_tells_a_stopped_and_frozen_robot(void)
+{
+    struct octet_heartbeat_t sent;
+
+    out.report.frozen = true;
+    sent = heartbeat_sent();
+    TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_STATE_STOPPED_CHOICE, sent.state);
+    TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_FROZEN_FROZEN_CHOICE, sent.frozen);
+}
+
+static void test_a_heartbeat_tells_whose_clock_rules(void)
+{
+    wire.session.lockstep = true;
+    TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_LOCKSTEP_LOCKSTEP_CHOICE, heartbeat_sent().lockstep);
+}
+
+static void test_each_fault_has_its_own_place(void)
+{
+    struct octet_faults_t link, robot;
+
+    for (unsigned fault = 0; fault < FAULT_COUNT; fault++) {
+        wire.faults[fault] = (uint8_t)(fault + 1);
+        expect((enum fault)fault, (uint8_t)(fault + 1));
+    }
+    out.has_report = out.whole_report = true;
+    write_out();
+    TEST_ASSERT_EQUAL(0, octet_faults_unpack(&link, frames[4].data, frames[4].len));
+    TEST_ASSERT_EQUAL(0, octet_faults_unpack(&robot, frames[5].data, frames[5].len));
+    TEST_ASSERT_EQUAL_UINT8(link.counter, robot.counter);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_SILENCE + 1, link.silences);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_MISSED + 1, link.missed);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_STALE + 1, link.stale);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_DAMAGED + 1, link.damaged);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_FOREIGN + 1, link.foreign);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_UNSENT + 1, link.unsent);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_REFUSED + 1, robot.refused);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_UNSAVED + 1, robot.unsaved);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_TWIN + 1, robot.twins);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_CONTRADICTION + 1, robot.contradictions);
+    TEST_ASSERT_EQUAL_UINT8(FAULT_DENIED + 1, robot.denied);
+}
+
+static void test_health_tells_how_bus_clock_and_store_fare(void)
+{
+    struct octet_health_t sent;
+
+    wire.health.unstored = wire.health.clock_exact = true;
+    wire.health.bus = (struct link_health){
+        .state = BUS_OFF, .tx_errors = 255, .rx_errors = 128, .bus_offs = 7, .dropped = 9};
+    whole_report();
+    TEST_ASSERT_EQUAL(0, octet_health_unpack(&sent, frames[6].data, frames[6].len));
+    TEST_ASSERT_EQUAL_UINT8(OCTET_HEALTH_BUS_STATE_BUS_OFF_CHOICE, sent.bus_state);
+    TEST_ASSERT_EQUAL_UINT8(OCTET_HEALTH_UNSTORED_UNSTORED_CHOICE, sent.unstored);
+    TEST_ASSERT_EQUAL_UINT8(OCTET_HEALTH_CLOCK_EXACT_CHOICE, sent.clock);
+    TEST_ASSERT_EQUAL_UINT8(255, sent.tx_errors);
+    TEST_ASSERT_EQUAL_UINT8(128, sent.rx_errors);
+    TEST_ASSERT_EQUAL_UINT8(7, sent.bus_offs);
+    TEST_ASSERT_EQUAL_UINT8(9, sent.dropped);
+}
+
+static void test_boot_tells_why_it_started(void)
+{
+    struct octet_boot_t sent;
+
+    wire.health.reset_cause = RESET_WATCHDOG;
+    wire_boot(&wire, &frames[0]);
+    TEST_ASSERT_TRUE(e2e_is_whole(&frames[0], OCTET_BOOT_LENGTH));
+    TEST_ASSERT_EQUAL_UINT32(OCTET_BOOT_FRAME_ID, frames[0].id);
+    TEST_ASSERT_EQUAL(0, octet_boot_unpack(&sent, frames[0].data, frames[0].len));
+    TEST_ASSERT_EQUAL_UINT8(OCTET_BOOT_RESET_CAUSE_WATCHDOG_CHOICE, sent.reset_cause);
+}
+
+static void test_without_a_crash_no_report_tells_of_one(void)
+{
+    whole_report();
+    for (unsigned i = 0; i < 7; i++)
+        TEST_ASSERT_TRUE(frames[i].id != OCTET_CRASH_FRAME_ID);
+}
+
+static void test_a_crash_is_told_one_value_a_report_round_and_round(void)
+{
+    struct crash crash = {.cause = OCTET_CRASH_CAUSE_HARD_FAULT_CHOICE, .count = 5};
+
+    for (uint32_t i = 0; i < crash.count; i++)
+        crash.values[i] = 0xF0000000u + i;
+    wire.health.crash = &crash;
+    for (uint32_t i = 0; i < 3u * crash.count; i++) {
+        struct octet_crash_t sent;
+
+        whole_report();
+        TEST_ASSERT_EQUAL(0, octet_crash_unpack(&sent, frames[6].data, frames[6].len));
+        TEST_ASSERT_EQUAL_UINT8(OCTET_CRASH_CAUSE_HARD_FAULT_CHOICE, sent.cause);
+        TEST_ASSERT_EQUAL_UINT8(i % crash.count, sent.name);
+        TEST_ASSERT_EQUAL_HEX32(0xF0000000u + i % crash.count, sent.value);
+    }
+}
+
+static void test_a_memory_is_two_frames_with_one_counter(void)
+{
+    static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 255, 4, 5, 6, 7};
+
+    memcpy(out.memory, memory, sizeof memory);
+    out.has_memory = true;
+    for (uint8_t counter = 0; counter < 3; counter++) {
+        TEST_ASSERT_EQUAL_size_t(2, write_out());
+        for (unsigned half = 0; half < 2; half++) {
+            TEST_ASSERT_EQUAL_HEX8(half << 4 | counter, frames[half].data[1]);
+            TEST_ASSERT_EQUAL_UINT8_ARRAY(memory + 4 * half, frames[half].data + 2, 4);
+        }
+    }
+}
+
+static void test_reset_causes_and_bus_states_are_those_of_the_dbc(void)
+{
+    TEST_ASSERT_EQUAL(OCTET_BOOT_RESET_CAUSE_POWER_ON_CHOICE, RESET_POWER_ON);
+    TEST_ASSERT_EQUAL(OCTET_BOOT_RESET_CAUSE_PIN_CHOICE, RESET_PIN);
+    TEST_ASSERT_EQUAL(OCTET_BOOT_RESET_CAUSE_WATCHDOG_CHOICE, RESET_WATCHDOG);
+    TEST_ASSERT_EQUAL(OCTET_BOOT_RESET_CAUSE_SOFTWARE_CHOICE, RESET_SOFTWARE);
+    TEST_ASSERT_EQUAL(OCTET_BOOT_RESET_CAUSE_CRASH_CHOICE, RESET_CRASH);
+    TEST_ASSERT_EQUAL(OCTET_HEALTH_BUS_STATE_ACTIVE_CHOICE, BUS_ACTIVE);
+    TEST_ASSERT_EQUAL(OCTET_HEALTH_BUS_STATE_PASSIVE_CHOICE, BUS_PASSIVE);
+    TEST_ASSERT_EQUAL(OCTET_HEALTH_BUS_STATE_BUS_OFF_CHOICE, BUS_OFF);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_parts_of_a_report_wait_for_drives_in_answer_to_senses);
+    RUN_TEST(test_a_report_is_spread_over_the_drives_of_many_ticks);
+    RUN_TEST(test_a_new_memory_holds_the_report_up);
+    RUN_TEST(test_in_silence_there_is_a_heartbeat_and_nothing_else);
+    RUN_TEST(test_each_heartbeat_counts_on_but_for_those_of_silence);
+    RUN_TEST(test_a_heartbeat_tells_of_silence);
+    RUN_TEST(test_a_heartbeat_names_the_owner);
+    RUN_TEST(test_a_heartbeat_tells_how_the_robot_fares);
+    RUN_TEST(test_a_heartbeat_tells_a_stopped_and_frozen_robot);
+    RUN_TEST(test_a_heartbeat_tells_whose_clock_rules);
+    RUN_TEST(test_each_fault_has_its_own_place);
+    RUN_TEST(test_health_tells_how_bus_clock_and_store_fare);
+    RUN_TEST(test_boot_tells_why_it_started);
+    RUN_TEST(test_without_a_crash_no_report_tells_of_one);
+    RUN_TEST(test_a_crash_is_told_one_value_a_report_round_and_round);
+    RUN_TEST(test_a_memory_is_two_frames_with_one_counter);
+    RUN_TEST(test_reset_causes_and_bus_states_are_those_of_the_dbc);
+    return UNITY_END();
+}
