@@ -65,7 +65,7 @@ class LearningHistory:
         pattern: The front sensors' pattern when the current action was decided, 0..7.
         uses: For each cell, the number of remembered turns that used its present content.
         learned: For each cell, the tick of its last change; -1 if there was none.
-        by_hand: For each cell, 1 if a person made its last change, else 0.
+        by_hand: For each cell, 1 if its last change came from outside, from a person or from another robot; else 0.
         trial: The last trial, or None.
         trials: Number of trials.
         action: Number of the current action; -1 before the first.
@@ -122,7 +122,8 @@ class LearningHistory:
         Args:
             tick: Number of the tick.
             memory: The eight bytes now.
-            trial: The trial that has just ended, if any: a turn that it does not explain was written by hand.
+            trial: The trial that has just ended, if any: a turn that it does not explain was told, by
+                a person or by another robot.
             forgets: Whether the robot itself may just have erased what it used.
         """
         sides = sides_of(tuple(memory))

@@ -62,5 +62,5 @@ def lesson_sentence(lesson: Lesson) -> str:
     name = PATTERNS[lesson["cell"]]
     if not lesson["side"]:
         return f"{'Erased by hand' if lesson['by_hand'] else 'Forgotten'}: {name}."
-    how = "Written by hand" if lesson["by_hand"] else "Learned"
+    how = "Told" if lesson["by_hand"] else "Learned"
     return f"{how}: {name} blocked, turn {SIDES[lesson['side']]}."

@@ -96,7 +96,7 @@ class State(TypedDict):
         memory: The eight cells, each a side.
         uses: For each cell, the number of remembered turns that used its present content.
         learned: For each cell, the tick of its last change; -1 if there was none since the run was started over.
-        by_hand: For each cell, 1 if a person made its last change, else 0.
+        by_hand: For each cell, 1 if its last change came from outside, from a person or from another robot; else 0.
         frozen: 1 if learning is frozen, else 0.
         trial: The last trial of the run, or None.
     """

@@ -99,7 +99,7 @@ function sideWords({ cell, side, trying }) {
 /** @param {Facts} facts */
 function historyOf({ cell, side, when, byHand, uses }) {
   if (cell === 0 || side === SIDE.NOTHING) return "";
-  const learned = when && `${byHand ? "written" : "learned"} ${when}`;
+  const learned = when && `${byHand ? "told" : "learned"} ${when}`;
   return [learned, uses ? `used ${uses}×` : ""].filter(Boolean).join(", ");
 }
 

@@ -70,7 +70,7 @@ export function lessonSentence(lesson) {
   const name = PATTERNS[lesson.cell];
   if (!lesson.side) return `${lesson.by_hand ? "Erased by hand" : "Forgotten"}: ${name}.`;
   if (!lesson.by_hand) return `Learned: ${name} blocked, turn ${SIDES[lesson.side]}.`;
-  return `Written by hand: ${name} blocked, turn ${SIDES[lesson.side]}.`;
+  return `Told: ${name} blocked, turn ${SIDES[lesson.side]}.`;
 }
 
 /**

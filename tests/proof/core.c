@@ -33,6 +33,13 @@ static void take_any_command(struct command *command)
     command->value = any_u32();
 }
 
+static void hear_any_memory(struct peer *peer)
+{
+    peer->upper = any_bool();
+    for (unsigned i = 0; i < CELL_COUNT / 2; i++)
+        peer->cell[i] = any_u8();
+}
+
 static void wake_with_any_memory(struct robot *robot)
 {
     uint8_t cells[CELL_COUNT];
@@ -54,7 +61,8 @@ void exercise(void)
         take_any_parameters(&robot.config);
         take_any_senses(&in.senses);
         take_any_command(&in.command);
-        robot_respond(&robot, any_bool() ? INPUT_SENSES : any_bool() ? INPUT_COMMAND : INPUT_SILENCE, &in, &out);
+        hear_any_memory(&in.peer);
+        robot_respond(&robot, (enum input_kind)any_between(INPUT_SILENCE, INPUT_PEER), &in, &out);
         //@ assert fits_the_wire: !out.has_drive || (-2047 <= out.drive.left_mm_s <= 2047 && -2047 <= out.drive.right_mm_s <= 2047);
     }
 }

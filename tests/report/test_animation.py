@@ -90,7 +90,7 @@ def test_every_reason_has_its_sentence(fields, words):
     ("side", "by_hand", "words"),
     [
         (1, 0, "Learned: front blocked, turn left."),
-        (2, 1, "Written by hand: front blocked, turn right."),
+        (2, 1, "Told: front blocked, turn right."),
         (0, 1, "Erased by hand: front."),
     ],
 )

@@ -63,7 +63,7 @@ def test_every_board_has_a_preset_of_its_name() -> None:
     hidden = {preset["name"] for preset in presets["configurePresets"] if preset.get("hidden")}
     for kind in ("configurePresets", "buildPresets"):
         names = {preset["name"] for preset in presets[kind]} - hidden
-        assert names == {"host", "host-san", *BOARDS}
+        assert names == {"host", "host-san", "page", *BOARDS}
 
 
 def test_every_chip_is_known_to_the_programs() -> None:
