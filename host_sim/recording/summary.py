@@ -141,8 +141,8 @@ def environment_line(number: int, episode: EpisodeResult) -> str:
     end = "all food found" if episode.finished else f"{sum(episode.eaten)} of {len(episode.eaten)} food found"
     trials, known, bored = (episode.begun(reason) for reason in (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM))
     return (
-        f"environment {number}   {end} in {episode.robot_s:.0f} s; {trials} trials, {known} remembered turns, "
-        f"bored {bored} times"
+        f"environment {number}   {end} in {episode.robot_s:.0f} s; {_counted(trials, 'trial')}, "
+        f"{_counted(known, 'remembered turn')}, bored {_counted(bored, 'time')}"
     )
 
 
@@ -175,11 +175,15 @@ def _link(robot: dict[str, Any]) -> str:
         "refused": frames["refused"],
         "unsent": robot["line"]["unsent"],
     }
-    parts = [f"{count} frames {name}" for name, count in counts.items() if count]
-    parts += [f"gone {robot['line']['outages']} times"] if robot["line"]["outages"] else []
+    parts = [f"{_counted(count, 'frame')} {name}" for name, count in counts.items() if count]
+    parts += [f"gone {_counted(robot['line']['outages'], 'time')}"] if robot["line"]["outages"] else []
     parts += [f"robot counted {name}: {_count(faults[name], name in saturated)}" for name in faults if faults[name]]
     slow = f"; an answer takes {robot['round_trip_ms']:.0f} ms" if parts and robot["round_trip_ms"] else ""
     return ", ".join(parts) + slow
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
 
 
 def _count(count: int, saturated: bool) -> str:

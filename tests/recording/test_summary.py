@@ -54,6 +54,12 @@ def test_what_happened_to_the_line_is_said(client):
     assert "link      7 frames repeated, gone 2 times; an answer takes 300 ms" in summary_of(client).for_people()
 
 
+def test_one_of_a_kind_is_in_the_singular(client):
+    client.line.outages, client.frames.repeated = 1, 1
+
+    assert "link      1 frame repeated, gone 1 time" in summary_of(client).for_people()
+
+
 def test_incidents_are_listed(client):
     client.distrust("the robot restarted")
 
