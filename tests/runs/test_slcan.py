@@ -115,7 +115,7 @@ def test_an_adapter_that_is_unplugged_and_plugged_in_again_is_waited_for(robot_o
     assert re.fullmatch(
         r"octet: the result is not to be trusted: at tick \d+ \(node 1\) the robot restarted.*\n", errors
     )
-    assert "gone 1 times" in output
+    assert "gone 1 time" in output
     assert (tmp_path / "robot.mem").read_bytes() == LEARNED
 
 
