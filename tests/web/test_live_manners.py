@@ -245,7 +245,7 @@ def test_a_cell_says_who_filled_it_and_an_empty_one_says_nothing(page, run):
     wait_for_text(page, "#cells", "told")
 
     said = page.locator(".cell-history").all_inner_texts()
-    assert said[1:4] == ["written 0:01.0, used 4\u00d7", "learned 0:02.0, used 7\u00d7", ""]
+    assert said[1:4] == ["told 0:01.0, used 4\u00d7", "learned 0:02.0, used 7\u00d7", ""]
 
 
 def test_an_end_of_an_obstacle_turns_it(page, run):
