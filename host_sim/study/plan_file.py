@@ -41,6 +41,8 @@ def read_plan(path: Path) -> Plan:
         content = _toml.loads(text)
     except FileNotFoundError:
         raise UsageError(f"there is no file {path}") from None
+    except RecursionError:
+        raise UsageError(f"{path}: too many brackets within each other") from None
     except (UnicodeDecodeError, _toml.TOMLDecodeError) as error:
         raise UsageError(f"{path}: {error}") from None
     return _Reader(path, text, content).plan()

@@ -32,6 +32,11 @@ def test_every_combination_is_a_condition_and_the_seeds_are_the_same(plan):
     assert found.conditions[2].settings == {"filter": 1}
 
 
+def test_brackets_without_end_are_refused(plan):
+    with pytest.raises(UsageError, match="too many brackets"):
+        plan("profiles = " + "[" * 5000)
+
+
 def test_a_condition_is_named_by_what_varies(plan):
     assert [it.name for it in plan('profiles = ["article"]\nrobots = [1, 4]').conditions] == ["1 robots", "4 robots"]
     assert [it.world for it in plan('profiles = ["article"]\nworlds = ["small", "posts"]').conditions] == [
