@@ -123,7 +123,7 @@ READERS = {
 
 
 @pytest.mark.parametrize("name", READERS)
-@hypothesis.settings(max_examples=100, suppress_health_check=list(hypothesis.HealthCheck))
+@hypothesis.settings(max_examples=100, derandomize=True, suppress_health_check=list(hypothesis.HealthCheck))
 @hypothesis.given(edits=EDITS)
 def test_what_is_damaged_is_read_or_refused_in_one_line(tmp_path_factory, name, edits):
     reader = READERS[name]
