@@ -54,3 +54,9 @@ def test_a_test_that_holds_passes(tmp_path):
 )
 def test_one_does_not(tmp_path, body, run):
     assert not passes(tmp_path, body, run)
+
+
+def test_every_c_test_is_added_so():
+    adding = [path for path in sorted(ROOT.glob("tests/**/CMakeLists.txt")) if "add_test(NAME" in path.read_text()]
+
+    assert adding == []

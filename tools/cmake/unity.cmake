@@ -8,11 +8,16 @@ add_library(unity STATIC ${UNITY_DIR}/unity.c)
 target_include_directories(unity SYSTEM PUBLIC ${UNITY_DIR})
 target_compile_definitions(unity PUBLIC UNITY_INCLUDE_DOUBLE)   # for the world; the robot knows only whole numbers
 
+# octet_add_test(NAME COMMAND...): has ctest run a program of Unity's. With no test run, or with tests that are ignored, it
+# says OK and exits with 0: that is a failure here.
+function(octet_add_test name)
+  add_test(NAME ${name} COMMAND ${ARGN})
+  set_tests_properties(${name} PROPERTIES FAIL_REGULAR_EXPRESSION "\n0 Tests;[1-9][0-9]* Ignored" TIMEOUT 60)
+endfunction()
+
 # octet_test(NAME LIBRARY...): a test program from test_NAME.c in the current folder.
 function(octet_test name)
   add_executable(test_${name} test_${name}.c)
   target_link_libraries(test_${name} PRIVATE unity octet_warnings ${ARGN})
-  add_test(NAME ${name} COMMAND test_${name})
-  # Unity with no test run, or with tests that are ignored, says OK and exits 0: that is a failure here.
-  set_tests_properties(${name} PROPERTIES FAIL_REGULAR_EXPRESSION "\n0 Tests;[1-9][0-9]* Ignored" TIMEOUT 60)
+  octet_add_test(${name} test_${name})
 endfunction()
