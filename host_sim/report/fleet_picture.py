@@ -22,11 +22,11 @@ from host_sim.report.drawing import (
     draw_robot,
     write,
 )
+from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, stacked, titled
 from host_sim.sim.fleet import FleetResult
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
 
-_WIDTH_PX, _MARGIN_PX, _GAP_PX, _LINE_PX, _TEXT_PX = 1608, 36, 24, 30, 18
 _MOST_ENVIRONMENTS, _MOST_NAMES = 5, 100
 _CURVE_PX, _SQUARE_MAX_PX, _BAR_PX = 360, 40, 26
 _AXIS_PX, _SECONDS_APART, _LABELS = 48, (10, 30, 60, 120, 300, 600, 1800, 3600), 10
@@ -60,7 +60,7 @@ def write_fleet_picture(
         rows = [_arena(groups[last], *world, params)]
     rows.append(_memories(groups[last], params))
     content = BytesIO()
-    _stacked(rows).quantize().save(content, "PNG", optimize=True)
+    stacked(rows).quantize().save(content, "PNG", optimize=True)
     write_bytes(path, content.getvalue())
 
 
@@ -75,8 +75,8 @@ def _shade(part: float) -> str:
 
 def _curves(groups: dict[int, list[FleetResult]], tick_s: float, longest_s: float) -> Image.Image:
     """The share of the robots that have finished by a time, a curve for each environment."""
-    image = Image.new("RGB", (_WIDTH_PX, _CURVE_PX + _AXIS_PX), PAPER)
-    draw, width = ImageDraw.Draw(image), _WIDTH_PX - _AXIS_PX * 3
+    image = Image.new("RGB", (WIDTH_PX, _CURVE_PX + _AXIS_PX), PAPER)
+    draw, width = ImageDraw.Draw(image), WIDTH_PX - _AXIS_PX * 3
     _axes(image, width, longest_s)
     for i, (number, results) in enumerate(groups.items()):
         colour = _shade((i + 1) / len(groups))
@@ -87,9 +87,9 @@ def _curves(groups: dict[int, list[FleetResult]], tick_s: float, longest_s: floa
             points += [(x, points[-1][1]), (x, _CURVE_PX * (1 - count / len(results)))]
         points.append((_AXIS_PX * 2.0 + width, points[-1][1]))
         draw.line(points, colour, 4)
-        draw.line([(_WIDTH_PX - 260, 190 + i * _LINE_PX), (_WIDTH_PX - 220, 190 + i * _LINE_PX)], colour, 8)
-        write(image, (_WIDTH_PX - 210, 190 + i * _LINE_PX), f"environment {number}", _TEXT_PX, "lm")
-    return _titled("robots that have found all food, by robot time", image)
+        draw.line([(WIDTH_PX - 260, 190 + i * LINE_PX), (WIDTH_PX - 220, 190 + i * LINE_PX)], colour, 8)
+        write(image, (WIDTH_PX - 210, 190 + i * LINE_PX), f"environment {number}", TEXT_PX, "lm")
+    return titled("robots that have found all food, by robot time", image)
 
 
 def _axes(image: Image.Image, width: int, longest_s: float) -> None:
@@ -97,28 +97,28 @@ def _axes(image: Image.Image, width: int, longest_s: float) -> None:
     for percent in range(0, 101, 25):
         y = _CURVE_PX * (1 - percent / 100)
         draw.line([(_AXIS_PX * 2, y), (_AXIS_PX * 2 + width, y)], _SIDES[0], 1)
-        write(image, (_AXIS_PX * 2 - 8, max(y, 10)), f"{percent} %", _TEXT_PX, "rm")
+        write(image, (_AXIS_PX * 2 - 8, max(y, 10)), f"{percent} %", TEXT_PX, "rm")
     apart = next((step for step in _SECONDS_APART if longest_s / step <= _LABELS), _SECONDS_APART[-1])
     for second in range(0, int(longest_s) + 1, apart):
         x = _AXIS_PX * 2 + width * second / longest_s
-        write(image, (x, _CURVE_PX + _AXIS_PX / 2), f"{second} s", _TEXT_PX, "mm")
+        write(image, (x, _CURVE_PX + _AXIS_PX / 2), f"{second} s", TEXT_PX, "mm")
 
 
 def _mosaics(groups: dict[int, list[FleetResult]], tick_s: float, longest_s: float) -> Image.Image:
     """For each environment, a square for each robot, row by row: how soon it finished."""
-    gaps = (len(groups) - 1) * _GAP_PX
-    side_px = (_WIDTH_PX - gaps) // max(2, len(groups))
+    gaps = (len(groups) - 1) * GAP_PX
+    side_px = (WIDTH_PX - gaps) // max(2, len(groups))
     panels = [
-        _titled(f"environment {number}", _mosaic(results, side_px, tick_s, longest_s))
+        titled(f"environment {number}", _mosaic(results, side_px, tick_s, longest_s))
         for number, results in groups.items()
     ]
-    row = Image.new("RGB", (_WIDTH_PX, panels[0].height), PAPER)
+    row = Image.new("RGB", (WIDTH_PX, panels[0].height), PAPER)
     for i, panel in enumerate(panels):
-        row.paste(panel, (i * (side_px + _GAP_PX), 0))
+        row.paste(panel, (i * (side_px + GAP_PX), 0))
     shades = ", ".join(
         [f"pale: finished at once, dark: after {longest_s:.0f} s", "orange: not finished", "robot 1 top left"]
     )
-    return _titled(f"each robot ({shades})", row)
+    return titled(f"each robot ({shades})", row)
 
 
 def _mosaic(results: Sequence[FleetResult], side_px: int, tick_s: float, longest_s: float) -> Image.Image:
@@ -136,39 +136,39 @@ def _mosaic(results: Sequence[FleetResult], side_px: int, tick_s: float, longest
 
 def _arena(results: Sequence[FleetResult], layout: Layout, eaten: Sequence[bool], params: SimParams) -> Image.Image:
     """The robots' common world at the end of its last environment."""
-    plan = Plan(params.width_mm, params.height_mm, _WIDTH_PX, FLOOR)
+    plan = Plan(params.width_mm, params.height_mm, WIDTH_PX, FLOOR)
     draw_obstacles(plan, layout.bars, params)
     for at, is_eaten in zip(layout.food, eaten, strict=True):
         draw_food(plan, at, FOOD_MM, is_eaten)
     for result in results:
         draw_robot(plan, result.pose, 2 * params.body_radius_mm, INK)
     image = plan.done()
-    px_per_mm = _WIDTH_PX / params.width_mm
+    px_per_mm = WIDTH_PX / params.width_mm
     for result in results if len(results) <= _MOST_NAMES else ():
         place = result.pose.x_mm * px_per_mm, (result.pose.y_mm + 1.4 * params.body_radius_mm) * px_per_mm
-        write(image, place, str(result.robot), _TEXT_PX, "mm")
+        write(image, place, str(result.robot), TEXT_PX, "mm")
     found = f"{sum(eaten)} of {len(eaten)} food found"
-    return _titled(f"environment {results[0].environment}: {len(results)} robots at its end, {found}", image)
+    return titled(f"environment {results[0].environment}: {len(results)} robots at its end, {found}", image)
 
 
 def _memories(results: Sequence[FleetResult], params: SimParams) -> Image.Image:
     """For each pattern, how many robots turn left, turn right, and know nothing."""
-    width_px, counts = _WIDTH_PX // (CELL_COUNT - 1), learned(results)
+    width_px, counts = WIDTH_PX // (CELL_COUNT - 1), learned(results)
     cells = [_cell(pattern, counts[pattern], width_px, params) for pattern in range(1, CELL_COUNT)]
-    row = Image.new("RGB", (_WIDTH_PX, cells[0].height + _LINE_PX), PAPER)
+    row = Image.new("RGB", (WIDTH_PX, cells[0].height + LINE_PX), PAPER)
     for i, cell in enumerate(cells):
         row.paste(cell, (i * width_px, 0))
     draw = ImageDraw.Draw(row)
     for i, (side, words) in enumerate(_WORDS.items()):
-        x, y = i * 180, row.height - _LINE_PX / 2
+        x, y = i * 180, row.height - LINE_PX / 2
         draw.rectangle((x, y - 9, x + 18, y + 9), _SIDES[side])
-        write(row, (x + 26, y), words, _TEXT_PX, "lm")
-    return _titled(f"what {len(results)} robots have learned for each pattern of their front sensors", row)
+        write(row, (x + 26, y), words, TEXT_PX, "lm")
+    return titled(f"what {len(results)} robots have learned for each pattern of their front sensors", row)
 
 
 def _cell(pattern: int, counts: Sequence[int], width_px: int, params: SimParams) -> Image.Image:
     drawing = draw_cell(pattern, 0, params, width_px)
-    image = Image.new("RGB", (width_px, drawing.height + _BAR_PX + 4 * _LINE_PX), PAPER)
+    image = Image.new("RGB", (width_px, drawing.height + _BAR_PX + 4 * LINE_PX), PAPER)
     image.paste(drawing)
     draw, x, total, length = ImageDraw.Draw(image), 8.0, sum(counts), width_px - 16
     for i, (side, colour) in enumerate(_SIDES.items()):
@@ -177,22 +177,5 @@ def _cell(pattern: int, counts: Sequence[int], width_px: int, params: SimParams)
             draw.rectangle((x, drawing.height, end, drawing.height + _BAR_PX), colour)
         x = end
         text = f"{_WORDS[side]}: {counts[side]}"
-        write(image, (width_px / 2, drawing.height + _BAR_PX + (i + 0.8) * _LINE_PX), text, _TEXT_PX, "mm")
+        write(image, (width_px / 2, drawing.height + _BAR_PX + (i + 0.8) * LINE_PX), text, TEXT_PX, "mm")
     return image
-
-
-def _titled(title: str, image: Image.Image) -> Image.Image:
-    sheet = Image.new("RGB", (image.width, image.height + _LINE_PX), PAPER)
-    sheet.paste(image, (0, _LINE_PX))
-    write(sheet, (0, _LINE_PX * 0.4), title, _TEXT_PX, "lm")
-    return sheet
-
-
-def _stacked(rows: Sequence[Image.Image]) -> Image.Image:
-    height = 2 * _MARGIN_PX + sum(row.height for row in rows) + (len(rows) - 1) * _GAP_PX
-    sheet = Image.new("RGB", (_WIDTH_PX + 2 * _MARGIN_PX, height), PAPER)
-    y = _MARGIN_PX
-    for row in rows:
-        sheet.paste(row, (_MARGIN_PX, y))
-        y += row.height + _GAP_PX
-    return sheet

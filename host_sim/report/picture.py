@@ -31,13 +31,13 @@ from host_sim.report.drawing import (
     write,
 )
 from host_sim.report.palette import in_palette
+from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, abreast, stacked, titled
 from host_sim.view.state import EnvironmentScene
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.params import SimParams
 
 _MOST_ENVIRONMENTS, _COLUMNS = 9, 3
-_WIDTH_PX, _MARGIN_PX, _GAP_PX = 1608, 36, 24
-_LEGEND_COLUMNS, _LINE_PX, _TEXT_PX, _HEADING_PX = 6, 30, 18, 21
+_LEGEND_COLUMNS = 6
 _LEGEND_PX_PER_MM = 0.25
 _MOST_MEMORIES = 8
 _MOST_NEWS = 12
@@ -144,7 +144,7 @@ def draw_run(
     rows += _environment_rows(panels, params)
     for node, memory in list(memories.items())[:_MOST_MEMORIES]:
         rows.append(_memory_row(f"Robot {node}" if len(memories) > 1 else "The robot", memory, params))
-    return in_palette(_stacked(rows))
+    return in_palette(stacked(rows))
 
 
 def omissions(environments: int, robots: int) -> list[str]:
@@ -169,27 +169,27 @@ def _news(panel: Panel) -> list[str]:
 
 def _lines(texts: Sequence[str]) -> list[Image.Image]:
     """The lines of a paragraph as one image; none if there are none."""
-    sheet = Image.new("RGB", (_WIDTH_PX, len(texts) * _LINE_PX), PAPER)
+    sheet = Image.new("RGB", (WIDTH_PX, len(texts) * LINE_PX), PAPER)
     for number, text in enumerate(texts):
-        write(sheet, (0, (number + 0.4) * _LINE_PX), text, _TEXT_PX, "lm")
+        write(sheet, (0, (number + 0.4) * LINE_PX), text, TEXT_PX, "lm")
     return [sheet] if texts else []
 
 
 def _line(text: str) -> Image.Image:
     """A line of text."""
-    return _titled(text, Image.new("RGB", (_WIDTH_PX, 1), PAPER))
+    return titled(text, Image.new("RGB", (WIDTH_PX, 1), PAPER))
 
 
 def _environment_rows(panels: Panels, params: SimParams) -> list[Image.Image]:
     """The last environments, side by side, each under its caption; then what changed in them."""
     columns = min(_COLUMNS, len(panels))
-    width_px = (_WIDTH_PX - (columns - 1) * _GAP_PX) // columns
+    width_px = (WIDTH_PX - (columns - 1) * GAP_PX) // columns
     shown = islice(panels, max(0, len(panels) - _MOST_ENVIRONMENTS), None)
     images, news = [], []
     for panel in shown:
-        images.append(_titled(_caption(panel), _environment(panel, params, width_px)))
+        images.append(titled(_caption(panel), _environment(panel, params, width_px)))
         news += _news(panel)
-    rows = [_abreast(images[first : first + columns], _GAP_PX) for first in range(0, len(images), columns)]
+    rows = [abreast(images[first : first + columns], GAP_PX) for first in range(0, len(images), columns)]
     more = len(news) - _MOST_NEWS
     return rows + _lines(news if more <= 0 else [*news[:_MOST_NEWS], f"and {more} more changes"])
 
@@ -225,7 +225,7 @@ def _write_nodes(image: Image.Image, panel: Panel, params: SimParams) -> None:
     for node, start, trail in zip(panel.nodes, panel.starts, panel.trails, strict=True):
         for x, y in (start[:2], _end(start, trail)[:2]):
             place = x * px_per_mm, (y + 1.5 * params.body_radius_mm) * px_per_mm
-            write(image, place, str(node), _TEXT_PX, "mm")
+            write(image, place, str(node), TEXT_PX, "mm")
 
 
 def _end(start: Pose, trail: Sequence[tuple[float, float, int]]) -> Pose:
@@ -241,17 +241,17 @@ def _end(start: Pose, trail: Sequence[tuple[float, float, int]]) -> Pose:
 def _legend(params: SimParams) -> Image.Image:
     """What the colours and signs mean."""
     words = [mark.words for mark in MARKS.values()] + ["start", "end", "food left", "food eaten"]
-    column_px = _WIDTH_PX // _LEGEND_COLUMNS
-    places = [(i % _LEGEND_COLUMNS * column_px, i // _LEGEND_COLUMNS * _LINE_PX) for i in range(len(words))]
-    height = places[-1][1] + _LINE_PX
-    plan = Plan(_WIDTH_PX, height, _WIDTH_PX, PAPER)
-    middles = [(x + _LINE_PX / 2, y + _LINE_PX / 2) for x, y in places]
+    column_px = WIDTH_PX // _LEGEND_COLUMNS
+    places = [(i % _LEGEND_COLUMNS * column_px, i // _LEGEND_COLUMNS * LINE_PX) for i in range(len(words))]
+    height = places[-1][1] + LINE_PX
+    plan = Plan(WIDTH_PX, height, WIDTH_PX, PAPER)
+    middles = [(x + LINE_PX / 2, y + LINE_PX / 2) for x, y in places]
     for reason, (x, y) in zip(MARKS, middles, strict=False):
         draw_mark(plan, reason, [(x - 12, y), (x + 12, y)] if reason in PATHS else [(x, y)], _LEGEND_PX_PER_MM)
     _draw_signs(plan, middles[len(MARKS) :], params)
     image = plan.done()
     for text, (x, y) in zip(words, middles, strict=True):
-        write(image, (x + _LINE_PX * 0.7, y), text, _TEXT_PX, "lm")
+        write(image, (x + LINE_PX * 0.7, y), text, TEXT_PX, "lm")
     return image
 
 
@@ -267,44 +267,16 @@ def _draw_signs(plan: Plan, middles: Sequence[Point], params: SimParams) -> None
 def _memory_row(whose: str, memory: Sequence[int], params: SimParams) -> Image.Image:
     """The eight cells: each pattern of the front sensors, and the turn learned for it."""
     cells = [_cell(pattern, side, params) for pattern, side in enumerate(memory)]
-    return _titled(f"{whose}'s memory: one cell for each pattern of its three front sensors", _abreast(cells, 0))
+    return titled(f"{whose}'s memory: one cell for each pattern of its three front sensors", abreast(cells, 0))
 
 
 def _cell(pattern: int, side: int, params: SimParams) -> Image.Image:
     """One cell, with its content in words."""
-    width_px = _WIDTH_PX // CELL_COUNT
+    width_px = WIDTH_PX // CELL_COUNT
     drawing = draw_cell(pattern, side, params, width_px)
-    image = Image.new("RGB", (width_px, drawing.height + 2 * _LINE_PX), PAPER)
+    image = Image.new("RGB", (width_px, drawing.height + 2 * LINE_PX), PAPER)
     image.paste(drawing)
-    write(image, (width_px / 2, image.height - 1.5 * _LINE_PX), f"cell {pattern} ({pattern:03b})", _TEXT_PX, "mm")
+    write(image, (width_px / 2, image.height - 1.5 * LINE_PX), f"cell {pattern} ({pattern:03b})", TEXT_PX, "mm")
     words = "stays empty" if pattern == 0 else f"turn {SIDES[side]}" if side else "nothing yet"
-    write(image, (width_px / 2, image.height - 0.7 * _LINE_PX), words, _TEXT_PX, "mm")
+    write(image, (width_px / 2, image.height - 0.7 * LINE_PX), words, TEXT_PX, "mm")
     return image
-
-
-def _titled(title: str, image: Image.Image) -> Image.Image:
-    """An image under a line of text."""
-    sheet = Image.new("RGB", (image.width, image.height + _LINE_PX), PAPER)
-    sheet.paste(image, (0, _LINE_PX))
-    write(sheet, (0, _LINE_PX * 0.4), title, _HEADING_PX, "lm")
-    return sheet
-
-
-def _abreast(images: Sequence[Image.Image], gap_px: int) -> Image.Image:
-    """Images of one size side by side."""
-    step = images[0].width + gap_px
-    row = Image.new("RGB", (len(images) * step - gap_px, images[0].height), PAPER)
-    for i, image in enumerate(images):
-        row.paste(image, (i * step, 0))
-    return row
-
-
-def _stacked(rows: Sequence[Image.Image]) -> Image.Image:
-    """Rows one below the other on the finished sheet."""
-    height = 2 * _MARGIN_PX + sum(row.height for row in rows) + (len(rows) - 1) * _GAP_PX
-    sheet = Image.new("RGB", (_WIDTH_PX + 2 * _MARGIN_PX, height), PAPER)
-    y = _MARGIN_PX
-    for row in rows:
-        sheet.paste(row, (_MARGIN_PX, y))
-        y += row.height + _GAP_PX
-    return sheet
