@@ -4,7 +4,6 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import TypeVar
 
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.inbox import Inbox
@@ -12,6 +11,7 @@ from host_sim.client.incident import Incident
 from host_sim.client.robot_reports import RobotReports
 from host_sim.client.round_trip import RoundTrip
 from host_sim.client.session import FrameCounts, Session
+from host_sim.client.waiting import Waiting
 from host_sim.errors import RefusedError, RivalError, RobotError, SessionLostError
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import MemoryKind, Opcode, Result
@@ -19,19 +19,13 @@ from host_sim.robot_io import NOTHING_NEAR, Drive, Ranges, Senses
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
 
-T = TypeVar("T")
-
 DEADLINE_S = 5.0
 """Time for the robot to answer before it is given up, s of wall-clock time."""
 
-_LOOK_ALIVE_S = 0.2
-_REPEAT_S = 0.05
 _REPORT_S = 1.0
 _REPORT_DEMANDS = 100
-_DUST_S = 1e-6
 _JUMP = 7
 _TIMED_TICKS = 16
-_WAITING_MAX = 64
 _NO_FRAME = Frame(-1, b"")
 
 
@@ -89,6 +83,7 @@ class RobotClient:
     def __post_init__(self) -> None:
         self.inbox = Inbox(self.protocol, self.log.add, self.now, self.lockstep, self.owner)
         self._take_drive = self.inbox.take_drive
+        self._wait = Waiting(self.link, self.now, self.status, self.round_trip, self.inbox.counts)
 
     @property
     def node(self) -> int:
@@ -203,7 +198,7 @@ class RobotClient:
         self.reports.await_end()
         self.inbox.silent = False
         while not (self._has_reported and self.reports.ended):
-            heard = self._receive(self._take_any, _REPORT_S)
+            heard = self._wait.receive(self._take_any, _REPORT_S)
             if heard is None or self.inbox.silent or self.now() > give_up:
                 break
             if self.reports.ended and not self.reports.complete:
@@ -221,12 +216,12 @@ class RobotClient:
         Raises:
             RobotError: The robot does not report it.
         """
-        if self._receive(self.inbox.take_memory, _REPORT_S) is None:
+        if self._wait.receive(self.inbox.take_memory, _REPORT_S) is None:
             self.demand_reports("report")
 
     def listen(self, seconds: float) -> None:
         """Takes in what comes, for some time."""
-        self._receive(self.inbox.take, seconds)
+        self._wait.receive(self.inbox.take, seconds)
 
     def send_senses(self, senses: Senses) -> None:
         """Sends the senses of one tick, after the distances if the robot wants them, and logs them."""
@@ -248,11 +243,11 @@ class RobotClient:
     def repeat_senses(self) -> None:
         """Sends the senses of the last tick again, and the distances that went before them."""
         if self.wants_ranges:
-            self._repeat(self._ranges)
+            self._wait.repeat(self._ranges)
         self._note_lost_answers(self.inbox.ticks - 1)
         self.inbox.owed += 1
         self._owed_tick = self.inbox.ticks
-        self._repeat(self._senses)
+        self._wait.repeat(self._senses)
 
     def await_drive(self) -> Drive:
         """In lockstep: the answer to the last senses, which are repeated until it comes.
@@ -277,7 +272,7 @@ class RobotClient:
             SessionLostError: The robot may no longer be the one that was started, or no longer be alone.
             RobotError: The robot has ended.
         """
-        return self._receive(self._take_drive, timeout_s)
+        return self._wait.receive(self._take_drive, timeout_s)
 
     def settle(self) -> None:
         """At the end of an environment: makes sure that the reported memory is the robot's, if frames get lost.
@@ -288,7 +283,7 @@ class RobotClient:
         """
         self._note_lost_answers(self.inbox.ticks)
         if self.inbox.owed and not self._lossy:
-            self._receive(self._take_owed, self.deadline_s)
+            self._wait.receive(self._take_owed, self.deadline_s)
         self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.lost > 0
         self.inbox.owed = 0
         self.reports.gap = None
@@ -369,7 +364,7 @@ class RobotClient:
         self.frames.sent += 1
         began, repeated = self.now(), self.frames.repeated
         self.link.send(command)
-        answer = self._await(lambda: self._repeat(command), self.inbox.take_answer, timeout_s)
+        answer = self._wait.receive_or_repeat(lambda: self._wait.repeat(command), self.inbox.take_answer, timeout_s)
         if answer is not None and self.frames.repeated == repeated:
             self.round_trip.sample(self.now() - began)
         return answer
@@ -378,47 +373,12 @@ class RobotClient:
         if was_silent:
             self.status()
             self.repeat_senses()
-        drive = self._await(self.repeat_senses, self._take_drive, self.deadline_s)
+        drive = self._wait.receive_or_repeat(self.repeat_senses, self._take_drive, self.deadline_s)
         if drive is None:
             raise SessionLostError("it does not answer", silent=True)
         if self._timed:
             self.round_trip.note(self.now() - self._sent_s)
         return drive
-
-    def _await(self, repeat: Callable[[], None], take: Callable[[Frame], T | None], timeout_s: float) -> T | None:
-        """Receives frames until one is what was waited for; what was sent is repeated when that takes too long."""
-        left_s, wait_s = timeout_s, self.round_trip.timeout_s
-        while True:
-            result = self._receive(take, min(wait_s, left_s))
-            left_s -= wait_s
-            if result is not None or left_s <= 0:
-                return result
-            repeat()
-            wait_s = min(self.round_trip.timeout_s, _REPEAT_S)
-
-    def _repeat(self, frame: Frame) -> None:
-        if self.round_trip.is_sure:
-            self.round_trip.back_off()
-        self.link.send(frame)
-        self.frames.repeated += 1
-
-    def _receive(self, take: Callable[[Frame], T | None], timeout_s: float) -> T | None:
-        """Receives frames until one is what was waited for, or until the timeout.
-
-        Only the time of waiting counts: a host that was held up, or a line that was gone, costs the robot nothing.
-        """
-        left_s, spare = timeout_s, _WAITING_MAX
-        while True:
-            asked_s, before_s = min(left_s, _LOOK_ALIVE_S), self.now()
-            frame = self.link.receive(asked_s)
-            if frame is None:
-                self.status()
-            elif (result := take(frame)) is not None:
-                return result
-            left_s = max(left_s - min(self.now() - before_s, asked_s), 0.0)
-            spare -= left_s <= _DUST_S  # what waits already is taken in, even if this host was held up
-            if left_s <= _DUST_S and (frame is None or not spare or not timeout_s):
-                return None
 
     def _take_any(self, frame: Frame) -> bool:
         self.inbox.take(frame)

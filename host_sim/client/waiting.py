@@ -1,0 +1,74 @@
+"""Waiting for a robot's frames: for as long as the robot has been given, whatever holds up this host."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TypeVar
+
+from host_sim.client.round_trip import RoundTrip
+from host_sim.client.session import FrameCounts
+from host_sim.protocol.codec import Frame
+from host_sim.transport.link import Link
+
+T = TypeVar("T")
+
+_LOOK_ALIVE_S = 0.2
+_REPEAT_S = 0.05
+_DUST_S = 1e-6
+_WAITING_MAX = 64
+
+
+@dataclass(frozen=True)
+class Waiting:
+    """Receives frames until one is what was waited for.
+
+    Attributes:
+        link: Carries the frames.
+        now: Tells the time in which the link waits, s.
+        status: Raises RobotError if the robot's process has ended.
+        round_trip: How long answers take.
+        counts: Counts what is repeated.
+    """
+
+    link: Link
+    now: Callable[[], float]
+    status: Callable[[], str]
+    round_trip: RoundTrip
+    counts: FrameCounts
+
+    def receive(self, take: Callable[[Frame], T | None], timeout_s: float) -> T | None:
+        """What `take` makes of the first frame that it takes; None after the timeout.
+
+        Only the time of waiting counts: a host that was held up, or a line that was gone, costs the robot nothing.
+        """
+        left_s, spare = timeout_s, _WAITING_MAX
+        while True:
+            asked_s, before_s = min(left_s, _LOOK_ALIVE_S), self.now()
+            frame = self.link.receive(asked_s)
+            if frame is None:
+                self.status()
+            elif (result := take(frame)) is not None:
+                return result
+            left_s = max(left_s - min(self.now() - before_s, asked_s), 0.0)
+            spare -= left_s <= _DUST_S  # what waits already is taken in, even if this host was held up
+            if left_s <= _DUST_S and (frame is None or not spare or not timeout_s):
+                return None
+
+    def receive_or_repeat(
+        self, repeat: Callable[[], None], take: Callable[[Frame], T | None], timeout_s: float
+    ) -> T | None:
+        """As `receive`; `repeat` is called, to send again what is to be answered, when that takes too long."""
+        left_s, wait_s = timeout_s, self.round_trip.timeout_s
+        while True:
+            result = self.receive(take, min(wait_s, left_s))
+            left_s -= wait_s
+            if result is not None or left_s <= 0:
+                return result
+            repeat()
+            wait_s = min(self.round_trip.timeout_s, _REPEAT_S)
+
+    def repeat(self, frame: Frame) -> None:
+        """Sends a frame again."""
+        if self.round_trip.is_sure:
+            self.round_trip.back_off()
+        self.link.send(frame)
+        self.counts.repeated += 1
