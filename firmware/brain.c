@@ -2,6 +2,7 @@
 
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/memory_kind.h"
+#include "firmware/memory_write.h"
 
 #define KIND(profile, name, kind) [profile] = kind,
 

@@ -20,11 +20,4 @@ enum side memory_recall(const struct memory *memory, uint8_t pattern);
 void memory_learn(struct memory *memory, uint8_t pattern, enum side side);
         /* Remembers side for pattern 1..7, as a side and nothing else. */
 
-bool memory_adopt(struct memory *memory, const uint8_t cells[CELL_COUNT]);
-        /* Takes over all cells. False, and nothing is changed, if they are a memory of no kind. */
-
-bool memory_write(struct memory *memory, enum memory_kind kind, uint8_t which, uint32_t bytes);
-        /* Sets the i-th cell of a half, the lower four or with bit 4 of which the upper, to byte i of bytes for each bit i,
-           0..3, of which. False, and nothing is changed, if they are no memory of that kind then. */
-
 #endif

@@ -76,7 +76,7 @@ FAULTS = {
     "pattern counts two sensors only": Fault("pattern", "pattern_count", "return real(pattern & 3);"),
     "pattern is one bit off": Fault("pattern", "pattern_of", "return real(feel >> 1);"),
     "memory takes a side for cell 0": Fault(
-        "memory",
+        "memory_write",
         "memory_adopt",
         """
         uint8_t allowed[CELL_COUNT];
@@ -86,7 +86,7 @@ FAULTS = {
         """,
     ),
     "memory takes what is no side": Fault(
-        "memory",
+        "memory_write",
         "memory_adopt",
         """
         uint8_t allowed[CELL_COUNT];
@@ -274,6 +274,7 @@ CANARY = """\
 #include "firmware/confidence.h"
 #include "firmware/feel_memory.h"
 #include "firmware/memory_kind.h"
+#include "firmware/memory_write.h"
 #include "firmware/pattern.h"
 #include "firmware/robot.h"
 

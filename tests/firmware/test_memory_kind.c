@@ -1,6 +1,7 @@
 #include "firmware/memory_kind.h"
 
 #include "firmware/feel_memory.h"
+#include "firmware/memory_write.h"
 
 #include <unity.h>
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "firmware/memory_kind.h"
+#include "firmware/memory_write.h"
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 

@@ -1,4 +1,5 @@
 #include "firmware/brain.h"
+#include "firmware/memory_write.h"
 
 #include <unity.h>
 
