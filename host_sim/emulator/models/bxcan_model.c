@@ -1,35 +1,17 @@
+/* Registers of the bxCAN, and what they are after a reset. */
 #include "host_sim/emulator/models/bxcan_parts.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
-
-#define NEVER UINT64_MAX
 
 enum {
     MCR = 0x00, MSR = 0x04, TSR = 0x08, RF0R = 0x0C, RF1R = 0x10, IER = 0x14, ESR = 0x18, BTR = 0x1C,
     MAILBOX_0 = 0x180, OUTPUT_0 = 0x1B0, OUTPUT_END = 0x1D0, FMR = 0x200, FA1R = 0x21C, BANK_0 = 0x240,
 
-    INRQ = 1 << 0, SLEEP = 1 << 1, MASTER_RESET = 1 << 15,
-    MCR_RESET = 0x00010002, MSR_LEVELS = 0xC00, BTR_RESET = 0x01230000, FMR_RESET = 0x2A1C0E01,
-    EWGF = 1 << 0, EPVF = 1 << 1, BOFF = 1 << 2,
-
-    WARNING = 96,
-    IDLE_NS = 11 * WIRE_BIT_NS,          /* 11 recessive bits: the bus is idle, and can be joined or left */
-    RECOVERY_NS = 128 * IDLE_NS
+    MASTER_RESET = 1 << 15,
+    MCR_RESET = 0x00010002, MSR_LEVELS = 0xC00, BTR_RESET = 0x01230000, FMR_RESET = 0x2A1C0E01
 };
 
 static const uint32_t UNDEFINED = 0xA5A5A5A5u;
-
-bool bxcan_refuse(struct bxcan *can, const char *format, ...)
-{
-    va_list details;
-
-    va_start(details, format);
-    (void)vsnprintf(can->refusal, sizeof can->refusal, format, details);
-    va_end(details);
-    return false;
-}
 
 void bxcan_open(struct bxcan *can, struct can_wire *wire, unsigned bank_count)
 {
@@ -46,7 +28,7 @@ void bxcan_reset(struct bxcan *can)
     can->btr = BTR_RESET;
     can->ier = 0;
     can->mode = can->wanted = BXCAN_SLEEP;
-    can->mode_ns = can->recovery_ns = NEVER;
+    can->mode_ns = can->recovery_ns = BXCAN_NEVER;
     can->tec = can->rec = can->last_error = 0;
     can->bus_off = false;
     can->on_wire = -1;
@@ -61,76 +43,11 @@ void bxcan_reset(struct bxcan *can)
     can->filters.words[0] = FMR_RESET;
 }
 
-/* ---- modes */
-
-static void ask_mode(struct bxcan *can)
-{
-    enum bxcan_mode wanted = can->mcr & SLEEP ? BXCAN_SLEEP : can->mcr & INRQ ? BXCAN_INIT : BXCAN_NORMAL;
-
-    if (wanted == can->wanted)
-        return;
-    can->wanted = wanted;
-    can->mode_ns = wanted == BXCAN_INIT && can->init_stuck ? NEVER : can->wire->now_ns + IDLE_NS;
-}
-
-void bxcan_recover(struct bxcan *can)
-{
-    can->recovery_ns = can->recovery_stuck ? NEVER : can->wire->now_ns + RECOVERY_NS;
-}
-
-/* The bit rate must be within 0.5 % of the bus's. */
-static void join(struct bxcan *can)
-{
-    uint32_t quanta = 1 + (can->btr >> 16 & 15u) + 1 + (can->btr >> 20 & 7u) + 1;
-    uint32_t rate = can->clock_hz / ((can->btr & 0x3FFu) + 1) / quanta;
-
-    if (rate > WIRE_BITRATE + WIRE_BITRATE / 200 || rate < WIRE_BITRATE - WIRE_BITRATE / 200)
-        (void)bxcan_refuse(can, "CAN1 was set up for %u bit/s, on a bus of %d", (unsigned)rate, WIRE_BITRATE);
-    if (can->bus_off)   /* leaving init is how a driver asks for the end of bus-off */
-        bxcan_recover(can);
-}
-
 uint64_t bxcan_advance(struct bxcan *can)
 {
-    uint64_t now = can->wire->now_ns;
-    bool blocked = can->wire->busy && can->wanted == BXCAN_NORMAL;
-
     bxcan_release_due(can);
-    if (can->mode_ns <= now && !blocked) {
-        can->mode = can->wanted;
-        can->mode_ns = NEVER;
-        can->inits += can->mode == BXCAN_INIT;
-        if (can->mode == BXCAN_NORMAL)
-            join(can);
-    }
-    if (can->recovery_ns <= now) {
-        can->recovery_ns = NEVER;
-        can->tec = can->rec = can->last_error = 0;
-        can->bus_off = false;
-    }
-    if (blocked)
-        return can->recovery_ns;
-    return can->mode_ns < can->recovery_ns ? can->mode_ns : can->recovery_ns;
+    return bxcan_advance_mode(can);
 }
-
-/* ---- errors, after ISO 11898-1 */
-
-bool bxcan_is_passive(const struct bxcan *can)
-{
-    return can->tec >= BXCAN_PASSIVE || can->rec >= BXCAN_PASSIVE;
-}
-
-static uint32_t error_status(const struct bxcan *can)
-{
-    uint32_t flags = can->tec >= WARNING || can->rec >= WARNING ? EWGF : 0;
-    uint32_t tec = can->tec < 255 ? can->tec : 255, rec = can->rec < 255 ? can->rec : 255;
-
-    flags |= bxcan_is_passive(can) ? EPVF : 0u;
-    flags |= can->bus_off ? BOFF : 0u;
-    return flags | can->last_error << 4 | tec << 16 | rec << 24;
-}
-
-/* ---- registers */
 
 static bool write_mcr(struct bxcan *can, uint32_t value)
 {
@@ -139,7 +56,7 @@ static bool write_mcr(struct bxcan *can, uint32_t value)
         return true;
     }
     can->mcr = value;
-    ask_mode(can);
+    bxcan_ask_mode(can);
     return true;
 }
 
@@ -181,7 +98,7 @@ int64_t bxcan_read(struct bxcan *can, uint32_t offset)
     case IER:
         return can->ier;
     case ESR:
-        return error_status(can);
+        return bxcan_error_status(can);
     case BTR:
         return can->btr;
     default:
