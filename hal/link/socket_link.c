@@ -135,11 +135,9 @@ static int receive(struct link *link, struct frame *out, uint32_t wait_ms)
             return unpack(out, &raw, (size_t)size);
         if (size == 0)
             return closed_or_empty(socket->fd);
-        if (errno == EAGAIN)
-            return silence;
         if (errno == ENETDOWN)
             silence = LINK_E_DOWN;   /* said once; the bus may be back before the deadline */
-        else if (errno != EINTR)
+        else if (errno != EINTR && errno != EAGAIN)   /* the kernel, which counts in its own ticks, may end a wait early */
             return LINK_E_CLOSED;
         left_ms = deadline_left_ms(deadline);
     } while (left_ms > 0);

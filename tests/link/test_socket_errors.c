@@ -205,6 +205,12 @@ static void test_a_receive_that_is_always_interrupted_ends(void)
     assert_receive(0, WAIT_MS);
 }
 
+static void test_a_wait_that_the_kernel_ends_early_is_waited_to_its_end(void)
+{
+    recv_fault = (struct fault){.error = EAGAIN, .first = 1, .each_ms = WAIT_MS / 2};
+    assert_receive(0, WAIT_MS);
+}
+
 static void test_a_bus_that_is_down_says_so_after_the_wait(void)
 {
     recv_fault = (struct fault){.error = ENETDOWN, .first = 1};
@@ -296,6 +302,7 @@ int main(void)
     RUN_TEST(test_a_send_to_an_interface_that_is_gone_is_closed);
     RUN_TEST(test_an_interrupted_receive_is_tried_again);
     RUN_TEST(test_a_receive_that_is_always_interrupted_ends);
+    RUN_TEST(test_a_wait_that_the_kernel_ends_early_is_waited_to_its_end);
     RUN_TEST(test_a_bus_that_is_down_says_so_after_the_wait);
     RUN_TEST(test_a_bus_that_stays_down_says_so_after_the_wait);
     RUN_TEST(test_a_frame_after_the_bus_was_down_arrives);
