@@ -32,6 +32,8 @@ from tests.recording.support import finished
 DEADLINE_S = 600
 WATCH = (sys.executable, "-m", "host_sim", "watch", "--terminal", "--seed", "3")
 LEAVE_FULL_SCREEN = b"\x1b[?1049l"
+CHANGED_TO_2 = b"\x1b[1;13H2"
+"""Of "environment 1 of 5" in the first line, only the changed number is sent."""
 
 
 def view_of(trajectory: Trajectory, tick: int) -> View:
@@ -253,7 +255,7 @@ def test_keys_do_what_they_say(terminal, tmp_path):
     terminal.press(b" ")
     terminal.read_until(b"paused")
     terminal.press(b"n")
-    time.sleep(0.5)
+    terminal.read_until(CHANGED_TO_2)
     terminal.press(b"q")
 
     assert terminal.end() == 0
