@@ -90,6 +90,7 @@ ELSEWHERE = {
     "can",
     "cantools",
     "concurrent",
+    "difflib",
     "gymnasium",
     "host_sim.backends.qemu",
     "host_sim.faults.faulty_link",
@@ -97,10 +98,12 @@ ELSEWHERE = {
     "host_sim.report",
     "host_sim.study",
     "multiprocessing",
+    "numpy",
     "pandas",
     "pyarrow",
     "pycparser",
     "subprocess",
+    "tomllib",
 }
 """What only other runs and other commands need, or a run later than in its first tick."""
 

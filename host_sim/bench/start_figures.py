@@ -24,7 +24,7 @@ def start_figure() -> Figure:
         unit="ms",
         bar="",
         reached=ours <= _RATIO_MAX * numpy,
-        bound="imports, of which numpy is the half",
+        bound="imports, and reading the C code's interface",
         reference=f"Python with numpy: {numpy:.0f} ms",
         ratio=round(ours / numpy, 2),
         ratio_bar=f"<= {_RATIO_MAX}",

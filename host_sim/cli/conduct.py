@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from host_sim.atomic_file import write_bytes
 from host_sim.cli.interruption import interrupted_between_ticks
-from host_sim.cli.outputs import LOG, PAGE, PICTURE, SUMMARY, Outputs
-from host_sim.cli.run_options import RunOptions, WatchOptions, run_options
+from host_sim.cli.outputs import PAGE, PICTURE, SUMMARY, Outputs
+from host_sim.cli.run_options import LOGS, RunOptions, WatchOptions, run_options
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
@@ -65,7 +65,7 @@ def conduct(options: RunOptions) -> Summary:
         _announce(options, loaded)
         with ExitStack() as stack:
             listener = _open_listener(stack, options.watch)
-            log = FrameLog(options.out / LOG)
+            log = FrameLog(options.log)
             stack.callback(log.close)
             memories = _first_memories(options, loaded)
             simulation = stack.enter_context(
@@ -96,7 +96,7 @@ def _announce(options: RunOptions, loaded: Sequence[Memory | None]) -> None:
     for path, memory in zip(_memory_paths(options), loaded, strict=True):
         if memory is None:
             print(f"memory    {path} does not exist yet: the robot begins with an empty memory")
-    if (options.out / LOG).exists():
+    if any((options.out / name).exists() for name in LOGS):
         print(f"replaces  the run in {options.out}{_seed_of(options.out / SUMMARY)}")
 
 
@@ -285,6 +285,6 @@ def _print_results(options: RunOptions, summary: Summary) -> None:
         sys.stdout.write(summary.to_json())
     elif options.talks:
         print(summary.for_people())
-        files = (options.out / name for name in (PAGE, PICTURE, SUMMARY, LOG))
+        files = (*(options.out / name for name in (PAGE, PICTURE, SUMMARY)), options.log)
         print(f"wrote     {', '.join(str(path) for path in files if path.exists())}")
         print(summary.ending())

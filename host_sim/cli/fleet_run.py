@@ -63,6 +63,7 @@ def _check(options: RunOptions) -> None:
         "--change": config.changes != default.changes,
         "--fault": config.faults != default.faults,
         "--memory": options.memory is not None,
+        "--compress-log": options.compress_log,
         "--real-time": config.real_time,
     }
     for name in (name for name, given in unsuited.items() if given):

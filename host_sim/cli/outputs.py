@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from host_sim.cli.run_options import RunOptions
+from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
@@ -14,8 +14,8 @@ from host_sim.recording.world_file import world_path, write_world
 from host_sim.sim.simulation import EpisodeResult, Simulation
 from host_sim.view.news import news_of
 
-LOG, SUMMARY, PICTURE, PAGE = "run.log", "summary.json", "arena.png", "replay.html"
-"""The files in a run's output folder, beside the world file of the log."""
+SUMMARY, PICTURE, PAGE = "summary.json", "arena.png", "replay.html"
+"""The files in a run's output folder, beside the log and its world file."""
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -64,12 +64,13 @@ class Outputs:
         Raises:
             OctetError: The log could not be written.
         """
-        out = self.options.out
+        out, log = self.options.out, self.options.log
         self.log.flush()
-        for path in (out / SUMMARY, out / PICTURE, out / PAGE, world_path(out / LOG)):
+        others = (out / name for name in (SUMMARY, PICTURE, PAGE, *LOGS) if out / name != log)
+        for path in (*others, world_path(log)):
             path.unlink(missing_ok=True)
         digest = self.log.close()
-        write_world(self.simulation.record, world_path(out / LOG))
+        write_world(self.simulation.record, world_path(log))
         return digest
 
     def _draw(self) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from host_sim.backends.images import BOARDS
 from host_sim.cli.parsing import add_bitrate, number, setting
+from host_sim.client.frame_log import COMPRESSED
 from host_sim.faults.bus_faults import FAULTS
 from host_sim.protocol.generated import NODE_MAX, PROFILES
 from host_sim.sim.run_config import ROBOTS, RunConfig
@@ -21,6 +22,10 @@ _ROBOT_HELP = (
     "spawn: start the firmware here; external: wait for a robot on the bus; "
     "qemu, emulated: run the flash image in QEMU or on an emulated board" + _DEFAULT
 )
+
+
+LOGS = ("run.log", f"run.log{COMPRESSED}")
+"""The log in a run's output folder: the plain one and the compressed one."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +55,7 @@ class RunOptions:
         config: Configuration of the run.
         memory: File to load the memory from before the run, and to save it to afterwards; None for no file.
         out: Folder for the output files.
+        compress_log: Whether the log is compressed.
         quiet: Whether to print nothing.
         json: Whether to print only the summary, as JSON.
         watch: How people watch the run; None if they do not.
@@ -58,9 +64,15 @@ class RunOptions:
     config: RunConfig
     memory: Path | None = None
     out: Path = Path("out")
+    compress_log: bool = False
     quiet: bool = False
     json: bool = False
     watch: WatchOptions | None = None
+
+    @property
+    def log(self) -> Path:
+        """The file for the log."""
+        return self.out / LOGS[self.compress_log]
 
     @property
     def talks(self) -> bool:
@@ -153,6 +165,7 @@ def add_run_options(parser: argparse.ArgumentParser, robots_max: int = NODE_MAX)
         metavar="DIR",
         help="folder for page, picture, summary and log" + _DEFAULT,
     )
+    add("--compress-log", action="store_true", help="write the log compressed, as run.log.gz")
     add("--json", action="store_true", help="print only the summary, as JSON")
     add("--quiet", action="store_true", help="print nothing")
 
@@ -225,7 +238,15 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
     given = {name: getattr(arguments, name) for name in names}
     faults = _rules(arguments.fault)
     config = RunConfig(**{**given, "settings": dict(arguments.set), "bus": bus, "faults": faults, "changes": changes})
-    return RunOptions(config, arguments.memory, arguments.out, arguments.quiet, arguments.json, watch)
+    return RunOptions(
+        config,
+        arguments.memory,
+        arguments.out,
+        compress_log=arguments.compress_log,
+        quiet=arguments.quiet,
+        json=arguments.json,
+        watch=watch,
+    )
 
 
 def _rules(texts: Sequence[str]) -> tuple[str, ...]:

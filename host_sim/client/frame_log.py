@@ -9,12 +9,19 @@ import os
 import stat
 from contextlib import suppress
 from pathlib import Path
+from typing import TYPE_CHECKING, BinaryIO
 
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import Frame
 
+if TYPE_CHECKING:
+    from host_sim.compressed_file import CompressedFile
+
 CHANNEL = "octet"
 """The interface name in every log, whatever the bus was."""
+
+COMPRESSED = ".gz"
+"""What the name of a compressed log ends with."""
 
 _FLUSH_LINES = 4096
 _STAMP = f"({{:010d}}.{{:06d}}) {CHANNEL}"
@@ -27,6 +34,8 @@ def line_of(time_us: int, frame: Frame) -> str:
 
 class FrameLog:
     """Writes a log to `PATH.part`, which replaces an old log of the same name only when it is closed, and whole.
+
+    A log whose name ends with .gz is compressed by gzip. Its digest is that of the text.
 
     Without a path nothing is written; the digest is computed all the same.
 
@@ -49,7 +58,7 @@ class FrameLog:
         self._digest = hashlib.sha256()
         self._failed = False
         try:
-            self._file = open(self._part, "wb", opener=_open_regular)  # noqa: SIM115 - closed by close()
+            self._file = _opened(self._part, is_compressed=self._path.suffix == COMPRESSED)
         except OSError as error:
             reason = f"{error.strerror}; choose another folder with --out"
             raise UsageError(f"cannot write {self._part}: {reason}") from None
@@ -94,7 +103,7 @@ class FrameLog:
         """Closes the log; closing it again does nothing. A log without frames does not replace the old one.
 
         Returns:
-            SHA-256 of the log's bytes, in hexadecimal.
+            SHA-256 of the log's lines, in hexadecimal.
 
         Raises:
             OctetError: The file cannot be written; `PATH.part` holds what could be.
@@ -145,6 +154,15 @@ class NoLog(FrameLog):
 
     def add_block(self, text: bytes) -> None:
         """Does nothing."""
+
+
+def _opened(path: Path, *, is_compressed: bool) -> "BinaryIO | CompressedFile":
+    file = open(path, "wb", opener=_open_regular)  # noqa: SIM115 - the log closes it
+    if not is_compressed:
+        return file
+    from host_sim.compressed_file import CompressedFile  # noqa: PLC0415 - other runs begin sooner without
+
+    return CompressedFile(file)
 
 
 def _open_regular(path: str, flags: int) -> int:

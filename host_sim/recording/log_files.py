@@ -5,7 +5,7 @@ import io
 import struct
 import zlib
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from itertools import dropwhile
 from pathlib import Path
@@ -89,7 +89,9 @@ def _text(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
 
 
 def _lines(file: BinaryIO) -> Iterator[bytes]:
-    return iter(partial(file.readline, _LINE_MAX), b"")
+    """The lines, up to the last whole one of a compressed file that was cut short while it was written."""
+    with suppress(EOFError):
+        yield from iter(partial(file.readline, _LINE_MAX), b"")
 
 
 def _has_deltas(file: BinaryIO) -> bool:

@@ -38,7 +38,7 @@ class Summary:
         changes: The changes that were asked for: those that happened, those refused because they could not be, and
             those missed, for which the run or their environment was too short.
         incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run.
-        log_sha256: SHA-256 of run.log, in hexadecimal.
+        log_sha256: SHA-256 of the lines of the log, in hexadecimal.
         wall_s: Duration of the run, s of wall-clock time.
         real_time_factor: Robot time divided by wall-clock time.
     """

@@ -6,10 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from operator import itemgetter
-from typing import NamedTuple, TypeVar
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from host_sim.protocol.generated import CELL_COUNT, Reason
 from host_sim.robot_io import Drive, Senses
@@ -18,6 +15,10 @@ from host_sim.view.news import News
 from host_sim.view.state import EnvironmentScene, State
 from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 T = TypeVar("T")
 Changes = list[tuple[int, T]]
@@ -79,16 +80,22 @@ class RobotTrack:
         at_row = tick - self.first_tick
         return Pose(*self.poses_flat[at_row * AXES : (at_row + 1) * AXES])
 
-    def poses(self) -> NDArray[np.float64]:
+    def poses(self) -> "NDArray[np.float64]":
         """A view of the poses: shape (ticks, 3), x and y in mm, heading in rad. Do not add ticks while it exists."""
+        import numpy as np  # noqa: PLC0415 - a run begins sooner without
+
         return np.frombuffer(self.poses_flat, np.float64).reshape(-1, AXES)
 
-    def column(self, name: str) -> NDArray[np.int16]:
+    def column(self, name: str) -> "NDArray[np.int16]":
         """A view of one field of `ROW`: shape (ticks,). Do not add ticks while it exists."""
+        import numpy as np  # noqa: PLC0415 - see above
+
         return np.frombuffer(self.rows_flat, np.int16).reshape(-1, len(ROW))[:, ROW.index(name)]
 
-    def begun(self, reason: int) -> NDArray[np.int64]:
+    def begun(self, reason: int) -> "NDArray[np.int64]":
         """The ticks in which actions with a reason began."""
+        import numpy as np  # noqa: PLC0415 - see above
+
         news = np.diff(self.column("action"), prepend=np.int16(self.action_before)) != 0
         return np.flatnonzero(news & (self.column("reason") == reason)) + self.first_tick
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.atomic_file import write_bytes
+from host_sim.client.frame_log import COMPRESSED
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import NODE_MAX
 from host_sim.regular_file import read_bytes
@@ -51,8 +52,8 @@ def write_world(record: WorldRecord, path: Path) -> None:
 
 
 def world_path(log: Path) -> Path:
-    """The path of a log's world file: `run.world.json` beside `run.log`."""
-    return log.with_suffix(".world.json")
+    """The path of a log's world file: `run.world.json` beside `run.log` or `run.log.gz`."""
+    return log.with_name(log.name.removesuffix(COMPRESSED)).with_suffix(".world.json")
 
 
 def read_world(path: Path) -> WorldRecord:

@@ -82,7 +82,7 @@ class Plan:
 
     def done(self) -> Image.Image:
         """The finished image."""
-        return self._image.resize(self._size_px, Image.Resampling.BOX)
+        return self._image.reduce(self._oversize)
 
     def _pixels(self, points: Sequence[Point]) -> list[Point]:
         return [(x * self._px_per_mm, y * self._px_per_mm) for x, y in points]

@@ -1,9 +1,10 @@
 """Where something stands in a TOML file, for messages."""
 
-import difflib
 import re
 from collections import Counter
 from collections.abc import Iterable
+
+from host_sim.near_word import near_word
 
 _HEADER = re.compile(r"\s*\[\[?\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
 
@@ -45,5 +46,5 @@ def meant(word: object, words: Iterable[str]) -> str:
     'did you mean article?'
     """
     every = list(words)
-    near = difflib.get_close_matches(str(word), every, n=1)
-    return f"did you mean {near[0]}?" if near else f"there are {', '.join(every)}"
+    near = near_word(str(word), every)
+    return f"did you mean {near}?" if near else f"there are {', '.join(every)}"

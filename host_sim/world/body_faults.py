@@ -3,11 +3,11 @@
 `native/body_faults.c` does the same in C.
 """
 
-import difflib
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from host_sim.near_word import near_word
 from host_sim.robot_io import Ranges, Senses
 from host_sim.world.cones import CONE_BEARINGS_DEG
 
@@ -112,8 +112,8 @@ def with_fault(faults: BodyFaults, what: str, key: int = 0) -> BodyFaults:
     """
     name = what.partition(":")[0]
     if name not in _FAULTS:
-        near = difflib.get_close_matches(name, _FAULTS, 1)
-        raise ValueError(f"did you mean {near[0]!r}?" if near else f"choose from {', '.join(_FAULTS)}")
+        near = near_word(name, _FAULTS)
+        raise ValueError(f"did you mean {near!r}?" if near else f"choose from {', '.join(_FAULTS)}")
     pattern, make, form = _FAULTS[name]
     match = re.fullmatch(pattern, what.removeprefix(name))
     if match is None:

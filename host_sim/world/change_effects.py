@@ -4,14 +4,13 @@ import math
 import random
 from collections.abc import Sequence
 
-import numpy as np
-
 from host_sim.world.arena import Arena
 from host_sim.world.changes import GROW, PLANT, Change
+from host_sim.world.clearance import clearance_mm
 from host_sim.world.edits import AddPlant, ChangeBody, Edit, EditError, GrowPlant
 from host_sim.world.geometry import Plant, Point
 from host_sim.world.params import SimParams
-from host_sim.world.reach import Reach, clearance_mm
+from host_sim.world.reach import Reach
 
 _RADIUS_MM, _GROWTH_MM = 80.0, 40
 _TRIES = 200
@@ -59,9 +58,7 @@ def _is_fair(plant: Plant, arena: Arena, params: SimParams) -> bool:
     if min((math.dist(plant.at, place) for place in (*robots, *food)), default=math.inf) < needed_mm:
         return False
     bars, plants = tuple(arena.obstacles.bars.values()), (*arena.obstacles.plants.values(), plant)
-    if float(clearance_mm(np.array([plant.at]), bars, params)[0]) < plant.radius_mm or not food:
+    if clearance_mm(plant.at, bars, params) < plant.radius_mm or not food:
         return False
     reach = Reach(bars, food[0], params, plants)
-    points = reach.points()
-    beside = (len(points) and np.hypot(*(points - robot).T).min() <= _BESIDE_MM for robot in robots)
-    return all(at in reach for at in food) and all(beside)
+    return all(at in reach for at in food) and all(reach.distance_mm(robot) <= _BESIDE_MM for robot in robots)

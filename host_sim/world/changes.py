@@ -1,11 +1,11 @@
 """Changes that a run is to meet with, as a person writes them: a plant that is put down, motors that are swapped."""
 
-import difflib
 import re
 from dataclasses import dataclass
 from pathlib import Path
 
 from host_sim.errors import UsageError
+from host_sim.near_word import near_word
 from host_sim.regular_file import read_bytes
 from host_sim.world.body_faults import FAULT_NAMES, SOUND, with_fault
 
@@ -85,8 +85,8 @@ def _problem(what: str) -> str | None:
     """What is wrong with a change, and what was meant; None if nothing is."""
     name = what.partition(":")[0]
     if name not in CHANGE_NAMES:
-        near = difflib.get_close_matches(name, CHANGE_NAMES, 1)
-        return f"did you mean {near[0]!r}?" if near else f"choose from {', '.join(CHANGE_NAMES)}"
+        near = near_word(name, CHANGE_NAMES)
+        return f"did you mean {near!r}?" if near else f"choose from {', '.join(CHANGE_NAMES)}"
     if name in _DETAILS:
         pattern, form = _DETAILS[name]
         return None if pattern.fullmatch(what.removeprefix(name)) else f"write {form}"

@@ -1,18 +1,16 @@
 """Changes of the world while robots are in it, by a person or a schedule."""
 
 import math
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
 from host_sim.world.body_faults import noise_key, with_fault
+from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Plant, Point, Pose
 from host_sim.world.params import SimParams
-from host_sim.world.reach import clearance_mm
 from host_sim.world.written_world import BARS_MAX
 
 PLANTS_MAX = 20
@@ -182,7 +180,7 @@ def _put(arena: Arena, edit: Put, params: SimParams) -> None:
         raise EditError("the robot is not in the air")
     others = [other for other in arena.bodies if not (other is body or other.lifted)]
     apart_mm = min((math.dist(edit.pose[:2], other.pose[:2]) for other in others), default=math.inf)
-    room_mm = _room_mm(edit.pose[:2], arena.obstacles.bars.values(), params, arena.obstacles.plants.values())
+    room_mm = clearance_mm(edit.pose[:2], arena.obstacles.bars.values(), params, arena.obstacles.plants.values())
     if min(room_mm, apart_mm - params.body_radius_mm) < params.body_radius_mm:
         raise EditError("there is no room for the robot")
     body.put(edit.pose)
@@ -214,7 +212,7 @@ def _check_bar(arena: Arena, bar: Bar, params: SimParams) -> None:
     if math.dist(bar.a, bar.b) < params.bar_thickness_mm:
         raise EditError("the obstacle is too short")
     standing = (body for body in arena.bodies if not body.lifted)
-    if any(_room_mm(body.pose[:2], [bar], params) < params.body_radius_mm for body in standing):
+    if any(clearance_mm(body.pose[:2], [bar], params) < params.body_radius_mm for body in standing):
         raise EditError("the robot stands there")
 
 
@@ -240,8 +238,3 @@ def _check_inside(point: Point, params: SimParams) -> None:
 def _check_known(number: int, known: Collection[int]) -> None:
     if number not in known:
         raise EditError(f"there is no number {number}")
-
-
-def _room_mm(point: Point, bars: Iterable[Bar], params: SimParams, plants: Iterable[Plant] = ()) -> float:
-    """The distance from a point to the nearest of these bars and plants or a wall."""
-    return float(clearance_mm(np.array([point]), tuple(bars), params, tuple(plants))[0])

@@ -5,11 +5,10 @@ import random
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
-
+from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Point, Pose
 from host_sim.world.params import SimParams
-from host_sim.world.reach import Reach, clearance_mm
+from host_sim.world.reach import Reach
 
 _TRIES = 1000
 
@@ -148,7 +147,7 @@ class World:
             if len(starts) == robots:
                 return replace(layout, other_starts=tuple(starts[1:]))
             start = draw_start(draws, params)
-            clear_mm = float(clearance_mm(np.array([start[:2]]), layout.bars, params)[0])
+            clear_mm = clearance_mm(start[:2], layout.bars, params)
             apart_mm = min(math.dist(start[:2], other[:2]) for other in starts) - params.body_radius_mm
             if start[:2] in reach and min(clear_mm, apart_mm) >= reach_mm:
                 starts.append(start)
@@ -157,9 +156,8 @@ class World:
 
 def is_fair(layout: Layout, params: SimParams) -> bool:
     """Whether nothing is within sensor reach of the start or the food, and the body can get to all the food."""
-    places = np.array([layout.start[:2], *layout.food])
     reach_mm = params.body_radius_mm + params.sensor_reach_mm
-    if clearance_mm(places, layout.bars, params).min() < reach_mm:
+    if any(clearance_mm(place, layout.bars, params) < reach_mm for place in (layout.start[:2], *layout.food)):
         return False
     reach = Reach(layout.bars, layout.start[:2], params)
     return all(point in reach for point in layout.food)

@@ -4,9 +4,6 @@ from collections.abc import Sequence
 from functools import cache
 from typing import Any, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from host_sim.paths import BUILD, ROOT
 from host_sim.world.geometry import Bar
 from host_sim.world.native_library import load_native
@@ -32,7 +29,7 @@ class Grid(NamedTuple):
     room_mm: float
 
 
-def native_reach(bars: Sequence[Bar], start: int, grid: Grid, params: SimParams) -> NDArray[np.bool_]:
+def native_reach(bars: Sequence[Bar], start: int, grid: Grid, params: SimParams) -> bytearray:
     """The cells that can be got to.
 
     Args:
@@ -42,20 +39,20 @@ def native_reach(bars: Sequence[Bar], start: int, grid: Grid, params: SimParams)
         params: The dimensions of the world.
 
     Returns:
-        Shape (rows + 2, columns + 2).
+        1 for each of them, 0 for the others, row by row with the border.
 
     Raises:
         NoNativeError: The library cannot be used.
     """
     ffi, library = _loaded()
-    cells = np.empty((grid.rows + 2, grid.columns + 2), np.bool_)
-    ends, stack = ffi.new("struct reach_bar[]", [(*bar.a, *bar.b) for bar in bars]), ffi.new("uint32_t[]", cells.size)
+    cells = bytearray((grid.rows + 2) * (grid.columns + 2))
+    ends, stack = ffi.new("struct reach_bar[]", [(*bar.a, *bar.b) for bar in bars]), ffi.new("uint32_t[]", len(cells))
     reach: Any = ffi.new("struct reach *")
     reach.width_mm, reach.height_mm = params.width_mm, params.height_mm
     reach.cell_mm, reach.room_mm, reach.bar_radius_mm = grid.cell_mm, grid.room_mm, params.bar_thickness_mm / 2
     reach.rows, reach.columns = grid.rows, grid.columns
     reach.bars, reach.bar_count, reach.stack = ends, len(bars), stack
-    library.reach_find(reach, start, ffi.from_buffer("uint8_t[]", cells.view(np.uint8)))
+    library.reach_find(reach, start, ffi.from_buffer("uint8_t[]", cells))
     return cells
 
 

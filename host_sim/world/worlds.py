@@ -1,12 +1,11 @@
 """The worlds that a run can take place in, by name, and those in files."""
 
-import difflib
 from pathlib import Path
 
 from host_sim.errors import UsageError
+from host_sim.near_word import near_word
 from host_sim.world.corridors import draw_corridors
 from host_sim.world.dead_ends import draw_dead_ends
-from host_sim.world.layout_file import read_layout_file
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
@@ -47,8 +46,10 @@ def world_of(text: str) -> World:
     if text in _WORLDS:
         return _WORLDS[text]
     if text.endswith(".toml"):
+        from host_sim.world.layout_file import read_layout_file  # noqa: PLC0415 - seldom needed, and slow to load
+
         return read_layout_file(Path(text))
-    near = difflib.get_close_matches(text, WORLD_NAMES, 1)
+    near = near_word(text, WORLD_NAMES)
     names = f"choose from {', '.join(WORLD_NAMES)}, or name a file ending in .toml"
-    meant = f"did you mean {near[0]}?" if near else names
+    meant = f"did you mean {near}?" if near else names
     raise UsageError(f"there is no world {text!r}: {meant}")

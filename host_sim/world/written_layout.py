@@ -4,13 +4,11 @@ import math
 import random
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Point, Pose
 from host_sim.world.layouts import Layout, between
 from host_sim.world.params import SimParams
-from host_sim.world.reach import Reach, clearance_mm
+from host_sim.world.reach import Reach
 
 
 @dataclass(frozen=True)
@@ -43,7 +41,7 @@ class WrittenLayout:
         places = [(-1, self.start[:2])] if self.start else []
         places += list(enumerate(self.food))
         for number, at in places:
-            room_mm = float(clearance_mm(np.array([at]), self.bars, params)[0])
+            room_mm = clearance_mm(at, self.bars, params)
             if room_mm < _needed_mm(params):
                 return number, f"{_name(number)} is {_away(room_mm)}; {_needed_mm(params):.0f} mm are needed"
         reach, first = Reach(self.bars, places[0][1], params), _name(places[0][0])
@@ -54,8 +52,12 @@ class WrittenLayout:
 
     def _draw_start(self, draws: random.Random, params: SimParams) -> Pose:
         """A place from which all food can be reached, with nothing in sensor reach: at least that of the food is."""
-        points: NDArray[np.float64] = np.array([*Reach(self.bars, self.food[0], params).points(), *self.food])
-        fair = points[clearance_mm(points, self.bars, params) >= _needed_mm(params)]
+        import numpy as np  # noqa: PLC0415 - a run begins sooner without
+
+        from host_sim.world.grid import clearances_mm  # noqa: PLC0415 - see above
+
+        points = np.array([*Reach(self.bars, self.food[0], params).points(), *self.food])
+        fair = points[clearances_mm(points, self.bars, params) >= _needed_mm(params)]
         x, y = fair[int(draws.random() * len(fair))]
         return Pose(float(x), float(y), between(draws, -math.pi, math.pi))
 

@@ -1,10 +1,10 @@
 """A world that a person wrote, as plain lists of numbers: checked, and made into one that a run can take place in."""
 
-import difflib
 import math
 from collections.abc import Mapping
 from typing import Any
 
+from host_sim.near_word import near_word
 from host_sim.world.geometry import Bar, Point
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
@@ -52,8 +52,8 @@ def world_from(content: Mapping[str, Any], name: str) -> World:
     """
     for key in content:
         if key not in _KEYS:
-            near = difflib.get_close_matches(key, _KEYS, 1)
-            meant = f"did you mean {near[0]!r}?" if near else f"a world has {', '.join(_KEYS)}"
+            near = near_word(key, _KEYS)
+            meant = f"did you mean {near!r}?" if near else f"a world has {', '.join(_KEYS)}"
             raise WrittenError(key, -1, f"there is no {key!r}: {meant}")
     params = _params(content)
     layout = WrittenLayout(_bars(content, params), _food(content, params), _start(content, params))

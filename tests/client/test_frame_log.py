@@ -1,5 +1,6 @@
 """The log of a run: whole, or not in the place of the old one."""
 
+import gzip
 import hashlib
 import os
 import resource
@@ -8,15 +9,21 @@ from pathlib import Path
 import pytest
 
 from host_sim.client.frame_log import FrameLog, line_of
+from host_sim.compressed_file import CompressedFile
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import Frame
 
 FRAME = Frame(0x081, bytes(range(8)))
 
 
-@pytest.fixture
-def path(tmp_path):
-    return tmp_path / "run.log"
+@pytest.fixture(params=["run.log", "run.log.gz"])
+def path(request, tmp_path):
+    return tmp_path / request.param
+
+
+def text_in(path: Path) -> bytes:
+    content = path.read_bytes()
+    return gzip.decompress(content) if path.suffix == ".gz" else content
 
 
 def test_what_is_added_is_written_and_its_digest_is_returned(path):
@@ -26,8 +33,8 @@ def test_what_is_added_is_written_and_its_digest_is_returned(path):
 
     digest = log.close()
 
-    assert path.read_text() == line_of(1_020_000, FRAME) + "\n"
-    assert digest == hashlib.sha256(path.read_bytes()).hexdigest()
+    assert text_in(path).decode() == line_of(1_020_000, FRAME) + "\n"
+    assert digest == hashlib.sha256(text_in(path)).hexdigest()
 
 
 def test_the_old_log_stays_until_the_new_one_is_closed(path):
@@ -37,7 +44,7 @@ def test_the_old_log_stays_until_the_new_one_is_closed(path):
 
     assert path.read_text() == "old"
     log.close()
-    assert path.read_text() != "old"
+    assert path.read_bytes() != b"old"
 
 
 def test_a_log_without_a_frame_does_not_replace_the_old_one(path):
@@ -46,16 +53,17 @@ def test_a_log_without_a_frame_does_not_replace_the_old_one(path):
     FrameLog(path).close()
 
     assert path.read_text() == "old"
-    assert [file.name for file in path.parent.iterdir()] == ["run.log"]
+    assert [file.name for file in path.parent.iterdir()] == [path.name]
 
 
 def test_a_log_that_could_not_be_written_does_not_replace_the_old_one(path):
     path.write_text("old")
     log = FrameLog(path)
     log._file.close()
-    log._file = Path("/dev/full").open("wb", buffering=0)  # noqa: SIM115 - the log closes it
+    full = Path("/dev/full").open("wb", buffering=0)  # noqa: SIM115 - the log closes it
+    log._file = CompressedFile(full) if path.suffix == ".gz" else full
 
-    with pytest.raises(OctetError, match=r"cannot write .*run\.log\.part: No space left on device"):
+    with pytest.raises(OctetError, match=r"cannot write .*run\.log.*\.part: No space left on device"):
         add_many(log)
     log.close()
 
@@ -78,7 +86,7 @@ def make_link(part):
 
 @pytest.mark.parametrize("make", [make_pipe, make_link])
 def test_a_part_file_that_is_something_else_is_refused_and_left(path, make):
-    part = path.with_name("run.log.part")
+    part = path.with_name(f"{path.name}.part")
     make(part)
 
     with pytest.raises(UsageError, match="choose another folder"):
@@ -89,8 +97,8 @@ def test_a_part_file_that_is_something_else_is_refused_and_left(path, make):
     assert not elsewhere.exists() or elsewhere.read_text() == "mine"
 
 
-def test_a_log_on_a_full_disk_fails_once(tmp_path):
-    log = FrameLog(tmp_path / "run.log")
+def test_a_log_on_a_full_disk_fails_once(path):
+    log = FrameLog(path)
     log.add(Frame(1, bytes(8)))
     _, most = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (10, most))

@@ -3,16 +3,14 @@
 import math
 import random
 
-import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from host_sim.robot_io import Senses
 from host_sim.world.arena import Arena
+from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Point, Pose, ahead_of
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams
-from host_sim.world.reach import clearance_mm
 
 PARAMS = SimParams()
 MIDDLE = Pose(2000.0, 1500.0, 0.7)
@@ -206,7 +204,7 @@ def test_a_corner_holds_the_robot(opening_deg: float) -> None:
 
     drive(arena, 430.0, 420.0, 500)
 
-    room = clearance_mm(_row(arena.body.pose), bars, PARAMS)[0]
+    room = clearance_mm(arena.body.pose[:2], bars, PARAMS)
     assert room == pytest.approx(RADIUS, abs=0.1)
     assert arena.body.pose.x_mm < tip[0]
 
@@ -220,7 +218,7 @@ def test_the_body_never_gets_into_an_obstacle(seed: int) -> None:
         for _ in range(40):
             arena.body.move(left, right)
             touched = touched or (arena.body.touches > 0)
-            assert clearance_mm(_row(arena.body.pose), layout.bars, PARAMS)[0] > RADIUS - 0.02
+            assert clearance_mm(arena.body.pose[:2], layout.bars, PARAMS) > RADIUS - 0.02
     assert touched == (arena.body.collisions > 0)
 
 
@@ -256,7 +254,3 @@ def test_the_same_drives_give_the_same_senses_bit_for_bit(seed: int) -> None:
     assert roam(seed, 5000) == first
     assert len({senses.feel for senses in first}) > 5
     assert any(senses.bump for senses in first)
-
-
-def _row(pose: Pose) -> NDArray[np.float64]:
-    return np.array([pose[:2]])

@@ -8,22 +8,22 @@ import pytest
 
 from host_sim.world.body import rolled
 from host_sim.world.geometry import Bar, Pose, ahead_of
+from host_sim.world.grid import clearances_mm
 from host_sim.world.layouts import Layout, NoRoomError, generate
 from host_sim.world.params import SimParams
-from host_sim.world.reach import clearance_mm
 
 PARAMS = SimParams()
 
 
 def room_mm(layout: Layout, *points: tuple[float, float]) -> list[float]:
-    return [float(room) for room in clearance_mm(np.array(points), layout.bars, PARAMS)]
+    return [float(room) for room in clearances_mm(np.array(points), layout.bars, PARAMS)]
 
 
 def can_reach(layout: Layout, goal: tuple[float, float]) -> bool:
     """A second opinion on the generator's proof: steps of 20 mm from place to place where the body fits."""
     step = 20.0
     y, x = np.mgrid[0 : PARAMS.height_mm : step, 0 : PARAMS.width_mm : step]
-    fits = clearance_mm(np.column_stack([x.ravel(), y.ravel()]), layout.bars, PARAMS) >= PARAMS.body_radius_mm
+    fits = clearances_mm(np.column_stack([x.ravel(), y.ravel()]), layout.bars, PARAMS) >= PARAMS.body_radius_mm
     free = fits.reshape(x.shape)
     reached = np.zeros_like(free)
     reached[round(layout.start.y_mm / step), round(layout.start.x_mm / step)] = True

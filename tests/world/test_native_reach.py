@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 
 from host_sim.world import native_reach
-from host_sim.world.geometry import Bar
+from host_sim.world.clearance import clearance_mm
+from host_sim.world.geometry import Bar, Plant
+from host_sim.world.grid import clearances_mm, flooded, free_cells
 from host_sim.world.layouts import generate
 from host_sim.world.native_library import NoNativeError
 from host_sim.world.native_reach import HEADER
 from host_sim.world.params import SimParams
-from host_sim.world.reach import Reach, flooded, free_cells, grid_of
+from host_sim.world.reach import Reach, grid_of
 
 PARAMS = SimParams()
 SEEDS = range(300)
@@ -40,7 +42,7 @@ def test_the_same_cells_are_reached_in_300_crowded_layouts():
         in_c = native_reach.native_reach(bars, start, grid, PARAMS)
         in_python = flooded(free_cells(bars, grid, PARAMS), start)
 
-        assert np.array_equal(in_c, in_python), seed
+        assert in_c == in_python.tobytes(), seed
         unlike += 0 < in_python.sum() < free_cells(bars, grid, PARAMS).sum()
     assert unlike > 20, "hardly a layout had a free cell that cannot be reached"
 
@@ -78,4 +80,16 @@ def test_a_library_of_another_version_is_not_used(tmp_path, monkeypatch):
 def test_a_start_in_a_blocked_cell_reaches_nothing():
     bars = (Bar((900.0, 1000.0), (1100.0, 1000.0)),)
 
-    assert not Reach(bars, (1000.0, 1000.0), PARAMS).cells.any()
+    assert not any(Reach(bars, (1000.0, 1000.0), PARAMS).cells)
+
+
+def test_the_room_around_a_place_is_the_same_with_numpy_and_without_to_the_last_bit():
+    for seed in SEEDS:
+        draws = random.Random(seed)
+        bars = tuple(random_bar(draws) for _ in range(draws.randint(0, 20)))
+        plants = tuple(Plant((draws.uniform(0.0, 4000.0), 1000.0), 80.0) for _ in range(draws.randint(0, 3)))
+        points = [(draws.uniform(-100.0, 4100.0), draws.uniform(-100.0, 3100.0)) for _ in range(20)]
+
+        one_by_one = [clearance_mm(point, bars, PARAMS, plants) for point in points]
+
+        assert one_by_one == clearances_mm(np.array(points), bars, PARAMS, plants).tolist(), seed

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from host_sim.errors import UsageError
+from host_sim.world.grid import clearances_mm
 from host_sim.world.layouts import Layout, World, generate
 from host_sim.world.params import SimParams
-from host_sim.world.reach import clearance_mm
 from host_sim.world.world_names import WORLD_NAMES
 from host_sim.world.worlds import world_of
 
@@ -20,7 +20,7 @@ def can_reach(world: World, layout: Layout, goal: tuple[float, float]) -> bool:
     params, step = world.params, 20.0
     y, x = np.mgrid[0 : params.height_mm : step, 0 : params.width_mm : step]
     places = np.column_stack([x.ravel(), y.ravel()])
-    free = (clearance_mm(places, layout.bars, params) >= params.body_radius_mm).reshape(x.shape)
+    free = (clearances_mm(places, layout.bars, params) >= params.body_radius_mm).reshape(x.shape)
     reached = np.zeros_like(free)
     reached[round(layout.start.y_mm / step), round(layout.start.x_mm / step)] = True
     while True:
@@ -42,7 +42,7 @@ def test_every_environment_of_every_world_is_fair(name):
     for seed in SEEDS:
         layout = world.generate(seed, 1)
 
-        assert clearance_mm(np.array([layout.start[:2], *layout.food]), layout.bars, world.params).min() >= needed_mm
+        assert clearances_mm(np.array([layout.start[:2], *layout.food]), layout.bars, world.params).min() >= needed_mm
         assert all(can_reach(world, layout, food) for food in layout.food)
 
 

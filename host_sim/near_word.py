@@ -1,0 +1,14 @@
+"""What was probably meant by a word that is not among those that there are."""
+
+from collections.abc import Iterable
+
+
+def near_word(word: str, words: Iterable[str]) -> str | None:
+    """The word that looks most like it; None if none does.
+
+    >>> near_word("corridor", ["random", "corridors"])
+    'corridors'
+    """
+    from difflib import get_close_matches  # noqa: PLC0415 - only mistakes need it
+
+    return next(iter(get_close_matches(word, list(words), 1)), None)

@@ -1,0 +1,93 @@
+"""Runs whose log is compressed: however they end, what was recorded can be read."""
+
+import gzip
+import json
+from pathlib import Path
+
+import pytest
+
+from host_sim.client.frame_log import FrameLog
+from host_sim.recording.log_reader import read_log
+from host_sim.recording.resimulation import resimulate
+from tests.runs.doomed import Witness, run_doomed, with_full_disk
+from tests.runs.support import octet, start_octet, wait_until
+
+SHORT = ("--environments", "1", "--limit-s", "20", "--bus", "none", "--quiet")
+FILES = {"run.world.json", "summary.json", "arena.png", "replay.html"}
+KEPT_BACK = 1 << 16
+
+
+@pytest.fixture(scope="module")
+def plain(tmp_path_factory) -> Path:
+    out = tmp_path_factory.mktemp("plain")
+    assert octet("run", *SHORT, "--out", out).returncode == 0
+    return out
+
+
+def test_it_has_the_same_lines_and_the_same_digest(plain, tmp_path):
+    assert octet("run", *SHORT, "--compress-log", "--out", tmp_path).returncode == 0
+
+    digests = {json.loads((out / "summary.json").read_text())["log_sha256"] for out in (plain, tmp_path)}
+    assert {path.name for path in tmp_path.iterdir()} == {"run.log.gz", *FILES}
+    assert gzip.decompress((tmp_path / "run.log.gz").read_bytes()) == (plain / "run.log").read_bytes()
+    assert len(digests) == 1
+    assert octet("replay", tmp_path / "run.log.gz").returncode == 0
+
+
+def test_it_replaces_a_plain_one_and_the_other_way_round(tmp_path):
+    for words, name in (((), "run.log"), (("--compress-log",), "run.log.gz"), ((), "run.log")):
+        done = octet("run", *SHORT[:-1], *words, "--out", tmp_path)
+
+        assert {path.name for path in tmp_path.iterdir()} == {name, *FILES}
+        assert f"{tmp_path / name}\n" in done.stdout
+    assert f"replaces  the run in {tmp_path} (seed 1)\n" in done.stdout
+
+
+def test_wherever_it_is_cut_off_what_is_there_is_read(plain, tmp_path):
+    text, cut = (plain / "run.log").read_bytes(), tmp_path / "run.log.gz"
+    log = FrameLog(cut)
+    for line in text.splitlines(keepends=True):
+        log.add_block(line)
+    log.close()
+    whole, frames = cut.read_bytes(), list(read_log(plain / "run.log"))
+    for size in range(200, len(whole), len(whole) // 25):
+        cut.write_bytes(whole[:size])
+
+        read = list(read_log(cut))
+
+        assert frames[: len(read)] == read
+        assert len(read) > 0
+
+
+def test_of_a_run_that_was_killed_all_but_the_last_64_kb_are_there(tmp_path):
+    part = tmp_path / "run.log.gz.part"
+    long = ("--environments", "30", "--bus", "fd", "--quiet")
+    process = start_octet("run", *long, "--compress-log", "--out", tmp_path)
+    wait_until(lambda: part.exists() and part.stat().st_size > KEPT_BACK, f"64 kB in {part}")
+
+    process.kill()
+    process.communicate()
+
+    replayed = octet("replay", part)
+    assert replayed.returncode == 0, replayed.stderr
+    assert "; the log ends before the run does" in replayed.stdout
+    assert resimulate(part, ignore_world=True).trajectory.ticks > 1000
+
+
+@pytest.mark.parametrize("size", [3000, 30_000])
+def test_on_a_full_disk_the_run_ends_in_order_and_what_fitted_can_be_read(tmp_path, size):
+    witness = Witness()
+
+    fate = run_doomed(tmp_path, with_full_disk(size), witness, "--compress-log")
+
+    part = tmp_path / "out/run.log.gz.part"
+    assert (fate.status, fate.is_orderly) == (1, True), fate.errors
+    assert part.stat().st_size == size
+    assert sum(1 for _ in read_log(part)) > size // 40
+
+
+def test_a_fleet_has_no_log_to_compress(tmp_path):
+    done = octet("run", "--robots", "100", "--compress-log", "--out", tmp_path)
+
+    assert done.returncode == 2
+    assert done.stderr.endswith("leave --compress-log out\n")
