@@ -226,7 +226,7 @@ class Inbox:
             self.silent = True
             self._check_heartbeat(decoded)
             return
-        arrival = self.reports.judge(frame, decoded, self.counts.missing)
+        arrival = self._arrival(frame, decoded)
         if arrival in (Arrival.AGAIN, Arrival.LATE):
             self.counts.duplicate += 1
             return
@@ -238,6 +238,16 @@ class Inbox:
             return
         self._accept(frame)
         self._check_report(decoded)
+
+    def _arrival(self, frame: Frame, decoded: DecodedFrame) -> Arrival:
+        """Compares a report with those before it.
+
+        A whole report that cuts another one short repeats the page of FAULTS that the other one ended with, counter and
+        all: after the answer, such a page is what was asked for.
+        """
+        arrival = self.reports.judge(frame, decoded, self.counts.missing)
+        is_asked_for = self.reporting and self._answered and self.reports.is_awaited(decoded)
+        return Arrival.NEW if arrival == Arrival.AGAIN and is_asked_for else arrival
 
     def _check_report(self, decoded: DecodedFrame) -> None:
         if decoded.name == "HEARTBEAT":

@@ -59,6 +59,10 @@ class RobotReports:
         """Whether each report has come since `await_all`."""
         return self._heard >= _WHOLE
 
+    def is_awaited(self, decoded: DecodedFrame) -> bool:
+        """Whether this is a report that has not come since `await_all`."""
+        return _kind(decoded) in _WHOLE - self._heard
+
     def judge(self, frame: Frame, decoded: DecodedFrame, missing: int) -> Arrival:
         """Compares a report with those of its kind before it.
 

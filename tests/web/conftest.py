@@ -1,25 +1,21 @@
 """Debian's Chromium, runs to watch, and pages that are held to their manners."""
 
-import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
 from tests.runs.support import octet
-from tests.web.support import CHROMIUM, READY, Faults, Watched, start_watched, wait_for
+from tests.web.browsers import CHROMIUM, launched
+from tests.web.support import READY, Faults, Watched, start_watched, wait_for
 
 
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
     """Not for the session: while Playwright is at work, no other test in this process can run an event loop."""
-    if not shutil.which(CHROMIUM):
-        pytest.skip(f"chromium: {CHROMIUM} is missing")
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+    with launched(CHROMIUM) as browser:
         yield browser
-        browser.close()
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -1,25 +1,46 @@
-"""Holds runs in Node against those of tools/run, byte for byte: python -m tests.web.page_equality --seeds 20."""
+"""Holds runs in Node or a browser against those of tools/run, byte for byte: python -m tests.web.page_equality -h."""
 
 import argparse
 import sys
 import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from host_sim.protocol.generated import PROFILES
 from tests.runs.support import octet
-from tests.web.page_runs import experiment, run_in_page, words
+from tests.web.browsers import BROWSERS, launched
+from tests.web.page_runs import LOGS, experiment, page_file, run_in_page, words
+
+NODE = "node"
+
+LogOf = Callable[[dict[str, Any]], str]
+"""The log of an experiment."""
 
 
-def differing(folder: Path, profile: str, seed: int, environments: int) -> str:
+@contextmanager
+def page_in(where: str, folder: Path) -> Iterator[LogOf]:
+    """What runs experiments: Node, or one of `BROWSERS`."""
+    if where == NODE:
+        yield lambda wanted: str(run_in_page(folder, wanted)[0]["log"])
+        return
+    with launched(where) as browser:
+        page = browser.new_page()
+        page.goto(page_file(folder).as_uri())
+        yield lambda wanted: str(page.evaluate(LOGS, [wanted])[0])
+
+
+def differing(folder: Path, log_of: LogOf, profile: str, seed: int, environments: int) -> str:
     """What differs; empty if nothing does."""
     wanted = experiment(profile, seed, environments=environments, limit_ticks=30_000)
     done = octet("run", "--bus", "none", "--quiet", "--out", folder / "run", *words(wanted))
     if done.returncode != 0:
         return done.stderr
-    (there,) = run_in_page(folder, wanted)
-    pairs = zip(there["log"].splitlines(), (folder / "run/run.log").read_text().splitlines(), strict=False)
-    lines = (f"line {i}: {here}, not {it}" for i, (here, it) in enumerate(pairs, 1) if here != it)
-    return next(lines, "" if there["log"] == (folder / "run/run.log").read_text() else "another length")
+    here, there = log_of(wanted), (folder / "run/run.log").read_text()
+    pairs = zip(here.splitlines(), there.splitlines(), strict=False)
+    lines = (f"line {i}: {ours}, not {theirs}" for i, (ours, theirs) in enumerate(pairs, 1) if ours != theirs)
+    return next(lines, "" if here == there else "another length")
 
 
 def main() -> int:
@@ -27,16 +48,18 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--environments", type=int, default=5)
+    parser.add_argument("--profiles", nargs="+", choices=PROFILES, default=PROFILES)
+    parser.add_argument("--in", dest="where", choices=(NODE, *BROWSERS), default=NODE)
     arguments = parser.parse_args()
     failed = 0
-    for profile in PROFILES:
-        for seed in range(1, arguments.seeds + 1):
-            with tempfile.TemporaryDirectory() as folder:
-                difference = differing(Path(folder), profile, seed, arguments.environments)
-            failed += bool(difference)
-            sys.stdout.write(f"{profile} {seed}: {difference or 'equal'}\n")
-            sys.stdout.flush()
-    sys.stdout.write(f"{failed} of {len(PROFILES) * arguments.seeds} runs differ\n")
+    with tempfile.TemporaryDirectory() as folder, page_in(arguments.where, Path(folder)) as log_of:
+        for profile in arguments.profiles:
+            for seed in range(1, arguments.seeds + 1):
+                difference = differing(Path(folder), log_of, profile, seed, arguments.environments)
+                failed += bool(difference)
+                sys.stdout.write(f"{profile} {seed}: {difference or 'equal'}\n")
+                sys.stdout.flush()
+    sys.stdout.write(f"{failed} of {len(arguments.profiles) * arguments.seeds} runs differ\n")
     return failed
 
 

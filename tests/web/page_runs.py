@@ -1,4 +1,4 @@
-"""Experiments that a page runs in Node, and how the command line says them."""
+"""Experiments that a page runs, in Node or in a browser, and how the command line says them."""
 
 import json
 from collections.abc import Sequence
@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.world.params import SimParams
+from tests.runs.support import octet
 from tests.web.node import in_node
 
 RUNS = """
@@ -19,6 +20,16 @@ return experiments.map((experiment) => {
 });
 """
 """The log and the run of each experiment."""
+
+LOGS = """async (experiments) => {
+  const logs = [];
+  for (const experiment of experiments) {
+    const parts = await octet.simulator.log(experiment);
+    logs.push(await new Blob(parts).text());
+  }
+  return logs;
+}"""
+"""The log of each experiment, for `Page.evaluate` in the page of `tools/octet page`."""
 
 
 def experiment(profile: str, seed: int, robots: int = 1, **more: Any) -> dict[str, Any]:
@@ -39,3 +50,11 @@ def run_in_page(folder: Path, *wanted: dict[str, Any]) -> Sequence[dict[str, Any
     for file, content in zip(files, (asdict(SimParams()), *wanted), strict=True):
         file.write_text(json.dumps(content))
     return in_node(folder, "simulation.js", RUNS, *files)
+
+
+def page_file(folder: Path) -> Path:
+    """`tools/octet page`."""
+    path = folder / "octet.html"
+    done = octet("page", path)
+    assert (done.returncode, done.stderr) == (0, "")
+    return path

@@ -17,7 +17,6 @@ from host_sim.protocol.codec import DecodedFrame, Protocol
 from host_sim.recording.log_reader import read_log
 from tests.runs.support import ROOT, start_octet
 
-CHROMIUM = "/usr/bin/chromium"
 READY = "window.octet?.scene?.state"
 """Whether a page shows a run."""
 

@@ -12,6 +12,7 @@ from playwright.sync_api import Browser, Page
 
 from host_sim.protocol.generated import PARAMETERS
 from tests.runs.support import octet
+from tests.web.page_runs import page_file
 from tests.web.support import Faults, wait_for, wait_for_text
 from tests.web.test_layout import TOO_SMALL, out_of_view, resize
 from tests.web.test_screens import check
@@ -26,10 +27,7 @@ IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#cells"
 
 @pytest.fixture(scope="module")
 def file(tmp_path_factory) -> Path:
-    path = tmp_path_factory.mktemp("page") / "octet.html"
-    done = octet("page", path)
-    assert (done.returncode, done.stderr) == (0, "")
-    return path
+    return page_file(tmp_path_factory.mktemp("page"))
 
 
 @pytest.fixture
