@@ -3,18 +3,21 @@
 import argparse
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from host_sim.cli.log_options import add_log_options, resimulated
 from host_sim.cli.parsing import add_command
+from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
+    from host_sim.recording.resimulation import Resimulation
 
 _EXAMPLES = """\
 examples:
   tools/octet replay out/run.log                     does the current firmware do the same?
   tools/octet replay out/run.log --html run.html     write the run as a page to play in a browser
+  tools/octet replay out/run.log --html run.html --what-if     and to change: the firmware runs on from any tick
 """
 
 
@@ -33,9 +36,16 @@ def add(commands: "Subparsers") -> None:
     parser.add_argument(
         "--html", type=Path, metavar="FILE", help="instead, write the run to FILE as a page to play in a browser"
     )
+    parser.add_argument(
+        "--what-if",
+        action="store_true",
+        help="with --html: put the firmware into the page, so that it can run on from any tick with what you change",
+    )
 
 
 def _replay(arguments: argparse.Namespace) -> int:
+    if arguments.what_if and arguments.html is None:
+        raise UsageError("--what-if is for a page: name it with --html FILE")
     return _compare(arguments.log, arguments.node) if arguments.html is None else _write_page(arguments)
 
 
@@ -61,6 +71,19 @@ def _write_page(arguments: argparse.Namespace) -> int:
     from host_sim.report.replay_page import write_page
 
     result = resimulated(arguments)
-    write_page(arguments.html, result.trajectory, result.title)
+    laboratory = _laboratory(arguments, result) if arguments.what_if else None
+    write_page(arguments.html, result.trajectory, result.title, laboratory)
     print(f"wrote     {arguments.html}")
     return 0
+
+
+def _laboratory(arguments: argparse.Namespace, result: "Resimulation") -> dict[str, Any]:
+    """What the page needs to ask "What if?", or why it cannot."""
+    from host_sim.recording.log_reader import read_log
+    from host_sim.report.laboratory import NoLaboratoryError, laboratory
+
+    try:
+        return laboratory(read_log(arguments.log), result)
+    except NoLaboratoryError as error:
+        print(f"octet: {error}", file=sys.stderr)
+        return {"why": str(error)}

@@ -1,6 +1,7 @@
 """A run as one HTML page that needs no server.
 
-The page is `web/replay.html` as `page_bundle` puts it together; its element `run` has the run.
+The page is `web/replay.html` as `page_bundle` puts it together; its element `run` has the run, and its element
+`laboratory` what laboratory.py has for it.
 
 The run is one object. Measures, EnvironmentScene and State are as in view/state.py, Trial and Lesson as in
 view/history.py. The value in a pair holds from the pair's tick until that of the next pair; the first pair is that of
@@ -41,7 +42,7 @@ JavaScript, with the inflated bytes b, column c, n ticks and value = 0 before th
 
 import base64
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -61,18 +62,19 @@ _DONE = ("left", "right", "reason", "repeat_count", "action", "pattern", "frozen
 _COLUMNS = (*_POSE, *_SENSED, *_DONE)
 
 
-def write_page(path: Path, trajectory: Trajectory, title: str) -> None:
+def write_page(path: Path, trajectory: Trajectory, title: str, laboratory: Mapping[str, Any] | None = None) -> None:
     """Writes the page of a run; equal runs give equal bytes.
 
     Args:
         path: The file to write; an existing one is replaced.
         trajectory: The run, of at least one tick.
         title: Title of the page.
+        laboratory: What laboratory.py has for the page; None if it has nothing.
 
     Raises:
         OctetError: The file cannot be written.
     """
-    write_bytes(path, page(run_data(trajectory, title)).encode())
+    write_bytes(path, page(run_data(trajectory, title), laboratory).encode())
 
 
 def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:
@@ -129,9 +131,10 @@ def _planes(column: NDArray[np.int64]) -> bytes:
     return planes
 
 
-def page(run: dict[str, Any]) -> str:
+def page(run: dict[str, Any], laboratory: Mapping[str, Any] | None = None) -> str:
     """The page's HTML."""
-    return with_data(page_of(_TEMPLATE), "run", run)
+    text = with_data(page_of(_TEMPLATE), "run", run)
+    return text if laboratory is None else with_data(text, "laboratory", laboratory)
 
 
 def _column(track: RobotTrack, name: str) -> NDArray[np.int64]:

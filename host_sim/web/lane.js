@@ -15,6 +15,11 @@ import { Scene } from "./scene.js";
 const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
 let lanes = 0;
 
+/** The next lane is A again. */
+export function restartNames() {
+  lanes = 0;
+}
+
 /** Shows its run at any tick. `data` and `scene` are there once the first environment was simulated. */
 export class Lane {
   /**
@@ -40,6 +45,11 @@ export class Lane {
     this.scene = undefined;
     /** Counts what was simulated, so that whoever has worked something out knows that it is old. */
     this.version = 0;
+    /**
+     * Settled when what was asked for last is simulated to its end.
+     * @type {Promise<void>}
+     */
+    this.done = Promise.resolve();
   }
 
   /** The last tick that is known. */

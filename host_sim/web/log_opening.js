@@ -2,7 +2,7 @@
 /* The experiment that a recorded log is of: what its commands say, and what its world file has. */
 
 import { CELL_COUNT, FRAMES, OPCODE, PARAMETERS, PROFILES } from "./generated.js";
-import { framesOf, replayLog } from "./log_replay.js";
+import { bytesOf, framesOf, replayLog } from "./log_replay.js";
 import { NativeRun } from "./native_run.js";
 import { Simulation } from "./simulation.js";
 
@@ -14,6 +14,9 @@ import { Simulation } from "./simulation.js";
  * @typedef {import("./types.js").WorldEdit} WorldEdit
  *
  * @typedef {{experiment: Experiment, news: string}} Opened
+ *
+ * A recorded run, as host_sim/report/laboratory.py has it.
+ * @typedef {{commands: [number, number, string][], ticks: number, world: string}} RecordedRun
  *
  * What a world file has.
  * @typedef {{of: number, limit_ticks: number, edits: (WorldEdit & {tick: number})[]}} World
@@ -37,11 +40,36 @@ const EDITS = new Map([
  * @returns {Opened}
  */
 export function openLog(module, params, text, world) {
-  const read = experimentIn(module, text, world ? worldIn(world) : undefined);
+  const read = experimentIn(module, framesOf(text), world ? worldIn(world) : undefined);
   const simulation = new Simulation(module, read, params, true);
   simulation.finish();
   const experiment = { ...read, environments: Math.min(read.environments, simulation.scene.number) };
   return { experiment, news: comparison(module, text, simulation.log ?? []) };
+}
+
+/**
+ * The experiment that a recorded run is of.
+ * @param {WebAssembly.Module} module - page.wasm, compiled.
+ * @param {RecordedRun} recorded
+ * @returns {Experiment}
+ */
+export function recordedExperiment(module, { commands, ticks, world }) {
+  return experimentIn(module, recordedFrames(commands, ticks), world ? worldIn(world) : undefined);
+}
+
+/**
+ * The commands of a recorded run, with one frame of senses for each of its ticks.
+ * @param {RecordedRun["commands"]} commands
+ * @param {number} ticks
+ */
+function* recordedFrames(commands, ticks) {
+  const sensed = { robot: 0, base: FRAMES.SENSES, data: new Uint8Array() };
+  let done = 0;
+  for (const [tick, robot, hex] of commands) {
+    for (; done < tick; done += 1) yield sensed;
+    yield { robot, base: FRAMES.COMMAND, data: bytesOf(hex) };
+  }
+  for (; done < ticks; done += 1) yield sensed;
 }
 
 /**
@@ -86,18 +114,18 @@ function isField(value) {
 
 /**
  * @param {WebAssembly.Module} module
- * @param {string} text
+ * @param {Iterable<{robot: number, base: number, data: Uint8Array}>} frames
  * @param {World | undefined} world
  * @returns {Experiment}
  */
-function experimentIn(module, text, world) {
+function experimentIn(module, frames, world) {
   const native = new NativeRun(module, 1);
   /** @type {RobotSetup[]} */
   const robots = [];
   /** @type {(Change & {tick: number})[]} */
   const changes = [];
   let [seed, ticks] = [0, 0];
-  for (const { robot, base, data } of framesOf(text)) {
+  for (const { robot, base, data } of frames) {
     if (base === FRAMES.SENSES && robot === 0) ticks += 1;
     if (base !== FRAMES.COMMAND) continue;
     const command = native.readCommand(data);

@@ -61,8 +61,15 @@ function frameOf(line, number) {
   if (base === undefined) return undefined;
   const robot = numeric - base;
   if (robot >= ROBOTS_MAX) throw new Error(`line ${number} is of node ${robot + 1}: a page has up to ${ROBOTS_MAX}`);
-  const data = Uint8Array.from(hex.match(/../g) ?? [], (byte) => parseInt(byte, 16));
-  return { robot, base, words: `${id}#${hex}`, data };
+  return { robot, base, words: `${id}#${hex}`, data: bytesOf(hex) };
+}
+
+/**
+ * The bytes of a frame, from their digits.
+ * @param {string} hex
+ */
+export function bytesOf(hex) {
+  return Uint8Array.from(hex.match(/../g) ?? [], (byte) => parseInt(byte, 16));
 }
 
 /** @param {import("./native_run.js").Frame} frame */

@@ -3,7 +3,7 @@
 
 import { Desk } from "./desk.js";
 import { byId, isForPage, setText, typedById } from "./elements.js";
-import { Lane, experimentOf } from "./lane.js";
+import { Lane, experimentOf, restartNames } from "./lane.js";
 import { nextTick } from "./lane_events.js";
 import { LabEditor } from "./lab_editor.js";
 import { Note } from "./note.js";
@@ -16,14 +16,20 @@ import { drawMarks } from "./timeline.js";
 /**
  * @typedef {import("./types.js").Change} Change
  * @typedef {import("./types.js").Experiment} Experiment
+ *
+ * A recorded run that the page begins with: the tick and the robot that are shown.
+ * @typedef {{recorded: import("./log_opening.js").RecordedRun, tick: number, node: number}} Begin
  */
 
 const LANES_MAX = 4;
 
 /** The page: its lanes, the time that all of them show, and the lane that is selected. */
 class LabPage {
-  /** @param {{wasm: string, params: import("./layouts.js").SimParams}} parts */
-  constructor({ wasm, params }) {
+  /**
+   * @param {{wasm: string, params: import("./layouts.js").SimParams}} parts
+   * @param {Begin | null} begin - What to begin with; null for a new run.
+   */
+  constructor({ wasm, params }, begin) {
     this.params = params;
     this.simulator = new Simulator(Uint8Array.from(atob(wasm), (letter) => letter.charCodeAt(0)).buffer, params);
     this.tick = this.exactTick = 0;
@@ -36,7 +42,8 @@ class LabPage {
     this.note = new Note();
     /** @type {Lane[]} */
     this.lanes = [];
-    this.lane = this.addLane(experimentOf({ seed: 1, environments: 5, robots: 1, profile: "article" }));
+    const first = experimentOf({ seed: 1, environments: 5, robots: 1, profile: "article" });
+    this.lane = this.addLane(begin ? { ...first, ticks_max: 1 } : first);
     this.scrub = typedById("scrub", HTMLInputElement);
     this.marks = typedById("marks", HTMLCanvasElement);
     this.panel = new Panel((cell, side) => this.change({ do: "write", robot: this.lane.robot, cell, side }));
@@ -48,6 +55,21 @@ class LabPage {
     this.bind();
     new ResizeObserver(() => this.onResize()).observe(this.marks);
     requestAnimationFrame((now) => this.frame(now));
+    /** Settled when a recorded run that the page begins with, and its copy, are simulated to their ends. */
+    this.repeated = begin ? this.repeat(begin) : Promise.resolve();
+  }
+
+  /**
+   * Simulates a recorded run again, and lays a copy beside it.
+   * @param {Begin} begin
+   */
+  async repeat({ recorded, tick, node }) {
+    this.begin(await this.simulator.repeat(recorded));
+    await this.lane.done;
+    this.go(tick);
+    this.whatIf();
+    await this.lane.done;
+    this.pick(node);
   }
 
   /** The scene that is selected; undefined before the first run. */
@@ -95,6 +117,7 @@ class LabPage {
     const old = this.lanes;
     this.lanes = [];
     old.forEach((lane) => lane.remove());
+    restartNames();
     this.tick = this.exactTick = 0;
     this.setPlaying(false);
     this.select(this.addLane(experiment));
@@ -144,7 +167,7 @@ class LabPage {
     if (this.lanes.length >= LANES_MAX) return;
     this.setPlaying(false);
     const { experiment } = this.lane;
-    this.select(this.addLane({ ...experiment, changes: [...experiment.changes] }));
+    this.select(this.addLane({ ...experiment, changes: [...experiment.changes], ticks_max: undefined }));
     this.note.show("Change a cell, an obstacle, the behaviour or a parameter: this copy runs on from here with it.");
   }
 
@@ -153,7 +176,10 @@ class LabPage {
    * @param {Lane} lane
    */
   simulate(lane) {
+    let onDone = () => {};
+    lane.done = new Promise((resolve) => (onDone = resolve));
     this.simulator.run(lane, lane.experiment, ({ run, refusals, error, done }) => {
+      if (done) onDone();
       if (error) this.note.show(error);
       if (!run) return;
       const isFirst = !lane.scene;
@@ -317,7 +343,8 @@ class LabPage {
 }
 
 try {
-  Object.assign(window, { octet: new LabPage(JSON.parse(byId("parts").textContent ?? "")) });
+  const [parts, begin] = ["parts", "begin"].map((id) => JSON.parse(byId(id).textContent || "null"));
+  Object.assign(window, { octet: new LabPage(parts, begin) });
 } catch (error) {
   setText(byId("status"), error instanceof Error ? error.message : `${error}`);
 }

@@ -6,8 +6,11 @@
  * @typedef {Record<string, Int32Array>} Columns
  */
 
-/** @param {string} text */
-async function inflate(text) {
+/**
+ * The bytes of a zlib stream in base64.
+ * @param {string} text
+ */
+export async function inflate(text) {
   const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());

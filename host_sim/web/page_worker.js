@@ -1,7 +1,7 @@
 // @ts-check
 /* What the page's worker does: it simulates experiments, and hands over what it has recorded after each environment. */
 
-import { openLog } from "./log_opening.js";
+import { openLog, recordedExperiment } from "./log_opening.js";
 import { Simulation } from "./simulation.js";
 
 /**
@@ -13,12 +13,13 @@ import { Simulation } from "./simulation.js";
  * @typedef {{do: "begin", wasm: ArrayBuffer, params: SimParams}
  *   | {do: "run", id: number, experiment: Experiment}
  *   | {do: "log", id: number, experiment: Experiment}
- *   | {do: "open", id: number, text: string, world: string}} Request
+ *   | {do: "open", id: number, text: string, world: string}
+ *   | {do: "repeat", id: number, recorded: import("./log_opening.js").RecordedRun}} Request
  *
  * What it answers: a run, after each environment and at its end, with the changes that were refused; the whole log;
- * or the experiment that a log is of.
+ * or the experiment that a log, or a recorded run, is of.
  * @typedef {{id: number, run?: Recorded, refusals?: [number, string][], done: boolean, log?: Uint8Array[],
- *   opened?: import("./log_opening.js").Opened, error?: string}} Answer
+ *   opened?: import("./log_opening.js").Opened, experiment?: Experiment, error?: string}} Answer
  */
 
 /** @type {{module: WebAssembly.Module, params: SimParams} | undefined} */
@@ -36,6 +37,7 @@ function answer(request) {
   if (!parts) throw new Error("the worker has not begun");
   const { id } = request;
   if (request.do === "open") say({ id, done: true, opened: openLog(parts.module, parts.params, request.text, request.world) });
+  else if (request.do === "repeat") say({ id, done: true, experiment: recordedExperiment(parts.module, request.recorded) });
   else if (request.do === "log") say({ id, done: true, log: logOf(request.experiment, parts) });
   else run(id, request.experiment, parts);
 }

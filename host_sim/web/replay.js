@@ -6,6 +6,7 @@ import { itemAt } from "./hit_testing.js";
 import { LessonsView } from "./lessons_view.js";
 import { Panel } from "./panel.js";
 import { Renderer } from "./renderer.js";
+import { ReplayWhatIf } from "./replay_what_if.js";
 import { RobotPicker } from "./robot_picker.js";
 import { RunData } from "./run_data.js";
 import { Scene } from "./scene.js";
@@ -39,6 +40,7 @@ class Player {
     this.scene = new Scene(data.measures, data.sceneAt(data.first), data.statesAt(data.first));
     this.scene.news = data.run.news ?? [];
     this.picker = new RobotPicker(this.scene, (node) => this.select(node));
+    this.laboratory = new ReplayWhatIf(data);
     data.trailsAt(data.first, this.scene.trails);
     this.bind();
     new ResizeObserver(() => this.resize()).observe(this.marks);
@@ -52,6 +54,7 @@ class Player {
     byId("before").addEventListener("click", () => this.jump(-1));
     byId("after").addEventListener("click", () => this.jump(1));
     byId("pin").addEventListener("click", () => this.pin());
+    byId("what-if").addEventListener("click", () => this.whatIf());
     this.renderer.canvas.addEventListener("click", (event) => this.onClick(event));
     document.addEventListener("keydown", (event) => this.onKey(event));
   }
@@ -119,6 +122,12 @@ class Player {
     this.stale = true;
   }
 
+  /** @returns {Promise<void>} */
+  whatIf() {
+    this.setPlaying(false);
+    return this.laboratory.open(this.tick, this.scene.node);
+  }
+
   /** @param {number} now */
   frame(now) {
     if (this.playing) this.advance(now);
@@ -157,7 +166,7 @@ class Player {
 
   /** @param {KeyboardEvent} event */
   onKey(event) {
-    if (!isForPage(event, event.key === " " ? "select, button" : "select")) return;
+    if (this.laboratory.isOpen || !isForPage(event, event.key === " " ? "select, button" : "select")) return;
     const action = this.actionOf(event);
     if (!action) return;
     event.preventDefault();
@@ -179,6 +188,7 @@ class Player {
       end: () => this.go(this.data.last),
       n: () => this.jump(1),
       p: () => this.jump(-1),
+      w: () => this.whatIf(),
     };
     return actions[key.toLowerCase()];
   }

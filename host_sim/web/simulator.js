@@ -68,6 +68,16 @@ export class Simulator {
     return opened;
   }
 
+  /**
+   * The experiment that a recorded run is of.
+   * @param {import("./log_opening.js").RecordedRun} recorded
+   */
+  async repeat(recorded) {
+    const { experiment } = await this.ask({ do: "repeat", id: this.newId(), recorded });
+    if (!experiment) throw new Error("the worker has no experiment");
+    return experiment;
+  }
+
   /** @param {Exclude<Request, {do: "begin"}>} request */
   ask(request) {
     return new Promise((/** @type {OnAnswer} */ resolve, reject) => {

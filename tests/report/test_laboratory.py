@@ -1,0 +1,97 @@
+"""What the page of a run has so that its future can be changed, and what it says where it has not."""
+
+import base64
+import json
+import re
+import zlib
+from pathlib import Path
+
+import pytest
+
+from host_sim.protocol.codec import Frame
+from host_sim.recording.log_reader import read_log
+from host_sim.report import octet_page as octet_page_module
+from host_sim.report.octet_page import octet_page
+from tests.runs.support import octet
+
+
+@pytest.fixture
+def run_of(tmp_path: Path):
+    """Makes short runs; returns their logs."""
+
+    def make(*words: str) -> Path:
+        options = ("--bus", "none", "--quiet", "--limit-s", "4", "--environments", "1", "--out", tmp_path)
+        assert octet("run", *options, *words).returncode == 0
+        return tmp_path / "run.log"
+
+    return make
+
+
+def laboratory_in(page: Path) -> dict:
+    element = r'<script type="application/json" id="laboratory">(.*?)</script>'
+    text = re.search(element, page.read_text(), re.DOTALL)[1]
+    return json.loads(text) if text else {}
+
+
+def test_the_page_holds_octet_html_and_what_the_robots_were_told(run_of, tmp_path):
+    log, page = run_of("--robots", "2", "--set", "turn_deg=20"), tmp_path / "page.html"
+
+    done = octet("replay", log, "--html", page, "--what-if")
+
+    assert (done.returncode, done.stderr) == (0, "")
+    held = laboratory_in(page)
+    assert zlib.decompress(base64.b64decode(held["page"])).decode() == octet_page()
+    assert held["run"]["ticks"] == 200
+    assert json.loads(held["run"]["world"])["robots"] == 2
+    commands = [line.frame for line in read_log(log) if line.frame.id in (0x021, 0x022)]
+    told = [Frame(0x021 + robot, bytes.fromhex(digits)) for _, robot, digits in held["run"]["commands"]]
+    assert told == commands
+    assert {tick for tick, *_ in held["run"]["commands"]} == {0, 200}
+
+
+def test_a_page_is_without_it_unless_it_is_asked_for(run_of, tmp_path):
+    log, page = run_of(), tmp_path / "page.html"
+
+    done = octet("replay", log, "--html", page)
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert laboratory_in(page) == {}
+
+
+def test_what_must_be_built_for_it_is_named(run_of, tmp_path, monkeypatch):
+    monkeypatch.setattr(octet_page_module, "PAGE_WASM", tmp_path / "missing.wasm")
+
+    done = octet("replay", run_of(), "--html", tmp_path / "page.html", "--what-if")
+
+    assert done.returncode == 1
+    assert done.stderr.endswith("build it with tools/setup page\n")
+    assert not (tmp_path / "page.html").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [(("--robots", "5"), "What if? knows robots of nodes 1 to 4 only."), (("--node", "2"), "What if? knows robots")],
+)
+def test_a_run_that_it_cannot_repeat_says_so(run_of, tmp_path, words, why):
+    log, page = run_of(*words), tmp_path / "page.html"
+
+    done = octet("replay", log, "--html", page, "--what-if", *words[:2] if words[0] == "--node" else ())
+
+    assert done.returncode == 0
+    assert done.stderr.startswith(f"octet: {why}")
+    assert laboratory_in(page)["why"].startswith(why)
+
+
+def test_a_run_in_an_unknown_world_says_so(run_of, tmp_path):
+    page = tmp_path / "page.html"
+
+    done = octet("replay", run_of(), "--html", page, "--no-world", "--what-if")
+
+    assert done.stderr == "octet: What if? needs the world of the run, which is not known here.\n"
+    assert laboratory_in(page) == {"why": "What if? needs the world of the run, which is not known here."}
+
+
+def test_it_is_for_a_page(run_of):
+    done = octet("replay", run_of(), "--what-if")
+
+    assert (done.returncode, done.stderr) == (2, "octet: --what-if is for a page: name it with --html FILE\n")
