@@ -160,7 +160,7 @@ static int receive_input(struct hal *hal, struct input *in, uint32_t wait_ms)
 
     hal->silent_ms = port_clock_ms() - hal->heard_ms;
     if (result != 1)
-        return result == LINK_E_CLOSED ? HAL_E_CLOSED : INPUT_SILENCE;
+        return result == LINK_E_CLOSED ? (int)HAL_E_CLOSED : (int)INPUT_SILENCE;
     announce(hal);   /* before the answer */
     kind = read_frame(hal, &frame, in);
     return kind == INPUT_SENSES ? take_senses(hal, in) : (int)kind;

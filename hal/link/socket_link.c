@@ -79,7 +79,7 @@ static int open_fd(struct link **link, struct link_request *request)
     char *end;
     errno = 0;
     long fd = strtol(request->place, &end, 10);
-    if (*end != '\0' || request->place[0] < '0' || request->place[0] > '9' || errno != 0 || fd > 0x7FFFFFFF) {
+    if (*end != '\0' || request->place[0] < '0' || errno != 0 || fd > 0x7FFFFFFF) {
         request->why = "not the number of a file descriptor";
         return LINK_E_NAME;
     }

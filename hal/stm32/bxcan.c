@@ -146,13 +146,18 @@ static uint32_t id_in(unsigned n)
     return CAN1.sent[n].id >> STANDARD_AT;
 }
 
+static bool holds(unsigned n, uint32_t waiting, uint32_t id)
+{
+    return waiting >> n & 1u && id_in(n) == id;
+}
+
 /* Equal identifiers leave by number of mailbox. */
 bool can_put(const struct frame *frame)
 {
     uint32_t waiting = taken();
     unsigned n = CAN_BUFFERS;
 
-    while (n > 0 && !(waiting >> (n - 1) & 1u && id_in(n - 1) == frame->id))
+    while (n > 0 && !holds(n - 1, waiting, frame->id))
         n--;
     while (n < CAN_BUFFERS && waiting >> n & 1u)
         n++;

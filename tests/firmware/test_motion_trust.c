@@ -83,6 +83,18 @@ static void test_odometers_that_count_twice_the_way_are_not_credible(void)
     TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 2));
 }
 
+/* The faster of the two counts: here a step's 200 mm/s, 40 counts a tick. */
+static void test_wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster(void)
+{
+    struct senses senses = sensed();
+
+    config.value[TURN_SPEED_DEG_S] = 30;
+    senses.odometer_right = (uint16_t)(senses.odometer_right + 60);
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 1));
+    senses.odometer_right = (uint16_t)(senses.odometer_right + 10);
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+}
+
 static void test_ticks_that_were_never_sensed_count_for_the_pace(void)
 {
     begin(150, 0);
@@ -188,6 +200,7 @@ int main(void)
     RUN_TEST(test_wheels_that_turn_at_half_the_speed_are_denied);
     RUN_TEST(test_wheels_that_are_a_little_off_are_not_denied);
     RUN_TEST(test_odometers_that_count_twice_the_way_are_not_credible);
+    RUN_TEST(test_wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster);
     RUN_TEST(test_ticks_that_were_never_sensed_count_for_the_pace);
     RUN_TEST(test_an_outage_counts_as_long_as_wheels_are_held);
     RUN_TEST(test_what_happens_while_lifted_is_not_the_robots_way);

@@ -1,4 +1,4 @@
-"""The measure of branches: the C tests take all but those that have a reason, and one that none takes is seen."""
+"""What the C tests show: all but what has a reason, and what none shows is seen."""
 
 import subprocess
 import sys
@@ -9,20 +9,23 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.branch_coverage.measure import Gap, MeasureError, measure  # noqa: E402 - found by the line above
+from tools.branch_coverage.measure import CLANG, FLAGS, NOT_MEASURED, Gap, MeasureError, measure  # noqa: E402 - found by the line above
 from tools.branch_coverage.reasons import compare, read  # noqa: E402
 from tools.reason_table import TableError  # noqa: E402
 
+# It is told what a, b and c are: "100" for a true and the others false.
 SOURCE = """int main(int argc, char *argv[])
 {
-    (void)argv;
-    if (argc > 1)
+    const char *told = argv[argc - 1];
+    if ((told[0] == '1' && told[1] == '1') || told[2] == '1')
         return 1;
     return 0;
 }
 """
-ROW = '[[uncovered]]\nfile = "firmware/a.c"\nlines = ["{}"]\nwhy = "{}"\n'
-GAP = Gap("firmware/a.c", 4, "if (argc > 1)")
+A, B, C = (f"told[{i}] == '1'" for i in range(3))
+ENOUGH = ("000", "100", "110", "001")
+ROW = '[[uncovered]]\nfile = "firmware/a.c"\ngaps = ["{}"]\nwhy = "{}"\n'
+GAP = Gap("firmware/a.c", 4, f"never true: {B}")
 
 
 @pytest.fixture
@@ -32,35 +35,55 @@ def built(tmp_path):
     source.parent.mkdir()
     build.mkdir()
     source.write_text(SOURCE)
-    subprocess.run(("gcc", "--coverage", "-o", "a", source), cwd=build, check=True)
+    subprocess.run((CLANG, *FLAGS, "-o", "test_a", source), cwd=build, check=True)
     return tmp_path
 
 
-def run(built: Path, *arguments: str) -> None:
-    subprocess.run((built / "build" / "a", *arguments), check=False)
+def missing_after(built: Path, *runs: str) -> list[str]:
+    for run in runs:
+        environment = {"LLVM_PROFILE_FILE": str(built / "build" / f"{run}.profraw")}
+        subprocess.run((built / "build" / "test_a", run), check=False, env=environment)
+    return [f"{gap.line}: {gap.text}" for gap in measure(built, built / "build").gaps]
 
 
-def test_each_branch_is_taken_or_has_its_reason():
+def test_all_is_shown_or_has_its_reason():
     result = subprocess.run([ROOT / "tools" / "coverage"], capture_output=True, text=True, check=False)
 
     assert result.returncode == 0, result.stderr
-    assert " 0 complaints" in result.stdout
+    assert "\n0 complaints" in result.stdout
 
 
-def test_a_branch_that_is_not_taken_is_a_gap(built):
-    run(built)
+def test_runs_that_show_all_leave_no_gap(built):
+    assert missing_after(built, *ENOUGH) == []
 
-    measured = measure(built, built / "build")
 
-    assert (measured.branches, measured.taken) == (2, 1)
-    assert measured.gaps == [GAP, Gap("firmware/a.c", 5, "return 1;")]
+@pytest.mark.parametrize(
+    ("runs", "missing"),
+    [
+        (
+            ("000",),
+            [f"4: never reached: {B}", f"4: never true: {A}", f"4: never true: {C}", "5: never reached: return 1;"],
+        ),
+        (("000", "100", "001"), [f"4: never decides: {A}", f"4: never true: {B}"]),
+        (("000", "110", "001"), [f"4: never false: {B}"]),
+        (("000", "101", "110", "001"), [f"4: never decides: {B}"]),
+    ],
+)
+def test_what_no_run_shows_is_a_gap(built, runs, missing):
+    assert missing_after(built, *runs) == missing
 
 
 def test_runs_add_up(built):
-    run(built)
-    run(built, "more")
+    for run in ENOUGH[:-1]:
+        assert missing_after(built, run) != []
+    assert missing_after(built, ENOUGH[-1]) == []
 
-    assert measure(built, built / "build").gaps == []
+
+def test_the_sums_are_those_of_all_conditions(built):
+    missing_after(built, "000", "110")
+    measured = measure(built, built / "build")
+
+    assert (measured.outcomes, measured.seen, measured.conditions, measured.deciding) == (6, 4, 3, 1)
 
 
 def test_a_build_whose_tests_have_not_run_is_an_error(built):
@@ -68,23 +91,34 @@ def test_a_build_whose_tests_have_not_run_is_an_error(built):
         measure(built, built / "build")
 
 
+def test_a_decision_that_cannot_be_measured_is_told(tmp_path):
+    source = tmp_path / "a.c"
+    source.write_text("int is(int x);\nint a(int x, int y) { return x && is(x && y); }\n")
+
+    said = subprocess.run(
+        (CLANG, *FLAGS, "-c", source), cwd=tmp_path, capture_output=True, text=True, check=True
+    ).stderr
+
+    assert NOT_MEASURED in said
+
+
 @pytest.mark.parametrize(
-    ("line", "complaints"),
+    ("text", "complaints"),
     [
-        ("if (argc > 1)", []),
-        ("if (*", []),
+        (f"never true: {B}", []),
+        ("never *: told[1] *", []),
         (
-            "if",
+            "never",
             [
-                "firmware/a.c:4: if (argc > 1): has a branch that no test takes",
-                "firmware/a.c: `if` needs no reason any more",
+                f"firmware/a.c:4: never true: {B}: no test shows it",
+                "firmware/a.c: `never` needs no reason any more",
             ],
         ),
     ],
 )
-def test_a_gap_needs_a_reason_and_a_reason_a_gap(tmp_path, line, complaints):
+def test_a_gap_needs_a_reason_and_a_reason_a_gap(tmp_path, text, complaints):
     table = tmp_path / "table.toml"
-    table.write_text(ROW.format(line, "a canary"))
+    table.write_text(ROW.format(text, "a canary"))
 
     assert compare([GAP], read(table)) == complaints
 

@@ -1,13 +1,27 @@
-"""What the C tests have gone through, as gcov tells."""
+"""What the C tests have gone through, as the counters tell that clang has put into them.
+
+Three things are told of the code. Whether it was reached. Of each condition, which of its two outcomes has come. And
+of each condition of a decision with several (`a && b`), whether it was seen to decide: two runs that differ in it
+alone, and in what came of the whole (MC/DC).
+"""
 
 import json
+import os
 import subprocess
-from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, NamedTuple
 
 MEASURED = ("firmware", "hal")
+VERSION = 19
+CLANG = f"clang-{VERSION}"
+FLAGS = ("-fprofile-instr-generate", "-fcoverage-mapping", "-fcoverage-mcdc")
+NOT_MEASURED = "unsupported MC/DC"
+"""What clang says of a decision that it cannot measure."""
+
+_CODE = 0
+_JOINT = 6
 
 
 class MeasureError(Exception):
@@ -16,12 +30,13 @@ class MeasureError(Exception):
 
 @dataclass(frozen=True, order=True)
 class Gap:
-    """A branch or a line that no test takes.
+    """What no test shows.
 
     Attributes:
         file: Where, from the root of the project.
         line: Which one.
-        text: What stands there.
+        text: "never reached: " and the line or condition, or "never true: ", "never false: " or "never decides: "
+            and the condition.
     """
 
     file: str
@@ -34,17 +49,101 @@ class Gap:
 
 @dataclass(frozen=True)
 class Measured:
-    """The sum over all objects.
+    """The sum over all programs.
 
     Attributes:
-        branches: How many there are.
-        taken: How many of them were taken.
-        gaps: Lines with a branch that was not, or that were never reached; each once.
+        outcomes: Of all conditions, two each.
+        seen: How many of them have come.
+        conditions: Of decisions with several.
+        deciding: How many of them were seen to decide.
+        gaps: What is missing, each once.
     """
 
-    branches: int
-    taken: int
+    outcomes: int
+    seen: int
+    conditions: int
+    deciding: int
     gaps: list[Gap]
+
+
+class Place(NamedTuple):
+    """From the first character to the one behind the last; lines and columns count from 1."""
+
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+
+class Condition(NamedTuple):
+    """Where it is, how often it was true and false, and whether it is one of several that decide together."""
+
+    place: Place
+    true: int
+    false: int
+    joint: bool
+
+
+class Source:
+    """A file of ours."""
+
+    def __init__(self, root: Path, path: Path) -> None:
+        self.name = str(path.relative_to(root))
+        self._lines = path.read_text().splitlines()
+
+    def begins(self, line: int, column: int) -> bool:
+        """Whether nothing stands before it in its line."""
+        return not self._lines[line - 1][: column - 1].strip()
+
+    def line(self, number: int) -> str:
+        """A line; for the brace that begins a function, the one above it."""
+        text = self._lines[number - 1].strip()
+        return self.line(number - 1) if text == "{" else text
+
+    def cut(self, place: Place) -> str:
+        """What stands in a place, in one line."""
+        lines = self._lines[place.line - 1 : place.end_line]
+        lines[-1] = lines[-1][: place.end_column - 1]
+        lines[0] = lines[0][place.column - 1 :]
+        return " ".join(" ".join(lines).split())
+
+
+@dataclass(frozen=True)
+class File:
+    """The part of a function, with the macros in it, that stands in one place of a file.
+
+    Attributes:
+        source: The file.
+        unreached: Lines where code begins that was never reached.
+        conditions: All of them, in the order of the source.
+        decisions: Those with several conditions: where, and which of them were seen to decide.
+    """
+
+    source: Source
+    unreached: Sequence[int]
+    conditions: Sequence[Condition]
+    decisions: Sequence[tuple[Place, Sequence[bool]]]
+
+    def gaps(self) -> Iterator[Gap]:
+        """What is missing."""
+        for line in self.unreached:
+            yield Gap(self.source.name, line, f"never reached: {self.source.line(line)}")
+        for condition in self.conditions:
+            if not (condition.true and condition.false):
+                missing = "false" if condition.true else "true" if condition.false else "reached"
+                yield self._gap(f"never {missing}", condition)
+        for condition, decides in self.judged():
+            if condition.true and condition.false and not decides:
+                yield self._gap("never decides", condition)
+
+    def judged(self) -> Iterator[tuple[Condition, bool]]:
+        """Each condition of a decision with several, and whether it was seen to decide."""
+        for place, decide in self.decisions:
+            inside = [each for each in self.conditions if each.joint and _contains(place, each.place)]
+            yield from zip(inside, decide, strict=True)
+
+    def _gap(self, what: str, condition: Condition) -> Gap:
+        return Gap(self.source.name, condition.place.line, f"{what}: {self.source.cut(condition.place)}")
 
 
 def measure(root: Path, build: Path) -> Measured:
@@ -52,37 +151,67 @@ def measure(root: Path, build: Path) -> Measured:
 
     Args:
         root: Of the sources.
-        build: Built with `--coverage`, and its tests have been run.
+        build: Built by CLANG with FLAGS; its tests, whose names begin with test_, have been run.
 
     Raises:
         MeasureError: There is nothing to read.
     """
-    notes = sorted(build.rglob("*.gcda"))
-    if not notes:
+    files = list(_files(root, _export(build)))
+    conditions = [condition for file in files for condition in file.conditions]
+    judged = [decides for file in files for _, decides in file.judged()]
+    return Measured(
+        outcomes=2 * len(conditions),
+        seen=sum((condition.true > 0) + (condition.false > 0) for condition in conditions),
+        conditions=len(judged),
+        deciding=sum(judged),
+        gaps=sorted({gap for file in files for gap in file.gaps()}),
+    )
+
+
+def _export(build: Path) -> list[dict[str, Any]]:
+    """Each function, with what all programs together have gone through in it."""
+    profiles = sorted(build.rglob("*.profraw"))
+    programs = [path for path in sorted(build.rglob("test_*")) if path.is_file() and os.access(path, os.X_OK)]
+    if not profiles or not programs:
         raise MeasureError(f"no test has left anything in {build}")
-    lines: Counter[tuple[str, int]] = Counter()
-    branches: Counter[tuple[str, int, int]] = Counter()
-    for file, line in _lines(root, build, notes):
-        number = line["line_number"]
-        lines[file, number] += line["count"]
-        for index, branch in enumerate(line["branches"]):
-            branches[file, number, index] += branch["count"]
-    missed = {place for place, count in lines.items() if count == 0}
-    missed |= {(file, number) for (file, number, _), count in branches.items() if count == 0}
-    gaps = [Gap(file, number, _text(root / file, number)) for file, number in sorted(missed)]
-    return Measured(len(branches), sum(count > 0 for count in branches.values()), gaps)
+    programs += sorted(build.rglob("lib*.so"))
+    merged = build / "tests.profdata"
+    _output(f"llvm-profdata-{VERSION}", "merge", "-o", merged, *profiles)
+    objects = [word for program in programs[1:] for word in ("-object", program)]
+    text = _output(f"llvm-cov-{VERSION}", "export", "-instr-profile", merged, programs[0], *objects)
+    functions: list[dict[str, Any]] = json.loads(text)["data"][0]["functions"]
+    return functions
 
 
-def _lines(root: Path, build: Path, notes: list[Path]) -> Iterable[tuple[str, dict]]:  # type: ignore[type-arg]
-    """Each line of a source of ours, as gcov describes it, once for each object."""
-    command = ["gcov", "--json-format", "--stdout", "--branch-probabilities", *map(str, notes)]
-    output = subprocess.run(command, cwd=build, capture_output=True, text=True, check=True).stdout
-    for text in output.splitlines():
-        for source in json.loads(text)["files"]:
-            path = (build / source["file"]).resolve()
+def _output(*command: object) -> str:
+    words = [str(word) for word in command]
+    result = subprocess.run(words, capture_output=True, text=True, check=False)
+    if result.returncode != 0:
+        raise MeasureError(f"{words[0]} failed:\n{result.stderr}")
+    return result.stdout
+
+
+def _files(root: Path, functions: Iterable[dict[str, Any]]) -> Iterator[File]:
+    """The parts of all functions that stand in files of ours."""
+    for function in functions:
+        for number, name in enumerate(function["filenames"]):
+            path = Path(name)
             if path.is_relative_to(root) and path.relative_to(root).parts[0] in MEASURED:
-                yield from ((str(path.relative_to(root)), line) for line in source["lines"])
+                yield _file(Source(root, path), number, function)
 
 
-def _text(path: Path, number: int) -> str:
-    return path.read_text().splitlines()[number - 1].strip()
+def _file(source: Source, number: int, function: dict[str, Any]) -> File:
+    """One of them; the numbers in its rows are those of llvm-cov's export."""
+    regions = [row for row in function["regions"] if row[5] == number]
+    branches = [row for row in function["branches"] if row[6] == number]
+    decisions = [row for row in function["mcdc_records"] if row[4] == number]
+    return File(
+        source=source,
+        unreached=[row[0] for row in regions if row[7] == _CODE and not row[4] and source.begins(*row[:2])],
+        conditions=sorted(Condition(Place(*row[:4]), row[4], row[5], row[8] == _JOINT) for row in branches),
+        decisions=[(Place(*row[:4]), row[-1]) for row in decisions],
+    )
+
+
+def _contains(outer: Place, inner: Place) -> bool:
+    return outer[:2] <= inner[:2] and inner[2:] <= outer[2:]

@@ -1,4 +1,4 @@
-"""The table of lines that the C tests need not go through, and whether it fits what they did."""
+"""The table of what the C tests need not show, and whether it fits what they did."""
 
 from collections.abc import Sequence
 from fnmatch import fnmatchcase
@@ -10,15 +10,15 @@ from tools.reason_table import read_table
 
 
 class Reason(NamedTuple):
-    """Why some lines of a file are not gone through: the table says it.
+    """Some gaps of a file that the table has a reason for.
 
     Attributes:
         file: Which file, from the root of the project.
-        lines: Their text, without what stands around it; `*` stands for anything.
+        gaps: Their text, as `Gap` has it; `*` stands for anything.
     """
 
     file: str
-    lines: Sequence[str]
+    gaps: Sequence[str]
 
 
 def read(path: Path) -> list[Reason]:
@@ -27,25 +27,25 @@ def read(path: Path) -> list[Reason]:
     Raises:
         TableError: It cannot be read, or a row lacks a part.
     """
-    return [Reason(*row) for row in read_table(path, "uncovered", "file", "lines")]
+    return [Reason(*row) for row in read_table(path, "uncovered", "file", "gaps")]
 
 
 def compare(gaps: Sequence[Gap], table: Sequence[Reason]) -> list[str]:
     """What does not fit, in sentences: a gap without a reason, a reason without a gap."""
     complaints = [
-        f"{gap}: has a branch that no test takes"
+        f"{gap}: no test shows it"
         for gap in gaps
-        if not any(_covers(row, line, gap) for row in table for line in row.lines)
+        if not any(_covers(row, text, gap) for row in table for text in row.gaps)
     ]
     complaints += [
-        f"{row.file}: `{line}` needs no reason any more"
+        f"{row.file}: `{text}` needs no reason any more"
         for row in table
-        for line in row.lines
-        if not any(_covers(row, line, gap) for gap in gaps)
+        for text in row.gaps
+        if not any(_covers(row, text, gap) for gap in gaps)
     ]
     return complaints
 
 
-def _covers(row: Reason, line: str, gap: Gap) -> bool:
-    escaped = line.replace("[", "[[]")
+def _covers(row: Reason, text: str, gap: Gap) -> bool:
+    escaped = text.replace("[", "[[]")
     return row.file == gap.file and fnmatchcase(gap.text, escaped)
