@@ -125,8 +125,8 @@ def hours(count: float, step: float, folder: Path) -> Iterator[tuple[str, bool]]
 def starts(count: int) -> Iterator[tuple[str, bool]]:
     """Starts and stops: one in ten with a robot in a process of its own.
 
-    An arena and its physics refer to each other: Python frees them not at once but when it looks for such rings, which
-    it does the less often the more other things there are. Without looking, ten thousand starts level at 12 MB.
+    An arena and its physics refer to each other: Python frees them not at once but when it looks for such rings,
+    which it does the less often the more other things there are. Without looking, ten thousand starts level at 12 MB.
     """
     first = Vitals.now()
     for number in range(1, count + 1):
