@@ -1,7 +1,7 @@
 /* link.h: what carries single CAN frames. The CAN body stands on these functions and on nothing else.
  *
  * Chosen by linking on a microcontroller; on the host link_by_name.c chooses among them by the name's first part:
- * socketcan:IFACE, fd:N (a SOCK_SEQPACKET socket, which link_close closes), slcan:PATH[@BAUD]. */
+ * socketcan:IFACE, fd:N (a SOCK_SEQPACKET socket or a bound CAN one, which link_close closes), slcan:PATH[@BAUD]. */
 #ifndef OCTET_LINK_H
 #define OCTET_LINK_H
 

@@ -86,8 +86,8 @@ static int open_fd(struct link **link, struct link_request *request)
     int type = 0;
     if (getsockopt((int)fd, SOL_SOCKET, SO_TYPE, &type, &(socklen_t){sizeof type}) != 0)
         return refuse(request, strerror(errno));
-    if (type != SOCK_SEQPACKET)
-        return refuse(request, "not a SOCK_SEQPACKET socket");
+    if (type != SOCK_SEQPACKET && type != SOCK_RAW)
+        return refuse(request, "neither a SOCK_SEQPACKET socket nor a raw one");
     int blocking = fcntl((int)fd, F_SETFL, 0);   /* whatever it came as: receive leaves the waiting to the kernel */
     if (blocking != 0)
         return refuse(request, strerror(errno));

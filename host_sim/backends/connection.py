@@ -121,7 +121,7 @@ def _over_socket_pair(stack: ExitStack, node: int, relay: Relay | None) -> Conne
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     line = LineStats()
     with theirs:
-        link = BusLink(SocketPairBus(ours.detach()), line)
+        link = BusLink(SocketPairBus(ours.detach()), line, is_socket=True)
         stack.callback(link.close)
         process = RobotProcess(f"fd:{theirs.fileno()}", node, [theirs.fileno()])
     stack.callback(process.close)

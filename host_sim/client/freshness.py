@@ -26,11 +26,15 @@ class Arrival(Enum):
 
 
 class Freshness:
-    """Follows the alive counter of one kind of message."""
+    """Follows the alive counter of one kind of message.
+
+    Attributes:
+        last: The last one; None before the first.
+    """
 
     def __init__(self) -> None:
         """Takes any message for new."""
-        self._last: Frame | None = None
+        self.last: Frame | None = None
         self._late: Frame | None = None
 
     def judge(self, frame: Frame, *, gap: bool = False) -> Arrival:
@@ -40,16 +44,20 @@ class Freshness:
             frame: The message.
             gap: Whether so many may have been lost since the last one that its counter tells nothing.
         """
-        if self._last is None:
+        if self.last is None:
             return self._take(frame, Arrival.NEW)
-        ahead = _ahead(self._last, frame)
-        if frame == self._last:
+        ahead = _ahead(self.last, frame)
+        if frame == self.last:
             return Arrival.AGAIN
         if ahead == 0:
             return self._take(frame, Arrival.OTHER)
         if ahead <= _AHEAD_MAX:
             return self._take(frame, Arrival.NEW)
         return self._judge_late(frame, _AHEAD_MAX if gap else 1)
+
+    def go_on(self, frame: Frame) -> None:
+        """Takes a message that is known to be the next one."""
+        self._take(frame, Arrival.NEW)
 
     def _judge_late(self, frame: Frame, ahead_max: int) -> Arrival:
         late, self._late = self._late, frame
@@ -58,7 +66,7 @@ class Freshness:
         return Arrival.LATE
 
     def _take(self, frame: Frame, arrival: Arrival) -> Arrival:
-        self._last, self._late = frame, None
+        self.last, self._late = frame, None
         return arrival
 
 

@@ -41,6 +41,7 @@ class Inbox:
         silent: Whether the robot has said that it hears nothing: all that it was to say before has been sent.
         rival: The frame by which another simulator was heard for the second time; None while there is none.
         owed: Number of repeated senses whose answers have not come yet.
+        drive: The last new drive.
     """
 
     protocol: Protocol
@@ -60,10 +61,10 @@ class Inbox:
     silent: bool = False
     rival: Frame | None = None
     owed: int = 0
+    drive: Drive = REST
     _rival_s: float | None = None
     _asked: deque[Frame] = field(default_factory=lambda: deque(maxlen=_COMMANDS_KNOWN))
     _answered: bool = True
-    _drive: Drive = REST
     _drive_tick: int = 0
     _drive_frame: Frame = _NO_FRAME
 
@@ -82,11 +83,25 @@ class Inbox:
         self._asked.append(command)
         self._answered = False
 
+    def expect_drive(self, tick: int) -> int:
+        """The senses of the next tick are about to be sent.
+
+        Args:
+            tick: Number of the tick, as on the wire.
+
+        Returns:
+            Their alive counter.
+        """
+        self.ticks += 1
+        self.sent_tick = tick
+        self.sent_counter = self.ticks % COUNTERS
+        return self.sent_counter
+
     def catch_up(self, ticks: int, drive: Drive, frame: Frame) -> None:
         """Takes over ticks whose frames were exchanged elsewhere, with the last drive and its frame."""
         self.ticks += ticks
         self.sent_tick, self.sent_counter = drive.tick, self.ticks % COUNTERS
-        self._drive, self._drive_tick, self._drive_frame, self.last = drive, self.ticks, frame, frame
+        self.drive, self._drive_tick, self._drive_frame, self.last = drive, self.ticks, frame, frame
 
     def take(self, frame: Frame) -> None:
         """Takes in a frame, whatever it is.
@@ -114,7 +129,7 @@ class Inbox:
         if self.session is None or self._drive_tick == self.ticks:
             self._take_old_drive(drive, frame)
             return None
-        self._drive, self._drive_tick, self._drive_frame = drive, self.ticks, frame
+        self.drive, self._drive_tick, self._drive_frame = drive, self.ticks, frame
         self.last = frame
         self.counts.received += 1
         self.record(frame)
@@ -156,7 +171,7 @@ class Inbox:
         if not is_new or self.lockstep or behind >= TICK_SPAN // 2 or self.session is None:
             self._take_old_drive(drive, frame)
             return None
-        self._drive, self._drive_tick, self._drive_frame = drive, tick, frame
+        self.drive, self._drive_tick, self._drive_frame = drive, tick, frame
         self._accept(frame)
         return drive
 
@@ -184,7 +199,7 @@ class Inbox:
 
     def _contradicts(self, drive: Drive, frame: Frame) -> bool:
         """Whether a drive is another answer to the senses that were answered last."""
-        same = drive.tick == self._drive.tick and counter_of(frame) == counter_of(self._drive_frame)
+        same = drive.tick == self.drive.tick and counter_of(frame) == counter_of(self._drive_frame)
         return same and frame != self._drive_frame
 
     def _take_silence(self, drive: Drive, frame: Frame) -> Drive | None:
@@ -242,8 +257,8 @@ class Inbox:
     def _arrival(self, frame: Frame, decoded: DecodedFrame) -> Arrival:
         """Compares a report with those before it.
 
-        A whole report that cuts another one short repeats the page of FAULTS that the other one ended with, with its
-        counter: after the answer, such a page is what was asked for.
+        A whole report that cuts another one short repeats the page of FAULTS that the other one ended with, counter
+        and all: after the answer, such a page is what was asked for.
         """
         arrival = self.reports.judge(frame, decoded, self.counts.missing)
         is_asked_for = self.reporting and self._answered and self.reports.is_awaited(decoded)

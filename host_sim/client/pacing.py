@@ -32,6 +32,22 @@ class Pace(Protocol):
         """
 
 
+@dataclass(frozen=True)
+class BegunTick:
+    """A tick of which a part was done elsewhere, by C code on the clients' behalf.
+
+    Attributes:
+        sent: Number of robots that have been sent their senses, the first ones.
+        drives: The drives of those that have answered, the first of these.
+    """
+
+    sent: int
+    drives: Sequence[Drive]
+
+
+_NOTHING = BegunTick(0, ())
+
+
 class Lockstep:
     """World and robots wait for each other: the result is the same at any speed and on any machine."""
 
@@ -39,12 +55,14 @@ class Lockstep:
         """Paces the robots of these clients."""
         self._clients = clients
 
-    def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
-        """As in `Pace`."""
-        for client, sensed in zip(self._clients, senses, strict=True):
+    def exchange(self, senses: Sequence[Senses], begun: BegunTick = _NOTHING) -> Sequence[Drive]:
+        """As in `Pace`, but for what has been done elsewhere."""
+        sent, drives = begun.sent, [*begun.drives]
+        for client, sensed in zip(self._clients[len(drives) : sent], senses[len(drives) : sent], strict=True):
+            client.note_sent(sensed)
+        for client, sensed in zip(self._clients[sent:], senses[sent:], strict=True):
             client.send_senses(sensed)
-        drives = []
-        for client in self._clients:
+        for client in self._clients[len(drives) :]:
             try:
                 drives.append(client.await_drive())
             except SessionLostError as lost:  # noqa: PERF203 - a call less in each tick

@@ -1,7 +1,7 @@
 """A client for one robot: sends commands and senses until they are answered, and logs every frame once."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 
@@ -52,6 +52,7 @@ class RobotClient:
         wants_ranges: Whether it was started with a behaviour that decides by distances.
         ranges: The distances that go before the next senses, where they are wanted.
         inbox: Takes in what comes.
+        unsettled: Tick at which an environment ended whose last memory may yet turn out to be lost; None if none may.
     """
 
     link: Link
@@ -71,6 +72,7 @@ class RobotClient:
     wants_ranges: bool = False
     ranges: Ranges = NOTHING_NEAR
     inbox: Inbox = field(init=False)
+    unsettled: int | None = None
     _counter: int = 0
     _senses: Frame = _NO_FRAME
     _ranges: Frame = _NO_FRAME
@@ -78,7 +80,6 @@ class RobotClient:
     _timed: bool = False
     _lossy: bool = False
     _owed_tick: int = 0
-    _unsettled: int | None = None
 
     def __post_init__(self) -> None:
         self.inbox = Inbox(self.protocol, self.log.add, self.now, self.lockstep, self.owner)
@@ -226,9 +227,7 @@ class RobotClient:
     def send_senses(self, senses: Senses) -> None:
         """Sends the senses of one tick, after the distances if the robot wants them, and logs them."""
         inbox = self.inbox
-        inbox.ticks += 1
-        inbox.sent_tick = senses.tick
-        inbox.sent_counter = counter = inbox.ticks % COUNTERS
+        counter = inbox.expect_drive(senses.tick)
         self._senses = frame = self.protocol.encode_senses(senses, counter)
         if self.wants_ranges:
             self._send_ranges(senses.tick, counter)
@@ -239,6 +238,12 @@ class RobotClient:
         self.link.send(frame)
         inbox.counts.sent += 1
         inbox.record(frame)  # while the robot thinks
+
+    def note_sent(self, senses: Senses) -> None:
+        """Takes over the senses of one tick that were sent and logged elsewhere."""
+        self._senses = self.protocol.encode_senses(senses, self.inbox.expect_drive(senses.tick))
+        self._timed = False
+        self.inbox.counts.sent += 1
 
     def repeat_senses(self) -> None:
         """Sends the senses of the last tick again, and the distances that went before them."""
@@ -287,7 +292,7 @@ class RobotClient:
         self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.lost > 0
         self.inbox.owed = 0
         self.reports.gap = None
-        self._unsettled = None if self._lossy else self.tick
+        self.unsettled = None if self._lossy else self.tick
         if self._lossy:
             self.demand_reports("report")
 
@@ -297,39 +302,16 @@ class RobotClient:
 
     def check_settled(self) -> None:
         """Notes if it has turned out since that a memory was lost at the end of an environment."""
-        if self._unsettled is not None and self.reports.gap:
+        if self.unsettled is not None and self.reports.gap:
             self.distrust(
-                f"an environment ended at tick {self._unsettled}, and its last memory may have been lost on the way"
+                f"an environment ended at tick {self.unsettled}, and its last memory may have been lost on the way"
             )
-        self._unsettled = None
+        self.unsettled = None
 
     @property
     def senses_counter(self) -> int:
         """Alive counter of the last SENSES."""
         return self.inbox.ticks % COUNTERS
-
-    def catch_up(self, ticks: int, drive: Drive, frame: Frame, received: int) -> None:
-        """Takes over ticks whose frames were exchanged and logged elsewhere.
-
-        Args:
-            ticks: Number of ticks.
-            drive: The robot's last drive.
-            frame: Its frame.
-            received: Number of frames received from the robot.
-        """
-        self.inbox.catch_up(ticks, drive, frame)
-        self.reports.forget()
-        self.frames.sent += ticks
-        self.frames.received += received
-
-    def take_reports(self, reports: Sequence[Frame]) -> None:
-        """Takes over reports of the robot that came in such ticks, in order; those in between are not told."""
-        self._unsettled = None
-        for frame in reports:
-            decoded = self.protocol.decode(frame)
-            if decoded is not None:
-                self.reports.judge(frame, decoded, self.frames.missing)
-                self.reports.take(decoded)
 
     def rest(self) -> None:
         """Stops the wheels, without waiting for an answer."""

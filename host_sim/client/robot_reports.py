@@ -1,13 +1,18 @@
 """What a robot has reported: its memory, its state, its identity and its faults."""
 
+from collections.abc import Collection
+
 from host_sim.client.freshness import GAP_MIN, Arrival, Freshness
-from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame
+from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, counter_of
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.protocol.memory_kinds import kinds_of
 from host_sim.protocol.memory_report import MemoryReport
 
 REPORTS = frozenset({"EMERGENCY", "MEMORY", "HEARTBEAT", "BOOT", "FAULTS", "CRASH", "HEALTH"})
 """The messages that a robot sends of its own accord, beside DRIVE."""
+
+FIRST_HALF, LAST_HALF = "MEMORY 0", "MEMORY 1"
+"""The kinds of reports that a memory is told in."""
 
 _WHOLE = frozenset({"HEARTBEAT", "BOOT", "MEMORY", "FAULTS 0", "FAULTS 1", "HEALTH"})
 _PARTS = ("half", "page")
@@ -78,6 +83,31 @@ class RobotReports:
         if arrival not in (Arrival.AGAIN, Arrival.LATE):
             self._missing[kind] = missing
         return Arrival.NEW if gap and arrival in (Arrival.OTHER, Arrival.ELSEWHERE) else arrival
+
+    def last_of(self, names: Collection[str]) -> list[tuple[str, Frame]]:
+        """Each kind of reports with these names that have come, and the last one of that kind."""
+        kinds = self._fresh.items()
+        return [(kind, fresh.last) for kind, fresh in kinds if kind.split()[0] in names and fresh.last is not None]
+
+    @property
+    def memory_is_last(self) -> bool:
+        """Whether the last two halves of a memory are those of a whole and valid one."""
+        halves = self.last_of({"MEMORY"})
+        return bool(halves) and all(counter_of(half) == self._memory_counter for _, half in halves)
+
+    def go_on(self, kind: str, frame: Frame, missing: int) -> None:
+        """Notes that a report came that says what the last one of its kind said; none were lost between them.
+
+        Args:
+            kind: The kind, as in `last_of`.
+            frame: The report.
+            missing: As in `judge`.
+        """
+        self._fresh[kind].go_on(frame)
+        self._missing[kind] = missing
+        if kind == LAST_HALF:
+            self.gap = self.gap or 0
+            self._memory_counter = counter_of(frame)
 
     def take(self, decoded: DecodedFrame) -> bool:
         """Stores a report.

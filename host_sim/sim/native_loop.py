@@ -1,4 +1,4 @@
-"""The tick loop in C (`native/`) for robots in this process: a block of ticks a call, with the same frames."""
+"""The tick loop in C (`native/`): a block of ticks a call, with the same frames."""
 
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -6,11 +6,13 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from host_sim.client.frame_log import FrameLog
+from host_sim.client.pacing import BegunTick
 from host_sim.client.robot_client import RobotClient
 from host_sim.paths import BUILD, ROOT
-from host_sim.protocol.codec import Frame
 from host_sim.robot_io import Drive, Senses
+from host_sim.sim.loop_robots import LoopRobot, Native, RobotBehindLink, RobotInProcess
 from host_sim.transport.in_process_link import InProcessLink
+from host_sim.transport.link import SocketLink
 from host_sim.world import native_world
 from host_sim.world.arena import Arena
 from host_sim.world.body_faults import SOUND
@@ -22,11 +24,10 @@ LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_loop.so"
 _NATIVE = ROOT / "host_sim" / "sim" / "native"
 HEADERS = (ROOT / "hal" / "link" / "link.h", *native_world.HEADERS, _NATIVE / "log_lines.h", _NATIVE / "loop.h")
 
-BLOCK_TICKS = 256
+BLOCK_TICKS = 512
 """Maximum number of ticks in a block."""
 
 _LINES_A_TICK = 3
-_LENGTH = 8
 _SENSES_END = len(Senses._fields)
 _REASON = _SENSES_END + Drive._fields.index("reason")
 _DRIVE_END = _SENSES_END + len(Drive._fields)
@@ -50,32 +51,39 @@ class RobotBlock(NamedTuple):
     memory: tuple[int, ...]
 
 
-class NativeLoop:
-    """The robots of a run, and buffers for a block of their ticks."""
+def suits(clients: Sequence[RobotClient]) -> bool:
+    """Whether a loop can run these robots: all in this process, or all behind links that may have sockets."""
+    return any(all(isinstance(client.link, kind) for client in clients) for kind in (InProcessLink, SocketLink))
 
-    def __init__(self, clients: Sequence[RobotClient], links: Sequence[InProcessLink], log: FrameLog) -> None:
+
+class NativeLoop:
+    """The robots of a run, and buffers for a block of their ticks.
+
+    Attributes:
+        handed_over: Whether the tick after those of the last `run` is to be done in Python: `take_over`, `record`.
+    """
+
+    def __init__(self, clients: Sequence[RobotClient], log: FrameLog) -> None:
         """Finds the robots.
 
         Args:
-            clients: The robots' clients.
-            links: Their links.
+            clients: The robots' clients, which suit a loop.
             log: Records every frame.
 
         Raises:
             NoNativeError: The library cannot be used.
         """
         self._ffi, self._library = _loaded()
-        self._clients, self._links, self._log = clients, links, log
+        self.handed_over = False
+        self._clients, self._log = clients, log
         self._faults = [SOUND] * len(clients)
-        self._sent, self._memories = [-1] * len(clients), [client.memory for client in clients]
+        self._memories = [client.memory for client in clients]
         self._kept: list[Any] = []  # what C code points to, and Python must not free
-        self._waiting: dict[int, Any] = {}
         self._text: Any = None
         self._robots: Any = self._ffi.new("struct loop_robot[]", len(clients))
         self._loop: Any = self._ffi.new("struct loop *")
         self._loop.robots, self._loop.robot_count = self._robots, len(clients)
-        for robot, client, link in zip(self._robots, clients, links, strict=True):
-            self._bind(robot, client, link)
+        self._wires = [self._bind(robot, client) for robot, client in zip(self._robots, clients, strict=True)]
         self._world: NativeWorld
 
     def enter(self, arena: Arena, params: SimParams, plain: bool = False) -> None:
@@ -102,29 +110,53 @@ class NativeLoop:
             ticks_max: Maximum number of ticks.
 
         Returns:
-            The number of ticks that ran, at least 1.
-
-        Raises:
-            RobotError: A robot does not answer.
+            The number of ticks that ran, at least 1 unless a tick is handed over.
         """
         self._loop.tick = tick
         for index, client in enumerate(self._clients):
             self._look_up(index, client)
+        ticks = min(ticks_max, BLOCK_TICKS, *(wire.prepare() for wire in self._wires))
         if self._log.keeps:
             self._make_room(sum(robot.waiting_count for robot in self._robots))
         self._world.borrow()
         try:
-            self._library.loop_run(self._loop, min(ticks_max, BLOCK_TICKS))
+            self._library.loop_run(self._loop, ticks)
         finally:
             self._world.give_back()
         if self._log.keeps:
             self._log.add_block(self._ffi.buffer(self._text, self._loop.log.used)[:])
-        if self._loop.ticks:
-            for index, client in enumerate(self._clients):
-                self._catch_up(index, client)
-        if self._loop.silent >= 0:
-            raise self._clients[self._loop.silent].late(self._loop.tick)
+        for index, wire in enumerate(self._wires):
+            wire.catch_up(self._loop.ticks + (self._loop.handed_over and index < self._loop.answered))
+        self.handed_over = self._loop.handed_over or not ticks
         return int(self._loop.ticks)
+
+    def take_over(self) -> BegunTick:
+        """What has been done of the tick that is handed over.
+
+        Raises:
+            RobotError: A robot will not answer.
+        """
+        loop = self._loop
+        if not loop.handed_over:
+            return BegunTick(0, ())
+        if loop.sent == len(self._wires):
+            self._wires[loop.answered].go_on()
+        return BegunTick(loop.sent, [client.inbox.drive for client in self._clients[: loop.answered]])
+
+    def record(self, senses: Sequence[Senses], drives: Sequence[Drive], food_eaten: Sequence[int]) -> None:
+        """Adds the tick that was handed over to the block, now that it has been done.
+
+        Args:
+            senses: Each robot's senses.
+            drives: Each robot's drive.
+            food_eaten: For each robot, the number of pieces of food that it has eaten since `enter`.
+        """
+        first = self._loop.ticks * self._library.LOOP_ROW
+        self._world.read_bodies()
+        for robot, sensed, drive, eaten in zip(self._robots, senses, drives, food_eaten, strict=True):
+            robot.rows[first : first + _DRIVE_END] = [*sensed, *drive]
+            robot.food_eaten = eaten
+        self._library.loop_record(self._loop)
 
     def block(self, index: int) -> RobotBlock:
         """A robot's part of the last block; it is valid until the next block."""
@@ -159,12 +191,9 @@ class NativeLoop:
         """Number of pieces of food that a robot has eaten since `enter`."""
         return int(self._robots[index].food_eaten)
 
-    def _bind(self, robot: Any, client: RobotClient, link: InProcessLink) -> None:
+    def _bind(self, robot: Any, client: RobotClient) -> LoopRobot:
         """Lets the C code reach a robot, and provides its buffers."""
-        ffi, library, pointers = self._ffi, self._library, link.pointers
-        robot.octet = ffi.cast("struct octet *", pointers.octet)
-        self._loop.exchange = ffi.cast(ffi.typeof(self._loop.exchange), pointers.exchange)
-        self._loop.answers = ffi.cast(ffi.typeof(self._loop.answers), pointers.answers)
+        ffi, library, link = self._ffi, self._library, client.link
         robot.senses_id, robot.drive_id, robot.heartbeat_id = map(
             client.protocol.id_of, ("SENSES", "DRIVE", "HEARTBEAT")
         )
@@ -175,6 +204,11 @@ class NativeLoop:
         )
         robot.rows, robot.poses, robot.decisions = buffers
         self._kept += buffers
+        native = Native(ffi, library, self._loop, robot)
+        if isinstance(link, InProcessLink):
+            return RobotInProcess(native, client, link)
+        assert isinstance(link, SocketLink)
+        return RobotBehindLink(native, client, link)
 
     def _make_room(self, waiting: int) -> None:
         """Makes room for the log of a block in which some ticks have reports, and one has all there can be."""
@@ -185,33 +219,13 @@ class NativeLoop:
             self._loop.log.text, self._loop.log_size = self._text, self._ffi.sizeof(self._text)
 
     def _look_up(self, index: int, client: RobotClient) -> None:
-        """Takes over what commands may have changed. After one, even what a robot reported long ago may be news."""
+        """Takes over what commands and people may have changed."""
         robot = self._robots[index]
-        self._links[index].hear_others()
         if (faults := self._world.arena.bodies[index].faults) is not self._faults[index]:
             self._faults[index], robot.faults = faults, asdict(faults)
         robot.senses_counter, self._memories[index] = client.senses_counter, client.memory
-        if client.frames.sent != self._sent[index]:
-            robot.known_count = 0
-        if waiting := self._links[index].taken():
-            frames = [(frame.id, len(frame.data), frame.data.ljust(_LENGTH, b"\0")) for frame in waiting]
-            self._waiting[index] = robot.waiting = self._ffi.new("struct frame[]", frames)
-            robot.waiting_count = len(waiting)
-
-    def _catch_up(self, index: int, client: RobotClient) -> None:
-        robot, ticks = self._robots[index], int(self._loop.ticks)
-        client.catch_up(ticks, self.last(index)[1], _frame(robot.drive), robot.received)
-        client.frames.refused += robot.refused
-        robot.received = robot.refused = 0
-        if robot.report_count:
-            client.take_reports([_frame(report) for report in robot.reports[0 : robot.report_count]])
-        self._sent[index] = client.frames.sent
 
 
 @cache
 def _loaded() -> tuple[Any, Any]:
     return load_native(LIBRARY, "loop_", HEADERS)
-
-
-def _frame(frame: Any) -> Frame:
-    return Frame(frame.id, bytes(frame.data[0 : frame.len]))

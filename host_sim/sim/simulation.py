@@ -3,15 +3,14 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from host_sim.client.pacing import Lockstep, Pace
+from host_sim.client.pacing import BegunTick, Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import settle
 from host_sim.protocol.generated import CELL_COUNT, TICK_SPAN
 from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.sim.change_schedule import ChangeSchedule
-from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop
+from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop, suits
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
-from host_sim.transport.in_process_link import InProcessLink
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
 from host_sim.world.body_faults import SOUND
@@ -92,8 +91,8 @@ class Simulation:
         changes: What the world and the bodies are to meet with.
         block_ticks: Maximum number of ticks of a step at full speed where the loop in C can be used: `watch` finds
             them in `loop`. Set it to 1 for a `watch` that is to be called for each tick.
-        native: Whether to use the loop in C where that can be: with robots in this process, in lockstep,
-            that want no distances.
+        native: Whether to use the loop in C where that can be: in lockstep, with robots in this process or behind
+            a socket, that want no distances.
         plain: Whether that loop uses plain geometry rather than pymunk's physics: faster, with the same results.
         params: The dimensions of the world.
         record: The environments so far, and what a person changed in them.
@@ -186,11 +185,10 @@ class Simulation:
         if self._measuring:
             self.loop = None  # it knows no distances
             return
-        links = [client.link for client in self.clients if isinstance(client.link, InProcessLink)]
-        if not self.native or len(links) != len(self.clients) or not isinstance(self.pace, Lockstep):
+        if not (self.native and isinstance(self.pace, Lockstep) and suits(self.clients)):
             return
         try:
-            self.loop = self.loop or NativeLoop(self.clients, links, self.clients[0].log)
+            self.loop = self.loop or NativeLoop(self.clients, self.clients[0].log)
             self.loop.enter(self.arena, self.params, self.plain)
         except NoNativeError as error:
             self.native, self.loop = False, None
@@ -207,24 +205,36 @@ class Simulation:
         """
         if self.tick >= self._schedule.next_tick:
             self._surprise()
-        if self.loop is None:
-            self._step_once()
-        else:
+        if self.loop is not None:
             self._step_in_c(self.loop, ticks_max)
+            return
+        self._step_once()
         self.watch(self)
 
     def _step_in_c(self, loop: NativeLoop, ticks_max: int) -> None:
+        """Runs a block; what did not go as usual in its last tick is done in Python, as everywhere."""
         left = self.record.limit_ticks - self.episode.ticks
         ticks = loop.run(self.tick, max(1, min(ticks_max, left, self._schedule.next_tick - self.tick)))
+        self.tick += ticks
+        self.episode.ticks += ticks
+        try:
+            if loop.handed_over:
+                self._step_once(loop.take_over())
+                ticks += 1
+                loop.record(self.senses, self.drives, [robot.food_eaten for robot in self.episode.robots])
+        finally:
+            if ticks:
+                self._take_block(loop)
+                self.watch(self)
+
+    def _take_block(self, loop: NativeLoop) -> None:
         lasts = [loop.last(i) for i in range(len(self.clients))]
         self.senses, self.drives = [senses for senses, _ in lasts], [drive for _, drive in lasts]
         for i, robot in enumerate(self.episode.robots):
             robot.begun, robot.food_eaten = loop.begun(i), loop.food_eaten(i)
-        self.tick += ticks
-        self.episode.ticks += ticks
         self._set_time(self.tick - 1)
 
-    def _step_once(self) -> None:
+    def _step_once(self, tick: BegunTick | None = None) -> None:
         self._set_time(self.tick)
         bodies, before = self.arena.bodies, self.drives
         for i, body in enumerate(bodies):
@@ -232,7 +242,7 @@ class Simulation:
             self.senses[i] = sensed if body.faults is SOUND else body.faults.sensed(sensed, self.tick)
         for i in self._measuring:
             self.clients[i].ranges = bodies[i].faults.measured(self.arena.ranges(i))
-        self.drives = self.pace.exchange(self.senses)
+        self.drives = self.pace.exchange(self.senses) if tick is None else self._go_on(tick)
         for i, (body, drive) in enumerate(zip(bodies, self.drives, strict=True)):
             if drive.eat and body.eat():
                 self.episode.robots[i].food_eaten += 1
@@ -243,6 +253,10 @@ class Simulation:
                 begun[drive.reason] = begun.get(drive.reason, 0) + 1
         self.tick += 1
         self.episode.ticks += 1
+
+    def _go_on(self, tick: BegunTick) -> Sequence[Drive]:
+        assert isinstance(self.pace, Lockstep)  # there is no loop otherwise
+        return self.pace.exchange(self.senses, tick)
 
     def leave(self) -> EpisodeResult:
         """Ends the environment, finished or not, and returns its result."""

@@ -18,12 +18,21 @@ class BusLink:
 
     Attributes:
         explain: Called when the line is gone, before the error is raised; it may raise one that says more.
+        garbled: As in `FrameSocket`.
     """
 
-    def __init__(self, bus: can.BusABC, stats: LineStats | None = None) -> None:
-        """Takes over the bus: `close` shuts it down."""
+    def __init__(self, bus: can.BusABC, stats: LineStats | None = None, *, is_socket: bool = False) -> None:
+        """Takes over the bus: `close` shuts it down.
+
+        Args:
+            bus: The bus.
+            stats: Counts what happens to the line.
+            is_socket: Whether the bus is a socket that carries a frame a datagram, as SocketCAN does.
+        """
         self.explain: Callable[[], object] = lambda: None
-        self._bus = bus
+        self.garbled = 0
+        self._bus, self._is_socket = bus, is_socket
+        self._back: Frame | None = None
         self._stats = stats or LineStats()
 
     def send(self, frame: Frame) -> None:
@@ -39,6 +48,9 @@ class BusLink:
 
     def receive(self, timeout_s: float) -> Frame | None:
         """As in `Link`."""
+        if self._back is not None:
+            frame, self._back = self._back, None
+            return frame
         try:
             message = self._bus.recv(timeout_s)
         except (can.CanError, OSError) as error:
@@ -51,6 +63,18 @@ class BusLink:
         if message.is_extended_id or message.is_remote_frame or message.is_error_frame or message.is_fd:
             return _NO_FRAME
         return Frame(message.arbitration_id, bytes(message.data))
+
+    def frame_socket(self) -> "BusLink | None":
+        """As in `SocketLink`."""
+        return self if self._is_socket and self._back is None else None
+
+    def fileno(self) -> int:
+        """As in `FrameSocket`."""
+        return self._bus.fileno()
+
+    def put_back(self, frame: Frame) -> None:
+        """As in `FrameSocket`."""
+        self._back = frame
 
     def close(self) -> None:
         """As in `Link`."""

@@ -33,7 +33,7 @@ def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats, bitrate: int =
     interface, _, channel = bus.partition(":")
     if interface == "slcan" and channel:
         return open_serial_line(channel, bitrate, ids, stats)
-    return BusLink(open_bus(bus, ids, bitrate), stats)
+    return BusLink(open_bus(bus, ids, bitrate), stats, is_socket=interface == "socketcan")
 
 
 def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.BusABC:

@@ -1,6 +1,6 @@
 """Ways for frames to get to a robot and back."""
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from host_sim.protocol.codec import Frame
 
@@ -24,3 +24,27 @@ class Link(Protocol):
 
     def close(self) -> None:
         """Ends it."""
+
+
+class FrameSocket(Protocol):
+    """A socket that carries a frame a datagram, as SocketCAN does, so that C code can send and receive as well.
+
+    Attributes:
+        garbled: Number of datagrams that were not frames.
+    """
+
+    garbled: int
+
+    def fileno(self) -> int:
+        """The socket."""
+
+    def put_back(self, frame: Frame) -> None:
+        """Has the next `receive` return a frame that was received from the socket already."""
+
+
+@runtime_checkable
+class SocketLink(Link, Protocol):
+    """A link that may have such a socket."""
+
+    def frame_socket(self) -> FrameSocket | None:
+        """Its socket, when all that is to be sent before the next frame has been sent; None if there is none now."""

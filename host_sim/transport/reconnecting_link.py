@@ -7,7 +7,7 @@ from contextlib import suppress
 from host_sim.errors import LinkDownError, OctetError, RobotError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.line_stats import LineStats
-from host_sim.transport.link import Link
+from host_sim.transport.link import FrameSocket, Link, SocketLink
 
 _PAUSE_S = 0.1
 
@@ -60,6 +60,11 @@ class ReconnectingLink:
                 self._note_gone(error)
         self._wait()
         return None
+
+    def frame_socket(self) -> FrameSocket | None:
+        """As in `SocketLink`."""
+        there = self._link if self._gone_since is None else None
+        return there.frame_socket() if isinstance(there, SocketLink) else None
 
     def close(self) -> None:
         """As in `Link`."""

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from host_sim.protocol.codec import MEMORY_IDS, Frame
-from host_sim.transport.link import Link
+from host_sim.transport.link import FrameSocket, Link, SocketLink
 
 
 class Relay:
@@ -48,8 +48,7 @@ class RelayedLink:
 
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
-        for heard in self.relay.take(self.node):
-            self.link.send(heard)
+        self._pass_on()
         self.link.send(frame)
 
     def receive(self, timeout_s: float) -> Frame | None:
@@ -58,6 +57,15 @@ class RelayedLink:
         if frame is not None:
             self.relay.hear(self.node, frame)
         return frame
+
+    def frame_socket(self) -> FrameSocket | None:
+        """As in `SocketLink`."""
+        self._pass_on()
+        return self.link.frame_socket() if isinstance(self.link, SocketLink) else None
+
+    def _pass_on(self) -> None:
+        for heard in self.relay.take(self.node):
+            self.link.send(heard)
 
     def close(self) -> None:
         """As in `Link`."""

@@ -38,7 +38,7 @@ class SocketPairBus(can.BusABC):
         """
         try:
             self._socket = socket.socket(fileno=int(channel))
-            self._socket.setblocking(False)
+            self._socket.setblocking(True)  # for C code that waits; here, each call says that it does not
         except (OSError, TypeError, ValueError) as error:
             raise can.CanInitializationError(f"channel {channel!r} is no open socket: {error}") from error
         self.garbled = 0
@@ -70,7 +70,7 @@ class SocketPairBus(can.BusABC):
 
     def _try_send(self, packed: bytes) -> bool:
         try:
-            self._socket.send(packed)
+            self._socket.send(packed, socket.MSG_DONTWAIT)
         except BlockingIOError:
             return False
         return True
@@ -94,7 +94,7 @@ class SocketPairBus(can.BusABC):
         """The next datagram that is a frame, if it has come."""
         while True:
             try:
-                packed = self._socket.recv(_FRAME.size + 1)
+                packed = self._socket.recv(_FRAME.size + 1, socket.MSG_DONTWAIT)
             except BlockingIOError:
                 return None
             if len(packed) == _FRAME.size and packed[4] <= _DATA_MAX:

@@ -62,13 +62,17 @@ class NativeWorld:
 
     def borrow(self) -> None:
         """Takes the arena over, as it is now."""
-        for there, body in zip(self._states, self.arena.bodies, strict=True):
-            _STATE.pack_into(there, 0, *body.state)
+        self.read_bodies()
         food = self.arena.food
         for food_id, (there, (x, y)) in enumerate(zip(self._food, food.at, strict=True)):
             there.x_mm, there.y_mm, there.eaten = x, y, food_id not in food.uneaten
         self._library.world_begin(self.world)
         self._space.take(self.world)
+
+    def read_bodies(self) -> None:
+        """Takes over where the arena's bodies are."""
+        for there, body in zip(self._states, self.arena.bodies, strict=True):
+            _STATE.pack_into(there, 0, *body.state)
 
     def give_back(self) -> None:
         """Brings the arena up to date and leaves it to pymunk."""

@@ -104,7 +104,7 @@ static void test_a_block_runs_as_many_ticks_as_asked_for(void)
     loop_run(&loop, 3);
     TEST_ASSERT_EQUAL_UINT32(3, loop.ticks);
     TEST_ASSERT_EQUAL_UINT32(258, loop.tick);
-    TEST_ASSERT_EQUAL_INT32(-1, loop.silent);
+    TEST_ASSERT_FALSE(loop.handed_over);
     TEST_ASSERT_EQUAL_DOUBLE(1012.0, world.bodies[0].x_mm);
     TEST_ASSERT_EQUAL_UINT32(3, robots[1].received);
 }
@@ -227,7 +227,9 @@ static void test_a_silent_robots_tick_does_not_count(void)
     octets[1].silent = true;
     loop_run(&loop, TICKS);
     TEST_ASSERT_EQUAL_UINT32(0, loop.ticks);
-    TEST_ASSERT_EQUAL_INT32(1, loop.silent);
+    TEST_ASSERT_TRUE(loop.handed_over);
+    TEST_ASSERT_EQUAL_size_t(ROBOTS, loop.sent);
+    TEST_ASSERT_EQUAL_size_t(1, loop.answered);
     TEST_ASSERT_EQUAL_DOUBLE(1000.0, world.bodies[0].x_mm);
 }
 
@@ -255,6 +257,36 @@ static void test_what_waited_is_logged_once_after_the_senses(void)
     TEST_ASSERT_EQUAL_INT(4, lines());
 }
 
+static void test_a_tick_that_was_done_elsewhere_is_recorded_like_all(void)
+{
+    int16_t *row = rows[0] + 2 * LOOP_ROW;
+
+    loop_run(&loop, 2);
+    memcpy(row, rows[0] + LOOP_ROW, 14 * sizeof *row);
+    row[1] = FEEL_FRONT;
+    row[10] = REASON_TRIAL;
+    row[12] = 5;
+    world.bodies[0].x_mm = 77.0;
+    world.bodies[0].lifted = true;
+    loop_record(&loop);
+    TEST_ASSERT_EQUAL_UINT32(3, loop.ticks);
+    TEST_ASSERT_EQUAL_UINT32(3, loop.tick);
+    TEST_ASSERT_EQUAL_DOUBLE(77.0, poses[0][2 * LOOP_POSE]);
+    TEST_ASSERT_EQUAL_INT16(2, row[14]);
+    TEST_ASSERT_EQUAL_INT16(1, row[15]);
+    TEST_ASSERT_EQUAL_UINT8(5, robots[0].action);
+    TEST_ASSERT_EQUAL_UINT32(1, robots[0].begun[REASON_TRIAL]);
+    TEST_ASSERT_EQUAL_size_t(1, robots[0].decision_count);
+    TEST_ASSERT_EQUAL_UINT32(2, decisions[0][0]);
+}
+
+static void test_turns_may_be_taken_in_another_way(void)
+{
+    loop.take_turns = turns_in_process;
+    loop_run(&loop, 1);
+    TEST_ASSERT_EQUAL_UINT32(1, loop.ticks);
+}
+
 static void test_a_block_ends_before_the_log_overflows(void)
 {
     loop.log_size = (ROBOTS * (1 + LOOP_FRAMES_MAX) + 1) * LOG_LINE_MAX;
@@ -279,6 +311,8 @@ int main(void)
     RUN_TEST(test_a_silent_robots_tick_does_not_count);
     RUN_TEST(test_a_drive_for_other_senses_is_refused_and_not_logged);
     RUN_TEST(test_what_waited_is_logged_once_after_the_senses);
+    RUN_TEST(test_a_tick_that_was_done_elsewhere_is_recorded_like_all);
+    RUN_TEST(test_turns_may_be_taken_in_another_way);
     RUN_TEST(test_a_block_ends_before_the_log_overflows);
     return UNITY_END();
 }

@@ -216,8 +216,9 @@ def test_a_robot_that_stays_silent_is_named():
         assert silent
 
 
-def test_only_robots_in_this_process_are_run_by_it():
-    with make(RunConfig(environments=1, limit_s=1.0, bus="fd")) as simulation:
+@pytest.mark.parametrize("config", [RunConfig(bus="fd", real_time=True), RunConfig(bus="fd", faults=("drop:1%",))])
+def test_runs_in_real_time_and_with_faults_are_not_run_by_it(config):
+    with make(config) as simulation:
         simulation.enter(1)
         assert simulation.loop is None
 

@@ -140,9 +140,106 @@ static void test_of_too_many_reports_the_last_are_kept(void)
     TEST_ASSERT_EQUAL_UINT8(LOOP_FRAMES_MAX + 2, robot.reports[LOOP_FRAMES_MAX - 1].data[2]);
 }
 
+/* A report as the robot protects it. */
+static struct frame report_of(uint32_t id, uint8_t page, uint8_t counter, uint8_t content)
+{
+    struct frame frame = {.id = id, .len = 8, .data = {0, (uint8_t)(page << 4 | counter), content}};
+
+    e2e_protect(&frame);
+    return frame;
+}
+
+static bool goes_on(uint32_t id, uint8_t page, uint8_t counter, uint8_t content)
+{
+    struct frame frame = report_of(id, page, counter, content);
+
+    return robot_wire_goes_on(&robot, &frame);
+}
+
+static void know(struct frame frame)
+{
+    robot.known[robot.known_count++] = frame;
+}
+
+static void test_a_report_goes_on_when_it_says_the_same_with_the_next_counter(void)
+{
+    know(report_of(FAULTS, 1, 13, 7));
+    robot.received = 4;
+    TEST_ASSERT_TRUE(goes_on(FAULTS, 1, 14, 7));
+    TEST_ASSERT_EQUAL_UINT32(5, robot.told[0]);
+    TEST_ASSERT_TRUE(goes_on(FAULTS, 1, 0, 7));
+}
+
+static void test_what_came_before_or_says_something_new_does_not_go_on(void)
+{
+    know(report_of(FAULTS, 1, 3, 7));
+    TEST_ASSERT_FALSE(goes_on(FAULTS, 1, 3, 7));
+    TEST_ASSERT_FALSE(goes_on(FAULTS, 1, 5, 7));
+    TEST_ASSERT_FALSE(goes_on(FAULTS, 1, 4, 8));
+    TEST_ASSERT_FALSE(goes_on(FAULTS, 0, 4, 7));
+    TEST_ASSERT_FALSE(goes_on(FAULTS + 1, 1, 4, 7));
+    TEST_ASSERT_EQUAL_UINT32(0, robot.told[0]);
+    TEST_ASSERT_TRUE(goes_on(FAULTS, 1, 4, 7));
+}
+
+static void test_what_is_damaged_does_not_go_on(void)
+{
+    struct frame damaged = report_of(FAULTS, 0, 2, 0), shorter = damaged;
+
+    know(report_of(FAULTS, 0, 1, 0));
+    damaged.data[0] ^= 1;
+    shorter.len = 7;
+    TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &damaged));
+    TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &shorter));
+}
+
+static struct frame heartbeat(uint8_t counter, uint8_t owner, uint16_t uptime)
+{
+    struct octet_heartbeat_t message = {.counter = counter, .state = 1, .owner = owner, .uptime = uptime, .layout = 9};
+    struct frame frame = {.id = HEARTBEAT, .len = OCTET_HEARTBEAT_LENGTH};
+
+    TEST_ASSERT_EQUAL_INT(OCTET_HEARTBEAT_LENGTH, octet_heartbeat_pack(frame.data, &message, sizeof frame.data));
+    e2e_protect(&frame);
+    return frame;
+}
+
+static void test_a_heartbeat_goes_on_with_the_time(void)
+{
+    struct frame next = heartbeat(2, 1, 501), taken = heartbeat(3, 2, 502);
+
+    know(heartbeat(1, 1, 500));
+    TEST_ASSERT_TRUE(robot_wire_goes_on(&robot, &next));
+    TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &taken));
+}
+
+static void test_a_heartbeat_of_another_state_does_not_go_on(void)
+{
+    struct frame stopped = heartbeat(2, 1, 501);
+
+    know(heartbeat(1, 1, 500));
+    stopped.data[1] = 2;
+    e2e_protect(&stopped);
+    TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &stopped));
+}
+
+static void test_a_heartbeat_of_no_length_does_not_go_on(void)
+{
+    struct frame nothing = {.id = HEARTBEAT, .len = 2, .data = {0, 0x12}};
+
+    e2e_protect(&nothing);
+    know((struct frame){.id = HEARTBEAT, .len = 2, .data = {0, 0x11}});
+    TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &nothing));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_report_goes_on_when_it_says_the_same_with_the_next_counter);
+    RUN_TEST(test_what_came_before_or_says_something_new_does_not_go_on);
+    RUN_TEST(test_what_is_damaged_does_not_go_on);
+    RUN_TEST(test_a_heartbeat_goes_on_with_the_time);
+    RUN_TEST(test_a_heartbeat_of_another_state_does_not_go_on);
+    RUN_TEST(test_a_heartbeat_of_no_length_does_not_go_on);
     RUN_TEST(test_senses_are_told_whole);
     RUN_TEST(test_senses_count_themselves);
     RUN_TEST(test_a_drive_is_read_whole);

@@ -36,6 +36,8 @@ void log_lines_add(struct log_lines *lines, const struct frame *frame)
 {
     char *at = lines->text + lines->used;
 
+    if (!lines->text)
+        return;
     for (unsigned i = 0; i < LOG_STAMP; i++)
         *at++ = lines->stamp[i];
     at = put_hex(at, frame->id, 3);

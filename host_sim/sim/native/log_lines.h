@@ -9,7 +9,7 @@
 enum { LOG_STAMP = 26, LOG_LINE_MAX = 48 };   /* characters: of a stamp with its channel, and of a line with its end */
 
 struct log_lines {
-    char *text;   /* without a 0 at its end */
+    char *text;   /* without a 0 at its end; null: nothing is logged */
     size_t used;
     char stamp[LOG_STAMP];
 };
@@ -18,6 +18,6 @@ void log_lines_stamp(struct log_lines *lines, uint64_t time_us);
         /* Sets the time of the lines that follow: less than 10^10 s. */
 
 void log_lines_add(struct log_lines *lines, const struct frame *frame);
-        /* Adds a line. The caller makes sure that there is room for LOG_LINE_MAX characters. */
+        /* Adds a line, unless there is no text. The caller makes sure that there is room for LOG_LINE_MAX characters. */
 
 #endif

@@ -3,67 +3,11 @@
 #include <math.h>
 
 #include "firmware/pattern.h"
-#include "host_sim/sim/native/robot_wire.h"
-
-/* Of one robot in one tick. */
-struct turn {
-    struct senses senses;
-    struct drive drive;
-};
+#include "host_sim/sim/native/turn.h"
 
 enum { TURNS_MAX = NODE_MAX };
 
-static void log_frame(struct loop *loop, const struct frame *frame)
-{
-    if (loop->log.text)
-        log_lines_add(&loop->log, frame);
-}
-
-static void send_senses(struct loop *loop, struct loop_robot *robot, const struct senses *senses)
-{
-    struct frame frame = {0};
-
-    robot_wire_senses(robot, senses, &frame);
-    log_frame(loop, &frame);
-    robot->answer_count = loop->exchange(robot->octet, &frame);
-}
-
-/* Takes one frame of a robot; true if it is its drive. A drive that answers other senses is refused. */
-static bool take_frame(struct loop *loop, struct loop_robot *robot, const struct frame *frame, struct turn *turn)
-{
-    bool is_drive = frame->id == robot->drive_id;
-
-    if (is_drive && !robot_wire_drive(frame, turn->senses.tick, &turn->drive)) {
-        robot->refused++;
-        return false;
-    }
-    if (is_drive)
-        robot->drive = *frame;
-    else
-        robot_wire_report(robot, frame);
-    robot->received++;
-    log_frame(loop, frame);
-    return is_drive;
-}
-
-/* Takes all that a robot has said; true if its drive was there. */
-static bool take_answers(struct loop *loop, struct loop_robot *robot, struct turn *turn)
-{
-    const struct frame *answers = loop->answers(robot->octet);
-    bool driven = false;
-
-    robot->report_count = 0;
-    robot->has_news = false;
-    for (size_t i = 0; i < robot->waiting_count; i++)
-        driven |= take_frame(loop, robot, &robot->waiting[i], turn);
-    robot->waiting_count = 0;
-    for (size_t i = 0; i < robot->answer_count; i++)
-        driven |= take_frame(loop, robot, &answers[i], turn);
-    return driven;
-}
-
-/* All robots hear their senses before the first one's answer is read. */
-static bool exchange(struct loop *loop, struct turn turns[])
+static void sense(const struct loop *loop, struct turn turns[])
 {
     uint8_t tick = (uint8_t)(loop->tick % TICK_SPAN);
 
@@ -71,58 +15,63 @@ static bool exchange(struct loop *loop, struct turn turns[])
         world_sense(loop->world, &loop->world->bodies[i], tick, &turns[i].senses);
         body_faults_sense(&loop->robots[i].faults, loop->tick, &turns[i].senses);
     }
-    for (size_t i = 0; i < loop->robot_count; i++)
-        send_senses(loop, &loop->robots[i], &turns[i].senses);
-    for (size_t i = 0; i < loop->robot_count; i++)
-        if (!take_answers(loop, &loop->robots[i], &turns[i])) {
-            loop->silent = (int32_t)i;
-            return false;
-        }
-    return true;
 }
 
-/* Counts an action that begins, and notes it if it is a decision to learn from. */
-static void begin_action(struct loop_robot *robot, const struct turn *turn, uint32_t tick_of_block)
-{
-    bool tried = robot->begun_any && robot->reason == REASON_TRIAL;
+/* What a robot senses and does, as it is recorded: the first numbers of a row. */
+enum { ROW_FEEL = 1, ROW_REASON = 10, ROW_ACTION = 12, ROW_PATTERN = 14 };
 
-    if (turn->drive.action != robot->action && (unsigned)turn->drive.reason < LOOP_REASONS)
-        robot->begun[turn->drive.reason]++;
-    robot->begun_any = true;
-    robot->pattern = pattern_of(turn->senses.feel);
-    if (tried || turn->drive.reason == REASON_REMEMBERED || turn->drive.reason == REASON_TRIAL)
-        robot->decisions[robot->decision_count++] = tick_of_block;
-}
-
-static void record_row(const struct loop_robot *robot, const struct body *body, const struct turn *turn, int16_t row[])
+static void fill_row(const struct turn *turn, int16_t row[])
 {
     const struct senses *senses = &turn->senses;
     const struct drive *drive = &turn->drive;
-    const int16_t numbers[LOOP_ROW] = {
+    const int16_t numbers[ROW_PATTERN] = {
         senses->tick, senses->feel, senses->bump, senses->look, (int16_t)senses->beacon_mm,
         (int16_t)senses->odometer_left, (int16_t)senses->odometer_right,
         drive->tick, drive->left_mm_s, drive->right_mm_s, (int16_t)drive->reason, drive->repeat_count,
-        drive->action, drive->eat, robot->pattern, body->lifted, 0,
+        drive->action, drive->eat,
     };
 
-    for (unsigned i = 0; i < LOOP_ROW; i++)
+    for (unsigned i = 0; i < ROW_PATTERN; i++)
         row[i] = numbers[i];
 }
 
-static void record(struct loop *loop, size_t index, const struct turn *turn)
+/* Counts an action that begins, and notes it if it is a decision to learn from. */
+static void begin_action(struct loop_robot *robot, const int16_t row[], uint32_t tick_of_block)
 {
-    struct loop_robot *robot = &loop->robots[index];
-    const struct body *body = &loop->world->bodies[index];
-    double *pose = robot->poses + (size_t)loop->ticks * LOOP_POSE;
+    bool tried = robot->begun_any && robot->reason == REASON_TRIAL;
+    enum reason reason = (enum reason)row[ROW_REASON];
 
-    if (!robot->begun_any || turn->drive.action != robot->action)
-        begin_action(robot, turn, loop->ticks);
-    robot->action = turn->drive.action;
-    robot->reason = (uint8_t)turn->drive.reason;
+    if (row[ROW_ACTION] != robot->action && (unsigned)reason < LOOP_REASONS)
+        robot->begun[reason]++;
+    robot->begun_any = true;
+    robot->pattern = pattern_of((uint8_t)row[ROW_FEEL]);
+    if (tried || reason == REASON_REMEMBERED || reason == REASON_TRIAL)
+        robot->decisions[robot->decision_count++] = tick_of_block;
+}
+
+static void record(struct loop_robot *robot, const struct body *body, uint32_t tick_of_block)
+{
+    int16_t *row = robot->rows + (size_t)tick_of_block * LOOP_ROW;
+    double *pose = robot->poses + (size_t)tick_of_block * LOOP_POSE;
+
+    if (!robot->begun_any || row[ROW_ACTION] != robot->action)
+        begin_action(robot, row, tick_of_block);
+    robot->action = (uint8_t)row[ROW_ACTION];
+    robot->reason = (uint8_t)row[ROW_REASON];
+    row[ROW_PATTERN] = robot->pattern;
+    row[ROW_PATTERN + 1] = body->lifted;
+    row[ROW_PATTERN + 2] = 0;
     pose[0] = body->x_mm;
     pose[1] = body->y_mm;
     pose[2] = body->heading_rad;
-    record_row(robot, body, turn, robot->rows + (size_t)loop->ticks * LOOP_ROW);
+}
+
+void loop_record(struct loop *loop)
+{
+    for (size_t i = 0; i < loop->robot_count; i++)
+        record(&loop->robots[i], &loop->world->bodies[i], loop->ticks);
+    loop->tick++;
+    loop->ticks++;
 }
 
 /* Eats and moves; true if something was eaten. */
@@ -138,25 +87,6 @@ static bool act(struct loop *loop, size_t index, const struct drive *drive)
     return eaten;
 }
 
-/* As on a bus, the others hear what a robot says of its memory. They answer nothing, so that their own answers stay. */
-static void pass_on(struct loop *loop, size_t from, const struct frame *frame)
-{
-    for (size_t i = 0; i < loop->robot_count; i++)
-        if (i != from)
-            (void)loop->exchange(loop->robots[i].octet, frame);
-}
-
-static void pass_memories_on(struct loop *loop)
-{
-    for (size_t i = 0; i < loop->robot_count; i++) {
-        const struct frame *answers = loop->answers(loop->robots[i].octet);
-
-        for (size_t k = 0; k < loop->robots[i].answer_count; k++)
-            if (robot_wire_is_memory(&answers[k]))
-                pass_on(loop, i, &answers[k]);
-    }
-}
-
 /* One tick; true if the block may go on after it. */
 static bool run_tick(struct loop *loop)
 {
@@ -165,15 +95,16 @@ static bool run_tick(struct loop *loop)
 
     if (loop->log.text)
         log_lines_stamp(&loop->log, (uint64_t)rint(loop->tick * loop->world->params.tick_s * 1e6));
-    if (!exchange(loop, turns))
+    sense(loop, turns);
+    if (!(loop->take_turns ? loop->take_turns : turns_in_process)(loop, turns)) {
+        loop->handed_over = true;
         return false;
-    pass_memories_on(loop);
+    }
     for (size_t i = 0; i < loop->robot_count; i++) {
         goes_on &= !act(loop, i, &turns[i].drive) && !loop->robots[i].has_news;
-        record(loop, i, &turns[i]);
+        fill_row(&turns[i], loop->robots[i].rows + (size_t)loop->ticks * LOOP_ROW);
     }
-    loop->tick++;
-    loop->ticks++;
+    loop_record(loop);
     return goes_on;
 }
 
@@ -186,15 +117,23 @@ static bool has_room(const struct loop *loop)
     return !loop->log.text || loop->log_size - loop->log.used >= lines * LOG_LINE_MAX;
 }
 
+static void begin_block(struct loop_robot *robot)
+{
+    robot->decision_count = 0;
+    robot->received = robot->refused = 0;
+    for (size_t i = 0; i < LOOP_KINDS_MAX; i++)
+        robot->told[i] = 0;
+}
+
 void loop_run(struct loop *loop, uint32_t ticks_max)
 {
     bool goes_on = true;
 
     loop->ticks = 0;
     loop->log.used = 0;
-    loop->silent = -1;
+    loop->handed_over = false;
     for (size_t i = 0; i < loop->robot_count; i++)
-        loop->robots[i].decision_count = 0;
+        begin_block(&loop->robots[i]);
     while (goes_on && loop->ticks < ticks_max && has_room(loop))
         goes_on = run_tick(loop);
 }

@@ -1,7 +1,11 @@
-/* loop.h: robots of this process in their world, a block of ticks at a time.
+/* loop.h: robots in their world, a block of ticks at a time.
  *
  * Simulation.step in host_sim/sim/simulation.py is the readable reference. Here the same happens in the same order, with
- * the same frames: the robots hear and answer by the wire's own codec. The caller provides all memory. */
+ * the same frames: the robots hear and answer by the wire's own codec. The caller provides all memory.
+ *
+ * A robot is in this process, or behind a link. Of one behind a link, only the usual is dealt with here: the drive that
+ * answers its senses, and reports that say what is known. At whatever else comes or does not come, the tick is handed
+ * over as it is, for the caller to go on with: the rules of a session are in host_sim/client/. */
 #ifndef OCTET_LOOP_H
 #define OCTET_LOOP_H
 
@@ -21,7 +25,8 @@ enum {
 };
 
 struct loop_robot {
-    struct octet *octet;
+    struct octet *octet;              /* in this process, */
+    struct link *link;                /* or behind this */
     uint32_t senses_id;
     uint32_t drive_id;
     uint32_t heartbeat_id;
@@ -40,6 +45,7 @@ struct loop_robot {
     size_t answer_count;              /* in this tick */
     struct frame drive;               /* its last DRIVE */
     struct frame known[LOOP_KINDS_MAX];     /* the last report of each kind */
+    uint32_t told[LOOP_KINDS_MAX];          /* behind a link: which of the frames received in the block it was; 0: none */
     size_t known_count;
     struct frame reports[LOOP_FRAMES_MAX];  /* of the last tick, */
     size_t report_count;
@@ -50,7 +56,11 @@ struct loop_robot {
     size_t decision_count;
 };
 
+struct turn;   /* turn.h */
+
 struct loop {
+    bool (*take_turns)(struct loop *loop, struct turn *turns);   /* one of those below; null: turns_in_process */
+    uint32_t wait_ms;                 /* for a frame over a link */
     size_t (*exchange)(struct octet *octet, const struct frame *in);
     const struct frame *(*answers)(const struct octet *octet);
     struct world *world;
@@ -60,12 +70,26 @@ struct loop {
     uint32_t ticks;                   /* done in the block */
     struct log_lines log;             /* without text: nothing is logged */
     size_t log_size;
-    int32_t silent;                   /* the robot that did not answer; -1: none */
+    bool handed_over;                 /* the next tick has begun, but did not go as usual: */
+    size_t sent;                      /* robots that have been sent its senses, */
+    size_t answered;                  /* and robots whose drives have come */
+    int received;                     /* what link_receive has given for the next one: with 1, this */
+    struct frame in_hand;
 };
 
 void loop_run(struct loop *loop, uint32_t ticks_max);
         /* Runs a block of ticks. The log must have room for one tick's lines. It ends earlier after a tick in
-           which food was eaten or a robot reported something new, when the log is full, and when a robot does not answer;
-           that tick is not counted. */
+           which food was eaten or a robot reported something new, when the log is full, and when a tick is handed over,
+           which is not counted. In this process, that is one in which a robot does not answer. */
+
+bool turns_in_process(struct loop *loop, struct turn *turns);
+        /* Tells each robot its senses, then takes in what each one answers. False: the tick is to be handed over. */
+
+bool turns_over_links(struct loop *loop, struct turn *turns);
+        /* The same for robots behind links. */
+
+void loop_record(struct loop *loop);
+        /* Counts and records one more tick of the block, which was done elsewhere. The first numbers of its rows are there
+           already, up to the drive's, and the bodies are where they are after it. */
 
 #endif

@@ -57,11 +57,16 @@ static struct frame *known(struct loop_robot *robot, const struct frame *frame)
     return NULL;
 }
 
+static bool says_the_same(const struct frame *before, const struct frame *frame)
+{
+    return memcmp(before->data + CONTENT, frame->data + CONTENT, sizeof frame->data - CONTENT) == 0;
+}
+
 static bool is_news(struct loop_robot *robot, const struct frame *frame)
 {
     struct frame *before = known(robot, frame);
 
-    if (before && memcmp(before->data + CONTENT, frame->data + CONTENT, sizeof frame->data - CONTENT) == 0)
+    if (before && says_the_same(before, frame))
         return false;
     if (!before && robot->known_count < LOOP_KINDS_MAX)
         before = &robot->known[robot->known_count++];
@@ -76,6 +81,31 @@ void robot_wire_report(struct loop_robot *robot, const struct frame *frame)
     if (robot->report_count == LOOP_FRAMES_MAX)
         memmove(robot->reports, robot->reports + 1, --robot->report_count * sizeof *frame);
     robot->reports[robot->report_count++] = *frame;
+}
+
+static bool says_the_same_later(const struct frame *before, const struct frame *frame)
+{
+    struct octet_heartbeat_t a, b;
+
+    if (octet_heartbeat_unpack(&a, before->data, before->len) != 0 ||
+        octet_heartbeat_unpack(&b, frame->data, frame->len) != 0)
+        return false;
+    return a.profile == b.profile && a.owner == b.owner && a.layout == b.layout;
+}
+
+bool robot_wire_goes_on(struct loop_robot *robot, const struct frame *frame)
+{
+    struct frame *before = known(robot, frame);
+    bool same;
+
+    if (!before || !e2e_is_whole(frame, before->len) || e2e_counter(frame) != e2e_next(e2e_counter(before)))
+        return false;
+    same = frame->id == robot->heartbeat_id ? says_the_same_later(before, frame) : says_the_same(before, frame);
+    if (same) {
+        *before = *frame;
+        robot->told[before - robot->known] = robot->received + 1;
+    }
+    return same;
 }
 
 bool robot_wire_is_memory(const struct frame *frame)

@@ -14,6 +14,10 @@ void robot_wire_report(struct loop_robot *robot, const struct frame *frame);
         /* Notes a report of this tick, and whether it says something new: more than the time, and that it was sent again.
            Of more than LOOP_FRAMES_MAX the last are kept. */
 
+bool robot_wire_goes_on(struct loop_robot *robot, const struct frame *frame);
+        /* Whether a report goes on from the last one of its kind: whole, the next by its counter, and nothing new in it but
+           the time. Then it is noted. */
+
 bool robot_wire_is_memory(const struct frame *frame);
         /* Whether it is half of some robot's memory. */
 

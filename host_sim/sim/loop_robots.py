@@ -1,0 +1,184 @@
+"""What the tick loop in C has to know of each robot, and what the robot's client has to know of the loop's ticks."""
+
+import os
+import sys
+from struct import Struct
+from typing import Any, NamedTuple, Protocol
+
+from host_sim.client.elsewhere import Ticks, routine_reports, take_last_reports, take_routine_reports, take_ticks
+from host_sim.client.robot_client import RobotClient
+from host_sim.protocol.codec import MEMORY_IDS, Frame
+from host_sim.transport.in_process_link import InProcessLink
+from host_sim.transport.link import FrameSocket, SocketLink
+from host_sim.transport.relay import RelayedLink
+
+WAIT_MS = 5
+"""Time for which C code waits for a frame over a link, ms; Python waits for what takes longer."""
+
+_TIMED_EVERY = 1024
+"""One tick of so many over a link is left to Python, which measures how long an answer takes."""
+
+_FRAME = Struct("=IB8s3x")
+_LENGTH = 8
+_ID_MAX = 0x7FF
+_NO_FRAME = Frame(-1, b"")
+
+
+class Native(NamedTuple):
+    """The C side of a robot.
+
+    Attributes:
+        ffi: Has the declarations.
+        library: Has the functions.
+        loop: The `struct loop *`.
+        robot: The robot's `struct loop_robot`.
+    """
+
+    ffi: Any
+    library: Any
+    loop: Any
+    robot: Any
+
+
+class LoopRobot(Protocol):
+    """One robot of the loop."""
+
+    def prepare(self) -> int:
+        """Takes over what has happened since the last block, and tells for how many ticks the loop may run."""
+
+    def catch_up(self, ticks: int) -> None:
+        """Tells the client about a block.
+
+        Args:
+            ticks: Number of ticks that the robot has answered, a tick that was handed over among them.
+        """
+
+    def go_on(self) -> None:
+        """This robot's answer to the tick that was handed over is the next to come: its client goes on with that.
+
+        Raises:
+            RobotError: The answer cannot come any more.
+        """
+
+
+class RobotInProcess:
+    """A robot in this process."""
+
+    def __init__(self, native: Native, client: RobotClient, link: InProcessLink) -> None:
+        """Lets C code call the robot."""
+        self._native, self._client, self._link = native, client, link
+        self._sent = -1
+        self._waiting: Any = None  # what C code points to, and Python must not free
+        ffi, loop, pointers = native.ffi, native.loop, link.pointers
+        native.robot.octet = ffi.cast("struct octet *", pointers.octet)
+        loop.exchange = ffi.cast(ffi.typeof(loop.exchange), pointers.exchange)
+        loop.answers = ffi.cast(ffi.typeof(loop.answers), pointers.answers)
+
+    def prepare(self) -> int:
+        """As in `LoopRobot`. After a command, even what the robot reported long ago may be news."""
+        robot = self._native.robot
+        self._link.hear_others()
+        if self._client.frames.sent != self._sent:
+            robot.known_count = 0
+        if waiting := self._link.taken():
+            self._waiting = robot.waiting = self._native.ffi.new("struct frame[]", [*map(_to_c, waiting)])
+            robot.waiting_count = len(waiting)
+        return sys.maxsize
+
+    def catch_up(self, ticks: int) -> None:
+        """As in `LoopRobot`."""
+        robot, client = self._native.robot, self._client
+        if not ticks:
+            return
+        take_ticks(client, Ticks(ticks, _frame(robot.drive)))
+        client.frames.received += robot.received
+        client.frames.refused += robot.refused
+        take_last_reports(client, [_frame(report) for report in robot.reports[0 : robot.report_count]])
+        self._sent = client.frames.sent
+
+    def go_on(self) -> None:
+        """As in `LoopRobot`: here, a robot answers at once or not at all."""
+        raise self._client.late(self._native.loop.tick)
+
+
+class RobotBehindLink:
+    """A robot whose frames C code sends and receives itself, over the socket of a link."""
+
+    def __init__(self, native: Native, client: RobotClient, link: SocketLink) -> None:
+        """The socket may yet come and go."""
+        self._native, self._client, self._link = native, client, link
+        self._socket: FrameSocket | None = None
+        self._opened: Any = None  # what C code points to, and Python must not free
+        self._known: Any = native.ffi.buffer(native.robot.known)
+        self._kinds: list[str] = []  # of the reports that C code knows
+        self._counts: tuple[int, ...] = ()
+        native.loop.take_turns = native.library.turns_over_links
+        native.loop.wait_ms = WAIT_MS
+
+    def prepare(self) -> int:
+        """As in `LoopRobot`. None, where the robot or its line is not as usual."""
+        client, socket = self._client, self._link.frame_socket()
+        session = client.session
+        if socket is None or session is None or session.halted or not client.round_trip.is_sure:
+            return 0
+        if socket is not self._socket:
+            self._open(socket)
+        if self._count() != self._counts:
+            self._know_reports()
+        return -(client.inbox.ticks + 1) % _TIMED_EVERY
+
+    def catch_up(self, ticks: int) -> None:
+        """As in `LoopRobot`."""
+        robot, client = self._native.robot, self._client
+        told = self._native.ffi.unpack(robot.told, len(self._kinds)) if self._kinds else []
+        in_order = sorted((when, i) for i, when in enumerate(told) if when)
+        take_routine_reports(client, [(self._kinds[i], self._report(i)) for _, i in in_order])
+        client.frames.received += robot.received
+        if ticks:
+            take_ticks(client, Ticks(ticks, _frame(robot.drive)))
+        self._counts = self._count()
+
+    def go_on(self) -> None:
+        """As in `LoopRobot`: what was received is received again."""
+        loop, library, socket = self._native.loop, self._native.library, self._socket
+        assert socket is not None
+        if loop.received == 1:
+            frame = loop.in_hand
+            socket.put_back(_frame(frame) if frame.id <= _ID_MAX else _NO_FRAME)
+        socket.garbled += loop.received == library.LINK_E_GARBLED
+
+    def _open(self, socket: FrameSocket) -> None:
+        """Has C code use another socket; it closes its own number for it."""
+        ffi, library = self._native.ffi, self._native.library
+        name, link = f"fd:{os.dup(socket.fileno())}", ffi.new("struct link **")
+        opened = library.link_open(link, name.encode(), ffi.NULL, 0)
+        assert opened == 0
+        self._socket, self._opened = socket, ffi.gc(link[0], library.link_close)
+        self._native.robot.link = self._opened
+
+    def _report(self, index: int) -> Frame:
+        frame_id, length, data = _FRAME.unpack_from(self._known, index * _FRAME.size)
+        return Frame(frame_id, data[:length])
+
+    def _know_reports(self) -> None:
+        """What others must hear, Python passes on: they hear it where it stands in the order of frames."""
+        robot, reports = self._native.robot, routine_reports(self._client)
+        if isinstance(self._link, RelayedLink):
+            reports = [(kind, frame) for kind, frame in reports if frame.id not in MEMORY_IDS]
+        self._kinds = [kind for kind, _ in reports]
+        robot.known_count = len(reports)
+        for i, (_, frame) in enumerate(reports):
+            robot.known[i] = _to_c(frame)
+
+    def _count(self) -> tuple[int, ...]:
+        """Changes with each frame that the client takes in."""
+        frames = self._client.frames
+        return frames.sent, frames.received, frames.refused
+
+
+def _to_c(frame: Frame) -> tuple[int, int, bytes]:
+    return frame.id, len(frame.data), frame.data.ljust(_LENGTH, b"\0")
+
+
+def _frame(frame: Any) -> Frame:
+    return Frame(frame.id, bytes(frame.data[0 : frame.len]))

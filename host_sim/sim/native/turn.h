@@ -1,0 +1,12 @@
+/* turn.h: what one robot is told and answers in one tick. */
+#ifndef OCTET_TURN_H
+#define OCTET_TURN_H
+
+#include "firmware/io.h"
+
+struct turn {
+    struct senses senses;
+    struct drive drive;
+};
+
+#endif

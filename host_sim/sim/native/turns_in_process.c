@@ -1,0 +1,77 @@
+#include "host_sim/sim/native/loop.h"
+#include "host_sim/sim/native/robot_wire.h"
+#include "host_sim/sim/native/turn.h"
+
+static void send_senses(struct loop *loop, struct loop_robot *robot, const struct senses *senses)
+{
+    struct frame frame = {0};
+
+    robot_wire_senses(robot, senses, &frame);
+    log_lines_add(&loop->log, &frame);
+    robot->answer_count = loop->exchange(robot->octet, &frame);
+}
+
+/* Takes one frame of a robot; true if it is its drive. A drive that answers other senses is refused. */
+static bool take_frame(struct loop *loop, struct loop_robot *robot, const struct frame *frame, struct turn *turn)
+{
+    bool is_drive = frame->id == robot->drive_id;
+
+    if (is_drive && !robot_wire_drive(frame, turn->senses.tick, &turn->drive)) {
+        robot->refused++;
+        return false;
+    }
+    if (is_drive)
+        robot->drive = *frame;
+    else
+        robot_wire_report(robot, frame);
+    robot->received++;
+    log_lines_add(&loop->log, frame);
+    return is_drive;
+}
+
+/* Takes all that a robot has said; true if its drive was there. */
+static bool take_answers(struct loop *loop, struct loop_robot *robot, struct turn *turn)
+{
+    const struct frame *answers = loop->answers(robot->octet);
+    bool driven = false;
+
+    robot->report_count = 0;
+    robot->has_news = false;
+    for (size_t i = 0; i < robot->waiting_count; i++)
+        driven |= take_frame(loop, robot, &robot->waiting[i], turn);
+    robot->waiting_count = 0;
+    for (size_t i = 0; i < robot->answer_count; i++)
+        driven |= take_frame(loop, robot, &answers[i], turn);
+    return driven;
+}
+
+/* As on a bus, the others hear what a robot says of its memory. They answer nothing, so that their own answers stay. */
+static void pass_on(struct loop *loop, size_t from, const struct frame *frame)
+{
+    for (size_t i = 0; i < loop->robot_count; i++)
+        if (i != from)
+            (void)loop->exchange(loop->robots[i].octet, frame);
+}
+
+static void pass_memories_on(struct loop *loop)
+{
+    for (size_t i = 0; i < loop->robot_count; i++) {
+        const struct frame *answers = loop->answers(loop->robots[i].octet);
+
+        for (size_t k = 0; k < loop->robots[i].answer_count; k++)
+            if (robot_wire_is_memory(&answers[k]))
+                pass_on(loop, i, &answers[k]);
+    }
+}
+
+/* All robots hear their senses before the first one's answer is read. */
+bool turns_in_process(struct loop *loop, struct turn turns[])
+{
+    for (loop->sent = 0; loop->sent < loop->robot_count; loop->sent++)
+        send_senses(loop, &loop->robots[loop->sent], &turns[loop->sent].senses);
+    for (loop->answered = 0; loop->answered < loop->robot_count; loop->answered++)
+        if (!take_answers(loop, &loop->robots[loop->answered], &turns[loop->answered]))
+            return false;
+    pass_memories_on(loop);
+    return true;
+}

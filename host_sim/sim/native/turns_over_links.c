@@ -1,0 +1,59 @@
+#include "hal/protocol/e2e.h"
+#include "host_sim/sim/native/loop.h"
+#include "host_sim/sim/native/robot_wire.h"
+#include "host_sim/sim/native/turn.h"
+
+/* The next robot that has not been sent its senses; true if its bus has them. */
+static bool send_senses(struct loop *loop, const struct senses *senses)
+{
+    struct loop_robot *robot = &loop->robots[loop->sent];
+    struct frame frame = {0};
+
+    robot_wire_senses(robot, senses, &frame);
+    if (link_send(robot->link, &frame) != 0)
+        return false;
+    log_lines_add(&loop->log, &frame);
+    return true;
+}
+
+/* Whether a frame answers the senses of this tick, and fills *drive. A robot says so only once. */
+static bool is_answer(const struct loop_robot *robot, const struct frame *frame, uint8_t tick, struct drive *drive)
+{
+    return frame->id == robot->drive_id && e2e_is_whole(frame, sizeof frame->data) &&
+           e2e_counter(frame) == robot->senses_counter && robot_wire_drive(frame, tick, drive);
+}
+
+/* Receives frames of the next robot that has not answered; true if they are what is usual, and end with its drive. */
+static bool take_drive(struct loop *loop, struct turn *turn)
+{
+    struct loop_robot *robot = &loop->robots[loop->answered];
+    const struct frame *frame = &loop->in_hand;
+    bool driven = false;
+
+    for (unsigned i = 0; i < LOOP_FRAMES_MAX && !driven; i++) {
+        loop->received = link_receive(robot->link, &loop->in_hand, loop->wait_ms);
+        if (loop->received != 1)
+            return false;
+        driven = is_answer(robot, frame, turn->senses.tick, &turn->drive);
+        if (driven)
+            robot->drive = *frame;
+        else if (!robot_wire_goes_on(robot, frame))
+            return false;
+        robot->received++;
+        log_lines_add(&loop->log, frame);
+    }
+    loop->received = 0;
+    return driven;
+}
+
+bool turns_over_links(struct loop *loop, struct turn turns[])
+{
+    loop->received = 0;
+    for (loop->sent = loop->answered = 0; loop->sent < loop->robot_count; loop->sent++)
+        if (!send_senses(loop, &turns[loop->sent].senses))
+            return false;
+    for (; loop->answered < loop->robot_count; loop->answered++)
+        if (!take_drive(loop, &turns[loop->answered]))
+            return false;
+    return true;
+}

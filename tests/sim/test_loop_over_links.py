@@ -1,0 +1,292 @@
+"""The tick loop in C over sockets against the readable one: whatever a line brings, the same rules apply."""
+
+import os
+import signal
+import socket
+import struct
+import threading
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+
+from host_sim.client.commands import erase_memory, stop, write_cells
+from host_sim.client.frame_log import FrameLog
+from host_sim.client.handshake import handshake
+from host_sim.client.robot_client import RobotClient
+from host_sim.errors import RobotError
+from host_sim.protocol.codec import Frame, Protocol, crc8
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.robot_io import NOTHING_SENSED
+from host_sim.sim.make import assemble, make
+from host_sim.sim.native_loop import BLOCK_TICKS
+from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import Simulation
+from host_sim.transport.bus_link import BusLink
+from host_sim.transport.in_process_link import InProcessLink
+from host_sim.transport.socket_pair_bus import SocketPairBus
+
+PROTOCOL = Protocol()
+RAW = struct.Struct("=IB3x8s")
+SENSES, DRIVE = PROTOCOL.id_of("SENSES"), PROTOCOL.id_of("DRIVE")
+LATE_S = 0.03
+
+
+def packed(frame: Frame) -> bytes:
+    return RAW.pack(frame.id, len(frame.data), frame.data)
+
+
+def protected(frame_id: int, data: bytes) -> Frame:
+    return Frame(frame_id, bytes((crc8(frame_id, data),)) + data[1:])
+
+
+Meddle = Callable[[list[bytes]], Iterable[bytes]]
+"""Makes something else of the datagrams by which a robot answers the senses of a tick."""
+
+
+@dataclass
+class Line:
+    """A robot of this process at the far end of a socket pair, in a thread, whose answers somebody meddles with.
+
+    Attributes:
+        meddles: What happens, by the number of the senses that are heard for the first time, from 1.
+    """
+
+    far: socket.socket
+    meddles: dict[int, Meddle] = field(default_factory=dict)
+
+    def serve(self) -> None:
+        robot, heard, last = InProcessLink(), 0, b""
+        while datagram := self.far.recv(RAW.size):
+            frame_id, length, data = RAW.unpack(datagram)
+            robot.send(Frame(frame_id, data[:length]))
+            answers = [packed(frame) for frame in robot.taken()]
+            if frame_id == SENSES and datagram != last:
+                heard, last = heard + 1, datagram
+                answers = list(self.meddles.get(heard, list)(answers))
+            for answer in answers:
+                self.far.send(answer)
+
+
+@contextmanager
+def connected(meddles: dict[int, Meddle], log: FrameLog) -> Iterator[RobotClient]:
+    near, far = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    line = Line(far, meddles)
+    thread = threading.Thread(target=line.serve)
+    thread.start()
+    link = BusLink(SocketPairBus(near.detach()), is_socket=True)
+    client = RobotClient(link, PROTOCOL, log)
+    try:
+        handshake(client, client.deadline_s)
+        yield client
+    finally:
+        far.shutdown(socket.SHUT_RD)
+        thread.join()
+        far.close()
+        link.close()
+
+
+@dataclass
+class Outcome:
+    """What a run leaves behind that does not depend on how long things took."""
+
+    log: bytes
+    recorder: RunRecorder
+    memory: tuple[int, ...]
+    incidents: list[str]
+    received: int
+    refused: int
+    garbled: int
+    error: str
+    blocks: list[int]
+    repeated: int
+
+
+def run_on(simulation: Simulation, commands: dict[int, Callable[[RobotClient], object]], blocks: list[int]) -> None:
+    simulation.enter(1)
+    while not simulation.over:
+        if simulation.tick in commands:
+            commands[simulation.tick](simulation.clients[0])
+        coming = min((tick for tick in commands if tick > simulation.tick), default=simulation.tick + BLOCK_TICKS)
+        before = simulation.tick
+        simulation.step(coming - before)
+        blocks.append(simulation.tick - before)
+    simulation.leave()
+
+
+def outcome(
+    folder: Path,
+    meddles: dict[int, Meddle],
+    native: bool,
+    commands: dict[int, Callable[[RobotClient], object]] | None = None,
+) -> Outcome:
+    log, blocks, error = FrameLog(folder / "run.log"), [], ""
+    with connected(meddles, log) as client:
+        simulation = assemble([client], RunConfig(seed=3, environments=1, limit_s=12.0))
+        simulation.native = native
+        recorder = RunRecorder.of(simulation, boredom_limit=10)
+        try:
+            run_on(simulation, commands or {}, blocks)
+            stop(client)
+        except RobotError as ended:
+            error = str(ended)
+        assert (simulation.loop is not None) == native
+        garbled = client.link.garbled + client.link._bus.garbled
+        log.close()
+        return Outcome(
+            *((folder / "run.log").read_bytes(), recorder, client.memory, [*map(str, client.incidents)]),
+            *(client.frames.received, client.frames.refused, garbled, error, blocks, client.frames.repeated),
+        )
+
+
+def assert_alike(folder: Path, meddles: dict[int, Meddle], commands=None) -> Outcome:
+    readable, native = (outcome(folder, meddles, native, commands) for native in (False, True))
+    assert native.log == readable.log
+    assert native.recorder.trajectory == readable.recorder.trajectory
+    assert native.recorder.histories == readable.recorder.histories
+    for name in ("memory", "incidents", "received", "refused", "garbled", "error"):
+        assert getattr(native, name) == getattr(readable, name), name
+    assert set(readable.blocks) == {1}
+    return native
+
+
+def foreign(frame: Frame) -> Meddle:
+    return lambda answers: [packed(frame), *answers]
+
+
+def twice(answers: list[bytes]) -> Iterable[bytes]:
+    return [*answers, *answers]
+
+
+def lost(_: list[bytes]) -> Iterable[bytes]:
+    return []
+
+
+def late(answers: list[bytes]) -> Iterable[bytes]:
+    time.sleep(LATE_S)
+    return answers
+
+
+def damaged(answers: list[bytes]) -> Iterable[bytes]:
+    return [*answers[:-1], answers[-1][:12] + b"\xff" + answers[-1][13:], answers[-1]]
+
+
+def flagged(flag: int) -> Meddle:
+    return lambda answers: [RAW.pack(DRIVE | flag, 8, b""), *answers]
+
+
+def garbled(answers: list[bytes]) -> Iterable[bytes]:
+    return [b"", b"x", RAW.pack(DRIVE, 9, b""), bytes(17), *answers]
+
+
+QUIET: dict[str, Meddle] = {
+    "a frame of nobody's": foreign(Frame(0x123, b"12345678")),
+    "an answer twice": twice,
+    "an answer that is lost": lost,
+    "an answer that is late": late,
+    "a damaged answer": damaged,
+    "an extended frame": flagged(0x80000000),
+    "a remote request": flagged(0x40000000),
+    "an error frame": flagged(0x20000000),
+    "datagrams that are no frames": garbled,
+    "an old drive": foreign(protected(DRIVE, bytes((0, 3, 250, 0, 0, 0, 0, 0)))),
+    "an empty memory that is old": foreign(protected(PROTOCOL.id_of("MEMORY"), bytes(6))),
+}
+
+
+def drives_in(log: bytes) -> list[bytes]:
+    """The lines of DRIVEs: of reports, some may be lost."""
+    return [line for line in log.splitlines() if b" %03X#" % DRIVE in line]
+
+
+def test_a_run_is_the_same(tmp_path):
+    assert_alike(tmp_path, {})
+
+
+@pytest.mark.parametrize("meddle", QUIET.values(), ids=QUIET)
+def test_what_a_line_may_bring_changes_nothing(tmp_path, meddle):
+    undisturbed = outcome(tmp_path, {}, native=False)
+
+    result = assert_alike(tmp_path, {40: meddle, 41: meddle, 300: meddle})
+
+    assert drives_in(result.log) == drives_in(undisturbed.log)
+    assert not result.error
+
+
+def test_what_is_lost_is_repeated(tmp_path):
+    assert assert_alike(tmp_path, {40: lost, 300: lost}).repeated >= 2
+
+
+def test_what_is_garbled_is_counted(tmp_path):
+    assert assert_alike(tmp_path, {40: garbled, 300: garbled}).garbled == 8
+
+
+HEARTBEAT = {"counter": 7, "state": 1, "frozen": 0, "lockstep": 1, "silent": 0, "profile": 0, "uptime": 3}
+FORGED: dict[str, Frame] = {
+    "a heartbeat of another owner's robot": PROTOCOL.encode(
+        "HEARTBEAT", {**HEARTBEAT, "owner": 8, "layout": PROTOCOL.layout}
+    ),
+    "a heartbeat of another layout": PROTOCOL.encode("HEARTBEAT", {**HEARTBEAT, "owner": 1, "layout": 1}),
+    "another drive for the same senses": protected(DRIVE, bytes((0, 39 % 15, 38, 4, 77, 0, 0, 0))),
+    "senses of another simulator": PROTOCOL.encode_senses(NOTHING_SENSED, 3),
+    "the end of a stopped robot": protected(DRIVE, bytes((0, 40 % 15, 39, 0, 0, 0, 0, 0))),
+}
+
+
+@pytest.mark.parametrize("frame", FORGED.values(), ids=FORGED)
+def test_what_contradicts_the_session_is_found_by_the_same_rules(tmp_path, frame):
+    assert_alike(tmp_path, {40: foreign(frame), 200: foreign(frame)})
+
+
+COMMANDS = {
+    100: lambda client: write_cells(client, {1: 2, 4: 1}),
+    101: erase_memory,
+    250: lambda client: write_cells(client, {6: 1}),
+    400: lambda client: write_cells(client, {2: 1}),
+}
+
+
+def test_commands_between_blocks_are_the_same(tmp_path):
+    assert_alike(tmp_path, {140: lost, 260: lost}, COMMANDS)
+
+
+def test_c_code_runs_nearly_all_ticks(tmp_path):
+    blocks = outcome(tmp_path, {}, native=True).blocks
+
+    assert sum(blocks) == 600
+    assert len(blocks) < 60
+
+
+def test_a_robot_that_ends_is_named():
+    """Its socket is closed in the middle of a block."""
+    with make(RunConfig(environments=1, bus="fd")) as simulation:
+        simulation.enter(1)
+        while simulation.tick < 20:
+            simulation.step(20 - simulation.tick)
+        os.kill(simulation.clients[0].link.explain.__self__.pid, signal.SIGKILL)
+
+        with pytest.raises(RobotError, match=r"killed by signal 9 \(SIGKILL\)"):
+            simulation.step(200)
+
+        assert simulation.tick == 20
+
+
+@pytest.mark.parametrize("robots", [1, 3])
+def test_robots_in_processes_do_as_those_in_this_one(tmp_path, robots):
+    logs = []
+    for bus, native in (("none", False), ("fd", True), ("fd", False)):
+        log = FrameLog(tmp_path / "run.log")
+        config = RunConfig(seed=2, robots=robots, environments=2, limit_s=15.0, bus=bus, profile="adaptive")
+        with make(config, log) as simulation:
+            simulation.native = native
+            recorder = RunRecorder.of(simulation, boredom_limit=10)
+            episodes = list(simulation.run())
+            for client in simulation.clients:
+                stop(client)
+        log.close()
+        logs.append(((tmp_path / "run.log").read_bytes(), episodes, recorder.trajectory))
+
+    assert logs[0] == logs[1] == logs[2]

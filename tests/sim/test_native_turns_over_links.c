@@ -1,0 +1,196 @@
+#include <string.h>
+#include <unity.h>
+
+#include "hal/protocol/e2e.h"
+#include "host_sim/sim/native/loop.h"
+#include "host_sim/sim/native/turn.h"
+#include "octet.h"
+
+enum { ROBOTS = 2, SENSES = 0x101, DRIVE = 0x041, FAULTS = 0x781, TICK = 9, COUNTER = 4, WAIT_MS = 3 };
+
+/* A bus on which comes what the test says. */
+struct link {
+    int sent;                  /* what link_send is to return */
+    struct frame out;          /* the last that was sent */
+    struct frame in[LOOP_FRAMES_MAX + 2];
+    int results[LOOP_FRAMES_MAX + 2];   /* what link_receive returns with each; 0 after the last */
+    size_t taken;
+    uint32_t wait_ms;
+};
+
+static struct link links[ROBOTS];
+static struct loop_robot robots[ROBOTS];
+static struct loop loop;
+static struct turn turns[ROBOTS];
+static char text[64 * LOG_LINE_MAX];
+
+int link_send(struct link *link, const struct frame *frame)
+{
+    link->out = *frame;
+    return link->sent;
+}
+
+int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
+{
+    link->wait_ms = wait_ms;
+    *out = link->in[link->taken];
+    return link->results[link->taken++];
+}
+
+static struct frame drive(size_t robot, uint8_t tick, uint8_t counter, enum reason reason)
+{
+    struct octet_drive_t message = {.counter = counter, .tick = tick, .reason = (uint8_t)reason, .left = 150, .action = 3};
+    struct frame frame = {.id = DRIVE + (uint32_t)robot, .len = OCTET_DRIVE_LENGTH};
+
+    (void)octet_drive_pack(frame.data, &message, sizeof frame.data);
+    e2e_protect(&frame);
+    return frame;
+}
+
+static struct frame usual(size_t robot)
+{
+    return drive(robot, TICK, COUNTER + 1, REASON_WANDER);
+}
+
+static struct frame faults(uint8_t counter)
+{
+    struct frame frame = {.id = FAULTS, .len = 8, .data = {0, counter}};
+
+    e2e_protect(&frame);
+    return frame;
+}
+
+static void comes(size_t robot, size_t place, struct frame frame)
+{
+    links[robot].in[place] = frame;
+    links[robot].results[place] = 1;
+}
+
+void setUp(void)
+{
+    memset(links, 0, sizeof links);
+    memset(robots, 0, sizeof robots);
+    memset(turns, 0, sizeof turns);
+    loop = (struct loop){.robot_count = ROBOTS, .robots = robots, .wait_ms = WAIT_MS, .log = {.text = text},
+        .log_size = sizeof text};
+    for (unsigned i = 0; i < ROBOTS; i++) {
+        robots[i] = (struct loop_robot){.link = &links[i], .senses_id = SENSES + i, .drive_id = DRIVE + i,
+            .senses_counter = COUNTER};
+        turns[i].senses.tick = TICK;
+        comes(i, 0, usual(i));
+    }
+}
+
+void tearDown(void) {}
+
+static int lines(void)
+{
+    int count = 0;
+
+    for (size_t i = 0; i < loop.log.used; i++)
+        count += text[i] == '\n';
+    return count;
+}
+
+static void test_usual_turns_are_taken(void)
+{
+    TEST_ASSERT_TRUE(turns_over_links(&loop, turns));
+    TEST_ASSERT_EQUAL_size_t(ROBOTS, loop.sent);
+    TEST_ASSERT_EQUAL_size_t(ROBOTS, loop.answered);
+    TEST_ASSERT_EQUAL_INT16(150, turns[1].drive.left_mm_s);
+    TEST_ASSERT_EQUAL_HEX32(SENSES + 1, links[1].out.id);
+    TEST_ASSERT_TRUE(e2e_is_whole(&links[1].out, OCTET_SENSES_LENGTH));
+    TEST_ASSERT_EQUAL_UINT8(COUNTER + 1, e2e_counter(&links[1].out));
+    TEST_ASSERT_EQUAL_UINT32(WAIT_MS, links[0].wait_ms);
+    TEST_ASSERT_EQUAL_UINT32(1, robots[0].received);
+    TEST_ASSERT_EQUAL_INT(4, lines());
+}
+
+static void test_a_report_that_goes_on_is_taken(void)
+{
+    robots[0].known[0] = faults(1);
+    robots[0].known_count = 1;
+    comes(0, 0, faults(2));
+    comes(0, 1, usual(0));
+    TEST_ASSERT_TRUE(turns_over_links(&loop, turns));
+    TEST_ASSERT_EQUAL_UINT32(2, robots[0].received);
+    TEST_ASSERT_EQUAL_UINT32(1, robots[0].told[0]);
+    TEST_ASSERT_EQUAL_INT(5, lines());
+}
+
+static void handed_over(size_t sent, size_t answered, int received)
+{
+    TEST_ASSERT_FALSE(turns_over_links(&loop, turns));
+    TEST_ASSERT_EQUAL_size_t(sent, loop.sent);
+    TEST_ASSERT_EQUAL_size_t(answered, loop.answered);
+    TEST_ASSERT_EQUAL_INT(received, loop.received);
+}
+
+static void test_what_is_not_sent_is_handed_over(void)
+{
+    links[1].sent = LINK_E_FULL;
+    handed_over(1, 0, 0);
+    TEST_ASSERT_EQUAL_INT(1, lines());
+}
+
+static void test_silence_and_errors_are_handed_over(void)
+{
+    links[1].results[0] = 0;
+    handed_over(ROBOTS, 1, 0);
+    setUp();
+    links[0].results[0] = LINK_E_CLOSED;
+    handed_over(ROBOTS, 0, LINK_E_CLOSED);
+    TEST_ASSERT_EQUAL_INT(ROBOTS, lines());
+}
+
+static void unusual(struct frame frame)
+{
+    setUp();
+    comes(1, 0, frame);
+    handed_over(ROBOTS, 1, 1);
+    TEST_ASSERT_EQUAL_HEX32(frame.id, loop.in_hand.id);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(frame.data, loop.in_hand.data, sizeof frame.data);
+    TEST_ASSERT_EQUAL_UINT32(0, robots[1].received);
+    TEST_ASSERT_EQUAL_INT(3, lines());
+}
+
+static void test_whatever_is_not_the_fresh_answer_is_handed_over(void)
+{
+    struct frame damaged = usual(1), shorter = usual(1), extended = usual(1);
+
+    damaged.data[5] ^= 0x10;
+    shorter.len = 7;
+    extended.id |= FRAME_EXTENDED;
+    unusual(damaged);
+    unusual(shorter);
+    unusual(extended);
+    unusual(usual(0));
+    unusual(faults(1));
+    unusual(drive(1, TICK - 1, COUNTER + 1, REASON_WANDER));
+    unusual(drive(1, TICK, COUNTER, REASON_WANDER));
+    unusual(drive(1, TICK, COUNTER + 1, REASON_STOP));
+    unusual(drive(1, TICK, COUNTER + 1, REASON_SILENCE));
+}
+
+static void test_a_flood_of_reports_is_handed_over(void)
+{
+    robots[0].known[0] = faults(0);
+    robots[0].known_count = 1;
+    for (unsigned i = 0; i < LOOP_FRAMES_MAX; i++)
+        comes(0, i, faults((uint8_t)((i + 1) % E2E_COUNTERS)));
+    comes(0, LOOP_FRAMES_MAX, usual(0));
+    handed_over(ROBOTS, 0, 0);
+    TEST_ASSERT_EQUAL_size_t(LOOP_FRAMES_MAX, links[0].taken);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_usual_turns_are_taken);
+    RUN_TEST(test_a_report_that_goes_on_is_taken);
+    RUN_TEST(test_what_is_not_sent_is_handed_over);
+    RUN_TEST(test_silence_and_errors_are_handed_over);
+    RUN_TEST(test_whatever_is_not_the_fresh_answer_is_handed_over);
+    RUN_TEST(test_a_flood_of_reports_is_handed_over);
+    return UNITY_END();
+}
