@@ -2,6 +2,7 @@
 
 import os
 import sys
+import time
 from struct import Struct
 from typing import Any, NamedTuple, Protocol
 
@@ -15,10 +16,15 @@ from host_sim.transport.relay import RelayedLink
 WAIT_MS = 5
 """Time for which C code waits for a frame over a link, ms; Python waits for what takes longer."""
 
-_TIMED_EVERY = 1024
+_TIMED_EVERY = 4096
 """One tick of so many over a link is left to Python, which measures how long an answer takes."""
 
 _FRAME = Struct("=IB8s3x")
+_BLOCK_S, _FIRST_TICKS = 0.05, 64
+"""A block over a link is to take no longer, s of wall-clock time, for people interfere between blocks; the first is
+a guess.
+"""
+
 _LENGTH = 8
 _ID_MAX = 0x7FF
 _NO_FRAME = Frame(-1, b"")
@@ -112,6 +118,7 @@ class RobotBehindLink:
         self._known: Any = native.ffi.buffer(native.robot.known)
         self._kinds: list[str] = []  # of the reports that C code knows
         self._counts: tuple[int, ...] = ()
+        self._began_s, self._ticks_max = 0.0, _FIRST_TICKS
         native.loop.take_turns = native.library.turns_over_links
         native.loop.wait_ms = WAIT_MS
 
@@ -125,11 +132,14 @@ class RobotBehindLink:
             self._open(socket)
         if self._count() != self._counts:
             self._know_reports()
-        return -(client.inbox.ticks + 1) % _TIMED_EVERY
+        self._began_s = time.perf_counter()
+        return min(self._ticks_max, -(client.inbox.ticks + 1) % _TIMED_EVERY)
 
     def catch_up(self, ticks: int) -> None:
         """As in `LoopRobot`."""
         robot, client = self._native.robot, self._client
+        if ticks:
+            self._ticks_max = max(1, int(_BLOCK_S * ticks / (time.perf_counter() - self._began_s)))
         told = self._native.ffi.unpack(robot.told, len(self._kinds)) if self._kinds else []
         in_order = sorted((when, i) for i, when in enumerate(told) if when)
         take_routine_reports(client, [(self._kinds[i], self._report(i)) for _, i in in_order])

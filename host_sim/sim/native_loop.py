@@ -24,7 +24,7 @@ LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_loop.so"
 _NATIVE = ROOT / "host_sim" / "sim" / "native"
 HEADERS = (ROOT / "hal" / "link" / "link.h", *native_world.HEADERS, _NATIVE / "log_lines.h", _NATIVE / "loop.h")
 
-BLOCK_TICKS = 512
+BLOCK_TICKS = 1024
 """Maximum number of ticks in a block."""
 
 _LINES_A_TICK = 3

@@ -260,6 +260,22 @@ def test_c_code_runs_nearly_all_ticks(tmp_path):
     assert len(blocks) < 60
 
 
+def slow(answers: list[bytes]) -> Iterable[bytes]:
+    time.sleep(0.003)
+    return answers
+
+
+def test_over_a_slow_line_people_need_not_wait_for_long_blocks(tmp_path):
+    blocks = outcome(tmp_path, dict.fromkeys(range(200), slow), native=True).blocks
+
+    first_tick, short = 0, []
+    for ticks in blocks:
+        short += [ticks] if 64 < first_tick < 200 else []
+        first_tick += ticks
+    assert short
+    assert max(short) <= 17
+
+
 def test_a_robot_that_ends_is_named():
     """Its socket is closed in the middle of a block."""
     with make(RunConfig(environments=1, bus="fd")) as simulation:
