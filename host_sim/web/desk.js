@@ -11,7 +11,7 @@ import { experimentOf } from "./lane.js";
 import { actionStart } from "./lane_events.js";
 import { LessonsView } from "./lessons_view.js";
 import { ListingView } from "./listing_view.js";
-import { RANDOM, nameOf } from "./worlds.js";
+import { RANDOM, nameOf } from "./world_names.js";
 
 /**
  * @typedef {import("./lane.js").Lane} Lane

@@ -1,9 +1,9 @@
 // @ts-check
 /* Files that the page writes and reads. */
 
+import { EDIT_FIELDS } from "./edit_fields.js";
 import { CELL_COUNT } from "./generated.js";
-import { EDIT_FIELDS } from "./world_edits.js";
-import { RANDOM } from "./worlds.js";
+import { RANDOM } from "./world_names.js";
 
 /**
  * Lets the browser save a file.

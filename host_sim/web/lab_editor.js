@@ -4,9 +4,9 @@
 import { ArenaEditor } from "./arena_editor.js";
 import { bindArenaKeys } from "./arena_keys.js";
 import { DragController } from "./drag_controller.js";
+import { EDIT_FIELDS } from "./edit_fields.js";
 import { byId, typedById } from "./elements.js";
 import { plantOf, wirePlace } from "./placement.js";
-import { EDIT_FIELDS } from "./world_edits.js";
 
 /**
  * @typedef {import("./lane.js").Lane} Lane
@@ -32,6 +32,8 @@ export class LabEditor extends ArenaEditor {
     this.lab = lab;
     /** @type {Map<Lane, DragController>} */
     this.drags = new Map();
+    /** The highest ids of obstacles and plants when one was put down that is not there yet. */
+    this.idsBefore = 0;
     byId("add-plant").addEventListener("click", () => this.addPlant());
     byId("grow").addEventListener("click", () => this.grow());
   }
@@ -48,7 +50,7 @@ export class LabEditor extends ArenaEditor {
 
   /** The states may have changed, and with them what can be done. */
   beforeDrawing() {
-    if (this.barPending || this.plantPending) this.onEnvironment();
+    if ((this.barPending || this.plantPending) && this.ids > this.idsBefore) this.onEnvironment();
     this.onStates(this.drags.get(this.lab.lane)?.robot);
     this.changed = false;
     typedById("grow", HTMLButtonElement).disabled = this.scene.item?.kind !== "plant";
@@ -57,7 +59,15 @@ export class LabEditor extends ArenaEditor {
   /** @param {Command} command */
   pass(command) {
     const change = this.changeOf(command);
+    this.idsBefore = this.ids;
     if (change) this.lab.change(change);
+  }
+
+  /** Grows with each obstacle or plant that is put down. */
+  get ids() {
+    const { bars, plants = [] } = this.scene.environment;
+    const [bar, plant] = [bars, plants].map((things) => Math.max(-1, ...things.map(([id]) => id)));
+    return bar + plant;
   }
 
   /**
@@ -79,6 +89,7 @@ export class LabEditor extends ArenaEditor {
     const far = measures.body + measures.reach + 2 * PLANT_MM;
     const at = { x: x + far * Math.cos(heading / 1000), y: y + far * Math.sin(heading / 1000) };
     this.plantPending = true;
+    this.idsBefore = this.ids;
     this.lab.change({ do: "plant", at: wirePlace(at, measures), radius: PLANT_MM });
   }
 

@@ -5,7 +5,7 @@ import { PARAMETERS } from "./generated.js";
 import { Renderer } from "./renderer.js";
 import { RunData } from "./run_data.js";
 import { Scene } from "./scene.js";
-import { RANDOM, nameOf } from "./worlds.js";
+import { RANDOM, nameOf } from "./world_names.js";
 
 /**
  * @typedef {import("./types.js").Change} Change

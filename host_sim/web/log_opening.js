@@ -2,11 +2,11 @@
 /* The experiment that a recorded log is of: what its commands say, and what its world file has. */
 
 import { SOUND, withFault } from "./body_faults.js";
+import { EDIT_FIELDS } from "./edit_fields.js";
 import { CELL_COUNT, FRAMES, OPCODE, PARAMETERS, PROFILES } from "./generated.js";
 import { bytesOf, framesOf, replayLog } from "./log_replay.js";
 import { NativeRun } from "./native_run.js";
 import { Simulation } from "./simulation.js";
-import { EDIT_FIELDS } from "./world_edits.js";
 import { checkedWorld } from "./written_world.js";
 
 /**

@@ -2,13 +2,15 @@
 /* A run in the page: robots in one environment after the other. The same frames as those of tools/run. */
 
 import { SOUND, faultNumbers, measured, noiseKey, withFault } from "./body_faults.js";
+import { EDIT_FIELDS } from "./edit_fields.js";
 import { ANSWER_WANTS_RANGES, CELL_COUNT, FEEL, OPCODE, PARAMETERS, PROFILES, RANGE_NONE } from "./generated.js";
 import { generate } from "./layouts.js";
 import { NativeRun } from "./native_run.js";
 import { rangesOf, wallsOf } from "./ranges.js";
 import { RunRecorder } from "./run_recorder.js";
-import { EDIT_FIELDS, EditError, Furniture } from "./world_edits.js";
-import { RANDOM, worldOf } from "./worlds.js";
+import { EditError, Furniture } from "./world_edits.js";
+import { RANDOM } from "./world_names.js";
+import { worldOf } from "./worlds.js";
 
 /**
  * @typedef {import("./layouts.js").Pose} Pose

@@ -13,7 +13,6 @@ import { drawCorridors, drawDeadEnds, drawWritten } from "./world_draws.js";
  * @typedef {Record<string, SimParams>} Worlds
  */
 
-export const RANDOM = "random";
 /**
  * What draws the worlds that are not bars anywhere.
  * @type {Record<string, Draw>}
@@ -29,9 +28,4 @@ export function worldOf(world, worlds) {
   if (typeof world === "string") return { params: worlds[world], draw: DRAWS[world] ?? drawBars };
   const [width_mm, height_mm] = world.size ?? [worlds.random.width_mm, worlds.random.height_mm];
   return { params: { ...worlds.random, width_mm, height_mm }, draw: drawWritten(world) };
-}
-
-/** @param {string | WrittenWorld} world */
-export function nameOf(world) {
-  return typeof world === "string" ? world : world.name;
 }

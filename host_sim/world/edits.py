@@ -107,7 +107,9 @@ class ChangeBody:
     seed: int = 0
 
 
-Edit = AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put | AddPlant | MovePlant | GrowPlant | RemovePlant | ChangeBody
+Edit = (
+    AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put | AddPlant | MovePlant | GrowPlant | RemovePlant | ChangeBody
+)
 
 
 class EditError(ValueError):
