@@ -242,8 +242,8 @@ class Inbox:
     def _arrival(self, frame: Frame, decoded: DecodedFrame) -> Arrival:
         """Compares a report with those before it.
 
-        A whole report that cuts another one short repeats the page of FAULTS that the other one ended with, counter and
-        all: after the answer, such a page is what was asked for.
+        A whole report that cuts another one short repeats the page of FAULTS that the other one ended with, and its
+        counter: after the answer, such a page is what was asked for.
         """
         arrival = self.reports.judge(frame, decoded, self.counts.missing)
         is_asked_for = self.reporting and self._answered and self.reports.is_awaited(decoded)

@@ -66,9 +66,9 @@ def test_a_mistake_in_a_world_file_is_told_with_its_line_as_on_the_command_line(
 
 
 def test_an_unknown_key_is_told(tmp_path):
-    assert (
-        opened(tmp_path, f"{FOOD}bar = []\n") == "my.toml:2: there is no 'bar': a world has size, start, food, bars"
-    )
+    said = opened(tmp_path, f"{FOOD}bar = []\n")
+
+    assert said == "my.toml:2: there is no 'bar': a world has size, start, food, bars"
 
 
 @pytest.mark.parametrize("text", ["food", "food = [", "= 3", "food = [[1, 2] 3]", "food = 1\nfood = 2", "[arena]"])
