@@ -20,6 +20,8 @@ import { plantOf, wirePlace } from "./placement.js";
 /** As in host_sim/world/change_effects.py. */
 const PLANT_MM = 80;
 const GROWTH_MM = 40;
+/** Beyond the reach of the robot's sensors. */
+const PLANT_GAP_MM = 20;
 
 /** An editor whose commands are changes of the selected run. */
 export class LabEditor extends ArenaEditor {
@@ -86,7 +88,7 @@ export class LabEditor extends ArenaEditor {
   addPlant() {
     const { measures } = this.scene;
     const { x, y, heading } = this.robot;
-    const far = measures.body + measures.reach + 2 * PLANT_MM;
+    const far = measures.body + measures.reach + PLANT_GAP_MM + PLANT_MM;
     const at = { x: x + far * Math.cos(heading / 1000), y: y + far * Math.sin(heading / 1000) };
     this.plantPending = true;
     this.idsBefore = this.ids;
