@@ -6,7 +6,7 @@ import { bindArenaKeys } from "./arena_keys.js";
 import { DragController } from "./drag_controller.js";
 import { EDIT_FIELDS } from "./edit_fields.js";
 import { byId, typedById } from "./elements.js";
-import { plantOf, wirePlace } from "./placement.js";
+import { isInside, plantOf, wirePlace } from "./placement.js";
 
 /**
  * @typedef {import("./lane.js").Lane} Lane
@@ -22,6 +22,8 @@ const PLANT_MM = 80;
 const GROWTH_MM = 40;
 /** Beyond the reach of the robot's sensors. */
 const PLANT_GAP_MM = 20;
+/** Ahead, right, left, behind. */
+const BEARINGS = [0, 0.5, -0.5, 1].map((half) => half * Math.PI);
 
 /** An editor whose commands are changes of the selected run. */
 export class LabEditor extends ArenaEditor {
@@ -84,12 +86,16 @@ export class LabEditor extends ArenaEditor {
     return isWorldEdit(command) ? command : undefined;
   }
 
-  /** Puts a plant down ahead of the robot. */
+  /** Puts a plant down ahead of the robot or, if a wall is there, beside it. */
   addPlant() {
     const { measures } = this.scene;
     const { x, y, heading } = this.robot;
     const far = measures.body + measures.reach + PLANT_GAP_MM + PLANT_MM;
-    const at = { x: x + far * Math.cos(heading / 1000), y: y + far * Math.sin(heading / 1000) };
+    const places = BEARINGS.map((bearing) => {
+      const angle = heading / 1000 + bearing;
+      return { x: x + far * Math.cos(angle), y: y + far * Math.sin(angle) };
+    });
+    const at = places.find((place) => isInside(place, measures)) ?? places[0];
     this.plantPending = true;
     this.idsBefore = this.ids;
     this.lab.change({ do: "plant", at: wirePlace(at, measures), radius: PLANT_MM });

@@ -86,10 +86,11 @@ export function insideWalls(at, { width, height, body }) {
 }
 
 /**
+ * Whether a place is within the walls.
  * @param {Place} at
  * @param {Measures} measures
  */
-function isInside({ x, y }, { width, height }) {
+export function isInside({ x, y }, { width, height }) {
   return x >= 0 && y >= 0 && x <= width && y <= height;
 }
 
