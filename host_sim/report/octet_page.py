@@ -3,12 +3,14 @@
 import base64
 from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import OctetError
 from host_sim.paths import PAGE_WASM
 from host_sim.report.page_bundle import page_of, with_data
-from host_sim.world.params import SimParams
+from host_sim.world.world_names import WORLD_NAMES
+from host_sim.world.worlds import world_of
 
 _TEMPLATE = "octet.html"
 
@@ -31,7 +33,7 @@ def write_octet_page(path: Path) -> int:
 
 
 def octet_page() -> str:
-    """The page's HTML. Its element `parts` has the WebAssembly in base64 and the dimensions of the world.
+    """The page's HTML. Its element `parts` has the WebAssembly in base64 and the dimensions of all named worlds.
 
     Raises:
         OctetError: The WebAssembly is not built.
@@ -40,6 +42,10 @@ def octet_page() -> str:
         wasm = PAGE_WASM.read_bytes()
     except OSError as error:
         raise OctetError(f"cannot read {PAGE_WASM}: {error.strerror}; build it with tools/setup page") from None
-    return with_data(
-        page_of(_TEMPLATE), "parts", {"wasm": base64.b64encode(wasm).decode(), "params": asdict(SimParams())}
-    )
+    parts = {"wasm": base64.b64encode(wasm).decode(), "worlds": world_dimensions()}
+    return with_data(page_of(_TEMPLATE), "parts", parts)
+
+
+def world_dimensions() -> dict[str, dict[str, Any]]:
+    """The dimensions of each world with a name."""
+    return {name: asdict(world_of(name).params) for name in WORLD_NAMES}

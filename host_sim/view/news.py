@@ -4,13 +4,14 @@ from itertools import groupby
 
 from host_sim.sim.world_record import Edited, WorldRecord
 from host_sim.view.phrases import body_sentence
-from host_sim.world.edits import AddPlant, ChangeBody, GrowPlant, RemovePlant
+from host_sim.world.edits import AddPlant, ChangeBody, GrowPlant, MovePlant, RemovePlant
 
 News = tuple[int, str]
 """The tick before which something changed, and a sentence."""
 
 _PLANTS = {
     AddPlant: "A plant was put down.",
+    MovePlant: "A plant was moved.",
     GrowPlant: "A plant has grown.",
     RemovePlant: "A plant was removed.",
 }

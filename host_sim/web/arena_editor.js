@@ -1,9 +1,9 @@
 // @ts-check
-/* What a person does to the world: selects items, moves obstacles, food and robots, adds and removes obstacles. */
+/* What a person does to the world: selects items, moves obstacles, plants, food and robots, adds and removes obstacles. */
 
 import { byId, setText, typedById } from "./elements.js";
 import { allItems, whole } from "./hit_testing.js";
-import { endsOf, insideWalls, movedBar, turnedBar, wirePlace } from "./placement.js";
+import { endsOf, insideWalls, movedBar, plantOf, turnedBar, wirePlace } from "./placement.js";
 
 /**
  * @typedef {import("./scene.js").Ghost} Ghost
@@ -28,6 +28,7 @@ export class ArenaEditor {
     this.send = send;
     this.changed = false;
     this.barPending = false;
+    this.plantPending = false;
     /**
      * Robots that we asked to be lifted, and that are not yet.
      * @type {Set<number>}
@@ -42,8 +43,10 @@ export class ArenaEditor {
   onEnvironment() {
     const { environment, item } = this.scene;
     if (this.barPending) this.select(whole("bar", Math.max(...environment.bars.map(([id]) => id))));
+    else if (this.plantPending) this.select(whole("plant", Math.max(...(environment.plants ?? []).map(([id]) => id))));
     else if (item?.kind === "bar" && !endsOf(environment, item.id)) this.select(undefined);
-    this.barPending = false;
+    else if (item?.kind === "plant" && !plantOf(environment, item.id)) this.select(undefined);
+    this.barPending = this.plantPending = false;
   }
 
   /**
@@ -63,7 +66,7 @@ export class ArenaEditor {
   /** Something could not be done: no robot is about to be lifted, and no obstacle about to come. */
   onRefusal() {
     this.lifting.clear();
-    this.barPending = false;
+    this.barPending = this.plantPending = false;
     this.changed = true;
   }
 
@@ -77,7 +80,7 @@ export class ArenaEditor {
     this.scene.item = item;
     if (item?.kind === "robot") this.scene.node = item.id;
     this.changed = true;
-    typedById("remove-bar", HTMLButtonElement).disabled = item?.kind !== "bar";
+    typedById("remove-bar", HTMLButtonElement).disabled = item?.kind !== "bar" && item?.kind !== "plant";
   }
 
   /**
@@ -149,6 +152,7 @@ export class ArenaEditor {
   removeBar() {
     const { item } = this.scene;
     if (item?.kind === "bar") this.send({ do: "remove_bar", id: item.id });
+    if (item?.kind === "plant") this.send({ do: "remove_plant", id: item.id });
   }
 
   /**
@@ -166,6 +170,8 @@ export class ArenaEditor {
     }
     const ends = item.kind === "bar" && endsOf(environment, item.id);
     if (ends) this.send({ do: "move_bar", id: item.id, ...movedBar(ends, "whole", by, measures) });
+    const plant = item.kind === "plant" && plantOf(environment, item.id);
+    if (plant) this.send({ do: "move_plant", id: item.id, at: wirePlace({ x: plant.x + by.x, y: plant.y + by.y }, measures) });
   }
 
   /**

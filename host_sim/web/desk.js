@@ -4,23 +4,28 @@
 import { Bench } from "./bench.js";
 import { Curves, csvOf } from "./curves.js";
 import { byId, setText, typedById } from "./elements.js";
+import { FAULTS, faultName } from "./fault_names.js";
 import { memoryIn, save, worldText } from "./files.js";
 import { PROFILES } from "./generated.js";
 import { experimentOf } from "./lane.js";
 import { actionStart } from "./lane_events.js";
 import { LessonsView } from "./lessons_view.js";
 import { ListingView } from "./listing_view.js";
+import { RANDOM, nameOf } from "./world_names.js";
 
 /**
  * @typedef {import("./lane.js").Lane} Lane
  * @typedef {import("./types.js").Change} Change
  * @typedef {import("./types.js").Experiment} Experiment
  *
+ * @typedef {NonNullable<Experiment["world"]>} World
+ *
  * The page, as far as the desk knows it.
  * @typedef {Object} Lab
  * @property {Lane} lane
  * @property {Lane[]} lanes
  * @property {number} tick
+ * @property {import("./worlds.js").Worlds} worlds
  * @property {import("./layouts.js").SimParams} params
  * @property {import("./simulator.js").Simulator} simulator
  * @property {(change: Change) => void} change
@@ -43,6 +48,12 @@ export class Desk {
     this.lessons = new LessonsView();
     this.behaviour = typedById("behaviour", HTMLSelectElement);
     this.behaviour.append(...PROFILES.map((name) => new Option(name, name)));
+    /** The worlds to choose from, by name. */
+    this.worlds = new Map(Object.keys(lab.worlds).map((name) => [name, /** @type {World} */ (name)]));
+    this.world = typedById("world", HTMLSelectElement);
+    this.offerWorlds(RANDOM);
+    this.fault = typedById("fault", HTMLSelectElement);
+    this.fault.append(...FAULTS.map((what) => new Option(faultName(what), what)));
     this.robotSeed = typedById("robot-seed", HTMLInputElement);
     this.frozen = 0;
     this.bindTabs();
@@ -80,6 +91,10 @@ export class Desk {
     byId("curve").addEventListener("change", () => this.show());
     on("erase", () => lab.change({ do: "erase", robot: lab.lane.robot }));
     on("freeze", () => lab.change({ do: "freeze", robot: lab.lane.robot, on: 1 - this.frozen }));
+    on("break", () => {
+      const { robot, experiment } = lab.lane;
+      lab.change({ do: "body", what: this.fault.value, robot, seed: experiment.seed });
+    });
     on("remove-lane", () => lab.removeLane(lab.lane));
     on("undo", () => {
       if (lab.lane.undo()) lab.simulate(lab.lane);
@@ -94,7 +109,10 @@ export class Desk {
       const { experiment, data } = this.lab.lane;
       if (data) save("run.world.json", [worldText(experiment, data, this.lab.params.front_extra_mm)]);
     });
-    on("save-memory", () => save("robot.mem", [Uint8Array.from(this.lab.lane.scene?.state.memory ?? [])]));
+    on("save-memory", async () => {
+      const { lane, simulator, tick } = this.lab;
+      save("robot.mem", [await simulator.memory(lane.experiment, lane.robot, Math.min(tick, lane.last))]);
+    });
     const input = typedById("open", HTMLInputElement);
     input.addEventListener("change", () => {
       this.openFiles([...(input.files ?? [])]).catch((error) => setText(byId("file-news"), error.message));
@@ -105,9 +123,30 @@ export class Desk {
   /** @param {SubmitEvent} event */
   newRun(event) {
     event.preventDefault();
+    this.lab.begin(this.wanted);
+  }
+
+  /** The experiment that the form describes. */
+  get wanted() {
     const number = (/** @type {string} */ id) => Number(typedById(id, HTMLInputElement).value);
     const wanted = { seed: number("seed"), environments: number("environments"), robots: number("robot-count") };
-    this.lab.begin(experimentOf({ ...wanted, profile: this.behaviour.value }));
+    return experimentOf({ ...wanted, profile: this.behaviour.value, world: this.worlds.get(this.world.value) });
+  }
+
+  /** @param {string} chosen - The name of the world that is chosen. */
+  offerWorlds(chosen) {
+    this.world.replaceChildren(...[...this.worlds.keys()].map((name) => new Option(name, name, false, name === chosen)));
+  }
+
+  /**
+   * Begins anew with the run of a file; its world can be chosen from then on.
+   * @param {Experiment} experiment
+   */
+  begin(experiment) {
+    const { world = RANDOM } = experiment;
+    this.worlds.set(nameOf(world), world);
+    this.offerWorlds(nameOf(world));
+    this.lab.begin(experiment);
   }
 
   /** The robot begins with other random turns. */
@@ -147,18 +186,41 @@ export class Desk {
 
   /** @param {File[]} files */
   async openFiles(files) {
-    const named = (/** @type {string} */ end) => files.find(({ name }) => name.endsWith(end));
-    const [memory, log, world] = [named(".mem"), named(".log"), named(".json")];
-    if (memory) {
-      this.lab.lane.setUp({ memory: await memoryIn(memory) });
-      this.lab.simulate(this.lab.lane);
-      setText(byId("file-news"), `The robot begins with ${memory.name}.`);
-    }
-    if (!log) return;
+    const named = (/** @type {string[]} */ ...ends) => files.find(({ name }) => ends.some((end) => name.endsWith(end)));
+    const [memory, log, world] = [named(".mem"), named(".log"), named(".json", ".toml")];
+    const strange = files.find((file) => ![memory, log, world].includes(file));
+    if (strange) throw new Error(`${strange.name}: a log ends with .log, a world with .toml or .json, a memory with .mem`);
+    if (log) await this.openLog(log, world);
+    else if (world) await this.openWorld(world);
+    if (memory) await this.openMemory(memory);
+  }
+
+  /** @param {File} file */
+  async openMemory(file) {
+    const { lane, simulator } = this.lab;
+    const memory = await memoryIn(file);
+    const robots = lane.experiment.robots.map((it, robot) => (robot === lane.robot ? { ...it, memory } : it));
+    await simulator.memory({ ...lane.experiment, robots }, lane.robot, 0); // it throws if they are no memory
+    lane.setUp({ memory });
+    this.lab.simulate(lane);
+    setText(byId("file-news"), `The robot begins with ${file.name}.`);
+  }
+
+  /** @param {File} file */
+  async openWorld(file) {
+    this.begin(await this.lab.simulator.world({ name: file.name, text: await file.text() }, this.wanted));
+    setText(byId("file-news"), `A new run in ${file.name}.`);
+  }
+
+  /**
+   * @param {File} log
+   * @param {File | undefined} world
+   */
+  async openLog(log, world) {
     setText(byId("file-news"), `reading ${log.name}`);
     const opened = await this.lab.simulator.open(await log.text(), world ? await world.text() : "");
     if (!opened) return;
-    this.lab.begin(opened.experiment);
+    this.begin(opened.experiment);
     setText(byId("file-news"), opened.news);
   }
 

@@ -1,5 +1,5 @@
 // @ts-check
-/* Dragging in the arena: what the pointer does to obstacles, food and robots. */
+/* Dragging in the arena: what the pointer does to obstacles, plants, food and robots. */
 
 import { distance, itemAt } from "./hit_testing.js";
 import { endsOf, movedBar, wirePlace } from "./placement.js";
@@ -87,6 +87,7 @@ export class DragController {
     const { measures } = this.editor.scene;
     const by = { x: at.x - from.x, y: at.y - from.y };
     if (item.kind === "food") this.editor.send({ do: "move_food", id: item.id, at: wirePlace(at, measures) });
+    else if (item.kind === "plant") this.editor.send({ do: "move_plant", id: item.id, at: wirePlace(at, measures) });
     else if (ends) this.editor.send({ do: "move_bar", id: item.id, ...movedBar(ends, item.part, by, measures) });
   }
 

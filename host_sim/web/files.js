@@ -1,7 +1,9 @@
 // @ts-check
 /* Files that the page writes and reads. */
 
+import { EDIT_FIELDS } from "./edit_fields.js";
 import { CELL_COUNT } from "./generated.js";
+import { RANDOM } from "./world_names.js";
 
 /**
  * Lets the browser save a file.
@@ -32,17 +34,18 @@ export async function memoryIn(file) {
  * @param {import("./run_data.js").RunData} data
  * @param {number} frontExtraMm
  */
-export function worldText({ seed, environments, limit_ticks, robots, changes }, data, frontExtraMm) {
+export function worldText({ seed, environments, limit_ticks, robots, changes, world = RANDOM }, data, frontExtraMm) {
   const begun = data.robots[0].run.events.filter(([, kind]) => kind === "environment");
-  const world = {
+  const content = {
     format: 1,
     seed,
     of: environments,
     limit_ticks,
     robots: robots.length,
     front_extra_mm: frontExtraMm,
+    ...(world !== RANDOM && { world }),
     environments: begun.map(([tick]) => ({ seed, number: data.sceneAt(tick).number, first_tick: tick })),
-    edits: changes.filter((change) => ["add_bar", "move_bar", "remove_bar", "move_food", "lift", "put"].includes(change.do)),
+    edits: changes.filter((change) => EDIT_FIELDS.has(change.do)),
   };
-  return `${JSON.stringify(world)}\n`;
+  return `${JSON.stringify(content)}\n`;
 }

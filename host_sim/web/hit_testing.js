@@ -20,7 +20,7 @@ const END_SHARE = 0.25;
  * @returns {Item | undefined}
  */
 export function itemAt(scene, at, slack = 0) {
-  return robotAt(scene, at) ?? foodAt(scene, at) ?? barAt(scene, at) ?? nearest(scene, at, slack);
+  return robotAt(scene, at) ?? foodAt(scene, at) ?? plantAt(scene, at) ?? barAt(scene, at) ?? nearest(scene, at, slack);
 }
 
 /**
@@ -33,6 +33,7 @@ function nearest(scene, at, slack) {
   const found = [
     ...scene.states.map((state) => ({ item: whole("robot", state.node), away: distance(at, scene.poseOf(state)) })),
     ...scene.environment.food.map(([x, y], id) => ({ item: whole("food", id), away: distance(at, { x, y }) })),
+    ...plantsOf(scene).map(([id, x, y, radius]) => ({ item: whole("plant", id), away: distance(at, { x, y }) - radius })),
     ...scene.environment.bars.map((bar) => nearBar(bar, at)),
   ];
   return found.filter(({ away }) => away <= slack).sort((p, q) => p.away - q.away)[0]?.item;
@@ -54,12 +55,19 @@ function nearBar(bar, at) {
  * @param {Scene} scene
  * @returns {Item[]}
  */
-export function allItems({ states, environment }) {
+export function allItems(scene) {
+  const { states, environment } = scene;
   return [
     ...states.map(({ node }) => whole("robot", node)),
     ...environment.food.map((_, id) => whole("food", id)),
     ...environment.bars.map(([id]) => whole("bar", id)),
+    ...plantsOf(scene).map(([id]) => whole("plant", id)),
   ];
+}
+
+/** @param {Scene} scene */
+function plantsOf({ environment }) {
+  return environment.plants ?? [];
 }
 
 /**
@@ -89,6 +97,15 @@ function robotAt(scene, at) {
 function foodAt({ environment }, at) {
   const id = environment.food.findIndex(([x, y]) => distance(at, { x, y }) < FOOD_REACH_MM);
   return id < 0 ? undefined : whole("food", id);
+}
+
+/**
+ * @param {Scene} scene
+ * @param {Place} at
+ */
+function plantAt(scene, at) {
+  const plant = plantsOf(scene).find(([, x, y, radius]) => distance(at, { x, y }) < radius);
+  return plant && whole("plant", plant[0]);
 }
 
 /**

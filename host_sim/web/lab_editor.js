@@ -1,11 +1,12 @@
 // @ts-check
-/* What a person does in the arenas: as on the live page, in the run that is selected. A plant is an obstacle that grows. */
+/* What a person does in the arenas: as on the live page, in the run that is selected. Plants can be put down and grow. */
 
 import { ArenaEditor } from "./arena_editor.js";
 import { bindArenaKeys } from "./arena_keys.js";
 import { DragController } from "./drag_controller.js";
+import { EDIT_FIELDS } from "./edit_fields.js";
 import { byId, typedById } from "./elements.js";
-import { endsOf, wirePlace } from "./placement.js";
+import { isInside, plantOf, wirePlace } from "./placement.js";
 
 /**
  * @typedef {import("./lane.js").Lane} Lane
@@ -16,8 +17,13 @@ import { endsOf, wirePlace } from "./placement.js";
  * @typedef {{lane: Lane, change: (change: Change) => void}} Lab
  */
 
-const PLANT_MM = 60;
-const GROWTH_MM = 60;
+/** As in host_sim/world/change_effects.py. */
+const PLANT_MM = 80;
+const GROWTH_MM = 40;
+/** Beyond the reach of the robot's sensors. */
+const PLANT_GAP_MM = 20;
+/** Ahead, right, left, behind. */
+const BEARINGS = [0, 0.5, -0.5, 1].map((half) => half * Math.PI);
 
 /** An editor whose commands are changes of the selected run. */
 export class LabEditor extends ArenaEditor {
@@ -30,6 +36,8 @@ export class LabEditor extends ArenaEditor {
     this.lab = lab;
     /** @type {Map<Lane, DragController>} */
     this.drags = new Map();
+    /** The highest ids of obstacles and plants when one was put down that is not there yet. */
+    this.idsBefore = 0;
     byId("add-plant").addEventListener("click", () => this.addPlant());
     byId("grow").addEventListener("click", () => this.grow());
   }
@@ -46,16 +54,24 @@ export class LabEditor extends ArenaEditor {
 
   /** The states may have changed, and with them what can be done. */
   beforeDrawing() {
-    if (this.barPending) this.onEnvironment();
+    if ((this.barPending || this.plantPending) && this.ids > this.idsBefore) this.onEnvironment();
     this.onStates(this.drags.get(this.lab.lane)?.robot);
     this.changed = false;
-    typedById("grow", HTMLButtonElement).disabled = this.scene.item?.kind !== "bar";
+    typedById("grow", HTMLButtonElement).disabled = this.scene.item?.kind !== "plant";
   }
 
   /** @param {Command} command */
   pass(command) {
     const change = this.changeOf(command);
+    this.idsBefore = this.ids;
     if (change) this.lab.change(change);
+  }
+
+  /** Grows with each obstacle or plant that is put down. */
+  get ids() {
+    const { bars, plants = [] } = this.scene.environment;
+    const [bar, plant] = [bars, plants].map((things) => Math.max(-1, ...things.map(([id]) => id)));
+    return bar + plant;
   }
 
   /**
@@ -67,38 +83,36 @@ export class LabEditor extends ArenaEditor {
     const robot = "node" in command ? this.scene.states.findIndex(({ node }) => node === command.node) : 0;
     if (command.do === "lift") return { do: "lift", robot };
     if (command.do === "put") return { do: "put", robot, at: command.at, heading: command.heading };
-    if (command.do === "add_bar" || command.do === "move_bar" || command.do === "remove_bar") return command;
-    return command.do === "move_food" ? command : undefined;
+    return isWorldEdit(command) ? command : undefined;
   }
 
-  /** Puts a plant down ahead of the robot, or in the middle. */
+  /** Puts a plant down ahead of the robot or, if a wall is there, beside it. */
   addPlant() {
     const { measures } = this.scene;
     const { x, y, heading } = this.robot;
-    const [dx, dy] = [Math.cos(heading / 1000), Math.sin(heading / 1000)];
-    const far = measures.body + measures.reach + 2 * PLANT_MM;
-    const [px, py] = [x + far * dx, y + far * dy];
-    this.barPending = true;
-    this.send({
-      do: "add_bar",
-      a: wirePlace({ x: px - PLANT_MM * dy, y: py + PLANT_MM * dx }, measures),
-      b: wirePlace({ x: px + PLANT_MM * dy, y: py - PLANT_MM * dx }, measures),
+    const far = measures.body + measures.reach + PLANT_GAP_MM + PLANT_MM;
+    const places = BEARINGS.map((bearing) => {
+      const angle = heading / 1000 + bearing;
+      return { x: x + far * Math.cos(angle), y: y + far * Math.sin(angle) };
     });
+    const at = places.find((place) => isInside(place, measures)) ?? places[0];
+    this.plantPending = true;
+    this.idsBefore = this.ids;
+    this.lab.change({ do: "plant", at: wirePlace(at, measures), radius: PLANT_MM });
   }
 
-  /** The selected obstacle becomes longer at both ends. */
+  /** The selected plant grows to all sides. */
   grow() {
-    const { item, environment, measures } = this.scene;
-    const ends = item?.kind === "bar" ? endsOf(environment, item.id) : undefined;
-    if (!item || !ends) return;
-    const { a, b } = ends;
-    const length = Math.hypot(b.x - a.x, b.y - a.y);
-    const [dx, dy] = [((b.x - a.x) / length) * GROWTH_MM, ((b.y - a.y) / length) * GROWTH_MM];
-    this.send({
-      do: "move_bar",
-      id: item.id,
-      a: wirePlace({ x: a.x - dx, y: a.y - dy }, measures),
-      b: wirePlace({ x: b.x + dx, y: b.y + dy }, measures),
-    });
+    const { item, environment } = this.scene;
+    const plant = item?.kind === "plant" && plantOf(environment, item.id);
+    if (plant) this.lab.change({ do: "grow_plant", id: item.id, radius: Math.round(plant.radius) + GROWTH_MM });
   }
+}
+
+/**
+ * @param {Command} command
+ * @returns {command is Command & import("./types.js").WorldEdit}
+ */
+function isWorldEdit(command) {
+  return EDIT_FIELDS.has(command.do);
 }

@@ -5,6 +5,7 @@ import { PARAMETERS } from "./generated.js";
 import { Renderer } from "./renderer.js";
 import { RunData } from "./run_data.js";
 import { Scene } from "./scene.js";
+import { RANDOM, nameOf } from "./world_names.js";
 
 /**
  * @typedef {import("./types.js").Change} Change
@@ -91,6 +92,7 @@ export class Lane {
     const { first } = this.data;
     if (!this.scene) this.scene = new Scene(run.measures, this.data.sceneAt(first), this.data.statesAt(first));
     this.scene.measures = run.measures;
+    this.scene.news = run.news ?? [];
   }
 
   /**
@@ -115,9 +117,9 @@ export class Lane {
     const { scene } = this;
     if (!scene) return;
     this.renderer.draw(scene);
-    const { seed } = this.experiment;
+    const { seed, world = RANDOM } = this.experiment;
     const own = this.setup.seed ?? seed;
-    const text = `${this.name}: ${this.setupAt(tick).profile}, seed ${seed}${own === seed ? "" : `, its own ${own}`}`;
+    const text = `${this.name}: ${this.setupAt(tick).profile}, seed ${seed}${own === seed ? "" : `, its own ${own}`}${world === RANDOM ? "" : `, ${nameOf(world)}`}`;
     if (this.caption.textContent !== text) this.caption.textContent = text;
   }
 
@@ -160,7 +162,7 @@ export class Lane {
  * @param {Change & {tick: number}} change
  */
 function draggedKey(change) {
-  if (change.do === "move_bar" || change.do === "move_food") return `${change.tick} ${change.do} ${change.id}`;
+  if (change.do === "move_bar" || change.do === "move_food" || change.do === "move_plant") return `${change.tick} ${change.do} ${change.id}`;
   if (change.do === "set") return `${change.tick} set ${change.robot} ${change.parameter}`;
   if (change.do === "start") return `${change.tick} start ${change.robot}`;
   return "";
@@ -168,11 +170,11 @@ function draggedKey(change) {
 
 /**
  * An experiment with one behaviour for all its robots.
- * @param {{seed: number, environments: number, robots: number, profile: string}} wanted
+ * @param {{seed: number, environments: number, robots: number, profile: string, world?: Experiment["world"]}} wanted
  * @returns {Experiment}
  */
-export function experimentOf({ seed, environments, robots, profile }) {
+export function experimentOf({ seed, environments, robots, profile, world = RANDOM }) {
   const setup = () => ({ profile, settings: {}, memory: null });
   const limit_ticks = Math.round(600_000 / PARAMETERS.tick_ms.default);
-  return { seed, environments, limit_ticks, robots: Array.from({ length: robots }, setup), changes: [] };
+  return { seed, environments, limit_ticks, robots: Array.from({ length: robots }, setup), changes: [], world };
 }

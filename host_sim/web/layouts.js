@@ -1,5 +1,5 @@
 // @ts-check
-/* One random layout of obstacles and food for each seed and number: the same as host_sim/world/layouts.py draws. */
+/* One layout of obstacles and food for each seed and number: the same as host_sim/world/layouts.py draws. */
 
 import { PythonRandom } from "./python_random.js";
 
@@ -24,6 +24,9 @@ import { PythonRandom } from "./python_random.js";
  * Both ends of an obstacle: ax, ay, bx, by in mm.
  * @typedef {[number, number, number, number]} Bar
  *
+ * A round obstacle: x, y and its radius in mm.
+ * @typedef {[number, number, number]} Plant
+ *
  * x and y in mm, heading in rad.
  * @typedef {[number, number, number]} Pose
  *
@@ -31,26 +34,31 @@ import { PythonRandom } from "./python_random.js";
  *
  * The mathematics of the world.
  * @typedef {{sin: (angle: number) => number, cos: (angle: number) => number}} Trig
+ *
+ * Draws a layout for one robot, fair or not.
+ * @typedef {(draws: PythonRandom, params: SimParams, trig: Trig) => Layout} Draw
+ *
+ * @typedef {{seed: number, number: number, robots: number}} Which
  */
 
-const CELL_MM = 25;
+/** Of the grid on which ways are looked for. */
+export const CELL_MM = 25;
 const TRIES = 1000;
 
 /**
  * The first fair layout drawn.
- * @param {number} seed
- * @param {number} number
- * @param {SimParams} params
- * @param {number} robots
+ * @param {Which} which
+ * @param {{params: SimParams, draw: Draw}} world
  * @param {Trig} trig
  * @returns {Layout}
  */
-export function generate(seed, number, params, robots, trig) {
+export function generate(which, { params, draw }, trig) {
+  const { seed, number } = which;
   const draws = new PythonRandom(`octet ${seed} ${number}`);
   for (let i = 0; i < TRIES; i += 1) {
     const layout = draw(draws, params, trig);
     const way = fairWay(layout, params);
-    if (way) return withRobots(layout, way, { seed, number, robots }, params);
+    if (way) return withRobots(layout, way, which, params);
   }
   throw new Error(`no fair environment in ${TRIES} draws for seed ${seed}, number ${number}`);
 }
@@ -61,10 +69,20 @@ export function generate(seed, number, params, robots, trig) {
  * @param {number} y
  * @param {Bar[]} bars
  * @param {SimParams} params
+ * @param {Plant[]} [plants]
  */
-export function clearance(x, y, bars, params) {
+export function clearance(x, y, bars, params, plants = []) {
   const walls = Math.min(x, params.width_mm - x, y, params.height_mm - y);
-  return bars.reduce((room, bar) => Math.min(room, toLine(x, y, bar) - params.bar_thickness_mm / 2), walls);
+  const room = bars.reduce((least, bar) => Math.min(least, toLine(x, y, bar) - params.bar_thickness_mm / 2), walls);
+  return plants.reduce((least, [px, py, radius]) => Math.min(least, Math.hypot(x - px, y - py) - radius), room);
+}
+
+/**
+ * How far from its middle a body senses things.
+ * @param {SimParams} params
+ */
+export function reachOf({ body_radius_mm, sensor_reach_mm }) {
+  return body_radius_mm + sensor_reach_mm;
 }
 
 /**
@@ -79,17 +97,25 @@ function toLine(x, y, [ax, ay, bx, by]) {
 }
 
 /**
+ * Bars of random length and angle, anywhere inside the walls.
  * @param {PythonRandom} draws
  * @param {SimParams} params
  * @param {Trig} trig
  * @returns {Layout}
  */
-function draw(draws, params, trig) {
+export function drawBars(draws, params, trig) {
   const bars = Array.from({ length: params.bar_count }, () => drawBar(draws, params, trig));
-  const food = params.food_bands_mm.map(
-    ([low, high]) => /** @type {[number, number]} */ ([between(draws, low, high), between(draws, 0, params.height_mm)]),
-  );
-  return { bars, food, starts: [drawStart(draws, params)] };
+  return { bars, food: drawFood(draws, params), starts: [drawStart(draws, params)] };
+}
+
+/**
+ * A piece of food in each of its bands.
+ * @param {PythonRandom} draws
+ * @param {SimParams} params
+ * @returns {[number, number][]}
+ */
+export function drawFood(draws, params) {
+  return params.food_bands_mm.map(([low, high]) => [between(draws, low, high), between(draws, 0, params.height_mm)]);
 }
 
 /**
@@ -110,21 +136,23 @@ function drawBar(draws, params, trig) {
 }
 
 /**
+ * A pose anywhere in the arena.
  * @param {PythonRandom} draws
  * @param {SimParams} params
  * @returns {Pose}
  */
-function drawStart(draws, params) {
+export function drawStart(draws, params) {
   const [x, y] = [between(draws, 0, params.width_mm), between(draws, 0, params.height_mm)];
   return [x, y, between(draws, -Math.PI, Math.PI)];
 }
 
 /**
+ * A number from low to high, each as likely.
  * @param {PythonRandom} draws
  * @param {number} low
  * @param {number} high
  */
-function between(draws, low, high) {
+export function between(draws, low, high) {
   return low + (high - low) * draws.random();
 }
 
@@ -134,29 +162,39 @@ function between(draws, low, high) {
  * @param {SimParams} params
  */
 function fairWay({ bars, food, starts: [start] }, params) {
-  const reach = params.body_radius_mm + params.sensor_reach_mm;
+  const reach = reachOf(params);
   if ([start, ...food].some(([x, y]) => clearance(x, y, bars, params) < reach)) return undefined;
-  const way = reachable(bars, start, params);
-  return food.every(([x, y]) => way[cellOf(x, y, params)]) ? way : undefined;
+  const way = reachable(bars, start, params).cells;
+  return food.every((at) => reaches(way, at, params)) ? way : undefined;
+}
+
+/**
+ * Whether a way leads to the cell of a point.
+ * @param {Uint8Array} way
+ * @param {number[]} at
+ * @param {SimParams} params
+ */
+export function reaches(way, [x, y], params) {
+  return way[cellOf(x, y, params)] === 1;
 }
 
 /**
  * Adds a start for each other robot.
  * @param {Layout} layout
  * @param {Uint8Array} way
- * @param {{seed: number, number: number, robots: number}} which
+ * @param {Which} which
  * @param {SimParams} params
  */
 function withRobots(layout, way, { seed, number, robots }, params) {
   const draws = new PythonRandom(`octet ${seed} ${number} starts`);
-  const reach = params.body_radius_mm + params.sensor_reach_mm;
+  const reach = reachOf(params);
   const { starts, bars } = layout;
   for (let i = 0; i < TRIES && starts.length < robots; i += 1) {
     const start = drawStart(draws, params);
     const [x, y] = start;
     const apart = Math.min(...starts.map(([ox, oy]) => Math.hypot(x - ox, y - oy))) - params.body_radius_mm;
     const room = Math.min(clearance(x, y, bars, params), apart);
-    if (way[cellOf(x, y, params)] && room >= reach) starts.push(start);
+    if (reaches(way, start, params) && room >= reach) starts.push(start);
   }
   if (starts.length < robots) throw new Error(`there is room for ${starts.length} robots in environment ${number}`);
   return layout;
@@ -178,12 +216,12 @@ function cellOf(x, y, params) {
 }
 
 /**
- * 1 for each cell that the centre of the body can get to.
+ * 1 for each cell, row by row, that the centre of the body can get to.
  * @param {Bar[]} bars
- * @param {Pose} start
+ * @param {number[]} start
  * @param {SimParams} params
  */
-function reachable(bars, [x, y], params) {
+export function reachable(bars, [x, y], params) {
   const columns = columnsOf(params);
   const rows = Math.ceil(params.height_mm / CELL_MM) + 2;
   const room = params.body_radius_mm + CELL_MM * Math.SQRT1_2;
@@ -192,7 +230,7 @@ function reachable(bars, [x, y], params) {
     const isInside = row > 0 && column > 0 && row < rows - 1 && column < columns - 1;
     return isInside && clearance((column - 0.5) * CELL_MM, (row - 0.5) * CELL_MM, bars, params) >= room;
   };
-  return flooded(cellOf(x, y, params), columns, new Uint8Array(rows * columns), isFree);
+  return { cells: flooded(cellOf(x, y, params), columns, new Uint8Array(rows * columns), isFree), columns };
 }
 
 /**

@@ -1,17 +1,20 @@
 // @ts-check
 /* The experiment that a recorded log is of: what its commands say, and what its world file has. */
 
+import { SOUND, withFault } from "./body_faults.js";
+import { EDIT_FIELDS } from "./edit_fields.js";
 import { CELL_COUNT, FRAMES, OPCODE, PARAMETERS, PROFILES } from "./generated.js";
 import { bytesOf, framesOf, replayLog } from "./log_replay.js";
 import { NativeRun } from "./native_run.js";
 import { Simulation } from "./simulation.js";
+import { checkedWorld } from "./written_world.js";
 
 /**
- * @typedef {import("./layouts.js").SimParams} SimParams
  * @typedef {import("./types.js").Change} Change
  * @typedef {import("./types.js").Experiment} Experiment
  * @typedef {import("./types.js").RobotSetup} RobotSetup
  * @typedef {import("./types.js").WorldEdit} WorldEdit
+ * @typedef {import("./worlds.js").Worlds} Worlds
  *
  * @typedef {{experiment: Experiment, news: string}} Opened
  *
@@ -19,29 +22,25 @@ import { Simulation } from "./simulation.js";
  * @typedef {{commands: [number, number, string][], ticks: number, world: string}} RecordedRun
  *
  * What a world file has.
- * @typedef {{of: number, limit_ticks: number, edits: (WorldEdit & {tick: number})[]}} World
+ * @typedef {{seed: number, of: number, limit_ticks: number, robots?: number, edits: (WorldEdit & {tick: number})[],
+ *   world?: Experiment["world"]}} World
  */
 
 const LIMIT_TICKS = 30_000;
 const ENVIRONMENTS_MAX = 10_000;
 const HALF = CELL_COUNT / 2;
 const NO_WORLD = "that is no world file: open a run.world.json";
-/** What each change of the world must have. */
-const EDITS = new Map([
-  ["add_bar", ["a", "b"]], ["move_bar", ["id", "a", "b"]], ["remove_bar", ["id"]], ["move_food", ["id", "at"]],
-  ["lift", []], ["put", ["at", "heading"]],
-]);
 
 /**
  * @param {WebAssembly.Module} module - page.wasm, compiled.
- * @param {SimParams} params
+ * @param {Worlds} worlds
  * @param {string} text - The log.
  * @param {string} world - The text of its world file; empty if there is none.
  * @returns {Opened}
  */
-export function openLog(module, params, text, world) {
-  const read = experimentIn(module, framesOf(text), world ? worldIn(world) : undefined);
-  const simulation = new Simulation(module, read, params, true);
+export function openLog(module, worlds, text, world) {
+  const read = experimentIn(module, framesOf(text), world ? worldIn(world, worlds) : undefined);
+  const simulation = new Simulation(module, read, worlds, true);
   simulation.finish();
   const experiment = { ...read, environments: Math.min(read.environments, simulation.scene.number) };
   return { experiment, news: comparison(module, text, simulation.log ?? []) };
@@ -50,11 +49,12 @@ export function openLog(module, params, text, world) {
 /**
  * The experiment that a recorded run is of.
  * @param {WebAssembly.Module} module - page.wasm, compiled.
+ * @param {Worlds} worlds
  * @param {RecordedRun} recorded
  * @returns {Experiment}
  */
-export function recordedExperiment(module, { commands, ticks, world }) {
-  return experimentIn(module, recordedFrames(commands, ticks), world ? worldIn(world) : undefined);
+export function recordedExperiment(module, worlds, { commands, ticks, world }) {
+  return experimentIn(module, recordedFrames(commands, ticks), world ? worldIn(world, worlds) : undefined);
 }
 
 /**
@@ -73,15 +73,29 @@ function* recordedFrames(commands, ticks) {
 }
 
 /**
+ * The content of a world file.
  * @param {string} text
+ * @param {Worlds} worlds
  * @returns {World}
  */
-function worldIn(text) {
+export function worldIn(text, worlds) {
   const world = parsed(text);
   if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
-  if (world.world !== undefined) throw new Error("this page knows the random world only: this log is of another one");
   if (!isCount(world.of) || !isCount(world.limit_ticks) || !world.edits.every(isEdit)) throw new Error(NO_WORLD);
-  return world;
+  return { ...world, world: placeIn(world.world, worlds) };
+}
+
+/**
+ * Where the run of a world file takes place: a world with a name, or all of one that a person wrote.
+ * @param {unknown} world
+ * @param {Worlds} worlds
+ * @returns {Experiment["world"]}
+ */
+function placeIn(world, worlds) {
+  if (world === undefined || (typeof world === "string" && Object.hasOwn(worlds, world))) return world;
+  if (typeof world !== "object" || world === null) throw new Error(`this page knows no world ${JSON.stringify(world)}`);
+  const { name, ...content } = /** @type {Record<string, unknown>} */ (world);
+  return checkedWorld(`${name}`, content, worlds.random);
 }
 
 /** @param {string} text */
@@ -100,8 +114,9 @@ function isCount(number) {
 
 /** @param {Record<string, unknown> | null} edit */
 function isEdit(edit) {
-  const fields = EDITS.get(`${edit?.do}`);
-  return edit !== null && Number.isInteger(edit.tick) && Boolean(fields?.every((name) => isField(edit[name])));
+  const fields = EDIT_FIELDS.get(`${edit?.do}`);
+  const isWhole = edit !== null && Number.isInteger(edit.tick) && Boolean(fields?.every((name) => isField(edit[name])));
+  return isWhole && (edit.do !== "body" || withFault(SOUND, `${edit.what}`, 0n) !== undefined);
 }
 
 /**
@@ -137,7 +152,7 @@ function experimentIn(module, frames, world) {
   const [environments, limit_ticks] = world ? [world.of, world.limit_ticks] : [ENVIRONMENTS_MAX, LIMIT_TICKS];
   const during = changes.filter((change) => change.tick < ticks);
   const all = [...during, ...(world?.edits ?? [])].sort((a, b) => a.tick - b.tick);
-  return { seed, environments, limit_ticks, robots, changes: all, ticks_max: ticks };
+  return { seed, environments, limit_ticks, robots, changes: all, ticks_max: ticks, world: world?.world };
 }
 
 /**

@@ -112,6 +112,16 @@ export class NativeRun {
     this.c.page_build();
   }
 
+  /**
+   * Sets what is wrong with a robot's body.
+   * @param {number} robot
+   * @param {number[]} faults - In the order of native/page.h.
+   */
+  setFaults(robot, faults) {
+    new Float64Array(this.c.memory.buffer, this.c.page_faults(), faults.length).set(faults);
+    this.c.page_break(robot);
+  }
+
   /** What is handed over to C. */
   get bytes() {
     return this.bytesAt(this.c.page_bytes(), CELL_COUNT);

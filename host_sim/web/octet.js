@@ -26,12 +26,13 @@ const LANES_MAX = 4;
 /** The page: its lanes, the time that all of them show, and the lane that is selected. */
 class LabPage {
   /**
-   * @param {{wasm: string, params: import("./layouts.js").SimParams}} parts
+   * @param {{wasm: string, worlds: import("./worlds.js").Worlds}} parts
    * @param {Begin | null} begin - What to begin with; null for a new run.
    */
-  constructor({ wasm, params }, begin) {
-    this.params = params;
-    this.simulator = new Simulator(Uint8Array.from(atob(wasm), (letter) => letter.charCodeAt(0)).buffer, params);
+  constructor({ wasm, worlds }, begin) {
+    this.worlds = worlds;
+    this.params = worlds.random;
+    this.simulator = new Simulator(Uint8Array.from(atob(wasm), (letter) => letter.charCodeAt(0)).buffer, worlds);
     this.tick = this.exactTick = 0;
     this.playing = false;
     /** @type {number | undefined} */
@@ -289,6 +290,7 @@ class LabPage {
     this.panel.show(scene, { exact: !this.playing, ...this.otherMemory() });
     this.picker?.show();
     this.desk.show();
+    setText(byId("news"), scene.lastNews);
     this.showParting();
     this.scrub.max = `${this.last}`;
     this.scrub.value = `${tick}`;

@@ -74,6 +74,27 @@ export function lessonSentence(lesson) {
 }
 
 /**
+ * What has happened to a body, in one sentence.
+ * @param {string} what - As docs/worlds.md has it.
+ * @returns {string}
+ */
+export function bodySentence(what) {
+  const [name, ...parts] = what.split(":");
+  const details = parts.join(":");
+  /** @type {Record<string, string>} */
+  const sentences = {
+    "weak-motor": `The ${parts[0]} motor turns at ${parts[1]} of its speed.`,
+    "swap-motors": "The plugs of the motors were swapped.",
+    mirror: "The ring of sensors was mounted the other way round.",
+    "stuck-on": `The ${details} sensor is stuck: it always sees something.`,
+    "stuck-off": `The ${details} sensor is dead: it never sees anything.`,
+    noise: `Each sensor is wrong in ${details.replace("/", " of ")} ticks.`,
+    repair: "The body was repaired.",
+  };
+  return sentences[name];
+}
+
+/**
  * How an environment ended, and after the last one how all did: a heading and a sentence.
  * @param {Ended} ended
  * @param {boolean} done - Whether it was the last one.

@@ -26,6 +26,16 @@ export function endsOf(environment, id) {
 }
 
 /**
+ * A plant by its id, if it is there.
+ * @param {EnvironmentScene} environment
+ * @param {number} id
+ */
+export function plantOf(environment, id) {
+  const plant = environment.plants?.find(([plantId]) => plantId === id);
+  return plant && { x: plant[1], y: plant[2], radius: plant[3] };
+}
+
+/**
  * A bar moved as a whole, or turned about one end so that the other follows a pointer. It keeps its length.
  * @param {Ends} ends
  * @param {Item["part"]} part - The end that follows, or "whole".
@@ -76,10 +86,11 @@ export function insideWalls(at, { width, height, body }) {
 }
 
 /**
+ * Whether a place is within the walls.
  * @param {Place} at
  * @param {Measures} measures
  */
-function isInside({ x, y }, { width, height }) {
+export function isInside({ x, y }, { width, height }) {
   return x >= 0 && y >= 0 && x <= width && y <= height;
 }
 

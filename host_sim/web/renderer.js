@@ -43,7 +43,7 @@ export class Renderer {
     for (const state of states) drawLook(context, scene, state, palette);
     this.drawFood(scene);
     this.drawBars(scene);
-    for (const plant of scene.environment.plants ?? []) drawPlant(context, plant, palette.of);
+    this.drawPlants(scene);
     for (const state of states) drawRobot(context, scene, state, palette);
   }
 
@@ -126,6 +126,20 @@ export class Renderer {
     for (const bar of environment.bars) {
       if (isSelected(item, "bar", bar[0])) this.drawBar(bar, measures.bar + 40, palette.of.select);
       this.drawBar(bar, measures.bar, palette.of.bar);
+    }
+  }
+
+  /** @param {Scene} scene */
+  drawPlants({ environment, item }) {
+    const { context, palette } = this;
+    for (const plant of environment.plants ?? []) {
+      const [id, x, y, radius] = plant;
+      drawPlant(context, plant, palette.of);
+      if (!isSelected(item, "plant", id)) continue;
+      context.strokeStyle = palette.of.select;
+      context.lineWidth = 20;
+      circle(context, x, y, radius);
+      context.stroke();
     }
   }
 

@@ -4,6 +4,7 @@
 import { REASON } from "./generated.js";
 import { LearningHistory } from "./learning_history.js";
 import { AXES, ROW } from "./native_run.js";
+import { newsOf } from "./world_news.js";
 
 /**
  * @typedef {import("./packed_columns.js").Columns} Columns
@@ -43,6 +44,8 @@ export class RunRecorder {
     this.scenes = [];
     /** @type {[number, number[]][]} */
     this.eaten = [];
+    /** @type {import("./world_news.js").Edited[]} */
+    this.edits = [];
   }
 
   /** Number of ticks so far. */
@@ -59,6 +62,7 @@ export class RunRecorder {
     if (before?.first_tick !== scene.first_tick || before.number !== scene.number) {
       note(this.eaten, this.ticks, scene.food.map(() => 0));
     }
+    if (this.scenes.at(-1)?.[0] === this.ticks) this.scenes.pop();
     this.scenes.push([this.ticks, scene]);
     for (const track of this.tracks) track.isNew = true;
   }
@@ -81,8 +85,10 @@ export class RunRecorder {
   result(title) {
     const { measures, ticks, scenes, eaten } = this;
     const begun = scenes.filter(([, { number }], i) => number !== (scenes[i - 1]?.[1].number ?? 0));
-    const robots = this.tracks.map((track) => track.result(begun.map(([tick]) => tick)));
-    const run = { version: 2, title, measures, first_tick: 0, ticks, scenes, news: [], eaten, robots };
+    const news = newsOf(this.edits, this.tracks.length);
+    const changes = [...new Set(news.map(([tick]) => tick))];
+    const robots = this.tracks.map((track) => track.result(begun.map(([tick]) => tick), changes));
+    const run = { version: 2, title, measures, first_tick: 0, ticks, scenes, news, eaten, robots };
     return { run, columns: this.tracks.map((track) => track.trimmed()) };
   }
 }
@@ -168,25 +174,27 @@ class Track {
 
   /**
    * @param {number[]} environments - The ticks in which they begin.
+   * @param {number[]} changes - The ticks in which something has changed.
    * @returns {RobotRun}
    */
-  result(environments) {
+  result(environments, changes) {
     const { node, memory, trials, history } = this;
     const { pattern } = this.columns;
     const lessons = history.lessons.filter(({ tick }) => tick < this.ticks);
     const turns = this.begun(REASON.REMEMBERED).map((tick) => /** @type {[number, number]} */ ([tick, pattern[tick]]));
-    return { node, memory, trials, lessons, turns, events: this.events(environments), columns: NAMES, data: "" };
+    return { node, memory, trials, lessons, turns, events: this.events(environments, changes), columns: NAMES, data: "" };
   }
 
   /**
    * @param {number[]} environments
+   * @param {number[]} changes
    * @returns {[number, EventKind][]}
    */
-  events(environments) {
+  events(environments, changes) {
     const learned = this.history.lessons.filter(({ by_hand, tick }) => !by_hand && tick < this.ticks);
     /** @type {[EventKind, number[]][]} */
     const kinds = [
-      ["environment", environments], ["trial", this.begun(REASON.TRIAL)], ["boredom", this.begun(REASON.BOREDOM)],
+      ["environment", environments], ["change", changes], ["trial", this.begun(REASON.TRIAL)], ["boredom", this.begun(REASON.BOREDOM)],
       ["lesson", learned.map(({ tick }) => tick)], ["eat", this.meals],
     ];
     const events = kinds.flatMap(([kind, ticks]) => ticks.map((tick) => /** @type {[number, EventKind]} */ ([tick, kind])));

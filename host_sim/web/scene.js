@@ -12,9 +12,9 @@ import { trailsFor } from "./trail.js";
  */
 
 /**
- * What a person can select or drag. id: a robot's node, a food's index, a bar's id. part: "a" or "b" for one end of a
+ * What a person can select or drag. id: a robot's node, a food's index, a bar's or plant's id. part: "a" or "b" for one end of a
  * bar, else "whole".
- * @typedef {{kind: "robot" | "food" | "bar", id: number, part: "a" | "b" | "whole"}} Item
+ * @typedef {{kind: "robot" | "food" | "bar" | "plant", id: number, part: "a" | "b" | "whole"}} Item
  */
 
 /**

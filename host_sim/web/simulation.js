@@ -1,12 +1,16 @@
 // @ts-check
 /* A run in the page: robots in one environment after the other. The same frames as those of tools/run. */
 
+import { SOUND, faultNumbers, measured, noiseKey, withFault } from "./body_faults.js";
+import { EDIT_FIELDS } from "./edit_fields.js";
 import { ANSWER_WANTS_RANGES, CELL_COUNT, FEEL, OPCODE, PARAMETERS, PROFILES, RANGE_NONE } from "./generated.js";
 import { generate } from "./layouts.js";
 import { NativeRun } from "./native_run.js";
 import { rangesOf, wallsOf } from "./ranges.js";
 import { RunRecorder } from "./run_recorder.js";
 import { EditError, Furniture } from "./world_edits.js";
+import { RANDOM } from "./world_names.js";
+import { worldOf } from "./worlds.js";
 
 /**
  * @typedef {import("./layouts.js").Pose} Pose
@@ -19,7 +23,7 @@ import { EditError, Furniture } from "./world_edits.js";
 /** The order of the dimensions in native/page.h. */
 const DIMENSIONS = /** @type {const} */ ([
   "width_mm", "height_mm", "body_radius_mm", "wheel_track_mm", "sensor_reach_mm", "front_extra_mm", "beam_width_mm",
-  "eat_reach_mm", "bar_thickness_mm", "tick_s", "max_wheel_speed_mm_s",
+  "eat_reach_mm", "tick_s", "max_wheel_speed_mm_s",
 ]);
 const BLOCK_TICKS = 256;
 const HALF = CELL_COUNT / 2;
@@ -34,11 +38,13 @@ export class Simulation {
   /**
    * @param {WebAssembly.Module} module - page.wasm, compiled.
    * @param {Experiment} experiment
-   * @param {SimParams} params
+   * @param {import("./worlds.js").Worlds} worlds
    * @param {boolean} [keepsLog] - Whether to record every frame.
    */
-  constructor(module, experiment, params, keepsLog = false) {
+  constructor(module, experiment, worlds, keepsLog = false) {
     this.experiment = experiment;
+    this.world = worldOf(experiment.world ?? RANDOM, worlds);
+    const { params } = this.world;
     this.params = params;
     this.native = new NativeRun(module, experiment.robots.length);
     this.native.build(DIMENSIONS.map((name) => params[name]));
@@ -51,6 +57,8 @@ export class Simulation {
     /** @type {import("./types.js").EnvironmentScene} */
     this.scene = { number: 0, of: experiment.environments, seed: experiment.seed, first_tick: 0, start_tick: 0, bars: [], food: [] };
     this.bodies = experiment.robots.map(() => ({ x: 0, y: 0, heading: 0, lifted: false }));
+    /** @type {import("./body_faults.js").Faults[]} */
+    this.faults = experiment.robots.map(() => SOUND);
     this.wantsRanges = experiment.robots.map(() => false);
     this.startRobots();
     this.recorder = new RunRecorder(measuresOf(params, experiment), experiment.robots.map((_, robot) => this.native.sides(robot)));
@@ -134,7 +142,8 @@ export class Simulation {
   writeMemory(robot, memory) {
     const { native } = this;
     native.bytes.set(memory);
-    if (native.c.page_translate(robot)) this.write(robot, [...native.bytes], ALL_CELLS);
+    if (!native.c.page_translate(robot)) throw new Error("these eight bytes are no memory of a robot");
+    this.write(robot, [...native.bytes], ALL_CELLS);
   }
 
   /**
@@ -177,9 +186,10 @@ export class Simulation {
 
   /** @param {number} number */
   enter(number) {
-    const { experiment, params, native } = this;
-    const { c } = native;
-    const layout = generate(experiment.seed, number, params, this.bodies.length, { sin: c.page_sin, cos: c.page_cos });
+    const { experiment, params } = this;
+    const { c } = this.native;
+    const which = { seed: experiment.seed, number, robots: this.bodies.length };
+    const layout = generate(which, this.world, { sin: c.page_sin, cos: c.page_cos });
     this.furniture = new Furniture(layout, params);
     layout.starts.forEach((start, robot) => this.putDown(robot, start));
     this.placeFurniture();
@@ -199,7 +209,7 @@ export class Simulation {
 
   placeFurniture() {
     const { c } = this.native;
-    [...this.furniture.bars.values()].forEach((bar, i) => c.page_put_bar(i, ...bar));
+    this.furniture.capsules.forEach((capsule, i) => c.page_put_obstacle(i, ...capsule));
     this.furniture.food.forEach((at, i) => c.page_put_food(i, ...at));
   }
 
@@ -207,7 +217,9 @@ export class Simulation {
   show() {
     const tenths = (/** @type {number[]} */ places) => places.map((mm) => Math.round(mm * 10) / 10);
     const bars = [...this.furniture.bars].map(([id, bar]) => [id, ...tenths(bar)]);
-    this.scene = { ...this.scene, bars, food: this.furniture.food.map(tenths) };
+    const plants = [...this.furniture.plants].map(([id, plant]) => [id, ...tenths(plant)]);
+    const { plants: _, ...before } = this.scene;
+    this.scene = { ...before, bars, food: this.furniture.food.map(tenths), ...(plants.length && { plants }) };
     this.recorder.enter(this.scene);
   }
 
@@ -244,14 +256,14 @@ export class Simulation {
   sendRanges() {
     this.setTime();
     const { params, native } = this;
-    const radius = params.bar_thickness_mm / 2;
-    const bars = [...this.furniture.bars.values()].map((bar) => /** @type {import("./ranges.js").Capsule} */ ([...bar, radius]));
+    const obstacles = [...wallsOf(params), ...this.furniture.capsules];
     for (const [robot, { x, y, heading, lifted }] of this.bodies.entries()) {
       if (!this.wantsRanges[robot]) continue;
       const others = this.bodies.filter((_, i) => i !== robot && !this.bodies[i].lifted);
       const discs = others.map((at) => /** @type {import("./ranges.js").Capsule} */ ([at.x, at.y, at.x, at.y, params.body_radius_mm]));
-      const things = lifted ? [] : [...wallsOf(params), ...bars, ...discs];
-      native.bytes.set(rangesOf([x, y, heading], things, params, RANGE_NONE).slice(0, Object.keys(FEEL).length));
+      const things = lifted ? [] : [...obstacles, ...discs];
+      const ranges = rangesOf([x, y, heading], things, params, RANGE_NONE).slice(0, Object.keys(FEEL).length);
+      native.bytes.set(measured(ranges, this.faults[robot], RANGE_NONE));
       native.c.page_send_ranges(robot, this.tick);
     }
     this.keepLog();
@@ -272,17 +284,20 @@ export class Simulation {
 
   /** @param {Change} change */
   change(change) {
-    if ("robot" in change && change.do !== "lift" && change.do !== "put") this.changeRobot(change);
-    else this.changeWorld(/** @type {import("./types.js").WorldEdit} */ (change));
+    if (isWorldEdit(change)) this.changeWorld(change);
+    else this.changeRobot(change);
   }
 
   /** @param {import("./types.js").WorldEdit} edit */
   changeWorld(edit) {
+    if ("robot" in edit && !this.bodies[edit.robot ?? 0]) throw new EditError(`there is no such robot; there are ${this.bodies.length}`);
     if (edit.do === "lift") this.lift(edit.robot ?? 0);
     else if (edit.do === "put") this.put(edit.robot ?? 0, edit);
+    else if (edit.do === "body") this.breakBody(edit.robot ?? 0, edit);
     else this.furniture.edit(edit, this.bodies);
     this.placeFurniture();
-    this.native.c.page_settle(this.furniture.bars.size);
+    this.native.c.page_settle(this.furniture.capsules.length);
+    this.recorder.edits.push({ ...edit, tick: this.tick });
     this.show();
   }
 
@@ -302,6 +317,17 @@ export class Simulation {
     if (!this.bodies[robot].lifted) throw new EditError("the robot is not in the air");
     if (!this.furniture.hasRoom(at, others)) throw new EditError("there is no room for the robot");
     this.putDown(robot, [...at, heading / 1000]);
+  }
+
+  /**
+   * @param {number} robot
+   * @param {{what: string, seed?: number}} edit
+   */
+  breakBody(robot, { what, seed = 0 }) {
+    const faults = withFault(this.faults[robot], what, noiseKey(seed, robot));
+    if (!faults) throw new EditError(`'${what}' cannot happen to a body`);
+    this.faults[robot] = faults;
+    this.native.setFaults(robot, faultNumbers(faults));
   }
 
   /** @param {Exclude<Change, import("./types.js").WorldEdit>} change */
@@ -347,6 +373,15 @@ export class Simulation {
     const lines = this.native.takeLog();
     if (lines.length) this.log?.push(lines);
   }
+}
+
+/**
+ * Whether it changes the world or the bodies in it; all else is said to a robot.
+ * @param {Change} change
+ * @returns {change is import("./types.js").WorldEdit}
+ */
+function isWorldEdit(change) {
+  return EDIT_FIELDS.has(change.do);
 }
 
 /**

@@ -15,9 +15,9 @@ import { byId } from "./elements.js";
 export class Simulator {
   /**
    * @param {ArrayBuffer} wasm
-   * @param {import("./layouts.js").SimParams} params
+   * @param {import("./worlds.js").Worlds} worlds
    */
-  constructor(wasm, params) {
+  constructor(wasm, worlds) {
     const source = new Blob([byId("worker").textContent ?? ""], { type: "text/javascript" });
     this.worker = new Worker(URL.createObjectURL(source));
     this.nextId = 0;
@@ -34,7 +34,7 @@ export class Simulator {
      */
     this.running = undefined;
     this.worker.addEventListener("message", ({ data }) => this.take(data));
-    this.worker.postMessage({ do: "begin", wasm, params });
+    this.worker.postMessage({ do: "begin", wasm, worlds });
   }
 
   /**
@@ -56,6 +56,28 @@ export class Simulator {
   async log(experiment) {
     const { log } = await this.ask({ do: "log", id: this.newId(), experiment });
     return log ?? [];
+  }
+
+  /**
+   * A robot's eight bytes at a tick, with whatever its behaviour keeps in them.
+   * @param {Experiment} experiment
+   * @param {number} robot
+   * @param {number} tick
+   */
+  async memory(experiment, robot, tick) {
+    const until = { ...experiment, changes: experiment.changes.filter((change) => change.tick <= tick), ticks_max: tick + 1 };
+    const { memory } = await this.ask({ do: "memory", id: this.newId(), experiment: until, robot });
+    return Uint8Array.from(memory ?? []);
+  }
+
+  /**
+   * The experiment that a world file is of.
+   * @param {{name: string, text: string}} file
+   * @param {Experiment} base - Says what the file does not.
+   */
+  async world(file, base) {
+    const { experiment } = await this.ask({ do: "world", id: this.newId(), file, base });
+    return experiment ?? base;
   }
 
   /**

@@ -176,6 +176,8 @@
  *   | {do: "move_bar", id: number, a: WirePlace, b: WirePlace}
  *   | {do: "remove_bar", id: number}
  *   | {do: "move_food", id: number, at: WirePlace}
+ *   | {do: "move_plant", id: number, at: WirePlace}
+ *   | {do: "remove_plant", id: number}
  *   | {do: "lift", node: number}
  *   | {do: "put", node: number, at: WirePlace, heading: number}} Command
  */
@@ -195,6 +197,11 @@
  *   | {do: "move_bar", id: number, a: [number, number], b: [number, number]}
  *   | {do: "remove_bar", id: number}
  *   | {do: "move_food", id: number, at: [number, number]}
+ *   | {do: "plant", at: [number, number], radius: number}
+ *   | {do: "move_plant", id: number, at: [number, number]}
+ *   | {do: "grow_plant", id: number, radius: number}
+ *   | {do: "remove_plant", id: number}
+ *   | {do: "body", what: string, robot?: number, seed?: number}
  *   | {do: "lift", robot?: number}
  *   | {do: "put", robot?: number, at: [number, number], heading: number}} WorldEdit
  */
@@ -212,6 +219,12 @@
  */
 
 /**
+ * A world that a person wrote, as run.world.json has it: mm, and the start's heading in degrees.
+ * @typedef {{name: string, size?: [number, number], start?: [number, number, number], food: [number, number][],
+ *   bars: [number, number, number, number][]}} WrittenWorld
+ */
+
+/**
  * All that a simulated run depends on. Changes are made before the senses of their tick, and are in the order of ticks.
  * @typedef {Object} Experiment
  * @property {number} seed
@@ -219,5 +232,6 @@
  * @property {number} limit_ticks
  * @property {RobotSetup[]} robots
  * @property {(Change & {tick: number})[]} changes
+ * @property {string | WrittenWorld} [world] - Where it takes place; by default, the random one.
  * @property {number} [ticks_max] - Of a run that was ended early.
  */

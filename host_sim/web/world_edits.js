@@ -1,14 +1,17 @@
 // @ts-check
-/* The obstacles and the food of an arena, and what a person may change in them: as host_sim/world/edits.py has it. */
+/* The obstacles, plants and the food of an arena, and what a person may change in them: as host_sim/world/edits.py has it. */
 
 import { clearance } from "./layouts.js";
 
 /**
  * @typedef {import("./layouts.js").Bar} Bar
  * @typedef {import("./layouts.js").Layout} Layout
+ * @typedef {import("./layouts.js").Plant} Plant
  * @typedef {import("./layouts.js").Pose} Pose
  * @typedef {import("./layouts.js").SimParams} SimParams
  * @typedef {import("./types.js").WorldEdit} WorldEdit
+ *
+ * @typedef {import("./ranges.js").Capsule} Capsule
  *
  * Where a robot is, and whether a person holds it.
  * @typedef {{x: number, y: number, lifted: boolean}} Standing
@@ -19,8 +22,10 @@ export class EditError extends Error {}
 
 /** As in host_sim/world/edits.py. */
 const BARS_MAX = 40;
+const PLANTS_MAX = 20;
+const PLANT_MM = /** @type {const} */ ([20, 500]);
 
-/** What stands in an arena. Obstacles have ids: 0, 1, ... in the order in which they were added. */
+/** What stands in an arena. Bars have ids: 0, 1, ... in the order in which they were added; so do plants. */
 export class Furniture {
   /**
    * @param {Layout} layout
@@ -30,11 +35,14 @@ export class Furniture {
     this.params = params;
     this.bars = new Map(bars.map((bar, id) => [id, bar]));
     this.nextId = bars.length;
+    /** @type {Map<number, Plant>} */
+    this.plants = new Map();
+    this.nextPlantId = 0;
     this.food = food.map(([x, y]) => /** @type {[number, number]} */ ([x, y]));
   }
 
   /**
-   * Makes a change of the obstacles or the food.
+   * Makes a change of the obstacles, the plants or the food.
    * @param {WorldEdit} edit
    * @param {Standing[]} robots
    */
@@ -43,6 +51,50 @@ export class Furniture {
     else if (edit.do === "move_bar") this.move(edit.id, barOf(edit), robots);
     else if (edit.do === "remove_bar") this.remove(edit.id);
     else if (edit.do === "move_food") this.moveFood(edit.id, edit.at);
+    else this.editPlant(edit, robots);
+  }
+
+  /**
+   * @param {WorldEdit} edit
+   * @param {Standing[]} robots
+   */
+  editPlant(edit, robots) {
+    if (edit.do === "plant") {
+      if (this.plants.size >= PLANTS_MAX) throw new EditError(`there are ${PLANTS_MAX} plants already`);
+      this.putPlant(this.nextPlantId, [...edit.at, edit.radius], robots);
+      this.nextPlantId += 1;
+    } else if (edit.do === "move_plant") this.putPlant(edit.id, [...edit.at, this.plant(edit.id)[2]], robots);
+    else if (edit.do === "grow_plant") this.putPlant(edit.id, [...middleOf(this.plant(edit.id)), edit.radius], robots);
+    else if (edit.do === "remove_plant") this.plants.delete(this.plant(edit.id) && edit.id);
+  }
+
+  /** @param {number} id */
+  plant(id) {
+    this.checkKnown(this.plants.has(id), id);
+    return /** @type {Plant} */ (this.plants.get(id));
+  }
+
+  /**
+   * @param {number} id
+   * @param {Plant} plant
+   * @param {Standing[]} robots
+   */
+  putPlant(id, plant, robots) {
+    const [x, y, radius] = plant;
+    const [low, high] = PLANT_MM;
+    this.checkInside([x, y]);
+    if (radius < low || radius > high) throw new EditError(`a plant has a radius of ${low} to ${high} mm, not ${radius}`);
+    const room = radius + this.params.body_radius_mm;
+    const isHit = robots.some((robot) => !robot.lifted && Math.hypot(x - robot.x, y - robot.y) < room);
+    if (isHit) throw new EditError("the robot stands there");
+    this.plants.set(id, plant);
+  }
+
+  /** All obstacles: both ends, and half their thickness. */
+  get capsules() {
+    const radius = this.params.bar_thickness_mm / 2;
+    const bars = [...this.bars.values()].map((bar) => /** @type {Capsule} */ ([...bar, radius]));
+    return [...bars, ...[...this.plants.values()].map(([x, y, r]) => /** @type {Capsule} */ ([x, y, x, y, r]))];
   }
 
   /**
@@ -91,7 +143,7 @@ export class Furniture {
   hasRoom([x, y], others) {
     const { params } = this;
     const apart = others.filter(({ lifted }) => !lifted).map((other) => Math.hypot(x - other.x, y - other.y));
-    const room = Math.min(clearance(x, y, [...this.bars.values()], params), ...apart.map((mm) => mm - params.body_radius_mm));
+    const room = Math.min(clearance(x, y, [...this.bars.values()], params, [...this.plants.values()]), ...apart.map((mm) => mm - params.body_radius_mm));
     return room >= params.body_radius_mm;
   }
 
@@ -121,6 +173,14 @@ export class Furniture {
   checkKnown(known, id) {
     if (!known) throw new EditError(`there is no number ${id}`);
   }
+}
+
+/**
+ * @param {Plant} plant
+ * @returns {[number, number]}
+ */
+function middleOf([x, y]) {
+  return [x, y];
 }
 
 /**

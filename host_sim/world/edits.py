@@ -73,6 +73,14 @@ class AddPlant:
 
 
 @dataclass(frozen=True)
+class MovePlant:
+    """Moves a plant."""
+
+    id: int
+    at: Point
+
+
+@dataclass(frozen=True)
 class GrowPlant:
     """Gives a plant another radius."""
 
@@ -99,7 +107,9 @@ class ChangeBody:
     seed: int = 0
 
 
-Edit = AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put | AddPlant | GrowPlant | RemovePlant | ChangeBody
+Edit = (
+    AddBar | MoveBar | RemoveBar | MoveFood | Lift | Put | AddPlant | MovePlant | GrowPlant | RemovePlant | ChangeBody
+)
 
 
 class EditError(ValueError):
@@ -145,6 +155,13 @@ def _add_plant(arena: Arena, edit: AddPlant, params: SimParams) -> None:
         raise EditError(f"there are {PLANTS_MAX} plants already")
     _check_plant(arena, edit.plant, params)
     arena.obstacles.plant(edit.plant)
+
+
+def _move_plant(arena: Arena, edit: MovePlant, params: SimParams) -> None:
+    _check_known(edit.id, arena.obstacles.plants)
+    moved = arena.obstacles.plants[edit.id]._replace(at=edit.at)
+    _check_plant(arena, moved, params)
+    arena.obstacles.change_plant(edit.id, moved)
 
 
 def _grow_plant(arena: Arena, edit: GrowPlant, params: SimParams) -> None:
@@ -200,6 +217,7 @@ _MAKERS: dict[type, Callable[[Arena, Any, SimParams], None]] = {
     Lift: _lift,
     Put: _put,
     AddPlant: _add_plant,
+    MovePlant: _move_plant,
     GrowPlant: _grow_plant,
     RemovePlant: _remove_plant,
     ChangeBody: _change_body,

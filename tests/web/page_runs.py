@@ -2,18 +2,17 @@
 
 import json
 from collections.abc import Sequence
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from host_sim.world.params import SimParams
+from host_sim.report.octet_page import world_dimensions
 from tests.runs.support import octet
 from tests.web.node import in_node
 
 RUNS = """
-const [params, ...experiments] = texts.map((text) => JSON.parse(text));
+const [worlds, ...experiments] = texts.map((text) => JSON.parse(text));
 return experiments.map((experiment) => {
-  const simulation = new modules["simulation.js"].Simulation(page, experiment, params, true);
+  const simulation = new modules["simulation.js"].Simulation(page, experiment, worlds, true);
   for (const _ of simulation.run());
   const log = Buffer.concat(simulation.log).toString("latin1");
   return { log, run: simulation.result().run };
@@ -39,15 +38,21 @@ def experiment(profile: str, seed: int, robots: int = 1, **more: Any) -> dict[st
 
 def words(wanted: dict[str, Any]) -> list[str]:
     """The same for the command line."""
-    profile = wanted["robots"][0]["profile"]
+    profile, world = wanted["robots"][0]["profile"], wanted.get("world", "random")
     options = {"seed": wanted["seed"], "environments": wanted["environments"], "limit-s": wanted["limit_ticks"] / 50}
     words = [word for name, value in options.items() for word in (f"--{name}", str(value))]
-    return [*words, "--profile", profile, "--robots", str(len(wanted["robots"]))]
+    return [*words, "--profile", profile, "--robots", str(len(wanted["robots"])), "--world", world]
+
+
+def with_changes_of(wanted: dict[str, Any], out: Path) -> dict[str, Any]:
+    """The experiment with the world of a run that has ended, and with all that changed in it."""
+    content = json.loads((out / "run.world.json").read_text())
+    return {**wanted, "changes": content["edits"], "world": content.get("world", "random")}
 
 
 def run_in_page(folder: Path, *wanted: dict[str, Any]) -> Sequence[dict[str, Any]]:
     files = [folder / f"{i}.json" for i in range(len(wanted) + 1)]
-    for file, content in zip(files, (asdict(SimParams()), *wanted), strict=True):
+    for file, content in zip(files, (world_dimensions(), *wanted), strict=True):
         file.write_text(json.dumps(content))
     return in_node(folder, "simulation.js", RUNS, *files)
 

@@ -11,9 +11,9 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Browser, Page
 
 from host_sim.protocol.generated import PARAMETERS
-from tests.runs.support import octet
+from tests.runs.support import ROOT, octet
 from tests.web.page_runs import page_file
-from tests.web.support import Faults, wait_for, wait_for_text
+from tests.web.support import Faults, run_in, wait_for, wait_for_text
 from tests.web.test_layout import TOO_SMALL, out_of_view, resize
 from tests.web.test_screens import check
 
@@ -140,7 +140,7 @@ def test_what_was_changed_is_replayed_by_the_host(page, tmp_path):
     done = octet("replay", tmp_path / "run.log", "--html", tmp_path / "replay.html")
     assert (done.returncode, done.stderr) == (0, "")
     edits = json.loads((tmp_path / "run.world.json").read_text())["edits"]
-    assert [edit["do"] for edit in edits] == ["add_bar", "move_bar", "lift", "put"]
+    assert [edit["do"] for edit in edits] == ["plant", "grow_plant", "lift", "put"]
 
 
 def test_a_change_that_cannot_be_made_is_told_and_dropped(page):
@@ -187,6 +187,71 @@ def test_a_memory_goes_out_and_comes_back(page, tmp_path):
     simulated(page)
     page.evaluate("octet.go(0)")
     assert bytes(page.evaluate("octet.scene.state.memory")) == memory
+
+
+def test_a_memory_is_saved_with_its_confidence(page, tmp_path):
+    page.select_option("#behaviour", "adaptive")
+    page.fill("#environments", "1")
+    page.click("text=New run")
+    wait_for(page, "octet.lane.data")
+    simulated(page)
+    page.evaluate("octet.go(octet.last)")
+    words = ("--profile", "adaptive", "--environments", "1", "--memory", tmp_path / "host.mem")
+    assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words).returncode == 0
+
+    memory = saved(page, "#save-memory")
+
+    assert memory == (tmp_path / "host.mem").read_bytes()
+    assert max(memory) > 2
+
+
+def test_a_file_that_is_no_memory_is_told(page, tmp_path):
+    (tmp_path / "robot.mem").write_bytes(bytes([0, 99, 0, 0, 0, 0, 0, 0]))
+    page.click("#tab-files")
+
+    page.set_input_files("#open", tmp_path / "robot.mem")
+
+    wait_for_text(page, "#file-news", "these eight bytes are no memory of a robot")
+    assert page.evaluate("octet.lane.experiment.robots[0].memory") is None
+
+
+def test_a_world_file_begins_a_run_in_it(page, tmp_path):
+    world = ROOT / "docs/worlds/two_walls.toml"
+    assert octet("run", "--bus", "none", "--world", world, "--quiet", "--out", tmp_path).returncode == 0
+    page.click("#tab-files")
+
+    page.set_input_files("#open", world)
+
+    wait_for_text(page, "#file-news", "A new run in two_walls.toml.")
+    assert saved(page, "#save-log") == (tmp_path / "run.log").read_bytes()
+    assert page.evaluate("document.querySelector('#world').value") == "two_walls.toml"
+
+
+def test_a_run_in_another_world_with_plants_and_a_broken_body_can_be_repeated_from_its_files(page, tmp_path):
+    page.select_option("#world", "posts")
+    page.click("text=New run")
+    wait_for(page, "octet.lane.data")
+    page.evaluate("octet.go(150)")
+    page.click("#add-plant")
+    simulated(page)
+    wait_for(page, "octet.scene.item?.kind === 'plant'")
+    page.click("#grow")
+    simulated(page)
+    page.evaluate("octet.go(300)")
+    page.evaluate("octet.editor.nudge({ x: 50, y: 50 })")
+    page.select_option("#fault", "stuck-off:front")
+    page.click("#break")
+    simulated(page)
+    wait_for_text(page, "#news", "The front sensor is dead")
+    (tmp_path / "run.log").write_bytes(saved(page, "#save-log"))
+    (tmp_path / "run.world.json").write_bytes(saved(page, "#save-world"))
+
+    done = octet("replay", tmp_path / "run.log", "--html", tmp_path / "replay.html")
+
+    assert (done.returncode, done.stderr) == (0, "")
+    edits = json.loads((tmp_path / "run.world.json").read_text())["edits"]
+    assert [edit["do"] for edit in edits] == ["plant", "grow_plant", "move_plant", "body"]
+    assert run_in(tmp_path / "replay.html")["scenes"] == page.evaluate("octet.lane.data.run.scenes")
 
 
 def test_the_table_is_saved_for_a_spreadsheet(shared):

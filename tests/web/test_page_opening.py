@@ -1,19 +1,18 @@
 """What the page makes of the logs and world files that people open in it."""
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 
-from host_sim.world.params import SimParams
+from host_sim.report.octet_page import world_dimensions
 from tests.runs.support import octet
 from tests.web.node import in_node
 
 OPEN = """
-const [params, log, world] = texts;
+const [worlds, log, world] = texts;
 try {
-  return modules["log_opening.js"].openLog(page, JSON.parse(params), log, world ?? "").news;
+  return modules["log_opening.js"].openLog(page, JSON.parse(worlds), log, world ?? "").news;
 } catch (error) {
   return error.message;
 }
@@ -31,7 +30,7 @@ def run(tmp_path_factory) -> Path:
 
 
 def opened(folder: Path, log: str, *world: str) -> str:
-    texts = [json.dumps(asdict(SimParams())), log, *world]
+    texts = [json.dumps(world_dimensions()), log, *world]
     files = [folder / str(i) for i in range(len(texts))]
     for file, text in zip(files, texts, strict=True):
         file.write_text(text)
@@ -73,7 +72,9 @@ def test_another_world_than_that_of_the_log_is_found(tmp_path, run):
         ({"edits": [{**EDIT, "a": None}]}, NO_WORLD),
         ({"edits": [{**EDIT, "do": "jump"}]}, NO_WORLD),
         ({"edits": [None]}, NO_WORLD),
-        ({"world": "posts"}, "this page knows the random world only: this log is of another one"),
+        ({"edits": [{"tick": 3, "do": "body", "what": "melt"}]}, NO_WORLD),
+        ({"world": "nowhere"}, 'this page knows no world "nowhere"'),
+        ({"world": {"name": "my.toml", "food": []}}, "a world needs food, such as food = [[3500, 400]]"),
     ],
     ids=str,
 )

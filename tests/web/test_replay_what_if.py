@@ -79,7 +79,7 @@ def test_a_behaviour_a_parameter_or_an_obstacle_makes_another_future(plain, open
         lab.locator(".slider input").first.fill("90")
         lab.locator(".slider input").first.dispatch_event("change")
     else:
-        lab.click("#add-plant")
+        lab.click("#add-bar")
     simulated(lab)
 
     wait_for_text(lab, "#parting", "A and B part at")

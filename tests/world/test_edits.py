@@ -16,6 +16,7 @@ from host_sim.world.edits import (
     Lift,
     MoveBar,
     MoveFood,
+    MovePlant,
     Put,
     RemoveBar,
     RemovePlant,
@@ -138,6 +139,7 @@ def test_a_robot_put_down_before_a_wall_feels_it(arena):
         AddPlant(Plant((600.0, 1500.0), 501.0)),
         AddPlant(Plant((4100.0, 1500.0), 80.0)),
         GrowPlant(0, 80.0),
+        MovePlant(0, (600.0, 1500.0)),
         RemovePlant(0),
         ChangeBody("explode"),
         ChangeBody("mirror", 1),
@@ -171,6 +173,15 @@ def test_a_plant_can_grow_and_be_taken_away(arena):
     assert feel(arena) == FRONT
     edit(arena, RemovePlant(0))
     assert feel(arena) == 0
+
+
+def test_a_plant_can_be_moved_but_not_onto_the_robot(arena):
+    edit(arena, AddPlant(Plant((600.0, 1500.0), 80.0)))
+    edit(arena, MovePlant(0, (2235.0, 1500.0)))
+    assert feel(arena) == FRONT
+    with pytest.raises(EditError, match="the robot stands there"):
+        edit(arena, MovePlant(0, (2150.0, 1500.0)))
+    assert arena.obstacles.plants[0].at == (2235.0, 1500.0)
 
 
 def test_a_plant_does_not_grow_into_the_robot(arena):

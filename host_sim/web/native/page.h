@@ -13,14 +13,18 @@ enum {
     PAGE_ROBOTS_MAX = 4,
     PAGE_TICKS_MAX = 256,   /* of a block */
     PAGE_WAITING_MAX = 64,  /* frames of a robot that nobody has taken yet */
-    PAGE_BARS_MAX = 40,
-    PAGE_FOOD_MAX = 8,
+    PAGE_OBSTACLES_MAX = 60,   /* bars and plants */
+    PAGE_FOOD_MAX = 20,
     PAGE_BYTES = 8
 };
 
 /* The dimensions of a world, as in SimParams. */
 enum { PAGE_WIDTH_MM, PAGE_HEIGHT_MM, PAGE_BODY_MM, PAGE_TRACK_MM, PAGE_REACH_MM, PAGE_FRONT_EXTRA_MM, PAGE_BEAM_MM,
-       PAGE_EAT_MM, PAGE_BAR_MM, PAGE_TICK_S, PAGE_SPEED_MM_S, PAGE_DIMENSIONS };
+       PAGE_EAT_MM, PAGE_TICK_S, PAGE_SPEED_MM_S, PAGE_DIMENSIONS };
+
+/* What is wrong with a body, as in struct body_faults; the noise's key comes in two halves. */
+enum { PAGE_MIRRORED, PAGE_SWAPPED, PAGE_STUCK_ON, PAGE_STUCK_OFF, PAGE_LEFT_LOST, PAGE_RIGHT_LOST, PAGE_NOISE,
+       PAGE_NOISE_OF, PAGE_KEY_HIGH, PAGE_KEY_LOW, PAGE_FAULTS };
 
 /* Where robots are. */
 struct page_world {
@@ -29,9 +33,9 @@ struct page_world {
     struct cones cones;
     struct body bodies[PAGE_ROBOTS_MAX];
     struct food food[PAGE_FOOD_MAX];
-    struct capsule capsules[WALLS + PAGE_BARS_MAX];
+    struct capsule capsules[WALLS + PAGE_OBSTACLES_MAX];
     struct plain_place places[PAGE_ROBOTS_MAX];
-    uint64_t touching[PLAIN_WORDS(WALLS + PAGE_BARS_MAX + PAGE_ROBOTS_MAX) * (PAGE_ROBOTS_MAX + 1)];
+    uint64_t touching[PLAIN_WORDS(WALLS + PAGE_OBSTACLES_MAX + PAGE_ROBOTS_MAX) * (PAGE_ROBOTS_MAX + 1)];
 };
 
 /* A run. */
@@ -45,6 +49,7 @@ struct page {
     struct command command;              /* read last */
     uint8_t bytes[PAGE_BYTES];
     double dimensions[PAGE_DIMENSIONS];
+    double faults[PAGE_FAULTS];
 };
 
 struct page *page_state(void);
@@ -116,8 +121,8 @@ double *page_dimensions(void);
 void page_build(void);
         /* Builds the arena by its dimensions. */
 
-void page_put_bar(uint32_t index, double ax_mm, double ay_mm, double bx_mm, double by_mm);
-        /* Places obstacle 0, 1, ... */
+void page_put_obstacle(uint32_t index, double ax_mm, double ay_mm, double bx_mm, double by_mm, double radius_mm);
+        /* Places obstacle 0, 1, ...: a bar or, if its ends are the same, a plant. */
 
 void page_put_food(uint32_t index, double x_mm, double y_mm);
 
@@ -126,10 +131,16 @@ void page_put_body(uint32_t robot, double x_mm, double y_mm, double heading_rad)
 
 void page_lift(uint32_t robot);
 
-void page_enter(uint32_t bars, uint32_t food);
+double *page_faults(void);
+        /* Where JavaScript puts what is wrong with a body: PAGE_FAULTS numbers. */
+
+void page_break(uint32_t robot);
+        /* From now on, that is what is wrong with a robot's body. */
+
+void page_enter(uint32_t obstacles, uint32_t food);
         /* An environment begins with so many obstacles, and so much food, none of it eaten. */
 
-void page_settle(uint32_t bars);
+void page_settle(uint32_t obstacles);
         /* A person has changed something, and there are so many obstacles now. */
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max);

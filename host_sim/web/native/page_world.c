@@ -46,11 +46,11 @@ void page_build(void)
     page_state()->loop.world = &of->world;
 }
 
-void page_put_bar(uint32_t index, double ax_mm, double ay_mm, double bx_mm, double by_mm)
+void page_put_obstacle(uint32_t index, double ax_mm, double ay_mm, double bx_mm, double by_mm, double radius_mm)
 {
     struct vector a = {ax_mm, ay_mm}, b = {bx_mm, by_mm};
 
-    capsule_set(&page_world()->capsules[WALLS + index], a, b, page_state()->dimensions[PAGE_BAR_MM] / 2);
+    capsule_set(&page_world()->capsules[WALLS + index], a, b, radius_mm);
 }
 
 void page_put_food(uint32_t index, double x_mm, double y_mm)
@@ -76,11 +76,33 @@ void page_lift(uint32_t robot)
     page_world()->bodies[robot].lifted = true;
 }
 
-static void count_bars(uint32_t bars)
+double *page_faults(void)
+{
+    return page_state()->faults;
+}
+
+void page_break(uint32_t robot)
+{
+    const double *faults = page_faults();
+
+    page_state()->robots[robot].faults = (struct body_faults){
+        .mirrored = faults[PAGE_MIRRORED] > 0,
+        .swapped = faults[PAGE_SWAPPED] > 0,
+        .stuck_on = (uint8_t)faults[PAGE_STUCK_ON],
+        .stuck_off = (uint8_t)faults[PAGE_STUCK_OFF],
+        .left_lost_percent = (uint8_t)faults[PAGE_LEFT_LOST],
+        .right_lost_percent = (uint8_t)faults[PAGE_RIGHT_LOST],
+        .noise = (uint32_t)faults[PAGE_NOISE],
+        .noise_of = (uint32_t)faults[PAGE_NOISE_OF],
+        .noise_key = (uint64_t)faults[PAGE_KEY_HIGH] << 32 | (uint64_t)faults[PAGE_KEY_LOW],
+    };
+}
+
+static void count_obstacles(uint32_t obstacles)
 {
     struct page_world *of = page_world();
 
-    of->space.capsule_count = WALLS + bars;
+    of->space.capsule_count = WALLS + obstacles;
     of->space.words = PLAIN_WORDS(of->space.capsule_count + of->world.body_count);
 }
 
@@ -98,18 +120,18 @@ static void begin_body(struct body *body)
 }
 
 /* What the bodies overlap where they are now is not new to them. */
-static void take_space(uint32_t bars)
+static void take_space(uint32_t obstacles)
 {
     struct page_world *of = page_world();
 
-    count_bars(bars);
+    count_obstacles(obstacles);
     for (size_t i = 0; i < sizeof of->touching / sizeof of->touching[0]; i++)
         of->touching[i] = 0;
     world_begin(&of->world);
     plain_space_take(&of->space, &of->world);
 }
 
-void page_enter(uint32_t bars, uint32_t food)
+void page_enter(uint32_t obstacles, uint32_t food)
 {
     struct page_world *of = page_world();
 
@@ -120,12 +142,12 @@ void page_enter(uint32_t bars, uint32_t food)
         begin_body(&of->bodies[i]);
         page_state()->robots[i].food_eaten = 0;
     }
-    take_space(bars);
+    take_space(obstacles);
 }
 
-void page_settle(uint32_t bars)
+void page_settle(uint32_t obstacles)
 {
-    take_space(bars);
+    take_space(obstacles);
 }
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max)

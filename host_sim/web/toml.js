@@ -1,0 +1,107 @@
+// @ts-check
+/* As much of TOML as world files have: keys with numbers, and lists of lists of numbers. Errors name the line. */
+
+/**
+ * @typedef {number | unknown[]} Value
+ *
+ * The keys and their values, and in which line each stands: the key, and each entry of its list.
+ * @typedef {{content: Map<string, Value>, lines: Map<string, [number, number[]]>}} Toml
+ */
+
+const TOKEN = /([A-Za-z_][\w-]*)|([-+]?\d[\d_]*(?:\.\d[\d_]*)?(?:[eE][-+]?\d+)?)|([[\],=])|(\s+|#[^\n]*)|(.)/gy;
+
+/** What was written in a line cannot be read. */
+export class LineError extends Error {
+  /**
+   * @param {number} line
+   * @param {string} what
+   */
+  constructor(line, what) {
+    super(what);
+    this.line = line;
+  }
+}
+
+/**
+ * @param {string} text
+ * @returns {Toml}
+ */
+export function parseToml(text) {
+  const reader = new Reader(text);
+  /** @type {Toml} */
+  const toml = { content: new Map(), lines: new Map() };
+  while (reader.token) {
+    const { line } = reader;
+    const key = reader.key();
+    if (toml.content.has(key)) throw new LineError(line, `there is a second '${key}'`);
+    toml.content.set(key, reader.value(0));
+    toml.lines.set(key, [line, reader.entries.splice(0)]);
+  }
+  return toml;
+}
+
+/** Goes through a text, word by word. `entries` are the lines of the entries of the list that was read last. */
+class Reader {
+  /** @param {string} text */
+  constructor(text) {
+    this.words = text.matchAll(TOKEN);
+    this.line = this.nextLine = 1;
+    /** @type {number[]} */
+    this.entries = [];
+    this.token = this.next();
+  }
+
+  /** The next word that is no space. */
+  next() {
+    for (const [word, name, number, , space] of this.words) {
+      this.line = this.nextLine;
+      this.nextLine += word.split("\n").length - 1;
+      if (space === undefined) return { word, name, number };
+    }
+    return undefined;
+  }
+
+  /** @param {string} wanted */
+  take(wanted) {
+    if (this.token?.word !== wanted) throw this.error(`'${wanted}'`);
+    this.token = this.next();
+  }
+
+  /** A key, and what follows it. */
+  key() {
+    const name = this.token?.name;
+    if (name === undefined) throw this.error("a key");
+    this.token = this.next();
+    this.take("=");
+    return name;
+  }
+
+  /**
+   * @param {number} depth - In how many lists it stands.
+   * @returns {Value}
+   */
+  value(depth) {
+    if (depth === 1) this.entries.push(this.line);
+    const { word = "", number } = this.token ?? {};
+    if (number === undefined && word !== "[") throw this.error("a number or a list of numbers");
+    this.token = this.next();
+    return number === undefined ? this.list(depth + 1) : Number(number.replaceAll("_", ""));
+  }
+
+  /** @param {number} depth */
+  list(depth) {
+    const values = [];
+    while (this.token?.word !== "]") {
+      values.push(this.value(depth));
+      if (this.token?.word !== "]") this.take(",");
+    }
+    this.take("]");
+    return values;
+  }
+
+  /** @param {string} wanted */
+  error(wanted) {
+    const found = this.token ? `'${this.token.word}'` : "the end";
+    return new LineError(this.line, `expected ${wanted}, found ${found}`);
+  }
+}
