@@ -9,8 +9,11 @@ INCLUDED = (f"-I{ROOT}", f"-I{GENERATED}", "-DOCTET_VERSION_MAJOR=1", "-DOCTET_V
 
 _CORE = sorted({*(ROOT / "firmware").rglob("*.c")} - {ROOT / "firmware/main.c"})
 
+ROBOT = [HERE / "any_robot.c", *_CORE]
+"""The core, with a robot in any state."""
+
 PARTS = {
-    "core": _CORE,
+    "core": ROBOT,
     "config": _CORE,
     "wire": [*sorted((ROOT / "hal/protocol").glob("*.c")), *_CORE, GENERATED / "octet.c"],
     "slcan": [ROOT / "hal/link/slcan.c"],

@@ -20,9 +20,12 @@ from host_sim.recording.memory_file import load_memory
 from host_sim.recording.world_file import read_world
 from host_sim.study.plan_file import read_plan
 from host_sim.world.worlds import world_of
+from tools.robot_words.model import DescriptionError
+from tools.robot_words.model import read as read_description
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "tests/recording/data"
+DBC, WORDS = ROOT / "hal/protocol/octet.dbc", ROOT / "hal/protocol/robot.toml"
 ASC = b"""\
 date Sat Nov 21 10:00:00.000 am 2026
 base hex  timestamps absolute
@@ -68,7 +71,7 @@ TROUBLE = st.sampled_from(
     ]
 )
 EDITS = st.lists(
-    st.tuples(st.integers(0, 2000), st.integers(0, 20), st.one_of(TROUBLE, st.binary(max_size=8))),
+    st.tuples(st.integers(0, 30000), st.integers(0, 20), st.one_of(TROUBLE, st.binary(max_size=8))),
     min_size=1,
     max_size=6,
 )
@@ -118,6 +121,10 @@ READERS = {
     "world": Reader(WORLD, in_file("my.toml", lambda path: world_of(str(path)))),
     "study": Reader(STUDY, in_file("study.toml", read_plan)),
     "order": Reader(ORDER, as_text(page_command_from), ValueError),
+    "DBC": Reader(DBC.read_bytes(), in_file("my.dbc", lambda path: read_description(path, WORDS)), DescriptionError),
+    "words": Reader(
+        WORDS.read_bytes(), in_file("my_words.toml", lambda path: read_description(DBC, path)), DescriptionError
+    ),
     "fault": Reader(b"corrupt:20%:3@5-90/to", as_text(Rule.parse)),
 }
 

@@ -90,9 +90,29 @@ def read(dbc: Path, words: Path) -> Description:
     Raises:
         DescriptionError: They do not fit together.
     """
-    database = cantools.database.load_file(dbc)
-    assert isinstance(database, Database)
-    toml: dict[str, Any] = _toml.loads(words.read_text(encoding="utf-8"))
+    try:
+        return _describe(_load(dbc), _toml.loads(words.read_text(encoding="utf-8")))
+    except DescriptionError:
+        raise
+    except (OSError, LookupError, TypeError, AttributeError, ValueError) as error:
+        raise DescriptionError(_one_line("not made as it must be", error)) from error
+
+
+def _one_line(what: str, error: Exception) -> str:
+    return " ".join(f"{what}: {error!r}".split())
+
+
+def _load(dbc: Path) -> Database:
+    try:
+        database = cantools.database.load_file(dbc)
+    except cantools.Error as error:
+        raise DescriptionError(_one_line("no DBC that can be read", error)) from error
+    if not isinstance(database, Database):
+        raise DescriptionError("not a database of CAN messages")
+    return database
+
+
+def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
     for message in database.messages:
         _check_message(message)
     signal = partial(_signal, database)
