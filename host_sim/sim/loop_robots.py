@@ -128,8 +128,8 @@ class RobotBehindLink:
         session = client.session
         if socket is None or session is None or session.halted or not client.round_trip.is_sure:
             return 0
-        if socket is not self._socket:
-            self._open(socket)
+        if socket is not self._socket and not self._open(socket):
+            return 0
         if self._count() != self._counts:
             self._know_reports()
         self._began_s = time.perf_counter()
@@ -157,14 +157,27 @@ class RobotBehindLink:
             socket.put_back(_frame(frame) if frame.id <= _ID_MAX else _NO_FRAME)
         socket.garbled += loop.received == library.LINK_E_GARBLED
 
-    def _open(self, socket: FrameSocket) -> None:
-        """Has C code use another socket; it closes its own number for it."""
+    def _open(self, socket: FrameSocket) -> bool:
+        """Has C code use another socket, if there is a number left by which it can."""
         ffi, library = self._native.ffi, self._native.library
-        name, link = f"fd:{os.dup(socket.fileno())}", ffi.new("struct link **")
-        opened = library.link_open(link, name.encode(), ffi.NULL, 0)
-        assert opened == 0
-        self._socket, self._opened = socket, ffi.gc(link[0], library.link_close)
-        self._native.robot.link = self._opened
+        try:
+            number = os.dup(socket.fileno())
+        except OSError:
+            return False
+        link = ffi.new("struct link **")
+        if library.link_open(link, b"fd:%d" % number, ffi.NULL, 0) != 0:
+            os.close(number)
+            return False
+        self._opened = self._native.robot.link = ffi.gc(link[0], library.link_close)
+        self._socket, socket.closing = socket, self._close
+        return True
+
+    def _close(self) -> None:
+        """Ends the use of the socket, and closes that number."""
+        assert self._socket is not None
+        self._socket.closing = lambda: None
+        self._native.ffi.release(self._opened)
+        self._socket = None
 
     def _report(self, index: int) -> Frame:
         frame_id, length, data = _FRAME.unpack_from(self._known, index * _FRAME.size)

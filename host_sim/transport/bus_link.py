@@ -19,6 +19,7 @@ class BusLink:
     Attributes:
         explain: Called when the line is gone, before the error is raised; it may raise one that says more.
         garbled: As in `FrameSocket`.
+        closing: As in `FrameSocket`.
     """
 
     def __init__(self, bus: can.BusABC, stats: LineStats | None = None, *, is_socket: bool = False) -> None:
@@ -30,6 +31,7 @@ class BusLink:
             is_socket: Whether the bus is a socket that carries a frame a datagram, as SocketCAN does.
         """
         self.explain: Callable[[], object] = lambda: None
+        self.closing: Callable[[], object] = lambda: None
         self.garbled = 0
         self._bus, self._is_socket = bus, is_socket
         self._back: Frame | None = None
@@ -78,6 +80,7 @@ class BusLink:
 
     def close(self) -> None:
         """As in `Link`."""
+        self.closing()
         self._bus.shutdown()
 
 

@@ -1,5 +1,6 @@
 """Ways for frames to get to a robot and back."""
 
+from collections.abc import Callable
 from typing import Protocol, runtime_checkable
 
 from host_sim.protocol.codec import Frame
@@ -31,9 +32,11 @@ class FrameSocket(Protocol):
 
     Attributes:
         garbled: Number of datagrams that were not frames.
+        closing: Called before it closes.
     """
 
     garbled: int
+    closing: Callable[[], object]
 
     def fileno(self) -> int:
         """The socket."""

@@ -1,5 +1,6 @@
 """The tick loop in C over sockets against the readable one: whatever a line brings, the same rules apply."""
 
+import errno
 import os
 import signal
 import socket
@@ -21,6 +22,7 @@ from host_sim.errors import RobotError
 from host_sim.protocol.codec import Frame, Protocol, crc8
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.robot_io import NOTHING_SENSED
+from host_sim.sim import loop_robots
 from host_sim.sim.make import assemble, make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
@@ -288,6 +290,39 @@ def test_a_robot_that_ends_is_named():
             simulation.step(200)
 
         assert simulation.tick == 20
+
+
+def descriptors() -> int:
+    return sum(1 for _ in Path("/proc/self/fd").iterdir())
+
+
+def test_what_c_code_opened_is_closed_with_the_link():
+    before = descriptors()
+
+    with make(RunConfig(environments=1, bus="fd")) as simulation:
+        simulation.enter(1)
+        simulation.step(50)
+        during = descriptors()
+
+    assert during > before
+    assert descriptors() == before
+
+
+def test_without_a_descriptor_to_spare_python_runs_the_ticks(tmp_path, monkeypatch):
+    def refuse(_: int) -> int:
+        raise OSError(errno.EMFILE, "Too many open files")
+
+    monkeypatch.setattr(loop_robots.os, "dup", refuse)
+
+    assert set(outcome(tmp_path, {}, native=True).blocks) == {1}
+
+
+def test_a_socket_that_c_code_cannot_use_is_left_to_python(tmp_path, monkeypatch):
+    monkeypatch.setattr(loop_robots.os, "dup", lambda _: os.open("/dev/null", os.O_RDONLY))
+    before = descriptors()
+
+    assert set(outcome(tmp_path, {}, native=True).blocks) == {1}
+    assert descriptors() == before
 
 
 @pytest.mark.parametrize("robots", [1, 3])

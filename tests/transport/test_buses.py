@@ -3,6 +3,7 @@
 import can
 import pytest
 
+from host_sim.protocol.codec import Frame
 from host_sim.transport.buses import open_bus, open_bus_link
 from host_sim.transport.line_stats import LineStats
 
@@ -56,3 +57,23 @@ def test_a_bus_that_never_falls_silent_is_opened_all_the_same(monkeypatch):
     monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=10**9))
 
     assert open_bus("socketcan:can0", [0x41]).recv(0.0) is not None
+
+
+def test_only_socketcan_is_a_socket_of_whole_frames(monkeypatch):
+    monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=0))
+
+    on_the_kernel, on_an_adapter = (open_bus_link(bus, [], LineStats()) for bus in ("socketcan:can0", "pcan:X"))
+
+    assert on_the_kernel.frame_socket() is on_the_kernel
+    assert on_an_adapter.frame_socket() is None
+
+
+def test_a_frame_that_is_put_back_is_received_again_before_the_socket_is_lent(monkeypatch):
+    monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=0))
+    link = open_bus_link("socketcan:can0", [], LineStats())
+
+    link.put_back(Frame(0x41, b"1"))
+
+    assert link.frame_socket() is None
+    assert link.receive(0.0) == Frame(0x41, b"1")
+    assert link.frame_socket() is link

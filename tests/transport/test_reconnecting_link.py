@@ -108,3 +108,31 @@ def test_a_line_that_comes_and_goes_counts_each_time(line):
 
     assert stats.outages == 3
     assert len(line.sent) == 3
+
+
+class SocketLine(Line):
+    """A line with a socket, for which the line itself stands."""
+
+    def open(self) -> "SocketLine":
+        super().open()
+        return self
+
+    def frame_socket(self) -> "SocketLine":
+        return self
+
+
+def test_a_line_has_a_socket_while_it_is_there(line):
+    with_socket = SocketLine()
+    link = reconnecting(with_socket)
+    assert link.frame_socket() is with_socket
+    assert reconnecting(line).frame_socket() is None
+
+    with_socket.is_there = False
+    link.send(FRAME)
+    assert link.frame_socket() is None
+
+    with_socket.is_there = True
+    link.receive(0.0)
+    assert link.frame_socket() is None, "nobody knows yet whether it works again"
+    link.send(FRAME)
+    assert link.frame_socket() is with_socket

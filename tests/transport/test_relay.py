@@ -62,3 +62,20 @@ def test_closing_closes_the_line():
     RelayedLink(robot, Relay([1]), 1).close()
 
     assert robot.closed
+
+
+class RobotBehindSocket(Robot):
+    """As such, with a socket, for which the link itself stands."""
+
+    def frame_socket(self) -> "RobotBehindSocket":
+        return self
+
+
+def test_a_robot_has_heard_all_before_its_socket_is_lent():
+    relay, robot = Relay([1, 2]), RobotBehindSocket()
+    link = RelayedLink(robot, relay, 1)
+    relay.hear(2, memory_of(2))
+
+    assert link.frame_socket() is robot
+    assert robot.heard == [memory_of(2)]
+    assert RelayedLink(Robot(), relay, 1).frame_socket() is None
