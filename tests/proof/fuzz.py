@@ -11,19 +11,19 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from tests.proof.parts import HERE, INCLUDED, PARTS, ROOT
+from tests.proof.parts import FUZZED, HERE, INCLUDED, ROOT
 
 FOLDER = ROOT / "build/fuzz"
 TIMEOUT_S = 10
 SANITIZED = ("-g", "-O1", "-std=c99", "-fsanitize=fuzzer,address,undefined", "-fno-sanitize-recover=all")
 
 
-def build(name: str, sources: Sequence[Path], folder: Path = FOLDER) -> Path:
-    """A program that feeds a harness what the fuzzer thinks up."""
+def build(name: str, sources: Sequence[Path], folder: Path = FOLDER, options: Sequence[str] = ()) -> Path:
+    """A program that feeds a harness what the fuzzer thinks up. The options are the compiler's."""
     folder.mkdir(parents=True, exist_ok=True)
     program = folder / name
     files = (HERE / "fuzzed.c", *sources)
-    command = ("clang", *SANITIZED, *INCLUDED, *files, "-o", program)
+    command = ("clang", *SANITIZED, *INCLUDED, *options, *files, "-o", program)
     subprocess.run(command, check=True)
     return program
 
@@ -40,8 +40,8 @@ def fuzz(program: Path, limit: str) -> subprocess.CompletedProcess[str]:
 def main(seconds: str = "60", *names: str) -> int:
     """Returns 0 if no input did harm."""
     harmed = 0
-    for name in names or PARTS:
-        ended = fuzz(build(name, [HERE / f"{name}.c", *PARTS[name]]), f"-max_total_time={seconds}")
+    for name in names or FUZZED:
+        ended = fuzz(build(name, [HERE / f"{name}.c", *FUZZED[name]]), f"-max_total_time={seconds}")
         tried = next(line for line in ended.stderr.splitlines() if "number_of_executed_units" in line).split()[-1]
         sys.stdout.write(f"{name:8} {tried} inputs in {seconds} s: {'harm' if ended.returncode else 'no harm'}\n")
         sys.stdout.flush()

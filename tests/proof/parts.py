@@ -19,3 +19,6 @@ PARTS = {
     "slcan": [ROOT / "hal/link/slcan.c"],
     "store": [ROOT / "hal/flash_store/flash_store.c", ROOT / "hal/flash_store/crc32.c"],
 }
+
+# Whole sessions are too much for the analyser.
+FUZZED = {**PARTS, "session": [*PARTS["wire"], ROOT / "hal/library/exchange.c"]}

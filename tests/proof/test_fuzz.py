@@ -3,14 +3,14 @@
 import pytest
 
 from tests.proof import fuzz
-from tests.proof.parts import HERE, PARTS
+from tests.proof.parts import FUZZED, HERE
 
 FEW = "-runs=20000"
 
 
-@pytest.mark.parametrize("name", PARTS)
+@pytest.mark.parametrize("name", FUZZED)
 def test_no_input_does_harm(name, tmp_path):
-    program = fuzz.build(name, [HERE / f"{name}.c", *PARTS[name]], tmp_path)
+    program = fuzz.build(name, [HERE / f"{name}.c", *FUZZED[name]], tmp_path)
 
     ended = fuzz.fuzz(program, FEW)
 
@@ -36,3 +36,26 @@ def test_what_can_go_wrong_is_found(body, found, tmp_path, monkeypatch):
     assert ended.returncode != 0
     assert found in ended.stderr
     assert list(tmp_path.glob("*-*"))
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        "if (kind == INPUT_PEER) robot->brain.memory.cell[1] = SIDE_LEFT;",
+        "if (kind == INPUT_SENSES && !robot->running) out->drive.right_mm_s = 1;",
+    ],
+)
+def test_what_a_robot_must_not_do_in_a_session_is_found(fault, tmp_path):
+    planted = tmp_path / "planted.c"
+    parameters = "(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out)"
+    planted.write_text(
+        '#include "firmware/robot.h"\n'
+        f"void __real_robot_respond{parameters};\nvoid __wrap_robot_respond{parameters};\n"
+        f"void __wrap_robot_respond{parameters}\n{{\n__real_robot_respond(robot, kind, in, out);\n{fault}\n}}\n"
+    )
+    sources = [HERE / "session.c", planted, *FUZZED["session"]]
+
+    ended = fuzz.fuzz(fuzz.build("session", sources, tmp_path, ["-Wl,--wrap=robot_respond"]), FEW)
+
+    assert ended.returncode != 0
+    assert "deadly signal" in ended.stderr
