@@ -13,13 +13,14 @@ import os
 import resource
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
+from host_sim.client.incident import Incident
 from host_sim.live.feed import PageFeed
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED
@@ -114,12 +115,16 @@ def hours(count: float, step: float, folder: Path) -> Iterator[tuple[str, bool]]
             said = (
                 f"{number * step:7.2f} h  {vitals}; log {(size - before) / 1e6:.1f} MB more; page {page} bytes; "
                 f"{frames.repeated} repeated, {frames.refused} refused, {frames.lost} lost; "
-                f"{len(run.episodes)} environments; {'; '.join(map(str, client.incidents)) or 'no incidents'}"
+                f"{len(run.episodes)} environments; {len(client.incidents)} incidents{_last(client.incidents)}"
             )
             doubted = any(FORGED not in incident.text for incident in client.incidents)
             yield said, not (vitals.has_grown(first, GROWTH_MAX_MB) or frames.lost or doubted)
         stop(client)
     log.close()
+
+
+def _last(incidents: Sequence[Incident]) -> str:
+    return f", last {incidents[-1]}" if incidents else ""
 
 
 def starts(count: int) -> Iterator[tuple[str, bool]]:
