@@ -13,7 +13,8 @@ _STYLE = """
 body { font: 16px/1.45 system-ui, sans-serif; margin: 1.5rem auto; padding: 0 1rem; max-width: 100rem; }
 table { border-collapse: collapse; }
 th, td { border: 1px solid #8886; padding: .4rem .6rem; text-align: left; vertical-align: top; }
-tbody th { font-weight: 500; min-width: 11rem; }
+tbody th { font-weight: 500; min-width: 8rem; }
+.wide th:first-child { position: sticky; left: 0; background: Canvas; }
 thead th { white-space: nowrap; }
 .wide { overflow-x: auto; }
 .bad { background: var(--bad); }
