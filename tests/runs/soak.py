@@ -48,10 +48,10 @@ GROWTH_MAX_MB = 100.0
 """A trajectory keeps up to a million ticks, 58 MB; nothing else may grow."""
 
 STARTS_GROWTH_MAX_MB = 6.0
-"""What a start leaves behind is fully collected before it is counted; then only the heap's gaps vary."""
+"""Since the first tenth. What a start leaves behind is fully collected before it is counted; the heap's gaps vary."""
 
 WARM_STARTS = 10
-"""After these, everything is loaded that a start needs."""
+"""At least so many come first: after them, everything is loaded that a start needs."""
 
 _PAGE_EVERY = 50
 _PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
@@ -133,14 +133,14 @@ def starts(count: int) -> Iterator[tuple[str, bool]]:
     An arena and its physics refer to each other: Python frees them not at once but when it looks for such rings,
     which it does the less often the more other things there are. Without looking, ten thousand starts level at 12 MB.
     """
-    first = Vitals.now()
+    first, warm = Vitals.now(), max(WARM_STARTS, count // 10)
     for number in range(1, count + 1):
         config = RunConfig(environments=1, limit_s=0.1, seed=number, bus="fd" if number % 10 == 0 else "none")
         with make(config) as simulation:
             for _ in simulation.run():
                 pass
             stop(simulation.clients[0])
-        if number == WARM_STARTS:
+        if number == warm:
             gc.collect()
             first = Vitals.now()
         if number % max(count // 10, 1) == 0:
