@@ -78,7 +78,7 @@ BUS: tuple[FaultClass, ...] = (
     FaultClass("forged drives", ("forge:20%:DRIVE/from",)),
     FaultClass("forged answers", ("forge:20%:ANSWER/from",)),
     FaultClass("forged counters of faults", ("forge:20%:FAULTS/from",)),
-    FaultClass("a forged power-up", ("forge:BOOT@300/from",)),
+    FaultClass("forged power-ups", ("forge:BOOT@300-305/from",)),
     FaultClass(
         "all at once", ("drop:10%", "duplicate:5%", "reorder:5%", "delay:5%:0-60ms", "corrupt:5%", "truncate:5%")
     ),

@@ -47,7 +47,7 @@ TICKS_PER_HOUR = 180_000
 GROWTH_MAX_MB = 100.0
 """A trajectory keeps up to a million ticks, 58 MB; nothing else may grow."""
 
-STARTS_GROWTH_MAX_MB = 6.0
+STARTS_GROWTH_MAX_MB = 12.0
 """Since the first tenth. What a start leaves behind is fully collected before it is counted; the heap's gaps vary."""
 
 WARM_STARTS = 10
