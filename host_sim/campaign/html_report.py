@@ -6,38 +6,44 @@ from html import escape
 from host_sim.campaign.outcome import Outcome
 
 _STYLE = """
-:root { color-scheme: light dark; }
-body { font: 16px/1.4 system-ui, sans-serif; margin: 2rem; }
+:root { color-scheme: light dark; --bad: #ffd9d6; --bad-ink: #8c0b00; --told: #fff0c9; --well: #e2f3e2; }
+@media (prefers-color-scheme: dark) {
+  :root { --bad: #4a1512; --bad-ink: #ffb3ab; --told: #3f3210; --well: #16301a; }
+}
+body { font: 16px/1.45 system-ui, sans-serif; margin: 1.5rem auto; padding: 0 1rem; max-width: 100rem; }
 table { border-collapse: collapse; }
-th, td { border: 1px solid #8888; padding: .4rem .6rem; text-align: left; vertical-align: top; }
-thead th { position: sticky; top: 0; background: Canvas; }
-.bad { background: #c003; }
-.ended { background: #c903; }
-td summary { cursor: pointer; }
-code { overflow-wrap: anywhere; }
+th, td { border: 1px solid #8886; padding: .4rem .6rem; text-align: left; vertical-align: top; }
+tbody th { font-weight: 500; min-width: 8rem; }
+.wide th:first-child { position: sticky; left: 0; background: Canvas; }
+thead th { white-space: nowrap; }
+.wide { overflow-x: auto; }
+.bad { background: var(--bad); }
+.bad summary { color: var(--bad-ink); font-weight: 600; }
+.told { background: var(--told); }
+.well { background: var(--well); }
+td p { margin: .3rem 0; max-width: 32rem; }
+summary { cursor: pointer; }
+code { overflow-wrap: anywhere; font-size: .85em; }
 """
+
+_HEAD = (
+    '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+    '<meta name="viewport" content="width=device-width, initial-scale=1"><title>Octet: fault campaign</title>'
+    f"<style>{_STYLE}</style></head><body><main>\n<h1>Fault campaign</h1>\n"
+)
+_EXPLAINED = (
+    "<p>Each cell says how a run ended: <em>went on</em> to its end; <em>ended</em> before it, with a reason; "
+    "<em>doubted</em>, where the run went on and says that its result is not to be trusted. It opens to what was "
+    "noticed, whether the robot took part again, the longest time for which wheels turned without a new drive, what "
+    "was learned wrong, and the command that repeats the run.</p>\n"
+)
 
 
 def page(outcomes: Sequence[Outcome]) -> str:
     """The whole page."""
-    faults = list(dict.fromkeys(outcome.cell.fault for outcome in outcomes))
-    configurations = list(dict.fromkeys(outcome.cell.configuration for outcome in outcomes))
-    found = {(outcome.cell.fault, outcome.cell.configuration): outcome for outcome in outcomes}
-    head = "".join(f'<th scope="col">{escape(name)}</th>' for name in configurations)
-    rows = "".join(
-        f'<tr><th scope="row">{escape(fault or "no fault")}</th>'
-        + "".join(_cell(found.get((fault, configuration))) for configuration in configurations)
-        + "</tr>\n"
-        for fault in faults
-    )
-    return (
-        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Octet: fault campaign</title>'
-        f"<style>{_STYLE}</style></head><body>\n<h1>Fault campaign</h1>\n<p>{escape(summary(outcomes))}</p>\n"
-        "<p>Each cell says how the run ended. It opens to what was noticed, the longest time for which wheels turned "
-        "without a new drive, and the command that repeats the run.</p>\n"
-        f'<table><thead><tr><th scope="col">fault</th>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table>\n'
-        "</body></html>\n"
-    )
+    profiles = dict.fromkeys(outcome.cell.profile for outcome in outcomes)
+    tables = "".join(_table(name, [each for each in outcomes if each.cell.profile == name]) for name in profiles)
+    return f"{_HEAD}<p>{escape(summary(outcomes))}</p>\n{_bars(outcomes)}{_EXPLAINED}{tables}</main></body></html>\n"
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:
@@ -63,12 +69,68 @@ def verdict(outcome: Outcome) -> str:
     return ", ".join(words)
 
 
+def account(outcome: Outcome) -> str:
+    """What came of one run, in lines of text."""
+    return "\n".join((str(outcome.cell), verdict(outcome), *_lines(outcome)))
+
+
+def _lines(outcome: Outcome) -> list[str]:
+    lines = (
+        outcome.end,
+        *outcome.doubts,
+        f"seen: {outcome.seen or 'nothing'}",
+        f"recovered: {'yes' if outcome.recovered else 'no'}",
+        f"to rest: {outcome.rest_ms} ms",
+    )
+    return [line for line in lines if line]
+
+
+def _bars(outcomes: Sequence[Outcome]) -> str:
+    """The campaign's figures: of the runs with a fault, how many meet each demand."""
+    faulty = [outcome for outcome in outcomes if outcome.cell.fault]
+    counts = {
+        "safe: no wheel turned for more than 100 ms without a new drive": [
+            "unsafe" not in outcome.problems for outcome in faulty
+        ],
+        "seen: counted, told, or without any effect": ["unseen" not in outcome.problems for outcome in faulty],
+        "recovered: the robot took part again to the end": [outcome.recovered for outcome in faulty],
+        "learned nothing wrong": [not outcome.wrong for outcome in faulty],
+        "learned nothing wrong without a word": [
+            "wrong without a word" not in outcome.problems for outcome in faulty
+        ],
+    }
+    rows = "".join(
+        f'<tr><th scope="row">{name}</th><td>{sum(are)} of {len(are)}</td></tr>' for name, are in counts.items()
+    )
+    slowest = max((outcome.rest_ms for outcome in outcomes), default=0)
+    rows += f'<tr><th scope="row">longest time to rest</th><td>{slowest} ms</td></tr>'
+    head = '<thead><tr><th scope="col">runs with a fault</th><th scope="col">how many</th></tr></thead>'
+    return f"<table>{head}<tbody>{rows}</tbody></table>\n"
+
+
+def _table(profile: str, outcomes: Sequence[Outcome]) -> str:
+    faults = dict.fromkeys(outcome.cell.fault for outcome in outcomes)
+    columns = dict.fromkeys((outcome.cell.link, outcome.cell.pace) for outcome in outcomes)
+    found = {(each.cell.fault, (each.cell.link, each.cell.pace)): each for each in outcomes}
+    head = "".join(f'<th scope="col">{escape(f"{link}, {pace}")}</th>' for link, pace in columns)
+    rows = "".join(
+        f'<tr><th scope="row">{escape(fault or "no fault")}</th>'
+        + "".join(_cell(found.get((fault, column))) for column in columns)
+        + "</tr>\n"
+        for fault in faults
+    )
+    return (
+        f"<h2>{escape(profile)}</h2>\n"
+        f'<div class="wide" role="region" tabindex="0" aria-label="{escape(profile)}"><table><thead><tr>'
+        f'<th scope="col">fault</th>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n'
+    )
+
+
 def _cell(outcome: Outcome | None) -> str:
     if outcome is None:
         return "<td></td>"
-    kind = "bad" if outcome.problems else "ended" if outcome.end or outcome.doubts or outcome.wrong else ""
-    lines = [outcome.end, *outcome.doubts, f"seen: {outcome.seen or 'nothing'}", f"to rest: {outcome.rest_ms} ms"]
-    told = "".join(f"<p>{escape(line)}</p>" for line in lines if line)
+    kind = "bad" if outcome.problems else "told" if outcome.end or outcome.doubts or outcome.wrong else "well"
+    told = "".join(f"<p>{escape(line)}</p>" for line in _lines(outcome))
     return (
         f'<td class="{kind}"><details><summary>{escape(verdict(outcome))}</summary>{told}'
         f"<code>{escape(outcome.cell.command())}</code></details></td>"

@@ -1,20 +1,28 @@
 """What comes of a cell: whether it was safe, whether the fault was seen, and whether anything wrong was learned."""
 
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
-from host_sim.campaign.cells import Cell
+from host_sim.campaign.cell import Cell
+from host_sim.campaign.setups import Setup, check_events, open_setup
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.pacing import HOLD_TICKS
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import OctetError
+from host_sim.errors import RobotError, UsageError
+from host_sim.faults.event import Event
+from host_sim.faults.faulty_link import FaultyLink
 from host_sim.protocol.generated import TICK_SPAN, Side
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.make import make
 from host_sim.sim.simulation import Simulation
 
 _PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
+_TICK_MS = 20
+_FRESH_TICKS = 25
+_SIGNS_MAX = 10
+"""A robot in lockstep that waits says so now and then: some frames more are no sign of a fault."""
 
 
 @dataclass
@@ -29,7 +37,11 @@ class Outcome:
         doubts: What makes its result doubtful.
         wrong: Patterns for which a wrong turn was learned.
         digest: Of its log.
-        broke: Whether it ended with an error that is not one of ours.
+        broke: Whether it ended with an error that is not about the robot or its line.
+        struck: The faults that befell frames, as rules for one frame each.
+        waiting: Events that did not come to happen.
+        moved: Tick after which the robot last answered in time.
+        ticks: Number of ticks.
     """
 
     cell: Cell
@@ -40,70 +52,135 @@ class Outcome:
     wrong: tuple[int, ...] = ()
     digest: str = ""
     broke: bool = False
+    struck: tuple[str, ...] = ()
+    waiting: tuple[Event, ...] = ()
+    moved: int = 0
+    ticks: int = 0
 
     @property
     def problems(self) -> list[str]:
         """Why the campaign fails here; empty if it does not."""
-        is_misled = self.wrong and not (self.cell.is_of_body or self.end or self.doubts)
+        is_misled = self.wrong and not (self.cell.changes or self.end or self.doubts)
         found = {
             "unsafe": self.oldest > HOLD_TICKS,
-            "unseen": bool(self.cell.fault) and not self.seen,
+            "unseen": bool(self.cell.fault) and not self.seen and not self.cell.harmless,
+            "did not happen": bool(self.waiting) and not self.end,
             "wrong without a word": bool(is_misled),
             "broke": self.broke,
         }
         return [name for name, is_so in found.items() if is_so]
 
     @property
+    def recovered(self) -> bool:
+        """Whether the run went on to its end with a robot that answers."""
+        return not self.end and self.ticks - self.moved < _FRESH_TICKS
+
+    @property
     def rest_ms(self) -> int:
         """The longest time for which wheels turned without a new drive, ms."""
-        return self.oldest * 20
+        return self.oldest * _TICK_MS
+
+    @property
+    def kind(self) -> str:
+        """The worst that is to be said of it, in a word or two; what a smaller schedule must still bring about."""
+        learned = "learned wrong turns" if self.wrong else "went on"
+        return (*self.problems, *["ended"] * bool(self.end), *["doubted"] * bool(self.doubts), learned)[0]
 
 
 def run_all(cells: Iterable[Cell]) -> Iterator[Outcome]:
     """Runs cells, each configuration's run without a fault first: what differs from that has been seen."""
     clean = ""
     for cell in cells:
-        outcome = _run(cell)
-        clean = outcome.digest if not cell.fault else clean
-        if cell.is_of_body and not outcome.seen and outcome.digest != clean:
-            outcome.seen = "what it does"
+        outcome = run_cell(cell)
+        clean = clean if cell.fault else outcome.digest
+        compare(outcome, clean)
         yield outcome
 
 
-def _run(cell: Cell) -> Outcome:
-    outcome, log = Outcome(cell), FrameLog()
+def compare(outcome: Outcome, clean: str) -> None:
+    """Notes what the digest of the run without a fault shows."""
+    cell = outcome.cell
+    differs = outcome.digest != clean
+    if cell.is_of_body and not outcome.seen and differs:
+        outcome.seen = "what it does"
+    if cell.harmless and not cell.is_real_time and differs and not outcome.end:
+        outcome.end = "it did other things than without the fault"
 
-    def watch(simulation: Simulation) -> None:
-        for drive in simulation.drives:
-            if drive.left_mm_s or drive.right_mm_s:
-                outcome.oldest = max(outcome.oldest, (simulation.tick - 1 - drive.tick) % TICK_SPAN)
 
-    try:
-        with make(cell.config, log, ready=lambda client: _note(outcome, client)) as simulation:
-            simulation.watch = watch
-            (client,) = simulation.clients
-            try:
-                for _ in simulation.run():
-                    stop(client)
-            finally:
-                _note(outcome, client)
-    except OctetError as error:
-        outcome.end = outcome.seen = str(error).partition(";")[0]
-    except Exception as error:
-        outcome.end, outcome.broke = f"{type(error).__name__}: {error}", True
-    outcome.digest = log.close()
+def run_cell(cell: Cell) -> Outcome:
+    """One run.
+
+    Raises:
+        UsageError: There is no such link, or something in the cell cannot happen there.
+    """
+    outcome = Outcome(cell)
+    with open_setup(cell.link) as setup, _log(outcome) as log:
+        check_events(setup, cell.link, cell.events)
+        try:
+            _run(outcome, setup, log)
+        except UsageError:
+            raise
+        except RobotError as error:
+            outcome.end = outcome.seen = str(error).partition(";")[0]
+        except Exception as error:
+            outcome.end, outcome.broke = f"{type(error).__name__}: {error}", True
     return outcome
+
+
+@contextmanager
+def _log(outcome: Outcome) -> Iterator[FrameLog]:
+    log = FrameLog()
+    try:
+        yield log
+    finally:
+        outcome.digest = log.close()
+
+
+def _run(outcome: Outcome, setup: Setup, log: FrameLog) -> None:
+    def ready(client: RobotClient) -> None:
+        _note(outcome, client)
+        setup.found(client)
+
+    with make(setup.configured(outcome.cell.config), log, ready=ready) as simulation:
+        outcome.waiting = outcome.cell.events
+        simulation.watch = lambda running: _watch(outcome, setup, running)
+        simulation.native = simulation.native and not outcome.cell.events
+        (client,) = simulation.clients
+        try:
+            for _ in simulation.run():
+                stop(client)
+        finally:
+            _note(outcome, client)
+
+
+def _watch(outcome: Outcome, setup: Setup, simulation: Simulation) -> None:
+    """Called after each step: looks at the wheels, then makes happen what is due."""
+    (drive,) = simulation.drives
+    age = (simulation.tick - 1 - drive.tick) % TICK_SPAN
+    outcome.ticks = simulation.tick
+    if drive.left_mm_s or drive.right_mm_s:
+        outcome.oldest = max(outcome.oldest, age)
+    if not age:
+        outcome.moved = simulation.tick
+    for event in outcome.waiting:
+        if event.tick <= simulation.tick:
+            outcome.waiting = tuple(other for other in outcome.waiting if other is not event)
+            setup.events[event.name](event.size)
 
 
 def _note(outcome: Outcome, client: RobotClient) -> None:
     frames, sides = client.frames, sides_of(client.memory)
     counts = {
         "repeated": frames.repeated,
-        "duplicate": frames.duplicate,
+        "duplicate": frames.duplicate if frames.duplicate > _SIGNS_MAX else 0,
         "lost": frames.lost,
         "refused": frames.refused,
+        "outages": client.line.outages,
         **client.faults,
     }
     outcome.seen = ", ".join(f"{count} {name}" for name, count in counts.items() if count)
     outcome.doubts = tuple(map(str, client.incidents))
+    outcome.seen = outcome.seen or ", ".join(outcome.doubts)
     outcome.wrong = tuple(pattern for pattern, side in _PROPER.items() if sides[pattern] not in (0, side))
+    if isinstance(client.link, FaultyLink):
+        outcome.struck = tuple(map(str, client.link.schedule.struck))

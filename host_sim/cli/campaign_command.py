@@ -2,22 +2,31 @@
 
 import argparse
 import sys
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from host_sim.backends.images import BOARDS
 from host_sim.cli.parsing import add_command, number
+from host_sim.errors import UsageError
 from host_sim.protocol.generated import PROFILES
 
 if TYPE_CHECKING:
+    from host_sim.campaign.cell import Cell
+    from host_sim.campaign.outcome import Outcome
     from host_sim.cli.parsing import Subparsers
 
+_LINKS = ("none", "fd", "slcan", "vcan", *BOARDS)
 _EXAMPLES = """\
 examples:
   tools/octet campaign out/campaign.html                     every behaviour in lockstep, within this process
-  tools/octet campaign out/real.html --links fd --real-time --profiles article adaptive
+  tools/octet campaign out/real.html --links fd slcan feather_stm32f405 --real-time --profiles article adaptive
+  tools/with-vcan tools/octet campaign out/vcan.html --links vcan
+  tools/octet campaign --repeat 'article fd lockstep seed=12 limit=8 event=hang:300@100'
+  tools/octet campaign --shrink 'article none lockstep seed=12 limit=30 fault=drop:30% fault=forge:stop@300/to'
 
 The exit code is 1 if a fault was not seen, wheels turned on for more than 100 ms, a run broke, or something wrong was
-learned from a bad bus without a word.
+learned without a word.
 """
 
 
@@ -32,30 +41,86 @@ def add(commands: "Subparsers") -> None:
         epilog=_EXAMPLES,
     )
     add = parser.add_argument
-    add("html", type=Path, metavar="FILE.html", help="where to write the report")
+    add("html", type=Path, nargs="?", metavar="FILE.html", help="where to write the report")
     add("--profiles", nargs="+", choices=PROFILES, default=list(PROFILES), metavar="NAME", help="(default: all)")
     add(
-        "--links", nargs="+", choices=("none", "fd"), default=["none"], metavar="BUS", help="none, fd (default: none)"
+        "--links",
+        nargs="+",
+        choices=_LINKS,
+        default=["none"],
+        metavar="LINK",
+        help=f"{', '.join(_LINKS)} (default: none)",
     )
-    add("--real-time", action="store_true", help="in real time, too, where the robot is a process of its own")
-    add("--limit-s", type=number(1, 600, float), default=30.0, help="robot time of each run (default: %(default)g)")
+    add("--real-time", action="store_true", help="in real time, too, where the robot is not in this process")
+    add("--limit-s", type=number(1, 600, float), help="robot time of each run (default: 60, in real time 8)")
+    add("--jobs", type=number(1, 64, int), default=1, help="processes at once (default: %(default)d)")
+    add("--repeat", metavar="CELL", help="repeat one run of a report, and say what came of it")
+    add("--shrink", metavar="CELL", help="find the smallest schedule of faults with which that run ends as it does")
 
 
 def _campaign(arguments: argparse.Namespace) -> int:
+    if arguments.repeat or arguments.shrink:
+        return _repeat(arguments.repeat) if arguments.repeat else _shrink(arguments.shrink)
+    if arguments.html is None:
+        raise UsageError("campaign needs a FILE.html to write the report to, or --repeat or --shrink")
     from host_sim.atomic_file import write_bytes
-    from host_sim.campaign.cells import cells
     from host_sim.campaign.html_report import page, summary, verdict
-    from host_sim.campaign.outcome import run_all
 
-    paces = (False, True) if arguments.real_time else (False,)
     outcomes = []
-    for outcome in run_all(cells(arguments.profiles, arguments.links, paces, arguments.limit_s)):
+    for outcome in _outcomes(arguments):
         outcomes.append(outcome)
         if outcome.problems:
-            print(
-                f"{verdict(outcome)}: {outcome.end or outcome.cell.fault}: {outcome.cell.command()}", file=sys.stderr
-            )
+            cell = outcome.cell
+            print(f"{verdict(outcome)}: {outcome.end or cell.fault}: {cell.command()}", file=sys.stderr)
     write_bytes(arguments.html, page(outcomes).encode())
     print(summary(outcomes))
     print(f"wrote {arguments.html}")
     return int(any(outcome.problems for outcome in outcomes))
+
+
+def _outcomes(arguments: argparse.Namespace) -> "Iterator[Outcome]":
+    from host_sim.campaign.cell import PACES
+    from host_sim.campaign.matrix import default_limit_s, groups
+    from host_sim.campaign.outcome import run_all
+    from host_sim.campaign.workers import run_in_processes
+
+    paces = PACES if arguments.real_time else PACES[:1]
+    found = groups(
+        arguments.profiles, arguments.links, paces, lambda pace: arguments.limit_s or default_limit_s(pace)
+    )
+    if arguments.jobs == 1:
+        for cells in found:
+            yield from run_all(cells)
+    else:
+        yield from run_in_processes(list(found), arguments.jobs)
+
+
+def _with_clean(cell: "Cell") -> "Sequence[Cell]":
+    """A cell after the same run without a fault, which shows what its fault does."""
+    from dataclasses import replace
+
+    return [replace(cell, faults=(), changes=(), events=(), fault=""), cell]
+
+
+def _repeat(text: str) -> int:
+    from host_sim.campaign.cell import Cell
+    from host_sim.campaign.html_report import account
+    from host_sim.campaign.outcome import run_all
+
+    *_, outcome = run_all(_with_clean(Cell.parse(text)))
+    print(account(outcome))
+    return int(bool(outcome.problems))
+
+
+def _shrink(text: str) -> int:
+    from host_sim.campaign.cell import Cell
+    from host_sim.campaign.outcome import run_all
+    from host_sim.campaign.shrink import shrink
+
+    def attempt(smaller: "Cell") -> "Outcome":
+        *_, outcome = run_all(_with_clean(smaller))
+        return outcome
+
+    for outcome in shrink(Cell.parse(text), attempt):
+        print(f"{outcome.kind}: {outcome.cell}", flush=True)
+    return 0

@@ -74,6 +74,7 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
     _check_twins(client, before)
     _check_owner(client, lost)
     client.session = session
+    client.frames.refused += lost.booted  # a BOOT, but the robot did not start anew
     if lost.contradicts:
         client.distrust(f"somebody sends frames in the robot's name: {lost}")
 

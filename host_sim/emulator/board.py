@@ -176,6 +176,7 @@ class EmulatedBoard:
     Attributes:
         hardware: Its parts.
         resets: Cause of each reset so far, after that of power-up.
+        drift: By how much its time runs ahead of the simulator's, of 1.
     """
 
     def __init__(self, chip: Chip, image: Path, faults: Faults | None = None, *, serial: bool = False) -> None:
@@ -192,6 +193,7 @@ class EmulatedBoard:
             BoardError: It does what the hardware does not allow.
         """
         self.resets: list[str] = []
+        self.drift = 0.0
         self._serial = serial
         self._said: deque[CanFrame] = deque()
         self._reset_cause: str | None = None
@@ -214,13 +216,13 @@ class EmulatedBoard:
         self.hardware.can.put(frame)
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """As in `Link`. Time is the board's: never faster than the wall clock, but it may be slower.
+        """As in `Link`. Time is the board's: never faster than the wall clock, but for its drift; it may be slower.
 
         Raises:
             BoardError: The image does what the hardware does not allow.
         """
         began = time.monotonic()
-        self._run_until(self._clock.now + round(timeout_s * SECOND))
+        self._run_until(self._clock.now + round(timeout_s * (1 + self.drift) * SECOND))
         if self._said:
             frame = self._said.popleft()
             return Frame(-1, b"") if frame.extended or frame.remote else Frame(frame.id, frame.data)
@@ -238,7 +240,13 @@ class EmulatedBoard:
 
     def cut_power(self) -> None:
         """Off and on again: only the flash is as before."""
-        self._restart("power")
+        self.restart("power")
+
+    def restart(self, cause: str) -> None:
+        """Resets the chip, for a cause as `Hardware.restart` has them."""
+        self.resets.append(cause)
+        self._reset_cause = None
+        self.hardware.restart(cause)
 
     def status(self) -> str:
         """How the board is, in a few words."""
@@ -268,7 +276,7 @@ class EmulatedBoard:
             except PowerCut:
                 self.cut_power()
             if self._reset_cause is not None:
-                self._restart(self._reset_cause)
+                self.restart(self._reset_cause)
 
     def _due(self) -> int:
         if self._deadline <= self._clock.now:
@@ -283,11 +291,6 @@ class EmulatedBoard:
     def _ask_reset(self, cause: str) -> None:
         self._reset_cause = cause
         self.hardware.core.stop()
-
-    def _restart(self, cause: str) -> None:
-        self.resets.append(cause)
-        self._reset_cause = None
-        self.hardware.restart(cause)
 
 
 def start_board(name: str, faults: Faults | None = None, link: str = "bxcan") -> EmulatedBoard:

@@ -69,6 +69,7 @@ class Flash(Peripheral):
         memory: All of its bytes.
         operations: Writes and erasures so far.
         erasures: These alone.
+        cuts: Numbers of the operations in whose middle the power goes.
         code_end: Offset in the memory up to which the image lies; it must not change that.
         on_wait_states: Called when they have changed.
     """
@@ -85,6 +86,7 @@ class Flash(Peripheral):
         self._clock, self._faults = clock, faults
         self.memory = bytearray(_ERASED) * sum(self.kind.pages)
         self._half_erased: set[int] = set()
+        self.cuts = {faults.cut_at}
         self.operations = self.erasures = self.code_end = self._keys_taken = 0
         self.on_wait_states: Callable[[], None] = _disregard
         self._acr = Register("ACR", on_write=self._write_acr)
@@ -154,7 +156,7 @@ class Flash(Peripheral):
         if self.operations in self._faults.failing:
             self._sr.value |= self.kind.failure
             return
-        cut = self.operations == self._faults.cut_at
+        cut = self.operations in self.cuts
         self.memory[offset : offset + len(whole)] = partial if cut else whole
         if cut:
             raise PowerCut

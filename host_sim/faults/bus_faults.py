@@ -9,10 +9,12 @@ from host_sim.errors import UsageError
 from host_sim.faults.forgery import forger
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.codec import Protocol as Wire
+from host_sim.transport.clock import VirtualClock
 
 _IDS = 0x800
 _BYTES = 8
 _FLOOD_MAX = 1000
+_BABBLE = Frame(0, bytes(_BYTES))
 
 
 class Passing(NamedTuple):
@@ -129,6 +131,19 @@ class Flood:
         return [*(Passing(random_frame(dice)) for _ in range(self._frames)), passing]
 
 
+class Babble:
+    """A node that cannot stop talking: `babble:50` sends 50 frames of highest priority, and the frame waits."""
+
+    def __init__(self, size: str) -> None:
+        """Takes the number of frames (20)."""
+        self._frames = _number(size or "20", 1, _FLOOD_MAX)
+
+    def apply(self, passing: Passing, dice: Random) -> list[Passing]:  # noqa: ARG002 - as in `Fault`
+        """As in `Fault`."""
+        late_s = passing.delay_s + self._frames * VirtualClock.FRAME_S
+        return [Passing(_BABBLE)] * self._frames + [passing._replace(delay_s=late_s)]
+
+
 class Forge:
     """Somebody sends a frame in another's name, with a true CRC: `forge:stop` a command, `forge:MEMORY` a message."""
 
@@ -176,6 +191,7 @@ FAULTS: dict[str, Callable[[str, Wire], Fault]] = {
     "corrupt": lambda size, _: Corrupt(size),
     "truncate": lambda size, _: Truncate(size),
     "flood": lambda size, _: Flood(size),
+    "babble": lambda size, _: Babble(size),
     "forge": Forge,
 }
 """Makes each fault from its size and the protocol of the node."""

@@ -63,6 +63,7 @@ class FaultyLink:
 
     Attributes:
         schedule: The faults, and a record of them.
+        link: Where the robot is.
     """
 
     def __init__(self, link: Link, schedule: Schedule, clock: Clock | None = None) -> None:
@@ -74,7 +75,7 @@ class FaultyLink:
             clock: The time in which frames are late; by default that of the wall clock.
         """
         self.schedule = schedule
-        self._link, self._clock = link, clock or WallClock()
+        self.link, self._clock = link, clock or WallClock()
         self._ways: dict[Direction, _Way] = {direction: _Way() for direction in DIRECTIONS}
 
     def send(self, frame: Frame) -> None:
@@ -92,7 +93,7 @@ class FaultyLink:
                 return way.arrived.popleft()
             now = self._clock.now()
             wait_s = min(give_up, *(each.next_s() for each in self._ways.values())) - now
-            frame = self._clock.receive(self._link, max(wait_s, 0.0))
+            frame = self._clock.receive(self.link, max(wait_s, 0.0))
             if frame is not None:
                 self._let_pass(frame, "from")
             elif self._clock.now() >= give_up:
@@ -101,7 +102,7 @@ class FaultyLink:
 
     def close(self) -> None:
         """As in `Link`. Frames that are still on their way are lost."""
-        self._link.close()
+        self.link.close()
 
     def _let_pass(self, frame: Frame, direction: Direction) -> None:
         now = self._clock.now()
@@ -115,4 +116,4 @@ class FaultyLink:
             way.deliver(now)
         arrived = self._ways["to"].arrived
         while arrived:
-            self._link.send(arrived.popleft())
+            self.link.send(arrived.popleft())

@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from tests.runs.cable import Cable
+from host_sim.faults.cable import Cable
 from tests.runs.support import ROBOT, Run, is_right, octet_process
 
 CHANCE = 0.05

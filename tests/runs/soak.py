@@ -13,13 +13,14 @@ import os
 import resource
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
+from host_sim.client.incident import Incident
 from host_sim.live.feed import PageFeed
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED
@@ -46,11 +47,11 @@ TICKS_PER_HOUR = 180_000
 GROWTH_MAX_MB = 100.0
 """A trajectory keeps up to a million ticks, 58 MB; nothing else may grow."""
 
-STARTS_GROWTH_MAX_MB = 6.0
-"""What a start leaves behind is fully collected before it is counted; then only the heap's gaps vary."""
+STARTS_GROWTH_MAX_MB = 12.0
+"""Since the first tenth. What a start leaves behind is fully collected before it is counted; the heap's gaps vary."""
 
 WARM_STARTS = 10
-"""After these, everything is loaded that a start needs."""
+"""At least so many come first: after them, everything is loaded that a start needs."""
 
 _PAGE_EVERY = 50
 _PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
@@ -114,12 +115,16 @@ def hours(count: float, step: float, folder: Path) -> Iterator[tuple[str, bool]]
             said = (
                 f"{number * step:7.2f} h  {vitals}; log {(size - before) / 1e6:.1f} MB more; page {page} bytes; "
                 f"{frames.repeated} repeated, {frames.refused} refused, {frames.lost} lost; "
-                f"{len(run.episodes)} environments; {'; '.join(map(str, client.incidents)) or 'no incidents'}"
+                f"{len(run.episodes)} environments; {len(client.incidents)} incidents{_last(client.incidents)}"
             )
             doubted = any(FORGED not in incident.text for incident in client.incidents)
             yield said, not (vitals.has_grown(first, GROWTH_MAX_MB) or frames.lost or doubted)
         stop(client)
     log.close()
+
+
+def _last(incidents: Sequence[Incident]) -> str:
+    return f", last {incidents[-1]}" if incidents else ""
 
 
 def starts(count: int) -> Iterator[tuple[str, bool]]:
@@ -128,14 +133,14 @@ def starts(count: int) -> Iterator[tuple[str, bool]]:
     An arena and its physics refer to each other: Python frees them not at once but when it looks for such rings,
     which it does the less often the more other things there are. Without looking, ten thousand starts level at 12 MB.
     """
-    first = Vitals.now()
+    first, warm = Vitals.now(), max(WARM_STARTS, count // 10)
     for number in range(1, count + 1):
         config = RunConfig(environments=1, limit_s=0.1, seed=number, bus="fd" if number % 10 == 0 else "none")
         with make(config) as simulation:
             for _ in simulation.run():
                 pass
             stop(simulation.clients[0])
-        if number == WARM_STARTS:
+        if number == warm:
             gc.collect()
             first = Vitals.now()
         if number % max(count // 10, 1) == 0:

@@ -83,6 +83,15 @@ def test_forged_reports_never_make_a_wrong_result_look_right(run, message):
     assert forged.errors.count("\n") == (forged.code == 1)
 
 
+@pytest.mark.faulty
+def test_a_forged_power_up_is_counted_and_changes_nothing(run):
+    forged, clean = run(*SHORT, "--bus", "none", "--fault", "forge:BOOT@100/from"), run(*SHORT, "--bus", "none")
+
+    assert (forged.code, forged.errors) == (0, "")
+    assert drives_in(forged.log) == drives_in(clean.log)
+    assert forged.summary["robots"][0]["frames"]["refused"] == 1
+
+
 @pytest.mark.parametrize(
     ("words", "named"), [(("--fault", "meteor"), "meteor"), (("--fault", "@nowhere"), "nowhere")]
 )

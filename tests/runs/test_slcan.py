@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from tests.runs.cable import Cable, Socket
+from host_sim.faults.cable import Cable, Socket
 from tests.runs.support import ROBOT, octet, start_octet, wait_until
 
 LEARNED = bytes([0, 1, 1, 1, 2, 1, 2, 1])

@@ -1,8 +1,9 @@
-"""Serial lines for tests, made of ptys: a cable, with noise on the line if a test wants it, and an slcan adapter."""
+"""Serial lines made of ptys: a cable, with noise on the line and an end to unplug, and an slcan adapter."""
 
 import os
 import pty
 import random
+import select
 import selectors
 import threading
 import tty
@@ -10,6 +11,9 @@ from contextlib import suppress
 from pathlib import Path
 
 from host_sim.protocol.codec import NODE_MAX
+
+_END, _UNPLUG, _PLUG = b".", b"u", b"p"
+_GONE = -1
 
 
 class Cable:
@@ -22,41 +26,79 @@ class Cable:
     """
 
     def __init__(self, noise: float = 0.0) -> None:
-        pairs = [pty.openpty() for _ in range(2)]
-        self.masters = [master for master, _ in pairs]
-        self.slaves = [slave for _, slave in pairs]
-        for slave in self.slaves:
-            tty.setraw(slave)
-        self.ends = [os.ttyname(slave) for slave in self.slaves]
+        """Lays it.
+
+        Args:
+            noise: Chance of each byte to be changed.
+        """
+        self._masters, self._slaves, self.ends = [_GONE] * 2, [_GONE] * 2, [""] * 2
+        for end in range(2):
+            self._open(end)
         self.noise, self._dice = noise, random.Random(1)
         self.passed = 0
-        self._stop_read, self._stop_write = os.pipe()
-        self._thread = threading.Thread(target=self._pump)
+        self._told, self._tell = os.pipe()
+        self._done = threading.Event()
+        self._thread = threading.Thread(target=self._pump, daemon=True)
         self._thread.start()
 
+    def unplug(self) -> None:
+        """Takes the second end away: whoever has it open sees the line end, and what the first end says is lost."""
+        self._order(_UNPLUG)
+
+    def plug(self) -> None:
+        """Gives the second end back, as another tty."""
+        self._order(_PLUG)
+
+    def close(self) -> None:
+        """Unplugs it: whoever has an end open sees the line end."""
+        os.write(self._tell, _END)
+        self._thread.join()
+        for fd in (*self._masters, *self._slaves, self._told, self._tell):
+            if fd != _GONE:
+                os.close(fd)
+
+    def _open(self, end: int) -> None:
+        self._masters[end], self._slaves[end] = pty.openpty()
+        tty.setraw(self._slaves[end])
+        self.ends[end] = os.ttyname(self._slaves[end])
+
+    def _order(self, order: bytes) -> None:
+        self._done.clear()
+        os.write(self._tell, order)
+        self._done.wait()
+
     def _pump(self) -> None:
-        selector = selectors.DefaultSelector()
-        for here, there in (self.masters, self.masters[::-1]):
-            selector.register(here, selectors.EVENT_READ, there)
-        selector.register(self._stop_read, selectors.EVENT_READ, None)
-        while self._stop_read not in (ready := {key.fd: key.data for key, _ in selector.select()}):
-            for here, there in ready.items():
-                text = os.read(here, 4096)
-                self.passed += len(text)
-                os.write(there, self._spoiled(text))
-        selector.close()
+        order = b""
+        while order != _END:
+            here = [fd for fd in (self._told, *self._masters) if fd != _GONE]
+            ready = select.select(here, [], [])[0]
+            if self._told in ready:
+                order = os.read(self._told, 1)
+                self._obey(order)
+                continue
+            for fd in ready:
+                self._pass(fd)
+
+    def _pass(self, fd: int) -> None:
+        text = os.read(fd, 4096)
+        self.passed += len(text)
+        there = self._masters[1 - self._masters.index(fd)]
+        if there != _GONE:
+            os.write(there, self._spoiled(text))
+
+    def _obey(self, order: bytes) -> None:
+        if order == _PLUG:
+            self._open(1)
+        elif order == _UNPLUG:
+            os.close(self._masters[1])
+            os.close(self._slaves[1])
+            self._masters[1] = self._slaves[1] = _GONE
+        self._done.set()
 
     def _spoiled(self, text: bytes) -> bytes:
         if not self.noise:
             return text
         return bytes(self._dice.randrange(256) if self._dice.random() < self.noise else byte for byte in text)
-
-    def close(self) -> None:
-        """Unplugs it: whoever has an end open sees the line end."""
-        os.write(self._stop_write, b".")
-        self._thread.join()
-        for fd in (*self.masters, *self.slaves, self._stop_read, self._stop_write):
-            os.close(fd)
 
 
 class Adapter:
@@ -69,6 +111,11 @@ class Adapter:
     """
 
     def __init__(self, *nodes: int) -> None:
+        """Plugs it in.
+
+        Args:
+            *nodes: The robots on its bus.
+        """
         pairs = [pty.openpty() for _ in range(1 + len(nodes))]
         self._masters, self._slaves = (list(fds) for fds in zip(*pairs, strict=True))
         for slave in self._slaves:
@@ -104,7 +151,7 @@ class Adapter:
                     os.write(other, b"".join(frame for frame in frames if self._hears(other, frame)))
 
     def _hears(self, end: int, frame: bytes) -> bool:
-        return end == self._host or int(frame[1:4], 16) & NODE_MAX == self._nodes[end]
+        return end == self._host or bool(int(frame[1:4], 16) & NODE_MAX == self._nodes[end])
 
     def close(self) -> None:
         """Unplugs it, and the robots too."""
@@ -118,6 +165,11 @@ class Socket:
     """A name for a tty that stays the same while cables are plugged in and out."""
 
     def __init__(self, path: Path) -> None:
+        """A name that leads nowhere yet.
+
+        Args:
+            path: The name.
+        """
         self.path = path
 
     def plug(self, tty_name: str) -> None:

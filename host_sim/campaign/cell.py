@@ -1,0 +1,136 @@
+"""A cell of the campaign: a run with its faults, as one line of text that repeats it."""
+
+import re
+from dataclasses import dataclass, field, replace
+
+from host_sim.errors import UsageError
+from host_sim.faults.event import Event
+from host_sim.faults.rule import Rule
+from host_sim.protocol.generated import PROFILES
+from host_sim.sim.run_config import RunConfig
+from host_sim.world.changes import Change
+
+SEED = 12
+LOCKSTEP, REAL_TIME = "lockstep", "real-time"
+PACES = (LOCKSTEP, REAL_TIME)
+PROCESS_LINKS = ("none", "fd")
+"""Where the robot is started by the run itself, as `tools/run --bus` names it."""
+
+_FORM = "PROFILE LINK PACE seed=N limit=SECONDS [fault=RULE ...] [change=CHANGE ...] [event=EVENT ...]"
+_HEAD = re.compile(r"(\S+) (\S+) (\S+) seed=(\d{1,10}) limit=(\d{1,4}(?:\.\d{1,3})?)")
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One run of a campaign.
+
+    >>> cell = Cell.parse("article fd lockstep seed=12 limit=8 fault=drop:30% event=hang:300@100")
+    >>> cell.events
+    (Event(name='hang', size=300, tick=100),)
+
+    Attributes:
+        profile: The behaviour.
+        link: Where the robot is, one of `setups.LINKS`.
+        pace: One of `PACES`.
+        seed: Of the run, and of its faults.
+        limit_s: Robot time of the run, s.
+        faults: What befalls the frames, as `--fault` has it.
+        changes: What befalls the body, as `--change` has it.
+        events: What befalls the robot, its line or this host.
+        fault: All that in words; empty for a run without a fault.
+        harmless: Whether nobody need notice the fault; in lockstep it is to leave no trace.
+    """
+
+    profile: str
+    link: str
+    pace: str
+    seed: int = SEED
+    limit_s: float = 30.0
+    faults: tuple[str, ...] = ()
+    changes: tuple[str, ...] = ()
+    events: tuple[Event, ...] = ()
+    fault: str = field(default="", compare=False)
+    harmless: bool = field(default=False, compare=False)
+
+    @staticmethod
+    def parse(text: str) -> "Cell":
+        """Reads a line that `str` made.
+
+        Raises:
+            UsageError: It is not written as one.
+        """
+        head = _HEAD.match(text)
+        if head is None or head[1] not in PROFILES or head[3] not in PACES:
+            raise UsageError(f"{text!r} is not a cell: write {_FORM}")
+        cell = Cell(head[1], head[2], head[3], int(head[4]), float(head[5]), fault="as asked for")
+        return cell.with_items(text[head.end() :].split())
+
+    @property
+    def items(self) -> list[str]:
+        """What happens: each with its kind."""
+        return [
+            *(f"fault={rule}" for rule in self.faults),
+            *(f"change={change}" for change in self.changes),
+            *(f"event={event}" for event in self.events),
+        ]
+
+    def with_items(self, items: list[str]) -> "Cell":
+        """This run with other faults.
+
+        Raises:
+            UsageError: An item is not written as one.
+        """
+        found: dict[str, list[str]] = {"fault": [], "change": [], "event": []}
+        for item in items:
+            kind, _, text = item.partition("=")
+            if kind not in found:
+                raise UsageError(f"{item!r} is not part of a cell: write {_FORM}")
+            found[kind].append(text)
+        return replace(
+            self,
+            faults=tuple(str(Rule.parse(text)) for text in found["fault"]),
+            changes=tuple(str(Change.parse(text)) for text in found["change"]),
+            events=tuple(map(Event.parse, found["event"])),
+        )
+
+    @property
+    def is_real_time(self) -> bool:
+        """Whether it runs at wall-clock speed."""
+        return self.pace == REAL_TIME
+
+    @property
+    def configuration(self) -> str:
+        """Everything but the fault, in words."""
+        return f"{self.profile}, {self.pace.replace('-', ' ')}, {self.link}"
+
+    @property
+    def is_of_body(self) -> bool:
+        """Whether the fault befalls the body alone."""
+        return bool(self.changes) and not self.faults and not self.events
+
+    @property
+    def config(self) -> RunConfig:
+        """The run, with a robot in this process."""
+        return RunConfig(
+            self.seed,
+            1,
+            limit_s=self.limit_s,
+            profile=self.profile,
+            changes=self.changes,
+            faults=self.faults,
+            fault_seed=self.seed,
+            real_time=self.is_real_time,
+        )
+
+    def command(self) -> str:
+        """A command that repeats it: one that leaves the files of a run where there is one."""
+        if self.events or self.link not in PROCESS_LINKS:
+            return f"tools/octet campaign --repeat '{self}'"
+        words = [f"tools/run --environments 1 --limit-s {self.limit_s:g} --seed {self.seed} --fault-seed {self.seed}"]
+        words += [f"--profile {self.profile} --bus {self.link}"]
+        words += [f"--fault {rule}" for rule in self.faults] + [f"--change {change}" for change in self.changes]
+        return " ".join(words + ["--real-time"] * self.is_real_time)
+
+    def __str__(self) -> str:
+        head = f"{self.profile} {self.link} {self.pace} seed={self.seed} limit={self.limit_s:g}"
+        return " ".join([head, *self.items])

@@ -1,0 +1,108 @@
+"""A robot in a process of its own on a line that exists without it: it can restart, and the line can go and come."""
+
+import subprocess
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from host_sim.backends.robot_process import RobotProcess
+from host_sim.campaign.process_events import process_events
+from host_sim.campaign.setups import Happen
+from host_sim.client.robot_client import RobotClient
+from host_sim.errors import UsageError
+from host_sim.faults.cable import Cable, Socket
+from host_sim.sim.run_config import RunConfig
+
+_BUS = "vcan0"
+
+
+class OnLine:
+    """As in `Setup`."""
+
+    def __init__(self, link: str, bus: str, events: Mapping[str, Happen]) -> None:
+        """Starts the robot.
+
+        Args:
+            link: Its end of the line.
+            bus: Ours.
+            events: What can befall the line.
+        """
+        self._link, self._bus = link, bus
+        self.robot = RobotProcess(link, 1)
+        own: Mapping[str, Happen] = {"reset": lambda _: self._restart()}
+        self.events = {**process_events(lambda: self.robot.pid), **own, **events}
+
+    def configured(self, config: RunConfig) -> RunConfig:
+        """As in `Setup`."""
+        return replace(config, bus=self._bus, robot="external")
+
+    def found(self, client: RobotClient) -> None:
+        """As in `Setup`."""
+
+    def _restart(self) -> None:
+        self.robot.close()
+        self.robot = RobotProcess(self._link, 1)
+
+
+@contextmanager
+def serial_line() -> Iterator[OnLine]:
+    """A robot that speaks slcan, on a serial line."""
+    with TemporaryDirectory() as folder:
+        cable, socket = Cable(), Socket(Path(folder) / "tty")
+        socket.plug(cable.ends[1])
+
+        def plug() -> None:
+            cable.plug()
+            socket.plug(cable.ends[1])
+
+        def unplug(span_ms: int) -> None:
+            socket.unplug()
+            cable.unplug()
+            _later(span_ms, plug)
+
+        def disturb(percent: int) -> None:
+            cable.noise = percent / 100
+
+        setup = OnLine(f"slcan:{cable.ends[0]}", f"slcan:{socket.path}", {"unplug": unplug, "noise": disturb})
+        try:
+            yield setup
+        finally:
+            setup.robot.close()
+            cable.close()
+
+
+@contextmanager
+def virtual_bus() -> Iterator[OnLine]:
+    """A robot on SocketCAN.
+
+    Raises:
+        UsageError: There is no vcan0.
+    """
+    if not Path(f"/sys/class/net/{_BUS}").exists():
+        raise UsageError(f"there is no {_BUS} here: put tools/with-vcan before the command")
+
+    def go_down(span_ms: int) -> None:
+        _set_bus("down")
+        _later(span_ms, lambda: _set_bus("up"))
+
+    _set_bus("up")
+    setup = OnLine(f"socketcan:{_BUS}", f"socketcan:{_BUS}", {"bus-down": go_down})
+    try:
+        yield setup
+    finally:
+        setup.robot.close()
+
+
+def _set_bus(state: str) -> None:
+    done = subprocess.run(["ip", "link", "set", _BUS, state], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise UsageError(f"cannot set {_BUS} {state}: {done.stderr.strip()}")
+
+
+def _later(span_ms: int, happen: Callable[[], None]) -> None:
+    timer = threading.Timer(span_ms / 1000, happen)
+    timer.daemon = True
+    timer.start()

@@ -1,0 +1,170 @@
+"""The fault classes of the campaign, and the configurations in which each is made to happen."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from host_sim.backends.images import BOARDS
+from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
+from host_sim.faults.event import Event
+
+_SENSORS = ("right", "front-right", "front", "front-left", "left")
+_LINES, _PROCESSES = ("slcan", "vcan"), ("fd", "slcan", "vcan")
+_COMPARED = (LOCKSTEP,)
+"""Where runs can be compared tick by tick."""
+
+_AT = 100
+"""Two seconds after the start; the robot is under way."""
+
+
+@dataclass(frozen=True)
+class FaultClass:
+    """One way for something to go wrong.
+
+    Attributes:
+        name: In words.
+        faults: What befalls the frames, as `--fault` has it.
+        change: What befalls the body, as `--change` has it.
+        event: What befalls the robot, its line or this host.
+        links: Where it can happen; empty for everywhere.
+        paces: At which pace it is a fault.
+        harmless: At which pace nobody need notice it; in lockstep it is then to leave no trace.
+    """
+
+    name: str
+    faults: tuple[str, ...] = ()
+    change: str = ""
+    event: str = ""
+    links: tuple[str, ...] = ()
+    paces: tuple[str, ...] = PACES
+    harmless: tuple[str, ...] = ()
+
+    def cell(self, base: Cell) -> Cell:
+        """A run without faults, with this one."""
+        return replace(
+            base,
+            fault=self.name,
+            faults=self.faults,
+            changes=(f"{self.change}@2s",) if self.change else (),
+            events=(Event.parse(f"{self.event}@{_AT}"),) if self.event else (),
+            harmless=base.pace in self.harmless,
+        )
+
+
+def _of_body(name: str, change: str) -> FaultClass:
+    """A fault of the body shows in what the robot does: in another run than without it."""
+    return FaultClass(name, change=change, paces=_COMPARED)
+
+
+BUS: tuple[FaultClass, ...] = (
+    FaultClass("a third of the frames is lost", ("drop:30%",)),
+    FaultClass("the bus is cut for a while", ("drop@300-340",)),
+    FaultClass("nothing arrives at the robot any more", ("drop@300-/to",)),
+    FaultClass("nothing arrives from the robot any more", ("drop@300-/from",)),
+    FaultClass("frames come twice", ("duplicate:30%",)),
+    FaultClass("frames overtake each other", ("reorder:30%:2",)),
+    FaultClass("frames are late", ("delay:20%:0-60ms",)),
+    FaultClass("bits flip", ("corrupt:20%",)),
+    FaultClass("three bits flip in each frame", ("corrupt:20%:3",)),
+    FaultClass("frames end early", ("truncate:20%",)),
+    FaultClass("others talk", ("flood:10%:20",)),
+    FaultClass("a node babbles", ("babble:50%:20",)),
+    FaultClass("a forged stop", ("forge:stop@300/to",)),
+    FaultClass("a forged start", ("forge:start@300/to",)),
+    FaultClass("a forged erase", ("forge:erase@300/to",)),
+    FaultClass("a second robot", ("forge:DRIVE@300-302/to",)),
+    FaultClass("a second simulator", ("forge:SENSES@300-310/from",)),
+    FaultClass("forged memories", ("forge:20%:MEMORY/from",)),
+    FaultClass("forged heartbeats", ("forge:20%:HEARTBEAT/from",)),
+    FaultClass("forged drives", ("forge:20%:DRIVE/from",)),
+    FaultClass("forged answers", ("forge:20%:ANSWER/from",)),
+    FaultClass("forged counters of faults", ("forge:20%:FAULTS/from",)),
+    FaultClass("forged power-ups", ("forge:BOOT@300-305/from",)),
+    FaultClass(
+        "all at once", ("drop:10%", "duplicate:5%", "reorder:5%", "delay:5%:0-60ms", "corrupt:5%", "truncate:5%")
+    ),
+)
+"""On the way of the frames, on any link."""
+
+BODY: tuple[FaultClass, ...] = (
+    *(_of_body(f"the {sensor} sensor is stuck on", f"stuck-on:{sensor}") for sensor in _SENSORS),
+    *(_of_body(f"the {sensor} sensor is stuck off", f"stuck-off:{sensor}") for sensor in _SENSORS),
+    _of_body("sensors flicker", "noise:10/1000"),
+    _of_body("the ring of sensors is mirrored", "mirror"),
+    _of_body("motors are swapped", "swap-motors"),
+    _of_body("the left motor is weak", "weak-motor:left:60%"),
+    _of_body("the right motor is weak", "weak-motor:right:60%"),
+    _of_body("the left motor is dead", "weak-motor:left:0%"),
+    _of_body("the right motor is dead", "weak-motor:right:0%"),
+)
+"""In the body, on any link."""
+
+ROBOT: tuple[FaultClass, ...] = (
+    FaultClass("the robot's process is killed", event="kill", links=_PROCESSES),
+    FaultClass("the robot's process crashes", event="crash", links=_PROCESSES),
+    FaultClass("the robot hangs for 0.3 s", event="hang:300", links=(*_PROCESSES, *BOARDS), harmless=_COMPARED),
+    FaultClass("the robot hangs for 1.5 s", event="hang:1500", links=(*_PROCESSES, *BOARDS), harmless=_COMPARED),
+    FaultClass("the robot restarts", event="reset", links=(*_LINES, *BOARDS)),
+    FaultClass("the robot loses its power for a moment", event="power", links=BOARDS),
+    FaultClass("the core stands still until its watchdog bites", event="watchdog", links=BOARDS),
+    FaultClass("the core jumps to nowhere", event="crash", links=BOARDS),
+    FaultClass("the stack has left the memory", event="stack", links=BOARDS),
+    FaultClass("the power goes while flash is written, twice in a row", event="flash-cut:1", links=BOARDS),
+    FaultClass("the power goes in the third write to flash, twice in a row", event="flash-cut:3", links=BOARDS),
+    FaultClass("the robot's clock is 2 % fast", event="fast-clock:2", links=BOARDS, harmless=PACES),
+    FaultClass("the robot's clock is 2 % slow", event="slow-clock:2", links=BOARDS, harmless=PACES),
+)
+"""In the robot."""
+
+LINE: tuple[FaultClass, ...] = (
+    FaultClass("the controller goes bus-off", event="bus-off:400", links=BOARDS),
+    FaultClass("nobody acknowledges: error-passive", event="no-ack:400", links=BOARDS),
+    FaultClass("a node has the wrong bit rate", event="wrong-rate:400", links=BOARDS),
+    FaultClass("a node fills the bus for 0.2 s", event="babble:200", links=BOARDS),
+    FaultClass("the bus goes down and up", event="bus-down:500", links=("vcan",)),
+    FaultClass("the adapter is unplugged and plugged in", event="unplug:500", links=("slcan",)),
+    FaultClass("a hundredth of the bytes is damaged", event="noise:1", links=("slcan",)),
+)
+"""In the line below the frames, and in CAN's controller."""
+
+HOST: tuple[FaultClass, ...] = (
+    FaultClass("the simulator is stopped for 0.5 s", event="hold-up:500", links=_PROCESSES, harmless=_COMPARED),
+)
+"""In the simulator's host."""
+
+CLASSES = (*BUS, *BODY, *ROBOT, *LINE, *HOST)
+"""All that the campaign knows."""
+
+
+def groups(
+    profiles: Sequence[str],
+    links: Sequence[str],
+    paces: Sequence[str],
+    limits_s: Callable[[str], float],
+    classes: Sequence[FaultClass] = CLASSES,
+) -> Iterator[list[Cell]]:
+    """The cells of a campaign, those of one configuration together; the first of each has no fault.
+
+    Args:
+        profiles: Behaviours.
+        links: Where the robot is. Within this process, time counts only in lockstep.
+        paces: Some of `PACES`.
+        limits_s: Robot time of each run at a pace, s.
+        classes: The faults.
+    """
+    for profile in profiles:
+        for link in links:
+            for pace in paces:
+                if (link, pace) != ("none", REAL_TIME):
+                    base = Cell(profile, link, pace, limit_s=limits_s(pace))
+                    yield [base, *(each.cell(base) for each in _possible(classes, link, pace))]
+
+
+def _possible(classes: Iterable[FaultClass], link: str, pace: str) -> Iterator[FaultClass]:
+    for each in classes:
+        if pace in each.paces and (not each.links or link in each.links):
+            yield each
+
+
+def default_limit_s(pace: str) -> float:
+    """Robot time of a run: long enough for some lessons, in real time short enough for patience."""
+    return 60.0 if pace == LOCKSTEP else 8.0

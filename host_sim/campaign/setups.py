@@ -1,0 +1,90 @@
+"""Where the robot of a cell is, and what can befall it there."""
+
+from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+from host_sim.backends.images import BOARDS
+from host_sim.client.robot_client import RobotClient
+from host_sim.errors import UsageError
+from host_sim.faults.event import Event
+from host_sim.sim.run_config import RunConfig
+
+Happen = Callable[[int], None]
+"""Makes an event of a size happen."""
+
+
+class Setup(Protocol):
+    """A robot and its line, in the hands of somebody who means no good.
+
+    Attributes:
+        events: What can happen there, by name.
+    """
+
+    @property
+    def events(self) -> Mapping[str, Happen]:
+        """What can happen there, by name."""
+
+    def configured(self, config: RunConfig) -> RunConfig:
+        """A run with the robot that is here."""
+
+    def found(self, client: RobotClient) -> None:
+        """Told the robot's client, once the robot has answered."""
+
+
+@dataclass
+class InProcess:
+    """A robot in this process: nothing can befall it but what befalls its frames and its body."""
+
+    events: Mapping[str, Happen] = field(default_factory=dict)
+
+    def configured(self, config: RunConfig) -> RunConfig:
+        """As in `Setup`."""
+        return replace(config, bus="none")
+
+    def found(self, client: RobotClient) -> None:
+        """As in `Setup`."""
+
+
+LINKS = ("none", "fd", "slcan", "vcan", *BOARDS)
+"""In this process, on a socket pair, on a serial line, on vcan0, and on an emulated board."""
+
+
+def open_setup(link: str) -> AbstractContextManager[Setup]:
+    """Sets up a robot; leaving the context ends it.
+
+    Args:
+        link: One of `LINKS`.
+
+    Raises:
+        UsageError: There is no such link, or not on this machine.
+        OctetError: Something that must be built or installed is missing.
+    """
+    if link == "none":
+        return nullcontext(InProcess())
+    if link == "fd":
+        from host_sim.campaign.socket_pair_setup import SocketPair  # noqa: PLC0415 - each loads what it needs
+
+        return nullcontext(SocketPair())
+    if link in ("slcan", "vcan"):
+        from host_sim.campaign.line_setups import serial_line, virtual_bus  # noqa: PLC0415 - see above
+
+        return serial_line() if link == "slcan" else virtual_bus()
+    if link in BOARDS:
+        from host_sim.campaign.board_setup import Board  # noqa: PLC0415 - see above
+
+        return nullcontext(Board(link))
+    raise UsageError(f"there is no link {link!r}; there are {', '.join(LINKS)}")
+
+
+def check_events(setup: Setup, link: str, events: tuple[Event, ...]) -> None:
+    """Makes sure that all these events can happen.
+
+    Raises:
+        UsageError: One cannot.
+    """
+    for event in events:
+        if event.name not in setup.events:
+            there = ", ".join(setup.events) or "nothing"
+            raise UsageError(f"{event.name} cannot befall a robot on {link}; there {there} can")

@@ -1,0 +1,28 @@
+"""The report of a fault campaign, in a browser."""
+
+import itertools
+
+from host_sim.campaign.html_report import page
+from host_sim.campaign.matrix import groups
+from host_sim.campaign.outcome import Outcome
+from tests.web.test_layout import SCHEMES, THREE_SIZES, resize, violations
+
+ENDS = ("", "somebody else stopped node 1: it rests")
+
+
+def test_axe_finds_nothing_on_the_report_of_a_campaign_and_it_fits(tmp_path, open_page):
+    (cells, _) = groups(["article"], ["none", "fd"], ["lockstep"], lambda _: 8.0)
+    outcomes = [
+        Outcome(cell, seen="12 lost", end=end) for cell, end in zip(cells, itertools.cycle(ENDS), strict=False)
+    ]
+    outcomes[1].oldest = 9
+    report = tmp_path / "campaign.html"
+    report.write_text(page(outcomes))
+
+    shown = open_page(report.as_uri(), ready="() => document.readyState === 'complete'")
+
+    for scheme, size in itertools.product(SCHEMES, THREE_SIZES):
+        shown.emulate_media(color_scheme=scheme)
+        resize(shown, size)
+        assert violations(shown) == [], (scheme, size)
+        assert shown.evaluate("document.documentElement.scrollWidth") <= size[0]
