@@ -36,9 +36,9 @@ export class LessonView {
     const heading = (/** @type {string} */ text) => made("h2", [text]);
     return [
       this.choices(), made("p", [question], { class: "question" }), this.begin,
+      heading(words.goals), made("ul", this.marks.map(({ item }) => item), { id: "goals" }), this.news,
       ...(this.tool ? [heading(words.tools), this.tool.element] : []),
       heading(words.steps), made("div", [listOf("ol", steps)], { class: "steps" }),
-      heading(words.goals), made("ul", this.marks.map(({ item }) => item), { id: "goals" }), this.news,
       this.prints(), ...this.details(),
     ];
   }
