@@ -64,8 +64,8 @@ def play_to_the_end(page: Page) -> None:
 
 
 def go(page: Page, tick: int) -> None:
-    """Drags the strip below the arena."""
-    page.locator("#scrub").fill(str(tick))
+    """Drags the strip below the arena, to its end at most."""
+    page.locator("#scrub").fill(str(min(tick, page.evaluate("octet.last"))))
     settle(page)
 
 
