@@ -125,7 +125,7 @@ def test_program(lesson):
     play_to_the_end(page)
 
     assert reached(page) == [True, True]
-    assert "s until its way is clear" in page.inner_text(".score")
+    assert "0.145 s until its way is clear" in page.inner_text(".score")
 
 
 @pytest.mark.parametrize("program", [[], [1, 1, 1, 1, 1, 2, 1]], ids=["nothing", "one wrong turn"])

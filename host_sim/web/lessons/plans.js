@@ -48,7 +48,7 @@ export const PLANS = [
   },
   {
     id: "program",
-    begin: () => [runOf({ seed: 5, environments: 2 }), runOf({ seed: 5, environments: 2 })],
+    begin: () => [runOf({ seed: 14, environments: 2 }), runOf({ seed: 14, environments: 2 })],
     tool: "score",
     goals: [
       (runs, tick) => runs.some(({ data }) => isProgrammed(data.robots[0], tick)),

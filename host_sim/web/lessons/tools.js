@@ -2,7 +2,7 @@
 /* What some lessons need beside the rest of the page: one kind of tool each. */
 
 import { SENSORS, SOUND, withFault } from "../body_faults.js";
-import { setText } from "../elements.js";
+import { byId, setText } from "../elements.js";
 import { PARAMETERS } from "../generated.js";
 import { choiceOf, made } from "./building.js";
 import { settingAt, ticksPerObstacle } from "./evidence.js";
@@ -154,9 +154,17 @@ function makeScore(lab, { words }) {
     const scores = lab.lanes.flatMap(({ data, name }) => {
       const ticks = data ? ticksPerObstacle(data.robots[0], lab.tick) : NaN;
       if (!data || Number.isNaN(ticks)) return [];
-      return [filled(words.score, { run: name, seconds: ((ticks * data.measures.tick_ms) / 1000).toFixed(2) })];
+      return [filled(words.score, { run: name, seconds: thousandths((ticks * data.measures.tick_ms) / 1000) })];
     });
     setText(element, scores.join("\n") || words.noScore);
   };
   return { element, show };
+}
+
+/**
+ * A number as the language of the lessons writes it.
+ * @param {number} number
+ */
+function thousandths(number) {
+  return number.toLocaleString(byId("panel-lessons").lang, { minimumFractionDigits: 3, maximumFractionDigits: 3 });
 }
