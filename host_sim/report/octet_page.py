@@ -1,13 +1,14 @@
 """`octet.html`: the robot itself, its world and the laboratory around them, in one page without a server."""
 
 import base64
+import json
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from host_sim.atomic_file import write_bytes
 from host_sim.errors import OctetError
-from host_sim.paths import PAGE_WASM
+from host_sim.paths import PAGE_WASM, WEB
 from host_sim.report.page_bundle import page_of, with_data
 from host_sim.world.world_names import WORLD_NAMES
 from host_sim.world.worlds import world_of
@@ -33,7 +34,10 @@ def write_octet_page(path: Path) -> int:
 
 
 def octet_page() -> str:
-    """The page's HTML. Its element `parts` has the WebAssembly in base64 and the dimensions of all named worlds.
+    """The page's HTML.
+
+    Its element `parts` has the WebAssembly in base64 and the dimensions of all named worlds, `lesson-texts` the
+    words of the lessons in each language.
 
     Raises:
         OctetError: The WebAssembly is not built.
@@ -43,9 +47,15 @@ def octet_page() -> str:
     except OSError as error:
         raise OctetError(f"cannot read {PAGE_WASM}: {error.strerror}; build it with tools/setup page") from None
     parts = {"wasm": base64.b64encode(wasm).decode(), "worlds": world_dimensions()}
-    return with_data(page_of(_TEMPLATE), "parts", parts)
+    return with_data(with_data(page_of(_TEMPLATE), "parts", parts), "lesson-texts", lesson_texts())
 
 
 def world_dimensions() -> dict[str, dict[str, Any]]:
     """The dimensions of each world with a name."""
     return {name: asdict(world_of(name).params) for name in WORLD_NAMES}
+
+
+def lesson_texts() -> dict[str, Any]:
+    """The words of the lessons, by the code of their language."""
+    files = sorted((WEB / "lessons" / "texts").glob("*.json"))
+    return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in files}

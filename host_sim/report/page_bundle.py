@@ -4,19 +4,20 @@ So that a template can be opened as it is:
 - `<link rel="stylesheet" href="X">` becomes the style sheet;
 - `<script type="module" src="X"></script>` becomes that module, after all modules that it imports, directly or not,
   each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
-  declaration.
+  declaration. A module in a folder of `web/` is known by its path from there, `folder/y.js`.
 """
 
 import json
+import posixpath
 import re
 from collections.abc import Iterator
 
 from host_sim.paths import WEB
 
-_STYLE = re.compile(r'<link rel="stylesheet" href="([\w.-]+)">')
+_STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
 _SCRIPT = re.compile(r'<script type="module" src="([\w.-]+)"></script>')
 _WORKER = re.compile(r'(<script type="text/plain" id="[\w-]+" data-module="([\w.-]+)">)</script>')
-_IMPORT = re.compile(r'^import (\{[^}]*\}) from "\./([\w.-]+)";$', re.MULTILINE)
+_IMPORT = re.compile(r'^import (\{[^}]*\}) from "(\.\.?/[\w./-]+)";$', re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function\*?|const|let|class) (\w+))", re.MULTILINE)
 
 
@@ -44,7 +45,8 @@ def _as_function(name: str) -> str:
     """A module as a function that is called once and returns the module's exports."""
     text = _read(name)
     exported = ", ".join(match[2] for match in _EXPORT.finditer(text))
-    body = _EXPORT.sub(r"\1", _IMPORT.sub(r'const \1 = modules["\2"];', text))
+    body = _IMPORT.sub(lambda match: f'const {match[1]} = modules["{_place(name, match[2])}"];', text)
+    body = _EXPORT.sub(r"\1", body)
     return f'modules["{name}"] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n'
 
 
@@ -53,8 +55,13 @@ def _in_order(name: str, seen: set[str]) -> Iterator[str]:
     if name not in seen:
         seen.add(name)
         for _, needed in _IMPORT.findall(_read(name)):
-            yield from _in_order(needed, seen)
+            yield from _in_order(_place(name, needed), seen)
         yield name
+
+
+def _place(name: str, needed: str) -> str:
+    """The path from `web/` of a module that another one imports."""
+    return posixpath.normpath(posixpath.join(posixpath.dirname(name), needed))
 
 
 def _read(name: str) -> str:

@@ -34,7 +34,7 @@ import { RANDOM, nameOf } from "./world_names.js";
  * @property {(experiment: Experiment) => void} begin
  */
 
-const TABS = ["run", "parameters", "listing", "curves", "files"];
+const TABS = ["run", "parameters", "listing", "curves", "files", "lessons"];
 
 /** Shows and changes the selected run. */
 export class Desk {

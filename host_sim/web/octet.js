@@ -6,6 +6,7 @@ import { byId, isForPage, setText, typedById } from "./elements.js";
 import { Lane, experimentOf, restartNames } from "./lane.js";
 import { nextTick } from "./lane_events.js";
 import { LabEditor } from "./lab_editor.js";
+import { Course } from "./lessons/course.js";
 import { Note } from "./note.js";
 import { Panel } from "./panel.js";
 import { partingWords } from "./parting.js";
@@ -49,6 +50,7 @@ class LabPage {
     this.marks = typedById("marks", HTMLCanvasElement);
     this.panel = new Panel((cell, side) => this.change({ do: "write", robot: this.lane.robot, cell, side }));
     this.desk = new Desk(this);
+    this.course = new Course(this);
     /** @type {RobotPicker | undefined} */
     this.picker = undefined;
     /** @type {LabEditor | undefined} */
@@ -291,6 +293,7 @@ class LabPage {
     this.picker?.show();
     this.desk.show();
     setText(byId("news"), scene.lastNews);
+    this.course.show();
     this.showParting();
     this.scrub.max = `${this.last}`;
     this.scrub.value = `${tick}`;

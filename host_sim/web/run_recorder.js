@@ -121,7 +121,7 @@ class Track {
    */
   add(block, before, after) {
     const last = block.ticks - 1;
-    const first = this.isNew || before.join() !== this.history.sides.join() ? [0] : [];
+    const first = this.isNew || before.join() !== this.memory.at(-1)?.[1].join() ? [0] : [];
     for (const tick of new Set([...first, ...block.decisions, last])) {
       if (tick) this.history.passOver(tickOf(block.rows, tick - 1));
       this.take(this.ticks + tick, tickOf(block.rows, tick), tick === last ? after : before);

@@ -131,6 +131,23 @@ def test_modules_come_once_each_after_what_they_need(tmp_path, monkeypatch):
     assert not re.search(r"^(import|export) ", text, re.MULTILINE)
 
 
+def test_a_module_in_a_folder_finds_what_it_imports_from_there(tmp_path, monkeypatch):
+    monkeypatch.setattr(page_bundle, "WEB", tmp_path)
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "a.js").write_text('import { b } from "./parts/b.js";\nb();\n')
+    (tmp_path / "parts/b.js").write_text(
+        'import { c } from "./c.js";\nimport { d } from "../d.js";\nexport const b = c + d;\n'
+    )
+    (tmp_path / "parts/c.js").write_text('import { d } from "../d.js";\nexport const c = d;\n')
+    (tmp_path / "d.js").write_text("export const d = 1;\n")
+
+    text = page_bundle.bundle("a.js")
+
+    assert re.findall(r'^modules\["(.+)"\] = ', text, re.MULTILINE) == ["d.js", "parts/c.js", "parts/b.js", "a.js"]
+    assert 'const { d } = modules["d.js"];' in text
+    assert 'const { c } = modules["parts/c.js"];' in text
+
+
 @given(st.lists(st.lists(st.integers(-(2**29), 2**29), min_size=3, max_size=3), min_size=1, max_size=5))
 def test_columns_come_out_as_they_went_in(columns):
     assert unpacked(pack(np.array(columns)), len(columns)) == columns

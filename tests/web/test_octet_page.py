@@ -100,6 +100,16 @@ def test_a_changed_cell_makes_another_future_beside_the_first(page):
     assert one == other
 
 
+def test_a_pressed_cell_shows_its_turn_at_once_and_the_next_one_when_it_is_pressed_again(page):
+    cell = "#cells li:nth-child(5)"
+
+    page.click(f"{cell} button")
+    wait_for_text(page, cell, "left")
+    page.click(f"{cell} button")
+
+    wait_for_text(page, cell, "right")
+
+
 @pytest.mark.parametrize("change", ["behaviour", "parameter", "obstacle", "seed"])
 def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, change):
     page.evaluate("octet.go(1000)")

@@ -63,7 +63,7 @@ def test_the_type_checker_finds_every_planted_fault(tmp_path):
 
 
 def test_every_module_asks_for_the_check():
-    unchecked = {path.name for path in WEB.glob("*.js") if not path.read_text().startswith("// @ts-check\n")}
+    unchecked = {path.name for path in WEB.rglob("*.js") if not path.read_text().startswith("// @ts-check\n")}
 
     assert unchecked <= {"generated.js"}
 
@@ -71,7 +71,7 @@ def test_every_module_asks_for_the_check():
 def test_no_module_suppresses_a_finding():
     said = re.compile(r"@ts-(?:ignore|nocheck|expect-error)|@type \{(?:any|\*)\}|@param \{(?:any|\*|Object)\}")
 
-    assert [path.name for path in WEB.glob("*.js") if said.search(path.read_text())] == []
+    assert [path.name for path in WEB.rglob("*.js") if said.search(path.read_text())] == []
 
 
 def typedefs(text: str) -> dict[str, dict[str, str]]:

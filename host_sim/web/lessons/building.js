@@ -1,0 +1,57 @@
+// @ts-check
+/* Makes elements. */
+
+/**
+ * An element with a text or children.
+ * @template {keyof HTMLElementTagNameMap} K
+ * @param {K} kind
+ * @param {(string | Node)[]} children
+ * @param {Record<string, string>} [attributes]
+ * @returns {HTMLElementTagNameMap[K]}
+ */
+export function made(kind, children, attributes = {}) {
+  const element = document.createElement(kind);
+  element.append(...children);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  return element;
+}
+
+/**
+ * A list with a text in each item.
+ * @param {"ol" | "ul"} kind
+ * @param {string[]} texts
+ */
+export function listOf(kind, texts) {
+  return made(kind, texts.map((text) => made("li", [text])));
+}
+
+/**
+ * @param {string} text
+ * @param {() => void} onClick
+ */
+export function buttonOf(text, onClick) {
+  const button = made("button", [text], { type: "button" });
+  button.addEventListener("click", onClick);
+  return button;
+}
+
+/**
+ * A field to choose from.
+ * @param {string} label
+ * @param {[string, string][]} options - Their values and texts.
+ * @param {(value: string) => void} onChange
+ */
+export function choiceOf(label, options, onChange) {
+  const select = made("select", options.map(([value, text]) => made("option", [text], { value })));
+  select.addEventListener("change", () => onChange(select.value));
+  return { label: made("label", [`${label} `, select]), select };
+}
+
+/**
+ * Terms and what they mean.
+ * @param {{term: string, meaning: string}[]} entries
+ */
+export function glossaryOf(entries) {
+  const rows = entries.map(({ term, meaning }) => made("div", [made("dt", [term]), made("dd", [meaning])]));
+  return made("dl", rows, { class: "glossary" });
+}

@@ -1,0 +1,107 @@
+// @ts-check
+/* The course: the lesson that is open, and its goals, which the runs themselves reach. */
+
+import { byId } from "../elements.js";
+import { LessonView } from "./lesson_view.js";
+import { firstLanguage, keepLanguage, textsIn } from "./language.js";
+import { PLANS } from "./plans.js";
+import { Worksheet } from "./worksheet.js";
+
+/**
+ * @typedef {import("../lane.js").Lane} Lane
+ * @typedef {import("../types.js").Change} Change
+ * @typedef {import("../types.js").Experiment} Experiment
+ *
+ * The page, as far as the course knows it.
+ * @typedef {Object} Lab
+ * @property {Lane} lane
+ * @property {Lane[]} lanes
+ * @property {number} tick
+ * @property {(change: Change) => void} change
+ * @property {(lane: Lane) => void} simulate
+ * @property {(experiment: Experiment) => void} begin
+ * @property {(experiment: Experiment) => Lane} addLane
+ * @property {(lane: Lane) => void} select
+ */
+
+/** Shows lessons in the element panel-lessons. The part of the address behind # may name the one to open. */
+export class Course {
+  /** @param {Lab} lab */
+  constructor(lab) {
+    this.lab = lab;
+    this.language = firstLanguage();
+    this.plan = PLANS.find(({ id }) => `#${id}` === location.hash) ?? PLANS[0];
+    /** Places of the goals that are reached. @type {Set<number>} */
+    this.reached = new Set();
+    this.begun = false;
+    this.sheet = new Worksheet();
+    this.view = new LessonView(this);
+    addEventListener("beforeprint", () => this.onPrint());
+    if (`#${this.plan.id}` === location.hash) byId("tab-lessons").click();
+  }
+
+  get texts() {
+    return textsIn(this.language);
+  }
+
+  /** @param {string} id */
+  choose(id) {
+    this.plan = PLANS.find((plan) => plan.id === id) ?? this.plan;
+    this.reached.clear();
+    this.begun = false;
+    this.renew("lesson");
+  }
+
+  /** @param {string} code */
+  speak(code) {
+    this.language = code;
+    keepLanguage(code);
+    this.renew("language");
+  }
+
+  /** @param {string} focused - The id of the field that was used. */
+  renew(focused) {
+    this.view = new LessonView(this);
+    this.show();
+    byId(focused).focus();
+  }
+
+  /** Sets up the runs of the lesson. */
+  begin() {
+    const [first, ...others] = this.plan.begin();
+    this.reached.clear();
+    this.begun = true;
+    this.lab.begin(first);
+    for (const experiment of others) this.lab.select(this.lab.addLane(experiment));
+  }
+
+  /** Looks whether goals are reached by what is shown now, and shows it. */
+  show() {
+    if (this.begun) this.check();
+    if (!byId("panel-lessons").hidden) this.view.show();
+  }
+
+  check() {
+    const { lanes, tick } = this.lab;
+    const runs = lanes.flatMap((lane) => (lane.data ? [{ lane, data: lane.data }] : []));
+    if (runs.length < lanes.length) return;
+    this.plan.goals.forEach((isReached, place) => {
+      if (!this.reached.has(place) && isReached(runs, tick)) this.reached.add(place);
+    });
+  }
+
+  /** @param {boolean} notes - Whether to print those for teachers, and not the worksheet. */
+  print(notes) {
+    if (notes) this.sheet.fillNotes(this.plan, this.texts);
+    else this.sheet.fill(this.plan, this.texts);
+    this.sheet.element.lang = this.language;
+    print();
+  }
+
+  /** Whoever prints the page while a lesson is open wants its worksheet. */
+  onPrint() {
+    if (byId("panel-lessons").hidden || !this.sheet.isEmpty) return;
+    this.sheet.fill(this.plan, this.texts);
+    this.sheet.element.lang = this.language;
+  }
+}

@@ -1,0 +1,109 @@
+// @ts-check
+/* What the data of a run show up to a tick: the goals of the lessons ask for it. */
+
+import { PARAMETERS, REASON } from "../generated.js";
+
+/**
+ * @typedef {import("../lane.js").Lane} Lane
+ * @typedef {import("../run_data.js").RobotData} RobotData
+ * @typedef {import("../run_data.js").RunData} RunData
+ *
+ * Ticks, both ends included.
+ * @typedef {{first: number, last: number}} Stretch
+ */
+
+const AVOIDING = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
+
+/** @type {WeakMap<RobotData, Stretch[]>} */
+const known = new WeakMap();
+
+/**
+ * The times at which a robot had something in its way, in their order.
+ * @param {RobotData} robot
+ */
+export function stretchesOf(robot) {
+  const found = known.get(robot) ?? search(robot.columns.reason);
+  known.set(robot, found);
+  return found;
+}
+
+/** @param {Int32Array} reasons */
+function search(reasons) {
+  /** @type {Stretch[]} */
+  const stretches = [];
+  reasons.forEach((reason, tick) => {
+    if (!AVOIDING.includes(reason)) return;
+    const last = stretches.at(-1);
+    if (last?.last === tick - 1) last.last = tick;
+    else stretches.push({ first: tick, last: tick });
+  });
+  return stretches;
+}
+
+/**
+ * The ticks of the longest time, up to a tick, for which a robot could not get clear.
+ * @param {RobotData} robot
+ * @param {number} upTo
+ */
+export function longestStretch(robot, upTo) {
+  const begun = stretchesOf(robot).filter(({ first }) => first <= upTo);
+  return Math.max(0, ...begun.map(({ first, last }) => Math.min(last, upTo) - first + 1));
+}
+
+/**
+ * The ticks that a robot has needed to get clear, for each time that something was in its way; NaN if nothing was.
+ * @param {RobotData} robot
+ * @param {number} upTo
+ */
+export function ticksPerObstacle(robot, upTo) {
+  const begun = stretchesOf(robot).filter(({ first }) => first <= upTo);
+  return begun.reduce((sum, { first, last }) => sum + Math.min(last, upTo) - first + 1, 0) / begun.length;
+}
+
+/**
+ * Whether a run is simulated to its end, and shown to it.
+ * @param {Lane} lane
+ * @param {number} tick
+ */
+export function hasEnded(lane, tick) {
+  const { data, experiment } = lane;
+  if (!data || tick < lane.last) return false;
+  const { number, first_tick } = data.sceneAt(lane.last);
+  const isOver = lane.last + 1 - first_tick >= experiment.limit_ticks || hasEatenAll(data, lane.last);
+  return number === experiment.environments && isOver;
+}
+
+/**
+ * Whether nothing is left to eat in the environment of a tick.
+ * @param {RunData} data
+ * @param {number} tick
+ */
+export function hasEatenAll(data, tick) {
+  return data.statesAt(tick)[0].eaten.every(Boolean);
+}
+
+/**
+ * A parameter of a robot at a tick.
+ * @param {Lane} lane
+ * @param {{robot: number, name: keyof typeof PARAMETERS}} which
+ * @param {number} tick
+ */
+export function settingAt({ experiment }, { robot, name }, tick) {
+  const { settings } = experiment.robots[robot];
+  let value = settings[name];
+  for (const change of experiment.changes.filter((it) => it.tick <= tick)) {
+    if (change.do === "start" && change.robot === robot) value = settings[name];
+    if (change.do === "set" && change.robot === robot && change.parameter === name) value = change.value;
+  }
+  return value ?? PARAMETERS[name].default;
+}
+
+/**
+ * Whether a person has written all turns that a robot knows at a tick, and there is one for each pattern.
+ * @param {RobotData} robot
+ * @param {number} tick
+ */
+export function isProgrammed(robot, tick) {
+  const last = robot.lastLessons(tick, 0);
+  return last.every((lesson, cell) => cell === 0 || Boolean(lesson?.by_hand && lesson.side));
+}

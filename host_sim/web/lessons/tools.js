@@ -1,0 +1,170 @@
+// @ts-check
+/* What some lessons need beside the rest of the page: one kind of tool each. */
+
+import { SENSORS, SOUND, withFault } from "../body_faults.js";
+import { byId, setText } from "../elements.js";
+import { PARAMETERS } from "../generated.js";
+import { choiceOf, made } from "./building.js";
+import { settingAt, ticksPerObstacle } from "./evidence.js";
+import { filled } from "./language.js";
+
+/**
+ * @typedef {import("./course.js").Lab} Lab
+ * @typedef {import("./language.js").Texts} Texts
+ *
+ * A tool in the page; `show` brings it up to date.
+ * @typedef {{element: HTMLElement, show: () => void}} Tool
+ *
+ * @typedef {keyof typeof PARAMETERS} Parameter
+ */
+
+const DISTRUST_DECISIONS = 32;
+/** Of the sensors, from bit 0 of `feel` on. */
+const NAMES = [...SENSORS.keys()];
+
+/** @type {Record<string, (lab: Lab, texts: Texts) => Tool>} */
+const MAKERS = {
+  patience: makePatience,
+  sensors: makeSensors,
+  share: (lab, { words }) => makeSwitch(lab, "share", 1, words.share),
+  score: makeScore,
+};
+
+/**
+ * The tool of a kind; undefined for none.
+ * @param {string} kind
+ * @param {Lab} lab
+ * @param {Texts} texts
+ */
+export function toolOf(kind, lab, texts) {
+  return MAKERS[kind]?.(lab, texts);
+}
+
+/**
+ * Sets a parameter of all robots of the selected run, from its start.
+ * @param {Lab} lab
+ * @param {Parameter} name
+ * @param {number} value
+ */
+function setForAll(lab, name, value) {
+  const { lane } = lab;
+  const robots = lane.experiment.robots.map((setup) => ({ ...setup, settings: { ...setup.settings, [name]: value } }));
+  lane.experiment = { ...lane.experiment, robots };
+  lab.simulate(lane);
+}
+
+/**
+ * @param {Lab} lab
+ * @param {Parameter} name
+ */
+function current({ lane, tick }, name) {
+  return settingAt(lane, { robot: lane.robot, name }, tick);
+}
+
+/**
+ * @param {Lab} lab
+ * @param {Parameter} name
+ * @param {number} on - The value that switches it on.
+ * @param {string} text
+ * @returns {Tool}
+ */
+function makeSwitch(lab, name, on, text) {
+  const input = made("input", [], { type: "checkbox" });
+  input.addEventListener("change", () => setForAll(lab, name, input.checked ? on : 0));
+  const show = () => {
+    input.checked = current(lab, name) > 0;
+  };
+  return { element: made("label", [input, ` ${text}`], { class: "check" }), show };
+}
+
+/**
+ * @param {Lab} lab
+ * @param {Texts} texts
+ * @returns {Tool}
+ */
+function makePatience(lab, { words }) {
+  const { min, max } = PARAMETERS.boredom_limit;
+  const input = made("input", [], { type: "range", min: `${min}`, max: `${max}`, step: "1", id: "patience" });
+  const label = made("label", [], { for: "patience" });
+  const write = () => setText(label, filled(words.patience, { turns: input.value }));
+  input.addEventListener("input", write);
+  input.addEventListener("change", () => setForAll(lab, "boredom_limit", Number(input.value)));
+  const show = () => {
+    if (document.activeElement !== input) input.value = `${current(lab, "boredom_limit")}`;
+    write();
+  };
+  return { element: made("div", [label, input], { class: "patience" }), show };
+}
+
+/**
+ * @param {Lab} lab
+ * @param {Texts} texts
+ * @returns {Tool}
+ */
+function makeSensors(lab, { words }) {
+  /** @type {[string, string][]} */
+  const states = [["sound", words.sound], ["stuck-on", words.stuckOn], ["stuck-off", words.stuckOff]];
+  const names = [words.sensorRight, words.sensorFrontRight, words.sensorFront, words.sensorFrontLeft, words.sensorLeft];
+  /** @type {ReturnType<typeof choiceOf>[]} */
+  const choices = NAMES.map((_, place) => choiceOf(names[place], states, () => breakAsChosen()));
+  const breakAsChosen = () => breakSensors(lab, choices.map(({ select }) => select.value));
+  const distrust = makeSwitch(lab, "distrust", DISTRUST_DECISIONS, words.distrust);
+  const fields = made("fieldset", [made("legend", [words.sensors]), ...choices.map(({ label }) => label).reverse()]);
+  const show = () => {
+    choices.forEach(({ select }, place) => {
+      if (document.activeElement !== select) select.value = stateOf(lab, 1 << place);
+    });
+    distrust.show();
+  };
+  return { element: made("div", [fields, distrust.element], { class: "sensors" }), show };
+}
+
+/**
+ * @param {Lab} lab
+ * @param {string[]} states - Of the sensors, from bit 0 of `feel` on.
+ */
+function breakSensors(lab, states) {
+  const { robot } = lab.lane;
+  const faults = states.flatMap((state, place) => (state === "sound" ? [] : [`${state}:${NAMES[place]}`]));
+  for (const what of ["repair", ...faults]) lab.change({ do: "body", what, robot, seed: 0 });
+}
+
+/**
+ * @param {Lab} lab
+ * @param {number} bit
+ */
+function stateOf({ lane, tick }, bit) {
+  let faults = SOUND;
+  for (const change of lane.experiment.changes) {
+    if (change.do !== "body" || (change.robot ?? 0) !== lane.robot || change.tick > tick) continue;
+    faults = withFault(faults, change.what, 0n) ?? faults;
+  }
+  if (faults.stuckOn & bit) return "stuck-on";
+  return faults.stuckOff & bit ? "stuck-off" : "sound";
+}
+
+/**
+ * @param {Lab} lab
+ * @param {Texts} texts
+ * @returns {Tool}
+ */
+function makeScore(lab, { words }) {
+  const element = made("p", [], { class: "score" });
+  const show = () => {
+    const scores = lab.lanes.flatMap(({ data, name }) => {
+      const ticks = data ? ticksPerObstacle(data.robots[0], lab.tick) : NaN;
+      if (!data || Number.isNaN(ticks)) return [];
+      return [filled(words.score, { run: name, seconds: thousandths((ticks * data.measures.tick_ms) / 1000) })];
+    });
+    setText(element, scores.join("\n") || words.noScore);
+  };
+  return { element, show };
+}
+
+/**
+ * A number as the language of the lessons writes it.
+ * @param {number} number
+ */
+function thousandths(number) {
+  return number.toLocaleString(byId("panel-lessons").lang, { minimumFractionDigits: 3, maximumFractionDigits: 3 });
+}
