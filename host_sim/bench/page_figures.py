@@ -1,4 +1,4 @@
-"""The speed of the pages in a real browser: drawing, lag, the cost of watching, and the start of a recorded page.
+"""The speed of the pages in a real browser: drawing, lag, the cost of watching, the start of a recorded page, frames.
 
 `tools/setup tests` installs the browser.
 """
@@ -19,6 +19,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 
 from host_sim.bench.figure import ROUNDS, Figure, best, most_figure
 from host_sim.errors import OctetError
+from host_sim.report.octet_page import write_octet_page
 
 _CHROMIUM = "/usr/bin/chromium"
 _READY = "window.octet?.scene?.state"
@@ -26,6 +27,7 @@ _WIDTH, _HEIGHT = 1280, 800
 _FRAMES, _LAGS, _LAG_PAUSE_MS = 200, 40, 50.0
 _WATCHED_ENVIRONMENTS = 40  # long enough for the opening of the page not to count
 _TIMEOUT_S = 30.0
+_ROBOTS, _SPEED, _FRAMES_PER_S = 4, 4, 60
 # Reading a pixel makes the browser finish the drawing.
 _TIME_DRAWING = """() => {
     const draw = octet.renderer.draw.bind(octet.renderer);
@@ -34,6 +36,19 @@ _TIME_DRAWING = """() => {
         const began = performance.now();
         draw(scene);
         octet.renderer.context.getImageData(0, 0, 1, 1);
+        octet.times.push(performance.now() - began);
+    };
+}"""
+
+# Each frame of octet.html: when it began, and how long all of it took.
+_TIME_FRAMES = """() => {
+    const frame = octet.frame.bind(octet);
+    [octet.begun, octet.times] = [[], []];
+    octet.frame = (now) => {
+        const began = performance.now();
+        frame(now);
+        octet.lane.renderer.context.getImageData(0, 0, 1, 1);
+        octet.begun.push(began);
         octet.times.push(performance.now() - began);
     };
 }"""
@@ -69,6 +84,7 @@ def _figures(browser: Browser, folder: Path) -> list[Figure]:
             ratio=round(watched / alone, 2),
         ),
         most_figure("a recorded page, to its first picture", ready_ms, "ms", 1000, "unpacking and laying out"),
+        *_frame_figures(browser, folder),
     ]
 
 
@@ -134,3 +150,36 @@ def _recorded_page_ms(browser: Browser, folder: Path) -> float:
     ready_ms = (time.perf_counter() - began) * 1e3
     page.close()
     return ready_ms
+
+
+def _frame_figures(browser: Browser, folder: Path) -> list[Figure]:
+    """How smoothly octet.html plays a run of four robots."""
+    frame_ms, frames_per_s = _frames(browser, folder)
+    what = f"octet.html, {_ROBOTS} robots at {_SPEED} x"
+    return [
+        most_figure(f"{what}: one frame, median", frame_ms, "ms", 4, "canvas without a graphics card"),
+        Figure(
+            name=what,
+            value=round(frames_per_s, 1),
+            unit="frames/s",
+            bar=f">= {_FRAMES_PER_S}",
+            reached=round(frames_per_s) >= _FRAMES_PER_S,
+            bound="the browser draws no more",
+        ),
+    ]
+
+
+def _frames(browser: Browser, folder: Path) -> tuple[float, float]:
+    """The median time of a frame, ms, and the frames per second."""
+    write_octet_page(folder / "octet.html")
+    page = _open(browser, (folder / "octet.html").as_uri())
+    page.fill("#robot-count", str(_ROBOTS))
+    page.click("text=New run")
+    _wait_for(page, "octet.lane.data && octet.simulator.running === undefined && octet.simulator.queued.size === 0")
+    page.select_option("#speed", str(_SPEED))
+    page.evaluate(_TIME_FRAMES)
+    page.click("#play")
+    _wait_for(page, f"octet.times.length > {_FRAMES}")
+    times_ms, begun_ms = page.evaluate("[octet.times, octet.begun]")
+    page.close()
+    return statistics.median(times_ms), 1e3 * (len(begun_ms) - 1) / (begun_ms[-1] - begun_ms[0])
