@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from host_sim.backends.images import BOARDS
 from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.faults.event import Event
+from host_sim.world.body_faults import SENSORS
 
-_SENSORS = ("right", "front-right", "front", "front-left", "left")
 _LINES, _PROCESSES = ("slcan", "vcan"), ("fd", "slcan", "vcan")
 _COMPARED = (LOCKSTEP,)
 """Where runs can be compared tick by tick."""
@@ -86,8 +86,8 @@ BUS: tuple[FaultClass, ...] = (
 """On the way of the frames, on any link."""
 
 BODY: tuple[FaultClass, ...] = (
-    *(_of_body(f"the {sensor} sensor is stuck on", f"stuck-on:{sensor}") for sensor in _SENSORS),
-    *(_of_body(f"the {sensor} sensor is stuck off", f"stuck-off:{sensor}") for sensor in _SENSORS),
+    *(_of_body(f"the {sensor} sensor is stuck on", f"stuck-on:{sensor}") for sensor in SENSORS),
+    *(_of_body(f"the {sensor} sensor is stuck off", f"stuck-off:{sensor}") for sensor in SENSORS),
     _of_body("sensors flicker", "noise:10/1000"),
     _of_body("the ring of sensors is mirrored", "mirror"),
     _of_body("motors are swapped", "swap-motors"),

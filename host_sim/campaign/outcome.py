@@ -13,13 +13,13 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.errors import RobotError, UsageError
 from host_sim.faults.event import Event
 from host_sim.faults.faulty_link import FaultyLink
-from host_sim.protocol.generated import TICK_SPAN, Side
+from host_sim.protocol.generated import PARAMETERS, TICK_SPAN, Side
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.make import make
 from host_sim.sim.simulation import Simulation
 
 _PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
-_TICK_MS = 20
+_TICK_MS = PARAMETERS["tick_ms"].default
 _FRESH_TICKS = 25
 _SIGNS_MAX = 10
 """A robot in lockstep that waits says so now and then: some frames more are no sign of a fault."""

@@ -12,7 +12,9 @@ from host_sim.robot_io import Ranges, Senses
 from host_sim.world.cones import CONE_BEARINGS_DEG
 
 _BITS = tuple(CONE_BEARINGS_DEG)
-_SENSORS = {name.replace("_", "-"): bit for name, bit in zip(Ranges._fields, _BITS, strict=True)}
+SENSORS = {name.replace("_", "-"): bit for name, bit in zip(Ranges._fields, _BITS, strict=True)}
+"""The bit of each sensor in feel, by the name that a change calls it."""
+
 _MIRRORED = tuple(
     sum(_BITS[-1 - place] for place, bit in enumerate(_BITS) if feel & bit) for feel in range(1 << len(_BITS))
 )
@@ -133,12 +135,12 @@ def _make_noise(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
 
 
 def _stick_on(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
-    bit = _SENSORS[words[0]]
+    bit = SENSORS[words[0]]
     return replace(faults, stuck_on=faults.stuck_on | bit, stuck_off=faults.stuck_off & ~bit)
 
 
 def _stick_off(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
-    bit = _SENSORS[words[0]]
+    bit = SENSORS[words[0]]
     return replace(faults, stuck_off=faults.stuck_off | bit, stuck_on=faults.stuck_on & ~bit)
 
 
@@ -159,8 +161,8 @@ def _repair(_faults: BodyFaults, _: tuple[str, ...]) -> BodyFaults:
     return SOUND
 
 
-_SENSOR = f":({'|'.join(_SENSORS)})"
-_SENSOR_FORM = f"with SENSOR one of {', '.join(_SENSORS)}"
+_SENSOR = f":({'|'.join(SENSORS)})"
+_SENSOR_FORM = f"with SENSOR one of {', '.join(SENSORS)}"
 _FAULTS: dict[str, tuple[str, Fault, str]] = {
     "swap-motors": ("", _swap_motors, "swap-motors"),
     "mirror": ("", _mirror, "mirror"),

@@ -26,7 +26,8 @@ import { meetingsOf } from "./plant_meetings.js";
  * @property {Goal[]} goals
  */
 
-const [FRONT_RIGHT, FRONT_LEFT] = ["front-right", "front-left"].map((name) => PATTERNS.indexOf(name));
+const FRONT_RIGHT = PATTERNS.indexOf("front-right");
+const FRONT_LEFT = PATTERNS.indexOf("front-left");
 /** What a robot knows that has learned all. */
 const LEARNED = [0, 1, 1, 1, 2, 1, 2, 1];
 const STUCK_S = 10;
