@@ -6,14 +6,17 @@ import sys
 from collections.abc import Sequence
 from dataclasses import asdict
 
-from host_sim.bench.figure import table
+from host_sim.bench.figure import Figure, table
 from host_sim.bench.fleet_figures import fleet_figures
 from host_sim.bench.image_figures import compare_images, image_figures
+from host_sim.bench.learner_figures import vector_figure
 from host_sim.bench.lockstep_figures import lockstep_figures, measure_vcan
 from host_sim.bench.memory_figures import memory_figure
 from host_sim.bench.native_equality import compare_loops
 from host_sim.bench.page_figures import page_figures
+from host_sim.bench.peer_figures import peer_figures
 from host_sim.bench.start_figures import start_figure
+from host_sim.errors import OctetError
 
 _LOOP_TICKS = 10_000_000
 
@@ -30,8 +33,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         action="store_true",
         help="instead, compare ten million ticks in C, both ways, with those in Python",
     )
+    add("--peers", action="store_true", help="instead, measure beside Enki, from Debian's package libenki-dev")
     add("--vcan", action="store_true", help="instead, measure only on vcan0, which must exist, and print JSON")
     options = parser.parse_args(arguments)
+    try:
+        return _measure(options)
+    except OctetError as error:
+        print(f"octet: {error}", file=sys.stderr)
+        return error.exit_code
+
+
+def _measure(options: argparse.Namespace) -> int:
     if options.equality:
         return 0 if compare_images() else 1
     if options.loops:
@@ -39,16 +51,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if options.vcan:
         print(json.dumps(measure_vcan()))
         return 0
-    figures = [
+    figures = peer_figures() if options.peers else _all_figures()
+    print(json.dumps([asdict(figure) for figure in figures], indent=2) if options.json else table(figures))
+    return 0 if all(figure.reached for figure in figures) else 1
+
+
+def _all_figures() -> list[Figure]:
+    return [
         start_figure(),
         memory_figure(),
         *fleet_figures(),
+        vector_figure(),
         *lockstep_figures(),
         *image_figures(),
         *page_figures(),
     ]
-    print(json.dumps([asdict(figure) for figure in figures], indent=2) if options.json else table(figures))
-    return 0 if all(figure.reached for figure in figures) else 1
 
 
 def _compare_loops() -> bool:

@@ -27,8 +27,8 @@ def fleet_figures() -> list[Figure]:
     together, hall = hall_of(world_of("random"), 1, 1, _FLEET)
     rounds = [
         (
-            _robot_ticks(alone, params),
-            _robot_ticks([together], hall),
+            robot_ticks_per_second(alone, params),
+            robot_ticks_per_second([together], hall),
             _ticks_without_log(),
             _layouts(params),
             _layouts_in_python(params),
@@ -52,12 +52,12 @@ def fleet_figures() -> list[Figure]:
         rate_figure(
             Rate("layouts drawn and checked", drawn, 1000 / 1.2),
             Rate("the same in Python", drawn_in_python, 4),
-            "bars, numpy's calls",
+            "the walk over the grid",
         ),
     ]
 
 
-def _robot_ticks(layouts: list[Layout], params: SimParams) -> float:
+def robot_ticks_per_second(layouts: list[Layout], params: SimParams) -> float:
     """Ticks per second of all robots of a fleet together, with one world for each layout."""
     robots = sum(len(layout.starts) for layout in layouts)
     fleet = NativeFleet(robots, len(layouts), params)
