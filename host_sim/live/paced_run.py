@@ -252,10 +252,7 @@ class PacedRun:
         match command:
             case Play(on):
                 self.playing, self._decided = on, None
-                if on:
-                    self.seen()
             case OneDecision():
-                self.seen()
                 self.playing, self._decided = True, self.simulation.drives[0]
             case Speed(factor):
                 self._set_speed(factor)

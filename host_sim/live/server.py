@@ -16,7 +16,7 @@ from host_sim.live.curves import Curves
 from host_sim.live.feed import Memo, PageFeed
 from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
-from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX, NameTag, page_command_from
+from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX, NameTag, Play, page_command_from
 from host_sim.live.seats import NotYoursError, Rights, Seats
 from host_sim.paths import WEB
 
@@ -65,12 +65,14 @@ class _Visitor:
         feed: What it is sent.
         rights: What it may do.
         pause_s: Gives the minimum time between two messages to it.
+        begins: Whether it begins a run that waits, when it is told to play.
     """
 
     socket: web.WebSocketResponse
     feed: _Feed
     rights: Rights
     pause_s: Callable[[], float]
+    begins: bool = False
 
 
 class LiveServer:
@@ -177,7 +179,7 @@ class LiveServer:
         feed = BoardFeed(self._live, self._curves, self._seats, self._listener)
         try:
             with Rights.of(None, "") as rights:
-                await self._serve(_Visitor(socket, feed, rights, lambda: BOARD_S))
+                await self._serve(_Visitor(socket, feed, rights, lambda: BOARD_S, begins=True))
         finally:
             self.pages -= 1
             self.boards -= 1
@@ -239,8 +241,10 @@ class LiveServer:
             if isinstance(command, NameTag):
                 visitor.rights.rename(command.text)
                 self._live.change += 1
-            else:
-                self._live.offer(visitor.rights.admit(command), notes.append)
+                return True
+            self._live.offer(visitor.rights.admit(command), notes.append)
+            if visitor.begins and command == Play(on=True):
+                self._live.seen()
         except NotYoursError as error:
             self._live.change += 1
             notes.append(str(error))

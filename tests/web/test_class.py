@@ -90,7 +90,7 @@ def test_nothing_moves_before_someone_watches(watch):
 
     said = watched.said()
     assert [it for it in said if it.name == "SENSES"] == []
-    assert {it.signals["left_mm_s"] for it in said if it.name == "DRIVE"} == {0}
+    assert {it.signals["left"] for it in said if it.name == "DRIVE"} == {0}
 
 
 def test_the_board_begins_the_run_if_it_is_open_first(watch):
