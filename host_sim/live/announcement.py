@@ -21,9 +21,10 @@ def announce(listener: Listener, robots: int, out: TextIO, *, waits: bool) -> No
         return
     _say(out, f"watch     {first}")
     for url in others:
-        _say(out, f"          {url}  (in another network)")
-    _say(out, f"board     {listener.board_url}  (for the teacher: whoever has it may do everything)")
-    _say(out, f"robots    {f'each page gets one of {robots}' if robots > 1 else 'all pages share one'}")
+        _say(out, f"          {url}")
+    _say(out, f"board     {listener.board_url}")
+    shares = f"each page gets one of {robots}" if robots > 1 else "all pages share one"
+    _say(out, f"robots    {shares}; keep the board's address to yourself")
     for line in lines_for(first, out):
         _say(out, line)
     if waits:

@@ -3,12 +3,9 @@
 import asyncio
 import contextlib
 import sys
-from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable
-from dataclasses import dataclass
-from typing import Protocol
 
-from aiohttp import WSCloseCode, WSMsgType, web
+from aiohttp import WSCloseCode, web
 
 from host_sim.live.board_feed import BoardFeed
 from host_sim.live.connections import Connections, one_line_logger, report_to
@@ -16,8 +13,9 @@ from host_sim.live.curves import Curves
 from host_sim.live.feed import Memo, PageFeed
 from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
-from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX, NameTag, Play, page_command_from
-from host_sim.live.seats import NotYoursError, Rights, Seats
+from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
+from host_sim.live.seats import Rights, Seats
+from host_sim.live.visitor import Visitor
 from host_sim.paths import WEB
 
 PAGES_MAX = 64
@@ -34,7 +32,6 @@ BOARD_S = 0.5
 
 _SAMPLE_S = 0.5
 
-_REFUSALS_MAX = 100
 _HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
     "img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
@@ -45,34 +42,6 @@ _HEADERS = {
 
 
 _Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
-
-
-class _Feed(Protocol):
-    """What a page is sent."""
-
-    notes: deque[str]
-
-    def next(self) -> str | None:
-        """The next message; None if there is nothing new."""
-
-
-@dataclass
-class _Visitor:
-    """A page that is open.
-
-    Attributes:
-        socket: Its connection.
-        feed: What it is sent.
-        rights: What it may do.
-        pause_s: Gives the minimum time between two messages to it.
-        begins: Whether it begins a run that waits, when it is told to play.
-    """
-
-    socket: web.WebSocketResponse
-    feed: _Feed
-    rights: Rights
-    pause_s: Callable[[], float]
-    begins: bool = False
 
 
 class LiveServer:
@@ -166,7 +135,7 @@ class LiveServer:
             self._begin_unless_the_board_does()
             feed = PageFeed(self._live, self._memo, rights)
             try:
-                await self._serve(_Visitor(socket, feed, rights, self._pause_s))
+                await self._serve(Visitor(socket, feed, rights, self._pause_s))
             finally:
                 self.pages -= 1
         return socket
@@ -179,7 +148,7 @@ class LiveServer:
         feed = BoardFeed(self._live, self._curves, self._seats, self._listener)
         try:
             with Rights.of(None, "") as rights:
-                await self._serve(_Visitor(socket, feed, rights, lambda: BOARD_S, begins=True))
+                await self._serve(Visitor(socket, feed, rights, lambda: BOARD_S, begins=True))
         finally:
             self.pages -= 1
             self.boards -= 1
@@ -210,50 +179,12 @@ class LiveServer:
         await page.prepare(request)
         return page
 
-    async def _serve(self, visitor: _Visitor) -> None:
+    async def _serve(self, visitor: Visitor) -> None:
         self._sockets.add(visitor.socket)
-        sender = asyncio.create_task(_send(visitor))
         try:
-            await self._receive(visitor)
+            await visitor.serve(self._live)
         finally:
-            sender.cancel()
             self._sockets.discard(visitor.socket)
-
-    async def _receive(self, visitor: _Visitor) -> None:
-        """Accepts commands until the page disconnects, or has sent too many invalid messages."""
-        refusals = 0
-        while refusals < _REFUSALS_MAX:
-            message = await visitor.socket.receive()
-            if message.type is WSMsgType.TEXT:
-                refusals += not self._accept(message.data, visitor)
-            elif message.type is WSMsgType.BINARY:
-                self._live.refused += 1
-                refusals += 1
-            else:
-                self._live.refused += message.type is WSMsgType.ERROR
-                return
-        await visitor.socket.close(code=WSCloseCode.POLICY_VIOLATION, message=b"too many invalid messages")
-
-    def _accept(self, text: str, visitor: _Visitor) -> bool:
-        notes = visitor.feed.notes
-        try:
-            command = page_command_from(text)
-            if isinstance(command, NameTag):
-                visitor.rights.rename(command.text)
-                self._live.change += 1
-                return True
-            self._live.offer(visitor.rights.admit(command), notes.append)
-            if visitor.begins and command == Play(on=True):
-                self._live.seen()
-        except NotYoursError as error:
-            self._live.change += 1
-            notes.append(str(error))
-        except ValueError as error:
-            self._live.refused += 1
-            self._live.change += 1
-            notes.append(f"not understood: {error}"[:200])
-            return False
-        return True
 
     def _check_token(self, request: web.Request, holds: Callable[[str], bool]) -> None:
         if not holds(request.query.get("token", "")):
@@ -265,16 +196,6 @@ class LiveServer:
         if request.headers.get("Origin") != f"http://{request.host}":
             self._live.refused += 1
             raise web.HTTPForbidden(text="only octet's own page may connect\n")
-
-
-async def _send(visitor: _Visitor) -> None:
-    """Sends a page the latest state, as fast as it reads."""
-    with contextlib.suppress(ConnectionError):
-        while not visitor.socket.closed:
-            message = visitor.feed.next()
-            if message is not None:
-                await visitor.socket.send_str(message)
-            await asyncio.sleep(visitor.pause_s())
 
 
 async def _say_goodbye(page: web.WebSocketResponse) -> None:
