@@ -108,7 +108,9 @@ class LivePage {
  * @param {string} key
  */
 function query(key) {
-  return `${location.search || "?"}&page=${key}`;
+  const fields = new URLSearchParams(location.search);
+  fields.set("page", key);
+  return `?${fields}`;
 }
 
 if ("WebSocket" in window) Object.assign(window, { octet: new LivePage() });
