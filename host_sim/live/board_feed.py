@@ -40,8 +40,9 @@ class BoardFeed:
 
         Its fields: `join`, in the first message, with the addresses of the page as `urls` and the rows of the QR code
         of the first as `modules`; `tick_ms`; `clock_ms`, robot time since the run was started over; `environment` as
-        [number, of]; `food` as [eaten, of]; `seed`; `play`, as the page is sent it; `robots`, each with `node`,
-        `name`, `page`, whether one of its own is open, and the turns that it knows as `sides`; `notes`, if any.
+        [number, of]; `ended`, the environments before as [with all food found, all]; `food` as [eaten, of]; `seed`;
+        `play`, as the page is sent it; `robots`, each with `node`, `name`, `page`, whether one of its own is open,
+        and the turns that it knows as `sides`; `notes`, if any.
         `curves` has the new samples: `anew`, whether earlier ones go, `ticks` since the start, and for each robot the
         samples of each of `NAMES`.
         """
@@ -57,10 +58,12 @@ class BoardFeed:
     def _state(self) -> dict[str, Any]:
         simulation = self.live.simulation
         tick_ms, eaten = simulation.params.tick_s * 1000, simulation.arena.food.eaten
+        since = self.live.episodes[self.live.started_over :]
         return {
             "tick_ms": tick_ms,
             "clock_ms": round((simulation.tick - self.live.start_tick) * tick_ms),
             "environment": [simulation.record.begun[-1].number, simulation.environments],
+            "ended": [sum(episode.finished for episode in since), len(since)],
             "food": [sum(eaten), len(eaten)],
             "seed": simulation.seed,
             "play": play_state(self.live),

@@ -17,6 +17,7 @@ import { ending } from "./phrases.js";
  * @property {number} tick_ms
  * @property {number} clock_ms
  * @property {[number, number]} environment
+ * @property {[number, number]} ended
  * @property {[number, number]} food
  * @property {number} seed
  * @property {Play} play
@@ -98,6 +99,7 @@ class Board {
     setText(byId("fact-seed"), `${seed}`);
     setText(byId("present"), own ? presence(robots) : "All pages share one robot.");
     setText(byId("scale"), `Each curve grows with robot time; all have the same scale.`);
+    setText(byId("result"), resultOf(message));
     this.showPlay(play, environment);
   }
 
@@ -108,7 +110,6 @@ class Board {
   showPlay(play, environment) {
     setText(byId("play"), play.waits ? "Begin" : play.playing ? "Pause" : "Play");
     setText(byId("status"), statusOf(play));
-    setText(byId("result"), play.ended ? ending(play.ended, play.done).join(": ") : "");
     typedById("play", HTMLButtonElement).disabled = play.done;
     typedById("next", HTMLButtonElement).disabled = play.done || environment[0] >= environment[1];
     if (document.activeElement !== this.speed) this.speed.value = `${play.speed}`;
@@ -119,6 +120,15 @@ class Board {
 function presence(robots) {
   const open = robots.filter(({ page }) => page).length;
   return `${open} of ${robots.length} robots have a page.`;
+}
+
+/**
+ * How the environment has ended or, while it goes on, how those before it did.
+ * @param {BoardMessage} message
+ */
+function resultOf({ play, ended: [finished, all] }) {
+  if (play.ended) return ending(play.ended, play.done).join(": ");
+  return all ? `All food found in ${finished} of ${all} environments so far` : "";
 }
 
 /** @param {Play} play */
