@@ -29,13 +29,16 @@ from host_sim.sim.make import Memory, make, start_robots
 from host_sim.sim.simulation import Simulation
 
 if TYPE_CHECKING:
-    from host_sim.live.server import Listener
+    from host_sim.live.listener import Listener
 
 FAULTS = "faults.txt"
 """The faults that were made on purpose, in the folder of a run."""
 
 _NOTHING = (0,) * CELL_COUNT
 _SUMMARY_MAX = 10_000_000
+_PROCESSES_MAX = 8
+"""Maximum number of robots of a watched run that have a process each, unless a bus is named."""
+
 _PAUSE_STEP_S = 0.05
 
 
@@ -43,12 +46,19 @@ def conduct_watched(arguments: argparse.Namespace, watch: WatchOptions) -> Summa
     """Conducts a run that people watch.
 
     The page sets the pace, so the robot waits for it (lockstep); an external robot has its own clock, and the page
-    follows. `--bus auto` means `fd` here: in a network namespace with its own bus, no browser could reach the page.
+    follows.
     """
     external = arguments.robot == "external"
     watch = replace(watch, speed=1.0) if external else watch
-    options = run_options(arguments, "fd" if arguments.bus == "auto" else arguments.bus, watch)
+    options = run_options(arguments, _watched_bus(arguments), watch)
     return conduct(replace(options, config=replace(options.config, real_time=external)))
+
+
+def _watched_bus(arguments: argparse.Namespace) -> str:
+    """The bus. In a network namespace with its own, no browser could reach the page; a class needs no processes."""
+    if arguments.bus != "auto":
+        return str(arguments.bus)
+    return "none" if arguments.robot == "spawn" and arguments.robots > _PROCESSES_MAX else "fd"
 
 
 def conduct(options: RunOptions) -> Summary:
@@ -184,7 +194,7 @@ def _memory_paths(options: RunOptions) -> list[Path]:
 def _open_listener(stack: ExitStack, watch: WatchOptions | None) -> "Listener | None":
     if watch is None or watch.terminal:
         return None
-    from host_sim.live.server import Listener  # a run that nobody watches begins without the server
+    from host_sim.live.listener import Listener  # a run that nobody watches begins without the server
 
     listener = Listener(watch.listen, watch.port)
     stack.callback(listener.socket.close)
@@ -264,7 +274,7 @@ def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") ->
         lambda seed: start_robots(simulation.clients, replace(options.config, seed=seed)),
         episodes=outputs.episodes,
         stays=watch.stays,
-        waits=watch.stays and listener is not None,
+        waits=listener is not None and (watch.stays or listener.is_open),
         speed=watch.speed,
     )
     if listener is None:
@@ -277,7 +287,7 @@ def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") ->
     _say_refused(simulation)
     if options.talks:
         live.ended = lambda episode: print(environment_line(len(live.episodes), episode))
-    watch_run(live, listener, lambda line: print(line, file=sys.stdout if options.talks else sys.stderr, flush=True))
+    watch_run(live, listener, sys.stdout if options.talks else sys.stderr)
 
 
 def _print_results(options: RunOptions, summary: Summary) -> None:

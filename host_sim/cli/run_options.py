@@ -216,8 +216,11 @@ def add_watch_options(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--listen",
+        nargs="?",
+        const="0.0.0.0",
         metavar="ADDRESS",
-        help="address that the page is served on, for other machines with the token (default: this machine only)",
+        help="serve the page to other machines, with a token: in all networks, or at one address of this machine; "
+        "with several robots, each page gets one of its own (default: this machine only)",
     )
 
 

@@ -14,7 +14,8 @@ examples:
   tools/octet watch                                  one robot, five environments
   tools/octet watch --robots 3                       three robots in the same environments
   tools/octet watch --seed 7 --memory robot.mem      other environments, with the memory in robot.mem
-  tools/octet watch --listen 0.0.0.0                 for other machines too: prints an address with a token
+  tools/octet watch --listen                         for other machines too: prints an address and a QR code
+  tools/octet watch --listen --robots 30             for a class: a robot for each page, and a board for all
   tools/octet watch --terminal                       without a browser, for example over ssh
 """
 

@@ -5,35 +5,37 @@ import os
 import signal
 import sys
 import webbrowser
-from collections.abc import Callable
+from typing import TextIO
 
+from host_sim.live.announcement import announce
+from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
-from host_sim.live.server import Listener, LiveServer
+from host_sim.live.server import LiveServer
 
 
-def watch_run(live: PacedRun, listener: Listener, say: Callable[[str], object]) -> None:
+def watch_run(live: PacedRun, listener: Listener, out: TextIO) -> None:
     """Plays a whole run while people watch; Ctrl-C ends it in order.
 
     Args:
         live: The run, before its first environment.
         listener: The socket that the page is served on.
-        say: Prints a line, with the page's address.
+        out: Where the page's address is printed.
 
     Raises:
         RobotError: A robot has ended or does not answer.
     """
     live.begin()
-    asyncio.run(_serve(live, listener, say))
+    asyncio.run(_serve(live, listener, out))
 
 
-async def _serve(live: PacedRun, listener: Listener, say: Callable[[str], object]) -> None:
+async def _serve(live: PacedRun, listener: Listener, out: TextIO) -> None:
     loop = asyncio.get_running_loop()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         loop.add_signal_handler(number, live.close)
     async with LiveServer(live, listener).serving():
-        say(f"watch     {listener.url}  ({'begins when the page is open; ' if live.waits else ''}Ctrl-C ends it)")
+        announce(listener, len(live.simulation.clients), out, waits=live.waits)
         if _on_a_desktop():
-            webbrowser.open(listener.url)
+            webbrowser.open(listener.board_url if listener.is_open else listener.urls[0])
         await live.play()
 
 

@@ -3,10 +3,12 @@
 import json
 import time
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
 from host_sim.live.paced_run import PacedRun
+from host_sim.live.seats import Rights
 from host_sim.recording.summary import frame_counts
 from host_sim.recording.trajectory import RobotTrack
 from host_sim.view.history import Lesson
@@ -21,16 +23,43 @@ _NOTES_MAX = 8
 _NEWS_MAX = 8
 
 
+class Memo:
+    """Parts of messages as JSON, made once for all pages that are sent the same."""
+
+    def __init__(self) -> None:
+        self._now: tuple[int, int] = (-1, -1)
+        self._parts: dict[object, str] = {}
+
+    def part(self, now: tuple[int, int], key: object, make: Callable[[], object]) -> str:
+        """A part of the messages of now.
+
+        Args:
+            now: What changes whenever any part does.
+            key: What the part depends on besides.
+            make: Makes it.
+        """
+        if now != self._now:
+            self._now = now
+            self._parts.clear()
+        if key not in self._parts:
+            self._parts[key] = _json(make())
+        return self._parts[key]
+
+
 @dataclass
 class PageFeed:
     """Tracks what one page has been sent. Its size is bounded, however seldom the page is updated.
 
     Attributes:
         live: The run that the page watches.
+        memo: What it shares with other pages.
+        rights: What the page may do.
         notes: Messages to show on the page, about commands that could not be carried out.
     """
 
     live: PacedRun
+    memo: Memo = field(default_factory=Memo)
+    rights: Rights = field(default_factory=Rights)
     notes: deque[str] = field(default_factory=lambda: deque(maxlen=_NOTES_MAX))
     _layout: int = -1
     _start: int = -1
@@ -46,29 +75,45 @@ class PageFeed:
         with `news`, the last changes of the world and the bodies, as [tick, sentence];
         `trails`, for each robot the ticks since the last message as [x, y, reason, ...], thinned out if many;
         `lessons`, those of all robots since the last message; `play`, the state of the controls; `health`; `notes`,
-        if there are any; `at`, wall-clock time in ms since 1970.
+        if there are any; `at`, wall-clock time in ms since 1970. The first message has `seat`: the page's own robot
+        as {node, name}, node 0 if it got none, or null where the robots are everyone's.
         """
         now = (self.live.simulation.tick, self.live.change)
         if now == self._sent and not self.notes:
             return None
         first = self._sent == (-1, -1)
         self._sent = now
-        limit = self.live.recorder.trajectory.boredom_limit
-        message: dict[str, Any] = {"measures": measures(self.live.params, limit)} if first else {}
-        if self.live.layout != self._layout:
-            message |= self._arena()
-        message |= {
-            "at": round(time.time() * 1000),
-            "states": states(self.live.simulation, self.live.recorder.histories),
+        parts = self._news(first)
+        shared = {
+            "states": self._shared("states", lambda: states(self.live.simulation, self.live.recorder.histories)),
             "trails": self._new_trails(),
-            "lessons": self._new_lessons(),
-            "play": self._play(),
-            "health": self._health(),
+            "play": self._shared("play", lambda: play_state(self.live)),
+            "health": self._shared("health", self._health),
         }
+        return "{" + ",".join(f'"{name}":{text}' for name, text in (parts | shared).items()) + "}"
+
+    def _news(self, first: bool) -> dict[str, str]:
+        """The parts that are this page's own, as JSON."""
+        parts: dict[str, Any] = {"at": round(time.time() * 1000)}
+        if first:
+            limit = self.live.recorder.trajectory.boredom_limit
+            parts |= {"measures": measures(self.live.params, limit), "seat": self._seat()}
+        if self.live.layout != self._layout:
+            parts |= self._arena()
+        parts |= {"lessons": self._new_lessons()}
         if self.notes:
-            message["notes"] = list(self.notes)
+            parts["notes"] = list(self.notes)
             self.notes.clear()
-        return json.dumps(message, separators=(",", ":"))
+        return {name: _json(part) for name, part in parts.items()}
+
+    def _shared(self, key: object, make: Callable[[], object]) -> str:
+        return self.memo.part(self._sent, key, make)
+
+    def _seat(self) -> dict[str, Any] | None:
+        if self.rights.seats is None:
+            return None
+        seat = self.rights.seat
+        return {"node": seat.node, "name": seat.name} if seat else {"node": 0, "name": ""}
 
     def _arena(self) -> dict[str, Any]:
         simulation = self.live.simulation
@@ -87,14 +132,14 @@ class PageFeed:
         """The first tick of the current environment."""
         return self.live.simulation.record.begun[-1].first_tick
 
-    def _new_trails(self) -> list[list[float]]:
-        """The new part of each robot's trail; the whole trail if the environment has just begun."""
+    def _new_trails(self) -> str:
+        """The new part of each robot's trail as JSON; the whole trail if the environment has just begun."""
         tracks = self.live.recorder.trajectory.tracks
         end = tracks[0].ticks
         first = max(self._trail, end - TRAIL_MAX, tracks[0].first_tick)
         step = 1 if self._trail == self._first_tick() else 1 + (end - first) // _POINTS_MAX
         self._trail = end
-        return [_points(track, first, end, step) for track in tracks]
+        return self._shared((first, end, step), lambda: [_points(track, first, end, step) for track in tracks])
 
     def _new_lessons(self) -> list[Lesson]:
         """The lessons since the last message, or since the run was started over; at most `_POINTS_MAX` per robot."""
@@ -107,35 +152,6 @@ class PageFeed:
             self._lessons[i] = len(history.lessons)
         return new
 
-    def _play(self) -> dict[str, Any]:
-        live = self.live
-        return {
-            "playing": live.playing,
-            "speed": live.speed,
-            "done": live.done,
-            "rate": round(live.rate),
-            "stays": live.stays,
-            "ended": self._ended(),
-        }
-
-    def _ended(self) -> dict[str, Any] | None:
-        """How the environment that has just ended went, and all since the run was started over; else None."""
-        live = self.live
-        since = live.episodes[live.started_over :]
-        if live.ended_at is None or not since:
-            return None
-        last = since[-1]
-        return {
-            "number": live.simulation.record.begun[-1].number,
-            "finished": last.finished,
-            "eaten": sum(last.eaten),
-            "food": len(last.eaten),
-            "robot_s": last.robot_s,
-            "environments": len(since),
-            "environments_finished": sum(episode.finished for episode in since),
-            "environments_robot_s": round(sum(episode.robot_s for episode in since), 3),
-        }
-
     def _health(self) -> dict[str, int]:
         """The frame counters of all robots together, and those of the page."""
         counts = [frame_counts(client) for client in self.live.simulation.clients]
@@ -144,6 +160,41 @@ class PageFeed:
             "late": self.live.late,
             "orders_refused": self.live.refused,
         }
+
+
+def play_state(live: PacedRun) -> dict[str, Any]:
+    """The state of the controls."""
+    return {
+        "playing": live.playing,
+        "speed": live.speed,
+        "done": live.done,
+        "rate": round(live.rate),
+        "stays": live.stays,
+        "waits": live.waits,
+        "ended": _ended(live),
+    }
+
+
+def _ended(live: PacedRun) -> dict[str, Any] | None:
+    """How the environment that has just ended went, and all since the run was started over; else None."""
+    since = live.episodes[live.started_over :]
+    if live.ended_at is None or not since:
+        return None
+    last = since[-1]
+    return {
+        "number": live.simulation.record.begun[-1].number,
+        "finished": last.finished,
+        "eaten": sum(last.eaten),
+        "food": len(last.eaten),
+        "robot_s": last.robot_s,
+        "environments": len(since),
+        "environments_finished": sum(episode.finished for episode in since),
+        "environments_robot_s": round(sum(episode.robot_s for episode in since), 3),
+    }
+
+
+def _json(value: object) -> str:
+    return json.dumps(value, separators=(",", ":"))
 
 
 def _points(track: RobotTrack, first: int, end: int, step: int) -> list[float]:

@@ -113,8 +113,14 @@ class PacedRun:
         else:
             self.refused += 1
 
+    @property
+    def start_tick(self) -> int:
+        """The first tick since the run was last started over."""
+        return next(it.first_tick for it in reversed(self.simulation.record.begun) if it.number == 1)
+
     def seen(self) -> None:
         """Begins the run if it waits for someone to watch."""
+        self.change += self.waits
         self.waits = False
 
     def close(self) -> None:

@@ -92,11 +92,19 @@ class PutRobot:
     node: int | None = None
 
 
+@dataclass(frozen=True)
+class NameTag:
+    """Put a name tag on the page's own robot."""
+
+    text: str
+
+
 RobotCommand = WriteCell | EraseMemory | Freeze | LiftRobot | PutRobot
 PageCommand = Play | OneDecision | Speed | NextEnvironment | NewSeed | RobotCommand | Edit
+"""What a run carries out."""
 
 
-def page_command_from(text: str) -> PageCommand:
+def page_command_from(text: str) -> PageCommand | NameTag:
     """The command in a message.
 
     Args:
@@ -127,6 +135,13 @@ def _speed(fields: Mapping[str, Any]) -> Speed:
     return Speed(float(factor))
 
 
+def _name_tag(fields: Mapping[str, Any]) -> NameTag:
+    text = fields.get("name")
+    if not isinstance(text, str):
+        raise ValueError("name must be a text")
+    return NameTag(text)
+
+
 def _flag(fields: Mapping[str, Any], name: str) -> int:
     """An optional field that holds 0 or 1; 0 if it is missing."""
     return whole(fields, name, 0, 1) if name in fields else 0
@@ -136,7 +151,7 @@ def _node(fields: Mapping[str, Any]) -> int | None:
     return whole(fields, "node", 1, NODE_MAX) if "node" in fields else None
 
 
-_PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand]] = {
+_PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand | NameTag]] = {
     "play": lambda _: Play(True),
     "pause": lambda _: Play(False),
     "decision": lambda _: OneDecision(),
@@ -149,5 +164,6 @@ _PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand]] = {
     "erase": lambda fields: EraseMemory(_node(fields)),
     "freeze": lambda fields: Freeze(bool(whole(fields, "on", 0, 1)), _node(fields)),
     "lift": lambda fields: LiftRobot(_node(fields)),
+    "name": _name_tag,
     "put": lambda fields: PutRobot(pose_from(fields), _node(fields)),
 }

@@ -2,30 +2,36 @@
 
 import asyncio
 import contextlib
-import ipaddress
-import os
-import secrets
-import socket
 import sys
 from collections.abc import AsyncIterator, Awaitable, Callable
 
-from aiohttp import WSCloseCode, WSMsgType, web
-from yarl import URL
+from aiohttp import WSCloseCode, web
 
-from host_sim.errors import UsageError
+from host_sim.live.board_feed import BoardFeed
 from host_sim.live.connections import Connections, one_line_logger, report_to
-from host_sim.live.feed import PageFeed
+from host_sim.live.curves import Curves
+from host_sim.live.feed import Memo, PageFeed
+from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
-from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX, page_command_from
-from host_sim.live.token_file import local_token
+from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
+from host_sim.live.seats import Rights, Seats
+from host_sim.live.visitor import Visitor
 from host_sim.paths import WEB
 
-PAGES_MAX = 32
+PAGES_MAX = 64
+"""Maximum number of open pages: a class, those that have just been reloaded, and the board."""
+
 FRAME_S, RACING_FRAME_S = 1 / 60, 1 / 30
 """Minimum time between two messages to a page; the second at full speed, which is too fast to follow anyway."""
 
-_REFUSALS_MAX = 100
-_ANYWHERE = ("0.0.0.0", "::")
+STATE_S = 1 / 9000
+"""Time for each robot's state in a message to a page; thirty pages with thirty robots get ten messages a second."""
+
+BOARD_S = 0.5
+"""Time between two messages to a board."""
+
+_SAMPLE_S = 0.5
+
 _HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
     "img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
@@ -38,77 +44,12 @@ _HEADERS = {
 _Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
-class Listener:
-    """The listening socket of the server, opened before the run begins: a port in use must not spoil a run.
-
-    Attributes:
-        host: Address that it listens on.
-        port: Port that it listens on.
-        token: Secret that a page's address must contain: other users of this machine can connect, too.
-        socket: The socket.
-    """
-
-    def __init__(self, listen: str | None, port: int) -> None:
-        """Opens the socket.
-
-        Args:
-            listen: Address to listen on for other machines; None for this machine only.
-            port: Port to listen on; 0 for any free port.
-
-        Raises:
-            UsageError: The address does not exist or is in use.
-        """
-        self.host = listen or "127.0.0.1"
-        self.token = secrets.token_urlsafe(16) if listen else local_token()
-        try:
-            family, *_, address = socket.getaddrinfo(self.host, port, type=socket.SOCK_STREAM)[0]
-            self.socket = socket.create_server((address[0], port), family=family)
-        except OSError as error:
-            unknown = isinstance(error, socket.gaierror)
-            why = "no such address" if unknown or error.errno is None else os.strerror(error.errno).lower()
-            where = f"{self.host}, port {port}"
-            raise UsageError(f"cannot listen on {where}: {why}; choose another with --port or --listen") from None
-        self.port: int = self.socket.getsockname()[1]
-
-    @property
-    def url(self) -> str:
-        """The page's address."""
-        host = f"[{self.host}]" if self.socket.family is socket.AF_INET6 else self.host
-        if self.host in _ANYWHERE:
-            host = socket.gethostname()
-        return f"http://{host}:{self.port}/?token={self.token}"
-
-    def is_ours(self, host: str) -> bool:
-        """Whether a request's Host header is an address, or a name of this machine that the user knows.
-
-        A page of another site can have its own name resolve to this machine (DNS rebinding); its requests then come
-        with that name.
-        """
-        name = _host_name(host)
-        return name in ("localhost", self.host.lower(), socket.gethostname().lower()) or _is_address(name)
-
-
-def _host_name(host: str) -> str | None:
-    """The name in a Host header, without the port; None if it is not a host."""
-    try:
-        return URL(f"http://{host}").host
-    except ValueError:
-        return None
-
-
-def _is_address(name: str | None) -> bool:
-    try:
-        ipaddress.ip_address(name or "")
-    except ValueError:
-        return False
-    return True
-
-
 class LiveServer:
-    """Serves one run to its pages.
+    """Serves one run to its pages, and to the board.
 
     Attributes:
         pages: Number of pages that watch.
+        boards: Number of boards among them.
     """
 
     def __init__(self, live: PacedRun, listener: Listener) -> None:
@@ -116,16 +57,24 @@ class LiveServer:
 
         Args:
             live: The run.
-            listener: The socket to serve on.
+            listener: The socket to serve on. If it is open to other machines, and there are several robots, each page
+                gets a robot of its own.
         """
-        self.pages = 0
-        self._live, self._listener = live, listener
+        self.pages = self.boards = 0
+        self._live, self._listener, self._memo, self._curves = live, listener, Memo(), Curves(live)
+        nodes = live.simulation.nodes
+        self._seats = Seats(nodes) if listener.is_open and len(nodes) > 1 else None
         self._sockets: set[web.WebSocketResponse] = set()
         self._app = web.Application(client_max_size=TEXT_MAX, middlewares=[self._check_host])
         self._app.on_response_prepare.append(_secure)
-        self._app.router.add_get("/", self._page)
-        self._app.router.add_get("/live", self._socket)
-        self._app.router.add_get("/{name}", self._part)
+        for path, handler in (
+            ("/", self._page),
+            ("/board", self._board),
+            ("/live", self._page_socket),
+            ("/board-live", self._board_socket),
+            ("/{name}", self._part),
+        ):
+            self._app.router.add_get(path, handler)
 
     @contextlib.asynccontextmanager
     async def serving(self) -> AsyncIterator[None]:
@@ -137,15 +86,23 @@ class LiveServer:
         assert runner.server is not None
         self._connections = Connections(runner.server, _HEADERS, logger)
         server = await loop.create_server(self._connections, sock=self._listener.socket)
+        sampler = asyncio.create_task(self._sample())
         try:
             yield
         finally:
+            sampler.cancel()
             for page in list(self._sockets):
                 await _say_goodbye(page)
             server.close()
             await runner.cleanup()
             for handler in logger.handlers:
                 handler.close()
+
+    async def _sample(self) -> None:
+        """Samples the curves, whether a board is open or not: one that is opened late shows all of them."""
+        while True:
+            self._curves.sample()
+            await asyncio.sleep(_SAMPLE_S)
 
     @web.middleware
     async def _check_host(self, request: web.Request, handler: _Handler) -> web.StreamResponse:
@@ -155,8 +112,12 @@ class LiveServer:
         return await handler(request)
 
     async def _page(self, request: web.Request) -> web.StreamResponse:
-        self._check_token(request)
+        self._check_token(request, self._listener.holds)
         return _file("live.html")
+
+    async def _board(self, request: web.Request) -> web.StreamResponse:
+        self._check_token(request, self._listener.holds_board)
+        return _file("board.html")
 
     async def _part(self, request: web.Request) -> web.StreamResponse:
         name = request.match_info["name"]
@@ -164,56 +125,69 @@ class LiveServer:
             raise web.HTTPNotFound
         return _file(name)
 
-    async def _socket(self, request: web.Request) -> web.StreamResponse:
-        self._check_token(request)
+    async def _page_socket(self, request: web.Request) -> web.StreamResponse:
+        self._check_token(request, self._listener.holds)
+        socket = await self._accepted(request)
+        seats = None if self._listener.holds_board(request.query["token"]) else self._seats
+        with Rights.of(seats, request.query.get("page", "")) as rights:
+            self.pages += 1
+            self._live.change += 1
+            self._begin_unless_the_board_does()
+            feed = PageFeed(self._live, self._memo, rights)
+            try:
+                await self._serve(Visitor(socket, feed, rights, self._pause_s))
+            finally:
+                self.pages -= 1
+        return socket
+
+    async def _board_socket(self, request: web.Request) -> web.StreamResponse:
+        self._check_token(request, self._listener.holds_board)
+        socket = await self._accepted(request)
+        self.pages += 1
+        self.boards += 1
+        feed = BoardFeed(self._live, self._curves, self._seats, self._listener)
+        try:
+            with Rights.of(None, "") as rights:
+                await self._serve(Visitor(socket, feed, rights, lambda: BOARD_S, begins=True))
+        finally:
+            self.pages -= 1
+            self.boards -= 1
+            self._begin_unless_the_board_does()
+        return socket
+
+    def _begin_unless_the_board_does(self) -> None:
+        """The first page begins the run; while a board is open, its button does."""
+        if self.pages and not self.boards:
+            self._live.seen()
+
+    def _pause_s(self) -> float:
+        """Time between two messages to a page: longer the more there is to send to all of them."""
+        fastest = RACING_FRAME_S if self._live.speed == FULL_SPEED else FRAME_S
+        return max(fastest, self.pages * len(self._live.simulation.nodes) * STATE_S)
+
+    async def _accepted(self, request: web.Request) -> web.WebSocketResponse:
+        """The connection of a page, which is not counted yet.
+
+        Raises:
+            web.HTTPException: The page is not ours, or there are too many.
+        """
         self._check_origin(request)
         if self.pages >= PAGES_MAX:
             raise web.HTTPServiceUnavailable(text=f"{PAGES_MAX} pages are watching already\n")
         page = web.WebSocketResponse(max_msg_size=TEXT_MAX, heartbeat=20.0, compress=False, timeout=1.0)
         self._connections.keep(request)
         await page.prepare(request)
-        self._sockets.add(page)
-        self.pages += 1
-        self._live.seen()
-        feed = PageFeed(self._live)
-        sender = asyncio.create_task(_send(page, feed))
-        try:
-            await self._receive(page, feed)
-        finally:
-            sender.cancel()
-            self.pages -= 1
-            self._sockets.discard(page)
         return page
 
-    async def _receive(self, page: web.WebSocketResponse, feed: PageFeed) -> None:
-        """Accepts commands until the page disconnects, or has sent too many invalid messages."""
-        refusals = 0
-        while refusals < _REFUSALS_MAX:
-            message = await page.receive()
-            if message.type is WSMsgType.TEXT:
-                refusals += not self._accept(message.data, feed)
-            elif message.type is WSMsgType.BINARY:
-                self._live.refused += 1
-                refusals += 1
-            else:
-                self._live.refused += message.type is WSMsgType.ERROR
-                return
-        await page.close(code=WSCloseCode.POLICY_VIOLATION, message=b"too many invalid messages")
-
-    def _accept(self, text: str, feed: PageFeed) -> bool:
+    async def _serve(self, visitor: Visitor) -> None:
+        self._sockets.add(visitor.socket)
         try:
-            command = page_command_from(text)
-        except ValueError as error:
-            self._live.refused += 1
-            self._live.change += 1
-            feed.notes.append(f"not understood: {error}"[:200])
-            return False
-        self._live.offer(command, feed.notes.append)
-        return True
+            await visitor.serve(self._live)
+        finally:
+            self._sockets.discard(visitor.socket)
 
-    def _check_token(self, request: web.Request) -> None:
-        given = request.query.get("token", "")
-        if not secrets.compare_digest(given.encode(), self._listener.token.encode()):
+    def _check_token(self, request: web.Request, holds: Callable[[str], bool]) -> None:
+        if not holds(request.query.get("token", "")):
             self._live.refused += 1
             raise web.HTTPForbidden(text="the address must end with ?token=..., as octet printed it\n")
 
@@ -222,16 +196,6 @@ class LiveServer:
         if request.headers.get("Origin") != f"http://{request.host}":
             self._live.refused += 1
             raise web.HTTPForbidden(text="only octet's own page may connect\n")
-
-
-async def _send(page: web.WebSocketResponse, feed: PageFeed) -> None:
-    """Sends a page the latest state, as fast as it reads."""
-    with contextlib.suppress(ConnectionError):
-        while not page.closed:
-            message = feed.next()
-            if message is not None:
-                await page.send_str(message)
-            await asyncio.sleep(RACING_FRAME_S if feed.live.speed == FULL_SPEED else FRAME_S)
 
 
 async def _say_goodbye(page: web.WebSocketResponse) -> None:

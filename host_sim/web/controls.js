@@ -105,6 +105,7 @@ function showEnding({ ended, done }) {
 
 /** @param {Play} play */
 function statusOf(play) {
+  if (play.waits) return "waiting for the board to begin";
   if (play.done) return play.stays ? "all done: start over with a seed" : "all done";
   if (play.ended) return "on to the next environment";
   return play.playing ? "live" : "paused";

@@ -2,6 +2,7 @@
 /* The live page: shows what comes over the WebSocket, sends what a person does. */
 
 import { byId, setText } from "./elements.js";
+import { LiveSeat, pageKey } from "./live_seat.js";
 import { LiveView } from "./live_view.js";
 import { Note } from "./note.js";
 import { restarted } from "./phrases.js";
@@ -29,6 +30,8 @@ class LivePage {
     /** How old the state was when it was last drawn, for measurements. */
     this.timing = { lagMs: 0 };
     this.note = new Note();
+    this.key = pageKey();
+    this.seat = new LiveSeat((command) => this.send(command));
     this.hasEnded = false;
     this.socket = this.connect();
     requestAnimationFrame(() => this.frame());
@@ -44,7 +47,7 @@ class LivePage {
 
   connect() {
     const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-    const socket = new WebSocket(`${scheme}//${location.host}/live${location.search}`);
+    const socket = new WebSocket(`${scheme}//${location.host}/live${query(this.key)}`);
     socket.addEventListener("message", (event) => this.accept(JSON.parse(event.data)));
     socket.addEventListener("close", (event) => this.onClose(event));
     return socket;
@@ -76,6 +79,7 @@ class LivePage {
       this.view ??= new LiveView(new Scene(measures, environment, states), (command) => this.send(command));
     }
     this.view?.accept(message);
+    if (message.seat !== undefined) this.seat.take(message.seat, this.view);
     if (startedOver) this.note.show(restarted(environment, states));
     if (message.notes) this.view?.editor.onRefusal();
     message.notes?.forEach((text) => this.note.show(text));
@@ -97,6 +101,16 @@ class LivePage {
     }
     requestAnimationFrame(() => this.frame());
   }
+}
+
+/**
+ * The address's query, with what this page is recognised by.
+ * @param {string} key
+ */
+function query(key) {
+  const fields = new URLSearchParams(location.search);
+  fields.set("page", key);
+  return `?${fields}`;
 }
 
 if ("WebSocket" in window) Object.assign(window, { octet: new LivePage() });

@@ -80,6 +80,7 @@
  * @property {boolean} done
  * @property {number} rate
  * @property {boolean} stays
+ * @property {boolean} waits
  * @property {Ended | null} ended
  */
 
@@ -118,6 +119,12 @@
  * @property {Health} health
  * @property {News[]} [news]
  * @property {string[]} [notes]
+ * @property {Seat | null} [seat]
+ */
+
+/**
+ * A page's own robot: node 0 if it got none.
+ * @typedef {{node: number, name: string}} Seat
  */
 
 /**
@@ -172,6 +179,7 @@
  *   | {do: "write", node: number, cell: number, side: number}
  *   | {do: "erase", node: number}
  *   | {do: "freeze", node: number, on: number}
+ *   | {do: "name", name: string}
  *   | {do: "add_bar", a: WirePlace, b: WirePlace}
  *   | {do: "move_bar", id: number, a: WirePlace, b: WirePlace}
  *   | {do: "remove_bar", id: number}

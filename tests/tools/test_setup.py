@@ -13,7 +13,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
-EXTRAS = ("export", "study", "cluster")
+EXTRAS = ("export", "study", "cluster", "classroom")
 STAGES = ("", "-emulator", "-gym", *(f"-{it}" for it in EXTRAS), "-tests")
 LOCKS = tuple(f"requirements{name}.lock" for name in STAGES)
 

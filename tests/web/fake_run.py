@@ -58,7 +58,7 @@ class FakeRun:
 
     def serve(self, page: Page) -> None:
         page.route(f"{HOME}**", self._answer)
-        page.route_web_socket(f"{HOME.replace('http', 'ws')}live", self._connect)
+        page.route_web_socket(f"{HOME.replace('http', 'ws')}live**", self._connect)
 
     def send(self, **fields: Any) -> None:
         """Sends the states, and with them what else a message can have."""

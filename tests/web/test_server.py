@@ -9,7 +9,7 @@ from io import StringIO
 import pytest
 
 from host_sim.live.connections import one_line_logger
-from host_sim.live.server import Listener
+from host_sim.live.listener import Listener
 from host_sim.live.token_file import local_token
 from tests.web.flood import STDERR_MAX, flood
 
@@ -112,7 +112,7 @@ def test_the_address_always_has_a_token(monkeypatch, tmp_path):
         listener = Listener(listen, 0)
         listener.socket.close()
         assert len(listener.token) >= 22
-        assert listener.url.endswith(f"/?token={listener.token}")
+        assert [url.rpartition("/")[2] for url in listener.urls] == [f"?token={listener.token}"]
 
 
 def test_the_token_of_this_machine_stays_and_is_for_this_user_alone(monkeypatch, tmp_path):

@@ -11,6 +11,7 @@ from typing import Any
 import aiohttp
 import pytest
 
+from host_sim.live.server import PAGES_MAX
 from tests.runs.support import octet
 from tests.web.support import Watched, eventually
 
@@ -187,7 +188,7 @@ def test_no_more_pages_than_fit(watched):
 
     async def crowd() -> int:
         async with aiohttp.ClientSession() as session, contextlib.AsyncExitStack() as stack:
-            for _ in range(32):
+            for _ in range(PAGES_MAX):
                 await stack.enter_async_context(session.ws_connect(f"{home}live?{query}", headers=headers))
             with pytest.raises(aiohttp.WSServerHandshakeError) as refusal:
                 await session.ws_connect(f"{home}live?{query}", headers=headers)

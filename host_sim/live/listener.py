@@ -1,0 +1,106 @@
+"""The listening socket of the page server, and the addresses and secrets by which it is reached."""
+
+import ipaddress
+import os
+import secrets
+import socket
+
+from yarl import URL
+
+from host_sim.errors import UsageError
+from host_sim.live.addresses import numbers_of
+from host_sim.live.qr_code import modules_of
+from host_sim.live.token_file import local_token
+
+
+class Listener:
+    """The listening socket of the server, opened before the run begins: a port in use must not spoil a run.
+
+    Attributes:
+        host: Address that it listens on.
+        port: Port that it listens on.
+        is_open: Whether other machines are listened to.
+        token: Secret that a page's address must contain: other users of this machine can connect, too.
+        board_token: Secret that the board's address must contain, which only its owner is told.
+        socket: The socket.
+        urls: The page's address, by number; one for each network that this machine is in.
+        board_url: The board's address.
+        qr_modules: The first of the page's addresses as a QR code: see `modules_of`; empty for this machine only.
+    """
+
+    def __init__(self, listen: str | None, port: int) -> None:
+        """Opens the socket.
+
+        Args:
+            listen: Address to listen on for other machines; None for this machine only.
+            port: Port to listen on; 0 for any free port.
+
+        Raises:
+            UsageError: The address does not exist or is in use, or a library for `--listen` is not installed.
+        """
+        self.host = listen or "127.0.0.1"
+        self.is_open = listen is not None
+        self.token = secrets.token_urlsafe(16) if listen else local_token()
+        self.board_token = secrets.token_urlsafe(16) if listen else self.token
+        try:
+            family, *_, address = socket.getaddrinfo(self.host, port, type=socket.SOCK_STREAM)[0]
+            self.socket = socket.create_server((address[0], port), family=family)
+        except OSError as error:
+            unknown = isinstance(error, socket.gaierror)
+            why = "no such address" if unknown or error.errno is None else os.strerror(error.errno).lower()
+            where = f"{self.host}, port {port}"
+            raise UsageError(f"cannot listen on {where}: {why}; choose another with --port or --listen") from None
+        self.port: int = self.socket.getsockname()[1]
+        try:
+            self._name()
+        except UsageError:
+            self.socket.close()
+            raise
+
+    def _name(self) -> None:
+        """Works out under which addresses others find the socket."""
+        numbers = numbers_of(self.socket)
+        self.urls = [self._url(number, "/", self.token) for number in numbers]
+        self.board_url = self._url(numbers[0], "/board", self.board_token)
+        self.qr_modules = modules_of(self.urls[0]) if self.is_open else []
+
+    def _url(self, number: str, path: str, token: str) -> str:
+        host = f"[{number}]" if ":" in number else number
+        return f"http://{host}:{self.port}{path}?token={token}"
+
+    def holds(self, given: str) -> bool:
+        """Whether a secret opens the page."""
+        return _is_same(given, self.token) or self.holds_board(given)
+
+    def holds_board(self, given: str) -> bool:
+        """Whether a secret opens the board, and the page with all rights."""
+        return _is_same(given, self.board_token)
+
+    def is_ours(self, host: str) -> bool:
+        """Whether a request's Host header is an address, or a name of this machine that the user knows.
+
+        A page of another site can have its own name resolve to this machine (DNS rebinding); its requests then come
+        with that name.
+        """
+        name = _host_name(host)
+        return name in ("localhost", self.host.lower(), socket.gethostname().lower()) or _is_address(name)
+
+
+def _is_same(given: str, secret: str) -> bool:
+    return secrets.compare_digest(given.encode(), secret.encode())
+
+
+def _host_name(host: str) -> str | None:
+    """The name in a Host header, without the port; None if it is not a host."""
+    try:
+        return URL(f"http://{host}").host
+    except ValueError:
+        return None
+
+
+def _is_address(name: str | None) -> bool:
+    try:
+        ipaddress.ip_address(name or "")
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,156 @@
+"""Who has which robot, where each page has one of its own."""
+
+import re
+import unicodedata
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+from host_sim.errors import OctetError
+from host_sim.live.page_commands import EraseMemory, Freeze, LiftRobot, PageCommand, PutRobot, RobotCommand, WriteCell
+
+NAME_MAX = 20
+"""Maximum length of a name tag, characters."""
+
+_KEY = re.compile(r"[0-9a-f]{32}")
+_THE_BOARDS = "the board does that for all: here you can change your own robot"
+_ONLY_WATCHING = "every robot has a page of its own already: here you can watch"
+
+
+class NotYoursError(OctetError):
+    """A command that this page may not give."""
+
+
+@dataclass
+class Seat:
+    """A robot, and the page that it belongs to.
+
+    Attributes:
+        node: The robot's node number.
+        name: The name tag that the page gave it.
+        key: What the page is recognised by when it comes again; empty while nobody has the robot.
+        pages: Number of pages with that key that are open.
+        left: When the last of them was closed, as a count of such events.
+    """
+
+    node: int
+    name: str = ""
+    key: str = ""
+    pages: int = 0
+    left: int = 0
+
+
+class Seats:
+    """Gives each page a robot, and gives it back when the page comes again.
+
+    Attributes:
+        all: One for each robot.
+    """
+
+    def __init__(self, nodes: Iterable[int]) -> None:
+        """All robots are free.
+
+        Args:
+            nodes: The robots' node numbers.
+        """
+        self.all = [Seat(node) for node in nodes]
+        self._closed = 0
+
+    def take(self, key: str) -> Seat | None:
+        """The robot of a page that has opened: its own, or a free one, or that of the page which left first.
+
+        Args:
+            key: What the page is recognised by; anything else than 32 hexadecimal digits gets no robot.
+        """
+        seat = self._seat_for(key) if _KEY.fullmatch(key) else None
+        if seat is None:
+            return None
+        if seat.key != key:
+            seat.key, seat.name = key, ""
+        seat.pages += 1
+        return seat
+
+    def leave(self, seat: Seat) -> None:
+        """A page has closed. Its robot is kept for it until all others are taken."""
+        self._closed += 1
+        seat.pages, seat.left = seat.pages - 1, self._closed
+
+    def rename(self, seat: Seat, text: str) -> None:
+        """Puts a name tag on a robot."""
+        seat.name = name_from(text)
+
+    def _seat_for(self, key: str) -> Seat | None:
+        own = next((seat for seat in self.all if seat.key == key), None)
+        free = next((seat for seat in self.all if not seat.key), None)
+        left = min((seat for seat in self.all if not seat.pages), key=lambda seat: seat.left, default=None)
+        return own or free or left
+
+
+def name_from(text: str) -> str:
+    r"""A name tag: printable characters, single spaces, at most `NAME_MAX` long.
+
+    >>> name_from("  Ada \x1b[1m  L.\n")
+    'Ada [1m L.'
+    """
+    known = unicodedata.normalize("NFC", text[: 4 * NAME_MAX])
+    printable = "".join(sign if sign.isprintable() else " " for sign in known)
+    return " ".join(printable.split())[:NAME_MAX].rstrip()
+
+
+@dataclass(frozen=True)
+class Rights:
+    """What a page may do.
+
+    Attributes:
+        seats: Who has which robot; None for a page that may do everything.
+        seat: The page's own robot; None if it has none.
+    """
+
+    seats: Seats | None = None
+    seat: Seat | None = None
+
+    @classmethod
+    @contextmanager
+    def of(cls, seats: Seats | None, key: str) -> "Iterator[Rights]":
+        """The rights of a page while it is open.
+
+        Args:
+            seats: Where each page has a robot of its own; None for a page that may do everything.
+            key: What the page is recognised by.
+        """
+        seat = seats.take(key) if seats else None
+        try:
+            yield cls(seats, seat)
+        finally:
+            if seats and seat:
+                seats.leave(seat)
+
+    def rename(self, text: str) -> None:
+        """Puts a name tag on the page's robot.
+
+        Raises:
+            NotYoursError: It has none.
+        """
+        if self.seats is None or self.seat is None:
+            raise NotYoursError("this page has no robot of its own to name")
+        self.seats.rename(self.seat, text)
+
+    def admit(self, command: PageCommand) -> PageCommand:
+        """A command that the page may give; one without a node is for its own robot.
+
+        Raises:
+            NotYoursError: The command is for all, or for another robot.
+        """
+        if self.seats is None:
+            return command
+        if self.seat is None:
+            raise NotYoursError(_ONLY_WATCHING)
+        if not isinstance(command, (WriteCell, EraseMemory, Freeze, LiftRobot, PutRobot)):
+            raise NotYoursError(_THE_BOARDS)
+        return _for_node(command, self.seat.node)
+
+
+def _for_node(command: RobotCommand, node: int) -> PageCommand:
+    if command.node not in (None, node):
+        raise NotYoursError(f"robot {command.node} is not yours: yours is robot {node}")
+    return replace(command, node=node)

@@ -1,0 +1,99 @@
+"""A page that is open: it is sent what is new, and what it asks for is carried out if it may."""
+
+import asyncio
+import contextlib
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from aiohttp import WSCloseCode, WSMsgType, web
+
+from host_sim.live.paced_run import PacedRun
+from host_sim.live.page_commands import NameTag, Play, page_command_from
+from host_sim.live.seats import NotYoursError, Rights
+
+_REFUSALS_MAX = 100
+
+
+class Feed(Protocol):
+    """What a page is sent."""
+
+    notes: deque[str]
+
+    def next(self) -> str | None:
+        """The next message; None if there is nothing new."""
+
+
+@dataclass
+class Visitor:
+    """One page, or a board.
+
+    Attributes:
+        socket: Its connection.
+        feed: What it is sent.
+        rights: What it may do.
+        pause_s: Gives the minimum time between two messages to it.
+        begins: Whether it begins a run that waits, when it is told to play.
+    """
+
+    socket: web.WebSocketResponse
+    feed: Feed
+    rights: Rights
+    pause_s: Callable[[], float]
+    begins: bool = False
+
+    async def serve(self, live: PacedRun) -> None:
+        """Serves it until it disconnects, or has sent too many invalid messages."""
+        sender = asyncio.create_task(self._send())
+        try:
+            await self._receive(live)
+        finally:
+            sender.cancel()
+
+    async def _send(self) -> None:
+        """Sends the latest state, as fast as the page reads."""
+        with contextlib.suppress(ConnectionError):
+            while not self.socket.closed:
+                message = self.feed.next()
+                if message is not None:
+                    await self.socket.send_str(message)
+                await asyncio.sleep(self.pause_s())
+
+    async def _receive(self, live: PacedRun) -> None:
+        refusals = 0
+        while refusals < _REFUSALS_MAX:
+            message = await self.socket.receive()
+            if message.type is WSMsgType.TEXT:
+                refusals += not self._accept(message.data, live)
+            elif message.type is WSMsgType.BINARY:
+                live.refused += 1
+                refusals += 1
+            else:
+                live.refused += message.type is WSMsgType.ERROR
+                return
+        await self.socket.close(code=WSCloseCode.POLICY_VIOLATION, message=b"too many invalid messages")
+
+    def _accept(self, text: str, live: PacedRun) -> bool:
+        """Carries out a message; False if it is not a command."""
+        try:
+            self._obey(text, live)
+        except NotYoursError as error:
+            live.change += 1
+            self.feed.notes.append(str(error))
+        except ValueError as error:
+            live.refused += 1
+            live.change += 1
+            self.feed.notes.append(f"not understood: {error}"[:200])
+            return False
+        return True
+
+    def _obey(self, text: str, live: PacedRun) -> None:
+        command = page_command_from(text)
+        if isinstance(command, NameTag):
+            self.rights.rename(command.text)
+            live.change += 1
+            return
+        live.offer(self.rights.admit(command), self.feed.notes.append)
+        if self.begins and command == Play(on=True):
+            live.seen()

@@ -1,0 +1,111 @@
+"""Each page has a robot of its own, and gets it back when it comes again."""
+
+import pytest
+
+from host_sim.live.page_commands import (
+    EraseMemory,
+    Freeze,
+    LiftRobot,
+    NewSeed,
+    NextEnvironment,
+    Play,
+    PutRobot,
+    WriteCell,
+)
+from host_sim.live.seats import NAME_MAX, NotYoursError, Rights, Seats, name_from
+from host_sim.world.edits import AddBar
+from host_sim.world.geometry import Bar, Pose
+
+A, B, C = (f"{i:032x}" for i in (10, 11, 12))
+
+
+@pytest.fixture
+def seats() -> Seats:
+    return Seats([1, 2])
+
+
+def test_who_comes_gets_the_next_free_robot(seats):
+    assert [seats.take(key).node for key in (A, B)] == [1, 2]
+    assert seats.take(C) is None
+
+
+def test_a_page_that_is_loaded_again_gets_its_robot_and_its_name_tag_back(seats):
+    seat = seats.take(A)
+    seats.rename(seat, "Ada")
+    seats.leave(seat)
+    seats.take(B)
+
+    again = seats.take(A)
+
+    assert (again.node, again.name, again.pages) == (1, "Ada", 1)
+
+
+def test_two_pages_of_one_tab_share_its_robot(seats):
+    assert seats.take(A) is seats.take(A)
+    assert seats.take(B).node == 2
+
+
+def test_the_robot_of_the_page_that_left_first_goes_to_a_newcomer_when_no_other_is_free(seats):
+    first, second = seats.take(A), seats.take(B)
+    seats.rename(second, "Ben")
+    seats.leave(second)
+    seats.leave(first)
+
+    newcomer = seats.take(C)
+
+    assert (newcomer.node, newcomer.name) == (2, "")
+    assert seats.take(B).node == 1
+
+
+@pytest.mark.parametrize("key", ["", "1", "x" * 32, A.upper(), A + "0", "../" + A[3:]])
+def test_what_is_no_key_gets_no_robot(seats, key):
+    assert seats.take(key) is None
+
+
+@pytest.mark.parametrize(
+    ("typed", "tag"),
+    [
+        ("Ada", "Ada"),
+        ("  Ada \n\t Lovelace ", "Ada Lovelace"),
+        ("x" * 1000, "x" * NAME_MAX),
+        ("\x00\x1b[31m\u202eevil\u200b", "[31m evil"),
+        ("<script>", "<script>"),
+        ("Zoe\u0308", "Zo\u00eb"),
+        ("", ""),
+    ],
+)
+def test_a_name_tag_is_short_and_printable(typed, tag):
+    assert name_from(typed) == tag
+
+
+def test_a_page_changes_its_own_robot_only(seats):
+    with Rights.of(seats, A) as first, Rights.of(seats, B) as rights:
+        assert first.admit(EraseMemory()) == EraseMemory(1)
+        assert rights.admit(WriteCell(3, 1)) == WriteCell(3, 1, 2)
+        assert rights.admit(Freeze(on=True, node=2)) == Freeze(on=True, node=2)
+        assert rights.admit(LiftRobot(2)) == LiftRobot(2)
+        with pytest.raises(NotYoursError, match="robot 1 is not yours: yours is robot 2"):
+            rights.admit(PutRobot(Pose(1, 2, 0), 1))
+
+
+@pytest.mark.parametrize("command", [Play(on=False), NextEnvironment(), NewSeed(1), AddBar(Bar((0, 0), (9, 9)))])
+def test_what_is_for_all_is_for_the_board(seats, command):
+    with Rights.of(seats, A) as rights, pytest.raises(NotYoursError, match="the board does that for all"):
+        rights.admit(command)
+    with Rights.of(None, "") as board:
+        assert board.admit(command) is command
+
+
+def test_a_page_without_a_robot_can_watch(seats):
+    with Rights.of(seats, "") as rights:
+        with pytest.raises(NotYoursError, match="here you can watch"):
+            rights.admit(EraseMemory())
+        with pytest.raises(NotYoursError, match="no robot of its own"):
+            rights.rename("Ada")
+
+
+def test_a_robot_is_kept_when_its_page_fails(seats):
+    with pytest.raises(ZeroDivisionError), Rights.of(seats, A):
+        raise ZeroDivisionError
+
+    assert [(seat.key, seat.pages) for seat in seats.all] == [(A, 0), ("", 0)]
