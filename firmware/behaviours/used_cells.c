@@ -44,18 +44,18 @@ static void end_episode(struct brain *brain, int change)
 void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern, int praise)
 {
     switch (action->reason) {
+    case REASON_TRIAL:
+        break;
     case REASON_REMEMBERED:
         brain->used |= (uint8_t)(1u << pattern);
-        return;
-    case REASON_TRIAL:
-        return;
+        break;
     case REASON_BOREDOM:
         brain->repeat_count = 0;
         end_episode(brain, BLAME);
-        return;
+        break;
     default:   /* the way is clear */
         end_episode(brain, praise);
-        return;
+        break;
     }
 }
 

@@ -13,7 +13,8 @@ import { meetingsOf } from "./plant_meetings.js";
  * @typedef {{lane: Lane, data: RunData}} Shown
  */
 
-const [FRONT_RIGHT, FRONT_LEFT] = ["front-right", "front-left"].map((name) => PATTERNS.indexOf(name));
+const FRONT_RIGHT = PATTERNS.indexOf("front-right");
+const FRONT_LEFT = PATTERNS.indexOf("front-left");
 const STUCK_S = 10;
 const SOON_CLEAR_S = 4;
 const FAST_S = 40;
