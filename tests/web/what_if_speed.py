@@ -5,10 +5,11 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Page
 
 from tests.runs.support import octet
-from tests.web.support import CHROMIUM, READY, wait_for
+from tests.web.browsers import CHROMIUM, launched
+from tests.web.support import READY, wait_for
 from tests.web.test_replay_what_if import REPEATED
 
 _WORDS = ("--environments", "8", "--limit-s", "120", "--seed", "1", "--profile", "never", "--quiet")
@@ -23,16 +24,14 @@ _CHANGE = """async (cell) => {
 
 
 def main() -> int:
-    with TemporaryDirectory() as folder, sync_playwright() as playwright:
+    with TemporaryDirectory() as folder, launched(CHROMIUM) as browser:
         out = Path(folder)
         octet("run", "--bus", "none", "--out", out, *_WORDS)
         octet("replay", out / "run.log", "--html", out / "page.html", "--what-if")
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         page = browser.new_page()
         page.goto((out / "page.html").as_uri())
         wait_for(page, READY)
         _measure(page)
-        browser.close()
     return 0
 
 
