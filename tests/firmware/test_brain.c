@@ -142,6 +142,38 @@ static void test_what_is_written_must_be_of_the_profiles_kind(void)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
+static void test_a_run_begins_with_a_decision(void)
+{
+    brain_start(&brain, PROFILE_ARTICLE, 1);
+    TEST_ASSERT_EQUAL(REASON_WANDER, next(0).reason);
+    brain_start(&brain, PROFILE_ARTICLE, 1);
+    TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
+}
+
+static void test_an_action_that_was_not_carried_out_has_no_verdict(void)
+{
+    brain_start(&brain, PROFILE_ARTICLE, 1);
+    next(0);   /* after a step it would look around */
+    brain_forget_trial(&brain);
+    TEST_ASSERT_EQUAL(REASON_WANDER, next(0).reason);
+}
+
+static void test_a_start_keeps_a_change_that_was_not_yet_reported(void)
+{
+    brain.changed = true;
+    brain_start(&brain, PROFILE_ARTICLE, 1);
+    TEST_ASSERT_TRUE(brain.changed);
+}
+
+static void test_the_first_profile_of_all_is_asked_too(void)
+{
+    static const uint8_t sides[CELL_COUNT] = {0, SIDE_LEFT};
+
+    brain_start(&brain, PROFILE_ADAPTIVE, 1);
+    TEST_ASSERT_TRUE(brain_adopt(&brain, sides));
+    TEST_ASSERT_EQUAL_UINT8(0, brain.profile);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -156,5 +188,9 @@ int main(void)
     RUN_TEST(test_an_adopted_memory_chooses_the_first_profile_that_understands_it);
     RUN_TEST(test_bytes_that_are_no_memory_change_nothing);
     RUN_TEST(test_what_is_written_must_be_of_the_profiles_kind);
+    RUN_TEST(test_a_run_begins_with_a_decision);
+    RUN_TEST(test_an_action_that_was_not_carried_out_has_no_verdict);
+    RUN_TEST(test_a_start_keeps_a_change_that_was_not_yet_reported);
+    RUN_TEST(test_the_first_profile_of_all_is_asked_too);
     return UNITY_END();
 }

@@ -167,11 +167,6 @@ static void test_get_tells_one_parameter(void)
     TEST_ASSERT_EQUAL_UINT32(100, value_told);
 }
 
-static void test_get_of_an_unknown_parameter_changes_nothing(void)
-{
-    assert_refused(RESULT_UNKNOWN_PARAMETER, OPCODE_GET, PARAMETER_COUNT, 0);
-}
-
 static void test_a_report_changes_nothing(void)
 {
     assert_refused(RESULT_DONE, OPCODE_REPORT, 0, 0);
@@ -224,6 +219,30 @@ static void test_freeze_0_lets_it_learn_again(void)
     TEST_ASSERT_FALSE(robot.brain.frozen);
 }
 
+static void test_get_of_any_parameter_beyond_the_last_is_refused(void)
+{
+    for (unsigned parameter = PARAMETER_COUNT; parameter <= UINT8_MAX; parameter++)
+        assert_refused(RESULT_UNKNOWN_PARAMETER, OPCODE_GET, parameter, 0);
+}
+
+/* Whoever stopped the robot may have carried it elsewhere while no senses came. */
+static void test_where_the_wheels_were_before_a_stop_is_forgotten(void)
+{
+    TEST_ASSERT_TRUE(robot.motion.referenced);
+    execute(OPCODE_STOP, 0, 0);
+    TEST_ASSERT_FALSE(robot.motion.referenced);
+}
+
+static void test_start_trusts_every_sensor_again(void)
+{
+    static const struct perception fresh;
+
+    execute(OPCODE_SET, DISTRUST, 1);
+    step(FRONT);
+    execute(OPCODE_START, PROFILE_ARTICLE, 1);
+    TEST_ASSERT_EQUAL_MEMORY(&fresh, &robot.perception, sizeof fresh);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -243,7 +262,6 @@ int main(void)
     RUN_TEST(test_an_unknown_parameter_changes_nothing);
     RUN_TEST(test_a_value_out_of_range_changes_nothing);
     RUN_TEST(test_get_tells_one_parameter);
-    RUN_TEST(test_get_of_an_unknown_parameter_changes_nothing);
     RUN_TEST(test_a_report_changes_nothing);
     RUN_TEST(test_write_sets_the_cells_of_the_mask);
     RUN_TEST(test_what_was_written_is_to_be_stored);
@@ -252,5 +270,8 @@ int main(void)
     RUN_TEST(test_what_was_erased_is_to_be_stored);
     RUN_TEST(test_freeze_stops_learning);
     RUN_TEST(test_freeze_0_lets_it_learn_again);
+    RUN_TEST(test_get_of_any_parameter_beyond_the_last_is_refused);
+    RUN_TEST(test_where_the_wheels_were_before_a_stop_is_forgotten);
+    RUN_TEST(test_start_trusts_every_sensor_again);
     return UNITY_END();
 }

@@ -82,6 +82,16 @@ static void test_with_what_is_no_side_it_is_none(void)
     TEST_ASSERT_FALSE(feel_memory_is(memory.cell));
 }
 
+static void test_with_any_side_for_a_clear_way_it_is_none(void)
+{
+    for (unsigned side = SIDE_LEFT; side <= SIDE_RIGHT; side++) {
+        struct memory marked = {{0x0F}};
+
+        feel_memory_learn(&marked, FEEL_LEFT, (enum side)side);
+        TEST_ASSERT_FALSE(feel_memory_is(marked.cell));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -93,5 +103,6 @@ int main(void)
     RUN_TEST(test_without_the_mark_it_is_none);
     RUN_TEST(test_with_a_turn_for_a_clear_way_it_is_none);
     RUN_TEST(test_with_what_is_no_side_it_is_none);
+    RUN_TEST(test_with_any_side_for_a_clear_way_it_is_none);
     return UNITY_END();
 }

@@ -186,6 +186,44 @@ static void test_a_start_trusts_again(void)
     TEST_ASSERT_EQUAL(REASON_TRIAL, step(FRONT).reason);
 }
 
+static void test_while_no_sensor_is_distrusted_none_is_counted(void)
+{
+    decide(ALL, 300);
+    config_set(&config, DISTRUST, 1);
+    TEST_ASSERT_EQUAL_HEX8(ALL, believed(ALL));
+}
+
+static void test_a_limit_of_one_distrusts_after_the_first_decision(void)
+{
+    config_set(&config, DISTRUST, 1);
+    decide(FRONT, 1);
+    TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
+}
+
+static void test_every_sensor_can_be_distrusted(void)
+{
+    config_set(&config, DISTRUST, LIMIT);
+    decide(ALL, LIMIT + 5);
+    TEST_ASSERT_EQUAL_HEX8(0, believed(ALL));
+}
+
+static void test_after_a_quiet_decision_the_count_begins_at_nothing(void)
+{
+    config_set(&config, DISTRUST, LIMIT);
+    decide(FRONT, LIMIT);
+    decide(0, 1);
+    decide(FRONT, LIMIT - 1);
+    TEST_ASSERT_EQUAL_HEX8(FRONT, believed(FRONT));
+}
+
+static void test_a_new_start_trusts_every_sensor(void)
+{
+    config_set(&config, DISTRUST, LIMIT);
+    decide(ALL, LIMIT);
+    perception_start(&perception);
+    TEST_ASSERT_EQUAL_HEX8(ALL, believed(ALL));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -201,5 +239,10 @@ int main(void)
     RUN_TEST(test_by_default_a_trial_is_judged_at_once);
     RUN_TEST(test_a_sensor_that_is_stuck_blocks_no_robot_that_distrusts_it);
     RUN_TEST(test_a_start_trusts_again);
+    RUN_TEST(test_while_no_sensor_is_distrusted_none_is_counted);
+    RUN_TEST(test_a_limit_of_one_distrusts_after_the_first_decision);
+    RUN_TEST(test_every_sensor_can_be_distrusted);
+    RUN_TEST(test_after_a_quiet_decision_the_count_begins_at_nothing);
+    RUN_TEST(test_a_new_start_trusts_every_sensor);
     return UNITY_END();
 }

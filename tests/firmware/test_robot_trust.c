@@ -129,6 +129,63 @@ static void test_after_silence_wheels_may_have_rolled_far(void)
     TEST_ASSERT_FALSE(out.contradiction);
 }
 
+static void stand_until_it_stops(void)
+{
+    for (unsigned ticks = 0; robot.running && ticks < MANY; ticks++)
+        sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
+    TEST_ASSERT_FALSE(robot.running);
+}
+
+static void test_resumed_with_wheels_that_still_do_not_obey_it_stops_again(void)
+{
+    stand_until_it_stops();
+    command(OPCODE_RESUME, 0, 0);
+    stand_until_it_stops();
+}
+
+static void test_resumed_without_ever_having_been_started_it_trusts_its_wheels(void)
+{
+    robot_init(&robot, 1);
+    command(OPCODE_RESUME, 0, 0);
+    for (unsigned i = 0; i < MANY; i++) {
+        obey(CLEAR);
+        TEST_ASSERT_FALSE(out.denied);
+    }
+}
+
+/* 45 degrees take 12.5 ticks: twice as many, and 25. */
+static void test_after_a_trial_that_was_given_up_it_does_not_wait_for_the_filter(void)
+{
+    unsigned ticks = 0;
+
+    command(OPCODE_SET, FILTER, 1);
+    while (out.drive.reason != REASON_TRIAL)
+        sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
+    do {
+        sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
+        ticks++;
+    } while (!out.denied && ticks < MANY);
+    TEST_ASSERT_EQUAL_UINT(50, ticks);
+}
+
+/* In one tick no wheel makes 200 counts, whatever the number of the tick. */
+static void test_wheels_that_jump_within_a_tick_are_seen_at_any_tick(void)
+{
+    for (unsigned tick = 1; tick < 250; tick += 31) {
+        setUp();
+        sense((struct senses){.tick = (uint8_t)tick});
+        sense((struct senses){.tick = (uint8_t)(tick + 1), .odometer_left = 200});
+        TEST_ASSERT_TRUE(out.contradiction);
+    }
+}
+
+static void test_a_sensor_is_distrusted_in_the_very_decision_that_is_one_too_many(void)
+{
+    command(OPCODE_SET, DISTRUST, 1);
+    feel(FRONT);
+    TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -142,5 +199,10 @@ int main(void)
     RUN_TEST(test_a_distance_to_no_food_is_a_contradiction);
     RUN_TEST(test_odometers_that_jump_turn_nothing);
     RUN_TEST(test_after_silence_wheels_may_have_rolled_far);
+    RUN_TEST(test_resumed_with_wheels_that_still_do_not_obey_it_stops_again);
+    RUN_TEST(test_resumed_without_ever_having_been_started_it_trusts_its_wheels);
+    RUN_TEST(test_after_a_trial_that_was_given_up_it_does_not_wait_for_the_filter);
+    RUN_TEST(test_wheels_that_jump_within_a_tick_are_seen_at_any_tick);
+    RUN_TEST(test_a_sensor_is_distrusted_in_the_very_decision_that_is_one_too_many);
     return UNITY_END();
 }

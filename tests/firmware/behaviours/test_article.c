@@ -383,6 +383,28 @@ static void test_a_step_a_meal_and_a_remembered_turn_draw_no_random_number(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &brain.random, sizeof before);
 }
 
+/* The article's draws: random(2) is 1 for a look to the right. */
+static void test_it_looks_to_the_right_where_the_draw_is_1(void)
+{
+    for (unsigned i = 0; i < 20; i++) {
+        struct random dice;
+
+        next(CLEAR);
+        dice = brain.random;
+        TEST_ASSERT_EQUAL(random_below(&dice, 2) == 1, next(CLEAR).turn_deg > 0);
+    }
+}
+
+/* random(2) + 1 is the side: 1 left, 2 right. */
+static void test_it_tries_the_side_that_is_drawn(void)
+{
+    for (unsigned i = 0; i < 20; i++) {
+        struct random dice = brain.random;
+
+        TEST_ASSERT_EQUAL(random_below(&dice, 2) + 1 == SIDE_RIGHT, next(FRONT).turn_deg > 0);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -426,5 +448,7 @@ int main(void)
     RUN_TEST(test_a_start_ends_the_count);
     RUN_TEST(test_equal_seeds_make_equal_choices);
     RUN_TEST(test_a_step_a_meal_and_a_remembered_turn_draw_no_random_number);
+    RUN_TEST(test_it_looks_to_the_right_where_the_draw_is_1);
+    RUN_TEST(test_it_tries_the_side_that_is_drawn);
     return UNITY_END();
 }

@@ -99,6 +99,13 @@ static void test_nor_does_one_that_a_memory_has_chosen(void)
     TEST_ASSERT_FALSE(brain.wants_ranges);
 }
 
+static void test_the_smallest_turn_is_to_its_side_too(void)
+{
+    config_set(&config, TURN_DEG, 1);
+    TEST_ASSERT_EQUAL_INT(21, turn_with(SIDE_RIGHT, 2, 0));
+    TEST_ASSERT_EQUAL_INT(-21, turn_with(SIDE_LEFT, 2, 0));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -110,5 +117,6 @@ int main(void)
     RUN_TEST(test_a_trial_is_as_big_as_ever);
     RUN_TEST(test_another_behaviour_wants_none);
     RUN_TEST(test_nor_does_one_that_a_memory_has_chosen);
+    RUN_TEST(test_the_smallest_turn_is_to_its_side_too);
     return UNITY_END();
 }

@@ -61,6 +61,14 @@ static void test_a_frozen_brain_learns_nothing(void)
     TEST_ASSERT_EACH_EQUAL_HEX8(0, brain.memory.cell, CELL_COUNT);
 }
 
+static void test_a_trial_that_helped_is_a_change(void)
+{
+    next(ALL_THREE);
+    next(CLEAR);
+    TEST_ASSERT_TRUE(brain.changed);
+    TEST_ASSERT_TRUE(brain.learns);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -69,5 +77,6 @@ int main(void)
     RUN_TEST(test_the_side_sensors_do_not_judge_a_trial);
     RUN_TEST(test_boredom_can_strike_again);
     RUN_TEST(test_a_frozen_brain_learns_nothing);
+    RUN_TEST(test_a_trial_that_helped_is_a_change);
     return UNITY_END();
 }

@@ -80,6 +80,29 @@ static void test_a_frozen_brain_forgets_nothing(void)
     TEST_ASSERT_EQUAL_HEX8(0, brain.unlearned);
 }
 
+static void test_what_it_learns_is_a_side_and_no_more(void)
+{
+    TEST_ASSERT_TRUE(brain.learns);
+    next(ALL_THREE);
+    next(CLEAR);
+    next(CLEAR);   /* looks around */
+    next(ALL_THREE);
+    next(CLEAR);   /* the turn that it remembered led to a clear way */
+    TEST_ASSERT_TRUE(brain.memory.cell[PATTERN_ALL_THREE] == SIDE_LEFT
+                     || brain.memory.cell[PATTERN_ALL_THREE] == SIDE_RIGHT);
+}
+
+static void test_a_run_begins_with_no_cell_used(void)
+{
+    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    memory_learn(&brain.memory, PATTERN_ALL_THREE, SIDE_LEFT);
+    next(ALL_THREE);
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_FORGETFUL, 1));
+    remembered_turns(10);
+    TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
+    TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_ALL_THREE));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -90,5 +113,7 @@ int main(void)
     RUN_TEST(test_it_knows_what_boredom_has_emptied);
     RUN_TEST(test_what_a_person_has_emptied_was_not_boredom);
     RUN_TEST(test_a_frozen_brain_forgets_nothing);
+    RUN_TEST(test_what_it_learns_is_a_side_and_no_more);
+    RUN_TEST(test_a_run_begins_with_no_cell_used);
     return UNITY_END();
 }

@@ -76,6 +76,35 @@ static void test_it_leaves_the_memory_as_it_is(void)
     TEST_ASSERT_FALSE(brain.learns);
 }
 
+static void test_the_bigger_turn_is_to_the_side_that_is_drawn(void)
+{
+    unsigned turns = 0;
+
+    while (turns < 20) {
+        struct random dice = brain.random;
+        bool right = random_below(&dice, 2) + 1 == SIDE_RIGHT;
+        struct action action = next(ALL_THREE);
+
+        TEST_ASSERT_EQUAL(right, action.turn_deg > 0);
+        turns += action.reason == REASON_BOREDOM;
+    }
+}
+
+static void test_only_trials_are_counted(void)
+{
+    for (unsigned i = 0; i < MANY; i++)
+        TEST_ASSERT_TRUE(next(0).reason != REASON_BOREDOM);
+    TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
+}
+
+static void test_a_limit_that_is_lowered_meanwhile_counts_at_once(void)
+{
+    for (unsigned i = 0; i < 8; i++)
+        next(ALL_THREE);
+    config_set(&config, BOREDOM_LIMIT, 5);
+    TEST_ASSERT_EQUAL(REASON_BOREDOM, next(ALL_THREE).reason);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -84,5 +113,8 @@ int main(void)
     RUN_TEST(test_every_tenth_trial_in_a_row_is_a_bigger_turn);
     RUN_TEST(test_a_clear_way_ends_the_trials_in_a_row);
     RUN_TEST(test_it_leaves_the_memory_as_it_is);
+    RUN_TEST(test_the_bigger_turn_is_to_the_side_that_is_drawn);
+    RUN_TEST(test_only_trials_are_counted);
+    RUN_TEST(test_a_limit_that_is_lowered_meanwhile_counts_at_once);
     return UNITY_END();
 }

@@ -42,6 +42,11 @@ static void test_a_frozen_brain_forgets_nothing(void)
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
+static void test_it_learns(void)
+{
+    TEST_ASSERT_TRUE(brain.learns);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -49,5 +54,6 @@ int main(void)
     RUN_TEST(test_one_that_frees_a_sensor_is_kept);
     RUN_TEST(test_the_turn_before_the_about_face_is_checked_too);
     RUN_TEST(test_a_frozen_brain_forgets_nothing);
+    RUN_TEST(test_it_learns);
     return UNITY_END();
 }

@@ -133,6 +133,94 @@ static void test_boredom_turns_it_about_though_the_way_is_clear(void)
     TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(CLEAR).reason);
 }
 
+static void test_it_learns_and_stores_it(void)
+{
+    TEST_ASSERT_TRUE(brain.learns);
+}
+
+static void test_it_turns_to_the_right_where_the_draw_is_1(void)
+{
+    for (uint32_t seed = 0; seed < 100; seed++) {
+        struct random dice;
+
+        TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, seed));
+        dice = brain.random;
+        TEST_ASSERT_EQUAL(random_below(&dice, 2) == 1, next(CLEAR).turn_deg > 0);
+    }
+}
+
+/* Nine steps of 111 mm are 999 mm. */
+static void test_it_looks_around_after_a_metre_and_not_before(void)
+{
+    config.value[STEP_MM] = 111;
+    assert_turns_once_around();
+    steps(10);
+    assert_turns_once_around();
+}
+
+static void test_after_losing_food_it_looks_around_after_two_hundred_millimetres_and_not_before(void)
+{
+    static const unsigned steps_of[][2] = {{200, 1}, {199, 2}};
+
+    for (unsigned i = 0; i < 2; i++) {
+        begin(PROFILE_SEARCHER);
+        config.value[STEP_MM] = (uint8_t)steps_of[i][0];
+        next_seeing_food(900);
+        steps(steps_of[i][1]);
+        assert_turns_once_around();
+    }
+}
+
+static void test_food_that_is_out_of_reach_is_driven_to_step_by_step(void)
+{
+    for (unsigned i = 0; i < 3; i++)
+        TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(900).reason);
+}
+
+static void test_a_meal_is_over_after_one_look_around(void)
+{
+    next_seeing_food(155);
+    next_seeing_food(149);
+    assert_turns_once_around();
+    steps(84);
+}
+
+static void test_where_a_step_ends_at_an_obstacle_it_tries_a_turn(void)
+{
+    assert_turns_once_around();
+    steps(1);
+    TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
+}
+
+static void test_food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look(void)
+{
+    const struct senses blocked = {.feel = FRONT, .look = true, .beacon_mm = 900};
+
+    config.value[STEP_MM] = 111;
+    assert_turns_once_around();
+    steps(1);
+    TEST_ASSERT_EQUAL(REASON_TRIAL, brain_next(&brain, &config, &blocked).reason);
+    steps(10);
+    assert_turns_once_around();
+}
+
+static void test_a_start_forgets_the_food_that_it_was_going_to(void)
+{
+    next_seeing_food(900);
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
+    assert_turns_once_around();
+}
+
+static void test_a_start_forgets_the_food_that_it_has_lost(void)
+{
+    next_seeing_food(900);
+    steps(17);
+    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
+    next_seeing_food(900);
+    steps(17);
+    assert_turns_once_around();
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -147,5 +235,15 @@ int main(void)
     RUN_TEST(test_a_turn_around_ends_the_count);
     RUN_TEST(test_it_turns_around_either_way);
     RUN_TEST(test_boredom_turns_it_about_though_the_way_is_clear);
+    RUN_TEST(test_it_learns_and_stores_it);
+    RUN_TEST(test_it_turns_to_the_right_where_the_draw_is_1);
+    RUN_TEST(test_it_looks_around_after_a_metre_and_not_before);
+    RUN_TEST(test_after_losing_food_it_looks_around_after_two_hundred_millimetres_and_not_before);
+    RUN_TEST(test_food_that_is_out_of_reach_is_driven_to_step_by_step);
+    RUN_TEST(test_a_meal_is_over_after_one_look_around);
+    RUN_TEST(test_where_a_step_ends_at_an_obstacle_it_tries_a_turn);
+    RUN_TEST(test_food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look);
+    RUN_TEST(test_a_start_forgets_the_food_that_it_was_going_to);
+    RUN_TEST(test_a_start_forgets_the_food_that_it_has_lost);
     return UNITY_END();
 }

@@ -1,0 +1,269 @@
+/* What motion makes of its figures, to the last count: 160 mm between the wheels, 200 mm/s, 180 degrees/s, ticks of 20 ms. */
+#include "firmware/motion.h"
+
+#include <unity.h>
+
+#include "motion_rig.h"
+
+enum {
+    DEGREE = 457528,                    /* of turn_left: 160 mm * pi / 180, of which a count of both wheels is COUNT */
+    COUNT = 16384,
+    PRECISION = DEGREE / 8,
+    TURN_MAX = 1000000000,
+    WAY_MAX = 16000,
+    FASTEST_COUNTS = 50                 /* of a wheel in a tick, turning */
+};
+
+void setUp(void)
+{
+    config_reset(&config);
+    stand_at(0.0, 0.0);
+}
+
+void tearDown(void) {}
+
+static void roll(int left_counts, int right_counts)
+{
+    const struct senses senses = {
+        .tick = ++body.tick,
+        .odometer_left = (uint16_t)((motion.odometer_left + left_counts) & (ODOMETER_SPAN - 1)),
+        .odometer_right = (uint16_t)((motion.odometer_right + right_counts) & (ODOMETER_SPAN - 1)),
+    };
+
+    motion_track(&motion, &senses);
+}
+
+static bool has_ended(void)
+{
+    const struct senses senses = {.tick = body.tick};
+
+    return motion_ended(&motion, &config, &senses);
+}
+
+static bool is_credible(int left_counts, int right_counts, unsigned ticks)
+{
+    const struct senses senses = {
+        .odometer_left = (uint16_t)(left_counts & (ODOMETER_SPAN - 1)),
+        .odometer_right = (uint16_t)(right_counts & (ODOMETER_SPAN - 1)),
+    };
+
+    return motion_is_credible(&motion, &config, &senses, ticks);
+}
+
+static void assert_farthest(int counts, unsigned ticks)
+{
+    TEST_ASSERT_TRUE(is_credible(counts, -counts, ticks));
+    TEST_ASSERT_FALSE(is_credible(counts + 1, 0, ticks));
+    TEST_ASSERT_FALSE(is_credible(0, -counts - 1, ticks));
+}
+
+static void test_a_degree_is_rounded_to_the_nearest(void)
+{
+    begin(1, 0);
+    TEST_ASSERT_EQUAL_INT32(DEGREE, motion.turn_left);
+}
+
+static void test_wheels_are_believed_up_to_13_eighths_of_the_fastest_and_2_counts(void)
+{
+    assert_farthest(83, 1);
+    assert_farthest(409, 5);
+}
+
+static void test_the_fastest_is_the_greater_of_both_speeds(void)
+{
+    config_set(&config, SPEED_MM_S, 250);
+    config_set(&config, TURN_SPEED_DEG_S, 30);
+    assert_farthest(83, 1);
+    config_set(&config, SPEED_MM_S, 20);
+    config_set(&config, TURN_SPEED_DEG_S, 180);
+    assert_farthest(83, 1);
+}
+
+static void test_lifted_wheels_are_believed_whatever_they_say(void)
+{
+    motion_lift(&motion);
+    TEST_ASSERT_TRUE(is_credible(2000, -2000, 1));
+}
+
+static void test_half_the_span_counts_as_backward(void)
+{
+    roll(ODOMETER_SPAN / 2 - 1, ODOMETER_SPAN / 2 - 1);
+    TEST_ASSERT_EQUAL_INT16(-(ODOMETER_SPAN - 2), motion.way_left);
+    motion.way_left = 0;
+    roll(ODOMETER_SPAN / 2, ODOMETER_SPAN / 2);
+    TEST_ASSERT_EQUAL_INT16(ODOMETER_SPAN, motion.way_left);
+}
+
+static void test_an_error_grows_to_its_limit_and_no_farther(void)
+{
+    for (unsigned i = 0; i < 20; i++)
+        roll(2000, -2000);
+    TEST_ASSERT_EQUAL_INT32(-TURN_MAX, motion.turn_left);
+    begin(-359, 0);
+    TEST_ASSERT_EQUAL_INT32(-TURN_MAX, motion.turn_left);
+    for (unsigned i = 0; i < 40; i++)
+        roll(-2000, 2000);
+    TEST_ASSERT_EQUAL_INT32(TURN_MAX, motion.turn_left);
+}
+
+static void test_a_turn_adds_to_an_error_up_to_its_limit(void)
+{
+    for (unsigned i = 0; i < 20; i++)
+        roll(-2000, 2000);
+    begin(359, 0);
+    TEST_ASSERT_EQUAL_INT32(TURN_MAX, motion.turn_left);
+}
+
+static void test_a_way_too_far_is_counted_up_to_its_limit(void)
+{
+    for (unsigned i = 0; i < 5; i++)
+        roll(2000, 2000);
+    TEST_ASSERT_EQUAL_INT16(-WAY_MAX, motion.way_left);
+    for (unsigned i = 0; i < 10; i++)
+        roll(-2000, -2000);
+    TEST_ASSERT_EQUAL_INT16(WAY_MAX, motion.way_left);
+}
+
+static void test_a_turn_has_ended_an_eighth_of_a_degree_before_its_end(void)
+{
+    begin(1, 0);
+    motion.turn_left = PRECISION + 1;
+    TEST_ASSERT_FALSE(has_ended());
+    motion.turn_left = PRECISION;
+    TEST_ASSERT_TRUE(has_ended());
+}
+
+static void test_a_step_has_ended_five_counts_before_its_end(void)
+{
+    begin(0, 12);
+    motion.way_left = 6;
+    TEST_ASSERT_FALSE(has_ended());
+    motion.way_left = 5;
+    TEST_ASSERT_TRUE(has_ended());
+}
+
+static void test_the_last_speed_is_what_covers_the_rest_in_a_tick(void)
+{
+    static const struct {
+        uint8_t tick_ms;
+        int16_t way_left;
+        int16_t speed_mm_s;
+    } cases[] = {{20, 1, 3}, {20, -1, -3}, {20, 79, 198}, {30, 119, 198}, {20, 0, 0}};
+
+    for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++) {
+        config.value[TICK_MS] = cases[i].tick_ms;
+        begin(0, 12);
+        motion.way_left = cases[i].way_left;
+        TEST_ASSERT_EQUAL_INT16(cases[i].speed_mm_s, driven().left_mm_s);
+    }
+}
+
+static void test_so_it_is_in_a_turn(void)
+{
+    begin(1, 0);
+    motion.turn_left = FASTEST_COUNTS * COUNT;
+    TEST_ASSERT_EQUAL_INT16(125, driven().left_mm_s);
+    TEST_ASSERT_EQUAL_INT16(-125, driven().right_mm_s);
+}
+
+/* 250 mm take 62.5 ticks: twice as many, and 25. */
+static void test_a_step_has_twice_its_time_and_25_ticks(void)
+{
+    body.grip = 0.0;
+    TEST_ASSERT_EQUAL_UINT(150, act(0, 250));
+}
+
+static void test_what_is_given_up_is_known_when_its_time_is_over_and_not_before(void)
+{
+    body.grip = 0.0;
+    begin(0, 250);
+    for (unsigned i = 1; i < 150; i++) {
+        (void)tick();
+        TEST_ASSERT_FALSE(motion_gave_up(&motion) || motion_is_denied(&motion));
+    }
+    (void)tick();
+    TEST_ASSERT_TRUE(motion_gave_up(&motion));
+    TEST_ASSERT_TRUE(motion_is_denied(&motion));
+}
+
+static void test_a_rest_is_never_given_up(void)
+{
+    act(0, 0);
+    TEST_ASSERT_FALSE(motion_gave_up(&motion));
+}
+
+/* 210 degrees take 58 ticks: seven quarters of these, and 7. */
+static void test_the_pace_of_a_turn_is_seven_quarters_of_its_time_and_7_ticks(void)
+{
+    begin(210, 0);
+    TEST_ASSERT_EQUAL_UINT16(108, motion.pace_left);
+}
+
+static void test_a_step_and_a_turn_for_food_have_no_pace(void)
+{
+    const struct action around = {.turn_deg = 360, .until_food = true};
+
+    begin(0, 250);
+    TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, motion.pace_left);
+    motion_begin(&motion, &config, &around);
+    TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, motion.pace_left);
+}
+
+static void test_an_outage_costs_five_ticks_of_the_pace(void)
+{
+    begin(210, 0);
+    body.tick = (uint8_t)(body.tick + 99);
+    roll(0, 0);
+    TEST_ASSERT_EQUAL_UINT16(108 - 5, motion.pace_left);
+}
+
+static void test_wheels_rest_while_nothing_is_to_be_done_whatever_moves_them(void)
+{
+    begin(0, 0);
+    roll(80, 20);
+    TEST_ASSERT_EQUAL_INT16(0, driven().left_mm_s);
+    TEST_ASSERT_EQUAL_INT16(0, driven().right_mm_s);
+}
+
+/* A knock by 180 counts is 6.4 degrees. */
+static void test_a_knock_between_turns_is_made_up_for_in_the_next(void)
+{
+    roll(90, -90);
+    begin(0, 12);
+    begin(10, 0);
+    TEST_ASSERT_EQUAL_INT32(10 * DEGREE - 180 * COUNT, motion.turn_left);
+}
+
+static void test_nothing_is_left_of_a_turn_that_was_given_up(void)
+{
+    begin(90, 0);
+    begin(0, 12);
+    TEST_ASSERT_EQUAL_INT32(0, motion.turn_left);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_degree_is_rounded_to_the_nearest);
+    RUN_TEST(test_wheels_are_believed_up_to_13_eighths_of_the_fastest_and_2_counts);
+    RUN_TEST(test_the_fastest_is_the_greater_of_both_speeds);
+    RUN_TEST(test_lifted_wheels_are_believed_whatever_they_say);
+    RUN_TEST(test_half_the_span_counts_as_backward);
+    RUN_TEST(test_an_error_grows_to_its_limit_and_no_farther);
+    RUN_TEST(test_a_turn_adds_to_an_error_up_to_its_limit);
+    RUN_TEST(test_a_way_too_far_is_counted_up_to_its_limit);
+    RUN_TEST(test_a_turn_has_ended_an_eighth_of_a_degree_before_its_end);
+    RUN_TEST(test_a_step_has_ended_five_counts_before_its_end);
+    RUN_TEST(test_the_last_speed_is_what_covers_the_rest_in_a_tick);
+    RUN_TEST(test_so_it_is_in_a_turn);
+    RUN_TEST(test_a_step_has_twice_its_time_and_25_ticks);
+    RUN_TEST(test_what_is_given_up_is_known_when_its_time_is_over_and_not_before);
+    RUN_TEST(test_a_rest_is_never_given_up);
+    RUN_TEST(test_the_pace_of_a_turn_is_seven_quarters_of_its_time_and_7_ticks);
+    RUN_TEST(test_a_step_and_a_turn_for_food_have_no_pace);
+    RUN_TEST(test_an_outage_costs_five_ticks_of_the_pace);
+    RUN_TEST(test_wheels_rest_while_nothing_is_to_be_done_whatever_moves_them);
+    RUN_TEST(test_a_knock_between_turns_is_made_up_for_in_the_next);
+    RUN_TEST(test_nothing_is_left_of_a_turn_that_was_given_up);
+    return UNITY_END();
+}

@@ -1,0 +1,77 @@
+#include "hal/protocol/wire.h"
+
+#include <unity.h>
+
+#include "wire_frames.h"
+
+#include "reading_rig.h"
+
+static void assert_peer(bool upper, uint8_t first)
+{
+    const uint8_t expected[] = {first, 1, 2, 1};
+
+    TEST_ASSERT_EQUAL(upper, in.peer.upper);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, in.peer.cell, CELL_COUNT / 2);
+}
+
+static void test_every_other_robots_memory_is_heard(void)
+{
+    for (uint8_t node = 2; node <= NODE_MAX; node++) {
+        TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(node, 0, 0)));
+        assert_peer(false, 0);
+        TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(node, 1, 2)));
+        assert_peer(true, 2);
+    }
+}
+
+static void test_a_memory_is_heard_once_from_report_to_report(void)
+{
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
+    refuse(memory_frame(2, 0, 0));
+    refuse(memory_frame(2, 1, 0));
+    respond((struct output){.has_drive = true});
+    refuse(memory_frame(2, 0, 0));
+    respond((struct output){.has_drive = true, .has_report = true});
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
+}
+
+static void test_a_memory_of_all_sensors_is_not_heard(void)
+{
+    refuse(memory_frame(2, 0, 0x0F));
+    refuse(memory_frame(2, 1, 0));
+}
+
+static void test_an_upper_half_alone_is_not_heard(void)
+{
+    refuse(memory_frame(2, 1, 0));
+}
+
+static void test_a_damaged_memory_is_counted(void)
+{
+    struct frame frame = memory_frame(2, 0, 0);
+
+    frame.data[3] ^= 1;
+    refuse(frame);
+    expect(FAULT_DAMAGED, 1);
+}
+
+static void test_the_identifiers_beside_the_memories_are_foreign(void)
+{
+    refuse(memory_frame(0, 0, 0));
+    refuse(memory_frame(NODE_MAX + 3, 0, 0));   /* a heartbeat's, of node 2 */
+    expect(FAULT_FOREIGN, 2);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_every_other_robots_memory_is_heard);
+    RUN_TEST(test_a_memory_is_heard_once_from_report_to_report);
+    RUN_TEST(test_a_memory_of_all_sensors_is_not_heard);
+    RUN_TEST(test_an_upper_half_alone_is_not_heard);
+    RUN_TEST(test_a_damaged_memory_is_counted);
+    RUN_TEST(test_the_identifiers_beside_the_memories_are_foreign);
+    return UNITY_END();
+}
