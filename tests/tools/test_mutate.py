@@ -1,0 +1,230 @@
+"""The C tests kill mutants: a sample of them. And the tool says which are alive, and which are rightly let live."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from tools.mutants.equivalent import Compiler, is_listed, read, unmatched  # noqa: E402 - found by the line above
+from tools.mutants.schemata import mutants_of, schemata  # noqa: E402
+from tools.mutants.sites import sites_of  # noqa: E402
+from tools.mutants.sources import Source  # noqa: E402
+from tools.mutants.syntax import SourceError, functions  # noqa: E402
+from tools.mutants.tree import RUNTIME  # noqa: E402
+from tools.mutants.verdicts import Verdict, killed_though_listed, scores  # noqa: E402
+from tools.reason_table import TableError  # noqa: E402
+
+STANDARD = ["-std=c99"]
+# All that can be mutated, with a number for each result of it.
+SOURCE = """#include <stdbool.h>
+#include <stdio.h>
+
+enum { LIMIT = 5 };
+enum side { LEFT, RIGHT };
+
+static bool is_even(int x)
+{
+    return x % 2 == 0;
+}
+
+static bool is_small(int x)
+{
+    return is_even(x) && x < LIMIT;
+}
+
+static int opposite(enum side side)
+{
+    if (side == LEFT)
+        return RIGHT;
+    return LEFT;
+}
+
+static int twice(int x)
+{
+    return is_small(x) ? x * 2 : x << 1;
+}
+
+static int of_table(int i)
+{
+    static const int table[] = {3, 1, 2, 0};
+
+    return table[i];
+}
+
+static unsigned sum(int last)
+{
+    unsigned total = 0;
+
+    for (int i = 0; i < last; i++) {
+        if (i == 3)
+            continue;
+        if (!is_small(i) || i > 7)
+            break;
+        total += (unsigned)i / 2u + 1u;
+        total ^= ~0x10u & 0xFFu;
+    }
+    return total;
+}
+
+int main(void)
+{
+    for (int i = 0; i < 12; i++)
+        printf("%d %d %u %d %d\\n", is_small(i), twice(-i), sum(i), opposite((enum side)(i & 1)), of_table(i % 3));
+    return 0;
+}
+"""
+
+
+def mutants(folder: Path, text: str, first: int = 1):
+    path = folder / "a.c"
+    path.write_text(text)
+    sites = sites_of(text, functions(path, STANDARD))
+    return mutants_of("firmware/a.c", text, sites, first), schemata(text, sites, first)
+
+
+def changes(folder: Path, statement: str) -> set[str]:
+    """What one statement becomes: its new texts."""
+    text = f"int f(int *p, int a, int b);\nint f(int *p, int a, int b)\n{{\n    {statement}\n    return a < b;\n}}\n"
+    found, _ = mutants(folder, text)
+    return {mutant.after for mutant in found if mutant.line == 4}
+
+
+def output(folder: Path, text: str, number: int = 0) -> str:
+    """What a program prints, with one mutant acting."""
+    (folder / "b.c").write_text(text)
+    subprocess.run(("gcc", "-w", "-O1", "-o", "b", "b.c", RUNTIME), cwd=folder, check=True)
+    return act(folder, number)
+
+
+def act(folder: Path, number: int) -> str:
+    environment = {**os.environ, "OCTET_MUTANT": str(number), "OCTET_MUTANT_CPU_MS": "200"}
+    result = subprocess.run(folder / "b", env=environment, capture_output=True, text=True, check=False)
+    return result.stdout if result.returncode == 0 else "failed"
+
+
+def mutate(*words: object) -> subprocess.CompletedProcess[str]:
+    command = [ROOT / "tools" / "mutate", *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def test_a_sample_of_mutants_is_killed():
+    result = mutate("--sample", 150)
+
+    assert result.returncode == 0, result.stdout + result.stderr
+    assert "150 mutants, 0 groups below their bar, 0 complaints" in result.stdout
+
+
+def test_without_a_test_its_mutants_live():
+    """The canary: a test that is not there is missed."""
+    result = mutate("--without", "link_by_name", "hal/link/link_by_name.c", "--sample", 8)
+
+    assert result.returncode == 1
+    assert "1 groups below their bar" in result.stdout
+    assert "hal/link/link_by_name.c:" in result.stdout
+
+
+def test_an_unknown_source_is_refused_with_those_there_are():
+    result = mutate("firmware/nothing.c")
+
+    assert result.returncode == 1
+    assert "no C test is built from firmware/nothing.c" in result.stderr
+    assert "firmware/motion.c" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("statement", "expected"),
+    [
+        ("if (a < b) b = a;", {"if (a <= b) b = a;", "if (a != b) b = a;", "if (0) b = a;", "if (a < b) (void)0;"}),
+        ("if (a == b) p = 0;", {"if (a <= b) p = 0;", "if (a >= b) p = 0;", "if (0) p = 0;", "if (a == b) (void)0;"}),
+        ("if (p == 0) b = a;", {"if (0) b = a;", "if (1) b = a;", "if (p == 0) (void)0;"}),
+        ("if (a && b) b = a;", {"if (a || b) b = a;", "if (a) b = a;", "if (b) b = a;", "if (a && b) (void)0;"}),
+        ("if (a & 1) b++;", {"if (!(a & 1)) b++;", "if (a | 1) b++;", "if (a & (1 + 1)) b++;"}
+         | {"if (a & 1) b--;", "if (a & 1) (void)0;"}),
+        ("a = b * 3 - a;", {"a = (b + 3) - a;", "a = b * (3 + 1) - a;", "a = b * 3 + a;", "(void)0;"}),
+        ("a = -b >> 2;", {"a = b >> 2;", "a = -b << 2;", "a = -b >> (2 + 1);", "(void)0;"}),
+        ("*p++ += !a;", {"*p-- += !a;", "*p++ -= !a;", "*p++ += !!a;", "(void)0;"}),
+        ("a = sizeof(int);", {"(void)0;"}),
+        ("p = (void *)0;", {"(void)0;"}),
+    ],
+)  # fmt: skip
+def test_each_operator_has_its_mutants(tmp_path, statement, expected):
+    assert changes(tmp_path, statement) == expected
+
+
+def test_a_mutant_acts_among_all_others_as_it_does_alone(tmp_path):
+    found, together = mutants(tmp_path, SOURCE, first=7)
+    alone = [output(tmp_path, mutant.apply(SOURCE)) for mutant in found]
+
+    assert output(tmp_path, together) == output(tmp_path, SOURCE)
+    output(tmp_path, together)
+    assert [act(tmp_path, mutant.number) for mutant in found] == alone
+    assert len(found) > 50
+
+
+def test_the_compiler_proves_what_makes_no_difference(tmp_path):
+    text = "int f(unsigned x);\nint f(unsigned x)\n{\n    return x > 0u ? 3 : 4;\n}\n"
+    found, together = mutants(tmp_path, text)
+    source = Source("firmware/a.c", text, STANDARD, found, together)
+
+    same = [mutant.after for mutant in found if Compiler().same_code(source, mutant)]
+
+    assert same == ["return (x != 0u) ? 3 : 4;"]
+
+
+ROW = '[[equivalent]]\nfile = "firmware/a.c"\nmutants = ["{}"]\nwhy = "{}"\n'
+TEXT = "int f(int x);\nint f(int x)\n{\n    return x < 3;\n}\n"
+
+
+@pytest.mark.parametrize(
+    ("change", "listed", "unknown"),
+    [
+        ("return x < 3; -> return x <= 3;", 1, []),
+        ("return x < 3; -> *", 4, []),
+        ("return x -> return x", 0, ["firmware/a.c: no mutant is `return x -> return x`"]),
+    ],
+)
+def test_a_mutant_is_listed_by_what_it_changes(tmp_path, change, listed, unknown):
+    found, _ = mutants(tmp_path, TEXT)
+    table = tmp_path / "table.toml"
+    table.write_text(ROW.format(change, "a canary"))
+    rows = read(table)
+
+    assert sum(is_listed(mutant, rows) for mutant in found) == listed
+    assert unmatched(rows, found) == unknown
+
+
+def test_a_listed_mutant_that_is_killed_is_an_error(tmp_path):
+    found, _ = mutants(tmp_path, TEXT)
+    verdicts = [(found[0], Verdict.KILLED), (found[1], Verdict.LISTED)]
+
+    complaints = killed_though_listed(verdicts, lambda _: True)
+
+    assert complaints == [f"{found[0]}: is listed as equivalent, but a test kills it"]
+
+
+@pytest.mark.parametrize("text", [ROW.format("a -> b", " "), "equivalent = 1", "[[equivalent]]\n"])
+def test_a_table_with_parts_missing_is_an_error(tmp_path, text):
+    table = tmp_path / "table.toml"
+    table.write_text(text)
+
+    with pytest.raises(TableError):
+        read(table)
+
+
+def test_a_score_leaves_out_what_nobody_can_kill(tmp_path):
+    found, _ = mutants(tmp_path, TEXT)
+    verdicts = zip(found, [Verdict.KILLED, Verdict.SAME_CODE, Verdict.LISTED, Verdict.ALIVE], strict=True)
+
+    (score,) = scores(list(verdicts))
+
+    assert (score.group.name, score.percent, score.is_enough) == ("core", 50.0, False)
+
+
+def test_a_source_that_is_no_c_is_an_error(tmp_path):
+    with pytest.raises(SourceError, match="clang cannot read"):
+        mutants(tmp_path, "int f(")

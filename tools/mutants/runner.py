@@ -1,0 +1,96 @@
+"""Runs test programs with one mutant acting in them, until one of them fails."""
+
+import contextlib
+import os
+import re
+import signal
+import subprocess
+import tempfile
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from tools.mutants.schemata import Mutant
+from tools.mutants.tree import Test
+
+CPU_MS = 300
+CPU_FACTOR = 4
+WAIT_S = 20.0
+FIRST_WAIT_S = 120.0
+
+
+class RunError(Exception):
+    """The tests fail with no mutant acting; says which."""
+
+
+class Runner:
+    """The tests of one build."""
+
+    def __init__(self, tests: Sequence[Test], highest: int) -> None:
+        """Runs each test with no mutant acting.
+
+        Args:
+            tests: All of them.
+            highest: The highest number of a mutant.
+
+        Raises:
+            RunError: One of them fails.
+        """
+        self._tests = tests
+        self._seconds: dict[str, float] = {}  # of the processor
+        self._reached: dict[str, set[int]] = {}  # the places that each test comes by
+        for test in tests:
+            self._trace(test, highest)
+
+    def _trace(self, test: Test, highest: int) -> None:
+        with tempfile.NamedTemporaryFile() as marks:
+            marks.write(bytes(highest + 1))
+            marks.flush()
+            before, start = os.times(), time.monotonic()
+            if not passes(test, {"OCTET_MUTANT_TRACE": marks.name}, FIRST_WAIT_S):
+                raise RunError(f"{test.name} fails with no mutant acting")
+            used = os.times()
+            cpu = used.children_user + used.children_system - before.children_user - before.children_system
+            self._seconds[test.name] = max(cpu, (time.monotonic() - start) / 10)
+            found = Path(marks.name).read_bytes()
+        self._reached[test.name] = {number for number, mark in enumerate(found) if mark}
+
+    def killer(self, mutant: Mutant) -> str:
+        """The test that fails with a mutant; empty if none does."""
+        near = [test for test in self._tests if mutant.place in self._reached[test.name]]
+        for test in sorted(near, key=lambda it: (self._seconds[it.name] > 1.0, len(self._reached[it.name]))):
+            cpu_ms = CPU_MS + int(CPU_FACTOR * 1000 * self._seconds[test.name])
+            environment = {"OCTET_MUTANT": str(mutant.number), "OCTET_MUTANT_CPU_MS": str(cpu_ms)}
+            if not passes(test, environment, WAIT_S):
+                return test.name
+        return ""
+
+
+def passes(test: Test, environment: Mapping[str, str], wait_s: float) -> bool:
+    """Runs a test in a folder of its own, as ctest does."""
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryFile() as output:
+        process = subprocess.Popen(
+            test.command,
+            cwd=folder,
+            env={**os.environ, **environment, "TMPDIR": folder},
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+        try:
+            code = process.wait(wait_s)
+        except subprocess.TimeoutExpired:
+            code = 1
+        finally:
+            _stop(process)
+        output.seek(0)
+        text = output.read().decode(errors="replace")
+    return code == 0 and not any(re.search(failing, text) for failing in test.failing)
+
+
+def _stop(process: subprocess.Popen[bytes]) -> None:
+    """Ends what the test has left running, too."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()

@@ -1,0 +1,98 @@
+"""Which sources are mutated, in which group, and all of their mutants."""
+
+import os
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from tools.mutants.schemata import Mutant, mutants_of, schemata
+from tools.mutants.sites import sites_of
+from tools.mutants.syntax import functions
+
+MUTATED = ("firmware", "hal")
+NUMBERS_EACH = 1000  # so a file that grows does not renumber the others
+
+
+class Group(NamedTuple):
+    """Sources that are judged together.
+
+    Attributes:
+        name: What a person calls it.
+        bar: How many of its mutants must be killed, in percent.
+        paths: How the paths of its files begin.
+    """
+
+    name: str
+    bar: float
+    paths: Sequence[str]
+
+
+GROUPS = (
+    Group("store", 99.0, ("hal/flash_store/", "hal/port/posix/file_store.c")),
+    Group("core", 99.0, ("firmware/",)),
+    Group("codec", 99.0, ("hal/protocol/",)),
+    Group("links", 99.0, ("hal/link/", "hal/can_body/", "hal/port/posix/")),
+    Group("library", 99.0, ("hal/library/",)),
+    Group("drivers", 97.0, ("hal/stm32/", "hal/port/cortex_m/")),
+)
+
+
+@dataclass(frozen=True)
+class Source:
+    """A source and its mutants.
+
+    Attributes:
+        file: Its path from the root of the project.
+        text: As it is.
+        options: Of the compiler: folders, definitions, the standard.
+        mutants: All of them.
+        schemata: The text that has them all compiled in.
+    """
+
+    file: str
+    text: str
+    options: Sequence[str]
+    mutants: Sequence[Mutant]
+    schemata: str
+
+
+def group_of(file: str) -> Group:
+    """The first group whose paths fit."""
+    return next(group for group in GROUPS if file.startswith(tuple(group.paths)))
+
+
+def read_sources(root: Path, tree: Path, commands: Sequence[Mapping[str, str]]) -> list[Source]:
+    """The sources of the firmware and its body that some test is built from.
+
+    Args:
+        root: Of the project.
+        tree: Where the copy is that the commands are for.
+        commands: How each source is compiled.
+
+    Raises:
+        SourceError: One of them is no C.
+    """
+    options = dict(_options(tree, commands))
+    ordered = sorted(options)
+    with ProcessPoolExecutor(os.cpu_count()) as pool:
+        tasks = ((root, file, options[file], 1 + NUMBERS_EACH * i) for i, file in enumerate(ordered))
+        return list(pool.map(_source, *zip(*tasks, strict=True)))
+
+
+def _options(tree: Path, commands: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, list[str]]]:
+    for entry in commands:
+        path = Path(entry["file"])
+        if path.is_relative_to(tree) and path.relative_to(tree).parts[0] in MUTATED:
+            words = shlex.split(entry["command"])
+            kept = [i for i, word in enumerate(words) if word.startswith(("-I", "-D", "-std=", "-isystem"))]
+            both = [word for i in kept for word in words[i : i + 2 if words[i] == "-isystem" else i + 1]]
+            yield str(path.relative_to(tree)), both
+
+
+def _source(root: Path, file: str, options: Sequence[str], first: int) -> Source:
+    text = (root / file).read_text()
+    sites = sites_of(text, functions(root / file, options))
+    return Source(file, text, options, mutants_of(file, text, sites, first), schemata(text, sites, first))

@@ -1,0 +1,79 @@
+"""What became of each mutant, and what that makes of the tests."""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from tools.mutants.schemata import Mutant
+from tools.mutants.sources import GROUPS, Group, group_of
+
+
+SAMPLE = Group("sample", 97.0, ("",))
+
+
+class Verdict(Enum):
+    """What became of a mutant."""
+
+    KILLED = "killed"
+    SAME_CODE = "the same code"
+    LISTED = "listed as equivalent"
+    ALIVE = "alive"
+
+
+@dataclass(frozen=True)
+class Score:
+    """The mutants of a group.
+
+    Attributes:
+        group: Which one.
+        counts: How many there are of each verdict.
+    """
+
+    group: Group
+    counts: dict[Verdict, int]
+
+    @property
+    def percent(self) -> float:
+        """How many are killed of those that can be."""
+        killed, alive = self.counts[Verdict.KILLED], self.counts[Verdict.ALIVE]
+        return 100.0 * killed / (killed + alive) if killed + alive else 100.0
+
+    @property
+    def is_enough(self) -> bool:
+        """Whether it reaches its bar."""
+        return self.percent >= self.group.bar
+
+    def __str__(self) -> str:
+        parts = "  ".join(f"{count:5} {verdict.value}" for verdict, count in self.counts.items())
+        return f"{self.group.name:8} {parts}  {self.percent:6.2f} %, bar {self.group.bar:g} %"
+
+
+def scores(verdicts: Sequence[tuple[Mutant, Verdict]]) -> list[Score]:
+    """The score of each group that has mutants."""
+    found = []
+    for group in GROUPS:
+        of_group = [verdict for mutant, verdict in verdicts if group_of(mutant.file) == group]
+        if of_group:
+            found.append(_score(group, of_group))
+    return found
+
+
+def score_of_sample(verdicts: Sequence[tuple[Mutant, Verdict]]) -> Score:
+    """The score of mutants that are too few to be judged by group."""
+    return _score(SAMPLE, [verdict for _, verdict in verdicts])
+
+
+def _score(group: Group, verdicts: Sequence[Verdict]) -> Score:
+    return Score(group, {verdict: verdicts.count(verdict) for verdict in Verdict})
+
+
+Listed = Callable[[Mutant], bool]
+
+
+def killed_though_listed(verdicts: Iterable[tuple[Mutant, Verdict]], is_listed: Listed) -> list[str]:
+    """Mutants that the table wrongly says are equivalent, in sentences."""
+    return [
+        f"{mutant}: is listed as equivalent, but a test kills it"
+        for mutant, verdict in verdicts
+        if verdict is Verdict.KILLED and is_listed(mutant)
+    ]
