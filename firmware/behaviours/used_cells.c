@@ -43,19 +43,13 @@ static void end_episode(struct brain *brain, int change)
 
 void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern, int praise)
 {
-    switch (action->reason) {
-    case REASON_REMEMBERED:
+    if (action->reason == REASON_REMEMBERED) {
         brain->used |= (uint8_t)(1u << pattern);
-        return;
-    case REASON_TRIAL:
-        return;
-    case REASON_BOREDOM:
+    } else if (action->reason == REASON_BOREDOM) {
         brain->repeat_count = 0;
         end_episode(brain, BLAME);
-        return;
-    default:   /* the way is clear */
+    } else if (action->reason != REASON_TRIAL) {   /* the way is clear */
         end_episode(brain, praise);
-        return;
     }
 }
 

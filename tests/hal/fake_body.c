@@ -14,13 +14,15 @@ int port_open(struct port *port, int argc, char *const argv[])
 {
     (void)argc;
     (void)argv;
-    *port = (struct port){.link = "fake", .node = NODE};
+    *port = (struct port){.link = "fake", .node = NODE, .reset_cause = fake.reset_cause, .crash = fake.crash,
+                          .clock_exact = fake.clock_exact};
     return fake.port_result;
 }
 
 void port_ready(const struct port *port)
 {
     TEST_ASSERT_EQUAL_UINT8(NODE, port->node);
+    fake.readies++;
 }
 
 uint32_t port_clock_ms(void)
@@ -47,9 +49,10 @@ void port_alive(bool outage)
 int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
 {
     TEST_ASSERT_EQUAL_UINT8(2, memory[1]);
-    if (fake.needs_rest && effort == PORT_QUICKLY)
+    if (fake.needs_rest && effort != PORT_AT_REST)
         return PORT_LATER;
     fake.stores++;
+    memcpy(fake.stored, memory, sizeof fake.stored);
     return fake.store_result;
 }
 
@@ -91,7 +94,7 @@ int link_receive(struct link *link, struct frame *out, uint32_t wait_ms)
         fake.clock_ms += wait_ms;
         return 0;
     }
-    fake.next++;
+    fake.next += !fake.endless;
     if ((int32_t)(event->at_ms - fake.clock_ms) > 0)
         fake.clock_ms = event->at_ms;
     *out = event->frame;
@@ -115,7 +118,8 @@ int link_send(struct link *link, const struct frame *frame)
 void link_health(const struct link *link, struct link_health *out)
 {
     (void)link;
-    *out = (struct link_health){.state = BUS_ACTIVE};
+    fake.looks_at_health++;
+    *out = fake.bus;
 }
 
 int open_body(void)
@@ -126,6 +130,7 @@ int open_body(void)
 void setUp(void)
 {
     memset(&fake, 0, sizeof fake);
+    fake.bus.state = BUS_ACTIVE;
     TEST_ASSERT_EQUAL(0, open_body());
 }
 

@@ -31,6 +31,14 @@ struct fake {
     int open_result, port_result, store_result;
     bool needs_rest;                      /* to store anything */
     unsigned stores;                      /* that were not put off */
+    uint8_t stored[CELL_COUNT];           /* by the last of them */
+    bool endless;                         /* the event that is next comes again and again */
+    enum reset_cause reset_cause;
+    const struct crash *crash;
+    bool clock_exact;
+    unsigned readies;                     /* times that the link was said to be open */
+    struct link_health bus;
+    unsigned looks_at_health;
     uint32_t alive_ms, longest_wait_ms;   /* without a sign of life */
     uint16_t ids[WIRE_LISTEN_COUNT];
 };

@@ -133,6 +133,35 @@ static void test_closing_no_robot_is_fine(void)
     octet_close(NULL);
 }
 
+/* Of the last frame with an identifier. */
+static const uint8_t *data_of(uint32_t id, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (out[i].id == id)
+            return out[i].data;
+    TEST_FAIL_MESSAGE("it was not answered");
+    return NULL;
+}
+
+static void test_its_clock_is_exact(void)
+{
+    struct octet_health_t health;
+    size_t count = exchange(command_of(OPCODE_STOP));
+
+    TEST_ASSERT_EQUAL(0, octet_health_unpack(&health, data_of(OCTET_HEALTH_FRAME_ID, count), OCTET_HEALTH_LENGTH));
+    TEST_ASSERT_EQUAL_UINT8(1, health.clock);
+}
+
+/* As behind a bus, where it says so when it comes up. */
+static void test_that_it_has_come_up_it_says_for_the_second_time(void)
+{
+    struct octet_boot_t boot;
+    size_t count = exchange(command_of(OPCODE_STOP));
+
+    TEST_ASSERT_EQUAL(0, octet_boot_unpack(&boot, data_of(OCTET_BOOT_FRAME_ID, count), OCTET_BOOT_LENGTH));
+    TEST_ASSERT_EQUAL_UINT8(1, boot.counter);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -148,5 +177,7 @@ int main(void)
     RUN_TEST(test_from_what_is_no_memory_nothing_is_known);
     RUN_TEST(test_two_robots_do_not_know_each_other);
     RUN_TEST(test_closing_no_robot_is_fine);
+    RUN_TEST(test_its_clock_is_exact);
+    RUN_TEST(test_that_it_has_come_up_it_says_for_the_second_time);
     return UNITY_END();
 }

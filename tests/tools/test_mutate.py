@@ -10,13 +10,13 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.mutants.equivalent import Compiler, is_listed, read, unmatched  # noqa: E402 - found by the line above
+from tools.mutants.equivalent import Compiler, is_listed, needless, read, unmatched  # noqa: E402 - found by the line above
 from tools.mutants.schemata import mutants_of, schemata  # noqa: E402
 from tools.mutants.sites import sites_of  # noqa: E402
 from tools.mutants.sources import Source  # noqa: E402
 from tools.mutants.syntax import SourceError, functions  # noqa: E402
 from tools.mutants.tree import RUNTIME  # noqa: E402
-from tools.mutants.verdicts import Verdict, killed_though_listed, scores  # noqa: E402
+from tools.mutants.verdicts import Verdict, scores  # noqa: E402
 from tools.reason_table import TableError  # noqa: E402
 
 STANDARD = ["-std=c99"]
@@ -200,11 +200,12 @@ def test_a_mutant_is_listed_by_what_it_changes(tmp_path, change, listed, unknown
 
 def test_a_listed_mutant_that_is_killed_is_an_error(tmp_path):
     found, _ = mutants(tmp_path, TEXT)
-    verdicts = [(found[0], Verdict.KILLED), (found[1], Verdict.LISTED)]
+    table = tmp_path / "table.toml"
+    table.write_text(ROW.format(found[0].change, "a canary"))
+    complaint = f"firmware/a.c: `{found[0].change}` is listed as equivalent, but a test kills it"
 
-    complaints = killed_though_listed(verdicts, lambda _: True)
-
-    assert complaints == [f"{found[0]}: is listed as equivalent, but a test kills it"]
+    assert needless(read(table), found, []) == [complaint]
+    assert needless(read(table), found[1:], found[:1]) == []
 
 
 @pytest.mark.parametrize("text", [ROW.format("a -> b", " "), "equivalent = 1", "[[equivalent]]\n"])

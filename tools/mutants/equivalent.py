@@ -44,8 +44,22 @@ def unmatched(table: Sequence[Row], mutants: Sequence[Mutant]) -> list[str]:
         f"{row.file}: no mutant is `{change}`"
         for row in table
         for change in row.changes
-        if not any(row.file == mutant.file and _fits(change, mutant) for mutant in mutants)
+        if not _any_fits(row, change, mutants)
     ]
+
+
+def needless(table: Sequence[Row], killed: Sequence[Mutant], alive: Sequence[Mutant]) -> list[str]:
+    """The rows' changes that tests do notice, wherever they are made, in sentences."""
+    return [
+        f"{row.file}: `{change}` is listed as equivalent, but a test kills it"
+        for row in table
+        for change in row.changes
+        if _any_fits(row, change, killed) and not _any_fits(row, change, alive)
+    ]
+
+
+def _any_fits(row: Row, change: str, mutants: Sequence[Mutant]) -> bool:
+    return any(row.file == mutant.file and _fits(change, mutant) for mutant in mutants)
 
 
 def _fits(change: str, mutant: Mutant) -> bool:

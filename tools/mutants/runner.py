@@ -16,6 +16,7 @@ from tools.mutants.tree import Test
 CPU_MS = 300
 CPU_FACTOR = 4
 WAIT_S = 20.0
+WAIT_FACTOR = 10.0
 FIRST_WAIT_S = 120.0
 
 
@@ -38,6 +39,7 @@ class Runner:
         """
         self._tests = tests
         self._seconds: dict[str, float] = {}  # of the processor
+        self._wait_s: dict[str, float] = {}  # what each may take on a machine as busy as this one
         self._reached: dict[str, set[int]] = {}  # the places that each test comes by
         for test in tests:
             self._trace(test, highest)
@@ -51,7 +53,8 @@ class Runner:
                 raise RunError(f"{test.name} fails with no mutant acting")
             used = os.times()
             cpu = used.children_user + used.children_system - before.children_user - before.children_system
-            self._seconds[test.name] = max(cpu, (time.monotonic() - start) / 10)
+            self._seconds[test.name] = cpu
+            self._wait_s[test.name] = WAIT_S + WAIT_FACTOR * (time.monotonic() - start)
             found = Path(marks.name).read_bytes()
         self._reached[test.name] = {number for number, mark in enumerate(found) if mark}
 
@@ -61,7 +64,7 @@ class Runner:
         for test in sorted(near, key=lambda it: (self._seconds[it.name] > 1.0, len(self._reached[it.name]))):
             cpu_ms = CPU_MS + int(CPU_FACTOR * 1000 * self._seconds[test.name])
             environment = {"OCTET_MUTANT": str(mutant.number), "OCTET_MUTANT_CPU_MS": str(cpu_ms)}
-            if not passes(test, environment, WAIT_S):
+            if not passes(test, environment, self._wait_s[test.name]):
                 return test.name
         return ""
 

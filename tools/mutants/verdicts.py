@@ -1,12 +1,11 @@
 """What became of each mutant, and what that makes of the tests."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
 from tools.mutants.schemata import Mutant
 from tools.mutants.sources import GROUPS, Group, group_of
-
 
 SAMPLE = Group("sample", 97.0, ("",))
 
@@ -65,15 +64,3 @@ def score_of_sample(verdicts: Sequence[tuple[Mutant, Verdict]]) -> Score:
 
 def _score(group: Group, verdicts: Sequence[Verdict]) -> Score:
     return Score(group, {verdict: verdicts.count(verdict) for verdict in Verdict})
-
-
-Listed = Callable[[Mutant], bool]
-
-
-def killed_though_listed(verdicts: Iterable[tuple[Mutant, Verdict]], is_listed: Listed) -> list[str]:
-    """Mutants that the table wrongly says are equivalent, in sentences."""
-    return [
-        f"{mutant}: is listed as equivalent, but a test kills it"
-        for mutant, verdict in verdicts
-        if verdict is Verdict.KILLED and is_listed(mutant)
-    ]

@@ -1,0 +1,66 @@
+/* The places of a page: what is in use, what fills them, and how often the store tries another. */
+#include "hal/flash_store/flash_store.h"
+
+#include <string.h>
+
+#include <unity.h>
+
+#include "fake_flash.h"
+
+#include "flash_store_rig.h"
+
+static void test_a_place_whose_last_word_alone_is_written_is_in_use(void)
+{
+    FOR_EACH_KIND {
+        uint8_t *last_word;
+
+        setUp();
+        save_many(1);
+        last_word = &fake_flash.bytes[0][2 * fake_flash_place() + 12];
+        *last_word = 0;
+        TEST_ASSERT_EQUAL(1, start());
+        TEST_ASSERT_EQUAL(0, save(1));
+        TEST_ASSERT_EQUAL_HEX8(0xFF, last_word[-1]);
+        assert_found(1);
+    }
+}
+
+static void test_whatever_fills_the_last_place_the_next_one_is_filled_with_ones(void)
+{
+    for (kind = KINDS; kind->unit < 32; kind++)
+        continue;
+    setUp();
+    save_many(1);
+    memset(&fake_flash.bytes[0][32 + 16], 0, 16);
+    TEST_ASSERT_EQUAL(1, start());
+    TEST_ASSERT_EQUAL(0, save(1));
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, &fake_flash.bytes[0][2 * 32 + 16], 16);
+}
+
+static void test_an_erase_that_fails_on_a_blank_page_is_a_failure_too(void)
+{
+    fake_flash.erase_fails = true;
+    TEST_ASSERT_EQUAL(0, start());
+    TEST_ASSERT_EQUAL(HAL_E_STORE, save(0));
+    TEST_ASSERT_EQUAL_UINT(0, fake_flash.writes);
+}
+
+/* Three in the page, the mark of the other one, and one there. */
+static void test_a_save_is_tried_four_times(void)
+{
+    TEST_ASSERT_EQUAL(0, start());
+    fake_flash.write_fails = true;
+    fake_flash.writes = 0;
+    TEST_ASSERT_EQUAL(HAL_E_STORE, save(0));
+    TEST_ASSERT_EQUAL_UINT(3 + 1 + 1, fake_flash.writes);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_place_whose_last_word_alone_is_written_is_in_use);
+    RUN_TEST(test_whatever_fills_the_last_place_the_next_one_is_filled_with_ones);
+    RUN_TEST(test_an_erase_that_fails_on_a_blank_page_is_a_failure_too);
+    RUN_TEST(test_a_save_is_tried_four_times);
+    return UNITY_END();
+}
