@@ -125,6 +125,25 @@ static void test_more_identifiers_than_a_link_takes_are_refused(void)
     TEST_ASSERT_EQUAL_STRING("link fd:987: too many identifiers to listen for\n", said);
 }
 
+static void test_a_path_may_begin_with_any_letter(void)
+{
+    assert_refused(LINK_E_OPEN, "slcan:\xC3\xA4", 1);
+}
+
+static void test_a_kind_alone_is_refused_with_what_is_missing(void)
+{
+    assert_refused(LINK_E_NAME, "slcan:", 1);
+    TEST_ASSERT_NOT_NULL(strstr(said, "nothing after the colon"));
+}
+
+static void test_as_many_identifiers_as_a_link_takes_are_taken(void)
+{
+    struct link *link = NULL;
+
+    TEST_ASSERT_EQUAL_INT(0, open_listening(&link, "slcan:/dev/ptmx@9600", LINK_IDS_MAX));
+    link_close(link);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -139,5 +158,8 @@ int main(void)
     RUN_TEST(test_a_path_too_long_is_refused);
     RUN_TEST(test_an_interface_must_exist);
     RUN_TEST(test_more_identifiers_than_a_link_takes_are_refused);
+    RUN_TEST(test_a_path_may_begin_with_any_letter);
+    RUN_TEST(test_a_kind_alone_is_refused_with_what_is_missing);
+    RUN_TEST(test_as_many_identifiers_as_a_link_takes_are_taken);
     return UNITY_END();
 }

@@ -207,6 +207,20 @@ static void test_each_written_line_reads_back(void)
     }
 }
 
+static void test_the_flags_are_no_part_of_the_identifier(void)
+{
+    assert_decodes("T000001220\r", &(struct frame){0x122 | FRAME_EXTENDED, 0, {0}});
+    assert_decodes("r1220\r", &(struct frame){0x122 | FRAME_REMOTE, 0, {0}});
+}
+
+static void test_a_reply_cut_short_counts_once(void)
+{
+    static const char *const cut[] = {"S\r", "Y\r", "s031\r", "s\r", "M0000000\r", "m\r"};
+
+    for (unsigned i = 0; i < sizeof cut / sizeof cut[0]; i++)
+        assert_garbled_once(cut[i]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -228,5 +242,7 @@ int main(void)
     RUN_TEST(test_frames_are_written_in_upper_case);
     RUN_TEST(test_the_longest_line_fits);
     RUN_TEST(test_each_written_line_reads_back);
+    RUN_TEST(test_the_flags_are_no_part_of_the_identifier);
+    RUN_TEST(test_a_reply_cut_short_counts_once);
     return UNITY_END();
 }
