@@ -211,10 +211,14 @@ static void test_a_step_and_a_turn_for_food_have_no_pace(void)
 
 static void test_an_outage_costs_five_ticks_of_the_pace(void)
 {
-    begin(210, 0);
-    body.tick = (uint8_t)(body.tick + 99);
-    roll(0, 0);
-    TEST_ASSERT_EQUAL_UINT16(108 - 5, motion.pace_left);
+    static const uint8_t ticks[] = {5, 6, 7, 100};
+
+    for (unsigned i = 0; i < sizeof ticks; i++) {
+        begin(210, 0);
+        body.tick = (uint8_t)(body.tick + ticks[i] - 1);
+        roll(0, 0);
+        TEST_ASSERT_EQUAL_UINT16(108 - 5, motion.pace_left);
+    }
 }
 
 static void test_wheels_rest_while_nothing_is_to_be_done_whatever_moves_them(void)

@@ -221,6 +221,14 @@ static void test_a_start_forgets_the_food_that_it_has_lost(void)
     assert_turns_once_around();
 }
 
+static void test_a_trial_is_not_judged_again_after_the_look_around_that_follows_it(void)
+{
+    next(ALL_THREE);
+    TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(CLEAR).reason);
+    next(FRONT);
+    TEST_ASSERT_EQUAL(2, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -245,5 +253,6 @@ int main(void)
     RUN_TEST(test_food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look);
     RUN_TEST(test_a_start_forgets_the_food_that_it_was_going_to);
     RUN_TEST(test_a_start_forgets_the_food_that_it_has_lost);
+    RUN_TEST(test_a_trial_is_not_judged_again_after_the_look_around_that_follows_it);
     return UNITY_END();
 }
