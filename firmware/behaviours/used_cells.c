@@ -43,13 +43,19 @@ static void end_episode(struct brain *brain, int change)
 
 void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern, int praise)
 {
-    if (action->reason == REASON_REMEMBERED) {
+    switch (action->reason) {
+    case REASON_TRIAL:
+        break;
+    case REASON_REMEMBERED:
         brain->used |= (uint8_t)(1u << pattern);
-    } else if (action->reason == REASON_BOREDOM) {
+        break;
+    case REASON_BOREDOM:
         brain->repeat_count = 0;
         end_episode(brain, BLAME);
-    } else if (action->reason != REASON_TRIAL) {   /* the way is clear */
+        break;
+    default:   /* the way is clear */
         end_episode(brain, praise);
+        break;
     }
 }
 
