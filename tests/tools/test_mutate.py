@@ -113,10 +113,10 @@ def mutate(*words: object) -> subprocess.CompletedProcess[str]:
 
 
 def test_a_sample_of_mutants_is_killed():
-    result = mutate("--sample", 150, "firmware", "hal/can_body", "hal/flash_store", "hal/library")
+    result = mutate("--sample", 100, "firmware", "hal/can_body", "hal/flash_store", "hal/library")
 
     assert result.returncode == 0, result.stdout + result.stderr
-    assert "150 mutants, 0 groups below their bar, 0 complaints" in result.stdout
+    assert "100 mutants, 0 groups below their bar, 0 complaints" in result.stdout
 
 
 def test_without_a_test_its_mutants_live():
@@ -158,11 +158,11 @@ def test_each_operator_has_its_mutants(tmp_path, statement, expected):
 
 def test_a_mutant_acts_among_all_others_as_it_does_alone(tmp_path):
     found, together = mutants(tmp_path, SOURCE, first=7)
-    alone = [output(tmp_path, mutant.apply(SOURCE)) for mutant in found]
+    some = found[::4]
+    alone = [output(tmp_path, mutant.apply(SOURCE)) for mutant in some]
 
-    assert output(tmp_path, together) == output(tmp_path, SOURCE)
-    output(tmp_path, together)
-    assert [act(tmp_path, mutant.number) for mutant in found] == alone
+    assert output(tmp_path, SOURCE) == output(tmp_path, together)
+    assert [act(tmp_path, mutant.number) for mutant in some] == alone
     assert len(found) > 50
 
 
