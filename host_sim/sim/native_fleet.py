@@ -149,7 +149,7 @@ class NativeFleet:
         """Where all robots are: shape (robots, 3), x and y in mm and heading in mrad."""
         bodies = np.frombuffer(self._ffi.buffer(self._bodies), np.uint8).reshape(self.robots, -1)
         poses = bodies[:, : 3 * 8].copy().view(np.float64) * (1.0, 1.0, 1000.0)
-        return np.rint(poses).astype(np.int64)
+        return np.asarray(np.rint(poses), np.int64)
 
     def _bind(self) -> None:
         ffi, size = self._ffi, self._library.fleet_core_size()

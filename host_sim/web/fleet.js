@@ -30,8 +30,8 @@ const FOOD_MM = 50;
 const JUMP_MM = 600;
 /** Robots of their own small worlds are drawn larger than they are. */
 const OWN_SCALE = 3;
-/** From this radius on one can see where a robot looks. */
-const HEADING_PX = 3;
+/** From this radius on one can see that a robot is round, and where it looks. */
+const ROUND_PX = 3;
 
 /** Plays what was sampled; between two samples, robots go straight ahead. */
 class FleetPage {
@@ -170,8 +170,11 @@ class FleetPage {
     const radius = fleet.body * (fleet.own ? OWN_SCALE : 1);
     const poses = this.tracks.map((track, robot) => this.poseOf(track, this.cornerOf(fleet.own ? robot : 0, columns)));
     context.fillStyle = palette.reasons[1];
+    if (radius * context.getTransform().a < ROUND_PX) {
+      squares(context, poses, radius);
+      return;
+    }
     discs(context, poses, radius);
-    if (radius * context.getTransform().a < HEADING_PX) return;
     context.strokeStyle = palette.of.ink;
     context.lineWidth = radius / 3;
     lines(context, poses.map(([x, y, heading]) => [x, y, x + radius * Math.cos(heading), y + radius * Math.sin(heading)]));
@@ -210,6 +213,18 @@ function discs(context, places, radius) {
     context.moveTo(x + radius, y);
     context.arc(x, y, radius, 0, 2 * Math.PI);
   }
+  context.fill();
+}
+
+/**
+ * What takes the place of discs too small to tell from squares, and is drawn sooner.
+ * @param {CanvasRenderingContext2D} context
+ * @param {number[][]} places
+ * @param {number} radius
+ */
+function squares(context, places, radius) {
+  context.beginPath();
+  for (const [x, y] of places) context.rect(x - radius, y - radius, 2 * radius, 2 * radius);
   context.fill();
 }
 
