@@ -27,7 +27,7 @@ _WIDTH, _HEIGHT = 1280, 800
 _FRAMES, _LAGS, _LAG_PAUSE_MS = 200, 40, 50.0
 _WATCHED_ENVIRONMENTS = 40  # long enough for the opening of the page not to count
 _TIMEOUT_S = 30.0
-_ROBOTS, _SPEED, _FRAMES_PER_S = 4, 4, 60
+_ROBOTS, _FLEET, _SPEED, _FRAMES_PER_S = 4, 1000, 4, 60
 # Reading a pixel makes the browser finish the drawing.
 _TIME_DRAWING = """() => {
     const draw = octet.renderer.draw.bind(octet.renderer);
@@ -40,14 +40,14 @@ _TIME_DRAWING = """() => {
     };
 }"""
 
-# Each frame of octet.html: when it began, and how long all of it took.
+# Each frame of a page: when it began, and how long all of it took.
 _TIME_FRAMES = """() => {
     const frame = octet.frame.bind(octet);
     [octet.begun, octet.times] = [[], []];
     octet.frame = (now) => {
         const began = performance.now();
         frame(now);
-        octet.lane.renderer.context.getImageData(0, 0, 1, 1);
+        (octet.context ?? octet.lane.renderer.context).getImageData(0, 0, 1, 1);
         octet.begun.push(began);
         octet.times.push(performance.now() - began);
     };
@@ -109,10 +109,10 @@ def _wait_for(page: Page, expression: str) -> None:
             raise OctetError(f"on the page, {expression} did not become true within {_TIMEOUT_S:g} s")
 
 
-def _open(browser: Browser, address: str) -> Page:
+def _open(browser: Browser, address: str, ready: str = _READY) -> Page:
     page = browser.new_page(viewport={"width": _WIDTH, "height": _HEIGHT})
     page.goto(address)
-    _wait_for(page, _READY)
+    _wait_for(page, ready)
     return page
 
 
@@ -153,9 +153,15 @@ def _recorded_page_ms(browser: Browser, folder: Path) -> float:
 
 
 def _frame_figures(browser: Browser, folder: Path) -> list[Figure]:
-    """How smoothly octet.html plays a run of four robots."""
-    frame_ms, frames_per_s = _frames(browser, folder)
-    what = f"octet.html, {_ROBOTS} robots at {_SPEED} x"
+    """How smoothly octet.html plays a run of four robots, and fleet.html a thousand."""
+    few, many = _frames(_few_robots(browser, folder)), _frames(_fleet(browser, folder))
+    return [
+        *_smooth(f"octet.html, {_ROBOTS} robots at {_SPEED} x", *few),
+        *_smooth(f"fleet.html, {_FLEET} robots at {_SPEED} x", *many),
+    ]
+
+
+def _smooth(what: str, frame_ms: float, frames_per_s: float) -> list[Figure]:
     return [
         most_figure(f"{what}: one frame, median", frame_ms, "ms", 4, "canvas without a graphics card"),
         Figure(
@@ -169,13 +175,25 @@ def _frame_figures(browser: Browser, folder: Path) -> list[Figure]:
     ]
 
 
-def _frames(browser: Browser, folder: Path) -> tuple[float, float]:
-    """The median time of a frame, ms, and the frames per second."""
+def _few_robots(browser: Browser, folder: Path) -> Page:
+    """octet.html with a run of four robots."""
     write_octet_page(folder / "octet.html")
     page = _open(browser, (folder / "octet.html").as_uri())
     page.fill("#robot-count", str(_ROBOTS))
     page.click("text=New run")
     _wait_for(page, "octet.lane.data && octet.simulator.running === undefined && octet.simulator.queued.size === 0")
+    return page
+
+
+def _fleet(browser: Browser, folder: Path) -> Page:
+    """fleet.html."""
+    words = ("run", "--robots", str(_FLEET), "--bus", "none", "--environments", "1", "--limit-s", "60", "--quiet")
+    subprocess.run([sys.executable, "-m", "host_sim", *words, "--out", os.fspath(folder / "fleet")], check=False)
+    return _open(browser, (folder / "fleet" / "fleet.html").as_uri(), "window.octet?.tracks")
+
+
+def _frames(page: Page) -> tuple[float, float]:
+    """The median time of a frame while a page plays, ms, and the frames per second."""
     page.select_option("#speed", str(_SPEED))
     page.evaluate(_TIME_FRAMES)
     page.click("#play")

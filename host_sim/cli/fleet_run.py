@@ -5,18 +5,22 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from host_sim.atomic_file import write_bytes
 from host_sim.cli.run_options import RunOptions
 from host_sim.errors import UsageError
 from host_sim.recording.fleet_summary import FleetSummary, environment_line, summarize_fleet, table
 from host_sim.recording.run_folder import run_folder
+from host_sim.report.fleet_page import write_fleet_page
 from host_sim.report.fleet_picture import write_fleet_picture
 from host_sim.sim.fleet import FleetResult, run_fleet, shared_world
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
 
-SUMMARY, TABLE, PICTURE = "summary.json", "robots.csv", "fleet.png"
+SUMMARY, TABLE, PICTURE, PAGE = "summary.json", "robots.csv", "fleet.png", "fleet.html"
 """The files of a fleet in its output folder."""
 
 _EVERY_S = 0.25
@@ -33,8 +37,9 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
     config = options.config
     _check(options)
     results: list[FleetResult] = []
+    samples: list[NDArray[np.int64]] = []
     progress = _Progress(options, results)
-    run = run_fleet(config, progress)
+    run = run_fleet(config, progress, samples)
     with run_folder(options.out):
         if options.talks:
             what = f"{config.robots} robots, {_WHERE[config.worlds]}, profile {config.profile}"
@@ -46,6 +51,8 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
         summary = summarize_fleet(config, results, SimParams.tick_s, time.monotonic() - began)
         write_bytes(options.out / TABLE, table(results).encode())
         _draw(options.out / PICTURE, config, results)
+        world = None if config.worlds == "own" else shared_world(config, 1)
+        write_fleet_page(options.out / PAGE, config, samples, world)
         write_bytes(options.out / SUMMARY, summary.to_json().encode())
     _print(options, summary)
     return summary
@@ -110,4 +117,4 @@ def _print(options: RunOptions, summary: FleetSummary) -> None:
         for environment in summary.environments:
             print(environment_line(environment, summary.robots))
         print(summary.for_people())
-        print(f"wrote     {', '.join(str(Path(options.out) / name) for name in (PICTURE, TABLE, SUMMARY))}")
+        print(f"wrote     {', '.join(str(Path(options.out) / name) for name in (PAGE, PICTURE, TABLE, SUMMARY))}")

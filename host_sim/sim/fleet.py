@@ -3,6 +3,9 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from host_sim.errors import UsageError
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.sim.run_config import RunConfig
@@ -14,6 +17,10 @@ from host_sim.world.worlds import world_of
 
 _SEED_SPAN = 2**32
 _BLOCK_TICKS = 1000
+SAMPLE_TICKS = 50
+"""From one sample of the robots' positions to the next."""
+
+_SAMPLES_MAX, _POSITIONS_MAX = 600, 600_000
 
 
 @dataclass(frozen=True)
@@ -50,7 +57,11 @@ class FleetResult:
         return all(self.eaten)
 
 
-def run_fleet(config: RunConfig, progress: Callable[[int], object] = lambda _: None) -> Iterator[FleetResult]:
+def run_fleet(
+    config: RunConfig,
+    progress: Callable[[int], object] = lambda _: None,
+    samples: list[NDArray[np.int64]] | None = None,
+) -> Iterator[FleetResult]:
     """Runs a fleet.
 
     >>> [result.seed for result in run_fleet(RunConfig(seed=7, robots=2, worlds="own", environments=1, limit_s=1.0))]
@@ -59,6 +70,8 @@ def run_fleet(config: RunConfig, progress: Callable[[int], object] = lambda _: N
     Args:
         config: The run; of its options for buses and boards, none may be set.
         progress: Called now and then with the number of ticks that all robots have run so far.
+        samples: Gets the positions of all robots, as `NativeFleet.positions` has them: at the start, and every
+            `SAMPLE_TICKS` for ten minutes; of more than 1,000 robots for less.
 
     Yields:
         The result of each robot in each environment, once it has ended.
@@ -67,14 +80,15 @@ def run_fleet(config: RunConfig, progress: Callable[[int], object] = lambda _: N
         UsageError: The robots do not fit into their world, or refuse their configuration.
         OctetError: Something that must be built is missing.
     """
-    return _Run(config).results(progress)
+    return _Run(config, samples).results(progress)
 
 
 class _Run:
     """A fleet under way."""
 
-    def __init__(self, config: RunConfig) -> None:
+    def __init__(self, config: RunConfig, samples: list[NDArray[np.int64]] | None) -> None:
         self._config, self._world = config, world_of(config.world)
+        self._samples = samples
         params = self._world.params
         self._own = config.worlds == "own"
         self._shared = [] if self._own else _shared_worlds(config)
@@ -93,7 +107,7 @@ class _Run:
             self._enter(world, 1)
         active = list(range(fleet.worlds))
         while active:
-            fleet.run(_BLOCK_TICKS)
+            self._run_block()
             progress(self._ticks + sum(fleet.ticks(index) for world in active for index in self._robots_of(world)))
             for world in [world for world in active if fleet.is_over(world)]:
                 yield from self._leave(world)
@@ -101,6 +115,16 @@ class _Run:
                     active.remove(world)
                 else:
                     self._enter(world, self._entered[world] + 1)
+
+    def _run_block(self) -> None:
+        samples, fleet = self._samples, self._fleet
+        if samples is None or len(samples) >= min(_SAMPLES_MAX, _POSITIONS_MAX // fleet.robots):
+            fleet.run(_BLOCK_TICKS)
+            return
+        if not samples:
+            samples.append(fleet.positions())
+        fleet.run(SAMPLE_TICKS)
+        samples.append(fleet.positions())
 
     def _seed(self, index: int) -> int:
         return (self._config.seed + index) % _SEED_SPAN

@@ -6,6 +6,9 @@ from itertools import accumulate
 from math import ceil
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from host_sim.errors import OctetError, UsageError
 from host_sim.paths import BUILD, ROOT
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
@@ -141,6 +144,12 @@ class NativeFleet:
         """Where a robot is."""
         body = self._bodies[index]
         return Pose(body.x_mm, body.y_mm, body.heading_rad)
+
+    def positions(self) -> NDArray[np.int64]:
+        """Where all robots are: shape (robots, 3), x and y in mm and heading in mrad."""
+        bodies = np.frombuffer(self._ffi.buffer(self._bodies), np.uint8).reshape(self.robots, -1)
+        poses = bodies[:, : 3 * 8].copy().view(np.float64) * (1.0, 1.0, 1000.0)
+        return np.asarray(np.rint(poses), np.int64)
 
     def _bind(self) -> None:
         ffi, size = self._ffi, self._library.fleet_core_size()

@@ -128,8 +128,11 @@ export function clock(tick, measures) {
   return minutes((tick * measures.tick_ms) / 1000);
 }
 
-/** @param {number} seconds */
-function minutes(seconds) {
+/**
+ * Seconds, such as 1:05.2.
+ * @param {number} seconds
+ */
+export function minutes(seconds) {
   return `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, "0")}`;
 }
 
