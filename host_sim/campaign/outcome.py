@@ -42,6 +42,7 @@ class Outcome:
         waiting: Events that did not come to happen.
         moved: Tick after which the robot last answered in time.
         ticks: Number of ticks.
+        differs: Whether, in lockstep, its log is another than without the fault.
     """
 
     cell: Cell
@@ -56,6 +57,7 @@ class Outcome:
     waiting: tuple[Event, ...] = ()
     moved: int = 0
     ticks: int = 0
+    differs: bool = False
 
     @property
     def problems(self) -> list[str]:
@@ -63,7 +65,7 @@ class Outcome:
         is_misled = self.wrong and not (self.cell.changes or self.end or self.doubts)
         found = {
             "unsafe": self.oldest > HOLD_TICKS,
-            "unseen": bool(self.cell.fault) and not self.seen and not self.cell.harmless,
+            "unseen": bool(self.cell.fault) and not self.seen and (self.differs or not self.cell.harmless),
             "did not happen": bool(self.waiting) and not self.end,
             "wrong without a word": bool(is_misled),
             "broke": self.broke,
@@ -103,8 +105,7 @@ def compare(outcome: Outcome, clean: str) -> None:
     differs = outcome.digest != clean
     if cell.is_of_body and not outcome.seen and differs:
         outcome.seen = "what it does"
-    if cell.harmless and not cell.is_real_time and differs and not outcome.end:
-        outcome.end = "it did other things than without the fault"
+    outcome.differs = differs and not cell.is_real_time
 
 
 def run_cell(cell: Cell) -> Outcome:

@@ -223,3 +223,12 @@ def test_a_cell_is_repeated_and_shrunk_from_the_command_line():
 def test_where_there_is_no_such_link_it_is_said():
     with pytest.raises(UsageError, match="no link"), open_setup("carrier pigeon"):
         raise AssertionError
+
+
+def test_what_need_not_be_noticed_must_not_leave_a_trace():
+    outcome = Outcome(replace(CLEAN, fault="a clock that drifts", harmless=True))
+    assert outcome.problems == []
+
+    outcome.differs = True
+
+    assert outcome.problems == ["unseen"]
