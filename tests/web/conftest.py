@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from urllib.parse import urljoin
+from urllib.parse import urldefrag, urljoin
 
 import pytest
 from playwright.sync_api import Browser, Page
@@ -57,7 +57,7 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
     opened = []
 
     def open_one(url: str, ready: str = READY, prepare: Callable[[Page], object] = lambda _: None, **context) -> Page:
-        faults = Faults(urljoin(url, "/") if url.startswith("http") else url)
+        faults = Faults(urljoin(url, "/") if url.startswith("http") else urldefrag(url).url)
         page = browser.new_context(**context).new_page()
         opened.append((page, faults))
         faults.listen(page)
