@@ -1,34 +1,14 @@
 #include <fcntl.h>
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <unity.h>
 
-#include "hal/link/link.h"
-
-static const uint16_t IDS[LINK_IDS_MAX + 1];
-static char said[2 * PATH_MAX];   /* on stderr, by the last open */
+#include "open_listening.h"
 
 void setUp(void) {}
 void tearDown(void) {}
-
-/* Opens with stderr going to a file that nobody else sees. */
-static int open_listening(struct link **link, const char *name, size_t id_count)
-{
-    int console = dup(STDERR_FILENO);
-    FILE *heard = tmpfile();
-    TEST_ASSERT_NOT_NULL(heard);
-    dup2(fileno(heard), STDERR_FILENO);
-    int result = link_open(link, name, IDS, id_count);
-    dup2(console, STDERR_FILENO);
-    close(console);
-    rewind(heard);
-    said[fread(said, 1, sizeof said - 1, heard)] = '\0';
-    fclose(heard);
-    return result;
-}
 
 static void assert_refused(int expected, const char *name, size_t id_count)
 {
