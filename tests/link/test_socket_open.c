@@ -1,10 +1,12 @@
-/* How a CAN interface is opened, which identifiers it lets through, and what refuses it. The interface and the kernel's part
-   are played by fakes. */
+/* How sockets are opened, which identifiers a CAN interface lets through, and what refuses either. The interface and the
+   kernel's part are played by fakes. */
 #include <errno.h>
+#include <fcntl.h>
 #include <linux/can.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -13,13 +15,14 @@
 
 #include "open_listening.h"
 
-enum call { NONE, SOCKET, IF_NAMETOINDEX, SETSOCKOPT, BIND, CALLOC };
+enum call { NONE, SOCKET, IF_NAMETOINDEX, SETSOCKOPT, BIND, CALLOC, FCNTL };
 enum { INTERFACE = 7 };
 
 static struct can_filter filters[LINK_IDS_MAX];
 static size_t filter_count;
 static struct sockaddr_can bound;
 static enum call refused;
+static int type_of_socket;   /* as the system says it */
 static struct link *link_opened;
 
 int __wrap_socket(int domain, int type, int protocol);
@@ -28,6 +31,9 @@ int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t 
 int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__wrap_calloc(size_t count, size_t size);
+int __wrap_getsockopt(int fd, int level, int name, void *value, socklen_t *size);
+int __real_fcntl(int fd, int command, ...);
+int __wrap_fcntl(int fd, int command, int flags);
 int __real_close(int fd);
 int __wrap_close(int fd);
 
@@ -75,6 +81,21 @@ int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size)
 void *__wrap_calloc(size_t count, size_t size)
 {
     return strikes(CALLOC) ? NULL : __real_calloc(count, size);
+}
+
+int __wrap_getsockopt(int fd, int level, int name, void *value, socklen_t *size)
+{
+    (void)fd;
+    TEST_ASSERT_EQUAL(SOL_SOCKET, level);
+    TEST_ASSERT_EQUAL(SO_TYPE, name);
+    TEST_ASSERT_EQUAL(sizeof type_of_socket, *size);
+    memcpy(value, &type_of_socket, *size);
+    return 0;
+}
+
+int __wrap_fcntl(int fd, int command, int flags)
+{
+    return strikes(FCNTL) ? -1 : __real_fcntl(fd, command, flags);
 }
 
 /* Which may have trouble of its own. */
@@ -145,6 +166,39 @@ static void test_what_refuses_it_is_said_and_nothing_stays_open(void)
     }
 }
 
+/* A descriptor that came from elsewhere: a file stands for the socket. */
+static int open_descriptor(void)
+{
+    char name[16];
+    int fd = open("/dev/null", O_RDWR | O_NONBLOCK);
+    snprintf(name, sizeof name, "fd:%d", fd);
+    TEST_ASSERT_EQUAL_INT(refused == NONE ? 0 : LINK_E_OPEN, open_listening(&link_opened, name, 1));
+    return fd;
+}
+
+static void test_a_socket_of_whole_frames_is_taken_and_waits(void)
+{
+    static const int types[] = {SOCK_SEQPACKET, SOCK_RAW};
+    for (size_t i = 0; i < 2; i++) {
+        type_of_socket = types[i];
+        int fd = open_descriptor();
+        TEST_ASSERT_EQUAL_HEX(0, fcntl(fd, F_GETFL, 0) & O_NONBLOCK);
+        link_close(link_opened);
+        link_opened = NULL;
+    }
+}
+
+static void test_a_descriptor_that_cannot_be_used_is_said_and_stays_open(void)
+{
+    type_of_socket = SOCK_RAW;
+    for (refused = CALLOC; refused <= FCNTL; refused++) {
+        int fd = open_descriptor();
+        TEST_ASSERT_NULL(link_opened);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, ": Input/output error\n"), said);
+        TEST_ASSERT_EQUAL_INT(0, close(fd));
+    }
+}
+
 static void test_closing_gives_the_socket_back(void)
 {
     int fd = free_descriptor();
@@ -160,6 +214,8 @@ int main(void)
     RUN_TEST(test_it_is_bound_to_the_interface_that_was_named);
     RUN_TEST(test_exactly_the_wanted_identifiers_pass);
     RUN_TEST(test_what_refuses_it_is_said_and_nothing_stays_open);
+    RUN_TEST(test_a_socket_of_whole_frames_is_taken_and_waits);
+    RUN_TEST(test_a_descriptor_that_cannot_be_used_is_said_and_stays_open);
     RUN_TEST(test_closing_gives_the_socket_back);
     return UNITY_END();
 }
