@@ -65,6 +65,15 @@ static void test_a_frame_of_another_length_is_not_whole(void)
     TEST_ASSERT_TRUE(e2e_is_whole(&frame, 8));
 }
 
+static void test_a_shorter_frame_is_not_whole_however_right_its_crc(void)
+{
+    for (frame.len = 2; frame.len < 8; frame.len++) {
+        e2e_protect(&frame);
+        TEST_ASSERT_FALSE(e2e_is_whole(&frame, 8));
+        TEST_ASSERT_TRUE(e2e_is_whole(&frame, frame.len));
+    }
+}
+
 static void test_counter_15_is_none(void)
 {
     frame.data[1] |= 15;
@@ -141,6 +150,7 @@ int main(void)
     RUN_TEST(test_bytes_beyond_the_length_are_not_covered);
     RUN_TEST(test_a_frame_sent_to_the_next_node_is_not_whole);
     RUN_TEST(test_a_frame_of_another_length_is_not_whole);
+    RUN_TEST(test_a_shorter_frame_is_not_whole_however_right_its_crc);
     RUN_TEST(test_counter_15_is_none);
     RUN_TEST(test_every_flip_of_one_or_two_bits_is_found);
     RUN_TEST(test_of_67525_flips_of_three_bits_all_but_296_are_found);

@@ -154,9 +154,10 @@ static void test_a_command_that_differs_in_anything_is_another(void)
         {{OPCODE_SET, 1, 2}, 3, THEIRS, false}, {{OPCODE_SET, 1, 2}, 3, OURS, true},
     };
 
+    TEST_ASSERT_EQUAL(ARRIVAL_FRESH, session_request(&session, &first, &why));
     for (unsigned i = 0; i < sizeof others / sizeof *others; i++) {
-        TEST_ASSERT_EQUAL(ARRIVAL_FRESH, session_request(&session, &first, &why));
         TEST_ASSERT_EQUAL(ARRIVAL_FRESH, session_request(&session, &others[i], &why));
+        TEST_ASSERT_EQUAL(ARRIVAL_FRESH, session_request(&session, &first, &why));
     }
 }
 
@@ -194,6 +195,15 @@ static void test_a_tick_of_a_round_ago_is_stale(void)
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(257));   /* tick 1, but not its counter */
 }
 
+static void test_the_counter_goes_on_with_the_tick(void)
+{
+    for (uint8_t counter = 0; counter < E2E_COUNTERS; counter++) {
+        setUp();
+        tick(5);
+        TEST_ASSERT_EQUAL(counter == 8 ? ARRIVAL_FRESH : ARRIVAL_STALE, session_senses(&session, 8, counter, &missed));
+    }
+}
+
 static void test_stale_senses_change_nothing(void)
 {
     tick(5);
@@ -222,6 +232,14 @@ static void test_in_lockstep_the_last_tick_with_another_counter_is_stale(void)
     start(1);
     tick(5);
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, session_senses(&session, 5, 6, &missed));
+    TEST_ASSERT_EQUAL(ARRIVAL_STALE, session_senses(&session, 5, 4, &missed));
+}
+
+static void test_in_lockstep_another_tick_with_the_last_counter_is_stale(void)
+{
+    start(1);
+    tick(5);
+    TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(5 + E2E_COUNTERS));
 }
 
 static void test_on_its_own_clock_the_last_tick_again_is_stale(void)
@@ -268,10 +286,12 @@ int main(void)
     RUN_TEST(test_up_to_14_ticks_ahead_are_fresh);
     RUN_TEST(test_ticks_that_were_left_out_are_counted);
     RUN_TEST(test_a_tick_of_a_round_ago_is_stale);
+    RUN_TEST(test_the_counter_goes_on_with_the_tick);
     RUN_TEST(test_stale_senses_change_nothing);
     RUN_TEST(test_in_lockstep_only_the_next_tick_is_fresh);
     RUN_TEST(test_in_lockstep_the_last_tick_may_come_again);
     RUN_TEST(test_in_lockstep_the_last_tick_with_another_counter_is_stale);
+    RUN_TEST(test_in_lockstep_another_tick_with_the_last_counter_is_stale);
     RUN_TEST(test_on_its_own_clock_the_last_tick_again_is_stale);
     RUN_TEST(test_after_start_and_stop_any_tick_is_taken);
     RUN_TEST(test_after_a_refused_start_the_tick_must_go_on);

@@ -31,7 +31,8 @@ static size_t write_all_kinds(void)
     wire.health.crash = &CRASH;
     wire_count(&wire, FAULT_UNSENT);
     expect(FAULT_UNSENT, 1);
-    out = (struct output){.has_answer = true, .has_report = true, .whole_report = true, .has_drive = true};
+    out = (struct output){.has_answer = true, .has_report = true, .whole_report = true, .has_drive = true,
+                          .memory = {1, 2, 3, 4, 5, 6, 7, 8}};
     return write_out();
 }
 

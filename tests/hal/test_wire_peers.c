@@ -37,6 +37,30 @@ static void test_a_memory_is_heard_once_from_report_to_report(void)
     TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
 }
 
+static void test_the_last_robot_hears_all_others_again_after_a_report(void)
+{
+    wire_init(&wire, NODE_MAX);
+    for (unsigned reports = 0; reports < 2; reports++) {
+        for (uint8_t node = 1; node < NODE_MAX; node++)
+            TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(node, 0, 0)));
+        respond((struct output){.has_drive = true, .has_report = true});
+    }
+}
+
+static void test_a_memory_is_heard_whatever_its_number(void)
+{
+    for (uint8_t counter = 0; counter < E2E_COUNTERS; counter++) {
+        struct frame lower = memory_frame(counter + 2u, 0, 0), upper = memory_frame(counter + 2u, 1, 0);
+
+        lower.data[1] |= counter;
+        upper.data[1] |= counter;
+        TEST_ASSERT_EQUAL(INPUT_PEER, hear(protected_frame(lower)));
+        assert_peer(false, 0);
+        TEST_ASSERT_EQUAL(INPUT_PEER, hear(protected_frame(upper)));
+        assert_peer(true, 0);
+    }
+}
+
 static void test_a_memory_of_all_sensors_is_not_heard(void)
 {
     refuse(memory_frame(2, 0, 0x0F));
@@ -60,8 +84,9 @@ static void test_a_damaged_memory_is_counted(void)
 static void test_the_identifiers_beside_the_memories_are_foreign(void)
 {
     refuse(memory_frame(0, 0, 0));
+    refuse(memory_frame(NODE_MAX + 1, 0, 0));
     refuse(memory_frame(NODE_MAX + 3, 0, 0));   /* a heartbeat's, of node 2 */
-    expect(FAULT_FOREIGN, 2);
+    expect(FAULT_FOREIGN, 3);
 }
 
 int main(void)
@@ -69,6 +94,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_every_other_robots_memory_is_heard);
     RUN_TEST(test_a_memory_is_heard_once_from_report_to_report);
+    RUN_TEST(test_the_last_robot_hears_all_others_again_after_a_report);
+    RUN_TEST(test_a_memory_is_heard_whatever_its_number);
     RUN_TEST(test_a_memory_of_all_sensors_is_not_heard);
     RUN_TEST(test_an_upper_half_alone_is_not_heard);
     RUN_TEST(test_a_damaged_memory_is_counted);

@@ -78,57 +78,6 @@ static void test_other_opcodes_bring_no_arguments(void)
     }
 }
 
-static void test_each_node_hears_its_own_frames(void)
-{
-    for (uint8_t node = 1; node <= NODE_MAX; node++) {
-        wire_init(&wire, node);
-        TEST_ASSERT_EQUAL(INPUT_SENSES, hear(senses_frame(node, 0)));
-    }
-}
-
-static void test_no_node_hears_anothers_frames(void)
-{
-    for (uint8_t node = 2; node <= NODE_MAX; node++)
-        refuse(senses_frame(node, 0));
-    expect(FAULT_FOREIGN, NODE_MAX - 1);
-}
-
-static void test_the_first_and_the_last_node_listen_for_their_own(void)
-{
-    static const uint16_t expected[2][WIRE_LISTEN_COUNT] = {
-        {0x101, 0x121, 0x021, 0x041, 0x6A1, LINK_FAMILY | 0x680},
-        {0x11F, 0x13F, 0x03F, 0x05F, 0x6BF, LINK_FAMILY | 0x680},
-    };
-    static const uint8_t nodes[2] = {1, NODE_MAX};
-    uint16_t ids[WIRE_LISTEN_COUNT];
-
-    for (unsigned i = 0; i < 2; i++) {
-        wire_init(&wire, nodes[i]);
-        wire_ids(&wire, ids);
-        TEST_ASSERT_EQUAL_UINT16_ARRAY(expected[i], ids, WIRE_LISTEN_COUNT);
-    }
-}
-
-static void test_other_messages_of_robots_are_foreign(void)
-{
-    refuse((struct frame){.id = OCTET_ANSWER_FRAME_ID, .len = OCTET_ANSWER_LENGTH});
-    refuse((struct frame){.id = OCTET_FAULTS_FRAME_ID, .len = OCTET_FAULTS_LENGTH});
-    expect(FAULT_FOREIGN, 2);
-}
-
-static void test_extended_remote_and_error_frames_are_foreign(void)
-{
-    static const uint32_t flags[] = {FRAME_EXTENDED, FRAME_REMOTE, FRAME_ERROR};
-
-    for (unsigned i = 0; i < 3; i++) {
-        struct frame frame = senses_frame(NODE, 0);
-
-        frame.id |= flags[i];
-        refuse(frame);
-    }
-    expect(FAULT_FOREIGN, 3);
-}
-
 static void flip(struct frame *frame, unsigned bit)
 {
     if (bit < ID_BITS)
@@ -292,6 +241,16 @@ static void test_a_command_again_is_answered_as_before(void)
     TEST_ASSERT_EQUAL_MEMORY(&answer, wire.again, sizeof answer);
 }
 
+static void test_what_was_said_goes_out_again_only_where_it_is_asked_for_again(void)
+{
+    hear(command_of(OPCODE_ERASE, 7, OWNER));
+    respond((struct output){.has_answer = true});
+    refuse(command_of(OPCODE_ERASE, 7, OWNER));
+    refuse(senses_frame(NODE + 1, 0));
+    expect(FAULT_FOREIGN, 1);
+    TEST_ASSERT_NULL(wire.again);
+}
+
 static void assert_answer(enum result result, uint8_t counter)
 {
     struct octet_answer_t answer;
@@ -349,11 +308,6 @@ int main(void)
     RUN_TEST(test_write_brings_half_mask_and_bytes);
     RUN_TEST(test_freeze_brings_its_flag);
     RUN_TEST(test_other_opcodes_bring_no_arguments);
-    RUN_TEST(test_each_node_hears_its_own_frames);
-    RUN_TEST(test_no_node_hears_anothers_frames);
-    RUN_TEST(test_the_first_and_the_last_node_listen_for_their_own);
-    RUN_TEST(test_other_messages_of_robots_are_foreign);
-    RUN_TEST(test_extended_remote_and_error_frames_are_foreign);
     RUN_TEST(test_senses_with_one_or_two_flipped_bits_are_refused);
     RUN_TEST(test_a_command_with_one_or_two_flipped_bits_is_refused);
     RUN_TEST(test_a_frame_of_another_length_is_damaged);
@@ -369,6 +323,7 @@ int main(void)
     RUN_TEST(test_in_lockstep_senses_again_are_answered_as_before);
     RUN_TEST(test_what_was_said_in_silence_is_not_said_again);
     RUN_TEST(test_a_command_again_is_answered_as_before);
+    RUN_TEST(test_what_was_said_goes_out_again_only_where_it_is_asked_for_again);
     RUN_TEST(test_a_command_of_another_sender_is_answered_with_the_reason);
     RUN_TEST(test_an_old_command_is_answered_with_the_reason);
     RUN_TEST(test_a_damaged_command_does_not_use_up_its_counter);

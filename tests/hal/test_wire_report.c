@@ -4,6 +4,7 @@
 
 #include <unity.h>
 
+#include "build_id.h"
 #include "firmware/config.h"
 #include "firmware/memory.h"
 #include "wire_frames.h"
@@ -29,7 +30,26 @@ static void test_a_report_is_spread_over_the_drives_of_many_ticks(void)
         out = (struct output){.has_report = i == 0, .has_drive = true};
         TEST_ASSERT_EQUAL_size_t(ids[i] == 0 ? 1 : ids[i] == 0x681 ? 3 : 2, write_out());
         TEST_ASSERT_EQUAL_HEX32(ids[i] == 0 ? 0x041 : ids[i], frames[0].id);
+        if (frames[0].id == OCTET_HEALTH_FRAME_ID)
+            TEST_ASSERT_EQUAL_UINT8(0, wire.part);   /* it has ended */
     }
+}
+
+static void test_a_whole_report_ends_one_that_is_under_way(void)
+{
+    static const uint32_t drive = 0x041;
+
+    out = (struct output){.has_report = true, .has_drive = true};
+    write_out();
+    whole_report();
+    out = (struct output){.has_drive = true};
+    assert_ids(&drive, 1);
+}
+
+static void test_what_is_whole_is_sent_only_if_there_is_a_report(void)
+{
+    out = (struct output){.whole_report = true};
+    TEST_ASSERT_EQUAL_size_t(0, write_out());
 }
 
 static void test_a_new_memory_holds_the_report_up(void)
@@ -50,6 +70,10 @@ static void test_in_silence_there_is_a_heartbeat_and_nothing_else(void)
     assert_ids(ids, 2);
     out.has_report = false;
     assert_ids(ids + 1, 1);
+    out.silent = false;
+    assert_ids(ids + 1, 1);
+    out = (struct output){.has_report = true, .whole_report = true, .silent = true};
+    assert_ids(ids, 1);
 }
 
 static struct octet_heartbeat_t heartbeat_sent(void)
@@ -113,6 +137,11 @@ static void test_a_heartbeat_tells_whose_clock_rules(void)
     TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_LOCKSTEP_LOCKSTEP_CHOICE, heartbeat_sent().lockstep);
 }
 
+static void test_a_heartbeat_names_the_layout_of_all_messages(void)
+{
+    TEST_ASSERT_EQUAL_HEX16(LAYOUT_HASH, heartbeat_sent().layout);
+}
+
 static void test_each_fault_has_its_own_place(void)
 {
     struct octet_faults_t link, robot;
@@ -167,6 +196,18 @@ static void test_boot_tells_why_it_started(void)
     TEST_ASSERT_EQUAL_UINT32(OCTET_BOOT_FRAME_ID, frames[0].id);
     TEST_ASSERT_EQUAL(0, octet_boot_unpack(&sent, frames[0].data, frames[0].len));
     TEST_ASSERT_EQUAL_UINT8(OCTET_BOOT_RESET_CAUSE_WATCHDOG_CHOICE, sent.reset_cause);
+}
+
+static void test_boot_tells_what_it_was_built_from(void)
+{
+    struct octet_boot_t sent;
+
+    wire_boot(&wire, &frames[0]);
+    TEST_ASSERT_EQUAL(0, octet_boot_unpack(&sent, frames[0].data, frames[0].len));
+    TEST_ASSERT_EQUAL_UINT8(OCTET_VERSION_MAJOR, sent.version_major);
+    TEST_ASSERT_EQUAL_UINT8(OCTET_VERSION_MINOR, sent.version_minor);
+    TEST_ASSERT_EQUAL_HEX32(OCTET_BUILD_COMMIT, sent.commit);
+    TEST_ASSERT_EQUAL_UINT8(OCTET_BUILD_MODIFIED, sent.modified);
 }
 
 static void test_without_a_crash_no_report_tells_of_one(void)
@@ -226,6 +267,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_parts_of_a_report_wait_for_drives_in_answer_to_senses);
     RUN_TEST(test_a_report_is_spread_over_the_drives_of_many_ticks);
+    RUN_TEST(test_a_whole_report_ends_one_that_is_under_way);
+    RUN_TEST(test_what_is_whole_is_sent_only_if_there_is_a_report);
     RUN_TEST(test_a_new_memory_holds_the_report_up);
     RUN_TEST(test_in_silence_there_is_a_heartbeat_and_nothing_else);
     RUN_TEST(test_each_heartbeat_counts_on_but_for_those_of_silence);
@@ -234,9 +277,11 @@ int main(void)
     RUN_TEST(test_a_heartbeat_tells_how_the_robot_fares);
     RUN_TEST(test_a_heartbeat_tells_a_stopped_and_frozen_robot);
     RUN_TEST(test_a_heartbeat_tells_whose_clock_rules);
+    RUN_TEST(test_a_heartbeat_names_the_layout_of_all_messages);
     RUN_TEST(test_each_fault_has_its_own_place);
     RUN_TEST(test_health_tells_how_bus_clock_and_store_fare);
     RUN_TEST(test_boot_tells_why_it_started);
+    RUN_TEST(test_boot_tells_what_it_was_built_from);
     RUN_TEST(test_without_a_crash_no_report_tells_of_one);
     RUN_TEST(test_a_crash_is_told_one_value_a_report_round_and_round);
     RUN_TEST(test_a_memory_is_two_frames_with_one_counter);

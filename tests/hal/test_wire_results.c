@@ -94,15 +94,15 @@ static void test_what_is_no_answer_is_no_refusal(void)
 
 static void test_news_goes_out_with_whatever_is_next(void)
 {
-    const struct output next[] = {{.has_drive = true}, {.has_report = true, .whole_report = true}};
+    const struct output next[] = {{.has_drive = true}, {.has_report = true, .whole_report = true}, {.has_answer = true}};
 
-    for (unsigned i = 0; i < 2; i++) {
+    for (unsigned i = 0; i < 3; i++) {
         wire_count(&wire, FAULT_UNSENT);
         out = next[i];
         write_out();
-        TEST_ASSERT_EQUAL_HEX32(OCTET_EMERGENCY_FRAME_ID, frames[0].id);
+        TEST_ASSERT_EQUAL_HEX32(OCTET_EMERGENCY_FRAME_ID, frames[out.has_answer ? 1 : 0].id);
     }
-    expect(FAULT_UNSENT, 2);
+    expect(FAULT_UNSENT, 3);
 }
 
 static void test_news_waits_while_nothing_goes_out(void)

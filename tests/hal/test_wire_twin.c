@@ -27,9 +27,34 @@ static void test_in_lockstep_senses_wait_for_their_ranges(void)
     start(1, ANSWER_WANTS_RANGES);
     refuse(ranges_frame(6));
     refuse(senses_frame(NODE, 7));
-    expect(FAULT_MISSED, 1);
+    refuse(ranges_frame(8));
+    refuse(senses_frame(NODE, 7));
+    expect(FAULT_MISSED, 2);
     refuse(ranges_frame(7));
     TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(7));
+}
+
+static void test_the_first_senses_of_a_run_wait_for_ranges_of_that_run(void)
+{
+    start(1, ANSWER_WANTS_RANGES);
+    refuse(senses_frame(NODE, 0));
+    refuse(ranges_frame(0));
+    hear(command_frame((struct octet_command_t){.opcode = OPCODE_START, .counter = 2, .owner = OWNER, .lockstep = 1}));
+    respond((struct output){.has_answer = true, .answer_value = ANSWER_WANTS_RANGES});
+    refuse(senses_frame(NODE, 0));
+    expect(FAULT_MISSED, 2);
+}
+
+static void test_damaged_ranges_are_counted_and_not_taken(void)
+{
+    struct frame damaged = ranges_frame(7);
+
+    start(1, ANSWER_WANTS_RANGES);
+    damaged.data[7] ^= 1;
+    refuse(damaged);
+    expect(FAULT_DAMAGED, 1);
+    refuse(senses_frame(NODE, 7));
+    expect(FAULT_MISSED, 1);
 }
 
 static void test_on_its_own_clock_senses_do_without_their_ranges(void)
@@ -114,6 +139,8 @@ int main(void)
     RUN_TEST(test_ranges_that_nobody_asked_for_are_foreign);
     RUN_TEST(test_ranges_go_with_the_senses_of_their_tick);
     RUN_TEST(test_in_lockstep_senses_wait_for_their_ranges);
+    RUN_TEST(test_the_first_senses_of_a_run_wait_for_ranges_of_that_run);
+    RUN_TEST(test_damaged_ranges_are_counted_and_not_taken);
     RUN_TEST(test_on_its_own_clock_senses_do_without_their_ranges);
     RUN_TEST(test_a_twin_stops_the_robot);
     RUN_TEST(test_one_frame_a_second_makes_no_twin);

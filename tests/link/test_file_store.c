@@ -1,6 +1,7 @@
 /* The store against a disk that fails at the n-th call, for every n. */
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,6 +20,8 @@ static char path[64];
 static char fresh[64];   /* the file beside it */
 static int calls;
 static int fail_at;   /* the call that fails; 0: none */
+static int error;     /* and why */
+static int free_descriptor;
 
 int __real_open(const char *name, int flags, ...);
 int __wrap_open(const char *name, int flags, ...);
@@ -35,12 +38,14 @@ int __wrap_rename(const char *from, const char *to);
 
 static bool strikes(void)
 {
-    errno = EIO;
+    errno = error;
     return ++calls == fail_at;
 }
 
+/* No process that is started meanwhile is to inherit what is open. */
 int __wrap_open(const char *name, int flags, ...)
 {
+    TEST_ASSERT_EQUAL_HEX(O_CLOEXEC, flags & O_CLOEXEC);
     va_list arguments;
     va_start(arguments, flags);
     mode_t mode = flags & O_CREAT ? va_arg(arguments, mode_t) : 0;
@@ -75,9 +80,18 @@ int __wrap_rename(const char *from, const char *to)
     return strikes() ? -1 : __real_rename(from, to);
 }
 
+static int next_descriptor(void)
+{
+    int fd = dup(STDERR_FILENO);
+    __real_close(fd);
+    return fd;
+}
+
 void setUp(void)
 {
     fail_at = 0;
+    error = EIO;
+    free_descriptor = next_descriptor();
     strcpy(folder, "/tmp/octet-store-XXXXXX");
     TEST_ASSERT_NOT_NULL(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/memory", folder);
@@ -87,6 +101,7 @@ void setUp(void)
 void tearDown(void)
 {
     fail_at = 0;
+    TEST_ASSERT_EQUAL_INT(free_descriptor, next_descriptor());   /* each was closed */
     unlink(path);
     TEST_ASSERT_EQUAL_INT(0, rmdir(folder));   /* nothing else was left */
 }
@@ -136,6 +151,36 @@ static void test_the_file_is_the_bytes_alone(void)
     TEST_ASSERT_EQUAL_INT(CELL_COUNT, file.st_size);
 }
 
+static void test_everybody_may_read_the_file_and_its_owner_write_it(void)
+{
+    struct stat file;
+    mode_t before = umask(0);
+    TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
+    umask(before);
+
+    TEST_ASSERT_EQUAL_INT(0, stat(path, &file));
+    TEST_ASSERT_EQUAL_HEX(0644, file.st_mode & 0777);
+}
+
+static void test_what_a_save_that_was_cut_off_left_beside_it_does_no_harm(void)
+{
+    const uint8_t left[2 * CELL_COUNT] = {9, 9, 9, 9, 9, 9, 9, 9, 9};
+    write_file(left, sizeof left);
+    TEST_ASSERT_EQUAL_INT(0, rename(path, fresh));
+    TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
+    assert_stored(NEW);
+}
+
+static void test_a_robot_without_standard_input_stores_as_well(void)
+{
+    int input = dup(STDIN_FILENO);
+    __real_close(STDIN_FILENO);
+    TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
+    assert_stored(NEW);
+    TEST_ASSERT_EQUAL_INT(STDIN_FILENO, dup2(input, STDIN_FILENO));
+    __real_close(input);
+}
+
 static void test_a_file_of_another_size_is_no_memory(void)
 {
     const size_t sizes[] = {0, 7, 9, 64};
@@ -155,10 +200,12 @@ static void test_a_file_of_another_size_is_replaced_by_a_save(void)
 
 static void test_a_file_that_cannot_be_read_is_no_memory(void)
 {
+    const int errors[] = {EPERM, EIO, EACCES};
     write_file(OLD, CELL_COUNT);
-    for (int n = 1; n <= 2; n++) {
+    for (int n = 0; n < 6; n++) {
         calls = 0;
-        fail_at = n;
+        fail_at = n % 2 + 1;   /* open, read */
+        error = errors[n / 2];
         assert_load_leaves_memory_alone(HAL_E_STORE);
     }
 }
@@ -174,6 +221,21 @@ static void test_a_path_too_long_refuses_a_save(void)
     memset(name, 'x', sizeof name);
     name[sizeof name - 1] = '\0';
     TEST_ASSERT_EQUAL_INT(HAL_E_STORE, file_store_save(name, NEW));
+}
+
+/* With the name of the file beside it, and with slashes beside each other, which are as one. */
+static void test_a_path_may_be_as_long_as_the_system_knows(void)
+{
+    const char end[] = "/memory";
+    char name[PATH_MAX];
+    for (size_t len = PATH_MAX - sizeof ".new"; len <= PATH_MAX - sizeof ".new" + 1; len++) {
+        bool fits = len + sizeof ".new" <= PATH_MAX;
+        memset(name, '/', sizeof name);
+        memcpy(name, folder, strlen(folder));
+        strcpy(name + len - strlen(end), end);
+        TEST_ASSERT_EQUAL_INT(fits ? 0 : HAL_E_STORE, file_store_save(name, NEW));
+        if (fits) assert_stored(NEW);
+    }
 }
 
 /* Saves NEW with the n-th call failing, and nothing left beside the file; false: there are fewer than n. */
@@ -211,18 +273,39 @@ static void test_a_refused_first_save_leaves_nothing(void)
     TEST_ASSERT_EQUAL_INT(7, refused);
 }
 
+static void test_a_refused_save_over_what_is_no_memory_makes_none_up(void)
+{
+    static const char rubbish[] = "short";
+    int result;
+    write_file(rubbish, sizeof rubbish);
+    for (int n = 1; save_fails_at(n, &result); n++) {
+        uint8_t memory[CELL_COUNT];
+        FILE *file = fopen(path, "rb");
+        TEST_ASSERT_NOT_NULL(file);
+        size_t size = fread(memory, 1, sizeof memory, file);
+        TEST_ASSERT_EQUAL_INT(0, fclose(file));
+        TEST_ASSERT_EQUAL_MEMORY(size == CELL_COUNT ? (const void *)NEW : rubbish, memory, size);
+        write_file(rubbish, sizeof rubbish);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_nothing_was_ever_stored);
     RUN_TEST(test_what_was_saved_is_loaded);
     RUN_TEST(test_the_file_is_the_bytes_alone);
+    RUN_TEST(test_everybody_may_read_the_file_and_its_owner_write_it);
+    RUN_TEST(test_what_a_save_that_was_cut_off_left_beside_it_does_no_harm);
+    RUN_TEST(test_a_robot_without_standard_input_stores_as_well);
     RUN_TEST(test_a_file_of_another_size_is_no_memory);
     RUN_TEST(test_a_file_of_another_size_is_replaced_by_a_save);
     RUN_TEST(test_a_file_that_cannot_be_read_is_no_memory);
     RUN_TEST(test_a_folder_that_is_not_there_refuses_a_save);
     RUN_TEST(test_a_path_too_long_refuses_a_save);
+    RUN_TEST(test_a_path_may_be_as_long_as_the_system_knows);
     RUN_TEST(test_a_refused_save_leaves_the_old_memory);
     RUN_TEST(test_a_refused_first_save_leaves_nothing);
+    RUN_TEST(test_a_refused_save_over_what_is_no_memory_makes_none_up);
     return UNITY_END();
 }

@@ -1,34 +1,14 @@
 #include <fcntl.h>
-#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <unity.h>
 
-#include "hal/link/link.h"
-
-static const uint16_t IDS[LINK_IDS_MAX + 1];
-static char said[2 * PATH_MAX];   /* on stderr, by the last open */
+#include "open_listening.h"
 
 void setUp(void) {}
 void tearDown(void) {}
-
-/* Opens with stderr going to a file that nobody else sees. */
-static int open_listening(struct link **link, const char *name, size_t id_count)
-{
-    int console = dup(STDERR_FILENO);
-    FILE *heard = tmpfile();
-    TEST_ASSERT_NOT_NULL(heard);
-    dup2(fileno(heard), STDERR_FILENO);
-    int result = link_open(link, name, IDS, id_count);
-    dup2(console, STDERR_FILENO);
-    close(console);
-    rewind(heard);
-    said[fread(said, 1, sizeof said - 1, heard)] = '\0';
-    fclose(heard);
-    return result;
-}
 
 static void assert_refused(int expected, const char *name, size_t id_count)
 {
@@ -56,8 +36,8 @@ static void test_a_refused_name_is_answered_with_those_there_are(void)
 
 static void test_a_descriptor_must_be_a_number(void)
 {
-    const char *const names[] = {"fd:x", "fd:-1", "fd:+3", "fd: 3", "fd:3x", "fd:2147483648",
-                                 "fd:99999999999999999999"};
+    const char *const names[] = {"fd:x", "fd:-1", "fd:+3", "fd: 3", "fd:3x", "fd:3a",
+                                 "fd:2147483648", "fd:99999999999999999999"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) assert_refused(LINK_E_NAME, names[i], 1);
 }
 
@@ -66,6 +46,7 @@ static void test_a_descriptor_must_be_open(void)
     assert_refused(LINK_E_OPEN, "fd:987", 1);
 
     TEST_ASSERT_EQUAL_STRING("link fd:987: Bad file descriptor\n", said);
+    assert_refused(LINK_E_OPEN, "fd:2147483647", 1);
 }
 
 static void assert_descriptor_refused(int fd)
@@ -74,6 +55,11 @@ static void assert_descriptor_refused(int fd)
     snprintf(name, sizeof name, "fd:%d", fd);
     assert_refused(LINK_E_OPEN, name, 1);
     TEST_ASSERT_EQUAL_INT(0, close(fd));   /* still ours */
+}
+
+static void test_descriptor_0_is_a_number(void)
+{
+    assert_refused(LINK_E_OPEN, "fd:0", 1);   /* standard input is no socket of whole frames */
 }
 
 static void test_a_descriptor_must_be_a_socket_of_whole_frames(void)
@@ -151,6 +137,7 @@ int main(void)
     RUN_TEST(test_a_refused_name_is_answered_with_those_there_are);
     RUN_TEST(test_a_descriptor_must_be_a_number);
     RUN_TEST(test_a_descriptor_must_be_open);
+    RUN_TEST(test_descriptor_0_is_a_number);
     RUN_TEST(test_a_descriptor_must_be_a_socket_of_whole_frames);
     RUN_TEST(test_a_path_must_be_a_terminal);
     RUN_TEST(test_a_speed_must_be_one_of_a_serial_line);

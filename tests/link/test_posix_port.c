@@ -102,6 +102,7 @@ static int open_with(const char *first, ...)
     va_end(more);
     argv[argc] = NULL;
     optind = 0;   /* getopt begins anew */
+    errno = ERANGE;   /* of something that failed before */
     result = port_open(&port, argc, argv);
     close(redirect(stderr, kept));
     read_said(file);
@@ -163,22 +164,26 @@ static void test_an_unknown_option_is_refused_with_the_usage(void)
     assert_says("usage: octet-robot");
 }
 
-static void test_help_is_no_error(void)
+static void test_help_is_its_usage_and_no_error(void)
 {
-    int status;
-    pid_t child = fork();
+    int status, file = open_scratch();
+    pid_t child;
+
+    fflush(stdout);   /* else the child says what waits there, too */
+    child = fork();
 
     if (child == 0) {
         char *argv[] = {(char[]){"octet-robot"}, (char[]){"--help"}, NULL};
 
-        (void)redirect(stdout, open("/dev/null", O_WRONLY));
+        (void)redirect(stdout, dup(file));
         optind = 0;
         (void)port_open(&port, 2, argv);
         _exit(99);
     }
     TEST_ASSERT_EQUAL(child, waitpid(child, &status, 0));
-    TEST_ASSERT_TRUE(WIFEXITED(status));
-    TEST_ASSERT_EQUAL(0, WEXITSTATUS(status));
+    TEST_ASSERT_EQUAL(0, status);
+    read_said(file);
+    TEST_ASSERT_EQUAL_PTR_MESSAGE(said, strstr(said, "usage: octet-robot"), said);
 }
 
 static void test_with_its_parent_it_ends(void)
@@ -195,15 +200,16 @@ static void test_with_its_parent_it_ends(void)
 
 /* ---- what it brings */
 
-static void test_it_says_that_it_is_ready(void)
+/* Whoever waits for it reads from a pipe. */
+static void test_it_says_at_once_that_it_is_ready(void)
 {
     int file = open_scratch(), kept;
 
     TEST_ASSERT_EQUAL(0, open_with("--node", "7", "fd:3", NULL));
     kept = redirect(stdout, dup(file));
     port_ready(&port);
-    close(redirect(stdout, kept));
     read_said(file);
+    close(redirect(stdout, kept));
     TEST_ASSERT_EQUAL_STRING("octet-robot: node 7 listens on fd:3\n", said);
 }
 
@@ -239,6 +245,8 @@ static void test_time_is_in_milliseconds_and_wraps(void)
 {
     now = (struct timespec){.tv_sec = 5, .tv_nsec = 1999999};
     TEST_ASSERT_EQUAL_UINT32(5001, port_clock_ms());
+    now = (struct timespec){.tv_sec = 5, .tv_nsec = 999999999};
+    TEST_ASSERT_EQUAL_UINT32(5999, port_clock_ms());
     now = (struct timespec){.tv_sec = 4294967, .tv_nsec = 297000000};
     TEST_ASSERT_EQUAL_UINT32(1, port_clock_ms());
     port_alive(true);   /* nobody watches a process on the host */
@@ -250,7 +258,28 @@ static void test_entropy_differs_and_does_without_the_system(void)
 
     TEST_ASSERT_TRUE(first != second || port_entropy() != second);
     getrandom_fails = true;
-    TEST_ASSERT_TRUE(port_entropy() != 0);
+    now = (struct timespec){.tv_sec = 1};
+    for (unsigned ms = 1; ms < 1000; ms++) {
+        uint32_t before = port_entropy();
+
+        now.tv_nsec = ms * 1000000l;
+        TEST_ASSERT_TRUE(port_entropy() != before);
+    }
+}
+
+static void test_entropy_without_the_system_differs_from_process_to_process(void)
+{
+    int status;
+    uint32_t ours;
+    pid_t child;
+
+    getrandom_fails = true;
+    ours = port_entropy();
+    child = fork();
+    if (child == 0)
+        _exit(port_entropy() != ours ? 0 : 1);
+    TEST_ASSERT_EQUAL(child, waitpid(child, &status, 0));
+    TEST_ASSERT_EQUAL(0, status);
 }
 
 int main(void)
@@ -262,11 +291,12 @@ int main(void)
     RUN_TEST(test_what_is_no_node_is_refused_and_said);
     RUN_TEST(test_without_a_link_or_with_two_it_tells_its_usage);
     RUN_TEST(test_an_unknown_option_is_refused_with_the_usage);
-    RUN_TEST(test_help_is_no_error);
+    RUN_TEST(test_help_is_its_usage_and_no_error);
     RUN_TEST(test_with_its_parent_it_ends);
-    RUN_TEST(test_it_says_that_it_is_ready);
+    RUN_TEST(test_it_says_at_once_that_it_is_ready);
     RUN_TEST(test_the_memory_goes_to_the_file_that_was_named);
     RUN_TEST(test_time_is_in_milliseconds_and_wraps);
     RUN_TEST(test_entropy_differs_and_does_without_the_system);
+    RUN_TEST(test_entropy_without_the_system_differs_from_process_to_process);
     return UNITY_END();
 }

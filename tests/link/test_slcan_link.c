@@ -1,4 +1,4 @@
-/* A serial line that takes less than it is given, played by a fake write. While a frame is sent time passes only where
+/* A serial line that takes less than it is given and reads badly, played by fakes. While a frame is sent time passes only where
    the link rests: a busy machine changes nothing. */
 #include <errno.h>
 #include <fcntl.h>
@@ -13,7 +13,7 @@
 
 #include "hal/link/link.h"
 
-enum { NS_PER_S = 1000000000, SOON_MS = 5000, QUIET_MS = 50 };
+enum { NS_PER_MS = 1000000, NS_PER_S = 1000000000, SOON_MS = 5000, QUIET_MS = 50 };
 
 static const struct frame HELLO = {0x123, 2, {0xAB, 0xCD}};
 static const struct frame EMPTY = {.id = 0x100};
@@ -21,8 +21,13 @@ static const uint16_t WANTED[] = {0x123};
 
 static size_t room;       /* bytes that the line takes, then it is full */
 static size_t piece;      /* at most so many at once */
-static int interruptions; /* before it takes anything */
+static struct {           /* what each call says before the line takes or gives anything */
+    int error;            /* 0: as if no byte had passed */
+    int times;
+    int each_ms;          /* that it takes */
+} write_fault, read_fault;
 static int64_t sending_ns; /* the time while a frame is sent; 0: none is */
+static int32_t took_ms;    /* the last sending */
 static struct link *near;
 static int far;
 
@@ -31,21 +36,31 @@ int __wrap_clock_gettime(clockid_t clock, struct timespec *out);
 int __wrap_nanosleep(const struct timespec *wanted, struct timespec *left);
 ssize_t __real_write(int fd, const void *from, size_t size);
 ssize_t __wrap_write(int fd, const void *from, size_t size);
+ssize_t __real_read(int fd, void *to, size_t size);
+ssize_t __wrap_read(int fd, void *to, size_t size);
 
 static ssize_t fail(int error)
 {
     errno = error;
-    return -1;
+    return error == 0 ? 0 : -1;
 }
 
 ssize_t __wrap_write(int fd, const void *from, size_t size)
 {
-    if (interruptions-- > 0) return fail(EINTR);
+    if (write_fault.times-- > 0) {
+        sending_ns += (int64_t)write_fault.each_ms * NS_PER_MS;
+        return fail(write_fault.error);
+    }
     if (room == 0) return fail(EAGAIN);
     if (size > piece) size = piece;
     if (size > room) size = room;
     room -= size;
     return __real_write(fd, from, size);
+}
+
+ssize_t __wrap_read(int fd, void *to, size_t size)
+{
+    return read_fault.times-- > 0 ? fail(read_fault.error) : __real_read(fd, to, size);
 }
 
 int __wrap_clock_gettime(clockid_t clock, struct timespec *out)
@@ -66,6 +81,7 @@ static int send_frame(const struct frame *frame)
 {
     sending_ns = 1;
     int result = link_send(near, frame);
+    took_ms = (int32_t)((sending_ns - 1) / NS_PER_MS);
     sending_ns = 0;
     return result;
 }
@@ -74,7 +90,8 @@ void setUp(void)
 {
     char name[64];
     room = piece = 1000;
-    interruptions = 0;
+    memset(&write_fault, 0, sizeof write_fault);
+    memset(&read_fault, 0, sizeof read_fault);
     far = posix_openpt(O_RDWR | O_NOCTTY);
     TEST_ASSERT_EQUAL_INT(0, grantpt(far));
     TEST_ASSERT_EQUAL_INT(0, unlockpt(far));
@@ -115,11 +132,51 @@ static void test_a_line_taken_in_pieces_arrives_whole(void)
     assert_far_reads("t1232ABCD\r");
 }
 
-static void test_an_interrupted_write_goes_on(void)
+/* It takes as long as the signals do. */
+static void test_an_interrupted_write_goes_on_without_a_rest(void)
 {
-    interruptions = 2;
+    static const int cases_ms[] = {0, 1, LINK_SEND_MS - 1};
+    for (size_t i = 0; i < sizeof cases_ms / sizeof *cases_ms; i++) {
+        write_fault.error = EINTR;
+        write_fault.times = 1;
+        write_fault.each_ms = cases_ms[i];
+        TEST_ASSERT_EQUAL_INT(0, send_frame(&HELLO));
+        TEST_ASSERT_EQUAL_INT(cases_ms[i], took_ms);
+    }
+    assert_far_reads("t1232ABCD\rt1232ABCD\rt1232ABCD\r");
+}
+
+static void test_a_signal_at_the_last_moment_is_the_end(void)
+{
+    write_fault.error = EINTR;
+    write_fault.times = 1;
+    write_fault.each_ms = LINK_SEND_MS;
+    TEST_ASSERT_EQUAL_INT(LINK_E_FULL, send_frame(&HELLO));
+    TEST_ASSERT_EQUAL_INT(LINK_SEND_MS, took_ms);
+    assert_far_reads("");
+}
+
+static void test_a_full_line_is_tried_each_millisecond_and_given_up_in_time(void)
+{
+    write_fault.error = EAGAIN;
+    write_fault.times = 3;
     TEST_ASSERT_EQUAL_INT(0, send_frame(&HELLO));
+    TEST_ASSERT_EQUAL_INT(3, took_ms);
     assert_far_reads("t1232ABCD\r");
+    room = 0;
+    TEST_ASSERT_EQUAL_INT(LINK_E_FULL, send_frame(&HELLO));
+    TEST_ASSERT_EQUAL_INT(LINK_SEND_MS, took_ms);
+}
+
+static void test_a_line_that_takes_nothing_or_fails_is_closed(void)
+{
+    static const int errors[] = {0, EIO, ENODEV, EBADF, EPIPE};
+    for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
+        write_fault.error = errors[i];
+        write_fault.times = 1;
+        TEST_ASSERT_EQUAL_INT(LINK_E_CLOSED, send_frame(&HELLO));
+        TEST_ASSERT_EQUAL_INT(0, took_ms);
+    }
 }
 
 static void test_a_line_cut_short_is_ended_before_the_next(void)
@@ -140,6 +197,30 @@ static void test_a_line_stays_cut_short_while_nothing_passes(void)
     room = 1000;
     TEST_ASSERT_EQUAL_INT(0, send_frame(&EMPTY));
     assert_far_reads("t123\rt1000\r");
+}
+
+static void test_a_line_that_ends_or_fails_is_closed(void)
+{
+    static const int errors[] = {0, EIO, ENODEV, EBADF};
+    struct frame frame;
+    for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
+        read_fault.error = errors[i];
+        read_fault.times = 1;
+        TEST_ASSERT_EQUAL_INT(LINK_E_CLOSED, link_receive(near, &frame, SOON_MS));
+    }
+}
+
+static void test_a_read_that_is_interrupted_or_finds_nothing_goes_on(void)
+{
+    static const int errors[] = {EINTR, EAGAIN};
+    struct frame frame;
+    for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
+        put("t1232ABCD\r");
+        read_fault.error = errors[i];
+        read_fault.times = 1;
+        TEST_ASSERT_EQUAL_INT(1, link_receive(near, &frame, SOON_MS));
+        TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
+    }
 }
 
 static void test_lines_that_mean_nothing_do_not_end_the_wait(void)
@@ -171,9 +252,14 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_opening_sends_nothing);
     RUN_TEST(test_a_line_taken_in_pieces_arrives_whole);
-    RUN_TEST(test_an_interrupted_write_goes_on);
+    RUN_TEST(test_an_interrupted_write_goes_on_without_a_rest);
+    RUN_TEST(test_a_signal_at_the_last_moment_is_the_end);
+    RUN_TEST(test_a_full_line_is_tried_each_millisecond_and_given_up_in_time);
+    RUN_TEST(test_a_line_that_takes_nothing_or_fails_is_closed);
     RUN_TEST(test_a_line_cut_short_is_ended_before_the_next);
     RUN_TEST(test_a_line_stays_cut_short_while_nothing_passes);
+    RUN_TEST(test_a_line_that_ends_or_fails_is_closed);
+    RUN_TEST(test_a_read_that_is_interrupted_or_finds_nothing_goes_on);
     RUN_TEST(test_lines_that_mean_nothing_do_not_end_the_wait);
     RUN_TEST(test_a_line_that_comes_in_pieces_is_one_frame);
     RUN_TEST(test_the_line_is_set_to_its_usual_speed);

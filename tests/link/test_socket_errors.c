@@ -246,6 +246,14 @@ static void test_a_wait_that_cannot_be_set_is_closed(void)
     assert_receive(LINK_E_CLOSED, 0);
 }
 
+static void test_a_wait_of_seconds_is_told_to_the_kernel_as_it_is(void)
+{
+    struct frame frame;
+    put(16, 3);
+    TEST_ASSERT_EQUAL_INT(1, link_receive(near, &frame, 2345));
+    TEST_ASSERT_EQUAL_INT64(2345 * (int64_t)NS_PER_MS, receive_timeout_ns);
+}
+
 static void test_a_datagram_of_another_size_is_garbled(void)
 {
     const size_t sizes[] = {0, 1, 15, 17, 72};
@@ -308,6 +316,7 @@ int main(void)
     RUN_TEST(test_a_frame_after_the_bus_was_down_arrives);
     RUN_TEST(test_a_receive_from_an_interface_that_is_gone_is_closed);
     RUN_TEST(test_a_wait_that_cannot_be_set_is_closed);
+    RUN_TEST(test_a_wait_of_seconds_is_told_to_the_kernel_as_it_is);
     RUN_TEST(test_a_datagram_of_another_size_is_garbled);
     RUN_TEST(test_a_far_end_that_sends_no_more_is_closed);
     RUN_TEST(test_a_length_over_eight_is_garbled);

@@ -49,7 +49,7 @@ static int sync_folder(const char *path)
 {
     char copy[PATH_MAX];   /* dirname writes into it */
     snprintf(copy, sizeof copy, "%s", path);
-    int fd = open(dirname(copy), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int fd = open(dirname(copy), O_RDONLY | O_CLOEXEC);
     if (fd < 0)
         return -1;
     int result = fsync(fd);

@@ -9,6 +9,6 @@ int file_store_load(const char *path, uint8_t memory[CELL_COUNT]);
            cannot be read. What the bytes mean is not looked at. */
 
 int file_store_save(const char *path, const uint8_t memory[CELL_COUNT]);
-        /* As hal_store, through PATH.new beside it. 0: on the disk. HAL_E_STORE: what was there is still there. */
+        /* As hal_store, through PATH.new beside it. 0: on the disk. HAL_E_STORE: the memory that was there is still there. */
 
 #endif

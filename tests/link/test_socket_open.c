@@ -1,0 +1,221 @@
+/* How sockets are opened, which identifiers a CAN interface lets through, and what refuses either. The interface and the
+   kernel's part are played by fakes. */
+#include <errno.h>
+#include <fcntl.h>
+#include <linux/can.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <unity.h>
+
+#include "open_listening.h"
+
+enum call { NONE, SOCKET, IF_NAMETOINDEX, SETSOCKOPT, BIND, CALLOC, FCNTL };
+enum { INTERFACE = 7 };
+
+static struct can_filter filters[LINK_IDS_MAX];
+static size_t filter_count;
+static struct sockaddr_can bound;
+static enum call refused;
+static int type_of_socket;   /* as the system says it */
+static struct link *link_opened;
+
+int __wrap_socket(int domain, int type, int protocol);
+unsigned __wrap_if_nametoindex(const char *name);
+int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t size);
+int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size);
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+int __wrap_getsockopt(int fd, int level, int name, void *value, socklen_t *size);
+int __real_fcntl(int fd, int command, ...);
+int __wrap_fcntl(int fd, int command, int flags);
+int __real_close(int fd);
+int __wrap_close(int fd);
+
+static bool strikes(enum call call)
+{
+    if (call == refused) errno = EIO;
+    return call == refused;
+}
+
+int __wrap_socket(int domain, int type, int protocol)
+{
+    TEST_ASSERT_EQUAL(AF_CAN, domain);
+    TEST_ASSERT_EQUAL_HEX(SOCK_RAW | SOCK_CLOEXEC, type);
+    TEST_ASSERT_EQUAL(CAN_RAW, protocol);
+    return strikes(SOCKET) ? -1 : dup(STDERR_FILENO);
+}
+
+unsigned __wrap_if_nametoindex(const char *name)
+{
+    TEST_ASSERT_EQUAL_STRING("can7", name);
+    return strikes(IF_NAMETOINDEX) ? 0 : INTERFACE;
+}
+
+/* Before it is bound: nothing unwanted comes in between. */
+int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t size)
+{
+    (void)fd;
+    TEST_ASSERT_EQUAL(0, bound.can_ifindex);
+    TEST_ASSERT_EQUAL(SOL_CAN_RAW, level);
+    TEST_ASSERT_EQUAL(CAN_RAW_FILTER, name);
+    TEST_ASSERT_LESS_OR_EQUAL(sizeof filters, size);
+    memcpy(filters, value, size);
+    filter_count = size / sizeof *filters;
+    return strikes(SETSOCKOPT) ? -1 : 0;
+}
+
+int __wrap_bind(int fd, const struct sockaddr *address, socklen_t size)
+{
+    (void)fd;
+    TEST_ASSERT_EQUAL(sizeof bound, size);
+    memcpy(&bound, address, size);
+    return strikes(BIND) ? -1 : 0;
+}
+
+void *__wrap_calloc(size_t count, size_t size)
+{
+    return strikes(CALLOC) ? NULL : __real_calloc(count, size);
+}
+
+int __wrap_getsockopt(int fd, int level, int name, void *value, socklen_t *size)
+{
+    (void)fd;
+    TEST_ASSERT_EQUAL(SOL_SOCKET, level);
+    TEST_ASSERT_EQUAL(SO_TYPE, name);
+    TEST_ASSERT_EQUAL(sizeof type_of_socket, *size);
+    memcpy(value, &type_of_socket, *size);
+    return 0;
+}
+
+int __wrap_fcntl(int fd, int command, int flags)
+{
+    return strikes(FCNTL) ? -1 : __real_fcntl(fd, command, flags);
+}
+
+/* Which may have trouble of its own. */
+int __wrap_close(int fd)
+{
+    int result = __real_close(fd);
+    errno = EINTR;
+    return result;
+}
+
+void setUp(void)
+{
+    memset(filters, 0, sizeof filters);
+    memset(&bound, 0, sizeof bound);
+    filter_count = 0;
+    refused = NONE;
+    link_opened = NULL;
+}
+
+void tearDown(void)
+{
+    link_close(link_opened);
+}
+
+static int free_descriptor(void)
+{
+    int fd = dup(STDERR_FILENO);
+    close(fd);
+    return fd;
+}
+
+/* As linux/can.h has it: any filter that fits. */
+static bool passes(canid_t id)
+{
+    for (size_t i = 0; i < filter_count; i++)
+        if ((id & filters[i].can_mask) == (filters[i].can_id & filters[i].can_mask)) return true;
+    return false;
+}
+
+static void test_it_is_bound_to_the_interface_that_was_named(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, open_listening(&link_opened, "socketcan:can7", 1));
+    TEST_ASSERT_EQUAL(AF_CAN, bound.can_family);
+    TEST_ASSERT_EQUAL(INTERFACE, bound.can_ifindex);
+}
+
+static void test_exactly_the_wanted_identifiers_pass(void)
+{
+    static const uint16_t wanted[] = {0x000, 0x101, 0x7FF, LINK_FAMILY | 0x680};
+    TEST_ASSERT_EQUAL_INT(0, link_open(&link_opened, "socketcan:can7", wanted, 4));
+    for (canid_t id = 0; id <= CAN_SFF_MASK; id++) {
+        bool is_wanted = id == 0x000 || id == 0x101 || id == 0x7FF || (id >= 0x680 && id <= 0x69F);
+        TEST_ASSERT_EQUAL(is_wanted, passes(id));
+        TEST_ASSERT_FALSE(passes(id | CAN_EFF_FLAG));
+        TEST_ASSERT_FALSE(passes(id | CAN_RTR_FLAG));
+    }
+}
+
+static void test_what_refuses_it_is_said_and_nothing_stays_open(void)
+{
+    int fd = free_descriptor();
+    for (refused = SOCKET; refused <= CALLOC; refused++) {
+        memset(&bound, 0, sizeof bound);
+        TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, open_listening(&link_opened, "socketcan:can7", 1));
+        TEST_ASSERT_NULL(link_opened);
+        TEST_ASSERT_EQUAL_STRING("link socketcan:can7: Input/output error\n", said);
+        TEST_ASSERT_EQUAL_INT(fd, free_descriptor());
+    }
+}
+
+/* A descriptor that came from elsewhere: a file stands for the socket. */
+static int open_descriptor(void)
+{
+    char name[16];
+    int fd = open("/dev/null", O_RDWR | O_NONBLOCK);
+    snprintf(name, sizeof name, "fd:%d", fd);
+    TEST_ASSERT_EQUAL_INT(refused == NONE ? 0 : LINK_E_OPEN, open_listening(&link_opened, name, 1));
+    return fd;
+}
+
+static void test_a_socket_of_whole_frames_is_taken_and_waits(void)
+{
+    static const int types[] = {SOCK_SEQPACKET, SOCK_RAW};
+    for (size_t i = 0; i < 2; i++) {
+        type_of_socket = types[i];
+        int fd = open_descriptor();
+        TEST_ASSERT_EQUAL_HEX(0, fcntl(fd, F_GETFL, 0) & O_NONBLOCK);
+        link_close(link_opened);
+        link_opened = NULL;
+    }
+}
+
+static void test_a_descriptor_that_cannot_be_used_is_said_and_stays_open(void)
+{
+    type_of_socket = SOCK_RAW;
+    for (refused = CALLOC; refused <= FCNTL; refused++) {
+        int fd = open_descriptor();
+        TEST_ASSERT_NULL(link_opened);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, ": Input/output error\n"), said);
+        TEST_ASSERT_EQUAL_INT(0, close(fd));
+    }
+}
+
+static void test_closing_gives_the_socket_back(void)
+{
+    int fd = free_descriptor();
+    TEST_ASSERT_EQUAL_INT(0, open_listening(&link_opened, "socketcan:can7", 1));
+    link_close(link_opened);
+    link_opened = NULL;
+    TEST_ASSERT_EQUAL_INT(fd, free_descriptor());
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_it_is_bound_to_the_interface_that_was_named);
+    RUN_TEST(test_exactly_the_wanted_identifiers_pass);
+    RUN_TEST(test_what_refuses_it_is_said_and_nothing_stays_open);
+    RUN_TEST(test_a_socket_of_whole_frames_is_taken_and_waits);
+    RUN_TEST(test_a_descriptor_that_cannot_be_used_is_said_and_stays_open);
+    RUN_TEST(test_closing_gives_the_socket_back);
+    return UNITY_END();
+}
