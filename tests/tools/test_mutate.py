@@ -136,6 +136,18 @@ def test_an_unknown_source_is_refused_with_those_there_are():
     assert "firmware/motion.c" in result.stderr
 
 
+def test_sources_that_no_c_test_reaches_are_named():
+    result = mutate("--list", "hal/port/cortex_m")
+
+    assert result.returncode == 0, result.stderr
+    assert "hal/port/cortex_m/crash.c:" in result.stdout
+    assert "startup.c" not in result.stdout
+    (line,) = [line for line in result.stderr.splitlines() if "no C test is built from them" in line]
+    assert "hal/port/cortex_m/startup.c" in line
+    assert "crash.c" not in line
+    assert "hal/stm32" not in line
+
+
 @pytest.mark.parametrize(
     ("statement", "expected"),
     [

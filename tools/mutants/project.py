@@ -13,6 +13,7 @@ class Project:
 
     Attributes:
         sources: All that some C test is built from, by their files.
+        untested: The other sources of the folders that are mutated.
     """
 
     def __init__(self, root: Path, builds: Path, without: Collection[str] = ()) -> None:
@@ -34,6 +35,7 @@ class Project:
         self._tree.configure(PLAIN)
         found = read_sources(root, self._tree.folder, self._tree.commands(PLAIN))
         self.sources = {source.file: source for source in found}
+        self.untested = sorted(path for path in self._texts if _is_mutated(path) and path not in self.sources)
 
     def tests(self, build: Build, files: Collection[str]) -> Runner:
         """The tests of some files, with all mutants compiled in.
@@ -50,5 +52,9 @@ class Project:
 
     def _as_before(self) -> dict[str, str]:
         """The mutated sources of the last time: one that becomes the same again is not built again."""
-        copies = {path: self._tree.folder / path for path in self._texts if path.endswith(".c")}
-        return {path: it.read_text() for path, it in copies.items() if path.startswith(MUTATED) and it.exists()}
+        copies = {path: self._tree.folder / path for path in self._texts if _is_mutated(path)}
+        return {path: it.read_text() for path, it in copies.items() if it.exists()}
+
+
+def _is_mutated(path: str) -> bool:
+    return path.endswith(".c") and Path(path).parts[0] in MUTATED

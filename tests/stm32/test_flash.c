@@ -1,0 +1,147 @@
+/* What every chip's flash has to do. Built once for each chip, with FLASH_EXPECTED: the header that says what is expected of it. */
+#include <unity.h>
+
+#include "hal/flash_store/flash.h"
+#include FLASH_EXPECTED
+#include "flash_model.h"
+
+enum { COUNT = 12 };
+
+static const uint32_t WORDS[COUNT] = {0x12345678, 0x9ABCDEF0, 0x0FEDCBA9, 0x87654321, 5, 6, 7, 8, 9, 10, 11, 0xC0FFEE};
+
+void setUp(void)
+{
+    model_reset();
+}
+
+void tearDown(void) {}
+
+static int write_all(unsigned page, uint32_t offset)
+{
+    int result = flash_write(page, offset, WORDS, sizeof WORDS);
+
+    TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
+    return result;
+}
+
+static int erase(unsigned page)
+{
+    int result = flash_erase(page);
+
+    TEST_ASSERT_EQUAL_HEX32(LOCK, FLASH.cr);
+    return result;
+}
+
+static void test_no_setting_but_the_lock_tells_of_a_controller(void)
+{
+    FLASH.cr = ~LOCK;
+    TEST_ASSERT_FALSE(flash_exists());
+    FLASH.cr = LOCK;
+    TEST_ASSERT_TRUE(flash_exists());
+}
+
+static void test_what_is_written_can_be_read_and_nothing_else_has_changed(void)
+{
+    uint32_t words[COUNT];
+    uint32_t end = PAGE_BYTES - sizeof WORDS;
+
+    TEST_ASSERT_EQUAL(0, write_all(1, end));
+    TEST_ASSERT_EQUAL(0, flash_read(1, end, words, sizeof words));
+    TEST_ASSERT_EQUAL_HEX32_ARRAY(WORDS, words, COUNT);
+    TEST_ASSERT_EQUAL_MEMORY(WORDS, (const char *)STORE + 2 * PAGE_BYTES - sizeof WORDS, sizeof WORDS);
+    for (uint32_t at = 0; at < 2u * PAGE_BYTES - sizeof WORDS; at++)
+        TEST_ASSERT_EQUAL_HEX8(0xFF, ((const volatile uint8_t *)STORE)[at]);
+}
+
+static void test_a_page_is_erased_whole_and_the_other_one_is_not_touched(void)
+{
+    for (unsigned page = 0; page < FLASH_PAGES; page++) {
+        model_reset();
+        memset((void *)STORE, 0, sizeof STORE);
+        remember();
+        TEST_ASSERT_EQUAL(0, erase(page));
+        TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, (const void *)STORE[page], PAGE_BYTES);
+        TEST_ASSERT_EACH_EQUAL_HEX8(0, (const void *)STORE[1 - page], PAGE_BYTES);
+    }
+}
+
+static void test_each_error_of_the_controller_fails_the_operation_and_ends_it(void)
+{
+    for (uint32_t flag = 1; flag <= ERRORS; flag <<= 1) {
+        if (!(flag & ERRORS))
+            continue;
+        model_reset();
+        model.fails = flag;
+        TEST_ASSERT_EQUAL(-1, write_all(0, 0));
+        TEST_ASSERT_EQUAL_UINT(1, model.operations);
+        TEST_ASSERT_EQUAL(-1, erase(0));
+    }
+}
+
+static void test_errors_left_over_from_before_fail_nothing(void)
+{
+    model.flags = ERRORS;
+    TEST_ASSERT_EQUAL(0, write_all(0, 0));
+    model.flags = ERRORS;
+    TEST_ASSERT_EQUAL(0, erase(0));
+}
+
+static void test_an_operation_is_waited_for_as_long_as_it_takes_and_no_longer(void)
+{
+    uint32_t start = model.now_ms;
+
+    model.busy_ms = 1;
+    TEST_ASSERT_EQUAL(0, write_all(0, 0));
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(2 * COUNT * WRITES_EACH_WORD, model.now_ms - start);
+    start = model.now_ms;
+    model.busy_ms = 20;
+    TEST_ASSERT_EQUAL(0, erase(0));
+    TEST_ASSERT_UINT32_WITHIN(1, 21, model.now_ms - start);
+}
+
+static void test_the_slowest_write_is_waited_for_and_one_that_hangs_is_not(void)
+{
+    model.busy_ms = WRITE_LIMIT_MS;
+    TEST_ASSERT_EQUAL(0, write_all(0, 0));
+    model_reset();
+    model.busy_ms = WRITE_LIMIT_MS + 1;
+    TEST_ASSERT_EQUAL(-1, write_all(0, 0));
+    TEST_ASSERT_EQUAL_UINT(1, model.operations);
+}
+
+static void test_the_slowest_erase_is_waited_for_and_one_that_hangs_is_not(void)
+{
+    model.busy_ms = ERASE_LIMIT_MS;
+    TEST_ASSERT_EQUAL(0, erase(1));
+    model_reset();
+    model.busy_ms = ERASE_LIMIT_MS + 1;
+    TEST_ASSERT_EQUAL(-1, erase(1));
+}
+
+/* A cell can lose bits, and a bit can stay as it is. */
+static void test_a_word_that_comes_out_greater_or_smaller_fails(void)
+{
+    static const store_word others[] = {0, (store_word)-1};
+
+    for (unsigned i = 0; i < 4; i++) {
+        model_reset();
+        model.worn = &STORE[0][i / 2];
+        model.worn_to = others[i % 2];
+        TEST_ASSERT_EQUAL(-1, write_all(0, 0));
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_no_setting_but_the_lock_tells_of_a_controller);
+    RUN_TEST(test_what_is_written_can_be_read_and_nothing_else_has_changed);
+    RUN_TEST(test_a_page_is_erased_whole_and_the_other_one_is_not_touched);
+    RUN_TEST(test_each_error_of_the_controller_fails_the_operation_and_ends_it);
+    RUN_TEST(test_errors_left_over_from_before_fail_nothing);
+    RUN_TEST(test_an_operation_is_waited_for_as_long_as_it_takes_and_no_longer);
+    RUN_TEST(test_the_slowest_write_is_waited_for_and_one_that_hangs_is_not);
+    RUN_TEST(test_the_slowest_erase_is_waited_for_and_one_that_hangs_is_not);
+    RUN_TEST(test_a_word_that_comes_out_greater_or_smaller_fails);
+    return UNITY_END();
+}
