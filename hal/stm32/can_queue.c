@@ -53,12 +53,13 @@ unsigned can_queue_pump(struct can_queue *queue)
 /* Waits until no more frames than that are left to go. False: they do not go. */
 static bool drain(struct can_queue *queue, unsigned left)
 {
-    uint32_t start = machine_ms(), now = start;
+    uint32_t start = machine_ms();
 
     while (can_queue_pump(queue) > left) {
+        uint32_t now = machine_ms();   /* behind the look, whose time it is compared with */
+
         if (now - queue->moved_ms > STUCK_MS || now - start > DRAIN_MS)
             return false;
-        now = machine_ms();
     }
     return true;
 }
@@ -90,6 +91,7 @@ static void make_room(struct can_queue *queue)
             last = n;
     can_abort(1u << last);
     note_dropped(queue, 1);
+    queue->waiting--;   /* what is given up has not moved */
 }
 
 static bool put_first(struct can_queue *queue, const struct frame *frame)
@@ -130,7 +132,9 @@ bool can_queue_put(struct can_queue *queue, const struct frame *frame)
 {
     bool taken = put(queue, frame);
 
-    if (!taken)
+    if (taken)
+        queue->waiting++;   /* else one that leaves in its place would go unnoticed */
+    else
         note_dropped(queue, 1);
     (void)can_queue_pump(queue);
     return taken;

@@ -60,6 +60,16 @@ void registers_reset(void)
     show(WORDS);
 }
 
+void registers_leave_filters(uint32_t modes, uint32_t scales, uint32_t bank)
+{
+    can.filters.words[1] = modes;
+    can.filters.words[3] = scales;
+    can.filters.words[7] = 0x3FFF;
+    for (unsigned i = 0; i < 2 * 14; i++)
+        can.filters.banks[i] = bank;
+    show(WORDS);
+}
+
 void registers_pass_us(uint32_t us)
 {
     uint64_t end = wire.now_ns + 1000u * (uint64_t)us, next;

@@ -15,6 +15,9 @@ extern struct clocks machine;
 void registers_reset(void);
         /* A chip that has just been reset, as its boot loader may leave it, on a quiet bus. */
 
+void registers_leave_filters(uint32_t modes, uint32_t scales, uint32_t bank);
+        /* All filters active, as a boot loader may leave them: FM1R, FS1R, and each word of each bank. */
+
 void registers_pass_us(uint32_t us);
         /* What the driver has written takes effect, and time passes. */
 

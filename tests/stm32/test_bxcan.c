@@ -36,6 +36,36 @@ static void test_it_wakes_up_and_the_lowest_identifier_leaves_first(void)
     TEST_ASSERT_EQUAL_HEX32(0, CAN1.mcr);
 }
 
+/* Banks of zeros let everything in. */
+static void test_filters_of_a_boot_loader_let_nothing_in(void)
+{
+    static const uint32_t modes[] = {0, 0x3FFF};
+
+    for (unsigned i = 0; i < 4; i++) {
+        registers_reset();
+        registers_leave_filters(modes[i % 2], modes[i / 2], 0);
+        TEST_ASSERT_EQUAL(0, link_open(&link_here, "", WANTED, 2));
+        registers_pass_us(100);
+        for (uint32_t id = 0; id <= 0x7FF; id++)
+            TEST_ASSERT_EQUAL(id == WANTED[0] || id == WANTED[1] ? 0 : -1,
+                              bxcan_fifo_for(&can, &(struct frame){.id = id}));
+    }
+}
+
+static void test_what_came_before_the_bus_was_lost_is_still_received(void)
+{
+    struct frame frame;
+
+    for (uint8_t n = 0; n < 5; n++)
+        TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = 0x0C1, .len = 1, .data = {n}}));
+    registers_pass_us(1500);
+    can.bus_off = can.recovery_stuck = true;
+    registers_pass_us(0);
+    TEST_ASSERT_EQUAL(LINK_E_GARBLED, link_receive(link_here, &frame, 0));
+    TEST_ASSERT_EQUAL(1, link_receive(link_here, &frame, 0));
+    TEST_ASSERT_EQUAL_UINT8(0, frame.data[0]);
+}
+
 static void test_mailboxes_are_written_whole(void)
 {
     struct frame frame = {.id = 0x7A5, .len = 8};
@@ -70,6 +100,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_registers_lie_where_the_manual_has_them);
     RUN_TEST(test_it_wakes_up_and_the_lowest_identifier_leaves_first);
+    RUN_TEST(test_filters_of_a_boot_loader_let_nothing_in);
+    RUN_TEST(test_what_came_before_the_bus_was_lost_is_still_received);
     RUN_TEST(test_mailboxes_are_written_whole);
     RUN_TEST(test_a_frame_being_released_does_not_come_twice);
     RUN_TEST(test_no_interrupt_is_asked_for);

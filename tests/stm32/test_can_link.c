@@ -35,6 +35,15 @@ static void test_a_clock_without_a_divisor_for_500_kbit_s_does_not_open(void)
     TEST_ASSERT_EQUAL(LINK_E_OPEN, open_it());
     rig_set_clock(3000000);
     TEST_ASSERT_EQUAL(LINK_E_OPEN, open_it());
+    rig_set_clock(19 * 500000);   /* more quanta than every controller can do */
+    TEST_ASSERT_EQUAL(LINK_E_OPEN, open_it());
+}
+
+static void test_a_clock_of_8_quanta_will_do(void)
+{
+    rig_reset();
+    rig_set_clock(8 * 500000);
+    TEST_ASSERT_EQUAL(0, open_it());
 }
 
 static void test_a_controller_that_does_not_answer_is_given_up_soon(void)
@@ -63,6 +72,17 @@ static void open_family(void)
 static void test_a_family_is_let_through_whole_and_waits_apart(void)
 {
     open_family();
+    for (uint32_t id = 0; id <= 0x7FF; id++)
+        TEST_ASSERT_EQUAL(id == 0x0C1 ? 0 : id >= 0x680 && id <= 0x69F ? 1 : -1, rig_fifo_for(id));
+}
+
+static void test_it_does_not_matter_which_of_them_is_a_family(void)
+{
+    static const uint16_t ids[] = {LINK_FAMILY | 0x680, 0x0C1};
+
+    rig_reset();
+    TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, 2));
+    rig_pass_us(100);
     for (uint32_t id = 0; id <= 0x7FF; id++)
         TEST_ASSERT_EQUAL(id == 0x0C1 ? 0 : id >= 0x680 && id <= 0x69F ? 1 : -1, rig_fifo_for(id));
 }
@@ -117,10 +137,10 @@ static void test_a_length_beyond_8_means_8(void)
 static void test_extended_and_remote_frames_are_told_apart(void)
 {
     rig_open_filters();
-    rig_bring(&(struct frame){.id = FRAME_EXTENDED | 0x12345678});
-    rig_bring(&(struct frame){.id = FRAME_REMOTE | 0x0C1});
-    assert_receives(&(struct frame){.id = FRAME_EXTENDED | 0x12345678});
-    assert_receives(&(struct frame){.id = FRAME_REMOTE | 0x0C1});
+    rig_bring(&(struct frame){.id = FRAME_EXTENDED | 0x12345679});
+    rig_bring(&(struct frame){.id = FRAME_REMOTE | 0x0C2});
+    assert_receives(&(struct frame){.id = FRAME_EXTENDED | 0x12345679});
+    assert_receives(&(struct frame){.id = FRAME_REMOTE | 0x0C2});
 }
 
 static void test_silence_is_waited_out(void)
@@ -138,7 +158,7 @@ static void test_lost_frames_are_said_once_and_the_others_come(void)
 
     for (uint8_t n = 0; n < 5; n++)
         rig_bring(&(struct frame){.id = 0x0C1, .len = 1, .data = {n}});
-    TEST_ASSERT_EQUAL(LINK_E_GARBLED, link_receive(link_here, &frame, 0));
+    TEST_ASSERT_EQUAL(LINK_E_GARBLED, link_receive(link_here, &frame, WAIT_MS));
     assert_receives(&(struct frame){.id = 0x0C1, .len = 1, .data = {0}});
     assert_receives(&(struct frame){.id = 0x0C1, .len = 1, .data = {1}});
     TEST_ASSERT_EQUAL(1, link_receive(link_here, &frame, 0));
@@ -169,9 +189,11 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_bit_rate_is_500_kbit_s_from_every_clock_it_may_run_at);
     RUN_TEST(test_a_clock_without_a_divisor_for_500_kbit_s_does_not_open);
+    RUN_TEST(test_a_clock_of_8_quanta_will_do);
     RUN_TEST(test_a_controller_that_does_not_answer_is_given_up_soon);
     RUN_TEST(test_the_filters_pass_what_is_wanted_and_nothing_else);
     RUN_TEST(test_a_family_is_let_through_whole_and_waits_apart);
+    RUN_TEST(test_it_does_not_matter_which_of_them_is_a_family);
     RUN_TEST(test_the_filters_hold_eight_identifiers_and_not_nine);
     RUN_TEST(test_a_frame_comes_in_as_it_is);
     RUN_TEST(test_frames_come_in_their_order_and_once);

@@ -20,6 +20,15 @@ static void test_a_frame_goes_out_as_it_is(void)
     assert_frame(&frame, rig_sent(0));
 }
 
+static void test_all_eight_bytes_go_out_in_their_order(void)
+{
+    struct frame frame = {.id = 0x001, .len = 8, .data = {0x81, 0x92, 0xA3, 0xB4, 0xC5, 0xD6, 0xE7, 0xF8}};
+
+    TEST_ASSERT_EQUAL(0, link_send(link_here, &frame));
+    rig_pass_us(1500);
+    assert_frame(&frame, rig_sent(0));
+}
+
 /* All that a robot tells of itself when it is asked: nothing is lost, and the drive is the last. */
 static void test_on_an_idle_bus_frames_leave_in_the_order_sent(void)
 {
@@ -155,6 +164,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_frame_goes_out_as_it_is);
+    RUN_TEST(test_all_eight_bytes_go_out_in_their_order);
     RUN_TEST(test_on_an_idle_bus_frames_leave_in_the_order_sent);
     RUN_TEST(test_frames_of_one_identifier_never_overtake_each_other);
     RUN_TEST(test_a_drive_leaves_at_once_whatever_else_waits);

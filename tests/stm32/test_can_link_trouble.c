@@ -76,6 +76,39 @@ static void test_a_bus_that_stays_off_is_tried_again_at_a_measured_pace_and_coun
     TEST_ASSERT_EQUAL_UINT8(1, health_now().bus_offs);
 }
 
+static void receive_until_departures(unsigned count)
+{
+    struct frame frame;
+
+    while (rig_departures() < count)
+        TEST_ASSERT_EQUAL(LINK_E_DOWN, link_receive(link_here, &frame, 0));
+}
+
+static void test_the_next_try_comes_a_quarter_of_a_second_after_the_last_or_when_somebody_asks(void)
+{
+    unsigned before = rig_departures();
+    struct frame frame;
+    uint32_t start;
+
+    rig_keep_bus_off();
+    rig_lose_bus();
+    receive_until_departures(before + 1);
+    start = rig_ms();
+    receive_until_departures(before + 2);
+    TEST_ASSERT_EQUAL_UINT32(start + RECOVERY_MS, rig_ms());
+    rig_pass_us(1000 * (RECOVERY_MS + 50));
+    TEST_ASSERT_EQUAL(LINK_E_DOWN, link_receive(link_here, &frame, 1));
+    TEST_ASSERT_EQUAL_UINT(before + 3, rig_departures());
+}
+
+static void test_a_bus_with_many_errors_is_still_used(void)
+{
+    rig_set_errors(100, 100, false);
+    send_numbered(HEARTBEAT, 1);
+    rig_pass_us(1500);
+    assert_sent(0, HEARTBEAT, 1);
+}
+
 static void test_bus_off_with_a_dead_controller_stays_bounded(void)
 {
     struct frame frame;
@@ -131,6 +164,8 @@ int main(void)
     RUN_TEST(test_bus_off_is_recovered_from_and_counted);
     RUN_TEST(test_what_waited_when_the_bus_went_off_is_dropped);
     RUN_TEST(test_a_bus_that_stays_off_is_tried_again_at_a_measured_pace_and_counted_once);
+    RUN_TEST(test_the_next_try_comes_a_quarter_of_a_second_after_the_last_or_when_somebody_asks);
+    RUN_TEST(test_a_bus_with_many_errors_is_still_used);
     RUN_TEST(test_bus_off_with_a_dead_controller_stays_bounded);
     RUN_TEST(test_counters_stay_at_255);
     RUN_TEST(test_health_tells_the_controllers_own_counters);

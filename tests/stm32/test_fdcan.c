@@ -69,6 +69,30 @@ static void test_an_odd_number_of_identifiers_fits(void)
         TEST_ASSERT_EQUAL(id == 0x0C1 || id == 0x041 || id == 0x7FF ? 0 : -1, fdcan_fifo_for(id));
 }
 
+static void test_filters_and_losses_of_before_are_forgotten(void)
+{
+    struct frame frame;
+
+    fdcan_reset();
+    for (unsigned n = 0; n < FDCAN_FILTERS; n++)
+        FDCAN_RAM.standard_filters[n] = 2u << 30 | 1u << 27;   /* lets everything in */
+    fdcan.fifos[0].lost = fdcan.fifos[1].lost = true;
+    TEST_ASSERT_EQUAL(0, link_open(&link_here, "", WANTED, 2));
+    fdcan_step();
+    TEST_ASSERT_EQUAL(0, link_receive(link_here, &frame, 1));
+    for (uint32_t id = 0; id <= 0x7FF; id++)
+        TEST_ASSERT_EQUAL(id == WANTED[0] || id == WANTED[1] ? 0 : -1, fdcan_fifo_for(id));
+}
+
+static void test_a_controller_that_leaves_the_bus_forgets_what_waits(void)
+{
+    fdcan.bus_busy = true;
+    TEST_ASSERT_EQUAL(0, link_send(link_here, &(struct frame){.id = 0x041}));
+    link_close(link_here);
+    fdcan_step();
+    TEST_ASSERT_EQUAL_HEX32(0, FDCAN.txbrp);
+}
+
 static void test_buffers_are_written_whole(void)
 {
     struct frame frame = {.id = 0x7A5, .len = 8};
@@ -116,6 +140,8 @@ int main(void)
     RUN_TEST(test_it_speaks_classic_can_without_test_modes_and_the_lowest_identifier_first);
     RUN_TEST(test_no_frame_but_those_wanted_gets_in);
     RUN_TEST(test_an_odd_number_of_identifiers_fits);
+    RUN_TEST(test_filters_and_losses_of_before_are_forgotten);
+    RUN_TEST(test_a_controller_that_leaves_the_bus_forgets_what_waits);
     RUN_TEST(test_buffers_are_written_whole);
     RUN_TEST(test_the_places_of_the_fifo_are_gone_through_in_a_ring);
     RUN_TEST(test_a_drive_does_not_wait_for_all_of_many_that_leave_slowly);
