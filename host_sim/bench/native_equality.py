@@ -38,7 +38,8 @@ _ROBOTS_MAX = 3
 _CHANGE_EVERY_TICKS = 400
 _BODY_FAULTS = (
     *("mirror", "swap-motors", "stuck-on:front", "stuck-off:left", "noise:50/1000", "weak-motor:right:70%"),
-    *("repair", "repair"),
+    *("swap-odometers", "odometer:left:0%", "odometer:right:-100%", "odometer:left:133%", "false-beacon:100"),
+    *("repair", "repair", "repair"),
 )
 
 

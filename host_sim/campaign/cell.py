@@ -39,6 +39,7 @@ class Cell:
         events: What befalls the robot, its line or this host.
         fault: All that in words; empty for a run without a fault.
         harmless: Whether nobody need notice the fault; in lockstep it is to leave no trace.
+        denies: Whether the robot itself must tell of the fault, and learn nothing wrong.
     """
 
     profile: str
@@ -51,6 +52,7 @@ class Cell:
     events: tuple[Event, ...] = ()
     fault: str = field(default="", compare=False)
     harmless: bool = field(default=False, compare=False)
+    denies: bool = field(default=False, compare=False)
 
     @staticmethod
     def parse(text: str) -> "Cell":

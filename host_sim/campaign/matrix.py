@@ -23,20 +23,22 @@ class FaultClass:
     Attributes:
         name: In words.
         faults: What befalls the frames, as `--fault` has it.
-        change: What befalls the body, as `--change` has it.
+        changes: What befalls the body, as `--change` has it.
         event: What befalls the robot, its line or this host.
         links: Where it can happen; empty for everywhere.
         paces: At which pace it is a fault.
         harmless: At which pace nobody need notice it; in lockstep it is then to leave no trace.
+        denies: Whether the robot itself must tell of it, and learn nothing wrong.
     """
 
     name: str
     faults: tuple[str, ...] = ()
-    change: str = ""
+    changes: tuple[str, ...] = ()
     event: str = ""
     links: tuple[str, ...] = ()
     paces: tuple[str, ...] = PACES
     harmless: tuple[str, ...] = ()
+    denies: bool = False
 
     def cell(self, base: Cell) -> Cell:
         """A run without faults, with this one."""
@@ -44,15 +46,31 @@ class FaultClass:
             base,
             fault=self.name,
             faults=self.faults,
-            changes=(f"{self.change}@2s",) if self.change else (),
+            changes=tuple(f"{change}@2s" for change in self.changes),
             events=(Event.parse(f"{self.event}@{_AT}"),) if self.event else (),
             harmless=base.pace in self.harmless,
+            denies=self.denies,
         )
 
 
-def _of_body(name: str, change: str) -> FaultClass:
+def _of_body(name: str, *changes: str, denies: bool = False) -> FaultClass:
     """A fault of the body shows in what the robot does: in another run than without it."""
-    return FaultClass(name, change=change, paces=_COMPARED)
+    return FaultClass(name, changes=changes, paces=_COMPARED, denies=denies)
+
+
+def _of_odometers() -> Iterator[FaultClass]:
+    """Wheels that deny what they were told. Of those that count a little too much, nobody can know."""
+    for side in ("left", "right"):
+        yield _of_body(f"the {side} odometer is stuck", f"odometer:{side}:0%", denies=True)
+        yield _of_body(f"the {side} odometer counts backward", f"odometer:{side}:-100%", denies=True)
+        yield _of_body(f"the {side} odometer slips", f"odometer:{side}:150%")
+    yield _of_body("both odometers are stuck", "odometer:left:0%", "odometer:right:0%", denies=True)
+    yield _of_body("both odometers count backward", "odometer:left:-100%", "odometer:right:-100%", denies=True)
+    yield _of_body("both odometers slip", "odometer:left:150%", "odometer:right:150%")
+    yield _of_body(
+        "both odometers count three times the way", "odometer:left:300%", "odometer:right:300%", denies=True
+    )
+    yield _of_body("odometers are swapped", "swap-odometers", denies=True)
 
 
 BUS: tuple[FaultClass, ...] = (
@@ -78,6 +96,8 @@ BUS: tuple[FaultClass, ...] = (
     FaultClass("forged drives", ("forge:20%:DRIVE/from",)),
     FaultClass("forged answers", ("forge:20%:ANSWER/from",)),
     FaultClass("forged counters of faults", ("forge:20%:FAULTS/from",)),
+    # One alone may pass for a report that came twice. It is never obeyed.
+    FaultClass("a forged power-up", ("forge:BOOT@300/from",), harmless=PACES),
     FaultClass("forged power-ups", ("forge:BOOT@300-305/from",)),
     FaultClass(
         "all at once", ("drop:10%", "duplicate:5%", "reorder:5%", "delay:5%:0-60ms", "corrupt:5%", "truncate:5%")
@@ -93,8 +113,12 @@ BODY: tuple[FaultClass, ...] = (
     _of_body("motors are swapped", "swap-motors"),
     _of_body("the left motor is weak", "weak-motor:left:60%"),
     _of_body("the right motor is weak", "weak-motor:right:60%"),
-    _of_body("the left motor is dead", "weak-motor:left:0%"),
-    _of_body("the right motor is dead", "weak-motor:right:0%"),
+    _of_body("the left motor is dead", "weak-motor:left:0%", denies=True),
+    _of_body("the right motor is dead", "weak-motor:right:0%", denies=True),
+    _of_body("both motors are dead", "weak-motor:left:0%", "weak-motor:right:0%", denies=True),
+    *_of_odometers(),
+    _of_body("the beacon shows food where there is none", "false-beacon:700"),
+    _of_body("the beacon shows food to eat where there is none", "false-beacon:100"),
 )
 """In the body, on any link."""
 

@@ -21,6 +21,7 @@ from host_sim.sim.simulation import Simulation
 _PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
 _TICK_MS = PARAMETERS["tick_ms"].default
 _FRESH_TICKS = 25
+_DENIALS = ("denied", "contradictions")
 _SIGNS_MAX = 10
 """A robot in lockstep that waits says so now and then: some frames more are no sign of a fault."""
 
@@ -62,15 +63,21 @@ class Outcome:
     @property
     def problems(self) -> list[str]:
         """Why the campaign fails here; empty if it does not."""
-        is_misled = self.wrong and not (self.cell.changes or self.end or self.doubts)
+        cell = self.cell
+        is_misled = self.wrong and (cell.denies or not (cell.changes or self.end or self.doubts))
         found = {
             "unsafe": self.oldest > HOLD_TICKS,
-            "unseen": bool(self.cell.fault) and not self.seen and (self.differs or not self.cell.harmless),
+            "unseen": bool(cell.fault) and not self._is_seen and (self.differs or not cell.harmless),
             "did not happen": bool(self.waiting) and not self.end,
             "wrong without a word": bool(is_misled),
             "broke": self.broke,
         }
         return [name for name, is_so in found.items() if is_so]
+
+    @property
+    def _is_seen(self) -> bool:
+        """Whether the fault was noticed: by the robot itself, where it must."""
+        return any(sign in self.seen for sign in _DENIALS) if self.cell.denies else bool(self.seen)
 
     @property
     def recovered(self) -> bool:

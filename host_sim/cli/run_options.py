@@ -114,8 +114,9 @@ def add_run_options(parser: argparse.ArgumentParser, robots_max: int = NODE_MAX)
         default=[],
         metavar="CHANGE",
         help="let something change: NAME@120s, NAME@env6 or NAME@env6+20s of robot time, where NAME is plant, grow, "
-        "swap-motors, mirror, stuck-on:SENSOR, stuck-off:SENSOR, noise:10/1000, weak-motor:left:60%% or repair, and "
-        "/2 at the end means the second robot only; or a file with a change in each line; may be repeated",
+        "swap-motors, mirror, stuck-on:SENSOR, stuck-off:SENSOR, noise:10/1000, weak-motor:left:60%%, "
+        "swap-odometers, odometer:left:0%%, false-beacon:100 or repair, and /2 at the end means the second robot "
+        "only; or a file with a change in each line; may be repeated",
     )
     add(
         "--robots",

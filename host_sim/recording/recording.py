@@ -73,7 +73,7 @@ class _Ticks:
 
 
 class _Reader:
-    """Groups frames into ticks. A tick ends with the next SENSES or COMMAND: drives after that are too late.
+    """Groups frames into ticks. A tick ends with the next SENSES or order: drives after that are too late.
 
     Attributes:
         recording: What is known of the recording so far, without its ticks.
@@ -110,10 +110,14 @@ class _Reader:
             memory = self._report.join(decoded)
             if memory is not None:
                 self._accept_memory(memory)
-        elif decoded.name == "COMMAND":
+        elif decoded.name == "COMMAND" and not self._is_question(decoded):
             yield from self._end_tick()
             self._begun = None
             self._accept_command(decoded.signals)
+
+    def _is_question(self, decoded: DecodedFrame) -> bool:
+        """Whether a robot that has stopped by itself is asked how it is, before its drive of the tick is taken."""
+        return self._lockstep and self._fresh is None and decoded.signals["opcode"] == Opcode.REPORT
 
     def _begin_tick(self, senses: Senses) -> Iterator[Tick]:
         """Begins a tick, unless its senses were only sent again."""

@@ -103,8 +103,13 @@ class RobotInProcess:
         self._sent = client.frames.sent
 
     def go_on(self) -> None:
-        """As in `LoopRobot`: here, a robot answers at once or not at all."""
-        raise self._client.late(self._native.loop.tick)
+        """As in `LoopRobot`: what it has answered is received again. It answers at once or not at all."""
+        robot = self._native.robot
+        if not robot.answer_count:
+            raise self._client.late(self._native.loop.tick)
+        waiting = [_frame(frame) for frame in robot.waiting[0 : robot.waiting_count]] if robot.waiting_count else []
+        robot.waiting_count = 0
+        self._link.put_back(waiting, robot.answer_count)
 
 
 class RobotBehindLink:
@@ -126,7 +131,7 @@ class RobotBehindLink:
         """As in `LoopRobot`. None, where the robot or its line is not as usual."""
         client, socket = self._client, self._link.frame_socket()
         session = client.session
-        if socket is None or session is None or session.halted or not client.round_trip.is_sure:
+        if socket is None or session is None or not client.round_trip.is_sure:
             return 0
         if socket is not self._socket and not self._open(socket):
             return 0
@@ -156,6 +161,7 @@ class RobotBehindLink:
             frame = loop.in_hand
             socket.put_back(_frame(frame) if frame.id <= _ID_MAX else _NO_FRAME)
         socket.garbled += loop.received == library.LINK_E_GARBLED
+        loop.received = 0  # which was this robot's
 
     def _open(self, socket: FrameSocket) -> bool:
         """Has C code use another socket, if there is a number left by which it can."""

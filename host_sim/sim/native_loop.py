@@ -115,7 +115,8 @@ class NativeLoop:
         self._loop.tick = tick
         for index, client in enumerate(self._clients):
             self._look_up(index, client)
-        ticks = min(ticks_max, BLOCK_TICKS, *(wire.prepare() for wire in self._wires))
+        halted = any(client.session is not None and client.session.halted for client in self._clients)
+        ticks = 0 if halted else min(ticks_max, BLOCK_TICKS, *(wire.prepare() for wire in self._wires))
         if self._log.keeps:
             self._make_room(sum(robot.waiting_count for robot in self._robots))
         self._world.borrow()
@@ -140,7 +141,8 @@ class NativeLoop:
         if not loop.handed_over:
             return BegunTick(0, ())
         if loop.sent == len(self._wires):
-            self._wires[loop.answered].go_on()
+            for wire in self._wires[loop.answered :]:
+                wire.go_on()
         return BegunTick(loop.sent, [client.inbox.drive for client in self._clients[: loop.answered]])
 
     def record(self, senses: Sequence[Senses], drives: Sequence[Drive], food_eaten: Sequence[int]) -> None:

@@ -113,6 +113,11 @@ class InProcessLink:
         self._answers.clear()
         return answers
 
+    def put_back(self, waiting: Sequence[Frame], count: int) -> None:
+        """Lets be received what was taken, and so many answers to a frame that C code has sent."""
+        answers = [Frame(out.id, self._ffi.buffer(out.data, out.len)[:]) for out in self._out[0:count]]
+        self._answers += [*waiting, *answers]
+
     def close(self) -> None:
         """As in `Link`."""
         self._answers.clear()

@@ -47,8 +47,13 @@ def body_sentence(what: str) -> str:
     if name == "weak-motor":
         side, _, share = details.partition(":")
         return f"The {side} motor turns at {share} of its speed."
+    if name == "odometer":
+        side, _, share = details.partition(":")
+        return f"The {side} odometer counts {share} of its wheel's way."
     return {
         "swap-motors": "The plugs of the motors were swapped.",
+        "swap-odometers": "The plugs of the odometers were swapped.",
+        "false-beacon": f"The beacon shows food {details} mm ahead where there is none.",
         "mirror": "The ring of sensors was mounted the other way round.",
         "stuck-on": f"The {details} sensor is stuck: it always sees something.",
         "stuck-off": f"The {details} sensor is dead: it never sees anything.",

@@ -15,6 +15,10 @@ import { FEEL } from "./generated.js";
  * @property {number} noise
  * @property {number} noiseOf
  * @property {bigint} noiseKey
+ * @property {boolean} odometersSwapped
+ * @property {number} leftMiscounted
+ * @property {number} rightMiscounted
+ * @property {number} falseBeacon
  */
 
 /** The bit of each sensor, such as "front-left". */
@@ -22,6 +26,7 @@ export const SENSORS = new Map(Object.entries(FEEL).map(([name, bit]) => [name.t
 const BITS = Object.values(FEEL);
 const NOISE_OF_MAX = 1_000_000;
 const FULL_PERCENT = 100;
+const BEACON_MAX_MM = 8191;
 const WORD = 32n;
 const LOW = (1n << WORD) - 1n;
 const ROBOTS_A_SEED = 10_000n;
@@ -29,6 +34,7 @@ const ROBOTS_A_SEED = 10_000n;
 /** @type {Readonly<Faults>} */
 export const SOUND = Object.freeze({
   mirrored: false, swapped: false, stuckOn: 0, stuckOff: 0, leftLost: 0, rightLost: 0, noise: 0, noiseOf: 1, noiseKey: 0n,
+  odometersSwapped: false, leftMiscounted: 0, rightMiscounted: 0, falseBeacon: 0,
 });
 
 /**
@@ -44,9 +50,12 @@ export function withFault(faults, what, key) {
   if (what === "repair") return SOUND;
   if (what === "mirror") return { ...faults, mirrored: !faults.mirrored };
   if (what === "swap-motors") return { ...faults, swapped: !faults.swapped };
+  if (what === "swap-odometers") return { ...faults, odometersSwapped: !faults.odometersSwapped };
   if (name === "stuck-on" && bit) return { ...faults, stuckOn: faults.stuckOn | bit, stuckOff: faults.stuckOff & ~bit };
   if (name === "stuck-off" && bit) return { ...faults, stuckOff: faults.stuckOff | bit, stuckOn: faults.stuckOn & ~bit };
   if (name === "noise") return withNoise(faults, details.join(":"), key);
+  if (name === "odometer") return withOdometer(faults, details.join(":"));
+  if (name === "false-beacon") return withFalseBeacon(faults, details.join(":"));
   return name === "weak-motor" ? withWeakMotor(faults, details.join(":")) : undefined;
 }
 
@@ -72,6 +81,26 @@ function withWeakMotor(faults, details) {
 }
 
 /**
+ * @param {Faults} faults
+ * @param {string} details
+ */
+function withOdometer(faults, details) {
+  const [, side, share] = /^(left|right):(-?\d{1,3})%$/.exec(details) ?? [];
+  if (!side) return undefined;
+  const miscounted = Number(share) - FULL_PERCENT;
+  return side === "left" ? { ...faults, leftMiscounted: miscounted } : { ...faults, rightMiscounted: miscounted };
+}
+
+/**
+ * @param {Faults} faults
+ * @param {string} details
+ */
+function withFalseBeacon(faults, details) {
+  const falseBeacon = /^\d{1,4}$/.test(details) ? Number(details) : Infinity;
+  return falseBeacon <= BEACON_MAX_MM ? { ...faults, falseBeacon } : undefined;
+}
+
+/**
  * Where a robot's noise begins among all random numbers.
  * @param {number} seed
  * @param {number} robot
@@ -91,7 +120,9 @@ export function noiseKey(seed, robot) {
 export function faultNumbers(faults) {
   const { mirrored, swapped, stuckOn, stuckOff, leftLost, rightLost, noise, noiseOf, noiseKey: key } = faults;
   const halves = [key >> WORD, key & LOW].map(Number);
-  return [Number(mirrored), Number(swapped), stuckOn, stuckOff, leftLost, rightLost, noise, noiseOf, ...halves];
+  const { odometersSwapped, leftMiscounted, rightMiscounted, falseBeacon } = faults;
+  const sensors = [Number(mirrored), Number(swapped), stuckOn, stuckOff, leftLost, rightLost, noise, noiseOf, ...halves];
+  return [...sensors, Number(odometersSwapped), leftMiscounted, rightMiscounted, falseBeacon];
 }
 
 /**

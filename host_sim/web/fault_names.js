@@ -7,7 +7,8 @@ import { bodySentence } from "./phrases.js";
 /** As `tools/run --change` has them. */
 export const FAULTS = [
   ...[...SENSORS.keys()].flatMap((sensor) => [`stuck-on:${sensor}`, `stuck-off:${sensor}`]),
-  "mirror", "noise:10/1000", "noise:100/1000", "swap-motors", "weak-motor:left:60%", "weak-motor:right:60%", "repair",
+  "mirror", "noise:10/1000", "noise:100/1000", "swap-motors", "weak-motor:left:60%", "weak-motor:right:60%",
+  "swap-odometers", "odometer:left:0%", "odometer:right:0%", "false-beacon:100", "repair",
 ];
 
 /** @param {string} what */

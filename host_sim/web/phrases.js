@@ -84,6 +84,9 @@ export function bodySentence(what) {
   /** @type {Record<string, string>} */
   const sentences = {
     "weak-motor": `The ${parts[0]} motor turns at ${parts[1]} of its speed.`,
+    odometer: `The ${parts[0]} odometer counts ${parts[1]} of its wheel's way.`,
+    "swap-odometers": "The plugs of the odometers were swapped.",
+    "false-beacon": `The beacon shows food ${details} mm ahead where there is none.`,
     "swap-motors": "The plugs of the motors were swapped.",
     mirror: "The ring of sensors was mounted the other way round.",
     "stuck-on": `The ${details} sensor is stuck: it always sees something.`,

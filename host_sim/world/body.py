@@ -40,8 +40,8 @@ class Body:
         collisions: Number of times that it has begun to touch something.
         touches: Number of things that it touches now.
         lifted: Whether a person holds it in the air.
-        faults: What is wrong with it. Whoever tells the robot what it senses, and the body what the robot says, takes
-            it into account.
+        faults: What is wrong with it. Its odometers count accordingly; whoever tells the robot what it senses, and
+            the body what the robot says, takes the rest into account.
     """
 
     def __init__(  # noqa: PLR0913, PLR0917 - its surroundings and its state
@@ -55,7 +55,7 @@ class Body:
             params: The dimensions of the world.
             index: 0, 1, ...; unique in the space.
             start: Its first pose.
-            odometer: Distances rolled by the left and the right wheel in earlier arenas, mm.
+            odometer: What the left and the right odometer have counted in earlier arenas, mm.
         """
         self.feel = self.collisions = self.touches = 0
         self.lifted, self.faults = False, SOUND
@@ -79,7 +79,7 @@ class Body:
 
     @property
     def odometer(self) -> Point:
-        """Distances rolled by the left and the right wheel since the first arena, mm, forward positive, with slip."""
+        """Counted by the left and the right odometer since the first arena, mm, forward positive, with slip."""
         return self._left_mm, self._right_mm
 
     @property
@@ -153,8 +153,9 @@ class Body:
         limit, tick_s = self._params.max_wheel_speed_mm_s, self._params.tick_s
         left_mm = max(-limit, min(limit, left_mm_s)) * tick_s
         right_mm = max(-limit, min(limit, right_mm_s)) * tick_s
-        self._left_mm += left_mm
-        self._right_mm += right_mm
+        counted = (left_mm, right_mm) if self.faults is SOUND else self.faults.counted(left_mm, right_mm)
+        self._left_mm += counted[0]
+        self._right_mm += counted[1]
         if self.lifted:
             return
         before = self.pose

@@ -19,6 +19,7 @@ _MIRRORED = tuple(
     sum(_BITS[-1 - place] for place, bit in enumerate(_BITS) if feel & bit) for feel in range(1 << len(_BITS))
 )
 _FULL_PERCENT = 100
+_BEACON_MAX_MM = 8191
 _NOISE_OF_MAX = 1_000_000
 _MASK_64 = (1 << 64) - 1
 _STREAMS = 8
@@ -39,6 +40,11 @@ class BodyFaults:
         swapped: Whether each motor, with its odometer, has the other one's plug.
         left_lost_percent: Speed that the left motor lacks, percent of what it is told.
         right_lost_percent: That of the right one.
+        odometers_swapped: Whether each wheel is counted by the other one's odometer.
+        left_miscounted_percent: What the left odometer counts beyond the way of its wheel, percent of that way: -100
+            if it is stuck, -200 if it counts backward.
+        right_miscounted_percent: That of the right one.
+        false_beacon_mm: Distance to the food that is seen where there is none; 0 for no such food.
     """
 
     mirrored: bool = False
@@ -50,6 +56,10 @@ class BodyFaults:
     swapped: bool = False
     left_lost_percent: int = 0
     right_lost_percent: int = 0
+    odometers_swapped: bool = False
+    left_miscounted_percent: int = 0
+    right_miscounted_percent: int = 0
+    false_beacon_mm: int = 0
 
     def sensed(self, senses: Senses, tick: int) -> Senses:
         """What the robot is told of what its body senses.
@@ -63,6 +73,8 @@ class BodyFaults:
         left, right = senses.odometer_left, senses.odometer_right
         if self.swapped:
             left, right = right, left
+        if self.false_beacon_mm and not senses.look:
+            senses = senses._replace(look=True, beacon_mm=self.false_beacon_mm)
         return senses._replace(feel=feel, odometer_left=left, odometer_right=right)
 
     def measured(self, ranges: Ranges) -> Ranges:
@@ -78,6 +90,13 @@ class BodyFaults:
         if self.swapped:
             left_mm_s, right_mm_s = right_mm_s, left_mm_s
         return _weakened(left_mm_s, self.left_lost_percent), _weakened(right_mm_s, self.right_lost_percent)
+
+    def counted(self, left_mm: float, right_mm: float) -> tuple[float, float]:
+        """The ways that the left and the right odometer count when the left and the right wheel roll these."""
+        left, right = self.left_miscounted_percent, self.right_miscounted_percent
+        if self.odometers_swapped:
+            left_mm, right_mm = right_mm, left_mm
+        return _miscounted(left_mm, left), _miscounted(right_mm, right)
 
     def _wrong(self, tick: int) -> int:
         """The sensors that are wrong in a tick, as bits of feel."""
@@ -157,6 +176,23 @@ def _weaken(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
     return replace(faults, right_lost_percent=lost_percent)
 
 
+def _swap_odometers(faults: BodyFaults, _: tuple[str, ...]) -> BodyFaults:
+    return replace(faults, odometers_swapped=not faults.odometers_swapped)
+
+
+def _miscount(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
+    side, miscounted_percent = words[0], int(words[1]) - _FULL_PERCENT
+    if side == "left":
+        return replace(faults, left_miscounted_percent=miscounted_percent)
+    return replace(faults, right_miscounted_percent=miscounted_percent)
+
+
+def _show_food(faults: BodyFaults, words: tuple[str, ...]) -> BodyFaults:
+    if int(words[0]) > _BEACON_MAX_MM:
+        raise ValueError(f"food is seen up to {_BEACON_MAX_MM} mm away")
+    return replace(faults, false_beacon_mm=int(words[0]))
+
+
 def _repair(_faults: BodyFaults, _: tuple[str, ...]) -> BodyFaults:
     return SOUND
 
@@ -170,6 +206,9 @@ _FAULTS: dict[str, tuple[str, Fault, str]] = {
     "stuck-off": (_SENSOR, _stick_off, f"stuck-off:SENSOR, {_SENSOR_FORM}"),
     "noise": (r":(\d{1,7})/(\d{1,7})", _make_noise, "noise:N/TICKS, such as noise:10/1000"),
     "weak-motor": (r":(left|right):(\d{1,3})%", _weaken, "weak-motor:left:60% or weak-motor:right:60%"),
+    "swap-odometers": ("", _swap_odometers, "swap-odometers"),
+    "odometer": (r":(left|right):(-?\d{1,3})%", _miscount, "odometer:left:0% or odometer:right:-100%"),
+    "false-beacon": (r":(\d{1,4})", _show_food, "false-beacon:MM, such as false-beacon:100"),
     "repair": ("", _repair, "repair"),
 }
 
@@ -180,6 +219,10 @@ FAULT_NAMES = tuple(_FAULTS)
 def _weakened(speed_mm_s: int, lost_percent: int) -> int:
     """Whole mm/s, toward 0."""
     return int(speed_mm_s * (_FULL_PERCENT - lost_percent) / _FULL_PERCENT) if lost_percent else speed_mm_s
+
+
+def _miscounted(way_mm: float, miscounted_percent: int) -> float:
+    return way_mm * (_FULL_PERCENT + miscounted_percent) / _FULL_PERCENT if miscounted_percent else way_mm
 
 
 def _chance(number: int) -> int:

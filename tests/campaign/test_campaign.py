@@ -61,6 +61,17 @@ def test_a_run_that_breaks_or_is_unsafe_or_misled_is_a_problem():
     assert 'class="bad"' in page([outcome])
 
 
+def test_a_body_that_denies_its_wheels_must_be_told_of_by_the_robot_and_nothing_wrong_be_learned():
+    cell = replace(CLEAN, fault="odometers are swapped", changes=("swap-odometers@2s",))
+    told = Outcome(cell, seen="3 denied")
+
+    assert told.problems == Outcome(cell, seen="what it does", wrong=(1,)).problems == []
+    assert replace(told, cell=replace(cell, denies=True)).problems == []
+    assert Outcome(replace(cell, denies=True), seen="what it does", wrong=(1,)).problems == [
+        *("unseen", "wrong without a word"),
+    ]
+
+
 @pytest.mark.parametrize("name", ["no fault", "a third of the frames is lost", "the ring of sensors is mirrored"])
 def test_the_command_of_a_cell_repeats_it(tmp_path, name):
     (cells,) = groups(["adaptive"], ["none"], [LOCKSTEP], lambda _: 3.0)

@@ -9,6 +9,7 @@ BRIEF = ("--environments", "2", "--limit-s", "8", "--bus", "none", "--seed", "6"
 ALL = (
     *("plant@2s", "plant:600,700@2s", "grow@3s", "swap-motors@env2", "mirror@4s", "stuck-on:front@5s"),
     *("stuck-off:left@5.5s", "noise:10/1000@1s", "weak-motor:left:60%@env2+2s", "repair@env2+4s"),
+    *("odometer:left:150%@0.5s", "swap-odometers@7s", "swap-odometers@7.5s", "false-beacon:100@env2+5s"),
 )
 
 
@@ -23,7 +24,7 @@ def test_a_run_full_of_changes_can_be_repeated_from_its_log(run):
     again = resimulate(done.out / "run.log")
     assert (done.code, done.errors) == (0, "")
     assert sorted(done.summary["changes"]["happened"]) == sorted(ALL)
-    assert "changes   10 happened\n" in done.output
+    assert "changes   14 happened\n" in done.output
     assert again.trajectory.ticks == 800
     assert octet("replay", done.out / "run.log").returncode == 0
 
@@ -40,6 +41,18 @@ def test_the_page_made_from_the_log_is_that_of_the_run(run, tmp_path):
 @pytest.mark.faulty
 def test_changes_depend_on_seed_and_options_only(run):
     assert run(*BRIEF, *words(ALL)).log == run(*BRIEF[:4], "--bus", "fd", *BRIEF[6:], *words(ALL)).log
+
+
+@pytest.mark.faulty
+@pytest.mark.parametrize("bus", ["none", "fd"])
+def test_a_run_in_which_the_robot_stops_because_of_its_wheels_can_be_repeated_from_its_log(run, bus):
+    deadened = ("odometer:left:-100%@2s", "odometer:right:-100%@2s", "repair@env2")
+
+    done = run(*BRIEF[:4], "--bus", bus, *BRIEF[6:], *words(deadened))
+
+    assert (done.code, done.errors.count("the robot has stopped")) == (1, 1)
+    assert resimulate(done.out / "run.log").trajectory.ticks == 800
+    assert octet("replay", done.out / "run.log").returncode == 0
 
 
 def test_another_seed_has_other_noise_and_a_run_without_changes_none(run):

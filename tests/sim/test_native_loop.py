@@ -11,7 +11,7 @@ import pytest
 from host_sim.client.commands import erase_memory, freeze, start, stop, write_cells
 from host_sim.client.frame_log import FrameLog
 from host_sim.errors import RobotError
-from host_sim.protocol.generated import PROFILES
+from host_sim.protocol.generated import PROFILES, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim import native_loop
 from host_sim.sim import simulation as simulation_module
@@ -141,6 +141,7 @@ CHANGES: dict[int, Change] = {
 SURPRISES = (
     *("plant:600,700@2s", "plant@3s", "grow@5s", "mirror@4s", "swap-motors@6s/2", "stuck-on:front@7s/1"),
     *("stuck-off:left@8s", "noise:100/1000@env1+9s", "weak-motor:left:60%@env2/2", "repair@env2+5s/1"),
+    *("odometer:left:150%@1s", "odometer:right:-30%@12s/2", "swap-odometers@9.5s/1", "false-beacon:100@env2+8s"),
 )
 
 
@@ -148,7 +149,15 @@ def test_a_run_full_of_surprises_is_the_same(tmp_path):
     readable = assert_alike(tmp_path, RunConfig(seed=6, robots=2, environments=2, limit_s=15.0, changes=SURPRISES))
 
     assert not readable.refused
-    assert readable.edits == 14
+    assert readable.edits == 20
+
+
+def test_a_run_in_which_robots_stop_because_of_their_wheels_is_the_same(tmp_path):
+    broken = ("odometer:left:-100%@2s/2", "swap-odometers@4s/1", "odometer:right:0%@6s/3")
+
+    readable = assert_alike(tmp_path, RunConfig(seed=6, robots=3, environments=2, limit_s=12.0, changes=broken))
+
+    assert readable.drives[1].reason == Reason.STOP
 
 
 def test_a_run_in_which_people_meddle_is_the_same(tmp_path):

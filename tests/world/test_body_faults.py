@@ -4,7 +4,10 @@ import pytest
 
 from host_sim.protocol.generated import FEEL
 from host_sim.robot_io import NOTHING_SENSED, Ranges
+from host_sim.world.arena import Arena
 from host_sim.world.body_faults import FAULT_NAMES, SOUND, BodyFaults, noise_key, with_fault
+from host_sim.world.layouts import generate
+from host_sim.world.params import SimParams
 
 SENSES = NOTHING_SENSED._replace(feel=FEEL["RIGHT"] | FEEL["FRONT_LEFT"], odometer_left=3, odometer_right=5)
 RANGES = Ranges(10, 20, 30, 40, None)
@@ -76,6 +79,38 @@ def test_it_is_the_motor_that_is_weak_wherever_its_plug_is():
     assert after("swap-motors", "weak-motor:left:50%").driven(100, 40) == (20, 100)
 
 
+def test_an_odometer_counts_its_share_of_the_way():
+    assert SOUND.counted(3.3, -5.1) == (3.3, -5.1)
+    assert after("odometer:left:0%").counted(3.0, 5.0) == (0.0, 5.0)
+    assert after("odometer:left:-100%", "odometer:right:150%").counted(3.0, 5.0) == (-3.0, 7.5)
+    assert after("odometer:left:50%", "odometer:left:100%") == SOUND
+
+
+def test_swapped_odometers_count_each_others_wheels():
+    assert after("swap-odometers").counted(3.0, 5.0) == (5.0, 3.0)
+    assert after("swap-odometers", "odometer:left:0%").counted(3.0, 5.0) == (0.0, 3.0)
+
+
+def test_an_odometer_that_becomes_stuck_stands_still_where_it_is():
+    arena = Arena(generate(1, 1, SimParams()), SimParams())
+    arena.body.move(200, 200)
+    arena.body.faults = after("odometer:left:0%")
+    arena.body.move(200, 200)
+
+    senses = arena.body.sense(0)
+
+    assert (senses.odometer_left, senses.odometer_right) == (40, 80)
+
+
+def test_a_false_beacon_shows_food_only_where_none_is_seen():
+    false = after("false-beacon:100")
+    real = SENSES._replace(look=True, beacon_mm=700)
+
+    assert false.sensed(SENSES, 0) == SENSES._replace(look=True, beacon_mm=100)
+    assert false.sensed(real, 0) == real
+    assert after("false-beacon:100", "false-beacon:0") == SOUND
+
+
 def wrong_bits(faults: BodyFaults, ticks: range) -> list[int]:
     return [faults.sensed(NOTHING_SENSED, tick).feel for tick in ticks]
 
@@ -129,6 +164,10 @@ def test_a_repair_mends_everything():
         ("noise:1/9999999", "1 of 9999999 ticks cannot be; at most all of 1000000"),
         ("weak-motor:left", "write weak-motor:left:60% or"),
         ("weak-motor:left:101%", "a motor has at most 100%"),
+        ("odometer:left", "write odometer:left:0% or"),
+        ("odometer:left:1000%", "write odometer:left:0% or"),
+        ("false-beacon", "write false-beacon:MM"),
+        ("false-beacon:8192", "food is seen up to 8191 mm away"),
     ],
 )
 def test_what_cannot_happen_is_refused_with_what_was_meant(what, meant):

@@ -68,6 +68,68 @@ static void test_a_weak_motor_turns_at_its_share_of_the_speed_toward_0(void)
     TEST_ASSERT_EQUAL_INT16(0, drive.right_mm_s);
 }
 
+static void roll(struct body *body, int left_mm_s, int right_mm_s)
+{
+    struct drive drive = {.left_mm_s = (int16_t)left_mm_s, .right_mm_s = (int16_t)right_mm_s};
+    struct world world = {.params = {.tick_s = 0.02, .max_wheel_speed_mm_s = 500.0}};
+
+    body->lifted = true;
+    body_faults_move(&faults, &world, body, &drive);
+}
+
+static void test_sound_odometers_count_the_way(void)
+{
+    struct body body = {.left_mm = 1.0};
+
+    roll(&body, 200, -100);
+    TEST_ASSERT_EQUAL_DOUBLE(5.0, body.left_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(-2.0, body.right_mm);
+}
+
+static void test_a_stuck_odometer_stands_still_and_a_reversed_one_counts_backward(void)
+{
+    struct body body = {.left_mm = 1.1, .right_mm = 7.0};
+
+    faults.left_miscounted_percent = -100;
+    faults.right_miscounted_percent = -200;
+    roll(&body, 200, 100);
+    TEST_ASSERT_EQUAL_DOUBLE(1.1, body.left_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(5.0, body.right_mm);
+}
+
+static void test_swapped_odometers_count_each_others_wheels(void)
+{
+    struct body body = {.left_mm = 0.0};
+
+    faults.odometers_swapped = true;
+    faults.left_miscounted_percent = 50;
+    roll(&body, 200, 100);
+    TEST_ASSERT_EQUAL_DOUBLE(3.0, body.left_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(4.0, body.right_mm);
+}
+
+static void test_odometers_count_what_weak_motors_turn(void)
+{
+    struct body body = {.left_mm = 0.0};
+
+    faults.left_lost_percent = 50;
+    roll(&body, 200, 100);
+    TEST_ASSERT_EQUAL_DOUBLE(2.0, body.left_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(2.0, body.right_mm);
+}
+
+static void test_a_false_beacon_shows_food_only_where_none_is_seen(void)
+{
+    struct senses none = {.look = false}, real = {.look = true, .beacon_mm = 700};
+
+    faults.false_beacon_mm = 100;
+    body_faults_sense(&faults, 0, &none);
+    body_faults_sense(&faults, 0, &real);
+    TEST_ASSERT_TRUE(none.look);
+    TEST_ASSERT_EQUAL_UINT16(100, none.beacon_mm);
+    TEST_ASSERT_EQUAL_UINT16(700, real.beacon_mm);
+}
+
 static void test_noise_follows_from_known_numbers(void)
 {
     static const uint8_t expected[] = {3, 18, 19, 22, 16, 16};
@@ -87,6 +149,11 @@ int main(void)
     RUN_TEST(test_stuck_sensors_see_always_or_never);
     RUN_TEST(test_swapped_motors_are_swapped_with_their_odometers);
     RUN_TEST(test_a_weak_motor_turns_at_its_share_of_the_speed_toward_0);
+    RUN_TEST(test_sound_odometers_count_the_way);
+    RUN_TEST(test_a_stuck_odometer_stands_still_and_a_reversed_one_counts_backward);
+    RUN_TEST(test_swapped_odometers_count_each_others_wheels);
+    RUN_TEST(test_odometers_count_what_weak_motors_turn);
+    RUN_TEST(test_a_false_beacon_shows_food_only_where_none_is_seen);
     RUN_TEST(test_noise_follows_from_known_numbers);
     return UNITY_END();
 }

@@ -78,12 +78,10 @@ void loop_record(struct loop *loop)
 static bool act(struct loop *loop, size_t index, const struct drive *drive)
 {
     struct body *body = &loop->world->bodies[index];
-    struct drive wheels = *drive;
     bool eaten = drive->eat && world_eat(loop->world, body);
 
     loop->robots[index].food_eaten += eaten;
-    body_faults_drive(&loop->robots[index].faults, &wheels);
-    world_move(loop->world, body, wheels.left_mm_s, wheels.right_mm_s);
+    body_faults_move(&loop->robots[index].faults, loop->world, body, drive);
     return eaten;
 }
 

@@ -11,14 +11,14 @@ static void send_senses(struct loop *loop, struct loop_robot *robot, const struc
     robot->answer_count = loop->exchange(robot->octet, &frame);
 }
 
-/* Takes one frame of a robot; true if it is its drive. A drive that answers other senses is refused. */
-static bool take_frame(struct loop *loop, struct loop_robot *robot, const struct frame *frame, struct turn *turn)
+/* Takes one frame of a robot. A drive that answers other senses is refused. */
+static void take_frame(struct loop *loop, struct loop_robot *robot, const struct frame *frame, struct turn *turn)
 {
     bool is_drive = frame->id == robot->drive_id;
 
     if (is_drive && !robot_wire_drive(frame, turn->senses.tick, &turn->drive)) {
         robot->refused++;
-        return false;
+        return;
     }
     if (is_drive)
         robot->drive = *frame;
@@ -26,23 +26,33 @@ static bool take_frame(struct loop *loop, struct loop_robot *robot, const struct
         robot_wire_report(robot, frame);
     robot->received++;
     log_lines_add(&loop->log, frame);
-    return is_drive;
 }
 
-/* Takes all that a robot has said; true if its drive was there. */
+static bool has_driven(const struct loop_robot *robot, const struct frame *answers, uint8_t tick)
+{
+    struct drive drive;
+
+    for (size_t i = 0; i < robot->answer_count; i++)
+        if (answers[i].id == robot->drive_id && robot_wire_drive(&answers[i], tick, &drive))
+            return true;
+    return false;
+}
+
+/* Takes all that a robot has said if its drive is there, or else nothing. */
 static bool take_answers(struct loop *loop, struct loop_robot *robot, struct turn *turn)
 {
     const struct frame *answers = loop->answers(robot->octet);
-    bool driven = false;
 
+    if (!has_driven(robot, answers, turn->senses.tick))
+        return false;
     robot->report_count = 0;
     robot->has_news = false;
     for (size_t i = 0; i < robot->waiting_count; i++)
-        driven |= take_frame(loop, robot, &robot->waiting[i], turn);
+        take_frame(loop, robot, &robot->waiting[i], turn);
     robot->waiting_count = 0;
     for (size_t i = 0; i < robot->answer_count; i++)
-        driven |= take_frame(loop, robot, &answers[i], turn);
-    return driven;
+        take_frame(loop, robot, &answers[i], turn);
+    return true;
 }
 
 /* As on a bus, the others hear what a robot says of its memory. They answer nothing, so that their own answers stay. */
@@ -64,14 +74,14 @@ static void pass_memories_on(struct loop *loop)
     }
 }
 
-/* All robots hear their senses before the first one's answer is read. */
+/* All robots hear their senses, and of each other, before the first one's answer is read. */
 bool turns_in_process(struct loop *loop, struct turn turns[])
 {
     for (loop->sent = 0; loop->sent < loop->robot_count; loop->sent++)
         send_senses(loop, &loop->robots[loop->sent], &turns[loop->sent].senses);
+    pass_memories_on(loop);
     for (loop->answered = 0; loop->answered < loop->robot_count; loop->answered++)
         if (!take_answers(loop, &loop->robots[loop->answered], &turns[loop->answered]))
             return false;
-    pass_memories_on(loop);
     return true;
 }

@@ -95,6 +95,10 @@ void page_break(uint32_t robot)
         .noise = (uint32_t)faults[PAGE_NOISE],
         .noise_of = (uint32_t)faults[PAGE_NOISE_OF],
         .noise_key = (uint64_t)faults[PAGE_KEY_HIGH] << 32 | (uint64_t)faults[PAGE_KEY_LOW],
+        .odometers_swapped = faults[PAGE_ODOMETERS_SWAPPED] > 0,
+        .left_miscounted_percent = (int16_t)faults[PAGE_LEFT_MISCOUNTED],
+        .right_miscounted_percent = (int16_t)faults[PAGE_RIGHT_MISCOUNTED],
+        .false_beacon_mm = (uint16_t)faults[PAGE_FALSE_BEACON],
     };
 }
 

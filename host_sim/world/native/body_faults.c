@@ -44,6 +44,10 @@ void body_faults_sense(const struct body_faults *faults, uint32_t tick, struct s
         senses->odometer_left = senses->odometer_right;
         senses->odometer_right = left;
     }
+    if (faults->false_beacon_mm != 0 && !senses->look) {
+        senses->look = true;
+        senses->beacon_mm = faults->false_beacon_mm;
+    }
 }
 
 void body_faults_drive(const struct body_faults *faults, struct drive *drive)
@@ -53,4 +57,22 @@ void body_faults_drive(const struct body_faults *faults, struct drive *drive)
 
     drive->left_mm_s = (int16_t)(left * (FULL_PERCENT - faults->left_lost_percent) / FULL_PERCENT);
     drive->right_mm_s = (int16_t)(right * (FULL_PERCENT - faults->right_lost_percent) / FULL_PERCENT);
+}
+
+static double miscounted(double rolled_mm, int miscounted_percent)
+{
+    return miscounted_percent == 0 ? rolled_mm : rolled_mm * (FULL_PERCENT + miscounted_percent) / FULL_PERCENT;
+}
+
+void body_faults_move(const struct body_faults *faults, struct world *world, struct body *body, const struct drive *drive)
+{
+    struct drive wheels = *drive;
+    double left_mm = body->left_mm, right_mm = body->right_mm, left_way_mm, right_way_mm;
+
+    body_faults_drive(faults, &wheels);
+    world_move(world, body, wheels.left_mm_s, wheels.right_mm_s);
+    left_way_mm = world_way_mm(world, faults->odometers_swapped ? wheels.right_mm_s : wheels.left_mm_s);
+    right_way_mm = world_way_mm(world, faults->odometers_swapped ? wheels.left_mm_s : wheels.right_mm_s);
+    body->left_mm = left_mm + miscounted(left_way_mm, faults->left_miscounted_percent);
+    body->right_mm = right_mm + miscounted(right_way_mm, faults->right_miscounted_percent);
 }

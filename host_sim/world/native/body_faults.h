@@ -4,7 +4,7 @@
 #ifndef OCTET_BODY_FAULTS_H
 #define OCTET_BODY_FAULTS_H
 
-#include "firmware/io.h"
+#include "host_sim/world/native/world.h"
 
 struct body_faults {
     bool mirrored;           /* the ring of sensors is mounted the other way round */
@@ -13,6 +13,10 @@ struct body_faults {
     uint8_t stuck_off;
     uint8_t left_lost_percent;    /* speed that a motor lacks, of what it is told: 0..100 */
     uint8_t right_lost_percent;
+    bool odometers_swapped;       /* each wheel is counted by the other one's odometer */
+    int16_t left_miscounted_percent;    /* what an odometer counts beyond its wheel's way, of that way: -100: it is stuck */
+    int16_t right_miscounted_percent;
+    uint16_t false_beacon_mm;     /* to food that is seen where there is none; 0: to none */
     uint32_t noise;          /* each sensor is wrong in so many */
     uint32_t noise_of;       /* of so many ticks; not 0 where noise is not */
     uint64_t noise_key;      /* from which it follows in which */
@@ -23,5 +27,8 @@ void body_faults_sense(const struct body_faults *faults, uint32_t tick, struct s
 
 void body_faults_drive(const struct body_faults *faults, struct drive *drive);
         /* Makes what the robot says into what the wheels do. */
+
+void body_faults_move(const struct body_faults *faults, struct world *world, struct body *body, const struct drive *drive);
+        /* Lets the wheels do that for one control tick, and the odometers count it. */
 
 #endif

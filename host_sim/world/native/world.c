@@ -40,17 +40,16 @@ bool world_eat(struct world *world, struct body *body)
     return true;
 }
 
-/* The way of a wheel in one tick. */
-static double way_mm(const struct world_params *params, int speed_mm_s)
+double world_way_mm(const struct world *world, int speed_mm_s)
 {
-    double limit = params->max_wheel_speed_mm_s, speed = speed_mm_s;
+    double limit = world->params.max_wheel_speed_mm_s, speed = speed_mm_s;
 
-    return (speed > limit ? limit : speed < -limit ? -limit : speed) * params->tick_s;
+    return (speed > limit ? limit : speed < -limit ? -limit : speed) * world->params.tick_s;
 }
 
 void world_move(struct world *world, struct body *body, int left_mm_s, int right_mm_s)
 {
-    double left_mm = way_mm(&world->params, left_mm_s), right_mm = way_mm(&world->params, right_mm_s);
+    double left_mm = world_way_mm(world, left_mm_s), right_mm = world_way_mm(world, right_mm_s);
     struct vector before = {body->x_mm, body->y_mm};
 
     body->left_mm += left_mm;

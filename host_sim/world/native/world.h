@@ -32,7 +32,7 @@ struct body {
     double x_mm;
     double y_mm;
     double heading_rad;
-    double left_mm;               /* rolled by the wheels so far */
+    double left_mm;               /* counted by the odometers so far */
     double right_mm;
     double depth_mm;              /* of its deepest overlap since it was placed, */
     struct vector normal;         /* and its direction, out of the body */
@@ -65,6 +65,9 @@ void world_sense(struct world *world, struct body *body, uint8_t tick, struct se
 
 bool world_eat(struct world *world, struct body *body);
         /* Eats the food that was last sensed straight ahead, if it is near enough and still there. */
+
+double world_way_mm(const struct world *world, int speed_mm_s);
+        /* How far a wheel rolls in one control tick. */
 
 void world_move(struct world *world, struct body *body, int left_mm_s, int right_mm_s);
         /* Lets the wheels roll for one control tick. */
