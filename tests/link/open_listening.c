@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <unity.h>
@@ -25,4 +26,12 @@ int open_listening(struct link **link, const char *name, size_t id_count)
     said[fread(said, 1, sizeof said - 1, heard)] = '\0';
     fclose(heard);
     return result;
+}
+
+int open_descriptors(void)
+{
+    struct stat status;
+    int count = 0;
+    for (int fd = 0; fd < 64; fd++) count += fstat(fd, &status) == 0;
+    return count;
 }

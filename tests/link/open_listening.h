@@ -13,4 +13,7 @@ extern char said[SAID_MAX];   /* by the last open */
 int open_listening(struct link **link, const char *name, size_t id_count);
         /* As link_open, for so many identifiers. */
 
+int open_descriptors(void);
+        /* How many there are. */
+
 #endif

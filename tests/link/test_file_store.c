@@ -22,6 +22,7 @@ static int calls;
 static int fail_at;   /* the call that fails; 0: none */
 static int error;     /* and why */
 static int free_descriptor;
+static char last_opened[PATH_MAX];
 
 int __real_open(const char *name, int flags, ...);
 int __wrap_open(const char *name, int flags, ...);
@@ -48,6 +49,7 @@ int __wrap_open(const char *name, int flags, ...)
     TEST_ASSERT_EQUAL_HEX(O_CLOEXEC, flags & O_CLOEXEC);
     va_list arguments;
     va_start(arguments, flags);
+    snprintf(last_opened, sizeof last_opened, "%s", name);
     mode_t mode = flags & O_CREAT ? va_arg(arguments, mode_t) : 0;
     va_end(arguments);
     return strikes() ? -1 : __real_open(name, flags, mode);
@@ -162,6 +164,12 @@ static void test_everybody_may_read_the_file_and_its_owner_write_it(void)
     TEST_ASSERT_EQUAL_HEX(0644, file.st_mode & 0777);
 }
 
+static void test_the_folder_of_the_file_is_brought_to_the_disk_last(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
+    TEST_ASSERT_EQUAL_STRING(folder, last_opened);
+}
+
 static void test_what_a_save_that_was_cut_off_left_beside_it_does_no_harm(void)
 {
     const uint8_t left[2 * CELL_COUNT] = {9, 9, 9, 9, 9, 9, 9, 9, 9};
@@ -228,7 +236,7 @@ static void test_a_path_may_be_as_long_as_the_system_knows(void)
 {
     const char end[] = "/memory";
     char name[PATH_MAX];
-    for (size_t len = PATH_MAX - sizeof ".new"; len <= PATH_MAX - sizeof ".new" + 1; len++) {
+    for (size_t len = PATH_MAX - sizeof ".new"; len <= PATH_MAX - sizeof ".new" + 2; len++) {
         bool fits = len + sizeof ".new" <= PATH_MAX;
         memset(name, '/', sizeof name);
         memcpy(name, folder, strlen(folder));
@@ -296,6 +304,7 @@ int main(void)
     RUN_TEST(test_what_was_saved_is_loaded);
     RUN_TEST(test_the_file_is_the_bytes_alone);
     RUN_TEST(test_everybody_may_read_the_file_and_its_owner_write_it);
+    RUN_TEST(test_the_folder_of_the_file_is_brought_to_the_disk_last);
     RUN_TEST(test_what_a_save_that_was_cut_off_left_beside_it_does_no_harm);
     RUN_TEST(test_a_robot_without_standard_input_stores_as_well);
     RUN_TEST(test_a_file_of_another_size_is_no_memory);

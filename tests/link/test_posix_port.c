@@ -21,7 +21,8 @@ enum { WORDS_MAX = 8 };
 static struct port port;
 static char said[512];      /* on the stream that was redirected */
 static struct timespec now;
-static bool prctl_fails, getrandom_fails;
+static bool prctl_fails;
+static ssize_t getrandom_gives;   /* bytes, or -1; 0: as many as are asked for */
 
 int __real_prctl(int option, unsigned long value);
 int __wrap_prctl(int option, unsigned long value);
@@ -44,13 +45,15 @@ int __wrap_prctl(int option, unsigned long value)
 
 ssize_t __wrap_getrandom(void *to, size_t size, unsigned flags)
 {
-    return getrandom_fails ? -1 : __real_getrandom(to, size, flags);
+    TEST_ASSERT_EQUAL_HEX(0, flags);   /* it waits until the system has gathered some */
+    return getrandom_gives ? getrandom_gives : __real_getrandom(to, size, flags);
 }
 
 void setUp(void)
 {
     memset(&port, 0xA5, sizeof port);
-    prctl_fails = getrandom_fails = false;
+    prctl_fails = false;
+    getrandom_gives = 0;
 }
 
 void tearDown(void) {}
@@ -141,7 +144,7 @@ static void test_every_node_of_a_bus_can_be_chosen(void)
 
 static void test_what_is_no_node_is_refused_and_said(void)
 {
-    static const char *const wrong[] = {"0", "-1", "32", "257", "", "x", "1x", "1 ", "99999999999999999999"};
+    static const char *const wrong[] = {"0", "-1", "32", "257", "", "x", "1x", "1 ", "1\xC3\xA4", "99999999999999999999"};
 
     TEST_ASSERT_EQUAL(31, NODE_MAX);
     for (unsigned i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
@@ -257,9 +260,9 @@ static void test_entropy_differs_and_does_without_the_system(void)
     uint32_t first = port_entropy(), second = port_entropy();
 
     TEST_ASSERT_TRUE(first != second || port_entropy() != second);
-    getrandom_fails = true;
     now = (struct timespec){.tv_sec = 1};
     for (unsigned ms = 1; ms < 1000; ms++) {
+        getrandom_gives = ms < 500 ? -1 : 2;
         uint32_t before = port_entropy();
 
         now.tv_nsec = ms * 1000000l;
@@ -273,7 +276,7 @@ static void test_entropy_without_the_system_differs_from_process_to_process(void
     uint32_t ours;
     pid_t child;
 
-    getrandom_fails = true;
+    getrandom_gives = -1;
     ours = port_entropy();
     child = fork();
     if (child == 0)

@@ -20,7 +20,7 @@ static const struct frame EMPTY = {.id = 0x100};
 static const uint16_t WANTED[] = {0x123};
 
 static size_t room;       /* bytes that the line takes, then it is full */
-static size_t piece;      /* at most so many at once */
+static size_t piece;      /* at most so many at once, either way */
 static struct {           /* what each call says before the line takes or gives anything */
     int error;            /* 0: as if no byte had passed */
     int times;
@@ -60,7 +60,8 @@ ssize_t __wrap_write(int fd, const void *from, size_t size)
 
 ssize_t __wrap_read(int fd, void *to, size_t size)
 {
-    return read_fault.times-- > 0 ? fail(read_fault.error) : __real_read(fd, to, size);
+    if (read_fault.times-- > 0) return fail(read_fault.error);
+    return __real_read(fd, to, size < piece ? size : piece);
 }
 
 int __wrap_clock_gettime(clockid_t clock, struct timespec *out)
@@ -170,7 +171,7 @@ static void test_a_full_line_is_tried_each_millisecond_and_given_up_in_time(void
 
 static void test_a_line_that_takes_nothing_or_fails_is_closed(void)
 {
-    static const int errors[] = {0, EIO, ENODEV, EBADF, EPIPE};
+    static const int errors[] = {0, EPERM, EIO, ENODEV, EBADF, EPIPE};
     for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
         write_fault.error = errors[i];
         write_fault.times = 1;
@@ -201,7 +202,7 @@ static void test_a_line_stays_cut_short_while_nothing_passes(void)
 
 static void test_a_line_that_ends_or_fails_is_closed(void)
 {
-    static const int errors[] = {0, EIO, ENODEV, EBADF};
+    static const int errors[] = {0, EPERM, EIO, ENODEV, EBADF};
     struct frame frame;
     for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
         read_fault.error = errors[i];
@@ -240,6 +241,25 @@ static void test_a_line_that_comes_in_pieces_is_one_frame(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
 }
 
+static void test_a_line_is_read_byte_by_byte_if_need_be(void)
+{
+    struct frame frame;
+    piece = 1;
+    put("t1232ABCD\r");
+    TEST_ASSERT_EQUAL_INT(1, link_receive(near, &frame, SOON_MS));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
+}
+
+static void test_of_lines_that_come_at_once_each_counts(void)
+{
+    struct frame frame;
+    put("t1232A\rt1232A\rt1232ABCD\r");
+    TEST_ASSERT_EQUAL_INT(LINK_E_GARBLED, link_receive(near, &frame, SOON_MS));
+    TEST_ASSERT_EQUAL_INT(LINK_E_GARBLED, link_receive(near, &frame, SOON_MS));
+    TEST_ASSERT_EQUAL_INT(1, link_receive(near, &frame, SOON_MS));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
+}
+
 static void test_the_line_is_set_to_its_usual_speed(void)
 {
     struct termios line;
@@ -262,6 +282,8 @@ int main(void)
     RUN_TEST(test_a_read_that_is_interrupted_or_finds_nothing_goes_on);
     RUN_TEST(test_lines_that_mean_nothing_do_not_end_the_wait);
     RUN_TEST(test_a_line_that_comes_in_pieces_is_one_frame);
+    RUN_TEST(test_a_line_is_read_byte_by_byte_if_need_be);
+    RUN_TEST(test_of_lines_that_come_at_once_each_counts);
     RUN_TEST(test_the_line_is_set_to_its_usual_speed);
     return UNITY_END();
 }

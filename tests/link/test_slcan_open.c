@@ -146,14 +146,25 @@ static void test_the_line_is_read_and_written_without_waiting_and_not_inherited(
     TEST_ASSERT_EQUAL_HEX(FD_CLOEXEC, fcntl(fd, F_GETFD));
 }
 
+static void test_without_standard_input_it_opens_as_well(void)
+{
+    int input = dup(STDIN_FILENO);
+    close(STDIN_FILENO);
+    TEST_ASSERT_EQUAL_INT(0, link_open(&link_opened, "slcan:/dev/ptmx", NULL, 0));
+    link_close(link_opened);
+    link_opened = NULL;
+    TEST_ASSERT_EQUAL_INT(STDIN_FILENO, dup2(input, STDIN_FILENO));
+    close(input);
+}
+
 static void test_what_refuses_the_line_is_said_and_nothing_stays_open(void)
 {
-    int fd = free_descriptor();
+    int count = open_descriptors();
     for (refused = TCGETATTR; refused <= CALLOC; refused++) {
         TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, open_line("slcan:/dev/ptmx"));
         TEST_ASSERT_NULL(link_opened);
         TEST_ASSERT_EQUAL_STRING("link slcan:/dev/ptmx: Input/output error\n", said);
-        TEST_ASSERT_EQUAL_INT(fd, free_descriptor());
+        TEST_ASSERT_EQUAL_INT(count, open_descriptors());
     }
 }
 
@@ -185,6 +196,7 @@ int main(void)
     RUN_TEST(test_no_modem_is_asked_for_its_consent);
     RUN_TEST(test_each_speed_can_be_named);
     RUN_TEST(test_the_line_is_read_and_written_without_waiting_and_not_inherited);
+    RUN_TEST(test_without_standard_input_it_opens_as_well);
     RUN_TEST(test_what_refuses_the_line_is_said_and_nothing_stays_open);
     RUN_TEST(test_a_line_that_is_not_there_is_refused_with_the_reason);
     RUN_TEST(test_a_path_may_have_any_length_that_the_system_knows);

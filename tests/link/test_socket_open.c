@@ -120,13 +120,6 @@ void tearDown(void)
     link_close(link_opened);
 }
 
-static int free_descriptor(void)
-{
-    int fd = dup(STDERR_FILENO);
-    close(fd);
-    return fd;
-}
-
 /* As linux/can.h has it: any filter that fits. */
 static bool passes(canid_t id)
 {
@@ -154,15 +147,26 @@ static void test_exactly_the_wanted_identifiers_pass(void)
     }
 }
 
+static void test_without_standard_input_it_opens_as_well(void)
+{
+    int input = dup(STDIN_FILENO);
+    close(STDIN_FILENO);
+    TEST_ASSERT_EQUAL_INT(0, link_open(&link_opened, "socketcan:can7", NULL, 0));
+    link_close(link_opened);
+    link_opened = NULL;
+    TEST_ASSERT_EQUAL_INT(STDIN_FILENO, dup2(input, STDIN_FILENO));
+    close(input);
+}
+
 static void test_what_refuses_it_is_said_and_nothing_stays_open(void)
 {
-    int fd = free_descriptor();
+    int before = open_descriptors();
     for (refused = SOCKET; refused <= CALLOC; refused++) {
         memset(&bound, 0, sizeof bound);
         TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, open_listening(&link_opened, "socketcan:can7", 1));
         TEST_ASSERT_NULL(link_opened);
         TEST_ASSERT_EQUAL_STRING("link socketcan:can7: Input/output error\n", said);
-        TEST_ASSERT_EQUAL_INT(fd, free_descriptor());
+        TEST_ASSERT_EQUAL_INT(before, open_descriptors());
     }
 }
 
@@ -201,11 +205,11 @@ static void test_a_descriptor_that_cannot_be_used_is_said_and_stays_open(void)
 
 static void test_closing_gives_the_socket_back(void)
 {
-    int fd = free_descriptor();
+    int before = open_descriptors();
     TEST_ASSERT_EQUAL_INT(0, open_listening(&link_opened, "socketcan:can7", 1));
     link_close(link_opened);
     link_opened = NULL;
-    TEST_ASSERT_EQUAL_INT(fd, free_descriptor());
+    TEST_ASSERT_EQUAL_INT(before, open_descriptors());
 }
 
 int main(void)
@@ -213,6 +217,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_it_is_bound_to_the_interface_that_was_named);
     RUN_TEST(test_exactly_the_wanted_identifiers_pass);
+    RUN_TEST(test_without_standard_input_it_opens_as_well);
     RUN_TEST(test_what_refuses_it_is_said_and_nothing_stays_open);
     RUN_TEST(test_a_socket_of_whole_frames_is_taken_and_waits);
     RUN_TEST(test_a_descriptor_that_cannot_be_used_is_said_and_stays_open);

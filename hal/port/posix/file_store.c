@@ -47,7 +47,7 @@ static int replace(const char *path, const uint8_t memory[CELL_COUNT])
 /* A rename is on the disk once its folder is. */
 static int sync_folder(const char *path)
 {
-    char copy[PATH_MAX];   /* dirname writes into it */
+    char copy[PATH_MAX] = {0};   /* dirname writes into it */
     snprintf(copy, sizeof copy, "%s", path);
     int fd = open(dirname(copy), O_RDONLY | O_CLOEXEC);
     if (fd < 0)

@@ -29,7 +29,7 @@ static int parse_node(const char *text, uint8_t *node)
 
     errno = 0;
     number = strtol(text, &end, 10);
-    if (errno != 0 || end == text || *end != '\0' || number < 1 || number > NODE_MAX) {
+    if (errno != 0 || *end != '\0' || number < 1 || number > NODE_MAX) {
         fprintf(stderr, "octet-robot: --node is 1..%d, not %s\n", NODE_MAX, text);
         return HAL_E_USAGE;
     }
