@@ -36,9 +36,12 @@ static void test_a_refused_name_is_answered_with_those_there_are(void)
 
 static void test_a_descriptor_must_be_a_number(void)
 {
-    const char *const names[] = {"fd:x", "fd:-1", "fd:+3", "fd: 3", "fd:3x", "fd:3a",
+    const char *const names[] = {"fd:x", "fd:-1", "fd:+3", "fd: 3", "fd:3x", "fd:3a", "fd:3\xC3",
                                  "fd:2147483648", "fd:99999999999999999999"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) assert_refused(LINK_E_NAME, names[i], 1);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        assert_refused(LINK_E_NAME, names[i], 1);
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, "not the number of a file descriptor"), said);
+    }
 }
 
 static void test_a_descriptor_must_be_open(void)

@@ -27,6 +27,7 @@ static const uint16_t WANTED[] = {0x123};
 static struct link *near;
 static int far;
 static int64_t now_ns, receive_timeout_ns;
+static int times_told;   /* how long to wait */
 
 static bool strikes(struct fault *fault)
 {
@@ -81,6 +82,7 @@ int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t 
     if (strikes(&setsockopt_fault)) return -1;
     if (name == SO_RCVTIMEO) {
         const struct timeval *wait = value;
+        times_told++;
         receive_timeout_ns = (int64_t)wait->tv_sec * NS_PER_S + wait->tv_usec * 1000;
     }
     return __real_setsockopt(fd, level, name, value, size);
@@ -185,7 +187,7 @@ static void test_a_send_to_a_bus_that_is_down_says_so_at_once(void)
 
 static void test_a_send_to_an_interface_that_is_gone_is_closed(void)
 {
-    const int errors[] = {ENODEV, ENXIO, EPIPE, ECONNRESET, EBADF};
+    const int errors[] = {EPERM, ENODEV, ENXIO, EPIPE, ECONNRESET, EBADF, ENOTCONN};
     for (size_t i = 0; i < sizeof errors / sizeof errors[0]; i++) {
         send_fault = (struct fault){.error = errors[i], .first = FOR_EVER};
         assert_send(LINK_E_CLOSED, 0);
@@ -233,7 +235,7 @@ static void test_a_frame_after_the_bus_was_down_arrives(void)
 
 static void test_a_receive_from_an_interface_that_is_gone_is_closed(void)
 {
-    const int errors[] = {ENODEV, ENXIO, ECONNRESET, EBADF};
+    const int errors[] = {EPERM, ENODEV, ENXIO, ECONNRESET, EBADF};
     for (size_t i = 0; i < sizeof errors / sizeof errors[0]; i++) {
         recv_fault = (struct fault){.error = errors[i], .first = FOR_EVER};
         assert_receive(LINK_E_CLOSED, 0);
@@ -246,12 +248,28 @@ static void test_a_wait_that_cannot_be_set_is_closed(void)
     assert_receive(LINK_E_CLOSED, 0);
 }
 
-static void test_a_wait_of_seconds_is_told_to_the_kernel_as_it_is(void)
+static void test_the_kernel_is_told_a_wait_when_it_changes_and_only_then(void)
 {
+    static const struct {
+        uint32_t wait_ms, told_ms;
+        int times;
+    } cases[] = {{30, 30, 1}, {30, 30, 1}, {0, 30, 1}, {30, 30, 1}, {1, 1, 2}, {1, 1, 2}, {2345, 2345, 3}, {3000, 3000, 4}};
     struct frame frame;
+    times_told = 0;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        put(16, 3);
+        TEST_ASSERT_EQUAL_INT(1, link_receive(near, &frame, cases[i].wait_ms));
+        TEST_ASSERT_EQUAL_INT(cases[i].times, times_told);
+        TEST_ASSERT_EQUAL_INT64((int64_t)cases[i].told_ms * NS_PER_MS, receive_timeout_ns);
+    }
+}
+
+static void test_an_empty_datagram_before_a_frame_is_not_the_end(void)
+{
+    put(0, 0);
     put(16, 3);
-    TEST_ASSERT_EQUAL_INT(1, link_receive(near, &frame, 2345));
-    TEST_ASSERT_EQUAL_INT64(2345 * (int64_t)NS_PER_MS, receive_timeout_ns);
+    assert_receive(LINK_E_GARBLED, 0);
+    assert_receive(1, 0);
 }
 
 static void test_a_datagram_of_another_size_is_garbled(void)
@@ -316,7 +334,8 @@ int main(void)
     RUN_TEST(test_a_frame_after_the_bus_was_down_arrives);
     RUN_TEST(test_a_receive_from_an_interface_that_is_gone_is_closed);
     RUN_TEST(test_a_wait_that_cannot_be_set_is_closed);
-    RUN_TEST(test_a_wait_of_seconds_is_told_to_the_kernel_as_it_is);
+    RUN_TEST(test_the_kernel_is_told_a_wait_when_it_changes_and_only_then);
+    RUN_TEST(test_an_empty_datagram_before_a_frame_is_not_the_end);
     RUN_TEST(test_a_datagram_of_another_size_is_garbled);
     RUN_TEST(test_a_far_end_that_sends_no_more_is_closed);
     RUN_TEST(test_a_length_over_eight_is_garbled);
