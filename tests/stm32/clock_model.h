@@ -20,6 +20,7 @@ static struct {
     uint32_t crystal_on_ms, pll_on_ms, switched_ms;   /* when each began */
     uint32_t now_ms, systick_hz;
     uint32_t waits_when_switched;             /* of the flash, when the clock got faster */
+    uint32_t others_on;                       /* bits of CR that the driver has set beside those it needs */
 } model;
 
 static void model_reset(void)
@@ -38,17 +39,18 @@ void systick_start(uint32_t core_hz)
 static void start(uint32_t on, uint32_t ready, uint32_t *since, uint32_t span_ms)
 {
     if (!(RCC.cr & on))
-        *since = model.now_ms;
+        *since = model.now_ms + 1;   /* the next look is the first that can see it on */
     else if (model.now_ms - *since >= span_ms)
         RCC.cr |= ready;
 }
 
 uint32_t machine_ms(void)
 {
+    model.others_on |= RCC.cr & ~(uint32_t)(HSION | HSEON | HSERDY | PLLON | PLLRDY);
     start(HSEON, HSERDY, &model.crystal_on_ms, model.crystal_ms);
     start(PLLON, PLLRDY, &model.pll_on_ms, model.pll_ms);
     if ((RCC.cfgr & 3u) == (RCC.cfgr >> SWITCHED_AT & 3u)) {
-        model.switched_ms = model.now_ms;
+        model.switched_ms = model.now_ms + 1;
     } else if (model.now_ms - model.switched_ms >= model.switch_ms) {
         RCC.cfgr = (RCC.cfgr & ~(3u << SWITCHED_AT)) | (RCC.cfgr & 3u) << SWITCHED_AT;
         model.waits_when_switched = FLASH.acr & 15u;

@@ -137,8 +137,10 @@ static void test_a_length_beyond_8_means_8(void)
 static void test_extended_and_remote_frames_are_told_apart(void)
 {
     rig_open_filters();
+    rig_bring(&(struct frame){.id = FRAME_EXTENDED | 0x12345678});
     rig_bring(&(struct frame){.id = FRAME_EXTENDED | 0x12345679});
     rig_bring(&(struct frame){.id = FRAME_REMOTE | 0x0C2});
+    assert_receives(&(struct frame){.id = FRAME_EXTENDED | 0x12345678});
     assert_receives(&(struct frame){.id = FRAME_EXTENDED | 0x12345679});
     assert_receives(&(struct frame){.id = FRAME_REMOTE | 0x0C2});
 }

@@ -5,6 +5,7 @@
 #include <unity.h>
 
 #include "hal/stm32/chip.h"
+#include "hal/stm32/comes_up.h"
 #include CLOCK_EXPECTED
 #include "clock_model.h"
 
@@ -56,6 +57,28 @@ static void test_a_slow_crystal_is_waited_for(void)
     assert_starts_as(&BEST);
 }
 
+/* A bit beside those that start something can bypass the crystal, or watch it with an interrupt. */
+static void test_nothing_else_is_switched_on(void)
+{
+    (void)clock_start();
+    TEST_ASSERT_EQUAL_HEX32(0, model.others_on);
+}
+
+static void test_each_wait_lasts_as_long_as_it_may_and_no_longer(void)
+{
+    for (unsigned late = 0; late <= 1; late++) {
+        model_reset();
+        model.crystal_ms = CRYSTAL_MS + late;
+        TEST_ASSERT_EQUAL(late == 0, clock_start().exact);
+        model_reset();
+        model.pll_ms = SWITCH_MS + late;
+        TEST_ASSERT_EQUAL_UINT32(late == 0 ? BEST.core_hz : SLOW.core_hz, clock_start().core_hz);
+        model_reset();
+        model.switch_ms = SWITCH_MS + late;
+        TEST_ASSERT_EQUAL_UINT32(late == 0 ? BEST.core_hz : SLOW.core_hz, clock_start().core_hz);
+    }
+}
+
 static void test_without_a_crystal_the_internal_oscillator_makes_what_it_can(void)
 {
     model.crystal_ms = NEVER;
@@ -94,7 +117,7 @@ static void test_reset_flags_are_read_and_forgotten(void)
 {
     RCC.csr = 0x14000000;
     TEST_ASSERT_EQUAL_HEX32(0x14000000, chip_reset_flags());
-    TEST_ASSERT_EQUAL_HEX32(FORGET, RCC.csr & FORGET);
+    TEST_ASSERT_EQUAL_HEX32(FORGET | 0x14000000, RCC.csr);
 }
 
 static void test_what_is_special_about_the_chip(void)
@@ -108,6 +131,8 @@ int main(void)
     RUN_TEST(test_the_registers_lie_where_the_manual_has_them);
     RUN_TEST(test_the_crystal_makes_the_full_speed);
     RUN_TEST(test_a_slow_crystal_is_waited_for);
+    RUN_TEST(test_nothing_else_is_switched_on);
+    RUN_TEST(test_each_wait_lasts_as_long_as_it_may_and_no_longer);
     RUN_TEST(test_without_a_crystal_the_internal_oscillator_makes_what_it_can);
     RUN_TEST(test_without_a_pll_it_runs_from_the_internal_oscillator);
     RUN_TEST(test_with_neither_it_does_so_too);

@@ -44,11 +44,19 @@ static void test_what_never_comes_is_given_up_in_time(void)
     TEST_ASSERT_FALSE(comes_up(&reg, 0x30, 0x10, LIMIT_MS));
 }
 
+static void test_it_does_not_matter_how_late_it_is(void)
+{
+    now_ms = 1000;
+    ready_ms = now_ms + LIMIT_MS;
+    TEST_ASSERT_TRUE(comes_up(&reg, 0x30, 0x30, LIMIT_MS));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_what_is_there_is_seen);
     RUN_TEST(test_what_comes_in_time_is_waited_for);
+    RUN_TEST(test_it_does_not_matter_how_late_it_is);
     RUN_TEST(test_what_never_comes_is_given_up_in_time);
     return UNITY_END();
 }

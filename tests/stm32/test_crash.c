@@ -85,6 +85,27 @@ static void test_a_frame_that_ends_beyond_the_stack_is_not_followed(void)
     TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
 }
 
+static void test_a_frame_that_just_fits_is_kept(void)
+{
+    crash_keep(CRASH_BUS_FAULT, &stack[4], &stack[4], &stack[12]);
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    TEST_ASSERT_EQUAL_HEX32(0x10, crash_last()->values[CRASH_R0]);
+    TEST_ASSERT_EQUAL_HEX32(0x61000000, crash_last()->values[CRASH_PSR]);
+}
+
+/* The RAM may hold on for as long as the supply was low. */
+static void test_power_on_forgets_the_crash_for_good(void)
+{
+    crash_at(&stack[4]);
+    (void)crash_reset_cause(RESET_POWER_ON);
+    TEST_ASSERT_EQUAL(RESET_SOFTWARE, crash_reset_cause(RESET_SOFTWARE));
+    TEST_ASSERT_NULL(crash_last());
+    crash_at(&stack[4]);
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    (void)crash_reset_cause(RESET_POWER_ON);
+    TEST_ASSERT_NULL(crash_last());
+}
+
 static void test_an_old_crash_is_still_told_but_was_not_the_cause(void)
 {
     crash_at(&stack[4]);
@@ -154,6 +175,8 @@ int main(void)
     RUN_TEST(test_a_stack_pointer_out_of_the_stack_is_kept_and_not_followed);
     RUN_TEST(test_a_frame_below_the_stack_is_not_followed);
     RUN_TEST(test_a_frame_that_ends_beyond_the_stack_is_not_followed);
+    RUN_TEST(test_a_frame_that_just_fits_is_kept);
+    RUN_TEST(test_power_on_forgets_the_crash_for_good);
     RUN_TEST(test_an_old_crash_is_still_told_but_was_not_the_cause);
     RUN_TEST(test_power_on_forgets_the_crash);
     RUN_TEST(test_a_reset_of_another_kind_is_told_as_it_is);

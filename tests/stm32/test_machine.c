@@ -79,6 +79,17 @@ static void test_each_cause_of_a_reset_is_told_by_its_flag(void)
     }
 }
 
+/* The other bits of this register are not about resets: the low-speed oscillator is on while the watchdog runs. */
+static void test_what_else_is_in_the_register_of_flags_is_no_cause(void)
+{
+    for (unsigned other = 0; other < 26; other++) {
+        reset_flags = PIN | 1u << other;
+        TEST_ASSERT_EQUAL(RESET_PIN, mcu_reset_cause());
+        reset_flags = 1u << other;
+        TEST_ASSERT_EQUAL(RESET_POWER_ON, mcu_reset_cause());
+    }
+}
+
 static void test_feeding_feeds(void)
 {
     IWDG.kr = 0;
@@ -93,6 +104,7 @@ int main(void)
     RUN_TEST(test_a_watchdog_that_stays_busy_does_not_hold_up_the_start);
     RUN_TEST(test_the_clocks_are_as_they_started);
     RUN_TEST(test_each_cause_of_a_reset_is_told_by_its_flag);
+    RUN_TEST(test_what_else_is_in_the_register_of_flags_is_no_cause);
     RUN_TEST(test_feeding_feeds);
     return UNITY_END();
 }

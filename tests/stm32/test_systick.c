@@ -29,6 +29,31 @@ static void test_the_timer_runs_free_from_an_eighth_of_the_clock(void)
     TEST_ASSERT_EQUAL_HEX32(1, SYSTICK.ctrl);
 }
 
+static void test_it_starts_anew_when_the_clock_has_changed(void)
+{
+    uint32_t start;
+
+    passes(10 * PER_MS + 1);
+    start = machine_ms();
+    SYSTICK.val = 0x123456;
+    systick_start(CORE_HZ / 2);
+    TEST_ASSERT_EQUAL_HEX32(0, SYSTICK.val);
+    TEST_ASSERT_EQUAL_UINT32(0, machine_ms() - start);
+    passes(PER_MS / 2);
+    TEST_ASSERT_EQUAL_UINT32(1, machine_ms() - start);
+}
+
+/* The last bit of the count decides. */
+static void test_an_odd_number_of_counts_is_counted_too(void)
+{
+    uint32_t start;
+
+    systick_start(8000 * 3);
+    start = machine_ms();
+    passes(3);
+    TEST_ASSERT_EQUAL_UINT32(1, machine_ms() - start);
+}
+
 static void test_a_millisecond_passes_after_21000_counts(void)
 {
     uint32_t start = machine_ms();
@@ -62,6 +87,8 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_timer_runs_free_from_an_eighth_of_the_clock);
+    RUN_TEST(test_it_starts_anew_when_the_clock_has_changed);
+    RUN_TEST(test_an_odd_number_of_counts_is_counted_too);
     RUN_TEST(test_a_millisecond_passes_after_21000_counts);
     RUN_TEST(test_no_count_is_lost_however_often_it_is_asked);
     RUN_TEST(test_half_a_second_without_asking_is_noticed_in_full);

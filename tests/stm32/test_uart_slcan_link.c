@@ -11,7 +11,7 @@ enum { TEXT_MAX = 1024, LOOK_US = 10, BYTE_US = 87, DAMAGED = '\x80', NEVER = 0 
 
 /* The fake line: a byte each way every 87 us. Time passes with each look at the clock. */
 static struct {
-    uint32_t now_us, taken_us;
+    uint32_t now_us, taken_us, look_us;
     char in[TEXT_MAX], out[TEXT_MAX];
     unsigned in_len, in_at, out_len;
     uint32_t busy_until_us;
@@ -25,7 +25,7 @@ static struct frame frame;
 
 uint32_t machine_ms(void)
 {
-    fake.now_us += LOOK_US;
+    fake.now_us += fake.look_us;
     return fake.now_us / 1000;
 }
 
@@ -71,6 +71,7 @@ void setUp(void)
     static const uint16_t ids[] = {0x0C1, 0x041};
 
     memset(&fake, 0, sizeof fake);
+    fake.look_us = LOOK_US;
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, 2));
 }
 
@@ -108,6 +109,26 @@ static void test_silence_is_waited_out(void)
 {
     TEST_ASSERT_EQUAL(0, receive(20));
     TEST_ASSERT_UINT32_WITHIN(100, 20000, fake.now_us);
+}
+
+/* A millisecond may pass unseen, as while the flash is written. */
+static void test_a_wait_ends_even_if_nobody_looks_in_its_last_millisecond(void)
+{
+    fake.look_us = 1500;
+    TEST_ASSERT_EQUAL(0, receive(20));
+    TEST_ASSERT_UINT32_WITHIN(2000, 20000, fake.now_us);
+}
+
+static void test_what_was_half_received_is_forgotten_when_it_is_opened_again(void)
+{
+    static const uint16_t ids[] = {0x0C1};
+
+    comes("t0C1201");
+    TEST_ASSERT_EQUAL(0, receive(20));
+    TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, 1));
+    comes("t0C10\r");
+    TEST_ASSERT_EQUAL(1, receive(20));
+    TEST_ASSERT_EQUAL_UINT8(0, frame.len);
 }
 
 static void test_half_a_line_waits_for_the_other_half(void)
@@ -205,7 +226,7 @@ static void test_a_line_that_does_not_take_it_is_given_up_in_time(void)
 {
     fake.blocked_from = 1;
     TEST_ASSERT_EQUAL(LINK_E_FULL, link_send(link_here, &frame));
-    TEST_ASSERT_UINT32_WITHIN(1100, 1000 * LINK_SEND_MS, fake.now_us);
+    TEST_ASSERT_UINT32_WITHIN(100, 1000 * (LINK_SEND_MS + 1), fake.now_us);
 }
 
 static void test_a_line_cut_short_is_ended_before_the_next(void)
@@ -218,6 +239,17 @@ static void test_a_line_cut_short_is_ended_before_the_next(void)
     TEST_ASSERT_EQUAL(0, link_send(link_here, &some));
     TEST_ASSERT_EQUAL(0, link_send(link_here, &some));
     TEST_ASSERT_EQUAL_STRING_LEN("t12\rt1231AB\rt1231AB\r", fake.out, fake.out_len);
+}
+
+static void test_a_line_cut_short_after_its_first_byte_is_ended_too(void)
+{
+    static const struct frame some = {.id = 0x123};
+
+    fake.blocked_from = 2;
+    TEST_ASSERT_EQUAL(LINK_E_FULL, link_send(link_here, &some));
+    fake.blocked_from = NEVER;
+    TEST_ASSERT_EQUAL(0, link_send(link_here, &some));
+    TEST_ASSERT_EQUAL_STRING_LEN("t\rt1230\r", fake.out, fake.out_len);
 }
 
 static void test_its_health_is_always_fine(void)
@@ -245,6 +277,8 @@ int main(void)
     RUN_TEST(test_it_opens_at_115200_baud);
     RUN_TEST(test_a_line_is_a_frame);
     RUN_TEST(test_silence_is_waited_out);
+    RUN_TEST(test_a_wait_ends_even_if_nobody_looks_in_its_last_millisecond);
+    RUN_TEST(test_what_was_half_received_is_forgotten_when_it_is_opened_again);
     RUN_TEST(test_half_a_line_waits_for_the_other_half);
     RUN_TEST(test_a_damaged_byte_makes_one_garbled_line);
     RUN_TEST(test_a_frame_goes_out_as_a_line);
@@ -255,6 +289,7 @@ int main(void)
     RUN_TEST(test_a_line_that_never_began_needs_no_end);
     RUN_TEST(test_a_line_that_does_not_take_it_is_given_up_in_time);
     RUN_TEST(test_a_line_cut_short_is_ended_before_the_next);
+    RUN_TEST(test_a_line_cut_short_after_its_first_byte_is_ended_too);
     RUN_TEST(test_its_health_is_always_fine);
     RUN_TEST(test_it_closes);
     return UNITY_END();

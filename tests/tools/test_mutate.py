@@ -113,7 +113,9 @@ def mutate(*words: object) -> subprocess.CompletedProcess[str]:
 
 
 def test_a_sample_of_mutants_is_killed():
-    result = mutate("--sample", 100, "firmware", "hal/can_body", "hal/flash_store", "hal/library", "hal/protocol")
+    folders = ("can_body", "flash_store", "library", "protocol", "stm32", "port/cortex_m")
+
+    result = mutate("--sample", 100, "firmware", *(f"hal/{folder}" for folder in folders))
 
     assert result.returncode == 0, result.stdout + result.stderr
     assert "100 mutants, 0 groups below their bar, 0 complaints" in result.stdout
