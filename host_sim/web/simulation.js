@@ -75,6 +75,7 @@ export class Simulation {
       this.enter(number);
       const end = Math.min(this.tick + limit_ticks, ticks_max);
       while (this.tick < end && this.eaten.includes(0)) this.runBlock(end);
+      this.settle();
       yield number;
     }
     for (const robot of this.bodies.keys()) this.stop(robot);
@@ -104,6 +105,16 @@ export class Simulation {
       this.startRobot(robot, setup.profile);
       if (setup.memory) this.writeMemory(robot, setup.memory);
     }
+  }
+
+  /** Asks robots that have stopped by themselves how they are: of their frames, not each came when it should. */
+  settle() {
+    for (const robot of this.bodies.keys()) {
+      if (!this.native.c.page_has_halted(robot)) continue;
+      this.native.command(robot, OPCODE.REPORT);
+      this.native.c.page_take_reports(robot);
+    }
+    this.keepLog();
   }
 
   /** @param {number} robot */

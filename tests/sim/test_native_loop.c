@@ -233,6 +233,31 @@ static void test_a_silent_robots_tick_does_not_count(void)
     TEST_ASSERT_EQUAL_DOUBLE(1000.0, world.bodies[0].x_mm);
 }
 
+static bool ask(struct loop *of, size_t robot)
+{
+    (void)of;
+    return octets[robot].reason == REASON_STOP;
+}
+
+static void test_a_robot_that_has_stopped_by_itself_is_asked_and_goes_on_at_rest(void)
+{
+    octets[1].reason = REASON_STOP;
+    loop.ask = ask;
+    loop_run(&loop, TICKS);
+    TEST_ASSERT_EQUAL_UINT32(TICKS, loop.ticks);
+    TEST_ASSERT_TRUE(robots[1].halted);
+    TEST_ASSERT_FALSE(robots[0].halted);
+}
+
+static void test_a_robot_that_rests_for_another_reason_hands_its_tick_over(void)
+{
+    octets[1].silent = true;
+    loop.ask = ask;
+    loop_run(&loop, TICKS);
+    TEST_ASSERT_TRUE(loop.handed_over);
+    TEST_ASSERT_FALSE(robots[1].halted);
+}
+
 static void test_a_drive_for_other_senses_is_refused_and_not_logged(void)
 {
     struct frame old = drive_of(&octets[0], 77);
@@ -309,6 +334,8 @@ int main(void)
     RUN_TEST(test_a_meal_ends_a_block);
     RUN_TEST(test_news_ends_a_block);
     RUN_TEST(test_a_silent_robots_tick_does_not_count);
+    RUN_TEST(test_a_robot_that_has_stopped_by_itself_is_asked_and_goes_on_at_rest);
+    RUN_TEST(test_a_robot_that_rests_for_another_reason_hands_its_tick_over);
     RUN_TEST(test_a_drive_for_other_senses_is_refused_and_not_logged);
     RUN_TEST(test_what_waited_is_logged_once_after_the_senses);
     RUN_TEST(test_a_tick_that_was_done_elsewhere_is_recorded_like_all);

@@ -113,9 +113,18 @@ CHANGED = {
 
 @pytest.mark.parametrize(("world", "profile", "robots", "changes"), CHANGED.values(), ids=CHANGED)
 def test_a_run_in_another_world_that_changes_is_that_of_tools_run(tmp_path, world, profile, robots, changes):
-    wanted = experiment(profile, 3, robots, world=world)
+    assert_same_run(tmp_path, experiment(profile, 3, robots, world=world), changes, code=0)
+
+
+def test_a_run_in_which_robots_stop_because_of_their_wheels_is_that_of_tools_run(tmp_path):
+    broken = "odometer:left:-100%@3s/2 odometer:left:0%@env2 odometer:right:0%@env2 repair@env2+9s"
+
+    assert_same_run(tmp_path, experiment("article", 3, 2), broken, code=1)
+
+
+def assert_same_run(tmp_path: Path, wanted: dict[str, Any], changes: str, code: int) -> None:
     what = [word for change in changes.split() for word in ("--change", change)]
-    assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words(wanted), *what).returncode == 0
+    assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words(wanted), *what).returncode == code
 
     (there,) = run_in_page(tmp_path, with_changes_of(wanted, tmp_path))
 

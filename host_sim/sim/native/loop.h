@@ -31,6 +31,8 @@ struct loop_robot {
     uint32_t drive_id;
     uint32_t heartbeat_id;
     uint8_t senses_counter;           /* of the last SENSES */
+    struct frame senses;              /* the last SENSES to a robot in this process */
+    bool halted;                      /* it has stopped by itself: at rest it answers */
     struct body_faults faults;        /* what is wrong with its body */
     bool begun_any;                   /* an action has begun, with this pattern: */
     uint8_t pattern;
@@ -63,6 +65,8 @@ struct loop {
     uint32_t wait_ms;                 /* for a frame over a link */
     size_t (*exchange)(struct octet *octet, const struct frame *in);
     const struct frame *(*answers)(const struct octet *octet);
+    bool (*ask)(struct loop *loop, size_t robot);   /* asks one in this process that has stopped by itself how it is, and
+                                                       logs that; false: it has not. null: its tick is handed over */
     struct world *world;
     size_t robot_count;               /* as many as the world has bodies */
     struct loop_robot *robots;

@@ -4,11 +4,15 @@
 
 static void send_senses(struct loop *loop, struct loop_robot *robot, const struct senses *senses)
 {
-    struct frame frame = {0};
+    robot_wire_senses(robot, senses, &robot->senses);
+    log_lines_add(&loop->log, &robot->senses);
+    robot->answer_count = loop->exchange(robot->octet, &robot->senses);
+}
 
-    robot_wire_senses(robot, senses, &frame);
-    log_lines_add(&loop->log, &frame);
-    robot->answer_count = loop->exchange(robot->octet, &frame);
+static bool is_answer(const struct loop_robot *robot, const struct frame *frame, uint8_t tick, struct drive *drive)
+{
+    return robot_wire_drive(frame, tick, drive)
+        || (robot->halted && drive->tick == tick && drive->reason == REASON_STOP);
 }
 
 /* Takes one frame of a robot. A drive that answers other senses is refused. */
@@ -16,7 +20,7 @@ static void take_frame(struct loop *loop, struct loop_robot *robot, const struct
 {
     bool is_drive = frame->id == robot->drive_id;
 
-    if (is_drive && !robot_wire_drive(frame, turn->senses.tick, &turn->drive)) {
+    if (is_drive && !is_answer(robot, frame, turn->senses.tick, &turn->drive)) {
         robot->refused++;
         return;
     }
@@ -30,10 +34,10 @@ static void take_frame(struct loop *loop, struct loop_robot *robot, const struct
 
 static bool has_driven(const struct loop_robot *robot, const struct frame *answers, uint8_t tick)
 {
-    struct drive drive;
+    struct drive drive = {0};
 
     for (size_t i = 0; i < robot->answer_count; i++)
-        if (answers[i].id == robot->drive_id && robot_wire_drive(&answers[i], tick, &drive))
+        if (answers[i].id == robot->drive_id && is_answer(robot, &answers[i], tick, &drive))
             return true;
     return false;
 }
@@ -53,6 +57,18 @@ static bool take_answers(struct loop *loop, struct loop_robot *robot, struct tur
     for (size_t i = 0; i < robot->answer_count; i++)
         take_frame(loop, robot, &answers[i], turn);
     return true;
+}
+
+/* A robot that has stopped by itself is asked how it is, then sent its senses again. True if its drive is there now. */
+static bool asks_on(struct loop *loop, size_t index, struct turn *turn)
+{
+    struct loop_robot *robot = &loop->robots[index];
+
+    if (!loop->ask || robot->halted || !loop->ask(loop, index))
+        return false;
+    robot->halted = true;
+    robot->answer_count = loop->exchange(robot->octet, &robot->senses);
+    return take_answers(loop, robot, turn);
 }
 
 /* As on a bus, the others hear what a robot says of its memory. They answer nothing, so that their own answers stay. */
@@ -81,7 +97,8 @@ bool turns_in_process(struct loop *loop, struct turn turns[])
         send_senses(loop, &loop->robots[loop->sent], &turns[loop->sent].senses);
     pass_memories_on(loop);
     for (loop->answered = 0; loop->answered < loop->robot_count; loop->answered++)
-        if (!take_answers(loop, &loop->robots[loop->answered], &turns[loop->answered]))
+        if (!take_answers(loop, &loop->robots[loop->answered], &turns[loop->answered])
+            && !asks_on(loop, loop->answered, &turns[loop->answered]))
             return false;
     return true;
 }

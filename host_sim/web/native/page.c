@@ -40,13 +40,29 @@ static void bind(struct loop_robot *robot, struct octet *octet)
     robot->decisions = decisions[index];
 }
 
+/* As in host_sim/client/supervision.py: all that it has said but its drive, then its report. */
+static bool ask(struct loop *loop, size_t index)
+{
+    struct loop_robot *robot = &loop->robots[index];
+    const struct frame *answers = octet_answers(robot->octet);
+
+    if (robot->octet->robot.running || robot->octet->robot.denials == 0)
+        return false;
+    for (size_t i = 0; i < robot->answer_count; i++)
+        if (answers[i].id != robot->drive_id)
+            log_lines_add(&loop->log, &answers[i]);
+    (void)page_command((uint32_t)index, OPCODE_REPORT, 0, 0);
+    page_take_reports((uint32_t)index);
+    return true;
+}
+
 bool page_open(uint32_t robots)
 {
     static const uint8_t nothing[CELL_COUNT];
     static char text[LOG_LINES * LOG_LINE_MAX];
     struct loop *loop = &page_state()->loop;
 
-    *loop = (struct loop){.exchange = octet_exchange, .answers = octet_answers, .robot_count = robots};
+    *loop = (struct loop){.exchange = octet_exchange, .answers = octet_answers, .ask = ask, .robot_count = robots};
     loop->robots = page_state()->robots;
     loop->log.text = text;
     loop->log_size = sizeof text;
@@ -144,6 +160,8 @@ int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t v
     struct octet_answer_t answer;
     struct frame frame;
 
+    if (opcode == OPCODE_START)
+        page_state()->robots[robot].halted = false;
     send(robot, &message);
     page_state()->robots[robot].known_count = 0;   /* after a command, even what was reported long ago may be news */
     while (take(robot, &frame))
@@ -266,6 +284,11 @@ bool page_translate(uint32_t robot)
     (void)memory_translate(&memory, kind_of_robot(robot));
     memcpy(page_bytes(), memory.cell, sizeof memory.cell);
     return true;
+}
+
+bool page_has_halted(uint32_t robot)
+{
+    return page_state()->robots[robot].halted;
 }
 
 void page_set_time(double time_us)

@@ -103,6 +103,9 @@ void page_write_side(uint32_t robot, uint32_t pattern, uint32_t side);
 bool page_translate(uint32_t robot);
         /* Makes the memory in page_bytes() one that this robot's behaviour understands. False if they are no memory. */
 
+bool page_has_halted(uint32_t robot);
+        /* Whether it has stopped by itself, because its wheels do not do what they are told. */
+
 void page_set_time(double time_us);
         /* The time of the log's lines that follow. */
 
