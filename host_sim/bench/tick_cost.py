@@ -37,6 +37,7 @@ class TickCost:
         protocol = Protocol()
         self._senses, self._drive = protocol.id_of("SENSES"), protocol.id_of("DRIVE")
         self._core, self._registers = board.hardware.core, board.hardware.can.registers
+        board.hardware.space.watch()
         self._begun: int | None = None
         self._is_news = True
         self._transmit_status, self._seen = 0, 0

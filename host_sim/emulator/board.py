@@ -22,7 +22,7 @@ from host_sim.emulator.core import PAGE, Core, Fault, load_segments
 from host_sim.emulator.flash import BASE as FLASH
 from host_sim.emulator.flash import FlashFaults
 from host_sim.emulator.rcc import RccFaults
-from host_sim.emulator.registers import AddressSpace, Peripheral, PowerCut, Register
+from host_sim.emulator.registers import AddressSpace, Peripheral, PowerCut, Register, Window
 from host_sim.emulator.serial import SlcanLine, Usart
 from host_sim.emulator.system import SystemControl, SysTick, Watchdog
 from host_sim.errors import UsageError
@@ -65,6 +65,7 @@ class Hardware:
         pins: The ports, from A.
         rcc: The clocks.
         watchdog: The independent watchdog.
+        space: All registers by address.
         faults: What the image did that the core cannot do.
     """
 
@@ -94,6 +95,8 @@ class Hardware:
         self.flash.on_wait_states = self.rcc.check_speeds
         self.can = BxCan(self.clock, self.rcc.apb1_hz, chip.can_banks, faults.can, heard)
         self.usart = Usart(self.clock, self.rcc.apb2_hz, SlcanLine(heard).take)
+        self.space = AddressSpace(self.clock)
+        self._systick = SysTick(self.clock)
         self._scb = SystemControl(chip.cpuid, lambda: restart("software"))
         self.watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))
         self._peripherals = self._always_clocked() + self._gated()
@@ -113,12 +116,13 @@ class Hardware:
             flash.memory[offset : offset + len(data)] = data
             flash.code_end = max(flash.code_end, -(-(offset + len(data)) // PAGE) * PAGE)
         self.core.add_rom(FLASH, bytes(flash.memory[: flash.code_end]))
-        self.core.add_registers(
+        behind = Window(
             FLASH + flash.code_end,
             len(flash.memory) - flash.code_end,
             lambda address, width: flash.read(address - FLASH, width),
             lambda address, width, value: flash.write(address - FLASH, width, value),
         )
+        self.core.add_registers(behind)
         self.core.reset()
 
     def restart(self, cause: str) -> None:
@@ -140,7 +144,7 @@ class Hardware:
             (self.chip.rcc_base, self.rcc),
             (self.chip.flash_base, self.flash),
             (WATCHDOG_BASE, self.watchdog),
-            (SYSTICK_BASE, SysTick(self.clock)),
+            (SYSTICK_BASE, self._systick),
             (SCB_BASE, self._scb),
         ]
 
@@ -157,11 +161,14 @@ class Hardware:
         return gated
 
     def _map(self) -> None:
-        space = AddressSpace(self.clock)
+        space = self.space
         for base, peripheral in self._peripherals:
             space.attach(base, peripheral)
+        self.can.access_directly(space.model, CAN_BASE)
+        self._systick.access_directly(space.model, SYSTICK_BASE)
+        space.model.direct = True
         for base, size in _WINDOWS:
-            self.core.add_registers(base, size, space.read, space.write)
+            self.core.add_registers(Window(base, size, space.read, space.write, space.model))
         for base, size in self.chip.ram:
             self.core.add_ram(base, size)
 
@@ -201,7 +208,7 @@ class EmulatedBoard:
         self.hardware = Hardware(chip, faults or Faults(), self._receive, self._ask_reset)
         self.hardware.flash_image(load_segments(image))
         self._clock = self.hardware.clock
-        self._clock.add(self._due)
+        self._alarm = self._clock.add(self._due)
         self._said.extend(self._listen(round(_BOOT_S * SECOND)))
 
     def send(self, frame: Frame) -> None:
@@ -269,7 +276,7 @@ class EmulatedBoard:
     def _run_until(self, moment: int) -> None:
         """Runs until the board says something, at the latest until then."""
         self._deadline = moment
-        self._clock.expect(moment)
+        self._alarm.set(moment)
         while not self._said and self._clock.now < moment:
             try:
                 self.hardware.core.run()

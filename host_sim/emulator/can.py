@@ -2,21 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, NamedTuple
 
-import cffi
-
-from host_sim.emulator.clock import NEVER, SECOND, Clock
+from host_sim.emulator.c_models import c_models
+from host_sim.emulator.clock import SECOND, Clock
 from host_sim.emulator.registers import BoardError, Peripheral, Register
-from host_sim.errors import OctetError
-from host_sim.paths import BUILD, ROOT
 
-LIBRARY = BUILD / "host" / "host_sim" / "emulator" / "models" / "liboctet_models.so"
-_MODELS = ROOT / "host_sim" / "emulator" / "models"
-_HEADERS = (ROOT / "hal" / "link" / "link.h", _MODELS / "can_wire.h", _MODELS / "bxcan_model.h")
 _NS = SECOND // 10**9
-_NEVER_NS = 2**64 - 1
 _MCR, _MAILBOX, _OUTPUT, _BANK = 0x00, 0x180, 0x1B0, 0x240
 _NAMED = {0x00: "MCR", 0x04: "MSR", 0x08: "TSR", 0x0C: "RF0R", 0x10: "RF1R", 0x14: "IER", 0x18: "ESR", 0x1C: "BTR"}
 _FILTERS = {0x200: "FMR", 0x204: "FM1R", 0x20C: "FS1R", 0x214: "FFA1R", 0x21C: "FA1R"}
@@ -50,18 +42,6 @@ class CanFaults:
 
     init_stuck: bool = False
     stuck_mailboxes: int = 0
-
-
-@cache
-def _models() -> tuple[Any, Any]:
-    """The models, declared by their own headers."""
-    ffi = cffi.FFI()
-    for header in _HEADERS:
-        ffi.cdef("\n".join(line for line in header.read_text().splitlines() if not line.startswith("#")))
-    try:
-        return ffi, ffi.dlopen(str(LIBRARY))
-    except OSError as error:
-        raise OctetError(f"cannot load the models of hardware: {error}; build them with tools/setup") from error
 
 
 def _names(banks: int) -> dict[int, str]:
@@ -100,7 +80,7 @@ class BxCan(Peripheral):
         Raises:
             OctetError: The models are not built.
         """
-        ffi, self._library = _models()
+        ffi, self._library = c_models()
         self._clock, self._bus_hz, self._heard, self._ffi = clock, bus_hz, heard, ffi
         self._frame: Any = ffi.new("struct frame *")
         self._data = ffi.buffer(self._frame.data)
@@ -110,12 +90,27 @@ class BxCan(Peripheral):
         self._library.bxcan_open(self.model, self.wire, banks)
         self.model.init_stuck, self.model.stuck_mailboxes = faults.init_stuck, faults.stuck_mailboxes
         super().__init__("CAN1", {offset: self._register(offset, name) for offset, name in _names(banks).items()})
-        clock.add(self._due)
+        clock.join_wire(self.wire, self._take)
 
     def reset(self) -> None:
         """As in `Peripheral`."""
         super().reset()
         self._library.bxcan_reset(self.model)
+
+    def set_clocked(self, clocked: bool) -> None:
+        """As in `Peripheral`."""
+        super().set_clocked(clocked)
+        self.model.clocked = clocked
+
+    def access_directly(self, space: Any, base: int) -> None:
+        """Has a `struct register_space` read and write the registers without Python.
+
+        MCR is written here, since the controller then asks for the speed of its clock.
+        """
+        space.can, space.can_base = self.model, base
+        for offset in self.registers:
+            space.can_readable[offset // 4] = True
+            space.can_writable[offset // 4] = offset != _MCR
 
     def put(self, frame: CanFrame) -> None:
         """The rest of the world wants to send a frame; where too many are waiting already, it is lost."""
@@ -123,7 +118,7 @@ class BxCan(Peripheral):
         self._frame.id, self._frame.len = frame.id | flags, len(frame.data)
         self._data[:] = frame.data.ljust(8, b"\0")
         self._library.wire_put(self.wire, self._frame)
-        self._clock.expect(self._clock.now)
+        self._clock.expect_now()
 
     def _register(self, offset: int, name: str) -> Register:
         model, read, write = self.model, self._library.bxcan_read, self._library.bxcan_write
@@ -140,12 +135,11 @@ class BxCan(Peripheral):
                 model.clock_hz = self._bus_hz()
             if not write(model, offset, value):
                 self._refuse()
-            self._clock.expect(self._clock.now)
+            self._clock.expect_now()
 
         return Register(name, on_read=on_read, on_write=on_write)
 
-    def _due(self) -> int:
-        due: int = self._library.wire_advance(self.wire, self._clock.now // _NS)
+    def _take(self) -> None:
         if self.model.refusal[0] != b"\0":
             self._refuse()
         while self.wire.heard.count:
@@ -154,7 +148,6 @@ class BxCan(Peripheral):
             remote = bool(frame.id & _REMOTE)
             data = bytes(frame.len) if remote else self._data[: frame.len]
             self._heard(CanFrame(frame.id & _ID, data, bool(frame.id & _EXTENDED), remote))
-        return NEVER if due == _NEVER_NS else due * _NS
 
     def _refuse(self) -> None:
         reason = self._ffi.string(self.model.refusal).decode()

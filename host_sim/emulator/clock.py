@@ -1,22 +1,37 @@
-"""The board's time."""
+"""The board's time: the model `struct board_clock`, and what happens by itself."""
 
 from collections.abc import Callable
+from typing import Any
+
+from host_sim.emulator.c_models import c_models
 
 SECOND = 10**15
 """Moments and spans are whole femtoseconds: no clock of the boards makes their sum drift."""
 
-NEVER = 2**127
+_NS = SECOND // 10**9
+_HOUR = 3600 * SECOND
+
+NEVER = (2**64 - 1) * _NS
 """A moment that does not come."""
+
+
+class Alarm:
+    """When an event is next due."""
+
+    def __init__(self, clock: "Clock", number: int) -> None:
+        """One of a clock's, as `Clock.add` makes them."""
+        self._clock, self._number = clock, number
+
+    def set(self, moment: int) -> None:
+        """The event is due then, rather than when it was before."""
+        self._clock.set_alarm(self._number, moment)
 
 
 class Clock:
     """Time, made of the core's cycles, one for each instruction. What happens by itself happens when time passes it.
 
     Attributes:
-        now: This moment, since power-up.
-        cycles: Of the core, since power-up.
-        period: Length of a cycle.
-        horizon: When something is next due; `settle` does it.
+        model: The C model, `struct board_clock`.
     """
 
     def __init__(self, hz: int) -> None:
@@ -24,52 +39,118 @@ class Clock:
 
         Args:
             hz: Speed of the core at power-up.
-        """
-        self.now = 0
-        self.cycles = 0
-        self.period = SECOND // hz
-        self.horizon = NEVER
-        self._timed: list[Callable[[], int]] = []
 
-    def add(self, due: Callable[[], int]) -> None:
+        Raises:
+            OctetError: The models are not built.
+        """
+        self._ffi, self._library = ffi, _ = c_models()
+        self._timed: list[Callable[[], int]] = []
+        self._failure: BaseException | None = None
+        self._take: Any = None
+        self._alarms: Any = None
+        self._ring_c = ffi.callback("void(struct board_clock *, unsigned)", self._ring, onerror=self.fail)
+        self.model: Any = ffi.new("struct board_clock *")
+        self.model.ring = self._ring_c
+        self.model.period_fs = SECOND // hz
+        self.model.horizon.ns = NEVER // _NS
+
+    @property
+    def now(self) -> int:
+        """This moment, since power-up."""
+        now = self.model.now
+        moment: int = now.ns * _NS + now.fs
+        return moment
+
+    @property
+    def cycles(self) -> int:
+        """Cycles of the core since power-up."""
+        cycles: int = self.model.cycles
+        return cycles
+
+    @property
+    def period(self) -> int:
+        """Length of a cycle."""
+        period: int = self.model.period_fs
+        return period
+
+    def add(self, due: Callable[[], int]) -> Alarm:
         """Adds what happens by itself.
 
         Args:
             due: Does all that is due by now, and returns when it wants to be called next.
+
+        Returns:
+            What to set when that changes otherwise. Before, `due` is called as soon as anything is.
         """
         self._timed.append(due)
+        alarms = self._ffi.new("struct moment[]", len(self._timed))
+        for number in range(self.model.alarm_count):
+            alarms[number] = self._alarms[number]
+        self._alarms = self.model.alarms = alarms
+        self.model.alarm_count = len(self._timed)
+        return Alarm(self, len(self._timed) - 1)
 
     def set_hz(self, hz: int) -> None:
         """Changes the speed of the core."""
-        self.period = SECOND // hz
-        self.expect(self.now)
+        self.model.period_fs = SECOND // hz
+        self.expect_now()
+
+    def join_wire(self, wire: Any, take: Callable[[], None]) -> None:
+        """Moves a bus on with the time.
+
+        Args:
+            wire: The C model, `struct can_wire`.
+            take: Called when something was heard on it, or a controller refused something.
+        """
+        self._take = self._ffi.callback("void(struct board_clock *)", lambda _clock: take(), onerror=self.fail)
+        self.model.wire, self.model.take = wire, self._take
 
     def expect(self, moment: int) -> None:
         """Something new is due then."""
-        self.horizon = min(self.horizon, moment)
+        self._library.clock_expect(self.model, divmod(min(moment, NEVER), _NS))
+
+    def expect_now(self) -> None:
+        """Something new is due at once."""
+        self._library.clock_expect(self.model, self.model.now)
 
     def settle(self) -> None:
         """Lets everything happen that is due."""
-        self.horizon = NEVER
-        moments = [due() for due in self._timed]
-        self.horizon = min(self.horizon, *moments, NEVER)
+        self._library.clock_settle(self.model)
+        self.raise_failure()
+
+    def set_alarm(self, number: int, moment: int) -> None:
+        """Sets one, as `Alarm.set`."""
+        alarm = self._alarms[number]
+        alarm.ns, alarm.fs = divmod(min(moment, NEVER), _NS)
+        self._library.clock_expect(self.model, alarm)
+
+    def _ring(self, _clock: object, number: int) -> None:
+        self.set_alarm(number, self._timed[number]())
 
     def execute(self, cycles: int) -> None:
         """Passes the time of a number of cycles."""
-        self.cycles += cycles
-        self.now += cycles * self.period
-        if self.now >= self.horizon:
-            self.settle()
+        self._library.clock_execute(self.model, cycles)
+        self.raise_failure()
 
     def skip_to(self, moment: int) -> None:
         """Passes time in which the core does nothing, and stops at each event on the way."""
-        while self.now < moment:
-            target = max(min(moment, self.horizon), self.now)
-            self.cycles += (target - self.now) // self.period
-            self.now = target
-            if self.now >= self.horizon:
-                self.settle()
+        while (now := self.now) < moment:
+            ns, fs = divmod(min(moment, now + _HOUR), _NS)
+            self._library.clock_skip_to(self.model, (ns, fs))
+            self.raise_failure()
 
     def skip(self, span: int) -> None:
         """Passes that much of it."""
         self.skip_to(self.now + span)
+
+    def fail(self, _kind: object, failure: BaseException, _trace: object) -> None:
+        """Lets no more time pass: a function that C has called has failed. Takes what `__exit__` takes."""
+        self._failure = failure
+        self.model.failed = True
+
+    def raise_failure(self) -> None:
+        """Raises that, once: no exception may pass through C."""
+        if self._failure is not None:
+            failure, self._failure = self._failure, None
+            self.model.failed = False
+            raise failure

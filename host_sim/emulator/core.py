@@ -3,17 +3,21 @@
 import struct
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, cast
 
+from host_sim.c_interface import c_interface
+from host_sim.emulator.c_models import c_models
 from host_sim.emulator.clock import Clock
-from host_sim.emulator.registers import BoardError
+from host_sim.emulator.registers import BoardError, Window
 from host_sim.errors import OctetError
 
 try:
     from unicorn import (
         UC_ARCH_ARM,
         UC_ERR_INSN_INVALID,
+        UC_ERR_OK,
         UC_HOOK_BLOCK,
         UC_HOOK_MEM_INVALID,
         UC_MODE_MCLASS,
@@ -33,6 +37,7 @@ try:
         UC_ARM_REG_XPSR,
     )
     from unicorn.unicorn import Uc, UcError
+    from unicorn.unicorn_py3.unicorn import uclib
 except ImportError as error:
     raise OctetError("unicorn is not installed: run tools/setup emulator") from error
 
@@ -77,6 +82,24 @@ class Fault:
     pc: int
 
 
+@cache
+def _calls() -> Any:
+    """Those calls of Unicorn that take functions in C, as its header declares them; its Python wraps Python's."""
+    return c_interface(
+        "int uc_emu_stop(void *uc);"
+        "int uc_mem_read(void *uc, uint64_t address, void *bytes, uint64_t size);"
+        "int uc_hook_add("
+        "    void *uc, size_t *hook, int type, void *callback, void *data, uint64_t first, uint64_t last, ...);"
+        "int uc_mmio_map("
+        "    void *uc, uint64_t address, uint64_t size, void *read, void *read_data, void *write, void *write_data);"
+    )
+
+
+def _check(status: int) -> None:
+    if status != UC_ERR_OK:
+        raise cast("Any", UcError)(status)  # it lacks types
+
+
 def _disregard(_fault: Fault) -> None:
     """Does nothing with it."""
 
@@ -85,7 +108,6 @@ class Core:
     """Executes the image. One instruction takes one cycle.
 
     Attributes:
-        instructions: Executed so far.
         on_fault: Called when the image faults; then its hard fault handler runs.
     """
 
@@ -96,19 +118,26 @@ class Core:
             clock: That its instructions drive.
             vectors: Address of the vector table.
         """
-        self.instructions = 0
         self.on_fault: Callable[[Fault], None] = _disregard
         self._clock, self._vectors = clock, vectors
-        self._stopping = self._in_fault = False
-        self._error: BaseException | None = None
+        self._in_fault = False
         self._unreachable: int | None = None
-        self._lengths: dict[tuple[int, int], int] = {}
         self._pc = 0
         unicorn = cast("Any", Uc)  # half of its methods lack types
         self._uc = unicorn(UC_ARCH_ARM, UC_MODE_THUMB | UC_MODE_MCLASS)
         self._uc.ctl_set_tcg_buffer_size(_TRANSLATED_MAX)
-        self._uc.hook_add(UC_HOOK_BLOCK, self._on_block)
         self._uc.hook_add(UC_HOOK_MEM_INVALID, self._on_unreachable)
+        self._ffi, self._models = c_models()
+        self._library: Any = _calls().dlopen(uclib._name)
+        self._engine: Any = self._ffi.cast("void *", self._uc._uch.value)
+        self._kept: list[Any] = []
+        self._blocks = self._hook_blocks()
+
+    @property
+    def instructions(self) -> int:
+        """Executed so far."""
+        executed: int = self._blocks.instructions
+        return executed
 
     def add_ram(self, base: int, size: int) -> None:
         """Memory to read, write and execute."""
@@ -119,25 +148,17 @@ class Core:
         self._uc.mem_map(base, len(contents), UC_PROT_READ | UC_PROT_EXEC)
         self._uc.mem_write(base, contents)
 
-    def add_registers(
-        self, base: int, size: int, read: Callable[[int, int], int], write: Callable[[int, int, int], None]
-    ) -> None:
-        """Addresses of registers rather than memory.
-
-        Args:
-            base: First of them, a multiple of `PAGE`.
-            size: How many, a multiple of `PAGE`.
-            read: From (address, number of bytes) to the value.
-            write: Takes (address, number of bytes, value).
-        """
-
-        def on_read(_uc: Uc, offset: int, width: int, _data: object) -> int:
-            return self._guarded(lambda: read(base + offset, width))
-
-        def on_write(_uc: Uc, offset: int, width: int, value: int, _data: object) -> None:
-            self._guarded(lambda: write(base + offset, width, value))
-
-        self._uc.mmio_map(base, size, on_read, None, on_write, None)
+    def add_registers(self, window: Window) -> None:
+        """Registers rather than memory, whole pages of them."""
+        ffi, models = self._ffi, self._models
+        made: Any = ffi.new("struct register_window *")
+        on_read = ffi.callback("uint64_t(uint32_t, uint32_t)", window.read, onerror=self._clock.fail)
+        on_write = ffi.callback("void(uint32_t, uint32_t, uint32_t)", window.write, onerror=self._clock.fail)
+        made.clock, made.space, made.base = self._clock.model, window.model or ffi.NULL, window.base
+        made.read, made.write = on_read, on_write
+        self._kept += [made, on_read, on_write]
+        read, write = (ffi.addressof(models, name) for name in ("window_read", "window_write"))
+        _check(self._library.uc_mmio_map(self._engine, window.base, window.size, read, made, write, made))
 
     def clear_ram(self, base: int, size: int) -> None:
         """As after a loss of power."""
@@ -158,7 +179,7 @@ class Core:
 
     def stop(self) -> None:
         """Ends `run` soon."""
-        self._stopping = True
+        self._blocks.stopping = True
 
     def run(self) -> None:
         """Executes until `stop`.
@@ -167,8 +188,8 @@ class Core:
             BoardError: The image is lost, or one of the models complains.
             PowerCut: As the flash's.
         """
-        self._stopping = False
-        while not self._stopping:
+        self._blocks.stopping = False
+        while not self._blocks.stopping:
             try:
                 self._uc.emu_start(self._pc | _THUMB, 0)
             except UcError as error:
@@ -176,38 +197,18 @@ class Core:
                 self._enter_fault(error)
                 continue
             self._pc = self._uc.reg_read(UC_ARM_REG_PC)
-            if self._error is not None:
-                failure, self._error = self._error, None
-                raise failure
+            self._clock.raise_failure()
 
-    def _guarded(self, access: Callable[[], int | None]) -> int:
-        """An access to registers; after one that failed, there are no more before the core has stopped."""
-        if self._error is not None:
-            return 0
-        try:
-            return access() or 0
-        except BaseException as error:
-            self._error = error  # nothing may pass through Unicorn; `run` raises it
-            self._stopping = True
-            return 0
-
-    def _on_block(self, _uc: Uc, address: int, size: int, _data: object) -> None:
-        if self._stopping:
-            self._uc.emu_stop()
-            return
-        count = self._lengths.get((address, size))
-        if count is None:
-            count = self._lengths[address, size] = self._count(address, size)
-        self.instructions += count
-        self._clock.execute(count)
-
-    def _count(self, address: int, size: int) -> int:
-        """Instructions in a block: some are two half-words long."""
-        code, at, count = self._uc.mem_read(address, size), 0, 0
-        while at < size:
-            at += 4 if code[at + 1] >> 3 in _WIDE_PREFIXES else 2
-            count += 1
-        return count
+    def _hook_blocks(self) -> Any:
+        """Has the models count what is executed. A call of Python for each block would take most of the time."""
+        ffi, library = self._ffi, self._library
+        blocks: Any = ffi.new("struct core_blocks *")
+        blocks.clock = self._clock.model
+        blocks.stop, blocks.read = ffi.addressof(library, "uc_emu_stop"), ffi.addressof(library, "uc_mem_read")
+        hook, on_block = ffi.new("size_t *"), ffi.addressof(self._models, "core_on_block")
+        first, last = 1, 0  # of no range: everywhere
+        _check(library.uc_hook_add(self._engine, hook, UC_HOOK_BLOCK, on_block, blocks, first, last))
+        return blocks
 
     def _on_unreachable(self, *access: object) -> bool:
         """Unicorn's arguments: itself, the kind of access, address, size, value, and nothing."""

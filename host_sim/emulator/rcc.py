@@ -168,7 +168,7 @@ class Rcc(Peripheral):
         self.registers[offset].value = value
         for (at, bit), peripheral in self._gates.items():
             if at == offset:
-                peripheral.clocked = bool(value >> bit & 1)
+                peripheral.set_clocked(bool(value >> bit & 1))
 
     def _ready(self, source: int) -> bool:
         return self._clock.now >= self._ready_at.get(source, self._clock.now + 1)

@@ -2,19 +2,16 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
-from host_sim.emulator.clock import SECOND, Clock
+from host_sim.emulator.c_models import c_models
+from host_sim.emulator.clock import Clock
 from host_sim.errors import RobotError
 
 Reader = Callable[[], int]
 Writer = Callable[[int], None]
 
-WAITING_READS = 8
-"""Reads in a row that bring nothing new, after which the image counts as waiting."""
-
 _WORD = 4
-_SKIP_MAX = SECOND // 1000
-"""What is skipped at most before the image looks again, since it may be the time itself that it waits for."""
 
 
 class BoardError(RobotError):
@@ -86,18 +83,41 @@ class Peripheral:
         self.clocked = clocked
         self._always_clocked = clocked
 
+    def set_clocked(self, clocked: bool) -> None:
+        """Its gate was opened or closed."""
+        self.clocked = clocked
+
     def reset(self) -> None:
         """As after a reset of the chip."""
-        self.clocked = self._always_clocked
+        self.set_clocked(self._always_clocked)
         for register in self.registers.values():
             register.reset()
 
 
-class AddressSpace:
-    """The registers of all peripherals by address.
+@dataclass(frozen=True)
+class Window:
+    """A range of addresses at which there are registers.
 
-    Sees when the image only waits, and skips that time. It waits when it reads the same again and again and looks at
-    the time in between; one that counts its looks instead is left to do so.
+    Attributes:
+        base: First of them.
+        size: How many.
+        read: From (address, number of bytes) to the value.
+        write: Takes (address, number of bytes, value).
+        model: The `struct register_space` that is asked first; None: there is none.
+    """
+
+    base: int
+    size: int
+    read: Callable[[int, int], int]
+    write: Callable[[int, int, int], None]
+    model: Any = None
+
+
+class AddressSpace:
+    """The registers of all peripherals by address, for all accesses that C leaves to Python (`register_space.h`).
+
+    Attributes:
+        model: The C model, `struct register_space`, which skips the time in which the image only waits.
     """
 
     def __init__(self, clock: Clock) -> None:
@@ -106,16 +126,24 @@ class AddressSpace:
         Args:
             clock: Whose time is skipped.
         """
+        ffi, self._library = c_models()
         self._clock = clock
         self._at: dict[int, tuple[Peripheral, Register]] = {}
         self._seen: dict[int, int] = {}
-        self._old_news = 0
-        self._looks_at_time = False
+        self.model: Any = ffi.new("struct register_space *")
+        self.model.clock = clock.model
 
     def attach(self, base: int, peripheral: Peripheral) -> None:
         """Puts a peripheral there."""
         for offset, register in peripheral.registers.items():
             self._at[base + offset] = peripheral, register
+
+    def watch(self) -> None:
+        """Leaves every access to Python from now on, so that `Register.on_read` and `on_write` may be replaced."""
+        self.model.direct = False
+        for word, seen in enumerate(self.model.seen):
+            if seen.known:
+                self._seen[self.model.can_base + _WORD * word] = seen.value
 
     def read(self, address: int, width: int) -> int:
         """Reads a register.
@@ -130,16 +158,18 @@ class AddressSpace:
         register = self._find(address, width, "read")
         value = register.read()
         if register.steady:
-            self._note(address, value)
+            self._library.space_note(self.model, self._seen.get(address) != value)
+            self._seen[address] = value
+            self._clock.raise_failure()
         else:
-            self._looks_at_time = True
+            self._library.space_note_time(self.model)
         return value
 
     def write(self, address: int, width: int, value: int) -> None:
         """Writes a register; as `read`."""
         register = self._find(address, width, "written")
         if not register.idle:
-            self._begin_anew()
+            self._library.space_begin_anew(self.model)
         register.write(value)
 
     def _find(self, address: int, width: int, how: str) -> Register:
@@ -152,19 +182,6 @@ class AddressSpace:
         if width != _WORD:
             raise BoardError(f"{peripheral.name} {register.name} was {how} by {width} bytes, where it has {_WORD}")
         return register
-
-    def _note(self, address: int, value: int) -> None:
-        if self._seen.get(address) != value:
-            self._seen[address] = value
-            self._begin_anew()
-            return
-        self._old_news += 1
-        if self._old_news > WAITING_READS and self._looks_at_time:
-            self._begin_anew()
-            self._clock.skip_to(min(self._clock.horizon, self._clock.now + _SKIP_MAX))
-
-    def _begin_anew(self) -> None:
-        self._old_news, self._looks_at_time = 0, False
 
     def _neighbour(self, address: int) -> str:
         before = max((known for known in self._at if known <= address), default=None)

@@ -43,8 +43,8 @@ class Usart(Peripheral):
                 0x0C: self._cr1,
             },
         )
+        self._alarm = clock.add(self._due)
         self.reset()
-        clock.add(self._due)
 
     def reset(self) -> None:
         """As in `Peripheral`."""
@@ -52,13 +52,14 @@ class Usart(Peripheral):
         self._received: int | None = None
         self._overrun = False
         self._leaving: deque[int] = deque()
+        self._alarm.set(self._next())
 
     def feed(self, text: bytes) -> None:
         """The far end of the line sends that, as fast as it goes."""
         if not self._coming:
             self._came_at = max(self._came_at, self._clock.now) + _BYTE_SPAN
         self._coming.extend(text)
-        self._clock.expect(self._came_at)
+        self._alarm.set(self._next())
 
     def _due(self) -> int:
         while self._coming and self._came_at <= self._clock.now:
@@ -67,6 +68,9 @@ class Usart(Peripheral):
         while self._leaving and self._left_at <= self._clock.now:
             self._heard(self._leaving.popleft())
             self._left_at += _BYTE_SPAN
+        return self._next()
+
+    def _next(self) -> int:
         return min(self._came_at if self._coming else NEVER, self._left_at if self._leaving else NEVER)
 
     def _receive(self, byte: int) -> None:
@@ -93,8 +97,8 @@ class Usart(Peripheral):
             raise BoardError("USART1 DR was written while TXE is 0")
         if not self._leaving:
             self._left_at = self._clock.now + _BYTE_SPAN
-            self._clock.expect(self._left_at)
         self._leaving.append(value & 0xFF)
+        self._alarm.set(self._next())
 
     def _write_cr1(self, value: int) -> None:
         if value & _INTERRUPTS:

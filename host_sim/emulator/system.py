@@ -1,12 +1,13 @@
 """What every chip has: the core's timer and control block, the watchdog, and pins."""
 
 from collections.abc import Callable
+from typing import Any
 
+from host_sim.emulator.c_models import c_models
 from host_sim.emulator.clock import NEVER, SECOND, Clock
 from host_sim.emulator.registers import BoardError, Peripheral, Register
 
-_ENABLE, _TICKINT, _CLKSOURCE, _COUNTFLAG = 1, 2, 4, 1 << 16
-_COUNT_MAX, _SYSTICK_DIVISOR = 0xFFFFFF, 8
+_TICKINT, _COUNTFLAG, _COUNT_MAX = 1 << 1, 1 << 16, 0xFFFFFF
 _START, _FEED, _UNLOCK, _RELOAD_MAX = 0xCCCC, 0xAAAA, 0x5555, 0xFFF
 _KEY, _KEY_MASK, _SYSRESETREQ, _AIRCR_READ = 0x05FA0000, 0xFFFF0000, 1 << 2, 0xFA050000
 _FORCED, _BFARVALID = 1 << 30, 1 << 15
@@ -14,7 +15,11 @@ _PINS = 0xFFFF
 
 
 class SysTick(Peripheral):
-    """The core's own timer (PM0214 4.5), polled: counts down from LOAD to 0, over and over."""
+    """The core's own timer (PM0214 4.5), polled: counts down from LOAD to 0, over and over.
+
+    Attributes:
+        model: The C model, `struct systick`.
+    """
 
     def __init__(self, clock: Clock) -> None:
         """At rest.
@@ -22,47 +27,53 @@ class SysTick(Peripheral):
         Args:
             clock: The board's.
         """
+        ffi, self._library = c_models()
         self._clock = clock
-        self._since = self._wraps = 0
-        self._ctrl = Register("CTRL", on_read=self._read_ctrl, on_write=self._write_ctrl)
-        self._load = Register("LOAD", on_write=self._write_load)
+        self._wraps = 0
+        self.model: Any = ffi.new("struct systick *")
+        self.model.clock = clock.model
         super().__init__(
             "SysTick",
             {
-                0x0: self._ctrl,
-                0x4: self._load,
+                0x0: Register("CTRL", on_read=self._read_ctrl, on_write=self._write_ctrl),
+                0x4: Register("LOAD", on_read=lambda: int(self.model.load), on_write=self._write_load),
                 0x8: Register("VAL", on_read=self._read_val, on_write=self._restart, steady=False),
                 0xC: Register("CALIB"),
             },
             clocked=True,
         )
 
-    def _counted(self) -> int:
-        """Counts since the last restart."""
-        if not self._ctrl.value & _ENABLE:
-            return 0
-        return (self._clock.cycles - self._since) // (1 if self._ctrl.value & _CLKSOURCE else _SYSTICK_DIVISOR)
+    def reset(self) -> None:
+        """As in `Peripheral`."""
+        super().reset()
+        self.model.ctrl = self.model.load = 0
+
+    def access_directly(self, space: Any, base: int) -> None:
+        """Has a `struct register_space` read VAL without Python."""
+        space.systick, space.systick_val = self.model, base + 0x8
 
     def _restart(self, value: int) -> None:  # noqa: ARG002 - whatever is written, the count is 0
-        self._since, self._wraps = self._clock.cycles, 0
+        self.model.since_cycles, self._wraps = self._clock.cycles, 0
 
     def _read_val(self) -> int:
-        return -self._counted() % (self._load.value + 1)
+        value: int = self._library.systick_value(self.model)
+        return value
 
     def _read_ctrl(self) -> int:
-        wraps = self._counted() // (self._load.value + 1)
+        wraps = self._library.systick_counted(self.model) // (self.model.load + 1)
         flag = _COUNTFLAG if wraps > self._wraps else 0
         self._wraps = wraps
-        return self._ctrl.value | flag
+        ctrl: int = self.model.ctrl
+        return ctrl | flag
 
     def _write_ctrl(self, value: int) -> None:
         if value & _TICKINT:
             raise BoardError("SysTick's interrupt was enabled, which is not modelled")
-        self._ctrl.value = value
+        self.model.ctrl = value
         self._restart(0)
 
     def _write_load(self, value: int) -> None:
-        self._load.value = value & _COUNT_MAX
+        self.model.load = value & _COUNT_MAX
 
 
 class Watchdog(Peripheral):
@@ -85,13 +96,14 @@ class Watchdog(Peripheral):
         super().__init__(
             "IWDG", {0x0: key, 0x4: self._prescaler, 0x8: self._reload, 0xC: Register("SR")}, clocked=True
         )
-        clock.add(self._due)
+        self._alarm = clock.add(self._due)
 
     def reset(self) -> None:
         """As in `Peripheral`."""
         super().reset()
         self._started = self._unlocked = False
         self._expires = NEVER
+        self._alarm.set(NEVER)
 
     def period_s(self) -> float:
         """Seconds from one feeding to the bite; 0 where it is not started."""
@@ -105,7 +117,7 @@ class Watchdog(Peripheral):
         if self._started and value in (_START, _FEED):
             period = SECOND // self._slow_hz * (4 << min(self._prescaler.value, 6))
             self._expires = self._clock.now + (self._reload.value + 1) * period
-            self._clock.expect(self._expires)
+            self._alarm.set(self._expires)
 
     def _write_prescaler(self, value: int) -> None:
         self._assert_unlocked("PR")

@@ -43,6 +43,20 @@ def test_a_started_robot_drives_and_counts_no_fault(name):
     assert talk.board.resets == []
 
 
+def test_registers_do_the_same_in_c_as_in_python(name):
+    talks = [talk_to(name), talk_to(name)]
+    talks[1].board.hardware.space.watch()
+
+    for talk in talks:
+        talk.start()
+        talk.live(20)
+
+    direct, watched = talks
+    assert direct.heard == watched.heard
+    assert direct.board.hardware.core.instructions == watched.board.hardware.core.instructions
+    assert direct.board.hardware.clock.now == watched.board.hardware.clock.now
+
+
 def test_wheels_stop_after_100_ms_without_senses(name):
     talk = talk_to(name)
     talk.start()

@@ -4,7 +4,8 @@ import pytest
 
 from host_sim.backends.robot_process import PROGRAM
 from host_sim.emulator.board import start_board
-from host_sim.emulator.can import BxCan, CanFaults, CanFrame, _models
+from host_sim.emulator.c_models import c_models
+from host_sim.emulator.can import BxCan, CanFaults, CanFrame
 from host_sim.emulator.chips import STM32F103, STM32F405
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.core import PAGE, Core, load_segments
@@ -378,8 +379,8 @@ def test_what_the_model_of_can_refuses_is_an_error_at_once_or_when_time_passes(c
 
 
 def test_models_that_are_not_built_are_named_with_how_to_build_them(monkeypatch, tmp_path):
-    monkeypatch.setattr("host_sim.emulator.can.LIBRARY", tmp_path / "none.so")
-    _models.cache_clear()
+    monkeypatch.setattr("host_sim.emulator.c_models.LIBRARY", tmp_path / "none.so")
+    c_models.cache_clear()
 
     with pytest.raises(OctetError, match="build them with tools/setup"):
-        _models()
+        c_models()

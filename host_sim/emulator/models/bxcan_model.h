@@ -42,6 +42,7 @@ struct bxcan_filters {
 
 struct bxcan {
     uint32_t clock_hz;         /* that the bit timing divides */
+    bool clocked;              /* whether it has a clock at all: without one no register can be reached */
     unsigned bank_count;
     bool init_stuck;           /* faults: INAK never comes; */
     bool release_slow;         /* a released frame shows on for 0.1 ms, as RFOM tells; */

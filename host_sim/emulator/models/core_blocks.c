@@ -1,0 +1,39 @@
+#include "host_sim/emulator/models/core_blocks.h"
+
+enum { WIDE_FROM = 0xE800 };   /* half-words from here on begin an instruction of two */
+
+static uint32_t count(const struct core_blocks *blocks, void *emulator, uint64_t address, uint32_t size)
+{
+    uint32_t instructions = 0;
+    uint8_t code[2];
+
+    for (uint32_t at = 0; at < size; instructions++) {
+        if (blocks->read(emulator, address + at, code, sizeof code) != 0)
+            break;
+        at += (code[0] | code[1] << 8) >= WIDE_FROM ? 4 : 2;
+    }
+    return instructions;
+}
+
+static const struct core_block *look_up(struct core_blocks *blocks, void *emulator, uint64_t address, uint32_t size)
+{
+    struct core_block *block = &blocks->kept[address / 2 % BLOCKS_KEPT];
+
+    if (block->address != address || block->size != size)
+        *block = (struct core_block){ address, size, count(blocks, emulator, address, size) };
+    return block;
+}
+
+void core_on_block(void *emulator, uint64_t address, uint32_t size, void *context)
+{
+    struct core_blocks *blocks = context;
+    uint32_t instructions;
+
+    if (blocks->stopping || blocks->clock->failed) {
+        (void)blocks->stop(emulator);
+        return;
+    }
+    instructions = look_up(blocks, emulator, address, size)->count;
+    blocks->instructions += instructions;
+    clock_execute(blocks->clock, instructions);
+}

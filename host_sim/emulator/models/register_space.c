@@ -1,0 +1,105 @@
+#include "host_sim/emulator/models/register_space.h"
+
+enum { WORD = 4, NOT_CAN = SPACE_CAN_WORDS };
+
+void space_begin_anew(struct register_space *space)
+{
+    space->old_news = 0;
+    space->looks_at_time = false;
+}
+
+void space_note(struct register_space *space, bool is_news)
+{
+    if (is_news) {
+        space_begin_anew(space);
+        return;
+    }
+    space->old_news++;
+    if (space->old_news > SPACE_WAITING_READS && space->looks_at_time) {
+        space_begin_anew(space);
+        clock_skip_to_event(space->clock, SPACE_SKIP_NS);
+    }
+}
+
+void space_note_time(struct register_space *space)
+{
+    space->looks_at_time = true;
+}
+
+/* The number of a register of CAN that can be accessed here, or NOT_CAN. */
+static uint32_t can_word(const struct register_space *space, uint32_t address, unsigned width)
+{
+    uint32_t offset = address - space->can_base;
+
+    if (!space->direct || width != WORD || offset % WORD != 0 || offset / WORD >= SPACE_CAN_WORDS)
+        return NOT_CAN;
+    return space->can->clocked ? offset / WORD : NOT_CAN;
+}
+
+static bool read_can(struct register_space *space, uint32_t word, uint32_t *out)
+{
+    int64_t value = bxcan_read(space->can, word * WORD);
+    struct seen_value *seen = &space->seen[word];
+    bool is_news;
+
+    if (value < 0)
+        return false;
+    *out = (uint32_t)value;
+    is_news = !seen->known || seen->value != *out;
+    *seen = (struct seen_value){ true, *out };
+    space_note(space, is_news);
+    return true;
+}
+
+static bool read_here(struct register_space *space, uint32_t address, unsigned width, uint32_t *out)
+{
+    uint32_t word = can_word(space, address, width);
+
+    if (word != NOT_CAN && space->can_readable[word])
+        return read_can(space, word, out);
+    if (!space->direct || address != space->systick_val || width != WORD)
+        return false;
+    *out = systick_value(space->systick);
+    space_note_time(space);
+    return true;
+}
+
+static bool write_here(struct register_space *space, uint32_t address, unsigned width, uint32_t value)
+{
+    uint32_t word = can_word(space, address, width);
+
+    if (word == NOT_CAN || !space->can_writable[word])
+        return false;
+    space_begin_anew(space);
+    space->can->wire->now_ns = space->clock->now.ns;
+    if (!bxcan_write(space->can, word * WORD, value))
+        return false;
+    clock_expect(space->clock, space->clock->now);
+    return true;
+}
+
+uint64_t window_read(void *emulator, uint64_t offset, unsigned width, void *context)
+{
+    const struct register_window *window = context;
+    uint32_t address = window->base + (uint32_t)offset;
+    uint32_t value;
+
+    (void)emulator;
+    if (window->clock->failed)
+        return 0;
+    if (window->space && read_here(window->space, address, width, &value))
+        return value;
+    return window->read(address, width);
+}
+
+void window_write(void *emulator, uint64_t offset, unsigned width, uint64_t value, void *context)
+{
+    const struct register_window *window = context;
+    uint32_t address = window->base + (uint32_t)offset;
+
+    (void)emulator;
+    if (window->clock->failed)
+        return;
+    if (!window->space || !write_here(window->space, address, width, (uint32_t)value))
+        window->write(address, width, (uint32_t)value);
+}

@@ -1,0 +1,86 @@
+"""The core with the registers, on programs of a few instructions."""
+
+import struct
+
+import pytest
+
+from host_sim.emulator.board import Faults, Hardware
+from host_sim.emulator.chips import CAN_BASE, STM32F103, WATCHDOG_BASE
+from host_sim.emulator.clock import NEVER, SECOND
+from host_sim.emulator.flash import BASE
+from host_sim.emulator.registers import BoardError
+from tests.image.support import write
+
+LOAD, LOAD_BYTE, STORE = 0x6801, 0x7801, 0x6000  # ldr r1, [r0]; ldrb r1, [r0]; str r0, [r0]
+NOP, WIDE_NOP = (0xBF00,), (0xF3AF, 0x8000)
+APB1ENR, CAN_GATE = 0x1C, 1 << 25
+IER, RI0R = CAN_BASE + 0x14, CAN_BASE + 0x1B0
+
+
+@pytest.fixture
+def hardware():
+    """A chip whose core stops after a millisecond."""
+    made = Hardware(STM32F103, Faults(), lambda _frame: None, lambda _cause: None)
+
+    def due():
+        if made.clock.now < SECOND // 1000:
+            return SECOND // 1000
+        made.core.stop()
+        return NEVER
+
+    made.clock.add(due).set(SECOND // 1000)
+    return made
+
+
+def run(hardware, address, *instructions):
+    """Points r0 to an address, executes some instructions, and then loops."""
+    point_r0, loop, literal = 0x4805, 0xE7FE, 0x20
+    code = struct.pack(f"<2I{len(instructions) + 2}H", 0x20001000, BASE + 9, point_r0, *instructions, loop)
+    hardware.flash_image([(BASE, code.ljust(literal, b"\0") + address.to_bytes(4, "little"))])
+    hardware.core.run()
+
+
+@pytest.mark.parametrize(
+    ("instruction", "address", "refusal"),
+    [
+        (LOAD, RI0R, "FIFO 0 was read, but the FIFO is empty"),
+        (STORE, RI0R, "FIFO 0 was written"),
+        (STORE, IER, "interrupts were enabled"),
+        (LOAD_BYTE, IER, "CAN1 IER was read by 1 bytes"),
+        (LOAD, IER + 0x20, "0x40006434 was read, where no register is modelled"),
+    ],
+)
+def test_what_a_controller_refuses_ends_the_run(hardware, instruction, address, refusal):
+    write(hardware.rcc, APB1ENR, CAN_GATE)
+
+    with pytest.raises(BoardError, match=refusal):
+        run(hardware, address, instruction)
+
+
+@pytest.mark.parametrize(("instruction", "how"), [(LOAD, "read"), (STORE, "written")])
+def test_a_controller_without_clock_is_not_reached(hardware, instruction, how):
+    with pytest.raises(BoardError, match=f"CAN1 IER was {how}, but CAN1 has no clock"):
+        run(hardware, IER, instruction)
+
+
+def test_what_fails_while_time_passes_ends_the_run(hardware):
+    def due():
+        raise BoardError("as was asked for")
+
+    hardware.clock.add(due)
+
+    with pytest.raises(BoardError, match="as was asked for"):
+        run(hardware, BASE, LOAD)
+
+
+@pytest.mark.parametrize("nop", [NOP, WIDE_NOP])
+def test_an_instruction_takes_a_cycle_whatever_its_length(hardware, nop):
+    counts = []
+    status = hardware.watchdog.registers[0xC]
+    status.on_read = lambda: counts.append((hardware.core.instructions, hardware.clock.cycles)) or 0
+
+    run(hardware, WATCHDOG_BASE + 0xC, *nop, *nop, LOAD)
+
+    assert counts == [(5, 5)]  # of the whole block
+    assert hardware.core.instructions == hardware.clock.cycles
+    assert hardware.clock.now == hardware.clock.cycles * hardware.clock.period
