@@ -115,10 +115,10 @@ def mutate(*words: object) -> subprocess.CompletedProcess[str]:
 def test_a_sample_of_mutants_is_killed():
     folders = ("can_body", "flash_store", "library", "protocol", "stm32", "port/cortex_m")
 
-    result = mutate("--sample", 100, "firmware", *(f"hal/{folder}" for folder in folders))
+    result = mutate("--sample", 60, "firmware", *(f"hal/{folder}" for folder in folders))
 
     assert result.returncode == 0, result.stdout + result.stderr
-    assert "100 mutants, 0 groups below their bar, 0 complaints" in result.stdout
+    assert "60 mutants, 0 groups below their bar, 0 complaints" in result.stdout
 
 
 def test_without_a_test_its_mutants_live():
