@@ -30,12 +30,12 @@ _TIMEOUT_S = 30.0
 _ROBOTS, _FLEET, _SPEED, _FRAMES_PER_S = 4, 1000, 4, 60
 # Reading a pixel makes the browser finish the drawing.
 _TIME_DRAWING = """() => {
-    const draw = octet.renderer.draw.bind(octet.renderer);
+    const draw = octet.view.renderer.draw.bind(octet.view.renderer);
     octet.times = [];
-    octet.renderer.draw = (scene) => {
+    octet.view.renderer.draw = (scene) => {
         const began = performance.now();
         draw(scene);
-        octet.renderer.context.getImageData(0, 0, 1, 1);
+        octet.view.renderer.context.getImageData(0, 0, 1, 1);
         octet.times.push(performance.now() - began);
     };
 }"""
