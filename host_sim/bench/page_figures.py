@@ -29,7 +29,7 @@ _WATCHED_ENVIRONMENTS = 40  # long enough for the opening of the page not to cou
 _TIMEOUT_S = 30.0
 _ROBOTS, _FLEET, _SPEED, _FRAMES_PER_S = 4, 1000, 4, 60
 # Reading a pixel makes the browser finish the drawing.
-_TIME_DRAWING = """() => {
+TIME_DRAWING = """() => {
     const draw = octet.view.renderer.draw.bind(octet.view.renderer);
     octet.times = [];
     octet.view.renderer.draw = (scene) => {
@@ -119,7 +119,7 @@ def _open(browser: Browser, address: str, ready: str = _READY) -> Page:
 def _drawing_and_lag_ms(browser: Browser, folder: Path) -> tuple[float, float]:
     with _watched_run(folder, "watch", "--environments", "100") as (_, address):
         page = _open(browser, address)
-        page.evaluate(_TIME_DRAWING)
+        page.evaluate(TIME_DRAWING)
         _wait_for(page, f"octet.times.length > {_FRAMES}")
         drawing_ms = statistics.median(page.evaluate("octet.times"))
         lags_ms = []

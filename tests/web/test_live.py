@@ -2,6 +2,7 @@
 
 import math
 
+from host_sim.bench.page_figures import TIME_DRAWING
 from host_sim.protocol.generated import Opcode
 from tests.runs.support import octet
 from tests.web.support import drag, full_speed, pause, place_on_page, run_in, state, wait_for, wait_for_text
@@ -14,6 +15,12 @@ def test_the_page_shows_the_run_as_it_goes_on(watch, open_page):
     assert page.inner_text("#fact-environment") == "1 of 5"
     assert page.inner_text("#fact-food") == "3 of 3"
     assert len(page.inner_text("#doing")) > 10
+
+
+def test_the_drawing_of_its_frames_can_be_timed(watch, open_page):
+    page = open_page(watch("--seed", "1").url)
+    page.evaluate(TIME_DRAWING)
+    wait_for(page, "octet.times.length > 2")
 
 
 def test_it_pauses_and_plays_again(watch, open_page):
