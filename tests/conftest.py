@@ -4,12 +4,15 @@ A test that cannot run says `pytest.skip("NAME: what is missing")`.
 
 With `--progress FILE`, tools/test can tell at any time what has passed and what is running.
 
+Ctrl-C ends what a test starts, even where a shell has started all of this in the background, and ignores it.
+
 What Python compiles is kept, here and in each process that a test starts, whatever the environment says: else every
 one of them would compile all libraries anew.
 """
 
 import json
 import os
+import signal
 import sys
 from collections.abc import Generator
 from pathlib import Path
@@ -19,6 +22,7 @@ import pytest
 
 hypothesis.settings.register_profile("octet", deadline=None)  # a busy machine is no fault
 hypothesis.settings.load_profile("octet")
+signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 

@@ -22,13 +22,14 @@ class BusWatch:
         frames: Number of frames of all kinds.
         foreign: Number of frames that are no robot's.
         errors: Number of error frames.
+        dropped: Number of frames that came faster than they were read, and are missing here.
     """
 
     def __init__(self, bitrate: int) -> None:
         """Has heard nothing yet."""
         self.bitrate = bitrate
         self.robots: dict[int, RobotWatch] = {}
-        self.frames = self.foreign = self.errors = 0
+        self.frames = self.foreign = self.errors = self.dropped = 0
         self._bits: deque[tuple[float, int]] = deque()
 
     def accept(self, message: can.Message, now_s: float) -> Heard | None:
@@ -69,6 +70,8 @@ class BusWatch:
         found = [f"node {node}: {what}" for node, robot in sorted(self.robots.items()) for what in robot.wrong(now_s)]
         if self.errors:
             found.append("bus: error frames")
+        if self.dropped:
+            found.append("monitor: frames came faster than they could be shown, and some are missing here")
         if self.load(now_s) > _FULL:
             found.append(f"bus: more than {_FULL:.0%} of it is taken")
         return found

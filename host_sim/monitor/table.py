@@ -24,7 +24,7 @@ def lines_of(bus: BusWatch, name: str, now_s: float) -> list[str]:
     """
     kbit = bus.bitrate / 1000
     head = f"{name}   {now_s:.0f} s   {bus.frames} frames   load {bus.load(now_s):.1%} of {kbit:g} kbit/s"
-    others = f"   foreign {bus.foreign}   errors {bus.errors}"
+    others = f"   foreign {bus.foreign}   errors {bus.errors}   missing here {bus.dropped}"
     robots = [robot for _, robot in sorted(bus.robots.items())]
     if not robots:
         return [head + others, "", "no robot is heard"]

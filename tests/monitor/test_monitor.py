@@ -5,6 +5,7 @@ import os
 import pty
 import re
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -16,9 +17,11 @@ import can
 import pytest
 
 from host_sim.cli.main import main
+from host_sim.monitor.kernel_queue import dropped, lengthen
 from host_sim.monitor.monitor import filter_robots
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.protocol.every_node import IDS
+from host_sim.transport.buses import open_bus
 from tests.runs.support import octet
 
 MONITOR = (sys.executable, "-m", "host_sim", "monitor")
@@ -102,7 +105,7 @@ def on_vcan():
 
 
 def wait_until_it_listens(process: subprocess.Popen) -> None:
-    """Until its socket is bound: the kernel lists it among the receivers of vcan0."""
+    """Until its socket has its filters: the kernel lists it among the receivers of vcan0."""
     give_up = time.monotonic() + 30
     while f"{STOPPED.id & ~NODE_MAX:03x}" not in Path("/proc/net/can/rcvlist_fil").read_text():
         assert process.poll() is None
@@ -127,6 +130,48 @@ def test_on_vcan_it_shows_the_frames_of_a_run_and_the_kernel_keeps_others_away(o
     names = [line.split()[2] for line in output.splitlines() if not line.startswith("!")]
     assert names.count("SENSES") == 100
     assert "-" not in [line.split()[1] for line in output.splitlines()]
+
+
+@pytest.mark.vcan
+def test_it_shows_what_came_before_it_was_asked_to_end(on_vcan):
+    process = on_vcan(stdout=subprocess.PIPE, text=True)
+    wait_until_it_listens(process)
+    process.send_signal(signal.SIGSTOP)
+    subprocess.run(["cangen", "vcan0", "-g", "0", "-n", "2000", "-I", f"{STOPPED.id:03X}"], check=True)
+
+    process.send_signal(signal.SIGINT)
+    process.send_signal(signal.SIGCONT)
+    output, _ = process.communicate(timeout=30)
+
+    assert len([line for line in output.splitlines() if not line.startswith("!")]) == 2000
+
+
+@pytest.mark.vcan
+def test_the_kernel_tells_what_it_had_no_room_for():
+    with open_bus("socketcan:vcan0") as bus, open_bus("socketcan:vcan0") as talker:
+        bus.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 0)
+        for _ in range(100):
+            talker.send(can.Message(arbitration_id=1, is_extended_id=False))
+        heard = sum(1 for _ in iter(lambda: bus.recv(0.0), None))
+
+        assert 0 < dropped(bus) == 100 - heard
+
+
+@pytest.mark.vcan
+def test_it_has_the_kernel_keep_more():
+    with open_bus("socketcan:vcan0") as bus:
+        before = bus.socket.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF)
+
+        lengthen(bus)
+
+        assert bus.socket.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) > before
+
+
+def test_a_bus_that_is_no_socket_has_no_such_queue():
+    with can.Bus(interface="virtual", channel="queue") as bus:
+        lengthen(bus)
+
+        assert dropped(bus) == 0
 
 
 @pytest.mark.vcan

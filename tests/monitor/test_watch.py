@@ -163,6 +163,14 @@ def test_a_full_bus_is_named(log):
     assert bus.wrong(now_s) == ["bus: more than 70% of it is taken"]
 
 
+def test_what_the_monitor_itself_missed_is_no_fault_of_the_bus():
+    bus = BusWatch(500_000)
+    bus.dropped = 3
+
+    assert bus.wrong(1.0) == ["monitor: frames came faster than they could be shown, and some are missing here"]
+    assert lines_of(bus, "socketcan:can0", 1.0)[0].endswith("missing here 3")
+
+
 def test_the_table_has_a_line_for_each_robot(log):
     other = Protocol(12)
     bus, now_s = listen(log[: places(log, "COMMAND")[-1]])
