@@ -57,7 +57,7 @@ function run(id, experiment, { module, worlds }) {
   for (const number of simulation.run()) {
     if (number === 1) say({ id, done: false, run: simulation.result(), refusals: [] });
   }
-  say({ id, done: true, run: simulation.result(), refusals: [...simulation.refusals] });
+  say({ id, done: true, run: simulation.result(), refusals: [...simulation.changes.refusals] });
 }
 
 /**

@@ -215,15 +215,17 @@
  */
 
 /**
- * What a person changes between two ticks: the world, as in world files, or a robot, counted from 0. A start is that of
- * the robot with another behaviour; its memory stays. A command is one as a log has it: `struct command`.
- * @typedef {WorldEdit
- *   | {do: "write", robot: number, cell: number, side: number}
+ * What a robot is told between two ticks; robots are counted from 0. A start is that of the robot with another behaviour; its
+ * memory stays. A command is one as a log has it: `struct command`.
+ * @typedef {{do: "write", robot: number, cell: number, side: number}
  *   | {do: "erase", robot: number}
  *   | {do: "freeze", robot: number, on: number}
  *   | {do: "set", robot: number, parameter: string, value: number}
  *   | {do: "start", robot: number, profile: string}
- *   | {do: "command", robot: number, opcode: number, which: number, value: number}} Change
+ *   | {do: "command", robot: number, opcode: number, which: number, value: number}} RobotChange
+ *
+ * What a person changes between two ticks: the world, as in world files, or a robot.
+ * @typedef {WorldEdit | RobotChange} Change
  */
 
 /**
