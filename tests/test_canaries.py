@@ -101,12 +101,12 @@ FAULTS = {
         "config", "config_fits", "return real(parameter, value) && real(parameter, value + 1);"
     ),
     "left is right": Fault(
-        "article",
+        "article_learning",
         "article_next",
         "struct action action = real(brain, config, senses); action.turn_deg = -action.turn_deg; return action;",
     ),
     "boredom never ends": Fault(
-        "article",
+        "article_boredom",
         "article_next",
         """
         struct action action = real(brain, config, senses);
@@ -116,7 +116,7 @@ FAULTS = {
         """,
     ),
     "a clear way does not end the count": Fault(
-        "article",
+        "article_boredom",
         "article_next",
         """
         uint8_t before = brain->repeat_count;
@@ -127,7 +127,7 @@ FAULTS = {
         """,
     ),
     "no better is good enough": Fault(
-        "article",
+        "article_learning",
         "listing_trial_helped",
         """
         return brain->awaits == AWAITS_VERDICT
@@ -135,7 +135,7 @@ FAULTS = {
         """,
     ),
     "the lesson goes to another cell": Fault(
-        "article",
+        "article_learning",
         "article_next",
         """
         uint8_t tried = pattern_of(brain->tried_feel), before = brain->memory.cell[tried];
@@ -148,7 +148,7 @@ FAULTS = {
         """,
     ),
     "a frozen brain learns": Fault(
-        "article",
+        "article_learning",
         "article_next",
         """
         bool frozen = brain->frozen;
@@ -242,15 +242,17 @@ FAULTS = {
         "uint16_t before = motion->ticks_left; real(motion, senses); motion->ticks_left = before;",
     ),
     "silence drives on": Fault(
-        "robot",
+        "robot_silence",
         "robot_respond",
         f"{RESPOND} if (kind == INPUT_SILENCE) motion_drive(&robot->motion, &robot->config, &out->drive);",
     ),
     "silence names no tick": Fault(
-        "robot", "robot_respond", f"{RESPOND} if (kind == INPUT_SILENCE) out->drive.tick = 0;"
+        "robot_silence", "robot_respond", f"{RESPOND} if (kind == INPUT_SILENCE) out->drive.tick = 0;"
     ),
     "trials eat": Fault("robot", "robot_respond", f"{RESPOND} out->drive.eat |= out->drive.reason == REASON_TRIAL;"),
-    "what is not learned is stored": Fault("robot", "robot_respond", f"{RESPOND} out->store = out->has_memory;"),
+    "what is not learned is stored": Fault(
+        "robot_answers", "robot_respond", f"{RESPOND} out->store = out->has_memory;"
+    ),
     "a stop goes on": Fault(
         "commands",
         "robot_execute",

@@ -14,6 +14,71 @@ void setUp(void)
 
 void tearDown(void) {}
 
+static void test_every_tenth_silence_brings_a_report(void)
+{
+    for (unsigned i = 1; i <= 100; i++) {
+        silence();
+        TEST_ASSERT_EQUAL(i % 10 == 0, out.has_report);
+    }
+}
+
+static void test_senses_begin_the_count_of_silences_anew(void)
+{
+    for (unsigned i = 0; i < 9; i++)
+        silence();
+    feel(CLEAR);
+    silence();
+    TEST_ASSERT_FALSE(out.has_report);
+}
+
+static void test_a_report_comes_once_a_second(void)
+{
+    for (unsigned tick = 1; tick <= MANY; tick++) {
+        feel(CLEAR);
+        TEST_ASSERT_EQUAL(tick % TICKS_PER_SECOND == 0, out.has_report);
+    }
+}
+
+static void test_a_report_has_the_memory(void)
+{
+    learned(SIDE_RIGHT);
+    for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++)
+        feel(CLEAR);
+    TEST_ASSERT_TRUE(out.has_report);
+    TEST_ASSERT_FALSE(out.has_memory);   /* it has not changed: the report brings it */
+    TEST_ASSERT_EQUAL_UINT8(SIDE_RIGHT, out.memory[PATTERN_FRONT]);
+}
+
+static void test_what_a_report_tells_is_there_when_none_is_due(void)
+{
+    robot.uptime_s = 77;
+    feel(CLEAR);
+    TEST_ASSERT_FALSE(out.has_report);
+    TEST_ASSERT_TRUE(out.report.running);
+    TEST_ASSERT_EQUAL_UINT16(77, out.report.uptime_s);
+    TEST_ASSERT_EQUAL_UINT8(PROFILE_ARTICLE, out.report.profile);
+}
+
+static void test_a_stopped_robot_reports_too(void)
+{
+    robot_init(&robot, 1);
+    for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++)
+        feel(CLEAR);
+    TEST_ASSERT_TRUE(out.has_report);
+}
+
+static void test_reports_keep_to_the_second_with_any_tick(void)
+{
+    unsigned reports = 0;
+
+    command(OPCODE_SET, TICK_MS, 100);
+    for (unsigned tick = 0; tick < 100; tick++) {
+        feel(CLEAR);
+        reports += out.has_report;
+    }
+    TEST_ASSERT_EQUAL_UINT(10, reports);
+}
+
 /* 34 ticks of 30 ms are 1,020 ms: 20 of these belong to the next second. */
 static void test_where_no_tick_ends_with_a_second_the_next_one_reports(void)
 {
@@ -25,14 +90,55 @@ static void test_where_no_tick_ends_with_a_second_the_next_one_reports(void)
     TEST_ASSERT_EQUAL_UINT32(4, out.report.uptime_s);
 }
 
-static void test_the_drive_that_answers_a_stop_names_the_tick_and_the_action(void)
+static void test_uptime_counts_seconds(void)
 {
-    sense((struct senses){.tick = 77});
+    for (unsigned tick = 0; tick < 90 * TICKS_PER_SECOND; tick++)
+        feel(CLEAR);
+    TEST_ASSERT_EQUAL_UINT16(90, out.report.uptime_s);
+}
+
+static void test_uptime_wraps(void)
+{
+    robot.uptime_s = UINT16_MAX;
+    robot.part_ms = 980;
+    feel(CLEAR);
+    TEST_ASSERT_TRUE(out.has_report);
+    TEST_ASSERT_EQUAL_UINT16(0, out.report.uptime_s);
+}
+
+static void test_stop_is_answered_with_a_report(void)
+{
     command(OPCODE_STOP, 0, 0);
-    assert_at_rest();
-    TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
-    TEST_ASSERT_EQUAL_UINT8(77, out.drive.tick);
-    TEST_ASSERT_EQUAL_UINT8(1, out.drive.action);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_TRUE(out.has_report);
+    TEST_ASSERT_TRUE(out.whole_report);
+    TEST_ASSERT_FALSE(out.report.running);
+}
+
+static void test_a_report_is_made_when_it_is_asked_for(void)
+{
+    command(OPCODE_REPORT, 0, 0);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_TRUE(out.has_report);
+    TEST_ASSERT_TRUE(out.whole_report);
+    TEST_ASSERT_TRUE(out.report.running);
+    TEST_ASSERT_FALSE(out.has_drive);
+}
+
+static void test_the_report_tells_a_frozen_robot(void)
+{
+    command(OPCODE_FREEZE, 1, 0);
+    command(OPCODE_STOP, 0, 0);
+    TEST_ASSERT_TRUE(out.report.frozen);
+}
+
+static void test_the_report_tells_the_profile(void)
+{
+    for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
+        command(OPCODE_START, profile, 1);
+        command(OPCODE_STOP, 0, 0);
+        TEST_ASSERT_EQUAL_UINT8(profile, out.report.profile);
+    }
 }
 
 static void test_every_byte_of_the_memory_is_told(void)
@@ -46,8 +152,20 @@ static void test_every_byte_of_the_memory_is_told(void)
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_every_tenth_silence_brings_a_report);
+    RUN_TEST(test_senses_begin_the_count_of_silences_anew);
+    RUN_TEST(test_a_report_comes_once_a_second);
+    RUN_TEST(test_a_report_has_the_memory);
+    RUN_TEST(test_what_a_report_tells_is_there_when_none_is_due);
+    RUN_TEST(test_a_stopped_robot_reports_too);
+    RUN_TEST(test_reports_keep_to_the_second_with_any_tick);
     RUN_TEST(test_where_no_tick_ends_with_a_second_the_next_one_reports);
-    RUN_TEST(test_the_drive_that_answers_a_stop_names_the_tick_and_the_action);
+    RUN_TEST(test_uptime_counts_seconds);
+    RUN_TEST(test_uptime_wraps);
+    RUN_TEST(test_stop_is_answered_with_a_report);
+    RUN_TEST(test_a_report_is_made_when_it_is_asked_for);
+    RUN_TEST(test_the_report_tells_a_frozen_robot);
+    RUN_TEST(test_the_report_tells_the_profile);
     RUN_TEST(test_every_byte_of_the_memory_is_told);
     return UNITY_END();
 }

@@ -4,6 +4,7 @@
 #include "hal/protocol/e2e.h"
 #include "host_sim/sim/native/loop.h"
 #include "host_sim/sim/native/turn.h"
+#include "logged_lines.h"
 #include "octet.h"
 
 enum { ROBOTS = 2, SENSES = 0x101, DRIVE = 0x041, FAULTS = 0x781, TICK = 9, COUNTER = 4, WAIT_MS = 3 };
@@ -83,15 +84,6 @@ void setUp(void)
 
 void tearDown(void) {}
 
-static int lines(void)
-{
-    int count = 0;
-
-    for (size_t i = 0; i < loop.log.used; i++)
-        count += text[i] == '\n';
-    return count;
-}
-
 static void test_usual_turns_are_taken(void)
 {
     TEST_ASSERT_TRUE(turns_over_links(&loop, turns));
@@ -103,7 +95,7 @@ static void test_usual_turns_are_taken(void)
     TEST_ASSERT_EQUAL_UINT8(COUNTER + 1, e2e_counter(&links[1].out));
     TEST_ASSERT_EQUAL_UINT32(WAIT_MS, links[0].wait_ms);
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].received);
-    TEST_ASSERT_EQUAL_INT(4, lines());
+    TEST_ASSERT_EQUAL_INT(4, logged_lines(&loop.log));
 }
 
 static void test_a_report_that_goes_on_is_taken(void)
@@ -115,7 +107,7 @@ static void test_a_report_that_goes_on_is_taken(void)
     TEST_ASSERT_TRUE(turns_over_links(&loop, turns));
     TEST_ASSERT_EQUAL_UINT32(2, robots[0].received);
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].told[0]);
-    TEST_ASSERT_EQUAL_INT(5, lines());
+    TEST_ASSERT_EQUAL_INT(5, logged_lines(&loop.log));
 }
 
 static void handed_over(size_t sent, size_t answered, int received)
@@ -130,7 +122,7 @@ static void test_what_is_not_sent_is_handed_over(void)
 {
     links[1].sent = LINK_E_FULL;
     handed_over(1, 0, 0);
-    TEST_ASSERT_EQUAL_INT(1, lines());
+    TEST_ASSERT_EQUAL_INT(1, logged_lines(&loop.log));
 }
 
 static void test_silence_and_errors_are_handed_over(void)
@@ -140,7 +132,7 @@ static void test_silence_and_errors_are_handed_over(void)
     setUp();
     links[0].results[0] = LINK_E_CLOSED;
     handed_over(ROBOTS, 0, LINK_E_CLOSED);
-    TEST_ASSERT_EQUAL_INT(ROBOTS, lines());
+    TEST_ASSERT_EQUAL_INT(ROBOTS, logged_lines(&loop.log));
 }
 
 static void unusual(struct frame frame)
@@ -151,7 +143,7 @@ static void unusual(struct frame frame)
     TEST_ASSERT_EQUAL_HEX32(frame.id, loop.in_hand.id);
     TEST_ASSERT_EQUAL_UINT8_ARRAY(frame.data, loop.in_hand.data, sizeof frame.data);
     TEST_ASSERT_EQUAL_UINT32(0, robots[1].received);
-    TEST_ASSERT_EQUAL_INT(3, lines());
+    TEST_ASSERT_EQUAL_INT(3, logged_lines(&loop.log));
 }
 
 static void test_whatever_is_not_the_fresh_answer_is_handed_over(void)

@@ -6,8 +6,8 @@
 
 #include "firmware/brain.h"
 
-enum { CLEAR = 0, FRONT_RIGHT = FEEL_FRONT_RIGHT, FRONT = FEEL_FRONT, ALL_THREE = 14 };
-enum { PATTERN_FRONT_RIGHT = 1, PATTERN_FRONT = 2, PATTERN_ALL_THREE = 7 };
+enum { CLEAR = 0, FRONT_RIGHT = FEEL_FRONT_RIGHT, FRONT = FEEL_FRONT, FRONT_LEFT = FEEL_FRONT_LEFT, ALL_THREE = 14 };
+enum { PATTERN_FRONT_RIGHT = 1, PATTERN_FRONT = 2, PATTERN_FRONT_LEFT = 4, PATTERN_ALL_THREE = 7 };
 
 extern struct brain brain;
 extern struct config config;
@@ -17,6 +17,15 @@ void begin(enum profile profile);
 
 struct action next(uint8_t feel);
         /* The last action has ended with these sensors triggered. */
+
+struct action next_seeing_food(uint8_t feel, uint16_t beacon_mm);
+        /* The same, with food in sight. */
+
+void learned(uint8_t pattern, enum side side);
+        /* It remembers that side from now on. */
+
+void assert_action(enum reason reason, int turn_deg, unsigned forward_mm, struct action action);
+        /* It is this action. */
 
 void remembered_turns(unsigned count);
         /* Blocked in front, it makes so many remembered turns. */

@@ -9,9 +9,9 @@ void tearDown(void) {}
 
 static void test_bored_it_forgets_what_it_has_used(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
-    memory_learn(&brain.memory, PATTERN_FRONT_RIGHT, SIDE_LEFT);
-    memory_learn(&brain.memory, PATTERN_ALL_THREE, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT_RIGHT, SIDE_LEFT);
+    learned(PATTERN_ALL_THREE, SIDE_LEFT);
     next(FRONT_RIGHT);
     remembered_turns(9);
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
@@ -23,8 +23,8 @@ static void test_bored_it_forgets_what_it_has_used(void)
 
 static void test_what_led_to_a_clear_way_is_not_forgotten(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
-    memory_learn(&brain.memory, PATTERN_FRONT_RIGHT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT_RIGHT, SIDE_LEFT);
     next(FRONT_RIGHT);
     next(CLEAR);
     next(FRONT);   /* looks around */
@@ -35,7 +35,7 @@ static void test_what_led_to_a_clear_way_is_not_forgotten(void)
 
 static void test_a_lesson_just_learned_is_forgotten_too(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     next(ALL_THREE);
     remembered_turns(10);
     TEST_ASSERT_TRUE(memory_recall(&brain.memory, PATTERN_ALL_THREE) != SIDE_NOTHING);
@@ -45,7 +45,7 @@ static void test_a_lesson_just_learned_is_forgotten_too(void)
 
 static void test_bored_it_begins_to_count_anew(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(10);
     next(FRONT);
     TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
@@ -53,7 +53,7 @@ static void test_bored_it_begins_to_count_anew(void)
 
 static void test_it_knows_what_boredom_has_emptied(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(10);
     TEST_ASSERT_EQUAL_HEX8(0, brain.unlearned);
     next(FRONT);
@@ -62,7 +62,7 @@ static void test_it_knows_what_boredom_has_emptied(void)
 
 static void test_what_a_person_has_emptied_was_not_boredom(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(10);
     memory_erase(&brain.memory);
     next(FRONT);
@@ -71,7 +71,7 @@ static void test_what_a_person_has_emptied_was_not_boredom(void)
 
 static void test_a_frozen_brain_forgets_nothing(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     brain.frozen = true;
     remembered_turns(10);
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
@@ -94,8 +94,8 @@ static void test_what_it_learns_is_a_side_and_no_more(void)
 
 static void test_a_run_begins_with_no_cell_used(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
-    memory_learn(&brain.memory, PATTERN_ALL_THREE, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_ALL_THREE, SIDE_LEFT);
     next(ALL_THREE);
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_FORGETFUL, 1));
     remembered_turns(10);

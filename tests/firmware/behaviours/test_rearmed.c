@@ -9,7 +9,7 @@ void tearDown(void) {}
 
 static void test_boredom_strikes_again_after_ten_more_turns(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     for (unsigned i = 0; i < 3; i++) {
         remembered_turns(10);
         TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
@@ -27,7 +27,7 @@ static void test_it_learns_as_the_article_does(void)
 
 static void test_bored_it_keeps_what_it_knows(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(10);
     next(FRONT);
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT));

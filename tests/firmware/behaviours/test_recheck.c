@@ -9,7 +9,7 @@ void tearDown(void) {}
 
 static void test_a_remembered_turn_that_frees_no_sensor_is_forgotten(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     next(FRONT);
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
@@ -18,7 +18,7 @@ static void test_a_remembered_turn_that_frees_no_sensor_is_forgotten(void)
 
 static void test_one_that_frees_a_sensor_is_kept(void)
 {
-    memory_learn(&brain.memory, PATTERN_ALL_THREE, SIDE_LEFT);
+    learned(PATTERN_ALL_THREE, SIDE_LEFT);
     next(ALL_THREE);
     next(FRONT);
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_ALL_THREE));
@@ -27,7 +27,7 @@ static void test_one_that_frees_a_sensor_is_kept(void)
 
 static void test_the_turn_before_the_about_face_is_checked_too(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     brain.repeat_count = 9;
     next(FRONT);
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
@@ -36,7 +36,7 @@ static void test_the_turn_before_the_about_face_is_checked_too(void)
 
 static void test_a_frozen_brain_forgets_nothing(void)
 {
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     brain.frozen = true;
     remembered_turns(3);
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT));

@@ -9,13 +9,6 @@ void setUp(void)
 
 void tearDown(void) {}
 
-static struct action next_seeing_food(uint16_t beacon_mm)
-{
-    const struct senses senses = {.look = true, .beacon_mm = beacon_mm};
-
-    return brain_next(&brain, &config, &senses);
-}
-
 static void steps(unsigned count)
 {
     for (unsigned i = 0; i < count; i++)
@@ -45,21 +38,21 @@ static void test_it_drives_a_metre_straight_on_between_two_turns(void)
 
 static void test_it_goes_to_what_it_sees(void)
 {
-    TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(900).reason);
-    TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(150).reason);
-    TEST_ASSERT_EQUAL(REASON_EAT, next_seeing_food(149).reason);
+    TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(CLEAR, 900).reason);
+    TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(CLEAR, 150).reason);
+    TEST_ASSERT_EQUAL(REASON_EAT, next_seeing_food(CLEAR, 149).reason);
 }
 
 static void test_after_a_meal_it_looks_for_the_next(void)
 {
-    next_seeing_food(155);
-    next_seeing_food(149);
+    next_seeing_food(CLEAR, 155);
+    next_seeing_food(CLEAR, 149);
     assert_turns_once_around();
 }
 
 static void test_when_it_has_lost_the_food_it_drives_on_a_little(void)
 {
-    next_seeing_food(900);
+    next_seeing_food(CLEAR, 900);
     steps(17);
     assert_turns_once_around();
 }
@@ -70,14 +63,14 @@ static void test_each_time_that_it_has_lost_food_it_drives_on_twice_as_far(void)
     static const unsigned ways[] = {17, 34, 67, 67};   /* in steps of 12 mm: 200 mm and on */
 
     for (unsigned i = 0; i < sizeof ways / sizeof ways[0]; i++) {
-        next_seeing_food(900);
+        next_seeing_food(CLEAR, 900);
         steps(ways[i]);
         assert_turns_once_around();
     }
-    next_seeing_food(155);
-    next_seeing_food(149);   /* a meal */
+    next_seeing_food(CLEAR, 155);
+    next_seeing_food(CLEAR, 149);   /* a meal */
     assert_turns_once_around();
-    next_seeing_food(900);
+    next_seeing_food(CLEAR, 900);
     steps(ways[0]);
     assert_turns_once_around();
 }
@@ -165,7 +158,7 @@ static void test_after_losing_food_it_looks_around_after_two_hundred_millimetres
     for (unsigned i = 0; i < 2; i++) {
         begin(PROFILE_SEARCHER);
         config.value[STEP_MM] = (uint8_t)steps_of[i][0];
-        next_seeing_food(900);
+        next_seeing_food(CLEAR, 900);
         steps(steps_of[i][1]);
         assert_turns_once_around();
     }
@@ -174,13 +167,13 @@ static void test_after_losing_food_it_looks_around_after_two_hundred_millimetres
 static void test_food_that_is_out_of_reach_is_driven_to_step_by_step(void)
 {
     for (unsigned i = 0; i < 3; i++)
-        TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(900).reason);
+        TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(CLEAR, 900).reason);
 }
 
 static void test_a_meal_is_over_after_one_look_around(void)
 {
-    next_seeing_food(155);
-    next_seeing_food(149);
+    next_seeing_food(CLEAR, 155);
+    next_seeing_food(CLEAR, 149);
     assert_turns_once_around();
     steps(84);
 }
@@ -206,17 +199,17 @@ static void test_food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look(voi
 
 static void test_a_start_forgets_the_food_that_it_was_going_to(void)
 {
-    next_seeing_food(900);
+    next_seeing_food(CLEAR, 900);
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
     assert_turns_once_around();
 }
 
 static void test_a_start_forgets_the_food_that_it_has_lost(void)
 {
-    next_seeing_food(900);
+    next_seeing_food(CLEAR, 900);
     steps(17);
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
-    next_seeing_food(900);
+    next_seeing_food(CLEAR, 900);
     steps(17);
     assert_turns_once_around();
 }

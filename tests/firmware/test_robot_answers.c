@@ -1,0 +1,99 @@
+/* What commands and lessons bring: an answer, the memory, and whether it is stored. */
+#include "firmware/robot.h"
+
+#include <unity.h>
+
+#include "robot_rig.h"
+
+void setUp(void)
+{
+    wheels = (struct senses){.tick = 0};
+    robot_init(&robot, 1);
+    command(OPCODE_START, PROFILE_ARTICLE, 1);
+}
+
+void tearDown(void) {}
+
+static void test_a_command_is_answered_and_not_driven(void)
+{
+    command(OPCODE_RESUME, 0, 0);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_EQUAL(RESULT_DONE, out.answer);
+    TEST_ASSERT_FALSE(out.has_drive);
+}
+
+static void test_a_refusal_is_answered(void)
+{
+    command(OPCODE_SET, PARAMETER_COUNT, 0);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_EQUAL(RESULT_UNKNOWN_PARAMETER, out.answer);
+}
+
+static void test_senses_are_driven_and_not_answered(void)
+{
+    feel(CLEAR);
+    TEST_ASSERT_TRUE(out.has_drive);
+    TEST_ASSERT_FALSE(out.has_answer);
+}
+
+static void test_a_written_memory_is_sent_and_stored_once(void)
+{
+    command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_LEFT << 8 * PATTERN_FRONT);
+    TEST_ASSERT_TRUE(out.has_memory);
+    TEST_ASSERT_TRUE(out.store);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, out.memory[PATTERN_FRONT]);
+    feel(CLEAR);
+    TEST_ASSERT_FALSE(out.has_memory);
+    TEST_ASSERT_FALSE(out.store);
+}
+
+/* A trial of 45 degrees is 1257 counts of difference between the wheels. */
+static void test_a_lesson_is_sent_and_stored_as_it_is_learned(void)
+{
+    struct senses after = {.tick = 10, .feel = CLEAR, .odometer_left = 628, .odometer_right = ODOMETER_SPAN - 628};
+
+    feel(FRONT);
+    if (out.drive.left_mm_s < 0)
+        after = (struct senses){.tick = 10, .feel = CLEAR, .odometer_left = ODOMETER_SPAN - 628, .odometer_right = 628};
+    sense(after);
+    TEST_ASSERT_TRUE(out.has_memory);
+    TEST_ASSERT_TRUE(out.store);
+    TEST_ASSERT_TRUE(out.memory[PATTERN_FRONT] != SIDE_NOTHING);
+}
+
+static void test_the_turns_of_a_fixed_robot_are_sent_and_not_stored(void)
+{
+    command(OPCODE_START, PROFILE_FIXED, 1);
+    TEST_ASSERT_TRUE(out.has_answer);
+    TEST_ASSERT_TRUE(out.has_memory);
+    TEST_ASSERT_FALSE(out.store);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, out.memory[PATTERN_FRONT]);
+}
+
+static void test_what_is_written_to_a_robot_that_does_not_learn_is_not_stored(void)
+{
+    command(OPCODE_START, PROFILE_FIXED, 1);
+    command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_RIGHT << 8 * PATTERN_FRONT);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_RIGHT, out.memory[PATTERN_FRONT]);
+    TEST_ASSERT_FALSE(out.store);
+}
+
+static void test_a_report_alone_stores_nothing(void)
+{
+    command(OPCODE_STOP, 0, 0);
+    TEST_ASSERT_FALSE(out.store);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_command_is_answered_and_not_driven);
+    RUN_TEST(test_a_refusal_is_answered);
+    RUN_TEST(test_senses_are_driven_and_not_answered);
+    RUN_TEST(test_a_written_memory_is_sent_and_stored_once);
+    RUN_TEST(test_a_lesson_is_sent_and_stored_as_it_is_learned);
+    RUN_TEST(test_the_turns_of_a_fixed_robot_are_sent_and_not_stored);
+    RUN_TEST(test_what_is_written_to_a_robot_that_does_not_learn_is_not_stored);
+    RUN_TEST(test_a_report_alone_stores_nothing);
+    return UNITY_END();
+}

@@ -1,0 +1,112 @@
+/* Lockstep: time is the other side's, and what was answered is answered again. */
+#include "fake_body.h"
+
+static void start_in_lockstep(void)
+{
+    const struct output answer = {.has_answer = true};
+
+    command_comes(0, (struct octet_command_t){.opcode = OPCODE_START, .counter = 1, .owner = 1, .lockstep = 1});
+    receive();
+    TEST_ASSERT_EQUAL(0, hal_send(hal, &answer));
+}
+
+static void test_in_lockstep_silence_is_no_fault(void)
+{
+    start_in_lockstep();
+    senses_come(0, 0);
+    receive();
+    for (uint32_t i = 1; i <= 50; i++) {
+        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+        TEST_ASSERT_EQUAL_UINT32(100 * i, fake.clock_ms);
+    }
+    assert_faults((struct octet_faults_t){.silences = 0});
+}
+
+static void test_in_lockstep_nothing_is_passed_over_after_silence(void)
+{
+    start_in_lockstep();
+    for (unsigned tick = 0; tick < 3; tick++)
+        senses_come(5000, tick);
+    for (unsigned i = 0; i < 49; i++)
+        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    for (unsigned tick = 0; tick < 3; tick++) {
+        TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+        TEST_ASSERT_EQUAL_UINT8(tick, in.senses.tick);
+    }
+}
+
+static void test_in_lockstep_senses_that_came_again_meanwhile_are_not_stale(void)
+{
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    start_in_lockstep();
+    for (unsigned i = 0; i < 3; i++)
+        senses_come(150, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    assert_faults((struct octet_faults_t){.silences = 0});
+}
+
+static enum input_kind other_owner_starts(uint32_t at_ms)
+{
+    command_comes(at_ms, (struct octet_command_t){.opcode = OPCODE_START, .counter = 9, .owner = 2});
+    return (enum input_kind)receive();
+}
+
+static void test_in_lockstep_another_may_take_over_after_a_second(void)
+{
+    start_in_lockstep();
+    for (unsigned i = 0; i < 9; i++)
+        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, other_owner_starts(950));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, other_owner_starts(1050));
+}
+
+static void test_what_was_answered_is_answered_again_at_once(void)
+{
+    const struct output drive = {.has_drive = true};
+
+    start_in_lockstep();
+    senses_come(0, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL(0, hal_send(hal, &drive));
+    senses_come(50, 0);
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT32(OCTET_DRIVE_FRAME_ID, fake.sent[fake.sends - 1].id);
+    TEST_ASSERT_EQUAL_MEMORY(&fake.sent[fake.sends - 2], &fake.sent[fake.sends - 1], sizeof(struct frame));
+}
+
+static void test_an_answer_again_that_does_not_leave_is_counted(void)
+{
+    const struct output drive = {.has_drive = true};
+
+    start_in_lockstep();
+    senses_come(0, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    TEST_ASSERT_EQUAL(0, hal_send(hal, &drive));
+    senses_come(50, 0);
+    fake.failure = LINK_E_FULL;
+    fake.failing_send = fake.sends + 1;
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    assert_faults((struct octet_faults_t){.unsent = 1});
+}
+
+static void test_every_wait_gives_signs_of_life(void)
+{
+    start_in_lockstep();
+    for (unsigned i = 0; i < 30; i++)
+        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT32(HAL_SILENCE_MS, fake.longest_wait_ms);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_in_lockstep_silence_is_no_fault);
+    RUN_TEST(test_in_lockstep_nothing_is_passed_over_after_silence);
+    RUN_TEST(test_in_lockstep_senses_that_came_again_meanwhile_are_not_stale);
+    RUN_TEST(test_in_lockstep_another_may_take_over_after_a_second);
+    RUN_TEST(test_what_was_answered_is_answered_again_at_once);
+    RUN_TEST(test_an_answer_again_that_does_not_leave_is_counted);
+    RUN_TEST(test_every_wait_gives_signs_of_life);
+    return UNITY_END();
+}

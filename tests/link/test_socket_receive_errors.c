@@ -1,0 +1,162 @@
+/* Opening a socket that fails, and receiving from it. */
+#include <errno.h>
+#include <stdio.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "socket_faults.h"
+
+enum { WAIT_MS = 30 };
+
+static void assert_receive(int expected, int32_t after_ms)
+{
+    struct frame frame;
+    int64_t start = now_ns;
+    TEST_ASSERT_EQUAL_INT(expected, link_receive(near, &frame, WAIT_MS));
+    TEST_ASSERT_EQUAL_INT64((int64_t)after_ms * NS_PER_MS, now_ns - start);
+}
+
+static void test_an_interrupted_receive_is_tried_again(void)
+{
+    recv_fault = (struct fault){.error = EINTR, .first = 3};
+    put(16, 3);
+    assert_receive(1, 0);
+}
+
+static void test_a_receive_that_is_always_interrupted_ends(void)
+{
+    recv_fault = (struct fault){.error = EINTR, .first = FOR_EVER, .each_ms = 1};
+    assert_receive(0, WAIT_MS);
+}
+
+static void test_a_wait_that_the_kernel_ends_early_is_waited_to_its_end(void)
+{
+    recv_fault = (struct fault){.error = EAGAIN, .first = 1, .each_ms = WAIT_MS / 2};
+    assert_receive(0, WAIT_MS);
+}
+
+static void test_a_bus_that_is_down_says_so_after_the_wait(void)
+{
+    recv_fault = (struct fault){.error = ENETDOWN, .first = 1};
+    assert_receive(LINK_E_DOWN, WAIT_MS);
+    assert_receive(0, WAIT_MS);
+}
+
+static void test_a_bus_that_stays_down_says_so_after_the_wait(void)
+{
+    recv_fault = (struct fault){.error = ENETDOWN, .first = FOR_EVER, .each_ms = 1};
+    assert_receive(LINK_E_DOWN, WAIT_MS);
+}
+
+static void test_a_frame_after_the_bus_was_down_arrives(void)
+{
+    recv_fault = (struct fault){.error = ENETDOWN, .first = 1};
+    put(16, 3);
+    assert_receive(1, 0);
+}
+
+static void test_a_receive_from_an_interface_that_is_gone_is_closed(void)
+{
+    const int errors[] = {EPERM, ENODEV, ENXIO, ECONNRESET, EBADF};
+    for (size_t i = 0; i < sizeof errors / sizeof errors[0]; i++) {
+        recv_fault = (struct fault){.error = errors[i], .first = FOR_EVER};
+        assert_receive(LINK_E_CLOSED, 0);
+    }
+}
+
+static void test_a_wait_that_cannot_be_set_is_closed(void)
+{
+    setsockopt_fault = (struct fault){.error = EBADF, .first = 1};
+    assert_receive(LINK_E_CLOSED, 0);
+}
+
+static void test_the_kernel_is_told_a_wait_when_it_changes_and_only_then(void)
+{
+    static const struct {
+        uint32_t wait_ms, told_ms;
+        int times;
+    } cases[] = {{30, 30, 1}, {30, 30, 1}, {0, 30, 1}, {30, 30, 1}, {1, 1, 2}, {1, 1, 2}, {2345, 2345, 3}, {3000, 3000, 4}};
+    struct frame frame;
+    times_told = 0;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        put(16, 3);
+        TEST_ASSERT_EQUAL_INT(1, link_receive(near, &frame, cases[i].wait_ms));
+        TEST_ASSERT_EQUAL_INT(cases[i].times, times_told);
+        TEST_ASSERT_EQUAL_INT64((int64_t)cases[i].told_ms * NS_PER_MS, receive_timeout_ns);
+    }
+}
+
+static void test_an_empty_datagram_before_a_frame_is_not_the_end(void)
+{
+    put(0, 0);
+    put(16, 3);
+    assert_receive(LINK_E_GARBLED, 0);
+    assert_receive(1, 0);
+}
+
+static void test_a_datagram_of_another_size_is_garbled(void)
+{
+    const size_t sizes[] = {0, 1, 15, 17, 72};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
+        put(sizes[i], 3);
+        assert_receive(LINK_E_GARBLED, 0);
+    }
+    put(16, 3);
+    assert_receive(1, 0);
+}
+
+static void test_a_far_end_that_sends_no_more_is_closed(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, shutdown(far, SHUT_WR));
+    assert_receive(LINK_E_CLOSED, 0);
+}
+
+static void test_a_length_over_eight_is_garbled(void)
+{
+    put(16, 9);
+    assert_receive(LINK_E_GARBLED, 0);
+    put(16, 255);
+    assert_receive(LINK_E_GARBLED, 0);
+}
+
+static void test_a_descriptor_that_came_non_blocking_waits_all_the_same(void)
+{
+    assert_receive(0, WAIT_MS);
+}
+
+static void test_no_memory_for_a_link_refuses_it(void)
+{
+    int ends[2];
+    char name[16];
+    const uint16_t wanted[] = {0x123};
+    struct link *link = NULL;
+    TEST_ASSERT_EQUAL_INT(0, socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends));
+    snprintf(name, sizeof name, "fd:%d", ends[0]);
+    calloc_fault = (struct fault){.error = ENOMEM, .first = 1};
+
+    TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, link_open(&link, name, wanted, 1));
+    TEST_ASSERT_NULL(link);
+    TEST_ASSERT_EQUAL_INT(0, close(ends[0]));
+    TEST_ASSERT_EQUAL_INT(0, close(ends[1]));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_an_interrupted_receive_is_tried_again);
+    RUN_TEST(test_a_receive_that_is_always_interrupted_ends);
+    RUN_TEST(test_a_wait_that_the_kernel_ends_early_is_waited_to_its_end);
+    RUN_TEST(test_a_bus_that_is_down_says_so_after_the_wait);
+    RUN_TEST(test_a_bus_that_stays_down_says_so_after_the_wait);
+    RUN_TEST(test_a_frame_after_the_bus_was_down_arrives);
+    RUN_TEST(test_a_receive_from_an_interface_that_is_gone_is_closed);
+    RUN_TEST(test_a_wait_that_cannot_be_set_is_closed);
+    RUN_TEST(test_the_kernel_is_told_a_wait_when_it_changes_and_only_then);
+    RUN_TEST(test_an_empty_datagram_before_a_frame_is_not_the_end);
+    RUN_TEST(test_a_datagram_of_another_size_is_garbled);
+    RUN_TEST(test_a_far_end_that_sends_no_more_is_closed);
+    RUN_TEST(test_a_length_over_eight_is_garbled);
+    RUN_TEST(test_a_descriptor_that_came_non_blocking_waits_all_the_same);
+    RUN_TEST(test_no_memory_for_a_link_refuses_it);
+    return UNITY_END();
+}

@@ -1,0 +1,171 @@
+/* What is urgent: it goes last on a bus that takes frames, and first on one that does not. */
+#include "can_queue_rig.h"
+
+static void test_on_a_bus_that_takes_frames_the_urgent_one_lets_them_all_go_first(void)
+{
+    for (uint8_t n = 0; n < 9; n++)
+        TEST_ASSERT_TRUE(put(HEARTBEAT, n));
+    TEST_ASSERT_TRUE(put(DRIVE, 9));
+    pass_ms(3);
+    for (uint8_t n = 0; n < 9; n++)
+        assert_sent(n, HEARTBEAT, n);
+    assert_sent(9, DRIVE, 9);
+}
+
+static void test_even_a_single_one_goes_first(void)
+{
+    TEST_ASSERT_TRUE(put(HEALTH, 0));
+    TEST_ASSERT_TRUE(put(ANSWER, 1));
+    pass_ms(2);
+    assert_sent(0, HEALTH, 0);
+    assert_sent(1, ANSWER, 1);
+}
+
+/* A frame is stuck once it has not left for longer than one can take: 0.27 ms at 500 kbit/s, which makes 1 whole ms. */
+static void test_frames_that_leave_in_a_millisecond_are_let_go_first(void)
+{
+    uint32_t start = controller.now_us;
+
+    controller.frame_us = 900;
+    for (uint8_t n = 0; n < 2; n++)
+        TEST_ASSERT_TRUE(put(HEARTBEAT, n));
+    TEST_ASSERT_TRUE(put(DRIVE, 2));
+    TEST_ASSERT_LESS_THAN_UINT32(start + 2500, controller.now_us);
+    pass_ms(5);
+    assert_sent(1, HEARTBEAT, 1);
+    assert_sent(2, DRIVE, 2);
+}
+
+static void test_a_bus_without_room_for_the_others_is_not_waited_for(void)
+{
+    uint32_t start;
+
+    block();
+    TEST_ASSERT_TRUE(put(HEARTBEAT, 0));
+    pass_ms(1);
+    TEST_ASSERT_TRUE(put(HEARTBEAT, 1));
+    start = controller.now_us;
+    TEST_ASSERT_TRUE(put(DRIVE, 2));
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + 1200, controller.now_us);
+    controller.frame_us = 250;
+    pass_ms(2);
+    assert_sent(0, DRIVE, 2);
+}
+
+/* With others' frames between ours, each of ours leaves, but all of them would take too long. */
+static void test_many_that_leave_slowly_are_waited_for_as_long_as_an_idle_bus_needs(void)
+{
+    uint32_t start;
+    unsigned before;
+
+    controller.frame_us = 990;
+    for (uint8_t n = 0; n < 9; n++)
+        TEST_ASSERT_TRUE(put(HEARTBEAT, n));
+    controller.now_us = controller.since_us = 6000000;
+    queue.moved_ms = now_ms();
+    before = controller.sent_count;
+    start = controller.now_us;
+    TEST_ASSERT_TRUE(put(DRIVE, 9));
+    TEST_ASSERT_UINT32_WITHIN(200, start + 4000, controller.now_us);
+    pass_ms(2);
+    assert_sent(before + 3, HEARTBEAT, (uint8_t)(before + 3));
+    assert_sent(before + 4, DRIVE, 9);
+}
+
+static void test_what_is_as_urgent_as_what_waits_stays_behind_it(void)
+{
+    block();
+    TEST_ASSERT_TRUE(put(HEALTH, 0));
+    TEST_ASSERT_TRUE(put(HEALTH, 1));
+    TEST_ASSERT_TRUE(put(ANSWER, 2));   /* in the third buffer */
+    TEST_ASSERT_TRUE(put(ANSWER, 3));
+    TEST_ASSERT_EQUAL_UINT8(1, queue.count);
+    TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
+}
+
+static void test_each_that_waits_is_asked_whether_it_is_more_urgent(void)
+{
+    block();
+    queue.first = 6;
+    for (unsigned i = 0; i < 4; i++) {
+        static const uint32_t ids[] = {HEARTBEAT, HEARTBEAT, HEARTBEAT, ANSWER};
+
+        queue.frames[(6 + i) % CAN_QUEUE_MAX].id = ids[i];
+    }
+    queue.count = 4;
+    fill_controller(HEALTH, HEALTH, 0);
+    controller.waiting = 3;
+    TEST_ASSERT_TRUE(put(ANSWER, 1));
+    TEST_ASSERT_EQUAL_UINT8(5, queue.count);
+    TEST_ASSERT_TRUE(put(DRIVE, 2));
+    TEST_ASSERT_EQUAL_UINT8(5, queue.count);
+    TEST_ASSERT_EQUAL_HEX32(DRIVE, controller.buffers[2].id);
+}
+
+/* A frame that has left the queue is not asked any more, nor is a buffer that is free. */
+static void test_what_no_longer_waits_is_not_asked(void)
+{
+    controller.ids_elsewhere = 1;
+    block();
+    for (unsigned i = 0; i < CAN_QUEUE_MAX; i++)
+        queue.frames[i].id = 1;
+    TEST_ASSERT_TRUE(put(HEARTBEAT, 0));
+    TEST_ASSERT_TRUE(put(HEARTBEAT, 1));
+    TEST_ASSERT_TRUE(put(DRIVE, 2));
+    TEST_ASSERT_EQUAL_UINT8(0, queue.count);
+    TEST_ASSERT_EQUAL_HEX32(DRIVE, controller.buffers[2].id);
+}
+
+static void test_the_least_urgent_gives_way_wherever_it_is(void)
+{
+    static const uint32_t ids[3][3] = {{HEALTH, MEMORY, ANSWER}, {MEMORY, HEALTH, ANSWER}, {MEMORY, ANSWER, HEALTH}};
+
+    for (unsigned i = 0; i < 3; i++) {
+        setUp();
+        fill_controller(ids[i][0], ids[i][1], ids[i][2]);
+        TEST_ASSERT_TRUE(put(DRIVE, 1));
+        TEST_ASSERT_EQUAL_HEX32(1u << i, controller.aborted);
+        TEST_ASSERT_EQUAL_HEX32(DRIVE, controller.buffers[i].id);
+        TEST_ASSERT_EQUAL_UINT8(1, queue.dropped);
+    }
+}
+
+static void test_nothing_gives_way_while_a_buffer_is_free(void)
+{
+    fill_controller(HEALTH, HEALTH, HEALTH);
+    controller.waiting = 3;
+    TEST_ASSERT_TRUE(put(DRIVE, 1));
+    TEST_ASSERT_EQUAL_HEX32(0, controller.aborted);
+    TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
+}
+
+static void test_a_controller_that_gives_nothing_up_is_waited_for_no_longer_than_promised(void)
+{
+    uint32_t start;
+
+    fill_controller(HEALTH, HEALTH, HEALTH);
+    controller.keeps = true;
+    start = controller.now_us;
+    TEST_ASSERT_FALSE(put(DRIVE, 1));
+    TEST_ASSERT_UINT32_WITHIN(300, start + 1000 * (LINK_SEND_MS + 1), controller.now_us);
+    TEST_ASSERT_EQUAL_UINT8(2, queue.dropped);   /* the one that was to give way, and the drive */
+    TEST_ASSERT_FALSE(put(DRIVE, 2));
+    TEST_ASSERT_EQUAL_UINT8(2 + 3 + 2, queue.dropped);   /* all of it is out of date by now, and the same again */
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_on_a_bus_that_takes_frames_the_urgent_one_lets_them_all_go_first);
+    RUN_TEST(test_even_a_single_one_goes_first);
+    RUN_TEST(test_frames_that_leave_in_a_millisecond_are_let_go_first);
+    RUN_TEST(test_a_bus_without_room_for_the_others_is_not_waited_for);
+    RUN_TEST(test_many_that_leave_slowly_are_waited_for_as_long_as_an_idle_bus_needs);
+    RUN_TEST(test_what_is_as_urgent_as_what_waits_stays_behind_it);
+    RUN_TEST(test_each_that_waits_is_asked_whether_it_is_more_urgent);
+    RUN_TEST(test_what_no_longer_waits_is_not_asked);
+    RUN_TEST(test_the_least_urgent_gives_way_wherever_it_is);
+    RUN_TEST(test_nothing_gives_way_while_a_buffer_is_free);
+    RUN_TEST(test_a_controller_that_gives_nothing_up_is_waited_for_no_longer_than_promised);
+    return UNITY_END();
+}
