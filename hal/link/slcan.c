@@ -58,7 +58,7 @@ static enum slcan_found read_frame(struct cursor text, struct frame *out)
     struct frame frame = {0};
     frame.id = read_id(&text, *text.at++);
     frame.len = (uint8_t)read_hex(&text, 1);
-    if (text.bad || frame.len > DATA_MAX)
+    if (frame.len > DATA_MAX)
         return SLCAN_GARBLED;
     unsigned bytes = frame.id & FRAME_REMOTE ? 0 : frame.len;
     for (unsigned i = 0; i < bytes; i++)

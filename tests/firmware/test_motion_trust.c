@@ -105,14 +105,57 @@ static void test_ticks_that_were_never_sensed_count_for_the_pace(void)
     TEST_ASSERT_TRUE(motion_is_denied(&motion));
 }
 
+static void carry_on(void)
+{
+    while (!tick())
+        continue;
+}
+
 static void test_an_outage_counts_as_long_as_wheels_are_held(void)
 {
     begin(45, 0);
     (void)tick();
     body.tick += 100;
-    while (!tick())
-        continue;
+    carry_on();
     TEST_ASSERT_FALSE(motion_is_denied(&motion));
+}
+
+/* Wheels of each speed, down to those that are just believed. */
+static void test_the_rest_after_a_turn_takes_none_of_its_time(void)
+{
+    const struct action trial = {.turn_deg = 45, .rest_ticks = 2};
+
+    for (unsigned percent = 100; percent > 50; percent--) {
+        stand_at(0.0, 0.0);
+        body.grip = percent / 100.0;
+        motion_begin(&motion, &config, &trial);
+        carry_on();
+        if (motion_is_denied(&motion))
+            return;
+        TEST_ASSERT_TRUE(motion_rest(&motion, &config));
+        carry_on();
+        TEST_ASSERT_FALSE(motion_is_denied(&motion));
+    }
+    TEST_FAIL_MESSAGE("all were believed");
+}
+
+static void test_what_food_left_of_a_turn_is_not_made_up_for_after_its_rest(void)
+{
+    const struct action search = {.turn_deg = 90, .rest_ticks = 2, .until_food = true};
+    struct senses senses;
+    long found_at;
+
+    motion_begin(&motion, &config, &search);
+    for (unsigned i = 0; i < 5; i++)
+        TEST_ASSERT_FALSE(tick());
+    senses = sensed();
+    senses.look = true;
+    TEST_ASSERT_TRUE(motion_ended(&motion, &config, &senses));
+    TEST_ASSERT_TRUE(motion_rest(&motion, &config));
+    carry_on();
+    found_at = heading_mdeg();
+    act(10, 0);
+    TEST_ASSERT_INT_WITHIN(HALF, 10000, heading_mdeg() - found_at);
 }
 
 static void test_what_happens_while_lifted_is_not_the_robots_way(void)
@@ -125,8 +168,7 @@ static void test_what_happens_while_lifted_is_not_the_robots_way(void)
     body.left_mm += 123.0;
     senses = sensed();
     motion_track(&motion, &senses);
-    while (!tick())
-        ;
+    carry_on();
     TEST_ASSERT_INT_WITHIN(HALF, lround(1000.0 * (90.0 + 123.0 / 160.0 * 180.0 / PI)), heading_mdeg());
 }
 
@@ -203,6 +245,8 @@ int main(void)
     RUN_TEST(test_wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster);
     RUN_TEST(test_ticks_that_were_never_sensed_count_for_the_pace);
     RUN_TEST(test_an_outage_counts_as_long_as_wheels_are_held);
+    RUN_TEST(test_the_rest_after_a_turn_takes_none_of_its_time);
+    RUN_TEST(test_what_food_left_of_a_turn_is_not_made_up_for_after_its_rest);
     RUN_TEST(test_what_happens_while_lifted_is_not_the_robots_way);
     RUN_TEST(test_stuck_wheels_are_given_up_at_both_ends_of_every_range);
     RUN_TEST(test_wild_odometers_make_no_wild_speeds);

@@ -120,6 +120,13 @@ static void test_a_deadline_that_has_passed_is_not_waited_for(void)
     TEST_ASSERT_EQUAL_UINT(0, polled);
 }
 
+static void test_a_wait_that_ends_late_is_not_begun_again(void)
+{
+    polls[0] = (struct poll_of_test){.passes_ns = NS_PER_S, .result = 0};
+    TEST_ASSERT_FALSE(deadline_await_input(FD, deadline_in_ms(10)));
+    TEST_ASSERT_EQUAL_UINT(1, polled);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -130,5 +137,6 @@ int main(void)
     RUN_TEST(test_a_signal_does_not_end_it);
     RUN_TEST(test_a_wait_that_is_cut_short_goes_on_to_the_last_nanosecond);
     RUN_TEST(test_a_deadline_that_has_passed_is_not_waited_for);
+    RUN_TEST(test_a_wait_that_ends_late_is_not_begun_again);
     return UNITY_END();
 }

@@ -55,6 +55,40 @@ static void test_a_save_is_tried_four_times(void)
     TEST_ASSERT_EQUAL_UINT(3 + 1 + 1, fake_flash.writes);
 }
 
+/* Firmware that knows no marks passes it over: zeros, with the CRC of zeros inverted. */
+static void test_the_mark_is_what_it_always_was(void)
+{
+    static const uint8_t mark[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x90, 0x39, 0x2A, 0x84};
+
+    TEST_ASSERT_EQUAL(0, start());
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(mark, fake_flash.bytes[0], sizeof mark);
+}
+
+/* The tries took the numbers after the wrap, and may read well at the next start. */
+static void test_what_was_stored_is_written_again_when_numbers_wrapped_in_a_failed_save(void)
+{
+    static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
+    static const uint8_t last_of_all[] = {0xFF, 0xFF, 0xFF, 0xFF, 0, 1, 2, 1, 2, 1, 2, 2, 0xE2, 0xDD, 0xD3, 0x5E};
+
+    memcpy(fake_flash.bytes[0], last_of_all, sizeof last_of_all);
+    TEST_ASSERT_EQUAL(1, start());
+    fake_flash.write_fails = true;
+    TEST_ASSERT_EQUAL(HAL_E_STORE, save(100));
+    fake_flash.write_fails = false;
+    TEST_ASSERT_EQUAL(0, flash_store_save(&store, memory, true));
+    TEST_ASSERT_EQUAL(1, start());
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(memory, found, CELL_COUNT);
+}
+
+/* The newest record is in page 1, and has come there since the start. */
+static void test_a_first_page_that_wears_out_never_costs_the_memory_in_the_second(void)
+{
+    save_many(2 * CHANGES);
+    fake_flash.worn[0] = 0xFF;
+    TEST_ASSERT_EQUAL(HAL_E_STORE, save(99));
+    assert_found(2 * CHANGES - 1);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -62,5 +96,8 @@ int main(void)
     RUN_TEST(test_whatever_fills_the_last_place_the_next_one_is_filled_with_ones);
     RUN_TEST(test_an_erase_that_fails_on_a_blank_page_is_a_failure_too);
     RUN_TEST(test_a_save_is_tried_four_times);
+    RUN_TEST(test_the_mark_is_what_it_always_was);
+    RUN_TEST(test_what_was_stored_is_written_again_when_numbers_wrapped_in_a_failed_save);
+    RUN_TEST(test_a_first_page_that_wears_out_never_costs_the_memory_in_the_second);
     return UNITY_END();
 }

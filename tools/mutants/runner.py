@@ -7,6 +7,7 @@ import signal
 import subprocess
 import tempfile
 import time
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -39,7 +40,9 @@ class Runner:
         """
         self._tests = tests
         self._seconds: dict[str, float] = {}  # of the processor
-        self._wait_s: dict[str, float] = {}  # what each may take on a machine as busy as this one
+        self._took_s: dict[str, float] = {}
+        self._kills: Counter[tuple[str, str]] = Counter()  # of a test among a file's mutants, and
+        self._runs: Counter[tuple[str, str]] = Counter()  # how often it was run with one
         self._reached: dict[str, set[int]] = {}  # the places that each test comes by
         for test in tests:
             self._trace(test, highest)
@@ -54,19 +57,31 @@ class Runner:
             used = os.times()
             cpu = used.children_user + used.children_system - before.children_user - before.children_system
             self._seconds[test.name] = cpu
-            self._wait_s[test.name] = WAIT_S + WAIT_FACTOR * (time.monotonic() - start)
+            self._took_s[test.name] = time.monotonic() - start
             found = Path(marks.name).read_bytes()
         self._reached[test.name] = {number for number, mark in enumerate(found) if mark}
 
     def killer(self, mutant: Mutant) -> str:
         """The test that fails with a mutant; empty if none does."""
         near = [test for test in self._tests if mutant.place in self._reached[test.name]]
-        for test in sorted(near, key=lambda it: (self._seconds[it.name] > 1.0, len(self._reached[it.name]))):
-            cpu_ms = CPU_MS + int(CPU_FACTOR * 1000 * self._seconds[test.name])
-            environment = {"OCTET_MUTANT": str(mutant.number), "OCTET_MUTANT_CPU_MS": str(cpu_ms)}
-            if not passes(test, environment, self._wait_s[test.name]):
+        for test in sorted(near, key=lambda it: self._price(it, mutant.file)):
+            key = (test.name, mutant.file)
+            self._runs[key] += 1
+            if not self._passes(test, mutant):
+                self._kills[key] += 1
                 return test.name
         return ""
+
+    def _price(self, test: Test, file: str) -> float:
+        """How long it takes a test to kill one of a file's mutants, by what it has done so far."""
+        key = (test.name, file)
+        return self._took_s[test.name] * (self._runs[key] + 2) / (self._kills[key] + 1)
+
+    def _passes(self, test: Test, mutant: Mutant) -> bool:
+        cpu_ms = CPU_MS + int(CPU_FACTOR * 1000 * self._seconds[test.name])
+        environment = {"OCTET_MUTANT": str(mutant.number), "OCTET_MUTANT_CPU_MS": str(cpu_ms)}
+        # what it may take on a machine as busy as this one
+        return passes(test, environment, WAIT_S + WAIT_FACTOR * self._took_s[test.name])
 
 
 def passes(test: Test, environment: Mapping[str, str], wait_s: float) -> bool:
