@@ -9,8 +9,8 @@ from typing import Any
 
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.seats import Rights
+from host_sim.live.trails import points
 from host_sim.recording.summary import frame_counts
-from host_sim.recording.trajectory import RobotTrack
 from host_sim.view.history import Lesson
 from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene, measures, states
@@ -19,6 +19,7 @@ TRAIL_MAX = 3000
 """Maximum number of ticks in the trail of a page that joins late."""
 
 _POINTS_MAX = 200
+_WHOLE_STEP = 3
 _NOTES_MAX = 8
 _NEWS_MAX = 8
 
@@ -137,9 +138,10 @@ class PageFeed:
         tracks = self.live.recorder.trajectory.tracks
         end = tracks[0].ticks
         first = max(self._trail, end - TRAIL_MAX, tracks[0].first_tick)
-        step = 1 if self._trail == self._first_tick() else 1 + (end - first) // _POINTS_MAX
+        step = _WHOLE_STEP if self._trail == self._first_tick() else 1 + (end - first) // _POINTS_MAX
         self._trail = end
-        return self._shared((first, end, step), lambda: [_points(track, first, end, step) for track in tracks])
+        ticks = range(first, end, step)
+        return self._shared(ticks, lambda: [points(track, ticks) for track in tracks])
 
     def _new_lessons(self) -> list[Lesson]:
         """The lessons since the last message, or since the run was started over; at most `_POINTS_MAX` per robot."""
@@ -195,12 +197,3 @@ def _ended(live: PacedRun) -> dict[str, Any] | None:
 
 def _json(value: object) -> str:
     return json.dumps(value, separators=(",", ":"))
-
-
-def _points(track: RobotTrack, first: int, end: int, step: int) -> list[float]:
-    """[x, y, reason, ...] of every `step`-th tick from `first` to before `end`."""
-    points: list[float] = []
-    for tick in range(first, end, step):
-        row, pose = track.row(tick), track.pose(tick)
-        points += (round(pose.x_mm), round(pose.y_mm), row["reason"])
-    return points

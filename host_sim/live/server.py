@@ -21,7 +21,7 @@ from host_sim.paths import WEB
 PAGES_MAX = 64
 """Maximum number of open pages: a class, those that have just been reloaded, and the board."""
 
-FRAME_S, RACING_FRAME_S = 1 / 60, 1 / 30
+FRAME_S, RACING_FRAME_S = 1 / 60, 1 / 20
 """Minimum time between two messages to a page; the second at full speed, which is too fast to follow anyway."""
 
 STATE_S = 1 / 9000
@@ -65,6 +65,7 @@ class LiveServer:
         nodes = live.simulation.nodes
         self._seats = Seats(nodes) if listener.is_open and len(nodes) > 1 else None
         self._sockets: set[web.WebSocketResponse] = set()
+        self._parts = {path.name for path in WEB.iterdir() if path.suffix in (".js", ".css")}
         self._app = web.Application(client_max_size=TEXT_MAX, middlewares=[self._check_host])
         self._app.on_response_prepare.append(_secure)
         for path, handler in (
@@ -121,7 +122,7 @@ class LiveServer:
 
     async def _part(self, request: web.Request) -> web.StreamResponse:
         name = request.match_info["name"]
-        if name not in _parts():
+        if name not in self._parts:
             raise web.HTTPNotFound
         return _file(name)
 
@@ -201,10 +202,6 @@ class LiveServer:
 async def _say_goodbye(page: web.WebSocketResponse) -> None:
     with contextlib.suppress(ConnectionError, asyncio.TimeoutError):
         await asyncio.wait_for(page.close(code=WSCloseCode.GOING_AWAY, message=b"the run has ended"), 1.0)
-
-
-def _parts() -> set[str]:
-    return {path.name for path in WEB.iterdir() if path.suffix in (".js", ".css")}
 
 
 def _file(name: str) -> web.FileResponse:

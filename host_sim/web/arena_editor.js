@@ -17,16 +17,17 @@ const NEW_BAR_MM = 250;
 /** A new obstacle lies in the middle, or higher up if the robot is about there. */
 const NEW_BAR_ROOM_MM = 300;
 
-/** Sends commands about the world; its `changed` says that there is something new to draw. */
+/** Sends commands about the world. */
 export class ArenaEditor {
   /**
    * @param {Scene} scene - Its `item`, `node` and `ghosts` are ours.
    * @param {(command: Command) => void} send
+   * @param {() => void} onChange - Called when there is something new to draw.
    */
-  constructor(scene, send) {
+  constructor(scene, send, onChange) {
     this.scene = scene;
     this.send = send;
-    this.changed = false;
+    this.onChange = onChange;
     this.barPending = false;
     this.plantPending = false;
     /**
@@ -67,7 +68,7 @@ export class ArenaEditor {
   onRefusal() {
     this.lifting.clear();
     this.barPending = this.plantPending = false;
-    this.changed = true;
+    this.onChange();
   }
 
   /** The state of the robot that the buttons act on: that of the panel. */
@@ -79,7 +80,7 @@ export class ArenaEditor {
   select(item) {
     this.scene.item = item;
     if (item?.kind === "robot") this.scene.node = item.id;
-    this.changed = true;
+    this.onChange();
     typedById("remove-bar", HTMLButtonElement).disabled = item?.kind !== "bar" && item?.kind !== "plant";
   }
 
@@ -102,7 +103,7 @@ export class ArenaEditor {
   pick(node) {
     if (this.scene.item?.kind === "robot") this.select(whole("robot", node));
     this.scene.node = node;
-    this.changed = true;
+    this.onChange();
   }
 
   liftOrPut() {
@@ -137,7 +138,7 @@ export class ArenaEditor {
    */
   hold(node, ghost) {
     this.scene.ghosts.set(node, insideWalls(ghost, this.scene.measures));
-    this.changed = true;
+    this.onChange();
   }
 
   addBar() {

@@ -14,7 +14,7 @@ import { isInside, plantOf, wirePlace } from "./placement.js";
  * @typedef {import("./types.js").Change} Change
  * @typedef {import("./types.js").Command} Command
  *
- * @typedef {{lane: Lane, change: (change: Change) => void}} Lab
+ * @typedef {{lane: Lane, stale: boolean, change: (change: Change) => void}} Lab
  */
 
 /** As in host_sim/world/change_effects.py. */
@@ -32,7 +32,7 @@ export class LabEditor extends ArenaEditor {
    * @param {Scene} scene
    */
   constructor(lab, scene) {
-    super(scene, (command) => this.pass(command));
+    super(scene, (command) => this.pass(command), () => (lab.stale = true));
     this.lab = lab;
     /** @type {Map<Lane, DragController>} */
     this.drags = new Map();
@@ -56,7 +56,6 @@ export class LabEditor extends ArenaEditor {
   beforeDrawing() {
     if ((this.barPending || this.plantPending) && this.ids > this.idsBefore) this.onEnvironment();
     this.onStates(this.drags.get(this.lab.lane)?.robot);
-    this.changed = false;
     typedById("grow", HTMLButtonElement).disabled = this.scene.item?.kind !== "plant";
   }
 

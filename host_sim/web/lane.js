@@ -2,6 +2,7 @@
 /* One of the runs that are shown side by side: its experiment, what came of it, and its arena. */
 
 import { PARAMETERS } from "./generated.js";
+import { showTick } from "./recorded_scene.js";
 import { Renderer } from "./renderer.js";
 import { RunData } from "./run_data.js";
 import { Scene } from "./scene.js";
@@ -83,6 +84,23 @@ export class Lane {
   }
 
   /**
+   * Simulates it anew; what could not be changed goes from its experiment.
+   * @param {import("./simulator.js").Simulator} simulator
+   * @param {import("./simulator.js").OnAnswer} onAnswer - Called when there is a run, and at its end.
+   */
+  simulate(simulator, onAnswer) {
+    const { experiment } = this;
+    this.done = new Promise((resolve) => {
+      simulator.run(this, experiment, (answer) => {
+        if (answer.run) this.take(answer.run);
+        this.takeBack((answer.refusals ?? []).map(([place]) => experiment.changes[place]));
+        if (answer.done) resolve();
+        onAnswer(answer);
+      });
+    });
+  }
+
+  /**
    * Takes over what was simulated.
    * @param {import("./run_recorder.js").Recorded} recorded
    */
@@ -101,15 +119,7 @@ export class Lane {
    * @param {boolean} anew - Whether the trail must be drawn from its beginning.
    */
   go(tick, anew) {
-    const { data, scene } = this;
-    if (!data || !scene) return;
-    const [before, now] = [scene.state.tick, Math.min(tick, data.last)];
-    const environment = data.sceneAt(now);
-    const goesOn = !anew && now >= before && environment.first_tick === scene.environment.first_tick;
-    if (goesOn) data.addTrails(scene.trails, before + 1, now);
-    else data.trailsAt(now, scene.trails);
-    scene.environment = environment;
-    scene.states = data.statesAt(now);
+    if (this.data && this.scene) showTick(this.scene, this.data, tick, anew);
   }
 
   /** @param {number} tick */
@@ -134,6 +144,12 @@ export class Lane {
     const at = kept.findIndex(({ tick }) => tick > change.tick);
     const place = at < 0 ? kept.length : at;
     this.experiment = { ...this.experiment, changes: [...kept.slice(0, place), change, ...kept.slice(place)] };
+  }
+
+  /** @param {Change[]} changes */
+  takeBack(changes) {
+    if (!changes.length) return;
+    this.experiment = { ...this.experiment, changes: this.experiment.changes.filter((it) => !changes.includes(it)) };
   }
 
   /** Takes the change back that was made last; false if there is none. */

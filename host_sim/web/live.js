@@ -34,7 +34,6 @@ class LivePage {
     this.seat = new LiveSeat((command) => this.send(command));
     this.hasEnded = false;
     this.socket = this.connect();
-    requestAnimationFrame(() => this.frame());
   }
 
   get scene() {
@@ -76,7 +75,8 @@ class LivePage {
     if (measures) this.onConnected();
     const startedOver = !measures && environment && environment.start_tick !== this.scene?.environment.start_tick;
     if (measures && environment) {
-      this.view ??= new LiveView(new Scene(measures, environment, states), (command) => this.send(command));
+      const scene = new Scene(measures, environment, states);
+      this.view ??= new LiveView(scene, (command) => this.send(command), () => this.drawSoon());
     }
     this.view?.accept(message);
     if (message.seat !== undefined) this.seat.take(message.seat, this.view);
@@ -84,7 +84,7 @@ class LivePage {
     if (message.notes) this.view?.editor.onRefusal();
     message.notes?.forEach((text) => this.note.show(text));
     this.message = message;
-    this.isNew = true;
+    this.drawSoon();
   }
 
   onConnected() {
@@ -92,14 +92,19 @@ class LivePage {
     document.body.classList.remove("lost");
   }
 
-  frame() {
+  /** Draws with the next frame of the screen. */
+  drawSoon() {
+    if (this.isNew) return;
+    this.isNew = true;
+    requestAnimationFrame(() => this.draw());
+  }
+
+  draw() {
     const { view, message } = this;
-    if (view && message && (this.isNew || view.editor.changed)) {
-      this.isNew = false;
-      view.draw(message);
-      this.timing.lagMs = Date.now() - message.at;
-    }
-    requestAnimationFrame(() => this.frame());
+    this.isNew = false;
+    if (!view || !message) return;
+    view.draw(message);
+    this.timing.lagMs = Date.now() - message.at;
   }
 }
 

@@ -26,11 +26,12 @@ export class LiveView {
   /**
    * @param {Scene} scene
    * @param {(command: Command) => void} send
+   * @param {() => void} onChange - Called when a person has changed what is to be drawn.
    */
-  constructor(scene, send) {
+  constructor(scene, send, onChange) {
     this.scene = scene;
     this.renderer = new Renderer(typedById("arena", HTMLCanvasElement));
-    this.editor = new ArenaEditor(scene, send);
+    this.editor = new ArenaEditor(scene, send, onChange);
     this.drag = new DragController(this.renderer, this.editor);
     this.panel = new Panel((cell, side) => send({ do: "write", node: scene.node, cell, side }));
     this.controls = new Controls(send);
@@ -89,7 +90,6 @@ export class LiveView {
   draw({ play, health }) {
     const { scene } = this;
     this.editor.onStates(this.drag.robot);
-    this.editor.changed = false;
     this.panel.settle(scene, !play.playing);
     this.renderer.draw(scene);
     this.panel.show(scene, { exact: !play.playing });

@@ -1,6 +1,7 @@
 // @ts-check
 /* Where two runs part, and why. */
 
+import { byId, setText } from "./elements.js";
 import { CELL_COUNT, PATTERNS } from "./generated.js";
 import { sentence } from "./phrases.js";
 
@@ -11,6 +12,27 @@ import { sentence } from "./phrases.js";
  */
 
 const DRIVE = ["left", "right", "reason", "repeat_count", "action"];
+
+/** Fills the element parting. */
+export class PartingView {
+  constructor() {
+    /** The runs, and what they were simulated from, that the words are of. */
+    this.key = "";
+  }
+
+  /**
+   * Compares the first run with the one that is selected, or with the second.
+   * @param {Lane[]} lanes
+   * @param {Lane} selected
+   */
+  show([first, ...others], selected) {
+    const other = selected === first ? others[0] : selected;
+    const key = other ? `${first.name}${first.version} ${other.name}${other.version}` : "";
+    if (this.key === key) return;
+    this.key = key;
+    setText(byId("parting"), other ? partingWords(first, other) : "");
+  }
+}
 
 /**
  * The first tick in which a robot of one run does something else than that of another; undefined if none does.

@@ -21,11 +21,13 @@ export const WIDTH_MM = new Map([
   [REASON.SILENCE, 44],
 ]);
 
-/** Keeps a picture of the trails, so that most frames draw their newest points only. */
+/** Keeps a picture of trails that were drawn before, so that most frames draw their newest points only. */
 export class TrailLayer {
   constructor() {
     this.canvas = document.createElement("canvas");
     this.context = contextOf(this.canvas);
+    /** Of which trails the last frame was. */
+    this.key = "";
     this.drawn = { at: 0, key: "", added: [0], colours: [""] };
   }
 
@@ -38,6 +40,11 @@ export class TrailLayer {
   draw(context, trails, colours, selected) {
     const order = [...trails.filter((trail) => trail !== selected), selected];
     const key = [order.map(({ epoch }) => epoch), trails.indexOf(selected)].join();
+    if (this.key !== key) {
+      this.key = key;
+      drawTrails(context, order, colours);
+      return;
+    }
     if (this.isStale(context.canvas, key, order, colours)) this.redraw(context, key, order, colours);
     context.save();
     context.resetTransform();
@@ -73,12 +80,22 @@ export class TrailLayer {
     const { canvas } = this;
     [canvas.width, canvas.height] = [context.canvas.width, context.canvas.height];
     this.context.setTransform(context.getTransform());
-    order.forEach((trail, i) => {
-      const strength = i === order.length - 1 ? 1 : OTHERS;
-      drawPoints(this.context, trail, { first: 0, colours, strength });
-    });
+    drawTrails(this.context, order, colours);
     this.drawn = { at: performance.now(), key, added: order.map(({ added }) => added), colours };
   }
+}
+
+/**
+ * Draws whole trails.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Trail[]} order - The last one is that of the robot that is selected.
+ * @param {string[]} colours
+ */
+function drawTrails(context, order, colours) {
+  order.forEach((trail, i) => {
+    const strength = i === order.length - 1 ? 1 : OTHERS;
+    drawPoints(context, trail, { first: 0, colours, strength });
+  });
 }
 
 /**

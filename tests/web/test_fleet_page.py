@@ -13,8 +13,8 @@ from tests.runs.support import octet
 from tests.web.support import wait_for
 from tests.web.test_layout import TOO_SMALL
 
-READY = "window.octet?.tracks"
-POSE = "robot => octet.poseOf(octet.tracks[robot], [0, 0])"
+READY = "window.octet?.picture"
+POSE = "robot => octet.picture.poseOf(robot, octet.at)"
 
 
 @pytest.fixture(scope="module", params=["own", "one"])
