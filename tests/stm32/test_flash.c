@@ -134,7 +134,7 @@ static void test_a_word_that_comes_out_greater_or_smaller_fails_and_ends_the_wri
         model.worn = &STORE[0][i / 2];
         model.worn_to = others[i % 2];
         TEST_ASSERT_EQUAL(-1, write_all(0, 0));
-        TEST_ASSERT_EQUAL_HEX((store_word)-1, STORE[0][sizeof WORDS / sizeof(store_word) - 1]);
+        TEST_ASSERT_EQUAL_HEX((store_word)-1, STORE[0][COUNT * WRITES_EACH_WORD - 1]);
     }
 }
 
