@@ -24,6 +24,11 @@ void expect(enum fault fault, uint8_t count)
     expected_faults[fault] = count;
 }
 
+struct frame command_of(enum opcode opcode, uint8_t counter, uint8_t owner)
+{
+    return command_frame((struct octet_command_t){.opcode = (uint8_t)opcode, .counter = counter, .owner = owner});
+}
+
 enum input_kind hear(struct frame frame)
 {
     return wire_read(&wire, &frame, &in);

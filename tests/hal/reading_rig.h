@@ -16,6 +16,8 @@ extern uint8_t expected_faults[FAULT_COUNT];
 
 void expect(enum fault fault, uint8_t count);
 
+struct frame command_of(enum opcode opcode, uint8_t counter, uint8_t owner);
+
 enum input_kind hear(struct frame frame);
 
 enum input_kind read_tick(unsigned ticks);

@@ -6,7 +6,7 @@
 #include "hal/stm32/stm32f103/registers.h"
 
 enum {
-    PAGE_BYTES = 1024, STORE_WORDS = PAGE_BYTES / 2, WRITES_EACH_WORD = 2,
+    PAGE_BYTES = 1024, STORE_WORDS = PAGE_BYTES / 2, UNIT_BYTES = 4, WRITES_EACH_WORD = 2,
     BUSY = 1, ONE_ERROR = 1 << 4, ERRORS = 1 << 2 | 1 << 4, DONE = 1 << 5,
     WRITING = 1, ERASING = 1 << 1, START = 1 << 6,
     WRITE_LIMIT_MS = 2, ERASE_LIMIT_MS = 100

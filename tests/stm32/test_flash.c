@@ -40,6 +40,12 @@ static void test_no_setting_but_the_lock_tells_of_a_controller(void)
     TEST_ASSERT_TRUE(flash_exists());
 }
 
+static void test_pages_and_what_is_written_at_once_have_their_sizes(void)
+{
+    TEST_ASSERT_EQUAL_UINT32(PAGE_BYTES, flash_page_size());
+    TEST_ASSERT_EQUAL_UINT32(UNIT_BYTES, flash_unit());
+}
+
 static void test_what_is_written_can_be_read_and_nothing_else_has_changed(void)
 {
     uint32_t words[COUNT];
@@ -119,7 +125,7 @@ static void test_the_slowest_erase_is_waited_for_and_one_that_hangs_is_not(void)
 }
 
 /* A cell can lose bits, and a bit can stay as it is. */
-static void test_a_word_that_comes_out_greater_or_smaller_fails(void)
+static void test_a_word_that_comes_out_greater_or_smaller_fails_and_ends_the_write(void)
 {
     static const store_word others[] = {0, (store_word)-1};
 
@@ -128,6 +134,7 @@ static void test_a_word_that_comes_out_greater_or_smaller_fails(void)
         model.worn = &STORE[0][i / 2];
         model.worn_to = others[i % 2];
         TEST_ASSERT_EQUAL(-1, write_all(0, 0));
+        TEST_ASSERT_EQUAL_HEX((store_word)-1, STORE[0][COUNT * WRITES_EACH_WORD - 1]);
     }
 }
 
@@ -135,6 +142,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_no_setting_but_the_lock_tells_of_a_controller);
+    RUN_TEST(test_pages_and_what_is_written_at_once_have_their_sizes);
     RUN_TEST(test_what_is_written_can_be_read_and_nothing_else_has_changed);
     RUN_TEST(test_a_page_is_erased_whole_and_the_other_one_is_not_touched);
     RUN_TEST(test_each_error_of_the_controller_fails_the_operation_and_ends_it);
@@ -142,6 +150,6 @@ int main(void)
     RUN_TEST(test_an_operation_is_waited_for_as_long_as_it_takes_and_no_longer);
     RUN_TEST(test_the_slowest_write_is_waited_for_and_one_that_hangs_is_not);
     RUN_TEST(test_the_slowest_erase_is_waited_for_and_one_that_hangs_is_not);
-    RUN_TEST(test_a_word_that_comes_out_greater_or_smaller_fails);
+    RUN_TEST(test_a_word_that_comes_out_greater_or_smaller_fails_and_ends_the_write);
     return UNITY_END();
 }

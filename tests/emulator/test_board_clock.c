@@ -1,0 +1,225 @@
+/* Time is made of cycles, and what is due happens when time passes it, in its order. */
+#include "host_sim/emulator/models/board_clock.h"
+
+#include "bxcan_model_rig.h"
+
+enum { ALARMS = 2, RINGS_MAX = 16, FRAME_NS = (47 + 64) * WIRE_BIT_NS };
+
+static const uint64_t PERIOD_168_MHZ_FS = 5952380, NS = 1000000;   /* in fs */
+static const struct moment NEVER = {UINT64_MAX, 0};
+
+static struct board_clock board;
+static struct moment alarms[ALARMS];
+static struct {
+    unsigned alarm;
+    struct moment at;
+} rings[RINGS_MAX];
+static unsigned ring_count, takes;
+static struct moment every;   /* an alarm that has rung is set to so much later; NEVER: not at all */
+
+static struct moment at_ns(uint64_t ns)
+{
+    return (struct moment){ns, 0};
+}
+
+static void ring(struct board_clock *clock, unsigned alarm)
+{
+    rings[ring_count].alarm = alarm;
+    rings[ring_count++].at = clock->now;
+    alarms[alarm] = every.ns == NEVER.ns ? NEVER : at_ns(alarms[alarm].ns + every.ns);
+}
+
+static void take_heard(struct board_clock *clock)
+{
+    clock->wire->heard.count = 0;
+    takes++;
+}
+
+void setUp(void)
+{
+    alarms[0] = alarms[1] = every = NEVER;
+    ring_count = takes = 0;
+    board = (struct board_clock){.horizon = NEVER, .period_fs = PERIOD_168_MHZ_FS, .alarms = alarms,
+        .alarm_count = ALARMS, .ring = ring, .take = take_heard};
+}
+
+void tearDown(void) {}
+
+static void assert_moment(uint64_t ns, uint64_t fs, struct moment moment)
+{
+    TEST_ASSERT_EQUAL_UINT64(ns, moment.ns);
+    TEST_ASSERT_EQUAL_UINT64(fs, moment.fs);
+}
+
+static void assert_rung(unsigned n, unsigned alarm, uint64_t ns)
+{
+    TEST_ASSERT_LESS_THAN_UINT(ring_count, n);
+    TEST_ASSERT_EQUAL_UINT(alarm, rings[n].alarm);
+    TEST_ASSERT_EQUAL_UINT64(ns, rings[n].at.ns);
+}
+
+static void set_alarm(unsigned alarm, uint64_t ns)
+{
+    alarms[alarm] = at_ns(ns);
+    clock_expect(&board, alarms[alarm]);
+}
+
+static void test_a_moment_is_before_another_by_its_parts(void)
+{
+    TEST_ASSERT_TRUE(moment_before((struct moment){1, 9}, (struct moment){2, 0}));
+    TEST_ASSERT_TRUE(moment_before((struct moment){1, 2}, (struct moment){1, 3}));
+    TEST_ASSERT_FALSE(moment_before((struct moment){1, 3}, (struct moment){1, 3}));
+    TEST_ASSERT_FALSE(moment_before((struct moment){2, 0}, (struct moment){1, 9}));
+}
+
+static void test_time_is_cycles_by_their_length(void)
+{
+    clock_execute(&board, 1000);
+    assert_moment(5952, 380000, board.now);
+    TEST_ASSERT_EQUAL_UINT64(1000, board.cycles);
+}
+
+static void test_no_fraction_is_lost_from_cycle_to_cycle(void)
+{
+    for (unsigned n = 0; n < 1000; n++)
+        clock_execute(&board, 1);
+    assert_moment(5952, 380000, board.now);
+}
+
+static void test_an_alarm_rings_when_time_reaches_it(void)
+{
+    board.period_fs = NS;
+    set_alarm(1, 100);
+    clock_execute(&board, 99);
+    TEST_ASSERT_EQUAL_UINT(0, ring_count);
+    clock_execute(&board, 1);
+    assert_rung(0, 1, 100);
+    clock_execute(&board, 100);
+    TEST_ASSERT_EQUAL_UINT(1, ring_count);
+}
+
+static void test_an_alarm_that_is_set_anew_rings_again(void)
+{
+    board.period_fs = NS;
+    every = at_ns(50);
+    set_alarm(0, 100);
+    clock_execute(&board, 100);
+    clock_execute(&board, 49);
+    TEST_ASSERT_EQUAL_UINT(1, ring_count);
+    clock_execute(&board, 1);
+    TEST_ASSERT_EQUAL_UINT(2, ring_count);
+}
+
+static void test_a_skip_stops_at_each_event_on_the_way(void)
+{
+    every = at_ns(300);
+    set_alarm(0, 100);
+    set_alarm(1, 250);
+    clock_skip_to(&board, at_ns(700));
+    TEST_ASSERT_EQUAL_UINT(5, ring_count);
+    assert_rung(0, 0, 100);
+    assert_rung(1, 1, 250);
+    assert_rung(2, 0, 400);
+    assert_rung(3, 1, 550);
+    assert_rung(4, 0, 700);
+    assert_moment(700, 0, board.now);
+}
+
+static void test_a_skip_passes_cycles_too(void)
+{
+    clock_skip_to(&board, at_ns(1000000));
+    TEST_ASSERT_EQUAL_UINT64(168000, board.cycles);
+    clock_skip_to(&board, at_ns(999999));
+    assert_moment(1000000, 0, board.now);
+}
+
+static void test_a_skip_to_the_next_event_ends_there_or_after_the_most(void)
+{
+    set_alarm(0, 5000);
+    clock_skip_to_event(&board, 4000);
+    assert_moment(4000, 0, board.now);
+    clock_skip_to_event(&board, 4000);
+    assert_moment(5000, 0, board.now);
+    TEST_ASSERT_EQUAL_UINT(1, ring_count);
+}
+
+static void fail(struct board_clock *clock, unsigned alarm)
+{
+    ring(clock, alarm);
+    clock->failed = true;
+}
+
+static void test_after_a_failure_no_more_time_passes(void)
+{
+    board.ring = fail;
+    set_alarm(0, 100);
+    set_alarm(1, 100);
+    clock_skip_to(&board, at_ns(1000));
+    assert_moment(100, 0, board.now);
+    TEST_ASSERT_EQUAL_UINT(1, ring_count);
+}
+
+/* ---- the wire */
+
+static void connect(void)
+{
+    rejoin(TXFP);
+    board.wire = &wire;
+    board.now = at_ns(wire.now_ns);
+    clock_settle(&board);
+}
+
+static void test_a_frame_on_the_wire_takes_its_time_and_is_taken_by_the_world(void)
+{
+    uint64_t start;
+
+    connect();
+    start = board.now.ns;
+    request(0, 0x81);
+    clock_expect(&board, board.now);
+    clock_skip_to(&board, at_ns(start + FRAME_NS - 1));
+    TEST_ASSERT_EQUAL_UINT(0, takes);
+    clock_skip_to(&board, at_ns(start + FRAME_NS));
+    TEST_ASSERT_EQUAL_UINT(1, takes);
+    clock_skip_to(&board, at_ns(start + 1000000));
+    TEST_ASSERT_EQUAL_UINT(1, takes);
+}
+
+static void test_the_end_of_a_frame_is_the_next_event(void)
+{
+    uint64_t start;
+
+    connect();
+    start = board.now.ns;
+    request(0, 0x81);
+    clock_settle(&board);
+    clock_skip_to_event(&board, 1000000);
+    assert_moment(start + FRAME_NS, 0, board.now);
+}
+
+static void test_what_a_controller_refuses_is_taken_too(void)
+{
+    connect();
+    TEST_ASSERT_EQUAL_UINT(0, takes);
+    (void)bxcan_write(&can, 0x20, 0);
+    clock_settle(&board);
+    TEST_ASSERT_EQUAL_UINT(1, takes);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_moment_is_before_another_by_its_parts);
+    RUN_TEST(test_time_is_cycles_by_their_length);
+    RUN_TEST(test_no_fraction_is_lost_from_cycle_to_cycle);
+    RUN_TEST(test_an_alarm_rings_when_time_reaches_it);
+    RUN_TEST(test_an_alarm_that_is_set_anew_rings_again);
+    RUN_TEST(test_a_skip_stops_at_each_event_on_the_way);
+    RUN_TEST(test_a_skip_passes_cycles_too);
+    RUN_TEST(test_a_skip_to_the_next_event_ends_there_or_after_the_most);
+    RUN_TEST(test_after_a_failure_no_more_time_passes);
+    RUN_TEST(test_a_frame_on_the_wire_takes_its_time_and_is_taken_by_the_world);
+    RUN_TEST(test_the_end_of_a_frame_is_the_next_event);
+    RUN_TEST(test_what_a_controller_refuses_is_taken_too);
+    return UNITY_END();
+}

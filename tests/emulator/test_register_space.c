@@ -1,0 +1,256 @@
+/* Which registers are accessed here and which are left to Python; and how an image that waits is found out. */
+#include "host_sim/emulator/models/register_space.h"
+
+#include "bxcan_model_rig.h"
+
+enum { CAN_BASE = 0x40006400, SYSTICK_VAL = 0x18, CORE_BASE = 0x10, FROM_PYTHON = 0xC0DE, FRAME_NS = (47 + 64) * WIRE_BIT_NS };
+
+static struct board_clock board;
+static struct systick timer;
+static struct register_space space;
+static struct register_window window;
+static struct {
+    unsigned reads, writes;
+    uint32_t address, width, value;   /* of the last */
+} python;
+
+static uint64_t python_reads(uint32_t address, uint32_t width)
+{
+    python.reads++;
+    python.address = address;
+    python.width = width;
+    return FROM_PYTHON;
+}
+
+static void python_writes(uint32_t address, uint32_t width, uint32_t value)
+{
+    python.writes++;
+    python.address = address;
+    python.width = width;
+    python.value = value;
+}
+
+static void ignore(struct board_clock *clock)
+{
+    clock->wire->heard.count = 0;
+}
+
+void setUp(void)
+{
+    rejoin(TXFP);
+    can.clocked = true;
+    board = (struct board_clock){.now = {wire.now_ns, 0}, .period_fs = 1000000, .wire = &wire,
+        .take = ignore};
+    clock_settle(&board);
+    timer = (struct systick){.clock = &board, .ctrl = SYSTICK_ENABLE | SYSTICK_CLKSOURCE, .load = 999};
+    space = (struct register_space){.clock = &board, .can = &can, .systick = &timer, .can_base = CAN_BASE,
+        .systick_val = SYSTICK_VAL, .direct = true};
+    for (unsigned word = 0; word < SPACE_CAN_WORDS; word++)
+        space.can_readable[word] = space.can_writable[word] = true;
+    space.can_writable[MCR / 4] = false;
+    window = (struct register_window){.clock = &board, .space = &space, .base = CAN_BASE, .read = python_reads,
+        .write = python_writes};
+    memset(&python, 0, sizeof python);
+}
+
+void tearDown(void) {}
+
+static uint32_t look(uint32_t offset)
+{
+    return (uint32_t)window_read(NULL, offset, 4, &window);
+}
+
+static uint32_t look_at_time(void)
+{
+    const struct register_window core = {.clock = &board, .space = &space, .base = CORE_BASE, .read = python_reads};
+
+    return (uint32_t)window_read(NULL, SYSTICK_VAL - CORE_BASE, 4, (void *)&core);
+}
+
+/* ---- where registers are */
+
+static void test_a_register_of_can_is_read_here(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(BIT_TIMING, look(BTR));
+    TEST_ASSERT_EQUAL_UINT(0, python.reads);
+}
+
+static void test_a_register_of_can_is_written_here(void)
+{
+    window_write(NULL, 0x184, 4, 5, &window);
+    TEST_ASSERT_EQUAL_HEX32(5, read_register(0x184));
+    TEST_ASSERT_EQUAL_UINT(0, python.writes);
+}
+
+static void test_what_is_written_is_on_the_wire_at_once(void)
+{
+    uint64_t start;
+
+    for (uint32_t offset = 0x184; offset <= 0x18C; offset += 4)
+        window_write(NULL, offset, 4, 8, &window);
+    clock_execute(&board, 12345);
+    start = board.now.ns;
+    window_write(NULL, 0x180, 4, 0x81 << 21 | 1, &window);
+    clock_execute(&board, 0);
+    TEST_ASSERT_EQUAL_INT(0, wire.sender);
+    TEST_ASSERT_EQUAL_UINT64(start + FRAME_NS, wire.ends_ns);
+}
+
+static void assert_read_by_python(uint32_t offset, uint32_t width)
+{
+    unsigned before = python.reads;
+
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, window_read(NULL, offset, width, &window));
+    TEST_ASSERT_EQUAL_UINT(before + 1, python.reads);
+    TEST_ASSERT_EQUAL_HEX32(CAN_BASE + offset, python.address);
+    TEST_ASSERT_EQUAL_UINT32(width, python.width);
+}
+
+static void test_all_other_accesses_are_pythons(void)
+{
+    assert_read_by_python(4 * SPACE_CAN_WORDS, 4);
+    assert_read_by_python(BTR, 2);
+    assert_read_by_python(BTR + 2, 4);
+    space.can_readable[BTR / 4] = false;
+    assert_read_by_python(BTR, 4);
+    space.can_readable[BTR / 4] = true;
+    can.clocked = false;
+    assert_read_by_python(BTR, 4);
+    can.clocked = true;
+    space.direct = false;
+    assert_read_by_python(BTR, 4);
+    window.space = NULL;
+    assert_read_by_python(BTR, 4);
+}
+
+static void test_what_is_not_written_here_is_pythons(void)
+{
+    window_write(NULL, MCR, 4, INRQ, &window);
+    TEST_ASSERT_EQUAL_UINT(1, python.writes);
+    TEST_ASSERT_EQUAL_HEX32(CAN_BASE + MCR, python.address);
+    TEST_ASSERT_EQUAL_HEX32(INRQ, python.value);
+    TEST_ASSERT_EQUAL_UINT32(4, python.width);
+}
+
+static void test_what_the_controller_refuses_is_pythons_who_asks_it_again(void)
+{
+    assert_read_by_python(0x20, 4);
+    window_write(NULL, 0x20, 4, 7, &window);
+    TEST_ASSERT_EQUAL_UINT(1, python.writes);
+    TEST_ASSERT_EQUAL_HEX32(7, python.value);
+}
+
+static void test_the_timers_value_is_read_here(void)
+{
+    timer.since_cycles = board.cycles;
+    clock_execute(&board, 1);
+    TEST_ASSERT_EQUAL_UINT32(999, look_at_time());
+    TEST_ASSERT_EQUAL_UINT(0, python.reads);
+    space.direct = false;
+    TEST_ASSERT_EQUAL_UINT32(FROM_PYTHON, look_at_time());
+}
+
+static void test_once_something_has_failed_registers_are_dead(void)
+{
+    board.failed = true;
+    TEST_ASSERT_EQUAL_HEX32(0, look(BTR));
+    window_write(NULL, 0x184, 4, 5, &window);
+    window_write(NULL, MCR, 4, INRQ, &window);
+    TEST_ASSERT_EQUAL_HEX32(0xA5A5A5A5, read_register(0x184));
+    TEST_ASSERT_EQUAL_UINT(0, python.reads + python.writes);
+}
+
+/* ---- an image that waits */
+
+/* How long it was let wait, in so many looks. */
+static uint64_t wait_by(unsigned looks, bool at_time)
+{
+    uint64_t start = board.now.ns;
+
+    for (unsigned n = 0; n < looks; n++) {
+        (void)look(RF0R);
+        if (at_time)
+            (void)look_at_time();
+    }
+    return board.now.ns - start;
+}
+
+/* The first look of all brings something new. */
+static void test_an_image_that_waits_is_let_wait_a_millisecond_again_and_again(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(0, wait_by(1 + SPACE_WAITING_READS, true));
+    TEST_ASSERT_EQUAL_UINT64(SPACE_SKIP_NS, wait_by(1, true));
+    TEST_ASSERT_EQUAL_UINT64(0, wait_by(SPACE_WAITING_READS, true));
+    TEST_ASSERT_EQUAL_UINT64(SPACE_SKIP_NS, wait_by(1, true));
+}
+
+static void test_one_that_counts_its_looks_is_left_to_do_so(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(0, wait_by(100, false));
+}
+
+static void test_one_that_writes_does_not_wait(void)
+{
+    for (unsigned n = 0; n < 100; n++) {
+        TEST_ASSERT_EQUAL_UINT64(0, wait_by(1, true));
+        window_write(NULL, 0x184, 4, n, &window);
+    }
+}
+
+static void test_one_that_reads_something_new_does_not_wait(void)
+{
+    uint64_t start = board.now.ns;
+
+    for (uint32_t n = 0; n < 100; n++) {
+        write_register(ESR, n % 7 << 4);
+        (void)look(ESR);
+        (void)look_at_time();
+    }
+    TEST_ASSERT_EQUAL_UINT64(start, board.now.ns);
+}
+
+static void test_a_wait_ends_with_the_next_event(void)
+{
+    request(0, 0x81);
+    clock_settle(&board);
+    TEST_ASSERT_EQUAL_UINT64(FRAME_NS, wait_by(2 + SPACE_WAITING_READS, true));
+}
+
+static void test_what_python_reads_and_does_counts_as_well(void)
+{
+    uint64_t start = board.now.ns;
+
+    for (unsigned n = 0; n <= 12 * SPACE_WAITING_READS; n++) {
+        space_note_time(&space);
+        space_note(&space, n % SPACE_WAITING_READS == 0);
+    }
+    for (unsigned n = 0; n < SPACE_WAITING_READS; n++)
+        space_note(&space, false);
+    space_begin_anew(&space);
+    space_note_time(&space);
+    for (unsigned n = 0; n < SPACE_WAITING_READS; n++)
+        space_note(&space, false);
+    TEST_ASSERT_EQUAL_UINT64(start, board.now.ns);
+    space_note(&space, false);
+    TEST_ASSERT_EQUAL_UINT64(start + SPACE_SKIP_NS, board.now.ns);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_register_of_can_is_read_here);
+    RUN_TEST(test_a_register_of_can_is_written_here);
+    RUN_TEST(test_what_is_written_is_on_the_wire_at_once);
+    RUN_TEST(test_all_other_accesses_are_pythons);
+    RUN_TEST(test_what_is_not_written_here_is_pythons);
+    RUN_TEST(test_what_the_controller_refuses_is_pythons_who_asks_it_again);
+    RUN_TEST(test_the_timers_value_is_read_here);
+    RUN_TEST(test_once_something_has_failed_registers_are_dead);
+    RUN_TEST(test_an_image_that_waits_is_let_wait_a_millisecond_again_and_again);
+    RUN_TEST(test_one_that_counts_its_looks_is_left_to_do_so);
+    RUN_TEST(test_one_that_writes_does_not_wait);
+    RUN_TEST(test_one_that_reads_something_new_does_not_wait);
+    RUN_TEST(test_a_wait_ends_with_the_next_event);
+    RUN_TEST(test_what_python_reads_and_does_counts_as_well);
+    return UNITY_END();
+}

@@ -1,0 +1,21 @@
+/* pins_g431.h: what test_pins.c expects of an STM32G431 (RM0440 7, 9), on a NUCLEO-G431RB. */
+#ifndef OCTET_PINS_G431_H
+#define OCTET_PINS_G431_H
+
+#include "hal/stm32/stm32g431/registers.h"
+
+enum { CAN_FUNCTION = 9, UART_FUNCTION = 7, LIT = 1 << 5, DARK = 1 << 21 };
+
+static const uint32_t MODES_A = 0xABFFFFFF;   /* after a reset: analog, but for the debugger's */
+
+volatile struct rcc_registers RCC;
+
+/* And CAN runs from the bus clock. */
+static void assert_powered(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(7, RCC.ahb2enr);
+    TEST_ASSERT_EQUAL_HEX32(1 << 25 | 1 << 17, RCC.apb1enr1);
+    TEST_ASSERT_EQUAL_HEX32(2u << 24, RCC.ccipr);   /* and nothing else does not */
+}
+
+#endif

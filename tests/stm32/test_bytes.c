@@ -1,0 +1,74 @@
+/* The images' own memcpy and memset, under other names: what they write, and that they write nothing else. */
+#include <stdint.h>
+#include <string.h>
+
+#include <unity.h>
+
+enum { LENGTHS = 20, OFFSETS = 5, BUFFER = 32, GUARD = 0xEE };
+
+void *octet_memcpy(void *restrict to, const void *restrict from, size_t count);
+void *octet_memset(void *to, int value, size_t count);
+
+static uint8_t buffer[BUFFER], source[BUFFER];
+
+void setUp(void)
+{
+    for (unsigned i = 0; i < BUFFER; i++)
+        source[i] = (uint8_t)(i + 1);
+}
+
+void tearDown(void) {}
+
+static void guard(void)
+{
+    for (unsigned i = 0; i < BUFFER; i++)
+        buffer[i] = GUARD;
+}
+
+static void assert_guarded_but(unsigned offset, unsigned length)
+{
+    for (unsigned i = 0; i < BUFFER; i++)
+        if (i < offset || i >= offset + length)
+            TEST_ASSERT_EQUAL_HEX8(GUARD, buffer[i]);
+}
+
+static void test_bytes_are_copied_from_and_to_any_address(void)
+{
+    for (unsigned length = 0; length < LENGTHS; length++)
+        for (unsigned offset = 0; offset < OFFSETS; offset++) {
+            guard();
+            TEST_ASSERT_EQUAL_PTR(buffer + offset, octet_memcpy(buffer + offset, source + 1, length));
+            for (unsigned i = 0; i < length; i++)
+                TEST_ASSERT_EQUAL_HEX8(i + 2, buffer[offset + i]);
+            assert_guarded_but(offset, length);
+        }
+}
+
+static void test_bytes_are_set_at_any_address(void)
+{
+    for (unsigned length = 0; length < LENGTHS; length++)
+        for (unsigned offset = 0; offset < OFFSETS; offset++) {
+            guard();
+            TEST_ASSERT_EQUAL_PTR(buffer + offset, octet_memset(buffer + offset, 0x5A, length));
+            for (unsigned i = 0; i < length; i++)
+                TEST_ASSERT_EQUAL_HEX8(0x5A, buffer[offset + i]);
+            assert_guarded_but(offset, length);
+        }
+}
+
+static void test_of_a_value_the_lowest_byte_counts(void)
+{
+    octet_memset(buffer, 0x1FF, 7);
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, buffer, 7);
+    octet_memset(buffer, -128, 7);
+    TEST_ASSERT_EACH_EQUAL_HEX8(0x80, buffer, 7);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_bytes_are_copied_from_and_to_any_address);
+    RUN_TEST(test_bytes_are_set_at_any_address);
+    RUN_TEST(test_of_a_value_the_lowest_byte_counts);
+    return UNITY_END();
+}

@@ -1,0 +1,224 @@
+/* A Cortex-M as a port: what it is asked is handed on to the chip, the flash store and the record of a crash. */
+#include "hal/can_body/port.h"
+
+#include <string.h>
+
+#include <unity.h>
+
+#include "hal/flash_store/flash.h"
+#include "hal/flash_store/flash_store.h"
+#include "hal/port/cortex_m/core.h"
+#include "hal/port/cortex_m/crash.h"
+#include "hal/port/cortex_m/mcu.h"
+#include "hal/port/cortex_m/systick.h"
+
+enum { NODE = 5 };   /* as it is built for */
+
+volatile struct systick_registers SYSTICK;
+
+static const struct crash CRASH;
+
+static struct {
+    uint32_t now_ms;
+    enum reset_cause chip_cause;
+    bool clock_exact, light, no_flash;
+    unsigned feeds;
+    int opened, saved;         /* what the store returns */
+    unsigned opens, saves;
+    bool may_erase;
+    uint8_t bytes[CELL_COUNT];   /* last saved */
+} board;
+
+uint32_t machine_ms(void)
+{
+    return board.now_ms;
+}
+
+bool mcu_clock_is_exact(void)
+{
+    return board.clock_exact;
+}
+
+enum reset_cause mcu_reset_cause(void)
+{
+    return board.chip_cause;
+}
+
+void mcu_feed(void)
+{
+    board.feeds++;
+}
+
+void mcu_light(bool on)
+{
+    board.light = on;
+}
+
+enum reset_cause crash_reset_cause(enum reset_cause cause)
+{
+    return cause == RESET_SOFTWARE ? RESET_CRASH : cause;
+}
+
+const struct crash *crash_last(void)
+{
+    return &CRASH;
+}
+
+bool flash_exists(void)
+{
+    return !board.no_flash;
+}
+
+int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
+{
+    TEST_ASSERT_NOT_NULL(store);
+    memory[1] = SIDE_LEFT;
+    board.opens++;
+    return board.opened;
+}
+
+int flash_store_save(struct flash_store *store, const uint8_t memory[CELL_COUNT], bool may_erase)
+{
+    TEST_ASSERT_NOT_NULL(store);
+    memcpy(board.bytes, memory, sizeof board.bytes);
+    board.may_erase = may_erase;
+    board.saves++;
+    return board.saved;
+}
+
+void setUp(void)
+{
+    memset(&board, 0, sizeof board);
+}
+
+void tearDown(void) {}
+
+static void test_it_opens_as_what_it_was_built_for(void)
+{
+    struct port port;
+
+    board.clock_exact = true;
+    board.chip_cause = RESET_WATCHDOG;
+    TEST_ASSERT_EQUAL(0, port_open(&port, 0, NULL));
+    TEST_ASSERT_EQUAL_STRING("", port.link);
+    TEST_ASSERT_EQUAL_UINT8(NODE, port.node);
+    TEST_ASSERT_EQUAL(RESET_WATCHDOG, port.reset_cause);
+    TEST_ASSERT_EQUAL_PTR(&CRASH, port.crash);
+    TEST_ASSERT_TRUE(port.clock_exact);
+}
+
+static void test_a_reset_after_a_crash_is_told_as_one(void)
+{
+    struct port port;
+
+    board.chip_cause = RESET_SOFTWARE;
+    TEST_ASSERT_EQUAL(0, port_open(&port, 0, NULL));
+    TEST_ASSERT_EQUAL(RESET_CRASH, port.reset_cause);
+    TEST_ASSERT_FALSE(port.clock_exact);
+}
+
+static void test_the_led_shines_until_the_link_is_open(void)
+{
+    struct port port;
+
+    (void)port_open(&port, 0, NULL);
+    TEST_ASSERT_TRUE(board.light);
+    port_ready(&port);
+    TEST_ASSERT_FALSE(board.light);
+}
+
+static unsigned changes_in_a_second(bool outage)
+{
+    unsigned changes = 0;
+
+    for (board.now_ms = 1024; board.now_ms < 2 * 1024; board.now_ms++) {
+        bool before = board.light;
+
+        port_alive(outage);
+        changes += board.light != before;
+    }
+    return changes;
+}
+
+static void test_each_sign_of_life_feeds_the_watchdog(void)
+{
+    port_alive(false);
+    port_alive(true);
+    TEST_ASSERT_EQUAL_UINT(2, board.feeds);
+}
+
+static void test_the_led_blinks_at_1_hz_and_in_an_outage_at_4(void)
+{
+    (void)changes_in_a_second(false);
+    TEST_ASSERT_EQUAL_UINT(2, changes_in_a_second(false));
+    (void)changes_in_a_second(true);
+    TEST_ASSERT_EQUAL_UINT(8, changes_in_a_second(true));
+}
+
+static void test_its_clock_is_the_machines(void)
+{
+    board.now_ms = 0xFFFFFFFE;
+    TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFE, port_clock_ms());
+}
+
+static void test_the_memory_is_loaded_from_the_flash(void)
+{
+    uint8_t memory[CELL_COUNT] = {0};
+
+    board.opened = 1;
+    TEST_ASSERT_EQUAL(1, port_load(memory));
+    TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, memory[1]);
+    board.opened = HAL_E_STORE;
+    TEST_ASSERT_EQUAL(HAL_E_STORE, port_load(memory));
+}
+
+static void test_the_memory_is_stored_in_the_flash_which_may_be_erased_at_rest(void)
+{
+    const uint8_t memory[CELL_COUNT] = {0, SIDE_LEFT, SIDE_RIGHT};
+
+    TEST_ASSERT_EQUAL(0, port_store(memory, PORT_AT_REST));
+    TEST_ASSERT_TRUE(board.may_erase);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(memory, board.bytes, CELL_COUNT);
+    board.saved = FLASH_STORE_LATER;
+    TEST_ASSERT_EQUAL(PORT_LATER, port_store(memory, PORT_QUICKLY));
+    TEST_ASSERT_FALSE(board.may_erase);
+    board.saved = HAL_E_STORE;
+    TEST_ASSERT_EQUAL(HAL_E_STORE, port_store(memory, PORT_QUICKLY));
+}
+
+static void test_without_a_flash_nothing_is_kept_and_nothing_fails(void)
+{
+    uint8_t memory[CELL_COUNT] = {0};
+
+    board.no_flash = true;
+    board.opened = board.saved = HAL_E_STORE;
+    TEST_ASSERT_EQUAL(0, port_load(memory));
+    TEST_ASSERT_EQUAL(0, port_store(memory, PORT_AT_REST));
+    TEST_ASSERT_EQUAL_UINT(0, board.opens + board.saves);
+}
+
+/* What RAM held at power-up goes on by a generator of numbers, with the timer's value: known answers from 0. */
+static void test_entropy_is_stirred_with_the_timer_each_time(void)
+{
+    SYSTICK.val = 0;
+    TEST_ASSERT_EQUAL_HEX32(0x3C6EF35F, port_entropy());
+    TEST_ASSERT_EQUAL_HEX32(0x47502932, port_entropy());
+    SYSTICK.val = 7;
+    TEST_ASSERT_EQUAL_HEX32(0xD27EC144, port_entropy());
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_it_opens_as_what_it_was_built_for);
+    RUN_TEST(test_a_reset_after_a_crash_is_told_as_one);
+    RUN_TEST(test_the_led_shines_until_the_link_is_open);
+    RUN_TEST(test_each_sign_of_life_feeds_the_watchdog);
+    RUN_TEST(test_the_led_blinks_at_1_hz_and_in_an_outage_at_4);
+    RUN_TEST(test_its_clock_is_the_machines);
+    RUN_TEST(test_the_memory_is_loaded_from_the_flash);
+    RUN_TEST(test_the_memory_is_stored_in_the_flash_which_may_be_erased_at_rest);
+    RUN_TEST(test_without_a_flash_nothing_is_kept_and_nothing_fails);
+    RUN_TEST(test_entropy_is_stirred_with_the_timer_each_time);
+    return UNITY_END();
+}

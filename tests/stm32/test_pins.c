@@ -1,0 +1,107 @@
+/* The pins of chips that have them as in gpio_f4.h. Built once for each chip, on one of its boards, with PINS_EXPECTED: the
+ * header that says what is expected of it. */
+#include <stddef.h>
+#include <string.h>
+
+#include <unity.h>
+
+#include "hal/port/cortex_m/mcu.h"
+#include "hal/stm32/board.h"
+#include "hal/stm32/chip.h"
+#include "hal/stm32/gpio_f4.h"
+#include PINS_EXPECTED
+
+enum { PORTS = 3, PINS = 16, OUTPUT = 1, ALTERNATE = 2, PULLED_UP = 1 };
+
+volatile struct gpio_port GPIO[PORTS];
+
+static struct gpio_port before[PORTS];
+
+void setUp(void)
+{
+    memset((void *)&RCC, 0, sizeof RCC);
+    memset((void *)GPIO, 0, sizeof GPIO);
+    GPIO[0].at.moder = MODES_A;
+    GPIO[0].at.pupdr = 0x64000000;
+    memcpy(before, (const void *)GPIO, sizeof before);
+    pins_start();
+}
+
+void tearDown(void) {}
+
+static uint32_t field(uint32_t reg, unsigned pin)
+{
+    return reg >> 2 * pin & 3u;
+}
+
+static void assert_connected(struct pin pin, uint32_t function)
+{
+    const volatile struct gpio_registers *gpio = &GPIO[pin.port].at;
+
+    TEST_ASSERT_EQUAL_HEX32(ALTERNATE, field(gpio->moder, pin.number));
+    TEST_ASSERT_EQUAL_HEX32(PULLED_UP, field(gpio->pupdr, pin.number));
+    TEST_ASSERT_EQUAL_HEX32(function, gpio->afr[pin.number / 8] >> 4 * (pin.number % 8) & 15u);
+}
+
+static bool is(struct pin one, unsigned port, unsigned number)
+{
+    return one.port == port && one.number == number;
+}
+
+static bool is_used(unsigned port, unsigned number)
+{
+    return is(BOARD_LED, port, number) || is(BOARD_CAN_RX, port, number) || is(BOARD_CAN_TX, port, number)
+           || is(BOARD_UART_RX, port, number) || is(BOARD_UART_TX, port, number);
+}
+
+static void test_the_registers_lie_where_the_manual_has_them(void)
+{
+    TEST_ASSERT_EQUAL_HEX(0x18, offsetof(struct gpio_registers, bsrr));
+    TEST_ASSERT_EQUAL_HEX(0x20, offsetof(struct gpio_registers, afr));
+    TEST_ASSERT_EQUAL_HEX(0x400, sizeof(struct gpio_port));
+}
+
+static void test_can_and_the_serial_port_have_their_pins(void)
+{
+    assert_connected(BOARD_CAN_RX, CAN_FUNCTION);
+    assert_connected(BOARD_CAN_TX, CAN_FUNCTION);
+    assert_connected(BOARD_UART_RX, UART_FUNCTION);
+    assert_connected(BOARD_UART_TX, UART_FUNCTION);
+}
+
+static void test_no_other_pin_is_touched(void)
+{
+    for (unsigned port = 0; port < PORTS; port++)
+        for (unsigned pin = 0; pin < PINS; pin++) {
+            if (is_used(port, pin))
+                continue;
+            TEST_ASSERT_EQUAL_HEX32(field(before[port].at.moder, pin), field(GPIO[port].at.moder, pin));
+            TEST_ASSERT_EQUAL_HEX32(field(before[port].at.pupdr, pin), field(GPIO[port].at.pupdr, pin));
+            TEST_ASSERT_EQUAL_HEX32(0, GPIO[port].at.afr[pin / 8] >> 4 * (pin % 8) & 15u);
+        }
+}
+
+static void test_what_is_used_has_power(void)
+{
+    assert_powered();
+}
+
+static void test_the_led_is_lit_as_the_board_has_it(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(OUTPUT, field(GPIO[BOARD_LED.port].at.moder, BOARD_LED.number));
+    mcu_light(true);
+    TEST_ASSERT_EQUAL_HEX32(LIT, GPIO[BOARD_LED.port].at.bsrr);
+    mcu_light(false);
+    TEST_ASSERT_EQUAL_HEX32(DARK, GPIO[BOARD_LED.port].at.bsrr);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_registers_lie_where_the_manual_has_them);
+    RUN_TEST(test_can_and_the_serial_port_have_their_pins);
+    RUN_TEST(test_no_other_pin_is_touched);
+    RUN_TEST(test_what_is_used_has_power);
+    RUN_TEST(test_the_led_is_lit_as_the_board_has_it);
+    return UNITY_END();
+}

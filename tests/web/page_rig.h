@@ -1,0 +1,21 @@
+/* page_rig.h: a run of a page, as JavaScript has it after page_open. */
+#ifndef OCTET_PAGE_RIG_H
+#define OCTET_PAGE_RIG_H
+
+#include <unity.h>
+
+#include "host_sim/web/native/page.h"
+#include "octet.h"
+
+enum { ROBOTS = 2, SEED = 7 };
+
+void start(uint32_t robot, enum profile profile);
+        /* It is done as asked, and its log is forgotten. */
+
+void put_bytes(const uint8_t bytes[PAGE_BYTES]);
+        /* What JavaScript hands over. */
+
+unsigned logged(const char *id);
+        /* How many frames with this identifier, three hex digits, stand in the log. */
+
+#endif

@@ -1,0 +1,162 @@
+/* Robots of a page: what they are told, what they answer, and what is logged of it. */
+#include "page_rig.h"
+
+#include <string.h>
+
+#include "hal/protocol/e2e.h"
+
+static void test_it_opens_as_many_robots_as_asked_for(void)
+{
+    TEST_ASSERT_EQUAL_size_t(ROBOTS, page_state()->loop.robot_count);
+    for (unsigned i = 0; i < ROBOTS; i++) {
+        TEST_ASSERT_EQUAL_UINT8(i + 1, page_state()->robots[i].octet->wire.node);
+        TEST_ASSERT_EQUAL_HEX32(0x101 + i, page_state()->robots[i].senses_id);
+        TEST_ASSERT_EQUAL_HEX32(0x041 + i, page_state()->robots[i].drive_id);
+    }
+    TEST_ASSERT_EQUAL_size_t(0, page_log_used());
+}
+
+static void test_a_command_is_done_and_both_ways_are_logged(void)
+{
+    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(1, OPCODE_START, PROFILE_NEVER, SEED));
+    TEST_ASSERT_EQUAL_UINT(1, logged("022"));
+    TEST_ASSERT_EQUAL_UINT(1, logged("142"));
+    TEST_ASSERT_EQUAL_UINT(0, logged("021"));
+    TEST_ASSERT_EQUAL_UINT8(PROFILE_NEVER, page_state()->robots[1].octet->robot.brain.profile);
+    TEST_ASSERT_FALSE(page_state()->robots[0].octet->robot.running);
+}
+
+static void test_commands_follow_each_other(void)
+{
+    for (unsigned i = 0; i < 40; i++)
+        TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_START, PROFILE_ARTICLE, i));
+}
+
+static void test_a_refusal_is_told(void)
+{
+    start(0, PROFILE_ARTICLE);
+    TEST_ASSERT_EQUAL_INT32(RESULT_UNKNOWN_PARAMETER, page_command(0, OPCODE_SET, PARAMETER_COUNT, 1));
+    TEST_ASSERT_EQUAL_INT32(RESULT_OUT_OF_RANGE, page_command(0, OPCODE_SET, TURN_DEG, 181));
+}
+
+static void test_a_parameter_is_set_and_told(void)
+{
+    start(0, PROFILE_ARTICLE);
+    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_SET, TURN_DEG, 33));
+    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_GET, TURN_DEG, 0));
+    TEST_ASSERT_EQUAL_UINT32(33, page_answer_value());
+}
+
+static void test_a_freeze_is_begun_and_ended(void)
+{
+    start(0, PROFILE_ARTICLE);
+    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_FREEZE, 1, 0));
+    TEST_ASSERT_TRUE(page_state()->robots[0].octet->robot.brain.frozen);
+    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_FREEZE, 0, 0));
+    TEST_ASSERT_FALSE(page_state()->robots[0].octet->robot.brain.frozen);
+}
+
+static void test_what_is_said_after_the_answer_is_logged_when_it_is_taken(void)
+{
+    start(0, PROFILE_ARTICLE);
+    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_REPORT, 0, 0));
+    TEST_ASSERT_EQUAL_UINT(0, logged("6A1"));
+    page_take_reports(0);
+    TEST_ASSERT_EQUAL_UINT(1, logged("6A1"));   /* HEARTBEAT */
+    page_take_reports(0);
+    TEST_ASSERT_EQUAL_UINT(1, logged("6A1"));
+}
+
+static void test_lines_have_the_time_that_was_set(void)
+{
+    static const char stamp[] = "(0000000012.340000) octet ";
+
+    page_set_time(12340000.0);
+    (void)page_command(0, OPCODE_STOP, 0, 0);
+    TEST_ASSERT_EQUAL_STRING_LEN(stamp, page_log(), LOG_STAMP);
+    page_clear_log();
+    TEST_ASSERT_EQUAL_size_t(0, page_log_used());
+}
+
+static void put_senses(uint8_t tick)
+{
+    const struct octet_senses_t message = {.counter = 1, .tick = tick};
+    struct frame frame = {.id = 0x101, .len = OCTET_SENSES_LENGTH};
+
+    (void)octet_senses_pack(frame.data, &message, sizeof frame.data);
+    e2e_protect(&frame);
+    put_bytes(frame.data);
+}
+
+static void test_a_frame_is_answered_and_not_logged(void)
+{
+    start(0, PROFILE_ARTICLE);
+    put_senses(0);
+    TEST_ASSERT_EQUAL_size_t(1, page_exchange(0, 0x101, OCTET_SENSES_LENGTH));
+    TEST_ASSERT_EQUAL_HEX32(0x041, page_answers(0)[0].id);
+    TEST_ASSERT_EQUAL_size_t(0, page_log_used());
+}
+
+static void test_distances_are_logged_in_the_order_of_the_sensors(void)
+{
+    static const uint8_t ranges[PAGE_BYTES] = {10, 20, 30, 40, 50};
+    char data[17];
+
+    start(0, PROFILE_DISTANCE);
+    page_state()->robots[0].senses_counter = 3;
+    put_bytes(ranges);
+    page_send_ranges(0, TICK_SPAN + 9);
+    TEST_ASSERT_EQUAL_UINT(1, logged("121"));
+    memcpy(data, page_log() + LOG_STAMP + 4, 16);
+    data[16] = '\0';
+    TEST_ASSERT_EQUAL_STRING("94000A141E2832", data + 2);   /* counter 4, tick 9, and the five */
+}
+
+/* ---- commands as frames, from a log */
+
+static void read_command(struct octet_command_t message)
+{
+    uint8_t bytes[PAGE_BYTES] = {0};
+
+    (void)octet_command_pack(bytes, &message, sizeof bytes);
+    put_bytes(bytes);
+    TEST_ASSERT_EQUAL_UINT32(message.opcode, page_read_command());
+}
+
+static void assert_read(uint32_t which, uint32_t value)
+{
+    TEST_ASSERT_EQUAL_UINT32(which, page_command_which());
+    TEST_ASSERT_EQUAL_UINT32(value, page_command_value());
+}
+
+static void test_a_command_is_read_from_its_frame(void)
+{
+    read_command((struct octet_command_t){.opcode = OPCODE_START, .profile = PROFILE_FIVE, .seed = 0x89ABCDEF});
+    assert_read(PROFILE_FIVE, 0x89ABCDEF);
+    read_command((struct octet_command_t){.opcode = OPCODE_SET, .parameter = SPEED_MM_S, .value = 250});
+    assert_read(SPEED_MM_S, 250);
+    read_command((struct octet_command_t){.opcode = OPCODE_WRITE, .mask = 9, .half = 1, .byte_0 = 1, .byte_1 = 2, .byte_2 = 3,
+                                          .byte_3 = 0x84});
+    assert_read(1 << 4 | 9, 0x84030201);
+    read_command((struct octet_command_t){.opcode = OPCODE_FREEZE, .freeze = 1});
+    assert_read(1, 0);
+    read_command((struct octet_command_t){.opcode = OPCODE_ERASE});
+    assert_read(0, 0);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_it_opens_as_many_robots_as_asked_for);
+    RUN_TEST(test_a_command_is_done_and_both_ways_are_logged);
+    RUN_TEST(test_commands_follow_each_other);
+    RUN_TEST(test_a_refusal_is_told);
+    RUN_TEST(test_a_parameter_is_set_and_told);
+    RUN_TEST(test_a_freeze_is_begun_and_ended);
+    RUN_TEST(test_what_is_said_after_the_answer_is_logged_when_it_is_taken);
+    RUN_TEST(test_lines_have_the_time_that_was_set);
+    RUN_TEST(test_a_frame_is_answered_and_not_logged);
+    RUN_TEST(test_distances_are_logged_in_the_order_of_the_sensors);
+    RUN_TEST(test_a_command_is_read_from_its_frame);
+    return UNITY_END();
+}

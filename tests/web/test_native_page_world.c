@@ -1,0 +1,184 @@
+/* The world of a page: what is placed is there, and robots drive about in it. */
+#include "page_rig.h"
+
+enum { TICKS = 50 };
+
+/* Robots far apart that look along x, in an arena of 4 m by 3 m. */
+static void build(void)
+{
+    static const double dimensions[PAGE_DIMENSIONS] = {
+        [PAGE_WIDTH_MM] = 4000.0, [PAGE_HEIGHT_MM] = 3000.0, [PAGE_BODY_MM] = 100.0, [PAGE_TRACK_MM] = 160.0,
+        [PAGE_REACH_MM] = 60.0, [PAGE_FRONT_EXTRA_MM] = 0.5, [PAGE_BEAM_MM] = 100.0, [PAGE_EAT_MM] = 150.0,
+        [PAGE_TICK_S] = 0.02, [PAGE_SPEED_MM_S] = 500.0,
+    };
+
+    for (unsigned i = 0; i < PAGE_DIMENSIONS; i++)
+        page_dimensions()[i] = dimensions[i];
+    page_build();
+    for (uint32_t i = 0; i < ROBOTS; i++) {
+        page_put_body(i, 1000.0, 1000.0 + 1000.0 * i, 0.0);
+        start(i, PROFILE_ARTICLE);
+    }
+}
+
+static struct body *body(uint32_t robot)
+{
+    return &page_state()->world.bodies[robot];
+}
+
+static const int16_t *row(uint32_t robot, unsigned tick)
+{
+    return page_rows(robot) + tick * LOOP_ROW;
+}
+
+static void test_robots_drive_and_are_recorded(void)
+{
+    build();
+    page_enter(0, 0);
+    TEST_ASSERT_EQUAL_UINT32(TICKS, page_run(7, TICKS));
+    TEST_ASSERT_EQUAL_INT16(7, row(0, 0)[0]);
+    TEST_ASSERT_EQUAL_INT16(7 + TICKS - 1, row(1, TICKS - 1)[0]);
+    TEST_ASSERT_GREATER_THAN_DOUBLE(1000.0, page_poses(0)[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(1000.0, page_poses(0)[1]);
+    TEST_ASSERT_EQUAL_DOUBLE(body(1)->x_mm, page_poses(1)[(TICKS - 1) * LOOP_POSE]);
+    TEST_ASSERT_EQUAL_UINT32(0, page_decision_count(0));
+    TEST_ASSERT_EQUAL_UINT(TICKS, logged("101"));
+    TEST_ASSERT_EQUAL_UINT(TICKS, logged("041"));
+}
+
+static void test_walls_and_obstacles_are_felt_where_they_are(void)
+{
+    build();
+    page_put_body(0, 3870.0, 1000.0, 0.0);
+    page_put_obstacle(0, 1150.0, 1900.0, 1150.0, 2100.0, 20.0);
+    page_enter(1, 0);
+    TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT_RIGHT | FEEL_FRONT | FEEL_FRONT_LEFT, body(0)->feel);
+    TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT_RIGHT | FEEL_FRONT | FEEL_FRONT_LEFT, body(1)->feel);
+    (void)page_run(0, 1);
+    TEST_ASSERT_EQUAL_INT16(REASON_TRIAL, row(1, 0)[10]);
+    TEST_ASSERT_EQUAL_UINT32(1, page_decision_count(1));
+    TEST_ASSERT_EQUAL_UINT32(0, page_decisions(1)[0]);
+}
+
+static void test_an_obstacle_that_a_person_takes_away_is_felt_no_more(void)
+{
+    build();
+    page_put_obstacle(0, 1150.0, 2000.0, 1150.0, 2000.0, 40.0);
+    page_enter(1, 0);
+    TEST_ASSERT_NOT_EQUAL_UINT8(0, body(1)->feel);
+    page_settle(0);
+    TEST_ASSERT_EQUAL_UINT8(0, body(1)->feel);
+}
+
+static void test_food_is_eaten_and_there_again_in_the_next_environment(void)
+{
+    build();
+    page_put_food(0, 3000.0, 500.0);
+    page_put_food(1, 1250.0, 1000.0);
+    page_enter(0, 2);
+    (void)page_run(0, TICKS);
+    TEST_ASSERT_EQUAL_UINT32(0, page_is_eaten(0));
+    TEST_ASSERT_EQUAL_UINT32(1, page_is_eaten(1));
+    TEST_ASSERT_EQUAL_UINT32(1, page_state()->robots[0].food_eaten);
+    page_settle(0);
+    TEST_ASSERT_EQUAL_UINT32(1, page_is_eaten(1));
+    page_enter(0, 2);
+    TEST_ASSERT_EQUAL_UINT32(0, page_is_eaten(1));
+    TEST_ASSERT_EQUAL_UINT32(0, page_state()->robots[0].food_eaten);
+}
+
+static void test_a_body_that_enters_knows_only_how_far_its_wheels_have_rolled(void)
+{
+    build();
+    page_enter(0, 0);
+    (void)page_run(0, TICKS);
+    body(0)->collisions = 3;
+    body(0)->seen = 1;
+    page_enter(0, 0);
+    TEST_ASSERT_GREATER_THAN_DOUBLE(0.0, body(0)->left_mm);
+    TEST_ASSERT_GREATER_THAN_DOUBLE(0.0, body(0)->right_mm);
+    TEST_ASSERT_EQUAL_INT32(0, body(0)->collisions);
+    TEST_ASSERT_EQUAL_INT32(-1, body(0)->seen);
+}
+
+static void test_a_lifted_robot_stays_in_the_air_until_it_is_put_down(void)
+{
+    build();
+    page_enter(0, 0);
+    page_lift(0);
+    (void)page_run(0, 1);
+    TEST_ASSERT_EQUAL_INT16(1, row(0, 0)[15]);
+    TEST_ASSERT_EQUAL_INT16(0, row(1, 0)[15]);
+    page_put_body(0, 500.0, 600.0, 1.5);
+    page_settle(0);
+    TEST_ASSERT_FALSE(body(0)->lifted);
+    TEST_ASSERT_EQUAL_DOUBLE(500.0, body(0)->x_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(600.0, body(0)->y_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(1.5, body(0)->heading_rad);
+}
+
+static void test_a_body_is_broken_as_the_numbers_say(void)
+{
+    static const double numbers[PAGE_FAULTS] = {
+        [PAGE_MIRRORED] = 1, [PAGE_SWAPPED] = 0, [PAGE_STUCK_ON] = 5, [PAGE_STUCK_OFF] = 16, [PAGE_LEFT_LOST] = 30,
+        [PAGE_RIGHT_LOST] = 100, [PAGE_NOISE] = 1, [PAGE_NOISE_OF] = 4000000000.0, [PAGE_KEY_HIGH] = 0x12345678,
+        [PAGE_KEY_LOW] = 0x9ABCDEF0, [PAGE_ODOMETERS_SWAPPED] = 1, [PAGE_LEFT_MISCOUNTED] = -100,
+        [PAGE_RIGHT_MISCOUNTED] = 25, [PAGE_FALSE_BEACON] = 777,
+    };
+    const struct body_faults *faults = &page_state()->robots[1].faults;
+
+    for (unsigned i = 0; i < PAGE_FAULTS; i++)
+        page_faults()[i] = numbers[i];
+    page_break(1);
+    TEST_ASSERT_TRUE(faults->mirrored && !faults->swapped && faults->odometers_swapped);
+    TEST_ASSERT_EQUAL_UINT8(5, faults->stuck_on);
+    TEST_ASSERT_EQUAL_UINT8(16, faults->stuck_off);
+    TEST_ASSERT_EQUAL_UINT8(30, faults->left_lost_percent);
+    TEST_ASSERT_EQUAL_UINT8(100, faults->right_lost_percent);
+    TEST_ASSERT_EQUAL_UINT32(1, faults->noise);
+    TEST_ASSERT_EQUAL_UINT32(4000000000u, faults->noise_of);
+    TEST_ASSERT_EQUAL_HEX64(0x123456789ABCDEF0, faults->noise_key);
+    TEST_ASSERT_EQUAL_INT16(-100, faults->left_miscounted_percent);
+    TEST_ASSERT_EQUAL_INT16(25, faults->right_miscounted_percent);
+    TEST_ASSERT_EQUAL_UINT16(777, faults->false_beacon_mm);
+    TEST_ASSERT_EQUAL_UINT8(0, page_state()->robots[0].faults.stuck_on);
+}
+
+/* Its motors are dead: it denies its drives, stops by itself, and is asked how it is. */
+static void test_a_robot_that_stops_by_itself_is_told_and_starts_again(void)
+{
+    uint32_t tick = 0;
+
+    build();
+    page_enter(0, 0);
+    page_faults()[PAGE_LEFT_LOST] = page_faults()[PAGE_RIGHT_LOST] = 100;
+    page_break(0);
+    while (tick < 5000 && !page_has_halted(0))
+        tick += page_run(tick, PAGE_TICKS_MAX);
+    TEST_ASSERT_TRUE(page_has_halted(0));
+    TEST_ASSERT_FALSE(page_has_halted(1));
+    TEST_ASSERT_EQUAL_UINT(1, logged("021"));   /* the command for a report */
+    start(0, PROFILE_ARTICLE);
+    TEST_ASSERT_FALSE(page_has_halted(0));
+}
+
+static void test_sines_are_the_worlds_own(void)
+{
+    TEST_ASSERT_DOUBLE_WITHIN(1e-16, 0.479425538604203, page_sin(0.5));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-16, 0.8775825618903728, page_cos(0.5));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_robots_drive_and_are_recorded);
+    RUN_TEST(test_walls_and_obstacles_are_felt_where_they_are);
+    RUN_TEST(test_an_obstacle_that_a_person_takes_away_is_felt_no_more);
+    RUN_TEST(test_food_is_eaten_and_there_again_in_the_next_environment);
+    RUN_TEST(test_a_body_that_enters_knows_only_how_far_its_wheels_have_rolled);
+    RUN_TEST(test_a_lifted_robot_stays_in_the_air_until_it_is_put_down);
+    RUN_TEST(test_a_body_is_broken_as_the_numbers_say);
+    RUN_TEST(test_a_robot_that_stops_by_itself_is_told_and_starts_again);
+    RUN_TEST(test_sines_are_the_worlds_own);
+    return UNITY_END();
+}
