@@ -22,6 +22,9 @@ from host_sim.transport.link import Link
 DEADLINE_S = 5.0
 """Time for the robot to answer before it is given up, s of wall-clock time."""
 
+INCIDENTS_MAX = 1000
+"""Number of incidents that are listed; later ones are only counted."""
+
 _REPORT_S = 1.0
 _REPORT_DEMANDS = 100
 _JUMP = 7
@@ -46,7 +49,8 @@ class RobotClient:
         now: Tells the time in which the link waits, s.
         line: What happens to the line below the frames.
         round_trip: How long answers take.
-        incidents: What happened that makes the result of the run doubtful.
+        incidents: What happened that makes the result of the run doubtful, the first `INCIDENTS_MAX`.
+        unlisted: Number of incidents after those.
         firmware: The signals of the BOOT in the handshake, which name the firmware.
         memory_kind: What the bytes of its memory mean to the behaviour with which it was started.
         wants_ranges: Whether it was started with a behaviour that decides by distances.
@@ -67,6 +71,7 @@ class RobotClient:
     line: LineStats = field(default_factory=LineStats)
     round_trip: RoundTrip = field(default_factory=RoundTrip)
     incidents: list[Incident] = field(default_factory=list)
+    unlisted: int = 0
     firmware: Mapping[str, int] = field(default_factory=dict)
     memory_kind: MemoryKind = MemoryKind.SIDES
     wants_ranges: bool = False
@@ -132,7 +137,10 @@ class RobotClient:
 
     def distrust(self, what: str) -> None:
         """Notes that something happened which makes the result of the run doubtful."""
-        self.incidents.append(Incident(self.tick, self.node, what))
+        if len(self.incidents) < INCIDENTS_MAX:
+            self.incidents.append(Incident(self.tick, self.node, what))
+        else:
+            self.unlisted += 1
 
     def command(self, opcode: str, **signals: int) -> DecodedFrame:
         """Sends a command until it is answered.

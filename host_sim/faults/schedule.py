@@ -1,5 +1,6 @@
 """A schedule of faults: rules, drawn frame by frame from a seed, with a record of what they did."""
 
+from array import array
 from collections.abc import Sequence
 from random import Random
 
@@ -14,8 +15,8 @@ RECORD_MAX = 100_000
 class _Rolled:
     """One rule with its fault, and a chance of its own for each direction."""
 
-    def __init__(self, rule: Rule, fault: Fault, seed: int) -> None:
-        self.rule, self.fault, self._seed = rule, fault, seed
+    def __init__(self, place: int, rule: Rule, fault: Fault, seed: int) -> None:
+        self.place, self.rule, self.fault, self._seed = place, rule, fault, seed
         self._chances: dict[Direction, Random] = {}
         if not rule.is_certain:
             self._chances = {direction: Random(f"{seed} {rule} {direction}") for direction in DIRECTIONS}
@@ -35,7 +36,6 @@ class Schedule:
     """Faults for the frames of one link. The same rules and seed befall the same frames in the same way.
 
     Attributes:
-        struck: Each fault so far, as a rule for one frame: with the same seed they make the same faults again.
         count: Number of faults so far.
     """
 
@@ -50,15 +50,24 @@ class Schedule:
         Raises:
             UsageError: There is no such fault, or not of that size.
         """
-        rolled = [_Rolled(rule, make_fault(rule.name, rule.size, protocol), seed) for rule in rules]
+        self._rules = [*rules]
+        rolled = [
+            _Rolled(place, rule, make_fault(rule.name, rule.size, protocol), seed) for place, rule in enumerate(rules)
+        ]
         self._wide = [each for each in rolled if not each.rule.is_single]
         self._single: dict[int, list[_Rolled]] = {}
         for each in rolled:
             if each.rule.is_single:
                 self._single.setdefault(each.rule.first, []).append(each)
         self._numbers = dict.fromkeys(DIRECTIONS, 0)
-        self.struck: list[Rule] = []
+        self._struck = array("q")
         self.count = 0
+
+    @property
+    def struck(self) -> list[Rule]:
+        """Each fault so far, as a rule for one frame: with the same seed they make the same faults again."""
+        each = zip(self._struck[::3], self._struck[1::3], self._struck[2::3], strict=True)
+        return [self._rules[place].at(number, DIRECTIONS[way]) for place, number, way in each]
 
     def passing(self, frame: Frame, direction: Direction) -> list[Passing]:
         """What arrives of the next frame in a direction, in order."""
@@ -69,10 +78,11 @@ class Schedule:
             if rolled.strikes(number, direction):
                 dice = rolled.dice(number, direction)
                 arriving = [after for before in arriving for after in rolled.fault.apply(before, dice)]
-                self._record(rolled.rule.at(number, direction))
+                self._record(rolled.place, number, direction)
         return arriving
 
-    def _record(self, rule: Rule) -> None:
+    def _record(self, place: int, number: int, direction: Direction) -> None:
+        """Notes a fault: as numbers, for a run of a day has tens of thousands."""
+        if self.count < RECORD_MAX:
+            self._struck.extend((place, number, DIRECTIONS.index(direction)))
         self.count += 1
-        if len(self.struck) < RECORD_MAX:
-            self.struck.append(rule)

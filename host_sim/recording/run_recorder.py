@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from struct import Struct
 from typing import Protocol, TypeVar
 
-from host_sim.recording.trajectory import AXES, ROW, Changes, RobotTrack, Trajectory, at
+from host_sim.recording.trajectory import ROW, Changes, RobotTrack, Trajectory, at, since
 from host_sim.robot_io import Drive, Senses
 from host_sim.sim.native_loop import RobotBlock
 from host_sim.sim.simulation import Simulation
@@ -174,14 +174,10 @@ class RunRecorder:
         trajectory = self.trajectory
         if first <= trajectory.first_tick:
             return
+        start = at(trajectory.scenes, first - 1)["start_tick"]
         for track in trajectory.tracks:
-            track.forget_turns(first)
-            track.action_before = track.row(first - 1)["action"]
-            del track.poses_flat[: (first - track.first_tick) * AXES]
-            del track.rows_flat[: (first - track.first_tick) * len(ROW)]
-            track.memories, track.trials = _since(track.memories, first), _since(track.trials, first)
-            track.first_tick = first
-        trajectory.scenes, trajectory.meals = _since(trajectory.scenes, first), _since(trajectory.meals, first)
+            track.forget(first, start)
+        trajectory.scenes, trajectory.meals = since(trajectory.scenes, first), since(trajectory.meals, first)
 
 
 def _exchanged(rows: "memoryview[int]", tick: int) -> tuple[Senses, Drive]:
@@ -198,11 +194,6 @@ def _note(changes: Changes[T], tick: int, value: T) -> None:
     if changes and changes[-1][0] == tick:
         changes.pop()
     changes.append((tick, value))
-
-
-def _since(changes: Changes[T], first: int) -> Changes[T]:
-    """The changes from a tick on, beginning with the value at that tick."""
-    return [(first, at(changes, first)), *(change for change in changes if change[0] > first)]
 
 
 def _name(scene: EnvironmentScene) -> tuple[int, int, int]:

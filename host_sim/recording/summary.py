@@ -37,7 +37,8 @@ class Summary:
             frames).
         changes: The changes that were asked for: those that happened, those refused because they could not be, and
             those missed, for which the run or their environment was too short.
-        incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run.
+        incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run. Of
+            very many, the last entry of a robot says how many are left out.
         log_sha256: SHA-256 of the lines of the log, in hexadecimal.
         wall_s: Duration of the run, s of wall-clock time.
         real_time_factor: Robot time divided by wall-clock time.
@@ -118,11 +119,16 @@ def summarize(
         environments=[_environment(episode) for episode in episodes],
         robots=[_robot(client) for client in clients],
         changes=_changes(config, record),
-        incidents=[str(incident) for client in clients for incident in client.incidents],
+        incidents=[told for client in clients for told in _incidents(client)],
         log_sha256=log_sha256,
         wall_s=round(wall_s, 3),
         real_time_factor=round(robot_s / wall_s, 2),
     )
+
+
+def _incidents(client: RobotClient) -> list[str]:
+    left_out = [f"(node {client.node}) {client.unlisted} more, not listed"] if client.unlisted else []
+    return [*map(str, client.incidents), *left_out]
 
 
 def _changes(config: RunConfig, record: WorldRecord) -> dict[str, list[str]]:

@@ -51,7 +51,7 @@ class RobotTrack:
         poses_flat: x and y in mm, heading in rad, tick after tick.
         rows_flat: The fields of `ROW`, tick after tick.
         action_before: Number of the action in the tick before the first that is retained; -1 if there was none.
-        old_turns: Remembered turns of ticks that are no longer retained: first tick and cell, one after the other.
+        uses_before: For each cell, the number of remembered turns before `first_tick` that used what it held then.
     """
 
     node: int
@@ -63,7 +63,7 @@ class RobotTrack:
     poses_flat: "array[float]" = field(default_factory=lambda: array("d"))
     rows_flat: "array[int]" = field(default_factory=lambda: array("h"))
     action_before: int = -1
-    old_turns: "array[int]" = field(default_factory=lambda: array("q"))
+    uses_before: list[int] = field(default_factory=lambda: [0] * CELL_COUNT)
 
     @property
     def ticks(self) -> int:
@@ -100,24 +100,33 @@ class RobotTrack:
         return np.flatnonzero(news & (self.column("reason") == reason)) + self.first_tick
 
     def turns(self) -> list[tuple[int, int]]:
-        """Each remembered turn of the whole run: its first tick, and the cell that it used."""
-        old = zip(self.old_turns[::2], self.old_turns[1::2], strict=True)
-        return [*old, *self._retained_turns()]
-
-    def forget_turns(self, first: int) -> None:
-        """Notes the turns before a tick, which is about to become the first that is retained, in `old_turns`."""
-        self.old_turns.extend(number for turn in self._retained_turns() if turn[0] < first for number in turn)
-
-    def _retained_turns(self) -> list[tuple[int, int]]:
+        """Each remembered turn that is retained: its first tick, and the cell that it used."""
         ticks = self.begun(Reason.REMEMBERED)
         cells = self.column("pattern")[ticks - self.first_tick]
         return list(zip(ticks.tolist(), cells.tolist(), strict=True))
 
     def uses(self, start: int, tick: int) -> list[int]:
         """For each cell, the number of remembered turns that used its content at a tick; as in `State.uses`."""
-        since = [lesson["tick"] if lesson else start for lesson in self.last_lessons(start, tick)]
-        cells = [cell for begun, cell in self.turns() if since[cell] <= begun <= tick]
-        return [cells.count(cell) for cell in range(CELL_COUNT)]
+        held = [lesson["tick"] if lesson else start for lesson in self.last_lessons(start, tick)]
+        uses = [old if begun < self.first_tick else 0 for old, begun in zip(self.uses_before, held, strict=True)]
+        for begun, cell in self.turns():
+            uses[cell] += held[cell] <= begun <= tick
+        return uses
+
+    def forget(self, first: int, start: int) -> None:
+        """Drops everything before a tick but the lessons, and how often what the cells hold was used.
+
+        Args:
+            first: The first tick that stays.
+            start: First tick since the run was started over, before that.
+        """
+        self.uses_before = self.uses(start, first - 1)
+        self.action_before = self.row(first - 1)["action"]
+        del self.poses_flat[: (first - self.first_tick) * AXES]
+        del self.rows_flat[: (first - self.first_tick) * len(ROW)]
+        self.memories, self.trials = since(self.memories, first), since(self.trials, first)
+        self.meals = [tick for tick in self.meals if tick >= first]
+        self.first_tick = first
 
     def last_lessons(self, start: int, tick: int) -> list[Lesson | None]:
         """For each cell, its last change from tick `start` up to a tick; None if there was none."""
@@ -229,3 +238,8 @@ class Trajectory:
 def at(changes: Sequence[tuple[int, T]], tick: int) -> T:
     """The value that holds at a tick."""
     return changes[bisect_right(changes, tick, key=itemgetter(0)) - 1][1]
+
+
+def since(changes: Changes[T], first: int) -> Changes[T]:
+    """The changes from a tick on, beginning with the value at that tick."""
+    return [(first, at(changes, first)), *(change for change in changes if change[0] > first)]

@@ -20,7 +20,8 @@ tick `first_tick`.
         memory       [[tick, [8 cells]], ...]
         trials       [[tick, Trial or null], ...]: State.trial
         lessons      [Lesson, ...], including those before first_tick, without those after the last tick
-        turns        [[tick, cell], ...]: each use of a cell, including those before first_tick; see State.uses
+        turns        [[tick, cell], ...]: each use of a cell from first_tick on; see State.uses
+        uses_before  [8 numbers]: for each cell, the uses before first_tick of what it held then
         events       [[tick, kind], ...], in order: kind is "environment", "change", "trial", "lesson", "boredom" or
                      "eat"
         columns      the names of the columns, in the order of the data
@@ -106,6 +107,7 @@ def _robot_data(trajectory: Trajectory, robot: int) -> dict[str, Any]:
         "trials": track.trials,
         "lessons": [lesson for lesson in track.lessons if lesson["tick"] < trajectory.ticks],
         "turns": track.turns(),
+        "uses_before": track.uses_before,
         "events": trajectory.events(robot),
         "columns": list(_COLUMNS),
         "data": pack(_column(track, name) for name in _COLUMNS),

@@ -17,7 +17,7 @@ from host_sim.world.body_faults import SOUND
 from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change
 from host_sim.world.edits import Edit, EditError, make_edit
-from host_sim.world.layouts import Layout, World
+from host_sim.world.layouts import World
 from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
 
@@ -46,14 +46,12 @@ class EpisodeResult:
     """What happened in one environment.
 
     Attributes:
-        layout: The layout at the end.
         tick_s: Length of a tick, s.
         robots: What each robot did.
         ticks: Number of ticks.
         eaten: For each piece of food, whether it was eaten.
     """
 
-    layout: Layout
     tick_s: float
     robots: list[RobotResult]
     ticks: int = 0
@@ -174,7 +172,7 @@ class Simulation:
         self.arena = Arena(layout, self.params, self._before)
         if number == 1:
             self.arena.repair()
-        self.episode = EpisodeResult(layout, self.params.tick_s, [RobotResult(node) for node in self.nodes])
+        self.episode = EpisodeResult(self.params.tick_s, [RobotResult(node) for node in self.nodes])
         self._measuring = [i for i, client in enumerate(self.clients) if client.wants_ranges]
         self._enter_loop()
         self.record.begin(Begun(self.seed, number, self.tick))
@@ -266,7 +264,7 @@ class Simulation:
             for client in self.clients:
                 settle(client)
         self._before = arena.bodies
-        episode.layout, episode.eaten = arena.layout, arena.food.eaten
+        episode.eaten = arena.food.eaten
         for robot, body, client in zip(episode.robots, arena.bodies, self.clients, strict=True):
             robot.collisions, robot.memory = body.collisions, client.memory
         return episode

@@ -141,7 +141,7 @@ export class RobotData {
    * @param {number[]} since - For each cell, the first tick to count.
    */
   usesAt(tick, since) {
-    const uses = Array.from({ length: CELL_COUNT }, () => 0);
+    const uses = since.map((first, cell) => (first < this.first ? this.run.uses_before[cell] : 0));
     const turns = this.run.turns.slice(0, countUpTo(this.run.turns, tick, ([at]) => at));
     for (const [at, cell] of turns) uses[cell] += Number(at >= since[cell]);
     return uses;

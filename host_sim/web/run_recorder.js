@@ -1,7 +1,7 @@
 // @ts-check
 /* Records a run as it is simulated, in the form in which a recorded run is shown. */
 
-import { REASON } from "./generated.js";
+import { CELL_COUNT, REASON } from "./generated.js";
 import { LearningHistory } from "./learning_history.js";
 import { AXES, ROW } from "./native_run.js";
 import { newsOf } from "./world_news.js";
@@ -182,7 +182,9 @@ class Track {
     const { pattern } = this.columns;
     const lessons = history.lessons.filter(({ tick }) => tick < this.ticks);
     const turns = this.begun(REASON.REMEMBERED).map((tick) => /** @type {[number, number]} */ ([tick, pattern[tick]]));
-    return { node, memory, trials, lessons, turns, events: this.events(environments, changes), columns: NAMES, data: "" };
+    const uses_before = Array.from({ length: CELL_COUNT }, () => 0);
+    const events = this.events(environments, changes);
+    return { node, memory, trials, lessons, turns, uses_before, events, columns: NAMES, data: "" };
   }
 
   /**

@@ -142,6 +142,7 @@
  * @property {[number, Trial | null][]} trials
  * @property {Lesson[]} lessons
  * @property {[number, number][]} turns
+ * @property {number[]} uses_before
  * @property {[number, EventKind][]} events
  * @property {string[]} columns
  * @property {string} data

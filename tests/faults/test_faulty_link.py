@@ -1,5 +1,6 @@
 """A link with faults: each does to the frames what its name says, and a recorded one does it again."""
 
+import tracemalloc
 from collections import deque
 
 import pytest
@@ -164,6 +165,27 @@ def test_recorded_faults_happen_again():
 
     assert (again.heard, again.back, again.times) == (first.heard, first.back, first.times)
     assert first.link.schedule.count == again.link.schedule.count > 20
+
+
+def test_a_fault_takes_a_few_bytes_to_record():
+    schedule = Schedule([Rule.parse("drop:50%"), Rule.parse("duplicate:50%")], 1, PROTOCOL)
+    tracemalloc.start()
+
+    for _ in range(1000):
+        schedule.passing(SENT[0], "to")
+
+    size, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert schedule.count > 900
+    assert size < 50 * schedule.count
+
+
+def test_of_very_many_faults_the_first_are_recorded_and_all_are_counted(monkeypatch):
+    monkeypatch.setattr("host_sim.faults.schedule.RECORD_MAX", 5)
+
+    link = Journey("drop:60%").link
+
+    assert len(link.schedule.struck) == 5 < link.schedule.count
 
 
 def test_a_fault_befalls_a_frame_whatever_happened_to_the_others():

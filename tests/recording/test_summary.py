@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from host_sim.client.frame_log import FrameLog
-from host_sim.client.robot_client import RobotClient
+from host_sim.client.robot_client import INCIDENTS_MAX, RobotClient
 from host_sim.protocol.codec import Protocol
 from host_sim.recording.summary import Summary, frame_counts, summarize
 from host_sim.sim.run_config import RunConfig
@@ -64,3 +64,13 @@ def test_incidents_are_listed(client):
     client.distrust("the robot restarted")
 
     assert summary_of(client).incidents == ["at tick 0 (node 1) the robot restarted"]
+
+
+def test_of_very_many_incidents_the_first_are_listed_and_the_others_counted(client):
+    for _ in range(INCIDENTS_MAX + 3):
+        client.distrust("the robot restarted")
+
+    *listed, last = summary_of(client).incidents
+
+    assert len(client.incidents) == len(listed) == INCIDENTS_MAX
+    assert last == "(node 1) 3 more, not listed"

@@ -39,13 +39,14 @@ def state_in(run: dict, robot: dict, columns: dict[str, list[int]], tick: int) -
             last[lesson["cell"]] = lesson
     since = [lesson["tick"] if lesson else start for lesson in last]
     turns = [cell for turn, cell in robot["turns"] if since[cell] <= turn <= tick]
+    before = [uses if since[cell] < run["first_tick"] else 0 for cell, uses in enumerate(robot["uses_before"])]
     return State(
         **{**row, "x": row["x"] / 10, "y": row["y"] / 10},
         node=robot["node"],
         tick=tick,
         eaten=at(run["eaten"], tick),
         memory=at(robot["memory"], tick),
-        uses=[turns.count(cell) for cell in range(8)],
+        uses=[turns.count(cell) + before[cell] for cell in range(8)],
         learned=[lesson["tick"] if lesson else -1 for lesson in last],
         by_hand=[lesson["by_hand"] if lesson else 0 for lesson in last],
         trial=at(robot["trials"], tick),
