@@ -4,7 +4,7 @@ A test that cannot run says `pytest.skip("NAME: what is missing")`.
 
 With `--progress FILE`, tools/test can tell at any time what has passed and what is running.
 
-Ctrl-C ends what a test starts, even where a shell has started all of this in the background, and ignores it.
+Where a shell or nohup had this run ignore Ctrl-C or a hangup, what a test starts does not ignore them.
 
 What Python compiles is kept, here and in each process that a test starts, whatever the environment says: else every
 one of them would compile all libraries anew.
@@ -22,7 +22,9 @@ import pytest
 
 hypothesis.settings.register_profile("octet", deadline=None)  # a busy machine is no fault
 hypothesis.settings.load_profile("octet")
-signal.signal(signal.SIGINT, signal.default_int_handler)
+for _number in (signal.SIGINT, signal.SIGHUP):
+    if signal.getsignal(_number) == signal.SIG_IGN:
+        signal.signal(_number, lambda *_: None)  # what is handled is not inherited
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
