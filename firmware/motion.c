@@ -2,7 +2,7 @@
 
 #include "firmware/pattern.h"
 
-enum kind { REST, TURN, STEP };
+enum kind { REST, STEP, TURN, TURN_UNTIL_FOOD };
 
 enum {
     TURN_UNIT = 16384,                             /* of turn_left, for 0.1 mm of difference */
@@ -15,9 +15,15 @@ enum {
     ANY_PACE = UINT16_MAX,                         /* of pace_left: never used up */
     PACE_MARGIN_TICKS = 7,                         /* for drives that come late and for the end, which is slower */
     HOLD_TICKS = 5,                                /* without a drive a body goes on for so long, and then rests */
+    ASTRAY_PER_S = 5,                              /* wheels may go astray as far as they both roll in 1/5 second */
     CREDIBLE_EIGHTHS = 13,                         /* of the fastest that a wheel is told, it may be seen to roll, */
     CREDIBLE_COUNTS = 2                            /* and so much more, in fewer ticks than a count takes */
 };
+
+static bool is_turn(const struct motion *motion)
+{
+    return motion->kind >= TURN;
+}
 
 static uint32_t magnitude(int32_t x)
 {
@@ -46,7 +52,7 @@ static uint32_t wheel_speed_turning(const struct config *config)
 /* Of the action under way: what each wheel makes at the most, mm/s. */
 static uint32_t full_speed(const struct motion *motion, const struct config *config)
 {
-    return motion->kind == TURN ? wheel_speed_turning(config) : config->value[SPEED_MM_S];
+    return is_turn(motion) ? wheel_speed_turning(config) : config->value[SPEED_MM_S];
 }
 
 /* Of the action under way: still to be made, both wheels' counts together, right or forward positive. */
@@ -54,7 +60,7 @@ static int32_t counts_left(const struct motion *motion)
 {
     if (motion->kind == REST)
         return 0;
-    if (motion->kind == TURN)
+    if (is_turn(motion))
         return motion->turn_left / TURN_UNIT;
     return motion->way_left;
 }
@@ -112,9 +118,15 @@ bool motion_gave_up(const struct motion *motion)
     return motion->kind != REST && motion->ticks_left == 0;
 }
 
-bool motion_is_denied(const struct motion *motion)
+/* Twice as far as a body rolls on at full speed after its last drive. */
+static uint16_t astray_limit(const struct config *config)
 {
-    return motion_gave_up(motion) || motion->pace_left == 0;
+    return (uint16_t)(fastest_mm_s(config) * COUNTS_PER_MM / ASTRAY_PER_S);
+}
+
+bool motion_is_denied(const struct motion *motion, const struct config *config)
+{
+    return motion_gave_up(motion) || motion->pace_left == 0 || motion->astray >= astray_limit(config);
 }
 
 static void pass_time(struct motion *motion, uint8_t tick)
@@ -130,15 +142,31 @@ static void pass_time(struct motion *motion, uint8_t tick)
         motion->pace_left = (uint16_t)(ticks < motion->pace_left ? motion->pace_left - ticks : 0u);
 }
 
+/* Wheels that roll apart in a step, or together in a turn, go astray. What they do right makes amends for most of it, for
+ * a drive that comes late looks the same for a moment. */
+static void judge_way(struct motion *motion, int32_t apart, int32_t together)
+{
+    int32_t told = is_turn(motion) ? apart : together;
+    int32_t untold = apart + together - told;
+    uint32_t amends = magnitude(told) * 3u / 4u;
+    uint32_t astray = motion->astray + magnitude(untold);
+
+    astray = astray > amends ? astray - amends : 0u;
+    motion->astray = (uint16_t)(astray < WAY_LIMIT ? astray : WAY_LIMIT);
+}
+
+static void follow(struct motion *motion, int32_t left, int32_t right)
+{
+    motion->turn_left = clamped(motion->turn_left - (left - right) * TURN_UNIT, TURN_LIMIT);
+    motion->way_left = (int16_t)clamped(motion->way_left - (left + right), WAY_LIMIT);
+    judge_way(motion, left - right, left + right);
+}
+
 void motion_track(struct motion *motion, const struct senses *senses)
 {
-    if (motion->referenced) {
-        int32_t left = counts_between(motion->odometer_left, senses->odometer_left);
-        int32_t right = counts_between(motion->odometer_right, senses->odometer_right);
-
-        motion->turn_left = clamped(motion->turn_left - (left - right) * TURN_UNIT, TURN_LIMIT);
-        motion->way_left = (int16_t)clamped(motion->way_left - (left + right), WAY_LIMIT);
-    }
+    if (motion->referenced)
+        follow(motion, counts_between(motion->odometer_left, senses->odometer_left),
+               counts_between(motion->odometer_right, senses->odometer_right));
     motion->odometer_left = senses->odometer_left;
     motion->odometer_right = senses->odometer_right;
     motion->referenced = true;
@@ -154,15 +182,15 @@ bool motion_ended(const struct motion *motion, const struct config *config, cons
 {
     if (motion->ticks_left == 0)
         return true;
-    if (motion->kind == TURN)
-        return has_turned(motion, config) || (motion->until_food && senses->look);
+    if (is_turn(motion))
+        return has_turned(motion, config) || (motion->kind == TURN_UNTIL_FOOD && senses->look);
     return motion->kind == STEP && (motion->way_left <= WAY_PRECISION || pattern_of(senses->feel) != 0);
 }
 
 /* A turn that was not finished is not made up for: it would come as a surprise much later. */
 static void leave_turn(struct motion *motion, const struct config *config)
 {
-    if (motion->kind == TURN && !has_turned(motion, config))
+    if (is_turn(motion) && !has_turned(motion, config))
         motion->turn_left = 0;
 }
 
@@ -180,7 +208,7 @@ bool motion_rest(struct motion *motion, const struct config *config)
 static enum kind kind_of(const struct action *action)
 {
     if (action->turn_deg != 0)
-        return TURN;
+        return action->until_food ? TURN_UNTIL_FOOD : TURN;
     return action->forward_mm != 0 ? STEP : REST;
 }
 
@@ -197,10 +225,10 @@ static uint16_t timeout_ticks(const struct motion *motion, const struct config *
     return (uint16_t)(ticks_at_full_speed(motion, config, 2 * magnitude(counts_left(motion))) + TIMEOUT_MARGIN_TICKS);
 }
 
-/* A turn that food may end is over before its time, and a step is too short to tell. */
+/* A turn that food may end is over before its time, and one step is too short to tell. */
 static uint16_t pace_ticks(const struct motion *motion, const struct config *config)
 {
-    if (motion->kind != TURN || motion->until_food)
+    if (motion->kind != TURN)
         return ANY_PACE;
     return (uint16_t)(ticks_at_full_speed(motion, config, magnitude(counts_left(motion))) * 7u / 4u + PACE_MARGIN_TICKS);
 }
@@ -209,12 +237,13 @@ void motion_begin(struct motion *motion, const struct config *config, const stru
 {
     leave_turn(motion, config);
     motion->kind = (uint8_t)kind_of(action);
-    motion->until_food = action->until_food;
     motion->rest_ticks = action->rest_ticks;
     motion->turn_left = clamped(motion->turn_left + action->turn_deg * (int32_t)turn_per_degree(config), TURN_LIMIT);
     motion->way_left = (int16_t)(action->forward_mm * COUNTS_PER_MM);
     motion->ticks_left = timeout_ticks(motion, config);
     motion->pace_left = pace_ticks(motion, config);
+    if (motion->astray > astray_limit(config))
+        motion->astray = astray_limit(config);   /* wheels that obey again are soon believed */
 }
 
 void motion_drive(const struct motion *motion, const struct config *config, struct drive *drive)
@@ -222,5 +251,5 @@ void motion_drive(const struct motion *motion, const struct config *config, stru
     int16_t speed = speed_for(counts_left(motion), config, full_speed(motion, config));
 
     drive->left_mm_s = speed;
-    drive->right_mm_s = (int16_t)(motion->kind == TURN ? -speed : speed);
+    drive->right_mm_s = (int16_t)(is_turn(motion) ? -speed : speed);
 }

@@ -13,10 +13,10 @@ struct motion {
     uint16_t odometer_right;
     uint16_t ticks_left;       /* then the action is given up: the wheels do not obey */
     uint16_t pace_left;        /* ticks: then the turn has taken too long to be believed */
+    uint16_t astray;           /* what the wheels made that they were not told, less 3/4 of what they were, 0.1 mm */
     uint8_t tick;              /* as of the last senses */
     uint8_t kind;              /* what is under way */
     bool referenced;           /* the odometers above hold */
-    bool until_food;           /* the turn ends when food is seen */
     uint8_t rest_ticks;        /* at rest after what is under way, before the action has ended */
 };
 
@@ -34,10 +34,11 @@ bool motion_is_credible(const struct motion *motion, const struct config *config
 bool motion_gave_up(const struct motion *motion);
         /* Whether the action has taken so long that the wheels cannot have obeyed. */
 
-bool motion_is_denied(const struct motion *motion);
-        /* Whether the wheels have not done what they were told in the action that has ended: it was given up, or it was a
+bool motion_is_denied(const struct motion *motion, const struct config *config);
+        /* Whether the wheels have not done what they were told in the action that has ended: it was given up; or it was a
            turn that took 7/4 of its time at full speed and more than 6 ticks beyond that: wheels or odometers make half
-           of what they should. Those that make twice as much are not credible, see there. */
+           of what they should. Those that make twice as much are not credible, see there. Or the wheels have gone astray
+           for as far as both roll in 0.2 s, over any number of actions: one makes less than 1/7 of the other one's way. */
 
 void motion_track(struct motion *motion, const struct senses *senses);
         /* Takes in what the wheels have done since the last tick. Call once for each senses. */

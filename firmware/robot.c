@@ -48,7 +48,7 @@ static bool go_on(struct robot *robot, struct senses *senses)
     motion_track(&robot->motion, senses);
     if (!has_ended(robot, senses))
         return false;
-    denied = motion_is_denied(&robot->motion);
+    denied = motion_is_denied(&robot->motion, &robot->config);
     if (denied)
         note_denial(robot);
     else

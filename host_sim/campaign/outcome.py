@@ -178,14 +178,15 @@ def _watch(outcome: Outcome, setup: Setup, simulation: Simulation) -> None:
 
 def _note(outcome: Outcome, client: RobotClient) -> None:
     frames, sides = client.frames, sides_of(client.memory)
-    counts = {
+    of_line = {
         "repeated": frames.repeated,
         "duplicate": frames.duplicate if frames.duplicate > _SIGNS_MAX else 0,
         "lost": frames.lost,
         "refused": frames.refused,
         "outages": client.line.outages,
-        **client.faults,
     }
+    # What a busy host does to the line says nothing about the body.
+    counts = client.faults if outcome.cell.is_of_body else of_line | client.faults
     outcome.seen = ", ".join(f"{count} {name}" for name, count in counts.items() if count)
     outcome.doubts = tuple(map(str, client.incidents))
     outcome.seen = outcome.seen or ", ".join(outcome.doubts)

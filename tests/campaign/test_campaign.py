@@ -50,6 +50,18 @@ def test_a_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
     assert done.stderr.startswith("UNSEEN: nothing that happens: tools/run ")
 
 
+def test_a_fault_of_the_body_is_not_seen_by_frames_that_are_repeated(monkeypatch):
+    def repeat(client):
+        client.frames.repeated += 1
+
+    monkeypatch.setattr("host_sim.campaign.outcome.stop", repeat)
+    nothing = replace(CLEAN, fault="a motor that is as before", changes=("weak-motor:left:100%@1s",))
+
+    *_, found = run_all([CLEAN, nothing])
+
+    assert found.problems == ["unseen"]
+
+
 def test_a_run_that_breaks_or_is_unsafe_or_misled_is_a_problem():
     (outcome,) = run_all([replace(CLEAN, limit_s=1.0)])
     assert outcome.problems == []

@@ -47,7 +47,7 @@ bool tick(void)
     struct senses senses;
 
     body.tick++;
-    body.left_mm += body.grip * drive.left_mm_s * config.value[TICK_MS] / 1000.0;
+    body.left_mm += body.lame * body.grip * drive.left_mm_s * config.value[TICK_MS] / 1000.0;
     body.right_mm += body.grip * drive.right_mm_s * config.value[TICK_MS] / 1000.0;
     senses = sensed();
     motion_track(&motion, &senses);
@@ -79,7 +79,7 @@ void stand_at(double left_mm, double right_mm)
 
     body.left_mm = left_mm;
     body.right_mm = right_mm;
-    body.grip = 1.0;
+    body.grip = body.lame = 1.0;
     body.feel = 0;
     motion_start(&motion);
     senses = sensed();

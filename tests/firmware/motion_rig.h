@@ -10,6 +10,7 @@ extern const double PI;
 struct wheels_of_a_body {
     double left_mm, right_mm;
     double grip;   /* wheels make this part of the wanted speed; more than 1 if they are faster, or count too much */
+    double lame;   /* the left wheel makes this part of that */
     uint8_t feel;
     uint8_t tick;
 };

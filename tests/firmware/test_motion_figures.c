@@ -179,11 +179,11 @@ static void test_what_is_given_up_is_known_when_its_time_is_over_and_not_before(
     begin(0, 250);
     for (unsigned i = 1; i < 150; i++) {
         (void)tick();
-        TEST_ASSERT_FALSE(motion_gave_up(&motion) || motion_is_denied(&motion));
+        TEST_ASSERT_FALSE(motion_gave_up(&motion) || motion_is_denied(&motion, &config));
     }
     (void)tick();
     TEST_ASSERT_TRUE(motion_gave_up(&motion));
-    TEST_ASSERT_TRUE(motion_is_denied(&motion));
+    TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
 }
 
 static void test_a_rest_is_never_given_up(void)

@@ -74,6 +74,24 @@ static void test_from_odometers_that_count_a_multiple_nothing_is_learned(void)
     }
 }
 
+/* With food ahead a searcher takes step after step, and never the turn that would tell. */
+static void test_a_dead_motor_stops_a_robot_that_only_takes_steps(void)
+{
+    unsigned denials = 0, ticks = 0;
+
+    command(OPCODE_START, PROFILE_SEARCHER, 1);
+    wheels.look = true;
+    wheels.beacon_mm = 700;
+    while (robot.running && ticks++ < MANY) {
+        out.drive.left_mm_s = 0;
+        obey(CLEAR);
+        denials += out.denied;
+    }
+    TEST_ASSERT_EQUAL_UINT(3, denials);
+    TEST_ASSERT_LESS_THAN_UINT(4 * TICKS_PER_SECOND, ticks);
+    assert_at_rest();
+}
+
 static void test_wheels_that_obey_again_are_forgiven(void)
 {
     while (!out.denied)
@@ -194,6 +212,7 @@ int main(void)
     RUN_TEST(test_from_wheels_that_do_not_obey_nothing_is_learned);
     RUN_TEST(test_from_wheels_that_turn_at_half_the_speed_nothing_is_learned);
     RUN_TEST(test_from_odometers_that_count_a_multiple_nothing_is_learned);
+    RUN_TEST(test_a_dead_motor_stops_a_robot_that_only_takes_steps);
     RUN_TEST(test_wheels_that_obey_again_are_forgiven);
     RUN_TEST(test_food_at_no_distance_is_not_eaten);
     RUN_TEST(test_a_distance_to_no_food_is_a_contradiction);

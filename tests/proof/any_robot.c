@@ -77,10 +77,10 @@ static void take_any_motion(struct motion *motion)
     motion->odometer_right = any_u16();
     motion->ticks_left = any_u16();
     motion->pace_left = any_u16();
+    motion->astray = any_u16();
     motion->tick = any_u8();
-    motion->kind = any_between(0, 2);
+    motion->kind = any_between(0, 3);
     motion->referenced = any_bool();
-    motion->until_food = any_bool();
     motion->rest_ticks = any_u8();
 }
 
