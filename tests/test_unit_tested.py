@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
-BUILD = ROOT / "build/host-san"
+BUILD = ROOT / "build/host-vcan"
 FOLDERS = ("firmware", "hal", "host_sim")
 
 # What no program of the host can be made of. The tests of images run the first two.
