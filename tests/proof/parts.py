@@ -4,7 +4,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).parent
-GENERATED = ROOT / "build/host-san/generated"
+GENERATED = ROOT / "build/host-vcan/generated"
 INCLUDED = (f"-I{ROOT}", f"-I{GENERATED}", "-DOCTET_VERSION_MAJOR=1", "-DOCTET_VERSION_MINOR=0")
 
 _CORE = sorted({*(ROOT / "firmware").rglob("*.c")} - {ROOT / "firmware/main.c"})
