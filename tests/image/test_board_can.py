@@ -1,0 +1,173 @@
+"""An emulated board's CAN controller and bus fail, or carry noise: frames are lost at most, and counted."""
+
+from host_sim.emulator.board import Faults
+from host_sim.emulator.can import CanFaults, CanFrame
+from host_sim.emulator.clock import SECOND
+from tests.image.support import counted, is_rest, talk_to
+
+NOISE_PER_TICK = 200
+"""Ten thousand frames a second."""
+
+
+def test_a_controller_that_never_gets_ready_is_tried_again_and_nothing_moves(name):
+    talk = talk_to(name, Faults(can=CanFaults(init_stuck=True)))
+
+    said = talk.wait(0.1)
+
+    assert said == []
+    assert len(talk.board.resets) > 5
+    assert set(talk.board.resets) == {"software"}
+
+
+def test_it_does_with_two_mailboxes(name):
+    talk = talk_to(name, Faults(can=CanFaults(stuck_mailboxes=0b001)))
+    talk.start()
+
+    drives = talk.live(100)
+
+    # The first frame that got stuck is lost, and the driver cannot know.
+    assert len(drives) >= 99
+
+
+def test_stuck_mailboxes_cost_frames_and_no_more(name):
+    talk = talk_to(name)
+    talk.start()
+    talk.live(5)
+    model = talk.board.hardware.can.model
+
+    model.stuck_mailboxes = 0b111
+    during = talk.live(20)
+    model.stuck_mailboxes = 0
+    talk.live(5)
+
+    assert during == []
+    assert len(talk.live(20)) == 20
+    assert counted(talk.ask())["dropped"] > 0
+    assert talk.board.resets == []
+
+
+def test_frames_lost_in_the_controller_are_counted(name):
+    talk = talk_to(name)
+    talk.start()
+    talk.live(5)
+
+    for _ in range(6):
+        talk.board.send(talk.senses())
+    talk.board.hardware.clock.skip(5 * SECOND // 1000)  # the core stands still meanwhile
+    talk.wait(0.02)
+
+    assert talk.board.hardware.can.model.fifos[0].overruns == 3
+    report = counted(talk.ask())
+    assert report.pop("missed") == 3
+    assert report
+    assert len(talk.live(10)) == 10
+
+
+def test_after_bus_off_it_joins_again(name):
+    talk = talk_to(name)
+    talk.start()
+    talk.live(5)
+
+    talk.board.hardware.can.wire.shorted = True
+    during = talk.live(20)
+    talk.board.hardware.can.wire.shorted = False
+    first = talk.wait(0.5)
+
+    assert during == []
+    assert all(is_rest(said) for said in first if said.name == "DRIVE")
+    assert len(talk.live(20)) == 20
+    report = talk.ask()
+    assert report["bus_offs"] > 0
+    assert report["silences"] > 0
+    assert talk.board.resets == []
+
+
+def test_what_waited_during_bus_off_is_not_sent_afterwards(name):
+    talk = talk_to(name)
+    talk.start()
+    talk.live(5)
+    talk.board.hardware.can.wire.shorted = True
+    talk.live(20)
+    talk.board.hardware.can.wire.shorted = False
+    talk.wait(0.5)
+
+    fresh = talk.live(1)
+
+    assert [drive.signals["tick"] for drive in fresh] == [talk.tick]
+
+
+def test_a_lone_robot_is_passive_and_drives_on_when_the_other_comes_back(name):
+    talk = talk_to(name)
+    talk.start()
+    talk.live(5)
+
+    talk.board.hardware.can.wire.alone = True
+    talk.wait(1.0)
+    errors = talk.board.hardware.can.model.tec
+    talk.board.hardware.can.wire.alone = False
+    talk.wait(0.05)
+
+    assert errors == 128  # passive
+    assert len(talk.live(10)) == 10
+    assert talk.board.resets == []
+
+
+def test_strange_frames_are_counted_or_kept_out(name):
+    talk = talk_to(name)
+    talk.start()
+    talk.live(5)
+    senses = talk.protocol.id_of("SENSES")
+    command = talk.protocol.id_of("COMMAND")
+
+    for frame in (
+        CanFrame(senses, b"short"),
+        CanFrame(senses),
+        CanFrame(command, b"wrong CRC"[:8]),
+    ):
+        talk.board.put(frame)
+    for frame in (
+        CanFrame(senses, bytes(8), remote=True),
+        CanFrame(senses << 18, bytes(8), extended=True),
+        CanFrame(senses, bytes(8), extended=True),
+        CanFrame(senses + 1, bytes(8)),
+        CanFrame(0x7FF),
+        CanFrame(0),
+    ):
+        talk.board.put(frame)
+    talk.wait(0.01)
+
+    assert len(talk.live(10)) == 10
+    assert counted(talk.ask()) == {"damaged": 3}
+
+
+def test_ten_thousand_frames_of_noise_a_second_do_not_cost_a_tick(name):
+    talk = talk_to(name)
+    talk.start()
+    before = len(talk.heard)
+
+    for _ in range(25):
+        talk.board.send(talk.senses())
+        for i in range(NOISE_PER_TICK):
+            talk.board.put(CanFrame(0x200 + i))
+        talk.wait(0.02)
+
+    drives = [said for said in talk.heard[before:] if said.name == "DRIVE"]
+    assert [drive.signals["tick"] for drive in drives] == list(range(25))
+    assert counted(talk.ask()) == {}
+
+
+def test_noise_on_its_own_identifiers_is_counted_and_does_not_cost_a_tick(name):
+    talk = talk_to(name)
+    talk.start()
+    before = len(talk.heard)
+    noise = CanFrame(talk.protocol.id_of("SENSES"))
+
+    for _ in range(10):
+        talk.board.send(talk.senses())
+        for _ in range(NOISE_PER_TICK):
+            talk.board.put(noise)
+        talk.wait(0.02)
+
+    drives = [said for said in talk.heard[before:] if said.name == "DRIVE"]
+    assert [drive.signals["tick"] for drive in drives] == list(range(10))
+    assert talk.ask()["damaged"] == 255

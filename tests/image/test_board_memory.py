@@ -1,0 +1,64 @@
+"""An emulated board keeps the robot's memory in its flash, through failing writes and losses of power."""
+
+from host_sim.emulator.board import Faults
+from host_sim.emulator.flash import FlashFaults
+from host_sim.protocol.generated import Side
+from tests.image.support import Talk, counted, talk_to
+
+
+def learn(talk: Talk, side: int) -> None:
+    """Writes cell 1, and empties the others of its half."""
+    talk.order("write", mask=0b1111, half=0, byte_0=0, byte_1=side, byte_2=0, byte_3=0)
+
+
+def memory_after_power_up(talk: Talk) -> tuple[int, ...]:
+    talk.board.cut_power()
+    talk.wait(0.1)
+    talk.order("stop")
+    talk.wait(0.02)
+    return talk.memory
+
+
+def test_the_memory_survives_a_loss_of_power(name):
+    talk = talk_to(name)
+    learn(talk, Side.LEFT)
+    talk.wait(1.0)
+
+    assert memory_after_power_up(talk) == (0, 1, 0, 0, 0, 0, 0, 0)
+
+
+def test_a_flash_that_is_full_is_erased_and_written_again():
+    talk = talk_to("blue_pill")  # its pages are the smaller ones
+    for i in range(300):
+        learn(talk, (Side.LEFT, Side.RIGHT)[i % 2])
+    flash = talk.board.hardware.flash
+
+    assert flash.erasures > 0
+    assert counted(talk.ask()) == {}
+    assert memory_after_power_up(talk) == (0, 2, 0, 0, 0, 0, 0, 0)
+
+
+def test_a_memory_that_cannot_be_stored_is_counted_and_the_robot_goes_on(name):
+    talk = talk_to(name, Faults(flash=FlashFaults(failing=frozenset(range(1, 1000)))))
+    talk.start()
+    learn(talk, Side.LEFT)
+
+    assert len(talk.live(50)) == 50
+    talk.wait(1.5)  # at rest there is time to erase, in vain
+    assert talk.ask()["unsaved"] > 0
+    assert talk.board.resets == []
+
+
+def test_a_loss_of_power_while_storing_leaves_the_old_memory_or_the_new(name):
+    found, cut_at, operations = set(), 0, 1
+    while cut_at < operations:
+        cut_at += 1
+        talk = talk_to(name, Faults(flash=FlashFaults(cut_at=cut_at)))
+        learn(talk, Side.LEFT)
+        talk.wait(0.2)
+        learn(talk, Side.RIGHT)
+        talk.wait(0.2)
+        found.add(memory_after_power_up(talk))
+        operations = talk.board.hardware.flash.operations
+
+    assert found == {(0, 1, 0, 0, 0, 0, 0, 0), (0, 2, 0, 0, 0, 0, 0, 0)}

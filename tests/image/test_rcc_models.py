@@ -1,0 +1,145 @@
+"""The models of the clocks (RCC), against the reference manuals: what they can make, and what they refuse."""
+
+import pytest
+
+from host_sim.emulator.board import start_board
+from host_sim.emulator.chips import STM32F103, STM32F405
+from host_sim.emulator.clock import SECOND
+from host_sim.emulator.rcc import RccFaults
+from host_sim.emulator.registers import BoardError
+from tests.image.support import read, write
+
+
+def rcc_of(chip, clock, faults=None, flash_hz=10**9):
+    return chip.rcc(clock, chip.oscillators, lambda: flash_hz, faults or RccFaults())
+
+
+def start(rcc, clock, bit):
+    write(rcc, 0x00, read(rcc, 0x00) | 1 << bit)
+    clock.skip(SECOND // 100)
+    return bool(read(rcc, 0x00) >> bit & 2)
+
+
+def test_an_f4_runs_at_168_mhz(clock):
+    rcc = rcc_of(STM32F405, clock)
+
+    assert start(rcc, clock, 16)
+    write(rcc, 0x04, 7 << 24 | 1 << 22 | 336 << 6 | 12)
+    assert start(rcc, clock, 24)
+    write(rcc, 0x08, 5 << 10 | 4 << 13)
+    write(rcc, 0x08, 5 << 10 | 4 << 13 | 2)
+
+    assert read(rcc, 0x08) >> 2 & 3 == 2
+    assert (clock.period, rcc.core_hz()) == (SECOND // 168_000_000, 168_000_000)
+    assert (rcc.apb1_hz(), rcc.apb2_hz()) == (42_000_000, 84_000_000)
+    assert rcc.follows_crystal()
+
+
+@pytest.mark.parametrize(
+    ("before", "switch", "name"),
+    [
+        (5 << 10 | 4 << 13, 4 << 10 | 4 << 13, "APB1 runs at 84000000 Hz, where 42000000"),
+        (5 << 10 | 4 << 13, 5 << 10, "APB2 runs at 168000000 Hz, where 84000000"),
+        (0, 5 << 10 | 4 << 13, "APB1 runs at 168000000 Hz"),
+    ],
+    ids=["APB1", "APB2", "all in one write"],
+)
+def test_a_bus_that_is_too_fast_even_for_a_moment_is_an_error(clock, before, switch, name):
+    rcc = rcc_of(STM32F405, clock)
+    start(rcc, clock, 16)
+    write(rcc, 0x04, 7 << 24 | 1 << 22 | 336 << 6 | 12)
+    start(rcc, clock, 24)
+    write(rcc, 0x08, before)
+
+    with pytest.raises(BoardError, match=name):
+        write(rcc, 0x08, switch | 2)
+
+
+@pytest.mark.parametrize(
+    ("chip", "setup"),
+    [
+        (STM32F405, 1 << 22 | 336 << 6 | 6),
+        (STM32F405, 1 << 22 | 336 << 6 | 24),
+        (STM32F405, 1 << 22 | 440 << 6 | 12),
+        (STM32F405, 1 << 22 | 90 << 6 | 12),
+        (STM32F103, 1 << 16 | 8 << 18),
+    ],
+)
+def test_a_pll_is_not_asked_for_what_it_cannot_make(clock, chip, setup):
+    rcc = rcc_of(chip, clock)
+    start(rcc, clock, 16)
+    write(rcc, 0x04, setup)
+
+    with pytest.raises(BoardError, match="start the PLL"):
+        start(rcc, clock, 24)
+
+
+def test_flash_that_becomes_too_slow_for_the_clock_is_an_error():
+    board = start_board("blue_pill")
+
+    with pytest.raises(BoardError, match="wait states, runs at 72000000 Hz, where 24000000"):
+        write(board.hardware.flash, 0x00, 0)
+
+
+def test_an_f1_runs_at_72_mhz(clock):
+    rcc = rcc_of(STM32F103, clock)
+
+    assert start(rcc, clock, 16)
+    write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18)
+    assert start(rcc, clock, 24)
+    write(rcc, 0x04, 4 << 8 | 1 << 16 | 7 << 18 | 2)
+
+    assert (clock.period, rcc.apb1_hz()) == (SECOND // 72_000_000, 36_000_000)
+
+
+def test_a_clock_that_does_not_run_is_not_switched_to(clock):
+    rcc = rcc_of(STM32F405, clock, RccFaults(crystal_dead=True))
+
+    assert not start(rcc, clock, 16)
+    write(rcc, 0x08, 1)
+
+    assert read(rcc, 0x08) >> 2 & 3 == 0
+
+
+def test_a_clock_too_fast_for_the_flash_is_an_error(clock):
+    rcc = rcc_of(STM32F405, clock, flash_hz=30_000_000)
+    start(rcc, clock, 16)
+    write(rcc, 0x04, 1 << 22 | 336 << 6 | 12)
+    start(rcc, clock, 24)
+    write(rcc, 0x08, 5 << 10 | 4 << 13)
+
+    with pytest.raises(BoardError, match="flash's wait states, runs at 168000000 Hz, where 30000000"):
+        write(rcc, 0x08, 5 << 10 | 4 << 13 | 2)
+
+
+@pytest.mark.parametrize(("chip", "setup"), [(STM32F405, 1 << 22 | 336 << 6 | 12), (STM32F103, 1 << 16 | 7 << 18)])
+def test_a_pll_does_not_start_from_a_crystal_that_does_not_run(clock, chip, setup):
+    rcc = rcc_of(chip, clock)
+    write(rcc, 0x04, setup)
+
+    with pytest.raises(BoardError, match="start the PLL from an oscillator that does not run"):
+        start(rcc, clock, 24)
+
+
+def test_a_pll_is_not_set_up_while_it_is_on(clock):
+    f4, f1 = rcc_of(STM32F405, clock), rcc_of(STM32F103, clock)
+    for rcc in (f4, f1):
+        start(rcc, clock, 24)
+
+    with pytest.raises(BoardError, match="PLLCFGR was written while the PLL is on"):
+        write(f4, 0x04, 0)
+    write(f1, 0x04, 4 << 8 | 1 << 16 | 7 << 18)
+
+    assert read(f1, 0x04) == 4 << 8
+
+
+def test_causes_of_resets_are_noted_until_cleared(clock):
+    rcc = rcc_of(STM32F405, clock)
+    rcc.restart("watchdog")
+    noted = read(rcc, 0x74)
+
+    write(rcc, 0x74, 1 << 24)
+    rcc.restart("software")
+
+    assert noted == 1 << 29 | 1 << 27 | 1 << 26
+    assert read(rcc, 0x74) == 1 << 28 | 1 << 26

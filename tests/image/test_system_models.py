@@ -1,0 +1,142 @@
+"""The models of timers, pins, the core and its system control, against the reference manuals."""
+
+import pytest
+
+from host_sim.backends.robot_process import PROGRAM
+from host_sim.emulator.c_models import c_models
+from host_sim.emulator.clock import SECOND
+from host_sim.emulator.core import PAGE, Core, load_segments
+from host_sim.emulator.registers import BoardError
+from host_sim.emulator.system import SystemControl, SysTick, Watchdog, gpio_f1, gpio_f4
+from host_sim.errors import OctetError
+from tests.image.support import read, write
+
+
+@pytest.mark.parametrize(("divided", "counts"), [(False, 8000), (True, 1000)])
+def test_systick_counts_down_and_wraps(clock, divided, counts):
+    systick = SysTick(clock)
+    write(systick, 0x4, counts - 1)
+    write(systick, 0x8, 0)
+    write(systick, 0x0, 1 if divided else 5)
+
+    clock.execute(8)
+    early = read(systick, 0x8), read(systick, 0x0) >> 16
+    clock.skip(SECOND // 1000)
+
+    assert early == (counts - (1 if divided else 8), 0)
+    assert read(systick, 0x8) == early[0]
+    assert (read(systick, 0x0) >> 16, read(systick, 0x0) >> 16) == (1, 0)
+
+
+def test_a_systick_at_rest_stays(clock):
+    systick = SysTick(clock)
+
+    clock.execute(100)
+
+    assert (read(systick, 0x8), read(systick, 0x0)) == (0, 0)
+
+
+def test_the_interrupt_of_systick_is_not_modelled(clock):
+    with pytest.raises(BoardError, match="interrupt"):
+        write(SysTick(clock), 0x0, 3)
+
+
+def test_a_watchdog_bites_when_its_time_is_over(clock):
+    bites = []
+    watchdog = Watchdog(clock, 32_000, lambda: bites.append(clock.now))
+    clock.skip(100 * SECOND)
+    write(watchdog, 0x0, 0x5555)
+    write(watchdog, 0x4, 3)
+    write(watchdog, 0x8, 1999)
+    write(watchdog, 0x0, 0xCCCC)
+
+    for _ in range(3):
+        clock.skip(19 * SECOND // 10)
+        write(watchdog, 0x0, 0xAAAA)
+    fed = list(bites)
+    clock.skip(2 * SECOND)
+
+    assert fed == []
+    assert len(bites) == 1
+
+
+@pytest.mark.parametrize("register", [0x4, 0x8])
+def test_a_watchdog_that_is_locked_is_not_set_up(clock, register):
+    watchdog = Watchdog(clock, 32_000, lambda: None)
+
+    with pytest.raises(BoardError, match="locked"):
+        write(watchdog, register, 5)
+
+    assert read(watchdog, 0x8) == 0xFFF
+
+
+def test_a_watchdog_tells_its_period(clock):
+    watchdog = Watchdog(clock, 32_000, lambda: None)
+    write(watchdog, 0x0, 0x5555)
+    write(watchdog, 0x4, 3)
+    write(watchdog, 0x8, 1999)
+    stopped = watchdog.period_s()
+    write(watchdog, 0x0, 0xCCCC)
+
+    assert (stopped, watchdog.period_s()) == (0, 2)
+
+
+@pytest.mark.parametrize("make", [gpio_f1, gpio_f4])
+def test_a_pin_is_set_and_cleared(make):
+    port = make("GPIOC")
+    bsrr = next(offset for offset, register in port.registers.items() if register.name == "BSRR")
+
+    write(port, bsrr, 1 << 13)
+    high = port.level(13)
+    write(port, bsrr, 1 << 13 + 16)
+
+    assert (high, port.level(13), port.level(12)) == (True, False, False)
+
+
+def test_a_reset_needs_its_key():
+    resets = []
+    scb = SystemControl(0, lambda: resets.append(1))
+
+    with pytest.raises(BoardError, match="key"):
+        write(scb, 0x0C, 4)
+    write(scb, 0x0C, 0x05FA0004)
+
+    assert resets == [1]
+
+
+def test_a_core_that_faults_in_its_fault_handler_locks_up(clock):
+    core = Core(clock, vectors=0x20000000)
+    core.add_ram(0x20000000, PAGE)  # all handlers are at 0, where nothing is
+    core.reset()
+
+    with pytest.raises(BoardError, match="locked up: a fault at 0x00000000"):
+        core.run()
+
+
+def test_the_causes_of_faults_are_cleared_by_writing_ones():
+    scb = SystemControl(0, lambda: None)
+    scb.note_fault(1 << 9 | 1 << 12, 0x60000000)
+
+    write(scb, 0x28, 1 << 9)
+
+    assert (read(scb, 0x28), read(scb, 0x2C), read(scb, 0x38)) == (1 << 15 | 1 << 12, 1 << 30, 0x60000000)
+
+
+def test_what_is_no_image_for_arm_is_named(tmp_path):
+    other = tmp_path / "robot.elf"
+
+    with pytest.raises(OctetError, match="cannot read the image"):
+        load_segments(other)
+    other.write_bytes(b"not even that")
+    with pytest.raises(OctetError, match="cannot read the image"):
+        load_segments(other)
+    with pytest.raises(OctetError, match="not a 32-bit ELF file for ARM"):
+        load_segments(PROGRAM)
+
+
+def test_models_that_are_not_built_are_named_with_how_to_build_them(monkeypatch, tmp_path):
+    monkeypatch.setattr("host_sim.emulator.c_models.LIBRARY", tmp_path / "none.so")
+    c_models.cache_clear()
+
+    with pytest.raises(OctetError, match="build them with tools/setup"):
+        c_models()
