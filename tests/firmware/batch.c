@@ -1,4 +1,4 @@
-/* Many decisions in one call, for test_behaviours.py: the same question to each of many brains. */
+/* Many decisions in one call, for many_brains.py: the same question to each of many brains. */
 #include <stddef.h>
 
 #include "firmware/brain.h"

@@ -1,22 +1,9 @@
-"""A planted fault is noticed, by the unit tests of its module or by the sanitizers; sound code is let through.
+"""Faults of the firmware for its unit tests to notice: functions that the linker puts in the place of the real ones.
 
-A fault in the firmware is a function that the linker puts in the place of the real one (`--wrap`): it says what the
-robot does wrong, whatever the source looks like.
+Each says what the robot does wrong, whatever the source looks like.
 """
 
-import os
-import re
-import subprocess
-from pathlib import Path
 from typing import NamedTuple
-
-import pytest
-
-from tests.firmware.octet_c import GENERATED
-
-ROOT = Path(__file__).resolve().parent.parent
-UNITY = Path(os.environ.get("UNITY_DIR", ROOT / "build/unity"))
-INCLUDE = [part for folder in (ROOT, GENERATED, UNITY) for part in ("-I", folder)]
 
 
 class Fault(NamedTuple):
@@ -70,7 +57,6 @@ FUNCTIONS = {
         "struct robot *robot, enum input_kind kind, const struct input *in, struct output *out",
     ),
 }
-
 RESPOND = "real(robot, kind, in, out);"
 FAULTS = {
     "pattern counts two sensors only": Fault("pattern", "pattern_count", "return real(pattern & 3);"),
@@ -265,110 +251,3 @@ FAULTS = {
         "if (command->opcode == OPCODE_START) memory_erase(&robot->brain.memory); return real(robot, command);",
     ),
 }
-MODULES = sorted({fault.module for fault in FAULTS.values()})
-
-CANARY = """\
-#include <stdlib.h>
-#include <string.h>
-
-#include "firmware/behaviours/behaviour.h"
-#include "firmware/behaviours/listing.h"
-#include "firmware/confidence.h"
-#include "firmware/feel_memory.h"
-#include "firmware/memory_kind.h"
-#include "firmware/memory_write.h"
-#include "firmware/pattern.h"
-#include "firmware/robot.h"
-
-#define real __real_{function}
-{returns} __real_{function}({parameters});
-{returns} __wrap_{function}({parameters});
-{returns} __wrap_{function}({parameters})
-{{
-    {body}
-}}
-"""
-
-
-def compiled(program: Path, *arguments: str | Path) -> Path:
-    subprocess.run(["gcc", "-std=c99", "-o", program, *arguments], check=True)
-    return program
-
-
-@pytest.fixture(scope="module")
-def objects(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    """The firmware and Unity, compiled."""
-    folder = tmp_path_factory.mktemp("objects")
-    sources = [source for source in (ROOT / "firmware").rglob("*.c") if source.name != "main.c"]
-    return [compiled(folder / f"{source.stem}.o", *INCLUDE, "-c", source) for source in (*sources, UNITY / "unity.c")]
-
-
-def unit_tests_pass(folder: Path, module: str, objects: list[Path], *more: str | Path) -> bool:
-    """Builds a module's unit tests with the firmware and with what is more, and runs them."""
-    (test,) = (ROOT / "tests/firmware").rglob(f"test_{module}.c")
-    rigs = test.parent.glob("*_rig.c")
-    program = compiled(folder / "test", *INCLUDE, test, *rigs, *objects, *more, "-lm")
-    return subprocess.run([program], capture_output=True, timeout=600, check=False).returncode == 0
-
-
-def planted(folder: Path, function: str, body: str) -> list[str | Path]:
-    """What a compiler is told to link a body in the place of a function."""
-    returns, parameters = FUNCTIONS[function]
-    source = folder / "canary.c"
-    source.write_text(CANARY.format(function=function, returns=returns, parameters=parameters, body=body))
-    return [source, f"-Wl,--wrap={function}"]
-
-
-@pytest.mark.parametrize("module", MODULES)
-def test_sound_firmware_passes_its_tests(tmp_path, objects, module):
-    assert unit_tests_pass(tmp_path, module, objects)
-
-
-@pytest.mark.parametrize("module", MODULES)
-def test_a_replacement_that_does_the_same_is_let_through(tmp_path, objects, module):
-    more = planted(tmp_path, "pattern_of", "return real(feel);")
-
-    assert unit_tests_pass(tmp_path, module, objects, *more)
-
-
-@pytest.mark.parametrize("fault", FAULTS.values(), ids=FAULTS)
-def test_a_planted_fault_fails_the_tests_of_its_module(tmp_path, objects, fault):
-    more = planted(tmp_path, fault.function, fault.body)
-
-    assert not unit_tests_pass(tmp_path, fault.module, objects, *more)
-
-
-def sanitizer_flags() -> list[str]:
-    """What the C tests are built with."""
-    (options,) = re.findall(r"add_compile_options\((.*)\)", (ROOT / "tools/cmake/sanitizers.cmake").read_text())
-    return options.split()
-
-
-CRASHES = {
-    "heap-buffer-overflow": "char *bytes = calloc(8, 1); int result = bytes[7 + argc]; free(bytes);",
-    "heap-use-after-free": "char *bytes = malloc(8); free(bytes); int result = bytes[argc];",
-    "signed integer overflow": "int result = INT_MAX; result += argc;",
-    "shift exponent": "int result = 1 << (31 + argc);",
-}
-
-
-def run_sanitized(folder: Path, body: str) -> subprocess.CompletedProcess[str]:
-    source = folder / "canary.c"
-    source.write_text(
-        "#include <limits.h>\n#include <stdlib.h>\n"
-        f"int main(int argc, char *argv[]) {{ (void)argv; {body} return result == 42; }}\n"
-    )
-    program = compiled(folder / "canary", *sanitizer_flags(), source)
-    return subprocess.run([program], capture_output=True, text=True, check=False)
-
-
-@pytest.mark.parametrize("error", CRASHES)
-def test_the_sanitizers_end_a_program_that_errs(tmp_path, error):
-    ended = run_sanitized(tmp_path, CRASHES[error])
-
-    assert ended.returncode != 0
-    assert error in ended.stderr
-
-
-def test_the_sanitizers_let_a_sound_program_be(tmp_path):
-    assert run_sanitized(tmp_path, "char *bytes = calloc(8, 1); int result = bytes[7]; free(bytes);").returncode == 0
