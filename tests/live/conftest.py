@@ -1,5 +1,37 @@
-"""Runs to look at, and one to change."""
+"""Runs to look at, one to change, and runs that have begun."""
 
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from host_sim.live.paced_run import PacedRun
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.sim.make import start_robots
+from host_sim.sim.run_config import RunConfig
+from tests.live.support import Live
 from tests.recording.conftest import kept, short, ten_seconds
+from tests.recording.support import open_simulation
 
 __all__ = ["kept", "short", "ten_seconds"]
+
+
+@pytest.fixture
+def live(tmp_path: Path) -> Iterator[Live]:
+    """Makes runs that have begun, each with a log of its own."""
+    with ExitStack() as stack:
+
+        def begin(name: str = "run", robots: int = 1, **options) -> PacedRun:
+            config = RunConfig(seed=1, robots=robots)
+            simulation = open_simulation(stack, tmp_path / f"{name}.log", config)
+
+            def restart(seed: int) -> None:
+                start_robots(simulation.clients, replace(config, seed=seed))
+
+            run = PacedRun(simulation, RunRecorder.of(simulation, 10), restart, **options)
+            run.begin()
+            return run
+
+        yield begin

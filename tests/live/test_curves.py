@@ -6,9 +6,7 @@ from host_sim.live import curves as curves_module
 from host_sim.live.curves import NAMES, Curves
 from host_sim.live.page_commands import FULL_SPEED, NewSeed, Play, WriteCell
 from host_sim.protocol.generated import Reason
-from tests.live.test_paced_run import live, order, play
-
-__all__ = ["live"]
+from tests.live.support import order, play
 
 AVOIDING = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
 

@@ -1,18 +1,8 @@
-"""A run that is obeyed between two ticks: paced, recorded, the same again for the same orders at the same ticks."""
+"""A run keeps its pace, waits for who watches, and obeys between two ticks."""
 
 import asyncio
-import json
 import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack
-from dataclasses import replace
-from pathlib import Path
 
-import pytest
-
-from host_sim.client.commands import stop
-from host_sim.live import paced_run
-from host_sim.live.feed import PageFeed
 from host_sim.live.paced_run import COMMANDS_MAX, PacedRun
 from host_sim.live.page_commands import (
     FULL_SPEED,
@@ -20,77 +10,14 @@ from host_sim.live.page_commands import (
     Freeze,
     LiftRobot,
     NewSeed,
-    NextEnvironment,
     OneDecision,
-    PageCommand,
     Play,
     WriteCell,
 )
 from host_sim.protocol.generated import Reason
-from host_sim.recording.resimulation import resimulate
-from host_sim.recording.run_recorder import RunRecorder
-from host_sim.recording.world_file import world_path, write_world
-from host_sim.report.replay_page import run_data
-from host_sim.sim.make import start_robots
-from host_sim.sim.run_config import RunConfig
-from host_sim.world.edits import AddBar, Lift, MoveFood, Put
-from host_sim.world.geometry import Bar, Pose
-from tests.recording.support import open_simulation
-from tests.runs.support import DEADLINE_S
-
-Live = Callable[..., PacedRun]
-
-
-@pytest.fixture
-def live(tmp_path: Path) -> Iterator[Live]:
-    """Makes runs that have begun, each with a log of its own."""
-    with ExitStack() as stack:
-
-        def begin(name: str = "run", robots: int = 1, **options) -> PacedRun:
-            config = RunConfig(seed=1, robots=robots)
-            simulation = open_simulation(stack, tmp_path / f"{name}.log", config)
-
-            def restart(seed: int) -> None:
-                start_robots(simulation.clients, replace(config, seed=seed))
-
-            run = PacedRun(simulation, RunRecorder.of(simulation, 10), restart, **options)
-            run.begin()
-            return run
-
-        yield begin
-
-
-def play(live: PacedRun, until: Callable[[], object], limit_s: float = DEADLINE_S) -> None:
-    """Lets it run until something is so."""
-
-    async def run() -> None:
-        player = asyncio.create_task(live.play())
-        give_up = time.monotonic() + limit_s
-        while not (until() or player.done()):
-            assert time.monotonic() < give_up
-            await asyncio.sleep(0)
-        player.cancel()
-
-    asyncio.run(run())
-
-
-def to_the_end(run: PacedRun) -> None:
-    """Goes to the last environment, and to its last tick."""
-    order(run, *[NextEnvironment()] * 4)
-    run.simulation.record.limit_ticks = run.simulation.episode.ticks + 1
-    run.offer(Play(True), print)
-    play(run, lambda: run.done)
-
-
-def order(live: PacedRun, *orders: PageCommand) -> list[str]:
-    """Has orders obeyed, with no tick in between; returns the complaints."""
-    complaints: list[str] = []
-    live.offer(Play(False), complaints.append)
-    for one in orders:
-        live.offer(one, complaints.append)
-    live.offer(Play(False), complaints.append)
-    play(live, lambda: not live.playing and not live._commands)
-    return complaints
+from host_sim.world.edits import AddBar
+from host_sim.world.geometry import Bar
+from tests.live.support import order, play
 
 
 def test_it_keeps_the_time_of_the_wall(live):
@@ -144,29 +71,6 @@ def test_a_frozen_robot_learns_nothing(live):
     assert run.recorder.histories[0].frozen
 
 
-def test_the_next_environment_and_a_new_seed_are_recorded(live):
-    run = live(speed=FULL_SPEED)
-    order(run, NextEnvironment(), NewSeed(9))
-    assert [begun[:2] for begun in run.simulation.record.begun] == [(1, 1), (1, 2), (9, 1)]
-    assert len(run.episodes) == 2
-
-
-def test_after_the_last_environment_it_waits_for_a_new_seed(live):
-    run = live(speed=FULL_SPEED)
-    to_the_end(run)
-    assert order(run, Lift()) == ["the run is over: start over to see more"]
-    order(run, NewSeed(2))
-    assert not run.done
-    assert run.simulation.record.begun[-1][:2] == (2, 1)
-
-
-def test_it_ends_by_itself_where_nobody_stays(live):
-    run = live(speed=FULL_SPEED, stays=False)
-    to_the_end(run)
-    asyncio.run(run.play())
-    assert len(run.episodes) == 5
-
-
 def test_it_waits_for_someone_to_watch(live):
     run = live(speed=FULL_SPEED, waits=True)
     order(run)
@@ -178,61 +82,6 @@ def test_it_waits_for_someone_to_watch(live):
 
     run.seen()
     play(run, lambda: run.simulation.tick > 10)
-
-
-def over_soon(live: Live, monkeypatch: pytest.MonkeyPatch, pause_s: float) -> PacedRun:
-    """A run whose first environment has just ended."""
-    monkeypatch.setattr(paced_run, "PAUSE_S", pause_s)
-    run = live()
-    run.simulation.record.limit_ticks = 3
-    play(run, lambda: run.ended_at is not None)
-    return run
-
-
-def test_the_end_of_an_environment_stays_in_view_for_a_while(live, monkeypatch):
-    run = over_soon(live, monkeypatch, pause_s=1000.0)
-    turns = iter(range(20))
-    play(run, lambda: next(turns, None) is None)
-
-    assert (run.simulation.tick, run.simulation.record.begun[-1].number) == (3, 1)
-    ended = json.loads(PageFeed(run).next())["play"]["ended"]
-    assert (ended["number"], ended["finished"], ended["eaten"], ended["food"]) == (1, False, 0, 3)
-    assert order(run, Lift()) == ["this environment is over: the next one begins in a moment"]
-
-
-def test_after_the_pause_the_next_environment_begins(live, monkeypatch):
-    run = over_soon(live, monkeypatch, pause_s=0.05)
-    play(run, lambda: run.simulation.record.begun[-1].number == 2)
-
-    assert len(run.episodes) == 1
-    assert json.loads(PageFeed(run).next())["play"]["ended"] is None
-
-
-def test_the_pause_can_be_cut_short(live, monkeypatch):
-    run = over_soon(live, monkeypatch, pause_s=1000.0)
-    run.simulation.record.limit_ticks = 1000
-    order(run, NextEnvironment())
-
-    assert [begun.number for begun in run.simulation.record.begun] == [1, 2]
-    assert len(run.episodes) == 1
-
-
-@pytest.mark.parametrize("keep", [False, True])
-def test_starting_over_begins_everything_anew(live, keep):
-    run = live(speed=FULL_SPEED)
-    play(run, lambda: run.recorder.histories[0].trials > 3 and any(run.simulation.clients[0].memory))
-    order(run, WriteCell(7, 1), Freeze(True))
-    before = run.simulation.clients[0].memory
-
-    order(run, NewSeed(9, keep))
-
-    history = run.recorder.histories[0]
-    assert run.simulation.clients[0].memory == history.memory == (before if keep else (0,) * 8)
-    assert (history.frozen, history.trial) == (False, None)
-    assert (history.uses, history.learned) == ([0] * 8, [-1] * 8)
-    message = json.loads(PageFeed(run).next())
-    assert message["lessons"] == []
-    assert message["environment"]["start_tick"] == run.simulation.tick
 
 
 def test_of_many_orders_to_start_over_only_the_last_is_obeyed(live):
@@ -252,14 +101,6 @@ def test_many_slow_orders_do_not_hold_up_the_pages(live, monkeypatch):
     assert 90 < len(run._commands) < 100
 
 
-def test_next_does_not_end_the_run(live):
-    run = live(speed=FULL_SPEED)
-    complaints = order(run, *[NextEnvironment()] * 6)
-    assert complaints == ["this is the last environment: start over to see more"] * 2
-    assert not run.done
-    assert run.simulation.record.begun[-1].number == 5
-
-
 def test_what_cannot_be_done_is_complained_of_and_not_recorded(live):
     run = live()
     robot = run.simulation.arena.body.pose
@@ -274,45 +115,6 @@ def test_more_orders_than_fit_are_refused_and_counted(live):
     assert run.refused == 3
 
 
-def test_equal_orders_at_equal_ticks_give_equal_runs(live):
-    def meddle(name: str) -> str:
-        run = live(name)
-        simulation = run.simulation
-        for orders in (
-            [AddBar(Bar((1000.0, 200.0), (1000.0, 900.0))), WriteCell(2, 1)],
-            [Lift()],
-            [Put(Pose(2000.0, 2700.0, 0.5)), MoveFood(0, (300.0, 300.0))],
-            [NextEnvironment(), Freeze(True)],
-            [NewSeed(4)],
-        ):
-            for _ in range(137):
-                simulation.step()
-            order(run, *orders)
-        stop(simulation.clients[0])
-        return simulation.clients[0].log.close()
-
-    assert meddle("once") == meddle("again")
-
-
-def test_a_page_is_told_what_is_new_and_only_that(live):
-    run = live(speed=FULL_SPEED)
-    feed = PageFeed(run)
-    assert feed.next() is not None
-    assert feed.next() is None
-    run.simulation.step()
-    assert "environment" not in feed.next()
-
-
-def test_a_page_that_asks_seldom_gets_no_more_than_one_that_asks_often(live):
-    run = live(speed=FULL_SPEED)
-    feed = PageFeed(run)
-    while run.simulation.tick < 20_000:
-        if run.simulation.over:
-            run.simulation.enter(2)
-        run.simulation.step()
-    assert len(feed.next()) < 50_000
-
-
 def test_each_robot_is_told_by_its_node(live):
     run = live(robots=2)
     assert order(run, WriteCell(3, 1, node=2), LiftRobot(2), Freeze(True, node=1)) == []
@@ -320,26 +122,3 @@ def test_each_robot_is_told_by_its_node(live):
     assert [body.lifted for body in run.simulation.arena.bodies] == [False, True]
     assert [history.frozen for history in run.recorder.histories] == [True, False]
     assert order(run, EraseMemory(node=3)) == ["there is no robot 3; there are 1, 2"]
-
-
-def test_what_a_person_wrote_between_two_ticks_is_the_same_from_the_log(live, tmp_path):
-    run = live("changed")
-    for orders in (
-        [WriteCell(3, 1), WriteCell(3, 2), WriteCell(5, 1)],
-        [EraseMemory(), WriteCell(3, 1), Freeze(True)],
-        [WriteCell(6, 2), NewSeed(4), WriteCell(2, 1), WriteCell(2, 2)],
-        [WriteCell(1, 1), NewSeed(5, keep=True)],
-        [WriteCell(4, 1)],
-    ):
-        for _ in range(137):
-            run.simulation.step()
-        order(run, *orders)
-    stop(run.simulation.clients[0])
-    run.simulation.clients[0].log.close()
-    log = tmp_path / "changed.log"
-    write_world(run.simulation.record, world_path(log))
-
-    again = resimulate(log).trajectory
-
-    assert len(run.recorder.histories[0].lessons) > 8
-    assert run_data(again, "") == run_data(run.recorder.trajectory, "")
