@@ -7,10 +7,9 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page
 
+from tests.web.looks import PHONES, SCHEMES, THREE_SIZES, TOO_SMALL, check, out_of_view, resize, violations
 from tests.web.support import wait_for, wait_for_text
 from tests.web.test_class import board_url
-from tests.web.test_layout import PHONES, SCHEMES, THREE_SIZES, TOO_SMALL, out_of_view, resize, violations
-from tests.web.test_screens import check
 
 READY = "window.octet?.message"
 OWN = "window.octet?.scene?.state && document.querySelector('#own-robot').textContent !== ''"

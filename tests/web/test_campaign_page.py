@@ -5,7 +5,7 @@ import itertools
 from host_sim.campaign.html_report import page
 from host_sim.campaign.matrix import groups
 from host_sim.campaign.outcome import Outcome
-from tests.web.test_layout import SCHEMES, THREE_SIZES, resize, violations
+from tests.web.looks import SCHEMES, THREE_SIZES, resize, violations
 
 ENDS = ("", "somebody else stopped node 1: it rests")
 

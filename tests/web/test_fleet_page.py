@@ -10,8 +10,8 @@ from axe_playwright_python.sync_playwright import Axe
 from host_sim.sim.fleet import SAMPLE_TICKS, run_fleet
 from host_sim.sim.run_config import RunConfig
 from tests.runs.support import octet
+from tests.web.looks import TOO_SMALL
 from tests.web.support import wait_for
-from tests.web.test_layout import TOO_SMALL
 
 READY = "window.octet?.picture"
 POSE = "robot => octet.picture.poseOf(robot, octet.at)"

@@ -5,14 +5,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page
 
 from tests.web.fake_run import HOME, FakeRun, robot_state
+from tests.web.looks import DESKTOPS, PHONES, SCHEMES, THREE_SIZES, TOO_SMALL, out_of_view, resize, violations
 from tests.web.support import wait_for
 
-DESKTOPS = [(1024, 768), (1280, 720), (1366, 657), (1440, 900), (1920, 1080)]
-PHONES = [(390, 844), (844, 390)]
 SIZES = DESKTOPS + PHONES
 LIVE = (
     "#floor",
@@ -28,16 +26,6 @@ LIVE = (
     "#next",
 )
 REPLAY = ("#floor", "#play", "#scrub", "#doing", "#cells", "#pin", "#before", "#after")
-SCHEMES = ("light", "dark")
-THREE_SIZES = [(390, 844), (1024, 768), (1920, 1080)]
-
-TOO_SMALL = """() => [...document.querySelectorAll("button, select, input, summary")]
-  .map((element) => element.closest("label.check") ?? element)
-  .filter((element) => element.checkVisibility())
-  .map((element) => [element.id || element.textContent, element.getBoundingClientRect()])
-  .filter(([, { width, height }]) => width < 44 || height < 44)
-  .map(([name, { width, height }]) => `${name}: ${width} x ${height}`)"""
-
 # How far from the middle of each item, at right angles to a bar, a finger may be: px.
 REACH = """async () => {
   const { itemAt } = await import("/hit_testing.js");
@@ -55,23 +43,6 @@ REACH = """async () => {
     .filter(([kind, [x, y]]) => itemAt(scene, { x: x + nx * off, y: y + ny * off }, slack)?.kind !== kind)
     .map(([kind]) => kind);
 }"""
-
-
-def out_of_view(page: Page, selectors: tuple[str, ...], size: tuple[int, int]) -> list[str]:
-    """What is not wholly in the window."""
-    outside = []
-    for selector in selectors:
-        box = page.locator(selector).bounding_box()
-        assert box is not None, selector
-        right, bottom = box["x"] + box["width"], box["y"] + box["height"]
-        if box["x"] < 0 or box["y"] < 0 or right > size[0] + 0.5 or bottom > size[1] + 0.5:
-            outside.append(f"{selector} {box}")
-    return outside
-
-
-def resize(page: Page, size: tuple[int, int]) -> None:
-    page.set_viewport_size({"width": size[0], "height": size[1]})
-    wait_for(page, "([width, height]) => innerWidth === width && innerHeight === height", list(size))
 
 
 def fill(run: FakeRun) -> None:
@@ -133,10 +104,6 @@ def test_the_arena_stays_in_view_when_an_obstacle_is_added_on_a_phone(live):
         resize(live, size)
         live.click("#add-bar")
         assert out_of_view(live, ("#floor",), size) == [], size
-
-
-def violations(page: Page) -> list[str]:
-    return [f"{it['id']}: {it['nodes'][0]['html'][:90]}" for it in Axe().run(page).response["violations"]]
 
 
 def test_axe_finds_nothing_on_the_live_page(live):

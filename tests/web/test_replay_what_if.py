@@ -10,8 +10,8 @@ from playwright.sync_api import Frame, Page
 
 from tests.runs.support import octet
 from tests.web.fake_run import HOME
+from tests.web.looks import TOO_SMALL, resize, violations
 from tests.web.support import wait_for, wait_for_text
-from tests.web.test_layout import TOO_SMALL, resize, violations
 
 PHONES = [(390, 844), (844, 390)]
 LABORATORY = re.compile(r'<script type="application/json" id="laboratory">.*?</script>', re.DOTALL)

@@ -7,39 +7,11 @@ import pytest
 from playwright.sync_api import Page
 
 from tests.web.fake_run import HOME, FakeRun, robot_state
-from tests.web.support import SCREENS, pause, wait_for
+from tests.web.looks import check
+from tests.web.support import pause, wait_for
 
 SIZES = {"phone": (390, 844, 2), "laptop": (1280, 800, 1), "projector": (1920, 1080, 1)}
 LOOKS = list(itertools.product(("light", "dark"), SIZES))
-
-# The contrast of every text with what lies behind it, as WCAG 2 works it out; the least, with its element.
-LEAST_CONTRAST = """() => {
-  const channel = (c) => (c /= 255) <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
-  const light = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
-  const parse = (colour) => colour.match(/[\\d.]+/g).map(Number);
-  const behind = (element) => {
-    for (let e = element; e; e = e.parentElement) {
-      const colour = parse(getComputedStyle(e).backgroundColor);
-      if (colour.length === 3 || colour[3] === 1) return colour;
-    }
-    return [255, 255, 255];
-  };
-  const texts = [...document.querySelectorAll("body *")].filter((e) => e.checkVisibility() && !e.disabled &&
-    [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()));
-  return texts.map((e) => {
-    const [a, b] = [light(parse(getComputedStyle(e).color)), light(behind(e))];
-    return [(Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05), e.id || e.className || e.tagName];
-  }).sort((p, q) => p[0] - q[0])[0];
-}"""
-
-
-def check(page: Page, name: str) -> None:
-    """Takes the picture; nothing sticks out sideways, and every text can be read."""
-    SCREENS.mkdir(parents=True, exist_ok=True)
-    page.screenshot(path=SCREENS / f"{name}.png", full_page=True)
-    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-    contrast, where = page.evaluate(LEAST_CONTRAST)
-    assert contrast >= 4.5, where
 
 
 @pytest.fixture

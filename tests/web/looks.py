@@ -1,0 +1,70 @@
+"""How a page looks, as a machine can tell: what is in view, what fingers can hit, what can be read.
+
+Screenshots are for people to look at.
+"""
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page
+
+from tests.web.support import SCREENS, wait_for
+
+DESKTOPS = [(1024, 768), (1280, 720), (1366, 657), (1440, 900), (1920, 1080)]
+PHONES = [(390, 844), (844, 390)]
+SCHEMES = ("light", "dark")
+THREE_SIZES = [(390, 844), (1024, 768), (1920, 1080)]
+TOO_SMALL = """() => [...document.querySelectorAll("button, select, input, summary")]
+  .map((element) => element.closest("label.check") ?? element)
+  .filter((element) => element.checkVisibility())
+  .map((element) => [element.id || element.textContent, element.getBoundingClientRect()])
+  .filter(([, { width, height }]) => width < 44 || height < 44)
+  .map(([name, { width, height }]) => `${name}: ${width} x ${height}`)"""
+
+# The contrast of every text with what lies behind it, as WCAG 2 works it out; the least, with its element.
+LEAST_CONTRAST = """() => {
+  const channel = (c) => (c /= 255) <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4;
+  const light = ([r, g, b]) => 0.2126 * channel(r) + 0.7152 * channel(g) + 0.0722 * channel(b);
+  const parse = (colour) => colour.match(/[\\d.]+/g).map(Number);
+  const behind = (element) => {
+    for (let e = element; e; e = e.parentElement) {
+      const colour = parse(getComputedStyle(e).backgroundColor);
+      if (colour.length === 3 || colour[3] === 1) return colour;
+    }
+    return [255, 255, 255];
+  };
+  const texts = [...document.querySelectorAll("body *")].filter((e) => e.checkVisibility() && !e.disabled &&
+    [...e.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()));
+  return texts.map((e) => {
+    const [a, b] = [light(parse(getComputedStyle(e).color)), light(behind(e))];
+    return [(Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05), e.id || e.className || e.tagName];
+  }).sort((p, q) => p[0] - q[0])[0];
+}"""
+
+
+def out_of_view(page: Page, selectors: tuple[str, ...], size: tuple[int, int]) -> list[str]:
+    """What is not wholly in the window."""
+    outside = []
+    for selector in selectors:
+        box = page.locator(selector).bounding_box()
+        assert box is not None, selector
+        right, bottom = box["x"] + box["width"], box["y"] + box["height"]
+        if box["x"] < 0 or box["y"] < 0 or right > size[0] + 0.5 or bottom > size[1] + 0.5:
+            outside.append(f"{selector} {box}")
+    return outside
+
+
+def resize(page: Page, size: tuple[int, int]) -> None:
+    page.set_viewport_size({"width": size[0], "height": size[1]})
+    wait_for(page, "([width, height]) => innerWidth === width && innerHeight === height", list(size))
+
+
+def violations(page: Page) -> list[str]:
+    return [f"{it['id']}: {it['nodes'][0]['html'][:90]}" for it in Axe().run(page).response["violations"]]
+
+
+def check(page: Page, name: str) -> None:
+    """Takes the picture; nothing sticks out sideways, and every text can be read."""
+    SCREENS.mkdir(parents=True, exist_ok=True)
+    page.screenshot(path=SCREENS / f"{name}.png", full_page=True)
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    contrast, where = page.evaluate(LEAST_CONTRAST)
+    assert contrast >= 4.5, where

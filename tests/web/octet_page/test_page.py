@@ -1,0 +1,120 @@
+"""octet.html: one file without a server that runs the real robot, and shows what it does."""
+
+import itertools
+
+import pytest
+
+from host_sim.protocol.generated import PARAMETERS
+from tests.runs.support import octet
+from tests.web.looks import PHONES, TOO_SMALL, check, out_of_view, resize, violations
+from tests.web.octet_page.support import SIZES, saved, simulated
+from tests.web.support import wait_for
+
+SIZE_MAX = 500_000
+IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#cells")
+
+
+def test_the_page_is_one_small_file(file):
+    assert file.stat().st_size < SIZE_MAX
+
+
+def test_the_page_is_the_same_from_the_same_sources(file, tmp_path):
+    assert octet("page", tmp_path / "again.html").returncode == 0
+
+    assert (tmp_path / "again.html").read_bytes() == file.read_bytes()
+
+
+def test_a_page_that_cannot_be_written_is_told_in_one_line(tmp_path):
+    done = octet("page", tmp_path / "no" / "such" / "octet.html")
+
+    assert done.returncode != 0
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_the_table_is_saved_for_a_spreadsheet(shared):
+    shared.click("#tab-curves")
+
+    lines = saved(shared, "#save-csv").decode().splitlines()
+
+    assert lines[0].startswith("run,robot,behaviour,seed,environment,finished,time s,trials")
+    assert len(lines) == 6
+
+
+def test_each_parameter_has_a_slider_with_its_range(shared):
+    sliders = "[...document.querySelectorAll('.slider input')]"
+    ranges = shared.evaluate(f"{sliders}.map(({{ title, min, max }}) => [title, Number(min), Number(max)])")
+
+    assert ranges == [[name, it.minimum, it.maximum] for name, it in PARAMETERS.items()]
+
+
+@pytest.mark.parametrize("kind", ["obstacle", "decision", "lesson"])
+def test_it_goes_to_the_next_one(shared, kind):
+    shared.select_option("#kind", kind)
+    shared.evaluate("octet.go(60)")
+    shared.click("#after")
+    here = shared.evaluate("octet.tick")
+    actions, patterns = shared.evaluate(
+        "[octet.lane.data.robots[0].columns.action, octet.lane.data.robots[0].columns.pattern].map((it) => [...it])"
+    )
+    lessons = [lesson["tick"] for lesson in shared.evaluate("octet.lane.data.robots[0].run.lessons")]
+
+    wanted = {
+        "obstacle": lambda tick: patterns[tick] and not patterns[tick - 1],
+        "decision": lambda tick: actions[tick] != actions[tick - 1],
+        "lesson": lambda tick: tick in lessons,
+    }[kind]
+    assert here == next(tick for tick in range(61, len(actions)) if wanted(tick))
+
+
+@pytest.mark.parametrize(
+    ("reason", "line"), [(5, "if r=Turn"), (4, "if Mem[Senses] = Turn"), (1, "rForward Dist"), (7, "FoodCnt--")]
+)
+def test_the_line_is_lit_that_the_robot_executes(shared, reason, line):
+    shared.click("#tab-listing")
+    shared.evaluate("reason => octet.go(octet.lane.data.robots[0].columns.reason.indexOf(reason))", reason)
+
+    wait_for(
+        shared,
+        "line => [...document.querySelectorAll('#listing [aria-current]')].some((it) => it.innerText.includes(line))",
+        line,
+    )
+
+
+def test_all_that_matters_is_in_view(shared):
+    for size in SIZES:
+        resize(shared, size)
+        shared.wait_for_timeout(50)
+        assert out_of_view(shared, IN_VIEW, size) == [], size
+    for size in (*SIZES, *PHONES):
+        resize(shared, size)
+        assert shared.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
+
+
+def test_fingers_can_hit_everything_on_a_phone(shared):
+    for size, tab in itertools.product(PHONES, ("run", "parameters", "curves", "files")):
+        resize(shared, size)
+        shared.click(f"#tab-{tab}")
+        assert shared.evaluate(TOO_SMALL) == [], (size, tab)
+
+
+def test_axe_finds_nothing(page):
+    page.click("#what-if")
+    page.evaluate("octet.go(3000)")
+    simulated(page)
+    for scheme, size in itertools.product(("light", "dark"), (PHONES[0], SIZES[0], SIZES[-1])):
+        page.emulate_media(color_scheme=scheme)
+        resize(page, size)
+        assert violations(page) == [], (scheme, size)
+    for scheme, tab in itertools.product(("light", "dark"), ("parameters", "listing", "curves", "files")):
+        page.emulate_media(color_scheme=scheme)
+        page.click(f"#tab-{tab}")
+        assert violations(page) == [], (scheme, tab)
+
+
+def test_screens(shared):
+    shared.evaluate("octet.go(3000)")
+    for scheme, size in itertools.product(("light", "dark"), (*SIZES[:1], *SIZES[2:3], PHONES[0])):
+        shared.emulate_media(color_scheme=scheme)
+        resize(shared, size)
+        shared.wait_for_timeout(60)
+        check(shared, f"octet-{scheme}-{size[0]}")
