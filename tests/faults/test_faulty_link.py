@@ -192,3 +192,19 @@ def test_a_fault_befalls_a_frame_whatever_happened_to_the_others():
     alone, among_others = Journey("corrupt@9/to"), Journey("drop@2/to", "corrupt@9/to")
 
     assert alone.heard[8:] == among_others.heard[7:]
+
+
+def test_a_babbling_node_talks_first_and_the_frame_waits():
+    journey = Journey(Rule.parse("babble:3@1/to"))
+
+    assert len(journey.heard) == len(SENT) + 3
+    assert [frame for frame in journey.heard if frame in SENT] != []
+
+
+def test_a_link_that_is_closed_closes_what_it_stands_on():
+    mirror = Mirror()
+    mirror.waiting.append(SENT[0])
+
+    FaultyLink(mirror, Schedule([], 1, PROTOCOL), VirtualClock()).close()
+
+    assert not mirror.waiting

@@ -4,7 +4,7 @@ import pytest
 
 from host_sim.errors import UsageError
 from host_sim.faults.bus_faults import FAULTS
-from host_sim.faults.rule import Rule
+from host_sim.faults.rule import Rule, read_rules
 from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import Protocol
 
@@ -68,3 +68,20 @@ def test_frames_are_counted_from_one_and_up_to_the_last():
 
     assert [rule.covers(number, "to") for number in range(1, 5)] == [False, True, True, False]
     assert not rule.covers(2, "from")
+
+
+def test_rules_come_from_the_word_itself_or_from_a_file(tmp_path):
+    file = tmp_path / "faults.txt"
+    file.write_text("# both ways\ndrop:30%\n\nforge:stop@17/to\n")
+
+    assert read_rules("drop:30%") == ["drop:30%"]
+    assert read_rules(f"@{file}") == ["drop:30%", "forge:stop@17/to"]
+
+
+def test_a_file_of_rules_that_cannot_be_read_is_told(tmp_path):
+    (tmp_path / "binary").write_bytes(b"\xff\xfe")
+
+    with pytest.raises(UsageError, match="cannot read"):
+        read_rules(f"@{tmp_path / 'none'}")
+    with pytest.raises(UsageError, match="not text"):
+        read_rules(f"@{tmp_path / 'binary'}")

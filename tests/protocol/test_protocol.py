@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from host_sim.protocol.codec import DBC, Frame, Protocol, crc8
-from host_sim.protocol.generated import MESSAGES, Opcode
+from host_sim.protocol.codec import DBC, Frame, Protocol, crc8, node_of
+from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, RANGE_NONE, Opcode
 from host_sim.protocol.signal_layout import MessageLayout
-from host_sim.robot_io import Drive, Senses
+from host_sim.robot_io import Drive, Ranges, Senses
 
 PROTOCOL = Protocol()
 NOTHING_SENSED = Senses(tick=0, feel=0, bump=False, look=False, beacon_mm=0, odometer_left=0, odometer_right=0)
@@ -156,3 +156,51 @@ def test_a_command_with_an_opcode_that_does_not_exist_is_decoded_without_its_sig
     assert decoded is not None
     assert decoded.signals == {"crc": frame.data[0], "counter": 9, "opcode": 10, "owner": 1}
     assert Protocol().describe(frame) == "COMMAND counter=9 opcode=10 owner=1"
+
+
+def test_a_layout_fits_if_it_is_one_of_those_that_are_the_same():
+    assert PROTOCOL.fits(LAYOUT_HASH)
+    assert not PROTOCOL.fits(LAYOUT_HASH ^ 1)
+
+
+def test_each_side_has_the_identifiers_of_what_it_sends():
+    of_robot, of_sim = (set(Protocol(2).ids_from(side)) for side in ("ROBOT", "SIM"))
+
+    assert Protocol(2).id_of("DRIVE") in of_robot
+    assert Protocol(2).id_of("SENSES") in of_sim
+    assert len(of_robot | of_sim) == len(of_robot) + len(of_sim) == len(MESSAGES)
+
+
+def test_choices_are_known_by_name_and_by_number():
+    assert PROTOCOL.choices("COMMAND", "opcode")["stop"] == Opcode.STOP
+    assert PROTOCOL.choice("COMMAND", "opcode", Opcode.STOP) == "stop"
+    assert PROTOCOL.choice("COMMAND", "opcode", 255) == "255"
+
+
+def test_a_distance_that_nothing_is_within_is_sent_as_none():
+    frame = PROTOCOL.encode_ranges(Ranges(None, 1, 2, 3, 60), 9, 4)
+
+    signals = PROTOCOL.decode(frame).signals
+    assert list(signals.values())[-5:] == [RANGE_NONE, 1, 2, 3, 60]
+
+
+def test_what_is_no_whole_frame_of_the_node_says_nothing():
+    senses = Protocol(2).encode_senses(NOTHING_SENSED, 1)
+
+    assert PROTOCOL.decode(senses) is None
+    assert Protocol(2).decode(Frame(senses.id, senses.data[:7])) is None
+    assert Protocol(2).decode(Frame(senses.id, bytes(8))) is None
+    assert "not a frame of node 1, or damaged" in PROTOCOL.describe(senses)
+
+
+def test_an_identifier_tells_the_node():
+    assert node_of(Protocol(5).id_of("SENSES")) == 5
+
+
+def test_what_is_no_whole_drive_of_the_node_moves_nothing():
+    drive = Protocol(2).encode("DRIVE", {signal.name: 0 for signal in MESSAGES["DRIVE"].signals})
+
+    assert Protocol(2).decode_drive(drive) is not None
+    assert PROTOCOL.decode_drive(drive) is None
+    assert Protocol(2).decode_drive(Frame(drive.id, drive.data[:7])) is None
+    assert Protocol(2).decode_drive(Frame(drive.id, bytes(8))) is None
