@@ -105,9 +105,10 @@ def _with_clean(cell: "Cell") -> "Sequence[Cell]":
 def _repeat(text: str) -> int:
     from host_sim.campaign.cell import Cell
     from host_sim.campaign.html_report import account
+    from host_sim.campaign.matrix import recognised
     from host_sim.campaign.outcome import run_all
 
-    *_, outcome = run_all(_with_clean(Cell.parse(text)))
+    *_, outcome = run_all(_with_clean(recognised(Cell.parse(text))))
     print(account(outcome))
     return int(bool(outcome.problems))
 

@@ -180,7 +180,11 @@ def _save_memories(
         for saver, client in zip(savers, simulation.clients, strict=True):
             saver.save(client.memory)
 
-    stack.callback(save, simulation)
+    def finish() -> None:
+        for saver, client in zip(savers, simulation.clients, strict=True):
+            saver.finish(client.memory)
+
+    stack.callback(finish)
     simulation.watch = _each(simulation.watch, save)
 
 
