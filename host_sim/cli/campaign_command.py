@@ -26,7 +26,7 @@ examples:
   tools/octet campaign --shrink 'article none lockstep seed=12 limit=30 fault=drop:30% fault=forge:stop@300/to'
 
 The exit code is 1 if a fault was not seen, wheels turned on for more than 100 ms, a run broke, or something wrong was
-learned without a word.
+learned, or something lost from the files of a run, without a word.
 """
 
 
