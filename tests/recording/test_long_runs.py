@@ -2,6 +2,7 @@
 
 import gc
 import sys
+import weakref
 from contextlib import ExitStack
 
 import pytest
@@ -15,6 +16,7 @@ from host_sim.report.picture import write_picture
 from host_sim.report.replay_page import omissions, run_data
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import ARENAS_MAX
 from host_sim.view.history import LearningHistory
 
 TICKS_MAX, LIMIT_S, EPISODE_TICKS = 1000, 4.0, 200
@@ -74,6 +76,18 @@ def test_environments_with_faults_leave_their_results_behind_and_nothing_else():
 
     assert simulation.clients[0].link.schedule.count > 1000
     assert pieces[1] - pieces[0] < 20 * PIECES_OF_A_RESULT
+
+
+def test_arenas_of_environments_that_are_over_do_not_pile_up():
+    arenas = weakref.WeakSet()
+    gc.disable()
+    try:
+        with make(RunConfig(environments=3 * ARENAS_MAX, limit_s=0.1)) as simulation:
+            for _ in simulation.run():
+                arenas.add(simulation.arena)
+                assert len(arenas) <= ARENAS_MAX + 1
+    finally:
+        gc.enable()
 
 
 def test_it_is_cut_rarely(monkeypatch):
