@@ -303,21 +303,6 @@ def test_a_page_is_told_what_is_new_and_only_that(live):
     assert "environment" not in feed.next()
 
 
-def test_a_page_is_told_each_lesson_once_though_earlier_ones_are_forgotten(live):
-    run = live(speed=FULL_SPEED)
-    feed, (history,) = PageFeed(run), run.recorder.histories
-    order(run, WriteCell(3, 1), WriteCell(3, 2), WriteCell(5, 1))
-    run.simulation.step()
-    assert len(json.loads(feed.next())["lessons"]) == 3
-
-    history.forget_lessons(run.simulation.tick)
-    order(run, WriteCell(6, 2))
-    run.simulation.step()
-
-    assert history.forgotten == 1
-    assert [lesson["cell"] for lesson in json.loads(feed.next())["lessons"]] == [6]
-
-
 def test_a_page_that_asks_seldom_gets_no_more_than_one_that_asks_often(live):
     run = live(speed=FULL_SPEED)
     feed = PageFeed(run)
