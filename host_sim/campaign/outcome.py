@@ -122,17 +122,24 @@ def run_cell(cell: Cell) -> Outcome:
         UsageError: There is no such link, or something in the cell cannot happen there.
     """
     outcome = Outcome(cell)
-    with open_setup(cell.link) as setup, _log(outcome) as log:
-        check_events(setup, cell.link, cell.events)
-        try:
-            _run(outcome, setup, log)
-        except UsageError:
-            raise
-        except RobotError as error:
-            outcome.end = outcome.seen = str(error).partition(";")[0]
-        except Exception as error:
-            outcome.end, outcome.broke = f"{type(error).__name__}: {error}", True
+    try:
+        with open_setup(cell.link) as setup, _log(outcome) as log:
+            check_events(setup, cell.link, cell.events)
+            _run_there(outcome, setup, log)
+    except RobotError as error:
+        outcome.end, outcome.broke = str(error).partition(";")[0], True
     return outcome
+
+
+def _run_there(outcome: Outcome, setup: Setup, log: FrameLog) -> None:
+    try:
+        _run(outcome, setup, log)
+    except UsageError:
+        raise
+    except RobotError as error:
+        outcome.end = outcome.seen = str(error).partition(";")[0]
+    except Exception as error:
+        outcome.end, outcome.broke = f"{type(error).__name__}: {error}", True
 
 
 @contextmanager
