@@ -126,6 +126,15 @@ def run_cell(cell: Cell) -> Outcome:
         UsageError: There is no such link, or something in the cell cannot happen there.
     """
     outcome = Outcome(cell)
+    try:
+        _run_there(outcome)
+    except RobotError as error:
+        outcome.end, outcome.broke = str(error).partition(";")[0], True
+    return outcome
+
+
+def _run_there(outcome: Outcome) -> None:
+    cell = outcome.cell
     with ExitStack() as stack:
         setup, files = stack.enter_context(open_setup(cell.link)), open_files(cell.events, stack)
         check_events({*setup.events, *FILE_EVENTS, *CLOCK_EVENTS}, cell.link, cell.events)
@@ -136,7 +145,6 @@ def run_cell(cell: Cell) -> Outcome:
         except Exception as error:
             _note_end(outcome, error, files)
         outcome.digest, outcome.lost = files.close(), files.lost()
-    return outcome
 
 
 def _note_end(outcome: Outcome, error: Exception, files: NoFiles) -> None:

@@ -16,7 +16,7 @@ from host_sim.campaign.run_files import FILE_EVENTS
 from host_sim.campaign.setups import LINKS, open_setup
 from host_sim.campaign.shrink import shrink
 from host_sim.campaign.wall_clock import CLOCK_EVENTS
-from host_sim.errors import UsageError
+from host_sim.errors import RobotError, UsageError
 from tests.runs.support import octet
 
 CLEAN = Cell("article", "none", LOCKSTEP, limit_s=3.0)
@@ -50,6 +50,17 @@ def test_a_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
 
     assert done.returncode == 1
     assert done.stderr.startswith("UNSEEN: nothing that happens: tools/run ")
+
+
+def test_a_robot_that_does_not_come_up_breaks_its_run_and_not_the_campaign(monkeypatch):
+    def fail(link):
+        raise RobotError(f"the robot on {link} was not ready")
+
+    monkeypatch.setattr("host_sim.campaign.outcome.open_setup", fail)
+
+    (found,) = run_all([CLEAN])
+
+    assert (found.problems, found.end) == (["broke"], "the robot on none was not ready")
 
 
 def test_a_fault_of_the_body_is_not_seen_by_frames_that_are_repeated(monkeypatch):
