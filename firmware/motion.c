@@ -251,5 +251,7 @@ void motion_drive(const struct motion *motion, const struct config *config, stru
     int16_t speed = speed_for(counts_left(motion), config, full_speed(motion, config));
 
     drive->left_mm_s = speed;
-    drive->right_mm_s = (int16_t)(is_turn(motion) ? -speed : speed);
+    drive->right_mm_s = speed;
+    if (is_turn(motion))
+        drive->right_mm_s = (int16_t)-speed;
 }

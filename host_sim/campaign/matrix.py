@@ -24,7 +24,7 @@ class FaultClass:
         name: In words.
         faults: What befalls the frames, as `--fault` has it.
         changes: What befalls the body, as `--change` has it.
-        event: What befalls the robot, its line or this host.
+        event: What befalls the robot, its line or this host; several at once with blanks between them.
         links: Where it can happen; empty for everywhere.
         paces: At which pace it is a fault.
         harmless: At which pace nobody need notice it; in lockstep it is then to leave no trace.
@@ -47,7 +47,7 @@ class FaultClass:
             fault=self.name,
             faults=self.faults,
             changes=tuple(f"{change}@2s" for change in self.changes),
-            events=(Event.parse(f"{self.event}@{_AT}"),) if self.event else (),
+            events=tuple(Event.parse(f"{event}@{_AT}") for event in self.event.split()),
             harmless=base.pace in self.harmless,
             denies=self.denies,
         )
@@ -152,6 +152,21 @@ LINE: tuple[FaultClass, ...] = (
 
 HOST: tuple[FaultClass, ...] = (
     FaultClass("the simulator is stopped for 0.5 s", event="hold-up:500", links=_PROCESSES, harmless=_COMPARED),
+    FaultClass("the disk is full", event="disk-full"),
+    FaultClass("the disk fills up in the middle of the log", event="disk-full:10000"),
+    FaultClass("the folder becomes read-only", event="read-only"),
+    FaultClass("the folder is removed", event="folder-gone"),
+    FaultClass("the log is removed while it is written", event="log-gone"),
+    # The next lesson, or the end, writes it again.
+    FaultClass("the memory file is removed", event="memory-gone", harmless=PACES),
+    FaultClass("the wall clock is set ahead by an hour", event="clock-ahead:3600", harmless=PACES),
+    FaultClass("the wall clock is set back by an hour", event="clock-back:3600", harmless=PACES),
+    FaultClass(
+        "the wall clock is set back while the robot hangs",
+        event="hang:300 clock-back:3600",
+        links=_PROCESSES,
+        harmless=_COMPARED,
+    ),
 )
 """In the simulator's host."""
 
@@ -181,6 +196,13 @@ def groups(
                 if (link, pace) != ("none", REAL_TIME):
                     base = Cell(profile, link, pace, limit_s=limits_s(pace))
                     yield [base, *(each.cell(base) for each in _possible(classes, link, pace))]
+
+
+def recognised(cell: Cell) -> Cell:
+    """A cell with what is known of its fault, where it is one of the campaign's."""
+    base = replace(cell, faults=(), changes=(), events=())
+    known = (each.cell(base) for each in CLASSES if cell.pace in each.paces)
+    return next((each for each in known if str(each) == str(cell)), cell)
 
 
 def _possible(classes: Iterable[FaultClass], link: str, pace: str) -> Iterator[FaultClass]:

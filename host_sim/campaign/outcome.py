@@ -1,16 +1,17 @@
 """What comes of a cell: whether it was safe, whether the fault was seen, and whether anything wrong was learned."""
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
 
 from host_sim.campaign.cell import Cell
-from host_sim.campaign.setups import Setup, check_events, open_setup
+from host_sim.campaign.run_files import FILE_EVENTS, NoFiles, open_files
+from host_sim.campaign.setups import Happen, Setup, check_events, open_setup
+from host_sim.campaign.wall_clock import CLOCK_EVENTS, clock_events
 from host_sim.client.commands import stop
-from host_sim.client.frame_log import FrameLog
 from host_sim.client.pacing import HOLD_TICKS
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import RobotError, UsageError
+from host_sim.errors import OctetError, RobotError, UsageError
 from host_sim.faults.event import Event
 from host_sim.faults.faulty_link import FaultyLink
 from host_sim.protocol.generated import PARAMETERS, TICK_SPAN, Side
@@ -38,7 +39,8 @@ class Outcome:
         doubts: What makes its result doubtful.
         wrong: Patterns for which a wrong turn was learned.
         digest: Of its log.
-        broke: Whether it ended with an error that is not about the robot or its line.
+        broke: Whether it ended with an error that is not about the robot, its line, or files that were struck.
+        lost: What its files do not hold though nobody was told, in words; empty if they hold all.
         struck: The faults that befell frames, as rules for one frame each.
         waiting: Events that did not come to happen.
         moved: Tick after which the robot last answered in time.
@@ -54,6 +56,7 @@ class Outcome:
     wrong: tuple[int, ...] = ()
     digest: str = ""
     broke: bool = False
+    lost: str = ""
     struck: tuple[str, ...] = ()
     waiting: tuple[Event, ...] = ()
     moved: int = 0
@@ -70,6 +73,7 @@ class Outcome:
             "unseen": bool(cell.fault) and not self._is_seen and (self.differs or not cell.harmless),
             "did not happen": bool(self.waiting) and not self.end,
             "wrong without a word": bool(is_misled),
+            "lost without a word": bool(self.lost),
             "broke": self.broke,
         }
         return [name for name, is_so in found.items() if is_so]
@@ -122,46 +126,60 @@ def run_cell(cell: Cell) -> Outcome:
         UsageError: There is no such link, or something in the cell cannot happen there.
     """
     outcome = Outcome(cell)
-    with open_setup(cell.link) as setup, _log(outcome) as log:
-        check_events(setup, cell.link, cell.events)
-        try:
-            _run(outcome, setup, log)
-        except UsageError:
-            raise
-        except RobotError as error:
-            outcome.end = outcome.seen = str(error).partition(";")[0]
-        except Exception as error:
-            outcome.end, outcome.broke = f"{type(error).__name__}: {error}", True
+    try:
+        _run_there(outcome)
+    except RobotError as error:
+        outcome.end, outcome.broke = str(error).partition(";")[0], True
     return outcome
 
 
-@contextmanager
-def _log(outcome: Outcome) -> Iterator[FrameLog]:
-    log = FrameLog()
-    try:
-        yield log
-    finally:
-        outcome.digest = log.close()
+def _run_there(outcome: Outcome) -> None:
+    cell = outcome.cell
+    with ExitStack() as stack:
+        setup, files = stack.enter_context(open_setup(cell.link)), open_files(cell.events, stack)
+        check_events({*setup.events, *FILE_EVENTS, *CLOCK_EVENTS}, cell.link, cell.events)
+        try:
+            _run(outcome, setup, files, {**setup.events, **files.events, **clock_events(stack)})
+        except UsageError:
+            raise
+        except Exception as error:
+            _note_end(outcome, error, files)
+        outcome.digest, outcome.lost = files.close(), files.lost()
 
 
-def _run(outcome: Outcome, setup: Setup, log: FrameLog) -> None:
+def _note_end(outcome: Outcome, error: Exception, files: NoFiles) -> None:
+    if isinstance(error, RobotError):
+        outcome.end = outcome.seen = str(error).partition(";")[0]
+    elif isinstance(error, OctetError) and files.struck:
+        outcome.end = outcome.seen = files.without_folder(str(error))
+    else:
+        outcome.end, outcome.broke = f"{type(error).__name__}: {error}", True
+
+
+def _run(outcome: Outcome, setup: Setup, files: NoFiles, events: Mapping[str, Happen]) -> None:
     def ready(client: RobotClient) -> None:
         _note(outcome, client)
         setup.found(client)
 
-    with make(setup.configured(outcome.cell.config), log, ready=ready) as simulation:
+    with make(setup.configured(outcome.cell.config), files.log, ready=ready) as simulation:
         outcome.waiting = outcome.cell.events
-        simulation.watch = lambda running: _watch(outcome, setup, running)
-        simulation.native = simulation.native and not outcome.cell.events
         (client,) = simulation.clients
+
+        def watch(running: Simulation) -> None:
+            files.save(client.memory)
+            _watch(outcome, events, running)
+
+        simulation.watch, simulation.native = watch, simulation.native and not outcome.cell.events
         try:
             for _ in simulation.run():
                 stop(client)
+            files.finish(client.memory)
         finally:
             _note(outcome, client)
+            outcome.seen = ", ".join([*([outcome.seen] if outcome.seen else []), *files.told])
 
 
-def _watch(outcome: Outcome, setup: Setup, simulation: Simulation) -> None:
+def _watch(outcome: Outcome, events: Mapping[str, Happen], simulation: Simulation) -> None:
     """Called after each step: looks at the wheels, then makes happen what is due."""
     (drive,) = simulation.drives
     age = (simulation.tick - 1 - drive.tick) % TICK_SPAN
@@ -173,7 +191,7 @@ def _watch(outcome: Outcome, setup: Setup, simulation: Simulation) -> None:
     for event in outcome.waiting:
         if event.tick <= simulation.tick:
             outcome.waiting = tuple(other for other in outcome.waiting if other is not event)
-            setup.events[event.name](event.size)
+            events[event.name](event.size)
 
 
 def _note(outcome: Outcome, client: RobotClient) -> None:

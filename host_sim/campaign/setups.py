@@ -1,6 +1,6 @@
 """Where the robot of a cell is, and what can befall it there."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from typing import Protocol
@@ -78,13 +78,17 @@ def open_setup(link: str) -> AbstractContextManager[Setup]:
     raise UsageError(f"there is no link {link!r}; there are {', '.join(LINKS)}")
 
 
-def check_events(setup: Setup, link: str, events: tuple[Event, ...]) -> None:
+def check_events(possible: Collection[str], link: str, events: tuple[Event, ...]) -> None:
     """Makes sure that all these events can happen.
+
+    Args:
+        possible: The names of those that can happen there.
+        link: One of `LINKS`.
+        events: What is to happen.
 
     Raises:
         UsageError: One cannot.
     """
     for event in events:
-        if event.name not in setup.events:
-            there = ", ".join(setup.events) or "nothing"
-            raise UsageError(f"{event.name} cannot befall a robot on {link}; there {there} can")
+        if event.name not in possible:
+            raise UsageError(f"{event.name} cannot befall a run on {link}; there {', '.join(sorted(possible))} can")

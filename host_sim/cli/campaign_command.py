@@ -26,7 +26,7 @@ examples:
   tools/octet campaign --shrink 'article none lockstep seed=12 limit=30 fault=drop:30% fault=forge:stop@300/to'
 
 The exit code is 1 if a fault was not seen, wheels turned on for more than 100 ms, a run broke, or something wrong was
-learned without a word.
+learned, or something lost from the files of a run, without a word.
 """
 
 
@@ -105,9 +105,10 @@ def _with_clean(cell: "Cell") -> "Sequence[Cell]":
 def _repeat(text: str) -> int:
     from host_sim.campaign.cell import Cell
     from host_sim.campaign.html_report import account
+    from host_sim.campaign.matrix import recognised
     from host_sim.campaign.outcome import run_all
 
-    *_, outcome = run_all(_with_clean(Cell.parse(text)))
+    *_, outcome = run_all(_with_clean(recognised(Cell.parse(text))))
     print(account(outcome))
     return int(bool(outcome.problems))
 

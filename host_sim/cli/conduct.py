@@ -142,7 +142,9 @@ def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
     schedules = [client.link.schedule for client in clients if isinstance(client.link, FaultyLink)]
     if schedules:
         rules = [str(rule) for schedule in schedules for rule in schedule.struck]
-        write_bytes(path, "".join(f"{rule}\n" for rule in rules).encode())
+        more = sum(schedule.count for schedule in schedules) - len(rules)
+        left_out = [f"# and {more} more, not recorded"] if more else []
+        write_bytes(path, "".join(f"{rule}\n" for rule in [*rules, *left_out]).encode())
 
 
 def _print_robot(options: RunOptions, client: RobotClient) -> None:
@@ -180,7 +182,11 @@ def _save_memories(
         for saver, client in zip(savers, simulation.clients, strict=True):
             saver.save(client.memory)
 
-    stack.callback(save, simulation)
+    def finish() -> None:
+        for saver, client in zip(savers, simulation.clients, strict=True):
+            saver.finish(client.memory)
+
+    stack.callback(finish)
     simulation.watch = _each(simulation.watch, save)
 
 

@@ -149,9 +149,9 @@ class PageFeed:
         for i, history in enumerate(self.live.recorder.histories):
             sent = self._lessons.get(i)
             if sent is None:
-                sent = sum(lesson["tick"] < self._start for lesson in history.lessons)
-            new += history.lessons[sent:][-_POINTS_MAX:]
-            self._lessons[i] = len(history.lessons)
+                sent = history.forgotten + sum(lesson["tick"] < self._start for lesson in history.lessons)
+            new += history.lessons[max(sent - history.forgotten, 0) :][-_POINTS_MAX:]
+            self._lessons[i] = history.forgotten + len(history.lessons)
         return new
 
     def _health(self) -> dict[str, int]:

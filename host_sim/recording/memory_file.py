@@ -80,6 +80,17 @@ class MemorySaver:
         write_bytes(self._path, bytes(memory))
         self._saved = tuple(memory)
 
+    def finish(self, memory: Sequence[int]) -> None:
+        """Saves the last memory of a run, even if it was saved before and the file has vanished since.
+
+        Raises:
+            OctetError: As in `save`.
+        """
+        if self._saved is not None and not self._path.exists():
+            self._report(f"{self._path} has vanished during the run, and is written again")
+            self._saved = None
+        self.save(memory)
+
     def _back_up(self, held: Memory) -> None:
         kept = self._path.with_name(self._path.name + ".1")
         write_bytes(kept, bytes(held))

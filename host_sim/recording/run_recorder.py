@@ -175,8 +175,9 @@ class RunRecorder:
         if first <= trajectory.first_tick:
             return
         start = at(trajectory.scenes, first - 1)["start_tick"]
-        for track in trajectory.tracks:
+        for track, history in zip(trajectory.tracks, self.histories, strict=True):
             track.forget(first, start)
+            history.forget_lessons(first)
         trajectory.scenes, trajectory.meals = since(trajectory.scenes, first), since(trajectory.meals, first)
 
 

@@ -46,7 +46,7 @@ class RobotTrack:
         first_tick: The first tick that is retained.
         memories: The eight cells.
         trials: The last trial, current or ended.
-        lessons: All changes of cells, learned or made by hand.
+        lessons: Changes of cells, learned or made by hand: before `first_tick` only the last of each cell.
         meals: The ticks in which it ate.
         poses_flat: x and y in mm, heading in rad, tick after tick.
         rows_flat: The fields of `ROW`, tick after tick.
@@ -114,7 +114,7 @@ class RobotTrack:
         return uses
 
     def forget(self, first: int, start: int) -> None:
-        """Drops everything before a tick but the lessons, and how often what the cells hold was used.
+        """Drops everything before a tick but how often what the cells hold was used; lessons are not dropped here.
 
         Args:
             first: The first tick that stays.

@@ -19,7 +19,7 @@ tick `first_tick`.
         node         its node number on the bus
         memory       [[tick, [8 cells]], ...]
         trials       [[tick, Trial or null], ...]: State.trial
-        lessons      [Lesson, ...], including those before first_tick, without those after the last tick
+        lessons      [Lesson, ...]: before first_tick the last one of each cell, and none after the last tick
         turns        [[tick, cell], ...]: each use of a cell from first_tick on; see State.uses
         uses_before  [8 numbers]: for each cell, the uses before first_tick of what it held then
         events       [[tick, kind], ...], in order: kind is "environment", "change", "trial", "lesson", "boredom" or

@@ -1,5 +1,6 @@
 """A run: robots in one environment after the other, their memories carried over."""
 
+import gc
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -20,6 +21,10 @@ from host_sim.world.edits import Edit, EditError, make_edit
 from host_sim.world.layouts import World
 from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
+
+ARENAS_MAX = 32
+"""Number of arenas that may wait to be freed. An arena and its physics hold each other, and 260 kB in C. Python
+counts objects, and would look for them after more than a hundred."""
 
 
 @dataclass
@@ -176,6 +181,8 @@ class Simulation:
         self._measuring = [i for i, client in enumerate(self.clients) if client.wants_ranges]
         self._enter_loop()
         self.record.begin(Begun(self.seed, number, self.tick))
+        if len(self.record.begun) % ARENAS_MAX == 0:
+            gc.collect()
         self._schedule.enter(number, self.tick)
         self._settled = False
 

@@ -1,6 +1,8 @@
 """A link over a python-can bus."""
 
 import errno
+import select
+import time
 from collections.abc import Callable
 
 import can
@@ -54,7 +56,7 @@ class BusLink:
             frame, self._back = self._back, None
             return frame
         try:
-            message = self._bus.recv(timeout_s)
+            message = self._heard(timeout_s)
         except (can.CanError, OSError) as error:
             self.explain()
             raise LinkDownError(f"cannot hear the robot: {error}") from error
@@ -65,6 +67,19 @@ class BusLink:
         if message.is_extended_id or message.is_remote_frame or message.is_error_frame or message.is_fd:
             return _NO_FRAME
         return Frame(message.arbitration_id, bytes(message.data))
+
+    def _heard(self, timeout_s: float) -> can.Message | None:
+        """The next message. python-can itself waits by the wall clock: for hours, if that is set back meanwhile."""
+        if not self._is_socket:
+            return self._bus.recv(timeout_s)
+        give_up = time.monotonic() + timeout_s
+        poll = select.poll()
+        poll.register(self._bus.fileno(), select.POLLIN)
+        while poll.poll(max(give_up - time.monotonic(), 0.0) * 1000):
+            message = self._bus.recv(0.0)
+            if message is not None:
+                return message
+        return None
 
     def frame_socket(self) -> "BusLink | None":
         """As in `SocketLink`."""

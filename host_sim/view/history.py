@@ -69,7 +69,8 @@ class LearningHistory:
         trial: The last trial, or None.
         trials: Number of trials.
         action: Number of the current action; -1 before the first.
-        lessons: All lessons, in order.
+        lessons: All lessons that were not forgotten, in order.
+        forgotten: Number of lessons that were forgotten.
     """
 
     node: int = 1
@@ -82,6 +83,7 @@ class LearningHistory:
     trial: Trial | None = None
     trials: int = 0
     lessons: list[Lesson] = field(default_factory=list)
+    forgotten: int = 0
     action: int = -1
     _reason: int = Reason.STOP
 
@@ -148,6 +150,13 @@ class LearningHistory:
             self.lessons.pop()
         self.memory, self.frozen, self.trial = sides_of(tuple(memory)), False, None
         self.uses, self.by_hand, self.learned = [0] * CELL_COUNT, [0] * CELL_COUNT, [-1] * CELL_COUNT
+
+    def forget_lessons(self, first: int) -> None:
+        """Drops the lessons before a tick but the last one of each cell."""
+        last = {lesson["cell"]: lesson for lesson in self.lessons if lesson["tick"] < first}
+        kept = [lesson for lesson in self.lessons if lesson["tick"] >= first or lesson is last[lesson["cell"]]]
+        self.forgotten += len(self.lessons) - len(kept)
+        self.lessons[:] = kept
 
     def _judge(self) -> Trial | None:
         """Ends the current trial, if any, with the senses that decide the next action, and returns it."""

@@ -12,9 +12,11 @@ from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.campaign.html_report import page, verdict
 from host_sim.campaign.matrix import FaultClass, default_limit_s, groups
 from host_sim.campaign.outcome import Outcome, run_all
+from host_sim.campaign.run_files import FILE_EVENTS
 from host_sim.campaign.setups import LINKS, open_setup
 from host_sim.campaign.shrink import shrink
-from host_sim.errors import UsageError
+from host_sim.campaign.wall_clock import CLOCK_EVENTS
+from host_sim.errors import RobotError, UsageError
 from tests.runs.support import octet
 
 CLEAN = Cell("article", "none", LOCKSTEP, limit_s=3.0)
@@ -32,7 +34,7 @@ def test_each_fault_is_seen_and_told(tmp_path):
     done = octet("campaign", report, "--profiles", "article", "--limit-s", "30")
 
     assert (done.returncode, done.stderr) == (0, "")
-    runs = 1 + len(matrix.BUS) + len(matrix.BODY)
+    runs = 1 + len([each for each in matrix.CLASSES if not each.links])
     assert f"{runs} runs: 0 not as they should be" in done.stdout
     text = report.read_text()
     assert text.count("<details>") == runs
@@ -48,6 +50,17 @@ def test_a_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
 
     assert done.returncode == 1
     assert done.stderr.startswith("UNSEEN: nothing that happens: tools/run ")
+
+
+def test_a_robot_that_does_not_come_up_breaks_its_run_and_not_the_campaign(monkeypatch):
+    def fail(link):
+        raise RobotError(f"the robot on {link} was not ready")
+
+    monkeypatch.setattr("host_sim.campaign.outcome.open_setup", fail)
+
+    (found,) = run_all([CLEAN])
+
+    assert (found.problems, found.end) == (["broke"], "the robot on none was not ready")
 
 
 def test_a_fault_of_the_body_is_not_seen_by_frames_that_are_repeated(monkeypatch):
@@ -115,7 +128,7 @@ def test_what_can_befall_a_robot_is_made_to_happen_there(link):
              for event in cell.events}  # fmt: skip
 
     with open_setup(link) as setup:
-        assert asked == set(setup.events)
+        assert asked == {*setup.events, *FILE_EVENTS, *CLOCK_EVENTS}
 
 
 ENDS = [

@@ -192,6 +192,25 @@ static void test_a_rest_is_never_given_up(void)
     TEST_ASSERT_FALSE(motion_gave_up(&motion));
 }
 
+/* In a turn at full speed each wheel makes 251 mm/s: both make 1004 counts in 0.2 s. */
+static void test_wheels_may_go_astray_as_far_as_both_roll_in_200_ms(void)
+{
+    motion.astray = 1003;
+    TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
+    motion.astray = 1004;
+    TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
+}
+
+/* A step of 12 mm is 240 counts. */
+static void test_what_wheels_do_right_makes_amends_for_three_quarters_and_for_nothing_to_come(void)
+{
+    motion.astray = 181;
+    act(0, 12);
+    TEST_ASSERT_EQUAL_UINT16(1, motion.astray);
+    act(0, 12);
+    TEST_ASSERT_EQUAL_UINT16(0, motion.astray);
+}
+
 /* 210 degrees take 58 ticks: seven quarters of these, and 7. */
 static void test_the_pace_of_a_turn_is_seven_quarters_of_its_time_and_7_ticks(void)
 {
@@ -263,6 +282,8 @@ int main(void)
     RUN_TEST(test_a_step_has_twice_its_time_and_25_ticks);
     RUN_TEST(test_what_is_given_up_is_known_when_its_time_is_over_and_not_before);
     RUN_TEST(test_a_rest_is_never_given_up);
+    RUN_TEST(test_wheels_may_go_astray_as_far_as_both_roll_in_200_ms);
+    RUN_TEST(test_what_wheels_do_right_makes_amends_for_three_quarters_and_for_nothing_to_come);
     RUN_TEST(test_the_pace_of_a_turn_is_seven_quarters_of_its_time_and_7_ticks);
     RUN_TEST(test_a_step_and_a_turn_for_food_have_no_pace);
     RUN_TEST(test_an_outage_costs_five_ticks_of_the_pace);

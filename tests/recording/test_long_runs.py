@@ -2,6 +2,7 @@
 
 import gc
 import sys
+import weakref
 from contextlib import ExitStack
 
 import pytest
@@ -15,6 +16,8 @@ from host_sim.report.picture import write_picture
 from host_sim.report.replay_page import omissions, run_data
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import ARENAS_MAX
+from host_sim.view.history import LearningHistory
 
 TICKS_MAX, LIMIT_S, EPISODE_TICKS = 1000, 4.0, 200
 PIECES_OF_A_RESULT = 40
@@ -46,6 +49,7 @@ def retained(recorder: RunRecorder) -> dict[str, int]:
         "memories": len(track.memories),
         "trials": len(track.trials),
         "eaten": len(track.meals),
+        "lessons": len(track.lessons),
     }
 
 
@@ -56,7 +60,7 @@ def test_a_run_of_sixty_environments_retains_no_more_than_one_of_twenty():
     assert long["poses"] <= 3 * room
     assert long["rows"] <= 17 * room
     assert long["scenes"] <= room // EPISODE_TICKS
-    assert all(long[name] <= short[name] + 8 for name in ("meals", "memories", "trials", "eaten"))
+    assert all(long[name] <= short[name] + 8 for name in ("meals", "memories", "trials", "eaten", "lessons"))
 
 
 def test_environments_with_faults_leave_their_results_behind_and_nothing_else():
@@ -72,6 +76,18 @@ def test_environments_with_faults_leave_their_results_behind_and_nothing_else():
 
     assert simulation.clients[0].link.schedule.count > 1000
     assert pieces[1] - pieces[0] < 20 * PIECES_OF_A_RESULT
+
+
+def test_arenas_of_environments_that_are_over_do_not_pile_up():
+    arenas = weakref.WeakSet()
+    gc.disable()
+    try:
+        with make(RunConfig(environments=3 * ARENAS_MAX, limit_s=0.1)) as simulation:
+            for _ in simulation.run():
+                arenas.add(simulation.arena)
+                assert len(arenas) <= ARENAS_MAX + 1
+    finally:
+        gc.enable()
 
 
 def test_it_is_cut_rarely(monkeypatch):
@@ -131,3 +147,15 @@ def test_the_ticks_of_a_log_stay_in_the_log(kept):
     assert log.lines < 30
     assert tick == next(iter(ticks))
     assert sum(1 for _ in ticks) == kept.trajectory.ticks
+
+
+def test_of_lessons_that_are_no_longer_retained_the_last_one_of_each_cell_stays():
+    history = LearningHistory()
+    cells = [(1, 0), (1, 2), (2, 2), (0, 2), (0, 1)]
+    for tick, (first, third) in enumerate(cells):
+        history.relearn(tick, (0, first, 0, third, 0, 0, 0, 0))
+
+    history.forget_lessons(4)
+
+    assert [(lesson["tick"], lesson["cell"]) for lesson in history.lessons] == [(1, 3), (3, 1), (4, 3)]
+    assert history.forgotten == 2

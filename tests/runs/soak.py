@@ -17,6 +17,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import NamedTuple
 
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
@@ -44,13 +45,22 @@ FORGED = "in the robot's name"
 """Of some hundred thousand random frames, one looks like the robot's: that is noticed, and does no harm."""
 
 TICKS_PER_HOUR = 180_000
-RETAINED_MAX_MB = 60.0
+
+
+class Growth(NamedTuple):
+    """How much more there may be: memory in MB, and pieces of it that Python holds."""
+
+    memory_mb: float
+    pieces: int
+
+
+UNTIL_CUT = Growth(60.0, 80_000)
 """Until a trajectory is first cut it grows to half a million ticks, 30 MB; what cuts it is loaded then."""
 
-GROWTH_MAX_MB = 10.0
-"""After that. One that was just cut is 4 MB smaller than one that is about to be, and its memory has gaps."""
+AFTER_CUT = Growth(10.0, 20_000)
+"""One that was just cut is 4 MB smaller than one that is about to be. Of each environment some numbers stay."""
 
-STARTS_GROWTH_MAX_MB = 12.0
+OF_STARTS = Growth(12.0, 2_000)
 """Since the first tenth. What a start leaves behind is fully collected before it is counted; the heap's gaps vary."""
 
 WARM_STARTS = 10
@@ -79,10 +89,11 @@ class Vitals:
         size_mb = pages * _PAGE_BYTES / 1e6
         return Vitals(size_mb, sys.getallocatedblocks(), files, threading.active_count(), len(children))
 
-    def has_grown(self, since: "Vitals", most_mb: float) -> bool:
-        """Whether there is more of anything than there was."""
+    def has_grown(self, since: "Vitals", most: Growth) -> bool:
+        """Whether there is more of anything than there was, or much more memory."""
         same = (self.files, self.threads, self.children) == (since.files, since.threads, since.children)
-        return not same or self.memory_mb > since.memory_mb + most_mb
+        is_larger = self.memory_mb > since.memory_mb + most.memory_mb or self.pieces > since.pieces + most.pieces
+        return not same or is_larger
 
     def __str__(self) -> str:
         counts = f"{self.files} files, {self.threads} threads, {self.children} children"
@@ -112,7 +123,7 @@ def hours(count: float, step: float, folder: Path) -> Iterator[tuple[str, bool]]
         run.begin()
         asyncio.run(_with_page(run, TICKS_PER_HOUR // 100))
         (client,) = simulation.clients
-        first, most_mb, size = Vitals.now(), RETAINED_MAX_MB, 0
+        first, most, size = Vitals.now(), UNTIL_CUT, 0
         for number in range(1, round(count / step) + 1):
             page = asyncio.run(_with_page(run, round(number * step * TICKS_PER_HOUR)))
             log.flush()
@@ -124,9 +135,9 @@ def hours(count: float, step: float, folder: Path) -> Iterator[tuple[str, bool]]
                 f"{len(run.episodes)} environments; {len(client.incidents)} incidents{_last(client.incidents)}"
             )
             doubted = any(FORGED not in incident.text for incident in client.incidents)
-            yield said, not (vitals.has_grown(first, most_mb) or frames.lost or doubted)
-            if most_mb != GROWTH_MAX_MB and recorder.trajectory.first_tick:
-                first, most_mb = vitals, GROWTH_MAX_MB
+            yield said, not (vitals.has_grown(first, most) or frames.lost or doubted)
+            if most == UNTIL_CUT and recorder.trajectory.first_tick:
+                first, most = vitals, AFTER_CUT
         stop(client)
     log.close()
 
@@ -154,7 +165,7 @@ def starts(count: int) -> Iterator[tuple[str, bool]]:
         if number % max(count // 10, 1) == 0:
             gc.collect()
             vitals = Vitals.now()
-            yield f"{number:7} starts  {vitals}", not vitals.has_grown(first, STARTS_GROWTH_MAX_MB)
+            yield f"{number:7} starts  {vitals}", not vitals.has_grown(first, OF_STARTS)
 
 
 def main() -> int:

@@ -43,6 +43,18 @@ def test_recorded_faults_are_made_again(run):
 
 
 @pytest.mark.faulty
+def test_faults_that_were_too_many_to_record_are_said_to_be_left_out(run, monkeypatch):
+    monkeypatch.setattr("host_sim.faults.schedule.RECORD_MAX", 3)
+
+    first = run("--environments", "1", "--limit-s", "1", "--bus", "none", "--fault", "duplicate:20%")
+
+    *rules, left_out = (first.out / "faults.txt").read_text().splitlines()
+    assert len(rules) == 3
+    assert left_out.startswith("# and ")
+    assert run("--environments", "1", "--bus", "none", "--fault", f"@{first.out / 'faults.txt'}").code == 0
+
+
+@pytest.mark.faulty
 def test_a_forged_stop_ends_a_run_with_its_tick(run):
     done = run(*SHORT, "--bus", "none", "--fault", "forge:stop@100/to")
 

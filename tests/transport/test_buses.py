@@ -42,9 +42,7 @@ class Bus:
 def test_what_comes_before_the_filters_are_set_is_forgotten(monkeypatch):
     monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=3))
 
-    link = open_bus_link("socketcan:can0", [0x41], LineStats())
-
-    assert link.receive(0.0) is None
+    assert open_bus("socketcan:can0", [0x41]).recv(0.0) is None
 
 
 def test_without_filters_nothing_is_forgotten(monkeypatch):
