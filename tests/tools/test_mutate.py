@@ -15,10 +15,12 @@ from tools.mutants.schemata import mutants_of, schemata  # noqa: E402
 from tools.mutants.sites import sites_of  # noqa: E402
 from tools.mutants.sources import Source  # noqa: E402
 from tools.mutants.syntax import SourceError, functions  # noqa: E402
-from tools.mutants.tree import RUNTIME  # noqa: E402
+from tools.mutants.tree import PLAIN, RUNTIME, SANITIZED  # noqa: E402
+from tools.mutants.trial import Trial  # noqa: E402
 from tools.mutants.verdicts import Verdict, scores  # noqa: E402
 from tools.reason_table import TableError  # noqa: E402
 
+EQUIVALENT = ROOT / "tools" / "equivalent_mutants.toml"
 STANDARD = ["-std=c99"]
 # All that can be mutated, with a number for each result of it.
 SOURCE = """#include <stdbool.h>
@@ -119,6 +121,17 @@ def test_a_sample_of_mutants_is_killed():
     assert "60 mutants, 0 groups below their bar, 0 complaints" in result.stdout
 
 
+def test_a_sample_has_no_mutant_that_is_listed():
+    listed = "robot_init(&octet->robot, (0 + 1));"
+
+    result = mutate("--list", "--sample", 1000, "hal/library")
+
+    assert result.returncode == 0, result.stderr
+    assert "robot_init(&octet->robot, 0); -> (void)0;" in result.stdout
+    assert listed in EQUIVALENT.read_text()
+    assert listed not in result.stdout
+
+
 def test_without_a_test_its_mutants_live():
     """The canary: a test that is not there is missed."""
     result = mutate("--without", "link_by_name", "hal/link/link_by_name.c", "--sample", 8)
@@ -186,6 +199,32 @@ def test_the_compiler_proves_what_makes_no_difference(tmp_path):
     same = [mutant.after for mutant in found if Compiler().same_code(source, mutant)]
 
     assert same == ["return (x != 0u) ? 3 : 4;"]
+
+
+class NothingIsKilled:
+    """A project whose tests let all mutants live."""
+
+    def __init__(self, source):
+        self.sources = {source.file: source}
+        self.builds = []
+
+    def tests(self, build, _):
+        self.builds.append(build)
+        return self
+
+    def killer(self, _):
+        return ""
+
+
+@pytest.mark.parametrize(("is_enough", "builds"), [(True, [PLAIN]), (False, [PLAIN, SANITIZED])])
+def test_sanitizers_are_asked_where_plain_builds_will_not_do(tmp_path, is_enough, builds):
+    found, together = mutants(tmp_path, TEXT)
+    project = NothingIsKilled(Source("firmware/a.c", TEXT, STANDARD, found, together))
+
+    verdicts = Trial(project, [], lambda _: None).judge(found, lambda _: is_enough)
+
+    assert project.builds == builds
+    assert dict(verdicts) == dict.fromkeys(found, Verdict.ALIVE)
 
 
 ROW = '[[equivalent]]\nfile = "firmware/a.c"\nmutants = ["{}"]\nwhy = "{}"\n'
