@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -10,7 +11,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.mutants.equivalent import Compiler, is_listed, needless, read, unmatched  # noqa: E402 - found by the line above
+from tools.mutants import runner  # noqa: E402 - found by the line above
+from tools.mutants.equivalent import Compiler, is_listed, needless, read, unmatched  # noqa: E402
 from tools.mutants.schemata import mutants_of, schemata  # noqa: E402
 from tools.mutants.sites import sites_of  # noqa: E402
 from tools.mutants.sources import Source  # noqa: E402
@@ -121,17 +123,6 @@ def test_a_sample_of_mutants_is_killed():
     assert "60 mutants, 0 groups below their bar, 0 complaints" in result.stdout
 
 
-def test_a_sample_has_no_mutant_that_is_listed():
-    listed = "robot_init(&octet->robot, (0 + 1));"
-
-    result = mutate("--list", "--sample", 1000, "hal/library")
-
-    assert result.returncode == 0, result.stderr
-    assert "robot_init(&octet->robot, 0); -> (void)0;" in result.stdout
-    assert listed in EQUIVALENT.read_text()
-    assert listed not in result.stdout
-
-
 def test_without_a_test_its_mutants_live():
     """The canary: a test that is not there is missed."""
     result = mutate("--without", "link_by_name", "hal/link/link_by_name.c", "--sample", 8)
@@ -149,16 +140,29 @@ def test_an_unknown_source_is_refused_with_those_there_are():
     assert "firmware/motion.c" in result.stderr
 
 
-def test_sources_that_no_c_test_reaches_are_named():
-    result = mutate("--list", "hal/port/cortex_m")
-
+@pytest.fixture(scope="module")
+def listing():
+    """What is printed of a sample that is larger than these sources have mutants."""
+    result = mutate("--list", "--sample", 1000, "hal/port/cortex_m")
     assert result.returncode == 0, result.stderr
-    assert "hal/port/cortex_m/crash.c:" in result.stdout
-    assert "startup.c" not in result.stdout
-    (line,) = [line for line in result.stderr.splitlines() if "no C test is built from them" in line]
+    return result
+
+
+def test_sources_that_no_c_test_reaches_are_named(listing):
+    assert "hal/port/cortex_m/crash.c:" in listing.stdout
+    assert "startup.c" not in listing.stdout
+    (line,) = [line for line in listing.stderr.splitlines() if "no C test is built from them" in line]
     assert "hal/port/cortex_m/startup.c" in line
     assert "crash.c" not in line
     assert "hal/stm32" not in line
+
+
+def test_a_sample_has_no_mutant_that_is_listed(listing):
+    listed = "note.mark = 0; -> note.mark = (0 + 1);"
+
+    assert listed in EQUIVALENT.read_text()
+    assert listed not in listing.stdout
+    assert "note.mark = 0; -> (void)0;" in listing.stdout
 
 
 @pytest.mark.parametrize(
@@ -225,6 +229,36 @@ def test_sanitizers_are_asked_where_plain_builds_will_not_do(tmp_path, is_enough
 
     assert project.builds == builds
     assert dict(verdicts) == dict.fromkeys(found, Verdict.ALIVE)
+
+
+class Slow:
+    """A program that has not ended when it is asked for the first times."""
+
+    pid = 1
+
+    def __init__(self, times):
+        self.times = times
+
+    def wait(self, wait_s):
+        self.times -= 1
+        if self.times >= 0:
+            raise subprocess.TimeoutExpired("slow", wait_s)
+        return 0
+
+
+@pytest.mark.parametrize(("ticks", "code"), [([1, 2, 3], 0), ([1, 2, 2], 1), ([0], 1)])
+def test_a_program_has_time_as_long_as_it_goes_on(monkeypatch, ticks, code):
+    monkeypatch.setattr(runner, "ticks_used", lambda _: ticks.pop(0))
+
+    assert runner.end(Slow(len(ticks)), 20.0) == code
+
+
+def test_what_a_program_has_used_of_the_processor_is_counted():
+    before = runner.ticks_used(os.getpid())
+    while time.process_time() < before / os.sysconf("SC_CLK_TCK") + 0.1:
+        pass
+
+    assert runner.ticks_used(os.getpid()) > before
 
 
 ROW = '[[equivalent]]\nfile = "firmware/a.c"\nmutants = ["{}"]\nwhy = "{}"\n'
