@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -10,15 +11,18 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.mutants.equivalent import Compiler, is_listed, needless, read, unmatched  # noqa: E402 - found by the line above
+from tools.mutants import runner  # noqa: E402 - found by the line above
+from tools.mutants.equivalent import Compiler, is_listed, needless, read, unmatched  # noqa: E402
 from tools.mutants.schemata import mutants_of, schemata  # noqa: E402
 from tools.mutants.sites import sites_of  # noqa: E402
 from tools.mutants.sources import Source  # noqa: E402
 from tools.mutants.syntax import SourceError, functions  # noqa: E402
-from tools.mutants.tree import RUNTIME  # noqa: E402
+from tools.mutants.tree import PLAIN, RUNTIME, SANITIZED  # noqa: E402
+from tools.mutants.trial import Trial  # noqa: E402
 from tools.mutants.verdicts import Verdict, scores  # noqa: E402
 from tools.reason_table import TableError  # noqa: E402
 
+EQUIVALENT = ROOT / "tools" / "equivalent_mutants.toml"
 STANDARD = ["-std=c99"]
 # All that can be mutated, with a number for each result of it.
 SOURCE = """#include <stdbool.h>
@@ -113,9 +117,7 @@ def mutate(*words: object) -> subprocess.CompletedProcess[str]:
 
 
 def test_a_sample_of_mutants_is_killed():
-    folders = ("can_body", "flash_store", "library", "protocol", "stm32", "port/cortex_m")
-
-    result = mutate("--sample", 60, "firmware", *(f"hal/{folder}" for folder in folders))
+    result = mutate("--sample", 60)
 
     assert result.returncode == 0, result.stdout + result.stderr
     assert "60 mutants, 0 groups below their bar, 0 complaints" in result.stdout
@@ -138,16 +140,29 @@ def test_an_unknown_source_is_refused_with_those_there_are():
     assert "firmware/motion.c" in result.stderr
 
 
-def test_sources_that_no_c_test_reaches_are_named():
-    result = mutate("--list", "hal/port/cortex_m")
-
+@pytest.fixture(scope="module")
+def listing():
+    """What is printed of a sample that is larger than these sources have mutants."""
+    result = mutate("--list", "--sample", 1000, "hal/port/cortex_m")
     assert result.returncode == 0, result.stderr
-    assert "hal/port/cortex_m/crash.c:" in result.stdout
-    assert "startup.c" not in result.stdout
-    (line,) = [line for line in result.stderr.splitlines() if "no C test is built from them" in line]
+    return result
+
+
+def test_sources_that_no_c_test_reaches_are_named(listing):
+    assert "hal/port/cortex_m/crash.c:" in listing.stdout
+    assert "startup.c" not in listing.stdout
+    (line,) = [line for line in listing.stderr.splitlines() if "no C test is built from them" in line]
     assert "hal/port/cortex_m/startup.c" in line
     assert "crash.c" not in line
     assert "hal/stm32" not in line
+
+
+def test_a_sample_has_no_mutant_that_is_listed(listing):
+    listed = "note.mark = 0; -> note.mark = (0 + 1);"
+
+    assert listed in EQUIVALENT.read_text()
+    assert listed not in listing.stdout
+    assert "note.mark = 0; -> (void)0;" in listing.stdout
 
 
 @pytest.mark.parametrize(
@@ -188,6 +203,62 @@ def test_the_compiler_proves_what_makes_no_difference(tmp_path):
     same = [mutant.after for mutant in found if Compiler().same_code(source, mutant)]
 
     assert same == ["return (x != 0u) ? 3 : 4;"]
+
+
+class NothingIsKilled:
+    """A project whose tests let all mutants live."""
+
+    def __init__(self, source):
+        self.sources = {source.file: source}
+        self.builds = []
+
+    def tests(self, build, _):
+        self.builds.append(build)
+        return self
+
+    def killer(self, _):
+        return ""
+
+
+@pytest.mark.parametrize(("is_enough", "builds"), [(True, [PLAIN]), (False, [PLAIN, SANITIZED])])
+def test_sanitizers_are_asked_where_plain_builds_will_not_do(tmp_path, is_enough, builds):
+    found, together = mutants(tmp_path, TEXT)
+    project = NothingIsKilled(Source("firmware/a.c", TEXT, STANDARD, found, together))
+
+    verdicts = Trial(project, [], lambda _: None).judge(found, lambda _: is_enough)
+
+    assert project.builds == builds
+    assert dict(verdicts) == dict.fromkeys(found, Verdict.ALIVE)
+
+
+class Slow:
+    """A program that has not ended when it is asked for the first times."""
+
+    pid = 1
+
+    def __init__(self, times):
+        self.times = times
+
+    def wait(self, wait_s):
+        self.times -= 1
+        if self.times >= 0:
+            raise subprocess.TimeoutExpired("slow", wait_s)
+        return 0
+
+
+@pytest.mark.parametrize(("ticks", "code"), [([1, 2, 3], 0), ([1, 2, 2], 1), ([0], 1)])
+def test_a_program_has_time_as_long_as_it_goes_on(monkeypatch, ticks, code):
+    monkeypatch.setattr(runner, "ticks_used", lambda _: ticks.pop(0))
+
+    assert runner.end(Slow(len(ticks)), 20.0) == code
+
+
+def test_what_a_program_has_used_of_the_processor_is_counted():
+    before = runner.ticks_used(os.getpid())
+    while time.process_time() < before / os.sysconf("SC_CLK_TCK") + 0.1:
+        pass
+
+    assert runner.ticks_used(os.getpid()) > before
 
 
 ROW = '[[equivalent]]\nfile = "firmware/a.c"\nmutants = ["{}"]\nwhy = "{}"\n'

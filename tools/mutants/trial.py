@@ -12,7 +12,14 @@ from tools.mutants.schemata import Mutant
 from tools.mutants.tree import PLAIN, SANITIZED, Build
 from tools.mutants.verdicts import Verdict
 
+Verdicts = list[tuple[Mutant, Verdict]]
+
 TRIES = 3  # of a mutant that is listed as equivalent: a test may fail because the machine is busy
+
+
+def never(_: Verdicts) -> bool:
+    """Sanitizers are asked as well."""
+    return False
 
 
 class Trial:
@@ -30,8 +37,12 @@ class Trial:
         self._table = table
         self._tell = tell
 
-    def judge(self, mutants: Sequence[Mutant]) -> list[tuple[Mutant, Verdict]]:
+    def judge(self, mutants: Sequence[Mutant], is_enough: Callable[[Verdicts], bool] = never) -> Verdicts:
         """What becomes of each.
+
+        Args:
+            mutants: All of them.
+            is_enough: Whether the verdicts without sanitizers will do: these take as long again.
 
         Raises:
             BuildError: The tests cannot be built.
@@ -39,7 +50,13 @@ class Trial:
         """
         left = self._survivors(PLAIN, mutants)
         same = self._of_same_code(left)
-        alive = self._survivors(SANITIZED, [mutant for mutant in left if mutant not in same])
+        alive = [mutant for mutant in left if mutant not in same]
+        verdicts = self._verdicts(mutants, same, alive)
+        if is_enough(verdicts):
+            return verdicts
+        return self._verdicts(mutants, same, self._survivors(SANITIZED, alive))
+
+    def _verdicts(self, mutants: Sequence[Mutant], same: Iterable[Mutant], alive: Iterable[Mutant]) -> Verdicts:
         verdicts = dict.fromkeys(mutants, Verdict.KILLED) | dict.fromkeys(same, Verdict.SAME_CODE)
         verdicts |= {it: Verdict.LISTED if is_listed(it, self._table) else Verdict.ALIVE for it in alive}
         return list(verdicts.items())
