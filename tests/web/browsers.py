@@ -9,6 +9,8 @@ from playwright.sync_api import Browser, sync_playwright
 
 CHROMIUM, FIREFOX = "chromium", "firefox"
 BROWSERS = (CHROMIUM, FIREFOX)
+# Where there is no graphics card, to do as if there was one takes time.
+_CHROMIUM_ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-gpu-rasterization"]
 _PROGRAMS = {CHROMIUM: "chromium", FIREFOX: "firefox-esr"}
 
 
@@ -20,7 +22,7 @@ def launched(name: str) -> Iterator[Browser]:
         pytest.skip(f"{name}: {_PROGRAMS[name]} is missing")
     with sync_playwright() as playwright:
         if name == CHROMIUM:
-            browser = playwright.chromium.launch(executable_path=program, args=["--no-sandbox"])
+            browser = playwright.chromium.launch(executable_path=program, args=_CHROMIUM_ARGUMENTS)
         else:
             # By WebDriver BiDi: without a channel, Playwright speaks a protocol that only its own Firefox knows.
             browser = playwright.firefox.launch(executable_path=program, channel="moz-firefox")
