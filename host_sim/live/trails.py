@@ -1,8 +1,10 @@
 """The trails in the messages to pages: as many points as a page can tell apart."""
 
+from host_sim.protocol.generated import Reason
 from host_sim.recording.trajectory import AXES, ROW, RobotTrack
 
 _REASON = ROW.index("reason")
+_USUAL = (Reason.WANDER, Reason.LOOK_AROUND)
 
 
 def points(track: RobotTrack, ticks: range) -> list[int]:
@@ -10,7 +12,8 @@ def points(track: RobotTrack, ticks: range) -> list[int]:
 
     Args:
         track: The robot.
-        ticks: Retained ticks. Between them, those in which the reason changes are added: none is left out.
+        ticks: Retained ticks. Between them, those are added in which something more begins than a look around or the
+            next step: no trial, remembered turn or meal is left out.
 
     Returns:
         [x, y, reason, ...], x and y in mm.
@@ -20,8 +23,8 @@ def points(track: RobotTrack, ticks: range) -> list[int]:
     found: list[int] = []
     before = -1
     for i, reason in enumerate(reasons):
-        if reason != before or i % step == 0:
+        if i % step == 0 or (reason != before and reason not in _USUAL):
             at = (first + i) * AXES
             found += (round(poses[at]), round(poses[at + 1]), reason)
-            before = reason
+        before = reason
     return found
