@@ -17,16 +17,20 @@ def track_of(*reasons: int) -> RobotTrack:
     return track
 
 
-def test_each_step_is_a_place_and_a_reason():
-    track = track_of(WANDER, WANDER, LOOK, WANDER, LOOK)
+def test_each_tick_is_a_place_and_a_reason():
+    assert points(track_of(WANDER, LOOK), range(FIRST, FIRST + 2)) == [0, 7, WANDER, 10, 7, LOOK]
 
-    assert points(track, range(FIRST, FIRST + 5, 2)) == [0, 7, WANDER, 20, 7, LOOK, 40, 7, LOOK]
+
+def test_with_a_step_the_next_tick_counts_that_is_no_look_around():
+    track = track_of(WANDER, WANDER, LOOK, WANDER, WANDER, WANDER)
+
+    assert points(track, range(FIRST, FIRST + 6, 2)) == [0, 7, WANDER, 30, 7, WANDER, 50, 7, WANDER]
 
 
 def test_no_trial_is_left_out_between_two_steps():
     track = track_of(WANDER, TRIAL, TRIAL, WANDER, TRIAL, WANDER)
 
-    assert points(track, range(FIRST, FIRST + 6, 5)) == [0, 7, WANDER, 10, 7, TRIAL, 40, 7, TRIAL, 50, 7, WANDER]
+    assert points(track, range(FIRST, FIRST + 6, 5)) == [0, 7, WANDER, 10, 7, TRIAL, 40, 7, TRIAL]
 
 
 def test_it_is_of_the_ticks_that_are_asked_for():
