@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from host_sim.live.paced_run import PacedRun
+from host_sim.live.page_commands import FULL_SPEED
 from host_sim.live.seats import Rights
 from host_sim.live.trails import points
 from host_sim.recording.summary import frame_counts
@@ -19,7 +20,6 @@ TRAIL_MAX = 3000
 """Maximum number of ticks in the trail of a page that joins late."""
 
 _POINTS_MAX = 200
-_WHOLE_STEP = 3
 _NOTES_MAX = 8
 _NEWS_MAX = 8
 
@@ -134,11 +134,15 @@ class PageFeed:
         return self.live.simulation.record.begun[-1].first_tick
 
     def _new_trails(self) -> str:
-        """The new part of each robot's trail as JSON; the whole trail if the environment has just begun."""
+        """The new part of each robot's trail as JSON; every tick of it if the environment has just begun.
+
+        At full speed that is not so: each message may be of another environment.
+        """
         tracks = self.live.recorder.trajectory.tracks
         end = tracks[0].ticks
         first = max(self._trail, end - TRAIL_MAX, tracks[0].first_tick)
-        step = _WHOLE_STEP if self._trail == self._first_tick() else 1 + (end - first) // _POINTS_MAX
+        whole = self._trail == self._first_tick() and self.live.speed != FULL_SPEED
+        step = 1 if whole else 1 + (end - first) // _POINTS_MAX
         self._trail = end
         ticks = range(first, end, step)
         return self._shared(ticks, lambda: [points(track, ticks) for track in tracks])

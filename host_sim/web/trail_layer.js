@@ -21,13 +21,13 @@ export const WIDTH_MM = new Map([
   [REASON.SILENCE, 44],
 ]);
 
-/** Keeps a picture of trails that were drawn before, so that most frames draw their newest points only. */
+/** Keeps a picture of trails that grow slowly, so that most frames draw their newest points only. */
 export class TrailLayer {
   constructor() {
     this.canvas = document.createElement("canvas");
     this.context = contextOf(this.canvas);
-    /** Of which trails the last frame was. */
-    this.key = "";
+    /** Which trails the last frame had, and how many points. */
+    this.before = { key: "", added: [0] };
     this.drawn = { at: 0, key: "", added: [0], colours: [""] };
   }
 
@@ -40,8 +40,9 @@ export class TrailLayer {
   draw(context, trails, colours, selected) {
     const order = [...trails.filter((trail) => trail !== selected), selected];
     const key = [order.map(({ epoch }) => epoch), trails.indexOf(selected)].join();
-    if (this.key !== key) {
-      this.key = key;
+    const { before } = this;
+    this.before = { key, added: order.map(({ added }) => added) };
+    if (before.key !== key || haveGrown(order, before.added)) {
       drawTrails(context, order, colours);
       return;
     }
@@ -66,8 +67,7 @@ export class TrailLayer {
     const { drawn } = this;
     if (drawn.key !== key || drawn.colours !== colours) return true;
     if (this.canvas.width !== width || this.canvas.height !== height) return true;
-    const grown = order.some((trail, i) => trail.added - drawn.added[i] > TAIL_POINTS);
-    return grown && performance.now() - drawn.at > REDRAW_MS;
+    return haveGrown(order, drawn.added) && performance.now() - drawn.at > REDRAW_MS;
   }
 
   /**
@@ -83,6 +83,15 @@ export class TrailLayer {
     drawTrails(this.context, order, colours);
     this.drawn = { at: performance.now(), key, added: order.map(({ added }) => added), colours };
   }
+}
+
+/**
+ * Whether there is more to draw than a few points.
+ * @param {Trail[]} order
+ * @param {number[]} added - How many points each had.
+ */
+function haveGrown(order, added) {
+  return order.some((trail, i) => trail.added - added[i] > TAIL_POINTS);
 }
 
 /**

@@ -1,9 +1,11 @@
 """The trails in the messages to pages."""
 
 from host_sim.live.trails import points
+from host_sim.protocol.generated import Reason
 from host_sim.recording.trajectory import ROW, RobotTrack
 
 FIRST = 100
+WANDER, LOOK, TRIAL = Reason.WANDER, Reason.LOOK_AROUND, Reason.TRIAL
 
 
 def track_of(*reasons: int) -> RobotTrack:
@@ -15,14 +17,24 @@ def track_of(*reasons: int) -> RobotTrack:
     return track
 
 
-def test_each_step_is_a_place_and_a_reason():
-    assert points(track_of(1, 1, 1, 1, 1), range(FIRST, FIRST + 5, 2)) == [0, 7, 1, 20, 7, 1, 40, 7, 1]
+def test_each_tick_is_a_place_and_a_reason():
+    assert points(track_of(WANDER, LOOK), range(FIRST, FIRST + 2)) == [0, 7, WANDER, 10, 7, LOOK]
 
 
-def test_no_reason_is_left_out_between_two_steps():
-    assert points(track_of(1, 1, 5, 1, 1, 1), range(FIRST, FIRST + 6, 4)) == [0, 7, 1, 20, 7, 5, 30, 7, 1, 40, 7, 1]
+def test_with_a_step_the_next_tick_counts_that_is_no_look_around():
+    track = track_of(WANDER, WANDER, LOOK, WANDER, WANDER, WANDER)
+
+    assert points(track, range(FIRST, FIRST + 6, 2)) == [0, 7, WANDER, 30, 7, WANDER, 50, 7, WANDER]
+
+
+def test_no_trial_is_left_out_between_two_steps():
+    track = track_of(WANDER, TRIAL, TRIAL, WANDER, TRIAL, WANDER)
+
+    assert points(track, range(FIRST, FIRST + 6, 5)) == [0, 7, WANDER, 10, 7, TRIAL, 40, 7, TRIAL]
 
 
 def test_it_is_of_the_ticks_that_are_asked_for():
-    assert points(track_of(1, 1, 2, 2, 1), range(FIRST + 1, FIRST + 4)) == [10, 7, 1, 20, 7, 2, 30, 7, 2]
-    assert points(track_of(1, 1), range(FIRST + 2, FIRST + 2)) == []
+    track = track_of(WANDER, TRIAL, TRIAL, LOOK)
+
+    assert points(track, range(FIRST + 2, FIRST + 4)) == [20, 7, TRIAL, 30, 7, LOOK]
+    assert points(track, range(FIRST + 4, FIRST + 4)) == []
