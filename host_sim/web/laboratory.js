@@ -44,11 +44,13 @@ export class Laboratory extends PlayingPage {
   onRefusal() {}
 
   /**
-   * The last tick of all runs.
+   * The last tick of all runs; while one of them is simulated, the tick that is shown may still be beyond it.
    * @override
+   * @returns {number}
    */
   get last() {
-    return Math.max(0, ...this.lanes.map((lane) => lane.last));
+    const known = Math.max(0, ...this.lanes.map((lane) => lane.last));
+    return this.lanes.some((lane) => lane.isRunning) ? Math.max(known, this.tick) : known;
   }
 
   /** @override */
@@ -103,8 +105,8 @@ export class Laboratory extends PlayingPage {
     this.lanes = [];
     old.forEach((lane) => lane.remove());
     restartNames();
-    this.tick = this.exactTick = 0;
     this.setPlaying(false);
+    this.go(0);
     this.select(this.addLane(experiment));
   }
 
@@ -136,6 +138,7 @@ export class Laboratory extends PlayingPage {
     lane.simulate(this.simulator, ({ run, refusals = [], error, done }) => {
       if (error) this.note.show(error);
       if (!run) return;
+      if (done) this.go(this.tick);
       lane.go(this.tick, true);
       if (isNew || lane === this.lane) this.onScene();
       if (refusals.length) this.refuse(lane, refusals.map(([, why]) => why));
@@ -162,9 +165,10 @@ export class Laboratory extends PlayingPage {
   change(change) {
     const { lane } = this;
     const isFresh = lane.experiment.changes.some(({ tick }) => tick === this.tick) && !this.playing;
-    const tick = Math.min(isFresh ? this.tick : this.tick + 1, lane.last);
+    const next = isFresh ? this.tick : this.tick + 1;
+    const tick = lane.isRunning ? next : Math.min(next, lane.last);
     lane.change({ ...change, tick });
-    this.go(tick);
+    this.goAhead(tick);
     this.simulate(lane);
   }
 }

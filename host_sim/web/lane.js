@@ -47,6 +47,9 @@ export class Lane {
     this.scene = undefined;
     /** Counts what was simulated, so that whoever has worked something out knows that it is old. */
     this.version = 0;
+    /** How often it was asked to simulate, and whether the last time is over. */
+    this.asked = 0;
+    this.isRunning = false;
     /**
      * Settled when what was asked for last is simulated to its end.
      * @type {Promise<void>}
@@ -90,10 +93,13 @@ export class Lane {
    */
   simulate(simulator, onAnswer) {
     const { experiment } = this;
+    const asked = (this.asked += 1);
+    this.isRunning = true;
     this.done = new Promise((resolve) => {
       simulator.run(this, experiment, (answer) => {
         if (answer.run) this.take(answer.run);
         this.takeBack((answer.refusals ?? []).map(([place]) => experiment.changes[place]));
+        if (answer.done && asked === this.asked) this.isRunning = false;
         if (answer.done) resolve();
         onAnswer(answer);
       });

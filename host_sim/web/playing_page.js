@@ -10,7 +10,11 @@ import { byId, isForPage, setText, typedById } from "./elements.js";
 export class PlayingPage {
   /** @param {number} first - The first tick. */
   constructor(first) {
-    this.first = this.tick = this.exactTick = first;
+    this.first = first;
+    /** The tick that is shown. */
+    this.tick = first;
+    /** The same with its fraction, as it plays on. */
+    this.exactTick = first;
     this.playing = false;
     /**
      * When the last frame was drawn, ms.
@@ -66,7 +70,16 @@ export class PlayingPage {
    * @param {number} tick
    */
   go(tick) {
-    this.tick = Math.min(this.last, Math.max(this.first, Math.floor(tick)));
+    this.goAhead(Math.min(this.last, Math.max(this.first, tick)));
+  }
+
+  /**
+   * Shows a tick that may be there only later.
+   * @param {number} tick
+   */
+  goAhead(tick) {
+    this.exactTick = tick;
+    this.tick = Math.floor(tick);
     this.show();
     this.stale = true;
   }
@@ -75,7 +88,6 @@ export class PlayingPage {
   setPlaying(playing) {
     if (playing && this.tick >= this.last) this.go(this.first);
     this.playing = playing;
-    this.exactTick = this.tick;
     this.frameAt = undefined;
     setText(byId("play"), playing ? "Pause" : "Play");
     this.stale = true;
@@ -94,9 +106,9 @@ export class PlayingPage {
   /** @param {number} now */
   advance(now) {
     const speed = Number(typedById("speed", HTMLSelectElement).value);
-    this.exactTick += ((now - (this.frameAt ?? now)) / this.tickMs) * speed;
+    const passed = ((now - (this.frameAt ?? now)) / this.tickMs) * speed;
     this.frameAt = now;
-    this.go(this.exactTick);
+    this.go(this.exactTick + passed);
     if (this.tick >= this.last) this.setPlaying(false);
   }
 

@@ -3,6 +3,8 @@
 Screenshots are for people to look at.
 """
 
+from collections.abc import Sequence
+
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page
 
@@ -57,8 +59,22 @@ def resize(page: Page, size: tuple[int, int]) -> None:
     wait_for(page, "([width, height]) => innerWidth === width && innerHeight === height", list(size))
 
 
-def violations(page: Page) -> list[str]:
-    return [f"{it['id']}: {it['nodes'][0]['html'][:90]}" for it in Axe().run(page).response["violations"]]
+def violations(page: Page, rules: str = "") -> list[str]:
+    """What axe-core finds: by all of its rules, or by those with a tag."""
+    options = {"runOnly": [rules]} if rules else {}
+    found = Axe().run(page, options=options).response["violations"]
+    return [f"{it['id']}: {it['nodes'][0]['html'][:90]}" for it in found]
+
+
+def violations_at(page: Page, sizes: Sequence[tuple[int, int]] = THREE_SIZES) -> list[str]:
+    """What axe-core finds at some sizes; in the dark at the last one only, where nothing differs but colours."""
+    found = []
+    page.emulate_media(color_scheme="light")
+    for size in sizes:
+        resize(page, size)
+        found += [f"{size}: {it}" for it in violations(page)]
+    page.emulate_media(color_scheme="dark")
+    return found + [f"dark: {it}" for it in violations(page, "cat.color")]
 
 
 def check(page: Page, name: str) -> None:

@@ -33,6 +33,16 @@ def test_a_pressed_cell_shows_its_turn_at_once_and_the_next_one_when_it_is_press
     wait_for_text(page, cell, "right")
 
 
+def test_a_change_is_made_at_the_tick_that_is_shown_even_where_its_run_is_not_yet_simulated_so_far(page):
+    page.evaluate("octet.go(2200)")
+    page.evaluate("octet.simulator.run = () => {}")  # as on a slow machine
+    page.click("#what-if")
+    page.click("#cells li:nth-child(2) button")
+
+    assert page.evaluate("octet.lane.experiment.changes.map((change) => change.tick)") == [2201]
+    assert page.evaluate("octet.tick") == 2201
+
+
 @pytest.mark.parametrize("change", ["behaviour", "parameter", "obstacle", "seed"])
 def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, change):
     page.evaluate("octet.go(1000)")
