@@ -90,7 +90,7 @@ def wait_until(is_so: Callable[[], object], what: str) -> None:
     give_up = time.monotonic() + DEADLINE_S
     while not is_so():
         assert time.monotonic() < give_up, f"waited in vain: {what}"
-        time.sleep(0.005)
+        time.sleep(0.02)
 
 
 def robot_of(process: subprocess.Popen) -> int:
