@@ -101,7 +101,7 @@ CHANGED = {
         "adaptive",
         2,
         "odometer:left:133%@1s odometer:right:-100%@4s/2 odometer:right:100%@4.4s/2 "
-        "swap-odometers@9s swap-odometers@9.5s odometer:right:0%@env2/1 false-beacon:100@env2+2s repair@env2+4s",
+        "swap-odometers@9s swap-odometers@9.5s false-beacon:100@env2+2s odometer:right:0%@env2+3.5s/1 repair@env2+4s",
     ),
     "noise": ("posts", "adaptive", 2, "noise:10/1000@0s noise:200/1000@env2 stuck-off:left@3s/1"),
     "distances": ("small", "distance", 1, "plant@0s mirror@1s stuck-off:front@3s stuck-on:left@env2"),
