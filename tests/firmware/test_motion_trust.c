@@ -148,6 +148,22 @@ static void test_wheels_that_go_ever_farther_astray_stay_denied(void)
     }
 }
 
+/* However far they had gone: what is held against them is no more than what denies one action. */
+static void test_wheels_that_were_far_astray_are_believed_after_one_step_too(void)
+{
+    begin(0, 250);
+    for (unsigned ticks = 0; ticks < 100; ticks++) {
+        struct senses senses;
+
+        body.left_mm += 150.0;
+        body.right_mm -= 150.0;
+        senses = sensed();
+        motion_track(&motion, &senses);
+    }
+    act(0, 12);
+    TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
+}
+
 /* At full speed each wheel makes 251 mm/s in a turn, 50 counts a tick. */
 static void test_odometers_that_count_twice_the_way_are_not_credible(void)
 {
@@ -325,6 +341,7 @@ int main(void)
     RUN_TEST(test_a_wheel_that_is_mended_is_believed_after_one_step);
     RUN_TEST(test_wheels_that_go_on_turning_for_some_ticks_are_not_denied);
     RUN_TEST(test_wheels_that_go_ever_farther_astray_stay_denied);
+    RUN_TEST(test_wheels_that_were_far_astray_are_believed_after_one_step_too);
     RUN_TEST(test_odometers_that_count_twice_the_way_are_not_credible);
     RUN_TEST(test_wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster);
     RUN_TEST(test_ticks_that_were_never_sensed_count_for_the_pace);
