@@ -71,99 +71,6 @@ static void test_wheels_that_are_a_little_off_are_not_denied(void)
         }
 }
 
-/* Steps until the wheels are denied; none if they never are. */
-static unsigned steps_until_denied(double lame)
-{
-    body.lame = lame;
-    for (unsigned steps = 1; steps <= 100; steps++) {
-        act(0, 12);
-        if (motion_is_denied(&motion, &config))
-            return steps;
-    }
-    return 0;
-}
-
-/* A step of 12 mm on one wheel goes astray by a quarter of 240 counts; 1004 are too much. */
-static void test_one_dead_wheel_is_denied_after_some_steps(void)
-{
-    TEST_ASSERT_EQUAL_UINT(17, steps_until_denied(0.0));
-}
-
-static void test_one_wheel_that_rolls_backward_is_denied_sooner(void)
-{
-    TEST_ASSERT_EQUAL_UINT(2, steps_until_denied(-0.5));
-}
-
-static void test_one_weak_wheel_is_not_denied_however_many_steps_it_takes(void)
-{
-    for (unsigned percent = 20; percent <= 100; percent += 10)
-        TEST_ASSERT_EQUAL_UINT(0, steps_until_denied(percent / 100.0));
-}
-
-static void test_one_dead_wheel_is_denied_in_short_turns_either_way(void)
-{
-    unsigned turns = 0;
-
-    for (body.lame = 0.0; !motion_is_denied(&motion, &config); turns++) {
-        TEST_ASSERT_LESS_THAN_UINT(30, turns);
-        act(turns % 2 ? 10 : -10, 0);
-    }
-    TEST_ASSERT_GREATER_THAN_UINT(3, turns);
-}
-
-static void test_a_wheel_that_is_mended_is_believed_after_one_step(void)
-{
-    TEST_ASSERT_NOT_EQUAL_UINT(0, steps_until_denied(0.0));
-    act(0, 12);
-    TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
-    body.lame = 1.0;
-    act(0, 12);
-    TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
-}
-
-/* Where drives are lost, a body goes on turning for 5 ticks while the robot takes steps. */
-static void test_wheels_that_go_on_turning_for_some_ticks_are_not_denied(void)
-{
-    struct senses senses;
-
-    begin(0, 12);
-    body.left_mm += 25.0;
-    body.right_mm -= 25.0;
-    senses = sensed();
-    motion_track(&motion, &senses);
-    TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
-}
-
-static void test_wheels_that_go_ever_farther_astray_stay_denied(void)
-{
-    begin(0, 250);
-    for (unsigned ticks = 0; ticks < 100; ticks++) {
-        struct senses senses;
-
-        body.left_mm += 150.0;
-        body.right_mm -= 150.0;
-        senses = sensed();
-        motion_track(&motion, &senses);
-        TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
-    }
-}
-
-/* However far they had gone: what is held against them is no more than what denies one action. */
-static void test_wheels_that_were_far_astray_are_believed_after_one_step_too(void)
-{
-    begin(0, 250);
-    for (unsigned ticks = 0; ticks < 100; ticks++) {
-        struct senses senses;
-
-        body.left_mm += 150.0;
-        body.right_mm -= 150.0;
-        senses = sensed();
-        motion_track(&motion, &senses);
-    }
-    act(0, 12);
-    TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
-}
-
 /* At full speed each wheel makes 251 mm/s in a turn, 50 counts a tick. */
 static void test_odometers_that_count_twice_the_way_are_not_credible(void)
 {
@@ -334,14 +241,6 @@ int main(void)
     RUN_TEST(test_slow_wheels_are_not_given_up);
     RUN_TEST(test_wheels_that_turn_at_half_the_speed_are_denied);
     RUN_TEST(test_wheels_that_are_a_little_off_are_not_denied);
-    RUN_TEST(test_one_dead_wheel_is_denied_after_some_steps);
-    RUN_TEST(test_one_wheel_that_rolls_backward_is_denied_sooner);
-    RUN_TEST(test_one_weak_wheel_is_not_denied_however_many_steps_it_takes);
-    RUN_TEST(test_one_dead_wheel_is_denied_in_short_turns_either_way);
-    RUN_TEST(test_a_wheel_that_is_mended_is_believed_after_one_step);
-    RUN_TEST(test_wheels_that_go_on_turning_for_some_ticks_are_not_denied);
-    RUN_TEST(test_wheels_that_go_ever_farther_astray_stay_denied);
-    RUN_TEST(test_wheels_that_were_far_astray_are_believed_after_one_step_too);
     RUN_TEST(test_odometers_that_count_twice_the_way_are_not_credible);
     RUN_TEST(test_wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster);
     RUN_TEST(test_ticks_that_were_never_sensed_count_for_the_pace);
