@@ -10,7 +10,7 @@ from host_sim.client.pacing import RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import Frame
 from tests.client.support import PROTOCOL, connected, rolled, senses
-from tests.client.test_supervision import MeddledLink
+from tests.client.meddled_link import MeddledLink
 
 TICK_S = 0.02
 

@@ -1,0 +1,148 @@
+"""A robot that starts anew or is gone: noticed, named, and given its memory back."""
+
+import pytest
+
+from host_sim.client.commands import freeze, start, stop
+from host_sim.client.handshake import handshake
+from host_sim.client.pacing import RealTime
+from host_sim.client.supervision import settle
+from host_sim.errors import FirmwareError, RobotError
+from host_sim.protocol.codec import Frame, crc8
+from tests.client.meddled_link import LEARNED, MeddledLink, learned
+from tests.client.support import PROTOCOL, connected, drive_for, senses
+
+
+def test_a_robot_that_restarts_gets_its_memory_back_and_goes_on():
+    link = MeddledLink()
+    client = learned(link)
+    before = client.memory
+    assert before != (0,) * 8
+
+    link.reboot()
+    drives = drive_for(client, 20, LEARNED)
+
+    assert [drive.tick for drive in drives] == [(LEARNED + tick) % 256 for tick in range(20)]
+    assert any(drive.left_mm_s for drive in drives)
+    assert client.memory == before
+    (incident,) = client.incidents
+    assert str(incident).startswith(
+        f"at tick {LEARNED} (node 1) the robot restarted (power_on) with its memory restored"
+    )
+
+
+def test_a_robot_that_restarts_with_its_memory_keeps_it():
+    link = MeddledLink()
+    client = learned(link)
+
+    link.reboot(client.memory)
+    drive_for(client, 20, LEARNED)
+
+    assert "memory kept" in str(client.incidents)
+
+
+def test_a_frozen_robot_that_restarts_is_frozen_again():
+    link = MeddledLink()
+    client = learned(link)
+    freeze(client, True)
+
+    link.reboot()
+    drive_for(client, 60, LEARNED)
+
+    assert client.reports.heartbeat["frozen"] == 1
+
+
+@pytest.mark.parametrize("tick", [0, 1, 2, 49, 50, 51])
+def test_a_robot_that_restarts_early_is_noticed_within_a_tick(tick):
+    link = MeddledLink()
+    client = learned(link, tick)
+
+    link.reboot()
+    drive_for(client, 1, tick)
+
+    assert [incident.tick for incident in client.incidents] == [tick]
+
+
+def test_a_robot_that_restarts_on_a_bad_bus_is_noticed_too():
+    link = MeddledLink()
+    client = learned(link, faults=("drop:30%", "delay:0-100ms"))
+    before = client.memory
+
+    link.reboot()
+    drive_for(client, 20, LEARNED)
+
+    assert client.memory == before
+    assert "restarted" in str(client.incidents)
+
+
+def test_a_robot_that_restarts_at_the_end_of_an_environment_is_noticed():
+    link = MeddledLink()
+    client = learned(link, faults=("drop@40-42",))
+
+    link.reboot()
+    settle(client)
+    stop(client)
+
+    assert "restarted" in str(client.incidents)
+
+
+def test_a_robot_that_comes_back_with_another_firmware_ends_the_run():
+    link = MeddledLink()
+    client = learned(link)
+
+    def newer(frame: Frame) -> list[Frame]:
+        if frame.id != PROTOCOL.id_of("BOOT"):
+            return [frame]
+        data = frame.data[:4] + bytes([frame.data[4] ^ 1]) + frame.data[5:]
+        return [Frame(frame.id, bytes([crc8(frame.id, data)]) + data[1:])]
+
+    link.change = newer
+    link.reboot()
+
+    with pytest.raises(FirmwareError, match=f"another firmware at tick {LEARNED}: commit"):
+        drive_for(client, 1, LEARNED)
+
+
+def test_in_real_time_a_robot_that_restarts_is_noticed_and_goes_on():
+    link = MeddledLink()
+    with connected(link, lockstep=False) as client:
+        handshake(client, client.deadline_s)
+        start(client, 1, 0, {}, None)
+        pace = RealTime([client], 0.002)
+        for tick in range(10):
+            pace.exchange([senses(tick)])
+
+        link.reboot()
+        drives = [pace.exchange([senses(tick)])[0] for tick in range(10, 30)]
+
+    assert "restarted" in str(client.incidents)
+    assert client.incidents[0].tick <= 12
+    assert drives[-1].left_mm_s or drives[-1].right_mm_s
+
+
+def test_in_real_time_a_robot_that_is_missing_for_a_second_makes_the_result_doubtful():
+    link = MeddledLink()
+    with connected(link, lockstep=False) as client:
+        handshake(client, client.deadline_s)
+        start(client, 1, 0, {}, None)
+        pace = RealTime([client], 0.002)
+        pace.exchange([senses(0)])
+        link.change = lambda _: []
+        for tick in range(1, 510):
+            pace.exchange([senses(tick)])
+
+    (incident,) = client.incidents
+    assert "did not answer for 1 s" in str(incident)
+    assert incident.tick == 500
+
+
+def test_a_robot_in_real_time_that_is_gone_ends_the_run():
+    link = MeddledLink()
+    client = learned(link, 0, lockstep=False)
+    client.deadline_s = 0.2
+    pace = RealTime([client], 0.02)
+    link.change = lambda _: []
+    for tick in range(10):
+        pace.exchange([senses(tick)])
+
+    with pytest.raises(RobotError, match=r"did not answer tick 10 within 0.2 s"):
+        pace.exchange([senses(10)])

@@ -1,0 +1,138 @@
+"""A robot that has a twin or a second commander, or is spoken for by others: noticed, and named."""
+
+import pytest
+
+from host_sim.client.commands import stop
+from host_sim.client.handshake import handshake
+from host_sim.client.supervision import settle
+from host_sim.errors import RivalError, TwinError
+from host_sim.protocol.codec import Frame, counter_of, crc8
+from host_sim.protocol.generated import Opcode
+from tests.client.meddled_link import LEARNED, MeddledLink, command, is_stopped, learned
+from tests.client.support import PROTOCOL, connected, drive_for, drives_in, run, senses
+
+
+def test_a_robot_that_somebody_else_stops_ends_the_run():
+    link = MeddledLink()
+    client = learned(link)
+
+    link.put(command(Opcode.STOP, owner=2))
+
+    with pytest.raises(RivalError, match="somebody else stopped node 1"):
+        drive_for(client, 1, LEARNED)
+
+
+def test_a_robot_that_somebody_else_starts_ends_the_run():
+    link = MeddledLink()
+    client = learned(link)
+
+    link.put(command(Opcode.STOP, owner=7))
+    link.put(command(Opcode.START, owner=7, profile=0, lockstep=1, seed=9))
+
+    with pytest.raises(RivalError, match=f"node 1 obeys another simulator .tick {LEARNED}"):
+        drive_for(client, 1, LEARNED)
+
+
+@pytest.mark.parametrize("rival", [PROTOCOL.encode_senses(senses(7), 3), command(Opcode.FREEZE, owner=3, freeze=1)])
+def test_another_simulator_that_is_heard_ends_the_run_and_the_wheels_rest(rival):
+    link = MeddledLink()
+    client = learned(link)
+
+    link.waiting.extend([rival, rival])
+
+    with pytest.raises(RivalError, match=f"another simulator commands node 1, heard at tick {LEARNED}"):
+        drive_for(client, 1, LEARNED)
+    assert is_stopped(link)
+
+
+def test_a_single_frame_of_another_simulator_may_be_noise():
+    link = MeddledLink()
+    client = learned(link)
+
+    link.waiting.append(command(Opcode.STOP, owner=3))
+    drive_for(client, 1, LEARNED)
+
+    assert client.frames.refused == 1
+
+
+def test_a_robot_that_another_simulator_drives_is_left_alone():
+    link = MeddledLink()
+    link.waiting.extend([PROTOCOL.encode_senses(senses(tick), tick) for tick in (1, 2)])
+
+    with connected(link) as client, pytest.raises(RivalError, match="node 1 is driven by another simulator"):
+        handshake(client, 1.0, shared=True)
+
+    assert link.sent == []
+
+
+def test_a_twin_ends_the_run():
+    link = MeddledLink()
+    client = learned(link)
+    said_by_twin = drives_in(client.log.frames)[-1]
+
+    for _ in range(3):
+        link.put(said_by_twin)
+
+    with pytest.raises(TwinError, match="two robots are node 1"):
+        drive_for(client, 1, LEARNED)
+
+
+def test_two_different_drives_for_one_tick_make_the_result_doubtful():
+    link = MeddledLink()
+    client = learned(link)
+    (said,) = drives_in(client.log.frames)[-1:]
+    data = said.data[:3] + bytes([said.data[3] ^ 1]) + said.data[4:]
+
+    link.waiting.append(Frame(said.id, bytes([crc8(said.id, data)]) + data[1:]))
+    drive_for(client, 5, LEARNED)
+
+    assert "in the robot's name" in str(client.incidents)
+
+
+@pytest.mark.parametrize("ahead", range(1, 8))
+def test_a_forged_memory_does_not_last(ahead):
+    clean, link = learned(MeddledLink()), MeddledLink()
+    client = learned(link)
+    last = [frame for frame in client.log.frames if frame.id == PROTOCOL.id_of("MEMORY")][-1]
+    counter = (counter_of(last) + ahead) % 15
+    for half in range(2):
+        cells = {f"cell_{4 * half + cell}": 0 for cell in range(4)}
+        link.waiting.append(PROTOCOL.encode("MEMORY", {"counter": counter, "half": half, **cells}))
+
+    for each in (clean, client):
+        drive_for(each, 100, LEARNED)
+        settle(each)
+        stop(each)
+
+    assert client.memory == clean.memory != (0,) * 8
+
+
+def test_a_false_alarm_changes_nothing():
+    quiet, alarmed = MeddledLink(), MeddledLink()
+    clients = [learned(quiet), learned(alarmed)]
+    stray = PROTOCOL.encode("ANSWER", {"counter": 14, "opcode": Opcode.GET, "result": 0, "which": 0, "value": 0})
+
+    alarmed.waiting.append(stray)
+    drives = [drive_for(client, 100, LEARNED) for client in clients]
+
+    assert drives[0] == drives[1]
+    assert clients[1].incidents == []
+
+
+def test_a_run_that_nobody_meddles_with_has_no_incidents():
+    with connected(MeddledLink()) as client:
+        run(client, 50)
+
+    assert client.incidents == []
+
+
+def test_a_report_that_was_on_its_way_is_not_taken_for_the_one_that_was_asked_for():
+    link = MeddledLink()
+    client = learned(link)
+
+    link.put(command(Opcode.REPORT, owner=1))
+    link.waiting.popleft()
+    drives = drive_for(client, 5, LEARNED)
+
+    assert [drive.tick for drive in drives] == [(LEARNED + tick) % 256 for tick in range(5)]
+    assert client.incidents == []
