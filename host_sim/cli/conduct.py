@@ -236,7 +236,8 @@ def _run_through(outputs: Outputs) -> None:
 
 def _pause(simulation: Simulation) -> None:
     """Lets people see how an environment ended. No robot time passes, and nothing of it is logged."""
-    from host_sim.live.paced_run import PAUSE_S, discard_reports
+    from host_sim.live.paced_run import PAUSE_S
+    from host_sim.live.robot_orders import discard_reports
 
     end_s = time.monotonic() + PAUSE_S
     while time.monotonic() < end_s:

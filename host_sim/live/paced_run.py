@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from host_sim.client.commands import erase_memory, freeze, write_cells
+from host_sim.client.commands import erase_memory
 from host_sim.errors import RefusedError
 from host_sim.live.page_commands import (
     FULL_SPEED,
@@ -22,11 +22,12 @@ from host_sim.live.page_commands import (
     Speed,
     WriteCell,
 )
+from host_sim.live.robot_orders import command_robot, discard_reports, edit
 from host_sim.protocol.generated import Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.robot_io import Drive
 from host_sim.sim.simulation import EpisodeResult, Simulation
-from host_sim.world.edits import Edit, EditError, Lift, Put
+from host_sim.world.edits import Edit, EditError
 from host_sim.world.params import SimParams
 
 COMMANDS_MAX = 256
@@ -261,7 +262,7 @@ class PacedRun:
             case NewSeed(seed, keep):
                 self._start_over(seed, keep)
             case WriteCell() | EraseMemory() | Freeze():
-                self._command(command)
+                command_robot(self.simulation, self.recorder, command)
             case _:
                 self._edit(command)
 
@@ -275,13 +276,7 @@ class PacedRun:
             raise EditError("the run is over: start over to see more")
         if self.ended_at is not None:
             raise EditError("this environment is over: the next one begins in a moment")
-        match command:
-            case LiftRobot(node):
-                self.simulation.edit(Lift(self._index(node)))
-            case PutRobot(pose, node):
-                self.simulation.edit(Put(pose, self._index(node)))
-            case _:
-                self.simulation.edit(command)
+        edit(self.simulation, command)
         self.layout += 1
 
     def _start_over(self, seed: int, keep: bool) -> None:
@@ -298,37 +293,3 @@ class PacedRun:
         for client, history in zip(simulation.clients, self.recorder.histories, strict=True):
             history.restart(simulation.tick, client.memory)
         self._enter(1)
-
-    def _command(self, command: WriteCell | EraseMemory | Freeze) -> None:
-        """Sends a robot a command over the bus, as a real one needs it too."""
-        index = self._index(command.node)
-        client, history = self.simulation.clients[index], self.recorder.histories[index]
-        self.simulation.set_clock()
-        match command:
-            case WriteCell(cell, side):
-                write_cells(client, {cell: side})
-            case EraseMemory():
-                erase_memory(client)
-            case Freeze(on):
-                freeze(client, on)
-                history.frozen = on
-        history.relearn(self.simulation.tick, client.memory)
-
-    def _index(self, node: int | None) -> int:
-        """The index of the robot with a node number; None stands for the first.
-
-        Raises:
-            EditError: No robot has this node number.
-        """
-        nodes = self.simulation.nodes
-        if node is not None and node not in nodes:
-            raise EditError(f"there is no robot {node}; there are {', '.join(map(str, nodes))}")
-        return 0 if node is None else nodes.index(node)
-
-
-def discard_reports(simulation: Simulation) -> None:
-    """Discards what robots report between two ticks: they receive nothing, and say so."""
-    for client in simulation.clients:
-        while client.link.receive(0.0) is not None:
-            pass
-        client.status()

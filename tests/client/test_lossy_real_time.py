@@ -9,8 +9,8 @@ from host_sim.client.handshake import handshake
 from host_sim.client.pacing import RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import Frame
-from tests.client.support import PROTOCOL, connected, rolled, senses
 from tests.client.meddled_link import MeddledLink
+from tests.client.support import PROTOCOL, connected, rolled, senses
 
 TICK_S = 0.02
 

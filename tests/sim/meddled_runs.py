@@ -1,4 +1,4 @@
-"""A run over a socket pair on which somebody meddles with the robot's answers: by the loop in C, and by the readable one."""
+"""A run whose robot somebody meddles with, on a socket pair: by the loop in C, and by the readable one."""
 
 import socket
 import struct

@@ -1,0 +1,60 @@
+"""What people at a page do with the robots of a run, between two ticks: move them, command them."""
+
+from host_sim.client.commands import erase_memory, freeze, write_cells
+from host_sim.live.page_commands import EraseMemory, Freeze, LiftRobot, PutRobot, WriteCell
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.sim.simulation import Simulation
+from host_sim.world.edits import Edit, EditError, Lift, Put
+
+
+def edit(simulation: Simulation, command: LiftRobot | PutRobot | Edit) -> None:
+    """Changes the arena, or where a robot is.
+
+    Raises:
+        EditError: It cannot be changed so, or there is no such robot.
+    """
+    match command:
+        case LiftRobot(node):
+            simulation.edit(Lift(_index(simulation, node)))
+        case PutRobot(pose, node):
+            simulation.edit(Put(pose, _index(simulation, node)))
+        case _:
+            simulation.edit(command)
+
+
+def command_robot(simulation: Simulation, recorder: RunRecorder, command: WriteCell | EraseMemory | Freeze) -> None:
+    """Sends a robot a command over the bus, as a real one needs it too.
+
+    Raises:
+        EditError: There is no such robot.
+        RefusedError: The robot refuses the command.
+        RobotError: The robot does not answer.
+    """
+    index = _index(simulation, command.node)
+    client, history = simulation.clients[index], recorder.histories[index]
+    simulation.set_clock()
+    match command:
+        case WriteCell(cell, side):
+            write_cells(client, {cell: side})
+        case EraseMemory():
+            erase_memory(client)
+        case Freeze(on):
+            freeze(client, on)
+            history.frozen = on
+    history.relearn(simulation.tick, client.memory)
+
+
+def discard_reports(simulation: Simulation) -> None:
+    """Discards what robots report between two ticks: they receive nothing, and say so."""
+    for client in simulation.clients:
+        while client.link.receive(0.0) is not None:
+            pass
+        client.status()
+
+
+def _index(simulation: Simulation, node: int | None) -> int:
+    """The index of the robot with a node number; None stands for the first."""
+    nodes = simulation.nodes
+    if node is not None and node not in nodes:
+        raise EditError(f"there is no robot {node}; there are {', '.join(map(str, nodes))}")
+    return 0 if node is None else nodes.index(node)
