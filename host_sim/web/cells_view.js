@@ -77,6 +77,7 @@ function factsOf(scene, cell, then) {
  */
 function fillCell(parts, facts) {
   const { button } = parts;
+  if (button.dataset.side !== SIDES[facts.side]) delete button.dataset.wanted;
   button.dataset.side = SIDES[facts.side];
   button.classList.toggle("in-use", facts.inUse);
   button.classList.toggle("trying", facts.trying !== SIDE.NOTHING);
@@ -128,8 +129,12 @@ function makeButton(cell, onPress) {
   button.type = "button";
   button.disabled = cell === 0;
   button.title = cell ? "Press to change: empty, left, right" : "Nothing in the way: nothing to learn";
-  const next = () => (SIDES.indexOf(button.dataset.side ?? "") + 1) % SIDES.length;
-  button.addEventListener("click", () => onPress(cell, next()));
+  button.addEventListener("click", () => {
+    // Pressed again before the first press is shown, it goes on from what was wanted.
+    const next = (SIDES.indexOf(button.dataset.wanted ?? button.dataset.side ?? "") + 1) % SIDES.length;
+    button.dataset.wanted = SIDES[next];
+    onPress(cell, next);
+  });
   return button;
 }
 

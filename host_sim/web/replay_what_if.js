@@ -49,9 +49,10 @@ export class ReplayWhatIf {
       setText(byId("no-what-if"), laboratory.why);
       return;
     }
-    this.show(await pageOf(laboratory.page, { recorded: laboratory.run, tick, node }));
     setText(byId("what-if-news"), "the firmware runs the recorded run again");
     this.view.showModal();
+    const page = await pageOf(laboratory.page, { recorded: laboratory.run, tick, node });
+    if (this.isOpen) this.show(page);
   }
 
   /** @param {string} html */

@@ -144,6 +144,15 @@ def test_it_closes_and_the_recorded_run_is_where_it_was(plain, open_page):
     assert page.evaluate("octet.tick") == 700
 
 
+def test_keys_leave_the_recorded_run_where_it_is_while_the_laboratory_opens(plain, open_page):
+    page = open_page(plain.as_uri())
+
+    press = "document.body.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true }))"
+    page.evaluate(f"['w', 'ArrowRight'].forEach((key) => {press})")
+
+    assert page.evaluate("[octet.tick, document.querySelector('dialog').open]") == [0, True]
+
+
 def test_a_page_without_it_says_how_to_get_it(recorded, open_page):
     page = open_page(recorded.as_uri())
 

@@ -27,10 +27,18 @@ def test_a_pressed_cell_shows_its_turn_at_once_and_the_next_one_when_it_is_press
     cell = "#cells li:nth-child(5)"
 
     page.click(f"{cell} button")
-    wait_for_text(page, cell, "left")
+    wait_for_text(page, f"{cell} .cell-side", "left")
     page.click(f"{cell} button")
 
-    wait_for_text(page, cell, "right")
+    wait_for_text(page, f"{cell} .cell-side", "right")
+
+
+def test_a_cell_that_is_pressed_twice_before_anything_is_shown_takes_the_second_turn(page):
+    page.evaluate("octet.simulator.run = () => {}")  # as on a slow machine
+
+    page.dblclick("#cells li:nth-child(5) button")
+
+    assert page.evaluate("octet.lane.experiment.changes.map((change) => change.side)") == [1, 2]
 
 
 def test_a_change_is_made_at_the_tick_that_is_shown_even_where_its_run_is_not_yet_simulated_so_far(page):
