@@ -21,7 +21,7 @@ from host_sim.bench.figure import ROUNDS, Figure, best, most_figure
 from host_sim.errors import OctetError
 from host_sim.report.octet_page import write_octet_page
 
-_CHROMIUM = "/usr/bin/chromium"
+_CHROMIUM = "/usr/bin/chromium-headless-shell"
 _READY = "window.octet?.scene?.state"
 _WIDTH, _HEIGHT = 1280, 800
 _FRAMES, _LAGS, _LAG_PAUSE_MS = 200, 40, 50.0

@@ -11,7 +11,7 @@ CHROMIUM, FIREFOX = "chromium", "firefox"
 BROWSERS = (CHROMIUM, FIREFOX)
 # Where there is no graphics card, to do as if there was one takes time.
 _CHROMIUM_ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-gpu-rasterization"]
-_PROGRAMS = {CHROMIUM: "chromium", FIREFOX: "firefox-esr"}
+_PROGRAMS = {CHROMIUM: "chromium-headless-shell", FIREFOX: "firefox-esr"}
 
 
 @contextmanager

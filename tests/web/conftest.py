@@ -1,4 +1,4 @@
-"""Debian's Chromium, runs to watch, and pages that are held to their manners."""
+"""Chromium, runs to watch, and pages that are held to their manners."""
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
