@@ -6,6 +6,7 @@ What the robot spends on waiting until its other frames have left is not counted
 from collections.abc import Callable
 
 from host_sim.bench.short_run import step_through
+from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
@@ -103,7 +104,7 @@ def count_ticks(name: str, seed: int, ticks: int) -> list[int]:
     board = start_board(name)
     try:
         cost = TickCost(board)
-        client = RobotClient(board, Protocol(), FrameLog(), status=board.status, bus=name)
+        client = RobotClient(Connection(board, name, board.status), Protocol(), FrameLog())
         handshake(client, _READY_S)
         step_through(assemble([client], RunConfig(seed=seed)), ticks)
         client.log.close()

@@ -52,7 +52,8 @@ class Board:
 
     def found(self, client: RobotClient) -> None:
         """As in `Setup`."""
-        link = client.link.link if isinstance(client.link, FaultyLink) else client.link
+        link = client.connection.link
+        link = link.link if isinstance(link, FaultyLink) else link
         assert isinstance(link, EmulatedBoard)
         self.board = link
 

@@ -201,7 +201,7 @@ def _note(outcome: Outcome, client: RobotClient) -> None:
         "duplicate": frames.duplicate if frames.duplicate > _SIGNS_MAX else 0,
         "lost": frames.lost,
         "refused": frames.refused,
-        "outages": client.line.outages,
+        "outages": client.connection.line.outages,
     }
     # What a busy host does to the line says nothing about the body.
     counts = client.faults if outcome.cell.is_of_body else of_line | client.faults
@@ -209,5 +209,5 @@ def _note(outcome: Outcome, client: RobotClient) -> None:
     outcome.doubts = tuple(map(str, client.incidents))
     outcome.seen = outcome.seen or ", ".join(outcome.doubts)
     outcome.wrong = tuple(pattern for pattern, side in _PROPER.items() if sides[pattern] not in (0, side))
-    if isinstance(client.link, FaultyLink):
-        outcome.struck = tuple(map(str, client.link.schedule.struck))
+    if isinstance(client.connection.link, FaultyLink):
+        outcome.struck = tuple(map(str, client.connection.link.schedule.struck))

@@ -139,7 +139,9 @@ def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
     """Writes the faults that were made, as rules for single frames."""
     from host_sim.faults.faulty_link import FaultyLink
 
-    schedules = [client.link.schedule for client in clients if isinstance(client.link, FaultyLink)]
+    schedules = [
+        client.connection.link.schedule for client in clients if isinstance(client.connection.link, FaultyLink)
+    ]
     if schedules:
         rules = [str(rule) for schedule in schedules for rule in schedule.struck]
         more = sum(schedule.count for schedule in schedules) - len(rules)
@@ -150,7 +152,9 @@ def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
 def _print_robot(options: RunOptions, client: RobotClient) -> None:
     if options.talks:
         config = options.config
-        print(f"robot     node {client.node} on {client.bus}, profile {config.profile}, seed {config.seed}")
+        print(
+            f"robot     node {client.node} on {client.connection.bus}, profile {config.profile}, seed {config.seed}"
+        )
 
 
 def _boredom_limit(options: RunOptions) -> int:

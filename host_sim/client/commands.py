@@ -27,15 +27,15 @@ def start(
         RefusedError: The robot refuses a command.
         RobotError: The robot does not answer.
     """
-    client.session = None
-    answer = client.command("start", profile=profile, seed=seed, lockstep=int(client.lockstep))
+    client.inbox.session = None
+    answer = client.dialogue.command("start", profile=profile, seed=seed, lockstep=int(client.inbox.lockstep))
     client.wants_ranges = bool(answer.signals["value"] & ANSWER_WANTS_RANGES)
     client.memory_kind = _KINDS[profile]
     for name, value in settings.items():
-        client.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)
+        client.dialogue.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)
     if memory is not None:
         _write(client, dict(enumerate(translated(tuple(memory), client.memory_kind))))
-    client.session = Session(seed, profile, settings, missing=client.frames.missing)
+    client.inbox.session = Session(seed, profile, settings, missing=client.frames.missing)
 
 
 def stop(client: RobotClient) -> None:
@@ -44,8 +44,8 @@ def stop(client: RobotClient) -> None:
     Raises:
         RobotError: The robot does not answer.
     """
-    client.session = None
-    client.demand_reports("stop")
+    client.inbox.session = None
+    client.dialogue.demand_reports("stop")
     client.check_settled()
 
 
@@ -72,8 +72,8 @@ def erase_memory(client: RobotClient) -> None:
     Raises:
         RobotError: The robot does not answer.
     """
-    client.command("erase")
-    client.await_memory()
+    client.dialogue.command("erase")
+    client.dialogue.await_memory()
 
 
 def freeze(client: RobotClient, on: bool) -> None:
@@ -82,9 +82,9 @@ def freeze(client: RobotClient, on: bool) -> None:
     Raises:
         RobotError: The robot does not answer.
     """
-    client.command("freeze", freeze=int(on))
-    if client.session is not None:
-        client.session.frozen = on
+    client.dialogue.command("freeze", freeze=int(on))
+    if client.inbox.session is not None:
+        client.inbox.session.frozen = on
 
 
 def _write(client: RobotClient, content: Mapping[int, int]) -> None:
@@ -96,5 +96,5 @@ def _write(client: RobotClient, content: Mapping[int, int]) -> None:
         cells = {i % _HALF: byte for i, byte in content.items() if i // _HALF == half}
         if cells:
             content_of_half = {f"byte_{i}": cells.get(i, 0) for i in range(_HALF)}
-            client.command("write", mask=sum(1 << i for i in cells), half=half, **content_of_half)
-            client.await_memory()
+            client.dialogue.command("write", mask=sum(1 << i for i in cells), half=half, **content_of_half)
+            client.dialogue.await_memory()

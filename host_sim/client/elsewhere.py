@@ -47,7 +47,7 @@ def routine_reports(client: RobotClient) -> list[tuple[str, Frame]]:
     names = {"FAULTS", "HEALTH"}
     if client.reports.memory_is_last:
         names.add("MEMORY")
-    if heartbeat.get("state") and not heartbeat["silent"] and heartbeat["owner"] in (0, client.owner):
+    if heartbeat.get("state") and not heartbeat["silent"] and heartbeat["owner"] in (0, client.inbox.owner):
         names.add("HEARTBEAT")
     return client.reports.last_of(names)
 

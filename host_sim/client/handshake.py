@@ -27,13 +27,15 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
         if shared:
             _listen(client)
         client.reports.forget()
-        client.expect_reports("stop")
-        if client.ask("stop", {}, timeout_s) is None:
-            raise RobotError(f"no robot answered as node {client.node} within {timeout_s:g} s; {client.account()}")
+        client.dialogue.expect_reports("stop")
+        if client.dialogue.ask("stop", {}, timeout_s) is None:
+            raise RobotError(
+                f"no robot answered as node {client.node} within {timeout_s:g} s; {client.dialogue.account()}"
+            )
         assert client.inbox.last is not None
         held[:] = [client.inbox.asked, client.inbox.last]
-        if not client.await_reports():
-            client.demand_reports("stop")
+        if not client.dialogue.await_reports():
+            client.dialogue.demand_reports("stop")
         client.firmware = client.firmware or client.reports.boot
     finally:
         client.inbox.record = client.log.add
@@ -43,7 +45,7 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
 
 def _listen(client: RobotClient) -> None:
     """Makes sure that nobody else drives the robot, before it is stopped."""
-    client.listen(_LISTEN_S)
+    client.waiting.receive(client.inbox.take, _LISTEN_S)
     rival = client.inbox.rival
     if rival is not None:
         raise RivalError(

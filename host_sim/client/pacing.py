@@ -94,8 +94,8 @@ class _Wheels:
     def _wait(self, tick: int, tick_s: float) -> None:
         self.client.frames.lost += 1
         self.waited += 1
-        if self.waited * tick_s > self.client.deadline_s:
-            raise self.client.late(tick)
+        if self.waited * tick_s > self.client.connection.deadline_s:
+            raise self.client.dialogue.no_answer(f"tick {tick}")
         if self.waited == round(MISSING_S / tick_s):
             self.client.distrust(f"the robot did not answer for {MISSING_S:g} s")
 
@@ -127,7 +127,7 @@ class RealTime:
         """
         self._tick_s = tick_s
         self._wheels = [_Wheels(client) for client in clients]
-        self._now = clients[0].now
+        self._now = clients[0].connection.now
         self._next_s = self._now()
 
     def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:

@@ -32,7 +32,7 @@ def drive_after(client: RobotClient, lost: SessionLostError) -> Drive:
             return client.await_drive()
         except SessionLostError as again:
             if again.silent:
-                raise client.late(client.tick) from None
+                raise client.dialogue.no_answer(f"tick {client.tick}") from None
             lost = again
     raise lost
 
@@ -59,9 +59,9 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
         FirmwareError: The robot runs another firmware than before.
         RobotError: The robot does not answer.
     """
-    session, memory, before = client.session, client.memory, _State(client)
+    session, memory, before = client.inbox.session, client.memory, _State(client)
     assert session is not None
-    client.session = None
+    client.inbox.session = None
     _check_rival(client)
     _ask_how_it_is(client, lost)
     if _has_halted(client, before):
@@ -73,7 +73,7 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
         return
     _check_twins(client, before)
     _check_owner(client, lost)
-    client.session = session
+    client.inbox.session = session
     client.frames.refused += lost.booted  # a BOOT, but the robot did not start anew
     if lost.contradicts:
         client.distrust(f"somebody sends frames in the robot's name: {lost}")
@@ -81,11 +81,11 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
 
 def _ask_how_it_is(client: RobotClient, lost: SessionLostError) -> None:
     client.reports.forget()
-    client.expect_reports("report")
-    if client.ask("report", {}, _LAST_S if lost.silent else client.deadline_s) is None:
-        raise client.late(client.tick)
-    if not client.await_reports():
-        client.demand_reports("report")
+    client.dialogue.expect_reports("report")
+    if client.dialogue.ask("report", {}, _LAST_S if lost.silent else client.connection.deadline_s) is None:
+        raise client.dialogue.no_answer(f"tick {client.tick}")
+    if not client.dialogue.await_reports():
+        client.dialogue.demand_reports("report")
 
 
 class _State:
@@ -119,7 +119,7 @@ def _start_again(client: RobotClient, session: Session, memory: tuple[int, ...])
     cause = client.protocol.choice("BOOT", "reset_cause", client.reports.boot["reset_cause"])
     kept = client.memory == memory
     try:
-        handshake(client, client.deadline_s)
+        handshake(client, client.connection.deadline_s)
         start(client, session.seed, session.profile, session.settings, None if kept else memory)
         if session.frozen:
             freeze(client, True)
@@ -133,7 +133,7 @@ def _start_again(client: RobotClient, session: Session, memory: tuple[int, ...])
 def _check_rival(client: RobotClient) -> None:
     rival = client.inbox.rival
     if rival is not None:
-        client.rest()
+        client.dialogue.stop_at_once()
         raise RivalError(
             f"another simulator commands node {client.node}, heard at tick {client.tick}: "
             f"{client.protocol.describe(rival)}; end one of the two, or use another --node"
@@ -142,7 +142,7 @@ def _check_rival(client: RobotClient) -> None:
 
 def _check_twins(client: RobotClient, before: _State) -> None:
     if client.faults.get("twins", 0) > before.faults.get("twins", 0):
-        client.rest()
+        client.dialogue.stop_at_once()
         raise TwinError(
             f"two robots are node {client.node} on this bus, seen at tick {client.tick}: give each its own number"
         )
@@ -156,7 +156,7 @@ def _has_halted(client: RobotClient, before: _State) -> bool:
 def _note_halt(client: RobotClient, session: Session) -> None:
     """Leaves a robot at rest whose wheels do not obey; one whose drives get lost is started again."""
     if client.frames.missing - session.missing < _LOST_MIN:
-        session.halted, client.session = True, session
+        session.halted, client.inbox.session = True, session
         client.distrust("the wheels did not do what they were told, and the robot has stopped")
         return
     start(client, session.seed, session.profile, session.settings, None)
@@ -167,9 +167,9 @@ def _note_halt(client: RobotClient, session: Session) -> None:
 
 def _check_owner(client: RobotClient, lost: SessionLostError) -> None:
     heartbeat = client.reports.heartbeat
-    if heartbeat["owner"] not in (0, client.owner):
-        client.rest()
+    if heartbeat["owner"] not in (0, client.inbox.owner):
+        client.dialogue.stop_at_once()
         raise RivalError(f"simulator {heartbeat['owner']} has taken over node {client.node} at tick {client.tick}")
     if not heartbeat["state"]:
-        client.rest()
+        client.dialogue.stop_at_once()
         raise RivalError(f"somebody else stopped node {client.node}: {lost}")

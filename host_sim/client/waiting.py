@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeVar
 
+from host_sim.client.connection import Connection
 from host_sim.client.round_trip import RoundTrip
 from host_sim.client.session import FrameCounts
 from host_sim.protocol.codec import Frame
-from host_sim.transport.link import Link
 
 T = TypeVar("T")
 
@@ -22,16 +22,12 @@ class Waiting:
     """Receives frames until one is what was waited for.
 
     Attributes:
-        link: Carries the frames.
-        now: Tells the time in which the link waits, s.
-        status: Raises RobotError if the robot's process has ended.
+        connection: Carries the frames, and raises RobotError if the robot's process has ended.
         round_trip: How long answers take.
         counts: Counts what is repeated.
     """
 
-    link: Link
-    now: Callable[[], float]
-    status: Callable[[], str]
+    connection: Connection
     round_trip: RoundTrip
     counts: FrameCounts
 
@@ -42,13 +38,13 @@ class Waiting:
         """
         left_s, spare = timeout_s, _WAITING_MAX
         while True:
-            asked_s, before_s = min(left_s, _LOOK_ALIVE_S), self.now()
-            frame = self.link.receive(asked_s)
+            asked_s, before_s = min(left_s, _LOOK_ALIVE_S), self.connection.now()
+            frame = self.connection.link.receive(asked_s)
             if frame is None:
-                self.status()
+                self.connection.status()
             elif (result := take(frame)) is not None:
                 return result
-            left_s = max(left_s - min(self.now() - before_s, asked_s), 0.0)
+            left_s = max(left_s - min(self.connection.now() - before_s, asked_s), 0.0)
             spare -= left_s <= _DUST_S  # what waits already is taken in, even if this host was held up
             if left_s <= _DUST_S and (frame is None or not spare or not timeout_s):
                 return None
@@ -70,5 +66,5 @@ class Waiting:
         """Sends a frame again."""
         if self.round_trip.is_sure:
             self.round_trip.back_off()
-        self.link.send(frame)
+        self.connection.link.send(frame)
         self.counts.repeated += 1

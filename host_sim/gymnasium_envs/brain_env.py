@@ -191,7 +191,7 @@ class _ParameterHand:
 
     def act(self, client: RobotClient, numbers: NDArray[np.int64]) -> None:
         for parameter, value in zip(self._numbers, numbers.tolist(), strict=True):
-            client.command("set", parameter=parameter, value=value)
+            client.dialogue.command("set", parameter=parameter, value=value)
 
 
 def _hand(acts_on: str, parameters: Sequence[str]) -> _MemoryHand | _ParameterHand:

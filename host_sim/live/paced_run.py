@@ -267,7 +267,7 @@ class PacedRun:
                 self._edit(command)
 
     def _set_speed(self, factor: float) -> None:
-        if factor != 1.0 and not self.simulation.clients[0].lockstep:
+        if factor != 1.0 and not self.simulation.clients[0].inbox.lockstep:
             raise EditError("the robot has a clock of its own and runs at its own speed")
         self.speed, self._next_s = factor, 0.0
 

@@ -47,9 +47,9 @@ def command_robot(simulation: Simulation, recorder: RunRecorder, command: WriteC
 def discard_reports(simulation: Simulation) -> None:
     """Discards what robots report between two ticks: they receive nothing, and say so."""
     for client in simulation.clients:
-        while client.link.receive(0.0) is not None:
+        while client.connection.link.receive(0.0) is not None:
             pass
-        client.status()
+        client.connection.status()
 
 
 def _index(simulation: Simulation, node: int | None) -> int:

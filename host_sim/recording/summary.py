@@ -115,7 +115,7 @@ def summarize(
         seed=config.seed,
         profile=config.profile,
         world=config.world,
-        bus=clients[0].bus,
+        bus=clients[0].connection.bus,
         environments=[_environment(episode) for episode in episodes],
         robots=[_robot(client) for client in clients],
         changes=_changes(config, record),
@@ -168,7 +168,7 @@ def _robot(client: RobotClient) -> dict[str, Any]:
         "faults": client.faults,
         "saturated": [name for name, count in client.faults.items() if count == _FAULTS_MAX],
         "round_trip_ms": None if mean_s is None else round(mean_s * 1000, 3),
-        "line": {"outages": client.line.outages, "unsent": client.line.unsent},
+        "line": {"outages": client.connection.line.outages, "unsent": client.connection.line.unsent},
     }
 
 

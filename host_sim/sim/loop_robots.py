@@ -106,7 +106,7 @@ class RobotInProcess:
         """As in `LoopRobot`: what it has answered is received again. It answers at once or not at all."""
         robot = self._native.robot
         if not robot.answer_count:
-            raise self._client.late(self._native.loop.tick)
+            raise self._client.dialogue.no_answer(f"tick {self._native.loop.tick}")
         waiting = [_frame(frame) for frame in robot.waiting[0 : robot.waiting_count]] if robot.waiting_count else []
         robot.waiting_count = 0
         self._link.put_back(waiting, robot.answer_count)
@@ -130,7 +130,7 @@ class RobotBehindLink:
     def prepare(self) -> int:
         """As in `LoopRobot`. None, where the robot or its line is not as usual."""
         client, socket = self._client, self._link.frame_socket()
-        session = client.session
+        session = client.inbox.session
         if socket is None or session is None or not client.round_trip.is_sure:
             return 0
         if socket is not self._socket and not self._open(socket):

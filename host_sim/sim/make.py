@@ -2,10 +2,12 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 
 from host_sim.backends.bus_lines import BusLines
-from host_sim.backends.connection import Connection, connect
+from host_sim.backends.connect import connect
 from host_sim.client.commands import start
+from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog, NoLog
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, Pace, RealTime
@@ -15,7 +17,6 @@ from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.transport.clock import VirtualClock, WallClock
-from host_sim.transport.link import Link
 from host_sim.world.changes import Change
 from host_sim.world.layouts import NoRoomError, World
 from host_sim.world.worlds import world_of
@@ -131,36 +132,24 @@ def _check_change(change: Change, config: RunConfig) -> None:
 
 def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:
     connection = connect(stack, config.bus, config.robot, node, config.board, lines)
-    link, now = _with_faults(connection, config, node)
-    client = RobotClient(
-        link,
-        Protocol(node),
-        log,
-        lockstep=not config.real_time,
-        owner=config.owner,
-        status=connection.status,
-        bus=connection.bus,
-        deadline_s=connection.deadline_s,
-        now=now,
-        line=connection.line,
-    )
+    if config.faults:
+        connection = _with_faults(connection, config, node)
+    client = RobotClient(connection, Protocol(node), log, lockstep=not config.real_time, owner=config.owner)
     external = config.robot == "external"
-    handshake(client, _EXTERNAL_S if external else client.deadline_s, shared=external)
+    handshake(client, _EXTERNAL_S if external else connection.deadline_s, shared=external)
     return client
 
 
-def _with_faults(connection: Connection, config: RunConfig, node: int) -> tuple[Link, Callable[[], float]]:
-    """The link with the faults that were asked for, and the time that waiting on it takes.
+def _with_faults(connection: Connection, config: RunConfig, node: int) -> Connection:
+    """The connection with the faults that were asked for.
 
     A robot in this process answers at once; what is late there is late in a time of its own, which costs none.
     """
-    clock = VirtualClock() if connection.answers_at_once and config.faults else WallClock()
-    if not config.faults:
-        return connection.link, clock.now
     # A run without faults, as most are, begins without loading them.
     from host_sim.faults.faulty_link import FaultyLink  # noqa: PLC0415 - see above
     from host_sim.faults.rule import Rule  # noqa: PLC0415 - see above
     from host_sim.faults.schedule import Schedule  # noqa: PLC0415 - see above
 
+    clock = VirtualClock() if connection.answers_at_once else WallClock()
     schedule = Schedule([Rule.parse(rule) for rule in config.faults], config.fault_seed, Protocol(node))
-    return FaultyLink(connection.link, schedule, clock), clock.now
+    return replace(connection, link=FaultyLink(connection.link, schedule, clock), now=clock.now)

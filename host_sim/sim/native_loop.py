@@ -53,7 +53,9 @@ class RobotBlock(NamedTuple):
 
 def suits(clients: Sequence[RobotClient]) -> bool:
     """Whether a loop can run these robots: all in this process, or all behind links that may have sockets."""
-    return any(all(isinstance(client.link, kind) for client in clients) for kind in (InProcessLink, SocketLink))
+    return any(
+        all(isinstance(client.connection.link, kind) for client in clients) for kind in (InProcessLink, SocketLink)
+    )
 
 
 class NativeLoop:
@@ -115,7 +117,7 @@ class NativeLoop:
         self._loop.tick = tick
         for index, client in enumerate(self._clients):
             self._look_up(index, client)
-        halted = any(client.session is not None and client.session.halted for client in self._clients)
+        halted = any(client.inbox.session is not None and client.inbox.session.halted for client in self._clients)
         ticks = 0 if halted else min(ticks_max, BLOCK_TICKS, *(wire.prepare() for wire in self._wires))
         if self._log.keeps:
             self._make_room(sum(robot.waiting_count for robot in self._robots))
@@ -195,7 +197,7 @@ class NativeLoop:
 
     def _bind(self, robot: Any, client: RobotClient) -> LoopRobot:
         """Lets the C code reach a robot, and provides its buffers."""
-        ffi, library, link = self._ffi, self._library, client.link
+        ffi, library, link = self._ffi, self._library, client.connection.link
         robot.senses_id, robot.drive_id, robot.heartbeat_id = map(
             client.protocol.id_of, ("SENSES", "DRIVE", "HEARTBEAT")
         )
@@ -225,7 +227,7 @@ class NativeLoop:
         robot = self._robots[index]
         if (faults := self._world.arena.bodies[index].faults) is not self._faults[index]:
             self._faults[index], robot.faults = faults, asdict(faults)
-        robot.senses_counter, self._memories[index] = client.senses_counter, client.memory
+        robot.senses_counter, self._memories[index] = client.inbox.sent_counter, client.memory
 
 
 @cache

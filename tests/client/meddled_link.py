@@ -4,11 +4,12 @@ import time
 from collections import deque
 from collections.abc import Callable
 
+from host_sim.protocol.generated import Opcode
+
 from host_sim.client.commands import start
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import Frame
-from host_sim.protocol.generated import Opcode
 from host_sim.transport.in_process_link import InProcessLink
 from tests.client.support import PROTOCOL, connected, drive_for
 
@@ -52,7 +53,7 @@ class MeddledLink:
 def learned(link: MeddledLink, ticks: int = LEARNED, **options) -> RobotClient:
     """A client whose robot has been running for some time."""
     with connected(link, **options) as client:
-        handshake(client, client.deadline_s)
+        handshake(client, client.connection.deadline_s)
         start(client, 1, 0, {"turn_deg": 20}, None)
         drive_for(client, ticks)
     return client

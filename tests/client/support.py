@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from host_sim.client.commands import start, stop
+from host_sim.client.connection import DEADLINE_S, Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep
@@ -39,13 +40,14 @@ class Diary:
 
 @contextmanager
 def connected(
-    link: Link | None = None, faults: Sequence[str] = (), *, seed: int = 1, lockstep: bool = True, owner: int = 1
+    link: Link | None = None, faults: Sequence[str] = (), *, seed: int = 1, deadline_s: float = DEADLINE_S, **options
 ) -> Iterator[RobotClient]:
     """A client whose robot has answered; its log is a `Diary`."""
     clock = VirtualClock()
     schedule = Schedule([Rule.parse(rule) for rule in faults], seed, PROTOCOL)
     faulty = FaultyLink(link or InProcessLink(), schedule, clock)
-    client = RobotClient(faulty, PROTOCOL, FrameLog(), lockstep=lockstep, owner=owner, now=clock.now)
+    connection = Connection(faulty, deadline_s=deadline_s, now=clock.now)
+    client = RobotClient(connection, PROTOCOL, FrameLog(), **options)
     client.log.close()
     client.log = Diary()
     client.inbox.record = client.log.add
@@ -78,7 +80,7 @@ def drive_for(client: RobotClient, ticks: int, first: int = 0) -> list[Drive]:
 
 def run(client: RobotClient, ticks: int) -> list[Drive]:
     """A whole run: handshake, start, ticks, stop."""
-    handshake(client, client.deadline_s)
+    handshake(client, client.connection.deadline_s)
     start(client, 1, 0, {"turn_deg": 20}, (0, 0, 0, 0, 0, 0, 0, 1))
     drives = drive_for(client, ticks)
     settle(client)

@@ -39,7 +39,7 @@ def link() -> ObeyedLink:
 def started(link) -> Iterator[RobotClient]:
     """A client whose robot has been started; from then on, most of what it says is damaged on its way."""
     with connected(link, faults=("corrupt:68%@20-/from",), lockstep=False) as client:
-        handshake(client, client.deadline_s)
+        handshake(client, client.connection.deadline_s)
         start(client, 1, 0, {}, None)
         yield client
 
@@ -60,11 +60,11 @@ def test_reports_that_jump_after_a_gap_are_no_alarm(started, link):
 
 
 def test_robot_time_goes_as_the_clock_does(started, link):
-    began = started.now()
+    began = started.connection.now()
 
     run_for(started, link, 3000)
 
-    assert started.now() - began == pytest.approx(3000 * TICK_S, rel=0.01)
+    assert started.connection.now() - began == pytest.approx(3000 * TICK_S, rel=0.01)
 
 
 def silent_drive() -> Frame:
@@ -81,7 +81,7 @@ def test_what_a_waiting_robot_has_not_reported_is_known_to_be_lost(link):
         return [] if lost and decoded and decoded.name == lost[0] else [frame]
 
     with connected(link, lockstep=False) as client:
-        handshake(client, client.deadline_s)
+        handshake(client, client.connection.deadline_s)
         link.change = lose_one
         put = link.put
 
@@ -91,23 +91,23 @@ def test_what_a_waiting_robot_has_not_reported_is_known_to_be_lost(link):
             del lost[:1]
 
         link.put = put_and_wait
-        began = client.now()
-        client.demand_reports("report")
+        began = client.connection.now()
+        client.dialogue.demand_reports("report")
 
     assert client.reports.complete
-    assert client.now() - began < 0.1
+    assert client.connection.now() - began < 0.1
 
 
 def test_a_robot_whose_drives_get_lost_is_started_again_when_it_stops(link):
     with connected(link, lockstep=False) as client:
-        handshake(client, client.deadline_s)
+        handshake(client, client.connection.deadline_s)
         start(client, 1, 0, {}, None)
         link.change = lambda frame: [] if is_lost(frame) else [frame]
         run_for(client, link, 600)
 
     assert "too many of its drives were lost, and was started again" in str(client.incidents)
-    assert client.session is not None
-    assert not client.session.halted
+    assert client.inbox.session is not None
+    assert not client.inbox.session.halted
 
 
 def is_lost(frame: Frame) -> bool:

@@ -105,7 +105,7 @@ def test_a_robot_that_comes_back_with_another_firmware_ends_the_run():
 def test_in_real_time_a_robot_that_restarts_is_noticed_and_goes_on():
     link = MeddledLink()
     with connected(link, lockstep=False) as client:
-        handshake(client, client.deadline_s)
+        handshake(client, client.connection.deadline_s)
         start(client, 1, 0, {}, None)
         pace = RealTime([client], 0.002)
         for tick in range(10):
@@ -122,7 +122,7 @@ def test_in_real_time_a_robot_that_restarts_is_noticed_and_goes_on():
 def test_in_real_time_a_robot_that_is_missing_for_a_second_makes_the_result_doubtful():
     link = MeddledLink()
     with connected(link, lockstep=False) as client:
-        handshake(client, client.deadline_s)
+        handshake(client, client.connection.deadline_s)
         start(client, 1, 0, {}, None)
         pace = RealTime([client], 0.002)
         pace.exchange([senses(0)])
@@ -137,8 +137,7 @@ def test_in_real_time_a_robot_that_is_missing_for_a_second_makes_the_result_doub
 
 def test_a_robot_in_real_time_that_is_gone_ends_the_run():
     link = MeddledLink()
-    client = learned(link, 0, lockstep=False)
-    client.deadline_s = 0.2
+    client = learned(link, 0, lockstep=False, deadline_s=0.2)
     pace = RealTime([client], 0.02)
     link.change = lambda _: []
     for tick in range(10):

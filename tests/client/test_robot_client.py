@@ -6,6 +6,7 @@ from collections.abc import Callable
 import pytest
 
 from host_sim.client.commands import start
+from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import HOLD_TICKS, Lockstep, Pace, RealTime
@@ -41,8 +42,8 @@ def client_with(tmp_path):
     """Opens a client with a robot whose frames are tampered with."""
     log = FrameLog(tmp_path / "run.log")
 
-    def connect(tamper: Tamper = lambda frame: [frame], **kwargs) -> RobotClient:
-        return RobotClient(TamperedLink(tamper), PROTOCOL, log, **{"deadline_s": 0.3, **kwargs})
+    def connect(tamper: Tamper = lambda frame: [frame], deadline_s: float = 0.3, **kwargs) -> RobotClient:
+        return RobotClient(Connection(TamperedLink(tamper), deadline_s=deadline_s), PROTOCOL, log, **kwargs)
 
     yield connect
     log.close()
@@ -107,7 +108,7 @@ def test_a_drive_that_never_comes_is_named_with_tick_and_last_frame(client_with)
     client = started(client_with())
     pace = Lockstep([client])
     exchange(pace, senses(0))
-    client.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
+    client.connection.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
 
     with pytest.raises(RobotError, match=r"did not answer tick 1 within 0.3 s; last frame from it: HEALTH"):
         exchange(pace, senses(1))
@@ -115,7 +116,10 @@ def test_a_drive_that_never_comes_is_named_with_tick_and_last_frame(client_with)
 
 def test_a_damaged_drive_is_refused_and_counted(client_with):
     client = started(client_with())
-    client.link.tamper = lambda frame: [frame._replace(data=frame.data[:-1] + bytes([frame.data[-1] ^ 1])), frame]
+    client.connection.link.tamper = lambda frame: [
+        frame._replace(data=frame.data[:-1] + bytes([frame.data[-1] ^ 1])),
+        frame,
+    ]
 
     drive = exchange(Lockstep([client]), senses(0))
 
@@ -125,7 +129,7 @@ def test_a_damaged_drive_is_refused_and_counted(client_with):
 
 def test_a_drive_that_comes_twice_counts_once(client_with):
     client = started(client_with())
-    client.link.tamper = lambda frame: [frame, frame] if is_a("DRIVE")(frame) else [frame]
+    client.connection.link.tamper = lambda frame: [frame, frame] if is_a("DRIVE")(frame) else [frame]
     pace = Lockstep([client])
 
     for tick in range(10):
@@ -137,7 +141,7 @@ def test_a_drive_that_comes_twice_counts_once(client_with):
 def test_frames_of_nobody_are_refused_and_not_recorded(client_with):
     strange = [Frame(-1, b""), Frame(0x7FF, bytes(8)), Frame(PROTOCOL.id_of("SENSES"), bytes(8)), Frame(0x41, b"")]
     client = started(client_with())
-    client.link.tamper = lambda frame: [*strange, frame]
+    client.connection.link.tamper = lambda frame: [*strange, frame]
 
     exchange(Lockstep([client]), senses(0))
 
@@ -148,7 +152,7 @@ def test_a_memory_frame_that_is_no_memory_is_refused(client_with):
     halves = [{"counter": 0, "half": half, **{f"cell_{4 * half + i}": 3 for i in range(4)}} for half in range(2)]
     forged = [PROTOCOL.encode("MEMORY", signals) for signals in halves]
     client = started(client_with())
-    client.link.tamper = lambda frame: [*forged, frame]
+    client.connection.link.tamper = lambda frame: [*forged, frame]
 
     exchange(Lockstep([client]), senses(0))
 
@@ -158,7 +162,7 @@ def test_a_memory_frame_that_is_no_memory_is_refused(client_with):
 
 def test_a_refused_command_says_which_and_why(client_with):
     with pytest.raises(RefusedError, match=r"opcode=set result=out_of_range"):
-        started(client_with()).command("set", parameter=0, value=0)
+        started(client_with()).dialogue.command("set", parameter=0, value=0)
 
 
 def test_a_memory_that_is_written_comes_back(client_with):
@@ -174,7 +178,7 @@ def test_in_real_time_the_last_drive_holds_for_100_ms_and_then_the_wheels_stop(c
     client = started(client_with(lockstep=False, deadline_s=5.0))
     pace = RealTime([client], 0.02)
     moving = exchange(pace, senses(0))
-    client.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
+    client.connection.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
 
     held = [exchange(pace, senses(tick)) for tick in range(1, HOLD_TICKS + 3)]
 
@@ -186,9 +190,9 @@ def test_in_real_time_the_last_drive_holds_for_100_ms_and_then_the_wheels_stop(c
 def test_in_real_time_a_robot_that_is_back_is_obeyed_again(client_with):
     client = started(client_with(lockstep=False, deadline_s=5.0))
     pace = RealTime([client], 0.02)
-    client.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
+    client.connection.link.tamper = lambda frame: [] if is_a("DRIVE")(frame) else [frame]
     resting = [exchange(pace, senses(tick)) for tick in range(8)][-1]
-    client.link.tamper = lambda frame: [frame]
+    client.connection.link.tamper = lambda frame: [frame]
 
     back = exchange(pace, senses(8))
 
@@ -205,11 +209,11 @@ def test_in_real_time_a_drive_that_was_held_up_for_long_is_not_applied(client_wi
         late.append(frame)
         return []
 
-    client.link.tamper = hold_up
+    client.connection.link.tamper = hold_up
     for tick in range(HOLD_TICKS + 3):
         exchange(pace, senses(tick))
     first = next(frame for frame in late if is_a("DRIVE")(frame))
-    client.link.tamper = lambda _: [first]
+    client.connection.link.tamper = lambda _: [first]
 
     drive = exchange(pace, senses(HOLD_TICKS + 3))
 

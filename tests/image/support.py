@@ -3,15 +3,16 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from host_sim.backends.connection import Connection
+from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, TICK_SPAN
+
 from host_sim.bench.short_run import step_through
+from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.board import EmulatedBoard, Faults, start_board
 from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
-from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, TICK_SPAN
 from host_sim.robot_io import Senses
 from host_sim.sim.make import assemble
 from host_sim.sim.run_config import RunConfig
@@ -114,7 +115,7 @@ class Talk:
 
 def run_robot(connection: Connection, seed: int, ticks: int, log: Path) -> RobotClient:
     """A run of a number of ticks with a robot that is there already; returns its client, as it was at the end."""
-    client = RobotClient(connection.link, Protocol(), FrameLog(log), status=connection.status)
+    client = RobotClient(connection, Protocol(), FrameLog(log))
     handshake(client, READY_S)
     step_through(assemble([client], RunConfig(seed=seed)), ticks)
     client.log.close()

@@ -10,7 +10,7 @@ from contextlib import ExitStack
 
 import pytest
 
-from host_sim.backends.connection import connect
+from host_sim.backends.connect import connect
 from host_sim.backends.qemu import Qemu
 from host_sim.errors import OctetError, RobotError, UsageError
 from host_sim.paths import image_path

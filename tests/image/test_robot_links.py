@@ -6,7 +6,7 @@ from contextlib import ExitStack
 
 import pytest
 
-from host_sim.backends.connection import connect
+from host_sim.backends.connect import connect
 from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.generated import Reason

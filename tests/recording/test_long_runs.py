@@ -74,7 +74,7 @@ def test_environments_with_faults_leave_their_results_behind_and_nothing_else():
                 gc.collect()
                 pieces.append(sys.getallocatedblocks())
 
-    assert simulation.clients[0].link.schedule.count > 1000
+    assert simulation.clients[0].connection.link.schedule.count > 1000
     assert pieces[1] - pieces[0] < 20 * PIECES_OF_A_RESULT
 
 

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import INCIDENTS_MAX, RobotClient
 from host_sim.protocol.codec import Protocol
@@ -17,7 +18,7 @@ from host_sim.transport.in_process_link import InProcessLink
 @pytest.fixture
 def client():
     log = FrameLog()
-    yield RobotClient(InProcessLink(), Protocol(), log, bus="none")
+    yield RobotClient(Connection(InProcessLink()), Protocol(), log)
     log.close()
 
 
@@ -48,14 +49,14 @@ def test_a_sound_run_says_nothing_about_its_link(client):
 
 
 def test_what_happened_to_the_line_is_said(client):
-    client.line.outages, client.frames.repeated = 2, 7
+    client.connection.line.outages, client.frames.repeated = 2, 7
     client.round_trip.note(0.3)
 
     assert "link      7 frames repeated, gone 2 times; an answer takes 300 ms" in summary_of(client).for_people()
 
 
 def test_one_of_a_kind_is_in_the_singular(client):
-    client.line.outages, client.frames.repeated = 1, 1
+    client.connection.line.outages, client.frames.repeated = 1, 1
 
     assert "link      1 frame repeated, gone 1 time" in summary_of(client).for_people()
 

@@ -8,7 +8,10 @@ from collections import Counter
 from collections.abc import Callable
 from random import Random
 
+from host_sim.protocol.generated import MESSAGES
+
 from host_sim.client.commands import start
+from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
@@ -16,7 +19,6 @@ from host_sim.errors import RobotError
 from host_sim.faults.bus_faults import random_frame
 from host_sim.faults.forgery import forge
 from host_sim.protocol.codec import Frame, Protocol, crc8
-from host_sim.protocol.generated import MESSAGES
 from host_sim.robot_io import NOTHING_SENSED
 from host_sim.transport.clock import VirtualClock
 from host_sim.transport.in_process_link import InProcessLink
@@ -85,16 +87,16 @@ def storm_at_simulator(count: int, seed: int) -> Counter[str]:
     client, tick = _started(), 0
     for _ in range(0, count, BURST):
         before = _frames_counted(client)
-        client.link.storm = [next_frame() for _ in range(BURST)]
+        client.connection.link.storm = [next_frame() for _ in range(BURST)]
         try:
             client.send_senses(NOTHING_SENSED._replace(tick=tick % 256))
             client.await_drive()
             outcomes["went on"] += 1
         except RobotError as error:
             outcomes[type(error).__name__] += 1
-        taken = BURST - len(client.link.storm)
+        taken = BURST - len(client.connection.link.storm)
         assert _frames_counted(client) >= before + taken, "a frame was not counted"
-        client, tick = (client, tick + 1) if client.session and tick < 200 else (_started(), 0)
+        client, tick = (client, tick + 1) if client.inbox.session and tick < 200 else (_started(), 0)
     return outcomes
 
 
@@ -105,8 +107,8 @@ def _frames_counted(client: RobotClient) -> int:
 
 def _started() -> RobotClient:
     clock = VirtualClock()
-    client = RobotClient(StormyLink(clock), PROTOCOL, FrameLog(), now=clock.now)
-    handshake(client, client.deadline_s)
+    client = RobotClient(Connection(StormyLink(clock), now=clock.now), PROTOCOL, FrameLog())
+    handshake(client, client.connection.deadline_s)
     start(client, 1, 0, {}, None)
     client.log.close()
     client.inbox.record = lambda _: None

@@ -3,10 +3,10 @@
 import itertools
 
 import pytest
+from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, MemoryKind
 
 from host_sim.client.frame_log import FrameLog
 from host_sim.protocol.codec import Protocol
-from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, MemoryKind
 from host_sim.protocol.memory_kinds import kinds_of, sides_of
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.replay import replay
@@ -50,7 +50,7 @@ def test_a_start_with_another_profile_translates_what_was_learned():
     with make(RunConfig(profile="adaptive"), memories=[SIDES]) as simulation:
         (client,) = simulation.clients
         learned = client.memory
-        client.command("start", profile=PROFILES["article"], seed=1, lockstep=1)
-        client.await_memory()
+        client.dialogue.command("start", profile=PROFILES["article"], seed=1, lockstep=1)
+        client.dialogue.await_memory()
 
     assert (kinds_of(learned), client.memory) == ([MemoryKind.CONFIDENCE], SIDES)

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from host_sim.client.commands import stop
+from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
@@ -72,9 +73,9 @@ def connected(meddles: dict[int, Meddle], log: FrameLog) -> Iterator[RobotClient
     thread = threading.Thread(target=line.serve)
     thread.start()
     link = BusLink(SocketPairBus(near.detach()), is_socket=True)
-    client = RobotClient(link, PROTOCOL, log)
+    client = RobotClient(Connection(link), PROTOCOL, log)
     try:
-        handshake(client, client.deadline_s)
+        handshake(client, client.connection.deadline_s)
         yield client
     finally:
         far.shutdown(socket.SHUT_RD)
@@ -128,7 +129,7 @@ def outcome(
         except RobotError as ended:
             error = str(ended)
         assert (simulation.loop is not None) == native
-        garbled = client.link.garbled + client.link._bus.garbled
+        garbled = client.connection.link.garbled + client.connection.link._bus.garbled
         log.close()
         return Outcome(
             *((folder / "run.log").read_bytes(), recorder, client.memory, [*map(str, client.incidents)]),

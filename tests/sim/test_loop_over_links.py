@@ -160,7 +160,7 @@ def test_a_robot_that_ends_is_named():
         simulation.enter(1)
         while simulation.tick < 20:
             simulation.step(20 - simulation.tick)
-        os.kill(simulation.clients[0].link.explain.__self__.pid, signal.SIGKILL)
+        os.kill(simulation.clients[0].connection.link.explain.__self__.pid, signal.SIGKILL)
 
         with pytest.raises(RobotError, match=r"killed by signal 9 \(SIGKILL\)"):
             simulation.step(200)

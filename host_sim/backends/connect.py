@@ -1,45 +1,19 @@
 """Connects to a robot that is named on the command line, and starts it first where needed."""
 
-from collections.abc import Callable
 from contextlib import ExitStack
-from dataclasses import dataclass, field
 
 from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.images import BOARDS
-from host_sim.client.robot_client import DEADLINE_S
+from host_sim.client.connection import Connection
 from host_sim.errors import UsageError
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.line_stats import LineStats
-from host_sim.transport.link import Link
 from host_sim.transport.relay import Relay, RelayedLink
 
 _EMULATORS = ("qemu", "emulated")
 _IMAGE_NODE = 1
 _EMULATED_S = 30.0
 """An emulator on a busy machine may take its time."""
-
-
-@dataclass(frozen=True)
-class Connection:
-    """A connection to a robot.
-
-    Attributes:
-        link: Carries frames to the robot and back.
-        bus: Name of the bus, as in the summary.
-        status: Describes the state of the robot's process, and raises RobotError if it has ended.
-        pid: Process id of the robot; None if it was not started as a process.
-        line: What happens to the line below the frames.
-        deadline_s: Time for the robot to answer, s of wall-clock time.
-        answers_at_once: Whether the robot answers within `send`, or not at all.
-    """
-
-    link: Link
-    bus: str
-    status: Callable[[], str]
-    pid: int | None = None
-    line: LineStats = field(default_factory=LineStats)
-    deadline_s: float = DEADLINE_S
-    answers_at_once: bool = False
 
 
 def connect(  # noqa: PLR0913, PLR0917 - the options of the command line

@@ -1,0 +1,36 @@
+"""A connection to a robot: the link, and what is known of the robot at its other end."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from host_sim.transport.line_stats import LineStats
+from host_sim.transport.link import Link
+
+DEADLINE_S = 5.0
+"""Time for a robot to answer before it is given up, s of wall-clock time."""
+
+
+@dataclass(frozen=True)
+class Connection:
+    """A connection to a robot.
+
+    Attributes:
+        link: Carries frames to the robot and back.
+        bus: Name of the bus, as in the summary.
+        status: Describes the state of the robot's process, and raises RobotError if it has ended.
+        pid: Process id of the robot; None if it was not started as a process.
+        line: What happens to the line below the frames.
+        deadline_s: Time for the robot to answer before it is given up, s of wall-clock time.
+        answers_at_once: Whether the robot answers within `send`, or not at all.
+        now: Tells the time in which the link waits, s.
+    """
+
+    link: Link
+    bus: str = ""
+    status: Callable[[], str] = lambda: "was not started here"
+    pid: int | None = None
+    line: LineStats = field(default_factory=LineStats)
+    deadline_s: float = DEADLINE_S
+    answers_at_once: bool = False
+    now: Callable[[], float] = time.monotonic

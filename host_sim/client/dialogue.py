@@ -1,0 +1,157 @@
+"""The dialogue with a robot: commands, their answers, and the reports that they ask for."""
+
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+
+from host_sim.client.connection import Connection
+from host_sim.client.inbox import Inbox
+from host_sim.client.waiting import Waiting
+from host_sim.errors import RefusedError, RivalError, RobotError
+from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame
+from host_sim.protocol.generated import Opcode, Result
+
+_REPORT_S = 1.0
+_REPORT_DEMANDS = 100
+_JUMP = 7
+
+
+@dataclass
+class Dialogue:
+    """Sends commands to a robot until they are answered, and waits for its reports.
+
+    Attributes:
+        connection: Carries the frames.
+        inbox: Takes in what comes.
+        waiting: Waits for it.
+    """
+
+    connection: Connection
+    inbox: Inbox
+    waiting: Waiting
+    _counter: int = 0
+
+    def command(self, opcode: str, **signals: int) -> DecodedFrame:
+        """Sends a command until it is answered.
+
+        Args:
+            opcode: Name of the command.
+            **signals: The command's signals, by name.
+
+        Returns:
+            The answer.
+
+        Raises:
+            RefusedError: The robot refuses the command.
+            RobotError: The robot does not answer.
+        """
+        answer = self.ask(opcode, signals, self.connection.deadline_s)
+        if answer is None:
+            raise self.no_answer(opcode)
+        return answer
+
+    def ask(self, opcode: str, signals: Mapping[str, int], timeout_s: float) -> DecodedFrame | None:
+        """As `command`, but None if there is no answer in time.
+
+        A command whose counter the robot does not take is sent with another one: in a session that was cut short, the
+        robot counted on from other commands.
+        """
+        answer = None
+        for jump in (1, _JUMP, _JUMP):
+            answer = self._ask_once(self._next(opcode, signals, jump), timeout_s)
+            if answer is None or answer.signals["result"] != Result.OUT_OF_SEQUENCE:
+                break
+        if answer is None or answer.signals["result"] == Result.DONE:
+            return answer
+        if answer.signals["result"] == Result.OWNED:
+            node, tick = self.inbox.protocol.node, self.inbox.tick
+            raise RivalError(f"node {node} obeys another simulator (tick {tick}): end one of the two")
+        assert self.inbox.last is not None
+        raise RefusedError(f"the robot refused a command: {self.inbox.protocol.describe(self.inbox.last)}")
+
+    def demand_reports(self, opcode: str) -> None:
+        """Asks with `report` or `stop` until every report has come, and after a stop until the wheels rest.
+
+        Raises:
+            RobotError: The robot does not answer.
+        """
+        self.expect_reports(opcode)
+        for _ in range(_REPORT_DEMANDS):
+            self.command(opcode)
+            if self.await_reports():
+                return
+        raise RobotError(f"the robot did not report all after {opcode}; {self.account()}")
+
+    def expect_reports(self, opcode: str) -> None:
+        """Prepares for the reports that `report` or `stop` asks for."""
+        self.inbox.reports.await_all()
+        self.inbox.reporting, self.inbox.rested = True, opcode != "stop"
+
+    def await_reports(self) -> bool:
+        """Whether every report comes that was asked for; False as soon as one is known to be missing.
+
+        It ends after the answer: what was on its way before that may be the end of an older one.
+        """
+        reports, now = self.inbox.reports, self.connection.now
+        give_up = now() + self.connection.deadline_s
+        reports.await_end()
+        self.inbox.silent = False
+        while not (self._has_reported and reports.ended):
+            heard = self.waiting.receive(self._take_any, _REPORT_S)
+            if heard is None or self.inbox.silent or now() > give_up:
+                break
+            if reports.ended and not reports.complete:
+                break
+        self.inbox.reporting = not self._has_reported
+        return self._has_reported
+
+    @property
+    def _has_reported(self) -> bool:
+        return self.inbox.reports.complete and self.inbox.rested
+
+    def await_memory(self) -> None:
+        """Waits for the memory that the robot reports after a change, and asks for it if it was lost on the way.
+
+        Raises:
+            RobotError: The robot does not report it.
+        """
+        if self.waiting.receive(self.inbox.take_memory, _REPORT_S) is None:
+            self.demand_reports("report")
+
+    def stop_at_once(self) -> None:
+        """Stops the wheels, without waiting for an answer."""
+        self.inbox.session = None
+        with suppress(RobotError):
+            self.connection.link.send(self._next("stop", {}))
+
+    def no_answer(self, to: str) -> RobotError:
+        """The error for something that the robot did not answer by the deadline."""
+        return RobotError(f"the robot did not answer {to} within {self.connection.deadline_s:g} s; {self.account()}")
+
+    def account(self) -> str:
+        """The last frame from the robot and the state of its process, for error messages."""
+        last = self.inbox.last
+        said = "none" if last is None else self.inbox.protocol.describe(last)
+        return f"last frame from it: {said}; it {self.connection.status()}{self.connection.line.account()}"
+
+    def _next(self, opcode: str, signals: Mapping[str, int], jump: int = 1) -> Frame:
+        """A command with the next counter, or one some steps ahead."""
+        self._counter = (self._counter + jump) % COUNTERS
+        fixed = {"counter": self._counter, "opcode": Opcode[opcode.upper()], "owner": self.inbox.owner}
+        return self.inbox.protocol.encode("COMMAND", {**fixed, **signals})
+
+    def _ask_once(self, command: Frame, timeout_s: float) -> DecodedFrame | None:
+        waiting, counts = self.waiting, self.inbox.counts
+        self.inbox.expect_answer(command)
+        self.inbox.record(command)
+        counts.sent += 1
+        began, repeated = self.connection.now(), counts.repeated
+        self.connection.link.send(command)
+        answer = waiting.receive_or_repeat(lambda: waiting.repeat(command), self.inbox.take_answer, timeout_s)
+        if answer is not None and counts.repeated == repeated:
+            waiting.round_trip.sample(self.connection.now() - began)
+        return answer
+
+    def _take_any(self, frame: Frame) -> bool:
+        self.inbox.take(frame)
+        return True
