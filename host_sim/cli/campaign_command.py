@@ -63,6 +63,8 @@ def _campaign(arguments: argparse.Namespace) -> int:
         return _repeat(arguments.repeat) if arguments.repeat else _shrink(arguments.shrink)
     if arguments.html is None:
         raise UsageError("campaign needs a FILE.html to write the report to, or --repeat or --shrink")
+    if arguments.jobs > 1 and "vcan" in arguments.links:
+        raise UsageError("vcan0 is one bus for one robot at a time: leave out --jobs")
     from host_sim.atomic_file import write_bytes
     from host_sim.campaign.html_report import page, summary, verdict
 

@@ -20,6 +20,7 @@ from host_sim.campaign.setups import LINKS, open_setup
 from host_sim.campaign.shrink import shrink
 from host_sim.campaign.wall_clock import CLOCK_EVENTS
 from host_sim.errors import RobotError, UsageError
+from host_sim.faults.event import Event
 from tests.runs.support import octet
 
 CLEAN = Cell("article", "none", LOCKSTEP, limit_s=3.0)
@@ -282,6 +283,28 @@ def test_a_campaign_without_a_report_says_what_it_needs():
     done = octet("campaign")
 
     assert (done.returncode, "FILE.html" in done.stderr) == (2, True)
+
+
+def test_robots_do_not_meet_on_the_bus_that_they_share():
+    done = octet("campaign", "campaign.html", "--links", "fd", "vcan", "--jobs", "2")
+
+    assert (done.returncode, done.stderr) == (
+        2,
+        "octet: vcan0 is one bus for one robot at a time: leave out --jobs\n",
+    )
+
+
+def test_the_report_begins_with_what_is_not_as_it_should_be_and_does_not_say_anything_twice():
+    cells = [replace(CLEAN, fault=name, events=(Event("kill", 0, 20),)) for name in ("good", "unseen", "long")]
+    ended, bad = Outcome(cells[0], seen="it ended", end="it ended"), Outcome(cells[1])
+    doubted = Outcome(cells[2], doubts=tuple(f"doubt {number}" for number in range(9)))
+
+    text = page([ended, bad, doubted])
+
+    assert text.index("UNSEEN") < text.index('<h2 id="article">') < text.index("good")
+    assert text.count("it ended") == 1
+    assert "doubt 2</p><p>and 6 more like these" in text
+    assert "Not as they should be" not in page([ended])
 
 
 def test_a_cell_is_repeated_and_shrunk_from_the_command_line():
