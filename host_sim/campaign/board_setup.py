@@ -15,6 +15,8 @@ _MS = SECOND // 1000
 _NOWHERE = 0x60000000
 _BELOW_RAM = 0x20000008
 _WATCHDOG_S = 4
+_RECORD = 16
+"""Bytes of a memory in flash."""
 _BABBLE_US = 222
 """Time of a full frame without stuff bits, at 500 kbit/s."""
 
@@ -38,6 +40,7 @@ class Board:
             "crash": lambda _: self.board.hardware.core.derail(_NOWHERE),
             "stack": lambda _: self.board.hardware.core.derail(_NOWHERE, _BELOW_RAM),
             "flash-cut": self._cut_in_flash,
+            "erase-cut": lambda _: self._cut_in_erase(),
             "fast-clock": self._drift,
             "slow-clock": lambda percent: self._drift(-percent),
             "bus-off": lambda span_ms: self._bus("shorted", span_ms),
@@ -64,6 +67,13 @@ class Board:
         """The power goes in the middle of that write or erase from now on, and again in the next one."""
         flash = self.board.hardware.flash
         flash.cuts |= {flash.operations + after, flash.operations + after + 1}
+
+    def _cut_in_erase(self) -> None:
+        """The power goes while the page with the memories is full, and again in the erase that is to make room."""
+        flash = self.board.hardware.flash
+        flash.fill_last_page(_RECORD)
+        flash.cuts |= {flash.operations + 1, flash.operations + 2}
+        self.board.cut_power()
 
     def _bus(self, what: str, span_ms: int) -> None:
         """Something is wrong with the bus for a while of the board's time."""

@@ -1,6 +1,7 @@
 """The report of a campaign: a page that needs no network, with a command for each cell."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Sequence
 from html import escape
 
 from host_sim.campaign.outcome import Outcome
@@ -23,8 +24,10 @@ thead th { white-space: nowrap; }
 .well { background: var(--well); }
 td p { margin: .3rem 0; max-width: 32rem; }
 summary { cursor: pointer; }
-code { overflow-wrap: anywhere; font-size: .85em; }
+code { font-size: .85em; }
+code span { display: inline-block; overflow-wrap: anywhere; max-width: 100%; white-space: pre-wrap; }
 """
+_DOUBTS_MAX = 3
 
 _HEAD = (
     '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
@@ -35,7 +38,8 @@ _EXPLAINED = (
     "<p>Each cell says how a run ended: <em>went on</em> to its end; <em>ended</em> before it, with a reason; "
     "<em>doubted</em>, where the run went on and says that its result is not to be trusted. It opens to what was "
     "noticed, whether the robot took part again, the longest time for which wheels turned without a new drive, what "
-    "was learned wrong, and the command that repeats the run.</p>\n"
+    "was learned wrong, and the command that repeats the run. A green cell went on as if nothing had happened, a "
+    "yellow one says what is wrong, and a red one is not as it should be.</p>\n"
 )
 
 
@@ -43,7 +47,10 @@ def page(outcomes: Sequence[Outcome]) -> str:
     """The whole page."""
     profiles = dict.fromkeys(outcome.cell.profile for outcome in outcomes)
     tables = "".join(_table(name, [each for each in outcomes if each.cell.profile == name]) for name in profiles)
-    return f"{_HEAD}<p>{escape(summary(outcomes))}</p>\n{_bars(outcomes)}{_EXPLAINED}{tables}</main></body></html>\n"
+    return (
+        f"{_HEAD}<p>{escape(summary(outcomes))}</p>\n{_bars(outcomes)}{_EXPLAINED}{_bad(outcomes)}{_ways(profiles)}"
+        f"{tables}</main></body></html>\n"
+    )
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:
@@ -75,14 +82,40 @@ def account(outcome: Outcome) -> str:
 
 
 def _lines(outcome: Outcome) -> list[str]:
+    more = len(outcome.doubts) - _DOUBTS_MAX
     lines = (
         outcome.end,
-        *outcome.doubts,
-        f"seen: {outcome.seen or 'nothing'}",
+        *outcome.doubts[:_DOUBTS_MAX],
+        f"and {more} more like these" if more > 0 else "",
+        "" if outcome.seen == outcome.end != "" else f"seen: {outcome.seen or 'nothing'}",
         f"recovered: {'yes' if outcome.recovered else 'no'}",
-        f"to rest: {outcome.rest_ms} ms",
+        f"wheels turned without a new drive for {outcome.rest_ms} ms at most",
     )
     return [line for line in lines if line]
+
+
+def _bad(outcomes: Sequence[Outcome]) -> str:
+    """What is to be looked at first."""
+    rows = "".join(
+        f'<tr><th scope="row">{escape(each.cell.fault or "no fault")}<p>{escape(each.cell.configuration)}</p></th>'
+        f"{_cell(each)}</tr>\n"
+        for each in outcomes
+        if each.problems
+    )
+    return f"<h2>Not as they should be</h2>\n<table><tbody>\n{rows}</tbody></table>\n" if rows else ""
+
+
+def _ways(profiles: Iterable[str]) -> str:
+    """Links to the tables."""
+    links = (f'<a href="#{escape(name)}">{escape(name)}</a>' for name in profiles)
+    return f"<nav><p>Behaviours: {', '.join(links)}</p></nav>\n"
+
+
+def _command(text: str) -> str:
+    """A command, which is broken into lines before its options and not in them."""
+    first, *others = re.split(r" (?=--)", text)
+    words = (first, *(f" {other}" for other in others))
+    return f"<code>{''.join(f'<span>{escape(word)}</span>' for word in words)}</code>"
 
 
 def _bars(outcomes: Sequence[Outcome]) -> str:
@@ -120,7 +153,7 @@ def _table(profile: str, outcomes: Sequence[Outcome]) -> str:
         for fault in faults
     )
     return (
-        f"<h2>{escape(profile)}</h2>\n"
+        f'<h2 id="{escape(profile)}">{escape(profile)}</h2>\n'
         f'<div class="wide" role="region" tabindex="0" aria-label="{escape(profile)}"><table><thead><tr>'
         f'<th scope="col">fault</th>{head}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n'
     )
@@ -133,5 +166,5 @@ def _cell(outcome: Outcome | None) -> str:
     told = "".join(f"<p>{escape(line)}</p>" for line in _lines(outcome))
     return (
         f'<td class="{kind}"><details><summary>{escape(verdict(outcome))}</summary>{told}'
-        f"<code>{escape(outcome.cell.command())}</code></details></td>"
+        f"{_command(outcome.cell.command())}</details></td>"
     )

@@ -1,16 +1,27 @@
 """The fault classes of the campaign, and the configurations in which each is made to happen."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from random import Random
 
 from host_sim.backends.images import BOARDS
 from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.faults.event import Event
+from host_sim.protocol.generated import MESSAGES, Opcode
 from host_sim.world.body_faults import SENSORS
 
 _LINES, _PROCESSES = ("slcan", "vcan"), ("fd", "slcan", "vcan")
 _COMPARED = (LOCKSTEP,)
 """Where runs can be compared tick by tick."""
+
+_RECORD_WRITES = {"feather_stm32f405": 4, "blue_pill": 8}
+"""So many writes to flash store a memory: words, half-words."""
+
+_INSTRUCTIONS, _SAVING_INSTRUCTIONS = 20_000, 400
+"""Python instructions of a dozen ticks, and of the saving of a memory."""
+
+_NO_LESSONS = ("fixed", "never")
+"""Behaviours that store nothing."""
 
 _AT = 100
 """Two seconds after the start; the robot is under way."""
@@ -24,11 +35,13 @@ class FaultClass:
         name: In words.
         faults: What befalls the frames, as `--fault` has it.
         changes: What befalls the body, as `--change` has it.
-        event: What befalls the robot, its line or this host; several at once with blanks between them.
+        event: What befalls the robot, its line or this host; several at once with blanks between them. {any} stands
+            for any instruction of a dozen ticks, {saving} for one that saves a memory: another one in each run.
         links: Where it can happen; empty for everywhere.
         paces: At which pace it is a fault.
         harmless: At which pace nobody need notice it; in lockstep it is then to leave no trace.
         denies: Whether the robot itself must tell of it, and learn nothing wrong.
+        in_lesson: Whether it happens when something is learned.
     """
 
     name: str
@@ -39,23 +52,31 @@ class FaultClass:
     paces: tuple[str, ...] = PACES
     harmless: tuple[str, ...] = ()
     denies: bool = False
+    in_lesson: bool = False
+
+    def befalls(self, profile: str, link: str, pace: str) -> bool:
+        """Whether it can happen in a configuration."""
+        is_there = pace in self.paces and (not self.links or link in self.links)
+        return is_there and not (self.in_lesson and profile in _NO_LESSONS)
 
     def cell(self, base: Cell) -> Cell:
         """A run without faults, with this one."""
+        dice = Random(f"{self.name} {base}")
+        event = self.event.format(any=dice.randint(1, _INSTRUCTIONS), saving=dice.randint(1, _SAVING_INSTRUCTIONS))
         return replace(
             base,
             fault=self.name,
             faults=self.faults,
             changes=tuple(f"{change}@2s" for change in self.changes),
-            events=tuple(Event.parse(f"{event}@{_AT}") for event in self.event.split()),
+            events=tuple(Event.parse(f"{each}@{_AT}") for each in event.split()),
             harmless=base.pace in self.harmless,
             denies=self.denies,
         )
 
 
 def _of_body(name: str, *changes: str, denies: bool = False) -> FaultClass:
-    """A fault of the body shows in what the robot does: in another run than without it."""
-    return FaultClass(name, changes=changes, paces=_COMPARED, denies=denies)
+    """A fault of the body shows in what the robot does: in lockstep, in another run than without it."""
+    return FaultClass(name, changes=changes, harmless=() if denies else (REAL_TIME,), denies=denies)
 
 
 def _of_odometers() -> Iterator[FaultClass]:
@@ -73,6 +94,25 @@ def _of_odometers() -> Iterator[FaultClass]:
     yield _of_body("odometers are swapped", "swap-odometers", denies=True)
 
 
+def _of_forgery() -> Iterator[FaultClass]:
+    """Each command, and each message in its sender's name. Only one that counts as the robot expects is obeyed."""
+    for opcode in Opcode:
+        name = opcode.name.lower()
+        yield FaultClass(f"a forged {name} command", (f"forge:{name}@300/to",))
+    for message in MESSAGES.values():
+        rule = f"forge:20%:{message.name}/from" if message.sender == "ROBOT" else f"forge:{message.name}@300-310/to"
+        yield FaultClass(f"forged {message.name} frames", (rule,))
+
+
+def _of_flash() -> Iterator[FaultClass]:
+    """A loss of power at each write of a memory, and in an erase."""
+    for number in range(1, max(_RECORD_WRITES.values()) + 1):
+        name = f"the power goes in write {number} of a memory to flash, twice in a row"
+        boards = tuple(board for board, writes in _RECORD_WRITES.items() if number <= writes)
+        yield FaultClass(name, event=f"flash-cut:{number}", links=boards, in_lesson=True)
+    yield FaultClass("the power goes while flash is erased, twice in a row", event="erase-cut", links=BOARDS)
+
+
 BUS: tuple[FaultClass, ...] = (
     FaultClass("a third of the frames is lost", ("drop:30%",)),
     FaultClass("the bus is cut for a while", ("drop@300-340",)),
@@ -86,19 +126,11 @@ BUS: tuple[FaultClass, ...] = (
     FaultClass("frames end early", ("truncate:20%",)),
     FaultClass("others talk", ("flood:10%:20",)),
     FaultClass("a node babbles", ("babble:50%:20",)),
-    FaultClass("a forged stop", ("forge:stop@300/to",)),
-    FaultClass("a forged start", ("forge:start@300/to",)),
-    FaultClass("a forged erase", ("forge:erase@300/to",)),
     FaultClass("a second robot", ("forge:DRIVE@300-302/to",)),
     FaultClass("a second simulator", ("forge:SENSES@300-310/from",)),
-    FaultClass("forged memories", ("forge:20%:MEMORY/from",)),
-    FaultClass("forged heartbeats", ("forge:20%:HEARTBEAT/from",)),
-    FaultClass("forged drives", ("forge:20%:DRIVE/from",)),
-    FaultClass("forged answers", ("forge:20%:ANSWER/from",)),
-    FaultClass("forged counters of faults", ("forge:20%:FAULTS/from",)),
+    *_of_forgery(),
     # One alone may pass for a report that came twice. It is never obeyed.
     FaultClass("a forged power-up", ("forge:BOOT@300/from",), harmless=PACES),
-    FaultClass("forged power-ups", ("forge:BOOT@300-305/from",)),
     FaultClass(
         "all at once", ("drop:10%", "duplicate:5%", "reorder:5%", "delay:5%:0-60ms", "corrupt:5%", "truncate:5%")
     ),
@@ -132,8 +164,7 @@ ROBOT: tuple[FaultClass, ...] = (
     FaultClass("the core stands still until its watchdog bites", event="watchdog", links=BOARDS),
     FaultClass("the core jumps to nowhere", event="crash", links=BOARDS),
     FaultClass("the stack has left the memory", event="stack", links=BOARDS),
-    FaultClass("the power goes while flash is written, twice in a row", event="flash-cut:1", links=BOARDS),
-    FaultClass("the power goes in the third write to flash, twice in a row", event="flash-cut:3", links=BOARDS),
+    *_of_flash(),
     FaultClass("the robot's clock is 2 % fast", event="fast-clock:2", links=BOARDS, harmless=PACES),
     FaultClass("the robot's clock is 2 % slow", event="slow-clock:2", links=BOARDS, harmless=PACES),
 )
@@ -151,6 +182,8 @@ LINE: tuple[FaultClass, ...] = (
 """In the line below the frames, and in CAN's controller."""
 
 HOST: tuple[FaultClass, ...] = (
+    FaultClass("the simulator is killed at any instruction", event="kill-simulator:{any}"),
+    FaultClass("the simulator is killed while it saves a memory", event="kill-saving:{saving}", in_lesson=True),
     FaultClass("the simulator is stopped for 0.5 s", event="hold-up:500", links=_PROCESSES, harmless=_COMPARED),
     FaultClass("the disk is full", event="disk-full"),
     FaultClass("the disk fills up in the middle of the log", event="disk-full:10000"),
@@ -195,7 +228,7 @@ def groups(
             for pace in paces:
                 if (link, pace) != ("none", REAL_TIME):
                     base = Cell(profile, link, pace, limit_s=limits_s(pace))
-                    yield [base, *(each.cell(base) for each in _possible(classes, link, pace))]
+                    yield [base, *(each.cell(base) for each in classes if each.befalls(profile, link, pace))]
 
 
 def recognised(cell: Cell) -> Cell:
@@ -203,12 +236,6 @@ def recognised(cell: Cell) -> Cell:
     base = replace(cell, faults=(), changes=(), events=())
     known = (each.cell(base) for each in CLASSES if cell.pace in each.paces)
     return next((each for each in known if str(each) == str(cell)), cell)
-
-
-def _possible(classes: Iterable[FaultClass], link: str, pace: str) -> Iterator[FaultClass]:
-    for each in classes:
-        if pace in each.paces and (not each.links or link in each.links):
-            yield each
 
 
 def default_limit_s(pace: str) -> float:

@@ -9,14 +9,21 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from host_sim.campaign.killed import Tell, kill_at
 from host_sim.campaign.permissions import obey_permissions
 from host_sim.campaign.setups import Happen
 from host_sim.client.frame_log import FrameLog
 from host_sim.errors import OctetError
 from host_sim.faults.event import Event
-from host_sim.recording.memory_file import MemorySaver
+from host_sim.protocol.memory_kinds import Memory
+from host_sim.recording.memory_file import MemorySaver, load_memory
 
 _READ_ONLY = 0o555
+_MEMORY = "robot.mem"
+
+
+def _tell_nobody(*_: object) -> None:
+    """The run is in no danger of being killed."""
 
 
 class NoFiles:
@@ -27,7 +34,12 @@ class NoFiles:
         events: What can befall the files, by name.
         struck: Whether something has befallen them.
         told: What was said about them, in sentences.
+        memory: What the memory file held before; None if there was none.
+        note: Takes what is to be known of the run, whatever becomes of it.
     """
+
+    memory: Memory | None = None
+    note: Tell = staticmethod(_tell_nobody)
 
     def __init__(self, log: FrameLog | None = None) -> None:
         """Nothing was written yet."""
@@ -70,23 +82,31 @@ class NoFiles:
 class RunFiles(NoFiles):
     """A log and a memory file in a folder of their own, kept as `tools/run` keeps them."""
 
-    def __init__(self, folder: Path, undo: ExitStack) -> None:
+    def __init__(self, folder: Path, undo: ExitStack, tell: Tell = _tell_nobody) -> None:
         """Begins to write.
 
         Args:
-            folder: An empty folder.
+            folder: Holds nothing but the memory file of an earlier run.
             undo: Takes back what befell the files.
+            tell: Told of each memory before it is saved, and of all that `note` gets.
         """
-        self._folder, self._undo = folder, undo
-        self._log_path, self._memory_path = folder / "run.log", folder / "robot.mem"
+        self._folder, self._undo, self.note = folder, undo, tell
+        self._log_path, self._memory_path = folder / "run.log", folder / _MEMORY
         super().__init__(FrameLog(self._log_path))
         self.events = {name: partial(self._strike, happen) for name, happen in _EVENTS.items()}
-        self._saver = MemorySaver(self._memory_path, None, lambda line: self.told.append(self.without_folder(line)))
-        self._saved: bytes | None = None
-        self._finished = False
+        self.memory = load_memory(self._memory_path)
+        self._saver = MemorySaver(
+            self._memory_path, self.memory, lambda line: self.told.append(self.without_folder(line))
+        )
+        self._saved = None if self.memory is None else bytes(self.memory)
+        self._finished, self._killed_in_save = False, 0
 
     def save(self, memory: Sequence[int]) -> None:
         """As in `NoFiles`."""
+        if bytes(memory) != self._saved:
+            self.note("saving", bytes(memory).hex())
+            if self._killed_in_save:
+                kill_at(self._killed_in_save)
         self._saver.save(memory)
         self._saved = bytes(memory)
 
@@ -137,6 +157,14 @@ class RunFiles(NoFiles):
         """The memory file is removed."""
         self._memory_path.unlink()
 
+    def kill(self, number: int) -> None:
+        """SIGKILL to this process at one of its next Python instructions."""
+        kill_at(number)
+
+    def kill_in_save(self, number: int) -> None:
+        """SIGKILL to this process at one of the Python instructions that save the next memory."""
+        self._killed_in_save = number
+
 
 _EVENTS: Mapping[str, Callable[[RunFiles, int], None]] = {
     "disk-full": RunFiles.fill_disk,
@@ -144,27 +172,54 @@ _EVENTS: Mapping[str, Callable[[RunFiles, int], None]] = {
     "folder-gone": RunFiles.remove_folder,
     "log-gone": RunFiles.remove_log,
     "memory-gone": RunFiles.remove_memory,
+    "kill-simulator": RunFiles.kill,
+    "kill-saving": RunFiles.kill_in_save,
 }
+
+KILL_EVENTS = frozenset({"kill-simulator", "kill-saving"})
+"""Those that end the process of the run."""
 
 FILE_EVENTS = frozenset(_EVENTS)
 """What can befall the files of a run, by name."""
 
 
-def open_files(events: Iterable[Event], undo: ExitStack) -> NoFiles:
-    """The files of a run: none, unless something is to befall them.
+def make_folder(events: Iterable[Event], undo: ExitStack) -> Path | None:
+    """An empty folder for the files of a run; None for a run without files, for nothing is to befall them.
 
     Args:
         events: All that is to happen in the run.
-        undo: Takes back what befell the files, closes them, and removes them.
+        undo: Removes it.
     """
     if FILE_EVENTS.isdisjoint(event.name for event in events):
-        files = NoFiles()
-    else:
-        folder = Path(undo.enter_context(TemporaryDirectory())) / "out"
-        folder.mkdir()
-        files = RunFiles(folder, undo)
+        return None
+    folder = Path(undo.enter_context(TemporaryDirectory())) / "out"
+    folder.mkdir()
+    return folder
+
+
+def open_files(folder: Path | None, undo: ExitStack, tell: Tell = _tell_nobody) -> NoFiles:
+    """The files of a run.
+
+    Args:
+        folder: As `make_folder` has it.
+        undo: Takes back what befell the files, and closes them.
+        tell: As in `RunFiles`.
+    """
+    files = NoFiles() if folder is None else RunFiles(folder, undo, tell)
     undo.callback(files.close)
     return files
+
+
+def is_memory_held(folder: Path | None, saved: Sequence[str]) -> bool:
+    """Whether the memory file of a run that was killed is whole, and not older than it may be.
+
+    Args:
+        folder: Of the run.
+        saved: Each memory that it was about to save, in hexadecimal.
+    """
+    memory = None if folder is None else load_memory(folder / _MEMORY)
+    held = "" if memory is None else bytes(memory).hex()
+    return held in (["", *saved])[-2:]
 
 
 def _digest(path: Path) -> str:

@@ -5,7 +5,8 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
 from host_sim.campaign.cell import Cell
-from host_sim.campaign.outcome import Outcome, run_all
+from host_sim.campaign.outcome import Outcome
+from host_sim.campaign.running import run_all
 
 
 def run_in_processes(groups: Sequence[Sequence[Cell]], count: int) -> Iterator[Outcome]:

@@ -63,6 +63,8 @@ def _campaign(arguments: argparse.Namespace) -> int:
         return _repeat(arguments.repeat) if arguments.repeat else _shrink(arguments.shrink)
     if arguments.html is None:
         raise UsageError("campaign needs a FILE.html to write the report to, or --repeat or --shrink")
+    if arguments.jobs > 1 and "vcan" in arguments.links:
+        raise UsageError("vcan0 is one bus for one robot at a time: leave out --jobs")
     from host_sim.atomic_file import write_bytes
     from host_sim.campaign.html_report import page, summary, verdict
 
@@ -81,7 +83,7 @@ def _campaign(arguments: argparse.Namespace) -> int:
 def _outcomes(arguments: argparse.Namespace) -> "Iterator[Outcome]":
     from host_sim.campaign.cell import PACES
     from host_sim.campaign.matrix import default_limit_s, groups
-    from host_sim.campaign.outcome import run_all
+    from host_sim.campaign.running import run_all
     from host_sim.campaign.workers import run_in_processes
 
     paces = PACES if arguments.real_time else PACES[:1]
@@ -106,7 +108,7 @@ def _repeat(text: str) -> int:
     from host_sim.campaign.cell import Cell
     from host_sim.campaign.html_report import account
     from host_sim.campaign.matrix import recognised
-    from host_sim.campaign.outcome import run_all
+    from host_sim.campaign.running import run_all
 
     *_, outcome = run_all(_with_clean(recognised(Cell.parse(text))))
     print(account(outcome))
@@ -115,7 +117,7 @@ def _repeat(text: str) -> int:
 
 def _shrink(text: str) -> int:
     from host_sim.campaign.cell import Cell
-    from host_sim.campaign.outcome import run_all
+    from host_sim.campaign.running import run_all
     from host_sim.campaign.shrink import shrink
 
     def attempt(smaller: "Cell") -> "Outcome":

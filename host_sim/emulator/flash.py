@@ -100,6 +100,16 @@ class Flash(Peripheral):
         }
         super().__init__("FLASH", registers, clocked=True)
 
+    def fill_last_page(self, size: int) -> None:
+        """As after long use: what was written last to the last page in use stands in all of its blank places, too.
+
+        Args:
+            size: Of a place, in bytes.
+        """
+        end = -(-len(self.memory.rstrip(_ERASED)) // size) * size
+        room = sum(self.kind.pages[: self._page_of(end - 1) + 1]) - end
+        self.memory[end : end + room] = self.memory[end - size : end] * (room // size)
+
     @abstractmethod
     def refusal(self, offset: int, size: int, value: int) -> int:
         """Flags of SR for a write that the hardware refuses; 0 for one that it does."""

@@ -1,6 +1,7 @@
 """A sample of the campaign: each fault is seen, nothing is unsafe, and what is not seen fails it."""
 
 import shlex
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -8,15 +9,18 @@ import pytest
 
 from host_sim.backends.images import BOARDS
 from host_sim.campaign import matrix
+from host_sim.campaign.board_setup import Board
 from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.campaign.html_report import page, verdict
 from host_sim.campaign.matrix import FaultClass, default_limit_s, groups
-from host_sim.campaign.outcome import Outcome, run_all
+from host_sim.campaign.outcome import Outcome
 from host_sim.campaign.run_files import FILE_EVENTS
+from host_sim.campaign.running import run_all, run_cell
 from host_sim.campaign.setups import LINKS, open_setup
 from host_sim.campaign.shrink import shrink
 from host_sim.campaign.wall_clock import CLOCK_EVENTS
 from host_sim.errors import RobotError, UsageError
+from host_sim.faults.event import Event
 from tests.runs.support import octet
 
 CLEAN = Cell("article", "none", LOCKSTEP, limit_s=3.0)
@@ -56,7 +60,7 @@ def test_a_robot_that_does_not_come_up_breaks_its_run_and_not_the_campaign(monke
     def fail(link):
         raise RobotError(f"the robot on {link} was not ready")
 
-    monkeypatch.setattr("host_sim.campaign.outcome.open_setup", fail)
+    monkeypatch.setattr("host_sim.campaign.running.open_setup", fail)
 
     (found,) = run_all([CLEAN])
 
@@ -67,7 +71,7 @@ def test_a_fault_of_the_body_is_not_seen_by_frames_that_are_repeated(monkeypatch
     def repeat(client):
         client.frames.repeated += 1
 
-    monkeypatch.setattr("host_sim.campaign.outcome.stop", repeat)
+    monkeypatch.setattr("host_sim.campaign.running.stop", repeat)
     nothing = replace(CLEAN, fault="a motor that is as before", changes=("weak-motor:left:100%@1s",))
 
     *_, found = run_all([CLEAN, nothing])
@@ -164,6 +168,43 @@ def test_the_power_goes_twice_in_a_row_while_flash_is_written_and_the_memory_is_
     assert "its memory restored" in outcome.doubts[0]
 
 
+def test_the_power_goes_twice_in_a_row_while_flash_is_erased_and_the_memory_is_kept(monkeypatch):
+    setup = Board("blue_pill")
+    monkeypatch.setattr("host_sim.campaign.running.open_setup", lambda _: nullcontext(setup))
+
+    outcome = run_cell(Cell.parse("article blue_pill lockstep seed=12 limit=8 event=erase-cut@300"))
+
+    assert outcome.problems == []
+    assert "its memory kept" in outcome.doubts[0]
+    assert setup.board.resets == ["power"] * 3
+    at_first, cut_short, whole = 1, 2, 1
+    assert setup.board.hardware.flash.erasures == at_first + cut_short + whole
+
+
+@pytest.mark.parametrize(
+    ("where", "event"),
+    [
+        *(
+            ("fd", "kill"),
+            ("slcan", "reset"),
+            ("slcan", "unplug:100"),
+            ("none", "disk-full"),
+            ("none", "folder-gone"),
+        ),
+        *(
+            ("blue_pill", name)
+            for name in ("reset", "power", "watchdog", "crash", "stack", "flash-cut:1", "bus-off:9")
+        ),
+    ],
+)
+def test_an_event_without_effect_fails_the_campaign(monkeypatch, where, event):
+    monkeypatch.setattr("host_sim.campaign.running.happen", lambda *_: None)
+
+    outcome = outcome_of(f"article {where} lockstep seed=12 limit=0.6 event={event}@20")
+
+    assert outcome.problems == ["unseen"]
+
+
 @pytest.mark.parametrize("event", ["fast-clock:2", "slow-clock:2"])
 def test_a_clock_that_drifts_leaves_no_trace_in_lockstep(event):
     clean, drifting = (
@@ -242,6 +283,28 @@ def test_a_campaign_without_a_report_says_what_it_needs():
     done = octet("campaign")
 
     assert (done.returncode, "FILE.html" in done.stderr) == (2, True)
+
+
+def test_robots_do_not_meet_on_the_bus_that_they_share():
+    done = octet("campaign", "campaign.html", "--links", "fd", "vcan", "--jobs", "2")
+
+    assert (done.returncode, done.stderr) == (
+        2,
+        "octet: vcan0 is one bus for one robot at a time: leave out --jobs\n",
+    )
+
+
+def test_the_report_begins_with_what_is_not_as_it_should_be_and_does_not_say_anything_twice():
+    cells = [replace(CLEAN, fault=name, events=(Event("kill", 0, 20),)) for name in ("good", "unseen", "long")]
+    ended, bad = Outcome(cells[0], seen="it ended", end="it ended"), Outcome(cells[1])
+    doubted = Outcome(cells[2], doubts=tuple(f"doubt {number}" for number in range(9)))
+
+    text = page([ended, bad, doubted])
+
+    assert text.index("UNSEEN") < text.index('<h2 id="article">') < text.index("good")
+    assert text.count("it ended") == 1
+    assert "doubt 2</p><p>and 6 more like these" in text
+    assert "Not as they should be" not in page([ended])
 
 
 def test_a_cell_is_repeated_and_shrunk_from_the_command_line():

@@ -91,6 +91,37 @@ def test_what_befell_the_files_is_taken_back(tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "run.log.part"]
 
 
+@pytest.mark.parametrize("event", ["kill-simulator:7000@100", "kill-saving:200@200"])
+def test_a_simulator_that_is_killed_has_kept_the_memory_and_another_one_goes_on_with_it(event):
+    outcome = outcome_of(f"{LEARNS} event={event}")
+
+    assert (outcome.problems, outcome.end, outcome.recovered) == ([], "", True)
+    assert outcome.seen == "the simulator was killed, and another one went on with its memory"
+
+
+def test_another_simulator_takes_over_the_robot_of_one_that_was_killed():
+    outcome = outcome_of("article slcan lockstep seed=12 limit=1 event=kill-simulator:7000@20")
+
+    assert (outcome.problems, outcome.end, outcome.recovered) == ([], "", True)
+
+
+def test_a_memory_that_is_not_in_its_file_when_the_simulator_is_killed_fails_the_campaign(monkeypatch):
+    monkeypatch.setattr(MemorySaver, "save", lambda *_: None)
+
+    assert "lost without a word" in outcome_of(f"{LEARNS} event=kill-simulator:5@400").problems
+
+
+def test_a_simulator_that_ends_before_it_is_killed_fails_the_campaign(monkeypatch):
+    line = "article none lockstep seed=12 limit=1 event=kill-simulator:5@400"
+
+    assert "did not happen" in outcome_of(line).problems
+
+    monkeypatch.setattr(MemorySaver, "save", lambda *_: 1 // 0)
+    outcome = outcome_of(line)
+    assert "broke" in outcome.problems
+    assert outcome.end == "ZeroDivisionError: integer division or modulo by zero"
+
+
 @pytest.mark.parametrize("event", ["clock-ahead:3600", "clock-back:3600"])
 def test_a_wall_clock_that_is_set_leaves_no_trace_in_lockstep(event):
     clean, stepped = (

@@ -1,7 +1,12 @@
 """What a page is told of a run: what is new, and only that."""
 
+from types import SimpleNamespace
+
+from host_sim.live.board_feed import BoardFeed
+from host_sim.live.curves import Curves
 from host_sim.live.feed import PageFeed
 from host_sim.live.page_commands import FULL_SPEED
+from host_sim.live.seats import Rights, Seats
 
 
 def test_a_page_is_told_what_is_new_and_only_that(live):
@@ -21,3 +26,14 @@ def test_a_page_that_asks_seldom_gets_no_more_than_one_that_asks_often(live):
             run.simulation.enter(2)
         run.simulation.step()
     assert len(feed.next()) < 50_000
+
+
+def test_nobody_is_told_what_a_page_is_recognised_by(live):
+    run, seats, key = live(robots=2), Seats([1, 2]), "0123456789abcdef" * 2
+    seat = seats.take(key)
+    listener = SimpleNamespace(urls=["http://octet"], qr_modules=[])
+
+    said = [PageFeed(run, rights=Rights(seats, seat)).next(), BoardFeed(run, Curves(run), seats, listener).next()]
+
+    assert all(text and "node" in text for text in said)
+    assert not any(key in text for text in said)

@@ -5,15 +5,13 @@ import os
 import resource
 import signal
 import sys
-import tempfile
 import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import FrameType
 from unittest import mock
 
-import host_sim
+from host_sim.campaign.instructions import before_each_instruction
 from host_sim.cli.main import main
 from host_sim.recording.memory_file import MemorySaver
 
@@ -21,7 +19,6 @@ BEFORE = bytes([0, 0, 0, 0, 0, 0, 0, 2])
 """What the memory files hold at first."""
 
 _CELLS = 8
-_TRACED = (str(Path(host_sim.__file__).parent), tempfile.__file__)
 _WORDS = ("run", "--environments", "1", "--limit-s", "25", "--seed", "12", "--bus", "none", "--quiet")
 
 Doom = Callable[[], None]
@@ -128,21 +125,15 @@ def at_instruction(number: int, signal_number: int, witness: Witness, *, only_sa
     """
     counts = {False: 0, True: 0}
 
-    def trace(frame: FrameType, event: str, _: object) -> Callable[..., object] | None:
-        if event == "opcode":
-            counts[False] += 1
-            counts[True] += witness.is_saving
-            if counts[only_saving] == number and (witness.is_saving or not only_saving):
-                os.kill(os.getpid(), signal_number)
-            elif not number:
-                witness.note_instructions(*counts.values())
-        elif event == "call":
-            if not frame.f_code.co_filename.startswith(_TRACED):
-                return None
-            frame.f_trace_opcodes = True
-        return trace
+    def count() -> None:
+        counts[False] += 1
+        counts[True] += witness.is_saving
+        if counts[only_saving] == number and (witness.is_saving or not only_saving):
+            os.kill(os.getpid(), signal_number)
+        elif not number:
+            witness.note_instructions(*counts.values())
 
-    return lambda: sys.settrace(trace)
+    return lambda: before_each_instruction(count)
 
 
 def with_full_disk(size: int) -> Doom:

@@ -3,10 +3,10 @@
 import itertools
 
 import pytest
-from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, MemoryKind
 
 from host_sim.client.frame_log import FrameLog
 from host_sim.protocol.codec import Protocol
+from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, MemoryKind
 from host_sim.protocol.memory_kinds import kinds_of, sides_of
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.replay import replay

@@ -1,16 +1,42 @@
 """A link over a python-can bus."""
 
+import errno
 import socket
 from collections.abc import Iterator
 from threading import Timer
 
+import can
 import pytest
 
+from host_sim.errors import LinkDownError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.bus_link import BusLink
+from host_sim.transport.line_stats import LineStats
 from host_sim.transport.socket_pair_bus import SocketPairBus
 
 _LATE_S = 30.0
+FRAME = Frame(0x41, b"\1\2")
+
+
+class Bus:
+    """A bus of python-can that does what a test wants, and is no socket."""
+
+    def __init__(self, *does: object) -> None:
+        self.does = iter(does)
+
+    def send(self, message: can.Message, timeout: float) -> None:
+        del message, timeout
+        self._do()
+
+    def recv(self, timeout: float) -> object:
+        del timeout
+        return self._do()
+
+    def _do(self) -> object:
+        done = next(self.does)
+        if isinstance(done, Exception):
+            raise done
+        return done
 
 
 @pytest.fixture
@@ -39,3 +65,66 @@ def test_a_wait_is_no_longer_when_the_wall_clock_is_set_back_meanwhile(ends, mon
 
     late.cancel()
     assert frame is None
+
+
+def test_a_far_end_that_is_closed_is_a_line_that_is_gone(ends):
+    ends[0].close()
+
+    with pytest.raises(LinkDownError, match="cannot hear the robot"):
+        ends[1].receive(1.0)
+    with pytest.raises(LinkDownError, match="cannot send to the robot"):
+        ends[1].send(FRAME)
+
+
+def test_a_socket_that_woke_up_for_nothing_is_waited_for_again(ends, monkeypatch):
+    nothing, receive = [None], ends[1]._bus.recv
+    monkeypatch.setattr(ends[1]._bus, "recv", lambda timeout: nothing.pop() if nothing else receive(timeout))
+    ends[0].send(FRAME)
+
+    assert ends[1].receive(1.0) == FRAME
+    assert nothing == []
+
+
+def test_the_descriptor_of_the_socket_is_lent(ends):
+    assert ends[0].fileno() == ends[0]._bus.fileno()
+
+
+@pytest.mark.parametrize(
+    "error",
+    [can.CanOperationError("full", errno.ENOBUFS), OSError(errno.ENOBUFS, "x"), can.CanOperationError("full")],
+)
+def test_a_frame_for_which_there_is_no_room_is_counted(error):
+    stats = LineStats()
+
+    BusLink(Bus(error), stats).send(FRAME)
+
+    assert stats.unsent == 1
+
+
+@pytest.mark.parametrize("error", [can.CanOperationError("gone", errno.ENODEV), OSError(errno.ENETDOWN, "down")])
+def test_what_is_said_of_a_line_that_is_gone_may_come_from_elsewhere(error):
+    link = BusLink(Bus(error, error))
+    with pytest.raises(LinkDownError, match="cannot send"):
+        link.send(FRAME)
+
+    def explain() -> None:
+        raise LinkDownError("the robot was killed")
+
+    link.explain = explain
+    with pytest.raises(LinkDownError, match="the robot was killed"):
+        link.receive(0.0)
+
+
+@pytest.mark.parametrize(
+    "heard",
+    [
+        can.Message(is_extended_id=True),
+        can.Message(is_extended_id=False, is_remote_frame=True),
+        can.Message(is_extended_id=False, is_error_frame=True),
+        can.Message(is_extended_id=False, is_fd=True),
+        ValueError("noise"),
+        IndexError("noise"),
+    ],
+)
+def test_what_is_no_frame_of_ours_has_no_identifier(heard):
+    assert BusLink(Bus(heard)).receive(0.0) == Frame(-1, b"")

@@ -3,6 +3,7 @@
 import can
 import pytest
 
+from host_sim.errors import UsageError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.buses import open_bus, open_bus_link
 from host_sim.transport.line_stats import LineStats
@@ -26,6 +27,31 @@ def test_the_kernel_has_set_the_bit_rate_of_its_own_interfaces(opened):
     open_bus("socketcan:can0", bitrate=125_000)
 
     assert "bitrate" not in opened[0]
+
+
+def test_an_adapter_of_python_can_for_slcan_is_not_waited_for(opened):
+    open_bus("slcan:/dev/ttyACM0")
+
+    assert opened[0]["sleep_after_open"] == 0.0
+
+
+@pytest.mark.parametrize("bus", ["", "vcan0", "socketcan:", ":vcan0"])
+def test_what_is_no_name_of_a_bus_is_said_with_one_that_is(bus):
+    with pytest.raises(UsageError, match="socketcan:vcan0, not"):
+        open_bus(bus)
+
+
+@pytest.mark.parametrize(
+    ("error", "told"), [(OSError("no such\nthing"), "no such"), (can.CanInterfaceNotImplementedError(), "CanInterf")]
+)
+def test_a_bus_that_cannot_be_opened_is_named_in_one_line(monkeypatch, error, told):
+    def fail(**_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(can, "Bus", fail)
+
+    with pytest.raises(UsageError, match=f"^cannot open the bus pcan:X: {told}[^\n]*$"):
+        open_bus("pcan:X")
 
 
 class Bus:

@@ -110,6 +110,40 @@ def test_a_line_that_comes_and_goes_counts_each_time(line):
     assert len(line.sent) == 3
 
 
+def test_a_line_that_can_be_opened_and_does_not_work_is_still_the_same_outage(line):
+    stats = LineStats()
+    link = reconnecting(line, stats)
+    line.is_there = False
+    link.send(FRAME)
+    line.is_there = True
+    link.receive(0.0)
+    line.is_there = False
+
+    link.send(FRAME)
+
+    assert (stats.outages, stats.unsent) == (1, 2)
+
+
+def test_a_line_that_is_open_and_was_not_tried_yet_is_not_opened_again(line):
+    link = reconnecting(line)
+    line.is_there = False
+    link.send(FRAME)
+    line.is_there = True
+
+    assert [link.receive(0.0), link.receive(0.0)] == [None, None]
+    assert line.opened == 2
+
+
+def test_a_line_that_is_gone_can_be_closed(line):
+    link = reconnecting(line)
+
+    link.close()
+    link.close()
+    link.send(FRAME)
+
+    assert line.sent == []
+
+
 class SocketLine(Line):
     """A line with a socket, for which the line itself stands."""
 

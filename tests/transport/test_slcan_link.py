@@ -106,3 +106,38 @@ def test_what_there_is_no_room_for_is_lost_and_not_waited_for():
             link.send(FRAME)
 
         assert stats.unsent == 1
+
+
+def test_a_line_that_fails_is_gone(ends, monkeypatch):
+    link, far = ends
+    far.close()
+
+    with pytest.raises(LinkDownError, match="cannot send to the robot"):
+        link.send(FRAME)
+
+    monkeypatch.setattr(os, "read", lambda *_: (_ for _ in ()).throw(OSError("it is on fire")))
+    with pytest.raises(LinkDownError, match="cannot hear the robot: it is on fire"):
+        link.receive(0.5)
+
+
+def test_a_line_that_woke_up_for_nothing_is_waited_for_again(ends, monkeypatch):
+    link, far = ends
+    far.send(encode(FRAME))
+    read, reads = os.read, iter([BlockingIOError()])
+
+    def read_or_fail(*arguments: int) -> bytes:
+        for error in reads:
+            raise error
+        return read(*arguments)
+
+    monkeypatch.setattr(os, "read", read_or_fail)
+
+    assert link.receive(0.5) == FRAME
+
+
+def test_a_link_closes_its_stream(ends):
+    link, far = ends
+
+    link.close()
+
+    assert far.recv(1) == b""

@@ -198,6 +198,20 @@ def test_a_send_without_a_limit_waits_until_there_is_room(raw):
     later.join()
 
 
+@pytest.mark.parametrize(("name", "nothing"), [("_try_send", False), ("_try_receive", None)])
+def test_a_wake_up_for_nothing_does_not_end_a_wait(raw, monkeypatch, name, nothing):
+    bus, far = raw
+    bus.send(MESSAGES["standard"])
+    far.send(far.recv(16))
+    at_first, before = [nothing] * 2, getattr(bus, name)
+    monkeypatch.setattr(bus, name, lambda *packed: at_first.pop() if at_first else before(*packed))
+
+    bus.send(MESSAGES["standard"], timeout=SOON_S)
+
+    assert bus.recv(SOON_S).arbitration_id == MESSAGES["standard"].arbitration_id
+    assert at_first == []
+
+
 def test_a_far_end_that_closes_while_a_send_waits_is_an_error_of_the_bus(raw):
     bus, far = raw
     fill(bus)
