@@ -20,7 +20,7 @@ def images(folder: Path, preset: str) -> dict[str, bytes]:
 
 
 def build(folder: Path, preset: str) -> None:
-    """Copies the sources into a folder and builds a preset's images there; an image names the commit that it is of."""
+    """Copies the sources into a folder and builds a preset's images there; images name the commit they are of."""
     folder.mkdir(parents=True)
     for name in SOURCES:
         copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
