@@ -57,7 +57,7 @@ def test_the_board_begins_and_every_curve_grows(lesson):
     )
     board.select_option("#curve", "blocked")
     wait_for_text(board, "#robots .name", " s")
-    wait_for_text(board, "#robots .knows", "of 7, ate")
+    wait_for_text(board, "#robots", "of 7, ate")
     wait_for(board, "document.querySelector('#result').textContent !== ''")
     board.click("#again")
     wait_for(board, "octet.message.clock_ms < 2000 || octet.message.curves.anew")

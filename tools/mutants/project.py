@@ -4,7 +4,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from tools.mutants.runner import Runner
-from tools.mutants.sources import MUTATED, read_sources
+from tools.mutants.sources import MUTATED, Source, options_of_sources, read_sources
 from tools.mutants.tree import PLAIN, Build, Tree, originals
 
 
@@ -12,12 +12,12 @@ class Project:
     """What is mutated.
 
     Attributes:
-        sources: All that some C test is built from, by their files.
+        files: The sources that some C test is built from.
         untested: The other sources of the folders that are mutated.
     """
 
     def __init__(self, root: Path, builds: Path, without: Collection[str] = ()) -> None:
-        """Reads all sources.
+        """Finds all sources.
 
         Args:
             root: Of the project.
@@ -26,16 +26,27 @@ class Project:
 
         Raises:
             BuildError: They cannot be built.
-            SourceError: They cannot be read.
         """
+        self._root = root
         self._tree = Tree(root, builds)
         self._without = without
         self._texts = originals(root)
         self._tree.write(self._texts | self._as_before())
         self._tree.configure(PLAIN)
-        found = read_sources(root, self._tree.folder, self._tree.commands(PLAIN))
-        self.sources = {source.file: source for source in found}
-        self.untested = sorted(path for path in self._texts if _is_mutated(path) and path not in self.sources)
+        self._options = options_of_sources(self._tree.folder, self._tree.commands(PLAIN))
+        self.files = list(self._options)
+        self.untested = sorted(path for path in self._texts if _is_mutated(path) and path not in self._options)
+        self._read: dict[str, Source] = {}
+
+    def sources(self, files: Collection[str]) -> list[Source]:
+        """Some of the sources, with their mutants; a mutant has the same number whatever else is read.
+
+        Raises:
+            SourceError: They cannot be read.
+        """
+        new = read_sources(self._root, self._options, set(files) - self._read.keys())
+        self._read |= {source.file: source for source in new}
+        return [self._read[file] for file in files]
 
     def tests(self, build: Build, files: Collection[str]) -> Runner:
         """The tests of some files, with all mutants compiled in.
@@ -44,9 +55,10 @@ class Project:
             BuildError: They cannot be built.
             RunError: One of them fails with no mutant acting.
         """
-        self._tree.write(self._texts | {file: source.schemata for file, source in self.sources.items()})
+        sources = self.sources(self.files)
+        self._tree.write(self._texts | {source.file: source.schemata for source in sources})
         self._tree.configure(build)
-        highest = max(mutant.number for source in self.sources.values() for mutant in source.mutants)
+        highest = max(mutant.number for source in sources for mutant in source.mutants)
         tests = [test for test in self._tree.tests(build, files) if test.name not in self._without]
         return Runner(tests, highest)
 

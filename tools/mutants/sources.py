@@ -2,7 +2,7 @@
 
 import os
 import shlex
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -64,22 +64,31 @@ def group_of(file: str) -> Group:
     return next(group for group in GROUPS if file.startswith(tuple(group.paths)))
 
 
-def read_sources(root: Path, tree: Path, commands: Sequence[Mapping[str, str]]) -> list[Source]:
-    """The sources of the firmware and its body that some test is built from.
+def options_of_sources(tree: Path, commands: Sequence[Mapping[str, str]]) -> dict[str, list[str]]:
+    """The sources of the firmware and its body that some test is built from, in order, with the compiler's options.
+
+    Args:
+        tree: Where the copy is that the commands are for.
+        commands: How each source is compiled.
+    """
+    return dict(sorted(dict(_options(tree, commands)).items()))
+
+
+def read_sources(root: Path, options: Mapping[str, Sequence[str]], files: Collection[str]) -> list[Source]:
+    """Some of the sources, with their mutants.
 
     Args:
         root: Of the project.
-        tree: Where the copy is that the commands are for.
-        commands: How each source is compiled.
+        options: Of all sources.
+        files: Those to read.
 
     Raises:
         SourceError: One of them is no C.
     """
-    options = dict(_options(tree, commands))
-    ordered = sorted(options)
     with ProcessPoolExecutor(os.cpu_count()) as pool:
-        tasks = ((root, file, options[file], 1 + NUMBERS_EACH * i) for i, file in enumerate(ordered))
-        return list(pool.map(_source, *zip(*tasks, strict=True)))
+        each = enumerate(options.items())
+        tasks = [(root, file, words, 1 + NUMBERS_EACH * i) for i, (file, words) in each if file in files]
+        return list(pool.map(_source, *zip(*tasks, strict=True))) if tasks else []
 
 
 def _options(tree: Path, commands: Sequence[Mapping[str, str]]) -> Iterator[tuple[str, list[str]]]:

@@ -84,7 +84,7 @@ class Trial:
         compiler = Compiler()
         asked = [mutant for mutant in mutants if not is_listed(mutant, self._table)]
         self._tell(f"comparing the code of {len(asked)} mutants")
-        sources = self._project.sources
+        sources = {source.file: source for source in self._project.sources({mutant.file for mutant in asked})}
         return set(_those(asked, lambda it: compiler.same_code(sources[it.file], it)))
 
 
