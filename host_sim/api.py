@@ -29,9 +29,10 @@ from host_sim.recording.trajectory import ROW, Trajectory
 from host_sim.recording.world_file import world_path, write_world
 from host_sim.report.picture import write_picture
 from host_sim.report.replay_page import write_page
+from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import Memory, make
 from host_sim.sim.run_config import RunConfig
-from host_sim.sim.simulation import EpisodeResult, Simulation
+from host_sim.sim.simulation import Simulation
 
 __all__ = [
     "EpisodeResult",

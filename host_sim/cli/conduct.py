@@ -3,33 +3,27 @@
 import argparse
 import json
 import sys
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from host_sim.atomic_file import write_bytes
-from host_sim.cli.interruption import interrupted_between_ticks
 from host_sim.cli.outputs import PAGE, PICTURE, SUMMARY, Outputs
 from host_sim.cli.run_options import LOGS, RunOptions, WatchOptions, run_options
+from host_sim.cli.run_through import each, open_listener, run_through
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
 from host_sim.errors import DoubtfulError, OctetError
-from host_sim.live.progress import Progress
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS
 from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_path
 from host_sim.recording.run_folder import run_folder
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.recording.summary import Summary, environment_line
+from host_sim.recording.summary import Summary
 from host_sim.regular_file import read_bytes
-from host_sim.sim.make import Memory, make, start_robots
+from host_sim.sim.make import Memory, make
 from host_sim.sim.simulation import Simulation
-
-if TYPE_CHECKING:
-    from host_sim.live.listener import Listener
 
 FAULTS = "faults.txt"
 """The faults that were made on purpose, in the folder of a run."""
@@ -38,8 +32,6 @@ _NOTHING = (0,) * CELL_COUNT
 _SUMMARY_MAX = 10_000_000
 _PROCESSES_MAX = 8
 """Maximum number of robots of a watched run that have a process each, unless a bus is named."""
-
-_PAUSE_STEP_S = 0.05
 
 
 def conduct_watched(arguments: argparse.Namespace, watch: WatchOptions) -> Summary:
@@ -74,7 +66,7 @@ def conduct(options: RunOptions) -> Summary:
     with run_folder(options.out):
         _announce(options, loaded)
         with ExitStack() as stack:
-            listener = _open_listener(stack, options.watch)
+            listener = open_listener(stack, options.watch)
             log = FrameLog(options.log)
             stack.callback(log.close)
             memories = _first_memories(options, loaded)
@@ -87,7 +79,7 @@ def conduct(options: RunOptions) -> Summary:
             _save_memories(stack, simulation, options, loaded)
             outputs = Outputs(options, simulation, recorder, log)
             try:
-                _simulate(outputs, listener)
+                run_through(outputs, listener)
                 for client in simulation.clients:
                     stop(client)
             except BaseException as end:
@@ -139,9 +131,8 @@ def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
     """Writes the faults that were made, as rules for single frames."""
     from host_sim.faults.faulty_link import FaultyLink
 
-    schedules = [
-        client.connection.link.schedule for client in clients if isinstance(client.connection.link, FaultyLink)
-    ]
+    links = [client.connection.link for client in clients]
+    schedules = [link.schedule for link in links if isinstance(link, FaultyLink)]
     if schedules:
         rules = [str(rule) for schedule in schedules for rule in schedule.struck]
         more = sum(schedule.count for schedule in schedules) - len(rules)
@@ -151,10 +142,8 @@ def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
 
 def _print_robot(options: RunOptions, client: RobotClient) -> None:
     if options.talks:
-        config = options.config
-        print(
-            f"robot     node {client.node} on {client.connection.bus}, profile {config.profile}, seed {config.seed}"
-        )
+        config, bus = options.config, client.connection.bus
+        print(f"robot     node {client.node} on {bus}, profile {config.profile}, seed {config.seed}")
 
 
 def _boredom_limit(options: RunOptions) -> int:
@@ -191,7 +180,7 @@ def _save_memories(
             saver.finish(client.memory)
 
     stack.callback(finish)
-    simulation.watch = _each(simulation.watch, save)
+    simulation.watch = each(simulation.watch, save)
 
 
 def _memory_paths(options: RunOptions) -> list[Path]:
@@ -199,106 +188,6 @@ def _memory_paths(options: RunOptions) -> list[Path]:
     return (
         [] if options.memory is None else [memory_path(options.memory, node, config.robots) for node in config.nodes]
     )
-
-
-def _open_listener(stack: ExitStack, watch: WatchOptions | None) -> "Listener | None":
-    if watch is None or watch.terminal:
-        return None
-    from host_sim.live.listener import Listener  # a run that nobody watches begins without the server
-
-    listener = Listener(watch.listen, watch.port)
-    stack.callback(listener.socket.close)
-    return listener
-
-
-def _simulate(outputs: Outputs, listener: "Listener | None") -> None:
-    if outputs.options.watch is None:
-        _run_through(outputs)
-    else:
-        _show(outputs, outputs.options.watch, listener)
-
-
-def _run_through(outputs: Outputs) -> None:
-    """Runs all environments, as fast as possible or in real time."""
-    progress, simulation, talks = Progress(), outputs.simulation, outputs.options.talks
-    _say_refused(simulation, progress.clear)
-    if talks:
-        simulation.watch = _each(simulation.watch, progress)
-    try:
-        with interrupted_between_ticks(simulation):
-            for episode in simulation.run():
-                outputs.episodes.append(episode)
-                if talks:
-                    progress.clear()
-                    print(environment_line(len(outputs.episodes), episode))
-                if outputs.options.config.real_time and len(outputs.episodes) < simulation.environments:
-                    _pause(simulation)
-    except BaseException:
-        progress.clear()
-        raise
-
-
-def _pause(simulation: Simulation) -> None:
-    """Lets people see how an environment ended. No robot time passes, and nothing of it is logged."""
-    from host_sim.live.paced_run import PAUSE_S
-    from host_sim.live.robot_orders import discard_reports
-
-    end_s = time.monotonic() + PAUSE_S
-    while time.monotonic() < end_s:
-        discard_reports(simulation)
-        time.sleep(_PAUSE_STEP_S)
-
-
-def _say_refused(simulation: Simulation, before: Callable[[], object] = lambda: None) -> None:
-    """Has changes that cannot be made reported when they are due."""
-    said = 0
-
-    def say(simulation: Simulation) -> None:
-        nonlocal said
-        for refused in simulation.record.refused[said:]:
-            said += 1
-            before()
-            seconds = refused.tick * simulation.params.tick_s
-            print(f"octet: at {seconds:.2f} s {refused.what} could not happen: {refused.why}", file=sys.stderr)
-
-    simulation.watch = _each(simulation.watch, say)
-
-
-def _each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], object]:
-    """A function that calls several watchers."""
-
-    def watch(simulation: Simulation) -> None:
-        for watcher in watchers:
-            watcher(simulation)
-
-    return watch
-
-
-def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") -> None:
-    """Runs with people watching: in the browser, or in the terminal if there is no listener."""
-    from host_sim.live.paced_run import PacedRun
-
-    simulation, options = outputs.simulation, outputs.options
-    live = PacedRun(
-        simulation,
-        outputs.recorder,
-        lambda seed: start_robots(simulation.clients, replace(options.config, seed=seed)),
-        episodes=outputs.episodes,
-        stays=watch.stays,
-        waits=listener is not None and (watch.stays or listener.is_open),
-        speed=watch.speed,
-    )
-    if listener is None:
-        from host_sim.live.terminal_view import watch_in_terminal
-
-        watch_in_terminal(live)
-        return
-    from host_sim.live.browser import watch_run
-
-    _say_refused(simulation)
-    if options.talks:
-        live.ended = lambda episode: print(environment_line(len(live.episodes), episode))
-    watch_run(live, listener, sys.stdout if options.talks else sys.stderr)
 
 
 def _print_results(options: RunOptions, summary: Summary) -> None:

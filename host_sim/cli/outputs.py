@@ -11,7 +11,8 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
 from host_sim.recording.world_file import world_path, write_world
-from host_sim.sim.simulation import EpisodeResult, Simulation
+from host_sim.sim.episode_result import EpisodeResult
+from host_sim.sim.simulation import Simulation
 from host_sim.view.news import news_of
 
 SUMMARY, PICTURE, PAGE = "summary.json", "arena.png", "replay.html"

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from host_sim.emulator.clock import Clock
 from host_sim.emulator.flash import Factory as FlashFactory
 from host_sim.emulator.flash import FlashF1, FlashF4
-from host_sim.emulator.rcc import Oscillators, Rcc, RccF1, RccF4, RccFaults
+from host_sim.emulator.rcc import Oscillators, Rcc, RccFaults
+from host_sim.emulator.rcc_f1 import RccF1
+from host_sim.emulator.rcc_f4 import RccF4
 from host_sim.emulator.system import Gpio, gpio_f1, gpio_f4
 
 Gate = tuple[int, int]

@@ -1,4 +1,4 @@
-"""Reset and clock control, of both families (F1: RM0008 7.3, F4: RM0090 7.3)."""
+"""Reset and clock control: what both families have in common."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping
@@ -21,12 +21,6 @@ _RMVF = 1 << 24
 _ALL_FLAGS = 0xFE000000
 RESET_FLAGS = {"power": 1 << 27 | 1 << 26, "software": 1 << 28 | 1 << 26, "watchdog": 1 << 29 | 1 << 26}
 """Flags of CSR by the cause of a reset; each drives the reset pin too."""
-
-_F1_PLLSRC, _F1_PLLXTPRE, _F1_MUL_SHIFT, _F1_MUL_MAX = 1 << 16, 1 << 17, 18, 16
-_F1_PLL_SETUP = 0x3F << 16
-_F4_PLLSRC, _F4_PLLCFGR_RESET = 1 << 22, 0x24003010
-_F4_PLL_IN, _F4_PLL_INSIDE = (950_000, 2_100_000), (100_000_000, 432_000_000)
-"""Hz, from and to: behind its first divisor, and of its oscillator (datasheet, 5.3.10)."""
 
 
 @dataclass(frozen=True)
@@ -229,89 +223,6 @@ class Rcc(Peripheral):
         self._csr.value = noted | slow | slow << 1
 
 
-def _plain(names: Mapping[int, str]) -> dict[int, Register]:
+def plain(names: Mapping[int, str]) -> dict[int, Register]:
+    """Registers without effect, by their offsets."""
     return {offset: Register(name) for offset, name in names.items()}
-
-
-class RccF1(Rcc):
-    """The F1's: the PLL is set up in CFGR."""
-
-    csr_offset = 0x24
-
-    def __init__(
-        self, clock: Clock, oscillators: Oscillators, flash_hz: Callable[[], int], faults: RccFaults
-    ) -> None:
-        """As in `Rcc`."""
-        self.cfgr = Register("CFGR", on_write=self._write_cfgr)
-        plain = _plain(
-            {0x08: "CIR", 0x0C: "APB2RSTR", 0x10: "APB1RSTR", 0x18: "APB2ENR", 0x1C: "APB1ENR", 0x20: "BDCR"}
-        )
-        registers = plain | {0x04: self.cfgr, 0x14: Register("AHBENR", 0x14)}
-        super().__init__(registers, clock, oscillators, flash_hz, faults)
-
-    def pll_source(self) -> int:
-        """As in `Rcc`."""
-        return HSE if self.cfgr.value & _F1_PLLSRC else HSI
-
-    def pll_hz(self) -> int:
-        """As in `Rcc`."""
-        halved = self.pll_source() == HSI or bool(self.cfgr.value & _F1_PLLXTPRE)
-        return (self._source_hz() >> halved) * min((self.cfgr.value >> _F1_MUL_SHIFT & 0xF) + 2, _F1_MUL_MAX)
-
-    def prescalers(self) -> tuple[int, int]:
-        """As in `Rcc`."""
-        return self.cfgr.value >> 8 & 7, self.cfgr.value >> 11 & 7
-
-    def check_pll(self) -> None:
-        """As in `Rcc`."""
-        if self.pll_hz() > self._oscillators.core_max:
-            raise BoardError(f"RCC CR was written to start the PLL at {self.pll_hz()} Hz, which it cannot make")
-
-    def _write_cfgr(self, value: int) -> None:
-        """The PLL's fields stay as they are while it is on."""
-        kept = _F1_PLL_SETUP if self.pll_is_on() else 0
-        self._switch(value & ~kept | self.cfgr.value & kept)
-
-
-class RccF4(Rcc):
-    """The F4's: the PLL has a register of its own."""
-
-    csr_offset = 0x74
-
-    def __init__(
-        self, clock: Clock, oscillators: Oscillators, flash_hz: Callable[[], int], faults: RccFaults
-    ) -> None:
-        """As in `Rcc`."""
-        self.cfgr = Register("CFGR", on_write=self._switch)
-        self._pllcfgr = Register("PLLCFGR", _F4_PLLCFGR_RESET, on_write=self._write_pllcfgr)
-        plain = _plain({0x0C: "CIR", 0x10: "AHB1RSTR", 0x20: "APB1RSTR", 0x24: "APB2RSTR", 0x40: "APB1ENR"})
-        plain |= _plain({0x44: "APB2ENR", 0x70: "BDCR"})
-        registers = plain | {0x04: self._pllcfgr, 0x08: self.cfgr, 0x30: Register("AHB1ENR", 0x00100000)}
-        super().__init__(registers, clock, oscillators, flash_hz, faults)
-
-    def pll_source(self) -> int:
-        """As in `Rcc`."""
-        return HSE if self._pllcfgr.value & _F4_PLLSRC else HSI
-
-    def pll_hz(self) -> int:
-        """As in `Rcc`."""
-        setting = self._pllcfgr.value
-        m, n, p = setting & 0x3F, setting >> 6 & 0x1FF, ((setting >> 16 & 3) + 1) * 2
-        return self._source_hz() * n // max(m, 1) // p
-
-    def prescalers(self) -> tuple[int, int]:
-        """As in `Rcc`."""
-        return self.cfgr.value >> 10 & 7, self.cfgr.value >> 13 & 7
-
-    def check_pll(self) -> None:
-        """As in `Rcc`."""
-        fed = self._source_hz() // max(self._pllcfgr.value & 0x3F, 1)
-        inside = fed * (self._pllcfgr.value >> 6 & 0x1FF)
-        for name, hz, (low, high) in (("input", fed, _F4_PLL_IN), ("oscillator", inside, _F4_PLL_INSIDE)):
-            if not low <= hz <= high:
-                raise BoardError(f"RCC CR was written to start the PLL with its {name} at {hz} Hz, not {low}..{high}")
-
-    def _write_pllcfgr(self, value: int) -> None:
-        if self.pll_is_on():
-            raise BoardError("RCC PLLCFGR was written while the PLL is on")
-        self._pllcfgr.value = value

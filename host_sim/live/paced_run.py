@@ -26,7 +26,8 @@ from host_sim.live.robot_orders import command_robot, discard_reports, edit
 from host_sim.protocol.generated import Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.robot_io import Drive
-from host_sim.sim.simulation import EpisodeResult, Simulation
+from host_sim.sim.episode_result import EpisodeResult
+from host_sim.sim.simulation import Simulation
 from host_sim.world.edits import Edit, EditError
 from host_sim.world.params import SimParams
 

@@ -10,8 +10,9 @@ from host_sim.atomic_file import write_bytes
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import PATTERNS, SIDES, Reason
 from host_sim.protocol.memory_kinds import sides_of
+from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.run_config import RunConfig
-from host_sim.sim.simulation import EpisodeResult, RobotResult, Simulation
+from host_sim.sim.simulation import Simulation
 from host_sim.sim.world_record import WorldRecord
 
 _FAULTS_MAX = 255

@@ -7,9 +7,10 @@ from dataclasses import dataclass, field
 from host_sim.client.pacing import BegunTick, Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import settle
-from host_sim.protocol.generated import CELL_COUNT, TICK_SPAN
+from host_sim.protocol.generated import TICK_SPAN
 from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.sim.change_schedule import ChangeSchedule
+from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop, suits
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
 from host_sim.world.arena import Arena
@@ -25,56 +26,6 @@ from host_sim.world.params import SimParams
 ARENAS_MAX = 32
 """Number of arenas that may wait to be freed. An arena and its physics hold each other, and 260 kB in C. Python
 counts objects, and would look for them after more than a hundred."""
-
-
-@dataclass
-class RobotResult:
-    """What one robot did in one environment.
-
-    Attributes:
-        node: Its node number on the bus.
-        begun: Number of actions begun, by reason.
-        food_eaten: Number of pieces of food that it ate.
-        collisions: Number of times that its body began to touch something.
-        memory: The eight cells at the end.
-    """
-
-    node: int
-    begun: dict[int, int] = field(default_factory=dict)
-    food_eaten: int = 0
-    collisions: int = 0
-    memory: tuple[int, ...] = (0,) * CELL_COUNT
-
-
-@dataclass
-class EpisodeResult:
-    """What happened in one environment.
-
-    Attributes:
-        tick_s: Length of a tick, s.
-        robots: What each robot did.
-        ticks: Number of ticks.
-        eaten: For each piece of food, whether it was eaten.
-    """
-
-    tick_s: float
-    robots: list[RobotResult]
-    ticks: int = 0
-    eaten: list[bool] = field(default_factory=list)
-
-    @property
-    def finished(self) -> bool:
-        """Whether all the food was eaten."""
-        return bool(self.eaten) and all(self.eaten)
-
-    @property
-    def robot_s(self) -> float:
-        """Robot time spent here, s."""
-        return round(self.ticks * self.tick_s, 3)
-
-    def begun(self, reason: int) -> int:
-        """The number of actions that all robots began for a reason."""
-        return sum(robot.begun.get(reason, 0) for robot in self.robots)
 
 
 @dataclass

@@ -61,7 +61,7 @@ static void test_in_lockstep_another_may_take_over_after_a_second(void)
     TEST_ASSERT_EQUAL(INPUT_COMMAND, other_owner_starts(1050));
 }
 
-static void test_what_was_answered_is_answered_again_at_once(void)
+static void answered_senses_come_again(void)
 {
     const struct output drive = {.has_drive = true};
 
@@ -70,6 +70,11 @@ static void test_what_was_answered_is_answered_again_at_once(void)
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     TEST_ASSERT_EQUAL(0, hal_send(hal, &drive));
     senses_come(50, 0);
+}
+
+static void test_what_was_answered_is_answered_again_at_once(void)
+{
+    answered_senses_come_again();
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL_UINT32(OCTET_DRIVE_FRAME_ID, fake.sent[fake.sends - 1].id);
     TEST_ASSERT_EQUAL_MEMORY(&fake.sent[fake.sends - 2], &fake.sent[fake.sends - 1], sizeof(struct frame));
@@ -77,13 +82,7 @@ static void test_what_was_answered_is_answered_again_at_once(void)
 
 static void test_an_answer_again_that_does_not_leave_is_counted(void)
 {
-    const struct output drive = {.has_drive = true};
-
-    start_in_lockstep();
-    senses_come(0, 0);
-    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
-    TEST_ASSERT_EQUAL(0, hal_send(hal, &drive));
-    senses_come(50, 0);
+    answered_senses_come_again();
     fake.failure = LINK_E_FULL;
     fake.failing_send = fake.sends + 1;
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());

@@ -8,7 +8,8 @@ from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
-from host_sim.emulator.board import EmulatedBoard, Faults, start_board
+from host_sim.emulator.board import EmulatedBoard, start_board
+from host_sim.emulator.hardware import Faults
 from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, TICK_SPAN

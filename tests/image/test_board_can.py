@@ -1,8 +1,8 @@
 """An emulated board's CAN controller and bus fail, or carry noise: frames are lost at most, and counted."""
 
-from host_sim.emulator.board import Faults
 from host_sim.emulator.can import CanFaults, CanFrame
 from host_sim.emulator.clock import SECOND
+from host_sim.emulator.hardware import Faults
 from tests.image.support import counted, is_rest, talk_to
 
 NOISE_PER_TICK = 200

@@ -1,7 +1,7 @@
 """An emulated board keeps the robot's memory in its flash, through failing writes and losses of power."""
 
-from host_sim.emulator.board import Faults
 from host_sim.emulator.flash import FlashFaults
+from host_sim.emulator.hardware import Faults
 from host_sim.protocol.generated import Side
 from tests.image.support import Talk, counted, talk_to
 

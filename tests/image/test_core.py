@@ -4,10 +4,10 @@ import struct
 
 import pytest
 
-from host_sim.emulator.board import Faults, Hardware
 from host_sim.emulator.chips import CAN_BASE, STM32F103, WATCHDOG_BASE
 from host_sim.emulator.clock import NEVER, SECOND
 from host_sim.emulator.flash import BASE
+from host_sim.emulator.hardware import Faults, Hardware
 from host_sim.emulator.registers import BoardError
 from tests.image.support import write
 

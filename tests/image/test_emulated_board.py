@@ -6,8 +6,8 @@ from itertools import pairwise
 import pytest
 
 from host_sim.bench.tick_cost import count_ticks
-from host_sim.emulator.board import Faults
 from host_sim.emulator.clock import SECOND
+from host_sim.emulator.hardware import Faults
 from host_sim.emulator.rcc import RccFaults
 from tests.image.support import counted, is_rest, talk_to
 

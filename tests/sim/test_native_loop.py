@@ -15,10 +15,11 @@ from host_sim.protocol.generated import PROFILES, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim import native_loop
 from host_sim.sim import simulation as simulation_module
+from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
-from host_sim.sim.simulation import EpisodeResult, Simulation
+from host_sim.sim.simulation import Simulation
 from host_sim.world import munk_pointers
 from host_sim.world.edits import AddBar, Lift, MoveFood, Put, RemoveBar
 from host_sim.world.geometry import Bar, Pose

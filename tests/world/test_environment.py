@@ -11,32 +11,13 @@ from host_sim.world.geometry import Bar, Pose, ahead_of
 from host_sim.world.grid import clearances_mm
 from host_sim.world.layouts import Layout, NoRoomError, generate
 from host_sim.world.params import SimParams
+from tests.world.walk import can_reach
 
 PARAMS = SimParams()
 
 
 def room_mm(layout: Layout, *points: tuple[float, float]) -> list[float]:
     return [float(room) for room in clearances_mm(np.array(points), layout.bars, PARAMS)]
-
-
-def can_reach(layout: Layout, goal: tuple[float, float]) -> bool:
-    """A second opinion on the generator's proof: steps of 20 mm from place to place where the body fits."""
-    step = 20.0
-    y, x = np.mgrid[0 : PARAMS.height_mm : step, 0 : PARAMS.width_mm : step]
-    fits = clearances_mm(np.column_stack([x.ravel(), y.ravel()]), layout.bars, PARAMS) >= PARAMS.body_radius_mm
-    free = fits.reshape(x.shape)
-    reached = np.zeros_like(free)
-    reached[round(layout.start.y_mm / step), round(layout.start.x_mm / step)] = True
-    grown = reached.copy()
-    while True:
-        grown[1:] |= reached[:-1]
-        grown[:-1] |= reached[1:]
-        grown[:, 1:] |= reached[:, :-1]
-        grown[:, :-1] |= reached[:, 1:]
-        grown &= free
-        if (grown == reached).all():
-            return bool(reached[round(goal[1] / step), round(goal[0] / step)])
-        reached = grown.copy()
 
 
 def test_a_faster_left_wheel_turns_right_and_right_turns_are_positive() -> None:
@@ -104,7 +85,7 @@ def test_every_obstacle_is_as_long_as_it_may_be_and_inside_the_walls(seed: int) 
 def test_the_body_can_get_from_the_start_to_all_food(seed: int) -> None:
     layout = generate(seed, 1, PARAMS)
 
-    assert all(can_reach(layout, food) for food in layout.food)
+    assert all(can_reach(layout, food, PARAMS) for food in layout.food)
 
 
 def test_food_behind_obstacles_is_drawn_again() -> None:
@@ -113,7 +94,7 @@ def test_food_behind_obstacles_is_drawn_again() -> None:
     for seed in range(10):
         layout = generate(seed, 1, params)
 
-        assert all(can_reach(layout, food) for food in layout.food)
+        assert all(can_reach(layout, food, params) for food in layout.food)
 
 
 def test_starts_look_every_way() -> None:

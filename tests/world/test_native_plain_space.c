@@ -106,7 +106,6 @@ static void test_a_lifted_body_neither_feels_nor_is_felt(void)
     TEST_ASSERT_EQUAL_HEX8(0, body->feel);
     TEST_ASSERT_EQUAL_INT32(0, body->touches);
     TEST_ASSERT_EQUAL_INT32(0, bodies[1].touches);
-    TEST_ASSERT_FALSE(world.space->hides(&world, body, (struct vector){1500.0, 1000.0}));
 }
 
 static void test_an_obstacle_that_is_moved_is_felt_once_it_has_settled(void)
@@ -125,14 +124,6 @@ static void test_what_a_body_touches_when_the_space_is_taken_is_not_new(void)
     TEST_ASSERT_EQUAL_INT32(1, body->collisions);
 }
 
-static void test_bars_and_other_bodies_hide(void)
-{
-    TEST_ASSERT_TRUE(world.space->hides(&world, body, (struct vector){2500.0, 1000.0}));
-    TEST_ASSERT_FALSE(world.space->hides(&world, body, (struct vector){1900.0, 1000.0}));
-    TEST_ASSERT_TRUE(world.space->hides(&world, body, (struct vector){1000.0, 2500.0}));
-    TEST_ASSERT_FALSE(world.space->hides(&world, body, (struct vector){1000.0, 500.0}));
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -144,6 +135,5 @@ int main(void)
     RUN_TEST(test_a_lifted_body_neither_feels_nor_is_felt);
     RUN_TEST(test_an_obstacle_that_is_moved_is_felt_once_it_has_settled);
     RUN_TEST(test_what_a_body_touches_when_the_space_is_taken_is_not_new);
-    RUN_TEST(test_bars_and_other_bodies_hide);
     return UNITY_END();
 }

@@ -7,32 +7,13 @@ import pytest
 
 from host_sim.errors import UsageError
 from host_sim.world.grid import clearances_mm
-from host_sim.world.layouts import Layout, World, generate
+from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
 from host_sim.world.world_names import WORLD_NAMES
 from host_sim.world.worlds import world_of
+from tests.world.walk import can_reach
 
 SEEDS = range(15)
-
-
-def can_reach(world: World, layout: Layout, goal: tuple[float, float]) -> bool:
-    """A second opinion on the proof: steps of 20 mm from place to place where the body fits."""
-    params, step = world.params, 20.0
-    y, x = np.mgrid[0 : params.height_mm : step, 0 : params.width_mm : step]
-    places = np.column_stack([x.ravel(), y.ravel()])
-    free = (clearances_mm(places, layout.bars, params) >= params.body_radius_mm).reshape(x.shape)
-    reached = np.zeros_like(free)
-    reached[round(layout.start.y_mm / step), round(layout.start.x_mm / step)] = True
-    while True:
-        grown = reached.copy()
-        grown[1:] |= reached[:-1]
-        grown[:-1] |= reached[1:]
-        grown[:, 1:] |= reached[:, :-1]
-        grown[:, :-1] |= reached[:, 1:]
-        grown &= free
-        if (grown == reached).all():
-            return bool(reached[round(goal[1] / step), round(goal[0] / step)])
-        reached = grown
 
 
 @pytest.mark.parametrize("name", WORLD_NAMES)
@@ -43,7 +24,7 @@ def test_every_environment_of_every_world_is_fair(name):
         layout = world.generate(seed, 1)
 
         assert clearances_mm(np.array([layout.start[:2], *layout.food]), layout.bars, world.params).min() >= needed_mm
-        assert all(can_reach(world, layout, food) for food in layout.food)
+        assert all(can_reach(layout, food, world.params) for food in layout.food)
 
 
 @pytest.mark.parametrize("name", WORLD_NAMES)

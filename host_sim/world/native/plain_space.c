@@ -1,19 +1,11 @@
 #include "host_sim/world/native/plain_space.h"
 
+#include "host_sim/world/native/plain_near.h"
+#include "host_sim/world/native/plain_view.h"
 #include "host_sim/world/native/vector_sums.h"
 
 static const double MARGIN_MM = 0.001;   /* far more than rounding */
 static const double FREE_MAX_MM = 1e6;
-
-static struct plain_world *of(const struct world *world)
-{
-    return (struct plain_world *)world->space;
-}
-
-static struct vector position(const struct body *body)
-{
-    return (struct vector){body->x_mm, body->y_mm};
-}
 
 static size_t index_of(const struct world *world, const struct body *body)
 {
@@ -38,7 +30,7 @@ static void press(struct body *body, const struct contact *contact)
 /* A point as a body sees it. */
 static struct vector seen_from(const struct body *body, struct vector point)
 {
-    struct vector way = vector_to(position(body), point);
+    struct vector way = vector_to(plain_position(body), point);
 
     return (struct vector){vector_dot(way, body->ahead), vector_cross(body->ahead, way)};
 }
@@ -81,12 +73,12 @@ static double meet_capsule(struct finding *finding, size_t number)
 {
     const struct plain_world *space = finding->space;
     const struct capsule *capsule = &space->capsules[number];
-    double apart_mm = capsule_apart_mm(capsule, position(finding->body));
+    double apart_mm = capsule_apart_mm(capsule, plain_position(finding->body));
     struct contact contact;
 
     if (apart_mm > space->cones->reach_mm)
         return apart_mm;
-    capsule_meet_disc(capsule, position(finding->body), space->body_radius_mm, &contact);
+    capsule_meet_disc(capsule, plain_position(finding->body), space->body_radius_mm, &contact);
     if (is_far(space, &contact, capsule->radius_mm))
         return vector_root(contact.apart_mm2) - capsule->radius_mm;
     touch(finding, &contact, number);
@@ -94,68 +86,32 @@ static double meet_capsule(struct finding *finding, size_t number)
     return 0.0;
 }
 
-/* The capsules that can be felt from a place, or all of them. */
-struct choice {
-    const uint32_t *numbers;   /* null: 0, 1, 2... */
-    size_t count;
-};
-
-static struct choice capsules_near(const struct plain_world *space, struct vector at)
-{
-    const struct plain_grid *grid = space->grid;
-    uint32_t cell;
-
-    if (!grid)
-        return (struct choice){NULL, space->capsule_count};
-    cell = plain_grid_cell(grid, at);
-    return (struct choice){grid->numbers + grid->firsts[cell], grid->firsts[cell + 1] - grid->firsts[cell]};
-}
-
-static size_t chosen(const struct choice *choice, size_t i)
-{
-    return choice->numbers ? choice->numbers[i] : i;
-}
-
-/* The bodies around a place, or all of them. */
-static size_t bodies_near(const struct world *world, struct vector at, uint32_t bodies[PLAIN_NEAR_MAX])
-{
-    const struct plain_grid *grid = of(world)->grid;
-    size_t count = world->body_count < PLAIN_NEAR_MAX ? world->body_count : PLAIN_NEAR_MAX;
-
-    if (grid)
-        return plain_grid_near(grid, at, bodies);
-    for (size_t i = 0; i < count; i++)
-        bodies[i] = (uint32_t)i;
-    return count;
-}
-
-static void meet_capsules(struct finding *finding, struct plain_place *place)
+/* Meets the capsules near a body. Returns how far it may go before it could feel another one. */
+static double meet_capsules(struct finding *finding)
 {
     const struct plain_world *space = finding->space;
-    struct vector at = position(finding->body);
-    const struct choice near = capsules_near(space, at);
+    struct vector at = plain_position(finding->body);
+    const struct plain_choice near = plain_near_capsules(space, at);
     double free_mm = space->grid ? plain_grid_border_mm(space->grid, at) - MARGIN_MM : FREE_MAX_MM;
 
-    if (place->free_mm > 0.0)
-        return;
     for (size_t i = 0; i < near.count; i++) {
-        double way_mm = way_to(space, meet_capsule(finding, chosen(&near, i)));
+        double way_mm = way_to(space, meet_capsule(finding, plain_chosen(&near, i)));
 
         if (way_mm < free_mm)
             free_mm = way_mm;
     }
-    place->free_mm = free_mm;
+    return free_mm;
 }
 
 static void meet_body(struct finding *finding, const struct body *other, size_t number)
 {
     const struct plain_world *space = finding->space;
-    struct vector at = position(other);
+    struct vector at = plain_position(other);
     struct contact contact;
 
     if (other == finding->body || other->lifted)
         return;
-    capsule_meet_discs(position(finding->body), at, space->body_radius_mm, &contact);
+    capsule_meet_discs(plain_position(finding->body), at, space->body_radius_mm, &contact);
     if (is_far(space, &contact, space->body_radius_mm))
         return;
     touch(finding, &contact, space->capsule_count + number);
@@ -165,7 +121,7 @@ static void meet_body(struct finding *finding, const struct body *other, size_t 
 static void meet_bodies(struct finding *finding, const struct world *world)
 {
     uint32_t near[PLAIN_NEAR_MAX];
-    size_t count = world->body_count > 1 ? bodies_near(world, position(finding->body), near) : 0;
+    size_t count = world->body_count > 1 ? plain_near_bodies(world, plain_position(finding->body), near) : 0;
 
     for (size_t i = 0; i < count; i++)
         meet_body(finding, &world->bodies[near[i]], near[i]);
@@ -195,7 +151,8 @@ static void count_touches(struct finding *finding, uint64_t *before)
 /* Finds all that a body overlaps. */
 static void find(struct world *world, struct body *body)
 {
-    struct plain_world *space = of(world);
+    struct plain_world *space = plain_world_of(world);
+    struct plain_place *place = &space->places[index_of(world, body)];
     struct finding finding = {space, body, &space->touching[world->body_count * space->words]};
 
     body->feel = 0;
@@ -204,7 +161,8 @@ static void find(struct world *world, struct body *body)
     for (size_t i = 0; i < space->words; i++)
         finding.touching[i] = 0;
     if (!body->lifted) {
-        meet_capsules(&finding, &space->places[index_of(world, body)]);
+        if (place->free_mm <= 0.0)
+            place->free_mm = meet_capsules(&finding);
         meet_bodies(&finding, world);
     }
     count_touches(&finding, &space->touching[index_of(world, body) * space->words]);
@@ -213,7 +171,7 @@ static void find(struct world *world, struct body *body)
 /* Whether what a body overlaps may have changed with another one that has moved. */
 static bool may_notice(const struct plain_world *space, const struct body *body, const struct plain_place *other)
 {
-    struct vector way = vector_to(position(body), other->at);
+    struct vector way = vector_to(plain_position(body), other->at);
     double reach_mm = space->cones->reach_mm + space->body_radius_mm;
 
     return !body->lifted && !other->lifted && vector_dot(way, way) <= reach_mm * reach_mm;
@@ -222,7 +180,7 @@ static bool may_notice(const struct plain_world *space, const struct body *body,
 /* How far a body may still go after a move. */
 static double free_after(const struct plain_place *place, const struct body *body)
 {
-    struct vector way = vector_to(place->at, position(body));
+    struct vector way = vector_to(place->at, plain_position(body));
 
     return place->free_mm - (way.x < 0.0 ? -way.x : way.x) - (way.y < 0.0 ? -way.y : way.y);
 }
@@ -230,10 +188,10 @@ static double free_after(const struct plain_place *place, const struct body *bod
 /* Has others notice that a body has moved. */
 static void tell_others(struct world *world, const struct body *body, const struct plain_place *before)
 {
-    struct plain_world *space = of(world);
+    struct plain_world *space = plain_world_of(world);
     const struct plain_place *now = &space->places[index_of(world, body)];
     uint32_t near[PLAIN_NEAR_MAX];
-    size_t count = bodies_near(world, now->at, near);
+    size_t count = plain_near_bodies(world, now->at, near);
 
     for (size_t i = 0; i < count; i++) {
         struct body *other = &world->bodies[near[i]];
@@ -245,12 +203,12 @@ static void tell_others(struct world *world, const struct body *body, const stru
 
 static void place(struct world *world, struct body *body)
 {
-    struct plain_world *space = of(world);
+    struct plain_world *space = plain_world_of(world);
     struct plain_place *place = &space->places[index_of(world, body)];
     const struct plain_place before = *place;
 
     place->free_mm = free_after(place, body);
-    place->at = position(body);
+    place->at = plain_position(body);
     place->lifted = body->lifted;
     if (space->grid)
         plain_grid_put(space->grid, (uint32_t)index_of(world, body), place->at);
@@ -259,62 +217,16 @@ static void place(struct world *world, struct body *body)
         tell_others(world, body, &before);
 }
 
-/* A way along which something may hide what is at its end. */
-struct view {
-    const struct world *world;
-    const struct body *body;
-    struct vector from;
-    struct vector to;
-};
-
-/* Whether one of the things around a place on the way hides its end. */
-static bool is_hidden_near(const struct view *view, struct vector at)
-{
-    const struct plain_world *space = of(view->world);
-    const struct choice near = capsules_near(space, at);
-    uint32_t bodies[PLAIN_NEAR_MAX];
-    size_t count = view->world->body_count > 1 ? bodies_near(view->world, at, bodies) : 0;
-
-    for (size_t i = 0; i < near.count; i++)
-        if (capsule_hides(&space->capsules[chosen(&near, i)], view->from, view->to))
-            return true;
-    for (size_t i = 0; i < count; i++) {
-        const struct body *other = &view->world->bodies[bodies[i]];
-
-        if (other != view->body && !other->lifted
-            && capsule_disc_hides(position(other), space->body_radius_mm, view->from, view->to))
-            return true;
-    }
-    return false;
-}
-
-static bool hides(const struct world *world, const struct body *body, struct vector point)
-{
-    const struct view view = {world, body, position(body), point};
-    const struct plain_grid *grid = of(world)->grid;
-    struct vector way = vector_to(view.from, point);
-    double length_mm = vector_length(way), step_mm = grid ? grid->cell_mm / 2 : 2 * length_mm + 1.0;
-
-    /* What is in the way can be felt from the nearest of these places. */
-    for (double far_mm = 0.0; far_mm < length_mm + step_mm / 2; far_mm += step_mm) {
-        double share = length_mm > 0.0 ? far_mm / length_mm : 0.0;
-
-        if (is_hidden_near(&view, vector_add(view.from, vector_scale(way, share))))
-            return true;
-    }
-    return false;
-}
-
 void plain_space_take(struct plain_world *space, struct world *world)
 {
-    space->space = (struct space){place, hides};
+    space->space = (struct space){place, plain_view_hides};
     world->space = &space->space;
     for (size_t i = 0; i < world->body_count; i++) {
         const struct body *body = &world->bodies[i];
 
-        space->places[i] = (struct plain_place){position(body), body->lifted, 0.0};
+        space->places[i] = (struct plain_place){plain_position(body), body->lifted, 0.0};
         if (space->grid)
-            plain_grid_put(space->grid, (uint32_t)i, position(body));
+            plain_grid_put(space->grid, (uint32_t)i, plain_position(body));
     }
     for (size_t i = 0; i < world->body_count; i++) {
         struct body *body = &world->bodies[i];
@@ -328,7 +240,7 @@ void plain_space_take(struct plain_world *space, struct world *world)
 void plain_space_settle(struct world *world)
 {
     for (size_t i = 0; i < world->body_count; i++)
-        of(world)->places[i].free_mm = 0.0;
+        plain_world_of(world)->places[i].free_mm = 0.0;
     for (size_t i = 0; i < world->body_count; i++) {
         world->bodies[i].depth_mm = 0.0;
         place(world, &world->bodies[i]);

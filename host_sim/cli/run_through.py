@@ -1,0 +1,123 @@
+"""Takes a run through its environments: as fast as possible, in real time, or at the pace of people who watch."""
+
+import sys
+import time
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from host_sim.cli.interruption import interrupted_between_ticks
+from host_sim.cli.outputs import Outputs
+from host_sim.cli.run_options import WatchOptions
+from host_sim.live.progress import Progress
+from host_sim.recording.summary import environment_line
+from host_sim.sim.make import start_robots
+from host_sim.sim.simulation import Simulation
+
+if TYPE_CHECKING:
+    from host_sim.live.listener import Listener
+
+_PAUSE_STEP_S = 0.05
+
+
+def open_listener(stack: ExitStack, watch: WatchOptions | None) -> "Listener | None":
+    """The listener for the browsers of those who watch; None if nobody does, or in the terminal."""
+    if watch is None or watch.terminal:
+        return None
+    from host_sim.live.listener import Listener  # a run that nobody watches begins without the server
+
+    listener = Listener(watch.listen, watch.port)
+    stack.callback(listener.socket.close)
+    return listener
+
+
+def run_through(outputs: Outputs, listener: "Listener | None") -> None:
+    """Takes a run through its environments."""
+    if outputs.options.watch is None:
+        _run_unwatched(outputs)
+    else:
+        _show(outputs, outputs.options.watch, listener)
+
+
+def _run_unwatched(outputs: Outputs) -> None:
+    """Runs all environments, as fast as possible or in real time."""
+    progress, simulation, talks = Progress(), outputs.simulation, outputs.options.talks
+    _say_refused(simulation, progress.clear)
+    if talks:
+        simulation.watch = each(simulation.watch, progress)
+    try:
+        with interrupted_between_ticks(simulation):
+            for episode in simulation.run():
+                outputs.episodes.append(episode)
+                if talks:
+                    progress.clear()
+                    print(environment_line(len(outputs.episodes), episode))
+                if outputs.options.config.real_time and len(outputs.episodes) < simulation.environments:
+                    _pause(simulation)
+    except BaseException:
+        progress.clear()
+        raise
+
+
+def _pause(simulation: Simulation) -> None:
+    """Lets people see how an environment ended. No robot time passes, and nothing of it is logged."""
+    from host_sim.live.paced_run import PAUSE_S
+    from host_sim.live.robot_orders import discard_reports
+
+    end_s = time.monotonic() + PAUSE_S
+    while time.monotonic() < end_s:
+        discard_reports(simulation)
+        time.sleep(_PAUSE_STEP_S)
+
+
+def _say_refused(simulation: Simulation, before: Callable[[], object] = lambda: None) -> None:
+    """Has changes that cannot be made reported when they are due."""
+    said = 0
+
+    def say(simulation: Simulation) -> None:
+        nonlocal said
+        for refused in simulation.record.refused[said:]:
+            said += 1
+            before()
+            seconds = refused.tick * simulation.params.tick_s
+            print(f"octet: at {seconds:.2f} s {refused.what} could not happen: {refused.why}", file=sys.stderr)
+
+    simulation.watch = each(simulation.watch, say)
+
+
+def each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], object]:
+    """A function that calls several watchers."""
+
+    def watch(simulation: Simulation) -> None:
+        for watcher in watchers:
+            watcher(simulation)
+
+    return watch
+
+
+def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") -> None:
+    """Runs with people watching: in the browser, or in the terminal if there is no listener."""
+    from host_sim.live.paced_run import PacedRun
+
+    simulation, options = outputs.simulation, outputs.options
+    live = PacedRun(
+        simulation,
+        outputs.recorder,
+        lambda seed: start_robots(simulation.clients, replace(options.config, seed=seed)),
+        episodes=outputs.episodes,
+        stays=watch.stays,
+        waits=listener is not None and (watch.stays or listener.is_open),
+        speed=watch.speed,
+    )
+    if listener is None:
+        from host_sim.live.terminal_view import watch_in_terminal
+
+        watch_in_terminal(live)
+        return
+    from host_sim.live.browser import watch_run
+
+    _say_refused(simulation)
+    if options.talks:
+        live.ended = lambda episode: print(environment_line(len(live.episodes), episode))
+    watch_run(live, listener, sys.stdout if options.talks else sys.stderr)

@@ -1,0 +1,166 @@
+"""The hardware of a board: one chip with its memories and peripherals, a CAN bus and a serial line."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from host_sim.emulator.can import BxCan, CanFaults, CanFrame
+from host_sim.emulator.chips import (
+    AFIO_BASE,
+    CAN_BASE,
+    GPIO_STRIDE,
+    SCB_BASE,
+    SYSTICK_BASE,
+    WATCHDOG_BASE,
+    Chip,
+)
+from host_sim.emulator.clock import Clock
+from host_sim.emulator.core import PAGE, Core, Fault
+from host_sim.emulator.flash import BASE as FLASH
+from host_sim.emulator.flash import FlashFaults
+from host_sim.emulator.rcc import RccFaults
+from host_sim.emulator.registers import AddressSpace, Peripheral, Register, Window
+from host_sim.emulator.serial import SlcanLine, Usart
+from host_sim.emulator.system import SystemControl, SysTick, Watchdog
+
+_WINDOWS = ((0x40000000, 0x80000), (0xE000E000, PAGE))
+"""(base, bytes) of where registers can be."""
+
+
+@dataclass(frozen=True)
+class Faults:
+    """How the hardware misbehaves, part by part.
+
+    Attributes:
+        rcc: The clocks.
+        can: The CAN controller.
+        flash: The flash.
+    """
+
+    rcc: RccFaults = field(default_factory=RccFaults)
+    can: CanFaults = field(default_factory=CanFaults)
+    flash: FlashFaults = field(default_factory=FlashFaults)
+
+
+class Hardware:
+    """Core, memories and peripherals of one chip, with a CAN bus and a serial line.
+
+    Attributes:
+        chip: Which one.
+        clock: Its time.
+        core: The processor.
+        can: The CAN controller and its bus.
+        usart: The serial port, with slcan on its line.
+        flash: The flash.
+        pins: The ports, from A.
+        rcc: The clocks.
+        watchdog: The independent watchdog.
+        space: All registers by address.
+        faults: What the image did that the core cannot do.
+    """
+
+    def __init__(
+        self,
+        chip: Chip,
+        faults: Faults,
+        heard: Callable[[CanFrame], None],
+        restart: Callable[[str], None],
+    ) -> None:
+        """All parts as after power-up, with no image.
+
+        Args:
+            chip: What to build.
+            faults: How it misbehaves.
+            heard: Takes the frames that the board sends, on the bus and on the serial line.
+            restart: Told the cause when something in the chip asks for a reset.
+        """
+        self.chip = chip
+        self.faults: list[Fault] = []
+        self.clock = Clock(chip.oscillators.internal)
+        self.core = Core(self.clock, FLASH)
+        self.core.on_fault = self._note_fault
+        self.flash = chip.flash(self.clock, faults.flash)
+        self.pins = [chip.gpio(f"GPIO{letter}") for letter in "ABCDEFGHI"[: len(chip.gpio_gates)]]
+        self.rcc = chip.rcc(self.clock, chip.oscillators, self.flash.core_hz_max, faults.rcc)
+        self.flash.on_wait_states = self.rcc.check_speeds
+        self.can = BxCan(self.clock, self.rcc.apb1_hz, chip.can_banks, faults.can, heard)
+        self.usart = Usart(self.clock, self.rcc.apb2_hz, SlcanLine(heard).take)
+        self.space = AddressSpace(self.clock)
+        self._systick = SysTick(self.clock)
+        self._scb = SystemControl(chip.cpuid, lambda: restart("software"))
+        self.watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))
+        self._peripherals = self._always_clocked() + self._gated()
+        self._map()
+
+    def flash_image(self, segments: list[tuple[int, bytes]]) -> None:
+        """Writes an image, as a probe does, and resets the core.
+
+        The image's pages become memory that cannot be written; behind all others is the flash's model.
+
+        Args:
+            segments: (address, bytes).
+        """
+        flash = self.flash
+        for address, data in segments:
+            offset = address - FLASH
+            flash.memory[offset : offset + len(data)] = data
+            flash.code_end = max(flash.code_end, -(-(offset + len(data)) // PAGE) * PAGE)
+        self.core.add_rom(FLASH, bytes(flash.memory[: flash.code_end]))
+        behind = Window(
+            FLASH + flash.code_end,
+            len(flash.memory) - flash.code_end,
+            lambda address, width: flash.read(address - FLASH, width),
+            lambda address, width, value: flash.write(address - FLASH, width, value),
+        )
+        self.core.add_registers(behind)
+        self.core.reset()
+
+    def restart(self, cause: str) -> None:
+        """Resets the chip; a loss of power clears the RAM too.
+
+        Args:
+            cause: `power`, `software` or `watchdog`.
+        """
+        if cause == "power":
+            for base, size in self.chip.ram:
+                self.core.clear_ram(base, size)
+        for _, peripheral in self._peripherals:
+            peripheral.reset()
+        self.rcc.restart(cause)
+        self.core.reset()
+
+    def _always_clocked(self) -> list[tuple[int, Peripheral]]:
+        return [
+            (self.chip.rcc_base, self.rcc),
+            (self.chip.flash_base, self.flash),
+            (WATCHDOG_BASE, self.watchdog),
+            (SYSTICK_BASE, self._systick),
+            (SCB_BASE, self._scb),
+        ]
+
+    def _gated(self) -> list[tuple[int, Peripheral]]:
+        chip = self.chip
+        gated: list[tuple[int, Peripheral]] = [(CAN_BASE, self.can), (chip.usart_base, self.usart)]
+        gated += [(chip.gpio_base + GPIO_STRIDE * number, port) for number, port in enumerate(self.pins)]
+        gates = [chip.can_gate, chip.usart_gate, *chip.gpio_gates]
+        if chip.afio_gate is not None:
+            gated.append((AFIO_BASE, Peripheral("AFIO", {0x00: Register("EVCR"), 0x04: Register("MAPR")})))
+            gates.append(chip.afio_gate)
+        for gate, (_, peripheral) in zip(gates, gated, strict=True):
+            self.rcc.add_gate(*gate, peripheral)
+        return gated
+
+    def _map(self) -> None:
+        space = self.space
+        for base, peripheral in self._peripherals:
+            space.attach(base, peripheral)
+        self.can.access_directly(space.model, CAN_BASE)
+        self._systick.access_directly(space.model, SYSTICK_BASE)
+        space.model.direct = True
+        for base, size in _WINDOWS:
+            self.core.add_registers(Window(base, size, space.read, space.write, space.model))
+        for base, size in self.chip.ram:
+            self.core.add_ram(base, size)
+
+    def _note_fault(self, fault: Fault) -> None:
+        self.faults.append(fault)
+        self._scb.note_fault(fault.cause, fault.address)
