@@ -11,6 +11,7 @@ from host_sim.backends.images import BOARDS
 from host_sim.campaign import matrix
 from host_sim.campaign.board_setup import Board
 from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
+from host_sim.campaign.course import CourseLog
 from host_sim.campaign.html_report import page, verdict
 from host_sim.campaign.matrix import FaultClass, default_limit_s, groups
 from host_sim.campaign.outcome import Outcome
@@ -21,6 +22,7 @@ from host_sim.campaign.shrink import shrink
 from host_sim.campaign.wall_clock import CLOCK_EVENTS
 from host_sim.errors import RobotError, UsageError
 from host_sim.faults.event import Event
+from host_sim.protocol.codec import Frame
 from tests.runs.support import octet
 
 CLEAN = Cell("article", "none", LOCKSTEP, limit_s=3.0)
@@ -322,6 +324,20 @@ def test_a_cell_is_repeated_and_shrunk_from_the_command_line():
 def test_where_there_is_no_such_link_it_is_said():
     with pytest.raises(UsageError, match="no link"), open_setup("carrier pigeon"):
         raise AssertionError
+
+
+def test_reports_that_come_later_are_no_other_course():
+    logs = [CourseLog() for _ in range(3)]
+    senses, drive, heartbeat, other = (Frame(number, bytes(8)) for number in (0x101, 0x041, 0x6A1, 0x042))
+    said = [(heartbeat, senses, drive), (senses, other, drive, heartbeat), (senses, Frame(0x041, bytes([1] * 8)))]
+
+    for log, frames in zip(logs, said, strict=True):
+        for frame in frames:
+            log.add(frame)
+        log.close()
+
+    first, later, different = (log.course for log in logs)
+    assert first == later != different
 
 
 def test_what_need_not_be_noticed_must_not_leave_a_trace():
