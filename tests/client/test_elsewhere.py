@@ -1,6 +1,7 @@
 """Ticks that were exchanged elsewhere leave a client as if it had exchanged them itself."""
 
 from host_sim.client.elsewhere import Ticks, routine_reports, take_last_reports, take_routine_reports, take_ticks
+from host_sim.client.pacing import BegunTick, Lockstep
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import COUNTERS, Frame, crc8
 from tests.client.meddled_link import LEARNED, MeddledLink, learned
@@ -39,6 +40,17 @@ def test_ticks_count_as_sent_and_the_next_one_goes_on_from_there():
     assert (client.tick, client.frames.sent, client.inbox.last) == (LEARNED, sent + 1, drive)
     assert [each.tick for each in drive_for(client, 2, LEARNED + 1)] == [(LEARNED + tick) % 256 for tick in (1, 2)]
     assert client.incidents == []
+
+
+def test_a_tick_that_was_only_begun_elsewhere_is_finished_here():
+    link = MeddledLink()
+    client = learned(link)
+    sent, sensed = client.frames.sent, senses(LEARNED, ODOMETERS[id(client)])
+    link.put(PROTOCOL.encode_senses(sensed, (LEARNED + 1) % COUNTERS))
+
+    (drive,) = Lockstep([client]).exchange([sensed], BegunTick(1, ()))
+
+    assert (drive.tick, client.frames.sent, client.frames.repeated) == (LEARNED % 256, sent + 1, 0)
 
 
 def test_the_last_reports_are_taken_over_and_known_from_then_on():

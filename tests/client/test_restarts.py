@@ -66,7 +66,7 @@ def test_a_robot_whose_wheels_do_not_obey_is_left_where_it_stopped():
     client = learned(MeddledLink(), 10)
     pace = Lockstep([client])
 
-    drives = [pace.exchange([senses(tick)])[0] for tick in range(10, 200)]
+    drives = [pace.exchange([senses(tick)])[0] for tick in range(10, 600)]
 
     assert (drives[-1].left_mm_s, drives[-1].right_mm_s) == (0, 0)
     assert client.inbox.session is not None
