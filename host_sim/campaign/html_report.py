@@ -22,8 +22,9 @@ thead th { white-space: nowrap; }
 .bad summary { color: var(--bad-ink); font-weight: 600; }
 .told { background: var(--told); }
 .well { background: var(--well); }
-td p { margin: .3rem 0; max-width: 32rem; }
+td p, th p { margin: .3rem 0; max-width: 32rem; }
 summary { cursor: pointer; }
+a { color: inherit; }
 code { font-size: .85em; }
 code span { display: inline-block; overflow-wrap: anywhere; max-width: 100%; white-space: pre-wrap; }
 """

@@ -24,13 +24,14 @@ class Outcome:
         doubts: What makes its result doubtful.
         wrong: Patterns for which a wrong turn was learned.
         digest: Of its log.
+        course: Digest of what the robot sensed and did, tick by tick.
         broke: Whether it ended with an error that is not about the robot, its line, or files that were struck.
         lost: What its files do not hold though nobody was told, in words; empty if they hold all.
         struck: The faults that befell frames, as rules for one frame each.
         waiting: Events that have not come to happen.
         moved: Tick after which the robot last answered in time.
         ticks: Number of ticks.
-        differs: Whether, in lockstep, its log is another than without the fault.
+        differs: Whether, in lockstep, its course is another than without the fault.
     """
 
     cell: Cell
@@ -40,6 +41,7 @@ class Outcome:
     doubts: tuple[str, ...] = ()
     wrong: tuple[int, ...] = ()
     digest: str = ""
+    course: str = ""
     broke: bool = False
     lost: str = ""
     struck: tuple[str, ...] = ()
@@ -84,9 +86,8 @@ class Outcome:
         learned = "learned wrong turns" if self.wrong else "went on"
         return (*self.problems, *["ended"] * bool(self.end), *["doubted"] * bool(self.doubts), learned)[0]
 
-    def compare(self, clean: str) -> None:
-        """Notes what the digest of the run without a fault shows."""
-        differs = self.digest != clean
-        if self.cell.is_of_body and not self.seen and differs:
+    def compare(self, clean: "Outcome") -> None:
+        """Notes what the run without a fault shows."""
+        if self.cell.is_of_body and not self.seen and self.digest != clean.digest:
             self.seen = "what it does"
-        self.differs = differs and not self.cell.is_real_time
+        self.differs = self.course != clean.course and not self.cell.is_real_time

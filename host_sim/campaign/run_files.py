@@ -9,10 +9,10 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from host_sim.campaign.course import CourseLog
 from host_sim.campaign.killed import Tell, kill_at
 from host_sim.campaign.permissions import obey_permissions
 from host_sim.campaign.setups import Happen
-from host_sim.client.frame_log import FrameLog
 from host_sim.errors import OctetError
 from host_sim.faults.event import Event
 from host_sim.protocol.memory_kinds import Memory
@@ -41,9 +41,9 @@ class NoFiles:
     memory: Memory | None = None
     note: Tell = staticmethod(_tell_nobody)
 
-    def __init__(self, log: FrameLog | None = None) -> None:
+    def __init__(self, log: CourseLog | None = None) -> None:
         """Nothing was written yet."""
-        self.log = log or FrameLog()
+        self.log = log or CourseLog()
         self.events: Mapping[str, Happen] = {}
         self.struck = False
         self.told: list[str] = []
@@ -92,7 +92,7 @@ class RunFiles(NoFiles):
         """
         self._folder, self._undo, self.note = folder, undo, tell
         self._log_path, self._memory_path = folder / "run.log", folder / _MEMORY
-        super().__init__(FrameLog(self._log_path))
+        super().__init__(CourseLog(self._log_path))
         self.events = {name: partial(self._strike, happen) for name, happen in _EVENTS.items()}
         self.memory = load_memory(self._memory_path)
         self._saver = MemorySaver(

@@ -27,11 +27,12 @@ _SIGNS_MAX = 10
 
 def run_all(cells: Iterable[Cell]) -> Iterator[Outcome]:
     """Runs cells, each configuration's run without a fault first: what differs from that has been seen."""
-    clean = ""
+    clean = None
     for cell in cells:
         outcome = run_cell(cell)
-        clean = clean if cell.fault else outcome.digest
-        outcome.compare(clean)
+        clean = clean if cell.fault else outcome
+        if clean is not None:
+            outcome.compare(clean)
         yield outcome
 
 
@@ -64,7 +65,8 @@ def _run_there(outcome: Outcome) -> None:
             raise
         except Exception as error:
             _note_end(outcome, error, files)
-        outcome.digest, outcome.lost = files.close(), outcome.lost or files.lost()
+        outcome.digest, outcome.course = files.close(), files.log.course
+        outcome.lost = outcome.lost or files.lost()
 
 
 def _run_killed(outcome: Outcome, setup: Setup, folder: Path | None) -> bool:

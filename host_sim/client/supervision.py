@@ -120,14 +120,18 @@ def _start_again(client: RobotClient, session: Session, memory: tuple[int, ...])
     kept = client.memory == memory
     try:
         handshake(client, client.connection.deadline_s)
-        start(client, session.seed, session.profile, session.settings, None if kept else memory)
-        if session.frozen:
-            freeze(client, True)
+        _start_as_before(client, session, None if kept else memory)
     finally:
         client.reports.memory = memory  # what it had learned is not lost, even if it cannot be written back
     client.distrust(
         f"the robot restarted ({cause}) with its memory {'kept' if kept else 'restored'}, and was started again"
     )
+
+
+def _start_as_before(client: RobotClient, session: Session, memory: tuple[int, ...] | None) -> None:
+    start(client, session.seed, session.profile, session.settings, memory)
+    if session.frozen:
+        freeze(client, True)
 
 
 def _check_rival(client: RobotClient) -> None:
@@ -159,9 +163,7 @@ def _note_halt(client: RobotClient, session: Session) -> None:
         session.halted, client.inbox.session = True, session
         client.distrust("the wheels did not do what they were told, and the robot has stopped")
         return
-    start(client, session.seed, session.profile, session.settings, None)
-    if session.frozen:
-        freeze(client, True)
+    _start_as_before(client, session, None)
     client.distrust("the robot stopped, for too many of its drives were lost, and was started again")
 
 

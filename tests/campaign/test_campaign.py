@@ -11,6 +11,7 @@ from host_sim.backends.images import BOARDS
 from host_sim.campaign import matrix
 from host_sim.campaign.board_setup import Board
 from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
+from host_sim.campaign.course import CourseLog
 from host_sim.campaign.html_report import page, verdict
 from host_sim.campaign.matrix import FaultClass, default_limit_s, groups
 from host_sim.campaign.outcome import Outcome
@@ -21,6 +22,7 @@ from host_sim.campaign.shrink import shrink
 from host_sim.campaign.wall_clock import CLOCK_EVENTS
 from host_sim.errors import RobotError, UsageError
 from host_sim.faults.event import Event
+from host_sim.protocol.codec import Frame
 from tests.runs.support import octet
 
 CLEAN = Cell("article", "none", LOCKSTEP, limit_s=3.0)
@@ -32,18 +34,33 @@ def outcome_of(text: str) -> Outcome:
     return outcome
 
 
-def test_each_fault_is_seen_and_told(tmp_path):
-    report = tmp_path / "campaign.html"
+SHOWS_LATE = "the left sensor is stuck off"
+"""A robot is rarely led by that one."""
 
-    done = octet("campaign", report, "--profiles", "article", "--limit-s", "30")
+
+def test_each_fault_is_seen_and_told(tmp_path, monkeypatch):
+    report = tmp_path / "campaign.html"
+    soon = tuple(each for each in matrix.CLASSES if each.name != SHOWS_LATE)
+    monkeypatch.setattr(groups, "__defaults__", (soon,))
+
+    done = octet("campaign", report, "--profiles", "article", "--limit-s", "15")
 
     assert (done.returncode, done.stderr) == (0, "")
-    runs = 1 + len([each for each in matrix.CLASSES if not each.links])
+    runs = 1 + len([each for each in soon if not each.links])
     assert f"{runs} runs: 0 not as they should be" in done.stdout
     text = report.read_text()
     assert text.count("<details>") == runs
     assert "http" not in text
     assert "--fault drop:30%" in text
+
+
+def test_a_fault_that_shows_late_is_seen_in_a_run_that_is_long_enough():
+    late = [each for each in matrix.CLASSES if each.name == SHOWS_LATE]
+    (cells,) = groups(["article"], ["none"], [LOCKSTEP], lambda _: 30.0, late)
+
+    _, found = run_all(cells)
+
+    assert (found.problems, found.seen) == ([], "what it does")
 
 
 def test_a_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
@@ -322,6 +339,20 @@ def test_a_cell_is_repeated_and_shrunk_from_the_command_line():
 def test_where_there_is_no_such_link_it_is_said():
     with pytest.raises(UsageError, match="no link"), open_setup("carrier pigeon"):
         raise AssertionError
+
+
+def test_reports_that_come_later_are_no_other_course():
+    logs = [CourseLog() for _ in range(3)]
+    senses, drive, heartbeat, other = (Frame(number, bytes(8)) for number in (0x101, 0x041, 0x6A1, 0x042))
+    said = [(heartbeat, senses, drive), (senses, other, drive, heartbeat), (senses, Frame(0x041, bytes([1] * 8)))]
+
+    for log, frames in zip(logs, said, strict=True):
+        for frame in frames:
+            log.add(frame)
+        log.close()
+
+    first, later, different = (log.course for log in logs)
+    assert first == later != different
 
 
 def test_what_need_not_be_noticed_must_not_leave_a_trace():

@@ -37,6 +37,19 @@ def test_what_is_added_is_written_and_its_digest_is_returned(path):
     assert digest == hashlib.sha256(text_in(path)).hexdigest()
 
 
+def test_lines_that_were_written_elsewhere_stand_in_order_among_the_others(path):
+    log = FrameLog(path)
+    log.add(FRAME)
+    log.add_block(b"elsewhere\n")
+    log.add(FRAME)
+
+    digest = log.close()
+
+    line = line_of(0, FRAME).encode() + b"\n"
+    assert text_in(path) == line + b"elsewhere\n" + line
+    assert digest == hashlib.sha256(text_in(path)).hexdigest()
+
+
 def test_the_old_log_stays_until_the_new_one_is_closed(path):
     path.write_text("old")
     log = FrameLog(path)
@@ -79,15 +92,20 @@ def make_pipe(part):
     os.mkfifo(part)
 
 
+def make_pipe_with_a_reader(part):
+    os.mkfifo(part)
+    return os.open(part, os.O_RDONLY | os.O_NONBLOCK)
+
+
 def make_link(part):
     (part.parent / "elsewhere").write_text("mine")
     part.symlink_to("elsewhere")
 
 
-@pytest.mark.parametrize("make", [make_pipe, make_link])
+@pytest.mark.parametrize("make", [make_pipe, make_pipe_with_a_reader, make_link])
 def test_a_part_file_that_is_something_else_is_refused_and_left(path, make):
     part = path.with_name(f"{path.name}.part")
-    make(part)
+    reader = make(part)
 
     with pytest.raises(UsageError, match="choose another folder"):
         FrameLog(path)
@@ -95,6 +113,19 @@ def test_a_part_file_that_is_something_else_is_refused_and_left(path, make):
     assert not path.exists()
     elsewhere = path.parent / "elsewhere"
     assert not elsewhere.exists() or elsewhere.read_text() == "mine"
+    if reader is not None:
+        os.close(reader)
+
+
+def test_a_log_whose_place_is_taken_says_so_and_keeps_what_there_is(path):
+    log = FrameLog(path)
+    log.add(FRAME)
+    path.mkdir()
+
+    with pytest.raises(OctetError, match=r"cannot write .*: Is a directory"):
+        log.close()
+
+    assert path.with_name(f"{path.name}.part").stat().st_size > 0
 
 
 def test_a_log_on_a_full_disk_fails_once(path):
@@ -104,6 +135,8 @@ def test_a_log_on_a_full_disk_fails_once(path):
     resource.setrlimit(resource.RLIMIT_FSIZE, (10, most))
     try:
         with pytest.raises(OctetError, match="File too large"):
+            log.flush()
+        with pytest.raises(OctetError, match="an earlier write failed"):
             log.flush()
         assert log.close() == log.close()
     finally:

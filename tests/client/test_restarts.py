@@ -4,9 +4,9 @@ import pytest
 
 from host_sim.client.commands import freeze, start, stop
 from host_sim.client.handshake import handshake
-from host_sim.client.pacing import RealTime
+from host_sim.client.pacing import Lockstep, RealTime
 from host_sim.client.supervision import settle
-from host_sim.errors import FirmwareError, RobotError
+from host_sim.errors import FirmwareError, RobotError, SessionLostError
 from host_sim.protocol.codec import Frame, crc8
 from tests.client.meddled_link import LEARNED, MeddledLink, learned
 from tests.client.support import PROTOCOL, connected, drive_for, senses
@@ -60,6 +60,44 @@ def test_a_robot_that_restarts_early_is_noticed_within_a_tick(tick):
     drive_for(client, 1, tick)
 
     assert [incident.tick for incident in client.incidents] == [tick]
+
+
+def test_a_robot_whose_wheels_do_not_obey_is_left_where_it_stopped():
+    client = learned(MeddledLink(), 10)
+    pace = Lockstep([client])
+
+    drives = [pace.exchange([senses(tick)])[0] for tick in range(10, 600)]
+
+    assert (drives[-1].left_mm_s, drives[-1].right_mm_s) == (0, 0)
+    assert client.inbox.session is not None
+    assert client.inbox.session.halted
+    assert "the wheels did not do what they were told, and the robot has stopped" in str(client.incidents)
+
+
+def test_a_memory_that_was_lost_at_the_end_of_an_environment_makes_the_result_doubtful():
+    client = learned(MeddledLink())
+    client.settle()
+    client.reports.gap = 1
+
+    client.check_settled()
+
+    (incident,) = client.incidents
+    assert "its last memory may have been lost on the way" in str(incident)
+
+
+def test_a_robot_that_is_lost_again_and_again_is_given_up(monkeypatch):
+    link = MeddledLink()
+    client = learned(link)
+
+    def lose() -> None:
+        link.reboot()
+        raise SessionLostError("it started anew", booted=True)
+
+    monkeypatch.setattr(client, "await_drive", lose)
+
+    with pytest.raises(SessionLostError, match="started anew"):
+        drive_for(client, 1, LEARNED)
+    assert str(client.incidents).count("restarted") == 5
 
 
 def test_a_robot_that_restarts_on_a_bad_bus_is_noticed_too():

@@ -5,9 +5,9 @@ import pytest
 from host_sim.client.commands import stop
 from host_sim.client.handshake import handshake
 from host_sim.client.supervision import settle
-from host_sim.errors import RivalError, TwinError
+from host_sim.errors import RivalError, SessionLostError, TwinError
 from host_sim.protocol.codec import Frame, counter_of, crc8
-from host_sim.protocol.generated import Opcode
+from host_sim.protocol.generated import Opcode, Reason
 from tests.client.meddled_link import LEARNED, MeddledLink, command, is_stopped, learned
 from tests.client.support import PROTOCOL, connected, drive_for, drives_in, run, senses
 
@@ -75,6 +75,52 @@ def test_a_twin_ends_the_run():
 
     with pytest.raises(TwinError, match="two robots are node 1"):
         drive_for(client, 1, LEARNED)
+
+
+def heartbeat(**signals: int) -> Frame:
+    said = {"counter": 0, "state": 1, "frozen": 0, "lockstep": 1, "silent": 0, "profile": 0, "owner": 1, "uptime": 9}
+    return PROTOCOL.encode("HEARTBEAT", {**said, "layout": PROTOCOL.layout, **signals})
+
+
+@pytest.mark.parametrize(
+    ("said", "lost"), [({"state": 0}, "reports that it is stopped"), ({"owner": 9}, "obeys simulator 9")]
+)
+@pytest.mark.parametrize("silent", [0, 1])
+def test_what_a_robot_says_of_itself_is_believed_whether_or_not_it_hears_senses(said, lost, silent):
+    client = learned(MeddledLink(), 10)
+    last = [frame for frame in client.log.frames if frame.id == PROTOCOL.id_of("HEARTBEAT")][-1]
+
+    with pytest.raises(SessionLostError, match=lost):
+        client.inbox.take(heartbeat(counter=(counter_of(last) + 1) % 15, silent=silent, **said))
+
+
+@pytest.mark.parametrize("lockstep", [True, False])
+def test_a_robot_that_says_that_it_hears_nothing_rests_where_it_has_a_clock_of_its_own(lockstep):
+    client = learned(MeddledLink(), 10 * lockstep, lockstep=lockstep)
+    signals = {"counter": 0, "tick": 9, "left": 0, "right": 0, "repeat_count": 0, "eat": 0, "action": 0}
+
+    drive = client.inbox.take_drive(PROTOCOL.encode("DRIVE", {**signals, "reason": Reason.SILENCE}))
+    client.inbox.take(heartbeat(silent=1))
+
+    assert (drive is None) == lockstep
+    assert client.inbox.silent
+
+
+def test_a_robot_that_another_simulator_has_taken_over_is_stopped_and_left():
+    link = MeddledLink()
+    client = learned(link)
+
+    def owned_by_another(frame: Frame) -> list[Frame]:
+        decoded = PROTOCOL.decode(frame)
+        if decoded is None or decoded.name != "HEARTBEAT":
+            return [frame]
+        return [PROTOCOL.encode("HEARTBEAT", {**decoded.signals, "owner": 9})]
+
+    link.change = owned_by_another
+
+    with pytest.raises(RivalError, match=r"simulator 9 has taken over node 1 at tick \d+"):
+        drive_for(client, 60, LEARNED)
+    assert is_stopped(link)
 
 
 def test_two_different_drives_for_one_tick_make_the_result_doubtful():

@@ -1,0 +1,99 @@
+"""Commands: what they change, and what becomes of one that is not answered or not taken."""
+
+import pytest
+
+from host_sim.client.commands import erase_memory, freeze, start, stop, write_cells
+from host_sim.client.handshake import handshake
+from host_sim.client.robot_client import INCIDENTS_MAX
+from host_sim.errors import RefusedError, RobotError
+from host_sim.protocol.codec import Frame, counter_of
+from host_sim.protocol.generated import Opcode, Result
+from tests.client.meddled_link import MeddledLink, learned
+from tests.client.support import PROTOCOL, connected, drive_for
+
+NOTHING = (0,) * 8
+
+
+def test_turns_are_written_and_erased():
+    client = learned(MeddledLink(), 10)
+
+    write_cells(client, {1: 2, 6: 1})
+    assert client.memory == (0, 2, 0, 0, 0, 0, 1, 0)
+    write_cells(client, {3: 1})
+    assert client.memory == (0, 2, 0, 1, 0, 0, 1, 0)
+
+    erase_memory(client)
+    assert client.memory == NOTHING
+
+
+def test_a_memory_of_nothing_leaves_no_half_of_another_one():
+    link = MeddledLink()
+    link.reboot((0, 1, 0, 0, 2, 0, 0, 0))
+    with connected(link) as client:
+        handshake(client, 1.0)
+        start(client, 1, 0, {}, NOTHING)
+
+    assert client.memory == NOTHING
+
+
+def test_a_robot_that_was_not_started_yet_can_be_frozen():
+    with connected(MeddledLink()) as client:
+        handshake(client, 1.0, shared=True)
+        freeze(client, on=True)
+
+    assert client.inbox.session is None
+
+
+def test_a_command_that_is_not_answered_is_named():
+    link = MeddledLink()
+    client = learned(link, 10, deadline_s=0.1)
+    link.change = lambda _: []
+
+    with pytest.raises(RobotError, match=r"the robot did not answer freeze within 0.1 s; last frame from it: "):
+        freeze(client, on=True)
+
+
+def test_a_command_that_is_out_of_sequence_again_and_again_is_refused():
+    link = MeddledLink()
+    client = learned(link, 10)
+
+    def refuse(frame: Frame) -> list[Frame]:
+        decoded = PROTOCOL.decode(frame)
+        if decoded is None or decoded.name != "ANSWER":
+            return [frame]
+        result = {"opcode": Opcode.FREEZE, "result": Result.OUT_OF_SEQUENCE, "which": 0, "value": 0}
+        return [PROTOCOL.encode("ANSWER", {"counter": counter_of(frame), **result})]
+
+    link.change = refuse
+
+    with pytest.raises(RefusedError, match="out_of_sequence"):
+        freeze(client, on=True)
+
+
+def test_a_robot_that_never_reports_all_is_given_up():
+    link = MeddledLink()
+    client = learned(link, 10)
+    link.change = lambda frame: [] if frame.id == PROTOCOL.id_of("MEMORY") else [frame]
+
+    with pytest.raises(RobotError, match="the robot did not report all after stop"):
+        stop(client)
+
+
+def test_the_distances_go_before_the_senses_and_are_repeated_with_them():
+    with connected(faults=("drop:30%",)) as client:
+        handshake(client, client.connection.deadline_s)
+        start(client, 1, PROTOCOL.choices("COMMAND", "profile")["distance"], {}, None)
+        drive_for(client, 50)
+
+    sent = [name for frame in client.log.frames if (name := PROTOCOL.decode(frame).name) in ("RANGES", "SENSES")]
+    assert sent == ["RANGES", "SENSES"] * 50
+    assert client.frames.repeated > 0
+
+
+def test_of_many_incidents_the_later_ones_are_only_counted():
+    client = learned(MeddledLink(), 1)
+
+    for _ in range(INCIDENTS_MAX + 2):
+        client.distrust("it rattles")
+
+    assert (len(client.incidents), client.unlisted) == (INCIDENTS_MAX, 2)
