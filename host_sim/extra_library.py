@@ -1,4 +1,4 @@
-"""Libraries that only some commands need. They stand apart, so that no other command spends time on loading them."""
+"""Libraries that only some commands need, loaded by those commands only."""
 
 import importlib
 import os

@@ -12,7 +12,7 @@ uint32_t deadline_left_ms(int64_t deadline);
         /* From now until then, rounded up; 0: it has passed. */
 
 bool deadline_await_input(int fd, int64_t deadline);
-        /* Waits until reading fd gives something, be it an error: true. False: the deadline came first. */
+        /* Waits until there is something to read from fd, or an error: true. False: the deadline came first. */
 
 bool deadline_pause(int64_t deadline);
         /* Rests for a millisecond, or less where a signal ends it. False, and no rest: the deadline has passed. */

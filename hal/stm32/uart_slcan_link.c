@@ -1,4 +1,4 @@
-/* Frames as slcan text over a serial line. A byte comes every 87 us at the most: whatever waits here takes it. */
+/* Frames as slcan text over a serial line. A byte comes every 87 us at the most: every wait here takes it. */
 #include "hal/link/link.h"
 
 #include <stdbool.h>

@@ -111,7 +111,7 @@ def _seed_of(summary: Path) -> str:
 
 
 def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
-    """Writes a run that did not come to its end; it is that end which is reported, not what fails here."""
+    """Writes a run that was cut short. The reason for that is reported, and not what fails here."""
     with suppress(OctetError):
         if isinstance(end, KeyboardInterrupt):
             for client in outputs.simulation.clients:

@@ -1,4 +1,4 @@
-"""Ticks whose frames were exchanged and logged elsewhere, by C code on a client's behalf."""
+"""Ticks whose frames were exchanged and logged by C code, on a client's behalf."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The board's time: the model `struct board_clock`, and what happens by itself."""
+"""The board's time: the model `struct board_clock`, and the events that come with time."""
 
 from collections.abc import Callable
 from typing import Any
@@ -6,7 +6,7 @@ from typing import Any
 from host_sim.emulator.c_models import c_models
 
 SECOND = 10**15
-"""Moments and spans are whole femtoseconds: no clock of the boards makes their sum drift."""
+"""Moments and spans are whole femtoseconds, so that sums of clock periods do not drift."""
 
 _NS = SECOND // 10**9
 _HOUR = 3600 * SECOND
@@ -19,16 +19,16 @@ class Alarm:
     """When an event is next due."""
 
     def __init__(self, clock: "Clock", number: int) -> None:
-        """One of a clock's, as `Clock.add` makes them."""
+        """As returned by `Clock.add`."""
         self._clock, self._number = clock, number
 
     def set(self, moment: int) -> None:
-        """The event is due then, rather than when it was before."""
+        """Sets the moment at which the event is due."""
         self._clock.set_alarm(self._number, moment)
 
 
 class Clock:
-    """Time, made of the core's cycles, one for each instruction. What happens by itself happens when time passes it.
+    """Time, counted in cycles of the core, one for each instruction. Events happen as time passes them.
 
     Attributes:
         model: The C model, `struct board_clock`.
@@ -74,13 +74,13 @@ class Clock:
         return period
 
     def add(self, due: Callable[[], int]) -> Alarm:
-        """Adds what happens by itself.
+        """Adds an event.
 
         Args:
-            due: Does all that is due by now, and returns when it wants to be called next.
+            due: Does what is due by now, and returns the moment of its next call.
 
         Returns:
-            What to set when that changes otherwise. Before, `due` is called as soon as anything is.
+            The alarm, to be set when that moment changes. Until then, `due` is called as soon as any event is due.
         """
         self._timed.append(due)
         alarms = self._ffi.new("struct moment[]", len(self._timed))
@@ -96,7 +96,7 @@ class Clock:
         self.expect_now()
 
     def join_wire(self, wire: Any, take: Callable[[], None]) -> None:
-        """Moves a bus on with the time.
+        """Makes a bus advance with time.
 
         Args:
             wire: The C model, `struct can_wire`.
@@ -106,20 +106,20 @@ class Clock:
         self.model.wire, self.model.take = wire, self._take
 
     def expect(self, moment: int) -> None:
-        """Something new is due then."""
+        """Notes that something new is due at a moment."""
         self._library.clock_expect(self.model, divmod(min(moment, NEVER), _NS))
 
     def expect_now(self) -> None:
-        """Something new is due at once."""
+        """Notes that something new is due at once."""
         self._library.clock_expect(self.model, self.model.now)
 
     def settle(self) -> None:
-        """Lets everything happen that is due."""
+        """Makes all events happen that are due."""
         self._library.clock_settle(self.model)
         self.raise_failure()
 
     def set_alarm(self, number: int, moment: int) -> None:
-        """Sets one, as `Alarm.set`."""
+        """As `Alarm.set`, by the number of the alarm."""
         alarm = self._alarms[number]
         alarm.ns, alarm.fs = divmod(min(moment, NEVER), _NS)
         self._library.clock_expect(self.model, alarm)
@@ -128,28 +128,28 @@ class Clock:
         self.set_alarm(number, self._timed[number]())
 
     def execute(self, cycles: int) -> None:
-        """Passes the time of a number of cycles."""
+        """Lets time pass: that of a number of cycles."""
         self._library.clock_execute(self.model, cycles)
         self.raise_failure()
 
     def skip_to(self, moment: int) -> None:
-        """Passes time in which the core does nothing, and stops at each event on the way."""
+        """Lets time pass in which the core does nothing, and stops at each event on the way."""
         while (now := self.now) < moment:
             ns, fs = divmod(min(moment, now + _HOUR), _NS)
             self._library.clock_skip_to(self.model, (ns, fs))
             self.raise_failure()
 
     def skip(self, span: int) -> None:
-        """Passes that much of it."""
+        """As `skip_to`, by a span of time."""
         self.skip_to(self.now + span)
 
     def fail(self, _kind: object, failure: BaseException, _trace: object) -> None:
-        """Lets no more time pass: a function that C has called has failed. Takes what `__exit__` takes."""
+        """Stops time, since a function that C called has failed. The arguments are those of `__exit__`."""
         self._failure = failure
         self.model.failed = True
 
     def raise_failure(self) -> None:
-        """Raises that, once: no exception may pass through C."""
+        """Raises the exception of `fail`, once: it could not pass through C."""
         if self._failure is not None:
             failure, self._failure = self._failure, None
             self.model.failed = False

@@ -99,7 +99,7 @@ class Rcc(Peripheral):
         """The PLL's speed as it is set up."""
 
     def check_pll(self) -> None:
-        """As it is set up, when it is switched on.
+        """Checks the setup of the PLL when it is switched on.
 
         Raises:
             BoardError: It cannot lock on that.

@@ -32,7 +32,7 @@ class Passing(NamedTuple):
 
 
 class Fault(Protocol):
-    """A fault that befalls one frame."""
+    """A fault of one frame."""
 
     def apply(self, passing: Passing, dice: Random) -> list[Passing]:
         """What arrives in the place of a frame.

@@ -1,4 +1,4 @@
-"""Events: what befalls a robot, its line or this host at a tick, as a person writes it."""
+"""Events: what happens to a robot, its line or this host at a tick, as a person writes it."""
 
 import re
 from dataclasses import dataclass

@@ -22,7 +22,7 @@ class _Rolled:
             self._chances = {direction: Random(f"{seed} {rule} {direction}") for direction in DIRECTIONS}
 
     def strikes(self, number: int, direction: Direction) -> bool:
-        """Whether the fault befalls a frame. Each frame that is covered is asked about once."""
+        """Whether the fault happens to a frame. To be called once for each frame that the rule covers."""
         if not self.rule.covers(number, direction):
             return False
         return self.rule.is_certain or self._chances[direction].random() * 100 < self.rule.chance

@@ -136,7 +136,7 @@ class PageFeed:
     def _new_trails(self) -> str:
         """The new part of each robot's trail as JSON; every tick of it if the environment has just begun.
 
-        At full speed that is not so: each message may be of another environment.
+        At full speed each message may be about another environment, so its first part has fewer points, too.
         """
         tracks = self.live.recorder.trajectory.tracks
         end = tracks[0].ticks

@@ -11,7 +11,7 @@ def edit(simulation: Simulation, command: LiftRobot | PutRobot | Edit) -> None:
     """Changes the arena, or where a robot is.
 
     Raises:
-        EditError: It cannot be changed so, or there is no such robot.
+        EditError: The change is not possible, or there is no such robot.
     """
     match command:
         case LiftRobot(node):
@@ -23,7 +23,7 @@ def edit(simulation: Simulation, command: LiftRobot | PutRobot | Edit) -> None:
 
 
 def command_robot(simulation: Simulation, recorder: RunRecorder, command: WriteCell | EraseMemory | Freeze) -> None:
-    """Sends a robot a command over the bus, as a real one needs it too.
+    """Sends a robot a command over the bus, as with a real robot.
 
     Raises:
         EditError: There is no such robot.

@@ -1,4 +1,4 @@
-/* board_clock.h: the board's time, made of the core's cycles. What happens by itself happens when time passes it.
+/* board_clock.h: the board's time, counted in cycles of the core. Events happen as time passes them.
  * Python reads this header too. */
 #ifndef OCTET_BOARD_CLOCK_H
 #define OCTET_BOARD_CLOCK_H
@@ -10,7 +10,7 @@
 
 struct moment {
     uint64_t ns;   /* since power-up; the greatest is never */
-    uint64_t fs;   /* on top of them, less than a nanosecond */
+    uint64_t fs;   /* in addition, less than a nanosecond */
 };
 
 struct board_clock {
@@ -29,18 +29,18 @@ struct board_clock {
 bool moment_before(struct moment one, struct moment other);
 
 void clock_expect(struct board_clock *clock, struct moment moment);
-        /* Something new is due then. */
+        /* Notes that something new is due at a moment. */
 
 void clock_settle(struct board_clock *clock);
-        /* Lets everything happen that is due. */
+        /* Makes all events happen that are due. */
 
 void clock_execute(struct board_clock *clock, uint64_t cycles);
-        /* Passes the time of a number of cycles. */
+        /* Lets time pass: that of a number of cycles. */
 
 void clock_skip_to(struct board_clock *clock, struct moment moment);
-        /* Passes time in which the core does nothing, at most an hour, and stops at each event on the way. */
+        /* Lets time pass in which the core does nothing, at most an hour, and stops at each event on the way. */
 
 void clock_skip_to_event(struct board_clock *clock, uint64_t most_ns);
-        /* Skips to what is due next, and most_ns at most. */
+        /* Skips to the next event, by most_ns at the most. */
 
 #endif

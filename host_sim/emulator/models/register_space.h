@@ -1,8 +1,8 @@
-/* register_space.h: the registers of all peripherals by address. Those that are touched most are models in C and read
- * and written here; all others, and all that is refused, are left to Python, which reads this header too.
+/* register_space.h: the registers of all peripherals by address. Those that are accessed most are models in C; all others,
+ * and all refused accesses, are left to Python, which reads this header too.
  *
- * Sees when the image only waits, and skips that time. It waits when it reads the same again and again and looks at
- * the time in between; one that counts its looks instead is left to do so. */
+ * Time in which the image only waits is skipped. It waits if it reads the same values again and again and reads the time
+ * in between; a loop that counts its reads instead is executed. */
 #ifndef OCTET_REGISTER_SPACE_H
 #define OCTET_REGISTER_SPACE_H
 
@@ -15,7 +15,7 @@
 
 enum {
     SPACE_WAITING_READS = 8,    /* reads in a row that bring nothing new, after which the image counts as waiting */
-    SPACE_SKIP_NS = 1000000,    /* skipped at most before it looks again: it may wait for the time itself */
+    SPACE_SKIP_NS = 1000000,    /* longest skip before its next read: it may be waiting for the time itself */
     SPACE_CAN_WORDS = 0x100     /* registers of CAN that there can be */
 };
 
@@ -45,7 +45,7 @@ struct register_window {
 };
 
 void space_begin_anew(struct register_space *space);
-        /* The image does something other than to wait. */
+        /* The image does something other than wait. */
 
 void space_note(struct register_space *space, bool is_news);
         /* It has read a register that tells what has happened. */

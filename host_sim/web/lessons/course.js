@@ -98,7 +98,7 @@ export class Course {
     print();
   }
 
-  /** Whoever prints the page while a lesson is open wants its worksheet. */
+  /** Printing the page while a lesson is open prints its worksheet. */
   onPrint() {
     if (byId("panel-lessons").hidden || !this.sheet.isEmpty) return;
     this.sheet.fill(this.plan, this.texts);
