@@ -9,6 +9,6 @@ bool memory_adopt(struct memory *memory, const uint8_t cells[CELL_COUNT]);
 
 bool memory_write(struct memory *memory, enum memory_kind kind, uint8_t which, uint32_t bytes);
         /* Sets the i-th cell of a half, the lower four or with bit 4 of which the upper, to byte i of bytes for each bit i,
-           0..3, of which. False, and nothing is changed, if they are no memory of that kind then. */
+           0..3, of which. False, and nothing is changed, if the result is not a memory of that kind. */
 
 #endif

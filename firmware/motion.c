@@ -14,7 +14,7 @@ enum {
     TIMEOUT_MARGIN_TICKS = 25,                     /* beyond twice the ticks that an action needs */
     ANY_PACE = UINT16_MAX,                         /* of pace_left: never used up */
     PACE_MARGIN_TICKS = 7,                         /* for drives that come late and for the end, which is slower */
-    HOLD_TICKS = 5,                                /* without a drive a body goes on for so long, and then rests */
+    HOLD_TICKS = 5,                                /* without a new drive, a body goes on for this long and then rests */
     ASTRAY_PER_S = 5,                              /* wheels may go astray as far as they both roll in 1/5 second */
     CREDIBLE_EIGHTHS = 13,                         /* of the fastest that a wheel is told, it may be seen to roll, */
     CREDIBLE_COUNTS = 2                            /* and so much more, in fewer ticks than a count takes */
@@ -49,13 +49,13 @@ static uint32_t wheel_speed_turning(const struct config *config)
     return turn_per_degree(config) / 64 * config->value[TURN_SPEED_DEG_S] / (TURN_UNIT / 64 * COUNTS_PER_MM);
 }
 
-/* Of the action under way: what each wheel makes at the most, mm/s. */
+/* The highest speed of each wheel in the current action, mm/s. */
 static uint32_t full_speed(const struct motion *motion, const struct config *config)
 {
     return is_turn(motion) ? wheel_speed_turning(config) : config->value[SPEED_MM_S];
 }
 
-/* Of the action under way: still to be made, both wheels' counts together, right or forward positive. */
+/* What is left of the current action: the counts of both wheels together, right or forward positive. */
 static int32_t counts_left(const struct motion *motion)
 {
     if (motion->kind == REST)

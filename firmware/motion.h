@@ -28,7 +28,7 @@ void motion_lift(struct motion *motion);
 
 bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
                         unsigned ticks);
-        /* Whether wheels can have turned as far as the odometers say, in so many ticks since the last motion_track: 13/8 of
+        /* Whether wheels can have turned as far as the odometers say, in this number of ticks since the last motion_track: 13/8 of
            the fastest that they are ever told. */
 
 bool motion_gave_up(const struct motion *motion);

@@ -9,7 +9,7 @@ void sharing_start(struct sharing *sharing)
     *sharing = (struct sharing){.whole = false};
 }
 
-/* Of a cell with confidence or without: the side is in the same bits. */
+/* The side in a cell, with confidence or without: it is in the same bits. */
 static int vote_of(uint8_t cell)
 {
     unsigned side = cell & SIDE_BITS;

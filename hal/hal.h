@@ -12,7 +12,7 @@ enum hal_error {
     HAL_E_BODY = -1,     /* the body cannot be reached; said on the console where there is one */
     HAL_E_USAGE = -2,    /* the arguments make no sense; said on the console where there is one */
     HAL_E_CLOSED = -3,   /* the body is gone for good */
-    HAL_E_STORE = -4     /* the memory could not be stored, or what is stored is no memory */
+    HAL_E_STORE = -4     /* the memory could not be stored, or what is stored is not a memory */
 };
 
 struct hal;   /* one body */

@@ -9,7 +9,7 @@ _OBJECTS_A_COLLECTION = 10_000
 
 def _main() -> int:
     """Runs the command; until it is loaded, Ctrl-C ends the process without a traceback."""
-    gc.set_threshold(_OBJECTS_A_COLLECTION)  # what is loaded is no garbage, and looking for some takes time
+    gc.set_threshold(_OBJECTS_A_COLLECTION)  # loaded modules are not garbage, and looking for garbage takes time
     interruptible = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if interruptible:
         signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -36,7 +36,7 @@ def c_interface(declarations: str) -> Any:
             _write(path, declarations)
         return _load(path)
     except OSError:
-        return _read(declarations)  # nobody may write here, or the disk is full
+        return _read(declarations)  # the folder is read-only, or the disk is full
 
 
 def _read(declarations: str) -> Any:

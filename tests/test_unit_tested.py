@@ -123,7 +123,7 @@ def missing(reach: Mapping[str, set[str]]) -> set[str]:
 
 @pytest.fixture(scope="module")
 def reach() -> dict[str, set[str]]:
-    """Of the test programs as they are built."""
+    """For each test program as it is built, the sources that it leads to."""
     return reach_of_programs(BUILD)
 
 

@@ -14,7 +14,7 @@ bool distance_begin(struct brain *brain)
     return true;
 }
 
-/* Of what the three front sensors see; REACH_OF_SENSORS_MM if they see nothing, or are not told. */
+/* The nearest distance that the three front sensors see; REACH_OF_SENSORS_MM if they see nothing, or none was sent. */
 static int nearest_mm(const struct senses *senses)
 {
     int nearest = REACH_OF_SENSORS_MM;

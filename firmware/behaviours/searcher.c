@@ -10,7 +10,7 @@ enum {
     PRAISE = 1,
     LOOK_EVERY_MM = 1000,   /* way between two turns around */
     LOOK_AGAIN_MM = 200,    /* after losing sight of food: way to the next one */
-    MISSES_MAX = 2,         /* so many times the way to the next look is twice as long */
+    MISSES_MAX = 2,         /* the way to the next look doubles at most this many times */
     WHOLE_TURN_DEG = 360,
     LEAVE_CHOICES = 180     /* of the direction in which it goes on where it has seen no food, one degree apart */
 };

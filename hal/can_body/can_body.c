@@ -30,7 +30,7 @@ static int receive_frame(struct hal *hal, struct frame *frame, uint32_t wait_ms)
     return result;
 }
 
-/* A bus takes a while to come up, and nobody may be there yet: that is no fault. */
+/* A bus takes a while to come up, and there may be no other node yet: that is not a fault. */
 static void announce(struct hal *hal)
 {
     if (!hal->announced)
@@ -79,7 +79,7 @@ static int stored(struct hal *hal, int result)
     return counted(hal, hal->unstored ? 0 : result);
 }
 
-/* Where the sender's clock counts, silence is no fault, and nothing is passed over: it may pause. */
+/* Where the sender's clock counts, silence is not a fault, and nothing is skipped: the sender may pause. */
 static void note_silence(struct hal *hal)
 {
     if (hal->silences < LAPSE_SILENCES)
@@ -90,7 +90,7 @@ static void note_silence(struct hal *hal)
         wire_outage(&hal->wire);
 }
 
-/* The wheels stand, and nobody waits for an answer: time for what takes long. */
+/* The wheels are at rest, and no answer is awaited: time for slow work. */
 static int report_silence(struct hal *hal)
 {
     note_silence(hal);
@@ -101,7 +101,7 @@ static int report_silence(struct hal *hal)
     return INPUT_SILENCE;
 }
 
-/* What was asked before is answered as before, and is no input. */
+/* A command that comes again is answered as before; it is not a new input. */
 static enum input_kind read_frame(struct hal *hal, const struct frame *frame, struct input *in)
 {
     enum input_kind kind = wire_read(&hal->wire, frame, in);

@@ -39,6 +39,6 @@ enum { PORT_LATER = 1 };
 
 int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort);
         /* As hal_store. Or PORT_LATER, and nothing is changed: it takes longer than a tick, and effort is PORT_QUICKLY.
-           With PORT_AT_REST, when the wheels stand and nobody waits for an answer, it may take a second. */
+           With PORT_AT_REST, when the wheels are at rest and no answer is awaited, it may take a second. */
 
 #endif

@@ -1,6 +1,6 @@
 /* flash.h: two pages of flash memory, as the flash store needs them. Exactly one implementation is linked in.
  *
- * Flash is written in units: so many bytes at once, each unit once between two erases. An offset is in bytes from the start
+ * Flash is written in units of some bytes, each unit once between two erases. An offset is in bytes from the start
  * of a page. Offsets and counts are multiples of flash_unit(). */
 #ifndef OCTET_FLASH_H
 #define OCTET_FLASH_H

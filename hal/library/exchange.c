@@ -12,7 +12,7 @@ struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT])
     (void)brain_adopt(&octet->robot.brain, memory);
     wire_init(&octet->wire, node);
     octet->wire.health.clock_exact = true;
-    wire_boot(&octet->wire, octet->answers);   /* nobody listens yet */
+    wire_boot(&octet->wire, octet->answers);   /* there is no listener yet */
     return octet;
 }
 

@@ -13,14 +13,14 @@
 #define FRAME_ERROR 0x20000000u      /* in id: an error message of the bus */
 
 enum {
-    LINK_SEND_MS = 10,   /* a frame that the bus does not take for so long is given up */
+    LINK_SEND_MS = 10,   /* a frame that the bus does not take within this time is given up */
     LINK_IDS_MAX = 8,    /* identifiers that a link can listen for */
     LINK_FAMILY_BITS = 0x1F,
     LINK_FAMILY = 0x8000 /* with an identifier: it and all that differ from it in these bits only, as one */
 };
 
 struct frame {
-    uint32_t id;       /* 0..0x7FF for the frames we use; others carry a flag above, and are nobody's business here */
+    uint32_t id;       /* 0..0x7FF for the frames we use; other kinds have a flag in the top bits, and callers ignore them */
     uint8_t len;       /* 0..8 */
     uint8_t data[8];   /* zero from len on */
 };
@@ -30,7 +30,7 @@ enum link_error {
     LINK_E_OPEN = -2,      /* it cannot be opened; said on stderr in one line, with the system's reason */
     LINK_E_CLOSED = -3,    /* the far side is gone for good; open again to go on */
     LINK_E_DOWN = -4,      /* the bus is down just now; waiting and calling again is right */
-    LINK_E_GARBLED = -5,   /* something came that is no frame; it is dropped */
+    LINK_E_GARBLED = -5,   /* something came that is not a frame; it is dropped */
     LINK_E_FULL = -6       /* the bus did not take the frame within LINK_SEND_MS; it is dropped */
 };
 

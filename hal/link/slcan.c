@@ -7,7 +7,7 @@ enum { STANDARD_DIGITS = 3, EXTENDED_DIGITS = 8, TIME_DIGITS = 4, DATA_MAX = 8 }
 static const uint32_t STANDARD_MAX = 0x7FF;
 static const uint32_t EXTENDED_MAX = 0x1FFFFFFF;
 
-/* What is left of a line. Reading past its end, or what is no digit, makes it bad; it stays bad. */
+/* The rest of a line. Reading past its end, or reading anything but a digit, makes it bad; it stays bad. */
 struct cursor {
     const char *at;
     const char *end;

@@ -17,7 +17,7 @@ struct request {
 struct session {
     struct request request; /* the last one taken, */
     bool knows_request;     /* if there was one */
-    uint8_t owner;          /* who started the robot; 0 for nobody */
+    uint8_t owner;          /* who started the robot; 0 if it was not started */
     bool hears;             /* the owner's senses come */
     bool lockstep;          /* the owner's clock counts */
     bool knows_tick;        /* false: whatever tick comes next is taken */
@@ -39,6 +39,6 @@ void session_executed(struct session *session, enum result result);
         /* session->request has been carried out, or refused by the robot. */
 
 void session_end(struct session *session);
-        /* The robot has been stopped: nobody owns it, and any tick may come next. */
+        /* The robot has been stopped: it has no owner, and any tick may come next. */
 
 #endif

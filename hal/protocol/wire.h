@@ -35,7 +35,7 @@ struct wire {
     struct frame drive, answer;      /* as last sent, to be sent again when asked again */
     struct frame refusal;
     const struct frame *again;       /* what wire_read has to be sent; null for nothing */
-    struct health health;            /* to be reported; whoever knows it keeps it up to date */
+    struct health health;            /* to be reported; the body keeps it up to date */
     uint8_t crash_value;             /* place of the one to be told next */
 };
 

@@ -203,7 +203,7 @@ static enum input_kind read_command(struct wire *wire, const struct frame *frame
     return INPUT_COMMAND;
 }
 
-/* Two robots with one number: the wheels rest until somebody starts the one that is left. */
+/* Two robots have the same number: the wheels rest until the one that is left is started. */
 static enum input_kind meet_twin(struct wire *wire, const struct frame *frame, uint8_t len, struct command *command)
 {
     if (!e2e_is_whole(frame, len))

@@ -65,7 +65,7 @@ class _Outcome(NamedTuple):
 
 
 def compare_loops(ticks: int) -> Iterator[LoopVerdict]:
-    """Compares runs of every behaviour with one robot or several, until they have so many ticks in all.
+    """Compares runs of every behaviour with one robot or several, until they have this many ticks in all.
 
     Yields:
         A verdict for each run.

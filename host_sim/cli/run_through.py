@@ -22,10 +22,10 @@ _PAUSE_STEP_S = 0.05
 
 
 def open_listener(stack: ExitStack, watch: WatchOptions | None) -> "Listener | None":
-    """The listener for the browsers of those who watch; None if nobody does, or in the terminal."""
+    """The listener for browsers; None if the run is not watched, or watched in the terminal."""
     if watch is None or watch.terminal:
         return None
-    from host_sim.live.listener import Listener  # a run that nobody watches begins without the server
+    from host_sim.live.listener import Listener  # a run that is not watched begins without the server
 
     listener = Listener(watch.listen, watch.port)
     stack.callback(listener.socket.close)

@@ -7,7 +7,7 @@ from host_sim.protocol.codec import COUNTERS, Frame, counter_of
 _AHEAD_MAX = COUNTERS // 2
 
 GAP_MIN = _AHEAD_MAX + 1
-"""A message that so many others were lost before looks like a late one."""
+"""After this many lost messages, a new one looks like a late one."""
 
 
 class Arrival(Enum):
@@ -42,7 +42,7 @@ class Freshness:
 
         Args:
             frame: The message.
-            gap: Whether so many may have been lost since the last one that its counter tells nothing.
+            gap: Whether `GAP_MIN` or more may have been lost since the last one, so that its counter tells nothing.
         """
         if self.last is None:
             return self._take(frame, Arrival.NEW)

@@ -44,7 +44,7 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
 
 
 def _listen(client: RobotClient) -> None:
-    """Makes sure that nobody else drives the robot, before it is stopped."""
+    """Makes sure that no other simulator drives the robot, before it is stopped."""
     client.waiting.receive(client.inbox.take, _LISTEN_S)
     rival = client.inbox.rival
     if rival is not None:

@@ -15,7 +15,7 @@ HOLD_TICKS = 5
 
 
 MISSING_S = 1.0
-"""A robot that answers no senses for so long, s, makes the result of a run in real time doubtful."""
+"""A robot that does not answer for this time, s, makes the result of a run in real time doubtful."""
 
 
 class Pace(Protocol):

@@ -2,7 +2,7 @@
 
 _LEAST_S, _MOST_S = 0.01, 0.25
 _FIRST_S = 0.2
-# Most is little for a network, whose users must not add to its load; on a bus a frame more costs nobody anything.
+# `_MOST_S` is short for a network, where retries add to the load; on a bus, one more frame does no harm.
 _GAIN, _VARIATION_GAIN = 1 / 8, 1 / 4
 _VARIATIONS = 4
 

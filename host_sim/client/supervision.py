@@ -12,7 +12,7 @@ _FIRMWARE = ("commit", "modified", "version_major", "version_minor")
 _ATTEMPTS = 5
 _LAST_S = 1.0
 _LOST_MIN = 50
-"""With so many frames missing since its start, it is the line that keeps a robot's wheels from obeying."""
+"""With this many frames missing since the start, it is the line that keeps the wheels from obeying."""
 _AHEAD_MAX = COUNTERS // 2
 
 

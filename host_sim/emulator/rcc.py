@@ -14,7 +14,7 @@ _STARTUP = {HSI: 0, PLL: SECOND // 5000}
 """Time from ON to READY; the crystal's is its own."""
 
 _SOURCES = (HSI, HSE, PLL)
-"""Of the core's clock, as SW in CFGR numbers them."""
+"""The sources of the core's clock, as SW in CFGR numbers them."""
 
 _HPRE_SHIFT = 4
 _RMVF = 1 << 24

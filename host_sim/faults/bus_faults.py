@@ -76,7 +76,7 @@ class Reorder:
 
 
 class Delay:
-    """The frame takes longer: `delay:50ms` always so long, `delay:0-300ms` anything between."""
+    """The frame takes longer: `delay:50ms` always 50 ms, `delay:0-300ms` anything between."""
 
     def __init__(self, size: str) -> None:
         """Takes the delay (0-300ms)."""

@@ -42,7 +42,7 @@ class Cable:
         self._thread.start()
 
     def unplug(self) -> None:
-        """Takes the second end away: whoever has it open sees the line end, and what the first end says is lost."""
+        """Takes the second end away: a program that has it open sees the end; what the first end says is lost."""
         self._order(_UNPLUG)
 
     def plug(self) -> None:
@@ -50,7 +50,7 @@ class Cable:
         self._order(_PLUG)
 
     def close(self) -> None:
-        """Unplugs it: whoever has an end open sees the line end."""
+        """Unplugs it: programs that have an end open see the line end."""
         os.write(self._tell, _END)
         self._thread.join()
         for fd in (*self._masters, *self._slaves, self._told, self._tell):
@@ -121,7 +121,7 @@ class Adapter:
         for slave in self._slaves:
             tty.setraw(slave)
         for master in self._masters:
-            os.set_blocking(master, False)  # what nobody reads is lost
+            os.set_blocking(master, False)  # what is not read is lost
         self.host, *robots = (os.ttyname(slave) for slave in self._slaves)
         self.robots = dict(zip(nodes, robots, strict=True))
         self._host, *others = self._masters

@@ -109,7 +109,7 @@ def read_rules(text: str) -> list[str]:
     """The rules in a word of the command line: one rule, or for `@FILE` one in each line of a file.
 
     Raises:
-        UsageError: The file cannot be read, or what is written is no rule.
+        UsageError: The file cannot be read, or something in it is not a rule.
     """
     if not text.startswith("@"):
         return [str(Rule.parse(text))]

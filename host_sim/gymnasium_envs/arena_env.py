@@ -15,7 +15,7 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
     """A robot in a random arena with three pieces of food; the learner decides what it does next.
 
     A step is one action of the robot, carried out by the firmware's own motion, and takes as many control ticks of
-    20 ms as the action needs; with `step_ticks`, at most so many, and the next action takes the place of the rest.
+    20 ms as the action needs; with `step_ticks`, at most that many; the next action then replaces the rest.
 
     The observation, a `Box` of int32: what the robot senses, field by field as on the bus.
 

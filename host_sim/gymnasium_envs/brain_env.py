@@ -92,7 +92,7 @@ class BrainEnv(gymnasium.Env[Any, Any]):
         for seconds in (step_s, limit_s):
             rules.check_seconds(seconds, self._params)
         if profile not in PROFILES:
-            raise error.Error(f"{profile!r} is no profile: give one of {', '.join(PROFILES)}")
+            raise error.Error(f"{profile!r} is not a profile: give one of {', '.join(PROFILES)}")
         self._hand = _hand(acts_on, parameters)
         self.action_space, self.observation_space = self._hand.space, _observation_space()
         self._learns, self._step_ticks = learns, round(step_s / self._params.tick_s)

@@ -98,7 +98,7 @@ def check_seconds(seconds: float, params: SimParams) -> None:
         error.Error: It is out of its range.
     """
     if not params.tick_s <= seconds <= SECONDS_MAX:
-        raise error.Error(f"{seconds} s are no length: give {params.tick_s} to {SECONDS_MAX:.0f} s")
+        raise error.Error(f"{seconds} s is not a possible length: give {params.tick_s} to {SECONDS_MAX:.0f} s")
 
 
 def draw_layout(draws: np.random.Generator, robots: int, params: SimParams) -> Layout:
@@ -117,7 +117,7 @@ def chosen_environment(options: dict[str, Any] | None) -> tuple[int, int] | None
     """Seed and number in the options of `reset`, `{"environment": (seed, number)}`; None if they have none.
 
     Raises:
-        error.Error: They are no seed and number.
+        error.Error: They are not a seed and a number.
     """
     if not options or "environment" not in options:
         return None
@@ -153,7 +153,7 @@ def checked_numbers(action: Any, space: spaces.MultiDiscrete) -> NDArray[np.int6
     """
     given = _as_array(action)
     if given.dtype.kind not in "iu" or not space.contains(given.astype(np.int64)):
-        raise error.InvalidAction(f"{action!r} is no action of {space}")
+        raise error.InvalidAction(f"{action!r} is not an action of {space}")
     return given.astype(np.int64)
 
 
@@ -165,7 +165,8 @@ def checked_deeds(actions: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
     """
     given = _as_array(actions)
     if given.shape != shape or given.dtype.kind not in "iu" or not np.all((given >= 0) & (given < len(Deed))):
-        raise error.InvalidAction(f"{actions!r} is no action: give whole numbers 0..{len(Deed) - 1} of shape {shape}")
+        needed = f"whole numbers 0..{len(Deed) - 1} of shape {shape}"
+        raise error.InvalidAction(f"{actions!r} is not an action: give {needed}")
     return given.astype(np.uint8)
 
 

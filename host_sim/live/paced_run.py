@@ -281,7 +281,7 @@ class PacedRun:
         self.layout += 1
 
     def _start_over(self, seed: int, keep: bool) -> None:
-        """Begins anew. The memory is erased before the start, so that it is no lesson of the new run."""
+        """Begins anew. The memory is erased before the start: the erasure is not an event of the new run."""
         simulation = self.simulation
         self._end_episode()
         self.started_over = len(self.episodes)

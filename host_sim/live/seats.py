@@ -1,4 +1,4 @@
-"""Who has which robot, where each page has one of its own."""
+"""Which page has which robot, where each page has one of its own."""
 
 import re
 import unicodedata
@@ -28,7 +28,7 @@ class Seat:
     Attributes:
         node: The robot's node number.
         name: The name tag that the page gave it.
-        key: What the page is recognised by when it comes again; empty while nobody has the robot.
+        key: What the page is recognised by when it comes again; empty while the robot is free.
         pages: Number of pages with that key that are open.
         left: When the last of them was closed, as a count of such events.
     """

@@ -20,7 +20,7 @@ class BusWatch:
         bitrate: Bits a second.
         robots: The robots, by node number.
         frames: Number of frames of all kinds.
-        foreign: Number of frames that are no robot's.
+        foreign: Number of frames that do not come from a robot.
         errors: Number of error frames.
         dropped: Number of frames that came faster than they were read, and are missing here.
     """

@@ -162,7 +162,7 @@ class Protocol:
         return DecodedFrame(message.name, _LAYOUTS[message.name].unpack(frame.data))
 
     def decode_drive(self, frame: Frame) -> Drive | None:
-        """The drive in a frame; None if it is no whole DRIVE of this node."""
+        """The drive in a frame; None if it is not a whole DRIVE of this node."""
         data = frame.data
         if frame.id != self._drive_id or len(data) != _LENGTH:
             return None

@@ -19,7 +19,7 @@ _CRC_POLYNOMIAL = 0x4599
 
 
 def worst_bits(length: int) -> int:
-    """The most bits that a frame with so many bytes of data can take."""
+    """The most bits that a frame with a number of bytes of data can take."""
     stuffable = _STUFFABLE + 8 * length
     return stuffable + _FIXED + (stuffable - 1) // (_RUN - 1)
 

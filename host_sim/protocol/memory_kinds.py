@@ -25,7 +25,7 @@ _BESIDE = (0, FEEL["RIGHT"], FEEL["LEFT"], FEEL["RIGHT"] | FEEL["LEFT"])
 
 @lru_cache(_CACHED)
 def kinds_of(memory: Memory) -> list[MemoryKind]:
-    """The kinds of memory that some bytes can be; none if they are no memory.
+    """The kinds of memory that some bytes can be; none if they are not a memory.
 
     >>> kinds_of((0, 1, 0, 0, 2, 0, 0, 0)), kinds_of((0, 3, 0, 0, 0, 0, 0, 0))
     ([<MemoryKind.SIDES: 0>], [])

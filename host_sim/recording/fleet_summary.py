@@ -17,7 +17,7 @@ COLUMNS = (
     "robot", "seed", "environment", "finished", "food_eaten", "ticks", "trials", "remembered_turns", "boredom_turns",
     "collisions", "memory", "x_mm", "y_mm", "heading_rad",
 )  # fmt: skip
-"""Of the table: `memory` are the eight bytes in hexadecimal, the pose is that at the environment's end."""
+"""Columns of the table: `memory` is the eight bytes in hexadecimal, the pose is that at the environment's end."""
 
 
 @dataclass(frozen=True)

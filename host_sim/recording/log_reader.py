@@ -1,4 +1,4 @@
-"""Reads the robots' frames from a log, whoever wrote it: a run, candump, python-can, asc2log or CANoe."""
+"""Reads the robots' frames from a log of a run, candump, python-can, asc2log or CANoe."""
 
 from collections import Counter
 from collections.abc import Iterable, Iterator

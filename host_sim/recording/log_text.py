@@ -69,7 +69,7 @@ class LineReader:
         None: the line says nothing; it is empty, or explains an error frame (`candump -e`).
 
         Raises:
-            ValueError: It is no such line, or cut short.
+            ValueError: It is not such a line, or is cut short.
         """
         match = _FRAME.fullmatch(line)
         if match is not None:

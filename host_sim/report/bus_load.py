@@ -45,7 +45,7 @@ class MeasuredLoad:
 
     @property
     def bits_a_second(self) -> float:
-        """Of all messages together."""
+        """All messages together."""
         return sum(share.bits for share in self.messages.values()) / self.seconds if self.seconds else 0.0
 
 

@@ -148,7 +148,7 @@ def draw_run(
 
 
 def omissions(environments: int, robots: int) -> list[str]:
-    """What a picture of so many environments and robots leaves out, in words.
+    """What a picture of a number of environments and robots leaves out, in words.
 
     >>> omissions(environments=20, robots=1)
     ['the last 9 of 20 environments']

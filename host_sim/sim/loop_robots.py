@@ -17,12 +17,12 @@ WAIT_MS = 5
 """Time for which C code waits for a frame over a link, ms; Python waits for what takes longer."""
 
 _TIMED_EVERY = 4096
-"""One tick of so many over a link is left to Python, which measures how long an answer takes."""
+"""One in this many ticks over a link is left to Python, which measures how long an answer takes."""
 
 _FRAME = Struct("=IB8s3x")
 _BLOCK_S, _FIRST_TICKS = 0.05, 64
-"""A block over a link is to take no longer, s of wall-clock time, for people interfere between blocks; the first is
-a guess.
+"""Longest time of a block over a link, s of wall-clock time, since people can interfere only between blocks; and the
+length of the first block, ticks, which is a guess.
 """
 
 _LENGTH = 8

@@ -1,4 +1,4 @@
-"""The time that waiting takes: that of the wall clock, or one that passes only while somebody waits."""
+"""The time that waiting takes: wall-clock time, or a virtual time that passes only during a wait."""
 
 import time
 from typing import Protocol

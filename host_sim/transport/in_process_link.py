@@ -114,7 +114,7 @@ class InProcessLink:
         return answers
 
     def put_back(self, waiting: Sequence[Frame], count: int) -> None:
-        """Lets be received what was taken, and so many answers to a frame that C code has sent."""
+        """Makes frames that were taken available again, and a number of answers to a frame that C code has sent."""
         answers = [Frame(out.id, self._ffi.buffer(out.data, out.len)[:]) for out in self._out[0:count]]
         self._answers += [*waiting, *answers]
 

@@ -17,7 +17,7 @@ class Link(Protocol):
         """
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """The next frame, or None after `timeout_s`; 0 polls. Something received that is no such frame has the id -1.
+        """The next frame, or None after `timeout_s`; 0 polls. Anything received that is not a frame has the id -1.
 
         Raises:
             LinkDownError: The line is gone.

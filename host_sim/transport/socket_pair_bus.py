@@ -40,7 +40,7 @@ class SocketPairBus(can.BusABC):
             self._socket = socket.socket(fileno=int(channel))
             self._socket.setblocking(True)  # for C code that waits; here, each call says that it does not
         except (OSError, TypeError, ValueError) as error:
-            raise can.CanInitializationError(f"channel {channel!r} is no open socket: {error}") from error
+            raise can.CanInitializationError(f"channel {channel!r} is not an open socket: {error}") from error
         self.garbled = 0
         self.channel_info = f"socket pair, fd {channel}"
         super().__init__(channel=channel, can_filters=can_filters, **kwargs)

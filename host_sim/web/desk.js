@@ -200,7 +200,7 @@ export class Desk {
     const { lane, simulator } = this.lab;
     const memory = await memoryIn(file);
     const robots = lane.experiment.robots.map((it, robot) => (robot === lane.robot ? { ...it, memory } : it));
-    await simulator.memory({ ...lane.experiment, robots }, lane.robot, 0); // it throws if they are no memory
+    await simulator.memory({ ...lane.experiment, robots }, lane.robot, 0); // it throws if they are not a memory
     lane.setUp({ memory });
     this.lab.simulate(lane);
     setText(byId("file-news"), `The robot begins with ${file.name}.`);

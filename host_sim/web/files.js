@@ -24,7 +24,7 @@ export function save(name, parts) {
  */
 export async function memoryIn(file) {
   const bytes = [...new Uint8Array(await file.arrayBuffer())];
-  if (bytes.length !== CELL_COUNT) throw new Error(`${file.name} is no memory: it has ${bytes.length} bytes, not ${CELL_COUNT}`);
+  if (bytes.length !== CELL_COUNT) throw new Error(`${file.name} is not a memory file: it has ${bytes.length} bytes, not ${CELL_COUNT}`);
   return bytes;
 }
 

@@ -45,7 +45,7 @@ export class Lane {
     this.data = undefined;
     /** @type {Scene | undefined} */
     this.scene = undefined;
-    /** Counts what was simulated, so that whoever has worked something out knows that it is old. */
+    /** Counts what was simulated, so that results worked out before it are known to be old. */
     this.version = 0;
     /** How often it was asked to simulate, and whether the last time is over. */
     this.asked = 0;

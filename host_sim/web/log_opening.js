@@ -29,7 +29,7 @@ import { checkedWorld } from "./written_world.js";
 const LIMIT_TICKS = 30_000;
 const ENVIRONMENTS_MAX = 10_000;
 const HALF = CELL_COUNT / 2;
-const NO_WORLD = "that is no world file: open a run.world.json";
+const NO_WORLD = "that is not a world file: open a run.world.json";
 
 /**
  * @param {WebAssembly.Module} module - page.wasm, compiled.

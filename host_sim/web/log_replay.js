@@ -55,7 +55,7 @@ export function* framesOf(text) {
  */
 function frameOf(line, number) {
   const [, , id, hex] = LINE.exec(line) ?? [];
-  if (id === undefined) throw new Error(`line ${number} is no frame of a log: open a run.log`);
+  if (id === undefined) throw new Error(`line ${number} is not a frame of a log: open a run.log`);
   const numeric = parseInt(id, 16);
   const base = Object.values(FRAMES).find((first) => numeric >= first && numeric < first + NODE_MAX);
   if (base === undefined) return undefined;

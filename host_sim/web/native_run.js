@@ -91,7 +91,7 @@ export class NativeRun {
     return lines;
   }
 
-  /** What C has recorded of a robot in the last block, which had so many ticks.
+  /** What C has recorded of a robot in the last block.
    * @param {number} robot
    * @param {number} ticks
    */

@@ -88,7 +88,7 @@ export class RobotCommands {
   writeMemory(robot, memory) {
     const { native } = this;
     native.bytes.set(memory);
-    if (!native.c.page_translate(robot)) throw new Error("these eight bytes are no memory of a robot");
+    if (!native.c.page_translate(robot)) throw new Error("these eight bytes are not a memory of a robot");
     this.write(robot, [...native.bytes], ALL_CELLS);
   }
 

@@ -51,7 +51,7 @@ class Reader {
     this.token = this.next();
   }
 
-  /** The next word that is no space. */
+  /** The next word that is not a space. */
   next() {
     for (const [word, name, number, , space] of this.words) {
       this.line = this.nextLine;

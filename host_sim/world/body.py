@@ -40,8 +40,8 @@ class Body:
         collisions: Number of times that it has begun to touch something.
         touches: Number of things that it touches now.
         lifted: Whether a person holds it in the air.
-        faults: What is wrong with it. Its odometers count accordingly; whoever tells the robot what it senses, and
-            the body what the robot says, takes the rest into account.
+        faults: What is wrong with it. Its odometers count accordingly; the other faults apply where senses and drives
+            pass between body and robot.
     """
 
     def __init__(  # noqa: PLR0913, PLR0917 - its surroundings and its state

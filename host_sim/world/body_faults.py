@@ -32,8 +32,8 @@ class BodyFaults:
 
     Attributes:
         mirrored: Whether the ring of sensors is mounted the other way round.
-        noise: Each sensor is wrong in so many
-        noise_of: of so many ticks,
+        noise: Each sensor is wrong in this many
+        noise_of: out of this many ticks,
         noise_key: which follow from this number and the number of the tick.
         stuck_on: Sensors that always see something, as bits of feel.
         stuck_off: Sensors that never see anything.

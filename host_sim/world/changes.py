@@ -103,7 +103,7 @@ def read_changes(text: str) -> list[str]:
     A file is a word without an @, or after one: changes.txt, @changes.txt. In it, # begins a comment.
 
     Raises:
-        UsageError: The file cannot be read, or what is written is no change; the message names the line.
+        UsageError: The file cannot be read, or something in it is not a change; the message names the line.
     """
     if "@" in text.removeprefix("@"):
         return [str(Change.parse(text))]

@@ -34,7 +34,7 @@ class Plant(NamedTuple):
 
 
 class Capsule(NamedTuple):
-    """All points that are no farther than the radius from a line: a bar, a wall or, if its ends are equal, a disc."""
+    """All points within the radius of a line: a bar, a wall or, if its ends are equal, a disc."""
 
     a: Point
     b: Point

@@ -46,7 +46,7 @@ def hall_of(world: World, seed: int, number: int, robots: int) -> tuple[Layout, 
 
 
 def _moved(layout: Layout, x_mm: float, y_mm: float, robots: int) -> tuple[list[Bar], list[Point], list[Pose]]:
-    """The bars, the food and so many starts of an arena, in its place in the hall."""
+    """The bars, the food and a number of starts of an arena, in its place in the hall."""
 
     def there(point: Point) -> Point:
         return point[0] + x_mm, point[1] + y_mm

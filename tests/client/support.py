@@ -25,7 +25,7 @@ PATTERNS = (0, 0, 0, 4, 4, 2, 0, 6, 4, 0, 8, 14, 0, 0, 2)
 
 
 ODOMETERS: dict[int, tuple[int, int]] = {}
-"""Of each client's robot."""
+"""The odometers of each client's robot, by the id of the client."""
 
 
 class Diary:

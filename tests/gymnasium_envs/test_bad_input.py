@@ -36,7 +36,7 @@ NO_ACTIONS = [
 def test_an_action_that_is_none(action):
     env = ArenaEnv()
     env.reset(seed=1)
-    with pytest.raises(error.InvalidAction, match="is no action"):
+    with pytest.raises(error.InvalidAction, match="is not an action"):
         env.step(action)
 
     assert env.step(np.int64(0))[-1]["robot_s"] == 0.06

@@ -18,7 +18,7 @@ static uint8_t crc_of(struct frame some)
     return some.data[0];
 }
 
-/* Of the AUTOSAR specification of E2E profile 1, with its Data ID 0x0123: eight bytes 0, counter 0. */
+/* From the AUTOSAR specification of E2E profile 1, with its Data ID 0x0123: eight bytes 0, counter 0. */
 static void test_the_published_example(void)
 {
     frame = (struct frame){.id = 0x123, .len = 8};

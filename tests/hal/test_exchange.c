@@ -133,7 +133,7 @@ static void test_closing_no_robot_is_fine(void)
     octet_close(NULL);
 }
 
-/* Of the last frame with an identifier. */
+/* The data of the last frame with an identifier. */
 static const uint8_t *data_of(uint32_t id, size_t count)
 {
     for (size_t i = 0; i < count; i++)

@@ -1,4 +1,4 @@
-"""Of a long run no more is retained than of a shorter one, and what is left out is said."""
+"""A long run takes no more memory than a shorter one, and what is left out is said."""
 
 import gc
 import sys
@@ -21,7 +21,7 @@ from host_sim.view.history import LearningHistory
 
 TICKS_MAX, LIMIT_S, EPISODE_TICKS = 1000, 4.0, 200
 PIECES_OF_A_RESULT = 40
-"""Of memory, as Python counts them: the numbers of an environment, and for each robot what it began and learned."""
+"""Bytes of memory, as Python counts them: the numbers of an environment, and what each robot began and learned."""
 
 
 @pytest.fixture(autouse=True)

@@ -42,7 +42,7 @@ FAULTS = (
 """In a minute, 6,000 frames: three of each kind, and thirty bursts of foreign frames."""
 
 FORGED = "in the robot's name"
-"""Of some hundred thousand random frames, one looks like the robot's: that is noticed, and does no harm."""
+"""One in some hundred thousand random frames looks like the robot's: that is noticed, and does no harm."""
 
 TICKS_PER_HOUR = 180_000
 

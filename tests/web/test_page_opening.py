@@ -17,7 +17,7 @@ try {
   return error.message;
 }
 """
-NO_WORLD = "that is no world file: open a run.world.json"
+NO_WORLD = "that is not a world file: open a run.world.json"
 EDIT = {"tick": 3, "do": "add_bar", "a": [100, 100], "b": [900, 100]}
 
 

@@ -126,7 +126,7 @@ def test_a_run_that_it_cannot_repeat_is_told_on_the_page(plain, open_page, tmp_p
 
     page.click("#what-if")
 
-    wait_for_text(page, "#no-what-if", "that is no world file")
+    wait_for_text(page, "#no-what-if", "that is not a world file")
     assert not page.evaluate("document.querySelector('dialog').open")
 
 

@@ -12,7 +12,7 @@ static struct {
     uint32_t per_ms;   /* counts */
     uint32_t seen;     /* the timer, which counts down, as it was when the last whole millisecond ended */
     uint32_t ms;
-} timer;                /* there is one, and whoever asks for the time has no place to keep it */
+} timer;                /* there is only one, and those who ask for the time have nowhere to keep it */
 
 void systick_start(uint32_t core_hz)
 {

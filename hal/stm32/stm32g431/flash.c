@@ -1,7 +1,7 @@
 /* Pages 62 and 63 (RM0440 5.3). The core stands still while one is written or erased.
  *
  * Eight bytes are written at once, with eight bits to correct an error in them. A write that a loss of power cut short can leave
- * eight bytes that no correction fits: whoever reads them gets a non-maskable interrupt. */
+ * eight bytes that no correction fits: reading them causes a non-maskable interrupt. */
 #include "hal/flash_store/flash.h"
 
 #include "hal/stm32/machine.h"

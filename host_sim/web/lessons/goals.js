@@ -115,7 +115,7 @@ export function areApart(meetings) {
 }
 
 /**
- * The ticks up to this one in which somebody broke a sensor in this way.
+ * The ticks up to this one in which a sensor was broken in this way.
  * @param {Lane} lane
  * @param {string} how
  * @param {number} tick

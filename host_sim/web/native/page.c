@@ -100,7 +100,7 @@ const struct frame *page_answers(uint32_t robot)
     return octet_answers(octet_of(robot));
 }
 
-/* Adds to what a robot has said and nobody has taken. */
+/* Adds to the frames of a robot that have not been taken yet. */
 static void hear(uint32_t robot, const struct frame *frame)
 {
     struct loop_robot *to = &page_state()->robots[robot];

@@ -12,7 +12,7 @@
 enum {
     PAGE_ROBOTS_MAX = 4,
     PAGE_TICKS_MAX = 256,   /* of a block */
-    PAGE_WAITING_MAX = 64,  /* frames of a robot that nobody has taken yet */
+    PAGE_WAITING_MAX = 64,  /* frames of a robot that have not been taken yet */
     PAGE_OBSTACLES_MAX = 60,   /* bars and plants */
     PAGE_FOOD_MAX = 20,
     PAGE_BYTES = 8
@@ -101,7 +101,7 @@ void page_write_side(uint32_t robot, uint32_t pattern, uint32_t side);
         /* Sets the turn for a pattern in page_bytes(), which hold a memory that this robot's behaviour understands. */
 
 bool page_translate(uint32_t robot);
-        /* Makes the memory in page_bytes() one that this robot's behaviour understands. False if they are no memory. */
+        /* Makes the memory in page_bytes() one that this robot's behaviour understands. False if they are not a memory. */
 
 bool page_has_halted(uint32_t robot);
         /* Whether it has stopped by itself, because its wheels do not do what they are told. */
@@ -142,10 +142,10 @@ void page_break(uint32_t robot);
         /* From now on, that is what is wrong with a robot's body. */
 
 void page_enter(uint32_t obstacles, uint32_t food);
-        /* An environment begins with so many obstacles, and so much food, none of it eaten. */
+        /* An environment begins with this number of obstacles and pieces of food; none is eaten yet. */
 
 void page_settle(uint32_t obstacles);
-        /* A person has changed something, and there are so many obstacles now. */
+        /* A person has changed something; this is the number of obstacles now. */
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max);
         /* Runs a block of up to PAGE_TICKS_MAX ticks, as loop_run does. Returns how many have been run. */
@@ -153,7 +153,7 @@ uint32_t page_run(uint32_t tick, uint32_t ticks_max);
 uint32_t page_is_eaten(uint32_t food);
 
 const int16_t *page_rows(uint32_t robot);
-        /* Of the block: LOOP_ROW numbers for each tick, */
+        /* LOOP_ROW numbers for each tick of the block, */
 
 const double *page_poses(uint32_t robot);
         /* LOOP_POSE numbers for each tick, */

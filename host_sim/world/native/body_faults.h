@@ -17,8 +17,8 @@ struct body_faults {
     int16_t left_miscounted_percent;    /* what an odometer counts beyond its wheel's way, of that way: -100: it is stuck */
     int16_t right_miscounted_percent;
     uint16_t false_beacon_mm;     /* to food that is seen where there is none; 0: to none */
-    uint32_t noise;          /* each sensor is wrong in so many */
-    uint32_t noise_of;       /* of so many ticks; not 0 where noise is not */
+    uint32_t noise;          /* each sensor is wrong in this many */
+    uint32_t noise_of;       /* out of this many ticks; not 0 where noise is not */
     uint64_t noise_key;      /* from which it follows in which */
 };   /* all 0: nothing is wrong */
 

@@ -67,7 +67,7 @@ static bool is_aside(const struct cone *cone, const struct capsule *thing)
     return left == 0 || right == 0;
 }
 
-/* Whether an end of a thing is no farther from an edge than its radius. */
+/* Whether an end of a thing is within its radius of an edge. */
 static bool touches_edge(const struct cone *cone, const struct capsule *thing)
 {
     for (unsigned i = 0; i < CONE_CORNERS; i++) {

@@ -33,7 +33,7 @@ def test_a_file_that_is_no_log_is_told(page, tmp_path):
 
     page.set_input_files("#open", tmp_path / "run.log")
 
-    wait_for_text(page, "#file-news", "line 1 is no frame of a log")
+    wait_for_text(page, "#file-news", "line 1 is not a frame of a log")
 
 
 def test_a_memory_goes_out_and_comes_back(page, tmp_path):
@@ -72,7 +72,7 @@ def test_a_file_that_is_no_memory_is_told(page, tmp_path):
 
     page.set_input_files("#open", tmp_path / "robot.mem")
 
-    wait_for_text(page, "#file-news", "these eight bytes are no memory of a robot")
+    wait_for_text(page, "#file-news", "these eight bytes are not a memory of a robot")
     assert page.evaluate("octet.lane.experiment.robots[0].memory") is None
 
 
