@@ -1,54 +1,149 @@
-"""Fuzzes each part with libFuzzer and sanitizers.
+"""Fuzzes what reads input: parsers and sessions in C with libFuzzer and sanitizers, readers in Python likewise.
 
-    python -m tests.proof.fuzz [SECONDS] [PART...]
+    python -m tests.proof.fuzz                        a minute for each
+    python -m tests.proof.fuzz --hours 1 wire world   an hour for each of these
+    python -m tests.proof.fuzz --list                 what there is
+    python -m tests.proof.fuzz --repeat out/fuzz/wire/finds/crash-...   what an input does
 
-Inputs that reach something new are kept in build/fuzz/PART.corpus, and the next call goes on from there. It ends
-with 1 when an input does harm; build/fuzz has that input then.
+For each, out/fuzz/NAME/corpus keeps the inputs that reach something new, and the next call goes on from there; what
+does harm is kept in out/fuzz/NAME/finds. It ends with 1 if something did.
 """
 
-import subprocess
+import argparse
+import shutil
 import sys
+import tempfile
+import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import NamedTuple
 
-from tests.proof.parts import FUZZED, HERE, INCLUDED, ROOT
+from tests.proof import c_fuzzer
+from tests.proof.c_fuzzer import Compiler
+from tests.proof.parts import FUZZED, GENERATED, HERE, ROOT
+from tests.proof.reader_fuzzer import ReaderFuzzer, harm, lasting
+from tests.proof.readers import READERS
 
-FOLDER = ROOT / "build/fuzz"
-TIMEOUT_S = 10
-SANITIZED = ("-g", "-O1", "-std=c99", "-fsanitize=fuzzer,address,undefined", "-fno-sanitize-recover=all")
-
-
-def build(name: str, sources: Sequence[Path], folder: Path = FOLDER, options: Sequence[str] = ()) -> Path:
-    """A program that feeds a harness what the fuzzer thinks up. The options are the compiler's."""
-    folder.mkdir(parents=True, exist_ok=True)
-    program = folder / name
-    files = (HERE / "fuzzed.c", *sources)
-    command = ("clang", *SANITIZED, *INCLUDED, *options, *files, "-o", program)
-    subprocess.run(command, check=True)
-    return program
+FOLDER = ROOT / "out/fuzz"
+TARGETS = (*FUZZED, *READERS)
 
 
-def fuzz(program: Path, limit: str) -> subprocess.CompletedProcess[str]:
-    """Runs it up to a limit of libFuzzer's. What it prints is on stderr."""
-    corpus = program.with_suffix(".corpus")
-    corpus.mkdir(exist_ok=True)
-    limits = (limit, f"-timeout={TIMEOUT_S}", "-rss_limit_mb=512", "-max_len=4096")
-    command = (program, *limits, f"-artifact_prefix={program.parent}/", "-print_final_stats=1", corpus)
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+class Done(NamedTuple):
+    """What fuzzing a target came to: in words, the input that did harm if there is one, and what it did."""
+
+    words: str
+    find: Path | None
+    harm: str
 
 
-def main(seconds: str = "60", *names: str) -> int:
+class Fuzzer:
+    """Fuzzes targets one after another."""
+
+    def __init__(self, folder: Path, seconds: float) -> None:
+        """Builds nothing yet.
+
+        Args:
+            folder: Has a folder for each target.
+            seconds: For each.
+        """
+        self._folder = folder
+        self._seconds = seconds
+        self._compiler = Compiler(folder)
+
+    def fuzz(self, name: str) -> Done:
+        """Fuzzes a target."""
+        return self._fuzz_c(name) if name in FUZZED else self._fuzz_reader(name)
+
+    def repeat(self, name: str, find: Path) -> str:
+        """What an input does, in words; empty if it does no harm."""
+        if name in READERS:
+            with tempfile.TemporaryDirectory() as folder:
+                return harm(READERS[name], find.read_bytes(), Path(folder))
+        ended = c_fuzzer.repeat(self._program(name), find)
+        return ended.stderr if ended.returncode else ""
+
+    def _fuzz_c(self, name: str) -> Done:
+        program = self._program(name)
+        ended = c_fuzzer.fuzz(program, f"-max_total_time={max(round(self._seconds), 1)}")
+        if ended.returncode:
+            return Done("stopped", c_fuzzer.find_in(ended.stderr), ended.stderr)
+        return Done(f"{c_fuzzer.figures(ended.stderr)}, {c_fuzzer.thin_out(program)} kept", None, "")
+
+    def _fuzz_reader(self, name: str) -> Done:
+        fuzzer = ReaderFuzzer(READERS[name], self._folder / name, seed=time.time_ns())
+        done = fuzzer.run(lasting(self._seconds))
+        return Done(f"{done.tried} inputs, {done.steps} steps, {done.corpus} kept", done.find, done.words)
+
+    def _program(self, name: str) -> Path:
+        return self._compiler.build(name, [HERE / f"{name}.c", *FUZZED[name]])
+
+
+def is_find(path: Path) -> bool:
+    """Whether it is an input that is kept in a target's folder."""
+    return path.is_file() and path.resolve().parent.parent.name in TARGETS
+
+
+def arguments(words: Sequence[str]) -> argparse.Namespace:
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.proof.fuzz", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    add = parser.add_argument
+    add("targets", nargs="*", metavar="TARGET", help=f"default: all of {', '.join(TARGETS)}")
+    add("--seconds", type=float, default=0.0, metavar="S", help="for each target")
+    add("--minutes", type=float, default=0.0, metavar="M", help="and so many minutes (default: 1 in all)")
+    add("--hours", type=float, default=0.0, metavar="H", help="and so many hours")
+    add("--folder", type=Path, default=FOLDER, help="where corpora and finds are kept (default: out/fuzz)")
+    add("--repeat", type=Path, metavar="FILE", help="feed a find to the target whose folder it is in")
+    add("--list", action="store_true", help="print the targets and end")
+    options = parser.parse_args(words)
+    unknown = [name for name in options.targets if name not in TARGETS]
+    if unknown:
+        parser.error(f"no target {', '.join(unknown)}; there are {', '.join(TARGETS)}")
+    if options.repeat and not is_find(options.repeat):
+        parser.error(f"{options.repeat} is not a file in the folder of a target, as out/fuzz/wire/finds/crash-...")
+    return options
+
+
+def fuzz_all(fuzzer: Fuzzer, names: Sequence[str]) -> int:
     """Returns 0 if no input did harm."""
     harmed = 0
-    for name in names or FUZZED:
-        ended = fuzz(build(name, [HERE / f"{name}.c", *FUZZED[name]]), f"-max_total_time={seconds}")
-        tried = next(line for line in ended.stderr.splitlines() if "number_of_executed_units" in line).split()[-1]
-        sys.stdout.write(f"{name:8} {tried} inputs in {seconds} s: {'harm' if ended.returncode else 'no harm'}\n")
-        sys.stdout.flush()
-        if ended.returncode:
-            sys.stderr.write(ended.stderr)
+    for name in names:
+        done = fuzzer.fuzz(name)
+        sys.stdout.write(f"{name:10} {done.words}: {'HARM' if done.harm else 'no harm'}\n")
+        if done.harm:
             harmed = 1
+            sys.stdout.write(f"{done.harm}\nto repeat: python -m tests.proof.fuzz --repeat {done.find}\n")
+        sys.stdout.flush()
     return harmed
+
+
+def repeat(fuzzer: Fuzzer, find: Path) -> int:
+    """Returns 0 if the input does no harm."""
+    harmful = fuzzer.repeat(find.parent.parent.name, find)
+    sys.stdout.write(f"{harmful or 'no harm'}\n")
+    return 1 if harmful else 0
+
+
+def main(*words: str) -> int:
+    """Returns 0 if no input did harm."""
+    options = arguments(words)
+    if options.list:
+        sys.stdout.writelines(f"{name}\n" for name in TARGETS)
+        return 0
+    seconds = options.seconds + 60 * options.minutes + 3600 * options.hours or 60.0
+    folder = options.folder.resolve()
+    if not (GENERATED / "octet.h").is_file() or not shutil.which("clang"):
+        sys.stderr.write("fuzz: clang or the generated sources are missing: run tools/setup python\n")
+        return 1
+    shutil.rmtree(folder / "objects", ignore_errors=True)
+    if options.repeat:
+        return repeat(Fuzzer(folder, seconds), options.repeat.resolve())
+    try:
+        return fuzz_all(Fuzzer(folder, seconds), options.targets or TARGETS)
+    except KeyboardInterrupt:
+        sys.stderr.write(f"fuzz: stopped; {folder} has what was found until then\n")
+        return 130
 
 
 if __name__ == "__main__":

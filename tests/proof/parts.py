@@ -20,5 +20,7 @@ PARTS = {
     "store": [ROOT / "hal/flash_store/flash_store.c", ROOT / "hal/flash_store/crc32.c"],
 }
 
-# Whole sessions are too much for the analyser.
-FUZZED = {**PARTS, "session": [*PARTS["wire"], ROOT / "hal/library/exchange.c"]}
+_EXCHANGE = [*PARTS["wire"], HERE / "any_command.c", ROOT / "hal/library/exchange.c"]
+
+FUZZED = {**PARTS, "flash": PARTS["store"], "commands": _EXCHANGE, "session": _EXCHANGE}
+"""What holds from one input to the next is too much for the analyser: that is fuzzed only."""

@@ -2,22 +2,24 @@
  * starts, learns and is stopped among frames that are lost, doubled, damaged or another sender's. What holds in each of
  * them is checked after every frame. */
 #include <octet.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "hal/library/exchange.h"
 #include "hal/protocol/e2e.h"
 #include "tests/proof/any.h"
+#include "tests/proof/any_command.h"
+#include "tests/proof/must.h"
 
 enum { OWNER = 1, ANOTHER = 2, EVENTS = 12 };
 
 static struct octet *octet;
 static unsigned ticks, commands;   /* sent so far */
+static uint16_t odometer_left, odometer_right;
 
-static void must(bool holds)
+/* Wheels roll a little way in a tick, ahead or back. */
+static uint16_t rolled(uint16_t odometer)
 {
-    if (!holds)
-        abort();
+    return (uint16_t)((odometer + ODOMETER_SPAN + (int8_t)any_u8()) % ODOMETER_SPAN);
 }
 
 static struct frame next_senses(void)
@@ -28,25 +30,9 @@ static struct frame next_senses(void)
     senses.feel = any_u8() % (1u << FEEL_COUNT);
     senses.look = any_bool();
     senses.beacon = senses.look ? 1u + any_u8() : 0u;
-    senses.odometer_left = any_u8();
-    senses.odometer_right = any_u8();
+    senses.odometer_left = odometer_left = rolled(odometer_left);
+    senses.odometer_right = odometer_right = rolled(odometer_right);
     (void)octet_senses_pack(frame.data, &senses, sizeof frame.data);
-    e2e_protect(&frame);
-    return frame;
-}
-
-static struct frame next_command(uint8_t owner)
-{
-    struct octet_command_t command = {.counter = (uint8_t)(commands % E2E_COUNTERS), .owner = owner};
-    struct frame frame = {.id = OCTET_COMMAND_FRAME_ID, .len = OCTET_COMMAND_LENGTH};
-
-    command.opcode = any_u8() % 16u;
-    command.lockstep = any_bool();
-    command.profile = any_u8() % 16u;
-    command.parameter = any_u8() % 64u;
-    command.mask = any_u8() % 32u;
-    command.value = any_u32();
-    (void)octet_command_pack(frame.data, &command, sizeof frame.data);
     e2e_protect(&frame);
     return frame;
 }
@@ -70,9 +56,9 @@ static struct frame next_frame(uint8_t event)
         return next_senses();
     case 1:
         commands++;
-        return next_command(OWNER);
+        return any_command(OWNER, commands);
     case 2:
-        return next_command(ANOTHER);
+        return any_command(ANOTHER, commands);
     case 3:
         return another_robots_memory();
     default:
@@ -146,6 +132,7 @@ void exercise(void)
 
     octet = octet_open(1, nothing);
     ticks = commands = 0;
+    odometer_left = odometer_right = 0;
     while (octet && any_more()) {
         uint8_t event = any_u8() % EVENTS;
 

@@ -1,21 +1,31 @@
-"""A little fuzzing of each part; `python -m tests.proof.fuzz` does more."""
+"""A little fuzzing of each part in C; `python -m tests.proof.fuzz` does more."""
 
 import pytest
 
-from tests.proof import fuzz
-from tests.proof.parts import FUZZED, HERE
+from tests.proof import c_fuzzer, fuzz
+from tests.proof.c_fuzzer import Compiler
+from tests.proof.parts import FUZZED, HERE, PARTS
 
 FEW = "-runs=20000"
+FEWER = "-runs=5000"
+"""Of what is proved as well."""
+
+
+@pytest.fixture(scope="module")
+def compiler(tmp_path_factory):
+    return Compiler(tmp_path_factory.mktemp("fuzz"))
 
 
 @pytest.mark.parametrize("name", FUZZED)
-def test_no_input_does_harm(name, tmp_path):
-    program = fuzz.build(name, [HERE / f"{name}.c", *FUZZED[name]], tmp_path)
+def test_no_input_does_harm(compiler, name):
+    program = compiler.build(name, [HERE / f"{name}.c", *FUZZED[name]])
 
-    ended = fuzz.fuzz(program, FEW)
+    few = FEWER if name in PARTS else FEW
+
+    ended = c_fuzzer.fuzz(program, few)
 
     assert ended.returncode == 0, ended.stderr
-    assert "Done 20000 runs" in ended.stderr
+    assert f"Done {few.partition('=')[2]} runs" in ended.stderr
 
 
 @pytest.mark.parametrize(
@@ -27,35 +37,82 @@ def test_no_input_does_harm(name, tmp_path):
     ],
 )
 def test_what_can_go_wrong_is_found(body, found, tmp_path, monkeypatch):
-    monkeypatch.setattr(fuzz, "TIMEOUT_S", 1)
+    monkeypatch.setattr(c_fuzzer, "TIMEOUT_S", 1)
     canary = tmp_path / "canary.c"
     canary.write_text(f'#include "tests/proof/any.h"\nvoid exercise(void)\n{{\n{body}\n}}\n')
 
-    ended = fuzz.fuzz(fuzz.build("canary", [canary], tmp_path), FEW)
+    ended = c_fuzzer.fuzz(Compiler(tmp_path).build("canary", [canary]), FEW)
 
     assert ended.returncode != 0
     assert found in ended.stderr
-    assert list(tmp_path.glob("*-*"))
+    assert c_fuzzer.find_in(ended.stderr).parent == tmp_path / "canary/finds"
+
+
+RESPOND = """
+#include "firmware/robot.h"
+void __real_robot_respond(struct robot *, enum input_kind, const struct input *, struct output *);
+void __wrap_robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out)
+{
+    __real_robot_respond(robot, kind, in, out);
+    FAULT
+}
+"""
+FITS = """
+#include "firmware/config.h"
+bool __wrap_config_fits(uint8_t parameter, uint32_t value)
+{
+    return parameter < PARAMETER_COUNT && value < 256;
+}
+"""
+WRITE = """
+#include "hal/flash_store/flash.h"
+int __real_flash_write(unsigned, uint32_t, const uint32_t[], uint32_t);
+int __wrap_flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
+{
+    (void)__real_flash_write(page, offset, words, count);
+    return 0;
+}
+"""
 
 
 @pytest.mark.parametrize(
-    "fault",
+    ("name", "function", "lines"),
     [
-        "if (kind == INPUT_PEER) robot->brain.memory.cell[1] = SIDE_LEFT;",
-        "if (kind == INPUT_SENSES && !robot->running) out->drive.right_mm_s = 1;",
+        (
+            "session",
+            "robot_respond",
+            RESPOND.replace("FAULT", "if (kind == INPUT_PEER) robot->brain.memory.cell[1] = SIDE_LEFT;"),
+        ),
+        (
+            "session",
+            "robot_respond",
+            RESPOND.replace("FAULT", "if (kind == INPUT_SENSES && !robot->running) out->drive.right_mm_s = 1;"),
+        ),
+        ("commands", "robot_respond", RESPOND.replace("FAULT", "out->drive.right_mm_s = robot->config.value[0];")),
+        ("commands", "config_fits", FITS),
+        ("flash", "flash_write", WRITE),
     ],
 )
-def test_what_a_robot_must_not_do_in_a_session_is_found(fault, tmp_path):
-    planted = tmp_path / "planted.c"
-    parameters = "(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out)"
-    planted.write_text(
-        '#include "firmware/robot.h"\n'
-        f"void __real_robot_respond{parameters};\nvoid __wrap_robot_respond{parameters};\n"
-        f"void __wrap_robot_respond{parameters}\n{{\n__real_robot_respond(robot, kind, in, out);\n{fault}\n}}\n"
-    )
-    sources = [HERE / "session.c", planted, *FUZZED["session"]]
+def test_what_must_not_come_of_any_input_is_found(compiler, tmp_path, name, function, lines):
+    wrong = tmp_path / "wrong.c"
+    wrong.write_text(lines)
+    sources = [HERE / f"{name}.c", wrong, *FUZZED[name]]
+    program = compiler.build(f"wrong_{name}", sources, [f"-Wl,--wrap={function}"])
 
-    ended = fuzz.fuzz(fuzz.build("session", sources, tmp_path, ["-Wl,--wrap=robot_respond"]), FEW)
+    ended = c_fuzzer.fuzz(program, FEW)
 
     assert ended.returncode != 0
     assert "deadly signal" in ended.stderr
+
+
+def test_a_target_is_fuzzed_by_name_and_a_find_is_repeated(tmp_path, capsys):
+    assert fuzz.main("--seconds", "1", "memory", "slcan", "--folder", str(tmp_path)) == 0
+    assert "no harm" in capsys.readouterr().out
+    kept = next((tmp_path / "slcan/corpus").iterdir())
+    assert fuzz.main("--repeat", str(kept), "--folder", str(tmp_path)) == 0
+
+
+def test_an_unknown_target_is_named_and_those_that_there_are(capsys):
+    with pytest.raises(SystemExit):
+        fuzz.main("wires")
+    assert "no target wires; there are core, " in capsys.readouterr().err

@@ -6,16 +6,16 @@ from host_sim.world.grid import clearances_mm
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
 
-STEP_MM = 20.0
+PITCH_MM = 20.0
 
 
 def can_reach(layout: Layout, goal: tuple[float, float], params: SimParams) -> bool:
     """Whether steps from place to place, where the body fits, lead from the start to a goal."""
-    y, x = np.mgrid[0 : params.height_mm : STEP_MM, 0 : params.width_mm : STEP_MM]
+    y, x = np.mgrid[0 : params.height_mm : PITCH_MM, 0 : params.width_mm : PITCH_MM]
     places = np.column_stack([x.ravel(), y.ravel()])
     free = (clearances_mm(places, layout.bars, params) >= params.body_radius_mm).reshape(x.shape)
     reached = np.zeros_like(free)
-    reached[round(layout.start.y_mm / STEP_MM), round(layout.start.x_mm / STEP_MM)] = True
+    reached[round(layout.start.y_mm / PITCH_MM), round(layout.start.x_mm / PITCH_MM)] = True
     while True:
         grown = reached.copy()
         grown[1:] |= reached[:-1]
@@ -24,5 +24,5 @@ def can_reach(layout: Layout, goal: tuple[float, float], params: SimParams) -> b
         grown[:, :-1] |= reached[:, 1:]
         grown &= free
         if (grown == reached).all():
-            return bool(reached[round(goal[1] / STEP_MM), round(goal[0] / STEP_MM)])
+            return bool(reached[round(goal[1] / PITCH_MM), round(goal[0] / PITCH_MM)])
         reached = grown

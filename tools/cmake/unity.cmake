@@ -16,6 +16,12 @@ function(octet_add_test name)
 endfunction()
 
 # octet_test(NAME LIBRARY...): a test program from test_NAME.c in the current folder.
+# octet_test_part(NAME LIBRARY...): NAME.c, which several tests link: it is compiled once.
+function(octet_test_part name)
+  add_library(${name} OBJECT ${name}.c)
+  target_link_libraries(${name} PRIVATE unity octet_warnings ${ARGN})
+endfunction()
+
 function(octet_test name)
   add_executable(test_${name} test_${name}.c)
   target_link_libraries(test_${name} PRIVATE unity octet_warnings ${ARGN})
