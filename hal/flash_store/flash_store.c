@@ -133,7 +133,7 @@ static int turn_page(struct flash_store *store, union place *scratch, bool may_e
     return 0;
 }
 
-/* The records after the newest one could not be written. They may read well another day: their numbers are taken. */
+/* The records after the newest one could not be written. They may read well another day: their numbers are left out. */
 static void go_on_behind_newest(struct flash_store *store, union place *scratch)
 {
     store->page = store->kept;
