@@ -240,4 +240,4 @@ def recognised(cell: Cell) -> Cell:
 
 def default_limit_s(pace: str) -> float:
     """Robot time of a run: long enough for some lessons, in real time short enough for patience."""
-    return 60.0 if pace == LOCKSTEP else 8.0
+    return 60.0 if pace == LOCKSTEP else 10.0

@@ -52,7 +52,7 @@ def add(commands: "Subparsers") -> None:
         help=f"{', '.join(_LINKS)} (default: none)",
     )
     add("--real-time", action="store_true", help="in real time, too, where the robot is not in this process")
-    add("--limit-s", type=number(1, 600, float), help="robot time of each run (default: 60, in real time 8)")
+    add("--limit-s", type=number(1, 600, float), help="robot time of each run (default: 60, in real time 10)")
     add("--jobs", type=number(1, 64, int), default=1, help="processes at once (default: %(default)d)")
     add("--repeat", metavar="CELL", help="repeat one run of a report, and say what came of it")
     add("--shrink", metavar="CELL", help="find the smallest schedule of faults with which that run ends as it does")
