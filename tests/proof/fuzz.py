@@ -10,6 +10,7 @@ does harm is kept in out/fuzz/NAME/finds. It ends with 1 if something did.
 """
 
 import argparse
+import logging
 import shutil
 import sys
 import tempfile
@@ -149,4 +150,5 @@ def main(*words: str) -> int:
 
 
 if __name__ == "__main__":
+    logging.disable()  # python-can's words about each damaged file
     sys.exit(main(*sys.argv[1:]))
