@@ -45,6 +45,8 @@ def read_plan(path: Path) -> Plan:
         raise UsageError(f"{path}: too many brackets within each other") from None
     except (UnicodeDecodeError, _toml.TOMLDecodeError) as error:
         raise UsageError(f"{path}: {error}") from None
+    except ValueError:  # of Python, which reads no whole number of thousands of digits
+        raise UsageError(f"{path}: a number has too many digits") from None
     return _Reader(path, text, content).plan()
 
 
@@ -109,7 +111,7 @@ class _Reader:
         names = [condition.name for condition in conditions]
         self._check_keys(goal, _GOAL_KEYS, "goals", index)
         for key, words in (("figure", FIGURES), ("condition", names)):
-            if goal.get(key) not in words:
+            if not isinstance(goal.get(key), str) or goal[key] not in words:
                 raise fail(f"{key} = {goal.get(key)!r}: {meant(goal.get(key), words)}", key)
         if goal.get("against", names[0]) not in names:
             raise fail(f"against = {goal['against']!r}: {meant(goal['against'], names)}", "against")

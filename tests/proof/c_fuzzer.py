@@ -15,13 +15,15 @@ SANITIZED = ("-g", "-O1", "-std=c99", "-fsanitize=fuzzer,address,undefined", "-f
 class Compiler:
     """Compiles each source once, however many programs it is part of."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, scratch: Path) -> None:
         """Compiles nothing yet.
 
         Args:
-            folder: For programs and objects, each program in a folder of its own.
+            folder: For programs, each in a folder of its own.
+            scratch: For what they are linked from; nobody else's.
         """
         self._folder = folder
+        self._scratch = scratch
         self._objects: dict[Path, Path] = {}
 
     def build(self, name: str, sources: Sequence[Path], options: Sequence[str] = ()) -> Path:
@@ -34,8 +36,7 @@ class Compiler:
 
     def _object(self, source: Path) -> Path:
         if source not in self._objects:
-            made = self._folder / "objects" / f"{len(self._objects)}.o"
-            made.parent.mkdir(parents=True, exist_ok=True)
+            made = self._scratch / f"{len(self._objects)}.o"
             subprocess.run(("clang", *SANITIZED, *INCLUDED, "-c", source, "-o", made), check=True)
             self._objects[source] = made
         return self._objects[source]

@@ -10,6 +10,7 @@ does harm is kept in out/fuzz/NAME/finds. It ends with 1 if something did.
 """
 
 import argparse
+import logging
 import shutil
 import sys
 import tempfile
@@ -39,16 +40,18 @@ class Done(NamedTuple):
 class Fuzzer:
     """Fuzzes targets one after another."""
 
-    def __init__(self, folder: Path, seconds: float) -> None:
+    def __init__(self, folder: Path, seconds: float, scratch: Path) -> None:
         """Builds nothing yet.
 
         Args:
             folder: Has a folder for each target.
             seconds: For each.
+            scratch: For files that nobody needs afterwards.
         """
         self._folder = folder
         self._seconds = seconds
-        self._compiler = Compiler(folder)
+        self._scratch = scratch
+        self._compiler = Compiler(folder, scratch)
 
     def fuzz(self, name: str) -> Done:
         """Fuzzes a target."""
@@ -57,8 +60,7 @@ class Fuzzer:
     def repeat(self, name: str, find: Path) -> str:
         """What an input does, in words; empty if it does no harm."""
         if name in READERS:
-            with tempfile.TemporaryDirectory() as folder:
-                return harm(READERS[name], find.read_bytes(), Path(folder))
+            return harm(READERS[name], find.read_bytes(), self._scratch)
         ended = c_fuzzer.repeat(self._program(name), find)
         return ended.stderr if ended.returncode else ""
 
@@ -136,15 +138,17 @@ def main(*words: str) -> int:
     if not (GENERATED / "octet.h").is_file() or not shutil.which("clang"):
         sys.stderr.write("fuzz: clang or the generated sources are missing: run tools/setup python\n")
         return 1
-    shutil.rmtree(folder / "objects", ignore_errors=True)
-    if options.repeat:
-        return repeat(Fuzzer(folder, seconds), options.repeat.resolve())
-    try:
-        return fuzz_all(Fuzzer(folder, seconds), options.targets or TARGETS)
-    except KeyboardInterrupt:
-        sys.stderr.write(f"fuzz: stopped; {folder} has what was found until then\n")
-        return 130
+    with tempfile.TemporaryDirectory() as scratch:
+        fuzzer = Fuzzer(folder, seconds, Path(scratch))
+        try:
+            if options.repeat:
+                return repeat(fuzzer, options.repeat.resolve())
+            return fuzz_all(fuzzer, options.targets or TARGETS)
+        except KeyboardInterrupt:
+            sys.stderr.write(f"fuzz: stopped; {folder} has what was found until then\n")
+            return 130
 
 
 if __name__ == "__main__":
+    logging.disable()  # python-can's words about each damaged file
     sys.exit(main(*sys.argv[1:]))

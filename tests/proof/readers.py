@@ -2,26 +2,29 @@
 
 import gzip
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import can
 
+from host_sim.campaign.cell import Cell
 from host_sim.errors import OctetError
-from host_sim.faults.rule import Rule
+from host_sim.faults.rule import Rule, read_rules
 from host_sim.live.page_commands import page_command_from
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.memory_file import load_memory
 from host_sim.recording.world_file import read_world
 from host_sim.study.plan_file import read_plan
+from host_sim.world.changes import read_changes
 from host_sim.world.worlds import world_of
 from tools.robot_words.model import DescriptionError
 from tools.robot_words.model import read as read_description
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT / "tests/recording/data"
+WORLDS = ROOT / "docs/worlds"
 DBC, WORDS = ROOT / "hal/protocol/octet.dbc", ROOT / "hal/protocol/robot.toml"
 ASC = b"""\
 date Sat Nov 21 10:00:00.000 am 2026
@@ -33,9 +36,9 @@ base hex  timestamps absolute
 
 @dataclass(frozen=True)
 class Reader:
-    """What reads a sample, and how it refuses."""
+    """What reads samples, and how it refuses."""
 
-    sample: bytes
+    samples: Sequence[bytes]
     read: Callable[[bytes, Path], Any]
     refuses: type[Exception] = OctetError
 
@@ -78,22 +81,62 @@ def log(name: str) -> Callable[[bytes, Path], Any]:
     return in_file(name, lambda path: list(read_log(path)))
 
 
-WORLD = (ROOT / "docs/worlds/two_walls.toml").read_bytes()
+def contents(*places: Iterable[Path]) -> list[bytes]:
+    return [path.read_bytes() for paths in places for path in sorted(paths)]
+
+
+def in_list(read: Callable[[str], Any]) -> Callable[[bytes, Path], Any]:
+    return in_file("list.txt", lambda path: read(f"@{path}"))
+
+
 LOG = recorded("wire_1_three_robots.log")
-ORDER = b'{"do": "write", "cell": 3, "side": 1, "node": 1}'
+TODAY = b"".join((DATA / "version_1_0.log").read_bytes().splitlines(keepends=True)[:40])
+LOGS = [LOG, TODAY]
+MEMORIES = [
+    bytes(cells) for cells in ((0, 1, 2, 1, 2, 1, 2, 1), (0, 5, 6, 9, 10, 13, 14, 0), (15, 0, 36, 0, 0, 0, 0, 0))
+]
+ORDERS = b"""\
+{"do": "write", "cell": 3, "side": 1, "node": 1}
+{"do": "speed", "factor": 0.5}
+{"do": "seed", "seed": 7, "keep": 1}
+{"do": "freeze", "on": 1}
+{"do": "erase"}
+{"do": "next"}
+{"do": "decision"}
+{"do": "pause"}
+{"do": "name", "name": "Ada"}
+{"do": "lift", "robot": 1}
+{"do": "put", "at": [500, 600], "heading": -1571}
+{"do": "add_bar", "a": [500, 600], "b": [700, 800]}
+{"do": "move_bar", "id": 1, "a": [500, 600], "b": [700, 800]}
+{"do": "move_food", "id": 2, "at": [500, 600]}
+{"do": "plant", "at": [500, 600], "radius": 100}
+{"do": "grow_plant", "id": 0, "radius": 120}
+{"do": "remove_plant", "id": 0}
+{"do": "body", "what": "swap-motors", "seed": 3}
+""".splitlines()
+FAULTS = b"""\
+corrupt:20%:3@5-90/to
+drop:5%
+delay:2@300/from
+forge:stop@300/to
+""".splitlines()
+CELLS = [b"article fd lockstep seed=12 limit=4 fault=drop:10% change=swap-motors@2s event=hang:300@100"]
+CHANGES = [(ROOT / "docs/worlds/day.txt").read_bytes(), b"swap-motors@env2+3.5s\nrepair@40s\n"]
 READERS = {
-    "log": Reader(LOG, log("run.log")),
-    "log_gz": Reader(gzip.compress(LOG, mtime=0), log("run.log.gz")),
-    "log_asc": Reader(ASC, log("run.asc")),
-    "log_blf": Reader(as_blf(), log("run.blf")),
-    "memory": Reader(bytes([0, 1, 2, 1, 2, 1, 2, 1]), in_file("robot.mem", load_memory)),
-    "world_file": Reader(recorded("wire_1_three_robots.world.json"), in_file("run.world.json", read_world)),
-    "world": Reader(WORLD, in_file("my.toml", lambda path: world_of(str(path)))),
-    "study": Reader((ROOT / "studies/learned.toml").read_bytes(), in_file("study.toml", read_plan)),
-    "order": Reader(ORDER, as_text(page_command_from), ValueError),
-    "dbc": Reader(DBC.read_bytes(), in_file("my.dbc", lambda path: read_description(path, WORDS)), DescriptionError),
-    "words": Reader(
-        WORDS.read_bytes(), in_file("my.toml", lambda path: read_description(DBC, path)), DescriptionError
-    ),
-    "fault": Reader(b"corrupt:20%:3@5-90/to", as_text(Rule.parse)),
+    "log": Reader(LOGS, log("run.log")),
+    "log_gz": Reader([gzip.compress(TODAY, mtime=0)], log("run.log.gz")),
+    "log_asc": Reader([ASC], log("run.asc")),
+    "log_blf": Reader([as_blf()], log("run.blf")),
+    "memory": Reader(MEMORIES, in_file("robot.mem", load_memory)),
+    "world_file": Reader(contents(DATA.glob("*.world.json")), in_file("run.world.json", read_world)),
+    "world": Reader(contents(WORLDS.glob("*.toml")), in_file("my.toml", lambda path: world_of(str(path)))),
+    "study": Reader(contents((ROOT / "studies").glob("*.toml")), in_file("study.toml", read_plan)),
+    "order": Reader(ORDERS, as_text(page_command_from), ValueError),
+    "changes": Reader(CHANGES, in_list(read_changes)),
+    "fault": Reader(FAULTS, as_text(Rule.parse)),
+    "faults": Reader([b"\n".join(FAULTS)], in_list(read_rules)),
+    "campaign": Reader(CELLS, as_text(Cell.parse)),
+    "dbc": Reader([DBC.read_bytes()], in_file("my.dbc", lambda it: read_description(it, WORDS)), DescriptionError),
+    "words": Reader([WORDS.read_bytes()], in_file("my.toml", lambda it: read_description(DBC, it)), DescriptionError),
 }

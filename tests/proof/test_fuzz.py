@@ -5,6 +5,7 @@ import pytest
 from tests.proof import c_fuzzer, fuzz
 from tests.proof.c_fuzzer import Compiler
 from tests.proof.parts import FUZZED, HERE, PARTS
+from tests.proof.readers import Reader
 
 FEW = "-runs=20000"
 FEWER = "-runs=5000"
@@ -13,7 +14,7 @@ FEWER = "-runs=5000"
 
 @pytest.fixture(scope="module")
 def compiler(tmp_path_factory):
-    return Compiler(tmp_path_factory.mktemp("fuzz"))
+    return Compiler(tmp_path_factory.mktemp("fuzz"), tmp_path_factory.mktemp("objects"))
 
 
 @pytest.mark.parametrize("name", FUZZED)
@@ -41,7 +42,7 @@ def test_what_can_go_wrong_is_found(body, found, tmp_path, monkeypatch):
     canary = tmp_path / "canary.c"
     canary.write_text(f'#include "tests/proof/any.h"\nvoid exercise(void)\n{{\n{body}\n}}\n')
 
-    ended = c_fuzzer.fuzz(Compiler(tmp_path).build("canary", [canary]), FEW)
+    ended = c_fuzzer.fuzz(Compiler(tmp_path, tmp_path).build("canary", [canary]), FEW)
 
     assert ended.returncode != 0
     assert found in ended.stderr
@@ -116,3 +117,14 @@ def test_an_unknown_target_is_named_and_those_that_there_are(capsys):
     with pytest.raises(SystemExit):
         fuzz.main("wires")
     assert "no target wires; there are core, " in capsys.readouterr().err
+
+
+def test_harm_is_shown_with_the_command_that_repeats_it(tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(fuzz.READERS, "memory", Reader([b"\0"], lambda data, _folder: 1 / data[0]))
+
+    assert fuzz.main("memory", "--seconds", "1", "--folder", str(tmp_path)) == 1
+
+    find = next((tmp_path / "memory/finds").iterdir())
+    shown = capsys.readouterr().out
+    assert f"ZeroDivisionError: division by zero\nto repeat: python -m tests.proof.fuzz --repeat {find}\n" in shown
+    assert fuzz.main("--repeat", str(find)) == 1

@@ -30,7 +30,8 @@ def test_what_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
 
 @pytest.mark.parametrize("name", READERS)
 def test_the_samples_themselves_are_read(tmp_path, name):
-    READERS[name].read(READERS[name].sample, tmp_path)
+    for sample in READERS[name].samples:
+        READERS[name].read(sample, tmp_path)
 
 
 def chokes(data, _folder):
@@ -50,7 +51,7 @@ def fuzz_a_little(reader, folder, seed):
 @pytest.mark.parametrize("trouble", ["ZeroDivisionError: not a number", "not one line", "no end within"])
 def test_what_can_go_wrong_is_found_and_kept(tmp_path, monkeypatch, trouble):
     monkeypatch.setattr(reader_fuzzer, "TIMEOUT_S", 0.2)
-    reader = Reader(b"a = 1\n", chokes)
+    reader = Reader([b"a = 1\n"], chokes)
     seeds = count()
 
     done = next(

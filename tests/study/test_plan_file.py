@@ -84,6 +84,8 @@ def test_a_condition_is_named_by_what_varies(plan):
             'profiles = ["article"]\n[[goals]]\nfigure = "mean_s"\ncondition = "article"\nat_least = "1"',
             ":5: at_least is a number, not '1'",
         ),
+        ('profiles = ["article"]\n[[goals]]\nfigure = ["mean_s"]', ":3: figure = ['mean_s']: did you mean mean_s?"),
+        ('profiles = ["article"]\nseeds = ' + "9" * 5000, "a.toml: a number has too many digits"),
         (
             'profiles = ["article"]\n[[goals]]\nfigure="mean_s"\ncondition="article"\nagainst="fixed"\nat_most=1',
             ":5: against = 'fixed': there are article",
