@@ -34,11 +34,11 @@ class Cell:
         pace: One of `PACES`.
         seed: Of the run, and of its faults.
         limit_s: Robot time of the run, s.
-        faults: What befalls the frames, as `--fault` has it.
-        changes: What befalls the body, as `--change` has it.
-        events: What befalls the robot, its line or this host.
+        faults: Faults of the frames, as `--fault` has them.
+        changes: Faults of the body, as `--change` has them.
+        events: Events of the robot, its line or this host.
         fault: All that in words; empty for a run without a fault.
-        harmless: Whether nobody need notice the fault; in lockstep it is to leave no trace.
+        harmless: Whether the fault may go unnoticed; in lockstep it must leave no trace then.
         denies: Whether the robot itself must tell of the fault, and learn nothing wrong.
     """
 
@@ -107,7 +107,7 @@ class Cell:
 
     @property
     def is_of_body(self) -> bool:
-        """Whether the fault befalls the body alone."""
+        """Whether only the body is faulty."""
         return bool(self.changes) and not self.faults and not self.events
 
     @property

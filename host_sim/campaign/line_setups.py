@@ -28,7 +28,7 @@ class OnLine:
         Args:
             link: Its end of the line.
             bus: Ours.
-            events: What can befall the line.
+            events: The events of the line.
         """
         self._link, self._bus = link, bus
         self.robot = RobotProcess(link, 1)

@@ -33,13 +33,13 @@ class FaultClass:
 
     Attributes:
         name: In words.
-        faults: What befalls the frames, as `--fault` has it.
-        changes: What befalls the body, as `--change` has it.
-        event: What befalls the robot, its line or this host; several at once with blanks between them. {any} stands
+        faults: Faults of the frames, as `--fault` has them.
+        changes: Faults of the body, as `--change` has them.
+        event: Event of the robot, its line or this host; several at once with blanks between them. {any} stands
             for any instruction of a dozen ticks, {saving} for one that saves a memory: another one in each run.
         links: Where it can happen; empty for everywhere.
         paces: At which pace it is a fault.
-        harmless: At which pace nobody need notice it; in lockstep it is then to leave no trace.
+        harmless: At which pace it may go unnoticed; in lockstep it must leave no trace then.
         denies: Whether the robot itself must tell of it, and learn nothing wrong.
         in_lesson: Whether it happens when something is learned.
     """
@@ -54,7 +54,7 @@ class FaultClass:
     denies: bool = False
     in_lesson: bool = False
 
-    def befalls(self, profile: str, link: str, pace: str) -> bool:
+    def can_happen(self, profile: str, link: str, pace: str) -> bool:
         """Whether it can happen in a configuration."""
         is_there = pace in self.paces and (not self.links or link in self.links)
         return is_there and not (self.in_lesson and profile in _NO_LESSONS)
@@ -80,7 +80,7 @@ def _of_body(name: str, *changes: str, denies: bool = False) -> FaultClass:
 
 
 def _of_odometers() -> Iterator[FaultClass]:
-    """Wheels that deny what they were told. Of those that count a little too much, nobody can know."""
+    """Wheels that do not do what they were told. Those that count a little too much cannot be noticed."""
     for side in ("left", "right"):
         yield _of_body(f"the {side} odometer is stuck", f"odometer:{side}:0%", denies=True)
         yield _of_body(f"the {side} odometer counts backward", f"odometer:{side}:-100%", denies=True)
@@ -228,7 +228,7 @@ def groups(
             for pace in paces:
                 if (link, pace) != ("none", REAL_TIME):
                     base = Cell(profile, link, pace, limit_s=limits_s(pace))
-                    yield [base, *(each.cell(base) for each in classes if each.befalls(profile, link, pace))]
+                    yield [base, *(each.cell(base) for each in classes if each.can_happen(profile, link, pace))]
 
 
 def recognised(cell: Cell) -> Cell:

@@ -25,9 +25,9 @@ class Outcome:
         wrong: Patterns for which a wrong turn was learned.
         digest: Of its log.
         course: Digest of what the robot sensed and did, tick by tick.
-        broke: Whether it ended with an error that is not about the robot, its line, or files that were struck.
-        lost: What its files do not hold though nobody was told, in words; empty if they hold all.
-        struck: The faults that befell frames, as rules for one frame each.
+        broke: Whether it ended with an error that is not about the robot, its line, or files that were harmed.
+        lost: What is missing from its files without a warning, in words; empty if they hold all.
+        struck: The faults that frames had, as rules for one frame each.
         waiting: Events that have not come to happen.
         moved: Tick after which the robot last answered in time.
         ticks: Number of ticks.

@@ -10,7 +10,7 @@ _OVERRIDE = 1 << 1
 
 
 def obey_permissions(undo: ExitStack) -> None:
-    """Has this thread obey the permissions of files, whoever it is.
+    """Has this thread obey the permissions of files, even as root.
 
     Args:
         undo: Takes it back.

@@ -1,4 +1,4 @@
-"""What befalls a robot that is a process, and this one."""
+"""The events of a robot's process, and of the simulator's own."""
 
 import os
 import signal
@@ -9,7 +9,7 @@ from contextlib import suppress
 
 
 def process_events(pid: Callable[[], int]) -> Mapping[str, Callable[[int], None]]:
-    """What can befall a process on this host.
+    """The events of a process on this host.
 
     Args:
         pid: Gives the process.

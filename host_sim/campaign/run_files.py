@@ -1,4 +1,4 @@
-"""The files that a run writes, and what can befall them on this host."""
+"""The files that a run writes, and the harm that this host can do to them."""
 
 import hashlib
 import resource
@@ -22,7 +22,7 @@ _READ_ONLY = 0o555
 _MEMORY = "robot.mem"
 
 
-def _tell_nobody(*_: object) -> None:
+def _ignore(*_: object) -> None:
     """The run is in no danger of being killed."""
 
 
@@ -31,15 +31,15 @@ class NoFiles:
 
     Attributes:
         log: The log.
-        events: What can befall the files, by name.
-        struck: Whether something has befallen them.
+        events: The harm that can be done to the files, by name.
+        struck: Whether harm was done to them.
         told: What was said about them, in sentences.
         memory: What the memory file held before; None if there was none.
         note: Takes what is to be known of the run, whatever becomes of it.
     """
 
     memory: Memory | None = None
-    note: Tell = staticmethod(_tell_nobody)
+    note: Tell = staticmethod(_ignore)
 
     def __init__(self, log: CourseLog | None = None) -> None:
         """Nothing was written yet."""
@@ -75,14 +75,14 @@ class NoFiles:
         return text
 
     def lost(self) -> str:
-        """What the files do not hold as it was handed over though nobody was told; empty if they hold all."""
+        """What is missing from the files without a warning, in words; empty if they hold all that was handed over."""
         return ""
 
 
 class RunFiles(NoFiles):
     """A log and a memory file in a folder of their own, kept as `tools/run` keeps them."""
 
-    def __init__(self, folder: Path, undo: ExitStack, tell: Tell = _tell_nobody) -> None:
+    def __init__(self, folder: Path, undo: ExitStack, tell: Tell = _ignore) -> None:
         """Begins to write.
 
         Args:
@@ -180,11 +180,11 @@ KILL_EVENTS = frozenset({"kill-simulator", "kill-saving"})
 """Those that end the process of the run."""
 
 FILE_EVENTS = frozenset(_EVENTS)
-"""What can befall the files of a run, by name."""
+"""The harm that can be done to the files of a run, by name."""
 
 
 def make_folder(events: Iterable[Event], undo: ExitStack) -> Path | None:
-    """An empty folder for the files of a run; None for a run without files, for nothing is to befall them.
+    """An empty folder for the files of a run; None for a run in which nothing happens to files.
 
     Args:
         events: All that is to happen in the run.
@@ -197,7 +197,7 @@ def make_folder(events: Iterable[Event], undo: ExitStack) -> Path | None:
     return folder
 
 
-def open_files(folder: Path | None, undo: ExitStack, tell: Tell = _tell_nobody) -> NoFiles:
+def open_files(folder: Path | None, undo: ExitStack, tell: Tell = _ignore) -> NoFiles:
     """The files of a run.
 
     Args:

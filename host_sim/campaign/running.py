@@ -1,4 +1,4 @@
-"""Runs cells: what is to befall each of them comes to happen, and what comes of it is noted."""
+"""Runs cells: has their faults happen, and notes how each run ends."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack

@@ -1,4 +1,4 @@
-"""Where the robot of a cell is, and what can befall it there."""
+"""Where the robot of a cell is, and which events are possible there."""
 
 from collections.abc import Callable, Collection, Mapping
 from contextlib import AbstractContextManager, nullcontext
@@ -35,7 +35,7 @@ class Setup(Protocol):
 
 @dataclass
 class InProcess:
-    """A robot in this process: nothing can befall it but what befalls its frames and its body."""
+    """A robot in this process: only its frames and its body can be faulty."""
 
     events: Mapping[str, Happen] = field(default_factory=dict)
 
@@ -91,4 +91,4 @@ def check_events(possible: Collection[str], link: str, events: tuple[Event, ...]
     """
     for event in events:
         if event.name not in possible:
-            raise UsageError(f"{event.name} cannot befall a run on {link}; there {', '.join(sorted(possible))} can")
+            raise UsageError(f"{event.name} cannot happen on {link}; what can: {', '.join(sorted(possible))}")

@@ -9,11 +9,11 @@ from itertools import chain, repeat
 from host_sim.campaign.setups import Happen
 
 CLOCK_EVENTS = frozenset({"clock-ahead", "clock-back"})
-"""What can befall the wall clock, by name."""
+"""The events of the wall clock, by name."""
 
 
 def clock_events(undo: ExitStack) -> Mapping[str, Happen]:
-    """The clock is set ahead or back by so many seconds.
+    """Sets the clock ahead or back by some seconds.
 
     Args:
         undo: Sets it right again.

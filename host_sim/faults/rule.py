@@ -27,7 +27,7 @@ _CERTAIN = 100.0
 
 @dataclass(frozen=True)
 class Rule:
-    """One fault, and the frames that it may befall.
+    """One fault, and the frames that may have it.
 
     `NAME[:CHANCE%][:SIZE][@FIRST[-[LAST]]][/to|/from]`:
 

@@ -33,7 +33,7 @@ class _Rolled:
 
 
 class Schedule:
-    """Faults for the frames of one link. The same rules and seed befall the same frames in the same way.
+    """Faults for the frames of one link. The same rules and seed damage the same frames in the same way.
 
     Attributes:
         count: Number of faults so far.

@@ -1,6 +1,6 @@
 """Fuzzes a reader in Python: damages its samples at random, and goes on from what took new ways.
 
-libFuzzer's own bridge to Python, atheris, has no wheels for every Python that runs this project.
+libFuzzer's own bridge to Python, atheris, comes as wheels for some versions of Python only.
 """
 
 import hashlib

@@ -108,7 +108,7 @@ def passes(test: Test, environment: Mapping[str, str], wait_s: float) -> bool:
 
 
 def end(process: subprocess.Popen[bytes], wait_s: float) -> int:
-    """A program's exit code; 1 if it has stood still for so long.
+    """A program's exit code; 1 if it has stood still for too long.
 
     One that is slow on a busy machine goes on; an endless loop uses up what it may have of the processor.
     """
