@@ -202,7 +202,7 @@ def open_files(folder: Path | None, undo: ExitStack, tell: Tell = _ignore) -> No
 
     Args:
         folder: As `make_folder` has it.
-        undo: Takes back what befell the files, and closes them.
+        undo: Takes back the harm, and closes the files.
         tell: As in `RunFiles`.
     """
     files = NoFiles() if folder is None else RunFiles(folder, undo, tell)

@@ -15,7 +15,7 @@ EVENTS = [
 
 
 @pytest.mark.parametrize(("event", "told"), EVENTS, ids=[event for event, _ in EVENTS])
-def test_what_befalls_a_robot_on_a_bus_is_told_and_nothing_is_unsafe(event, told):
+def test_what_happens_to_a_robot_on_a_bus_is_told_and_nothing_is_unsafe(event, told):
     outcome = outcome_of(f"article vcan lockstep seed=12 limit=1 event={event}")
 
     assert outcome.problems == []
