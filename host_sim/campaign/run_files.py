@@ -87,7 +87,7 @@ class RunFiles(NoFiles):
 
         Args:
             folder: Holds nothing but the memory file of an earlier run.
-            undo: Takes back what befell the files.
+            undo: Takes back the harm.
             tell: Told of each memory before it is saved, and of all that `note` gets.
         """
         self._folder, self._undo, self.note = folder, undo, tell

@@ -144,7 +144,7 @@ def test_each_cell_is_a_line_that_is_read_as_it_was_written():
 
 
 @pytest.mark.parametrize("link", ["none", "fd", "slcan", *BOARDS])
-def test_what_can_befall_a_robot_is_made_to_happen_there(link):
+def test_every_event_of_a_link_is_made_to_happen_there(link):
     asked = {event.name for (cells,) in [groups(["article"], [link], PACES[:1], default_limit_s)] for cell in cells
              for event in cell.events}  # fmt: skip
 
@@ -170,7 +170,7 @@ ENDS = [
 
 
 @pytest.mark.parametrize(("where", "event", "told"), ENDS, ids=[f"{where} {event}" for where, event, _ in ENDS])
-def test_what_befalls_a_robot_is_told_and_nothing_is_unsafe(where, event, told):
+def test_what_happens_to_a_robot_is_told_and_nothing_is_unsafe(where, event, told):
     outcome = outcome_of(f"article {where} seed=12 limit=1 {event}")
 
     assert outcome.problems == []

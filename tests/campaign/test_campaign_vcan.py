@@ -1,4 +1,4 @@
-"""What can befall a robot on SocketCAN."""
+"""Events of a robot on SocketCAN."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What can befall this host: its disk, its folders, its files and its clock."""
+"""Faults of this host: of its disk, its folders, its files and its clock."""
 
 import time
 from contextlib import ExitStack
@@ -78,7 +78,7 @@ def test_a_file_that_is_half_written_when_the_run_ends_has_lost_something(files,
     assert files.lost() == "the memory"
 
 
-def test_what_befell_the_files_is_taken_back(tmp_path):
+def test_the_harm_to_files_is_taken_back(tmp_path):
     with ExitStack() as undo:
         files = RunFiles(tmp_path, undo)
         for event in ("read-only", "disk-full"):

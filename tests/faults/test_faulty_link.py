@@ -71,7 +71,7 @@ def test_drop_loses_the_frames_that_it_names():
     assert journey.heard == SENT[:2] + SENT[5:]
 
 
-def test_a_chance_befalls_some_frames_and_both_ways():
+def test_a_chance_hits_some_frames_and_both_ways():
     journey = Journey("drop:30%")
 
     assert len(SENT) > len(journey.heard) > len(journey.back) > 0
@@ -188,7 +188,7 @@ def test_of_very_many_faults_the_first_are_recorded_and_all_are_counted(monkeypa
     assert len(link.schedule.struck) == 5 < link.schedule.count
 
 
-def test_a_fault_befalls_a_frame_whatever_happened_to_the_others():
+def test_a_fault_hits_a_frame_whatever_happened_to_the_others():
     alone, among_others = Journey("corrupt@9/to"), Journey("drop@2/to", "corrupt@9/to")
 
     assert alone.heard[8:] == among_others.heard[7:]
