@@ -72,6 +72,6 @@ class BusLines:
 
 
 def _ids(node: int) -> list[int]:
-    """What is listened for. Whoever sends what only simulators send commands the same robot."""
+    """The identifiers to listen for: a sender of what only simulators send commands the same robot."""
     protocol = Protocol(node)
     return [*protocol.ids_from("ROBOT"), *protocol.ids_from("SIM")]

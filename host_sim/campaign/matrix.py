@@ -15,7 +15,7 @@ _COMPARED = (LOCKSTEP,)
 """Where runs can be compared tick by tick."""
 
 _RECORD_WRITES = {"feather_stm32f405": 4, "blue_pill": 8}
-"""So many writes to flash store a memory: words, half-words."""
+"""Writes to flash that store a memory: of words, of half-words."""
 
 _INSTRUCTIONS, _SAVING_INSTRUCTIONS = 20_000, 400
 """Python instructions of a dozen ticks, and of the saving of a memory."""
@@ -172,7 +172,7 @@ ROBOT: tuple[FaultClass, ...] = (
 
 LINE: tuple[FaultClass, ...] = (
     FaultClass("the controller goes bus-off", event="bus-off:400", links=BOARDS),
-    FaultClass("nobody acknowledges: error-passive", event="no-ack:400", links=BOARDS),
+    FaultClass("no node acknowledges: error-passive", event="no-ack:400", links=BOARDS),
     FaultClass("a node has the wrong bit rate", event="wrong-rate:400", links=BOARDS),
     FaultClass("a node fills the bus for 0.2 s", event="babble:200", links=BOARDS, harmless=_COMPARED),
     FaultClass("the bus goes down and up", event="bus-down:500", links=("vcan",)),

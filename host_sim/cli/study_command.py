@@ -64,7 +64,7 @@ def workers_of(arguments: argparse.Namespace) -> "Workers":
     """Who makes the runs.
 
     Raises:
-        UsageError: Nobody is at the scheduler's address.
+        UsageError: There is no scheduler at the address.
     """
     from host_sim.study.workers import cluster, processes
 

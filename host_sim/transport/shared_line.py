@@ -10,7 +10,7 @@ from host_sim.transport.link import Link
 
 _WAITING_MAX = 4096
 _OVERTIME_MAX = 256
-"""So many frames are taken from the line after the time is up: those that wait already, but no endless flood."""
+"""Frames that are taken from the line after the time is up: those that wait already, but not an endless flood."""
 
 
 class SharedLine:

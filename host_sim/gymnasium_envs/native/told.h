@@ -1,4 +1,4 @@
-/* told.h: robots whose brain is outside. Whoever learns says what to do next; it is done by the firmware's own motion, in
+/* told.h: robots whose brain is outside. The learner says what to do next; it is done by the firmware's own motion, in
  * the world of host_sim/world/native. The caller provides all memory. */
 #ifndef OCTET_TOLD_H
 #define OCTET_TOLD_H
