@@ -9,7 +9,7 @@ from playwright.sync_api import Browser, Page
 
 from tests.runs.support import octet
 from tests.web.browsers import CHROMIUM, launched
-from tests.web.support import READY, Faults, Watched, start_watched, wait_for
+from tests.web.support import READY, Faults, Watched, next_frame, start_watched, wait_for
 
 
 @pytest.fixture(scope="module")
@@ -64,6 +64,7 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
         prepare(page)
         page.goto(url)
         wait_for(page, ready)
+        next_frame(page)
         return page
 
     yield open_one

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page
 
-from tests.web.support import SCREENS, wait_for
+from tests.web.support import SCREENS, next_frame, wait_for
 
 DESKTOPS = [(1024, 768), (1280, 720), (1366, 657), (1440, 900), (1920, 1080)]
 PHONES = [(390, 844), (844, 390)]
@@ -57,6 +57,7 @@ def out_of_view(page: Page, selectors: tuple[str, ...], size: tuple[int, int]) -
 def resize(page: Page, size: tuple[int, int]) -> None:
     page.set_viewport_size({"width": size[0], "height": size[1]})
     wait_for(page, "([width, height]) => innerWidth === width && innerHeight === height", list(size))
+    next_frame(page)
 
 
 def violations(page: Page, rules: str = "") -> list[str]:

@@ -119,6 +119,11 @@ def wait_for(page: Page, condition: str, argument: Any = None) -> None:
         page.wait_for_timeout(10)
 
 
+def next_frame(page: Page) -> None:
+    """Waits until what the page knows by now is laid out and drawn."""
+    page.evaluate("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))")
+
+
 def wait_for_text(page: Page, selector: str, text: str) -> None:
     """Waits until an element says something; what is known is shown with the next frame only."""
     wait_for(page, "([where, text]) => document.querySelector(where).innerText.includes(text)", [selector, text])

@@ -94,7 +94,6 @@ def test_fingers_can_hit_everything_on_a_phone(live):
         resize(live, size)
         assert live.evaluate(TOO_SMALL) == [], size
         wait_for(live, "octet.view.renderer.size.width === octet.view.renderer.canvas.clientWidth")
-        live.wait_for_timeout(50)
         assert live.evaluate(REACH) == [], size
 
 

@@ -9,7 +9,7 @@ from playwright.sync_api import Page
 
 from host_sim.view import phrases
 from tests.web.fake_run import ENVIRONMENT, HOME, FakeRun, robot_state
-from tests.web.support import drag, place_on_page, wait_for, wait_for_text
+from tests.web.support import drag, next_frame, place_on_page, wait_for, wait_for_text
 
 PLAY = {"playing": True, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None}
 ENDED = {
@@ -177,7 +177,7 @@ def test_no_button_without_effect_lives_on_after_the_end(page, run):
 def test_there_is_nothing_next_in_the_last_environment(page, run):
     run.send(environment={**ENVIRONMENT, "number": 5})
     wait_for(page, "octet.scene.environment.number === 5")
-    page.wait_for_timeout(50)
+    next_frame(page)
     page.keyboard.press("n")
 
     assert page.locator("#next").is_disabled()

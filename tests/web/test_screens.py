@@ -8,7 +8,7 @@ from playwright.sync_api import Page
 
 from tests.web.fake_run import HOME, FakeRun, robot_state
 from tests.web.looks import check
-from tests.web.support import pause, wait_for
+from tests.web.support import next_frame, pause, wait_for
 
 SIZES = {"phone": (390, 844, 2), "laptop": (1280, 800, 1), "projector": (1920, 1080, 1)}
 LOOKS = list(itertools.product(("light", "dark"), SIZES))
@@ -55,7 +55,7 @@ def test_replay(recorded, look):
         page = look(recorded.as_uri(), scheme, size)
         page.click("#pin")
         page.evaluate("octet.go(Math.floor(octet.data.last * 0.4))")
-        page.wait_for_timeout(60)
+        next_frame(page)
         check(page, f"replay-{scheme}-{size}")
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from playwright.sync_api import Page
 
-from tests.web.support import wait_for
+from tests.web.support import next_frame, wait_for
 
 READY = "window.octet?.scene?.state && octet.last > 0"
 DONE = "document.querySelector('#status').textContent === 'the real firmware, in this page'"
@@ -36,7 +36,7 @@ def go_on(page: Page, ticks: int) -> None:
 def settle(page: Page) -> None:
     """Waits until what changed is simulated and shown."""
     simulated(page)
-    page.evaluate("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))")
+    next_frame(page)
 
 
 def reached(page: Page) -> list[bool]:

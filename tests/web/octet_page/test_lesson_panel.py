@@ -37,7 +37,6 @@ def test_all_that_matters_is_in_view_while_a_lesson_is_open(lesson):
     for size in SIZES:
         resize(page, size)
         page.evaluate("scrollTo(0, 0)")
-        page.wait_for_timeout(50)
         assert out_of_view(page, IN_VIEW, size) == [], size
     for size in (*SIZES, *PHONES):
         resize(page, size)
@@ -69,7 +68,6 @@ def test_screens(lesson):
         page = lesson(name)
         page.emulate_media(color_scheme=scheme)
         resize(page, size)
-        page.wait_for_timeout(60)
         check(page, f"lesson-{name}-{scheme}-{size[0]}")
 
 

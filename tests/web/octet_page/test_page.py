@@ -94,7 +94,6 @@ def test_the_line_is_lit_that_the_robot_executes(shared, reason, line):
 def test_all_that_matters_is_in_view(shared):
     for size in SIZES:
         resize(shared, size)
-        shared.wait_for_timeout(50)
         assert out_of_view(shared, IN_VIEW, size) == [], size
     for size in (*SIZES, *PHONES):
         resize(shared, size)
@@ -123,5 +122,4 @@ def test_screens(shared):
     for scheme, size in itertools.product(("light", "dark"), (*SIZES[:1], *SIZES[2:3], PHONES[0])):
         shared.emulate_media(color_scheme=scheme)
         resize(shared, size)
-        shared.wait_for_timeout(60)
         check(shared, f"octet-{scheme}-{size[0]}")
