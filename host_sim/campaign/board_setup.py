@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from host_sim.campaign.setups import Happen
+from host_sim.campaign.setup import Happen
 from host_sim.client.robot_client import RobotClient
 from host_sim.emulator.board import EmulatedBoard
 from host_sim.emulator.can import CanFrame

@@ -6,9 +6,10 @@ from pathlib import Path
 
 from host_sim.campaign.cell import Cell
 from host_sim.campaign.killed import Tell, run_to_be_killed
+from host_sim.campaign.links import check_events, open_setup
 from host_sim.campaign.outcome import Outcome
 from host_sim.campaign.run_files import FILE_EVENTS, KILL_EVENTS, NoFiles, is_memory_held, make_folder, open_files
-from host_sim.campaign.setups import Happen, Setup, check_events, open_setup
+from host_sim.campaign.setup import Happen, Setup
 from host_sim.campaign.wall_clock import CLOCK_EVENTS, clock_events
 from host_sim.client.commands import stop
 from host_sim.client.robot_client import RobotClient

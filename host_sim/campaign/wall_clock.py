@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from itertools import chain, repeat
 
-from host_sim.campaign.setups import Happen
+from host_sim.campaign.setup import Happen
 
 CLOCK_EVENTS = frozenset({"clock-ahead", "clock-back"})
 """The events of the wall clock, by name."""

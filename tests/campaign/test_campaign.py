@@ -13,11 +13,11 @@ from host_sim.campaign.board_setup import Board
 from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.campaign.course import CourseLog
 from host_sim.campaign.html_report import page, verdict
+from host_sim.campaign.links import LINKS, open_setup
 from host_sim.campaign.matrix import FaultClass, default_limit_s, groups
 from host_sim.campaign.outcome import Outcome
 from host_sim.campaign.run_files import FILE_EVENTS
 from host_sim.campaign.running import run_all, run_cell
-from host_sim.campaign.setups import LINKS, open_setup
 from host_sim.campaign.shrink import shrink
 from host_sim.campaign.wall_clock import CLOCK_EVENTS
 from host_sim.errors import RobotError, UsageError

@@ -1,36 +1,15 @@
-"""Where the robot of a cell is, and which events are possible there."""
+"""The links of cells: where the robot is, and which events are possible there."""
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
-from typing import Protocol
 
 from host_sim.backends.images import BOARDS
+from host_sim.campaign.setup import Happen, Setup
 from host_sim.client.robot_client import RobotClient
 from host_sim.errors import UsageError
 from host_sim.faults.event import Event
 from host_sim.sim.run_config import RunConfig
-
-Happen = Callable[[int], None]
-"""Makes an event of a size happen."""
-
-
-class Setup(Protocol):
-    """A robot and its line, in the hands of somebody who means no good.
-
-    Attributes:
-        events: What can happen there, by name.
-    """
-
-    @property
-    def events(self) -> Mapping[str, Happen]:
-        """What can happen there, by name."""
-
-    def configured(self, config: RunConfig) -> RunConfig:
-        """A run with the robot that is here."""
-
-    def found(self, client: RobotClient) -> None:
-        """Told the robot's client, once the robot has answered."""
 
 
 @dataclass
