@@ -154,7 +154,7 @@ class Adapter:
                     os.write(other, b"".join(encode(frame) for frame in frames if self._hears(other, frame)))
 
     def _hears(self, end: int, frame: Frame) -> bool:
-        return end == self._host or node_of(frame.id) == self._nodes[end]
+        return end == self._host or bool(node_of(frame.id) == self._nodes[end])
 
     def close(self) -> None:
         """Unplugs it, and the robots too."""
