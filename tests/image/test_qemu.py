@@ -64,7 +64,7 @@ def test_qemu_that_cannot_be_started_is_told_and_leaves_nothing_open(monkeypatch
 
     monkeypatch.setattr(subprocess, "Popen", fail)
 
-    with pytest.raises(OctetError, match="cannot start qemu-system-arm: .*'setpriv'"):
+    with pytest.raises(OctetError, match=r"cannot start qemu-system-arm: .*'setpriv'"):
         Qemu()
     gc.collect()  # a socket that is left open is a warning, and that an error
 
