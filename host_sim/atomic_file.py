@@ -45,11 +45,11 @@ def replacing(path: Path) -> Iterator[Path]:
             _finish(name, before)
             Path(name).replace(target)
         except BaseException:
-            Path(name).unlink()
+            Path(name).unlink(missing_ok=True)
             raise
         _sync_folder(target.parent)
     except OSError as error:
-        raise OctetError(f"cannot write {path}: {error.strerror}") from error
+        raise OctetError(f"cannot write {path}: {error.strerror or error}") from error
 
 
 def _finish(name: str, before: os.stat_result | None) -> None:

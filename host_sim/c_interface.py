@@ -31,12 +31,12 @@ def c_interface(declarations: str) -> Any:
     made_by = f"{_cffi_backend.__version__} {sys.implementation.cache_tag}"
     name = "octet_" + hashlib.sha256(f"{made_by}\n{declarations}".encode()).hexdigest()[:16]
     path = FOLDER / f"{name}.py"
-    try:
-        if not path.exists():
-            _write(path, declarations)
+    with contextlib.suppress(Exception):  # nothing is there yet, or what a loss of power has left
         return _load(path)
-    except OSError:
-        return _read(declarations)  # the folder is read-only, or the disk is full
+    with contextlib.suppress(Exception):  # the folder is read-only, or the disk is full
+        _write(path, declarations)
+        return _load(path)
+    return _read(declarations)
 
 
 def _read(declarations: str) -> Any:

@@ -33,6 +33,18 @@ def test_other_declarations_are_others(folder):
     assert len(list(folder.glob("*.py"))) == 2
 
 
+@pytest.mark.parametrize("left", [b"", b"\0" * 100, b"ffi = 1 +", b"raise KeyError"])
+def test_a_damaged_copy_is_made_anew(folder, left):
+    c_interface(DECLARATIONS)
+    (kept,) = folder.glob("*.py")
+    whole = kept.read_bytes()
+    kept.write_bytes(left)  # as a loss of power leaves it
+    c_interface.cache_clear()
+
+    assert c_interface(DECLARATIONS).sizeof("struct pair") == 8
+    assert kept.read_bytes() == whole
+
+
 def test_where_nothing_can_be_kept_all_goes_on(folder):
     folder.touch()  # no folder can be made here
 

@@ -45,13 +45,17 @@ class Qemu:
             raise OctetError(f"{PROGRAM} is not installed: run tools/setup images")
         ours, theirs = socket.socketpair()
         with theirs:
-            self._process = subprocess.Popen(
-                _command_line(image, theirs.fileno()),
-                pass_fds=[theirs.fileno()],
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.PIPE,
-            )
+            try:
+                self._process = subprocess.Popen(
+                    _command_line(image, theirs.fileno()),
+                    pass_fds=[theirs.fileno()],
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.PIPE,
+                )
+            except OSError as error:
+                ours.close()
+                raise OctetError(f"cannot start {PROGRAM}: {error}") from error
         self.link = SlcanLink(ours)
         self.pid = self._process.pid
         try:

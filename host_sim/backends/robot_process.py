@@ -30,7 +30,7 @@ class RobotProcess:
 
         Args:
             link: Its link, as on the firmware's command line: `socketcan:vcan0`, `fd:5`.
-            node: Node number, 1..63.
+            node: Node number, 1..31.
             pass_fds: File descriptors that it inherits.
             program: The firmware.
 

@@ -3,7 +3,7 @@
 import subprocess
 import threading
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -50,8 +50,9 @@ class OnLine:
 @contextmanager
 def serial_line() -> Iterator[OnLine]:
     """A robot that speaks slcan, on a serial line."""
-    with TemporaryDirectory() as folder:
+    with TemporaryDirectory() as folder, ExitStack() as stack:
         cable, socket = Cable(), Socket(Path(folder) / "tty")
+        stack.callback(cable.close)
         socket.plug(cable.ends[1])
 
         def plug() -> None:
@@ -61,17 +62,14 @@ def serial_line() -> Iterator[OnLine]:
         def unplug(span_ms: int) -> None:
             socket.unplug()
             cable.unplug()
-            _later(span_ms, plug)
+            _later(stack, span_ms, plug)
 
         def disturb(percent: int) -> None:
             cable.noise = percent / 100
 
         setup = OnLine(f"slcan:{cable.ends[0]}", f"slcan:{socket.path}", {"unplug": unplug, "noise": disturb})
-        try:
-            yield setup
-        finally:
-            setup.robot.close()
-            cable.close()
+        stack.callback(lambda: setup.robot.close())  # noqa: PLW0108 - the robot may be another one by then
+        yield setup
 
 
 @contextmanager
@@ -84,16 +82,17 @@ def virtual_bus() -> Iterator[OnLine]:
     if not Path(f"/sys/class/net/{_BUS}").exists():
         raise UsageError(f"there is no {_BUS} here: put tools/with-vcan before the command")
 
-    def go_down(span_ms: int) -> None:
-        _set_bus("down")
-        _later(span_ms, lambda: _set_bus("up"))
+    with ExitStack() as stack:
 
-    _set_bus("up")
-    setup = OnLine(f"socketcan:{_BUS}", f"socketcan:{_BUS}", {"bus-down": go_down})
-    try:
+        def go_down(span_ms: int) -> None:
+            stack.callback(_set_bus, "up")
+            _set_bus("down")
+            _later(stack, span_ms, lambda: _set_bus("up"))
+
+        _set_bus("up")
+        setup = OnLine(f"socketcan:{_BUS}", f"socketcan:{_BUS}", {"bus-down": go_down})
+        stack.callback(lambda: setup.robot.close())  # noqa: PLW0108 - the robot may be another one by then
         yield setup
-    finally:
-        setup.robot.close()
 
 
 def _set_bus(state: str) -> None:
@@ -102,7 +101,9 @@ def _set_bus(state: str) -> None:
         raise UsageError(f"cannot set {_BUS} {state}: {done.stderr.strip()}")
 
 
-def _later(span_ms: int, happen: Callable[[], None]) -> None:
+def _later(stack: ExitStack, span_ms: int, happen: Callable[[], None]) -> None:
+    """Has something happen after a time, or not at all if the stack is closed before: then the line is gone."""
     timer = threading.Timer(span_ms / 1000, happen)
-    timer.daemon = True
     timer.start()
+    stack.callback(timer.join)
+    stack.callback(timer.cancel)

@@ -3,7 +3,6 @@
 import argparse
 import sys
 from collections.abc import Callable, Iterable
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,20 +47,22 @@ def add(commands: "Subparsers") -> None:
 
 def _export(arguments: argparse.Namespace) -> int:
     from host_sim.atomic_file import replacing
+    from host_sim.export.time_limits import within_limits
     from host_sim.extra_library import library
     from host_sim.recording.log_reader import read_log
 
     wanted = {name: getattr(arguments, name) for name in _FORMATS if getattr(arguments, name) is not None}
     if not wanted:
         raise UsageError(f"give {', '.join(f'--{name} FILE' for name in _FORMATS)}, or several of them")
-    for name in wanted.keys() & _LIBRARIES.keys():
-        library(_LIBRARIES[name], "export")
+    for name in wanted:
+        if name in _LIBRARIES:
+            library(_LIBRARIES[name], "export")
     log = read_log(arguments.log)
     if next(iter(log), None) is None:
         raise OctetError(f"{log.note()}: there is no frame of a robot")
     for name, path in wanted.items():
         with replacing(path) as part:
-            _writer(name)(part, log)
+            _writer(name)(part, within_limits(log, name))
     if note := log.note():
         print(f"octet: {note}", file=sys.stderr)
     print(f"wrote     {', '.join(map(str, wanted.values()))}")
@@ -79,4 +80,4 @@ def _writer(name: str) -> "Callable[[Path, Iterable[Recorded]], None]":
         "mf4": frames.write_mf4,
         "mcap": mcap_file.write_mcap,
     }
-    return partial(writers[name])
+    return writers[name]

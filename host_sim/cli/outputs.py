@@ -5,9 +5,11 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
+from host_sim.errors import OctetError
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
 from host_sim.recording.world_file import world_path, write_world
@@ -69,7 +71,7 @@ class Outputs:
         self.log.flush()
         others = (out / name for name in (SUMMARY, PICTURE, PAGE, *LOGS) if out / name != log)
         for path in (*others, world_path(log)):
-            path.unlink(missing_ok=True)
+            _remove(path)
         digest = self.log.close()
         write_world(self.simulation.record, world_path(log))
         return digest
@@ -84,6 +86,13 @@ class Outputs:
         if trajectory.ticks:
             write_picture(self.options.out / PICTURE, trajectory)
             write_page(self.options.out / PAGE, trajectory, self.simulation.record.title)
+
+
+def _remove(path: Path) -> None:
+    try:
+        path.unlink(missing_ok=True)
+    except OSError as error:
+        raise OctetError(f"cannot replace {path}: {error.strerror}") from error
 
 
 @contextmanager

@@ -10,7 +10,8 @@ import tty
 from contextlib import suppress
 from pathlib import Path
 
-from host_sim.protocol.codec import NODE_MAX
+from host_sim.protocol.codec import Frame, node_of
+from host_sim.transport.slcan_link import decode, encode
 
 _END, _UNPLUG, _PLUG = b".", b"u", b"p"
 _GONE = -1
@@ -59,6 +60,7 @@ class Cable:
 
     def _open(self, end: int) -> None:
         self._masters[end], self._slaves[end] = pty.openpty()
+        os.set_blocking(self._masters[end], False)  # what is not read is lost
         tty.setraw(self._slaves[end])
         self.ends[end] = os.ttyname(self._slaves[end])
 
@@ -84,7 +86,8 @@ class Cable:
         self.passed += len(text)
         there = self._masters[1 - self._masters.index(fd)]
         if there != _GONE:
-            os.write(there, self._spoiled(text))
+            with suppress(BlockingIOError):
+                os.write(there, self._spoiled(text))
 
     def _obey(self, order: bytes) -> None:
         if order == _PLUG:
@@ -142,16 +145,16 @@ class Adapter:
 
     def _take(self, end: int) -> None:
         *lines, self._rests[end] = (self._rests[end] + os.read(end, 4096)).split(b"\r")
-        frames = [line + b"\r" for line in lines if line.startswith(b"t")]
+        frames = [frame for frame in map(decode, lines) if frame is not None]
         if end == self._host:
             self.orders += [line for line in lines if line and not line.startswith(b"t")]
         for other in self._masters:
             if other != end:
                 with suppress(BlockingIOError):
-                    os.write(other, b"".join(frame for frame in frames if self._hears(other, frame)))
+                    os.write(other, b"".join(encode(frame) for frame in frames if self._hears(other, frame)))
 
-    def _hears(self, end: int, frame: bytes) -> bool:
-        return end == self._host or bool(int(frame[1:4], 16) & NODE_MAX == self._nodes[end])
+    def _hears(self, end: int, frame: Frame) -> bool:
+        return end == self._host or bool(node_of(frame.id) == self._nodes[end])
 
     def close(self) -> None:
         """Unplugs it, and the robots too."""

@@ -4,10 +4,8 @@ from collections.abc import Callable
 from random import Random
 
 from host_sim.errors import UsageError
-from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.codec import COUNTERS, Frame, Protocol
 from host_sim.protocol.generated import MESSAGES, Opcode, Signal
-
-_COUNTERS = 15
 
 
 def forger(what: str, protocol: Protocol) -> Callable[[Random], Frame]:
@@ -40,7 +38,7 @@ def forge(protocol: Protocol, name: str, dice: Random, **fixed: int) -> Frame:
         **fixed: Signals that are not random.
     """
     signals = {signal.name: _any_number(signal, dice) for signal in MESSAGES[name].signals}
-    return protocol.encode(name, {**signals, "counter": dice.randrange(_COUNTERS), **fixed})
+    return protocol.encode(name, {**signals, "counter": dice.randrange(COUNTERS), **fixed})
 
 
 def _any_number(signal: Signal, dice: Random) -> int:

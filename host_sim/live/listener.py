@@ -45,11 +45,11 @@ class Listener:
         try:
             family, *_, address = socket.getaddrinfo(self.host, port, type=socket.SOCK_STREAM)[0]
             self.socket = socket.create_server((address[0], port), family=family)
-        except OSError as error:
-            unknown = isinstance(error, socket.gaierror)
-            why = "no such address" if unknown or error.errno is None else os.strerror(error.errno).lower()
+        except (OSError, UnicodeError) as error:  # UnicodeError: not a name that can be looked up
             where = f"{self.host}, port {port}"
-            raise UsageError(f"cannot listen on {where}: {why}; choose another with --port or --listen") from None
+            raise UsageError(
+                f"cannot listen on {where}: {_reason(error)}; choose another with --port or --listen"
+            ) from None
         self.port: int = self.socket.getsockname()[1]
         try:
             self._name()
@@ -84,6 +84,12 @@ class Listener:
         """
         name = _host_name(host)
         return name in ("localhost", self.host.lower(), socket.gethostname().lower()) or _is_address(name)
+
+
+def _reason(error: OSError | UnicodeError) -> str:
+    if isinstance(error, (UnicodeError, socket.gaierror)) or error.errno is None:
+        return "no such address"
+    return os.strerror(error.errno).lower()
 
 
 def _is_same(given: str, secret: str) -> bool:

@@ -166,9 +166,8 @@ class Protocol:
         data = frame.data
         if frame.id != self._drive_id or len(data) != _LENGTH:
             return None
-        if (
-            data[0] != crc8(frame.id, data) or data[1] & _COUNTER_MASK >= COUNTERS
-        ):  # as `_is_protected`, without a call
+        # As `_is_protected`, without a call.
+        if data[0] != crc8(frame.id, data) or data[1] & _COUNTER_MASK >= COUNTERS:
             return None
         word, values = int.from_bytes(data, "little"), []
         for start, mask, sign in _DRIVE:

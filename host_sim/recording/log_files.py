@@ -130,7 +130,7 @@ def _asc(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
     try:
         for message in can.ASCReader(cast("TextIO", text)):
             yield _from(message)
-    except (ValueError, IndexError) as error:
+    except (ValueError, IndexError, OverflowError) as error:
         raise OctetError(f"{path}, line {text.number}: not a frame in ASC format: {error}") from None
 
 

@@ -16,16 +16,11 @@ def run_folder(path: Path) -> Iterator[None]:
     """Creates the folder if it does not exist, and keeps other runs out of it.
 
     Raises:
-        UsageError: It cannot be created, or another run is using it.
+        UsageError: It cannot be created or locked, or another run is using it.
     """
     descriptor = _open(path)
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        owner = _owner(descriptor)
-        os.close(descriptor)
-        raise UsageError(f"{path} is in use by another run{owner}; choose another folder with --out") from None
-    try:
+        _lock(descriptor, path)
         yield
     finally:
         os.close(descriptor)
@@ -37,6 +32,16 @@ def _open(path: Path) -> int:
         return os.open(path, os.O_RDONLY | os.O_DIRECTORY)
     except OSError as error:
         raise UsageError(f"cannot make the folder {path}: {error.strerror}; choose another with --out") from None
+
+
+def _lock(descriptor: int, path: Path) -> None:
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        owner = _owner(descriptor)
+        raise UsageError(f"{path} is in use by another run{owner}; choose another folder with --out") from None
+    except OSError as error:
+        raise UsageError(f"cannot lock the folder {path}: {error.strerror}; choose another with --out") from None
 
 
 def _owner(descriptor: int) -> str:

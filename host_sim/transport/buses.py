@@ -63,16 +63,20 @@ def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.
         if filters:
             _forget_unfiltered(opened)
         return opened
-    except (can.CanError, can.CanInterfaceNotImplementedError, OSError, ValueError, ImportError) as error:
+    except (can.CanError, can.CanInterfaceNotImplementedError, OSError, ValueError, TypeError, ImportError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}") from error
 
 
 def _forget_unfiltered(bus: can.BusABC) -> None:
     """A socket hears everything between being bound and getting its filters; what came by then is of no use."""
-    for _ in range(_STALE_MAX):
-        if bus.recv(0.0) is None:
-            return
+    try:
+        for _ in range(_STALE_MAX):
+            if bus.recv(0.0) is None:
+                return
+    except BaseException:
+        bus.shutdown()
+        raise
 
 
 def _silence_python_can() -> None:

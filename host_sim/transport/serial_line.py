@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import serial  # type: ignore[import-untyped]  # pyserial has no types
 
-from host_sim.errors import UsageError
+from host_sim.errors import LinkDownError, UsageError
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.slcan_link import SlcanLink
 
@@ -33,15 +33,20 @@ def open_serial_line(channel: str, bitrate: int, ids: Sequence[int], stats: Line
 
     Raises:
         UsageError: There is no such port, or it has no such speed.
+        LinkDownError: The port is gone again.
     """
     device, at, baud = channel.partition("@")
     if at and not baud.isdecimal():
         raise UsageError(f"a serial port's speed is a number of baud, not {baud!r}")
     try:
         port = serial.Serial(device, int(baud or _BAUD), timeout=0)
-    except (serial.SerialException, OSError, ValueError) as error:
+    except (serial.SerialException, OSError, ValueError, OverflowError) as error:
         raise UsageError(f"cannot open the bus slcan:{channel}: {str(error).splitlines()[0]}") from error
     link = SlcanLink(port, stats, ids)
-    # An end of line first, for what may be left of an older one; then close, speed, open.
-    link.write(b"\rC\rS%d\rO\r" % _BIT_RATES[bitrate])
+    try:
+        # An end of line first, for what may be left of an older one; then close, speed, open.
+        link.write(b"\rC\rS%d\rO\r" % _BIT_RATES[bitrate])
+    except LinkDownError:
+        link.close()
+        raise
     return link

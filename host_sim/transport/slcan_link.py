@@ -56,7 +56,7 @@ class SlcanLink:
         Args:
             end: The stream.
             stats: Counts what happens to the line.
-            ids: The identifiers to listen for; frames with others are skipped. None for all.
+            ids: The identifiers to listen for, none for all; frames with others are skipped.
         """
         self.explain: Callable[[], object] = lambda: None
         self._end = end

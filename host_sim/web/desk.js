@@ -102,10 +102,11 @@ export class Desk {
   }
 
   bindFiles() {
-    const on = (/** @type {string} */ id, /** @type {() => unknown} */ action) => byId(id).addEventListener("click", action);
-    on("save-csv", () => save("octet.csv", [csvOf(this.lab.lanes)]));
+    const on = (/** @type {string} */ id, /** @type {() => Promise<void>} */ action) =>
+      byId(id).addEventListener("click", () => this.tell(action()));
+    on("save-csv", async () => save("octet.csv", [csvOf(this.lab.lanes)]));
     on("save-log", async () => save("run.log", await this.lab.simulator.log(this.lab.lane.experiment)));
-    on("save-world", () => {
+    on("save-world", async () => {
       const { experiment, data } = this.lab.lane;
       if (data) save("run.world.json", [worldText(experiment, data, this.lab.params.front_extra_mm)]);
     });
@@ -115,9 +116,17 @@ export class Desk {
     });
     const input = typedById("open", HTMLInputElement);
     input.addEventListener("change", () => {
-      this.openFiles([...(input.files ?? [])]).catch((error) => setText(byId("file-news"), error.message));
+      this.tell(this.openFiles([...(input.files ?? [])]));
       input.value = "";
     });
+  }
+
+  /**
+   * Tells why something could not be done with a file.
+   * @param {Promise<void>} done
+   */
+  tell(done) {
+    done.catch((error) => setText(byId("file-news"), error instanceof Error ? error.message : `${error}`));
   }
 
   /** @param {SubmitEvent} event */

@@ -34,8 +34,11 @@ export class LabEditor extends ArenaEditor {
   constructor(lab, scene) {
     super(scene, (command) => this.pass(command), () => (lab.stale = true));
     this.lab = lab;
-    /** @type {Map<Lane, DragController>} */
-    this.drags = new Map();
+    /**
+     * By the lane that is touched; it does not hold lanes that are gone.
+     * @type {WeakMap<Lane, DragController>}
+     */
+    this.drags = new WeakMap();
     /** The highest ids of obstacles and plants when one was put down that is not there yet. */
     this.idsBefore = 0;
     byId("add-plant").addEventListener("click", () => this.addPlant());

@@ -45,8 +45,6 @@ export class Lane {
     this.data = undefined;
     /** @type {Scene | undefined} */
     this.scene = undefined;
-    /** Counts what was simulated, so that results worked out before it are known to be old. */
-    this.version = 0;
     /** How often it was asked to simulate, and whether the last time is over. */
     this.asked = 0;
     this.isRunning = false;
@@ -112,7 +110,6 @@ export class Lane {
    */
   take({ run, columns }) {
     this.data = new RunData(run, columns);
-    this.version += 1;
     const { first } = this.data;
     if (!this.scene) this.scene = new Scene(run.measures, this.data.sceneAt(first), this.data.statesAt(first));
     this.scene.measures = run.measures;

@@ -16,8 +16,11 @@ const DRIVE = ["left", "right", "reason", "repeat_count", "action"];
 /** Fills the element parting. */
 export class PartingView {
   constructor() {
-    /** The runs, and what they were simulated from, that the words are of. */
-    this.key = "";
+    /**
+     * What the words are of.
+     * @type {(RunData | undefined)[]}
+     */
+    this.compared = [];
   }
 
   /**
@@ -27,9 +30,9 @@ export class PartingView {
    */
   show([first, ...others], selected) {
     const other = selected === first ? others[0] : selected;
-    const key = other ? `${first.name}${first.version} ${other.name}${other.version}` : "";
-    if (this.key === key) return;
-    this.key = key;
+    const compared = other ? [first.data, other.data] : [];
+    if (compared.length === this.compared.length && compared.every((data, i) => data === this.compared[i])) return;
+    this.compared = compared;
     setText(byId("parting"), other ? partingWords(first, other) : "");
   }
 }

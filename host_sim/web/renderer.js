@@ -25,16 +25,19 @@ export class Renderer {
   constructor(canvas) {
     this.canvas = canvas;
     this.context = contextOf(canvas, { alpha: false });
+    /** Asked before each drawing: a listener would hold this canvas for as long as the page is open. */
+    this.dark = matchMedia("(prefers-color-scheme: dark)");
+    this.isDark = this.dark.matches;
     this.palette = paletteOf(canvas);
     this.trailLayer = new TrailLayer();
     this.scale = 1;
-    this.watchColours();
     this.size = { width: canvas.clientWidth, height: canvas.clientHeight };
     new ResizeObserver(() => this.measure()).observe(canvas);
   }
 
   /** @param {Scene} scene */
   draw(scene) {
+    this.useColours();
     const { context, palette } = this;
     const states = [...scene.states.filter(({ node }) => node !== scene.node), scene.state];
     this.fit(scene.measures);
@@ -67,9 +70,11 @@ export class Renderer {
     return (px * this.canvas.width) / (this.scale * this.canvas.getBoundingClientRect().width);
   }
 
-  watchColours() {
-    const again = () => (this.palette = paletteOf(this.canvas));
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
+  /** Reads the colours anew if the page has become dark or light. */
+  useColours() {
+    if (this.isDark === this.dark.matches) return;
+    this.isDark = this.dark.matches;
+    this.palette = paletteOf(this.canvas);
   }
 
   measure() {

@@ -51,8 +51,21 @@ export class ReplayWhatIf {
     }
     setText(byId("what-if-news"), "the firmware runs the recorded run again");
     this.view.showModal();
-    const page = await pageOf(laboratory.page, { recorded: laboratory.run, tick, node });
-    if (this.isOpen) this.show(page);
+    try {
+      const page = await pageOf(laboratory.page, { recorded: laboratory.run, tick, node });
+      if (this.isOpen) this.show(page);
+    } catch (error) {
+      this.giveUp(error);
+    }
+  }
+
+  /**
+   * Closes the laboratory, and says why.
+   * @param {unknown} error
+   */
+  giveUp(error) {
+    this.view.close();
+    setText(byId("no-what-if"), error instanceof Error ? error.message : `${error}`);
   }
 
   /** @param {string} html */
@@ -75,8 +88,7 @@ export class ReplayWhatIf {
       const [run] = octet?.lanes ?? [];
       setText(byId("what-if-news"), run?.data ? verdict(this.data, run.data) : "");
     } catch (error) {
-      this.view.close();
-      setText(byId("no-what-if"), error instanceof Error ? error.message : `${error}`);
+      this.giveUp(error);
     }
   }
 }

@@ -1,6 +1,7 @@
 """A sample of the campaign: each fault is seen, nothing is unsafe, and what is not seen fails it."""
 
 import shlex
+import threading
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -364,3 +365,12 @@ def test_what_need_not_be_noticed_must_not_leave_a_trace():
     outcome.differs = True
 
     assert outcome.problems == ["unseen"]
+
+
+def test_what_was_to_happen_to_a_line_later_does_not_outlive_it():
+    before = set(threading.enumerate())
+
+    with open_setup("slcan") as setup:
+        setup.events["unplug"](60_000)
+
+    assert set(threading.enumerate()) <= before

@@ -15,6 +15,7 @@ from vblf.can import CanMessage
 from vblf.reader import BlfReader
 
 from host_sim.cli.main import main
+from host_sim.export.time_limits import LAST_S
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES
@@ -168,3 +169,18 @@ def test_no_format_named_is_said_with_those_there_are(log, capsys):
 
     error = capsys.readouterr().err
     assert [name for name in FORMATS if f"--{name} FILE" not in error] == []
+
+
+@pytest.mark.parametrize("name", LAST_S)
+def test_a_time_that_a_format_has_no_room_for_is_one_line_and_leaves_nothing(tmp_path, capsys, name):
+    log, path = tmp_path / "far.log", tmp_path / f"a.{name}"
+    frame = f"octet {Protocol().id_of('DRIVE'):03X}#0011"
+    log.write_text(f"({LAST_S[name]}.000000) {frame}\n")
+    assert main(["export", str(log), f"--{name}", str(path)]) == 0
+    written = path.read_bytes()
+
+    log.write_text(f"({LAST_S[name] + 1}.000000) {frame}\n")
+
+    assert main(["export", str(log), f"--{name}", str(path)]) == 1
+    assert re.fullmatch("octet: a frame at [0-9]+ s is too late for .*\n", capsys.readouterr().err)
+    assert path.read_bytes() == written

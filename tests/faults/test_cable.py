@@ -2,8 +2,10 @@
 
 import os
 import select
+import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import closing, suppress
 from pathlib import Path
 
 import pytest
@@ -97,27 +99,51 @@ def test_a_cable_that_is_unplugged_can_be_taken_away():
 
 
 def test_an_adapter_passes_frames_to_the_robots_whose_they_are_and_to_the_host(open_tty):
-    adapter = Adapter(1, 2)
-    host, first, second = (open_tty(name) for name in (adapter.host, *adapter.robots.values()))
+    with closing(Adapter(1, 2)) as adapter:
+        host, first, second = (open_tty(name) for name in (adapter.host, *adapter.robots.values()))
 
-    os.write(host, b"S6\rO\r\r" + TO_NODE_2 + TO_NODE_1[:3])
-    os.write(host, TO_NODE_1[3:])
-    os.write(first, FROM_NODE_1)
+        os.write(host, b"S6\rO\r\r" + TO_NODE_2 + TO_NODE_1[:3])
+        os.write(host, TO_NODE_1[3:])
+        os.write(first, FROM_NODE_1)
 
-    assert heard(second, len(TO_NODE_2)) == TO_NODE_2
-    assert heard(first, len(TO_NODE_1)) == TO_NODE_1
-    assert heard(host, len(FROM_NODE_1)) == FROM_NODE_1
-    assert adapter.orders == [b"S6", b"O"]
-    adapter.close()
+        assert heard(second, len(TO_NODE_2)) == TO_NODE_2
+        assert heard(first, len(TO_NODE_1)) == TO_NODE_1
+        assert heard(host, len(FROM_NODE_1)) == FROM_NODE_1
+        assert adapter.orders == [b"S6", b"O"]
 
 
 def test_what_nobody_reads_is_lost_and_holds_nobody_up(open_tty):
-    adapter = Adapter(1)
-    host, robot = open_tty(adapter.host), open_tty(adapter.robots[1])
-    for _ in range(100):
-        os.write(robot, FROM_NODE_1 * 20)
+    with closing(Adapter(1)) as adapter:
+        host, robot = open_tty(adapter.host), open_tty(adapter.robots[1])
+        for _ in range(100):
+            os.write(robot, FROM_NODE_1 * 20)
 
-    os.write(host, TO_NODE_1)
+        os.write(host, TO_NODE_1)
 
-    assert heard(robot, len(TO_NODE_1)) == TO_NODE_1
-    adapter.close()
+        assert heard(robot, len(TO_NODE_1)) == TO_NODE_1
+
+
+def test_a_cable_whose_far_end_nobody_reads_can_be_taken_away(open_tty):
+    cable = Cable()
+    near, sent = open_tty(cable.ends[0]), 100_000
+    os.set_blocking(near, False)
+    give_up = time.monotonic() + SOON_S
+    while sent > 0 and time.monotonic() < give_up:
+        with suppress(BlockingIOError):
+            sent -= os.write(near, b"x" * 1000)
+    closing = threading.Thread(target=cable.close, daemon=True)
+
+    closing.start()
+    closing.join(SOON_S)
+
+    assert not closing.is_alive()
+    assert sent <= 0
+
+
+def test_an_adapter_loses_what_is_no_frame_and_goes_on(open_tty):
+    with closing(Adapter(1)) as adapter:
+        host, robot = open_tty(adapter.host), open_tty(adapter.robots[1])
+
+        os.write(host, b"t\rtXYZ0\r" + TO_NODE_1)  # a host that was killed in the middle of a line
+
+        assert heard(robot, len(TO_NODE_1)) == TO_NODE_1

@@ -1,5 +1,7 @@
 """The slcan image in QEMU, joined to the simulator."""
 
+import errno
+import gc
 import os
 import signal
 import socket
@@ -54,6 +56,17 @@ def test_a_robot_in_qemu_learns_and_its_process_ends(tmp_path):
     assert set(session.faults.values()) == {0}
     assert (session.frames.lost, session.frames.refused) == (0, 0)
     assert not is_running(connection.pid)
+
+
+def test_qemu_that_cannot_be_started_is_told_and_leaves_nothing_open(monkeypatch):
+    def fail(*_: object, **__: object) -> None:
+        raise FileNotFoundError(errno.ENOENT, "No such file or directory", "setpriv")
+
+    monkeypatch.setattr(subprocess, "Popen", fail)
+
+    with pytest.raises(OctetError, match=r"cannot start qemu-system-arm: .*'setpriv'"):
+        Qemu()
+    gc.collect()  # a socket that is left open is a warning, and that an error
 
 
 def test_qemu_that_dies_is_named(qemu):

@@ -144,3 +144,9 @@ def test_a_library_that_is_missing_is_named_before_the_run(monkeypatch):
     monkeypatch.setattr(qr_code, "library", lambda name, stage: library(f"{name}_that_is_missing", stage))
     with pytest.raises(UsageError, match="run tools/setup classroom"):
         Listener("127.0.0.1", 0)
+
+
+@pytest.mark.parametrize("name", ["a..b", "x" * 70, "nowhere.invalid"])
+def test_a_name_that_no_machine_can_have_is_no_address(name):
+    with pytest.raises(UsageError, match=f"cannot listen on {name}, port 0: "):
+        Listener(name, 0)

@@ -2,6 +2,7 @@
 
 import asyncio
 import time
+from dataclasses import replace
 
 from host_sim.live.paced_run import COMMANDS_MAX, PacedRun
 from host_sim.live.page_commands import (
@@ -14,6 +15,7 @@ from host_sim.live.page_commands import (
     Play,
     WriteCell,
 )
+from host_sim.protocol.codec import Frame
 from host_sim.protocol.generated import Reason
 from host_sim.world.edits import AddBar
 from host_sim.world.geometry import Bar
@@ -122,3 +124,20 @@ def test_each_robot_is_told_by_its_node(live):
     assert [body.lifted for body in run.simulation.arena.bodies] == [False, True]
     assert [history.frozen for history in run.recorder.histories] == [True, False]
     assert order(run, EraseMemory(node=3)) == ["there is no robot 3; there are 1, 2"]
+
+
+class BabblingLink:
+    """A line on which somebody never stops talking."""
+
+    def receive(self, _timeout_s: float) -> Frame:
+        return Frame(0, b"")
+
+
+def test_a_line_that_never_falls_silent_does_not_hold_up_a_pause(live):
+    run = live()
+    client = run.simulation.clients[0]
+    client.connection = replace(client.connection, link=BabblingLink())
+
+    run._idle()
+
+    assert run.rate == 0.0

@@ -168,10 +168,9 @@ def test_what_asc2log_writes_is_read(tmp_path):
     assert log.skipped == SKIPPED
 
 
-def test_a_malformed_line_of_an_asc_file_is_named_with_its_number(tmp_path):
-    text = (
-        f"date Sat Nov 21 18:26:30 2026\nbase hex  timestamps absolute\n 0.0 1 {ID:X} Rx d 1 00\n 0.1 1 Q Rx d 1 00\n"
-    )
+@pytest.mark.parametrize("line", ["0.1 1 Q Rx d 1 00", f"{'9' * 400}.0 1 {ID:X} Rx d 1 00"], ids=["word", "time"])
+def test_a_malformed_line_of_an_asc_file_is_named_with_its_number(tmp_path, line):
+    text = f"date Sat Nov 21 18:26:30 2026\nbase hex  timestamps absolute\n 0.0 1 {ID:X} Rx d 1 00\n {line}\n"
 
     with pytest.raises(OctetError, match=r"a\.asc, line 4: "):
         read(tmp_path / "a.asc", text)

@@ -67,6 +67,17 @@ def test_a_file_that_is_no_memory_is_refused_and_left(run, tmp_path, content, na
     assert memory.read_bytes() == content
 
 
+@pytest.mark.parametrize("name", ["summary.json", "arena.png", "run.log"])
+def test_a_folder_in_the_place_of_an_output_file_is_named(tmp_path, name):
+    (tmp_path / name / "mine").mkdir(parents=True)
+
+    done = octet("run", "--bus", "none", "--environments", "1", "--limit-s", "1", "--out", tmp_path)
+
+    assert done.returncode == 1
+    assert re.fullmatch(f"octet: cannot (replace|write) {re.escape(str(tmp_path / name))}: .*\n", done.stderr)
+    assert (tmp_path / name / "mine").is_dir()
+
+
 def test_an_output_folder_that_is_a_file_is_refused(tmp_path):
     in_the_way = tmp_path / "out"
     in_the_way.write_text("mine")

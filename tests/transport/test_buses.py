@@ -42,7 +42,12 @@ def test_what_is_no_name_of_a_bus_is_said_with_one_that_is(bus):
 
 
 @pytest.mark.parametrize(
-    ("error", "told"), [(OSError("no such\nthing"), "no such"), (can.CanInterfaceNotImplementedError(), "CanInterf")]
+    ("error", "told"),
+    [
+        (OSError("no such\nthing"), "no such"),
+        (can.CanInterfaceNotImplementedError(), "CanInterf"),
+        (TypeError("2 required arguments are missing"), "2 required"),  # an interface that wants more than a channel
+    ],
 )
 def test_a_bus_that_cannot_be_opened_is_named_in_one_line(monkeypatch, error, told):
     def fail(**_: object) -> None:
@@ -69,6 +74,22 @@ def test_what_comes_before_the_filters_are_set_is_forgotten(monkeypatch):
     monkeypatch.setattr(can, "Bus", lambda **_: Bus(frames=3))
 
     assert open_bus("socketcan:can0", [0x41]).recv(0.0) is None
+
+
+def test_a_bus_that_goes_down_while_it_is_opened_is_shut_down(monkeypatch):
+    class GoingBus(Bus):
+        def recv(self, _timeout: float) -> None:
+            raise can.CanOperationError("network is down")
+
+        def shutdown(self) -> None:
+            self.is_down = True
+
+    bus = GoingBus(frames=0)
+    monkeypatch.setattr(can, "Bus", lambda **_: bus)
+
+    with pytest.raises(UsageError, match="network is down"):
+        open_bus("socketcan:can0", [0x41])
+    assert bus.is_down
 
 
 def test_without_filters_nothing_is_forgotten(monkeypatch):

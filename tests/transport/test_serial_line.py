@@ -7,9 +7,10 @@ from collections.abc import Iterator
 
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.errors import LinkDownError, UsageError
 from host_sim.transport.buses import open_bus_link
 from host_sim.transport.line_stats import LineStats
+from host_sim.transport.slcan_link import SlcanLink
 
 
 @pytest.fixture
@@ -42,3 +43,25 @@ def test_the_adapter_is_told_the_bit_rate_of_the_bus(port, speed, bitrate, order
 def test_a_port_that_cannot_be_opened_is_named(channel, told):
     with pytest.raises(UsageError, match=told):
         open_bus_link(f"slcan:{channel}", [], LineStats())
+
+
+def test_a_speed_that_no_port_has_is_refused(port):
+    _, name = port
+
+    with pytest.raises(UsageError, match="cannot open the bus slcan:"):
+        open_bus_link(f"slcan:{name}@99999999999", [], LineStats())
+
+
+def test_a_port_that_is_gone_at_once_is_closed(port, monkeypatch):
+    _, name = port
+    closed = []
+
+    def fail(_link: SlcanLink, _text: bytes) -> None:
+        raise LinkDownError("unplugged")
+
+    monkeypatch.setattr(SlcanLink, "write", fail)
+    monkeypatch.setattr(SlcanLink, "close", lambda _link: closed.append("closed"))
+
+    with pytest.raises(LinkDownError):
+        open_bus_link(f"slcan:{name}", [], LineStats())
+    assert closed == ["closed"]

@@ -130,6 +130,17 @@ def test_a_run_that_it_cannot_repeat_is_told_on_the_page(plain, open_page, tmp_p
     assert not page.evaluate("document.querySelector('dialog').open")
 
 
+def test_a_damaged_laboratory_is_told_on_the_page(plain, open_page, tmp_path):
+    broken = tmp_path / "broken.html"
+    broken.write_text(re.sub(r'{"page":"[^"]{1000}', '{"page":"', plain.read_text()))
+    page = open_page(broken.as_uri())
+
+    page.click("#what-if")
+
+    wait_for(page, "document.querySelector('#no-what-if').textContent !== ''")
+    assert not page.evaluate("document.querySelector('dialog').open")
+
+
 def test_it_closes_and_the_recorded_run_is_where_it_was(plain, open_page):
     page = open_page(plain.as_uri())
     ask(page, 700)

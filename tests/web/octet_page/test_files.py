@@ -36,6 +36,15 @@ def test_a_file_that_is_no_log_is_told(page, tmp_path):
     wait_for_text(page, "#file-news", "line 1 is not a frame of a log")
 
 
+def test_what_cannot_be_saved_is_told(page):
+    page.evaluate("void (octet.simulator.log = () => Promise.reject(new Error('no memory left')))")
+    page.click("#tab-files")
+
+    page.click("#save-log")
+
+    wait_for_text(page, "#file-news", "no memory left")
+
+
 def test_a_memory_goes_out_and_comes_back(page, tmp_path):
     page.evaluate("octet.go(octet.last)")
     memory = saved(page, "#save-memory")

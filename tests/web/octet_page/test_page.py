@@ -3,12 +3,13 @@
 import itertools
 
 import pytest
+from playwright.sync_api import Page
 
 from host_sim.protocol.generated import PARAMETERS
 from tests.runs.support import octet
 from tests.web.looks import PHONES, TOO_SMALL, check, out_of_view, resize, violations_at
 from tests.web.octet_page.support import SIZES, go, saved, settle, simulated
-from tests.web.support import wait_for
+from tests.web.support import wait_for, wait_for_text
 
 SIZE_MAX = 500_000
 IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#cells")
@@ -105,6 +106,42 @@ def test_fingers_can_hit_everything_on_a_phone(shared):
         resize(shared, size)
         shared.click(f"#tab-{tab}")
         assert shared.evaluate(TOO_SMALL) == [], (size, tab)
+
+
+def test_runs_that_are_gone_take_no_memory(page):
+    for _ in range(3):
+        page.evaluate("octet.begin(octet.lane.experiment)")
+        simulated(page)
+
+    assert {kind: alive(page, f"octet.lane{path}") for kind, path in (("run", ""), ("drawing", ".renderer"))} == {
+        "run": 1,
+        "drawing": 1,
+    }
+
+
+def alive(page: Page, one: str) -> int:
+    """How many objects of the class of this one the browser cannot free."""
+    debugger = page.context.new_cdp_session(page)
+    kind = debugger.send("Runtime.evaluate", {"expression": f"{one}.constructor.prototype"})["result"]["objectId"]
+    found = debugger.send("Runtime.queryObjects", {"prototypeObjectId": kind})["objects"]["objectId"]
+    count = {"functionDeclaration": "function () { return this.length; }", "objectId": found, "returnByValue": True}
+    return debugger.send("Runtime.callFunctionOn", count)["result"]["value"]
+
+
+def test_what_it_says_of_two_runs_is_of_those_that_are_there(page):
+    page.click("#what-if")
+    simulated(page)
+    page.select_option("#behaviour", "never")
+    simulated(page)
+    wait_for_text(page, "#parting", "A and B part at")
+
+    # Another run of the same name, simulated as often.
+    page.evaluate(
+        "const [a, b] = octet.lanes; const other = Object.assign(Object.create(Object.getPrototypeOf(b)), b,"
+        " { data: a.data }); octet.parting.show([a, other], other);"
+    )
+
+    assert page.inner_text("#parting") == "A and B do the same to the end."
 
 
 def test_axe_finds_nothing(page):
