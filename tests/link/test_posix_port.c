@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <getopt.h>
+#include <limits.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -161,6 +162,16 @@ static void test_without_a_link_or_with_two_it_tells_its_usage(void)
     assert_says("usage: octet-robot");
 }
 
+static void test_the_usage_names_every_kind_of_link_and_every_node(void)
+{
+    char nodes[16];
+
+    TEST_ASSERT_EQUAL(HAL_E_USAGE, open_with(NULL));
+    assert_says("socketcan:IFACE, fd:N or slcan:PATH[@BAUD]");
+    snprintf(nodes, sizeof nodes, "1..%d (1)", NODE_MAX);
+    assert_says(nodes);
+}
+
 static void test_an_unknown_option_is_refused_with_the_usage(void)
 {
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_with("--nodes", "3", "fd:3", NULL));
@@ -252,6 +263,8 @@ static void test_time_is_in_milliseconds_and_wraps(void)
     TEST_ASSERT_EQUAL_UINT32(5999, port_clock_ms());
     now = (struct timespec){.tv_sec = 4294967, .tv_nsec = 297000000};
     TEST_ASSERT_EQUAL_UINT32(1, port_clock_ms());
+    now = (struct timespec){.tv_sec = LONG_MAX, .tv_nsec = 999999999};   /* a clock that no multiplication may overflow */
+    TEST_ASSERT_EQUAL_UINT32((uint32_t)LONG_MAX * 1000u + 999u, port_clock_ms());
     port_alive(true);   /* nobody watches a process on the host */
 }
 
@@ -293,6 +306,7 @@ int main(void)
     RUN_TEST(test_every_node_of_a_bus_can_be_chosen);
     RUN_TEST(test_what_is_no_node_is_refused_and_said);
     RUN_TEST(test_without_a_link_or_with_two_it_tells_its_usage);
+    RUN_TEST(test_the_usage_names_every_kind_of_link_and_every_node);
     RUN_TEST(test_an_unknown_option_is_refused_with_the_usage);
     RUN_TEST(test_help_is_its_usage_and_no_error);
     RUN_TEST(test_with_its_parent_it_ends);
