@@ -43,6 +43,9 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT]);
         /* Takes over a memory. If the profile does not understand it, the first one that does is chosen. False, and
            nothing is changed, if the bytes are not a memory. */
 
+enum memory_kind brain_memory_kind(const struct brain *brain);
+        /* What the profile takes the eight bytes for. */
+
 bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes);
         /* As memory_write, in a memory of the profile's kind. */
 

@@ -27,8 +27,9 @@ static void begin_next_action(struct robot *robot, const struct senses *senses)
 static void note_denial(struct robot *robot)
 {
     brain_forget_trial(&robot->brain);
-    robot->denials++;
-    if (robot->denials >= DENIALS_MAX)
+    if (robot->denials < DENIALS_MAX)
+        robot->denials++;
+    if (robot->denials == DENIALS_MAX)
         robot->running = false;
 }
 
