@@ -21,7 +21,6 @@ from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.errors import OctetError, RobotError, UsageError
 from host_sim.export.table import arrow_table
-from host_sim.protocol.generated import PARAMETERS
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.run_recorder import RunRecorder
@@ -99,7 +98,7 @@ def run(
         frames = FrameLog(path)
         stack.callback(frames.close)
         simulation = stack.enter_context(make(config, frames, memories))
-        recorder = RunRecorder.of(simulation, _boredom_limit(config))
+        recorder = RunRecorder.of(simulation, config.boredom_limit)
         episodes = []
         for episode in simulation.run():
             episodes.append(episode)
@@ -141,7 +140,3 @@ def log_table(log: Path | str) -> Any:
         OctetError: The log is damaged.
     """
     return arrow_table(read_log(Path(log)))
-
-
-def _boredom_limit(config: RunConfig) -> int:
-    return config.settings.get("boredom_limit", PARAMETERS["boredom_limit"].default)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from host_sim.client.commands import erase_memory, stop, write_cells
 from host_sim.client.frame_log import FrameLog
-from host_sim.protocol.generated import PARAMETERS, PROFILES
+from host_sim.protocol.generated import PROFILES
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory
 from host_sim.sim.episode_result import EpisodeResult
@@ -100,7 +100,7 @@ def _run(config: RunConfig, native: bool, plain: bool = False) -> _Outcome:
     log, draws, results = FrameLog(), random.Random(config.seed), []
     with make(config, log) as simulation:
         simulation.native, simulation.plain = native, plain
-        recorder = RunRecorder.of(simulation, PARAMETERS["boredom_limit"].default)
+        recorder = RunRecorder.of(simulation, config.boredom_limit)
         for number in range(1, config.environments + 1):
             simulation.enter(number)
             while not simulation.over:

@@ -28,7 +28,7 @@ class Board:
         """Before the board is there.
 
         Args:
-            name: Of the board.
+            name: The board's, one of `BOARDS`.
         """
         self._name = name
         self.board: EmulatedBoard

@@ -32,7 +32,7 @@ class Cell:
         profile: The behaviour.
         link: Where the robot is, one of `setups.LINKS`.
         pace: One of `PACES`.
-        seed: Of the run, and of its faults.
+        seed: Seed of the run, and of its faults.
         limit_s: Robot time of the run, s.
         faults: Faults of the frames, as `--fault` has them.
         changes: Faults of the body, as `--change` has them.

@@ -23,8 +23,8 @@ class Outcome:
         end: How the run ended before its time, in words; empty if it did not.
         doubts: What makes its result doubtful.
         wrong: Patterns for which a wrong turn was learned.
-        digest: Of its log.
-        course: Digest of what the robot sensed and did, tick by tick.
+        digest: SHA-256 of its log, in hexadecimal.
+        course: SHA-256 of what the robot sensed and did, tick by tick.
         broke: Whether it ended with an error that is not about the robot, its line, or files that were harmed.
         lost: What is missing from its files without a warning, in words; empty if they hold all.
         struck: The faults that frames had, as rules for one frame each.

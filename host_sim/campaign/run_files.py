@@ -214,7 +214,7 @@ def is_memory_held(folder: Path | None, saved: Sequence[str]) -> bool:
     """Whether the memory file of a run that was killed is whole, and not older than it may be.
 
     Args:
-        folder: Of the run.
+        folder: The run's, as `make_folder` has it.
         saved: Each memory that it was about to save, in hexadecimal.
     """
     memory = None if folder is None else load_memory(folder / _MEMORY)

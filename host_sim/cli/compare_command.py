@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, number, setting
+from host_sim.cli.parsing import DEFAULT, add_command, number, setting
 from host_sim.cli.study_command import add_workers, with_progress, workers_of
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.generated import PROFILES
@@ -27,7 +27,6 @@ examples:
 
 Of a study with goals, the exit code is 1 if one of them is missed.
 """
-_DEFAULT = " (default: %(default)s)"
 
 
 def add(commands: "Subparsers") -> None:
@@ -43,15 +42,15 @@ def add(commands: "Subparsers") -> None:
     add = parser.add_argument
     words = f"folder of a study; or profiles, of {', '.join(PROFILES)}"
     add("what", nargs="+", metavar="STUDY|PROFILE", help=words)
-    add("--difference", type=number(0, 100, float), default=5, metavar="PERCENT", help="that matters" + _DEFAULT)
+    add("--difference", type=number(0, 100, float), default=5, metavar="PERCENT", help="that matters" + DEFAULT)
     add("--plots", type=Path, metavar="FOLDER", help="draw plots into this folder")
     profiles = parser.add_argument_group("with profiles").add_argument
-    profiles("--seeds", type=number(1, 100_000), default=20, metavar="N", help="number of seeds" + _DEFAULT)
-    profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + _DEFAULT)
-    profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + _DEFAULT)
+    profiles("--seeds", type=number(1, 100_000), default=20, metavar="N", help="number of seeds" + DEFAULT)
+    profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + DEFAULT)
+    profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + DEFAULT)
     profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help="change a parameter")
     profiles("--change", default="", metavar="CHANGE", help="as of tools/run")
-    profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + _DEFAULT)
+    profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + DEFAULT)
     add_workers(parser)
 
 

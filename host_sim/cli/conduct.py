@@ -16,7 +16,7 @@ from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
 from host_sim.errors import DoubtfulError, OctetError
-from host_sim.protocol.generated import CELL_COUNT, PARAMETERS
+from host_sim.protocol.generated import CELL_COUNT
 from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_path
 from host_sim.recording.run_folder import run_folder
 from host_sim.recording.run_recorder import RunRecorder
@@ -75,7 +75,7 @@ def conduct(options: RunOptions) -> Summary:
             )
             if options.config.faults:
                 stack.callback(_write_faults, options.out / FAULTS, simulation.clients)
-            recorder = RunRecorder.of(simulation, _boredom_limit(options))
+            recorder = RunRecorder.of(simulation, options.config.boredom_limit)
             _save_memories(stack, simulation, options, loaded)
             outputs = Outputs(options, simulation, recorder, log)
             try:
@@ -144,10 +144,6 @@ def _print_robot(options: RunOptions, client: RobotClient) -> None:
     if options.talks:
         config, bus = options.config, client.connection.bus
         print(f"robot     node {client.node} on {bus}, profile {config.profile}, seed {config.seed}")
-
-
-def _boredom_limit(options: RunOptions) -> int:
-    return options.config.settings.get("boredom_limit", PARAMETERS["boredom_limit"].default)
 
 
 def _first_memories(options: RunOptions, loaded: Sequence[Memory | None]) -> list[Memory | None]:

@@ -5,9 +5,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+from host_sim.live.ending_signals import ENDING_SIGNALS
 from host_sim.sim.simulation import Simulation
-
-_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 @contextmanager
@@ -17,7 +16,7 @@ def interrupted_between_ticks(simulation: Simulation) -> Iterator[None]:
     Args:
         simulation: The simulation. Its `watch` must not be changed afterwards.
     """
-    handlers = {number: handler for number in _SIGNALS if callable(handler := signal.getsignal(number))}
+    handlers = {number: handler for number in ENDING_SIGNALS if callable(handler := signal.getsignal(number))}
     pending: list[int] = []
 
     def remember(number: int, frame: FrameType | None) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
 from host_sim.errors import OctetError
+from host_sim.live.ending_signals import ENDING_SIGNALS
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
 from host_sim.recording.world_file import world_path, write_world
@@ -19,8 +20,6 @@ from host_sim.view.news import news_of
 
 SUMMARY, PICTURE, PAGE = "summary.json", "arena.png", "replay.html"
 """The files in a run's output folder, beside the log and its world file."""
-
-_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 @dataclass
@@ -98,7 +97,7 @@ def _remove(path: Path) -> None:
 @contextmanager
 def _undisturbed() -> Iterator[None]:
     """Holds signals back."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, _SIGNALS)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING_SIGNALS)
     try:
         yield
     finally:

@@ -12,6 +12,9 @@ from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
 if TYPE_CHECKING:
     Subparsers = argparse._SubParsersAction["Parser"]
 
+DEFAULT = " (default: %(default)s)"
+"""The end of the help text of an option that has a default."""
+
 
 class Parser(argparse.ArgumentParser):
     """An argument parser whose errors are one line each."""

@@ -9,7 +9,7 @@ from host_sim.cli.parsing import add_command, number
 from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
-    from host_sim.cli.parsing import Subparsers
+    from host_sim.cli.parsing import Parser, Subparsers
 
 _EXAMPLES = """\
 examples:
@@ -29,9 +29,15 @@ def add(commands: "Subparsers") -> None:
         epilog=_EXAMPLES,
     )
     add_log_options(parser)
-    add, time = parser.add_argument, number(0, 1e9, float)
+    add = parser.add_argument
     add("--png", type=Path, metavar="FILE", help="write a picture of the whole run to FILE")
     add("--gif", type=Path, metavar="FILE", help="write an animation to FILE, at most 600 frames, about 45 s")
+    _add_clip_options(parser)
+
+
+def _add_clip_options(parser: "Parser") -> None:
+    """Adds which part of a run the animation shows, and how."""
+    add, time = parser.add_argument, number(0, 1e9, float)
     add(
         "--from",
         type=time,

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, number
+from host_sim.cli.parsing import DEFAULT, add_command, number
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -25,7 +25,6 @@ examples:
 
 A study that was stopped goes on with the same command. More seeds in the file are added in the same way.
 """
-_DEFAULT = " (default: %(default)s)"
 _WRITE_S = 5.0
 _OUT = Path("out/studies")
 
@@ -49,7 +48,7 @@ def add(commands: "Subparsers") -> None:
 def add_workers(parser: argparse.ArgumentParser) -> None:
     """Adds the options that say who makes the runs."""
     add = parser.add_argument
-    add("--jobs", type=number(1, 1024), default=os.cpu_count(), metavar="N", help="processes" + _DEFAULT)
+    add("--jobs", type=number(1, 1024), default=os.cpu_count(), metavar="N", help="processes" + DEFAULT)
     add("--dask", metavar="ADDRESS", help="use the cluster of this Dask scheduler, such as tcp://host:8786, instead")
     add(
         "--chunk",

@@ -4,7 +4,8 @@ import argparse
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import add_command, parameter_table
-from host_sim.cli.run_options import WatchOptions, add_run_options, add_watch_options
+from host_sim.cli.run_arguments import add_run_options, add_watch_options
+from host_sim.cli.run_options import WatchOptions
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, number
+from host_sim.cli.parsing import DEFAULT, add_command, number
 from host_sim.world.world_names import WORLD_NAMES
 
 if TYPE_CHECKING:
@@ -16,7 +16,6 @@ examples:
   tools/octet world corridors --seed 7 --number 2 --png b.png  the second one of seed 7
   tools/octet world my.toml                                    is there a mistake in my file?
 """
-_DEFAULT = " (default: %(default)s)"
 
 
 def add(commands: "Subparsers") -> None:
@@ -31,10 +30,10 @@ def add(commands: "Subparsers") -> None:
     )
     add = parser.add_argument
     add("world", metavar="WORLD", help=f"one of {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml")
-    add("--seed", type=number(0, 2**32 - 1), default=1, metavar="SEED", help="the run's seed" + _DEFAULT)
-    add("--number", type=number(1, 1000), default=1, metavar="N", help="number of the environment" + _DEFAULT)
+    add("--seed", type=number(0, 2**32 - 1), default=1, metavar="SEED", help="the run's seed" + DEFAULT)
+    add("--number", type=number(1, 1000), default=1, metavar="N", help="number of the environment" + DEFAULT)
     add("--png", type=Path, metavar="FILE", help="draw it to FILE")
-    add("--width", type=number(100, 4000), default=640, metavar="PX", help="width of the picture" + _DEFAULT)
+    add("--width", type=number(100, 4000), default=640, metavar="PX", help="width of the picture" + DEFAULT)
 
 
 def _world(arguments: argparse.Namespace) -> int:

@@ -1,6 +1,7 @@
 """Commands to a robot: start, stop, and changes of its memory."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
@@ -11,16 +12,12 @@ _HALF = CELL_COUNT // 2
 _KINDS = {number: MEMORY_KINDS[name] for name, number in PROFILES.items()}
 
 
-def start(
-    client: RobotClient, seed: int, profile: int, settings: Mapping[str, int], memory: Sequence[int] | None
-) -> None:
-    """Starts the robot: it moves with the next senses.
+def start(client: RobotClient, session: Session, memory: Sequence[int] | None = None) -> None:
+    """Starts the robot, which learns: it moves with the next senses.
 
     Args:
         client: The robot's client.
-        seed: Seed for its random turns, 0..2**32 - 1.
-        profile: Number of its profile.
-        settings: Parameters to set, by name.
+        session: Its seed, its profile and its parameters.
         memory: Eight bytes to write, translated to what the profile understands; None leaves the robot's as it is.
 
     Raises:
@@ -28,14 +25,15 @@ def start(
         RobotError: The robot does not answer.
     """
     client.inbox.session = None
-    answer = client.dialogue.command("start", profile=profile, seed=seed, lockstep=int(client.inbox.lockstep))
+    how = {"profile": session.profile, "seed": session.seed, "lockstep": int(client.inbox.lockstep)}
+    answer = client.dialogue.command("start", **how)
     client.wants_ranges = bool(answer.signals["value"] & ANSWER_WANTS_RANGES)
-    client.memory_kind = _KINDS[profile]
-    for name, value in settings.items():
+    client.memory_kind = _KINDS[session.profile]
+    for name, value in session.settings.items():
         client.dialogue.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)
     if memory is not None:
         _write(client, dict(enumerate(translated(tuple(memory), client.memory_kind))))
-    client.inbox.session = Session(seed, profile, settings, missing=client.frames.missing)
+    client.inbox.session = replace(session, frozen=False, halted=False, missing=client.frames.missing)
 
 
 def stop(client: RobotClient) -> None:

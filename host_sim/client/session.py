@@ -1,7 +1,7 @@
 """What a robot was told when it was started, and how it went on."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 @dataclass
@@ -9,17 +9,17 @@ class Session:
     """How a robot was started, so that it can be started again.
 
     Attributes:
-        seed: Seed for its random turns.
+        seed: Seed for its random turns, 0..2**32 - 1.
         profile: Number of its profile.
-        settings: Parameters that were set, by name.
+        settings: Parameters to set, by name.
         frozen: Whether it was told not to learn.
         halted: Whether it has stopped because its wheels did not do what they were told.
         missing: Number of frames that were missing before it was started.
     """
 
     seed: int
-    profile: int
-    settings: Mapping[str, int]
+    profile: int = 0
+    settings: Mapping[str, int] = field(default_factory=dict)
     frozen: bool = False
     halted: bool = False
     missing: int = 0

@@ -129,7 +129,7 @@ def _start_again(client: RobotClient, session: Session, memory: tuple[int, ...])
 
 
 def _start_as_before(client: RobotClient, session: Session, memory: tuple[int, ...] | None) -> None:
-    start(client, session.seed, session.profile, session.settings, memory)
+    start(client, session, memory)
     if session.frozen:
         freeze(client, True)
 

@@ -5,10 +5,7 @@ from collections import deque
 from pathlib import Path
 
 from host_sim.emulator.can import CanFrame
-from host_sim.emulator.chips import (
-    CHIPS,
-    Chip,
-)
+from host_sim.emulator.chips import CHIPS, Chip
 from host_sim.emulator.clock import NEVER, SECOND
 from host_sim.emulator.core import load_segments
 from host_sim.emulator.hardware import Faults, Hardware
@@ -28,7 +25,7 @@ class EmulatedBoard:
     Attributes:
         hardware: Its parts.
         resets: Cause of each reset so far, after that of power-up.
-        drift: By how much its time runs ahead of the simulator's, of 1.
+        drift: By how much its time runs faster than the simulator's: 0.02 for 2 %, negative for slower.
     """
 
     def __init__(self, chip: Chip, image: Path, faults: Faults | None = None, *, serial: bool = False) -> None:
@@ -38,7 +35,7 @@ class EmulatedBoard:
             chip: What to build.
             image: The `.elf`.
             faults: How the hardware misbehaves.
-            serial: Its frames go over the serial line, as slcan text, rather than over the bus.
+            serial: Whether its frames go over the serial line, as slcan text, rather than over the bus.
 
         Raises:
             OctetError: The image cannot be read.

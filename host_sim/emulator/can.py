@@ -19,10 +19,10 @@ class CanFrame(NamedTuple):
     """One frame of any kind.
 
     Attributes:
-        id: 11 bits, or 29.
-        data: 0..8 bytes; of a remote frame, its length is what counts.
-        extended: The identifier has 29 bits.
-        remote: It asks for data and has none.
+        id: Its identifier, of 11 or 29 bits.
+        data: 0..8 bytes; of a remote frame, only the length counts.
+        extended: Whether the identifier has 29 bits.
+        remote: Whether it asks for data and has none.
     """
 
     id: int
@@ -36,8 +36,8 @@ class CanFaults:
     """How a controller can misbehave.
 
     Attributes:
-        init_stuck: Initialization is never acknowledged.
-        stuck_mailboxes: Bit n: the frames of mailbox n never leave.
+        init_stuck: Whether initialization is never acknowledged.
+        stuck_mailboxes: Bit n is set if the frames of mailbox n never leave.
     """
 
     init_stuck: bool = False

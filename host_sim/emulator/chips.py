@@ -12,7 +12,7 @@ from host_sim.emulator.rcc_f4 import RccF4
 from host_sim.emulator.system import Gpio, gpio_f1, gpio_f4
 
 Gate = tuple[int, int]
-"""Offset of a register of RCC, and a bit in it."""
+"""What switches a peripheral's clock: the offset of a register of RCC, and the number of a bit in it."""
 
 
 @dataclass(frozen=True)
@@ -32,12 +32,12 @@ class Chip:
         flash_base: Where its registers lie.
         gpio: Makes a port by its name.
         gpio_base: Where port A lies; each has 1 kB.
-        gpio_gates: Of each port.
+        gpio_gates: The gate of each port's clock, from port A.
         can_banks: Number of the filter banks of CAN.
-        can_gate: Of CAN.
+        can_gate: The gate of CAN's clock.
         usart_base: Where USART1 lies.
-        usart_gate: Of USART1.
-        afio_gate: Of the alternate functions' registers; None: this chip has none.
+        usart_gate: The gate of USART1's clock.
+        afio_gate: The gate of the clock of the alternate functions' registers; None if the chip has none.
     """
 
     name: str

@@ -73,8 +73,8 @@ class Fault:
 
     Attributes:
         cause: Bits of the register CFSR.
-        address: That could not be reached; None where it was the instruction itself.
-        pc: Where.
+        address: The address that could not be reached; None where it was the instruction itself.
+        pc: Address of the instruction.
     """
 
     cause: int
@@ -115,7 +115,7 @@ class Core:
         """A core without any memory.
 
         Args:
-            clock: That its instructions drive.
+            clock: The board's, which its instructions drive.
             vectors: Address of the vector table.
         """
         self.on_fault: Callable[[Fault], None] = _disregard

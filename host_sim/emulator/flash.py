@@ -104,7 +104,7 @@ class Flash(Peripheral):
         """As after long use: what was written last to the last page in use stands in all of its blank places, too.
 
         Args:
-            size: Of a place, in bytes.
+            size: Size of a place, bytes.
         """
         end = -(-len(self.memory.rstrip(_ERASED)) // size) * size
         room = sum(self.kind.pages[: self._page_of(end - 1) + 1]) - end

@@ -28,9 +28,9 @@ class RccFaults:
     """How the clocks can misbehave.
 
     Attributes:
-        crystal_dead: The external oscillator never starts.
-        pll_dead: The PLL never locks.
-        crystal_s: Time that the external oscillator takes to start.
+        crystal_dead: Whether the external oscillator never starts.
+        pll_dead: Whether the PLL never locks.
+        crystal_s: Time that the external oscillator takes to start, s.
     """
 
     crystal_dead: bool = False
@@ -75,7 +75,7 @@ class Rcc(Peripheral):
 
         Args:
             registers: What the family adds, by offset.
-            clock: Of the core.
+            clock: The board's.
             oscillators: Their speeds.
             flash_hz: Gives the fastest clock that the flash can follow as it is set up.
             faults: How it misbehaves.

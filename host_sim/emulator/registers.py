@@ -29,8 +29,8 @@ class Register:
     Attributes:
         name: As in the reference manual.
         reset_value: What it holds after a reset.
-        on_read: Gives what is read; None: what was written.
-        on_write: Takes what is written; None: it is kept.
+        on_read: Gives what is read; None for what was written.
+        on_write: Takes what is written; None to keep it.
         steady: Its value tells what has happened; a running counter's tells only the time.
         idle: Writing it does not count as work: feeding a watchdog.
         value: What it holds.
@@ -99,11 +99,11 @@ class Window:
     """A range of addresses at which there are registers.
 
     Attributes:
-        base: First of them.
-        size: How many.
-        read: From (address, number of bytes) to the value.
+        base: The first address.
+        size: Number of addresses, bytes.
+        read: Gives the value at (address, number of bytes).
         write: Takes (address, number of bytes, value).
-        model: The `struct register_space` that is asked first; None: there is none.
+        model: The `struct register_space` that is asked first; None if there is none.
     """
 
     base: int

@@ -172,7 +172,7 @@ class SystemControl(Peripheral):
 
         Args:
             cause: Bits of CFSR.
-            address: That could not be reached, if it was that.
+            address: The address that could not be reached; None where it was the instruction itself.
         """
         self._icsr.value = 3
         self._cfsr.value |= cause | (0 if address is None else _BFARVALID)
@@ -208,7 +208,7 @@ class Gpio(Peripheral):
         """All pins are inputs.
 
         Args:
-            name: Of the port.
+            name: The port's, such as GPIOA.
             setup: The family's registers for modes and functions, by offset.
             data: Offset of IDR; ODR and BSRR follow.
             lock: Offset of LCKR.

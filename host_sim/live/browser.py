@@ -2,12 +2,12 @@
 
 import asyncio
 import os
-import signal
 import sys
 import webbrowser
 from typing import TextIO
 
 from host_sim.live.announcement import announce
+from host_sim.live.ending_signals import on_ending_signals
 from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.server import LiveServer
@@ -29,9 +29,7 @@ def watch_run(live: PacedRun, listener: Listener, out: TextIO) -> None:
 
 
 async def _serve(live: PacedRun, listener: Listener, out: TextIO) -> None:
-    loop = asyncio.get_running_loop()
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        loop.add_signal_handler(number, live.close)
+    on_ending_signals(asyncio.get_running_loop(), live.close)
     async with LiveServer(live, listener).serving():
         announce(listener, len(live.simulation.clients), out, waits=live.waits)
         if _on_a_desktop():

@@ -3,10 +3,10 @@
 import asyncio
 import contextlib
 import curses
-import signal
 import sys
 
 from host_sim.errors import UsageError
+from host_sim.live.ending_signals import on_ending_signals
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, NextEnvironment, OneDecision, PageCommand, Play, Speed
 from host_sim.live.text_picture import View, draw_text
@@ -51,7 +51,7 @@ def _cannot_draw(why: str) -> UsageError:
 
 async def _show(live: PacedRun, screen: "curses.window") -> None:
     """Draws at most ten times a second, whatever the speed of the run."""
-    _close_on_signals(live)
+    on_ending_signals(asyncio.get_running_loop(), live.close)
     screen.nodelay(True)
     with contextlib.suppress(curses.error):  # some terminals cannot hide it
         curses.curs_set(0)
@@ -62,12 +62,6 @@ async def _show(live: PacedRun, screen: "curses.window") -> None:
         _draw(live, screen)
         await asyncio.wait({player}, timeout=_EVERY_S)
     await player
-
-
-def _close_on_signals(live: PacedRun) -> None:
-    """Ends the run in order on Ctrl-C, and when the terminal is closed."""
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        asyncio.get_running_loop().add_signal_handler(number, live.close)
 
 
 def _press(live: PacedRun, key: int) -> None:

@@ -27,7 +27,7 @@ class FleetSummary:
     Attributes:
         seed: Seed of the first robot; each other one has the next number.
         profile: Name of the robots' behaviour.
-        worlds: one if the robots share a world, own if each has its own.
+        worlds: Where the robots are, one of `WORLDS`: one, own or hall.
         robots: Number of robots.
         environments: One entry per environment: number, robots_finished, robot_s (median robot time of the robots
             that finished, s; None if there are none), and learned: for each pattern, the number of robots that know

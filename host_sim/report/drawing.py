@@ -103,7 +103,7 @@ def draw_trail(plan: Plan, start: Point, trail: Sequence[tuple[float, float, int
     Args:
         plan: The plan to draw on.
         start: Start of the trail, mm.
-        trail: For each control tick, the position at its end (x and y in mm) and the reason of its drive, 0..7.
+        trail: For each control tick, the position at its end (x and y in mm) and the reason of its drive, 0..8.
     """
     points = [start, *((x, y) for x, y, _ in trail)]
     runs = [(reason, [i for i, _ in ticks]) for reason, ticks in groupby(enumerate(trail), lambda t: t[1][2])]

@@ -12,6 +12,7 @@ from host_sim.client.frame_log import FrameLog, NoLog
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
 from host_sim.errors import RefusedError, UsageError
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.sim.run_config import RunConfig
@@ -103,7 +104,7 @@ def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Se
         profile = client.protocol.choices("COMMAND", "profile")[config.profile]
         memory = memories[index] if index < len(memories) else None
         try:
-            start(client, (config.seed + index) % _SEED_SPAN, profile, config.settings, memory)
+            start(client, Session((config.seed + index) % _SEED_SPAN, profile, config.settings), memory)
         except RefusedError as refused:
             raise UsageError(f"{refused}; give values within the robot's range") from refused
 

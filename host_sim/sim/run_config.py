@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from host_sim.protocol.generated import NODE_MAX
+from host_sim.protocol.generated import NODE_MAX, PARAMETERS
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.world.world_names import RANDOM
 
@@ -67,6 +67,11 @@ class RunConfig:
     def is_fleet(self) -> bool:
         """Whether the robots have no bus: they do not share one world, or are more than a bus has node numbers."""
         return self.worlds != "one" or self.robots > NODE_MAX
+
+    @property
+    def boredom_limit(self) -> int:
+        """Number of remembered turns in a row at which a robot is bored."""
+        return self.settings.get("boredom_limit", PARAMETERS["boredom_limit"].default)
 
     @property
     def nodes(self) -> range:

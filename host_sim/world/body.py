@@ -201,12 +201,12 @@ class Body:
     def _is_hidden(self, food: Point) -> bool:
         return self._space.segment_query_first(self.pose[:2], food, 0.0, self.sight) is not None
 
-    def _add_cone(self, bit: int, collision_type: int, cone_filter: pymunk.ShapeFilter) -> None:
+    def _add_cone(self, bit: int, collision_type: int, detects: pymunk.ShapeFilter) -> None:
         """Adds a cone. Chipmunk reports when it begins and ceases to overlap something: reading it costs nothing."""
         params, space = self._params, self._space
         cone = pymunk.Poly(self.in_space, cone_outline(CONE_BEARINGS_DEG[bit], cone_reach_mm(bit, params)))
         cone.sensor = True
-        cone.collision_type, cone.filter = collision_type, cone_filter
+        cone.collision_type, cone.filter = collision_type, detects
         space.add(cone)
         for other in (OBSTACLE, DISC):
             space.on_collision(collision_type, other, begin=self._begin, separate=self._separate, data=bit)

@@ -32,9 +32,9 @@ class BodyFaults:
 
     Attributes:
         mirrored: Whether the ring of sensors is mounted the other way round.
-        noise: Each sensor is wrong in this many
-        noise_of: out of this many ticks,
-        noise_key: which follow from this number and the number of the tick.
+        noise: Number of ticks, out of `noise_of`, in which each sensor is wrong; 0 for none.
+        noise_of: See `noise`, 1..1,000,000.
+        noise_key: Decides, with the number of the tick, which ticks these are; see the function `noise_key`.
         stuck_on: Sensors that always see something, as bits of feel.
         stuck_off: Sensors that never see anything.
         swapped: Whether each motor, with its odometer, has the other one's plug.

@@ -14,11 +14,8 @@ BARS_MAX = 40
 """Maximum number of obstacles in an arena."""
 
 _FOOD_MAX = 20
-_SIZE_MIN_MM, _WIDTH_MAX_MM, _HEIGHT_MAX_MM = (
-    600,
-    6000,
-    5000,
-)  # all food can be seen from 8191 mm, the limit of SENSES
+_SIZE_MIN_MM = 600
+_WIDTH_MAX_MM, _HEIGHT_MAX_MM = 6000, 5000  # from corner to corner less than 8191 mm, the limit of SENSES
 _SIZES = f"from [{_SIZE_MIN_MM}, {_SIZE_MIN_MM}] to [{_WIDTH_MAX_MM}, {_HEIGHT_MAX_MM}]"
 _KEYS = ("size", "start", "food", "bars")
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from host_sim.client.commands import start
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.generated import Opcode
 from host_sim.transport.in_process_link import InProcessLink
@@ -53,7 +54,7 @@ def learned(link: MeddledLink, ticks: int = LEARNED, **options) -> RobotClient:
     """A client whose robot has been running for some time."""
     with connected(link, **options) as client:
         handshake(client, client.connection.deadline_s)
-        start(client, 1, 0, {"turn_deg": 20}, None)
+        start(client, Session(1, settings={"turn_deg": 20}))
         drive_for(client, ticks)
     return client
 

@@ -9,6 +9,7 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
 from host_sim.client.supervision import settle
 from host_sim.faults.faulty_link import FaultyLink
 from host_sim.faults.rule import Rule
@@ -81,7 +82,7 @@ def drive_for(client: RobotClient, ticks: int, first: int = 0) -> list[Drive]:
 def run(client: RobotClient, ticks: int) -> list[Drive]:
     """A whole run: handshake, start, ticks, stop."""
     handshake(client, client.connection.deadline_s)
-    start(client, 1, 0, {"turn_deg": 20}, (0, 0, 0, 0, 0, 0, 0, 1))
+    start(client, Session(1, settings={"turn_deg": 20}), (0, 0, 0, 0, 0, 0, 0, 1))
     drives = drive_for(client, ticks)
     settle(client)
     stop(client)

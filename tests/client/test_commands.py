@@ -5,6 +5,7 @@ import pytest
 from host_sim.client.commands import erase_memory, freeze, start, stop, write_cells
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import INCIDENTS_MAX
+from host_sim.client.session import Session
 from host_sim.errors import RefusedError, RobotError
 from host_sim.protocol.codec import Frame, counter_of
 from host_sim.protocol.generated import Opcode, Result
@@ -31,7 +32,7 @@ def test_a_memory_of_nothing_leaves_no_half_of_another_one():
     link.reboot((0, 1, 0, 0, 2, 0, 0, 0))
     with connected(link) as client:
         handshake(client, 1.0)
-        start(client, 1, 0, {}, NOTHING)
+        start(client, Session(1), NOTHING)
 
     assert client.memory == NOTHING
 
@@ -82,7 +83,7 @@ def test_a_robot_that_never_reports_all_is_given_up():
 def test_the_distances_go_before_the_senses_and_are_repeated_with_them():
     with connected(faults=("drop:30%",)) as client:
         handshake(client, client.connection.deadline_s)
-        start(client, 1, PROTOCOL.choices("COMMAND", "profile")["distance"], {}, None)
+        start(client, Session(1, PROTOCOL.choices("COMMAND", "profile")["distance"]))
         drive_for(client, 50)
 
     sent = [name for frame in client.log.frames if (name := PROTOCOL.decode(frame).name) in ("RANGES", "SENSES")]

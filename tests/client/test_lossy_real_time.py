@@ -8,6 +8,7 @@ from host_sim.client.commands import start
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import RealTime
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame
 from tests.client.meddled_link import MeddledLink
 from tests.client.support import PROTOCOL, connected, rolled, senses
@@ -40,7 +41,7 @@ def started(link) -> Iterator[RobotClient]:
     """A client whose robot has been started; from then on, most of what it says is damaged on its way."""
     with connected(link, faults=("corrupt:68%@20-/from",), lockstep=False) as client:
         handshake(client, client.connection.deadline_s)
-        start(client, 1, 0, {}, None)
+        start(client, Session(1))
         yield client
 
 
@@ -101,7 +102,7 @@ def test_what_a_waiting_robot_has_not_reported_is_known_to_be_lost(link):
 def test_a_robot_whose_drives_get_lost_is_started_again_when_it_stops(link):
     with connected(link, lockstep=False) as client:
         handshake(client, client.connection.deadline_s)
-        start(client, 1, 0, {}, None)
+        start(client, Session(1))
         link.change = lambda frame: [] if is_lost(frame) else [frame]
         run_for(client, link, 600)
 

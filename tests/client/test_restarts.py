@@ -5,6 +5,7 @@ import pytest
 from host_sim.client.commands import freeze, start, stop
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, RealTime
+from host_sim.client.session import Session
 from host_sim.client.supervision import settle
 from host_sim.errors import FirmwareError, RobotError, SessionLostError
 from host_sim.protocol.codec import Frame, crc8
@@ -144,7 +145,7 @@ def test_in_real_time_a_robot_that_restarts_is_noticed_and_goes_on():
     link = MeddledLink()
     with connected(link, lockstep=False) as client:
         handshake(client, client.connection.deadline_s)
-        start(client, 1, 0, {}, None)
+        start(client, Session(1))
         pace = RealTime([client], 0.002)
         for tick in range(10):
             pace.exchange([senses(tick)])
@@ -161,7 +162,7 @@ def test_in_real_time_a_robot_that_is_missing_for_a_second_makes_the_result_doub
     link = MeddledLink()
     with connected(link, lockstep=False) as client:
         handshake(client, client.connection.deadline_s)
-        start(client, 1, 0, {}, None)
+        start(client, Session(1))
         pace = RealTime([client], 0.002)
         pace.exchange([senses(0)])
         link.change = lambda _: []

@@ -11,6 +11,7 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import HOLD_TICKS, Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
 from host_sim.errors import RefusedError, RobotError
 from host_sim.protocol.codec import Frame, Protocol, crc8
 from host_sim.robot_io import NOTHING_SENSED, Drive, Senses
@@ -51,7 +52,7 @@ def client_with(tmp_path):
 
 def started(client: RobotClient) -> RobotClient:
     handshake(client, 1.0)
-    start(client, 1, 0, {}, None)
+    start(client, Session(1))
     return client
 
 
@@ -169,7 +170,7 @@ def test_a_memory_that_is_written_comes_back(client_with):
     client = client_with()
     handshake(client, 1.0)
 
-    start(client, 1, 0, {}, (0, 1, 2, 1, 2, 0, 2, 1))
+    start(client, Session(1), (0, 1, 2, 1, 2, 0, 2, 1))
 
     assert client.memory == (0, 1, 2, 1, 2, 0, 2, 1)
 

@@ -12,7 +12,7 @@ class Fault(NamedTuple):
     Attributes:
         module: Whose unit tests are to notice.
         function: Which one is replaced.
-        body: Of the wrong one; `real` is the right one.
+        body: Body of the wrong one; `real` is the right one.
     """
 
     module: str

@@ -2,8 +2,8 @@
 
 import pytest
 
+from host_sim.backends.images import BOARDS
 from host_sim.bench.equality import IMAGES, REFERENCE, compare, first_difference, record
-from host_sim.cli.run_options import BOARDS
 from host_sim.client.connection import Connection
 from host_sim.emulator.board import start_board
 from tests.image.support import run_robot

@@ -165,7 +165,7 @@ class Idle:
 
 def test_it_draws_ten_times_a_second_at_most(view, monkeypatch):
     monkeypatch.setattr(terminal_view, "_view", lambda _: view)
-    monkeypatch.setattr(terminal_view, "_close_on_signals", lambda _: None)
+    monkeypatch.setattr(terminal_view, "on_ending_signals", lambda *_: None)
     screen = Screen()
 
     finished(lambda: terminal_view._show(Idle(), screen))

@@ -10,6 +10,7 @@ import pytest
 
 from host_sim.client.commands import erase_memory, freeze, start, stop, write_cells
 from host_sim.client.frame_log import FrameLog
+from host_sim.client.session import Session
 from host_sim.errors import RobotError
 from host_sim.protocol.generated import PROFILES, Reason
 from host_sim.recording.run_recorder import RunRecorder
@@ -184,7 +185,7 @@ def test_reports_that_wait_from_before_are_logged_in_the_first_tick(tmp_path):
 
     def start_again(simulation: Simulation, _: RunRecorder) -> None:
         for profile in [*["fixed"] * 100, "never"]:
-            start(simulation.clients[0], seed=9, profile=PROFILES[profile], settings={}, memory=None)
+            start(simulation.clients[0], Session(9, PROFILES[profile]))
 
     config = RunConfig(seed=1, environments=1, limit_s=10.0, profile="fixed")
 

@@ -47,7 +47,7 @@ class FakeRun:
     """Stands in for a live run: `serve` a page, then `send` states; `commands` is what the page asks for.
 
     Attributes:
-        states: Of each robot.
+        states: The state of each robot.
         parts: Files to serve instead of those there are, by name.
     """
 

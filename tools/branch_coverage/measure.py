@@ -52,9 +52,9 @@ class Measured:
     """The sum over all programs.
 
     Attributes:
-        outcomes: Of all conditions, two each.
+        outcomes: Number of outcomes of all conditions, two each.
         seen: How many of them have come.
-        conditions: Of decisions with several.
+        conditions: Number of conditions in decisions with several.
         deciding: How many of them were seen to decide.
         gaps: What is missing, each once.
     """
@@ -150,7 +150,7 @@ def measure(root: Path, build: Path) -> Measured:
     """Reads what the tests of a build have left.
 
     Args:
-        root: Of the sources.
+        root: Folder of the sources.
         build: Built by CLANG with FLAGS; its tests, whose names begin with test_, have been run.
 
     Raises:

@@ -48,7 +48,7 @@ def measure_python(root: Path, python: Path, sources: Sequence[str], tests: Sequ
     """Runs tests, and returns coverage.py's report of each file.
 
     Args:
-        root: Of the project.
+        root: The project's folder.
         python: The interpreter, which has pytest and coverage.
         sources: Folders that are measured, from the root.
         tests: What pytest is told.

@@ -18,9 +18,9 @@ class Board:
     """A board that we build for.
 
     Attributes:
-        name: Of its file in hal/stm32/boards, and of the CMake preset that builds for it.
+        name: Its name, that of its file in hal/stm32/boards and of the CMake preset that builds for it.
         chip: Such as stm32f405.
-        links: That the chip has, such as bxcan and slcan.
+        links: The links that the chip has, such as bxcan and slcan.
     """
 
     name: str
@@ -34,10 +34,10 @@ class Image:
 
     Attributes:
         path: The .elf file; .bin and .hex lie beside it.
-        board: That it was built for.
-        chip: Of that board.
+        board: The board that it was built for.
+        chip: The board's chip.
         node: Which robot on the bus it is.
-        bitrate: Of the CAN bus, bit/s; no matter for a serial line.
+        bitrate: Bit rate of the CAN bus, bit/s; a serial line has none.
         version: What `git describe` said.
         dbc: Hash of the protocol.
     """

@@ -17,8 +17,8 @@ class Processor:
 
     Attributes:
         name: As the table says it.
-        prefix: Of the compiler's tools.
-        flags: That choose the processor.
+        prefix: Prefix of the compiler's tools, such as arm-none-eabi-.
+        flags: Those of the compiler that choose the processor.
     """
 
     name: str
@@ -82,7 +82,7 @@ def measure(processor: Processor, folder: Path) -> CoreSize:
 
     Args:
         processor: Which.
-        folder: For what comes out.
+        folder: Where the output goes.
 
     Raises:
         subprocess.CalledProcessError: It does not compile.

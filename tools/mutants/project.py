@@ -20,7 +20,7 @@ class Project:
         """Finds all sources.
 
         Args:
-            root: Of the project.
+            root: The project's folder.
             builds: A folder for what is built.
             without: Names of tests that are left out.
 

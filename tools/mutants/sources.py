@@ -47,7 +47,7 @@ class Source:
     Attributes:
         file: Its path from the root of the project.
         text: As it is.
-        options: Of the compiler: folders, definitions, the standard.
+        options: The compiler's options: folders, definitions, the standard.
         mutants: All of them.
         schemata: The text that has them all compiled in.
     """
@@ -78,8 +78,8 @@ def read_sources(root: Path, options: Mapping[str, Sequence[str]], files: Collec
     """Some of the sources, with their mutants.
 
     Args:
-        root: Of the project.
-        options: Of all sources.
+        root: The project's folder.
+        options: The compiler's options for all sources.
         files: Those to read.
 
     Raises:

@@ -35,8 +35,8 @@ class Node:
         begin: Where it begins in its file.
         end: Where it has ended.
         macro: It comes from a macro's text, and begin and end are those of the macro's name.
-        type: Of an expression, without names given by typedef.
-        operator: Of an expression that has one.
+        type: Type of an expression, without names given by typedef.
+        operator: Operator of an expression that has one.
         json: All that clang says.
         children: What it is made of.
     """
@@ -98,7 +98,7 @@ def functions(path: Path, options: Sequence[str]) -> list[Node]:
 
     Args:
         path: The source.
-        options: Of the compiler: folders, definitions, the standard.
+        options: The compiler's options: folders, definitions, the standard.
 
     Raises:
         SourceError: clang cannot read it.

@@ -24,8 +24,8 @@ class Build:
     """A way to build.
 
     Attributes:
-        name: Of its folder.
-        options: For CMake.
+        name: Name of its folder.
+        options: Options of CMake.
     """
 
     name: str
@@ -74,8 +74,8 @@ class Tree:
         """Copies nothing yet.
 
         Args:
-            root: Of the project.
-            folder: For the copy and its builds.
+            root: The project's folder.
+            folder: Where the copy and its builds go.
         """
         self.folder = folder / "source"
         self._root = root

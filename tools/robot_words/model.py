@@ -60,7 +60,7 @@ class Description:
         action_span: Actions likewise.
         odometer_span: Odometers count below it, and wrap.
         odometer_counts_per_mm: How finely they count.
-        layout_hash: Of the messages' layout.
+        layout_hash: Hash of the messages' layout.
         same_layout: Other hashes that stood for the same layout.
     """
 
