@@ -223,7 +223,7 @@ static void test_a_turn_for_food_ends_when_food_is_seen(void)
     TEST_ASSERT_TRUE(tick_seeing_food(true));
 }
 
-static void test_any_other_turn_does_not(void)
+static void test_a_turn_that_is_not_for_food_goes_on_when_food_is_seen(void)
 {
     begin(180, 0);
     tick();
@@ -285,7 +285,7 @@ int main(void)
     RUN_TEST(test_turns_are_exact_at_both_ends_of_every_range);
     RUN_TEST(test_steps_are_exact_at_both_ends_of_every_range);
     RUN_TEST(test_a_turn_for_food_ends_when_food_is_seen);
-    RUN_TEST(test_any_other_turn_does_not);
+    RUN_TEST(test_a_turn_that_is_not_for_food_goes_on_when_food_is_seen);
     RUN_TEST(test_what_was_left_of_a_turn_for_food_is_forgotten);
     RUN_TEST(test_the_rest_after_an_action_is_part_of_it);
     return UNITY_END();
