@@ -61,7 +61,7 @@ static bool go_on(struct robot *robot, struct senses *senses)
     return denied;
 }
 
-/* At rest. */
+/* A drive at rest. */
 static void drive_init(struct drive *drive, const struct robot *robot, enum reason reason)
 {
     *drive = (struct drive){
@@ -73,7 +73,8 @@ static void drive_init(struct drive *drive, const struct robot *robot, enum reas
     };
 }
 
-/* Food at no distance, or a distance to none: neither is believed. Wheels that jump have been carried, or count anew. */
+/* Food at no distance, or a distance to no food: neither is believed. Odometers jump where the robot was carried, or its body
+ * reset. */
 static bool make_credible(struct robot *robot, struct senses *senses)
 {
     unsigned ticks = (uint8_t)(senses->tick - robot->tick);
@@ -133,8 +134,8 @@ static void describe(const struct robot *robot, struct output *out)
     out->report.uptime_s = robot->uptime_s;
 }
 
-/* A second is over. What was learned from others is told by the report, a tick later, as every second: so it makes no
- * difference to them who was asked first in this tick. */
+/* A second is over. What was learned from others is reported a tick later, as in every second: so it makes no difference which
+ * robot was asked first in this tick. */
 static bool take_votes(struct robot *robot)
 {
     bool took = robot->running && robot->sharing.whole && brain_take_votes(&robot->brain, robot->sharing.votes);

@@ -1,4 +1,5 @@
-/* robot.h: the whole robot in one struct: senses in, drive out, one tick at a time. */
+/* robot.h: the whole robot in one struct: senses in, drive out, one tick at a time. Nothing here waits, and nothing is shared
+ * between two robots; one thread at a time uses a robot. */
 #ifndef OCTET_ROBOT_H
 #define OCTET_ROBOT_H
 
