@@ -99,7 +99,7 @@ static void test_an_error_grows_to_its_limit_and_no_farther(void)
     for (unsigned i = 0; i < 20; i++)
         roll(2000, -2000);
     TEST_ASSERT_EQUAL_INT32(-TURN_MAX, motion.turn_left);
-    begin(-359, 0);
+    begin(-TURN_MAX_DEG, 0);
     TEST_ASSERT_EQUAL_INT32(-TURN_MAX, motion.turn_left);
     for (unsigned i = 0; i < 40; i++)
         roll(-2000, 2000);
@@ -110,7 +110,7 @@ static void test_a_turn_adds_to_an_error_up_to_its_limit(void)
 {
     for (unsigned i = 0; i < 20; i++)
         roll(-2000, 2000);
-    begin(359, 0);
+    begin(TURN_MAX_DEG, 0);
     TEST_ASSERT_EQUAL_INT32(TURN_MAX, motion.turn_left);
 }
 
