@@ -3,7 +3,7 @@
 enum {
     SECOND_MS = 1000,      /* a report is due once a second of robot time, */
     REPORT_SILENCES = 10,  /* or, where no tick comes, with every tenth silence */
-    DENIALS_MAX = 3        /* actions in a row that the wheels do not carry out, then the robot stops */
+    DENIALS_MAX = 2        /* actions in a row that the wheels may fail to carry out: the next one stops the robot */
 };
 
 void robot_init(struct robot *robot, uint32_t seed)
@@ -29,7 +29,7 @@ static void note_denial(struct robot *robot)
     brain_forget_trial(&robot->brain);
     if (robot->denials < DENIALS_MAX)
         robot->denials++;
-    if (robot->denials == DENIALS_MAX)
+    else
         robot->running = false;
 }
 
