@@ -8,8 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-const uint8_t OLD[CELL_COUNT] = {0, 1, 2, 3, 4, 5, 6, 7};
-const uint8_t NEW[CELL_COUNT] = {7, 6, 5, 4, 3, 2, 1, 0};
+const uint8_t OLD[] = {0, 1, 2, 3, 4, 5, 6, 7};
+const uint8_t NEW[] = {7, 6, 5, 4, 3, 2, 1, 0};
 
 char folder[32], path[64], fresh[64], last_opened[PATH_MAX];
 int calls, fail_at, error;

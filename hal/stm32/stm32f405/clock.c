@@ -20,6 +20,7 @@ enum {
     PLL_P_2 = 0u << 16,          /* halved: 168 MHz out */
     PLL_Q_7 = 7u << 24,          /* 48 MHz, not used */
     PLL_FROM_HSE = 1u << 22,
+    PLL_RESERVED = 2u << 28,     /* as after reset */
     HSI_MHZ = 16,
     ACR_WAITS = 7,
     ACR_5_WAITS = 5,             /* at 168 MHz and 3.3 V, 3.5.1 */
@@ -34,7 +35,7 @@ static bool start_crystal(void)
 
 static bool start_pll(uint32_t source, uint32_t source_mhz)
 {
-    RCC.pllcfgr = PLL_Q_7 | source | PLL_P_2 | (uint32_t)PLL_N << 6 | source_mhz;
+    RCC.pllcfgr = PLL_RESERVED | PLL_Q_7 | source | PLL_P_2 | (uint32_t)PLL_N << 6 | source_mhz;
     RCC.cr |= PLLON;
     return comes_up(&RCC.cr, PLLRDY, PLLRDY, SWITCH_MS);
 }
