@@ -62,12 +62,13 @@ def test_commands_that_go_on_until_stopped_do_so_and_end_well(line, folder):
     )
     os.close(theirs)
 
-    first = os.read(ours, 1024)
+    first = b""
+    while all(said.startswith(b"octet: ") for said in first.splitlines()):  # tools/setup may have to wait for another
+        first += os.read(ours, 1024)
     time.sleep(2)
     goes_on = process.poll() is None
     process.send_signal(signal.SIGINT)
 
-    assert first
     assert goes_on
     with contextlib.suppress(OSError):  # the far end of a pty is closed when the process has ended
         while os.read(ours, 65536):
