@@ -56,9 +56,14 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT])
     return true;
 }
 
+enum memory_kind brain_memory_kind(const struct brain *brain)
+{
+    return (enum memory_kind)kind_of[brain->profile];
+}
+
 bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes)
 {
-    if (!memory_write(&brain->memory, (enum memory_kind)kind_of[brain->profile], which, bytes))
+    if (!memory_write(&brain->memory, brain_memory_kind(brain), which, bytes))
         return false;
     brain->changed = true;
     return true;
@@ -84,7 +89,7 @@ static bool may_take(const struct brain *brain, uint8_t pattern)
 
 bool brain_take_votes(struct brain *brain, const int8_t votes[CELL_COUNT])
 {
-    enum memory_kind kind = (enum memory_kind)kind_of[brain->profile];
+    enum memory_kind kind = brain_memory_kind(brain);
     bool took = false;
 
     if (!brain->learns || brain->frozen || kind == MEMORY_KIND_ALL_SENSORS)

@@ -29,10 +29,10 @@ struct brain {
     bool chasing, ate;       /* searcher: it was going to food; the last step led to it */
     uint8_t misses;          /* searcher: times that it has lost sight of food since its last meal */
     uint16_t since_mm;       /* searcher: way since it last looked around or saw food */
-    bool learns;             /* as the profile has it; false: what is in the memory is not stored */
+    bool learns;             /* whether the profile learns; if not, its memory is not stored */
     bool wants_ranges;       /* true: the behaviour decides by range_mm */
     bool frozen;             /* true: it learns no more */
-    bool changed;            /* true: the memory is no longer what was last reported */
+    bool changed;            /* true: the memory differs from what was last reported */
 };
 
 bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed);
@@ -43,6 +43,9 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT]);
         /* Takes over a memory. If the profile does not understand it, the first one that does is chosen. False, and
            nothing is changed, if the bytes are not a memory. */
 
+enum memory_kind brain_memory_kind(const struct brain *brain);
+        /* What the profile takes the eight bytes for. */
+
 bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes);
         /* As memory_write, in a memory of the profile's kind. */
 
@@ -52,7 +55,7 @@ bool brain_take_votes(struct brain *brain, const int8_t votes[CELL_COUNT]);
            learns. True if the memory is another one now; brain->changed stays as it is. */
 
 void brain_forget_trial(struct brain *brain);
-        /* The action that has ended was not carried out: there is no verdict to be had of it. */
+        /* The action that has ended was not carried out: nothing is learned from it. */
 
 struct action brain_next(struct brain *brain, const struct config *config, const struct senses *senses);
         /* The previous action has ended with these senses: judges it, and says what to do next. */

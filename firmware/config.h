@@ -12,7 +12,7 @@ void config_reset(struct config *config);
         /* Sets all parameters to their defaults. */
 
 bool config_fits(uint8_t parameter, uint32_t value);
-        /* Is value within the range of parameter 0..PARAMETER_COUNT-1? */
+        /* Whether value is within the range of parameter 0..PARAMETER_COUNT-1. */
 
 void config_set(struct config *config, uint8_t parameter, uint8_t value);
         /* Sets a parameter to a value that fits. */

@@ -16,7 +16,7 @@ struct senses {
     uint16_t beacon_mm;       /* distance from the middle of the body to that food; 0: none seen */
     uint16_t odometer_left;   /* 0.1 mm, forward counts up, wraps at ODOMETER_SPAN */
     uint16_t odometer_right;
-    uint8_t range_mm[FEEL_COUNT];   /* beyond the body's rim, sensor by sensor as in feel; RANGE_NONE: nothing in reach, or not told */
+    uint8_t range_mm[FEEL_COUNT];   /* beyond the body's rim, by sensor as in feel; RANGE_NONE: nothing in reach, or not sent */
 };
 
 /* What the wheels are to do until the next tick. */
@@ -51,24 +51,25 @@ struct input {
     struct peer peer;         /* filled with INPUT_PEER */
 };
 
-/* How the robot is, once a second. */
+/* The state of the robot, reported once a second. */
 struct report {
     bool running, frozen;
     uint8_t profile;
     uint16_t uptime_s;   /* robot time: counted in ticks, wraps */
 };
 
-/* What one tick or one command calls for: the parts that a flag marks. */
+/* What the robot answers to one input: the parts whose flag is set. */
 struct output {
     bool has_answer, has_report, has_memory, has_drive;   /* to be sent */
-    bool whole_report;                                    /* the report is waited for; else there is time for it */
-    bool silent;                                          /* all this is said because no senses came */
-    bool contradiction, denied;                           /* of the senses, and by the wheels: faults of the body */
+    bool whole_report;                                    /* the whole report now; else it may be spread over later outputs */
+    bool silent;                                          /* the input was silence, not senses */
+    bool contradiction;                                   /* the senses contradicted themselves */
+    bool denied;                                          /* the wheels did not do what they were told */
     bool store;                                           /* the memory has changed, and is to be stored */
     enum result answer;
     uint32_t answer_value;                                /* get: the parameter's value. start: ANSWER_WANTS_RANGES or 0 */
-    struct report report;                                 /* these two are told in full, due or not */
-    uint8_t memory[CELL_COUNT];
+    struct report report;                                 /* filled even without has_report, */
+    uint8_t memory[CELL_COUNT];                           /* and this without has_memory */
     struct drive drive;
 };
 

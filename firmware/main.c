@@ -7,7 +7,7 @@ static void wake(struct robot *robot, struct hal *hal)
     uint8_t cells[CELL_COUNT];
 
     robot_init(robot, hal_entropy(hal));
-    /* A memory that cannot be read, or is none, leaves the robot to learn anew. */
+    /* Where no memory can be loaded, the robot starts with an empty one. */
     if (hal_load(hal, cells) == 1)
         (void)brain_adopt(&robot->brain, cells);
 }

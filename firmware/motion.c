@@ -101,7 +101,7 @@ static uint32_t fastest_mm_s(const struct config *config)
     return turning > config->value[SPEED_MM_S] ? turning : config->value[SPEED_MM_S];
 }
 
-/* Odometers that jump do not measure: the body that counts has begun anew, or counts too much. */
+/* Odometers that jump do not measure: the body was reset, or counts too much. */
 bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
                         unsigned ticks)
 {

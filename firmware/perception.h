@@ -18,10 +18,10 @@ uint8_t perception_filter(struct perception *perception, const struct config *co
            for each senses. */
 
 void perception_decide(struct perception *perception, const struct config *config, uint8_t feel);
-        /* A decision is made with these sensors triggered: one that is so in DISTRUST decisions in a row is not believed
-           until it has been quiet in one. */
+        /* A decision is made with these sensors triggered. A sensor that is triggered in DISTRUST decisions in a row is not
+           believed until it has been quiet in one. */
 
 uint8_t perception_believed(const struct perception *perception, const struct config *config, uint8_t feel);
-        /* The sensors of these that are believed. */
+        /* Those of these sensors that are believed. */
 
 #endif

@@ -3,7 +3,7 @@
 enum {
     SECOND_MS = 1000,      /* a report is due once a second of robot time, */
     REPORT_SILENCES = 10,  /* or, where no tick comes, with every tenth silence */
-    DENIALS_MAX = 3        /* actions in a row that the wheels do not carry out, then the robot stops */
+    DENIALS_MAX = 2        /* actions in a row that the wheels may fail to carry out: the next one stops the robot */
 };
 
 void robot_init(struct robot *robot, uint32_t seed)
@@ -27,8 +27,9 @@ static void begin_next_action(struct robot *robot, const struct senses *senses)
 static void note_denial(struct robot *robot)
 {
     brain_forget_trial(&robot->brain);
-    robot->denials++;
-    if (robot->denials >= DENIALS_MAX)
+    if (robot->denials < DENIALS_MAX)
+        robot->denials++;
+    else
         robot->running = false;
 }
 
@@ -60,7 +61,7 @@ static bool go_on(struct robot *robot, struct senses *senses)
     return denied;
 }
 
-/* At rest. */
+/* A drive at rest. */
 static void drive_init(struct drive *drive, const struct robot *robot, enum reason reason)
 {
     *drive = (struct drive){
@@ -72,7 +73,8 @@ static void drive_init(struct drive *drive, const struct robot *robot, enum reas
     };
 }
 
-/* Food at no distance, or a distance to none: neither is believed. Wheels that jump have been carried, or count anew. */
+/* Food at no distance, or a distance to no food: neither is believed. Odometers jump where the robot was carried, or its body
+ * reset. */
 static bool make_credible(struct robot *robot, struct senses *senses)
 {
     unsigned ticks = (uint8_t)(senses->tick - robot->tick);
@@ -132,8 +134,8 @@ static void describe(const struct robot *robot, struct output *out)
     out->report.uptime_s = robot->uptime_s;
 }
 
-/* A second is over. What was learned from others is told by the report, a tick later, as every second: so it makes no
- * difference to them who was asked first in this tick. */
+/* A second is over. What was learned from others is reported a tick later, as in every second: so it makes no difference which
+ * robot was asked first in this tick. */
 static bool take_votes(struct robot *robot)
 {
     bool took = robot->running && robot->sharing.whole && brain_take_votes(&robot->brain, robot->sharing.votes);

@@ -1,4 +1,5 @@
-/* robot.h: the whole robot in one struct: senses in, drive out, one tick at a time. */
+/* robot.h: the whole robot in one struct: senses in, drive out, one tick at a time. Nothing here waits, and nothing is shared
+ * between two robots; one thread at a time uses a robot. */
 #ifndef OCTET_ROBOT_H
 #define OCTET_ROBOT_H
 
@@ -11,7 +12,7 @@ struct robot {
     uint8_t reason;       /* of the action under way */
     uint8_t action;       /* its number, 0..127 */
     uint8_t silences;     /* in a row */
-    uint8_t denials;      /* actions in a row that the wheels did not carry out */
+    uint8_t denials;      /* actions in a row that the wheels did not carry out; stays at 2, where the next one stops the robot */
     uint8_t tick;         /* of the last senses */
     struct config config;
     struct perception perception;

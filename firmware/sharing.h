@@ -13,7 +13,7 @@ struct sharing {
 };
 
 void sharing_start(struct sharing *sharing);
-        /* Nothing was heard. The second that has begun is not a whole one. */
+        /* No votes. The second that has begun is not a whole one. */
 
 void sharing_hear(struct sharing *sharing, const struct peer *peer);
         /* Counts half of another robot's memory. Call once a second at most for each half of each robot. */

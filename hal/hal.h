@@ -1,6 +1,7 @@
 /* hal.h: all that the robot asks of its body. Exactly one implementation is linked in.
  *
- * Results: 0 or a positive number is fine, a negative one is an enum hal_error. */
+ * Results: 0 or a positive number is fine, a negative one is an enum hal_error. One thread calls all of these, never an
+ * interrupt handler. */
 #ifndef OCTET_HAL_H
 #define OCTET_HAL_H
 
@@ -22,12 +23,13 @@ int hal_open(struct hal **hal, int argc, char *const argv[]);
            argc is 0 where there is no command line. */
 
 int hal_receive(struct hal *hal, struct input *in);
-        /* Waits for the next senses or command, in the order in which they came. INPUT_SENSES or INPUT_COMMAND: that
-           part of *in is filled. INPUT_PEER: so is that, with half of the memory of another robot that this body hears:
-           of each half of each robot the first one in a second, from report to report, and only where each pattern has a cell. A body
-           that hears no other robots never says so. INPUT_SILENCE: no senses for HAL_SILENCE_MS, said again after each such time.
-           Frames that are stale, damaged or not ours are counted and skipped, and do not break the silence.
-           Never waits longer than the silence limit. HAL_E_CLOSED ends the robot. */
+        /* Waits for the next input, in the order in which they came, and fills that part of *in. At most HAL_SILENCE_MS.
+           INPUT_SENSES, INPUT_COMMAND: senses, or a command.
+           INPUT_PEER: half of the memory of another robot. Of each half of each robot the first one between two reports, and
+           only where each pattern has a cell. A body that hears no other robots never returns this.
+           INPUT_SILENCE: no senses for HAL_SILENCE_MS, and again for each such time. Frames that are stale, damaged or not ours
+           are counted and skipped, and do not break the silence.
+           HAL_E_CLOSED: the body is gone for good, and the robot ends. */
 
 int hal_send(struct hal *hal, const struct output *out);
         /* Sends the marked parts, the drive last. 0, also where the bus took too long and a frame was dropped and
@@ -38,9 +40,10 @@ int hal_load(struct hal *hal, uint8_t memory[CELL_COUNT]);
            it is left as it is. memory is written to only with result 1. */
 
 int hal_store(struct hal *hal, const uint8_t memory[CELL_COUNT], bool at_rest);
-        /* All or nothing: after a loss of power inside, hal_load gives the old memory or the new one. 0, or
-           HAL_E_STORE, counted, with the old one still there. at_rest: the wheels stand, and it may take a second. If not,
-           a body that would need long puts it off until the next silence: 0, and until then hal_load gives the old one. */
+        /* All or nothing: after a loss of power inside, hal_load gives the old memory or the new one. 0, or HAL_E_STORE,
+           counted: it gives the old one, or after a reset perhaps the new one. at_rest: the wheels stand, and it may take
+           a second. If not, a body that would need long puts it off until the next silence: 0, and until then hal_load gives
+           the old one. */
 
 uint32_t hal_entropy(struct hal *hal);
         /* A number that differs from one power-up to the next as well as this body can. Never fails. */

@@ -1,8 +1,7 @@
-/* forgetful: when it is bored, it forgets what it has used since it was blocked, and can be bored again. */
+/* forgetful: when it is bored, it forgets what it has used since it was blocked, and can be bored again. Its memory has sides
+ * only. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/used_cells.h"
-
-enum { CONFIDENCE = 0, PRAISE = 0 };   /* a cell is a side and no more */
 
 bool forgetful_begin(struct brain *brain)
 {
@@ -12,5 +11,5 @@ bool forgetful_begin(struct brain *brain)
 
 struct action forgetful_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
-    return used_cells_next(brain, config, senses, CONFIDENCE, PRAISE);
+    return used_cells_next(brain, config, senses);
 }

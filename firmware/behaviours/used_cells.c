@@ -4,7 +4,13 @@
 #include "firmware/confidence.h"
 #include "firmware/pattern.h"
 
-enum { BLAME = -2 };
+enum { LEAST_CONFIDENCE = 1, PRAISE = 1, BLAME = -2 };
+
+/* Else a cell is a side and no more. */
+static bool has_confidence(const struct brain *brain)
+{
+    return brain_memory_kind(brain) == MEMORY_KIND_CONFIDENCE;
+}
 
 static void set_cell(struct brain *brain, uint8_t pattern, uint8_t value)
 {
@@ -14,13 +20,13 @@ static void set_cell(struct brain *brain, uint8_t pattern, uint8_t value)
     brain->changed = true;
 }
 
-void used_cells_learn(struct brain *brain, const struct senses *senses, unsigned confidence)
+void used_cells_learn(struct brain *brain, const struct senses *senses)
 {
     uint8_t pattern = pattern_of(brain->tried_feel);
 
     if (!listing_trial_helped(brain, senses) || brain->frozen)
         return;
-    set_cell(brain, pattern, confidence_cell((enum side)brain->tried_side, confidence));
+    set_cell(brain, pattern, confidence_cell((enum side)brain->tried_side, has_confidence(brain) ? LEAST_CONFIDENCE : 0));
     brain->used |= (uint8_t)(1u << pattern);
 }
 
@@ -41,7 +47,7 @@ static void end_episode(struct brain *brain, int change)
     brain->used = 0;
 }
 
-void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern, int praise)
+void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern)
 {
     switch (action->reason) {
     case REASON_TRIAL:
@@ -54,19 +60,18 @@ void used_cells_judge(struct brain *brain, const struct action *action, uint8_t 
         end_episode(brain, BLAME);
         break;
     default:   /* the way is clear */
-        end_episode(brain, praise);
+        end_episode(brain, has_confidence(brain) ? PRAISE : 0);
         break;
     }
 }
 
-struct action used_cells_next(struct brain *brain, const struct config *config, const struct senses *senses,
-                              unsigned confidence, int praise)
+struct action used_cells_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
     uint8_t pattern = pattern_of(senses->feel);
     struct action action;
 
-    used_cells_learn(brain, senses, confidence);
+    used_cells_learn(brain, senses);
     action = listing_next(brain, config, senses, memory_recall(&brain->memory, pattern));
-    used_cells_judge(brain, &action, pattern, praise);
+    used_cells_judge(brain, &action, pattern);
     return action;
 }

@@ -11,13 +11,13 @@ struct hal {
     struct link *link;
     struct wire wire;
     uint32_t heard_ms;   /* when senses last came, or silence was last reported */
-    uint32_t silent_ms;  /* since then, as of the last look at the clock: there is one for each thing that comes */
+    uint32_t silent_ms;  /* since then, as of the last look at the clock, after each wait */
     unsigned silences;   /* in a row; stays at LAPSE_SILENCES */
     bool outage;         /* the senses have failed to come; none have since */
-    bool announced;      /* this has been sent: */
+    bool announced;      /* boot has been sent */
     struct frame boot;
     struct frame frames[WIRE_FRAMES_MAX];   /* on their way out */
-    bool unstored;       /* storing this was put off: */
+    bool unstored;       /* storing memory was put off */
     uint8_t memory[CELL_COUNT];
 };
 
@@ -121,7 +121,7 @@ static int take_newest(struct hal *hal, struct input *in)
     for (unsigned i = 0; i < DRAIN_MAX && (result == 1 || result == LINK_E_GARBLED); i++) {
         enum input_kind kind = INPUT_SILENCE;
 
-        hal->wire.session.knows_tick = false;   /* the sender may have begun to count anew meanwhile */
+        hal->wire.session.knows_tick = false;   /* the sender may have restarted its count meanwhile */
         result = receive_frame(hal, &frame, 0);
         if (result == 1)
             kind = read_frame(hal, &frame, in);

@@ -1,4 +1,4 @@
-/* port.h: the little that the CAN body needs of the machine it runs on, besides a link. */
+/* port.h: the little that the CAN body needs of the machine it runs on, besides a link. One thread calls all of it. */
 #ifndef OCTET_PORT_H
 #define OCTET_PORT_H
 
@@ -26,8 +26,8 @@ uint32_t port_clock_ms(void);
         /* Milliseconds from any start; wraps. */
 
 void port_alive(bool outage);
-        /* Called once a tick, and at least every HAL_SILENCE_MS while one is rightly waited for: all is well up to here.
-           For a watchdog, and for a light that tells whether senses come. */
+        /* The program is alive: called whenever the body begins to wait, which is at least every HAL_SILENCE_MS but for the time
+           that storing takes. For a watchdog, and for a light that shows whether senses come; outage: they do not. */
 
 int port_load(uint8_t memory[CELL_COUNT]);
 uint32_t port_entropy(void);

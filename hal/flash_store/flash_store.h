@@ -12,8 +12,8 @@
  * 0.8 s, it is left to the start, or to a moment when the wheels are at rest and no answer is awaited; until then the old
  * memory is what a loss of power leaves.
  *
- * What the eight bytes mean is the robot's business: they are kept as they are, and no older record takes the place of one
- * whose bytes the robot does not like. */
+ * What the eight bytes mean is for the robot to judge: they are kept as they are, and no older record takes the place of one
+ * that the robot does not accept. */
 #ifndef OCTET_FLASH_STORE_H
 #define OCTET_FLASH_STORE_H
 

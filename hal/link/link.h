@@ -1,4 +1,4 @@
-/* link.h: what carries single CAN frames. The CAN body stands on these functions and on nothing else.
+/* link.h: what carries single CAN frames. The CAN body stands on these functions and on nothing else. One thread uses a link.
  *
  * Chosen by linking on a microcontroller; on the host link_by_name.c chooses among them by the name's first part:
  * socketcan:IFACE, fd:N (a SOCK_SEQPACKET socket or a bound CAN one, which link_close closes), slcan:PATH[@BAUD]. */
@@ -52,14 +52,14 @@ int link_open(struct link **link, const char *name, const uint16_t ids[], size_t
            family comes faster than it is received, it does not push out what else comes. At most LINK_IDS_MAX. */
 
 int link_receive(struct link *link, struct frame *out, uint32_t wait_ms);
-        /* 1: *out filled. 0: nothing for wait_ms (0: just looks). Or LINK_E_GARBLED at once for each thing that is no
-           frame, LINK_E_DOWN after wait_ms, LINK_E_CLOSED at once. Signals do not cut the wait short. */
+        /* 1: *out filled. 0: nothing for wait_ms; 0 polls. Or LINK_E_GARBLED at once for anything that is not a frame,
+           LINK_E_DOWN after wait_ms, LINK_E_CLOSED at once. Signals do not cut the wait short. */
 
 int link_send(struct link *link, const struct frame *frame);
         /* 0: the bus has it. Or LINK_E_FULL, LINK_E_DOWN, LINK_E_CLOSED. Waits LINK_SEND_MS at the most. */
 
 void link_health(const struct link *link, struct link_health *out);
-        /* How the bus fares. All zero, which is fine, from a link that cannot know. */
+        /* The state of the bus. All zero, an active bus without errors, from a link that cannot know. */
 
 void link_close(struct link *link);
         /* Frees it. A null link is fine. */

@@ -1,4 +1,4 @@
-/* slcan.h: CAN frames as lines of text, the Lawicel way. Bytes in, bytes out; what carries them is not its business.
+/* slcan.h: CAN frames as lines of text, as Lawicel's adapters write them. Bytes in, bytes out, whatever carries them.
  *
  *   tIIILDD...        data, 11-bit identifier        III, IIIIIIII: the identifier. L: 0..8, how many bytes.
  *   TIIIIIIIILDD...   data, 29-bit identifier        DD: a byte. All are hex digits.

@@ -98,7 +98,7 @@ static int open_fd(struct link **link, struct link_request *request)
 static int closed_or_empty(int fd)
 {
     struct pollfd watch = {.fd = fd, .events = POLLRDHUP};
-    return poll(&watch, 1, 0) == 0 ? LINK_E_GARBLED : LINK_E_CLOSED;
+    return poll(&watch, 1, 0) > 0 ? LINK_E_CLOSED : LINK_E_GARBLED;
 }
 
 static int unpack(struct frame *out, const struct can_frame *raw, size_t size)

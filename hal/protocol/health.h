@@ -1,4 +1,4 @@
-/* health.h: how the machine under the robot fares: why it last started, and what it last died of. */
+/* health.h: the state of the machine under the robot: why it last started, and how it last crashed. */
 #ifndef OCTET_HEALTH_H
 #define OCTET_HEALTH_H
 

@@ -32,7 +32,7 @@ static bool are_same(const struct request *one, const struct request *other)
         && one->command.value == other->command.value;
 }
 
-/* Whoever it comes from, stop is obeyed: but not one of the owner's that has been under way for long. */
+/* A stop from any sender is obeyed, except an old one of the owner's. */
 static enum result judge(const struct session *session, const struct request *request)
 {
     unsigned ahead = e2e_ahead(session->request.counter, request->counter);

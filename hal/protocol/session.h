@@ -1,4 +1,4 @@
-/* session.h: whom the robot obeys, and which tick comes next. */
+/* session.h: which sender the robot obeys, and which tick comes next. */
 #ifndef OCTET_SESSION_H
 #define OCTET_SESSION_H
 

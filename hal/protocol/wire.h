@@ -19,7 +19,7 @@ enum counted { COUNTED_EMERGENCY, COUNTED_MEMORY, COUNTED_HEARTBEAT, COUNTED_BOO
 struct wire {
     uint8_t node;                    /* 1..NODE_MAX */
     uint8_t faults[FAULT_COUNT];     /* each stays at 255 */
-    uint16_t news;                   /* kinds of faults that no EMERGENCY has told yet, bit i for kind i, */
+    uint16_t news;                   /* kinds of faults that no EMERGENCY has reported yet, bit i for kind i, */
     uint8_t first_news;              /* and the first of them */
     struct session session;
     uint8_t counters[COUNTED_KINDS]; /* of the next message of each kind */
@@ -43,17 +43,16 @@ void wire_init(struct wire *wire, uint8_t node);
         /* node is 1..NODE_MAX. */
 
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT]);
-        /* The identifiers to listen for, as link_open takes them. The robot's own are among them: whoever sends those has
-           its number. */
+        /* The identifiers to listen for, as link_open takes them. The robot's own are among them: another node that sends
+           those has the same number. */
 
 void wire_boot(struct wire *wire, struct frame *frame);
         /* The message that it has come up. */
 
 enum input_kind wire_read(struct wire *wire, const struct frame *frame, struct input *in);
-        /* INPUT_SENSES or INPUT_COMMAND: fresh, whole and for us, and that part of *in is filled. INPUT_PEER: so is that,
-           as hal_receive has it. INPUT_SILENCE: none of
-           that, and *in is untouched; it is counted, or it was said before: then wire->again is what was answered, to be
-           sent once more. A twin is heard as a command to stop. */
+        /* INPUT_SENSES, INPUT_COMMAND or INPUT_PEER, as in hal_receive: fresh, whole and for us, and that part of *in is filled.
+           INPUT_SILENCE: none of that, and *in is untouched. The frame was counted, or it came before: then wire->again is
+           what was answered, to be sent once more. A twin is heard as a command to stop. */
 
 size_t wire_write(struct wire *wire, const struct output *out, struct frame frames[WIRE_FRAMES_MAX]);
         /* Returns how many frames the marked parts make, 0..WIRE_FRAMES_MAX; the drive is last. A report is spread over this

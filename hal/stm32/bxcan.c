@@ -51,7 +51,7 @@ enum can_state can_state(void)
     return CAN1.msr & MSR_INAK ? CAN_JOINING : CAN_JOINED;
 }
 
-/* A bank each, with a mask: data frames only. Families go to a FIFO of their own. */
+/* A bank each, with a mask: data frames only. Families go to FIFO 1, where they push out nothing else. */
 static void set_filters(const uint16_t ids[], size_t count)
 {
     uint32_t families = 0;

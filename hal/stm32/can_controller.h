@@ -1,4 +1,5 @@
-/* can_controller.h: a chip's own CAN controller, as the link over it needs it. Exactly one implementation is linked in. */
+/* can_controller.h: a chip's own CAN controller, as the link over it needs it. Exactly one implementation is linked in. It is
+ * polled: no interrupt is used, and nothing but can_stop waits. */
 #ifndef OCTET_CAN_CONTROLLER_H
 #define OCTET_CAN_CONTROLLER_H
 

@@ -6,8 +6,9 @@
 
 enum {
     FRAME_BITS = 135,   /* of a full frame with all its stuff bits, and the pause after it */
-    STUCK_MS = 1000 * FRAME_BITS / CAN_BITRATE + 1,   /* on an idle bus a frame leaves in less */
-    DRAIN_MS = 1000 * FRAME_BITS * (CAN_QUEUE_MAX + CAN_BUFFERS) / CAN_BITRATE + 1   /* and all that can wait */
+    STUCK_MS = 1000 * FRAME_BITS / CAN_BITRATE + 1,   /* on an idle bus a frame leaves in less, */
+    ALL_MS = 1000 * FRAME_BITS * (CAN_QUEUE_MAX + CAN_BUFFERS) / CAN_BITRATE + 1,   /* and all that can wait in this; */
+    DRAIN_MS = ALL_MS < LINK_SEND_MS ? ALL_MS : LINK_SEND_MS   /* but link_send has promised to be back */
 };
 
 static void note_dropped(struct can_queue *queue, unsigned more)
@@ -50,7 +51,7 @@ unsigned can_queue_pump(struct can_queue *queue)
     return waiting;
 }
 
-/* Waits until no more frames than that are left to go. False: they do not go. */
+/* Waits until no more frames than that are left to go. False: they do not go, or not in time. */
 static bool drain(struct can_queue *queue, unsigned left)
 {
     uint32_t start = machine_ms();

@@ -1,7 +1,7 @@
 /* can_queue.h: frames on their way out, through the chip's own CAN controller.
  *
- * The controller sends the lowest identifier first, so that other nodes' frames hold a drive up no longer than its own rank
- * allows, whatever else the robot has to tell. On an idle bus frames leave in the order in which they were put all the same: an
+ * The controller sends the lowest identifier first, so that other nodes' frames hold a drive up no longer than its own priority
+ * allows, whatever else the robot has to say. On an idle bus frames leave in the order in which they were put all the same: an
  * urgent one lets the others go first, as long as they do go. */
 #ifndef OCTET_CAN_QUEUE_H
 #define OCTET_CAN_QUEUE_H

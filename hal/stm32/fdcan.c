@@ -64,7 +64,7 @@ enum can_state can_state(void)
     return status & PSR_ACTIVITY ? CAN_JOINED : CAN_JOINING;
 }
 
-/* Each with a mask. Families go to a FIFO of their own. */
+/* Each with a mask. Families go to FIFO 1, where they push out nothing else. */
 static void set_filters(const uint16_t ids[], size_t count)
 {
     for (size_t i = 0; i < count; i++) {

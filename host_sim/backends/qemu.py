@@ -4,6 +4,7 @@ import os
 import shutil
 import socket
 import subprocess
+import time
 from contextlib import suppress
 from pathlib import Path
 
@@ -102,7 +103,8 @@ class Qemu:
             raise
         if frame is None:
             raise RobotError(f"the robot in QEMU sent nothing for {_READY_S:g} s; it {self.status()}")
-        while self.link.receive(_PAUSE_S) is not None:
+        give_up_s = time.monotonic() + _READY_S
+        while self.link.receive(_PAUSE_S) is not None and time.monotonic() < give_up_s:
             continue
 
 

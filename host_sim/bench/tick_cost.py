@@ -104,7 +104,7 @@ def count_ticks(name: str, seed: int, ticks: int) -> list[int]:
     board = start_board(name)
     try:
         cost = TickCost(board)
-        client = RobotClient(Connection(board, name, board.status), Protocol(), FrameLog())
+        client = RobotClient(Connection(board, name, board.status, now=board.now), Protocol(), FrameLog())
         handshake(client, _READY_S)
         step_through(assemble([client], RunConfig(seed=seed)), ticks)
         client.log.close()

@@ -142,12 +142,17 @@ class Dialogue:
 
     def _ask_once(self, command: Frame, timeout_s: float) -> DecodedFrame | None:
         waiting, counts = self.waiting, self.inbox.counts
+
+        def repeat() -> bool:
+            waiting.repeat(command)
+            return False
+
         self.inbox.expect_answer(command)
         self.inbox.record(command)
         counts.sent += 1
         began, repeated = self.connection.now(), counts.repeated
         self.connection.link.send(command)
-        answer = waiting.receive_or_repeat(lambda: waiting.repeat(command), self.inbox.take_answer, timeout_s)
+        answer = waiting.receive_or_repeat(repeat, self.inbox.take_answer, timeout_s)
         if answer is not None and counts.repeated == repeated:
             waiting.round_trip.sample(self.connection.now() - began)
         return answer

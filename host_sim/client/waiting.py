@@ -13,6 +13,7 @@ T = TypeVar("T")
 
 _LOOK_ALIVE_S = 0.2
 _REPEAT_S = 0.05
+_STRETCH_MAX = 64
 _DUST_S = 1e-6
 _WAITING_MAX = 64
 
@@ -50,17 +51,26 @@ class Waiting:
                 return None
 
     def receive_or_repeat(
-        self, repeat: Callable[[], None], take: Callable[[Frame], T | None], timeout_s: float
+        self, repeat: Callable[[], bool], take: Callable[[Frame], T | None], timeout_s: float
     ) -> T | None:
-        """As `receive`; `repeat` is called, to send again what is to be answered, when that takes too long."""
-        left_s, wait_s = timeout_s, self.round_trip.timeout_s
+        """As `receive`, for an answer: what it is to answer is sent again when that takes too long.
+
+        Args:
+            repeat: Sends it again. Returns whether the robot is known to be busy with what was repeated before: more
+                of it would make its answer still later. So the pauses double, and the timeout begins anew.
+            take: As for `receive`.
+            timeout_s: As for `receive`; it begins anew as often as the pauses double, a few times at most.
+        """
+        left_s, wait_s, stretch = timeout_s, self.round_trip.timeout_s, 1
         while True:
             result = self.receive(take, min(wait_s, left_s))
             left_s -= wait_s
             if result is not None or left_s <= 0:
                 return result
-            repeat()
-            wait_s = min(self.round_trip.timeout_s, _REPEAT_S)
+            if repeat() and stretch < _STRETCH_MAX:
+                self.round_trip.back_off()
+                left_s, stretch = timeout_s, 2 * stretch
+            wait_s = min(2 * wait_s, stretch * _REPEAT_S)
 
     def repeat(self, frame: Frame) -> None:
         """Sends a frame again."""

@@ -64,6 +64,10 @@ class EmulatedBoard:
         """Another node on the bus wants to send a frame of any kind."""
         self.hardware.can.put(frame)
 
+    def now(self) -> float:
+        """The board's time since power-up, s. By it, a client in lockstep waits as long on a busy host as on any."""
+        return self._clock.now / SECOND
+
     def receive(self, timeout_s: float) -> Frame | None:
         """As in `Link`. Time is the board's: never faster than the wall clock, but for its drift; it may be slower.
 

@@ -21,7 +21,7 @@ _WAIT_S = 0.1
 _DRAW_S = 0.25
 _CHECK_S = 1.0
 _LAST_S = 2.0
-"""How long what waits may take in the end; a full bus would never run dry."""
+"""How much of the processor's time what waits may take in the end; a full bus would never run dry."""
 
 _HOME, _REST_OF_LINE, _REST_OF_SCREEN = "\x1b[H", "\x1b[K", "\x1b[J"
 _ENTER, _LEAVE = "\x1b[?1049h\x1b[?25l", "\x1b[?25h\x1b[?1049l"
@@ -57,8 +57,8 @@ def watch_lines(bus: can.BusABC, watch: BusWatch, out: TextIO, goes_on: Callable
         if time.monotonic() - checked_s >= _CHECK_S:
             checked_s = time.monotonic()
             known = _tell_news(bus, watch, out, start_s, known)
-    last_s = time.monotonic() + _LAST_S
-    while time.monotonic() < last_s and (message := _receive(bus, 0.0)) is not None:
+    last_s = time.process_time() + _LAST_S
+    while time.process_time() < last_s and (message := _receive(bus, 0.0)) is not None:
         _write(message, watch, out, start_s)
     _tell_news(bus, watch, out, start_s, known)
     out.flush()

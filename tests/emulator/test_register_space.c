@@ -184,12 +184,12 @@ static void test_an_image_that_waits_is_let_wait_a_millisecond_again_and_again(v
     TEST_ASSERT_EQUAL_UINT64(SPACE_SKIP_NS, wait_by(1, true));
 }
 
-static void test_one_that_counts_its_looks_is_left_to_do_so(void)
+static void test_an_image_that_counts_its_looks_is_left_to_do_so(void)
 {
     TEST_ASSERT_EQUAL_UINT64(0, wait_by(100, false));
 }
 
-static void test_one_that_writes_does_not_wait(void)
+static void test_an_image_that_writes_does_not_wait(void)
 {
     for (unsigned n = 0; n < 100; n++) {
         TEST_ASSERT_EQUAL_UINT64(0, wait_by(1, true));
@@ -197,7 +197,7 @@ static void test_one_that_writes_does_not_wait(void)
     }
 }
 
-static void test_one_that_reads_something_new_does_not_wait(void)
+static void test_an_image_that_reads_something_new_does_not_wait(void)
 {
     uint64_t start = board.now.ns;
 
@@ -247,9 +247,9 @@ int main(void)
     RUN_TEST(test_the_timers_value_is_read_here);
     RUN_TEST(test_once_something_has_failed_registers_are_dead);
     RUN_TEST(test_an_image_that_waits_is_let_wait_a_millisecond_again_and_again);
-    RUN_TEST(test_one_that_counts_its_looks_is_left_to_do_so);
-    RUN_TEST(test_one_that_writes_does_not_wait);
-    RUN_TEST(test_one_that_reads_something_new_does_not_wait);
+    RUN_TEST(test_an_image_that_counts_its_looks_is_left_to_do_so);
+    RUN_TEST(test_an_image_that_writes_does_not_wait);
+    RUN_TEST(test_an_image_that_reads_something_new_does_not_wait);
     RUN_TEST(test_a_wait_ends_with_the_next_event);
     RUN_TEST(test_what_python_reads_and_does_counts_as_well);
     return UNITY_END();

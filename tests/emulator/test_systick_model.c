@@ -38,7 +38,7 @@ static void test_from_the_other_source_it_counts_each_eighth(void)
     TEST_ASSERT_EQUAL_UINT64(100, systick_counted(&timer));
 }
 
-static void test_while_it_is_off_it_counts_nothing(void)
+static void test_a_timer_that_is_off_counts_nothing(void)
 {
     timer.ctrl = SYSTICK_CLKSOURCE;
     board.cycles = 1007;
@@ -70,7 +70,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_it_counts_the_cores_cycles_since_it_was_restarted);
     RUN_TEST(test_from_the_other_source_it_counts_each_eighth);
-    RUN_TEST(test_while_it_is_off_it_counts_nothing);
+    RUN_TEST(test_a_timer_that_is_off_counts_nothing);
     RUN_TEST(test_it_counts_down_from_load_to_0_over_and_over);
     RUN_TEST(test_load_may_be_0_and_as_great_as_a_word);
     return UNITY_END();

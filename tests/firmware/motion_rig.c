@@ -40,7 +40,6 @@ struct drive driven(void)
     return drive;
 }
 
-/* One tick: the wheels turn, and what they did is sensed. True if the action has ended. */
 bool tick(void)
 {
     const struct drive drive = driven();
@@ -58,10 +57,10 @@ void begin(int turn_deg, unsigned forward_mm)
 {
     const struct action action = {.turn_deg = (int16_t)turn_deg, .forward_mm = (uint8_t)forward_mm};
 
+    TEST_ASSERT_LESS_OR_EQUAL_UINT(STEP_MAX_MM, forward_mm);
     motion_begin(&motion, &config, &action);
 }
 
-/* Carries one action through; returns how many ticks it took. */
 unsigned act(int turn_deg, unsigned forward_mm)
 {
     enum { FAR_TOO_MANY = 100000 };
@@ -86,11 +85,13 @@ void stand_at(double left_mm, double right_mm)
     motion_track(&motion, &senses);
 }
 
-/* The four parameters that a motion depends on, each at an end of its range: 16 corners. */
+#define ENDS(parameter, minimum, maximum, initial) [parameter] = {minimum, maximum},
+
 void set_corner(unsigned corner)
 {
-    config.value[SPEED_MM_S] = corner & 1u ? 250 : 20;
-    config.value[TURN_SPEED_DEG_S] = corner & 2u ? 250 : 30;
-    config.value[WHEEL_TRACK_MM] = corner & 4u ? 250 : 80;
-    config.value[TICK_MS] = corner & 8u ? 100 : 10;
+    static const uint8_t ends[PARAMETER_COUNT][2] = {ROBOT_PARAMETERS(ENDS)};
+    static const uint8_t parameters[] = {SPEED_MM_S, TURN_SPEED_DEG_S, WHEEL_TRACK_MM, TICK_MS};
+
+    for (unsigned i = 0; i < sizeof parameters; i++)
+        config.value[parameters[i]] = ends[parameters[i]][corner >> i & 1u];
 }

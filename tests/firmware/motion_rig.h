@@ -16,32 +16,40 @@ struct wheels_of_a_body {
 };
 
 extern struct wheels_of_a_body body;
-
 extern struct config config;
-
 extern struct motion motion;
-
 extern struct random dice;
 
+enum {
+    HALF = 500, HARDLY_ANY = 1,                  /* of a degree or a millimetre, in thousandths */
+    STEP_MAX_MM = 250, TURN_MAX_DEG = 360 + 179  /* the greatest step and turn of any behaviour: a searcher looks all around */
+};
+
 uint16_t counted(double mm);
+        /* What an odometer shows after that way. */
 
 struct senses sensed(void);
-
-/* Half a degree and half a millimetre, in thousandths as below. */
-enum { HALF = 500, HARDLY_ANY = 1 };
+        /* What the body senses as it is. */
 
 long heading_mdeg(void);
+        /* How far the wheels have turned the body, right positive, in 1/1000 degree. */
 
 struct drive driven(void);
+        /* What the wheels are told now. */
 
 bool tick(void);
+        /* The wheels turn for one tick, and what they did is sensed. True: the action has ended. */
 
 void begin(int turn_deg, unsigned forward_mm);
+        /* A turn, a step of up to STEP_MAX_MM, or with 0 and 0 a rest. */
 
 unsigned act(int turn_deg, unsigned forward_mm);
+        /* Carries such an action through. Returns how many ticks it took. */
 
 void stand_at(double left_mm, double right_mm);
+        /* A new motion, of sound wheels that have rolled that far. */
 
 void set_corner(unsigned corner);
+        /* The four parameters that motion depends on, each at an end of its range: corner 0..15. */
 
 #endif

@@ -6,7 +6,7 @@
 
 struct robot robot;
 struct output out;
-struct senses wheels;   /* of a body that obeys */
+struct senses wheels;
 
 void respond_to(enum input_kind kind, const struct input *in)
 {

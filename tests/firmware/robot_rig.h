@@ -7,25 +7,25 @@
 enum { CLEAR = 0, FRONT = 4, PATTERN_FRONT = 2, TICKS_PER_SECOND = 50, MANY = 1000 };
 
 extern struct robot robot;
-
-extern struct output out;
-
-extern struct senses wheels;
+extern struct output out;       /* the robot's last answer */
+extern struct senses wheels;    /* of a body that obeys */
 
 void respond_to(enum input_kind kind, const struct input *in);
-
 void sense(struct senses senses);
-
 void feel(uint8_t feel);
+        /* Senses with nothing but these sensors triggered. */
 
 void silence(void);
-
 void command(enum opcode opcode, uint8_t which, uint32_t value);
-
-void learned(enum side side);
-
-void assert_at_rest(void);
+        /* The robot answers to one input. */
 
 void obey(uint8_t feel_there);
+        /* A tick later: the wheels have done what they were last told, and these sensors are triggered. */
+
+void learned(enum side side);
+        /* The robot remembers that side for an obstacle in front from now on. */
+
+void assert_at_rest(void);
+        /* The last answer stops the wheels. */
 
 #endif

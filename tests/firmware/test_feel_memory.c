@@ -53,12 +53,12 @@ static void test_what_was_learned_is_such_a_memory(void)
         }
 }
 
-static void test_an_empty_one_is_such_a_memory(void)
+static void test_an_empty_memory_is_such_a_memory(void)
 {
     TEST_ASSERT_TRUE(feel_memory_is(memory.cell));
 }
 
-static void test_without_the_mark_it_is_none(void)
+static void test_bytes_without_the_mark_are_not_such_a_memory(void)
 {
     feel_memory_learn(&memory, ALL, SIDE_RIGHT);
     for (unsigned bit = 0; bit < 4; bit++) {
@@ -69,13 +69,13 @@ static void test_without_the_mark_it_is_none(void)
     }
 }
 
-static void test_with_a_turn_for_a_clear_way_it_is_none(void)
+static void test_bytes_with_a_turn_for_a_clear_way_are_not_such_a_memory(void)
 {
     feel_memory_learn(&memory, FEEL_LEFT, SIDE_RIGHT);
     TEST_ASSERT_FALSE(feel_memory_is(memory.cell));
 }
 
-static void test_with_what_is_no_side_it_is_none(void)
+static void test_bytes_with_an_unknown_side_are_not_such_a_memory(void)
 {
     feel_memory_learn(&memory, ALL, SIDE_RIGHT);
     memory.cell[CELL_COUNT - 1] = 0xC0;
@@ -99,10 +99,10 @@ int main(void)
     RUN_TEST(test_reading_n_is_at_bit_2n);
     RUN_TEST(test_a_lesson_replaces_an_older_one);
     RUN_TEST(test_what_was_learned_is_such_a_memory);
-    RUN_TEST(test_an_empty_one_is_such_a_memory);
-    RUN_TEST(test_without_the_mark_it_is_none);
-    RUN_TEST(test_with_a_turn_for_a_clear_way_it_is_none);
-    RUN_TEST(test_with_what_is_no_side_it_is_none);
+    RUN_TEST(test_an_empty_memory_is_such_a_memory);
+    RUN_TEST(test_bytes_without_the_mark_are_not_such_a_memory);
+    RUN_TEST(test_bytes_with_a_turn_for_a_clear_way_are_not_such_a_memory);
+    RUN_TEST(test_bytes_with_an_unknown_side_are_not_such_a_memory);
     RUN_TEST(test_with_any_side_for_a_clear_way_it_is_none);
     return UNITY_END();
 }

@@ -132,7 +132,7 @@ static void test_a_body_that_fails_is_the_exit_code(void)
     TEST_ASSERT_EQUAL_UINT(0, body.sends);
 }
 
-static void test_a_failure_to_send_ends_it_too(void)
+static void test_a_failure_to_send_ends_the_robot_too(void)
 {
     comes(INPUT_SILENCE, (struct input){0});
     comes(INPUT_SILENCE, (struct input){0});
@@ -208,7 +208,7 @@ int main(void)
     RUN_TEST(test_a_body_that_cannot_be_had_is_the_exit_code);
     RUN_TEST(test_a_body_that_is_gone_ends_the_robot_in_order);
     RUN_TEST(test_a_body_that_fails_is_the_exit_code);
-    RUN_TEST(test_a_failure_to_send_ends_it_too);
+    RUN_TEST(test_a_failure_to_send_ends_the_robot_too);
     RUN_TEST(test_each_input_is_responded_to);
     RUN_TEST(test_it_wakes_with_what_was_stored);
     RUN_TEST(test_it_wakes_with_nothing_where_nothing_was_stored);

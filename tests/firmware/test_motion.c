@@ -94,13 +94,13 @@ static void test_each_step_ends_within_half_a_millimetre(void)
 
 static void test_a_step_goes_straight(void)
 {
-    act(0, 500);
+    act(0, STEP_MAX_MM);
     TEST_ASSERT_INT_WITHIN(HARDLY_ANY, 0, heading_mdeg());
 }
 
 static void test_a_step_ends_in_the_tick_that_brings_an_obstacle(void)
 {
-    begin(0, 500);
+    begin(0, STEP_MAX_MM);
     TEST_ASSERT_FALSE(tick());
     body.feel = FRONT;
     TEST_ASSERT_TRUE(tick());
@@ -108,7 +108,7 @@ static void test_a_step_ends_in_the_tick_that_brings_an_obstacle(void)
 
 static void test_an_obstacle_beside_the_body_does_not_end_a_step(void)
 {
-    begin(0, 500);
+    begin(0, STEP_MAX_MM);
     body.feel = 1 | 16;
     TEST_ASSERT_FALSE(tick());
 }
@@ -122,7 +122,7 @@ static void test_an_obstacle_does_not_end_a_turn(void)
 
 static void test_what_a_stopped_step_left_is_not_driven_later(void)
 {
-    begin(0, 500);
+    begin(0, STEP_MAX_MM);
     body.feel = FRONT;
     TEST_ASSERT_TRUE(tick());
     body.feel = 0;
@@ -167,7 +167,7 @@ static void test_nothing_is_under_way_before_the_first_action(void)
 
 static void test_a_step_keeps_to_its_speed(void)
 {
-    begin(0, 500);
+    begin(0, STEP_MAX_MM);
     TEST_ASSERT_EQUAL_INT16(200, driven().left_mm_s);
 }
 
@@ -180,7 +180,7 @@ static void test_a_turn_keeps_to_its_speed(void)
 
 static void test_turns_are_exact_at_both_ends_of_every_range(void)
 {
-    static const int turns_deg[] = {1, 90, 180, 359};   /* 359: boredom at its greatest */
+    static const int turns_deg[] = {1, 90, 180, TURN_MAX_DEG};
 
     for (unsigned corner = 0; corner < 16; corner++)
         for (unsigned i = 0; i < 4; i++) {
@@ -223,7 +223,7 @@ static void test_a_turn_for_food_ends_when_food_is_seen(void)
     TEST_ASSERT_TRUE(tick_seeing_food(true));
 }
 
-static void test_any_other_turn_does_not(void)
+static void test_a_turn_that_is_not_for_food_goes_on_when_food_is_seen(void)
 {
     begin(180, 0);
     tick();
@@ -285,7 +285,7 @@ int main(void)
     RUN_TEST(test_turns_are_exact_at_both_ends_of_every_range);
     RUN_TEST(test_steps_are_exact_at_both_ends_of_every_range);
     RUN_TEST(test_a_turn_for_food_ends_when_food_is_seen);
-    RUN_TEST(test_any_other_turn_does_not);
+    RUN_TEST(test_a_turn_that_is_not_for_food_goes_on_when_food_is_seen);
     RUN_TEST(test_what_was_left_of_a_turn_for_food_is_forgotten);
     RUN_TEST(test_the_rest_after_an_action_is_part_of_it);
     return UNITY_END();

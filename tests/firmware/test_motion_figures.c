@@ -99,7 +99,7 @@ static void test_an_error_grows_to_its_limit_and_no_farther(void)
     for (unsigned i = 0; i < 20; i++)
         roll(2000, -2000);
     TEST_ASSERT_EQUAL_INT32(-TURN_MAX, motion.turn_left);
-    begin(-359, 0);
+    begin(-TURN_MAX_DEG, 0);
     TEST_ASSERT_EQUAL_INT32(-TURN_MAX, motion.turn_left);
     for (unsigned i = 0; i < 40; i++)
         roll(-2000, 2000);
@@ -110,7 +110,7 @@ static void test_a_turn_adds_to_an_error_up_to_its_limit(void)
 {
     for (unsigned i = 0; i < 20; i++)
         roll(-2000, 2000);
-    begin(359, 0);
+    begin(TURN_MAX_DEG, 0);
     TEST_ASSERT_EQUAL_INT32(TURN_MAX, motion.turn_left);
 }
 
@@ -158,7 +158,7 @@ static void test_the_last_speed_is_what_covers_the_rest_in_a_tick(void)
     }
 }
 
-static void test_so_it_is_in_a_turn(void)
+static void test_the_last_speed_of_a_turn_covers_the_rest_in_a_tick(void)
 {
     begin(1, 0);
     motion.turn_left = FASTEST_COUNTS * COUNT;
@@ -278,7 +278,7 @@ int main(void)
     RUN_TEST(test_a_turn_has_ended_an_eighth_of_a_degree_before_its_end);
     RUN_TEST(test_a_step_has_ended_five_counts_before_its_end);
     RUN_TEST(test_the_last_speed_is_what_covers_the_rest_in_a_tick);
-    RUN_TEST(test_so_it_is_in_a_turn);
+    RUN_TEST(test_the_last_speed_of_a_turn_covers_the_rest_in_a_tick);
     RUN_TEST(test_a_step_has_twice_its_time_and_25_ticks);
     RUN_TEST(test_what_is_given_up_is_known_when_its_time_is_over_and_not_before);
     RUN_TEST(test_a_rest_is_never_given_up);

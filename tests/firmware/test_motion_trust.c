@@ -178,8 +178,8 @@ static void test_stuck_wheels_are_given_up_at_both_ends_of_every_range(void)
         set_corner(corner);
         stand_at(0.0, 0.0);
         body.grip = 0.0;
-        TEST_ASSERT_GREATER_THAN_UINT(25, act(359, 0));
-        TEST_ASSERT_GREATER_THAN_UINT(25, act(0, 500));
+        TEST_ASSERT_GREATER_THAN_UINT(25, act(TURN_MAX_DEG, 0));
+        TEST_ASSERT_GREATER_THAN_UINT(25, act(0, STEP_MAX_MM));
     }
 }
 
@@ -198,7 +198,7 @@ static void test_wild_odometers_make_no_wild_speeds(void)
             set_corner(i / 1000 % 16);
         motion_track(&motion, &senses);
         if (motion_ended(&motion, &config, &senses) || random_below(&dice, 50) == 0)
-            begin(random_below(&dice, 2) ? 359 : -359, random_below(&dice, 2) * 500u);
+            begin(random_below(&dice, 2) ? TURN_MAX_DEG : -TURN_MAX_DEG, random_below(&dice, 2) * (unsigned)STEP_MAX_MM);
         TEST_ASSERT_INT16_WITHIN(1257, 0, driven().left_mm_s);
         TEST_ASSERT_INT16_WITHIN(1257, 0, driven().right_mm_s);
     }
@@ -226,7 +226,7 @@ static void test_a_body_that_spins_by_itself_overflows_nothing(void)
         const struct senses senses = {.odometer_left = odometer, .odometer_right = (uint16_t)(4095 - odometer)};
 
         motion_track(&motion, &senses);
-        begin(i < 5000 ? -359 : 359, 0);
+        begin(i < 5000 ? -TURN_MAX_DEG : TURN_MAX_DEG, 0);
         odometer = (uint16_t)((odometer + 2000) % ODOMETER_SPAN);
         TEST_ASSERT_INT16_WITHIN(2047, 0, driven().left_mm_s);
     }

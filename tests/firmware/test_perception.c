@@ -55,7 +55,7 @@ static void test_filtered_each_bit_is_what_two_of_three_ticks_say(void)
     }
 }
 
-static void test_a_sensor_is_distrusted_after_so_many_decisions_in_a_row(void)
+static void test_a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row(void)
 {
     config_set(&config, DISTRUST, LIMIT);
     decide(FRONT, LIMIT - 1);
@@ -229,7 +229,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_by_default_all_is_believed_at_once);
     RUN_TEST(test_filtered_each_bit_is_what_two_of_three_ticks_say);
-    RUN_TEST(test_a_sensor_is_distrusted_after_so_many_decisions_in_a_row);
+    RUN_TEST(test_a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row);
     RUN_TEST(test_the_other_sensors_are_still_believed);
     RUN_TEST(test_it_stays_distrusted_however_long_it_goes_on);
     RUN_TEST(test_one_quiet_decision_restores_trust);

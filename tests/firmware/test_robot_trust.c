@@ -147,18 +147,35 @@ static void test_after_silence_wheels_may_have_rolled_far(void)
     TEST_ASSERT_FALSE(out.contradiction);
 }
 
-static void stand_until_it_stops(void)
+/* Returns how many of its actions were denied before. */
+static unsigned stand_until_it_stops(void)
 {
-    for (unsigned ticks = 0; robot.running && ticks < MANY; ticks++)
+    unsigned denials = 0;
+
+    for (unsigned ticks = 0; robot.running && ticks < MANY; ticks++) {
         sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
+        denials += out.denied;
+    }
     TEST_ASSERT_FALSE(robot.running);
+    return denials;
 }
 
-static void test_resumed_with_wheels_that_still_do_not_obey_it_stops_again(void)
+static void test_each_start_gives_its_wheels_three_actions(void)
 {
-    stand_until_it_stops();
-    command(OPCODE_RESUME, 0, 0);
-    stand_until_it_stops();
+    for (unsigned starts = 0; starts < 3; starts++) {
+        command(OPCODE_START, PROFILE_ARTICLE, 1);
+        TEST_ASSERT_EQUAL_UINT(3, stand_until_it_stops());
+    }
+}
+
+/* However often it is: a count that went round would trust them three times more. */
+static void test_resumed_with_wheels_that_still_do_not_obey_it_stops_at_once(void)
+{
+    (void)stand_until_it_stops();
+    for (unsigned resumed = 0; resumed < 300; resumed++) {
+        command(OPCODE_RESUME, 0, 0);
+        TEST_ASSERT_EQUAL_UINT(1, stand_until_it_stops());
+    }
 }
 
 static void test_resumed_without_ever_having_been_started_it_trusts_its_wheels(void)
@@ -218,7 +235,8 @@ int main(void)
     RUN_TEST(test_a_distance_to_no_food_is_a_contradiction);
     RUN_TEST(test_odometers_that_jump_turn_nothing);
     RUN_TEST(test_after_silence_wheels_may_have_rolled_far);
-    RUN_TEST(test_resumed_with_wheels_that_still_do_not_obey_it_stops_again);
+    RUN_TEST(test_each_start_gives_its_wheels_three_actions);
+    RUN_TEST(test_resumed_with_wheels_that_still_do_not_obey_it_stops_at_once);
     RUN_TEST(test_resumed_without_ever_having_been_started_it_trusts_its_wheels);
     RUN_TEST(test_after_a_trial_that_was_given_up_it_does_not_wait_for_the_filter);
     RUN_TEST(test_wheels_that_jump_within_a_tick_are_seen_at_any_tick);

@@ -54,7 +54,7 @@ static void step(uint8_t first, uint8_t second)
     told_step(&told, 1, deeds);
 }
 
-static void test_it_begins_with_senses(void)
+static void test_before_the_first_step_the_robots_have_senses(void)
 {
     begin();
 
@@ -64,7 +64,7 @@ static void test_it_begins_with_senses(void)
     TEST_ASSERT_EQUAL_UINT32(1, told.food_left);
 }
 
-static void test_who_is_done_sooner_rests(void)
+static void test_a_robot_that_is_done_sooner_rests(void)
 {
     begin();
     step(TOLD_FORWARD, TOLD_TURN_ABOUT);
@@ -145,8 +145,8 @@ static void test_bumps_are_counted_step_by_step(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_it_begins_with_senses);
-    RUN_TEST(test_who_is_done_sooner_rests);
+    RUN_TEST(test_before_the_first_step_the_robots_have_senses);
+    RUN_TEST(test_a_robot_that_is_done_sooner_rests);
     RUN_TEST(test_food_is_eaten_at_the_end_of_a_step_forward);
     RUN_TEST(test_where_no_food_is_left_nothing_happens);
     RUN_TEST(test_a_step_ends_when_its_time_is_up);

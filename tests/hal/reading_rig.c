@@ -6,7 +6,7 @@
 
 struct wire wire;
 struct input in;
-uint8_t expected_faults[FAULT_COUNT];   /* after each test: no other fault was counted */
+uint8_t expected_faults[FAULT_COUNT];
 
 void setUp(void)
 {
@@ -39,7 +39,6 @@ enum input_kind read_tick(unsigned ticks)
     return hear(senses_frame(NODE, ticks));
 }
 
-/* Reads what must not get through. */
 void refuse(struct frame frame)
 {
     const struct input before = in;
@@ -48,7 +47,6 @@ void refuse(struct frame frame)
     TEST_ASSERT_EQUAL_MEMORY(&before, &in, sizeof in);
 }
 
-/* The robot's answer, as hal_send would send it; the last frame that it makes. */
 struct frame respond(struct output out)
 {
     struct frame frames[WIRE_FRAMES_MAX];

@@ -1,13 +1,27 @@
 /* Lockstep: time is the other side's, and what was answered is answered again. */
 #include "fake_body.h"
 
-static void start_in_lockstep(void)
+/* INPUT_SILENCE: the robot has another owner. */
+static enum input_kind owner_starts(uint32_t at_ms, uint8_t owner)
 {
     const struct output answer = {.has_answer = true};
 
-    command_comes(0, (struct octet_command_t){.opcode = OPCODE_START, .counter = 1, .owner = 1, .lockstep = 1});
-    receive();
+    command_comes(at_ms, (struct octet_command_t){.opcode = OPCODE_START, .counter = 1, .owner = owner, .lockstep = 1});
+    if (receive() != INPUT_COMMAND)
+        return INPUT_SILENCE;
     TEST_ASSERT_EQUAL(0, hal_send(hal, &answer));
+    return INPUT_COMMAND;
+}
+
+static void start_in_lockstep(void)
+{
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, owner_starts(0, 1));
+}
+
+static void silences(unsigned count)
+{
+    for (unsigned i = 0; i < count; i++)
+        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
 }
 
 static void test_in_lockstep_silence_is_no_fault(void)
@@ -27,8 +41,7 @@ static void test_in_lockstep_nothing_is_passed_over_after_silence(void)
     start_in_lockstep();
     for (unsigned tick = 0; tick < 3; tick++)
         senses_come(5000, tick);
-    for (unsigned i = 0; i < 49; i++)
-        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    silences(49);
     for (unsigned tick = 0; tick < 3; tick++) {
         TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
         TEST_ASSERT_EQUAL_UINT8(tick, in.senses.tick);
@@ -55,8 +68,7 @@ static enum input_kind other_owner_starts(uint32_t at_ms)
 static void test_in_lockstep_another_may_take_over_after_a_second(void)
 {
     start_in_lockstep();
-    for (unsigned i = 0; i < 9; i++)
-        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    silences(9);
     TEST_ASSERT_EQUAL(INPUT_SILENCE, other_owner_starts(950));
     TEST_ASSERT_EQUAL(INPUT_COMMAND, other_owner_starts(1050));
 }
@@ -89,11 +101,36 @@ static void test_an_answer_again_that_does_not_leave_is_counted(void)
     assert_faults((struct octet_faults_t){.unsent = 1});
 }
 
+static void test_in_lockstep_senses_begin_the_count_of_silences_anew(void)
+{
+    start_in_lockstep();
+    silences(9);
+    senses_come(910, 0);
+    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
+    silences(9);
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, owner_starts(1820, 2));
+}
+
+static void test_in_lockstep_an_owner_that_never_sends_senses_is_soon_no_owner(void)
+{
+    start_in_lockstep();
+    silences(10);
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, owner_starts(1010, 2));
+    silences(1);
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, owner_starts(1110, 3));
+}
+
+static void test_an_answer_that_is_given_again_is_no_fault(void)
+{
+    answered_senses_come_again();
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    assert_faults((struct octet_faults_t){.unsent = 0});
+}
+
 static void test_every_wait_gives_signs_of_life(void)
 {
     start_in_lockstep();
-    for (unsigned i = 0; i < 30; i++)
-        TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    silences(30);
     TEST_ASSERT_EQUAL_UINT32(HAL_SILENCE_MS, fake.longest_wait_ms);
 }
 
@@ -106,6 +143,9 @@ int main(void)
     RUN_TEST(test_in_lockstep_another_may_take_over_after_a_second);
     RUN_TEST(test_what_was_answered_is_answered_again_at_once);
     RUN_TEST(test_an_answer_again_that_does_not_leave_is_counted);
+    RUN_TEST(test_in_lockstep_senses_begin_the_count_of_silences_anew);
+    RUN_TEST(test_in_lockstep_an_owner_that_never_sends_senses_is_soon_no_owner);
+    RUN_TEST(test_an_answer_that_is_given_again_is_no_fault);
     RUN_TEST(test_every_wait_gives_signs_of_life);
     return UNITY_END();
 }

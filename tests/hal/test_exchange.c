@@ -153,7 +153,7 @@ static void test_its_clock_is_exact(void)
 }
 
 /* As behind a bus, where it says so when it comes up. */
-static void test_that_it_has_come_up_it_says_for_the_second_time(void)
+static void test_the_first_boot_message_that_is_heard_is_the_second_one(void)
 {
     struct octet_boot_t boot;
     size_t count = exchange(command_of(OPCODE_STOP));
@@ -178,6 +178,6 @@ int main(void)
     RUN_TEST(test_two_robots_do_not_know_each_other);
     RUN_TEST(test_closing_no_robot_is_fine);
     RUN_TEST(test_its_clock_is_exact);
-    RUN_TEST(test_that_it_has_come_up_it_says_for_the_second_time);
+    RUN_TEST(test_the_first_boot_message_that_is_heard_is_the_second_one);
     return UNITY_END();
 }

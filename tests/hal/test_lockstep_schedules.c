@@ -1,33 +1,24 @@
 /* Lockstep over a line that loses, doubles, reorders and delays frames: every schedule there is, with the real robot and a
- * simulator that repeats its senses until they are answered. A frame is at most LATE_TICKS ticks late, and no more than
- * ROOM frames are on the way at once, so that there are only so many states; each is visited once. */
+ * simulator that repeats its senses until they are answered. The limits of the line, in lossy_line.h, leave few enough states
+ * to visit each of them once. */
 #include <stdlib.h>
 #include <string.h>
 #include <unity.h>
 
 #include "hal/library/exchange.h"
+#include "lossy_line.h"
 #include "wire_frames.h"
 
 enum {
     FIRST = 250,          /* soon after it ticks and counters wrap */
     TICKS = 8,
-    ROOM = 2,
-    LATE_TICKS = 2,
     STATES_MAX = 1 << 17
-};
-
-struct line {
-    unsigned count;
-    struct {
-        struct frame frame;
-        unsigned sent;    /* in which tick */
-    } on_the_way[ROOM];
 };
 
 /* All that can differ between two moments of a run. */
 struct state {
     struct octet octet;
-    struct line up, down;   /* to the robot, and from it */
+    struct lossy_line up, down;   /* to the robot, and from it */
     unsigned tick;          /* of the senses that the simulator waits to have answered */
     bool silent;            /* the robot has waited in vain since */
 };
@@ -125,36 +116,10 @@ static void visit(struct state *state)
     memcpy(&states[state_count++], state, sizeof *state);
 }
 
-static void put(struct line *line, const struct frame *frame, unsigned tick)
-{
-    if (line->count == ROOM)
-        return;   /* lost */
-    line->on_the_way[line->count].frame = *frame;
-    line->on_the_way[line->count].sent = tick;
-    line->count++;
-}
-
-static struct frame take(struct line *line, unsigned i)
-{
-    struct frame frame = line->on_the_way[i].frame;
-
-    line->count--;
-    memmove(&line->on_the_way[i], &line->on_the_way[i + 1], (ROOM - i - 1) * sizeof line->on_the_way[0]);
-    memset(&line->on_the_way[line->count], 0, sizeof line->on_the_way[0]);
-    return frame;
-}
-
-static void lose_what_is_too_late(struct line *line, unsigned tick)
-{
-    for (unsigned i = line->count; i-- > 0;)
-        if (tick - line->on_the_way[i].sent > LATE_TICKS)
-            (void)take(line, i);
-}
-
 static void say_drive(struct state *state, const struct frame frames[], size_t count)
 {
     if (count > 0 && frames[count - 1].id == OCTET_DRIVE_FRAME_ID)
-        put(&state->down, &frames[count - 1], state->tick);
+        lossy_line_put(&state->down, &frames[count - 1], state->tick);
 }
 
 static void hear_senses(struct state *state, const struct frame *senses)
@@ -179,8 +144,8 @@ static void hear_drive(struct state *state, const struct frame *drive)
     went_wrong = went_wrong || memcmp(drive, &expected[state->tick], sizeof *drive) != 0;
     state->tick++;
     state->silent = false;
-    lose_what_is_too_late(&state->up, state->tick);
-    lose_what_is_too_late(&state->down, state->tick);
+    lossy_line_lose_late(&state->up, state->tick);
+    lossy_line_lose_late(&state->down, state->tick);
 }
 
 /* A frame of a line arrives, arrives and will come again, or is lost. */
@@ -194,7 +159,7 @@ static void go_on_from(const struct state *from, bool up, unsigned i)
         memcpy(&next, from, sizeof next);
         frame = (up ? from->up : from->down).on_the_way[i].frame;
         if (fate != 1)
-            (void)take(up ? &next.up : &next.down, i);
+            (void)lossy_line_take(up ? &next.up : &next.down, i);
         if (arrives && up)
             hear_senses(&next, &frame);
         else if (arrives)
@@ -209,7 +174,7 @@ static void send_senses(const struct state *from)
     struct frame senses = senses_frame(1, from->tick);
 
     memcpy(&next, from, sizeof next);
-    put(&next.up, &senses, next.tick);
+    lossy_line_put(&next.up, &senses, next.tick);
     visit(&next);
 }
 
@@ -224,7 +189,7 @@ static void wait_in_vain(const struct state *from)
 
 static void go_on(const struct state *from)
 {
-    if (from->up.count < ROOM)
+    if (from->up.count < LINE_ROOM)
         send_senses(from);
     if (!from->silent)
         wait_in_vain(from);

@@ -58,7 +58,7 @@ static void test_each_has_the_length_that_octet_dbc_gives_it(void)
     TEST_ASSERT_EQUAL_HEX32((1u << KIND_COUNT) - 1, seen);
 }
 
-static void test_each_counts_by_itself(void)
+static void test_each_kind_of_message_counts_by_itself(void)
 {
     size_t count;
 
@@ -99,7 +99,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_each_has_the_length_that_octet_dbc_gives_it);
-    RUN_TEST(test_each_counts_by_itself);
+    RUN_TEST(test_each_kind_of_message_counts_by_itself);
     RUN_TEST(test_no_byte_behind_a_frame_is_written);
     RUN_TEST(test_both_pages_of_faults_have_the_same_number);
     return UNITY_END();

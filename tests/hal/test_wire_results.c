@@ -44,14 +44,14 @@ static void test_a_start_says_whether_ranges_are_wanted(void)
     TEST_ASSERT_FALSE(wire.wants_ranges);
 }
 
-static void test_no_other_command_does(void)
+static void test_no_other_command_changes_whether_ranges_are_wanted(void)
 {
     started(ANSWER_WANTS_RANGES);
     done(OPCODE_REPORT, 0);
     TEST_ASSERT_TRUE(wire.wants_ranges);
 }
 
-static void test_a_start_that_is_refused_does_not(void)
+static void test_a_start_that_is_refused_changes_nothing_about_ranges(void)
 {
     started(ANSWER_WANTS_RANGES);
     out = (struct output){.answer_value = 0};
@@ -79,7 +79,7 @@ static void test_it_stays_its_owners_whatever_was_done(void)
     expect(FAULT_REFUSED, 1);
 }
 
-static void test_a_stop_gives_it_up(void)
+static void test_a_stop_gives_the_robot_up(void)
 {
     started(0);
     done(OPCODE_STOP, 0);
@@ -116,11 +116,11 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_start_says_whether_ranges_are_wanted);
-    RUN_TEST(test_no_other_command_does);
-    RUN_TEST(test_a_start_that_is_refused_does_not);
+    RUN_TEST(test_no_other_command_changes_whether_ranges_are_wanted);
+    RUN_TEST(test_a_start_that_is_refused_changes_nothing_about_ranges);
     RUN_TEST(test_a_robot_that_has_an_owner_takes_nothing_from_another);
     RUN_TEST(test_it_stays_its_owners_whatever_was_done);
-    RUN_TEST(test_a_stop_gives_it_up);
+    RUN_TEST(test_a_stop_gives_the_robot_up);
     RUN_TEST(test_what_is_no_answer_is_no_refusal);
     RUN_TEST(test_news_goes_out_with_whatever_is_next);
     RUN_TEST(test_news_waits_while_nothing_goes_out);

@@ -7,7 +7,7 @@
 struct wire wire;
 struct output out;
 struct frame frames[WIRE_FRAMES_MAX];
-uint8_t expected_faults[FAULT_COUNT];   /* after each test: no other fault was counted */
+uint8_t expected_faults[FAULT_COUNT];
 
 void setUp(void)
 {

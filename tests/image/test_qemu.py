@@ -117,6 +117,16 @@ def test_an_image_that_says_nothing_is_given_up(monkeypatch):
         Qemu()
 
 
+def test_an_image_that_never_pauses_is_ready_nevertheless(monkeypatch):
+    monkeypatch.setattr("host_sim.backends.qemu._PAUSE_S", 5.0)  # heartbeats come each second
+    monkeypatch.setattr("host_sim.backends.qemu._READY_S", 1.0)
+
+    qemu = Qemu()
+
+    assert qemu.status() == "is running in QEMU"
+    qemu.close()
+
+
 @pytest.mark.parametrize("robot", ["qemu", "emulated"])
 def test_an_emulator_brings_its_own_bus_and_node(robot):
     with ExitStack() as stack, pytest.raises(UsageError, match="its own bus"):

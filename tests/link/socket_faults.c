@@ -1,6 +1,7 @@
 #include "socket_faults.h"
 
 #include <errno.h>
+#include <poll.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +12,7 @@
 
 enum { NS_PER_S = 1000000000 };
 
-struct fault recv_fault, send_fault, setsockopt_fault, calloc_fault;
+struct fault recv_fault, send_fault, poll_fault, setsockopt_fault, calloc_fault;
 struct link *near;
 int far, times_told;
 int64_t now_ns, receive_timeout_ns;
@@ -22,6 +23,8 @@ ssize_t __real_recv(int fd, void *to, size_t size, int flags);
 ssize_t __wrap_recv(int fd, void *to, size_t size, int flags);
 ssize_t __real_send(int fd, const void *from, size_t size, int flags);
 ssize_t __wrap_send(int fd, const void *from, size_t size, int flags);
+int __real_poll(struct pollfd watched[], nfds_t count, int wait_ms);
+int __wrap_poll(struct pollfd watched[], nfds_t count, int wait_ms);
 int __real_setsockopt(int fd, int level, int name, const void *value, socklen_t size);
 int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t size);
 int __real_clock_gettime(clockid_t clock, struct timespec *out);
@@ -66,6 +69,11 @@ ssize_t __wrap_send(int fd, const void *from, size_t size, int flags)
     return strikes(&send_fault) ? -1 : __real_send(fd, from, size, flags);
 }
 
+int __wrap_poll(struct pollfd watched[], nfds_t count, int wait_ms)
+{
+    return strikes(&poll_fault) ? -1 : __real_poll(watched, count, wait_ms);
+}
+
 int __wrap_setsockopt(int fd, int level, int name, const void *value, socklen_t size)
 {
     if (strikes(&setsockopt_fault)) return -1;
@@ -101,7 +109,7 @@ void setUp(void)
     int ends[2];
     char name[16];
     now_ns = 0;
-    recv_fault = send_fault = setsockopt_fault = calloc_fault = (struct fault){0};
+    recv_fault = send_fault = poll_fault = setsockopt_fault = calloc_fault = (struct fault){0};
     TEST_ASSERT_EQUAL_INT(0, socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends));
     far = ends[0];
     snprintf(name, sizeof name, "fd:%d", ends[1]);

@@ -15,7 +15,7 @@ struct fault {
     int error, first, calls, each_ms;
 };
 
-extern struct fault recv_fault, send_fault, setsockopt_fault, calloc_fault;
+extern struct fault recv_fault, send_fault, poll_fault, setsockopt_fault, calloc_fault;
 extern struct link *near;            /* listens for 0x123 */
 extern int far;                      /* the other end, which never blocks */
 extern int64_t now_ns;

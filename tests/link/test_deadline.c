@@ -93,7 +93,7 @@ static void test_input_ends_the_wait(void)
     TEST_ASSERT_EQUAL_UINT(1, polled);
 }
 
-static void test_a_signal_does_not_end_it(void)
+static void test_a_signal_does_not_end_the_wait(void)
 {
     polls[0] = (struct poll_of_test){.passes_ns = NS_PER_S + 1, .result = -1};
     polls[1] = (struct poll_of_test){.passes_ns = 0, .result = 1};
@@ -134,7 +134,7 @@ int main(void)
     RUN_TEST(test_a_deadline_may_be_seconds_away);
     RUN_TEST(test_it_waits_for_input_as_long_as_is_left);
     RUN_TEST(test_input_ends_the_wait);
-    RUN_TEST(test_a_signal_does_not_end_it);
+    RUN_TEST(test_a_signal_does_not_end_the_wait);
     RUN_TEST(test_a_wait_that_is_cut_short_goes_on_to_the_last_nanosecond);
     RUN_TEST(test_a_deadline_that_has_passed_is_not_waited_for);
     RUN_TEST(test_a_wait_that_ends_late_is_not_begun_again);

@@ -1,135 +1,10 @@
-/* The store against a disk that fails at the n-th call, for every n. */
-#include <errno.h>
-#include <fcntl.h>
-#include <limits.h>
-#include <stdarg.h>
+/* What is saved is loaded, and nothing else is. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <unity.h>
 
-#include "hal/port/posix/file_store.h"
-
-static const uint8_t OLD[CELL_COUNT] = {0, 1, 2, 3, 4, 5, 6, 7};
-static const uint8_t NEW[CELL_COUNT] = {7, 6, 5, 4, 3, 2, 1, 0};
-
-static char folder[32];
-static char path[64];
-static char fresh[64];   /* the file beside it */
-static int calls;
-static int fail_at;   /* the call that fails; 0: none */
-static int error;     /* and why */
-static int free_descriptor;
-static char last_opened[PATH_MAX];
-
-int __real_open(const char *name, int flags, ...);
-int __wrap_open(const char *name, int flags, ...);
-ssize_t __real_read(int fd, void *to, size_t size);
-ssize_t __wrap_read(int fd, void *to, size_t size);
-ssize_t __real_write(int fd, const void *from, size_t size);
-ssize_t __wrap_write(int fd, const void *from, size_t size);
-int __real_fsync(int fd);
-int __wrap_fsync(int fd);
-int __real_close(int fd);
-int __wrap_close(int fd);
-int __real_rename(const char *from, const char *to);
-int __wrap_rename(const char *from, const char *to);
-
-static bool strikes(void)
-{
-    errno = error;
-    return ++calls == fail_at;
-}
-
-/* No process that is started meanwhile is to inherit what is open. */
-int __wrap_open(const char *name, int flags, ...)
-{
-    TEST_ASSERT_EQUAL_HEX(O_CLOEXEC, flags & O_CLOEXEC);
-    va_list arguments;
-    va_start(arguments, flags);
-    snprintf(last_opened, sizeof last_opened, "%s", name);
-    mode_t mode = flags & O_CREAT ? va_arg(arguments, mode_t) : 0;
-    va_end(arguments);
-    return strikes() ? -1 : __real_open(name, flags, mode);
-}
-
-ssize_t __wrap_read(int fd, void *to, size_t size)
-{
-    return strikes() ? -1 : __real_read(fd, to, size);
-}
-
-/* The disk is full half way through. */
-ssize_t __wrap_write(int fd, const void *from, size_t size)
-{
-    return __real_write(fd, from, strikes() ? size / 2 : size);
-}
-
-int __wrap_fsync(int fd)
-{
-    return strikes() ? -1 : __real_fsync(fd);
-}
-
-int __wrap_close(int fd)
-{
-    int result = __real_close(fd);
-    return strikes() ? -1 : result;
-}
-
-int __wrap_rename(const char *from, const char *to)
-{
-    return strikes() ? -1 : __real_rename(from, to);
-}
-
-static int next_descriptor(void)
-{
-    int fd = dup(STDERR_FILENO);
-    __real_close(fd);
-    return fd;
-}
-
-void setUp(void)
-{
-    fail_at = 0;
-    error = EIO;
-    free_descriptor = next_descriptor();
-    strcpy(folder, "/tmp/octet-store-XXXXXX");
-    TEST_ASSERT_NOT_NULL(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/memory", folder);
-    snprintf(fresh, sizeof fresh, "%s/memory.new", folder);
-}
-
-void tearDown(void)
-{
-    fail_at = 0;
-    TEST_ASSERT_EQUAL_INT(free_descriptor, next_descriptor());   /* each was closed */
-    unlink(path);
-    TEST_ASSERT_EQUAL_INT(0, rmdir(folder));   /* nothing else was left */
-}
-
-static void write_file(const void *bytes, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    TEST_ASSERT_NOT_NULL(file);
-    TEST_ASSERT_EQUAL_size_t(size, fwrite(bytes, 1, size, file));
-    TEST_ASSERT_EQUAL_INT(0, fclose(file));
-}
-
-static void assert_stored(const uint8_t expected[CELL_COUNT])
-{
-    uint8_t memory[CELL_COUNT] = {0};
-    TEST_ASSERT_EQUAL_INT(1, file_store_load(path, memory));
-    TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, memory, CELL_COUNT);
-}
-
-static void assert_load_leaves_memory_alone(int expected)
-{
-    uint8_t memory[CELL_COUNT];
-    memset(memory, 0xEE, sizeof memory);
-    TEST_ASSERT_EQUAL_INT(expected, file_store_load(path, memory));
-    TEST_ASSERT_EACH_EQUAL_HEX8(0xEE, memory, CELL_COUNT);
-}
+#include "file_store_rig.h"
 
 static void test_nothing_was_ever_stored(void)
 {
@@ -206,18 +81,6 @@ static void test_a_file_of_another_size_is_replaced_by_a_save(void)
     assert_stored(NEW);
 }
 
-static void test_a_file_that_cannot_be_read_is_no_memory(void)
-{
-    const int errors[] = {EPERM, EIO, EACCES};
-    write_file(OLD, CELL_COUNT);
-    for (int n = 0; n < 6; n++) {
-        calls = 0;
-        fail_at = n % 2 + 1;   /* open, read */
-        error = errors[n / 2];
-        assert_load_leaves_memory_alone(HAL_E_STORE);
-    }
-}
-
 static void test_a_folder_that_is_not_there_refuses_a_save(void)
 {
     TEST_ASSERT_EQUAL_INT(HAL_E_STORE, file_store_save("/no/such/folder/memory", NEW));
@@ -246,57 +109,6 @@ static void test_a_path_may_be_as_long_as_the_system_knows(void)
     }
 }
 
-/* Saves NEW with the n-th call failing, and nothing left beside the file; false: there are fewer than n. */
-static bool save_fails_at(int n, int *result)
-{
-    calls = 0;
-    fail_at = n;
-    *result = file_store_save(path, NEW);
-    fail_at = 0;
-    TEST_ASSERT_EQUAL_INT(-1, access(fresh, F_OK));
-    return calls >= n;
-}
-
-static void test_a_refused_save_leaves_the_old_memory(void)
-{
-    int result, refused = 0;
-    write_file(OLD, CELL_COUNT);
-    for (int n = 1; save_fails_at(n, &result); n++) {
-        assert_stored(result == 0 ? NEW : OLD);
-        refused += result == HAL_E_STORE;
-        write_file(OLD, CELL_COUNT);
-    }
-    TEST_ASSERT_EQUAL_INT(7, refused);   /* open, write, fsync, close, rename; open and fsync of the folder */
-}
-
-static void test_a_refused_first_save_leaves_nothing(void)
-{
-    int result, refused = 0;
-    for (int n = 2; save_fails_at(n, &result); n++) {
-        if (result == 0) assert_stored(NEW);
-        else assert_load_leaves_memory_alone(0);
-        refused += result == HAL_E_STORE;
-        unlink(path);
-    }
-    TEST_ASSERT_EQUAL_INT(7, refused);
-}
-
-static void test_a_refused_save_over_what_is_no_memory_makes_none_up(void)
-{
-    static const char rubbish[] = "short";
-    int result;
-    write_file(rubbish, sizeof rubbish);
-    for (int n = 1; save_fails_at(n, &result); n++) {
-        uint8_t memory[CELL_COUNT];
-        FILE *file = fopen(path, "rb");
-        TEST_ASSERT_NOT_NULL(file);
-        size_t size = fread(memory, 1, sizeof memory, file);
-        TEST_ASSERT_EQUAL_INT(0, fclose(file));
-        TEST_ASSERT_EQUAL_MEMORY(size == CELL_COUNT ? (const void *)NEW : rubbish, memory, size);
-        write_file(rubbish, sizeof rubbish);
-    }
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -309,12 +121,8 @@ int main(void)
     RUN_TEST(test_a_robot_without_standard_input_stores_as_well);
     RUN_TEST(test_a_file_of_another_size_is_no_memory);
     RUN_TEST(test_a_file_of_another_size_is_replaced_by_a_save);
-    RUN_TEST(test_a_file_that_cannot_be_read_is_no_memory);
     RUN_TEST(test_a_folder_that_is_not_there_refuses_a_save);
     RUN_TEST(test_a_path_too_long_refuses_a_save);
     RUN_TEST(test_a_path_may_be_as_long_as_the_system_knows);
-    RUN_TEST(test_a_refused_save_leaves_the_old_memory);
-    RUN_TEST(test_a_refused_first_save_leaves_nothing);
-    RUN_TEST(test_a_refused_save_over_what_is_no_memory_makes_none_up);
     return UNITY_END();
 }

@@ -94,6 +94,16 @@ static void test_an_empty_datagram_before_a_frame_is_not_the_end(void)
     assert_receive(1, 0);
 }
 
+/* A signal can end even a look that does not wait. */
+static void test_an_empty_datagram_is_garbled_whatever_interrupts_the_look_behind_it(void)
+{
+    poll_fault = (struct fault){.error = EINTR, .first = 1};
+    put(0, 0);
+    put(16, 3);
+    assert_receive(LINK_E_GARBLED, 0);
+    assert_receive(1, 0);
+}
+
 static void test_a_datagram_of_another_size_is_garbled(void)
 {
     const size_t sizes[] = {0, 1, 15, 17, 72};
@@ -153,6 +163,7 @@ int main(void)
     RUN_TEST(test_a_wait_that_cannot_be_set_is_closed);
     RUN_TEST(test_the_kernel_is_told_a_wait_when_it_changes_and_only_then);
     RUN_TEST(test_an_empty_datagram_before_a_frame_is_not_the_end);
+    RUN_TEST(test_an_empty_datagram_is_garbled_whatever_interrupts_the_look_behind_it);
     RUN_TEST(test_a_datagram_of_another_size_is_garbled);
     RUN_TEST(test_a_far_end_that_sends_no_more_is_closed);
     RUN_TEST(test_a_length_over_eight_is_garbled);

@@ -1,6 +1,8 @@
 """`tools/octet monitor` as a command, on a bus of python-can within this process and on vcan0."""
 
 import contextlib
+import io
+import itertools
 import os
 import pty
 import re
@@ -12,13 +14,15 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import can
 import pytest
 
 from host_sim.cli.main import main
+from host_sim.monitor.bus_watch import BusWatch
 from host_sim.monitor.kernel_queue import dropped, lengthen
-from host_sim.monitor.monitor import filter_robots
+from host_sim.monitor.monitor import filter_robots, watch_lines
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.protocol.every_node import IDS
 from host_sim.transport.buses import open_bus
@@ -84,6 +88,29 @@ def test_a_bus_that_is_not_there_is_one_line(capsys, bus):
     assert main(["monitor", bus]) == 2
 
     assert re.fullmatch(r"octet: .*\n", capsys.readouterr().err)
+
+
+class FullBus:
+    """A bus on which frames wait: so many, or without end."""
+
+    def __init__(self, frames: int | None = None) -> None:
+        self.left = itertools.count() if frames is None else iter(range(frames))
+
+    def recv(self, _timeout_s: float) -> can.Message | None:
+        waits = next(self.left, None) is not None
+        return can.Message(arbitration_id=STOPPED.id, data=STOPPED.data, is_extended_id=False) if waits else None
+
+
+@pytest.mark.parametrize(("frames", "shown"), [(30, 30), (None, 19)])
+def test_at_its_end_it_shows_all_that_waits_however_long_that_takes_on_a_held_up_host(monkeypatch, frames, shown):
+    late, busy = itertools.count(step=5.0), itertools.count(step=0.1 if frames is None else 0.0)
+    held_up = SimpleNamespace(monotonic=lambda: next(late), process_time=lambda: next(busy))
+    monkeypatch.setattr("host_sim.monitor.monitor.time", held_up)
+    out = io.StringIO()
+
+    watch_lines(FullBus(frames), BusWatch(500_000), out, goes_on=lambda: False)
+
+    assert out.getvalue().count("COMMAND") == shown
 
 
 @pytest.fixture

@@ -49,7 +49,7 @@ void tearDown(void)
         free(robots[i].core);
 }
 
-static void test_a_robot_runs_so_many_ticks(void)
+static void test_a_robot_runs_as_many_ticks_as_asked_for(void)
 {
     TEST_ASSERT_EQUAL_size_t(1, fleet_run_alone(robots, 1, 20));
     TEST_ASSERT_EQUAL_UINT32(20, robots[0].tick);
@@ -102,7 +102,7 @@ static void test_a_memory_is_the_cores(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_a_robot_runs_so_many_ticks);
+    RUN_TEST(test_a_robot_runs_as_many_ticks_as_asked_for);
     RUN_TEST(test_an_environment_ends_when_its_time_is_up);
     RUN_TEST(test_an_environment_ends_when_the_food_is_eaten);
     RUN_TEST(test_robots_of_one_world_go_on_together);

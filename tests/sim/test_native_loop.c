@@ -92,6 +92,28 @@ static void test_a_robot_that_has_stopped_by_itself_is_asked_and_goes_on_at_rest
     TEST_ASSERT_FALSE(robots[0].halted);
 }
 
+static bool ask_at_length(struct loop *of, size_t robot)
+{
+    const struct frame report = {.id = FAULTS, .len = 8};
+
+    for (unsigned i = 0; i < LOOP_ASK_LINES; i++)
+        log_lines_add(&of->log, &report);
+    return ask(of, robot);
+}
+
+static void test_a_log_without_room_for_being_asked_ends_the_block(void)
+{
+    octets[1].reason = REASON_STOP;
+    loop.ask = ask_at_length;
+    loop.log_size = (size_t)ROBOTS * (1 + LOOP_FRAMES_MAX + LOOP_ASK_LINES) * LOG_LINE_MAX;
+    loop_run(&loop, 1);
+    TEST_ASSERT_EQUAL_UINT32(1, loop.ticks);
+    loop.log_size--;
+    loop_run(&loop, 1);
+    TEST_ASSERT_EQUAL_UINT32(0, loop.ticks);
+    TEST_ASSERT_FALSE(loop.handed_over);
+}
+
 static void test_a_robot_that_rests_for_another_reason_hands_its_tick_over(void)
 {
     octets[1].silent = true;
@@ -151,6 +173,7 @@ int main(void)
     RUN_TEST(test_news_ends_a_block);
     RUN_TEST(test_a_silent_robots_tick_does_not_count);
     RUN_TEST(test_a_robot_that_has_stopped_by_itself_is_asked_and_goes_on_at_rest);
+    RUN_TEST(test_a_log_without_room_for_being_asked_ends_the_block);
     RUN_TEST(test_a_robot_that_rests_for_another_reason_hands_its_tick_over);
     RUN_TEST(test_a_drive_for_other_senses_is_refused_and_not_logged);
     RUN_TEST(test_what_waited_is_logged_once_after_the_senses);

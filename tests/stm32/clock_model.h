@@ -9,7 +9,7 @@
 
 enum {
     HSION = 1 << 0, HSEON = 1 << 16, HSERDY = 1 << 17, PLLON = 1 << 24, PLLRDY = 1 << 25,
-    SWITCHED_AT = 2, NEVER = 1 << 30
+    WAITS_MASK = 15, SWITCHED_AT = 2, NEVER = 1 << 30
 };
 
 volatile struct rcc_registers RCC;
@@ -19,6 +19,8 @@ static struct {
     uint32_t crystal_ms, pll_ms, switch_ms;   /* how long each takes; NEVER: it fails */
     uint32_t crystal_on_ms, pll_on_ms, switched_ms;   /* when each began */
     uint32_t now_ms, systick_hz;
+    uint32_t switches;                        /* how often the clock got faster or slower */
+    bool flash_refuses;                       /* it keeps its wait states as they were */
     uint32_t waits_when_switched;             /* of the flash, when the clock got faster */
     uint32_t others_on;                       /* bits of CR that the driver has set beside those it needs */
 } model;
@@ -46,6 +48,8 @@ static void start(uint32_t on, uint32_t ready, uint32_t *since, uint32_t span_ms
 
 uint32_t machine_ms(void)
 {
+    if (model.flash_refuses)
+        FLASH.acr &= ~(uint32_t)WAITS_MASK;
     model.others_on |= RCC.cr & ~(uint32_t)(HSION | HSEON | HSERDY | PLLON | PLLRDY);
     start(HSEON, HSERDY, &model.crystal_on_ms, model.crystal_ms);
     start(PLLON, PLLRDY, &model.pll_on_ms, model.pll_ms);
@@ -53,7 +57,8 @@ uint32_t machine_ms(void)
         model.switched_ms = model.now_ms + 1;
     } else if (model.now_ms - model.switched_ms >= model.switch_ms) {
         RCC.cfgr = (RCC.cfgr & ~(3u << SWITCHED_AT)) | (RCC.cfgr & 3u) << SWITCHED_AT;
-        model.waits_when_switched = FLASH.acr & 15u;
+        model.switches++;
+        model.waits_when_switched = FLASH.acr & WAITS_MASK;
     }
     return model.now_ms++;
 }

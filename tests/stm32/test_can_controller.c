@@ -84,7 +84,7 @@ static void test_a_frame_takes_no_buffer_from_which_it_would_overtake_an_equal_o
     }
 }
 
-static void test_nor_where_the_equal_one_waits_behind_buffers_of_others(void)
+static void test_an_equal_frame_in_the_last_buffer_keeps_the_free_ones_before_it_free(void)
 {
     rig_block(true);
     for (uint8_t n = 0; n < CAN_BUFFERS; n++)
@@ -152,7 +152,7 @@ int main(void)
     RUN_TEST(test_what_waits_is_told_with_its_identifiers);
     RUN_TEST(test_a_full_controller_takes_no_more);
     RUN_TEST(test_a_frame_takes_no_buffer_from_which_it_would_overtake_an_equal_one);
-    RUN_TEST(test_nor_where_the_equal_one_waits_behind_buffers_of_others);
+    RUN_TEST(test_an_equal_frame_in_the_last_buffer_keeps_the_free_ones_before_it_free);
     RUN_TEST(test_an_equal_frame_that_waits_in_an_earlier_buffer_is_no_obstacle);
     RUN_TEST(test_frames_of_other_identifiers_take_any_buffer);
     RUN_TEST(test_frames_that_have_left_are_no_obstacle);

@@ -94,7 +94,7 @@ static void test_without_a_pll_it_runs_from_the_internal_oscillator(void)
     TEST_ASSERT_EQUAL_HEX32(SW_INTERNAL, RCC.cfgr);
 }
 
-static void test_with_neither_it_does_so_too(void)
+static void test_with_neither_crystal_nor_pll_it_runs_from_the_internal_oscillator(void)
 {
     model.crystal_ms = model.pll_ms = NEVER;
     assert_starts_as(&SLOW);
@@ -105,6 +105,15 @@ static void test_a_switch_that_does_not_come_about_is_taken_back(void)
     model.switch_ms = NEVER;
     assert_starts_as(&SLOW);
     TEST_ASSERT_EQUAL_HEX32(SW_INTERNAL, RCC.cfgr & 3u);
+}
+
+/* RM0090 3.5.1: the flash is read too fast until its register shows the new wait states. */
+static void test_the_clock_gets_no_faster_than_the_flash(void)
+{
+    model.flash_refuses = true;
+    assert_starts_as(&SLOW);
+    TEST_ASSERT_EQUAL_HEX32(SW_INTERNAL, RCC.cfgr & 3u);
+    TEST_ASSERT_EQUAL_UINT32(0, model.switches);
 }
 
 static void test_no_data_cache_hides_what_the_store_is_now(void)
@@ -135,8 +144,9 @@ int main(void)
     RUN_TEST(test_each_wait_lasts_as_long_as_it_may_and_no_longer);
     RUN_TEST(test_without_a_crystal_the_internal_oscillator_makes_what_it_can);
     RUN_TEST(test_without_a_pll_it_runs_from_the_internal_oscillator);
-    RUN_TEST(test_with_neither_it_does_so_too);
+    RUN_TEST(test_with_neither_crystal_nor_pll_it_runs_from_the_internal_oscillator);
     RUN_TEST(test_a_switch_that_does_not_come_about_is_taken_back);
+    RUN_TEST(test_the_clock_gets_no_faster_than_the_flash);
     RUN_TEST(test_no_data_cache_hides_what_the_store_is_now);
     RUN_TEST(test_reset_flags_are_read_and_forgotten);
     RUN_TEST(test_what_is_special_about_the_chip);

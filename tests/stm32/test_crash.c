@@ -85,6 +85,15 @@ static void test_a_frame_that_ends_beyond_the_stack_is_not_followed(void)
     TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
 }
 
+/* The pointer of a stack that ran wild: behind it there is less room than a frame takes before addresses start over at 0. */
+static void test_a_frame_at_the_end_of_the_address_space_is_not_followed(void)
+{
+    crash_at((const uint32_t *)(UINTPTR_MAX - 7u));
+    (void)crash_reset_cause(RESET_SOFTWARE);
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX - 7u, crash_last()->values[CRASH_SP]);
+    TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
+}
+
 static void test_a_frame_that_just_fits_is_kept(void)
 {
     crash_keep(CRASH_BUS_FAULT, &stack[4], &stack[4], &stack[12]);
@@ -175,6 +184,7 @@ int main(void)
     RUN_TEST(test_a_stack_pointer_out_of_the_stack_is_kept_and_not_followed);
     RUN_TEST(test_a_frame_below_the_stack_is_not_followed);
     RUN_TEST(test_a_frame_that_ends_beyond_the_stack_is_not_followed);
+    RUN_TEST(test_a_frame_at_the_end_of_the_address_space_is_not_followed);
     RUN_TEST(test_a_frame_that_just_fits_is_kept);
     RUN_TEST(test_power_on_forgets_the_crash_for_good);
     RUN_TEST(test_an_old_crash_is_still_told_but_was_not_the_cause);

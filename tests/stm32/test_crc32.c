@@ -14,7 +14,7 @@ static uint32_t crc_of(const char *text)
 }
 
 /* The check value of CRC-32/ISO-HDLC in the catalogue of parametrised CRC algorithms; zlib's crc32 gives all of these. */
-static void test_known_answers(void)
+static void test_known_bytes_have_their_known_crc(void)
 {
     TEST_ASSERT_EQUAL_HEX32(0xCBF43926, crc_of("123456789"));
     TEST_ASSERT_EQUAL_HEX32(0x00000000, crc_of(""));
@@ -41,7 +41,7 @@ static void test_the_count_is_kept_to(void)
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_known_answers);
+    RUN_TEST(test_known_bytes_have_their_known_crc);
     RUN_TEST(test_zeros_and_ones_count);
     RUN_TEST(test_the_count_is_kept_to);
     return UNITY_END();

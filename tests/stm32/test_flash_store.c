@@ -127,7 +127,7 @@ static void test_random_bytes_are_no_memory_and_the_robot_starts(void)
     assert_found(5);
 }
 
-static void test_zeros_are_no_memory(void)
+static void test_pages_of_zeros_hold_no_memory(void)
 {
     memset(fake_flash.bytes, 0, sizeof fake_flash.bytes);
     TEST_ASSERT_EQUAL(HAL_E_STORE, start());
@@ -158,7 +158,7 @@ int main(void)
     RUN_TEST(test_a_change_of_any_one_byte_is_stored);
     RUN_TEST(test_what_does_not_read_back_any_more_is_written_again);
     RUN_TEST(test_random_bytes_are_no_memory_and_the_robot_starts);
-    RUN_TEST(test_zeros_are_no_memory);
+    RUN_TEST(test_pages_of_zeros_hold_no_memory);
     RUN_TEST(test_one_flipped_bit_makes_the_record_before_it_count);
     return UNITY_END();
 }

@@ -35,7 +35,7 @@ static void test_it_starts_in_both_directions_without_interrupts(void)
     TEST_ASSERT_EQUAL_HEX32(0, UART.cr2 | UART.cr3);
 }
 
-static void test_it_stops(void)
+static void test_stopping_switches_the_port_off(void)
 {
     uart_start(72000000, 115200);
     uart_stop();
@@ -85,7 +85,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_divisor_is_the_nearest);
     RUN_TEST(test_it_starts_in_both_directions_without_interrupts);
-    RUN_TEST(test_it_stops);
+    RUN_TEST(test_stopping_switches_the_port_off);
     RUN_TEST(test_no_byte_is_nothing);
     RUN_TEST(test_a_byte_is_got_as_it_is);
     RUN_TEST(test_each_receive_error_is_told);

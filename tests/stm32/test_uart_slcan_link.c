@@ -259,7 +259,7 @@ static void test_its_health_is_always_fine(void)
     TEST_ASSERT_EQUAL_UINT8(0, health.tx_errors | health.rx_errors | health.bus_offs | health.dropped);
 }
 
-static void test_it_closes(void)
+static void test_closing_stops_the_serial_port(void)
 {
     link_close(NULL);
     TEST_ASSERT_TRUE(fake.on);
@@ -287,6 +287,6 @@ int main(void)
     RUN_TEST(test_a_line_cut_short_is_ended_before_the_next);
     RUN_TEST(test_a_line_cut_short_after_its_first_byte_is_ended_too);
     RUN_TEST(test_its_health_is_always_fine);
-    RUN_TEST(test_it_closes);
+    RUN_TEST(test_closing_stops_the_serial_port);
     return UNITY_END();
 }

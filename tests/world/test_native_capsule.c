@@ -46,7 +46,7 @@ static void test_a_disc_on_the_centre_line_is_pushed_sideways(void)
     TEST_ASSERT_EQUAL_DOUBLE(-1.0, contact.normal.y);
 }
 
-static void test_two_discs(void)
+static void test_two_discs_overlap_along_the_line_between_their_centres(void)
 {
     capsule_meet_discs(CENTRE, (struct vector){1150.0, 1000.0}, 100.0, &contact);
     TEST_ASSERT_TRUE(contact.touches);
@@ -128,7 +128,7 @@ int main(void)
     RUN_TEST(test_a_disc_overlaps_a_round_end);
     RUN_TEST(test_a_disc_that_only_just_reaches_does_not_overlap);
     RUN_TEST(test_a_disc_on_the_centre_line_is_pushed_sideways);
-    RUN_TEST(test_two_discs);
+    RUN_TEST(test_two_discs_overlap_along_the_line_between_their_centres);
     RUN_TEST(test_the_walls_insides_are_the_arenas_edge);
     RUN_TEST(test_a_thing_is_at_least_as_far_away_as_its_box);
     RUN_TEST(test_a_capsule_hides_what_is_behind_it);

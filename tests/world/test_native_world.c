@@ -60,7 +60,7 @@ static void test_food_within_reach_is_eaten(void)
     TEST_ASSERT_FALSE(world_eat(&world, body));
 }
 
-static void test_food_out_of_reach_is_not(void)
+static void test_food_out_of_reach_is_not_eaten(void)
 {
     TEST_ASSERT_FALSE(eats_at(150.0));
     TEST_ASSERT_FALSE(eats_at(-100.0));
@@ -105,7 +105,7 @@ int main(void)
     RUN_TEST(test_senses_are_those_of_the_body);
     RUN_TEST(test_a_body_that_senses_nothing);
     RUN_TEST(test_food_within_reach_is_eaten);
-    RUN_TEST(test_food_out_of_reach_is_not);
+    RUN_TEST(test_food_out_of_reach_is_not_eaten);
     RUN_TEST(test_wheels_roll_for_a_tick);
     RUN_TEST(test_wheels_have_a_fastest_speed_either_way);
     RUN_TEST(test_a_lifted_bodys_wheels_roll_in_the_air);

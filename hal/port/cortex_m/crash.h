@@ -20,7 +20,7 @@ enum crash_register {
 
 void crash_keep(uint32_t cause, const uint32_t *frame, const uint32_t *lowest, const uint32_t *end);
         /* Notes what an exception found, in RAM that a reset leaves alone. frame is read only if it lies within
-           lowest..end. */
+           lowest..end, which has room for one. Called from the exception's handler, just before the reset. */
 
 enum reset_cause crash_reset_cause(enum reset_cause cause);
         /* Why the program last started, given what the chip says of it: a reset that followed a crash is RESET_CRASH.

@@ -37,9 +37,11 @@ static const struct vectors vectors = {
     },
 };
 
-/* It takes a few cycles; and if it never comes, the watchdog does. */
+/* It takes a few cycles; and if it never comes, the watchdog does. Without the barrier, neither the compiler nor the core's write
+ * buffer has to store what was noted of a crash before. */
 static void restart(void)
 {
+    __asm__ volatile("dsb" ::: "memory");
     SCB.aircr = AIRCR_KEY | AIRCR_RESET;
     for (;;)
         continue;

@@ -12,15 +12,19 @@
 #include "hal/can_body/port.h"
 #include "hal/port/posix/file_store.h"
 
-static const char USAGE[] =
-    "usage: octet-robot [--node N] [--memory FILE] [--with-parent] LINK\n"
-    "  LINK           socketcan:IFACE, fd:N or slcan:PATH\n"
-    "  --node N       which robot on the bus this is, 1..31 (1)\n"
-    "  --memory FILE  load the eight bytes from FILE at start, store them there when they change\n"
-    "  --with-parent  end when the process that started this one ends\n"
-    "example: octet-robot --node 2 socketcan:vcan0\n";
-
 static const char *memory_path;   /* hal_store is not told where: there is one store to a machine */
+
+static void print_usage(FILE *to)
+{
+    fprintf(to,
+            "usage: octet-robot [--node N] [--memory FILE] [--with-parent] LINK\n"
+            "  LINK           socketcan:IFACE, fd:N or slcan:PATH[@BAUD]\n"
+            "  --node N       which robot on the bus this is, 1..%d (1)\n"
+            "  --memory FILE  load the eight bytes from FILE at start, store them there when they change\n"
+            "  --with-parent  end when the process that started this one ends\n"
+            "example: octet-robot --node 2 socketcan:vcan0\n",
+            NODE_MAX);
+}
 
 static int parse_node(const char *text, uint8_t *node)
 {
@@ -54,10 +58,10 @@ static int take_option(struct port *port, int option)
     case 'p':
         return die_with_parent();
     case 'h':
-        fputs(USAGE, stdout);
+        print_usage(stdout);
         exit(0);
     default:
-        fputs(USAGE, stderr);
+        print_usage(stderr);
         return HAL_E_USAGE;
     }
 }
@@ -81,7 +85,7 @@ int port_open(struct port *port, int argc, char *const argv[])
             return result;
     }
     if (optind != argc - 1) {
-        fputs(USAGE, stderr);
+        print_usage(stderr);
         return HAL_E_USAGE;
     }
     port->link = argv[optind];
@@ -99,7 +103,7 @@ uint32_t port_clock_ms(void)
     struct timespec now;
 
     clock_gettime(CLOCK_MONOTONIC, &now);
-    return (uint32_t)(now.tv_sec * 1000 + now.tv_nsec / 1000000);
+    return (uint32_t)now.tv_sec * 1000u + (uint32_t)(now.tv_nsec / 1000000);   /* wraps, where a small time_t would overflow */
 }
 
 void port_alive(bool outage)

@@ -22,6 +22,7 @@ enum {
     PLL_FROM_HSE = 1u << 16,     /* else from half the internal oscillator */
     PLL_BY_9 = 7u << 18,
     PLL_BY_16 = 14u << 18,
+    ACR_WAITS = 7,
     ACR_2_WAITS = 2,             /* above 48 MHz */
     ACR_PREFETCH = 1u << 4
 };
@@ -39,9 +40,12 @@ static bool start_pll(uint32_t setting)
     return comes_up(&RCC.cr, PLLRDY, PLLRDY, SWITCH_MS);
 }
 
+/* The flash is slowed down before the clock gets faster. */
 static bool switch_to_pll(uint32_t setting)
 {
-    FLASH.acr = ACR_PREFETCH | ACR_2_WAITS;   /* before the clock gets faster */
+    FLASH.acr = ACR_PREFETCH | ACR_2_WAITS;
+    if (!comes_up(&FLASH.acr, ACR_WAITS, ACR_2_WAITS, SWITCH_MS))
+        return false;
     RCC.cfgr = CFGR_APB1_BY_2 | setting | CFGR_SW_PLL;
     return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL, SWITCH_MS);
 }

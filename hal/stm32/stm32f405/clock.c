@@ -20,7 +20,9 @@ enum {
     PLL_P_2 = 0u << 16,          /* halved: 168 MHz out */
     PLL_Q_7 = 7u << 24,          /* 48 MHz, not used */
     PLL_FROM_HSE = 1u << 22,
+    PLL_RESERVED = 2u << 28,     /* as after reset */
     HSI_MHZ = 16,
+    ACR_WAITS = 7,
     ACR_5_WAITS = 5,             /* at 168 MHz and 3.3 V, 3.5.1 */
     ACR_CACHES = 3u << 8         /* prefetch and instruction cache; a data cache would remember what the store was */
 };
@@ -33,15 +35,17 @@ static bool start_crystal(void)
 
 static bool start_pll(uint32_t source, uint32_t source_mhz)
 {
-    RCC.pllcfgr = PLL_Q_7 | source | PLL_P_2 | (uint32_t)PLL_N << 6 | source_mhz;
+    RCC.pllcfgr = PLL_RESERVED | PLL_Q_7 | source | PLL_P_2 | (uint32_t)PLL_N << 6 | source_mhz;
     RCC.cr |= PLLON;
     return comes_up(&RCC.cr, PLLRDY, PLLRDY, SWITCH_MS);
 }
 
-/* The flash and the buses are slowed down before the clock gets faster. */
+/* The flash, which says when it is (3.5.1), and the buses are slowed down before the clock gets faster. */
 static bool switch_to_pll(void)
 {
     FLASH.acr = ACR_CACHES | ACR_5_WAITS;
+    if (!comes_up(&FLASH.acr, ACR_WAITS, ACR_5_WAITS, SWITCH_MS))
+        return false;
     RCC.cfgr = CFGR_APB1_BY_4 | CFGR_APB2_BY_2;
     RCC.cfgr = CFGR_APB1_BY_4 | CFGR_APB2_BY_2 | CFGR_SW_PLL;
     return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL, SWITCH_MS);
@@ -58,9 +62,7 @@ struct clocks clock_start(void)
         return fast;
     systick_start(slow.core_hz);
     fast.exact = start_crystal();
-    if (!start_pll(fast.exact ? PLL_FROM_HSE : 0, fast.exact ? OCTET_CRYSTAL_MHZ : HSI_MHZ))
-        return slow;
-    if (switch_to_pll())
+    if (start_pll(fast.exact ? PLL_FROM_HSE : 0, fast.exact ? OCTET_CRYSTAL_MHZ : HSI_MHZ) && switch_to_pll())
         return fast;
     RCC.cfgr = 0;
     return slow;

@@ -108,10 +108,10 @@ static bool run_tick(struct loop *loop)
 
 static bool has_room(const struct loop *loop)
 {
-    size_t lines = 0;
+    size_t each = 1 + LOOP_FRAMES_MAX + (loop->ask ? LOOP_ASK_LINES : 0), lines = 0;
 
     for (size_t i = 0; i < loop->robot_count; i++)
-        lines += 1 + LOOP_FRAMES_MAX + loop->robots[i].waiting_count;
+        lines += each + loop->robots[i].waiting_count;
     return !loop->log.text || loop->log_size - loop->log.used >= lines * LOG_LINE_MAX;
 }
 

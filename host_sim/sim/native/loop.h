@@ -18,6 +18,7 @@ struct octet;   /* a robot as a library call: hal/library/exchange.h */
 
 enum {
     LOOP_FRAMES_MAX = 16,    /* that a robot answers in one tick */
+    LOOP_ASK_LINES = 32,     /* of the log, in which ask asks one robot */
     LOOP_KINDS_MAX = 32,     /* of reports of one robot: an identifier, and which page of it */
     LOOP_REASONS = 16,
     LOOP_ROW = 17,           /* numbers that are recorded of each tick: the senses, the drive, the pattern, lifted, 0 */
@@ -66,7 +67,8 @@ struct loop {
     size_t (*exchange)(struct octet *octet, const struct frame *in);
     const struct frame *(*answers)(const struct octet *octet);
     bool (*ask)(struct loop *loop, size_t robot);   /* asks one in this process that has stopped by itself how it is, and
-                                                       logs that; false: it has not. null: its tick is handed over */
+                                                       logs that in up to LOOP_ASK_LINES; false: it has not. null: its tick
+                                                       is handed over */
     struct world *world;
     size_t robot_count;               /* as many as the world has bodies */
     struct loop_robot *robots;

@@ -126,14 +126,16 @@ void page_build(void);
         /* Builds the arena by its dimensions. */
 
 void page_put_obstacle(uint32_t index, double ax_mm, double ay_mm, double bx_mm, double by_mm, double radius_mm);
-        /* Places obstacle 0, 1, ...: a bar or, if its ends are the same, a plant. */
+        /* Places obstacle 0..PAGE_OBSTACLES_MAX - 1: a bar or, if its ends are the same, a plant. */
 
 void page_put_food(uint32_t index, double x_mm, double y_mm);
+        /* Places piece 0..PAGE_FOOD_MAX - 1. */
 
 void page_put_body(uint32_t robot, double x_mm, double y_mm, double heading_rad);
         /* Places a robot on the floor. */
 
 void page_lift(uint32_t robot);
+        /* Takes a robot off the floor, until page_put_body. */
 
 double *page_faults(void);
         /* Where JavaScript puts what is wrong with a body: PAGE_FAULTS numbers. */
@@ -148,9 +150,11 @@ void page_settle(uint32_t obstacles);
         /* A person has changed something; this is the number of obstacles now. */
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max);
-        /* Runs a block of up to PAGE_TICKS_MAX ticks, as loop_run does. Returns how many have been run. */
+        /* Runs a block, as loop_run does, from this tick of the run. ticks_max is 1..PAGE_TICKS_MAX. Returns how many ticks have
+           been run. */
 
 uint32_t page_is_eaten(uint32_t food);
+        /* 1 if it is, else 0. */
 
 const int16_t *page_rows(uint32_t robot);
         /* LOOP_ROW numbers for each tick of the block, */

@@ -32,7 +32,7 @@ void capsule_set_walls(struct capsule walls[WALLS], double width_mm, double heig
         /* The walls around an arena with a corner at (0, 0); their insides are its edge. */
 
 double capsule_apart_mm(const struct capsule *capsule, struct vector point);
-        /* What its distance from a point is at least: that of the box around it. Negative within the box. */
+        /* A lower bound of its distance from a point: that of the box around it. Negative within the box. */
 
 void capsule_meet_disc(const struct capsule *capsule, struct vector centre, double radius_mm, struct contact *out);
 

@@ -1,5 +1,5 @@
-/* munk.h: the part of Munk2D, pymunk's physics library, that is called from here. There is no second build of it: pymunk
- * hands out pointers to the functions of its own. The types are laid out as in Munk2D's headers. */
+/* munk.h: the part of Munk2D, pymunk's physics library, that is called from here. It is not built a second time: pymunk hands
+ * out pointers to its own functions. The types are laid out as in Munk2D's headers. */
 #ifndef OCTET_MUNK_H
 #define OCTET_MUNK_H
 
@@ -47,7 +47,7 @@ struct munk_nearest {
     struct munk_vector gradient;
 };
 
-/* What is called when two shapes begin to touch, in each step in which they do, and when they cease to. */
+/* What is called when two shapes begin to touch, in each step in which they do, and when they part. */
 struct munk_handler {
     uintptr_t type_a;
     uintptr_t type_b;

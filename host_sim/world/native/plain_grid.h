@@ -7,7 +7,7 @@
 
 #include "host_sim/world/native/vector.h"
 
-enum { PLAIN_NEAR_MAX = 256 };   /* bodies in nine cells; there is no room for half as many */
+enum { PLAIN_NEAR_MAX = 256 };   /* bodies in nine cells; not half as many fit */
 
 struct plain_grid {
     double cell_mm;            /* more than from the middle of a body to that of another one which it feels */

@@ -19,7 +19,7 @@ struct plain_world {
     const struct cones *cones;
     size_t capsule_count;
     struct capsule *capsules;      /* walls and bars */
-    struct plain_grid *grid;       /* null: whatever there is is looked at; for at most PLAIN_NEAR_MAX bodies */
+    struct plain_grid *grid;       /* null: everything is looked at; for at most PLAIN_NEAR_MAX bodies */
     struct plain_place *places;    /* one for each body */
     size_t words;                  /* PLAIN_WORDS(capsule_count + body_count) */
     uint64_t *touching;            /* words for each body, and once more: a bit for each thing that it touches */

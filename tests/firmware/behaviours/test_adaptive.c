@@ -27,7 +27,7 @@ static void test_confidence_ends_at_3(void)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-static void test_boredom_takes_2(void)
+static void test_boredom_takes_a_confidence_of_2(void)
 {
     brain.memory.cell[PATTERN_FRONT] = LEFT_3;
     remembered_turns(10);
@@ -75,7 +75,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_a_lesson_has_confidence_1_and_a_clear_way_adds_1);
     RUN_TEST(test_confidence_ends_at_3);
-    RUN_TEST(test_boredom_takes_2);
+    RUN_TEST(test_boredom_takes_a_confidence_of_2);
     RUN_TEST(test_a_cell_that_was_not_used_is_not_judged);
     RUN_TEST(test_a_frozen_brain_neither_praises_nor_blames);
     RUN_TEST(test_a_frozen_brain_learns_nothing_from_a_trial_that_helped);

@@ -85,13 +85,13 @@ static void test_a_trial_is_as_big_as_ever(void)
     TEST_ASSERT_EQUAL_INT(45, turn_deg < 0 ? -turn_deg : turn_deg);
 }
 
-static void test_another_behaviour_wants_none(void)
+static void test_another_behaviour_wants_no_ranges(void)
 {
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_ARTICLE, 1));
     TEST_ASSERT_FALSE(brain.wants_ranges);
 }
 
-static void test_nor_does_one_that_a_memory_has_chosen(void)
+static void test_a_behaviour_that_a_memory_has_chosen_wants_no_ranges(void)
 {
     static const uint8_t cells[CELL_COUNT] = {0, 5};
 
@@ -115,8 +115,8 @@ int main(void)
     RUN_TEST(test_the_nearest_counts);
     RUN_TEST(test_it_adds_to_the_turn_that_is_set);
     RUN_TEST(test_a_trial_is_as_big_as_ever);
-    RUN_TEST(test_another_behaviour_wants_none);
-    RUN_TEST(test_nor_does_one_that_a_memory_has_chosen);
+    RUN_TEST(test_another_behaviour_wants_no_ranges);
+    RUN_TEST(test_a_behaviour_that_a_memory_has_chosen_wants_no_ranges);
     RUN_TEST(test_the_smallest_turn_is_to_its_side_too);
     return UNITY_END();
 }

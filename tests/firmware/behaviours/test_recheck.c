@@ -16,7 +16,7 @@ static void test_a_remembered_turn_that_frees_no_sensor_is_forgotten(void)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-static void test_one_that_frees_a_sensor_is_kept(void)
+static void test_a_remembered_turn_that_frees_a_sensor_is_kept(void)
 {
     learned(PATTERN_ALL_THREE, SIDE_LEFT);
     next(ALL_THREE);
@@ -42,7 +42,7 @@ static void test_a_frozen_brain_forgets_nothing(void)
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
-static void test_it_learns(void)
+static void test_a_run_with_recheck_stores_what_it_learns(void)
 {
     TEST_ASSERT_TRUE(brain.learns);
 }
@@ -51,9 +51,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_remembered_turn_that_frees_no_sensor_is_forgotten);
-    RUN_TEST(test_one_that_frees_a_sensor_is_kept);
+    RUN_TEST(test_a_remembered_turn_that_frees_a_sensor_is_kept);
     RUN_TEST(test_the_turn_before_the_about_face_is_checked_too);
     RUN_TEST(test_a_frozen_brain_forgets_nothing);
-    RUN_TEST(test_it_learns);
+    RUN_TEST(test_a_run_with_recheck_stores_what_it_learns);
     return UNITY_END();
 }

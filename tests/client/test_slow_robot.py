@@ -1,0 +1,100 @@
+"""A robot that takes its time for each frame, as in an emulator on a busy machine: the client must not swamp it."""
+
+from collections import deque
+from collections.abc import Iterator
+
+import pytest
+
+from host_sim.client.commands import start
+from host_sim.client.connection import Connection
+from host_sim.client.handshake import handshake
+from host_sim.client.robot_client import RobotClient
+from host_sim.errors import RobotError
+from host_sim.protocol.codec import Frame
+from host_sim.transport.in_process_link import InProcessLink
+from tests.client.support import PROTOCOL, Diary, drive_for
+
+FRAME_S = 0.065
+"""What the robot needs for a frame: more than the time after which the client repeats one."""
+PROMPT_S = 0.001
+HELD_UP_S = 4.0
+TICKS = 60
+
+
+class SlowRobot:
+    """A link in a virtual time, to a robot that answers frames one after another."""
+
+    def __init__(self) -> None:
+        self.frame_s = PROMPT_S
+        self.now_s = self.free_s = 0.0
+        self.waiting: deque[tuple[float, Frame]] = deque()
+        self.robot = InProcessLink()
+        self.answers: deque[Frame] = deque()
+        self.last = Frame(-1, b"")
+        self.stuck = False
+
+    def now(self) -> float:
+        return self.now_s
+
+    def hold_up(self, seconds: float) -> None:
+        self.free_s = self.now_s + seconds
+
+    def send(self, frame: Frame) -> None:
+        self.free_s = max(self.free_s, self.now_s) + self.frame_s
+        self.waiting.append((self.free_s, frame))
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        give_up_s = self.now_s + timeout_s
+        while not self.answers:
+            if not self.waiting or self.waiting[0][0] > give_up_s:
+                self.now_s = give_up_s
+                return None
+            done_s, frame = self.waiting.popleft()
+            self.now_s = max(self.now_s, done_s)
+            self.answers += self.answers_to(frame)
+        self.last = self.answers.popleft()
+        return self.last
+
+    def answers_to(self, frame: Frame) -> Iterator[Frame]:
+        """The robot's, or again and again its last one."""
+        if self.stuck:
+            yield self.last
+            return
+        self.robot.send(frame)
+        while (answer := self.robot.receive(0.0)) is not None:
+            yield answer
+
+    def close(self) -> None:
+        self.robot.close()
+
+
+def running(robot: SlowRobot) -> RobotClient:
+    """The client of a robot that was prompt so far, and is slow from now on."""
+    client = RobotClient(Connection(robot, now=robot.now), PROTOCOL, Diary())
+    handshake(client, client.connection.deadline_s)
+    start(client, 1, 0, {"turn_deg": 20}, None)
+    drive_for(client, TICKS)
+    robot.frame_s = FRAME_S
+    return client
+
+
+def test_a_robot_that_was_held_up_catches_up():
+    robot = SlowRobot()
+    client = running(robot)
+    robot.hold_up(HELD_UP_S)
+
+    drive_for(client, TICKS, first=TICKS)
+
+    assert client.incidents == []
+    assert robot.now_s < 2 * (HELD_UP_S + TICKS * FRAME_S)
+
+
+def test_a_robot_that_only_says_what_it_has_said_before_is_given_up():
+    robot = SlowRobot()
+    client = running(robot)
+    robot.stuck = True
+
+    with pytest.raises(RobotError, match=f"did not answer tick {TICKS}"):
+        drive_for(client, TICKS, first=TICKS)
+
+    assert robot.now_s < 60
