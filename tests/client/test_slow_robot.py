@@ -9,6 +9,7 @@ from host_sim.client.commands import start
 from host_sim.client.connection import Connection
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
 from host_sim.errors import RobotError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.in_process_link import InProcessLink
@@ -72,7 +73,7 @@ def running(robot: SlowRobot) -> RobotClient:
     """The client of a robot that was prompt so far, and is slow from now on."""
     client = RobotClient(Connection(robot, now=robot.now), PROTOCOL, Diary())
     handshake(client, client.connection.deadline_s)
-    start(client, 1, 0, {"turn_deg": 20}, None)
+    start(client, Session(1, settings={"turn_deg": 20}))
     drive_for(client, TICKS)
     robot.frame_s = FRAME_S
     return client
