@@ -118,6 +118,8 @@ def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
                 stop(client)
     with suppress(OctetError):
         outputs.write()
+        if isinstance(end, KeyboardInterrupt):
+            end.args = ("the log so far was written",)  # `main` tells it
 
 
 def _check_trust(summary: Summary) -> None:

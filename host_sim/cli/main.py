@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return 1
         except KeyboardInterrupt as end:
             number = end.number if isinstance(end, _EndedBySignal) else signal.SIGINT
-            print(f"octet: ended by {signal.Signals(number).name}; the log so far was written", file=sys.stderr)
+            print("; ".join([f"octet: ended by {signal.Signals(number).name}", *end.args]), file=sys.stderr)
             return 128 + number
 
 

@@ -44,7 +44,7 @@ class Connections:
         return _Connection(self, self._server, self._logger)
 
     def keep(self, request: web.Request) -> None:
-        """Exempts a request's connection, which becomes a WebSocket, from limits."""
+        """Exempts a request's connection, which has become a WebSocket, from limits."""
         connection = request.protocol
         assert isinstance(connection, _Connection)
         connection.deadline.cancel()

@@ -176,8 +176,8 @@ class LiveServer:
         if self.pages >= PAGES_MAX:
             raise web.HTTPServiceUnavailable(text=f"{PAGES_MAX} pages are watching already\n")
         page = web.WebSocketResponse(max_msg_size=TEXT_MAX, heartbeat=20.0, compress=False, timeout=1.0)
-        self._connections.keep(request)
         await page.prepare(request)
+        self._connections.keep(request)
         return page
 
     async def _serve(self, visitor: Visitor) -> None:

@@ -98,10 +98,12 @@ def open_study(path: Path, plan: Plan) -> Iterator[StudyFolder]:
 
 
 def _make(path: Path, about: dict[str, Any]) -> None:
-    if any(path.iterdir()):
+    ours = [path / name for name in COLUMNS]
+    # A study that was stopped here has left some of its folders, empty.
+    if not {*path.iterdir()} <= {*ours} or any(each.is_file() or any(each.iterdir()) for each in path.iterdir()):
         raise UsageError(f"{path} has something else in it; choose another folder with --out")
-    for name in COLUMNS:
-        (path / name).mkdir()
+    for each in ours:
+        each.mkdir(exist_ok=True)
     write_bytes(path / STUDY_FILE, json.dumps(about, indent=1).encode() + b"\n")
 
 

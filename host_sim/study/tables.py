@@ -62,6 +62,7 @@ COLUMNS: Mapping[str, Mapping[str, type]] = {
         "seed": int,
         "profile": str,
         "settings": str,
+        "world": str,
         "change": str,
         "robots": int,
         "known_s": float,

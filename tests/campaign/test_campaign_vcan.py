@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.campaign.test_campaign import outcome_of
+from tests.campaign.support import outcome_of
 
 pytestmark = pytest.mark.vcan
 

@@ -10,7 +10,7 @@ from host_sim.campaign.wall_clock import clock_events
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import Frame
 from host_sim.recording.memory_file import MemorySaver
-from tests.campaign.test_campaign import outcome_of
+from tests.campaign.support import outcome_of
 from tests.runs.support import octet
 
 LEARNS = "article none lockstep seed=12 limit=12"

@@ -26,7 +26,7 @@ from host_sim.monitor.monitor import filter_robots, watch_lines
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.protocol.every_node import IDS
 from host_sim.transport.buses import open_bus
-from tests.runs.support import octet
+from tests.runs.support import DEADLINE_S, octet
 
 MONITOR = (sys.executable, "-m", "host_sim", "monitor")
 STOPPED = Protocol().encode("COMMAND", {"counter": 1, "opcode": 1, "owner": 3})
@@ -133,7 +133,7 @@ def on_vcan():
 
 def wait_until_it_listens(process: subprocess.Popen) -> None:
     """Until its socket has its filters: the kernel lists it among the receivers of vcan0."""
-    give_up = time.monotonic() + 30
+    give_up = time.monotonic() + DEADLINE_S
     while f"{STOPPED.id & ~NODE_MAX:03x}" not in Path("/proc/net/can/rcvlist_fil").read_text():
         assert process.poll() is None
         assert time.monotonic() < give_up
@@ -150,7 +150,7 @@ def test_on_vcan_it_shows_the_frames_of_a_run_and_the_kernel_keeps_others_away(o
         "run", "--environments", "1", "--limit-s", "2", "--out", tmp_path, "--bus", "socketcan:vcan0", "--quiet"
     )
     process.send_signal(signal.SIGINT)
-    output, errors = process.communicate(timeout=30)
+    output, errors = process.communicate(timeout=DEADLINE_S)
 
     assert run.returncode == 0
     assert (process.returncode, errors) == (0, "")
@@ -168,7 +168,7 @@ def test_it_shows_what_came_before_it_was_asked_to_end(on_vcan):
 
     process.send_signal(signal.SIGINT)
     process.send_signal(signal.SIGCONT)
-    output, _ = process.communicate(timeout=30)
+    output, _ = process.communicate(timeout=DEADLINE_S)
 
     assert len([line for line in output.splitlines() if not line.startswith("!")]) == 400
 
@@ -208,7 +208,7 @@ def test_a_reader_that_goes_ends_it_quietly(on_vcan):
     try:
         assert process.stdout.readline()
         process.stdout.close()
-        assert process.wait(timeout=30) == 1
+        assert process.wait(timeout=DEADLINE_S) == 1
     finally:
         noise.kill()
         noise.wait()
@@ -230,7 +230,7 @@ def test_on_a_terminal_it_is_a_table_and_restores_the_screen(on_vcan):
             seen += chunk
     os.close(ours)
 
-    assert process.wait(timeout=30) == 0
+    assert process.wait(timeout=DEADLINE_S) == 0
     assert seen.startswith(b"\x1b[?1049h")
     assert seen.endswith(b"\x1b[?1049l")
     assert b"no robot is heard" in seen

@@ -13,6 +13,7 @@ from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
 from host_sim.errors import RobotError
 from host_sim.faults.bus_faults import random_frame
 from host_sim.faults.forgery import forge
@@ -108,7 +109,7 @@ def _started() -> RobotClient:
     clock = VirtualClock()
     client = RobotClient(Connection(StormyLink(clock), now=clock.now), PROTOCOL, FrameLog())
     handshake(client, client.connection.deadline_s)
-    start(client, 1, 0, {}, None)
+    start(client, Session(1))
     client.log.close()
     client.inbox.record = lambda _: None
     return client

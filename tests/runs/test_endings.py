@@ -12,7 +12,7 @@ import pytest
 from host_sim.backends.robot_process import RobotProcess
 from host_sim.errors import RobotError
 from host_sim.live.paced_run import PAUSE_S
-from tests.runs.support import octet, robot_of, start_octet, wait_for_lines
+from tests.runs.support import DEADLINE_S, octet, robot_of, start_octet, wait_for_lines
 
 FILES = ("run.log", "run.world.json", "summary.json", "arena.png", "replay.html")
 SHORT = ("--environments", "1", "--limit-s", "5", "--bus", "none")
@@ -43,7 +43,7 @@ def test_a_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
     wait_for_lines(tmp_path / "run.log", 4000)
 
     process.send_signal(number)
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=DEADLINE_S)
 
     assert process.returncode == 128 + number
     assert errors.count("\n") == 1
@@ -57,7 +57,7 @@ def test_a_watched_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number
     wait_for_lines(tmp_path / "run.log", 4000)
 
     process.send_signal(number)
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=DEADLINE_S)
 
     assert (process.returncode, errors) == (0, "")
     assert_whole(tmp_path, 8)
@@ -70,7 +70,7 @@ def test_a_robot_that_is_killed_leaves_one_whole_run_and_is_named(tmp_path):
     wait_for_lines(tmp_path / "run.log", 4000)
 
     os.kill(robot, signal.SIGKILL)
-    _, errors = process.communicate(timeout=30)
+    _, errors = process.communicate(timeout=DEADLINE_S)
 
     assert process.returncode == 1
     assert errors.startswith("octet: the robot was killed by signal 9 (SIGKILL) and printed: ")
@@ -180,3 +180,13 @@ def test_a_run_in_real_time_pauses_after_an_environment_and_the_log_knows_nothin
     assert [[it["ticks"] for it in summary["environments"]] for summary in summaries] == [[50, 50]] * 2
     assert summaries[0]["wall_s"] >= 2 + PAUSE_S
     assert octet("replay", paused / "run.log").returncode == 0
+
+
+def test_a_command_without_a_log_that_is_interrupted_speaks_of_none(monkeypatch):
+    def interrupted(_: object) -> int:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("host_sim.cli.monitor_command._monitor", interrupted)
+
+    assert (ended := octet("monitor", "socketcan:can0")).returncode == 128 + signal.SIGINT
+    assert ended.stderr == "octet: ended by SIGINT\n"

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from host_sim.faults.cable import Cable, Socket
-from tests.runs.support import ROBOT, octet, start_octet, wait_until
+from tests.runs.support import DEADLINE_S, ROBOT, octet, start_octet, wait_until
 
 LEARNED = bytes([0, 1, 1, 1, 2, 1, 2, 1])
 SOME_TICKS = 6000
@@ -109,7 +109,7 @@ def test_an_adapter_that_is_unplugged_and_plugged_in_again_is_waited_for(robot_o
     robot_on(second)
     socket.plug(second.ends[1])
 
-    output, errors = process.communicate(timeout=100)
+    output, errors = process.communicate(timeout=DEADLINE_S)
     second.close()
     assert process.returncode == 1
     assert re.fullmatch(
@@ -131,7 +131,7 @@ def test_a_line_that_stays_away_ends_the_run_with_one_line(robot_on, tmp_path):
     socket.unplug()  # before its tty has another owner: the next cable of any test may get the same one
     cable.close()
 
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate(timeout=DEADLINE_S)
     assert process.returncode == 1
     assert re.fullmatch(r"octet: the bus slcan:\S+ has been gone for 0.5 s: .*\n", errors)
 
@@ -150,7 +150,7 @@ def test_a_robot_that_restarts_goes_on_with_its_memory_and_the_result_is_doubted
     robot.wait()
     robot_on(cable)
 
-    _, errors = process.communicate(timeout=100)
+    _, errors = process.communicate(timeout=DEADLINE_S)
     assert process.returncode == 1
     assert "not to be trusted: at tick" in errors
     assert "its memory restored" in errors

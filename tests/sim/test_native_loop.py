@@ -1,6 +1,5 @@
 """The tick loop in C against the readable one: logs byte for byte, and all that is recorded and counted."""
 
-import logging
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -14,17 +13,13 @@ from host_sim.client.session import Session
 from host_sim.errors import RobotError
 from host_sim.protocol.generated import PROFILES, Reason
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.sim import native_loop
-from host_sim.sim import simulation as simulation_module
 from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.world import munk_pointers
 from host_sim.world.edits import AddBar, Lift, MoveFood, Put, RemoveBar
 from host_sim.world.geometry import Bar, Pose
-from host_sim.world.native_library import NoNativeError
 
 READABLE, ON_PHYSICS, PLAIN = "in Python", "in C, on pymunk's physics", "in C, by plain geometry"
 
@@ -232,76 +227,3 @@ def test_runs_in_real_time_and_with_faults_are_not_run_by_it(config):
     with make(config) as simulation:
         simulation.enter(1)
         assert simulation.loop is None
-
-
-def remove_library(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(native_loop, "LIBRARY", tmp_path / "liboctet_loop.so")
-
-
-def break_library(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    (tmp_path / "liboctet_loop.so").write_text("no library")
-    monkeypatch.setattr(native_loop, "LIBRARY", tmp_path / "liboctet_loop.so")
-
-
-def break_headers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    other = tmp_path / "loop.h"
-    other.write_text(native_loop.HEADERS[-1].read_text() + "/* newer */\n")
-    monkeypatch.setattr(native_loop, "HEADERS", (*native_loop.HEADERS[:-1], other))
-
-
-def break_pymunk(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
-    monkeypatch.setitem(sys.modules, "pymunk._chipmunk_cffi", None)
-
-
-def break_function(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
-    monkeypatch.setitem(munk_pointers._TYPES, "cpSpaceStep", "void(*)(struct cpSpace *, float)")
-
-
-def break_name(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
-    monkeypatch.setitem(munk_pointers._TYPES, "cpSpaceStepTwice", "void(*)(struct cpSpace *)")
-
-
-def break_layout(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
-    monkeypatch.setitem(munk_pointers._LAYOUTS, "struct cpVect", "struct munk_filter")
-
-
-BROKEN = {
-    remove_library: "liboctet_loop.so is missing",
-    break_library: "liboctet_loop.so cannot be loaded",
-    break_headers: "liboctet_loop.so was built from other sources",
-    break_pymunk: "hands out no pointers",
-    break_function: "has no such cpSpaceStep",
-    break_name: "has no such cpSpaceStepTwice",
-    break_layout: "has another struct cpVect",
-}
-
-
-@pytest.fixture
-def fresh():
-    """The library is loaded anew."""
-    native_loop._loaded.cache_clear()
-    yield
-    native_loop._loaded.cache_clear()
-
-
-@pytest.mark.usefixtures("fresh")
-@pytest.mark.parametrize(("damage", "reason"), BROKEN.items(), ids=lambda part: getattr(part, "__name__", ""))
-def test_where_it_cannot_be_used_one_line_says_so_and_python_goes_on(tmp_path, monkeypatch, caplog, damage, reason):
-    config = RunConfig(seed=3, environments=2, limit_s=2.0)
-    expected = outcome(tmp_path, config, READABLE)
-    damage(monkeypatch, tmp_path)
-
-    with make(config) as simulation, caplog.at_level(logging.WARNING):
-        episodes = list(simulation.run())
-
-    assert episodes == expected.episodes
-    assert [record.name for record in caplog.records] == [simulation_module.__name__]
-    assert reason in caplog.text
-    assert "\n" not in caplog.records[0].getMessage()
-
-
-def test_an_object_without_its_pointer_is_refused():
-    ffi, _ = native_loop._loaded()
-
-    with pytest.raises(NoNativeError, match=r"no object\._space"):
-        munk_pointers.own_pointer(ffi, "struct munk_space *", object(), "_space")

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -12,7 +13,7 @@ import pytest
 
 from host_sim.cli.main import main
 from host_sim.extra_library import library
-from host_sim.study import workers
+from host_sim.study import tables, workers
 from host_sim.study.folder import StudyFolder
 from host_sim.study.trial import Trial, run_trial
 
@@ -56,6 +57,17 @@ def test_a_study_has_a_row_for_each_run_environment_and_contact(plan, tmp_path, 
     ours = (contacts["condition"] == "never") & (contacts["seed"] == 2)
     assert contacts["trials"][ours].tolist() == [it.trials for it in expected.rows[0].contacts[0]]
     assert contacts["number"][ours].tolist() == list(range(1, ours.sum() + 1))
+
+
+def test_each_table_has_the_columns_that_are_described():
+    described = {
+        name: re.findall(r"^\| (\w+) +\| ", table, re.MULTILINE)
+        for name, table in re.findall(
+            r"^\| (\w+) +\| [^\n]+\n\| -+ \|[^\n]+\n((?:\|[^\n]+\n)+)", tables.__doc__, re.MULTILINE
+        )
+    }
+
+    assert {name: list(columns) for name, columns in tables.COLUMNS.items()} == described
 
 
 def test_other_programs_read_the_tables(plan, tmp_path):
@@ -140,6 +152,23 @@ def test_a_folder_with_something_else_in_it_stays(plan, tmp_path, capsys):
 
     assert "has something else in it" in capsys.readouterr().err
     assert contents(tmp_path / "out") == {"thesis.tex": b"precious"}
+
+
+def test_a_study_that_was_stopped_before_it_was_described_goes_on(plan, tmp_path):
+    (tmp_path / "out/contacts").mkdir(parents=True)
+
+    assert study(plan(seeds=1)) == 0
+
+
+def test_a_study_whose_runs_do_not_tell_their_world_goes_on(plan, tmp_path):
+    study(plan(seeds=1))
+    parquet = library("pyarrow.parquet", "study")
+    for part in (tmp_path / "out/runs").iterdir():
+        parquet.write_table(parquet.read_table(part).drop_columns(["world"]), part)
+
+    assert study(plan(seeds=2)) == 0
+
+    assert StudyFolder(tmp_path / "out").tables()["runs"]["world"].tolist() == [None] * 2 + ["random"] * 2
 
 
 def test_a_part_that_is_damaged_is_named(plan, tmp_path, capsys):

@@ -11,19 +11,17 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.mutants import runner  # noqa: E402 - found by the line above
-from tools.mutants.equivalent import Compiler, is_listed, needless, read, unmatched  # noqa: E402
-from tools.mutants.schemata import mutants_of, schemata  # noqa: E402
-from tools.mutants.sites import sites_of  # noqa: E402
+from tests.tools.mutants_of_text import STANDARD, TEXT, mutants  # noqa: E402 - found by the line above
+from tools.mutants import runner  # noqa: E402
+from tools.mutants.equivalent import Compiler  # noqa: E402
 from tools.mutants.sources import Source  # noqa: E402
-from tools.mutants.syntax import SourceError, functions  # noqa: E402
+from tools.mutants.syntax import SourceError  # noqa: E402
 from tools.mutants.tree import PLAIN, RUNTIME, SANITIZED  # noqa: E402
 from tools.mutants.trial import Trial  # noqa: E402
-from tools.mutants.verdicts import Verdict, scores  # noqa: E402
-from tools.reason_table import TableError  # noqa: E402
+from tools.mutants.verdicts import Verdict  # noqa: E402
 
 EQUIVALENT = ROOT / "tools" / "equivalent_mutants.toml"
-STANDARD = ["-std=c99"]
+
 # All that can be mutated, with a number for each result of it.
 SOURCE = """#include <stdbool.h>
 #include <stdio.h>
@@ -82,13 +80,6 @@ int main(void)
     return 0;
 }
 """
-
-
-def mutants(folder: Path, text: str, first: int = 1):
-    path = folder / "a.c"
-    path.write_text(text)
-    sites = sites_of(text, functions(path, STANDARD))
-    return mutants_of("firmware/a.c", text, sites, first), schemata(text, sites, first)
 
 
 def changes(folder: Path, statement: str) -> set[str]:
@@ -262,56 +253,6 @@ def test_what_a_program_has_used_of_the_processor_is_counted():
         pass
 
     assert runner.ticks_used(os.getpid()) > before
-
-
-ROW = '[[equivalent]]\nfile = "firmware/a.c"\nmutants = ["{}"]\nwhy = "{}"\n'
-TEXT = "int f(int x);\nint f(int x)\n{\n    return x < 3;\n}\n"
-
-
-@pytest.mark.parametrize(
-    ("change", "listed", "unknown"),
-    [
-        ("return x < 3; -> return x <= 3;", 1, []),
-        ("return x < 3; -> *", 4, []),
-        ("return x -> return x", 0, ["firmware/a.c: no mutant is `return x -> return x`"]),
-    ],
-)
-def test_a_mutant_is_listed_by_what_it_changes(tmp_path, change, listed, unknown):
-    found, _ = mutants(tmp_path, TEXT)
-    table = tmp_path / "table.toml"
-    table.write_text(ROW.format(change, "a canary"))
-    rows = read(table)
-
-    assert sum(is_listed(mutant, rows) for mutant in found) == listed
-    assert unmatched(rows, found) == unknown
-
-
-def test_a_listed_mutant_that_is_killed_is_an_error(tmp_path):
-    found, _ = mutants(tmp_path, TEXT)
-    table = tmp_path / "table.toml"
-    table.write_text(ROW.format(found[0].change, "a canary"))
-    complaint = f"firmware/a.c: `{found[0].change}` is listed as equivalent, but a test kills it"
-
-    assert needless(read(table), found, []) == [complaint]
-    assert needless(read(table), found[1:], found[:1]) == []
-
-
-@pytest.mark.parametrize("text", [ROW.format("a -> b", " "), "equivalent = 1", "[[equivalent]]\n"])
-def test_a_table_with_parts_missing_is_an_error(tmp_path, text):
-    table = tmp_path / "table.toml"
-    table.write_text(text)
-
-    with pytest.raises(TableError):
-        read(table)
-
-
-def test_a_score_leaves_out_what_nobody_can_kill(tmp_path):
-    found, _ = mutants(tmp_path, TEXT)
-    verdicts = zip(found, [Verdict.KILLED, Verdict.SAME_CODE, Verdict.LISTED, Verdict.ALIVE], strict=True)
-
-    (score,) = scores(list(verdicts))
-
-    assert (score.group.name, score.percent, score.is_enough) == ("core", 50.0, False)
 
 
 def test_a_source_that_is_no_c_is_an_error(tmp_path):

@@ -17,9 +17,7 @@ from typing import Any
 
 import aiohttp
 
-from tests.web.support import Watched, start_watched
-
-_TIMEOUT_S = 60.0
+from tests.web.support import DEADLINE_S, Watched, start_watched
 
 
 @dataclass
@@ -49,7 +47,7 @@ class Pupil:
             session.ws_connect(url + f"&page={self.key}", origin=home(url)) as ws,
         ):
             while not self.last or self.last["states"][0]["tick"] < ticks:
-                self._take(await ws.receive_str(timeout=_TIMEOUT_S))
+                self._take(await ws.receive_str(timeout=DEADLINE_S))
 
     def _take(self, text: str) -> None:
         self.last = json.loads(text)

@@ -9,7 +9,7 @@ from playwright.sync_api import Browser, Page
 
 from tests.runs.support import octet
 from tests.web.browsers import CHROMIUM, launched
-from tests.web.support import READY, Faults, Watched, next_frame, start_watched, wait_for
+from tests.web.support import DEADLINE_S, READY, Faults, Watched, next_frame, start_watched, wait_for
 
 
 @pytest.fixture(scope="module")
@@ -59,6 +59,7 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
     def open_one(url: str, ready: str = READY, prepare: Callable[[Page], object] = lambda _: None, **context) -> Page:
         faults = Faults(urljoin(url, "/") if url.startswith("http") else urldefrag(url).url)
         page = browser.new_context(**context).new_page()
+        page.set_default_timeout(DEADLINE_S * 1000)
         opened.append((page, faults))
         faults.listen(page)
         prepare(page)

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from tests.web.support import Watched, start_watched
+from tests.web.support import DEADLINE_S, Watched, start_watched
 
 STDERR_MAX = 100_000
 _KINDS = (
@@ -29,7 +29,6 @@ _KINDS = (
     b"GET / HTTP/1.1\r\nHost: localhost\r\nX: " + b"y" * 20_000 + b"\r\n\r\n",
 )
 _PAGE_EVERY = 50
-_TIMEOUT_S = 10.0
 
 
 @dataclass(frozen=True)
@@ -63,7 +62,7 @@ def flood(watched: Watched, count: int) -> Outcome:
 def _opened(address: tuple[str, int], text: bytes) -> list[socket.socket]:
     """A connection that has sent something; none if the server has closed it already."""
     one = socket.socket()
-    one.settimeout(_TIMEOUT_S)
+    one.settimeout(DEADLINE_S)
     try:
         one.connect(address)
         one.sendall(text)
@@ -76,7 +75,7 @@ def _opened(address: tuple[str, int], text: bytes) -> list[socket.socket]:
 def _page_s(url: str) -> float | None:
     """The time to load the page; None if it is not served."""
     began = time.monotonic()
-    with contextlib.suppress(OSError), urllib.request.urlopen(url, timeout=_TIMEOUT_S) as page:
+    with contextlib.suppress(OSError), urllib.request.urlopen(url, timeout=DEADLINE_S) as page:
         if b"Octet" in page.read():
             return time.monotonic() - began
     return None

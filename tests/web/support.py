@@ -21,9 +21,8 @@ READY = "window.octet?.scene?.state"
 """Whether a page shows a run."""
 
 SCREENS = ROOT / "build/reports/screens"
-_READY_S = 20.0
-_END_S = 20.0
-_WAIT_S = 15.0
+DEADLINE_S = 120.0
+"""How long a test waits for a page or a server before it fails; a busy machine may take much of it."""
 
 
 @dataclass
@@ -37,7 +36,7 @@ class Watched:
     def end(self) -> int:
         """Ctrl-C; returns the exit code."""
         self.process.send_signal(signal.SIGINT)
-        return self.process.wait(_END_S)
+        return self.process.wait(DEADLINE_S)
 
     def commands(self) -> list[dict[str, int]]:
         """The COMMAND frames of the ended run, decoded."""
@@ -57,7 +56,7 @@ class Watched:
 def start_watched(out: Path, *words: str) -> Watched:
     """Starts a run that people can watch, on a port of its own, and waits until it serves."""
     process = start_octet("watch", "--bus", "none", "--port", "0", "--out", out, *words)
-    give_up = threading.Timer(_READY_S, process.kill)
+    give_up = threading.Timer(DEADLINE_S, process.kill)
     give_up.start()
     try:
         return Watched(process, _address(process), out)
@@ -113,7 +112,7 @@ def state(page: Page) -> dict[str, Any]:
 
 def wait_for(page: Page, condition: str, argument: Any = None) -> None:
     """Waits until something is so on a page. Playwright's own wait needs `eval`, which the page forbids."""
-    give_up = time.monotonic() + _WAIT_S
+    give_up = time.monotonic() + DEADLINE_S
     while not page.evaluate(condition, argument):
         assert time.monotonic() < give_up, f"timed out waiting for: {condition}"
         page.wait_for_timeout(10)
@@ -155,9 +154,9 @@ def drag(page: Page, start: tuple[float, float], end: tuple[float, float]) -> No
     page.mouse.up()
 
 
-def eventually(is_so: Callable[[], bool], what: str, limit_s: float = 10.0) -> None:
+def eventually(is_so: Callable[[], bool], what: str) -> None:
     """Waits for something outside of the browser."""
-    give_up = time.monotonic() + limit_s
+    give_up = time.monotonic() + DEADLINE_S
     while not is_so():
         assert time.monotonic() < give_up, f"timed out waiting for: {what}"
         time.sleep(0.02)

@@ -8,6 +8,7 @@ import aiohttp
 import pytest
 
 from tests.web.class_load import Pupil, attend, home, socket_url
+from tests.web.support import DEADLINE_S
 
 
 def board_url(watched) -> str:
@@ -44,7 +45,7 @@ def ask(watch):
             for word in words:
                 await ws.send_str(json.dumps(word))
             while len(notes) < len(words):
-                notes += json.loads(await ws.receive_str(timeout=20)).get("notes", [])
+                notes += json.loads(await ws.receive_str(timeout=DEADLINE_S)).get("notes", [])
         return notes
 
     def ask_for(*words: dict) -> tuple[list[str], list[dict]]:
@@ -103,10 +104,10 @@ def test_the_board_begins_the_run_if_it_is_open_first(watch):
             aiohttp.ClientSession() as session,
             session.ws_connect(url.replace("/board", "/board-live"), origin=home(url)) as board,
         ):
-            first = json.loads(await board.receive_str(timeout=20))
+            first = json.loads(await board.receive_str(timeout=DEADLINE_S))
             await attend(socket_url(watched), [pupil], 0)
             await board.send_str('{"do": "play"}')
-            while (last := json.loads(await board.receive_str(timeout=20)))["clock_ms"] == 0:
+            while (last := json.loads(await board.receive_str(timeout=DEADLINE_S)))["clock_ms"] == 0:
                 pass
         return first, last
 

@@ -118,8 +118,9 @@ def test_a_run_that_a_person_changed_replays(watch, open_page):
     watched = watch("--seed", "4")
     page = open_page(watched.url)
     for control in ("#lift", "#add-bar", "#cells li:nth-child(3) button", "#freeze", "#lift", "#next", "#erase"):
+        tick = state(page)["tick"]
         page.click(control)
-        page.wait_for_timeout(100)
+        wait_for(page, "tick => octet.scene.state.tick > tick", tick)
     page.fill("#seed", "8")
     page.press("#seed", "Enter")
     wait_for(page, "octet.scene.environment.seed === 8 && octet.scene.trail.length > 5")

@@ -1,6 +1,7 @@
 """How the live page treats people: what it says, where it says it, and what cannot go wrong by a slip of the hand."""
 
 import re
+import time
 from collections.abc import Callable
 from itertools import pairwise
 
@@ -9,7 +10,7 @@ from playwright.sync_api import Page
 
 from host_sim.view import phrases
 from tests.web.fake_run import ENVIRONMENT, HOME, FakeRun, robot_state
-from tests.web.support import drag, next_frame, place_on_page, wait_for, wait_for_text
+from tests.web.support import DEADLINE_S, drag, next_frame, place_on_page, wait_for, wait_for_text
 
 PLAY = {"playing": True, "speed": 1, "done": False, "rate": 50, "stays": True, "ended": None}
 ENDED = {
@@ -48,9 +49,9 @@ def box(page: Page, selector: str) -> dict[str, float]:
 
 def commands(page: Page, run: FakeRun, count: int) -> list[dict]:
     """The last commands, when so many have come."""
-    for _ in range(200):
-        if len(run.commands) >= count:
-            break
+    give_up = time.monotonic() + DEADLINE_S
+    while len(run.commands) < count:
+        assert time.monotonic() < give_up, f"{len(run.commands)} of {count} commands"
         page.wait_for_timeout(10)
     return run.commands
 

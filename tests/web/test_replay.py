@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page
 
-from tests.web.support import wait_for
+from tests.web.support import next_frame, wait_for
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def test_it_plays_and_pauses(page):
     wait_for(page, "octet.tick > 100")
     page.click("#play")
     now = tick(page)
-    page.wait_for_timeout(200)
+    next_frame(page)
     assert tick(page) == now
 
 

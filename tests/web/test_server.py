@@ -12,6 +12,7 @@ from host_sim.live.connections import one_line_logger
 from host_sim.live.listener import Listener
 from host_sim.live.token_file import local_token
 from tests.web.flood import STDERR_MAX, flood
+from tests.web.support import DEADLINE_S
 
 SECURITY = ("Content-Security-Policy", "X-Content-Type-Options", "Referrer-Policy", "Cache-Control")
 
@@ -24,7 +25,7 @@ def address(module_watch) -> tuple[str, int, str]:
 
 def ask(address: tuple[str, int, str], path: str, host: str | None = None) -> http.client.HTTPResponse:
     """The answer to one request, read to its end."""
-    connection = http.client.HTTPConnection(address[0], address[1], timeout=10)
+    connection = http.client.HTTPConnection(address[0], address[1], timeout=DEADLINE_S)
     connection.putrequest("GET", path, skip_host=True)
     connection.putheader("Host", host if host is not None else f"{address[0]}:{address[1]}")
     connection.endheaders()
@@ -71,7 +72,7 @@ def test_every_answer_has_the_security_headers(address, path):
 
 
 def test_even_the_answer_to_what_is_no_request_has_them(address):
-    connection = http.client.HTTPConnection(address[0], address[1], timeout=10)
+    connection = http.client.HTTPConnection(address[0], address[1], timeout=DEADLINE_S)
     connection.putrequest("GET", "/", skip_host=True)
     connection.putheader("Content-Length", "-1")
     connection.endheaders()
