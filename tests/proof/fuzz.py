@@ -111,8 +111,10 @@ def fuzz_all(fuzzer: Fuzzer, names: Sequence[str]) -> int:
     """Returns 0 if no input did harm."""
     harmed = 0
     for name in names:
+        sys.stdout.write(f"{name:10} ")
+        sys.stdout.flush()
         done = fuzzer.fuzz(name)
-        sys.stdout.write(f"{name:10} {done.words}: {'HARM' if done.harm else 'no harm'}\n")
+        sys.stdout.write(f"{done.words}: {'HARM' if done.harm else 'no harm'}\n")
         if done.harm:
             harmed = 1
             sys.stdout.write(f"{done.harm}\nto repeat: python -m tests.proof.fuzz --repeat {done.find}\n")
