@@ -141,11 +141,13 @@ class Dialogue:
         return self.inbox.protocol.encode("COMMAND", {**fixed, **signals})
 
     def _ask_once(self, command: Frame, timeout_s: float) -> DecodedFrame | None:
-        waiting, counts = self.waiting, self.inbox.counts
+        waiting, counts, before = self.waiting, self.inbox.counts, self.inbox.answered_again
 
         def repeat() -> bool:
+            nonlocal before
+            is_busy, before = self.inbox.answered_again > before, self.inbox.answered_again
             waiting.repeat(command)
-            return False
+            return is_busy
 
         self.inbox.expect_answer(command)
         self.inbox.record(command)

@@ -41,6 +41,7 @@ class Inbox:
         silent: Whether the robot has said that it hears nothing: all that it was to say before has been sent.
         rival: The frame by which another simulator was heard for the second time; None while there is none.
         owed: Number of repeated senses whose answers have not come yet.
+        answered_again: Number of answers to commands that were answered before.
         drive: The last new drive.
     """
 
@@ -61,6 +62,7 @@ class Inbox:
     silent: bool = False
     rival: Frame | None = None
     owed: int = 0
+    answered_again: int = 0
     drive: Drive = REST
     _rival_s: float | None = None
     _asked: deque[Frame] = field(default_factory=lambda: deque(maxlen=_COMMANDS_KNOWN))
@@ -230,6 +232,7 @@ class Inbox:
             return None
         if self._answered or matching[-1] != self._asked[-1]:
             self.counts.duplicate += 1
+            self.answered_again += 1
             return None
         self._answered = True
         self._accept(frame)

@@ -90,6 +90,18 @@ def test_a_robot_that_was_held_up_catches_up():
     assert robot.now_s < 2 * (HELD_UP_S + TICKS * FRAME_S)
 
 
+def test_commands_wait_for_a_robot_that_was_held_up():
+    robot = SlowRobot()
+    robot.frame_s = FRAME_S
+    robot.hold_up(HELD_UP_S)
+    client = RobotClient(Connection(robot, now=robot.now), PROTOCOL, Diary())
+
+    handshake(client, client.connection.deadline_s)
+    start(client, Session(1, settings={"turn_deg": 20}), (0, 1, 2, 1, 2, 0, 2, 1))
+
+    assert robot.now_s < 3 * (HELD_UP_S + client.frames.sent * FRAME_S)
+
+
 def test_a_robot_that_only_says_what_it_has_said_before_is_given_up():
     robot = SlowRobot()
     client = running(robot)
