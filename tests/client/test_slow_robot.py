@@ -10,6 +10,7 @@ from host_sim.client.connection import Connection
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
+from host_sim.client.supervision import settle
 from host_sim.errors import RobotError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.in_process_link import InProcessLink
@@ -88,6 +89,19 @@ def test_a_robot_that_was_held_up_catches_up():
 
     assert client.incidents == []
     assert robot.now_s < 2 * (HELD_UP_S + TICKS * FRAME_S)
+
+
+def test_the_end_of_an_environment_waits_for_what_the_robot_still_answers():
+    robot = SlowRobot()
+    client = running(robot)
+    robot.hold_up(1.0)
+    drive_for(client, 1, first=TICKS)
+    repeated = client.frames.repeated
+
+    settle(client)
+
+    assert client.frames.duplicate == repeated > 0
+    assert client.incidents == []
 
 
 def test_commands_wait_for_a_robot_that_was_held_up():
