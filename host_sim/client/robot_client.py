@@ -213,6 +213,7 @@ class RobotClient:
         self.inbox.record(self._ranges)
 
     def _await_late_drive(self, *, was_silent: bool) -> Drive:
+        repeated = self.frames.repeated
         if was_silent:
             self.connection.status()
             self.repeat_senses()
@@ -220,7 +221,8 @@ class RobotClient:
         if drive is None:
             raise SessionLostError("it does not answer", silent=True)
         if self._timed:
-            self.round_trip.note(self.connection.now() - self._sent_s)
+            learn = self.round_trip.sample if self.frames.repeated == repeated else self.round_trip.note
+            learn(self.connection.now() - self._sent_s)
         return drive
 
     def _take_owed(self, frame: Frame) -> bool | None:
