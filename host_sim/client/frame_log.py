@@ -49,8 +49,10 @@ class FrameLog:
         """Opens `PATH.part`.
 
         Raises:
-            UsageError: The folder is not writable.
+            UsageError: The folder is not writable, or the path does not name a file.
         """
+        if path is not None and not path.name:
+            raise UsageError(f"{path} is not the name of a file")
         self._path = path or Path(os.devnull)
         self._part = self._path if path is None else path.with_name(path.name + ".part")
         self.set_time(0)

@@ -14,6 +14,9 @@ from host_sim.transport.link import Link
 _BEHIND_S = 0.3
 """A frame that waits to be overtaken arrives after this time, even if no other frame has come."""
 
+_LATE_MAX = 1000
+"""Number of frames that are taken in after a timeout; they may be without end, and all be lost here."""
+
 
 @dataclass
 class _Held:
@@ -86,7 +89,7 @@ class FaultyLink:
     def receive(self, timeout_s: float) -> Frame | None:
         """As in `Link`."""
         way = self._ways["from"]
-        give_up = self._clock.now() + timeout_s
+        give_up, late = self._clock.now() + timeout_s, 0
         while True:
             self._deliver()
             if way.arrived:
@@ -94,9 +97,11 @@ class FaultyLink:
             now = self._clock.now()
             wait_s = min(give_up, *(each.next_s() for each in self._ways.values())) - now
             frame = self._clock.receive(self.link, max(wait_s, 0.0))
+            is_late = self._clock.now() >= give_up
             if frame is not None:
                 self._let_pass(frame, "from")
-            elif self._clock.now() >= give_up:
+                late += is_late
+            if is_late and (frame is None or late == _LATE_MAX):
                 self._deliver()
                 return way.arrived.popleft() if way.arrived else None
 

@@ -73,13 +73,14 @@ export class Lane {
   /**
    * How a robot is set up at a tick.
    * @param {number} tick
+   * @param {number} [robot] - Counted from 0; the selected one by default.
    */
-  setupAt(tick) {
-    const { profile, settings } = this.setup;
+  setupAt(tick, robot = this.robot) {
+    const { profile, settings } = this.experiment.robots[robot];
     const now = { profile, settings: { ...settings } };
     for (const change of this.experiment.changes.filter((it) => it.tick <= tick)) {
-      if (change.do === "start" && change.robot === this.robot) Object.assign(now, { profile: change.profile, settings: { ...settings } });
-      if (change.do === "set" && change.robot === this.robot) now.settings[change.parameter] = change.value;
+      if (change.do === "start" && change.robot === robot) Object.assign(now, { profile: change.profile, settings: { ...settings } });
+      if (change.do === "set" && change.robot === robot) now.settings[change.parameter] = change.value;
     }
     return now;
   }

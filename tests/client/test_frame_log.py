@@ -69,6 +69,12 @@ def test_a_log_without_a_frame_does_not_replace_the_old_one(path):
     assert [file.name for file in path.parent.iterdir()] == [path.name]
 
 
+@pytest.mark.parametrize("path", ["", ".", "/"])
+def test_a_path_without_a_name_is_refused(path):
+    with pytest.raises(UsageError, match="not the name of a file"):
+        FrameLog(Path(path))
+
+
 def test_a_log_that_could_not_be_written_does_not_replace_the_old_one(path):
     path.write_text("old")
     log = FrameLog(path)

@@ -59,6 +59,21 @@ class Journey:
         return self.mirror.heard
 
 
+class Flood(Mirror):
+    """A far end that always has one more frame, for as long as anybody could wait."""
+
+    def receive(self, _: float) -> Frame | None:
+        self.heard.append(SENT[0])
+        assert len(self.heard) < 100_000
+        return SENT[0]
+
+
+def test_a_timeout_ends_even_if_frames_that_are_lost_keep_coming():
+    link = FaultyLink(Flood(), Schedule([Rule.parse("drop:100%/from")], 1, PROTOCOL))
+
+    assert link.receive(0.001) is None
+
+
 def test_without_a_rule_every_frame_passes_as_it_was():
     journey = Journey()
 

@@ -88,14 +88,8 @@ export function hasEatenAll(data, tick) {
  * @param {{robot: number, name: keyof typeof PARAMETERS}} which
  * @param {number} tick
  */
-export function settingAt({ experiment }, { robot, name }, tick) {
-  const { settings } = experiment.robots[robot];
-  let value = settings[name];
-  for (const change of experiment.changes.filter((it) => it.tick <= tick)) {
-    if (change.do === "start" && change.robot === robot) value = settings[name];
-    if (change.do === "set" && change.robot === robot && change.parameter === name) value = change.value;
-  }
-  return value ?? PARAMETERS[name].default;
+export function settingAt(lane, { robot, name }, tick) {
+  return lane.setupAt(tick, robot).settings[name] ?? PARAMETERS[name].default;
 }
 
 /**
