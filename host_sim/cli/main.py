@@ -12,7 +12,7 @@ from typing import NoReturn
 from host_sim import cli
 from host_sim.cli.parsing import Parser
 from host_sim.cli.standard_streams import drop_output, is_full, open_closed
-from host_sim.errors import OctetError
+from host_sim.errors import OctetError, UsageError
 
 _SUFFIX = "_command"
 
@@ -62,7 +62,9 @@ def _run(arguments: Sequence[str] | None) -> int:
     given = sys.argv[1:] if arguments is None else arguments
     for name in _modules_for(given):
         importlib.import_module(f"host_sim.cli.{name}").add(commands)
-    parsed = parser.parse_args(given)
+    parsed, unknown = parser.parse_known_args(given)
+    if unknown:
+        raise UsageError(f"unrecognized arguments: {' '.join(unknown)}; see {parsed.prog} --help")
     code: int = parsed.command(parsed)
     sys.stdout.flush()
     return code
