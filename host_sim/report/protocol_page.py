@@ -112,7 +112,6 @@ from host_sim.paths import BUILD
 
 ROBOT = BUILD / "host/hal/port/posix/octet-robot"
 COMMAND, DRIVE, SENSES, ANSWER, HEALTH = 0x021, 0x041, 0x101, 0x141, 0x7C1
-REMEMBERED, TRIAL = 4, 5
 
 
 def crc8(data):
@@ -155,7 +154,7 @@ for tick in range(500):
     speeds = [(drive >> first & 0xFFF ^ 0x800) - 0x800 for first in (24, 36)]
     way = [rolled + speed * 0.02 * 10 for rolled, speed in zip(way, speeds)]
     reasons.append(drive >> 20 & 0xF)
-print(f"{reasons.count(TRIAL)} ticks of trials, {reasons.count(REMEMBERED)} of remembered turns")
+print(f"{reasons.count(5)} ticks of trials, {reasons.count(4)} of remembered turns")
 ours.send(frame(COMMAND, (8, 2), (12, 1), (16, 1)))  # counter 2, stop
 robot.terminate()
 robot.wait()
