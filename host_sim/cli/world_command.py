@@ -1,9 +1,10 @@
 """`tools/octet world`: checks a world, and draws one of its environments."""
 
 import argparse
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import DEFAULT, add_command, file_path, number
+from host_sim.cli.parsing import DEFAULT, add_command, check_outputs, file_path, number
 from host_sim.world.world_names import WORLD_NAMES
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ def _world(arguments: argparse.Namespace) -> int:
     from host_sim.report.world_picture import write_world_picture
     from host_sim.world.worlds import world_of
 
+    check_outputs("world", Path(arguments.world), {"--png": arguments.png})
     world = world_of(arguments.world)
     layout, params = world.generate(arguments.seed, arguments.number), world.params
     print(

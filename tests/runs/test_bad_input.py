@@ -100,6 +100,25 @@ def test_the_replay_of_several_robots_names_each(run):
     assert replayed.stdout == "".join(f"{log}, node {node}: 100 drives, no difference\n" for node in (3, 4))
 
 
+def test_a_world_is_not_drawn_over_its_own_file(tmp_path):
+    world = tmp_path / "my.toml"
+    shutil.copy(ROOT / "docs/worlds/two_walls.toml", world)
+
+    refused = octet("world", world, "--png", world)
+
+    assert refused.stderr == f"octet: {world} is what world reads: choose another file with --png\n"
+    assert octet("world", world).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["run.log", "summary.json", "run.world.json"])
+def test_a_memory_is_not_kept_in_a_file_of_the_run(tmp_path, name):
+    done = octet("run", "--bus", "none", "--limit-s", "2", "--out", tmp_path, "--memory", tmp_path / name)
+
+    said = f"octet: the run writes something else to {tmp_path / name}: choose another file with --memory\n"
+    assert (done.returncode, done.stderr) == (2, said)
+    assert list(tmp_path.iterdir()) == []
+
+
 BAD_MEMORIES = {
     "cut short": (bytes(7), "7 bytes"),
     "too long": (bytes(9), "9 bytes"),
