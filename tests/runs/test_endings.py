@@ -96,17 +96,6 @@ def test_ctrl_c_while_the_program_is_loaded_is_no_traceback():
         assert "Traceback" not in done.stderr
 
 
-def test_a_command_without_a_log_that_is_interrupted_promises_none(monkeypatch):
-    def interrupted() -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("host_sim.report.bus_load.load_tables", interrupted)
-
-    done = octet("load")
-
-    assert (done.returncode, done.stderr) == (130, "octet: ended by SIGINT\n")
-
-
 def test_what_is_overwritten_is_said(tmp_path):
     assert octet("run", *SHORT, "--seed", "3", "--quiet", "--out", tmp_path).returncode == 0
 
