@@ -3,11 +3,10 @@
 import argparse
 import sys
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.backends.images import BOARDS
-from host_sim.cli.parsing import add_command, number
+from host_sim.cli.parsing import add_command, file_path, number
 from host_sim.errors import UsageError
 from host_sim.protocol.generated import PROFILES
 
@@ -25,8 +24,8 @@ examples:
   tools/octet campaign --repeat 'article fd lockstep seed=12 limit=8 event=hang:300@100'
   tools/octet campaign --shrink 'article none lockstep seed=12 limit=30 fault=drop:30% fault=forge:stop@300/to'
 
-The exit code is 1 if a fault was not seen, wheels turned on for more than 100 ms, a run broke, or something wrong was
-learned, or something lost from the files of a run, without a word.
+The exit code is 1 if in any run a fault went unnoticed, wheels turned on for more than 100 ms, something wrong was
+learned, something was missing from the run's files without a message, or the run broke.
 """
 
 
@@ -41,19 +40,32 @@ def add(commands: "Subparsers") -> None:
         epilog=_EXAMPLES,
     )
     add = parser.add_argument
-    add("html", type=Path, nargs="?", metavar="FILE.html", help="where to write the report")
-    add("--profiles", nargs="+", choices=PROFILES, default=list(PROFILES), metavar="NAME", help="(default: all)")
+    add("html", type=file_path, nargs="?", metavar="FILE.html", help="where to write the report")
+    add(
+        "--profiles",
+        nargs="+",
+        choices=PROFILES,
+        default=list(PROFILES),
+        metavar="NAME",
+        help=f"behaviours: {', '.join(PROFILES)} (default: all)",
+    )
     add(
         "--links",
         nargs="+",
         choices=_LINKS,
         default=["none"],
         metavar="LINK",
-        help=f"{', '.join(_LINKS)} (default: none)",
+        help="where the robot is: none (in this process), fd (a socket pair), slcan (a serial line), vcan (inside "
+        f"tools/with-vcan), or an emulated board: {', '.join(BOARDS)} (default: none)",
     )
     add("--real-time", action="store_true", help="in real time, too, where the robot is not in this process")
-    add("--limit-s", type=number(1, 600, float), help="robot time of each run (default: 60, in real time 10)")
-    add("--jobs", type=number(1, 64, int), default=1, help="processes at once (default: %(default)d)")
+    add(
+        "--limit-s",
+        type=number(1, 600, float),
+        metavar="S",
+        help="robot time of each run, 1..600 s (default: 60, in real time 10)",
+    )
+    add("--jobs", type=number(1, 64), default=1, metavar="N", help="processes at once (default: %(default)d)")
     add("--repeat", metavar="CELL", help="repeat one run of a report, and say what came of it")
     add("--shrink", metavar="CELL", help="find the smallest schedule of faults with which that run ends as it does")
 

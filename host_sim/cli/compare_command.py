@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import DEFAULT, add_command, number, setting
+from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, setting
 from host_sim.cli.study_command import add_workers, with_progress, workers_of
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.generated import PROFILES
@@ -27,6 +27,7 @@ examples:
 
 Of a study with goals, the exit code is 1 if one of them is missed.
 """
+_SET_HELP = "change a parameter, as tools/run --help lists them; may be repeated"
 
 
 def add(commands: "Subparsers") -> None:
@@ -42,14 +43,20 @@ def add(commands: "Subparsers") -> None:
     add = parser.add_argument
     words = f"folder of a study; or profiles, of {', '.join(PROFILES)}"
     add("what", nargs="+", metavar="STUDY|PROFILE", help=words)
-    add("--difference", type=number(0, 100, float), default=5, metavar="PERCENT", help="that matters" + DEFAULT)
-    add("--plots", type=Path, metavar="FOLDER", help="draw plots into this folder")
+    add(
+        "--difference",
+        type=number(0, 100, float),
+        default=5,
+        metavar="PERCENT",
+        help="difference that matters, for the number of seeds that it needs" + DEFAULT,
+    )
+    add("--plots", type=file_path, metavar="FOLDER", help="draw plots into this folder")
     profiles = parser.add_argument_group("with profiles").add_argument
     profiles("--seeds", type=number(1, 100_000), default=20, metavar="N", help="number of seeds" + DEFAULT)
     profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + DEFAULT)
     profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + DEFAULT)
-    profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help="change a parameter")
-    profiles("--change", default="", metavar="CHANGE", help="as of tools/run")
+    profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help=_SET_HELP)
+    profiles("--change", action="append", default=[], metavar="CHANGE", help="one change, as tools/run has them")
     profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + DEFAULT)
     add_workers(parser)
 
@@ -59,6 +66,8 @@ def _compare(arguments: argparse.Namespace) -> int:
     from host_sim.study.table import table
 
     folder = Path(arguments.what[0])
+    if folder.is_dir() and len(arguments.what) > 1:
+        raise UsageError(f"{folder} is the folder of a study, which is compared by itself: name nothing else")
     plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
     print(f"{plan.title}: {len(samples[0].seeds)} seeds of {plan.environments} environments each")
     print(table(samples, arguments.difference / 100))
@@ -100,11 +109,14 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
     for word in arguments.what:
         if word not in PROFILES:
             raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
-    if arguments.change:
-        Change.parse(arguments.change)
+    if len(arguments.change) > 1:
+        raise UsageError("profiles are compared with one --change: several go into a study, as a file of changes")
+    change = next(iter(arguments.change), "")
+    if change:
+        Change.parse(change)
     a = arguments
     names = list(dict.fromkeys(a.what))
-    conditions = [Condition(name, name, dict(a.set), change=a.change, robot=a.robot) for name in names]
+    conditions = [Condition(name, name, dict(a.set), change=change, robot=a.robot) for name in names]
     plan = Plan(" ".join(names), conditions, a.first, a.seeds, a.environments)
     runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]
     return plan, samples_of(tables_of(runs), names)

@@ -15,12 +15,13 @@ from host_sim.cli.run_through import each, open_listener, run_through
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import DoubtfulError, OctetError
+from host_sim.errors import DoubtfulError, OctetError, UsageError
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_path
 from host_sim.recording.run_folder import run_folder
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary
+from host_sim.recording.world_file import world_path
 from host_sim.regular_file import read_bytes
 from host_sim.sim.make import Memory, make
 from host_sim.sim.simulation import Simulation
@@ -62,6 +63,7 @@ def conduct(options: RunOptions) -> Summary:
     """
     loaded = [load_memory(path) for path in _memory_paths(options)]
     for path in _memory_paths(options):
+        _check_no_output(path, options)
         check_writable(path)
     with run_folder(options.out):
         _announce(options, loaded)
@@ -89,6 +91,14 @@ def conduct(options: RunOptions) -> Summary:
     _print_results(options, summary)
     _check_trust(summary)
     return summary
+
+
+def _check_no_output(memory: Path, options: RunOptions) -> None:
+    """Refuses a memory file that the run would write over."""
+    names = (SUMMARY, PICTURE, PAGE, FAULTS, *LOGS)
+    outputs = [options.out / name for name in names] + [world_path(options.log)]
+    if memory.resolve() in (path.resolve() for path in outputs):
+        raise UsageError(f"the run writes something else to {memory}: choose another file with --memory")
 
 
 def _announce(options: RunOptions, loaded: Sequence[Memory | None]) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command
+from host_sim.cli.parsing import add_command, check_outputs, file_path
 from host_sim.errors import OctetError, UsageError
 
 if TYPE_CHECKING:
@@ -40,9 +40,11 @@ def add(commands: "Subparsers") -> None:
         description="Writes the robots' frames of a log in the formats of other programs.",
         epilog=_EXAMPLES,
     )
-    parser.add_argument("log", type=Path, metavar="LOG", help="log of a run, of candump, of python-can; ASC or BLF")
+    parser.add_argument(
+        "log", type=file_path, metavar="LOG", help="log of a run, of candump, of python-can; ASC or BLF"
+    )
     for name, what in _FORMATS.items():
-        parser.add_argument(f"--{name}", type=Path, metavar="FILE", help=f"write {what}")
+        parser.add_argument(f"--{name}", type=file_path, metavar="FILE", help=f"write {what}")
 
 
 def _export(arguments: argparse.Namespace) -> int:
@@ -54,6 +56,7 @@ def _export(arguments: argparse.Namespace) -> int:
     wanted = {name: getattr(arguments, name) for name in _FORMATS if getattr(arguments, name) is not None}
     if not wanted:
         raise UsageError(f"give {', '.join(f'--{name} FILE' for name in _FORMATS)}, or several of them")
+    check_outputs("export", arguments.log, {f"--{name}": path for name, path in wanted.items()})
     for name in wanted:
         if name in _LIBRARIES:
             library(_LIBRARIES[name], "export")

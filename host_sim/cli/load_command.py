@@ -2,10 +2,9 @@
 
 import argparse
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command
+from host_sim.cli.parsing import add_command, file_path
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -28,7 +27,7 @@ def add(commands: "Subparsers") -> None:
         "In brackets: robots that ask for RANGES too.",
         epilog=_EXAMPLES,
     )
-    parser.add_argument("log", type=Path, nargs="?", metavar="LOG", help="a log; without one: the worst case")
+    parser.add_argument("log", type=file_path, nargs="?", metavar="LOG", help="a log; without one: the worst case")
 
 
 def _load(arguments: argparse.Namespace) -> int:

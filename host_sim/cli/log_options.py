@@ -2,10 +2,9 @@
 
 import argparse
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import number
+from host_sim.cli.parsing import file_path, number
 from host_sim.protocol.generated import NODE_MAX
 
 if TYPE_CHECKING:
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
 def add_log_options(parser: argparse.ArgumentParser) -> None:
     """Adds the options that `replay` and `picture` share."""
     add = parser.add_argument
-    add("log", type=Path, metavar="RUN.LOG", help="log of a run, of candump or of python-can; ASC or BLF")
+    add("log", type=file_path, metavar="RUN.LOG", help="log of a run, of candump or of python-can; ASC or BLF")
     add(
         "--node",
         type=number(1, NODE_MAX),

@@ -2,7 +2,6 @@
 
 import contextlib
 import importlib
-import os
 import pkgutil
 import signal
 import sys
@@ -12,7 +11,8 @@ from typing import NoReturn
 
 from host_sim import cli
 from host_sim.cli.parsing import Parser
-from host_sim.errors import OctetError
+from host_sim.cli.standard_streams import drop_output, is_full, open_closed
+from host_sim.errors import OctetError, UsageError
 
 _SUFFIX = "_command"
 
@@ -34,15 +34,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         The exit code: 0 success, 1 error, 2 wrong usage, 128 and the signal's number where a signal ended it.
     """
+    open_closed()
     with _signals_raised():
         try:
             return _run(arguments)
         except OctetError as error:
             print(f"octet: {error}", file=sys.stderr)
             return error.exit_code
-        except BrokenPipeError:
-            # The reader of stdout has closed it; the rest of the output must not fail a second time at exit.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        except BrokenPipeError:  # the reader of standard output has closed it
+            drop_output()
+            return 1
+        except OSError as error:
+            if not is_full(error):
+                raise
+            drop_output()
+            print(f"octet: cannot write to standard output: {error.strerror}", file=sys.stderr)
             return 1
         except KeyboardInterrupt as end:
             number = end.number if isinstance(end, _EndedBySignal) else signal.SIGINT
@@ -56,8 +62,11 @@ def _run(arguments: Sequence[str] | None) -> int:
     given = sys.argv[1:] if arguments is None else arguments
     for name in _modules_for(given):
         importlib.import_module(f"host_sim.cli.{name}").add(commands)
-    parsed = parser.parse_args(given)
+    parsed, unknown = parser.parse_known_args(given)
+    if unknown:
+        raise UsageError(f"unrecognized arguments: {' '.join(unknown)}; see {parsed.prog} --help")
     code: int = parsed.command(parsed)
+    sys.stdout.flush()
     return code
 
 

@@ -38,7 +38,13 @@ def add(commands: "Subparsers") -> None:
     add("bus", metavar="BUS", help="any bus of python-can: INTERFACE:CHANNEL, such as socketcan:can0")
     add("--all", action="store_true", help="other frames too; without it, the kernel keeps them away")
     add_bitrate(parser)
-    add("--limit-s", type=number(0.1, 1e9, float), default=math.inf, metavar="S", help="end after S seconds")
+    add(
+        "--limit-s",
+        type=number(0.1, 1e9, float),
+        default=math.inf,
+        metavar="S",
+        help="end after S seconds (default: at Ctrl-C)",
+    )
 
 
 def _monitor(arguments: argparse.Namespace) -> int:

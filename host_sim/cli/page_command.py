@@ -1,10 +1,9 @@
 """`tools/octet page`: writes the robot and its world as one web page."""
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command
+from host_sim.cli.parsing import add_command, file_path
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -25,7 +24,7 @@ def add(commands: "Subparsers") -> None:
         description="Writes a page with the robot's own firmware and its world. It needs no server and no network.",
         epilog=_EXAMPLE,
     )
-    parser.add_argument("file", type=Path, metavar="FILE", help="the page to write, such as octet.html")
+    parser.add_argument("file", type=file_path, metavar="FILE", help="the page to write, such as octet.html")
 
 
 def _page(arguments: argparse.Namespace) -> int:

@@ -2,7 +2,8 @@
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from host_sim.errors import UsageError
@@ -52,9 +53,9 @@ def add_command(  # noqa: PLR0913 - what a command's help is made of
     """
     formatter = argparse.RawDescriptionHelpFormatter
     parser = commands.add_parser(
-        name, help=summary, description=description, epilog=epilog, formatter_class=formatter
+        name, help=summary, description=description, epilog=epilog, formatter_class=formatter, allow_abbrev=False
     )
-    parser.set_defaults(command=run)
+    parser.set_defaults(command=run, prog=parser.prog)
     return parser
 
 
@@ -67,10 +68,38 @@ def number(low: float, high: float, kind: type[int] | type[float] = int) -> Call
         except ValueError:
             value = math.nan
         if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{text!r} is not a number from {low:.0f} to {high:.0f}")
+            raise argparse.ArgumentTypeError(f"{text!r} is not a number from {low:.10g} to {high:.10g}")
         return value
 
     return parse
+
+
+def file_path(text: str) -> Path:
+    """An argument type: the name of a file or a folder. An empty one, as of an unset variable, is not this folder."""
+    if not text:
+        raise argparse.ArgumentTypeError("the name is empty")
+    return Path(text)
+
+
+def check_outputs(command: str, source: Path, outputs: Mapping[str, Path | None]) -> None:
+    """Refuses to write over what a command reads, and two things into one file.
+
+    Args:
+        command: Name of the command.
+        source: The file that it reads.
+        outputs: The files that it is to write, by the options that name them; None for what is not wanted.
+
+    Raises:
+        UsageError: Two of the names are of the same file; nothing was changed.
+    """
+    options: dict[Path, str] = {}
+    for option, path in ((option, path) for option, path in outputs.items() if path is not None):
+        target = path.resolve()
+        if target == source.resolve():
+            raise UsageError(f"{path} is what {command} reads: choose another file with {option}")
+        if target in options:
+            raise UsageError(f"{options[target]} and {option} name the same file: {path}")
+        options[target] = option
 
 
 def add_bitrate(parser: argparse.ArgumentParser) -> None:
@@ -104,5 +133,5 @@ def parameter_table() -> str:
     for name, parameter in PARAMETERS.items():
         values = f"{parameter.minimum}..{parameter.maximum} {parameter.unit}"
         default = f"(default: {parameter.default})"
-        lines.append(f"  {name:16}  {values:13}  {default:14}  {parameter.comment}")
+        lines.append(f"  {name:16}  {values:16}  {default:14}  {parameter.comment}")
     return "\n".join(lines)

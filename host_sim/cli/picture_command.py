@@ -1,11 +1,10 @@
 """`tools/octet picture`: draws a recorded run as a picture or an animation."""
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.cli.log_options import add_log_options, resimulated
-from host_sim.cli.parsing import add_command, number
+from host_sim.cli.parsing import add_command, check_outputs, file_path, number
 from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
@@ -30,8 +29,8 @@ def add(commands: "Subparsers") -> None:
     )
     add_log_options(parser)
     add = parser.add_argument
-    add("--png", type=Path, metavar="FILE", help="write a picture of the whole run to FILE")
-    add("--gif", type=Path, metavar="FILE", help="write an animation to FILE, at most 600 frames, about 45 s")
+    add("--png", type=file_path, metavar="FILE", help="write a picture of the whole run to FILE")
+    add("--gif", type=file_path, metavar="FILE", help="write an animation to FILE, at most 600 frames, about 45 s")
     _add_clip_options(parser)
 
 
@@ -75,6 +74,7 @@ def _picture(arguments: argparse.Namespace) -> int:
 
     if arguments.gif is None and arguments.png is None:
         raise UsageError("give --gif FILE for an animation, or --png FILE for a picture")
+    check_outputs("picture", arguments.log, {"--png": arguments.png, "--gif": arguments.gif})
     trajectory = resimulated(arguments).trajectory
     if arguments.gif is not None:
         write_gif(arguments.gif, trajectory, Clip(arguments.from_s, arguments.to_s, arguments.speed, arguments.width))

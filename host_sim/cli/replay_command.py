@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from host_sim.cli.log_options import add_log_options, resimulated
-from host_sim.cli.parsing import add_command
+from host_sim.cli.parsing import add_command, check_outputs, file_path
 from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def add(commands: "Subparsers") -> None:
     )
     add_log_options(parser)
     parser.add_argument(
-        "--html", type=Path, metavar="FILE", help="instead, write the run to FILE as a page to play in a browser"
+        "--html", type=file_path, metavar="FILE", help="instead, write the run to FILE as a page to play in a browser"
     )
     parser.add_argument(
         "--what-if",
@@ -46,6 +46,7 @@ def add(commands: "Subparsers") -> None:
 def _replay(arguments: argparse.Namespace) -> int:
     if arguments.what_if and arguments.html is None:
         raise UsageError("--what-if is for a page: name it with --html FILE")
+    check_outputs("replay", arguments.log, {"--html": arguments.html})
     return _compare(arguments.log, arguments.node) if arguments.html is None else _write_page(arguments)
 
 
@@ -57,10 +58,11 @@ def _compare(log: Path, first_node: int) -> int:
 
     lines = read_log(log)
     equal = True
-    for node in sorted({first_node, *(node for node in nodes_in(lines) if node > first_node)}):
+    nodes = sorted({first_node, *(node for node in nodes_in(lines) if node > first_node)})
+    for node in nodes:
         protocol = Protocol(node)
         outcome = replay(lines, protocol)
-        print(report(outcome, log, protocol))
+        print(report(outcome, f"{log}, node {node}" if len(nodes) > 1 else str(log), protocol))
         equal = equal and outcome.difference is None
     if note := lines.note():
         print(f"octet: {note}", file=sys.stderr)

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command
+from host_sim.cli.parsing import add_command, file_path
 from host_sim.cli.study_command import add_workers, run_study, workers_of
 from host_sim.errors import UsageError
 from host_sim.paths import ROOT
@@ -12,7 +12,13 @@ from host_sim.paths import ROOT
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
 
+_DEFAULT = " (default: %(default)s)"
 _DOCUMENT = "learning.md"
+_EXAMPLES = """\
+examples:
+  tools/octet reproduce                  all of it: hours
+  tools/octet reproduce --only learned   one study; the other tables and plots stay
+"""
 _PLOTS = {"learned": ("learning", "survival"), "swapped": ("recovery",), "score": ("score",)}
 
 
@@ -24,12 +30,31 @@ def add(commands: "Subparsers") -> None:
         _reproduce,
         summary="measure all of docs/learning.md anew",
         description="Runs every study of a folder and writes the document's tables, plots and numbers.",
+        epilog=_EXAMPLES,
     )
     add = parser.add_argument
-    add("--studies", type=Path, default=ROOT / "studies", metavar="FOLDER", help="folder of the studies")
-    add("--docs", type=Path, default=ROOT / "docs", metavar="FOLDER", help=f"folder with {_DOCUMENT}")
-    add("--out", type=Path, default=Path("out/reproduce"), metavar="FOLDER", help="folder for the rows")
-    add("--only", metavar="NAME", help="run one study only")
+    add(
+        "--studies",
+        type=file_path,
+        default=ROOT / "studies",
+        metavar="FOLDER",
+        help="folder of the studies (default: studies/)",
+    )
+    add(
+        "--docs",
+        type=file_path,
+        default=ROOT / "docs",
+        metavar="FOLDER",
+        help=f"folder with {_DOCUMENT}, where tables and plots go, too (default: docs/)",
+    )
+    add(
+        "--out",
+        type=file_path,
+        default=Path("out/reproduce"),
+        metavar="FOLDER",
+        help="folder for the rows" + _DEFAULT,
+    )
+    add("--only", metavar="NAME", help="run only the study of this name (default: all)")
     add_workers(parser)
 
 

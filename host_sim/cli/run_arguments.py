@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from host_sim.backends.images import BOARDS
-from host_sim.cli.parsing import DEFAULT, add_bitrate, number, setting
+from host_sim.cli.parsing import DEFAULT, add_bitrate, file_path, number, setting
 from host_sim.cli.run_options import WatchOptions
 from host_sim.faults.bus_faults import FAULTS
 from host_sim.protocol.generated import NODE_MAX, PROFILES
@@ -97,7 +97,7 @@ def _add_bus_options(parser: argparse.ArgumentParser) -> None:
     add("--bus", default="auto", help=_BUS_HELP)
     add_bitrate(parser)
     add("--robot", choices=ROBOTS, default=default.robot, help=_ROBOT_HELP)
-    add("--board", choices=BOARDS, default=BOARDS[0], help="the board for --robot emulated" + DEFAULT)
+    add("--board", choices=BOARDS, help=f"the board for --robot emulated (default: {BOARDS[0]})")
     add(
         "--node",
         type=number(1, NODE_MAX),
@@ -153,13 +153,13 @@ def _add_output_options(parser: argparse.ArgumentParser) -> None:
     )
     add(
         "--memory",
-        type=Path,
+        type=file_path,
         metavar="FILE",
         help="load the eight bytes from FILE before the run, if it exists; save them afterwards (default: no file)",
     )
     add(
         "--out",
-        type=Path,
+        type=file_path,
         default=Path("out"),
         metavar="DIR",
         help="folder for page, picture, summary and log" + DEFAULT,
@@ -175,9 +175,8 @@ def add_watch_options(parser: argparse.ArgumentParser) -> None:
     add(
         "--port",
         type=number(0, 65535),
-        default=WatchOptions().port,
         metavar="PORT",
-        help="port that the page is served on; 0 for any free port" + DEFAULT,
+        help=f"port that the page is served on; 0 for any free port (default: {WatchOptions().port})",
     )
     add(
         "--listen",

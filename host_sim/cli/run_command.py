@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import add_command, parameter_table
 from host_sim.cli.run_arguments import add_run_options, add_watch_options
-from host_sim.cli.run_options import RunOptions, WatchOptions, run_options
+from host_sim.cli.run_options import RunOptions, check_no_page, run_options, watch_options
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -59,12 +59,14 @@ def _run(arguments: argparse.Namespace) -> int:
     from host_sim.protocol.generated import NODE_MAX
 
     arguments.worlds = arguments.worlds or ("one" if arguments.robots <= NODE_MAX else "own")
+    if not arguments.watch:
+        check_no_page(arguments, "add --watch")
     options = run_options(arguments, arguments.bus)
     if options.config.is_fleet:
         _run_fleet(options, arguments.watch)
     elif arguments.watch:
         speed = 1.0 if arguments.real_time else 0.0
-        conduct_watched(arguments, WatchOptions(arguments.listen, arguments.port, speed, stays=False))
+        conduct_watched(arguments, watch_options(arguments, speed=speed, stays=False))
     else:
         conduct(run_options(arguments, choose_bus(arguments.bus, arguments.robot)))
     return 0

@@ -4,8 +4,10 @@ import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 from host_sim.client.frame_log import COMPRESSED
+from host_sim.errors import UsageError
 from host_sim.sim.run_config import RunConfig
 
 LOGS = ("run.log", f"run.log{COMPRESSED}")
@@ -64,6 +66,27 @@ class RunOptions:
         return not (self.quiet or self.json)
 
 
+def watch_options(arguments: argparse.Namespace, **others: Any) -> WatchOptions:
+    """How people watch a run, as the command line and the command say."""
+    port = WatchOptions().port if arguments.port is None else arguments.port
+    return WatchOptions(arguments.listen, port, **others)
+
+
+def check_no_page(arguments: argparse.Namespace, instead: str) -> None:
+    """Refuses options for a page where there is none.
+
+    Args:
+        arguments: The parsed command line.
+        instead: What to do about it.
+
+    Raises:
+        UsageError: There are such options.
+    """
+    given = {"--listen": arguments.listen, "--port": arguments.port}
+    for option in (option for option, value in given.items() if value is not None):
+        raise UsageError(f"{option} is for a page in the browser: {instead}, or leave {option} out")
+
+
 def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | None = None) -> RunOptions:
     """The options of a run.
 
@@ -75,12 +98,14 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
     from host_sim.world.changes import read_changes
     from host_sim.world.worlds import world_of
 
+    if arguments.board and arguments.robot != "emulated":
+        raise UsageError(f"--board {arguments.board} is for --robot emulated: add that, or leave --board out")
     world_of(arguments.world)  # a mistake in it is found before anything is begun
     changes = tuple(change for text in arguments.change for change in read_changes(text))
     names = {field.name for field in fields(RunConfig)} & vars(arguments).keys()
     given = {name: getattr(arguments, name) for name in names}
     faults = _rules(arguments.fault)
-    config = RunConfig(**{**given, "settings": dict(arguments.set), "bus": bus, "faults": faults, "changes": changes})
+    config = RunConfig(**{**given, **_resolved(arguments), "bus": bus, "faults": faults, "changes": changes})
     return RunOptions(
         config,
         arguments.memory,
@@ -90,6 +115,11 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
         json=arguments.json,
         watch=watch,
     )
+
+
+def _resolved(arguments: argparse.Namespace) -> dict[str, Any]:
+    """What the command line gives in another form than the configuration has it."""
+    return {"settings": dict(arguments.set), "board": arguments.board or ""}
 
 
 def _rules(texts: Sequence[str]) -> tuple[str, ...]:

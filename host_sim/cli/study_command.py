@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import DEFAULT, add_command, number
+from host_sim.cli.parsing import DEFAULT, add_command, file_path, number
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -40,8 +40,8 @@ def add(commands: "Subparsers") -> None:
         epilog=_EXAMPLES,
     )
     add = parser.add_argument
-    add("plan", type=Path, metavar="FILE.toml", help="the study")
-    add("--out", type=Path, metavar="FOLDER", help=f"folder for the rows (default: {_OUT}/NAME)")
+    add("plan", type=file_path, metavar="FILE.toml", help="the study")
+    add("--out", type=file_path, metavar="FOLDER", help=f"folder for the rows (default: {_OUT}/NAME)")
     add_workers(parser)
 
 
@@ -55,7 +55,7 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
         type=number(1, 100_000),
         default=0,
         metavar="N",
-        help="runs to hand over at once",
+        help="runs to hand over at once (default: as many as suit the work)",
     )
 
 

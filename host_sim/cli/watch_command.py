@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import add_command, parameter_table
 from host_sim.cli.run_arguments import add_run_options, add_watch_options
-from host_sim.cli.run_options import WatchOptions
+from host_sim.cli.run_options import check_no_page, watch_options
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -39,5 +39,7 @@ def add(commands: "Subparsers") -> None:
 def _watch(arguments: argparse.Namespace) -> int:
     from host_sim.cli.conduct import conduct_watched
 
-    conduct_watched(arguments, WatchOptions(arguments.listen, arguments.port, terminal=arguments.terminal))
+    if arguments.terminal:
+        check_no_page(arguments, "leave --terminal out")
+    conduct_watched(arguments, watch_options(arguments, terminal=arguments.terminal))
     return 0

@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import DEFAULT, add_command, number
+from host_sim.cli.parsing import DEFAULT, add_command, check_outputs, file_path, number
 from host_sim.world.world_names import WORLD_NAMES
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def add(commands: "Subparsers") -> None:
     add("world", metavar="WORLD", help=f"one of {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml")
     add("--seed", type=number(0, 2**32 - 1), default=1, metavar="SEED", help="the run's seed" + DEFAULT)
     add("--number", type=number(1, 1000), default=1, metavar="N", help="number of the environment" + DEFAULT)
-    add("--png", type=Path, metavar="FILE", help="draw it to FILE")
+    add("--png", type=file_path, metavar="FILE", help="draw it to FILE")
     add("--width", type=number(100, 4000), default=640, metavar="PX", help="width of the picture" + DEFAULT)
 
 
@@ -40,6 +40,7 @@ def _world(arguments: argparse.Namespace) -> int:
     from host_sim.report.world_picture import write_world_picture
     from host_sim.world.worlds import world_of
 
+    check_outputs("world", Path(arguments.world), {"--png": arguments.png})
     world = world_of(arguments.world)
     layout, params = world.generate(arguments.seed, arguments.number), world.params
     print(

@@ -1,5 +1,6 @@
 """The progress line of a run."""
 
+import shutil
 import sys
 import time
 from typing import TextIO
@@ -51,9 +52,10 @@ class Progress:
             for client in simulation.clients[:_MEMORIES_MAX]
         )
         eaten = simulation.arena.food.eaten
-        self._out.write(
-            f"\r\x1b[Kenvironment {simulation.record.begun[-1].number} of {simulation.environments}   "
+        line = (
+            f"environment {simulation.record.begun[-1].number} of {simulation.environments}   "
             f"food {sum(eaten)} of {len(eaten)}   memory {memories}   {self._ticks * tick_s:.0f} s   "
             f"{speed:.0f} x real time"
         )
+        self._out.write(f"\r\x1b[K{line[: shutil.get_terminal_size().columns - 1]}")  # a line that wraps stays
         self._out.flush()

@@ -1,7 +1,6 @@
 """Compares a recorded log with the current firmware."""
 
 from dataclasses import dataclass
-from pathlib import Path
 
 from host_sim.errors import OctetError
 from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, node_of
@@ -156,16 +155,16 @@ class _Comparison:
         return Difference(self._time_us, frame, self._protocol.encode("MEMORY", decoded.signals | cells))
 
 
-def report(outcome: Replay, path: Path, protocol: Protocol) -> str:
-    """The outcome as text."""
+def report(outcome: Replay, name: str, protocol: Protocol) -> str:
+    """The outcome as text, which begins with the name of the log."""
     if outcome.difference is None:
         old = "; an old log: only drives and memories were compared" if outcome.old else ""
         ending = "" if outcome.stopped else "; the log ends before the run does"
-        return f"{path}: {outcome.drives} drives, no difference{old}{ending}"
+        return f"{name}: {outcome.drives} drives, no difference{old}{ending}"
     difference = outcome.difference
     return "\n".join(
         (
-            f"{path}: differs after {outcome.drives} equal drives, at {difference.time_us / 1e6:.2f} s of robot time",
+            f"{name}: differs after {outcome.drives} equal drives, at {difference.time_us / 1e6:.2f} s of robot time",
             f"  recorded  {_described(difference.recorded, protocol)}",
             f"  replayed  {_described(difference.replayed, protocol)}",
         )

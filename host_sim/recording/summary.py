@@ -73,7 +73,7 @@ class Summary:
         """A few lines of text: what each robot has learned, what changed, and the speed."""
         several = len(self.robots) > 1
         memories = [f"memory    {self._whose(robot) if several else ''}{_cells(robot)}" for robot in self.robots]
-        speed = f"speed     {self.real_time_factor:.0f} x real time on {self.bus}, {self.wall_s:.1f} s"
+        speed = f"speed     {_factor(self.real_time_factor)} x real time on {self.bus}, {self.wall_s:.1f} s"
         links = [
             f"link      {self._whose(robot) if several else ''}{line}"
             for robot in self.robots
@@ -92,6 +92,11 @@ class Summary:
 
     def _whose(self, robot: dict[str, Any]) -> str:
         return f"robot {robot['node']}: "
+
+
+def _factor(value: float) -> str:
+    """A multiple of real time: whole from 10 on; a run that is watched may be slower than real time."""
+    return f"{value:.0f}" if value >= 10 else f"{value:.1f}"  # noqa: PLR2004 - two digits are enough
 
 
 def summarize(

@@ -29,7 +29,7 @@ from host_sim.world.params import SimParams
 
 _MOST_ENVIRONMENTS, _MOST_NAMES = 5, 100
 _CURVE_PX, _SQUARE_MAX_PX, _BAR_PX = 360, 40, 26
-_AXIS_PX, _SECONDS_APART, _LABELS = 48, (10, 30, 60, 120, 300, 600, 1800, 3600), 10
+_AXIS_PX, _SECONDS_APART, _LABELS = 48, (1, 2, 5, 10, 30, 60, 120, 300, 600, 1800, 3600), 10
 _UNFINISHED = "#d55e00"
 _FAST, _SLOW = (229, 245, 224), (0, 68, 27)
 _SIDES = {1: "#0072b2", 2: "#e69f00", 0: "#e1e4e8"}

@@ -6,8 +6,8 @@ import cantools
 from cantools.database.can import Database, Message
 from cantools.database.can.signal import Signal
 
-from host_sim.protocol.codec import DBC, NODE_MAX
-from host_sim.protocol.generated import PARAMETERS
+from host_sim.protocol.codec import DBC, NODE_MAX, Protocol
+from host_sim.protocol.generated import LAYOUT_HASH, PARAMETERS
 from host_sim.report.bus_load import COMFORTABLE, load_tables
 
 _HEAD = """\
@@ -28,12 +28,28 @@ head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/oc
 1. At power-up the robot sends BOOT.
 2. **stop** (COMMAND). The robot answers with ANSWER, then all its reports: HEARTBEAT, BOOT, both halves of MEMORY,
    both pages of FAULTS, CRASH if it has crashed, and HEALTH, which is always the last of them; then a DRIVE at
-   rest. HEARTBEAT has the hash of the messages' layout; the simulator rejects a robot with another hash.
+   rest. HEARTBEAT has the hash of the messages' layout, 0x{layout:04X} for those of this page; the simulator
+   rejects a robot with another hash.
 3. **start** with profile and seed, then optionally **set** for parameters and **write** for the memory. Each
    command is answered; the answer to **start** says whether the robot wants RANGES.
-4. SENSES with tick n; the robot answers DRIVE with tick n. This repeats every 20 ms of robot time.
+4. SENSES with tick n; the robot answers DRIVE with tick n. This repeats every 20 ms of robot time. The first tick
+   may have any number.
 5. The robot's other frames of a tick (MEMORY when it has learned; once a second each report, one of them in each of
    the first ticks of the second; EMERGENCY after a fault) come before that tick's DRIVE: DRIVE is always the last.
+
+A program that does this is [below](#an-example).
+
+## Bytes
+
+Frames are classic CAN data frames with identifiers of 11 bits, at 500 kbit/s unless the robot was flashed for
+another bit rate, and have exactly the length that the table says. Bit 0 is the lowest bit of byte 0, bit 8 that of
+byte 1; the first bit of a signal is its lowest (little-endian). Signals with a negative range are two's complement.
+Where several signals have the same bits, `opcode`, `half` or `page` says which of them is there. Bits without a
+signal are 0.
+
+`crc` is CRC-8 with polynomial 0x1D, start value 0 and no final xor, over the low byte of the identifier, its high
+byte, and bytes 1 to the last. For example, **stop** by owner 1 with counter 0 is `{stop}` for node 1,
+in the notation of candump.
 
 ## Protection
 
@@ -81,15 +97,91 @@ there.
 """
 
 
+_EXAMPLE = """
+## An example
+
+A world of your own, without anything of this simulator but the path of the robot's program. Over `fd:`, as here, each
+frame is a datagram of 16 bytes, Linux's `struct can_frame`; `octet-robot --help` lists the other links.
+
+```python
+import socket
+import struct
+import subprocess
+
+from host_sim.paths import BUILD
+
+ROBOT = BUILD / "host/hal/port/posix/octet-robot"
+COMMAND, DRIVE, SENSES, ANSWER, HEALTH = 0x021, 0x041, 0x101, 0x141, 0x7C1
+
+
+def crc8(data):
+    crc = 0
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc << 1 ^ (0x11D if crc & 0x80 else 0)
+    return crc
+
+
+def frame(identifier, *signals):  # of 8 bytes, from (first bit, value) for each signal that is not 0
+    data = sum(value << first for first, value in signals).to_bytes(8, "little")
+    crc = crc8(identifier.to_bytes(2, "little") + data[1:])
+    return struct.pack("=IB3x8s", identifier, 8, bytes((crc,)) + data[1:])
+
+
+def receive(wanted):  # the next frame with this identifier, as a number with the frame's bits
+    identifier = None
+    while identifier != wanted:
+        identifier, length, data = struct.unpack("=IB3x8s", ours.recv(16))
+        assert data[0] == crc8(identifier.to_bytes(2, "little") + data[1:length])
+    return int.from_bytes(data, "little")
+
+
+ours, its = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+robot = subprocess.Popen([ROBOT, f"fd:{its.fileno()}"], pass_fds=[its.fileno()], stdout=subprocess.DEVNULL)
+its.close()
+ours.send(frame(COMMAND, (8, 0), (12, 1), (16, 1)))  # counter 0, stop, owner 1
+receive(HEALTH)
+ours.send(frame(COMMAND, (8, 1), (12, 2), (16, 1), (31, 1), (32, 7)))  # counter 1, start, owner 1, lockstep, seed 7
+assert receive(ANSWER) >> 16 & 0xFF == 0, "the robot does not start"
+
+way, reasons = [0.0, 0.0], []  # what each wheel has rolled, in 0.1 mm
+for tick in range(500):
+    feel = 4 if tick % 250 < 100 else 0  # now and then there is something in front
+    left, right = (round(rolled) % 4096 for rolled in way)
+    ours.send(frame(SENSES, (8, tick % 15), (12, tick % 256), (20, feel), (40, left), (52, right)))
+    drive = receive(DRIVE)
+    speeds = [(drive >> first & 0xFFF ^ 0x800) - 0x800 for first in (24, 36)]
+    way = [rolled + speed * 0.02 * 10 for rolled, speed in zip(way, speeds)]
+    reasons.append(drive >> 20 & 0xF)
+print(f"{reasons.count(5)} ticks of trials, {reasons.count(4)} of remembered turns")
+ours.send(frame(COMMAND, (8, 2), (12, 1), (16, 1)))  # counter 2, stop
+robot.terminate()
+robot.wait()
+```
+
+It prints:
+
+```text
+104 ticks of trials, 48 of remembered turns
+```
+"""
+
+
 def page() -> str:
     """The text of docs/protocol.md."""
     database = cantools.database.load_file(DBC)
     assert isinstance(database, Database)
     messages = sorted(database.messages, key=lambda message: message.frame_id)
-    rows = [_message_row(message) for message in messages]
     head = ["| identifier | message | bytes | from |", "| --- | --- | --- | --- |"]
-    overview = _HEAD.format(nodes=NODE_MAX) + "\n".join([*head, *rows]) + "\n"
-    return overview + "".join(_section(message) for message in messages) + _parameters() + _LOAD + load_tables()
+    overview = _overview() + "\n".join([*head, *map(_message_row, messages)]) + "\n"
+    sections = "".join(_section(message) for message in messages)
+    return overview + sections + _parameters() + _EXAMPLE + _LOAD + load_tables()
+
+
+def _overview() -> str:
+    stop = Protocol().encode("COMMAND", {"counter": 0, "opcode": 1, "owner": 1})
+    return _HEAD.format(nodes=NODE_MAX, layout=LAYOUT_HASH, stop=f"{stop.id:03X}#{stop.data.hex().upper()}")
 
 
 def _parameters() -> str:

@@ -126,9 +126,9 @@ def _check(config: RunConfig, world: World) -> None:
 
 def _check_change(change: Change, config: RunConfig) -> None:
     if (change.number or 1) > config.environments:
-        raise UsageError(f"the change {change} never comes: there are {config.environments} environments")
+        raise UsageError(f"the change {change} never comes: the last environment is {config.environments}")
     if (change.robot or 1) > config.robots:
-        raise UsageError(f"the change {change} is for a robot that is not there: there are {config.robots}")
+        raise UsageError(f"the change {change} is for a robot that is not there: the last is {config.robots}")
 
 
 def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:

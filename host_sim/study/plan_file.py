@@ -43,7 +43,9 @@ def read_plan(path: Path) -> Plan:
         raise UsageError(f"there is no file {path}") from None
     except RecursionError:
         raise UsageError(f"{path}: too many brackets within each other") from None
-    except (UnicodeDecodeError, _toml.TOMLDecodeError) as error:
+    except UnicodeDecodeError:
+        raise UsageError(f"{path} is not a study: it is not text") from None
+    except _toml.TOMLDecodeError as error:
         raise UsageError(f"{path}: {error}") from None
     except ValueError:  # of Python, which reads no whole number of thousands of digits
         raise UsageError(f"{path}: a number has too many digits") from None

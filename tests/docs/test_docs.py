@@ -97,6 +97,27 @@ def test_every_file_that_a_document_names_exists(path):
     assert missing == []
 
 
+def anchors(path: Path) -> set[str]:
+    """The anchors of a page's headings."""
+    headings = re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```", "", path.read_text(), flags=re.DOTALL | re.M), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("path", PAGES, ids=IDS)
+def test_every_anchor_that_a_document_names_exists(path):
+    links = re.findall(r"\]\(([^)#\s]*)#([^)]+)\)", path.read_text())
+    targets = [(path.parent / file if file else path, anchor) for file, anchor in links]
+
+    missing = [f"{file}#{anchor}" for file, anchor in targets if file.suffix == ".md" and anchor not in anchors(file)]
+
+    assert missing == []
+
+
+def test_an_anchor_that_does_not_exist_is_noticed():
+    assert "an-example" in anchors(ROOT / "docs/protocol.md")
+    assert "an-exemple" not in anchors(ROOT / "docs/protocol.md")
+
+
 def test_every_line_of_c_in_the_article_stands_in_the_file_named():
     rows = re.findall(r"^\| .*? \| `([^`]+)` \| `([\w/.]+)`", (ROOT / "docs/article.md").read_text(), re.MULTILINE)
 

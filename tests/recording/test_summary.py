@@ -1,6 +1,7 @@
 """The counters of a run, as people and programs read them."""
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
@@ -31,6 +32,13 @@ def test_a_loss_is_counted_once(client):
     client.reports.faults = {"missed": 2}
 
     assert frame_counts(client)["lost"] == 3
+
+
+@pytest.mark.parametrize(("factor", "said"), [(0.46, "0.5 x"), (9.96, "10.0 x"), (161.4, "161 x")])
+def test_a_watched_run_that_is_slower_than_real_time_says_how_slow(client, factor, said):
+    summary = replace(summary_of(client), real_time_factor=factor)
+
+    assert f"speed     {said} real time" in summary.for_people()
 
 
 def test_a_counter_at_its_limit_says_so(client):

@@ -1,5 +1,7 @@
 """The picture of a fleet: every robot has its square, or its place in the common world."""
 
+from dataclasses import replace
+
 import pytest
 from PIL import Image
 
@@ -26,6 +28,15 @@ def drawn(folder, results, world=None) -> Image.Image:
 
 def pixels(picture: Image.Image, colour: tuple[int, int, int]) -> int:
     return sum(count for count, found in picture.getcolors(1 << 24) if found == colour)
+
+
+def test_a_short_run_has_seconds_on_its_axis(tmp_path, monkeypatch):
+    said = []
+    monkeypatch.setattr("host_sim.report.fleet_picture.write", lambda *given: said.append(given[2]))
+
+    drawn(tmp_path, [replace(result(1), ticks=100)])
+
+    assert [text for text in said if text.endswith(" s")] == ["0 s", "1 s", "2 s"]
 
 
 def test_each_robot_that_did_not_finish_is_an_orange_square(tmp_path):

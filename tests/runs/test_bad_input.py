@@ -28,7 +28,14 @@ WRONG = {
     "a CAN interface that does not exist": (["--bus", "socketcan:nowhere0"], "nowhere0"),
     "a tty that does not exist": (["--bus", "slcan:/dev/nowhere", "--robot", "external"], "/dev/nowhere"),
     "an external robot without a bus": (["--bus", "fd", "--robot", "external"], "INTERFACE:CHANNEL"),
-    "an unknown option": (["--warp", "9"], "--warp"),
+    "an unknown option": (["--warp", "9"], "see tools/octet run --help"),
+    "an option that is cut short": (["--see", "2"], "--see"),
+    "a memory file without a name": (["--memory", ""], "argument --memory: the name is empty"),
+    "a folder without a name": (["--out", ""], "argument --out: the name is empty"),
+    "a board for a robot that has none": (["--board", "blue_pill"], "--robot emulated"),
+    "other machines, and no page": (["--listen"], "--watch"),
+    "a port, and no page": (["--port", "8139"], "--watch"),
+    "a port, and a fleet": (["--robots", "40", "--bus", "none", "--port", "8139"], "--watch"),
 }
 
 
@@ -44,6 +51,72 @@ def test_wrong_usage_gets_one_line_and_changes_nothing(run, words, named):
     assert named in done.stderr
     assert (before.out / "run.log").read_bytes() == before.log
     assert not list(before.out.glob("*.part"))
+
+
+def test_an_option_whose_low_end_is_a_fraction_says_so():
+    assert "0.1 to 1000" in octet("picture", "x.log", "--gif", "x.gif", "--speed", "0").stderr
+
+
+OVER_ITS_INPUT = {
+    "a picture": ("picture", "--png"),
+    "an animation": ("picture", "--gif"),
+    "a page": ("replay", "--html"),
+    "a table": ("export", "--csv"),
+}
+
+
+@pytest.mark.parametrize(("command", "option"), OVER_ITS_INPUT.values(), ids=OVER_ITS_INPUT.keys())
+def test_no_command_writes_over_the_log_that_it_reads(run, tmp_path, command, option):
+    done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
+    (tmp_path / "link").symlink_to(done.out / "run.log")
+
+    refused = octet(command, done.out / "run.log", option, tmp_path / "link")
+
+    assert refused.returncode == 2
+    assert (
+        refused.stderr == f"octet: {tmp_path / 'link'} is what {command} reads: choose another file with {option}\n"
+    )
+    assert octet("replay", done.out / "run.log").returncode == 0
+
+
+@pytest.mark.parametrize("words", [("picture", "--png", "--gif"), ("export", "--csv", "--asc")])
+def test_no_command_writes_two_things_into_one_file(run, tmp_path, words):
+    command, first, second = words
+    done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
+
+    refused = octet(command, done.out / "run.log", first, tmp_path / "x", second, tmp_path / "x")
+
+    assert refused.returncode == 2
+    assert refused.stderr == f"octet: {first} and {second} name the same file: {tmp_path / 'x'}\n"
+    assert not (tmp_path / "x").exists()
+
+
+def test_the_replay_of_several_robots_names_each(run):
+    done = run("--environments", "1", "--bus", "none", "--limit-s", "2", "--robots", "2", "--node", "3")
+
+    replayed = octet("replay", done.out / "run.log", "--node", "3")
+
+    log = done.out / "run.log"
+    assert replayed.stdout == "".join(f"{log}, node {node}: 100 drives, no difference\n" for node in (3, 4))
+
+
+def test_a_world_is_not_drawn_over_its_own_file(tmp_path):
+    world = tmp_path / "my.toml"
+    shutil.copy(ROOT / "docs/worlds/two_walls.toml", world)
+
+    refused = octet("world", world, "--png", world)
+
+    assert refused.stderr == f"octet: {world} is what world reads: choose another file with --png\n"
+    assert octet("world", world).returncode == 0
+
+
+@pytest.mark.parametrize("name", ["run.log", "summary.json", "run.world.json"])
+def test_a_memory_is_not_kept_in_a_file_of_the_run(tmp_path, name):
+    done = octet("run", "--bus", "none", "--limit-s", "2", "--out", tmp_path, "--memory", tmp_path / name)
+
+    said = f"octet: the run writes something else to {tmp_path / name}: choose another file with --memory\n"
+    assert (done.returncode, done.stderr) == (2, said)
+    assert list(tmp_path.iterdir()) == []
 
 
 BAD_MEMORIES = {

@@ -47,6 +47,8 @@ def test_a_study_without_a_title_is_called_as_its_file(tmp_path, capsys):
         ["article", "--change", "gremlin@env1"],
         ["article", "--set", "filter=2"],
         ["."],
+        [".", "article"],
+        ["article", "--change", "mirror@env1", "--change", "repair@env2"],
         [],
     ],
 )

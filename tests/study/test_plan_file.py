@@ -104,7 +104,7 @@ def test_a_file_that_is_not_there_or_not_text_is_named(tmp_path):
     with pytest.raises(UsageError, match="there is no file"):
         read_plan(tmp_path / "a.toml")
     (tmp_path / "a.toml").write_bytes(b"\xff")
-    with pytest.raises(UsageError, match=r"a\.toml"):
+    with pytest.raises(UsageError, match=r"a\.toml is not a study: it is not text"):
         read_plan(tmp_path / "a.toml")
 
 

@@ -39,3 +39,16 @@ def test_octet_sets_up_what_the_options_need(words: str, tmp_path: Path) -> None
 
 def test_what_python_compiles_for_a_run_is_kept_whatever_the_environment_says(tmp_path: Path) -> None:
     assert octet(tmp_path, "run", PYTHONDONTWRITEBYTECODE="1")[1] == "-m host_sim run"
+
+
+def test_the_help_of_the_benchmark_waits_for_no_build(tmp_path: Path) -> None:
+    for words, stages in (("--help", ["run"]), ("--json", ["tests", "vcan"])):
+        folder = tmp_path / words
+        for program in ("tools/setup", ".venv/bin/python"):
+            stand_in = folder / program
+            stand_in.parent.mkdir(parents=True)
+            stand_in.write_text('#!/bin/sh\necho "$@"\n')
+            stand_in.chmod(0o755)
+        shutil.copy(ROOT / "tools/bench", folder / "tools")
+        said = subprocess.check_output([folder / "tools/bench", words], text=True)
+        assert said.splitlines() == [*stages, f"-m host_sim.bench {words}"]

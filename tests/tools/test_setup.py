@@ -245,6 +245,13 @@ def test_a_stage_that_does_not_exist_is_answered_with_those_there_are(tree: Tree
     assert all(f"{stage}:" in done.stderr for stage in ("run", "images", "emulator", *EXTRAS, "tests", "vcan"))
 
 
+@pytest.mark.parametrize("word", ["-h", "--help"])
+def test_help_lists_the_stages_and_sets_nothing_up(tree: Tree, word: str) -> None:
+    done, calls = tree.setup(word)
+    assert (done.returncode, done.stderr, calls) == (0, "", [])
+    assert "page:" in done.stdout
+
+
 def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
     for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink"):
         (tree.bin / name).symlink_to(str(shutil.which(name)))

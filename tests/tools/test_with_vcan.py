@@ -166,6 +166,13 @@ def missing(*launcher: str, **environment: str) -> str:
     return subprocess.check_output(command, env={**os.environ, **environment}, text=True)
 
 
+@pytest.mark.parametrize("word", ["-h", "--help"])
+def test_help_says_what_it_is_for(word: str) -> None:
+    done = subprocess.run([WITH_VCAN, word], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.startswith("tools/with-vcan COMMAND...: runs a command where the CAN bus vcan0 exists.")
+
+
 def test_forbidden_tracing_is_named() -> None:
     assert "ptrace" in missing(sys.executable, "-c", FORBID)
     assert "ptrace" not in missing()
