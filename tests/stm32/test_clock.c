@@ -74,6 +74,9 @@ static void test_each_wait_lasts_as_long_as_it_may_and_no_longer(void)
         model.pll_ms = SWITCH_MS + late;
         TEST_ASSERT_EQUAL_UINT32(late == 0 ? BEST.core_hz : SLOW.core_hz, clock_start().core_hz);
         model_reset();
+        model.flash_ms = SWITCH_MS + late;
+        TEST_ASSERT_EQUAL_UINT32(late == 0 ? BEST.core_hz : SLOW.core_hz, clock_start().core_hz);
+        model_reset();
         model.switch_ms = SWITCH_MS + late;
         TEST_ASSERT_EQUAL_UINT32(late == 0 ? BEST.core_hz : SLOW.core_hz, clock_start().core_hz);
     }
@@ -110,7 +113,7 @@ static void test_a_switch_that_does_not_come_about_is_taken_back(void)
 /* RM0090 3.5.1: the flash is read too fast until its register shows the new wait states. */
 static void test_the_clock_gets_no_faster_than_the_flash(void)
 {
-    model.flash_refuses = true;
+    model.flash_ms = NEVER;
     assert_starts_as(&SLOW);
     TEST_ASSERT_EQUAL_HEX32(SW_INTERNAL, RCC.cfgr & 3u);
     TEST_ASSERT_EQUAL_UINT32(0, model.switches);
