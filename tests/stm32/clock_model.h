@@ -19,7 +19,8 @@ static struct {
     uint32_t crystal_ms, pll_ms, switch_ms;   /* how long each takes; NEVER: it fails */
     uint32_t crystal_on_ms, pll_on_ms, switched_ms;   /* when each began */
     uint32_t now_ms, systick_hz;
-    uint32_t switches;                        /* how often the clock got faster or slower */
+    uint32_t switches;                        /* how often the clock got faster or slower, */
+    uint32_t cfgr_before;                     /* and what CFGR was before the first time */
     uint32_t flash_ms;                        /* how long the flash takes to accept its wait states; NEVER: it does not */
     uint32_t waits, waits_wanted;             /* those that it has accepted, and those last written, */
     uint32_t waits_written_ms;                /* and when */
@@ -69,6 +70,7 @@ uint32_t machine_ms(void)
     start(PLLON, PLLRDY, &model.pll_on_ms, model.pll_ms);
     if ((RCC.cfgr & 3u) == (RCC.cfgr >> SWITCHED_AT & 3u)) {
         model.switched_ms = model.now_ms + 1;
+        model.cfgr_before = model.switches == 0 ? RCC.cfgr : model.cfgr_before;
     } else if (model.now_ms - model.switched_ms >= model.switch_ms) {
         RCC.cfgr = (RCC.cfgr & ~(3u << SWITCHED_AT)) | (RCC.cfgr & 3u) << SWITCHED_AT;
         model.switches++;

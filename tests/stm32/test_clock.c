@@ -11,6 +11,8 @@
 
 enum { BOUND_MS = 125 };   /* that chip.h promises, and a look or two */
 
+static const uint32_t SWITCH_MASK = 15;   /* SW and SWS of CFGR */
+
 static struct clocks clocks;
 
 void setUp(void)
@@ -37,6 +39,8 @@ static void assert_runs_from_pll(uint32_t mhz)
     TEST_ASSERT_EQUAL_HEX32(SW_PLL, RCC.cfgr & 3u);
     TEST_ASSERT_EQUAL_HEX32(PRESCALERS, RCC.cfgr & PRESCALERS_MASK);
     TEST_ASSERT_EQUAL_UINT32(WAITS, model.waits_when_switched);
+    TEST_ASSERT_EQUAL_UINT32(1, model.switches);
+    TEST_ASSERT_EQUAL_HEX32(RCC.cfgr & ~SWITCH_MASK, model.cfgr_before & ~SWITCH_MASK);   /* buses and PLL were set up by then */
 }
 
 static void test_the_registers_lie_where_the_manual_has_them(void)
