@@ -6,7 +6,7 @@
 
 #define KIND(profile, name, kind) [profile] = kind,
 
-static const uint8_t kind_of[PROFILE_COUNT] = {ROBOT_BEHAVIOURS(KIND)};
+const uint8_t BRAIN_MEMORY_KINDS[PROFILE_COUNT] = {ROBOT_BEHAVIOURS(KIND)};
 
 #define BEGIN(profile, name, kind) \
     case profile:            \
@@ -32,14 +32,14 @@ bool brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
     brain->awaits = 0;
     brain->used = 0;
     brain->unlearned = 0;
-    brain->changed = memory_translate(&brain->memory, (enum memory_kind)kind_of[profile]) || brain->changed;
+    brain->changed = memory_translate(&brain->memory, (enum memory_kind)BRAIN_MEMORY_KINDS[profile]) || brain->changed;
     brain->learns = begin(brain);
     return true;
 }
 
 static bool understands(uint8_t profile, const struct memory *memory)
 {
-    return memory_is(memory->cell, (enum memory_kind)kind_of[profile]);
+    return memory_is(memory->cell, (enum memory_kind)BRAIN_MEMORY_KINDS[profile]);
 }
 
 bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT])
@@ -54,11 +54,6 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT])
         brain->profile++;
     brain->learns = begin(brain);
     return true;
-}
-
-enum memory_kind brain_memory_kind(const struct brain *brain)
-{
-    return (enum memory_kind)kind_of[brain->profile];
 }
 
 bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes)

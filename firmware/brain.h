@@ -43,7 +43,12 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT]);
         /* Takes over a memory. If the profile does not understand it, the first one that does is chosen. False, and
            nothing is changed, if the bytes are not a memory. */
 
-enum memory_kind brain_memory_kind(const struct brain *brain);
+extern const uint8_t BRAIN_MEMORY_KINDS[PROFILE_COUNT];
+
+static inline enum memory_kind brain_memory_kind(const struct brain *brain)
+{
+    return (enum memory_kind)BRAIN_MEMORY_KINDS[brain->profile];
+}
         /* What the profile takes the eight bytes for. */
 
 bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes);

@@ -13,6 +13,7 @@ struct memory {
 };
 
 void memory_erase(struct memory *memory);
+        /* Empties all cells. */
 
 enum side memory_recall(const struct memory *memory, uint8_t pattern);
         /* The turn learned for pattern 0..7, where each has a cell; SIDE_NOTHING where nothing is. */

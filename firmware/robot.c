@@ -169,11 +169,8 @@ static void respond_to_silence(struct robot *robot, struct output *out)
 {
     drive_init(&out->drive, robot, REASON_SILENCE);
     out->has_drive = out->silent = true;
-    robot->silences++;
-    if (robot->silences < REPORT_SILENCES)
-        return;
-    robot->silences = 0;
-    out->has_report = true;
+    robot->silences = (uint8_t)(robot->silences % REPORT_SILENCES + 1u);   /* never 0 again before senses come */
+    out->has_report = robot->silences == REPORT_SILENCES;
 }
 
 void robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out)

@@ -4,10 +4,10 @@
 #include "firmware/confidence.h"
 #include "firmware/pattern.h"
 
-enum { LEAST_CONFIDENCE = 1, PRAISE = 1, BLAME = -2 };
+enum { BLAME = -2 };
 
-/* Else a cell is a side and no more. */
-static bool has_confidence(const struct brain *brain)
+/* With what a lesson begins, and what praise adds: nothing where a cell is a side and no more. */
+static int confidence_step(const struct brain *brain)
 {
     return brain_memory_kind(brain) == MEMORY_KIND_CONFIDENCE;
 }
@@ -26,7 +26,7 @@ void used_cells_learn(struct brain *brain, const struct senses *senses)
 
     if (!listing_trial_helped(brain, senses) || brain->frozen)
         return;
-    set_cell(brain, pattern, confidence_cell((enum side)brain->tried_side, has_confidence(brain) ? LEAST_CONFIDENCE : 0));
+    set_cell(brain, pattern, confidence_cell((enum side)brain->tried_side, (unsigned)confidence_step(brain)));
     brain->used |= (uint8_t)(1u << pattern);
 }
 
@@ -60,7 +60,7 @@ void used_cells_judge(struct brain *brain, const struct action *action, uint8_t 
         end_episode(brain, BLAME);
         break;
     default:   /* the way is clear */
-        end_episode(brain, has_confidence(brain) ? PRAISE : 0);
+        end_episode(brain, confidence_step(brain));
         break;
     }
 }

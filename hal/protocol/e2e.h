@@ -16,8 +16,10 @@ bool e2e_is_whole(const struct frame *frame, uint8_t len);
         /* Whether it has this length, the right CRC, and a counter. */
 
 uint8_t e2e_counter(const struct frame *frame);
+        /* The alive counter: 0..14 in a frame that is whole. */
 
 uint8_t e2e_next(uint8_t counter);
+        /* The counter after this one; 0 follows 14. */
 
 unsigned e2e_ahead(uint8_t from, uint8_t to);
         /* How many steps lead from one counter to the other, 0..14. */

@@ -40,7 +40,7 @@ struct wire {
 };
 
 void wire_init(struct wire *wire, uint8_t node);
-        /* node is 1..NODE_MAX. */
+        /* As after power-up: no session, nothing counted. node is 1..NODE_MAX. */
 
 void wire_ids(const struct wire *wire, uint16_t ids[WIRE_LISTEN_COUNT]);
         /* The identifiers to listen for, as link_open takes them. The robot's own are among them: another node that sends

@@ -8,8 +8,10 @@
 enum { UART_NOTHING = -1, UART_DAMAGED = -2 };
 
 void uart_start(uint32_t clock_hz, uint32_t baud);
+        /* Both directions. clock_hz: that the port runs from. */
 
 void uart_stop(void);
+        /* Off, until uart_start: what is under way is lost. */
 
 int uart_get(void);
         /* The byte that has come, 0..255. UART_NOTHING: none. UART_DAMAGED: one came damaged, or came while the one before

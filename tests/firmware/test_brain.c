@@ -81,7 +81,7 @@ static void test_a_start_forgets_what_was_awaited(void)
         brain_start(&brain, PROFILE_ARTICLE, 1);
         next(0);   /* a step, after which it would eat */
         brain_start(&brain, profile, 1);
-        TEST_ASSERT_TRUE(next_with_food_near().reason == REASON_TOWARD_FOOD);   /* not: eat */
+        TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_with_food_near().reason);   /* not: eat */
     }
 }
 

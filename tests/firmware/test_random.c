@@ -79,7 +79,7 @@ static void test_neighbouring_seeds_give_different_sequences(void)
 
         random_seed(&one, seed);
         random_seed(&next, seed + 1);
-        TEST_ASSERT_TRUE(random_next(&one) != random_next(&next));
+        TEST_ASSERT_NOT_EQUAL_UINT32(random_next(&one), random_next(&next));
     }
 }
 

@@ -58,7 +58,7 @@ static void test_a_lesson_is_sent_and_stored_as_it_is_learned(void)
     sense(after);
     TEST_ASSERT_TRUE(out.has_memory);
     TEST_ASSERT_TRUE(out.store);
-    TEST_ASSERT_TRUE(out.memory[PATTERN_FRONT] != SIDE_NOTHING);
+    TEST_ASSERT_NOT_EQUAL_UINT8(SIDE_NOTHING, out.memory[PATTERN_FRONT]);
 }
 
 static void test_the_turns_of_a_fixed_robot_are_sent_and_not_stored(void)

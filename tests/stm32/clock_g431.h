@@ -37,6 +37,7 @@ static void assert_special(void)
 {
     (void)clock_start();
     TEST_ASSERT_EQUAL_HEX32(1u << 24, RCC.pllcfgr & 1u << 24);   /* the PLL's output is on */
+    TEST_ASSERT_EQUAL_HEX32(1u << 18 | 3u << 8, FLASH.acr & ~(uint32_t)WAITS);   /* prefetch, instruction cache, and debugging */
 }
 
 #endif

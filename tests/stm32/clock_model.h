@@ -19,8 +19,11 @@ static struct {
     uint32_t crystal_ms, pll_ms, switch_ms;   /* how long each takes; NEVER: it fails */
     uint32_t crystal_on_ms, pll_on_ms, switched_ms;   /* when each began */
     uint32_t now_ms, systick_hz;
-    uint32_t switches;                        /* how often the clock got faster or slower */
-    bool flash_refuses;                       /* it keeps its wait states as they were */
+    uint32_t switches;                        /* how often the clock got faster or slower, */
+    uint32_t cfgr_before;                     /* and what CFGR was before the first time */
+    uint32_t flash_ms;                        /* how long the flash takes to accept its wait states; NEVER: it does not */
+    uint32_t waits, waits_wanted;             /* those that it has accepted, and those last written, */
+    uint32_t waits_written_ms;                /* and when */
     uint32_t waits_when_switched;             /* of the flash, when the clock got faster */
     uint32_t others_on;                       /* bits of CR that the driver has set beside those it needs */
 } model;
@@ -46,15 +49,28 @@ static void start(uint32_t on, uint32_t ready, uint32_t *since, uint32_t span_ms
         RCC.cr |= ready;
 }
 
+static void accept_waits(void)
+{
+    uint32_t shown = FLASH.acr & WAITS_MASK;
+
+    if (shown != model.waits) {
+        model.waits_wanted = shown;
+        model.waits_written_ms = model.now_ms;
+    }
+    if (model.now_ms - model.waits_written_ms >= model.flash_ms)
+        model.waits = model.waits_wanted;
+    FLASH.acr = (FLASH.acr & ~(uint32_t)WAITS_MASK) | model.waits;
+}
+
 uint32_t machine_ms(void)
 {
-    if (model.flash_refuses)
-        FLASH.acr &= ~(uint32_t)WAITS_MASK;
+    accept_waits();
     model.others_on |= RCC.cr & ~(uint32_t)(HSION | HSEON | HSERDY | PLLON | PLLRDY);
     start(HSEON, HSERDY, &model.crystal_on_ms, model.crystal_ms);
     start(PLLON, PLLRDY, &model.pll_on_ms, model.pll_ms);
     if ((RCC.cfgr & 3u) == (RCC.cfgr >> SWITCHED_AT & 3u)) {
         model.switched_ms = model.now_ms + 1;
+        model.cfgr_before = model.switches == 0 ? RCC.cfgr : model.cfgr_before;
     } else if (model.now_ms - model.switched_ms >= model.switch_ms) {
         RCC.cfgr = (RCC.cfgr & ~(3u << SWITCHED_AT)) | (RCC.cfgr & 3u) << SWITCHED_AT;
         model.switches++;

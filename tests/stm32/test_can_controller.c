@@ -78,7 +78,7 @@ static void test_a_frame_takes_no_buffer_from_which_it_would_overtake_an_equal_o
         for (uint8_t n = 0; n < CAN_BUFFERS; n++)
             TEST_ASSERT_TRUE(put(0x100, n));
         give_up(free);
-        TEST_ASSERT_TRUE(waiting() == (7u & ~free));
+        TEST_ASSERT_EQUAL_HEX32(7u & ~free, waiting());
         if (!last_is_free)
             TEST_ASSERT_FALSE(put(0x100, 9));
     }

@@ -64,6 +64,20 @@ static void test_a_queue_with_room_makes_nobody_wait(void)
     }
 }
 
+static void test_a_queue_with_room_waits_for_no_frame_to_leave(void)
+{
+    uint32_t start;
+
+    block();
+    for (uint8_t n = 0; n < CAN_QUEUE_MAX - 1; n++)
+        TEST_ASSERT_TRUE(put(HEARTBEAT, n));
+    controller.frame_us = 900;
+    controller.since_us = start = controller.now_us;
+    queue.moved_ms = now_ms();
+    TEST_ASSERT_TRUE(put(HEARTBEAT, CAN_QUEUE_MAX - 1));
+    TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + 500, controller.now_us);
+}
+
 static void test_a_queue_that_stays_full_takes_no_more_and_counts_it(void)
 {
     block();
@@ -115,6 +129,7 @@ int main(void)
     RUN_TEST(test_all_that_was_put_leaves_once_and_in_its_order);
     RUN_TEST(test_a_full_queue_takes_one_more_as_soon_as_one_has_left);
     RUN_TEST(test_a_queue_with_room_makes_nobody_wait);
+    RUN_TEST(test_a_queue_with_room_waits_for_no_frame_to_leave);
     RUN_TEST(test_a_queue_that_stays_full_takes_no_more_and_counts_it);
     RUN_TEST(test_a_full_queue_overwrites_nothing_where_the_controller_takes_no_more);
     RUN_TEST(test_what_is_dropped_is_counted_and_the_count_stays_at_255);

@@ -11,6 +11,8 @@
 
 enum { BOUND_MS = 125 };   /* that chip.h promises, and a look or two */
 
+static const uint32_t SWITCH_MASK = 15;   /* SW and SWS of CFGR */
+
 static struct clocks clocks;
 
 void setUp(void)
@@ -37,6 +39,8 @@ static void assert_runs_from_pll(uint32_t mhz)
     TEST_ASSERT_EQUAL_HEX32(SW_PLL, RCC.cfgr & 3u);
     TEST_ASSERT_EQUAL_HEX32(PRESCALERS, RCC.cfgr & PRESCALERS_MASK);
     TEST_ASSERT_EQUAL_UINT32(WAITS, model.waits_when_switched);
+    TEST_ASSERT_EQUAL_UINT32(1, model.switches);
+    TEST_ASSERT_EQUAL_HEX32(RCC.cfgr & ~SWITCH_MASK, model.cfgr_before & ~SWITCH_MASK);   /* buses and PLL were set up by then */
 }
 
 static void test_the_registers_lie_where_the_manual_has_them(void)
@@ -72,6 +76,9 @@ static void test_each_wait_lasts_as_long_as_it_may_and_no_longer(void)
         TEST_ASSERT_EQUAL(late == 0, clock_start().exact);
         model_reset();
         model.pll_ms = SWITCH_MS + late;
+        TEST_ASSERT_EQUAL_UINT32(late == 0 ? BEST.core_hz : SLOW.core_hz, clock_start().core_hz);
+        model_reset();
+        model.flash_ms = SWITCH_MS + late;
         TEST_ASSERT_EQUAL_UINT32(late == 0 ? BEST.core_hz : SLOW.core_hz, clock_start().core_hz);
         model_reset();
         model.switch_ms = SWITCH_MS + late;
@@ -110,7 +117,7 @@ static void test_a_switch_that_does_not_come_about_is_taken_back(void)
 /* RM0090 3.5.1: the flash is read too fast until its register shows the new wait states. */
 static void test_the_clock_gets_no_faster_than_the_flash(void)
 {
-    model.flash_refuses = true;
+    model.flash_ms = NEVER;
     assert_starts_as(&SLOW);
     TEST_ASSERT_EQUAL_HEX32(SW_INTERNAL, RCC.cfgr & 3u);
     TEST_ASSERT_EQUAL_UINT32(0, model.switches);

@@ -40,13 +40,13 @@ static bool start_pll(uint32_t source, uint32_t source_mhz)
     return comes_up(&RCC.cr, PLLRDY, PLLRDY, SWITCH_MS);
 }
 
-/* The flash, which says when it is (3.5.1), and the buses are slowed down before the clock gets faster. */
+/* The buses and the flash, which says when it is (3.5.1), are slowed down before the clock gets faster. */
 static bool switch_to_pll(void)
 {
+    RCC.cfgr = CFGR_APB1_BY_4 | CFGR_APB2_BY_2;
     FLASH.acr = ACR_CACHES | ACR_5_WAITS;
     if (!comes_up(&FLASH.acr, ACR_WAITS, ACR_5_WAITS, SWITCH_MS))
         return false;
-    RCC.cfgr = CFGR_APB1_BY_4 | CFGR_APB2_BY_2;
     RCC.cfgr = CFGR_APB1_BY_4 | CFGR_APB2_BY_2 | CFGR_SW_PLL;
     return comes_up(&RCC.cfgr, CFGR_SWS, CFGR_SWS_PLL, SWITCH_MS);
 }

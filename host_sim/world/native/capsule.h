@@ -27,6 +27,7 @@ struct contact {
 enum { WALLS = 4 };
 
 void capsule_set(struct capsule *capsule, struct vector a, struct vector b, double radius_mm);
+        /* Fills in a capsule: its ends, and all that follows from them. */
 
 void capsule_set_walls(struct capsule walls[WALLS], double width_mm, double height_mm);
         /* The walls around an arena with a corner at (0, 0); their insides are its edge. */
@@ -35,6 +36,7 @@ double capsule_apart_mm(const struct capsule *capsule, struct vector point);
         /* A lower bound of its distance from a point: that of the box around it. Negative within the box. */
 
 void capsule_meet_disc(const struct capsule *capsule, struct vector centre, double radius_mm, struct contact *out);
+        /* How a disc lies to it. */
 
 void capsule_meet_discs(struct vector one, struct vector other, double radius_mm, struct contact *out);
         /* The same for two discs of one size; the normal is from the first one into the other. */
@@ -43,5 +45,6 @@ bool capsule_hides(const struct capsule *capsule, struct vector from, struct vec
         /* Whether it is on the straight way between two points. */
 
 bool capsule_disc_hides(struct vector centre, double radius_mm, struct vector from, struct vector to);
+        /* Whether a disc is. */
 
 #endif

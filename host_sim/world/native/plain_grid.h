@@ -27,6 +27,7 @@ double plain_grid_border_mm(const struct plain_grid *grid, struct vector at);
         /* How far it is at least to another cell. */
 
 void plain_grid_put(struct plain_grid *grid, uint32_t body, struct vector at);
+        /* Moves a body to the cell of a place, from whichever it was in. */
 
 size_t plain_grid_near(const struct plain_grid *grid, struct vector at, uint32_t bodies[PLAIN_NEAR_MAX]);
         /* The bodies in the cell of a place and in those around it. */

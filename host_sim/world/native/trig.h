@@ -5,5 +5,6 @@
 
 double trig_sin(double angle_rad);
 double trig_cos(double angle_rad);
+        /* Those of the C library, unless another pair is linked in. */
 
 #endif

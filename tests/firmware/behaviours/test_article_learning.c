@@ -77,7 +77,7 @@ static void test_the_side_sensors_do_not_judge_a_trial(void)
 {
     next(FRONT | FRONT_LEFT);
     next(FRONT | 1 | 16);
-    TEST_ASSERT_TRUE(memory_recall(&brain.memory, PATTERN_FRONT | PATTERN_FRONT_LEFT) != SIDE_NOTHING);
+    TEST_ASSERT_NOT_EQUAL_INT(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT | PATTERN_FRONT_LEFT));
 }
 
 static void test_the_reading_that_judges_a_trial_decides_the_next_action(void)

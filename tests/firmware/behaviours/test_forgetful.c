@@ -38,7 +38,7 @@ static void test_a_lesson_just_learned_is_forgotten_too(void)
     learned(PATTERN_FRONT, SIDE_LEFT);
     next(ALL_THREE);
     remembered_turns(10);
-    TEST_ASSERT_TRUE(memory_recall(&brain.memory, PATTERN_ALL_THREE) != SIDE_NOTHING);
+    TEST_ASSERT_NOT_EQUAL_INT(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_ALL_THREE));
     next(FRONT);
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_ALL_THREE));
 }

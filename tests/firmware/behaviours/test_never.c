@@ -93,7 +93,7 @@ static void test_the_bigger_turn_is_to_the_side_that_is_drawn(void)
 static void test_only_trials_are_counted(void)
 {
     for (unsigned i = 0; i < MANY; i++)
-        TEST_ASSERT_TRUE(next(0).reason != REASON_BOREDOM);
+        TEST_ASSERT_NOT_EQUAL_INT(REASON_BOREDOM, next(0).reason);
     TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
 }
 

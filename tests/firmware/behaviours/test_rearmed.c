@@ -21,7 +21,7 @@ static void test_it_learns_as_the_article_does(void)
 {
     next(ALL_THREE);
     next(CLEAR);
-    TEST_ASSERT_TRUE(memory_recall(&brain.memory, PATTERN_ALL_THREE) != SIDE_NOTHING);
+    TEST_ASSERT_NOT_EQUAL_INT(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_ALL_THREE));
     TEST_ASSERT_TRUE(brain.learns);
 }
 
