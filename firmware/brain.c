@@ -58,7 +58,7 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT])
 
 bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes)
 {
-    if (!memory_write(&brain->memory, brain_memory_kind(brain), which, bytes))
+    if (!memory_write(&brain->memory, (enum memory_kind)BRAIN_MEMORY_KINDS[brain->profile], which, bytes))
         return false;
     brain->changed = true;
     return true;
@@ -84,7 +84,7 @@ static bool may_take(const struct brain *brain, uint8_t pattern)
 
 bool brain_take_votes(struct brain *brain, const int8_t votes[CELL_COUNT])
 {
-    enum memory_kind kind = brain_memory_kind(brain);
+    enum memory_kind kind = (enum memory_kind)BRAIN_MEMORY_KINDS[brain->profile];
     bool took = false;
 
     if (!brain->learns || brain->frozen || kind == MEMORY_KIND_ALL_SENSORS)

@@ -44,12 +44,7 @@ bool brain_adopt(struct brain *brain, const uint8_t cells[CELL_COUNT]);
            nothing is changed, if the bytes are not a memory. */
 
 extern const uint8_t BRAIN_MEMORY_KINDS[PROFILE_COUNT];
-
-static inline enum memory_kind brain_memory_kind(const struct brain *brain)
-{
-    return (enum memory_kind)BRAIN_MEMORY_KINDS[brain->profile];
-}
-        /* What the profile takes the eight bytes for. */
+        /* What each profile takes the eight bytes for, an enum memory_kind. */
 
 bool brain_write(struct brain *brain, uint8_t which, uint32_t bytes);
         /* As memory_write, in a memory of the profile's kind. */

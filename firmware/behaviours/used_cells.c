@@ -9,7 +9,7 @@ enum { BLAME = -2 };
 /* With what a lesson begins, and what praise adds: nothing where a cell is a side and no more. */
 static int confidence_step(const struct brain *brain)
 {
-    return brain_memory_kind(brain) == MEMORY_KIND_CONFIDENCE;
+    return BRAIN_MEMORY_KINDS[brain->profile] == MEMORY_KIND_CONFIDENCE;
 }
 
 static void set_cell(struct brain *brain, uint8_t pattern, uint8_t value)

@@ -21,7 +21,7 @@ const uint8_t *page_sides(uint32_t robot)
 
 static enum memory_kind kind_of(uint32_t robot)
 {
-    return brain_memory_kind(&page_octet(robot)->robot.brain);
+    return (enum memory_kind)BRAIN_MEMORY_KINDS[page_octet(robot)->robot.brain.profile];
 }
 
 void page_write_side(uint32_t robot, uint32_t pattern, uint32_t side)
