@@ -118,6 +118,19 @@ def test_an_anchor_that_does_not_exist_is_noticed():
     assert "an-exemple" not in anchors(ROOT / "docs/protocol.md")
 
 
+def test_a_body_of_ones_own_is_built_and_does_what_its_page_says(folder):
+    page = (ROOT / "docs/porting.md").read_text()
+    ((body,), (printed,)) = (
+        re.findall(rf"^```{kind}\n(.*?)^```$", page, re.DOTALL | re.MULTILINE) for kind in ("c my_body.c", "text")
+    )
+    (folder / "my_body.c").write_text(body)
+
+    *built, ran = [run(line, folder) for line in commands("with-my-body")]
+
+    assert [(it.returncode, it.stderr) for it in built] == [(0, "")] * 2
+    assert (ran.returncode, ran.stdout) == (0, printed)
+
+
 def test_every_line_of_c_in_the_article_stands_in_the_file_named():
     rows = re.findall(r"^\| .*? \| `([^`]+)` \| `([\w/.]+)`", (ROOT / "docs/article.md").read_text(), re.MULTILINE)
 
