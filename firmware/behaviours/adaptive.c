@@ -1,7 +1,8 @@
-/* adaptive: as forgetful, but its memory has confidences, as robot.toml says: a cell that has proved its worth is not forgotten
- * at once. */
+/* adaptive: as forgetful, but a cell that has proved its worth is not forgotten at once. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/used_cells.h"
+
+enum { CONFIDENCE = 1, PRAISE = 1 };
 
 bool adaptive_begin(struct brain *brain)
 {
@@ -11,5 +12,5 @@ bool adaptive_begin(struct brain *brain)
 
 struct action adaptive_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
-    return used_cells_next(brain, config, senses);
+    return used_cells_next(brain, config, senses, CONFIDENCE, PRAISE);
 }

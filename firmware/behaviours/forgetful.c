@@ -1,7 +1,8 @@
-/* forgetful: when it is bored, it forgets what it has used since it was blocked, and can be bored again. Its memory has sides
- * only. */
+/* forgetful: when it is bored, it forgets what it has used since it was blocked, and can be bored again. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/used_cells.h"
+
+enum { CONFIDENCE = 0, PRAISE = 0 };   /* a cell is a side and no more */
 
 bool forgetful_begin(struct brain *brain)
 {
@@ -11,5 +12,5 @@ bool forgetful_begin(struct brain *brain)
 
 struct action forgetful_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
-    return used_cells_next(brain, config, senses);
+    return used_cells_next(brain, config, senses, CONFIDENCE, PRAISE);
 }

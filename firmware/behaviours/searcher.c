@@ -6,6 +6,8 @@
 #include "firmware/pattern.h"
 
 enum {
+    CONFIDENCE = 1,
+    PRAISE = 1,
     LOOK_EVERY_MM = 1000,   /* way between two turns around */
     LOOK_AGAIN_MM = 200,    /* after losing sight of food: way to the next one */
     MISSES_MAX = 2,         /* the way to the next look doubles at most this many times */
@@ -93,8 +95,8 @@ struct action searcher_next(struct brain *brain, const struct config *config, co
     uint8_t pattern = pattern_of(senses->feel);
     struct action action;
 
-    used_cells_learn(brain, senses);
+    used_cells_learn(brain, senses, CONFIDENCE);
     action = choose(brain, config, senses, pattern);
-    used_cells_judge(brain, &action, pattern);
+    used_cells_judge(brain, &action, pattern, PRAISE);
     return action;
 }

@@ -6,12 +6,6 @@
 
 enum { BLAME = -2 };
 
-/* With what a lesson begins, and what praise adds: nothing where a cell is a side and no more. */
-static int confidence_step(const struct brain *brain)
-{
-    return BRAIN_MEMORY_KINDS[brain->profile] == MEMORY_KIND_CONFIDENCE;
-}
-
 static void set_cell(struct brain *brain, uint8_t pattern, uint8_t value)
 {
     if (brain->memory.cell[pattern] == value || brain->frozen)
@@ -20,13 +14,13 @@ static void set_cell(struct brain *brain, uint8_t pattern, uint8_t value)
     brain->changed = true;
 }
 
-void used_cells_learn(struct brain *brain, const struct senses *senses)
+void used_cells_learn(struct brain *brain, const struct senses *senses, unsigned confidence)
 {
     uint8_t pattern = pattern_of(brain->tried_feel);
 
     if (!listing_trial_helped(brain, senses) || brain->frozen)
         return;
-    set_cell(brain, pattern, confidence_cell((enum side)brain->tried_side, (unsigned)confidence_step(brain)));
+    set_cell(brain, pattern, confidence_cell((enum side)brain->tried_side, confidence));
     brain->used |= (uint8_t)(1u << pattern);
 }
 
@@ -47,7 +41,7 @@ static void end_episode(struct brain *brain, int change)
     brain->used = 0;
 }
 
-void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern)
+void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern, int praise)
 {
     switch (action->reason) {
     case REASON_TRIAL:
@@ -60,18 +54,19 @@ void used_cells_judge(struct brain *brain, const struct action *action, uint8_t 
         end_episode(brain, BLAME);
         break;
     default:   /* the way is clear */
-        end_episode(brain, confidence_step(brain));
+        end_episode(brain, praise);
         break;
     }
 }
 
-struct action used_cells_next(struct brain *brain, const struct config *config, const struct senses *senses)
+struct action used_cells_next(struct brain *brain, const struct config *config, const struct senses *senses,
+                              unsigned confidence, int praise)
 {
     uint8_t pattern = pattern_of(senses->feel);
     struct action action;
 
-    used_cells_learn(brain, senses);
+    used_cells_learn(brain, senses, confidence);
     action = listing_next(brain, config, senses, memory_recall(&brain->memory, pattern));
-    used_cells_judge(brain, &action, pattern);
+    used_cells_judge(brain, &action, pattern, praise);
     return action;
 }
