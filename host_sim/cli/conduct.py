@@ -3,8 +3,8 @@
 import argparse
 import json
 import sys
-from collections.abc import Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.errors import DoubtfulError, OctetError, UsageError
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_path
+from host_sim.recording.memory_lock import memory_lock
 from host_sim.recording.run_folder import run_folder
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary
@@ -61,11 +62,7 @@ def conduct(options: RunOptions) -> Summary:
         UsageError: The options are invalid; nothing was changed.
         OctetError: The run could not continue; what was recorded up to there was written.
     """
-    loaded = [load_memory(path) for path in _memory_paths(options)]
-    for path in _memory_paths(options):
-        _check_no_output(path, options)
-        check_writable(path)
-    with run_folder(options.out):
+    with _memories(options) as loaded, run_folder(options.out):
         _announce(options, loaded)
         with ExitStack() as stack:
             listener = open_listener(stack, options.watch)
@@ -91,6 +88,18 @@ def conduct(options: RunOptions) -> Summary:
     _print_results(options, summary)
     _check_trust(summary)
     return summary
+
+
+@contextmanager
+def _memories(options: RunOptions) -> Iterator[list[Memory | None]]:
+    """What the memory files hold; until the run has ended they are this run's alone."""
+    paths = _memory_paths(options)
+    with ExitStack() as locks:
+        for path in paths:
+            _check_no_output(path, options)
+            check_writable(path)
+            locks.enter_context(memory_lock(path))
+        yield [load_memory(path) for path in paths]
 
 
 def _check_no_output(memory: Path, options: RunOptions) -> None:

@@ -10,6 +10,7 @@ import sys
 import pytest
 
 from host_sim.protocol.codec import crc8
+from host_sim.recording.memory_lock import memory_lock
 from tests.runs.support import ROBOT, ROOT, octet, octet_process
 
 WRONG = {
@@ -117,6 +118,19 @@ def test_a_memory_is_not_kept_in_a_file_of_the_run(tmp_path, name):
     said = f"octet: the run writes something else to {tmp_path / name}: choose another file with --memory\n"
     assert (done.returncode, done.stderr) == (2, said)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_two_runs_do_not_learn_into_one_memory(tmp_path):
+    memory, words = tmp_path / "robot.mem", ("run", "--bus", "none", "--limit-s", "2", "--out", tmp_path / "out")
+
+    with memory_lock(memory):
+        refused = octet(*words, "--memory", memory)
+
+    assert refused.returncode == 2
+    assert refused.stderr.startswith(f"octet: {memory} is in use by another run (process ")
+    assert refused.stderr.endswith("; choose another file with --memory\n")
+    assert list(tmp_path.iterdir()) == []
+    assert octet(*words, "--memory", memory).returncode == 0
 
 
 BAD_MEMORIES = {

@@ -1,0 +1,38 @@
+"""Locks that keep other runs away, and end with the process that holds them, in whatever way it ends."""
+
+import fcntl
+import os
+from pathlib import Path
+
+from host_sim.errors import UsageError
+
+_LOCKS = Path("/proc/locks")
+
+
+def lock(descriptor: int, name: str, instead: str) -> None:
+    """Locks an open file or folder until it is closed.
+
+    Args:
+        descriptor: What is open.
+        name: What is locked by it, for a message.
+        instead: What to do if it cannot be, for a message.
+
+    Raises:
+        UsageError: It cannot be locked, or another run has done so.
+    """
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise UsageError(f"{name} is in use by another run{_owner(descriptor)}; {instead}") from None
+    except OSError as error:
+        raise UsageError(f"cannot lock {name}: {error.strerror}; {instead}") from None
+
+
+def _owner(descriptor: int) -> str:
+    """The process that holds the lock, for a message; empty where the kernel does not say."""
+    inode = f":{os.fstat(descriptor).st_ino}"
+    for line in _LOCKS.read_text(encoding="ascii").splitlines() if _LOCKS.exists() else ():
+        words = line.split()
+        if "FLOCK" in words and any(word.endswith(inode) for word in words):
+            return f" (process {words[words.index('WRITE') + 1]})" if "WRITE" in words else ""
+    return ""
