@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, setting
 from host_sim.cli.study_command import add_workers, with_progress, workers_of
+from host_sim.counted import counted
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.generated import PROFILES
 
@@ -27,6 +28,9 @@ examples:
 
 Of a study with goals, the exit code is 1 if one of them is missed.
 """
+_OF_RUNS = ("seeds", "first", "environments", "set", "change", "robot", "jobs", "dask", "chunk")
+"""The options for runs that are made; those of a study are made."""
+
 _SET_HELP = "change a parameter, as tools/run --help lists them; may be repeated"
 
 
@@ -59,6 +63,7 @@ def add(commands: "Subparsers") -> None:
     profiles("--change", action="append", default=[], metavar="CHANGE", help="one change, as tools/run has them")
     profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + DEFAULT)
     add_workers(parser)
+    parser.set_defaults(untouched={name: parser.get_default(name) for name in _OF_RUNS})
 
 
 def _compare(arguments: argparse.Namespace) -> int:
@@ -68,8 +73,12 @@ def _compare(arguments: argparse.Namespace) -> int:
     folder = Path(arguments.what[0])
     if folder.is_dir() and len(arguments.what) > 1:
         raise UsageError(f"{folder} is the folder of a study, which is compared by itself: name nothing else")
+    if folder.is_dir():
+        _check_no_runs(arguments)
     plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
-    print(f"{plan.title}: {len(samples[0].seeds)} seeds of {plan.environments} environments each")
+    print(
+        f"{plan.title}: {counted(len(samples[0].seeds), 'seed')} of {counted(plan.environments, 'environment')} each"
+    )
     print(table(samples, arguments.difference / 100))
     if arguments.plots:
         from host_sim.study.plots import draw_plots
@@ -79,6 +88,14 @@ def _compare(arguments: argparse.Namespace) -> int:
     for each in judged:
         print(each)
     return 0 if all(each.is_reached for each in judged) else 1
+
+
+def _check_no_runs(arguments: argparse.Namespace) -> None:
+    """Refuses options for runs where none are made."""
+    for name in (name for name, value in arguments.untouched.items() if getattr(arguments, name) != value):
+        raise UsageError(
+            f"--{name} is for profiles, and {arguments.what[0]} is the folder of a study: leave --{name} out"
+        )
 
 
 def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":

@@ -12,7 +12,7 @@ def test_profiles_are_compared_at_once(capsys):
     assert main(["compare", "never", "five", "--set", "filter=1", *ONE]) == 0
 
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0] == "never five: 1 seeds of 1 environments each"
+    assert lines[0] == "never five: 1 seed of 1 environment each"
     assert [line.split()[0] for line in lines[2:4]] == ["never", "five"]
 
 
@@ -26,7 +26,7 @@ def test_a_missed_goal_is_an_exit_code(tmp_path, capsys, word, bound, code):
     assert main(["compare", out]) == code
 
     printed = capsys.readouterr().out
-    assert "Mine: 1 seeds of 1 environments each" in printed
+    assert "Mine: 1 seed of 1 environment each" in printed
     assert ("MISSED" in printed) == (code == 1)
 
 
@@ -36,7 +36,7 @@ def test_a_study_without_a_title_is_called_as_its_file(tmp_path, capsys):
 
     assert main(["compare", str(tmp_path / "out")]) == 0
 
-    assert "mine: 1 seeds" in capsys.readouterr().out
+    assert "mine: 1 seed of" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -46,6 +46,9 @@ def test_a_study_without_a_title_is_called_as_its_file(tmp_path, capsys):
         ["artcle"],
         ["article", "--change", "gremlin@env1"],
         ["article", "--set", "filter=2"],
+        [".", "--seeds", "3"],
+        [".", "--set", "filter=1"],
+        [".", "--jobs", "77"],
         ["."],
         [".", "article"],
         ["article", "--change", "mirror@env1", "--change", "repair@env2"],
@@ -56,3 +59,10 @@ def test_wrong_usage_is_one_line(capsys, words):
     assert main(["compare", *words]) == 2
 
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_an_option_for_profiles_is_refused_with_a_study(tmp_path, capsys):
+    assert main(["compare", str(tmp_path), "--seeds", "3"]) == 2
+
+    said = f"octet: --seeds is for profiles, and {tmp_path} is the folder of a study: leave --seeds out\n"
+    assert capsys.readouterr().err == said
