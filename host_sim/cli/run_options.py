@@ -9,9 +9,13 @@ from typing import Any
 from host_sim.client.frame_log import COMPRESSED
 from host_sim.errors import UsageError
 from host_sim.sim.run_config import RunConfig
+from host_sim.transport.bit_rates import BIT_RATE
 
 LOGS = ("run.log", f"run.log{COMPRESSED}")
 """The log in a run's output folder: the plain one and the compressed one."""
+
+
+_NO_ADAPTER = ("auto", "none", "fd", "socketcan")
 
 
 @dataclass(frozen=True)
@@ -100,6 +104,7 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
 
     if arguments.board and arguments.robot != "emulated":
         raise UsageError(f"--board {arguments.board} is for --robot emulated: add that, or leave --board out")
+    _check_bitrate(arguments.bitrate, bus)
     world_of(arguments.world)  # a mistake in it is found before anything is begun
     changes = tuple(change for text in arguments.change for change in read_changes(text))
     names = {field.name for field in fields(RunConfig)} & vars(arguments).keys()
@@ -115,6 +120,14 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
         json=arguments.json,
         watch=watch,
     )
+
+
+def _check_bitrate(bitrate: int, bus: str) -> None:
+    """Refuses a bit rate where there is nothing to set it up in."""
+    if bitrate != BIT_RATE and bus.partition(":")[0] in _NO_ADAPTER:
+        raise UsageError(
+            f"--bitrate is for an adapter that is not the kernel's, not for --bus {bus}: leave --bitrate out"
+        )
 
 
 def _resolved(arguments: argparse.Namespace) -> dict[str, Any]:

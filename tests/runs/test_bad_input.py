@@ -35,6 +35,11 @@ WRONG = {
     "a folder without a name": (["--out", ""], "argument --out: the name is empty"),
     "a board for a robot that has none": (["--board", "blue_pill"], "--robot emulated"),
     "other machines, and no page": (["--listen"], "--watch"),
+    "a bit rate, and no adapter": (["--bitrate", "250000"], "leave --bitrate out"),
+    "a bit rate, and the kernel's adapter": (
+        ["--bus", "socketcan:can0", "--bitrate", "250000"],
+        "leave --bitrate out",
+    ),
     "a port, and no page": (["--port", "8139"], "--watch"),
     "a port, and a fleet": (["--robots", "40", "--bus", "none", "--port", "8139"], "--watch"),
 }
