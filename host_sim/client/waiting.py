@@ -13,7 +13,7 @@ T = TypeVar("T")
 
 _LOOK_ALIVE_S = 0.2
 _REPEAT_S = 0.05
-_STRETCH_MAX = 64
+_STRETCH_MAX = 16
 _DUST_S = 1e-6
 _WAITING_MAX = 64
 

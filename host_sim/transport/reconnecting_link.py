@@ -82,14 +82,13 @@ class ReconnectingLink:
         self._link = None
 
     def _wait(self) -> None:
-        """Waits until the line can be opened."""
+        """Waits until the line can be opened. One that is open may be back: whatever is sent next will tell."""
         assert self._gone_since is not None
-        while True:
+        time.sleep(_PAUSE_S)
+        while self._link is None:
             if time.monotonic() - self._gone_since > self._patience_s:
                 raise RobotError(f"{self._name} has been gone for {self._patience_s:g} s: {self._stats.reason}")
-            time.sleep(_PAUSE_S)
-            if self._link is not None:
-                return
             with suppress(OctetError):
                 self._link = self._open_link()
                 return
+            time.sleep(_PAUSE_S)

@@ -134,6 +134,19 @@ def test_a_line_that_is_open_and_was_not_tried_yet_is_not_opened_again(line):
     assert line.opened == 2
 
 
+def test_a_line_that_is_back_is_not_given_up_because_nothing_was_sent_for_long(line):
+    link = reconnecting(line, patience_s=0.2)
+    line.is_there = False
+    link.send(FRAME)
+    line.is_there = True
+
+    for _ in range(4):  # of 0.1 s
+        assert link.receive(0.0) is None
+    link.send(FRAME)
+
+    assert line.sent == [FRAME]
+
+
 def test_a_line_that_is_gone_can_be_closed(line):
     link = reconnecting(line)
 
