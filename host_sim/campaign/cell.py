@@ -30,7 +30,7 @@ class Cell:
 
     Attributes:
         profile: The behaviour.
-        link: Where the robot is, one of `setups.LINKS`.
+        link: Where the robot is, one of `links.LINKS`.
         pace: One of `PACES`.
         seed: Seed of the run, and of its faults.
         limit_s: Robot time of the run, s.

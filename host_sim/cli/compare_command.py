@@ -29,7 +29,7 @@ examples:
 Of a study with goals, the exit code is 1 if one of them is missed.
 """
 _OF_RUNS = ("seeds", "first", "environments", "set", "change", "robot", "jobs", "dask", "chunk")
-"""The options for runs that are made; those of a study are made."""
+"""The options that say which runs to make; those of a study were made before."""
 
 _SET_HELP = "change a parameter, as tools/run --help lists them; may be repeated"
 
@@ -92,9 +92,10 @@ def _compare(arguments: argparse.Namespace) -> int:
 
 def _check_no_runs(arguments: argparse.Namespace) -> None:
     """Refuses options for runs where none are made."""
-    for name in (name for name, value in arguments.untouched.items() if getattr(arguments, name) != value):
+    given = [f"--{name}" for name, value in arguments.untouched.items() if getattr(arguments, name) != value]
+    if given:
         raise UsageError(
-            f"--{name} is for profiles, and {arguments.what[0]} is the folder of a study: leave --{name} out"
+            f"{arguments.what[0]} is the folder of a study: leave out {', '.join(given)}, for profiles only"
         )
 
 

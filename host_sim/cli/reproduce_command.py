@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, file_path
+from host_sim.cli.parsing import DEFAULT, add_command, file_path
 from host_sim.cli.study_command import add_workers, run_study, workers_of
 from host_sim.errors import UsageError
 from host_sim.paths import ROOT
@@ -12,7 +12,6 @@ from host_sim.paths import ROOT
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
 
-_DEFAULT = " (default: %(default)s)"
 _DOCUMENT = "learning.md"
 _EXAMPLES = """\
 examples:
@@ -52,7 +51,7 @@ def add(commands: "Subparsers") -> None:
         type=file_path,
         default=Path("out/reproduce"),
         metavar="FOLDER",
-        help="folder for the rows" + _DEFAULT,
+        help="folder for the rows" + DEFAULT,
     )
     add("--only", metavar="NAME", help="run only the study of this name (default: all)")
     add_workers(parser)

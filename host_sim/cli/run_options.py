@@ -14,8 +14,8 @@ from host_sim.transport.bit_rates import BIT_RATE
 LOGS = ("run.log", f"run.log{COMPRESSED}")
 """The log in a run's output folder: the plain one and the compressed one."""
 
-
 _NO_ADAPTER = ("auto", "none", "fd", "socketcan")
+"""The interfaces whose bit rate is not set up here."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,8 @@ def check_no_page(arguments: argparse.Namespace, instead: str) -> None:
         UsageError: There are such options.
     """
     given = {"--listen": arguments.listen, "--port": arguments.port}
-    for option in (option for option, value in given.items() if value is not None):
+    option = next((option for option, value in given.items() if value is not None), None)
+    if option is not None:
         raise UsageError(f"{option} is for a page in the browser: {instead}, or leave {option} out")
 
 

@@ -141,20 +141,13 @@ class Dialogue:
         return self.inbox.protocol.encode("COMMAND", {**fixed, **signals})
 
     def _ask_once(self, command: Frame, timeout_s: float) -> DecodedFrame | None:
-        waiting, counts, before = self.waiting, self.inbox.counts, self.inbox.answered_again
-
-        def repeat() -> bool:
-            nonlocal before
-            is_busy, before = self.inbox.answered_again > before, self.inbox.answered_again
-            waiting.repeat(command)
-            return is_busy
-
-        self.inbox.expect_answer(command)
+        waiting, counts = self.waiting, self.inbox.counts
+        self.inbox.asked.add(command)
         self.inbox.record(command)
         counts.sent += 1
         began, repeated = self.connection.now(), counts.repeated
         self.connection.link.send(command)
-        answer = waiting.receive_or_repeat(repeat, self.inbox.take_answer, timeout_s)
+        answer = waiting.receive_or_repeat(lambda: waiting.repeat(command), self.inbox.take_answer, timeout_s)
         if answer is not None and counts.repeated == repeated:
             waiting.round_trip.sample(self.connection.now() - began)
         return answer

@@ -33,7 +33,7 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
                 f"no robot answered as node {client.node} within {timeout_s:g} s; {client.dialogue.account()}"
             )
         assert client.inbox.last is not None
-        held[:] = [client.inbox.asked, client.inbox.last]
+        held[:] = [client.inbox.asked.last, client.inbox.last]
         if not client.dialogue.await_reports():
             client.dialogue.demand_reports("stop")
         client.firmware = client.firmware or client.reports.boot

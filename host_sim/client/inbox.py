@@ -1,9 +1,9 @@
 """Takes in every frame that comes from a robot's side: answers, drives, reports, and what should not come at all."""
 
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from host_sim.client.asked_commands import AskedCommands
 from host_sim.client.freshness import Arrival
 from host_sim.client.robot_reports import REPORTS, RobotReports
 from host_sim.client.session import FrameCounts, Session
@@ -14,7 +14,6 @@ from host_sim.robot_io import REST, Drive
 
 _TICK_MASK = TICK_SPAN - 1
 _RIVAL_S = 1.0
-_COMMANDS_KNOWN = COUNTERS - 1
 _NO_ANSWER = frozenset((int(Reason.STOP), int(Reason.SILENCE)))
 _NO_FRAME = Frame(-1, b"\0\0")
 
@@ -30,6 +29,7 @@ class Inbox:
         lockstep: Whether the simulator's clock counts, so that only the last senses are answered.
         owner: Number of this simulator.
         counts: Frame counters.
+        asked: The commands that were sent.
         reports: What the robot has reported.
         session: How the robot was started; None while it is stopped.
         last: The last valid frame from the robot.
@@ -41,7 +41,7 @@ class Inbox:
         silent: Whether the robot has said that it hears nothing: all that it was to say before has been sent.
         rival: The frame by which another simulator was heard for the second time; None while there is none.
         owed: Number of repeated senses whose answers have not come yet.
-        answered_again: Number of answers to commands that were answered before.
+        answered_again: Number of answers to what was repeated, and was answered before.
         drive: The last new drive.
     """
 
@@ -51,6 +51,7 @@ class Inbox:
     lockstep: bool
     owner: int
     counts: FrameCounts = field(default_factory=FrameCounts)
+    asked: AskedCommands = field(default_factory=AskedCommands)
     reports: RobotReports = field(default_factory=RobotReports)
     session: Session | None = None
     last: Frame | None = None
@@ -65,8 +66,6 @@ class Inbox:
     answered_again: int = 0
     drive: Drive = REST
     _rival_s: float | None = None
-    _asked: deque[Frame] = field(default_factory=lambda: deque(maxlen=_COMMANDS_KNOWN))
-    _answered: bool = True
     _drive_tick: int = 0
     _drive_frame: Frame = _NO_FRAME
 
@@ -74,16 +73,6 @@ class Inbox:
     def tick(self) -> int:
         """Number of the last tick whose senses were sent, from 0."""
         return max(self.ticks - 1, 0)
-
-    @property
-    def asked(self) -> Frame:
-        """The last command."""
-        return self._asked[-1]
-
-    def expect_answer(self, command: Frame) -> None:
-        """A command is about to be sent."""
-        self._asked.append(command)
-        self._answered = False
 
     def expect_drive(self, tick: int) -> int:
         """The senses of the next tick are about to be sent.
@@ -180,6 +169,7 @@ class Inbox:
     def _take_old_drive(self, drive: Drive, frame: Frame) -> None:
         """A drive that came twice or late."""
         self.counts.duplicate += 1
+        self.answered_again += self.owed > 0
         self.owed -= self.owed > 0
         if self._contradicts(drive, frame):
             self._lose("sent two different drives for one tick", contradicts=True)
@@ -225,16 +215,15 @@ class Inbox:
                 self._hear_rival(frame)
 
     def _take_any_answer(self, frame: Frame, decoded: DecodedFrame) -> DecodedFrame | None:
-        matching = [asked for asked in self._asked if counter_of(asked) == counter_of(frame)]
-        if not matching or matching[-1].data[1] != frame.data[1]:
+        arrival = self.asked.judge(frame)
+        if arrival == Arrival.OTHER:
             self.counts.refused += 1
             self._lose(f"answered what was not asked here: {self.protocol.describe(frame)}")
             return None
-        if self._answered or matching[-1] != self._asked[-1]:
+        if arrival == Arrival.AGAIN:
             self.counts.duplicate += 1
             self.answered_again += 1
             return None
-        self._answered = True
         self._accept(frame)
         return decoded
 
@@ -264,7 +253,7 @@ class Inbox:
         and all: after the answer, such a page is what was asked for.
         """
         arrival = self.reports.judge(frame, decoded, self.counts.missing)
-        is_asked_for = self.reporting and self._answered and self.reports.is_awaited(decoded)
+        is_asked_for = self.reporting and self.asked.answered and self.reports.is_awaited(decoded)
         return Arrival.NEW if arrival == Arrival.AGAIN and is_asked_for else arrival
 
     def _check_report(self, decoded: DecodedFrame) -> None:

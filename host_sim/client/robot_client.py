@@ -65,7 +65,7 @@ class RobotClient:
         self.connection, self.protocol, self.log = connection, protocol, log
         self.round_trip = RoundTrip()
         self.inbox = Inbox(protocol, log.add, connection.now, lockstep, owner)
-        self.waiting = Waiting(connection, self.round_trip, self.inbox.counts)
+        self.waiting = Waiting(connection, self.round_trip, self.inbox)
         self.dialogue = Dialogue(connection, self.inbox, self.waiting)
         self.incidents: list[Incident] = []
         self.unlisted = 0
@@ -77,7 +77,7 @@ class RobotClient:
         self._senses = self._ranges = _NO_FRAME
         self._sent_s = 0.0
         self._timed = self._lossy = False
-        self._owed = self._owed_tick = 0
+        self._owed_tick = 0
 
     @property
     def node(self) -> int:
@@ -137,20 +137,14 @@ class RobotClient:
         self._timed = False
         self.inbox.counts.sent += 1
 
-    def repeat_senses(self) -> bool:
-        """Sends the senses of the last tick again, and the distances that went before them.
-
-        Returns:
-            Whether some that were repeated before have been answered since the last repetition.
-        """
+    def repeat_senses(self) -> None:
+        """Sends the senses of the last tick again, and the distances that went before them."""
         if self.wants_ranges:
             self.waiting.repeat(self._ranges)
         self._note_lost_answers(self.inbox.ticks - 1)
-        is_busy = self.inbox.owed < self._owed
         self.inbox.owed += 1
-        self._owed, self._owed_tick = self.inbox.owed, self.inbox.ticks
+        self._owed_tick = self.inbox.ticks
         self.waiting.repeat(self._senses)
-        return is_busy
 
     def await_drive(self) -> Drive:
         """In lockstep: the answer to the last senses, which are repeated until it comes.

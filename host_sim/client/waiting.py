@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from host_sim.client.connection import Connection
+from host_sim.client.inbox import Inbox
 from host_sim.client.round_trip import RoundTrip
-from host_sim.client.session import FrameCounts
 from host_sim.protocol.codec import Frame
 
 T = TypeVar("T")
@@ -25,12 +25,12 @@ class Waiting:
     Attributes:
         connection: Carries the frames, and raises RobotError if the robot's process has ended.
         round_trip: How long answers take.
-        counts: Counts what is repeated.
+        inbox: Counts what is repeated, and what is answered more than once.
     """
 
     connection: Connection
     round_trip: RoundTrip
-    counts: FrameCounts
+    inbox: Inbox
 
     def receive(self, take: Callable[[Frame], T | None], timeout_s: float) -> T | None:
         """What `take` makes of the first frame that it takes; None after the timeout.
@@ -51,25 +51,24 @@ class Waiting:
                 return None
 
     def receive_or_repeat(
-        self, repeat: Callable[[], bool], take: Callable[[Frame], T | None], timeout_s: float
+        self, repeat: Callable[[], None], take: Callable[[Frame], T | None], timeout_s: float
     ) -> T | None:
-        """As `receive`, for an answer: what it is to answer is sent again when that takes too long.
+        """As `receive`, for an answer: `repeat` sends again what it is to answer, when that takes too long.
 
-        Args:
-            repeat: Sends it again. Returns whether the robot is known to be busy with what was repeated before: more
-                of it would make its answer still later. So the pauses double, and the timeout begins anew.
-            take: As for `receive`.
-            timeout_s: As for `receive`; it begins anew as often as the pauses double, a few times at most.
+        A robot that is still answering what was repeated before would only be later for more of it. So the pauses
+        double, and the timeout begins anew, a few times at most.
         """
         left_s, wait_s, stretch = timeout_s, self.round_trip.timeout_s, 1
+        again = self.inbox.answered_again
         while True:
             result = self.receive(take, min(wait_s, left_s))
             left_s -= wait_s
             if result is not None or left_s <= 0:
                 return result
-            if repeat() and stretch < _STRETCH_MAX:
+            repeat()
+            if self.inbox.answered_again > again and stretch < _STRETCH_MAX:
                 self.round_trip.back_off()
-                left_s, stretch = timeout_s, 2 * stretch
+                left_s, stretch, again = timeout_s, 2 * stretch, self.inbox.answered_again
             wait_s = min(2 * wait_s, stretch * _REPEAT_S)
 
     def repeat(self, frame: Frame) -> None:
@@ -77,4 +76,4 @@ class Waiting:
         if self.round_trip.is_sure:
             self.round_trip.back_off()
         self.connection.link.send(frame)
-        self.counts.repeated += 1
+        self.inbox.counts.repeated += 1

@@ -8,6 +8,7 @@ from typing import Any
 
 from host_sim.atomic_file import write_bytes
 from host_sim.client.robot_client import RobotClient
+from host_sim.counted import counted
 from host_sim.protocol.generated import PATTERNS, SIDES, Reason
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.episode_result import EpisodeResult, RobotResult
@@ -153,8 +154,8 @@ def environment_line(number: int, episode: EpisodeResult) -> str:
     end = "all food found" if episode.finished else f"{sum(episode.eaten)} of {len(episode.eaten)} food found"
     trials, known, bored = (episode.begun(reason) for reason in (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM))
     return (
-        f"environment {number}   {end} in {episode.robot_s:.0f} s; {_counted(trials, 'trial')}, "
-        f"{_counted(known, 'remembered turn')}, bored {_counted(bored, 'time')}"
+        f"environment {number}   {end} in {episode.robot_s:.0f} s; {counted(trials, 'trial')}, "
+        f"{counted(known, 'remembered turn')}, bored {counted(bored, 'time')}"
     )
 
 
@@ -187,15 +188,11 @@ def _link(robot: dict[str, Any]) -> str:
         "refused": frames["refused"],
         "unsent": robot["line"]["unsent"],
     }
-    parts = [f"{_counted(count, 'frame')} {name}" for name, count in counts.items() if count]
-    parts += [f"gone {_counted(robot['line']['outages'], 'time')}"] if robot["line"]["outages"] else []
+    parts = [f"{counted(count, 'frame')} {name}" for name, count in counts.items() if count]
+    parts += [f"gone {counted(robot['line']['outages'], 'time')}"] if robot["line"]["outages"] else []
     parts += [f"robot counted {name}: {_count(faults[name], name in saturated)}" for name in faults if faults[name]]
     slow = f"; an answer takes {robot['round_trip_ms']:.0f} ms" if parts and robot["round_trip_ms"] else ""
     return ", ".join(parts) + slow
-
-
-def _counted(count: int, what: str) -> str:
-    return f"{count} {what}" if count == 1 else f"{count} {what}s"
 
 
 def _count(count: int, saturated: bool) -> str:

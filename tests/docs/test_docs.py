@@ -114,8 +114,8 @@ def test_every_anchor_that_a_document_names_exists(path):
 
 
 def test_an_anchor_that_does_not_exist_is_noticed():
-    assert "an-example" in anchors(ROOT / "docs/protocol.md")
-    assert "an-exemple" not in anchors(ROOT / "docs/protocol.md")
+    assert "a-conversation" in anchors(ROOT / "docs/protocol.md")
+    assert "a-conversasion" not in anchors(ROOT / "docs/protocol.md")
 
 
 def test_a_body_of_ones_own_is_built_and_does_what_its_page_says(folder):

@@ -64,5 +64,5 @@ def test_wrong_usage_is_one_line(capsys, words):
 def test_an_option_for_profiles_is_refused_with_a_study(tmp_path, capsys):
     assert main(["compare", str(tmp_path), "--seeds", "3"]) == 2
 
-    said = f"octet: --seeds is for profiles, and {tmp_path} is the folder of a study: leave --seeds out\n"
+    said = f"octet: {tmp_path} is the folder of a study: leave out --seeds, for profiles only\n"
     assert capsys.readouterr().err == said

@@ -1,12 +1,10 @@
 """tools/setup, with stand-ins for the programs that it calls."""
 
 import os
-import re
 import shutil
 import subprocess
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
-from importlib import metadata
 from pathlib import Path
 
 import pytest
@@ -274,29 +272,3 @@ def test_packages_alone_that_cannot_be_installed_are_named(tree: Tree) -> None:
     done, _ = tree.setup("--packages", "c", path=str(tree.bin))
     assert done.returncode != 0
     assert "apt-get install gcc cmake\n" in done.stderr
-
-
-def test_the_lock_files_pin_by_hash_and_name_no_address() -> None:
-    for path in (*(ROOT / name for name in LOCKS), ROOT / "tools/unity.lock"):
-        text = path.read_text()
-        assert "://" not in text
-        assert 0 < text.count("==") <= text.count("--hash=sha256:")
-
-
-def megabytes(locks: Sequence[str]) -> float:
-    """The size of the packages of lock files, as they are installed here."""
-    names = set(re.findall(r"^([\w.-]+)==", "".join((ROOT / lock).read_text() for lock in locks), re.MULTILINE))
-    installed = {it.name.lower().replace("_", "-"): it for it in metadata.distributions()}
-    files = [
-        Path(it.locate_file(file)) for name in names & set(installed) for it in [installed[name]] for file in it.files
-    ]
-    return sum(file.stat().st_size for file in files if file.exists()) / 1e6
-
-
-def test_a_run_installs_less_than_200_mb() -> None:
-    pip = 20
-    assert 50 < megabytes(LOCKS[:1]) < 200 - pip
-
-
-def test_a_run_that_installed_what_the_tests_need_would_be_noticed() -> None:
-    assert megabytes(LOCKS) > 200
