@@ -1,0 +1,42 @@
+"""The comparison of logs by their hashes notices what it is there to notice."""
+
+from collections import Counter
+from itertools import islice
+
+from host_sim.sim.run_config import RunConfig
+from tests.runs.log_hashes import Recorded, differences, log_of, runs
+
+
+def test_every_run_has_a_name_of_its_own():
+    names = Counter(recorded.name for recorded in runs())
+
+    assert len(names) > 190
+    assert set(names.values()) == {1}
+
+
+def test_a_log_is_the_same_again_and_differs_with_the_options(tmp_path):
+    one, other = islice(runs(), 2)
+
+    assert log_of(one, tmp_path) == log_of(one, tmp_path) != log_of(other, tmp_path)
+
+
+def test_of_a_log_only_what_names_the_firmware_is_left_out(tmp_path):
+    config = RunConfig(environments=1, limit_s=1.0)
+
+    log = log_of(Recorded("short", config), tmp_path)
+
+    left_out = (tmp_path / "run.log").read_bytes().splitlines()
+    kept = log.splitlines()
+    assert {line.split()[2][:4] for line in left_out if line not in kept} == {b"6C1#"}
+
+
+def test_edits_and_the_size_of_steps_are_heeded(tmp_path):
+    config = RunConfig(environments=1, limit_s=12.0)
+
+    plain, edited, by_tick = (log_of(Recorded("", config, *rest), tmp_path) for rest in ((), (True,), (True, 1)))
+
+    assert plain != edited == by_tick
+
+
+def test_what_differs_is_named():
+    assert differences({"a": "1", "b": "2", "gone": "3"}, {"a": "1", "b": "4", "new": "5"}) == ["b", "gone", "new"]
