@@ -17,7 +17,8 @@ enum {
     HOLD_TICKS = 5,                                /* without a new drive, a body goes on for this long and then rests */
     ASTRAY_PER_S = 5,                              /* wheels may go astray as far as they both roll in 1/5 second */
     CREDIBLE_EIGHTHS = 13,                         /* of the fastest that a wheel is told, it may be seen to roll, */
-    CREDIBLE_COUNTS = 2                            /* and so much more, in fewer ticks than a count takes */
+    CREDIBLE_COUNTS = 2,                           /* and so much more, in fewer ticks than a count takes */
+    RESTART_COUNTS = 8                             /* a body that was restarted has rolled no farther when it is heard again */
 };
 
 static bool is_turn(const struct motion *motion)
@@ -101,16 +102,27 @@ static uint32_t fastest_mm_s(const struct config *config)
     return turning > config->value[SPEED_MM_S] ? turning : config->value[SPEED_MM_S];
 }
 
+/* A body that was restarted counts from 0. */
+static bool is_near_0(uint16_t left, uint16_t right)
+{
+    return magnitude(counts_between(0, left)) <= RESTART_COUNTS && magnitude(counts_between(0, right)) <= RESTART_COUNTS;
+}
+
 /* Odometers that jump do not measure: the body was reset, or counts too much. */
 bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
                         unsigned ticks)
 {
-    uint32_t way = ticks * config->value[TICK_MS] * fastest_mm_s(config) * ODOMETER_COUNTS_PER_MM / 1000u;
+    unsigned rolling = ticks < HOLD_TICKS ? ticks : HOLD_TICKS;
+    uint32_t way = rolling * config->value[TICK_MS] * fastest_mm_s(config) * ODOMETER_COUNTS_PER_MM / 1000u;
     uint32_t farthest = way * CREDIBLE_EIGHTHS / 8u + CREDIBLE_COUNTS;
 
-    return !motion->referenced
-        || (magnitude(counts_between(motion->odometer_left, senses->odometer_left)) <= farthest
-            && magnitude(counts_between(motion->odometer_right, senses->odometer_right)) <= farthest);
+    if (!motion->referenced)
+        return true;
+    if (ticks > 1 && is_near_0(senses->odometer_left, senses->odometer_right)
+        && !is_near_0(motion->odometer_left, motion->odometer_right))
+        return false;
+    return magnitude(counts_between(motion->odometer_left, senses->odometer_left)) <= farthest
+        && magnitude(counts_between(motion->odometer_right, senses->odometer_right)) <= farthest;
 }
 
 bool motion_gave_up(const struct motion *motion)

@@ -28,8 +28,10 @@ void motion_lift(struct motion *motion);
 
 bool motion_is_credible(const struct motion *motion, const struct config *config, const struct senses *senses,
                         unsigned ticks);
-        /* Whether the wheels can have rolled as far as the odometers say in this number of ticks, 0..255, since the last
-           motion_track: at up to 13/8 of the highest speed that they are ever told. */
+        /* Whether the wheels can have rolled as far as the odometers say in this number of ticks since the last motion_track:
+           at up to 13/8 of the highest speed that they are ever told, and for 5 ticks at most, since a body holds its last
+           drive no longer. After a gap of several ticks, odometers that both begin anew at 0 are those of a body that was
+           restarted, and not credible either. */
 
 bool motion_gave_up(const struct motion *motion);
         /* Whether the action has taken so long that the wheels cannot have obeyed. */

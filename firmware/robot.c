@@ -77,9 +77,9 @@ static void drive_init(struct drive *drive, const struct robot *robot, enum reas
  * reset. */
 static bool make_credible(struct robot *robot, struct senses *senses)
 {
-    unsigned ticks = (uint8_t)(senses->tick - robot->tick);
+    unsigned ticks = robot->silences > 0 ? UINT8_MAX : (uint8_t)(senses->tick - robot->tick);
     bool food = senses->look == (senses->beacon_mm != 0);
-    bool wheels = robot->silences > 0 || motion_is_credible(&robot->motion, &robot->config, senses, ticks);
+    bool wheels = motion_is_credible(&robot->motion, &robot->config, senses, ticks);
 
     if (!food) {
         senses->look = false;

@@ -50,12 +50,14 @@ static void test_a_written_memory_is_sent_and_stored_once(void)
 /* A trial of 45 degrees is 1257 counts of difference between the wheels. */
 static void test_a_lesson_is_sent_and_stored_as_it_is_learned(void)
 {
-    struct senses after = {.tick = 10, .feel = CLEAR, .odometer_left = 628, .odometer_right = ODOMETER_SPAN - 628};
-
     feel(FRONT);
-    if (out.drive.left_mm_s < 0)
-        after = (struct senses){.tick = 10, .feel = CLEAR, .odometer_left = ODOMETER_SPAN - 628, .odometer_right = 628};
-    sense(after);
+    for (uint8_t tick = 5; tick <= 10; tick += 5) {
+        uint16_t rolled = (uint16_t)(tick == 5 ? 314 : 628);
+        uint16_t back = (uint16_t)(ODOMETER_SPAN - rolled);
+        bool left = out.drive.left_mm_s < 0;
+
+        sense((struct senses){.tick = tick, .odometer_left = left ? back : rolled, .odometer_right = left ? rolled : back});
+    }
     TEST_ASSERT_TRUE(out.has_memory);
     TEST_ASSERT_TRUE(out.store);
     TEST_ASSERT_NOT_EQUAL_UINT8(SIDE_NOTHING, out.memory[PATTERN_FRONT]);

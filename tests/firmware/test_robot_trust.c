@@ -137,20 +137,6 @@ static void test_odometers_that_jump_turn_nothing(void)
     TEST_ASSERT_EQUAL_INT32(before, robot.motion.turn_left);
 }
 
-static void test_after_silence_wheels_may_have_rolled_far_however_long_it_was(void)
-{
-    for (unsigned silences = 1; silences <= 21; silences++) {
-        setUp();
-        obey(CLEAR);
-        for (unsigned i = 0; i < silences; i++)
-            silence();
-        wheels.odometer_left = wheels.odometer_right = 500;
-        wheels.tick++;
-        sense(wheels);
-        TEST_ASSERT_FALSE_MESSAGE(out.contradiction, silences == 10 ? "after the silence that brings a report" : "");
-    }
-}
-
 /* Returns how many of its actions were denied before. */
 static unsigned stand_until_it_stops(void)
 {
@@ -238,7 +224,6 @@ int main(void)
     RUN_TEST(test_food_at_no_distance_is_not_eaten);
     RUN_TEST(test_a_distance_to_no_food_is_a_contradiction);
     RUN_TEST(test_odometers_that_jump_turn_nothing);
-    RUN_TEST(test_after_silence_wheels_may_have_rolled_far_however_long_it_was);
     RUN_TEST(test_each_start_gives_its_wheels_three_actions);
     RUN_TEST(test_resumed_with_wheels_that_still_do_not_obey_it_stops_at_once);
     RUN_TEST(test_resumed_without_ever_having_been_started_it_trusts_its_wheels);
