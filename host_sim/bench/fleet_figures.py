@@ -45,7 +45,7 @@ def fleet_figures() -> list[Figure]:
             Rate("fleet of 1,000, all in one hall", one, 1_000_000), Rate(reference, single), "who is near whom"
         ),
         rate_figure(
-            Rate("in process, plain geometry, without a log", single, 1_000_000),
+            Rate("in process, without a log", single, 1_000_000),
             Rate("a fleet's robots", own),
             "the wire's checksums; drawing the next layout is not counted",
         ),
@@ -77,7 +77,6 @@ def robot_ticks_per_second(layouts: list[Layout], params: SimParams) -> float:
 def _ticks_without_log() -> float:
     """Ticks per second of one robot, once it is in its environment."""
     with make(RunConfig(environments=1)) as simulation:
-        simulation.plain = True
         simulation.enter(1)
 
         def run() -> int:

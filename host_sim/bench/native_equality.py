@@ -1,4 +1,4 @@
-"""Compares the tick loop in C, on pymunk's physics and by plain geometry, with the readable one.
+"""Compares the tick loop in C with the readable one.
 
 What is compared is the log, the trajectory and the results of runs in which people meddle.
 """
@@ -85,21 +85,17 @@ def compare_loops(ticks: int) -> Iterator[LoopVerdict]:
             profile=profiles[seed % len(profiles)],
         )
         readable = _run(config, native=False)
-        differences = [
-            f"{name} {'by plain geometry' if plain else 'on physics'}"
-            for plain in (False, True)
-            for name, a, b in zip(_Outcome._fields, readable, _run(config, True, plain), strict=True)
-            if a != b
-        ]
+        pairs = zip(_Outcome._fields, readable, _run(config, native=True), strict=True)
+        differences = [name for name, a, b in pairs if a != b]
         run_ticks = config.robots * readable.trajectory.ticks
         done += run_ticks
         yield LoopVerdict(seed, run_ticks, ", ".join(differences) or None)
 
 
-def _run(config: RunConfig, native: bool, plain: bool = False) -> _Outcome:
+def _run(config: RunConfig, native: bool) -> _Outcome:
     log, draws, results = FrameLog(), random.Random(config.seed), []
     with make(config, log) as simulation:
-        simulation.native, simulation.plain = native, plain
+        simulation.native = native
         recorder = RunRecorder.of(simulation, config.boredom_limit)
         for number in range(1, config.environments + 1):
             simulation.enter(number)

@@ -37,7 +37,7 @@ def peer_figures() -> list[Figure]:
     enki, single, fleet = (max(column) for column in zip(*rounds, strict=True))
     return [
         rate_figure(
-            Rate("one robot, plain geometry, without a log", single), Rate(_PEER, enki, 1.0), "the wire's checksums"
+            Rate("one robot, without a log", single), Rate(_PEER, enki, 1.0), "the wire's checksums"
         ),
         rate_figure(
             Rate("fleet of 1,000, each in its own world", fleet),
@@ -73,7 +73,6 @@ def _ours() -> float:
     seconds, ticks = 0.0, 0
     for seed in range(1, _ARENAS + 1):
         with make(RunConfig(seed=seed, environments=1)) as simulation:
-            simulation.plain = True
             simulation.enter(1)
             began = time.process_time()
             while not simulation.over:

@@ -86,7 +86,7 @@ class ToldWorlds:
             world: Index of the world.
             layout: Has a start for each robot.
         """
-        inside = NativeWorld(self._ffi, self._library, Arena(layout, self._params), self._params, plain=True)
+        inside = NativeWorld(self._ffi, self._library, Arena(layout, self._params), self._params)
         inside.borrow()
         self._inside[world] = inside
         self._all[world].world = inside.world

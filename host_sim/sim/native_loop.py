@@ -88,18 +88,14 @@ class NativeLoop:
         self._wires = [self._bind(robot, client) for robot, client in zip(self._robots, clients, strict=True)]
         self._world: NativeWorld
 
-    def enter(self, arena: Arena, params: SimParams, plain: bool = False) -> None:
+    def enter(self, arena: Arena, params: SimParams) -> None:
         """Puts the robots into another arena.
 
         Args:
             arena: The arena.
             params: The dimensions of the world.
-            plain: Whether to use plain geometry, which is faster, rather than pymunk's physics.
-
-        Raises:
-            NoNativeError: pymunk's functions cannot be called from C.
         """
-        self._world = NativeWorld(self._ffi, self._library, arena, params, plain)
+        self._world = NativeWorld(self._ffi, self._library, arena, params)
         self._loop.world = self._world.world
         for robot in self._robots:
             robot.begun, robot.food_eaten = [0] * self._library.LOOP_REASONS, 0

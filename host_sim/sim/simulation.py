@@ -47,7 +47,6 @@ class Simulation:
             them in `loop`. Set it to 1 for a `watch` that is to be called for each tick.
         native: Whether to use the loop in C where that can be: in lockstep, with robots in this process or behind
             a socket, that want no distances.
-        plain: Whether that loop uses plain geometry rather than pymunk's physics: faster, with the same results.
         params: The dimensions of the world.
         record: The environments so far, and what a person changed in them.
         tick: Number of the next tick.
@@ -68,7 +67,6 @@ class Simulation:
     changes: Sequence[Change] = ()
     block_ticks: int = BLOCK_TICKS
     native: bool = True
-    plain: bool = False
     params: SimParams = field(init=False)
     record: WorldRecord = field(init=False)
     tick: int = 0
@@ -145,7 +143,7 @@ class Simulation:
             return
         try:
             self.loop = self.loop or NativeLoop(self.clients, self.clients[0].log)
-            self.loop.enter(self.arena, self.params, self.plain)
+            self.loop.enter(self.arena, self.params)
         except NoNativeError as error:
             self.native, self.loop = False, None
             _warn(f"octet: ticks are slower, for they run in Python: {error}; tools/setup may help")

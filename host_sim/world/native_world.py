@@ -1,28 +1,17 @@
 """Control ticks of an arena in C (`native/`), with the same results bit for bit."""
 
 from struct import Struct
-from typing import Any, Protocol
+from typing import Any
 
 from host_sim.paths import ROOT
 from host_sim.world.arena import Arena
-from host_sim.world.munk_space import MunkSpace
 from host_sim.world.params import SimParams
 from host_sim.world.plain_space import PlainSpace
 
 _NATIVE = ROOT / "host_sim" / "world" / "native"
 _STATE = Struct("=8d9iB?")
-_NAMES = ("vector", "space", "world", "munk", "munk_space", "capsule", "cones", "plain_space", "body_faults")
+_NAMES = ("vector", "space", "world", "capsule", "cones", "plain_space", "body_faults")
 HEADERS = tuple(_NATIVE / f"{name}.h" for name in _NAMES)
-
-
-class NativeSpace(Protocol):
-    """What finds overlaps for C code."""
-
-    def take(self, world: Any) -> None:
-        """Becomes the space of a `struct world *`, whose bodies are where they are in pymunk's."""
-
-    def give_back(self) -> None:
-        """Leaves the bodies to pymunk, where they are now."""
 
 
 class NativeWorld:
@@ -33,7 +22,7 @@ class NativeWorld:
         world: Its counterpart, a `struct world *`.
     """
 
-    def __init__(self, ffi: Any, library: Any, arena: Arena, params: SimParams, plain: bool = False) -> None:
+    def __init__(self, ffi: Any, library: Any, arena: Arena, params: SimParams) -> None:
         """Makes room for the state.
 
         Args:
@@ -41,15 +30,9 @@ class NativeWorld:
             library: Has their functions.
             arena: The arena.
             params: The dimensions of the world.
-            plain: Whether to use plain geometry, which is faster, rather than pymunk's physics.
-
-        Raises:
-            NoNativeError: This pymunk's functions cannot be called from C.
         """
         self.arena, self._ffi, self._library = arena, ffi, library
-        self._space: NativeSpace = (
-            PlainSpace(ffi, library, arena, params) if plain else MunkSpace(ffi, library, arena, params)
-        )
+        self._space = PlainSpace(ffi, library, arena, params)
         bodies, food = len(arena.bodies), len(arena.food.at)
         # cffi frees what no name holds any more.
         self._bodies: Any = ffi.new("struct body[]", bodies)

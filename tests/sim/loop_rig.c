@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "octet.h"
-#include "tests/world/fake_munk.h"
+#include "tests/world/fake_space.h"
 
 struct octet octets[ROBOTS];
 struct loop_robot robots[ROBOTS];

@@ -33,11 +33,10 @@ def test_a_wheel_track_that_differs_in_the_last_places_is_found(monkeypatch):
     monkeypatch.setattr(NativeWorld, "__init__", build)
 
     difference = next(compare_loops(1)).difference
-    assert "trajectory on physics" in difference
-    assert "trajectory by plain geometry" in difference
+    assert "trajectory" in difference
 
 
-def test_a_cone_that_reaches_a_little_farther_in_plain_geometry_is_found(monkeypatch):
+def test_a_cone_that_reaches_a_little_farther_is_found(monkeypatch):
     laid_out = plain_space.cones_in_c
 
     def lay_out(ffi, library, params: SimParams) -> object:
@@ -46,5 +45,4 @@ def test_a_cone_that_reaches_a_little_farther_in_plain_geometry_is_found(monkeyp
     monkeypatch.setattr(plain_space, "cones_in_c", lay_out)
 
     difference = next(compare_loops(1)).difference
-    assert "log by plain geometry" in difference
-    assert "on physics" not in difference
+    assert "log" in difference

@@ -21,7 +21,7 @@ from host_sim.sim.simulation import Simulation
 from host_sim.world.edits import AddBar, Lift, MoveFood, Put, RemoveBar
 from host_sim.world.geometry import Bar, Pose
 
-READABLE, ON_PHYSICS, PLAIN = "in Python", "in C, on pymunk's physics", "in C, by plain geometry"
+READABLE, IN_C = "in Python", "in C"
 
 Change = Callable[[Simulation, RunRecorder], object]
 
@@ -50,7 +50,7 @@ def outcome(
     """Does a run, with changes before some of its ticks."""
     log = FrameLog(folder / "run.log")
     with make(config, log) as simulation:
-        simulation.native, simulation.plain = kind != READABLE, kind == PLAIN
+        simulation.native = kind != READABLE
         recorder = RunRecorder.of(simulation, boredom_limit=10)
         episodes = [
             episode_of(simulation, recorder, number, block_ticks, changes or {})
@@ -89,11 +89,10 @@ def assert_equal(one: Outcome, other: Outcome) -> None:
 
 
 def assert_alike(folder: Path, config: RunConfig, changes: dict[int, Change] | None = None) -> Outcome:
-    """In Python and in C, in blocks and tick by tick, on pymunk's physics and by plain geometry."""
+    """In Python and in C, in blocks and tick by tick."""
     readable = outcome(folder, config, READABLE, changes=changes)
     for block_ticks in (BLOCK_TICKS, 7, 1):
-        assert_equal(readable, outcome(folder, config, ON_PHYSICS, block_ticks, changes))
-    assert_equal(readable, outcome(folder, config, PLAIN, changes=changes))
+        assert_equal(readable, outcome(folder, config, IN_C, block_ticks, changes))
     return readable
 
 
@@ -114,7 +113,7 @@ def test_an_environment_that_is_finished_is_the_same(tmp_path):
 def test_every_behaviour_is_the_same(tmp_path, profile):
     config = RunConfig(seed=4, environments=1, limit_s=20.0, profile=profile)
 
-    assert_equal(outcome(tmp_path, config, READABLE), outcome(tmp_path, config, ON_PHYSICS))
+    assert_equal(outcome(tmp_path, config, READABLE), outcome(tmp_path, config, IN_C))
 
 
 def press_freeze(simulation: Simulation, recorder: RunRecorder) -> None:
@@ -192,7 +191,7 @@ def test_a_run_that_ends_while_a_report_is_under_way_is_the_same(tmp_path):
     for ticks in range(95, 105):
         config = RunConfig(seed=1, environments=1, limit_s=ticks / 50)
 
-        assert_equal(outcome(tmp_path, config, READABLE), outcome(tmp_path, config, PLAIN))
+        assert_equal(outcome(tmp_path, config, READABLE), outcome(tmp_path, config, IN_C))
 
 
 @pytest.mark.parametrize("native", [True, False])

@@ -1,7 +1,6 @@
 """Where the tick loop in C cannot be used: one line says why, and the readable loop does the run."""
 
 import logging
-import sys
 from pathlib import Path
 
 import pytest
@@ -10,8 +9,6 @@ from host_sim.sim import native_loop
 from host_sim.sim import simulation as simulation_module
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from host_sim.world import munk_pointers
-from host_sim.world.native_library import NoNativeError
 
 
 def remove_library(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -29,30 +26,10 @@ def break_headers(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setattr(native_loop, "HEADERS", (*native_loop.HEADERS[:-1], other))
 
 
-def break_pymunk(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
-    monkeypatch.setitem(sys.modules, "pymunk._chipmunk_cffi", None)
-
-
-def break_function(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
-    monkeypatch.setitem(munk_pointers._TYPES, "cpSpaceStep", "void(*)(struct cpSpace *, float)")
-
-
-def break_name(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
-    monkeypatch.setitem(munk_pointers._TYPES, "cpSpaceStepTwice", "void(*)(struct cpSpace *)")
-
-
-def break_layout(monkeypatch: pytest.MonkeyPatch, _: Path) -> None:
-    monkeypatch.setitem(munk_pointers._LAYOUTS, "struct cpVect", "struct munk_filter")
-
-
 BROKEN = {
     remove_library: "liboctet_loop.so is missing",
     break_library: "liboctet_loop.so cannot be loaded",
     break_headers: "liboctet_loop.so was built from other sources",
-    break_pymunk: "hands out no pointers",
-    break_function: "has no such cpSpaceStep",
-    break_name: "has no such cpSpaceStepTwice",
-    break_layout: "has another struct cpVect",
 }
 
 
@@ -80,10 +57,3 @@ def test_where_it_cannot_be_used_one_line_says_so_and_python_goes_on(tmp_path, m
     assert [record.name for record in caplog.records] == [simulation_module.__name__]
     assert reason in caplog.text
     assert "\n" not in caplog.records[0].getMessage()
-
-
-def test_an_object_without_its_pointer_is_refused():
-    ffi, _ = native_loop._loaded()
-
-    with pytest.raises(NoNativeError, match=r"no object\._space"):
-        munk_pointers.own_pointer(ffi, "struct munk_space *", object(), "_space")

@@ -28,10 +28,10 @@ def load() -> tuple[cffi.FFI, object]:
 class CArena:
     """The interface of `Arena` and of its bodies, in C."""
 
-    def __init__(self, arena: Arena, params: SimParams, plain: bool) -> None:
+    def __init__(self, arena: Arena, params: SimParams) -> None:
         self.ffi, self.library = load()
         self.arena = arena
-        self.native = NativeWorld(self.ffi, self.library, arena, params, plain)
+        self.native = NativeWorld(self.ffi, self.library, arena, params)
         self.out = self.ffi.new("struct senses *")
         self.native.borrow()
 

@@ -2,7 +2,7 @@
 
 #include <unity.h>
 
-#include "tests/world/fake_munk.h"
+#include "tests/world/fake_space.h"
 
 static struct world world;
 static struct body *body;

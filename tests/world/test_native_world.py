@@ -1,4 +1,4 @@
-"""Both arenas in C against the readable one: senses, poses and food, bit for bit."""
+"""The arena in C against the readable one: senses, poses and food, bit for bit."""
 
 import random
 
@@ -66,90 +66,84 @@ def state(body: Body) -> tuple[float, ...]:
     return tuple(parts)
 
 
-class Three:
-    """One arena in Python and two equal ones in C: on pymunk's physics, and by plain geometry."""
+class Two:
+    """One arena in Python and an equal one in C."""
 
     def __init__(self, seed: int, robots: int) -> None:
         layout = generate(seed, 1, PARAMS, robots)
         self.python = Arena(layout, PARAMS)
-        self.in_c = [CArena(Arena(layout, PARAMS), PARAMS, plain) for plain in (False, True)]
+        self.c = CArena(Arena(layout, PARAMS), PARAMS)
         self.draws = random.Random(seed)
 
     def tick(self, tick: int) -> None:
         bodies = self.python.bodies
         told = tick % TICK_SPAN
         senses = [body.sense(told) for body in bodies]
-        for c in self.in_c:
-            assert [c.sense(i, told) for i in range(len(bodies))] == senses
+        assert [self.c.sense(i, told) for i in range(len(bodies))] == senses
         for i, body in enumerate(bodies):
             wheels = drive(self.draws)
             if self.draws.random() < 0.5:
-                eaten = body.eat()
-                assert [c.eat(i) for c in self.in_c] == [eaten, eaten]
+                assert self.c.eat(i) == body.eat()
             body.move(*wheels)
-            for c in self.in_c:
-                c.move(i, *wheels)
+            self.c.move(i, *wheels)
 
     def edit(self) -> None:
         """Makes the same change in all, if it can be made."""
         self.give_back()
         edit = random_edit(self.draws, len(self.python.bodies))
         expected = refusal(self.python, edit)
-        for c in self.in_c:
-            assert refusal(c.arena, edit) == expected
-            c.native.borrow()
+        assert refusal(self.c.arena, edit) == expected
+        self.c.native.borrow()
 
     def give_back(self) -> None:
-        for c in self.in_c:
-            c.native.give_back()
+        self.c.native.give_back()
         self.compare()
 
     def compare(self) -> None:
         """The whole state, while the arenas are given back."""
-        for c in self.in_c:
-            assert [state(body) for body in c.arena.bodies] == [state(body) for body in self.python.bodies]
-            assert c.arena.food.eaten == self.python.food.eaten
+        assert [state(body) for body in self.c.arena.bodies] == [state(body) for body in self.python.bodies]
+        assert self.c.arena.food.eaten == self.python.food.eaten
 
 
 @pytest.mark.parametrize(("seed", "robots"), [(1, 1), (2, 1), (3, 2), (4, 5)])
 def test_bumping_bodies_sense_and_move_alike(seed, robots):
-    three = Three(seed, robots)
+    two = Two(seed, robots)
 
     for tick in range(TICKS // robots):
-        three.tick(tick)
+        two.tick(tick)
 
-    three.give_back()
-    assert any(body.collisions > 3 for body in three.python.bodies), "hardly anything was touched"
+    two.give_back()
+    assert any(body.collisions > 3 for body in two.python.bodies), "hardly anything was touched"
 
 
 @pytest.mark.parametrize(("seed", "robots"), [(5, 1), (6, 3)])
 def test_they_do_so_whatever_a_person_changes_between_the_ticks(seed, robots):
-    three = Three(seed, robots)
+    two = Two(seed, robots)
 
     for tick in range(TICKS // robots):
         if tick % 7 == 0:
-            three.edit()
-        three.tick(tick)
+            two.edit()
+        two.tick(tick)
 
-    three.give_back()
+    two.give_back()
 
 
 def test_after_they_are_given_back_arenas_go_on_in_python():
-    three = Three(7, 1)
+    two = Two(7, 1)
     for tick in range(300):
-        three.tick(tick)
-    three.give_back()
+        two.tick(tick)
+    two.give_back()
 
     for tick in range(300):
-        wheels = drive(three.draws)
-        for arena in (three.python, *(c.arena for c in three.in_c)):
+        wheels = drive(two.draws)
+        for arena in (two.python, two.c.arena):
             arena.body.sense(tick)
             arena.body.move(*wheels)
-        three.compare()
+        two.compare()
 
 
 def test_the_cones_of_plain_geometry_are_those_of_the_readable_arena():
-    c = CArena(Arena(generate(1, 1, PARAMS), PARAMS), PARAMS, plain=True)
+    c = CArena(Arena(generate(1, 1, PARAMS), PARAMS), PARAMS)
     cones = c.ffi.cast("struct plain_world *", c.native.world.space).cones
 
     for n, (bit, bearing_deg) in enumerate(CONE_BEARINGS_DEG.items()):

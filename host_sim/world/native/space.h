@@ -1,5 +1,4 @@
-/* space.h: all that the world asks of geometry. A world is given one of several spaces when it is set up:
- * munk_space.h, on pymunk's physics, or plain_space.h, on nothing. Their answers are equal, bit for bit. */
+/* space.h: all that the world asks of geometry. plain_space.h answers as pymunk does, bit for bit. */
 #ifndef OCTET_SPACE_H
 #define OCTET_SPACE_H
 
