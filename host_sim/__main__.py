@@ -3,8 +3,16 @@
 import gc
 import signal
 import sys
+from collections.abc import Sequence
 
 _OBJECTS_A_COLLECTION = 10_000
+
+
+def judge(arguments: Sequence[str]) -> Sequence[str]:
+    """As `host_sim.cli.main.judge`."""
+    from host_sim.cli.main import judge  # noqa: PLC0415 - as below
+
+    return judge(arguments)
 
 
 def _main() -> int:

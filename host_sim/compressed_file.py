@@ -3,6 +3,9 @@
 import zlib
 from typing import BinaryIO
 
+COMPRESSED = ".gz"
+"""What the name of a compressed log ends with."""
+
 _CHUNK_BYTES = 1 << 16
 _LEVEL = 1  # a quarter of a log's size; the default takes three times as long to make it a fifth
 _GZIP = 16 + zlib.MAX_WBITS

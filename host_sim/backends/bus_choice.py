@@ -1,13 +1,49 @@
-"""`--bus auto`: a private virtual CAN bus where the kernel allows one without root, else a socket pair."""
+"""Which robot can be on which bus.
+
+`--bus auto` is a private virtual CAN bus where the kernel allows one without root, else a socket pair.
+"""
 
 import os
 import sys
+from collections.abc import Sequence
 
+from host_sim.errors import UsageError
 from host_sim.paths import ROOT
 
 _WITH_VCAN = ROOT / "tools" / "with-vcan"
 _VCAN = "socketcan:vcan0"
+_IMAGE_NODE = 1
 _CHOSEN = "OCTET_VCAN_CHOSEN"
+
+
+def check_robot(bus: str, robot: str, nodes: Sequence[int]) -> None:
+    """Refuses a kind of robot where it cannot be.
+
+    Args:
+        bus: The bus as given on the command line.
+        robot: One of `host_sim.sim.run_config.ROBOTS`.
+        nodes: The robots' node numbers.
+
+    Raises:
+        UsageError: The robot cannot be on that bus, or not with that number.
+    """
+    interface = bus.partition(":")[0]
+    if robot in ("qemu", "emulated"):
+        _check_emulated(bus, robot, nodes)
+    elif robot == "external" and interface in ("auto", "none", "fd"):
+        raise UsageError(f"--robot external needs --bus INTERFACE:CHANNEL, the bus that it is on, not --bus {bus}")
+    elif robot == "spawn" and ":" in bus and interface != "socketcan":
+        raise UsageError(f"a robot cannot be started on {bus}, only on socketcan or fd: use --robot external")
+
+
+def _check_emulated(bus: str, robot: str, nodes: Sequence[int]) -> None:
+    if bus not in ("auto", "none", "fd"):
+        raise UsageError(
+            f"--robot {robot} brings its own bus: leave out --bus {bus}; or start a board on that bus with"
+            f" python -m host_sim.emulator --bus {bus}, and use --robot external"
+        )
+    if list(nodes) != [_IMAGE_NODE]:
+        raise UsageError(f"the flash image is node {_IMAGE_NODE}, not {nodes[-1]}: leave out --node and --robots")
 
 
 def choose_bus(bus: str, robot: str) -> str:

@@ -2,16 +2,14 @@
 
 from contextlib import ExitStack
 
+from host_sim.backends.bus_choice import check_robot
 from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.images import BOARDS
 from host_sim.client.connection import Connection
-from host_sim.errors import UsageError
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.relay import Relay, RelayedLink
 
-_EMULATORS = ("qemu", "emulated")
-_IMAGE_NODE = 1
 _EMULATED_S = 30.0
 """An emulator on a busy machine may take its time."""
 
@@ -41,10 +39,11 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
         OctetError: Something that must be built or installed is missing.
         RobotError: The robot does not start.
     """
-    if robot in _EMULATORS:
-        return _in_emulator(stack, bus, robot, node, board or BOARDS[0])
-    if bus in ("none", "fd") and robot == "external":
-        raise UsageError(f"--robot external needs --bus INTERFACE:CHANNEL, the bus that it is on, not --bus {bus}")
+    check_robot(bus, robot, [node])
+    if robot == "qemu":
+        return _in_qemu(stack)
+    if robot == "emulated":
+        return _on_emulated_board(stack, board or BOARDS[0])
     lines = lines or BusLines(bus, [node])
     if bus == "none":
         link = InProcessLink(node, relay=lines.relay)
@@ -52,17 +51,6 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
     if bus == "fd":
         return _over_socket_pair(stack, node, lines.relay)
     return _over_bus(stack, lines, robot, node)
-
-
-def _in_emulator(stack: ExitStack, bus: str, robot: str, node: int, board: str) -> Connection:
-    if bus not in ("none", "fd"):
-        raise UsageError(
-            f"--robot {robot} brings its own bus: leave out --bus {bus}; or start a board on that bus with"
-            f" python -m host_sim.emulator --bus {bus}, and use --robot external"
-        )
-    if node != _IMAGE_NODE:
-        raise UsageError(f"the flash image is node {_IMAGE_NODE}, not {node}: leave out --node and --robots")
-    return _in_qemu(stack) if robot == "qemu" else _on_emulated_board(stack, board)
 
 
 # Each way to a robot loads what it needs: a run in this process begins sooner without python-can and processes.
@@ -107,12 +95,9 @@ def _over_bus(stack: ExitStack, lines: BusLines, robot: str, node: int) -> Conne
     from host_sim.backends.robot_process import RobotProcess  # noqa: PLC0415 - see above
 
     bus = lines.bus
-    interface = bus.partition(":")[0]
     link, line = lines.open(stack, node)
     if robot == "external":
         return Connection(link, bus, lambda: "was not started here", line=line)
-    if interface != "socketcan":
-        raise UsageError(f"a robot cannot be started on {interface}, only on socketcan or fd: use --robot external")
     process = RobotProcess(bus, node)
     stack.callback(process.close)
     return Connection(link, bus, process.status, process.pid, line)

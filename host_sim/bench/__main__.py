@@ -5,24 +5,33 @@ import json
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
+from typing import TYPE_CHECKING
 
-from host_sim.bench.figure import Figure, table
-from host_sim.bench.fleet_figures import fleet_figures
-from host_sim.bench.image_figures import compare_images, image_figures
-from host_sim.bench.learner_figures import vector_figure
-from host_sim.bench.lockstep_figures import lockstep_figures, measure_vcan
-from host_sim.bench.memory_figures import memory_figure
-from host_sim.bench.native_equality import compare_loops
-from host_sim.bench.page_figures import page_figures
-from host_sim.bench.peer_figures import peer_figures
-from host_sim.bench.start_figures import start_figure
 from host_sim.errors import OctetError
+
+if TYPE_CHECKING:
+    from host_sim.bench.figure import Figure
 
 _LOOP_TICKS = 10_000_000
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measures and prints; the exit code is 1 if a figure misses its target."""
+    options = _parse(arguments)
+    try:
+        return _measure(options)
+    except OctetError as error:
+        print(f"octet: {error}", file=sys.stderr)
+        return error.exit_code
+
+
+def judge(arguments: Sequence[str]) -> Sequence[str]:
+    """The stages of tools/setup that a command line needs; a wrong one, or a call for help, ends the process."""
+    _parse(arguments)
+    return ["tests", "vcan"]
+
+
+def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     description = "Measures speed, each figure beside a reference. The exit code is 1 if a figure misses its target."
     parser = argparse.ArgumentParser(prog="tools/bench", description=description)
     add = parser.add_argument
@@ -35,15 +44,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     add("--peers", action="store_true", help="instead, measure beside Enki, from Debian's package libenki-dev")
     add("--vcan", action="store_true", help="instead, measure only on vcan0, which must exist, and print JSON")
-    options = parser.parse_args(arguments)
-    try:
-        return _measure(options)
-    except OctetError as error:
-        print(f"octet: {error}", file=sys.stderr)
-        return error.exit_code
+    return parser.parse_args(arguments)
 
 
 def _measure(options: argparse.Namespace) -> int:
+    from host_sim.bench.figure import table
+    from host_sim.bench.image_figures import compare_images
+    from host_sim.bench.lockstep_figures import measure_vcan
+    from host_sim.bench.peer_figures import peer_figures
+
     if options.equality:
         return 0 if compare_images() else 1
     if options.loops:
@@ -56,7 +65,15 @@ def _measure(options: argparse.Namespace) -> int:
     return 0 if all(figure.reached for figure in figures) else 1
 
 
-def _all_figures() -> list[Figure]:
+def _all_figures() -> "list[Figure]":
+    from host_sim.bench.fleet_figures import fleet_figures
+    from host_sim.bench.image_figures import image_figures
+    from host_sim.bench.learner_figures import vector_figure
+    from host_sim.bench.lockstep_figures import lockstep_figures
+    from host_sim.bench.memory_figures import memory_figure
+    from host_sim.bench.page_figures import page_figures
+    from host_sim.bench.start_figures import start_figure
+
     return [
         start_figure(),
         memory_figure(),
@@ -70,6 +87,8 @@ def _all_figures() -> list[Figure]:
 
 def _compare_loops() -> bool:
     """Compares the tick loops, and prints the results; whether all is the same."""
+    from host_sim.bench.native_equality import compare_loops
+
     equal = True
     for seed, ticks, difference in compare_loops(_LOOP_TICKS):
         print(f"seed {seed}, {ticks} ticks: {difference or 'equal'}", flush=True)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from host_sim.backends.images import BOARDS
 from host_sim.cli.parsing import add_command, file_path, number
 from host_sim.errors import UsageError
-from host_sim.protocol.generated import PROFILES
+from host_sim.protocol.words import PROFILES
 
 if TYPE_CHECKING:
     from host_sim.campaign.cell import Cell
@@ -38,6 +38,8 @@ def add(commands: "Subparsers") -> None:
         summary="make every fault happen, and report what came of it",
         description="Makes every fault happen in every configuration, and writes a report: a page for a browser.",
         epilog=_EXAMPLES,
+        check=_check,
+        stages=_stages,
     )
     add = parser.add_argument
     add("html", type=file_path, nargs="?", metavar="FILE.html", help="where to write the report")
@@ -70,13 +72,21 @@ def add(commands: "Subparsers") -> None:
     add("--shrink", metavar="CELL", help="find the smallest schedule of faults with which that run ends as it does")
 
 
-def _campaign(arguments: argparse.Namespace) -> int:
-    if arguments.repeat or arguments.shrink:
-        return _repeat(arguments.repeat) if arguments.repeat else _shrink(arguments.shrink)
-    if arguments.html is None:
+def _check(arguments: argparse.Namespace) -> None:
+    if arguments.html is None and not (arguments.repeat or arguments.shrink):
         raise UsageError("campaign needs a FILE.html to write the report to, or --repeat or --shrink")
     if arguments.jobs > 1 and "vcan" in arguments.links:
         raise UsageError("vcan0 is one bus for one robot at a time: leave out --jobs")
+
+
+def _stages(arguments: argparse.Namespace) -> Sequence[str]:
+    links = (arguments.repeat or arguments.shrink or "").split() or arguments.links
+    return ["images", "emulator"] if set(BOARDS) & set(links) else ["run"]
+
+
+def _campaign(arguments: argparse.Namespace) -> int:
+    if arguments.repeat or arguments.shrink:
+        return _repeat(arguments.repeat) if arguments.repeat else _shrink(arguments.shrink)
     from host_sim.atomic_file import write_bytes
     from host_sim.campaign.html_report import page, summary, verdict
 

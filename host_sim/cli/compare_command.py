@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, setting
-from host_sim.cli.study_command import add_workers, with_progress, workers_of
+from host_sim.cli.study_command import add_workers, with_progress, worker_stages, workers_of
 from host_sim.counted import counted
 from host_sim.errors import OctetError, UsageError
-from host_sim.protocol.generated import PROFILES
+from host_sim.protocol.words import PROFILES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -43,6 +43,8 @@ def add(commands: "Subparsers") -> None:
         summary="compare the conditions of a study, or behaviours at once",
         description="Prints what came of a study, or runs each profile with the same seeds and prints that.",
         epilog=_EXAMPLES,
+        check=_check,
+        stages=_stages,
     )
     add = parser.add_argument
     words = f"folder of a study; or profiles, of {', '.join(PROFILES)}"
@@ -66,15 +68,33 @@ def add(commands: "Subparsers") -> None:
     parser.set_defaults(untouched={name: parser.get_default(name) for name in _OF_RUNS})
 
 
-def _compare(arguments: argparse.Namespace) -> int:
-    from host_sim.study.goals import judge
-    from host_sim.study.table import table
+def _check(arguments: argparse.Namespace) -> None:
+    from host_sim.study.toml_lines import meant
 
     folder = Path(arguments.what[0])
     if folder.is_dir() and len(arguments.what) > 1:
         raise UsageError(f"{folder} is the folder of a study, which is compared by itself: name nothing else")
     if folder.is_dir():
         _check_no_runs(arguments)
+        return
+    for word in arguments.what:
+        if word not in PROFILES:
+            raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
+    if len(arguments.change) > 1:
+        raise UsageError("profiles are compared with one --change: several go into a study, as a file of changes")
+
+
+def _stages(arguments: argparse.Namespace) -> "Sequence[str]":
+    emulated = ["images", "emulator"] if arguments.robot == "emulated" else []
+    study = ["study"] if arguments.plots or Path(arguments.what[0]).is_dir() else []
+    return [*emulated, *study, *worker_stages(arguments)] or ["run"]
+
+
+def _compare(arguments: argparse.Namespace) -> int:
+    from host_sim.study.goals import judge
+    from host_sim.study.table import table
+
+    folder = Path(arguments.what[0])
     plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
     print(
         f"{plan.title}: {counted(len(samples[0].seeds), 'seed')} of {counted(plan.environments, 'environment')} each"
@@ -121,14 +141,8 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
     from host_sim.study.plan import Condition, Plan
     from host_sim.study.sample import samples_of
     from host_sim.study.tables import tables_of
-    from host_sim.study.toml_lines import meant
     from host_sim.world.changes import Change
 
-    for word in arguments.what:
-        if word not in PROFILES:
-            raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
-    if len(arguments.change) > 1:
-        raise UsageError("profiles are compared with one --change: several go into a study, as a file of changes")
     change = next(iter(arguments.change), "")
     if change:
         Change.parse(change)

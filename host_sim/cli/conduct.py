@@ -26,6 +26,7 @@ from host_sim.recording.world_file import world_path
 from host_sim.regular_file import read_bytes
 from host_sim.sim.make import Memory, make
 from host_sim.sim.simulation import Simulation
+from host_sim.world.worlds import world_of
 
 FAULTS = "faults.txt"
 """The faults that were made on purpose, in the folder of a run."""
@@ -62,6 +63,7 @@ def conduct(options: RunOptions) -> Summary:
         UsageError: The options are invalid; nothing was changed.
         OctetError: The run could not continue; what was recorded up to there was written.
     """
+    world_of(options.config.world)  # a mistake in it is found before anything is begun
     with _memories(options) as loaded, run_folder(options.out):
         _announce(options, loaded)
         with ExitStack() as stack:

@@ -31,6 +31,7 @@ def add(commands: "Subparsers") -> None:
         summary="be the scheduler or a worker of a cluster for studies",
         description="Starts Dask's own scheduler or worker, which find Octet and its libraries.",
         epilog=_EXAMPLES,
+        stages=lambda _: ["cluster"],
     )
     parser.add_argument("role", choices=("scheduler", "worker"), help="what to be")
     parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help="options of Dask; --help lists them")

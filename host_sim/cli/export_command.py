@@ -25,7 +25,6 @@ _LIBRARIES = {"parquet": "pyarrow", "mf4": "asammdf", "mcap": "mcap"}
 _EXAMPLES = """\
 examples:
   tools/octet export out/run.log --csv out/run.csv --blf out/run.blf
-  tools/setup export                                       install what the next line needs
   tools/octet export out/run.log --mf4 out/run.mf4 --mcap out/run.mcap --parquet out/run.parquet
 """
 
@@ -39,6 +38,8 @@ def add(commands: "Subparsers") -> None:
         summary="write a recorded log as CSV, Parquet, ASC, BLF, MF4 or MCAP",
         description="Writes the robots' frames of a log in the formats of other programs.",
         epilog=_EXAMPLES,
+        check=_check,
+        stages=lambda arguments: ["export" if _wanted(arguments).keys() & _LIBRARIES else "run"],
     )
     parser.add_argument(
         "log", type=file_path, metavar="LOG", help="log of a run, of candump, of python-can; ASC or BLF"
@@ -47,16 +48,25 @@ def add(commands: "Subparsers") -> None:
         parser.add_argument(f"--{name}", type=file_path, metavar="FILE", help=f"write {what}")
 
 
+def _wanted(arguments: argparse.Namespace) -> dict[str, Path]:
+    """The file to write in each format that was asked for."""
+    return {name: getattr(arguments, name) for name in _FORMATS if getattr(arguments, name) is not None}
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    wanted = _wanted(arguments)
+    if not wanted:
+        raise UsageError(f"give {', '.join(f'--{name} FILE' for name in _FORMATS)}, or several of them")
+    check_outputs("export", arguments.log, {f"--{name}": path for name, path in wanted.items()})
+
+
 def _export(arguments: argparse.Namespace) -> int:
     from host_sim.atomic_file import replacing
     from host_sim.export.time_limits import within_limits
     from host_sim.extra_library import library
     from host_sim.recording.log_reader import read_log
 
-    wanted = {name: getattr(arguments, name) for name in _FORMATS if getattr(arguments, name) is not None}
-    if not wanted:
-        raise UsageError(f"give {', '.join(f'--{name} FILE' for name in _FORMATS)}, or several of them")
-    check_outputs("export", arguments.log, {f"--{name}": path for name, path in wanted.items()})
+    wanted = _wanted(arguments)
     for name in wanted:
         if name in _LIBRARIES:
             library(_LIBRARIES[name], "export")

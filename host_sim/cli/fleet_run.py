@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.atomic_file import write_bytes
-from host_sim.cli.run_options import RunOptions
-from host_sim.errors import UsageError
+from host_sim.cli.run_options import FLEET_TABLE, RunOptions
 from host_sim.recording.fleet_summary import FleetSummary, environment_line, summarize_fleet, table
 from host_sim.recording.run_folder import run_folder
 from host_sim.report.fleet_page import write_fleet_page
@@ -20,8 +19,8 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
 
-SUMMARY, TABLE, PICTURE, PAGE = "summary.json", "robots.csv", "fleet.png", "fleet.html"
-"""The files of a fleet in its output folder."""
+SUMMARY, PICTURE, PAGE = "summary.json", "fleet.png", "fleet.html"
+"""The files of a fleet in its output folder, beside its table."""
 
 _EVERY_S = 0.25
 _WHERE = {"one": "all in one world", "own": "each in its own world", "hall": "all in one hall"}
@@ -31,11 +30,11 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
     """Conducts the run of a fleet and writes its files.
 
     Raises:
-        UsageError: The options do not suit a fleet; nothing was changed.
+        UsageError: There is no such world; nothing was changed.
         OctetError: The run could not be made.
     """
     config = options.config
-    _check(options)
+    world_of(config.world)  # a mistake in it is found before anything is begun
     results: list[FleetResult] = []
     samples: list[NDArray[np.int64]] = []
     progress = _Progress(options, results)
@@ -49,32 +48,13 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
             results.append(result)  # noqa: PERF402 - the progress reads it meanwhile
         progress.clear()
         summary = summarize_fleet(config, results, SimParams.tick_s, time.monotonic() - began)
-        write_bytes(options.out / TABLE, table(results).encode())
+        write_bytes(options.out / FLEET_TABLE, table(results).encode())
         _draw(options.out / PICTURE, config, results)
         world = None if config.worlds == "own" else shared_world(config, 1)
         write_fleet_page(options.out / PAGE, config, samples, world)
         write_bytes(options.out / SUMMARY, summary.to_json().encode())
     _print(options, summary)
     return summary
-
-
-def _check(options: RunOptions) -> None:
-    """Refuses what a fleet does not have."""
-    config, default = options.config, RunConfig()
-    fleets = "a fleet (more than 31 robots, or --worlds own)"
-    if config.bus not in {"auto", "none"}:
-        raise UsageError(f"{fleets} has no bus: leave --bus {config.bus} out, or run fewer robots in one world")
-    unsuited = {
-        "--robot": config.robot != default.robot,
-        "--node": config.node != default.node,
-        "--change": config.changes != default.changes,
-        "--fault": config.faults != default.faults,
-        "--memory": options.memory is not None,
-        "--compress-log": options.compress_log,
-        "--real-time": config.real_time,
-    }
-    for name in (name for name, given in unsuited.items() if given):
-        raise UsageError(f"{fleets} has no bus and keeps its memories in {TABLE}: leave {name} out")
 
 
 class _Progress:
@@ -117,4 +97,5 @@ def _print(options: RunOptions, summary: FleetSummary) -> None:
         for environment in summary.environments:
             print(environment_line(environment, summary.robots))
         print(summary.for_people())
-        print(f"wrote     {', '.join(str(Path(options.out) / name) for name in (PAGE, PICTURE, TABLE, SUMMARY))}")
+        files = (PAGE, PICTURE, FLEET_TABLE, SUMMARY)
+        print(f"wrote     {', '.join(str(Path(options.out) / name) for name in files)}")

@@ -5,7 +5,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import file_path, number
-from host_sim.protocol.generated import NODE_MAX
+from host_sim.protocol.words import NODE_MAX
 
 if TYPE_CHECKING:
     from host_sim.recording.resimulation import Resimulation

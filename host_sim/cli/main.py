@@ -1,11 +1,12 @@
 """The command line, `tools/octet COMMAND ...`. Each module NAME_command of this package adds a command NAME."""
 
+import argparse
 import contextlib
 import importlib
 import pkgutil
 import signal
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from types import FrameType
 from typing import NoReturn
 
@@ -34,10 +35,44 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns:
         The exit code: 0 success, 1 error, 2 wrong usage, 128 and the signal's number where a signal ended it.
     """
+
+    def run() -> int:
+        parsed = _parse(arguments)
+        code: int = parsed.command(parsed)
+        sys.stdout.flush()
+        return code
+
+    return _run(run)
+
+
+def judge(arguments: Sequence[str]) -> Sequence[str]:
+    """Judges a command line before anything is set up, with the standard library only.
+
+    Returns:
+        The stages of tools/setup that it needs.
+
+    Raises:
+        SystemExit: It is wrong, or asks for help; all has been said.
+    """
+    stages: list[str] = []
+
+    def add() -> int:
+        parsed = _parse(arguments)
+        stages.extend(parsed.stages(parsed))
+        return 0
+
+    code = _run(add)
+    if code:
+        raise SystemExit(code)
+    return stages
+
+
+def _run(action: Callable[[], int]) -> int:
+    """Does something; what goes wrong is told in a line. Returns the exit code."""
     open_closed()
     with _signals_raised():
         try:
-            return _run(arguments)
+            return action()
         except OctetError as error:
             print(f"octet: {error}", file=sys.stderr)
             return error.exit_code
@@ -56,7 +91,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return 128 + number
 
 
-def _run(arguments: Sequence[str] | None) -> int:
+def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = Parser(prog="tools/octet", description="Octet: a robot that learns with eight bytes of memory.")
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
     given = sys.argv[1:] if arguments is None else arguments
@@ -65,9 +100,8 @@ def _run(arguments: Sequence[str] | None) -> int:
     parsed, unknown = parser.parse_known_args(given)
     if unknown:
         raise UsageError(f"unrecognized arguments: {' '.join(unknown)}; see {parsed.prog} --help")
-    code: int = parsed.command(parsed)
-    sys.stdout.flush()
-    return code
+    parsed.check(parsed)
+    return parsed
 
 
 @contextlib.contextmanager

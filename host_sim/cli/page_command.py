@@ -23,6 +23,7 @@ def add(commands: "Subparsers") -> None:
         summary="write the robot and its world as one web page",
         description="Writes a page with the robot's own firmware and its world. It needs no server and no network.",
         epilog=_EXAMPLE,
+        stages=lambda _: ["page"],
     )
     parser.add_argument("file", type=file_path, metavar="FILE", help="the page to write, such as octet.html")
 

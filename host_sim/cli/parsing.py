@@ -2,12 +2,12 @@
 
 import argparse
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 from host_sim.errors import UsageError
-from host_sim.protocol.generated import PARAMETERS
+from host_sim.protocol.words import PARAMETERS
 from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
 
 if TYPE_CHECKING:
@@ -37,6 +37,8 @@ def add_command(  # noqa: PLR0913 - what a command's help is made of
     summary: str,
     description: str,
     epilog: str = "",
+    check: Callable[[argparse.Namespace], object] = lambda _: None,
+    stages: Callable[[argparse.Namespace], Sequence[str]] = lambda _: ["run"],
 ) -> Parser:
     """Adds a subcommand.
 
@@ -47,6 +49,9 @@ def add_command(  # noqa: PLR0913 - what a command's help is made of
         summary: Its line in the list of commands.
         description: First lines of its help text.
         epilog: Last lines of its help text, such as examples.
+        check: Raises UsageError if the options contradict each other. It runs before anything is set up, with the
+            standard library only.
+        stages: The stages of tools/setup that the options need.
 
     Returns:
         The subcommand's parser, to which options can be added.
@@ -55,7 +60,7 @@ def add_command(  # noqa: PLR0913 - what a command's help is made of
     parser = commands.add_parser(
         name, help=summary, description=description, epilog=epilog, formatter_class=formatter, allow_abbrev=False
     )
-    parser.set_defaults(command=run, prog=parser.prog)
+    parser.set_defaults(command=run, check=check, stages=stages, prog=parser.prog)
     return parser
 
 
@@ -120,7 +125,7 @@ def setting(text: str) -> tuple[str, int]:
     name, _, value = text.partition("=")
     if name not in PARAMETERS:
         raise argparse.ArgumentTypeError(f"unknown parameter {name!r}; choose from {', '.join(PARAMETERS)}")
-    _, low, high, _, unit, _ = PARAMETERS[name]
+    low, high, _, unit, _ = PARAMETERS[name]
     if not value.isdecimal() or not low <= int(value) <= high:
         unit = f" {unit}" if unit else ""
         raise argparse.ArgumentTypeError(f"{name} must be a whole number from {low} to {high}{unit}, not {value!r}")

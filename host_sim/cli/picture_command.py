@@ -26,6 +26,7 @@ def add(commands: "Subparsers") -> None:
         summary="draw a recorded run as a picture or an animation",
         description="Draws a recorded run as a PNG picture, an animated GIF, or both.",
         epilog=_EXAMPLES,
+        check=_check,
     )
     add_log_options(parser)
     add = parser.add_argument
@@ -68,13 +69,16 @@ def _add_clip_options(parser: "Parser") -> None:
     )
 
 
+def _check(arguments: argparse.Namespace) -> None:
+    if arguments.gif is None and arguments.png is None:
+        raise UsageError("give --gif FILE for an animation, or --png FILE for a picture")
+    check_outputs("picture", arguments.log, {"--png": arguments.png, "--gif": arguments.gif})
+
+
 def _picture(arguments: argparse.Namespace) -> int:
     from host_sim.report.animation import Clip, write_gif
     from host_sim.report.picture import write_picture
 
-    if arguments.gif is None and arguments.png is None:
-        raise UsageError("give --gif FILE for an animation, or --png FILE for a picture")
-    check_outputs("picture", arguments.log, {"--png": arguments.png, "--gif": arguments.gif})
     trajectory = resimulated(arguments).trajectory
     if arguments.gif is not None:
         write_gif(arguments.gif, trajectory, Clip(arguments.from_s, arguments.to_s, arguments.speed, arguments.width))

@@ -31,6 +31,8 @@ def add(commands: "Subparsers") -> None:
         description="Feeds the senses of a recorded log to the current firmware and compares its drives with the\n"
         "log's. The exit code is 1 if they differ.",
         epilog=_EXAMPLES,
+        check=_check,
+        stages=lambda arguments: ["page" if arguments.what_if else "run"],
     )
     add_log_options(parser)
     parser.add_argument(
@@ -43,10 +45,13 @@ def add(commands: "Subparsers") -> None:
     )
 
 
-def _replay(arguments: argparse.Namespace) -> int:
+def _check(arguments: argparse.Namespace) -> None:
     if arguments.what_if and arguments.html is None:
         raise UsageError("--what-if is for a page: name it with --html FILE")
     check_outputs("replay", arguments.log, {"--html": arguments.html})
+
+
+def _replay(arguments: argparse.Namespace) -> int:
     return _compare(arguments.log, arguments.node) if arguments.html is None else _write_page(arguments)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import DEFAULT, add_command, file_path
-from host_sim.cli.study_command import add_workers, run_study, workers_of
+from host_sim.cli.study_command import add_workers, run_study, worker_stages, workers_of
 from host_sim.errors import UsageError
 from host_sim.paths import ROOT
 
@@ -30,6 +30,7 @@ def add(commands: "Subparsers") -> None:
         summary="measure all of docs/learning.md anew",
         description="Runs every study of a folder and writes the document's tables, plots and numbers.",
         epilog=_EXAMPLES,
+        stages=lambda arguments: ["study", *worker_stages(arguments)],
     )
     add = parser.add_argument
     add(

@@ -6,8 +6,8 @@ from pathlib import Path
 from host_sim.backends.images import BOARDS
 from host_sim.cli.parsing import DEFAULT, add_bitrate, file_path, number, setting
 from host_sim.cli.run_options import WatchOptions
-from host_sim.faults.bus_faults import FAULTS
-from host_sim.protocol.generated import NODE_MAX, PROFILES
+from host_sim.faults.rule import FAULT_NAMES
+from host_sim.protocol.words import NODE_MAX, PROFILES
 from host_sim.sim.run_config import ROBOTS, RunConfig
 from host_sim.world.world_names import WORLD_NAMES
 
@@ -80,7 +80,7 @@ def _add_robot_options(parser: argparse.ArgumentParser, robots_max: int) -> None
         metavar="N",
         help=f"number of robots, up to {robots_max}" + DEFAULT,
     )
-    add("--profile", choices=tuple(PROFILES), default=default.profile, help="the robot's behaviour" + DEFAULT)
+    add("--profile", choices=PROFILES, default=default.profile, help="the robot's behaviour" + DEFAULT)
     add(
         "--set",
         type=setting,
@@ -130,7 +130,7 @@ def _add_session_options(parser: argparse.ArgumentParser) -> None:
         default=[],
         metavar="RULE",
         help="make a fault on the way to the robot and back: NAME[:CHANCE%%][:SIZE][@FIRST[-LAST]][/to|/from], where "
-        f"NAME is {', '.join(FAULTS)} and frames are counted from 1; @FILE: rules from a file; may be repeated",
+        f"NAME is {', '.join(FAULT_NAMES)} and frames are counted from 1; @FILE: rules from a file; may be repeated",
     )
     add(
         "--fault-seed",

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import add_command, parameter_table
 from host_sim.cli.run_arguments import add_run_options, add_watch_options
-from host_sim.cli.run_options import RunOptions, check_no_page, run_options, watch_options
+from host_sim.cli.run_options import check_no_page, check_run, run_options, run_stages, watch_options
+from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -27,7 +28,7 @@ examples:
 def add(commands: "Subparsers") -> None:
     """Adds the command."""
     from host_sim.backends.images import BOARDS
-    from host_sim.protocol.generated import NODE_MAX
+    from host_sim.protocol.words import NODE_MAX
     from host_sim.sim.run_config import FLEET_MAX, WORLDS
 
     run = add_command(
@@ -38,6 +39,8 @@ def add(commands: "Subparsers") -> None:
         description="Runs the real firmware in random simulated environments, where it learns to find food.\n"
         "`tools/run` is short for `tools/octet run`.",
         epilog=f"{parameter_table()}\n\n{_EXAMPLES.format(board=BOARDS[-1])}",
+        check=_check,
+        stages=run_stages,
     )
     add_run_options(run, FLEET_MAX)
     run.add_argument(
@@ -53,29 +56,29 @@ def add(commands: "Subparsers") -> None:
     add_watch_options(run)
 
 
-def _run(arguments: argparse.Namespace) -> int:
-    from host_sim.backends.bus_choice import choose_bus
-    from host_sim.cli.conduct import conduct, conduct_watched
-    from host_sim.protocol.generated import NODE_MAX
+def _check(arguments: argparse.Namespace) -> None:
+    from host_sim.protocol.words import NODE_MAX
 
     arguments.worlds = arguments.worlds or ("one" if arguments.robots <= NODE_MAX else "own")
     if not arguments.watch:
         check_no_page(arguments, "add --watch")
+    config = check_run(arguments)
+    if config.is_fleet and arguments.watch:
+        raise UsageError("a fleet cannot be watched: take up to 31 robots in one world, or leave --watch out")
+
+
+def _run(arguments: argparse.Namespace) -> int:
+    from host_sim.backends.bus_choice import choose_bus
+    from host_sim.cli.conduct import conduct, conduct_watched
+
     options = run_options(arguments, arguments.bus)
     if options.config.is_fleet:
-        _run_fleet(options, arguments.watch)
+        from host_sim.cli.fleet_run import conduct_fleet
+
+        conduct_fleet(options)
     elif arguments.watch:
         speed = 1.0 if arguments.real_time else 0.0
         conduct_watched(arguments, watch_options(arguments, speed=speed, stays=False))
     else:
         conduct(run_options(arguments, choose_bus(arguments.bus, arguments.robot)))
     return 0
-
-
-def _run_fleet(options: RunOptions, watch: bool) -> None:
-    from host_sim.cli.fleet_run import conduct_fleet
-    from host_sim.errors import UsageError
-
-    if watch:
-        raise UsageError("a fleet cannot be watched: take up to 31 robots in one world, or leave --watch out")
-    conduct_fleet(options)

@@ -6,13 +6,16 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from host_sim.client.frame_log import COMPRESSED
+from host_sim.compressed_file import COMPRESSED
 from host_sim.errors import UsageError
 from host_sim.sim.run_config import RunConfig
 from host_sim.transport.bit_rates import BIT_RATE
 
 LOGS = ("run.log", f"run.log{COMPRESSED}")
 """The log in a run's output folder: the plain one and the compressed one."""
+
+FLEET_TABLE = "robots.csv"
+"""The table of a fleet in its output folder."""
 
 _NO_ADAPTER = ("auto", "none", "fd", "socketcan")
 """The interfaces whose bit rate is not set up here."""
@@ -101,12 +104,7 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
         watch: How people watch the run; None if they do not.
     """
     from host_sim.world.changes import read_changes
-    from host_sim.world.worlds import world_of
 
-    if arguments.board and arguments.robot != "emulated":
-        raise UsageError(f"--board {arguments.board} is for --robot emulated: add that, or leave --board out")
-    _check_bitrate(arguments.bitrate, bus)
-    world_of(arguments.world)  # a mistake in it is found before anything is begun
     changes = tuple(change for text in arguments.change for change in read_changes(text))
     names = {field.name for field in fields(RunConfig)} & vars(arguments).keys()
     given = {name: getattr(arguments, name) for name in names}
@@ -121,6 +119,53 @@ def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | N
         json=arguments.json,
         watch=watch,
     )
+
+
+def check_run(arguments: argparse.Namespace) -> RunConfig:
+    """Refuses options that contradict each other; the standard library is enough for that.
+
+    Returns:
+        The configuration of the run, with the bus as it was given.
+
+    Raises:
+        UsageError: There are such options.
+    """
+    from host_sim.backends.bus_choice import check_robot
+
+    if arguments.board and arguments.robot != "emulated":
+        raise UsageError(f"--board {arguments.board} is for --robot emulated: add that, or leave --board out")
+    _check_bitrate(arguments.bitrate, arguments.bus)
+    options = run_options(arguments, arguments.bus)
+    if options.config.is_fleet:
+        _check_fleet(options)
+    else:
+        check_robot(arguments.bus, arguments.robot, options.config.nodes)
+    return options.config
+
+
+def run_stages(arguments: argparse.Namespace) -> list[str]:
+    """The stages of tools/setup that a run needs."""
+    robot = {"qemu": ["images"], "emulated": ["images", "emulator"]}.get(arguments.robot, ["run"])
+    return robot if arguments.listen is None else [*robot, "classroom"]
+
+
+def _check_fleet(options: RunOptions) -> None:
+    """Refuses what a fleet does not have."""
+    config, default = options.config, RunConfig()
+    fleets = "a fleet (more than 31 robots, or --worlds own)"
+    if config.bus not in {"auto", "none"}:
+        raise UsageError(f"{fleets} has no bus: leave --bus {config.bus} out, or run fewer robots in one world")
+    unsuited = {
+        "--robot": config.robot != default.robot,
+        "--node": config.node != default.node,
+        "--change": config.changes != default.changes,
+        "--fault": config.faults != default.faults,
+        "--memory": options.memory is not None,
+        "--compress-log": options.compress_log,
+        "--real-time": config.real_time,
+    }
+    for name in (name for name, given in unsuited.items() if given):
+        raise UsageError(f"{fleets} has no bus and keeps its memories in {FLEET_TABLE}: leave {name} out")
 
 
 def _check_bitrate(bitrate: int, bus: str) -> None:

@@ -38,6 +38,7 @@ def add(commands: "Subparsers") -> None:
         summary="run behaviours through many environments, as a file says",
         description="Runs each condition of a study with the same seeds, on all cores, and writes Parquet.",
         epilog=_EXAMPLES,
+        stages=lambda arguments: ["study", *worker_stages(arguments)],
     )
     add = parser.add_argument
     add("plan", type=file_path, metavar="FILE.toml", help="the study")
@@ -57,6 +58,11 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         help="runs to hand over at once (default: as many as suit the work)",
     )
+
+
+def worker_stages(arguments: argparse.Namespace) -> list[str]:
+    """The stages of tools/setup that those who make the runs need."""
+    return ["cluster"] if arguments.dask else []
 
 
 def workers_of(arguments: argparse.Namespace) -> "Workers":

@@ -27,6 +27,7 @@ def add(commands: "Subparsers") -> None:
         summary="check a world, and draw one of its environments",
         description="Checks a world, and says what an environment of it has. Exit code 2: there is a mistake in it.",
         epilog=_EXAMPLES,
+        check=lambda arguments: check_outputs("world", Path(arguments.world), {"--png": arguments.png}),
     )
     add = parser.add_argument
     add("world", metavar="WORLD", help=f"one of {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml")
@@ -40,7 +41,6 @@ def _world(arguments: argparse.Namespace) -> int:
     from host_sim.report.world_picture import write_world_picture
     from host_sim.world.worlds import world_of
 
-    check_outputs("world", Path(arguments.world), {"--png": arguments.png})
     world = world_of(arguments.world)
     layout, params = world.generate(arguments.seed, arguments.number), world.params
     print(

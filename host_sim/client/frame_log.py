@@ -11,6 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, BinaryIO
 
+from host_sim.compressed_file import COMPRESSED
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import Frame
 
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
 
 CHANNEL = "octet"
 """The interface name in every log, whatever the bus was."""
-
-COMPRESSED = ".gz"
-"""What the name of a compressed log ends with."""
 
 _FLUSH_LINES = 4096
 _STAMP = f"({{:010d}}.{{:06d}}) {CHANNEL}"

@@ -13,6 +13,9 @@ Direction = Literal["to", "from"]
 
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 
+FAULT_NAMES = ("drop", "duplicate", "reorder", "delay", "corrupt", "truncate", "flood", "babble", "forge")
+"""What can happen to a frame."""
+
 _RULE = re.compile(
     r"(?P<name>[a-z]+)"
     r"(?::(?P<chance>\d{1,3}(?:\.\d{1,3})?)%)?"

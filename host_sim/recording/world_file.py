@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.atomic_file import write_bytes
-from host_sim.client.frame_log import COMPRESSED
+from host_sim.compressed_file import COMPRESSED
 from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import NODE_MAX
 from host_sim.regular_file import read_bytes

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from host_sim.protocol.generated import NODE_MAX, PARAMETERS
+from host_sim.protocol.words import NODE_MAX, PARAMETERS
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.world.world_names import RANDOM
 

@@ -261,6 +261,7 @@ def test_a_robot_with_another_layout_of_messages_is_refused(tmp_path):
     text = (ROOT / "hal/protocol/octet.dbc").read_text()
     dbc.write_text(text.replace("bump : 25|", "bump : 26|").replace("look : 26|", "look : 25|"))
     subprocess.run([sys.executable, ROOT / "tools/generate", "--dbc", dbc, "--python", python], check=True)
+    shutil.copy(ROOT / "hal/protocol/robot.toml", dbc.parent)
     (tmp_path / "build").symlink_to(ROOT / "build")
 
     done = octet_process("run", "--bus", "fd", "--out", tmp_path / "out", cwd=tmp_path)

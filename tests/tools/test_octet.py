@@ -1,45 +1,171 @@
-"""tools/octet and tools/bench, with stand-ins for tools/setup and for Python."""
+"""The tools before anything is set up: a copy of the sources, the plain python3, and a stand-in for tools/setup."""
 
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
+from host_sim.faults.bus_faults import FAULTS
+from host_sim.faults.rule import FAULT_NAMES
+from host_sim.protocol import generated, words
+
 ROOT = Path(__file__).resolve().parents[2]
 
-# What `tools/octet` sets up, by the words after it.
 STAGES = {
     "run": "run",
-    "replay out/run.log": "run",
     "run --robot qemu": "images",
     "run --robot=qemu --seed 2": "images",
-    "run --robot emulated --board stm32f103": "images emulator",
+    "run --robot emulated --board blue_pill": "images emulator",
     "watch --robot=emulated": "images emulator",
+    "watch --listen": "run classroom",
+    "run --watch --listen=0.0.0.0 --robot qemu": "images classroom",
+    "run --out=--listen": "run",
+    "page octet.html": "page",
+    "replay out/run.log": "run",
+    "replay out/run.log --html run.html --what-if": "page",
+    "export out/run.log --csv out/run.csv": "run",
+    "export out/run.log --parquet out/run.parquet": "export",
+    "campaign out/campaign.html": "run",
+    "campaign out/campaign.html --links fd blue_pill": "images emulator",
+    "compare article --robot emulated": "images emulator",
+    "compare article": "run",
+    "study studies/learned.toml": "study",
+    "study studies/learned.toml --dask tcp://host:8786": "study cluster",
+    "dask scheduler": "cluster",
 }
+"""What `tools/octet` sets up, by the words after it."""
+
+WRONG = (
+    "run --robot emulated --board nucleo",
+    "run --board blue_pill",
+    "run --robot qemu --bus socketcan:can0",
+    "run --robot emulated --node 2",
+    "run --robot external",
+    "run --robot emulated --set colour=3",
+    "run --robot qemu --change explode@20s",
+    "run --robots 40 --robot qemu",
+    "run --robots 40 --watch",
+    "run --listen",
+    "watch --listen --terminal",
+    "watch --listen --port 99999",
+    "page",
+    "replay run.log --what-if",
+    "campaign --links blue_pill",
+    "dask",
+    "dask manager",
+    "export run.log --mf4 run.log",
+    "dance",
+)
+
+HELP = (
+    *("octet --help", "run --help", "bench --help", "bench -h", "octet dask --help", "octet study -h"),
+    *("octet watch --listen --help", "octet page --help", "octet run --robot emulated --help"),
+    *("coverage --help", "flash --help", "generate --help", "legacy-fpu --help", "licences --help", "misra --help"),
+    *("mutate --help", "requirements --help", "size --help", "test --help", "with-vcan --help"),
+)
 
 
-def called(folder: Path, *words: str, **environment: str) -> list[str]:
-    """What a tool asks of tools/setup and of Python, each a line: stand-ins for them print it."""
-    for program in ("tools/setup", ".venv/bin/python"):
-        stand_in = folder / program
-        stand_in.parent.mkdir(parents=True)
-        stand_in.write_text('#!/bin/sh\necho "$@" $PYTHONDONTWRITEBYTECODE\n')
-        stand_in.chmod(0o755)
-    shutil.copy(ROOT / words[0], folder / "tools")
-    return subprocess.check_output(words, cwd=folder, env={**os.environ, **environment}, text=True).splitlines()
+@pytest.fixture(scope="module")
+def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The sources as they come from git."""
+    folder = tmp_path_factory.mktemp("bare") / "a tree"
+    made = shutil.ignore_patterns("__pycache__", "generated.py", "generated.js")
+    for name in ("docs", "hal", "host_sim", "tools"):
+        shutil.copytree(ROOT / name, folder / name, ignore=made)
+    setup = folder / "tools/setup"
+    setup.write_text('#!/bin/sh\necho sets up: "$@"\n')
+    return folder
+
+
+def call(folder: Path, words: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Runs a tool with a python3 that has the standard library only."""
+    programs = folder.parent / "bin"
+    programs.mkdir(exist_ok=True)
+    python = programs / "python3"
+    if not python.exists():
+        python.write_text(f'#!/bin/sh\nexec {sys._base_executable} -S "$@"\n')
+        python.chmod(0o755)
+    name, *arguments = words.split()
+    variables = {**os.environ, "PATH": f"{programs}:/usr/bin:/bin", "PYTHONDONTWRITEBYTECODE": "1", **environment}
+    command = [folder / "tools" / name, *arguments]
+    return subprocess.run(command, cwd=folder, env=variables, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("words", HELP)
+def test_help_needs_no_set_up(words: str, sources: Path) -> None:
+    done = call(sources, words)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "sets up" not in done.stdout
+    assert words.split(maxsplit=1)[0] in done.stdout
+
+
+def test_each_tool_is_asked_for_help() -> None:
+    tools = {path.name for path in (ROOT / "tools").iterdir() if path.is_file() and os.access(path, os.X_OK)}
+    assert tools - {"setup"} == {words.split()[0] for words in HELP}
+
+
+@pytest.mark.parametrize("words", WRONG)
+def test_a_mistake_is_told_before_anything_is_set_up(words: str, sources: Path) -> None:
+    done = call(sources, f"octet {words}")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("octet: ")
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.fixture
+def with_python(sources: Path) -> Path:
+    """The sources, with a stand-in for the venv's Python."""
+    python = sources / ".venv/bin/python"
+    python.parent.mkdir(parents=True, exist_ok=True)
+    python.write_text('#!/bin/sh\necho "$@" $PYTHONDONTWRITEBYTECODE\n')
+    python.chmod(0o755)
+    return sources
 
 
 @pytest.mark.parametrize("words", STAGES)
-def test_octet_sets_up_what_the_options_need(words: str, tmp_path: Path) -> None:
-    assert called(tmp_path, "tools/octet", *words.split()) == [STAGES[words], f"-m host_sim {words}"]
+def test_octet_sets_up_what_the_options_need(words: str, with_python: Path) -> None:
+    done = call(with_python, f"octet {words}")
+    assert done.stdout.splitlines() == [f"sets up: {STAGES[words]}", f"-m host_sim {words}"], done.stderr
 
 
-def test_what_python_compiles_for_a_run_is_kept_whatever_the_environment_says(tmp_path: Path) -> None:
-    assert called(tmp_path, "tools/octet", "run", PYTHONDONTWRITEBYTECODE="1")[1] == "-m host_sim run"
+def test_the_benchmark_needs_what_the_tests_need(with_python: Path) -> None:
+    assert call(with_python, "bench --json").stdout.splitlines() == [
+        "sets up: tests vcan",
+        "-m host_sim.bench --json",
+    ]
 
 
-@pytest.mark.parametrize(("word", "stages"), [("--help", ["run"]), ("--json", ["tests", "vcan"])])
-def test_the_help_of_the_benchmark_waits_for_no_build(word: str, stages: list[str], tmp_path: Path) -> None:
-    assert called(tmp_path, "tools/bench", word) == [*stages, f"-m host_sim.bench {word}"]
+def test_where_the_set_up_fails_nothing_is_run(with_python: Path, tmp_path: Path) -> None:
+    folder = shutil.copytree(with_python, tmp_path / "tree")
+    (folder / "tools/setup").write_text("#!/bin/sh\nexit 7\n")
+    done = call(folder, "octet run")
+    assert (done.returncode, done.stdout, done.stderr) == (7, "", "")
+
+
+def test_a_python_that_is_too_old_is_named(sources: Path, tmp_path: Path) -> None:
+    source = (sources / "tools/door.py").read_text()
+    folder = shutil.copytree(sources, tmp_path / "tree")
+    (folder / "tools/door.py").write_text(source.replace("(3, 10)", "(4, 10)"))
+    done = call(folder, "run --help")
+    assert done.returncode == 1
+    assert done.stderr.startswith("octet: python3 must be 4.10 or newer; here it is 3.")
+
+
+def test_without_python_the_package_is_named(sources: Path, tmp_path: Path) -> None:
+    for program in ("bash", "env", "dirname", "readlink"):
+        (tmp_path / program).symlink_to(str(shutil.which(program)))
+    done = call(sources, "run", PATH=str(tmp_path))
+    assert done.returncode == 1
+    assert done.stderr == "octet: python3 is missing. To install, as root: apt-get install python3\n"
+
+
+def test_the_words_of_the_command_line_are_those_that_are_generated() -> None:
+    assert words.NODE_MAX == generated.NODE_MAX
+    assert list(words.PROFILES) == list(generated.PROFILES)
+    assert {name: tuple(it) for name, it in words.PARAMETERS.items()} == {
+        name: tuple(it)[1:] for name, it in generated.PARAMETERS.items()
+    }
+    assert tuple(FAULTS) == FAULT_NAMES

@@ -1,0 +1,42 @@
+"""The words and ranges of a command line, from octet.dbc itself: they are needed before anything is generated."""
+
+import re
+from typing import NamedTuple
+
+from host_sim.paths import ROOT
+
+_PROTOCOL = ROOT / "hal" / "protocol"
+_DBC = (_PROTOCOL / "octet.dbc").read_text(encoding="utf-8")
+_WORDS = (_PROTOCOL / "robot.toml").read_text(encoding="utf-8")
+_PARAMETER = re.compile(r'^EV_ (\w+): 0 \[(\d+)\|(\d+)\] "(.*)" (\d+) \d+ .*;', re.MULTILINE)
+_COMMENTS = dict(re.findall(r'^CM_ EV_ (\w+) "(.*)";', _DBC, re.MULTILINE))
+
+
+def _found(pattern: str, text: str) -> str:
+    found = re.search(pattern, text, re.MULTILINE)
+    assert found is not None
+    return found[1]
+
+
+class Range(NamedTuple):
+    """What a parameter may be."""
+
+    minimum: int
+    maximum: int
+    default: int
+    unit: str
+    comment: str
+
+
+NODE_MAX = int(_found(r"^node_max = (\d+)", _WORDS))
+"""The last node number."""
+
+_COMMAND = _found(r"^BO_ (\d+) COMMAND:", _DBC)
+PROFILES: tuple[str, ...] = tuple(re.findall(r'"(\w+)"', _found(rf"^VAL_ {_COMMAND} profile (.*);", _DBC)))
+"""The robot's behaviours."""
+
+PARAMETERS = {
+    name: Range(int(low), int(high), int(default), unit, _COMMENTS[name])
+    for name, low, high, unit, default in _PARAMETER.findall(_DBC)
+}
+"""The robot's parameters, by name."""
