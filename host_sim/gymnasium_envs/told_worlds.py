@@ -75,9 +75,9 @@ class ToldWorlds:
         self.senses: NDArray[np.int32] = numbers[..., :columns]
         self.food_eaten: NDArray[np.int32] = numbers[..., columns]
         self.collisions: NDArray[np.int32] = numbers[..., columns + 1]
-        counts = np.frombuffer(ffi.buffer(self._all), _counts_of(ffi))
-        self.ticks: NDArray[np.uint32] = counts["tick"]
-        self.food_left: NDArray[np.uint32] = counts["food_left"]
+        words = np.frombuffer(ffi.buffer(self._all), np.uint32).reshape(worlds, -1)
+        self.ticks: NDArray[np.uint32] = words[:, ffi.offsetof("struct told", "tick") // words.itemsize]
+        self.food_left: NDArray[np.uint32] = words[:, ffi.offsetof("struct told", "food_left") // words.itemsize]
 
     def enter(self, world: int, layout: Layout) -> None:
         """Puts the robots of a world at their starts in a layout.
@@ -100,20 +100,6 @@ class ToldWorlds:
         """
         told = self._ffi.from_buffer("uint8_t[]", deeds)
         self._library.told_step(self._all, len(self._inside), told)
-
-
-def _counts_of(ffi: Any) -> np.dtype[Any]:
-    """Where the counts of a `struct told` are."""
-    places = {name: field.offset for name, field in ffi.typeof("struct told").fields}
-    names = ["tick", "food_left"]
-    return np.dtype(
-        {
-            "names": names,
-            "formats": [np.uint32] * len(names),
-            "offsets": [places[name] for name in names],
-            "itemsize": ffi.sizeof("struct told"),
-        }
-    )
 
 
 @cache

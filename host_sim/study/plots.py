@@ -71,7 +71,7 @@ def _learning(axes: Any, samples: Sequence[Sample]) -> None:
 
 def _survival(axes: Any, samples: Sequence[Sample]) -> None:
     """How many environments are not finished yet."""
-    end_s = max(float(sample.robot_s.max()) for sample in samples)
+    end_s = max(float(np.max(sample.robot_s)) for sample in samples)
     for sample in samples:
         times = np.sort(sample.robot_s[sample.finished > 0])
         left = 100 * (1 - np.arange(1, len(times) + 1) / sample.robot_s.size)

@@ -104,7 +104,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
     trapped[index[long], contacts["environment"][long] - 1] = 1
     return Sample(
         name=name,
-        robots=int(robots.max(initial=1)),
+        robots=int(np.max(robots, initial=1)),
         seeds=seeds,
         finished=each(environments["finished"]),
         robot_s=each(environments["robot_s"]),

@@ -149,7 +149,7 @@ static void test_without_a_crash_no_report_tells_of_one(void)
 
 static void test_a_crash_is_told_one_value_a_report_round_and_round(void)
 {
-    struct crash crash = {.cause = OCTET_CRASH_CAUSE_HARD_FAULT_CHOICE, .count = 5};
+    static struct crash crash = {.cause = OCTET_CRASH_CAUSE_HARD_FAULT_CHOICE, .count = 5};
 
     for (uint32_t i = 0; i < crash.count; i++)
         crash.values[i] = 0xF0000000u + i;
