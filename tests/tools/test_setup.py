@@ -125,6 +125,21 @@ def test_the_stages_of_c_tests_build_what_they_run_and_no_image(tree: Tree) -> N
     assert (tree.folder / "build/unity/unity.c").exists()
 
 
+def test_warnings_are_errors_from_the_first_stage_of_tests_on(tree: Tree) -> None:
+    tree.setup("run")
+    assert "OCTET_WERROR" not in tree.calls.read_text()
+    tree.setup("c")
+    assert tree.calls.read_text().count("cmake -DOCTET_WERROR=ON build/host-san") == 1
+    assert "cmake" not in tree.setup("c")[1]
+
+
+def test_a_warning_of_a_compiler_is_shown_and_goes_on(tree: Tree) -> None:
+    (tree.bin / "ninja").write_text(STAND_IN + 'echo "[1/2] cc x.c"; echo "x.c:1:5: warning: unused"\n')
+    done, _ = tree.setup("run")
+    assert done.returncode == 0
+    assert done.stderr.splitlines()[-1] == "x.c:1:5: warning: unused"
+
+
 def test_a_build_that_fails_fails_the_set_up_and_the_others_end(tree: Tree) -> None:
     (tree.bin / "cmake").write_text(STAND_IN + '[ "$2" != build/blue_pill ]\n')
     done, _ = tree.setup("images")
