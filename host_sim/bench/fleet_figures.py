@@ -12,7 +12,6 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.world import reach
 from host_sim.world.hall import hall_of
 from host_sim.world.layouts import Layout, generate
-from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
 
@@ -94,7 +93,7 @@ def _layouts(params: SimParams) -> float:
 
 def _layouts_in_python(params: SimParams) -> float:
     """Layouts per second without the library."""
-    with patch.object(reach, "native_reach", side_effect=NoNativeError):
+    with patch.object(reach, "_in_c", return_value=None):
         return _layouts(params)
 
 

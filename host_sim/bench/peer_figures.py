@@ -36,9 +36,7 @@ def peer_figures() -> list[Figure]:
         ]
     enki, single, fleet = (max(column) for column in zip(*rounds, strict=True))
     return [
-        rate_figure(
-            Rate("one robot, without a log", single), Rate(_PEER, enki, 1.0), "the wire's checksums"
-        ),
+        rate_figure(Rate("one robot, without a log", single), Rate(_PEER, enki, 1.0), "the wire's checksums"),
         rate_figure(
             Rate("fleet of 1,000, each in its own world", fleet),
             Rate(f"one robot in {_PEER}", enki, 9.0),

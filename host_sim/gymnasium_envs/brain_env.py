@@ -132,13 +132,13 @@ class BrainEnv(gymnasium.Env[Any, Any]):
         """
         if not self._runs:
             raise error.ResetNeeded("no episode has begun, or it has ended: call reset")
-        simulation, before = self._simulation, len(self._simulation.arena.food.uneaten)
+        simulation, before = self._simulation, self._simulation.arena.food.left
         self._hand.act(simulation.clients[0], rules.checked_numbers(action, self._hand.space))
         ticks = self._run()
         counts = _counts_of(simulation)
         news = counts - self._counts
         self._counts = counts
-        left = len(simulation.arena.food.uneaten)
+        left = simulation.arena.food.left
         reward = float(self._rewards.of(before - left, ticks, int(news[-1]), self._params.tick_s))
         self._runs = not simulation.over
         return self._observation(news), reward, left == 0, simulation.over and left > 0, self._info()
@@ -157,13 +157,13 @@ class BrainEnv(gymnasium.Env[Any, Any]):
 
     def _observation(self, news: NDArray[np.int64]) -> NDArray[np.int32]:
         sides = sides_of(self._simulation.clients[0].memory)[1:]
-        left = len(self._simulation.arena.food.uneaten)
+        left = self._simulation.arena.food.left
         return np.array([*sides, left, *news], np.int32)
 
     def _info(self) -> dict[str, Any]:
         return {
             "robot_s": self._simulation.episode.robot_s,
-            "food_left": len(self._simulation.arena.food.uneaten),
+            "food_left": self._simulation.arena.food.left,
         }
 
 

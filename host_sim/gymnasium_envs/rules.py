@@ -13,7 +13,6 @@ from host_sim.errors import OctetError
 from host_sim.gymnasium_envs.told_worlds import Deed, TickLimits, ToldWorlds
 from host_sim.protocol.generated import FEEL, NODE_MAX
 from host_sim.world.layouts import Layout, NoRoomError, generate
-from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
 
 SECONDS_MAX = 36_000.0
@@ -87,8 +86,8 @@ def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams) -> 
     try:
         ticks = TickLimits(round(limit_s / params.tick_s), step_ticks or STEP_TICKS_MAX)
         return ToldWorlds(worlds, robots, ticks, params)
-    except (NoNativeError, OctetError) as fault:
-        raise error.DependencyNotInstalled(f"{fault}: run tools/setup") from None
+    except OctetError as fault:
+        raise error.DependencyNotInstalled(str(fault)) from None
 
 
 def check_seconds(seconds: float, params: SimParams) -> None:

@@ -8,15 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.paths import BUILD, ROOT
-from host_sim.world import native_world
 from host_sim.world.arena import Arena
 from host_sim.world.layouts import Layout
 from host_sim.world.native_library import load_native
-from host_sim.world.native_world import NativeWorld
 from host_sim.world.params import SimParams
+from host_sim.world.world_library import WORLD_HEADERS
 
 LIBRARY = BUILD / "host" / "host_sim" / "gymnasium_envs" / "native" / "liboctet_told.so"
-HEADERS = (*native_world.HEADERS, ROOT / "host_sim" / "gymnasium_envs" / "native" / "told.h")
+HEADERS = (*WORLD_HEADERS, ROOT / "host_sim" / "gymnasium_envs" / "native" / "told.h")
 
 
 class Deed(IntEnum):
@@ -57,7 +56,7 @@ class ToldWorlds:
         """
         self._ffi, self._library = _loaded()
         self._params, self._robot_count = params, robots
-        self._inside: list[NativeWorld | None] = [None] * worlds
+        self._arenas: list[Arena | None] = [None] * worlds
         ffi, motion_size = self._ffi, self._library.told_motion_size()
         self._motions: Any = ffi.new("char[]", worlds * robots * motion_size)
         self._robots: Any = ffi.new("struct told_robot[]", worlds * robots)
@@ -86,10 +85,9 @@ class ToldWorlds:
             world: Index of the world.
             layout: Has a start for each robot.
         """
-        inside = NativeWorld(self._ffi, self._library, Arena(layout, self._params), self._params)
-        inside.borrow()
-        self._inside[world] = inside
-        self._all[world].world = inside.world
+        arena = Arena(layout, self._params)
+        self._arenas[world] = arena
+        self._all[world].world = self._ffi.cast("struct world *", arena.inside.address)
         self._library.told_begin(self._ffi.addressof(self._all, world))
 
     def step(self, deeds: NDArray[np.uint8]) -> None:
@@ -99,7 +97,7 @@ class ToldWorlds:
             deeds: Shape (worlds, robots), contiguous: a `Deed` for each robot.
         """
         told = self._ffi.from_buffer("uint8_t[]", deeds)
-        self._library.told_step(self._all, len(self._inside), told)
+        self._library.told_step(self._all, len(self._arenas), told)
 
 
 @cache

@@ -168,7 +168,7 @@ class _Resimulator:
             self._all_begun.append(begun)
         if not self._runs_on:
             return begun
-        over = self._arena is None or not self._arena.food.uneaten
+        over = self._arena is None or not self._arena.food.left
         if over or tick - self._begun.first_tick >= self._record.limit_ticks:
             begun = Begun(self._begun.seed, self._begun.number + 1, tick)
             self._all_begun.append(begun)

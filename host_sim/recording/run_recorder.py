@@ -80,7 +80,7 @@ class RunRecorder:
                 self.add(i, arena.bodies[i], simulation.senses[i], simulation.drives[i], client.memory)
             else:
                 self.add_block(i, simulation.loop.block(i), client.memory)
-        if len(arena.food.uneaten) != self.trajectory.meals[-1][1].count(0):
+        if sum([robot.food_eaten for robot in simulation.episode.robots]) != self.trajectory.meals[-1][1].count(1):
             self.eaten(arena.food.eaten, simulation.drives)
 
     def enter(self, scene: EnvironmentScene) -> None:

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.errors import OctetError, UsageError
+from host_sim.errors import UsageError
 from host_sim.paths import BUILD, ROOT
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
 from host_sim.world.geometry import Capsule, Pose
 from host_sim.world.layouts import Layout
-from host_sim.world.native_library import NoNativeError, load_native
+from host_sim.world.native_library import load_native
 from host_sim.world.params import SimParams
 from host_sim.world.plain_space import cones_in_c
 
@@ -43,14 +43,11 @@ class NativeFleet:
             params: The dimensions of the worlds.
 
         Raises:
-            OctetError: The library cannot be used.
+            NoNativeError: The library cannot be used.
         """
         self.robots, self.worlds = robots, worlds
         self._params = params
-        try:
-            self._ffi, self._library = loaded()
-        except NoNativeError as error:
-            raise OctetError(f"a fleet runs in C, but {error}; build it with tools/setup") from None
+        self._ffi, self._library = loaded()
         ffi = self._ffi
         self._each = robots // worlds  # in one world
         # cffi frees what no name holds any more.

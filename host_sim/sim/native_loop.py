@@ -13,16 +13,14 @@ from host_sim.robot_io import Drive, Senses
 from host_sim.sim.loop_robots import LoopRobot, Native, RobotBehindLink, RobotInProcess
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.link import SocketLink
-from host_sim.world import native_world
 from host_sim.world.arena import Arena
 from host_sim.world.body_faults import SOUND
 from host_sim.world.native_library import load_native
-from host_sim.world.native_world import NativeWorld
-from host_sim.world.params import SimParams
+from host_sim.world.world_library import WORLD_HEADERS
 
 LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_loop.so"
 _NATIVE = ROOT / "host_sim" / "sim" / "native"
-HEADERS = (ROOT / "hal" / "link" / "link.h", *native_world.HEADERS, _NATIVE / "log_lines.h", _NATIVE / "loop.h")
+HEADERS = (ROOT / "hal" / "link" / "link.h", *WORLD_HEADERS, _NATIVE / "log_lines.h", _NATIVE / "loop.h")
 
 BLOCK_TICKS = 1024
 """Maximum number of ticks in a block."""
@@ -86,17 +84,12 @@ class NativeLoop:
         self._loop: Any = self._ffi.new("struct loop *")
         self._loop.robots, self._loop.robot_count = self._robots, len(clients)
         self._wires = [self._bind(robot, client) for robot, client in zip(self._robots, clients, strict=True)]
-        self._world: NativeWorld
+        self._arena: Arena
 
-    def enter(self, arena: Arena, params: SimParams) -> None:
-        """Puts the robots into another arena.
-
-        Args:
-            arena: The arena.
-            params: The dimensions of the world.
-        """
-        self._world = NativeWorld(self._ffi, self._library, arena, params)
-        self._loop.world = self._world.world
+    def enter(self, arena: Arena) -> None:
+        """Puts the robots into another arena."""
+        self._arena = arena
+        self._loop.world = self._ffi.cast("struct world *", arena.inside.address)
         for robot in self._robots:
             robot.begun, robot.food_eaten = [0] * self._library.LOOP_REASONS, 0
 
@@ -117,11 +110,7 @@ class NativeLoop:
         ticks = 0 if halted else min(ticks_max, BLOCK_TICKS, *(wire.prepare() for wire in self._wires))
         if self._log.keeps:
             self._make_room(sum(robot.waiting_count for robot in self._robots))
-        self._world.borrow()
-        try:
-            self._library.loop_run(self._loop, ticks)
-        finally:
-            self._world.give_back()
+        self._library.loop_run(self._loop, ticks)
         if self._log.keeps:
             self._log.add_block(self._ffi.buffer(self._text, self._loop.log.used)[:])
         for index, wire in enumerate(self._wires):
@@ -152,7 +141,6 @@ class NativeLoop:
             food_eaten: For each robot, the number of pieces of food that it has eaten since `enter`.
         """
         first = self._loop.ticks * self._library.LOOP_ROW
-        self._world.read_bodies()
         for robot, sensed, drive, eaten in zip(self._robots, senses, drives, food_eaten, strict=True):
             robot.rows[first : first + _DRIVE_END] = [*sensed, *drive]
             robot.food_eaten = eaten
@@ -221,7 +209,7 @@ class NativeLoop:
     def _look_up(self, index: int, client: RobotClient) -> None:
         """Takes over what commands and people may have changed."""
         robot = self._robots[index]
-        if (faults := self._world.arena.bodies[index].faults) is not self._faults[index]:
+        if (faults := self._arena.bodies[index].faults) is not self._faults[index]:
             self._faults[index], robot.faults = faults, asdict(faults)
         robot.senses_counter, self._memories[index] = client.inbox.sent_counter, client.memory
 

@@ -1,6 +1,5 @@
 """A run: robots in one environment after the other, their memories carried over."""
 
-import gc
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -20,12 +19,7 @@ from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change
 from host_sim.world.edits import Edit, EditError, make_edit
 from host_sim.world.layouts import World
-from host_sim.world.native_library import NoNativeError
 from host_sim.world.params import SimParams
-
-ARENAS_MAX = 32
-"""Number of arenas that may wait to be freed. An arena and its physics hold each other, and 260 kB in C. Python
-counts objects, and would look for them after more than a hundred."""
 
 
 @dataclass
@@ -90,7 +84,7 @@ class Simulation:
     @property
     def over(self) -> bool:
         """Whether the environment has ended: all food eaten, or time up."""
-        return not self.arena.food.uneaten or self.episode.ticks >= self.record.limit_ticks
+        return not self.arena.food.left or self.episode.ticks >= self.record.limit_ticks
 
     @property
     def nodes(self) -> list[int]:
@@ -130,8 +124,6 @@ class Simulation:
         self._measuring = [i for i, client in enumerate(self.clients) if client.wants_ranges]
         self._enter_loop()
         self.record.begin(Begun(self.seed, number, self.tick))
-        if len(self.record.begun) % ARENAS_MAX == 0:
-            gc.collect()
         self._schedule.enter(number, self.tick)
         self._settled = False
 
@@ -141,12 +133,8 @@ class Simulation:
             return
         if not (self.native and isinstance(self.pace, Lockstep) and suits(self.clients)):
             return
-        try:
-            self.loop = self.loop or NativeLoop(self.clients, self.clients[0].log)
-            self.loop.enter(self.arena, self.params)
-        except NoNativeError as error:
-            self.native, self.loop = False, None
-            _warn(f"octet: ticks are slower, for they run in Python: {error}; tools/setup may help")
+        self.loop = self.loop or NativeLoop(self.clients, self.clients[0].log)
+        self.loop.enter(self.arena)
 
     def step(self, ticks_max: int = 1) -> None:
         """Simulates one tick or, where the loop in C can be used, a block of ticks.
@@ -253,9 +241,3 @@ class Simulation:
 
     def _set_time(self, tick: int) -> None:
         self.clients[0].log.set_time(round(tick * self.params.tick_s * 1e6))
-
-
-def _warn(line: str) -> None:
-    import logging  # noqa: PLC0415 - which a run that has nothing to say begins sooner without
-
-    logging.getLogger(__name__).warning(line)

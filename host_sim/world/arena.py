@@ -2,18 +2,16 @@
 
 from collections.abc import Sequence
 
-import pymunk
-
 from host_sim.robot_io import Ranges
 from host_sim.world.body import Body
 from host_sim.world.body_faults import SOUND
 from host_sim.world.food import Food
 from host_sim.world.geometry import Capsule
 from host_sim.world.layouts import Layout
+from host_sim.world.native_world import NativeWorld
 from host_sim.world.obstacles import Obstacles
 from host_sim.world.params import SimParams
 from host_sim.world.ranges import ranges_of
-from host_sim.world.shapes import DISC, OBSTACLE
 
 
 class Arena:
@@ -25,14 +23,15 @@ class Arena:
     0
 
     Attributes:
-        space: The pymunk space that they are in.
+        params: The dimensions of the world.
+        inside: All of it in C, of which the others are views.
         bodies: The robots' bodies, in the order of the layout's starts.
         food: The food, shared by all robots.
-        obstacles: Walls and bars, the bars by id: at first 0, 1, ... as in the layout. Call `settle` after a change.
+        obstacles: Walls and bars, the bars by id: at first 0, 1, ... as in the layout.
     """
 
     def __init__(self, layout: Layout, params: SimParams, before: Sequence[Body] = ()) -> None:
-        """Builds the space and runs the sensors once, so that the first `sense` is right.
+        """Puts everything where it begins.
 
         Args:
             layout: Obstacles, food and start poses; a robot is placed at each start.
@@ -40,21 +39,16 @@ class Arena:
             before: For each robot that comes from another arena its body there, whose odometer and faults go on;
                 empty for robots that have not moved yet.
         """
-        self._starts, self._params = layout.starts, params
-        self.space = pymunk.Space()
-        self.food = Food(layout.food)
-        self.obstacles = Obstacles(self.space, layout.bars, params)
+        self._starts, self.params = layout.starts, params
+        self.inside = NativeWorld(len(self._starts), layout.food, params)
+        self.food = Food(self.inside)
         self.bodies = [
-            Body(self.space, self.food, params, index, start, before[index].odometer if before else (0.0, 0.0))
+            Body(self.inside, index, start, before[index].odometer if before else (0.0, 0.0))
             for index, start in enumerate(self._starts)
         ]
         for body, earlier in zip(self.bodies, before, strict=False):
             body.faults = earlier.faults
-        self._by_disc = {body.disc: body for body in self.bodies}
-        touching = {"begin": self._begin, "pre_solve": self._press, "separate": self._separate}
-        self.space.on_collision(DISC, OBSTACLE, **touching)
-        self.space.on_collision(DISC, DISC, **touching)
-        self.settle()
+        self.obstacles = Obstacles(self.inside, layout.bars, params)
 
     @property
     def body(self) -> Body:
@@ -68,38 +62,14 @@ class Arena:
 
     def ranges(self, index: int) -> Ranges:
         """What a robot's sensors measure where it stands: walls, bars and other robots."""
-        body, radius_mm = self.bodies[index], self._params.body_radius_mm
+        body, radius_mm = self.bodies[index], self.params.body_radius_mm
         if body.lifted:
-            return ranges_of(body.pose, (), self._params)
+            return ranges_of(body.pose, (), self.params)
         others = [other.pose[:2] for other in self.bodies if other is not body and not other.lifted]
         discs = [Capsule(middle, middle, radius_mm) for middle in others]
-        return ranges_of(body.pose, [*self.obstacles.capsules, *discs], self._params)
+        return ranges_of(body.pose, [*self.obstacles.capsules, *discs], self.params)
 
     def repair(self) -> None:
         """Makes all bodies sound."""
         for body in self.bodies:
             body.faults = SOUND
-
-    def settle(self) -> None:
-        """Updates the sensors after an obstacle or a body was moved."""
-        for body in self.bodies:
-            body.place()
-
-    def _touched(self, arbiter: pymunk.Arbiter) -> list[Body]:
-        return [self._by_disc[shape] for shape in arbiter.shapes if shape in self._by_disc]
-
-    def _begin(self, arbiter: pymunk.Arbiter, _space: pymunk.Space, _data: None) -> None:
-        for body in self._touched(arbiter):
-            body.touches += 1
-            body.collisions += 1
-
-    def _separate(self, arbiter: pymunk.Arbiter, _space: pymunk.Space, _data: None) -> None:
-        for body in self._touched(arbiter):
-            body.touches -= 1
-
-    def _press(self, arbiter: pymunk.Arbiter, _space: pymunk.Space, _data: None) -> None:
-        """Passes the depth of an overlap to its bodies; the normal points from the first shape into the second."""
-        contact = arbiter.contact_point_set
-        depth_mm, normal = -contact.points[0].distance, contact.normal
-        for body, way in zip(self._touched(arbiter), (1.0, -1.0), strict=False):
-            body.press(depth_mm, (way * normal[0], way * normal[1]))

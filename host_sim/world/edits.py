@@ -123,7 +123,6 @@ def make_edit(arena: Arena, edit: Edit, params: SimParams) -> None:
         EditError: The edit cannot be made; nothing was changed.
     """
     _MAKERS[type(edit)](arena, edit, params)
-    arena.settle()
 
 
 def _add_bar(arena: Arena, edit: AddBar, params: SimParams) -> None:

@@ -1,38 +1,36 @@
 """The food in an arena, shared by all its robots."""
 
-from collections.abc import Sequence
-
 from host_sim.world.geometry import Point
+from host_sim.world.native_world import NativeWorld
 
 
 class Food:
-    """Pieces of food by id: 0, 1, ... as in the layout.
+    """Pieces of food by id: 0, 1, ... as in the layout; a view of those in C."""
 
-    Attributes:
-        at: Position of each piece, eaten or not.
-        uneaten: Positions of the pieces that are left, by id.
-    """
+    def __init__(self, inside: NativeWorld) -> None:
+        """Shows the food of a world."""
+        self._inside, self._pieces = inside, inside.food
 
-    def __init__(self, at: Sequence[Point]) -> None:
-        """Lays out the pieces."""
-        self.at = list(at)
-        self.uneaten = dict(enumerate(self.at))
+    @property
+    def at(self) -> list[Point]:
+        """Position of each piece, eaten or not."""
+        return [(piece.x_mm, piece.y_mm) for piece in self._pieces]
 
     @property
     def eaten(self) -> list[bool]:
         """For each piece, whether it has been eaten."""
-        return [food_id not in self.uneaten for food_id in range(len(self.at))]
+        return [piece.eaten for piece in self._pieces]
 
-    def eat(self, food_id: int) -> None:
-        """Removes a piece.
+    @property
+    def uneaten(self) -> dict[int, Point]:
+        """Positions of the pieces that are left, by id."""
+        return {food_id: (piece.x_mm, piece.y_mm) for food_id, piece in enumerate(self._pieces) if not piece.eaten}
 
-        Raises:
-            KeyError: It was eaten before.
-        """
-        del self.uneaten[food_id]
+    @property
+    def left(self) -> int:
+        """Number of pieces that are left."""
+        return int(self._inside.library.world_food_left(self._inside.world))
 
     def move(self, food_id: int, at: Point) -> None:
         """Moves a piece; an eaten one stays eaten."""
-        self.at[food_id] = at
-        if food_id in self.uneaten:
-            self.uneaten[food_id] = at
+        self._pieces[food_id].x_mm, self._pieces[food_id].y_mm = at

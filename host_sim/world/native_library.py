@@ -8,13 +8,18 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.c_interface import c_interface
+from host_sim.errors import OctetError
 
 
-class NoNativeError(Exception):
-    """The C code cannot be used; the message says why."""
+class NoNativeError(OctetError):
+    """The C code cannot be used."""
+
+    def __init__(self, why: str) -> None:
+        """Takes the reason."""
+        super().__init__(f"{why}; build it with tools/setup")
 
 
-def load_native(library: Path, prefix: str, headers: Sequence[Path]) -> tuple[Any, Any]:
+def load_native(library: Path, prefix: str, headers: Sequence[Path], words: Path | None = None) -> tuple[Any, Any]:
     """A library, and the interface to it as its headers declare it.
 
     Args:
@@ -22,13 +27,15 @@ def load_native(library: Path, prefix: str, headers: Sequence[Path]) -> tuple[An
         prefix: What the names of its functions begin with; `PREFIXstamp` gives the digests of the headers that it was
             built from.
         headers: Its headers, those that include others after them. cffi reads everything but preprocessor lines.
+        words: A header that is generated with the library, and that the others need.
 
     Raises:
         NoNativeError: The library is missing, or was built from other headers.
     """
     if not library.exists():
         raise NoNativeError(f"{library.name} is missing")
-    ffi = c_interface("\n".join((f"const char *{prefix}stamp(void);", *map(declarations, headers))))
+    declared = map(declarations, headers if words is None else (words, *headers))
+    ffi = c_interface("\n".join((f"const char *{prefix}stamp(void);", *declared)))
     try:
         loaded = ffi.dlopen(os.fspath(library))
         stamp: Any = ffi.string(getattr(loaded, f"{prefix}stamp")())

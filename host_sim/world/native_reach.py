@@ -1,16 +1,11 @@
 """Where in a layout a body can get to, computed in C (`native/reach.h`)."""
 
 from collections.abc import Sequence
-from functools import cache
 from typing import Any, NamedTuple
 
-from host_sim.paths import BUILD, ROOT
 from host_sim.world.geometry import Bar
-from host_sim.world.native_library import load_native
 from host_sim.world.params import SimParams
-
-LIBRARY = BUILD / "host" / "host_sim" / "world" / "native" / "liboctet_world.so"
-HEADER = ROOT / "host_sim" / "world" / "native" / "reach.h"
+from host_sim.world.world_library import world_library
 
 
 class Grid(NamedTuple):
@@ -44,7 +39,7 @@ def native_reach(bars: Sequence[Bar], start: int, grid: Grid, params: SimParams)
     Raises:
         NoNativeError: The library cannot be used.
     """
-    ffi, library = _loaded()
+    ffi, library = world_library()
     cells = bytearray((grid.rows + 2) * (grid.columns + 2))
     ends, stack = ffi.new("struct reach_bar[]", [(*bar.a, *bar.b) for bar in bars]), ffi.new("uint32_t[]", len(cells))
     reach: Any = ffi.new("struct reach *")
@@ -54,8 +49,3 @@ def native_reach(bars: Sequence[Bar], start: int, grid: Grid, params: SimParams)
     reach.bars, reach.bar_count, reach.stack = ends, len(bars), stack
     library.reach_find(reach, start, ffi.from_buffer("uint8_t[]", cells))
     return cells
-
-
-@cache
-def _loaded() -> tuple[Any, Any]:
-    return load_native(LIBRARY, "world_", (HEADER,))

@@ -1,68 +1,56 @@
-"""Control ticks of an arena in C (`native/`), with the same results bit for bit."""
+"""An arena in C (`native/world.h`): bodies, food and obstacles, and the space that finds what overlaps."""
 
-from struct import Struct
+from collections.abc import Sequence
 from typing import Any
 
-from host_sim.paths import ROOT
-from host_sim.world.arena import Arena
+from host_sim.world.geometry import Capsule, Point
 from host_sim.world.params import SimParams
 from host_sim.world.plain_space import PlainSpace
-
-_NATIVE = ROOT / "host_sim" / "world" / "native"
-_STATE = Struct("=8d9iB?")
-_NAMES = ("vector", "space", "world", "capsule", "cones", "plain_space", "body_faults")
-HEADERS = tuple(_NATIVE / f"{name}.h" for name in _NAMES)
+from host_sim.world.world_library import world_library
 
 
 class NativeWorld:
-    """The C counterpart of an arena: it borrows the arena for some ticks, and gives it back as it is after them.
+    """The memory of an arena in C, which is there as long as this is.
 
     Attributes:
-        arena: The arena. From `borrow` to `give_back` it must be left alone.
-        world: Its counterpart, a `struct world *`.
+        ffi: Has the declarations.
+        library: Has the functions.
+        world: The `struct world *`.
+        bodies: Its bodies, a `struct body[]`.
+        food: Its food, a `struct food[]`.
+        space: What finds overlaps.
     """
 
-    def __init__(self, ffi: Any, library: Any, arena: Arena, params: SimParams) -> None:
-        """Makes room for the state.
+    def __init__(self, robots: int, food: Sequence[Point], params: SimParams) -> None:
+        """Makes room.
 
         Args:
-            ffi: Has the declarations of `HEADERS`.
-            library: Has their functions.
-            arena: The arena.
+            robots: Number of bodies.
+            food: Where the pieces of food are.
             params: The dimensions of the world.
+
+        Raises:
+            NoNativeError: The library cannot be used.
         """
-        self.arena, self._ffi, self._library = arena, ffi, library
-        self._space = PlainSpace(ffi, library, arena, params)
-        bodies, food = len(arena.bodies), len(arena.food.at)
-        # cffi frees what no name holds any more.
-        self._bodies: Any = ffi.new("struct body[]", bodies)
-        self._food: Any = ffi.new("struct food[]", food)
+        self.ffi, self.library = ffi, library = world_library()
+        self.bodies: Any = ffi.new("struct body[]", robots)
+        self.food: Any = ffi.new("struct food[]", [(x, y, False) for x, y in food])
         self.world: Any = ffi.new("struct world *")
         self.world.params = {name: getattr(params, name) for name, _ in ffi.typeof("struct world_params").fields}
-        self.world.body_count, self.world.food_count = bodies, food
-        self.world.bodies, self.world.food = self._bodies, self._food
-        self._states = [ffi.buffer(ffi.addressof(there), _STATE.size) for there in self._bodies]
+        self.world.body_count, self.world.food_count = robots, len(food)
+        self.world.bodies, self.world.food = self.bodies, self.food
+        self.space = PlainSpace(ffi, library, self.world, params)
 
-    def borrow(self) -> None:
-        """Takes the arena over, as it is now."""
-        self.read_bodies()
-        food = self.arena.food
-        for food_id, (there, (x, y)) in enumerate(zip(self._food, food.at, strict=True)):
-            there.x_mm, there.y_mm, there.eaten = x, y, food_id not in food.uneaten
-        self._library.world_begin(self.world)
-        self._space.take(self.world)
+    @property
+    def address(self) -> int:
+        """Where the `struct world` is, for another library."""
+        return int(self.ffi.cast("uintptr_t", self.world))
 
-    def read_bodies(self) -> None:
-        """Takes over where the arena's bodies are."""
-        for there, body in zip(self._states, self.arena.bodies, strict=True):
-            _STATE.pack_into(there, 0, *body.state)
+    def lay_out(self, obstacles: Sequence[Capsule]) -> None:
+        """Takes these obstacles instead of those before. What a body touches already is not new to it."""
+        self.space.lay_out(obstacles)
+        self.settle()
 
-    def give_back(self) -> None:
-        """Brings the arena up to date and leaves it to pymunk."""
-        self._space.give_back()
-        for there, body in zip(self._states, self.arena.bodies, strict=True):
-            body.state = _STATE.unpack_from(there)
-        food = self.arena.food
-        for food_id in list(food.uneaten):
-            if self._food[food_id].eaten:
-                food.eat(food_id)
+    def settle(self) -> None:
+        """Finds what all bodies overlap, now that one of them or an obstacle was moved."""
+        self.library.world_settle(self.world)

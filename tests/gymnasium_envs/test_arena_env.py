@@ -114,7 +114,7 @@ def test_an_episode_ends_when_the_time_is_up():
 def test_an_episode_ends_when_all_food_is_eaten():
     env = ArenaEnv()
     env.reset(seed=1)
-    for food in env._worlds._inside[0]._food:
+    for food in env._worlds._arenas[0].inside.food:
         food.eaten = True
 
     assert env.step(FORWARD)[2:4] == (True, False)

@@ -16,7 +16,6 @@ from host_sim.report.picture import write_picture
 from host_sim.report.replay_page import omissions, run_data
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from host_sim.sim.simulation import ARENAS_MAX
 from host_sim.view.history import LearningHistory
 
 TICKS_MAX, LIMIT_S, EPISODE_TICKS = 1000, 4.0, 200
@@ -82,10 +81,10 @@ def test_arenas_of_environments_that_are_over_do_not_pile_up():
     arenas = weakref.WeakSet()
     gc.disable()
     try:
-        with make(RunConfig(environments=3 * ARENAS_MAX, limit_s=0.1)) as simulation:
+        with make(RunConfig(environments=5, limit_s=0.1)) as simulation:
             for _ in simulation.run():
                 arenas.add(simulation.arena)
-                assert len(arenas) <= ARENAS_MAX + 1
+                assert len(arenas) == 1
     finally:
         gc.enable()
 

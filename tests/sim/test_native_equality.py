@@ -6,9 +6,9 @@ import pytest
 
 from host_sim.bench import native_equality
 from host_sim.bench.native_equality import compare_loops
-from host_sim.world import plain_space
-from host_sim.world.native_world import NativeWorld
-from host_sim.world.params import SimParams
+from host_sim.sim.native_loop import NativeLoop
+from host_sim.world.plain_space import PlainSpace
+from host_sim.world.world_library import world_library
 
 
 @pytest.fixture(autouse=True)
@@ -16,7 +16,7 @@ def _short(monkeypatch):
     monkeypatch.setattr(native_equality, "_LIMIT_S", 20.0)
 
 
-def test_all_loops_do_the_same():
+def test_both_loops_do_the_same():
     verdicts = list(compare_loops(15_000))
 
     assert [verdict.difference for verdict in verdicts] == [None] * len(verdicts)
@@ -24,25 +24,28 @@ def test_all_loops_do_the_same():
 
 
 def test_a_wheel_track_that_differs_in_the_last_places_is_found(monkeypatch):
-    built = NativeWorld.__init__
+    entered = NativeLoop.enter
 
-    def build(self, *arguments) -> None:
-        built(self, *arguments)
-        self.world.params.wheel_track_mm += 1e-10
+    def enter(self, arena) -> None:
+        arena.inside.world.params.wheel_track_mm += 1e-10
+        entered(self, arena)
 
-    monkeypatch.setattr(NativeWorld, "__init__", build)
+    monkeypatch.setattr(NativeLoop, "enter", enter)
 
     difference = next(compare_loops(1)).difference
     assert "trajectory" in difference
 
 
 def test_a_cone_that_reaches_a_little_farther_is_found(monkeypatch):
-    laid_out = plain_space.cones_in_c
+    entered = NativeLoop.enter
 
-    def lay_out(ffi, library, params: SimParams) -> object:
-        return laid_out(ffi, library, replace(params, sensor_reach_mm=61.0))
+    def enter(self, arena) -> None:
+        farther = replace(arena.params, sensor_reach_mm=61.0)
+        arena.inside.space = PlainSpace(*world_library(), arena.inside.world, farther)
+        arena.inside.lay_out(arena.obstacles.capsules)
+        entered(self, arena)
 
-    monkeypatch.setattr(plain_space, "cones_in_c", lay_out)
+    monkeypatch.setattr(NativeLoop, "enter", enter)
 
     difference = next(compare_loops(1)).difference
     assert "log" in difference

@@ -121,7 +121,7 @@ def test_odometers_count_tenths_of_a_mm_and_wrap() -> None:
 def test_odometers_go_on_from_the_arena_before() -> None:
     layout = Layout((), (), MIDDLE)
     before = Arena(layout, PARAMS)
-    before.body.state = (*before.body.state[:3], 12.5, -0.3, *before.body.state[5:])
+    before.inside.bodies[0].left_mm, before.inside.bodies[0].right_mm = 12.5, -0.3
     arena = Arena(layout, PARAMS, before.bodies)
 
     senses = arena.body.sense(0)

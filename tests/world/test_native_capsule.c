@@ -121,6 +121,15 @@ static void test_a_disc_hides_what_is_behind_it(void)
     TEST_ASSERT_FALSE(capsule_disc_hides(CENTRE, 100.0, from, (struct vector){1200.0, 1300.0}));
 }
 
+static void test_a_plant_hides_what_is_right_behind_its_middle(void)
+{
+    struct capsule plant;
+
+    capsule_set(&plant, CENTRE, CENTRE, 80.0);
+    TEST_ASSERT_TRUE(capsule_hides(&plant, (struct vector){500.0, 1000.0}, (struct vector){1200.0, 1000.0}));
+    TEST_ASSERT_FALSE(capsule_hides(&plant, (struct vector){500.0, 1000.0}, (struct vector){910.0, 1000.0}));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -135,5 +144,6 @@ int main(void)
     RUN_TEST(test_its_round_ends_hide_too);
     RUN_TEST(test_everything_is_hidden_from_inside);
     RUN_TEST(test_a_disc_hides_what_is_behind_it);
+    RUN_TEST(test_a_plant_hides_what_is_right_behind_its_middle);
     return UNITY_END();
 }

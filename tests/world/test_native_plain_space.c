@@ -102,7 +102,7 @@ static void test_a_lifted_body_neither_feels_nor_is_felt(void)
 {
     put(&bodies[1], 1190.0, 1000.0);
     bodies[1].lifted = true;
-    plain_space_settle(&world);
+    world_settle(&world);
     TEST_ASSERT_EQUAL_HEX8(0, body->feel);
     TEST_ASSERT_EQUAL_INT32(0, body->touches);
     TEST_ASSERT_EQUAL_INT32(0, bodies[1].touches);
@@ -111,7 +111,8 @@ static void test_a_lifted_body_neither_feels_nor_is_felt(void)
 static void test_an_obstacle_that_is_moved_is_felt_once_it_has_settled(void)
 {
     capsule_set(&capsules[WALLS], (struct vector){1150.0, 500.0}, (struct vector){1150.0, 1500.0}, 20.0);
-    plain_space_settle(&world);
+    plain_space_take(&space, &world);
+    world_settle(&world);
     TEST_ASSERT_EQUAL_HEX8(FEEL_FRONT, body->feel & FEEL_FRONT);
 }
 

@@ -2,18 +2,14 @@
 
 import math
 import random
-from pathlib import Path
 
 import numpy as np
-import pytest
 
-from host_sim.world import native_reach
+from host_sim.world import native_reach, reach
 from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Plant
 from host_sim.world.grid import clearances_mm, flooded, free_cells
 from host_sim.world.layouts import generate
-from host_sim.world.native_library import NoNativeError
-from host_sim.world.native_reach import HEADER
 from host_sim.world.params import SimParams
 from host_sim.world.reach import Reach, grid_of
 
@@ -47,34 +43,11 @@ def test_the_same_cells_are_reached_in_300_crowded_layouts():
     assert unlike > 20, "hardly a layout had a free cell that cannot be reached"
 
 
-def without_library(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
-    native_reach._loaded.cache_clear()
-    monkeypatch.setattr(native_reach, "LIBRARY", folder / "none.so")
-
-
-@pytest.fixture
-def fresh():
-    yield
-    native_reach._loaded.cache_clear()
-
-
-@pytest.mark.usefixtures("fresh")
-def test_without_the_library_the_same_layouts_are_drawn(tmp_path, monkeypatch):
+def test_in_python_the_same_layouts_are_drawn(monkeypatch):
     in_c = [generate(seed, 1, PARAMS, robots) for seed in SEEDS[:20] for robots in (1, 4)]
-    without_library(monkeypatch, tmp_path)
+    monkeypatch.setattr(reach, "_in_c", lambda *_: None)
 
     assert [generate(seed, 1, PARAMS, robots) for seed in SEEDS[:20] for robots in (1, 4)] == in_c
-
-
-@pytest.mark.usefixtures("fresh")
-def test_a_library_of_another_version_is_not_used(tmp_path, monkeypatch):
-    other = tmp_path / "reach.h"
-    other.write_text(HEADER.read_text() + "/* newer */\n")
-    native_reach._loaded.cache_clear()
-    monkeypatch.setattr(native_reach, "HEADER", other)
-
-    with pytest.raises(NoNativeError, match="was built from other sources"):
-        native_reach._loaded()
 
 
 def test_a_start_in_a_blocked_cell_reaches_nothing():

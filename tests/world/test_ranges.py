@@ -119,7 +119,6 @@ def test_what_is_measured_is_felt():
         x, y = dice.choice(layout.bars).a
         beside = ahead_of(Pose(x, y, 0.0), dice.uniform(125.0, 185.0), dice.uniform(-math.pi, math.pi))
         arena.body.put(Pose(*beside, dice.uniform(-math.pi, math.pi)))
-        arena.settle()
         feel = arena.body.sense(0).feel
         for bit, range_mm in zip(CONE_BEARINGS_DEG, arena.ranges(0), strict=True):
             if range_mm is not None and range_mm < 59:
@@ -134,7 +133,6 @@ def test_robots_measure_each_other_and_none_that_is_in_the_air():
     assert (arena.ranges(0).front, arena.ranges(1)) == (25, NOTHING_NEAR)
 
     arena.bodies[1].lift()
-    arena.settle()
     assert arena.ranges(0) == NOTHING_NEAR
     assert arena.ranges(1) == NOTHING_NEAR
 

@@ -105,7 +105,6 @@ def test_food_is_eaten_by_one_of_them_only() -> None:
 def test_a_lifted_robot_is_in_nobodys_way() -> None:
     arena = arena_with(at(0.0), at(240.0))
     arena.bodies[1].lift()
-    arena.settle()
 
     assert feel(arena.bodies[0]) == 0
 
@@ -114,7 +113,6 @@ def test_lifted_robots_sense_nothing_not_even_each_other() -> None:
     arena = arena_with(at(0.0), at(240.0))
     for body in arena.bodies:
         body.lift()
-    arena.settle()
 
     assert [body.sense(0)[1:5] for body in arena.bodies] == [(0, False, False, 0)] * 2
 

@@ -134,6 +134,11 @@ static bool crosses_side(double from_line_mm, double radius_mm, double along_sid
     return before * after < 0.0 && before / (before - after) < 1.0;
 }
 
+static bool is_disc(const struct capsule *capsule)
+{
+    return capsule->side.x == 0.0 && capsule->side.y == 0.0;
+}
+
 static bool goes_into(const struct capsule *capsule, struct vector from, struct vector to)
 {
     struct vector way = vector_to(from, to), side = capsule->side;
@@ -142,7 +147,7 @@ static bool goes_into(const struct capsule *capsule, struct vector from, struct 
     struct vector shift = vector_to(from, vector_scale(facing, radius_mm));
     struct vector a = vector_add(capsule->a, shift), b = vector_add(capsule->b, shift);
 
-    if (vector_cross(way, a) * vector_cross(way, b) <= 0.0)
+    if (!is_disc(capsule) && vector_cross(way, a) * vector_cross(way, b) <= 0.0)
         return crosses_side(line_mm, radius_mm, vector_dot(way, side));
     return enters_disc(capsule->a, radius_mm, from, to) || enters_disc(capsule->b, radius_mm, from, to);
 }

@@ -236,13 +236,3 @@ void plain_space_take(struct plain_world *space, struct world *world)
         body->collisions = collisions;
     }
 }
-
-void plain_space_settle(struct world *world)
-{
-    for (size_t i = 0; i < world->body_count; i++)
-        plain_world_of(world)->places[i].free_mm = 0.0;
-    for (size_t i = 0; i < world->body_count; i++) {
-        world->bodies[i].depth_mm = 0.0;
-        place(world, &world->bodies[i]);
-    }
-}

@@ -31,7 +31,4 @@ enum { PLAIN_WORD_BITS = 64 };
 void plain_space_take(struct plain_world *space, struct world *world);
         /* Becomes the world's space. The bodies are where they are, and what they overlap is not new to them. */
 
-void plain_space_settle(struct world *world);
-        /* Brings everything up to date once obstacles or bodies were moved. */
-
 #endif

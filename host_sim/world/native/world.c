@@ -10,6 +10,13 @@ void world_begin(struct world *world)
         body_face(&world->bodies[i]);
 }
 
+void world_settle(struct world *world)
+{
+    world_begin(world);
+    for (size_t i = 0; i < world->body_count; i++)
+        body_place(world, &world->bodies[i]);
+}
+
 /* The wheel's counter after a distance. */
 static uint16_t odometer(double rolled_mm)
 {
@@ -40,14 +47,14 @@ bool world_eat(struct world *world, struct body *body)
     return true;
 }
 
-double world_way_mm(const struct world *world, int speed_mm_s)
+double world_way_mm(const struct world *world, double speed_mm_s)
 {
-    double limit = world->params.max_wheel_speed_mm_s, speed = speed_mm_s;
+    double limit = world->params.max_wheel_speed_mm_s;
 
-    return (speed > limit ? limit : speed < -limit ? -limit : speed) * world->params.tick_s;
+    return (speed_mm_s > limit ? limit : speed_mm_s < -limit ? -limit : speed_mm_s) * world->params.tick_s;
 }
 
-void world_move(struct world *world, struct body *body, int left_mm_s, int right_mm_s)
+void world_move(struct world *world, struct body *body, double left_mm_s, double right_mm_s)
 {
     double left_mm = world_way_mm(world, left_mm_s), right_mm = world_way_mm(world, right_mm_s);
     struct vector before = {body->x_mm, body->y_mm};

@@ -1,7 +1,5 @@
-/* world.h: an arena's control ticks in C: what the bodies sense, what they eat, how they move.
- *
- * host_sim/world/arena.py and body.py are the readable reference; here the same sums are done in the same order, so that
- * all results are equal, bit for bit. The caller provides all memory, and keeps it in place meanwhile. */
+/* world.h: an arena: what the bodies sense, what they eat, how they move, one control tick at a time. The caller provides
+ * all memory, and keeps it in place meanwhile. */
 #ifndef OCTET_WORLD_H
 #define OCTET_WORLD_H
 
@@ -28,7 +26,7 @@ struct food {
 };
 
 struct body {
-    /* What changes, as Body.state in body.py has it: */
+    /* What changes; body.py reads the first five: */
     double x_mm;
     double y_mm;
     double heading_rad;
@@ -60,16 +58,19 @@ struct world {
 void world_begin(struct world *world);
         /* To be called once the bodies' poses have been set from outside. */
 
+void world_settle(struct world *world);
+        /* The same where its space has them already: finds what they overlap now. */
+
 void world_sense(struct world *world, struct body *body, uint8_t tick, struct senses *out);
         /* What the robot senses where it stands. tick is as the robot is to be told it. */
 
 bool world_eat(struct world *world, struct body *body);
         /* Eats the food that was last sensed straight ahead, if it is near enough and still there. */
 
-double world_way_mm(const struct world *world, int speed_mm_s);
+double world_way_mm(const struct world *world, double speed_mm_s);
         /* How far a wheel rolls in one control tick. */
 
-void world_move(struct world *world, struct body *body, int left_mm_s, int right_mm_s);
+void world_move(struct world *world, struct body *body, double left_mm_s, double right_mm_s);
         /* Lets the wheels roll for one control tick. */
 
 size_t world_food_left(const struct world *world);

@@ -1,0 +1,25 @@
+"""The C code of the world (`native/`), for Python."""
+
+from functools import cache
+from typing import Any
+
+from host_sim.paths import BUILD, ROOT
+from host_sim.world.native_library import load_native
+
+LIBRARY = BUILD / "host" / "host_sim" / "world" / "native" / "liboctet_world.so"
+_NATIVE = ROOT / "host_sim" / "world" / "native"
+_WORDS = BUILD / "host" / "generated" / "robot_words.h"
+WORLD_HEADERS = tuple(
+    _NATIVE / f"{name}.h" for name in ("vector", "space", "world", "capsule", "cones", "plain_space", "body_faults")
+)
+HEADERS = (ROOT / "firmware" / "io.h", *WORLD_HEADERS, _NATIVE / "body.h", _NATIVE / "reach.h")
+
+
+@cache
+def world_library() -> tuple[Any, Any]:
+    """The interface to it, and the library.
+
+    Raises:
+        NoNativeError: It cannot be used.
+    """
+    return load_native(LIBRARY, "world_", HEADERS, words=_WORDS)
