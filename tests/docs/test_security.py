@@ -16,7 +16,8 @@ def test_each_threat_names_a_test_that_exists():
     assert len(rows) > 15
     for row in rows:
         ((path, name),) = NAMED.findall(row)
-        assert re.search(rf"^(def|static void) {name}\(", (ROOT / path).read_text(), re.MULTILINE), row
+        defined = rf"^(def {name}\(|TEST\({name.removeprefix('test_')}\))"
+        assert re.search(defined, (ROOT / path).read_text(), re.MULTILINE), row
 
 
 def test_the_readme_leads_to_the_page():

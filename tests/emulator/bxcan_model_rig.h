@@ -4,8 +4,7 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "host_sim/emulator/models/bxcan_model.h"
 
 enum {

@@ -43,8 +43,6 @@ void setUp(void)
         .alarm_count = ALARMS, .ring = ring, .take = take_heard};
 }
 
-void tearDown(void) {}
-
 static void assert_moment(uint64_t ns, uint64_t fs, struct moment moment)
 {
     TEST_ASSERT_EQUAL_UINT64(ns, moment.ns);
@@ -64,7 +62,7 @@ static void set_alarm(unsigned alarm, uint64_t ns)
     clock_expect(&board, alarms[alarm]);
 }
 
-static void test_a_moment_is_before_another_by_its_parts(void)
+TEST(a_moment_is_before_another_by_its_parts)
 {
     TEST_ASSERT_TRUE(moment_before((struct moment){1, 9}, (struct moment){2, 0}));
     TEST_ASSERT_TRUE(moment_before((struct moment){1, 2}, (struct moment){1, 3}));
@@ -72,21 +70,21 @@ static void test_a_moment_is_before_another_by_its_parts(void)
     TEST_ASSERT_FALSE(moment_before((struct moment){2, 0}, (struct moment){1, 9}));
 }
 
-static void test_time_is_cycles_by_their_length(void)
+TEST(time_is_cycles_by_their_length)
 {
     clock_execute(&board, 1000);
     assert_moment(5952, 380000, board.now);
     TEST_ASSERT_EQUAL_UINT64(1000, board.cycles);
 }
 
-static void test_no_fraction_is_lost_from_cycle_to_cycle(void)
+TEST(no_fraction_is_lost_from_cycle_to_cycle)
 {
     for (unsigned n = 0; n < 1000; n++)
         clock_execute(&board, 1);
     assert_moment(5952, 380000, board.now);
 }
 
-static void test_an_alarm_rings_when_time_reaches_it(void)
+TEST(an_alarm_rings_when_time_reaches_it)
 {
     board.period_fs = NS;
     set_alarm(1, 100);
@@ -98,7 +96,7 @@ static void test_an_alarm_rings_when_time_reaches_it(void)
     TEST_ASSERT_EQUAL_UINT(1, ring_count);
 }
 
-static void test_an_alarm_that_is_set_anew_rings_again(void)
+TEST(an_alarm_that_is_set_anew_rings_again)
 {
     board.period_fs = NS;
     every = at_ns(50);
@@ -110,7 +108,7 @@ static void test_an_alarm_that_is_set_anew_rings_again(void)
     TEST_ASSERT_EQUAL_UINT(2, ring_count);
 }
 
-static void test_a_skip_stops_at_each_event_on_the_way(void)
+TEST(a_skip_stops_at_each_event_on_the_way)
 {
     every = at_ns(300);
     set_alarm(0, 100);
@@ -125,7 +123,7 @@ static void test_a_skip_stops_at_each_event_on_the_way(void)
     assert_moment(700, 0, board.now);
 }
 
-static void test_a_skip_passes_cycles_too(void)
+TEST(a_skip_passes_cycles_too)
 {
     clock_skip_to(&board, at_ns(1000000));
     TEST_ASSERT_EQUAL_UINT64(168000, board.cycles);
@@ -133,7 +131,7 @@ static void test_a_skip_passes_cycles_too(void)
     assert_moment(1000000, 0, board.now);
 }
 
-static void test_a_skip_to_the_next_event_ends_there_or_after_the_most(void)
+TEST(a_skip_to_the_next_event_ends_there_or_after_the_most)
 {
     set_alarm(0, 5000);
     clock_skip_to_event(&board, 4000);
@@ -149,7 +147,7 @@ static void fail(struct board_clock *clock, unsigned alarm)
     clock->failed = true;
 }
 
-static void test_after_a_failure_no_more_time_passes(void)
+TEST(after_a_failure_no_more_time_passes)
 {
     board.ring = fail;
     set_alarm(0, 100);
@@ -169,7 +167,7 @@ static void connect(void)
     clock_settle(&board);
 }
 
-static void test_a_frame_on_the_wire_takes_its_time_and_is_taken_by_the_world(void)
+TEST(a_frame_on_the_wire_takes_its_time_and_is_taken_by_the_world)
 {
     uint64_t start;
 
@@ -185,7 +183,7 @@ static void test_a_frame_on_the_wire_takes_its_time_and_is_taken_by_the_world(vo
     TEST_ASSERT_EQUAL_UINT(1, takes);
 }
 
-static void test_the_end_of_a_frame_is_the_next_event(void)
+TEST(the_end_of_a_frame_is_the_next_event)
 {
     uint64_t start;
 
@@ -197,29 +195,11 @@ static void test_the_end_of_a_frame_is_the_next_event(void)
     assert_moment(start + FRAME_NS, 0, board.now);
 }
 
-static void test_what_a_controller_refuses_is_taken_too(void)
+TEST(what_a_controller_refuses_is_taken_too)
 {
     connect();
     TEST_ASSERT_EQUAL_UINT(0, takes);
     (void)bxcan_write(&can, 0x20, 0);
     clock_settle(&board);
     TEST_ASSERT_EQUAL_UINT(1, takes);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_moment_is_before_another_by_its_parts);
-    RUN_TEST(test_time_is_cycles_by_their_length);
-    RUN_TEST(test_no_fraction_is_lost_from_cycle_to_cycle);
-    RUN_TEST(test_an_alarm_rings_when_time_reaches_it);
-    RUN_TEST(test_an_alarm_that_is_set_anew_rings_again);
-    RUN_TEST(test_a_skip_stops_at_each_event_on_the_way);
-    RUN_TEST(test_a_skip_passes_cycles_too);
-    RUN_TEST(test_a_skip_to_the_next_event_ends_there_or_after_the_most);
-    RUN_TEST(test_after_a_failure_no_more_time_passes);
-    RUN_TEST(test_a_frame_on_the_wire_takes_its_time_and_is_taken_by_the_world);
-    RUN_TEST(test_the_end_of_a_frame_is_the_next_event);
-    RUN_TEST(test_what_a_controller_refuses_is_taken_too);
-    return UNITY_END();
 }

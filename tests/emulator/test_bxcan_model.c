@@ -7,11 +7,9 @@ void setUp(void)
     rejoin(TXFP);
 }
 
-void tearDown(void) {}
-
 /* ---- modes */
 
-static void test_it_sleeps_after_a_reset_with_garbage_in_its_mailboxes(void)
+TEST(it_sleeps_after_a_reset_with_garbage_in_its_mailboxes)
 {
     bxcan_reset(&can);
     TEST_ASSERT_EQUAL_HEX32(SLAK, read_register(MSR) & (INAK | SLAK));
@@ -19,7 +17,7 @@ static void test_it_sleeps_after_a_reset_with_garbage_in_its_mailboxes(void)
     TEST_ASSERT_EQUAL_HEX32(0xA5A5A5A5, read_register(0x184));
 }
 
-static void test_init_is_acknowledged_but_not_at_once(void)
+TEST(init_is_acknowledged_but_not_at_once)
 {
     write_register(MCR, INRQ);
     TEST_ASSERT_EQUAL_HEX32(0, read_register(MSR) & INAK);
@@ -27,7 +25,7 @@ static void test_init_is_acknowledged_but_not_at_once(void)
     TEST_ASSERT_EQUAL_HEX32(INAK, read_register(MSR) & (INAK | SLAK));
 }
 
-static void test_init_can_be_asked_for_in_vain(void)
+TEST(init_can_be_asked_for_in_vain)
 {
     can.init_stuck = true;
     write_register(MCR, INRQ);
@@ -35,7 +33,7 @@ static void test_init_can_be_asked_for_in_vain(void)
     TEST_ASSERT_EQUAL_HEX32(0, read_register(MSR) & INAK);
 }
 
-static void test_it_joins_the_bus_eleven_bits_after_init(void)
+TEST(it_joins_the_bus_eleven_bits_after_init)
 {
     enter_init(&can);
     write_register(MCR, TXFP);
@@ -45,7 +43,7 @@ static void test_it_joins_the_bus_eleven_bits_after_init(void)
     TEST_ASSERT_EQUAL_HEX32(0, read_register(MSR) & INAK);
 }
 
-static void test_it_neither_sends_on_a_bus_that_is_never_idle_nor_joins_it(void)
+TEST(it_neither_sends_on_a_bus_that_is_never_idle_nor_joins_it)
 {
     wire.busy = true;
     request(0, 0x81);
@@ -57,7 +55,7 @@ static void test_it_neither_sends_on_a_bus_that_is_never_idle_nor_joins_it(void)
     TEST_ASSERT_EQUAL_HEX32(INAK, read_register(MSR) & INAK);
 }
 
-static void test_another_speed_than_the_bus_is_refused(void)
+TEST(another_speed_than_the_bus_is_refused)
 {
     enter_init(&can);
     write_register(BTR, BIT_TIMING + 1);
@@ -65,12 +63,12 @@ static void test_another_speed_than_the_bus_is_refused(void)
     ASSERT_REFUSED("428571 bit/s", wire_advance(&wire, wire.now_ns + 30000));
 }
 
-static void test_bit_timing_can_be_written_in_init_only(void)
+TEST(bit_timing_can_be_written_in_init_only)
 {
     ASSERT_REFUSED("BTR", bxcan_write(&can, BTR, BIT_TIMING));
 }
 
-static void test_asking_for_the_mode_that_is_changes_nothing(void)
+TEST(asking_for_the_mode_that_is_changes_nothing)
 {
     can.bus_off = true;
     write_register(MCR, TXFP | RFLM);
@@ -79,7 +77,7 @@ static void test_asking_for_the_mode_that_is_changes_nothing(void)
     TEST_ASSERT_EQUAL_HEX32(BOFF, read_register(ESR) & BOFF);
 }
 
-static void test_a_master_reset_empties_everything_and_sleeps(void)
+TEST(a_master_reset_empties_everything_and_sleeps)
 {
     wire.shorted = true;
     request(0, 0x81);
@@ -91,7 +89,7 @@ static void test_a_master_reset_empties_everything_and_sleeps(void)
     TEST_ASSERT_EQUAL_HEX32(TME_ALL, read_register(TSR) & TME_ALL);
 }
 
-static void test_what_is_not_modelled_is_refused(void)
+TEST(what_is_not_modelled_is_refused)
 {
     enter_init(&can);
     ASSERT_REFUSED("interrupts", bxcan_write(&can, IER, 1));
@@ -102,7 +100,7 @@ static void test_what_is_not_modelled_is_refused(void)
 
 /* ---- receiving */
 
-static void test_three_frames_wait_in_their_order(void)
+TEST(three_frames_wait_in_their_order)
 {
     for (uint32_t id = 1; id <= 3; id++)
         bring(id);
@@ -112,7 +110,7 @@ static void test_three_frames_wait_in_their_order(void)
     TEST_ASSERT_EQUAL_HEX32(FULL, read_register(RF0R));   /* stays until it is cleared */
 }
 
-static void test_the_flags_of_a_fifo_are_cleared_by_writing_ones(void)
+TEST(the_flags_of_a_fifo_are_cleared_by_writing_ones)
 {
     for (uint32_t id = 1; id <= 4; id++)
         bring(id);
@@ -135,13 +133,13 @@ static void assert_left_of_five(uint32_t mcr, uint32_t last)
     TEST_ASSERT_EQUAL_HEX32(last, take());
 }
 
-static void test_an_overrun_replaces_the_last_frame_unless_locked(void)
+TEST(an_overrun_replaces_the_last_frame_unless_locked)
 {
     assert_left_of_five(TXFP, 5);
     assert_left_of_five(TXFP | RFLM, 3);
 }
 
-static void test_a_slow_release_shows_the_frame_on(void)
+TEST(a_slow_release_shows_the_frame_on)
 {
     can.release_slow = true;
     bring(1);
@@ -153,13 +151,13 @@ static void test_a_slow_release_shows_the_frame_on(void)
     TEST_ASSERT_EQUAL_HEX32(1, read_register(RF0R));
 }
 
-static void test_an_output_mailbox_is_read_only_and_only_when_there_is_a_frame(void)
+TEST(an_output_mailbox_is_read_only_and_only_when_there_is_a_frame)
 {
     ASSERT_REFUSED("FIFO 0", bxcan_read(&can, OUTPUT_0));
     ASSERT_REFUSED("read-only", bxcan_write(&can, OUTPUT_0, 0));
 }
 
-static void test_a_received_frame_reads_as_it_was_sent(void)
+TEST(a_received_frame_reads_as_it_was_sent)
 {
     (void)wire_put(&wire, &(struct frame){.id = FRAME_EXTENDED | 0x1ABCDEF0, .len = 5, .data = {1, 2, 3, 4, 5}});
     pass_us(213);
@@ -173,7 +171,7 @@ static void test_a_received_frame_reads_as_it_was_sent(void)
 
 /* ---- filters */
 
-static void test_filters_let_through_what_they_say(void)
+TEST(filters_let_through_what_they_say)
 {
     static const struct frame frames[] = {{.id = 0xC1}, {.id = FRAME_EXTENDED | 0xC1 << 18 | 5 << 15},
                                           {.id = FRAME_REMOTE | 0xC1}, {.id = 0xC2}};
@@ -202,7 +200,7 @@ static void test_filters_let_through_what_they_say(void)
     }
 }
 
-static void test_a_filter_names_its_fifo(void)
+TEST(a_filter_names_its_fifo)
 {
     write_register(FMR, 1);
     write_register(FFA1R, 1);
@@ -212,7 +210,7 @@ static void test_a_filter_names_its_fifo(void)
     TEST_ASSERT_EQUAL_HEX32(1, read_register(RF1R) & 3);
 }
 
-static void test_nothing_passes_without_an_active_filter_or_while_they_are_set_up(void)
+TEST(nothing_passes_without_an_active_filter_or_while_they_are_set_up)
 {
     write_register(FA1R, 0);
     bring(5);
@@ -222,35 +220,9 @@ static void test_nothing_passes_without_an_active_filter_or_while_they_are_set_u
     TEST_ASSERT_EQUAL_HEX32(0, read_register(RF0R) & 3);
 }
 
-static void test_filters_in_use_must_not_be_changed(void)
+TEST(filters_in_use_must_not_be_changed)
 {
     ASSERT_REFUSED("F0R1", bxcan_write(&can, BANK_0, 1));
     ASSERT_REFUSED("FM1R", bxcan_write(&can, FM1R, 1));
     write_register(BANK_0 + 8, 1);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_sleeps_after_a_reset_with_garbage_in_its_mailboxes);
-    RUN_TEST(test_init_is_acknowledged_but_not_at_once);
-    RUN_TEST(test_init_can_be_asked_for_in_vain);
-    RUN_TEST(test_it_joins_the_bus_eleven_bits_after_init);
-    RUN_TEST(test_it_neither_sends_on_a_bus_that_is_never_idle_nor_joins_it);
-    RUN_TEST(test_another_speed_than_the_bus_is_refused);
-    RUN_TEST(test_bit_timing_can_be_written_in_init_only);
-    RUN_TEST(test_asking_for_the_mode_that_is_changes_nothing);
-    RUN_TEST(test_a_master_reset_empties_everything_and_sleeps);
-    RUN_TEST(test_what_is_not_modelled_is_refused);
-    RUN_TEST(test_three_frames_wait_in_their_order);
-    RUN_TEST(test_the_flags_of_a_fifo_are_cleared_by_writing_ones);
-    RUN_TEST(test_an_overrun_replaces_the_last_frame_unless_locked);
-    RUN_TEST(test_a_slow_release_shows_the_frame_on);
-    RUN_TEST(test_an_output_mailbox_is_read_only_and_only_when_there_is_a_frame);
-    RUN_TEST(test_a_received_frame_reads_as_it_was_sent);
-    RUN_TEST(test_filters_let_through_what_they_say);
-    RUN_TEST(test_a_filter_names_its_fifo);
-    RUN_TEST(test_nothing_passes_without_an_active_filter_or_while_they_are_set_up);
-    RUN_TEST(test_filters_in_use_must_not_be_changed);
-    return UNITY_END();
 }

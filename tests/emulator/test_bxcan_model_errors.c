@@ -6,9 +6,7 @@ void setUp(void)
     rejoin(TXFP);
 }
 
-void tearDown(void) {}
-
-static void test_a_lone_node_becomes_passive_and_never_goes_bus_off(void)
+TEST(a_lone_node_becomes_passive_and_never_goes_bus_off)
 {
     wire.alone = true;
     request(0, 0x81);
@@ -24,7 +22,7 @@ static void request_shorted(uint32_t errors)
     pass_us(errors * ERROR_US);
 }
 
-static void test_twelve_destroyed_frames_are_a_warning_sixteen_passive_and_thirty_two_bus_off(void)
+TEST(twelve_destroyed_frames_are_a_warning_sixteen_passive_and_thirty_two_bus_off)
 {
     static const uint32_t expected[] = {0, EWGF, EWGF, EWGF | EPVF, EWGF | EPVF, EWGF | EPVF | BOFF};
     static const uint32_t errors[] = {11, 1, 3, 1, 15, 1};
@@ -36,7 +34,7 @@ static void test_twelve_destroyed_frames_are_a_warning_sixteen_passive_and_thirt
     }
 }
 
-static void test_bus_off_lasts_until_init_and_128_times_11_bits(void)
+TEST(bus_off_lasts_until_init_and_128_times_11_bits)
 {
     request_shorted(32);
     wire.shorted = false;
@@ -52,7 +50,7 @@ static void test_bus_off_lasts_until_init_and_128_times_11_bits(void)
     ASSERT_HEARD(0x81);
 }
 
-static void test_bus_off_ends_by_itself_with_abom_unless_it_is_stuck(void)
+TEST(bus_off_ends_by_itself_with_abom_unless_it_is_stuck)
 {
     for (unsigned stuck = 0; stuck < 2; stuck++) {
         rejoin(TXFP | ABOM);
@@ -64,7 +62,7 @@ static void test_bus_off_ends_by_itself_with_abom_unless_it_is_stuck(void)
     }
 }
 
-static void test_a_node_that_is_bus_off_neither_sends_nor_receives(void)
+TEST(a_node_that_is_bus_off_neither_sends_nor_receives)
 {
     request_shorted(32);
     wire.shorted = false;
@@ -73,7 +71,7 @@ static void test_a_node_that_is_bus_off_neither_sends_nor_receives(void)
     TEST_ASSERT_EQUAL_HEX32(0, read_register(RF0R) & 3);
 }
 
-static void test_a_frame_waits_for_a_node_that_is_in_init(void)
+TEST(a_frame_waits_for_a_node_that_is_in_init)
 {
     enter_init(&can);
     bring(5);
@@ -83,7 +81,7 @@ static void test_a_frame_waits_for_a_node_that_is_in_init(void)
     TEST_ASSERT_EQUAL_HEX32(1, read_register(RF0R) & 3);
 }
 
-static void test_successes_make_up_for_errors(void)
+TEST(successes_make_up_for_errors)
 {
     join_other();
     request_shorted(5);
@@ -94,7 +92,7 @@ static void test_successes_make_up_for_errors(void)
     TEST_ASSERT_EQUAL_UINT(4, other.rec);
 }
 
-static void test_a_destroyed_frame_that_was_given_up_is_over(void)
+TEST(a_destroyed_frame_that_was_given_up_is_over)
 {
     request_shorted(0);
     pass_us(10);
@@ -103,7 +101,7 @@ static void test_a_destroyed_frame_that_was_given_up_is_over(void)
     TEST_ASSERT_EQUAL_HEX32(RQCP | TERR, read_register(TSR) & 0xFF);
 }
 
-static void test_a_shorted_bus_makes_the_world_give_up_its_frames(void)
+TEST(a_shorted_bus_makes_the_world_give_up_its_frames)
 {
     wire.shorted = true;
     bring(5);
@@ -112,7 +110,7 @@ static void test_a_shorted_bus_makes_the_world_give_up_its_frames(void)
     TEST_ASSERT_EQUAL_HEX32(0, read_register(RF0R));
 }
 
-static void test_a_frame_received_ends_the_passive_state_and_clears_the_last_error(void)
+TEST(a_frame_received_ends_the_passive_state_and_clears_the_last_error)
 {
     can.rec = 200;
     write_register(ESR, 7 << 4);
@@ -120,7 +118,7 @@ static void test_a_frame_received_ends_the_passive_state_and_clears_the_last_err
     TEST_ASSERT_EQUAL_HEX32(120u << 24 | EWGF, read_register(ESR));
 }
 
-static void test_without_a_second_try_a_destroyed_frame_is_over(void)
+TEST(without_a_second_try_a_destroyed_frame_is_over)
 {
     rejoin(TXFP | NART);
     request_shorted(4);
@@ -128,7 +126,7 @@ static void test_without_a_second_try_a_destroyed_frame_is_over(void)
     TEST_ASSERT_EQUAL_UINT(8, read_register(ESR) >> 16 & 0xFF);
 }
 
-static void test_the_last_error_is_told_until_it_is_written_over(void)
+TEST(the_last_error_is_told_until_it_is_written_over)
 {
     wire.alone = true;
     request(0, 0x81);
@@ -138,29 +136,10 @@ static void test_the_last_error_is_told_until_it_is_written_over(void)
     TEST_ASSERT_EQUAL_UINT(7, read_register(ESR) >> 4 & 7);
 }
 
-static void test_the_world_can_have_only_so_many_frames_waiting(void)
+TEST(the_world_can_have_only_so_many_frames_waiting)
 {
     enter_init(&can);
     for (unsigned i = 0; i < WIRE_QUEUE_MAX; i++)
         TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = 1}));
     TEST_ASSERT_FALSE(wire_put(&wire, &(struct frame){.id = 2}));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_lone_node_becomes_passive_and_never_goes_bus_off);
-    RUN_TEST(test_twelve_destroyed_frames_are_a_warning_sixteen_passive_and_thirty_two_bus_off);
-    RUN_TEST(test_bus_off_lasts_until_init_and_128_times_11_bits);
-    RUN_TEST(test_bus_off_ends_by_itself_with_abom_unless_it_is_stuck);
-    RUN_TEST(test_a_node_that_is_bus_off_neither_sends_nor_receives);
-    RUN_TEST(test_a_frame_waits_for_a_node_that_is_in_init);
-    RUN_TEST(test_successes_make_up_for_errors);
-    RUN_TEST(test_a_destroyed_frame_that_was_given_up_is_over);
-    RUN_TEST(test_a_shorted_bus_makes_the_world_give_up_its_frames);
-    RUN_TEST(test_a_frame_received_ends_the_passive_state_and_clears_the_last_error);
-    RUN_TEST(test_without_a_second_try_a_destroyed_frame_is_over);
-    RUN_TEST(test_the_last_error_is_told_until_it_is_written_over);
-    RUN_TEST(test_the_world_can_have_only_so_many_frames_waiting);
-    return UNITY_END();
 }

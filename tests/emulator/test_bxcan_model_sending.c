@@ -6,11 +6,9 @@ void setUp(void)
     rejoin(TXFP);
 }
 
-void tearDown(void) {}
-
 /* ---- sending */
 
-static void test_a_frame_takes_its_bits_to_leave(void)
+TEST(a_frame_takes_its_bits_to_leave)
 {
     const uint8_t data[] = {1, 2, 3, 4, 0, 0, 0, 0};
 
@@ -22,7 +20,7 @@ static void test_a_frame_takes_its_bits_to_leave(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(data, wire.heard.frames[0].data, 8);
 }
 
-static void test_what_became_of_a_frame_is_cleared_by_writing_ones(void)
+TEST(what_became_of_a_frame_is_cleared_by_writing_ones)
 {
     request(1, 0x81);
     pass_us(300);
@@ -44,21 +42,21 @@ static void request_three(uint32_t mcr)
     request(1, 0x100);
 }
 
-static void test_mailboxes_leave_in_the_order_of_request_with_txfp(void)
+TEST(mailboxes_leave_in_the_order_of_request_with_txfp)
 {
     request_three(TXFP);
     pass_us(1000);
     ASSERT_HEARD(0x300, 0x200, 0x100);
 }
 
-static void test_the_lowest_identifier_leaves_first_without_txfp(void)
+TEST(the_lowest_identifier_leaves_first_without_txfp)
 {
     request_three(0);
     pass_us(1000);
     ASSERT_HEARD(0x100, 0x200, 0x300);
 }
 
-static void test_equal_identifiers_leave_by_mailbox_number_without_txfp(void)
+TEST(equal_identifiers_leave_by_mailbox_number_without_txfp)
 {
     rejoin(0);
     for (uint32_t n = 3; n-- > 0;)
@@ -68,7 +66,7 @@ static void test_equal_identifiers_leave_by_mailbox_number_without_txfp(void)
         TEST_ASSERT_EQUAL_UINT8(n, wire.heard.frames[n].data[4]);
 }
 
-static void test_the_status_names_a_free_mailbox_or_the_one_to_leave_last(void)
+TEST(the_status_names_a_free_mailbox_or_the_one_to_leave_last)
 {
     request(0, 0x81);
     TEST_ASSERT_EQUAL_HEX32(6u << 26 | 1u << 24, read_register(TSR));
@@ -79,13 +77,13 @@ static void test_the_status_names_a_free_mailbox_or_the_one_to_leave_last(void)
     TEST_ASSERT_EQUAL_HEX32(TME_ALL, read_register(TSR) & 0xFF000000u);
 }
 
-static void test_a_pending_mailbox_must_not_be_written(void)
+TEST(a_pending_mailbox_must_not_be_written)
 {
     request(0, 0x81);
     ASSERT_REFUSED("mailbox 0", bxcan_write(&can, 0x184, 1));
 }
 
-static void test_a_request_is_given_up_unless_it_is_on_the_wire(void)
+TEST(a_request_is_given_up_unless_it_is_on_the_wire)
 {
     request(0, 0x81);
     request(1, 0x82);
@@ -97,7 +95,7 @@ static void test_a_request_is_given_up_unless_it_is_on_the_wire(void)
     TEST_ASSERT_EQUAL_HEX32((RQCP | TXOK) | RQCP << 8, read_register(TSR) & 0xFFFF);
 }
 
-static void test_a_stuck_mailbox_neither_sends_nor_gives_up(void)
+TEST(a_stuck_mailbox_neither_sends_nor_gives_up)
 {
     can.stuck_mailboxes = 1;
     request(0, 0x81);
@@ -110,7 +108,7 @@ static void test_a_stuck_mailbox_neither_sends_nor_gives_up(void)
 
 /* ---- arbitration */
 
-static void test_the_lower_identifier_wins_the_bus(void)
+TEST(the_lower_identifier_wins_the_bus)
 {
     (void)wire_put(&wire, &(struct frame){.id = 0x100});
     request(0, 0x81);
@@ -124,7 +122,7 @@ static void test_the_lower_identifier_wins_the_bus(void)
     ASSERT_HEARD(0x81, 0x200);
 }
 
-static void test_a_data_frame_goes_before_a_remote_one_and_that_before_an_extended_one(void)
+TEST(a_data_frame_goes_before_a_remote_one_and_that_before_an_extended_one)
 {
     static const uint32_t ids[] = {FRAME_EXTENDED | 0x100 << 18, FRAME_REMOTE | 0x100, 0x101};
 
@@ -143,7 +141,7 @@ static void test_a_data_frame_goes_before_a_remote_one_and_that_before_an_extend
     TEST_ASSERT_EQUAL_HEX32(1, read_register(RF0R));
 }
 
-static void test_a_frame_that_lost_arbitration_can_be_given_up(void)
+TEST(a_frame_that_lost_arbitration_can_be_given_up)
 {
     (void)wire_put(&wire, &(struct frame){.id = 0x100, .len = 8});
     request(0, 0x200);
@@ -153,7 +151,7 @@ static void test_a_frame_that_lost_arbitration_can_be_given_up(void)
     TEST_ASSERT_EQUAL_UINT(0, wire.heard.count);
 }
 
-static void test_without_a_second_try_lost_arbitration_is_the_end(void)
+TEST(without_a_second_try_lost_arbitration_is_the_end)
 {
     rejoin(TXFP | NART);
     (void)wire_put(&wire, &(struct frame){.id = 0x100});
@@ -162,7 +160,7 @@ static void test_without_a_second_try_lost_arbitration_is_the_end(void)
     TEST_ASSERT_EQUAL_HEX32(RQCP | ALST, read_register(TSR) & 0xFF);
 }
 
-static void test_the_same_frame_goes_to_the_world_first(void)
+TEST(the_same_frame_goes_to_the_world_first)
 {
     (void)wire_put(&wire, &(struct frame){.id = 0x100});
     request(0, 0x100);
@@ -170,7 +168,7 @@ static void test_the_same_frame_goes_to_the_world_first(void)
     TEST_ASSERT_EQUAL_HEX32(0x100, take());
 }
 
-static void test_a_frame_that_lost_to_another_controller_can_be_given_up_at_once(void)
+TEST(a_frame_that_lost_to_another_controller_can_be_given_up_at_once)
 {
     join_other();
     request(0, 0x200);
@@ -180,7 +178,7 @@ static void test_a_frame_that_lost_to_another_controller_can_be_given_up_at_once
     TEST_ASSERT_EQUAL_HEX32(RQCP, read_register(TSR) & 0xFF);
 }
 
-static void test_controllers_acknowledge_each_other_and_the_lower_identifier_goes_first(void)
+TEST(controllers_acknowledge_each_other_and_the_lower_identifier_goes_first)
 {
     join_other();
     wire.alone = true;
@@ -191,26 +189,4 @@ static void test_controllers_acknowledge_each_other_and_the_lower_identifier_goe
     TEST_ASSERT_EQUAL_HEX32(0x200u << 21, (uint32_t)bxcan_read(&other, OUTPUT_0));
     TEST_ASSERT_EQUAL_HEX32(0, read_register(ESR));
     TEST_ASSERT_EQUAL_UINT(0, wire.heard.count);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_frame_takes_its_bits_to_leave);
-    RUN_TEST(test_what_became_of_a_frame_is_cleared_by_writing_ones);
-    RUN_TEST(test_mailboxes_leave_in_the_order_of_request_with_txfp);
-    RUN_TEST(test_the_lowest_identifier_leaves_first_without_txfp);
-    RUN_TEST(test_equal_identifiers_leave_by_mailbox_number_without_txfp);
-    RUN_TEST(test_the_status_names_a_free_mailbox_or_the_one_to_leave_last);
-    RUN_TEST(test_a_pending_mailbox_must_not_be_written);
-    RUN_TEST(test_a_request_is_given_up_unless_it_is_on_the_wire);
-    RUN_TEST(test_a_stuck_mailbox_neither_sends_nor_gives_up);
-    RUN_TEST(test_the_lower_identifier_wins_the_bus);
-    RUN_TEST(test_a_data_frame_goes_before_a_remote_one_and_that_before_an_extended_one);
-    RUN_TEST(test_a_frame_that_lost_arbitration_can_be_given_up);
-    RUN_TEST(test_without_a_second_try_lost_arbitration_is_the_end);
-    RUN_TEST(test_the_same_frame_goes_to_the_world_first);
-    RUN_TEST(test_a_frame_that_lost_to_another_controller_can_be_given_up_at_once);
-    RUN_TEST(test_controllers_acknowledge_each_other_and_the_lower_identifier_goes_first);
-    return UNITY_END();
 }

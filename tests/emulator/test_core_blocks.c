@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include <unity.h>
+#include "tests/test.h"
 
 enum { NARROW = 0xE7FF, WIDE = 0xE800, PROGRAM = 0x08000000, HALVES = 16, PERIOD_NS = 10 };
 
@@ -47,8 +47,6 @@ void setUp(void)
     blocks.read = read_code;
 }
 
-void tearDown(void) {}
-
 static void execute(uint32_t offset, uint32_t size)
 {
     core_on_block(&emulator, PROGRAM + offset, size, &blocks);
@@ -61,7 +59,7 @@ static void assert_instructions(uint64_t expected)
     TEST_ASSERT_EQUAL_UINT64(expected * PERIOD_NS, board.now.ns);
 }
 
-static void test_instructions_are_one_or_two_half_words_long(void)
+TEST(instructions_are_one_or_two_half_words_long)
 {
     static const uint16_t program[] = {0xBF00, NARROW, WIDE, 0xBF00, 0xF3BF, 0x8F4F, 0x4770};   /* 5 instructions */
 
@@ -71,7 +69,7 @@ static void test_instructions_are_one_or_two_half_words_long(void)
 }
 
 /* The second half of an instruction may look like the first one of a long one. */
-static void test_the_second_half_of_an_instruction_begins_none(void)
+TEST(the_second_half_of_an_instruction_begins_none)
 {
     static const uint16_t program[] = {0xF000, 0xF800, 0xBF00};
 
@@ -80,7 +78,7 @@ static void test_the_second_half_of_an_instruction_begins_none(void)
     assert_instructions(2);
 }
 
-static void test_a_block_is_read_once(void)
+TEST(a_block_is_read_once)
 {
     for (unsigned n = 0; n < 3; n++)
         execute(0, 8);
@@ -88,7 +86,7 @@ static void test_a_block_is_read_once(void)
     TEST_ASSERT_EQUAL_UINT(4, emulator.reads);
 }
 
-static void test_a_block_of_another_length_is_another_block(void)
+TEST(a_block_of_another_length_is_another_block)
 {
     execute(0, 8);
     execute(0, 4);
@@ -97,7 +95,7 @@ static void test_a_block_of_another_length_is_another_block(void)
     assert_instructions(10);
 }
 
-static void test_blocks_that_share_a_place_take_turns(void)
+TEST(blocks_that_share_a_place_take_turns)
 {
     emulator.halves[0] = WIDE;
     execute(0, 8);
@@ -107,14 +105,14 @@ static void test_blocks_that_share_a_place_take_turns(void)
     TEST_ASSERT_EQUAL_UINT(6, emulator.reads);
 }
 
-static void test_what_cannot_be_read_is_not_counted(void)
+TEST(what_cannot_be_read_is_not_counted)
 {
     emulator.readable = 4;
     execute(0, 8);
     assert_instructions(2);
 }
 
-static void test_no_block_begins_after_a_stop(void)
+TEST(no_block_begins_after_a_stop)
 {
     blocks.stopping = true;
     execute(0, 8);
@@ -122,24 +120,10 @@ static void test_no_block_begins_after_a_stop(void)
     assert_instructions(0);
 }
 
-static void test_no_block_begins_once_something_has_failed(void)
+TEST(no_block_begins_once_something_has_failed)
 {
     board.failed = true;
     execute(0, 8);
     TEST_ASSERT_EQUAL_UINT(1, emulator.stops);
     assert_instructions(0);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_instructions_are_one_or_two_half_words_long);
-    RUN_TEST(test_the_second_half_of_an_instruction_begins_none);
-    RUN_TEST(test_a_block_is_read_once);
-    RUN_TEST(test_a_block_of_another_length_is_another_block);
-    RUN_TEST(test_blocks_that_share_a_place_take_turns);
-    RUN_TEST(test_what_cannot_be_read_is_not_counted);
-    RUN_TEST(test_no_block_begins_after_a_stop);
-    RUN_TEST(test_no_block_begins_once_something_has_failed);
-    return UNITY_END();
 }

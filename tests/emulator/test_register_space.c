@@ -53,8 +53,6 @@ void setUp(void)
     memset(&python, 0, sizeof python);
 }
 
-void tearDown(void) {}
-
 static uint32_t look(uint32_t offset)
 {
     return (uint32_t)window_read(NULL, offset, 4, &window);
@@ -69,20 +67,20 @@ static uint32_t look_at_time(void)
 
 /* ---- where registers are */
 
-static void test_a_register_of_can_is_read_here(void)
+TEST(a_register_of_can_is_read_here)
 {
     TEST_ASSERT_EQUAL_HEX32(BIT_TIMING, look(BTR));
     TEST_ASSERT_EQUAL_UINT(0, python.reads);
 }
 
-static void test_a_register_of_can_is_written_here(void)
+TEST(a_register_of_can_is_written_here)
 {
     window_write(NULL, 0x184, 4, 5, &window);
     TEST_ASSERT_EQUAL_HEX32(5, read_register(0x184));
     TEST_ASSERT_EQUAL_UINT(0, python.writes);
 }
 
-static void test_what_is_written_is_on_the_wire_at_once(void)
+TEST(what_is_written_is_on_the_wire_at_once)
 {
     uint64_t start;
 
@@ -106,7 +104,7 @@ static void assert_read_by_python(uint32_t offset, uint32_t width)
     TEST_ASSERT_EQUAL_UINT32(width, python.width);
 }
 
-static void test_all_other_accesses_are_pythons(void)
+TEST(all_other_accesses_are_pythons)
 {
     assert_read_by_python(4 * SPACE_CAN_WORDS, 4);
     assert_read_by_python(BTR, 2);
@@ -123,7 +121,7 @@ static void test_all_other_accesses_are_pythons(void)
     assert_read_by_python(BTR, 4);
 }
 
-static void test_what_is_not_written_here_is_pythons(void)
+TEST(what_is_not_written_here_is_pythons)
 {
     window_write(NULL, MCR, 4, INRQ, &window);
     TEST_ASSERT_EQUAL_UINT(1, python.writes);
@@ -132,7 +130,7 @@ static void test_what_is_not_written_here_is_pythons(void)
     TEST_ASSERT_EQUAL_UINT32(4, python.width);
 }
 
-static void test_what_the_controller_refuses_is_pythons_who_asks_it_again(void)
+TEST(what_the_controller_refuses_is_pythons_who_asks_it_again)
 {
     assert_read_by_python(0x20, 4);
     window_write(NULL, 0x20, 4, 7, &window);
@@ -140,7 +138,7 @@ static void test_what_the_controller_refuses_is_pythons_who_asks_it_again(void)
     TEST_ASSERT_EQUAL_HEX32(7, python.value);
 }
 
-static void test_the_timers_value_is_read_here(void)
+TEST(the_timers_value_is_read_here)
 {
     timer.since_cycles = board.cycles;
     clock_execute(&board, 1);
@@ -150,7 +148,7 @@ static void test_the_timers_value_is_read_here(void)
     TEST_ASSERT_EQUAL_UINT32(FROM_PYTHON, look_at_time());
 }
 
-static void test_once_something_has_failed_registers_are_dead(void)
+TEST(once_something_has_failed_registers_are_dead)
 {
     board.failed = true;
     TEST_ASSERT_EQUAL_HEX32(0, look(BTR));
@@ -176,7 +174,7 @@ static uint64_t wait_by(unsigned looks, bool at_time)
 }
 
 /* The first look of all brings something new. */
-static void test_an_image_that_waits_is_let_wait_a_millisecond_again_and_again(void)
+TEST(an_image_that_waits_is_let_wait_a_millisecond_again_and_again)
 {
     TEST_ASSERT_EQUAL_UINT64(0, wait_by(1 + SPACE_WAITING_READS, true));
     TEST_ASSERT_EQUAL_UINT64(SPACE_SKIP_NS, wait_by(1, true));
@@ -184,12 +182,12 @@ static void test_an_image_that_waits_is_let_wait_a_millisecond_again_and_again(v
     TEST_ASSERT_EQUAL_UINT64(SPACE_SKIP_NS, wait_by(1, true));
 }
 
-static void test_an_image_that_counts_its_looks_is_left_to_do_so(void)
+TEST(an_image_that_counts_its_looks_is_left_to_do_so)
 {
     TEST_ASSERT_EQUAL_UINT64(0, wait_by(100, false));
 }
 
-static void test_an_image_that_writes_does_not_wait(void)
+TEST(an_image_that_writes_does_not_wait)
 {
     for (unsigned n = 0; n < 100; n++) {
         TEST_ASSERT_EQUAL_UINT64(0, wait_by(1, true));
@@ -197,7 +195,7 @@ static void test_an_image_that_writes_does_not_wait(void)
     }
 }
 
-static void test_an_image_that_reads_something_new_does_not_wait(void)
+TEST(an_image_that_reads_something_new_does_not_wait)
 {
     uint64_t start = board.now.ns;
 
@@ -209,14 +207,14 @@ static void test_an_image_that_reads_something_new_does_not_wait(void)
     TEST_ASSERT_EQUAL_UINT64(start, board.now.ns);
 }
 
-static void test_a_wait_ends_with_the_next_event(void)
+TEST(a_wait_ends_with_the_next_event)
 {
     request(0, 0x81);
     clock_settle(&board);
     TEST_ASSERT_EQUAL_UINT64(FRAME_NS, wait_by(2 + SPACE_WAITING_READS, true));
 }
 
-static void test_what_python_reads_and_does_counts_as_well(void)
+TEST(what_python_reads_and_does_counts_as_well)
 {
     uint64_t start = board.now.ns;
 
@@ -233,24 +231,4 @@ static void test_what_python_reads_and_does_counts_as_well(void)
     TEST_ASSERT_EQUAL_UINT64(start, board.now.ns);
     space_note(&space, false);
     TEST_ASSERT_EQUAL_UINT64(start + SPACE_SKIP_NS, board.now.ns);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_register_of_can_is_read_here);
-    RUN_TEST(test_a_register_of_can_is_written_here);
-    RUN_TEST(test_what_is_written_is_on_the_wire_at_once);
-    RUN_TEST(test_all_other_accesses_are_pythons);
-    RUN_TEST(test_what_is_not_written_here_is_pythons);
-    RUN_TEST(test_what_the_controller_refuses_is_pythons_who_asks_it_again);
-    RUN_TEST(test_the_timers_value_is_read_here);
-    RUN_TEST(test_once_something_has_failed_registers_are_dead);
-    RUN_TEST(test_an_image_that_waits_is_let_wait_a_millisecond_again_and_again);
-    RUN_TEST(test_an_image_that_counts_its_looks_is_left_to_do_so);
-    RUN_TEST(test_an_image_that_writes_does_not_wait);
-    RUN_TEST(test_an_image_that_reads_something_new_does_not_wait);
-    RUN_TEST(test_a_wait_ends_with_the_next_event);
-    RUN_TEST(test_what_python_reads_and_does_counts_as_well);
-    return UNITY_END();
 }

@@ -1,6 +1,5 @@
 #include "firmware/brain.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 enum { FRONT = FEEL_FRONT, PATTERN_FRONT = 2 };
 
@@ -12,8 +11,6 @@ void setUp(void)
     brain = (struct brain){.frozen = false};
     config_reset(&config);
 }
-
-void tearDown(void) {}
 
 static struct action next(uint8_t feel)
 {
@@ -29,7 +26,7 @@ static struct action next_with_food_near(void)
     return brain_next(&brain, &config, &senses);
 }
 
-static void test_every_profile_can_be_started(void)
+TEST(every_profile_can_be_started)
 {
     for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
         TEST_ASSERT_TRUE(brain_start(&brain, profile, 1));
@@ -37,7 +34,7 @@ static void test_every_profile_can_be_started(void)
     }
 }
 
-static void test_an_unknown_profile_changes_nothing(void)
+TEST(an_unknown_profile_changes_nothing)
 {
     const struct brain before = brain;
 
@@ -47,7 +44,7 @@ static void test_an_unknown_profile_changes_nothing(void)
     }
 }
 
-static void test_it_decides_as_the_profile_does(void)
+TEST(it_decides_as_the_profile_does)
 {
     brain_start(&brain, PROFILE_ARTICLE, 1);
     memory_learn(&brain.memory, PATTERN_FRONT, SIDE_RIGHT);
@@ -56,7 +53,7 @@ static void test_it_decides_as_the_profile_does(void)
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
 }
 
-static void test_what_the_article_learns_is_stored_and_what_others_know_is_not(void)
+TEST(what_the_article_learns_is_stored_and_what_others_know_is_not)
 {
     brain_start(&brain, PROFILE_FIXED, 1);
     TEST_ASSERT_FALSE(brain.learns);
@@ -66,7 +63,7 @@ static void test_what_the_article_learns_is_stored_and_what_others_know_is_not(v
     TEST_ASSERT_FALSE(brain.learns);
 }
 
-static void test_a_start_ends_the_count_of_whatever_went_before(void)
+TEST(a_start_ends_the_count_of_whatever_went_before)
 {
     for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
         brain.repeat_count = 9;
@@ -75,7 +72,7 @@ static void test_a_start_ends_the_count_of_whatever_went_before(void)
     }
 }
 
-static void test_a_start_forgets_what_was_awaited(void)
+TEST(a_start_forgets_what_was_awaited)
 {
     for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
         brain_start(&brain, PROFILE_ARTICLE, 1);
@@ -88,7 +85,7 @@ static void test_a_start_forgets_what_was_awaited(void)
 static const uint8_t SURE[CELL_COUNT] = {0, 13, 6};
 static const uint8_t OF_ALL_SENSORS[CELL_COUNT] = {0x2F};
 
-static void test_a_start_translates_the_memory_for_the_profile(void)
+TEST(a_start_translates_the_memory_for_the_profile)
 {
     static const uint8_t expected[CELL_COUNT] = {0, 1, 2};
 
@@ -99,7 +96,7 @@ static void test_a_start_translates_the_memory_for_the_profile(void)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-static void test_a_start_leaves_a_memory_that_the_profile_understands(void)
+TEST(a_start_leaves_a_memory_that_the_profile_understands)
 {
     TEST_ASSERT_TRUE(brain_adopt(&brain, SURE));
     brain.changed = false;
@@ -108,7 +105,7 @@ static void test_a_start_leaves_a_memory_that_the_profile_understands(void)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-static void test_an_adopted_memory_chooses_the_first_profile_that_understands_it(void)
+TEST(an_adopted_memory_chooses_the_first_profile_that_understands_it)
 {
     static const uint8_t sides[CELL_COUNT] = {0, 1};
 
@@ -122,7 +119,7 @@ static void test_an_adopted_memory_chooses_the_first_profile_that_understands_it
     TEST_ASSERT_TRUE(brain.learns);
 }
 
-static void test_bytes_that_are_no_memory_change_nothing(void)
+TEST(bytes_that_are_no_memory_change_nothing)
 {
     static const uint8_t none[CELL_COUNT] = {0, 3};
     const struct brain before = brain;
@@ -131,7 +128,7 @@ static void test_bytes_that_are_no_memory_change_nothing(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &brain, sizeof brain);
 }
 
-static void test_what_is_written_must_be_of_the_profiles_kind(void)
+TEST(what_is_written_must_be_of_the_profiles_kind)
 {
     brain_start(&brain, PROFILE_ARTICLE, 1);
     brain.changed = false;
@@ -142,7 +139,7 @@ static void test_what_is_written_must_be_of_the_profiles_kind(void)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-static void test_a_run_begins_with_a_decision(void)
+TEST(a_run_begins_with_a_decision)
 {
     brain_start(&brain, PROFILE_ARTICLE, 1);
     TEST_ASSERT_EQUAL(REASON_WANDER, next(0).reason);
@@ -150,7 +147,7 @@ static void test_a_run_begins_with_a_decision(void)
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
 }
 
-static void test_an_action_that_was_not_carried_out_has_no_verdict(void)
+TEST(an_action_that_was_not_carried_out_has_no_verdict)
 {
     brain_start(&brain, PROFILE_ARTICLE, 1);
     next(0);   /* after a step it would look around */
@@ -158,39 +155,18 @@ static void test_an_action_that_was_not_carried_out_has_no_verdict(void)
     TEST_ASSERT_EQUAL(REASON_WANDER, next(0).reason);
 }
 
-static void test_a_start_keeps_a_change_that_was_not_yet_reported(void)
+TEST(a_start_keeps_a_change_that_was_not_yet_reported)
 {
     brain.changed = true;
     brain_start(&brain, PROFILE_ARTICLE, 1);
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-static void test_the_first_profile_of_all_is_asked_too(void)
+TEST(the_first_profile_of_all_is_asked_too)
 {
     static const uint8_t sides[CELL_COUNT] = {0, SIDE_LEFT};
 
     brain_start(&brain, PROFILE_ADAPTIVE, 1);
     TEST_ASSERT_TRUE(brain_adopt(&brain, sides));
     TEST_ASSERT_EQUAL_UINT8(0, brain.profile);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_every_profile_can_be_started);
-    RUN_TEST(test_an_unknown_profile_changes_nothing);
-    RUN_TEST(test_it_decides_as_the_profile_does);
-    RUN_TEST(test_what_the_article_learns_is_stored_and_what_others_know_is_not);
-    RUN_TEST(test_a_start_ends_the_count_of_whatever_went_before);
-    RUN_TEST(test_a_start_forgets_what_was_awaited);
-    RUN_TEST(test_a_start_translates_the_memory_for_the_profile);
-    RUN_TEST(test_a_start_leaves_a_memory_that_the_profile_understands);
-    RUN_TEST(test_an_adopted_memory_chooses_the_first_profile_that_understands_it);
-    RUN_TEST(test_bytes_that_are_no_memory_change_nothing);
-    RUN_TEST(test_what_is_written_must_be_of_the_profiles_kind);
-    RUN_TEST(test_a_run_begins_with_a_decision);
-    RUN_TEST(test_an_action_that_was_not_carried_out_has_no_verdict);
-    RUN_TEST(test_a_start_keeps_a_change_that_was_not_yet_reported);
-    RUN_TEST(test_the_first_profile_of_all_is_asked_too);
-    return UNITY_END();
 }

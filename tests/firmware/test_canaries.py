@@ -43,10 +43,11 @@ def compiled(program: Path, *arguments: str | Path) -> Path:
 
 @pytest.fixture(scope="module")
 def objects(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    """The firmware and Unity, compiled."""
+    """The firmware and Unity with the tests' main, compiled."""
     folder = tmp_path_factory.mktemp("objects")
     sources = [source for source in (ROOT / "firmware").rglob("*.c") if source.name != "main.c"]
-    return [compiled(folder / f"{source.stem}.o", *INCLUDE, "-c", source) for source in (*sources, UNITY / "unity.c")]
+    sources += [UNITY / "unity.c", ROOT / "tests/test.c"]
+    return [compiled(folder / f"{source.stem}.o", *INCLUDE, "-c", source) for source in sources]
 
 
 def unit_tests_pass(folder: Path, module: str, objects: list[Path], *more: str | Path) -> bool:

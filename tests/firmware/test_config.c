@@ -1,6 +1,5 @@
 #include "firmware/config.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 /* Those that the article names, or implies. */
 static const struct {
@@ -23,15 +22,13 @@ void setUp(void)
     config_reset(&config);
 }
 
-void tearDown(void) {}
-
-static void test_the_defaults_are_the_articles_numbers(void)
+TEST(the_defaults_are_the_articles_numbers)
 {
     for (unsigned i = 0; i < EXPECTED; i++)
         TEST_ASSERT_EQUAL_UINT8(expected[i].article, config.value[expected[i].parameter]);
 }
 
-static void test_both_ends_of_a_range_fit(void)
+TEST(both_ends_of_a_range_fit)
 {
     for (unsigned i = 0; i < EXPECTED; i++) {
         TEST_ASSERT_TRUE(config_fits(expected[i].parameter, expected[i].min));
@@ -39,7 +36,7 @@ static void test_both_ends_of_a_range_fit(void)
     }
 }
 
-static void test_what_is_beyond_either_end_does_not_fit(void)
+TEST(what_is_beyond_either_end_does_not_fit)
 {
     for (unsigned i = 0; i < EXPECTED; i++) {
         TEST_ASSERT_FALSE(config_fits(expected[i].parameter, expected[i].min - 1u));
@@ -47,19 +44,19 @@ static void test_what_is_beyond_either_end_does_not_fit(void)
     }
 }
 
-static void test_nothing_beyond_16_bits_fits(void)
+TEST(nothing_beyond_16_bits_fits)
 {
     for (unsigned i = 0; i < EXPECTED; i++)
         TEST_ASSERT_FALSE(config_fits(expected[i].parameter, 0x10000u + expected[i].article));
 }
 
-static void test_the_defaults_fit(void)
+TEST(the_defaults_fit)
 {
     for (uint8_t p = 0; p < PARAMETER_COUNT; p++)
         TEST_ASSERT_TRUE(config_fits(p, config.value[p]));
 }
 
-static void test_setting_a_parameter_leaves_the_others(void)
+TEST(setting_a_parameter_leaves_the_others)
 {
     for (unsigned i = 0; i < EXPECTED; i++) {
         struct config before = config;
@@ -68,16 +65,4 @@ static void test_setting_a_parameter_leaves_the_others(void)
         before.value[expected[i].parameter] = expected[i].max;
         TEST_ASSERT_EQUAL_MEMORY(&before, &config, sizeof config);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_defaults_are_the_articles_numbers);
-    RUN_TEST(test_both_ends_of_a_range_fit);
-    RUN_TEST(test_what_is_beyond_either_end_does_not_fit);
-    RUN_TEST(test_nothing_beyond_16_bits_fits);
-    RUN_TEST(test_the_defaults_fit);
-    RUN_TEST(test_setting_a_parameter_leaves_the_others);
-    return UNITY_END();
 }

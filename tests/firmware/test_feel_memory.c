@@ -1,6 +1,5 @@
 #include "firmware/feel_memory.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 enum { FIRST_BLOCKED = FEEL_FRONT_RIGHT, ALL = 31 };
 
@@ -11,14 +10,12 @@ void setUp(void)
     memory_erase(&memory);
 }
 
-void tearDown(void) {}
-
 static bool is_blocked(uint8_t feel)
 {
     return (feel & (FEEL_FRONT_RIGHT | FEEL_FRONT | FEEL_FRONT_LEFT)) != 0;
 }
 
-static void test_each_reading_has_two_bits_of_its_own(void)
+TEST(each_reading_has_two_bits_of_its_own)
 {
     for (uint8_t feel = 0; feel <= ALL; feel++)
         if (is_blocked(feel))
@@ -28,7 +25,7 @@ static void test_each_reading_has_two_bits_of_its_own(void)
             TEST_ASSERT_EQUAL(feel % 3, feel_memory_recall(&memory, feel));
 }
 
-static void test_reading_n_is_at_bit_2n(void)
+TEST(reading_n_is_at_bit_2n)
 {
     static const uint8_t expected[CELL_COUNT] = {0x2F, 0, 0, 0, 0, 0, 0, 0x40};
 
@@ -37,14 +34,14 @@ static void test_reading_n_is_at_bit_2n(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, memory.cell, CELL_COUNT);
 }
 
-static void test_a_lesson_replaces_an_older_one(void)
+TEST(a_lesson_replaces_an_older_one)
 {
     feel_memory_learn(&memory, ALL, SIDE_RIGHT);
     feel_memory_learn(&memory, ALL, SIDE_LEFT);
     TEST_ASSERT_EQUAL(SIDE_LEFT, feel_memory_recall(&memory, ALL));
 }
 
-static void test_what_was_learned_is_such_a_memory(void)
+TEST(what_was_learned_is_such_a_memory)
 {
     for (uint8_t feel = FIRST_BLOCKED; feel <= ALL; feel++)
         if (is_blocked(feel)) {
@@ -53,12 +50,12 @@ static void test_what_was_learned_is_such_a_memory(void)
         }
 }
 
-static void test_an_empty_memory_is_such_a_memory(void)
+TEST(an_empty_memory_is_such_a_memory)
 {
     TEST_ASSERT_TRUE(feel_memory_is(memory.cell));
 }
 
-static void test_bytes_without_the_mark_are_not_such_a_memory(void)
+TEST(bytes_without_the_mark_are_not_such_a_memory)
 {
     feel_memory_learn(&memory, ALL, SIDE_RIGHT);
     for (unsigned bit = 0; bit < 4; bit++) {
@@ -69,20 +66,20 @@ static void test_bytes_without_the_mark_are_not_such_a_memory(void)
     }
 }
 
-static void test_bytes_with_a_turn_for_a_clear_way_are_not_such_a_memory(void)
+TEST(bytes_with_a_turn_for_a_clear_way_are_not_such_a_memory)
 {
     feel_memory_learn(&memory, FEEL_LEFT, SIDE_RIGHT);
     TEST_ASSERT_FALSE(feel_memory_is(memory.cell));
 }
 
-static void test_bytes_with_an_unknown_side_are_not_such_a_memory(void)
+TEST(bytes_with_an_unknown_side_are_not_such_a_memory)
 {
     feel_memory_learn(&memory, ALL, SIDE_RIGHT);
     memory.cell[CELL_COUNT - 1] = 0xC0;
     TEST_ASSERT_FALSE(feel_memory_is(memory.cell));
 }
 
-static void test_with_any_side_for_a_clear_way_it_is_none(void)
+TEST(with_any_side_for_a_clear_way_it_is_none)
 {
     for (unsigned side = SIDE_LEFT; side <= SIDE_RIGHT; side++) {
         struct memory marked = {{0x0F}};
@@ -90,19 +87,4 @@ static void test_with_any_side_for_a_clear_way_it_is_none(void)
         feel_memory_learn(&marked, FEEL_LEFT, (enum side)side);
         TEST_ASSERT_FALSE(feel_memory_is(marked.cell));
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_each_reading_has_two_bits_of_its_own);
-    RUN_TEST(test_reading_n_is_at_bit_2n);
-    RUN_TEST(test_a_lesson_replaces_an_older_one);
-    RUN_TEST(test_what_was_learned_is_such_a_memory);
-    RUN_TEST(test_an_empty_memory_is_such_a_memory);
-    RUN_TEST(test_bytes_without_the_mark_are_not_such_a_memory);
-    RUN_TEST(test_bytes_with_a_turn_for_a_clear_way_are_not_such_a_memory);
-    RUN_TEST(test_bytes_with_an_unknown_side_are_not_such_a_memory);
-    RUN_TEST(test_with_any_side_for_a_clear_way_it_is_none);
-    return UNITY_END();
 }

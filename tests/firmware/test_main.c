@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include <unity.h>
+#include "tests/test.h"
 
 enum { SCRIPT_MAX = 8 };
 
@@ -75,8 +75,6 @@ void setUp(void)
     memset(&body, 0, sizeof body);
 }
 
-void tearDown(void) {}
-
 static int run(void)
 {
     char name[] = "robot";
@@ -113,26 +111,26 @@ static void assert_wakes_with(const uint8_t cells[CELL_COUNT])
 
 static const uint8_t LEARNED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2}, NOTHING[CELL_COUNT] = {0};
 
-static void test_a_body_that_cannot_be_had_is_the_exit_code(void)
+TEST(a_body_that_cannot_be_had_is_the_exit_code)
 {
     body.open_result = HAL_E_USAGE;
     TEST_ASSERT_EQUAL(-HAL_E_USAGE, run());
     TEST_ASSERT_EQUAL(1, body.argc);
 }
 
-static void test_a_body_that_is_gone_ends_the_robot_in_order(void)
+TEST(a_body_that_is_gone_ends_the_robot_in_order)
 {
     TEST_ASSERT_EQUAL(0, run());
 }
 
-static void test_a_body_that_fails_is_the_exit_code(void)
+TEST(a_body_that_fails_is_the_exit_code)
 {
     comes(HAL_E_BODY, (struct input){0});
     TEST_ASSERT_EQUAL(-HAL_E_BODY, run());
     TEST_ASSERT_EQUAL_UINT(0, body.sends);
 }
 
-static void test_a_failure_to_send_ends_the_robot_too(void)
+TEST(a_failure_to_send_ends_the_robot_too)
 {
     comes(INPUT_SILENCE, (struct input){0});
     comes(INPUT_SILENCE, (struct input){0});
@@ -141,7 +139,7 @@ static void test_a_failure_to_send_ends_the_robot_too(void)
     TEST_ASSERT_EQUAL_UINT(1, body.sends);
 }
 
-static void test_each_input_is_responded_to(void)
+TEST(each_input_is_responded_to)
 {
     comes(INPUT_SENSES, (struct input){.senses = {.tick = 3}});
     comes(INPUT_SILENCE, (struct input){0});
@@ -151,33 +149,33 @@ static void test_each_input_is_responded_to(void)
     TEST_ASSERT_EQUAL(REASON_SILENCE, body.sent[1].drive.reason);
 }
 
-static void test_it_wakes_with_what_was_stored(void)
+TEST(it_wakes_with_what_was_stored)
 {
     memcpy(body.stored, LEARNED, CELL_COUNT);
     body.load_result = 1;
     assert_wakes_with(LEARNED);
 }
 
-static void test_it_wakes_with_nothing_where_nothing_was_stored(void)
+TEST(it_wakes_with_nothing_where_nothing_was_stored)
 {
     assert_wakes_with(NOTHING);
 }
 
-static void test_what_cannot_be_loaded_is_learned_anew(void)
+TEST(what_cannot_be_loaded_is_learned_anew)
 {
     memcpy(body.stored, LEARNED, CELL_COUNT);
     body.load_result = HAL_E_STORE;
     assert_wakes_with(NOTHING);
 }
 
-static void test_bytes_that_are_no_memory_are_learned_anew(void)
+TEST(bytes_that_are_no_memory_are_learned_anew)
 {
     memset(body.stored, 0xEE, CELL_COUNT);
     body.load_result = 1;
     assert_wakes_with(NOTHING);
 }
 
-static void test_a_changed_memory_is_stored_after_the_answer_has_gone(void)
+TEST(a_changed_memory_is_stored_after_the_answer_has_gone)
 {
     command_comes(OPCODE_WRITE, 0x02, 0x0100);
     TEST_ASSERT_EQUAL(0, run());
@@ -187,7 +185,7 @@ static void test_a_changed_memory_is_stored_after_the_answer_has_gone(void)
     TEST_ASSERT_FALSE(body.stored_before_sent);
 }
 
-static void test_a_robot_that_runs_stores_on_the_move(void)
+TEST(a_robot_that_runs_stores_on_the_move)
 {
     command_comes(OPCODE_START, 0, 1);
     command_comes(OPCODE_WRITE, 0x02, 0x0100);
@@ -195,27 +193,9 @@ static void test_a_robot_that_runs_stores_on_the_move(void)
     TEST_ASSERT_FALSE(body.stored_at_rest);
 }
 
-static void test_nothing_new_is_not_stored(void)
+TEST(nothing_new_is_not_stored)
 {
     comes(INPUT_SENSES, (struct input){.senses = {.tick = 0}});
     TEST_ASSERT_EQUAL(0, run());
     TEST_ASSERT_EQUAL_UINT(0, body.stores);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_body_that_cannot_be_had_is_the_exit_code);
-    RUN_TEST(test_a_body_that_is_gone_ends_the_robot_in_order);
-    RUN_TEST(test_a_body_that_fails_is_the_exit_code);
-    RUN_TEST(test_a_failure_to_send_ends_the_robot_too);
-    RUN_TEST(test_each_input_is_responded_to);
-    RUN_TEST(test_it_wakes_with_what_was_stored);
-    RUN_TEST(test_it_wakes_with_nothing_where_nothing_was_stored);
-    RUN_TEST(test_what_cannot_be_loaded_is_learned_anew);
-    RUN_TEST(test_bytes_that_are_no_memory_are_learned_anew);
-    RUN_TEST(test_a_changed_memory_is_stored_after_the_answer_has_gone);
-    RUN_TEST(test_a_robot_that_runs_stores_on_the_move);
-    RUN_TEST(test_nothing_new_is_not_stored);
-    return UNITY_END();
 }

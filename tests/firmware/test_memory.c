@@ -1,6 +1,5 @@
 #include "firmware/memory.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 static const struct memory LEARNED = {{0, 1, 2, 1, 2, 1, 2, 2}};
 
@@ -11,27 +10,25 @@ void setUp(void)
     memory = LEARNED;
 }
 
-void tearDown(void) {}
-
-static void test_the_memory_is_eight_bytes(void)
+TEST(the_memory_is_eight_bytes)
 {
     TEST_ASSERT_EQUAL_size_t(8, sizeof(struct memory));
 }
 
-static void test_an_erased_memory_knows_nothing(void)
+TEST(an_erased_memory_knows_nothing)
 {
     memory_erase(&memory);
     for (uint8_t p = 0; p < CELL_COUNT; p++)
         TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&memory, p));
 }
 
-static void test_each_cell_recalls_its_own_side(void)
+TEST(each_cell_recalls_its_own_side)
 {
     for (uint8_t p = 0; p < CELL_COUNT; p++)
         TEST_ASSERT_EQUAL(LEARNED.cell[p], memory_recall(&memory, p));
 }
 
-static void test_learning_changes_one_cell_only(void)
+TEST(learning_changes_one_cell_only)
 {
     for (uint8_t p = 1; p < CELL_COUNT; p++) {
         uint8_t expected[CELL_COUNT] = {0};
@@ -43,19 +40,8 @@ static void test_learning_changes_one_cell_only(void)
     }
 }
 
-static void test_a_lesson_replaces_an_older_one(void)
+TEST(a_lesson_replaces_an_older_one)
 {
     memory_learn(&memory, 1, SIDE_RIGHT);
     TEST_ASSERT_EQUAL(SIDE_RIGHT, memory_recall(&memory, 1));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_memory_is_eight_bytes);
-    RUN_TEST(test_an_erased_memory_knows_nothing);
-    RUN_TEST(test_each_cell_recalls_its_own_side);
-    RUN_TEST(test_learning_changes_one_cell_only);
-    RUN_TEST(test_a_lesson_replaces_an_older_one);
-    return UNITY_END();
 }

@@ -2,8 +2,7 @@
 
 #include "firmware/feel_memory.h"
 #include "firmware/memory_write.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 static const uint8_t SIDES[CELL_COUNT] = {0, 1, 2, 1, 0, 0, 2, 1};
 static const uint8_t LEAST_SURE[CELL_COUNT] = {0, 5, 6, 5, 0, 0, 6, 5};
@@ -15,8 +14,6 @@ void setUp(void)
     TEST_ASSERT_TRUE(memory_adopt(&memory, SIDES));
 }
 
-void tearDown(void) {}
-
 static void assert_translated(enum memory_kind kind, const uint8_t expected[CELL_COUNT])
 {
     TEST_ASSERT_TRUE(memory_translate(&memory, kind));
@@ -24,7 +21,7 @@ static void assert_translated(enum memory_kind kind, const uint8_t expected[CELL
     TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, memory.cell, CELL_COUNT);
 }
 
-static void test_no_memory_but_the_empty_one_is_of_two_kinds(void)
+TEST(no_memory_but_the_empty_one_is_of_two_kinds)
 {
     TEST_ASSERT_FALSE(memory_is(SIDES, MEMORY_KIND_CONFIDENCE));
     TEST_ASSERT_FALSE(memory_is(SIDES, MEMORY_KIND_ALL_SENSORS));
@@ -35,18 +32,18 @@ static void test_no_memory_but_the_empty_one_is_of_two_kinds(void)
         TEST_ASSERT_TRUE(memory_is(memory.cell, (enum memory_kind)kind));
 }
 
-static void test_a_memory_of_its_own_kind_is_left_alone(void)
+TEST(a_memory_of_its_own_kind_is_left_alone)
 {
     TEST_ASSERT_FALSE(memory_translate(&memory, MEMORY_KIND_SIDES));
     TEST_ASSERT_EQUAL_HEX8_ARRAY(SIDES, memory.cell, CELL_COUNT);
 }
 
-static void test_a_side_becomes_one_of_least_confidence(void)
+TEST(a_side_becomes_one_of_least_confidence)
 {
     assert_translated(MEMORY_KIND_CONFIDENCE, LEAST_SURE);
 }
 
-static void test_confidence_is_dropped(void)
+TEST(confidence_is_dropped)
 {
     static const uint8_t sure[CELL_COUNT] = {0, 13, 10, 9, 0, 0, 6, 13};
 
@@ -54,7 +51,7 @@ static void test_confidence_is_dropped(void)
     assert_translated(MEMORY_KIND_SIDES, SIDES);
 }
 
-static void test_a_side_holds_whatever_the_side_sensors_say(void)
+TEST(a_side_holds_whatever_the_side_sensors_say)
 {
     TEST_ASSERT_TRUE(memory_translate(&memory, MEMORY_KIND_ALL_SENSORS));
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++)
@@ -65,7 +62,7 @@ static void test_a_side_holds_whatever_the_side_sensors_say(void)
         }
 }
 
-static void test_there_and_back_is_the_same(void)
+TEST(there_and_back_is_the_same)
 {
     TEST_ASSERT_TRUE(memory_translate(&memory, MEMORY_KIND_ALL_SENSORS));
     assert_translated(MEMORY_KIND_SIDES, SIDES);
@@ -74,7 +71,7 @@ static void test_there_and_back_is_the_same(void)
     assert_translated(MEMORY_KIND_CONFIDENCE, LEAST_SURE);
 }
 
-static void test_of_several_readings_with_a_pattern_most_decide(void)
+TEST(of_several_readings_with_a_pattern_most_decide)
 {
     static const uint8_t expected[CELL_COUNT] = {0, 0, 2};
 
@@ -85,17 +82,4 @@ static void test_of_several_readings_with_a_pattern_most_decide(void)
     feel_memory_learn(&memory, FEEL_FRONT_RIGHT, SIDE_LEFT);
     feel_memory_learn(&memory, FEEL_FRONT_RIGHT | FEEL_RIGHT, SIDE_RIGHT);
     assert_translated(MEMORY_KIND_SIDES, expected);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_no_memory_but_the_empty_one_is_of_two_kinds);
-    RUN_TEST(test_a_memory_of_its_own_kind_is_left_alone);
-    RUN_TEST(test_a_side_becomes_one_of_least_confidence);
-    RUN_TEST(test_confidence_is_dropped);
-    RUN_TEST(test_a_side_holds_whatever_the_side_sensors_say);
-    RUN_TEST(test_there_and_back_is_the_same);
-    RUN_TEST(test_of_several_readings_with_a_pattern_most_decide);
-    return UNITY_END();
 }

@@ -1,6 +1,5 @@
 #include "firmware/memory_write.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 static const uint8_t LEARNED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
 
@@ -18,9 +17,7 @@ void setUp(void)
     TEST_ASSERT_TRUE(memory_adopt(&memory, LEARNED));
 }
 
-void tearDown(void) {}
-
-static void test_a_memory_of_each_kind_is_adopted(void)
+TEST(a_memory_of_each_kind_is_adopted)
 {
     static const uint8_t of_each[MEMORY_KIND_COUNT][CELL_COUNT] = {
         [MEMORY_KIND_SIDES] = {0, 1, 2, 0, 0, 0, 0, 2},
@@ -34,7 +31,7 @@ static void test_a_memory_of_each_kind_is_adopted(void)
     }
 }
 
-static void test_bytes_of_no_kind_are_not_adopted(void)
+TEST(bytes_of_no_kind_are_not_adopted)
 {
     static const uint8_t of_none[][CELL_COUNT] = {
         {0, 3},                          /* no side */
@@ -50,7 +47,7 @@ static void test_bytes_of_no_kind_are_not_adopted(void)
     assert_as_learned();
 }
 
-static void test_a_turn_for_a_clear_way_is_not_adopted(void)
+TEST(a_turn_for_a_clear_way_is_not_adopted)
 {
     static const uint8_t cells[CELL_COUNT] = {SIDE_LEFT};
 
@@ -58,7 +55,7 @@ static void test_a_turn_for_a_clear_way_is_not_adopted(void)
     assert_as_learned();
 }
 
-static void test_writing_takes_a_byte_for_each_cell(void)
+TEST(writing_takes_a_byte_for_each_cell)
 {
     static const uint8_t expected[CELL_COUNT] = {0, 2, 1, 0, 1, 2, 0, 1};
 
@@ -67,7 +64,7 @@ static void test_writing_takes_a_byte_for_each_cell(void)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, memory.cell, CELL_COUNT);
 }
 
-static void test_writing_leaves_the_cells_beside_the_mask(void)
+TEST(writing_leaves_the_cells_beside_the_mask)
 {
     static const uint8_t expected[CELL_COUNT] = {0, 1, 2, 0, 2, 1, 2, 1};
 
@@ -76,26 +73,26 @@ static void test_writing_leaves_the_cells_beside_the_mask(void)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, memory.cell, CELL_COUNT);
 }
 
-static void test_writing_ignores_the_sides_beside_the_mask(void)
+TEST(writing_ignores_the_sides_beside_the_mask)
 {
     TEST_ASSERT_TRUE(memory_write(&memory, MEMORY_KIND_SIDES, UPPER | 0, 0xFFFFFFFF));
     assert_as_learned();
 }
 
-static void test_writing_what_is_no_side_changes_nothing(void)
+TEST(writing_what_is_no_side_changes_nothing)
 {
     /* Cell 7 is no side; cells 4..6 would be emptied. */
     TEST_ASSERT_FALSE(memory_write(&memory, MEMORY_KIND_SIDES, UPPER | 0xF, 3u << 24));
     assert_as_learned();
 }
 
-static void test_writing_a_turn_for_a_clear_way_changes_nothing(void)
+TEST(writing_a_turn_for_a_clear_way_changes_nothing)
 {
     TEST_ASSERT_FALSE(memory_write(&memory, MEMORY_KIND_SIDES, 0xF, SIDE_LEFT));
     assert_as_learned();
 }
 
-static void test_writing_is_judged_by_the_kind_in_use(void)
+TEST(writing_is_judged_by_the_kind_in_use)
 {
     TEST_ASSERT_FALSE(memory_write(&memory, MEMORY_KIND_SIDES, 1u << 1, 5u << 8));
     assert_as_learned();
@@ -103,19 +100,4 @@ static void test_writing_is_judged_by_the_kind_in_use(void)
     TEST_ASSERT_FALSE(memory_write(&memory, MEMORY_KIND_CONFIDENCE, 1u << 1, 1u << 8));
     TEST_ASSERT_TRUE(memory_write(&memory, MEMORY_KIND_CONFIDENCE, 1u << 1, 5u << 8));
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&memory, 1));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_memory_of_each_kind_is_adopted);
-    RUN_TEST(test_bytes_of_no_kind_are_not_adopted);
-    RUN_TEST(test_a_turn_for_a_clear_way_is_not_adopted);
-    RUN_TEST(test_writing_takes_a_byte_for_each_cell);
-    RUN_TEST(test_writing_leaves_the_cells_beside_the_mask);
-    RUN_TEST(test_writing_ignores_the_sides_beside_the_mask);
-    RUN_TEST(test_writing_what_is_no_side_changes_nothing);
-    RUN_TEST(test_writing_a_turn_for_a_clear_way_changes_nothing);
-    RUN_TEST(test_writing_is_judged_by_the_kind_in_use);
-    return UNITY_END();
 }

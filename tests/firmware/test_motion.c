@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "motion_rig.h"
 
 enum { FRONT = 4 };
@@ -20,16 +19,14 @@ void setUp(void)
     stand_at(0.0, 0.0);
 }
 
-void tearDown(void) {}
-
-static void test_a_positive_turn_is_to_the_right(void)
+TEST(a_positive_turn_is_to_the_right)
 {
     begin(10, 0);
     TEST_ASSERT_GREATER_THAN_INT16(0, driven().left_mm_s);
     TEST_ASSERT_EQUAL_INT16(-driven().left_mm_s, driven().right_mm_s);
 }
 
-static void test_each_turn_ends_within_half_a_degree(void)
+TEST(each_turn_ends_within_half_a_degree)
 {
     for (int turn_deg = -210; turn_deg <= 210; turn_deg++) {
         stand_at(0.0, 0.0);
@@ -39,7 +36,7 @@ static void test_each_turn_ends_within_half_a_degree(void)
     }
 }
 
-static void test_errors_of_a_thousand_turns_do_not_add_up(void)
+TEST(errors_of_a_thousand_turns_do_not_add_up)
 {
     int sum_deg = 0;
 
@@ -53,14 +50,14 @@ static void test_errors_of_a_thousand_turns_do_not_add_up(void)
 }
 
 /* A thousand turns all one way: an error that always has the same sign shows here. */
-static void test_errors_of_equal_turns_do_not_add_up(void)
+TEST(errors_of_equal_turns_do_not_add_up)
 {
     for (unsigned i = 1; i <= 1000; i++)
         act(10, 0);
     TEST_ASSERT_INT_WITHIN(HALF, 10000000, heading_mdeg());
 }
 
-static void test_steps_between_turns_do_not_spoil_the_heading(void)
+TEST(steps_between_turns_do_not_spoil_the_heading)
 {
     for (unsigned i = 0; i < 1000; i++) {
         act(7, 0);
@@ -69,13 +66,13 @@ static void test_steps_between_turns_do_not_spoil_the_heading(void)
     TEST_ASSERT_INT_WITHIN(HALF, 7000000, heading_mdeg());
 }
 
-static void test_a_turn_moves_nowhere(void)
+TEST(a_turn_moves_nowhere)
 {
     act(210, 0);
     TEST_ASSERT_INT_WITHIN(HARDLY_ANY, 0, way_um());
 }
 
-static void test_what_one_turn_misses_is_made_up_for_in_the_next(void)
+TEST(what_one_turn_misses_is_made_up_for_in_the_next)
 {
     act(90, 0);
     body.left_mm += 8.0;   /* a knock turns the body by 2.9 degrees, and the wheels feel it */
@@ -83,7 +80,7 @@ static void test_what_one_turn_misses_is_made_up_for_in_the_next(void)
     TEST_ASSERT_INT_WITHIN(HALF, 0, heading_mdeg());
 }
 
-static void test_each_step_ends_within_half_a_millimetre(void)
+TEST(each_step_ends_within_half_a_millimetre)
 {
     for (unsigned forward_mm = 1; forward_mm <= 250; forward_mm++) {
         stand_at(0.0, 0.0);
@@ -92,13 +89,13 @@ static void test_each_step_ends_within_half_a_millimetre(void)
     }
 }
 
-static void test_a_step_goes_straight(void)
+TEST(a_step_goes_straight)
 {
     act(0, STEP_MAX_MM);
     TEST_ASSERT_INT_WITHIN(HARDLY_ANY, 0, heading_mdeg());
 }
 
-static void test_a_step_ends_in_the_tick_that_brings_an_obstacle(void)
+TEST(a_step_ends_in_the_tick_that_brings_an_obstacle)
 {
     begin(0, STEP_MAX_MM);
     TEST_ASSERT_FALSE(tick());
@@ -106,21 +103,21 @@ static void test_a_step_ends_in_the_tick_that_brings_an_obstacle(void)
     TEST_ASSERT_TRUE(tick());
 }
 
-static void test_an_obstacle_beside_the_body_does_not_end_a_step(void)
+TEST(an_obstacle_beside_the_body_does_not_end_a_step)
 {
     begin(0, STEP_MAX_MM);
     body.feel = 1 | 16;
     TEST_ASSERT_FALSE(tick());
 }
 
-static void test_an_obstacle_does_not_end_a_turn(void)
+TEST(an_obstacle_does_not_end_a_turn)
 {
     body.feel = FRONT;
     act(45, 0);
     TEST_ASSERT_INT_WITHIN(HALF, 45000, heading_mdeg());
 }
 
-static void test_what_a_stopped_step_left_is_not_driven_later(void)
+TEST(what_a_stopped_step_left_is_not_driven_later)
 {
     begin(0, STEP_MAX_MM);
     body.feel = FRONT;
@@ -131,14 +128,14 @@ static void test_what_a_stopped_step_left_is_not_driven_later(void)
     TEST_ASSERT_INT_WITHIN(HALF, 12000, way_um());
 }
 
-static void test_the_odometers_may_wrap_forward(void)
+TEST(the_odometers_may_wrap_forward)
 {
     stand_at(409.0, 409.0);   /* 6 counts before the wrap */
     act(0, 12);
     TEST_ASSERT_INT_WITHIN(HALF, 421000, way_um());
 }
 
-static void test_the_odometers_may_wrap_backward(void)
+TEST(the_odometers_may_wrap_backward)
 {
     stand_at(0.3, 0.3);
     act(180, 0);
@@ -146,39 +143,39 @@ static void test_the_odometers_may_wrap_backward(void)
     TEST_ASSERT_INT_WITHIN(HALF, 0, heading_mdeg());
 }
 
-static void test_rest_lasts_one_tick(void)
+TEST(rest_lasts_one_tick)
 {
     TEST_ASSERT_EQUAL_UINT(1, act(0, 0));
 }
 
-static void test_wheels_rest_between_actions(void)
+TEST(wheels_rest_between_actions)
 {
     act(0, 0);
     TEST_ASSERT_EQUAL_INT16(0, driven().left_mm_s);
     TEST_ASSERT_EQUAL_INT16(0, driven().right_mm_s);
 }
 
-static void test_nothing_is_under_way_before_the_first_action(void)
+TEST(nothing_is_under_way_before_the_first_action)
 {
     const struct senses senses = sensed();
 
     TEST_ASSERT_TRUE(motion_ended(&motion, &config, &senses));
 }
 
-static void test_a_step_keeps_to_its_speed(void)
+TEST(a_step_keeps_to_its_speed)
 {
     begin(0, STEP_MAX_MM);
     TEST_ASSERT_EQUAL_INT16(200, driven().left_mm_s);
 }
 
 /* 180 degrees/s with 160 mm between the wheels: each makes 80 mm * pi a second. */
-static void test_a_turn_keeps_to_its_speed(void)
+TEST(a_turn_keeps_to_its_speed)
 {
     begin(210, 0);
     TEST_ASSERT_INT16_WITHIN(1, 251, driven().left_mm_s);
 }
 
-static void test_turns_are_exact_at_both_ends_of_every_range(void)
+TEST(turns_are_exact_at_both_ends_of_every_range)
 {
     static const int turns_deg[] = {1, 90, 180, TURN_MAX_DEG};
 
@@ -191,7 +188,7 @@ static void test_turns_are_exact_at_both_ends_of_every_range(void)
         }
 }
 
-static void test_steps_are_exact_at_both_ends_of_every_range(void)
+TEST(steps_are_exact_at_both_ends_of_every_range)
 {
     static const unsigned steps_mm[] = {1, 250};
 
@@ -212,7 +209,7 @@ static bool tick_seeing_food(bool look)
     return motion_ended(&motion, &config, &senses);
 }
 
-static void test_a_turn_for_food_ends_when_food_is_seen(void)
+TEST(a_turn_for_food_ends_when_food_is_seen)
 {
     const struct action around = {.turn_deg = 360, .until_food = true};
 
@@ -223,14 +220,14 @@ static void test_a_turn_for_food_ends_when_food_is_seen(void)
     TEST_ASSERT_TRUE(tick_seeing_food(true));
 }
 
-static void test_a_turn_that_is_not_for_food_goes_on_when_food_is_seen(void)
+TEST(a_turn_that_is_not_for_food_goes_on_when_food_is_seen)
 {
     begin(180, 0);
     tick();
     TEST_ASSERT_FALSE(tick_seeing_food(true));
 }
 
-static void test_what_was_left_of_a_turn_for_food_is_forgotten(void)
+TEST(what_was_left_of_a_turn_for_food_is_forgotten)
 {
     const struct action around = {.turn_deg = 360, .until_food = true};
     long before;
@@ -244,7 +241,7 @@ static void test_what_was_left_of_a_turn_for_food_is_forgotten(void)
     TEST_ASSERT_INT_WITHIN(HALF, before - 90000, heading_mdeg());
 }
 
-static void test_the_rest_after_an_action_is_part_of_it(void)
+TEST(the_rest_after_an_action_is_part_of_it)
 {
     const struct action trial = {.turn_deg = 45, .rest_ticks = 2};
 
@@ -257,36 +254,4 @@ static void test_the_rest_after_an_action_is_part_of_it(void)
     TEST_ASSERT_EQUAL(0, driven().left_mm_s);
     TEST_ASSERT_TRUE(tick());
     TEST_ASSERT_FALSE(motion_rest(&motion, &config));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_positive_turn_is_to_the_right);
-    RUN_TEST(test_each_turn_ends_within_half_a_degree);
-    RUN_TEST(test_errors_of_a_thousand_turns_do_not_add_up);
-    RUN_TEST(test_errors_of_equal_turns_do_not_add_up);
-    RUN_TEST(test_steps_between_turns_do_not_spoil_the_heading);
-    RUN_TEST(test_a_turn_moves_nowhere);
-    RUN_TEST(test_what_one_turn_misses_is_made_up_for_in_the_next);
-    RUN_TEST(test_each_step_ends_within_half_a_millimetre);
-    RUN_TEST(test_a_step_goes_straight);
-    RUN_TEST(test_a_step_ends_in_the_tick_that_brings_an_obstacle);
-    RUN_TEST(test_an_obstacle_beside_the_body_does_not_end_a_step);
-    RUN_TEST(test_an_obstacle_does_not_end_a_turn);
-    RUN_TEST(test_what_a_stopped_step_left_is_not_driven_later);
-    RUN_TEST(test_the_odometers_may_wrap_forward);
-    RUN_TEST(test_the_odometers_may_wrap_backward);
-    RUN_TEST(test_rest_lasts_one_tick);
-    RUN_TEST(test_wheels_rest_between_actions);
-    RUN_TEST(test_nothing_is_under_way_before_the_first_action);
-    RUN_TEST(test_a_step_keeps_to_its_speed);
-    RUN_TEST(test_a_turn_keeps_to_its_speed);
-    RUN_TEST(test_turns_are_exact_at_both_ends_of_every_range);
-    RUN_TEST(test_steps_are_exact_at_both_ends_of_every_range);
-    RUN_TEST(test_a_turn_for_food_ends_when_food_is_seen);
-    RUN_TEST(test_a_turn_that_is_not_for_food_goes_on_when_food_is_seen);
-    RUN_TEST(test_what_was_left_of_a_turn_for_food_is_forgotten);
-    RUN_TEST(test_the_rest_after_an_action_is_part_of_it);
-    return UNITY_END();
 }

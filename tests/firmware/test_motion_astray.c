@@ -1,8 +1,6 @@
 /* Wheels that roll apart in a step, or together in a turn: one of them does not obey. */
 #include "firmware/motion.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "motion_rig.h"
 
 void setUp(void)
@@ -11,8 +9,6 @@ void setUp(void)
     random_seed(&dice, 1);
     stand_at(0.0, 0.0);
 }
-
-void tearDown(void) {}
 
 /* Steps until the wheels are denied; none if they never are. */
 static unsigned steps_until_denied(double lame)
@@ -27,23 +23,23 @@ static unsigned steps_until_denied(double lame)
 }
 
 /* A step of 12 mm on one wheel goes astray by a quarter of 240 counts; 1004 are too much. */
-static void test_one_dead_wheel_is_denied_after_some_steps(void)
+TEST(one_dead_wheel_is_denied_after_some_steps)
 {
     TEST_ASSERT_EQUAL_UINT(17, steps_until_denied(0.0));
 }
 
-static void test_one_wheel_that_rolls_backward_is_denied_sooner(void)
+TEST(one_wheel_that_rolls_backward_is_denied_sooner)
 {
     TEST_ASSERT_EQUAL_UINT(2, steps_until_denied(-0.5));
 }
 
-static void test_one_weak_wheel_is_not_denied_however_many_steps_it_takes(void)
+TEST(one_weak_wheel_is_not_denied_however_many_steps_it_takes)
 {
     for (unsigned percent = 20; percent <= 100; percent += 10)
         TEST_ASSERT_EQUAL_UINT(0, steps_until_denied(percent / 100.0));
 }
 
-static void test_one_dead_wheel_is_denied_in_short_turns_either_way(void)
+TEST(one_dead_wheel_is_denied_in_short_turns_either_way)
 {
     unsigned turns = 0;
 
@@ -54,7 +50,7 @@ static void test_one_dead_wheel_is_denied_in_short_turns_either_way(void)
     TEST_ASSERT_GREATER_THAN_UINT(3, turns);
 }
 
-static void test_a_wheel_that_is_mended_is_believed_after_one_step(void)
+TEST(a_wheel_that_is_mended_is_believed_after_one_step)
 {
     TEST_ASSERT_NOT_EQUAL_UINT(0, steps_until_denied(0.0));
     act(0, 12);
@@ -65,7 +61,7 @@ static void test_a_wheel_that_is_mended_is_believed_after_one_step(void)
 }
 
 /* Where drives are lost, a body goes on turning for 5 ticks while the robot takes steps. */
-static void test_wheels_that_go_on_turning_for_some_ticks_are_not_denied(void)
+TEST(wheels_that_go_on_turning_for_some_ticks_are_not_denied)
 {
     struct senses senses;
 
@@ -88,7 +84,7 @@ static void tear_apart(void)
     motion_track(&motion, &senses);
 }
 
-static void test_wheels_that_go_ever_farther_astray_stay_denied(void)
+TEST(wheels_that_go_ever_farther_astray_stay_denied)
 {
     begin(0, 250);
     for (unsigned ticks = 0; ticks < 100; ticks++) {
@@ -98,25 +94,11 @@ static void test_wheels_that_go_ever_farther_astray_stay_denied(void)
 }
 
 /* However far they had gone: what is held against them is no more than what denies one action. */
-static void test_wheels_that_were_far_astray_are_believed_after_one_step_too(void)
+TEST(wheels_that_were_far_astray_are_believed_after_one_step_too)
 {
     begin(0, 250);
     for (unsigned ticks = 0; ticks < 100; ticks++)
         tear_apart();
     act(0, 12);
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_one_dead_wheel_is_denied_after_some_steps);
-    RUN_TEST(test_one_wheel_that_rolls_backward_is_denied_sooner);
-    RUN_TEST(test_one_weak_wheel_is_not_denied_however_many_steps_it_takes);
-    RUN_TEST(test_one_dead_wheel_is_denied_in_short_turns_either_way);
-    RUN_TEST(test_a_wheel_that_is_mended_is_believed_after_one_step);
-    RUN_TEST(test_wheels_that_go_on_turning_for_some_ticks_are_not_denied);
-    RUN_TEST(test_wheels_that_go_ever_farther_astray_stay_denied);
-    RUN_TEST(test_wheels_that_were_far_astray_are_believed_after_one_step_too);
-    return UNITY_END();
 }

@@ -1,8 +1,6 @@
 /* What motion makes of its figures, to the last count: 160 mm between the wheels, 200 mm/s, 180 degrees/s, ticks of 20 ms. */
 #include "firmware/motion.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "motion_rig.h"
 
 enum {
@@ -19,8 +17,6 @@ void setUp(void)
     config_reset(&config);
     stand_at(0.0, 0.0);
 }
-
-void tearDown(void) {}
 
 static void roll(int left_counts, int right_counts)
 {
@@ -57,19 +53,19 @@ static void assert_farthest(int counts, unsigned ticks)
     TEST_ASSERT_FALSE(is_credible(0, -counts - 1, ticks));
 }
 
-static void test_a_degree_is_rounded_to_the_nearest(void)
+TEST(a_degree_is_rounded_to_the_nearest)
 {
     begin(1, 0);
     TEST_ASSERT_EQUAL_INT32(DEGREE, motion.turn_left);
 }
 
-static void test_wheels_are_believed_up_to_13_eighths_of_the_fastest_and_2_counts(void)
+TEST(wheels_are_believed_up_to_13_eighths_of_the_fastest_and_2_counts)
 {
     assert_farthest(83, 1);
     assert_farthest(409, 5);
 }
 
-static void test_the_fastest_is_the_greater_of_both_speeds(void)
+TEST(the_fastest_is_the_greater_of_both_speeds)
 {
     config_set(&config, SPEED_MM_S, 250);
     config_set(&config, TURN_SPEED_DEG_S, 30);
@@ -79,13 +75,13 @@ static void test_the_fastest_is_the_greater_of_both_speeds(void)
     assert_farthest(83, 1);
 }
 
-static void test_lifted_wheels_are_believed_whatever_they_say(void)
+TEST(lifted_wheels_are_believed_whatever_they_say)
 {
     motion_lift(&motion);
     TEST_ASSERT_TRUE(is_credible(2000, -2000, 1));
 }
 
-static void test_half_the_span_counts_as_backward(void)
+TEST(half_the_span_counts_as_backward)
 {
     roll(ODOMETER_SPAN / 2 - 1, ODOMETER_SPAN / 2 - 1);
     TEST_ASSERT_EQUAL_INT16(-(ODOMETER_SPAN - 2), motion.way_left);
@@ -94,7 +90,7 @@ static void test_half_the_span_counts_as_backward(void)
     TEST_ASSERT_EQUAL_INT16(ODOMETER_SPAN, motion.way_left);
 }
 
-static void test_an_error_grows_to_its_limit_and_no_farther(void)
+TEST(an_error_grows_to_its_limit_and_no_farther)
 {
     for (unsigned i = 0; i < 20; i++)
         roll(2000, -2000);
@@ -106,7 +102,7 @@ static void test_an_error_grows_to_its_limit_and_no_farther(void)
     TEST_ASSERT_EQUAL_INT32(TURN_MAX, motion.turn_left);
 }
 
-static void test_a_turn_adds_to_an_error_up_to_its_limit(void)
+TEST(a_turn_adds_to_an_error_up_to_its_limit)
 {
     for (unsigned i = 0; i < 20; i++)
         roll(-2000, 2000);
@@ -114,7 +110,7 @@ static void test_a_turn_adds_to_an_error_up_to_its_limit(void)
     TEST_ASSERT_EQUAL_INT32(TURN_MAX, motion.turn_left);
 }
 
-static void test_a_way_too_far_is_counted_up_to_its_limit(void)
+TEST(a_way_too_far_is_counted_up_to_its_limit)
 {
     for (unsigned i = 0; i < 5; i++)
         roll(2000, 2000);
@@ -124,7 +120,7 @@ static void test_a_way_too_far_is_counted_up_to_its_limit(void)
     TEST_ASSERT_EQUAL_INT16(WAY_MAX, motion.way_left);
 }
 
-static void test_a_turn_has_ended_an_eighth_of_a_degree_before_its_end(void)
+TEST(a_turn_has_ended_an_eighth_of_a_degree_before_its_end)
 {
     begin(1, 0);
     motion.turn_left = PRECISION + 1;
@@ -133,7 +129,7 @@ static void test_a_turn_has_ended_an_eighth_of_a_degree_before_its_end(void)
     TEST_ASSERT_TRUE(has_ended());
 }
 
-static void test_a_step_has_ended_five_counts_before_its_end(void)
+TEST(a_step_has_ended_five_counts_before_its_end)
 {
     begin(0, 12);
     motion.way_left = 6;
@@ -142,7 +138,7 @@ static void test_a_step_has_ended_five_counts_before_its_end(void)
     TEST_ASSERT_TRUE(has_ended());
 }
 
-static void test_the_last_speed_is_what_covers_the_rest_in_a_tick(void)
+TEST(the_last_speed_is_what_covers_the_rest_in_a_tick)
 {
     static const struct {
         uint8_t tick_ms;
@@ -158,7 +154,7 @@ static void test_the_last_speed_is_what_covers_the_rest_in_a_tick(void)
     }
 }
 
-static void test_the_last_speed_of_a_turn_covers_the_rest_in_a_tick(void)
+TEST(the_last_speed_of_a_turn_covers_the_rest_in_a_tick)
 {
     begin(1, 0);
     motion.turn_left = FASTEST_COUNTS * COUNT;
@@ -167,13 +163,13 @@ static void test_the_last_speed_of_a_turn_covers_the_rest_in_a_tick(void)
 }
 
 /* 250 mm take 62.5 ticks: twice as many, and 25. */
-static void test_a_step_has_twice_its_time_and_25_ticks(void)
+TEST(a_step_has_twice_its_time_and_25_ticks)
 {
     body.grip = 0.0;
     TEST_ASSERT_EQUAL_UINT(150, act(0, 250));
 }
 
-static void test_what_is_given_up_is_known_when_its_time_is_over_and_not_before(void)
+TEST(what_is_given_up_is_known_when_its_time_is_over_and_not_before)
 {
     body.grip = 0.0;
     begin(0, 250);
@@ -186,14 +182,14 @@ static void test_what_is_given_up_is_known_when_its_time_is_over_and_not_before(
     TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
 }
 
-static void test_a_rest_is_never_given_up(void)
+TEST(a_rest_is_never_given_up)
 {
     act(0, 0);
     TEST_ASSERT_FALSE(motion_gave_up(&motion));
 }
 
 /* In a turn at full speed each wheel makes 251 mm/s: both make 1004 counts in 0.2 s. */
-static void test_wheels_may_go_astray_as_far_as_both_roll_in_200_ms(void)
+TEST(wheels_may_go_astray_as_far_as_both_roll_in_200_ms)
 {
     motion.astray = 1003;
     TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
@@ -202,7 +198,7 @@ static void test_wheels_may_go_astray_as_far_as_both_roll_in_200_ms(void)
 }
 
 /* A step of 12 mm is 240 counts. */
-static void test_what_wheels_do_right_makes_amends_for_three_quarters_and_for_nothing_to_come(void)
+TEST(what_wheels_do_right_makes_amends_for_three_quarters_and_for_nothing_to_come)
 {
     motion.astray = 181;
     act(0, 12);
@@ -212,13 +208,13 @@ static void test_what_wheels_do_right_makes_amends_for_three_quarters_and_for_no
 }
 
 /* 210 degrees take 58 ticks: seven quarters of these, and 7. */
-static void test_the_pace_of_a_turn_is_seven_quarters_of_its_time_and_7_ticks(void)
+TEST(the_pace_of_a_turn_is_seven_quarters_of_its_time_and_7_ticks)
 {
     begin(210, 0);
     TEST_ASSERT_EQUAL_UINT16(108, motion.pace_left);
 }
 
-static void test_a_step_and_a_turn_for_food_have_no_pace(void)
+TEST(a_step_and_a_turn_for_food_have_no_pace)
 {
     const struct action around = {.turn_deg = 360, .until_food = true};
 
@@ -228,7 +224,7 @@ static void test_a_step_and_a_turn_for_food_have_no_pace(void)
     TEST_ASSERT_EQUAL_UINT16(UINT16_MAX, motion.pace_left);
 }
 
-static void test_an_outage_costs_five_ticks_of_the_pace(void)
+TEST(an_outage_costs_five_ticks_of_the_pace)
 {
     static const uint8_t ticks[] = {5, 6, 7, 100};
 
@@ -240,7 +236,7 @@ static void test_an_outage_costs_five_ticks_of_the_pace(void)
     }
 }
 
-static void test_wheels_rest_while_nothing_is_to_be_done_whatever_moves_them(void)
+TEST(wheels_rest_while_nothing_is_to_be_done_whatever_moves_them)
 {
     begin(0, 0);
     roll(80, 20);
@@ -249,7 +245,7 @@ static void test_wheels_rest_while_nothing_is_to_be_done_whatever_moves_them(voi
 }
 
 /* A knock by 180 counts is 6.4 degrees. */
-static void test_a_knock_between_turns_is_made_up_for_in_the_next(void)
+TEST(a_knock_between_turns_is_made_up_for_in_the_next)
 {
     roll(90, -90);
     begin(0, 12);
@@ -257,38 +253,9 @@ static void test_a_knock_between_turns_is_made_up_for_in_the_next(void)
     TEST_ASSERT_EQUAL_INT32(10 * DEGREE - 180 * COUNT, motion.turn_left);
 }
 
-static void test_nothing_is_left_of_a_turn_that_was_given_up(void)
+TEST(nothing_is_left_of_a_turn_that_was_given_up)
 {
     begin(90, 0);
     begin(0, 12);
     TEST_ASSERT_EQUAL_INT32(0, motion.turn_left);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_degree_is_rounded_to_the_nearest);
-    RUN_TEST(test_wheels_are_believed_up_to_13_eighths_of_the_fastest_and_2_counts);
-    RUN_TEST(test_the_fastest_is_the_greater_of_both_speeds);
-    RUN_TEST(test_lifted_wheels_are_believed_whatever_they_say);
-    RUN_TEST(test_half_the_span_counts_as_backward);
-    RUN_TEST(test_an_error_grows_to_its_limit_and_no_farther);
-    RUN_TEST(test_a_turn_adds_to_an_error_up_to_its_limit);
-    RUN_TEST(test_a_way_too_far_is_counted_up_to_its_limit);
-    RUN_TEST(test_a_turn_has_ended_an_eighth_of_a_degree_before_its_end);
-    RUN_TEST(test_a_step_has_ended_five_counts_before_its_end);
-    RUN_TEST(test_the_last_speed_is_what_covers_the_rest_in_a_tick);
-    RUN_TEST(test_the_last_speed_of_a_turn_covers_the_rest_in_a_tick);
-    RUN_TEST(test_a_step_has_twice_its_time_and_25_ticks);
-    RUN_TEST(test_what_is_given_up_is_known_when_its_time_is_over_and_not_before);
-    RUN_TEST(test_a_rest_is_never_given_up);
-    RUN_TEST(test_wheels_may_go_astray_as_far_as_both_roll_in_200_ms);
-    RUN_TEST(test_what_wheels_do_right_makes_amends_for_three_quarters_and_for_nothing_to_come);
-    RUN_TEST(test_the_pace_of_a_turn_is_seven_quarters_of_its_time_and_7_ticks);
-    RUN_TEST(test_a_step_and_a_turn_for_food_have_no_pace);
-    RUN_TEST(test_an_outage_costs_five_ticks_of_the_pace);
-    RUN_TEST(test_wheels_rest_while_nothing_is_to_be_done_whatever_moves_them);
-    RUN_TEST(test_a_knock_between_turns_is_made_up_for_in_the_next);
-    RUN_TEST(test_nothing_is_left_of_a_turn_that_was_given_up);
-    return UNITY_END();
 }

@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "motion_rig.h"
 
 void setUp(void)
@@ -13,21 +12,19 @@ void setUp(void)
     stand_at(0.0, 0.0);
 }
 
-void tearDown(void) {}
-
-static void test_a_turn_against_stuck_wheels_is_given_up(void)
+TEST(a_turn_against_stuck_wheels_is_given_up)
 {
     body.grip = 0.0;
     TEST_ASSERT_LESS_OR_EQUAL_UINT(2 * 59 + 25, act(210, 0));   /* 59 ticks at full speed */
 }
 
-static void test_a_step_against_stuck_wheels_is_given_up(void)
+TEST(a_step_against_stuck_wheels_is_given_up)
 {
     body.grip = 0.0;
     TEST_ASSERT_LESS_OR_EQUAL_UINT(2 * 3 + 25, act(0, 12));
 }
 
-static void test_a_turn_that_was_given_up_is_not_made_up_for(void)
+TEST(a_turn_that_was_given_up_is_not_made_up_for)
 {
     body.grip = 0.0;
     act(210, 0);
@@ -36,7 +33,7 @@ static void test_a_turn_that_was_given_up_is_not_made_up_for(void)
     TEST_ASSERT_INT_WITHIN(HALF, 10000, heading_mdeg());
 }
 
-static void test_slow_wheels_are_not_given_up(void)
+TEST(slow_wheels_are_not_given_up)
 {
     body.grip = 0.6;
     act(210, 0);
@@ -56,14 +53,14 @@ static void check_wheels_at(double share, bool are_denied)
     }
 }
 
-static void test_wheels_that_turn_at_half_the_speed_are_denied(void)
+TEST(wheels_that_turn_at_half_the_speed_are_denied)
 {
     check_wheels_at(0.3, true);
     check_wheels_at(0.4, true);
     check_wheels_at(0.5, true);
 }
 
-static void test_wheels_that_are_a_little_off_are_not_denied(void)
+TEST(wheels_that_are_a_little_off_are_not_denied)
 {
     check_wheels_at(0.6, false);
     check_wheels_at(0.8, false);
@@ -72,7 +69,7 @@ static void test_wheels_that_are_a_little_off_are_not_denied(void)
 }
 
 /* At full speed each wheel makes 251 mm/s in a turn, 50 counts a tick. */
-static void test_odometers_that_count_twice_the_way_are_not_credible(void)
+TEST(odometers_that_count_twice_the_way_are_not_credible)
 {
     struct senses senses = sensed();
 
@@ -84,7 +81,7 @@ static void test_odometers_that_count_twice_the_way_are_not_credible(void)
 }
 
 /* The faster of the two counts: here a step's 200 mm/s, 40 counts a tick. */
-static void test_wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster(void)
+TEST(wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster)
 {
     struct senses senses = sensed();
 
@@ -95,7 +92,7 @@ static void test_wheels_faster_than_in_a_turn_are_credible_where_steps_are_faste
     TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
 }
 
-static void test_ticks_that_were_never_sensed_count_for_the_pace(void)
+TEST(ticks_that_were_never_sensed_count_for_the_pace)
 {
     begin(150, 0);
     for (unsigned senses = 0; !tick(); senses++) {
@@ -111,7 +108,7 @@ static void carry_on(void)
         continue;
 }
 
-static void test_an_outage_counts_as_long_as_wheels_are_held(void)
+TEST(an_outage_counts_as_long_as_wheels_are_held)
 {
     begin(45, 0);
     (void)tick();
@@ -121,7 +118,7 @@ static void test_an_outage_counts_as_long_as_wheels_are_held(void)
 }
 
 /* Wheels of each speed, down to those that are just believed. */
-static void test_the_rest_after_a_turn_takes_none_of_its_time(void)
+TEST(the_rest_after_a_turn_takes_none_of_its_time)
 {
     const struct action trial = {.turn_deg = 45, .rest_ticks = 2};
 
@@ -139,7 +136,7 @@ static void test_the_rest_after_a_turn_takes_none_of_its_time(void)
     TEST_FAIL_MESSAGE("all were believed");
 }
 
-static void test_what_food_left_of_a_turn_is_not_made_up_for_after_its_rest(void)
+TEST(what_food_left_of_a_turn_is_not_made_up_for_after_its_rest)
 {
     const struct action search = {.turn_deg = 90, .rest_ticks = 2, .until_food = true};
     struct senses senses;
@@ -158,7 +155,7 @@ static void test_what_food_left_of_a_turn_is_not_made_up_for_after_its_rest(void
     TEST_ASSERT_INT_WITHIN(HALF, 10000, heading_mdeg() - found_at);
 }
 
-static void test_what_happens_while_lifted_is_not_the_robots_way(void)
+TEST(what_happens_while_lifted_is_not_the_robots_way)
 {
     struct senses senses;
 
@@ -172,7 +169,7 @@ static void test_what_happens_while_lifted_is_not_the_robots_way(void)
     TEST_ASSERT_INT_WITHIN(HALF, lround(1000.0 * (90.0 + 123.0 / 160.0 * 180.0 / PI)), heading_mdeg());
 }
 
-static void test_stuck_wheels_are_given_up_at_both_ends_of_every_range(void)
+TEST(stuck_wheels_are_given_up_at_both_ends_of_every_range)
 {
     for (unsigned corner = 0; corner < 16; corner++) {
         set_corner(corner);
@@ -189,7 +186,7 @@ static uint16_t random_odometer(void)
 }
 
 /* Odometers gone mad: the sanitizers watch for overflow, this test for speeds that do not fit the wire. */
-static void test_wild_odometers_make_no_wild_speeds(void)
+TEST(wild_odometers_make_no_wild_speeds)
 {
     for (unsigned i = 0; i < 200000; i++) {
         const struct senses senses = {.odometer_left = random_odometer(), .odometer_right = random_odometer()};
@@ -204,7 +201,7 @@ static void test_wild_odometers_make_no_wild_speeds(void)
     }
 }
 
-static void test_either_wheel_that_jumps_is_not_credible(void)
+TEST(either_wheel_that_jumps_is_not_credible)
 {
     struct senses senses = {.odometer_left = 0};
 
@@ -218,7 +215,7 @@ static void test_either_wheel_that_jumps_is_not_credible(void)
 }
 
 /* The same way each time, so that the error grows to its limit. */
-static void test_a_body_that_spins_by_itself_overflows_nothing(void)
+TEST(a_body_that_spins_by_itself_overflows_nothing)
 {
     uint16_t odometer = 0;
 
@@ -230,27 +227,4 @@ static void test_a_body_that_spins_by_itself_overflows_nothing(void)
         odometer = (uint16_t)((odometer + 2000) % ODOMETER_SPAN);
         TEST_ASSERT_INT16_WITHIN(2047, 0, driven().left_mm_s);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_turn_against_stuck_wheels_is_given_up);
-    RUN_TEST(test_a_step_against_stuck_wheels_is_given_up);
-    RUN_TEST(test_a_turn_that_was_given_up_is_not_made_up_for);
-    RUN_TEST(test_slow_wheels_are_not_given_up);
-    RUN_TEST(test_wheels_that_turn_at_half_the_speed_are_denied);
-    RUN_TEST(test_wheels_that_are_a_little_off_are_not_denied);
-    RUN_TEST(test_odometers_that_count_twice_the_way_are_not_credible);
-    RUN_TEST(test_wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster);
-    RUN_TEST(test_ticks_that_were_never_sensed_count_for_the_pace);
-    RUN_TEST(test_an_outage_counts_as_long_as_wheels_are_held);
-    RUN_TEST(test_the_rest_after_a_turn_takes_none_of_its_time);
-    RUN_TEST(test_what_food_left_of_a_turn_is_not_made_up_for_after_its_rest);
-    RUN_TEST(test_what_happens_while_lifted_is_not_the_robots_way);
-    RUN_TEST(test_stuck_wheels_are_given_up_at_both_ends_of_every_range);
-    RUN_TEST(test_wild_odometers_make_no_wild_speeds);
-    RUN_TEST(test_either_wheel_that_jumps_is_not_credible);
-    RUN_TEST(test_a_body_that_spins_by_itself_overflows_nothing);
-    return UNITY_END();
 }

@@ -1,8 +1,7 @@
 #include "firmware/perception.h"
 
 #include "firmware/robot.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 enum { FRONT = FEEL_FRONT, LEFT = FEEL_LEFT, ALL = 31, LIMIT = 32 };
 
@@ -14,8 +13,6 @@ void setUp(void)
     perception_start(&perception);
     config_reset(&config);
 }
-
-void tearDown(void) {}
 
 static uint8_t filtered(uint8_t feel)
 {
@@ -33,14 +30,14 @@ static uint8_t believed(uint8_t feel)
     return perception_believed(&perception, &config, feel);
 }
 
-static void test_by_default_all_is_believed_at_once(void)
+TEST(by_default_all_is_believed_at_once)
 {
     decide(ALL, 300);
     for (uint8_t feel = 0; feel <= ALL; feel++)
         TEST_ASSERT_EQUAL_HEX8(feel, believed(filtered(feel)));
 }
 
-static void test_filtered_each_bit_is_what_two_of_three_ticks_say(void)
+TEST(filtered_each_bit_is_what_two_of_three_ticks_say)
 {
     config_set(&config, FILTER, 1);
     for (unsigned cases = 0; cases < 8; cases++) {
@@ -55,7 +52,7 @@ static void test_filtered_each_bit_is_what_two_of_three_ticks_say(void)
     }
 }
 
-static void test_a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row(void)
+TEST(a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row)
 {
     config_set(&config, DISTRUST, LIMIT);
     decide(FRONT, LIMIT - 1);
@@ -64,21 +61,21 @@ static void test_a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row(vo
     TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
 }
 
-static void test_the_other_sensors_are_still_believed(void)
+TEST(the_other_sensors_are_still_believed)
 {
     config_set(&config, DISTRUST, LIMIT);
     decide(FRONT, LIMIT);
     TEST_ASSERT_EQUAL_HEX8(ALL & ~FRONT, believed(ALL));
 }
 
-static void test_it_stays_distrusted_however_long_it_goes_on(void)
+TEST(it_stays_distrusted_however_long_it_goes_on)
 {
     config_set(&config, DISTRUST, 255);
     decide(FRONT, 1000);
     TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
 }
 
-static void test_one_quiet_decision_restores_trust(void)
+TEST(one_quiet_decision_restores_trust)
 {
     config_set(&config, DISTRUST, LIMIT);
     decide(FRONT, LIMIT);
@@ -120,7 +117,7 @@ static struct drive step(uint8_t feel)
     return drive;
 }
 
-static void test_a_glitch_of_one_tick_does_not_end_a_filtered_step(void)
+TEST(a_glitch_of_one_tick_does_not_end_a_filtered_step)
 {
     start(FILTER, 1);
     TEST_ASSERT_EQUAL(REASON_WANDER, step(0).reason);
@@ -128,7 +125,7 @@ static void test_a_glitch_of_one_tick_does_not_end_a_filtered_step(void)
     TEST_ASSERT_EQUAL(200, step(0).left_mm_s);
 }
 
-static void test_a_glitch_of_one_tick_ends_a_step_by_default(void)
+TEST(a_glitch_of_one_tick_ends_a_step_by_default)
 {
     start(FILTER, 0);
     TEST_ASSERT_EQUAL(REASON_WANDER, step(0).reason);
@@ -151,13 +148,13 @@ static unsigned ticks_at_rest_in_a_trial(void)
     }
 }
 
-static void test_filtered_a_trial_is_judged_after_two_ticks_at_rest(void)
+TEST(filtered_a_trial_is_judged_after_two_ticks_at_rest)
 {
     start(FILTER, 1);
     TEST_ASSERT_EQUAL_UINT(2, ticks_at_rest_in_a_trial());
 }
 
-static void test_by_default_a_trial_is_judged_at_once(void)
+TEST(by_default_a_trial_is_judged_at_once)
 {
     start(FILTER, 0);
     TEST_ASSERT_EQUAL_UINT(0, ticks_at_rest_in_a_trial());
@@ -172,13 +169,13 @@ static unsigned ticks_until_it_drives_on(void)
     return ticks;
 }
 
-static void test_a_sensor_that_is_stuck_blocks_no_robot_that_distrusts_it(void)
+TEST(a_sensor_that_is_stuck_blocks_no_robot_that_distrusts_it)
 {
     start(DISTRUST, LIMIT);
     ticks_until_it_drives_on();
 }
 
-static void test_a_start_trusts_again(void)
+TEST(a_start_trusts_again)
 {
     start(DISTRUST, LIMIT);
     ticks_until_it_drives_on();
@@ -186,28 +183,28 @@ static void test_a_start_trusts_again(void)
     TEST_ASSERT_EQUAL(REASON_TRIAL, step(FRONT).reason);
 }
 
-static void test_while_no_sensor_is_distrusted_none_is_counted(void)
+TEST(while_no_sensor_is_distrusted_none_is_counted)
 {
     decide(ALL, 300);
     config_set(&config, DISTRUST, 1);
     TEST_ASSERT_EQUAL_HEX8(ALL, believed(ALL));
 }
 
-static void test_a_limit_of_one_distrusts_after_the_first_decision(void)
+TEST(a_limit_of_one_distrusts_after_the_first_decision)
 {
     config_set(&config, DISTRUST, 1);
     decide(FRONT, 1);
     TEST_ASSERT_EQUAL_HEX8(0, believed(FRONT));
 }
 
-static void test_every_sensor_can_be_distrusted(void)
+TEST(every_sensor_can_be_distrusted)
 {
     config_set(&config, DISTRUST, LIMIT);
     decide(ALL, LIMIT + 5);
     TEST_ASSERT_EQUAL_HEX8(0, believed(ALL));
 }
 
-static void test_after_a_quiet_decision_the_count_begins_at_nothing(void)
+TEST(after_a_quiet_decision_the_count_begins_at_nothing)
 {
     config_set(&config, DISTRUST, LIMIT);
     decide(FRONT, LIMIT);
@@ -216,33 +213,10 @@ static void test_after_a_quiet_decision_the_count_begins_at_nothing(void)
     TEST_ASSERT_EQUAL_HEX8(FRONT, believed(FRONT));
 }
 
-static void test_a_new_start_trusts_every_sensor(void)
+TEST(a_new_start_trusts_every_sensor)
 {
     config_set(&config, DISTRUST, LIMIT);
     decide(ALL, LIMIT);
     perception_start(&perception);
     TEST_ASSERT_EQUAL_HEX8(ALL, believed(ALL));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_by_default_all_is_believed_at_once);
-    RUN_TEST(test_filtered_each_bit_is_what_two_of_three_ticks_say);
-    RUN_TEST(test_a_sensor_is_distrusted_after_the_limit_of_decisions_in_a_row);
-    RUN_TEST(test_the_other_sensors_are_still_believed);
-    RUN_TEST(test_it_stays_distrusted_however_long_it_goes_on);
-    RUN_TEST(test_one_quiet_decision_restores_trust);
-    RUN_TEST(test_a_glitch_of_one_tick_does_not_end_a_filtered_step);
-    RUN_TEST(test_a_glitch_of_one_tick_ends_a_step_by_default);
-    RUN_TEST(test_filtered_a_trial_is_judged_after_two_ticks_at_rest);
-    RUN_TEST(test_by_default_a_trial_is_judged_at_once);
-    RUN_TEST(test_a_sensor_that_is_stuck_blocks_no_robot_that_distrusts_it);
-    RUN_TEST(test_a_start_trusts_again);
-    RUN_TEST(test_while_no_sensor_is_distrusted_none_is_counted);
-    RUN_TEST(test_a_limit_of_one_distrusts_after_the_first_decision);
-    RUN_TEST(test_every_sensor_can_be_distrusted);
-    RUN_TEST(test_after_a_quiet_decision_the_count_begins_at_nothing);
-    RUN_TEST(test_a_new_start_trusts_every_sensor);
-    return UNITY_END();
 }

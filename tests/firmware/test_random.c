@@ -2,7 +2,7 @@
 
 #include <stdbool.h>
 
-#include <unity.h>
+#include "tests/test.h"
 
 static struct random dice;
 
@@ -11,10 +11,8 @@ void setUp(void)
     random_seed(&dice, 1);
 }
 
-void tearDown(void) {}
-
 /* The authors' own C code gives these numbers for the state 1, 2, and so did a rendering in Python. */
-static void test_the_sequence_is_that_of_xoroshiro64_star_star(void)
+TEST(the_sequence_is_that_of_xoroshiro64_star_star)
 {
     static const uint32_t published[10] = {3802928447u, 813792938u,  1618621494u, 2955957307u, 3252880261u,
                                            1129983909u, 2539651700u, 1327610908u, 1757650787u, 2763843748u};
@@ -42,7 +40,7 @@ static const struct {
 
 enum { ANSWER_COUNT = sizeof ANSWERS / sizeof ANSWERS[0] };
 
-static void test_a_seed_gives_the_known_state_and_sequence(void)
+TEST(a_seed_gives_the_known_state_and_sequence)
 {
     for (unsigned i = 0; i < ANSWER_COUNT; i++) {
         random_seed(&dice, ANSWERS[i].seed);
@@ -52,7 +50,7 @@ static void test_a_seed_gives_the_known_state_and_sequence(void)
     }
 }
 
-static void test_draws_are_the_known_ones(void)
+TEST(draws_are_the_known_ones)
 {
     static const uint8_t below[12] = {2, 3, 10, 60, 129, 200, 255, 1, 2, 3, 10, 60};
 
@@ -63,7 +61,7 @@ static void test_draws_are_the_known_ones(void)
     }
 }
 
-static void test_equal_seeds_give_equal_sequences(void)
+TEST(equal_seeds_give_equal_sequences)
 {
     struct random twin;
 
@@ -72,7 +70,7 @@ static void test_equal_seeds_give_equal_sequences(void)
         TEST_ASSERT_EQUAL_UINT32(random_next(&twin), random_next(&dice));
 }
 
-static void test_neighbouring_seeds_give_different_sequences(void)
+TEST(neighbouring_seeds_give_different_sequences)
 {
     for (uint32_t seed = 0; seed < 1000; seed++) {
         struct random one, next;
@@ -84,7 +82,7 @@ static void test_neighbouring_seeds_give_different_sequences(void)
 }
 
 /* The first choice that a robot makes: seeds 0, 1, 2.. must not all make the same. */
-static void test_the_first_draw_of_neighbouring_seeds_is_fair(void)
+TEST(the_first_draw_of_neighbouring_seeds_is_fair)
 {
     unsigned ones = 0;
 
@@ -96,7 +94,7 @@ static void test_the_first_draw_of_neighbouring_seeds_is_fair(void)
 }
 
 /* These two seeds make one word of the state 0. */
-static void test_no_seed_makes_the_dice_stand_still(void)
+TEST(no_seed_makes_the_dice_stand_still)
 {
     static const uint32_t seeds[2] = {0u - 0x9e3779b9u, 0u - 0x3c6ef372u};
 
@@ -106,13 +104,13 @@ static void test_no_seed_makes_the_dice_stand_still(void)
     }
 }
 
-static void test_below_1_is_always_0(void)
+TEST(below_1_is_always_0)
 {
     for (unsigned i = 0; i < 1000; i++)
         TEST_ASSERT_EQUAL_UINT8(0, random_below(&dice, 1));
 }
 
-static void test_below_n_reaches_each_number_and_no_other(void)
+TEST(below_n_reaches_each_number_and_no_other)
 {
     for (unsigned n = 1; n <= UINT8_MAX; n++) {
         bool seen[UINT8_MAX + 1] = {false};
@@ -135,49 +133,29 @@ static void assert_fair(uint8_t n)
         TEST_ASSERT_UINT_WITHIN(FIVE_DEVIATIONS, EACH, counts[value]);
 }
 
-static void test_two_sides_are_as_likely(void)
+TEST(two_sides_are_as_likely)
 {
     assert_fair(2);
 }
 
-static void test_ten_sizes_are_as_likely(void)
+TEST(ten_sizes_are_as_likely)
 {
     assert_fair(10);
 }
 
 /* 256 % 60 is 16: a plain remainder would draw 0..15 a quarter too often. */
-static void test_sixty_sizes_are_as_likely(void)
+TEST(sixty_sizes_are_as_likely)
 {
     assert_fair(60);
 }
 
-static void test_255_sizes_are_as_likely(void)
+TEST(255_sizes_are_as_likely)
 {
     assert_fair(255);
 }
 
 /* 256 / 129: half of what is drawn is thrown away. */
-static void test_a_number_that_just_missed_a_power_of_two_is_fair(void)
+TEST(a_number_that_just_missed_a_power_of_two_is_fair)
 {
     assert_fair(129);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_sequence_is_that_of_xoroshiro64_star_star);
-    RUN_TEST(test_a_seed_gives_the_known_state_and_sequence);
-    RUN_TEST(test_draws_are_the_known_ones);
-    RUN_TEST(test_equal_seeds_give_equal_sequences);
-    RUN_TEST(test_neighbouring_seeds_give_different_sequences);
-    RUN_TEST(test_the_first_draw_of_neighbouring_seeds_is_fair);
-    RUN_TEST(test_no_seed_makes_the_dice_stand_still);
-    RUN_TEST(test_below_1_is_always_0);
-    RUN_TEST(test_below_n_reaches_each_number_and_no_other);
-    RUN_TEST(test_two_sides_are_as_likely);
-    RUN_TEST(test_ten_sizes_are_as_likely);
-    RUN_TEST(test_sixty_sizes_are_as_likely);
-    RUN_TEST(test_255_sizes_are_as_likely);
-    RUN_TEST(test_a_number_that_just_missed_a_power_of_two_is_fair);
-    return UNITY_END();
 }

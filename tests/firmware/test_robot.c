@@ -1,8 +1,6 @@
 /* What it drives, tick by tick. */
 #include "firmware/robot.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "robot_rig.h"
 
 void setUp(void)
@@ -12,16 +10,14 @@ void setUp(void)
     command(OPCODE_START, PROFILE_ARTICLE, 1);
 }
 
-void tearDown(void) {}
-
-static void test_after_power_up_it_rests(void)
+TEST(after_power_up_it_rests)
 {
     robot_init(&robot, 1);
     feel(CLEAR);
     assert_at_rest();
 }
 
-static void test_after_power_up_it_knows_nothing(void)
+TEST(after_power_up_it_knows_nothing)
 {
     static const uint8_t nothing[CELL_COUNT] = {0};
 
@@ -29,13 +25,13 @@ static void test_after_power_up_it_knows_nothing(void)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
 }
 
-static void test_a_drive_answers_the_tick_of_its_senses(void)
+TEST(a_drive_answers_the_tick_of_its_senses)
 {
     sense((struct senses){.tick = 255});
     TEST_ASSERT_EQUAL_UINT8(255, out.drive.tick);
 }
 
-static void test_a_clear_way_is_driven(void)
+TEST(a_clear_way_is_driven)
 {
     feel(CLEAR);
     TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
@@ -43,7 +39,7 @@ static void test_a_clear_way_is_driven(void)
     TEST_ASSERT_EQUAL_INT16(out.drive.left_mm_s, out.drive.right_mm_s);
 }
 
-static void test_a_remembered_left_turns_the_left_wheel_back(void)
+TEST(a_remembered_left_turns_the_left_wheel_back)
 {
     learned(SIDE_LEFT);
     feel(FRONT);
@@ -51,7 +47,7 @@ static void test_a_remembered_left_turns_the_left_wheel_back(void)
     TEST_ASSERT_GREATER_THAN_INT16(0, out.drive.right_mm_s);
 }
 
-static void test_the_wheels_stop_in_the_tick_that_brings_an_obstacle(void)
+TEST(the_wheels_stop_in_the_tick_that_brings_an_obstacle)
 {
     feel(CLEAR);
     sense((struct senses){.feel = FRONT, .look = true, .beacon_mm = 100});   /* the step ends, and it eats */
@@ -59,7 +55,7 @@ static void test_the_wheels_stop_in_the_tick_that_brings_an_obstacle(void)
     TEST_ASSERT_EQUAL_INT16(0, out.drive.right_mm_s);
 }
 
-static void test_food_is_eaten_for_exactly_one_tick(void)
+TEST(food_is_eaten_for_exactly_one_tick)
 {
     const struct senses near_food = {.look = true, .beacon_mm = 100};
     const struct senses at_the_end = {
@@ -73,7 +69,7 @@ static void test_food_is_eaten_for_exactly_one_tick(void)
     TEST_ASSERT_FALSE(out.drive.eat);
 }
 
-static void test_trials_eat_nothing(void)
+TEST(trials_eat_nothing)
 {
     for (unsigned i = 0; i < MANY; i++) {
         feel(FRONT);
@@ -81,14 +77,14 @@ static void test_trials_eat_nothing(void)
     }
 }
 
-static void test_the_drive_tells_the_repeat_count(void)
+TEST(the_drive_tells_the_repeat_count)
 {
     learned(SIDE_LEFT);
     feel(FRONT);
     TEST_ASSERT_EQUAL_UINT8(1, out.drive.repeat_count);
 }
 
-static void test_an_action_keeps_its_number_while_it_lasts(void)
+TEST(an_action_keeps_its_number_while_it_lasts)
 {
     uint8_t number;
 
@@ -98,7 +94,7 @@ static void test_an_action_keeps_its_number_while_it_lasts(void)
     TEST_ASSERT_EQUAL_UINT8(number, out.drive.action);
 }
 
-static void test_actions_are_numbered_0_to_127_round_and_round(void)
+TEST(actions_are_numbered_0_to_127_round_and_round)
 {
     uint8_t last = out.drive.action;
     unsigned changes = 0;
@@ -112,21 +108,4 @@ static void test_actions_are_numbered_0_to_127_round_and_round(void)
         changes++;
     }
     TEST_ASSERT_EQUAL_UINT(300, changes);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_after_power_up_it_rests);
-    RUN_TEST(test_after_power_up_it_knows_nothing);
-    RUN_TEST(test_a_drive_answers_the_tick_of_its_senses);
-    RUN_TEST(test_a_clear_way_is_driven);
-    RUN_TEST(test_a_remembered_left_turns_the_left_wheel_back);
-    RUN_TEST(test_the_wheels_stop_in_the_tick_that_brings_an_obstacle);
-    RUN_TEST(test_food_is_eaten_for_exactly_one_tick);
-    RUN_TEST(test_trials_eat_nothing);
-    RUN_TEST(test_the_drive_tells_the_repeat_count);
-    RUN_TEST(test_an_action_keeps_its_number_while_it_lasts);
-    RUN_TEST(test_actions_are_numbered_0_to_127_round_and_round);
-    return UNITY_END();
 }

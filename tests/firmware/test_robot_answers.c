@@ -1,8 +1,6 @@
 /* What commands and lessons bring: an answer, the memory, and whether it is stored. */
 #include "firmware/robot.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "robot_rig.h"
 
 void setUp(void)
@@ -12,9 +10,7 @@ void setUp(void)
     command(OPCODE_START, PROFILE_ARTICLE, 1);
 }
 
-void tearDown(void) {}
-
-static void test_a_command_is_answered_and_not_driven(void)
+TEST(a_command_is_answered_and_not_driven)
 {
     command(OPCODE_RESUME, 0, 0);
     TEST_ASSERT_TRUE(out.has_answer);
@@ -22,21 +18,21 @@ static void test_a_command_is_answered_and_not_driven(void)
     TEST_ASSERT_FALSE(out.has_drive);
 }
 
-static void test_a_refusal_is_answered(void)
+TEST(a_refusal_is_answered)
 {
     command(OPCODE_SET, PARAMETER_COUNT, 0);
     TEST_ASSERT_TRUE(out.has_answer);
     TEST_ASSERT_EQUAL(RESULT_UNKNOWN_PARAMETER, out.answer);
 }
 
-static void test_senses_are_driven_and_not_answered(void)
+TEST(senses_are_driven_and_not_answered)
 {
     feel(CLEAR);
     TEST_ASSERT_TRUE(out.has_drive);
     TEST_ASSERT_FALSE(out.has_answer);
 }
 
-static void test_a_written_memory_is_sent_and_stored_once(void)
+TEST(a_written_memory_is_sent_and_stored_once)
 {
     command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_LEFT << 8 * PATTERN_FRONT);
     TEST_ASSERT_TRUE(out.has_memory);
@@ -48,7 +44,7 @@ static void test_a_written_memory_is_sent_and_stored_once(void)
 }
 
 /* A trial of 45 degrees is 1257 counts of difference between the wheels. */
-static void test_a_lesson_is_sent_and_stored_as_it_is_learned(void)
+TEST(a_lesson_is_sent_and_stored_as_it_is_learned)
 {
     feel(FRONT);
     for (uint8_t tick = 5; tick <= 10; tick += 5) {
@@ -63,7 +59,7 @@ static void test_a_lesson_is_sent_and_stored_as_it_is_learned(void)
     TEST_ASSERT_NOT_EQUAL_UINT8(SIDE_NOTHING, out.memory[PATTERN_FRONT]);
 }
 
-static void test_the_turns_of_a_fixed_robot_are_sent_and_not_stored(void)
+TEST(the_turns_of_a_fixed_robot_are_sent_and_not_stored)
 {
     command(OPCODE_START, PROFILE_FIXED, 1);
     TEST_ASSERT_TRUE(out.has_answer);
@@ -72,7 +68,7 @@ static void test_the_turns_of_a_fixed_robot_are_sent_and_not_stored(void)
     TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, out.memory[PATTERN_FRONT]);
 }
 
-static void test_what_is_written_to_a_robot_that_does_not_learn_is_not_stored(void)
+TEST(what_is_written_to_a_robot_that_does_not_learn_is_not_stored)
 {
     command(OPCODE_START, PROFILE_FIXED, 1);
     command(OPCODE_WRITE, 1u << PATTERN_FRONT, SIDE_RIGHT << 8 * PATTERN_FRONT);
@@ -80,22 +76,8 @@ static void test_what_is_written_to_a_robot_that_does_not_learn_is_not_stored(vo
     TEST_ASSERT_FALSE(out.store);
 }
 
-static void test_a_report_alone_stores_nothing(void)
+TEST(a_report_alone_stores_nothing)
 {
     command(OPCODE_STOP, 0, 0);
     TEST_ASSERT_FALSE(out.store);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_command_is_answered_and_not_driven);
-    RUN_TEST(test_a_refusal_is_answered);
-    RUN_TEST(test_senses_are_driven_and_not_answered);
-    RUN_TEST(test_a_written_memory_is_sent_and_stored_once);
-    RUN_TEST(test_a_lesson_is_sent_and_stored_as_it_is_learned);
-    RUN_TEST(test_the_turns_of_a_fixed_robot_are_sent_and_not_stored);
-    RUN_TEST(test_what_is_written_to_a_robot_that_does_not_learn_is_not_stored);
-    RUN_TEST(test_a_report_alone_stores_nothing);
-    return UNITY_END();
 }

@@ -1,8 +1,6 @@
 /* What a robot tells of itself, and when. */
 #include "firmware/robot.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "robot_rig.h"
 
 void setUp(void)
@@ -12,9 +10,7 @@ void setUp(void)
     command(OPCODE_START, PROFILE_ARTICLE, 1);
 }
 
-void tearDown(void) {}
-
-static void test_every_tenth_silence_brings_a_report(void)
+TEST(every_tenth_silence_brings_a_report)
 {
     for (unsigned i = 1; i <= 100; i++) {
         silence();
@@ -22,7 +18,7 @@ static void test_every_tenth_silence_brings_a_report(void)
     }
 }
 
-static void test_senses_begin_the_count_of_silences_anew(void)
+TEST(senses_begin_the_count_of_silences_anew)
 {
     for (unsigned i = 0; i < 9; i++)
         silence();
@@ -31,7 +27,7 @@ static void test_senses_begin_the_count_of_silences_anew(void)
     TEST_ASSERT_FALSE(out.has_report);
 }
 
-static void test_a_report_comes_once_a_second(void)
+TEST(a_report_comes_once_a_second)
 {
     for (unsigned tick = 1; tick <= MANY; tick++) {
         feel(CLEAR);
@@ -39,7 +35,7 @@ static void test_a_report_comes_once_a_second(void)
     }
 }
 
-static void test_a_report_has_the_memory(void)
+TEST(a_report_has_the_memory)
 {
     learned(SIDE_RIGHT);
     for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++)
@@ -49,7 +45,7 @@ static void test_a_report_has_the_memory(void)
     TEST_ASSERT_EQUAL_UINT8(SIDE_RIGHT, out.memory[PATTERN_FRONT]);
 }
 
-static void test_what_a_report_tells_is_there_when_none_is_due(void)
+TEST(what_a_report_tells_is_there_when_none_is_due)
 {
     robot.uptime_s = 77;
     feel(CLEAR);
@@ -59,7 +55,7 @@ static void test_what_a_report_tells_is_there_when_none_is_due(void)
     TEST_ASSERT_EQUAL_UINT8(PROFILE_ARTICLE, out.report.profile);
 }
 
-static void test_a_stopped_robot_reports_too(void)
+TEST(a_stopped_robot_reports_too)
 {
     robot_init(&robot, 1);
     for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++)
@@ -67,7 +63,7 @@ static void test_a_stopped_robot_reports_too(void)
     TEST_ASSERT_TRUE(out.has_report);
 }
 
-static void test_reports_keep_to_the_second_with_any_tick(void)
+TEST(reports_keep_to_the_second_with_any_tick)
 {
     unsigned reports = 0;
 
@@ -80,7 +76,7 @@ static void test_reports_keep_to_the_second_with_any_tick(void)
 }
 
 /* 34 ticks of 30 ms are 1,020 ms: 20 of these belong to the next second. */
-static void test_where_no_tick_ends_with_a_second_the_next_one_reports(void)
+TEST(where_no_tick_ends_with_a_second_the_next_one_reports)
 {
     command(OPCODE_SET, TICK_MS, 30);
     for (unsigned tick = 1; tick <= 134; tick++) {
@@ -90,14 +86,14 @@ static void test_where_no_tick_ends_with_a_second_the_next_one_reports(void)
     TEST_ASSERT_EQUAL_UINT32(4, out.report.uptime_s);
 }
 
-static void test_uptime_counts_seconds(void)
+TEST(uptime_counts_seconds)
 {
     for (unsigned tick = 0; tick < 90 * TICKS_PER_SECOND; tick++)
         feel(CLEAR);
     TEST_ASSERT_EQUAL_UINT16(90, out.report.uptime_s);
 }
 
-static void test_uptime_wraps(void)
+TEST(uptime_wraps)
 {
     robot.uptime_s = UINT16_MAX;
     robot.part_ms = 980;
@@ -106,7 +102,7 @@ static void test_uptime_wraps(void)
     TEST_ASSERT_EQUAL_UINT16(0, out.report.uptime_s);
 }
 
-static void test_stop_is_answered_with_a_report(void)
+TEST(stop_is_answered_with_a_report)
 {
     command(OPCODE_STOP, 0, 0);
     TEST_ASSERT_TRUE(out.has_answer);
@@ -115,7 +111,7 @@ static void test_stop_is_answered_with_a_report(void)
     TEST_ASSERT_FALSE(out.report.running);
 }
 
-static void test_a_report_is_made_when_it_is_asked_for(void)
+TEST(a_report_is_made_when_it_is_asked_for)
 {
     command(OPCODE_REPORT, 0, 0);
     TEST_ASSERT_TRUE(out.has_answer);
@@ -125,14 +121,14 @@ static void test_a_report_is_made_when_it_is_asked_for(void)
     TEST_ASSERT_FALSE(out.has_drive);
 }
 
-static void test_the_report_tells_a_frozen_robot(void)
+TEST(the_report_tells_a_frozen_robot)
 {
     command(OPCODE_FREEZE, 1, 0);
     command(OPCODE_STOP, 0, 0);
     TEST_ASSERT_TRUE(out.report.frozen);
 }
 
-static void test_the_report_tells_the_profile(void)
+TEST(the_report_tells_the_profile)
 {
     for (uint8_t profile = 0; profile < PROFILE_COUNT; profile++) {
         command(OPCODE_START, profile, 1);
@@ -141,31 +137,10 @@ static void test_the_report_tells_the_profile(void)
     }
 }
 
-static void test_every_byte_of_the_memory_is_told(void)
+TEST(every_byte_of_the_memory_is_told)
 {
     command(OPCODE_START, PROFILE_FIVE, 1);
     robot.brain.memory = (struct memory){{0xFF, 1, 2, 3, 4, 5, 6, 7}};
     command(OPCODE_REPORT, 0, 0);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(robot.brain.memory.cell, out.memory, CELL_COUNT);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_every_tenth_silence_brings_a_report);
-    RUN_TEST(test_senses_begin_the_count_of_silences_anew);
-    RUN_TEST(test_a_report_comes_once_a_second);
-    RUN_TEST(test_a_report_has_the_memory);
-    RUN_TEST(test_what_a_report_tells_is_there_when_none_is_due);
-    RUN_TEST(test_a_stopped_robot_reports_too);
-    RUN_TEST(test_reports_keep_to_the_second_with_any_tick);
-    RUN_TEST(test_where_no_tick_ends_with_a_second_the_next_one_reports);
-    RUN_TEST(test_uptime_counts_seconds);
-    RUN_TEST(test_uptime_wraps);
-    RUN_TEST(test_stop_is_answered_with_a_report);
-    RUN_TEST(test_a_report_is_made_when_it_is_asked_for);
-    RUN_TEST(test_the_report_tells_a_frozen_robot);
-    RUN_TEST(test_the_report_tells_the_profile);
-    RUN_TEST(test_every_byte_of_the_memory_is_told);
-    return UNITY_END();
 }

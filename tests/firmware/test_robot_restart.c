@@ -3,8 +3,7 @@
 
 #include <stdlib.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "robot_rig.h"
 
 enum {
@@ -20,8 +19,6 @@ void setUp(void)
     robot_init(&robot, 1);
     command(OPCODE_START, PROFILE_ARTICLE, 1);
 }
-
-void tearDown(void) {}
 
 /* How far the wheels are from one body's odometers to the next, right positive. */
 static int turned(const struct senses *from)
@@ -70,7 +67,7 @@ static int turn_on_from(uint16_t left, uint16_t right)
     return turned(&anew);
 }
 
-static void test_a_body_that_restarts_turns_no_farther_than_it_was_told(void)
+TEST(a_body_that_restarts_turns_no_farther_than_it_was_told)
 {
     for (unsigned i = 0; i < sizeof OUTAGES_MS / sizeof *OUTAGES_MS; i++)
         for (uint16_t left = 7; left < ODOMETER_SPAN; left += 130)
@@ -83,7 +80,7 @@ static void test_a_body_that_restarts_turns_no_farther_than_it_was_told(void)
             }
 }
 
-static void test_a_restart_is_counted(void)
+TEST(a_restart_is_counted)
 {
     (void)turn_for(5, 300, 300);
     stay_away_for(300);
@@ -93,7 +90,7 @@ static void test_a_restart_is_counted(void)
 }
 
 /* It holds its last drive for 100 ms, and then stands. */
-static void test_what_a_body_rolled_in_silence_is_part_of_its_turn(void)
+TEST(what_a_body_rolled_in_silence_is_part_of_its_turn)
 {
     for (unsigned i = 0; i < sizeof OUTAGES_MS / sizeof *OUTAGES_MS; i++) {
         int way = turn_for(2, 1000, 1000);
@@ -107,7 +104,7 @@ static void test_what_a_body_rolled_in_silence_is_part_of_its_turn(void)
 }
 
 /* Whatever the number of its tick: a body may begin anew with that, too. */
-static void test_in_silence_wheels_roll_no_farther_than_a_drive_is_held(void)
+TEST(in_silence_wheels_roll_no_farther_than_a_drive_is_held)
 {
     for (unsigned silences = 0; silences <= 21; silences++) {
         setUp();
@@ -120,22 +117,11 @@ static void test_in_silence_wheels_roll_no_farther_than_a_drive_is_held(void)
     }
 }
 
-static void test_a_body_that_has_stood_at_0_all_the_time_has_not_restarted(void)
+TEST(a_body_that_has_stood_at_0_all_the_time_has_not_restarted)
 {
     obey(CLEAR);
     stay_away_for(300);
     wheels.odometer_left = wheels.odometer_right = 0;
     sense(wheels);
     TEST_ASSERT_FALSE(out.contradiction);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_body_that_restarts_turns_no_farther_than_it_was_told);
-    RUN_TEST(test_a_restart_is_counted);
-    RUN_TEST(test_what_a_body_rolled_in_silence_is_part_of_its_turn);
-    RUN_TEST(test_in_silence_wheels_roll_no_farther_than_a_drive_is_held);
-    RUN_TEST(test_a_body_that_has_stood_at_0_all_the_time_has_not_restarted);
-    return UNITY_END();
 }

@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "robot_rig.h"
 
 void setUp(void)
@@ -14,9 +13,7 @@ void setUp(void)
     command(OPCODE_START, PROFILE_ARTICLE, 1);
 }
 
-void tearDown(void) {}
-
-static void test_silence_rests_the_wheels_and_says_so(void)
+TEST(silence_rests_the_wheels_and_says_so)
 {
     feel(CLEAR);
     silence();
@@ -25,7 +22,7 @@ static void test_silence_rests_the_wheels_and_says_so(void)
     TEST_ASSERT_TRUE(out.silent);
 }
 
-static void test_a_drive_in_silence_names_the_last_tick_and_action(void)
+TEST(a_drive_in_silence_names_the_last_tick_and_action)
 {
     uint8_t number;
 
@@ -36,7 +33,7 @@ static void test_a_drive_in_silence_names_the_last_tick_and_action(void)
     TEST_ASSERT_EQUAL_UINT8(number, out.drive.action);
 }
 
-static void test_silence_changes_nothing_but_its_count(void)
+TEST(silence_changes_nothing_but_its_count)
 {
     struct robot before;
 
@@ -48,7 +45,7 @@ static void test_silence_changes_nothing_but_its_count(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &robot, sizeof robot);
 }
 
-static void test_after_silence_it_goes_on_where_it_was(void)
+TEST(after_silence_it_goes_on_where_it_was)
 {
     struct drive expected;
     struct robot before;
@@ -65,14 +62,14 @@ static void test_after_silence_it_goes_on_where_it_was(void)
     TEST_ASSERT_EQUAL(expected.reason, out.drive.reason);
 }
 
-static void test_a_stopped_robot_says_in_silence_that_it_rests(void)
+TEST(a_stopped_robot_says_in_silence_that_it_rests)
 {
     command(OPCODE_STOP, 0, 0);
     silence();
     assert_at_rest();
 }
 
-static void test_stop_rests_the_wheels_at_once(void)
+TEST(stop_rests_the_wheels_at_once)
 {
     feel(CLEAR);
     command(OPCODE_STOP, 0, 0);
@@ -80,7 +77,7 @@ static void test_stop_rests_the_wheels_at_once(void)
     TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
 }
 
-static void test_the_drive_that_answers_a_stop_names_the_tick_and_the_action(void)
+TEST(the_drive_that_answers_a_stop_names_the_tick_and_the_action)
 {
     sense((struct senses){.tick = 77});
     command(OPCODE_STOP, 0, 0);
@@ -88,17 +85,4 @@ static void test_the_drive_that_answers_a_stop_names_the_tick_and_the_action(voi
     TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
     TEST_ASSERT_EQUAL_UINT8(77, out.drive.tick);
     TEST_ASSERT_EQUAL_UINT8(1, out.drive.action);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_silence_rests_the_wheels_and_says_so);
-    RUN_TEST(test_a_drive_in_silence_names_the_last_tick_and_action);
-    RUN_TEST(test_silence_changes_nothing_but_its_count);
-    RUN_TEST(test_after_silence_it_goes_on_where_it_was);
-    RUN_TEST(test_a_stopped_robot_says_in_silence_that_it_rests);
-    RUN_TEST(test_stop_rests_the_wheels_at_once);
-    RUN_TEST(test_the_drive_that_answers_a_stop_names_the_tick_and_the_action);
-    return UNITY_END();
 }

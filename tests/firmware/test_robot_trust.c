@@ -1,7 +1,5 @@
 #include "firmware/robot.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "robot_rig.h"
 
 void setUp(void)
@@ -11,9 +9,7 @@ void setUp(void)
     command(OPCODE_START, PROFILE_ARTICLE, 1);
 }
 
-void tearDown(void) {}
-
-static void test_wheels_that_obey_are_no_fault(void)
+TEST(wheels_that_obey_are_no_fault)
 {
     for (unsigned i = 0; i < MANY; i++) {
         obey(i / 100 % 2 ? FRONT : CLEAR);
@@ -23,7 +19,7 @@ static void test_wheels_that_obey_are_no_fault(void)
 }
 
 /* As against a wall, or with a motor that is dead. */
-static void test_wheels_that_do_not_obey_stop_the_robot(void)
+TEST(wheels_that_do_not_obey_stop_the_robot)
 {
     unsigned denials = 0, ticks = 0;
 
@@ -36,7 +32,7 @@ static void test_wheels_that_do_not_obey_stop_the_robot(void)
     TEST_ASSERT_EQUAL(REASON_STOP, out.drive.reason);
 }
 
-static void test_from_wheels_that_do_not_obey_nothing_is_learned(void)
+TEST(from_wheels_that_do_not_obey_nothing_is_learned)
 {
     static const uint8_t nothing[CELL_COUNT] = {0};
     unsigned ticks = 0;
@@ -61,12 +57,12 @@ static void try_with(unsigned times, unsigned of)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, robot.brain.memory.cell, CELL_COUNT);
 }
 
-static void test_from_wheels_that_turn_at_half_the_speed_nothing_is_learned(void)
+TEST(from_wheels_that_turn_at_half_the_speed_nothing_is_learned)
 {
     try_with(1, 2);
 }
 
-static void test_from_odometers_that_count_a_multiple_nothing_is_learned(void)
+TEST(from_odometers_that_count_a_multiple_nothing_is_learned)
 {
     for (unsigned times = 2; times <= 4; times++) {
         setUp();
@@ -75,7 +71,7 @@ static void test_from_odometers_that_count_a_multiple_nothing_is_learned(void)
 }
 
 /* With food ahead a searcher takes step after step, and never the turn that would tell. */
-static void test_a_dead_motor_stops_a_robot_that_only_takes_steps(void)
+TEST(a_dead_motor_stops_a_robot_that_only_takes_steps)
 {
     unsigned denials = 0, ticks = 0;
 
@@ -92,7 +88,7 @@ static void test_a_dead_motor_stops_a_robot_that_only_takes_steps(void)
     assert_at_rest();
 }
 
-static void test_wheels_that_obey_again_are_forgiven(void)
+TEST(wheels_that_obey_again_are_forgiven)
 {
     while (!out.denied)
         sense((struct senses){.tick = wheels.tick++, .feel = FRONT});
@@ -102,7 +98,7 @@ static void test_wheels_that_obey_again_are_forgiven(void)
     TEST_ASSERT_TRUE(robot.running);
 }
 
-static void test_food_at_no_distance_is_not_eaten(void)
+TEST(food_at_no_distance_is_not_eaten)
 {
     sense((struct senses){.tick = 0, .look = true, .beacon_mm = 0});
     TEST_ASSERT_TRUE(out.contradiction);
@@ -114,14 +110,14 @@ static void test_food_at_no_distance_is_not_eaten(void)
     }
 }
 
-static void test_a_distance_to_no_food_is_a_contradiction(void)
+TEST(a_distance_to_no_food_is_a_contradiction)
 {
     sense((struct senses){.beacon_mm = 100});
     TEST_ASSERT_TRUE(out.contradiction);
 }
 
 /* A body that has begun anew counts from 0. */
-static void test_odometers_that_jump_turn_nothing(void)
+TEST(odometers_that_jump_turn_nothing)
 {
     int32_t before;
 
@@ -150,7 +146,7 @@ static unsigned stand_until_it_stops(void)
     return denials;
 }
 
-static void test_each_start_gives_its_wheels_three_actions(void)
+TEST(each_start_gives_its_wheels_three_actions)
 {
     for (unsigned starts = 0; starts < 3; starts++) {
         command(OPCODE_START, PROFILE_ARTICLE, 1);
@@ -159,7 +155,7 @@ static void test_each_start_gives_its_wheels_three_actions(void)
 }
 
 /* However often it is: a count that went round would trust them three times more. */
-static void test_resumed_with_wheels_that_still_do_not_obey_it_stops_at_once(void)
+TEST(resumed_with_wheels_that_still_do_not_obey_it_stops_at_once)
 {
     (void)stand_until_it_stops();
     for (unsigned resumed = 0; resumed < 300; resumed++) {
@@ -168,7 +164,7 @@ static void test_resumed_with_wheels_that_still_do_not_obey_it_stops_at_once(voi
     }
 }
 
-static void test_resumed_without_ever_having_been_started_it_trusts_its_wheels(void)
+TEST(resumed_without_ever_having_been_started_it_trusts_its_wheels)
 {
     robot_init(&robot, 1);
     command(OPCODE_RESUME, 0, 0);
@@ -179,7 +175,7 @@ static void test_resumed_without_ever_having_been_started_it_trusts_its_wheels(v
 }
 
 /* 45 degrees take 12.5 ticks: twice as many, and 25. */
-static void test_after_a_trial_that_was_given_up_it_does_not_wait_for_the_filter(void)
+TEST(after_a_trial_that_was_given_up_it_does_not_wait_for_the_filter)
 {
     unsigned ticks = 0;
 
@@ -194,7 +190,7 @@ static void test_after_a_trial_that_was_given_up_it_does_not_wait_for_the_filter
 }
 
 /* In one tick no wheel makes 200 counts, whatever the number of the tick. */
-static void test_wheels_that_jump_within_a_tick_are_seen_at_any_tick(void)
+TEST(wheels_that_jump_within_a_tick_are_seen_at_any_tick)
 {
     for (unsigned tick = 1; tick < 250; tick += 31) {
         setUp();
@@ -204,31 +200,9 @@ static void test_wheels_that_jump_within_a_tick_are_seen_at_any_tick(void)
     }
 }
 
-static void test_a_sensor_is_distrusted_in_the_very_decision_that_is_one_too_many(void)
+TEST(a_sensor_is_distrusted_in_the_very_decision_that_is_one_too_many)
 {
     command(OPCODE_SET, DISTRUST, 1);
     feel(FRONT);
     TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_wheels_that_obey_are_no_fault);
-    RUN_TEST(test_wheels_that_do_not_obey_stop_the_robot);
-    RUN_TEST(test_from_wheels_that_do_not_obey_nothing_is_learned);
-    RUN_TEST(test_from_wheels_that_turn_at_half_the_speed_nothing_is_learned);
-    RUN_TEST(test_from_odometers_that_count_a_multiple_nothing_is_learned);
-    RUN_TEST(test_a_dead_motor_stops_a_robot_that_only_takes_steps);
-    RUN_TEST(test_wheels_that_obey_again_are_forgiven);
-    RUN_TEST(test_food_at_no_distance_is_not_eaten);
-    RUN_TEST(test_a_distance_to_no_food_is_a_contradiction);
-    RUN_TEST(test_odometers_that_jump_turn_nothing);
-    RUN_TEST(test_each_start_gives_its_wheels_three_actions);
-    RUN_TEST(test_resumed_with_wheels_that_still_do_not_obey_it_stops_at_once);
-    RUN_TEST(test_resumed_without_ever_having_been_started_it_trusts_its_wheels);
-    RUN_TEST(test_after_a_trial_that_was_given_up_it_does_not_wait_for_the_filter);
-    RUN_TEST(test_wheels_that_jump_within_a_tick_are_seen_at_any_tick);
-    RUN_TEST(test_a_sensor_is_distrusted_in_the_very_decision_that_is_one_too_many);
-    return UNITY_END();
 }

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-#include <unity.h>
+#include "tests/test.h"
 
 enum { CELL_FRONT = 2, TICKS_A_SECOND = 50 };
 
@@ -61,14 +61,12 @@ void setUp(void)
     pass_second();
 }
 
-void tearDown(void) {}
-
 static void assert_cell(uint8_t expected)
 {
     TEST_ASSERT_EQUAL_HEX8(expected, robot.brain.memory.cell[CELL_FRONT]);
 }
 
-static void test_an_empty_cell_takes_the_side_that_has_more_votes_with_the_least_confidence(void)
+TEST(an_empty_cell_takes_the_side_that_has_more_votes_with_the_least_confidence)
 {
     hear_front(confidence_cell(SIDE_RIGHT, 3));
     hear_front(confidence_cell(SIDE_LEFT, 1));
@@ -77,7 +75,7 @@ static void test_an_empty_cell_takes_the_side_that_has_more_votes_with_the_least
     assert_cell(confidence_cell(SIDE_LEFT, 1));
 }
 
-static void test_where_each_side_has_as_many_votes_nothing_is_taken(void)
+TEST(where_each_side_has_as_many_votes_nothing_is_taken)
 {
     hear_front(confidence_cell(SIDE_RIGHT, 3));
     hear_front(confidence_cell(SIDE_LEFT, 1));
@@ -85,7 +83,7 @@ static void test_where_each_side_has_as_many_votes_nothing_is_taken(void)
     assert_cell(0);
 }
 
-static void test_each_cell_of_both_halves_is_taken(void)
+TEST(each_cell_of_both_halves_is_taken)
 {
     static const uint8_t lower[] = {0, 1, 2, 1}, upper[] = {2, 1, 2, 1};
     static const uint8_t expected[CELL_COUNT] = {0, 5, 6, 5, 6, 5, 6, 5};
@@ -96,7 +94,7 @@ static void test_each_cell_of_both_halves_is_taken(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, robot.brain.memory.cell, CELL_COUNT);
 }
 
-static void test_where_a_cell_is_a_side_it_takes_a_side(void)
+TEST(where_a_cell_is_a_side_it_takes_a_side)
 {
     start(PROFILE_ARTICLE, 1);
     pass_second();
@@ -105,7 +103,7 @@ static void test_where_a_cell_is_a_side_it_takes_a_side(void)
     assert_cell(SIDE_RIGHT);
 }
 
-static void test_what_is_no_cell_has_no_vote(void)
+TEST(what_is_no_cell_has_no_vote)
 {
     static const uint8_t others[] = {0, 3, 4, 7, 8, 11, 15, 16, 17, 0x10, 0x80, 0xFF};
 
@@ -115,7 +113,7 @@ static void test_what_is_no_cell_has_no_vote(void)
     assert_cell(0);
 }
 
-static void test_a_cell_that_knows_a_turn_keeps_it(void)
+TEST(a_cell_that_knows_a_turn_keeps_it)
 {
     robot.brain.memory.cell[CELL_FRONT] = confidence_cell(SIDE_RIGHT, 1);
     hear_front(SIDE_LEFT);
@@ -123,7 +121,7 @@ static void test_a_cell_that_knows_a_turn_keeps_it(void)
     assert_cell(confidence_cell(SIDE_RIGHT, 1));
 }
 
-static void test_a_cell_that_boredom_has_emptied_stays_empty_until_the_next_start(void)
+TEST(a_cell_that_boredom_has_emptied_stays_empty_until_the_next_start)
 {
     robot.brain.unlearned = 1u << CELL_FRONT;
     hear_front(SIDE_LEFT);
@@ -136,7 +134,7 @@ static void test_a_cell_that_boredom_has_emptied_stays_empty_until_the_next_star
     assert_cell(confidence_cell(SIDE_LEFT, 1));
 }
 
-static void test_votes_are_those_of_the_second(void)
+TEST(votes_are_those_of_the_second)
 {
     hear_front(SIDE_LEFT);
     hear_front(SIDE_LEFT);
@@ -148,7 +146,7 @@ static void test_votes_are_those_of_the_second(void)
     assert_cell(confidence_cell(SIDE_RIGHT, 1));
 }
 
-static void test_a_second_that_began_before_the_start_does_not_count(void)
+TEST(a_second_that_began_before_the_start_does_not_count)
 {
     start(PROFILE_ADAPTIVE, 1);
     hear_front(SIDE_LEFT);
@@ -156,7 +154,7 @@ static void test_a_second_that_began_before_the_start_does_not_count(void)
     assert_cell(0);
 }
 
-static void test_nothing_is_taken_while_it_is_off(void)
+TEST(nothing_is_taken_while_it_is_off)
 {
     start(PROFILE_ADAPTIVE, 0);
     for (unsigned i = 0; i < 3; i++) {
@@ -166,7 +164,7 @@ static void test_nothing_is_taken_while_it_is_off(void)
     assert_cell(0);
 }
 
-static void test_nothing_is_taken_by_a_robot_that_is_frozen_or_stopped(void)
+TEST(nothing_is_taken_by_a_robot_that_is_frozen_or_stopped)
 {
     robot.brain.frozen = true;
     hear_front(SIDE_LEFT);
@@ -179,7 +177,7 @@ static void test_nothing_is_taken_by_a_robot_that_is_frozen_or_stopped(void)
     assert_cell(0);
 }
 
-static void test_a_profile_that_does_not_learn_or_has_no_cell_for_a_pattern_takes_nothing(void)
+TEST(a_profile_that_does_not_learn_or_has_no_cell_for_a_pattern_takes_nothing)
 {
     static const enum profile profiles[] = {PROFILE_NEVER, PROFILE_FIVE};
     static const uint8_t nothing[CELL_COUNT] = {0};
@@ -193,7 +191,7 @@ static void test_a_profile_that_does_not_learn_or_has_no_cell_for_a_pattern_take
     }
 }
 
-static void test_what_was_taken_is_stored_and_told_by_the_report(void)
+TEST(what_was_taken_is_stored_and_told_by_the_report)
 {
     hear_front(SIDE_LEFT);
     pass_second();
@@ -204,29 +202,9 @@ static void test_what_was_taken_is_stored_and_told_by_the_report(void)
     TEST_ASSERT_FALSE(out.store);
 }
 
-static void test_to_hear_another_calls_for_nothing(void)
+TEST(to_hear_another_calls_for_nothing)
 {
     memset(&out, 0xA5, sizeof out);
     hear_front(SIDE_LEFT);
     TEST_ASSERT_FALSE(out.has_answer || out.has_report || out.has_memory || out.has_drive || out.store);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_an_empty_cell_takes_the_side_that_has_more_votes_with_the_least_confidence);
-    RUN_TEST(test_where_each_side_has_as_many_votes_nothing_is_taken);
-    RUN_TEST(test_each_cell_of_both_halves_is_taken);
-    RUN_TEST(test_where_a_cell_is_a_side_it_takes_a_side);
-    RUN_TEST(test_what_is_no_cell_has_no_vote);
-    RUN_TEST(test_a_cell_that_knows_a_turn_keeps_it);
-    RUN_TEST(test_a_cell_that_boredom_has_emptied_stays_empty_until_the_next_start);
-    RUN_TEST(test_votes_are_those_of_the_second);
-    RUN_TEST(test_a_second_that_began_before_the_start_does_not_count);
-    RUN_TEST(test_nothing_is_taken_while_it_is_off);
-    RUN_TEST(test_nothing_is_taken_by_a_robot_that_is_frozen_or_stopped);
-    RUN_TEST(test_a_profile_that_does_not_learn_or_has_no_cell_for_a_pattern_takes_nothing);
-    RUN_TEST(test_what_was_taken_is_stored_and_told_by_the_report);
-    RUN_TEST(test_to_hear_another_calls_for_nothing);
-    return UNITY_END();
 }

@@ -1,8 +1,8 @@
 #include "host_sim/gymnasium_envs/native/told.h"
 
 #include <string.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "firmware/motion.h"
 #include "host_sim/world/native/plain_space.h"
 
@@ -38,8 +38,6 @@ void setUp(void)
     told = (struct told){.world = &world, .motions = motions, .robots = robots, .limit_ticks = 1000, .step_ticks = 1000};
 }
 
-void tearDown(void) {}
-
 static void begin(void)
 {
     world_begin(&world);
@@ -54,7 +52,7 @@ static void step(uint8_t first, uint8_t second)
     told_step(&told, 1, deeds);
 }
 
-static void test_before_the_first_step_the_robots_have_senses(void)
+TEST(before_the_first_step_the_robots_have_senses)
 {
     begin();
 
@@ -64,7 +62,7 @@ static void test_before_the_first_step_the_robots_have_senses(void)
     TEST_ASSERT_EQUAL_UINT32(1, told.food_left);
 }
 
-static void test_a_robot_that_is_done_sooner_rests(void)
+TEST(a_robot_that_is_done_sooner_rests)
 {
     begin();
     step(TOLD_FORWARD, TOLD_TURN_ABOUT);
@@ -75,7 +73,7 @@ static void test_a_robot_that_is_done_sooner_rests(void)
     TEST_ASSERT_GREATER_THAN_UINT32(40, told.tick);
 }
 
-static void test_food_is_eaten_at_the_end_of_a_step_forward(void)
+TEST(food_is_eaten_at_the_end_of_a_step_forward)
 {
     bodies[0].x_mm = 1860.0;
     begin();
@@ -89,7 +87,7 @@ static void test_food_is_eaten_at_the_end_of_a_step_forward(void)
     TEST_ASSERT_EQUAL_UINT32(0, told.food_left);
 }
 
-static void test_where_no_food_is_left_nothing_happens(void)
+TEST(where_no_food_is_left_nothing_happens)
 {
     food.eaten = true;
     begin();
@@ -98,7 +96,7 @@ static void test_where_no_food_is_left_nothing_happens(void)
     TEST_ASSERT_EQUAL_UINT32(0, told.tick);
 }
 
-static void test_a_step_ends_when_its_time_is_up(void)
+TEST(a_step_ends_when_its_time_is_up)
 {
     told.step_ticks = 2;
     begin();
@@ -107,7 +105,7 @@ static void test_a_step_ends_when_its_time_is_up(void)
     TEST_ASSERT_EQUAL_UINT32(2, told.tick);
 }
 
-static void test_a_step_that_is_cut_off_eats(void)
+TEST(a_step_that_is_cut_off_eats)
 {
     bodies[0].x_mm = 1860.0;
     told.step_ticks = 1;
@@ -117,7 +115,7 @@ static void test_a_step_that_is_cut_off_eats(void)
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].food_eaten);
 }
 
-static void test_nothing_happens_after_the_time_of_the_world(void)
+TEST(nothing_happens_after_the_time_of_the_world)
 {
     told.limit_ticks = 3;
     begin();
@@ -127,7 +125,7 @@ static void test_nothing_happens_after_the_time_of_the_world(void)
     TEST_ASSERT_EQUAL_UINT32(3, told.tick);
 }
 
-static void test_bumps_are_counted_step_by_step(void)
+TEST(bumps_are_counted_step_by_step)
 {
     uint32_t bumps = 0;
 
@@ -140,18 +138,4 @@ static void test_bumps_are_counted_step_by_step(void)
 
     TEST_ASSERT_EQUAL_UINT32((uint32_t)bodies[0].collisions, bumps);
     TEST_ASSERT_GREATER_THAN_UINT32(0, bumps);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_before_the_first_step_the_robots_have_senses);
-    RUN_TEST(test_a_robot_that_is_done_sooner_rests);
-    RUN_TEST(test_food_is_eaten_at_the_end_of_a_step_forward);
-    RUN_TEST(test_where_no_food_is_left_nothing_happens);
-    RUN_TEST(test_a_step_ends_when_its_time_is_up);
-    RUN_TEST(test_a_step_that_is_cut_off_eats);
-    RUN_TEST(test_nothing_happens_after_the_time_of_the_world);
-    RUN_TEST(test_bumps_are_counted_step_by_step);
-    return UNITY_END();
 }

@@ -134,8 +134,6 @@ void setUp(void)
     TEST_ASSERT_EQUAL(0, open_body());
 }
 
-void tearDown(void) {}
-
 void happens(uint32_t at_ms, int result, struct frame frame)
 {
     TEST_ASSERT_LESS_THAN_UINT(SCRIPT_MAX, fake.events);

@@ -3,8 +3,7 @@
 #ifndef OCTET_FAKE_BODY_H
 #define OCTET_FAKE_BODY_H
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/can_body/port.h"
 #include "hal/protocol/wire.h"
 #include "octet.h"

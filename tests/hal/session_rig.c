@@ -10,8 +10,6 @@ void setUp(void)
     missed = 999;
 }
 
-void tearDown(void) {}
-
 enum arrival command(enum opcode opcode, uint8_t counter, uint8_t owner)
 {
     const struct request request = {.command = {.opcode = opcode}, .counter = counter, .owner = owner};

@@ -2,8 +2,7 @@
 #ifndef OCTET_SESSION_RIG_H
 #define OCTET_SESSION_RIG_H
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/protocol/e2e.h"
 #include "hal/protocol/session.h"
 

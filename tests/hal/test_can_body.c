@@ -3,7 +3,7 @@
 
 #include "wire_frames.h"
 
-static void test_it_listens_for_what_the_wire_wants(void)
+TEST(it_listens_for_what_the_wire_wants)
 {
     static const struct wire wire = {.node = NODE};
     uint16_t ids[WIRE_LISTEN_COUNT];
@@ -12,25 +12,25 @@ static void test_it_listens_for_what_the_wire_wants(void)
     TEST_ASSERT_EQUAL_UINT16_ARRAY(ids, fake.ids, WIRE_LISTEN_COUNT);
 }
 
-static void test_arguments_that_make_no_sense_are_a_usage_error(void)
+TEST(arguments_that_make_no_sense_are_a_usage_error)
 {
     fake.port_result = HAL_E_USAGE;
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_body());
 }
 
-static void test_a_link_name_that_makes_no_sense_is_a_usage_error(void)
+TEST(a_link_name_that_makes_no_sense_is_a_usage_error)
 {
     fake.open_result = LINK_E_NAME;
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_body());
 }
 
-static void test_a_link_that_cannot_be_opened_is_no_body(void)
+TEST(a_link_that_cannot_be_opened_is_no_body)
 {
     fake.open_result = LINK_E_OPEN;
     TEST_ASSERT_EQUAL(HAL_E_BODY, open_body());
 }
 
-static void test_a_body_that_did_not_open_is_not_given_out(void)
+TEST(a_body_that_did_not_open_is_not_given_out)
 {
     struct hal *untouched = NULL;
 
@@ -39,7 +39,7 @@ static void test_a_body_that_did_not_open_is_not_given_out(void)
     TEST_ASSERT_NULL(untouched);
 }
 
-static void test_senses_are_received_when_they_come(void)
+TEST(senses_are_received_when_they_come)
 {
     senses_come(20, 7);
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
@@ -47,7 +47,7 @@ static void test_senses_are_received_when_they_come(void)
     TEST_ASSERT_EQUAL_UINT32(20, fake.clock_ms);
 }
 
-static void test_senses_and_commands_are_received_in_their_order(void)
+TEST(senses_and_commands_are_received_in_their_order)
 {
     senses_come(20, 0);
     command_comes(20, (struct octet_command_t){.opcode = OPCODE_ERASE});
@@ -57,7 +57,7 @@ static void test_senses_and_commands_are_received_in_their_order(void)
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
 }
 
-static void test_silence_is_100_ms_without_senses(void)
+TEST(silence_is_100_ms_without_senses)
 {
     senses_come(20, 0);
     receive();
@@ -66,13 +66,13 @@ static void test_silence_is_100_ms_without_senses(void)
     assert_faults((struct octet_faults_t){.silences = 1});
 }
 
-static void test_senses_after_99_ms_are_no_silence(void)
+TEST(senses_after_99_ms_are_no_silence)
 {
     senses_come(99, 0);
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
 }
 
-static void test_silence_is_said_again_every_100_ms(void)
+TEST(silence_is_said_again_every_100_ms)
 {
     for (uint32_t i = 1; i <= 10; i++) {
         TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
@@ -80,7 +80,7 @@ static void test_silence_is_said_again_every_100_ms(void)
     }
 }
 
-static void test_noise_does_not_break_the_silence(void)
+TEST(noise_does_not_break_the_silence)
 {
     for (uint32_t at_ms = 10; at_ms <= 190; at_ms += 10)
         noise_comes(at_ms);
@@ -88,7 +88,7 @@ static void test_noise_does_not_break_the_silence(void)
     TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
 }
 
-static void test_stale_senses_do_not_break_the_silence(void)
+TEST(stale_senses_do_not_break_the_silence)
 {
     senses_come(0, 5);
     senses_come(50, 5);
@@ -98,7 +98,7 @@ static void test_stale_senses_do_not_break_the_silence(void)
     assert_faults((struct octet_faults_t){.silences = 1, .stale = 1});
 }
 
-static void test_a_command_does_not_break_the_silence(void)
+TEST(a_command_does_not_break_the_silence)
 {
     command_comes(60, (struct octet_command_t){.opcode = OPCODE_ERASE});
     TEST_ASSERT_EQUAL(INPUT_COMMAND, receive());
@@ -106,7 +106,7 @@ static void test_a_command_does_not_break_the_silence(void)
     TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
 }
 
-static void test_another_robots_memory_is_received_and_does_not_break_the_silence(void)
+TEST(another_robots_memory_is_received_and_does_not_break_the_silence)
 {
     happens(50, 1, memory_frame(NODE + 1, 0, 0));
     TEST_ASSERT_EQUAL(INPUT_PEER, receive());
@@ -114,7 +114,7 @@ static void test_another_robots_memory_is_received_and_does_not_break_the_silenc
     TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
 }
 
-static void test_a_bus_that_is_down_is_silence(void)
+TEST(a_bus_that_is_down_is_silence)
 {
     fake.failing_receive = 1;
     fake.failure = LINK_E_DOWN;
@@ -122,7 +122,7 @@ static void test_a_bus_that_is_down_is_silence(void)
     TEST_ASSERT_EQUAL_UINT32(100, fake.clock_ms);
 }
 
-static void test_what_is_no_frame_is_counted_as_damaged(void)
+TEST(what_is_no_frame_is_counted_as_damaged)
 {
     happens(10, LINK_E_GARBLED, (struct frame){.len = 0});
     senses_come(20, 0);
@@ -130,31 +130,8 @@ static void test_what_is_no_frame_is_counted_as_damaged(void)
     assert_faults((struct octet_faults_t){.damaged = 1});
 }
 
-static void test_a_closed_link_ends_the_robot(void)
+TEST(a_closed_link_ends_the_robot)
 {
     fake.closed = true;
     TEST_ASSERT_EQUAL(HAL_E_CLOSED, receive());
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_listens_for_what_the_wire_wants);
-    RUN_TEST(test_arguments_that_make_no_sense_are_a_usage_error);
-    RUN_TEST(test_a_link_name_that_makes_no_sense_is_a_usage_error);
-    RUN_TEST(test_a_link_that_cannot_be_opened_is_no_body);
-    RUN_TEST(test_a_body_that_did_not_open_is_not_given_out);
-    RUN_TEST(test_senses_are_received_when_they_come);
-    RUN_TEST(test_senses_and_commands_are_received_in_their_order);
-    RUN_TEST(test_silence_is_100_ms_without_senses);
-    RUN_TEST(test_senses_after_99_ms_are_no_silence);
-    RUN_TEST(test_silence_is_said_again_every_100_ms);
-    RUN_TEST(test_noise_does_not_break_the_silence);
-    RUN_TEST(test_stale_senses_do_not_break_the_silence);
-    RUN_TEST(test_a_command_does_not_break_the_silence);
-    RUN_TEST(test_another_robots_memory_is_received_and_does_not_break_the_silence);
-    RUN_TEST(test_a_bus_that_is_down_is_silence);
-    RUN_TEST(test_what_is_no_frame_is_counted_as_damaged);
-    RUN_TEST(test_a_closed_link_ends_the_robot);
-    return UNITY_END();
 }

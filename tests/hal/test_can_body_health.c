@@ -21,7 +21,7 @@ static const uint8_t *told_in(uint32_t id)
     return NULL;
 }
 
-static void test_the_machine_hears_that_the_link_is_open(void)
+TEST(the_machine_hears_that_the_link_is_open)
 {
     TEST_ASSERT_EQUAL_UINT(1, fake.readies);
     fake.open_result = LINK_E_OPEN;
@@ -29,7 +29,7 @@ static void test_the_machine_hears_that_the_link_is_open(void)
     TEST_ASSERT_EQUAL_UINT(1, fake.readies);
 }
 
-static void test_it_tells_why_the_machine_has_started(void)
+TEST(it_tells_why_the_machine_has_started)
 {
     struct octet_boot_t boot;
 
@@ -39,7 +39,7 @@ static void test_it_tells_why_the_machine_has_started(void)
     TEST_ASSERT_EQUAL_UINT8(RESET_WATCHDOG, boot.reset_cause);
 }
 
-static void test_it_tells_of_the_machines_last_crash(void)
+TEST(it_tells_of_the_machines_last_crash)
 {
     static const struct crash crash = {.cause = 3, .count = 1, .values = {0x12345678}};
     struct octet_crash_t told;
@@ -59,14 +59,14 @@ static struct octet_health_t health(void)
     return told;
 }
 
-static void test_it_tells_whether_the_clock_is_exact(void)
+TEST(it_tells_whether_the_clock_is_exact)
 {
     TEST_ASSERT_EQUAL_UINT8(0, health().clock);
     fake.clock_exact = true;
     TEST_ASSERT_EQUAL_UINT8(1, health().clock);
 }
 
-static void test_it_tells_how_the_bus_is(void)
+TEST(it_tells_how_the_bus_is)
 {
     fake.bus = (struct link_health){.state = BUS_PASSIVE, .tx_errors = 130, .rx_errors = 7};
     TEST_ASSERT_EQUAL_UINT8(BUS_PASSIVE, health().bus_state);
@@ -74,7 +74,7 @@ static void test_it_tells_how_the_bus_is(void)
     TEST_ASSERT_EQUAL_UINT8(7, health().rx_errors);
 }
 
-static void test_the_bus_is_looked_at_for_a_report_only(void)
+TEST(the_bus_is_looked_at_for_a_report_only)
 {
     static const struct output drive = {.has_drive = true};
 
@@ -84,7 +84,7 @@ static void test_the_bus_is_looked_at_for_a_report_only(void)
     TEST_ASSERT_EQUAL_UINT(1, fake.looks_at_health);
 }
 
-static void test_every_byte_that_was_put_off_is_stored(void)
+TEST(every_byte_that_was_put_off_is_stored)
 {
     static const uint8_t memory[CELL_COUNT] = {0x0F, 2, 3, 4, 5, 6, 7, 8};
 
@@ -92,17 +92,4 @@ static void test_every_byte_that_was_put_off_is_stored(void)
     TEST_ASSERT_EQUAL(0, hal_store(hal, memory, false));
     TEST_ASSERT_EQUAL(INPUT_SILENCE, hal_receive(hal, &in));
     TEST_ASSERT_EQUAL_UINT8_ARRAY(memory, fake.stored, CELL_COUNT);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_machine_hears_that_the_link_is_open);
-    RUN_TEST(test_it_tells_why_the_machine_has_started);
-    RUN_TEST(test_it_tells_of_the_machines_last_crash);
-    RUN_TEST(test_it_tells_whether_the_clock_is_exact);
-    RUN_TEST(test_it_tells_how_the_bus_is);
-    RUN_TEST(test_the_bus_is_looked_at_for_a_report_only);
-    RUN_TEST(test_every_byte_that_was_put_off_is_stored);
-    return UNITY_END();
 }

@@ -24,7 +24,7 @@ static void silences(unsigned count)
         TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
 }
 
-static void test_in_lockstep_silence_is_no_fault(void)
+TEST(in_lockstep_silence_is_no_fault)
 {
     start_in_lockstep();
     senses_come(0, 0);
@@ -36,7 +36,7 @@ static void test_in_lockstep_silence_is_no_fault(void)
     assert_faults((struct octet_faults_t){.silences = 0});
 }
 
-static void test_in_lockstep_nothing_is_passed_over_after_silence(void)
+TEST(in_lockstep_nothing_is_passed_over_after_silence)
 {
     start_in_lockstep();
     for (unsigned tick = 0; tick < 3; tick++)
@@ -48,7 +48,7 @@ static void test_in_lockstep_nothing_is_passed_over_after_silence(void)
     }
 }
 
-static void test_in_lockstep_senses_that_came_again_meanwhile_are_not_stale(void)
+TEST(in_lockstep_senses_that_came_again_meanwhile_are_not_stale)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     start_in_lockstep();
@@ -65,7 +65,7 @@ static enum input_kind other_owner_starts(uint32_t at_ms)
     return (enum input_kind)receive();
 }
 
-static void test_in_lockstep_another_may_take_over_after_a_second(void)
+TEST(in_lockstep_another_may_take_over_after_a_second)
 {
     start_in_lockstep();
     silences(9);
@@ -84,7 +84,7 @@ static void answered_senses_come_again(void)
     senses_come(50, 0);
 }
 
-static void test_what_was_answered_is_answered_again_at_once(void)
+TEST(what_was_answered_is_answered_again_at_once)
 {
     answered_senses_come_again();
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
@@ -92,7 +92,7 @@ static void test_what_was_answered_is_answered_again_at_once(void)
     TEST_ASSERT_EQUAL_MEMORY(&fake.sent[fake.sends - 2], &fake.sent[fake.sends - 1], sizeof(struct frame));
 }
 
-static void test_an_answer_again_that_does_not_leave_is_counted(void)
+TEST(an_answer_again_that_does_not_leave_is_counted)
 {
     answered_senses_come_again();
     fake.failure = LINK_E_FULL;
@@ -101,7 +101,7 @@ static void test_an_answer_again_that_does_not_leave_is_counted(void)
     assert_faults((struct octet_faults_t){.unsent = 1});
 }
 
-static void test_in_lockstep_senses_begin_the_count_of_silences_anew(void)
+TEST(in_lockstep_senses_begin_the_count_of_silences_anew)
 {
     start_in_lockstep();
     silences(9);
@@ -111,7 +111,7 @@ static void test_in_lockstep_senses_begin_the_count_of_silences_anew(void)
     TEST_ASSERT_EQUAL(INPUT_SILENCE, owner_starts(1820, 2));
 }
 
-static void test_in_lockstep_an_owner_that_never_sends_senses_is_soon_no_owner(void)
+TEST(in_lockstep_an_owner_that_never_sends_senses_is_soon_no_owner)
 {
     start_in_lockstep();
     silences(10);
@@ -120,32 +120,16 @@ static void test_in_lockstep_an_owner_that_never_sends_senses_is_soon_no_owner(v
     TEST_ASSERT_EQUAL(INPUT_COMMAND, owner_starts(1110, 3));
 }
 
-static void test_an_answer_that_is_given_again_is_no_fault(void)
+TEST(an_answer_that_is_given_again_is_no_fault)
 {
     answered_senses_come_again();
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     assert_faults((struct octet_faults_t){.unsent = 0});
 }
 
-static void test_every_wait_gives_signs_of_life(void)
+TEST(every_wait_gives_signs_of_life)
 {
     start_in_lockstep();
     silences(30);
     TEST_ASSERT_EQUAL_UINT32(HAL_SILENCE_MS, fake.longest_wait_ms);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_in_lockstep_silence_is_no_fault);
-    RUN_TEST(test_in_lockstep_nothing_is_passed_over_after_silence);
-    RUN_TEST(test_in_lockstep_senses_that_came_again_meanwhile_are_not_stale);
-    RUN_TEST(test_in_lockstep_another_may_take_over_after_a_second);
-    RUN_TEST(test_what_was_answered_is_answered_again_at_once);
-    RUN_TEST(test_an_answer_again_that_does_not_leave_is_counted);
-    RUN_TEST(test_in_lockstep_senses_begin_the_count_of_silences_anew);
-    RUN_TEST(test_in_lockstep_an_owner_that_never_sends_senses_is_soon_no_owner);
-    RUN_TEST(test_an_answer_that_is_given_again_is_no_fault);
-    RUN_TEST(test_every_wait_gives_signs_of_life);
-    return UNITY_END();
 }

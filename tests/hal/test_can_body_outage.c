@@ -3,7 +3,7 @@
 
 #include "wire_frames.h"
 
-static void test_after_an_outage_the_last_senses_count_whatever_their_number(void)
+TEST(after_an_outage_the_last_senses_count_whatever_their_number)
 {
     static const unsigned ticks[] = {1500, 1501, 1502, 0, 1, 2};
 
@@ -15,7 +15,7 @@ static void test_after_an_outage_the_last_senses_count_whatever_their_number(voi
     assert_faults((struct octet_faults_t){.stale = 5});
 }
 
-static void test_after_an_outage_only_the_newest_senses_count(void)
+TEST(after_an_outage_only_the_newest_senses_count)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     for (unsigned tick = 0; tick < 30; tick++)
@@ -25,7 +25,7 @@ static void test_after_an_outage_only_the_newest_senses_count(void)
     assert_faults((struct octet_faults_t){.stale = 29});
 }
 
-static void test_noise_among_what_queued_up_is_passed_over(void)
+TEST(noise_among_what_queued_up_is_passed_over)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
@@ -37,7 +37,7 @@ static void test_noise_among_what_queued_up_is_passed_over(void)
     assert_faults((struct octet_faults_t){.stale = 1, .foreign = 1, .damaged = 1});
 }
 
-static void test_another_robots_memory_that_queued_up_is_passed_over(void)
+TEST(another_robots_memory_that_queued_up_is_passed_over)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
@@ -46,7 +46,7 @@ static void test_another_robots_memory_that_queued_up_is_passed_over(void)
     assert_faults((struct octet_faults_t){.stale = 0});
 }
 
-static void test_without_an_outage_nothing_is_passed_over(void)
+TEST(without_an_outage_nothing_is_passed_over)
 {
     for (unsigned tick = 0; tick < 30; tick++)
         senses_come(20, tick);
@@ -56,7 +56,7 @@ static void test_without_an_outage_nothing_is_passed_over(void)
     }
 }
 
-static void test_after_an_outage_a_queued_command_comes_first(void)
+TEST(after_an_outage_a_queued_command_comes_first)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
@@ -69,7 +69,7 @@ static void test_after_an_outage_a_queued_command_comes_first(void)
     assert_faults((struct octet_faults_t){.stale = 2});
 }
 
-static void test_senses_that_a_queued_command_outdates_do_not_end_the_outage(void)
+TEST(senses_that_a_queued_command_outdates_do_not_end_the_outage)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
@@ -79,7 +79,7 @@ static void test_senses_that_a_queued_command_outdates_do_not_end_the_outage(voi
     TEST_ASSERT_EQUAL_UINT32(200, fake.clock_ms);
 }
 
-static void test_a_body_opened_again_has_no_outage(void)
+TEST(a_body_opened_again_has_no_outage)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     TEST_ASSERT_EQUAL(0, open_body());
@@ -89,7 +89,7 @@ static void test_a_body_opened_again_has_no_outage(void)
     TEST_ASSERT_EQUAL_UINT16(0, in.senses.tick);
 }
 
-static void test_an_outage_ends_with_its_first_senses(void)
+TEST(an_outage_ends_with_its_first_senses)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
@@ -100,7 +100,7 @@ static void test_an_outage_ends_with_its_first_senses(void)
     TEST_ASSERT_EQUAL_UINT16(1, in.senses.tick);
 }
 
-static void test_a_robot_that_was_held_up_itself_takes_the_newest_senses(void)
+TEST(a_robot_that_was_held_up_itself_takes_the_newest_senses)
 {
     senses_come(0, 0);
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
@@ -110,20 +110,4 @@ static void test_a_robot_that_was_held_up_itself_takes_the_newest_senses(void)
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
     TEST_ASSERT_EQUAL_UINT16(7, in.senses.tick);
     assert_faults((struct octet_faults_t){.silences = 1, .stale = 6});
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_after_an_outage_the_last_senses_count_whatever_their_number);
-    RUN_TEST(test_after_an_outage_only_the_newest_senses_count);
-    RUN_TEST(test_noise_among_what_queued_up_is_passed_over);
-    RUN_TEST(test_another_robots_memory_that_queued_up_is_passed_over);
-    RUN_TEST(test_without_an_outage_nothing_is_passed_over);
-    RUN_TEST(test_after_an_outage_a_queued_command_comes_first);
-    RUN_TEST(test_senses_that_a_queued_command_outdates_do_not_end_the_outage);
-    RUN_TEST(test_a_body_opened_again_has_no_outage);
-    RUN_TEST(test_an_outage_ends_with_its_first_senses);
-    RUN_TEST(test_a_robot_that_was_held_up_itself_takes_the_newest_senses);
-    return UNITY_END();
 }

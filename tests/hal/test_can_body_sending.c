@@ -1,7 +1,7 @@
 /* Sending and storing, and a link that fails on plan. */
 #include "fake_body.h"
 
-static void test_it_says_that_it_has_come_up_before_anything_else(void)
+TEST(it_says_that_it_has_come_up_before_anything_else)
 {
     senses_come(20, 0);
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
@@ -9,7 +9,7 @@ static void test_it_says_that_it_has_come_up_before_anything_else(void)
     TEST_ASSERT_EQUAL_UINT32(OCTET_BOOT_FRAME_ID, fake.sent[0].id);
 }
 
-static void test_it_says_so_again_until_the_bus_is_up_and_counts_no_fault(void)
+TEST(it_says_so_again_until_the_bus_is_up_and_counts_no_fault)
 {
     fake.failing_send = 1;
     fake.failure = LINK_E_DOWN;
@@ -20,7 +20,7 @@ static void test_it_says_so_again_until_the_bus_is_up_and_counts_no_fault(void)
     assert_faults((struct octet_faults_t){.unsent = 0});
 }
 
-static void test_a_drive_goes_out(void)
+TEST(a_drive_goes_out)
 {
     const struct output out = {.has_drive = true};
 
@@ -29,7 +29,7 @@ static void test_a_drive_goes_out(void)
     TEST_ASSERT_EQUAL_UINT32(OCTET_DRIVE_FRAME_ID, fake.sent[0].id);
 }
 
-static void test_a_closed_link_takes_no_drive(void)
+TEST(a_closed_link_takes_no_drive)
 {
     const struct output out = {.has_drive = true};
 
@@ -49,7 +49,7 @@ static void assert_only_frame_n_is_lost(unsigned n, int failure)
     assert_faults((struct octet_faults_t){.unsent = 1});
 }
 
-static void test_a_frame_that_the_bus_does_not_take_is_counted_and_the_rest_goes_out(void)
+TEST(a_frame_that_the_bus_does_not_take_is_counted_and_the_rest_goes_out)
 {
     for (unsigned n = 1; n <= FRAMES; n++) {
         assert_only_frame_n_is_lost(n, LINK_E_FULL);
@@ -72,13 +72,13 @@ static int live_through(unsigned n, int failure)
     return result;
 }
 
-static void test_whenever_a_bus_is_down_for_a_while_life_goes_on(void)
+TEST(whenever_a_bus_is_down_for_a_while_life_goes_on)
 {
     for (unsigned n = 1; n <= 25; n++)
         TEST_ASSERT_EQUAL(INPUT_SENSES, live_through(n, LINK_E_DOWN));
 }
 
-static void test_whenever_something_is_no_frame_it_is_counted_and_life_goes_on(void)
+TEST(whenever_something_is_no_frame_it_is_counted_and_life_goes_on)
 {
     for (unsigned n = 1; n <= 20; n++) {
         TEST_ASSERT_EQUAL(INPUT_SENSES, live_through(n, LINK_E_GARBLED));
@@ -86,13 +86,13 @@ static void test_whenever_something_is_no_frame_it_is_counted_and_life_goes_on(v
     }
 }
 
-static void test_whenever_the_link_closes_the_robot_ends(void)
+TEST(whenever_the_link_closes_the_robot_ends)
 {
     for (unsigned n = 1; n <= 20; n++)
         TEST_ASSERT_EQUAL(HAL_E_CLOSED, live_through(n, LINK_E_CLOSED));
 }
 
-static void test_a_memory_is_loaded_and_stored_through_the_port(void)
+TEST(a_memory_is_loaded_and_stored_through_the_port)
 {
     uint8_t memory[CELL_COUNT] = {0};
 
@@ -103,7 +103,7 @@ static void test_a_memory_is_loaded_and_stored_through_the_port(void)
     assert_faults((struct octet_faults_t){.unsaved = 0});
 }
 
-static void test_a_memory_that_could_not_be_stored_is_counted(void)
+TEST(a_memory_that_could_not_be_stored_is_counted)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 2};
 
@@ -112,7 +112,7 @@ static void test_a_memory_that_could_not_be_stored_is_counted(void)
     assert_faults((struct octet_faults_t){.unsaved = 1});
 }
 
-static void test_a_stored_memory_that_is_none_is_counted(void)
+TEST(a_stored_memory_that_is_none_is_counted)
 {
     uint8_t memory[CELL_COUNT];
 
@@ -121,7 +121,7 @@ static void test_a_stored_memory_that_is_none_is_counted(void)
     assert_faults((struct octet_faults_t){.unsaved = 1});
 }
 
-static void test_a_memory_never_stored_is_no_fault(void)
+TEST(a_memory_never_stored_is_no_fault)
 {
     uint8_t memory[CELL_COUNT];
 
@@ -137,7 +137,7 @@ static void store_later(void)
     TEST_ASSERT_EQUAL(0, hal_store(hal, memory, false));
 }
 
-static void test_storing_that_takes_long_waits_for_a_silence(void)
+TEST(storing_that_takes_long_waits_for_a_silence)
 {
     store_later();
     TEST_ASSERT_EQUAL_UINT(0, fake.stores);
@@ -146,7 +146,7 @@ static void test_storing_that_takes_long_waits_for_a_silence(void)
     assert_faults((struct octet_faults_t){.unsaved = 0});
 }
 
-static void test_at_rest_what_takes_long_is_stored_at_once(void)
+TEST(at_rest_what_takes_long_is_stored_at_once)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 2};
 
@@ -155,7 +155,7 @@ static void test_at_rest_what_takes_long_is_stored_at_once(void)
     TEST_ASSERT_EQUAL_UINT(1, fake.stores);
 }
 
-static void test_health_tells_of_what_was_put_off(void)
+TEST(health_tells_of_what_was_put_off)
 {
     store_later();
     (void)faults();
@@ -163,7 +163,7 @@ static void test_health_tells_of_what_was_put_off(void)
     TEST_ASSERT_EQUAL_HEX8(1u << 6, fake.sent[fake.sends - 1].data[1] & 1u << 6);
 }
 
-static void test_what_was_put_off_is_stored_once(void)
+TEST(what_was_put_off_is_stored_once)
 {
     store_later();
     for (unsigned i = 0; i < 3; i++)
@@ -171,7 +171,7 @@ static void test_what_was_put_off_is_stored_once(void)
     TEST_ASSERT_EQUAL_UINT(1, fake.stores);
 }
 
-static void test_what_was_put_off_and_could_not_be_stored_is_counted(void)
+TEST(what_was_put_off_and_could_not_be_stored_is_counted)
 {
     store_later();
     fake.store_result = HAL_E_STORE;
@@ -179,31 +179,7 @@ static void test_what_was_put_off_and_could_not_be_stored_is_counted(void)
     assert_faults((struct octet_faults_t){.unsaved = 1});
 }
 
-static void test_entropy_is_the_ports(void)
+TEST(entropy_is_the_ports)
 {
     TEST_ASSERT_EQUAL_HEX32(0xC0FFEE, hal_entropy(hal));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_says_that_it_has_come_up_before_anything_else);
-    RUN_TEST(test_it_says_so_again_until_the_bus_is_up_and_counts_no_fault);
-    RUN_TEST(test_a_drive_goes_out);
-    RUN_TEST(test_a_closed_link_takes_no_drive);
-    RUN_TEST(test_a_frame_that_the_bus_does_not_take_is_counted_and_the_rest_goes_out);
-    RUN_TEST(test_whenever_a_bus_is_down_for_a_while_life_goes_on);
-    RUN_TEST(test_whenever_something_is_no_frame_it_is_counted_and_life_goes_on);
-    RUN_TEST(test_whenever_the_link_closes_the_robot_ends);
-    RUN_TEST(test_a_memory_is_loaded_and_stored_through_the_port);
-    RUN_TEST(test_a_memory_that_could_not_be_stored_is_counted);
-    RUN_TEST(test_a_stored_memory_that_is_none_is_counted);
-    RUN_TEST(test_a_memory_never_stored_is_no_fault);
-    RUN_TEST(test_storing_that_takes_long_waits_for_a_silence);
-    RUN_TEST(test_at_rest_what_takes_long_is_stored_at_once);
-    RUN_TEST(test_health_tells_of_what_was_put_off);
-    RUN_TEST(test_what_was_put_off_is_stored_once);
-    RUN_TEST(test_what_was_put_off_and_could_not_be_stored_is_counted);
-    RUN_TEST(test_entropy_is_the_ports);
-    return UNITY_END();
 }

@@ -5,7 +5,7 @@
 
 enum { LOOKS_MAX = 4096 };   /* at the link, for the newest senses */
 
-static void test_silence_counts_from_the_last_senses_whatever_else_comes(void)
+TEST(silence_counts_from_the_last_senses_whatever_else_comes)
 {
     senses_come(50, 0);
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
@@ -14,7 +14,7 @@ static void test_silence_counts_from_the_last_senses_whatever_else_comes(void)
     TEST_ASSERT_EQUAL_UINT32(150, fake.clock_ms);
 }
 
-static void test_held_up_for_the_limit_it_takes_the_newest_senses(void)
+TEST(held_up_for_the_limit_it_takes_the_newest_senses)
 {
     senses_come(0, 0);
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
@@ -25,7 +25,7 @@ static void test_held_up_for_the_limit_it_takes_the_newest_senses(void)
     TEST_ASSERT_EQUAL_UINT16(5, in.senses.tick);
 }
 
-static void test_held_up_for_less_it_takes_the_next_senses(void)
+TEST(held_up_for_less_it_takes_the_next_senses)
 {
     senses_come(0, 0);
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
@@ -36,7 +36,7 @@ static void test_held_up_for_less_it_takes_the_next_senses(void)
     TEST_ASSERT_EQUAL_UINT16(1, in.senses.tick);
 }
 
-static void test_held_up_for_longer_with_nothing_of_use_it_reports_silence_at_once(void)
+TEST(held_up_for_longer_with_nothing_of_use_it_reports_silence_at_once)
 {
     noise_comes(10);
     fake.clock_ms += 150;
@@ -44,7 +44,7 @@ static void test_held_up_for_longer_with_nothing_of_use_it_reports_silence_at_on
     TEST_ASSERT_EQUAL_UINT32(150, fake.clock_ms);
 }
 
-static void test_looking_for_the_newest_senses_takes_no_time_and_no_look_too_many(void)
+TEST(looking_for_the_newest_senses_takes_no_time_and_no_look_too_many)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
@@ -55,7 +55,7 @@ static void test_looking_for_the_newest_senses_takes_no_time_and_no_look_too_man
     TEST_ASSERT_EQUAL_UINT32(150, fake.clock_ms);
 }
 
-static void test_of_endless_senses_a_limited_number_is_looked_at(void)
+TEST(of_endless_senses_a_limited_number_is_looked_at)
 {
     TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
     senses_come(150, 0);
@@ -65,7 +65,7 @@ static void test_of_endless_senses_a_limited_number_is_looked_at(void)
     TEST_ASSERT_EQUAL_UINT(1 + LOOKS_MAX, fake.receives);
 }
 
-static void test_opened_again_it_has_heard_of_no_silence(void)
+TEST(opened_again_it_has_heard_of_no_silence)
 {
     fake.clock_ms += 150;
     fake.closed = true;
@@ -74,17 +74,4 @@ static void test_opened_again_it_has_heard_of_no_silence(void)
     TEST_ASSERT_EQUAL(0, open_body());
     senses_come(170, 0);
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_silence_counts_from_the_last_senses_whatever_else_comes);
-    RUN_TEST(test_held_up_for_the_limit_it_takes_the_newest_senses);
-    RUN_TEST(test_held_up_for_less_it_takes_the_next_senses);
-    RUN_TEST(test_held_up_for_longer_with_nothing_of_use_it_reports_silence_at_once);
-    RUN_TEST(test_looking_for_the_newest_senses_takes_no_time_and_no_look_too_many);
-    RUN_TEST(test_of_endless_senses_a_limited_number_is_looked_at);
-    RUN_TEST(test_opened_again_it_has_heard_of_no_silence);
-    return UNITY_END();
 }

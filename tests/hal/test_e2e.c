@@ -1,6 +1,5 @@
 #include "hal/protocol/e2e.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 static struct frame frame;
 
@@ -10,8 +9,6 @@ void setUp(void)
     e2e_protect(&frame);
 }
 
-void tearDown(void) {}
-
 static uint8_t crc_of(struct frame some)
 {
     e2e_protect(&some);
@@ -19,20 +16,20 @@ static uint8_t crc_of(struct frame some)
 }
 
 /* From the AUTOSAR specification of E2E profile 1, with its Data ID 0x0123: eight bytes 0, counter 0. */
-static void test_the_published_example(void)
+TEST(the_published_example)
 {
     frame = (struct frame){.id = 0x123, .len = 8};
     TEST_ASSERT_EQUAL_HEX8(0xCC, crc_of(frame));
 }
 
 /* The catalogue of CRCs has 0x37 for "123456789" with this polynomial from 0 to 0: here two digits in the identifier. */
-static void test_the_published_check_value(void)
+TEST(the_published_check_value)
 {
     frame = (struct frame){.id = '1' | '2' << 8, .len = 8, .data = {0, '3', '4', '5', '6', '7', '8', '9'}};
     TEST_ASSERT_EQUAL_HEX8(0x37, crc_of(frame));
 }
 
-static void test_byte_0_where_the_crc_is_kept_is_not_covered(void)
+TEST(byte_0_where_the_crc_is_kept_is_not_covered)
 {
     const uint8_t crc = frame.data[0];
 
@@ -42,7 +39,7 @@ static void test_byte_0_where_the_crc_is_kept_is_not_covered(void)
     }
 }
 
-static void test_bytes_beyond_the_length_are_not_covered(void)
+TEST(bytes_beyond_the_length_are_not_covered)
 {
     uint8_t crc;
 
@@ -52,20 +49,20 @@ static void test_bytes_beyond_the_length_are_not_covered(void)
     TEST_ASSERT_EQUAL_HEX8(crc, crc_of(frame));
 }
 
-static void test_a_frame_sent_to_the_next_node_is_not_whole(void)
+TEST(a_frame_sent_to_the_next_node_is_not_whole)
 {
     frame.id++;
     TEST_ASSERT_FALSE(e2e_is_whole(&frame, 8));
 }
 
-static void test_a_frame_of_another_length_is_not_whole(void)
+TEST(a_frame_of_another_length_is_not_whole)
 {
     for (uint8_t len = 0; len < 8; len++)
         TEST_ASSERT_FALSE(e2e_is_whole(&frame, len));
     TEST_ASSERT_TRUE(e2e_is_whole(&frame, 8));
 }
 
-static void test_a_shorter_frame_is_not_whole_however_right_its_crc(void)
+TEST(a_shorter_frame_is_not_whole_however_right_its_crc)
 {
     for (frame.len = 2; frame.len < 8; frame.len++) {
         e2e_protect(&frame);
@@ -74,7 +71,7 @@ static void test_a_shorter_frame_is_not_whole_however_right_its_crc(void)
     }
 }
 
-static void test_counter_15_is_none(void)
+TEST(counter_15_is_none)
 {
     frame.data[1] |= 15;
     e2e_protect(&frame);
@@ -106,7 +103,7 @@ static unsigned passes_with_flips_below(unsigned last, unsigned count)
     return passed;
 }
 
-static void test_every_flip_of_one_or_two_bits_is_found(void)
+TEST(every_flip_of_one_or_two_bits_is_found)
 {
     TEST_ASSERT_EQUAL_UINT(0, passes_with_flips_below(BITS, 1));
     TEST_ASSERT_EQUAL_UINT(0, passes_with_flips_below(BITS, 2));
@@ -114,12 +111,12 @@ static void test_every_flip_of_one_or_two_bits_is_found(void)
 }
 
 /* Eight bits of CRC cannot find all of them. */
-static void test_of_67525_flips_of_three_bits_all_but_296_are_found(void)
+TEST(of_67525_flips_of_three_bits_all_but_296_are_found)
 {
     TEST_ASSERT_EQUAL_UINT(296, passes_with_flips_below(BITS, 3));
 }
 
-static void test_counters_go_from_0_to_14_and_round_again(void)
+TEST(counters_go_from_0_to_14_and_round_again)
 {
     uint8_t counter = 0;
 
@@ -129,7 +126,7 @@ static void test_counters_go_from_0_to_14_and_round_again(void)
     }
 }
 
-static void test_how_far_one_counter_is_ahead_of_another(void)
+TEST(how_far_one_counter_is_ahead_of_another)
 {
     for (uint8_t from = 0; from < E2E_COUNTERS; from++) {
         uint8_t to = from;
@@ -139,22 +136,4 @@ static void test_how_far_one_counter_is_ahead_of_another(void)
             to = e2e_next(to);
         }
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_published_example);
-    RUN_TEST(test_the_published_check_value);
-    RUN_TEST(test_byte_0_where_the_crc_is_kept_is_not_covered);
-    RUN_TEST(test_bytes_beyond_the_length_are_not_covered);
-    RUN_TEST(test_a_frame_sent_to_the_next_node_is_not_whole);
-    RUN_TEST(test_a_frame_of_another_length_is_not_whole);
-    RUN_TEST(test_a_shorter_frame_is_not_whole_however_right_its_crc);
-    RUN_TEST(test_counter_15_is_none);
-    RUN_TEST(test_every_flip_of_one_or_two_bits_is_found);
-    RUN_TEST(test_of_67525_flips_of_three_bits_all_but_296_are_found);
-    RUN_TEST(test_counters_go_from_0_to_14_and_round_again);
-    RUN_TEST(test_how_far_one_counter_is_ahead_of_another);
-    return UNITY_END();
 }

@@ -1,7 +1,5 @@
 #include "hal/library/exchange.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "wire_frames.h"
 
 static const uint8_t STORED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 1};
@@ -31,20 +29,20 @@ static struct frame command_of(uint8_t opcode)
     return command_frame((struct octet_command_t){.opcode = opcode, .counter = 1, .owner = 1, .lockstep = 1});
 }
 
-static void test_senses_are_answered_with_a_drive(void)
+TEST(senses_are_answered_with_a_drive)
 {
     TEST_ASSERT_EQUAL_size_t(1, exchange(senses_frame(1, 7)));
     TEST_ASSERT_EQUAL_UINT32(OCTET_DRIVE_FRAME_ID, out[0].id);
 }
 
-static void test_a_command_is_answered_before_its_report(void)
+TEST(a_command_is_answered_before_its_report)
 {
     TEST_ASSERT_EQUAL_size_t(9, exchange(command_of(OPCODE_STOP)));
     TEST_ASSERT_EQUAL_UINT32(OCTET_ANSWER_FRAME_ID, out[0].id);
     TEST_ASSERT_EQUAL_UINT32(OCTET_HEARTBEAT_FRAME_ID, out[1].id);
 }
 
-static void test_answers_stay_where_they_are(void)
+TEST(answers_stay_where_they_are)
 {
     exchange(senses_frame(1, 1));
     TEST_ASSERT_EQUAL_PTR(out, octet_answers(octet));
@@ -62,7 +60,7 @@ static struct frame clear_way(unsigned ticks)
     return protected_frame(frame);
 }
 
-static void test_a_started_robot_drives(void)
+TEST(a_started_robot_drives)
 {
     struct octet_drive_t drive;
 
@@ -72,7 +70,7 @@ static void test_a_started_robot_drives(void)
     TEST_ASSERT_GREATER_THAN_INT16(0, drive.left);
 }
 
-static void test_in_lockstep_senses_again_are_answered_as_before(void)
+TEST(in_lockstep_senses_again_are_answered_as_before)
 {
     struct frame before;
 
@@ -84,7 +82,7 @@ static void test_in_lockstep_senses_again_are_answered_as_before(void)
     TEST_ASSERT_EQUAL_UINT16(20, octet->robot.part_ms);   /* one tick */
 }
 
-static void test_a_damaged_frame_is_counted_and_not_answered(void)
+TEST(a_damaged_frame_is_counted_and_not_answered)
 {
     struct frame damaged = senses_frame(1, 0);
 
@@ -93,24 +91,24 @@ static void test_a_damaged_frame_is_counted_and_not_answered(void)
     TEST_ASSERT_EQUAL_UINT8(1, octet->wire.faults[FAULT_DAMAGED]);
 }
 
-static void test_stale_senses_do_not_reach_the_robot(void)
+TEST(stale_senses_do_not_reach_the_robot)
 {
     exchange(senses_frame(1, 0));
     TEST_ASSERT_EQUAL_size_t(0, exchange(senses_frame(1, 0)));
     TEST_ASSERT_EQUAL_UINT16(20, octet->robot.part_ms);   /* one tick */
 }
 
-static void test_a_robot_begins_stopped(void)
+TEST(a_robot_begins_stopped)
 {
     TEST_ASSERT_FALSE(octet->robot.running);
 }
 
-static void test_a_robot_begins_with_what_was_stored(void)
+TEST(a_robot_begins_with_what_was_stored)
 {
     TEST_ASSERT_EQUAL_UINT8_ARRAY(STORED, octet->robot.brain.memory.cell, CELL_COUNT);
 }
 
-static void test_from_what_is_no_memory_nothing_is_known(void)
+TEST(from_what_is_no_memory_nothing_is_known)
 {
     static const uint8_t none[CELL_COUNT] = {0, 3}, nothing[CELL_COUNT] = {0};
 
@@ -119,7 +117,7 @@ static void test_from_what_is_no_memory_nothing_is_known(void)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(nothing, octet->robot.brain.memory.cell, CELL_COUNT);
 }
 
-static void test_two_robots_do_not_know_each_other(void)
+TEST(two_robots_do_not_know_each_other)
 {
     struct octet *other = octet_open(2, STORED);
 
@@ -128,7 +126,7 @@ static void test_two_robots_do_not_know_each_other(void)
     octet_close(other);
 }
 
-static void test_closing_no_robot_is_fine(void)
+TEST(closing_no_robot_is_fine)
 {
     octet_close(NULL);
 }
@@ -143,7 +141,7 @@ static const uint8_t *data_of(uint32_t id, size_t count)
     return NULL;
 }
 
-static void test_its_clock_is_exact(void)
+TEST(its_clock_is_exact)
 {
     struct octet_health_t health;
     size_t count = exchange(command_of(OPCODE_STOP));
@@ -153,31 +151,11 @@ static void test_its_clock_is_exact(void)
 }
 
 /* As behind a bus, where it says so when it comes up. */
-static void test_the_first_boot_message_that_is_heard_is_the_second_one(void)
+TEST(the_first_boot_message_that_is_heard_is_the_second_one)
 {
     struct octet_boot_t boot;
     size_t count = exchange(command_of(OPCODE_STOP));
 
     TEST_ASSERT_EQUAL(0, octet_boot_unpack(&boot, data_of(OCTET_BOOT_FRAME_ID, count), OCTET_BOOT_LENGTH));
     TEST_ASSERT_EQUAL_UINT8(1, boot.counter);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_senses_are_answered_with_a_drive);
-    RUN_TEST(test_a_command_is_answered_before_its_report);
-    RUN_TEST(test_answers_stay_where_they_are);
-    RUN_TEST(test_a_started_robot_drives);
-    RUN_TEST(test_in_lockstep_senses_again_are_answered_as_before);
-    RUN_TEST(test_a_damaged_frame_is_counted_and_not_answered);
-    RUN_TEST(test_stale_senses_do_not_reach_the_robot);
-    RUN_TEST(test_a_robot_begins_stopped);
-    RUN_TEST(test_a_robot_begins_with_what_was_stored);
-    RUN_TEST(test_from_what_is_no_memory_nothing_is_known);
-    RUN_TEST(test_two_robots_do_not_know_each_other);
-    RUN_TEST(test_closing_no_robot_is_fine);
-    RUN_TEST(test_its_clock_is_exact);
-    RUN_TEST(test_the_first_boot_message_that_is_heard_is_the_second_one);
-    return UNITY_END();
 }

@@ -3,8 +3,8 @@
  * to visit each of them once. */
 #include <stdlib.h>
 #include <string.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "hal/library/exchange.h"
 #include "lossy_line.h"
 #include "wire_frames.h"
@@ -228,7 +228,7 @@ void tearDown(void)
     free(states);
 }
 
-static void test_no_schedule_changes_a_drive(void)
+TEST(no_schedule_changes_a_drive)
 {
     unsigned farthest = 0;
 
@@ -241,7 +241,7 @@ static void test_no_schedule_changes_a_drive(void)
 }
 
 /* The sender is delivered fairly from any state: what it waits for comes. */
-static void test_from_every_state_the_next_senses_are_answered(void)
+TEST(from_every_state_the_next_senses_are_answered)
 {
     explore(is_the_answer);
     for (size_t i = 0; i < state_count; i++) {
@@ -259,17 +259,8 @@ static void test_from_every_state_the_next_senses_are_answered(void)
     }
 }
 
-static void test_a_simulator_that_takes_any_drive_is_found_out(void)
+TEST(a_simulator_that_takes_any_drive_is_found_out)
 {
     explore(whatever_comes);
     TEST_ASSERT_TRUE(went_wrong);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_no_schedule_changes_a_drive);
-    RUN_TEST(test_from_every_state_the_next_senses_are_answered);
-    RUN_TEST(test_a_simulator_that_takes_any_drive_is_found_out);
-    return UNITY_END();
 }

@@ -1,7 +1,7 @@
 /* Whose commands count, and which. */
 #include "session_rig.h"
 
-static void test_without_an_owner_whatever_comes_is_taken(void)
+TEST(without_an_owner_whatever_comes_is_taken)
 {
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command(OPCODE_STOP, 9, THEIRS));
     session_executed(&session, RESULT_DONE);
@@ -9,13 +9,13 @@ static void test_without_an_owner_whatever_comes_is_taken(void)
     TEST_ASSERT_EQUAL_UINT8(0, session.owner);
 }
 
-static void test_start_makes_its_sender_the_owner(void)
+TEST(start_makes_its_sender_the_owner)
 {
     start(0);
     TEST_ASSERT_EQUAL_UINT8(OURS, session.owner);
 }
 
-static void test_a_start_that_the_robot_refused_makes_no_owner(void)
+TEST(a_start_that_the_robot_refused_makes_no_owner)
 {
     command(OPCODE_START, 1, OURS);
     session_executed(&session, RESULT_UNKNOWN_PROFILE);
@@ -23,7 +23,7 @@ static void test_a_start_that_the_robot_refused_makes_no_owner(void)
     TEST_ASSERT_FALSE(session.lockstep);
 }
 
-static void test_only_start_says_whose_clock_counts(void)
+TEST(only_start_says_whose_clock_counts)
 {
     start(1);
     TEST_ASSERT_TRUE(session.lockstep);
@@ -32,14 +32,14 @@ static void test_only_start_says_whose_clock_counts(void)
     TEST_ASSERT_TRUE(session.lockstep);
 }
 
-static void test_other_senders_are_refused(void)
+TEST(other_senders_are_refused)
 {
     start(0);
     refuses(RESULT_OWNED, OPCODE_ERASE, 2, THEIRS);
     refuses(RESULT_OWNED, OPCODE_START, 2, THEIRS);
 }
 
-static void test_anybody_may_stop_the_robot(void)
+TEST(anybody_may_stop_the_robot)
 {
     start(0);
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command(OPCODE_STOP, 9, THEIRS));
@@ -47,7 +47,7 @@ static void test_anybody_may_stop_the_robot(void)
     TEST_ASSERT_EQUAL_UINT8(0, session.owner);
 }
 
-static void test_resume_makes_an_owner_again(void)
+TEST(resume_makes_an_owner_again)
 {
     start(1);
     command(OPCODE_STOP, 2, OURS);
@@ -58,14 +58,14 @@ static void test_resume_makes_an_owner_again(void)
     TEST_ASSERT_TRUE(session.lockstep);
 }
 
-static void test_an_owner_whose_senses_fail_to_come_has_lost_the_robot(void)
+TEST(an_owner_whose_senses_fail_to_come_has_lost_the_robot)
 {
     start(0);
     session.hears = false;
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command(OPCODE_START, 9, THEIRS));
 }
 
-static void test_an_owner_whose_senses_come_again_is_the_owner_again(void)
+TEST(an_owner_whose_senses_come_again_is_the_owner_again)
 {
     start(0);
     session.hears = false;
@@ -73,7 +73,7 @@ static void test_an_owner_whose_senses_come_again_is_the_owner_again(void)
     refuses(RESULT_OWNED, OPCODE_ERASE, 2, THEIRS);
 }
 
-static void test_the_owners_counter_goes_on_by_1_to_7(void)
+TEST(the_owners_counter_goes_on_by_1_to_7)
 {
     for (uint8_t counter = 0; counter < E2E_COUNTERS; counter++) {
         bool ahead = counter >= 2 && counter <= 8;
@@ -87,20 +87,20 @@ static void test_the_owners_counter_goes_on_by_1_to_7(void)
     }
 }
 
-static void test_an_owners_old_stop_does_not_stop_the_robot(void)
+TEST(an_owners_old_stop_does_not_stop_the_robot)
 {
     start(0);
     refuses(RESULT_OUT_OF_SEQUENCE, OPCODE_STOP, 0, OURS);
 }
 
-static void test_the_same_command_again_is_told_apart(void)
+TEST(the_same_command_again_is_told_apart)
 {
     start(0);
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command(OPCODE_ERASE, 2, OURS));
     TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, command(OPCODE_ERASE, 2, OURS));
 }
 
-static void test_a_command_that_differs_in_anything_is_another(void)
+TEST(a_command_that_differs_in_anything_is_another)
 {
     static const struct request first = {{OPCODE_SET, 1, 2}, 3, OURS, false};
     static const struct request others[] = {
@@ -116,28 +116,8 @@ static void test_a_command_that_differs_in_anything_is_another(void)
     }
 }
 
-static void test_the_first_command_is_none_again_whatever_it_is(void)
+TEST(the_first_command_is_none_again_whatever_it_is)
 {
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command((enum opcode)0, 0, 0));
     TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, command((enum opcode)0, 0, 0));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_without_an_owner_whatever_comes_is_taken);
-    RUN_TEST(test_start_makes_its_sender_the_owner);
-    RUN_TEST(test_a_start_that_the_robot_refused_makes_no_owner);
-    RUN_TEST(test_only_start_says_whose_clock_counts);
-    RUN_TEST(test_other_senders_are_refused);
-    RUN_TEST(test_anybody_may_stop_the_robot);
-    RUN_TEST(test_resume_makes_an_owner_again);
-    RUN_TEST(test_an_owner_whose_senses_fail_to_come_has_lost_the_robot);
-    RUN_TEST(test_an_owner_whose_senses_come_again_is_the_owner_again);
-    RUN_TEST(test_the_owners_counter_goes_on_by_1_to_7);
-    RUN_TEST(test_an_owners_old_stop_does_not_stop_the_robot);
-    RUN_TEST(test_the_same_command_again_is_told_apart);
-    RUN_TEST(test_a_command_that_differs_in_anything_is_another);
-    RUN_TEST(test_the_first_command_is_none_again_whatever_it_is);
-    return UNITY_END();
 }

@@ -1,9 +1,7 @@
 /* Every state that a session can come to, and in each every frame that can arrive. Ticks and counters count only as far as
  * they differ from the last ones taken, so that a state stands for all that differ in these. */
 #include "hal/protocol/session.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/protocol/e2e.h"
 
 enum { NOBODY, OURS, THEIRS, OWNERS, STATES_MAX = 1024, COMMANDS_AHEAD = 7 };
@@ -85,9 +83,7 @@ void setUp(void)
     }
 }
 
-void tearDown(void) {}
-
-static void test_there_are_314_states(void)
+TEST(there_are_314_states)
 {
     TEST_ASSERT_EQUAL_size_t(314, state_count);
 }
@@ -115,7 +111,7 @@ static void check_that_ticks_go_on(const struct session *before, unsigned ahead,
     TEST_ASSERT_TRUE(!before->lockstep || missed == 0);
 }
 
-static void test_no_tick_is_taken_twice_and_in_lockstep_none_is_left_out(void)
+TEST(no_tick_is_taken_twice_and_in_lockstep_none_is_left_out)
 {
     with_all_senses(check_that_ticks_go_on);
 }
@@ -129,12 +125,12 @@ static void check_that_stale_senses_change_nothing(const struct session *before,
         TEST_ASSERT_TRUE(are_equal(before, &session));
 }
 
-static void test_senses_that_are_not_taken_change_nothing(void)
+TEST(senses_that_are_not_taken_change_nothing)
 {
     with_all_senses(check_that_stale_senses_change_nothing);
 }
 
-static void test_the_next_senses_are_always_taken(void)
+TEST(the_next_senses_are_always_taken)
 {
     for (size_t i = 0; i < state_count; i++) {
         struct session session = states[i];
@@ -169,7 +165,7 @@ static void check_the_owners_rights(const struct session *before, const struct r
         TEST_ASSERT_NOT_EQUAL(ARRIVAL_FRESH, arrival);
 }
 
-static void test_while_the_owners_senses_come_others_can_only_stop(void)
+TEST(while_the_owners_senses_come_others_can_only_stop)
 {
     with_all_requests(check_the_owners_rights);
 }
@@ -182,7 +178,7 @@ static void check_that_what_is_refused_changes_nothing(const struct session *bef
         TEST_ASSERT_TRUE(are_equal(before, after));
 }
 
-static void test_requests_that_are_not_taken_change_nothing(void)
+TEST(requests_that_are_not_taken_change_nothing)
 {
     with_all_requests(check_that_what_is_refused_changes_nothing);
 }
@@ -200,7 +196,7 @@ static void check_that_it_is_taken_once(const struct session *before, const stru
     TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, session_request(&session, request, &why));
 }
 
-static void test_a_request_is_taken_once(void)
+TEST(a_request_is_taken_once)
 {
     with_all_requests(check_that_it_is_taken_once);
 }
@@ -224,7 +220,7 @@ static void check_that_only_a_start_makes_an_owner(const struct session *before,
         TEST_ASSERT_EQUAL_UINT8(request->owner, session.owner);
 }
 
-static void test_start_and_resume_make_an_owner_and_stop_ends_it(void)
+TEST(start_and_resume_make_an_owner_and_stop_ends_it)
 {
     with_all_requests(check_that_only_a_start_makes_an_owner);
 }
@@ -242,7 +238,7 @@ static void check_that_nobody_is_locked_out(const struct session *before, const 
     TEST_ASSERT_NOT_EQUAL(ARRIVAL_STALE, session_request(&silent, request, &why));
 }
 
-static void test_nobody_is_locked_out(void)
+TEST(nobody_is_locked_out)
 {
     with_all_requests(check_that_nobody_is_locked_out);
 }
@@ -259,23 +255,7 @@ static void check_that_the_owner_goes_on(const struct session *before, const str
         TEST_ASSERT_NOT_EQUAL(ARRIVAL_FRESH, arrival);
 }
 
-static void test_the_owners_next_requests_are_taken_and_none_of_the_past(void)
+TEST(the_owners_next_requests_are_taken_and_none_of_the_past)
 {
     with_all_requests(check_that_the_owner_goes_on);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_there_are_314_states);
-    RUN_TEST(test_no_tick_is_taken_twice_and_in_lockstep_none_is_left_out);
-    RUN_TEST(test_senses_that_are_not_taken_change_nothing);
-    RUN_TEST(test_the_next_senses_are_always_taken);
-    RUN_TEST(test_while_the_owners_senses_come_others_can_only_stop);
-    RUN_TEST(test_requests_that_are_not_taken_change_nothing);
-    RUN_TEST(test_a_request_is_taken_once);
-    RUN_TEST(test_start_and_resume_make_an_owner_and_stop_ends_it);
-    RUN_TEST(test_nobody_is_locked_out);
-    RUN_TEST(test_the_owners_next_requests_are_taken_and_none_of_the_past);
-    return UNITY_END();
 }

@@ -1,13 +1,13 @@
 /* Which senses are fresh, in lockstep and on the robot's own clock. */
 #include "session_rig.h"
 
-static void test_any_tick_may_be_the_first(void)
+TEST(any_tick_may_be_the_first)
 {
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, tick(200));
     TEST_ASSERT_EQUAL_UINT(0, missed);
 }
 
-static void test_up_to_14_ticks_ahead_are_fresh(void)
+TEST(up_to_14_ticks_ahead_are_fresh)
 {
     for (unsigned ahead = 0; ahead < 256; ahead++) {
         setUp();
@@ -16,20 +16,20 @@ static void test_up_to_14_ticks_ahead_are_fresh(void)
     }
 }
 
-static void test_ticks_that_were_left_out_are_counted(void)
+TEST(ticks_that_were_left_out_are_counted)
 {
     tick(254);
     tick(258);
     TEST_ASSERT_EQUAL_UINT(3, missed);
 }
 
-static void test_a_tick_of_a_round_ago_is_stale(void)
+TEST(a_tick_of_a_round_ago_is_stale)
 {
     tick(0);
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(257));   /* tick 1, but not its counter */
 }
 
-static void test_the_counter_goes_on_with_the_tick(void)
+TEST(the_counter_goes_on_with_the_tick)
 {
     for (uint8_t counter = 0; counter < E2E_COUNTERS; counter++) {
         setUp();
@@ -38,14 +38,14 @@ static void test_the_counter_goes_on_with_the_tick(void)
     }
 }
 
-static void test_stale_senses_change_nothing(void)
+TEST(stale_senses_change_nothing)
 {
     tick(5);
     tick(3);
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, tick(6));
 }
 
-static void test_in_lockstep_only_the_next_tick_is_fresh(void)
+TEST(in_lockstep_only_the_next_tick_is_fresh)
 {
     start(1);
     tick(5);
@@ -54,14 +54,14 @@ static void test_in_lockstep_only_the_next_tick_is_fresh(void)
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, tick(6));
 }
 
-static void test_in_lockstep_the_last_tick_may_come_again(void)
+TEST(in_lockstep_the_last_tick_may_come_again)
 {
     start(1);
     tick(5);
     TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, tick(5));
 }
 
-static void test_in_lockstep_the_last_tick_with_another_counter_is_stale(void)
+TEST(in_lockstep_the_last_tick_with_another_counter_is_stale)
 {
     start(1);
     tick(5);
@@ -69,20 +69,20 @@ static void test_in_lockstep_the_last_tick_with_another_counter_is_stale(void)
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, session_senses(&session, 5, 4, &missed));
 }
 
-static void test_in_lockstep_another_tick_with_the_last_counter_is_stale(void)
+TEST(in_lockstep_another_tick_with_the_last_counter_is_stale)
 {
     start(1);
     tick(5);
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(5 + E2E_COUNTERS));
 }
 
-static void test_on_its_own_clock_the_last_tick_again_is_stale(void)
+TEST(on_its_own_clock_the_last_tick_again_is_stale)
 {
     tick(5);
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(5));
 }
 
-static void test_after_start_and_stop_any_tick_is_taken(void)
+TEST(after_start_and_stop_any_tick_is_taken)
 {
     tick(100);
     start(1);
@@ -91,29 +91,10 @@ static void test_after_start_and_stop_any_tick_is_taken(void)
     TEST_ASSERT_EQUAL(ARRIVAL_FRESH, tick(20));
 }
 
-static void test_after_a_refused_start_the_tick_must_go_on(void)
+TEST(after_a_refused_start_the_tick_must_go_on)
 {
     tick(100);
     command(OPCODE_START, 1, OURS);
     session_executed(&session, RESULT_UNKNOWN_PROFILE);
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(50));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_any_tick_may_be_the_first);
-    RUN_TEST(test_up_to_14_ticks_ahead_are_fresh);
-    RUN_TEST(test_ticks_that_were_left_out_are_counted);
-    RUN_TEST(test_a_tick_of_a_round_ago_is_stale);
-    RUN_TEST(test_the_counter_goes_on_with_the_tick);
-    RUN_TEST(test_stale_senses_change_nothing);
-    RUN_TEST(test_in_lockstep_only_the_next_tick_is_fresh);
-    RUN_TEST(test_in_lockstep_the_last_tick_may_come_again);
-    RUN_TEST(test_in_lockstep_the_last_tick_with_another_counter_is_stale);
-    RUN_TEST(test_in_lockstep_another_tick_with_the_last_counter_is_stale);
-    RUN_TEST(test_on_its_own_clock_the_last_tick_again_is_stale);
-    RUN_TEST(test_after_start_and_stop_any_tick_is_taken);
-    RUN_TEST(test_after_a_refused_start_the_tick_must_go_on);
-    return UNITY_END();
 }

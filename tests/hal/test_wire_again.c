@@ -1,9 +1,8 @@
 /* What comes again is answered again, and what is refused is answered with the reason. */
-#include <unity.h>
-
+#include "tests/test.h"
 #include "reading_rig.h"
 
-static void test_in_lockstep_senses_again_before_any_answer_have_none(void)
+TEST(in_lockstep_senses_again_before_any_answer_have_none)
 {
     start(1, 0);
     TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(0));
@@ -11,7 +10,7 @@ static void test_in_lockstep_senses_again_before_any_answer_have_none(void)
     TEST_ASSERT_NULL(wire.again);
 }
 
-static void test_in_lockstep_senses_again_are_answered_as_before(void)
+TEST(in_lockstep_senses_again_are_answered_as_before)
 {
     struct frame drive;
 
@@ -23,7 +22,7 @@ static void test_in_lockstep_senses_again_are_answered_as_before(void)
     TEST_ASSERT_EQUAL_MEMORY(&drive, wire.again, sizeof drive);
 }
 
-static void test_what_was_said_in_silence_is_not_said_again(void)
+TEST(what_was_said_in_silence_is_not_said_again)
 {
     struct frame drive;
 
@@ -35,7 +34,7 @@ static void test_what_was_said_in_silence_is_not_said_again(void)
     TEST_ASSERT_EQUAL_MEMORY(&drive, wire.again, sizeof drive);
 }
 
-static void test_a_command_again_is_answered_as_before(void)
+TEST(a_command_again_is_answered_as_before)
 {
     struct frame answer;
 
@@ -46,7 +45,7 @@ static void test_a_command_again_is_answered_as_before(void)
     TEST_ASSERT_EQUAL_MEMORY(&answer, wire.again, sizeof answer);
 }
 
-static void test_what_was_said_goes_out_again_only_where_it_is_asked_for_again(void)
+TEST(what_was_said_goes_out_again_only_where_it_is_asked_for_again)
 {
     hear(command_of(OPCODE_ERASE, 7, OWNER));
     respond((struct output){.has_answer = true});
@@ -68,7 +67,7 @@ static void assert_answer(enum result result, uint8_t counter)
     TEST_ASSERT_EQUAL_UINT8(counter, answer.counter);
 }
 
-static void test_a_command_of_another_sender_is_answered_with_the_reason(void)
+TEST(a_command_of_another_sender_is_answered_with_the_reason)
 {
     start(0, 0);
     refuse(command_of(OPCODE_ERASE, 2, OWNER + 1));
@@ -76,23 +75,10 @@ static void test_a_command_of_another_sender_is_answered_with_the_reason(void)
     expect(FAULT_REFUSED, 1);
 }
 
-static void test_an_old_command_is_answered_with_the_reason(void)
+TEST(an_old_command_is_answered_with_the_reason)
 {
     start(0, 0);
     refuse(command_of(OPCODE_ERASE, 0, OWNER));
     assert_answer(RESULT_OUT_OF_SEQUENCE, 0);
     expect(FAULT_STALE, 1);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_in_lockstep_senses_again_before_any_answer_have_none);
-    RUN_TEST(test_in_lockstep_senses_again_are_answered_as_before);
-    RUN_TEST(test_what_was_said_in_silence_is_not_said_again);
-    RUN_TEST(test_a_command_again_is_answered_as_before);
-    RUN_TEST(test_what_was_said_goes_out_again_only_where_it_is_asked_for_again);
-    RUN_TEST(test_a_command_of_another_sender_is_answered_with_the_reason);
-    RUN_TEST(test_an_old_command_is_answered_with_the_reason);
-    return UNITY_END();
 }

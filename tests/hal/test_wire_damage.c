@@ -1,8 +1,7 @@
 /* What is damaged on its way is refused, and counted. */
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "reading_rig.h"
 
 static void flip(struct frame *frame, unsigned bit)
@@ -39,17 +38,17 @@ static void refuse_every_flip(const struct frame good)
     TEST_ASSERT_NOT_EQUAL(INPUT_SILENCE, hear(good));   /* the clean control */
 }
 
-static void test_senses_with_one_or_two_flipped_bits_are_refused(void)
+TEST(senses_with_one_or_two_flipped_bits_are_refused)
 {
     refuse_every_flip(senses_frame(NODE, 123));
 }
 
-static void test_a_command_with_one_or_two_flipped_bits_is_refused(void)
+TEST(a_command_with_one_or_two_flipped_bits_is_refused)
 {
     refuse_every_flip(command_frame((struct octet_command_t){.opcode = OPCODE_START, .seed = 0x12345678}));
 }
 
-static void test_a_frame_of_another_length_is_damaged(void)
+TEST(a_frame_of_another_length_is_damaged)
 {
     for (uint8_t len = 0; len < 8; len++) {
         struct frame senses = senses_frame(NODE, 0), command = command_of(OPCODE_STOP, 0, OWNER), ranges = ranges_frame(0);
@@ -62,7 +61,7 @@ static void test_a_frame_of_another_length_is_damaged(void)
     expect(FAULT_DAMAGED, 24);
 }
 
-static void test_damaged_senses_do_not_move_the_tick(void)
+TEST(damaged_senses_do_not_move_the_tick)
 {
     struct frame damaged = senses_frame(NODE, 10);
 
@@ -73,7 +72,7 @@ static void test_damaged_senses_do_not_move_the_tick(void)
     TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(2));
 }
 
-static void test_a_damaged_command_does_not_use_up_its_counter(void)
+TEST(a_damaged_command_does_not_use_up_its_counter)
 {
     struct frame damaged = command_of(OPCODE_ERASE, 7, OWNER);
 
@@ -83,23 +82,11 @@ static void test_a_damaged_command_does_not_use_up_its_counter(void)
     TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_of(OPCODE_ERASE, 7, OWNER)));
 }
 
-static void test_every_counter_stays_at_255(void)
+TEST(every_counter_stays_at_255)
 {
     for (unsigned fault = 0; fault < FAULT_COUNT; fault++) {
         for (unsigned i = 0; i < 300; i++)
             wire_count(&wire, (enum fault)fault);
         expect((enum fault)fault, 255);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_senses_with_one_or_two_flipped_bits_are_refused);
-    RUN_TEST(test_a_command_with_one_or_two_flipped_bits_is_refused);
-    RUN_TEST(test_a_frame_of_another_length_is_damaged);
-    RUN_TEST(test_damaged_senses_do_not_move_the_tick);
-    RUN_TEST(test_a_damaged_command_does_not_use_up_its_counter);
-    RUN_TEST(test_every_counter_stays_at_255);
-    return UNITY_END();
 }

@@ -1,13 +1,11 @@
 /* Which identifiers a robot listens for, and which frames it takes for its own. */
 #include "hal/protocol/wire.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "wire_frames.h"
 
 #include "reading_rig.h"
 
-static void test_each_node_hears_its_own_frames(void)
+TEST(each_node_hears_its_own_frames)
 {
     for (uint8_t node = 1; node <= NODE_MAX; node++) {
         wire_init(&wire, node);
@@ -15,14 +13,14 @@ static void test_each_node_hears_its_own_frames(void)
     }
 }
 
-static void test_no_node_hears_anothers_frames(void)
+TEST(no_node_hears_anothers_frames)
 {
     for (uint8_t node = 2; node <= NODE_MAX; node++)
         refuse(senses_frame(node, 0));
     expect(FAULT_FOREIGN, NODE_MAX - 1);
 }
 
-static void test_no_node_hears_what_is_meant_for_its_neighbours(void)
+TEST(no_node_hears_what_is_meant_for_its_neighbours)
 {
     static const uint32_t ids[] = {
         OCTET_SENSES_FRAME_ID, OCTET_RANGES_FRAME_ID, OCTET_COMMAND_FRAME_ID, OCTET_DRIVE_FRAME_ID, OCTET_HEARTBEAT_FRAME_ID,
@@ -38,7 +36,7 @@ static void test_no_node_hears_what_is_meant_for_its_neighbours(void)
     expect(FAULT_FOREIGN, 2);
 }
 
-static void test_the_first_and_the_last_node_listen_for_their_own(void)
+TEST(the_first_and_the_last_node_listen_for_their_own)
 {
     static const uint16_t expected[2][WIRE_LISTEN_COUNT] = {
         {0x101, 0x121, 0x021, 0x041, 0x6A1, LINK_FAMILY | 0x680},
@@ -54,14 +52,14 @@ static void test_the_first_and_the_last_node_listen_for_their_own(void)
     }
 }
 
-static void test_other_messages_of_robots_are_foreign(void)
+TEST(other_messages_of_robots_are_foreign)
 {
     refuse((struct frame){.id = OCTET_ANSWER_FRAME_ID, .len = OCTET_ANSWER_LENGTH});
     refuse((struct frame){.id = OCTET_FAULTS_FRAME_ID, .len = OCTET_FAULTS_LENGTH});
     expect(FAULT_FOREIGN, 2);
 }
 
-static void test_extended_remote_and_error_frames_are_foreign(void)
+TEST(extended_remote_and_error_frames_are_foreign)
 {
     static const uint32_t flags[] = {FRAME_EXTENDED, FRAME_REMOTE, FRAME_ERROR};
 
@@ -72,16 +70,4 @@ static void test_extended_remote_and_error_frames_are_foreign(void)
         refuse(frame);
     }
     expect(FAULT_FOREIGN, 3);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_each_node_hears_its_own_frames);
-    RUN_TEST(test_no_node_hears_anothers_frames);
-    RUN_TEST(test_no_node_hears_what_is_meant_for_its_neighbours);
-    RUN_TEST(test_the_first_and_the_last_node_listen_for_their_own);
-    RUN_TEST(test_other_messages_of_robots_are_foreign);
-    RUN_TEST(test_extended_remote_and_error_frames_are_foreign);
-    return UNITY_END();
 }

@@ -1,8 +1,6 @@
 /* The frames of each kind: their length, and a counter of their own. */
 #include "hal/protocol/wire.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "writing_rig.h"
 
 static const struct crash CRASH = {.cause = 1, .count = 1, .values = {1}};
@@ -46,7 +44,7 @@ static unsigned kind_of(const struct frame *frame)
     return kind;
 }
 
-static void test_each_has_the_length_that_octet_dbc_gives_it(void)
+TEST(each_has_the_length_that_octet_dbc_gives_it)
 {
     const size_t count = write_all_kinds();
     unsigned seen = 0;
@@ -58,7 +56,7 @@ static void test_each_has_the_length_that_octet_dbc_gives_it(void)
     TEST_ASSERT_EQUAL_HEX32((1u << KIND_COUNT) - 1, seen);
 }
 
-static void test_each_kind_of_message_counts_by_itself(void)
+TEST(each_kind_of_message_counts_by_itself)
 {
     size_t count;
 
@@ -75,7 +73,7 @@ static void test_each_kind_of_message_counts_by_itself(void)
         TEST_ASSERT_EQUAL_UINT8(kind + 4, wire.counters[kind]);
 }
 
-static void test_no_byte_behind_a_frame_is_written(void)
+TEST(no_byte_behind_a_frame_is_written)
 {
     const size_t count = write_all_kinds();
 
@@ -84,7 +82,7 @@ static void test_no_byte_behind_a_frame_is_written(void)
             TEST_ASSERT_EQUAL_HEX8(0, frames[i].data[beyond]);
 }
 
-static void test_both_pages_of_faults_have_the_same_number(void)
+TEST(both_pages_of_faults_have_the_same_number)
 {
     const size_t count = write_all_kinds();
     unsigned pages = 0;
@@ -93,14 +91,4 @@ static void test_both_pages_of_faults_have_the_same_number(void)
         if (frames[i].id == OCTET_FAULTS_FRAME_ID)
             TEST_ASSERT_EQUAL_HEX8(pages++ << 4, frames[i].data[1]);
     TEST_ASSERT_EQUAL_UINT(2, pages);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_each_has_the_length_that_octet_dbc_gives_it);
-    RUN_TEST(test_each_kind_of_message_counts_by_itself);
-    RUN_TEST(test_no_byte_behind_a_frame_is_written);
-    RUN_TEST(test_both_pages_of_faults_have_the_same_number);
-    return UNITY_END();
 }

@@ -1,7 +1,5 @@
 #include "hal/protocol/wire.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "wire_frames.h"
 
 #include "reading_rig.h"
@@ -14,7 +12,7 @@ static void assert_peer(bool upper, uint8_t first)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, in.peer.cell, CELL_COUNT / 2);
 }
 
-static void test_every_other_robots_memory_is_heard(void)
+TEST(every_other_robots_memory_is_heard)
 {
     for (uint8_t node = 2; node <= NODE_MAX; node++) {
         TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(node, 0, 0)));
@@ -24,7 +22,7 @@ static void test_every_other_robots_memory_is_heard(void)
     }
 }
 
-static void test_a_memory_is_heard_once_from_report_to_report(void)
+TEST(a_memory_is_heard_once_from_report_to_report)
 {
     TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
     TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
@@ -37,7 +35,7 @@ static void test_a_memory_is_heard_once_from_report_to_report(void)
     TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
 }
 
-static void test_the_last_robot_hears_all_others_again_after_a_report(void)
+TEST(the_last_robot_hears_all_others_again_after_a_report)
 {
     wire_init(&wire, NODE_MAX);
     for (unsigned reports = 0; reports < 2; reports++) {
@@ -47,7 +45,7 @@ static void test_the_last_robot_hears_all_others_again_after_a_report(void)
     }
 }
 
-static void test_a_memory_is_heard_whatever_its_number(void)
+TEST(a_memory_is_heard_whatever_its_number)
 {
     for (uint8_t counter = 0; counter < E2E_COUNTERS; counter++) {
         struct frame lower = memory_frame(counter + 2u, 0, 0), upper = memory_frame(counter + 2u, 1, 0);
@@ -61,18 +59,18 @@ static void test_a_memory_is_heard_whatever_its_number(void)
     }
 }
 
-static void test_a_memory_of_all_sensors_is_not_heard(void)
+TEST(a_memory_of_all_sensors_is_not_heard)
 {
     refuse(memory_frame(2, 0, 0x0F));
     refuse(memory_frame(2, 1, 0));
 }
 
-static void test_an_upper_half_alone_is_not_heard(void)
+TEST(an_upper_half_alone_is_not_heard)
 {
     refuse(memory_frame(2, 1, 0));
 }
 
-static void test_a_damaged_memory_is_counted(void)
+TEST(a_damaged_memory_is_counted)
 {
     struct frame frame = memory_frame(2, 0, 0);
 
@@ -81,24 +79,10 @@ static void test_a_damaged_memory_is_counted(void)
     expect(FAULT_DAMAGED, 1);
 }
 
-static void test_the_identifiers_beside_the_memories_are_foreign(void)
+TEST(the_identifiers_beside_the_memories_are_foreign)
 {
     refuse(memory_frame(0, 0, 0));
     refuse(memory_frame(NODE_MAX + 1, 0, 0));
     refuse(memory_frame(NODE_MAX + 3, 0, 0));   /* a heartbeat's, of node 2 */
     expect(FAULT_FOREIGN, 3);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_every_other_robots_memory_is_heard);
-    RUN_TEST(test_a_memory_is_heard_once_from_report_to_report);
-    RUN_TEST(test_the_last_robot_hears_all_others_again_after_a_report);
-    RUN_TEST(test_a_memory_is_heard_whatever_its_number);
-    RUN_TEST(test_a_memory_of_all_sensors_is_not_heard);
-    RUN_TEST(test_an_upper_half_alone_is_not_heard);
-    RUN_TEST(test_a_damaged_memory_is_counted);
-    RUN_TEST(test_the_identifiers_beside_the_memories_are_foreign);
-    return UNITY_END();
 }

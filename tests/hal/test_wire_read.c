@@ -1,9 +1,8 @@
 /* What senses and commands bring. */
-#include <unity.h>
-
+#include "tests/test.h"
 #include "reading_rig.h"
 
-static void test_senses_arrive_whole(void)
+TEST(senses_arrive_whole)
 {
     TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(255));
     TEST_ASSERT_EQUAL_UINT8(255, in.senses.tick);
@@ -23,27 +22,27 @@ static void assert_command(enum opcode opcode, unsigned which, uint32_t value)
     TEST_ASSERT_EQUAL_HEX32(value, in.command.value);
 }
 
-static void test_start_brings_profile_and_seed(void)
+TEST(start_brings_profile_and_seed)
 {
     TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){
                                          .opcode = OPCODE_START, .profile = 100, .lockstep = 1, .seed = 0xFFFFFFFF})));
     assert_command(OPCODE_START, 100, 0xFFFFFFFF);
 }
 
-static void test_set_brings_parameter_and_value(void)
+TEST(set_brings_parameter_and_value)
 {
     TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){
                                          .opcode = OPCODE_SET, .parameter = 12, .value = 65535})));
     assert_command(OPCODE_SET, 12, 65535);
 }
 
-static void test_get_brings_its_parameter(void)
+TEST(get_brings_its_parameter)
 {
     TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){.opcode = OPCODE_GET, .wanted = 12})));
     assert_command(OPCODE_GET, 12, 0);
 }
 
-static void test_write_brings_half_mask_and_bytes(void)
+TEST(write_brings_half_mask_and_bytes)
 {
     TEST_ASSERT_EQUAL(INPUT_COMMAND,
                       hear(command_frame((struct octet_command_t){.opcode = OPCODE_WRITE, .mask = 9, .half = 1,
@@ -52,13 +51,13 @@ static void test_write_brings_half_mask_and_bytes(void)
     assert_command(OPCODE_WRITE, 0x19, 0xFF332211);
 }
 
-static void test_freeze_brings_its_flag(void)
+TEST(freeze_brings_its_flag)
 {
     TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){.opcode = OPCODE_FREEZE, .freeze = 1})));
     assert_command(OPCODE_FREEZE, 1, 0);
 }
 
-static void test_other_opcodes_bring_no_arguments(void)
+TEST(other_opcodes_bring_no_arguments)
 {
     static const uint8_t opcodes[] = {OPCODE_STOP, OPCODE_RESUME, OPCODE_ERASE, OPCODE_REPORT, 0, 10, 15};
 
@@ -66,17 +65,4 @@ static void test_other_opcodes_bring_no_arguments(void)
         TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_of((enum opcode)opcodes[i], i, OWNER)));
         assert_command((enum opcode)opcodes[i], 0, 0);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_senses_arrive_whole);
-    RUN_TEST(test_start_brings_profile_and_seed);
-    RUN_TEST(test_set_brings_parameter_and_value);
-    RUN_TEST(test_get_brings_its_parameter);
-    RUN_TEST(test_write_brings_half_mask_and_bytes);
-    RUN_TEST(test_freeze_brings_its_flag);
-    RUN_TEST(test_other_opcodes_bring_no_arguments);
-    return UNITY_END();
 }

@@ -1,8 +1,7 @@
 /* What the parts of a report tell. */
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "build_id.h"
 #include "writing_rig.h"
 
@@ -16,7 +15,7 @@ static struct octet_heartbeat_t heartbeat_sent(void)
     return sent;
 }
 
-static void test_each_heartbeat_counts_on_but_for_those_of_silence(void)
+TEST(each_heartbeat_counts_on_but_for_those_of_silence)
 {
     static const uint8_t counters[] = {0, 1, 2, 2, 2, 3};
 
@@ -26,20 +25,20 @@ static void test_each_heartbeat_counts_on_but_for_those_of_silence(void)
     }
 }
 
-static void test_a_heartbeat_tells_of_silence(void)
+TEST(a_heartbeat_tells_of_silence)
 {
     out.silent = true;
     TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_SILENT_SILENT_CHOICE, heartbeat_sent().silent);
 }
 
-static void test_a_heartbeat_names_the_owner(void)
+TEST(a_heartbeat_names_the_owner)
 {
     answer_to((struct octet_command_t){.opcode = OPCODE_START, .owner = 200}, RESULT_DONE);
     out = (struct output){.has_answer = false};
     TEST_ASSERT_EQUAL_UINT8(200, heartbeat_sent().owner);
 }
 
-static void test_a_heartbeat_tells_how_the_robot_fares(void)
+TEST(a_heartbeat_tells_how_the_robot_fares)
 {
     struct octet_heartbeat_t sent;
 
@@ -51,7 +50,7 @@ static void test_a_heartbeat_tells_how_the_robot_fares(void)
     TEST_ASSERT_EQUAL_UINT16(65535, sent.uptime);
 }
 
-static void test_a_heartbeat_tells_a_stopped_and_frozen_robot(void)
+TEST(a_heartbeat_tells_a_stopped_and_frozen_robot)
 {
     struct octet_heartbeat_t sent;
 
@@ -61,18 +60,18 @@ static void test_a_heartbeat_tells_a_stopped_and_frozen_robot(void)
     TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_FROZEN_FROZEN_CHOICE, sent.frozen);
 }
 
-static void test_a_heartbeat_tells_whose_clock_rules(void)
+TEST(a_heartbeat_tells_whose_clock_rules)
 {
     wire.session.lockstep = true;
     TEST_ASSERT_EQUAL_UINT8(OCTET_HEARTBEAT_LOCKSTEP_LOCKSTEP_CHOICE, heartbeat_sent().lockstep);
 }
 
-static void test_a_heartbeat_names_the_layout_of_all_messages(void)
+TEST(a_heartbeat_names_the_layout_of_all_messages)
 {
     TEST_ASSERT_EQUAL_HEX16(LAYOUT_HASH, heartbeat_sent().layout);
 }
 
-static void test_each_fault_has_its_own_place(void)
+TEST(each_fault_has_its_own_place)
 {
     struct octet_faults_t link, robot;
 
@@ -98,7 +97,7 @@ static void test_each_fault_has_its_own_place(void)
     TEST_ASSERT_EQUAL_UINT8(FAULT_DENIED + 1, robot.denied);
 }
 
-static void test_health_tells_how_bus_clock_and_store_fare(void)
+TEST(health_tells_how_bus_clock_and_store_fare)
 {
     struct octet_health_t sent;
 
@@ -116,7 +115,7 @@ static void test_health_tells_how_bus_clock_and_store_fare(void)
     TEST_ASSERT_EQUAL_UINT8(9, sent.dropped);
 }
 
-static void test_boot_tells_why_it_started(void)
+TEST(boot_tells_why_it_started)
 {
     struct octet_boot_t sent;
 
@@ -128,7 +127,7 @@ static void test_boot_tells_why_it_started(void)
     TEST_ASSERT_EQUAL_UINT8(OCTET_BOOT_RESET_CAUSE_WATCHDOG_CHOICE, sent.reset_cause);
 }
 
-static void test_boot_tells_what_it_was_built_from(void)
+TEST(boot_tells_what_it_was_built_from)
 {
     struct octet_boot_t sent;
 
@@ -140,14 +139,14 @@ static void test_boot_tells_what_it_was_built_from(void)
     TEST_ASSERT_EQUAL_UINT8(OCTET_BUILD_MODIFIED, sent.modified);
 }
 
-static void test_without_a_crash_no_report_tells_of_one(void)
+TEST(without_a_crash_no_report_tells_of_one)
 {
     whole_report();
     for (unsigned i = 0; i < 7; i++)
         TEST_ASSERT_NOT_EQUAL_HEX32(OCTET_CRASH_FRAME_ID, frames[i].id);
 }
 
-static void test_a_crash_is_told_one_value_a_report_round_and_round(void)
+TEST(a_crash_is_told_one_value_a_report_round_and_round)
 {
     static struct crash crash = {.cause = OCTET_CRASH_CAUSE_HARD_FAULT_CHOICE, .count = 5};
 
@@ -165,7 +164,7 @@ static void test_a_crash_is_told_one_value_a_report_round_and_round(void)
     }
 }
 
-static void test_a_memory_is_two_frames_with_one_counter(void)
+TEST(a_memory_is_two_frames_with_one_counter)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 255, 4, 5, 6, 7};
 
@@ -180,7 +179,7 @@ static void test_a_memory_is_two_frames_with_one_counter(void)
     }
 }
 
-static void test_reset_causes_and_bus_states_are_those_of_the_dbc(void)
+TEST(reset_causes_and_bus_states_are_those_of_the_dbc)
 {
     TEST_ASSERT_EQUAL(OCTET_BOOT_RESET_CAUSE_POWER_ON_CHOICE, RESET_POWER_ON);
     TEST_ASSERT_EQUAL(OCTET_BOOT_RESET_CAUSE_PIN_CHOICE, RESET_PIN);
@@ -190,25 +189,4 @@ static void test_reset_causes_and_bus_states_are_those_of_the_dbc(void)
     TEST_ASSERT_EQUAL(OCTET_HEALTH_BUS_STATE_ACTIVE_CHOICE, BUS_ACTIVE);
     TEST_ASSERT_EQUAL(OCTET_HEALTH_BUS_STATE_PASSIVE_CHOICE, BUS_PASSIVE);
     TEST_ASSERT_EQUAL(OCTET_HEALTH_BUS_STATE_BUS_OFF_CHOICE, BUS_OFF);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_each_heartbeat_counts_on_but_for_those_of_silence);
-    RUN_TEST(test_a_heartbeat_tells_of_silence);
-    RUN_TEST(test_a_heartbeat_names_the_owner);
-    RUN_TEST(test_a_heartbeat_tells_how_the_robot_fares);
-    RUN_TEST(test_a_heartbeat_tells_a_stopped_and_frozen_robot);
-    RUN_TEST(test_a_heartbeat_tells_whose_clock_rules);
-    RUN_TEST(test_a_heartbeat_names_the_layout_of_all_messages);
-    RUN_TEST(test_each_fault_has_its_own_place);
-    RUN_TEST(test_health_tells_how_bus_clock_and_store_fare);
-    RUN_TEST(test_boot_tells_why_it_started);
-    RUN_TEST(test_boot_tells_what_it_was_built_from);
-    RUN_TEST(test_without_a_crash_no_report_tells_of_one);
-    RUN_TEST(test_a_crash_is_told_one_value_a_report_round_and_round);
-    RUN_TEST(test_a_memory_is_two_frames_with_one_counter);
-    RUN_TEST(test_reset_causes_and_bus_states_are_those_of_the_dbc);
-    return UNITY_END();
 }

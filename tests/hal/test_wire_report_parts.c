@@ -1,9 +1,8 @@
 /* Which parts of a report are sent, and when. */
-#include <unity.h>
-
+#include "tests/test.h"
 #include "writing_rig.h"
 
-static void test_the_parts_of_a_report_wait_for_drives_in_answer_to_senses(void)
+TEST(the_parts_of_a_report_wait_for_drives_in_answer_to_senses)
 {
     out.has_report = true;
     TEST_ASSERT_EQUAL_size_t(0, write_out());
@@ -14,7 +13,7 @@ static void test_the_parts_of_a_report_wait_for_drives_in_answer_to_senses(void)
     TEST_ASSERT_EQUAL_size_t(2, write_out());
 }
 
-static void test_a_report_is_spread_over_the_drives_of_many_ticks(void)
+TEST(a_report_is_spread_over_the_drives_of_many_ticks)
 {
     static const uint32_t ids[] = {0x6A1, 0x681, 0x781, 0x781, 0, 0x7C1, 0};
 
@@ -27,7 +26,7 @@ static void test_a_report_is_spread_over_the_drives_of_many_ticks(void)
     }
 }
 
-static void test_a_whole_report_ends_one_that_is_under_way(void)
+TEST(a_whole_report_ends_one_that_is_under_way)
 {
     static const uint32_t drive = 0x041;
 
@@ -38,13 +37,13 @@ static void test_a_whole_report_ends_one_that_is_under_way(void)
     assert_ids(&drive, 1);
 }
 
-static void test_what_is_whole_is_sent_only_if_there_is_a_report(void)
+TEST(what_is_whole_is_sent_only_if_there_is_a_report)
 {
     out = (struct output){.whole_report = true};
     TEST_ASSERT_EQUAL_size_t(0, write_out());
 }
 
-static void test_a_new_memory_holds_the_report_up(void)
+TEST(a_new_memory_holds_the_report_up)
 {
     static const uint32_t ids[] = {0x681, 0x681, 0x041}, next[] = {0x6A1, 0x041};
 
@@ -54,7 +53,7 @@ static void test_a_new_memory_holds_the_report_up(void)
     assert_ids(next, 2);
 }
 
-static void test_in_silence_there_is_a_heartbeat_and_nothing_else(void)
+TEST(in_silence_there_is_a_heartbeat_and_nothing_else)
 {
     static const uint32_t ids[] = {0x6A1, 0x041};
 
@@ -66,16 +65,4 @@ static void test_in_silence_there_is_a_heartbeat_and_nothing_else(void)
     assert_ids(ids + 1, 1);
     out = (struct output){.has_report = true, .whole_report = true, .silent = true};
     assert_ids(ids, 1);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_parts_of_a_report_wait_for_drives_in_answer_to_senses);
-    RUN_TEST(test_a_report_is_spread_over_the_drives_of_many_ticks);
-    RUN_TEST(test_a_whole_report_ends_one_that_is_under_way);
-    RUN_TEST(test_what_is_whole_is_sent_only_if_there_is_a_report);
-    RUN_TEST(test_a_new_memory_holds_the_report_up);
-    RUN_TEST(test_in_silence_there_is_a_heartbeat_and_nothing_else);
-    return UNITY_END();
 }

@@ -1,9 +1,7 @@
 /* What the wire makes of a command's result, and when news of faults goes out. */
 #include "hal/protocol/e2e.h"
 #include "hal/protocol/wire.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "writing_rig.h"
 
 enum { OWNER = 5, LOWER = 2, HIGHER = 9 };
@@ -36,7 +34,7 @@ static bool is_taken(enum opcode opcode, uint8_t owner)
     return wire_read(&wire, &frame, &in) == INPUT_COMMAND;
 }
 
-static void test_a_start_says_whether_ranges_are_wanted(void)
+TEST(a_start_says_whether_ranges_are_wanted)
 {
     started(ANSWER_WANTS_RANGES);
     TEST_ASSERT_TRUE(wire.wants_ranges);
@@ -44,14 +42,14 @@ static void test_a_start_says_whether_ranges_are_wanted(void)
     TEST_ASSERT_FALSE(wire.wants_ranges);
 }
 
-static void test_no_other_command_changes_whether_ranges_are_wanted(void)
+TEST(no_other_command_changes_whether_ranges_are_wanted)
 {
     started(ANSWER_WANTS_RANGES);
     done(OPCODE_REPORT, 0);
     TEST_ASSERT_TRUE(wire.wants_ranges);
 }
 
-static void test_a_start_that_is_refused_changes_nothing_about_ranges(void)
+TEST(a_start_that_is_refused_changes_nothing_about_ranges)
 {
     started(ANSWER_WANTS_RANGES);
     out = (struct output){.answer_value = 0};
@@ -61,7 +59,7 @@ static void test_a_start_that_is_refused_changes_nothing_about_ranges(void)
     expect(FAULT_REFUSED, 1);
 }
 
-static void test_a_robot_that_has_an_owner_takes_nothing_from_another(void)
+TEST(a_robot_that_has_an_owner_takes_nothing_from_another)
 {
     started(0);
     TEST_ASSERT_FALSE(is_taken(OPCODE_SET, LOWER));
@@ -69,7 +67,7 @@ static void test_a_robot_that_has_an_owner_takes_nothing_from_another(void)
     expect(FAULT_REFUSED, 2);
 }
 
-static void test_it_stays_its_owners_whatever_was_done(void)
+TEST(it_stays_its_owners_whatever_was_done)
 {
     started(0);
     done(OPCODE_SET, 0);
@@ -79,20 +77,20 @@ static void test_it_stays_its_owners_whatever_was_done(void)
     expect(FAULT_REFUSED, 1);
 }
 
-static void test_a_stop_gives_the_robot_up(void)
+TEST(a_stop_gives_the_robot_up)
 {
     started(0);
     done(OPCODE_STOP, 0);
     TEST_ASSERT_TRUE(is_taken(OPCODE_SET, LOWER));
 }
 
-static void test_what_is_no_answer_is_no_refusal(void)
+TEST(what_is_no_answer_is_no_refusal)
 {
     out = (struct output){.has_drive = true, .answer = RESULT_OWNED};
     TEST_ASSERT_EQUAL_size_t(1, write_out());
 }
 
-static void test_news_goes_out_with_whatever_is_next(void)
+TEST(news_goes_out_with_whatever_is_next)
 {
     const struct output next[] = {{.has_drive = true}, {.has_report = true, .whole_report = true}, {.has_answer = true}};
 
@@ -105,24 +103,9 @@ static void test_news_goes_out_with_whatever_is_next(void)
     expect(FAULT_UNSENT, 3);
 }
 
-static void test_news_waits_while_nothing_goes_out(void)
+TEST(news_waits_while_nothing_goes_out)
 {
     wire_count(&wire, FAULT_UNSENT);
     expect(FAULT_UNSENT, 1);
     TEST_ASSERT_EQUAL_size_t(0, write_out());
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_start_says_whether_ranges_are_wanted);
-    RUN_TEST(test_no_other_command_changes_whether_ranges_are_wanted);
-    RUN_TEST(test_a_start_that_is_refused_changes_nothing_about_ranges);
-    RUN_TEST(test_a_robot_that_has_an_owner_takes_nothing_from_another);
-    RUN_TEST(test_it_stays_its_owners_whatever_was_done);
-    RUN_TEST(test_a_stop_gives_the_robot_up);
-    RUN_TEST(test_what_is_no_answer_is_no_refusal);
-    RUN_TEST(test_news_goes_out_with_whatever_is_next);
-    RUN_TEST(test_news_waits_while_nothing_goes_out);
-    return UNITY_END();
 }

@@ -1,18 +1,16 @@
 #include "hal/protocol/wire.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "wire_frames.h"
 
 #include "reading_rig.h"
 
-static void test_ranges_that_nobody_asked_for_are_foreign(void)
+TEST(ranges_that_nobody_asked_for_are_foreign)
 {
     refuse(ranges_frame(0));
     expect(FAULT_FOREIGN, 1);
 }
 
-static void test_ranges_go_with_the_senses_of_their_tick(void)
+TEST(ranges_go_with_the_senses_of_their_tick)
 {
     static const uint8_t expected[FEEL_COUNT] = {11, 22, 33, 44, 55};
 
@@ -22,7 +20,7 @@ static void test_ranges_go_with_the_senses_of_their_tick(void)
     TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, in.senses.range_mm, FEEL_COUNT);
 }
 
-static void test_in_lockstep_senses_wait_for_their_ranges(void)
+TEST(in_lockstep_senses_wait_for_their_ranges)
 {
     start(1, ANSWER_WANTS_RANGES);
     refuse(ranges_frame(6));
@@ -34,7 +32,7 @@ static void test_in_lockstep_senses_wait_for_their_ranges(void)
     TEST_ASSERT_EQUAL(INPUT_SENSES, read_tick(7));
 }
 
-static void test_the_first_senses_of_a_run_wait_for_ranges_of_that_run(void)
+TEST(the_first_senses_of_a_run_wait_for_ranges_of_that_run)
 {
     start(1, ANSWER_WANTS_RANGES);
     refuse(senses_frame(NODE, 0));
@@ -45,7 +43,7 @@ static void test_the_first_senses_of_a_run_wait_for_ranges_of_that_run(void)
     expect(FAULT_MISSED, 2);
 }
 
-static void test_damaged_ranges_are_counted_and_not_taken(void)
+TEST(damaged_ranges_are_counted_and_not_taken)
 {
     struct frame damaged = ranges_frame(7);
 
@@ -57,7 +55,7 @@ static void test_damaged_ranges_are_counted_and_not_taken(void)
     expect(FAULT_MISSED, 1);
 }
 
-static void test_on_its_own_clock_senses_do_without_their_ranges(void)
+TEST(on_its_own_clock_senses_do_without_their_ranges)
 {
     start(0, ANSWER_WANTS_RANGES);
     refuse(ranges_frame(6));
@@ -70,7 +68,7 @@ static struct frame of_a_twin(uint32_t id, uint8_t len)
     return protected_frame((struct frame){.id = id, .len = len});
 }
 
-static void test_a_twin_stops_the_robot(void)
+TEST(a_twin_stops_the_robot)
 {
     const struct frame heard = of_a_twin(OCTET_DRIVE_FRAME_ID, OCTET_DRIVE_LENGTH);
 
@@ -82,7 +80,7 @@ static void test_a_twin_stops_the_robot(void)
 }
 
 /* Of 10,000 frames of noise a second, now and then one has our identifier and a right CRC. */
-static void test_one_frame_a_second_makes_no_twin(void)
+TEST(one_frame_a_second_makes_no_twin)
 {
     start(1, 0);
     for (unsigned second = 0; second < 10; second++) {
@@ -92,7 +90,7 @@ static void test_one_frame_a_second_makes_no_twin(void)
     expect(FAULT_TWIN, 10);
 }
 
-static void test_a_stop_for_a_twin_has_no_answer_and_no_owner(void)
+TEST(a_stop_for_a_twin_has_no_answer_and_no_owner)
 {
     struct output out = {.has_answer = true, .has_drive = true};
     struct frame frames[WIRE_FRAMES_MAX];
@@ -106,7 +104,7 @@ static void test_a_stop_for_a_twin_has_no_answer_and_no_owner(void)
     expect(FAULT_TWIN, 2);
 }
 
-static void test_a_twin_stops_the_robot_once_for_each_start(void)
+TEST(a_twin_stops_the_robot_once_for_each_start)
 {
     const struct frame heard = of_a_twin(OCTET_HEARTBEAT_FRAME_ID, OCTET_HEARTBEAT_LENGTH);
 
@@ -120,33 +118,15 @@ static void test_a_twin_stops_the_robot_once_for_each_start(void)
     expect(FAULT_TWIN, 5);
 }
 
-static void test_a_twin_is_known_by_its_memory_too(void)
+TEST(a_twin_is_known_by_its_memory_too)
 {
     refuse(memory_frame(NODE, 0, 0));
     TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(memory_frame(NODE, 1, 0)));
     expect(FAULT_TWIN, 2);
 }
 
-static void test_a_damaged_frame_of_a_twin_is_damaged(void)
+TEST(a_damaged_frame_of_a_twin_is_damaged)
 {
     refuse((struct frame){.id = OCTET_DRIVE_FRAME_ID, .len = 8, .data = {1}});
     expect(FAULT_DAMAGED, 1);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_ranges_that_nobody_asked_for_are_foreign);
-    RUN_TEST(test_ranges_go_with_the_senses_of_their_tick);
-    RUN_TEST(test_in_lockstep_senses_wait_for_their_ranges);
-    RUN_TEST(test_the_first_senses_of_a_run_wait_for_ranges_of_that_run);
-    RUN_TEST(test_damaged_ranges_are_counted_and_not_taken);
-    RUN_TEST(test_on_its_own_clock_senses_do_without_their_ranges);
-    RUN_TEST(test_a_twin_stops_the_robot);
-    RUN_TEST(test_one_frame_a_second_makes_no_twin);
-    RUN_TEST(test_a_stop_for_a_twin_has_no_answer_and_no_owner);
-    RUN_TEST(test_a_twin_stops_the_robot_once_for_each_start);
-    RUN_TEST(test_a_twin_is_known_by_its_memory_too);
-    RUN_TEST(test_a_damaged_frame_of_a_twin_is_damaged);
-    return UNITY_END();
 }

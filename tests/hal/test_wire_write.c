@@ -1,7 +1,5 @@
 #include "hal/protocol/wire.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "firmware/config.h"
 #include "firmware/memory.h"
 #include "wire_frames.h"
@@ -16,19 +14,19 @@ static void mark_all(void)
     out.has_answer = out.has_report = out.whole_report = out.has_drive = true;
 }
 
-static void test_no_mark_makes_no_frame(void)
+TEST(no_mark_makes_no_frame)
 {
     TEST_ASSERT_EQUAL_size_t(0, write_out());
 }
 
-static void test_faults_are_not_told_where_nothing_else_is(void)
+TEST(faults_are_not_told_where_nothing_else_is)
 {
     wire_count(&wire, FAULT_DAMAGED);
     TEST_ASSERT_EQUAL_size_t(0, write_out());
     expect(FAULT_DAMAGED, 1);
 }
 
-static void test_all_marks_make_all_frames_the_drive_last(void)
+TEST(all_marks_make_all_frames_the_drive_last)
 {
     static const uint32_t ids[WIRE_FRAMES_MAX] = {0x141, 0x161, 0x6A1, 0x6C1, 0x681, 0x681, 0x781, 0x781, 0x7A1, 0x7C1, 0x041};
 
@@ -38,7 +36,7 @@ static void test_all_marks_make_all_frames_the_drive_last(void)
     assert_ids(ids, WIRE_FRAMES_MAX);
 }
 
-static void test_the_last_node_writes_its_own_identifiers(void)
+TEST(the_last_node_writes_its_own_identifiers)
 {
     static const uint32_t ids[] = {0x15F, 0x6BF, 0x6DF, 0x69F, 0x69F, 0x79F, 0x79F, 0x7BF, 0x7DF, 0x05F};
 
@@ -58,7 +56,7 @@ static struct octet_drive_t drive_sent(struct drive drive)
     return sent;
 }
 
-static void test_wheel_speeds_keep_sign_and_size(void)
+TEST(wheel_speeds_keep_sign_and_size)
 {
     static const int16_t speeds[] = {-2047, -1, 0, 1, 2047};
 
@@ -70,7 +68,7 @@ static void test_wheel_speeds_keep_sign_and_size(void)
     }
 }
 
-static void test_a_drive_arrives_whole(void)
+TEST(a_drive_arrives_whole)
 {
     const struct octet_drive_t sent = drive_sent(
         (struct drive){.tick = 255, .reason = REASON_EAT, .repeat_count = 255, .action = 127, .eat = true});
@@ -82,7 +80,7 @@ static void test_a_drive_arrives_whole(void)
     TEST_ASSERT_EQUAL_UINT8(OCTET_DRIVE_EAT_EAT_CHOICE, sent.eat);
 }
 
-static void test_a_drive_has_the_counter_of_the_senses_that_it_answers(void)
+TEST(a_drive_has_the_counter_of_the_senses_that_it_answers)
 {
     const struct frame senses = senses_frame(NODE, 27);
     struct input in;
@@ -91,7 +89,7 @@ static void test_a_drive_has_the_counter_of_the_senses_that_it_answers(void)
     TEST_ASSERT_EQUAL_UINT8(27 % 15, drive_sent((struct drive){.tick = 27}).counter);
 }
 
-static void test_an_answer_to_get_has_the_value(void)
+TEST(an_answer_to_get_has_the_value)
 {
     struct octet_answer_t sent;
 
@@ -101,7 +99,7 @@ static void test_an_answer_to_get_has_the_value(void)
     TEST_ASSERT_EQUAL_HEX32(0x12345678, sent.value);
 }
 
-static void test_an_answer_names_the_command_that_it_answers(void)
+TEST(an_answer_names_the_command_that_it_answers)
 {
     const struct octet_answer_t sent = answer_to((struct octet_command_t){.opcode = OPCODE_FREEZE, .counter = 14, .freeze = 1}, RESULT_DONE);
 
@@ -111,7 +109,7 @@ static void test_an_answer_names_the_command_that_it_answers(void)
     TEST_ASSERT_EQUAL_UINT8(OCTET_ANSWER_RESULT_DONE_CHOICE, sent.result);
 }
 
-static void test_a_refusal_is_counted_and_says_why(void)
+TEST(a_refusal_is_counted_and_says_why)
 {
     const struct octet_answer_t sent = answer_to((struct octet_command_t){.opcode = OPCODE_SET, .counter = 3}, RESULT_OUT_OF_RANGE);
 
@@ -130,7 +128,7 @@ static struct octet_emergency_t emergency_sent(void)
     return sent;
 }
 
-static void test_faults_are_told_with_the_next_frame(void)
+TEST(faults_are_told_with_the_next_frame)
 {
     struct octet_emergency_t sent;
 
@@ -146,7 +144,7 @@ static void test_faults_are_told_with_the_next_frame(void)
     TEST_ASSERT_EQUAL_UINT16(3, sent.faults);
 }
 
-static void test_faults_are_told_once(void)
+TEST(faults_are_told_once)
 {
     wire_count(&wire, FAULT_STALE);
     expect(FAULT_STALE, 1);
@@ -154,7 +152,7 @@ static void test_faults_are_told_once(void)
     TEST_ASSERT_EQUAL_size_t(1, write_out());
 }
 
-static void test_the_sum_of_all_faults_is_that_of_the_counters(void)
+TEST(the_sum_of_all_faults_is_that_of_the_counters)
 {
     for (unsigned fault = 0; fault < FAULT_COUNT; fault++) {
         for (unsigned i = 0; i < 300; i++)
@@ -164,30 +162,10 @@ static void test_the_sum_of_all_faults_is_that_of_the_counters(void)
     TEST_ASSERT_EQUAL_UINT16(255 * FAULT_COUNT, emergency_sent().faults);
 }
 
-static void test_faults_of_the_body_are_counted(void)
+TEST(faults_of_the_body_are_counted)
 {
     out.contradiction = out.denied = true;
     emergency_sent();
     expect(FAULT_CONTRADICTION, 1);
     expect(FAULT_DENIED, 1);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_no_mark_makes_no_frame);
-    RUN_TEST(test_faults_are_not_told_where_nothing_else_is);
-    RUN_TEST(test_all_marks_make_all_frames_the_drive_last);
-    RUN_TEST(test_the_last_node_writes_its_own_identifiers);
-    RUN_TEST(test_wheel_speeds_keep_sign_and_size);
-    RUN_TEST(test_a_drive_arrives_whole);
-    RUN_TEST(test_a_drive_has_the_counter_of_the_senses_that_it_answers);
-    RUN_TEST(test_an_answer_to_get_has_the_value);
-    RUN_TEST(test_an_answer_names_the_command_that_it_answers);
-    RUN_TEST(test_a_refusal_is_counted_and_says_why);
-    RUN_TEST(test_faults_are_told_with_the_next_frame);
-    RUN_TEST(test_faults_are_told_once);
-    RUN_TEST(test_the_sum_of_all_faults_is_that_of_the_counters);
-    RUN_TEST(test_faults_of_the_body_are_counted);
-    return UNITY_END();
 }

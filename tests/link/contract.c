@@ -9,6 +9,7 @@ static const uint16_t WANTED[] = {0x123, 0x100, 0x101, 0x102, 0x103, 0x104};
 const struct frame HELLO = {0x123, 3, {0xAA, 0xBB, 0xCC}};
 const struct rig *rig;
 struct link *near;
+static const char *interface = "vcan0";
 
 void open_near(void)
 {
@@ -23,8 +24,19 @@ void close_near(void)
     near = NULL;
 }
 
+bool is_pair(void)
+{
+    return rig != &RIG_SOCKETCAN;
+}
+
+bool is_interface(void)
+{
+    return rig == &RIG_SOCKETCAN;
+}
+
 void setUp(void)
 {
+    rig_socketcan_choose(interface);
     open_near();
 }
 
@@ -88,11 +100,6 @@ int main(int argc, char *argv[])
         fprintf(stderr, "usage: %s fd|slcan|socketcan [IFACE]\n", argv[0]);
         return 2;
     }
-    const char *interface = argc > 2 ? argv[2] : "vcan0";
-    rig_socketcan_choose(interface);
-    UNITY_BEGIN();
-    CONTRACT.for_all();
-    if (rig == &RIG_SOCKETCAN && CONTRACT.for_interfaces) CONTRACT.for_interfaces(interface);
-    if (rig != &RIG_SOCKETCAN && CONTRACT.for_pairs) CONTRACT.for_pairs();
-    return UNITY_END();
+    if (argc > 2) interface = argv[2];
+    return tests_run();
 }

@@ -3,20 +3,16 @@
 #ifndef OCTET_CONTRACT_H
 #define OCTET_CONTRACT_H
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "rig.h"
 
 enum { SOON_MS = 5000, WAIT_MS = 60, LATE_MS = 5000 };
 
-/* The tests of a part. The last two may be null. */
-struct contract {
-    void (*for_all)(void);
-    void (*for_pairs)(void);                          /* a pair has one far end, which a bus has not, and a queue of its own */
-    void (*for_interfaces)(const char *interface);    /* of the network, which come and go */
-};
+bool is_pair(void);
+        /* It has one far end, which a bus has not, and a queue of its own. */
 
-extern const struct contract CONTRACT;   /* to be defined by the part */
+bool is_interface(void);
+        /* Of the network: it comes and goes. */
 
 extern const struct frame HELLO;   /* a frame that the near end listens for, as it does for 0x100 to 0x104 */
 extern const struct rig *rig;

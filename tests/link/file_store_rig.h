@@ -5,8 +5,7 @@
 
 #include <limits.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/port/posix/file_store.h"
 
 extern const uint8_t OLD[CELL_COUNT], NEW[CELL_COUNT];

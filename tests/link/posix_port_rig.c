@@ -48,8 +48,6 @@ void setUp(void)
     getrandom_gives = 0;
 }
 
-void tearDown(void) {}
-
 int redirect(FILE *stream, int to)
 {
     int kept = dup(fileno(stream));

@@ -6,8 +6,7 @@
 #include <sys/types.h>
 #include <time.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/can_body/port.h"
 
 extern struct port port;

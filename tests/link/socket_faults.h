@@ -4,8 +4,8 @@
 #define OCTET_SOCKET_FAULTS_H
 
 #include <limits.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "hal/link/link.h"
 
 enum { FOR_EVER = INT_MAX, NS_PER_MS = 1000000 };

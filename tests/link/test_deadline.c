@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include <unity.h>
+#include "tests/test.h"
 
 enum { NS_PER_S = 1000000000, FD = 42, POLLS_MAX = 4 };
 
@@ -50,9 +50,7 @@ void setUp(void)
     time_ns = 10 * (int64_t)NS_PER_S + 999999999;
 }
 
-void tearDown(void) {}
-
-static void test_what_is_left_is_rounded_up_to_milliseconds(void)
+TEST(what_is_left_is_rounded_up_to_milliseconds)
 {
     static const struct {
         int64_t after_ns;
@@ -67,7 +65,7 @@ static void test_what_is_left_is_rounded_up_to_milliseconds(void)
     }
 }
 
-static void test_a_deadline_may_be_seconds_away(void)
+TEST(a_deadline_may_be_seconds_away)
 {
     const int64_t deadline = deadline_in_ms(2000);
 
@@ -77,7 +75,7 @@ static void test_a_deadline_may_be_seconds_away(void)
     TEST_ASSERT_EQUAL_UINT32(0, deadline_left_ms(deadline));
 }
 
-static void test_it_waits_for_input_as_long_as_is_left(void)
+TEST(it_waits_for_input_as_long_as_is_left)
 {
     polls[0] = (struct poll_of_test){.passes_ns = 2500000000, .result = 0};
     TEST_ASSERT_FALSE(deadline_await_input(FD, deadline_in_ms(2500)));
@@ -86,14 +84,14 @@ static void test_it_waits_for_input_as_long_as_is_left(void)
     TEST_ASSERT_EQUAL_INT64(500000000, polls[0].waited.tv_nsec);
 }
 
-static void test_input_ends_the_wait(void)
+TEST(input_ends_the_wait)
 {
     polls[0] = (struct poll_of_test){.passes_ns = 1, .result = 1};
     TEST_ASSERT_TRUE(deadline_await_input(FD, deadline_in_ms(10)));
     TEST_ASSERT_EQUAL_UINT(1, polled);
 }
 
-static void test_a_signal_does_not_end_the_wait(void)
+TEST(a_signal_does_not_end_the_wait)
 {
     polls[0] = (struct poll_of_test){.passes_ns = NS_PER_S + 1, .result = -1};
     polls[1] = (struct poll_of_test){.passes_ns = 0, .result = 1};
@@ -103,7 +101,7 @@ static void test_a_signal_does_not_end_the_wait(void)
     TEST_ASSERT_EQUAL_INT64(NS_PER_S - 1, polls[1].waited.tv_nsec);
 }
 
-static void test_a_wait_that_is_cut_short_goes_on_to_the_last_nanosecond(void)
+TEST(a_wait_that_is_cut_short_goes_on_to_the_last_nanosecond)
 {
     polls[0] = (struct poll_of_test){.passes_ns = NS_PER_S - 1, .result = 0};
     polls[1] = (struct poll_of_test){.passes_ns = 1, .result = 0};
@@ -114,29 +112,15 @@ static void test_a_wait_that_is_cut_short_goes_on_to_the_last_nanosecond(void)
     TEST_ASSERT_EQUAL_INT64(1, polls[1].waited.tv_nsec);
 }
 
-static void test_a_deadline_that_has_passed_is_not_waited_for(void)
+TEST(a_deadline_that_has_passed_is_not_waited_for)
 {
     TEST_ASSERT_FALSE(deadline_await_input(FD, deadline_in_ms(0)));
     TEST_ASSERT_EQUAL_UINT(0, polled);
 }
 
-static void test_a_wait_that_ends_late_is_not_begun_again(void)
+TEST(a_wait_that_ends_late_is_not_begun_again)
 {
     polls[0] = (struct poll_of_test){.passes_ns = NS_PER_S, .result = 0};
     TEST_ASSERT_FALSE(deadline_await_input(FD, deadline_in_ms(10)));
     TEST_ASSERT_EQUAL_UINT(1, polled);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_what_is_left_is_rounded_up_to_milliseconds);
-    RUN_TEST(test_a_deadline_may_be_seconds_away);
-    RUN_TEST(test_it_waits_for_input_as_long_as_is_left);
-    RUN_TEST(test_input_ends_the_wait);
-    RUN_TEST(test_a_signal_does_not_end_the_wait);
-    RUN_TEST(test_a_wait_that_is_cut_short_goes_on_to_the_last_nanosecond);
-    RUN_TEST(test_a_deadline_that_has_passed_is_not_waited_for);
-    RUN_TEST(test_a_wait_that_ends_late_is_not_begun_again);
-    return UNITY_END();
 }

@@ -6,12 +6,12 @@
 
 #include "file_store_rig.h"
 
-static void test_nothing_was_ever_stored(void)
+TEST(nothing_was_ever_stored)
 {
     assert_load_leaves_memory_alone(0);
 }
 
-static void test_what_was_saved_is_loaded(void)
+TEST(what_was_saved_is_loaded)
 {
     TEST_ASSERT_EQUAL_INT(0, file_store_save(path, OLD));
     assert_stored(OLD);
@@ -19,7 +19,7 @@ static void test_what_was_saved_is_loaded(void)
     assert_stored(NEW);
 }
 
-static void test_the_file_is_the_bytes_alone(void)
+TEST(the_file_is_the_bytes_alone)
 {
     struct stat file;
     TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
@@ -28,7 +28,7 @@ static void test_the_file_is_the_bytes_alone(void)
     TEST_ASSERT_EQUAL_INT(CELL_COUNT, file.st_size);
 }
 
-static void test_everybody_may_read_the_file_and_its_owner_write_it(void)
+TEST(everybody_may_read_the_file_and_its_owner_write_it)
 {
     struct stat file;
     mode_t before = umask(0);
@@ -39,13 +39,13 @@ static void test_everybody_may_read_the_file_and_its_owner_write_it(void)
     TEST_ASSERT_EQUAL_HEX(0644, file.st_mode & 0777);
 }
 
-static void test_the_folder_of_the_file_is_brought_to_the_disk_last(void)
+TEST(the_folder_of_the_file_is_brought_to_the_disk_last)
 {
     TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
     TEST_ASSERT_EQUAL_STRING(folder, last_opened);
 }
 
-static void test_what_a_save_that_was_cut_off_left_beside_it_does_no_harm(void)
+TEST(what_a_save_that_was_cut_off_left_beside_it_does_no_harm)
 {
     const uint8_t left[2 * CELL_COUNT] = {9, 9, 9, 9, 9, 9, 9, 9, 9};
     write_file(left, sizeof left);
@@ -54,7 +54,7 @@ static void test_what_a_save_that_was_cut_off_left_beside_it_does_no_harm(void)
     assert_stored(NEW);
 }
 
-static void test_a_robot_without_standard_input_stores_as_well(void)
+TEST(a_robot_without_standard_input_stores_as_well)
 {
     int input = dup(STDIN_FILENO);
     __real_close(STDIN_FILENO);
@@ -64,7 +64,7 @@ static void test_a_robot_without_standard_input_stores_as_well(void)
     __real_close(input);
 }
 
-static void test_a_file_of_another_size_is_no_memory(void)
+TEST(a_file_of_another_size_is_no_memory)
 {
     const size_t sizes[] = {0, 7, 9, 64};
     const uint8_t bytes[64] = {0};
@@ -74,19 +74,19 @@ static void test_a_file_of_another_size_is_no_memory(void)
     }
 }
 
-static void test_a_file_of_another_size_is_replaced_by_a_save(void)
+TEST(a_file_of_another_size_is_replaced_by_a_save)
 {
     write_file("short", 5);
     TEST_ASSERT_EQUAL_INT(0, file_store_save(path, NEW));
     assert_stored(NEW);
 }
 
-static void test_a_folder_that_is_not_there_refuses_a_save(void)
+TEST(a_folder_that_is_not_there_refuses_a_save)
 {
     TEST_ASSERT_EQUAL_INT(HAL_E_STORE, file_store_save("/no/such/folder/memory", NEW));
 }
 
-static void test_a_path_too_long_refuses_a_save(void)
+TEST(a_path_too_long_refuses_a_save)
 {
     char name[5000];
     memset(name, 'x', sizeof name);
@@ -95,7 +95,7 @@ static void test_a_path_too_long_refuses_a_save(void)
 }
 
 /* With the name of the file beside it, and with slashes beside each other, which are as one. */
-static void test_a_path_may_be_as_long_as_the_system_knows(void)
+TEST(a_path_may_be_as_long_as_the_system_knows)
 {
     const char end[] = "/memory";
     char name[PATH_MAX];
@@ -107,22 +107,4 @@ static void test_a_path_may_be_as_long_as_the_system_knows(void)
         TEST_ASSERT_EQUAL_INT(fits ? 0 : HAL_E_STORE, file_store_save(name, NEW));
         if (fits) assert_stored(NEW);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_nothing_was_ever_stored);
-    RUN_TEST(test_what_was_saved_is_loaded);
-    RUN_TEST(test_the_file_is_the_bytes_alone);
-    RUN_TEST(test_everybody_may_read_the_file_and_its_owner_write_it);
-    RUN_TEST(test_the_folder_of_the_file_is_brought_to_the_disk_last);
-    RUN_TEST(test_what_a_save_that_was_cut_off_left_beside_it_does_no_harm);
-    RUN_TEST(test_a_robot_without_standard_input_stores_as_well);
-    RUN_TEST(test_a_file_of_another_size_is_no_memory);
-    RUN_TEST(test_a_file_of_another_size_is_replaced_by_a_save);
-    RUN_TEST(test_a_folder_that_is_not_there_refuses_a_save);
-    RUN_TEST(test_a_path_too_long_refuses_a_save);
-    RUN_TEST(test_a_path_may_be_as_long_as_the_system_knows);
-    return UNITY_END();
 }

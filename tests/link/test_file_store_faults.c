@@ -5,7 +5,7 @@
 
 #include "file_store_rig.h"
 
-static void test_a_file_that_cannot_be_read_is_no_memory(void)
+TEST(a_file_that_cannot_be_read_is_no_memory)
 {
     const int errors[] = {EPERM, EIO, EACCES};
     write_file(OLD, CELL_COUNT);
@@ -28,7 +28,7 @@ static bool save_fails_at(int n, int *result)
     return calls >= n;
 }
 
-static void test_a_refused_save_leaves_the_old_memory(void)
+TEST(a_refused_save_leaves_the_old_memory)
 {
     int result, refused = 0;
     write_file(OLD, CELL_COUNT);
@@ -40,7 +40,7 @@ static void test_a_refused_save_leaves_the_old_memory(void)
     TEST_ASSERT_EQUAL_INT(7, refused);   /* open, write, fsync, close, rename; open and fsync of the folder */
 }
 
-static void test_a_refused_first_save_leaves_nothing(void)
+TEST(a_refused_first_save_leaves_nothing)
 {
     int result, refused = 0;
     for (int n = 2; save_fails_at(n, &result); n++) {
@@ -52,7 +52,7 @@ static void test_a_refused_first_save_leaves_nothing(void)
     TEST_ASSERT_EQUAL_INT(7, refused);
 }
 
-static void test_a_refused_save_over_what_is_no_memory_makes_none_up(void)
+TEST(a_refused_save_over_what_is_no_memory_makes_none_up)
 {
     static const char rubbish[] = "short";
     int result;
@@ -66,14 +66,4 @@ static void test_a_refused_save_over_what_is_no_memory_makes_none_up(void)
         TEST_ASSERT_EQUAL_MEMORY(size == CELL_COUNT ? (const void *)NEW : rubbish, memory, size);
         write_file(rubbish, sizeof rubbish);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_file_that_cannot_be_read_is_no_memory);
-    RUN_TEST(test_a_refused_save_leaves_the_old_memory);
-    RUN_TEST(test_a_refused_first_save_leaves_nothing);
-    RUN_TEST(test_a_refused_save_over_what_is_no_memory_makes_none_up);
-    return UNITY_END();
 }

@@ -3,12 +3,9 @@
 #include <string.h>
 #include <sys/socket.h>
 #include <unistd.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "open_listening.h"
-
-void setUp(void) {}
-void tearDown(void) {}
 
 static void assert_refused(int expected, const char *name, size_t id_count)
 {
@@ -20,13 +17,13 @@ static void assert_refused(int expected, const char *name, size_t id_count)
     TEST_ASSERT_EQUAL_PTR_MESSAGE(said + strlen(said) - 1, strchr(said, '\n'), said);
 }
 
-static void test_a_name_of_no_kind_is_refused(void)
+TEST(a_name_of_no_kind_is_refused)
 {
     const char *const names[] = {"", "can0", "fd", "fd:", "slcan:", "socketcan:", "udp:1", ":"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) assert_refused(LINK_E_NAME, names[i], 1);
 }
 
-static void test_a_refused_name_is_answered_with_those_there_are(void)
+TEST(a_refused_name_is_answered_with_those_there_are)
 {
     assert_refused(LINK_E_NAME, "can0", 1);
 
@@ -34,7 +31,7 @@ static void test_a_refused_name_is_answered_with_those_there_are(void)
         "link can0: no such kind of link; the links are socketcan:IFACE, fd:N, slcan:PATH[@BAUD]\n", said);
 }
 
-static void test_a_descriptor_must_be_a_number(void)
+TEST(a_descriptor_must_be_a_number)
 {
     const char *const names[] = {"fd:x", "fd:-1", "fd:+3", "fd: 3", "fd:3x", "fd:3a", "fd:3\xC3",
                                  "fd:2147483648", "fd:99999999999999999999"};
@@ -44,7 +41,7 @@ static void test_a_descriptor_must_be_a_number(void)
     }
 }
 
-static void test_a_descriptor_must_be_open(void)
+TEST(a_descriptor_must_be_open)
 {
     assert_refused(LINK_E_OPEN, "fd:987", 1);
 
@@ -60,33 +57,33 @@ static void assert_descriptor_refused(int fd)
     TEST_ASSERT_EQUAL_INT(0, close(fd));   /* still ours */
 }
 
-static void test_descriptor_0_is_a_number(void)
+TEST(descriptor_0_is_a_number)
 {
     assert_refused(LINK_E_OPEN, "fd:0", 1);   /* standard input is no socket of whole frames */
 }
 
-static void test_a_descriptor_must_be_a_socket_of_whole_frames(void)
+TEST(a_descriptor_must_be_a_socket_of_whole_frames)
 {
     assert_descriptor_refused(open("/dev/null", O_RDWR));
     assert_descriptor_refused(socket(AF_UNIX, SOCK_STREAM, 0));
     assert_descriptor_refused(socket(AF_UNIX, SOCK_DGRAM, 0));
 }
 
-static void test_a_path_must_be_a_terminal(void)
+TEST(a_path_must_be_a_terminal)
 {
     assert_refused(LINK_E_OPEN, "slcan:/no/such/line", 1);
     assert_refused(LINK_E_OPEN, "slcan:/dev/null", 1);
     assert_refused(LINK_E_OPEN, "slcan:@115200", 1);
 }
 
-static void test_a_speed_must_be_one_of_a_serial_line(void)
+TEST(a_speed_must_be_one_of_a_serial_line)
 {
     assert_refused(LINK_E_NAME, "slcan:/dev/ptmx@115201", 1);
     assert_refused(LINK_E_NAME, "slcan:/dev/ptmx@", 1);
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(said, "no such speed of a serial line"), said);
 }
 
-static void test_a_terminal_opens_with_a_speed(void)
+TEST(a_terminal_opens_with_a_speed)
 {
     struct link *link = NULL;
 
@@ -95,7 +92,7 @@ static void test_a_terminal_opens_with_a_speed(void)
     link_close(link);
 }
 
-static void test_a_path_too_long_is_refused(void)
+TEST(a_path_too_long_is_refused)
 {
     char name[PATH_MAX + 10] = "slcan:";
     memset(name + strlen(name), 'x', PATH_MAX + 3);
@@ -103,54 +100,33 @@ static void test_a_path_too_long_is_refused(void)
     assert_refused(LINK_E_NAME, name, 1);
 }
 
-static void test_an_interface_must_exist(void)
+TEST(an_interface_must_exist)
 {
     assert_refused(LINK_E_OPEN, "socketcan:nosuch0", 1);
 }
 
-static void test_more_identifiers_than_a_link_takes_are_refused(void)
+TEST(more_identifiers_than_a_link_takes_are_refused)
 {
     assert_refused(LINK_E_OPEN, "fd:987", LINK_IDS_MAX + 1);
 
     TEST_ASSERT_EQUAL_STRING("link fd:987: too many identifiers to listen for\n", said);
 }
 
-static void test_a_path_may_begin_with_any_letter(void)
+TEST(a_path_may_begin_with_any_letter)
 {
     assert_refused(LINK_E_OPEN, "slcan:\xC3\xA4", 1);
 }
 
-static void test_a_kind_alone_is_refused_with_what_is_missing(void)
+TEST(a_kind_alone_is_refused_with_what_is_missing)
 {
     assert_refused(LINK_E_NAME, "slcan:", 1);
     TEST_ASSERT_NOT_NULL(strstr(said, "nothing after the colon"));
 }
 
-static void test_as_many_identifiers_as_a_link_takes_are_taken(void)
+TEST(as_many_identifiers_as_a_link_takes_are_taken)
 {
     struct link *link = NULL;
 
     TEST_ASSERT_EQUAL_INT(0, open_listening(&link, "slcan:/dev/ptmx@9600", LINK_IDS_MAX));
     link_close(link);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_name_of_no_kind_is_refused);
-    RUN_TEST(test_a_refused_name_is_answered_with_those_there_are);
-    RUN_TEST(test_a_descriptor_must_be_a_number);
-    RUN_TEST(test_a_descriptor_must_be_open);
-    RUN_TEST(test_descriptor_0_is_a_number);
-    RUN_TEST(test_a_descriptor_must_be_a_socket_of_whole_frames);
-    RUN_TEST(test_a_path_must_be_a_terminal);
-    RUN_TEST(test_a_speed_must_be_one_of_a_serial_line);
-    RUN_TEST(test_a_terminal_opens_with_a_speed);
-    RUN_TEST(test_a_path_too_long_is_refused);
-    RUN_TEST(test_an_interface_must_exist);
-    RUN_TEST(test_more_identifiers_than_a_link_takes_are_refused);
-    RUN_TEST(test_a_path_may_begin_with_any_letter);
-    RUN_TEST(test_a_kind_alone_is_refused_with_what_is_missing);
-    RUN_TEST(test_as_many_identifiers_as_a_link_takes_are_taken);
-    return UNITY_END();
 }

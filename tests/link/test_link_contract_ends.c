@@ -7,7 +7,7 @@
 
 enum { QUEUE_MAX = 1000000 };
 
-static void test_a_far_end_that_is_gone_ends_a_receive_at_once(void)
+TEST_IF(a_far_end_that_is_gone_ends_a_receive_at_once, is_pair)
 {
     struct frame frame;
     rig->close();
@@ -17,7 +17,7 @@ static void test_a_far_end_that_is_gone_ends_a_receive_at_once(void)
     TEST_ASSERT_TRUE(now_ms() - start < LATE_MS);
 }
 
-static void test_a_far_end_that_left_frames_unread_is_gone_as_well(void)
+TEST_IF(a_far_end_that_left_frames_unread_is_gone_as_well, is_pair)
 {
     struct frame frame;
     TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
@@ -26,7 +26,7 @@ static void test_a_far_end_that_left_frames_unread_is_gone_as_well(void)
     TEST_ASSERT_EQUAL_INT(LINK_E_CLOSED, link_receive(near, &frame, SOON_MS));
 }
 
-static void test_a_far_end_that_is_gone_fails_a_send(void)
+TEST_IF(a_far_end_that_is_gone_fails_a_send, is_pair)
 {
     rig->close();
 
@@ -40,7 +40,7 @@ static int fill(void)
     return result;
 }
 
-static void test_a_full_queue_is_given_up_in_time(void)
+TEST_IF(a_full_queue_is_given_up_in_time, is_pair)
 {
     TEST_ASSERT_EQUAL_INT(LINK_E_FULL, fill());
 
@@ -51,7 +51,7 @@ static void test_a_full_queue_is_given_up_in_time(void)
     TEST_ASSERT_TRUE(took < LATE_MS);
 }
 
-static void test_frames_pass_again_after_a_full_queue(void)
+TEST_IF(frames_pass_again_after_a_full_queue, is_pair)
 {
     struct frame frame;
     TEST_ASSERT_EQUAL_INT(LINK_E_FULL, fill());
@@ -61,7 +61,7 @@ static void test_frames_pass_again_after_a_full_queue(void)
     assert_far_takes(&(struct frame){.id = 0x100});
 }
 
-static void test_a_link_opens_again_after_a_close(void)
+TEST(a_link_opens_again_after_a_close)
 {
     close_near();
     rig->close();
@@ -78,7 +78,7 @@ static int open_descriptors(void)
     return count;
 }
 
-static void test_closing_gives_back_every_descriptor(void)
+TEST(closing_gives_back_every_descriptor)
 {
     close_near();
     rig->close();
@@ -91,7 +91,7 @@ static void test_closing_gives_back_every_descriptor(void)
     TEST_ASSERT_EQUAL_INT(before, open_descriptors());
 }
 
-static void test_a_link_that_cannot_know_says_that_the_bus_is_fine(void)
+TEST(a_link_that_cannot_know_says_that_the_bus_is_fine)
 {
     struct link_health health;
 
@@ -101,7 +101,7 @@ static void test_a_link_that_cannot_know_says_that_the_bus_is_fine(void)
     TEST_ASSERT_EQUAL_UINT(0, health.tx_errors + health.rx_errors + health.bus_offs + health.dropped);
 }
 
-static void test_closing_no_link_is_fine(void)
+TEST(closing_no_link_is_fine)
 {
     link_close(NULL);
 }
@@ -115,7 +115,7 @@ static void use_own_interface(void)
     open_near();
 }
 
-static void test_an_interface_that_goes_down_and_up_carries_on(void)
+TEST_IF(an_interface_that_goes_down_and_up_carries_on, is_interface)
 {
     struct frame frame;
     use_own_interface();
@@ -131,7 +131,7 @@ static void test_an_interface_that_goes_down_and_up_carries_on(void)
     TEST_ASSERT_EQUAL_INT(0, system("ip link del octet0"));
 }
 
-static void test_an_interface_that_vanishes_is_closed(void)
+TEST_IF(an_interface_that_vanishes_is_closed, is_interface)
 {
     struct frame frame;
     use_own_interface();
@@ -141,37 +141,9 @@ static void test_an_interface_that_vanishes_is_closed(void)
     TEST_ASSERT_EQUAL_INT(LINK_E_CLOSED, link_send(near, &HELLO));
 }
 
-static void test_an_interface_that_is_not_there_is_refused(void)
+TEST_IF(an_interface_that_is_not_there_is_refused, is_interface)
 {
     struct link *link = NULL;
     TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, link_open(&link, "socketcan:nosuch0", (const uint16_t[]){0x123}, 1));
     TEST_ASSERT_NULL(link);
 }
-
-static void run_for_all(void)
-{
-    RUN_TEST(test_a_link_opens_again_after_a_close);
-    RUN_TEST(test_closing_gives_back_every_descriptor);
-    RUN_TEST(test_a_link_that_cannot_know_says_that_the_bus_is_fine);
-    RUN_TEST(test_closing_no_link_is_fine);
-}
-
-static void run_for_pairs(void)
-{
-    RUN_TEST(test_a_far_end_that_is_gone_ends_a_receive_at_once);
-    RUN_TEST(test_a_far_end_that_left_frames_unread_is_gone_as_well);
-    RUN_TEST(test_a_far_end_that_is_gone_fails_a_send);
-    RUN_TEST(test_a_full_queue_is_given_up_in_time);
-    RUN_TEST(test_frames_pass_again_after_a_full_queue);
-}
-
-static void run_for_interfaces(const char *interface)
-{
-    RUN_TEST(test_an_interface_that_is_not_there_is_refused);
-    RUN_TEST(test_an_interface_that_goes_down_and_up_carries_on);
-    rig_socketcan_choose(interface);
-    RUN_TEST(test_an_interface_that_vanishes_is_closed);
-}
-
-const struct contract CONTRACT = {
-    .for_all = run_for_all, .for_pairs = run_for_pairs, .for_interfaces = run_for_interfaces};

@@ -3,28 +3,28 @@
 
 #include "contract.h"
 
-static void test_a_frame_from_the_far_end_arrives_as_it_was(void)
+TEST(a_frame_from_the_far_end_arrives_as_it_was)
 {
     rig->put(&HELLO);
 
     assert_receives(&HELLO);
 }
 
-static void test_a_frame_to_the_far_end_arrives_as_it_was(void)
+TEST(a_frame_to_the_far_end_arrives_as_it_was)
 {
     TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
 
     assert_far_takes(&HELLO);
 }
 
-static void test_what_is_sent_does_not_come_back(void)
+TEST(what_is_sent_does_not_come_back)
 {
     TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
 
     assert_silent_for(WAIT_MS);
 }
 
-static void test_every_length_passes_both_ways(void)
+TEST(every_length_passes_both_ways)
 {
     for (uint8_t len = 0; len <= 8; len++) {
         struct frame frame = {.id = 0x123, .len = len};
@@ -36,14 +36,14 @@ static void test_every_length_passes_both_ways(void)
     }
 }
 
-static void test_frames_keep_their_order(void)
+TEST(frames_keep_their_order)
 {
     for (uint16_t i = 0; i < 5; i++) rig->put(&(struct frame){.id = 0x100u + i});
 
     for (uint16_t i = 0; i < 5; i++) assert_receives(&(struct frame){.id = 0x100u + i});
 }
 
-static void test_garbage_counts_once_and_the_next_frame_arrives(void)
+TEST_IF(garbage_counts_once_and_the_next_frame_arrives, is_pair)
 {
     struct frame frame;
     rig->put_garbage();
@@ -64,21 +64,21 @@ static void assert_unwanted(const struct frame *frame)
     assert_silent_for(0);
 }
 
-static void test_other_identifiers_are_filtered_where_that_is_possible(void)
+TEST(other_identifiers_are_filtered_where_that_is_possible)
 {
     assert_unwanted(&(struct frame){.id = 0x122});
     assert_unwanted(&(struct frame){.id = 0x000});
     assert_unwanted(&(struct frame){.id = 0x7FF});
 }
 
-static void test_extended_and_remote_frames_are_filtered_where_that_is_possible(void)
+TEST(extended_and_remote_frames_are_filtered_where_that_is_possible)
 {
     assert_unwanted(&(struct frame){.id = 0x123 | FRAME_EXTENDED});
     assert_unwanted(&(struct frame){.id = 0x123 | FRAME_REMOTE});
     assert_unwanted(&(struct frame){.id = 0x1FFFF123 | FRAME_EXTENDED | FRAME_REMOTE, .len = 2});
 }
 
-static void test_extended_and_remote_frames_can_be_sent(void)
+TEST(extended_and_remote_frames_can_be_sent)
 {
     const struct frame frames[] = {{.id = 0x123 | FRAME_EXTENDED}, {.id = 0x123 | FRAME_REMOTE, .len = 3}};
     for (int i = 0; i < 2; i++) {
@@ -86,22 +86,3 @@ static void test_extended_and_remote_frames_can_be_sent(void)
         assert_far_takes(&frames[i]);
     }
 }
-
-static void run_for_all(void)
-{
-    RUN_TEST(test_a_frame_from_the_far_end_arrives_as_it_was);
-    RUN_TEST(test_a_frame_to_the_far_end_arrives_as_it_was);
-    RUN_TEST(test_what_is_sent_does_not_come_back);
-    RUN_TEST(test_every_length_passes_both_ways);
-    RUN_TEST(test_frames_keep_their_order);
-    RUN_TEST(test_other_identifiers_are_filtered_where_that_is_possible);
-    RUN_TEST(test_extended_and_remote_frames_are_filtered_where_that_is_possible);
-    RUN_TEST(test_extended_and_remote_frames_can_be_sent);
-}
-
-static void run_for_pairs(void)
-{
-    RUN_TEST(test_garbage_counts_once_and_the_next_frame_arrives);
-}
-
-const struct contract CONTRACT = {.for_all = run_for_all, .for_pairs = run_for_pairs};

@@ -4,19 +4,19 @@
 
 #include "contract.h"
 
-static void test_silence_is_said_after_the_wait(void)
+TEST(silence_is_said_after_the_wait)
 {
     assert_silent_for(WAIT_MS);
 }
 
-static void test_a_changed_wait_is_kept(void)
+TEST(a_changed_wait_is_kept)
 {
     assert_silent_for(WAIT_MS);
     assert_silent_for(2 * WAIT_MS);
     assert_silent_for(1);
 }
 
-static void test_a_wait_of_zero_just_looks(void)
+TEST(a_wait_of_zero_just_looks)
 {
     assert_silent_for(0);
     rig->put(&HELLO);
@@ -35,7 +35,7 @@ static void set_alarm_each_ms(int ms)
     TEST_ASSERT_EQUAL_INT(0, setitimer(ITIMER_REAL, &timer, NULL));
 }
 
-static void test_signals_do_not_cut_a_wait_short(void)
+TEST(signals_do_not_cut_a_wait_short)
 {
     struct sigaction action = {.sa_handler = on_alarm};
     TEST_ASSERT_EQUAL_INT(0, sigaction(SIGALRM, &action, NULL));
@@ -45,7 +45,7 @@ static void test_signals_do_not_cut_a_wait_short(void)
     set_alarm_each_ms(0);
 }
 
-static void test_a_signal_late_in_a_wait_does_not_prolong_it(void)
+TEST(a_signal_late_in_a_wait_does_not_prolong_it)
 {
     struct frame frame;
     struct sigaction action = {.sa_handler = on_alarm};
@@ -57,14 +57,3 @@ static void test_a_signal_late_in_a_wait_does_not_prolong_it(void)
     set_alarm_each_ms(0);
     TEST_ASSERT_TRUE(now_ms() - start < 6 * WAIT_MS + LATE_MS);   /* begun anew by each signal, it would never end */
 }
-
-static void run_for_all(void)
-{
-    RUN_TEST(test_silence_is_said_after_the_wait);
-    RUN_TEST(test_a_changed_wait_is_kept);
-    RUN_TEST(test_a_wait_of_zero_just_looks);
-    RUN_TEST(test_signals_do_not_cut_a_wait_short);
-    RUN_TEST(test_a_signal_late_in_a_wait_does_not_prolong_it);
-}
-
-const struct contract CONTRACT = {.for_all = run_for_all};

@@ -7,8 +7,19 @@
 
 #include "posix_port_rig.h"
 
+/* First: none has been named yet. */
+TEST(without_a_file_there_is_no_memory_to_load_and_none_is_kept)
+{
+    static const uint8_t memory[CELL_COUNT] = {0, 1};
+    uint8_t loaded[CELL_COUNT];
+
+    TEST_ASSERT_EQUAL(0, port_load(loaded));
+    TEST_ASSERT_EQUAL(0, port_store(memory, PORT_QUICKLY));
+    TEST_ASSERT_EQUAL(0, port_load(loaded));
+}
+
 /* Whoever waits for it reads from a pipe. */
-static void test_it_says_at_once_that_it_is_ready(void)
+TEST(it_says_at_once_that_it_is_ready)
 {
     int file = open_scratch(), kept;
 
@@ -20,17 +31,7 @@ static void test_it_says_at_once_that_it_is_ready(void)
     TEST_ASSERT_EQUAL_STRING("octet-robot: node 7 listens on fd:3\n", said);
 }
 
-static void test_without_a_file_there_is_no_memory_to_load_and_none_is_kept(void)
-{
-    static const uint8_t memory[CELL_COUNT] = {0, 1};
-    uint8_t loaded[CELL_COUNT];
-
-    TEST_ASSERT_EQUAL(0, port_load(loaded));
-    TEST_ASSERT_EQUAL(0, port_store(memory, PORT_QUICKLY));
-    TEST_ASSERT_EQUAL(0, port_load(loaded));
-}
-
-static void test_the_memory_goes_to_the_file_that_was_named(void)
+TEST(the_memory_goes_to_the_file_that_was_named)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
     char folder[] = "/tmp/test_posix_port_XXXXXX", path[64];
@@ -48,7 +49,7 @@ static void test_the_memory_goes_to_the_file_that_was_named(void)
     TEST_ASSERT_EQUAL(HAL_E_STORE, port_store(memory, PORT_AT_REST));
 }
 
-static void test_time_is_in_milliseconds_and_wraps(void)
+TEST(time_is_in_milliseconds_and_wraps)
 {
     now = (struct timespec){.tv_sec = 5, .tv_nsec = 1999999};
     TEST_ASSERT_EQUAL_UINT32(5001, port_clock_ms());
@@ -61,7 +62,7 @@ static void test_time_is_in_milliseconds_and_wraps(void)
     port_alive(true);   /* nobody watches a process on the host */
 }
 
-static void test_entropy_differs_and_does_without_the_system(void)
+TEST(entropy_differs_and_does_without_the_system)
 {
     uint32_t first = port_entropy(), second = port_entropy();
 
@@ -76,7 +77,7 @@ static void test_entropy_differs_and_does_without_the_system(void)
     }
 }
 
-static void test_entropy_without_the_system_differs_from_process_to_process(void)
+TEST(entropy_without_the_system_differs_from_process_to_process)
 {
     int status;
     uint32_t ours;
@@ -89,16 +90,4 @@ static void test_entropy_without_the_system_differs_from_process_to_process(void
         _exit(port_entropy() != ours ? 0 : 1);
     TEST_ASSERT_EQUAL(child, waitpid(child, &status, 0));
     TEST_ASSERT_EQUAL(0, status);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_without_a_file_there_is_no_memory_to_load_and_none_is_kept);   /* first: none has been named yet */
-    RUN_TEST(test_it_says_at_once_that_it_is_ready);
-    RUN_TEST(test_the_memory_goes_to_the_file_that_was_named);
-    RUN_TEST(test_time_is_in_milliseconds_and_wraps);
-    RUN_TEST(test_entropy_differs_and_does_without_the_system);
-    RUN_TEST(test_entropy_without_the_system_differs_from_process_to_process);
-    return UNITY_END();
 }

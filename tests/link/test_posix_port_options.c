@@ -8,7 +8,7 @@
 
 #include "posix_port_rig.h"
 
-static void test_a_link_alone_is_node_1(void)
+TEST(a_link_alone_is_node_1)
 {
     TEST_ASSERT_EQUAL(0, open_with("socketcan:vcan0", NULL));
     TEST_ASSERT_EQUAL_STRING("socketcan:vcan0", port.link);
@@ -19,7 +19,7 @@ static void test_a_link_alone_is_node_1(void)
     TEST_ASSERT_EQUAL_STRING("", said);
 }
 
-static void test_every_node_of_a_bus_can_be_chosen(void)
+TEST(every_node_of_a_bus_can_be_chosen)
 {
     for (int node = 1; node <= NODE_MAX; node++) {
         char number[8];
@@ -31,7 +31,7 @@ static void test_every_node_of_a_bus_can_be_chosen(void)
     }
 }
 
-static void test_what_is_no_node_is_refused_and_said(void)
+TEST(what_is_no_node_is_refused_and_said)
 {
     static const char *const wrong[] = {"0", "-1", "32", "257", "", "x", "1x", "1 ", "1\xC3\xA4", "99999999999999999999"};
 
@@ -42,7 +42,7 @@ static void test_what_is_no_node_is_refused_and_said(void)
     }
 }
 
-static void test_without_a_link_or_with_two_it_tells_its_usage(void)
+TEST(without_a_link_or_with_two_it_tells_its_usage)
 {
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_with(NULL));
     assert_says("usage: octet-robot");
@@ -50,7 +50,7 @@ static void test_without_a_link_or_with_two_it_tells_its_usage(void)
     assert_says("usage: octet-robot");
 }
 
-static void test_the_usage_names_every_kind_of_link_and_every_node(void)
+TEST(the_usage_names_every_kind_of_link_and_every_node)
 {
     char nodes[16];
 
@@ -60,13 +60,13 @@ static void test_the_usage_names_every_kind_of_link_and_every_node(void)
     assert_says(nodes);
 }
 
-static void test_an_unknown_option_is_refused_with_the_usage(void)
+TEST(an_unknown_option_is_refused_with_the_usage)
 {
     TEST_ASSERT_EQUAL(HAL_E_USAGE, open_with("--nodes", "3", "fd:3", NULL));
     assert_says("usage: octet-robot");
 }
 
-static void test_help_is_its_usage_and_no_error(void)
+TEST(help_is_its_usage_and_no_error)
 {
     int status, file = open_scratch();
     pid_t child;
@@ -88,7 +88,7 @@ static void test_help_is_its_usage_and_no_error(void)
     TEST_ASSERT_EQUAL_PTR_MESSAGE(said, strstr(said, "usage: octet-robot"), said);
 }
 
-static void test_with_its_parent_it_ends(void)
+TEST(with_its_parent_it_ends)
 {
     int sent = 0;
 
@@ -98,18 +98,4 @@ static void test_with_its_parent_it_ends(void)
     TEST_ASSERT_EQUAL(0, __real_prctl(PR_SET_PDEATHSIG, 0));
     prctl_fails = true;
     TEST_ASSERT_EQUAL(HAL_E_BODY, open_with("--with-parent", "fd:3", NULL));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_link_alone_is_node_1);
-    RUN_TEST(test_every_node_of_a_bus_can_be_chosen);
-    RUN_TEST(test_what_is_no_node_is_refused_and_said);
-    RUN_TEST(test_without_a_link_or_with_two_it_tells_its_usage);
-    RUN_TEST(test_the_usage_names_every_kind_of_link_and_every_node);
-    RUN_TEST(test_an_unknown_option_is_refused_with_the_usage);
-    RUN_TEST(test_help_is_its_usage_and_no_error);
-    RUN_TEST(test_with_its_parent_it_ends);
-    return UNITY_END();
 }

@@ -1,15 +1,12 @@
 #include <string.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "hal/link/slcan.h"
 
 struct tally {
     unsigned frames, garbled;
     struct frame last;
 };
-
-void setUp(void) {}
-void tearDown(void) {}
 
 static struct tally decode(const char *text)
 {
@@ -52,7 +49,7 @@ static void assert_garbled_once(const char *line)
     TEST_ASSERT_EQUAL_UINT_MESSAGE(1, tally.frames, line);
 }
 
-static void test_a_data_line_is_a_frame(void)
+TEST(a_data_line_is_a_frame)
 {
     assert_decodes("t1233AABBCC\r", &(struct frame){0x123, 3, {0xAA, 0xBB, 0xCC}});
     assert_decodes("t7FF0\r", &(struct frame){0x7FF, 0, {0}});
@@ -60,19 +57,19 @@ static void test_a_data_line_is_a_frame(void)
                    &(struct frame){0, 8, {0x01, 0x23, 0x45, 0x67, 0x89, 0xAB, 0xCD, 0xEF}});
 }
 
-static void test_hex_may_be_lower_case(void)
+TEST(hex_may_be_lower_case)
 {
     assert_decodes("t7fa2abfF\r", &(struct frame){0x7FA, 2, {0xAB, 0xFF}});
 }
 
-static void test_extended_and_remote_lines_bear_flags(void)
+TEST(extended_and_remote_lines_bear_flags)
 {
     assert_decodes("T1FFFFFFF1A5\r", &(struct frame){0x1FFFFFFF | FRAME_EXTENDED, 1, {0xA5}});
     assert_decodes("r1238\r", &(struct frame){0x123 | FRAME_REMOTE, 8, {0}});
     assert_decodes("R000001230\r", &(struct frame){0x123 | FRAME_EXTENDED | FRAME_REMOTE, 0, {0}});
 }
 
-static void test_time_after_the_data_is_passed_over(void)
+TEST(time_after_the_data_is_passed_over)
 {
     assert_decodes("t1231AAEA5F\r", &(struct frame){0x123, 1, {0xAA}});
     assert_decodes("r1231EA5F\r", &(struct frame){0x123 | FRAME_REMOTE, 1, {0}});
@@ -80,7 +77,7 @@ static void test_time_after_the_data_is_passed_over(void)
                    &(struct frame){0x123 | FRAME_EXTENDED, 8, {0, 0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77}});
 }
 
-static void test_replies_and_set_up_commands_mean_nothing(void)
+TEST(replies_and_set_up_commands_mean_nothing)
 {
     struct tally tally = decode("\r\r\az\rZ\rC\rS6\rO\rL\rY2\rs031C\rV\rN\rF\rZ1\rM00000000\rmFFFFFFFF\r");
 
@@ -88,12 +85,12 @@ static void test_replies_and_set_up_commands_mean_nothing(void)
     TEST_ASSERT_EQUAL_UINT(0, tally.garbled);
 }
 
-static void test_a_frame_follows_set_up_commands(void)
+TEST(a_frame_follows_set_up_commands)
 {
     assert_decodes("C\rS6\rO\r\at1230\r", &(struct frame){0x123, 0, {0}});
 }
 
-static void test_a_half_line_counts_once(void)
+TEST(a_half_line_counts_once)
 {
     assert_garbled_once("t\r");
     assert_garbled_once("t12\r");
@@ -104,25 +101,25 @@ static void test_a_half_line_counts_once(void)
     assert_garbled_once("t1232A\a");
 }
 
-static void test_the_tail_of_a_line_counts_once(void)
+TEST(the_tail_of_a_line_counts_once)
 {
     assert_garbled_once("3AABBCC\r");
     assert_garbled_once("CC11\r");
     assert_garbled_once("F0\r");
 }
 
-static void test_two_lines_run_together_count_once(void)
+TEST(two_lines_run_together_count_once)
 {
     assert_garbled_once("t1232At1230\r");
 }
 
-static void test_a_line_too_long_counts_once(void)
+TEST(a_line_too_long_counts_once)
 {
     assert_garbled_once("T0000012380011223344556677EA5F0\r");
     assert_garbled_once("t1230ttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttttt\r");
 }
 
-static void test_a_line_of_any_length_counts_once(void)
+TEST(a_line_of_any_length_counts_once)
 {
     struct slcan_decoder decoder = {0};
     struct frame frame;
@@ -132,7 +129,7 @@ static void test_a_line_of_any_length_counts_once(void)
     }
 }
 
-static void test_more_than_the_time_after_the_data_is_garbled(void)
+TEST(more_than_the_time_after_the_data_is_garbled)
 {
     assert_garbled_once("t1231AAE\r");
     assert_garbled_once("t1231AAEA5\r");
@@ -140,7 +137,7 @@ static void test_more_than_the_time_after_the_data_is_garbled(void)
 }
 
 /* What a longer line has left in the decoder is no part of a shorter one. */
-static void test_a_line_cut_short_is_garbled_whatever_came_before_it(void)
+TEST(a_line_cut_short_is_garbled_whatever_came_before_it)
 {
     static const char *const cut[] = {"t\r", "t12\r", "t123\r", "t12321\r", "t1232112\r", "t12300\r", "T1234567\r", "t1230012\r"};
 
@@ -156,7 +153,7 @@ static void test_a_line_cut_short_is_garbled_whatever_came_before_it(void)
     }
 }
 
-static void test_what_no_frame_can_hold_is_garbled(void)
+TEST(what_no_frame_can_hold_is_garbled)
 {
     assert_garbled_once("t8000\r");
     assert_garbled_once("T200000000\r");
@@ -173,7 +170,7 @@ static void test_what_no_frame_can_hold_is_garbled(void)
     assert_garbled_once("\x80\xFF\r");
 }
 
-static void test_what_is_garbled_leaves_the_frame_alone(void)
+TEST(what_is_garbled_leaves_the_frame_alone)
 {
     struct tally tally = decode("t7FF1A5\rt1231\r");
 
@@ -181,7 +178,7 @@ static void test_what_is_garbled_leaves_the_frame_alone(void)
     TEST_ASSERT_EQUAL_HEX8(0xA5, tally.last.data[0]);
 }
 
-static void test_frames_are_written_in_upper_case(void)
+TEST(frames_are_written_in_upper_case)
 {
     assert_encodes("t7FA2ABFF\r", &(struct frame){0x7FA, 2, {0xAB, 0xFF}});
     assert_encodes("t0010\r", &(struct frame){0x001, 0, {0}});
@@ -190,13 +187,13 @@ static void test_frames_are_written_in_upper_case(void)
     assert_encodes("R000001232\r", &(struct frame){0x123 | FRAME_REMOTE | FRAME_EXTENDED, 2, {0}});
 }
 
-static void test_the_longest_line_fits(void)
+TEST(the_longest_line_fits)
 {
     assert_encodes("T1FFFFFFF8FFFFFFFFFFFFFFFF\r",
                    &(struct frame){0xFFFFFFFF & ~FRAME_REMOTE, 8, {255, 255, 255, 255, 255, 255, 255, 255}});
 }
 
-static void test_each_written_line_reads_back(void)
+TEST(each_written_line_reads_back)
 {
     for (uint8_t len = 0; len <= 8; len++) {
         struct frame frame = {.id = 0x100u + len, .len = len};
@@ -207,42 +204,16 @@ static void test_each_written_line_reads_back(void)
     }
 }
 
-static void test_the_flags_are_no_part_of_the_identifier(void)
+TEST(the_flags_are_no_part_of_the_identifier)
 {
     assert_decodes("T000001220\r", &(struct frame){0x122 | FRAME_EXTENDED, 0, {0}});
     assert_decodes("r1220\r", &(struct frame){0x122 | FRAME_REMOTE, 0, {0}});
 }
 
-static void test_a_reply_cut_short_counts_once(void)
+TEST(a_reply_cut_short_counts_once)
 {
     static const char *const cut[] = {"S\r", "Y\r", "s031\r", "s\r", "M0000000\r", "m\r"};
 
     for (unsigned i = 0; i < sizeof cut / sizeof cut[0]; i++)
         assert_garbled_once(cut[i]);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_data_line_is_a_frame);
-    RUN_TEST(test_hex_may_be_lower_case);
-    RUN_TEST(test_extended_and_remote_lines_bear_flags);
-    RUN_TEST(test_time_after_the_data_is_passed_over);
-    RUN_TEST(test_replies_and_set_up_commands_mean_nothing);
-    RUN_TEST(test_a_frame_follows_set_up_commands);
-    RUN_TEST(test_a_half_line_counts_once);
-    RUN_TEST(test_the_tail_of_a_line_counts_once);
-    RUN_TEST(test_two_lines_run_together_count_once);
-    RUN_TEST(test_a_line_too_long_counts_once);
-    RUN_TEST(test_a_line_of_any_length_counts_once);
-    RUN_TEST(test_more_than_the_time_after_the_data_is_garbled);
-    RUN_TEST(test_a_line_cut_short_is_garbled_whatever_came_before_it);
-    RUN_TEST(test_what_no_frame_can_hold_is_garbled);
-    RUN_TEST(test_what_is_garbled_leaves_the_frame_alone);
-    RUN_TEST(test_frames_are_written_in_upper_case);
-    RUN_TEST(test_the_longest_line_fits);
-    RUN_TEST(test_each_written_line_reads_back);
-    RUN_TEST(test_the_flags_are_no_part_of_the_identifier);
-    RUN_TEST(test_a_reply_cut_short_counts_once);
-    return UNITY_END();
 }

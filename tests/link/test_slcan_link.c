@@ -9,8 +9,8 @@
 #include <termios.h>
 #include <time.h>
 #include <unistd.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "hal/link/link.h"
 
 enum { NS_PER_MS = 1000000, NS_PER_S = 1000000000, SOON_MS = 5000, QUIET_MS = 50 };
@@ -121,12 +121,12 @@ static void put(const char *text)
     TEST_ASSERT_EQUAL_INT(strlen(text), __real_write(far, text, strlen(text)));
 }
 
-static void test_opening_sends_nothing(void)
+TEST(opening_sends_nothing)
 {
     assert_far_reads("");
 }
 
-static void test_a_line_taken_in_pieces_arrives_whole(void)
+TEST(a_line_taken_in_pieces_arrives_whole)
 {
     piece = 3;
     TEST_ASSERT_EQUAL_INT(0, send_frame(&HELLO));
@@ -134,7 +134,7 @@ static void test_a_line_taken_in_pieces_arrives_whole(void)
 }
 
 /* It takes as long as the signals do. */
-static void test_an_interrupted_write_goes_on_without_a_rest(void)
+TEST(an_interrupted_write_goes_on_without_a_rest)
 {
     static const int cases_ms[] = {0, 1, LINK_SEND_MS - 1};
     for (size_t i = 0; i < sizeof cases_ms / sizeof *cases_ms; i++) {
@@ -147,7 +147,7 @@ static void test_an_interrupted_write_goes_on_without_a_rest(void)
     assert_far_reads("t1232ABCD\rt1232ABCD\rt1232ABCD\r");
 }
 
-static void test_a_signal_at_the_last_moment_is_the_end(void)
+TEST(a_signal_at_the_last_moment_is_the_end)
 {
     write_fault.error = EINTR;
     write_fault.times = 1;
@@ -157,7 +157,7 @@ static void test_a_signal_at_the_last_moment_is_the_end(void)
     assert_far_reads("");
 }
 
-static void test_a_full_line_is_tried_each_millisecond_and_given_up_in_time(void)
+TEST(a_full_line_is_tried_each_millisecond_and_given_up_in_time)
 {
     write_fault.error = EAGAIN;
     write_fault.times = 3;
@@ -169,7 +169,7 @@ static void test_a_full_line_is_tried_each_millisecond_and_given_up_in_time(void
     TEST_ASSERT_EQUAL_INT(LINK_SEND_MS, took_ms);
 }
 
-static void test_a_line_that_takes_nothing_or_fails_is_closed(void)
+TEST(a_line_that_takes_nothing_or_fails_is_closed)
 {
     static const int errors[] = {0, EPERM, EIO, ENODEV, EBADF, EPIPE};
     for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
@@ -180,7 +180,7 @@ static void test_a_line_that_takes_nothing_or_fails_is_closed(void)
     }
 }
 
-static void test_a_line_cut_short_is_ended_before_the_next(void)
+TEST(a_line_cut_short_is_ended_before_the_next)
 {
     room = 4;
     TEST_ASSERT_EQUAL_INT(LINK_E_FULL, send_frame(&HELLO));
@@ -190,7 +190,7 @@ static void test_a_line_cut_short_is_ended_before_the_next(void)
     assert_far_reads("t123\rt1000\rt1000\r");
 }
 
-static void test_a_line_stays_cut_short_while_nothing_passes(void)
+TEST(a_line_stays_cut_short_while_nothing_passes)
 {
     room = 4;
     TEST_ASSERT_EQUAL_INT(LINK_E_FULL, send_frame(&HELLO));
@@ -200,7 +200,7 @@ static void test_a_line_stays_cut_short_while_nothing_passes(void)
     assert_far_reads("t123\rt1000\r");
 }
 
-static void test_a_line_that_ends_or_fails_is_closed(void)
+TEST(a_line_that_ends_or_fails_is_closed)
 {
     static const int errors[] = {0, EPERM, EIO, ENODEV, EBADF};
     struct frame frame;
@@ -211,7 +211,7 @@ static void test_a_line_that_ends_or_fails_is_closed(void)
     }
 }
 
-static void test_a_read_that_is_interrupted_or_finds_nothing_goes_on(void)
+TEST(a_read_that_is_interrupted_or_finds_nothing_goes_on)
 {
     static const int errors[] = {EINTR, EAGAIN};
     struct frame frame;
@@ -224,14 +224,14 @@ static void test_a_read_that_is_interrupted_or_finds_nothing_goes_on(void)
     }
 }
 
-static void test_lines_that_mean_nothing_do_not_end_the_wait(void)
+TEST(lines_that_mean_nothing_do_not_end_the_wait)
 {
     struct frame frame;
     put("C\rS6\rO\r\a\rz\r");
     TEST_ASSERT_EQUAL_INT(0, link_receive(near, &frame, 20));
 }
 
-static void test_a_line_that_comes_in_pieces_is_one_frame(void)
+TEST(a_line_that_comes_in_pieces_is_one_frame)
 {
     struct frame frame;
     put("t1232A");
@@ -241,7 +241,7 @@ static void test_a_line_that_comes_in_pieces_is_one_frame(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
 }
 
-static void test_a_line_is_read_byte_by_byte_if_need_be(void)
+TEST(a_line_is_read_byte_by_byte_if_need_be)
 {
     struct frame frame;
     piece = 1;
@@ -250,7 +250,7 @@ static void test_a_line_is_read_byte_by_byte_if_need_be(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
 }
 
-static void test_of_lines_that_come_at_once_each_counts(void)
+TEST(of_lines_that_come_at_once_each_counts)
 {
     struct frame frame;
     put("t1232A\rt1232A\rt1232ABCD\r");
@@ -260,30 +260,9 @@ static void test_of_lines_that_come_at_once_each_counts(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(HELLO.data, frame.data, 8);
 }
 
-static void test_the_line_is_set_to_its_usual_speed(void)
+TEST(the_line_is_set_to_its_usual_speed)
 {
     struct termios line;
     TEST_ASSERT_EQUAL_INT(0, tcgetattr(far, &line));
     TEST_ASSERT_EQUAL_UINT(B115200, cfgetospeed(&line));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_opening_sends_nothing);
-    RUN_TEST(test_a_line_taken_in_pieces_arrives_whole);
-    RUN_TEST(test_an_interrupted_write_goes_on_without_a_rest);
-    RUN_TEST(test_a_signal_at_the_last_moment_is_the_end);
-    RUN_TEST(test_a_full_line_is_tried_each_millisecond_and_given_up_in_time);
-    RUN_TEST(test_a_line_that_takes_nothing_or_fails_is_closed);
-    RUN_TEST(test_a_line_cut_short_is_ended_before_the_next);
-    RUN_TEST(test_a_line_stays_cut_short_while_nothing_passes);
-    RUN_TEST(test_a_line_that_ends_or_fails_is_closed);
-    RUN_TEST(test_a_read_that_is_interrupted_or_finds_nothing_goes_on);
-    RUN_TEST(test_lines_that_mean_nothing_do_not_end_the_wait);
-    RUN_TEST(test_a_line_that_comes_in_pieces_is_one_frame);
-    RUN_TEST(test_a_line_is_read_byte_by_byte_if_need_be);
-    RUN_TEST(test_of_lines_that_come_at_once_each_counts);
-    RUN_TEST(test_the_line_is_set_to_its_usual_speed);
-    return UNITY_END();
 }

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <termios.h>
 #include <unistd.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "open_listening.h"
 
 enum call { NONE, TCGETATTR, CFSETSPEED, TCSETATTR, CALLOC };
@@ -98,7 +98,7 @@ static void assert_raw(void)
     TEST_ASSERT_EQUAL_HEX(CS8, after.c_cflag & (CSIZE | PARENB | CSTOPB));
 }
 
-static void test_bytes_pass_as_they_are_however_the_line_was_set(void)
+TEST(bytes_pass_as_they_are_however_the_line_was_set)
 {
     TEST_ASSERT_EQUAL_INT(0, open_line("slcan:/dev/ptmx"));
     assert_raw();
@@ -108,7 +108,7 @@ static void test_bytes_pass_as_they_are_however_the_line_was_set(void)
     assert_raw();
 }
 
-static void test_no_modem_is_asked_for_its_consent(void)
+TEST(no_modem_is_asked_for_its_consent)
 {
     TEST_ASSERT_EQUAL_INT(0, open_line("slcan:/dev/ptmx"));
     TEST_ASSERT_EQUAL_HEX(CLOCAL | CREAD, after.c_cflag & (CLOCAL | CREAD | CRTSCTS));
@@ -118,7 +118,7 @@ static void test_no_modem_is_asked_for_its_consent(void)
     TEST_ASSERT_EQUAL_HEX(CLOCAL | CREAD, after.c_cflag & (CLOCAL | CREAD | CRTSCTS));
 }
 
-static void test_each_speed_can_be_named(void)
+TEST(each_speed_can_be_named)
 {
     static const struct {
         const char *name;
@@ -138,7 +138,7 @@ static void test_each_speed_can_be_named(void)
     }
 }
 
-static void test_the_line_is_read_and_written_without_waiting_and_not_inherited(void)
+TEST(the_line_is_read_and_written_without_waiting_and_not_inherited)
 {
     int fd = free_descriptor();
     TEST_ASSERT_EQUAL_INT(0, link_open(&link_opened, "slcan:/dev/ptmx", NULL, 0));
@@ -146,7 +146,7 @@ static void test_the_line_is_read_and_written_without_waiting_and_not_inherited(
     TEST_ASSERT_EQUAL_HEX(FD_CLOEXEC, fcntl(fd, F_GETFD));
 }
 
-static void test_without_standard_input_it_opens_as_well(void)
+TEST(without_standard_input_it_opens_as_well)
 {
     int input = dup(STDIN_FILENO);
     close(STDIN_FILENO);
@@ -157,7 +157,7 @@ static void test_without_standard_input_it_opens_as_well(void)
     close(input);
 }
 
-static void test_what_refuses_the_line_is_said_and_nothing_stays_open(void)
+TEST(what_refuses_the_line_is_said_and_nothing_stays_open)
 {
     int count = open_descriptors();
     for (refused = TCGETATTR; refused <= CALLOC; refused++) {
@@ -168,14 +168,14 @@ static void test_what_refuses_the_line_is_said_and_nothing_stays_open(void)
     }
 }
 
-static void test_a_line_that_is_not_there_is_refused_with_the_reason(void)
+TEST(a_line_that_is_not_there_is_refused_with_the_reason)
 {
     TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, open_line("slcan:/no/such/line"));
     TEST_ASSERT_EQUAL_STRING("link slcan:/no/such/line: No such file or directory\n", said);
 }
 
 /* Slashes beside each other are as one. */
-static void test_a_path_may_have_any_length_that_the_system_knows(void)
+TEST(a_path_may_have_any_length_that_the_system_knows)
 {
     static const char end[] = "/dev/ptmx";
     char name[sizeof "slcan:" + PATH_MAX] = "slcan:";
@@ -187,18 +187,4 @@ static void test_a_path_may_have_any_length_that_the_system_knows(void)
     memset(path, '/', PATH_MAX);
     strcpy(path + PATH_MAX - sizeof end + 1, end);
     TEST_ASSERT_EQUAL_INT(LINK_E_NAME, open_line(name));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_bytes_pass_as_they_are_however_the_line_was_set);
-    RUN_TEST(test_no_modem_is_asked_for_its_consent);
-    RUN_TEST(test_each_speed_can_be_named);
-    RUN_TEST(test_the_line_is_read_and_written_without_waiting_and_not_inherited);
-    RUN_TEST(test_without_standard_input_it_opens_as_well);
-    RUN_TEST(test_what_refuses_the_line_is_said_and_nothing_stays_open);
-    RUN_TEST(test_a_line_that_is_not_there_is_refused_with_the_reason);
-    RUN_TEST(test_a_path_may_have_any_length_that_the_system_knows);
-    return UNITY_END();
 }

@@ -11,8 +11,8 @@
 #include <string.h>
 #include <sys/socket.h>
 #include <unistd.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "open_listening.h"
 
 enum call { NONE, SOCKET, IF_NAMETOINDEX, SETSOCKOPT, BIND, CALLOC, FCNTL };
@@ -128,14 +128,14 @@ static bool passes(canid_t id)
     return false;
 }
 
-static void test_it_is_bound_to_the_interface_that_was_named(void)
+TEST(it_is_bound_to_the_interface_that_was_named)
 {
     TEST_ASSERT_EQUAL_INT(0, open_listening(&link_opened, "socketcan:can7", 1));
     TEST_ASSERT_EQUAL(AF_CAN, bound.can_family);
     TEST_ASSERT_EQUAL(INTERFACE, bound.can_ifindex);
 }
 
-static void test_exactly_the_wanted_identifiers_pass(void)
+TEST(exactly_the_wanted_identifiers_pass)
 {
     static const uint16_t wanted[] = {0x000, 0x101, 0x7FF, LINK_FAMILY | 0x680};
     TEST_ASSERT_EQUAL_INT(0, link_open(&link_opened, "socketcan:can7", wanted, 4));
@@ -147,7 +147,7 @@ static void test_exactly_the_wanted_identifiers_pass(void)
     }
 }
 
-static void test_without_standard_input_it_opens_as_well(void)
+TEST(without_standard_input_it_opens_as_well)
 {
     int input = dup(STDIN_FILENO);
     close(STDIN_FILENO);
@@ -158,7 +158,7 @@ static void test_without_standard_input_it_opens_as_well(void)
     close(input);
 }
 
-static void test_what_refuses_it_is_said_and_nothing_stays_open(void)
+TEST(what_refuses_it_is_said_and_nothing_stays_open)
 {
     int before = open_descriptors();
     for (refused = SOCKET; refused <= CALLOC; refused++) {
@@ -180,7 +180,7 @@ static int open_descriptor(void)
     return fd;
 }
 
-static void test_a_socket_of_whole_frames_is_taken_and_waits(void)
+TEST(a_socket_of_whole_frames_is_taken_and_waits)
 {
     static const int types[] = {SOCK_SEQPACKET, SOCK_RAW};
     for (size_t i = 0; i < 2; i++) {
@@ -192,7 +192,7 @@ static void test_a_socket_of_whole_frames_is_taken_and_waits(void)
     }
 }
 
-static void test_a_descriptor_that_cannot_be_used_is_said_and_stays_open(void)
+TEST(a_descriptor_that_cannot_be_used_is_said_and_stays_open)
 {
     type_of_socket = SOCK_RAW;
     for (refused = CALLOC; refused <= FCNTL; refused++) {
@@ -203,24 +203,11 @@ static void test_a_descriptor_that_cannot_be_used_is_said_and_stays_open(void)
     }
 }
 
-static void test_closing_gives_the_socket_back(void)
+TEST(closing_gives_the_socket_back)
 {
     int before = open_descriptors();
     TEST_ASSERT_EQUAL_INT(0, open_listening(&link_opened, "socketcan:can7", 1));
     link_close(link_opened);
     link_opened = NULL;
     TEST_ASSERT_EQUAL_INT(before, open_descriptors());
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_is_bound_to_the_interface_that_was_named);
-    RUN_TEST(test_exactly_the_wanted_identifiers_pass);
-    RUN_TEST(test_without_standard_input_it_opens_as_well);
-    RUN_TEST(test_what_refuses_it_is_said_and_nothing_stays_open);
-    RUN_TEST(test_a_socket_of_whole_frames_is_taken_and_waits);
-    RUN_TEST(test_a_descriptor_that_cannot_be_used_is_said_and_stays_open);
-    RUN_TEST(test_closing_gives_the_socket_back);
-    return UNITY_END();
 }

@@ -16,46 +16,46 @@ static void assert_receive(int expected, int32_t after_ms)
     TEST_ASSERT_EQUAL_INT64((int64_t)after_ms * NS_PER_MS, now_ns - start);
 }
 
-static void test_an_interrupted_receive_is_tried_again(void)
+TEST(an_interrupted_receive_is_tried_again)
 {
     recv_fault = (struct fault){.error = EINTR, .first = 3};
     put(16, 3);
     assert_receive(1, 0);
 }
 
-static void test_a_receive_that_is_always_interrupted_ends(void)
+TEST(a_receive_that_is_always_interrupted_ends)
 {
     recv_fault = (struct fault){.error = EINTR, .first = FOR_EVER, .each_ms = 1};
     assert_receive(0, WAIT_MS);
 }
 
-static void test_a_wait_that_the_kernel_ends_early_is_waited_to_its_end(void)
+TEST(a_wait_that_the_kernel_ends_early_is_waited_to_its_end)
 {
     recv_fault = (struct fault){.error = EAGAIN, .first = 1, .each_ms = WAIT_MS / 2};
     assert_receive(0, WAIT_MS);
 }
 
-static void test_a_bus_that_is_down_says_so_after_the_wait(void)
+TEST(a_bus_that_is_down_says_so_after_the_wait)
 {
     recv_fault = (struct fault){.error = ENETDOWN, .first = 1};
     assert_receive(LINK_E_DOWN, WAIT_MS);
     assert_receive(0, WAIT_MS);
 }
 
-static void test_a_bus_that_stays_down_says_so_after_the_wait(void)
+TEST(a_bus_that_stays_down_says_so_after_the_wait)
 {
     recv_fault = (struct fault){.error = ENETDOWN, .first = FOR_EVER, .each_ms = 1};
     assert_receive(LINK_E_DOWN, WAIT_MS);
 }
 
-static void test_a_frame_after_the_bus_was_down_arrives(void)
+TEST(a_frame_after_the_bus_was_down_arrives)
 {
     recv_fault = (struct fault){.error = ENETDOWN, .first = 1};
     put(16, 3);
     assert_receive(1, 0);
 }
 
-static void test_a_receive_from_an_interface_that_is_gone_is_closed(void)
+TEST(a_receive_from_an_interface_that_is_gone_is_closed)
 {
     const int errors[] = {EPERM, ENODEV, ENXIO, ECONNRESET, EBADF};
     for (size_t i = 0; i < sizeof errors / sizeof errors[0]; i++) {
@@ -64,13 +64,13 @@ static void test_a_receive_from_an_interface_that_is_gone_is_closed(void)
     }
 }
 
-static void test_a_wait_that_cannot_be_set_is_closed(void)
+TEST(a_wait_that_cannot_be_set_is_closed)
 {
     setsockopt_fault = (struct fault){.error = EBADF, .first = 1};
     assert_receive(LINK_E_CLOSED, 0);
 }
 
-static void test_the_kernel_is_told_a_wait_when_it_changes_and_only_then(void)
+TEST(the_kernel_is_told_a_wait_when_it_changes_and_only_then)
 {
     static const struct {
         uint32_t wait_ms, told_ms;
@@ -86,7 +86,7 @@ static void test_the_kernel_is_told_a_wait_when_it_changes_and_only_then(void)
     }
 }
 
-static void test_an_empty_datagram_before_a_frame_is_not_the_end(void)
+TEST(an_empty_datagram_before_a_frame_is_not_the_end)
 {
     put(0, 0);
     put(16, 3);
@@ -95,7 +95,7 @@ static void test_an_empty_datagram_before_a_frame_is_not_the_end(void)
 }
 
 /* A signal can end even a look that does not wait. */
-static void test_an_empty_datagram_is_garbled_whatever_interrupts_the_look_behind_it(void)
+TEST(an_empty_datagram_is_garbled_whatever_interrupts_the_look_behind_it)
 {
     poll_fault = (struct fault){.error = EINTR, .first = 1};
     put(0, 0);
@@ -104,7 +104,7 @@ static void test_an_empty_datagram_is_garbled_whatever_interrupts_the_look_behin
     assert_receive(1, 0);
 }
 
-static void test_a_datagram_of_another_size_is_garbled(void)
+TEST(a_datagram_of_another_size_is_garbled)
 {
     const size_t sizes[] = {0, 1, 15, 17, 72};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
@@ -115,13 +115,13 @@ static void test_a_datagram_of_another_size_is_garbled(void)
     assert_receive(1, 0);
 }
 
-static void test_a_far_end_that_sends_no_more_is_closed(void)
+TEST(a_far_end_that_sends_no_more_is_closed)
 {
     TEST_ASSERT_EQUAL_INT(0, shutdown(far, SHUT_WR));
     assert_receive(LINK_E_CLOSED, 0);
 }
 
-static void test_a_length_over_eight_is_garbled(void)
+TEST(a_length_over_eight_is_garbled)
 {
     put(16, 9);
     assert_receive(LINK_E_GARBLED, 0);
@@ -129,12 +129,12 @@ static void test_a_length_over_eight_is_garbled(void)
     assert_receive(LINK_E_GARBLED, 0);
 }
 
-static void test_a_descriptor_that_came_non_blocking_waits_all_the_same(void)
+TEST(a_descriptor_that_came_non_blocking_waits_all_the_same)
 {
     assert_receive(0, WAIT_MS);
 }
 
-static void test_no_memory_for_a_link_refuses_it(void)
+TEST(no_memory_for_a_link_refuses_it)
 {
     int ends[2];
     char name[16];
@@ -148,26 +148,4 @@ static void test_no_memory_for_a_link_refuses_it(void)
     TEST_ASSERT_NULL(link);
     TEST_ASSERT_EQUAL_INT(0, close(ends[0]));
     TEST_ASSERT_EQUAL_INT(0, close(ends[1]));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_an_interrupted_receive_is_tried_again);
-    RUN_TEST(test_a_receive_that_is_always_interrupted_ends);
-    RUN_TEST(test_a_wait_that_the_kernel_ends_early_is_waited_to_its_end);
-    RUN_TEST(test_a_bus_that_is_down_says_so_after_the_wait);
-    RUN_TEST(test_a_bus_that_stays_down_says_so_after_the_wait);
-    RUN_TEST(test_a_frame_after_the_bus_was_down_arrives);
-    RUN_TEST(test_a_receive_from_an_interface_that_is_gone_is_closed);
-    RUN_TEST(test_a_wait_that_cannot_be_set_is_closed);
-    RUN_TEST(test_the_kernel_is_told_a_wait_when_it_changes_and_only_then);
-    RUN_TEST(test_an_empty_datagram_before_a_frame_is_not_the_end);
-    RUN_TEST(test_an_empty_datagram_is_garbled_whatever_interrupts_the_look_behind_it);
-    RUN_TEST(test_a_datagram_of_another_size_is_garbled);
-    RUN_TEST(test_a_far_end_that_sends_no_more_is_closed);
-    RUN_TEST(test_a_length_over_eight_is_garbled);
-    RUN_TEST(test_a_descriptor_that_came_non_blocking_waits_all_the_same);
-    RUN_TEST(test_no_memory_for_a_link_refuses_it);
-    return UNITY_END();
 }

@@ -20,55 +20,43 @@ static void assert_far_has_one_frame(void)
     TEST_ASSERT_EQUAL_INT(-1, read(far, raw, sizeof raw));
 }
 
-static void test_a_busy_queue_is_tried_again(void)
+TEST(a_busy_queue_is_tried_again)
 {
     send_fault = (struct fault){.error = ENOBUFS, .first = 3};
     assert_send(0, 3);
     assert_far_has_one_frame();
 }
 
-static void test_a_queue_that_stays_busy_is_given_up_in_time(void)
+TEST(a_queue_that_stays_busy_is_given_up_in_time)
 {
     send_fault = (struct fault){.error = ENOBUFS, .first = FOR_EVER};
     assert_send(LINK_E_FULL, LINK_SEND_MS);
 }
 
-static void test_an_interrupted_send_is_tried_again(void)
+TEST(an_interrupted_send_is_tried_again)
 {
     send_fault = (struct fault){.error = EINTR, .first = 1};
     assert_send(0, 1);
     assert_far_has_one_frame();
 }
 
-static void test_a_send_that_is_always_interrupted_ends(void)
+TEST(a_send_that_is_always_interrupted_ends)
 {
     send_fault = (struct fault){.error = EINTR, .first = FOR_EVER};
     assert_send(LINK_E_FULL, LINK_SEND_MS);
 }
 
-static void test_a_send_to_a_bus_that_is_down_says_so_at_once(void)
+TEST(a_send_to_a_bus_that_is_down_says_so_at_once)
 {
     send_fault = (struct fault){.error = ENETDOWN, .first = FOR_EVER};
     assert_send(LINK_E_DOWN, 0);
 }
 
-static void test_a_send_to_an_interface_that_is_gone_is_closed(void)
+TEST(a_send_to_an_interface_that_is_gone_is_closed)
 {
     const int errors[] = {EPERM, ENODEV, ENXIO, EPIPE, ECONNRESET, EBADF, ENOTCONN};
     for (size_t i = 0; i < sizeof errors / sizeof errors[0]; i++) {
         send_fault = (struct fault){.error = errors[i], .first = FOR_EVER};
         assert_send(LINK_E_CLOSED, 0);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_busy_queue_is_tried_again);
-    RUN_TEST(test_a_queue_that_stays_busy_is_given_up_in_time);
-    RUN_TEST(test_an_interrupted_send_is_tried_again);
-    RUN_TEST(test_a_send_that_is_always_interrupted_ends);
-    RUN_TEST(test_a_send_to_a_bus_that_is_down_says_so_at_once);
-    RUN_TEST(test_a_send_to_an_interface_that_is_gone_is_closed);
-    return UNITY_END();
 }

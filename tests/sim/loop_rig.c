@@ -70,4 +70,3 @@ void setUp(void)
     }
 }
 
-void tearDown(void) {}

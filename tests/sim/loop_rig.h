@@ -2,8 +2,7 @@
 #ifndef OCTET_LOOP_RIG_H
 #define OCTET_LOOP_RIG_H
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "host_sim/sim/native/loop.h"
 #include "logged_lines.h"
 

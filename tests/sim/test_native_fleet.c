@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "host_sim/world/native/plain_space.h"
 
 enum { ROBOTS = 2, WORDS = PLAIN_WORDS(WALLS + ROBOTS), TICKS = 50 };
@@ -49,7 +49,7 @@ void tearDown(void)
         free(robots[i].core);
 }
 
-static void test_a_robot_runs_as_many_ticks_as_asked_for(void)
+TEST(a_robot_runs_as_many_ticks_as_asked_for)
 {
     TEST_ASSERT_EQUAL_size_t(1, fleet_run_alone(robots, 1, 20));
     TEST_ASSERT_EQUAL_UINT32(20, robots[0].tick);
@@ -58,13 +58,13 @@ static void test_a_robot_runs_as_many_ticks_as_asked_for(void)
     TEST_ASSERT_GREATER_THAN_UINT32(0, robots[0].begun[REASON_WANDER]);
 }
 
-static void test_an_environment_ends_when_its_time_is_up(void)
+TEST(an_environment_ends_when_its_time_is_up)
 {
     TEST_ASSERT_EQUAL_size_t(0, fleet_run_alone(robots, 1, TICKS + 1));
     TEST_ASSERT_EQUAL_UINT32(TICKS, robots[0].ticks);
 }
 
-static void test_an_environment_ends_when_the_food_is_eaten(void)
+TEST(an_environment_ends_when_the_food_is_eaten)
 {
     food[0] = (struct food){1200.0, 1500.0, false};
     TEST_ASSERT_EQUAL_size_t(0, fleet_run_alone(robots, 1, TICKS));
@@ -74,7 +74,7 @@ static void test_an_environment_ends_when_the_food_is_eaten(void)
     TEST_ASSERT_TRUE(robots[0].ticks < TICKS);
 }
 
-static void test_robots_of_one_world_go_on_together(void)
+TEST(robots_of_one_world_go_on_together)
 {
     TEST_ASSERT_EQUAL_size_t(ROBOTS, fleet_run_together(robots, ROBOTS, 20));
     TEST_ASSERT_EQUAL_UINT32(20, robots[0].tick);
@@ -83,30 +83,18 @@ static void test_robots_of_one_world_go_on_together(void)
     TEST_ASSERT_EQUAL_UINT32(TICKS, robots[1].ticks);
 }
 
-static void test_a_command_that_the_core_refuses_says_why(void)
+TEST(a_command_that_the_core_refuses_says_why)
 {
     TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PROFILE, fleet_command(robots, OPCODE_START, 200, 1, &answer));
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(robots, OPCODE_START, PROFILE_DISTANCE, 1, &answer));
     TEST_ASSERT_EQUAL_UINT32(ANSWER_WANTS_RANGES, answer);
 }
 
-static void test_a_memory_is_the_cores(void)
+TEST(a_memory_is_the_cores)
 {
     uint8_t cells[CELL_COUNT];
 
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(robots, OPCODE_START, PROFILE_FIXED, 1, &answer));
     fleet_memory(robots, cells);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0, 1, 1, 1, 2, 1, 2, 1}), cells, CELL_COUNT);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_robot_runs_as_many_ticks_as_asked_for);
-    RUN_TEST(test_an_environment_ends_when_its_time_is_up);
-    RUN_TEST(test_an_environment_ends_when_the_food_is_eaten);
-    RUN_TEST(test_robots_of_one_world_go_on_together);
-    RUN_TEST(test_a_command_that_the_core_refuses_says_why);
-    RUN_TEST(test_a_memory_is_the_cores);
-    return UNITY_END();
 }

@@ -1,7 +1,8 @@
 #include "host_sim/sim/native/log_lines.h"
 
 #include <string.h>
-#include <unity.h>
+
+#include "tests/test.h"
 
 static char text[4 * LOG_LINE_MAX];
 static struct log_lines lines;
@@ -12,9 +13,7 @@ void setUp(void)
     lines = (struct log_lines){.text = text};
 }
 
-void tearDown(void) {}
-
-static void test_a_line_is_candumps(void)
+TEST(a_line_is_candumps)
 {
     struct frame frame = {0x101, 8, {0x00, 0x12, 0xAB, 0xCD, 0xEF, 0xFF, 0x09, 0x90}};
 
@@ -25,7 +24,7 @@ static void test_a_line_is_candumps(void)
     TEST_ASSERT_TRUE(strlen(text) <= LOG_LINE_MAX);
 }
 
-static void test_short_and_empty_frames_and_small_identifiers(void)
+TEST(short_and_empty_frames_and_small_identifiers)
 {
     struct frame frames[2] = {{0x021, 2, {0x12, 0x34}}, {0x001, 0, {0}}};
 
@@ -35,20 +34,11 @@ static void test_short_and_empty_frames_and_small_identifiers(void)
     TEST_ASSERT_EQUAL_STRING("(0000000000.000000) octet 021#1234\n(0000000000.000000) octet 001#\n", text);
 }
 
-static void test_every_digit_of_the_time(void)
+TEST(every_digit_of_the_time)
 {
     struct frame frame = {0x7C1, 0, {0}};
 
     log_lines_stamp(&lines, 1234567890987654u);
     log_lines_add(&lines, &frame);
     TEST_ASSERT_EQUAL_STRING("(1234567890.987654) octet 7C1#\n", text);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_line_is_candumps);
-    RUN_TEST(test_short_and_empty_frames_and_small_identifiers);
-    RUN_TEST(test_every_digit_of_the_time);
-    return UNITY_END();
 }

@@ -1,7 +1,7 @@
 /* Whose turn it is, what is logged, and what ends a block of ticks. */
 #include "loop_rig.h"
 
-static void test_a_block_runs_as_many_ticks_as_asked_for(void)
+TEST(a_block_runs_as_many_ticks_as_asked_for)
 {
     loop.tick = 255;
     loop_run(&loop, 3);
@@ -12,7 +12,7 @@ static void test_a_block_runs_as_many_ticks_as_asked_for(void)
     TEST_ASSERT_EQUAL_UINT32(3, robots[1].received);
 }
 
-static void test_all_robots_hear_their_senses_before_any_answer_is_read(void)
+TEST(all_robots_hear_their_senses_before_any_answer_is_read)
 {
     static const char *const ids[] = {"101", "102", "041", "042"};
 
@@ -23,7 +23,7 @@ static void test_all_robots_hear_their_senses_before_any_answer_is_read(void)
     TEST_ASSERT_EQUAL_HEX32(SENSES + 1, octets[1].heard.id);
 }
 
-static void test_a_memory_is_heard_by_the_others(void)
+TEST(a_memory_is_heard_by_the_others)
 {
     octets[0].tells_memory = true;
     octets[0].faults = 1;
@@ -35,7 +35,7 @@ static void test_a_memory_is_heard_by_the_others(void)
     TEST_ASSERT_EQUAL_UINT(3, octets[1].memories);
 }
 
-static void test_without_a_text_nothing_is_logged(void)
+TEST(without_a_text_nothing_is_logged)
 {
     loop.log.text = NULL;
     loop.log_size = 0;
@@ -44,7 +44,7 @@ static void test_without_a_text_nothing_is_logged(void)
     TEST_ASSERT_EQUAL_size_t(0, loop.log.used);
 }
 
-static void test_a_meal_ends_a_block(void)
+TEST(a_meal_ends_a_block)
 {
     world.food[0] = (struct food){1110.0, 1000.0, false};
     octets[0].eat = true;
@@ -54,7 +54,7 @@ static void test_a_meal_ends_a_block(void)
     TEST_ASSERT_EQUAL_UINT32(0, robots[1].food_eaten);
 }
 
-static void test_news_ends_a_block(void)
+TEST(news_ends_a_block)
 {
     octets[1].faults = 1;
     loop_run(&loop, TICKS);
@@ -65,7 +65,7 @@ static void test_news_ends_a_block(void)
     TEST_ASSERT_EQUAL_UINT32(TICKS, loop.ticks);
 }
 
-static void test_a_silent_robots_tick_does_not_count(void)
+TEST(a_silent_robots_tick_does_not_count)
 {
     octets[1].silent = true;
     loop_run(&loop, TICKS);
@@ -82,7 +82,7 @@ static bool ask(struct loop *of, size_t robot)
     return octets[robot].reason == REASON_STOP;
 }
 
-static void test_a_robot_that_has_stopped_by_itself_is_asked_and_goes_on_at_rest(void)
+TEST(a_robot_that_has_stopped_by_itself_is_asked_and_goes_on_at_rest)
 {
     octets[1].reason = REASON_STOP;
     loop.ask = ask;
@@ -101,7 +101,7 @@ static bool ask_at_length(struct loop *of, size_t robot)
     return ask(of, robot);
 }
 
-static void test_a_log_without_room_for_being_asked_ends_the_block(void)
+TEST(a_log_without_room_for_being_asked_ends_the_block)
 {
     octets[1].reason = REASON_STOP;
     loop.ask = ask_at_length;
@@ -114,7 +114,7 @@ static void test_a_log_without_room_for_being_asked_ends_the_block(void)
     TEST_ASSERT_FALSE(loop.handed_over);
 }
 
-static void test_a_robot_that_rests_for_another_reason_hands_its_tick_over(void)
+TEST(a_robot_that_rests_for_another_reason_hands_its_tick_over)
 {
     octets[1].silent = true;
     loop.ask = ask;
@@ -123,7 +123,7 @@ static void test_a_robot_that_rests_for_another_reason_hands_its_tick_over(void)
     TEST_ASSERT_FALSE(robots[1].halted);
 }
 
-static void test_a_drive_for_other_senses_is_refused_and_not_logged(void)
+TEST(a_drive_for_other_senses_is_refused_and_not_logged)
 {
     struct frame old = drive_of(&octets[0], 77);
 
@@ -134,7 +134,7 @@ static void test_a_drive_for_other_senses_is_refused_and_not_logged(void)
     TEST_ASSERT_EQUAL_INT(4, logged_lines(&loop.log));
 }
 
-static void test_what_waited_is_logged_once_after_the_senses(void)
+TEST(what_waited_is_logged_once_after_the_senses)
 {
     struct frame report = {.id = FAULTS, .len = 8};
 
@@ -147,37 +147,17 @@ static void test_what_waited_is_logged_once_after_the_senses(void)
     TEST_ASSERT_EQUAL_INT(4, logged_lines(&loop.log));
 }
 
-static void test_turns_may_be_taken_in_another_way(void)
+TEST(turns_may_be_taken_in_another_way)
 {
     loop.take_turns = turns_in_process;
     loop_run(&loop, 1);
     TEST_ASSERT_EQUAL_UINT32(1, loop.ticks);
 }
 
-static void test_a_block_ends_before_the_log_overflows(void)
+TEST(a_block_ends_before_the_log_overflows)
 {
     loop.log_size = (ROBOTS * (1 + LOOP_FRAMES_MAX) + 1) * LOG_LINE_MAX;
     loop_run(&loop, TICKS);
     TEST_ASSERT_EQUAL_UINT32(1, loop.ticks);
     TEST_ASSERT_TRUE(loop.log.used <= loop.log_size);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_block_runs_as_many_ticks_as_asked_for);
-    RUN_TEST(test_all_robots_hear_their_senses_before_any_answer_is_read);
-    RUN_TEST(test_a_memory_is_heard_by_the_others);
-    RUN_TEST(test_without_a_text_nothing_is_logged);
-    RUN_TEST(test_a_meal_ends_a_block);
-    RUN_TEST(test_news_ends_a_block);
-    RUN_TEST(test_a_silent_robots_tick_does_not_count);
-    RUN_TEST(test_a_robot_that_has_stopped_by_itself_is_asked_and_goes_on_at_rest);
-    RUN_TEST(test_a_log_without_room_for_being_asked_ends_the_block);
-    RUN_TEST(test_a_robot_that_rests_for_another_reason_hands_its_tick_over);
-    RUN_TEST(test_a_drive_for_other_senses_is_refused_and_not_logged);
-    RUN_TEST(test_what_waited_is_logged_once_after_the_senses);
-    RUN_TEST(test_turns_may_be_taken_in_another_way);
-    RUN_TEST(test_a_block_ends_before_the_log_overflows);
-    return UNITY_END();
 }

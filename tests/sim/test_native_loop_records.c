@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static void test_ticks_are_recorded(void)
+TEST(ticks_are_recorded)
 {
     world.bodies[1].feel = FEEL_FRONT;
     world.bodies[1].lifted = true;
@@ -18,7 +18,7 @@ static void test_ticks_are_recorded(void)
     TEST_ASSERT_EQUAL_INT16(0, rows[0][15]);
 }
 
-static void test_actions_are_counted_when_they_begin(void)
+TEST(actions_are_counted_when_they_begin)
 {
     loop_run(&loop, 2);
     octets[0].action = 2;
@@ -29,7 +29,7 @@ static void test_actions_are_counted_when_they_begin(void)
     TEST_ASSERT_EQUAL_size_t(0, robots[0].decision_count);
 }
 
-static void test_the_pattern_is_that_of_the_tick_in_which_the_action_began(void)
+TEST(the_pattern_is_that_of_the_tick_in_which_the_action_began)
 {
     world.bodies[0].feel = FEEL_FRONT_RIGHT;
     loop_run(&loop, 1);
@@ -48,7 +48,7 @@ static void begins(enum reason reason)
     loop_run(&loop, 1);
 }
 
-static void test_decisions_to_learn_from_are_noted(void)
+TEST(decisions_to_learn_from_are_noted)
 {
     begins(REASON_TRIAL);
     TEST_ASSERT_EQUAL_size_t(1, robots[0].decision_count);
@@ -63,7 +63,7 @@ static void test_decisions_to_learn_from_are_noted(void)
     TEST_ASSERT_EQUAL_size_t(0, robots[0].decision_count);
 }
 
-static void test_a_tick_that_was_done_elsewhere_is_recorded_like_all(void)
+TEST(a_tick_that_was_done_elsewhere_is_recorded_like_all)
 {
     int16_t *row = rows[0] + 2 * LOOP_ROW;
 
@@ -84,15 +84,4 @@ static void test_a_tick_that_was_done_elsewhere_is_recorded_like_all(void)
     TEST_ASSERT_EQUAL_UINT32(1, robots[0].begun[REASON_TRIAL]);
     TEST_ASSERT_EQUAL_size_t(1, robots[0].decision_count);
     TEST_ASSERT_EQUAL_UINT32(2, decisions[0][0]);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_ticks_are_recorded);
-    RUN_TEST(test_actions_are_counted_when_they_begin);
-    RUN_TEST(test_the_pattern_is_that_of_the_tick_in_which_the_action_began);
-    RUN_TEST(test_decisions_to_learn_from_are_noted);
-    RUN_TEST(test_a_tick_that_was_done_elsewhere_is_recorded_like_all);
-    return UNITY_END();
 }

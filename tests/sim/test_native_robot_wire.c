@@ -1,7 +1,5 @@
 #include "host_sim/sim/native/robot_wire.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
@@ -14,8 +12,6 @@ void setUp(void)
     robot = (struct loop_robot){.senses_id = SENSES, .drive_id = DRIVE, .heartbeat_id = HEARTBEAT};
 }
 
-void tearDown(void) {}
-
 static struct octet_senses_t told(const struct senses *senses, struct frame *frame)
 {
     struct octet_senses_t message;
@@ -25,7 +21,7 @@ static struct octet_senses_t told(const struct senses *senses, struct frame *fra
     return message;
 }
 
-static void test_senses_are_told_whole(void)
+TEST(senses_are_told_whole)
 {
     struct senses senses = {.tick = 200, .feel = 21, .bump = true, .look = true, .beacon_mm = 5000,
         .odometer_left = 4095, .odometer_right = 1};
@@ -43,7 +39,7 @@ static void test_senses_are_told_whole(void)
     TEST_ASSERT_EQUAL_UINT16(1, message.odometer_right);
 }
 
-static void test_senses_count_themselves(void)
+TEST(senses_count_themselves)
 {
     struct senses senses = {.tick = 1};
     struct frame frame;
@@ -63,7 +59,7 @@ static bool drives(uint8_t tick, enum reason reason, struct drive *drive)
     return robot_wire_drive(&frame, 7, drive);
 }
 
-static void test_a_drive_is_read_whole(void)
+TEST(a_drive_is_read_whole)
 {
     struct drive drive;
 
@@ -77,7 +73,7 @@ static void test_a_drive_is_read_whole(void)
     TEST_ASSERT_TRUE(drive.eat);
 }
 
-static void test_a_drive_of_another_tick_or_at_rest_is_no_answer(void)
+TEST(a_drive_of_another_tick_or_at_rest_is_no_answer)
 {
     struct drive drive;
 
@@ -95,7 +91,7 @@ static bool is_news(uint32_t id, uint8_t page, uint8_t counter, uint8_t content)
     return robot.has_news;
 }
 
-static void test_a_report_is_news_when_it_says_something_else(void)
+TEST(a_report_is_news_when_it_says_something_else)
 {
     TEST_ASSERT_TRUE(is_news(FAULTS, 0, 1, 0));
     TEST_ASSERT_FALSE(is_news(FAULTS, 0, 2, 0));
@@ -105,7 +101,7 @@ static void test_a_report_is_news_when_it_says_something_else(void)
     TEST_ASSERT_EQUAL_size_t(5, robot.report_count);
 }
 
-static void test_each_page_is_a_report_of_its_own(void)
+TEST(each_page_is_a_report_of_its_own)
 {
     TEST_ASSERT_TRUE(is_news(FAULTS, 0, 1, 0));
     TEST_ASSERT_TRUE(is_news(FAULTS, 1, 1, 1));
@@ -114,14 +110,14 @@ static void test_each_page_is_a_report_of_its_own(void)
     TEST_ASSERT_FALSE(is_news(FAULTS, 1, 2, 1));
 }
 
-static void test_a_heartbeat_is_no_news(void)
+TEST(a_heartbeat_is_no_news)
 {
     TEST_ASSERT_FALSE(is_news(HEARTBEAT, 1, 1, 1));
     TEST_ASSERT_FALSE(is_news(HEARTBEAT, 1, 2, 2));
     TEST_ASSERT_EQUAL_size_t(2, robot.report_count);
 }
 
-static void test_when_there_are_too_many_kinds_all_are_news(void)
+TEST(when_there_are_too_many_kinds_all_are_news)
 {
     for (unsigned i = 0; i < LOOP_KINDS_MAX; i++)
         TEST_ASSERT_TRUE(is_news(FAULTS + i, 0, 1, 0));
@@ -131,7 +127,7 @@ static void test_when_there_are_too_many_kinds_all_are_news(void)
     TEST_ASSERT_EQUAL_size_t(LOOP_FRAMES_MAX, robot.report_count);
 }
 
-static void test_of_too_many_reports_the_last_are_kept(void)
+TEST(of_too_many_reports_the_last_are_kept)
 {
     for (unsigned i = 0; i < LOOP_FRAMES_MAX + 3; i++)
         (void)is_news(FAULTS, 0, 1, (uint8_t)i);
@@ -161,7 +157,7 @@ static void know(struct frame frame)
     robot.known[robot.known_count++] = frame;
 }
 
-static void test_a_report_goes_on_when_it_says_the_same_with_the_next_counter(void)
+TEST(a_report_goes_on_when_it_says_the_same_with_the_next_counter)
 {
     know(report_of(FAULTS, 1, 13, 7));
     robot.received = 4;
@@ -170,7 +166,7 @@ static void test_a_report_goes_on_when_it_says_the_same_with_the_next_counter(vo
     TEST_ASSERT_TRUE(goes_on(FAULTS, 1, 0, 7));
 }
 
-static void test_what_came_before_or_says_something_new_does_not_go_on(void)
+TEST(what_came_before_or_says_something_new_does_not_go_on)
 {
     know(report_of(FAULTS, 1, 3, 7));
     TEST_ASSERT_FALSE(goes_on(FAULTS, 1, 3, 7));
@@ -182,7 +178,7 @@ static void test_what_came_before_or_says_something_new_does_not_go_on(void)
     TEST_ASSERT_TRUE(goes_on(FAULTS, 1, 4, 7));
 }
 
-static void test_what_is_damaged_does_not_go_on(void)
+TEST(what_is_damaged_does_not_go_on)
 {
     struct frame damaged = report_of(FAULTS, 0, 2, 0), shorter = damaged;
 
@@ -203,7 +199,7 @@ static struct frame heartbeat(uint8_t counter, uint8_t owner, uint16_t uptime)
     return frame;
 }
 
-static void test_a_heartbeat_goes_on_with_the_time(void)
+TEST(a_heartbeat_goes_on_with_the_time)
 {
     struct frame next = heartbeat(2, 1, 501), taken = heartbeat(3, 2, 502);
 
@@ -212,7 +208,7 @@ static void test_a_heartbeat_goes_on_with_the_time(void)
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &taken));
 }
 
-static void test_a_heartbeat_of_another_state_does_not_go_on(void)
+TEST(a_heartbeat_of_another_state_does_not_go_on)
 {
     struct frame stopped = heartbeat(2, 1, 501);
 
@@ -222,32 +218,11 @@ static void test_a_heartbeat_of_another_state_does_not_go_on(void)
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &stopped));
 }
 
-static void test_a_heartbeat_of_no_length_does_not_go_on(void)
+TEST(a_heartbeat_of_no_length_does_not_go_on)
 {
     struct frame nothing = {.id = HEARTBEAT, .len = 2, .data = {0, 0x12}};
 
     e2e_protect(&nothing);
     know((struct frame){.id = HEARTBEAT, .len = 2, .data = {0, 0x11}});
     TEST_ASSERT_FALSE(robot_wire_goes_on(&robot, &nothing));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_report_goes_on_when_it_says_the_same_with_the_next_counter);
-    RUN_TEST(test_what_came_before_or_says_something_new_does_not_go_on);
-    RUN_TEST(test_what_is_damaged_does_not_go_on);
-    RUN_TEST(test_a_heartbeat_goes_on_with_the_time);
-    RUN_TEST(test_a_heartbeat_of_another_state_does_not_go_on);
-    RUN_TEST(test_a_heartbeat_of_no_length_does_not_go_on);
-    RUN_TEST(test_senses_are_told_whole);
-    RUN_TEST(test_senses_count_themselves);
-    RUN_TEST(test_a_drive_is_read_whole);
-    RUN_TEST(test_a_drive_of_another_tick_or_at_rest_is_no_answer);
-    RUN_TEST(test_a_report_is_news_when_it_says_something_else);
-    RUN_TEST(test_each_page_is_a_report_of_its_own);
-    RUN_TEST(test_a_heartbeat_is_no_news);
-    RUN_TEST(test_when_there_are_too_many_kinds_all_are_news);
-    RUN_TEST(test_of_too_many_reports_the_last_are_kept);
-    return UNITY_END();
 }

@@ -1,6 +1,6 @@
 #include <string.h>
-#include <unity.h>
 
+#include "tests/test.h"
 #include "hal/protocol/e2e.h"
 #include "host_sim/sim/native/loop.h"
 #include "host_sim/sim/native/turn.h"
@@ -82,9 +82,7 @@ void setUp(void)
     }
 }
 
-void tearDown(void) {}
-
-static void test_usual_turns_are_taken(void)
+TEST(usual_turns_are_taken)
 {
     TEST_ASSERT_TRUE(turns_over_links(&loop, turns));
     TEST_ASSERT_EQUAL_size_t(ROBOTS, loop.sent);
@@ -98,7 +96,7 @@ static void test_usual_turns_are_taken(void)
     TEST_ASSERT_EQUAL_INT(4, logged_lines(&loop.log));
 }
 
-static void test_a_report_that_goes_on_is_taken(void)
+TEST(a_report_that_goes_on_is_taken)
 {
     robots[0].known[0] = faults(1);
     robots[0].known_count = 1;
@@ -118,14 +116,14 @@ static void handed_over(size_t sent, size_t answered, int received)
     TEST_ASSERT_EQUAL_INT(received, loop.received);
 }
 
-static void test_what_is_not_sent_is_handed_over(void)
+TEST(what_is_not_sent_is_handed_over)
 {
     links[1].sent = LINK_E_FULL;
     handed_over(1, 0, 0);
     TEST_ASSERT_EQUAL_INT(1, logged_lines(&loop.log));
 }
 
-static void test_silence_and_errors_are_handed_over(void)
+TEST(silence_and_errors_are_handed_over)
 {
     links[1].results[0] = 0;
     handed_over(ROBOTS, 1, 0);
@@ -146,7 +144,7 @@ static void unusual(struct frame frame)
     TEST_ASSERT_EQUAL_INT(3, logged_lines(&loop.log));
 }
 
-static void test_whatever_is_not_the_fresh_answer_is_handed_over(void)
+TEST(whatever_is_not_the_fresh_answer_is_handed_over)
 {
     struct frame damaged = usual(1), shorter = usual(1), extended = usual(1);
 
@@ -164,7 +162,7 @@ static void test_whatever_is_not_the_fresh_answer_is_handed_over(void)
     unusual(drive(1, TICK, COUNTER + 1, REASON_SILENCE));
 }
 
-static void test_a_flood_of_reports_is_handed_over(void)
+TEST(a_flood_of_reports_is_handed_over)
 {
     robots[0].known[0] = faults(0);
     robots[0].known_count = 1;
@@ -173,16 +171,4 @@ static void test_a_flood_of_reports_is_handed_over(void)
     comes(0, LOOP_FRAMES_MAX, usual(0));
     handed_over(ROBOTS, 0, 0);
     TEST_ASSERT_EQUAL_size_t(LOOP_FRAMES_MAX, links[0].taken);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_usual_turns_are_taken);
-    RUN_TEST(test_a_report_that_goes_on_is_taken);
-    RUN_TEST(test_what_is_not_sent_is_handed_over);
-    RUN_TEST(test_silence_and_errors_are_handed_over);
-    RUN_TEST(test_whatever_is_not_the_fresh_answer_is_handed_over);
-    RUN_TEST(test_a_flood_of_reports_is_handed_over);
-    return UNITY_END();
 }

@@ -2,8 +2,7 @@
 #ifndef OCTET_CAN_LINK_CASES_H
 #define OCTET_CAN_LINK_CASES_H
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "can_rig.h"
 
 enum { WAIT_MS = 20, RECOVERY_MS = 250, DRIVE = 0x041, ANSWER = 0x141, MEMORY = 0x681, HEARTBEAT = 0x6A1, HEALTH = 0x7C1 };

@@ -12,8 +12,6 @@ void setUp(void)
     memset(&queue, 0, sizeof queue);
 }
 
-void tearDown(void) {}
-
 bool put(uint32_t id, uint8_t number)
 {
     struct frame frame = {.id = id, .len = 1, .data = {number}};

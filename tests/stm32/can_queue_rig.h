@@ -2,8 +2,7 @@
 #ifndef OCTET_CAN_QUEUE_RIG_H
 #define OCTET_CAN_QUEUE_RIG_H
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "can_controller_fake.h"
 #include "hal/stm32/can_queue.h"
 

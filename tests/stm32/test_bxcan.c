@@ -1,7 +1,6 @@
 #include <stddef.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "bxcan_registers.h"
 #include "hal/link/link.h"
 #include "hal/stm32/registers.h"
@@ -16,9 +15,7 @@ void setUp(void)
     registers_pass_us(100);
 }
 
-void tearDown(void) {}
-
-static void test_the_registers_lie_where_the_manual_has_them(void)
+TEST(the_registers_lie_where_the_manual_has_them)
 {
     TEST_ASSERT_EQUAL_HEX(0x01C, offsetof(struct can_registers, btr));
     TEST_ASSERT_EQUAL_HEX(0x180, offsetof(struct can_registers, sent));
@@ -31,13 +28,13 @@ static void test_the_registers_lie_where_the_manual_has_them(void)
     TEST_ASSERT_EQUAL_HEX(0x240, offsetof(struct can_registers, bank));
 }
 
-static void test_it_wakes_up_and_the_lowest_identifier_leaves_first(void)
+TEST(it_wakes_up_and_the_lowest_identifier_leaves_first)
 {
     TEST_ASSERT_EQUAL_HEX32(0, CAN1.mcr);
 }
 
 /* Banks of zeros let everything in. */
-static void test_filters_of_a_boot_loader_let_nothing_in(void)
+TEST(filters_of_a_boot_loader_let_nothing_in)
 {
     static const uint32_t modes[] = {0, 0x3FFF};
     static const uint16_t ids[] = {0x0C1, LINK_FAMILY | 0x680};
@@ -53,7 +50,7 @@ static void test_filters_of_a_boot_loader_let_nothing_in(void)
     }
 }
 
-static void test_what_came_before_the_bus_was_lost_is_still_received(void)
+TEST(what_came_before_the_bus_was_lost_is_still_received)
 {
     struct frame frame;
 
@@ -67,7 +64,7 @@ static void test_what_came_before_the_bus_was_lost_is_still_received(void)
     TEST_ASSERT_EQUAL_UINT8(0, frame.data[0]);
 }
 
-static void test_mailboxes_are_written_whole(void)
+TEST(mailboxes_are_written_whole)
 {
     struct frame frame = {.id = 0x7A5, .len = 8};
 
@@ -76,7 +73,7 @@ static void test_mailboxes_are_written_whole(void)
     TEST_ASSERT_EQUAL_HEX32(8, CAN1.sent[0].length);
 }
 
-static void test_a_frame_being_released_does_not_come_twice(void)
+TEST(a_frame_being_released_does_not_come_twice)
 {
     struct frame frame;
 
@@ -91,20 +88,7 @@ static void test_a_frame_being_released_does_not_come_twice(void)
     TEST_ASSERT_EQUAL(0, link_receive(link_here, &frame, 1));
 }
 
-static void test_no_interrupt_is_asked_for(void)
+TEST(no_interrupt_is_asked_for)
 {
     TEST_ASSERT_EQUAL_HEX32(0, CAN1.ier);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_registers_lie_where_the_manual_has_them);
-    RUN_TEST(test_it_wakes_up_and_the_lowest_identifier_leaves_first);
-    RUN_TEST(test_filters_of_a_boot_loader_let_nothing_in);
-    RUN_TEST(test_what_came_before_the_bus_was_lost_is_still_received);
-    RUN_TEST(test_mailboxes_are_written_whole);
-    RUN_TEST(test_a_frame_being_released_does_not_come_twice);
-    RUN_TEST(test_no_interrupt_is_asked_for);
-    return UNITY_END();
 }

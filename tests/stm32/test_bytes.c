@@ -2,7 +2,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include <unity.h>
+#include "tests/test.h"
 
 enum { LENGTHS = 20, OFFSETS = 5, BUFFER = 32, GUARD = 0xEE };
 
@@ -17,8 +17,6 @@ void setUp(void)
         source[i] = (uint8_t)(i + 1);
 }
 
-void tearDown(void) {}
-
 static void guard(void)
 {
     for (unsigned i = 0; i < BUFFER; i++)
@@ -32,7 +30,7 @@ static void assert_guarded_but(unsigned offset, unsigned length)
             TEST_ASSERT_EQUAL_HEX8(GUARD, buffer[i]);
 }
 
-static void test_bytes_are_copied_from_and_to_any_address(void)
+TEST(bytes_are_copied_from_and_to_any_address)
 {
     for (unsigned length = 0; length < LENGTHS; length++)
         for (unsigned offset = 0; offset < OFFSETS; offset++) {
@@ -44,7 +42,7 @@ static void test_bytes_are_copied_from_and_to_any_address(void)
         }
 }
 
-static void test_bytes_are_set_at_any_address(void)
+TEST(bytes_are_set_at_any_address)
 {
     for (unsigned length = 0; length < LENGTHS; length++)
         for (unsigned offset = 0; offset < OFFSETS; offset++) {
@@ -56,19 +54,10 @@ static void test_bytes_are_set_at_any_address(void)
         }
 }
 
-static void test_of_a_value_the_lowest_byte_counts(void)
+TEST(of_a_value_the_lowest_byte_counts)
 {
     octet_memset(buffer, 0x1FF, 7);
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, buffer, 7);
     octet_memset(buffer, -128, 7);
     TEST_ASSERT_EACH_EQUAL_HEX8(0x80, buffer, 7);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_bytes_are_copied_from_and_to_any_address);
-    RUN_TEST(test_bytes_are_set_at_any_address);
-    RUN_TEST(test_of_a_value_the_lowest_byte_counts);
-    return UNITY_END();
 }

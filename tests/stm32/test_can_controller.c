@@ -1,6 +1,5 @@
 /* What every CAN controller's driver has to do, without the link on top of it. Built once with each rig. */
-#include <unity.h>
-
+#include "tests/test.h"
 #include "can_rig.h"
 #include "hal/stm32/can_controller.h"
 #include "hal/stm32/can_timing.h"
@@ -16,8 +15,6 @@ void setUp(void)
     can_start();
     rig_pass_us(100);
 }
-
-void tearDown(void) {}
 
 static bool put(uint32_t id, uint8_t number)
 {
@@ -40,12 +37,12 @@ static uint32_t waiting(void)
     return can_waiting(ids);
 }
 
-static void test_nothing_waits_on_an_idle_bus(void)
+TEST(nothing_waits_on_an_idle_bus)
 {
     TEST_ASSERT_EQUAL_HEX32(0, waiting());
 }
 
-static void test_what_waits_is_told_with_its_identifiers(void)
+TEST(what_waits_is_told_with_its_identifiers)
 {
     static const uint32_t expected[] = {0x100, 0x7FF, 0x001};
     uint32_t ids[CAN_BUFFERS];
@@ -59,7 +56,7 @@ static void test_what_waits_is_told_with_its_identifiers(void)
     TEST_ASSERT_EQUAL_HEX32(5, waiting());
 }
 
-static void test_a_full_controller_takes_no_more(void)
+TEST(a_full_controller_takes_no_more)
 {
     rig_block(true);
     for (unsigned n = 0; n < CAN_BUFFERS; n++)
@@ -68,7 +65,7 @@ static void test_a_full_controller_takes_no_more(void)
 }
 
 /* Equal identifiers leave by number of buffer. */
-static void test_a_frame_takes_no_buffer_from_which_it_would_overtake_an_equal_one(void)
+TEST(a_frame_takes_no_buffer_from_which_it_would_overtake_an_equal_one)
 {
     for (uint32_t free = 1; free < 7; free++) {
         bool last_is_free = free >> 2 & 1u;
@@ -84,7 +81,7 @@ static void test_a_frame_takes_no_buffer_from_which_it_would_overtake_an_equal_o
     }
 }
 
-static void test_an_equal_frame_in_the_last_buffer_keeps_the_free_ones_before_it_free(void)
+TEST(an_equal_frame_in_the_last_buffer_keeps_the_free_ones_before_it_free)
 {
     rig_block(true);
     for (uint8_t n = 0; n < CAN_BUFFERS; n++)
@@ -93,7 +90,7 @@ static void test_an_equal_frame_in_the_last_buffer_keeps_the_free_ones_before_it
     TEST_ASSERT_FALSE(put(0x100, 9));
 }
 
-static void test_an_equal_frame_that_waits_in_an_earlier_buffer_is_no_obstacle(void)
+TEST(an_equal_frame_that_waits_in_an_earlier_buffer_is_no_obstacle)
 {
     rig_block(true);
     for (uint8_t n = 0; n < CAN_BUFFERS; n++)
@@ -107,7 +104,7 @@ static void test_an_equal_frame_that_waits_in_an_earlier_buffer_is_no_obstacle(v
     TEST_ASSERT_EQUAL_UINT8(7, rig_sent(2)->data[0]);
 }
 
-static void test_frames_of_other_identifiers_take_any_buffer(void)
+TEST(frames_of_other_identifiers_take_any_buffer)
 {
     static const uint32_t others[] = {0x0FF, 0x101};
 
@@ -123,7 +120,7 @@ static void test_frames_of_other_identifiers_take_any_buffer(void)
 }
 
 /* A buffer keeps the identifier of what has left it. */
-static void test_frames_that_have_left_are_no_obstacle(void)
+TEST(frames_that_have_left_are_no_obstacle)
 {
     for (uint8_t n = 0; n < 2; n++)
         TEST_ASSERT_TRUE(put(0x100, n));
@@ -133,7 +130,7 @@ static void test_frames_that_have_left_are_no_obstacle(void)
         TEST_ASSERT_TRUE(put(0x100, n));
 }
 
-static void test_a_controller_that_does_not_leave_the_bus_is_waited_for_as_long_as_a_frame_may_take(void)
+TEST(a_controller_that_does_not_leave_the_bus_is_waited_for_as_long_as_a_frame_may_take)
 {
     uint32_t start;
 
@@ -143,19 +140,4 @@ static void test_a_controller_that_does_not_leave_the_bus_is_waited_for_as_long_
     start = rig_ms();
     TEST_ASSERT_FALSE(can_stop());
     TEST_ASSERT_EQUAL_UINT32(start + CAN_STOP_MS + 1, rig_ms());
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_nothing_waits_on_an_idle_bus);
-    RUN_TEST(test_what_waits_is_told_with_its_identifiers);
-    RUN_TEST(test_a_full_controller_takes_no_more);
-    RUN_TEST(test_a_frame_takes_no_buffer_from_which_it_would_overtake_an_equal_one);
-    RUN_TEST(test_an_equal_frame_in_the_last_buffer_keeps_the_free_ones_before_it_free);
-    RUN_TEST(test_an_equal_frame_that_waits_in_an_earlier_buffer_is_no_obstacle);
-    RUN_TEST(test_frames_of_other_identifiers_take_any_buffer);
-    RUN_TEST(test_frames_that_have_left_are_no_obstacle);
-    RUN_TEST(test_a_controller_that_does_not_leave_the_bus_is_waited_for_as_long_as_a_frame_may_take);
-    return UNITY_END();
 }

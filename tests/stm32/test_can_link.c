@@ -9,11 +9,9 @@ void setUp(void)
     rig_pass_us(100);
 }
 
-void tearDown(void) {}
-
 /* ---- opening */
 
-static void test_the_bit_rate_is_500_kbit_s_from_every_clock_it_may_run_at(void)
+TEST(the_bit_rate_is_500_kbit_s_from_every_clock_it_may_run_at)
 {
     for (const uint32_t *hz = RIG_CLOCKS_HZ; *hz != 0; hz++) {
         struct rig_bit bit;
@@ -28,7 +26,7 @@ static void test_the_bit_rate_is_500_kbit_s_from_every_clock_it_may_run_at(void)
     }
 }
 
-static void test_a_clock_without_a_divisor_for_500_kbit_s_does_not_open(void)
+TEST(a_clock_without_a_divisor_for_500_kbit_s_does_not_open)
 {
     rig_reset();
     rig_set_clock(36000000 + 500);
@@ -39,14 +37,14 @@ static void test_a_clock_without_a_divisor_for_500_kbit_s_does_not_open(void)
     TEST_ASSERT_EQUAL(LINK_E_OPEN, open_it());
 }
 
-static void test_a_clock_of_8_quanta_will_do(void)
+TEST(a_clock_of_8_quanta_will_do)
 {
     rig_reset();
     rig_set_clock(8 * 500000);
     TEST_ASSERT_EQUAL(0, open_it());
 }
 
-static void test_a_controller_that_does_not_answer_is_given_up_soon(void)
+TEST(a_controller_that_does_not_answer_is_given_up_soon)
 {
     rig_reset();
     rig_fall_silent();
@@ -54,7 +52,7 @@ static void test_a_controller_that_does_not_answer_is_given_up_soon(void)
     TEST_ASSERT_LESS_THAN_UINT32(5, rig_ms());
 }
 
-static void test_the_filters_pass_what_is_wanted_and_nothing_else(void)
+TEST(the_filters_pass_what_is_wanted_and_nothing_else)
 {
     for (uint32_t id = 0; id <= 0x7FF; id++)
         TEST_ASSERT_EQUAL(id == WANTED[0] || id == WANTED[1] ? 0 : -1, rig_fifo_for(id));
@@ -69,14 +67,14 @@ static void open_family(void)
     rig_pass_us(100);
 }
 
-static void test_a_family_is_let_through_whole_and_waits_apart(void)
+TEST(a_family_is_let_through_whole_and_waits_apart)
 {
     open_family();
     for (uint32_t id = 0; id <= 0x7FF; id++)
         TEST_ASSERT_EQUAL(id == 0x0C1 ? 0 : id >= 0x680 && id <= 0x69F ? 1 : -1, rig_fifo_for(id));
 }
 
-static void test_it_does_not_matter_which_of_them_is_a_family(void)
+TEST(it_does_not_matter_which_of_them_is_a_family)
 {
     static const uint16_t ids[] = {LINK_FAMILY | 0x680, 0x0C1};
 
@@ -87,7 +85,7 @@ static void test_it_does_not_matter_which_of_them_is_a_family(void)
         TEST_ASSERT_EQUAL(id == 0x0C1 ? 0 : id >= 0x680 && id <= 0x69F ? 1 : -1, rig_fifo_for(id));
 }
 
-static void test_the_filters_hold_eight_identifiers_and_not_nine(void)
+TEST(the_filters_hold_eight_identifiers_and_not_nine)
 {
     static const uint16_t ids[] = {1, 2, 3, 4, 5, 6, 7, 0x7FF, 9};
 
@@ -101,7 +99,7 @@ static void test_the_filters_hold_eight_identifiers_and_not_nine(void)
 
 /* ---- receiving */
 
-static void test_a_frame_comes_in_as_it_is(void)
+TEST(a_frame_comes_in_as_it_is)
 {
     struct frame frame = numbered(0x0C1, 9);
 
@@ -109,7 +107,7 @@ static void test_a_frame_comes_in_as_it_is(void)
     assert_receives(&frame);
 }
 
-static void test_frames_come_in_their_order_and_once(void)
+TEST(frames_come_in_their_order_and_once)
 {
     for (uint8_t n = 0; n < 3; n++)
         rig_bring(&(struct frame){.id = 0x0C1, .len = 1, .data = {n}});
@@ -118,13 +116,13 @@ static void test_frames_come_in_their_order_and_once(void)
     wait_ms(1);
 }
 
-static void test_bytes_beyond_the_length_are_zero(void)
+TEST(bytes_beyond_the_length_are_zero)
 {
     rig_bring(&(struct frame){.id = 0x0C1, .len = 2, .data = {1, 2, 3, 4, 5, 6, 7, 8}});
     assert_receives(&(struct frame){.id = 0x0C1, .len = 2, .data = {1, 2}});
 }
 
-static void test_a_length_beyond_8_means_8(void)
+TEST(a_length_beyond_8_means_8)
 {
     struct frame frame = numbered(0x0C1, 0);
 
@@ -134,7 +132,7 @@ static void test_a_length_beyond_8_means_8(void)
     assert_receives(&frame);
 }
 
-static void test_extended_and_remote_frames_are_told_apart(void)
+TEST(extended_and_remote_frames_are_told_apart)
 {
     rig_open_filters();
     rig_bring(&(struct frame){.id = FRAME_EXTENDED | 0x12345678});
@@ -145,7 +143,7 @@ static void test_extended_and_remote_frames_are_told_apart(void)
     assert_receives(&(struct frame){.id = FRAME_REMOTE | 0x0C2});
 }
 
-static void test_silence_is_waited_out(void)
+TEST(silence_is_waited_out)
 {
     uint32_t start = rig_ms();
 
@@ -154,7 +152,7 @@ static void test_silence_is_waited_out(void)
 }
 
 /* Which of them are lost is the controller's business. */
-static void test_lost_frames_are_said_once_and_the_others_come(void)
+TEST(lost_frames_are_said_once_and_the_others_come)
 {
     struct frame frame;
 
@@ -167,7 +165,7 @@ static void test_lost_frames_are_said_once_and_the_others_come(void)
     TEST_ASSERT_EQUAL(0, link_receive(link_here, &frame, 0));
 }
 
-static void test_a_family_that_overruns_pushes_out_nothing_else(void)
+TEST(a_family_that_overruns_pushes_out_nothing_else)
 {
     struct frame frame;
 
@@ -180,31 +178,8 @@ static void test_a_family_that_overruns_pushes_out_nothing_else(void)
     assert_receives(&(struct frame){.id = 0x681, .len = 1});
 }
 
-static void test_there_is_nothing_to_pump(void)
+TEST(there_is_nothing_to_pump)
 {
     line_pump();
     TEST_ASSERT_EQUAL_UINT(0, rig_sent_count());
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_bit_rate_is_500_kbit_s_from_every_clock_it_may_run_at);
-    RUN_TEST(test_a_clock_without_a_divisor_for_500_kbit_s_does_not_open);
-    RUN_TEST(test_a_clock_of_8_quanta_will_do);
-    RUN_TEST(test_a_controller_that_does_not_answer_is_given_up_soon);
-    RUN_TEST(test_the_filters_pass_what_is_wanted_and_nothing_else);
-    RUN_TEST(test_a_family_is_let_through_whole_and_waits_apart);
-    RUN_TEST(test_it_does_not_matter_which_of_them_is_a_family);
-    RUN_TEST(test_the_filters_hold_eight_identifiers_and_not_nine);
-    RUN_TEST(test_a_frame_comes_in_as_it_is);
-    RUN_TEST(test_frames_come_in_their_order_and_once);
-    RUN_TEST(test_bytes_beyond_the_length_are_zero);
-    RUN_TEST(test_a_length_beyond_8_means_8);
-    RUN_TEST(test_extended_and_remote_frames_are_told_apart);
-    RUN_TEST(test_silence_is_waited_out);
-    RUN_TEST(test_lost_frames_are_said_once_and_the_others_come);
-    RUN_TEST(test_a_family_that_overruns_pushes_out_nothing_else);
-    RUN_TEST(test_there_is_nothing_to_pump);
-    return UNITY_END();
 }

@@ -8,9 +8,7 @@ void setUp(void)
     rig_pass_us(100);
 }
 
-void tearDown(void) {}
-
-static void test_a_frame_goes_out_as_it_is(void)
+TEST(a_frame_goes_out_as_it_is)
 {
     struct frame frame = {.id = 0x7A5, .len = 3, .data = {0x11, 0x82, 0xF3}};
 
@@ -20,7 +18,7 @@ static void test_a_frame_goes_out_as_it_is(void)
     assert_frame(&frame, rig_sent(0));
 }
 
-static void test_all_eight_bytes_go_out_in_their_order(void)
+TEST(all_eight_bytes_go_out_in_their_order)
 {
     struct frame frame = {.id = 0x001, .len = 8, .data = {0x81, 0x92, 0xA3, 0xB4, 0xC5, 0xD6, 0xE7, 0xF8}};
 
@@ -30,7 +28,7 @@ static void test_all_eight_bytes_go_out_in_their_order(void)
 }
 
 /* All that a robot tells of itself when it is asked: nothing is lost, and the drive is the last. */
-static void test_on_an_idle_bus_frames_leave_in_the_order_sent(void)
+TEST(on_an_idle_bus_frames_leave_in_the_order_sent)
 {
     static const uint32_t ids[] = {ANSWER, HEARTBEAT, MEMORY, MEMORY, 0x781, 0x781, 0x7A1, HEALTH, DRIVE};
     enum { COUNT = sizeof ids / sizeof ids[0] };
@@ -44,7 +42,7 @@ static void test_on_an_idle_bus_frames_leave_in_the_order_sent(void)
     TEST_ASSERT_EQUAL_UINT8(0, health_now().dropped);
 }
 
-static void test_frames_of_one_identifier_never_overtake_each_other(void)
+TEST(frames_of_one_identifier_never_overtake_each_other)
 {
     rig_block(true);
     for (uint8_t n = 0; n < 8; n++)
@@ -57,7 +55,7 @@ static void test_frames_of_one_identifier_never_overtake_each_other(void)
 }
 
 /* Others have all of the bus that identifiers like theirs can have. */
-static void test_a_drive_leaves_at_once_whatever_else_waits(void)
+TEST(a_drive_leaves_at_once_whatever_else_waits)
 {
     rig_occupy(0x300);
     for (uint8_t tick = 0; tick < 8; tick++) {
@@ -74,7 +72,7 @@ static void test_a_drive_leaves_at_once_whatever_else_waits(void)
     }
 }
 
-static void test_what_is_urgent_takes_the_place_of_what_is_least_so(void)
+TEST(what_is_urgent_takes_the_place_of_what_is_least_so)
 {
     rig_block(true);
     send_numbered(HEARTBEAT, 0);
@@ -90,7 +88,7 @@ static void test_what_is_urgent_takes_the_place_of_what_is_least_so(void)
     TEST_ASSERT_EQUAL_UINT8(1, health_now().dropped);
 }
 
-static void test_what_is_less_urgent_than_what_waits_stays_behind_it(void)
+TEST(what_is_less_urgent_than_what_waits_stays_behind_it)
 {
     rig_occupy(0x300);
     send_numbered(HEALTH, 0);
@@ -108,7 +106,7 @@ static void test_what_is_less_urgent_than_what_waits_stays_behind_it(void)
             assert_sent(n + 1, HEARTBEAT, 4);
 }
 
-static void test_a_controller_that_sticks_is_given_up_in_time(void)
+TEST(a_controller_that_sticks_is_given_up_in_time)
 {
     uint32_t start;
 
@@ -121,7 +119,7 @@ static void test_a_controller_that_sticks_is_given_up_in_time(void)
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + LINK_SEND_MS + 6, rig_ms());
 }
 
-static void test_a_bus_that_takes_nothing_is_waited_for_no_longer_than_promised(void)
+TEST(a_bus_that_takes_nothing_is_waited_for_no_longer_than_promised)
 {
     uint32_t start;
 
@@ -134,7 +132,7 @@ static void test_a_bus_that_takes_nothing_is_waited_for_no_longer_than_promised(
     TEST_ASSERT_EQUAL_UINT8(2, health_now().dropped);
 }
 
-static void test_what_no_bus_takes_is_dropped_and_counted_and_the_newest_drive_leaves(void)
+TEST(what_no_bus_takes_is_dropped_and_counted_and_the_newest_drive_leaves)
 {
     unsigned count;
 
@@ -150,7 +148,7 @@ static void test_what_no_bus_takes_is_dropped_and_counted_and_the_newest_drive_l
     assert_sent(0, DRIVE, 2);
 }
 
-static void test_what_waits_leaves_while_the_robot_listens(void)
+TEST(what_waits_leaves_while_the_robot_listens)
 {
     rig_block(true);
     TEST_ASSERT_GREATER_THAN_UINT(8, fill_up());
@@ -158,21 +156,4 @@ static void test_what_waits_leaves_while_the_robot_listens(void)
     wait_ms(5);
     for (uint8_t n = 0; n < 9; n++)
         assert_sent(n, HEARTBEAT, n);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_frame_goes_out_as_it_is);
-    RUN_TEST(test_all_eight_bytes_go_out_in_their_order);
-    RUN_TEST(test_on_an_idle_bus_frames_leave_in_the_order_sent);
-    RUN_TEST(test_frames_of_one_identifier_never_overtake_each_other);
-    RUN_TEST(test_a_drive_leaves_at_once_whatever_else_waits);
-    RUN_TEST(test_what_is_urgent_takes_the_place_of_what_is_least_so);
-    RUN_TEST(test_what_is_less_urgent_than_what_waits_stays_behind_it);
-    RUN_TEST(test_a_controller_that_sticks_is_given_up_in_time);
-    RUN_TEST(test_a_bus_that_takes_nothing_is_waited_for_no_longer_than_promised);
-    RUN_TEST(test_what_no_bus_takes_is_dropped_and_counted_and_the_newest_drive_leaves);
-    RUN_TEST(test_what_waits_leaves_while_the_robot_listens);
-    return UNITY_END();
 }

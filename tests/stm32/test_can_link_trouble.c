@@ -8,9 +8,7 @@ void setUp(void)
     rig_pass_us(100);
 }
 
-void tearDown(void) {}
-
-static void test_a_bus_not_yet_joined_is_down(void)
+TEST(a_bus_not_yet_joined_is_down)
 {
     struct frame frame;
 
@@ -23,7 +21,7 @@ static void test_a_bus_not_yet_joined_is_down(void)
     wait_ms(WAIT_MS);
 }
 
-static void test_bus_off_is_down_for_the_time_asked(void)
+TEST(bus_off_is_down_for_the_time_asked)
 {
     struct frame frame;
     uint32_t start;
@@ -37,7 +35,7 @@ static void test_bus_off_is_down_for_the_time_asked(void)
     TEST_ASSERT_UINT32_WITHIN(6, start + WAIT_MS, rig_ms());
 }
 
-static void test_bus_off_is_recovered_from_and_counted(void)
+TEST(bus_off_is_recovered_from_and_counted)
 {
     struct frame frame;
 
@@ -50,7 +48,7 @@ static void test_bus_off_is_recovered_from_and_counted(void)
     assert_sent(0, 0x100, 7);
 }
 
-static void test_what_waited_when_the_bus_went_off_is_dropped(void)
+TEST(what_waited_when_the_bus_went_off_is_dropped)
 {
     struct frame frame;
 
@@ -64,7 +62,7 @@ static void test_what_waited_when_the_bus_went_off_is_dropped(void)
     TEST_ASSERT_EQUAL_UINT8(5, health_now().dropped);
 }
 
-static void test_a_bus_that_stays_off_is_tried_again_at_a_measured_pace_and_counted_once(void)
+TEST(a_bus_that_stays_off_is_tried_again_at_a_measured_pace_and_counted_once)
 {
     struct frame frame;
     unsigned before = rig_departures();
@@ -84,7 +82,7 @@ static void receive_until_departures(unsigned count)
         TEST_ASSERT_EQUAL(LINK_E_DOWN, link_receive(link_here, &frame, 0));
 }
 
-static void test_the_next_try_comes_a_quarter_of_a_second_after_the_last_or_when_somebody_asks(void)
+TEST(the_next_try_comes_a_quarter_of_a_second_after_the_last_or_when_somebody_asks)
 {
     unsigned before = rig_departures();
     struct frame frame;
@@ -101,7 +99,7 @@ static void test_the_next_try_comes_a_quarter_of_a_second_after_the_last_or_when
     TEST_ASSERT_EQUAL_UINT(before + 3, rig_departures());
 }
 
-static void test_a_bus_with_many_errors_is_still_used(void)
+TEST(a_bus_with_many_errors_is_still_used)
 {
     rig_set_errors(100, 100, false);
     send_numbered(HEARTBEAT, 1);
@@ -109,7 +107,7 @@ static void test_a_bus_with_many_errors_is_still_used(void)
     assert_sent(0, HEARTBEAT, 1);
 }
 
-static void test_bus_off_with_a_dead_controller_stays_bounded(void)
+TEST(bus_off_with_a_dead_controller_stays_bounded)
 {
     struct frame frame;
     uint32_t start;
@@ -121,7 +119,7 @@ static void test_bus_off_with_a_dead_controller_stays_bounded(void)
     TEST_ASSERT_UINT32_WITHIN(5, start + WAIT_MS, rig_ms());
 }
 
-static void test_counters_stay_at_255(void)
+TEST(counters_stay_at_255)
 {
     struct frame frame;
 
@@ -136,7 +134,7 @@ static void test_counters_stay_at_255(void)
     TEST_ASSERT_EQUAL_UINT8(255, health_now().dropped);
 }
 
-static void test_health_tells_the_controllers_own_counters(void)
+TEST(health_tells_the_controllers_own_counters)
 {
     rig_set_errors(100, 120, false);
     TEST_ASSERT_EQUAL_UINT8(100, health_now().tx_errors);
@@ -148,27 +146,10 @@ static void test_health_tells_the_controllers_own_counters(void)
     TEST_ASSERT_EQUAL(BUS_OFF, health_now().state);
 }
 
-static void test_a_closed_link_leaves_the_bus_alone(void)
+TEST(a_closed_link_leaves_the_bus_alone)
 {
     link_close(NULL);
     TEST_ASSERT_FALSE(rig_is_apart());
     link_close(link_here);
     TEST_ASSERT_TRUE(rig_is_apart());
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_bus_not_yet_joined_is_down);
-    RUN_TEST(test_bus_off_is_down_for_the_time_asked);
-    RUN_TEST(test_bus_off_is_recovered_from_and_counted);
-    RUN_TEST(test_what_waited_when_the_bus_went_off_is_dropped);
-    RUN_TEST(test_a_bus_that_stays_off_is_tried_again_at_a_measured_pace_and_counted_once);
-    RUN_TEST(test_the_next_try_comes_a_quarter_of_a_second_after_the_last_or_when_somebody_asks);
-    RUN_TEST(test_a_bus_with_many_errors_is_still_used);
-    RUN_TEST(test_bus_off_with_a_dead_controller_stays_bounded);
-    RUN_TEST(test_counters_stay_at_255);
-    RUN_TEST(test_health_tells_the_controllers_own_counters);
-    RUN_TEST(test_a_closed_link_leaves_the_bus_alone);
-    return UNITY_END();
 }

@@ -1,14 +1,14 @@
 /* What waits: frames leave once, in their order, as long as there is room. */
 #include "can_queue_rig.h"
 
-static void test_a_frame_goes_straight_to_an_idle_controller(void)
+TEST(a_frame_goes_straight_to_an_idle_controller)
 {
     TEST_ASSERT_TRUE(put(HEALTH, 1));
     TEST_ASSERT_EQUAL_HEX32(1, controller.waiting);
     TEST_ASSERT_EQUAL_UINT8(0, queue.count);
 }
 
-static void test_the_controllers_last_buffer_is_kept_for_what_is_urgent(void)
+TEST(the_controllers_last_buffer_is_kept_for_what_is_urgent)
 {
     block();
     for (uint8_t n = 0; n < 5; n++)
@@ -22,7 +22,7 @@ static void test_the_controllers_last_buffer_is_kept_for_what_is_urgent(void)
     TEST_ASSERT_EQUAL_UINT8(3, queue.count);
 }
 
-static void test_a_free_buffer_is_made_use_of_at_once(void)
+TEST(a_free_buffer_is_made_use_of_at_once)
 {
     block();
     TEST_ASSERT_TRUE(put(HEARTBEAT, 0));
@@ -30,7 +30,7 @@ static void test_a_free_buffer_is_made_use_of_at_once(void)
     TEST_ASSERT_EQUAL_HEX32(3, controller.waiting);
 }
 
-static void test_all_that_was_put_leaves_once_and_in_its_order(void)
+TEST(all_that_was_put_leaves_once_and_in_its_order)
 {
     for (unsigned round = 0; round < 5; round++)
         for (uint8_t n = 0; n < 11; n++)
@@ -41,7 +41,7 @@ static void test_all_that_was_put_leaves_once_and_in_its_order(void)
         assert_sent(n, HEARTBEAT, (uint8_t)(n % 11));
 }
 
-static void test_a_full_queue_takes_one_more_as_soon_as_one_has_left(void)
+TEST(a_full_queue_takes_one_more_as_soon_as_one_has_left)
 {
     uint32_t start;
 
@@ -52,7 +52,7 @@ static void test_a_full_queue_takes_one_more_as_soon_as_one_has_left(void)
     TEST_ASSERT_LESS_THAN_UINT32(start + 1000, controller.now_us);
 }
 
-static void test_a_queue_with_room_makes_nobody_wait(void)
+TEST(a_queue_with_room_makes_nobody_wait)
 {
     block();
     TEST_ASSERT_TRUE(put(HEARTBEAT, 0));
@@ -64,7 +64,7 @@ static void test_a_queue_with_room_makes_nobody_wait(void)
     }
 }
 
-static void test_a_queue_with_room_waits_for_no_frame_to_leave(void)
+TEST(a_queue_with_room_waits_for_no_frame_to_leave)
 {
     uint32_t start;
 
@@ -78,7 +78,7 @@ static void test_a_queue_with_room_waits_for_no_frame_to_leave(void)
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + 500, controller.now_us);
 }
 
-static void test_a_queue_that_stays_full_takes_no_more_and_counts_it(void)
+TEST(a_queue_that_stays_full_takes_no_more_and_counts_it)
 {
     block();
     for (uint8_t n = 0; n < 10; n++)
@@ -89,7 +89,7 @@ static void test_a_queue_that_stays_full_takes_no_more_and_counts_it(void)
 }
 
 /* A controller need not take a frame for which it has a buffer: see can_put. */
-static void test_a_full_queue_overwrites_nothing_where_the_controller_takes_no_more(void)
+TEST(a_full_queue_overwrites_nothing_where_the_controller_takes_no_more)
 {
     for (uint32_t inside = 0; inside <= 1; inside++) {
         setUp();
@@ -104,7 +104,7 @@ static void test_a_full_queue_overwrites_nothing_where_the_controller_takes_no_m
     }
 }
 
-static void test_what_is_dropped_is_counted_and_the_count_stays_at_255(void)
+TEST(what_is_dropped_is_counted_and_the_count_stays_at_255)
 {
     block();
     for (uint8_t n = 0; n < 5; n++)
@@ -118,20 +118,4 @@ static void test_what_is_dropped_is_counted_and_the_count_stays_at_255(void)
         TEST_ASSERT_TRUE(put(HEARTBEAT, n));
     can_queue_drop(&queue);
     TEST_ASSERT_EQUAL_UINT8(255, queue.dropped);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_frame_goes_straight_to_an_idle_controller);
-    RUN_TEST(test_the_controllers_last_buffer_is_kept_for_what_is_urgent);
-    RUN_TEST(test_a_free_buffer_is_made_use_of_at_once);
-    RUN_TEST(test_all_that_was_put_leaves_once_and_in_its_order);
-    RUN_TEST(test_a_full_queue_takes_one_more_as_soon_as_one_has_left);
-    RUN_TEST(test_a_queue_with_room_makes_nobody_wait);
-    RUN_TEST(test_a_queue_with_room_waits_for_no_frame_to_leave);
-    RUN_TEST(test_a_queue_that_stays_full_takes_no_more_and_counts_it);
-    RUN_TEST(test_a_full_queue_overwrites_nothing_where_the_controller_takes_no_more);
-    RUN_TEST(test_what_is_dropped_is_counted_and_the_count_stays_at_255);
-    return UNITY_END();
 }

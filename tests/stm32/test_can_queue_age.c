@@ -8,7 +8,7 @@ static void wait_since_last_left(uint32_t ms)
     controller.now_us = 1000 * (now_ms() + ms);
 }
 
-static void test_what_has_waited_for_as_long_as_promised_is_still_sent(void)
+TEST(what_has_waited_for_as_long_as_promised_is_still_sent)
 {
     block();
     TEST_ASSERT_TRUE(put(HEALTH, 0));
@@ -17,7 +17,7 @@ static void test_what_has_waited_for_as_long_as_promised_is_still_sent(void)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-static void test_what_has_waited_for_longer_is_dropped_and_the_new_one_goes_straight_away(void)
+TEST(what_has_waited_for_longer_is_dropped_and_the_new_one_goes_straight_away)
 {
     block();
     TEST_ASSERT_TRUE(put(HEALTH, 0));
@@ -29,7 +29,7 @@ static void test_what_has_waited_for_longer_is_dropped_and_the_new_one_goes_stra
     TEST_ASSERT_EQUAL_HEX32(MEMORY, controller.buffers[0].id);
 }
 
-static void test_a_controller_that_keeps_what_is_out_of_date_holds_the_new_one_up(void)
+TEST(a_controller_that_keeps_what_is_out_of_date_holds_the_new_one_up)
 {
     block();
     controller.keeps = true;
@@ -41,7 +41,7 @@ static void test_a_controller_that_keeps_what_is_out_of_date_holds_the_new_one_u
     TEST_ASSERT_EQUAL_UINT8(1, queue.count);
 }
 
-static void test_what_gives_way_makes_the_others_no_younger(void)
+TEST(what_gives_way_makes_the_others_no_younger)
 {
     uint32_t start;
 
@@ -54,7 +54,7 @@ static void test_what_gives_way_makes_the_others_no_younger(void)
     TEST_ASSERT_EQUAL_UINT8(1 + 3, queue.dropped);
 }
 
-static void test_a_long_silence_makes_nothing_out_of_date(void)
+TEST(a_long_silence_makes_nothing_out_of_date)
 {
     TEST_ASSERT_TRUE(put(HEALTH, 0));
     pass_ms(2);
@@ -65,7 +65,7 @@ static void test_a_long_silence_makes_nothing_out_of_date(void)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-static void test_as_long_as_something_leaves_nothing_is_out_of_date(void)
+TEST(as_long_as_something_leaves_nothing_is_out_of_date)
 {
     controller.frame_us = 8000;
     for (uint8_t n = 0; n < 6; n++)
@@ -79,23 +79,10 @@ static void test_as_long_as_something_leaves_nothing_is_out_of_date(void)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-static void test_nothing_that_waits_is_dropped_for_nothing(void)
+TEST(nothing_that_waits_is_dropped_for_nothing)
 {
     queue.moved_ms = now_ms() - 1000;
     TEST_ASSERT_TRUE(put(HEALTH, 0));
     TEST_ASSERT_EQUAL_HEX32(0, controller.aborted);
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_what_has_waited_for_as_long_as_promised_is_still_sent);
-    RUN_TEST(test_what_has_waited_for_longer_is_dropped_and_the_new_one_goes_straight_away);
-    RUN_TEST(test_a_controller_that_keeps_what_is_out_of_date_holds_the_new_one_up);
-    RUN_TEST(test_what_gives_way_makes_the_others_no_younger);
-    RUN_TEST(test_a_long_silence_makes_nothing_out_of_date);
-    RUN_TEST(test_as_long_as_something_leaves_nothing_is_out_of_date);
-    RUN_TEST(test_nothing_that_waits_is_dropped_for_nothing);
-    return UNITY_END();
 }

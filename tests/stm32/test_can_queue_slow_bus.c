@@ -9,7 +9,7 @@ static void fill_queue(uint32_t frame_us)
         TEST_ASSERT_TRUE(put(HEARTBEAT, n));
 }
 
-static void test_an_urgent_frame_waits_no_longer_than_promised(void)
+TEST(an_urgent_frame_waits_no_longer_than_promised)
 {
     uint32_t start;
 
@@ -19,7 +19,7 @@ static void test_an_urgent_frame_waits_no_longer_than_promised(void)
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(start + LINK_SEND_MS + 1, now_ms());
 }
 
-static void test_a_frame_leaves_in_time_to_let_the_next_one_in(void)
+TEST(a_frame_leaves_in_time_to_let_the_next_one_in)
 {
     uint32_t start;
 
@@ -30,7 +30,7 @@ static void test_a_frame_leaves_in_time_to_let_the_next_one_in(void)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-static void test_a_frame_is_stuck_only_once_it_has_had_time_to_leave(void)
+TEST(a_frame_is_stuck_only_once_it_has_had_time_to_leave)
 {
     controller.frame_us = 1990;
     TEST_ASSERT_TRUE(put(HEARTBEAT, 0));
@@ -38,13 +38,4 @@ static void test_a_frame_is_stuck_only_once_it_has_had_time_to_leave(void)
     pass_ms(5);
     assert_sent(0, HEARTBEAT, 0);
     assert_sent(1, DRIVE, 1);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_an_urgent_frame_waits_no_longer_than_promised);
-    RUN_TEST(test_a_frame_leaves_in_time_to_let_the_next_one_in);
-    RUN_TEST(test_a_frame_is_stuck_only_once_it_has_had_time_to_leave);
-    return UNITY_END();
 }

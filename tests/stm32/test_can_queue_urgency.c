@@ -1,7 +1,7 @@
 /* What is urgent: it goes last on a bus that takes frames, and first on one that does not. */
 #include "can_queue_rig.h"
 
-static void test_on_a_bus_that_takes_frames_the_urgent_one_lets_them_all_go_first(void)
+TEST(on_a_bus_that_takes_frames_the_urgent_one_lets_them_all_go_first)
 {
     for (uint8_t n = 0; n < 9; n++)
         TEST_ASSERT_TRUE(put(HEARTBEAT, n));
@@ -12,7 +12,7 @@ static void test_on_a_bus_that_takes_frames_the_urgent_one_lets_them_all_go_firs
     assert_sent(9, DRIVE, 9);
 }
 
-static void test_even_a_single_one_goes_first(void)
+TEST(even_a_single_one_goes_first)
 {
     TEST_ASSERT_TRUE(put(HEALTH, 0));
     TEST_ASSERT_TRUE(put(ANSWER, 1));
@@ -22,7 +22,7 @@ static void test_even_a_single_one_goes_first(void)
 }
 
 /* A frame is stuck once it has not left for longer than one can take: 0.27 ms at 500 kbit/s, which makes 1 whole ms. */
-static void test_frames_that_leave_in_a_millisecond_are_let_go_first(void)
+TEST(frames_that_leave_in_a_millisecond_are_let_go_first)
 {
     uint32_t start = controller.now_us;
 
@@ -36,7 +36,7 @@ static void test_frames_that_leave_in_a_millisecond_are_let_go_first(void)
     assert_sent(2, DRIVE, 2);
 }
 
-static void test_a_bus_without_room_for_the_others_is_not_waited_for(void)
+TEST(a_bus_without_room_for_the_others_is_not_waited_for)
 {
     uint32_t start;
 
@@ -53,7 +53,7 @@ static void test_a_bus_without_room_for_the_others_is_not_waited_for(void)
 }
 
 /* With others' frames between ours, each of ours leaves, but all of them would take too long. */
-static void test_many_that_leave_slowly_are_waited_for_as_long_as_an_idle_bus_needs(void)
+TEST(many_that_leave_slowly_are_waited_for_as_long_as_an_idle_bus_needs)
 {
     uint32_t start;
     unsigned before;
@@ -72,7 +72,7 @@ static void test_many_that_leave_slowly_are_waited_for_as_long_as_an_idle_bus_ne
     assert_sent(before + 4, DRIVE, 9);
 }
 
-static void test_what_is_as_urgent_as_what_waits_stays_behind_it(void)
+TEST(what_is_as_urgent_as_what_waits_stays_behind_it)
 {
     block();
     TEST_ASSERT_TRUE(put(HEALTH, 0));
@@ -83,7 +83,7 @@ static void test_what_is_as_urgent_as_what_waits_stays_behind_it(void)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-static void test_each_that_waits_is_asked_whether_it_is_more_urgent(void)
+TEST(each_that_waits_is_asked_whether_it_is_more_urgent)
 {
     block();
     queue.first = 6;
@@ -103,7 +103,7 @@ static void test_each_that_waits_is_asked_whether_it_is_more_urgent(void)
 }
 
 /* A frame that has left the queue is not asked any more, nor is a buffer that is free. */
-static void test_what_no_longer_waits_is_not_asked(void)
+TEST(what_no_longer_waits_is_not_asked)
 {
     controller.ids_elsewhere = 1;
     block();
@@ -116,7 +116,7 @@ static void test_what_no_longer_waits_is_not_asked(void)
     TEST_ASSERT_EQUAL_HEX32(DRIVE, controller.buffers[2].id);
 }
 
-static void test_the_least_urgent_gives_way_wherever_it_is(void)
+TEST(the_least_urgent_gives_way_wherever_it_is)
 {
     static const uint32_t ids[3][3] = {{HEALTH, MEMORY, ANSWER}, {MEMORY, HEALTH, ANSWER}, {MEMORY, ANSWER, HEALTH}};
 
@@ -130,7 +130,7 @@ static void test_the_least_urgent_gives_way_wherever_it_is(void)
     }
 }
 
-static void test_nothing_gives_way_while_a_buffer_is_free(void)
+TEST(nothing_gives_way_while_a_buffer_is_free)
 {
     fill_controller(HEALTH, HEALTH, HEALTH);
     controller.waiting = 3;
@@ -139,7 +139,7 @@ static void test_nothing_gives_way_while_a_buffer_is_free(void)
     TEST_ASSERT_EQUAL_UINT8(0, queue.dropped);
 }
 
-static void test_a_controller_that_gives_nothing_up_is_waited_for_no_longer_than_promised(void)
+TEST(a_controller_that_gives_nothing_up_is_waited_for_no_longer_than_promised)
 {
     uint32_t start;
 
@@ -151,21 +151,4 @@ static void test_a_controller_that_gives_nothing_up_is_waited_for_no_longer_than
     TEST_ASSERT_EQUAL_UINT8(2, queue.dropped);   /* the one that was to give way, and the drive */
     TEST_ASSERT_FALSE(put(DRIVE, 2));
     TEST_ASSERT_EQUAL_UINT8(2 + 3 + 2, queue.dropped);   /* all of it is out of date by now, and the same again */
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_on_a_bus_that_takes_frames_the_urgent_one_lets_them_all_go_first);
-    RUN_TEST(test_even_a_single_one_goes_first);
-    RUN_TEST(test_frames_that_leave_in_a_millisecond_are_let_go_first);
-    RUN_TEST(test_a_bus_without_room_for_the_others_is_not_waited_for);
-    RUN_TEST(test_many_that_leave_slowly_are_waited_for_as_long_as_an_idle_bus_needs);
-    RUN_TEST(test_what_is_as_urgent_as_what_waits_stays_behind_it);
-    RUN_TEST(test_each_that_waits_is_asked_whether_it_is_more_urgent);
-    RUN_TEST(test_what_no_longer_waits_is_not_asked);
-    RUN_TEST(test_the_least_urgent_gives_way_wherever_it_is);
-    RUN_TEST(test_nothing_gives_way_while_a_buffer_is_free);
-    RUN_TEST(test_a_controller_that_gives_nothing_up_is_waited_for_no_longer_than_promised);
-    return UNITY_END();
 }

@@ -1,7 +1,5 @@
 #include "hal/stm32/comes_up.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/port/cortex_m/systick.h"
 
 enum { LIMIT_MS = 7 };
@@ -22,41 +20,29 @@ void setUp(void)
     now_ms = ready_ms = 0;
 }
 
-void tearDown(void) {}
-
-static void test_what_is_there_is_seen(void)
+TEST(what_is_there_is_seen)
 {
     TEST_ASSERT_TRUE(comes_up(&reg, 0x30, 0x30, LIMIT_MS));
     TEST_ASSERT_TRUE(comes_up(&reg, 0x0F, 0, LIMIT_MS));
     TEST_ASSERT_LESS_OR_EQUAL_UINT32(2, now_ms);
 }
 
-static void test_what_comes_in_time_is_waited_for(void)
+TEST(what_comes_in_time_is_waited_for)
 {
     ready_ms = LIMIT_MS;
     TEST_ASSERT_TRUE(comes_up(&reg, 0x30, 0x30, LIMIT_MS));
 }
 
-static void test_what_never_comes_is_given_up_in_time(void)
+TEST(what_never_comes_is_given_up_in_time)
 {
     TEST_ASSERT_FALSE(comes_up(&reg, 0x31, 0x31, LIMIT_MS));
     TEST_ASSERT_UINT32_WITHIN(1, LIMIT_MS + 2, now_ms);
     TEST_ASSERT_FALSE(comes_up(&reg, 0x30, 0x10, LIMIT_MS));
 }
 
-static void test_it_does_not_matter_how_late_it_is(void)
+TEST(it_does_not_matter_how_late_it_is)
 {
     now_ms = 1000;
     ready_ms = now_ms + LIMIT_MS;
     TEST_ASSERT_TRUE(comes_up(&reg, 0x30, 0x30, LIMIT_MS));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_what_is_there_is_seen);
-    RUN_TEST(test_what_comes_in_time_is_waited_for);
-    RUN_TEST(test_it_does_not_matter_how_late_it_is);
-    RUN_TEST(test_what_never_comes_is_given_up_in_time);
-    return UNITY_END();
 }

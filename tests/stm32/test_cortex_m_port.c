@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/flash_store/flash.h"
 #include "hal/flash_store/flash_store.h"
 #include "hal/port/cortex_m/core.h"
@@ -91,9 +90,7 @@ void setUp(void)
     memset(&board, 0, sizeof board);
 }
 
-void tearDown(void) {}
-
-static void test_it_opens_as_what_it_was_built_for(void)
+TEST(it_opens_as_what_it_was_built_for)
 {
     struct port port;
 
@@ -107,7 +104,7 @@ static void test_it_opens_as_what_it_was_built_for(void)
     TEST_ASSERT_TRUE(port.clock_exact);
 }
 
-static void test_a_reset_after_a_crash_is_told_as_one(void)
+TEST(a_reset_after_a_crash_is_told_as_one)
 {
     struct port port;
 
@@ -117,7 +114,7 @@ static void test_a_reset_after_a_crash_is_told_as_one(void)
     TEST_ASSERT_FALSE(port.clock_exact);
 }
 
-static void test_the_led_shines_until_the_link_is_open(void)
+TEST(the_led_shines_until_the_link_is_open)
 {
     struct port port;
 
@@ -140,14 +137,14 @@ static unsigned changes_in_a_second(bool outage)
     return changes;
 }
 
-static void test_each_sign_of_life_feeds_the_watchdog(void)
+TEST(each_sign_of_life_feeds_the_watchdog)
 {
     port_alive(false);
     port_alive(true);
     TEST_ASSERT_EQUAL_UINT(2, board.feeds);
 }
 
-static void test_the_led_blinks_at_1_hz_and_in_an_outage_at_4(void)
+TEST(the_led_blinks_at_1_hz_and_in_an_outage_at_4)
 {
     (void)changes_in_a_second(false);
     TEST_ASSERT_EQUAL_UINT(2, changes_in_a_second(false));
@@ -155,13 +152,13 @@ static void test_the_led_blinks_at_1_hz_and_in_an_outage_at_4(void)
     TEST_ASSERT_EQUAL_UINT(8, changes_in_a_second(true));
 }
 
-static void test_its_clock_is_the_machines(void)
+TEST(its_clock_is_the_machines)
 {
     board.now_ms = 0xFFFFFFFE;
     TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFE, port_clock_ms());
 }
 
-static void test_the_memory_is_loaded_from_the_flash(void)
+TEST(the_memory_is_loaded_from_the_flash)
 {
     uint8_t memory[CELL_COUNT] = {0};
 
@@ -172,7 +169,7 @@ static void test_the_memory_is_loaded_from_the_flash(void)
     TEST_ASSERT_EQUAL(HAL_E_STORE, port_load(memory));
 }
 
-static void test_the_memory_is_stored_in_the_flash_which_may_be_erased_at_rest(void)
+TEST(the_memory_is_stored_in_the_flash_which_may_be_erased_at_rest)
 {
     const uint8_t memory[CELL_COUNT] = {0, SIDE_LEFT, SIDE_RIGHT};
 
@@ -186,7 +183,7 @@ static void test_the_memory_is_stored_in_the_flash_which_may_be_erased_at_rest(v
     TEST_ASSERT_EQUAL(HAL_E_STORE, port_store(memory, PORT_QUICKLY));
 }
 
-static void test_without_a_flash_nothing_is_kept_and_nothing_fails(void)
+TEST(without_a_flash_nothing_is_kept_and_nothing_fails)
 {
     uint8_t memory[CELL_COUNT] = {0};
 
@@ -198,27 +195,11 @@ static void test_without_a_flash_nothing_is_kept_and_nothing_fails(void)
 }
 
 /* What RAM held at power-up goes on by a generator of numbers, with the timer's value: known answers from 0. */
-static void test_entropy_is_stirred_with_the_timer_each_time(void)
+TEST(entropy_is_stirred_with_the_timer_each_time)
 {
     SYSTICK.val = 0;
     TEST_ASSERT_EQUAL_HEX32(0x3C6EF35F, port_entropy());
     TEST_ASSERT_EQUAL_HEX32(0x47502932, port_entropy());
     SYSTICK.val = 7;
     TEST_ASSERT_EQUAL_HEX32(0xD27EC144, port_entropy());
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_opens_as_what_it_was_built_for);
-    RUN_TEST(test_a_reset_after_a_crash_is_told_as_one);
-    RUN_TEST(test_the_led_shines_until_the_link_is_open);
-    RUN_TEST(test_each_sign_of_life_feeds_the_watchdog);
-    RUN_TEST(test_the_led_blinks_at_1_hz_and_in_an_outage_at_4);
-    RUN_TEST(test_its_clock_is_the_machines);
-    RUN_TEST(test_the_memory_is_loaded_from_the_flash);
-    RUN_TEST(test_the_memory_is_stored_in_the_flash_which_may_be_erased_at_rest);
-    RUN_TEST(test_without_a_flash_nothing_is_kept_and_nothing_fails);
-    RUN_TEST(test_entropy_is_stirred_with_the_timer_each_time);
-    return UNITY_END();
 }

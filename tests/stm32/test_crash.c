@@ -1,7 +1,5 @@
 #include "hal/port/cortex_m/crash.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/port/cortex_m/core.h"
 #include "octet.h"
 
@@ -19,19 +17,17 @@ void setUp(void)
     SCB.bfar = 0xDEADBEEF;
 }
 
-void tearDown(void) {}
-
 static void crash_at(const uint32_t *frame)
 {
     crash_keep(CRASH_BUS_FAULT, frame, stack, stack + 16);
 }
 
-static void test_after_power_on_there_is_no_crash(void)
+TEST(after_power_on_there_is_no_crash)
 {
     TEST_ASSERT_NULL(crash_last());
 }
 
-static void test_a_crash_is_known_after_the_reset(void)
+TEST(a_crash_is_known_after_the_reset)
 {
     crash_at(&stack[4]);
     TEST_ASSERT_EQUAL(RESET_CRASH, crash_reset_cause(RESET_SOFTWARE));
@@ -39,7 +35,7 @@ static void test_a_crash_is_known_after_the_reset(void)
     TEST_ASSERT_EQUAL_UINT32(CRASH_BUS_FAULT, crash_last()->cause);
 }
 
-static void test_a_crash_keeps_all_registers(void)
+TEST(a_crash_keeps_all_registers)
 {
     const uint32_t *registers;
 
@@ -61,7 +57,7 @@ static void test_a_crash_keeps_all_registers(void)
     TEST_ASSERT_EQUAL_HEX32(0xDEADBEEF, registers[CRASH_BFAR]);
 }
 
-static void test_a_stack_pointer_out_of_the_stack_is_kept_and_not_followed(void)
+TEST(a_stack_pointer_out_of_the_stack_is_kept_and_not_followed)
 {
     static const uint32_t elsewhere[8] = {1, 2, 3, 4, 5, 6, 7, 8};
 
@@ -71,14 +67,14 @@ static void test_a_stack_pointer_out_of_the_stack_is_kept_and_not_followed(void)
     TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_PC]);
 }
 
-static void test_a_frame_below_the_stack_is_not_followed(void)
+TEST(a_frame_below_the_stack_is_not_followed)
 {
     crash_keep(CRASH_BUS_FAULT, &stack[4], stack + 5, stack + 16);
     (void)crash_reset_cause(RESET_SOFTWARE);
     TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
 }
 
-static void test_a_frame_that_ends_beyond_the_stack_is_not_followed(void)
+TEST(a_frame_that_ends_beyond_the_stack_is_not_followed)
 {
     crash_at(&stack[9]);
     (void)crash_reset_cause(RESET_SOFTWARE);
@@ -86,7 +82,7 @@ static void test_a_frame_that_ends_beyond_the_stack_is_not_followed(void)
 }
 
 /* The pointer of a stack that ran wild: behind it there is less room than a frame takes before addresses start over at 0. */
-static void test_a_frame_at_the_end_of_the_address_space_is_not_followed(void)
+TEST(a_frame_at_the_end_of_the_address_space_is_not_followed)
 {
     crash_at((const uint32_t *)(UINTPTR_MAX - 7u));
     (void)crash_reset_cause(RESET_SOFTWARE);
@@ -94,7 +90,7 @@ static void test_a_frame_at_the_end_of_the_address_space_is_not_followed(void)
     TEST_ASSERT_EQUAL_HEX32(0, crash_last()->values[CRASH_R0]);
 }
 
-static void test_a_frame_that_just_fits_is_kept(void)
+TEST(a_frame_that_just_fits_is_kept)
 {
     crash_keep(CRASH_BUS_FAULT, &stack[4], &stack[4], &stack[12]);
     (void)crash_reset_cause(RESET_SOFTWARE);
@@ -103,7 +99,7 @@ static void test_a_frame_that_just_fits_is_kept(void)
 }
 
 /* The RAM may hold on for as long as the supply was low. */
-static void test_power_on_forgets_the_crash_for_good(void)
+TEST(power_on_forgets_the_crash_for_good)
 {
     crash_at(&stack[4]);
     (void)crash_reset_cause(RESET_POWER_ON);
@@ -115,7 +111,7 @@ static void test_power_on_forgets_the_crash_for_good(void)
     TEST_ASSERT_NULL(crash_last());
 }
 
-static void test_an_old_crash_is_still_told_but_was_not_the_cause(void)
+TEST(an_old_crash_is_still_told_but_was_not_the_cause)
 {
     crash_at(&stack[4]);
     (void)crash_reset_cause(RESET_SOFTWARE);
@@ -123,14 +119,14 @@ static void test_an_old_crash_is_still_told_but_was_not_the_cause(void)
     TEST_ASSERT_NOT_NULL(crash_last());
 }
 
-static void test_power_on_forgets_the_crash(void)
+TEST(power_on_forgets_the_crash)
 {
     crash_at(&stack[4]);
     TEST_ASSERT_EQUAL(RESET_POWER_ON, crash_reset_cause(RESET_POWER_ON));
     TEST_ASSERT_NULL(crash_last());
 }
 
-static void test_a_reset_of_another_kind_is_told_as_it_is(void)
+TEST(a_reset_of_another_kind_is_told_as_it_is)
 {
     static const enum reset_cause causes[] = {RESET_PIN, RESET_WATCHDOG, RESET_SOFTWARE, RESET_POWER_ON};
 
@@ -138,14 +134,14 @@ static void test_a_reset_of_another_kind_is_told_as_it_is(void)
         TEST_ASSERT_EQUAL(causes[i], crash_reset_cause(causes[i]));
 }
 
-static void test_a_button_pressed_right_after_a_crash_does_not_hide_the_crash(void)
+TEST(a_button_pressed_right_after_a_crash_does_not_hide_the_crash)
 {
     crash_at(&stack[4]);
     TEST_ASSERT_EQUAL(RESET_PIN, crash_reset_cause(RESET_PIN));
     TEST_ASSERT_NOT_NULL(crash_last());
 }
 
-static void test_a_crash_has_as_many_values_as_the_dbc_has_names(void)
+TEST(a_crash_has_as_many_values_as_the_dbc_has_names)
 {
     crash_at(&stack[4]);
     (void)crash_reset_cause(RESET_SOFTWARE);
@@ -153,7 +149,7 @@ static void test_a_crash_has_as_many_values_as_the_dbc_has_names(void)
     TEST_ASSERT_EQUAL(CRASH_VALUES_MAX, CRASH_REGISTER_COUNT);
 }
 
-static void test_crash_causes_and_registers_are_those_of_the_dbc(void)
+TEST(crash_causes_and_registers_are_those_of_the_dbc)
 {
     TEST_ASSERT_EQUAL(OCTET_CRASH_CAUSE_NMI_CHOICE, CRASH_NMI);
     TEST_ASSERT_EQUAL(OCTET_CRASH_CAUSE_HARD_FAULT_CHOICE, CRASH_HARD_FAULT);
@@ -173,25 +169,4 @@ static void test_crash_causes_and_registers_are_those_of_the_dbc(void)
     TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_HFSR_CHOICE, CRASH_HFSR);
     TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_MMFAR_CHOICE, CRASH_MMFAR);
     TEST_ASSERT_EQUAL(OCTET_CRASH_NAME_BFAR_CHOICE, CRASH_BFAR);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_after_power_on_there_is_no_crash);
-    RUN_TEST(test_a_crash_is_known_after_the_reset);
-    RUN_TEST(test_a_crash_keeps_all_registers);
-    RUN_TEST(test_a_stack_pointer_out_of_the_stack_is_kept_and_not_followed);
-    RUN_TEST(test_a_frame_below_the_stack_is_not_followed);
-    RUN_TEST(test_a_frame_that_ends_beyond_the_stack_is_not_followed);
-    RUN_TEST(test_a_frame_at_the_end_of_the_address_space_is_not_followed);
-    RUN_TEST(test_a_frame_that_just_fits_is_kept);
-    RUN_TEST(test_power_on_forgets_the_crash_for_good);
-    RUN_TEST(test_an_old_crash_is_still_told_but_was_not_the_cause);
-    RUN_TEST(test_power_on_forgets_the_crash);
-    RUN_TEST(test_a_reset_of_another_kind_is_told_as_it_is);
-    RUN_TEST(test_a_button_pressed_right_after_a_crash_does_not_hide_the_crash);
-    RUN_TEST(test_a_crash_has_as_many_values_as_the_dbc_has_names);
-    RUN_TEST(test_crash_causes_and_registers_are_those_of_the_dbc);
-    return UNITY_END();
 }

@@ -2,11 +2,7 @@
 
 #include <string.h>
 
-#include <unity.h>
-
-void setUp(void) {}
-
-void tearDown(void) {}
+#include "tests/test.h"
 
 static uint32_t crc_of(const char *text)
 {
@@ -14,7 +10,7 @@ static uint32_t crc_of(const char *text)
 }
 
 /* The check value of CRC-32/ISO-HDLC in the catalogue of parametrised CRC algorithms; zlib's crc32 gives all of these. */
-static void test_known_bytes_have_their_known_crc(void)
+TEST(known_bytes_have_their_known_crc)
 {
     TEST_ASSERT_EQUAL_HEX32(0xCBF43926, crc_of("123456789"));
     TEST_ASSERT_EQUAL_HEX32(0x00000000, crc_of(""));
@@ -22,7 +18,7 @@ static void test_known_bytes_have_their_known_crc(void)
     TEST_ASSERT_EQUAL_HEX32(0x414FA339, crc_of("The quick brown fox jumps over the lazy dog"));
 }
 
-static void test_zeros_and_ones_count(void)
+TEST(zeros_and_ones_count)
 {
     static const uint8_t zeros[4] = {0, 0, 0, 0}, ones[4] = {0xFF, 0xFF, 0xFF, 0xFF};
 
@@ -30,19 +26,10 @@ static void test_zeros_and_ones_count(void)
     TEST_ASSERT_EQUAL_HEX32(0xFFFFFFFF, crc32(ones, sizeof ones));
 }
 
-static void test_the_count_is_kept_to(void)
+TEST(the_count_is_kept_to)
 {
     static const uint8_t bytes[3] = {'a', 'b', 'c'};
 
     TEST_ASSERT_EQUAL_HEX32(0xE8B7BE43, crc32(bytes, 1));
     TEST_ASSERT_EQUAL_HEX32(0x352441C2, crc32(bytes, 3));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_known_bytes_have_their_known_crc);
-    RUN_TEST(test_zeros_and_ones_count);
-    RUN_TEST(test_the_count_is_kept_to);
-    return UNITY_END();
 }

@@ -1,7 +1,6 @@
 #include <stddef.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "fdcan_model.h"
 #include "hal/link/link.h"
 #include "hal/stm32/fdcan_registers.h"
@@ -16,9 +15,7 @@ void setUp(void)
     fdcan_step();
 }
 
-void tearDown(void) {}
-
-static void test_the_registers_lie_where_the_manual_has_them(void)
+TEST(the_registers_lie_where_the_manual_has_them)
 {
     TEST_ASSERT_EQUAL_HEX(0x018, offsetof(struct fdcan_registers, cccr));
     TEST_ASSERT_EQUAL_HEX(0x01C, offsetof(struct fdcan_registers, nbtp));
@@ -37,7 +34,7 @@ static void test_the_registers_lie_where_the_manual_has_them(void)
     TEST_ASSERT_EQUAL_HEX(0x0E8, offsetof(struct fdcan_registers, txefa));
 }
 
-static void test_the_message_ram_is_laid_out_as_the_manual_has_it(void)
+TEST(the_message_ram_is_laid_out_as_the_manual_has_it)
 {
     TEST_ASSERT_EQUAL_HEX(0x070, offsetof(struct fdcan_ram, extended_filters));
     TEST_ASSERT_EQUAL_HEX(0x0B0, offsetof(struct fdcan_ram, received[0]));
@@ -47,19 +44,19 @@ static void test_the_message_ram_is_laid_out_as_the_manual_has_it(void)
     TEST_ASSERT_EQUAL_HEX(0x350, sizeof(struct fdcan_ram));
 }
 
-static void test_it_speaks_classic_can_without_test_modes_and_the_lowest_identifier_first(void)
+TEST(it_speaks_classic_can_without_test_modes_and_the_lowest_identifier_first)
 {
     TEST_ASSERT_EQUAL_HEX32(0, FDCAN.cccr);
     TEST_ASSERT_EQUAL_HEX32(1 << 24, FDCAN.txbc);
 }
 
-static void test_no_frame_but_those_wanted_gets_in(void)
+TEST(no_frame_but_those_wanted_gets_in)
 {
     TEST_ASSERT_EQUAL_HEX32(3 | 2 << 2 | 2 << 4, FDCAN.rxgfc & 0xFFFF);
     TEST_ASSERT_EQUAL_HEX32(0, FDCAN.rxgfc >> 24);   /* no extended filters */
 }
 
-static void test_an_odd_number_of_identifiers_fits(void)
+TEST(an_odd_number_of_identifiers_fits)
 {
     static const uint16_t three[] = {0x0C1, 0x041, 0x7FF};
 
@@ -69,7 +66,7 @@ static void test_an_odd_number_of_identifiers_fits(void)
         TEST_ASSERT_EQUAL(id == 0x0C1 || id == 0x041 || id == 0x7FF ? 0 : -1, fdcan_fifo_for(id));
 }
 
-static void test_filters_and_losses_of_before_are_forgotten(void)
+TEST(filters_and_losses_of_before_are_forgotten)
 {
     struct frame frame;
 
@@ -84,7 +81,7 @@ static void test_filters_and_losses_of_before_are_forgotten(void)
         TEST_ASSERT_EQUAL(id == WANTED[0] || id == WANTED[1] ? 0 : -1, fdcan_fifo_for(id));
 }
 
-static void test_a_controller_that_leaves_the_bus_forgets_what_waits(void)
+TEST(a_controller_that_leaves_the_bus_forgets_what_waits)
 {
     fdcan.bus_busy = true;
     TEST_ASSERT_EQUAL(0, link_send(link_here, &(struct frame){.id = 0x041}));
@@ -93,7 +90,7 @@ static void test_a_controller_that_leaves_the_bus_forgets_what_waits(void)
     TEST_ASSERT_EQUAL_HEX32(0, FDCAN.txbrp);
 }
 
-static void test_buffers_are_written_whole(void)
+TEST(buffers_are_written_whole)
 {
     struct frame frame = {.id = 0x7A5, .len = 8};
 
@@ -102,7 +99,7 @@ static void test_buffers_are_written_whole(void)
     TEST_ASSERT_EQUAL_HEX32(8u << 16, FDCAN_RAM.sent[0].control);
 }
 
-static void test_the_places_of_the_fifo_are_gone_through_in_a_ring(void)
+TEST(the_places_of_the_fifo_are_gone_through_in_a_ring)
 {
     struct frame frame;
 
@@ -114,7 +111,7 @@ static void test_the_places_of_the_fifo_are_gone_through_in_a_ring(void)
 }
 
 /* Others' frames between ours: each of ours leaves, but slowly. */
-static void test_a_drive_does_not_wait_for_all_of_many_that_leave_slowly(void)
+TEST(a_drive_does_not_wait_for_all_of_many_that_leave_slowly)
 {
     uint32_t start;
 
@@ -127,24 +124,7 @@ static void test_a_drive_does_not_wait_for_all_of_many_that_leave_slowly(void)
     TEST_ASSERT_LESS_THAN_UINT(8, fdcan.sent_count);
 }
 
-static void test_no_interrupt_is_asked_for(void)
+TEST(no_interrupt_is_asked_for)
 {
     TEST_ASSERT_EQUAL_HEX32(0, FDCAN.ie | FDCAN.ile);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_registers_lie_where_the_manual_has_them);
-    RUN_TEST(test_the_message_ram_is_laid_out_as_the_manual_has_it);
-    RUN_TEST(test_it_speaks_classic_can_without_test_modes_and_the_lowest_identifier_first);
-    RUN_TEST(test_no_frame_but_those_wanted_gets_in);
-    RUN_TEST(test_an_odd_number_of_identifiers_fits);
-    RUN_TEST(test_filters_and_losses_of_before_are_forgotten);
-    RUN_TEST(test_a_controller_that_leaves_the_bus_forgets_what_waits);
-    RUN_TEST(test_buffers_are_written_whole);
-    RUN_TEST(test_the_places_of_the_fifo_are_gone_through_in_a_ring);
-    RUN_TEST(test_a_drive_does_not_wait_for_all_of_many_that_leave_slowly);
-    RUN_TEST(test_no_interrupt_is_asked_for);
-    return UNITY_END();
 }

@@ -1,6 +1,5 @@
 /* What every chip's flash has to do. Built once for each chip, with FLASH_EXPECTED: the header that says what is expected of it. */
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/flash_store/flash.h"
 #include FLASH_EXPECTED
 #include "flash_model.h"
@@ -13,8 +12,6 @@ void setUp(void)
 {
     model_reset();
 }
-
-void tearDown(void) {}
 
 static int write_all(unsigned page, uint32_t offset)
 {
@@ -32,7 +29,7 @@ static int erase(unsigned page)
     return result;
 }
 
-static void test_no_setting_but_the_lock_tells_of_a_controller(void)
+TEST(no_setting_but_the_lock_tells_of_a_controller)
 {
     FLASH.cr = ~LOCK;
     TEST_ASSERT_FALSE(flash_exists());
@@ -40,13 +37,13 @@ static void test_no_setting_but_the_lock_tells_of_a_controller(void)
     TEST_ASSERT_TRUE(flash_exists());
 }
 
-static void test_pages_and_what_is_written_at_once_have_their_sizes(void)
+TEST(pages_and_what_is_written_at_once_have_their_sizes)
 {
     TEST_ASSERT_EQUAL_UINT32(PAGE_BYTES, flash_page_size());
     TEST_ASSERT_EQUAL_UINT32(UNIT_BYTES, flash_unit());
 }
 
-static void test_what_is_written_can_be_read_and_nothing_else_has_changed(void)
+TEST(what_is_written_can_be_read_and_nothing_else_has_changed)
 {
     uint32_t words[COUNT];
     uint32_t end = PAGE_BYTES - sizeof WORDS;
@@ -59,7 +56,7 @@ static void test_what_is_written_can_be_read_and_nothing_else_has_changed(void)
         TEST_ASSERT_EQUAL_HEX8(0xFF, ((const volatile uint8_t *)STORE)[at]);
 }
 
-static void test_a_page_is_erased_whole_and_the_other_one_is_not_touched(void)
+TEST(a_page_is_erased_whole_and_the_other_one_is_not_touched)
 {
     for (unsigned page = 0; page < FLASH_PAGES; page++) {
         model_reset();
@@ -71,7 +68,7 @@ static void test_a_page_is_erased_whole_and_the_other_one_is_not_touched(void)
     }
 }
 
-static void test_each_error_of_the_controller_fails_the_operation_and_ends_it(void)
+TEST(each_error_of_the_controller_fails_the_operation_and_ends_it)
 {
     for (uint32_t flag = 1; flag <= ERRORS; flag <<= 1) {
         if (!(flag & ERRORS))
@@ -84,7 +81,7 @@ static void test_each_error_of_the_controller_fails_the_operation_and_ends_it(vo
     }
 }
 
-static void test_errors_left_over_from_before_fail_nothing(void)
+TEST(errors_left_over_from_before_fail_nothing)
 {
     model.flags = ERRORS;
     TEST_ASSERT_EQUAL(0, write_all(0, 0));
@@ -92,7 +89,7 @@ static void test_errors_left_over_from_before_fail_nothing(void)
     TEST_ASSERT_EQUAL(0, erase(0));
 }
 
-static void test_an_operation_is_waited_for_as_long_as_it_takes_and_no_longer(void)
+TEST(an_operation_is_waited_for_as_long_as_it_takes_and_no_longer)
 {
     uint32_t start = model.now_ms;
 
@@ -105,7 +102,7 @@ static void test_an_operation_is_waited_for_as_long_as_it_takes_and_no_longer(vo
     TEST_ASSERT_UINT32_WITHIN(1, 21, model.now_ms - start);
 }
 
-static void test_the_slowest_write_is_waited_for_and_one_that_hangs_is_not(void)
+TEST(the_slowest_write_is_waited_for_and_one_that_hangs_is_not)
 {
     model.busy_ms = WRITE_LIMIT_MS;
     TEST_ASSERT_EQUAL(0, write_all(0, 0));
@@ -115,7 +112,7 @@ static void test_the_slowest_write_is_waited_for_and_one_that_hangs_is_not(void)
     TEST_ASSERT_EQUAL_UINT(1, model.operations);
 }
 
-static void test_the_slowest_erase_is_waited_for_and_one_that_hangs_is_not(void)
+TEST(the_slowest_erase_is_waited_for_and_one_that_hangs_is_not)
 {
     model.busy_ms = ERASE_LIMIT_MS;
     TEST_ASSERT_EQUAL(0, erase(1));
@@ -125,7 +122,7 @@ static void test_the_slowest_erase_is_waited_for_and_one_that_hangs_is_not(void)
 }
 
 /* A cell can lose bits, and a bit can stay as it is. */
-static void test_a_word_that_comes_out_greater_or_smaller_fails_and_ends_the_write(void)
+TEST(a_word_that_comes_out_greater_or_smaller_fails_and_ends_the_write)
 {
     static const store_word others[] = {0, (store_word)-1};
 
@@ -136,20 +133,4 @@ static void test_a_word_that_comes_out_greater_or_smaller_fails_and_ends_the_wri
         TEST_ASSERT_EQUAL(-1, write_all(0, 0));
         TEST_ASSERT_EQUAL_HEX((store_word)-1, STORE[0][COUNT * WRITES_EACH_WORD - 1]);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_no_setting_but_the_lock_tells_of_a_controller);
-    RUN_TEST(test_pages_and_what_is_written_at_once_have_their_sizes);
-    RUN_TEST(test_what_is_written_can_be_read_and_nothing_else_has_changed);
-    RUN_TEST(test_a_page_is_erased_whole_and_the_other_one_is_not_touched);
-    RUN_TEST(test_each_error_of_the_controller_fails_the_operation_and_ends_it);
-    RUN_TEST(test_errors_left_over_from_before_fail_nothing);
-    RUN_TEST(test_an_operation_is_waited_for_as_long_as_it_takes_and_no_longer);
-    RUN_TEST(test_the_slowest_write_is_waited_for_and_one_that_hangs_is_not);
-    RUN_TEST(test_the_slowest_erase_is_waited_for_and_one_that_hangs_is_not);
-    RUN_TEST(test_a_word_that_comes_out_greater_or_smaller_fails_and_ends_the_write);
-    return UNITY_END();
 }

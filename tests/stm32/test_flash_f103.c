@@ -1,8 +1,7 @@
 /* What only this chip's flash does: it writes half a word at a time, and its core stands still meanwhile. */
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/flash_store/flash.h"
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
@@ -42,9 +41,7 @@ void setUp(void)
     FLASH.cr = LOCK;
 }
 
-void tearDown(void) {}
-
-static void test_a_word_is_written_in_halves_and_the_line_is_pumped_after_each(void)
+TEST(a_word_is_written_in_halves_and_the_line_is_pumped_after_each)
 {
     static const uint16_t lower_first[2][2] = {{0x5678, 0xFFFF}, {0x5678, 0x1234}};
     const uint32_t word = 0x12345678;
@@ -54,16 +51,8 @@ static void test_a_word_is_written_in_halves_and_the_line_is_pumped_after_each(v
     TEST_ASSERT_EQUAL_MEMORY(lower_first, pumped.halves, sizeof lower_first);
 }
 
-static void test_the_line_is_pumped_after_an_erase(void)
+TEST(the_line_is_pumped_after_an_erase)
 {
     TEST_ASSERT_EQUAL(0, flash_erase(1));
     TEST_ASSERT_EQUAL_UINT(1, pumped.count);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_word_is_written_in_halves_and_the_line_is_pumped_after_each);
-    RUN_TEST(test_the_line_is_pumped_after_an_erase);
-    return UNITY_END();
 }

@@ -4,8 +4,7 @@
 #include <string.h>
 #include <sys/mman.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/flash_store/flash.h"
 #include "hal/stm32/machine.h"
 #include "hal/stm32/stm32g431/flash_errors.h"
@@ -32,9 +31,7 @@ void setUp(void)
     FLASH.cr = LOCK;
 }
 
-void tearDown(void) {}
-
-static void test_what_cannot_be_corrected_cannot_be_read(void)
+TEST(what_cannot_be_corrected_cannot_be_read)
 {
     uint32_t words[2] = {1, 2};
 
@@ -47,13 +44,13 @@ static void test_what_cannot_be_corrected_cannot_be_read(void)
     TEST_ASSERT_EQUAL(0, flash_write(0, 8, words, sizeof words));
 }
 
-static void test_an_interrupt_is_forgiven_to_nobody_but_the_reader(void)
+TEST(an_interrupt_is_forgiven_to_nobody_but_the_reader)
 {
     FLASH.eccr = TWO_BITS;
     TEST_ASSERT_FALSE(flash_forgives());
 }
 
-static void test_an_address_that_an_old_error_has_left_is_no_error(void)
+TEST(an_address_that_an_old_error_has_left_is_no_error)
 {
     uint32_t words[2];
 
@@ -75,7 +72,7 @@ static void interrupt(int number)
     (void)mprotect((void *)STORE, sizeof STORE, PROT_READ | PROT_WRITE);
 }
 
-static void test_an_interrupt_while_reading_is_forgiven_and_told_once(void)
+TEST(an_interrupt_while_reading_is_forgiven_and_told_once)
 {
     struct sigaction handler = {.sa_handler = interrupt}, before;
     uint32_t words[2];
@@ -89,14 +86,4 @@ static void test_an_interrupt_while_reading_is_forgiven_and_told_once(void)
     TEST_ASSERT_EQUAL(1, interrupts);
     TEST_ASSERT_TRUE(forgiven);
     TEST_ASSERT_EQUAL(0, flash_read(0, 0, words, sizeof words));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_what_cannot_be_corrected_cannot_be_read);
-    RUN_TEST(test_an_interrupt_is_forgiven_to_nobody_but_the_reader);
-    RUN_TEST(test_an_address_that_an_old_error_has_left_is_no_error);
-    RUN_TEST(test_an_interrupt_while_reading_is_forgiven_and_told_once);
-    return UNITY_END();
 }

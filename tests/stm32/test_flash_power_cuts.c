@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "fake_flash.h"
 
 #include "flash_store_rig.h"
@@ -90,7 +89,7 @@ static void cut_everywhere(unsigned before)
                 continue;
 }
 
-static void test_power_cut_anywhere_twice_in_a_row_leaves_old_or_new(void)
+TEST(power_cut_anywhere_twice_in_a_row_leaves_old_or_new)
 {
     FOR_EACH_KIND
         for (unsigned before = 0; before <= 3 * CHANGES; before++)
@@ -98,7 +97,7 @@ static void test_power_cut_anywhere_twice_in_a_row_leaves_old_or_new(void)
 }
 
 /* An erase, a mark and a record, step by step. */
-static void test_the_power_cuts_reach_every_operation(void)
+TEST(the_power_cuts_reach_every_operation)
 {
     FOR_EACH_KIND {
         unsigned last;
@@ -110,7 +109,7 @@ static void test_the_power_cuts_reach_every_operation(void)
     }
 }
 
-static void test_a_page_whose_erase_was_cut_short_is_erased_again_though_it_reads_blank(void)
+TEST(a_page_whose_erase_was_cut_short_is_erased_again_though_it_reads_blank)
 {
     begin_with(2 * CHANGES);
     TEST_ASSERT_TRUE(life_is_cut(100, 1, 2));
@@ -119,7 +118,7 @@ static void test_a_page_whose_erase_was_cut_short_is_erased_again_though_it_read
     TEST_ASSERT_EQUAL_UINT(4, fake_flash.erases);
 }
 
-static void test_an_unreadable_unit_is_passed_over_and_no_blank_flash(void)
+TEST(an_unreadable_unit_is_passed_over_and_no_blank_flash)
 {
     for (kind = KINDS; !kind->corrects; kind++)
         continue;
@@ -131,14 +130,4 @@ static void test_an_unreadable_unit_is_passed_over_and_no_blank_flash(void)
     TEST_ASSERT_EQUAL(HAL_E_STORE, start());
     TEST_ASSERT_EQUAL(0, save(5));
     assert_found(5);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_power_cut_anywhere_twice_in_a_row_leaves_old_or_new);
-    RUN_TEST(test_the_power_cuts_reach_every_operation);
-    RUN_TEST(test_a_page_whose_erase_was_cut_short_is_erased_again_though_it_reads_blank);
-    RUN_TEST(test_an_unreadable_unit_is_passed_over_and_no_blank_flash);
-    return UNITY_END();
 }

@@ -2,24 +2,23 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "fake_flash.h"
 
 #include "flash_store_rig.h"
 
-static void test_a_blank_flash_holds_no_memory(void)
+TEST(a_blank_flash_holds_no_memory)
 {
     TEST_ASSERT_EQUAL(0, start());
 }
 
-static void test_what_was_saved_is_found(void)
+TEST(what_was_saved_is_found)
 {
     save_many(1);
     assert_found(0);
 }
 
-static void test_the_newest_of_many_is_found(void)
+TEST(the_newest_of_many_is_found)
 {
     FOR_EACH_KIND
         for (unsigned count = 1; count <= 5 * CHANGES; count++) {
@@ -32,7 +31,7 @@ static void test_the_newest_of_many_is_found(void)
 static const uint8_t SECOND_OF_ALL[] = {0x02, 0x00, 0x00, 0x00, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0xED, 0x7A, 0xC2, 0x36};
 static const uint8_t LAST_OF_ALL[] = {0xFF, 0xFF, 0xFF, 0xFF, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0xE2, 0xDD, 0xD3, 0x5E};
 
-static void test_the_layout_is_what_it_always_was(void)
+TEST(the_layout_is_what_it_always_was)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
 
@@ -41,7 +40,7 @@ static void test_the_layout_is_what_it_always_was(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(SECOND_OF_ALL, &fake_flash.bytes[0][2 * 16], sizeof SECOND_OF_ALL);
 }
 
-static void test_a_longer_unit_is_filled_up(void)
+TEST(a_longer_unit_is_filled_up)
 {
     for (kind = KINDS; kind->unit < 32; kind++)
         continue;
@@ -51,7 +50,7 @@ static void test_a_longer_unit_is_filled_up(void)
     TEST_ASSERT_EQUAL_HEX8(2, fake_flash.bytes[0][2 * 32]);
 }
 
-static void test_numbers_wrap(void)
+TEST(numbers_wrap)
 {
     FOR_EACH_KIND {
         setUp();
@@ -64,7 +63,7 @@ static void test_numbers_wrap(void)
     }
 }
 
-static void test_what_the_bytes_mean_is_the_robots_business(void)
+TEST(what_the_bytes_mean_is_the_robots_business)
 {
     static const uint8_t none[CELL_COUNT] = {9, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF};
 
@@ -74,7 +73,7 @@ static void test_what_the_bytes_mean_is_the_robots_business(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(none, found, CELL_COUNT);
 }
 
-static void test_what_is_stored_already_is_not_written_again(void)
+TEST(what_is_stored_already_is_not_written_again)
 {
     FOR_EACH_KIND {
         setUp();
@@ -88,14 +87,14 @@ static void test_what_is_stored_already_is_not_written_again(void)
     }
 }
 
-static void test_what_was_stored_earlier_is_written_again(void)
+TEST(what_was_stored_earlier_is_written_again)
 {
     save_many(3);
     TEST_ASSERT_EQUAL(0, save(1));
     assert_found(1);
 }
 
-static void test_a_change_of_any_one_byte_is_stored(void)
+TEST(a_change_of_any_one_byte_is_stored)
 {
     uint8_t memory[CELL_COUNT] = {0};
 
@@ -108,7 +107,7 @@ static void test_a_change_of_any_one_byte_is_stored(void)
     }
 }
 
-static void test_what_does_not_read_back_any_more_is_written_again(void)
+TEST(what_does_not_read_back_any_more_is_written_again)
 {
     for (unsigned byte = 0; byte < 16; byte++) {
         setUp();
@@ -119,7 +118,7 @@ static void test_what_does_not_read_back_any_more_is_written_again(void)
     }
 }
 
-static void test_random_bytes_are_no_memory_and_the_robot_starts(void)
+TEST(random_bytes_are_no_memory_and_the_robot_starts)
 {
     memset(fake_flash.bytes, 0x3C, sizeof fake_flash.bytes);
     TEST_ASSERT_EQUAL(HAL_E_STORE, start());
@@ -127,13 +126,13 @@ static void test_random_bytes_are_no_memory_and_the_robot_starts(void)
     assert_found(5);
 }
 
-static void test_pages_of_zeros_hold_no_memory(void)
+TEST(pages_of_zeros_hold_no_memory)
 {
     memset(fake_flash.bytes, 0, sizeof fake_flash.bytes);
     TEST_ASSERT_EQUAL(HAL_E_STORE, start());
 }
 
-static void test_one_flipped_bit_makes_the_record_before_it_count(void)
+TEST(one_flipped_bit_makes_the_record_before_it_count)
 {
     for (unsigned bit = 0; bit < 8 * 16; bit++) {
         setUp();
@@ -141,24 +140,4 @@ static void test_one_flipped_bit_makes_the_record_before_it_count(void)
         fake_flash.bytes[0][2 * 16 + bit / 8] ^= (uint8_t)(1u << bit % 8);
         assert_found(0);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_blank_flash_holds_no_memory);
-    RUN_TEST(test_what_was_saved_is_found);
-    RUN_TEST(test_the_newest_of_many_is_found);
-    RUN_TEST(test_the_layout_is_what_it_always_was);
-    RUN_TEST(test_a_longer_unit_is_filled_up);
-    RUN_TEST(test_numbers_wrap);
-    RUN_TEST(test_what_the_bytes_mean_is_the_robots_business);
-    RUN_TEST(test_what_is_stored_already_is_not_written_again);
-    RUN_TEST(test_what_was_stored_earlier_is_written_again);
-    RUN_TEST(test_a_change_of_any_one_byte_is_stored);
-    RUN_TEST(test_what_does_not_read_back_any_more_is_written_again);
-    RUN_TEST(test_random_bytes_are_no_memory_and_the_robot_starts);
-    RUN_TEST(test_pages_of_zeros_hold_no_memory);
-    RUN_TEST(test_one_flipped_bit_makes_the_record_before_it_count);
-    return UNITY_END();
 }

@@ -3,13 +3,12 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "fake_flash.h"
 
 #include "flash_store_rig.h"
 
-static void test_a_place_whose_last_word_alone_is_written_is_in_use(void)
+TEST(a_place_whose_last_word_alone_is_written_is_in_use)
 {
     FOR_EACH_KIND {
         uint8_t *last_word;
@@ -25,7 +24,7 @@ static void test_a_place_whose_last_word_alone_is_written_is_in_use(void)
     }
 }
 
-static void test_whatever_fills_the_last_place_the_next_one_is_filled_with_ones(void)
+TEST(whatever_fills_the_last_place_the_next_one_is_filled_with_ones)
 {
     for (kind = KINDS; kind->unit < 32; kind++)
         continue;
@@ -37,7 +36,7 @@ static void test_whatever_fills_the_last_place_the_next_one_is_filled_with_ones(
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, &fake_flash.bytes[0][2 * 32 + 16], 16);
 }
 
-static void test_an_erase_that_fails_on_a_blank_page_is_a_failure_too(void)
+TEST(an_erase_that_fails_on_a_blank_page_is_a_failure_too)
 {
     fake_flash.erase_fails = true;
     TEST_ASSERT_EQUAL(0, start());
@@ -46,7 +45,7 @@ static void test_an_erase_that_fails_on_a_blank_page_is_a_failure_too(void)
 }
 
 /* Three in the page, the mark of the other one, and one there. */
-static void test_a_save_is_tried_four_times(void)
+TEST(a_save_is_tried_four_times)
 {
     TEST_ASSERT_EQUAL(0, start());
     fake_flash.write_fails = true;
@@ -56,7 +55,7 @@ static void test_a_save_is_tried_four_times(void)
 }
 
 /* Firmware that knows no marks passes it over: zeros, with the CRC of zeros inverted. */
-static void test_the_mark_is_what_it_always_was(void)
+TEST(the_mark_is_what_it_always_was)
 {
     static const uint8_t mark[] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x90, 0x39, 0x2A, 0x84};
 
@@ -65,7 +64,7 @@ static void test_the_mark_is_what_it_always_was(void)
 }
 
 /* The tries took the numbers after the wrap, and may read well at the next start. */
-static void test_what_was_stored_is_written_again_when_numbers_wrapped_in_a_failed_save(void)
+TEST(what_was_stored_is_written_again_when_numbers_wrapped_in_a_failed_save)
 {
     static const uint8_t memory[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 2};
     static const uint8_t last_of_all[] = {0xFF, 0xFF, 0xFF, 0xFF, 0, 1, 2, 1, 2, 1, 2, 2, 0xE2, 0xDD, 0xD3, 0x5E};
@@ -81,23 +80,10 @@ static void test_what_was_stored_is_written_again_when_numbers_wrapped_in_a_fail
 }
 
 /* The newest record is in page 1, and has come there since the start. */
-static void test_a_first_page_that_wears_out_never_costs_the_memory_in_the_second(void)
+TEST(a_first_page_that_wears_out_never_costs_the_memory_in_the_second)
 {
     save_many(2 * CHANGES);
     fake_flash.worn[0] = 0xFF;
     TEST_ASSERT_EQUAL(HAL_E_STORE, save(99));
     assert_found(2 * CHANGES - 1);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_place_whose_last_word_alone_is_written_is_in_use);
-    RUN_TEST(test_whatever_fills_the_last_place_the_next_one_is_filled_with_ones);
-    RUN_TEST(test_an_erase_that_fails_on_a_blank_page_is_a_failure_too);
-    RUN_TEST(test_a_save_is_tried_four_times);
-    RUN_TEST(test_the_mark_is_what_it_always_was);
-    RUN_TEST(test_what_was_stored_is_written_again_when_numbers_wrapped_in_a_failed_save);
-    RUN_TEST(test_a_first_page_that_wears_out_never_costs_the_memory_in_the_second);
-    return UNITY_END();
 }

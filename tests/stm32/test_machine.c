@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/stm32/registers.h"
 
 enum { PIN = 1 << 26, POWER_ON = 1 << 27, SOFTWARE = 1 << 28, INDEPENDENT = 1 << 29, WINDOW = 1 << 30 };
@@ -38,22 +37,20 @@ void setUp(void)
     (void)mcu_start();
 }
 
-void tearDown(void) {}
-
-static void test_it_starts_the_watchdog_for_2_seconds(void)
+TEST(it_starts_the_watchdog_for_2_seconds)
 {
     TEST_ASSERT_EQUAL_UINT32(3, IWDG.pr);   /* by 32 */
     TEST_ASSERT_EQUAL_UINT32(2000, IWDG.rlr);
 }
 
-static void test_a_watchdog_that_stays_busy_does_not_hold_up_the_start(void)
+TEST(a_watchdog_that_stays_busy_does_not_hold_up_the_start)
 {
     IWDG.sr = 3;
     (void)mcu_start();
     TEST_ASSERT_TRUE(pins_started);
 }
 
-static void test_the_clocks_are_as_they_started(void)
+TEST(the_clocks_are_as_they_started)
 {
     TEST_ASSERT_EQUAL_UINT32(168000000, mcu_start());
     TEST_ASSERT_EQUAL_UINT32(42000000, machine_clocks().can_hz);
@@ -63,7 +60,7 @@ static void test_the_clocks_are_as_they_started(void)
     TEST_ASSERT_FALSE(mcu_clock_is_exact());
 }
 
-static void test_each_cause_of_a_reset_is_told_by_its_flag(void)
+TEST(each_cause_of_a_reset_is_told_by_its_flag)
 {
     static const struct {
         uint32_t flags;
@@ -80,7 +77,7 @@ static void test_each_cause_of_a_reset_is_told_by_its_flag(void)
 }
 
 /* The other bits of this register are not about resets: the low-speed oscillator is on while the watchdog runs. */
-static void test_what_else_is_in_the_register_of_flags_is_no_cause(void)
+TEST(what_else_is_in_the_register_of_flags_is_no_cause)
 {
     for (unsigned other = 0; other < 26; other++) {
         reset_flags = PIN | 1u << other;
@@ -90,21 +87,9 @@ static void test_what_else_is_in_the_register_of_flags_is_no_cause(void)
     }
 }
 
-static void test_feeding_feeds(void)
+TEST(feeding_feeds)
 {
     IWDG.kr = 0;
     mcu_feed();
     TEST_ASSERT_EQUAL_HEX32(0xAAAA, IWDG.kr);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_starts_the_watchdog_for_2_seconds);
-    RUN_TEST(test_a_watchdog_that_stays_busy_does_not_hold_up_the_start);
-    RUN_TEST(test_the_clocks_are_as_they_started);
-    RUN_TEST(test_each_cause_of_a_reset_is_told_by_its_flag);
-    RUN_TEST(test_what_else_is_in_the_register_of_flags_is_no_cause);
-    RUN_TEST(test_feeding_feeds);
-    return UNITY_END();
 }

@@ -3,8 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/stm32/board.h"
 #include "hal/stm32/chip.h"
@@ -26,8 +25,6 @@ void setUp(void)
     memcpy(before, (const void *)GPIO, sizeof before);
     pins_start();
 }
-
-void tearDown(void) {}
 
 static uint32_t field(uint32_t reg, unsigned pin)
 {
@@ -54,14 +51,14 @@ static bool is_used(unsigned port, unsigned number)
            || is(BOARD_UART_RX, port, number) || is(BOARD_UART_TX, port, number);
 }
 
-static void test_the_registers_lie_where_the_manual_has_them(void)
+TEST(the_registers_lie_where_the_manual_has_them)
 {
     TEST_ASSERT_EQUAL_HEX(0x18, offsetof(struct gpio_registers, bsrr));
     TEST_ASSERT_EQUAL_HEX(0x20, offsetof(struct gpio_registers, afr));
     TEST_ASSERT_EQUAL_HEX(0x400, sizeof(struct gpio_port));
 }
 
-static void test_can_and_the_serial_port_have_their_pins(void)
+TEST(can_and_the_serial_port_have_their_pins)
 {
     assert_connected(BOARD_CAN_RX, CAN_FUNCTION);
     assert_connected(BOARD_CAN_TX, CAN_FUNCTION);
@@ -69,7 +66,7 @@ static void test_can_and_the_serial_port_have_their_pins(void)
     assert_connected(BOARD_UART_TX, UART_FUNCTION);
 }
 
-static void test_no_other_pin_is_touched(void)
+TEST(no_other_pin_is_touched)
 {
     for (unsigned port = 0; port < PORTS; port++)
         for (unsigned pin = 0; pin < PINS; pin++) {
@@ -81,27 +78,16 @@ static void test_no_other_pin_is_touched(void)
         }
 }
 
-static void test_what_is_used_has_power(void)
+TEST(what_is_used_has_power)
 {
     assert_powered();
 }
 
-static void test_the_led_is_lit_as_the_board_has_it(void)
+TEST(the_led_is_lit_as_the_board_has_it)
 {
     TEST_ASSERT_EQUAL_HEX32(OUTPUT, field(GPIO[BOARD_LED.port].at.moder, BOARD_LED.number));
     mcu_light(true);
     TEST_ASSERT_EQUAL_HEX32(LIT, GPIO[BOARD_LED.port].at.bsrr);
     mcu_light(false);
     TEST_ASSERT_EQUAL_HEX32(DARK, GPIO[BOARD_LED.port].at.bsrr);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_registers_lie_where_the_manual_has_them);
-    RUN_TEST(test_can_and_the_serial_port_have_their_pins);
-    RUN_TEST(test_no_other_pin_is_touched);
-    RUN_TEST(test_what_is_used_has_power);
-    RUN_TEST(test_the_led_is_lit_as_the_board_has_it);
-    return UNITY_END();
 }

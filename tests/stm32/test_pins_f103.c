@@ -2,8 +2,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/stm32/chip.h"
 #include "hal/stm32/stm32f103/registers.h"
@@ -26,14 +25,12 @@ void setUp(void)
     pins_start();
 }
 
-void tearDown(void) {}
-
 static uint32_t mode(unsigned port, unsigned pin)
 {
     return GPIO[port].at.cr[pin / 8] >> 4 * (pin % 8) & 15u;
 }
 
-static void test_the_registers_lie_where_the_manual_has_them(void)
+TEST(the_registers_lie_where_the_manual_has_them)
 {
     TEST_ASSERT_EQUAL_HEX(0x10, offsetof(struct gpio_registers, bsrr));
     TEST_ASSERT_EQUAL_HEX(0x400, sizeof(struct gpio_port));
@@ -42,7 +39,7 @@ static void test_the_registers_lie_where_the_manual_has_them(void)
     TEST_ASSERT_EQUAL_HEX(0x04, offsetof(struct afio_registers, mapr));
 }
 
-static void test_can_and_the_serial_port_have_their_pins(void)
+TEST(can_and_the_serial_port_have_their_pins)
 {
     TEST_ASSERT_EQUAL_HEX32(PULLED, mode(1, 8));
     TEST_ASSERT_EQUAL_HEX32(ALTERNATE_50_MHZ, mode(1, 9));
@@ -51,13 +48,13 @@ static void test_can_and_the_serial_port_have_their_pins(void)
     TEST_ASSERT_EQUAL_HEX32(2 << 13, AFIO.mapr);
 }
 
-static void test_open_receive_pins_are_pulled_up(void)
+TEST(open_receive_pins_are_pulled_up)
 {
     TEST_ASSERT_EQUAL_HEX32(1 << 8, GPIO[1].at.bsrr);
     TEST_ASSERT_EQUAL_HEX32(1 << 10, GPIO[0].at.bsrr);
 }
 
-static void test_no_other_pin_is_touched(void)
+TEST(no_other_pin_is_touched)
 {
     unsigned floating = 0;
 
@@ -67,29 +64,17 @@ static void test_no_other_pin_is_touched(void)
     TEST_ASSERT_EQUAL_UINT(PORTS * 16 - 5, floating);
 }
 
-static void test_what_is_used_has_power(void)
+TEST(what_is_used_has_power)
 {
     TEST_ASSERT_EQUAL_HEX32(1 << 0 | 7 << 2 | 1 << 14, RCC.apb2enr);
     TEST_ASSERT_EQUAL_HEX32(1 << 25, RCC.apb1enr);
 }
 
-static void test_the_led_is_lit_by_a_low_pin(void)
+TEST(the_led_is_lit_by_a_low_pin)
 {
     TEST_ASSERT_EQUAL_HEX32(OUTPUT_2_MHZ, mode(2, 13));
     mcu_light(true);
     TEST_ASSERT_EQUAL_HEX32(1 << 29, GPIO[2].at.bsrr);
     mcu_light(false);
     TEST_ASSERT_EQUAL_HEX32(1 << 13, GPIO[2].at.bsrr);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_registers_lie_where_the_manual_has_them);
-    RUN_TEST(test_can_and_the_serial_port_have_their_pins);
-    RUN_TEST(test_open_receive_pins_are_pulled_up);
-    RUN_TEST(test_no_other_pin_is_touched);
-    RUN_TEST(test_what_is_used_has_power);
-    RUN_TEST(test_the_led_is_lit_by_a_low_pin);
-    return UNITY_END();
 }

@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/port/cortex_m/core.h"
 
 enum { SPAN = 1 << 24, CORE_HZ = 168000000, PER_MS = CORE_HZ / 8 / 1000 };
@@ -21,15 +20,13 @@ void setUp(void)
     systick_start(CORE_HZ);
 }
 
-void tearDown(void) {}
-
-static void test_the_timer_runs_free_from_an_eighth_of_the_clock(void)
+TEST(the_timer_runs_free_from_an_eighth_of_the_clock)
 {
     TEST_ASSERT_EQUAL_HEX32(SPAN - 1, SYSTICK.load);
     TEST_ASSERT_EQUAL_HEX32(1, SYSTICK.ctrl);
 }
 
-static void test_it_starts_anew_when_the_clock_has_changed(void)
+TEST(it_starts_anew_when_the_clock_has_changed)
 {
     uint32_t start;
 
@@ -44,7 +41,7 @@ static void test_it_starts_anew_when_the_clock_has_changed(void)
 }
 
 /* The last bit of the count decides. */
-static void test_an_odd_number_of_counts_is_counted_too(void)
+TEST(an_odd_number_of_counts_is_counted_too)
 {
     uint32_t start;
 
@@ -54,7 +51,7 @@ static void test_an_odd_number_of_counts_is_counted_too(void)
     TEST_ASSERT_EQUAL_UINT32(1, machine_ms() - start);
 }
 
-static void test_a_millisecond_passes_after_21000_counts(void)
+TEST(a_millisecond_passes_after_21000_counts)
 {
     uint32_t start = machine_ms();
 
@@ -64,7 +61,7 @@ static void test_a_millisecond_passes_after_21000_counts(void)
     TEST_ASSERT_EQUAL_UINT32(1, machine_ms() - start);
 }
 
-static void test_no_count_is_lost_however_often_it_is_asked(void)
+TEST(no_count_is_lost_however_often_it_is_asked)
 {
     uint32_t start = machine_ms();
 
@@ -75,22 +72,10 @@ static void test_no_count_is_lost_however_often_it_is_asked(void)
     TEST_ASSERT_UINT32_WITHIN(1, 100ull * SPAN / PER_MS, machine_ms() - start);
 }
 
-static void test_half_a_second_without_asking_is_noticed_in_full(void)
+TEST(half_a_second_without_asking_is_noticed_in_full)
 {
     uint32_t start = machine_ms();
 
     passes(500 * PER_MS);
     TEST_ASSERT_EQUAL_UINT32(500, machine_ms() - start);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_timer_runs_free_from_an_eighth_of_the_clock);
-    RUN_TEST(test_it_starts_anew_when_the_clock_has_changed);
-    RUN_TEST(test_an_odd_number_of_counts_is_counted_too);
-    RUN_TEST(test_a_millisecond_passes_after_21000_counts);
-    RUN_TEST(test_no_count_is_lost_however_often_it_is_asked);
-    RUN_TEST(test_half_a_second_without_asking_is_noticed_in_full);
-    return UNITY_END();
 }

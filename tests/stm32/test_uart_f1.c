@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/stm32/registers.h"
 
 enum { RXNE = 32, TXE = 128 };
@@ -15,9 +14,7 @@ void setUp(void)
     memset((void *)&UART, 0, sizeof UART);
 }
 
-void tearDown(void) {}
-
-static void test_the_divisor_is_the_nearest(void)
+TEST(the_divisor_is_the_nearest)
 {
     uart_start(72000000, 115200);
     TEST_ASSERT_EQUAL_UINT32(625, UART.brr);
@@ -27,7 +24,7 @@ static void test_the_divisor_is_the_nearest(void)
     TEST_ASSERT_EQUAL_UINT32(365, UART.brr);   /* 364.58 */
 }
 
-static void test_it_starts_in_both_directions_without_interrupts(void)
+TEST(it_starts_in_both_directions_without_interrupts)
 {
     UART.cr2 = UART.cr3 = 0xFFFF;
     uart_start(72000000, 115200);
@@ -35,27 +32,27 @@ static void test_it_starts_in_both_directions_without_interrupts(void)
     TEST_ASSERT_EQUAL_HEX32(0, UART.cr2 | UART.cr3);
 }
 
-static void test_stopping_switches_the_port_off(void)
+TEST(stopping_switches_the_port_off)
 {
     uart_start(72000000, 115200);
     uart_stop();
     TEST_ASSERT_EQUAL_HEX32(0, UART.cr1);
 }
 
-static void test_no_byte_is_nothing(void)
+TEST(no_byte_is_nothing)
 {
     UART.dr = 'x';
     TEST_ASSERT_EQUAL(UART_NOTHING, uart_get());
 }
 
-static void test_a_byte_is_got_as_it_is(void)
+TEST(a_byte_is_got_as_it_is)
 {
     UART.sr = RXNE;
     UART.dr = 0x1FF;   /* the ninth bit is none of ours */
     TEST_ASSERT_EQUAL(0xFF, uart_get());
 }
 
-static void test_each_receive_error_is_told(void)
+TEST(each_receive_error_is_told)
 {
     for (uint32_t error = 1; error <= 8; error <<= 1) {
         UART.sr = RXNE | error;
@@ -65,31 +62,17 @@ static void test_each_receive_error_is_told(void)
     }
 }
 
-static void test_a_byte_goes_out_when_there_is_room(void)
+TEST(a_byte_goes_out_when_there_is_room)
 {
     UART.sr = TXE;
     TEST_ASSERT_TRUE(uart_put(0xA7));
     TEST_ASSERT_EQUAL_HEX32(0xA7, UART.dr);
 }
 
-static void test_without_room_nothing_is_written(void)
+TEST(without_room_nothing_is_written)
 {
     UART.dr = 0x55;
     UART.sr = ~(uint32_t)TXE;
     TEST_ASSERT_FALSE(uart_put(0xA7));
     TEST_ASSERT_EQUAL_HEX32(0x55, UART.dr);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_the_divisor_is_the_nearest);
-    RUN_TEST(test_it_starts_in_both_directions_without_interrupts);
-    RUN_TEST(test_stopping_switches_the_port_off);
-    RUN_TEST(test_no_byte_is_nothing);
-    RUN_TEST(test_a_byte_is_got_as_it_is);
-    RUN_TEST(test_each_receive_error_is_told);
-    RUN_TEST(test_a_byte_goes_out_when_there_is_room);
-    RUN_TEST(test_without_room_nothing_is_written);
-    return UNITY_END();
 }

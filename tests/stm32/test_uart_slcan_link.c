@@ -1,7 +1,6 @@
 #include <string.h>
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "hal/link/link.h"
 #include "hal/stm32/line.h"
 #include "hal/stm32/machine.h"
@@ -75,8 +74,6 @@ void setUp(void)
     TEST_ASSERT_EQUAL(0, link_open(&link_here, "", ids, 2));
 }
 
-void tearDown(void) {}
-
 static void comes(const char *text)
 {
     size_t len = strlen(text);
@@ -90,13 +87,13 @@ static int receive(uint32_t wait_ms)
     return link_receive(link_here, &frame, wait_ms);
 }
 
-static void test_it_opens_at_115200_baud(void)
+TEST(it_opens_at_115200_baud)
 {
     TEST_ASSERT_EQUAL_UINT32(84000000, fake.clock_hz);
     TEST_ASSERT_EQUAL_UINT32(115200, fake.baud);
 }
 
-static void test_a_line_is_a_frame(void)
+TEST(a_line_is_a_frame)
 {
     comes("t0C1201FE\r");
     TEST_ASSERT_EQUAL(1, receive(20));
@@ -105,21 +102,21 @@ static void test_a_line_is_a_frame(void)
     TEST_ASSERT_EQUAL_HEX8(0xFE, frame.data[1]);
 }
 
-static void test_silence_is_waited_out(void)
+TEST(silence_is_waited_out)
 {
     TEST_ASSERT_EQUAL(0, receive(20));
     TEST_ASSERT_UINT32_WITHIN(100, 20000, fake.now_us);
 }
 
 /* A millisecond may pass unseen, as while the flash is written. */
-static void test_a_wait_ends_even_if_nobody_looks_in_its_last_millisecond(void)
+TEST(a_wait_ends_even_if_nobody_looks_in_its_last_millisecond)
 {
     fake.look_us = 1500;
     TEST_ASSERT_EQUAL(0, receive(20));
     TEST_ASSERT_UINT32_WITHIN(2000, 20000, fake.now_us);
 }
 
-static void test_what_was_half_received_is_forgotten_when_it_is_opened_again(void)
+TEST(what_was_half_received_is_forgotten_when_it_is_opened_again)
 {
     static const uint16_t ids[] = {0x0C1};
 
@@ -131,7 +128,7 @@ static void test_what_was_half_received_is_forgotten_when_it_is_opened_again(voi
     TEST_ASSERT_EQUAL_UINT8(0, frame.len);
 }
 
-static void test_half_a_line_waits_for_the_other_half(void)
+TEST(half_a_line_waits_for_the_other_half)
 {
     comes("t0C1201");
     TEST_ASSERT_EQUAL(0, receive(20));
@@ -139,7 +136,7 @@ static void test_half_a_line_waits_for_the_other_half(void)
     TEST_ASSERT_EQUAL(1, receive(20));
 }
 
-static void test_a_damaged_byte_makes_one_garbled_line(void)
+TEST(a_damaged_byte_makes_one_garbled_line)
 {
     comes("t0C12\x80" "1FE\rt0C10\r");
     TEST_ASSERT_EQUAL(LINK_E_GARBLED, receive(20));
@@ -155,13 +152,13 @@ static void send_some(unsigned count)
         TEST_ASSERT_EQUAL(0, link_send(link_here, &some));
 }
 
-static void test_a_frame_goes_out_as_a_line(void)
+TEST(a_frame_goes_out_as_a_line)
 {
     send_some(1);
     TEST_ASSERT_EQUAL_STRING_LEN("t08180102030405060708\r", fake.out, fake.out_len);
 }
 
-static void test_what_comes_while_sending_is_not_lost(void)
+TEST(what_comes_while_sending_is_not_lost)
 {
     comes("t0C1801020304050607FF\rt0C10\r");
     send_some(3);
@@ -170,7 +167,7 @@ static void test_what_comes_while_sending_is_not_lost(void)
     TEST_ASSERT_EQUAL(1, receive(0));
 }
 
-static void test_what_is_pumped_is_not_lost(void)
+TEST(what_is_pumped_is_not_lost)
 {
     comes("t0C10\r");
     for (unsigned i = 0; i < 100; i++) {
@@ -180,7 +177,7 @@ static void test_what_is_pumped_is_not_lost(void)
     TEST_ASSERT_EQUAL(1, receive(0));
 }
 
-static void test_more_than_there_is_room_for_is_garbled_and_then_all_is_well(void)
+TEST(more_than_there_is_room_for_is_garbled_and_then_all_is_well)
 {
     unsigned garbled = 0, whole = 0;
 
@@ -197,7 +194,7 @@ static void test_more_than_there_is_room_for_is_garbled_and_then_all_is_well(voi
     TEST_ASSERT_EQUAL_HEX8(0xAA, frame.data[0]);
 }
 
-static void test_lines_lost_as_a_whole_are_noticed_too(void)
+TEST(lines_lost_as_a_whole_are_noticed_too)
 {
     unsigned garbled = 0;
 
@@ -222,33 +219,33 @@ static void send_once_in_vain(unsigned blocked_from)
     TEST_ASSERT_EQUAL(0, link_send(link_here, &SHORT));
 }
 
-static void test_a_line_that_never_began_needs_no_end(void)
+TEST(a_line_that_never_began_needs_no_end)
 {
     send_once_in_vain(1);
     TEST_ASSERT_EQUAL_STRING_LEN("t1231AB\r", fake.out, fake.out_len);
 }
 
-static void test_a_line_that_does_not_take_it_is_given_up_in_time(void)
+TEST(a_line_that_does_not_take_it_is_given_up_in_time)
 {
     fake.blocked_from = 1;
     TEST_ASSERT_EQUAL(LINK_E_FULL, link_send(link_here, &frame));
     TEST_ASSERT_UINT32_WITHIN(100, 1000 * (LINK_SEND_MS + 1), fake.now_us);
 }
 
-static void test_a_line_cut_short_is_ended_before_the_next(void)
+TEST(a_line_cut_short_is_ended_before_the_next)
 {
     send_once_in_vain(4);
     TEST_ASSERT_EQUAL(0, link_send(link_here, &SHORT));
     TEST_ASSERT_EQUAL_STRING_LEN("t12\rt1231AB\rt1231AB\r", fake.out, fake.out_len);
 }
 
-static void test_a_line_cut_short_after_its_first_byte_is_ended_too(void)
+TEST(a_line_cut_short_after_its_first_byte_is_ended_too)
 {
     send_once_in_vain(2);
     TEST_ASSERT_EQUAL_STRING_LEN("t\rt1231AB\r", fake.out, fake.out_len);
 }
 
-static void test_its_health_is_always_fine(void)
+TEST(its_health_is_always_fine)
 {
     static const struct link_health fine = {.state = BUS_ACTIVE};
     struct link_health health;
@@ -259,34 +256,10 @@ static void test_its_health_is_always_fine(void)
     TEST_ASSERT_EQUAL_UINT8(0, health.tx_errors | health.rx_errors | health.bus_offs | health.dropped);
 }
 
-static void test_closing_stops_the_serial_port(void)
+TEST(closing_stops_the_serial_port)
 {
     link_close(NULL);
     TEST_ASSERT_TRUE(fake.on);
     link_close(link_here);
     TEST_ASSERT_FALSE(fake.on);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_opens_at_115200_baud);
-    RUN_TEST(test_a_line_is_a_frame);
-    RUN_TEST(test_silence_is_waited_out);
-    RUN_TEST(test_a_wait_ends_even_if_nobody_looks_in_its_last_millisecond);
-    RUN_TEST(test_what_was_half_received_is_forgotten_when_it_is_opened_again);
-    RUN_TEST(test_half_a_line_waits_for_the_other_half);
-    RUN_TEST(test_a_damaged_byte_makes_one_garbled_line);
-    RUN_TEST(test_a_frame_goes_out_as_a_line);
-    RUN_TEST(test_what_comes_while_sending_is_not_lost);
-    RUN_TEST(test_what_is_pumped_is_not_lost);
-    RUN_TEST(test_more_than_there_is_room_for_is_garbled_and_then_all_is_well);
-    RUN_TEST(test_lines_lost_as_a_whole_are_noticed_too);
-    RUN_TEST(test_a_line_that_never_began_needs_no_end);
-    RUN_TEST(test_a_line_that_does_not_take_it_is_given_up_in_time);
-    RUN_TEST(test_a_line_cut_short_is_ended_before_the_next);
-    RUN_TEST(test_a_line_cut_short_after_its_first_byte_is_ended_too);
-    RUN_TEST(test_its_health_is_always_fine);
-    RUN_TEST(test_closing_stops_the_serial_port);
-    return UNITY_END();
 }

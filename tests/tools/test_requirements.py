@@ -62,3 +62,9 @@ def test_a_call_and_a_declaration_are_no_definition(script, tmp_path):
     (tmp_path / "a.c").write_text("int one(void);\nint two(void)\n{\n    return one();\n}\n")
 
     assert script.functions(tmp_path, ["*.c"]).keys() == {"two"}
+
+
+def test_a_c_test_is_a_definition(script, tmp_path):
+    (tmp_path / "a.c").write_text("TEST(one)\n{\n}\nTEST_IF(two, is_pair)\n{\n    TEST_ASSERT(1);\n}\n")
+
+    assert script.functions(tmp_path, ["*.c"]).keys() == {"test_one", "test_two"}

@@ -1,6 +1,7 @@
 """A C test that tests nothing fails: Unity itself says OK to no test, and to one that is ignored."""
 
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -18,42 +19,77 @@ set(UNITY_DIR {UNITY})
 include(unity)
 octet_test(canary)
 """
-PROGRAM = """\
-#include "unity.h"
-void setUp(void) {{}}
-void tearDown(void) {{}}
-static void test_it(void) {{ {body} }}
-int main(void) {{ UNITY_BEGIN(); {run} return UNITY_END(); }}
-"""
-RUN = "RUN_TEST(test_it);"
+PROGRAM = '#include "tests/test.h"\n'
 
 
-def passes(folder: Path, body: str, run: str = RUN) -> bool:
-    """Builds a C test with this body as every C test is built, and has ctest run it."""
+def built(folder: Path, tests: str) -> "subprocess.CompletedProcess[str]":
+    """Builds a program of these C tests as every C test is built."""
     (folder / "CMakeLists.txt").write_text(PROJECT)
-    (folder / "test_canary.c").write_text(PROGRAM.format(body=body, run=run))
+    (folder / "test_canary.c").write_text(PROGRAM + tests)
     subprocess.run(["cmake", "-G", "Ninja", "-S", folder, "-B", folder / "build"], check=True, capture_output=True)
-    subprocess.run(["ninja", "-C", folder / "build"], check=True, capture_output=True)
-    ran = subprocess.run(["ctest", "--test-dir", folder / "build"], check=False, capture_output=True, text=True)
+    return subprocess.run(["ninja", "-C", folder / "build"], check=False, capture_output=True, text=True)
+
+
+def outcome(folder: Path, tests: str) -> tuple[bool, str]:
+    """Builds a program of these C tests and has ctest run it: whether it passes, and what it prints."""
+    built(folder, tests).check_returncode()
+    command = ["ctest", "-V", "--test-dir", folder / "build"]
+    ran = subprocess.run(command, check=False, capture_output=True, text=True)
     assert "1 tests failed" in ran.stdout or "0 tests failed" in ran.stdout, ran.stderr
-    return ran.returncode == 0
+    return ran.returncode == 0, ran.stdout
 
 
-def test_a_test_that_holds_passes(tmp_path):
-    assert passes(tmp_path, "TEST_ASSERT_TRUE(1);")
+def test_tests_run_because_they_are_there_in_the_order_of_their_lines(tmp_path):
+    body = "{ TEST_ASSERT_TRUE(1); }"
+    passed, said = outcome(tmp_path, f"TEST(b)\n{body}\nTEST(a)\n{body}\nTEST(c)\n{body}\n")
+
+    assert passed
+    assert re.findall(r"canary\.c:(\d+):(\w+):PASS", said) == [("2", "test_b"), ("4", "test_a"), ("6", "test_c")]
+
+
+def test_set_up_and_tear_down_are_called_where_there_are_any(tmp_path):
+    passed, _ = outcome(
+        tmp_path,
+        """
+        static int up, down;
+        void setUp(void) { up++; }
+        void tearDown(void) { down++; }
+        TEST(a) { TEST_ASSERT_EQUAL(1, up); TEST_ASSERT_EQUAL(0, down); }
+        TEST(b) { TEST_ASSERT_EQUAL(2, up); TEST_ASSERT_EQUAL(1, down); }
+        """,
+    )
+
+    assert passed
 
 
 @pytest.mark.parametrize(
-    ("body", "run"),
+    "tests",
     [
-        pytest.param("TEST_ASSERT_TRUE(0);", RUN, id="that fails"),
-        pytest.param("TEST_IGNORE();", RUN, id="that is ignored"),
-        pytest.param('TEST_IGNORE_MESSAGE("later");', RUN, id="that is ignored for a reason"),
-        pytest.param("", "(void)test_it;", id="that is not run"),
+        pytest.param("TEST(a) { TEST_ASSERT_TRUE(0); }", id="that fails"),
+        pytest.param("TEST(a) {}\nTEST(b) { TEST_ASSERT_TRUE(0); }\nTEST(c) {}", id="that fails among others"),
+        pytest.param("TEST(a) { TEST_IGNORE(); }", id="that is ignored"),
+        pytest.param('TEST(a) { TEST_IGNORE_MESSAGE("later"); }', id="that is ignored for a reason"),
+        pytest.param("", id="that is not there"),
+        pytest.param("static bool never(void) { return false; }\nTEST_IF(a, never) {}", id="that never applies"),
     ],
 )
-def test_one_does_not(tmp_path, body, run):
-    assert not passes(tmp_path, body, run)
+def test_one_does_not(tmp_path, tests):
+    assert not outcome(tmp_path, tests)[0]
+
+
+@pytest.mark.parametrize(
+    ("tests", "complaint"),
+    [
+        pytest.param("TEST(a) {}\nTEST(a) {}", "redefinition of .test_a.", id="two of one name"),
+        pytest.param("TEST(a);", "test_a. (used|declared .static.) but never defined", id="one without a body"),
+        pytest.param("static void test_a(void) {}", "test_a. defined but not used", id="one beside TEST"),
+    ],
+)
+def test_it_is_refused_when_compiling(tmp_path, tests, complaint):
+    result = built(tmp_path, tests)
+
+    assert result.returncode != 0
+    assert re.search(complaint, result.stdout)
 
 
 def test_every_c_test_is_added_so():

@@ -2,8 +2,7 @@
 #ifndef OCTET_PAGE_RIG_H
 #define OCTET_PAGE_RIG_H
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "host_sim/web/native/page.h"
 #include "octet.h"
 

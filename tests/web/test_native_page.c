@@ -5,7 +5,7 @@
 
 #include "hal/protocol/e2e.h"
 
-static void test_it_opens_as_many_robots_as_asked_for(void)
+TEST(it_opens_as_many_robots_as_asked_for)
 {
     TEST_ASSERT_EQUAL_size_t(ROBOTS, page_state()->loop.robot_count);
     for (unsigned i = 0; i < ROBOTS; i++) {
@@ -16,7 +16,7 @@ static void test_it_opens_as_many_robots_as_asked_for(void)
     TEST_ASSERT_EQUAL_size_t(0, page_log_used());
 }
 
-static void test_a_command_is_done_and_both_ways_are_logged(void)
+TEST(a_command_is_done_and_both_ways_are_logged)
 {
     TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(1, OPCODE_START, PROFILE_NEVER, SEED));
     TEST_ASSERT_EQUAL_UINT(1, logged("022"));
@@ -26,20 +26,20 @@ static void test_a_command_is_done_and_both_ways_are_logged(void)
     TEST_ASSERT_FALSE(page_state()->robots[0].octet->robot.running);
 }
 
-static void test_commands_follow_each_other(void)
+TEST(commands_follow_each_other)
 {
     for (unsigned i = 0; i < 40; i++)
         TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_START, PROFILE_ARTICLE, i));
 }
 
-static void test_a_refusal_is_told(void)
+TEST(a_refusal_is_told)
 {
     start(0, PROFILE_ARTICLE);
     TEST_ASSERT_EQUAL_INT32(RESULT_UNKNOWN_PARAMETER, page_command(0, OPCODE_SET, PARAMETER_COUNT, 1));
     TEST_ASSERT_EQUAL_INT32(RESULT_OUT_OF_RANGE, page_command(0, OPCODE_SET, TURN_DEG, 181));
 }
 
-static void test_a_parameter_is_set_and_told(void)
+TEST(a_parameter_is_set_and_told)
 {
     start(0, PROFILE_ARTICLE);
     TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_SET, TURN_DEG, 33));
@@ -47,7 +47,7 @@ static void test_a_parameter_is_set_and_told(void)
     TEST_ASSERT_EQUAL_UINT32(33, page_answer_value());
 }
 
-static void test_a_freeze_is_begun_and_ended(void)
+TEST(a_freeze_is_begun_and_ended)
 {
     start(0, PROFILE_ARTICLE);
     TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_FREEZE, 1, 0));
@@ -56,7 +56,7 @@ static void test_a_freeze_is_begun_and_ended(void)
     TEST_ASSERT_FALSE(page_state()->robots[0].octet->robot.brain.frozen);
 }
 
-static void test_what_is_said_after_the_answer_is_logged_when_it_is_taken(void)
+TEST(what_is_said_after_the_answer_is_logged_when_it_is_taken)
 {
     start(0, PROFILE_ARTICLE);
     TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_REPORT, 0, 0));
@@ -67,7 +67,7 @@ static void test_what_is_said_after_the_answer_is_logged_when_it_is_taken(void)
     TEST_ASSERT_EQUAL_UINT(1, logged("6A1"));
 }
 
-static void test_lines_have_the_time_that_was_set(void)
+TEST(lines_have_the_time_that_was_set)
 {
     static const char stamp[] = "(0000000012.340000) octet ";
 
@@ -88,7 +88,7 @@ static void put_senses(uint8_t tick)
     put_bytes(frame.data);
 }
 
-static void test_a_frame_is_answered_and_not_logged(void)
+TEST(a_frame_is_answered_and_not_logged)
 {
     start(0, PROFILE_ARTICLE);
     put_senses(0);
@@ -97,7 +97,7 @@ static void test_a_frame_is_answered_and_not_logged(void)
     TEST_ASSERT_EQUAL_size_t(0, page_log_used());
 }
 
-static void test_distances_are_logged_in_the_order_of_the_sensors(void)
+TEST(distances_are_logged_in_the_order_of_the_sensors)
 {
     static const uint8_t ranges[PAGE_BYTES] = {10, 20, 30, 40, 50};
     char data[17];
@@ -129,7 +129,7 @@ static void assert_read(uint32_t which, uint32_t value)
     TEST_ASSERT_EQUAL_UINT32(value, page_command_value());
 }
 
-static void test_a_command_is_read_from_its_frame(void)
+TEST(a_command_is_read_from_its_frame)
 {
     read_command((struct octet_command_t){.opcode = OPCODE_START, .profile = PROFILE_FIVE, .seed = 0x89ABCDEF});
     assert_read(PROFILE_FIVE, 0x89ABCDEF);
@@ -142,21 +142,4 @@ static void test_a_command_is_read_from_its_frame(void)
     assert_read(1, 0);
     read_command((struct octet_command_t){.opcode = OPCODE_ERASE});
     assert_read(0, 0);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_opens_as_many_robots_as_asked_for);
-    RUN_TEST(test_a_command_is_done_and_both_ways_are_logged);
-    RUN_TEST(test_commands_follow_each_other);
-    RUN_TEST(test_a_refusal_is_told);
-    RUN_TEST(test_a_parameter_is_set_and_told);
-    RUN_TEST(test_a_freeze_is_begun_and_ended);
-    RUN_TEST(test_what_is_said_after_the_answer_is_logged_when_it_is_taken);
-    RUN_TEST(test_lines_have_the_time_that_was_set);
-    RUN_TEST(test_a_frame_is_answered_and_not_logged);
-    RUN_TEST(test_distances_are_logged_in_the_order_of_the_sensors);
-    RUN_TEST(test_a_command_is_read_from_its_frame);
-    return UNITY_END();
 }

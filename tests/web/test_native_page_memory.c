@@ -5,7 +5,7 @@
 
 enum { ALL_FOUR = 15, UPPER = 1 << 4 };
 
-static void test_a_new_robot_remembers_nothing(void)
+TEST(a_new_robot_remembers_nothing)
 {
     static const uint8_t nothing[CELL_COUNT] = {0};
 
@@ -13,7 +13,7 @@ static void test_a_new_robot_remembers_nothing(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(nothing, page_sides(0), CELL_COUNT);
 }
 
-static void test_what_is_written_is_in_its_cells(void)
+TEST(what_is_written_is_in_its_cells)
 {
     static const uint8_t expected[CELL_COUNT] = {0, SIDE_LEFT, SIDE_RIGHT, 0, 0, 0, 0, SIDE_LEFT};
 
@@ -26,7 +26,7 @@ static void test_what_is_written_is_in_its_cells(void)
     TEST_ASSERT_EACH_EQUAL_HEX8(0, page_memory(0), CELL_COUNT);
 }
 
-static void test_a_turn_is_put_into_bytes_of_the_behaviours_own_kind(void)
+TEST(a_turn_is_put_into_bytes_of_the_behaviours_own_kind)
 {
     static const uint8_t sides[PAGE_BYTES] = {0, 0, SIDE_LEFT}, none[PAGE_BYTES] = {0};
     static const uint8_t expected[PAGE_BYTES] = {0, 0, SIDE_LEFT, SIDE_RIGHT};
@@ -42,7 +42,7 @@ static void test_a_turn_is_put_into_bytes_of_the_behaviours_own_kind(void)
     TEST_ASSERT_TRUE(feel_memory_is(page_bytes()));
 }
 
-static void test_bytes_of_another_kind_are_translated(void)
+TEST(bytes_of_another_kind_are_translated)
 {
     static const uint8_t sides[PAGE_BYTES] = {0, 0, SIDE_LEFT, SIDE_RIGHT};
 
@@ -55,7 +55,7 @@ static void test_bytes_of_another_kind_are_translated(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(sides, page_bytes(), PAGE_BYTES);
 }
 
-static void test_bytes_that_are_no_memory_are_left_alone(void)
+TEST(bytes_that_are_no_memory_are_left_alone)
 {
     static const uint8_t garbage[PAGE_BYTES] = {1, 2, 3, 255, 255, 255, 255, 255};
 
@@ -65,7 +65,7 @@ static void test_bytes_that_are_no_memory_are_left_alone(void)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(garbage, page_bytes(), PAGE_BYTES);
 }
 
-static void test_turns_are_told_whatever_kind_of_memory_it_is(void)
+TEST(turns_are_told_whatever_kind_of_memory_it_is)
 {
     static const uint8_t sides[PAGE_BYTES] = {0, 0, SIDE_LEFT, SIDE_RIGHT};
 
@@ -85,16 +85,4 @@ static void test_turns_are_told_whatever_kind_of_memory_it_is(void)
         }
         TEST_ASSERT_EQUAL_HEX8_ARRAY(sides, page_sides(0), CELL_COUNT);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_new_robot_remembers_nothing);
-    RUN_TEST(test_what_is_written_is_in_its_cells);
-    RUN_TEST(test_a_turn_is_put_into_bytes_of_the_behaviours_own_kind);
-    RUN_TEST(test_bytes_of_another_kind_are_translated);
-    RUN_TEST(test_bytes_that_are_no_memory_are_left_alone);
-    RUN_TEST(test_turns_are_told_whatever_kind_of_memory_it_is);
-    return UNITY_END();
 }

@@ -31,7 +31,7 @@ static const int16_t *row(uint32_t robot, unsigned tick)
     return page_rows(robot) + tick * LOOP_ROW;
 }
 
-static void test_robots_drive_and_are_recorded(void)
+TEST(robots_drive_and_are_recorded)
 {
     build();
     page_enter(0, 0);
@@ -46,7 +46,7 @@ static void test_robots_drive_and_are_recorded(void)
     TEST_ASSERT_EQUAL_UINT(TICKS, logged("041"));
 }
 
-static void test_walls_and_obstacles_are_felt_where_they_are(void)
+TEST(walls_and_obstacles_are_felt_where_they_are)
 {
     build();
     page_put_body(0, 3870.0, 1000.0, 0.0);
@@ -60,7 +60,7 @@ static void test_walls_and_obstacles_are_felt_where_they_are(void)
     TEST_ASSERT_EQUAL_UINT32(0, page_decisions(1)[0]);
 }
 
-static void test_an_obstacle_that_a_person_takes_away_is_felt_no_more(void)
+TEST(an_obstacle_that_a_person_takes_away_is_felt_no_more)
 {
     build();
     page_put_obstacle(0, 1150.0, 2000.0, 1150.0, 2000.0, 40.0);
@@ -70,7 +70,7 @@ static void test_an_obstacle_that_a_person_takes_away_is_felt_no_more(void)
     TEST_ASSERT_EQUAL_UINT8(0, body(1)->feel);
 }
 
-static void test_food_is_eaten_and_there_again_in_the_next_environment(void)
+TEST(food_is_eaten_and_there_again_in_the_next_environment)
 {
     build();
     page_put_food(0, 3000.0, 500.0);
@@ -87,7 +87,7 @@ static void test_food_is_eaten_and_there_again_in_the_next_environment(void)
     TEST_ASSERT_EQUAL_UINT32(0, page_state()->robots[0].food_eaten);
 }
 
-static void test_a_body_that_enters_knows_only_how_far_its_wheels_have_rolled(void)
+TEST(a_body_that_enters_knows_only_how_far_its_wheels_have_rolled)
 {
     build();
     page_enter(0, 0);
@@ -101,7 +101,7 @@ static void test_a_body_that_enters_knows_only_how_far_its_wheels_have_rolled(vo
     TEST_ASSERT_EQUAL_INT32(-1, body(0)->seen);
 }
 
-static void test_a_lifted_robot_stays_in_the_air_until_it_is_put_down(void)
+TEST(a_lifted_robot_stays_in_the_air_until_it_is_put_down)
 {
     build();
     page_enter(0, 0);
@@ -117,7 +117,7 @@ static void test_a_lifted_robot_stays_in_the_air_until_it_is_put_down(void)
     TEST_ASSERT_EQUAL_DOUBLE(1.5, body(0)->heading_rad);
 }
 
-static void test_a_body_is_broken_as_the_numbers_say(void)
+TEST(a_body_is_broken_as_the_numbers_say)
 {
     static const double numbers[PAGE_FAULTS] = {
         [PAGE_MIRRORED] = 1, [PAGE_SWAPPED] = 0, [PAGE_STUCK_ON] = 5, [PAGE_STUCK_OFF] = 16, [PAGE_LEFT_LOST] = 30,
@@ -145,7 +145,7 @@ static void test_a_body_is_broken_as_the_numbers_say(void)
 }
 
 /* Its motors are dead: it denies its drives, stops by itself, and is asked how it is. */
-static void test_a_robot_that_stops_by_itself_is_told_and_starts_again(void)
+TEST(a_robot_that_stops_by_itself_is_told_and_starts_again)
 {
     uint32_t tick = 0;
 
@@ -162,23 +162,8 @@ static void test_a_robot_that_stops_by_itself_is_told_and_starts_again(void)
     TEST_ASSERT_FALSE(page_has_halted(0));
 }
 
-static void test_sines_are_the_worlds_own(void)
+TEST(sines_are_the_worlds_own)
 {
     TEST_ASSERT_DOUBLE_WITHIN(1e-16, 0.479425538604203, page_sin(0.5));
     TEST_ASSERT_DOUBLE_WITHIN(1e-16, 0.8775825618903728, page_cos(0.5));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_robots_drive_and_are_recorded);
-    RUN_TEST(test_walls_and_obstacles_are_felt_where_they_are);
-    RUN_TEST(test_an_obstacle_that_a_person_takes_away_is_felt_no_more);
-    RUN_TEST(test_food_is_eaten_and_there_again_in_the_next_environment);
-    RUN_TEST(test_a_body_that_enters_knows_only_how_far_its_wheels_have_rolled);
-    RUN_TEST(test_a_lifted_robot_stays_in_the_air_until_it_is_put_down);
-    RUN_TEST(test_a_body_is_broken_as_the_numbers_say);
-    RUN_TEST(test_a_robot_that_stops_by_itself_is_told_and_starts_again);
-    RUN_TEST(test_sines_are_the_worlds_own);
-    return UNITY_END();
 }

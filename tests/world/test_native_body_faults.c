@@ -1,6 +1,5 @@
 #include "host_sim/world/native/body_faults.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 static struct body_faults faults;
 
@@ -8,8 +7,6 @@ void setUp(void)
 {
     faults = (struct body_faults){0};
 }
-
-void tearDown(void) {}
 
 static uint8_t felt(uint8_t feel, uint32_t tick)
 {
@@ -19,7 +16,7 @@ static uint8_t felt(uint8_t feel, uint32_t tick)
     return senses.feel;
 }
 
-static void test_a_sound_body_is_told_as_it_is(void)
+TEST(a_sound_body_is_told_as_it_is)
 {
     struct drive drive = {.left_mm_s = -2047, .right_mm_s = 2047};
 
@@ -29,21 +26,21 @@ static void test_a_sound_body_is_told_as_it_is(void)
     TEST_ASSERT_EQUAL_INT16(2047, drive.right_mm_s);
 }
 
-static void test_a_mirrored_ring_has_right_for_left(void)
+TEST(a_mirrored_ring_has_right_for_left)
 {
     faults.mirrored = true;
     TEST_ASSERT_EQUAL_UINT8(FEEL_LEFT | FEEL_FRONT_RIGHT, felt(FEEL_RIGHT | FEEL_FRONT_LEFT, 0));
     TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT, felt(FEEL_FRONT, 0));
 }
 
-static void test_stuck_sensors_see_always_or_never(void)
+TEST(stuck_sensors_see_always_or_never)
 {
     faults.stuck_on = FEEL_FRONT;
     faults.stuck_off = FEEL_LEFT;
     TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT, felt(FEEL_LEFT, 0));
 }
 
-static void test_swapped_motors_are_swapped_with_their_odometers(void)
+TEST(swapped_motors_are_swapped_with_their_odometers)
 {
     struct senses senses = {.odometer_left = 3, .odometer_right = 4095};
     struct drive drive = {.left_mm_s = 200, .right_mm_s = -150};
@@ -57,7 +54,7 @@ static void test_swapped_motors_are_swapped_with_their_odometers(void)
     TEST_ASSERT_EQUAL_INT16(200, drive.right_mm_s);
 }
 
-static void test_a_weak_motor_turns_at_its_share_of_the_speed_toward_0(void)
+TEST(a_weak_motor_turns_at_its_share_of_the_speed_toward_0)
 {
     struct drive drive = {.left_mm_s = -201, .right_mm_s = 200};
 
@@ -77,7 +74,7 @@ static void roll(struct body *body, int left_mm_s, int right_mm_s)
     body_faults_move(&faults, &world, body, &drive);
 }
 
-static void test_sound_odometers_count_the_way(void)
+TEST(sound_odometers_count_the_way)
 {
     struct body body = {.left_mm = 1.0};
 
@@ -86,7 +83,7 @@ static void test_sound_odometers_count_the_way(void)
     TEST_ASSERT_EQUAL_DOUBLE(-2.0, body.right_mm);
 }
 
-static void test_a_stuck_odometer_stands_still_and_a_reversed_one_counts_backward(void)
+TEST(a_stuck_odometer_stands_still_and_a_reversed_one_counts_backward)
 {
     struct body body = {.left_mm = 1.1, .right_mm = 7.0};
 
@@ -97,7 +94,7 @@ static void test_a_stuck_odometer_stands_still_and_a_reversed_one_counts_backwar
     TEST_ASSERT_EQUAL_DOUBLE(5.0, body.right_mm);
 }
 
-static void test_swapped_odometers_count_each_others_wheels(void)
+TEST(swapped_odometers_count_each_others_wheels)
 {
     struct body body = {.left_mm = 0.0};
 
@@ -108,7 +105,7 @@ static void test_swapped_odometers_count_each_others_wheels(void)
     TEST_ASSERT_EQUAL_DOUBLE(4.0, body.right_mm);
 }
 
-static void test_odometers_count_what_weak_motors_turn(void)
+TEST(odometers_count_what_weak_motors_turn)
 {
     struct body body = {.left_mm = 0.0};
 
@@ -118,7 +115,7 @@ static void test_odometers_count_what_weak_motors_turn(void)
     TEST_ASSERT_EQUAL_DOUBLE(2.0, body.right_mm);
 }
 
-static void test_a_false_beacon_shows_food_only_where_none_is_seen(void)
+TEST(a_false_beacon_shows_food_only_where_none_is_seen)
 {
     struct senses none = {.look = false}, real = {.look = true, .beacon_mm = 700};
 
@@ -130,7 +127,7 @@ static void test_a_false_beacon_shows_food_only_where_none_is_seen(void)
     TEST_ASSERT_EQUAL_UINT16(700, real.beacon_mm);
 }
 
-static void test_noise_follows_from_known_numbers(void)
+TEST(noise_follows_from_known_numbers)
 {
     static const uint8_t expected[] = {3, 18, 19, 22, 16, 16};
 
@@ -139,21 +136,4 @@ static void test_noise_follows_from_known_numbers(void)
     faults.noise_key = 7;
     for (uint32_t tick = 0; tick < sizeof expected; tick++)
         TEST_ASSERT_EQUAL_UINT8(expected[tick], felt(0, tick));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_sound_body_is_told_as_it_is);
-    RUN_TEST(test_a_mirrored_ring_has_right_for_left);
-    RUN_TEST(test_stuck_sensors_see_always_or_never);
-    RUN_TEST(test_swapped_motors_are_swapped_with_their_odometers);
-    RUN_TEST(test_a_weak_motor_turns_at_its_share_of_the_speed_toward_0);
-    RUN_TEST(test_sound_odometers_count_the_way);
-    RUN_TEST(test_a_stuck_odometer_stands_still_and_a_reversed_one_counts_backward);
-    RUN_TEST(test_swapped_odometers_count_each_others_wheels);
-    RUN_TEST(test_odometers_count_what_weak_motors_turn);
-    RUN_TEST(test_a_false_beacon_shows_food_only_where_none_is_seen);
-    RUN_TEST(test_noise_follows_from_known_numbers);
-    return UNITY_END();
 }

@@ -1,6 +1,5 @@
 #include "host_sim/world/native/capsule.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 static const struct vector CENTRE = {1000.0, 1000.0};
 static struct capsule bar;
@@ -11,9 +10,7 @@ void setUp(void)
     capsule_set(&bar, (struct vector){900.0, 1110.0}, (struct vector){1100.0, 1110.0}, 20.0);
 }
 
-void tearDown(void) {}
-
-static void test_a_disc_overlaps_a_side(void)
+TEST(a_disc_overlaps_a_side)
 {
     capsule_meet_disc(&bar, CENTRE, 100.0, &contact);
     TEST_ASSERT_TRUE(contact.touches);
@@ -23,7 +20,7 @@ static void test_a_disc_overlaps_a_side(void)
     TEST_ASSERT_EQUAL_DOUBLE(1.0, contact.normal.y);
 }
 
-static void test_a_disc_overlaps_a_round_end(void)
+TEST(a_disc_overlaps_a_round_end)
 {
     capsule_meet_disc(&bar, (struct vector){1160.0, 1190.0}, 100.0, &contact);
     TEST_ASSERT_TRUE(contact.touches);
@@ -33,20 +30,20 @@ static void test_a_disc_overlaps_a_round_end(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.8, contact.normal.y);
 }
 
-static void test_a_disc_that_only_just_reaches_does_not_overlap(void)
+TEST(a_disc_that_only_just_reaches_does_not_overlap)
 {
     capsule_meet_disc(&bar, CENTRE, 90.0, &contact);
     TEST_ASSERT_FALSE(contact.touches);
 }
 
-static void test_a_disc_on_the_centre_line_is_pushed_sideways(void)
+TEST(a_disc_on_the_centre_line_is_pushed_sideways)
 {
     capsule_meet_disc(&bar, (struct vector){1000.0, 1110.0}, 100.0, &contact);
     TEST_ASSERT_EQUAL_DOUBLE(120.0, contact.depth_mm);
     TEST_ASSERT_EQUAL_DOUBLE(-1.0, contact.normal.y);
 }
 
-static void test_two_discs_overlap_along_the_line_between_their_centres(void)
+TEST(two_discs_overlap_along_the_line_between_their_centres)
 {
     capsule_meet_discs(CENTRE, (struct vector){1150.0, 1000.0}, 100.0, &contact);
     TEST_ASSERT_TRUE(contact.touches);
@@ -59,7 +56,7 @@ static void test_two_discs_overlap_along_the_line_between_their_centres(void)
     TEST_ASSERT_EQUAL_DOUBLE(1.0, contact.normal.x);
 }
 
-static void test_the_walls_insides_are_the_arenas_edge(void)
+TEST(the_walls_insides_are_the_arenas_edge)
 {
     static const struct vector INSIDE[] = {{2000.0, 99.0}, {3901.0, 1500.0}, {2000.0, 2901.0}, {99.0, 1500.0}};
     struct capsule walls[WALLS];
@@ -74,7 +71,7 @@ static void test_the_walls_insides_are_the_arenas_edge(void)
         }
 }
 
-static void test_a_thing_is_at_least_as_far_away_as_its_box(void)
+TEST(a_thing_is_at_least_as_far_away_as_its_box)
 {
     static const struct vector FAR[] = {{879.0, 1100.0}, {1121.0, 1100.0}, {1000.0, 1089.0}, {1000.0, 1131.0}};
 
@@ -88,7 +85,7 @@ static bool hides(double x, double y)
     return capsule_hides(&bar, CENTRE, (struct vector){x, y});
 }
 
-static void test_a_capsule_hides_what_is_behind_it(void)
+TEST(a_capsule_hides_what_is_behind_it)
 {
     TEST_ASSERT_TRUE(hides(1000.0, 1200.0));
     TEST_ASSERT_TRUE(hides(900.0, 1300.0));
@@ -97,7 +94,7 @@ static void test_a_capsule_hides_what_is_behind_it(void)
     TEST_ASSERT_FALSE(hides(1300.0, 1110.0));
 }
 
-static void test_its_round_ends_hide_too(void)
+TEST(its_round_ends_hide_too)
 {
     TEST_ASSERT_TRUE(hides(1200.0, 1180.0));
     TEST_ASSERT_TRUE(hides(800.0, 1180.0));
@@ -105,13 +102,13 @@ static void test_its_round_ends_hide_too(void)
     TEST_ASSERT_FALSE(hides(1105.0, 1085.0));
 }
 
-static void test_everything_is_hidden_from_inside(void)
+TEST(everything_is_hidden_from_inside)
 {
     TEST_ASSERT_TRUE(capsule_hides(&bar, (struct vector){1000.0, 1095.0}, (struct vector){1000.0, 0.0}));
     TEST_ASSERT_TRUE(capsule_disc_hides(CENTRE, 100.0, (struct vector){1050.0, 1000.0}, (struct vector){2000.0, 0.0}));
 }
 
-static void test_a_disc_hides_what_is_behind_it(void)
+TEST(a_disc_hides_what_is_behind_it)
 {
     const struct vector from = {500.0, 1000.0};
 
@@ -121,29 +118,11 @@ static void test_a_disc_hides_what_is_behind_it(void)
     TEST_ASSERT_FALSE(capsule_disc_hides(CENTRE, 100.0, from, (struct vector){1200.0, 1300.0}));
 }
 
-static void test_a_plant_hides_what_is_right_behind_its_middle(void)
+TEST(a_plant_hides_what_is_right_behind_its_middle)
 {
     struct capsule plant;
 
     capsule_set(&plant, CENTRE, CENTRE, 80.0);
     TEST_ASSERT_TRUE(capsule_hides(&plant, (struct vector){500.0, 1000.0}, (struct vector){1200.0, 1000.0}));
     TEST_ASSERT_FALSE(capsule_hides(&plant, (struct vector){500.0, 1000.0}, (struct vector){910.0, 1000.0}));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_disc_overlaps_a_side);
-    RUN_TEST(test_a_disc_overlaps_a_round_end);
-    RUN_TEST(test_a_disc_that_only_just_reaches_does_not_overlap);
-    RUN_TEST(test_a_disc_on_the_centre_line_is_pushed_sideways);
-    RUN_TEST(test_two_discs_overlap_along_the_line_between_their_centres);
-    RUN_TEST(test_the_walls_insides_are_the_arenas_edge);
-    RUN_TEST(test_a_thing_is_at_least_as_far_away_as_its_box);
-    RUN_TEST(test_a_capsule_hides_what_is_behind_it);
-    RUN_TEST(test_its_round_ends_hide_too);
-    RUN_TEST(test_everything_is_hidden_from_inside);
-    RUN_TEST(test_a_disc_hides_what_is_behind_it);
-    RUN_TEST(test_a_plant_hides_what_is_right_behind_its_middle);
-    return UNITY_END();
 }

@@ -1,7 +1,8 @@
 #include "host_sim/world/native/plain_grid.h"
 
 #include <string.h>
-#include <unity.h>
+
+#include "tests/test.h"
 
 enum { COLUMNS = 4, ROWS = 3, CELLS = COLUMNS * ROWS, BODIES = 4 };
 
@@ -17,8 +18,6 @@ void setUp(void)
         .cells = cells};
 }
 
-void tearDown(void) {}
-
 static size_t near_to(double x, double y)
 {
     return plain_grid_near(&grid, (struct vector){x, y}, near);
@@ -29,26 +28,26 @@ static void put(uint32_t body, double x, double y)
     plain_grid_put(&grid, body, (struct vector){x, y});
 }
 
-static void test_cells_go_row_by_row(void)
+TEST(cells_go_row_by_row)
 {
     TEST_ASSERT_EQUAL_UINT32(0, plain_grid_cell(&grid, (struct vector){499.0, 0.0}));
     TEST_ASSERT_EQUAL_UINT32(1, plain_grid_cell(&grid, (struct vector){500.0, 499.0}));
     TEST_ASSERT_EQUAL_UINT32(6, plain_grid_cell(&grid, (struct vector){1001.0, 501.0}));
 }
 
-static void test_a_place_outside_belongs_to_the_nearest_cell(void)
+TEST(a_place_outside_belongs_to_the_nearest_cell)
 {
     TEST_ASSERT_EQUAL_UINT32(0, plain_grid_cell(&grid, (struct vector){-5.0, -1e9}));
     TEST_ASSERT_EQUAL_UINT32(CELLS - 1, plain_grid_cell(&grid, (struct vector){2000.0, 1e12}));
 }
 
-static void test_the_border_is_as_far_as_its_nearest_side(void)
+TEST(the_border_is_as_far_as_its_nearest_side)
 {
     TEST_ASSERT_EQUAL_DOUBLE(100.0, plain_grid_border_mm(&grid, (struct vector){600.0, 250.0}));
     TEST_ASSERT_EQUAL_DOUBLE(50.0, plain_grid_border_mm(&grid, (struct vector){750.0, 450.0}));
 }
 
-static void test_bodies_are_found_from_the_cells_around(void)
+TEST(bodies_are_found_from_the_cells_around)
 {
     put(0, 10.0, 10.0);
     put(1, 990.0, 990.0);
@@ -60,7 +59,7 @@ static void test_bodies_are_found_from_the_cells_around(void)
     TEST_ASSERT_EQUAL_UINT32(2, near[0]);
 }
 
-static void test_a_body_that_moves_leaves_its_cell(void)
+TEST(a_body_that_moves_leaves_its_cell)
 {
     for (uint32_t body = 0; body < BODIES; body++)
         put(body, 10.0, 10.0);
@@ -72,15 +71,4 @@ static void test_a_body_that_moves_leaves_its_cell(void)
     TEST_ASSERT_EQUAL_size_t(1, near_to(0.0, 0.0));
     TEST_ASSERT_EQUAL_UINT32(1, near[0]);
     TEST_ASSERT_EQUAL_size_t(3, near_to(1999.0, 1499.0));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_cells_go_row_by_row);
-    RUN_TEST(test_a_place_outside_belongs_to_the_nearest_cell);
-    RUN_TEST(test_the_border_is_as_far_as_its_nearest_side);
-    RUN_TEST(test_bodies_are_found_from_the_cells_around);
-    RUN_TEST(test_a_body_that_moves_leaves_its_cell);
-    return UNITY_END();
 }

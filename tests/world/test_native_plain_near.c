@@ -1,6 +1,5 @@
 #include "host_sim/world/native/plain_near.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 enum { BODIES = 3, CAPSULES = 3, CELLS = 2 };
 
@@ -24,9 +23,7 @@ void setUp(void)
     world = (struct world){.space = &space.space, .body_count = BODIES, .bodies = bodies};
 }
 
-void tearDown(void) {}
-
-static void test_without_a_grid_everything_is_near(void)
+TEST(without_a_grid_everything_is_near)
 {
     struct plain_choice near;
 
@@ -38,7 +35,7 @@ static void test_without_a_grid_everything_is_near(void)
     TEST_ASSERT_EQUAL_UINT32(2, bodies_near[2]);
 }
 
-static void test_a_cell_has_its_capsules(void)
+TEST(a_cell_has_its_capsules)
 {
     const struct plain_choice left = plain_near_capsules(&space, (struct vector){499.0, 10.0});
     const struct plain_choice right = plain_near_capsules(&space, (struct vector){501.0, 10.0});
@@ -49,27 +46,17 @@ static void test_a_cell_has_its_capsules(void)
     TEST_ASSERT_EQUAL_size_t(1, plain_chosen(&right, 0));
 }
 
-static void test_bodies_are_those_in_the_cells_around(void)
+TEST(bodies_are_those_in_the_cells_around)
 {
     plain_grid_put(&grid, 1, (struct vector){10.0, 10.0});
     TEST_ASSERT_EQUAL_size_t(1, plain_near_bodies(&world, (struct vector){600.0, 10.0}, bodies_near));
     TEST_ASSERT_EQUAL_UINT32(1, bodies_near[0]);
 }
 
-static void test_a_body_is_where_its_middle_is(void)
+TEST(a_body_is_where_its_middle_is)
 {
     const struct body body = {.x_mm = 3.0, .y_mm = 4.0};
 
     TEST_ASSERT_EQUAL_DOUBLE(3.0, plain_position(&body).x);
     TEST_ASSERT_EQUAL_DOUBLE(4.0, plain_position(&body).y);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_without_a_grid_everything_is_near);
-    RUN_TEST(test_a_cell_has_its_capsules);
-    RUN_TEST(test_bodies_are_those_in_the_cells_around);
-    RUN_TEST(test_a_body_is_where_its_middle_is);
-    return UNITY_END();
 }

@@ -1,7 +1,8 @@
 #include "host_sim/world/native/plain_space.h"
 
 #include <string.h>
-#include <unity.h>
+
+#include "tests/test.h"
 
 enum { BODIES = 2, CAPSULES = WALLS + 1, WORDS = PLAIN_WORDS(CAPSULES + BODIES) };
 
@@ -33,8 +34,6 @@ void setUp(void)
     body = &bodies[0];
 }
 
-void tearDown(void) {}
-
 static void put(struct body *which, double x_mm, double y_mm)
 {
     which->x_mm = x_mm;
@@ -43,14 +42,14 @@ static void put(struct body *which, double x_mm, double y_mm)
     world.space->place(&world, which);
 }
 
-static void test_a_body_in_the_open_feels_nothing(void)
+TEST(a_body_in_the_open_feels_nothing)
 {
     put(body, 1500.0, 1000.0);
     TEST_ASSERT_EQUAL_HEX8(0, body->feel);
     TEST_ASSERT_EQUAL_INT32(0, body->touches);
 }
 
-static void test_a_bar_ahead_is_felt_and_then_touched(void)
+TEST(a_bar_ahead_is_felt_and_then_touched)
 {
     put(body, 1850.0, 1000.0);
     TEST_ASSERT_EQUAL_HEX8(FEEL_FRONT_RIGHT | FEEL_FRONT | FEEL_FRONT_LEFT, body->feel);
@@ -62,7 +61,7 @@ static void test_a_bar_ahead_is_felt_and_then_touched(void)
     TEST_ASSERT_EQUAL_DOUBLE(1.0, body->normal.x);
 }
 
-static void test_a_collision_counts_when_it_begins(void)
+TEST(a_collision_counts_when_it_begins)
 {
     for (unsigned i = 0; i < 3; i++)
         put(body, 1885.0, 1000.0 + i);
@@ -73,7 +72,7 @@ static void test_a_collision_counts_when_it_begins(void)
     TEST_ASSERT_EQUAL_INT32(2, body->collisions);
 }
 
-static void test_the_deepest_of_two_overlaps_counts(void)
+TEST(the_deepest_of_two_overlaps_counts)
 {
     put(body, 95.0, 98.0);
     TEST_ASSERT_EQUAL_INT32(2, body->touches);
@@ -81,7 +80,7 @@ static void test_the_deepest_of_two_overlaps_counts(void)
     TEST_ASSERT_EQUAL_DOUBLE(-1.0, body->normal.x);
 }
 
-static void test_bodies_feel_and_touch_each_other(void)
+TEST(bodies_feel_and_touch_each_other)
 {
     put(&bodies[1], 1230.0, 1000.0);
     TEST_ASSERT_EQUAL_HEX8(FEEL_FRONT, body->feel & FEEL_FRONT);
@@ -98,7 +97,7 @@ static void test_bodies_feel_and_touch_each_other(void)
     TEST_ASSERT_EQUAL_INT32(1, body->collisions);
 }
 
-static void test_a_lifted_body_neither_feels_nor_is_felt(void)
+TEST(a_lifted_body_neither_feels_nor_is_felt)
 {
     put(&bodies[1], 1190.0, 1000.0);
     bodies[1].lifted = true;
@@ -108,7 +107,7 @@ static void test_a_lifted_body_neither_feels_nor_is_felt(void)
     TEST_ASSERT_EQUAL_INT32(0, bodies[1].touches);
 }
 
-static void test_an_obstacle_that_is_moved_is_felt_once_it_has_settled(void)
+TEST(an_obstacle_that_is_moved_is_felt_once_it_has_settled)
 {
     capsule_set(&capsules[WALLS], (struct vector){1150.0, 500.0}, (struct vector){1150.0, 1500.0}, 20.0);
     plain_space_take(&space, &world);
@@ -116,25 +115,11 @@ static void test_an_obstacle_that_is_moved_is_felt_once_it_has_settled(void)
     TEST_ASSERT_EQUAL_HEX8(FEEL_FRONT, body->feel & FEEL_FRONT);
 }
 
-static void test_what_a_body_touches_when_the_space_is_taken_is_not_new(void)
+TEST(what_a_body_touches_when_the_space_is_taken_is_not_new)
 {
     put(body, 1885.0, 1000.0);
     plain_space_take(&space, &world);
     put(body, 1885.0, 1001.0);
     TEST_ASSERT_EQUAL_INT32(1, body->touches);
     TEST_ASSERT_EQUAL_INT32(1, body->collisions);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_body_in_the_open_feels_nothing);
-    RUN_TEST(test_a_bar_ahead_is_felt_and_then_touched);
-    RUN_TEST(test_a_collision_counts_when_it_begins);
-    RUN_TEST(test_the_deepest_of_two_overlaps_counts);
-    RUN_TEST(test_bodies_feel_and_touch_each_other);
-    RUN_TEST(test_a_lifted_body_neither_feels_nor_is_felt);
-    RUN_TEST(test_an_obstacle_that_is_moved_is_felt_once_it_has_settled);
-    RUN_TEST(test_what_a_body_touches_when_the_space_is_taken_is_not_new);
-    return UNITY_END();
 }

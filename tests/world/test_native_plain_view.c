@@ -1,7 +1,5 @@
 #include "host_sim/world/native/plain_view.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "host_sim/world/native/plain_space.h"
 
 enum { BODIES = 2, COLUMNS = 8 };
@@ -21,38 +19,36 @@ void setUp(void)
     world = (struct world){.space = &space.space, .body_count = BODIES, .bodies = bodies};
 }
 
-void tearDown(void) {}
-
 static bool is_hidden(double x_mm, double y_mm)
 {
     return plain_view_hides(&world, &bodies[0], (struct vector){x_mm, y_mm});
 }
 
-static void test_a_bar_hides_what_is_behind_it(void)
+TEST(a_bar_hides_what_is_behind_it)
 {
     TEST_ASSERT_TRUE(is_hidden(2500.0, 1000.0));
     TEST_ASSERT_FALSE(is_hidden(1900.0, 1000.0));
     TEST_ASSERT_FALSE(is_hidden(2500.0, 100.0));
 }
 
-static void test_another_body_hides_what_is_behind_it(void)
+TEST(another_body_hides_what_is_behind_it)
 {
     TEST_ASSERT_TRUE(is_hidden(1000.0, 2500.0));
     TEST_ASSERT_FALSE(is_hidden(1000.0, 500.0));
 }
 
-static void test_a_lifted_body_hides_nothing(void)
+TEST(a_lifted_body_hides_nothing)
 {
     bodies[1].lifted = true;
     TEST_ASSERT_FALSE(is_hidden(1000.0, 2500.0));
 }
 
-static void test_a_body_does_not_hide_what_it_stands_on(void)
+TEST(a_body_does_not_hide_what_it_stands_on)
 {
     TEST_ASSERT_FALSE(is_hidden(1000.0, 1000.0));
 }
 
-static void test_with_a_grid_the_cells_along_the_way_are_searched(void)
+TEST(with_a_grid_the_cells_along_the_way_are_searched)
 {
     static const uint32_t firsts[COLUMNS + 1] = {0, 0, 0, 0, 1, 2, 2, 2, 2}, numbers[] = {0, 0};
     static uint32_t heads[COLUMNS], nexts[BODIES], cells[BODIES];
@@ -64,15 +60,4 @@ static void test_with_a_grid_the_cells_along_the_way_are_searched(void)
     TEST_ASSERT_TRUE(is_hidden(2500.0, 1000.0));
     TEST_ASSERT_TRUE(is_hidden(3800.0, 2400.0));
     TEST_ASSERT_FALSE(is_hidden(1900.0, 1000.0));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_bar_hides_what_is_behind_it);
-    RUN_TEST(test_another_body_hides_what_is_behind_it);
-    RUN_TEST(test_a_lifted_body_hides_nothing);
-    RUN_TEST(test_a_body_does_not_hide_what_it_stands_on);
-    RUN_TEST(test_with_a_grid_the_cells_along_the_way_are_searched);
-    return UNITY_END();
 }

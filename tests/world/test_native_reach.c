@@ -1,6 +1,5 @@
 #include "host_sim/world/native/reach.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 /* Cells of 10 mm, free 10 mm off a bar or a wall: of six rows and eight columns the outermost are blocked. */
 enum { ROWS = 6, COLUMNS = 8, STRIDE = COLUMNS + 2, CELLS = (ROWS + 2) * STRIDE };
@@ -16,8 +15,6 @@ void setUp(void)
         .rows = ROWS, .columns = COLUMNS, .bars = &bar, .stack = stack};
 }
 
-void tearDown(void) {}
-
 static unsigned reached(unsigned row, unsigned column)
 {
     unsigned count = 0;
@@ -28,19 +25,19 @@ static unsigned reached(unsigned row, unsigned column)
     return count;
 }
 
-static void test_all_cells_off_the_walls_are_reached(void)
+TEST(all_cells_off_the_walls_are_reached)
 {
     TEST_ASSERT_EQUAL_UINT(24, reached(2, 2));
     TEST_ASSERT_EQUAL_UINT8(1, cells[5 * STRIDE + 7]);
     TEST_ASSERT_EQUAL_UINT8(0, cells[6 * STRIDE + 7]);
 }
 
-static void test_nothing_is_reached_from_a_blocked_cell(void)
+TEST(nothing_is_reached_from_a_blocked_cell)
 {
     TEST_ASSERT_EQUAL_UINT(0, reached(1, 1));
 }
 
-static void test_a_bar_across_the_arena_parts_it(void)
+TEST(a_bar_across_the_arena_parts_it)
 {
     bar = (struct reach_bar){.ax_mm = 40.0, .ay_mm = 0.0, .bx_mm = 40.0, .by_mm = 60.0};
     reach.bar_count = 1;
@@ -49,21 +46,11 @@ static void test_a_bar_across_the_arena_parts_it(void)
     TEST_ASSERT_EQUAL_UINT(8, reached(2, 7));
 }
 
-static void test_a_cell_exactly_at_the_limit_is_free(void)
+TEST(a_cell_exactly_at_the_limit_is_free)
 {
     bar = (struct reach_bar){.ax_mm = 0.0, .ay_mm = 27.0, .bx_mm = 80.0, .by_mm = 27.0};   /* its face is 10 mm off the middles of row 2 */
     reach.bar_count = 1;
     TEST_ASSERT_EQUAL_UINT(6, reached(2, 2));
     bar.ay_mm = bar.by_mm = 26.999;
     TEST_ASSERT_EQUAL_UINT(0, reached(2, 2));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_all_cells_off_the_walls_are_reached);
-    RUN_TEST(test_nothing_is_reached_from_a_blocked_cell);
-    RUN_TEST(test_a_bar_across_the_arena_parts_it);
-    RUN_TEST(test_a_cell_exactly_at_the_limit_is_free);
-    return UNITY_END();
 }

@@ -1,15 +1,10 @@
 /* Sine and cosine: known answers. */
 #include "host_sim/world/native/trig.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 static const double TURN_RAD = 6.283185307179586;
 
-void setUp(void) {}
-
-void tearDown(void) {}
-
-static void test_known_angles_have_known_sines_and_cosines(void)
+TEST(known_angles_have_known_sines_and_cosines)
 {
     static const struct {
         double angle_rad, sin, cos;
@@ -25,7 +20,7 @@ static void test_known_angles_have_known_sines_and_cosines(void)
     }
 }
 
-static void test_they_belong_to_one_circle(void)
+TEST(they_belong_to_one_circle)
 {
     for (int i = -1000; i <= 1000; i++) {
         double angle_rad = i * TURN_RAD / 360.0;
@@ -35,12 +30,4 @@ static void test_they_belong_to_one_circle(void)
         TEST_ASSERT_TRUE(trig_sin(-angle_rad) == -sin);
         TEST_ASSERT_TRUE(trig_cos(-angle_rad) == cos);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_known_angles_have_known_sines_and_cosines);
-    RUN_TEST(test_they_belong_to_one_circle);
-    return UNITY_END();
 }

@@ -1,7 +1,5 @@
 #include "host_sim/world/native/world.h"
-
-#include <unity.h>
-
+#include "tests/test.h"
 #include "tests/world/fake_space.h"
 
 static struct world world;
@@ -13,9 +11,7 @@ void setUp(void)
     body = &world.bodies[0];
 }
 
-void tearDown(void) {}
-
-static void test_senses_are_those_of_the_body(void)
+TEST(senses_are_those_of_the_body)
 {
     struct senses senses;
 
@@ -33,7 +29,7 @@ static void test_senses_are_those_of_the_body(void)
     TEST_ASSERT_EQUAL_UINT16(ODOMETER_SPAN - 1, senses.odometer_right);
 }
 
-static void test_a_body_that_senses_nothing(void)
+TEST(a_body_that_senses_nothing)
 {
     struct senses senses;
 
@@ -51,7 +47,7 @@ static bool eats_at(double ahead_mm)
     return world_eat(&world, body);
 }
 
-static void test_food_within_reach_is_eaten(void)
+TEST(food_within_reach_is_eaten)
 {
     world.food[0].eaten = true;
     TEST_ASSERT_EQUAL_size_t(1, world_food_left(&world));
@@ -60,14 +56,14 @@ static void test_food_within_reach_is_eaten(void)
     TEST_ASSERT_FALSE(world_eat(&world, body));
 }
 
-static void test_food_out_of_reach_is_not_eaten(void)
+TEST(food_out_of_reach_is_not_eaten)
 {
     TEST_ASSERT_FALSE(eats_at(150.0));
     TEST_ASSERT_FALSE(eats_at(-100.0));
     TEST_ASSERT_FALSE(world.food[1].eaten);
 }
 
-static void test_wheels_roll_for_a_tick(void)
+TEST(wheels_roll_for_a_tick)
 {
     world_move(&world, body, 200, 200);
     TEST_ASSERT_EQUAL_DOUBLE(4.0, body->left_mm);
@@ -75,14 +71,14 @@ static void test_wheels_roll_for_a_tick(void)
     TEST_ASSERT_EQUAL_DOUBLE(1004.0, fake.position.x);
 }
 
-static void test_wheels_have_a_fastest_speed_either_way(void)
+TEST(wheels_have_a_fastest_speed_either_way)
 {
     world_move(&world, body, 2000, -2000);
     TEST_ASSERT_EQUAL_DOUBLE(10.0, body->left_mm);
     TEST_ASSERT_EQUAL_DOUBLE(-10.0, body->right_mm);
 }
 
-static void test_a_lifted_bodys_wheels_roll_in_the_air(void)
+TEST(a_lifted_bodys_wheels_roll_in_the_air)
 {
     body->lifted = true;
     world_move(&world, body, 200, 200);
@@ -91,24 +87,10 @@ static void test_a_lifted_bodys_wheels_roll_in_the_air(void)
     TEST_ASSERT_EQUAL_size_t(0, fake.steps);
 }
 
-static void test_a_body_that_runs_into_something_is_pushed_out(void)
+TEST(a_body_that_runs_into_something_is_pushed_out)
 {
     fake.depths[0] = 4.0;
     fake.normal.x = 1.0;
     world_move(&world, body, 200, 200);
     TEST_ASSERT_EQUAL_DOUBLE(1004.0 - (4.0 - 0.005), body->x_mm);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_senses_are_those_of_the_body);
-    RUN_TEST(test_a_body_that_senses_nothing);
-    RUN_TEST(test_food_within_reach_is_eaten);
-    RUN_TEST(test_food_out_of_reach_is_not_eaten);
-    RUN_TEST(test_wheels_roll_for_a_tick);
-    RUN_TEST(test_wheels_have_a_fastest_speed_either_way);
-    RUN_TEST(test_a_lifted_bodys_wheels_roll_in_the_air);
-    RUN_TEST(test_a_body_that_runs_into_something_is_pushed_out);
-    return UNITY_END();
 }

@@ -4,8 +4,12 @@ if(NOT EXISTS ${UNITY_DIR}/unity.c)
   message(FATAL_ERROR "Unity is not in ${UNITY_DIR}: run tools/setup tests")
 endif()
 
-add_library(unity STATIC ${UNITY_DIR}/unity.c)
+get_filename_component(root ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
+add_library(unity STATIC ${UNITY_DIR}/unity.c ${root}/tests/test.c)
+set_source_files_properties(${root}/tests/test.c PROPERTIES
+  COMPILE_OPTIONS $<TARGET_PROPERTY:octet_warnings,INTERFACE_COMPILE_OPTIONS>)
 target_include_directories(unity SYSTEM PUBLIC ${UNITY_DIR})
+target_include_directories(unity PUBLIC ${root})
 target_compile_definitions(unity PUBLIC UNITY_INCLUDE_DOUBLE)   # for the world; the robot knows only whole numbers
 
 # octet_add_test(NAME COMMAND...): has ctest run a program of Unity's. With no test run, or with tests that are ignored, it

@@ -2,8 +2,7 @@
 #ifndef OCTET_BRAIN_RIG_H
 #define OCTET_BRAIN_RIG_H
 
-#include <unity.h>
-
+#include "tests/test.h"
 #include "firmware/brain.h"
 
 enum { CLEAR = 0, FRONT_RIGHT = FEEL_FRONT_RIGHT, FRONT = FEEL_FRONT, FRONT_LEFT = FEEL_FRONT_LEFT, ALL_THREE = 14 };

@@ -5,11 +5,9 @@ void setUp(void)
     begin(PROFILE_ADAPTIVE);
 }
 
-void tearDown(void) {}
-
 enum { LEFT_1 = 5, LEFT_2 = 9, LEFT_3 = 13 };   /* left, with that confidence */
 
-static void test_a_lesson_has_confidence_1_and_a_clear_way_adds_1(void)
+TEST(a_lesson_has_confidence_1_and_a_clear_way_adds_1)
 {
     next(ALL_THREE);
     next(FRONT);
@@ -18,7 +16,7 @@ static void test_a_lesson_has_confidence_1_and_a_clear_way_adds_1(void)
     TEST_ASSERT_EQUAL(2, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
 }
 
-static void test_confidence_ends_at_3(void)
+TEST(confidence_ends_at_3)
 {
     brain.memory.cell[PATTERN_FRONT] = LEFT_3;
     next(FRONT);
@@ -27,7 +25,7 @@ static void test_confidence_ends_at_3(void)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-static void test_boredom_takes_a_confidence_of_2(void)
+TEST(boredom_takes_a_confidence_of_2)
 {
     brain.memory.cell[PATTERN_FRONT] = LEFT_3;
     remembered_turns(10);
@@ -38,7 +36,7 @@ static void test_boredom_takes_a_confidence_of_2(void)
     TEST_ASSERT_EQUAL_UINT8(0, brain.memory.cell[PATTERN_FRONT]);
 }
 
-static void test_a_cell_that_was_not_used_is_not_judged(void)
+TEST(a_cell_that_was_not_used_is_not_judged)
 {
     brain.memory.cell[PATTERN_FRONT] = LEFT_2;
     brain.memory.cell[PATTERN_ALL_THREE] = LEFT_2;
@@ -48,7 +46,7 @@ static void test_a_cell_that_was_not_used_is_not_judged(void)
     TEST_ASSERT_EQUAL_UINT8(LEFT_2, brain.memory.cell[PATTERN_ALL_THREE]);
 }
 
-static void test_a_frozen_brain_neither_praises_nor_blames(void)
+TEST(a_frozen_brain_neither_praises_nor_blames)
 {
     brain.memory.cell[PATTERN_FRONT] = LEFT_2;
     brain.frozen = true;
@@ -60,7 +58,7 @@ static void test_a_frozen_brain_neither_praises_nor_blames(void)
     TEST_ASSERT_EQUAL_UINT8(LEFT_2, brain.memory.cell[PATTERN_FRONT]);
 }
 
-static void test_a_frozen_brain_learns_nothing_from_a_trial_that_helped(void)
+TEST(a_frozen_brain_learns_nothing_from_a_trial_that_helped)
 {
     brain.frozen = true;
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(ALL_THREE).reason);
@@ -68,16 +66,4 @@ static void test_a_frozen_brain_learns_nothing_from_a_trial_that_helped(void)
     TEST_ASSERT_EQUAL_UINT8(0, brain.memory.cell[PATTERN_ALL_THREE]);
     TEST_ASSERT_EQUAL_UINT8(0, brain.used);
     TEST_ASSERT_FALSE(brain.changed);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_lesson_has_confidence_1_and_a_clear_way_adds_1);
-    RUN_TEST(test_confidence_ends_at_3);
-    RUN_TEST(test_boredom_takes_a_confidence_of_2);
-    RUN_TEST(test_a_cell_that_was_not_used_is_not_judged);
-    RUN_TEST(test_a_frozen_brain_neither_praises_nor_blames);
-    RUN_TEST(test_a_frozen_brain_learns_nothing_from_a_trial_that_helped);
-    return UNITY_END();
 }

@@ -8,9 +8,7 @@ void setUp(void)
     begin(PROFILE_ARTICLE);
 }
 
-void tearDown(void) {}
-
-static void test_looking_around_is_by_2_to_11_degrees_either_way(void)
+TEST(looking_around_is_by_2_to_11_degrees_either_way)
 {
     bool seen[23] = {false};   /* -11..11 degrees */
 
@@ -26,7 +24,7 @@ static void test_looking_around_is_by_2_to_11_degrees_either_way(void)
         TEST_ASSERT_EQUAL(turn_deg < -1 || turn_deg > 1, seen[turn_deg + 11]);
 }
 
-static void test_either_way_of_looking_around_is_as_likely(void)
+TEST(either_way_of_looking_around_is_as_likely)
 {
     unsigned right = 0;
 
@@ -37,7 +35,7 @@ static void test_either_way_of_looking_around_is_as_likely(void)
     TEST_ASSERT_UINT_WITHIN(112, MANY / 2, right);   /* five standard deviations */
 }
 
-static void test_either_way_of_trying_is_as_likely(void)
+TEST(either_way_of_trying_is_as_likely)
 {
     unsigned right = 0;
 
@@ -46,7 +44,7 @@ static void test_either_way_of_trying_is_as_likely(void)
     TEST_ASSERT_UINT_WITHIN(112, MANY / 2, right);
 }
 
-static void test_turning_about_is_by_150_to_209_degrees_to_the_right(void)
+TEST(turning_about_is_by_150_to_209_degrees_to_the_right)
 {
     bool seen[60] = {false};
 
@@ -65,7 +63,7 @@ static void test_turning_about_is_by_150_to_209_degrees_to_the_right(void)
         TEST_ASSERT_TRUE(seen[i]);
 }
 
-static void test_equal_seeds_make_equal_choices(void)
+TEST(equal_seeds_make_equal_choices)
 {
     for (unsigned i = 0; i < 100; i++) {
         int first;
@@ -77,7 +75,7 @@ static void test_equal_seeds_make_equal_choices(void)
     }
 }
 
-static void test_a_step_a_meal_and_a_remembered_turn_draw_no_random_number(void)
+TEST(a_step_a_meal_and_a_remembered_turn_draw_no_random_number)
 {
     struct random before;
 
@@ -90,7 +88,7 @@ static void test_a_step_a_meal_and_a_remembered_turn_draw_no_random_number(void)
 }
 
 /* The article's draws: random(2) is 1 for a look to the right. */
-static void test_it_looks_to_the_right_where_the_draw_is_1(void)
+TEST(it_looks_to_the_right_where_the_draw_is_1)
 {
     for (unsigned i = 0; i < 20; i++) {
         struct random dice;
@@ -102,25 +100,11 @@ static void test_it_looks_to_the_right_where_the_draw_is_1(void)
 }
 
 /* random(2) + 1 is the side: 1 left, 2 right. */
-static void test_it_tries_the_side_that_is_drawn(void)
+TEST(it_tries_the_side_that_is_drawn)
 {
     for (unsigned i = 0; i < 20; i++) {
         struct random dice = brain.random;
 
         TEST_ASSERT_EQUAL(random_below(&dice, 2) + 1 == SIDE_RIGHT, next(FRONT).turn_deg > 0);
     }
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_looking_around_is_by_2_to_11_degrees_either_way);
-    RUN_TEST(test_either_way_of_looking_around_is_as_likely);
-    RUN_TEST(test_either_way_of_trying_is_as_likely);
-    RUN_TEST(test_turning_about_is_by_150_to_209_degrees_to_the_right);
-    RUN_TEST(test_equal_seeds_make_equal_choices);
-    RUN_TEST(test_a_step_a_meal_and_a_remembered_turn_draw_no_random_number);
-    RUN_TEST(test_it_looks_to_the_right_where_the_draw_is_1);
-    RUN_TEST(test_it_tries_the_side_that_is_drawn);
-    return UNITY_END();
 }

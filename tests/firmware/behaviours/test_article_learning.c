@@ -6,9 +6,7 @@ void setUp(void)
     begin(PROFILE_ARTICLE);
 }
 
-void tearDown(void) {}
-
-static void test_a_cell_with_left_turns_left(void)
+TEST(a_cell_with_left_turns_left)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
         learned(pattern, SIDE_LEFT);
@@ -16,7 +14,7 @@ static void test_a_cell_with_left_turns_left(void)
     }
 }
 
-static void test_a_cell_with_right_turns_right(void)
+TEST(a_cell_with_right_turns_right)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
         learned(pattern, SIDE_RIGHT);
@@ -24,7 +22,7 @@ static void test_a_cell_with_right_turns_right(void)
     }
 }
 
-static void test_an_empty_cell_is_tried_by_45_degrees(void)
+TEST(an_empty_cell_is_tried_by_45_degrees)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
         struct action trial = next((uint8_t)(pattern << 1));
@@ -39,7 +37,7 @@ static enum side side_of(struct action action)
     return action.turn_deg > 0 ? SIDE_RIGHT : SIDE_LEFT;
 }
 
-static void test_a_trial_that_frees_a_sensor_is_remembered_for_the_old_pattern(void)
+TEST(a_trial_that_frees_a_sensor_is_remembered_for_the_old_pattern)
 {
     for (unsigned i = 0; i < 20; i++) {
         enum side tried;
@@ -51,7 +49,7 @@ static void test_a_trial_that_frees_a_sensor_is_remembered_for_the_old_pattern(v
     }
 }
 
-static void test_a_trial_changes_no_other_cell(void)
+TEST(a_trial_changes_no_other_cell)
 {
     next(ALL_THREE);
     next(FRONT);
@@ -59,35 +57,35 @@ static void test_a_trial_changes_no_other_cell(void)
         TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, pattern));
 }
 
-static void test_a_trial_that_frees_no_sensor_is_forgotten(void)
+TEST(a_trial_that_frees_no_sensor_is_forgotten)
 {
     next(FRONT);
     next(FRONT_LEFT);   /* another pattern, but as many */
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
-static void test_a_trial_that_makes_it_worse_is_forgotten(void)
+TEST(a_trial_that_makes_it_worse_is_forgotten)
 {
     next(FRONT);
     next(ALL_THREE);
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
-static void test_the_side_sensors_do_not_judge_a_trial(void)
+TEST(the_side_sensors_do_not_judge_a_trial)
 {
     next(FRONT | FRONT_LEFT);
     next(FRONT | 1 | 16);
     TEST_ASSERT_NOT_EQUAL_INT(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT | PATTERN_FRONT_LEFT));
 }
 
-static void test_the_reading_that_judges_a_trial_decides_the_next_action(void)
+TEST(the_reading_that_judges_a_trial_decides_the_next_action)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     next(ALL_THREE);
     assert_action(REASON_REMEMBERED, -10, 0, next(FRONT));
 }
 
-static void test_a_trial_is_judged_by_the_first_reading_only(void)
+TEST(a_trial_is_judged_by_the_first_reading_only)
 {
     learned(PATTERN_FRONT_LEFT, SIDE_RIGHT);
     next(FRONT);
@@ -96,7 +94,7 @@ static void test_a_trial_is_judged_by_the_first_reading_only(void)
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
-static void test_learning_marks_the_memory_as_changed(void)
+TEST(learning_marks_the_memory_as_changed)
 {
     next(FRONT);
     TEST_ASSERT_FALSE(brain.changed);
@@ -104,14 +102,14 @@ static void test_learning_marks_the_memory_as_changed(void)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-static void test_a_trial_in_vain_leaves_the_memory_unchanged(void)
+TEST(a_trial_in_vain_leaves_the_memory_unchanged)
 {
     next(FRONT);
     next(FRONT);
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-static void test_a_frozen_brain_learns_nothing(void)
+TEST(a_frozen_brain_learns_nothing)
 {
     brain.frozen = true;
     next(FRONT);
@@ -120,46 +118,24 @@ static void test_a_frozen_brain_learns_nothing(void)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-static void test_a_frozen_brain_uses_what_it_knows(void)
+TEST(a_frozen_brain_uses_what_it_knows)
 {
     brain.frozen = true;
     learned(PATTERN_FRONT, SIDE_RIGHT);
     assert_action(REASON_REMEMBERED, 10, 0, next(FRONT));
 }
 
-static void test_a_start_keeps_what_was_learned(void)
+TEST(a_start_keeps_what_was_learned)
 {
     learned(PATTERN_FRONT, SIDE_RIGHT);
     brain_start(&brain, PROFILE_ARTICLE, 2);
     assert_action(REASON_REMEMBERED, 10, 0, next(FRONT));
 }
 
-static void test_a_start_forgets_the_trial_under_way(void)
+TEST(a_start_forgets_the_trial_under_way)
 {
     next(FRONT);
     brain_start(&brain, PROFILE_ARTICLE, 2);
     next(CLEAR);
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_cell_with_left_turns_left);
-    RUN_TEST(test_a_cell_with_right_turns_right);
-    RUN_TEST(test_an_empty_cell_is_tried_by_45_degrees);
-    RUN_TEST(test_a_trial_that_frees_a_sensor_is_remembered_for_the_old_pattern);
-    RUN_TEST(test_a_trial_changes_no_other_cell);
-    RUN_TEST(test_a_trial_that_frees_no_sensor_is_forgotten);
-    RUN_TEST(test_a_trial_that_makes_it_worse_is_forgotten);
-    RUN_TEST(test_the_side_sensors_do_not_judge_a_trial);
-    RUN_TEST(test_the_reading_that_judges_a_trial_decides_the_next_action);
-    RUN_TEST(test_a_trial_is_judged_by_the_first_reading_only);
-    RUN_TEST(test_learning_marks_the_memory_as_changed);
-    RUN_TEST(test_a_trial_in_vain_leaves_the_memory_unchanged);
-    RUN_TEST(test_a_frozen_brain_learns_nothing);
-    RUN_TEST(test_a_frozen_brain_uses_what_it_knows);
-    RUN_TEST(test_a_start_keeps_what_was_learned);
-    RUN_TEST(test_a_start_forgets_the_trial_under_way);
-    return UNITY_END();
 }

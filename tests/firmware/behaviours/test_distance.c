@@ -1,6 +1,5 @@
 #include "firmware/brain.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 enum { FRONT = FEEL_FRONT, PATTERN_FRONT = 2 };
 
@@ -13,8 +12,6 @@ void setUp(void)
     config_reset(&config);
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_DISTANCE, 1));
 }
-
-void tearDown(void) {}
 
 static struct senses blocked(unsigned sensor, uint8_t range_mm)
 {
@@ -36,13 +33,13 @@ static int turn_with(enum side side, unsigned sensor, uint8_t range_mm)
     return action.turn_deg;
 }
 
-static void test_it_wants_ranges_and_learns(void)
+TEST(it_wants_ranges_and_learns)
 {
     TEST_ASSERT_TRUE(brain.wants_ranges);
     TEST_ASSERT_TRUE(brain.learns);
 }
 
-static void test_the_nearer_it_is_the_bigger_the_turn(void)
+TEST(the_nearer_it_is_the_bigger_the_turn)
 {
     static const struct {
         uint8_t range_mm;
@@ -55,13 +52,13 @@ static void test_the_nearer_it_is_the_bigger_the_turn(void)
     }
 }
 
-static void test_the_front_three_count_and_the_sides_do_not(void)
+TEST(the_front_three_count_and_the_sides_do_not)
 {
     for (unsigned sensor = 0; sensor < FEEL_COUNT; sensor++)
         TEST_ASSERT_EQUAL_INT(sensor == 0 || sensor == 4 ? 10 : 20, turn_with(SIDE_RIGHT, sensor, 30));
 }
 
-static void test_the_nearest_counts(void)
+TEST(the_nearest_counts)
 {
     struct senses senses = blocked(1, 50);
 
@@ -71,13 +68,13 @@ static void test_the_nearest_counts(void)
     TEST_ASSERT_EQUAL_INT(-23, brain_next(&brain, &config, &senses).turn_deg);
 }
 
-static void test_it_adds_to_the_turn_that_is_set(void)
+TEST(it_adds_to_the_turn_that_is_set)
 {
     config_set(&config, TURN_DEG, 180);
     TEST_ASSERT_EQUAL_INT(200, turn_with(SIDE_RIGHT, 2, 0));
 }
 
-static void test_a_trial_is_as_big_as_ever(void)
+TEST(a_trial_is_as_big_as_ever)
 {
     const struct senses senses = blocked(2, 0);
     int turn_deg = brain_next(&brain, &config, &senses).turn_deg;
@@ -85,13 +82,13 @@ static void test_a_trial_is_as_big_as_ever(void)
     TEST_ASSERT_EQUAL_INT(45, turn_deg < 0 ? -turn_deg : turn_deg);
 }
 
-static void test_another_behaviour_wants_no_ranges(void)
+TEST(another_behaviour_wants_no_ranges)
 {
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_ARTICLE, 1));
     TEST_ASSERT_FALSE(brain.wants_ranges);
 }
 
-static void test_a_behaviour_that_a_memory_has_chosen_wants_no_ranges(void)
+TEST(a_behaviour_that_a_memory_has_chosen_wants_no_ranges)
 {
     static const uint8_t cells[CELL_COUNT] = {0, 5};
 
@@ -99,24 +96,9 @@ static void test_a_behaviour_that_a_memory_has_chosen_wants_no_ranges(void)
     TEST_ASSERT_FALSE(brain.wants_ranges);
 }
 
-static void test_the_smallest_turn_is_to_its_side_too(void)
+TEST(the_smallest_turn_is_to_its_side_too)
 {
     config_set(&config, TURN_DEG, 1);
     TEST_ASSERT_EQUAL_INT(21, turn_with(SIDE_RIGHT, 2, 0));
     TEST_ASSERT_EQUAL_INT(-21, turn_with(SIDE_LEFT, 2, 0));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_wants_ranges_and_learns);
-    RUN_TEST(test_the_nearer_it_is_the_bigger_the_turn);
-    RUN_TEST(test_the_front_three_count_and_the_sides_do_not);
-    RUN_TEST(test_the_nearest_counts);
-    RUN_TEST(test_it_adds_to_the_turn_that_is_set);
-    RUN_TEST(test_a_trial_is_as_big_as_ever);
-    RUN_TEST(test_another_behaviour_wants_no_ranges);
-    RUN_TEST(test_a_behaviour_that_a_memory_has_chosen_wants_no_ranges);
-    RUN_TEST(test_the_smallest_turn_is_to_its_side_too);
-    return UNITY_END();
 }

@@ -1,7 +1,6 @@
 #include "firmware/brain.h"
 #include "firmware/memory_write.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 static const uint8_t PROGRAMMED[CELL_COUNT] = {0, 1, 1, 1, 2, 1, 2, 1};
 
@@ -15,8 +14,6 @@ void setUp(void)
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_FIXED, 1));
 }
 
-void tearDown(void) {}
-
 static struct action next(uint8_t pattern)
 {
     const struct senses senses = {.feel = (uint8_t)(pattern << 1)};
@@ -24,20 +21,20 @@ static struct action next(uint8_t pattern)
     return brain_next(&brain, &config, &senses);
 }
 
-static void test_it_begins_with_the_programmed_turns(void)
+TEST(it_begins_with_the_programmed_turns)
 {
     TEST_ASSERT_EQUAL_UINT8_ARRAY(PROGRAMMED, brain.memory.cell, CELL_COUNT);
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-static void test_whatever_was_remembered_gives_way_to_them(void)
+TEST(whatever_was_remembered_gives_way_to_them)
 {
     memory_learn(&brain.memory, 1, SIDE_RIGHT);
     brain_start(&brain, PROFILE_FIXED, 1);
     TEST_ASSERT_EQUAL_UINT8_ARRAY(PROGRAMMED, brain.memory.cell, CELL_COUNT);
 }
 
-static void test_every_pattern_has_its_turn(void)
+TEST(every_pattern_has_its_turn)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
         struct action action = next(pattern);
@@ -47,13 +44,13 @@ static void test_every_pattern_has_its_turn(void)
     }
 }
 
-static void test_what_a_person_writes_is_used(void)
+TEST(what_a_person_writes_is_used)
 {
     TEST_ASSERT_TRUE(memory_write(&brain.memory, MEMORY_KIND_SIDES, 1u << 1, SIDE_RIGHT << 8));
     TEST_ASSERT_EQUAL(10, next(1).turn_deg);
 }
 
-static void test_a_cell_that_a_person_erased_is_tried_and_not_learned(void)
+TEST(a_cell_that_a_person_erased_is_tried_and_not_learned)
 {
     memory_erase(&brain.memory);
     brain.changed = false;
@@ -63,27 +60,14 @@ static void test_a_cell_that_a_person_erased_is_tried_and_not_learned(void)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-static void test_it_is_bored_as_the_article_is(void)
+TEST(it_is_bored_as_the_article_is)
 {
     for (unsigned i = 0; i < 10; i++)
         TEST_ASSERT_EQUAL(REASON_REMEMBERED, next(2).reason);
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(2).reason);
 }
 
-static void test_it_stores_nothing(void)
+TEST(it_stores_nothing)
 {
     TEST_ASSERT_FALSE(brain.learns);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_begins_with_the_programmed_turns);
-    RUN_TEST(test_whatever_was_remembered_gives_way_to_them);
-    RUN_TEST(test_every_pattern_has_its_turn);
-    RUN_TEST(test_what_a_person_writes_is_used);
-    RUN_TEST(test_a_cell_that_a_person_erased_is_tried_and_not_learned);
-    RUN_TEST(test_it_is_bored_as_the_article_is);
-    RUN_TEST(test_it_stores_nothing);
-    return UNITY_END();
 }

@@ -5,9 +5,7 @@ void setUp(void)
     begin(PROFILE_FORGETFUL);
 }
 
-void tearDown(void) {}
-
-static void test_bored_it_forgets_what_it_has_used(void)
+TEST(bored_it_forgets_what_it_has_used)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     learned(PATTERN_FRONT_RIGHT, SIDE_LEFT);
@@ -21,7 +19,7 @@ static void test_bored_it_forgets_what_it_has_used(void)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-static void test_what_led_to_a_clear_way_is_not_forgotten(void)
+TEST(what_led_to_a_clear_way_is_not_forgotten)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     learned(PATTERN_FRONT_RIGHT, SIDE_LEFT);
@@ -33,7 +31,7 @@ static void test_what_led_to_a_clear_way_is_not_forgotten(void)
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT_RIGHT));
 }
 
-static void test_a_lesson_just_learned_is_forgotten_too(void)
+TEST(a_lesson_just_learned_is_forgotten_too)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     next(ALL_THREE);
@@ -43,7 +41,7 @@ static void test_a_lesson_just_learned_is_forgotten_too(void)
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_ALL_THREE));
 }
 
-static void test_bored_it_begins_to_count_anew(void)
+TEST(bored_it_begins_to_count_anew)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(10);
@@ -51,7 +49,7 @@ static void test_bored_it_begins_to_count_anew(void)
     TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
 }
 
-static void test_it_knows_what_boredom_has_emptied(void)
+TEST(it_knows_what_boredom_has_emptied)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(10);
@@ -60,7 +58,7 @@ static void test_it_knows_what_boredom_has_emptied(void)
     TEST_ASSERT_EQUAL_HEX8(1u << PATTERN_FRONT, brain.unlearned);
 }
 
-static void test_what_a_person_has_emptied_was_not_boredom(void)
+TEST(what_a_person_has_emptied_was_not_boredom)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(10);
@@ -69,7 +67,7 @@ static void test_what_a_person_has_emptied_was_not_boredom(void)
     TEST_ASSERT_EQUAL_HEX8(0, brain.unlearned);
 }
 
-static void test_a_frozen_brain_forgets_nothing(void)
+TEST(a_frozen_brain_forgets_nothing)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     brain.frozen = true;
@@ -80,7 +78,7 @@ static void test_a_frozen_brain_forgets_nothing(void)
     TEST_ASSERT_EQUAL_HEX8(0, brain.unlearned);
 }
 
-static void test_what_it_learns_is_a_side_and_no_more(void)
+TEST(what_it_learns_is_a_side_and_no_more)
 {
     TEST_ASSERT_TRUE(brain.learns);
     next(ALL_THREE);
@@ -92,7 +90,7 @@ static void test_what_it_learns_is_a_side_and_no_more(void)
                      || brain.memory.cell[PATTERN_ALL_THREE] == SIDE_RIGHT);
 }
 
-static void test_a_run_begins_with_no_cell_used(void)
+TEST(a_run_begins_with_no_cell_used)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     learned(PATTERN_ALL_THREE, SIDE_LEFT);
@@ -101,19 +99,4 @@ static void test_a_run_begins_with_no_cell_used(void)
     remembered_turns(10);
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_ALL_THREE));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_bored_it_forgets_what_it_has_used);
-    RUN_TEST(test_what_led_to_a_clear_way_is_not_forgotten);
-    RUN_TEST(test_a_lesson_just_learned_is_forgotten_too);
-    RUN_TEST(test_bored_it_begins_to_count_anew);
-    RUN_TEST(test_it_knows_what_boredom_has_emptied);
-    RUN_TEST(test_what_a_person_has_emptied_was_not_boredom);
-    RUN_TEST(test_a_frozen_brain_forgets_nothing);
-    RUN_TEST(test_what_it_learns_is_a_side_and_no_more);
-    RUN_TEST(test_a_run_begins_with_no_cell_used);
-    return UNITY_END();
 }

@@ -1,7 +1,6 @@
 #include "firmware/brain.h"
 #include "firmware/memory_write.h"
-
-#include <unity.h>
+#include "tests/test.h"
 
 enum { ALL_THREE = 7, MANY = 100 };
 
@@ -19,8 +18,6 @@ void setUp(void)
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_NEVER, 1));
 }
 
-void tearDown(void) {}
-
 static struct action next(uint8_t pattern)
 {
     const struct senses senses = {.feel = (uint8_t)(pattern << 1)};
@@ -28,7 +25,7 @@ static struct action next(uint8_t pattern)
     return brain_next(&brain, &config, &senses);
 }
 
-static void test_every_blockage_is_a_trial(void)
+TEST(every_blockage_is_a_trial)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
         struct action action = next(pattern);
@@ -38,7 +35,7 @@ static void test_every_blockage_is_a_trial(void)
     }
 }
 
-static void test_a_trial_that_helps_teaches_nothing(void)
+TEST(a_trial_that_helps_teaches_nothing)
 {
     for (unsigned i = 0; i < MANY; i++) {
         next(ALL_THREE);
@@ -49,7 +46,7 @@ static void test_a_trial_that_helps_teaches_nothing(void)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-static void test_every_tenth_trial_in_a_row_is_a_bigger_turn(void)
+TEST(every_tenth_trial_in_a_row_is_a_bigger_turn)
 {
     for (unsigned i = 1; i <= MANY; i++) {
         struct action action = next(ALL_THREE);
@@ -60,7 +57,7 @@ static void test_every_tenth_trial_in_a_row_is_a_bigger_turn(void)
     }
 }
 
-static void test_a_clear_way_ends_the_trials_in_a_row(void)
+TEST(a_clear_way_ends_the_trials_in_a_row)
 {
     for (unsigned i = 1; i < 10; i++)
         next(ALL_THREE);
@@ -69,14 +66,14 @@ static void test_a_clear_way_ends_the_trials_in_a_row(void)
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(ALL_THREE).reason);
 }
 
-static void test_it_leaves_the_memory_as_it_is(void)
+TEST(it_leaves_the_memory_as_it_is)
 {
     TEST_ASSERT_EQUAL_UINT8_ARRAY(REMEMBERED, brain.memory.cell, CELL_COUNT);
     TEST_ASSERT_FALSE(brain.changed);
     TEST_ASSERT_FALSE(brain.learns);
 }
 
-static void test_the_bigger_turn_is_to_the_side_that_is_drawn(void)
+TEST(the_bigger_turn_is_to_the_side_that_is_drawn)
 {
     unsigned turns = 0;
 
@@ -90,31 +87,17 @@ static void test_the_bigger_turn_is_to_the_side_that_is_drawn(void)
     }
 }
 
-static void test_only_trials_are_counted(void)
+TEST(only_trials_are_counted)
 {
     for (unsigned i = 0; i < MANY; i++)
         TEST_ASSERT_NOT_EQUAL_INT(REASON_BOREDOM, next(0).reason);
     TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
 }
 
-static void test_a_limit_that_is_lowered_meanwhile_counts_at_once(void)
+TEST(a_limit_that_is_lowered_meanwhile_counts_at_once)
 {
     for (unsigned i = 0; i < 8; i++)
         next(ALL_THREE);
     config_set(&config, BOREDOM_LIMIT, 5);
     TEST_ASSERT_EQUAL(REASON_BOREDOM, next(ALL_THREE).reason);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_every_blockage_is_a_trial);
-    RUN_TEST(test_a_trial_that_helps_teaches_nothing);
-    RUN_TEST(test_every_tenth_trial_in_a_row_is_a_bigger_turn);
-    RUN_TEST(test_a_clear_way_ends_the_trials_in_a_row);
-    RUN_TEST(test_it_leaves_the_memory_as_it_is);
-    RUN_TEST(test_the_bigger_turn_is_to_the_side_that_is_drawn);
-    RUN_TEST(test_only_trials_are_counted);
-    RUN_TEST(test_a_limit_that_is_lowered_meanwhile_counts_at_once);
-    return UNITY_END();
 }

@@ -5,9 +5,7 @@ void setUp(void)
     begin(PROFILE_REARMED);
 }
 
-void tearDown(void) {}
-
-static void test_boredom_strikes_again_after_ten_more_turns(void)
+TEST(boredom_strikes_again_after_ten_more_turns)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     for (unsigned i = 0; i < 3; i++) {
@@ -17,7 +15,7 @@ static void test_boredom_strikes_again_after_ten_more_turns(void)
     }
 }
 
-static void test_it_learns_as_the_article_does(void)
+TEST(it_learns_as_the_article_does)
 {
     next(ALL_THREE);
     next(CLEAR);
@@ -25,19 +23,10 @@ static void test_it_learns_as_the_article_does(void)
     TEST_ASSERT_TRUE(brain.learns);
 }
 
-static void test_bored_it_keeps_what_it_knows(void)
+TEST(bored_it_keeps_what_it_knows)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(10);
     next(FRONT);
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT));
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_boredom_strikes_again_after_ten_more_turns);
-    RUN_TEST(test_it_learns_as_the_article_does);
-    RUN_TEST(test_bored_it_keeps_what_it_knows);
-    return UNITY_END();
 }

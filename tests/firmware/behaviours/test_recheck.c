@@ -5,9 +5,7 @@ void setUp(void)
     begin(PROFILE_RECHECK);
 }
 
-void tearDown(void) {}
-
-static void test_a_remembered_turn_that_frees_no_sensor_is_forgotten(void)
+TEST(a_remembered_turn_that_frees_no_sensor_is_forgotten)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     next(FRONT);
@@ -16,7 +14,7 @@ static void test_a_remembered_turn_that_frees_no_sensor_is_forgotten(void)
     TEST_ASSERT_TRUE(brain.changed);
 }
 
-static void test_a_remembered_turn_that_frees_a_sensor_is_kept(void)
+TEST(a_remembered_turn_that_frees_a_sensor_is_kept)
 {
     learned(PATTERN_ALL_THREE, SIDE_LEFT);
     next(ALL_THREE);
@@ -25,7 +23,7 @@ static void test_a_remembered_turn_that_frees_a_sensor_is_kept(void)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
-static void test_the_turn_before_the_about_face_is_checked_too(void)
+TEST(the_turn_before_the_about_face_is_checked_too)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     brain.repeat_count = 9;
@@ -34,7 +32,7 @@ static void test_the_turn_before_the_about_face_is_checked_too(void)
     TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
-static void test_a_frozen_brain_forgets_nothing(void)
+TEST(a_frozen_brain_forgets_nothing)
 {
     learned(PATTERN_FRONT, SIDE_LEFT);
     brain.frozen = true;
@@ -42,18 +40,7 @@ static void test_a_frozen_brain_forgets_nothing(void)
     TEST_ASSERT_EQUAL(SIDE_LEFT, memory_recall(&brain.memory, PATTERN_FRONT));
 }
 
-static void test_a_run_with_recheck_stores_what_it_learns(void)
+TEST(a_run_with_recheck_stores_what_it_learns)
 {
     TEST_ASSERT_TRUE(brain.learns);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_a_remembered_turn_that_frees_no_sensor_is_forgotten);
-    RUN_TEST(test_a_remembered_turn_that_frees_a_sensor_is_kept);
-    RUN_TEST(test_the_turn_before_the_about_face_is_checked_too);
-    RUN_TEST(test_a_frozen_brain_forgets_nothing);
-    RUN_TEST(test_a_run_with_recheck_stores_what_it_learns);
-    return UNITY_END();
 }

@@ -7,8 +7,6 @@ void setUp(void)
     begin(PROFILE_SEARCHER);
 }
 
-void tearDown(void) {}
-
 static void steps(unsigned count)
 {
     for (unsigned i = 0; i < count; i++)
@@ -24,33 +22,33 @@ static void assert_turns_once_around(void)
     TEST_ASSERT_TRUE(action.until_food);
 }
 
-static void test_it_begins_by_turning_once_around(void)
+TEST(it_begins_by_turning_once_around)
 {
     assert_turns_once_around();
 }
 
-static void test_it_drives_a_metre_straight_on_between_two_turns(void)
+TEST(it_drives_a_metre_straight_on_between_two_turns)
 {
     assert_turns_once_around();
     steps(84);   /* of 12 mm */
     assert_turns_once_around();
 }
 
-static void test_it_goes_to_what_it_sees(void)
+TEST(it_goes_to_what_it_sees)
 {
     TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(CLEAR, 900).reason);
     TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(CLEAR, 150).reason);
     TEST_ASSERT_EQUAL(REASON_EAT, next_seeing_food(CLEAR, 149).reason);
 }
 
-static void test_after_a_meal_it_looks_for_the_next(void)
+TEST(after_a_meal_it_looks_for_the_next)
 {
     next_seeing_food(CLEAR, 155);
     next_seeing_food(CLEAR, 149);
     assert_turns_once_around();
 }
 
-static void test_when_it_has_lost_the_food_it_drives_on_a_little(void)
+TEST(when_it_has_lost_the_food_it_drives_on_a_little)
 {
     next_seeing_food(CLEAR, 900);
     steps(17);
@@ -58,7 +56,7 @@ static void test_when_it_has_lost_the_food_it_drives_on_a_little(void)
 }
 
 /* Lost again and again, the food is in a place that it cannot be reached from. */
-static void test_each_time_that_it_has_lost_food_it_drives_on_twice_as_far(void)
+TEST(each_time_that_it_has_lost_food_it_drives_on_twice_as_far)
 {
     static const unsigned ways[] = {17, 34, 67, 67};   /* in steps of 12 mm: 200 mm and on */
 
@@ -75,7 +73,7 @@ static void test_each_time_that_it_has_lost_food_it_drives_on_twice_as_far(void)
     assert_turns_once_around();
 }
 
-static void test_it_goes_on_in_any_direction(void)
+TEST(it_goes_on_in_any_direction)
 {
     bool seen[180] = {false};
     unsigned directions = 0;
@@ -92,21 +90,21 @@ static void test_it_goes_on_in_any_direction(void)
     TEST_ASSERT_EQUAL_UINT(180, directions);
 }
 
-static void test_it_learns_as_adaptive_does(void)
+TEST(it_learns_as_adaptive_does)
 {
     next(ALL_THREE);
     next(CLEAR);
     TEST_ASSERT_EQUAL(2, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
 }
 
-static void test_a_turn_around_ends_the_count(void)
+TEST(a_turn_around_ends_the_count)
 {
     brain.repeat_count = 7;
     assert_turns_once_around();
     TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
 }
 
-static void test_it_turns_around_either_way(void)
+TEST(it_turns_around_either_way)
 {
     unsigned to_the_right = 0;
     unsigned turns = 100;
@@ -118,7 +116,7 @@ static void test_it_turns_around_either_way(void)
     TEST_ASSERT_UINT_WITHIN(20, turns / 2, to_the_right);
 }
 
-static void test_boredom_turns_it_about_though_the_way_is_clear(void)
+TEST(boredom_turns_it_about_though_the_way_is_clear)
 {
     memory_put(&brain.memory, MEMORY_KIND_CONFIDENCE, PATTERN_FRONT, SIDE_LEFT);
     remembered_turns(config.value[BOREDOM_LIMIT]);
@@ -126,12 +124,12 @@ static void test_boredom_turns_it_about_though_the_way_is_clear(void)
     TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(CLEAR).reason);
 }
 
-static void test_it_learns_and_stores_it(void)
+TEST(it_learns_and_stores_it)
 {
     TEST_ASSERT_TRUE(brain.learns);
 }
 
-static void test_it_turns_to_the_right_where_the_draw_is_1(void)
+TEST(it_turns_to_the_right_where_the_draw_is_1)
 {
     for (uint32_t seed = 0; seed < 100; seed++) {
         struct random dice;
@@ -143,7 +141,7 @@ static void test_it_turns_to_the_right_where_the_draw_is_1(void)
 }
 
 /* Nine steps of 111 mm are 999 mm. */
-static void test_it_looks_around_after_a_metre_and_not_before(void)
+TEST(it_looks_around_after_a_metre_and_not_before)
 {
     config.value[STEP_MM] = 111;
     assert_turns_once_around();
@@ -151,7 +149,7 @@ static void test_it_looks_around_after_a_metre_and_not_before(void)
     assert_turns_once_around();
 }
 
-static void test_after_losing_food_it_looks_around_after_two_hundred_millimetres_and_not_before(void)
+TEST(after_losing_food_it_looks_around_after_two_hundred_millimetres_and_not_before)
 {
     static const unsigned steps_of[][2] = {{200, 1}, {199, 2}};
 
@@ -164,13 +162,13 @@ static void test_after_losing_food_it_looks_around_after_two_hundred_millimetres
     }
 }
 
-static void test_food_that_is_out_of_reach_is_driven_to_step_by_step(void)
+TEST(food_that_is_out_of_reach_is_driven_to_step_by_step)
 {
     for (unsigned i = 0; i < 3; i++)
         TEST_ASSERT_EQUAL(REASON_TOWARD_FOOD, next_seeing_food(CLEAR, 900).reason);
 }
 
-static void test_a_meal_is_over_after_one_look_around(void)
+TEST(a_meal_is_over_after_one_look_around)
 {
     next_seeing_food(CLEAR, 155);
     next_seeing_food(CLEAR, 149);
@@ -178,14 +176,14 @@ static void test_a_meal_is_over_after_one_look_around(void)
     steps(84);
 }
 
-static void test_where_a_step_ends_at_an_obstacle_it_tries_a_turn(void)
+TEST(where_a_step_ends_at_an_obstacle_it_tries_a_turn)
 {
     assert_turns_once_around();
     steps(1);
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
 }
 
-static void test_food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look(void)
+TEST(food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look)
 {
     const struct senses blocked = {.feel = FRONT, .look = true, .beacon_mm = 900};
 
@@ -197,14 +195,14 @@ static void test_food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look(voi
     assert_turns_once_around();
 }
 
-static void test_a_start_forgets_the_food_that_it_was_going_to(void)
+TEST(a_start_forgets_the_food_that_it_was_going_to)
 {
     next_seeing_food(CLEAR, 900);
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_SEARCHER, 1));
     assert_turns_once_around();
 }
 
-static void test_a_start_forgets_the_food_that_it_has_lost(void)
+TEST(a_start_forgets_the_food_that_it_has_lost)
 {
     next_seeing_food(CLEAR, 900);
     steps(17);
@@ -214,38 +212,10 @@ static void test_a_start_forgets_the_food_that_it_has_lost(void)
     assert_turns_once_around();
 }
 
-static void test_a_trial_is_not_judged_again_after_the_look_around_that_follows_it(void)
+TEST(a_trial_is_not_judged_again_after_the_look_around_that_follows_it)
 {
     next(ALL_THREE);
     TEST_ASSERT_EQUAL(REASON_LOOK_AROUND, next(CLEAR).reason);
     next(FRONT);
     TEST_ASSERT_EQUAL(2, brain.memory.cell[PATTERN_ALL_THREE] >> 2);
-}
-
-int main(void)
-{
-    UNITY_BEGIN();
-    RUN_TEST(test_it_begins_by_turning_once_around);
-    RUN_TEST(test_it_drives_a_metre_straight_on_between_two_turns);
-    RUN_TEST(test_it_goes_to_what_it_sees);
-    RUN_TEST(test_after_a_meal_it_looks_for_the_next);
-    RUN_TEST(test_when_it_has_lost_the_food_it_drives_on_a_little);
-    RUN_TEST(test_each_time_that_it_has_lost_food_it_drives_on_twice_as_far);
-    RUN_TEST(test_it_goes_on_in_any_direction);
-    RUN_TEST(test_it_learns_as_adaptive_does);
-    RUN_TEST(test_a_turn_around_ends_the_count);
-    RUN_TEST(test_it_turns_around_either_way);
-    RUN_TEST(test_boredom_turns_it_about_though_the_way_is_clear);
-    RUN_TEST(test_it_learns_and_stores_it);
-    RUN_TEST(test_it_turns_to_the_right_where_the_draw_is_1);
-    RUN_TEST(test_it_looks_around_after_a_metre_and_not_before);
-    RUN_TEST(test_after_losing_food_it_looks_around_after_two_hundred_millimetres_and_not_before);
-    RUN_TEST(test_food_that_is_out_of_reach_is_driven_to_step_by_step);
-    RUN_TEST(test_a_meal_is_over_after_one_look_around);
-    RUN_TEST(test_where_a_step_ends_at_an_obstacle_it_tries_a_turn);
-    RUN_TEST(test_food_seen_where_a_step_ends_at_an_obstacle_counts_as_a_look);
-    RUN_TEST(test_a_start_forgets_the_food_that_it_was_going_to);
-    RUN_TEST(test_a_start_forgets_the_food_that_it_has_lost);
-    RUN_TEST(test_a_trial_is_not_judged_again_after_the_look_around_that_follows_it);
-    return UNITY_END();
 }
