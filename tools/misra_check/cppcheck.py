@@ -11,7 +11,10 @@ from pathlib import Path
 
 from tools.misra_check.commands import ROOT, CheckError, Command
 
+CPPCHECK = ROOT / ".venv/bin/cppcheck"
 _FINDING = re.compile(r"(?P<file>.+):(?P<line>\d+) misra-c2012-(?P<rule>[\d.]+)$")
+_OF_WHOLE_PROGRAMS = {"2.3", "2.4", "2.5", "5.7", "5.9", "8.5", "8.6", "8.7"}
+"""Rules that hold within a program: the sources are those of several, and the tool takes them for one."""
 _ERROR = re.compile(r".+ (syntaxError|preprocessorErrorDirective|internalError|internalAstError)$")
 
 
@@ -47,19 +50,18 @@ def findings(commands: Sequence[Command]) -> list[Finding]:
     for line in output.splitlines():
         if _ERROR.fullmatch(line):
             raise CheckError(f"cppcheck does not understand {line}")
-        if match := _FINDING.fullmatch(line):
+        if (match := _FINDING.fullmatch(line)) and match["rule"] not in _OF_WHOLE_PROGRAMS:
             found.add(Finding(match["rule"], _relative(match["file"]), int(match["line"])))
     return sorted(found)
 
 
 def _run(project: Path, scratch: str) -> str:
-    kind = ("--addon=misra", "--std=c99", "--platform=unix32")
+    kind = ("--addon=misra", "--enable=style", "--std=c99", "--platform=unix32")
     options = (*kind, "--quiet", f"-j{os.cpu_count() or 1}", f"--cppcheck-build-dir={scratch}")
     template = "--template={file}:{line} {id}"
     try:
-        result = subprocess.run(
-            ("cppcheck", f"--project={project}", *options, template), capture_output=True, text=True, check=False
-        )
+        command = (CPPCHECK, f"--project={project}", *options, template)
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:
         raise CheckError(f"cannot run cppcheck: {error}; tools/setup tests installs it") from error
     if result.returncode != 0 or "Bailing out" in result.stdout:
