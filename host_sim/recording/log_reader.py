@@ -2,16 +2,13 @@
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from functools import cached_property
-from itertools import islice
 from pathlib import Path
 
 from host_sim.errors import OctetError
-from host_sim.protocol.codec import NODE_MAX, Protocol, node_of
+from host_sim.protocol.codec import NODE_MAX, Frame, Protocol, node_of
 from host_sim.protocol.every_node import IDS
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.protocol.memory_report import MemoryReport
-from host_sim.recording import wire_1
 from host_sim.recording.log_files import frames_in
 from host_sim.recording.log_text import Recorded
 
@@ -20,11 +17,11 @@ __all__ = ["LogReader", "Recorded", "check_protocol", "first_memory", "frames_of
 FOREIGN = "foreign"
 """The kind of frames with 11-bit identifiers that belong to no message of any node."""
 
-DAMAGED = "damaged"
-"""The kind of damaged frames in an old log. Those of today's wire are read: what they mean is for others to say."""
+WIRE_1_LAYOUTS = frozenset((0xF6D7, 0x7827))
+"""What a HEARTBEAT of wire 1 ends with: the layout's hash, and in version 1.0 that of the file octet.dbc."""
 
-_RECOGNISED_WITHIN = 50_000
-"""Frames within which a log has a heartbeat: there is one a second."""
+_WIRE_1_HEARTBEATS = range(0x181, 0x181 + NODE_MAX)
+"""None of them is an identifier of today's."""
 
 
 class LogReader:
@@ -40,39 +37,25 @@ class LogReader:
         self.path = path
         self.skipped: Counter[str] = Counter()
 
-    @cached_property
-    def is_old(self) -> bool:
-        """Whether the log was recorded with an earlier wire. It is read as if it had been today's."""
-        for read in islice(frames_in(self.path), _RECOGNISED_WITHIN):
-            if not isinstance(read, str):
-                if wire_1.is_heartbeat(read.frame):
-                    return True
-                decoded = Protocol(max(node_of(read.frame.id), 1)).decode(read.frame)
-                if decoded is not None and decoded.name == "HEARTBEAT":
-                    return False
-        return False
-
     def __iter__(self) -> Iterator[Recorded]:
         """Yields each frame of a robot or for one, in order.
 
         Raises:
             UsageError: The file cannot be read, or is not a log.
-            OctetError: It is empty, damaged or cut short; the message names file and line.
+            OctetError: It is empty, damaged, cut short, or of wire 1; the message names file and line, or what helps.
         """
         skipped = self.skipped = Counter()
-        ours = wire_1.IDS if self.is_old else IDS
-        transcoder = wire_1.Transcoder() if self.is_old else None
         for read in frames_in(self.path):
             if isinstance(read, str):
                 skipped[read] += 1
-            elif read.frame.id not in ours:
-                skipped[FOREIGN] += 1
-            elif transcoder is None:
+            elif read.frame.id in IDS:
                 yield read
-            elif (frames := transcoder.transcode(read)) is None:
-                skipped[DAMAGED] += 1
+            elif _is_of_wire_1(read.frame):
+                raise OctetError(
+                    f"{self.path} was recorded with wire 1: convert it with tools/octet convert {self.path} NEW.log"
+                )
             else:
-                yield from frames
+                skipped[FOREIGN] += 1
 
     def note(self) -> str | None:
         """One line about the frames that were skipped; None if there were none."""
@@ -81,6 +64,11 @@ class LogReader:
         *others, last = [f"{count} {kind}" for kind, count in sorted(self.skipped.items())]
         counts = f"{', '.join(others)} and {last}" if others else last
         return f"{self.path}: skipped {counts} frame{'' if sum(self.skipped.values()) == 1 else 's'}"
+
+
+def _is_of_wire_1(frame: Frame) -> bool:
+    """Whether a frame is a HEARTBEAT of wire 1."""
+    return frame.id in _WIRE_1_HEARTBEATS and int.from_bytes(frame.data[6:], "little") in WIRE_1_LAYOUTS
 
 
 def read_log(path: Path) -> LogReader:

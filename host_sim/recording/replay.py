@@ -35,13 +35,11 @@ class Replay:
     Attributes:
         drives: Number of equal drives.
         difference: The first difference; None if there is none.
-        old: Whether the log was recorded with an earlier wire.
         stopped: Whether the log has the end of the run.
     """
 
     drives: int
     difference: Difference | None
-    old: bool = False
     stopped: bool = True
 
 
@@ -61,9 +59,9 @@ def replay(log: LogReader, protocol: Protocol) -> Replay:
         if line.frame.id in MEMORY_IDS and line.frame.id != protocol.id_of("MEMORY"):
             comparison.overhear(line.frame)
         elif node_of(line.frame.id) == protocol.node and (difference := comparison.accept(line)):
-            return Replay(comparison.drives, difference, log.is_old)
+            return Replay(comparison.drives, difference)
     difference = comparison.end() if comparison.stopped else None  # a log that was cut off has no last answer
-    return Replay(comparison.drives, difference, log.is_old, comparison.stopped)
+    return Replay(comparison.drives, difference, comparison.stopped)
 
 
 class _Comparison:
@@ -158,9 +156,8 @@ class _Comparison:
 def report(outcome: Replay, name: str, protocol: Protocol) -> str:
     """The outcome as text, which begins with the name of the log."""
     if outcome.difference is None:
-        old = "; an old log: only drives and memories were compared" if outcome.old else ""
         ending = "" if outcome.stopped else "; the log ends before the run does"
-        return f"{name}: {outcome.drives} drives, no difference{old}{ending}"
+        return f"{name}: {outcome.drives} drives, no difference{ending}"
     difference = outcome.difference
     return "\n".join(
         (

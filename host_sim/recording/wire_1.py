@@ -5,16 +5,20 @@ frame, or one whose command does not exist, has no place in today's wire and is 
 """
 
 import re
+from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
+from host_sim.errors import OctetError
 from host_sim.protocol.codec import COUNTERS, NODE_MAX, Frame, Protocol, crc8
 from host_sim.protocol.generated import CELL_COUNT, LAYOUT_HASH, TICK_SPAN, Message, Opcode, Reason, Signal
 from host_sim.protocol.signal_layout import MessageLayout
+from host_sim.recording.log_files import frames_in
+from host_sim.recording.log_reader import FOREIGN, WIRE_1_LAYOUTS, LogReader
 from host_sim.recording.log_text import Recorded
 
-_HASHES = frozenset((0xF6D7, 0x7827))
-"""What HEARTBEAT said of the layout: its hash, and in version 1.0 that of the file octet.dbc."""
+DAMAGED = "damaged"
+"""The kind of damaged frames, and of those whose layout is not that of wire 1."""
 
 _TICKS = 4096
 _OWNER = 1
@@ -59,25 +63,41 @@ _MESSAGES = [_message(line) for line in _TABLE.strip().splitlines()]
 _OWNERS = {message.id + node - 1: (node, message) for message in _MESSAGES for node in range(1, NODE_MAX + 1)}
 _LAYOUTS = {message.name: MessageLayout(message) for message in _MESSAGES}
 
-IDS = frozenset(_OWNERS)
-"""The identifiers of nodes 1 to the last one of today; wire 1 had 63."""
 
+class OldLog(LogReader):
+    """A log of wire 1, as if it had been recorded with today's messages."""
 
-def is_heartbeat(frame: Frame) -> bool:
-    """Whether a frame is a HEARTBEAT of wire 1."""
-    owner = _OWNERS.get(frame.id)
-    return (
-        owner is not None
-        and owner[1].name == "HEARTBEAT"
-        and len(frame.data) == owner[1].length
-        and int.from_bytes(frame.data[-2:], "little") in _HASHES
-    )
+    def __iter__(self) -> Iterator[Recorded]:
+        """Yields today's frames, in order.
+
+        Raises:
+            UsageError: The file cannot be read, or is not a log.
+            OctetError: It is empty, damaged or cut short, or it has no HEARTBEAT of wire 1.
+        """
+        skipped = self.skipped = Counter()
+        transcoder = Transcoder()
+        for read in frames_in(self.path):
+            if isinstance(read, str):
+                skipped[read] += 1
+            elif read.frame.id not in _OWNERS:
+                skipped[FOREIGN] += 1
+            elif (frames := transcoder.transcode(read)) is None:
+                skipped[DAMAGED] += 1
+            else:
+                yield from frames
+        if not transcoder.is_recognised:
+            raise OctetError(f"{self.path} has no heartbeat of wire 1: it is not an old log, or is cut short")
 
 
 class Transcoder:
-    """Writes the frames of one log of wire 1 anew, in their order."""
+    """Writes the frames of one log of wire 1 anew, in their order.
+
+    Attributes:
+        is_recognised: Whether a HEARTBEAT has said that they are of wire 1.
+    """
 
     def __init__(self) -> None:
+        self.is_recognised = False
         self._robots = {node: _Robot(node) for node in range(1, NODE_MAX + 1)}
 
     def transcode(self, recorded: Recorded) -> list[Recorded] | None:
@@ -86,6 +106,7 @@ class Transcoder:
         if signals is None:
             return None
         node, message = _OWNERS[recorded.frame.id]
+        self.is_recognised |= signals.get("dbc_hash") in WIRE_1_LAYOUTS
         return [Recorded(recorded.time_us, frame) for frame in self._robots[node].frames(message.name, signals)]
 
 

@@ -4,17 +4,20 @@ import gzip
 import io
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import can
 
 from host_sim.campaign.cell import Cell
+from host_sim.client.frame_log import line_of
 from host_sim.errors import OctetError
 from host_sim.faults.rule import Rule, read_rules
 from host_sim.live.page_commands import page_command_from
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.memory_file import load_memory
+from host_sim.recording.wire_1 import OldLog
 from host_sim.recording.world_file import read_world
 from host_sim.study.plan_file import read_plan
 from host_sim.world.changes import read_changes
@@ -89,9 +92,8 @@ def in_list(read: Callable[[str], Any]) -> Callable[[bytes, Path], Any]:
     return in_file("list.txt", lambda path: read(f"@{path}"))
 
 
-LOG = recorded("wire_1_three_robots.log")
-TODAY = b"".join((DATA / "version_1_0.log").read_bytes().splitlines(keepends=True)[:40])
-LOGS = [LOG, TODAY]
+OLD = recorded("wire_1_three_robots.log")
+TODAY = "".join(f"{line_of(*it)}\n" for it in islice(OldLog(DATA / "version_1_0.log"), 40)).encode()
 MEMORIES = [
     bytes(cells) for cells in ((0, 1, 2, 1, 2, 1, 2, 1), (0, 5, 6, 9, 10, 13, 14, 0), (15, 0, 36, 0, 0, 0, 0, 0))
 ]
@@ -124,7 +126,8 @@ forge:stop@300/to
 CELLS = [b"article fd lockstep seed=12 limit=4 fault=drop:10% change=swap-motors@2s event=hang:300@100"]
 CHANGES = [(ROOT / "docs/worlds/day.txt").read_bytes(), b"swap-motors@env2+3.5s\nrepair@40s\n"]
 READERS = {
-    "log": Reader(LOGS, log("run.log")),
+    "log": Reader([TODAY], log("run.log")),
+    "log_old": Reader([OLD], in_file("old.log", lambda path: list(OldLog(path)))),
     "log_gz": Reader([gzip.compress(TODAY, mtime=0)], log("run.log.gz")),
     "log_asc": Reader([ASC], log("run.asc")),
     "log_blf": Reader([as_blf()], log("run.blf")),

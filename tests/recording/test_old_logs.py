@@ -1,4 +1,4 @@
-"""Logs of earlier versions are still good: of wire 1, every frame is written anew as frames of today's.
+"""Logs of earlier versions are still good: `convert` writes every frame of wire 1 anew as frames of today's.
 
 `data/version_1_0.log` is a run of 5 s in which the robot learned one cell; its HEARTBEATs carry the hash of the DBC
 file of that time. The other logs are of the last version with wire 1.
@@ -17,7 +17,8 @@ from host_sim.recording.log_reader import read_log
 from host_sim.recording.log_text import Recorded
 from host_sim.recording.replay import replay
 from host_sim.recording.resimulation import resimulate
-from host_sim.recording.wire_1 import Transcoder
+from host_sim.recording.wire_1 import OldLog, Transcoder
+from host_sim.recording.world_file import world_path
 
 OLD = Path(__file__).with_name("data") / "version_1_0.log"
 DRIVES = 250
@@ -37,13 +38,49 @@ def transcoded(*lines: str, transcoder: Transcoder | None = None) -> list[tuple[
     return [(it.name, it.signals) for it in said]
 
 
-def test_an_old_log_is_known_as_one(kept):
-    assert read_log(OLD).is_old
-    assert not read_log(kept.log).is_old
+@pytest.fixture
+def convert(tmp_path):
+    """Converts a log as a person does; returns the new one."""
+
+    def converted(old: Path) -> Path:
+        new = tmp_path / "new" / "run.log"
+        new.parent.mkdir(exist_ok=True)
+        assert main(["convert", str(old), str(new)]) == 0
+        return new
+
+    return converted
 
 
-def test_every_frame_of_an_old_log_is_a_whole_one_of_today():
-    log = read_log(OLD)
+@pytest.mark.parametrize("name", ["version_1_0.log", "wire_1_three_robots.log", "wire_1_own_clock.log"])
+@pytest.mark.parametrize("command", ["replay", "picture", "load", "export"])
+def test_an_old_log_is_refused_with_the_command_that_converts_it(name, command, capsys, tmp_path):
+    old = OLD.with_name(name)
+    options = {"export": ["--csv", str(tmp_path / "a.csv")], "picture": ["--png", str(tmp_path / "a.png")]}
+
+    assert main([command, str(old), *options.get(command, [])]) == 1
+    assert f"octet: {old} was recorded with wire 1: convert it with tools/octet convert {old} NEW.log" in (
+        capsys.readouterr().err
+    )
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_log_of_today_is_not_converted(kept, capsys, tmp_path):
+    assert main(["convert", str(kept.log), str(tmp_path / "new.log")]) == 1
+
+    assert "has no heartbeat of wire 1" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_old_log_is_not_written_over(capsys):
+    before = OLD.read_bytes()
+
+    assert main(["convert", str(OLD), str(OLD)]) == 2
+    assert "is what convert reads" in capsys.readouterr().err
+    assert before == OLD.read_bytes()
+
+
+def test_every_frame_of_an_old_log_is_a_whole_one_of_today(convert):
+    log = read_log(convert(OLD))
 
     heard = [hear(line.frame) for line in log]
 
@@ -54,7 +91,7 @@ def test_every_frame_of_an_old_log_is_a_whole_one_of_today():
 
 @pytest.mark.parametrize("name", ["SENSES", "DRIVE", "COMMAND", "HEARTBEAT", "HEALTH"])
 def test_counters_go_on(name):
-    heard = (hear(line.frame) for line in read_log(OLD))
+    heard = (hear(line.frame) for line in OldLog(OLD))
     counters = [it.signals["counter"] for it in heard if it.name == name]
 
     assert len(counters) > 1
@@ -106,60 +143,62 @@ def test_a_damaged_frame_of_an_old_log_is_counted(tmp_path):
     lines = OLD.read_text().splitlines(keepends=True)
     lines[300] = lines[300].rstrip()[:-1] + ("0" if lines[300].rstrip()[-1] != "0" else "1") + "\n"
     (tmp_path / "a.log").write_text("".join(lines))
-    log = read_log(tmp_path / "a.log")
+    log = OldLog(tmp_path / "a.log")
 
     list(log)
 
     assert log.skipped == {"damaged": 1}
 
 
-def test_an_old_log_replays_without_a_difference_and_is_said_to_be_old(capsys):
-    assert main(["replay", str(OLD)]) == 0
+def test_an_old_log_replays_without_a_difference(convert, capsys):
+    assert main(["replay", str(convert(OLD))]) == 0
 
-    said = capsys.readouterr().out
-    assert f"{DRIVES} drives, no difference; an old log: only drives and memories were compared\n" in said
-
-
-def test_each_robot_of_an_old_log_is_compared(capsys):
-    assert main(["replay", str(OLD.with_name("wire_1_three_robots.log"))]) == 0
-
-    assert capsys.readouterr().out.count(": 150 drives, no difference; an old log") == 3
+    assert f"{DRIVES} drives, no difference\n" in capsys.readouterr().out
 
 
-def test_an_old_log_of_real_time_replays_without_a_difference():
-    outcome = replay(read_log(OLD.with_name("wire_1_own_clock.log")), Protocol())
+def test_each_robot_of_an_old_log_is_compared(convert, capsys):
+    assert main(["replay", str(convert(OLD.with_name("wire_1_three_robots.log")))]) == 0
+
+    assert capsys.readouterr().out.count(": 150 drives, no difference") == 3
+
+
+def test_an_old_log_of_real_time_replays_without_a_difference(convert):
+    outcome = replay(read_log(convert(OLD.with_name("wire_1_own_clock.log"))), Protocol())
 
     assert (outcome.drives, outcome.difference) == (99, None)
 
 
 @pytest.mark.parametrize("name", ["wire_1_three_robots.log", "wire_1_own_clock.log"])
-def test_old_logs_are_found_again_in_their_worlds(name):
-    assert resimulate(OLD.with_name(name)).stopped
+def test_old_logs_are_found_again_in_their_worlds(convert, name):
+    new = convert(OLD.with_name(name))
+
+    assert world_path(new).read_bytes() == world_path(OLD.with_name(name)).read_bytes()
+    assert resimulate(new).stopped
 
 
-def test_an_old_log_is_found_again_in_its_world():
-    result = resimulate(OLD)
+def test_an_old_log_is_found_again_in_its_world(convert):
+    result = resimulate(convert(OLD))
 
     assert (result.seed, result.stopped) == (21, True)
 
 
-def test_an_old_log_with_two_drives_exchanged_differs(tmp_path):
+def test_an_old_log_with_two_drives_exchanged_differs(convert, tmp_path):
     changed = tmp_path / "changed.log"
     lines = OLD.read_text().splitlines(keepends=True)
     drives = [i for i, line in enumerate(lines) if " 081#" in line]
     lines[drives[100]], lines[drives[101]] = lines[drives[101]], lines[drives[100]]
     changed.write_text("".join(lines))
 
-    assert replay(read_log(changed), Protocol()).difference is not None
+    assert replay(read_log(convert(changed)), Protocol()).difference is not None
 
 
-def test_an_old_log_with_another_memory_differs(tmp_path):
+def test_an_old_log_with_another_memory_differs(convert, tmp_path):
     changed = tmp_path / "changed.log"
     text = OLD.read_text()
     last = [line for line in text.splitlines() if " 141#" in line][-1]
     changed.write_text(text.replace(last, last[:-2] + ("02" if last.endswith("01") else "01")))
 
-    difference = replay(read_log(changed), Protocol()).difference
+    difference = replay(read_log(convert(changed)), Protocol()).difference
 
     assert difference is not None
     assert hear(difference.recorded).name == "MEMORY"
@@ -169,5 +208,7 @@ def test_a_log_with_a_hash_of_no_layout_known_is_refused(tmp_path):
     other = tmp_path / "other.log"
     other.write_text(OLD.read_text().replace("2778\n", "2779\n"))
 
+    with pytest.raises(OctetError, match="no heartbeat of wire 1"):
+        list(OldLog(other))
     with pytest.raises(OctetError, match="no heartbeat of node 1"):
         replay(read_log(other), Protocol())
