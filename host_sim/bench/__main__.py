@@ -40,7 +40,7 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     add(
         "--loops",
         action="store_true",
-        help="instead, compare ten million ticks in C, both ways, with those in Python",
+        help="instead, compare ten million ticks in C with those in Python and pymunk",
     )
     add("--peers", action="store_true", help="instead, measure beside Enki, from Debian's package libenki-dev")
     add("--vcan", action="store_true", help="instead, measure only on vcan0, which must exist, and print JSON")

@@ -21,6 +21,7 @@ from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
 
 _REFERENCE = BUILD / "host" / "tools" / "reference"
 _VCAN = "socketcan:vcan0"
@@ -33,7 +34,7 @@ def lockstep_figures() -> list[Figure]:
     """All figures for lockstep, for the core alone and for the start of a run."""
     return [
         _socket_pair_figure(),
-        _vcan_figure(),
+        *_vcan_figures(),
         _in_process_figure(),
         most_figure("the core's tick, in C", _core_tick_ns(), "ns", 100, "the processor"),
         most_figure("tools/run, one robot second, to its end", _start_s(), "s", 2, "importing Python's packages"),
@@ -48,9 +49,9 @@ def _socket_pair_figure() -> Figure:
     with _on_one_processor():
         pairs = [(_c_turns_per_second(), _ticks_per_second("fd", _WHOLE_S)) for _ in range(ROUNDS)]
     return rate_figure(
-        Rate("lockstep over a socket pair, with physics", max(ours for _, ours in pairs), 5000),
+        Rate("lockstep over a socket pair", max(ours for _, ours in pairs), 5000),
         Rate("C ping-pong over a socket pair", max(reference for reference, _ in pairs), 0.7),
-        "waking two processes a tick, then Munk2D's step near obstacles",
+        "waking two processes a tick",
     )
 
 
@@ -66,9 +67,15 @@ def _on_one_processor() -> Iterator[None]:
 
 
 def measure_vcan() -> dict[str, float]:
-    """Ticks per second on vcan0, of the reference and of ours: the best of `ROUNDS`, measured in turn."""
-    pairs = [(_python_can_turns_per_second(), _ticks_per_second(_VCAN, _VCAN_LIMIT_S)) for _ in range(ROUNDS)]
-    return {"reference": max(reference for reference, _ in pairs), "ours": max(ours for _, ours in pairs)}
+    """Ticks per second on vcan0, of python-can and of ours with each physics: the best of `ROUNDS`, in turn."""
+    rounds = [
+        {
+            "reference": _python_can_turns_per_second(),
+            **{physics: _ticks_per_second(_VCAN, _VCAN_LIMIT_S, physics=physics) for physics in PHYSICS},
+        }
+        for _ in range(ROUNDS)
+    ]
+    return {name: max(one[name] for one in rounds) for name in rounds[0]}
 
 
 def _in_process_figure() -> Figure:
@@ -77,9 +84,9 @@ def _in_process_figure() -> Figure:
         [_ticks_per_second("none", _WHOLE_S, _recorded(native)) for native in (True, False)] for _ in range(ROUNDS)
     ]
     return rate_figure(
-        Rate("in process, with physics, log and trajectory", max(in_c for in_c, _ in pairs), 500_000),
+        Rate("in process, with log and trajectory", max(in_c for in_c, _ in pairs), 500_000),
         Rate("the same in Python", max(in_python for _, in_python in pairs), 12),
-        "recording, and Munk2D's step near obstacles",
+        "recording",
     )
 
 
@@ -91,19 +98,25 @@ def _recorded(native: bool) -> Callable[[Simulation], object]:
     return prepare
 
 
-def _vcan_figure() -> Figure:
+def _vcan_figures() -> list[Figure]:
     command = [os.fspath(ROOT / "tools" / "with-vcan"), sys.executable, "-m", "host_sim.bench", "--vcan"]
-    pair = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
-    return rate_figure(
-        Rate("lockstep over vcan, with physics", pair["ours"]),
-        Rate("python-can with a C echo", pair["reference"], 2),
-        "two trips through the kernel's CAN stack a tick",
-    )
+    rates = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    reference, why = "python-can with a C echo", "two trips through the kernel's CAN stack a tick"
+    return [
+        rate_figure(
+            Rate("lockstep over vcan, with pymunk", rates[PYMUNK]),
+            Rate(reference, rates["reference"], 1.7),
+            f"{why}, and pymunk's step",
+        ),
+        rate_figure(Rate("the same with --physics fast", rates[FAST]), Rate(reference, rates["reference"], 2), why),
+    ]
 
 
-def _ticks_per_second(bus: str, limit_s: float, prepare: Callable[[Simulation], object] = lambda _: None) -> float:
-    """Ticks per second in lockstep with physics and log, from the first tick of each environment to its last."""
-    config = RunConfig(seed=_SEED, environments=3, limit_s=limit_s, bus=bus)
+def _ticks_per_second(
+    bus: str, limit_s: float, prepare: Callable[[Simulation], object] = lambda _: None, physics: str = FAST
+) -> float:
+    """Ticks per second in lockstep with a log, from the first tick of each environment to its last."""
+    config = RunConfig(seed=_SEED, environments=3, limit_s=limit_s, bus=bus, physics=physics)
     with TemporaryDirectory() as folder, ExitStack() as stack:
         log = FrameLog(Path(folder) / "run.log")
         stack.callback(log.close)

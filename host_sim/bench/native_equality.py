@@ -1,4 +1,4 @@
-"""Compares the tick loop in C with the readable one.
+"""Compares the tick loop in C, with its own geometry, with the one in Python, with pymunk.
 
 What is compared is the log, the trajectory and the results of runs in which people meddle.
 """
@@ -6,6 +6,7 @@ What is compared is the log, the trajectory and the results of runs in which peo
 import random
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from itertools import count
 from typing import NamedTuple
 
@@ -33,6 +34,7 @@ from host_sim.world.edits import (
     RemoveBar,
 )
 from host_sim.world.geometry import Bar, Plant, Point, Pose
+from host_sim.world.physics_names import PYMUNK
 
 _ENVIRONMENTS, _LIMIT_S = 2, 300.0
 _ROBOTS_MAX = 3
@@ -84,7 +86,7 @@ def compare_loops(ticks: int) -> Iterator[LoopVerdict]:
             robots=1 + seed % _ROBOTS_MAX,
             profile=profiles[seed % len(profiles)],
         )
-        readable = _run(config, native=False)
+        readable = _run(replace(config, physics=PYMUNK), native=False)
         pairs = zip(_Outcome._fields, readable, _run(config, native=True), strict=True)
         differences = [name for name, a, b in pairs if a != b]
         run_ticks = config.robots * readable.trajectory.ticks

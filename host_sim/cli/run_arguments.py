@@ -9,6 +9,7 @@ from host_sim.cli.run_options import WatchOptions
 from host_sim.faults.rule import FAULT_NAMES
 from host_sim.protocol.words import NODE_MAX, PROFILES
 from host_sim.sim.run_config import ROBOTS, RunConfig
+from host_sim.world.physics_names import PHYSICS
 from host_sim.world.world_names import WORLD_NAMES
 
 _BUS_HELP = (
@@ -57,6 +58,12 @@ def _add_world_options(parser: argparse.ArgumentParser) -> None:
         default=default.world,
         metavar="WORLD",
         help=f"what they are drawn from: {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml" + DEFAULT,
+    )
+    add(
+        "--physics",
+        choices=PHYSICS,
+        help="physics engine: pymunk, the reference, or fast, which gives the same bytes and takes a fraction of the "
+        "time (default: pymunk on a CAN bus, else fast)",
     )
     add(
         "--change",

@@ -10,6 +10,7 @@ from host_sim.compressed_file import COMPRESSED
 from host_sim.errors import UsageError
 from host_sim.sim.run_config import RunConfig
 from host_sim.transport.bit_rates import BIT_RATE
+from host_sim.world.physics_names import PYMUNK
 
 LOGS = ("run.log", f"run.log{COMPRESSED}")
 """The log in a run's output folder: the plain one and the compressed one."""
@@ -158,6 +159,7 @@ def _check_fleet(options: RunOptions) -> None:
     unsuited = {
         "--robot": config.robot != default.robot,
         "--node": config.node != default.node,
+        "--physics pymunk": config.physics == PYMUNK,
         "--change": config.changes != default.changes,
         "--fault": config.faults != default.faults,
         "--memory": options.memory is not None,

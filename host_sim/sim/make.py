@@ -90,7 +90,11 @@ def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequen
     start_robots(clients, config, memories)
     pace: Pace = RealTime(clients, world.params.tick_s) if config.real_time else Lockstep(clients)
     changes = [Change.parse(change) for change in config.changes]
-    return Simulation(world, clients, pace, config.seed, config.environments, config.limit_s, changes=changes)
+    return Simulation(
+        *(world, clients, pace, config.seed, config.environments, config.limit_s),
+        changes=changes,
+        physics=config.chosen_physics,
+    )
 
 
 def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Sequence[Memory | None] = ()) -> None:

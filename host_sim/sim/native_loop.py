@@ -111,6 +111,7 @@ class NativeLoop:
         if self._log.keeps:
             self._make_room(sum(robot.waiting_count for robot in self._robots))
         self._library.loop_run(self._loop, ticks)
+        self._arena.inside.check()
         if self._log.keeps:
             self._log.add_block(self._ffi.buffer(self._text, self._loop.log.used)[:])
         for index, wire in enumerate(self._wires):

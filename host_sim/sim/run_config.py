@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 
 from host_sim.protocol.words import NODE_MAX, PARAMETERS
 from host_sim.transport.bit_rates import BIT_RATE
+from host_sim.world.physics_names import FAST, PYMUNK
 from host_sim.world.world_names import RANDOM
 
 ROBOTS = ("spawn", "external", "qemu", "emulated")
@@ -37,6 +38,7 @@ class RunConfig:
         board: Name of the emulated board; empty for the first.
         owner: Number of this simulator, 1..255, by which robots on a shared bus know whom they obey.
         reconnect_s: Time to wait for a bus or a serial line that is gone, s of wall-clock time.
+        physics: One of `PHYSICS`, which give the same bytes; None for pymunk on a CAN bus, and fast elsewhere.
         changes: What the world and the bodies are to meet with, as `host_sim.world.changes` has it.
         faults: Faults to make on the way to the robots and back, as `host_sim.faults.rule` has them.
         fault_seed: Seed for them.
@@ -58,6 +60,7 @@ class RunConfig:
     board: str = ""
     owner: int = 1
     reconnect_s: float = 10.0
+    physics: str | None = None
     changes: tuple[str, ...] = ()
     faults: tuple[str, ...] = ()
     fault_seed: int = 1
@@ -67,6 +70,11 @@ class RunConfig:
     def is_fleet(self) -> bool:
         """Whether the robots have no bus: they do not share one world, or are more than a bus has node numbers."""
         return self.worlds != "one" or self.robots > NODE_MAX
+
+    @property
+    def chosen_physics(self) -> str:
+        """One of `PHYSICS`."""
+        return self.physics or (PYMUNK if ":" in self.bus else FAST)
 
     @property
     def boredom_limit(self) -> int:

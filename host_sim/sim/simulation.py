@@ -1,5 +1,6 @@
 """A run: robots in one environment after the other, their memories carried over."""
 
+import gc
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
@@ -20,6 +21,11 @@ from host_sim.world.changes import Change
 from host_sim.world.edits import Edit, EditError, make_edit
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
+from host_sim.world.physics_names import FAST, PYMUNK
+
+SPACES_MAX = 32
+"""Number of pymunk spaces that may wait to be freed. A space and its handlers form a cycle that holds 260 kB in C, of
+which Python's garbage collector knows nothing."""
 
 
 @dataclass
@@ -39,6 +45,7 @@ class Simulation:
         changes: What the world and the bodies are to meet with.
         block_ticks: Maximum number of ticks of a step at full speed where the loop in C can be used: `watch` finds
             them in `loop`. Set it to 1 for a `watch` that is to be called for each tick.
+        physics: What finds overlaps: one of `PHYSICS`.
         native: Whether to use the loop in C where that can be: in lockstep, with robots in this process or behind
             a socket, that want no distances.
         params: The dimensions of the world.
@@ -60,6 +67,7 @@ class Simulation:
     watch: Callable[["Simulation"], object] = lambda _: None
     changes: Sequence[Change] = ()
     block_ticks: int = BLOCK_TICKS
+    physics: str = FAST
     native: bool = True
     params: SimParams = field(init=False)
     record: WorldRecord = field(init=False)
@@ -117,13 +125,15 @@ class Simulation:
             NoRoomError: The environment has no room for all the robots.
         """
         layout = self.world.generate(self.seed, number, len(self.clients))
-        self.arena = Arena(layout, self.params, self._before)
+        self.arena = Arena(layout, self.params, self._before, self.physics)
         if number == 1:
             self.arena.repair()
         self.episode = EpisodeResult(self.params.tick_s, [RobotResult(node) for node in self.nodes])
         self._measuring = [i for i, client in enumerate(self.clients) if client.wants_ranges]
         self._enter_loop()
         self.record.begin(Begun(self.seed, number, self.tick))
+        if self.physics == PYMUNK and number % SPACES_MAX == 0:
+            gc.collect()
         self._schedule.enter(number, self.tick)
         self._settled = False
 

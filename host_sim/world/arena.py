@@ -11,6 +11,7 @@ from host_sim.world.layouts import Layout
 from host_sim.world.native_world import NativeWorld
 from host_sim.world.obstacles import Obstacles
 from host_sim.world.params import SimParams
+from host_sim.world.physics_names import FAST
 from host_sim.world.ranges import ranges_of
 
 
@@ -30,7 +31,7 @@ class Arena:
         obstacles: Walls and bars, the bars by id: at first 0, 1, ... as in the layout.
     """
 
-    def __init__(self, layout: Layout, params: SimParams, before: Sequence[Body] = ()) -> None:
+    def __init__(self, layout: Layout, params: SimParams, before: Sequence[Body] = (), physics: str = FAST) -> None:
         """Puts everything where it begins.
 
         Args:
@@ -38,13 +39,14 @@ class Arena:
             params: The dimensions of the world.
             before: For each robot that comes from another arena its body there, whose odometer and faults go on;
                 empty for robots that have not moved yet.
+            physics: One of `PHYSICS`; both have the same results.
         """
         self._starts, self.params = layout.starts, params
-        self.inside = NativeWorld(len(self._starts), layout.food, params)
+        self.inside = NativeWorld(self._starts, layout.food, params, physics)
         self.food = Food(self.inside)
         self.bodies = [
-            Body(self.inside, index, start, before[index].odometer if before else (0.0, 0.0))
-            for index, start in enumerate(self._starts)
+            Body(self.inside, index, before[index].odometer if before else (0.0, 0.0))
+            for index in range(len(self._starts))
         ]
         for body, earlier in zip(self.bodies, before, strict=False):
             body.faults = earlier.faults

@@ -11,7 +11,6 @@ from host_sim.world.world_library import world_library
 
 _POSE, _ODOMETER = Struct("=3d"), Struct("=24x2d")  # as struct body begins
 _SENSES = Struct("=xB??3H")  # as struct senses begins
-_TICK_MASK = 255
 
 
 class Body:
@@ -27,24 +26,22 @@ class Body:
             pass between body and robot.
     """
 
-    def __init__(self, inside: NativeWorld, index: int, start: Pose, odometer: Point) -> None:
-        """Puts a body of a world where it starts.
+    def __init__(self, inside: NativeWorld, index: int, odometer: Point) -> None:
+        """Shows a body of a world.
 
         Args:
             inside: The world.
             index: Its number there, from 0.
-            start: Its first pose.
             odometer: What the left and the right odometer have counted in earlier arenas, mm.
         """
         self.faults, self.lifted = SOUND, False
         self._inside, self._library, self._world = inside, inside.library, inside.world
         self._body: Any = inside.bodies + index
         self._bytes = inside.ffi.buffer(self._body, inside.ffi.sizeof("struct body"))
+        self._tick_span = int(inside.library.TICK_SPAN)
         self._sensed: Any = inside.ffi.new("struct senses *")
         self._sensed_bytes = inside.ffi.buffer(self._sensed)
-        self._body.seen = -1
         self._body.left_mm, self._body.right_mm = odometer
-        self._body.x_mm, self._body.y_mm, self._body.heading_rad = start
 
     @property
     def pose(self) -> Pose:
@@ -73,7 +70,7 @@ class Body:
         Args:
             tick: Number of the control tick, as the robot is to be told it.
         """
-        self._library.world_sense(self._world, self._body, tick & _TICK_MASK, self._sensed)
+        self._library.world_sense(self._world, self._body, tick % self._tick_span, self._sensed)
         return Senses(tick, *_SENSES.unpack_from(self._sensed_bytes))
 
     def eat(self) -> bool:
@@ -92,14 +89,14 @@ class Body:
             right_mm_s: Speed of the right wheel, likewise.
         """
         body, world, library = self._body, self._world, self._library
-        if self.faults is SOUND:
-            library.world_move(world, body, left_mm_s, right_mm_s)
-            return
-        left_mm, right_mm = self.odometer
+        left_mm, right_mm = body.left_mm, body.right_mm
         library.world_move(world, body, left_mm_s, right_mm_s)
-        ways = library.world_way_mm(world, left_mm_s), library.world_way_mm(world, right_mm_s)
-        counted = self.faults.counted(*ways)
-        body.left_mm, body.right_mm = left_mm + counted[0], right_mm + counted[1]
+        if self.faults is not SOUND:
+            ways = library.world_way_mm(world, left_mm_s), library.world_way_mm(world, right_mm_s)
+            counted = self.faults.counted(*ways)
+            body.left_mm, body.right_mm = left_mm + counted[0], right_mm + counted[1]
+        if self._inside.space.failures:
+            self._inside.check()
 
     def lift(self) -> None:
         """Lifts the body off the floor: its wheels still turn, but it does not move or sense anything."""

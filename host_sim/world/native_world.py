@@ -1,12 +1,26 @@
 """An arena in C (`native/world.h`): bodies, food and obstacles, and the space that finds what overlaps."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Protocol
 
-from host_sim.world.geometry import Capsule, Point
+from host_sim.world.geometry import Capsule, Point, Pose
 from host_sim.world.params import SimParams
+from host_sim.world.physics_names import FAST
 from host_sim.world.plain_space import PlainSpace
 from host_sim.world.world_library import world_library
+
+
+class Space(Protocol):
+    """What finds overlaps for a world in C: it provides the functions of `native/space.h`.
+
+    Attributes:
+        failures: What was raised in Python while C code asked, and not raised again yet.
+    """
+
+    failures: list[BaseException]
+
+    def lay_out(self, obstacles: Sequence[Capsule]) -> None:
+        """Takes these obstacles instead of those before. What a body touches already is not new to it."""
 
 
 class NativeWorld:
@@ -21,25 +35,37 @@ class NativeWorld:
         space: What finds overlaps.
     """
 
-    def __init__(self, robots: int, food: Sequence[Point], params: SimParams) -> None:
-        """Makes room.
+    def __init__(self, starts: Sequence[Pose], food: Sequence[Point], params: SimParams, physics: str = FAST) -> None:
+        """Puts bodies and food where they begin; there are no obstacles yet.
 
         Args:
-            robots: Number of bodies.
+            starts: A pose for each body.
             food: Where the pieces of food are.
             params: The dimensions of the world.
+            physics: One of `PHYSICS`.
 
         Raises:
             NoNativeError: The library cannot be used.
         """
-        self.ffi, self.library = ffi, library = world_library()
-        self.bodies: Any = ffi.new("struct body[]", robots)
+        self.ffi, self.library = world_library()
+        ffi = self.ffi
+        self.bodies: Any = ffi.new("struct body[]", len(starts))
+        for body, pose in zip(self.bodies, starts, strict=True):
+            body.x_mm, body.y_mm, body.heading_rad = pose
+            body.seen = -1
         self.food: Any = ffi.new("struct food[]", [(x, y, False) for x, y in food])
         self.world: Any = ffi.new("struct world *")
         self.world.params = {name: getattr(params, name) for name, _ in ffi.typeof("struct world_params").fields}
-        self.world.body_count, self.world.food_count = robots, len(food)
+        self.world.body_count, self.world.food_count = len(starts), len(food)
         self.world.bodies, self.world.food = self.bodies, self.food
-        self.space = PlainSpace(ffi, library, self.world, params)
+        self.space = self._space(params, physics)
+
+    def _space(self, params: SimParams, physics: str) -> Space:
+        if physics == FAST:
+            return PlainSpace(self.ffi, self.library, self.world, params)
+        from host_sim.world.munk_space import MunkSpace  # noqa: PLC0415 - other runs begin sooner without pymunk
+
+        return MunkSpace(self.ffi, self.world, self.bodies, params)
 
     @property
     def address(self) -> int:
@@ -47,10 +73,16 @@ class NativeWorld:
         return int(self.ffi.cast("uintptr_t", self.world))
 
     def lay_out(self, obstacles: Sequence[Capsule]) -> None:
-        """Takes these obstacles instead of those before. What a body touches already is not new to it."""
+        """Takes these obstacles instead of those before."""
         self.space.lay_out(obstacles)
         self.settle()
 
     def settle(self) -> None:
         """Finds what all bodies overlap, now that one of them or an obstacle was moved."""
         self.library.world_settle(self.world)
+        self.check()
+
+    def check(self) -> None:
+        """Raises what the space raised while C code asked it, such as KeyboardInterrupt."""
+        if self.space.failures:
+            raise self.space.failures.pop()

@@ -15,7 +15,11 @@ def cones_in_c(ffi: Any, library: Any, params: SimParams) -> Any:
 
 
 class PlainSpace:
-    """The obstacles of an arena as plain geometry, and its bodies among them."""
+    """The obstacles of an arena as plain geometry, and its bodies among them.
+
+    Attributes:
+        failures: None: C code asks nothing of Python.
+    """
 
     def __init__(self, ffi: Any, library: Any, world: Any, params: SimParams) -> None:
         """Becomes the space of a `struct world *`, whose bodies are not placed yet.
@@ -26,6 +30,7 @@ class PlainSpace:
             world: The world.
             params: Its dimensions.
         """
+        self.failures: list[BaseException] = []
         self._ffi, self._library, self._world = ffi, library, world
         # cffi frees what no name holds any more.
         self._places = ffi.new("struct plain_place[]", world.body_count)

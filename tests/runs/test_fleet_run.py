@@ -95,6 +95,7 @@ REFUSED = {
     "real time": (("--real-time",), "leave --real-time out"),
     "another robot": (("--robot", "emulated"), "leave --robot out"),
     "a node number": (("--node", "5"), "leave --node out"),
+    "the reference physics": (("--physics", "pymunk"), "leave --physics pymunk out"),
     "changes": (("--change", "plant@5s"), "leave --change out"),
     "faults": (("--fault", "drop:1%"), "leave --fault out"),
     "people who watch": (("--watch",), "a fleet cannot be watched"),

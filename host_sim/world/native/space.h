@@ -1,4 +1,5 @@
-/* space.h: all that the world asks of geometry. plain_space.h answers as pymunk does, bit for bit. */
+/* space.h: all that the world asks of geometry: plain_space.h, or pymunk by way of host_sim/world/munk_space.py. Their
+ * answers are equal, bit for bit. */
 #ifndef OCTET_SPACE_H
 #define OCTET_SPACE_H
 

@@ -1,0 +1,151 @@
+"""pymunk, the reference, and plain geometry give the same bytes; what is raised within pymunk's is not lost."""
+
+import gc
+import random
+import weakref
+from collections.abc import Iterator
+from dataclasses import replace
+
+import pytest
+
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import SPACES_MAX
+from host_sim.world.arena import Arena
+from host_sim.world.edits import AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar, make_edit
+from host_sim.world.geometry import Bar, Point, Pose
+from host_sim.world.layouts import generate
+from host_sim.world.params import SimParams
+from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
+from tests.runs.log_hashes import Recorded, log_of, runs
+
+PARAMS = SimParams()
+TICKS = 2500
+SEEDS = (", seed 3", ", seed 4")
+OTHERS = ("behaviour", "fault", "{", "node", "over a socket pair", "until")
+
+
+def compared() -> Iterator[Recorded]:
+    """Runs in every world, with several robots, with every change, and with edits."""
+    for recorded in runs():
+        if not recorded.name.startswith(OTHERS) and (
+            recorded.name.startswith("change") or recorded.name.endswith(SEEDS)
+        ):
+            yield recorded
+
+
+@pytest.mark.parametrize("recorded", [*compared()], ids=lambda recorded: recorded.name)
+def test_both_give_the_same_bytes(recorded, tmp_path):
+    fast, reference = (
+        log_of(recorded._replace(config=replace(recorded.config, physics=physics)), tmp_path)
+        for physics in (FAST, PYMUNK)
+    )
+
+    assert fast == reference
+
+
+def drive(draws: random.Random) -> tuple[int, int]:
+    """Mostly straight on, so that the body runs into things, and faster than the wheels can."""
+    if draws.random() < 0.8:
+        speed = draws.randint(100, 600)
+        return speed, speed - draws.randint(0, 40)
+    return draws.randint(-600, 600), draws.randint(-600, 600)
+
+
+def point(draws: random.Random) -> Point:
+    return float(draws.randint(0, 4000)), float(draws.randint(0, 3000))
+
+
+def random_edit(draws: random.Random, robots: int) -> Edit:
+    """A change of any kind; many of them cannot be made."""
+    a = point(draws)
+    bar = Bar(a, (min(4000.0, a[0] + draws.randint(50, 400)), a[1]))
+    robot = draws.randrange(robots)
+    return draws.choice(
+        [
+            AddBar(bar),
+            MoveBar(draws.randrange(8), bar),
+            RemoveBar(draws.randrange(8)),
+            MoveFood(draws.randrange(3), point(draws)),
+            Lift(robot),
+            Put(Pose(*point(draws), draws.uniform(-3.0, 3.0)), robot),
+        ]
+    )
+
+
+def refusal(arena: Arena, edit: Edit) -> str:
+    """Makes a change, or says why not."""
+    try:
+        make_edit(arena, edit, PARAMS)
+    except EditError as error:
+        return str(error)
+    return ""
+
+
+def state(arena: Arena) -> list[tuple[object, ...]]:
+    """The bodies' whole state. Of two overlaps that are equally deep, either may have set the normal."""
+    return [
+        (*body.pose, *body.odometer, there.seen, there.touches, there.collisions, there.depth_mm, *there.overlaps)
+        for body, there in zip(arena.bodies, arena.inside.bodies, strict=True)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("seed", "robots", "edited"), [(1, 1, 0), (2, 1, 0), (3, 2, 0), (4, 5, 0), (5, 1, 1), (6, 3, 1)]
+)
+def test_bodies_that_bump_into_things_do_so_alike(seed, robots, edited):
+    layout, draws = generate(seed, 1, PARAMS, robots), random.Random(seed)
+    arenas = [Arena(layout, PARAMS, physics=physics) for physics in PHYSICS]
+
+    for tick in range(TICKS // robots):
+        if edited and tick % 7 == 0:
+            edit = random_edit(draws, robots)
+            assert len({refusal(arena, edit) for arena in arenas}) == 1
+        for index in range(robots):
+            wheels = drive(draws)
+            assert len({arena.bodies[index].sense(tick) for arena in arenas}) == 1
+            assert len({arena.bodies[index].eat() for arena in arenas}) == 1
+            for arena in arenas:
+                arena.bodies[index].move(*wheels)
+        assert state(arenas[0]) == state(arenas[1])
+
+    assert edited or any(body.collisions > 3 for body in arenas[0].bodies), "hardly anything was touched"
+
+
+@pytest.mark.parametrize("native", [True, False])
+def test_ctrl_c_while_pymunk_works_ends_the_run(native, monkeypatch):
+    config = RunConfig(environments=1, limit_s=5.0, physics=PYMUNK)
+    with make(config) as simulation:
+        simulation.native = native
+        simulation.enter(1)
+        calls = iter([KeyboardInterrupt])
+        step = type(simulation.arena.inside.space._space).step
+
+        def interrupted(self, seconds: float) -> None:
+            for failure in calls:
+                raise failure
+            step(self, seconds)
+
+        monkeypatch.setattr("pymunk.Space.step", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            simulation.step(10)
+
+
+def test_arenas_with_pymunk_that_are_over_do_not_pile_up():
+    spaces = weakref.WeakSet()
+    gc.disable()
+    try:
+        with make(RunConfig(environments=3 * SPACES_MAX, limit_s=0.1, physics=PYMUNK)) as simulation:
+            for _ in simulation.run():
+                spaces.add(simulation.arena.inside.space._space)
+                assert len(spaces) <= SPACES_MAX + 2
+    finally:
+        gc.enable()
+
+
+@pytest.mark.parametrize(
+    ("bus", "physics"), [("none", FAST), ("fd", FAST), ("socketcan:vcan0", PYMUNK), ("slcan:/dev/ttyUSB0", PYMUNK)]
+)
+def test_on_a_can_bus_the_reference_is_the_default(bus, physics):
+    assert RunConfig(bus=bus).chosen_physics == physics
+    assert RunConfig(bus=bus, physics=FAST).chosen_physics == FAST
