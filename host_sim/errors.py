@@ -8,7 +8,7 @@ class OctetError(Exception):
 
 
 class UsageError(OctetError):
-    """The command line is invalid: the command ends with exit code 2, and nothing was changed."""
+    """The command line, or a file that it names, is wrong: the command ends with exit code 2; nothing was changed."""
 
     exit_code = 2
 

@@ -43,5 +43,14 @@ def read_bytes(path: Path, limit: int) -> bytes:
             raise UsageError(f"cannot read {path}: {error.strerror}") from None
 
 
+def read_text(path: Path, limit: int) -> str:
+    """The text of a regular file in UTF-8, with or without a byte order mark; otherwise as `open_bytes`.
+
+    Raises:
+        UnicodeDecodeError: It is not text.
+    """
+    return read_bytes(path, limit).decode("utf-8-sig")
+
+
 def _open_without_waiting(path: str, flags: int) -> int:
     return os.open(path, flags | os.O_NONBLOCK)

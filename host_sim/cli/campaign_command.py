@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from host_sim.backends.images import BOARDS
-from host_sim.cli.parsing import add_command, file_path, number
+from host_sim.cli.parsing import add_command, check_outputs, file_path, number
 from host_sim.errors import UsageError
 from host_sim.protocol.words import PROFILES
 
@@ -75,6 +75,7 @@ def add(commands: "Subparsers") -> None:
 def _check(arguments: argparse.Namespace) -> None:
     if arguments.html is None and not (arguments.repeat or arguments.shrink):
         raise UsageError("campaign needs a FILE.html to write the report to, or --repeat or --shrink")
+    check_outputs("campaign", None, {"FILE.html": arguments.html})
     if arguments.jobs > 1 and "vcan" in arguments.links:
         raise UsageError("vcan0 is one bus for one robot at a time: leave out --jobs")
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, setting
 from host_sim.cli.study_command import add_workers, with_progress, worker_stages, workers_of
 from host_sim.counted import counted
-from host_sim.errors import OctetError, UsageError
+from host_sim.errors import UsageError
 from host_sim.protocol.words import PROFILES
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
     """The plan of the study in a folder, and what its rows say.
 
     Raises:
-        OctetError: There is none, or nothing to compare in it yet.
+        UsageError: There is none, or nothing to compare in it yet.
     """
     from host_sim.study.folder import PLAN_FILE, StudyFolder
     from host_sim.study.plan_file import read_plan
@@ -133,7 +133,7 @@ def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
     plan = read_plan(path / PLAN_FILE)
     samples = samples_of(folder.tables(), [condition.name for condition in plan.conditions])
     if not len(samples[0].seeds):
-        raise OctetError(f"no seed in {path} has a run of each condition yet: go on with tools/octet study")
+        raise UsageError(f"no seed in {path} has a run of each condition yet: go on with tools/octet study")
     return replace(plan, title=folder.about["title"]), samples
 
 

@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
@@ -108,7 +109,8 @@ def _check_no_output(memory: Path, options: RunOptions) -> None:
     """Refuses a memory file that the run would write over."""
     names = (SUMMARY, PICTURE, PAGE, FAULTS, *LOGS)
     outputs = [options.out / name for name in names] + [world_path(options.log)]
-    if memory.resolve() in (path.resolve() for path in outputs):
+    # Not Path.resolve: that fails for a link to itself.
+    if os.path.realpath(memory) in map(os.path.realpath, outputs):
         raise UsageError(f"the run writes something else to {memory}: choose another file with --memory")
 
 

@@ -14,12 +14,14 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 examples:
-  tools/octet dask scheduler                                     on one machine; prints its address
+  tools/octet dask scheduler                                     for this machine only; prints its address
+  tools/octet dask scheduler --host 0.0.0.0                      for other machines, too
   tools/octet dask worker tcp://host:8786                        on each machine that is to work
   tools/octet study studies/learned.toml --dask tcp://host:8786  anywhere
 
 Who can reach the scheduler can run any program on the workers: use it in a network of your own only.
 """
+_HERE_PAGE = ["--dashboard-address", "127.0.0.1:8787"]
 
 
 def add(commands: "Subparsers") -> None:
@@ -37,9 +39,17 @@ def add(commands: "Subparsers") -> None:
     parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help="options of Dask; --help lists them")
 
 
+def _here_only(role: str, words: list[str]) -> list[str]:
+    """Words for Dask, whose scheduler would listen to every machine that reaches this one."""
+    told = {word.partition("=")[0] for word in words}
+    if role != "scheduler" or told & {"--host", "--interface"}:
+        return words
+    return ["--host", "127.0.0.1", *([] if "--dashboard-address" in told else _HERE_PAGE), *words]
+
+
 def _dask(arguments: argparse.Namespace) -> int:
     library("distributed", "cluster")
     places = os.pathsep.join(map(str, (ROOT, BUILD / "cluster")))  # for the processes that Dask starts, too
     module = f"distributed.cli.dask_{arguments.role}"
-    words = [sys.executable, "-m", module, *arguments.words]
+    words = [sys.executable, "-m", module, *_here_only(arguments.role, arguments.words)]
     os.execve(sys.executable, words, {**os.environ, "PYTHONPATH": places})

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import add_command, check_outputs, file_path
-from host_sim.errors import OctetError, UsageError
+from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -72,7 +72,7 @@ def _export(arguments: argparse.Namespace) -> int:
             library(_LIBRARIES[name], "export")
     log = read_log(arguments.log)
     if next(iter(log), None) is None:
-        raise OctetError(f"{log.note()}: there is no frame of a robot")
+        raise UsageError(f"{log.note()}: there is no frame of a robot")
     for name, path in wanted.items():
         with replacing(path) as part:
             _writer(name)(part, within_limits(log, name))

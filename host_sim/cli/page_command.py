@@ -3,7 +3,7 @@
 import argparse
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_command, file_path
+from host_sim.cli.parsing import add_command, check_outputs, file_path
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -23,6 +23,7 @@ def add(commands: "Subparsers") -> None:
         summary="write the robot and its world as one web page",
         description="Writes a page with the robot's own firmware and its world. It needs no server and no network.",
         epilog=_EXAMPLE,
+        check=lambda arguments: check_outputs("page", None, {"FILE": arguments.file}),
         stages=lambda _: ["page"],
     )
     parser.add_argument("file", type=file_path, metavar="FILE", help="the page to write, such as octet.html")

@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
@@ -86,21 +87,39 @@ def file_path(text: str) -> Path:
     return Path(text)
 
 
-def check_outputs(command: str, source: Path, outputs: Mapping[str, Path | None]) -> None:
-    """Refuses to write over what a command reads, and two things into one file.
+def output_of(*endings: str) -> Callable[[str], Path]:
+    """An argument type: the name of a file to write, whose ending, if it has one, is one of these."""
+
+    def parse(text: str) -> Path:
+        path = file_path(text)
+        if path.suffix and path.suffix.lower() not in endings:
+            raise argparse.ArgumentTypeError(f"{text!r} does not end with {' or '.join(endings)}")
+        return path
+
+    return parse
+
+
+def check_outputs(command: str, source: Path | None, outputs: Mapping[str, Path | None]) -> None:
+    """Refuses to write where it cannot be done, over what a command reads, and two things into one file.
 
     Args:
         command: Name of the command.
-        source: The file that it reads.
+        source: The file that it reads, if it does.
         outputs: The files that it is to write, by the options that name them; None for what is not wanted.
 
     Raises:
-        UsageError: Two of the names are of the same file; nothing was changed.
+        UsageError: A file cannot be written, or two of the names are of the same one; nothing was changed.
     """
-    options: dict[Path, str] = {}
+    options: dict[str, str] = {}
     for option, path in ((option, path) for option, path in outputs.items() if path is not None):
-        target = path.resolve()
-        if target == source.resolve():
+        target = os.path.realpath(path)  # not Path.resolve: that fails for a link to itself
+        if not Path(target).parent.is_dir():
+            raise UsageError(f"cannot write {path}: there is no folder {path.parent}")
+        if Path(target).is_dir():
+            raise UsageError(f"cannot write {path}: it is a folder")
+        if Path(target).is_symlink():
+            raise UsageError(f"cannot write {path}: it is a link to itself")
+        if source is not None and target == os.path.realpath(source):
             raise UsageError(f"{path} is what {command} reads: choose another file with {option}")
         if target in options:
             raise UsageError(f"{options[target]} and {option} name the same file: {path}")

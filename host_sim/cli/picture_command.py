@@ -4,7 +4,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from host_sim.cli.log_options import add_log_options, resimulated
-from host_sim.cli.parsing import add_command, check_outputs, file_path, number
+from host_sim.cli.parsing import add_command, check_outputs, number, output_of
 from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
@@ -30,8 +30,8 @@ def add(commands: "Subparsers") -> None:
     )
     add_log_options(parser)
     add = parser.add_argument
-    add("--png", type=file_path, metavar="FILE", help="write a picture of the whole run to FILE")
-    add("--gif", type=file_path, metavar="FILE", help="write an animation to FILE, at most 600 frames, about 45 s")
+    add("--png", type=output_of(".png"), metavar="FILE", help="write a picture of the whole run to FILE")
+    add("--gif", type=output_of(".gif"), metavar="FILE", help="write an animation to FILE, at most 600 frames")
     _add_clip_options(parser)
 
 

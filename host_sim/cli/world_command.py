@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import DEFAULT, add_command, check_outputs, file_path, number
+from host_sim.cli.parsing import DEFAULT, add_command, check_outputs, number, output_of
 from host_sim.world.world_names import WORLD_NAMES
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def add(commands: "Subparsers") -> None:
     add("world", metavar="WORLD", help=f"one of {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml")
     add("--seed", type=number(0, 2**32 - 1), default=1, metavar="SEED", help="the run's seed" + DEFAULT)
     add("--number", type=number(1, 1000), default=1, metavar="N", help="number of the environment" + DEFAULT)
-    add("--png", type=file_path, metavar="FILE", help="draw it to FILE")
+    add("--png", type=output_of(".png"), metavar="FILE", help="draw it to FILE")
     add("--width", type=number(100, 4000), default=640, metavar="PX", help="width of the picture" + DEFAULT)
 
 

@@ -11,6 +11,7 @@
 """
 
 import csv
+import json
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
@@ -75,7 +76,18 @@ def arrow_table(frames: Iterable[Recorded]) -> Any:
 def _schema() -> Any:
     pyarrow = library("pyarrow", "export")
     kinds = {"time_s": pyarrow.float64(), "message": pyarrow.string(), "data": pyarrow.string()}
-    return pyarrow.schema([(name, kinds.get(name, pyarrow.int64())) for name in COLUMNS])
+    columns = [(name, kinds.get(name, pyarrow.int64())) for name in COLUMNS]
+    return pyarrow.schema(columns, metadata={"pandas": json.dumps(_for_pandas(kinds))})
+
+
+def _for_pandas(others: Iterable[str]) -> dict[str, Any]:
+    """What has pandas read integers as Int64, which may be missing; without it they become floating-point numbers."""
+    integers = [name for name in COLUMNS if name not in others]
+    columns = [
+        {"name": name, "field_name": name, "pandas_type": "int64", "numpy_type": "Int64", "metadata": None}
+        for name in integers
+    ]
+    return {"index_columns": [], "column_indexes": [], "columns": columns}
 
 
 def _batches(frames: Iterable[Recorded]) -> Iterator[Any]:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from host_sim.errors import UsageError
-from host_sim.regular_file import read_bytes
+from host_sim.regular_file import read_text
 
 Direction = Literal["to", "from"]
 """To the robot, or from it."""
@@ -118,7 +118,7 @@ def read_rules(text: str) -> list[str]:
         return [str(Rule.parse(text))]
     path = Path(text[1:])
     try:
-        lines = read_bytes(path, _FILE_MAX).decode().splitlines()
+        lines = read_text(path, _FILE_MAX).splitlines()
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
     except UnicodeDecodeError:

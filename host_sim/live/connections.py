@@ -14,6 +14,10 @@ CONNECTIONS_MAX = 512
 LIFETIME_S = 15.0
 """Maximum lifetime of a connection that is not a WebSocket, s: browsers open another one."""
 
+_PROTOCOL_ERROR = b"\x88\x02\x03\xea"
+"""The frame that closes a WebSocket with code 1002."""
+
+_LENGTH_AT, _MASKED, _MASK_BYTES, _LONGER_BYTES = 1, 0x80, 4, {126: 2, 127: 8}
 _KEEP_ALIVE_S = 5.0
 _LINES_MAX = 20
 _TEXT_MAX = 200
@@ -48,6 +52,7 @@ class Connections:
         connection = request.protocol
         assert isinstance(connection, _Connection)
         connection.deadline.cancel()
+        connection.masks = _Masks()
         self._closable.pop(connection, None)
 
     def opened(self, connection: "_Connection") -> None:
@@ -69,6 +74,7 @@ class _Connection(web.RequestHandler):
     """One connection, which ends at its deadline."""
 
     deadline: asyncio.TimerHandle
+    masks: "_Masks | None" = None
 
     def __init__(self, all_of_them: Connections, server: web.Server, logger: logging.Logger) -> None:
         loop = asyncio.get_running_loop()
@@ -85,6 +91,13 @@ class _Connection(web.RequestHandler):
         self._connections.closed(self)
         super().connection_lost(exc)
 
+    def data_received(self, data: bytes) -> None:
+        if self.masks is None or self.masks.are_in(data):
+            super().data_received(data)
+        elif isinstance(self.transport, asyncio.Transport):
+            self.transport.write(_PROTOCOL_ERROR)
+            self.transport.close()
+
     def abort(self) -> None:
         """Closes the connection at once, whatever is still to be sent."""
         self._connections.closed(self)
@@ -95,6 +108,39 @@ class _Connection(web.RequestHandler):
         response = super().handle_error(*args, **kwargs)
         self._connections.secure(response)
         return response
+
+
+class _Masks:
+    """Follows the frames of a WebSocket. Clients mask all of theirs (RFC 6455, 5.1); aiohttp takes others, too."""
+
+    def __init__(self) -> None:
+        self._head, self._left = bytearray(), 0
+
+    def are_in(self, data: bytes) -> bool:
+        """Whether each frame that begins in the next bytes of the connection is masked."""
+        at = 0
+        while at < len(data):
+            if self._left:
+                passed = min(self._left, len(data) - at)
+                self._left -= passed
+                at += passed
+                continue
+            self._head.append(data[at])
+            at += 1
+            if len(self._head) == _LENGTH_AT + 1 and not self._head[_LENGTH_AT] & _MASKED:
+                return False
+            self._end_head()
+        return True
+
+    def _end_head(self) -> None:
+        """Goes on to the payload, if the head is whole."""
+        if len(self._head) <= _LENGTH_AT:
+            return
+        length = self._head[_LENGTH_AT] & ~_MASKED
+        more = _LONGER_BYTES.get(length, 0)
+        if len(self._head) == _LENGTH_AT + 1 + more + _MASK_BYTES:
+            self._left = int.from_bytes(self._head[_LENGTH_AT + 1 :][:more], "big") if more else length
+            self._head.clear()
 
 
 class _Lines(logging.Handler):

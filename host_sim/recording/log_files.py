@@ -1,5 +1,6 @@
 """Opens log files: text, Vector's ASC and BLF, each of them plain or compressed by gzip."""
 
+import codecs
 import gzip
 import io
 import struct
@@ -13,7 +14,7 @@ from typing import BinaryIO, TextIO, cast
 
 import can
 
-from host_sim.errors import OctetError, UsageError
+from host_sim.errors import UsageError
 from host_sim.protocol.codec import Frame
 from host_sim.recording.log_text import (
     ERROR,
@@ -29,6 +30,7 @@ from host_sim.regular_file import open_bytes
 
 _SIZE_MAX = 64_000_000_000
 _LINE_MAX = 4096
+_BOM = codecs.BOM_UTF8.decode("cp1252")
 _GZIP, _BLF = b"\x1f\x8b", b"LOGG"
 _ASC = (b"date ", b"base ", b"// version")
 _DAMAGED = (gzip.BadGzipFile, EOFError, zlib.error)
@@ -39,14 +41,14 @@ def frames_in(path: Path) -> Iterator[Recorded | str]:
 
     Raises:
         UsageError: The file cannot be read, or is not a log.
-        OctetError: It is empty or damaged; the message names file and line. A last line of text without its end is
+        UsageError: It is empty or damaged; the message names file and line. A last line of text without its end is
             left out.
     """
     with _open(path) as file:
         try:
             yield from _reader_for(path, file)(path, file)
         except _DAMAGED as error:
-            raise OctetError(f"{path} is damaged, or cut short: {error or type(error).__name__}") from None
+            raise UsageError(f"{path} is damaged, or cut short: {error or type(error).__name__}") from None
 
 
 @contextmanager
@@ -63,10 +65,10 @@ def _open(path: Path) -> Iterator[BinaryIO]:
 
 
 def _reader_for(path: Path, file: BinaryIO) -> Callable[[Path, BinaryIO], Iterator[Recorded | str]]:
-    first = file.readline(_LINE_MAX)
+    first = file.readline(_LINE_MAX).removeprefix(codecs.BOM_UTF8)
     file.seek(0)
     if not first:
-        raise OctetError(f"{path} is not a frame log: it is empty")
+        raise UsageError(f"{path} is not a frame log: it is empty")
     if first.startswith(_BLF):
         return _blf
     return _asc if first.lower().startswith(_ASC) else _text
@@ -77,7 +79,7 @@ def _text(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
     for number, line in enumerate(_lines(file), start=1):
         if len(line) < _LINE_MAX and not line.endswith(b"\n"):
             if number == 1 and line.isascii():
-                raise OctetError(f"{path} is not a frame log: no whole line, only {line[:60].decode('ascii')!r}")
+                raise UsageError(f"{path} is not a frame log: no whole line, only {line[:60].decode('ascii')!r}")
             if line.isascii():
                 return  # cut short while it was written
         try:
@@ -91,7 +93,8 @@ def _text(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
 def _lines(file: BinaryIO) -> Iterator[bytes]:
     """The lines, up to the last whole one of a compressed file that was cut short while it was written."""
     with suppress(EOFError):
-        yield from iter(partial(file.readline, _LINE_MAX), b"")
+        for line in iter(partial(file.readline, _LINE_MAX), b""):
+            yield line.removeprefix(codecs.BOM_UTF8)
 
 
 def _has_deltas(file: BinaryIO) -> bool:
@@ -102,10 +105,10 @@ def _has_deltas(file: BinaryIO) -> bool:
     return deltas
 
 
-def _not_a_frame(path: Path, number: int, line: bytes, why: str) -> OctetError:
+def _not_a_frame(path: Path, number: int, line: bytes, why: str) -> UsageError:
     if not line.isascii() or b"\0" in line:
         return UsageError(f"{path} is not a frame log: it is not text, from line {number} on")
-    return OctetError(f"{path}, line {number}: {why}: {line[:60].decode('ascii')!r}")
+    return UsageError(f"{path}, line {number}: {why}: {line[:60].decode('ascii')!r}")
 
 
 class _NumberedLines:
@@ -118,7 +121,7 @@ class _NumberedLines:
     def __iter__(self) -> Iterator[str]:
         for line in iter(partial(self._text.readline, _LINE_MAX), ""):
             self.number += 1
-            yield line
+            yield line if self.number > 1 else line.removeprefix(_BOM)
 
     def close(self) -> None:
         """As in a file."""
@@ -131,7 +134,7 @@ def _asc(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
         for message in can.ASCReader(cast("TextIO", text)):
             yield _from(message)
     except (ValueError, IndexError, OverflowError) as error:
-        raise OctetError(f"{path}, line {text.number}: not a frame in ASC format: {error}") from None
+        raise UsageError(f"{path}, line {text.number}: not a frame in ASC format: {error}") from None
 
 
 def _blf(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
@@ -139,7 +142,7 @@ def _blf(path: Path, file: BinaryIO) -> Iterator[Recorded | str]:
         for message in can.BLFReader(file):
             yield _from(message)
     except (can.io.blf.BLFParseError, ValueError, struct.error) as error:
-        raise OctetError(f"{path} is a damaged BLF file, or one cut short: {error}") from None
+        raise UsageError(f"{path} is a damaged BLF file, or one cut short: {error}") from None
 
 
 def _from(message: can.Message) -> Recorded | str:

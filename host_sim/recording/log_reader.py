@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from host_sim.errors import OctetError
+from host_sim.errors import UsageError
 from host_sim.protocol.codec import NODE_MAX, Frame, Protocol, node_of
 from host_sim.protocol.every_node import IDS
 from host_sim.protocol.generated import CELL_COUNT
@@ -41,8 +41,8 @@ class LogReader:
         """Yields each frame of a robot or for one, in order.
 
         Raises:
-            UsageError: The file cannot be read, or is not a log.
-            OctetError: It is empty, damaged, cut short, or of wire 1; the message names file and line, or what helps.
+            UsageError: The file cannot be read, is no log, is damaged, cut short or of wire 1; the message names file
+                and line, or what helps.
         """
         skipped = self.skipped = Counter()
         for read in frames_in(self.path):
@@ -51,7 +51,7 @@ class LogReader:
             elif read.frame.id in IDS:
                 yield read
             elif _is_of_wire_1(read.frame):
-                raise OctetError(
+                raise UsageError(
                     f"{self.path} was recorded with wire 1: convert it with tools/octet convert {self.path} NEW.log"
                 )
             else:
@@ -95,14 +95,14 @@ def check_protocol(log: LogReader, protocol: Protocol) -> None:
         protocol: The protocol of the robot's node.
 
     Raises:
-        OctetError: The log has no heartbeat of this node, or was recorded with another protocol.
+        UsageError: The log has no heartbeat of this node, or was recorded with another protocol.
     """
     messages = (protocol.decode(line.frame) for line in log)
     heartbeat = next((message for message in messages if message is not None and message.name == "HEARTBEAT"), None)
     if heartbeat is None:
-        raise OctetError(f"{log.path} has no heartbeat of node {protocol.node}: not a log of a run, or cut short")
+        raise UsageError(f"{log.path} has no heartbeat of node {protocol.node}: not a log of a run, or cut short")
     if not protocol.fits(heartbeat.signals["layout"]):
-        raise OctetError(f"{log.path} was recorded with another octet.dbc: replay it with the version that wrote it")
+        raise UsageError(f"{log.path} was recorded with another octet.dbc: replay it with the version that wrote it")
 
 
 def first_memory(log: Iterable[Recorded], protocol: Protocol) -> bytes:

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from host_sim.client.pacing import applied
-from host_sim.errors import OctetError
+from host_sim.errors import UsageError
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Opcode
 from host_sim.protocol.memory_report import MemoryReport
@@ -40,7 +40,7 @@ def read_recording(log: LogReader, protocol: Protocol) -> Recording:
         protocol: The protocol of the robot's node.
 
     Raises:
-        OctetError: The log is of another protocol, or has no heartbeat or no tick of this node.
+        UsageError: The log is of another protocol, or has no heartbeat or no tick of this node.
     """
     check_protocol(log, protocol)
     ticks = _Ticks(log, protocol)
@@ -49,7 +49,7 @@ def read_recording(log: LogReader, protocol: Protocol) -> Recording:
         pass
     recording = replace(reader.recording, ticks=ticks)
     if not reader.ticks:
-        raise OctetError(
+        raise UsageError(
             f"{log.path} has no tick in which the robot moves: the run never began, or the log is cut short"
         )
     return recording

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from host_sim.errors import OctetError
+from host_sim.errors import UsageError
 from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, node_of
 from host_sim.protocol.generated import Opcode, Reason
 from host_sim.protocol.memory_report import MemoryReport
@@ -51,7 +51,7 @@ def replay(log: LogReader, protocol: Protocol) -> Replay:
         protocol: The protocol of the robot's node.
 
     Raises:
-        OctetError: The log is of another protocol, has no heartbeat of this node, or holds a damaged frame.
+        UsageError: The log is of another protocol, has no heartbeat of this node, or holds a damaged frame.
     """
     check_protocol(log, protocol)
     comparison = _Comparison(log, protocol)
@@ -90,7 +90,7 @@ class _Comparison:
         decoded = self._protocol.decode(frame)
         if decoded is None:
             time_s = self._time_us / 1e6
-            raise OctetError(f"{self._log.path}: damaged frame at {time_s:.2f} s: {self._protocol.describe(frame)}")
+            raise UsageError(f"{self._log.path}: damaged frame at {time_s:.2f} s: {self._protocol.describe(frame)}")
         if decoded.name == "RANGES":
             self._feed(frame)
             return None

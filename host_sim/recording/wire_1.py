@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
-from host_sim.errors import OctetError
+from host_sim.errors import UsageError
 from host_sim.protocol.codec import COUNTERS, NODE_MAX, Frame, Protocol, crc8
 from host_sim.protocol.generated import CELL_COUNT, LAYOUT_HASH, TICK_SPAN, Message, Opcode, Reason, Signal
 from host_sim.protocol.signal_layout import MessageLayout
@@ -72,7 +72,7 @@ class OldLog(LogReader):
 
         Raises:
             UsageError: The file cannot be read, or is not a log.
-            OctetError: It is empty, damaged or cut short, or it has no HEARTBEAT of wire 1.
+            UsageError: It is empty, damaged or cut short, or it has no HEARTBEAT of wire 1.
         """
         skipped = self.skipped = Counter()
         transcoder = Transcoder()
@@ -86,7 +86,7 @@ class OldLog(LogReader):
             else:
                 yield from frames
         if not transcoder.is_recognised:
-            raise OctetError(f"{self.path} has no heartbeat of wire 1: it is not an old log, or is cut short")
+            raise UsageError(f"{self.path} has no heartbeat of wire 1: it is not an old log, or is cut short")
 
 
 class Transcoder:

@@ -12,7 +12,7 @@ from typing import Any
 
 from host_sim.atomic_file import write_bytes
 from host_sim.compressed_file import COMPRESSED
-from host_sim.errors import OctetError, UsageError
+from host_sim.errors import UsageError
 from host_sim.protocol.codec import NODE_MAX
 from host_sim.regular_file import read_bytes
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
@@ -61,7 +61,7 @@ def read_world(path: Path) -> WorldRecord:
 
     Raises:
         UsageError: The file cannot be read.
-        OctetError: The file is not a world file of this format; the message says why.
+        UsageError: The file is not a world file of this format; the message says why.
     """
     try:
         content = json.loads(read_bytes(path, _SIZE_MAX))
@@ -71,7 +71,7 @@ def read_world(path: Path) -> WorldRecord:
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
     except (ValueError, RecursionError) as error:
-        raise OctetError(f"{path} is not a world file of this version: {error}") from None
+        raise UsageError(f"{path} is not a world file of this version: {error}") from None
 
 
 def _record(content: dict[str, Any]) -> WorldRecord:

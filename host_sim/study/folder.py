@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.atomic_file import replacing, write_bytes
-from host_sim.errors import OctetError, UsageError
+from host_sim.errors import UsageError
 from host_sim.extra_library import library
 from host_sim.recording.run_folder import run_folder
 from host_sim.regular_file import read_bytes
@@ -76,7 +76,7 @@ class StudyFolder:
         try:
             tables = [parquet.read_table(self._file(name, number), schema=_schema(name)) for number in self._parts()]
         except (OSError, pyarrow.ArrowException) as error:
-            raise OctetError(f"cannot read the study in {self.path}: {str(error).splitlines()[0]}") from None
+            raise UsageError(f"cannot read the study in {self.path}: {str(error).splitlines()[0]}") from None
         whole = pyarrow.concat_tables([_schema(name).empty_table(), *tables])
         return {column: whole[column].to_numpy() for column in whole.column_names}
 

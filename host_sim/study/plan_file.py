@@ -9,7 +9,7 @@ from typing import Any
 
 from host_sim.errors import UsageError
 from host_sim.protocol.generated import PARAMETERS, PROFILES
-from host_sim.regular_file import read_bytes
+from host_sim.regular_file import read_text
 from host_sim.study.figures import FIGURES
 from host_sim.study.plan import Condition, Goal, Plan
 from host_sim.study.toml_lines import line_of, meant
@@ -37,7 +37,7 @@ def read_plan(path: Path) -> Plan:
         UsageError: The file cannot be read, or there is a mistake in it; the message names its line.
     """
     try:
-        text = read_bytes(path, _SIZE_MAX).decode()
+        text = read_text(path, _SIZE_MAX)
         content = _toml.loads(text)
     except FileNotFoundError:
         raise UsageError(f"there is no file {path}") from None

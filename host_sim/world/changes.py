@@ -6,7 +6,7 @@ from pathlib import Path
 
 from host_sim.errors import UsageError
 from host_sim.near_word import near_word
-from host_sim.regular_file import read_bytes
+from host_sim.regular_file import read_text
 from host_sim.world.body_faults import FAULT_NAMES, SOUND, with_fault
 
 PLANT, GROW = "plant", "grow"
@@ -109,7 +109,7 @@ def read_changes(text: str) -> list[str]:
         return [str(Change.parse(text))]
     path = Path(text.removeprefix("@"))
     try:
-        lines = read_bytes(path, _FILE_MAX).decode().splitlines()
+        lines = read_text(path, _FILE_MAX).splitlines()
     except OSError as error:
         raise UsageError(f"{text!r} is neither a change nor a file of changes ({error.strerror}): {_FORM}") from None
     except UnicodeDecodeError:

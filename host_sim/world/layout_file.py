@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.errors import UsageError
-from host_sim.regular_file import read_bytes
+from host_sim.regular_file import read_text
 from host_sim.world.layouts import World
 from host_sim.world.written_world import WrittenError, world_from
 
@@ -28,7 +28,7 @@ def read_layout_file(path: Path) -> World:
             what was meant.
     """
     try:
-        text = read_bytes(path, _FILE_MAX).decode()
+        text = read_text(path, _FILE_MAX)
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
     except UnicodeDecodeError:

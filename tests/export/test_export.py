@@ -16,6 +16,7 @@ from vblf.reader import BlfReader
 
 from host_sim.cli.main import main
 from host_sim.export.time_limits import LAST_S
+from host_sim.extra_library import library
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES
@@ -109,6 +110,14 @@ def test_the_table_has_every_signal(exported, recorded, name):
             assert signals_of(row, message) == (expected or {})
 
 
+def test_pandas_reads_integers_that_may_be_missing(exported):
+    library("pyarrow", "export")
+    table = pd.read_parquet(exported["parquet"], engine="pyarrow")
+
+    assert {str(table[column].dtype) for column in ("node", "damaged", "SENSES.feel", "ANSWER.value")} == {"Int64"}
+    assert table["time_s"].dtype == "float64"
+
+
 def test_small_mcap_reads_the_mcap_file(exported, recorded):
     with exported["mcap"].open("rb") as file:
         messages = list(read_message_decoded(file, decoder_factories=[JSONDecoderFactory()]))
@@ -157,7 +166,7 @@ def test_what_cannot_be_exported_leaves_the_old_file(tmp_path, capsys, content):
     (tmp_path / "a.log").write_text(content)
     (tmp_path / "a.blf").write_text("old")
 
-    assert main(["export", str(tmp_path / "a.log"), "--blf", str(tmp_path / "a.blf")]) == 1
+    assert main(["export", str(tmp_path / "a.log"), "--blf", str(tmp_path / "a.blf")]) == 2
 
     assert re.fullmatch(r"octet: .*\n", capsys.readouterr().err)
     assert (tmp_path / "a.blf").read_text() == "old"

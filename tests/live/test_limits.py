@@ -2,6 +2,8 @@
 
 import asyncio
 
+import pytest
+
 from host_sim.live import connections
 from host_sim.live.listener import Listener
 from host_sim.live.server import LiveServer
@@ -27,3 +29,46 @@ def test_a_request_for_a_websocket_that_does_not_become_one_is_not_exempt(live, 
             return said
 
     assert asyncio.run(answer()).startswith(b"HTTP/1.1 400")
+
+
+def frame(payload: bytes, mask: bytes) -> bytes:
+    """A WebSocket frame with text, masked unless the mask is empty."""
+    masked = bytes(byte ^ mask[i % 4] for i, byte in enumerate(payload)) if mask else payload
+    size, flag = len(payload), 0x80 if mask else 0
+    head = bytes([flag | size]) if size < 126 else bytes([flag | 126]) + size.to_bytes(2, "big")
+    return b"\x81" + head + mask + masked
+
+
+@pytest.mark.parametrize("step", [1, 2, 7, 1000])
+def test_masks_are_seen_however_the_bytes_come(step):
+    fine = b"".join(frame(b"x" * size, b"mask") for size in (0, 1, 125, 126, 1000))
+    for data, masked in ((fine, True), (fine + frame(b"x", b""), False)):
+        masks = connections._Masks()
+        assert all(masks.are_in(data[at : at + step]) for at in range(0, len(data), step)) == masked
+
+
+def test_a_frame_without_a_mask_closes_the_websocket(live, monkeypatch, tmp_path):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    listener = Listener(None, 0)
+    host = f"127.0.0.1:{listener.port}"
+    request = (
+        f"GET /live?token={listener.token} HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\n"
+        "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n"
+    )
+    run = live()
+
+    async def answer() -> bytes:
+        async with LiveServer(run, listener).serving():
+            reader, writer = await asyncio.open_connection("127.0.0.1", listener.port)
+            writer.write(request.encode())
+            await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), DEADLINE_S)
+            writer.write(frame(b'{"do": "pause"}', b""))
+            said = b""
+            while some := await asyncio.wait_for(reader.read(4096), DEADLINE_S):
+                said += some
+            writer.close()
+            return said
+
+    assert asyncio.run(answer()).endswith(b"\x88\x02\x03\xea")
+    assert run.playing

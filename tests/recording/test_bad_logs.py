@@ -82,18 +82,18 @@ def make_world_folder(log: Path) -> None:
 
 
 BAD = {
-    cut_inside_its_first_line: (1, "no whole line"),
-    cut_before_the_first_tick: (1, "no tick"),
+    cut_inside_its_first_line: (2, "no whole line"),
+    cut_before_the_first_tick: (2, "no tick"),
     make_binary: (2, "it is not text"),
-    make_text: (1, "line 1"),
-    make_empty: (1, "empty"),
+    make_text: (2, "line 1"),
+    make_empty: (2, "empty"),
     remove: (2, "No such file"),
     make_folder: (2, "directory"),
-    make_other_protocol: (1, "another octet.dbc"),
+    make_other_protocol: (2, "another octet.dbc"),
     take_the_world_of_another_seed: (1, "not recorded in the world of"),
     let_the_world_begin_later: (1, "begins later"),
     edit_what_cannot_be: (1, "no number 77"),
-    make_world_no_json: (1, "not a world file"),
+    make_world_no_json: (2, "not a world file"),
     make_world_folder: (2, "directory"),
 }
 

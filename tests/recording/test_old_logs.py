@@ -57,7 +57,7 @@ def test_an_old_log_is_refused_with_the_command_that_converts_it(name, command, 
     old = OLD.with_name(name)
     options = {"export": ["--csv", str(tmp_path / "a.csv")], "picture": ["--png", str(tmp_path / "a.png")]}
 
-    assert main([command, str(old), *options.get(command, [])]) == 1
+    assert main([command, str(old), *options.get(command, [])]) == 2
     assert f"octet: {old} was recorded with wire 1: convert it with tools/octet convert {old} NEW.log" in (
         capsys.readouterr().err
     )
@@ -65,7 +65,7 @@ def test_an_old_log_is_refused_with_the_command_that_converts_it(name, command, 
 
 
 def test_a_log_of_today_is_not_converted(kept, capsys, tmp_path):
-    assert main(["convert", str(kept.log), str(tmp_path / "new.log")]) == 1
+    assert main(["convert", str(kept.log), str(tmp_path / "new.log")]) == 2
 
     assert "has no heartbeat of wire 1" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []

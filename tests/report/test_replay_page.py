@@ -166,6 +166,6 @@ def test_a_reckoned_way_makes_a_page_as_well(kept):
 @pytest.mark.parametrize("name", ["nowhere/page.html", "."])
 def test_a_page_that_cannot_be_written_is_one_line(short, tmp_path, capsys, name):
     before = set(tmp_path.rglob("*"))
-    assert main(["replay", str(short.log), "--html", str(tmp_path / name)]) == 1
+    assert main(["replay", str(short.log), "--html", str(tmp_path / name)]) == 2
     assert set(tmp_path.rglob("*")) == before
     assert re.fullmatch(r"octet: cannot write .*\n", capsys.readouterr().err)

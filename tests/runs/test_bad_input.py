@@ -9,6 +9,7 @@ import sys
 
 import pytest
 
+from host_sim.backends import bus_choice
 from host_sim.protocol.codec import crc8
 from host_sim.recording.memory_lock import memory_lock
 from tests.runs.support import ROBOT, ROOT, octet, octet_process
@@ -109,10 +110,11 @@ def test_the_replay_of_several_robots_names_each(run):
 def test_a_world_is_not_drawn_over_its_own_file(tmp_path):
     world = tmp_path / "my.toml"
     shutil.copy(ROOT / "docs/worlds/two_walls.toml", world)
+    (tmp_path / "link").symlink_to(world)
 
-    refused = octet("world", world, "--png", world)
+    refused = octet("world", world, "--png", tmp_path / "link")
 
-    assert refused.stderr == f"octet: {world} is what world reads: choose another file with --png\n"
+    assert refused.stderr == f"octet: {tmp_path / 'link'} is what world reads: choose another file with --png\n"
     assert octet("world", world).returncode == 0
 
 
@@ -213,10 +215,56 @@ def test_a_replay_of_no_log_says_so_in_one_line(tmp_path, content):
 
     done = octet("replay", log)
 
-    assert done.returncode in (1, 2)
+    assert done.returncode == 2
     assert done.stderr.startswith("octet: ")
     assert done.stderr.count("\n") == 1
     assert str(log) in done.stderr
+
+
+WRONG_FILES = (
+    *("replay README.md", "replay README.md --html {out}/a.html", "picture README.md --png {out}/a.png"),
+    *("export README.md --csv {out}/a.csv", "load README.md", "world README.md", "study README.md", "compare docs"),
+    *("page /nowhere/a.html", "page {out}", "campaign /nowhere/a.html", "world random --png {out}/a.xyz"),
+    *("picture {log} --png {out}/a.xyz", "picture {log} --gif {out}/a.png", "picture {log} --png /nowhere/a.png"),
+    *("export {log} --csv {out}", "replay {log} --html {out}/loop", "run --out {out} --memory {out}/loop"),
+)
+
+
+@pytest.mark.parametrize("words", WRONG_FILES)
+def test_a_wrong_file_is_one_line_and_exit_code_2(run, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(ROOT)
+    log = run("--environments", "1", "--bus", "none", "--limit-s", "1").out / "run.log"
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "loop").symlink_to("loop")
+
+    done = octet(*words.format(out=out, log=log).split())
+
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+    assert [path.name for path in out.iterdir()] == ["loop"]
+
+
+def test_text_may_begin_with_a_byte_order_mark(run, tmp_path):
+    def marked(name: str, text: str):
+        (tmp_path / name).write_text(text, encoding="utf-8-sig")
+        return tmp_path / name
+
+    rules = f"@{marked('rules', 'drop@5/to')}"
+    world = marked("w.toml", (ROOT / "docs/worlds/two_walls.toml").read_text())
+    changes = marked("changes", "plant@1s\n")
+
+    done = run("--environments", "1", "--bus", "none", "--limit-s", "2", "--fault", rules, "--change", changes)
+
+    assert done.code == 0, done.errors
+    assert octet("replay", marked("marked.log", done.log.decode())).returncode == 0
+    assert octet("world", world).stderr == ""
+
+
+def test_a_run_finds_its_bus_without_with_vcan(tmp_path, monkeypatch):
+    monkeypatch.setattr(bus_choice, "_WITH_VCAN", tmp_path / "with-vcan")
+    monkeypatch.delenv("OCTET_VCAN_CHOSEN", raising=False)
+
+    assert bus_choice.choose_bus("auto", "spawn") == "fd"
 
 
 @pytest.mark.parametrize("cut_off", [1, 7, 30, 50, 70, 90, 110])
@@ -249,7 +297,7 @@ def test_a_log_of_another_protocol_is_refused(run, tmp_path):
 
     replayed = octet("replay", other)
 
-    assert replayed.returncode == 1
+    assert replayed.returncode == 2
     assert "another octet.dbc" in replayed.stderr
 
 

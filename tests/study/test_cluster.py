@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.cli.dask_command import _here_only
 from host_sim.cli.main import main
 from host_sim.errors import OctetError
 from host_sim.study import workers
@@ -15,7 +16,7 @@ from host_sim.study.folder import StudyFolder
 from host_sim.study.trial import Trial, run_trial
 
 ROOT = Path(__file__).resolve().parents[2]
-NO_PAGE = ("--no-dashboard", "--host", "127.0.0.1")
+NO_PAGE = ("--no-dashboard",)
 
 
 class Cluster:
@@ -24,7 +25,7 @@ class Cluster:
     def __init__(self, folder: Path) -> None:
         self._folder, self._processes = folder, []
         self.scheduler = self.start("scheduler", "--port", "0")
-        self.address = f"tcp://127.0.0.1:{self._line(self.scheduler, 'Scheduler at:')}"
+        self.address = self._line(self.scheduler, "Scheduler at:")
 
     def start(self, role: str, *words: str) -> subprocess.Popen:
         command = [sys.executable, "-m", "host_sim", "dask", role, *words, *NO_PAGE]
@@ -33,8 +34,8 @@ class Cluster:
         return process
 
     def worker(self) -> subprocess.Popen:
-        options = ("--nworkers", "1", "--nthreads", "1", "--no-nanny", "--local-directory", str(self._folder))
-        process = self.start("worker", self.address, *options)
+        alone = ("--nworkers", "1", "--nthreads", "1", "--no-nanny", "--host", "127.0.0.1")
+        process = self.start("worker", self.address, *alone, "--local-directory", str(self._folder))
         self._line(process, "Registered to:")
         return process
 
@@ -44,10 +45,10 @@ class Cluster:
             process.communicate()
 
     def _line(self, process: subprocess.Popen, words: str) -> str:
-        """The port in the line with these words, which Dask writes when it is ready."""
+        """The address in the line with these words, which Dask writes when it is ready."""
         for line in process.stderr:
             if words in line:
-                return line.rsplit(":", 1)[1].strip()
+                return line.split()[-1]
         raise AssertionError(f"{process.args} ended with {process.wait()}")
 
 
@@ -56,6 +57,15 @@ def cluster(tmp_path):
     cluster = Cluster(tmp_path)
     yield cluster
     cluster.stop()
+
+
+def test_a_scheduler_is_for_its_own_machine_unless_told_otherwise(cluster):
+    ours, theirs = _here_only("scheduler", []), ["--host", "0.0.0.0"]
+
+    assert cluster.address.startswith("tcp://127.0.0.1:")
+    assert ours == ["--host", "127.0.0.1", "--dashboard-address", "127.0.0.1:8787"]
+    assert _here_only("scheduler", theirs) == theirs
+    assert _here_only("worker", []) == []
 
 
 @pytest.fixture

@@ -176,7 +176,7 @@ def test_a_part_that_is_damaged_is_named(plan, tmp_path, capsys):
     part = next((tmp_path / "out/runs").iterdir())
     part.write_bytes(b"PAR1")
 
-    assert main(["compare", str(tmp_path / "out")]) == 1
+    assert main(["compare", str(tmp_path / "out")]) == 2
 
     assert capsys.readouterr().err.count("\n") == 1
 

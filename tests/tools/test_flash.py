@@ -209,6 +209,7 @@ def test_an_image_built_earlier_keeps_its_node(tmp_path: Path) -> None:
     assert "leave out --node and --bitrate" in result.stderr
 
 
-def test_what_cannot_be_done_is_one_line_and_ends_with_1() -> None:
-    result = flash("nosuch", "bxcan")
-    assert (result.returncode, result.stdout, result.stderr.count("\n")) == (1, "", 1)
+@pytest.mark.parametrize("words", ["nucleo bxcan", "blue_pill fdcan", "blue_pill bxcan --image tools/flash"])
+def test_a_wrong_choice_is_one_line_and_ends_with_2(words: str) -> None:
+    result = flash(*words.split())
+    assert (result.returncode, result.stdout, result.stderr.count("\n")) == (2, "", 1)

@@ -64,7 +64,7 @@ HELP = (
     *("octet --help", "run --help", "bench --help", "bench -h", "octet dask --help", "octet study -h"),
     *("octet watch --listen --help", "octet page --help", "octet run --robot emulated --help"),
     *("coverage --help", "flash --help", "generate --help", "legacy-fpu --help", "licences --help", "misra --help"),
-    *("mutate --help", "requirements --help", "size --help", "test --help", "with-vcan --help"),
+    *("fresh --help", "mutate --help", "requirements --help", "size --help", "test --help", "with-vcan --help"),
 )
 
 
@@ -75,6 +75,7 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = shutil.ignore_patterns("__pycache__", "generated.py", "generated.js")
     for name in ("docs", "hal", "host_sim", "tools"):
         shutil.copytree(ROOT / name, folder / name, ignore=made)
+    (folder / "out").mkdir()
     setup = folder / "tools/setup"
     setup.write_text('#!/bin/sh\necho sets up: "$@"\n')
     return folder

@@ -5,7 +5,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools.flashing import FlashError
+from tools.flashing import ChoiceError, FlashError
 
 ROOT = Path(__file__).resolve().parents[2]
 STM32 = Path("hal", "stm32")
@@ -79,7 +79,7 @@ def choose_board(name: str, boards: dict[str, Board]) -> Board:
         FlashError: There is none.
     """
     if name not in boards:
-        raise FlashError(f"no board {name}; there are {', '.join(boards)}")
+        raise ChoiceError(f"no board {name}; there are {', '.join(boards)}")
     return boards[name]
 
 
@@ -90,7 +90,7 @@ def build(board: Board, link: str, node: int, bitrate: int, root: Path = ROOT) -
         FlashError: The board has no such link, or it does not build.
     """
     if link not in board.links:
-        raise FlashError(f"no link {link} on {board.name}; there are {', '.join(board.links)}")
+        raise ChoiceError(f"no link {link} on {board.name}; there are {', '.join(board.links)}")
     folder = root / "build" / "flash" / board.name
     settings = [f"-DOCTET_NODE={node}", f"-DOCTET_CAN_BITRATE={bitrate}"]
     for command in (["--preset", board.name, "-B", str(folder), *settings], ["--build", str(folder)]):
@@ -109,10 +109,10 @@ def identify(path: Path, board: Board) -> Image:
     try:
         found = _IDENTITY.search(path.read_bytes())
     except OSError as error:
-        raise FlashError(f"{path}: {error.strerror}") from error
+        raise ChoiceError(f"{path}: {error.strerror}") from error
     if found is None:
-        raise FlashError(f"{path} is no image of ours")
+        raise ChoiceError(f"{path} is no image of ours")
     image = Image(path, *(part.decode() for part in found.groups()))
     if image.board != board.name:
-        raise FlashError(f"{path} is for {image.board}, not for {board.name}")
+        raise ChoiceError(f"{path} is for {image.board}, not for {board.name}")
     return image

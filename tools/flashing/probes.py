@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools.flashing import FlashError
+from tools.flashing import ChoiceError, FlashError
 
 USB = Path("/sys/bus/usb/devices")
 KINDS = ("stlink", "cmsis-dap", "jlink", "serial")
@@ -63,10 +63,10 @@ def choose_probe(wanted: str | None, found: list[Probe]) -> Probe:
     """
     kind, _, where = (wanted or "").partition(":")
     if kind and kind not in KINDS:
-        raise FlashError(f"no kind of probe {kind}; there are {', '.join(KINDS)}")
+        raise ChoiceError(f"no kind of probe {kind}; there are {', '.join(KINDS)}")
     if kind == "serial":
         if not where or not Path(where).exists():
-            raise FlashError(f"--probe serial:PATH: no such device: {where or 'PATH is missing'}")
+            raise ChoiceError(f"--probe serial:PATH: no such device: {where or 'PATH is missing'}")
         return Probe(kind, where)
     fitting = [probe for probe in found if kind in ("", probe.kind) and where in ("", probe.where)]
     if not fitting:
