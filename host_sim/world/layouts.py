@@ -1,16 +1,16 @@
-"""One layout of obstacles, food and robots for each seed and number."""
+"""One layout of obstacles, food and robots for each seed and number, drawn in C."""
 
-import math
-import random
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import Any, Literal
 
-from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Point, Pose
+from host_sim.world.native_drawing import ReachRoom, layout_params
 from host_sim.world.params import SimParams
-from host_sim.world.reach import Reach
+from host_sim.world.world_library import world_library
+from host_sim.world.written_layout import WrittenLayout
 
-_TRIES = 1000
+Style = Literal["bars", "corridors", "dead_ends"]
+"""What stands in an environment, as `enum layout_style` in `native/layout.h` explains it."""
 
 
 @dataclass(frozen=True)
@@ -35,10 +35,6 @@ class Layout:
         return self.start, *self.other_starts
 
 
-Draw = Callable[[random.Random, SimParams], Layout]
-"""Draws a layout for one robot, fair or not."""
-
-
 class NoRoomError(ValueError):
     """More robots than fit into an environment.
 
@@ -53,7 +49,7 @@ class NoRoomError(ValueError):
 
 
 def generate(seed: int, number: int, params: SimParams, robots: int = 1) -> Layout:
-    """Draws the layout of the random world for a seed and a number: always the same, with every version of Python.
+    """Draws the layout of the random world for a seed and a number: always the same.
 
     >>> layout = generate(seed=1, number=1, params=SimParams())
     >>> len(layout.bars), len(layout.food), len(layout.starts)
@@ -64,41 +60,6 @@ def generate(seed: int, number: int, params: SimParams, robots: int = 1) -> Layo
     return World("random", params).generate(seed, number, robots)
 
 
-def between(draws: random.Random, low: float, high: float) -> float:
-    """A number from low to high, each as likely."""
-    # random() is the only method of the generator that is guaranteed to stay the same across versions of Python.
-    return low + (high - low) * draws.random()
-
-
-def draw_start(draws: random.Random, params: SimParams) -> Pose:
-    """A pose anywhere in the arena."""
-    x, y = between(draws, 0.0, params.width_mm), between(draws, 0.0, params.height_mm)
-    return Pose(x, y, between(draws, -math.pi, math.pi))
-
-
-def draw_food(draws: random.Random, params: SimParams) -> tuple[Point, ...]:
-    """A piece of food in each of its bands."""
-    return tuple(
-        (between(draws, low, high), between(draws, 0.0, params.height_mm)) for low, high in params.food_bands_mm
-    )
-
-
-def draw_bars(draws: random.Random, params: SimParams) -> Layout:
-    """Bars of random length and angle, anywhere inside the walls."""
-    bars = tuple(_draw_bar(draws, params) for _ in range(params.bar_count))
-    return Layout(bars, draw_food(draws, params), draw_start(draws, params))
-
-
-def _draw_bar(draws: random.Random, params: SimParams) -> Bar:
-    half = (between(draws, *params.bar_length_mm) - params.bar_thickness_mm) / 2
-    angle = between(draws, 0.0, math.pi)
-    dx, dy = half * math.cos(angle), half * math.sin(angle)
-    margin_x, margin_y = abs(dx) + params.bar_thickness_mm / 2, abs(dy) + params.bar_thickness_mm / 2
-    x = between(draws, margin_x, params.width_mm - margin_x)
-    y = between(draws, margin_y, params.height_mm - margin_y)
-    return Bar((x - dx, y - dy), (x + dx, y + dy))
-
-
 @dataclass(frozen=True)
 class World:
     """A kind of environment.
@@ -106,12 +67,12 @@ class World:
     Attributes:
         name: Its name.
         params: Its dimensions.
-        draw: Draws its layouts.
+        draw: What its layouts are drawn from, or the only one.
     """
 
     name: str
     params: SimParams
-    draw: Draw = draw_bars
+    draw: Style | WrittenLayout = "bars"
 
     def generate(self, seed: int, number: int, robots: int = 1) -> Layout:
         """Draws the layout for a seed and a number: always the same one.
@@ -120,44 +81,56 @@ class World:
         reached from each start. More robots do not change the rest of the layout.
 
         Args:
-            seed: The run's seed, any integer.
-            number: Number of the environment, any integer.
+            seed: The run's seed, any integer of 64 bits.
+            number: Number of the environment, any integer of 64 bits.
             robots: Number of robots, at least 1.
 
         Returns:
             The first fair layout drawn.
 
         Raises:
-            ValueError: The world is so crowded that 1000 draws gave no fair layout.
+            ValueError: The world is so crowded that 1000 draws gave no fair layout, or has more obstacles or food
+                than can be drawn.
             NoRoomError: There is no room for all the robots.
+            OctetError: The C code is not built.
         """
-        draws = random.Random(f"octet {seed} {number}")
-        for _ in range(_TRIES):
-            layout = self.draw(draws, self.params)
-            if is_fair(layout, self.params):
-                return layout if robots == 1 else self._with_robots(layout, seed, number, robots)
-        raise ValueError(f"no fair environment in {_TRIES} draws for seed {seed}, number {number}: {self.params}")
+        ffi, library = world_library()
+        self._check(library.LAYOUT_BARS_MAX, library.LAYOUT_FOOD_MAX)
+        starts, out = ffi.new("struct pose[]", robots), ffi.new("struct layout *")
+        out.starts = starts
+        kind = self._in_c(ffi, library)
+        which = ffi.new("struct layout_which *", (seed, number, robots))
+        room = ReachRoom(library.reach_size(self.params.width_mm, self.params.height_mm))
+        if not library.layouts_draw(kind[0], which, room.in_c, out):
+            raise ValueError(f"no fair environment in 1000 draws for seed {seed}, number {number}: {self.params}")
+        if out.start_count < robots:
+            raise NoRoomError(number, out.start_count)
+        return _layout_of(ffi, out)
 
-    def _with_robots(self, layout: Layout, seed: int, number: int, robots: int) -> Layout:
-        """The layout with a start for each robot; adding robots does not move the starts of the others."""
-        draws, params = random.Random(f"octet {seed} {number} starts"), self.params
-        reach_mm = params.body_radius_mm + params.sensor_reach_mm
-        reach, starts = Reach(layout.bars, layout.start[:2], params), [layout.start]
-        for _ in range(_TRIES):
-            if len(starts) == robots:
-                return replace(layout, other_starts=tuple(starts[1:]))
-            start = draw_start(draws, params)
-            clear_mm = clearance_mm(start[:2], layout.bars, params)
-            apart_mm = min(math.dist(start[:2], other[:2]) for other in starts) - params.body_radius_mm
-            if start[:2] in reach and min(clear_mm, apart_mm) >= reach_mm:
-                starts.append(start)
-        raise NoRoomError(number, len(starts))
+    def _check(self, bars_max: int, food_max: int) -> None:
+        bars, pieces = self.params.bar_count, len(self.params.food_bands_mm)
+        if not (0 <= bars <= bars_max and pieces <= food_max):
+            most = f"at most {bars_max} obstacles and {food_max} pieces of food can be drawn"
+            raise ValueError(f"{most}, not {bars} and {pieces}")
+
+    def _in_c(self, ffi: Any, library: Any) -> tuple[Any, Any]:
+        """A `struct layout_kind *`, and what it points to."""
+        if isinstance(self.draw, WrittenLayout):
+            style, written = library.LAYOUT_WRITTEN, self.draw.in_c()
+        else:
+            style, written = getattr(library, f"LAYOUT_{self.draw.upper()}"), ffi.NULL
+        return ffi.new("struct layout_kind *", (style, layout_params(self.params), written)), written
 
 
-def is_fair(layout: Layout, params: SimParams) -> bool:
-    """Whether nothing is within sensor reach of the start or the food, and the body can get to all the food."""
-    reach_mm = params.body_radius_mm + params.sensor_reach_mm
-    if any(clearance_mm(place, layout.bars, params) < reach_mm for place in (layout.start[:2], *layout.food)):
-        return False
-    reach = Reach(layout.bars, layout.start[:2], params)
-    return all(point in reach for point in layout.food)
+def _layout_of(ffi: Any, drawn: Any) -> Layout:
+    """The layout that C code has drawn, a `struct layout *`."""
+    bars, food, starts = (
+        zip(*[iter(ffi.unpack(ffi.cast("double *", numbers), count * size))] * size, strict=True)
+        for numbers, count, size in (
+            (drawn.bars, drawn.bar_count, 4),
+            (drawn.food, drawn.food_count, 2),
+            (drawn.starts, drawn.start_count, 3),
+        )
+    )
+    start, *others = (Pose(*numbers) for numbers in starts)
+    return Layout(tuple(Bar((ax, ay), (bx, by)) for ax, ay, bx, by in bars), tuple(food), start, tuple(others))

@@ -4,8 +4,6 @@ from pathlib import Path
 
 from host_sim.errors import UsageError
 from host_sim.near_word import near_word
-from host_sim.world.corridors import draw_corridors
-from host_sim.world.dead_ends import draw_dead_ends
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
@@ -22,8 +20,8 @@ _WORLDS = {
     world.name: world
     for world in (
         World(RANDOM, SimParams()),
-        World("corridors", SimParams(), draw_corridors),
-        World("dead-ends", SimParams(), draw_dead_ends),
+        World("corridors", SimParams(), "corridors"),
+        World("dead-ends", SimParams(), "dead_ends"),
         World("posts", SimParams(bar_count=24, bar_length_mm=(80.0, 120.0))),
         World("crowded", SimParams(bar_count=14, bar_length_mm=(300.0, 800.0))),
         World("small", _SMALL),

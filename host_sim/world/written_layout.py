@@ -1,19 +1,23 @@
 """A layout that is given rather than drawn: that of a world which a person wrote."""
 
 import math
-import random
+import sys
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
-from host_sim.world.clearance import clearance_mm
-from host_sim.world.geometry import Bar, Point, Pose
-from host_sim.world.layouts import Layout, between
-from host_sim.world.params import SimParams
-from host_sim.world.reach import Reach
+from host_sim.world.geometry import Bar, Point
+from host_sim.world.world_library import world_library
+
+KEYS = ("size", "start", "food", "bars")
+"""What a world is written with, in the order of `enum written_key`."""
+
+_LISTS = KEYS[2:]
 
 
 @dataclass(frozen=True)
 class WrittenLayout:
-    """Draws always the same layout; only a start that is not given is drawn.
+    """Always the same layout; only a start that is not given is drawn.
 
     Attributes:
         bars: The obstacles.
@@ -25,50 +29,48 @@ class WrittenLayout:
     food: tuple[Point, ...]
     start: tuple[float, float, float] | None = None
 
-    def __call__(self, draws: random.Random, params: SimParams) -> Layout:
-        """The layout, with which `find_fault` finds nothing wrong."""
-        if self.start is None:
-            return Layout(self.bars, self.food, self._draw_start(draws, params))
-        x, y, heading_deg = self.start
-        return Layout(self.bars, self.food, Pose(x, y, math.remainder(math.radians(heading_deg), math.tau)))
+    def content(self) -> dict[str, list[Any]]:
+        """The keys and values that it is written with."""
+        start = {} if self.start is None else {"start": list(self.start)}
+        return {**start, "food": [list(at) for at in self.food], "bars": [[*a, *b] for a, b in self.bars]}
 
-    def find_fault(self, params: SimParams) -> tuple[int, str] | None:
-        """What makes the layout unfair, as `World.generate` describes it; None if nothing does.
-
-        Returns:
-            What is in a bad place, -1 for the start or the number of the food from 0, and what is wrong, in words.
-        """
-        places = [(-1, self.start[:2])] if self.start else []
-        places += list(enumerate(self.food))
-        for number, at in places:
-            room_mm = clearance_mm(at, self.bars, params)
-            if room_mm < _needed_mm(params):
-                return number, f"{_name(number)} is {_away(room_mm)}; {_needed_mm(params):.0f} mm are needed"
-        reach, first = Reach(self.bars, places[0][1], params), _name(places[0][0])
-        for number, at in places:
-            if at not in reach:
-                return number, f"{_name(number)} cannot be reached from {first}: the robot does not fit through"
-        return None
-
-    def _draw_start(self, draws: random.Random, params: SimParams) -> Pose:
-        """A place from which all food can be reached, with nothing in sensor reach: at least that of the food is."""
-        import numpy as np  # noqa: PLC0415 - a run begins sooner without
-
-        from host_sim.world.grid import clearances_mm  # noqa: PLC0415 - see above
-
-        points = np.array([*Reach(self.bars, self.food[0], params).points(), *self.food])
-        fair = points[clearances_mm(points, self.bars, params) >= _needed_mm(params)]
-        x, y = fair[int(draws.random() * len(fair))]
-        return Pose(float(x), float(y), between(draws, -math.pi, math.pi))
+    def in_c(self) -> Any:
+        """The same as a `struct written *`."""
+        return written_in_c(self.content())
 
 
-def _needed_mm(params: SimParams) -> float:
-    return params.body_radius_mm + params.sensor_reach_mm
+def written_in_c(content: Mapping[str, Any]) -> Any:
+    """A `struct written *` with what was written as these keys and values, right or wrong.
+
+    Raises:
+        OctetError: The C code is not built.
+    """
+    ffi, library = world_library()
+    written = ffi.new("struct written *")
+    library.written_clear(written)
+    for key in content.keys() & KEYS:
+        number, value = KEYS.index(key), content[key]
+        if key not in _LISTS:
+            _put(library.written_entry(written, number, 0), value)
+        elif not isinstance(value, list):
+            library.written_list(written, number, library.WRITTEN_NO_LIST)
+        else:
+            library.written_list(written, number, len(value))
+            for index, entry in enumerate(value[: library.LAYOUT_BARS_MAX]):
+                if there := library.written_entry(written, number, index):
+                    _put(there, entry)
+    return written
 
 
-def _away(room_mm: float) -> str:
-    return f"only {room_mm:.0f} mm away from an obstacle or a wall" if room_mm > 0 else "inside an obstacle"
+def _put(there: Any, entry: object) -> None:
+    """Fills in a `struct written_entry *`."""
+    if not isinstance(entry, list):
+        there.count = -1
+        return
+    there.count, there.numbers = len(entry), [_number(part) for part in entry[: len(there.numbers)]]
 
 
-def _name(number: int) -> str:
-    return "the start" if number < 0 else f"food {number + 1}"
+def _number(part: object) -> float:
+    if isinstance(part, bool) or not isinstance(part, (int, float)):
+        return math.nan
+    return float(part) if abs(part) < sys.float_info.max else math.inf

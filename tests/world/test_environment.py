@@ -8,9 +8,9 @@ import pytest
 
 from host_sim.world.body import rolled
 from host_sim.world.geometry import Bar, Pose, ahead_of
-from host_sim.world.grid import clearances_mm
 from host_sim.world.layouts import Layout, NoRoomError, generate
 from host_sim.world.params import SimParams
+from tests.world.clearances import clearances_mm
 from tests.world.walk import can_reach
 
 PARAMS = SimParams()
@@ -107,6 +107,12 @@ def test_starts_look_every_way() -> None:
 def test_a_world_without_room_is_refused_with_its_seed_and_number() -> None:
     with pytest.raises(ValueError, match="seed 5, number 3"):
         generate(5, 3, SimParams(width_mm=300.0, height_mm=300.0, bar_count=0))
+
+
+@pytest.mark.parametrize("params", [SimParams(bar_count=65), SimParams(food_bands_mm=((0.0, 4000.0),) * 21)])
+def test_more_than_can_be_drawn_is_refused(params: SimParams) -> None:
+    with pytest.raises(ValueError, match="at most 64 obstacles and 20 pieces of food"):
+        generate(1, 1, params)
 
 
 def test_more_robots_leave_the_layout_and_the_starts_of_fewer_as_they_are() -> None:

@@ -7,10 +7,11 @@ import pytest
 
 from host_sim.errors import UsageError
 from host_sim.world.geometry import Bar, Pose
-from host_sim.world.layouts import World, is_fair
+from host_sim.world.layouts import World
 from host_sim.world.worlds import world_of
 from host_sim.world.written_layout import WrittenLayout
 from host_sim.world.written_world import content_of, world_from
+from tests.world.walk import is_fair
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 
@@ -102,7 +103,7 @@ def test_the_example_in_the_documents_is_the_file_beside_them():
         ("food = [\n[500, 500],\n[100, 500]]", 3, "food 2 is only 100 mm away from an obstacle or a wall; 160 mm"),
         ("food = [[500, 500]]\nbars = [\n[100, 500, 900, 500]]", 1, "food 1 is inside an obstacle; 160 mm"),
         ("food = [[500, 500]]\nstart = [50, 500, 0]", 2, "the start is only 50 mm away"),
-        ("food = [[500, 500]]\nstart = [50, 500]", 2, "start must be [x, y, heading]: 3 numbers"),
+        ("food = [[500, 500]]\nstart = [50, 500]", 2, "the start must be [x, y, heading]: 3 numbers"),
         ("food = [[500, 500]]\nbars = [\n[9, 9, 99, 99],\n[3, 4, 3, 5]]", 4, "bar 2 must be at least 40 mm long"),
         ("food = [[500, 500]]\nbars = [[3, 4, 3]]", 2, "bar 1 must be [x, y, x, y]: 4 numbers"),
         (

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from host_sim.world.grid import clearances_mm
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
+from tests.world.clearances import clearances_mm
 
 PITCH_MM = 20.0
 
@@ -26,3 +26,11 @@ def can_reach(layout: Layout, goal: tuple[float, float], params: SimParams) -> b
         if (grown == reached).all():
             return bool(reached[round(goal[1] / PITCH_MM), round(goal[0] / PITCH_MM)])
         reached = grown
+
+
+def is_fair(layout: Layout, params: SimParams) -> bool:
+    """Whether nothing is within sensor reach of the start or the food, and the body can get to all the food."""
+    places = np.array([layout.start[:2], *layout.food])
+    room_mm = clearances_mm(places, layout.bars, params).min()
+    is_clear = room_mm >= params.body_radius_mm + params.sensor_reach_mm
+    return bool(is_clear) and all(can_reach(layout, food, params) for food in layout.food)

@@ -1,96 +1,143 @@
 #include "host_sim/world/native/reach.h"
 
 #include <math.h>
-#include <stdbool.h>
+#include <string.h>
 
-static const double DOUBT = 1e-9;   /* of a squared distance: far more than rounding, far less than matters */
+enum { BORDER = 2 };   /* rows, and columns, around those of the arena */
+enum { BLOCKED, REACHED, FREE };
 
-/* A wider limit than the bar's: beyond it there is no doubt. */
-static void set_box(const struct reach *reach, struct reach_bar *bar)
+struct box {
+    struct vector low;
+    struct vector high;
+};
+
+static uint32_t cells_along(double size_mm)
 {
-    double limit = (reach->room_mm + reach->bar_radius_mm) * (1.0 + DOUBT);
-
-    bar->left_mm = (bar->ax_mm < bar->bx_mm ? bar->ax_mm : bar->bx_mm) - limit;
-    bar->right_mm = (bar->ax_mm < bar->bx_mm ? bar->bx_mm : bar->ax_mm) + limit;
-    bar->top_mm = (bar->ay_mm < bar->by_mm ? bar->ay_mm : bar->by_mm) - limit;
-    bar->bottom_mm = (bar->ay_mm < bar->by_mm ? bar->by_mm : bar->ay_mm) + limit;
+    return (uint32_t)ceil(size_mm / REACH_CELL_MM) + BORDER;
 }
 
-static bool is_off_the_box(const struct reach_bar *bar, double x, double y)
+size_t reach_size(double width_mm, double height_mm)
 {
-    return x < bar->left_mm || x > bar->right_mm || y < bar->top_mm || y > bar->bottom_mm;
+    return (size_t)cells_along(height_mm) * cells_along(width_mm);
 }
 
-static bool is_clear_of(const struct reach *reach, const struct reach_bar *bar, double x, double y)
+/* The row, or the column, of a place: of the border for those beyond it. */
+static uint32_t line_of(double at_mm, uint32_t lines)
 {
-    double dx = bar->bx_mm - bar->ax_mm, dy = bar->by_mm - bar->ay_mm;
-    double along = ((x - bar->ax_mm) * dx + (y - bar->ay_mm) * dy) / (dx * dx + dy * dy);
-    double inside = along < 0.0 ? 0.0 : along > 1.0 ? 1.0 : along;
-    double off_x = x - bar->ax_mm - inside * dx, off_y = y - bar->ay_mm - inside * dy;
-    double squared = off_x * off_x + off_y * off_y, limit = reach->room_mm + reach->bar_radius_mm;
+    double line = floor(at_mm / REACH_CELL_MM) + 1;
 
-    /* A square root is only worth its time where it could change the answer. */
-    if (squared > limit * limit * (1.0 + DOUBT))
-        return true;
-    if (squared < limit * limit * (1.0 - DOUBT))
-        return false;
-    return hypot(off_x, off_y) - reach->bar_radius_mm >= reach->room_mm;
+    return line <= 0.0 ? 0 : line >= lines ? lines - 1 : (uint32_t)line;
 }
 
-static bool is_free(const struct reach *reach, uint32_t row, uint32_t column)
+static uint32_t cell_of(const struct reach *reach, struct vector at)
 {
-    double x = (column + 0.5) * reach->cell_mm, y = (row + 0.5) * reach->cell_mm;
-
-    if (x < reach->room_mm || reach->width_mm - x < reach->room_mm)
-        return false;
-    if (y < reach->room_mm || reach->height_mm - y < reach->room_mm)
-        return false;
-    for (size_t i = 0; i < reach->bar_count; i++)
-        if (!is_off_the_box(&reach->bars[i], x, y) && !is_clear_of(reach, &reach->bars[i], x, y))
-            return false;
-    return true;
+    return line_of(at.y, reach->rows) * reach->columns + line_of(at.x, reach->columns);
 }
 
-enum { UNKNOWN, REACHED, BLOCKED };
-
-/* Whether a cell is free and has not been got to before; it is marked either way. */
-static bool visit(const struct reach *reach, uint32_t cell, uint8_t *cells)
+static double middle_of(uint32_t line)
 {
-    uint32_t stride = reach->columns + 2, row = cell / stride, column = cell % stride;
-    bool inside = row >= 1 && row <= reach->rows && column >= 1 && column <= reach->columns;
-
-    if (cells[cell] != UNKNOWN)
-        return false;
-    cells[cell] = inside && is_free(reach, row - 1, column - 1) ? REACHED : BLOCKED;
-    return cells[cell] == REACHED;
+    return (line - 0.5) * REACH_CELL_MM;
 }
 
-static void flood(const struct reach *reach, uint32_t start, uint8_t *cells)
+struct vector reach_middle(const struct reach *reach, uint32_t cell)
 {
-    uint32_t stride = reach->columns + 2;
-    uint32_t *top = reach->stack;
+    return (struct vector){middle_of(cell % reach->columns), middle_of(cell / reach->columns)};
+}
 
-    if (visit(reach, start, cells))
-        *top++ = start;
-    while (top > reach->stack) {
-        uint32_t cell = *--top;
-        const uint32_t neighbours[] = {cell - 1, cell + 1, cell - stride, cell + stride};
+/* Blocks the cells of a box whose middles are too near. */
+static void block(struct reach *reach, const struct obstacles *obstacles, struct box box, double room_mm)
+{
+    uint32_t left = line_of(box.low.x, reach->columns), right = line_of(box.high.x, reach->columns);
+    uint32_t bottom = line_of(box.high.y, reach->rows);
 
-        for (unsigned i = 0; i < 4; i++)
-            if (visit(reach, neighbours[i], cells))
-                *top++ = neighbours[i];
+    for (uint32_t row = line_of(box.low.y, reach->rows); row <= bottom; row++)
+        for (uint32_t column = left; column <= right; column++)
+            if (!clearance_suffices(obstacles, (struct vector){middle_of(column), middle_of(row)}, room_mm))
+                reach->cells[row * reach->columns + column] = BLOCKED;
+}
+
+static struct box around(struct vector a, struct vector b, double beyond_mm)
+{
+    return (struct box){{fmin(a.x, b.x) - beyond_mm, fmin(a.y, b.y) - beyond_mm},
+                        {fmax(a.x, b.x) + beyond_mm, fmax(a.y, b.y) + beyond_mm}};
+}
+
+void reach_keep_clear(struct reach *reach, const struct obstacles *obstacles, double room_mm)
+{
+    struct obstacles one = {.width_mm = obstacles->width_mm, .height_mm = obstacles->height_mm,
+                            .bar_radius_mm = obstacles->bar_radius_mm};
+    struct vector low = {-REACH_CELL_MM, -REACH_CELL_MM};
+    struct vector high = {one.width_mm + REACH_CELL_MM, one.height_mm + REACH_CELL_MM};
+    const struct box walls[] = {
+        {low, {room_mm, high.y}}, {{one.width_mm - room_mm, low.y}, high},
+        {low, {high.x, room_mm}}, {{low.x, one.height_mm - room_mm}, high},
+    };
+
+    for (unsigned i = 0; i < 4; i++)
+        block(reach, &one, walls[i], room_mm);
+    one.bar_count = 1;
+    for (size_t i = 0; i < obstacles->bar_count; i++) {
+        one.bars = &obstacles->bars[i];
+        block(reach, &one, around(one.bars->a, one.bars->b, room_mm + one.bar_radius_mm), room_mm);
+    }
+    one.bar_count = 0;
+    one.plant_count = 1;
+    for (size_t i = 0; i < obstacles->plant_count; i++) {
+        one.plants = &obstacles->plants[i];
+        block(reach, &one, around(one.plants->at, one.plants->at, room_mm + one.plants->radius_mm), room_mm);
     }
 }
 
-void reach_find(const struct reach *reach, uint32_t start, uint8_t *cells)
+static void flood(struct reach *reach, uint32_t start)
 {
-    size_t count = (size_t)(reach->rows + 2) * (reach->columns + 2);
+    uint32_t *top = reach->stack;
+    uint8_t *cells = reach->cells;
 
-    for (size_t i = 0; i < reach->bar_count; i++)
-        set_box(reach, &reach->bars[i]);
+    *top++ = start;
+    while (top > reach->stack) {
+        uint32_t cell = *--top;
+        const uint32_t neighbours[] = {cell - 1, cell + 1, cell - reach->columns, cell + reach->columns};
+
+        for (unsigned i = 0; i < 4; i++)
+            if (cells[neighbours[i]] == FREE) {
+                cells[neighbours[i]] = REACHED;
+                *top++ = neighbours[i];
+            }
+    }
+}
+
+void reach_find(struct reach *reach, const struct obstacles *obstacles, double body_radius_mm, struct vector start)
+{
+    /* Clearance changes by at most the distance moved, and no point of a cell is farther from its middle than a corner. */
+    double room = body_radius_mm + REACH_CELL_MM * sqrt(0.5);
+    size_t count = reach_size(obstacles->width_mm, obstacles->height_mm);
+
+    reach->columns = cells_along(obstacles->width_mm);
+    reach->rows = cells_along(obstacles->height_mm);
+    memset(reach->cells, FREE, count);
+    reach_keep_clear(reach, obstacles, room);
+    if (reach->cells[cell_of(reach, start)] == FREE) {
+        reach->cells[cell_of(reach, start)] = REACHED;
+        flood(reach, cell_of(reach, start));
+    }
     for (size_t i = 0; i < count; i++)
-        cells[i] = UNKNOWN;
-    flood(reach, start, cells);
-    for (size_t i = 0; i < count; i++)
-        cells[i] = cells[i] == REACHED;
+        reach->cells[i] = reach->cells[i] == REACHED;
+}
+
+bool reach_has(const struct reach *reach, struct vector at)
+{
+    return reach->cells[cell_of(reach, at)] == REACHED;
+}
+
+double reach_distance_mm(const struct reach *reach, struct vector from)
+{
+    double nearest = HUGE_VAL;
+
+    for (uint32_t i = 0; i < reach->rows * reach->columns; i++) {
+        struct vector middle = reach_middle(reach, i);
+
+        if (reach->cells[i] == REACHED)
+            nearest = fmin(nearest, hypot(middle.x - from.x, middle.y - from.y));
+    }
+    return nearest;
 }

@@ -1,35 +1,37 @@
-/* reach.h: where in a layout the centre of a body can get to, on a grid, as host_sim/world/layouts.py has it. */
+/* reach.h: where in an arena the centre of a body can get to, on a grid. */
 #ifndef OCTET_REACH_H
 #define OCTET_REACH_H
 
-#include <stddef.h>
 #include <stdint.h>
 
-struct reach_bar {
-    double ax_mm;
-    double ay_mm;
-    double bx_mm;
-    double by_mm;
-    double left_mm;   /* the box of the places that are too near to it: set by reach_find */
-    double top_mm;
-    double right_mm;
-    double bottom_mm;
-};
+#include "host_sim/world/native/clearance.h"
 
+enum { REACH_CELL_MM = 25 };
+
+/* The cells that a body can get to. The caller provides cells and stack, reach_size of each. */
 struct reach {
-    double width_mm;             /* of the arena */
-    double height_mm;
-    double cell_mm;
-    double bar_radius_mm;
-    double room_mm;              /* clearance that the middle of a free cell has at least */
-    uint32_t rows;               /* of the grid, without its border of one blocked cell */
-    uint32_t columns;
-    size_t bar_count;
-    struct reach_bar *bars;
-    uint32_t *stack;             /* room for as many cells as there are, with the border */
+    uint8_t *cells;    /* row by row, with a border of one cell: 1 for those that it can get to, else 0 */
+    uint32_t *stack;
+    uint32_t columns;   /* with the border */
+    uint32_t rows;
 };
 
-void reach_find(const struct reach *reach, uint32_t start, uint8_t *cells);
-        /* Sets the cells that can be got to from cell start to 1, all others to 0. Cells go row by row, border included. */
+size_t reach_size(double width_mm, double height_mm);
+        /* The number of cells of an arena. */
+
+void reach_find(struct reach *reach, const struct obstacles *obstacles, double body_radius_mm, struct vector start);
+        /* Finds the cells that a body of this size can get to from a start inside the arena. */
+
+bool reach_has(const struct reach *reach, struct vector at);
+        /* Whether it can get to the cell of a place inside the arena. */
+
+void reach_keep_clear(struct reach *reach, const struct obstacles *obstacles, double room_mm);
+        /* Of these cells, keeps only those in whose middles there is that much clearance. */
+
+struct vector reach_middle(const struct reach *reach, uint32_t cell);
+        /* The middle of a cell. */
+
+double reach_distance_mm(const struct reach *reach, struct vector from);
+        /* The distance to the nearest middle of a cell that it can get to; infinite if there is none. */
 
 #endif

@@ -1,0 +1,57 @@
+"""A second opinion on how much room there is around places, and on where a body can get to: in numpy."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from host_sim.world.geometry import Bar, Plant
+from host_sim.world.params import SimParams
+
+CELL_MM = 25.0
+
+
+def clearances_mm(
+    points: NDArray[np.float64], bars: tuple[Bar, ...], params: SimParams, plants: tuple[Plant, ...] = ()
+) -> NDArray[np.float64]:
+    """For each of many points, shape (n, 2), the distance to the nearest obstacle or wall, mm."""
+    x, y = points[:, 0], points[:, 1]
+    nearest = np.minimum(np.minimum(x, params.width_mm - x), np.minimum(y, params.height_mm - y))
+    for bar in bars:
+        nearest = np.minimum(nearest, _distance_mm(x, y, bar) - params.bar_thickness_mm / 2)
+    for (at_x, at_y), radius_mm in plants:
+        nearest = np.minimum(nearest, np.hypot(x - at_x, y - at_y) - radius_mm)
+    return nearest
+
+
+def _distance_mm(x: NDArray[np.float64], y: NDArray[np.float64], bar: Bar) -> NDArray[np.float64]:
+    (ax, ay), (bx, by) = bar
+    dx, dy = bx - ax, by - ay
+    along = np.clip(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0, 1.0)
+    return np.asarray(np.hypot(x - ax - along * dx, y - ay - along * dy))
+
+
+def middles(params: SimParams) -> NDArray[np.float64]:
+    """The middles of the cells of an arena: shape (rows, columns, 2), mm."""
+    rows, columns = math.ceil(params.height_mm / CELL_MM), math.ceil(params.width_mm / CELL_MM)
+    y, x = (np.indices((rows, columns)) + 0.5) * CELL_MM
+    return np.stack([x, y], axis=-1)
+
+
+def free_cells(bars: tuple[Bar, ...], params: SimParams, plants: tuple[Plant, ...] = ()) -> NDArray[np.bool_]:
+    """The cells in which the centre of the body may be anywhere."""
+    at = middles(params)
+    room_mm = clearances_mm(at.reshape(-1, 2), bars, params, plants).reshape(at.shape[:2])
+    return room_mm >= params.body_radius_mm + CELL_MM * math.sqrt(0.5)
+
+
+def flooded(free: NDArray[np.bool_], row: int, column: int) -> NDArray[np.bool_]:
+    """The free cells that can be got to from one of the cells."""
+    reached, frontier = np.zeros_like(free), [(row, column)]
+    while frontier:
+        row, column = frontier.pop()
+        inside = 0 <= row < free.shape[0] and 0 <= column < free.shape[1]
+        if inside and free[row, column] and not reached[row, column]:
+            reached[row, column] = True
+            frontier += ((row - 1, column), (row + 1, column), (row, column - 1), (row, column + 1))
+    return reached
