@@ -10,11 +10,12 @@ What Python compiles is kept, here and in each process that a test starts, whate
 one of them would compile all libraries anew.
 """
 
+import asyncio
 import json
 import os
 import signal
 import sys
-from collections.abc import Generator
+from collections.abc import Generator, Iterator
 from pathlib import Path
 
 import hypothesis
@@ -27,6 +28,9 @@ for _number in (signal.SIGINT, signal.SIGHUP):
         signal.signal(_number, lambda *_: None)  # what is handled is not inherited
 sys.dont_write_bytecode = False
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+
+
+PLAYWRIGHT_LOOP = pytest.StashKey[asyncio.AbstractEventLoop | None]()
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -60,6 +64,21 @@ def pytest_make_collect_report(
     report = yield
     fail_if_skipped(report, collector.config)
     return report
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Once Playwright is at work, its event loop counts as running; a test without a browser may run another."""
+    if "browser" not in item.fixturenames:
+        item.stash[PLAYWRIGHT_LOOP] = asyncio._get_running_loop()
+        asyncio._set_running_loop(None)
+
+
+@pytest.fixture(autouse=True)
+def _playwright_loop(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Lets it count again before fixtures of more than one test are torn down: these may be pages."""
+    yield
+    asyncio._set_running_loop(request.node.stash.get(PLAYWRIGHT_LOOP, asyncio._get_running_loop()))
 
 
 class Progress:

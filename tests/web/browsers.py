@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser, Playwright, sync_playwright
 
 CHROMIUM, FIREFOX = "chromium", "firefox"
 BROWSERS = (CHROMIUM, FIREFOX)
@@ -14,17 +14,19 @@ _CHROMIUM_ARGUMENTS = ["--no-sandbox", "--disable-gpu", "--disable-gpu-rasteriza
 _PROGRAMS = {CHROMIUM: "chromium-headless-shell", FIREFOX: "firefox-esr"}
 
 
-@contextmanager
-def launched(name: str) -> Iterator[Browser]:
-    """One of `BROWSERS`, without a window. Meanwhile no other test in this process can run an event loop."""
+def launch(playwright: Playwright, name: str) -> Browser:
+    """One of `BROWSERS`, without a window."""
     program = shutil.which(_PROGRAMS[name])
     if program is None:
         pytest.skip(f"{name}: {_PROGRAMS[name]} is missing")
-    with sync_playwright() as playwright:
-        if name == CHROMIUM:
-            browser = playwright.chromium.launch(executable_path=program, args=_CHROMIUM_ARGUMENTS)
-        else:
-            # By WebDriver BiDi: without a channel, Playwright speaks a protocol that only its own Firefox knows.
-            browser = playwright.firefox.launch(executable_path=program, channel="moz-firefox")
+    if name == CHROMIUM:
+        return playwright.chromium.launch(executable_path=program, args=_CHROMIUM_ARGUMENTS)
+    # By WebDriver BiDi: without a channel, Playwright speaks a protocol that only its own Firefox knows.
+    return playwright.firefox.launch(executable_path=program, channel="moz-firefox")
+
+
+@contextmanager
+def launched(name: str) -> Iterator[Browser]:
+    """One of `BROWSERS`, for a program of its own."""
+    with sync_playwright() as playwright, launch(playwright, name) as browser:
         yield browser
-        browser.close()

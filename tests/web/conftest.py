@@ -5,17 +5,22 @@ from pathlib import Path
 from urllib.parse import urldefrag, urljoin
 
 import pytest
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, Page, Playwright, sync_playwright
 
 from tests.runs.support import octet
-from tests.web.browsers import CHROMIUM, launched
+from tests.web.browsers import CHROMIUM, launch
 from tests.web.support import DEADLINE_S, READY, Faults, Watched, next_frame, start_watched, wait_for
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    """Not for the session: while Playwright is at work, no other test in this process can run an event loop."""
-    with launched(CHROMIUM) as browser:
+@pytest.fixture(scope="session")
+def playwright() -> Iterator[Playwright]:
+    with sync_playwright() as playwright:
+        yield playwright
+
+
+@pytest.fixture(scope="session")
+def browser(playwright: Playwright) -> Iterator[Browser]:
+    with launch(playwright, CHROMIUM) as browser:
         yield browser
 
 
@@ -51,8 +56,7 @@ def module_watch(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
     watched.process.communicate()
 
 
-@pytest.fixture
-def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
+def pages(browser: Browser) -> Iterator[Callable[..., Page]]:
     """Opens pages in fresh profiles; none may complain or ask anyone but its own server."""
     opened = []
 
@@ -72,6 +76,10 @@ def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
     for page, faults in opened:
         page.context.close()
         assert faults.seen == []
+
+
+open_page = pytest.fixture(pages, name="open_page")
+open_shared = pytest.fixture(pages, scope="module", name="open_shared")  # for pages that several tests look at
 
 
 @pytest.fixture(scope="session")

@@ -10,6 +10,7 @@ import numpy as np
 from playwright.sync_api import Page, Route, WebSocketRoute
 
 from host_sim.paths import WEB
+from host_sim.report.page_bundle import page_of
 from host_sim.report.replay_page import pack, page
 from host_sim.view.state import EnvironmentScene, Measures, State, measures
 from host_sim.world.params import SimParams
@@ -30,6 +31,8 @@ COLUMNS = [
     *("left", "right", "reason", "repeat_count", "action", "pattern", "frozen"),
 ]
 TICKS = 200
+IN_ONE_FILE = page_of("live.html")
+"""The page with its modules: they would be 45 requests."""
 TYPES = {".js": "text/javascript", ".css": "text/css", ".html": "text/html"}
 
 
@@ -67,7 +70,8 @@ class FakeRun:
 
     def _answer(self, route: Route) -> None:
         name = route.request.url.removeprefix(HOME) or "live.html"
-        text = self.parts.get(name) or (WEB / name).read_text()
+        whole = IN_ONE_FILE if name == "live.html" and not self.parts else None
+        text = whole or self.parts.get(name) or (WEB / name).read_text()
         route.fulfill(body=text, content_type=TYPES[Path(name).suffix])
 
     def _connect(self, socket: WebSocketRoute) -> None:

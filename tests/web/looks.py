@@ -5,7 +5,7 @@ Screenshots are for people to look at.
 
 from collections.abc import Sequence
 
-from axe_playwright_python.sync_playwright import Axe
+from axe_playwright_python.base import AXE_SCRIPT
 from playwright.sync_api import Page
 
 from tests.web.support import SCREENS, next_frame, wait_for
@@ -62,8 +62,10 @@ def resize(page: Page, size: tuple[int, int]) -> None:
 
 def violations(page: Page, rules: str = "") -> list[str]:
     """What axe-core finds: by all of its rules, or by those with a tag."""
-    options = {"runOnly": [rules]} if rules else {}
-    found = Axe().run(page, options=options).response["violations"]
+    if not page.evaluate("Boolean(window.axe)"):
+        page.evaluate(AXE_SCRIPT)
+    options = {"resultTypes": ["violations"], **({"runOnly": [rules]} if rules else {})}
+    found = page.evaluate("options => axe.run(options).then(({ violations }) => violations)", options)
     return [f"{it['id']}: {it['nodes'][0]['html'][:90]}" for it in found]
 
 

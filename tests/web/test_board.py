@@ -12,6 +12,9 @@ from tests.web.support import wait_for, wait_for_text
 from tests.web.test_class import board_url
 
 READY = "window.octet?.message"
+HAS_A_LINE = "(path) => path.getAttribute('d').includes('L')"
+NAME = re.compile(r"Robot \d\d+\.\d s")
+KNOWS = re.compile(r"(knows \d of 7|✓ knows all 7 patterns), ate \d+")
 OWN = "window.octet?.scene?.state && document.querySelector('#own-robot').textContent !== ''"
 
 
@@ -52,15 +55,21 @@ def test_the_board_begins_and_every_curve_grows(lesson):
     board.click("#play")
 
     wait_for(board, "octet.curves.most('trials') > 3 && octet.curves.most('cells') > 1")
-    wait_for(
-        board, "[...document.querySelectorAll('#robots path')].every((path) => path.getAttribute('d').includes('L'))"
-    )
+    assert board.evaluate(f"[...document.querySelectorAll('#robots path')].every({HAS_A_LINE})")
     board.select_option("#curve", "blocked")
-    wait_for_text(board, "#robots .name", " s")
-    wait_for_text(board, "#robots", "of 7, ate")
-    wait_for(board, "document.querySelector('#result').textContent !== ''")
+    wait_for(board, "octet.message.ended[1] > 0")
+    for form, words in ((NAME, ".name"), (KNOWS, ".knows")):
+        assert [text for text in board.locator(words).all_text_contents() if not form.fullmatch(text)] == []
+    assert board.inner_text("#result") != ""
+    board.select_option("#speed", "1")
+    wait_for(board, "octet.message.play.speed === 1")
+    clock_ms = board.evaluate("octet.message.clock_ms")
     board.click("#again")
-    wait_for(board, "octet.message.clock_ms < 2000 || octet.message.curves.anew")
+    wait_for(
+        board,
+        "before => octet.message.clock_ms < before && octet.curves.ticks.at(-1) * octet.message.tick_ms < before",
+        clock_ms,
+    )
 
 
 def test_a_page_shows_and_changes_its_own_robot_and_has_no_other_controls(lesson):
@@ -101,7 +110,9 @@ def test_all_robots_of_a_class_are_in_view_of_a_projector(lesson):
 def test_axe_finds_nothing_fingers_hit_everything_and_texts_can_be_read(lesson):
     board, (page,) = lesson(8, 1)
     board.click("#play")
-    wait_for_text(board, "#robots .knows", "of 7")
+    wait_for(board, "octet.runs")
+    board.click("#play")
+    wait_for(board, "!octet.message.play.playing")
     for view in (board, page):
         view.emulate_media(reduced_motion="reduce")
         assert violations_at(view) == []

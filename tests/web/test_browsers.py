@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page
+from playwright.sync_api import Browser, Page, Playwright
 
 from tests.runs.support import octet
-from tests.web.browsers import BROWSERS, launched
+from tests.web.browsers import BROWSERS, launch
 from tests.web.page_runs import LOGS, experiment, page_file, words
 from tests.web.support import wait_for
 
@@ -15,9 +15,9 @@ WANTED = [experiment(profile, 31, limit_ticks=500) for profile in ("article", "s
 
 
 @pytest.fixture(scope="module", params=BROWSERS)
-def browser(request: pytest.FixtureRequest) -> Iterator[Browser]:
+def browser(request: pytest.FixtureRequest, playwright: Playwright) -> Iterator[Browser]:
     """In place of Chromium alone."""
-    with launched(request.param) as browser:
+    with launch(playwright, request.param) as browser:
         yield browser
 
 

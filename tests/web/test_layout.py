@@ -60,10 +60,11 @@ def fill(run: FakeRun) -> None:
     run.send(lessons=[{**lesson, "tick": tick} for tick in range(30)])
 
 
-@pytest.fixture
-def live(open_page: Callable[..., Page]) -> Page:
+@pytest.fixture(scope="module")
+def live(open_shared: Callable[..., Page]) -> Page:
+    """A full page, for all tests of this module."""
     run = FakeRun([robot_state(1, 800, 700)])
-    page = open_page(HOME, prepare=run.serve)
+    page = open_shared(HOME, prepare=run.serve)
     fill(run)
     wait_for(page, "document.querySelector('#lessons').children.length === 30")
     return page
@@ -117,6 +118,9 @@ def test_axe_finds_nothing_on_the_replay(recorded: Path, open_page):
 
 
 def test_axe_finds_what_is_wrong(live):
-    live.evaluate("document.querySelector('#legend').innerHTML = '<p style=\"color: #ccc\">grey</p>'")
+    live.evaluate("document.querySelector('#legend').innerHTML += '<p id=\"grey\" style=\"color: #ccc\">grey</p>'")
 
-    assert violations(live) != []
+    found = violations(live)
+
+    live.evaluate("document.querySelector('#grey').remove()")
+    assert found != []

@@ -1,15 +1,41 @@
 """A person watches a run and interacts with it."""
 
 import math
+from collections.abc import Callable
+
+import pytest
+from playwright.sync_api import Page
 
 from host_sim.bench.page_figures import TIME_DRAWING
 from host_sim.protocol.generated import Opcode
 from tests.runs.support import octet
-from tests.web.support import drag, full_speed, pause, place_on_page, run_in, state, wait_for, wait_for_text
+from tests.web.support import (
+    Watched,
+    drag,
+    full_speed,
+    pause,
+    place_on_page,
+    run_in,
+    state,
+    wait_for,
+    wait_for_text,
+)
+
+BEGIN = "[{ do: 'speed', factor: 1 }, { do: 'seed', seed: 3, keep: 0 }, { do: 'play' }]"
 
 
-def test_the_page_shows_the_run_as_it_goes_on(watch, open_page):
-    page = open_page(watch("--seed", "1").url)
+@pytest.fixture
+def page(module_watch: Watched, open_page: Callable[..., Page]) -> Page:
+    """A page of a run that all these tests share: it has just been started over."""
+    page = open_page(module_watch.url)
+    wait_for(page, "octet.scene.state.tick > octet.scene.environment.start_tick")
+    start_tick = page.evaluate("octet.scene.environment.start_tick")
+    page.evaluate(f"{BEGIN}.forEach((command) => octet.send(command))")
+    wait_for(page, "before => octet.scene.environment.start_tick > before && octet.play.playing", start_tick)
+    return page
+
+
+def test_the_page_shows_the_run_as_it_goes_on(page):
     first = state(page)["tick"]
     wait_for(page, "tick => octet.scene.state.tick > tick + 25", first)
     assert page.inner_text("#fact-environment") == "1 of 5"
@@ -17,25 +43,24 @@ def test_the_page_shows_the_run_as_it_goes_on(watch, open_page):
     assert len(page.inner_text("#doing")) > 10
 
 
-def test_the_drawing_of_its_frames_can_be_timed(watch, open_page):
-    page = open_page(watch("--seed", "1").url)
+def test_the_drawing_of_its_frames_can_be_timed(page):
     page.evaluate(TIME_DRAWING)
     wait_for(page, "octet.times.length > 2")
 
 
-def test_it_pauses_and_plays_again(watch, open_page):
-    page = open_page(watch().url)
+def test_it_pauses_and_plays_again(page):
     pause(page)
     tick = state(page)["tick"]
-    page.wait_for_timeout(300)
+    page.click("#freeze")
+    wait_for(page, "octet.scene.state.frozen === 1")
     assert state(page)["tick"] == tick
     page.click("#play")
     wait_for(page, "tick => octet.scene.state.tick > tick", tick)
 
 
-def test_a_single_decision_is_more_than_a_step(watch, open_page):
-    page = open_page(watch("--seed", "1").url)
+def test_a_single_decision_is_more_than_a_step(page):
     pause(page)
+    full_speed(page)
     before = state(page)
     page.click("#decision")
     wait_for(page, "tick => octet.scene.state.tick > tick && !octet.play.playing", before["tick"])
@@ -107,8 +132,7 @@ def test_the_robot_is_picked_up_and_put_down_elsewhere(watch, open_page):
     assert [edit["do"] for edit in watched.params()["edits"]] == ["lift", "put"]
 
 
-def test_food_is_dragged_elsewhere(watch, open_page):
-    page = open_page(watch("--seed", "1").url)
+def test_food_is_dragged_elsewhere(page):
     pause(page)
     drag(page, page.evaluate("octet.scene.environment.food[0]"), (300, 2700))
     wait_for(page, "octet.scene.environment.food[0][1] > 2680")
@@ -131,51 +155,46 @@ def test_a_run_that_a_person_changed_replays(watch, open_page):
     assert run_in(again) == run_in(watched.out / "replay.html")
 
 
-def test_a_lifted_robot_senses_nothing(watch, open_page):
-    page = open_page(watch().url)
+def test_a_lifted_robot_senses_nothing(page):
     page.click("#lift")
     wait_for(page, "octet.scene.state.lifted === 1 && octet.scene.state.feel === 0 && octet.scene.state.beacon === 0")
     wait_for_text(page, "#doing", "picked me up")
 
 
-def test_what_cannot_be_done_is_said(watch, open_page):
-    page = open_page(watch().url)
+def test_what_cannot_be_done_is_said(page):
     pause(page)
     now, bar = state(page), page.evaluate("octet.scene.environment.bars[0]")
     drag(page, ((bar[1] + bar[3]) / 2, (bar[2] + bar[4]) / 2), (now["x"], now["y"]))
     wait_for_text(page, "#note", "the robot stands there")
 
 
-def test_reloading_in_mid_run_goes_on_where_the_run_is(watch, open_page):
-    page = open_page(watch().url)
-    wait_for(page, "octet.scene.state.tick > 60")
+def test_reloading_in_mid_run_goes_on_where_the_run_is(page):
+    wait_for(page, "octet.scene.state.tick > octet.scene.environment.start_tick + 20")
+    tick = state(page)["tick"]
     page.reload()
-    wait_for(page, "window.octet?.scene?.state?.tick > 60 && octet.scene.trail.length > 5")
+    wait_for(page, "tick => window.octet?.scene?.state?.tick >= tick && octet.scene.trail.length > 5", tick)
 
 
-def test_two_pages_see_the_same_run(watch, open_page):
-    watched = watch()
-    one, two = open_page(watched.url), open_page(watched.url)
-    pause(one)
-    wait_for(two, "!octet.play.playing")
-    tick = state(one)["tick"]
-    wait_for(two, "tick => octet.scene.state.tick === tick", tick)
-    assert state(one) == state(two)
+def test_two_pages_see_the_same_run(page, module_watch, open_page):
+    other = open_page(module_watch.url)
+    pause(page)
+    wait_for(other, "!octet.play.playing")
+    tick = state(page)["tick"]
+    wait_for(other, "tick => octet.scene.state.tick === tick", tick)
+    assert state(page) == state(other)
 
 
-def test_a_closed_page_harms_nothing(watch, open_page):
-    watched = watch()
-    page = open_page(watched.url)
-    other = open_page(watched.url)
+def test_a_closed_page_harms_nothing(page, module_watch, open_page):
+    other = open_page(module_watch.url)
     page.close()
     tick = state(other)["tick"]
     wait_for(other, "tick => octet.scene.state.tick > tick + 10", tick)
 
 
-def test_keyboard_alone(watch, open_page):
-    page = open_page(watch("--seed", "3").url)
+def test_keyboard_alone(page):
     page.keyboard.press("Space")
     wait_for(page, "!octet.play.playing")
+    page.evaluate("octet.send({ do: 'speed', factor: 0 })")
     action = state(page)["action"]
     page.keyboard.press(".")
     wait_for(page, "action => octet.scene.state.action !== action && !octet.play.playing", action)
@@ -194,8 +213,7 @@ def test_keyboard_alone(watch, open_page):
     wait_for(page, "octet.scene.environment.number === 2")
 
 
-def test_all_controls_can_be_reached_by_tab(watch, open_page):
-    page = open_page(watch().url)
+def test_all_controls_can_be_reached_by_tab(page):
     pause(page)
     reached = set()
     for _ in range(30):
@@ -214,8 +232,7 @@ def test_the_end_of_the_run_is_said(watch, open_page):
     wait_for_text(page, "#status", "the run has ended")
 
 
-def test_the_place_of_a_click_is_where_the_robot_is(watch, open_page):
-    page = open_page(watch().url)
+def test_the_place_of_a_click_is_where_the_robot_is(page):
     pause(page)
     now = state(page)
     page.mouse.click(*place_on_page(page, now["x"], now["y"]))

@@ -1,6 +1,5 @@
 """Screenshots of the main states, for people to look at, and the checks that a machine can make of them."""
 
-import itertools
 from collections.abc import Callable
 
 import pytest
@@ -11,34 +10,41 @@ from tests.web.looks import check
 from tests.web.support import next_frame, pause, wait_for
 
 SIZES = {"phone": (390, 844, 2), "laptop": (1280, 800, 1), "projector": (1920, 1080, 1)}
-LOOKS = list(itertools.product(("light", "dark"), SIZES))
+SCHEMES = ("light", "dark")
 
 
 @pytest.fixture
 def look(open_page) -> Callable[..., Page]:
-    def open_look(url: str, scheme: str, size: str, **more) -> Page:
+    def open_look(url: str, size: str, **more) -> Page:
         width, height, ratio = SIZES[size]
         viewport = {"width": width, "height": height}
-        return open_page(
-            url, viewport=viewport, device_scale_factor=ratio, color_scheme=scheme, reduced_motion="reduce", **more
-        )
+        return open_page(url, viewport=viewport, device_scale_factor=ratio, reduced_motion="reduce", **more)
 
     return open_look
 
 
+def check_schemes(page: Page, name: str) -> None:
+    for scheme in SCHEMES:
+        page.emulate_media(color_scheme=scheme)
+        next_frame(page)
+        check(page, name.format(scheme))
+
+
 def test_live(watch, look):
     url = watch("--seed", "2").url
-    for scheme, size in LOOKS:
-        page = look(url, scheme, size)
+    for size in SIZES:
+        page = look(url, size)
         wait_for(page, "octet.scene.trail.length > 20")
-        check(page, f"live-{scheme}-{size}")
+        if page.evaluate("octet.play.playing"):
+            pause(page)
+        check_schemes(page, f"live-{{}}-{size}")
         assert page.evaluate("octet.view.renderer.canvas.width") == page.evaluate(
             "Math.round(octet.view.renderer.canvas.clientWidth * devicePixelRatio)"
         )
 
 
 def test_interaction(watch, look):
-    page = look(watch("--seed", "2").url, "light", "laptop")
+    page = look(watch("--seed", "2").url, "laptop")
     pause(page)
     page.click("#add-bar")
     wait_for(page, "octet.scene.item?.kind === 'bar'")
@@ -51,12 +57,12 @@ def test_interaction(watch, look):
 
 
 def test_replay(recorded, look):
-    for scheme, size in LOOKS:
-        page = look(recorded.as_uri(), scheme, size)
+    for size in SIZES:
+        page = look(recorded.as_uri(), size)
         page.click("#pin")
         page.evaluate("octet.go(Math.floor(octet.data.last * 0.4))")
         next_frame(page)
-        check(page, f"replay-{scheme}-{size}")
+        check_schemes(page, f"replay-{{}}-{size}")
 
 
 def test_many_robots(look):
@@ -64,8 +70,8 @@ def test_many_robots(look):
         robot_state(node, 350 + 470 * (node - 1), 400 + 310 * (node - 1), reason=node - 1) for node in range(1, 9)
     ]
     run = FakeRun(states)
-    for scheme, size in LOOKS:
-        page = look(HOME, scheme, size, prepare=run.serve)
+    for size in SIZES:
+        page = look(HOME, size, prepare=run.serve)
         run.send(
             trails=[
                 [n for step in range(40) for n in (s["x"] + 9 * step, s["y"] - step * step / 4, 1)] for s in states
@@ -76,4 +82,4 @@ def test_many_robots(look):
             page,
             "octet.scene.trail.length > 20 && document.querySelector('#robots [aria-pressed=true]').value === '6'",
         )
-        check(page, f"many-{scheme}-{size}")
+        check_schemes(page, f"many-{{}}-{size}")

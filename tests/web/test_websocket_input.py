@@ -13,20 +13,33 @@ import pytest
 
 from host_sim.live.server import PAGES_MAX
 from tests.runs.support import octet
-from tests.web.support import DEADLINE_S, Watched, eventually
+from tests.web.support import DEADLINE_S, Watched, eventually, start_watched
 
 Socket = aiohttp.ClientWebSocketResponse
 
 
-@pytest.fixture
-def watched(watch) -> Iterator[Watched]:
-    """A run that must be well at the end of the test."""
-    watched = watch("--environments", "20")
+@pytest.fixture(scope="module")
+def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
+    """A run for all tests of this module. However it was treated, no robot has counted a fault at its end."""
+    watched = start_watched(tmp_path_factory.mktemp("watched") / "run", "--environments", "20")
     yield watched
-    first = talk(watched, tick)
-    eventually(lambda: talk(watched, tick) > first, "the run goes on")
     assert watched.end() == 0
     assert set(watched.summary()["robots"][0]["faults"].values()) == {0}
+    watched.process.communicate()
+
+
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    """The run; it must go on after the test."""
+    yield shared
+    first = talk(shared, tick)
+    eventually(lambda: talk(shared, tick) > first, "the run goes on")
+
+
+@pytest.fixture
+def refused_before(watched: Watched) -> int:
+    """How many orders were refused before the test."""
+    return talk(watched, refused)
 
 
 def talk(watched: Watched, what: Callable[[Socket], Awaitable[Any]], query: str | None = None, **headers: str) -> Any:
@@ -53,6 +66,17 @@ async def tick(ws: Socket) -> int:
 
 async def refused(ws: Socket) -> int:
     return (await message(ws))["health"]["orders_refused"]
+
+
+def speed(factor: int) -> Callable[[Socket], Awaitable[None]]:
+    """Orders a speed, and waits until it is that."""
+
+    async def order(ws: Socket) -> None:
+        await ws.send_str(json.dumps({"do": "speed", "factor": factor}))
+        while (await message(ws))["play"]["speed"] != factor:
+            pass
+
+    return order
 
 
 def test_the_run_begins_when_someone_watches(watch):
@@ -96,7 +120,7 @@ JUNK = [
 ]
 
 
-def test_junk_is_refused_and_counted(watched):
+def test_junk_is_refused_and_counted(watched, refused_before):
     async def send_all(ws: Socket) -> None:
         for junk in JUNK:
             await ws.send_str(junk)
@@ -104,10 +128,10 @@ def test_junk_is_refused_and_counted(watched):
         await ws.receive(timeout=DEADLINE_S)
 
     talk(watched, send_all)
-    assert talk(watched, refused) == len(JUNK) + 1
+    assert talk(watched, refused) == refused_before + len(JUNK) + 1
 
 
-def test_ten_megabytes_are_not_even_read(watched):
+def test_ten_megabytes_are_not_even_read(watched, refused_before):
     async def flood(ws: Socket) -> int | None:
         with contextlib.suppress(ConnectionError):
             await ws.send_bytes(b"x" * 10_000_000)
@@ -116,7 +140,7 @@ def test_ten_megabytes_are_not_even_read(watched):
         return ws.close_code
 
     assert talk(watched, flood) in (1009, 1006)
-    assert talk(watched, refused) == 1
+    assert talk(watched, refused) == refused_before + 1
 
 
 def test_a_page_that_talks_nonsense_for_ever_is_hung_up_on(watched):
@@ -150,13 +174,13 @@ def test_orders_beyond_what_may_wait_are_refused(watched):
     talk(watched, hurry)
 
 
-def test_a_foreign_origin_is_refused(watched):
+def test_a_foreign_origin_is_refused(watched, refused_before):
     origins = ("http://evil.example", "null", "https://127.0.0.1", "")
     for origin in origins:
         with pytest.raises(aiohttp.WSServerHandshakeError) as refusal:
             talk(watched, tick, Origin=origin)
         assert refusal.value.status == 403
-    assert talk(watched, refused) == len(origins)
+    assert talk(watched, refused) == refused_before + len(origins)
 
 
 def test_a_page_that_stops_reading_holds_nothing_up(watched):
@@ -168,18 +192,15 @@ def test_a_page_that_stops_reading_holds_nothing_up(watched):
         "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Version: 13\r\n\r\n"
     )
 
-    async def full_speed(ws: Socket) -> None:
-        await ws.send_str('{"do": "speed", "factor": 0}')
-        await message(ws)
-
     with socket.socket() as deaf:
         deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
         deaf.connect((host, int(port)))
         deaf.sendall(handshake.encode())
-        talk(watched, full_speed)
+        talk(watched, speed(0))
         first = talk(watched, tick)
         eventually(lambda: talk(watched, tick) > first + 5_000, "5000 ticks, which take 100 s in real time")
         assert memory_mb(watched.process.pid) < 400
+    talk(watched, speed(1))
 
 
 def test_no_more_pages_than_fit(watched):

@@ -33,6 +33,11 @@ def go_on(page: Page, ticks: int) -> None:
     go(page, page.evaluate("octet.tick") + ticks)
 
 
+def go_to_the_end(page: Page) -> None:
+    settle(page)
+    go(page, page.evaluate("octet.last"))
+
+
 def settle(page: Page) -> None:
     """Waits until what changed is simulated and shown."""
     simulated(page)

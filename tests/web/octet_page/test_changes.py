@@ -3,10 +3,21 @@
 import json
 
 import pytest
+from playwright.sync_api import Page
 
 from tests.runs.support import octet
 from tests.web.octet_page.support import saved, simulated
 from tests.web.support import run_in, wait_for, wait_for_text
+
+
+@pytest.fixture
+def page(page: Page) -> Page:
+    """A run of one environment."""
+    page.fill("#environments", "1")
+    page.click("text=New run")
+    wait_for(page, "octet.lane.data && octet.lane.experiment.environments === 1")
+    simulated(page)
+    return page
 
 
 def test_a_changed_cell_makes_another_future_beside_the_first(page):

@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import Page
 
-from tests.web.octet_page.support import DONE, READY, go, go_on, reached, settle, write
+from tests.web.octet_page.support import DONE, READY, go, go_on, go_to_the_end, reached, settle, write
 from tests.web.support import wait_for, wait_for_text
 
 SENSORS = ("left", "front-left", "front", "front-right", "right")
@@ -38,7 +38,7 @@ def test_watch_is_not_done_by_a_robot_that_is_frozen_and_told(lesson):
     page.click("#tab-lessons")
     write(page, [1, 1, 1, 2, 1, 2, 1])
 
-    go(page, page.evaluate("octet.last"))
+    go_to_the_end(page)
 
     assert reached(page) == [False, False, False]
 
@@ -59,7 +59,7 @@ def test_program_is_not_done_by_less_than_a_good_one(lesson, program):
     page = lesson("program")
     write(page, program)
 
-    play_to_the_end(page)
+    go_to_the_end(page)
 
     assert reached(page) == [bool(program), False]
 
@@ -78,18 +78,18 @@ def test_boredom(lesson):
     go(page, 0)
     page.click("#what-if")
     set_patience(page, 10)
-    play_to_the_end(page)
+    go_to_the_end(page)
 
     assert reached(page) == [True, True, True]
 
 
 def test_boredom_is_not_done_by_a_patient_robot_or_by_one_that_is_bored_too_soon(lesson):
     page = lesson("boredom")
-    play_to_the_end(page)
+    go_to_the_end(page)
     assert reached(page) == [True, False, False]
 
     set_patience(page, 2)
-    play_to_the_end(page)
+    go_to_the_end(page)
 
     assert reached(page) == [True, True, False]
 
@@ -121,7 +121,7 @@ def test_plant_is_not_done_without_a_plant(lesson):
     page = lesson("plant")
     page.click("#erase")
 
-    play_to_the_end(page)
+    go_to_the_end(page)
 
     assert reached(page) == [False, False, False]
 
@@ -155,7 +155,7 @@ def test_sensor_is_not_done_by_a_sound_robot(lesson):
     page.check(".sensors input")
     settle(page)
 
-    play_to_the_end(page)
+    go_to_the_end(page)
 
     assert reached(page) == [False, False, False]
 
@@ -179,7 +179,7 @@ def test_share_is_not_done_by_robots_that_do_not_talk_nor_by_a_person_who_does(l
     page.click("#what-if")
     write(page, [1, 0, 0, 2])
 
-    go(page, page.evaluate("octet.last"))
+    go_to_the_end(page)
 
     assert reached(page) == [False, False, False]
 
@@ -200,6 +200,6 @@ def test_nothing_is_reached_before_a_lesson_is_started(file, open_page):
     page = open_page(f"{file.as_uri()}?#watch", ready=READY)
     wait_for(page, DONE)
 
-    go(page, page.evaluate("octet.last"))
+    go_to_the_end(page)
 
     assert reached(page) == [False, False, False]
