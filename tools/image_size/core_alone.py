@@ -8,6 +8,7 @@ ROOT = Path(__file__).resolve().parents[2]
 _PYTHON = ROOT / ".venv" / "bin" / "python"
 _COMMON = ("-std=c99", "-ffreestanding", "-Os", "-ffunction-sections", "-fdata-sections", "-Wall", "-Werror")
 _ENTRIES = ("robot_init", "robot_respond", "brain_adopt")
+_LENT = 'void lent_{0}(void) __asm__("{1}");\n__attribute__((section(".lent"))) void lent_{0}(void) {{}}\n'
 _STATE = '#include "firmware/robot.h"\nstruct robot the_robot;\n'
 
 
@@ -53,21 +54,16 @@ def _run(*command: str | Path) -> str:
 
 
 def _linked(processor: Processor, folder: Path, *libraries: str) -> dict[str, int]:
-    """Sizes of the core's sections by name. What no library brings stays open: a body has it anyway."""
+    """Sizes of the core's sections by name. What no library brings, a body has anyway: it counts in `.lent`."""
     sources = [path for path in sorted((ROOT / "firmware").rglob("*.c")) if path.name != "main.c"]
-    program = folder / f"{processor.name}.elf"
-    links = ("-nostdlib", "-Wl,--gc-sections", "-Wl,--unresolved-symbols=ignore-all", f"-Wl,--entry={_ENTRIES[0]}")
+    compiler = (f"{processor.prefix}gcc", *processor.flags, *_COMMON, "-I", str(ROOT), "-I", str(folder), "-nostdlib")
+    core, lent, program = (folder / f"{processor.name}.{kind}" for kind in ("o", "c", "elf"))
+    _run(*compiler, "-r", *sources, folder / "state.c", *libraries, "-o", core)
+    names = [line.split()[-1] for line in _run(f"{processor.prefix}nm", "--undefined-only", core).splitlines()]
+    lent.write_text("".join(_LENT.format(*name) for name in enumerate(names)))
+    links = ("-Wl,--gc-sections", f"-Wl,--entry={_ENTRIES[0]}")
     entries = [f"-Wl,--undefined={name}" for name in (*_ENTRIES, "the_robot")]
-    compiler: tuple[str | Path, ...] = (
-        f"{processor.prefix}gcc",
-        *processor.flags,
-        *_COMMON,
-        "-I",
-        ROOT,
-        "-I",
-        folder,
-    )
-    _run(*compiler, *links, *entries, *sources, folder / "state.c", *libraries, "-o", program)
+    _run(*compiler, *links, *entries, core, lent, "-o", program)
     lines = _run(f"{processor.prefix}size", "-A", program).splitlines()
     rows = (line.split() for line in lines if line.startswith("."))
     return {row[0]: int(row[1]) for row in rows}
