@@ -1,0 +1,107 @@
+"""Which tests a change concerns: those nearest to it in the import graph, of its name, or that name it."""
+
+import re
+import subprocess
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+_MANY = 8
+_IMPORT = re.compile(r"^\s*(?:from\s+([\w.]+)\s+import\s+(\([^)]*\)|.*)|import\s+([\w.]+))", re.MULTILINE)
+
+Graph = Mapping[str, set[str]]
+"""For each module the modules that import it."""
+
+
+def module_of(path: str) -> str:
+    """The module in a file of Python."""
+    return path.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
+
+
+def importers(root: Path, paths: Iterable[str]) -> Graph:
+    """Who imports whom, among files of Python below `root`."""
+    known = {module_of(path): path for path in paths}
+    graph: dict[str, set[str]] = defaultdict(set)
+    for module, path in known.items():
+        for package, names, plain in _IMPORT.findall((root / path).read_text()):
+            members = (f"{package}.{name}" for name in re.findall(r"\w+", names))
+            for wanted in (package or plain, *members):
+                if wanted in known:
+                    graph[wanted].add(module)
+    return graph
+
+
+def rings(graph: Graph, module: str) -> Iterable[set[str]]:
+    """Who imports a module, who imports those, and so on; each module once."""
+    seen = {module}
+    ring = set(graph.get(module, ()))
+    while ring := ring - seen:
+        yield ring
+        seen |= ring
+        ring = {it for one in ring for it in graph.get(one, ())}
+
+
+def is_test(path: str) -> bool:
+    """Whether pytest collects the file."""
+    return path.startswith("tests/") and Path(path).name.startswith("test_") and path.endswith(".py")
+
+
+def mirror(path: str) -> str:
+    """The folder of tests that mirrors a file's own."""
+    folder = Path(path).parent.as_posix()
+    return folder if folder.startswith("tests") else f"tests/{folder.removeprefix('host_sim/')}"
+
+
+def by_imports(graph: Graph, changed: str) -> tuple[set[str], int]:
+    """The tests nearest to a changed file in the import graph, and the number of those farther away.
+
+    Where many are as near, those in the folder that mirrors the file's own.
+    """
+    reached = [{it.replace(".", "/") + ".py" for it in ring} for ring in rings(graph, module_of(changed))]
+    tests = [found for ring in reached if (found := set(filter(is_test, ring)))]
+    if not tests:
+        return set(), 0
+    own = {test for test in tests[0] if test.startswith(mirror(changed) + "/")}
+    nearest = own if own and len(tests[0]) > _MANY else tests[0]
+    return nearest, len(set().union(*tests) - nearest)
+
+
+def by_name(root: Path, changed: str, tests: Iterable[str]) -> set[str]:
+    """The tests of a file's own name, in the folder that mirrors its own, and those that name the file."""
+    path = Path(changed)
+    own = re.compile(rf"{re.escape(mirror(changed))}/(?:.*/)?test_(?:native_)?{re.escape(path.stem)}(?:_\w+)?\.py")
+    names = [f'"{changed}"'] if path.suffix == ".py" else [changed, f'"{path.name}"', f"/{path.name}"]
+    return {test for test in tests if own.fullmatch(test) or any(it in (root / test).read_text() for it in names)}
+
+
+def c_tests(build: Path, changed: Sequence[str]) -> list[str]:
+    """The C tests of a build whose programs are made of changed files.
+
+    Args:
+        build: a folder `build/NAME` that CMake and ninja have built.
+        changed: paths from the project's top.
+    """
+    root = build.parent.parent
+    made_of = _build_edges((build / "build.ninja").read_text())
+    noted = subprocess.run(("ninja", "-C", build, "-t", "deps"), check=True, capture_output=True, text=True).stdout
+    for target, *headers in filter(None, map(str.split, noted.split("\n\n"))):
+        made_of[target.rstrip(":")] |= set(headers)
+    wanted = {str(root / path) for path in changed} | set(changed)
+
+    def concerned(target: str, seen: set[str]) -> bool:
+        if target in wanted:
+            return True
+        seen.add(target)
+        return any(concerned(it, seen) for it in made_of.get(target, ()) if it not in seen)
+
+    programs = [target for target in made_of if re.search(r"/test_\w+$", target)]
+    return [Path(program).name.removeprefix("test_") for program in programs if concerned(program, set())]
+
+
+def _build_edges(text: str) -> dict[str, set[str]]:
+    """What each target of a build.ninja is made of; what it only has to wait for is left out."""
+    edges: dict[str, set[str]] = defaultdict(set)
+    for targets, needs in re.findall(r"^build (.+?): \S+ ?(.*)$", text, re.MULTILINE):
+        for target in targets.replace(" | ", " ").split():
+            edges[target] |= set(needs.split("||")[0].replace(" | ", " ").split())
+    return edges

@@ -1,0 +1,31 @@
+"""Which stage runs which Python tests; those that no stage names are the stage python's."""
+
+from collections.abc import Mapping, Sequence
+
+TEST: Mapping[str, Sequence[str]] = {
+    "web": ("tests/web",),
+}
+"""Of tools/test, beside python."""
+
+PROVE: Mapping[str, Sequence[str]] = {
+    "boards": ("tests/image", "tests/emulator", "tests/study/test_emulated_board.py"),
+    "eva": ("tests/proof/test_proof.py", "tests/proof/test_contracts.py"),
+    "fuzz": ("tests/proof/test_fuzz.py", "tests/proof/test_readers.py"),
+    "misra": ("tests/tools/test_misra.py",),
+    "mutants": ("tests/tools/test_mutate.py", "tests/tools/test_equivalent_mutants.py"),
+    "coverage": ("tests/tools/test_coverage.py", "tests/tools/test_python_coverage.py"),
+    "campaign": ("tests/campaign",),
+    "endurance": tuple(f"tests/runs/test_{name}.py" for name in ("kills", "noise", "soak", "storm")),
+    "exhaustive": ("tests/firmware/test_every_case.py",),
+}
+"""Of tools/prove."""
+
+
+def named() -> list[str]:
+    """All that some stage names."""
+    return [path for places in (TEST, PROVE) for paths in places.values() for path in paths]
+
+
+def deep() -> tuple[str, ...]:
+    """All that a stage of tools/prove names."""
+    return tuple(path for paths in PROVE.values() for path in paths)

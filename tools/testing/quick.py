@@ -1,0 +1,86 @@
+"""tools/test --quick: the tests that uncommitted changes concern, and a word on those that it leaves out."""
+
+import argparse
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+from tools.testing import concerned, places
+from tools.testing.stages import REPORTS, ROOT, Stage, pytest_stage, run_stages, set_up
+
+_C_BUILD = ROOT / "build/host-san"
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Runs what the changes concern.
+
+    Returns:
+        0 if all of it passed, or nothing has changed; else 1.
+    """
+    changed = changed_files(ROOT)
+    if not changed:
+        print("nothing has changed since the last commit")
+        return 0
+    tests, farther = python_tests(ROOT, changed)
+    deeper = sorted(test for test in tests if test.startswith(places.deep()))
+    stages = [*_checks(changed), *_c_stage(changed), *_python_stages(sorted(set(tests) - set(deeper)), arguments)]
+    code = run_stages(stages, arguments)
+    left = [f"{farther} files of tests that reach the change only through others"] if farther else []
+    left += [f"of tools/prove {', '.join(deeper)}"] if deeper else []
+    print(f"left out: {'; '.join([*left, 'what needs vcan0'])}. tools/test and tools/prove run all")
+    return code
+
+
+def changed_files(root: Path) -> list[str]:
+    """The files of a checkout that differ from the last commit, new ones too, without those that are gone."""
+    commands = (("diff", "--name-only", "-z", "HEAD"), ("ls-files", "--others", "--exclude-standard", "-z"))
+    named = "".join(subprocess.check_output(("git", *words), cwd=root, text=True) for words in commands)
+    return [path for path in named.split("\0") if (root / path).is_file()]
+
+
+def python_tests(root: Path, changed: Sequence[str]) -> tuple[set[str], int]:
+    """The files of Python tests that the changes concern, and the number of those farther away among imports."""
+    files = (path for top in ("host_sim", "tests", "tools") for path in (root / top).rglob("*.py"))
+    sources = [path.relative_to(root).as_posix() for path in files]
+    tests = [path for path in sources if concerned.is_test(path)]
+    graph = concerned.importers(root, sources)
+    found, farther = {path for path in changed if concerned.is_test(path)}, 0
+    for path in changed:
+        nearest, others = concerned.by_imports(graph, path) if path.endswith(".py") else (set(), 0)
+        found |= nearest | concerned.by_name(root, path, tests)
+        farther = max(farther, others)
+    return found, farther
+
+
+def _checks(changed: Sequence[str]) -> list[Stage]:
+    """The checks of sources."""
+    python = [path for path in changed if path.endswith(".py")]
+    if not python:
+        return []
+    return [
+        Stage("lint", "lint", [(".venv/bin/ruff", "check", *python)]),
+        Stage("types", "types", [(".venv/bin/mypy",)], beside=True),
+    ]
+
+
+def _c_stage(changed: Sequence[str]) -> list[Stage]:
+    """The C tests that are made of what has changed."""
+    sources = [path for path in changed if path.endswith((".c", ".h"))]
+    stage = Stage("c", "c", [])
+    if not sources or not set_up([stage]):
+        return [stage] if sources else []
+    names = concerned.c_tests(_C_BUILD, sources)
+    if not names:
+        return []
+    report = REPORTS / "c.log"
+    words = ("ctest", "--test-dir", str(_C_BUILD), "--output-on-failure", "-R", f"^({'|'.join(names)})$")
+    kept = 'set -o pipefail; "$@" | tee "$0"'
+    return [Stage("c", "c", [("bash", "-c", kept, str(report), *words)], [report])]
+
+
+def _python_stages(tests: Sequence[str], arguments: argparse.Namespace) -> list[Stage]:
+    """The Python tests, those of a browser in a stage of their own."""
+    web = [test for test in tests if test.startswith(tuple(places.TEST["web"]))]
+    others = [test for test in tests if test not in web]
+    named = [(name, paths) for name, paths in (("python", others), ("web", web)) if paths]
+    return [pytest_stage(name, paths, arguments.allow_missing) for name, paths in named]

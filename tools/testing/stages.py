@@ -1,0 +1,204 @@
+"""The stages of tools/test and tools/prove: each is set up, run and judged on its own."""
+
+import argparse
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TextIO
+
+from tools.testing.limits import NO_LIMIT, Ended, Limits, Steps, run_within, side_by_side
+from tools.testing.reports import count
+
+ROOT = Path(__file__).resolve().parents[2]
+REPORTS = ROOT / "build/reports"
+STALL_MIN = 10.0
+NAMED_MAX = 5
+
+Command = Sequence[str]
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One kind of test.
+
+    Attributes:
+        name: what a person calls it.
+        setup: what tools/setup calls it.
+        commands: what it runs, all of them even if one fails.
+        reports: files that grow as tests begin and end; none where only sources are checked.
+        beside: whether it runs beside the other stages; its output is shown when it has ended.
+    """
+
+    name: str
+    setup: str
+    commands: Sequence[Command]
+    reports: Sequence[Path] = ()
+    beside: bool = False
+
+
+@dataclass(frozen=True)
+class Result:
+    """How a stage went.
+
+    Attributes:
+        verdict: "ok", "FAILED" or "not run".
+        seconds: how long it took.
+        passed: tests that passed.
+        failed: tests that did not; 1 for a stage that failed as a whole.
+        missing: skipped tests that the caller allowed, with their reasons.
+        why: what stopped it; empty if nothing did.
+    """
+
+    verdict: str
+    seconds: float = 0.0
+    passed: int = 0
+    failed: int = 0
+    missing: Sequence[str] = ()
+    why: str = ""
+
+
+def run_commands(stage: Stage, limits: Limits, output: TextIO | None) -> Steps[list[Ended]]:
+    """Runs a stage's commands, as long as the limits let them."""
+    ended: list[Ended] = []
+    for command in stage.commands:
+        it = yield from run_within(limits, command, stage.reports, cwd=ROOT, stdout=output, stderr=output)
+        ended.append(it)
+        if it.why:
+            break
+    return ended
+
+
+def run_stage(stage: Stage, allowed: Collection[str], limits: Limits, output: TextIO | None) -> Steps[Result]:
+    """Runs a stage; None prints at once."""
+    start = time.monotonic()
+    if why := limits.passed():
+        return Result("FAILED", failed=1, why=f"did not begin: {why}")
+    for report in stage.reports:
+        report.unlink(missing_ok=True)
+    ended = yield from run_commands(stage, limits, output)
+    tests = count(stage.reports, allowed)
+    fine = tests.failed == 0 and all(it.well for it in ended)
+    why = next((f"stopped: {it.why}{during(tests.running)}" for it in ended if it.why), "")
+    return Result(
+        verdict="ok" if fine else "FAILED",
+        seconds=time.monotonic() - start,
+        passed=tests.passed,
+        failed=max(tests.failed + len(tests.running), 0 if fine else 1),
+        missing=tests.allowed,
+        why=why,
+    )
+
+
+def pytest_stage(name: str, tests: Sequence[str], allowed: Collection[str]) -> Stage:
+    """A stage of Python tests.
+
+    Args:
+        name: of the stage, for tools/setup as well.
+        tests: files and folders, or options of pytest that choose.
+        allowed: words before the colon in the reasons of skips that may be.
+    """
+    # One more than there are cores: tests wait for processes and browsers now and then.
+    workers = os.environ.get("PYTEST_XDIST_AUTO_NUM_WORKERS", f"{len(os.sched_getaffinity(0)) + 1}")
+    options = ("-n", workers, "--dist=worksteal", "-m", "not vcan")
+    report = REPORTS / f"{name}.jsonl"
+    return Stage(name, name, [pytest_command(report, (*options, *tests), allowed)], [report])
+
+
+def pytest_command(report: Path, words: Sequence[str], allowed: Collection[str]) -> Command:
+    """Pytest with these words, in a way that its tests can be counted."""
+    skips = (f"--allow-missing={name}" for name in allowed)
+    return (".venv/bin/python", "-m", "pytest", "--quiet", f"--progress={report}", *skips, *words)
+
+
+RunStage = Callable[[Stage, TextIO | None], Steps[Result]]
+
+
+def run_one_by_one(stages: Sequence[Stage], at_once: bool, run: RunStage, results: dict[str, Result]) -> Steps[None]:
+    """Runs stages; each prints at once, or what it has printed is shown when it has ended."""
+    for stage in stages:
+        if at_once:
+            print(f"\n== {stage.name}", flush=True)
+            results[stage.name] = yield from run(stage, None)
+        else:
+            with (REPORTS / f"{stage.name}.txt").open("w+") as output:
+                results[stage.name] = yield from run(stage, output)
+                output.seek(0)
+                print(f"\n== {stage.name}\n{output.read()}", end="", flush=True)
+
+
+def during(tests: Sequence[str]) -> str:
+    """Names tests that were running."""
+    more = f" and {len(tests) - NAMED_MAX} more" if len(tests) > NAMED_MAX else ""
+    return f" during {', '.join(tests[:NAMED_MAX])}{more}" if tests else ""
+
+
+def report(results: dict[str, Result], left_out: Sequence[str]) -> None:
+    """Prints the summary; its last line has the numbers of tests."""
+    print()
+    for name, result in results.items():
+        print(f"{name:8} {result.verdict:8} {result.seconds:6.1f} s  {result.passed} passed, {result.failed} failed")
+        if result.why:
+            print(f"{'':8} {result.why}")
+        for test in result.missing:
+            print(f"{'':8} skipped, as allowed: {test}")
+    if left_out:
+        print(f"left out: {', '.join(left_out)}")
+    print(f"{sum(r.passed for r in results.values())} passed, {sum(r.failed for r in results.values())} failed")
+
+
+def set_up(stages: Sequence[Stage]) -> list[Stage]:
+    """Sets up what stages need; returns those that can run."""
+
+    def is_set_up(*these: Stage) -> bool:
+        return subprocess.run((ROOT / "tools/setup", *(it.setup for it in these)), check=False).returncode == 0
+
+    return list(stages) if is_set_up(*stages) else [stage for stage in stages if is_set_up(stage)]
+
+
+def parse(parser: argparse.ArgumentParser, names: Sequence[str]) -> argparse.Namespace:
+    """The command line, with what every command of stages takes."""
+    add = parser.add_argument
+    add("stages", nargs="*", metavar="STAGE", help=f"run only these: {', '.join(names)}")
+    add(
+        "--allow-missing",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="a stage that may go unrun, or the word before the colon in the reason of a skip",
+    )
+    add("--time-limit", type=float, default=NO_LIMIT, metavar="MINUTES", help="for everything (default: none)")
+    add("--stall-limit", type=float, default=STALL_MIN, metavar="MINUTES", help="without news (default: %(default)g)")
+    arguments = parser.parse_args()
+    unknown = set(arguments.stages) - set(names)
+    if unknown:
+        parser.error(f"no such stage: {', '.join(sorted(unknown))}; there are {', '.join(names)}")
+    return arguments
+
+
+def run_stages(stages: Sequence[Stage], arguments: argparse.Namespace) -> int:
+    """Sets up and runs the stages that the command line asks for; it asks for all if it names none.
+
+    Returns:
+        0 if everything asked for ran and passed, else 1.
+    """
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # what runs is stopped on the way out
+    limits = Limits(arguments.time_limit, arguments.stall_limit, begun=time.monotonic())
+    REPORTS.mkdir(parents=True, exist_ok=True)
+    chosen = [stage for stage in stages if not arguments.stages or stage.name in arguments.stages]
+    results = {it.name: Result("not run", failed=int(it.name not in arguments.allow_missing)) for it in chosen}
+    ready = set_up(chosen)
+
+    def run(stage: Stage, output: TextIO | None) -> Steps[Result]:
+        return run_stage(stage, arguments.allow_missing, limits, output)
+
+    shown = [stage for stage in ready if not stage.beside]
+    beside = [stage for stage in ready if stage.beside]
+    side_by_side(run_one_by_one(shown, True, run, results), run_one_by_one(beside, not shown, run, results))
+    report(results, [stage.name for stage in stages if stage.name not in results])
+    allowed = {name for name in arguments.allow_missing if name in results and results[name].verdict == "not run"}
+    return 0 if all(result.verdict == "ok" for name, result in results.items() if name not in allowed) else 1
