@@ -19,7 +19,7 @@ PAGES = sorted([ROOT / "README.md", *ROOT.glob("docs/*.md")])
 IDS = [path.name for path in PAGES]
 BLOCK = re.compile(r"^```(\S+)(?: (\S+))?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 # These are the test run itself, and what it is called from.
-NOT_FROM_HERE = ("tools/test", "git clone")
+NOT_FROM_HERE = ("tools/test", "tools/prove", "git clone")
 
 
 def commands(kind: str | None) -> list[str]:

@@ -63,8 +63,9 @@ WRONG = (
 HELP = (
     *("octet --help", "run --help", "bench --help", "bench -h", "octet dask --help", "octet study -h"),
     *("octet watch --listen --help", "octet page --help", "octet run --robot emulated --help"),
-    *("coverage --help", "flash --help", "generate --help", "legacy-fpu --help", "licences --help", "misra --help"),
-    *("fresh --help", "mutate --help", "requirements --help", "size --help", "test --help", "with-vcan --help"),
+    *("coverage --help", "flash --help", "fresh --help", "generate --help", "legacy-fpu --help", "licences --help"),
+    *("misra --help", "mutate --help", "prove --help", "requirements --help", "size --help", "test --help"),
+    "with-vcan --help",
 )
 
 

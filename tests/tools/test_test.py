@@ -21,6 +21,7 @@ from tests.tools.processes import alive, soon
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
+from tools.testing import places  # noqa: E402 - as by the next line
 from tools.testing.limits import NO_LIMIT, Limits, Steps, run_within, side_by_side  # noqa: E402 - as by the line above
 
 PASSES = "def test_that_passes():\n    pass\n"
@@ -51,7 +52,8 @@ class Project:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         shutil.copytree(ROOT / "tools/testing", folder / "tools/testing")
-        shutil.copy(ROOT / "tools/test", folder / "tools")
+        for tool in ("test", "prove"):
+            shutil.copy(ROOT / "tools" / tool, folder / "tools")
         (folder / "tests").mkdir()
         shutil.copy(ROOT / "tests/conftest.py", folder / "tests")
         (folder / "pyproject.toml").write_text("[tool.pytest.ini_options]\nmarkers = ['vcan']\n")
@@ -73,21 +75,22 @@ class Project:
         lines = [f'add_test({name} "bash" "-c" "{line}")\n' for name, line in tests.items()]
         (self.folder / "build/host-san/CTestTestfile.cmake").write_text("".join(lines))
 
-    def script(self) -> ModuleType:
-        """tools/test as a module."""
-        loader = SourceFileLoader("the_script", str(self.folder / "tools/test"))
+    def stages(self) -> ModuleType:
+        """Its module tools/testing/stages.py."""
+        loader = SourceFileLoader("its_stages", str(self.folder / "tools/testing/stages.py"))
         module = module_from_spec(spec_from_loader(loader.name, loader))
         sys.modules[loader.name] = module  # its dataclasses look themselves up
         loader.exec_module(module)
         return module
 
-    def command(self, *words: str) -> list[str]:
-        return [sys.executable, str(self.folder / "tools/test"), *words]
+    def command(self, *words: str, tool: str = "test") -> list[str]:
+        return [sys.executable, str(self.folder / "tools" / tool), *words]
 
-    def run(self, *words: str) -> tuple[int, str]:
+    def run(self, *words: str, tool: str = "test") -> tuple[int, str]:
         """The exit code, and what was printed."""
+        command = self.command(*words, tool=tool)
         environment = {**os.environ, "PYTEST_XDIST_AUTO_NUM_WORKERS": "1"}
-        done = subprocess.run(self.command(*words), env=environment, capture_output=True, text=True, check=False)
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
         return done.returncode, done.stdout
 
 
@@ -170,8 +173,8 @@ def until(happened: Callable[[], bool]) -> Until:
 
 def run_until(project: Project, name: str, happened: Callable[[], bool]) -> Any:
     """The result of a stage, which is stopped as soon as that has happened."""
-    script = project.script()
-    (stage,) = [stage for stage in script.all_stages(()) if stage.name == name]
+    script = project.stages()
+    stage = script.c_stage() if name == "c" else script.pytest_stage(name, [], ())
     script.REPORTS.mkdir()
     results: dict[str, Any] = {}
     running = [False]
@@ -296,3 +299,35 @@ def test_each_stage_is_set_up_for_itself_alone(project):
     project.run("c")
 
     assert asked.read_text() == "c\n"
+
+
+def test_a_stage_of_tools_prove_that_cannot_be_set_up_costs_no_other(project):
+    project.program("tools/setup", '[[ " $* " != *" eva "* ]]')
+    for name in ("test_fuzz", "test_readers"):
+        (project.folder / f"tests/proof/{name}.py").parent.mkdir(exist_ok=True)
+        (project.folder / f"tests/proof/{name}.py").write_text(PASSES)
+
+    code, said = project.run("eva", "fuzz", tool="prove")
+
+    assert (code, last(said)) == (1, "2 passed, 1 failed")
+    assert re.search(r"^eva +not run", said, re.MULTILINE)
+    assert project.run("eva", "fuzz", "--allow-missing=eva", tool="prove")[0] == 0
+
+
+@pytest.mark.parametrize("path", places.named())
+def test_what_a_stage_is_to_run_exists(path):
+    assert (ROOT / path).exists()
+
+
+def test_tools_setup_has_each_stage():
+    setup = (ROOT / "tools/setup").read_text()
+    (proving,) = re.findall(r"^prove_stages=\((.*)\)$", setup, re.MULTILINE)
+
+    assert proving.split() == list(places.PROVE)
+
+
+def test_each_test_has_one_stage():
+    files = [path.relative_to(ROOT).as_posix() for path in (ROOT / "tests").rglob("test_*.py")]
+    stages = {path: [own for own in places.named() if f"{path}/".startswith(f"{own}/")] for path in files}
+
+    assert {path: own for path, own in stages.items() if len(own) > 1} == {}

@@ -26,7 +26,8 @@ def built(folder: Path, tests: str) -> "subprocess.CompletedProcess[str]":
     """Builds a program of these C tests as every C test is built."""
     (folder / "CMakeLists.txt").write_text(PROJECT)
     (folder / "test_canary.c").write_text(PROGRAM + tests)
-    subprocess.run(["cmake", "-G", "Ninja", "-S", folder, "-B", folder / "build"], check=True, capture_output=True)
+    configure = ["cmake", "-G", "Ninja", "-DOCTET_WERROR=ON", "-S", folder, "-B", folder / "build"]
+    subprocess.run(configure, check=True, capture_output=True)
     return subprocess.run(["ninja", "-C", folder / "build"], check=False, capture_output=True, text=True)
 
 

@@ -70,8 +70,8 @@ def by_name(root: Path, changed: str, tests: Iterable[str]) -> set[str]:
     """The tests of a file's own name, in the folder that mirrors its own, and those that name the file."""
     path = Path(changed)
     own = re.compile(rf"{re.escape(mirror(changed))}/(?:.*/)?test_(?:native_)?{re.escape(path.stem)}(?:_\w+)?\.py")
-    names = [f'"{changed}"'] if path.suffix == ".py" else [changed, f'"{path.name}"', f"/{path.name}"]
-    return {test for test in tests if own.fullmatch(test) or any(it in (root / test).read_text() for it in names)}
+    name = rf"{re.escape(changed)}(?![\w/.-])" if path.suffix == ".py" else rf"[/\"'`]{re.escape(path.name)}[\"'`\s]"
+    return {test for test in tests if own.fullmatch(test) or re.search(name, (root / test).read_text())}
 
 
 def c_tests(build: Path, changed: Sequence[str]) -> list[str]:
@@ -83,8 +83,7 @@ def c_tests(build: Path, changed: Sequence[str]) -> list[str]:
     """
     root = build.parent.parent
     made_of = _build_edges((build / "build.ninja").read_text())
-    noted = subprocess.run(("ninja", "-C", build, "-t", "deps"), check=True, capture_output=True, text=True).stdout
-    for target, *headers in filter(None, map(str.split, noted.split("\n\n"))):
+    for target, *headers in filter(None, map(str.split, _noted_deps(build).split("\n\n"))):
         made_of[target.rstrip(":")] |= set(headers)
     wanted = {str(root / path) for path in changed} | set(changed)
 
@@ -96,6 +95,11 @@ def c_tests(build: Path, changed: Sequence[str]) -> list[str]:
 
     programs = [target for target in made_of if re.search(r"/test_\w+$", target)]
     return [Path(program).name.removeprefix("test_") for program in programs if concerned(program, set())]
+
+
+def _noted_deps(build: Path) -> str:
+    """What ninja has noted of the headers that each object includes."""
+    return subprocess.check_output(("ninja", "-C", build, "-t", "deps"), text=True)
 
 
 def _build_edges(text: str) -> dict[str, set[str]]:

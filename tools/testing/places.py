@@ -20,6 +20,9 @@ PROVE: Mapping[str, Sequence[str]] = {
 }
 """Of tools/prove."""
 
+PROVE_ON_VCAN = ("boards", "campaign")
+"""The stages of tools/prove with tests that need vcan0."""
+
 
 def named() -> list[str]:
     """All that some stage names."""

@@ -6,9 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tools.testing import concerned, places
-from tools.testing.stages import REPORTS, ROOT, Stage, pytest_stage, run_stages, set_up
-
-_C_BUILD = ROOT / "build/host-san"
+from tools.testing.stages import C_BUILD, ROOT, Stage, c_stage, pytest_stage, run_stages, set_up
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -66,16 +64,10 @@ def _checks(changed: Sequence[str]) -> list[Stage]:
 def _c_stage(changed: Sequence[str]) -> list[Stage]:
     """The C tests that are made of what has changed."""
     sources = [path for path in changed if path.endswith((".c", ".h"))]
-    stage = Stage("c", "c", [])
-    if not sources or not set_up([stage]):
-        return [stage] if sources else []
-    names = concerned.c_tests(_C_BUILD, sources)
-    if not names:
-        return []
-    report = REPORTS / "c.log"
-    words = ("ctest", "--test-dir", str(_C_BUILD), "--output-on-failure", "-R", f"^({'|'.join(names)})$")
-    kept = 'set -o pipefail; "$@" | tee "$0"'
-    return [Stage("c", "c", [("bash", "-c", kept, str(report), *words)], [report])]
+    if not sources or not set_up([c_stage()]):
+        return [c_stage()] if sources else []
+    names = concerned.c_tests(ROOT / "build" / C_BUILD, sources)
+    return [c_stage("-LE", "vcan", "-R", f"^({'|'.join(names)})$")] if names else []
 
 
 def _python_stages(tests: Sequence[str], arguments: argparse.Namespace) -> list[Stage]:

@@ -16,6 +16,7 @@ from tools.testing.reports import count
 
 ROOT = Path(__file__).resolve().parents[2]
 REPORTS = ROOT / "build/reports"
+C_BUILD = "host-san"
 STALL_MIN = 10.0
 NAMED_MAX = 5
 
@@ -113,6 +114,19 @@ def pytest_command(report: Path, words: Sequence[str], allowed: Collection[str])
     """Pytest with these words, in a way that its tests can be counted."""
     skips = (f"--allow-missing={name}" for name in allowed)
     return (".venv/bin/python", "-m", "pytest", "--quiet", f"--progress={report}", *skips, *words)
+
+
+def ctest_command(folder: str, report: Path, *selection: str) -> Command:
+    """The C tests of a build, in a way that they can be counted."""
+    options = ("--test-dir", f"build/{folder}", "--output-on-failure", "--no-tests=error")
+    kept = 'set -o pipefail; "$@" | tee "$0"'
+    return ("bash", "-c", kept, str(report), "ctest", *options, *selection)
+
+
+def c_stage(*selection: str) -> Stage:
+    """The stage of the C tests, with the sanitizers; the words choose some, as for ctest."""
+    report = REPORTS / "c.log"
+    return Stage("c", "c", [ctest_command(C_BUILD, report, *selection)], [report])
 
 
 RunStage = Callable[[Stage, TextIO | None], Steps[Result]]

@@ -1,0 +1,81 @@
+"""tools/test --quick: which tests a change concerns."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))
+
+from tools.testing import concerned, quick  # noqa: E402 - found by the line above
+
+FILES = {
+    "host_sim/world/near.py": "X = 1\n",
+    "host_sim/world/far.py": "from host_sim.world.near import X\n",
+    "host_sim/world/lonely.py": "",
+    "tests/world/test_far.py": "from host_sim.world import far\n",
+    "tests/world/test_lonely_things.py": "",
+    "tests/runs/test_far_runs.py": "import tests.world.test_far\n",
+    "tests/tools/test_words.py": 'WORDS = ROOT / "tools/words"\n',
+    "tests/tools/test_wordsmith.py": 'WORDS = ROOT / "tools/wordsmith"\n',
+}
+BUILD = """\
+build lib.o: C_COMPILER__lib_Debug {source}/hal/lib.c || order
+build liball.a: C_STATIC_LIBRARY_LINKER__all_Debug lib.o
+build tests/test_one: C_EXECUTABLE_LINKER__one_Debug one.o | liball.a || order
+build one.o: C_COMPILER__one_Debug {source}/tests/test_one.c
+build tests/test_two: C_EXECUTABLE_LINKER__two_Debug two.o
+build two.o: C_COMPILER__two_Debug {source}/tests/test_two.c
+"""
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    for name, text in FILES.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+def test_a_module_concerns_the_tests_nearest_to_it_and_the_others_are_counted(project):
+    assert quick.python_tests(project, ["host_sim/world/near.py"]) == ({"tests/world/test_far.py"}, 1)
+
+
+def test_a_module_that_nobody_imports_concerns_the_tests_of_its_name(project):
+    assert quick.python_tests(project, ["host_sim/world/lonely.py"]) == ({"tests/world/test_lonely_things.py"}, 0)
+
+
+def test_a_test_that_has_changed_concerns_itself(project):
+    found, _ = quick.python_tests(project, ["tests/runs/test_far_runs.py"])
+
+    assert found == {"tests/runs/test_far_runs.py"}
+
+
+def test_a_file_concerns_the_tests_that_name_it_and_not_those_that_name_one_like_it(project):
+    assert quick.python_tests(project, ["tools/words"]) == ({"tests/tools/test_words.py"}, 0)
+
+
+def test_new_and_changed_files_count_as_changed(project):
+    for words in ("init -q", "add tests", "-c user.name=a -c user.email=a commit -qm a"):
+        subprocess.run(["git", *words.split()], cwd=project, check=True)
+    (project / "tests/world/test_far.py").write_text("")
+    (project / "tests/tools/test_words.py").unlink()
+
+    new = sorted(path for path in FILES if path.startswith("host_sim"))
+    assert quick.changed_files(project) == ["tests/world/test_far.py", *new]
+
+
+@pytest.mark.parametrize(
+    ("changed", "tests"),
+    [("hal/lib.c", ["one"]), ("tests/test_two.c", ["two"]), ("hal/lib.h", ["one"]), ("hal/other.c", [])],
+)
+def test_a_c_source_concerns_the_tests_that_are_made_of_it(changed, tests, tmp_path, monkeypatch):
+    build = tmp_path / "build/host-san"
+    build.mkdir(parents=True)
+    (build / "build.ninja").write_text(BUILD.format(source=tmp_path))
+    noted = f"lib.o: #deps 2, deps mtime 1 (VALID)\n    {tmp_path}/hal/lib.c\n    {tmp_path}/hal/lib.h\n"
+    monkeypatch.setattr(concerned, "_noted_deps", lambda _: noted)
+
+    assert concerned.c_tests(build, [changed]) == tests
