@@ -25,17 +25,15 @@ class SessionLostError(RobotError):
     """The robot no longer behaves as the one that was started here; the message says how that was noticed.
 
     Attributes:
-        contradicts: Whether two frames in the robot's name contradict each other.
+        doubt: What makes the result doubtful whatever has become of the robot, as a sentence; empty for nothing.
         booted: Whether the robot said that it has started anew.
         silent: Whether the robot did not answer in time.
     """
 
-    def __init__(
-        self, message: str, *, contradicts: bool = False, booted: bool = False, silent: bool = False
-    ) -> None:
+    def __init__(self, message: str, *, doubt: str = "", booted: bool = False, silent: bool = False) -> None:
         """Takes the message."""
         super().__init__(message)
-        self.contradicts, self.booted, self.silent = contradicts, booted, silent
+        self.doubt, self.booted, self.silent = doubt, booted, silent
 
 
 class RivalError(RobotError):

@@ -78,7 +78,7 @@ static void write_faults(struct wire *wire, unsigned page, struct frames *frames
     e2e_protect(frame);
 }
 
-static void write_health(struct wire *wire, struct frames *frames)
+static void write_health(struct wire *wire, const uint8_t memory[CELL_COUNT], struct frames *frames)
 {
     struct frame *frame = frames_add(frames, wire, OCTET_HEALTH_FRAME_ID, OCTET_HEALTH_LENGTH);
     struct octet_health_t health = {
@@ -90,6 +90,7 @@ static void write_health(struct wire *wire, struct frames *frames)
         .rx_errors = wire->health.bus.rx_errors,
         .bus_offs = wire->health.bus.bus_offs,
         .dropped = wire->health.bus.dropped,
+        .held = e2e_crc16(wire->session.told, memory, wire->session.owner ? 0 : CELL_COUNT),
     };
 
     (void)octet_health_pack(frame->data, &health, sizeof frame->data);
@@ -135,7 +136,7 @@ static void write_part(struct wire *wire, const struct output *out, enum part pa
             write_crash(wire, frames);
         break;
     case PART_HEALTH:
-        write_health(wire, frames);
+        write_health(wire, out->memory, frames);
         break;
     }
 }

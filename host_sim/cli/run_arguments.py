@@ -122,7 +122,8 @@ def _add_session_options(parser: argparse.ArgumentParser) -> None:
         type=number(1, 255),
         default=default.owner,
         metavar="N",
-        help="number of this simulator, by which robots on a shared bus know whom they obey, 1..255" + DEFAULT,
+        help="owner ID of this simulator, 1..255; a robot on a shared bus obeys only its owner (default: 1 for "
+        "robots started here, a random one for external robots)",
     )
     add(
         "--reconnect-s",

@@ -30,6 +30,10 @@ class AskedCommands:
         self._asked.append(command)
         self.answered = False
 
+    def has(self, command: Frame) -> bool:
+        """Whether a command is one of these, byte for byte."""
+        return command in self._asked
+
     def judge(self, answer: Frame) -> Arrival:
         """What an answer is: NEW, once, if it is that to the last command; AGAIN; or OTHER, to what was not asked."""
         matching = [asked for asked in self._asked if counter_of(asked) == counter_of(answer)]

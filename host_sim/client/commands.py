@@ -44,6 +44,9 @@ def stop(client: RobotClient) -> None:
     """
     client.inbox.session = None
     client.dialogue.demand_reports("stop")
+    if not client.inbox.holds():
+        client.dialogue.demand_reports("report")  # of the two reports, one may have been damaged on its way
+    client.check_held()
     client.check_settled()
 
 

@@ -44,7 +44,9 @@ def take_last_reports(client: RobotClient, reports: Sequence[Frame]) -> None:
 def routine_reports(client: RobotClient) -> list[tuple[str, Frame]]:
     """The last report of each kind that would be taken in without a further look if it came with the next counter."""
     heartbeat = client.reports.heartbeat
-    names = {"FAULTS", "HEALTH"}
+    names = {"FAULTS"}
+    if client.inbox.holds():
+        names.add("HEALTH")
     if client.reports.memory_is_last:
         names.add("MEMORY")
     if heartbeat.get("state") and not heartbeat["silent"] and heartbeat["owner"] in (0, client.inbox.owner):

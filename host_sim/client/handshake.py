@@ -1,6 +1,7 @@
 """The handshake: the robot stops, identifies itself, and is rejected if it uses another protocol."""
 
 from host_sim.client.robot_client import RobotClient
+from host_sim.client.told import Told
 from host_sim.errors import RivalError, RobotError
 from host_sim.protocol.codec import Frame
 
@@ -27,6 +28,7 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
         if shared:
             _listen(client)
         client.reports.forget()
+        client.inbox.told = Told()
         client.dialogue.expect_reports("stop")
         if client.dialogue.ask("stop", {}, timeout_s) is None:
             raise RobotError(
@@ -35,6 +37,8 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
         assert client.inbox.last is not None
         held[:] = [client.inbox.asked.last, client.inbox.last]
         if not client.dialogue.await_reports():
+            client.dialogue.demand_reports("stop")
+        if not client.inbox.holds():  # it had an owner, and was told more than this
             client.dialogue.demand_reports("stop")
         client.firmware = client.firmware or client.reports.boot
     finally:
@@ -46,7 +50,7 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
 def _listen(client: RobotClient) -> None:
     """Makes sure that no other simulator drives the robot, before it is stopped."""
     client.waiting.receive(client.inbox.take, _LISTEN_S)
-    rival = client.inbox.rival
+    rival = client.inbox.rivals.heard
     if rival is not None:
         raise RivalError(
             f"node {client.node} is driven by another simulator: heard {client.protocol.describe(rival)}; "

@@ -5,15 +5,18 @@ from dataclasses import dataclass, field
 
 from host_sim.client.asked_commands import AskedCommands
 from host_sim.client.freshness import Arrival
+from host_sim.client.report_checks import check_heartbeat, check_report
+from host_sim.client.rivals import Rivals
 from host_sim.client.robot_reports import REPORTS, RobotReports
 from host_sim.client.session import FrameCounts, Session
-from host_sim.errors import FirmwareError, SessionLostError
+from host_sim.client.told import Told
+from host_sim.errors import SessionLostError
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol, counter_of
-from host_sim.protocol.generated import TICK_SPAN, Fault, Reason
+from host_sim.protocol.generated import TICK_SPAN, Reason, Result
 from host_sim.robot_io import REST, Drive
 
 _TICK_MASK = TICK_SPAN - 1
-_RIVAL_S = 1.0
+_FORGED, _COMMANDED = "somebody sends frames in the robot's name", "somebody else commands the robot"
 _NO_ANSWER = frozenset((int(Reason.STOP), int(Reason.SILENCE)))
 _NO_FRAME = Frame(-1, b"\0\0")
 
@@ -30,6 +33,9 @@ class Inbox:
         owner: Number of this simulator.
         counts: Frame counters.
         asked: The commands that were sent.
+        told: Those that the robot has carried out.
+        rivals: Others who command it.
+        refuse: Called with each refused frame, and why.
         reports: What the robot has reported.
         session: How the robot was started; None while it is stopped.
         last: The last valid frame from the robot.
@@ -38,8 +44,7 @@ class Inbox:
         sent_counter: Alive counter of the last of them.
         reporting: Whether a whole report is awaited.
         rested: Whether a stopped robot has said that its wheels rest, or need not say so.
-        silent: Whether the robot has said that it hears nothing: all that it was to say before has been sent.
-        rival: The frame by which another simulator was heard for the second time; None while there is none.
+        silent: Whether the robot has said that it hears nothing: all that it had to say before was sent.
         owed: Number of repeated senses whose answers have not come yet.
         answered_again: Number of answers to what was repeated, and was answered before.
         drive: The last new drive.
@@ -52,6 +57,8 @@ class Inbox:
     owner: int
     counts: FrameCounts = field(default_factory=FrameCounts)
     asked: AskedCommands = field(default_factory=AskedCommands)
+    told: Told = field(default_factory=Told)
+    refuse: Callable[[Frame, str], object] = lambda _frame, _why: None
     reports: RobotReports = field(default_factory=RobotReports)
     session: Session | None = None
     last: Frame | None = None
@@ -61,13 +68,15 @@ class Inbox:
     reporting: bool = False
     rested: bool = False
     silent: bool = False
-    rival: Frame | None = None
     owed: int = 0
     answered_again: int = 0
     drive: Drive = REST
-    _rival_s: float | None = None
     _drive_tick: int = 0
     _drive_frame: Frame = _NO_FRAME
+
+    def __post_init__(self) -> None:
+        """Has heard nobody else."""
+        self.rivals = Rivals(self.owner, self.asked)
 
     @property
     def tick(self) -> int:
@@ -75,14 +84,7 @@ class Inbox:
         return max(self.ticks - 1, 0)
 
     def expect_drive(self, tick: int) -> int:
-        """The senses of the next tick are about to be sent.
-
-        Args:
-            tick: Number of the tick, as on the wire.
-
-        Returns:
-            Their alive counter.
-        """
+        """The senses of the next tick, with this number on the wire, are about to be sent: their alive counter."""
         self.ticks += 1
         self.sent_tick = tick
         self.sent_counter = self.ticks % COUNTERS
@@ -172,7 +174,7 @@ class Inbox:
         self.answered_again += self.owed > 0
         self.owed -= self.owed > 0
         if self._contradicts(drive, frame):
-            self._lose("sent two different drives for one tick", contradicts=True)
+            self.lose("sent two different drives for one tick", _FORGED)
 
     def _take_stop(self, drive: Drive, frame: Frame, *, is_new: bool) -> Drive | None:
         """A stopped robot rests; so does one that should be running, where something is wrong."""
@@ -186,7 +188,7 @@ class Inbox:
         else:
             self.counts.duplicate += 1
             if is_new:
-                self._lose("rests, though it was started")
+                self.lose("rests, though it was started")
         return None
 
     def _contradicts(self, drive: Drive, frame: Frame) -> bool:
@@ -209,21 +211,29 @@ class Inbox:
             self._take_any_answer(frame, decoded)
         elif decoded is not None and decoded.name in REPORTS:
             self._take_report(frame, decoded)
+        elif decoded is None:
+            self._refuse(frame, "damaged or foreign")
         else:
-            self.counts.refused += 1
-            if decoded is not None:
-                self._hear_rival(frame)
+            self._refuse(frame, "of another simulator")
+            if self.rivals.hear(frame, self.now()):
+                self.lose("is commanded by somebody else too")
+            elif self.rivals.poses_as_us(frame, decoded):
+                self.lose(f"was told {self.protocol.describe(frame)}", _COMMANDED)
 
     def _take_any_answer(self, frame: Frame, decoded: DecodedFrame) -> DecodedFrame | None:
         arrival = self.asked.judge(frame)
         if arrival == Arrival.OTHER:
-            self.counts.refused += 1
-            self._lose(f"answered what was not asked here: {self.protocol.describe(frame)}")
+            self._refuse(frame, "an answer to what was not asked")
+            was_done = decoded.signals["result"] == Result.DONE
+            doubt = _COMMANDED if was_done else ""
+            self.lose(f"answered what was not asked here: {self.protocol.describe(frame)}", doubt)
             return None
         if arrival == Arrival.AGAIN:
             self.counts.duplicate += 1
             self.answered_again += 1
             return None
+        if decoded.signals["result"] == Result.DONE:
+            self.told.carry_out(self.asked.last)
         self._accept(frame)
         return decoded
 
@@ -231,20 +241,20 @@ class Inbox:
         if decoded.signals.get("silent"):
             self.counts.duplicate += 1
             self.silent = True
-            self._check_heartbeat(decoded)
+            check_heartbeat(self, decoded)
             return
         arrival = self._arrival(frame, decoded)
         if arrival in (Arrival.AGAIN, Arrival.LATE):
             self.counts.duplicate += 1
             return
         if arrival != Arrival.NEW and self.session is not None:
-            self.counts.refused += 1
-            self._lose(f"counts its {decoded.name} anew", contradicts=arrival == Arrival.OTHER)
+            self._refuse(frame, "does not go on from the one before")
+            self.lose(f"counts its {decoded.name} anew", _FORGED if arrival == Arrival.OTHER else "")
         if not self.reports.take(decoded):
-            self.counts.refused += 1
+            self._refuse(frame, "not a memory")
             return
         self._accept(frame)
-        self._check_report(decoded)
+        check_report(self, decoded)
 
     def _arrival(self, frame: Frame, decoded: DecodedFrame) -> Arrival:
         """Compares a report with those before it.
@@ -256,39 +266,26 @@ class Inbox:
         is_asked_for = self.reporting and self.asked.answered and self.reports.is_awaited(decoded)
         return Arrival.NEW if arrival == Arrival.AGAIN and is_asked_for else arrival
 
-    def _check_report(self, decoded: DecodedFrame) -> None:
-        if decoded.name == "HEARTBEAT":
-            self._check_heartbeat(decoded)
-        elif decoded.name == "EMERGENCY" and decoded.signals["kinds"] >> Fault.TWIN & 1:
-            self._lose("hears another robot with its number")
-        elif decoded.name == "BOOT" and not self.reporting:
-            self._lose("started anew", booted=True)
+    def holds(self) -> bool:
+        """Whether the robot's last report says that it holds what it was told here, and nothing else."""
+        return self.told.agrees(self.reports.held, self.reports.memory)
 
-    def _check_heartbeat(self, decoded: DecodedFrame) -> None:
-        theirs, ours = decoded.signals["layout"], self.protocol.layout
-        if not self.protocol.fits(theirs):
-            self._lose("reports another layout of the messages")
-            hashes = f"hash {theirs:04X}, ours {ours:04X}"
-            raise FirmwareError(f"the robot was built from another octet.dbc ({hashes}): rebuild it")
-        if not decoded.signals["state"] and self.session is not None and not self.session.halted:
-            self._lose("reports that it is stopped")
-        if decoded.signals["owner"] not in (0, self.owner):
-            self._lose(f"obeys simulator {decoded.signals['owner']}")
-
-    def _hear_rival(self, frame: Frame) -> None:
-        """Only simulators send these. One may be noise whose CRC is right by chance; two within a second are not."""
-        now = self.now()
-        if self._rival_s is not None and now - self._rival_s <= _RIVAL_S:
-            self.rival = frame
-            self._lose("is commanded by somebody else too")
-        self._rival_s = now
+    def _refuse(self, frame: Frame, why: str) -> None:
+        self.counts.refused += 1
+        self.refuse(frame, why)
 
     def _accept(self, frame: Frame) -> None:
         self.last = frame
         self.counts.received += 1
         self.record(frame)
 
-    def _lose(self, how: str, *, contradicts: bool = False, booted: bool = False) -> None:
-        """The robot may no longer be the one that was started, or no longer be alone; supervision finds out."""
+    def lose(self, how: str, doubt: str = "", *, booted: bool = False) -> None:
+        """The robot may no longer be the one that was started, or no longer be alone; supervision finds out.
+
+        Args:
+            how: How that shows.
+            doubt: What makes the result doubtful whatever is found out; empty for nothing.
+            booted: Whether the robot said that it has started anew.
+        """
         if self.session is not None:
-            raise SessionLostError(f"it {how} (tick {self.tick})", contradicts=contradicts, booted=booted)
+            raise SessionLostError(f"it {how} (tick {self.tick})", doubt=doubt, booted=booted)

@@ -116,6 +116,12 @@ class RobotClient:
         else:
             self.unlisted += 1
 
+    def check_held(self) -> None:
+        """Notes if the robot, by its last report, does not hold what it was told here."""
+        if not self.inbox.holds():
+            self.distrust("the robot does not hold what it was told here: somebody else commands it")
+            self.inbox.told.give_up()
+
     def send_senses(self, senses: Senses) -> None:
         """Sends the senses of one tick, after the distances if the robot wants them, and logs them."""
         inbox = self.inbox

@@ -27,6 +27,7 @@ class RobotReports:
         faults: The robot's fault counters, by name; each stays at 255.
         heartbeat: The signals of its HEARTBEAT; empty before the first.
         boot: The signals of its BOOT, which names the firmware; empty before the first.
+        held: HEALTH's check of what the robot was told.
         memories: Number of whole memories so far.
         ended: Whether the last one of a whole report has come since `await_end`.
         gap: Number of memories that were lost on the way before the first one since this was last set to None.
@@ -38,6 +39,7 @@ class RobotReports:
         self.faults: dict[str, int] = {}
         self.heartbeat: dict[str, int] = {}
         self.boot: dict[str, int] = {}
+        self.held = 0
         self.memories = 0
         self.gap: int | None = None
         self.forget()
@@ -123,6 +125,8 @@ class RobotReports:
             self.heartbeat = decoded.signals
         elif decoded.name == "BOOT":
             self.boot = decoded.signals
+        elif decoded.name == "HEALTH":
+            self.held = decoded.signals["held"]
         self._heard.add(_kind(decoded))
         self.ended = self.ended or decoded.name == "HEALTH"
         return True

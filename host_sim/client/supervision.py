@@ -75,8 +75,9 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
     _check_owner(client, lost)
     client.inbox.session = session
     client.frames.refused += lost.booted  # a BOOT, but the robot did not start anew
-    if lost.contradicts:
-        client.distrust(f"somebody sends frames in the robot's name: {lost}")
+    if lost.doubt:
+        client.distrust(f"{lost.doubt}: {lost}")
+    client.check_held()
 
 
 def _ask_how_it_is(client: RobotClient, lost: SessionLostError) -> None:
@@ -135,7 +136,7 @@ def _start_as_before(client: RobotClient, session: Session, memory: tuple[int, .
 
 
 def _check_rival(client: RobotClient) -> None:
-    rival = client.inbox.rival
+    rival = client.inbox.rivals.heard
     if rival is not None:
         client.dialogue.stop_at_once()
         raise RivalError(

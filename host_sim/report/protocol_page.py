@@ -1,12 +1,13 @@
 """docs/protocol.md, generated from `hal/protocol/octet.dbc`: `tools/octet protocol > docs/protocol.md`."""
 
+from binascii import crc_hqx
 from collections.abc import Iterable
 
 import cantools
 from cantools.database.can import Database, Message
 from cantools.database.can.signal import Signal
 
-from host_sim.protocol.codec import DBC, NODE_MAX, Protocol
+from host_sim.protocol.codec import DBC, NODE_MAX, Frame, Protocol
 from host_sim.protocol.generated import LAYOUT_HASH, PARAMETERS
 from host_sim.report.bus_load import COMFORTABLE, load_tables
 
@@ -80,6 +81,20 @@ lockstep for a second). Meanwhile the commands of other senders are refused, but
 owner. A robot that hears two DRIVEs or HEARTBEATs with its own identifiers within a second has a twin: it stops. Each
 is counted in FAULTS.
 
+## What it was told
+
+Whoever knows the protocol can send a command in the owner's name, with the next counter, and the robot obeys. So
+it says once a second, in HEALTH, what it holds: `held` covers all commands that it has carried out. Its owner
+computes the same from the answers that it got, and knows within a second that there was another one.
+
+`held` is a CRC-16 with polynomial 0x1021, start value 0, high bit first and no final xor (XMODEM; Python has it as
+`binascii.crc_hqx`). With each COMMAND that the robot has carried out it goes on over the frame's bytes 1 to 7, but
+for **get** and **report**; a **stop** without an owner sets it to 0. While the robot has no owner, HEALTH goes on
+over its eight cells, too: so the report that ends a run also proves its memory. For example, after `{start}` alone,
+`held` is 0x{held:04X}.
+
+The cost on the bus is two bytes, at most 20 bits, a second for each robot, and no frame more.
+
 ## Identifiers
 
 Node 1 has the identifiers below; node n, up to {nodes}, adds n - 1. A smaller identifier has priority on the bus.
@@ -110,7 +125,14 @@ def page() -> str:
 
 def _overview() -> str:
     stop = Protocol().encode("COMMAND", {"counter": 0, "opcode": 1, "owner": 1})
-    return _HEAD.format(nodes=NODE_MAX, layout=LAYOUT_HASH, stop=f"{stop.id:03X}#{stop.data.hex().upper()}")
+    how = {"profile": 0, "lockstep": 1, "seed": 7}
+    start = Protocol().encode("COMMAND", {"counter": 1, "opcode": 2, "owner": 1, **how})
+    held = crc_hqx(start.data[1:], 0)
+    return _HEAD.format(nodes=NODE_MAX, layout=LAYOUT_HASH, stop=_text(stop), start=_text(start), held=held)
+
+
+def _text(frame: Frame) -> str:
+    return f"{frame.id:03X}#{frame.data.hex().upper()}"
 
 
 def _parameters() -> str:

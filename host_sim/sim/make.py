@@ -1,5 +1,6 @@
 """The one place where a run is put together: robots, the world around them, and how they keep time."""
 
+import secrets
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
@@ -26,6 +27,7 @@ Memory = Sequence[int]
 
 _EXTERNAL_S = 15.0
 _SEED_SPAN = 2**32
+_OWNER_MAX = 255
 
 
 @contextmanager
@@ -139,8 +141,10 @@ def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, 
     connection = connect(stack, config.bus, config.robot, node, config.board, lines)
     if config.faults:
         connection = _with_faults(connection, config, node)
-    client = RobotClient(connection, Protocol(node), log, lockstep=not config.real_time, owner=config.owner)
     external = config.robot == "external"
+    # What an external robot says depends on its past, so that its log is never the same again: any number will do.
+    owner = config.owner or (2 + secrets.randbelow(_OWNER_MAX - 1) if external else 1)
+    client = RobotClient(connection, Protocol(node), log, lockstep=not config.real_time, owner=owner)
     handshake(client, _EXTERNAL_S if external else connection.deadline_s, shared=external)
     return client
 

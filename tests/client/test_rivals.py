@@ -7,7 +7,7 @@ from host_sim.client.handshake import handshake
 from host_sim.client.supervision import settle
 from host_sim.errors import RivalError, SessionLostError, TwinError
 from host_sim.protocol.codec import Frame, counter_of, crc8
-from host_sim.protocol.generated import Opcode, Reason
+from host_sim.protocol.generated import Opcode, Reason, Result
 from tests.client.meddled_link import LEARNED, MeddledLink, command, is_stopped, learned
 from tests.client.support import PROTOCOL, connected, drive_for, drives_in, run, senses
 
@@ -53,6 +53,27 @@ def test_a_single_frame_of_another_simulator_may_be_noise():
     drive_for(client, 1, LEARNED)
 
     assert client.frames.refused == 1
+    assert client.incidents == []
+
+
+def test_a_single_command_in_our_name_is_none():
+    link = MeddledLink()
+    client = learned(link)
+
+    link.waiting.append(command(Opcode.FREEZE, owner=1, freeze=1))
+    drive_for(client, 1, LEARNED)
+
+    assert "somebody else commands the robot: it was told COMMAND" in str(client.incidents)
+
+
+def test_an_echo_of_what_was_sent_here_is_no_reason_to_doubt():
+    link = MeddledLink()
+    client = learned(link)
+
+    link.waiting.append([frame for frame in link.sent if frame.id == PROTOCOL.id_of("COMMAND")][-1])
+    drive_for(client, 1, LEARNED)
+
+    assert client.incidents == []
 
 
 def test_a_robot_that_another_simulator_drives_is_left_alone():
@@ -153,10 +174,26 @@ def test_a_forged_memory_does_not_last(ahead):
     assert client.memory == clean.memory != (0,) * 8
 
 
-def test_a_false_alarm_changes_nothing():
+def stray_answer(result: Result) -> Frame:
+    """An answer to what this simulator never asked."""
+    signals = {"counter": 14, "opcode": Opcode.GET, "which": 0, "value": 0}
+    return PROTOCOL.encode("ANSWER", {**signals, "result": result})
+
+
+def test_what_was_done_without_being_asked_for_makes_the_result_doubtful():
+    link = MeddledLink()
+    client = learned(link)
+
+    link.waiting.append(stray_answer(Result.DONE))
+    drive_for(client, 1, LEARNED)
+
+    assert "somebody else commands the robot: it answered what was not asked here" in str(client.incidents)
+
+
+def test_a_command_that_the_robot_refused_somebody_changes_nothing():
     quiet, alarmed = MeddledLink(), MeddledLink()
     clients = [learned(quiet), learned(alarmed)]
-    stray = PROTOCOL.encode("ANSWER", {"counter": 14, "opcode": Opcode.GET, "result": 0, "which": 0, "value": 0})
+    stray = stray_answer(Result.OWNED)
 
     alarmed.waiting.append(stray)
     drives = [drive_for(client, 100, LEARNED) for client in clients]

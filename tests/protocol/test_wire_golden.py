@@ -20,7 +20,8 @@ RANDOM_VALUES = 1000
 
 # Signals that are neither a quantity nor a choice: codes, bit sets, numbers that only tell one thing from another.
 PLAIN = {"crc", "counter", "owner", "seed", "value", "which", "mask", "kinds", "feel", "action", "layout", "commit"}
-PLAIN |= {"version_major", "version_minor", *(f"byte_{i}" for i in range(4)), *(f"cell_{i}" for i in range(8))}
+PLAIN |= {"version_major", "version_minor", "held"}
+PLAIN |= {*(f"byte_{i}" for i in range(4)), *(f"cell_{i}" for i in range(8))}
 
 # What CANopen gives a meaning: NMT, SYNC and EMCY, TIME, PDOs and SDOs, node guarding and heartbeat, LSS.
 CANOPEN = [range(0x001), range(0x080, 0x101), range(0x180, 0x680), range(0x700, 0x780), range(0x7E4, 0x7E6)]

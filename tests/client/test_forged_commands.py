@@ -1,0 +1,167 @@
+"""One forged command with the simulator's number and the next counter: the result is doubtful within a second."""
+
+from collections.abc import Callable
+
+import pytest
+
+from host_sim.client.commands import freeze, start, stop, write_cells
+from host_sim.client.handshake import handshake
+from host_sim.client.pacing import Lockstep, RealTime
+from host_sim.client.robot_client import RobotClient
+from host_sim.client.session import Session
+from host_sim.errors import RivalError
+from host_sim.protocol.codec import Frame, counter_of
+from host_sim.protocol.generated import Opcode
+from tests.client.meddled_link import MeddledLink
+from tests.client.support import PROTOCOL, connected, rolled, senses
+
+TICK_S = 0.02
+AT, SECOND = 120, 50
+OBEYED = {
+    "write": {"mask": 15, "half": 1, "byte_0": 1, "byte_1": 2, "byte_2": 1, "byte_3": 2},
+    "erase": {},
+    "freeze": {"freeze": 1},
+    "set": {"parameter": 0, "value": 90},
+    "start": {"profile": 0, "seed": 7, "lockstep": 1},
+    "the same start": {"profile": 0, "seed": 1, "lockstep": 1},
+    "resume": {},
+}
+
+
+class Listener(MeddledLink):
+    """A robot on a bus, and somebody who has listened to all that it was told."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.odometer = (0, 0)
+        self.change = self.obey
+
+    def obey(self, frame: Frame) -> list[Frame]:
+        drive = PROTOCOL.decode_drive(frame)
+        if drive is not None:
+            self.odometer = rolled(self.odometer, drive)
+        return [frame]
+
+    def forged(self, name: str, *, lockstep: bool) -> Frame:
+        """The command that the robot expects next, as far as anybody can tell."""
+        told = [frame for frame in self.sent if frame.id == PROTOCOL.id_of("COMMAND")][-1]
+        signals = {**OBEYED.get(name, {})}
+        if "lockstep" in signals:
+            signals["lockstep"] = int(lockstep)
+        opcode = Opcode[name.rsplit(maxsplit=1)[-1].upper()]
+        owner, counter = told.data[2], (counter_of(told) + 1) % 15
+        return PROTOCOL.encode("COMMAND", {"counter": counter, "opcode": opcode, "owner": owner, **signals})
+
+    def put_unheard(self, frame: Frame) -> None:
+        """The frame reaches the robot; what it answers is kept from the simulator, but for its new memory."""
+        heard, self.waiting = self.waiting, type(self.waiting)()
+        self.put(frame)
+        memory = PROTOCOL.id_of("MEMORY")
+        self.waiting = type(self.waiting)([*heard, *(each for each in self.waiting if each.id == memory)])
+
+
+def on_the_bus(link: Listener, frame: Frame) -> None:
+    link.waiting.append(frame)
+    link.put(frame)
+
+
+WAYS: dict[str, Callable[[Listener, Frame], None]] = {
+    "on a bus": on_the_bus,
+    "in between": Listener.put,
+    "in between, and keeping the answer": Listener.put_unheard,
+}
+
+
+def begun(link: Listener, *, lockstep: bool) -> RobotClient:
+    with connected(link, lockstep=lockstep) as client:
+        handshake(client, client.connection.deadline_s)
+        start(client, Session(1))
+    return client
+
+
+def run_for(client: RobotClient, link: Listener, ticks: range) -> None:
+    pace = Lockstep([client]) if client.inbox.lockstep else RealTime([client], TICK_S)
+    for tick in ticks:
+        pace.exchange([senses(tick, link.odometer)])
+
+
+@pytest.mark.parametrize("name", OBEYED)
+@pytest.mark.parametrize("way", WAYS)
+@pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
+def test_each_is_noticed_within_a_second(name, way, lockstep):
+    link = Listener()
+    client = begun(link, lockstep=lockstep)
+    run_for(client, link, range(AT))
+
+    WAYS[way](link, link.forged(name, lockstep=lockstep))
+    run_for(client, link, range(AT, AT + SECOND + 1))
+
+    assert "somebody else commands" in str(client.incidents)
+    assert client.incidents[0].tick <= AT + SECOND
+
+
+@pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
+def test_a_forged_stop_ends_the_run(lockstep):
+    link = Listener()
+    client = begun(link, lockstep=lockstep)
+    run_for(client, link, range(AT))
+
+    link.put(link.forged("stop", lockstep=lockstep))
+
+    with pytest.raises(RivalError, match="somebody else stopped node 1"):
+        run_for(client, link, range(AT, AT + SECOND))
+
+
+@pytest.mark.parametrize("name", OBEYED)
+def test_just_before_the_end_it_is_noticed_at_the_end(name):
+    link = Listener()
+    client = begun(link, lockstep=True)
+    run_for(client, link, range(AT))
+
+    link.put_unheard(link.forged(name, lockstep=True))
+    stop(client)
+
+    assert "does not hold what it was told here" in str(client.incidents)
+
+
+def test_a_memory_that_was_altered_on_the_way_is_not_believed_at_the_end():
+    link = Listener()
+    client = begun(link, lockstep=True)
+    run_for(client, link, range(AT))
+
+    def altered(frame: Frame) -> list[Frame]:
+        decoded = PROTOCOL.decode(frame)
+        if decoded is None or decoded.name != "MEMORY" or not decoded.signals["half"]:
+            return [frame]
+        return [PROTOCOL.encode("MEMORY", {**decoded.signals, "cell_7": 2 - decoded.signals["cell_7"] // 2})]
+
+    link.change = altered
+    stop(client)
+
+    assert "does not hold what it was told here" in str(client.incidents)
+
+
+@pytest.mark.parametrize("lockstep", [True, False], ids=["lockstep", "real time"])
+def test_what_was_ordered_here_is_no_reason_to_doubt(lockstep):
+    link = Listener()
+    client = begun(link, lockstep=lockstep)
+
+    run_for(client, link, range(60))
+    write_cells(client, {1: 1, 6: 2})
+    run_for(client, link, range(60, 115))
+    freeze(client, True)
+    run_for(client, link, range(115, 180))
+    stop(client)
+
+    assert client.incidents == []
+
+
+def test_a_robot_that_had_an_owner_is_stopped_until_it_holds_nothing_else():
+    link = Listener()
+    begun(link, lockstep=True)
+    client = begun(link, lockstep=True)
+
+    run_for(client, link, range(AT))
+    stop(client)
+
+    assert client.incidents == []

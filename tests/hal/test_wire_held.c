@@ -1,0 +1,143 @@
+/* HEALTH's check of what the robot was told and remembers. */
+#include "hal/protocol/e2e.h"
+#include "tests/test.h"
+#include "writing_rig.h"
+
+static uint16_t told_here;   /* the check as a client computes it */
+static uint8_t counter;
+
+static uint16_t held(void)
+{
+    struct octet_health_t health;
+    size_t count;
+
+    out.has_answer = false;
+    out.has_report = out.whole_report = true;
+    count = write_out();
+    TEST_ASSERT_EQUAL_HEX32(OCTET_HEALTH_FRAME_ID, frames[count - 1].id);
+    TEST_ASSERT_EQUAL(0, octet_health_unpack(&health, frames[count - 1].data, frames[count - 1].len));
+    return health.held;
+}
+
+static void tell(struct octet_command_t command, enum result result)
+{
+    struct frame frame;
+
+    command.counter = counter = e2e_next(counter);
+    command.owner = 3;
+    frame = command_frame(command);
+    (void)answer_to(command, result);
+    told_here = e2e_crc16(told_here, frame.data + 1, 7);
+}
+
+static void assert_held(void)
+{
+    TEST_ASSERT_EQUAL_HEX16(told_here, held());
+}
+
+static void assert_held_with_memory(void)
+{
+    TEST_ASSERT_EQUAL_HEX16(e2e_crc16(told_here, out.memory, CELL_COUNT), held());
+}
+
+static void begin(void)
+{
+    told_here = 0;
+    counter = 0;
+    out = (struct output){.memory = {0, 1, 2, 1, 2, 1, 2, 1}};
+}
+
+TEST(a_robot_that_was_told_nothing_holds_its_memory)
+{
+    begin();
+    assert_held_with_memory();
+    TEST_ASSERT_NOT_EQUAL(0, held());
+}
+
+TEST(each_command_that_changes_something_is_held_whole_and_in_order)
+{
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .profile = 7, .seed = 0xDEADBEEF, .lockstep = 1}, RESULT_DONE);
+    assert_held();
+    tell((struct octet_command_t){.opcode = OPCODE_SET, .parameter = 3, .value = 20}, RESULT_DONE);
+    assert_held();
+    tell((struct octet_command_t){.opcode = OPCODE_WRITE, .mask = 15, .half = 1, .byte_3 = 2}, RESULT_DONE);
+    tell((struct octet_command_t){.opcode = OPCODE_ERASE}, RESULT_DONE);
+    tell((struct octet_command_t){.opcode = OPCODE_FREEZE, .freeze = 1}, RESULT_DONE);
+    tell((struct octet_command_t){.opcode = OPCODE_RESUME}, RESULT_DONE);
+    assert_held();
+}
+
+TEST(the_same_start_again_does_not_leave_it_as_it_was)
+{
+    uint16_t before;
+
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .seed = 5}, RESULT_DONE);
+    before = held();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .seed = 5}, RESULT_DONE);
+    TEST_ASSERT_NOT_EQUAL(before, held());
+}
+
+TEST(what_only_asks_changes_nothing)
+{
+    uint16_t before;
+
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START}, RESULT_DONE);
+    before = told_here;
+    tell((struct octet_command_t){.opcode = OPCODE_GET, .wanted = 1}, RESULT_DONE);
+    tell((struct octet_command_t){.opcode = OPCODE_REPORT}, RESULT_DONE);
+    told_here = before;
+    assert_held();
+}
+
+TEST(what_the_robot_refused_is_not_held)
+{
+    uint16_t before;
+
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START}, RESULT_DONE);
+    before = told_here;
+    tell((struct octet_command_t){.opcode = OPCODE_SET, .parameter = 99}, RESULT_UNKNOWN_PARAMETER);
+    told_here = before;
+    expect(FAULT_REFUSED, 1);
+    assert_held();
+}
+
+TEST(what_comes_again_is_held_once)
+{
+    const struct octet_command_t erase = {.opcode = OPCODE_ERASE, .counter = 1, .owner = 3};
+    const struct frame again = command_frame(erase);
+    struct input in;
+
+    begin();
+    tell(erase, RESULT_DONE);
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, wire_read(&wire, &again, &in));
+    assert_held_with_memory();
+}
+
+TEST(the_stop_of_a_robot_with_an_owner_is_held_too_and_the_next_one_forgets_all)
+{
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START}, RESULT_DONE);
+    tell((struct octet_command_t){.opcode = OPCODE_STOP}, RESULT_DONE);
+    assert_held_with_memory();
+    tell((struct octet_command_t){.opcode = OPCODE_STOP}, RESULT_DONE);
+    told_here = 0;
+    assert_held_with_memory();
+}
+
+TEST(every_cell_counts)
+{
+    uint16_t before;
+
+    begin();
+    before = held();
+    for (unsigned cell = 0; cell < CELL_COUNT; cell++) {
+        out.memory[cell] ^= 3;
+        TEST_ASSERT_NOT_EQUAL(before, held());
+        out.memory[cell] ^= 3;
+    }
+    TEST_ASSERT_EQUAL_HEX16(before, held());
+}
