@@ -32,6 +32,9 @@ from host_sim.world.worlds import world_of
 FAULTS = "faults.txt"
 """The faults that were made on purpose, in the folder of a run."""
 
+REFUSED = "refused.log"
+"""The frames that were refused, each with its reason, in the folder of a run."""
+
 _NOTHING = (0,) * CELL_COUNT
 _SUMMARY_MAX = 10_000_000
 _PROCESSES_MAX = 8
@@ -77,6 +80,7 @@ def conduct(options: RunOptions) -> Summary:
             )
             if options.config.faults:
                 stack.callback(_write_faults, options.out / FAULTS, simulation.clients)
+            stack.callback(_write_refused, options.out / REFUSED, simulation.clients)
             recorder = RunRecorder.of(simulation, options.config.boredom_limit)
             _save_memories(stack, simulation, options, loaded)
             outputs = Outputs(options, simulation, recorder, log)
@@ -107,7 +111,7 @@ def _memories(options: RunOptions) -> Iterator[list[Memory | None]]:
 
 def _check_no_output(memory: Path, options: RunOptions) -> None:
     """Refuses a memory file that the run would write over."""
-    names = (SUMMARY, PICTURE, PAGE, FAULTS, *LOGS)
+    names = (SUMMARY, PICTURE, PAGE, FAULTS, REFUSED, *LOGS)
     outputs = [options.out / name for name in names] + [world_path(options.log)]
     # Not Path.resolve: that fails for a link to itself.
     if os.path.realpath(memory) in map(os.path.realpath, outputs):
@@ -163,6 +167,18 @@ def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
         more = sum(schedule.count for schedule in schedules) - len(rules)
         left_out = [f"# and {more} more, not recorded"] if more else []
         write_bytes(path, "".join(f"{rule}\n" for rule in [*rules, *left_out]).encode())
+
+
+def _write_refused(path: Path, clients: Sequence[RobotClient]) -> None:
+    """Writes what was refused, in order of time; a file of an earlier run goes."""
+    lines = sorted(line for client in clients for line in client.refused.lines)
+    more = sum(client.refused.unlisted for client in clients)
+    left_out = [f"# and {more} more, not recorded"] if more else []
+    if lines:
+        write_bytes(path, "".join(f"{line}\n" for line in [*lines, *left_out]).encode())
+    else:
+        with suppress(OSError):  # in a folder that is gone or not writable, there are greater worries
+            path.unlink(missing_ok=True)
 
 
 def _print_robot(options: RunOptions, client: RobotClient) -> None:

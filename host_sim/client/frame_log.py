@@ -72,6 +72,11 @@ class FrameLog:
         seconds, micros = divmod(time_us, 1_000_000)
         self._stamp = _STAMP.format(seconds, micros)
 
+    def line(self, frame: Frame) -> str:
+        """The line for a frame with the current time stamp."""
+        frame_id, data = frame
+        return f"{self._stamp} {frame_id:03X}#{data.hex().upper()}"
+
     def add(self, frame: Frame) -> None:
         """Records a frame with the current time stamp."""
         frame_id, data = frame
@@ -145,9 +150,6 @@ class NoLog(FrameLog):
     """Takes frames and keeps nothing, not even a digest."""
 
     keeps = False
-
-    def set_time(self, time_us: int) -> None:
-        """Does nothing."""
 
     def add(self, frame: Frame) -> None:
         """Does nothing."""

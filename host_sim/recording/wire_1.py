@@ -202,7 +202,7 @@ class _Robot:
         if boot != self._boot:
             self._boot = boot
             yield self._counted("BOOT", **boot)
-        yield self._counted("HEALTH", unstored=0, clock=1, **signals)
+        yield self._counted("HEALTH", unstored=0, clock=1, held=0, **signals)
 
     def _crash(self, signals: dict[str, int]) -> Iterator[Frame]:
         yield self._counted("CRASH", **signals)
