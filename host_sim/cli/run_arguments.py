@@ -123,7 +123,7 @@ def _add_session_options(parser: argparse.ArgumentParser) -> None:
         default=default.owner,
         metavar="N",
         help="owner ID of this simulator, 1..255; a robot on a shared bus obeys only its owner (default: 1 for "
-        "robots started here, a random one for external robots)",
+        "robots started here, drawn from the seed for external ones)",
     )
     add(
         "--reconnect-s",

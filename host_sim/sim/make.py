@@ -1,9 +1,9 @@
 """The one place where a run is put together: robots, the world around them, and how they keep time."""
 
-import secrets
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from random import Random
 
 from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.connect import connect
@@ -142,8 +142,8 @@ def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, 
     if config.faults:
         connection = _with_faults(connection, config, node)
     external = config.robot == "external"
-    # What an external robot says depends on its past, so that its log is never the same again: any number will do.
-    owner = config.owner or (2 + secrets.randbelow(_OWNER_MAX - 1) if external else 1)
+    # Drawn from the seed: two who share a bus rarely have the same number, and the same run has the same log again.
+    owner = config.owner or (Random(config.seed).randint(1, _OWNER_MAX) if external else 1)
     client = RobotClient(connection, Protocol(node), log, lockstep=not config.real_time, owner=owner)
     handshake(client, _EXTERNAL_S if external else connection.deadline_s, shared=external)
     return client

@@ -37,7 +37,7 @@ class RunConfig:
             run the flash image in QEMU or on an emulated board.
         board: Name of the emulated board; empty for the first.
         owner: Number of this simulator, 1..255, by which robots on a shared bus know whom they obey; 0: 1 for a robot
-            that is started here, a random one for an external one.
+            that is started here, one drawn from the seed for an external one.
         reconnect_s: Time to wait for a bus or a serial line that is gone, s of wall-clock time.
         physics: One of `PHYSICS`, which give the same bytes; None for pymunk on a CAN bus, and fast elsewhere.
         changes: What the world and the bodies are to meet with, as `host_sim.world.changes` has it.

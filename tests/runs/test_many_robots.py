@@ -67,7 +67,7 @@ def external(plugged: Adapter, *words: str) -> tuple[str, ...]:
 def test_robots_behind_one_adapter_do_what_they_do_elsewhere(run, adapter):
     words = (*WORDS, "--limit-s", "5", "--robots", "3", "--node", "4")
 
-    behind = run(*words, *external(adapter(4, 5, 6)))
+    behind = run(*words, *external(adapter(4, 5, 6)), "--owner", "1")
 
     within = run(*words, "--bus", "none")
     assert (behind.code, behind.errors) == (0, "")
@@ -186,3 +186,12 @@ def test_a_full_bus_takes_what_is_computed(crowd, capsys):
     assert load.nodes == set(range(1, 1 + MANY))
     assert at_worst == pytest.approx(int(computed) / 100, rel=0.03)
     assert 0.8 * at_worst < load.bits_a_second / BIT_RATE < at_worst
+
+
+def test_an_external_robot_gets_an_owner_that_depends_on_the_seed_alone(run, adapter):
+    words = (*WORDS, "--limit-s", "1")
+    runs = [run(*words, "--seed", seed, *external(adapter(1))) for seed in ("1", "1", "2")]
+
+    owners = [{line.split(b"#")[1][4:6] for line in done.log.splitlines() if b" 021#" in line} for done in runs]
+    assert owners[0] == owners[1] != owners[2]
+    assert [len(each) for each in owners] == [1, 1, 1]
