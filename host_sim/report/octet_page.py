@@ -51,8 +51,9 @@ def octet_page() -> str:
 
 
 def world_dimensions() -> dict[str, dict[str, Any]]:
-    """The dimensions of each world with a name."""
-    return {name: asdict(world_of(name).params) for name in WORLD_NAMES}
+    """The dimensions of each world with a name, and the number of what its layouts are drawn from."""
+    worlds = map(world_of, WORLD_NAMES)
+    return {world.name: {**asdict(world.params), "style": world.style} for world in worlds}
 
 
 def lesson_texts() -> dict[str, Any]:

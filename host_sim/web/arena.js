@@ -7,9 +7,9 @@ import { rangesOf, wallsOf } from "./ranges.js";
 import { EditError, Furniture } from "./world_edits.js";
 
 /**
- * @typedef {import("./layouts.js").Layout} Layout
- * @typedef {import("./layouts.js").Pose} Pose
- * @typedef {import("./layouts.js").SimParams} SimParams
+ * @typedef {import("./types.js").Layout} Layout
+ * @typedef {import("./types.js").Pose} Pose
+ * @typedef {import("./types.js").SimParams} SimParams
  * @typedef {import("./ranges.js").Capsule} Capsule
  * @typedef {import("./types.js").WorldEdit} WorldEdit
  */

@@ -26,7 +26,7 @@ import { RANDOM, nameOf } from "./world_names.js";
  * @property {Lane[]} lanes
  * @property {number} tick
  * @property {import("./worlds.js").Worlds} worlds
- * @property {import("./layouts.js").SimParams} params
+ * @property {import("./types.js").SimParams} params
  * @property {import("./simulator.js").Simulator} simulator
  * @property {(change: Change) => void} change
  * @property {(lane: Lane) => void} simulate

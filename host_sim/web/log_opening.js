@@ -5,9 +5,9 @@ import { SOUND, withFault } from "./body_faults.js";
 import { EDIT_FIELDS } from "./edit_fields.js";
 import { CELL_COUNT, FRAMES, OPCODE, PARAMETERS, PROFILES } from "./generated.js";
 import { bytesOf, framesOf, replayLog } from "./log_replay.js";
+import { checkedWorld } from "./native_layouts.js";
 import { NativeRun } from "./native_run.js";
 import { Simulation } from "./simulation.js";
-import { checkedWorld } from "./written_world.js";
 
 /**
  * @typedef {import("./types.js").Change} Change
@@ -39,7 +39,7 @@ const NO_WORLD = "that is not a world file: open a run.world.json";
  * @returns {Opened}
  */
 export function openLog(module, worlds, text, world) {
-  const read = experimentIn(module, framesOf(text), world ? worldIn(world, worlds) : undefined);
+  const read = experimentIn(module, framesOf(text), world ? worldIn(module, worlds, world) : undefined);
   const simulation = new Simulation(module, read, worlds, true);
   simulation.finish();
   const experiment = { ...read, environments: Math.min(read.environments, simulation.scene.number) };
@@ -54,7 +54,7 @@ export function openLog(module, worlds, text, world) {
  * @returns {Experiment}
  */
 export function recordedExperiment(module, worlds, { commands, ticks, world }) {
-  return experimentIn(module, recordedFrames(commands, ticks), world ? worldIn(world, worlds) : undefined);
+  return experimentIn(module, recordedFrames(commands, ticks), world ? worldIn(module, worlds, world) : undefined);
 }
 
 /**
@@ -74,28 +74,30 @@ function* recordedFrames(commands, ticks) {
 
 /**
  * The content of a world file.
- * @param {string} text
+ * @param {WebAssembly.Module} module - page.wasm, compiled.
  * @param {Worlds} worlds
+ * @param {string} text
  * @returns {World}
  */
-export function worldIn(text, worlds) {
+export function worldIn(module, worlds, text) {
   const world = parsed(text);
   if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
   if (!isCount(world.of) || !isCount(world.limit_ticks) || !world.edits.every(isEdit)) throw new Error(NO_WORLD);
-  return { ...world, world: placeIn(world.world, worlds) };
+  return { ...world, world: placeIn(module, worlds, world.world) };
 }
 
 /**
  * Where the run of a world file takes place: a world with a name, or all of one that a person wrote.
- * @param {unknown} world
+ * @param {WebAssembly.Module} module
  * @param {Worlds} worlds
+ * @param {unknown} world
  * @returns {Experiment["world"]}
  */
-function placeIn(world, worlds) {
+function placeIn(module, worlds, world) {
   if (world === undefined || (typeof world === "string" && Object.hasOwn(worlds, world))) return world;
   if (typeof world !== "object" || world === null) throw new Error(`this page knows no world ${JSON.stringify(world)}`);
   const { name, ...content } = /** @type {Record<string, unknown>} */ (world);
-  return checkedWorld(`${name}`, content, worlds.random);
+  return { name: `${name}`, ...checkedWorld(module, worlds.random, content) };
 }
 
 /** @param {string} text */

@@ -4,7 +4,7 @@
 import { PARAMETERS } from "./generated.js";
 
 /**
- * @param {import("./layouts.js").SimParams} params
+ * @param {import("./types.js").SimParams} params
  * @param {import("./types.js").Experiment} experiment
  * @returns {import("./types.js").Measures}
  */

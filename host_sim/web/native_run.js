@@ -108,7 +108,7 @@ export class NativeRun {
    * @param {number[]} dimensions - In the order of native/page.h.
    */
   build(dimensions) {
-    new Float64Array(this.c.memory.buffer, this.c.page_dimensions(), dimensions.length).set(dimensions);
+    this.doublesAt(this.c.page_dimensions(), dimensions.length).set(dimensions);
     this.c.page_build();
   }
 
@@ -118,8 +118,26 @@ export class NativeRun {
    * @param {number[]} faults - In the order of native/page.h.
    */
   setFaults(robot, faults) {
-    new Float64Array(this.c.memory.buffer, this.c.page_faults(), faults.length).set(faults);
+    this.doublesAt(this.c.page_faults(), faults.length).set(faults);
     this.c.page_break(robot);
+  }
+
+  /**
+   * Numbers in its memory.
+   * @param {number} at
+   * @param {number} count
+   */
+  doublesAt(at, count) {
+    return new Float64Array(this.c.memory.buffer, at, count);
+  }
+
+  /**
+   * A text in its memory, up to its 0.
+   * @param {number} at
+   */
+  textAt(at) {
+    const bytes = new Uint8Array(this.c.memory.buffer, at);
+    return String.fromCharCode(...bytes.subarray(0, bytes.indexOf(0)));
   }
 
   /** What is handed over to C. */

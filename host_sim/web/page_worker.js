@@ -42,7 +42,7 @@ function answer(request) {
   if (request.do === "open") say({ id, done: true, opened: openLog(parts.module, parts.worlds, request.text, request.world) });
   else if (request.do === "repeat") say({ id, done: true, experiment: recordedExperiment(parts.module, parts.worlds, request.recorded) });
   else if (request.do === "log") say({ id, done: true, log: finished(request.experiment, parts).log });
-  else if (request.do === "world") say({ id, done: true, experiment: openWorld(parts.worlds, request.file, request.base) });
+  else if (request.do === "world") say({ id, done: true, experiment: openWorld(parts, request.file, request.base) });
   else if (request.do === "memory") say({ id, done: true, memory: finished(request.experiment, parts).native.memory(request.robot) });
   else run(id, request.experiment, parts);
 }

@@ -5,8 +5,8 @@ import { FEEL } from "./generated.js";
 import { CONES } from "./sensors.js";
 
 /**
- * @typedef {import("./layouts.js").Pose} Pose
- * @typedef {import("./layouts.js").SimParams} SimParams
+ * @typedef {import("./types.js").Pose} Pose
+ * @typedef {import("./types.js").SimParams} SimParams
  *
  * A straight thing with round ends: ax, ay, bx, by and its radius, mm.
  * @typedef {[number, number, number, number, number]} Capsule

@@ -4,8 +4,8 @@
 import { Arena } from "./arena.js";
 import { DueChanges } from "./due_changes.js";
 import { EDIT_FIELDS } from "./edit_fields.js";
-import { generate } from "./layouts.js";
 import { measuresOf } from "./measures.js";
+import { drawFrom, drawLayout } from "./native_layouts.js";
 import { NativeRun } from "./native_run.js";
 import { RobotCommands } from "./robot_commands.js";
 import { RunRecorder } from "./run_recorder.js";
@@ -32,6 +32,7 @@ export class Simulation {
     this.experiment = experiment;
     this.world = worldOf(experiment.world ?? RANDOM, worlds);
     this.native = new NativeRun(module, robots.length);
+    drawFrom(this.native, this.world.params, this.world.written);
     this.arena = new Arena(this.native, this.world.params, robots.length);
     this.commands = new RobotCommands(this.native, experiment);
     this.changes = new DueChanges(changes);
@@ -94,9 +95,7 @@ export class Simulation {
 
   /** @param {number} number */
   enter(number) {
-    const { page_sin: sin, page_cos: cos } = this.native.c;
-    const which = { seed: this.experiment.seed, number, robots: this.robots.length };
-    this.arena.furnish(generate(which, this.world, { sin, cos }));
+    this.arena.furnish(drawLayout(this.native, { seed: this.experiment.seed, number, robots: this.robots.length }));
     this.scene = { ...this.scene, number, first_tick: this.tick };
     this.show();
   }

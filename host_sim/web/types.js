@@ -230,6 +230,37 @@
  */
 
 /**
+ * The dimensions of a world, as in host_sim/world/params.py, and what its layouts are drawn from: an enum layout_style.
+ * @typedef {Object} SimParams
+ * @property {number} style
+ * @property {number} width_mm
+ * @property {number} height_mm
+ * @property {number} body_radius_mm
+ * @property {number} wheel_track_mm
+ * @property {number} sensor_reach_mm
+ * @property {number} front_extra_mm
+ * @property {number} beam_width_mm
+ * @property {number} eat_reach_mm
+ * @property {number} bar_count
+ * @property {number} bar_thickness_mm
+ * @property {[number, number]} bar_length_mm
+ * @property {[number, number][]} food_bands_mm
+ * @property {number} tick_s
+ * @property {number} max_wheel_speed_mm_s
+ *
+ * Both ends of an obstacle: ax, ay, bx, by in mm.
+ * @typedef {[number, number, number, number]} Bar
+ *
+ * A round obstacle: x, y and its radius in mm.
+ * @typedef {[number, number, number]} Plant
+ *
+ * x and y in mm, heading in rad.
+ * @typedef {[number, number, number]} Pose
+ *
+ * @typedef {{bars: Bar[], food: [number, number][], starts: Pose[]}} Layout
+ */
+
+/**
  * A world that a person wrote, as run.world.json has it: mm, and the start's heading in degrees.
  * @typedef {{name: string, size?: [number, number], start?: [number, number, number], food: [number, number][],
  *   bars: [number, number, number, number][]}} WrittenWorld

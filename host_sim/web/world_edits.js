@@ -1,14 +1,12 @@
 // @ts-check
 /* The obstacles, plants and the food of an arena, and what a person may change in them: as host_sim/world/edits.py has it. */
 
-import { clearance } from "./layouts.js";
-
 /**
- * @typedef {import("./layouts.js").Bar} Bar
- * @typedef {import("./layouts.js").Layout} Layout
- * @typedef {import("./layouts.js").Plant} Plant
- * @typedef {import("./layouts.js").Pose} Pose
- * @typedef {import("./layouts.js").SimParams} SimParams
+ * @typedef {import("./types.js").Bar} Bar
+ * @typedef {import("./types.js").Layout} Layout
+ * @typedef {import("./types.js").Plant} Plant
+ * @typedef {import("./types.js").Pose} Pose
+ * @typedef {import("./types.js").SimParams} SimParams
  * @typedef {import("./types.js").WorldEdit} WorldEdit
  *
  * @typedef {import("./ranges.js").Capsule} Capsule
@@ -189,4 +187,29 @@ function middleOf([x, y]) {
  */
 function barOf({ a, b }) {
   return [...a, ...b];
+}
+
+/**
+ * Distance from a point to the nearest obstacle or wall, mm; negative inside one.
+ * @param {number} x
+ * @param {number} y
+ * @param {Bar[]} bars
+ * @param {SimParams} params
+ * @param {Plant[]} [plants]
+ */
+function clearance(x, y, bars, params, plants = []) {
+  const walls = Math.min(x, params.width_mm - x, y, params.height_mm - y);
+  const room = bars.reduce((least, bar) => Math.min(least, toLine(x, y, bar) - params.bar_thickness_mm / 2), walls);
+  return plants.reduce((least, [px, py, radius]) => Math.min(least, Math.hypot(x - px, y - py) - radius), room);
+}
+
+/**
+ * @param {number} x
+ * @param {number} y
+ * @param {Bar} bar
+ */
+function toLine(x, y, [ax, ay, bx, by]) {
+  const [dx, dy] = [bx - ax, by - ay];
+  const along = Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy)));
+  return Math.hypot(x - ax - along * dx, y - ay - along * dy);
 }

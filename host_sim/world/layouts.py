@@ -98,7 +98,7 @@ class World:
         self._check(library.LAYOUT_BARS_MAX, library.LAYOUT_FOOD_MAX)
         starts, out = ffi.new("struct pose[]", robots), ffi.new("struct layout *")
         out.starts = starts
-        kind = self._in_c(ffi, library)
+        kind = self._in_c(ffi)
         which = ffi.new("struct layout_which *", (seed, number, robots))
         room = ReachRoom(library.reach_size(self.params.width_mm, self.params.height_mm))
         if not library.layouts_draw(kind[0], which, room.in_c, out):
@@ -113,13 +113,17 @@ class World:
             most = f"at most {bars_max} obstacles and {food_max} pieces of food can be drawn"
             raise ValueError(f"{most}, not {bars} and {pieces}")
 
-    def _in_c(self, ffi: Any, library: Any) -> tuple[Any, Any]:
+    @property
+    def style(self) -> int:
+        """What `draw` is in C, an `enum layout_style`."""
+        _, library = world_library()
+        style = "WRITTEN" if isinstance(self.draw, WrittenLayout) else self.draw.upper()
+        return int(getattr(library, f"LAYOUT_{style}"))
+
+    def _in_c(self, ffi: Any) -> tuple[Any, Any]:
         """A `struct layout_kind *`, and what it points to."""
-        if isinstance(self.draw, WrittenLayout):
-            style, written = library.LAYOUT_WRITTEN, self.draw.in_c()
-        else:
-            style, written = getattr(library, f"LAYOUT_{self.draw.upper()}"), ffi.NULL
-        return ffi.new("struct layout_kind *", (style, layout_params(self.params), written)), written
+        written = self.draw.in_c() if isinstance(self.draw, WrittenLayout) else ffi.NULL
+        return ffi.new("struct layout_kind *", (self.style, layout_params(self.params), written)), written
 
 
 def _layout_of(ffi: Any, drawn: Any) -> Layout:

@@ -161,9 +161,3 @@ TEST(a_robot_that_stops_by_itself_is_told_and_starts_again)
     start(0, PROFILE_ARTICLE);
     TEST_ASSERT_FALSE(page_has_halted(0));
 }
-
-TEST(sines_are_the_worlds_own)
-{
-    TEST_ASSERT_DOUBLE_WITHIN(1e-16, 0.479425538604203, page_sin(0.5));
-    TEST_ASSERT_DOUBLE_WITHIN(1e-16, 0.8775825618903728, page_cos(0.5));
-}

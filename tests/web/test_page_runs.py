@@ -1,65 +1,41 @@
 """A run in the page is that of tools/run: the same layouts, the same bytes in its log, the same pictures."""
 
 import json
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from host_sim.protocol.generated import PROFILES
 from host_sim.report.octet_page import world_dimensions
-from host_sim.world.layouts import Layout
-from host_sim.world.world_names import WORLD_NAMES
-from host_sim.world.worlds import world_of
-from host_sim.world.written_world import world_from
 from tests.runs.support import octet
 from tests.web.node import in_node
 from tests.web.page_runs import experiment, run_in_page, with_changes_of, words
 from tests.web.support import run_in
+from tests.world.golden_layouts import DIGESTS, WRITTEN, digest
+from tests.world.golden_layouts import WANTED as WANTED_LAYOUTS
 
 LAYOUTS = """
 const [{ worlds, layouts }] = texts.map((text) => JSON.parse(text));
-const { "layouts.js": { generate }, "worlds.js": { worldOf } } = modules;
-return layouts.map(({ world, ...which }) => generate(which, worldOf(world, worlds), Math));
+const { "native_layouts.js": { drawFrom, drawLayout }, "worlds.js": { worldOf } } = modules;
+const { NativeRun } = modules["native_run.js"];
+const native = new NativeRun(page, 4);
+return layouts.map(({ world, ...which }) => {
+  const { params, written } = worldOf(world, worlds);
+  drawFrom(native, params, written);
+  const { bars, food, starts } = drawLayout(native, which);
+  return [...bars, ...food, ...starts].flat();
+});
 """
 
 
-def numbers(layout: Any) -> list[float]:
-    return [float(x) for part in layout for item in part for x in np.ravel(item)]
+@pytest.mark.parametrize("name", DIGESTS)
+def test_the_layouts_of_a_world_stay_the_same_for_ever(tmp_path, name):
+    asked, world = tmp_path / "layouts.json", {"name": name, **WRITTEN[name]} if name in WRITTEN else name
+    layouts = [{"world": world, **which._asdict()} for which in WANTED_LAYOUTS]
+    asked.write_text(json.dumps({"worlds": world_dimensions(), "layouts": layouts}))
 
-
-def page_numbers(layout: dict[str, Any]) -> list[float]:
-    return numbers([layout["bars"], layout["food"], layout["starts"]])
-
-
-def drawn_in_page(folder: Path, wanted: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    asked = folder / "layouts.json"
-    asked.write_text(json.dumps({"worlds": world_dimensions(), "layouts": wanted}))
-    return in_node(folder, "worlds.js", LAYOUTS, asked)
-
-
-def assert_same(drawn: dict[str, Any], layout: Layout) -> None:
-    assert page_numbers(drawn) == pytest.approx(numbers([layout.bars, layout.food, layout.starts]), abs=1e-9)
-
-
-def test_the_layouts_are_those_that_python_draws(tmp_path):
-    random = [(seed, 1 + seed % 3, 1 + seed % 4, "random") for seed in (0, *range(1, 2**32, 2**27))]
-    others = [(seed, 1, 1 + seed % 2, world) for world in WORLD_NAMES for seed in range(3)]
-    wanted = [dict(zip(("seed", "number", "robots", "world"), it, strict=True)) for it in (*random, *others)]
-
-    for it, drawn in zip(wanted, drawn_in_page(tmp_path, wanted), strict=True):
-        assert_same(drawn, world_of(it["world"]).generate(it["seed"], it["number"], it["robots"]))
-
-
-@pytest.mark.parametrize("start", [{}, {"start": [300, 300, -270]}], ids=["drawn", "given"])
-def test_the_layouts_of_a_written_world_are_those_that_python_draws(tmp_path, start):
-    content = {"size": [3000, 2000], **start, "food": [[2700, 300], [1500, 1000]], "bars": [[1000, 0, 1000, 1400]]}
-    wanted = [{"seed": seed, "number": 2, "robots": 2, "world": {"name": "my.toml", **content}} for seed in range(4)]
-
-    for it, drawn in zip(wanted, drawn_in_page(tmp_path, wanted), strict=True):
-        assert_same(drawn, world_from(content, "my.toml").generate(it["seed"], 2, 2))
+    assert digest(in_node(tmp_path, "simulation.js", LAYOUTS, asked)) == DIGESTS[name]
 
 
 def comparable(run: dict[str, Any]) -> dict[str, Any]:

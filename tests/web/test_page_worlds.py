@@ -16,7 +16,8 @@ OPEN = """
 const [worlds, text] = texts;
 const base = { seed: 7, environments: 3, robots: [{ profile: "article", settings: {}, memory: null }], changes: [] };
 try {
-  return modules["world_opening.js"].openWorld(JSON.parse(worlds), { name: "my.toml", text }, base);
+  const parts = { module: page, worlds: JSON.parse(worlds) };
+  return modules["world_opening.js"].openWorld(parts, { name: "my.toml", text }, base);
 } catch (error) {
   return error.message;
 }

@@ -7,7 +7,9 @@
 
 #include "hal/library/exchange.h"
 #include "host_sim/sim/native/loop.h"
+#include "host_sim/world/native/layouts.h"
 #include "host_sim/world/native/plain_space.h"
+#include "host_sim/world/native/written.h"
 
 enum {
     PAGE_ROBOTS_MAX = 4,
@@ -21,6 +23,11 @@ enum {
 /* The dimensions of a world, as in SimParams. */
 enum { PAGE_WIDTH_MM, PAGE_HEIGHT_MM, PAGE_BODY_MM, PAGE_TRACK_MM, PAGE_REACH_MM, PAGE_FRONT_EXTRA_MM, PAGE_BEAM_MM,
        PAGE_EAT_MM, PAGE_TICK_S, PAGE_SPEED_MM_S, PAGE_DIMENSIONS };
+
+/* What layouts are drawn from, as in struct layout_kind; the bands of food are pairs of numbers. */
+enum { PAGE_DRAW_STYLE, PAGE_DRAW_WIDTH_MM, PAGE_DRAW_HEIGHT_MM, PAGE_DRAW_BODY_MM, PAGE_DRAW_REACH_MM,
+       PAGE_DRAW_THICKNESS_MM, PAGE_DRAW_BAR_COUNT, PAGE_DRAW_BAR_MIN_MM, PAGE_DRAW_BAR_MAX_MM, PAGE_DRAW_FOOD_COUNT,
+       PAGE_DRAW_FOOD, PAGE_DRAW_NUMBERS = PAGE_DRAW_FOOD + 2 * LAYOUT_FOOD_MAX };
 
 /* What is wrong with a body, as in struct body_faults; the noise's key comes in two halves. */
 enum { PAGE_MIRRORED, PAGE_SWAPPED, PAGE_STUCK_ON, PAGE_STUCK_OFF, PAGE_LEFT_LOST, PAGE_RIGHT_LOST, PAGE_NOISE,
@@ -168,9 +175,29 @@ const uint32_t *page_decisions(uint32_t robot);
 uint32_t page_decision_count(uint32_t robot);
         /* and how many they are. */
 
-double page_sin(double angle_rad);
-        /* The world's own: the same in each browser. */
+/* page_layouts.c: the layouts that environments begin with. */
 
-double page_cos(double angle_rad);
+double *page_drawing(void);
+        /* Where JavaScript puts what they are drawn from: PAGE_DRAW_NUMBERS numbers. */
+
+void page_write_nothing(void);
+        /* Forgets what was written. A world that is written takes the place of the style. */
+
+void page_write_list(uint32_t key, int32_t count);
+        /* As written_list, */
+
+double *page_write_entry(uint32_t key, uint32_t index, int32_t count);
+        /* and as written_entry: where JavaScript puts the entry's numbers; null beyond the arrays. */
+
+const double *page_check(void);
+        /* The first fault of the world that was written: key, entry, number of values, values, as in struct written_fault; null if
+           it is a fair world. */
+
+const char *page_fault_text(void);
+        /* That fault in words. */
+
+const double *page_draw(double seed, double number, uint32_t robots);
+        /* Draws an environment for 1..PAGE_ROBOTS_MAX robots. Returns the numbers of bars, of pieces of food and of starts, and then these, as in struct
+           layout. There are fewer starts than robots if there is no room for all; none if 1000 draws gave no fair layout. */
 
 #endif

@@ -1,7 +1,5 @@
 #include "host_sim/web/native/page.h"
 
-#include "host_sim/world/native/trig.h"
-
 static struct page_world *page_world(void)
 {
     return &page_state()->world;
@@ -186,14 +184,4 @@ const uint32_t *page_decisions(uint32_t robot)
 uint32_t page_decision_count(uint32_t robot)
 {
     return (uint32_t)page_state()->robots[robot].decision_count;
-}
-
-double page_sin(double angle_rad)
-{
-    return trig_sin(angle_rad);
-}
-
-double page_cos(double angle_rad)
-{
-    return trig_cos(angle_rad);
 }
