@@ -6,12 +6,12 @@ from importlib import metadata
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-RUN = ROOT / "requirements.lock"
-LOCKS = [RUN, *sorted(ROOT.glob("requirements-*.lock"))]
+RUN = ROOT / "requirements/run.lock"
+LOCKS = sorted(ROOT.glob("requirements/*.lock"))
 
 
 def test_the_lock_files_pin_by_hash_and_name_no_address() -> None:
-    for path in (*LOCKS, ROOT / "tools/unity.lock"):
+    for path in LOCKS:
         text = path.read_text()
         assert "://" not in text
         assert 0 < text.count("==") <= text.count("--hash=sha256:")

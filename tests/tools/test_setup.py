@@ -12,8 +12,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 EXTRAS = ("export", "study", "cluster", "classroom")
-STAGES = ("", "-emulator", "-gym", *(f"-{it}" for it in EXTRAS), "-tests")
-LOCKS = tuple(f"requirements{name}.lock" for name in STAGES)
+STAGES = ("run", "emulator", "gym", *EXTRAS, "tests")
+LOCKS = tuple(f"requirements/{name}.lock" for name in STAGES)
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
 # cmake, tools/generate and the download of Unity make what they are to make. With a file beside the notes, installing
@@ -31,7 +31,7 @@ case "${0##*/} $*" in
     mkdir -p build/unity/its/tests/c/test_framework && touch build/unity/its/tests/c/test_framework/unity.c
     tar -czf build/unity/cantools-1.tar.gz -C build/unity its
     ;;
-  *install*--require-hashes*) [ ! -e "$CALLS.no-${!#}" ] ;;
+  *install*--require-hashes*) lock=${!#} && [ ! -e "$CALLS.no-${lock##*/}" ] ;;
 esac
 """
 
@@ -45,13 +45,14 @@ class Tree:
         self.bin = tmp_path / "bin"
         (self.folder / "tools").mkdir(parents=True)
         shutil.copy(ROOT / "tools/setup", self.folder / "tools")
-        for name in (*LOCKS, "pyproject.toml", "CMakePresets.json"):
+        for name in ("pyproject.toml", "CMakePresets.json"):
             shutil.copy(ROOT / name, self.folder)
         for name in (
+            *LOCKS,
             "hal/protocol/octet.dbc",
             "hal/protocol/robot.toml",
             "tools/generate",
-            "tools/unity.lock",
+            "requirements/unity.lock",
             "tools/robot_words/model.py",
         ):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -82,7 +83,7 @@ class Tree:
     @contextmanager
     def offline(self, lock: str) -> Iterator[None]:
         """Makes the installation of that lock file fail."""
-        broken = Path(f"{self.calls}.no-{lock}")
+        broken = Path(f"{self.calls}.no-{Path(lock).name}")
         broken.touch()
         yield
         broken.unlink()
@@ -149,7 +150,7 @@ def test_a_build_that_fails_fails_the_set_up_and_the_others_end(tree: Tree) -> N
 
 
 def test_an_interrupted_set_up_is_repaired(tree: Tree) -> None:
-    with tree.offline("requirements.lock"):
+    with tree.offline("requirements/run.lock"):
         assert tree.setup()[0].returncode != 0
     done, calls = tree.setup()
     assert done.returncode == 0
@@ -177,16 +178,16 @@ def test_scripts_run_where_they_end_up_and_after_each_move(tree: Tree) -> None:
 
 def test_a_changed_lock_file_is_installed(tree: Tree) -> None:
     tree.setup()
-    tree.change("requirements.lock")
+    tree.change("requirements/run.lock")
     tree.setup()
-    assert tree.installed() == ["requirements.lock"]
+    assert tree.installed() == ["requirements/run.lock"]
 
 
 def test_a_working_venv_stays_until_the_new_one_is_whole(tree: Tree) -> None:
     tree.setup()
     (tree.folder / ".venv/old").touch()
-    tree.change("requirements.lock")
-    with tree.offline("requirements.lock"):
+    tree.change("requirements/run.lock")
+    with tree.offline("requirements/run.lock"):
         assert tree.setup()[0].returncode != 0
     assert (tree.folder / ".venv/old").exists()
     assert tree.setup()[0].returncode == 0
@@ -203,52 +204,52 @@ def test_a_swap_that_was_broken_off_is_undone(tree: Tree) -> None:
 
 def test_a_stage_installs_only_what_it_needs(tree: Tree) -> None:
     tree.setup("emulator")
-    assert tree.installed() == ["requirements.lock", "requirements-emulator.lock"]
+    assert tree.installed() == ["requirements/run.lock", "requirements/emulator.lock"]
     assert tree.setup("emulator")[1] == ["ninja"]
 
 
 @pytest.mark.parametrize("name", ["export", "study"])
 def test_extra_libraries_stand_apart_and_are_installed_once(tree: Tree, name: str) -> None:
     tree.setup(name)
-    assert tree.installed() == ["requirements.lock", f"requirements-{name}.lock"]
-    (line,) = [line for line in tree.calls.read_text().splitlines() if line.endswith(f" requirements-{name}.lock")]
+    assert tree.installed() == ["requirements/run.lock", f"requirements/{name}.lock"]
+    (line,) = [line for line in tree.calls.read_text().splitlines() if line.endswith(f" requirements/{name}.lock")]
     assert f" --target build/{name} " in line
     assert tree.setup(name)[1] == ["ninja"]
 
 
 def test_a_cluster_is_for_studies(tree: Tree) -> None:
     tree.setup("cluster")
-    assert tree.installed()[1:] == ["requirements-study.lock", "requirements-cluster.lock"]
+    assert tree.installed()[1:] == ["requirements/study.lock", "requirements/cluster.lock"]
 
 
 def test_exports_whose_installation_was_broken_off_are_installed_again(tree: Tree) -> None:
-    with tree.offline("requirements-export.lock"):
+    with tree.offline("requirements/export.lock"):
         assert tree.setup("export")[0].returncode != 0
     assert tree.setup("run")[1] == ["ninja"]
     assert tree.setup("export")[0].returncode == 0
-    assert tree.installed() == ["requirements-export.lock"]
+    assert tree.installed() == ["requirements/export.lock"]
 
 
 def test_a_later_stage_adds_to_what_is_there(tree: Tree) -> None:
     tree.setup("run")
     tree.setup("emulator")
-    assert tree.installed() == ["requirements-emulator.lock"]
+    assert tree.installed() == ["requirements/emulator.lock"]
 
 
 def test_a_new_venv_has_the_stages_of_the_old_one(tree: Tree) -> None:
     tree.setup("emulator")
-    tree.change("requirements.lock")
+    tree.change("requirements/run.lock")
     tree.setup("run")
-    assert tree.installed() == ["requirements.lock", "requirements-emulator.lock"]
+    assert tree.installed() == ["requirements/run.lock", "requirements/emulator.lock"]
     assert tree.setup("emulator")[1] == ["ninja"]
 
 
 def test_a_stage_that_was_broken_off_is_resumed(tree: Tree) -> None:
-    with tree.offline("requirements-emulator.lock"):
+    with tree.offline("requirements/emulator.lock"):
         assert tree.setup("emulator")[0].returncode != 0
     assert tree.setup("run")[1] == ["ninja"]
     assert tree.setup("emulator")[0].returncode == 0
-    assert tree.installed() == ["requirements-emulator.lock"]
+    assert tree.installed() == ["requirements/emulator.lock"]
 
 
 def test_a_stage_that_does_not_exist_is_answered_with_those_there_are(tree: Tree) -> None:

@@ -17,6 +17,7 @@ PROVE: Mapping[str, Sequence[str]] = {
     "campaign": ("tests/campaign",),
     "endurance": tuple(f"tests/runs/test_{name}.py" for name in ("kills", "noise", "soak", "storm")),
     "exhaustive": ("tests/firmware/test_every_case.py",),
+    "formats": ("tests/export",),
 }
 """Of tools/prove."""
 
