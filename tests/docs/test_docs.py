@@ -5,6 +5,7 @@ import os
 import pty
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import time
@@ -13,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.report.protocol_page import page
+from tests.runs.support import octet
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([ROOT / "README.md", *ROOT.glob("docs/*.md")])
@@ -22,12 +24,20 @@ BLOCK = re.compile(r"^```(\S+)(?: (\S+))?\n(.*?)^```$", re.DOTALL | re.MULTILINE
 NOT_FROM_HERE = ("tools/test", "tools/prove", "git clone")
 
 
-def commands(kind: str | None) -> list[str]:
-    """The lines of all `sh` blocks that are marked so."""
-    blocks = [found for path in PAGES for found in BLOCK.findall(path.read_text())]
-    wanted = [text for word, mark, text in blocks if (word, mark or None) == ("sh", kind)]
-    lines = [line for text in wanted for line in text.splitlines()]
-    return [line for line in dict.fromkeys(lines) if line.strip() and not line.startswith(NOT_FROM_HERE)]
+def blocks(kind: str | None) -> dict[str, list[str]]:
+    """The lines of each `sh` block that is marked so, by its page and its number there."""
+    found = {}
+    for path in PAGES:
+        texts = [text for word, mark, text in BLOCK.findall(path.read_text()) if (word, mark or None) == ("sh", kind)]
+        for number, text in enumerate(texts, 1):
+            lines = [line for line in text.splitlines() if line.strip() and not line.startswith(NOT_FROM_HERE)]
+            found |= {f"{path.name} {number}": lines} if lines else {}
+    return found
+
+
+def commands(kind: str) -> list[str]:
+    """The lines of all these blocks."""
+    return list(dict.fromkeys(line for lines in blocks(kind).values() for line in lines))
 
 
 def run(line: str, folder: Path) -> subprocess.CompletedProcess:
@@ -36,20 +46,32 @@ def run(line: str, folder: Path) -> subprocess.CompletedProcess:
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory) -> Path:
-    """The project's folder, but for what commands write."""
-    folder = tmp_path_factory.mktemp("project")
+def first_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What the README's first command leaves."""
+    out = tmp_path_factory.mktemp("out")
+    assert octet("run", "--bus", "none", "--quiet", "--out", out).returncode == 0
+    return out
+
+
+@pytest.fixture
+def folder(tmp_path: Path, first_run: Path) -> Path:
+    """The project's folder after its first run."""
     for entry in ROOT.iterdir():
         if entry.name != "out":
-            (folder / entry.name).symlink_to(entry)
-    return folder
+            (tmp_path / entry.name).symlink_to(entry)
+    shutil.copytree(first_run, tmp_path / "out")
+    return tmp_path
 
 
-def test_every_command_in_the_documents_does_what_it_should(folder):
-    done = {line: run(line, folder) for line in commands(None)}
+@pytest.mark.parametrize("lines", blocks(None).values(), ids=blocks(None))
+def test_every_command_of_a_block_does_what_it_should(lines, folder):
+    done = {line: run(line, folder) for line in lines}
 
-    assert len(done) >= 8
     assert {line: (it.returncode, it.stderr) for line, it in done.items() if it.returncode} == {}
+
+
+def test_the_documents_have_commands():
+    assert len(blocks(None)) >= 8
 
 
 @pytest.mark.parametrize("line", commands("until-stopped"))

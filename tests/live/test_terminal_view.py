@@ -7,6 +7,7 @@ import os
 import pty
 import re
 import select
+import selectors
 import signal
 import struct
 import subprocess
@@ -27,7 +28,6 @@ from host_sim.view.history import Trial
 from host_sim.view.phrases import sentence
 from host_sim.view.state import EnvironmentScene
 from host_sim.world.params import SimParams
-from tests.recording.support import finished
 
 DEADLINE_S = 600
 WATCH = (sys.executable, "-m", "host_sim", "watch", "--terminal", "--seed", "3")
@@ -151,6 +151,16 @@ class Screen:
         pass
 
 
+class PassingTime(selectors.SelectSelector):
+    """A clock that jumps over every wait."""
+
+    now = 0.0
+
+    def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
+        self.now += timeout or 0.0
+        return super().select(0)
+
+
 class Idle:
     """A run in which a second passes."""
 
@@ -168,9 +178,14 @@ def test_it_draws_ten_times_a_second_at_most(view, monkeypatch):
     monkeypatch.setattr(terminal_view, "on_ending_signals", lambda *_: None)
     screen = Screen()
 
-    finished(lambda: terminal_view._show(Idle(), screen))
+    time = PassingTime()
+    loop = asyncio.SelectorEventLoop(time)
+    monkeypatch.setattr(loop, "time", lambda: time.now)
 
-    assert 2 <= screen.drawn <= 11
+    loop.run_until_complete(terminal_view._show(Idle(), screen))
+    loop.close()
+
+    assert 10 <= screen.drawn <= 11
 
 
 class Terminal:

@@ -1,12 +1,9 @@
 """Recorded runs of the real firmware, in this process, with the trajectory that was kept meanwhile."""
 
-import asyncio
-from collections.abc import Callable, Coroutine
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
 
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog, line_of
@@ -19,7 +16,6 @@ from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 
-T = TypeVar("T")
 Meddle = Callable[[Simulation, RunRecorder], None]
 
 
@@ -65,12 +61,6 @@ def open_simulation(stack: ExitStack, log: Path, config: RunConfig) -> Simulatio
     frames = FrameLog(log)
     stack.callback(frames.close)
     return stack.enter_context(make(config, frames))
-
-
-def finished(work: Callable[[], Coroutine[None, None, T]]) -> T:
-    """What a coroutine comes to; in a thread, since Playwright keeps an event loop running in its own."""
-    with ThreadPoolExecutor(1) as pool:
-        return pool.submit(lambda: asyncio.run(work())).result()
 
 
 def write_log(path: Path, *frames: Frame) -> Path:

@@ -1,5 +1,6 @@
 """A log gives back the run: every tick of it."""
 
+import asyncio
 import math
 from contextlib import ExitStack
 from dataclasses import replace
@@ -27,7 +28,7 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.world.edits import AddBar, Lift, MoveFood, Put
 from host_sim.world.geometry import Bar, Pose
-from tests.recording.support import finished, open_simulation, record_run, run_through, without, write_log
+from tests.recording.support import open_simulation, record_run, run_through, without, write_log
 
 
 def assert_equal(one: Trajectory, other: Trajectory) -> None:
@@ -129,7 +130,7 @@ def test_what_people_did_live_happens_again(tmp_path):
         )
         live.stays, live.speed = False, FULL_SPEED
         live.begin()
-        finished(live.play)
+        asyncio.run(live.play())
     write_world(simulation.record, tmp_path / "run.world.json")
 
     assert complaints == []

@@ -3,12 +3,13 @@
 import asyncio
 import json
 import re
+from collections.abc import Callable, Iterator
 
 import aiohttp
 import pytest
 
 from tests.web.class_load import Pupil, attend, home, socket_url
-from tests.web.support import DEADLINE_S
+from tests.web.support import DEADLINE_S, Watched, start_watched
 
 
 def board_url(watched) -> str:
@@ -32,9 +33,18 @@ def test_thirty_pages_watch_at_once_and_each_has_a_robot_of_its_own(watch):
     assert newcomer.first["seat"]["node"] != again.first["seat"]["node"]
 
 
+@pytest.fixture(scope="module")
+def of_two(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
+    """A run of a class of two, for tests that leave it as it is."""
+    watched = start_watched(tmp_path_factory.mktemp("watched") / "run", "--listen", "127.0.0.1", "--robots", "2")
+    yield watched
+    watched.process.kill()
+    watched.process.communicate()
+
+
 @pytest.fixture
-def ask(watch):
-    """Sends messages to a run of a class of two; returns what its page is told, and what the run did."""
+def ask(of_two: Watched) -> Callable[..., list[str]]:
+    """Sends messages to a run; returns what its page is told."""
 
     async def talk(url: str, words: list[dict]) -> list[str]:
         notes: list[str] = []
@@ -48,40 +58,33 @@ def ask(watch):
                 notes += json.loads(await ws.receive_str(timeout=DEADLINE_S)).get("notes", [])
         return notes
 
-    def ask_for(*words: dict) -> tuple[list[str], list[dict]]:
-        watched = watch("--listen", "127.0.0.1", "--robots", "2")
-        notes = asyncio.run(talk(socket_url(watched), list(words)))
-        watched.end()
-        return notes, watched.commands()
-
-    return ask_for
+    return lambda *words: asyncio.run(talk(socket_url(of_two), list(words)))
 
 
 def test_a_page_cannot_change_what_is_not_its_own(ask):
-    notes, _ = ask({"do": "pause"}, {"do": "next"}, {"do": "write", "node": 2, "cell": 1, "side": 1})
+    notes = ask({"do": "pause"}, {"do": "next"}, {"do": "write", "node": 2, "cell": 1, "side": 1})
 
     assert notes[:2] == ["the board does that for all: here you can change your own robot"] * 2
     assert notes[2] == "robot 2 is not yours: yours is robot 1"
 
 
 def test_a_name_that_is_no_text_is_refused(ask):
-    notes, _ = ask({"do": "name", "name": 7}, {"do": "name"})
+    notes = ask({"do": "name", "name": 7}, {"do": "name"})
 
     assert notes == ["not understood: name must be a text"] * 2
 
 
 @pytest.mark.parametrize(("path", "allowed"), [("/board", 403), ("/board-live", 403), ("/", 200)])
-def test_a_pupil_cannot_open_the_board(watch, path, allowed):
-    watched = watch("--listen", "127.0.0.1", "--robots", "2")
-    token = watched.url.partition("?")[2]
+def test_a_pupil_cannot_open_the_board(of_two, path, allowed):
+    token = of_two.url.partition("?")[2]
 
     async def status(query: str) -> int:
-        async with aiohttp.ClientSession() as session, session.get(f"{home(watched.url)}{path}?{query}") as answer:
+        async with aiohttp.ClientSession() as session, session.get(f"{home(of_two.url)}{path}?{query}") as answer:
             return answer.status
 
     assert asyncio.run(status(token)) == allowed
     if path == "/board":
-        assert asyncio.run(status(board_url(watched).partition("?")[2])) == 200
+        assert asyncio.run(status(board_url(of_two).partition("?")[2])) == 200
 
 
 def test_nothing_moves_before_someone_watches(watch):

@@ -1,7 +1,7 @@
 """What becomes of changes that a run of octet.html cannot make."""
 
 from tests.web.page_runs import page_file
-from tests.web.support import wait_for
+from tests.web.support import wait_for, wait_for_text
 
 READY = "window.octet?.scene?.state && octet.last > 0"
 CHANGES = """
@@ -17,6 +17,6 @@ def test_of_several_changes_only_those_that_cannot_be_made_are_taken_back(open_p
 
     page.evaluate(f"() => {{ {CHANGES} }}")
 
-    wait_for(page, "octet.lane.experiment.changes.length < 3 && octet.simulator.running === undefined")
+    wait_for_text(page, "#note", "there is no number 98; there is no number 99")
+    wait_for(page, "octet.simulator.running === undefined && octet.simulator.queued.size === 0")
     assert page.evaluate("octet.lane.experiment.changes.map((change) => change.do)") == ["freeze"]
-    assert page.inner_text("#note") == "there is no number 98; there is no number 99"

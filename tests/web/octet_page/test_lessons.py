@@ -10,7 +10,8 @@ SENSORS = ("left", "front-left", "front", "front-right", "right")
 
 
 def play_to_the_end(page: Page) -> None:
-    """Plays a hundred times as fast as real time."""
+    """Plays the last minute, a hundred times as fast as real time."""
+    go(page, page.evaluate("octet.last") - 3000)
     page.select_option("#speed", "100")
     page.click("#play")
     wait_for(page, "octet.tick >= octet.last && !octet.playing")
