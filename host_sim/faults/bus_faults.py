@@ -6,7 +6,7 @@ from random import Random
 from typing import NamedTuple, Protocol
 
 from host_sim.errors import UsageError
-from host_sim.faults.forgery import forger
+from host_sim.faults.forgery import Forger
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.codec import Protocol as Wire
 from host_sim.transport.clock import VirtualClock
@@ -149,11 +149,15 @@ class Forge:
 
     def __init__(self, size: str, wire: Wire) -> None:
         """Takes the name of a command or of a message (any message)."""
-        self._forge = forger(size, wire)
+        self._forger = Forger(size, wire)
+
+    def hear(self, frame: Frame) -> None:
+        """Somebody sends a frame."""
+        self._forger.hear(frame)
 
     def apply(self, passing: Passing, dice: Random) -> list[Passing]:
         """As in `Fault`."""
-        return [Passing(self._forge(dice)), passing]
+        return [Passing(self._forger.forge(dice)), passing]
 
 
 def random_frame(dice: Random) -> Frame:

@@ -1,31 +1,65 @@
 """Frames in another's name: any message with any content, whose CRC is true."""
 
-from collections.abc import Callable
 from random import Random
 
 from host_sim.errors import UsageError
 from host_sim.protocol.codec import COUNTERS, Frame, Protocol
-from host_sim.protocol.generated import MESSAGES, Opcode, Signal
+from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, PROFILES, Opcode, Signal
 
 
-def forger(what: str, protocol: Protocol) -> Callable[[Random], Frame]:
-    """A function that forges frames.
+class Forger:
+    """Somebody who has listened, and sends frames in another's name: a command as the robot expects the next one."""
 
-    Args:
-        what: Name of a command, in small letters, or of a message; empty for any message.
-        protocol: The protocol of the node that they are for.
+    def __init__(self, what: str, protocol: Protocol) -> None:
+        """Has heard nothing yet.
 
-    Raises:
-        UsageError: There is no such command or message.
-    """
-    if what.upper() in Opcode.__members__ and what.islower():
-        opcode = Opcode[what.upper()]
-        return lambda dice: forge(protocol, "COMMAND", dice, opcode=opcode)
-    if what and what not in MESSAGES:
-        commands = ", ".join(name.lower() for name in Opcode.__members__)
-        raise UsageError(f"no command or message {what!r} to forge; there are {commands}, {', '.join(MESSAGES)}")
-    names = (what,) if what else tuple(MESSAGES)
-    return lambda dice: forge(protocol, dice.choice(names), dice)
+        Args:
+            what: Name of a command, in small letters, or of a message; empty for any message.
+            protocol: The protocol of the node that they are for.
+
+        Raises:
+            UsageError: There is no such command or message.
+        """
+        self._protocol = protocol
+        self._fixed: dict[str, int] = {}
+        self._names = (what,) if what else tuple(MESSAGES)
+        self._command: Frame | None = None
+        if what.upper() in Opcode.__members__ and what.islower():
+            self._names, self._fixed = ("COMMAND",), {"opcode": int(Opcode[what.upper()])}
+        elif what and what not in MESSAGES:
+            commands = ", ".join(name.lower() for name in Opcode.__members__)
+            raise UsageError(f"no command or message {what!r} to forge; there are {commands}, {', '.join(MESSAGES)}")
+
+    def hear(self, frame: Frame) -> None:
+        """Somebody sends a frame."""
+        if frame.id == self._protocol.id_of("COMMAND"):
+            self._command = frame
+
+    def forge(self, dice: Random) -> Frame:
+        """A frame with random content. A command has the last sender's number, the next counter, and is obeyed."""
+        name, fixed = dice.choice(self._names), self._fixed
+        if name == "COMMAND" and self._command is not None:
+            told = self._protocol.decode(self._command)
+            assert told is not None
+            its = {"counter": (told.signals["counter"] + 1) % COUNTERS, "owner": told.signals["owner"]}
+            fixed = {"opcode": dice.choice(tuple(Opcode)), **_content(dice), **fixed, **its}
+        frame = forge(self._protocol, name, dice, **fixed)
+        self.hear(frame)
+        return frame
+
+
+def _content(dice: Random) -> dict[str, int]:
+    """What a robot with a turn for each pattern does not refuse, whatever the command is."""
+    parameter, half = dice.choice(tuple(PARAMETERS.values())), dice.randrange(2)
+    return {
+        "profile": dice.randrange(len(PROFILES)),
+        "parameter": parameter.number,
+        "wanted": parameter.number,
+        "value": dice.randint(parameter.minimum, parameter.maximum),
+        "half": half,
+        "mask": 14 + half,  # cell 0 stays empty
+        **{f"byte_{i}": dice.randint(1, 2) for i in range(CELL_COUNT // 2)},
+    }
 
 
 def forge(protocol: Protocol, name: str, dice: Random, **fixed: int) -> Frame:

@@ -4,7 +4,7 @@ from array import array
 from collections.abc import Sequence
 from random import Random
 
-from host_sim.faults.bus_faults import Fault, Passing, make_fault
+from host_sim.faults.bus_faults import Fault, Forge, Passing, make_fault
 from host_sim.faults.rule import DIRECTIONS, Direction, Rule
 from host_sim.protocol.codec import Frame, Protocol
 
@@ -59,6 +59,7 @@ class Schedule:
         for each in rolled:
             if each.rule.is_single:
                 self._single.setdefault(each.rule.first, []).append(each)
+        self._listening = [each.fault for each in rolled if isinstance(each.fault, Forge)]
         self._numbers = dict.fromkeys(DIRECTIONS, 0)
         self._struck = array("q")
         self.count = 0
@@ -79,6 +80,8 @@ class Schedule:
                 dice = rolled.dice(number, direction)
                 arriving = [after for before in arriving for after in rolled.fault.apply(before, dice)]
                 self._record(rolled.place, number, direction)
+        for forger in self._listening:
+            forger.hear(frame)
         return arriving
 
     def _record(self, place: int, number: int, direction: Direction) -> None:

@@ -95,10 +95,11 @@ class _Comparison:
             self._feed(frame)
             return None
         if decoded.name in _TO_ROBOT:
-            # What was lost on a bus is sent again, and answered again.
-            difference = self.end() if frame != self._sent else None
-            self._sent = frame
-            self.stopped = decoded.signals.get("opcode") == Opcode.STOP
+            opcode = decoded.signals.get("opcode")
+            # What was lost on a bus is sent again, and answered again. A report is asked for in the middle of a tick.
+            difference = self.end() if frame != self._sent and opcode != Opcode.REPORT else None
+            self._sent = frame if opcode != Opcode.REPORT else self._sent
+            self.stopped = opcode == Opcode.STOP
             self._lockstep = bool(decoded.signals.get("lockstep", self._lockstep))
             self._feed(frame)
             return difference

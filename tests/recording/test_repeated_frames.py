@@ -1,6 +1,7 @@
 """On a bus that loses frames, what was lost is sent again; a log of such a bus tells the same run."""
 
 from host_sim.protocol.codec import Protocol
+from host_sim.protocol.generated import Opcode
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.recording import read_recording
 from host_sim.recording.replay import replay
@@ -41,3 +42,14 @@ def test_a_drive_that_is_missing_for_good_is_still_found(short):
     short.log.write_text("".join(lines))
 
     assert replay(read_log(short.log), protocol).difference is not None
+
+
+def test_a_report_that_is_asked_for_in_the_middle_of_a_tick_is_no_difference(short):
+    protocol = Protocol()
+    lines = short.log.read_text().splitlines(keepends=True)
+    senses = [i for i, line in enumerate(lines) if f" {protocol.id_of('SENSES'):03X}#" in line][100]
+    ask = protocol.encode("COMMAND", {"counter": 9, "opcode": Opcode.REPORT, "owner": 1})
+    lines.insert(senses + 1, f"{lines[senses].rsplit(maxsplit=1)[0]} {ask.id:03X}#{ask.data.hex().upper()}\n")
+    short.log.write_text("".join(lines))
+
+    assert replay(read_log(short.log), protocol).difference is None
