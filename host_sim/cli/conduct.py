@@ -210,11 +210,11 @@ def _save_memories(
 
     def save(simulation: Simulation) -> None:
         for saver, client in zip(savers, simulation.clients, strict=True):
-            saver.save(client.memory)
+            saver.save(client.memory, doubtful=bool(client.incidents))
 
     def finish() -> None:
         for saver, client in zip(savers, simulation.clients, strict=True):
-            saver.finish(client.memory)
+            saver.finish(client.memory, doubtful=bool(client.incidents))
 
     stack.callback(finish)
     simulation.watch = each(simulation.watch, save)

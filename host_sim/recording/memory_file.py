@@ -53,7 +53,8 @@ class MemorySaver:
     """Keeps a memory file up to date while a robot learns.
 
     What the file held before is never lost to a memory that knows less, as that of a robot that was reset or that
-    forgets: it is kept beside it, as `FILE.1`. What was learned in the same run may be forgotten without a word.
+    forgets: it is kept beside it, as `FILE.1`. What was learned in the same run may be forgotten without a word. The
+    memory of a doubtful run goes to `FILE.doubtful`, and the file is again what it was before the run.
     """
 
     def __init__(self, path: Path, loaded: Sequence[int] | None, report: Callable[[str], object]) -> None:
@@ -65,14 +66,22 @@ class MemorySaver:
             report: Called with one line when the old memory is kept.
         """
         self._path, self._report = path, report
-        self._held = self._saved = None if loaded is None else tuple(loaded)
+        self._loaded = self._held = self._saved = None if loaded is None else tuple(loaded)
+        self._set_aside: Memory | None = None
 
-    def save(self, memory: Sequence[int]) -> None:
+    def save(self, memory: Sequence[int], *, doubtful: bool = False) -> None:
         """Saves a memory if it has changed.
+
+        Args:
+            memory: The eight cells.
+            doubtful: Whether the run is doubtful by now.
 
         Raises:
             OctetError: The file cannot be written; the old one is unchanged.
         """
+        if doubtful:
+            self._save_beside(tuple(memory))
+            return
         if memory == self._saved:
             return
         if self._held is not None and _knows_more(self._held, tuple(memory)):
@@ -80,16 +89,33 @@ class MemorySaver:
         write_bytes(self._path, bytes(memory))
         self._saved = tuple(memory)
 
-    def finish(self, memory: Sequence[int]) -> None:
+    def finish(self, memory: Sequence[int], *, doubtful: bool = False) -> None:
         """Saves the last memory of a run, even if it was saved before and the file has vanished since.
 
         Raises:
             OctetError: As in `save`.
         """
-        if self._saved is not None and not self._path.exists():
+        if self._saved is not None and not doubtful and not self._path.exists():
             self._report(f"{self._path} has vanished during the run, and is written again")
             self._saved = None
-        self.save(memory)
+        self.save(memory, doubtful=doubtful)
+
+    def _save_beside(self, memory: Memory) -> None:
+        """Saves a doubtful memory; with the first one, the file gets back what it held before the run."""
+        if memory == self._set_aside:
+            return
+        beside = self._path.with_name(self._path.name + ".doubtful")
+        write_bytes(beside, bytes(memory))
+        if self._set_aside is None:
+            self._restore()
+            self._report(f"the run is doubtful: its memory is in {beside}, and {self._path} is as it was before")
+        self._set_aside = memory
+
+    def _restore(self) -> None:
+        if self._loaded is None:
+            self._path.unlink(missing_ok=True)
+        elif self._saved != self._loaded:
+            write_bytes(self._path, bytes(self._loaded))
 
     def _back_up(self, held: Memory) -> None:
         kept = self._path.with_name(self._path.name + ".1")
