@@ -98,11 +98,11 @@ TEST(an_entry_is_so_many_numbers)
 {
     written.food[0].count = WRITTEN_NO_LIST;
     expect(WRITTEN_FOOD, 0, "food 1 must be [x, y]: 2 numbers");
-    written.food[0] = (struct written_entry){2, {500.0, NAN}};
+    written.food[0] = (struct written_entry){2, {500.0, (double)NAN}};
     expect(WRITTEN_FOOD, 0, "food 1 must be [x, y]: 2 numbers");
     written.food[0].numbers[1] = 1e9;
     expect(WRITTEN_FOOD, 0, "food 1 must be [x, y]: 2 numbers");
-    add_bar(0.0, 0.0, 0.0, -INFINITY);
+    add_bar(0.0, 0.0, 0.0, -(double)INFINITY);
     expect(WRITTEN_BARS, 0, "bar 1 must be [x, y, x, y]: 4 numbers");
 }
 
