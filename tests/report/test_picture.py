@@ -65,7 +65,7 @@ def test_the_same_run_gives_the_same_bytes() -> None:
     assert png(busy_panel(1), memory=LEARNED_MEMORY) == png(busy_panel(1), memory=LEARNED_MEMORY)
 
 
-@pytest.mark.parametrize("environments", [1, 9, 10])
+@pytest.mark.parametrize("environments", [1, 10])
 def test_the_busiest_picture_stays_below_400_kb(environments: int) -> None:
     assert len(png(*[busy_panel(1)] * environments, memory=LEARNED_MEMORY)) < 400_000
 
