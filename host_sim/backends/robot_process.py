@@ -84,13 +84,9 @@ class RobotProcess:
         self.status()
 
     def close(self) -> None:
-        """Terminates the process, and kills it if it does not end in time."""
-        self._process.terminate()
-        try:
-            self._process.wait(_END_S)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
+        """Kills the process, which has nothing to save."""
+        self._process.kill()
+        self._process.wait()
         self._output.close()
 
     def _await_ready(self) -> None:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from host_sim.atomic_file import write_bytes
+from host_sim.cli.interruption import stop_soon
 from host_sim.cli.outputs import PAGE, PICTURE, SUMMARY, Outputs
 from host_sim.cli.run_options import LOGS, RunOptions, WatchOptions, run_options
 from host_sim.cli.run_through import each, open_listener, run_through
@@ -86,8 +87,7 @@ def conduct(options: RunOptions) -> Summary:
             outputs = Outputs(options, simulation, recorder, log)
             try:
                 run_through(outputs, listener)
-                for client in simulation.clients:
-                    stop(client)
+                _stop(outputs)
             except BaseException as end:
                 _write_what_there_is(outputs, end)
                 raise
@@ -95,6 +95,14 @@ def conduct(options: RunOptions) -> Summary:
     _print_results(options, summary)
     _check_trust(summary)
     return summary
+
+
+def _stop(outputs: Outputs) -> None:
+    if outputs.cut_short:
+        stop_soon(outputs.simulation.clients)
+        return
+    for client in outputs.simulation.clients:
+        stop(client)
 
 
 @contextmanager
@@ -141,8 +149,7 @@ def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
     """Writes a run that was cut short. The reason for that is reported, and not what fails here."""
     with suppress(OctetError):
         if isinstance(end, KeyboardInterrupt):
-            for client in outputs.simulation.clients:
-                stop(client)
+            stop_soon(outputs.simulation.clients)
     with suppress(OctetError):
         outputs.write()
         if isinstance(end, KeyboardInterrupt):

@@ -1,17 +1,25 @@
-"""Ends a run between two ticks when a signal asks for it, so that its log has no half tick."""
+"""Ends a run in order and soon when a signal asks for it: between two ticks, so that its log has no half tick."""
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
 
-from host_sim.live.ending_signals import ENDING_SIGNALS
+from host_sim.client.commands import stop
+from host_sim.client.robot_client import RobotClient
+from host_sim.errors import RobotError
+from host_sim.live.ending_signals import ENDING_SIGNALS, TICK_S, at_most
 from host_sim.sim.simulation import Simulation
+
+STOP_S = 1.5
+"""Time for all robots of a run that is cut short to stop and to report."""
 
 
 @contextmanager
 def interrupted_between_ticks(simulation: Simulation) -> Iterator[None]:
-    """Has each signal that is handled already take effect after the current tick; a second one does so at once.
+    """Has each signal that is handled already take effect after the current tick.
+
+    It does so at once if it is the second one, or if the tick does not end within `TICK_S`.
 
     Args:
         simulation: The simulation. Its `watch` must not be changed afterwards.
@@ -23,6 +31,7 @@ def interrupted_between_ticks(simulation: Simulation) -> Iterator[None]:
         pending.append(number)
         if len(pending) > 1:
             handlers[signal.Signals(number)](number, frame)
+        signal.setitimer(signal.ITIMER_REAL, TICK_S)
 
     watch = simulation.watch
 
@@ -34,8 +43,27 @@ def interrupted_between_ticks(simulation: Simulation) -> Iterator[None]:
     simulation.watch = check
     for number in handlers:
         signal.signal(number, remember)
+    before = signal.signal(signal.SIGALRM, lambda _, frame: handlers[signal.Signals(pending[0])](pending[0], frame))
     try:
         yield
     finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
         for number, handler in handlers.items():
             signal.signal(number, handler)
+
+
+def stop_soon(clients: Sequence[RobotClient]) -> None:
+    """Stops robots, and receives their final reports if they come within `STOP_S`.
+
+    Raises:
+        RobotError: A robot does not answer. The others were stopped.
+    """
+    try:
+        with at_most(STOP_S):
+            for client in clients:
+                stop(client)
+    except RobotError:
+        for client in clients:
+            client.dialogue.stop_at_once()
+        raise

@@ -32,6 +32,7 @@ class Outputs:
         recorder: Its recording.
         log: Its log.
         episodes: The results of its environments so far.
+        cut_short: Whether a person or a signal has ended it.
     """
 
     options: RunOptions
@@ -39,6 +40,7 @@ class Outputs:
     recorder: RunRecorder
     log: FrameLog
     episodes: list[EpisodeResult] = field(default_factory=list)
+    cut_short: bool = False
     _began_s: float = field(default_factory=time.monotonic)
 
     def write(self) -> Summary:

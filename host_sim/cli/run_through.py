@@ -114,6 +114,7 @@ def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") ->
         from host_sim.live.terminal_view import watch_in_terminal
 
         watch_in_terminal(live)
+        outputs.cut_short = live.closed
         return
     from host_sim.live.browser import watch_run
 
@@ -121,3 +122,4 @@ def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") ->
     if options.talks:
         live.ended = lambda episode: print(environment_line(len(live.episodes), episode))
     watch_run(live, listener, sys.stdout if options.talks else sys.stderr)
+    outputs.cut_short = live.closed

@@ -29,12 +29,12 @@ def watch_run(live: PacedRun, listener: Listener, out: TextIO) -> None:
 
 
 async def _serve(live: PacedRun, listener: Listener, out: TextIO) -> None:
-    on_ending_signals(asyncio.get_running_loop(), live.close)
-    async with LiveServer(live, listener).serving():
-        announce(listener, len(live.simulation.clients), out, waits=live.waits)
-        if _on_a_desktop():
-            webbrowser.open(listener.board_url if listener.is_open else listener.urls[0])
-        await live.play()
+    with on_ending_signals(asyncio.get_running_loop(), live.close):
+        async with LiveServer(live, listener).serving():
+            announce(listener, len(live.simulation.clients), out, waits=live.waits)
+            if _on_a_desktop():
+                webbrowser.open(listener.board_url if listener.is_open else listener.urls[0])
+            await live.play()
 
 
 def _on_a_desktop() -> bool:

@@ -70,6 +70,7 @@ class PacedRun:
         rate: Current rate, ticks per second.
         late: Number of ticks that began more than 0.1 s late.
         refused: Number of messages that were not valid commands, or were too many at once.
+        closed: Whether somebody has ended it.
     """
 
     simulation: Simulation
@@ -89,8 +90,8 @@ class PacedRun:
     rate: float = 0.0
     late: int = 0
     refused: int = 0
+    closed: bool = False
     _commands: deque[tuple[PageCommand, Reject]] = field(default_factory=deque)
-    _closed: bool = False
     _decided: Drive | None = None
     _next_s: float = 0.0
     _resume_s: float = 0.0
@@ -127,7 +128,7 @@ class PacedRun:
 
     def close(self) -> None:
         """Ends the run after the current tick."""
-        self._closed = True
+        self.closed = True
 
     def begin(self) -> None:
         """Enters the first environment."""
@@ -139,7 +140,7 @@ class PacedRun:
         Raises:
             RobotError: A robot has ended or does not answer.
         """
-        while not self._closed and (self.stays or not self.done):
+        while not self.closed and (self.stays or not self.done):
             self._execute_all()
             if self.playing and not (self.done or self.waits or self._pauses()):
                 self._run_slice()

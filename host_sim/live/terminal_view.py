@@ -51,17 +51,17 @@ def _cannot_draw(why: str) -> UsageError:
 
 async def _show(live: PacedRun, screen: "curses.window") -> None:
     """Draws at most ten times a second, whatever the speed of the run."""
-    on_ending_signals(asyncio.get_running_loop(), live.close)
     screen.nodelay(True)
     with contextlib.suppress(curses.error):  # some terminals cannot hide it
         curses.curs_set(0)
-    player = asyncio.create_task(live.play())
-    while not player.done():
-        while (key := screen.getch()) != curses.ERR:
-            _press(live, key)
-        _draw(live, screen)
-        await asyncio.wait({player}, timeout=_EVERY_S)
-    await player
+    with on_ending_signals(asyncio.get_running_loop(), live.close):
+        player = asyncio.create_task(live.play())
+        while not player.done():
+            while (key := screen.getch()) != curses.ERR:
+                _press(live, key)
+            _draw(live, screen)
+            await asyncio.wait({player}, timeout=_EVERY_S)
+        await player
 
 
 def _press(live: PacedRun, key: int) -> None:

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import termios
 import time
+from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
@@ -175,7 +176,7 @@ class Idle:
 
 def test_it_draws_ten_times_a_second_at_most(view, monkeypatch):
     monkeypatch.setattr(terminal_view, "_view", lambda _: view)
-    monkeypatch.setattr(terminal_view, "on_ending_signals", lambda *_: None)
+    monkeypatch.setattr(terminal_view, "on_ending_signals", lambda *_: nullcontext())
     screen = Screen()
 
     time = PassingTime()

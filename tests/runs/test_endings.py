@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -77,6 +78,27 @@ def test_a_robot_that_is_killed_leaves_one_whole_run_and_is_named(tmp_path):
     assert errors.count("\n") == 1
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(FILES)
     assert json.loads((tmp_path / "summary.json").read_text())["seed"] == 8
+
+
+HUNG_S = 5.0
+"""Time from the signal to the end of a run whose robot hangs, s of this process's and its children's waiting."""
+
+
+@pytest.mark.parametrize("options", [(), ("--robots", "3"), ("--watch", "--port", "0")])
+def test_a_run_whose_robot_hangs_ends_soon(tmp_path, options):
+    process = start_octet("run", "--environments", "1000", "--bus", "fd", *options, "--out", tmp_path)
+    robot = robot_of(process)
+    wait_for_lines(tmp_path / "run.log", 4000)
+    os.kill(robot, signal.SIGSTOP)
+
+    began = time.monotonic()
+    process.send_signal(signal.SIGTERM)
+    _, errors = process.communicate(timeout=DEADLINE_S)
+
+    assert time.monotonic() - began < HUNG_S
+    assert process.returncode in (1, 128 + signal.SIGTERM)
+    assert errors.count("\n") == 1
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(FILES)
 
 
 def test_ctrl_c_while_the_program_is_loaded_is_no_traceback():
