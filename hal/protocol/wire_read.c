@@ -199,7 +199,7 @@ static enum input_kind read_command(struct wire *wire, const struct frame *frame
     case ARRIVAL_FRESH:
         break;
     }
-    wire->session.telling = e2e_crc16(wire->session.told, frame->data + 1, OCTET_COMMAND_LENGTH - 1u);
+    wire->session.telling = e2e_crc16(wire->session.told, &frame->data[1], OCTET_COMMAND_LENGTH - 1u);
     *command = request.command;
     return INPUT_COMMAND;
 }

@@ -1,6 +1,5 @@
 """The images stay within their budget, and an image that does not is noticed."""
 
-import json
 import subprocess
 import sys
 from importlib.machinery import SourceFileLoader
@@ -13,9 +12,15 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.image_size.pieces import read_pieces  # noqa: E402 - found by the line above
-from tools.image_size.stack import CallGraph, StackError, worst_stack  # noqa: E402
+from tools.verify import command  # noqa: E402 - found by the line above
+from tools.verify.command import VerifyError  # noqa: E402
+from tools.verify.size.budget import read  # noqa: E402
+from tools.verify.size.core_alone import compiler_of  # noqa: E402
+from tools.verify.size.pieces import read_pieces  # noqa: E402
+from tools.verify.size.stack import CallGraph, StackError, worst_stack  # noqa: E402
 
+BUDGET = ROOT / "tools" / "verify" / "size.md"
+HEAD = "# Budgets\n\n| what | compiler | flash | ram | stack | instructions |\n| - | - | - | - | - | - |\n"
 GRAPH = """
 node: { title: "top" label: "top\\na.c:1:1\\n16 bytes (static)" }
 node: { title: "a.c:small" label: "small\\na.c:2:1\\n8 bytes (static)" }
@@ -25,6 +30,11 @@ edge: { sourcename: "top" targetname: "a.c:small" label: "a.c:1:2" }
 edge: { sourcename: "top" targetname: "a.c:big" label: "a.c:1:3" }
 edge: { sourcename: "a.c:small" targetname: "memset" label: "a.c:2:2" }
 """
+
+
+def table(path: Path) -> None:
+    """A table of one image."""
+    path.write_text(f"{HEAD}| an image | gcc 12 | 90 / 100 | | | |\n")
 
 
 def size_script() -> ModuleType:
@@ -42,21 +52,21 @@ def graph(text: str) -> CallGraph:
 
 
 def test_everything_is_within_its_budget_but_for_the_limits_that_were_lowered(tmp_path: Path) -> None:
-    budget = json.loads((ROOT / "tools" / "size_budget.json").read_text())
-    for limits in budget["limits"]["octet-blue_pill-bxcan"].values():
-        limits |= {"flash": 4000, "stack": 200}
-    for limits in budget["limits"]["worst tick on blue_pill"].values():
-        limits["instructions"] = 1000
-    tight = tmp_path / "budget.json"
-    tight.write_text(json.dumps(budget))
+    budget = read(BUDGET)
+    lowered = {"flash": 4000, "stack": 200, "instructions": 1000}
+    row = budget.rows["octet-blue_pill-bxcan", compiler_of("arm-none-eabi-")]
+    row |= {name: row[name]._replace(limit=limit) for name, limit in lowered.items()}
+    tight = tmp_path / "size.md"
+    budget.write(tight)
 
-    command = [ROOT / "tools" / "size", f"--budget={tight}"]
-    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    words = [ROOT / "tools" / "size", f"--budget={tight}"]
+    result = subprocess.run(words, capture_output=True, text=True, check=False)
 
     over = [line.split() for line in result.stdout.splitlines() if "OVER ITS LIMIT" in line]
     assert result.returncode == 1, result.stderr
-    assert [line[0] for line in over] == ["flash", "stack", "instructions"], result.stdout
-    tables = {line.split(",")[0] for line in result.stdout.splitlines() if not line.startswith(" ")}
+    assert {line[0] for line in over} == lowered.keys(), result.stdout
+    assert result.stderr.count("is over its limit") == len(lowered)
+    tables = {line.partition(",")[0] for line in result.stdout.splitlines() if not line.startswith(" ")}
     assert {"octet-blue_pill-bxcan", "octet-feather_stm32f405-slcan", "octet-nucleo_g431rb-fdcan"} <= tables
     assert {"core on Cortex-M0", "core on RV32"} <= tables
 
@@ -73,19 +83,53 @@ def test_nearly_all_of_an_image_is_known_by_its_file() -> None:
 
 
 @pytest.mark.parametrize(
-    ("flash", "compiler", "code"), [(100, "a-gcc 14", 0), (101, "a-gcc 14", 1), (1, "a-gcc 15", 1)]
+    ("compiler", "flash", "complaint"),
+    [
+        ("gcc 12", 100, ""),
+        ("gcc 12", 101, "size: an image: flash is over its limit\n"),
+        ("gcc 13", 1, "size: no budget for an image with gcc 13: add a row, and tools/size --record fills it in\n"),
+    ],
 )
-def test_the_exit_code_is_1_if_and_only_if_a_limit_is_passed_or_there_is_none_for_the_compiler(
-    flash: int, compiler: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_a_limit_that_is_passed_or_not_there_is_an_error(
+    compiler: str, flash: int, complaint: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    script = size_script()
-    budget = {"limits": {"an image": {"a-gcc 14": {"flash": 100}}}, "recorded": {}, "recorded_with": []}
-    (tmp_path / "budget.json").write_text(json.dumps(budget))
-    monkeypatch.setattr(script, "measured", lambda: ({"an image": {"flash": flash}}, {}))
-    monkeypatch.setattr(script, "compiler_of", lambda _: compiler)
-    monkeypatch.setattr(sys, "argv", ["tools/size", f"--budget={tmp_path}/budget.json"])
+    table(tmp_path / "size.md")
+    sizes = {("an image", compiler): {"flash": flash}}
 
-    assert script.main() == code
+    over = command.run("size", lambda: size_script().show(sizes, {}, read(tmp_path / "size.md"), depth=2))
+
+    assert over == (1 if complaint else 0)
+    assert capsys.readouterr().err == complaint
+
+
+def test_what_is_recorded_changes_no_limit(tmp_path: Path) -> None:
+    path = tmp_path / "size.md"
+    table(path)
+    budget = read(path)
+
+    budget.record("an image", "gcc 12", {"flash": 97, "flash main": 50})
+    budget.write(path)
+
+    assert read(path).rows == {("an image", "gcc 12"): {"flash": (97, 100)}}
+    assert path.read_text().startswith("# Budgets\n")
+
+
+def test_each_image_has_a_budget_for_each_compiler() -> None:
+    compilers: dict[str, set[str]] = {}
+    for what, compiler in read(BUDGET).rows:
+        compilers.setdefault(what, set()).add(compiler)
+
+    assert {len(each) for each in compilers.values()} == {2}
+
+
+@pytest.mark.parametrize(
+    "text", ["", "| what | compiler |\n| - | - |\n| a |\n", HEAD + "| a | gcc 12 | 90 | | | |\n"]
+)
+def test_a_table_that_cannot_be_read_is_an_error(text: str, tmp_path: Path) -> None:
+    (tmp_path / "size.md").write_text(text)
+
+    with pytest.raises(VerifyError, match=r"cannot read .*size\.md"):
+        read(tmp_path / "size.md")
 
 
 def test_the_worst_stack_is_that_of_the_deepest_way() -> None:

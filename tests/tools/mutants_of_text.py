@@ -6,9 +6,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.mutants.schemata import mutants_of, schemata  # noqa: E402 - found by the line above
-from tools.mutants.sites import sites_of  # noqa: E402
-from tools.mutants.syntax import functions  # noqa: E402
+from tools.verify.mutants.schemata import mutants_of, schemata  # noqa: E402 - found by the line above
+from tools.verify.mutants.sites import sites_of  # noqa: E402
+from tools.verify.mutants.syntax import functions  # noqa: E402
 
 STANDARD = ["-std=c99"]
 TEXT = "int f(int x);\nint f(int x)\n{\n    return x < 3;\n}\n"

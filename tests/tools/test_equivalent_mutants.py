@@ -9,11 +9,11 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests.tools.mutants_of_text import TEXT, mutants  # noqa: E402 - found by the line above
-from tools.mutants.equivalent import is_listed, needless, read, unmatched  # noqa: E402
-from tools.mutants.verdicts import Verdict, scores  # noqa: E402
-from tools.reason_table import TableError  # noqa: E402
+from tools.verify.exceptions import TableError, is_covered, read  # noqa: E402
+from tools.verify.mutants.equivalent import needless, unmatched  # noqa: E402
+from tools.verify.mutants.verdicts import Verdict, scores  # noqa: E402
 
-ROW = '[[equivalent]]\nfile = "firmware/a.c"\nmutants = ["{}"]\nwhy = "{}"\n'
+ROW = '[[exception]]\nin = "firmware/a.c"\nwhat = ["{}"]\nwhy = "{}"\n'
 
 
 @pytest.mark.parametrize(
@@ -30,21 +30,21 @@ def test_a_mutant_is_listed_by_what_it_changes(tmp_path, change, listed, unknown
     table.write_text(ROW.format(change, "a canary"))
     rows = read(table)
 
-    assert sum(is_listed(mutant, rows) for mutant in found) == listed
+    assert sum(is_covered(mutant, rows) for mutant in found) == listed
     assert unmatched(rows, found) == unknown
 
 
 def test_a_listed_mutant_that_is_killed_is_an_error(tmp_path):
     found, _ = mutants(tmp_path, TEXT)
     table = tmp_path / "table.toml"
-    table.write_text(ROW.format(found[0].change, "a canary"))
-    complaint = f"firmware/a.c: `{found[0].change}` is listed as equivalent, but a test kills it"
+    table.write_text(ROW.format(found[0].what, "a canary"))
+    complaint = f"firmware/a.c: `{found[0].what}` is listed as equivalent, but a test kills it"
 
     assert needless(read(table), found, []) == [complaint]
     assert needless(read(table), found[1:], found[:1]) == []
 
 
-@pytest.mark.parametrize("text", [ROW.format("a -> b", " "), "equivalent = 1", "[[equivalent]]\n"])
+@pytest.mark.parametrize("text", [ROW.format("a -> b", " "), "exception = 1", "[[exception]]\n"])
 def test_a_table_with_parts_missing_is_an_error(tmp_path, text):
     table = tmp_path / "table.toml"
     table.write_text(text)

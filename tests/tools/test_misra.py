@@ -18,7 +18,7 @@ int four(void)
 }
 """
 OCTAL = CLEAN.replace("twice(2)", "twice(010)")
-ROW = '[[deviation]]\nrule = "{}"\nwhere = ["{}"]\nwhy = "{}"\n'
+ROW = '[[exception]]\nwhat = "rule {}"\nin = "{}"\nwhy = "{}"\n'
 
 
 def misra(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -30,7 +30,7 @@ def misra(*arguments: object) -> subprocess.CompletedProcess[str]:
 def check(tmp_path):
     """Checks a source against a table."""
 
-    def run(source: str, table: str = "deviation = []\n") -> subprocess.CompletedProcess[str]:
+    def run(source: str, table: str = "exception = []\n") -> subprocess.CompletedProcess[str]:
         for name, text in (("source.c", source), ("table.toml", table)):
             (tmp_path / name).write_text(text)
         return misra("--deviations", tmp_path / "table.toml", "--sources", tmp_path / "source.c")
@@ -55,7 +55,7 @@ def test_a_rule_that_is_not_kept_is_told_with_its_line(check):
     result = check(OCTAL)
 
     assert result.returncode == 1
-    assert "source.c:9: rule 7.1 is not kept" in result.stderr
+    assert "source.c:9: rule 7.1: not allowed by the table" in result.stderr
 
 
 def test_one_that_is_named_for_the_file_passes(check):
@@ -65,10 +65,10 @@ def test_one_that_is_named_for_the_file_passes(check):
 @pytest.mark.parametrize(
     ("row", "complaint"),
     [
-        (ROW.format("7.1", "*/other.c", "a canary"), "no finding in */other.c"),
-        (ROW.format("7.2", "*/source.c", "a canary"), "rule 7.1 is not kept"),
-        (ROW.format("7.1", "*/source.c", " "), "has no reason"),
-        ('[[deviation]]\nrule = "7.1"\n', "cannot read"),
+        (ROW.format("7.1", "*/other.c", "a canary"), "*/other.c: `rule 7.1` is not found any more"),
+        (ROW.format("7.2", "*/source.c", "a canary"), "rule 7.1: not allowed by the table"),
+        (ROW.format("7.1", "*/source.c", " "), "or no reason"),
+        ('[[exception]]\nwhat = "rule 7.1"\n', "cannot read"),
     ],
 )
 def test_a_table_that_does_not_fit_fails(check, row, complaint):

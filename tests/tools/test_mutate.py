@@ -12,15 +12,15 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tests.tools.mutants_of_text import STANDARD, TEXT, mutants  # noqa: E402 - found by the line above
-from tools.mutants import runner  # noqa: E402
-from tools.mutants.equivalent import Compiler  # noqa: E402
-from tools.mutants.sources import Source  # noqa: E402
-from tools.mutants.syntax import SourceError  # noqa: E402
-from tools.mutants.tree import PLAIN, RUNTIME, SANITIZED  # noqa: E402
-from tools.mutants.trial import Trial  # noqa: E402
-from tools.mutants.verdicts import Verdict  # noqa: E402
+from tools.verify.mutants import runner  # noqa: E402
+from tools.verify.mutants.equivalent import Compiler  # noqa: E402
+from tools.verify.mutants.sources import Source  # noqa: E402
+from tools.verify.mutants.syntax import SourceError  # noqa: E402
+from tools.verify.mutants.tree import PLAIN, RUNTIME, SANITIZED  # noqa: E402
+from tools.verify.mutants.trial import Trial  # noqa: E402
+from tools.verify.mutants.verdicts import Verdict  # noqa: E402
 
-EQUIVALENT = ROOT / "tools" / "equivalent_mutants.toml"
+EQUIVALENT = ROOT / "tools" / "verify" / "mutants.toml"
 
 # All that can be mutated, with a number for each result of it.
 SOURCE = """#include <stdbool.h>

@@ -9,8 +9,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.branch_coverage.measure import MeasureError  # noqa: E402 - found by the line above
-from tools.branch_coverage.python_tests import measure_python, python_gaps, sums  # noqa: E402
+from tools.verify.coverage.measure import MeasureError  # noqa: E402 - found by the line above
+from tools.verify.coverage.python_tests import measure_python, python_gaps, sums  # noqa: E402
 
 SOURCE = """def sign(number: int) -> int:
     if number < 0:

@@ -6,8 +6,8 @@ a `continue` or a `return` goes.
 
 from collections.abc import Sequence
 
-from tools.mutants.operators import COMPARISONS, LOGIC, Site, changes_something, site_of, span
-from tools.mutants.syntax import Node
+from tools.verify.mutants.operators import COMPARISONS, LOGIC, Site, changes_something, site_of, span
+from tools.verify.mutants.syntax import Node
 
 GOES = "if (@HERE@) {} else @0@"
 NAMED = ("CallExpr", "DeclRefExpr", "MemberExpr")

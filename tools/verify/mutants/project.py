@@ -3,9 +3,9 @@
 from collections.abc import Collection
 from pathlib import Path
 
-from tools.mutants.runner import Runner
-from tools.mutants.sources import MUTATED, Source, options_of_sources, read_sources
-from tools.mutants.tree import PLAIN, Build, Tree, originals
+from tools.verify.mutants.runner import Runner
+from tools.verify.mutants.sources import MUTATED, Source, options_of_sources, read_sources
+from tools.verify.mutants.tree import PLAIN, Build, Tree, originals
 
 
 class Project:

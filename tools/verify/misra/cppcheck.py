@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tools.misra_check.commands import ROOT, CheckError, Command
+from tools.verify.misra.commands import ROOT, CheckError, Command
 
 CPPCHECK = ROOT / ".venv/bin/cppcheck"
 _FINDING = re.compile(r"(?P<file>.+):(?P<line>\d+) misra-c2012-(?P<rule>[\d.]+)$")
@@ -32,8 +32,13 @@ class Finding:
     file: str
     line: int
 
+    @property
+    def what(self) -> str:
+        """As a table names it."""
+        return f"rule {self.rule}"
+
     def __str__(self) -> str:
-        return f"{self.file}:{self.line}: rule {self.rule}"
+        return f"{self.file}:{self.line}: {self.what}"
 
 
 def findings(commands: Sequence[Command]) -> list[Finding]:

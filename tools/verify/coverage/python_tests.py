@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tools.branch_coverage.measure import Gap, MeasureError
+from tools.verify.coverage.measure import Gap, MeasureError
 
 # A comment cannot take a line out of the measure: the lines that need not be run are those that do nothing.
 _SETTING = """\

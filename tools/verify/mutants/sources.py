@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from tools.mutants.schemata import Mutant, mutants_of, schemata
-from tools.mutants.sites import sites_of
-from tools.mutants.syntax import functions
+from tools.verify.mutants.schemata import Mutant, mutants_of, schemata
+from tools.verify.mutants.sites import sites_of
+from tools.verify.mutants.syntax import functions
 
 MUTATED = ("firmware", "hal")
 NUMBERS_EACH = 1000  # so a file that grows does not renumber the others

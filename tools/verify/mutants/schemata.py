@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from tools.mutants.operators import Site
+from tools.verify.mutants.operators import Site
 
 HEAD = "unsigned mutant_at(unsigned first, unsigned count);\n#line 1\n"
 
@@ -36,7 +36,7 @@ class Mutant:
     text: str
 
     @property
-    def change(self) -> str:
+    def what(self) -> str:
         """What it changes, as tables name it."""
         return f"{self.before} -> {self.after}"
 
@@ -45,7 +45,7 @@ class Mutant:
         return source[: self.begin] + self.text + source[self.end :]
 
     def __str__(self) -> str:
-        return f"{self.file}:{self.line}: {self.change}"
+        return f"{self.file}:{self.line}: {self.what}"
 
 
 def mutants_of(file: str, text: str, sites: Sequence[Site], first: int) -> list[Mutant]:

@@ -5,12 +5,13 @@ from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from itertools import groupby
 
-from tools.mutants.equivalent import Compiler, Row, is_listed
-from tools.mutants.project import Project
-from tools.mutants.runner import Runner
-from tools.mutants.schemata import Mutant
-from tools.mutants.tree import PLAIN, SANITIZED, Build
-from tools.mutants.verdicts import Verdict
+from tools.verify.exceptions import Permit, is_covered
+from tools.verify.mutants.equivalent import Compiler
+from tools.verify.mutants.project import Project
+from tools.verify.mutants.runner import Runner
+from tools.verify.mutants.schemata import Mutant
+from tools.verify.mutants.tree import PLAIN, SANITIZED, Build
+from tools.verify.mutants.verdicts import Verdict
 
 Verdicts = list[tuple[Mutant, Verdict]]
 
@@ -25,7 +26,7 @@ def never(_: Verdicts) -> bool:
 class Trial:
     """A run over some mutants."""
 
-    def __init__(self, project: Project, table: Sequence[Row], tell: Callable[[str], None]) -> None:
+    def __init__(self, project: Project, table: Sequence[Permit], tell: Callable[[str], None]) -> None:
         """Begins nothing yet.
 
         Args:
@@ -58,7 +59,7 @@ class Trial:
 
     def _verdicts(self, mutants: Sequence[Mutant], same: Iterable[Mutant], alive: Iterable[Mutant]) -> Verdicts:
         verdicts = dict.fromkeys(mutants, Verdict.KILLED) | dict.fromkeys(same, Verdict.SAME_CODE)
-        verdicts |= {it: Verdict.LISTED if is_listed(it, self._table) else Verdict.ALIVE for it in alive}
+        verdicts |= {it: Verdict.LISTED if is_covered(it, self._table) else Verdict.ALIVE for it in alive}
         return list(verdicts.items())
 
     def _survivors(self, build: Build, mutants: Sequence[Mutant]) -> list[Mutant]:
@@ -76,13 +77,13 @@ class Trial:
         return left
 
     def _survives(self, tests: Runner, mutant: Mutant) -> bool:
-        tries = TRIES if is_listed(mutant, self._table) else 1
+        tries = TRIES if is_covered(mutant, self._table) else 1
         return any(not tests.killer(mutant) for _ in range(tries))
 
     def _of_same_code(self, mutants: Sequence[Mutant]) -> set[Mutant]:
         """Those that the compiler makes nothing else of; what is listed has its reason already."""
         compiler = Compiler()
-        asked = [mutant for mutant in mutants if not is_listed(mutant, self._table)]
+        asked = [mutant for mutant in mutants if not is_covered(mutant, self._table)]
         self._tell(f"comparing the code of {len(asked)} mutants")
         sources = {source.file: source for source in self._project.sources({mutant.file for mutant in asked})}
         return set(_those(asked, lambda it: compiler.same_code(sources[it.file], it)))

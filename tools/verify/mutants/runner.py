@@ -11,8 +11,9 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from tools.mutants.schemata import Mutant
-from tools.mutants.tree import Test
+from tools.verify.command import VerifyError
+from tools.verify.mutants.schemata import Mutant
+from tools.verify.mutants.tree import Test
 
 CPU_MS = 300
 CPU_FACTOR = 4
@@ -22,7 +23,7 @@ FIRST_WAIT_S = 120.0
 FIRST_CPU_MS = "120000"
 
 
-class RunError(Exception):
+class RunError(VerifyError):
     """The tests fail with no mutant acting; says which."""
 
 

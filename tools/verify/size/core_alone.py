@@ -1,10 +1,11 @@
 """The core without a body, compiled for processors that we have no board for: it is portable, and small."""
 
-import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+from tools.verify.command import output_of
+
+ROOT = Path(__file__).resolve().parents[3]
 _PYTHON = ROOT / ".venv" / "bin" / "python"
 _COMMON = ("-std=c99", "-ffreestanding", "-Os", "-ffunction-sections", "-fdata-sections", "-Wall", "-Werror")
 _ENTRIES = ("robot_init", "robot_respond", "brain_adopt")
@@ -34,23 +35,9 @@ PROCESSORS = (
 )
 
 
-@dataclass(frozen=True)
-class CoreSize:
-    """What the core takes.
-
-    Attributes:
-        flash: Bytes of code and constants, all our own.
-        library: Bytes of the compiler's library that it needs as well: a division, where the processor has none.
-        state: Bytes of one robot.
-    """
-
-    flash: int
-    library: int
-    state: int
-
-
-def _run(*command: str | Path) -> str:
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+def compiler_of(prefix: str) -> str:
+    """A compiler and its major version, as budgets name it: arm-none-eabi-gcc 12."""
+    return f"{prefix}gcc {output_of(f'{prefix}gcc', '-dumpversion').split('.')[0]}"
 
 
 def _linked(processor: Processor, folder: Path, *libraries: str) -> dict[str, int]:
@@ -58,13 +45,13 @@ def _linked(processor: Processor, folder: Path, *libraries: str) -> dict[str, in
     sources = [path for path in sorted((ROOT / "firmware").rglob("*.c")) if path.name != "main.c"]
     compiler = (f"{processor.prefix}gcc", *processor.flags, *_COMMON, "-I", str(ROOT), "-I", str(folder), "-nostdlib")
     core, lent, program = (folder / f"{processor.name}.{kind}" for kind in ("o", "c", "elf"))
-    _run(*compiler, "-r", *sources, folder / "state.c", *libraries, "-o", core)
-    names = [line.split()[-1] for line in _run(f"{processor.prefix}nm", "--undefined-only", core).splitlines()]
+    output_of(*compiler, "-r", *sources, folder / "state.c", *libraries, "-o", core)
+    names = [line.split()[-1] for line in output_of(f"{processor.prefix}nm", "--undefined-only", core).splitlines()]
     lent.write_text("".join(_LENT.format(*name) for name in enumerate(names)))
     links = ("-Wl,--gc-sections", f"-Wl,--entry={_ENTRIES[0]}")
     entries = [f"-Wl,--undefined={name}" for name in (*_ENTRIES, "the_robot")]
-    _run(*compiler, *links, *entries, core, lent, "-o", program)
-    lines = _run(f"{processor.prefix}size", "-A", program).splitlines()
+    output_of(*compiler, *links, *entries, core, lent, "-o", program)
+    lines = output_of(f"{processor.prefix}size", "-A", program).splitlines()
     rows = (line.split() for line in lines if line.startswith("."))
     return {row[0]: int(row[1]) for row in rows}
 
@@ -73,7 +60,7 @@ def _flash(sizes: dict[str, int]) -> int:
     return sum(sizes.get(name, 0) for name in (".text", ".rodata", ".srodata", ".data", ".sdata"))
 
 
-def measure(processor: Processor, folder: Path) -> CoreSize:
+def measure(processor: Processor, folder: Path) -> dict[str, int]:
     """Compiles and links the core for a processor.
 
     Args:
@@ -81,11 +68,14 @@ def measure(processor: Processor, folder: Path) -> CoreSize:
         folder: Where the output goes.
 
     Raises:
-        subprocess.CalledProcessError: It does not compile.
-        FileNotFoundError: The compiler is not installed.
+        VerifyError: It does not compile, or the compiler is not installed.
+
+    Returns:
+        Bytes: flash, all our own; library, what it needs of the compiler's as well, such as a division where the
+        processor has none; ram, the state of one robot.
     """
     (folder / "state.c").write_text(_STATE)
-    _run(_PYTHON, ROOT / "tools" / "generate", "--c", folder / "robot_words.h")
+    output_of(_PYTHON, ROOT / "tools" / "generate", "--c", folder / "robot_words.h")
     alone, whole = _linked(processor, folder), _linked(processor, folder, "-lgcc")
     state = sum(size for name, size in alone.items() if name in (".bss", ".sbss"))
-    return CoreSize(_flash(alone), _flash(whole) - _flash(alone), state)
+    return {"flash": _flash(alone), "library": _flash(whole) - _flash(alone), "ram": state}

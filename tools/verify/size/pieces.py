@@ -5,13 +5,14 @@ instruction comes from which line.
 """
 
 import re
-import subprocess
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
+
+from tools.verify.command import output_of
 
 _TOOL = "arm-none-eabi-"
 _SYMBOL = re.compile(r": (?P<address>[0-9a-f]+) +(?P<size>\d+) (?P<kind>FUNC|OBJECT) .* (?P<name>\S+)$", re.MULTILINE)
@@ -41,7 +42,7 @@ class Piece:
 
 
 def _run(tool: str, *arguments: str | Path) -> str:
-    return subprocess.run((_TOOL + tool, *arguments), check=True, capture_output=True, text=True).stdout
+    return output_of(_TOOL + tool, *arguments)
 
 
 def _code(image: Path, functions: dict[int, str]) -> Iterator[Piece]:
@@ -70,7 +71,7 @@ def read_pieces(image: Path) -> list[Piece]:
         image: An ELF file with debugging information.
 
     Raises:
-        subprocess.CalledProcessError: It is none.
+        VerifyError: It is none.
     """
     pieces = list(_pieces(image))
     sections = {found["name"]: int(found["size"]) for found in _SECTION.finditer(_run("size", "-A", image))}

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from tools.verify.command import VerifyError
+
 Json = Mapping[str, Any]
 
 CONSTANT_PARTS = {
@@ -22,7 +24,7 @@ CONSTANT_PARTS = {
 TRANSPARENT = ("ImplicitCastExpr", "ParenExpr", "CStyleCastExpr")
 
 
-class SourceError(Exception):
+class SourceError(VerifyError):
     """A source cannot be read; says why."""
 
 

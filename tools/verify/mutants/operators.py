@@ -7,7 +7,7 @@ signs change; a number, or the name of one, is one more; `!` goes.
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from tools.mutants.syntax import Node
+from tools.verify.mutants.syntax import Node
 
 COMPARISONS = {
     "<": ("<=", "!=", "0"),

@@ -1,21 +1,21 @@
 """A copy of the sources with all mutants compiled in, and the test programs built from it."""
 
 import json
-import subprocess
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from tools.verify.command import VerifyError, output_of
 
 FOLDERS = ("firmware", "hal", "host_sim", "tests", "tools/cmake", "tools/reference", "tools/robot_words")
 SUFFIXES = {".c", ".h", ".txt", ".cmake", ".dbc", ".toml", ".map", ".py", ".inc"}
 FILES = ("CMakeLists.txt", "tools/generate")
 RUNTIME = Path(__file__).with_name("runtime.c")
 GENERATED = ("generated/robot_words.h", "generated/octet.h", "generated/build_id.h")
-OUTPUT_MAX = 4000
 
 
-class BuildError(Exception):
+class BuildError(VerifyError):
     """It cannot be built; says why."""
 
 
@@ -143,8 +143,4 @@ def _test(item: Mapping[str, Any]) -> Test:
 
 
 def _run(*command: object) -> str:
-    words = [str(word) for word in command]
-    result = subprocess.run(words, capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise BuildError(f"{' '.join(words[:3])} failed:\n{(result.stdout + result.stderr)[-OUTPUT_MAX:]}")
-    return result.stdout
+    return output_of(*command, error=BuildError)

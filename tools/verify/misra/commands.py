@@ -1,19 +1,20 @@
 """The compiler's commands for the sources to check."""
 
 import json
-import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TypedDict
 
-ROOT = Path(__file__).resolve().parents[2]
+from tools.verify.command import VerifyError, output_of
+
+ROOT = Path(__file__).resolve().parents[3]
 BUILDS = ("feather_stm32f405", "blue_pill", "nucleo_g431rb")
 """A source that several of them have is checked as the first has it."""
 
 CHECKED = ("firmware", "hal")
 
 
-class CheckError(Exception):
+class CheckError(VerifyError):
     """It cannot be checked; says why."""
 
 
@@ -49,9 +50,5 @@ def lone_sources(sources: Sequence[Path]) -> list[Command]:
 
 
 def _commands_of(build: Path) -> list[Command]:
-    try:
-        result = subprocess.run(("ninja", "-C", build, "-t", "compdb"), capture_output=True, text=True, check=True)
-    except (OSError, subprocess.CalledProcessError) as error:
-        raise CheckError(f"cannot read {build}: {error}; run tools/setup tests") from error
-    listed: list[Command] = json.loads(result.stdout[result.stdout.index("[") :])
+    listed: list[Command] = json.loads(output_of("ninja", "--quiet", "-C", build, "-t", "compdb"))
     return [command for command in listed if command["file"].endswith(".c")]

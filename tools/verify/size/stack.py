@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from tools.verify.command import VerifyError
+
 LIBRARY = 32
 """Bytes allowed for a function of the compiler's library; none calls further. More than any that we use takes."""
 
@@ -13,7 +15,7 @@ _NODE = re.compile(r'^node: \{ title: "([^"]+)" label: "[^"]*\\n(\d+) bytes \(([
 _EDGE = re.compile(r'^edge: \{ sourcename: "([^"]+)" targetname: "([^"]+)"', re.MULTILINE)
 
 
-class StackError(Exception):
+class StackError(VerifyError):
     """The worst stack cannot be known."""
 
 

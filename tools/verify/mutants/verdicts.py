@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from tools.mutants.schemata import Mutant
-from tools.mutants.sources import GROUPS, Group, group_of
+from tools.verify.mutants.schemata import Mutant
+from tools.verify.mutants.sources import GROUPS, Group, group_of
 
 SAMPLE = Group("sample", 97.0, ("",))
 

@@ -7,11 +7,12 @@ alone, and in what came of the whole (MC/DC).
 
 import json
 import os
-import subprocess
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
+
+from tools.verify.command import VerifyError, output_of
 
 MEASURED = ("firmware", "hal")
 VERSION = 19
@@ -24,7 +25,7 @@ _CODE = 0
 _JOINT = 6
 
 
-class MeasureError(Exception):
+class MeasureError(VerifyError):
     """It cannot be measured; says why."""
 
 
@@ -35,16 +36,16 @@ class Gap:
     Attributes:
         file: Where, from the root of the project.
         line: Which one.
-        text: "never reached: " and the line or condition, or "never true: ", "never false: " or "never decides: "
+        what: "never reached: " and the line or condition, or "never true: ", "never false: " or "never decides: "
             and the condition.
     """
 
     file: str
     line: int
-    text: str
+    what: str
 
     def __str__(self) -> str:
-        return f"{self.file}:{self.line}: {self.text}"
+        return f"{self.file}:{self.line}: {self.what}"
 
 
 @dataclass(frozen=True)
@@ -184,11 +185,7 @@ def _export(build: Path) -> list[dict[str, Any]]:
 
 
 def _output(*command: object) -> str:
-    words = [str(word) for word in command]
-    result = subprocess.run(words, capture_output=True, text=True, check=False)
-    if result.returncode != 0:
-        raise MeasureError(f"{words[0]} failed:\n{result.stderr}")
-    return result.stdout
+    return output_of(*command, error=MeasureError)
 
 
 def _files(root: Path, functions: Iterable[dict[str, Any]]) -> Iterator[File]:

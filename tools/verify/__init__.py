@@ -1,0 +1,1 @@
+"""What verifies the code beyond its tests: mutants, coverage, MISRA C and sizes."""

@@ -1,0 +1,96 @@
+"""The tables of exceptions: what a check finds and lets through, each with its reason. All have one format.
+
+[[exception]]
+in = "firmware/brain.c"            # a file, or several; * stands for anything
+what = ["never true: default"]     # what is found there, one or several; * stands for anything
+why = "A reason."
+"""
+
+import importlib
+import sys
+from collections.abc import Sequence
+from fnmatch import fnmatchcase
+from itertools import product
+from pathlib import Path
+from typing import NamedTuple, Protocol
+
+from tools.verify.command import VerifyError
+
+# Python 3.10 has none of its own.
+_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+
+
+class TableError(VerifyError):
+    """The table cannot be used; says why."""
+
+
+class Finding(Protocol):
+    """What a check finds."""
+
+    @property
+    def file(self) -> str:
+        """Where, from the root of the project."""
+
+    @property
+    def what(self) -> str:
+        """What, as a table names it."""
+
+
+class Permit(NamedTuple):
+    """One thing that a table lets through in one place; `*` stands for anything.
+
+    Attributes:
+        file: Which files.
+        what: What is found there.
+    """
+
+    file: str
+    what: str
+
+    def covers(self, finding: Finding) -> bool:
+        """Whether it is for this finding."""
+        return _fits(finding.file, self.file) and _fits(finding.what, self.what)
+
+    def __str__(self) -> str:
+        return f"{self.file}: `{self.what}`"
+
+
+def read(path: Path) -> list[Permit]:
+    """All that a table lets through.
+
+    Raises:
+        TableError: It cannot be read, or an exception lacks a part.
+    """
+    try:
+        rows = _toml.loads(path.read_text())["exception"]
+        parts = [(_several(row["in"]), _several(row["what"]), row["why"].strip()) for row in rows]
+    except (OSError, _toml.TOMLDecodeError, KeyError, TypeError, AttributeError) as error:
+        raise TableError(f"cannot read {path}: {error!r}") from error
+    for files, texts, why in parts:
+        if not (files and texts and why):
+            raise TableError(f"{path}: an exception in {files} has no place, nothing to let through, or no reason")
+    return [Permit(*each) for files, texts, _ in parts for each in product(files, texts)]
+
+
+def compare(findings: Sequence[Finding], table: Sequence[Permit]) -> list[str]:
+    """What does not fit, in sentences: a finding that is not let through, and what is let through in vain."""
+    complaints = [f"{it}: not allowed by the table" for it in findings if not is_covered(it, table)]
+    return complaints + [f"{permit} is not found any more" for permit in uncovering(table, findings)]
+
+
+def is_covered(finding: Finding, table: Sequence[Permit]) -> bool:
+    """Whether a table lets it through."""
+    return any(permit.covers(finding) for permit in table)
+
+
+def uncovering(table: Sequence[Permit], findings: Sequence[Finding]) -> list[Permit]:
+    """What of a table is for none of these."""
+    return [permit for permit in table if not any(map(permit.covers, findings))]
+
+
+def _several(value: str | list[str]) -> list[str]:
+    return [value] if isinstance(value, str) else list(map(str, value))
+
+
+def _fits(text: str, pattern: str) -> bool:
+    return fnmatchcase(text, pattern.replace("[", "[[]"))
