@@ -1,16 +1,13 @@
 // @ts-check
 /* The arena of a run: what stands in it, where the robots' bodies are, and what is wrong with them. */
 
-import { SOUND, faultNumbers, measured, noiseKey, withFault } from "./body_faults.js";
-import { FEEL, RANGE_NONE } from "./generated.js";
-import { rangesOf, wallsOf } from "./ranges.js";
+import { SOUND, faultNumbers, noiseKey, withFault } from "./body_faults.js";
 import { EditError, Furniture } from "./world_edits.js";
 
 /**
  * @typedef {import("./types.js").Layout} Layout
  * @typedef {import("./types.js").Pose} Pose
  * @typedef {import("./types.js").SimParams} SimParams
- * @typedef {import("./ranges.js").Capsule} Capsule
  * @typedef {import("./types.js").WorldEdit} WorldEdit
  */
 
@@ -127,25 +124,5 @@ export class Arena {
     if (!faults) throw new EditError(`'${what}' cannot happen to a body`);
     this.faults[robot] = faults;
     this.native.setFaults(robot, faultNumbers(faults));
-  }
-
-  /**
-   * How far away a robot's body says that things are, sensor by sensor.
-   * @param {number} robot
-   */
-  measuredBy(robot) {
-    const { x, y, heading, lifted } = this.bodies[robot];
-    const things = lifted ? [] : [...wallsOf(this.params), ...this.furniture.capsules, ...this.discsBeside(robot)];
-    const ranges = rangesOf([x, y, heading], things, this.params, RANGE_NONE).slice(0, Object.keys(FEEL).length);
-    return measured(ranges, this.faults[robot], RANGE_NONE);
-  }
-
-  /**
-   * The other robots on the floor.
-   * @param {number} robot
-   */
-  discsBeside(robot) {
-    const others = this.bodies.filter((body, i) => i !== robot && !body.lifted);
-    return others.map(({ x, y }) => /** @type {Capsule} */ ([x, y, x, y, this.params.body_radius_mm]));
   }
 }

@@ -23,7 +23,6 @@ import { FEEL } from "./generated.js";
 
 /** The bit of each sensor, such as "front-left". */
 export const SENSORS = new Map(Object.entries(FEEL).map(([name, bit]) => [name.toLowerCase().replace("_", "-"), bit]));
-const BITS = Object.values(FEEL);
 const NOISE_OF_MAX = 1_000_000;
 const FULL_PERCENT = 100;
 const BEACON_MAX_MM = 8191;
@@ -123,15 +122,4 @@ export function faultNumbers(faults) {
   const { odometersSwapped, leftMiscounted, rightMiscounted, falseBeacon } = faults;
   const sensors = [Number(mirrored), Number(swapped), stuckOn, stuckOff, leftLost, rightLost, noise, noiseOf, ...halves];
   return [...sensors, Number(odometersSwapped), leftMiscounted, rightMiscounted, falseBeacon];
-}
-
-/**
- * What the robot is told of the distances, from bit 0 of feel on; noise does not change them.
- * @param {number[]} ranges
- * @param {Faults} faults
- * @param {number} none
- */
-export function measured(ranges, { mirrored, stuckOn, stuckOff }, none) {
-  const distances = mirrored ? [...ranges].reverse() : ranges;
-  return distances.map((distance, i) => (stuckOff & BITS[i] ? none : stuckOn & BITS[i] ? 0 : distance));
 }

@@ -138,10 +138,7 @@ export class Simulation {
   /** Tells the robots that want it how far away things are. */
   sendRanges() {
     this.setTime();
-    for (const robot of this.robots.filter((it) => this.commands.wantsRanges[it])) {
-      this.native.bytes.set(this.arena.measuredBy(robot));
-      this.native.c.page_send_ranges(robot, this.tick);
-    }
+    for (const robot of this.robots) if (this.commands.wantsRanges[robot]) this.native.c.page_send_ranges(robot, this.tick);
     this.keepLog();
   }
 

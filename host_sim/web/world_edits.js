@@ -9,7 +9,8 @@
  * @typedef {import("./types.js").SimParams} SimParams
  * @typedef {import("./types.js").WorldEdit} WorldEdit
  *
- * @typedef {import("./ranges.js").Capsule} Capsule
+ * A straight thing with round ends: ax, ay, bx, by and its radius, mm.
+ * @typedef {[number, number, number, number, number]} Capsule
  *
  * Where a robot is, and whether a person holds it.
  * @typedef {{x: number, y: number, lifted: boolean}} Standing

@@ -6,13 +6,11 @@ from host_sim.robot_io import Ranges
 from host_sim.world.body import Body
 from host_sim.world.body_faults import SOUND
 from host_sim.world.food import Food
-from host_sim.world.geometry import Capsule
 from host_sim.world.layouts import Layout
 from host_sim.world.native_world import NativeWorld
 from host_sim.world.obstacles import Obstacles
 from host_sim.world.params import SimParams
 from host_sim.world.physics_names import FAST
-from host_sim.world.ranges import ranges_of
 
 
 class Arena:
@@ -64,12 +62,8 @@ class Arena:
 
     def ranges(self, index: int) -> Ranges:
         """What a robot's sensors measure where it stands: walls, bars and other robots."""
-        body, radius_mm = self.bodies[index], self.params.body_radius_mm
-        if body.lifted:
-            return ranges_of(body.pose, (), self.params)
-        others = [other.pose[:2] for other in self.bodies if other is not body and not other.lifted]
-        discs = [Capsule(middle, middle, radius_mm) for middle in others]
-        return ranges_of(body.pose, [*self.obstacles.capsules, *discs], self.params)
+        none = self.inside.library.RANGE_NONE
+        return Ranges._make(None if range_mm == none else range_mm for range_mm in self.inside.measure(index))
 
     def repair(self) -> None:
         """Makes all bodies sound."""

@@ -1,29 +1,24 @@
-"""What can be wrong with a body: in its sensors, its motors, or the wires between them and the robot.
-
-`native/body_faults.c` does the same in C.
-"""
+"""What can be wrong with a body: in its sensors, its motors, or the wires between them and the robot."""
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from typing import Any
 
 from host_sim.near_word import near_word
 from host_sim.robot_io import Ranges, Senses
 from host_sim.world.cones import CONE_BEARINGS_DEG
+from host_sim.world.world_library import world_library
 
 _BITS = tuple(CONE_BEARINGS_DEG)
 SENSORS = {name.replace("_", "-"): bit for name, bit in zip(Ranges._fields, _BITS, strict=True)}
 """The bit of each sensor in feel, by the name that a change calls it."""
 
-_MIRRORED = tuple(
-    sum(_BITS[-1 - place] for place, bit in enumerate(_BITS) if feel & bit) for feel in range(1 << len(_BITS))
-)
 _FULL_PERCENT = 100
 _BEACON_MAX_MM = 8191
 _NOISE_OF_MAX = 1_000_000
 _MASK_64 = (1 << 64) - 1
-_STREAMS = 8
-"""Random numbers of a tick: at least one for each sensor."""
 
 
 @dataclass(frozen=True)
@@ -68,42 +63,37 @@ class BodyFaults:
             senses: What a sound body senses there.
             tick: Number of the tick in the run.
         """
-        feel = _MIRRORED[senses.feel] if self.mirrored else senses.feel
-        feel = ((feel ^ self._wrong(tick)) | self.stuck_on) & ~self.stuck_off
-        left, right = senses.odometer_left, senses.odometer_right
-        if self.swapped:
-            left, right = right, left
-        if self.false_beacon_mm and not senses.look:
-            senses = senses._replace(look=True, beacon_mm=self.false_beacon_mm)
-        return senses._replace(feel=feel, odometer_left=left, odometer_right=right)
+        ffi, library = world_library()
+        told: Any = ffi.new("struct senses *", senses._asdict())
+        library.body_faults_sense(self._in_c, tick, told)
+        return Senses._make(getattr(told, name) for name in Senses._fields)
 
     def measured(self, ranges: Ranges) -> Ranges:
         """What the robot is told of the distances; noise does not change them."""
-        distances = reversed(ranges) if self.mirrored else iter(ranges)
-        pairs = zip(distances, _BITS, strict=True)
-        return Ranges._make(
-            None if self.stuck_off & bit else 0 if self.stuck_on & bit else distance for distance, bit in pairs
-        )
+        ffi, library = world_library()
+        none = library.RANGE_NONE
+        told = ffi.new("uint8_t[]", [none if distance is None else distance for distance in ranges])
+        library.body_faults_measure(self._in_c, told)
+        return Ranges._make(None if distance == none else distance for distance in told)
 
     def driven(self, left_mm_s: int, right_mm_s: int) -> tuple[int, int]:
         """The speeds at which the left and the right wheel turn when the robot tells them these."""
-        if self.swapped:
-            left_mm_s, right_mm_s = right_mm_s, left_mm_s
-        return _weakened(left_mm_s, self.left_lost_percent), _weakened(right_mm_s, self.right_lost_percent)
+        ffi, library = world_library()
+        drive: Any = ffi.new("struct drive *", {"left_mm_s": left_mm_s, "right_mm_s": right_mm_s})
+        library.body_faults_drive(self._in_c, drive)
+        return drive.left_mm_s, drive.right_mm_s
 
     def counted(self, left_mm: float, right_mm: float) -> tuple[float, float]:
         """The ways that the left and the right odometer count when the left and the right wheel roll these."""
-        left, right = self.left_miscounted_percent, self.right_miscounted_percent
-        if self.odometers_swapped:
-            left_mm, right_mm = right_mm, left_mm
-        return _miscounted(left_mm, left), _miscounted(right_mm, right)
+        ffi, library = world_library()
+        counted: Any = ffi.new("double[]", [left_mm, right_mm])
+        library.body_faults_count(self._in_c, counted, counted + 1)
+        return counted[0], counted[1]
 
-    def _wrong(self, tick: int) -> int:
-        """The sensors that are wrong in a tick, as bits of feel."""
-        if not self.noise:
-            return 0
-        first = self.noise_key + tick * _STREAMS
-        return sum(bit for n, bit in enumerate(_BITS) if _chance(first + n) % self.noise_of < self.noise)
+    @cached_property
+    def _in_c(self) -> Any:
+        """The same as a `struct body_faults *`."""
+        return world_library()[0].new("struct body_faults *", asdict(self))
 
 
 SOUND = BodyFaults()
@@ -214,20 +204,6 @@ _FAULTS: dict[str, tuple[str, Fault, str]] = {
 
 FAULT_NAMES = tuple(_FAULTS)
 """What a fault begins with."""
-
-
-def _weakened(speed_mm_s: int, lost_percent: int) -> int:
-    """Whole mm/s, toward 0."""
-    return int(speed_mm_s * (_FULL_PERCENT - lost_percent) / _FULL_PERCENT) if lost_percent else speed_mm_s
-
-
-def _miscounted(way_mm: float, miscounted_percent: int) -> float:
-    return way_mm * (_FULL_PERCENT + miscounted_percent) / _FULL_PERCENT if miscounted_percent else way_mm
-
-
-def _chance(number: int) -> int:
-    """A random number of 32 bits, the same for the same number."""
-    return _mixed(number) >> 32
 
 
 def _mixed(number: int) -> int:

@@ -6,7 +6,7 @@ from typing import Any, Protocol
 from host_sim.world.geometry import Capsule, Point, Pose
 from host_sim.world.params import SimParams
 from host_sim.world.physics_names import FAST
-from host_sim.world.plain_space import PlainSpace
+from host_sim.world.plain_space import PlainSpace, capsules_in_c
 from host_sim.world.world_library import world_library
 
 
@@ -59,6 +59,10 @@ class NativeWorld:
         self.world.body_count, self.world.food_count = len(starts), len(food)
         self.world.bodies, self.world.food = self.bodies, self.food
         self.space = self._space(params, physics)
+        self._capsules: Any = None
+        self._ranges: Any = ffi.new("struct ranges *")
+        self._ranges.body_radius_mm, self._ranges.front_extra_mm = params.body_radius_mm, params.front_extra_mm
+        self._ranges.reach_mm = params.body_radius_mm + params.sensor_reach_mm
 
     def _space(self, params: SimParams, physics: str) -> Space:
         if physics == FAST:
@@ -74,8 +78,16 @@ class NativeWorld:
 
     def lay_out(self, obstacles: Sequence[Capsule]) -> None:
         """Takes these obstacles instead of those before."""
+        self._capsules = capsules_in_c(self.ffi, self.library, obstacles)
+        self._ranges.capsules, self._ranges.capsule_count = self._capsules, len(obstacles)
         self.space.lay_out(obstacles)
         self.settle()
+
+    def measure(self, index: int) -> Sequence[int]:
+        """What a body's sensors measure, in the order of feel's bits: whole mm, or `RANGE_NONE`."""
+        measured = self.ffi.new("uint8_t[]", self.library.FEEL_COUNT)
+        self.library.ranges_measure(self._ranges, self.world, self.bodies + index, measured)
+        return list(measured)
 
     def settle(self) -> None:
         """Finds what all bodies overlap, now that one of them or an obstacle was moved."""

@@ -14,6 +14,14 @@ def cones_in_c(ffi: Any, library: Any, params: SimParams) -> Any:
     return cones
 
 
+def capsules_in_c(ffi: Any, library: Any, things: Sequence[Capsule]) -> Any:
+    """Obstacles, a `struct capsule[]`."""
+    capsules = ffi.new("struct capsule[]", len(things))
+    for i, (a, b, radius_mm) in enumerate(things):
+        library.capsule_set(capsules + i, [*a], [*b], radius_mm)
+    return capsules
+
+
 class PlainSpace:
     """The obstacles of an arena as plain geometry, and its bodies among them.
 
@@ -44,9 +52,7 @@ class PlainSpace:
     def lay_out(self, obstacles: Sequence[Capsule]) -> None:
         """Takes these obstacles instead of those before."""
         ffi, space, bodies = self._ffi, self._space, self._world.body_count
-        self._capsules = ffi.new("struct capsule[]", len(obstacles))
-        for i, (a, b, radius_mm) in enumerate(obstacles):
-            self._library.capsule_set(self._capsules + i, [*a], [*b], radius_mm)
+        self._capsules = capsules_in_c(ffi, self._library, obstacles)
         words = -(-(len(obstacles) + bodies) // self._library.PLAIN_WORD_BITS)
         self._touching = ffi.new("uint64_t[]", words * (bodies + 1))
         space.capsules, space.capsule_count = self._capsules, len(obstacles)

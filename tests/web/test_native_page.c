@@ -99,17 +99,16 @@ TEST(a_frame_is_answered_and_not_logged)
 
 TEST(distances_are_logged_in_the_order_of_the_sensors)
 {
-    static const uint8_t ranges[PAGE_BYTES] = {10, 20, 30, 40, 50};
     char data[17];
 
     start(0, PROFILE_DISTANCE);
     page_state()->robots[0].senses_counter = 3;
-    put_bytes(ranges);
+    page_state()->robots[0].faults = (struct body_faults){.stuck_on = FEEL_FRONT};
     page_send_ranges(0, TICK_SPAN + 9);
     TEST_ASSERT_EQUAL_UINT(1, logged("121"));
     memcpy(data, page_log() + LOG_STAMP + 4, 16);
     data[16] = '\0';
-    TEST_ASSERT_EQUAL_STRING("94000A141E2832", data + 2);   /* counter 4, tick 9, and the five */
+    TEST_ASSERT_EQUAL_STRING("9400FFFF00FFFF", data + 2);   /* counter 4, tick 9, and the five */
 }
 
 /* ---- commands as frames, from a log */

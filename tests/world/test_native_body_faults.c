@@ -137,3 +137,24 @@ TEST(noise_follows_from_known_numbers)
     for (uint32_t tick = 0; tick < sizeof expected; tick++)
         TEST_ASSERT_EQUAL_UINT8(expected[tick], felt(0, tick));
 }
+
+TEST(a_mirrored_ring_measures_the_other_way_round)
+{
+    uint8_t range_mm[FEEL_COUNT] = {10, 20, 30, 40, RANGE_NONE};
+    const uint8_t expected[FEEL_COUNT] = {RANGE_NONE, 40, 30, 20, 10};
+
+    faults.mirrored = true;
+    body_faults_measure(&faults, range_mm);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, range_mm, FEEL_COUNT);
+}
+
+TEST(a_stuck_sensor_measures_nothing_but_that)
+{
+    uint8_t range_mm[FEEL_COUNT] = {10, 20, RANGE_NONE, 40, 50};
+    const uint8_t expected[FEEL_COUNT] = {RANGE_NONE, 20, 0, 40, 50};
+
+    faults.stuck_on = FEEL_FRONT;
+    faults.stuck_off = FEEL_RIGHT;
+    body_faults_measure(&faults, range_mm);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, range_mm, FEEL_COUNT);
+}

@@ -5,13 +5,14 @@ import random
 
 import pytest
 
+from host_sim.protocol.generated import RANGE_NONE
 from host_sim.robot_io import NOTHING_NEAR, Ranges
 from host_sim.world.arena import Arena
 from host_sim.world.cones import CONE_BEARINGS_DEG
 from host_sim.world.geometry import Bar, Capsule, Pose, ahead_of
 from host_sim.world.layouts import Layout, generate
+from host_sim.world.native_world import NativeWorld
 from host_sim.world.params import SimParams
-from host_sim.world.ranges import ranges_of
 
 PARAMS = SimParams()
 START = Pose(2000.0, 1500.0, 0.7)
@@ -24,8 +25,10 @@ def peg(bearing_deg: float, gap_mm: float, radius_mm: float = 20.0) -> Capsule:
     return Capsule(middle, middle, radius_mm)
 
 
-def measured(*things: Capsule) -> Ranges:
-    return ranges_of(START, things, PARAMS)
+def measured(*things: Capsule, pose: Pose = START) -> Ranges:
+    inside = NativeWorld([pose], [], PARAMS)
+    inside.lay_out(things)
+    return Ranges._make(None if range_mm == RANGE_NONE else range_mm for range_mm in inside.measure(0))
 
 
 @pytest.mark.parametrize(("place", "bearing_deg"), list(enumerate(CONE_BEARINGS_DEG.values())))
@@ -49,7 +52,7 @@ def test_a_wall_ahead_is_farther_away_in_the_cones_beside():
     wall = Capsule((4100.0, -100.0), (4100.0, 3100.0), 100.0)
     beside_mm = (RADIUS_MM + gap_mm) / math.cos(math.radians(22.5)) - RADIUS_MM
 
-    ranges = ranges_of(Pose(4000.0 - RADIUS_MM - gap_mm, 1500.0, 0.0), [wall], PARAMS)
+    ranges = measured(wall, pose=Pose(4000.0 - RADIUS_MM - gap_mm, 1500.0, 0.0))
 
     assert ranges == Ranges(None, round(beside_mm), round(gap_mm), round(beside_mm), None)
 

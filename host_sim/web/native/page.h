@@ -9,6 +9,7 @@
 #include "host_sim/sim/native/loop.h"
 #include "host_sim/world/native/layouts.h"
 #include "host_sim/world/native/plain_space.h"
+#include "host_sim/world/native/ranges.h"
 #include "host_sim/world/native/written.h"
 
 enum {
@@ -39,6 +40,7 @@ struct page_world {
     struct world world;
     struct plain_world space;
     struct cones cones;
+    struct ranges ranges;
     struct body bodies[PAGE_ROBOTS_MAX];
     struct food food[PAGE_FOOD_MAX];
     struct capsule capsules[WALLS + PAGE_OBSTACLES_MAX];
@@ -93,7 +95,7 @@ uint32_t page_command_value(void);
         /* and value. */
 
 void page_send_ranges(uint32_t robot, uint32_t tick);
-        /* Sends and logs the distances in page_bytes(), which go before the senses of a tick. */
+        /* Sends and logs what its body measures, which goes before the senses of a tick. */
 
 void page_take_reports(uint32_t robot);
         /* Logs all that the robot has said since. */
@@ -149,6 +151,9 @@ double *page_faults(void);
 
 void page_break(uint32_t robot);
         /* From now on, that is what is wrong with a robot's body. */
+
+void page_measure(uint32_t robot, uint8_t *range_mm);
+        /* What a robot is told of the FEEL_COUNT distances. */
 
 void page_enter(uint32_t obstacles, uint32_t food);
         /* An environment begins with this number of obstacles and pieces of food; none is eaten yet. */

@@ -48,18 +48,19 @@ bool page_take(uint32_t robot, struct frame *out)
 void page_send_ranges(uint32_t robot, uint32_t tick)
 {
     const struct loop_robot *to = &page_state()->robots[robot];
-    const uint8_t *range = page_bytes();
+    uint8_t range[FEEL_COUNT];
     struct frame frame = {.id = wire_id(&page_octet(robot)->wire, OCTET_RANGES_FRAME_ID), .len = OCTET_RANGES_LENGTH};
-    const struct octet_ranges_t message = {
+    struct octet_ranges_t message = {
         .counter = e2e_next(to->senses_counter),
         .tick = (uint8_t)(tick & (TICK_SPAN - 1)),
-        .range_right = range[0],
-        .range_front_right = range[1],
-        .range_front = range[2],
-        .range_front_left = range[3],
-        .range_left = range[4],
     };
 
+    page_measure(robot, range);
+    message.range_right = range[0];
+    message.range_front_right = range[1];
+    message.range_front = range[2];
+    message.range_front_left = range[3];
+    message.range_left = range[4];
     (void)octet_ranges_pack(frame.data, &message, sizeof frame.data);
     e2e_protect(&frame);
     log_lines_add(&page_state()->loop.log, &frame);

@@ -23,6 +23,12 @@ static void set_world(struct page_world *of, const double dimensions[PAGE_DIMENS
         .places = of->places,
         .touching = of->touching,
     };
+    of->ranges = (struct ranges){
+        .capsules = of->capsules,
+        .body_radius_mm = d[PAGE_BODY_MM],
+        .reach_mm = d[PAGE_BODY_MM] + d[PAGE_REACH_MM],
+        .front_extra_mm = d[PAGE_FRONT_EXTRA_MM],
+    };
     cones_set(&of->cones, d[PAGE_BODY_MM] + d[PAGE_REACH_MM], d[PAGE_FRONT_EXTRA_MM]);
     of->world.bodies = of->bodies;
     of->world.food = of->food;
@@ -105,6 +111,7 @@ static void count_obstacles(uint32_t obstacles)
     struct page_world *of = page_world();
 
     of->space.capsule_count = WALLS + obstacles;
+    of->ranges.capsule_count = of->space.capsule_count;
     of->space.words = PLAIN_WORDS(of->space.capsule_count + of->world.body_count);
 }
 
@@ -131,6 +138,14 @@ static void take_space(uint32_t obstacles)
         of->touching[i] = 0;
     world_begin(&of->world);
     plain_space_take(&of->space, &of->world);
+}
+
+void page_measure(uint32_t robot, uint8_t *range_mm)
+{
+    struct page_world *of = page_world();
+
+    ranges_measure(&of->ranges, &of->world, &of->bodies[robot], range_mm);
+    body_faults_measure(&page_state()->robots[robot].faults, range_mm);
 }
 
 void page_enter(uint32_t obstacles, uint32_t food)

@@ -50,6 +50,18 @@ void body_faults_sense(const struct body_faults *faults, uint32_t tick, struct s
     }
 }
 
+void body_faults_measure(const struct body_faults *faults, uint8_t *range_mm)
+{
+    for (unsigned n = 0; n < FEEL_COUNT / 2 && faults->mirrored; n++) {
+        uint8_t right_mm = range_mm[n];
+
+        range_mm[n] = range_mm[FEEL_COUNT - 1 - n];
+        range_mm[FEEL_COUNT - 1 - n] = right_mm;
+    }
+    for (unsigned n = 0; n < FEEL_COUNT; n++)
+        range_mm[n] = faults->stuck_off >> n & 1u ? RANGE_NONE : faults->stuck_on >> n & 1u ? 0 : range_mm[n];
+}
+
 void body_faults_drive(const struct body_faults *faults, struct drive *drive)
 {
     int left = faults->swapped ? drive->right_mm_s : drive->left_mm_s;
@@ -64,6 +76,15 @@ static double miscounted(double rolled_mm, int miscounted_percent)
     return miscounted_percent == 0 ? rolled_mm : rolled_mm * (FULL_PERCENT + miscounted_percent) / FULL_PERCENT;
 }
 
+void body_faults_count(const struct body_faults *faults, double *left_mm, double *right_mm)
+{
+    double left_way_mm = faults->odometers_swapped ? *right_mm : *left_mm;
+    double right_way_mm = faults->odometers_swapped ? *left_mm : *right_mm;
+
+    *left_mm = miscounted(left_way_mm, faults->left_miscounted_percent);
+    *right_mm = miscounted(right_way_mm, faults->right_miscounted_percent);
+}
+
 void body_faults_move(const struct body_faults *faults, struct world *world, struct body *body, const struct drive *drive)
 {
     struct drive wheels = *drive;
@@ -71,8 +92,9 @@ void body_faults_move(const struct body_faults *faults, struct world *world, str
 
     body_faults_drive(faults, &wheels);
     world_move(world, body, wheels.left_mm_s, wheels.right_mm_s);
-    left_way_mm = world_way_mm(world, faults->odometers_swapped ? wheels.right_mm_s : wheels.left_mm_s);
-    right_way_mm = world_way_mm(world, faults->odometers_swapped ? wheels.left_mm_s : wheels.right_mm_s);
-    body->left_mm = left_mm + miscounted(left_way_mm, faults->left_miscounted_percent);
-    body->right_mm = right_mm + miscounted(right_way_mm, faults->right_miscounted_percent);
+    left_way_mm = world_way_mm(world, wheels.left_mm_s);
+    right_way_mm = world_way_mm(world, wheels.right_mm_s);
+    body_faults_count(faults, &left_way_mm, &right_way_mm);
+    body->left_mm = left_mm + left_way_mm;
+    body->right_mm = right_mm + right_way_mm;
 }

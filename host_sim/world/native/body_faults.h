@@ -1,6 +1,4 @@
-/* body_faults.h: what is wrong with a body, between what it senses and what its robot is told, and back to its motors.
- *
- * BodyFaults in host_sim/world/body_faults.py is the readable reference. */
+/* body_faults.h: what is wrong with a body, between what it senses and what its robot is told, and back to its motors. */
 #ifndef OCTET_BODY_FAULTS_H
 #define OCTET_BODY_FAULTS_H
 
@@ -25,8 +23,14 @@ struct body_faults {
 void body_faults_sense(const struct body_faults *faults, uint32_t tick, struct senses *senses);
         /* Makes what the body senses into what the robot is told. tick is the number of the tick in the run. */
 
+void body_faults_measure(const struct body_faults *faults, uint8_t *range_mm);
+        /* The same for its FEEL_COUNT distances; noise does not change them. */
+
 void body_faults_drive(const struct body_faults *faults, struct drive *drive);
         /* Makes what the robot says into what the wheels do. */
+
+void body_faults_count(const struct body_faults *faults, double *left_mm, double *right_mm);
+        /* Makes the ways that the wheels roll into those that the odometers count. */
 
 void body_faults_move(const struct body_faults *faults, struct world *world, struct body *body, const struct drive *drive);
         /* Lets the wheels do that for one control tick, and the odometers count it. */

@@ -60,6 +60,11 @@ static struct vector nearest_of(struct vector a, struct vector b, struct vector 
     return vector_add(a, vector_scale(way, part));
 }
 
+struct vector capsule_nearest(const struct capsule *capsule, struct vector point)
+{
+    return nearest_of(capsule->a, capsule->b, point);
+}
+
 /* What touches what: the nearest disc of a capsule, or a body's. Points of contact are relative to a middle. */
 struct disc {
     struct vector centre;

@@ -35,6 +35,9 @@ void capsule_set_walls(struct capsule walls[WALLS], double width_mm, double heig
 double capsule_apart_mm(const struct capsule *capsule, struct vector point);
         /* A lower bound of its distance from a point: that of the box around it. Negative within the box. */
 
+struct vector capsule_nearest(const struct capsule *capsule, struct vector point);
+        /* The point of its centre line that is nearest to a point. */
+
 void capsule_meet_disc(const struct capsule *capsule, struct vector centre, double radius_mm, struct contact *out);
         /* How a disc lies to it. */
 

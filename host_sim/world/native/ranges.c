@@ -1,0 +1,133 @@
+#include "host_sim/world/native/ranges.h"
+
+#include "host_sim/world/native/trig.h"
+#include "host_sim/world/native/vector_sums.h"
+
+static const double RAD_PER_DEG = 3.141592653589793 / 180.0;
+static const double WIDTH_DEG = 45.0;
+static const double FAR_MM = 1e9;   /* nothing is there */
+
+enum { EDGES = FEEL_COUNT + 1, FRONT = 2 };
+
+/* A body that measures: cone n is between edges n and n + 1, the first one rightmost. */
+struct view {
+    const struct ranges *ranges;
+    struct vector at;
+    struct vector edges[EDGES];
+    double found_mm[FEEL_COUNT];   /* from the centre of the body, so far */
+};
+
+static double less(double one, double other)
+{
+    return one < other ? one : other;
+}
+
+/* The distance along a ray to a circle. */
+static double to_circle(struct vector ray, struct vector middle, double radius_mm)
+{
+    double ahead_mm = vector_dot(middle, ray), aside_mm = vector_cross(ray, middle);
+
+    if (ahead_mm < 0.0 || aside_mm * aside_mm > radius_mm * radius_mm)
+        return FAR_MM;
+    return ahead_mm - vector_root(radius_mm * radius_mm - aside_mm * aside_mm);
+}
+
+/* The distance along a ray to the nearer side of a capsule, without its round ends. */
+static double to_side(struct vector ray, struct vector a, struct vector b, double radius_mm)
+{
+    double length_mm = vector_length(vector_to(a, b)), line_mm, side_mm, toward, distance_mm, from_a_mm;
+    struct vector way;
+
+    if (length_mm == 0.0)
+        return FAR_MM;
+    way = vector_scale(vector_to(a, b), 1.0 / length_mm);
+    line_mm = vector_cross(way, a);   /* from the ray's beginning to the line, square to it */
+    toward = vector_cross(way, ray);
+    side_mm = line_mm > 0.0 ? line_mm - radius_mm : line_mm + radius_mm;
+    if (line_mm * side_mm <= 0.0 || toward * side_mm <= 0.0)
+        return FAR_MM;
+    distance_mm = side_mm / toward;
+    from_a_mm = vector_dot(vector_to(a, vector_scale(ray, distance_mm)), way);
+    return from_a_mm >= 0.0 && from_a_mm <= length_mm ? distance_mm : FAR_MM;
+}
+
+/* The distance to a capsule in one direction. */
+static double along(const struct view *view, const struct capsule *thing, struct vector ray)
+{
+    struct vector a = vector_to(view->at, thing->a), b = vector_to(view->at, thing->b);
+    double to_ends_mm = less(to_circle(ray, a, thing->radius_mm), to_circle(ray, b, thing->radius_mm));
+
+    return less(to_ends_mm, to_side(ray, a, b, thing->radius_mm));
+}
+
+/* Seen from outside, a capsule is near in one direction and farther away the more one looks past it to either side. So
+ * the nearest of it within a cone is in that direction, or else on one of the cone's two edges. */
+static double in_cone(const struct view *view, const struct capsule *thing, struct vector nearest, unsigned cone)
+{
+    struct vector right = view->edges[cone], left = view->edges[cone + 1];
+
+    if (vector_cross(left, nearest) >= 0.0 && vector_cross(nearest, right) >= 0.0)
+        return vector_length(nearest) - thing->radius_mm;
+    return less(along(view, thing, right), along(view, thing, left));
+}
+
+static double reach_mm(const struct ranges *ranges, unsigned cone)
+{
+    return cone == FRONT ? ranges->reach_mm + ranges->front_extra_mm : ranges->reach_mm;
+}
+
+static void measure_thing(struct view *view, const struct capsule *thing)
+{
+    struct vector nearest = vector_to(view->at, capsule_nearest(thing, view->at));
+
+    if (vector_length(nearest) - thing->radius_mm > reach_mm(view->ranges, FRONT))
+        return;
+    for (unsigned n = 0; n < FEEL_COUNT; n++)
+        view->found_mm[n] = less(view->found_mm[n], in_cone(view, thing, nearest, n));
+}
+
+static void measure_bodies(struct view *view, const struct world *world, const struct body *body)
+{
+    for (size_t i = 0; i < world->body_count; i++) {
+        const struct body *other = &world->bodies[i];
+        const struct vector at = {other->x_mm, other->y_mm};
+        const struct capsule disc = {.a = at, .b = at, .radius_mm = view->ranges->body_radius_mm};
+
+        if (other != body && !other->lifted)
+            measure_thing(view, &disc);
+    }
+}
+
+static void look_around(struct view *view, const struct body *body)
+{
+    for (unsigned i = 0; i < EDGES; i++) {
+        double edge_rad = body->heading_rad + WIDTH_DEG * (EDGES / 2.0 - 0.5 - (double)i) * RAD_PER_DEG;
+
+        view->edges[i] = (struct vector){trig_cos(edge_rad), trig_sin(edge_rad)};
+    }
+    for (unsigned n = 0; n < FEEL_COUNT; n++)
+        view->found_mm[n] = FAR_MM;
+}
+
+/* What a robot can be told of a distance from the centre of its body. */
+static uint8_t told(const struct ranges *ranges, double found_mm, unsigned cone)
+{
+    double range_mm = vector_whole(found_mm - ranges->body_radius_mm);
+
+    if (found_mm > reach_mm(ranges, cone))
+        return RANGE_NONE;
+    return range_mm > 0.0 ? (uint8_t)range_mm : 0;
+}
+
+void ranges_measure(const struct ranges *ranges, const struct world *world, const struct body *body, uint8_t *range_mm)
+{
+    struct view view = {.ranges = ranges, .at = {body->x_mm, body->y_mm}};
+
+    look_around(&view, body);
+    for (size_t i = 0; i < ranges->capsule_count && !body->lifted; i++)
+        measure_thing(&view, &ranges->capsules[i]);
+    if (!body->lifted)
+        measure_bodies(&view, world, body);
+    for (unsigned n = 0; n < FEEL_COUNT; n++)
+        range_mm[n] = told(ranges, view.found_mm[n], n);
+}

@@ -1,0 +1,21 @@
+/* ranges.h: how far away the things are that the proximity cones see, exactly: for robots that ask for distances. */
+#ifndef OCTET_RANGES_H
+#define OCTET_RANGES_H
+
+#include "host_sim/world/native/capsule.h"
+#include "host_sim/world/native/world.h"
+
+/* What is measured. */
+struct ranges {
+    const struct capsule *capsules;   /* walls, bars and plants */
+    size_t capsule_count;
+    double body_radius_mm;
+    double reach_mm;          /* of the cones, from the centre of a body, */
+    double front_extra_mm;    /* and how much farther the front one reaches */
+};
+
+void ranges_measure(const struct ranges *ranges, const struct world *world, const struct body *body, uint8_t *range_mm);
+        /* What a body measures where it stands, of capsules and of other bodies: for each of the FEEL_COUNT cones, whole mm
+           beyond its rim, or RANGE_NONE where nothing is in reach. In the air nothing is. */
+
+#endif
