@@ -132,6 +132,14 @@ def _add_session_options(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         help="time to wait for a bus or an adapter that is gone, s (default: %(default)g)",
     )
+    for option, most, unit, what in (
+        ("--unanswered-max", 100, "PERCENT", "share of ticks without an answer, %%"),
+        ("--gap-max-s", 3600, "S", "longest time without an answer, s"),
+        ("--late-max", 100, "PERCENT", "share of ticks that this host begins late, %%"),
+    ):
+        value = getattr(default, option[2:].replace("-", "_"))
+        text = f"real time: {what}; beyond it, the result is doubtful (default: %(default)g)"
+        add(option, type=number(0, most, float), default=value, metavar=unit, help=text)
     add(
         "--fault",
         action="append",

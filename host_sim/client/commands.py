@@ -48,6 +48,8 @@ def stop(client: RobotClient) -> None:
         client.dialogue.demand_reports("report")  # of the two reports, one may have been damaged on its way
     client.check_held()
     client.check_settled()
+    for doubt in client.punctuality.doubts():
+        client.distrust(doubt)
 
 
 def write_cells(client: RobotClient, sides: Mapping[int, int]) -> None:

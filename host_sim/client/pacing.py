@@ -14,10 +14,6 @@ HOLD_TICKS = 5
 """A body without a new drive continues with its last one for this many ticks (100 ms); then its wheels stop."""
 
 
-MISSING_S = 1.0
-"""A robot that does not answer for this time, s, makes the result of a run in real time doubtful."""
-
-
 class Pace(Protocol):
     """Takes the world and its robots through one tick."""
 
@@ -96,8 +92,8 @@ class _Wheels:
         self.waited += 1
         if self.waited * tick_s > self.client.connection.deadline_s:
             raise self.client.dialogue.no_answer(f"tick {tick}")
-        if self.waited == round(MISSING_S / tick_s):
-            self.client.distrust(f"the robot did not answer for {MISSING_S:g} s")
+        if self.client.punctuality.miss(round(self.waited * tick_s, 6), tick_s):
+            self.client.distrust(f"the robot did not answer for {self.waited * tick_s:g} s")
 
 
 def applied(last: Drive | None, tick: int, came: bool) -> Drive:
@@ -133,7 +129,9 @@ class RealTime:
     def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
         """As in `Pace`: the drives are the robots' answers, or earlier ones that are still held."""
         early = self._listen(self._next_s, until_all_answer=False)
+        late_s = max(self._now() - self._next_s, 0.0)
         for wheels, sensed in zip(self._wheels, senses, strict=True):
+            wheels.client.punctuality.begin(late_s, self._tick_s)
             wheels.client.send_senses(sensed)
         # A host that was delayed does not catch up: that would not be real time either.
         self._next_s = max(self._next_s, self._now()) + self._tick_s

@@ -7,6 +7,7 @@ from host_sim.client.dialogue import Dialogue
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.inbox import Inbox
 from host_sim.client.incident import Incident
+from host_sim.client.punctuality import Punctuality
 from host_sim.client.refused_frames import RefusedFrames
 from host_sim.client.robot_reports import RobotReports
 from host_sim.client.round_trip import RoundTrip
@@ -36,6 +37,7 @@ class RobotClient:
         inbox: Takes in what comes.
         waiting: Waits for it.
         dialogue: Sends commands.
+        punctuality: How far a run in real time was one.
         refused: The frames that were refused.
         incidents: What happened that makes the result of the run doubtful, the first `INCIDENTS_MAX`.
         unlisted: Number of incidents after those.
@@ -67,6 +69,7 @@ class RobotClient:
         self.connection, self.protocol, self.log = connection, protocol, log
         self.round_trip = RoundTrip()
         self.inbox = Inbox(protocol, log.add, connection.now, lockstep, owner)
+        self.punctuality = Punctuality()
         self.refused = RefusedFrames(log)
         self.inbox.refuse = self.refused.add
         self.waiting = Waiting(connection, self.round_trip, self.inbox)

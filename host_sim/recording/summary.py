@@ -35,8 +35,9 @@ class Summary:
             end of the environment).
         robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, repeated,
             duplicate, lost, refused), faults (the robot's own fault counters), saturated (those of them that stand at
-            255, their limit, and may be more), round_trip_ms (mean time of an answer), line (outages and unsent
-            frames).
+            255, their limit, and may be more), round_trip_ms (mean time of an answer), real_time (ticks, share
+            without an answer, longest gap, share that began late, the most that one was late; null in lockstep), line
+            (outages and unsent frames).
         changes: The changes that were asked for: those that happened, those refused because they could not be, and
             those missed, for which the run or their environment was too short.
         incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run. Of
@@ -175,6 +176,7 @@ def _robot(client: RobotClient) -> dict[str, Any]:
         "faults": client.faults,
         "saturated": [name for name, count in client.faults.items() if count == _FAULTS_MAX],
         "round_trip_ms": None if mean_s is None else round(mean_s * 1000, 3),
+        "real_time": client.punctuality.summary(),
         "line": {"outages": client.connection.line.outages, "unsent": client.connection.line.unsent},
     }
 

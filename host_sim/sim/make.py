@@ -12,6 +12,7 @@ from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog, NoLog
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, Pace, RealTime
+from host_sim.client.punctuality import Limits
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.errors import RefusedError, UsageError
@@ -145,6 +146,7 @@ def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, 
     # Drawn from the seed: two who share a bus rarely have the same number, and the same run has the same log again.
     owner = config.owner or (Random(config.seed).randint(1, _OWNER_MAX) if external else 1)
     client = RobotClient(connection, Protocol(node), log, lockstep=not config.real_time, owner=owner)
+    client.punctuality.limits = Limits(config.unanswered_max, config.gap_max_s, config.late_max)
     handshake(client, _EXTERNAL_S if external else connection.deadline_s, shared=external)
     return client
 

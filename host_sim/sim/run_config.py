@@ -40,6 +40,9 @@ class RunConfig:
             that is started here, one drawn from the seed for an external one.
         reconnect_s: Time to wait for a bus or a serial line that is gone, s of wall-clock time.
         physics: One of `PHYSICS`, which give the same bytes; None for pymunk on a CAN bus, and fast elsewhere.
+        unanswered_max: Largest share of ticks without an answer, %, with which a run in real time is sound.
+        gap_max_s: Likewise the longest time without an answer, s.
+        late_max: Likewise the share of ticks that this host begins late, %.
         changes: What the world and the bodies are to meet with, as `host_sim.world.changes` has it.
         faults: Faults to make on the way to the robots and back, as `host_sim.faults.rule` has them.
         fault_seed: Seed for them.
@@ -61,6 +64,9 @@ class RunConfig:
     board: str = ""
     owner: int = 0
     reconnect_s: float = 10.0
+    unanswered_max: float = 10.0
+    gap_max_s: float = 1.0
+    late_max: float = 10.0
     physics: str | None = None
     changes: tuple[str, ...] = ()
     faults: tuple[str, ...] = ()

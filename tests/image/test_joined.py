@@ -133,7 +133,7 @@ def test_on_a_socketcan_bus_it_does_what_the_host_build_does(tmp_path):
     logs = [tmp_path / "host.log", tmp_path / "vcan.log"]
     record(REFERENCE, 3, 500, logs[0])
 
-    run_ticks(RunConfig(seed=3, bus="socketcan:vcan0", robot="external"), 500, FrameLog(logs[1]))
+    run_ticks(RunConfig(seed=3, bus="socketcan:vcan0", robot="external", owner=1), 500, FrameLog(logs[1]))
 
     assert first_difference(*logs) is None
 
