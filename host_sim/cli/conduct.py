@@ -74,7 +74,7 @@ def conduct(options: RunOptions) -> Summary:
         with ExitStack() as stack:
             listener = open_listener(stack, options.watch)
             log = FrameLog(options.log)
-            stack.callback(log.close)
+            stack.callback(log.drop)
             memories = _first_memories(options, loaded)
             simulation = stack.enter_context(
                 make(options.config, log, memories, lambda client: _print_robot(options, client))
@@ -150,6 +150,8 @@ def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
     with suppress(OctetError):
         if isinstance(end, KeyboardInterrupt):
             stop_soon(outputs.simulation.clients)
+    if not outputs.has_begun and any((outputs.options.out / name).exists() for name in LOGS):
+        return  # a run without a tick takes no other's place
     with suppress(OctetError):
         outputs.write()
         if isinstance(end, KeyboardInterrupt):

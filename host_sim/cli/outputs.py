@@ -1,9 +1,10 @@
 """The output folder of a run: one run, whole, however it ended."""
 
+import os
 import signal
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -43,8 +44,13 @@ class Outputs:
     cut_short: bool = False
     _began_s: float = field(default_factory=time.monotonic)
 
+    @property
+    def has_begun(self) -> bool:
+        """Whether there was a first tick."""
+        return any(client.inbox.ticks for client in self.simulation.clients)
+
     def write(self) -> Summary:
-        """Writes all files; signals wait until then. Files of an earlier run go before the first one is replaced.
+        """Writes all files; signals wait until then. Files of an earlier run are kept in the folder `OUT.1`.
 
         Raises:
             OctetError: A file cannot be written.
@@ -70,9 +76,9 @@ class Outputs:
         """
         out, log = self.options.out, self.options.log
         self.log.flush()
-        others = (out / name for name in (SUMMARY, PICTURE, PAGE, *LOGS) if out / name != log)
-        for path in (*others, world_path(log)):
-            _remove(path)
+        earlier = [*(out / name for name in (SUMMARY, PICTURE, PAGE, *LOGS)), world_path(log)]
+        for path in earlier if any(map(Path.exists, earlier)) else ():
+            _keep(path)
         digest = self.log.close()
         write_world(self.simulation.record, world_path(log))
         return digest
@@ -89,8 +95,16 @@ class Outputs:
             write_page(self.options.out / PAGE, trajectory, self.simulation.record.title)
 
 
-def _remove(path: Path) -> None:
+def _keep(path: Path) -> None:
+    """Moves a file of an earlier run to the folder beside; removes it where that cannot be."""
+    folder = Path(os.path.realpath(path.parent))
+    kept = folder.with_name(f"{folder.name}.1")
     try:
+        with suppress(OSError):
+            kept.mkdir(exist_ok=True)
+            (kept / path.name).unlink(missing_ok=True)
+            if path.is_file():  # a folder in its place is refused below
+                path.replace(kept / path.name)
         path.unlink(missing_ok=True)
     except OSError as error:
         raise OctetError(f"cannot replace {path}: {error.strerror}") from error

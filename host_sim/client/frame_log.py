@@ -132,6 +132,15 @@ class FrameLog:
             raise OctetError(f"cannot write {self._path}: {error.strerror}") from error
         return self._digest.hexdigest()
 
+    def drop(self) -> None:
+        """Closes the log, and removes it unless it was closed before or could not be written; an old one stays."""
+        if self._file.closed:
+            return
+        with suppress(OSError):
+            self._file.close()
+            if not self._failed and self._part != self._path:
+                self._part.unlink()
+
     def _flush(self) -> None:
         block = "".join(self._lines).encode("ascii")
         self._lines.clear()

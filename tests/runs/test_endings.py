@@ -13,7 +13,7 @@ import pytest
 from host_sim.backends.robot_process import RobotProcess
 from host_sim.errors import RobotError
 from host_sim.live.paced_run import PAUSE_S
-from tests.runs.support import DEADLINE_S, octet, robot_of, start_octet, wait_for_lines
+from tests.runs.support import DEADLINE_S, octet, octet_process, robot_of, start_octet, wait_for_lines
 
 FILES = ("run.log", "run.world.json", "summary.json", "arena.png", "replay.html")
 SHORT = ("--environments", "1", "--limit-s", "5", "--bus", "none")
@@ -124,6 +124,29 @@ def test_what_is_overwritten_is_said(tmp_path):
     done = octet("run", *SHORT, "--out", tmp_path)
 
     assert f"replaces  the run in {tmp_path} (seed 3)\n" in done.stdout
+
+
+def test_the_run_before_is_kept_beside(tmp_path):
+    out, kept = tmp_path / "out", tmp_path / "out.1"
+    for seed in ("3", "4", "5"):
+        assert octet("run", *SHORT, "--seed", seed, "--quiet", "--out", out).returncode == 0
+
+    assert_whole(out, 5)
+    assert_whole(kept, 4)
+
+
+@pytest.mark.parametrize(
+    "words", [("run", "--bus", "foo:1", "--robot", "external"), ("watch", "--bus", "none", "--terminal")]
+)
+def test_a_run_that_ends_before_its_first_tick_leaves_the_last_one(tmp_path, words):
+    out = tmp_path / "out"
+    assert octet("run", *SHORT, "--seed", "3", "--quiet", "--out", out).returncode == 0
+
+    done = octet_process(*words, "--out", out, stdin=subprocess.DEVNULL)
+
+    assert done.returncode != 0
+    assert_whole(out, 3)
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
 
 
 @pytest.mark.parametrize("summary", [b"", b"{", b"[]", b"\xff\xfe", b"{}"])
