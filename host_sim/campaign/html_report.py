@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Sequence
 from html import escape
 
-from host_sim.campaign.outcome import Outcome
+from host_sim.campaign.outcome import Outcome, unreached
 
 _STYLE = """
 :root { color-scheme: light dark; --bad: #ffd9d6; --bad-ink: #8c0b00; --told: #fff0c9; --well: #e2f3e2; }
@@ -40,7 +40,8 @@ _EXPLAINED = (
     "<em>doubted</em>, where the run went on and says that its result is not to be trusted. It opens to what was "
     "noticed, whether the robot took part again, the longest time for which wheels turned without a new drive, what "
     "was learned wrong, and the command that repeats the run. A green cell went on as if nothing had happened, a "
-    "yellow one says what is wrong, and a red one is not as it should be.</p>\n"
+    "yellow one says what is wrong, or that the fault did not reach its receiver, and a red one is not as it should "
+    "be.</p>\n"
 )
 
 
@@ -62,8 +63,13 @@ def summary(outcomes: Sequence[Outcome]) -> str:
     wrong = sum(bool(outcome.wrong) for outcome in outcomes)
     return (
         f"{len(outcomes)} runs: {bad} not as they should be, {ended} ended before their time, {doubted} doubted, "
-        f"{wrong} learned a wrong turn"
+        f"{wrong} learned a wrong turn{_untested(outcomes)}"
     )
+
+
+def _untested(outcomes: Sequence[Outcome]) -> str:
+    faults = unreached(outcomes)
+    return f"; of these faults none reached its receiver: {', '.join(faults)}" if faults else ""
 
 
 def verdict(outcome: Outcome) -> str:
@@ -89,6 +95,7 @@ def _lines(outcome: Outcome) -> list[str]:
         *outcome.doubts[:_DOUBTS_MAX],
         f"and {more} more like these" if more > 0 else "",
         "" if outcome.seen == outcome.end != "" else f"seen: {outcome.seen or 'nothing'}",
+        f"fault: {outcome.reach}" if outcome.reach else "",
         f"recovered: {'yes' if outcome.recovered else 'no'}",
         f"wheels turned without a new drive for {outcome.rest_ms} ms at most",
     )
@@ -163,7 +170,8 @@ def _table(profile: str, outcomes: Sequence[Outcome]) -> str:
 def _cell(outcome: Outcome | None) -> str:
     if outcome is None:
         return "<td></td>"
-    kind = "bad" if outcome.problems else "told" if outcome.end or outcome.doubts or outcome.wrong else "well"
+    is_told = outcome.end or outcome.doubts or outcome.wrong or outcome.reach in ("refused", "never came")
+    kind = "bad" if outcome.problems else "told" if is_told else "well"
     told = "".join(f"<p>{escape(line)}</p>" for line in _lines(outcome))
     return (
         f'<td class="{kind}"><details><summary>{escape(verdict(outcome))}</summary>{told}'

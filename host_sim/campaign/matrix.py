@@ -42,6 +42,7 @@ class FaultClass:
         harmless: At which pace it may go unnoticed; in lockstep it must leave no trace then.
         denies: Whether the robot itself must tell of it, and learn nothing wrong.
         in_lesson: Whether it happens when something is learned.
+        profiles: The behaviours to which it can happen; empty for all.
     """
 
     name: str
@@ -53,10 +54,12 @@ class FaultClass:
     harmless: tuple[str, ...] = ()
     denies: bool = False
     in_lesson: bool = False
+    profiles: tuple[str, ...] = ()
 
     def can_happen(self, profile: str, link: str, pace: str) -> bool:
         """Whether it can happen in a configuration."""
         is_there = pace in self.paces and (not self.links or link in self.links)
+        is_there = is_there and (not self.profiles or profile in self.profiles)
         return is_there and not (self.in_lesson and profile in _NO_LESSONS)
 
     def cell(self, base: Cell) -> Cell:
@@ -100,8 +103,9 @@ def _of_forgery() -> Iterator[FaultClass]:
         name = opcode.name.lower()
         yield FaultClass(f"a forged {name} command", (f"forge:{name}@300/to",))
     for message in MESSAGES.values():
+        profiles = ("distance",) if message.name == "RANGES" else ()  # to others, they are foreign frames
         rule = f"forge:20%:{message.name}/from" if message.sender == "ROBOT" else f"forge:{message.name}@300-310/to"
-        yield FaultClass(f"forged {message.name} frames", (rule,))
+        yield FaultClass(f"forged {message.name} frames", (rule,), profiles=profiles)
 
 
 def _of_flash() -> Iterator[FaultClass]:

@@ -1,5 +1,6 @@
 """What comes of a cell: whether it was safe, whether the fault was seen, and whether anything wrong was learned."""
 
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from host_sim.campaign.cell import Cell
@@ -10,6 +11,20 @@ from host_sim.protocol.generated import PARAMETERS
 _TICK_MS = PARAMETERS["tick_ms"].default
 _FRESH_TICKS = 25
 _DENIALS = ("denied", "contradictions")
+
+
+def unreached(outcomes: Iterable["Outcome"], ways: Collection[str] = ("refused", "never came")) -> list[str]:
+    """The faults, in words, that reached their receiver in no run: those runs test little.
+
+    Args:
+        outcomes: What came of the runs.
+        ways: What became of them instead.
+    """
+    reaches: dict[str, set[str]] = {}
+    for each in outcomes:
+        if each.cell.fault:
+            reaches.setdefault(each.cell.fault, set()).add(each.reach)
+    return [fault for fault, those in reaches.items() if those <= set(ways)]
 
 
 @dataclass
@@ -27,6 +42,8 @@ class Outcome:
         course: SHA-256 of what the robot sensed and did, tick by tick.
         broke: Whether it ended with an error that is not about the robot, its line, or files that were harmed.
         lost: What is missing from its files without a warning, in words; empty if they hold all.
+        strikes: Number of faults that frames had.
+        refusals: Number of frames that simulator and robot refused.
         struck: The faults that frames had, as rules for one frame each.
         waiting: Events that have not come to happen.
         moved: Tick after which the robot last answered in time.
@@ -44,6 +61,8 @@ class Outcome:
     course: str = ""
     broke: bool = False
     lost: str = ""
+    strikes: int = 0
+    refusals: int = 0
     struck: tuple[str, ...] = ()
     waiting: tuple[Event, ...] = ()
     moved: int = 0
@@ -69,6 +88,17 @@ class Outcome:
     def _is_seen(self) -> bool:
         """Whether the fault was noticed: by the robot itself, where it must."""
         return any(sign in self.seen for sign in _DENIALS) if self.cell.denies else bool(self.seen)
+
+    @property
+    def reach(self) -> str:
+        """Whether its fault reached its receiver: reached, refused (all of it), or never came; empty without one."""
+        cell = self.cell
+        if not cell.items or self.end or self.doubts:
+            return "reached" if cell.items else ""
+        if cell.faults and not self.strikes and not cell.changes and not cell.events:
+            return "never came"
+        is_forged = bool(cell.faults) and all(rule.startswith("forge") for rule in cell.faults)
+        return "refused" if is_forged and self.refusals >= self.strikes else "reached"
 
     @property
     def recovered(self) -> bool:

@@ -22,6 +22,7 @@ from host_sim.sim.make import make
 from host_sim.sim.simulation import Simulation
 
 _PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
+_REFUSING = ("stale", "damaged", "foreign", "refused")
 _SIGNS_MAX = 10
 """A robot in lockstep that waits says so now and then: some frames more are no sign of a fault."""
 
@@ -160,5 +161,8 @@ def _note(outcome: Outcome, client: RobotClient) -> None:
     outcome.doubts = tuple(map(str, client.incidents))
     outcome.seen = outcome.seen or ", ".join(outcome.doubts)
     outcome.wrong = tuple(pattern for pattern, side in _PROPER.items() if sides[pattern] not in (0, side))
+    robots = sum(client.faults.get(kind, 0) for kind in _REFUSING)
+    outcome.refusals = frames.refused + robots
     if isinstance(client.connection.link, FaultyLink):
+        outcome.strikes = client.connection.link.schedule.count
         outcome.struck = tuple(map(str, client.connection.link.schedule.struck))

@@ -90,6 +90,7 @@ def _campaign(arguments: argparse.Namespace) -> int:
         return _repeat(arguments.repeat) if arguments.repeat else _shrink(arguments.shrink)
     from host_sim.atomic_file import write_bytes
     from host_sim.campaign.html_report import page, summary, verdict
+    from host_sim.campaign.outcome import unreached
 
     outcomes = []
     for outcome in _outcomes(arguments):
@@ -100,7 +101,7 @@ def _campaign(arguments: argparse.Namespace) -> int:
     write_bytes(arguments.html, page(outcomes).encode())
     print(summary(outcomes))
     print(f"wrote {arguments.html}")
-    return int(any(outcome.problems for outcome in outcomes))
+    return int(any(outcome.problems for outcome in outcomes) or bool(unreached(outcomes, ("never came",))))
 
 
 def _outcomes(arguments: argparse.Namespace) -> "Iterator[Outcome]":

@@ -9,7 +9,7 @@ import pytest
 from host_sim.campaign import matrix
 from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.campaign.course import CourseLog
-from host_sim.campaign.html_report import page, verdict
+from host_sim.campaign.html_report import page, summary, verdict
 from host_sim.campaign.links import LINKS, open_setup
 from host_sim.campaign.matrix import FaultClass, default_limit_s, groups
 from host_sim.campaign.outcome import Outcome
@@ -33,7 +33,7 @@ def test_each_fault_is_seen_and_told(tmp_path, monkeypatch):
     done = octet("campaign", report, "--profiles", "article", "--limit-s", "15")
 
     assert (done.returncode, done.stderr) == (0, "")
-    runs = 1 + len([each for each in soon if not each.links])
+    runs = 1 + len([each for each in soon if not each.links and not each.profiles])
     assert f"{runs} runs: 0 not as they should be" in done.stdout
     text = report.read_text()
     assert text.count("<details>") == runs
@@ -239,3 +239,29 @@ def test_what_need_not_be_noticed_must_not_leave_a_trace():
     outcome.differs = True
 
     assert outcome.problems == ["unseen"]
+
+
+NEVER = FaultClass("a fault that never comes", ("forge:erase@99999/to",), harmless=PACES)
+REFUSED = FaultClass("forged senses", ("forge:SENSES@300-303/to",), harmless=PACES)
+REACHED = FaultClass("a forged erase", ("forge:erase@300/to",))
+
+
+@pytest.mark.parametrize(("fault", "reach"), [(NEVER, "never came"), (REFUSED, "refused"), (REACHED, "reached")])
+def test_each_run_says_whether_its_fault_reached_its_receiver(fault, reach):
+    (cells,) = groups(["article"], ["none"], [LOCKSTEP], lambda _: 8.0, [fault])
+
+    _, outcome = run_all(cells)
+
+    assert outcome.reach == reach
+    assert f"fault: {reach}" in page([outcome])
+    assert ('class="well"' in page([outcome]), fault.name in summary([outcome])) == (False, reach != "reached")
+
+
+def test_a_fault_that_never_comes_fails_the_campaign(tmp_path, monkeypatch):
+    monkeypatch.setattr("host_sim.campaign.matrix.groups.__defaults__", ((NEVER,),))
+    words = ("--profiles", "article", "--limit-s", "3")
+
+    done = octet("campaign", tmp_path / "campaign.html", *words)
+
+    assert done.returncode == 1
+    assert "none reached its receiver: a fault that never comes" in done.stdout
