@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 EXTRAS = ("export", "study", "cluster", "classroom")
-STAGES = ("run", "emulator", "gym", *EXTRAS, "tests")
+STAGES = ("run", "emulator", "gym", *EXTRAS, "tests", "web")
 LOCKS = tuple(f"requirements/{name}.lock" for name in STAGES)
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;

@@ -68,7 +68,7 @@ def _run(project: Path, scratch: str) -> str:
         command = (CPPCHECK, f"--project={project}", *options, template)
         result = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:
-        raise CheckError(f"cannot run cppcheck: {error}; tools/setup tests installs it") from error
+        raise CheckError(f"cannot run cppcheck: {error}; tools/setup misra installs it") from error
     if result.returncode != 0 or "Bailing out" in result.stdout:
         raise CheckError(f"cppcheck failed: {result.stdout}{result.stderr}")
     return result.stderr
