@@ -1,5 +1,6 @@
 """From the name that a person types to an open link on a bus."""
 
+import errno
 import logging
 from collections.abc import Sequence
 from typing import Any
@@ -7,7 +8,7 @@ from typing import Any
 import can
 from can.typechecking import CanFilter
 
-from host_sim.errors import UsageError
+from host_sim.errors import LinkDownError, UsageError
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.transport.bus_link import BusLink
 from host_sim.transport.line_stats import LineStats
@@ -29,6 +30,7 @@ def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats, bitrate: int =
 
     Raises:
         UsageError: The name is not one of a bus, or the bus cannot be opened.
+        LinkDownError: The bus is there, but down.
     """
     interface, _, channel = bus.partition(":")
     if interface == "slcan" and channel:
@@ -46,6 +48,7 @@ def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.
 
     Raises:
         UsageError: The name is not one of a bus, or the bus cannot be opened.
+        LinkDownError: The bus is there, but down.
     """
     interface, colon, channel = bus.partition(":")
     if not (interface and colon and channel):
@@ -65,6 +68,8 @@ def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.
         return opened
     except (can.CanError, can.CanInterfaceNotImplementedError, OSError, ValueError, TypeError, ImportError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+        if errno.ENETDOWN in (getattr(error, "error_code", None), getattr(error, "errno", None)):
+            raise LinkDownError(f"the bus {interface}:{channel} is down: {reason}") from error
         raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}") from error
 
 

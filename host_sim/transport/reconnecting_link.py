@@ -16,7 +16,7 @@ class ReconnectingLink:
     """Opens a link again whenever it is gone. What is sent meanwhile is lost; `receive` waits until it is back."""
 
     def __init__(self, name: str, open_link: Callable[[], Link], stats: LineStats, patience_s: float) -> None:
-        """Opens the link for the first time.
+        """Opens the link for the first time. One that is down is waited for as one that goes down later.
 
         Args:
             name: Name of the line, for messages.
@@ -28,8 +28,12 @@ class ReconnectingLink:
             OctetError: It cannot be opened.
         """
         self._name, self._open_link, self._stats, self._patience_s = name, open_link, stats, patience_s
-        self._link: Link | None = open_link()
+        self._link: Link | None = None
         self._gone_since: float | None = None
+        try:
+            self._link = open_link()
+        except LinkDownError as error:
+            self._note_gone(error)
 
     def send(self, frame: Frame) -> None:
         """As in `Link`, but a line that is gone only costs the frame."""

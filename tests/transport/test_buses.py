@@ -3,7 +3,7 @@
 import can
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.errors import LinkDownError, UsageError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.buses import open_bus, open_bus_link
 from host_sim.transport.line_stats import LineStats
@@ -68,6 +68,17 @@ class Bus:
     def recv(self, _timeout: float) -> can.Message | None:
         self.frames -= 1
         return can.Message() if self.frames >= 0 else None
+
+
+@pytest.mark.parametrize("error", [can.CanOperationError("Network is down", 100), OSError(100, "Network is down")])
+def test_a_bus_that_is_down_is_told_from_one_that_is_not_there(monkeypatch, error):
+    def down(**_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(can, "Bus", down)
+
+    with pytest.raises(LinkDownError, match="the bus socketcan:can0 is down: "):
+        open_bus("socketcan:can0")
 
 
 def test_what_comes_before_the_filters_are_set_is_forgotten(monkeypatch):

@@ -87,6 +87,26 @@ def test_a_line_that_is_back_is_opened_again(line):
     assert link.receive(0.0) == FRAME
 
 
+def test_a_line_that_is_down_at_the_start_is_waited_for(line):
+    ups = iter([False, False, True])
+
+    def open_link() -> Line:
+        if not next(ups):
+            raise LinkDownError("the bus x is down")
+        return line.open()
+
+    stats = LineStats()
+    link = ReconnectingLink("the bus x", open_link, stats, 5.0)
+    link.send(FRAME)
+    line.waiting.append(FRAME)
+
+    assert link.receive(0.0) is None
+    link.send(FRAME)
+
+    assert link.receive(0.0) == FRAME
+    assert (stats.outages, stats.unsent, line.opened) == (1, 1, 1)
+
+
 def test_a_line_that_stays_away_is_given_up(line):
     link = reconnecting(line, patience_s=0.3)
     line.is_there = False
