@@ -23,8 +23,7 @@ def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
     """A run for all tests of this module. However it was treated, no robot has counted a fault at its end."""
     watched = start_watched(tmp_path_factory.mktemp("watched") / "run", "--environments", "20")
     yield watched
-    assert watched.end() == 0
-    assert set(watched.summary()["robots"][0]["faults"].values()) == {0}
+    ends_well(watched)
     watched.process.communicate()
 
 
@@ -32,8 +31,17 @@ def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
 def watched(shared: Watched) -> Iterator[Watched]:
     """The run; it must go on after the test."""
     yield shared
-    first = talk(shared, tick)
-    eventually(lambda: talk(shared, tick) > first, "the run goes on")
+    goes_on(shared)
+
+
+def goes_on(watched: Watched) -> None:
+    first = talk(watched, tick)
+    eventually(lambda: talk(watched, tick) > first, "the run goes on")
+
+
+def ends_well(watched: Watched) -> None:
+    assert watched.end() == 0
+    assert set(watched.summary()["robots"][0]["faults"].values()) == {0}
 
 
 @pytest.fixture
@@ -203,7 +211,8 @@ def test_a_page_that_stops_reading_holds_nothing_up(watched):
     talk(watched, speed(1))
 
 
-def test_no_more_pages_than_fit(watched):
+def test_no_more_pages_than_fit(watch):
+    watched = watch()
     home, query = watched.url.split("?")
     headers = {"Origin": home.rstrip("/")}
 
@@ -216,6 +225,8 @@ def test_no_more_pages_than_fit(watched):
             return refusal.value.status
 
     assert asyncio.run(crowd()) == 503
+    goes_on(watched)
+    ends_well(watched)
 
 
 def test_only_the_page_and_its_parts_are_served(watched):
