@@ -12,7 +12,7 @@ TICKS = 700
 MEMORY = b" 681#"
 
 
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("seed", [1, 2])
 def test_all_images_do_what_the_host_build_does(seed, tmp_path):
     verdicts = list(compare([seed], TICKS, tmp_path))
 
