@@ -5,14 +5,13 @@ robot can be written at all in that case: what it does not name is proved to sta
 """
 
 import re
-import subprocess
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import pytest
 
-from tests.proof.parts import HERE, INCLUDED, ROBOT, ROOT
+from tests.proof.parts import HERE, ROBOT
 
 ANALYSIS = ("-eva", "-eva-precision", "1", "-out")
 MEMORY = "robot.brain.memory"
@@ -41,17 +40,12 @@ CASES = {
 
 
 @pytest.fixture(scope="module")
-def parsed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def parsed(frama_c: Callable[..., str], tmp_path_factory: pytest.TempPathFactory) -> Path:
     """All of it, read once."""
     saved = tmp_path_factory.mktemp("contracts") / "parsed.sav"
     files = (HERE / "any.c", HERE / "contracts.c", *ROBOT)
-    frama_c("-machdep", "gcc_x86_32", f"-cpp-extra-args={' '.join(INCLUDED)}", *files, "-save", saved)
+    frama_c(*files, "-save", saved)
     return saved
-
-
-def frama_c(*words: object) -> str:
-    command = ["frama-c", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT).stdout
 
 
 def written(report: str) -> list[str]:
@@ -90,7 +84,7 @@ def touches(path: str, whole: str) -> bool:
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_what_must_not_change_stays_as_it_was(parsed, name):
+def test_what_must_not_change_stays_as_it_was(frama_c, parsed, name):
     report = frama_c("-load", parsed, *ANALYSIS, "-main", name)
     may_be_written = written(report)
 
@@ -100,7 +94,7 @@ def test_what_must_not_change_stays_as_it_was(parsed, name):
     assert "0 alarms generated" in report
 
 
-def test_an_assertion_that_does_not_hold_is_found(parsed):
+def test_an_assertion_that_does_not_hold_is_found(frama_c, parsed):
     report = frama_c("-load", parsed, *ANALYSIS, "-main", "any_drive_is_at_rest")
 
     assert "[eva:alarm]" in report
