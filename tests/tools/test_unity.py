@@ -97,3 +97,9 @@ def test_every_c_test_is_added_so():
     adding = [path for path in sorted(ROOT.glob("tests/**/CMakeLists.txt")) if "add_test(NAME" in path.read_text()]
 
     assert adding == []
+
+
+def test_no_c_test_is_listed_by_hand():
+    listing = [path for path in sorted(ROOT.glob("tests/**/*.c")) if "RUN_TEST(" in path.read_text()]
+
+    assert listing == []
