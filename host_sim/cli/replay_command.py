@@ -13,9 +13,11 @@ if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
     from host_sim.recording.resimulation import Resimulation
 
+_SHOWN_MAX = 10
 _EXAMPLES = """\
 examples:
   tools/octet replay out/run.log                     does the current firmware do the same?
+  tools/octet replay out/run.log --protocol          of any firmware: does it keep to the protocol?
   tools/octet replay out/run.log --html run.html     write the run as a page to play in a browser
   tools/octet replay out/run.log --html run.html --what-if     and to change: the firmware runs on from any tick
 """
@@ -39,6 +41,9 @@ def add(commands: "Subparsers") -> None:
         "--html", type=file_path, metavar="FILE", help="instead, write the run to FILE as a page to play in a browser"
     )
     parser.add_argument(
+        "--protocol", action="store_true", help="check only that the robot keeps to the protocol, whatever it does"
+    )
+    parser.add_argument(
         "--what-if",
         action="store_true",
         help="with --html: put the firmware into the page, so that it can run on from any tick with what you change",
@@ -46,13 +51,32 @@ def add(commands: "Subparsers") -> None:
 
 
 def _check(arguments: argparse.Namespace) -> None:
+    if arguments.protocol and arguments.html is not None:
+        raise UsageError("--protocol checks a log, and writes no page: leave out --html or --protocol")
     if arguments.what_if and arguments.html is None:
         raise UsageError("--what-if is for a page: name it with --html FILE")
     check_outputs("replay", arguments.log, {"--html": arguments.html})
 
 
 def _replay(arguments: argparse.Namespace) -> int:
+    if arguments.protocol:
+        return _check_protocol(arguments.log, arguments.node)
     return _compare(arguments.log, arguments.node) if arguments.html is None else _write_page(arguments)
+
+
+def _check_protocol(log: Path, first_node: int) -> int:
+    """Checks the robots from a node on for the protocol alone."""
+    from host_sim.protocol.codec import Protocol
+    from host_sim.recording.conversation import check_conversation
+    from host_sim.recording.log_reader import nodes_in, read_log
+
+    lines, sound = read_log(log), True
+    for node in sorted({first_node, *(node for node in nodes_in(lines) if node > first_node)}):
+        found = check_conversation(lines, Protocol(node))
+        counts = f"{found.commands} commands and {found.drives} senses answered, {len(found.problems)} problems"
+        print("\n  ".join([f"{log}, node {node}: {counts}", *found.problems[:_SHOWN_MAX]]))
+        sound = sound and not found.problems
+    return 0 if sound else 1
 
 
 def _compare(log: Path, first_node: int) -> int:
