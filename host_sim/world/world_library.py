@@ -4,7 +4,6 @@ from functools import cache
 from typing import Any
 
 from host_sim.paths import BUILD, ROOT
-from host_sim.world.native_library import load_native
 
 LIBRARY = BUILD / "host" / "host_sim" / "world" / "native" / "liboctet_world.so"
 _NATIVE = ROOT / "host_sim" / "world" / "native"
@@ -23,4 +22,7 @@ def world_library() -> tuple[Any, Any]:
     Raises:
         NoNativeError: It cannot be used.
     """
+    # A command line is judged by the plain python3, which has no cffi.
+    from host_sim.world.native_library import load_native  # noqa: PLC0415 - see above
+
     return load_native(LIBRARY, "world_", HEADERS, words=_WORDS)
