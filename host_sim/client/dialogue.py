@@ -9,7 +9,7 @@ from host_sim.client.inbox import Inbox
 from host_sim.client.waiting import Waiting
 from host_sim.errors import RefusedError, RivalError, RobotError
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame
-from host_sim.protocol.generated import Opcode, Result
+from host_sim.protocol.generated import MESSAGES, Opcode, Result
 
 _REPORT_S = 1.0
 _REPORT_DEMANDS = 100
@@ -132,7 +132,16 @@ class Dialogue:
         """The last frame from the robot and the state of its process, for error messages."""
         last = self.inbox.last
         said = "none" if last is None else self.inbox.protocol.describe(last)
-        return f"last frame from it: {said}; it {self.connection.status()}{self.connection.line.account()}"
+        line = self.connection.line.account()
+        return f"last frame from it: {said}{self._damaged()}; it {self.connection.status()}{line}"
+
+    def _damaged(self) -> str:
+        """The robot's last frame of this tick that was no whole one, as a continuation of a sentence."""
+        protocol, frame = self.inbox.protocol, self.inbox.refused
+        names = [name for name in MESSAGES if protocol.id_of(name) == frame.id]
+        if self.inbox.refused_at != self.inbox.ticks or not names or protocol.decode(frame) is not None:
+            return ""
+        return f"; a {names[0]} came, but with a wrong CRC or length: {frame.id:03X}#{frame.data.hex().upper()}"
 
     def _next(self, opcode: str, signals: Mapping[str, int], jump: int = 1) -> Frame:
         """A command with the next counter, or one some steps ahead."""

@@ -48,6 +48,7 @@ class Inbox:
         owed: Number of repeated senses whose answers have not come yet.
         answered_again: Number of answers to what was repeated, and was answered before.
         drive: The last new drive.
+        refused: The last frame that was refused, `refused_at` the number of ticks before it.
     """
 
     protocol: Protocol
@@ -71,6 +72,8 @@ class Inbox:
     owed: int = 0
     answered_again: int = 0
     drive: Drive = REST
+    refused: Frame = _NO_FRAME
+    refused_at: int = -1
     _drive_tick: int = 0
     _drive_frame: Frame = _NO_FRAME
 
@@ -272,6 +275,7 @@ class Inbox:
 
     def _refuse(self, frame: Frame, why: str) -> None:
         self.counts.refused += 1
+        self.refused, self.refused_at = frame, self.ticks
         self.refuse(frame, why)
 
     def _accept(self, frame: Frame) -> None:

@@ -162,3 +162,11 @@ def test_the_folder_of_a_run_that_was_killed_is_free_again(long_run, tmp_path):
     process.wait()
 
     assert octet("run", "--out", tmp_path, "--bus", "none", "--environments", "1", "--limit-s", "1").returncode == 0
+
+
+@pytest.mark.faulty
+def test_a_robot_whose_drives_are_all_damaged_is_told_so(run):
+    done = run("--environments", "1", "--bus", "none", "--limit-s", "2", "--fault", "corrupt:1@60-/from")
+
+    assert done.code == 1
+    assert re.search(r"; a [A-Z]+ came, but with a wrong CRC or length: [0-9A-F]{3}#", done.errors)
