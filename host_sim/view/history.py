@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TypedDict
+from typing import Any, TypedDict
 
-from host_sim.protocol.generated import CELL_COUNT, Reason
+from host_sim.protocol.generated import CELL_COUNT
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.robot_io import Drive, Senses
+from host_sim.world.world_library import world_library
 
 
 class Trial(TypedDict):
@@ -56,7 +57,7 @@ def pattern_of(feel: int) -> int:
 
 @dataclass
 class LearningHistory:
-    """One robot's history, built from every tick of a run in order.
+    """One robot's history, built from every tick of a run in order, in C (`host_sim/world/native/history.h`).
 
     Attributes:
         node: The robot's node number on the bus.
@@ -85,10 +86,13 @@ class LearningHistory:
     lessons: list[Lesson] = field(default_factory=list)
     forgotten: int = 0
     action: int = -1
-    _reason: int = Reason.STOP
+    _in_c: Any = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
+        ffi, library = world_library()
+        self._in_c = ffi.new("struct history *")
         self.memory = sides_of(tuple(self.memory))
+        library.history_begin(self._in_c, self.memory)
 
     def take(self, tick: int, senses: Senses, drive: Drive, memory: Sequence[int]) -> None:
         """Adds a tick.
@@ -99,15 +103,11 @@ class LearningHistory:
             drive: The robot's answer.
             memory: The eight bytes after the answer.
         """
-        judged, forgets, begins = None, False, drive.action != self.action
-        if begins:
-            self.action = drive.action
-            self.pattern = pattern_of(senses.feel)
-            judged = self._judge()
-            forgets = Reason.REMEMBERED in (drive.reason, self._reason) or drive.reason == Reason.BOREDOM
-        self.relearn(tick, memory, judged, forgets=forgets)
-        if begins:
-            self._begin(tick, drive)
+        _, library = world_library()
+        self._in_c.frozen = self.frozen
+        what = senses.feel, drive.left_mm_s, drive.right_mm_s, drive.reason, drive.action
+        library.history_take(self._in_c, tick, [what], sides_of(tuple(memory)))
+        self._refresh(tick)
 
     def pass_over(self, drive: Drive, pattern: int) -> None:
         """Skips ticks in which no remembered turn and no trial began or ended, and the memory stayed the same.
@@ -116,28 +116,20 @@ class LearningHistory:
             drive: The robot's answer in the last of these ticks.
             pattern: The pattern when its action was decided.
         """
-        self.action, self._reason, self.pattern = drive.action, drive.reason, pattern
+        _, library = world_library()
+        library.history_pass_over(self._in_c, [(0, 0, 0, drive.reason, drive.action)], pattern)
+        self.action, self.pattern = drive.action, pattern
 
-    def relearn(self, tick: int, memory: Sequence[int], trial: Trial | None = None, *, forgets: bool = False) -> None:
-        """Adds a lesson for each pattern whose turn changed.
+    def relearn(self, tick: int, memory: Sequence[int]) -> None:
+        """Adds a lesson for each pattern whose turn changed: it was told, by a person or by another robot.
 
         Args:
             tick: Number of the tick.
             memory: The eight bytes now.
-            trial: The trial that has just ended, if any: a turn that it does not explain was told, by
-                a person or by another robot.
-            forgets: Whether the robot itself may just have erased what it used.
         """
-        sides = sides_of(tuple(memory))
-        if sides == self.memory:
-            return
-        for cell, (before, side) in enumerate(zip(self.memory, sides, strict=True)):
-            if side != before:
-                learned = trial is not None and (trial["cell"], trial["side"], trial["helped"]) == (cell, side, 1)
-                itself = learned or (forgets and not side)
-                self.lessons.append(Lesson(node=self.node, tick=tick, cell=cell, side=side, by_hand=int(not itself)))
-                self.learned[cell], self.by_hand[cell], self.uses[cell] = tick, int(not itself), 0
-        self.memory = sides
+        _, library = world_library()
+        library.history_relearn(self._in_c, tick, sides_of(tuple(memory)))
+        self._refresh(tick)
 
     def restart(self, tick: int, memory: Sequence[int]) -> None:
         """Begins anew, as the robot has been started again; earlier lessons stay in the list.
@@ -146,10 +138,12 @@ class LearningHistory:
             tick: Number of the next tick. Lessons of this tick are dropped: no tick of either run was after them.
             memory: The eight cells now.
         """
+        _, library = world_library()
         while self.lessons and self.lessons[-1]["tick"] >= tick:
             self.lessons.pop()
-        self.memory, self.frozen, self.trial = sides_of(tuple(memory)), False, None
-        self.uses, self.by_hand, self.learned = [0] * CELL_COUNT, [0] * CELL_COUNT, [-1] * CELL_COUNT
+        library.history_restart(self._in_c, sides_of(tuple(memory)))
+        self.frozen = False
+        self._refresh(tick)
 
     def forget_lessons(self, first: int) -> None:
         """Drops the lessons before a tick but the last one of each cell."""
@@ -158,19 +152,21 @@ class LearningHistory:
         self.forgotten += len(self.lessons) - len(kept)
         self.lessons[:] = kept
 
-    def _judge(self) -> Trial | None:
-        """Ends the current trial, if any, with the senses that decide the next action, and returns it."""
-        if self.trial is None or self.trial["helped"] is not None:
-            return None
-        fewer = self.pattern.bit_count() < self.trial["cell"].bit_count()
-        self.trial = {**self.trial, "helped": int(fewer), "frozen": int(self.frozen)}
-        return self.trial
+    def _refresh(self, tick: int) -> None:
+        """Takes over what C code knows now, and its lessons of a tick."""
+        ffi, _ = world_library()
+        now = self._in_c
+        self.memory, self.action, self.pattern, self.trials = tuple(now.sides), now.action, now.pattern, now.trials
+        self.uses, self.by_hand = ffi.unpack(now.uses, CELL_COUNT), ffi.unpack(now.by_hand, CELL_COUNT)
+        self.learned = list(map(int, now.learned))
+        self.trial = _trial(now.trial)
+        for it in now.lessons[0 : now.lesson_count]:
+            self.lessons.append(Lesson(node=self.node, tick=tick, cell=it.cell, side=it.side, by_hand=it.by_hand))
 
-    def _begin(self, tick: int, drive: Drive) -> None:
-        self._reason = drive.reason
-        if drive.reason == Reason.REMEMBERED:
-            self.uses[self.pattern] += 1
-        elif drive.reason == Reason.TRIAL:
-            side = 1 if drive.left_mm_s < drive.right_mm_s else 2
-            self.trial = Trial(tick=tick, cell=self.pattern, side=side, helped=None, frozen=0)
-            self.trials += 1
+
+def _trial(it: Any) -> Trial | None:
+    """A trial, from a `struct history_trial`."""
+    if it.tick < 0:
+        return None
+    helped = None if it.helped < 0 else it.helped
+    return Trial(tick=int(it.tick), cell=it.cell, side=it.side, helped=helped, frozen=it.frozen)

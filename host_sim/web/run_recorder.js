@@ -35,11 +35,12 @@ const FIRST_ROOM = 1 << 13;
 export class RunRecorder {
   /**
    * @param {Measures} measures
+   * @param {import("./native_run.js").NativeRun} native
    * @param {number[][]} sides - What each robot knows before the first tick.
    */
-  constructor(measures, sides) {
+  constructor(measures, native, sides) {
     this.measures = measures;
-    this.tracks = sides.map((known, robot) => new Track(robot + 1, known));
+    this.tracks = sides.map((known, robot) => new Track(new LearningHistory(native, robot, known)));
     /** @type {[number, EnvironmentScene][]} */
     this.scenes = [];
     /** @type {[number, number[]][]} */
@@ -95,13 +96,10 @@ export class RunRecorder {
 
 /** One robot's part of it. */
 class Track {
-  /**
-   * @param {number} node
-   * @param {number[]} sides
-   */
-  constructor(node, sides) {
-    this.node = node;
-    this.history = new LearningHistory(node, sides);
+  /** @param {LearningHistory} history */
+  constructor(history) {
+    this.node = history.robot + 1;
+    this.history = history;
     this.ticks = 0;
     this.isNew = true;
     this.eats = false;
@@ -123,8 +121,8 @@ class Track {
     const last = block.ticks - 1;
     const first = this.isNew || before.join() !== this.memory.at(-1)?.[1].join() ? [0] : [];
     for (const tick of new Set([...first, ...block.decisions, last])) {
-      if (tick) this.history.passOver(tickOf(block.rows, tick - 1));
-      this.take(this.ticks + tick, tickOf(block.rows, tick), tick === last ? after : before);
+      if (tick) this.history.passOver(tick - 1);
+      this.take(this.ticks + tick, tick, tick === last ? after : before);
     }
     this.isNew = false;
     this.eats = block.rows[last * ROW + MEAL_PLACE] !== 0;
@@ -133,7 +131,7 @@ class Track {
 
   /**
    * @param {number} number
-   * @param {import("./learning_history.js").Tick} tick
+   * @param {number} tick - In the last block.
    * @param {number[]} sides
    */
   take(number, tick, sides) {
@@ -215,17 +213,6 @@ class Track {
     }
     return ticks;
   }
-}
-
-/**
- * The tick of a row.
- * @param {Int16Array} rows
- * @param {number} tick
- */
-function tickOf(rows, tick) {
-  const at = (/** @type {keyof typeof PLACES} */ name) => rows[tick * ROW + PLACES[name]];
-  const [feel, left, right] = [at("feel"), at("left"), at("right")];
-  return { feel, left, right, reason: at("reason"), action: at("action"), pattern: at("pattern") };
 }
 
 /**

@@ -44,7 +44,7 @@ export class Simulation {
     this.scene = { number: 0, of: environments, seed, first_tick: 0, start_tick: 0, bars: [], food: [] };
     this.stopAll(); // as in the handshake of tools/run
     this.commands.startAll();
-    this.recorder = new RunRecorder(measuresOf(this.world.params, experiment), this.sides);
+    this.recorder = new RunRecorder(measuresOf(this.world.params, experiment), this.native, this.sides);
   }
 
   /**
@@ -159,10 +159,11 @@ export class Simulation {
   changeRobot(change) {
     const { robot } = change;
     const { history } = this.recorder.tracks[robot];
+    const before = this.native.sides(robot);
     this.setTime();
     this.commands.carryOut(change);
-    if (change.do === "freeze") history.frozen = change.on;
-    if (change.do === "start") history.restart();
+    if (change.do === "freeze") history.freeze(change.on);
+    if (change.do === "start") history.restart(before);
     history.relearn(this.tick, this.native.sides(robot));
   }
 

@@ -11,8 +11,8 @@ _WORDS = BUILD / "host" / "generated" / "robot_words.h"
 WORLD_HEADERS = tuple(
     _NATIVE / f"{name}.h" for name in ("vector", "space", "world", "capsule", "cones", "plain_space", "body_faults")
 )
-_DRAWING = ("body", "ranges", "draws", "clearance", "reach", "layout", "layouts", "written_fault", "written")
-HEADERS = (ROOT / "firmware" / "io.h", *WORLD_HEADERS, *(_NATIVE / f"{name}.h" for name in _DRAWING))
+_REST = ("body", "ranges", "draws", "clearance", "reach", "layout", "layouts", "written_fault", "written", "history")
+HEADERS = (ROOT / "firmware" / "io.h", *WORLD_HEADERS, *(_NATIVE / f"{name}.h" for name in _REST))
 
 
 @cache

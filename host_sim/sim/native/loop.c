@@ -18,8 +18,6 @@ static void sense(const struct loop *loop, struct turn turns[])
 }
 
 /* What a robot senses and does, as it is recorded: the first numbers of a row. */
-enum { ROW_FEEL = 1, ROW_REASON = 10, ROW_ACTION = 12, ROW_PATTERN = 14 };
-
 static void fill_row(const struct turn *turn, int16_t row[])
 {
     const struct senses *senses = &turn->senses;

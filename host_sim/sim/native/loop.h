@@ -25,6 +25,9 @@ enum {
     LOOP_POSE = 3
 };
 
+/* Where in such a row they are. */
+enum { ROW_FEEL = 1, ROW_LEFT = 8, ROW_RIGHT = 9, ROW_REASON = 10, ROW_ACTION = 12, ROW_PATTERN = 14 };
+
 struct loop_robot {
     struct octet *octet;              /* in this process, */
     struct link *link;                /* or behind this */

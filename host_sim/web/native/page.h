@@ -7,6 +7,7 @@
 
 #include "hal/library/exchange.h"
 #include "host_sim/sim/native/loop.h"
+#include "host_sim/world/native/history.h"
 #include "host_sim/world/native/layouts.h"
 #include "host_sim/world/native/plain_space.h"
 #include "host_sim/world/native/ranges.h"
@@ -51,6 +52,7 @@ struct page_world {
 /* A run. */
 struct page {
     struct page_world world;
+    struct history histories[PAGE_ROBOTS_MAX];
     struct loop loop;
     struct loop_robot robots[PAGE_ROBOTS_MAX];
     struct frame waiting[PAGE_ROBOTS_MAX][PAGE_WAITING_MAX];
@@ -179,6 +181,28 @@ const uint32_t *page_decisions(uint32_t robot);
 
 uint32_t page_decision_count(uint32_t robot);
         /* and how many they are. */
+
+/* page_history.c: what a robot has learned. The turns that it knows are those in page_bytes(). */
+
+void page_history_begin(uint32_t robot);
+        /* As history_begin, */
+
+void page_history_take(uint32_t robot, double number, uint32_t tick);
+        /* history_take, with the number of a tick and its place in the last block, */
+
+void page_history_pass_over(uint32_t robot, uint32_t tick);
+        /* history_pass_over, with the last of these ticks, */
+
+void page_history_relearn(uint32_t robot, double number);
+void page_history_restart(uint32_t robot);
+        /* and these. */
+
+void page_history_freeze(uint32_t robot, uint32_t on);
+        /* Whether learning is frozen from now on. */
+
+const double *page_history(uint32_t robot);
+        /* The last trial as in struct history_trial, the number of lessons of the last call, and the cell, the side and
+           by_hand of each. */
 
 /* page_layouts.c: the layouts that environments begin with. */
 
