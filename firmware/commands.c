@@ -14,6 +14,8 @@ static enum result start(struct robot *robot, const struct command *command, uin
     config_reset(&robot->config);
     robot->brain.frozen = false;
     robot->action = 0;
+    robot->denials = 0;
+    robot->turn_denied = false;
     motion_start(&robot->motion);
     perception_start(&robot->perception);
     sharing_start(&robot->sharing);

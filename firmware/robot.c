@@ -3,7 +3,7 @@
 enum {
     SECOND_MS = 1000,      /* a report is due once a second of robot time, */
     REPORT_SILENCES = 10,  /* or, where no tick comes, with every tenth silence */
-    DENIALS_MAX = 2        /* actions in a row that the wheels may fail to carry out: the next one stops the robot */
+    DENIALS_MAX = 2        /* so many are held against the wheels: the next one stops the robot */
 };
 
 void robot_init(struct robot *robot, uint32_t seed)
@@ -26,11 +26,22 @@ static void begin_next_action(struct robot *robot, const struct senses *senses)
 /* From wheels that do not obey there is nothing to learn, and driving on blindly is not safe. */
 static void note_denial(struct robot *robot)
 {
-    brain_forget_trial(&robot->brain);
+    robot->turn_denied = motion_tells(&robot->motion);
     if (robot->denials < DENIALS_MAX)
         robot->denials++;
     else
         robot->running = false;
+}
+
+/* A step says nothing of wheels that do not turn well. */
+static void judge(struct robot *robot, bool denied)
+{
+    if (denied)
+        note_denial(robot);
+    else if (robot->denials > 0 && (motion_tells(&robot->motion) || !robot->turn_denied))
+        robot->denials--;
+    if (robot->denials > 0)
+        brain_forget_trial(&robot->brain);
 }
 
 static bool has_ended(struct robot *robot, const struct senses *senses)
@@ -50,10 +61,7 @@ static bool go_on(struct robot *robot, struct senses *senses)
     if (!has_ended(robot, senses))
         return false;
     denied = motion_is_denied(&robot->motion, &robot->config);
-    if (denied)
-        note_denial(robot);
-    else
-        robot->denials = 0;
+    judge(robot, denied);
     perception_decide(&robot->perception, &robot->config, feel);
     senses->feel = perception_believed(&robot->perception, &robot->config, feel);
     if (robot->running)

@@ -12,7 +12,9 @@ struct robot {
     uint8_t reason;       /* of the action under way */
     uint8_t action;       /* its number, 0..127 */
     uint8_t silences;     /* since the last senses, counted 1..10 round and round; 0: none */
-    uint8_t denials;      /* actions in a row that the wheels did not carry out; stays at 2, where the next one stops the robot */
+    uint8_t denials;      /* actions that the wheels did not carry out, less those that they did since; stays at 2, where the next
+                             one stops the robot */
+    bool turn_denied;     /* the last one of them was a turn that tells, so that only another such turn forgives it */
     uint8_t tick;         /* of the last senses */
     struct config config;
     struct perception perception;

@@ -206,6 +206,7 @@ static bool tick_seeing_food(bool look)
     struct senses senses = sensed();
 
     senses.look = look;
+    motion_track(&motion, &senses);
     return motion_ended(&motion, &config, &senses);
 }
 

@@ -25,12 +25,12 @@ static unsigned steps_until_denied(double lame)
 /* A step of 12 mm on one wheel goes astray by a quarter of 240 counts; 1004 are too much. */
 TEST(one_dead_wheel_is_denied_after_some_steps)
 {
-    TEST_ASSERT_EQUAL_UINT(17, steps_until_denied(0.0));
+    TEST_ASSERT_EQUAL_UINT(18, steps_until_denied(0.0));
 }
 
 TEST(one_wheel_that_rolls_backward_is_denied_sooner)
 {
-    TEST_ASSERT_EQUAL_UINT(2, steps_until_denied(-0.5));
+    TEST_ASSERT_EQUAL_UINT(3, steps_until_denied(-0.5));
 }
 
 TEST(one_weak_wheel_is_not_denied_however_many_steps_it_takes)

@@ -123,6 +123,7 @@ TEST(a_way_too_far_is_counted_up_to_its_limit)
 TEST(a_turn_has_ended_an_eighth_of_a_degree_before_its_end)
 {
     begin(1, 0);
+    motion.apart.rolled = 2 * FASTEST_COUNTS;
     motion.turn_left = PRECISION + 1;
     TEST_ASSERT_FALSE(has_ended());
     motion.turn_left = PRECISION;
@@ -207,11 +208,11 @@ TEST(what_wheels_do_right_makes_amends_for_three_quarters_and_for_nothing_to_com
     TEST_ASSERT_EQUAL_UINT16(0, motion.astray);
 }
 
-/* 210 degrees take 58 ticks: seven quarters of these, and 7. */
-TEST(the_pace_of_a_turn_is_seven_quarters_of_its_time_and_7_ticks)
+/* 210 degrees are 5864 counts, and a tick at full speed 100. */
+TEST(a_turn_may_be_told_seven_quarters_of_its_way_and_2_ticks)
 {
     begin(210, 0);
-    TEST_ASSERT_EQUAL_UINT16(108, motion.pace_left);
+    TEST_ASSERT_EQUAL_UINT16(10462, motion.pace_left);
 }
 
 TEST(a_step_and_a_turn_for_food_have_no_pace)
@@ -229,10 +230,12 @@ TEST(an_outage_costs_five_ticks_of_the_pace)
     static const uint8_t ticks[] = {5, 6, 7, 100};
 
     for (unsigned i = 0; i < sizeof ticks; i++) {
+        stand_at(0.0, 0.0);
         begin(210, 0);
+        (void)driven();
         body.tick = (uint8_t)(body.tick + ticks[i] - 1);
         roll(0, 0);
-        TEST_ASSERT_EQUAL_UINT16(108 - 5, motion.pace_left);
+        TEST_ASSERT_EQUAL_UINT16(10462 - 500, motion.pace_left);
     }
 }
 

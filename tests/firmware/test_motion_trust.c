@@ -147,6 +147,7 @@ TEST(what_food_left_of_a_turn_is_not_made_up_for_after_its_rest)
         TEST_ASSERT_FALSE(tick());
     senses = sensed();
     senses.look = true;
+    motion_track(&motion, &senses);
     TEST_ASSERT_TRUE(motion_ended(&motion, &config, &senses));
     TEST_ASSERT_TRUE(motion_rest(&motion, &config));
     carry_on();

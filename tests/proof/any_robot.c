@@ -69,6 +69,15 @@ static void take_any_brain(struct brain *brain)
     brain->changed = any_bool();
 }
 
+static void take_any_owed(struct owed *owed)
+{
+    owed->counts = (int16_t)(any_u16() % 32001u - 16000);
+    owed->rolled = (int16_t)any_u16();
+    owed->told[0] = (int16_t)any_u16();
+    owed->told[1] = (int16_t)any_u16();
+    owed->same = any_u8();
+}
+
 static void take_any_motion(struct motion *motion)
 {
     motion->turn_left = (int32_t)(any_u32() % 2000000001u) - 1000000000;
@@ -79,9 +88,11 @@ static void take_any_motion(struct motion *motion)
     motion->pace_left = any_u16();
     motion->astray = any_u16();
     motion->tick = any_u8();
-    motion->kind = any_between(0, 3);
+    motion->kind = any_between(0, 4);
     motion->referenced = any_bool();
     motion->rest_ticks = any_u8();
+    take_any_owed(&motion->apart);
+    take_any_owed(&motion->together);
 }
 
 static void take_any_perception(struct perception *perception)
@@ -110,6 +121,7 @@ void take_any_state(void)
     robot.action = any_between(0, ACTION_SPAN - 1);
     robot.silences = any_u8();
     robot.denials = any_u8();
+    robot.turn_denied = any_bool();
     robot.tick = any_u8();
     take_any_perception(&robot.perception);
     take_any_votes(&robot.sharing);
