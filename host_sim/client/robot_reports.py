@@ -25,6 +25,7 @@ class RobotReports:
     Attributes:
         memory: The eight cells.
         faults: The robot's fault counters, by name; each stays at 255.
+        faults_before: Each of them as it was reported the time before.
         heartbeat: The signals of its HEARTBEAT; empty before the first.
         boot: The signals of its BOOT, which names the firmware; empty before the first.
         held: HEALTH's check of what the robot was told.
@@ -37,6 +38,7 @@ class RobotReports:
         """Has not heard of the robot yet."""
         self.memory: tuple[int, ...] = (0,) * CELL_COUNT
         self.faults: dict[str, int] = {}
+        self.faults_before: dict[str, int] = {}
         self.heartbeat: dict[str, int] = {}
         self.boot: dict[str, int] = {}
         self.held = 0
@@ -120,7 +122,9 @@ class RobotReports:
         if decoded.name == "MEMORY":
             return self._take_memory(decoded)
         if decoded.name == "FAULTS":
-            self.faults |= {name: count for name, count in decoded.signals.items() if name not in _NOT_FAULTS}
+            counts = {name: count for name, count in decoded.signals.items() if name not in _NOT_FAULTS}
+            self.faults_before |= {name: self.faults.get(name, 0) for name in counts}
+            self.faults |= counts
         elif decoded.name == "HEARTBEAT":
             self.heartbeat = decoded.signals
         elif decoded.name == "BOOT":

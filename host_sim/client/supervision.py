@@ -95,6 +95,7 @@ class _State:
     def __init__(self, client: RobotClient) -> None:
         reports = client.reports
         self.boot, self.heartbeat, self.faults = reports.boot, reports.heartbeat, dict(reports.faults)
+        self.denied = reports.faults_before.get("denied", 0)  # that it stopped for may have been reported by now
 
 
 def _has_restarted(client: RobotClient, before: _State, lost: SessionLostError) -> bool:
@@ -155,7 +156,7 @@ def _check_twins(client: RobotClient, before: _State) -> None:
 
 def _has_halted(client: RobotClient, before: _State) -> bool:
     """Whether the robot has stopped because of its wheels: no one else's fault, and it stays where it is."""
-    return not client.reports.heartbeat["state"] and client.faults["denied"] > before.faults.get("denied", 0)
+    return not client.reports.heartbeat["state"] and client.faults["denied"] > before.denied
 
 
 def _note_halt(client: RobotClient, session: Session) -> None:

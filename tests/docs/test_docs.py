@@ -1,111 +1,15 @@
-"""What the documents say is so: their commands run, their files exist, their quotations stand in the code."""
+"""What the documents say is so: their files exist, their quotations stand in the code."""
 
-import contextlib
-import os
-import pty
 import re
-import shlex
-import shutil
-import signal
-import subprocess
-import time
 from pathlib import Path
 
 import pytest
 
 from host_sim.report.protocol_page import page
-from tests.runs.support import octet
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
 IDS = [path.name for path in PAGES]
-BLOCK = re.compile(r"^```(\S+)(?: (\S+))?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-# These are the test run itself, and what it is called from.
-NOT_FROM_HERE = ("tools/test", "tools/prove", "git clone")
-
-
-def blocks(kind: str | None) -> dict[str, list[str]]:
-    """The lines of each `sh` block that is marked so, by its page and its number there."""
-    found = {}
-    for path in PAGES:
-        texts = [text for word, mark, text in BLOCK.findall(path.read_text()) if (word, mark or None) == ("sh", kind)]
-        for number, text in enumerate(texts, 1):
-            lines = [line for line in text.splitlines() if line.strip() and not line.startswith(NOT_FROM_HERE)]
-            found |= {f"{path.name} {number}": lines} if lines else {}
-    return found
-
-
-def commands(kind: str) -> list[str]:
-    """The lines of all these blocks."""
-    return list(dict.fromkeys(line for lines in blocks(kind).values() for line in lines))
-
-
-def run(line: str, folder: Path) -> subprocess.CompletedProcess:
-    """A line as a reader types it, in a folder like the project's."""
-    return subprocess.run(line, shell=True, cwd=folder, capture_output=True, text=True, check=False)
-
-
-@pytest.fixture(scope="module")
-def first_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What the README's first command leaves."""
-    out = tmp_path_factory.mktemp("out")
-    assert octet("run", "--bus", "none", "--quiet", "--out", out).returncode == 0
-    return out
-
-
-@pytest.fixture
-def folder(tmp_path: Path, first_run: Path) -> Path:
-    """The project's folder after its first run."""
-    for entry in ROOT.iterdir():
-        if entry.name != "out":
-            (tmp_path / entry.name).symlink_to(entry)
-    shutil.copytree(first_run, tmp_path / "out")
-    return tmp_path
-
-
-@pytest.mark.parametrize("lines", blocks(None).values(), ids=blocks(None))
-def test_every_command_of_a_block_does_what_it_should(lines, folder):
-    done = {line: run(line, folder) for line in lines}
-
-    assert {line: (it.returncode, it.stderr) for line, it in done.items() if it.returncode} == {}
-
-
-def test_the_documents_have_commands():
-    assert len(blocks(None)) >= 8
-
-
-@pytest.mark.parametrize("line", commands("until-stopped"))
-def test_commands_that_go_on_until_stopped_do_so_and_end_well(line, folder):
-    ours, theirs = pty.openpty()
-    terminal = {**os.environ, "TERM": "xterm"}  # a test machine may have none
-    free_port = " --port 0" if "watch" in line and "--terminal" not in line else ""  # another test run may watch too
-    process = subprocess.Popen(
-        f"exec {line}{free_port}", shell=True, cwd=folder, env=terminal, stdin=theirs, stdout=theirs, stderr=theirs
-    )
-    os.close(theirs)
-
-    first = b""
-    while all(said.startswith(b"octet: ") for said in first.splitlines()):  # tools/setup may have to wait for another
-        first += os.read(ours, 1024)
-    time.sleep(2)
-    goes_on = process.poll() is None
-    process.send_signal(signal.SIGINT)
-
-    assert goes_on
-    with contextlib.suppress(OSError):  # the far end of a pty is closed when the process has ended
-        while os.read(ours, 65536):
-            pass
-    assert process.wait() in (0, 130)
-    os.close(ours)
-
-
-@pytest.mark.parametrize("line", commands("needs-hardware"))
-def test_commands_for_hardware_that_is_not_here_name_what_is_missing(line, folder):
-    done = run(line, folder)
-
-    assert done.returncode in (1, 2)
-    assert "usage:" not in done.stderr
-    assert any(word in done.stderr for word in shlex.split(line.replace(":", " ")))
 
 
 @pytest.mark.parametrize("path", PAGES, ids=IDS)
@@ -138,19 +42,6 @@ def test_every_anchor_that_a_document_names_exists(path):
 def test_an_anchor_that_does_not_exist_is_noticed():
     assert "a-conversation" in anchors(ROOT / "docs/protocol.md")
     assert "a-conversasion" not in anchors(ROOT / "docs/protocol.md")
-
-
-def test_a_body_of_ones_own_is_built_and_does_what_its_page_says(folder):
-    page = (ROOT / "docs/porting.md").read_text()
-    ((body,), (printed,)) = (
-        re.findall(rf"^```{kind}\n(.*?)^```$", page, re.DOTALL | re.MULTILINE) for kind in ("c my_body.c", "text")
-    )
-    (folder / "my_body.c").write_text(body)
-
-    *built, ran = [run(line, folder) for line in commands("with-my-body")]
-
-    assert [(it.returncode, it.stderr) for it in built] == [(0, "")] * 2
-    assert (ran.returncode, ran.stdout) == (0, printed)
 
 
 def test_every_line_of_c_in_the_article_stands_in_the_file_named():

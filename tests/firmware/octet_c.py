@@ -16,6 +16,7 @@ _HEADERS = [
     "firmware/memory_kind.h",
     "firmware/random.h",
     "firmware/brain.h",
+    "firmware/owed.h",
     "firmware/motion.h",
     "firmware/perception.h",
     "firmware/sharing.h",

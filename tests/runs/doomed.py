@@ -22,7 +22,7 @@ _CELLS = 8
 _WORDS = ("run", "--environments", "1", "--limit-s", "25", "--seed", "12", "--bus", "none", "--quiet")
 
 Doom = Callable[[], None]
-Save = Callable[[MemorySaver, Sequence[int]], None]
+Save = Callable[..., None]
 
 
 class Witness:
@@ -46,11 +46,11 @@ class Witness:
     def watch(self, save: Save) -> Save:
         """`MemorySaver.save`, watched."""
 
-        def watched(saver: MemorySaver, memory: Sequence[int]) -> None:
+        def watched(saver: MemorySaver, memory: Sequence[int], *, doubtful: bool = False) -> None:
             self._put(2, (self.saves + (bytes(memory) != self.last)).to_bytes(_CELLS, "big"))
             self._put(0, bytes(memory))
             self.is_saving = self.last != self.saved
-            save(saver, memory)
+            save(saver, memory, doubtful=doubtful)
             self.is_saving = False
             self._put(1, bytes(memory))
 

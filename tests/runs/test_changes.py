@@ -55,6 +55,15 @@ def test_a_run_in_which_the_robot_stops_because_of_its_wheels_can_be_repeated_fr
     assert octet("replay", done.out / "run.log").returncode == 0
 
 
+def test_a_robot_that_reports_its_wheels_in_the_tick_in_which_they_stop_it_was_stopped_by_nobody_else(run):
+    dead = words(["weak-motor:left:0%@2s"])
+
+    done = run("--environments", "1", "--limit-s", "30", "--seed", "12", "--bus", "none", *dead)
+
+    assert (done.code, done.errors.count("the robot has stopped")) == (1, 1)
+    assert "somebody else" not in done.errors
+
+
 def test_another_seed_has_other_noise_and_a_run_without_changes_none(run):
     logs = {run(*BRIEF, *words(changes)).log for changes in ([], ["noise:100/1000@0s"], ["noise:0/1000@0s"])}
 

@@ -50,7 +50,7 @@ def test_the_summary_has_all_that_is_promised(run):
         "wall_s",
         "real_time_factor",
     }
-    robot = {"node", "memory", "frames", "faults", "saturated", "round_trip_ms", "line"}
+    robot = {"node", "memory", "frames", "faults", "saturated", "round_trip_ms", "real_time", "line"}
     deeds = {"node", "food_eaten", "trials", "remembered_turns", "boredom_turns", "collisions", "memory"}
     assert top == summary.keys()
     assert {"finished", "food_eaten", "ticks", "robot_s", "robots"} == summary["environments"][0].keys()

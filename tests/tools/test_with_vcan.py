@@ -201,5 +201,8 @@ def test_what_fails_inside_is_named(tmp_path: Path, way: str) -> None:
 
 
 def descendants(pid: int) -> list[int]:
-    children = [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    try:
+        children = [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    except FileNotFoundError:
+        return []  # it has ended meanwhile
     return children + [pid for child in children for pid in descendants(child)]

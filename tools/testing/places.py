@@ -8,7 +8,11 @@ TEST: Mapping[str, Sequence[str]] = {
 """Of tools/test, beside python."""
 
 PROVE: Mapping[str, Sequence[str]] = {
-    "boards": ("tests/image", "tests/emulator", "tests/study/test_emulated_board.py"),
+    "boards": (
+        "tests/image",
+        "tests/study/test_emulated_board.py",
+        "tests/tools/test_build_environment.py",
+    ),
     "eva": ("tests/proof/test_proof.py", "tests/proof/test_contracts.py"),
     "fuzz": ("tests/proof/test_fuzz.py", "tests/proof/test_readers.py"),
     "misra": ("tests/tools/test_misra.py",),
@@ -18,6 +22,7 @@ PROVE: Mapping[str, Sequence[str]] = {
     "endurance": tuple(f"tests/runs/test_{name}.py" for name in ("kills", "noise", "soak", "storm")),
     "exhaustive": ("tests/firmware/test_every_case.py",),
     "formats": ("tests/export",),
+    "documents": ("tests/docs/test_commands.py",),
 }
 """Of tools/prove."""
 
