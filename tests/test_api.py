@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from host_sim.api import RunConfig, UsageError, log_table, resimulate, run
+from host_sim.api import RunConfig, UsageError, resimulate, run
 from host_sim.cli.main import main
 
 CONFIG = RunConfig(seed=3, environments=2, limit_s=20)
@@ -56,15 +56,6 @@ def test_ticks_are_columns_of_equal_length(done, folder):
     assert np.array_equal(ticks["feel"], again.tracks[0].column("feel"))
     assert ticks["tick"][300] == ticks["tick_number"][300] % 256
     assert (ticks["x"][-1], ticks["y"][-1]) == tuple(again.tracks[0].pose(again.ticks - 1)[:2])
-
-
-def test_a_log_is_a_table_of_arrow_and_of_pandas(done, folder):
-    table = log_table(folder / "run.log")
-    frames = table.to_pandas()
-
-    assert table.column_names[:3] == ["time_s", "node", "message"]
-    assert len(frames) == len((folder / "run.log").read_text().splitlines())
-    assert frames["SENSES.feel"].dropna().tolist() == done.ticks()["feel"].tolist()
 
 
 def test_what_is_wrong_is_an_error_of_one_line(tmp_path):

@@ -66,7 +66,7 @@ class RunConfig:
     reconnect_s: float = 10.0
     unanswered_max: float = 10.0
     gap_max_s: float = 1.0
-    late_max: float = 10.0
+    late_max: float = 50.0
     physics: str | None = None
     changes: tuple[str, ...] = ()
     faults: tuple[str, ...] = ()

@@ -218,7 +218,7 @@ def test_a_run_in_real_time_pauses_after_an_environment_and_the_log_knows_nothin
     words = ("run", "--bus", "fd", "--environments", "2", "--limit-s", "1")
     paused, at_once = tmp_path / "paused", tmp_path / "at once"
 
-    assert octet(*words, "--real-time", "--out", paused).returncode == 0
+    assert octet(*words, "--real-time", "--late-max", "100", "--out", paused).returncode == 0
     assert octet(*words, "--out", at_once).returncode == 0
 
     summaries = [json.loads((out / "summary.json").read_text()) for out in (paused, at_once)]

@@ -107,7 +107,7 @@ def test_robots_that_are_on_a_bus_already_do_what_they_do_elsewhere(run):
     words = (*WORDS, "--limit-s", "5", "--robots", "3", "--node", "4")
 
     with robots_at(dict.fromkeys((4, 5, 6), "socketcan:vcan0")):
-        there = run(*words, "--bus", "socketcan:vcan0", "--robot", "external")
+        there = run(*words, "--bus", "socketcan:vcan0", "--robot", "external", "--owner", "1")
 
     assert (there.code, there.errors) == (0, "")
     assert there.log == run(*words, "--bus", "none").log

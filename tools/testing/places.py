@@ -1,6 +1,7 @@
 """Which stage runs which Python tests; those that no stage names are the stage python's."""
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 TEST: Mapping[str, Sequence[str]] = {
     "web": ("tests/web",),
@@ -22,7 +23,7 @@ PROVE: Mapping[str, Sequence[str]] = {
     "endurance": tuple(f"tests/runs/test_{name}.py" for name in ("kills", "noise", "soak", "storm")),
     "exhaustive": ("tests/firmware/test_every_case.py",),
     "formats": ("tests/export",),
-    "documents": ("tests/docs/test_commands.py",),
+    "documents": ("tests/docs/test_commands.py", "tests/docs/test_python_blocks.py"),
 }
 """Of tools/prove."""
 
@@ -33,6 +34,13 @@ PROVE_ON_VCAN = ("boards", "campaign")
 def named() -> list[str]:
     """All that some stage names."""
     return [path for places in (TEST, PROVE) for paths in places.values() for path in paths]
+
+
+def with_vcan_tests(root: Path) -> list[str]:
+    """The files of python's with tests that need vcan0: loading all the others takes long in a kernel of its own."""
+    files = (path.relative_to(root).as_posix() for path in sorted(root.glob("tests/**/test_*.py")))
+    python = (path for path in files if not any(f"{path}/".startswith(f"{own}/") for own in named()))
+    return [path for path in python if "pytest.mark.vcan" in (root / path).read_text()]
 
 
 def deep() -> tuple[str, ...]:
