@@ -139,7 +139,7 @@ def test_a_line_that_stays_away_ends_the_run_with_one_line(robot_on, tmp_path):
 
 
 @pytest.mark.faulty
-@pytest.mark.parametrize("length", [("30",), ("6", "--real-time", "--late-max", "100")], ids=["in lockstep", "in real time"])
+@pytest.mark.parametrize("length", [("30",), ("6", "--real-time")], ids=["in lockstep", "in real time"])
 def test_a_robot_that_restarts_goes_on_with_its_memory_and_the_result_is_doubted(robot_on, cable, tmp_path, length):
     words = ("--environments", "1", *external(cable), "--limit-s", *length)
     memory = tmp_path / "robot.mem"
