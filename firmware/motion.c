@@ -63,13 +63,21 @@ void motion_start(struct motion *motion)
 void motion_lift(struct motion *motion)
 {
     motion->referenced = false;
-    motion->apart = motion->together = (struct owed){.counts = 0};
+    motion->apart = (struct owed){.counts = 0};
+    motion->together = motion->apart;
 }
 
-/* A body that was restarted counts from 0. */
 static bool is_near_0(uint16_t odometer)
 {
     return ((odometer + RESTART_COUNTS) & (ODOMETER_SPAN - 1)) <= 2 * RESTART_COUNTS;
+}
+
+/* A body that was restarted counts from 0. */
+static bool counts_anew(const struct motion *motion, const struct senses *senses)
+{
+    bool did = is_near_0(motion->odometer_left) && is_near_0(motion->odometer_right);
+
+    return !did && is_near_0(senses->odometer_left) && is_near_0(senses->odometer_right);
 }
 
 /* Odometers that jump do not measure: the body was reset, or counts too much. */
@@ -82,8 +90,7 @@ bool motion_is_credible(const struct motion *motion, const struct config *config
 
     if (!motion->referenced)
         return true;
-    if (ticks > 1 && is_near_0(senses->odometer_left) && is_near_0(senses->odometer_right)
-        && !(is_near_0(motion->odometer_left) && is_near_0(motion->odometer_right)))
+    if (ticks > 1 && counts_anew(motion, senses))
         return false;
     return wheels_magnitude(wheels_counts_between(motion->odometer_left, senses->odometer_left)) <= farthest
         && wheels_magnitude(wheels_counts_between(motion->odometer_right, senses->odometer_right)) <= farthest;

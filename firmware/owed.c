@@ -18,8 +18,8 @@ void owed_tell(struct owed *owed, int32_t counts)
 {
     if (counts != owed->told[0])
         owed->same = 0;
-    else if (owed->same < UINT8_MAX)
-        owed->same++;
+    else
+        owed->same = (uint8_t)(owed->same < UINT8_MAX ? owed->same + 1 : UINT8_MAX);
     owed->told[1] = owed->told[0];
     owed->told[0] = (int16_t)counts;
 }

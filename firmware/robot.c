@@ -36,9 +36,11 @@ static void note_denial(struct robot *robot)
 /* A step says nothing of wheels that do not turn well. */
 static void judge(struct robot *robot, bool denied)
 {
+    bool tells = motion_tells(&robot->motion) || !robot->turn_denied;
+
     if (denied)
         note_denial(robot);
-    else if (robot->denials > 0 && (motion_tells(&robot->motion) || !robot->turn_denied))
+    if (!denied && tells && robot->denials > 0)
         robot->denials--;
     if (robot->denials > 0)
         brain_forget_trial(&robot->brain);

@@ -92,6 +92,28 @@ TEST(wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster)
     TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
 }
 
+/* After a gap of two ticks, in which each wheel may have rolled 100 counts. */
+static bool is_credible_from(uint16_t left, uint16_t right, uint16_t left_now, uint16_t right_now)
+{
+    const struct senses before = {.odometer_left = left, .odometer_right = right};
+    const struct senses now = {.odometer_left = left_now, .odometer_right = right_now};
+
+    motion_track(&motion, &before);
+    return motion_is_credible(&motion, &config, &now, 2);
+}
+
+TEST(odometers_that_both_begin_at_0_are_not_credible_even_where_one_has_stood_there)
+{
+    TEST_ASSERT_FALSE(is_credible_from(0, 90, 0, 0));
+    TEST_ASSERT_FALSE(is_credible_from(90, 0, 0, 0));
+}
+
+TEST(one_odometer_that_comes_to_0_has_rolled_there)
+{
+    TEST_ASSERT_TRUE(is_credible_from(90, 90, 0, 40));
+    TEST_ASSERT_TRUE(is_credible_from(90, 90, 40, 0));
+}
+
 TEST(ticks_that_were_never_sensed_count_for_the_pace)
 {
     begin(150, 0);
