@@ -11,7 +11,7 @@ from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.generated import Opcode
 from host_sim.transport.in_process_link import InProcessLink
-from tests.client.support import PROTOCOL, connected, drive_for
+from tests.client.support import PROTOCOL, connected, drive_for, rolled
 
 LEARNED = 300
 """A tick by which the robot has learned something."""
@@ -48,6 +48,21 @@ class MeddledLink:
 
     def close(self) -> None:
         self.robot.close()
+
+
+class ObeyedLink(MeddledLink):
+    """A robot whose wheels do what it says, whether or not the simulator hears it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.odometer = (0, 0)
+        self.change = self.obey
+
+    def obey(self, frame: Frame) -> list[Frame]:
+        drive = PROTOCOL.decode_drive(frame)
+        if drive is not None:
+            self.odometer = rolled(self.odometer, drive)
+        return [frame]
 
 
 def learned(link: MeddledLink, ticks: int = LEARNED, **options) -> RobotClient:

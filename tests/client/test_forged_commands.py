@@ -12,8 +12,8 @@ from host_sim.client.session import Session
 from host_sim.errors import RivalError
 from host_sim.protocol.codec import Frame, counter_of
 from host_sim.protocol.generated import Opcode
-from tests.client.meddled_link import MeddledLink
-from tests.client.support import PROTOCOL, connected, rolled, senses
+from tests.client.meddled_link import ObeyedLink
+from tests.client.support import PROTOCOL, connected, senses
 
 TICK_S = 0.02
 AT, SECOND = 120, 50
@@ -28,19 +28,8 @@ OBEYED = {
 }
 
 
-class Listener(MeddledLink):
+class Listener(ObeyedLink):
     """A robot on a bus, and somebody who has listened to all that it was told."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.odometer = (0, 0)
-        self.change = self.obey
-
-    def obey(self, frame: Frame) -> list[Frame]:
-        drive = PROTOCOL.decode_drive(frame)
-        if drive is not None:
-            self.odometer = rolled(self.odometer, drive)
-        return [frame]
 
     def forged(self, name: str, *, lockstep: bool) -> Frame:
         """The command that the robot expects next, as far as anybody can tell."""

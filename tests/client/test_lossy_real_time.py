@@ -10,25 +10,10 @@ from host_sim.client.pacing import RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame
-from tests.client.meddled_link import MeddledLink
-from tests.client.support import PROTOCOL, connected, rolled, senses
+from tests.client.meddled_link import ObeyedLink
+from tests.client.support import PROTOCOL, connected, senses
 
 TICK_S = 0.02
-
-
-class ObeyedLink(MeddledLink):
-    """A robot whose wheels do what it says, whether or not the simulator hears it."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.odometer = (0, 0)
-        self.change = self.obey
-
-    def obey(self, frame: Frame) -> list[Frame]:
-        drive = PROTOCOL.decode_drive(frame)
-        if drive is not None:
-            self.odometer = rolled(self.odometer, drive)
-        return [frame]
 
 
 @pytest.fixture
