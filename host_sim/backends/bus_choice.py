@@ -7,8 +7,8 @@ import os
 import sys
 from collections.abc import Sequence
 
-from host_sim.errors import UsageError
-from host_sim.paths import ROOT
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import ROOT
 
 _WITH_VCAN = ROOT / "tools" / "with-vcan"
 _VCAN = "socketcan:vcan0"

@@ -8,8 +8,8 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-from host_sim.errors import OctetError, RobotError
-from host_sim.paths import image_path
+from host_sim.base.errors import OctetError, RobotError
+from host_sim.base.paths import image_path
 from host_sim.transport.slcan_link import SlcanLink
 
 PROGRAM = "qemu-system-arm"

@@ -9,8 +9,8 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from host_sim.errors import OctetError, RobotError
-from host_sim.paths import BUILD
+from host_sim.base.errors import OctetError, RobotError
+from host_sim.base.paths import BUILD
 
 PROGRAM = BUILD / "host" / "hal" / "port" / "posix" / "octet-robot"
 _READY_S = 10.0

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
 
 if TYPE_CHECKING:
     from host_sim.bench.figure import Figure

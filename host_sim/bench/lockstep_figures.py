@@ -13,9 +13,9 @@ from tempfile import TemporaryDirectory
 
 import can
 
+from host_sim.base.paths import BUILD, ROOT
 from host_sim.bench.figure import ROUNDS, Figure, Rate, most_figure, rate_figure
 from host_sim.client.frame_log import FrameLog
-from host_sim.paths import BUILD, ROOT
 from host_sim.protocol.generated import PARAMETERS
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.make import make

@@ -17,8 +17,8 @@ from tempfile import TemporaryDirectory
 
 from playwright.sync_api import Browser, Page, sync_playwright
 
+from host_sim.base.errors import OctetError
 from host_sim.bench.figure import ROUNDS, Figure, best, most_figure
-from host_sim.errors import OctetError
 from host_sim.report.octet_page import write_octet_page
 
 _CHROMIUM = "/usr/bin/chromium-headless-shell"

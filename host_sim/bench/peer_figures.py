@@ -6,10 +6,10 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from host_sim.base.errors import OctetError
+from host_sim.base.paths import ROOT
 from host_sim.bench.figure import ROUNDS, Figure, Rate, rate_figure
 from host_sim.bench.fleet_figures import robot_ticks_per_second
-from host_sim.errors import OctetError
-from host_sim.paths import ROOT
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.layouts import Layout, generate

@@ -4,8 +4,8 @@ import subprocess
 import sys
 from tempfile import TemporaryDirectory
 
+from host_sim.base.paths import ROOT
 from host_sim.bench.figure import Figure
-from host_sim.paths import ROOT
 
 _STARTS = 10
 _RATIO_MAX = 1.6

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass, field, replace
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.faults.event import Event
 from host_sim.faults.rule import Rule
 from host_sim.protocol.generated import PROFILES

@@ -9,10 +9,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from host_sim.backends.robot_process import RobotProcess
+from host_sim.base.errors import UsageError
 from host_sim.campaign.process_events import process_events
 from host_sim.campaign.setup import Happen
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import UsageError
 from host_sim.faults.cable import Cable, Socket
 from host_sim.sim.run_config import RunConfig
 

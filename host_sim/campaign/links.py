@@ -5,9 +5,9 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 
 from host_sim.backends.images import BOARDS
+from host_sim.base.errors import UsageError
 from host_sim.campaign.setup import Happen, Setup
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import UsageError
 from host_sim.faults.event import Event
 from host_sim.sim.run_config import RunConfig
 

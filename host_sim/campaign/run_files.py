@@ -9,11 +9,11 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from host_sim.base.errors import OctetError
 from host_sim.campaign.course import CourseLog
 from host_sim.campaign.killed import Tell, kill_at
 from host_sim.campaign.permissions import obey_permissions
 from host_sim.campaign.setup import Happen
-from host_sim.errors import OctetError
 from host_sim.faults.event import Event
 from host_sim.protocol.memory_kinds import Memory
 from host_sim.recording.memory_file import MemorySaver, load_memory

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 
+from host_sim.base.errors import OctetError, RobotError, UsageError
 from host_sim.campaign.cell import Cell
 from host_sim.campaign.killed import Tell, run_to_be_killed
 from host_sim.campaign.links import check_events, open_setup
@@ -13,7 +14,6 @@ from host_sim.campaign.setup import Happen, Setup
 from host_sim.campaign.wall_clock import CLOCK_EVENTS, clock_events
 from host_sim.client.commands import stop
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import OctetError, RobotError, UsageError
 from host_sim.faults.event import Event
 from host_sim.faults.faulty_link import FaultyLink
 from host_sim.protocol.generated import TICK_SPAN, Side

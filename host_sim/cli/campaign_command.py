@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from host_sim.backends.images import BOARDS
+from host_sim.base.errors import UsageError
 from host_sim.cli.parsing import add_command, check_outputs, file_path, number
-from host_sim.errors import UsageError
 from host_sim.protocol.words import PROFILES
 
 if TYPE_CHECKING:
@@ -88,7 +88,7 @@ def _stages(arguments: argparse.Namespace) -> Sequence[str]:
 def _campaign(arguments: argparse.Namespace) -> int:
     if arguments.repeat or arguments.shrink:
         return _repeat(arguments.repeat) if arguments.repeat else _shrink(arguments.shrink)
-    from host_sim.atomic_file import write_bytes
+    from host_sim.base.atomic_file import write_bytes
     from host_sim.campaign.html_report import page, summary, verdict
     from host_sim.campaign.outcome import unreached
 

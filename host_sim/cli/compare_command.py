@@ -5,10 +5,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from host_sim.base.counted import counted
+from host_sim.base.errors import UsageError
 from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, setting
 from host_sim.cli.study_command import add_workers, with_progress, worker_stages, workers_of
-from host_sim.counted import counted
-from host_sim.errors import UsageError
 from host_sim.protocol.words import PROFILES
 
 if TYPE_CHECKING:

@@ -9,7 +9,9 @@ from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 
-from host_sim.atomic_file import write_bytes
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.errors import DoubtfulError, OctetError, UsageError
+from host_sim.base.regular_file import read_bytes
 from host_sim.cli.interruption import stop_soon
 from host_sim.cli.outputs import PAGE, PICTURE, SUMMARY, Outputs
 from host_sim.cli.run_options import LOGS, RunOptions, WatchOptions, run_options
@@ -17,7 +19,6 @@ from host_sim.cli.run_through import each, open_listener, run_through
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import DoubtfulError, OctetError, UsageError
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.recording.memory_file import MemorySaver, check_writable, load_memory, memory_path
 from host_sim.recording.memory_lock import memory_lock
@@ -25,7 +26,6 @@ from host_sim.recording.run_folder import run_folder
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary
 from host_sim.recording.world_file import world_path
-from host_sim.regular_file import read_bytes
 from host_sim.sim.make import Memory, make
 from host_sim.sim.simulation import Simulation
 from host_sim.world.worlds import world_of

@@ -32,7 +32,7 @@ def add(commands: "Subparsers") -> None:
 
 
 def _convert(arguments: argparse.Namespace) -> int:
-    from host_sim.atomic_file import replacing
+    from host_sim.base.atomic_file import replacing
     from host_sim.client.frame_log import line_of
     from host_sim.recording.wire_1 import OldLog
     from host_sim.recording.world_file import world_path

@@ -5,9 +5,9 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
+from host_sim.base.extra_library import library
+from host_sim.base.paths import BUILD, ROOT
 from host_sim.cli.parsing import add_command
-from host_sim.extra_library import library
-from host_sim.paths import BUILD, ROOT
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers

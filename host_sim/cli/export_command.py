@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from host_sim.base.errors import UsageError
 from host_sim.cli.parsing import add_command, check_outputs, file_path
-from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -61,9 +61,9 @@ def _check(arguments: argparse.Namespace) -> None:
 
 
 def _export(arguments: argparse.Namespace) -> int:
-    from host_sim.atomic_file import replacing
+    from host_sim.base.atomic_file import replacing
+    from host_sim.base.extra_library import library
     from host_sim.export.time_limits import within_limits
-    from host_sim.extra_library import library
     from host_sim.recording.log_reader import read_log
 
     wanted = _wanted(arguments)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.atomic_file import write_bytes
+from host_sim.base.atomic_file import write_bytes
 from host_sim.cli.run_options import FLEET_TABLE, RunOptions
 from host_sim.recording.fleet_summary import FleetSummary, environment_line, summarize_fleet, table
 from host_sim.recording.run_folder import run_folder

@@ -5,9 +5,9 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
 
+from host_sim.base.errors import RobotError
 from host_sim.client.commands import stop
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import RobotError
 from host_sim.live.ending_signals import ENDING_SIGNALS, TICK_S, at_most
 from host_sim.sim.simulation import Simulation
 

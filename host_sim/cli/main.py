@@ -11,9 +11,9 @@ from types import FrameType
 from typing import NoReturn
 
 from host_sim import cli
+from host_sim.base.errors import OctetError, UsageError
 from host_sim.cli.parsing import Parser
 from host_sim.cli.standard_streams import drop_output, is_full, open_closed
-from host_sim.errors import OctetError, UsageError
 
 _SUFFIX = "_command"
 

@@ -8,9 +8,9 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from host_sim.base.errors import OctetError
 from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
-from host_sim.errors import OctetError
 from host_sim.live.ending_signals import ENDING_SIGNALS
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize

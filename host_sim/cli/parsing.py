@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.protocol.words import PARAMETERS
 from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
 

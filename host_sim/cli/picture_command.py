@@ -3,9 +3,9 @@
 import argparse
 from typing import TYPE_CHECKING
 
+from host_sim.base.errors import UsageError
 from host_sim.cli.log_options import add_log_options, resimulated
 from host_sim.cli.parsing import add_command, check_outputs, number, output_of
-from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Parser, Subparsers

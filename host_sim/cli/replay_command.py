@@ -5,9 +5,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from host_sim.base.errors import UsageError
 from host_sim.cli.log_options import add_log_options, resimulated
 from host_sim.cli.parsing import add_command, check_outputs, file_path
-from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers

@@ -4,10 +4,10 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import ROOT
 from host_sim.cli.parsing import DEFAULT, add_command, file_path
 from host_sim.cli.study_command import add_workers, run_study, worker_stages, workers_of
-from host_sim.errors import UsageError
-from host_sim.paths import ROOT
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -59,7 +59,7 @@ def add(commands: "Subparsers") -> None:
 
 
 def _reproduce(arguments: argparse.Namespace) -> int:
-    from host_sim.atomic_file import write_bytes
+    from host_sim.base.atomic_file import write_bytes
     from host_sim.study.document import fill
 
     a = arguments

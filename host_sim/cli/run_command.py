@@ -3,10 +3,10 @@
 import argparse
 from typing import TYPE_CHECKING
 
+from host_sim.base.errors import UsageError
 from host_sim.cli.parsing import add_command, parameter_table
 from host_sim.cli.run_arguments import add_run_options, add_watch_options
 from host_sim.cli.run_options import check_no_page, check_run, run_options, run_stages, watch_options
-from host_sim.errors import UsageError
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers

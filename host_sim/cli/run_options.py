@@ -6,8 +6,8 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from host_sim.compressed_file import COMPRESSED
-from host_sim.errors import UsageError
+from host_sim.base.compressed_file import COMPRESSED
+from host_sim.base.errors import UsageError
 from host_sim.sim.run_config import RunConfig
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.world.physics_names import PYMUNK

@@ -85,7 +85,7 @@ def _study(arguments: argparse.Namespace) -> int:
 
 def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
     """Runs what is missing of a study, and says how much that was."""
-    from host_sim.atomic_file import write_bytes
+    from host_sim.base.atomic_file import write_bytes
     from host_sim.study.folder import PLAN_FILE, open_study
     from host_sim.study.plan_file import read_plan
 

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 
+from host_sim.base.errors import RefusedError, RivalError, RobotError
 from host_sim.client.connection import Connection
 from host_sim.client.inbox import Inbox
 from host_sim.client.waiting import Waiting
-from host_sim.errors import RefusedError, RivalError, RobotError
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame
 from host_sim.protocol.generated import MESSAGES, Opcode, Result
 

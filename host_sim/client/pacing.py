@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from host_sim.base.errors import SessionLostError
+from host_sim.base.robot_io import REST, Drive, Senses
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import drive_after, recover
-from host_sim.errors import SessionLostError
 from host_sim.protocol.generated import TICK_SPAN, Reason
-from host_sim.robot_io import REST, Drive, Senses
 
 HOLD_TICKS = 5
 """A body without a new drive continues with its last one for this many ticks (100 ms); then its wheels stop."""

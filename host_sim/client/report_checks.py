@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from host_sim.errors import FirmwareError
+from host_sim.base.errors import FirmwareError
 from host_sim.protocol.codec import DecodedFrame
 from host_sim.protocol.generated import Fault
 

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import can
 
+from host_sim.base.errors import OctetError
 from host_sim.emulator.can import CanFrame
 from host_sim.emulator.chips import CHIPS
-from host_sim.errors import OctetError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.buses import open_bus
 

@@ -4,14 +4,14 @@ import time
 from collections import deque
 from pathlib import Path
 
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import image_path
 from host_sim.emulator.can import CanFrame
 from host_sim.emulator.chips import CHIPS, Chip
 from host_sim.emulator.clock import NEVER, SECOND
 from host_sim.emulator.core import load_segments
 from host_sim.emulator.hardware import Faults, Hardware
 from host_sim.emulator.registers import PowerCut
-from host_sim.errors import UsageError
-from host_sim.paths import image_path
 from host_sim.protocol.codec import Frame
 from host_sim.transport.slcan_link import encode
 

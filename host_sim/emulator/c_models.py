@@ -3,9 +3,9 @@
 from functools import cache
 from typing import Any
 
-from host_sim.c_interface import c_interface
-from host_sim.errors import OctetError
-from host_sim.paths import BUILD, ROOT
+from host_sim.base.c_interface import c_interface
+from host_sim.base.errors import OctetError
+from host_sim.base.paths import BUILD, ROOT
 
 LIBRARY = BUILD / "host" / "host_sim" / "emulator" / "models" / "liboctet_models.so"
 _MODELS = ROOT / "host_sim" / "emulator" / "models"

@@ -7,11 +7,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any, cast
 
-from host_sim.c_interface import c_interface
+from host_sim.base.c_interface import c_interface
+from host_sim.base.errors import OctetError
 from host_sim.emulator.c_models import c_models
 from host_sim.emulator.clock import Clock
 from host_sim.emulator.registers import BoardError, Window
-from host_sim.errors import OctetError
 
 try:
     from unicorn import (

@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from host_sim.base.errors import RobotError
 from host_sim.emulator.c_models import c_models
 from host_sim.emulator.clock import Clock
-from host_sim.errors import RobotError
 
 Reader = Callable[[], int]
 Writer = Callable[[int], None]

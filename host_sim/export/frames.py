@@ -10,7 +10,7 @@ import can
 import numpy as np
 from can.io.generic import MessageWriter
 
-from host_sim.extra_library import library
+from host_sim.base.extra_library import library
 from host_sim.recording.log_text import Recorded
 
 _CHUNK = 50_000

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from host_sim.extra_library import library
+from host_sim.base.extra_library import library
 from host_sim.protocol.every_node import Heard, hear
 from host_sim.protocol.generated import MESSAGES
 from host_sim.recording.log_text import Recorded

@@ -17,7 +17,7 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
-from host_sim.extra_library import library
+from host_sim.base.extra_library import library
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES
 from host_sim.recording.log_text import Recorded

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
 from host_sim.recording.log_text import Recorded
 
 _YEAR_9999_S = 253_370_764_800

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from random import Random
 from typing import NamedTuple, Protocol
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.faults.forgery import Forger
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.codec import Protocol as Wire

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 
 _EVENT = re.compile(r"(?P<name>[a-z]+(?:-[a-z]+)*)(?::(?P<size>\d{1,5}))?@(?P<tick>\d{1,7})")
 

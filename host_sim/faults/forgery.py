@@ -2,7 +2,7 @@
 
 from random import Random
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.protocol.codec import COUNTERS, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, PROFILES, Opcode, Signal
 

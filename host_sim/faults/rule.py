@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, get_args
 
-from host_sim.errors import UsageError
-from host_sim.regular_file import read_text
+from host_sim.base.errors import UsageError
+from host_sim.base.regular_file import read_text
 
 Direction = Literal["to", "from"]
 """To the robot, or from it."""

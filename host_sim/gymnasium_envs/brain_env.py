@@ -10,9 +10,9 @@ import numpy as np
 from gymnasium import error, spaces
 from numpy.typing import NDArray
 
+from host_sim.base.errors import OctetError
 from host_sim.client.commands import freeze, write_cells
 from host_sim.client.robot_client import RobotClient
-from host_sim.errors import OctetError
 from host_sim.gymnasium_envs import rules
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, PROFILES, Reason, Side
 from host_sim.protocol.memory_kinds import sides_of

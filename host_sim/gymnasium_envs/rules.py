@@ -9,7 +9,7 @@ import numpy as np
 from gymnasium import error, spaces
 from numpy.typing import NDArray
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
 from host_sim.gymnasium_envs.told_worlds import Deed, TickLimits, ToldWorlds
 from host_sim.protocol.generated import FEEL, NODE_MAX
 from host_sim.world.layouts import Layout, NoRoomError, generate

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.paths import BUILD, ROOT
+from host_sim.base.paths import BUILD, ROOT
 from host_sim.world.arena import Arena
 from host_sim.world.layouts import Layout
 from host_sim.world.native_library import load_native

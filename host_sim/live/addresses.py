@@ -3,7 +3,7 @@
 import ipaddress
 import socket
 
-from host_sim.extra_library import library
+from host_sim.base.extra_library import library
 
 ANYWHERE = ("0.0.0.0", "::")
 """The addresses of all networks."""

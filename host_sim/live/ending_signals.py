@@ -6,7 +6,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
-from host_sim.errors import RobotError
+from host_sim.base.errors import RobotError
 
 if TYPE_CHECKING:
     import asyncio

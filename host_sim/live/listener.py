@@ -7,7 +7,7 @@ import socket
 
 from yarl import URL
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.live.addresses import numbers_of
 from host_sim.live.qr_code import modules_of
 from host_sim.live.token_file import local_token

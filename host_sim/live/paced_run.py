@@ -6,8 +6,9 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from host_sim.base.errors import RefusedError
+from host_sim.base.robot_io import Drive
 from host_sim.client.commands import erase_memory
-from host_sim.errors import RefusedError
 from host_sim.live.page_commands import (
     FULL_SPEED,
     EraseMemory,
@@ -25,7 +26,6 @@ from host_sim.live.page_commands import (
 from host_sim.live.robot_orders import command_robot, discard_reports, edit
 from host_sim.protocol.generated import Reason
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.robot_io import Drive
 from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.simulation import Simulation
 from host_sim.world.edits import Edit, EditError

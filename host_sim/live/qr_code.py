@@ -4,7 +4,7 @@ import io
 import os
 from typing import Any, TextIO
 
-from host_sim.extra_library import library
+from host_sim.base.extra_library import library
 
 BORDER = 2
 """Width of the light border, modules."""

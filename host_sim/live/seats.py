@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
 from host_sim.live.page_commands import EraseMemory, Freeze, LiftRobot, PageCommand, PutRobot, RobotCommand, WriteCell
 
 NAME_MAX = 20

@@ -7,6 +7,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 
 from aiohttp import WSCloseCode, web
 
+from host_sim.base.paths import WEB
 from host_sim.live.board_feed import BoardFeed
 from host_sim.live.connections import Connections, one_line_logger, report_to
 from host_sim.live.curves import Curves
@@ -16,7 +17,6 @@ from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
 from host_sim.live.seats import Rights, Seats
 from host_sim.live.visitor import Visitor
-from host_sim.paths import WEB
 
 PAGES_MAX = 64
 """Maximum number of open pages: a class, those that have just been reloaded, and the board."""

@@ -5,7 +5,7 @@ import contextlib
 import curses
 import sys
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.live.ending_signals import on_ending_signals
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, NextEnvironment, OneDecision, PageCommand, Play, Speed

@@ -9,7 +9,7 @@ from typing import TextIO
 import can
 from can.typechecking import CanFilter
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
 from host_sim.monitor.bus_watch import BusWatch
 from host_sim.monitor.kernel_queue import dropped
 from host_sim.monitor.table import lines_of

@@ -2,10 +2,10 @@
 
 from typing import NamedTuple
 
-from host_sim.paths import ROOT
+from host_sim.base.paths import ROOT
+from host_sim.base.robot_io import Drive, Ranges, Senses
 from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, RANGE_NONE, SAME_LAYOUT, Signal
 from host_sim.protocol.signal_layout import MessageLayout, places
-from host_sim.robot_io import Drive, Ranges, Senses
 
 __all__ = [
     "COUNTERS",

@@ -3,7 +3,7 @@
 import re
 from typing import NamedTuple
 
-from host_sim.paths import ROOT
+from host_sim.base.paths import ROOT
 
 _PROTOCOL = ROOT / "hal" / "protocol"
 _DBC = (_PROTOCOL / "octet.dbc").read_text(encoding="utf-8")

@@ -14,7 +14,8 @@ from typing import BinaryIO, TextIO, cast
 
 import can
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
+from host_sim.base.regular_file import open_bytes
 from host_sim.protocol.codec import Frame
 from host_sim.recording.log_text import (
     ERROR,
@@ -26,7 +27,6 @@ from host_sim.recording.log_text import (
     counts_from_the_line_before,
     is_relative,
 )
-from host_sim.regular_file import open_bytes
 
 _SIZE_MAX = 64_000_000_000
 _LINE_MAX = 4096

@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.protocol.codec import NODE_MAX, Frame, Protocol, node_of
 from host_sim.protocol.every_node import IDS
 from host_sim.protocol.generated import CELL_COUNT

@@ -3,14 +3,14 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
+from host_sim.base.errors import UsageError
+from host_sim.base.robot_io import Drive, Senses
 from host_sim.client.pacing import applied
-from host_sim.errors import UsageError
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Opcode
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import LogReader, check_protocol, first_memory, frames_of
 from host_sim.recording.tick import Tick
-from host_sim.robot_io import Drive, Senses
 
 
 @dataclass

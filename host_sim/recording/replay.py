@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, node_of
 from host_sim.protocol.generated import Opcode, Reason
 from host_sim.protocol.memory_report import MemoryReport

@@ -5,7 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
+from host_sim.base.robot_io import Senses
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.protocol.generated import TICK_SPAN
 from host_sim.recording.dead_reckoning import reckon
@@ -15,7 +16,6 @@ from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.tick import Tick
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import read_world, world_path
-from host_sim.robot_io import Senses
 from host_sim.sim.world_record import Begun, WorldRecord
 from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene

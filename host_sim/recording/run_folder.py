@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from host_sim.errors import UsageError
-from host_sim.file_lock import lock
+from host_sim.base.errors import UsageError
+from host_sim.base.file_lock import lock
 
 
 @contextmanager

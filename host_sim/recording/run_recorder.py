@@ -5,8 +5,8 @@ from collections.abc import Mapping, Sequence
 from struct import Struct
 from typing import Protocol, TypeVar
 
+from host_sim.base.robot_io import Drive, Senses
 from host_sim.recording.trajectory import ROW, Changes, RobotTrack, Trajectory, at, since
-from host_sim.robot_io import Drive, Senses
 from host_sim.sim.native_loop import RobotBlock
 from host_sim.sim.simulation import Simulation
 from host_sim.view.history import LearningHistory

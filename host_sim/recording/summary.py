@@ -6,9 +6,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from host_sim.atomic_file import write_bytes
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.counted import counted
 from host_sim.client.robot_client import RobotClient
-from host_sim.counted import counted
 from host_sim.protocol.generated import PATTERNS, SIDES, Reason
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.episode_result import EpisodeResult, RobotResult

@@ -8,8 +8,8 @@ from itertools import pairwise
 from operator import itemgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
+from host_sim.base.robot_io import Drive, Senses
 from host_sim.protocol.generated import CELL_COUNT, Reason
-from host_sim.robot_io import Drive, Senses
 from host_sim.view.history import Lesson, Trial
 from host_sim.view.news import News
 from host_sim.view.state import EnvironmentScene, State

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.protocol.codec import COUNTERS, NODE_MAX, Frame, Protocol, crc8
 from host_sim.protocol.generated import CELL_COUNT, LAYOUT_HASH, TICK_SPAN, Message, Opcode, Reason, Signal
 from host_sim.protocol.signal_layout import MessageLayout

@@ -10,11 +10,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from host_sim.atomic_file import write_bytes
-from host_sim.compressed_file import COMPRESSED
-from host_sim.errors import UsageError
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.compressed_file import COMPRESSED
+from host_sim.base.errors import UsageError
+from host_sim.base.regular_file import read_bytes
 from host_sim.protocol.codec import NODE_MAX
-from host_sim.regular_file import read_bytes
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
 from host_sim.world.edit_json import edit_from, edit_to, whole
 from host_sim.world.layouts import World

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from PIL import Image, ImageFont
 
-from host_sim.atomic_file import write_bytes
-from host_sim.errors import UsageError
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.errors import UsageError
 from host_sim.protocol.generated import CELL_COUNT, SIDES, Reason
 from host_sim.recording.trajectory import RobotTrack, Trajectory, at
 from host_sim.report.drawing import (

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw
 
-from host_sim.atomic_file import write_bytes
+from host_sim.base.atomic_file import write_bytes
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.recording.fleet_summary import learned
 from host_sim.report.drawing import (

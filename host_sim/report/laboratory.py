@@ -15,12 +15,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
+from host_sim.base.regular_file import read_bytes
 from host_sim.protocol.codec import Protocol
 from host_sim.recording.log_reader import LogReader, Recorded
 from host_sim.recording.resimulation import Resimulation
 from host_sim.recording.world_file import world_path
-from host_sim.regular_file import read_bytes
 from host_sim.report.octet_page import octet_page
 
 ROBOTS_MAX = 4

@@ -6,9 +6,9 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from host_sim.atomic_file import write_bytes
-from host_sim.errors import OctetError
-from host_sim.paths import PAGE_WASM, WEB
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.errors import OctetError
+from host_sim.base.paths import PAGE_WASM, WEB
 from host_sim.report.page_bundle import page_of, with_data
 from host_sim.world.world_names import WORLD_NAMES
 from host_sim.world.worlds import world_of

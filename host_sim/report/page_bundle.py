@@ -12,7 +12,7 @@ import posixpath
 import re
 from collections.abc import Iterator
 
-from host_sim.paths import WEB
+from host_sim.base.paths import WEB
 
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
 _SCRIPT = re.compile(r'<script type="module" src="([\w.-]+)"></script>')

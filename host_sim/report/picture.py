@@ -10,7 +10,7 @@ from typing import Protocol
 
 from PIL import Image
 
-from host_sim.atomic_file import write_bytes
+from host_sim.base.atomic_file import write_bytes
 from host_sim.protocol.generated import CELL_COUNT, SIDES
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.report.drawing import (

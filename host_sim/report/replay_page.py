@@ -50,7 +50,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.atomic_file import write_bytes
+from host_sim.base.atomic_file import write_bytes
 from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.report.page_bundle import page_of, with_data
 from host_sim.view.state import measures

@@ -3,7 +3,7 @@
 from io import BytesIO
 from pathlib import Path
 
-from host_sim.atomic_file import write_bytes
+from host_sim.base.atomic_file import write_bytes
 from host_sim.report.drawing import FLOOR, FOOD_MM, PAPER, Plan, draw_food, draw_obstacles, draw_robot
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams

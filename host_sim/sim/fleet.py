@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.geometry import Pose

@@ -7,6 +7,7 @@ from random import Random
 
 from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.connect import connect
+from host_sim.base.errors import RefusedError, UsageError
 from host_sim.client.commands import start
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog, NoLog
@@ -15,7 +16,6 @@ from host_sim.client.pacing import Lockstep, Pace, RealTime
 from host_sim.client.punctuality import Limits
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
-from host_sim.errors import RefusedError, UsageError
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.errors import UsageError
-from host_sim.paths import BUILD, ROOT
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import BUILD, ROOT
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
 from host_sim.world.geometry import Capsule, Pose
 from host_sim.world.layouts import Layout

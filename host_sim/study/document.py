@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from host_sim.atomic_file import write_bytes
-from host_sim.errors import OctetError
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.errors import OctetError
 from host_sim.study.bootstrap import estimate
 from host_sim.study.figures import FIGURES, Figure
 from host_sim.study.sample import Sample

@@ -10,11 +10,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from host_sim.atomic_file import replacing, write_bytes
-from host_sim.errors import UsageError
-from host_sim.extra_library import library
+from host_sim.base.atomic_file import replacing, write_bytes
+from host_sim.base.errors import UsageError
+from host_sim.base.extra_library import library
+from host_sim.base.regular_file import read_bytes
 from host_sim.recording.run_folder import run_folder
-from host_sim.regular_file import read_bytes
 from host_sim.study.plan import Plan
 from host_sim.study.tables import COLUMNS, Row, Tables, rows_of
 from host_sim.study.trial import Run

@@ -7,9 +7,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
+from host_sim.base.regular_file import read_text
 from host_sim.protocol.generated import PARAMETERS, PROFILES
-from host_sim.regular_file import read_text
 from host_sim.study.figures import FIGURES
 from host_sim.study.plan import Condition, Goal, Plan
 from host_sim.study.toml_lines import line_of, meant

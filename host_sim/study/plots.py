@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from host_sim.atomic_file import replacing
-from host_sim.extra_library import library
+from host_sim.base.atomic_file import replacing
+from host_sim.base.extra_library import library
 from host_sim.study.bootstrap import estimate
 from host_sim.study.figures import FIGURES, interquartile_mean
 from host_sim.study.heiserman import CLASSES, scores

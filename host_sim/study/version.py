@@ -3,7 +3,7 @@
 import hashlib
 from functools import cache
 
-from host_sim.paths import ROOT
+from host_sim.base.paths import ROOT
 
 FORMAT = 1
 """Number of the layout of a study's folder and tables."""

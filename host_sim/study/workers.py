@@ -7,8 +7,8 @@ from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, 
 from contextlib import suppress
 from typing import Any, NamedTuple
 
-from host_sim.errors import OctetError, UsageError
-from host_sim.extra_library import library
+from host_sim.base.errors import OctetError, UsageError
+from host_sim.base.extra_library import library
 from host_sim.study.trial import Run, Trial, run_trial
 from host_sim.study.version import code_version
 

@@ -8,7 +8,7 @@ from typing import Any
 import can
 from can.typechecking import CanFilter
 
-from host_sim.errors import LinkDownError, UsageError
+from host_sim.base.errors import LinkDownError, UsageError
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.transport.bus_link import BusLink
 from host_sim.transport.line_stats import LineStats

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from host_sim.c_interface import c_interface
-from host_sim.errors import OctetError
-from host_sim.paths import BUILD
+from host_sim.base.c_interface import c_interface
+from host_sim.base.errors import OctetError
+from host_sim.base.paths import BUILD
 from host_sim.protocol.codec import Frame
 from host_sim.transport.relay import Relay
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import serial  # type: ignore[import-untyped]  # pyserial has no types
 
-from host_sim.errors import LinkDownError, UsageError
+from host_sim.base.errors import LinkDownError, UsageError
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.slcan_link import SlcanLink
 

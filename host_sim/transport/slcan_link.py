@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
-from host_sim.errors import LinkDownError
+from host_sim.base.errors import LinkDownError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.line_stats import LineStats
 

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypedDict
 
+from host_sim.base.robot_io import Drive, Senses
 from host_sim.protocol.generated import CELL_COUNT
 from host_sim.protocol.memory_kinds import sides_of
-from host_sim.robot_io import Drive, Senses
 from host_sim.world.world_library import world_library
 
 

@@ -7,7 +7,7 @@ mrad, 0 along +x, positive to the right. Sides: 0 nothing, 1 left, 2 right. Reas
 from collections.abc import Sequence
 from typing import TypedDict
 
-from host_sim.robot_io import Drive, Senses
+from host_sim.base.robot_io import Drive, Senses
 from host_sim.sim.simulation import Simulation
 from host_sim.sim.world_record import Begun
 from host_sim.view.history import LearningHistory, Lesson, Trial

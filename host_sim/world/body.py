@@ -3,7 +3,7 @@
 from struct import Struct
 from typing import Any
 
-from host_sim.robot_io import Senses
+from host_sim.base.robot_io import Senses
 from host_sim.world.body_faults import SOUND
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.native_world import NativeWorld

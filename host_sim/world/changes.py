@@ -4,9 +4,9 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from host_sim.errors import UsageError
-from host_sim.near_word import near_word
-from host_sim.regular_file import read_text
+from host_sim.base.errors import UsageError
+from host_sim.base.near_word import near_word
+from host_sim.base.regular_file import read_text
 from host_sim.world.body_faults import FAULT_NAMES, SOUND, with_fault
 
 PLANT, GROW = "plant", "grow"

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from host_sim.errors import UsageError
-from host_sim.regular_file import read_text
+from host_sim.base.errors import UsageError
+from host_sim.base.regular_file import read_text
 from host_sim.world.layouts import World
 from host_sim.world.written_world import WrittenError, world_from
 

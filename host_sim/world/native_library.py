@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from host_sim.c_interface import c_interface
-from host_sim.errors import OctetError
+from host_sim.base.c_interface import c_interface
+from host_sim.base.errors import OctetError
 
 
 class NoNativeError(OctetError):

@@ -3,7 +3,7 @@
 from functools import cache
 from typing import Any
 
-from host_sim.paths import BUILD, ROOT
+from host_sim.base.paths import BUILD, ROOT
 
 LIBRARY = BUILD / "host" / "host_sim" / "world" / "native" / "liboctet_world.so"
 _NATIVE = ROOT / "host_sim" / "world" / "native"

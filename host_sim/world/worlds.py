@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from host_sim.errors import UsageError
-from host_sim.near_word import near_word
+from host_sim.base.errors import UsageError
+from host_sim.base.near_word import near_word
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
 from host_sim.world.world_names import RANDOM, WORLD_NAMES

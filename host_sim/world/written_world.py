@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from host_sim.near_word import near_word
+from host_sim.base.near_word import near_word
 from host_sim.world.geometry import Bar
 from host_sim.world.layouts import World
 from host_sim.world.native_drawing import ReachRoom, layout_params

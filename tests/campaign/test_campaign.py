@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base.errors import RobotError, UsageError
 from host_sim.campaign import matrix
 from host_sim.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.campaign.course import CourseLog
@@ -15,7 +16,6 @@ from host_sim.campaign.matrix import FaultClass, default_limit_s, groups
 from host_sim.campaign.outcome import Outcome
 from host_sim.campaign.running import run_all
 from host_sim.campaign.shrink import shrink
-from host_sim.errors import RobotError, UsageError
 from host_sim.faults.event import Event
 from host_sim.protocol.codec import Frame
 from tests.campaign.support import CLEAN, outcome_of

@@ -5,9 +5,9 @@ from contextlib import ExitStack
 
 import pytest
 
+from host_sim.base.errors import OctetError
 from host_sim.campaign.run_files import RunFiles
 from host_sim.campaign.wall_clock import clock_events
-from host_sim.errors import OctetError
 from host_sim.protocol.codec import Frame
 from host_sim.recording.memory_file import MemorySaver
 from tests.campaign.support import leaves_a_trace, outcome_of

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
+from host_sim.base.robot_io import NOTHING_SENSED, Drive, Senses
 from host_sim.client.commands import start, stop
 from host_sim.client.connection import DEADLINE_S, Connection
 from host_sim.client.frame_log import FrameLog
@@ -15,7 +16,6 @@ from host_sim.faults.faulty_link import FaultyLink
 from host_sim.faults.rule import Rule
 from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import Frame, Protocol
-from host_sim.robot_io import NOTHING_SENSED, Drive, Senses
 from host_sim.transport.clock import VirtualClock
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.link import Link

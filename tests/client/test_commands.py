@@ -2,11 +2,11 @@
 
 import pytest
 
+from host_sim.base.errors import RefusedError, RobotError
 from host_sim.client.commands import erase_memory, freeze, start, stop, write_cells
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import INCIDENTS_MAX
 from host_sim.client.session import Session
-from host_sim.errors import RefusedError, RobotError
 from host_sim.protocol.codec import Frame, counter_of
 from host_sim.protocol.generated import Opcode, Result
 from tests.client.meddled_link import MeddledLink, learned

@@ -4,12 +4,12 @@ from collections.abc import Callable
 
 import pytest
 
+from host_sim.base.errors import RivalError
 from host_sim.client.commands import freeze, start, stop, write_cells
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
-from host_sim.errors import RivalError
 from host_sim.protocol.codec import Frame, counter_of
 from host_sim.protocol.generated import Opcode
 from tests.client.meddled_link import ObeyedLink

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base.compressed_file import CompressedFile
+from host_sim.base.errors import OctetError, UsageError
 from host_sim.client.frame_log import FrameLog, line_of
-from host_sim.compressed_file import CompressedFile
-from host_sim.errors import OctetError, UsageError
 from host_sim.protocol.codec import Frame
 
 FRAME = Frame(0x081, bytes(range(8)))

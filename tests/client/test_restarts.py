@@ -2,12 +2,12 @@
 
 import pytest
 
+from host_sim.base.errors import FirmwareError, RobotError, SessionLostError
 from host_sim.client.commands import freeze, start, stop
 from host_sim.client.handshake import handshake
 from host_sim.client.pacing import Lockstep, RealTime
 from host_sim.client.session import Session
 from host_sim.client.supervision import settle
-from host_sim.errors import FirmwareError, RobotError, SessionLostError
 from host_sim.protocol.codec import Frame, crc8
 from tests.client.meddled_link import LEARNED, MeddledLink, learned
 from tests.client.support import PROTOCOL, connected, drive_for, senses

@@ -5,6 +5,8 @@ from collections.abc import Callable
 
 import pytest
 
+from host_sim.base.errors import RefusedError, RobotError
+from host_sim.base.robot_io import NOTHING_SENSED, Drive, Senses
 from host_sim.client.commands import start
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
@@ -12,9 +14,7 @@ from host_sim.client.handshake import handshake
 from host_sim.client.pacing import HOLD_TICKS, Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
-from host_sim.errors import RefusedError, RobotError
 from host_sim.protocol.codec import Frame, Protocol, crc8
-from host_sim.robot_io import NOTHING_SENSED, Drive, Senses
 from host_sim.transport.in_process_link import InProcessLink
 
 PROTOCOL = Protocol()

@@ -14,9 +14,9 @@ from small_mcap import JSONDecoderFactory, read_message_decoded
 from vblf.can import CanMessage
 from vblf.reader import BlfReader
 
+from host_sim.base.extra_library import library
 from host_sim.cli.main import main
 from host_sim.export.time_limits import LAST_S
-from host_sim.extra_library import library
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES

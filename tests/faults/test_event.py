@@ -2,7 +2,7 @@
 
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.faults.event import Event
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.faults.bus_faults import FAULTS
 from host_sim.faults.rule import Rule, read_rules
 from host_sim.faults.schedule import Schedule

@@ -14,8 +14,8 @@ import pytest
 
 from host_sim.backends.connect import connect
 from host_sim.backends.qemu import Qemu
-from host_sim.errors import OctetError, RobotError, UsageError
-from host_sim.paths import image_path
+from host_sim.base.errors import OctetError, RobotError, UsageError
+from host_sim.base.paths import image_path
 from host_sim.protocol.codec import Frame
 from host_sim.transport.slcan_link import SlcanLink
 from tests.image.support import run_robot
@@ -99,7 +99,7 @@ def test_qemu_that_is_not_installed_is_named(monkeypatch):
 
 
 def test_an_image_that_is_not_built_is_named_with_how_to_build_it(monkeypatch, tmp_path):
-    monkeypatch.setattr("host_sim.paths.BUILD", tmp_path)
+    monkeypatch.setattr("host_sim.base.paths.BUILD", tmp_path)
 
     with pytest.raises(OctetError, match="tools/setup images"):
         image_path("feather_stm32f405", "slcan")

@@ -14,8 +14,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from host_sim.errors import UsageError
-from host_sim.extra_library import library
+from host_sim.base.errors import UsageError
+from host_sim.base.extra_library import library
 from host_sim.live import addresses, announcement, qr_code
 from host_sim.live.addresses import numbers_of
 from host_sim.live.listener import Listener

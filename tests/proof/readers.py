@@ -10,9 +10,9 @@ from typing import Any
 
 import can
 
+from host_sim.base.errors import OctetError
 from host_sim.campaign.cell import Cell
 from host_sim.client.frame_log import line_of
-from host_sim.errors import OctetError
 from host_sim.faults.rule import Rule, read_rules
 from host_sim.live.page_commands import page_command_from
 from host_sim.recording.log_reader import read_log

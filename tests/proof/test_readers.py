@@ -7,7 +7,7 @@ from itertools import count
 
 import pytest
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
 from tests.proof import reader_fuzzer
 from tests.proof.reader_fuzzer import ReaderFuzzer, harm
 from tests.proof.readers import READERS, Reader

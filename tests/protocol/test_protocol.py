@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from host_sim.base.robot_io import Drive, Ranges, Senses
 from host_sim.protocol.codec import DBC, Frame, Protocol, crc8, node_of
 from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, RANGE_NONE, Opcode
 from host_sim.protocol.signal_layout import MessageLayout
-from host_sim.robot_io import Drive, Ranges, Senses
 
 PROTOCOL = Protocol()
 NOTHING_SENSED = Senses(tick=0, feel=0, bump=False, look=False, beacon_mm=0, odometer_left=0, odometer_right=0)

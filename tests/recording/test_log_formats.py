@@ -8,7 +8,7 @@ from pathlib import Path
 import can
 import pytest
 
-from host_sim.errors import OctetError, UsageError
+from host_sim.base.errors import OctetError, UsageError
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.recording.log_reader import Recorded, read_log
 

@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.protocol.generated import MemoryKind
 from host_sim.protocol.memory_kinds import translated
 from host_sim.recording.memory_file import MemorySaver, load_memory

@@ -6,8 +6,8 @@ import sys
 
 import pytest
 
-from host_sim.atomic_file import write_bytes
-from host_sim.errors import UsageError
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.errors import UsageError
 from host_sim.recording import memory_lock as module
 from host_sim.recording.memory_lock import memory_lock
 

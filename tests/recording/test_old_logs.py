@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base.errors import OctetError
 from host_sim.cli.main import main
-from host_sim.errors import OctetError
 from host_sim.protocol.codec import COUNTERS, Frame, Protocol, crc8
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import TICK_SPAN, Opcode, Reason

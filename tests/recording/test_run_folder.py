@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.recording.run_folder import run_folder
 
 

@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from host_sim.base.errors import OctetError
+from host_sim.base.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.cli.main import main
 from host_sim.client.commands import freeze, write_cells
-from host_sim.errors import OctetError
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, EraseMemory, Freeze, NewSeed, NextEnvironment, WriteCell
 from host_sim.protocol.codec import Frame, Protocol
@@ -22,7 +23,6 @@ from host_sim.recording.resimulation import resimulate
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path, write_world
-from host_sim.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.sim.make import start_robots
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from host_sim.errors import OctetError, UsageError
+from host_sim.base.errors import OctetError, UsageError
 from host_sim.recording.world_file import read_world, world_path, write_world
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
 from host_sim.world.edits import (

@@ -19,9 +19,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
+from host_sim.base.errors import RobotError
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
-from host_sim.errors import RobotError
 from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.protocol.generated import PROFILES
 from host_sim.sim.fleet import run_fleet

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.backends.robot_process import RobotProcess
-from host_sim.errors import RobotError
+from host_sim.base.errors import RobotError
 from host_sim.live.paced_run import PAUSE_S
 from tests.runs.support import DEADLINE_S, octet, octet_process, robot_of, start_octet, wait_for_lines
 
@@ -111,7 +111,7 @@ def test_ctrl_c_while_the_program_is_loaded_is_no_traceback():
         "sys.meta_path.insert(0, Finder())\n"
         "runpy.run_module('host_sim', run_name='__main__')\n"
     )
-    for moment in ("host_sim.cli.main", "host_sim.errors", "host_sim.cli.run_options"):
+    for moment in ("host_sim.cli.main", "host_sim.base.errors", "host_sim.cli.run_options"):
         command = [sys.executable, "-c", interrupt, moment, "run", "--help"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         assert done.returncode in (-signal.SIGINT, 130), done

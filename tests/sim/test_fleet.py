@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.protocol.generated import PROFILES, Reason
 from host_sim.sim import fleet, native_fleet
 from host_sim.sim.fleet import FleetResult, run_fleet

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base.errors import RobotError
 from host_sim.client.commands import erase_memory, freeze, start, stop, write_cells
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.session import Session
-from host_sim.errors import RobotError
 from host_sim.protocol.generated import PROFILES, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.episode_result import EpisodeResult

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base.errors import OctetError
 from host_sim.cli.dask_command import _here_only
 from host_sim.cli.main import main
-from host_sim.errors import OctetError
 from host_sim.study import workers
 from host_sim.study.folder import StudyFolder
 from host_sim.study.trial import Trial, run_trial

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base.errors import OctetError
 from host_sim.cli.main import main
 from host_sim.cli.parsing import Parser
-from host_sim.errors import OctetError
 from host_sim.study.document import fill, write_table
 from tests.study.support import row, run, samples
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.study.plan_file import read_plan
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.base.extra_library import library
 from host_sim.cli.main import main
-from host_sim.extra_library import library
 from host_sim.study import tables, workers
 from host_sim.study.folder import StudyFolder
 from host_sim.study.trial import Trial, run_trial

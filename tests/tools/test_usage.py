@@ -4,7 +4,7 @@ import ast
 
 import pytest
 
-from host_sim.paths import ROOT
+from host_sim.base.paths import ROOT
 
 PYTHON = b"#!/usr/bin/env python3\n"
 TOOLS = sorted(

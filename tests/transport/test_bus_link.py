@@ -8,7 +8,7 @@ from threading import Timer
 import can
 import pytest
 
-from host_sim.errors import LinkDownError
+from host_sim.base.errors import LinkDownError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.bus_link import BusLink
 from host_sim.transport.line_stats import LineStats

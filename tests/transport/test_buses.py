@@ -3,7 +3,7 @@
 import can
 import pytest
 
-from host_sim.errors import LinkDownError, UsageError
+from host_sim.base.errors import LinkDownError, UsageError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.buses import open_bus, open_bus_link
 from host_sim.transport.line_stats import LineStats

@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
+from host_sim.base.robot_io import Senses
 from host_sim.protocol.codec import Frame, Protocol
-from host_sim.robot_io import Senses
 from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.relay import Relay
 

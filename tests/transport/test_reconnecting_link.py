@@ -4,7 +4,7 @@ from collections import deque
 
 import pytest
 
-from host_sim.errors import LinkDownError, RobotError, UsageError
+from host_sim.base.errors import LinkDownError, RobotError, UsageError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.reconnecting_link import ReconnectingLink

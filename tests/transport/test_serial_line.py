@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from host_sim.errors import LinkDownError, UsageError
+from host_sim.base.errors import LinkDownError, UsageError
 from host_sim.transport.buses import open_bus_link
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.slcan_link import SlcanLink

@@ -7,7 +7,7 @@ from random import Random
 
 import pytest
 
-from host_sim.errors import LinkDownError
+from host_sim.base.errors import LinkDownError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.slcan_link import SlcanLink, encode

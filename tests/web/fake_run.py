@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from playwright.sync_api import Page, Route, WebSocketRoute
 
-from host_sim.paths import WEB
+from host_sim.base.paths import WEB
 from host_sim.report.page_bundle import page_of
 from host_sim.report.replay_page import pack, page
 from host_sim.view.state import EnvironmentScene, Measures, State, measures

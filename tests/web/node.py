@@ -5,7 +5,7 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
-from host_sim.paths import PAGE_WASM
+from host_sim.base.paths import PAGE_WASM
 from host_sim.report.page_bundle import bundle
 
 RUN_IN_NODE = Path(__file__).with_name("run_in_node.js")

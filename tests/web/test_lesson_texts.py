@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from host_sim.paths import WEB
+from host_sim.base.paths import WEB
 from host_sim.report.octet_page import lesson_texts
 
 TEXTS = lesson_texts()

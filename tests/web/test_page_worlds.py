@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.errors import UsageError
-from host_sim.paths import ROOT
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import ROOT
 from host_sim.report.octet_page import world_dimensions
 from host_sim.world.layout_file import read_layout_file
 from host_sim.world.written_world import content_of

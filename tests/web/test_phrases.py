@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page
 
-from host_sim.paths import WEB
+from host_sim.base.paths import WEB
 from host_sim.protocol.generated import Reason
 from host_sim.report.drawing import MARKS
 from host_sim.view import phrases

@@ -10,7 +10,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 import pytest
 
-from host_sim.paths import WEB
+from host_sim.base.paths import WEB
 from host_sim.view.history import Lesson, Trial
 from host_sim.view.state import EnvironmentScene, Measures, State
 from tests.web.support import run_in

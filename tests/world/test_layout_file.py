@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.world.geometry import Bar, Pose
 from host_sim.world.layouts import World
 from host_sim.world.worlds import world_of

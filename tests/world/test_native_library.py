@@ -2,7 +2,7 @@
 
 import pytest
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
 from host_sim.sim import native_loop
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
 from host_sim.world.world_names import WORLD_NAMES

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.atomic_file import write_bytes
-from host_sim.errors import OctetError, UsageError
-from host_sim.regular_file import read_bytes
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.errors import OctetError, UsageError
+from host_sim.base.regular_file import read_bytes
 
 
 def test_a_file_is_written_and_leaves_nothing_else(tmp_path):

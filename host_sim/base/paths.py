@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 """The project's root folder."""
 
 BUILD = ROOT / "build"

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from host_sim.errors import OctetError
+from host_sim.base.errors import OctetError
 
 
 def write_bytes(path: Path, content: bytes) -> None:

@@ -3,8 +3,8 @@
 import cffi
 import pytest
 
-from host_sim import c_interface as module
-from host_sim.c_interface import c_interface
+from host_sim.base import c_interface as module
+from host_sim.base.c_interface import c_interface
 
 DECLARATIONS = "struct pair { int left, right; };"
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.compressed_file import CompressedFile
+from host_sim.base.compressed_file import CompressedFile
 
 CONTENT = b"".join(b"(0000000001.%06d) octet 081#%08X\n" % (i, i * 2654435761 % 2**32) for i in range(8000))
 KEPT_BACK = 1 << 16

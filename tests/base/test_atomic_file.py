@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.atomic_file import replacing
-from host_sim.errors import OctetError
+from host_sim.base.atomic_file import replacing
+from host_sim.base.errors import OctetError
 
 
 def write_half(path: Path, error: BaseException) -> None:

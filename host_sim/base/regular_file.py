@@ -5,7 +5,7 @@ import stat
 from pathlib import Path
 from typing import BinaryIO
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 
 
 def open_bytes(path: Path, limit: int) -> BinaryIO:

@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from host_sim.errors import UsageError
-from host_sim.paths import BUILD
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import BUILD
 
 
 def library(name: str, stage: str, build: Path = BUILD) -> Any:

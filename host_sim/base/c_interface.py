@@ -11,7 +11,7 @@ from typing import Any
 
 import _cffi_backend
 
-from host_sim.paths import BUILD
+from host_sim.base.paths import BUILD
 
 FOLDER = BUILD / "cffi"
 """What was read, as modules of Python."""

@@ -4,7 +4,7 @@ import fcntl
 import os
 from pathlib import Path
 
-from host_sim.errors import UsageError
+from host_sim.base.errors import UsageError
 
 _LOCKS = Path("/proc/locks")
 
