@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from host_sim.base.errors import OctetError, RobotError, UsageError
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
-from host_sim.export.table import arrow_table
+from host_sim.recording.frame_table import arrow_table
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.run_recorder import RunRecorder

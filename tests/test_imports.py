@@ -49,7 +49,10 @@ UPWARD = [
     ("host_sim.view", "host_sim.recording"),
     ("host_sim.recording", "host_sim.cli"),
     ("host_sim.live", "host_sim.report"),
-    ("host_sim.bench", "host_sim.cli"),
+    ("host_sim.cli", "host_sim.lab.study"),
+    ("host_sim.live", "host_sim.lab.export"),
+    ("host_sim.lab.export", "host_sim.lab.bench"),
+    ("host_sim.lab.study", "host_sim.lab.campaign"),
 ]
 
 
@@ -96,7 +99,7 @@ ELSEWHERE = {
     "host_sim.faults.faulty_link",
     "host_sim.live.server",
     "host_sim.report",
-    "host_sim.study",
+    "host_sim.lab.study",
     "multiprocessing",
     "numpy",
     "pandas",
@@ -110,7 +113,7 @@ ELSEWHERE = {
 
 def loaded_at_the_first_tick(folder: Path, first: str = "") -> set[str]:
     """What of all this a run in this process has loaded then."""
-    module = "host_sim.bench.first_tick"
+    module = "host_sim.lab.bench.first_tick"
     script = f"{first}\nimport runpy; runpy.run_module({module!r}, run_name='__main__', alter_sys=True)"
     command = [sys.executable, "-c", script, str(folder), *ELSEWHERE]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
@@ -136,7 +139,7 @@ def test_only_the_command_that_is_called_is_loaded():
     assert commands == {"host_sim.cli.load_command"}
 
 
-@pytest.mark.parametrize("module", sorted(path.stem for path in (ROOT / "host_sim/cli").glob("*_command.py")))
+@pytest.mark.parametrize("module", sorted(path.stem for path in ROOT.glob("host_sim/**/*_command.py")))
 def test_a_command_has_the_name_of_its_module(module, capsys):
     name = module.removesuffix("_command")
 

@@ -1,20 +1,23 @@
-"""The command line, `tools/octet COMMAND ...`. Each module NAME_command of this package adds a command NAME."""
+"""The command line, `tools/octet COMMAND ...`.
+
+Each module NAME_command of this package, or of a folder in host_sim/lab, adds a command NAME.
+"""
 
 import argparse
 import contextlib
 import importlib
-import pkgutil
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
-from host_sim import cli
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.cli.parsing import Parser
 from host_sim.cli.standard_streams import drop_output, is_full, open_closed
 
+_ROOMS = ("cli", "lab/*")
 _SUFFIX = "_command"
 
 
@@ -96,7 +99,7 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
     given = sys.argv[1:] if arguments is None else arguments
     for name in _modules_for(given):
-        importlib.import_module(f"host_sim.cli.{name}").add(commands)
+        importlib.import_module(name).add(commands)
     parsed, unknown = parser.parse_known_args(given)
     if unknown:
         raise UsageError(f"unrecognized arguments: {' '.join(unknown)}; see {parsed.prog} --help")
@@ -123,6 +126,8 @@ def _raise_end(number: int, _frame: FrameType | None) -> NoReturn:
 
 def _modules_for(arguments: Sequence[str]) -> list[str]:
     """The module of the command that is called, so that it does not wait for the others to load; else all modules."""
-    names = [info.name for info in pkgutil.iter_modules(cli.__path__) if info.name.endswith(_SUFFIX)]
+    top = Path(__file__).parents[1]
+    files = sorted(path for room in _ROOMS for path in top.glob(f"{room}/*{_SUFFIX}.py"))
+    modules = {path.stem: ".".join((top.name, *path.relative_to(top).with_suffix("").parts)) for path in files}
     called = arguments[0].replace("-", "_") + _SUFFIX if arguments else ""
-    return [called] if called in names else names
+    return [modules[called]] if called in modules else [modules[name] for name in sorted(modules)]

@@ -5,10 +5,10 @@ from itertools import pairwise
 
 import pytest
 
-from host_sim.bench.tick_cost import count_ticks
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.hardware import Faults
 from host_sim.emulator.rcc import RccFaults
+from host_sim.lab.bench.tick_cost import count_ticks
 from tests.image.support import counted, is_rest, talk_to
 
 LED_PINS = {"feather_stm32f405": 1, "blue_pill": 13}

@@ -3,9 +3,9 @@
 import pytest
 
 from host_sim.backends.images import BOARDS
-from host_sim.bench.equality import IMAGES, REFERENCE, compare, first_difference, record
 from host_sim.client.connection import Connection
 from host_sim.emulator.board import start_board
+from host_sim.lab.bench.equality import IMAGES, REFERENCE, compare, first_difference, record
 from tests.image.support import run_robot
 
 TICKS = 700
@@ -47,7 +47,7 @@ def test_a_log_that_ends_early_differs(tmp_path):
 
 
 def test_the_log_of_an_image_that_differs_is_left(tmp_path, monkeypatch):
-    module = "host_sim.bench.equality"
+    module = "host_sim.lab.bench.equality"
     monkeypatch.setattr(f"{module}.record", lambda where, _seed, _ticks, log: log.write_text(f"{where}\n"))
 
     verdicts = list(compare([5], 10, tmp_path, ["qemu"]))

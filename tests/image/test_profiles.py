@@ -2,7 +2,7 @@
 
 import pytest
 
-from host_sim.bench.equality import IMAGES, REFERENCE, first_difference, record
+from host_sim.lab.bench.equality import IMAGES, REFERENCE, first_difference, record
 from host_sim.protocol.generated import PROFILES
 
 TICKS = 150

@@ -11,15 +11,15 @@ from typing import Any
 import can
 
 from host_sim.base.errors import OctetError
-from host_sim.campaign.cell import Cell
 from host_sim.client.frame_log import line_of
 from host_sim.faults.rule import Rule, read_rules
+from host_sim.lab.campaign.cell import Cell
+from host_sim.lab.study.plan_file import read_plan
 from host_sim.live.page_commands import page_command_from
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.memory_file import load_memory
 from host_sim.recording.wire_1 import OldLog
 from host_sim.recording.world_file import read_world
-from host_sim.study.plan_file import read_plan
 from host_sim.world.changes import read_changes
 from host_sim.world.worlds import world_of
 from tools.robot_words.model import DescriptionError

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
 
-from host_sim.campaign.instructions import before_each_instruction
 from host_sim.cli.main import main
+from host_sim.lab.campaign.instructions import before_each_instruction
 from host_sim.recording.memory_file import MemorySaver
 
 BEFORE = bytes([0, 0, 0, 0, 0, 0, 0, 2])

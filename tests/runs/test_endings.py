@@ -231,7 +231,7 @@ def test_a_command_without_a_log_that_is_interrupted_speaks_of_none(monkeypatch)
     def interrupted(_: object) -> int:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("host_sim.cli.monitor_command._monitor", interrupted)
+    monkeypatch.setattr("host_sim.lab.monitor.monitor_command._monitor", interrupted)
 
     assert (ended := octet("monitor", "socketcan:can0")).returncode == 128 + signal.SIGINT
     assert ended.stderr == "octet: ended by SIGINT\n"

@@ -9,11 +9,11 @@ from concurrent.futures import ProcessPoolExecutor
 
 import pytest
 
+from host_sim.lab.study.trial import Trial, run_trial
 from host_sim.protocol.generated import Side
 from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from host_sim.study.trial import Trial, run_trial
 
 SEEDS = range(1, 41)
 PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}

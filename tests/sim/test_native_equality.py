@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from host_sim.bench import native_equality
-from host_sim.bench.native_equality import compare_loops
+from host_sim.lab.bench import native_equality
+from host_sim.lab.bench.native_equality import compare_loops
 from host_sim.sim.native_loop import NativeLoop
 from host_sim.world.plain_space import PlainSpace
 from host_sim.world.world_library import world_library

@@ -136,7 +136,7 @@ def test_octet_sets_up_what_the_options_need(words: str, with_python: Path) -> N
 def test_the_benchmark_needs_what_the_tests_need(with_python: Path) -> None:
     assert call(with_python, "bench --json").stdout.splitlines() == [
         "sets up: tests vcan",
-        "-m host_sim.bench --json",
+        "-m host_sim.lab.bench --json",
     ]
 
 

@@ -2,9 +2,9 @@
 
 import itertools
 
-from host_sim.campaign.html_report import page
-from host_sim.campaign.matrix import groups
-from host_sim.campaign.outcome import Outcome
+from host_sim.lab.campaign.html_report import page
+from host_sim.lab.campaign.matrix import groups
+from host_sim.lab.campaign.outcome import Outcome
 from tests.web.looks import THREE_SIZES, resize, violations_at
 
 ENDS = ("", "somebody else stopped node 1: it rests")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import pytest
 from playwright.sync_api import Page
 
-from host_sim.bench.page_figures import TIME_DRAWING
+from host_sim.lab.bench.page_figures import TIME_DRAWING
 from host_sim.protocol.generated import Opcode
 from tests.runs.support import octet
 from tests.web.support import (

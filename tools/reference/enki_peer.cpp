@@ -2,7 +2,7 @@
 //
 // A disc with five proximity sensors among bars, 20 ms a tick, without a picture; it goes ahead, and turns where a
 // sensor in front sees something. Sizes are in mm, the heading in rad. Prints the processor time that the ticks took,
-// in s. host_sim/bench/peer_figures.py builds and calls it.
+// in s. host_sim/lab/bench/peer_figures.py builds and calls it.
 #include <enki/PhysicalEngine.h>
 #include <enki/interactions/IRSensor.h>
 #include <enki/robots/DifferentialWheeled.h>

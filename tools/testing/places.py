@@ -11,7 +11,7 @@ TEST: Mapping[str, Sequence[str]] = {
 PROVE: Mapping[str, Sequence[str]] = {
     "boards": (
         "tests/image",
-        "tests/study/test_emulated_board.py",
+        "tests/lab/study/test_emulated_board.py",
         "tests/tools/test_build_environment.py",
     ),
     "eva": ("tests/proof/test_proof.py", "tests/proof/test_contracts.py"),
@@ -19,10 +19,10 @@ PROVE: Mapping[str, Sequence[str]] = {
     "misra": ("tests/tools/test_misra.py",),
     "mutants": ("tests/tools/test_mutate.py", "tests/tools/test_equivalent_mutants.py"),
     "coverage": ("tests/tools/test_coverage.py", "tests/tools/test_python_coverage.py"),
-    "campaign": ("tests/campaign",),
+    "campaign": ("tests/lab/campaign",),
     "endurance": tuple(f"tests/runs/test_{name}.py" for name in ("kills", "noise", "soak", "storm")),
     "exhaustive": ("tests/firmware/test_every_case.py",),
-    "formats": ("tests/export",),
+    "formats": ("tests/lab/export",),
     "documents": ("tests/docs/test_commands.py", "tests/docs/test_python_blocks.py"),
 }
 """Of tools/prove."""

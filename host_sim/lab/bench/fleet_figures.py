@@ -1,0 +1,97 @@
+"""The speed of fleets, of a world in C without a log, and of drawing layouts. Processor time, for one processor."""
+
+import time
+from collections.abc import Callable
+from itertools import count
+
+from host_sim.lab.bench.figure import ROUNDS, Figure, Rate, rate_figure
+from host_sim.sim.make import make
+from host_sim.sim.native_fleet import NativeFleet
+from host_sim.sim.run_config import RunConfig
+from host_sim.world.hall import hall_of
+from host_sim.world.layouts import Layout, generate
+from host_sim.world.params import SimParams
+from host_sim.world.worlds import world_of
+
+_FLEET, _TICKS, _BLOCK_TICKS, _ENDLESS = 1000, 2000, 256, 10**9
+_LAYOUTS, _DRAWN_MIN = 40, 4000
+
+
+def fleet_figures() -> list[Figure]:
+    """All figures. What is compared is measured in turn."""
+    params = SimParams()
+    alone = [generate(seed, 1, params) for seed in range(1, _FLEET + 1)]
+    together, hall = hall_of(world_of("random"), 1, 1, _FLEET)
+    rounds = [
+        (
+            robot_ticks_per_second(alone, params),
+            robot_ticks_per_second([together], hall),
+            _ticks_without_log(),
+            _layouts(params),
+        )
+        for _ in range(ROUNDS)
+    ]
+    own, one, single, drawn = (max(column) for column in zip(*rounds, strict=True))
+    reference = "one robot with its frames"
+    return [
+        rate_figure(
+            Rate("fleet of 1,000, each in its own world", own, 4_000_000), Rate(reference, single), "trigonometry"
+        ),
+        rate_figure(
+            Rate("fleet of 1,000, all in one hall", one, 1_000_000), Rate(reference, single), "who is near whom"
+        ),
+        rate_figure(
+            Rate("in process, without a log", single, 1_000_000),
+            Rate("a fleet's robots", own),
+            "the wire's checksums; drawing the next layout is not counted",
+        ),
+        Figure(
+            "layouts drawn and checked",
+            round(drawn),
+            "layouts/s",
+            f">= {_DRAWN_MIN}",
+            drawn >= _DRAWN_MIN,
+            "the walk over the grid",
+        ),
+    ]
+
+
+def robot_ticks_per_second(layouts: list[Layout], params: SimParams) -> float:
+    """Ticks per second of all robots of a fleet together, with one world for each layout."""
+    robots = sum(len(layout.starts) for layout in layouts)
+    fleet = NativeFleet(robots, len(layouts), params)
+    for index in range(robots):
+        fleet.start(index, index + 1, "article", {})
+    for world, layout in enumerate(layouts):
+        fleet.enter(world, layout, _ENDLESS)
+
+    def run() -> int:
+        for _ in range(_TICKS // _BLOCK_TICKS):
+            fleet.run(_BLOCK_TICKS)
+        return sum(map(fleet.ticks, range(robots)))
+
+    return _per_second(run)
+
+
+def _ticks_without_log() -> float:
+    """Ticks per second of one robot, once it is in its environment."""
+    with make(RunConfig(environments=1)) as simulation:
+        simulation.enter(1)
+
+        def run() -> int:
+            while not simulation.over:
+                simulation.step(simulation.block_ticks)
+            return simulation.episode.ticks
+
+        return _per_second(run)
+
+
+def _layouts(params: SimParams) -> float:
+    seeds = count(1)
+    return _per_second(lambda: len([generate(next(seeds), 1, params) for _ in range(_LAYOUTS)]))
+
+
+def _per_second(run: Callable[[], int]) -> float:
+    began = time.process_time()
+    done = run()
+    return done / (time.process_time() - began)

@@ -1,0 +1,36 @@
+"""How long a start takes."""
+
+import subprocess
+import sys
+from tempfile import TemporaryDirectory
+
+from host_sim.base.paths import ROOT
+from host_sim.lab.bench.figure import Figure
+
+_STARTS = 10
+_RATIO_MAX = 1.6
+_NUMPY = "import time, numpy; print(1000 * time.process_time())"
+
+
+def start_figure() -> Figure:
+    """The processor time until a run in this process has made its first tick, beside that of Python with numpy."""
+    with TemporaryDirectory() as folder:
+        # In turn, so that both meet the same machine.
+        pairs = [(_ms("-m", "host_sim.lab.bench.first_tick", folder), _ms("-c", _NUMPY)) for _ in range(_STARTS)]
+    ours, numpy = (min(column) for column in zip(*pairs, strict=True))
+    return Figure(
+        name="processor time until the first tick",
+        value=round(ours),
+        unit="ms",
+        bar="",
+        reached=ours <= _RATIO_MAX * numpy,
+        bound="imports, and reading the C code's interface",
+        reference=f"Python with numpy: {numpy:.0f} ms",
+        ratio=round(ours / numpy, 2),
+        ratio_bar=f"<= {_RATIO_MAX}",
+    )
+
+
+def _ms(*arguments: str) -> float:
+    command = [sys.executable, *arguments]
+    return float(subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout)

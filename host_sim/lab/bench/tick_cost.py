@@ -1,0 +1,113 @@
+"""What a tick costs: instructions from the senses that are seen in the FIFO to the drive in the mailbox.
+
+What the robot spends on waiting until its other frames have left is not counted: that is the wire's time.
+"""
+
+from collections.abc import Callable
+
+from host_sim.client.connection import Connection
+from host_sim.client.frame_log import FrameLog
+from host_sim.client.handshake import handshake
+from host_sim.client.robot_client import RobotClient
+from host_sim.emulator.board import EmulatedBoard, start_board
+from host_sim.emulator.registers import Register
+from host_sim.lab.bench.short_run import step_through
+from host_sim.protocol.codec import Protocol
+from host_sim.sim.make import assemble
+from host_sim.sim.run_config import RunConfig
+
+_READY_S = 5.0
+_TSR, _RF0R, _MAILBOXES, _RI0R = 0x08, 0x0C, (0x180, 0x190, 0x1A0), 0x1B0
+_FMP, _RFOM, _TXRQ, _ALL_FREE = 3, 1 << 5, 1, 7 << 26
+_ID_SHIFT = 21
+
+
+class TickCost:
+    """Counts each tick of a board, to within a basic block, by watching the registers of its CAN controller.
+
+    Attributes:
+        counts: Number of instructions of each tick so far.
+    """
+
+    def __init__(self, board: EmulatedBoard) -> None:
+        """Starts watching.
+
+        Args:
+            board: The board to watch.
+        """
+        protocol = Protocol()
+        self._senses, self._drive = protocol.id_of("SENSES"), protocol.id_of("DRIVE")
+        self._core, self._registers = board.hardware.core, board.hardware.can.registers
+        board.hardware.space.watch()
+        self._begun: int | None = None
+        self._is_news = True
+        self._transmit_status, self._seen = 0, 0
+        self.counts: list[int] = []
+        _watch(self._registers[_TSR], self._note_waiting, lambda _value: None)
+        _watch(self._registers[_RF0R], self._note_status, self._note_release)
+        for mailbox in _MAILBOXES:
+            _watch(self._registers[mailbox], lambda _value: None, self._note_request)
+
+    def _note_status(self, value: int) -> None:
+        if not (value & _FMP and self._is_news):
+            return
+        self._is_news = False
+        if self._registers[_RI0R].read() >> _ID_SHIFT == self._senses:
+            self._begun = self._core.instructions
+
+    def _note_waiting(self, status: int) -> None:
+        """Takes off what has passed since the last look, if mailboxes were taken then and nothing has changed."""
+        now = self._core.instructions
+        if status == self._transmit_status and status & _ALL_FREE != _ALL_FREE and self._begun is not None:
+            self._begun += now - self._seen
+        self._transmit_status, self._seen = status, now
+
+    def _note_release(self, value: int) -> None:
+        self._is_news = self._is_news or bool(value & _RFOM)
+
+    def _note_request(self, value: int) -> None:
+        self._transmit_status = 0
+        if value & _TXRQ and value >> _ID_SHIFT == self._drive and self._begun is not None:
+            self.counts.append(self._core.instructions - self._begun)
+            self._begun = None
+
+
+def _watch(register: Register, on_read: Callable[[int], None], on_write: Callable[[int], None]) -> None:
+    """Has two functions called with every value that is read from a register, and written to it."""
+    read, write = register.on_read, register.on_write
+    assert read is not None
+    assert write is not None
+
+    def seen() -> int:
+        value = read()
+        on_read(value)
+        return value
+
+    def written(value: int) -> None:
+        write(value)
+        on_write(value)
+
+    register.on_read, register.on_write = seen, written
+
+
+def count_ticks(name: str, seed: int, ticks: int) -> list[int]:
+    """The number of instructions of each tick of a run on an emulated board.
+
+    Args:
+        name: Name of the board.
+        seed: Seed for environments and random turns.
+        ticks: Number of ticks.
+
+    Raises:
+        OctetError: The board's image is not built, or the board fails.
+    """
+    board = start_board(name)
+    try:
+        cost = TickCost(board)
+        client = RobotClient(Connection(board, name, board.status, now=board.now), Protocol(), FrameLog())
+        handshake(client, _READY_S)
+        step_through(assemble([client], RunConfig(seed=seed)), ticks)
+        client.log.close()
+    finally:
+        board.close()
+    return cost.counts

@@ -1,0 +1,102 @@
+"""The flash image on an emulated board, whose hardware can fail in every way that its models know."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from host_sim.client.robot_client import RobotClient
+from host_sim.emulator.board import EmulatedBoard
+from host_sim.emulator.can import CanFrame
+from host_sim.emulator.clock import NEVER, SECOND, Clock
+from host_sim.faults.faulty_link import FaultyLink
+from host_sim.lab.campaign.setup import Happen
+from host_sim.sim.run_config import RunConfig
+
+_MS = SECOND // 1000
+_NOWHERE = 0x60000000
+_BELOW_RAM = 0x20000008
+_WATCHDOG_S = 4
+_RECORD = 16
+"""Bytes of a memory in flash."""
+_BABBLE_US = 222
+"""Time of a full frame without stuff bits, at 500 kbit/s."""
+
+
+class Board:
+    """As in `Setup`."""
+
+    def __init__(self, name: str) -> None:
+        """Before the board is there.
+
+        Args:
+            name: The board's, one of `BOARDS`.
+        """
+        self._name = name
+        self.board: EmulatedBoard
+        self.events: Mapping[str, Happen] = {
+            "reset": lambda _: self.board.restart("software"),
+            "power": lambda _: self.board.cut_power(),
+            "watchdog": lambda _: self.board.hardware.clock.skip(_WATCHDOG_S * SECOND),
+            "hang": lambda span_ms: self.board.hardware.clock.skip(span_ms * _MS),
+            "crash": lambda _: self.board.hardware.core.derail(_NOWHERE),
+            "stack": lambda _: self.board.hardware.core.derail(_NOWHERE, _BELOW_RAM),
+            "flash-cut": self._cut_in_flash,
+            "erase-cut": lambda _: self._cut_in_erase(),
+            "fast-clock": self._drift,
+            "slow-clock": lambda percent: self._drift(-percent),
+            "bus-off": lambda span_ms: self._bus("shorted", span_ms),
+            "no-ack": lambda span_ms: self._bus("alone", span_ms),
+            "wrong-rate": lambda span_ms: self._bus("busy", span_ms),
+            "babble": self._babble,
+        }
+
+    def configured(self, config: RunConfig) -> RunConfig:
+        """As in `Setup`."""
+        return replace(config, robot="emulated", board=self._name)
+
+    def found(self, client: RobotClient) -> None:
+        """As in `Setup`."""
+        link = client.connection.link
+        link = link.link if isinstance(link, FaultyLink) else link
+        assert isinstance(link, EmulatedBoard)
+        self.board = link
+
+    def _drift(self, percent: int) -> None:
+        self.board.drift = percent / 100
+
+    def _cut_in_flash(self, after: int) -> None:
+        """The power goes in the middle of that write or erase from now on, and again in the next one."""
+        flash = self.board.hardware.flash
+        flash.cuts |= {flash.operations + after, flash.operations + after + 1}
+
+    def _cut_in_erase(self) -> None:
+        """The power goes while the page with the memories is full, and again in the erase that is to make room."""
+        flash = self.board.hardware.flash
+        flash.fill_last_page(_RECORD)
+        flash.cuts |= {flash.operations + 1, flash.operations + 2}
+        self.board.cut_power()
+
+    def _bus(self, what: str, span_ms: int) -> None:
+        """Something is wrong with the bus for a while of the board's time."""
+        wire = self.board.hardware.can.wire
+        setattr(wire, what, True)
+        _Later(self.board.hardware.clock, span_ms * _MS, lambda: setattr(wire, what, False))
+
+    def _babble(self, span_ms: int) -> None:
+        """Frames of the highest priority fill the bus."""
+        for _ in range(span_ms * 1000 // _BABBLE_US):
+            self.board.put(CanFrame(0, bytes(8)))
+
+
+class _Later:
+    """Does something once, when the board's time has come to it."""
+
+    def __init__(self, clock: Clock, span: int, happen: Callable[[], None]) -> None:
+        self._clock, self._moment, self._happen = clock, clock.now + span, happen
+        clock.add(self._due)
+        clock.expect(self._moment)
+
+    def _due(self) -> int:
+        if self._moment <= self._clock.now:
+            self._moment = NEVER
+            self._happen()
+        return self._moment

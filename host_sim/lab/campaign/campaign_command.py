@@ -1,0 +1,153 @@
+"""`tools/octet campaign`: each fault in each configuration, and a report of what came of it."""
+
+import argparse
+import sys
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from host_sim.backends.images import BOARDS
+from host_sim.base.errors import UsageError
+from host_sim.cli.parsing import add_command, check_outputs, file_path, number
+from host_sim.protocol.words import PROFILES
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+    from host_sim.lab.campaign.cell import Cell
+    from host_sim.lab.campaign.outcome import Outcome
+
+_LINKS = ("none", "fd", "slcan", "vcan", *BOARDS)
+_EXAMPLES = """\
+examples:
+  tools/octet campaign out/campaign.html                     every behaviour in lockstep, within this process
+  tools/octet campaign out/real.html --links fd slcan feather_stm32f405 --real-time --profiles article adaptive
+  tools/with-vcan tools/octet campaign out/vcan.html --links vcan
+  tools/octet campaign --repeat 'article fd lockstep seed=12 limit=8 event=hang:300@100'
+  tools/octet campaign --shrink 'article none lockstep seed=12 limit=30 fault=drop:30% fault=forge:stop@300/to'
+
+The exit code is 1 if in any run a fault went unnoticed, wheels turned on for more than 100 ms, something wrong was
+learned, something was missing from the run's files without a message, or the run broke.
+"""
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "campaign",
+        _campaign,
+        summary="make every fault happen, and report what came of it",
+        description="Makes every fault happen in every configuration, and writes a report: a page for a browser.",
+        epilog=_EXAMPLES,
+        check=_check,
+        stages=_stages,
+    )
+    add = parser.add_argument
+    add("html", type=file_path, nargs="?", metavar="FILE.html", help="where to write the report")
+    add(
+        "--profiles",
+        nargs="+",
+        choices=PROFILES,
+        default=list(PROFILES),
+        metavar="NAME",
+        help=f"behaviours: {', '.join(PROFILES)} (default: all)",
+    )
+    add(
+        "--links",
+        nargs="+",
+        choices=_LINKS,
+        default=["none"],
+        metavar="LINK",
+        help="where the robot is: none (in this process), fd (a socket pair), slcan (a serial line), vcan (inside "
+        f"tools/with-vcan), or an emulated board: {', '.join(BOARDS)} (default: none)",
+    )
+    add("--real-time", action="store_true", help="in real time, too, where the robot is not in this process")
+    add(
+        "--limit-s",
+        type=number(1, 600, float),
+        metavar="S",
+        help="robot time of each run, 1..600 s (default: 60, in real time 10)",
+    )
+    add("--jobs", type=number(1, 64), default=1, metavar="N", help="processes at once (default: %(default)d)")
+    add("--repeat", metavar="CELL", help="repeat one run of a report, and say what came of it")
+    add("--shrink", metavar="CELL", help="find the smallest schedule of faults with which that run ends as it does")
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    if arguments.html is None and not (arguments.repeat or arguments.shrink):
+        raise UsageError("campaign needs a FILE.html to write the report to, or --repeat or --shrink")
+    check_outputs("campaign", None, {"FILE.html": arguments.html})
+    if arguments.jobs > 1 and "vcan" in arguments.links:
+        raise UsageError("vcan0 is one bus for one robot at a time: leave out --jobs")
+
+
+def _stages(arguments: argparse.Namespace) -> Sequence[str]:
+    links = (arguments.repeat or arguments.shrink or "").split() or arguments.links
+    return ["images", "emulator"] if set(BOARDS) & set(links) else ["run"]
+
+
+def _campaign(arguments: argparse.Namespace) -> int:
+    if arguments.repeat or arguments.shrink:
+        return _repeat(arguments.repeat) if arguments.repeat else _shrink(arguments.shrink)
+    from host_sim.base.atomic_file import write_bytes
+    from host_sim.lab.campaign.html_report import page, summary, verdict
+    from host_sim.lab.campaign.outcome import unreached
+
+    outcomes = []
+    for outcome in _outcomes(arguments):
+        outcomes.append(outcome)
+        if outcome.problems:
+            cell = outcome.cell
+            print(f"{verdict(outcome)}: {outcome.end or cell.fault}: {cell.command()}", file=sys.stderr)
+    write_bytes(arguments.html, page(outcomes).encode())
+    print(summary(outcomes))
+    print(f"wrote {arguments.html}")
+    return int(any(outcome.problems for outcome in outcomes) or bool(unreached(outcomes, ("never came",))))
+
+
+def _outcomes(arguments: argparse.Namespace) -> "Iterator[Outcome]":
+    from host_sim.lab.campaign.cell import PACES
+    from host_sim.lab.campaign.matrix import default_limit_s, groups
+    from host_sim.lab.campaign.running import run_all
+    from host_sim.lab.campaign.workers import run_in_processes
+
+    paces = PACES if arguments.real_time else PACES[:1]
+    found = groups(
+        arguments.profiles, arguments.links, paces, lambda pace: arguments.limit_s or default_limit_s(pace)
+    )
+    if arguments.jobs == 1:
+        for cells in found:
+            yield from run_all(cells)
+    else:
+        yield from run_in_processes(list(found), arguments.jobs)
+
+
+def _with_clean(cell: "Cell") -> "Sequence[Cell]":
+    """A cell after the same run without a fault, which shows what its fault does."""
+    from dataclasses import replace
+
+    return [replace(cell, faults=(), changes=(), events=(), fault=""), cell]
+
+
+def _repeat(text: str) -> int:
+    from host_sim.lab.campaign.cell import Cell
+    from host_sim.lab.campaign.html_report import account
+    from host_sim.lab.campaign.matrix import recognised
+    from host_sim.lab.campaign.running import run_all
+
+    *_, outcome = run_all(_with_clean(recognised(Cell.parse(text))))
+    print(account(outcome))
+    return int(bool(outcome.problems))
+
+
+def _shrink(text: str) -> int:
+    from host_sim.lab.campaign.cell import Cell
+    from host_sim.lab.campaign.running import run_all
+    from host_sim.lab.campaign.shrink import shrink
+
+    def attempt(smaller: "Cell") -> "Outcome":
+        *_, outcome = run_all(_with_clean(smaller))
+        return outcome
+
+    for outcome in shrink(Cell.parse(text), attempt):
+        print(f"{outcome.kind}: {outcome.cell}", flush=True)
+    return 0

@@ -1,0 +1,109 @@
+"""A robot in a process of its own on a line that exists without it: it can restart, and the line can go and come."""
+
+import subprocess
+import threading
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from host_sim.backends.robot_process import RobotProcess
+from host_sim.base.errors import UsageError
+from host_sim.client.robot_client import RobotClient
+from host_sim.faults.cable import Cable, Socket
+from host_sim.lab.campaign.process_events import process_events
+from host_sim.lab.campaign.setup import Happen
+from host_sim.sim.run_config import RunConfig
+
+_BUS = "vcan0"
+
+
+class OnLine:
+    """As in `Setup`."""
+
+    def __init__(self, link: str, bus: str, events: Mapping[str, Happen]) -> None:
+        """Starts the robot.
+
+        Args:
+            link: Its end of the line.
+            bus: Ours.
+            events: The events of the line.
+        """
+        self._link, self._bus = link, bus
+        self.robot = RobotProcess(link, 1)
+        own: Mapping[str, Happen] = {"reset": lambda _: self._restart()}
+        self.events = {**process_events(lambda: self.robot.pid), **own, **events}
+
+    def configured(self, config: RunConfig) -> RunConfig:
+        """As in `Setup`."""
+        return replace(config, bus=self._bus, robot="external")
+
+    def found(self, client: RobotClient) -> None:
+        """As in `Setup`."""
+
+    def _restart(self) -> None:
+        self.robot.close()
+        self.robot = RobotProcess(self._link, 1)
+
+
+@contextmanager
+def serial_line() -> Iterator[OnLine]:
+    """A robot that speaks slcan, on a serial line."""
+    with TemporaryDirectory() as folder, ExitStack() as stack:
+        cable, socket = Cable(), Socket(Path(folder) / "tty")
+        stack.callback(cable.close)
+        socket.plug(cable.ends[1])
+
+        def plug() -> None:
+            cable.plug()
+            socket.plug(cable.ends[1])
+
+        def unplug(span_ms: int) -> None:
+            socket.unplug()
+            cable.unplug()
+            _later(stack, span_ms, plug)
+
+        def disturb(percent: int) -> None:
+            cable.noise = percent / 100
+
+        setup = OnLine(f"slcan:{cable.ends[0]}", f"slcan:{socket.path}", {"unplug": unplug, "noise": disturb})
+        stack.callback(lambda: setup.robot.close())  # noqa: PLW0108 - the robot may be another one by then
+        yield setup
+
+
+@contextmanager
+def virtual_bus() -> Iterator[OnLine]:
+    """A robot on SocketCAN.
+
+    Raises:
+        UsageError: There is no vcan0.
+    """
+    if not Path(f"/sys/class/net/{_BUS}").exists():
+        raise UsageError(f"there is no {_BUS} here: put tools/with-vcan before the command")
+
+    with ExitStack() as stack:
+
+        def go_down(span_ms: int) -> None:
+            stack.callback(_set_bus, "up")
+            _set_bus("down")
+            _later(stack, span_ms, lambda: _set_bus("up"))
+
+        _set_bus("up")
+        setup = OnLine(f"socketcan:{_BUS}", f"socketcan:{_BUS}", {"bus-down": go_down})
+        stack.callback(lambda: setup.robot.close())  # noqa: PLW0108 - the robot may be another one by then
+        yield setup
+
+
+def _set_bus(state: str) -> None:
+    done = subprocess.run(["ip", "link", "set", _BUS, state], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise UsageError(f"cannot set {_BUS} {state}: {done.stderr.strip()}")
+
+
+def _later(stack: ExitStack, span_ms: int, happen: Callable[[], None]) -> None:
+    """Has something happen after a time, or not at all if the stack is closed before: then the line is gone."""
+    timer = threading.Timer(span_ms / 1000, happen)
+    timer.start()
+    stack.callback(timer.join)
+    stack.callback(timer.cancel)

@@ -1,0 +1,73 @@
+"""The links of cells: where the robot is, and which events are possible there."""
+
+from collections.abc import Collection, Mapping
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, field, replace
+
+from host_sim.backends.images import BOARDS
+from host_sim.base.errors import UsageError
+from host_sim.client.robot_client import RobotClient
+from host_sim.faults.event import Event
+from host_sim.lab.campaign.setup import Happen, Setup
+from host_sim.sim.run_config import RunConfig
+
+
+@dataclass
+class InProcess:
+    """A robot in this process: only its frames and its body can be faulty."""
+
+    events: Mapping[str, Happen] = field(default_factory=dict)
+
+    def configured(self, config: RunConfig) -> RunConfig:
+        """As in `Setup`."""
+        return replace(config, bus="none")
+
+    def found(self, client: RobotClient) -> None:
+        """As in `Setup`."""
+
+
+LINKS = ("none", "fd", "slcan", "vcan", *BOARDS)
+"""In this process, on a socket pair, on a serial line, on vcan0, and on an emulated board."""
+
+
+def open_setup(link: str) -> AbstractContextManager[Setup]:
+    """Sets up a robot; leaving the context ends it.
+
+    Args:
+        link: One of `LINKS`.
+
+    Raises:
+        UsageError: There is no such link, or not on this machine.
+        OctetError: Something that must be built or installed is missing.
+    """
+    if link == "none":
+        return nullcontext(InProcess())
+    if link == "fd":
+        from host_sim.lab.campaign.socket_pair_setup import SocketPair  # noqa: PLC0415 - each loads what it needs
+
+        return nullcontext(SocketPair())
+    if link in ("slcan", "vcan"):
+        from host_sim.lab.campaign.line_setups import serial_line, virtual_bus  # noqa: PLC0415 - see above
+
+        return serial_line() if link == "slcan" else virtual_bus()
+    if link in BOARDS:
+        from host_sim.lab.campaign.board_setup import Board  # noqa: PLC0415 - see above
+
+        return nullcontext(Board(link))
+    raise UsageError(f"there is no link {link!r}; there are {', '.join(LINKS)}")
+
+
+def check_events(possible: Collection[str], link: str, events: tuple[Event, ...]) -> None:
+    """Makes sure that all these events can happen.
+
+    Args:
+        possible: The names of those that can happen there.
+        link: One of `LINKS`.
+        events: What is to happen.
+
+    Raises:
+        UsageError: One cannot.
+    """
+    for event in events:
+        if event.name not in possible:
+            raise UsageError(f"{event.name} cannot happen on {link}; what can: {', '.join(sorted(possible))}")

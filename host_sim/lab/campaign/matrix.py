@@ -1,0 +1,247 @@
+"""The fault classes of the campaign, and the configurations in which each is made to happen."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from random import Random
+
+from host_sim.backends.images import BOARDS
+from host_sim.faults.event import Event
+from host_sim.lab.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
+from host_sim.protocol.generated import MESSAGES, Opcode
+from host_sim.world.body_faults import SENSORS
+
+_LINES, _PROCESSES = ("slcan", "vcan"), ("fd", "slcan", "vcan")
+_COMPARED = (LOCKSTEP,)
+"""Where runs can be compared tick by tick."""
+
+_RECORD_WRITES = {"feather_stm32f405": 4, "blue_pill": 8}
+"""Writes to flash that store a memory: of words, of half-words."""
+
+_INSTRUCTIONS, _SAVING_INSTRUCTIONS = 20_000, 400
+"""Python instructions of a dozen ticks, and of the saving of a memory."""
+
+_NO_LESSONS = ("fixed", "never")
+"""Behaviours that store nothing."""
+
+_AT = 100
+"""Two seconds after the start; the robot is under way."""
+
+
+@dataclass(frozen=True)
+class FaultClass:
+    """One way for something to go wrong.
+
+    Attributes:
+        name: In words.
+        faults: Faults of the frames, as `--fault` has them.
+        changes: Faults of the body, as `--change` has them.
+        event: Event of the robot, its line or this host; several at once with blanks between them. {any} stands
+            for any instruction of a dozen ticks, {saving} for one that saves a memory: another one in each run.
+        links: Where it can happen; empty for everywhere.
+        paces: At which pace it is a fault.
+        harmless: At which pace it may go unnoticed; in lockstep it must leave no trace then.
+        denies: Whether the robot itself must tell of it, and learn nothing wrong.
+        in_lesson: Whether it happens when something is learned.
+        profiles: The behaviours to which it can happen; empty for all.
+    """
+
+    name: str
+    faults: tuple[str, ...] = ()
+    changes: tuple[str, ...] = ()
+    event: str = ""
+    links: tuple[str, ...] = ()
+    paces: tuple[str, ...] = PACES
+    harmless: tuple[str, ...] = ()
+    denies: bool = False
+    in_lesson: bool = False
+    profiles: tuple[str, ...] = ()
+
+    def can_happen(self, profile: str, link: str, pace: str) -> bool:
+        """Whether it can happen in a configuration."""
+        is_there = pace in self.paces and (not self.links or link in self.links)
+        is_there = is_there and (not self.profiles or profile in self.profiles)
+        return is_there and not (self.in_lesson and profile in _NO_LESSONS)
+
+    def cell(self, base: Cell) -> Cell:
+        """A run without faults, with this one."""
+        dice = Random(f"{self.name} {base}")
+        event = self.event.format(any=dice.randint(1, _INSTRUCTIONS), saving=dice.randint(1, _SAVING_INSTRUCTIONS))
+        return replace(
+            base,
+            fault=self.name,
+            faults=self.faults,
+            changes=tuple(f"{change}@2s" for change in self.changes),
+            events=tuple(Event.parse(f"{each}@{_AT}") for each in event.split()),
+            harmless=base.pace in self.harmless,
+            denies=self.denies,
+        )
+
+
+def _of_body(name: str, *changes: str, denies: bool = False) -> FaultClass:
+    """A fault of the body shows in what the robot does: in lockstep, in another run than without it."""
+    return FaultClass(name, changes=changes, harmless=() if denies else (REAL_TIME,), denies=denies)
+
+
+def _of_odometers() -> Iterator[FaultClass]:
+    """Wheels that do not do what they were told. Those that count a little too much cannot be noticed."""
+    for side in ("left", "right"):
+        yield _of_body(f"the {side} odometer is stuck", f"odometer:{side}:0%", denies=True)
+        yield _of_body(f"the {side} odometer counts backward", f"odometer:{side}:-100%", denies=True)
+        yield _of_body(f"the {side} odometer slips", f"odometer:{side}:150%")
+    yield _of_body("both odometers are stuck", "odometer:left:0%", "odometer:right:0%", denies=True)
+    yield _of_body("both odometers count backward", "odometer:left:-100%", "odometer:right:-100%", denies=True)
+    yield _of_body("both odometers slip", "odometer:left:150%", "odometer:right:150%")
+    yield _of_body(
+        "both odometers count three times the way", "odometer:left:300%", "odometer:right:300%", denies=True
+    )
+    yield _of_body("odometers are swapped", "swap-odometers", denies=True)
+
+
+def _of_forgery() -> Iterator[FaultClass]:
+    """Each command, and each message in its sender's name. Only one that counts as the robot expects is obeyed."""
+    for opcode in Opcode:
+        name = opcode.name.lower()
+        yield FaultClass(f"a forged {name} command", (f"forge:{name}@300/to",))
+    for message in MESSAGES.values():
+        profiles = ("distance",) if message.name == "RANGES" else ()  # to others, they are foreign frames
+        rule = f"forge:20%:{message.name}/from" if message.sender == "ROBOT" else f"forge:{message.name}@300-310/to"
+        yield FaultClass(f"forged {message.name} frames", (rule,), profiles=profiles)
+
+
+def _of_flash() -> Iterator[FaultClass]:
+    """A loss of power at each write of a memory, and in an erase."""
+    for number in range(1, max(_RECORD_WRITES.values()) + 1):
+        name = f"the power goes in write {number} of a memory to flash, twice in a row"
+        boards = tuple(board for board, writes in _RECORD_WRITES.items() if number <= writes)
+        yield FaultClass(name, event=f"flash-cut:{number}", links=boards, in_lesson=True)
+    yield FaultClass("the power goes while flash is erased, twice in a row", event="erase-cut", links=BOARDS)
+
+
+BUS: tuple[FaultClass, ...] = (
+    FaultClass("a third of the frames is lost", ("drop:30%",)),
+    FaultClass("the bus is cut for a while", ("drop@300-340",)),
+    FaultClass("nothing arrives at the robot any more", ("drop@300-/to",)),
+    FaultClass("nothing arrives from the robot any more", ("drop@300-/from",)),
+    FaultClass("frames come twice", ("duplicate:30%",)),
+    FaultClass("frames overtake each other", ("reorder:30%:2",)),
+    FaultClass("frames are late", ("delay:20%:0-60ms",), harmless=_COMPARED),
+    FaultClass("bits flip", ("corrupt:20%",)),
+    FaultClass("three bits flip in each frame", ("corrupt:20%:3",)),
+    FaultClass("frames end early", ("truncate:20%",)),
+    FaultClass("others talk", ("flood:10%:20",)),
+    FaultClass("a node babbles", ("babble:50%:20",)),
+    FaultClass("a second robot", ("forge:DRIVE@300-302/to",)),
+    FaultClass("a second simulator", ("forge:SENSES@300-310/from",)),
+    *_of_forgery(),
+    # One alone may pass for a report that came twice. It is never obeyed.
+    FaultClass("a forged power-up", ("forge:BOOT@300/from",), harmless=PACES),
+    FaultClass(
+        "all at once", ("drop:10%", "duplicate:5%", "reorder:5%", "delay:5%:0-60ms", "corrupt:5%", "truncate:5%")
+    ),
+)
+"""On the way of the frames, on any link."""
+
+BODY: tuple[FaultClass, ...] = (
+    *(_of_body(f"the {sensor} sensor is stuck on", f"stuck-on:{sensor}") for sensor in SENSORS),
+    *(_of_body(f"the {sensor} sensor is stuck off", f"stuck-off:{sensor}") for sensor in SENSORS),
+    _of_body("sensors flicker", "noise:10/1000"),
+    _of_body("the ring of sensors is mirrored", "mirror"),
+    _of_body("motors are swapped", "swap-motors"),
+    _of_body("the left motor is weak", "weak-motor:left:60%"),
+    _of_body("the right motor is weak", "weak-motor:right:60%"),
+    _of_body("the left motor is dead", "weak-motor:left:0%", denies=True),
+    _of_body("the right motor is dead", "weak-motor:right:0%", denies=True),
+    _of_body("both motors are dead", "weak-motor:left:0%", "weak-motor:right:0%", denies=True),
+    *_of_odometers(),
+    _of_body("the beacon shows food where there is none", "false-beacon:700"),
+    _of_body("the beacon shows food to eat where there is none", "false-beacon:100"),
+)
+"""In the body, on any link."""
+
+ROBOT: tuple[FaultClass, ...] = (
+    FaultClass("the robot's process is killed", event="kill", links=_PROCESSES),
+    FaultClass("the robot's process crashes", event="crash", links=_PROCESSES),
+    FaultClass("the robot hangs for 0.3 s", event="hang:300", links=(*_PROCESSES, *BOARDS), harmless=_COMPARED),
+    FaultClass("the robot hangs for 1.5 s", event="hang:1500", links=(*_PROCESSES, *BOARDS), harmless=_COMPARED),
+    FaultClass("the robot restarts", event="reset", links=(*_LINES, *BOARDS)),
+    FaultClass("the robot loses its power for a moment", event="power", links=BOARDS),
+    FaultClass("the core stands still until its watchdog bites", event="watchdog", links=BOARDS),
+    FaultClass("the core jumps to nowhere", event="crash", links=BOARDS),
+    FaultClass("the stack has left the memory", event="stack", links=BOARDS),
+    *_of_flash(),
+    FaultClass("the robot's clock is 2 % fast", event="fast-clock:2", links=BOARDS, harmless=PACES),
+    FaultClass("the robot's clock is 2 % slow", event="slow-clock:2", links=BOARDS, harmless=PACES),
+)
+"""In the robot."""
+
+LINE: tuple[FaultClass, ...] = (
+    FaultClass("the controller goes bus-off", event="bus-off:400", links=BOARDS),
+    FaultClass("no node acknowledges: error-passive", event="no-ack:400", links=BOARDS),
+    FaultClass("a node has the wrong bit rate", event="wrong-rate:400", links=BOARDS),
+    FaultClass("a node fills the bus for 0.2 s", event="babble:200", links=BOARDS, harmless=_COMPARED),
+    FaultClass("the bus goes down and up", event="bus-down:500", links=("vcan",)),
+    FaultClass("the adapter is unplugged and plugged in", event="unplug:500", links=("slcan",)),
+    FaultClass("a hundredth of the bytes is damaged", event="noise:1", links=("slcan",)),
+)
+"""In the line below the frames, and in CAN's controller."""
+
+HOST: tuple[FaultClass, ...] = (
+    FaultClass("the simulator is killed at any instruction", event="kill-simulator:{any}"),
+    FaultClass("the simulator is killed while it saves a memory", event="kill-saving:{saving}", in_lesson=True),
+    FaultClass("the simulator is stopped for 0.5 s", event="hold-up:500", links=_PROCESSES, harmless=_COMPARED),
+    FaultClass("the disk is full", event="disk-full"),
+    FaultClass("the disk fills up in the middle of the log", event="disk-full:10000"),
+    FaultClass("the folder becomes read-only", event="read-only"),
+    FaultClass("the folder is removed", event="folder-gone"),
+    FaultClass("the log is removed while it is written", event="log-gone"),
+    # The next lesson, or the end, writes it again.
+    FaultClass("the memory file is removed", event="memory-gone", harmless=PACES),
+    FaultClass("the wall clock is set ahead by an hour", event="clock-ahead:3600", harmless=PACES),
+    FaultClass("the wall clock is set back by an hour", event="clock-back:3600", harmless=PACES),
+    FaultClass(
+        "the wall clock is set back while the robot hangs",
+        event="hang:300 clock-back:3600",
+        links=_PROCESSES,
+        harmless=_COMPARED,
+    ),
+)
+"""In the simulator's host."""
+
+CLASSES = (*BUS, *BODY, *ROBOT, *LINE, *HOST)
+"""All that the campaign knows."""
+
+
+def groups(
+    profiles: Sequence[str],
+    links: Sequence[str],
+    paces: Sequence[str],
+    limits_s: Callable[[str], float],
+    classes: Sequence[FaultClass] = CLASSES,
+) -> Iterator[list[Cell]]:
+    """The cells of a campaign, those of one configuration together; the first of each has no fault.
+
+    Args:
+        profiles: Behaviours.
+        links: Where the robot is. Within this process, time counts only in lockstep.
+        paces: Some of `PACES`.
+        limits_s: Robot time of each run at a pace, s.
+        classes: The faults.
+    """
+    for profile in profiles:
+        for link in links:
+            for pace in paces:
+                if (link, pace) != ("none", REAL_TIME):
+                    base = Cell(profile, link, pace, limit_s=limits_s(pace))
+                    yield [base, *(each.cell(base) for each in classes if each.can_happen(profile, link, pace))]
+
+
+def recognised(cell: Cell) -> Cell:
+    """A cell with what is known of its fault, where it is one of the campaign's."""
+    base = replace(cell, faults=(), changes=(), events=())
+    known = (each.cell(base) for each in CLASSES if cell.pace in each.paces)
+    return next((each for each in known if str(each) == str(cell)), cell)
+
+
+def default_limit_s(pace: str) -> float:
+    """Robot time of a run: long enough for some lessons, in real time short enough for patience."""
+    return 60.0 if pace == LOCKSTEP else 10.0

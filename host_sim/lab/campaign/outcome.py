@@ -1,0 +1,123 @@
+"""What comes of a cell: whether it was safe, whether the fault was seen, and whether anything wrong was learned."""
+
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass
+
+from host_sim.client.pacing import HOLD_TICKS
+from host_sim.faults.event import Event
+from host_sim.lab.campaign.cell import Cell
+from host_sim.protocol.generated import PARAMETERS
+
+_TICK_MS = PARAMETERS["tick_ms"].default
+_FRESH_TICKS = 25
+_DENIALS = ("denied", "contradictions")
+
+
+def unreached(outcomes: Iterable["Outcome"], ways: Collection[str] = ("refused", "never came")) -> list[str]:
+    """The faults, in words, that reached their receiver in no run: those runs test little.
+
+    Args:
+        outcomes: What came of the runs.
+        ways: What became of them instead.
+    """
+    reaches: dict[str, set[str]] = {}
+    for each in outcomes:
+        if each.cell.fault:
+            reaches.setdefault(each.cell.fault, set()).add(each.reach)
+    return [fault for fault, those in reaches.items() if those <= set(ways)]
+
+
+@dataclass
+class Outcome:
+    """What came of one run.
+
+    Attributes:
+        cell: The run.
+        oldest: Age of the oldest drive with which the wheels turned, in ticks.
+        seen: By what the fault was noticed, in words; empty if it was not.
+        end: How the run ended before its time, in words; empty if it did not.
+        doubts: What makes its result doubtful.
+        wrong: Patterns for which a wrong turn was learned.
+        digest: SHA-256 of its log, in hexadecimal.
+        course: SHA-256 of what the robot sensed and did, tick by tick.
+        broke: Whether it ended with an error that is not about the robot, its line, or files that were harmed.
+        lost: What is missing from its files without a warning, in words; empty if they hold all.
+        strikes: Number of faults that frames had.
+        refusals: Number of frames that simulator and robot refused.
+        struck: The faults that frames had, as rules for one frame each.
+        waiting: Events that have not come to happen.
+        moved: Tick after which the robot last answered in time.
+        ticks: Number of ticks.
+        differs: Whether, in lockstep, its course is another than without the fault.
+    """
+
+    cell: Cell
+    oldest: int = 0
+    seen: str = ""
+    end: str = ""
+    doubts: tuple[str, ...] = ()
+    wrong: tuple[int, ...] = ()
+    digest: str = ""
+    course: str = ""
+    broke: bool = False
+    lost: str = ""
+    strikes: int = 0
+    refusals: int = 0
+    struck: tuple[str, ...] = ()
+    waiting: tuple[Event, ...] = ()
+    moved: int = 0
+    ticks: int = 0
+    differs: bool = False
+
+    @property
+    def problems(self) -> list[str]:
+        """Why the campaign fails here; empty if it does not."""
+        cell = self.cell
+        is_misled = self.wrong and (cell.denies or not (cell.changes or self.end or self.doubts))
+        found = {
+            "unsafe": self.oldest > HOLD_TICKS,
+            "unseen": bool(cell.fault) and not self._is_seen and (self.differs or not cell.harmless),
+            "did not happen": bool(self.waiting) and not self.end,
+            "wrong without a word": bool(is_misled),
+            "lost without a word": bool(self.lost),
+            "broke": self.broke,
+        }
+        return [name for name, is_so in found.items() if is_so]
+
+    @property
+    def _is_seen(self) -> bool:
+        """Whether the fault was noticed: by the robot itself, where it must."""
+        return any(sign in self.seen for sign in _DENIALS) if self.cell.denies else bool(self.seen)
+
+    @property
+    def reach(self) -> str:
+        """Whether its fault reached its receiver: reached, refused (all of it), or never came; empty without one."""
+        cell = self.cell
+        if not cell.items or self.end or self.doubts:
+            return "reached" if cell.items else ""
+        if cell.faults and not self.strikes and not cell.changes and not cell.events:
+            return "never came"
+        is_forged = bool(cell.faults) and all(rule.startswith("forge") for rule in cell.faults)
+        return "refused" if is_forged and self.refusals >= self.strikes else "reached"
+
+    @property
+    def recovered(self) -> bool:
+        """Whether the run went on to its end with a robot that answers."""
+        return not self.end and self.ticks - self.moved < _FRESH_TICKS
+
+    @property
+    def rest_ms(self) -> int:
+        """The longest time for which wheels turned without a new drive, ms."""
+        return self.oldest * _TICK_MS
+
+    @property
+    def kind(self) -> str:
+        """The worst that is to be said of it, in a word or two; what a smaller schedule must still bring about."""
+        learned = "learned wrong turns" if self.wrong else "went on"
+        return (*self.problems, *["ended"] * bool(self.end), *["doubted"] * bool(self.doubts), learned)[0]
+
+    def compare(self, clean: "Outcome") -> None:
+        """Notes what the run without a fault shows."""
+        if self.cell.is_of_body and not self.seen and self.digest != clean.digest:
+            self.seen = "what it does"
+        self.differs = self.course != clean.course and not self.cell.is_real_time

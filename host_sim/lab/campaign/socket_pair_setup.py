@@ -1,0 +1,35 @@
+"""A robot in a process of its own, at the other end of a socket pair."""
+
+import os
+import threading
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from host_sim.client.robot_client import RobotClient
+from host_sim.lab.campaign.process_events import process_events
+from host_sim.lab.campaign.setup import Happen
+from host_sim.sim.run_config import RunConfig
+
+
+class SocketPair:
+    """As in `Setup`."""
+
+    def __init__(self) -> None:
+        """Before the robot is there."""
+        self._before = _children()
+        self._pid = 0
+        self.events: Mapping[str, Happen] = process_events(lambda: self._pid)
+
+    def configured(self, config: RunConfig) -> RunConfig:
+        """As in `Setup`."""
+        return replace(config, bus="fd")
+
+    def found(self, client: RobotClient) -> None:  # noqa: ARG002 - as in `Setup`
+        """As in `Setup`: the robot is the only new child of this process."""
+        (self._pid,) = _children() - self._before
+
+
+def _children() -> set[int]:
+    path = Path(f"/proc/{os.getpid()}/task/{threading.get_native_id()}/children")
+    return set(map(int, path.read_text(encoding="ascii").split()))

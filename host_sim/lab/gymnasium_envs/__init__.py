@@ -1,0 +1,18 @@
+"""The robot and its world as environments of Gymnasium and PettingZoo, for other people's learners.
+
+Gymnasium knows its environments once a module has registered them, as importing this one does; docs/gymnasium.md
+describes them.
+
+>>> import gymnasium
+>>> import host_sim.lab.gymnasium_envs
+>>> env = gymnasium.make("octet/Arena-v0", limit_s=60)
+"""
+
+import gymnasium
+
+gymnasium.register(
+    id="octet/Arena-v0",
+    entry_point=f"{__name__}.arena_env:ArenaEnv",
+    vector_entry_point=f"{__name__}.arena_vector_env:ArenaVectorEnv",
+)
+gymnasium.register(id="octet/Brain-v0", entry_point=f"{__name__}.brain_env:BrainEnv")

@@ -1,0 +1,116 @@
+"""`octet/Arena-v0`: a robot whose brain is outside."""
+
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium import error
+from numpy.typing import NDArray
+
+from host_sim.lab.gymnasium_envs import rules
+from host_sim.world.params import SimParams
+
+
+class ArenaEnv(gymnasium.Env[Any, Any]):
+    """A robot in a random arena with three pieces of food; the learner decides what it does next.
+
+    A step is one action of the robot, carried out by the firmware's own motion, and takes as many control ticks of
+    20 ms as the action needs; with `step_ticks`, at most that many; the next action then replaces the rest.
+
+    The observation, a `Box` of int32: what the robot senses, field by field as on the bus.
+
+    | index | meaning                                                                | min | max  | unit   |
+    | ----- | ---------------------------------------------------------------------- | --- | ---- | ------ |
+    | 0     | number of the control tick, wraps                                      | 0   | 255  | ticks  |
+    | 1     | proximity: right 1, front-right 2, front 4, front-left 8, left 16      | 0   | 31   | bits   |
+    | 2     | the body touches something                                             | 0   | 1    |        |
+    | 3     | food is seen straight ahead                                            | 0   | 1    |        |
+    | 4     | distance from the centre of the body to that food; 0: none             | 0   | 8191 | mm     |
+    | 5     | distance rolled by the left wheel, forward counts up, wraps            | 0   | 4095 | 0.1 mm |
+    | 6     | distance rolled by the right wheel, likewise                           | 0   | 4095 | 0.1 mm |
+
+    The action, a `Discrete(6)`: what the article's brain may do.
+
+    | action | meaning                                                                                    |
+    | ------ | ------------------------------------------------------------------------------------------ |
+    | 0      | a step forward of 12 mm; ends early at an obstacle, and eats food that is within 150 mm then |
+    | 1, 2   | turn 10 degrees to the left, to the right: the size of a remembered turn                    |
+    | 3, 4   | turn 45 degrees to the left, to the right: the size of a trial                              |
+    | 5      | turn about                                                                                  |
+
+    The reward: 1 for each piece of food, -0.01 for each second of robot time, -0.1 for each time that the body begins
+    to touch something; `rewards` changes that. An episode terminates when all food is eaten, and is truncated after
+    `limit_s` seconds of robot time. `info` has the robot time so far, `robot_s`, and the pieces left, `food_left`.
+
+    Each episode is in a new random arena. `reset(options={"environment": (seed, number)})` takes that environment of
+    a run of `tools/run` instead.
+
+    >>> import gymnasium
+    >>> from host_sim.lab.gymnasium_envs.arena_env import ArenaEnv
+    >>> env = ArenaEnv()
+    >>> senses, info = env.reset(seed=1)
+    >>> senses, reward, terminated, truncated, info = env.step(0)
+    >>> info
+    {'robot_s': 0.06, 'food_left': 3}
+    """
+
+    metadata = {"render_modes": []}  # noqa: RUF012 - as Gymnasium has it
+
+    def __init__(
+        self, limit_s: float = 600.0, step_ticks: int | None = None, rewards: rules.Rewards | None = None
+    ) -> None:
+        """Takes the rules.
+
+        Args:
+            limit_s: Time limit of an episode, s of robot time.
+            step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
+            rewards: What a step is worth.
+
+        Raises:
+            gymnasium.error.Error: The limit is out of its range.
+            gymnasium.error.DependencyNotInstalled: The C code cannot be used.
+        """
+        self.observation_space, self.action_space = rules.senses_space(), rules.deed_space()
+        self._params, self._rewards = SimParams(), rewards or rules.Rewards()
+        self._worlds = rules.told_worlds(1, 1, rules.Limits(limit_s, step_ticks), self._params)
+        self._limit_ticks = round(limit_s / self._params.tick_s)
+        self._runs = False
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[NDArray[np.int32], dict[str, Any]]:
+        """Begins an episode.
+
+        Raises:
+            gymnasium.error.Error: Seed or options are not what they should be.
+        """
+        super().reset(seed=seed)
+        layout = rules.chosen_layout(options, 1, self._params)
+        self._worlds.enter(0, layout or rules.draw_layout(self.np_random, 1, self._params))
+        self._runs = True
+        return self._senses(), self._info()
+
+    def step(self, action: int) -> tuple[NDArray[np.int32], float, bool, bool, dict[str, Any]]:
+        """Has the robot do one thing.
+
+        Raises:
+            gymnasium.error.ResetNeeded: No episode has begun, or the last one has ended.
+            gymnasium.error.InvalidAction: The action is not in the action space.
+        """
+        if not self._runs:
+            raise error.ResetNeeded("no episode has begun, or it has ended: call reset")
+        worlds, before = self._worlds, int(self._worlds.ticks[0])
+        worlds.step(rules.checked_deeds(action, ()))
+        eaten, collisions = int(worlds.food_eaten[0, 0]), int(worlds.collisions[0, 0])
+        reward = self._rewards.of(eaten, int(worlds.ticks[0]) - before, collisions, self._params.tick_s)
+        terminated = not worlds.food_left[0]
+        truncated = not terminated and int(worlds.ticks[0]) >= self._limit_ticks
+        self._runs = not (terminated or truncated)
+        return self._senses(), float(reward), terminated, truncated, self._info()
+
+    def _senses(self) -> NDArray[np.int32]:
+        return np.array(self._worlds.senses[0, 0])
+
+    def _info(self) -> dict[str, Any]:
+        robot_s = round(int(self._worlds.ticks[0]) * self._params.tick_s, 3)
+        return {"robot_s": robot_s, "food_left": int(self._worlds.food_left[0])}

@@ -1,0 +1,114 @@
+"""Several robots in one arena, as a parallel environment of PettingZoo."""
+
+from typing import Any
+
+import numpy as np
+from gymnasium import error, spaces
+from gymnasium.utils import seeding
+from numpy.typing import NDArray
+from pettingzoo import ParallelEnv
+
+from host_sim.lab.gymnasium_envs import rules
+from host_sim.world.params import SimParams
+
+_Senses = dict[str, NDArray[np.int32]]
+_Infos = dict[str, dict[str, Any]]
+_Stepped = tuple[_Senses, dict[str, float], dict[str, bool], dict[str, bool], _Infos]
+
+
+class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignore[misc] # PettingZoo has no types
+    """Robots that share an arena and its food, and sense each other; agents are `robot_1`, `robot_2`, ...
+
+    Observations, actions and rewards are those of `ArenaEnv`, for each robot by itself. A step ends when the last
+    robot has ended its action; those that are done sooner rest. An episode ends for all at once.
+
+    >>> env = ArenaParallelEnv(robots=2)
+    >>> senses, infos = env.reset(seed=1)
+    >>> senses, rewards, terminations, truncations, infos = env.step({"robot_1": 0, "robot_2": 1})
+    >>> sorted(rewards), infos["robot_1"]
+    (['robot_1', 'robot_2'], {'robot_s': 0.06, 'food_left': 3})
+    """
+
+    metadata = {"name": "octet_arena_v0", "render_modes": []}  # noqa: RUF012 - as PettingZoo has it
+
+    def __init__(
+        self,
+        robots: int = 2,
+        limit_s: float = 600.0,
+        step_ticks: int | None = None,
+        rewards: rules.Rewards | None = None,
+    ) -> None:
+        """Takes the rules; see `ArenaEnv`.
+
+        Args:
+            robots: Number of robots, 1..31.
+            limit_s: Time limit of an episode, s of robot time.
+            step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
+            rewards: What a step is worth.
+
+        Raises:
+            gymnasium.error.Error: A number is out of its range.
+            gymnasium.error.DependencyNotInstalled: The C code cannot be used.
+        """
+        self._params, self._rewards, self._robots = SimParams(), rewards or rules.Rewards(), robots
+        self._worlds = rules.told_worlds(1, robots, rules.Limits(limit_s, step_ticks), self._params)
+        self._limit_ticks = round(limit_s / self._params.tick_s)
+        self.possible_agents = [f"robot_{number}" for number in range(1, robots + 1)]
+        self.agents: list[str] = []
+        self.observation_spaces = {agent: rules.senses_space() for agent in self.possible_agents}
+        self.action_spaces = {agent: rules.deed_space() for agent in self.possible_agents}
+        self._draws: np.random.Generator | None = None
+
+    def observation_space(self, agent: str) -> spaces.Box:
+        """What a robot senses."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> spaces.Discrete:
+        """What a robot may do."""
+        return self.action_spaces[agent]
+
+    def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[_Senses, _Infos]:
+        """Begins an episode.
+
+        Raises:
+            gymnasium.error.Error: Seed or options are not what they should be, or no arena has room for the robots.
+        """
+        if seed is not None or self._draws is None:
+            self._draws = seeding.np_random(seed)[0]
+        layout = rules.chosen_layout(options, self._robots, self._params)
+        self._worlds.enter(0, layout or rules.draw_layout(self._draws, self._robots, self._params))
+        self.agents = list(self.possible_agents)
+        return self._senses(), self._infos()
+
+    def step(self, actions: dict[str, int]) -> _Stepped:
+        """Has each robot do one thing.
+
+        Raises:
+            gymnasium.error.ResetNeeded: No episode has begun, or the last one has ended.
+            gymnasium.error.InvalidAction: A robot has no action, or one that is not in its action space.
+        """
+        if not self.agents:
+            raise error.ResetNeeded("no episode has begun, or it has ended: call reset")
+        if actions.keys() != set(self.agents):
+            raise error.InvalidAction(f"actions are for {sorted(actions)}, the robots are {self.agents}")
+        worlds, before = self._worlds, int(self._worlds.ticks[0])
+        worlds.step(np.array([rules.checked_deeds(actions[agent], ()) for agent in self.agents], np.uint8))
+        terminated = not worlds.food_left[0]
+        truncated = not terminated and int(worlds.ticks[0]) >= self._limit_ticks
+        rewards, agents = self._rewarded(int(worlds.ticks[0]) - before), self.agents
+        self.agents = [] if terminated or truncated else agents
+        ends = dict.fromkeys(agents, terminated), dict.fromkeys(agents, truncated)
+        return self._senses(), rewards, *ends, self._infos()
+
+    def _rewarded(self, ticks: int) -> dict[str, float]:
+        eaten, collisions = self._worlds.food_eaten[0].tolist(), self._worlds.collisions[0].tolist()
+        each = zip(self.possible_agents, eaten, collisions, strict=True)
+        return {agent: float(self._rewards.of(ate, ticks, hit, self._params.tick_s)) for agent, ate, hit in each}
+
+    def _senses(self) -> _Senses:
+        return {agent: self._worlds.senses[0, i].copy() for i, agent in enumerate(self.possible_agents)}
+
+    def _infos(self) -> _Infos:
+        robot_s = round(int(self._worlds.ticks[0]) * self._params.tick_s, 3)
+        left = int(self._worlds.food_left[0])
+        return {agent: {"robot_s": robot_s, "food_left": left} for agent in self.possible_agents}

@@ -1,0 +1,127 @@
+"""`octet/Arena-v0` many times at once, for `gymnasium.make_vec`."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from gymnasium import error
+from gymnasium.utils import seeding
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from host_sim.lab.gymnasium_envs import rules
+from host_sim.world.params import SimParams
+
+_Batch = tuple[NDArray[np.int32], dict[str, Any]]
+_Stepped = tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]
+
+
+class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.generic]]):
+    """Many arenas, each with one robot, stepped by one call of C code; all else is as in `ArenaEnv`.
+
+    An arena whose episode has ended begins the next one in the step after that, whatever its action then
+    (`AutoresetMode.NEXT_STEP`). Arena i of `reset(seed=s)` does what `ArenaEnv` does after `reset(seed=s + i)`.
+    """
+
+    metadata = {"autoreset_mode": AutoresetMode.NEXT_STEP}  # noqa: RUF012 - as Gymnasium has it
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        limit_s: float = 600.0,
+        step_ticks: int | None = None,
+        rewards: rules.Rewards | None = None,
+    ) -> None:
+        """Takes the rules; see `ArenaEnv`.
+
+        Args:
+            num_envs: Number of arenas.
+            limit_s: Time limit of an episode, s of robot time.
+            step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
+            rewards: What a step is worth.
+
+        Raises:
+            gymnasium.error.Error: A number is out of its range.
+            gymnasium.error.DependencyNotInstalled: The C code cannot be used.
+        """
+        if num_envs < 1:
+            raise error.Error(f"num_envs is {num_envs}: give 1 or more")
+        self.num_envs = num_envs
+        self.single_observation_space, self.single_action_space = rules.senses_space(), rules.deed_space()
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self._params, self._rewards = SimParams(), rewards or rules.Rewards()
+        self._worlds = rules.told_worlds(num_envs, 1, rules.Limits(limit_s, step_ticks), self._params)
+        self._limit_ticks = round(limit_s / self._params.tick_s)
+        self._draws: list[np.random.Generator] = []
+        self._ended = np.zeros(num_envs, np.bool_)
+
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> _Batch:
+        """Begins an episode in each arena.
+
+        Args:
+            seed: Seed of the first arena, the next number for each other one; or a seed for each.
+            options: As in `ArenaEnv`, for all arenas.
+
+        Raises:
+            gymnasium.error.Error: Seeds or options are not what they should be.
+        """
+        self._take_seeds(seed)
+        layout = rules.chosen_layout(options, 1, self._params)
+        for i, draws in enumerate(self._draws):
+            self._worlds.enter(i, layout or rules.draw_layout(draws, 1, self._params))
+        self._ended[:] = False
+        return self._senses(), self._infos()
+
+    def step(self, actions: NDArray[np.int64]) -> _Stepped:
+        """Has each robot do one thing, or begins its next episode if the last one has ended.
+
+        Raises:
+            gymnasium.error.ResetNeeded: No episode has begun.
+            gymnasium.error.InvalidAction: The actions are not in the action space.
+        """
+        if not self._draws:
+            raise error.ResetNeeded("no episode has begun: call reset")
+        worlds, deeds, anew = self._worlds, rules.checked_deeds(actions, (self.num_envs,)), self._ended
+        before = worlds.ticks.astype(np.int64)
+        worlds.step(deeds)  # nothing happens where an episode has ended
+        ticks = worlds.ticks - before
+        rewards = self._rewards.of(worlds.food_eaten[:, 0], ticks, worlds.collisions[:, 0], self._params.tick_s)
+        for i in np.flatnonzero(anew):
+            worlds.enter(int(i), rules.draw_layout(self._draws[i], 1, self._params))
+        rewards = np.where(anew, 0.0, rewards)
+        terminated = ~anew & (worlds.food_left == 0)
+        truncated = ~anew & ~terminated & (worlds.ticks >= self._limit_ticks)
+        self._ended = terminated | truncated
+        return self._senses(), rewards, terminated, truncated, self._infos()
+
+    def _take_seeds(self, seed: int | Sequence[int | None] | None) -> None:
+        """A generator of random numbers for each arena; those that there are go on where no seed is given."""
+        seeds: Sequence[int | None]
+        if seed is None or isinstance(seed, (int, np.integer)):
+            seeds = [None if seed is None else int(seed) + i for i in range(self.num_envs)]
+        else:
+            seeds = seed
+        if len(seeds) != self.num_envs:
+            raise error.Error(f"{len(seeds)} seeds for {self.num_envs} arenas")
+        old: Sequence[np.random.Generator | None] = self._draws or [None] * self.num_envs
+        self._draws = [
+            draws if one is None and draws is not None else seeding.np_random(one)[0]
+            for one, draws in zip(seeds, old, strict=True)
+        ]
+
+    def _senses(self) -> NDArray[np.int32]:
+        return np.array(self._worlds.senses[:, 0])
+
+    def _infos(self) -> dict[str, Any]:
+        given = np.ones(self.num_envs, np.bool_)
+        robot_s = self._worlds.ticks * self._params.tick_s
+        return {
+            "robot_s": robot_s,
+            "_robot_s": given,
+            "food_left": self._worlds.food_left.astype(np.int64),
+            "_food_left": given.copy(),
+        }

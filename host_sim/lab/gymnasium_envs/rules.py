@@ -1,0 +1,176 @@
+"""The rules that all arenas share: what is sensed and done, what is rewarded, and which actions are refused."""
+
+import operator
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from gymnasium import error, spaces
+from numpy.typing import NDArray
+
+from host_sim.base.errors import OctetError
+from host_sim.lab.gymnasium_envs.told_worlds import Deed, TickLimits, ToldWorlds
+from host_sim.protocol.generated import FEEL, NODE_MAX
+from host_sim.world.layouts import Layout, NoRoomError, generate
+from host_sim.world.params import SimParams
+
+SECONDS_MAX = 36_000.0
+SEED_SPAN = 2**32
+NUMBER_MAX = 1_000_000
+STEP_TICKS_MAX = 1_000_000
+_HIGHEST = (255, sum(FEEL.values()), 1, 1, 8191, 4095, 4095)
+_DRAWS = 100
+
+
+@dataclass(frozen=True)
+class Rewards:
+    """What a step is worth.
+
+    Attributes:
+        food: For each piece of food eaten.
+        second: For each second of robot time.
+        bump: For each time that the robot began to touch something.
+    """
+
+    food: float = 1.0
+    second: float = -0.01
+    bump: float = -0.1
+
+    def of(self, eaten: Any, ticks: Any, collisions: Any, tick_s: float) -> Any:
+        """The reward of a step, for numbers or for arrays of them."""
+        return self.food * eaten + self.second * tick_s * ticks + self.bump * collisions
+
+
+class Limits(NamedTuple):
+    """How long an episode and a step may be.
+
+    Attributes:
+        episode_s: Time limit of an episode, s of robot time.
+        step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
+    """
+
+    episode_s: float
+    step_ticks: int | None
+
+
+def senses_space() -> spaces.Box:
+    """What a robot senses; the table of docs/gymnasium.md."""
+    return spaces.Box(np.zeros(len(_HIGHEST), np.int32), np.array(_HIGHEST, np.int32), dtype=np.int32)
+
+
+def deed_space() -> spaces.Discrete:
+    """What a robot may do: a `Deed`."""
+    return spaces.Discrete(len(Deed))
+
+
+def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams) -> ToldWorlds:
+    """Worlds with a time limit.
+
+    Args:
+        worlds: Number of worlds.
+        robots: Number of robots in each.
+        limits: Their limits.
+        params: The dimensions of the worlds.
+
+    Raises:
+        error.Error: A number is out of its range.
+        error.DependencyNotInstalled: The C code cannot be used.
+    """
+    if not 1 <= robots <= NODE_MAX:
+        raise error.Error(f"{robots} robots do not fit: give 1 to {NODE_MAX}")
+    limit_s, step_ticks = limits
+    check_seconds(limit_s, params)
+    if step_ticks is not None and not 1 <= step_ticks <= STEP_TICKS_MAX:
+        raise error.Error(f"step_ticks is {step_ticks}: give 1 to {STEP_TICKS_MAX}, or None")
+    try:
+        ticks = TickLimits(round(limit_s / params.tick_s), step_ticks or STEP_TICKS_MAX)
+        return ToldWorlds(worlds, robots, ticks, params)
+    except OctetError as fault:
+        raise error.DependencyNotInstalled(str(fault)) from None
+
+
+def check_seconds(seconds: float, params: SimParams) -> None:
+    """Checks the length of a step or of an episode.
+
+    Raises:
+        error.Error: It is out of its range.
+    """
+    if not params.tick_s <= seconds <= SECONDS_MAX:
+        raise error.Error(f"{seconds} s is not a possible length: give {params.tick_s} to {SECONDS_MAX:.0f} s")
+
+
+def draw_layout(draws: np.random.Generator, robots: int, params: SimParams) -> Layout:
+    """A random environment with room for the robots.
+
+    Raises:
+        error.Error: None of many has room.
+    """
+    for _ in range(_DRAWS):
+        with suppress(NoRoomError):
+            return generate(int(draws.integers(SEED_SPAN)), 1, params, robots)
+    raise error.Error(f"{robots} robots are too many: none of {_DRAWS} random arenas has room for them")
+
+
+def chosen_environment(options: dict[str, Any] | None) -> tuple[int, int] | None:
+    """Seed and number in the options of `reset`, `{"environment": (seed, number)}`; None if they have none.
+
+    Raises:
+        error.Error: They are not a seed and a number.
+    """
+    if not options or "environment" not in options:
+        return None
+    try:
+        seed, number = map(operator.index, options["environment"])
+    except (TypeError, ValueError):
+        seed = number = -1
+    if not 0 <= seed < SEED_SPAN or not 1 <= number <= NUMBER_MAX:
+        raise error.Error(
+            f"environment is {options['environment']!r}: give a seed 0..{SEED_SPAN - 1} and a number 1..{NUMBER_MAX}"
+        )
+    return seed, number
+
+
+def chosen_layout(options: dict[str, Any] | None, robots: int, params: SimParams) -> Layout | None:
+    """The environment that the options of `reset` name; None if they do not.
+
+    Raises:
+        error.Error: What they name is none, or has no room for the robots.
+    """
+    chosen = chosen_environment(options)
+    try:
+        return chosen and generate(*chosen, params, robots)
+    except NoRoomError as fault:
+        raise error.Error(f"{robots} robots are too many: {fault}") from None
+
+
+def checked_numbers(action: Any, space: spaces.MultiDiscrete) -> NDArray[np.int64]:
+    """An action of some whole numbers.
+
+    Raises:
+        error.InvalidAction: It is not in the space.
+    """
+    given = _as_array(action)
+    if given.dtype.kind not in "iu" or not space.contains(given.astype(np.int64)):
+        raise error.InvalidAction(f"{action!r} is not an action of {space}")
+    return given.astype(np.int64)
+
+
+def checked_deeds(actions: Any, shape: tuple[int, ...]) -> NDArray[np.uint8]:
+    """The actions of all robots.
+
+    Raises:
+        error.InvalidAction: They are not whole numbers of that shape from 0 to 5.
+    """
+    given = _as_array(actions)
+    if given.shape != shape or given.dtype.kind not in "iu" or not np.all((given >= 0) & (given < len(Deed))):
+        needed = f"whole numbers 0..{len(Deed) - 1} of shape {shape}"
+        raise error.InvalidAction(f"{actions!r} is not an action: give {needed}")
+    return given.astype(np.uint8)
+
+
+def _as_array(given: Any) -> NDArray[Any]:
+    try:
+        return np.asarray(given)
+    except (ValueError, OverflowError):
+        return np.asarray(None)

@@ -1,0 +1,105 @@
+"""Worlds whose robots are told what to do (`native/told.h`), several of them in one call."""
+
+from enum import IntEnum
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from host_sim.base.paths import BUILD, ROOT
+from host_sim.world.arena import Arena
+from host_sim.world.layouts import Layout
+from host_sim.world.native_library import load_native
+from host_sim.world.params import SimParams
+from host_sim.world.world_library import WORLD_HEADERS
+
+LIBRARY = BUILD / "host" / "host_sim" / "lab" / "gymnasium_envs" / "native" / "liboctet_told.so"
+HEADERS = (*WORLD_HEADERS, ROOT / "host_sim" / "lab" / "gymnasium_envs" / "native" / "told.h")
+
+
+class Deed(IntEnum):
+    """What a brain may do; as in `native/told.h`."""
+
+    FORWARD, TURN_LEFT, TURN_RIGHT, TRY_LEFT, TRY_RIGHT, TURN_ABOUT = range(6)
+
+
+class TickLimits(NamedTuple):
+    """How many control ticks a world and a step may last."""
+
+    world: int
+    step: int
+
+
+class ToldWorlds:
+    """Worlds in C, each with equally many robots. Arrays are views of what C code writes: copy what is to be kept.
+
+    Attributes:
+        senses: Shape (worlds, robots, 7): the fields of `Senses` after the last step.
+        food_eaten: Shape (worlds, robots): pieces of food eaten in the last step.
+        collisions: Shape (worlds, robots): times that a robot began to touch something in the last step.
+        ticks: Shape (worlds,): control ticks since the world was entered.
+        food_left: Shape (worlds,): pieces of food that are left.
+    """
+
+    def __init__(self, worlds: int, robots: int, limits: TickLimits, params: SimParams) -> None:
+        """Makes room; each world must be entered before the first step.
+
+        Args:
+            worlds: Number of worlds.
+            robots: Number of robots in each.
+            limits: Ticks after which nothing happens any more in a world, and after which a step ends.
+            params: The dimensions of the worlds.
+
+        Raises:
+            NoNativeError: The library cannot be used.
+        """
+        self._ffi, self._library = _loaded()
+        self._params, self._robot_count = params, robots
+        self._arenas: list[Arena | None] = [None] * worlds
+        ffi, motion_size = self._ffi, self._library.told_motion_size()
+        self._motions: Any = ffi.new("char[]", worlds * robots * motion_size)
+        self._robots: Any = ffi.new("struct told_robot[]", worlds * robots)
+        self._all: Any = ffi.new("struct told[]", worlds)
+        for i in range(worlds):
+            told = self._all[i]
+            told.motions = ffi.cast("struct motion *", self._motions + i * robots * motion_size)
+            told.robots, told.limit_ticks, told.step_ticks = self._robots + i * robots, limits.world, limits.step
+        self._share(worlds, robots)
+
+    def _share(self, worlds: int, robots: int) -> None:
+        """Lets numpy see what C code writes."""
+        ffi, columns = self._ffi, self._library.TOLD_SENSES
+        numbers = np.frombuffer(ffi.buffer(self._robots), np.int32).reshape(worlds, robots, columns + 2)
+        self.senses: NDArray[np.int32] = numbers[..., :columns]
+        self.food_eaten: NDArray[np.int32] = numbers[..., columns]
+        self.collisions: NDArray[np.int32] = numbers[..., columns + 1]
+        words = np.frombuffer(ffi.buffer(self._all), np.uint32).reshape(worlds, -1)
+        self.ticks: NDArray[np.uint32] = words[:, ffi.offsetof("struct told", "tick") // words.itemsize]
+        self.food_left: NDArray[np.uint32] = words[:, ffi.offsetof("struct told", "food_left") // words.itemsize]
+
+    def enter(self, world: int, layout: Layout) -> None:
+        """Puts the robots of a world at their starts in a layout.
+
+        Args:
+            world: Index of the world.
+            layout: Has a start for each robot.
+        """
+        arena = Arena(layout, self._params)
+        self._arenas[world] = arena
+        self._all[world].world = self._ffi.cast("struct world *", arena.inside.address)
+        self._library.told_begin(self._ffi.addressof(self._all, world))
+
+    def step(self, deeds: NDArray[np.uint8]) -> None:
+        """Has each robot do its deed.
+
+        Args:
+            deeds: Shape (worlds, robots), contiguous: a `Deed` for each robot.
+        """
+        told = self._ffi.from_buffer("uint8_t[]", deeds)
+        self._library.told_step(self._all, len(self._arenas), told)
+
+
+@cache
+def _loaded() -> tuple[Any, Any]:
+    return load_native(LIBRARY, "told_", HEADERS)

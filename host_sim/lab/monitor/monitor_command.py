@@ -1,0 +1,83 @@
+"""`tools/octet monitor`: shows what is on a bus, live."""
+
+import argparse
+import contextlib
+import math
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from host_sim.cli.parsing import add_bitrate, add_command, number
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+
+_EXAMPLES = """\
+examples:
+  tools/octet monitor socketcan:can0              a table of the robots, on a terminal
+  tools/octet monitor socketcan:can0 | grep '!'   what looks wrong; not on a terminal, each frame is a line
+  tools/octet monitor slcan:/dev/ttyACM0 --all    other frames too
+"""
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "monitor",
+        _monitor,
+        summary="show what is on a bus, live",
+        description="Shows the robots on a bus, live: their state, rates, lost and damaged frames, and what looks\n"
+        "wrong. Where the output is no terminal, each frame is a line. Ctrl-C ends it.",
+        epilog=_EXAMPLES,
+    )
+    add = parser.add_argument
+    add("bus", metavar="BUS", help="any bus of python-can: INTERFACE:CHANNEL, such as socketcan:can0")
+    add("--all", action="store_true", help="other frames too; without it, the kernel keeps them away")
+    add_bitrate(parser)
+    add(
+        "--limit-s",
+        type=number(0.1, 1e9, float),
+        default=math.inf,
+        metavar="S",
+        help="end after S seconds (default: at Ctrl-C)",
+    )
+
+
+def _monitor(arguments: argparse.Namespace) -> int:
+    from host_sim.lab.monitor.bus_watch import BusWatch
+    from host_sim.lab.monitor.kernel_queue import lengthen
+    from host_sim.lab.monitor.monitor import filter_robots, watch_lines, watch_table
+    from host_sim.transport.buses import open_bus
+
+    watch = BusWatch(arguments.bitrate)
+    with _until_ctrl_c(arguments.limit_s) as goes_on, open_bus(arguments.bus, bitrate=arguments.bitrate) as bus:
+        lengthen(bus)
+        if not arguments.all:
+            filter_robots(bus)
+        if sys.stdout.isatty():
+            watch_table(bus, watch, arguments.bus, sys.stdout, goes_on)
+        else:
+            watch_lines(bus, watch, sys.stdout, goes_on)
+    return 0
+
+
+@contextlib.contextmanager
+def _until_ctrl_c(limit_s: float) -> Iterator[Callable[[], bool]]:
+    """Whether to go on: until some time has passed or the first Ctrl-C. The second one raises."""
+    end_s = time.monotonic() + limit_s
+    asked: list[int] = []
+
+    def ask(number: int, frame: FrameType | None) -> None:
+        asked.append(number)
+        if len(asked) > 1:
+            signal.default_int_handler(number, frame)
+
+    before = signal.signal(signal.SIGINT, ask)
+    try:
+        yield lambda: not asked and time.monotonic() < end_s
+    finally:
+        signal.signal(signal.SIGINT, before)

@@ -1,0 +1,154 @@
+"""`tools/octet compare`: behaviours side by side in the same worlds."""
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from host_sim.base.counted import counted
+from host_sim.base.errors import UsageError
+from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, setting
+from host_sim.lab.study.study_command import add_workers, with_progress, worker_stages, workers_of
+from host_sim.protocol.words import PROFILES
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from host_sim.cli.parsing import Subparsers
+    from host_sim.lab.study.plan import Plan
+    from host_sim.lab.study.sample import Sample
+
+_EXAMPLES = """\
+examples:
+  tools/octet compare out/studies/learned                           what came of a study
+  tools/octet compare out/studies/learned --plots out/plots         the same, and as pictures
+  tools/octet compare article fixed never --seeds 40                what learning and remembering are worth
+  tools/octet compare article --seeds 2 --robot emulated            the flash image, on an emulated board
+  tools/octet compare article forgetful --change swap-motors@env1      with the motors' plugs exchanged
+
+Of a study with goals, the exit code is 1 if one of them is missed.
+"""
+_OF_RUNS = ("seeds", "first", "environments", "set", "change", "robot", "jobs", "dask", "chunk")
+"""The options that say which runs to make; those of a study were made before."""
+
+_SET_HELP = "change a parameter, as tools/run --help lists them; may be repeated"
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "compare",
+        _compare,
+        summary="compare the conditions of a study, or behaviours at once",
+        description="Prints what came of a study, or runs each profile with the same seeds and prints that.",
+        epilog=_EXAMPLES,
+        check=_check,
+        stages=_stages,
+    )
+    add = parser.add_argument
+    words = f"folder of a study; or profiles, of {', '.join(PROFILES)}"
+    add("what", nargs="+", metavar="STUDY|PROFILE", help=words)
+    add(
+        "--difference",
+        type=number(0, 100, float),
+        default=5,
+        metavar="PERCENT",
+        help="difference that matters, for the number of seeds that it needs" + DEFAULT,
+    )
+    add("--plots", type=file_path, metavar="FOLDER", help="draw plots into this folder")
+    profiles = parser.add_argument_group("with profiles").add_argument
+    profiles("--seeds", type=number(1, 100_000), default=20, metavar="N", help="number of seeds" + DEFAULT)
+    profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + DEFAULT)
+    profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + DEFAULT)
+    profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help=_SET_HELP)
+    profiles("--change", action="append", default=[], metavar="CHANGE", help="one change, as tools/run has them")
+    profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + DEFAULT)
+    add_workers(parser)
+    parser.set_defaults(untouched={name: parser.get_default(name) for name in _OF_RUNS})
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    from host_sim.lab.study.toml_lines import meant
+
+    folder = Path(arguments.what[0])
+    if folder.is_dir() and len(arguments.what) > 1:
+        raise UsageError(f"{folder} is the folder of a study, which is compared by itself: name nothing else")
+    if folder.is_dir():
+        _check_no_runs(arguments)
+        return
+    for word in arguments.what:
+        if word not in PROFILES:
+            raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
+    if len(arguments.change) > 1:
+        raise UsageError("profiles are compared with one --change: several go into a study, as a file of changes")
+
+
+def _stages(arguments: argparse.Namespace) -> "Sequence[str]":
+    emulated = ["images", "emulator"] if arguments.robot == "emulated" else []
+    study = ["study"] if arguments.plots or Path(arguments.what[0]).is_dir() else []
+    return [*emulated, *study, *worker_stages(arguments)] or ["run"]
+
+
+def _compare(arguments: argparse.Namespace) -> int:
+    from host_sim.lab.study.goals import judge
+    from host_sim.lab.study.table import table
+
+    folder = Path(arguments.what[0])
+    plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
+    print(
+        f"{plan.title}: {counted(len(samples[0].seeds), 'seed')} of {counted(plan.environments, 'environment')} each"
+    )
+    print(table(samples, arguments.difference / 100))
+    if arguments.plots:
+        from host_sim.lab.study.plots import draw_plots
+
+        print(f"wrote     {', '.join(map(str, draw_plots(samples, arguments.plots)))}")
+    judged = judge(plan.goals, samples)
+    for each in judged:
+        print(each)
+    return 0 if all(each.is_reached for each in judged) else 1
+
+
+def _check_no_runs(arguments: argparse.Namespace) -> None:
+    """Refuses options for runs where none are made."""
+    given = [f"--{name}" for name, value in arguments.untouched.items() if getattr(arguments, name) != value]
+    if given:
+        raise UsageError(
+            f"{arguments.what[0]} is the folder of a study: leave out {', '.join(given)}, for profiles only"
+        )
+
+
+def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
+    """The plan of the study in a folder, and what its rows say.
+
+    Raises:
+        UsageError: There is none, or nothing to compare in it yet.
+    """
+    from host_sim.lab.study.folder import PLAN_FILE, StudyFolder
+    from host_sim.lab.study.plan_file import read_plan
+    from host_sim.lab.study.sample import samples_of
+
+    folder = StudyFolder(path)
+    plan = read_plan(path / PLAN_FILE)
+    samples = samples_of(folder.tables(), [condition.name for condition in plan.conditions])
+    if not len(samples[0].seeds):
+        raise UsageError(f"no seed in {path} has a run of each condition yet: go on with tools/octet study")
+    return replace(plan, title=folder.about["title"]), samples
+
+
+def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]]":
+    from host_sim.lab.study.plan import Condition, Plan
+    from host_sim.lab.study.sample import samples_of
+    from host_sim.lab.study.tables import tables_of
+    from host_sim.world.changes import Change
+
+    change = next(iter(arguments.change), "")
+    if change:
+        Change.parse(change)
+    a = arguments
+    names = list(dict.fromkeys(a.what))
+    conditions = [Condition(name, name, dict(a.set), change=change, robot=a.robot) for name in names]
+    plan = Plan(" ".join(names), conditions, a.first, a.seeds, a.environments)
+    runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]
+    return plan, samples_of(tables_of(runs), names)

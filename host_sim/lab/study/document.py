@@ -1,0 +1,92 @@
+"""Figures of studies as small tables, and a document whose numbers are those of the tables.
+
+In the document a number is a link to its table: the part behind # names the row, with + for a space, and the figure,
+such as [0.38 s](tables/learned.csv#article,blocked_s). A third word, interval, wants the 95 % interval instead. Below
+a comment such as <!-- table learned.csv: finished median_s --> stands the table itself.
+"""
+
+import csv
+import io
+import re
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.errors import OctetError
+from host_sim.lab.study.bootstrap import estimate
+from host_sim.lab.study.figures import FIGURES, Figure
+from host_sim.lab.study.sample import Sample
+from host_sim.lab.study.table import text_of
+
+TABLES = "tables"
+
+_RATIO = Figure("mean by that of the first", "", "", 2, FIGURES["mean_s"].of)
+_ALL = {**FIGURES, "ratio": _RATIO}
+_COLUMNS = ("condition", "figure", "value", "low", "high")
+_LINK = re.compile(rf"\[[^\]]*\]\(({TABLES}/[\w-]+\.csv)#([^),]+),(\w+)(,interval)?\)")
+_BLOCK = re.compile(r"(<!-- table ([\w-]+\.csv): ([\w ]+?) -->\n)(?:\|[^\n]*\n)*")
+
+Rows = dict[tuple[str, str], tuple[float, float, float]]
+"""Value, low and high by condition and figure."""
+
+
+def write_table(samples: Sequence[Sample], path: Path) -> None:
+    """Writes every figure of every condition, with its interval, as comma-separated values."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for sample in samples:
+        for name, figure in _ALL.items():
+            found = estimate(figure, sample, samples[0] if name == "ratio" else None)
+            if not np.isnan(found.value):
+                writer.writerow([sample.name, name, *(f"{it:.6g}" for it in (found.value, found.low, found.high))])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_bytes(path, text.getvalue().encode())
+
+
+def fill(text: str, folder: Path) -> str:
+    """The text of a document with the numbers of the tables in its folder.
+
+    Raises:
+        OctetError: A table or a row of it is missing.
+    """
+    tables: dict[str, Rows] = {}
+
+    def look_up(table: str, condition: str, figure: str, kind: str = "") -> str:
+        if table not in tables:
+            tables[table] = _read(folder / table)
+        try:
+            value, low, high = tables[table][condition, figure]
+        except KeyError:
+            raise OctetError(f"{folder / table} has no figure {figure} of {condition}") from None
+        what = _ALL[figure]
+        return f"{low:.{what.digits}f}..{text_of(what, high)}" if kind else text_of(what, value)
+
+    def link(found: re.Match[str]) -> str:
+        number = look_up(found[1], found[2].replace("+", " "), found[3], found[4] or "")
+        return f"[{number}]({found[1]}#{found[2]},{found[3]}{found[4] or ''})"
+
+    def block(found: re.Match[str]) -> str:
+        table, figures = f"{TABLES}/{found[2]}", found[3].split()
+        look_up(table, next(iter(_read(folder / table)))[0], figures[0])
+        conditions = dict.fromkeys(condition for condition, _ in tables[table])
+        return found[1] + _markdown(list(conditions), figures, lambda *key: look_up(table, *key))
+
+    return _LINK.sub(link, _BLOCK.sub(block, text))
+
+
+def _markdown(conditions: Sequence[str], figures: Sequence[str], cell: Callable[[str, str], str]) -> str:
+    rows = [["", *(_ALL[figure].heading for figure in figures)], ["---"] * (len(figures) + 1)]
+    rows += [[f"`{condition}`", *(cell(condition, figure) for figure in figures)] for condition in conditions]
+    return "".join(f"| {' | '.join(row)} |\n" for row in rows)
+
+
+def _read(path: Path) -> Rows:
+    try:
+        with path.open(newline="", encoding="ascii") as file:
+            rows = list(csv.DictReader(file))
+        return {(row["condition"], row["figure"]): tuple(float(row[it]) for it in _COLUMNS[2:]) for row in rows}  # type: ignore[misc]
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        raise OctetError(f"cannot read the table {path}: {error}") from None

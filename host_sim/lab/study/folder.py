@@ -1,0 +1,138 @@
+"""A study's folder: its plan, its version, and its rows in Parquet, written in parts.
+
+A part is a file of the same number in each of the folders `contacts`, `environments` and `runs`, written in this
+order: it counts when its file of runs is there. So a study that is stopped at any moment has whole runs only.
+"""
+
+import json
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from host_sim.base.atomic_file import replacing, write_bytes
+from host_sim.base.errors import UsageError
+from host_sim.base.extra_library import library
+from host_sim.base.regular_file import read_bytes
+from host_sim.lab.study.plan import Plan
+from host_sim.lab.study.tables import COLUMNS, Row, Tables, rows_of
+from host_sim.lab.study.trial import Run
+from host_sim.lab.study.version import FORMAT, code_version
+from host_sim.recording.run_folder import run_folder
+
+STUDY_FILE = "study.json"
+PLAN_FILE = "study.toml"
+_SIZE_MAX = 1_000_000
+_RUNS = "runs"
+
+
+class StudyFolder:
+    """Reads and adds rows; `open_study` opens one for writing."""
+
+    def __init__(self, path: Path) -> None:
+        """Takes a folder that has a study in it.
+
+        Raises:
+            UsageError: There is none in it, or it is of another version.
+        """
+        self.path = path
+        self.about = _read_about(path)
+
+    def done(self) -> set[tuple[str, int]]:
+        """The keys of the trials whose runs are there."""
+        runs = self._read(_RUNS)
+        return set(zip(runs["condition"].tolist(), runs["seed"].tolist(), strict=True))
+
+    def tables(self) -> Tables:
+        """All rows."""
+        return {name: self._read(name) for name in COLUMNS}
+
+    def add(self, runs: Sequence[Run]) -> None:
+        """Adds a part.
+
+        Raises:
+            OctetError: It cannot be written; the study is as it was.
+        """
+        parts = self._parts()
+        number = parts[-1] + 1 if parts else 0
+        rows = [rows_of(run) for run in runs]
+        for name in reversed(list(COLUMNS)):
+            self._write(name, number, [row for one in rows for row in one[name]])
+
+    def _parts(self) -> list[int]:
+        return sorted(int(path.stem) for path in (self.path / _RUNS).glob("[0-9]*.parquet"))
+
+    def _file(self, table: str, number: int) -> Path:
+        return self.path / table / f"{number:06d}.parquet"
+
+    def _write(self, name: str, number: int, rows: Sequence[Row]) -> None:
+        pyarrow, parquet = library("pyarrow", "study"), library("pyarrow.parquet", "study")
+        table = pyarrow.Table.from_pylist(rows, _schema(name))
+        with replacing(self._file(name, number)) as part:
+            parquet.write_table(table, part, compression="zstd")
+
+    def _read(self, name: str) -> dict[str, Any]:
+        pyarrow, parquet = library("pyarrow", "study"), library("pyarrow.parquet", "study")
+        try:
+            tables = [parquet.read_table(self._file(name, number), schema=_schema(name)) for number in self._parts()]
+        except (OSError, pyarrow.ArrowException) as error:
+            raise UsageError(f"cannot read the study in {self.path}: {str(error).splitlines()[0]}") from None
+        whole = pyarrow.concat_tables([_schema(name).empty_table(), *tables])
+        return {column: whole[column].to_numpy() for column in whole.column_names}
+
+
+@contextmanager
+def open_study(path: Path, plan: Plan) -> Iterator[StudyFolder]:
+    """Opens a study's folder to add rows, and makes it if it is not there; no other process can add rows meanwhile.
+
+    Raises:
+        UsageError: The folder has something else in it, or the study of another plan or version; it stays as it is.
+    """
+    with run_folder(path):
+        about = {"format": FORMAT, "code": code_version(), "title": plan.title, **plan.of_rows()}
+        if not (path / STUDY_FILE).exists():
+            _make(path, about)
+        folder = StudyFolder(path)
+        _check_same(folder, about)
+        yield folder
+
+
+def _make(path: Path, about: dict[str, Any]) -> None:
+    ours = [path / name for name in COLUMNS]
+    # A study that was stopped here has left some of its folders, empty.
+    if not {*path.iterdir()} <= {*ours} or any(each.is_file() or any(each.iterdir()) for each in path.iterdir()):
+        raise UsageError(f"{path} has something else in it; choose another folder with --out")
+    for each in ours:
+        each.mkdir(exist_ok=True)
+    write_bytes(path / STUDY_FILE, json.dumps(about, indent=1).encode() + b"\n")
+
+
+def _read_about(path: Path) -> dict[str, Any]:
+    try:
+        about = json.loads(read_bytes(path / STUDY_FILE, _SIZE_MAX))
+        version = about["format"]
+    except FileNotFoundError:
+        raise UsageError(f"there is no study in {path}") from None
+    except (ValueError, LookupError, TypeError):
+        raise UsageError(f"{path / STUDY_FILE} is not what a study writes") from None
+    if version != FORMAT:
+        raise UsageError(f"the study in {path} is of format {version}, this Octet's is {FORMAT}; nothing was changed")
+    return dict(about)
+
+
+def _check_same(folder: StudyFolder, about: dict[str, Any]) -> None:
+    """A study goes on with the same plan, but for title and seeds, and the same robot in the same world."""
+    differ = [key for key in about if key != "title" and folder.about.get(key) != about[key]]
+    if differ == ["code"]:
+        why = "was made with another version of robot or world"
+    elif differ:
+        why = f"has other {', '.join(key for key in differ if key != 'code')}"
+    else:
+        return
+    raise UsageError(f"the study in {folder.path} {why}; nothing was changed: choose another folder with --out")
+
+
+def _schema(name: str) -> Any:
+    pyarrow = library("pyarrow", "study")
+    kinds = {str: pyarrow.string(), int: pyarrow.int64(), float: pyarrow.float64(), bool: pyarrow.bool_()}
+    return pyarrow.schema([(column, kinds[kind]) for column, kind in COLUMNS[name].items()])

@@ -1,0 +1,200 @@
+"""Reads a study's plan from its TOML file. A mistake is answered with its line and with what there is."""
+
+import importlib
+import itertools
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from host_sim.base.errors import UsageError
+from host_sim.base.regular_file import read_text
+from host_sim.lab.study.figures import FIGURES
+from host_sim.lab.study.plan import Condition, Goal, Plan
+from host_sim.lab.study.toml_lines import line_of, meant
+from host_sim.protocol.generated import PARAMETERS, PROFILES
+from host_sim.world.changes import Change
+from host_sim.world.world_names import RANDOM
+from host_sim.world.worlds import world_of
+
+_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+
+_SIZE_MAX = 1_000_000
+_SEED_MAX = 2**32 - 1
+_KEYS = (
+    *("title", "profiles", "robots", "worlds", "changes", "seeds", "first_seed", "environments", "limit_s"),
+    *("settings", "goals"),
+)
+_GOAL_KEYS = ("figure", "condition", "against", "at_least", "at_most")
+_PLAIN = "plain"
+_NO_CHANGE = "none"
+
+
+def read_plan(path: Path) -> Plan:
+    """Reads a plan.
+
+    Raises:
+        UsageError: The file cannot be read, or there is a mistake in it; the message names its line.
+    """
+    try:
+        text = read_text(path, _SIZE_MAX)
+        content = _toml.loads(text)
+    except FileNotFoundError:
+        raise UsageError(f"there is no file {path}") from None
+    except RecursionError:
+        raise UsageError(f"{path}: too many brackets within each other") from None
+    except UnicodeDecodeError:
+        raise UsageError(f"{path} is not a study: it is not text") from None
+    except _toml.TOMLDecodeError as error:
+        raise UsageError(f"{path}: {error}") from None
+    except ValueError:  # of Python, which reads no whole number of thousands of digits
+        raise UsageError(f"{path}: a number has too many digits") from None
+    return _Reader(path, text, content).plan()
+
+
+class _Reader:
+    """Reads one file."""
+
+    def __init__(self, path: Path, text: str, content: dict[str, Any]) -> None:
+        self._path, self._text, self._content = path, text, content
+
+    def plan(self) -> Plan:
+        self._check_keys(self._content, _KEYS, "")
+        if "profiles" not in self._content:
+            raise UsageError(f'{self._path}:1: profiles is missing, such as profiles = ["article", "fixed"]')
+        conditions = self._conditions()
+        first = self._number("first_seed", 1, 0, _SEED_MAX)
+        return Plan(
+            title=self._text_of("title", self._path.stem),
+            conditions=conditions,
+            first_seed=first,
+            seeds=self._number("seeds", Plan.seeds, 1, min(100_000, _SEED_MAX + 1 - first)),
+            environments=self._number("environments", Plan.environments, 1, 1000),
+            limit_s=float(self._number("limit_s", Plan.limit_s, 1, 86_400)),
+            goals=[self._goal(i, goal, conditions) for i, goal in enumerate(self._tables("goals"))],
+        )
+
+    def _conditions(self) -> list[Condition]:
+        profiles = self._words("profiles", _is_one_of(PROFILES))
+        settings = self._settings() or {_PLAIN: {}}
+        worlds = self._words("worlds", _is_world, [RANDOM])
+        changes = self._words("changes", _is_change, [_NO_CHANGE])
+        robots = self._content.get("robots", [1])
+        for count in robots if isinstance(robots, list) and robots else [None]:
+            self._check_number(count, "robots", 1, 31)
+        every = itertools.product(profiles, settings, worlds, changes, robots)
+        several = [len(values) > 1 for values in (profiles, settings, worlds, changes, robots)]
+        return [
+            Condition(
+                name=_name([profile, setting, world, change, f"{count} robots"], several),
+                profile=profile,
+                settings=settings[setting],
+                world=world,
+                change="" if change == _NO_CHANGE else change,
+                robots=count,
+            )
+            for profile, setting, world, change, count in every
+        ]
+
+    def _settings(self) -> dict[str, dict[str, int]]:
+        tables = self._content.get("settings", {})
+        if not isinstance(tables, dict) or not all(isinstance(table, dict) for table in tables.values()):
+            raise self._error("settings is a table for each setting, such as [settings.careful]", "", "settings")
+        for name, table in tables.items():
+            self._check_keys(table, PARAMETERS, f"settings.{name}")
+            for key, value in table.items():
+                self._check_number(value, key, PARAMETERS[key].minimum, PARAMETERS[key].maximum, f"settings.{name}")
+        return tables
+
+    def _goal(self, index: int, goal: dict[str, Any], conditions: Sequence[Condition]) -> Goal:
+        def fail(message: str, key: str) -> UsageError:
+            return self._error(message, "goals", key, index)
+
+        names = [condition.name for condition in conditions]
+        self._check_keys(goal, _GOAL_KEYS, "goals", index)
+        for key, words in (("figure", FIGURES), ("condition", names)):
+            if not isinstance(goal.get(key), str) or goal[key] not in words:
+                raise fail(f"{key} = {goal.get(key)!r}: {meant(goal.get(key), words)}", key)
+        if goal.get("against", names[0]) not in names:
+            raise fail(f"against = {goal['against']!r}: {meant(goal['against'], names)}", "against")
+        bounds = {key: goal[key] for key in ("at_least", "at_most") if key in goal}
+        for key, value in bounds.items():
+            if not isinstance(value, int | float) or isinstance(value, bool):
+                raise fail(f"{key} is a number, not {value!r}", key)
+        if not bounds:
+            raise fail("a goal has at_least, at_most or both", "")
+        return Goal(goal["figure"], goal["condition"], goal.get("against", ""), **bounds)
+
+    def _tables(self, key: str) -> list[dict[str, Any]]:
+        tables = self._content.get(key, [])
+        if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
+            raise self._error(f"{key} are tables, each under a line [[{key}]]", "", key)
+        return tables
+
+    def _words(self, key: str, check: Callable[[str], str], default: Sequence[str] = ()) -> list[str]:
+        """A list of different words, each of which passes a check that says what is wrong with it."""
+        words = self._content.get(key, list(default))
+        if not isinstance(words, list) or not words or not all(isinstance(word, str) for word in words):
+            raise self._error(f'{key} is a list of words, such as {key} = ["{(*default, "article")[0]}"]', "", key)
+        for word in words:
+            if wrong := check(word):
+                raise self._error(f"{key}: {wrong}", "", key)
+        if len(set(words)) < len(words):
+            raise self._error(f"{key}: something is there twice", "", key)
+        return words
+
+    def _number(self, key: str, default: float, low: float, high: float) -> Any:
+        value = self._content.get(key, default)
+        self._check_number(value, key, low, high, whole=isinstance(default, int))
+        return value
+
+    def _check_number(  # noqa: PLR0913 - which number, and what it may be
+        self, value: Any, key: str, low: float, high: float, table: str = "", *, whole: bool = True
+    ) -> None:
+        kinds = int if whole else (int, float)
+        if not isinstance(value, kinds) or isinstance(value, bool) or not low <= value <= high:
+            what = "a whole number" if whole else "a number"
+            raise self._error(f"{key} is {what} from {low:g} to {high:.10g}, not {value!r}", table, key)
+
+    def _text_of(self, key: str, default: str) -> str:
+        value = self._content.get(key, default)
+        if not isinstance(value, str) or "\n" in value:
+            raise self._error(f"{key} is a line of text, not {value!r}", "", key)
+        return value
+
+    def _check_keys(self, table: dict[str, Any], keys: Sequence[str] | dict[str, Any], name: str, i: int = 0) -> None:
+        for key in table:
+            if key not in keys:
+                raise self._error(f"unknown key {key!r}; {meant(key, keys)}", name, key, i)
+
+    def _error(self, message: str, table: str, key: str, index: int = 0) -> UsageError:
+        line = line_of(self._text, table, key, index)
+        if line == 1 and not table and key in ("settings", "goals"):
+            line = line_of(self._text, key)
+        return UsageError(f"{self._path}:{line}: {message}")
+
+
+def _is_one_of(words: dict[str, Any]) -> Callable[[str], str]:
+    return lambda word: "" if word in words else f"there is no {word!r}; {meant(word, words)}"
+
+
+def _is_change(word: str) -> str:
+    return "" if word == _NO_CHANGE else _mistake(Change.parse, word)
+
+
+def _is_world(word: str) -> str:
+    return _mistake(world_of, word)
+
+
+def _mistake(read: Callable[[str], object], word: str) -> str:
+    """What a reader says is wrong with a word."""
+    try:
+        read(word)
+    except UsageError as error:
+        return str(error)
+    return ""
+
+
+def _name(parts: Sequence[str], several: Sequence[bool]) -> str:
+    """What tells a condition from the others; its behaviour if there is only one."""
+    return " ".join(part for part, varies in zip(parts, several, strict=True) if varies) or parts[0]

@@ -1,0 +1,87 @@
+"""`tools/octet reproduce`: makes the tables, the plots and the numbers of docs/learning.md anew."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import ROOT
+from host_sim.cli.parsing import DEFAULT, add_command, file_path
+from host_sim.lab.study.study_command import add_workers, run_study, worker_stages, workers_of
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+
+_DOCUMENT = "learning.md"
+_EXAMPLES = """\
+examples:
+  tools/octet reproduce                  all of it: hours
+  tools/octet reproduce --only learned   one study; the other tables and plots stay
+"""
+_PLOTS = {"learned": ("learning", "survival"), "swapped": ("recovery",), "score": ("score",)}
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "reproduce",
+        _reproduce,
+        summary="measure all of docs/learning.md anew",
+        description="Runs every study of a folder and writes the document's tables, plots and numbers.",
+        epilog=_EXAMPLES,
+        stages=lambda arguments: ["study", *worker_stages(arguments)],
+    )
+    add = parser.add_argument
+    add(
+        "--studies",
+        type=file_path,
+        default=ROOT / "studies",
+        metavar="FOLDER",
+        help="folder of the studies (default: studies/)",
+    )
+    add(
+        "--docs",
+        type=file_path,
+        default=ROOT / "docs",
+        metavar="FOLDER",
+        help=f"folder with {_DOCUMENT}, where tables and plots go, too (default: docs/)",
+    )
+    add(
+        "--out",
+        type=file_path,
+        default=Path("out/reproduce"),
+        metavar="FOLDER",
+        help="folder for the rows" + DEFAULT,
+    )
+    add("--only", metavar="NAME", help="run only the study of this name (default: all)")
+    add_workers(parser)
+
+
+def _reproduce(arguments: argparse.Namespace) -> int:
+    from host_sim.base.atomic_file import write_bytes
+    from host_sim.lab.study.document import fill
+
+    a = arguments
+    paths = sorted(path for path in a.studies.glob("*.toml") if a.only in (None, path.stem))
+    if not paths:
+        raise UsageError(f"there is no study {a.only or ''} in {a.studies}".replace("  ", " "))
+    for path in paths:
+        _reproduce_study(path, arguments)
+    document = a.docs / _DOCUMENT
+    write_bytes(document, fill(document.read_text(), a.docs).encode())
+    print(f"wrote     {document}")
+    return 0
+
+
+def _reproduce_study(path: Path, arguments: argparse.Namespace) -> None:
+    from host_sim.lab.study.compare_command import of_study
+    from host_sim.lab.study.document import TABLES, write_table
+    from host_sim.lab.study.plots import draw_plots
+
+    name, docs = path.stem, arguments.docs
+    runs = run_study(path, arguments.out / name, workers_of(arguments), arguments.chunk)
+    _, samples = of_study(arguments.out / name)
+    write_table(samples, docs / TABLES / f"{name}.csv")
+    draw_plots(samples, docs / "images", f"{name}-", _PLOTS.get(name, ()))
+    print(f"{name:9} {runs}", flush=True)

@@ -1,0 +1,141 @@
+"""What the rows of one condition say, seed by seed: what figures are made of."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from host_sim.lab.study.tables import Columns, Tables
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Sample:
+    """One condition. All arrays have an entry for each seed; those that say so, one for each of its environments too.
+
+    Attributes:
+        name: The condition.
+        robots: Number of robots in each environment.
+        seeds: The seeds, ascending.
+        finished: For each environment, 1 if all food was eaten, else 0.
+        robot_s: For each environment, robot time, s.
+        trapped: For each environment, 1 if a contact of it took more than 60 s, else 0.
+        bumped: For each environment, 1 if a body touched something, else 0.
+        wrong: The part of the robots that know a wrong turn in the end.
+        contacts: Number of contacts.
+        blocked_s: Robot time of all contacts, s.
+        turns: Turns of all contacts.
+        cleared: Number of contacts after which the way was clear.
+        known_s: Robot time until a turn was known for patterns 1, 3, 4 and 6, s; infinite if it never was.
+        blocked_at: For each of the first robot's first contacts, how long it took, s; NaN where there was none.
+        wrong_at: For each of the first robot's first contacts after the change, 1 if it knew a wrong turn then, else
+            0; NaN where there was none.
+        recovery: Contacts after the change until the turns for patterns 1 and 4 were right, and no wrong one known;
+            infinite if that never was, and NaN without a change.
+    """
+
+    name: str
+    robots: int
+    seeds: NDArray[np.int64]
+    finished: Floats
+    robot_s: Floats
+    trapped: Floats
+    bumped: Floats
+    wrong: Floats
+    contacts: Floats
+    blocked_s: Floats
+    turns: Floats
+    cleared: Floats
+    known_s: Floats
+    blocked_at: Floats
+    wrong_at: Floats
+    recovery: Floats
+
+
+CURVE = 100
+"""Number of contacts in a curve."""
+
+_TRAPPED_S = 60.0
+_BESIDE = (1, 4)
+"""The patterns of a thing beside the robot."""
+
+
+def samples_of(tables: Tables, conditions: Sequence[str] = ()) -> list[Sample]:
+    """A sample for each condition, all with the same seeds: those that every condition has.
+
+    Args:
+        tables: The rows.
+        conditions: The conditions in the order wanted; by default that of the rows.
+    """
+    runs = tables["runs"]
+    names = conditions or list(dict.fromkeys(runs["condition"].tolist()))
+    by_name = [set(runs["seed"][runs["condition"] == name].tolist()) for name in names]
+    seeds = np.array(sorted(set.intersection(*by_name)) if by_name else [], np.int64)
+    return [
+        _sample({name: _of(table, condition, seeds) for name, table in tables.items()}, condition, seeds)
+        for condition in names
+    ]
+
+
+def _of(table: Columns, condition: str, seeds: NDArray[np.int64]) -> Columns:
+    """The rows of a condition, by seed; rows of one seed keep their order."""
+    wanted = np.flatnonzero((table["condition"] == condition) & np.isin(table["seed"], seeds))
+    wanted = wanted[np.argsort(table["seed"][wanted], kind="stable")]
+    return {name: column[wanted] for name, column in table.items()}
+
+
+def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
+    runs, environments, contacts = tables["runs"], tables["environments"], tables["contacts"]
+    count = len(seeds)
+    index, first = np.searchsorted(seeds, contacts["seed"]), contacts["robot"] == 0
+
+    def each(column: NDArray[Any]) -> Floats:
+        return column.astype(np.float64).reshape(count, -1)
+
+    def total(column: Any) -> Floats:
+        return np.bincount(index, column, count).astype(np.float64)
+
+    robots = runs["robots"].astype(np.float64)
+    trapped = np.zeros((count, len(environments["seed"]) // max(count, 1)))
+    long = contacts["blocked_s"] > _TRAPPED_S
+    trapped[index[long], contacts["environment"][long] - 1] = 1
+    return Sample(
+        name=name,
+        robots=int(np.max(robots, initial=1)),
+        seeds=seeds,
+        finished=each(environments["finished"]),
+        robot_s=each(environments["robot_s"]),
+        trapped=trapped,
+        bumped=each(environments["collisions"] > 0),
+        wrong=each(environments["wrong"])[:, -1] / robots if count else robots,
+        contacts=total(np.ones(len(index))),
+        blocked_s=total(contacts["blocked_s"]),
+        turns=total(contacts["trials"] + contacts["remembered"] + contacts["boredoms"]),
+        cleared=total(contacts["cleared"]),
+        known_s=runs["known_s"].astype(np.float64),
+        blocked_at=_curve(index, contacts["blocked_s"], first, count),
+        wrong_at=_curve(index, contacts["wrong"], first & contacts["changed"], count),
+        recovery=np.array([_recovery(contacts, environments, seed) for seed in seeds]),
+    )
+
+
+def _curve(index: NDArray[np.int64], values: NDArray[Any], wanted: NDArray[np.bool_], count: int) -> Floats:
+    """The first wanted values of each seed; rows of a seed are neighbours."""
+    curve = np.full((count, CURVE), np.nan)
+    for seed in range(count):
+        found = values[wanted & (index == seed)][:CURVE]
+        curve[seed, : len(found)] = found
+    return curve
+
+
+def _recovery(contacts: Columns, environments: Columns, seed: int) -> float:
+    """The number of the first robot's contacts after the change up to the one with which it has recovered."""
+    if not environments["changed"][environments["seed"] == seed].any():
+        return float("nan")
+    ours = (contacts["seed"] == seed) & contacts["changed"] & (contacts["robot"] == 0)
+    knows = [all(sides[pattern] != "0" for pattern in _BESIDE) for sides in contacts["sides"][ours]]
+    recovered = np.flatnonzero(np.array(knows, bool) & ~contacts["wrong"][ours])
+    return float(recovered[0] + 1) if len(recovered) else float("inf")

@@ -1,0 +1,143 @@
+"""`tools/octet study`: runs a study, and goes on with one that was stopped."""
+
+import argparse
+import os
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from host_sim.cli.parsing import DEFAULT, add_command, file_path, number
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+    from host_sim.lab.study.folder import StudyFolder
+    from host_sim.lab.study.trial import Run, Trial
+    from host_sim.lab.study.workers import Workers
+
+_EXAMPLES = """\
+examples:
+  tools/octet study studies/learned.toml                          learned against programmed
+  tools/octet study studies/learned.toml --out out/mine           into another folder
+  tools/octet study studies/learned.toml --dask tcp://host:8786   on a cluster (tools/octet dask)
+  tools/octet compare out/studies/learned                         what came of it
+
+A study that was stopped goes on with the same command. More seeds in the file are added in the same way.
+"""
+_WRITE_S = 5.0
+_OUT = Path("out/studies")
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "study",
+        _study,
+        summary="run behaviours through many environments, as a file says",
+        description="Runs each condition of a study with the same seeds, on all cores, and writes Parquet.",
+        epilog=_EXAMPLES,
+        stages=lambda arguments: ["study", *worker_stages(arguments)],
+    )
+    add = parser.add_argument
+    add("plan", type=file_path, metavar="FILE.toml", help="the study")
+    add("--out", type=file_path, metavar="FOLDER", help=f"folder for the rows (default: {_OUT}/NAME)")
+    add_workers(parser)
+
+
+def add_workers(parser: argparse.ArgumentParser) -> None:
+    """Adds the options that say who makes the runs."""
+    add = parser.add_argument
+    add("--jobs", type=number(1, 1024), default=os.cpu_count(), metavar="N", help="processes" + DEFAULT)
+    add("--dask", metavar="ADDRESS", help="use the cluster of this Dask scheduler, such as tcp://host:8786, instead")
+    add(
+        "--chunk",
+        type=number(1, 100_000),
+        default=0,
+        metavar="N",
+        help="runs to hand over at once (default: as many as suit the work)",
+    )
+
+
+def worker_stages(arguments: argparse.Namespace) -> list[str]:
+    """The stages of tools/setup that those who make the runs need."""
+    return ["cluster"] if arguments.dask else []
+
+
+def workers_of(arguments: argparse.Namespace) -> "Workers":
+    """Who makes the runs.
+
+    Raises:
+        UsageError: There is no scheduler at the address.
+    """
+    from host_sim.lab.study.workers import cluster, processes
+
+    return cluster(arguments.dask) if arguments.dask else processes(arguments.jobs)
+
+
+def _study(arguments: argparse.Namespace) -> int:
+    out = arguments.out or _OUT / arguments.plan.stem
+    runs = run_study(arguments.plan, out, workers_of(arguments), arguments.chunk)
+    print(f"wrote     {out} ({runs})\ncompare   tools/octet compare {out}")
+    return 0
+
+
+def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
+    """Runs what is missing of a study, and says how much that was."""
+    from host_sim.base.atomic_file import write_bytes
+    from host_sim.lab.study.folder import PLAN_FILE, open_study
+    from host_sim.lab.study.plan_file import read_plan
+
+    plan = read_plan(path)
+    with open_study(out, plan) as folder:
+        write_bytes(out / PLAN_FILE, path.read_bytes())
+        done = folder.done()
+        trials = [trial for trial in plan.trials() if trial.key not in done]
+        with _kept(folder) as keep:
+            for runs in with_progress(trials, workers, chunk):
+                keep.extend(runs)
+    return f"{len(trials)} runs, {len(plan.trials()) - len(trials)} were there" if done else f"{len(trials)} runs"
+
+
+def with_progress(trials: "Sequence[Trial]", workers: "Workers", chunk: int = 0) -> "Iterator[Sequence[Run]]":
+    """Makes runs, with a progress bar."""
+    from host_sim.cli.progress_bar import ProgressBar
+    from host_sim.lab.study.workers import run_all
+
+    bar = ProgressBar(len(trials), "runs")
+    bar.add(0)
+    try:
+        for runs in run_all(trials, workers, chunk):
+            bar.add(len(runs))
+            yield runs
+    finally:
+        bar.clear()
+
+
+class _Keeper:
+    """Writes runs, every few seconds."""
+
+    def __init__(self, folder: "StudyFolder") -> None:
+        self._folder, self._runs, self._written = folder, list["Run"](), 0.0
+
+    def extend(self, runs: "Sequence[Run]") -> None:
+        self._runs += runs
+        if time.monotonic() >= self._written + _WRITE_S:
+            self.write()
+
+    def write(self) -> None:
+        runs, self._runs = self._runs, []  # a signal that comes while they are written must not write them twice
+        if runs:
+            self._folder.add(runs)
+        self._written = time.monotonic()
+
+
+@contextmanager
+def _kept(folder: "StudyFolder") -> Iterator[_Keeper]:
+    """Writes what there is, however the study ends."""
+    keeper = _Keeper(folder)
+    try:
+        yield keeper
+    finally:
+        keeper.write()

@@ -1,0 +1,171 @@
+"""One run of a study: robots in some environments, and what it shows of their behaviour."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+from host_sim.client.commands import stop
+from host_sim.client.frame_log import FrameLog
+from host_sim.lab.study.contacts import BodyState, Contact, ContactWatch, Course
+from host_sim.protocol.generated import Side
+from host_sim.protocol.memory_kinds import Memory, sides_of
+from host_sim.sim.make import make
+from host_sim.sim.native_loop import BLOCK_TICKS
+from host_sim.sim.run_config import RunConfig
+from host_sim.sim.simulation import Simulation
+from host_sim.world.world_names import RANDOM
+
+PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
+"""The turn away from what is beside the robot, for each pattern in which something is on one side only."""
+
+_OTHER = {Side.LEFT: Side.RIGHT, Side.RIGHT: Side.LEFT}
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A run to be made.
+
+    Attributes:
+        profile: The behaviour.
+        seed: Seed for environments and random turns.
+        environments: Number of environments.
+        settings: Parameters to change from their defaults, by name.
+        world: Name of the world that the environments are drawn from.
+        change: What the world and the bodies meet with, as `host_sim.world.changes` has it; empty for nothing.
+        limit_s: Time limit for each environment, s of robot time.
+        robots: Number of robots in each environment.
+        robot: Where they come from: `spawn` for this process, `emulated` for the flash image on an emulated board.
+        condition: What the run's condition is called: all runs that differ only in the seed have the same.
+    """
+
+    profile: str
+    seed: int
+    environments: int = 5
+    settings: dict[str, int] = field(default_factory=dict)
+    world: str = RANDOM
+    change: str = ""
+    limit_s: float = 600.0
+    robots: int = 1
+    robot: str = "spawn"
+    condition: str = ""
+
+    @property
+    def key(self) -> tuple[str, int]:
+        """What tells the runs of a study apart."""
+        return self.condition or self.profile, self.seed
+
+    def command(self) -> str:
+        """A command that repeats the run."""
+        change = f" --change {self.change}" if self.change else ""
+        sets = "".join(f" --set {name}={value}" for name, value in sorted(self.settings.items()))
+        return (
+            f"tools/run --bus none --seed {self.seed} --profile {self.profile} --environments {self.environments}"
+            f" --limit-s {self.limit_s:g} --robots {self.robots} --world {self.world}{change}{sets}"
+        )
+
+
+@dataclass
+class Row:
+    """One environment of a run.
+
+    Attributes:
+        number: Number of the environment, from 1.
+        finished: Whether all food was eaten.
+        robot_s: Robot time, s.
+        contacts: Each robot's contacts.
+        collisions: Number of times that a body began to touch something.
+        sides: The turns for each pattern that each robot knows in the end.
+        bodies: What has happened to each robot's body.
+        tick_s: Length of a tick, s.
+    """
+
+    number: int
+    finished: bool
+    robot_s: float
+    contacts: list[list[Contact]]
+    collisions: int
+    sides: list[Memory]
+    bodies: list[BodyState]
+    tick_s: float
+
+
+@dataclass
+class Run:
+    """What came of a trial.
+
+    Attributes:
+        trial: The trial.
+        rows: Its environments.
+        known_s: For each robot, robot time until it knew a turn for each of the patterns 1, 3, 4 and 6; None if it
+            never did.
+        log_sha256: SHA-256 of the log that the run would have written, in hexadecimal.
+    """
+
+    trial: Trial
+    rows: list[Row]
+    known_s: list[float | None]
+    log_sha256: str
+
+
+def run_trial(trial: Trial) -> Run:
+    """Runs a trial in this process; equal trials give equal results."""
+    log = FrameLog()
+    known_s: list[float | None] = [None] * trial.robots
+    try:
+        with make(_config(trial), log) as simulation:
+            rows = list(_rows(trial, simulation, known_s))
+            for client in simulation.clients:
+                stop(client)
+    finally:
+        sha256 = log.close()
+    return Run(trial, rows, known_s, sha256)
+
+
+def _config(trial: Trial) -> RunConfig:
+    names = ("seed", "environments", "profile", "settings", "world", "limit_s", "robots", "robot")
+    changes = (trial.change,) if trial.change else ()
+    return RunConfig(**{name: getattr(trial, name) for name in names}, changes=changes)
+
+
+def _rows(trial: Trial, simulation: Simulation, known_s: list[float | None]) -> Iterator[Row]:
+    for number in range(1, trial.environments + 1):
+        simulation.enter(number)
+        yield _run_environment(simulation, trial, number, known_s)
+
+
+def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s: list[float | None]) -> Row:
+    watches = [ContactWatch(index) for index in range(trial.robots)]
+
+    def watch(simulation: Simulation) -> None:
+        for each in watches:
+            each(simulation)
+
+    simulation.watch, first_tick = watch, simulation.tick
+    while not simulation.over:
+        simulation.step(BLOCK_TICKS)
+    episode = simulation.leave()
+    for index, each in enumerate(watches):
+        if known_s[index] is None:
+            known_s[index] = _known_s(each.memories, first_tick, episode.tick_s)
+    return Row(
+        number=number,
+        finished=episode.finished,
+        robot_s=episode.robot_s,
+        contacts=[each.contacts() for each in watches],
+        collisions=sum(robot.collisions for robot in episode.robots),
+        sides=[sides_of(robot.memory) for robot in episode.robots],
+        bodies=[each.body for each in watches],
+        tick_s=episode.tick_s,
+    )
+
+
+def knows_wrong(sides: Sequence[int], body: BodyState) -> bool:
+    """Whether a turn is known for one of the patterns of `PROPER` that leads toward what is beside the robot."""
+    wrong = {pattern: side if body.is_reversed else _OTHER[side] for pattern, side in PROPER.items()}
+    return any(sides[pattern] == side for pattern, side in wrong.items())
+
+
+def _known_s(memories: Course[Memory], first_tick: int, tick_s: float) -> float | None:
+    for ticks, memory in memories:
+        if all(sides_of(memory)[pattern] for pattern in PROPER):
+            return round((first_tick + ticks) * tick_s, 3)
+    return None

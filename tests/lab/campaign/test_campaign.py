@@ -1,0 +1,267 @@
+"""A sample of the campaign: each fault is seen, nothing is unsafe, and what is not seen fails it."""
+
+import shlex
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from host_sim.base.errors import RobotError, UsageError
+from host_sim.faults.event import Event
+from host_sim.lab.campaign import matrix
+from host_sim.lab.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
+from host_sim.lab.campaign.course import CourseLog
+from host_sim.lab.campaign.html_report import page, summary, verdict
+from host_sim.lab.campaign.links import LINKS, open_setup
+from host_sim.lab.campaign.matrix import FaultClass, default_limit_s, groups
+from host_sim.lab.campaign.outcome import Outcome
+from host_sim.lab.campaign.running import run_all
+from host_sim.lab.campaign.shrink import shrink
+from host_sim.protocol.codec import Frame
+from tests.lab.campaign.support import CLEAN, outcome_of
+from tests.runs.support import octet
+
+SHOWS_LATE = "the left sensor is stuck off"
+"""A robot is rarely led by that one."""
+
+
+def test_each_fault_is_seen_and_told(tmp_path, monkeypatch):
+    report = tmp_path / "campaign.html"
+    soon = tuple(each for each in matrix.CLASSES if each.name != SHOWS_LATE)
+    monkeypatch.setattr(groups, "__defaults__", (soon,))
+
+    done = octet("campaign", report, "--profiles", "article", "--limit-s", "15")
+
+    assert (done.returncode, done.stderr) == (0, "")
+    runs = 1 + len([each for each in soon if not each.links and not each.profiles])
+    assert f"{runs} runs: 0 not as they should be" in done.stdout
+    text = report.read_text()
+    assert text.count("<details>") == runs
+    assert "http" not in text
+    assert "--fault drop:30%" in text
+
+
+def test_a_fault_that_shows_late_is_seen_in_a_run_that_is_long_enough():
+    late = [each for each in matrix.CLASSES if each.name == SHOWS_LATE]
+    (cells,) = groups(["article"], ["none"], [LOCKSTEP], lambda _: 30.0, late)
+
+    _, found = run_all(cells)
+
+    assert (found.problems, found.seen) == ([], "what it does")
+
+
+def test_a_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
+    nothing = FaultClass("nothing that happens", faults=("drop@999999",))
+    monkeypatch.setattr(groups, "__defaults__", ((nothing,),))
+
+    done = octet("campaign", tmp_path / "campaign.html", "--profiles", "article", "--limit-s", "2")
+
+    assert done.returncode == 1
+    assert done.stderr.startswith("UNSEEN: nothing that happens: tools/run ")
+
+
+def test_a_robot_that_does_not_come_up_breaks_its_run_and_not_the_campaign(monkeypatch):
+    def fail(link):
+        raise RobotError(f"the robot on {link} was not ready")
+
+    monkeypatch.setattr("host_sim.lab.campaign.running.open_setup", fail)
+
+    (found,) = run_all([CLEAN])
+
+    assert (found.problems, found.end) == (["broke"], "the robot on none was not ready")
+
+
+def test_a_fault_of_the_body_is_not_seen_by_frames_that_are_repeated(monkeypatch):
+    def repeat(client):
+        client.frames.repeated += 1
+
+    monkeypatch.setattr("host_sim.lab.campaign.running.stop", repeat)
+    nothing = replace(CLEAN, fault="a motor that is as before", changes=("weak-motor:left:100%@1s",))
+
+    *_, found = run_all([CLEAN, nothing])
+
+    assert found.problems == ["unseen"]
+
+
+def test_a_run_that_breaks_or_is_unsafe_or_misled_is_a_problem():
+    (outcome,) = run_all([replace(CLEAN, limit_s=1.0)])
+    assert outcome.problems == []
+
+    outcome.oldest, outcome.wrong, outcome.broke = 6, (1,), True
+
+    assert outcome.problems == ["unsafe", "wrong without a word", "broke"]
+    assert verdict(outcome) == "UNSAFE, WRONG WITHOUT A WORD, BROKE"
+    assert 'class="bad"' in page([outcome])
+
+
+def test_a_body_that_denies_its_wheels_must_be_told_of_by_the_robot_and_nothing_wrong_be_learned():
+    cell = replace(CLEAN, fault="odometers are swapped", changes=("swap-odometers@2s",))
+    told = Outcome(cell, seen="3 denied")
+
+    assert told.problems == Outcome(cell, seen="what it does", wrong=(1,)).problems == []
+    assert replace(told, cell=replace(cell, denies=True)).problems == []
+    assert Outcome(replace(cell, denies=True), seen="what it does", wrong=(1,)).problems == [
+        *("unseen", "wrong without a word"),
+    ]
+
+
+@pytest.mark.parametrize("name", ["no fault", "a third of the frames is lost", "the ring of sensors is mirrored"])
+def test_the_command_of_a_cell_repeats_it(tmp_path, name):
+    (cells,) = groups(["adaptive"], ["none"], [LOCKSTEP], lambda _: 3.0)
+    cell = next(cell for cell in cells if (cell.fault or "no fault") == name)
+    (outcome,) = run_all([cell])
+
+    done = octet("run", "--out", tmp_path, *shlex.split(cell.command())[1:], "--json")
+
+    assert done.returncode == 0
+    assert outcome.digest in done.stdout
+
+
+def test_an_image_that_is_missing_is_a_problem_and_not_a_robot_that_ended_in_order(monkeypatch):
+    monkeypatch.setattr("host_sim.emulator.board.image_path", lambda board, link: Path("nowhere", board, link))
+
+    assert outcome_of("article blue_pill lockstep seed=12 limit=1 event=reset@20").broke
+
+
+def test_each_cell_is_a_line_that_is_read_as_it_was_written():
+    everywhere = groups(["article", "five"], LINKS, PACES, default_limit_s)
+
+    for cell in (cell for cells in everywhere for cell in cells):
+        assert Cell.parse(str(cell)) == cell
+
+
+def test_a_schedule_is_shrunk_to_what_matters():
+    line = "article none lockstep seed=12 limit=13 fault=duplicate:9% fault=forge:stop@300/to change=mirror@2s"
+
+    *_, smallest = shrink(Cell.parse(line), lambda smaller: outcome_of(str(smaller)))
+
+    assert smallest.cell.items == ["fault=forge:stop@300/to"]
+    assert smallest.cell.limit_s < 13
+
+
+def test_a_fault_with_a_chance_is_shrunk_to_the_frames_that_matter():
+    def attempt(cell: Cell) -> Outcome:
+        struck = [rule for rule in ("drop@7/to", "drop@9-12/to") if cell.faults]
+        lost = "drop:30%" in cell.faults or "drop@7/to" in cell.faults
+        return Outcome(cell, end="lost" if lost else "", struck=tuple(struck), seen="x")
+
+    *_, smallest = shrink(replace(CLEAN, faults=("drop:30%",), limit_s=0.5), attempt)
+
+    assert smallest.cell.faults == ("drop@7/to",)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "article none lockstep",
+        "nobody none lockstep seed=1 limit=3",
+        "article none slowly seed=1 limit=3",
+        "article none lockstep seed=1 limit=3 drop:30%",
+        "article none lockstep seed=1 limit=3 fault=meteor!",
+        "article none lockstep seed=1 limit=3 event=reset",
+        "article none lockstep seed=1 limit=3 event=reset@20",
+        "article nowhere lockstep seed=1 limit=3",
+        "article vcan lockstep seed=1 limit=3 event=kill@x",
+    ],
+)
+@pytest.mark.parametrize("option", ["--repeat", "--shrink"])
+def test_what_is_no_cell_is_one_line(option, text):
+    done = octet("campaign", option, text)
+
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+
+
+def test_a_campaign_without_a_report_says_what_it_needs():
+    done = octet("campaign")
+
+    assert (done.returncode, "FILE.html" in done.stderr) == (2, True)
+
+
+def test_robots_do_not_meet_on_the_bus_that_they_share():
+    done = octet("campaign", "campaign.html", "--links", "fd", "vcan", "--jobs", "2")
+
+    assert (done.returncode, done.stderr) == (
+        2,
+        "octet: vcan0 is one bus for one robot at a time: leave out --jobs\n",
+    )
+
+
+def test_the_report_begins_with_what_is_not_as_it_should_be_and_does_not_say_anything_twice():
+    cells = [replace(CLEAN, fault=name, events=(Event("kill", 0, 20),)) for name in ("good", "unseen", "long")]
+    ended, bad = Outcome(cells[0], seen="it ended", end="it ended"), Outcome(cells[1])
+    doubted = Outcome(cells[2], doubts=tuple(f"doubt {number}" for number in range(9)))
+
+    text = page([ended, bad, doubted])
+
+    assert text.index("UNSEEN") < text.index('<h2 id="article">') < text.index("good")
+    assert text.count("it ended") == 1
+    assert "doubt 2</p><p>and 6 more like these" in text
+    assert "Not as they should be" not in page([ended])
+
+
+def test_a_cell_is_repeated_and_shrunk_from_the_command_line():
+    line = "article none lockstep seed=12 limit=2 fault=drop:5% fault=forge:stop@90/to"
+
+    again, smaller = octet("campaign", "--repeat", line), octet("campaign", "--shrink", line)
+
+    assert (again.returncode, again.stderr) == (0, "")
+    assert "somebody else stopped node 1" in again.stdout
+    assert smaller.stdout.splitlines()[-1].startswith("ended: article none lockstep seed=12 limit=")
+    assert smaller.stdout.splitlines()[-1].endswith(" fault=forge:stop@90/to")
+    assert REAL_TIME not in smaller.stdout
+
+
+def test_where_there_is_no_such_link_it_is_said():
+    with pytest.raises(UsageError, match="no link"), open_setup("carrier pigeon"):
+        raise AssertionError
+
+
+def test_reports_that_come_later_are_no_other_course():
+    logs = [CourseLog() for _ in range(3)]
+    senses, drive, heartbeat, other = (Frame(number, bytes(8)) for number in (0x101, 0x041, 0x6A1, 0x042))
+    said = [(heartbeat, senses, drive), (senses, other, drive, heartbeat), (senses, Frame(0x041, bytes([1] * 8)))]
+
+    for log, frames in zip(logs, said, strict=True):
+        for frame in frames:
+            log.add(frame)
+        log.close()
+
+    first, later, different = (log.course for log in logs)
+    assert first == later != different
+
+
+def test_what_need_not_be_noticed_must_not_leave_a_trace():
+    outcome = Outcome(replace(CLEAN, fault="a clock that drifts", harmless=True))
+    assert outcome.problems == []
+
+    outcome.differs = True
+
+    assert outcome.problems == ["unseen"]
+
+
+NEVER = FaultClass("a fault that never comes", ("forge:erase@99999/to",), harmless=PACES)
+REFUSED = FaultClass("forged senses", ("forge:SENSES@300-303/to",), harmless=PACES)
+REACHED = FaultClass("a forged erase", ("forge:erase@300/to",))
+
+
+@pytest.mark.parametrize(("fault", "reach"), [(NEVER, "never came"), (REFUSED, "refused"), (REACHED, "reached")])
+def test_each_run_says_whether_its_fault_reached_its_receiver(fault, reach):
+    (cells,) = groups(["article"], ["none"], [LOCKSTEP], lambda _: 8.0, [fault])
+
+    _, outcome = run_all(cells)
+
+    assert outcome.reach == reach
+    assert f"fault: {reach}" in page([outcome])
+    assert ('class="well"' in page([outcome]), fault.name in summary([outcome])) == (False, reach != "reached")
+
+
+def test_a_fault_that_never_comes_fails_the_campaign(tmp_path, monkeypatch):
+    monkeypatch.setattr("host_sim.lab.campaign.matrix.groups.__defaults__", ((NEVER,),))
+    words = ("--profiles", "article", "--limit-s", "3")
+
+    done = octet("campaign", tmp_path / "campaign.html", *words)
+
+    assert done.returncode == 1
+    assert "none reached its receiver: a fault that never comes" in done.stdout

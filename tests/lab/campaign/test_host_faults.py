@@ -1,0 +1,163 @@
+"""Faults of this host: of its disk, its folders, its files and its clock."""
+
+import time
+from contextlib import ExitStack
+
+import pytest
+
+from host_sim.base.errors import OctetError
+from host_sim.lab.campaign.run_files import RunFiles
+from host_sim.lab.campaign.wall_clock import clock_events
+from host_sim.protocol.codec import Frame
+from host_sim.recording.memory_file import MemorySaver
+from tests.lab.campaign.support import leaves_a_trace, outcome_of
+from tests.runs.support import octet
+
+LEARNS = "article none lockstep seed=12 limit=12"
+NOTHING, SOME = (0,) * 8, (0, 1, 0, 0, 0, 0, 0, 0)
+
+ENDS = [
+    ("disk-full@100", "cannot write robot.mem: File too large"),
+    ("disk-full:10000@100", "cannot write run.log.part: File too large"),
+    ("read-only@100", "cannot write robot.mem: Permission denied"),
+    ("folder-gone@100", "cannot write robot.mem: No such file or directory"),
+    ("log-gone@100", "cannot write run.log: No such file or directory"),
+]
+
+
+@pytest.mark.parametrize(("event", "told"), ENDS, ids=[event for event, _ in ENDS])
+def test_a_run_whose_files_cannot_be_written_says_so_and_what_was_saved_stays(event, told):
+    outcome = outcome_of(f"{LEARNS} event={event}")
+
+    assert outcome.problems == []
+    assert (outcome.end, outcome.seen, outcome.broke) == (told, told, False)
+
+
+def test_a_memory_file_that_vanishes_is_written_again():
+    outcome = outcome_of("article fd lockstep seed=12 limit=1 event=memory-gone@20")
+
+    assert (outcome.problems, outcome.end) == ([], "")
+    assert "robot.mem has vanished during the run, and is written again" in outcome.seen
+
+
+def test_a_memory_that_is_not_in_its_file_at_the_end_fails_the_campaign(monkeypatch):
+    monkeypatch.setattr(MemorySaver, "finish", MemorySaver.save)
+
+    outcome = outcome_of("article none lockstep seed=12 limit=1 event=memory-gone@20")
+
+    assert outcome.problems == ["unseen", "lost without a word"]
+
+
+@pytest.fixture
+def files(tmp_path):
+    with ExitStack() as undo:
+        written = RunFiles(tmp_path, undo)
+        written.save(SOME)
+        written.log.add(Frame(0x41, b""))
+        yield written
+        written.close()
+
+
+def test_files_that_hold_all_have_lost_nothing(files):
+    files.finish(SOME)
+
+    assert files.lost() == ""
+
+
+@pytest.mark.parametrize(("name", "what"), [("run.log", "the log"), ("robot.mem", "the memory")])
+def test_a_file_that_holds_something_else_has_lost_it(files, tmp_path, name, what):
+    files.finish(SOME)
+    (tmp_path / name).write_bytes(bytes(NOTHING))
+
+    assert files.lost() == what
+
+
+def test_a_file_that_is_half_written_when_the_run_ends_has_lost_something(files, tmp_path):
+    (tmp_path / "robot.mem").write_bytes(bytes(SOME[:4]))
+
+    assert files.lost() == "the memory"
+
+
+def test_the_harm_to_files_is_taken_back(tmp_path):
+    with ExitStack() as undo:
+        files = RunFiles(tmp_path, undo)
+        for event in ("read-only", "disk-full"):
+            files.events[event](0)
+        with pytest.raises(OctetError):
+            files.save(SOME)
+        files.close()
+
+    (tmp_path / "file").write_text("it can be written again")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["file", "run.log.part"]
+
+
+@pytest.mark.parametrize("event", ["kill-simulator:7000@100", "kill-saving:200@200"])
+def test_a_simulator_that_is_killed_has_kept_the_memory_and_another_one_goes_on_with_it(event):
+    outcome = outcome_of(f"{LEARNS} event={event}")
+
+    assert (outcome.problems, outcome.end, outcome.recovered) == ([], "", True)
+    assert outcome.seen == "the simulator was killed, and another one went on with its memory"
+
+
+def test_another_simulator_takes_over_the_robot_of_one_that_was_killed():
+    outcome = outcome_of("article slcan lockstep seed=12 limit=1 event=kill-simulator:7000@20")
+
+    assert (outcome.problems, outcome.end, outcome.recovered) == ([], "", True)
+
+
+def test_a_memory_that_is_not_in_its_file_when_the_simulator_is_killed_fails_the_campaign(monkeypatch):
+    monkeypatch.setattr(MemorySaver, "save", lambda *_: None)
+
+    assert "lost without a word" in outcome_of(f"{LEARNS} event=kill-simulator:5@400").problems
+
+
+def test_a_simulator_that_ends_before_it_is_killed_fails_the_campaign(monkeypatch):
+    line = "article none lockstep seed=12 limit=1 event=kill-simulator:5@400"
+
+    assert "did not happen" in outcome_of(line).problems
+
+    monkeypatch.setattr(MemorySaver, "save", lambda *_: 1 // 0)
+    outcome = outcome_of(line)
+    assert "broke" in outcome.problems
+    assert outcome.end == "ZeroDivisionError: integer division or modulo by zero"
+
+
+@pytest.mark.parametrize("event", ["clock-ahead:3600", "clock-back:3600"])
+def test_a_wall_clock_that_is_set_leaves_no_trace_in_lockstep(event):
+    assert not leaves_a_trace(event, "fd", limit_s=1)
+
+
+def test_the_world_goes_on_in_real_time_when_the_clock_is_set_back_while_the_robot_hangs():
+    outcome = outcome_of("article fd real-time seed=12 limit=2 event=hang:500@20 event=clock-back:3600@20")
+
+    assert outcome.problems == []
+    assert "lost" in outcome.seen
+
+
+def test_the_clock_is_set_after_the_next_reading_and_set_right_in_the_end():
+    began_s = time.time()
+    with ExitStack() as undo:
+        clock_events(undo)["clock-back"](3600)
+        readings = [time.time() for _ in range(3)]
+
+    assert [began_s - reading > 1800 for reading in readings] == [False, True, True]
+    assert time.time() > began_s - 1800
+
+
+def test_a_cell_that_need_not_be_noticed_is_repeated_as_one():
+    done = octet("campaign", "--repeat", "article none lockstep seed=12 limit=2 event=clock-back:3600@100")
+
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "seen: nothing" in done.stdout
+
+
+def test_a_run_whose_memory_file_vanishes_writes_it_again_and_says_so(tmp_path, monkeypatch):
+    memory = tmp_path / "robot.mem"
+    monkeypatch.setattr("host_sim.report.replay_page.write_page", lambda *_: memory.unlink())
+
+    words = ("--environments", "1", "--limit-s", "5", "--bus", "none", "--quiet", "--out", tmp_path / "out")
+    done = octet("run", *words, "--memory", memory)
+
+    assert done.returncode == 0
+    assert done.stderr == f"octet: {memory} has vanished during the run, and is written again\n"
+    assert len(memory.read_bytes()) == len(NOTHING)

@@ -1,0 +1,195 @@
+"""What `tools/octet export` writes, opened by readers that share no code with what wrote it."""
+
+import re
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+
+import fastparquet
+import mdfreader
+import pandas as pd
+import pytest
+from small_mcap import JSONDecoderFactory, read_message_decoded
+from vblf.can import CanMessage
+from vblf.reader import BlfReader
+
+from host_sim.base.extra_library import library
+from host_sim.cli.main import main
+from host_sim.lab.export.time_limits import LAST_S
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.every_node import hear
+from host_sim.protocol.generated import MESSAGES
+from host_sim.recording.log_reader import Recorded, read_log
+from tests.recording.support import record_run
+
+FORMATS = ("csv", "parquet", "asc", "blf", "mf4", "mcap")
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory) -> Path:
+    """Five seconds of a run, with a frame of node 2, a damaged one, and two that are no robot's."""
+    path = record_run(tmp_path_factory.mktemp("run"), seed=333, limit_s=5.0).log
+    first = path.read_text().splitlines()[0].split()[0]
+    protocol = Protocol(2)
+    senses, damaged = protocol.id_of("SENSES"), protocol.id_of("DRIVE")
+    lines = f"{first} octet {senses:03X}#{0:016X}\n{first} octet {damaged:03X}#0011\n"
+    path.write_text(f"{lines}{path.read_text()}(9.000000) octet 7FF#01\n(9.000000) octet 12345678#01\n")
+    return path
+
+
+@pytest.fixture(scope="module")
+def recorded(log) -> list[Recorded]:
+    return list(read_log(log))
+
+
+@pytest.fixture(scope="module")
+def exported(log, tmp_path_factory) -> dict[str, Path]:
+    """The log in each format."""
+    paths = {name: tmp_path_factory.mktemp("out") / f"a.{name}" for name in FORMATS}
+    words = [word for name, path in paths.items() for word in (f"--{name}", str(path))]
+    assert main(["export", str(log), *words]) == 0
+    return paths
+
+
+def test_asc2log_reads_the_asc_file(exported, recorded):
+    done = subprocess.run(["asc2log", "-I", exported["asc"]], check=True, capture_output=True, text=True)
+
+    lines = [line.split() for line in done.stdout.splitlines()]
+    times = [int(time[1:-1].replace(".", "")) for time, *_ in lines]
+    assert [line[2] for line in lines] == [f"{it.frame.id:03X}#{it.frame.data.hex().upper()}" for it in recorded]
+    assert [time - times[0] for time in times] == [it.time_us - recorded[0].time_us for it in recorded]
+
+
+def test_vblf_reads_the_blf_file(exported, recorded):
+    with BlfReader(exported["blf"]) as reader:
+        messages = list(reader)
+
+    assert all(isinstance(it, CanMessage) for it in messages)
+    assert [Frame(it.frame_id, it.data[: it.dlc]) for it in messages] == [it.frame for it in recorded]
+    times = [round(it.header.object_time_stamp / 1000) for it in messages]
+    assert [time - times[0] for time in times] == [it.time_us - recorded[0].time_us for it in recorded]
+
+
+def test_mdfreader_reads_the_mf4_file(exported, recorded):
+    mdf = mdfreader.Mdf(str(exported["mf4"]))
+
+    def column(name: str) -> list:
+        return mdf.get_channel_data(f"CAN_DataFrame.{name}").tolist()
+
+    data = [bytes(it)[:length] for it, length in zip(column("DataBytes"), column("DataLength"), strict=True)]
+    assert [Frame(*pair) for pair in zip(column("ID"), data, strict=True)] == [it.frame for it in recorded]
+    times = mdf.get_channel_data("time").tolist()
+    assert [round(time * 1e6) for time in times] == [it.time_us - recorded[0].time_us for it in recorded]
+
+
+def signals_of(row: dict[str, object], message: str) -> dict[str, int]:
+    """The signals of a message that a row of a table has."""
+    return {
+        signal.name: int(row[f"{message}.{signal.name}"])
+        for signal in MESSAGES[message].signals
+        if pd.notna(row[f"{message}.{signal.name}"])
+    }
+
+
+@pytest.mark.parametrize("name", ["csv", "parquet"])
+def test_the_table_has_every_signal(exported, recorded, name):
+    with exported[name].open("rb") as file:
+        csv = name == "csv"
+        table = pd.read_csv(file, dtype={"data": str}) if csv else fastparquet.ParquetFile(file).to_pandas()
+
+    rows = table.to_dict("records")
+    assert [row["data"] for row in rows] == [it.frame.data.hex().upper() for it in recorded]
+    assert [round(row["time_s"] * 1e6) for row in rows] == [it.time_us for it in recorded]
+    for row, it in zip(rows, recorded, strict=True):
+        heard = hear(it.frame)
+        assert (row["node"], row["message"]) == (heard.node, heard.name)
+        assert row["damaged"] == (heard.signals is None)
+        for message in MESSAGES:
+            expected = heard.signals if message == heard.name else None
+            assert signals_of(row, message) == (expected or {})
+
+
+def test_pandas_reads_integers_that_may_be_missing(exported):
+    library("pyarrow", "export")
+    table = pd.read_parquet(exported["parquet"], engine="pyarrow")
+
+    assert {str(table[column].dtype) for column in ("node", "damaged", "SENSES.feel", "ANSWER.value")} == {"Int64"}
+    assert table["time_s"].dtype == "float64"
+
+
+def test_small_mcap_reads_the_mcap_file(exported, recorded):
+    with exported["mcap"].open("rb") as file:
+        messages = list(read_message_decoded(file, decoder_factories=[JSONDecoderFactory()]))
+
+    assert len(messages) == len(recorded)
+    for message, it in zip(sorted(messages, key=lambda it: it.message.sequence), recorded, strict=True):
+        heard = hear(it.frame)
+        damaged = heard.signals is None
+        assert message.channel.topic == f"/robot_{heard.node}/{'damaged' if damaged else heard.name}"
+        assert message.message.log_time == it.time_us * 1000
+        if not damaged:
+            assert heard.signals.items() <= message.decoded_message.items()
+    reasons = Counter(it.decoded_message["reason_name"] for it in messages if it.channel.topic == "/robot_1/DRIVE")
+    assert reasons["wander"] > 0
+
+
+def test_what_was_skipped_is_said(log, tmp_path, capsys):
+    assert main(["export", str(log), "--csv", str(tmp_path / "a.csv")]) == 0
+
+    output = capsys.readouterr()
+    assert output.err == f"octet: {log}: skipped 1 extended and 1 foreign frames\n"
+    assert output.out == f"wrote     {tmp_path / 'a.csv'}\n"
+
+
+def test_a_missing_library_is_named_with_the_command_that_installs_it(log, tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "asammdf", None)
+
+    assert main(["export", str(log), "--mf4", str(tmp_path / "a.mf4")]) == 2
+
+    assert re.fullmatch(r"octet: this needs asammdf.*: run tools/setup export\n", capsys.readouterr().err)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_other_command_loads_the_libraries_of_exports():
+    loaded = (
+        "import sys, host_sim.transport.buses; print(sorted({'asammdf', 'pandas', 'pyarrow'} & set(sys.modules)))"
+    )
+
+    assert subprocess.check_output([sys.executable, "-c", loaded], text=True) == "[]\n"
+
+
+@pytest.mark.parametrize(
+    "content", ["(0.000000) can0 7FF#01\n", "(0.000000) can0 041#0\n"], ids=["foreign", "malformed"]
+)
+def test_what_cannot_be_exported_leaves_the_old_file(tmp_path, capsys, content):
+    (tmp_path / "a.log").write_text(content)
+    (tmp_path / "a.blf").write_text("old")
+
+    assert main(["export", str(tmp_path / "a.log"), "--blf", str(tmp_path / "a.blf")]) == 2
+
+    assert re.fullmatch(r"octet: .*\n", capsys.readouterr().err)
+    assert (tmp_path / "a.blf").read_text() == "old"
+    assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_no_format_named_is_said_with_those_there_are(log, capsys):
+    assert main(["export", str(log)]) == 2
+
+    error = capsys.readouterr().err
+    assert [name for name in FORMATS if f"--{name} FILE" not in error] == []
+
+
+@pytest.mark.parametrize("name", LAST_S)
+def test_a_time_that_a_format_has_no_room_for_is_one_line_and_leaves_nothing(tmp_path, capsys, name):
+    log, path = tmp_path / "far.log", tmp_path / f"a.{name}"
+    frame = f"octet {Protocol().id_of('DRIVE'):03X}#0011"
+    log.write_text(f"({LAST_S[name]}.000000) {frame}\n")
+    assert main(["export", str(log), f"--{name}", str(path)]) == 0
+    written = path.read_bytes()
+
+    log.write_text(f"({LAST_S[name] + 1}.000000) {frame}\n")
+
+    assert main(["export", str(log), f"--{name}", str(path)]) == 1
+    assert re.fullmatch("octet: a frame at [0-9]+ s is too late for .*\n", capsys.readouterr().err)
+    assert path.read_bytes() == written

@@ -1,0 +1,141 @@
+#include "host_sim/lab/gymnasium_envs/native/told.h"
+
+#include <string.h>
+
+#include "tests/test.h"
+#include "firmware/motion.h"
+#include "host_sim/world/native/plain_space.h"
+
+enum { BODIES = 2, WORDS = PLAIN_WORDS(WALLS + BODIES), ODOMETER = 5 };
+
+static struct body bodies[BODIES];
+static struct food food;
+static struct cones cones;
+static struct capsule capsules[WALLS];
+static struct plain_place places[BODIES];
+static uint64_t touching[(BODIES + 1) * WORDS];
+static struct plain_world space;
+static struct world world;
+static struct motion motions[BODIES];
+static struct told_robot robots[BODIES];
+static struct told told;
+
+/* Two robots that look to the right, and food at 2000, 1000. */
+void setUp(void)
+{
+    static const struct world_params params = {160.0, 100.0, 150.0, 0.02, 500.0};
+
+    memset(bodies, 0, sizeof bodies);
+    memset(touching, 0, sizeof touching);
+    for (unsigned i = 0; i < BODIES; i++)
+        bodies[i] = (struct body){.x_mm = 1000.0, .y_mm = 1000.0 + 1000.0 * i, .seen = -1};
+    food = (struct food){2000.0, 1000.0, false};
+    cones_set(&cones, 160.0, 0.5);
+    capsule_set_walls(capsules, 4000.0, 3000.0);
+    world = (struct world){.params = params, .body_count = BODIES, .bodies = bodies, .food_count = 1, .food = &food};
+    space = (struct plain_world){.body_radius_mm = 100.0, .cones = &cones,
+        .capsule_count = WALLS, .capsules = capsules, .places = places, .words = WORDS, .touching = touching};
+    told = (struct told){.world = &world, .motions = motions, .robots = robots, .limit_ticks = 1000, .step_ticks = 1000};
+}
+
+static void begin(void)
+{
+    world_begin(&world);
+    plain_space_take(&space, &world);
+    told_begin(&told);
+}
+
+static void step(uint8_t first, uint8_t second)
+{
+    const uint8_t deeds[BODIES] = {first, second};
+
+    told_step(&told, 1, deeds);
+}
+
+TEST(before_the_first_step_the_robots_have_senses)
+{
+    begin();
+
+    TEST_ASSERT_EQUAL_INT32(1, robots[0].senses[3]);
+    TEST_ASSERT_EQUAL_INT32(1000, robots[0].senses[4]);
+    TEST_ASSERT_EQUAL_INT32(0, robots[1].senses[3]);
+    TEST_ASSERT_EQUAL_UINT32(1, told.food_left);
+}
+
+TEST(a_robot_that_is_done_sooner_rests)
+{
+    begin();
+    step(TOLD_FORWARD, TOLD_TURN_ABOUT);
+
+    TEST_ASSERT_EQUAL_INT32(120, robots[0].senses[ODOMETER]);
+    TEST_ASSERT_EQUAL_INT32(120, robots[0].senses[ODOMETER + 1]);
+    TEST_ASSERT_INT32_WITHIN(8, 2513, robots[1].senses[ODOMETER]);
+    TEST_ASSERT_GREATER_THAN_UINT32(40, told.tick);
+}
+
+TEST(food_is_eaten_at_the_end_of_a_step_forward)
+{
+    bodies[0].x_mm = 1860.0;
+    begin();
+    step(TOLD_TURN_LEFT, TOLD_TURN_LEFT);
+    TEST_ASSERT_EQUAL_UINT32(0, robots[0].food_eaten);
+    step(TOLD_TURN_RIGHT, TOLD_TURN_RIGHT);
+    step(TOLD_FORWARD, TOLD_FORWARD);
+
+    TEST_ASSERT_EQUAL_UINT32(1, robots[0].food_eaten);
+    TEST_ASSERT_EQUAL_UINT32(0, robots[1].food_eaten);
+    TEST_ASSERT_EQUAL_UINT32(0, told.food_left);
+}
+
+TEST(where_no_food_is_left_nothing_happens)
+{
+    food.eaten = true;
+    begin();
+    step(TOLD_FORWARD, TOLD_FORWARD);
+
+    TEST_ASSERT_EQUAL_UINT32(0, told.tick);
+}
+
+TEST(a_step_ends_when_its_time_is_up)
+{
+    told.step_ticks = 2;
+    begin();
+    step(TOLD_FORWARD, TOLD_TURN_ABOUT);
+
+    TEST_ASSERT_EQUAL_UINT32(2, told.tick);
+}
+
+TEST(a_step_that_is_cut_off_eats)
+{
+    bodies[0].x_mm = 1860.0;
+    told.step_ticks = 1;
+    begin();
+    step(TOLD_FORWARD, TOLD_FORWARD);
+
+    TEST_ASSERT_EQUAL_UINT32(1, robots[0].food_eaten);
+}
+
+TEST(nothing_happens_after_the_time_of_the_world)
+{
+    told.limit_ticks = 3;
+    begin();
+    step(TOLD_TURN_ABOUT, TOLD_TURN_ABOUT);
+    step(TOLD_FORWARD, TOLD_FORWARD);
+
+    TEST_ASSERT_EQUAL_UINT32(3, told.tick);
+}
+
+TEST(bumps_are_counted_step_by_step)
+{
+    uint32_t bumps = 0;
+
+    bodies[0].x_mm = 3880.0;
+    begin();
+    for (unsigned i = 0; i < 20; i++) {
+        step(TOLD_FORWARD, TOLD_TURN_LEFT);
+        bumps += robots[0].collisions;
+    }
+
+    TEST_ASSERT_EQUAL_UINT32((uint32_t)bodies[0].collisions, bumps);
+    TEST_ASSERT_GREATER_THAN_UINT32(0, bumps);
+}

@@ -1,0 +1,99 @@
+"""docs/learning.md: each number in it is that of its table, and one command makes all of it anew."""
+
+import importlib
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from host_sim.base.errors import OctetError
+from host_sim.cli.main import main
+from host_sim.cli.parsing import Parser
+from host_sim.lab.study.document import fill, write_table
+from tests.lab.study.support import row, run, samples
+
+ROOT = Path(__file__).resolve().parents[3]
+LEARNING = ROOT / "docs/learning.md"
+MEASURED = re.compile(r"\d[\d.,]*\s?(?:%|s\b|contacts|episodes|times)")
+NOT_PROSE = re.compile(r"```.*?```|`[^`]*`|!?\[[^\]]*\]\([^)]*\)|^\|.*?$|<!--.*?-->", re.DOTALL | re.MULTILINE)
+
+
+def test_each_number_is_that_of_its_table():
+    text = LEARNING.read_text()
+
+    assert fill(text, LEARNING.parent) == text, "make it anew: tools/octet reproduce"
+
+
+def test_each_measured_number_is_from_a_table():
+    assert MEASURED.findall(NOT_PROSE.sub("", LEARNING.read_text())) == []
+
+
+def test_the_commands_that_take_too_long_for_a_test_are_written_as_they_should_be():
+    blocks = re.findall(r"^```sh by-hand\n(.*?)^```$", LEARNING.read_text(), re.DOTALL | re.MULTILINE)
+    lines = [shlex.split(line) for block in blocks for line in block.splitlines()]
+
+    assert len(lines) >= 6
+    for program, *words in lines:
+        assert program == "tools/octet"
+        parser = Parser()
+        importlib.import_module(f"host_sim.lab.study.{words[0]}_command").add(parser.add_subparsers())
+        assert parser.parse_args(words).command
+
+
+@pytest.fixture
+def docs(tmp_path) -> Path:
+    """A folder with a table of two conditions."""
+    many = [run("a", seed, row(100.0 + seed)) for seed in range(5)] + [
+        run("b c", seed, row(50.0)) for seed in range(5)
+    ]
+    write_table(samples(*many), tmp_path / "tables/t.csv")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("text", "filled"),
+    [
+        ("[?](tables/t.csv#a,mean_s)", "[102 s](tables/t.csv#a,mean_s)"),
+        ("[3 s](tables/t.csv#b+c,median_s)", "[50 s](tables/t.csv#b+c,median_s)"),
+        ("[](tables/t.csv#b+c,ratio)", "[0.49](tables/t.csv#b+c,ratio)"),
+        ("[](tables/t.csv#a,mean_s,interval)", "[101..103 s](tables/t.csv#a,mean_s,interval)"),
+        ("[a](b.md)", "[a](b.md)"),
+        (
+            "<!-- table t.csv: mean_s finished -->\n| old |\n\nnext",
+            "<!-- table t.csv: mean_s finished -->\n|  | mean | finished |\n| --- | --- | --- |\n"
+            "| `a` | 102 s | 100.0 % |\n| `b c` | 50 s | 100.0 % |\n\nnext",
+        ),
+    ],
+)
+def test_a_number_is_filled_in_from_its_table(docs, text, filled):
+    assert fill(text, docs) == filled
+    assert fill(filled, docs) == filled
+
+
+def test_a_number_that_is_in_no_table_is_said(docs):
+    with pytest.raises(OctetError, match="has no figure mean_s of x"):
+        fill("[1](tables/t.csv#x,mean_s)", docs)
+    with pytest.raises(OctetError, match=r"cannot read the table .*/u\.csv"):
+        fill("[1](tables/u.csv#x,mean_s)", docs)
+
+
+def test_one_command_makes_tables_plots_and_numbers(tmp_path):
+    studies, docs = tmp_path / "studies", tmp_path / "docs"
+    for folder in (studies, docs):
+        folder.mkdir()
+    few = 'profiles = ["fixed"]\nseeds = 2\nenvironments = 1\nlimit_s = 20\n'
+    (studies / "score.toml").write_text(few)
+    (docs / "learning.md").write_text("[?](tables/score.csv#fixed,finished)\n")
+
+    words = ["--studies", str(studies), "--docs", str(docs), "--out", str(tmp_path / "out"), "--jobs", "1"]
+    assert main(["reproduce", *words]) == 0
+
+    assert re.match(r"\[\d+\.\d %\]", (docs / "learning.md").read_text())
+    assert (docs / "images/score-score.png").exists()
+
+
+def test_a_study_that_is_not_there_is_said(tmp_path, capsys):
+    assert main(["reproduce", "--only", "nothing", "--studies", str(tmp_path)]) == 2
+
+    assert capsys.readouterr().err.count("\n") == 1

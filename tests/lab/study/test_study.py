@@ -1,0 +1,226 @@
+"""A study from its file to its table: its rows, and that none is lost or made twice."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from host_sim.base.extra_library import library
+from host_sim.cli.main import main
+from host_sim.lab.study import tables, workers
+from host_sim.lab.study.folder import StudyFolder
+from host_sim.lab.study.trial import Trial, run_trial
+
+ROOT = Path(__file__).resolve().parents[3]
+PLAN = 'profiles = ["article", "never"]\nseeds = {seeds}\nenvironments = 1\nlimit_s = {limit_s}\n'
+
+
+@pytest.fixture
+def plan(tmp_path):
+    """Writes a study's file and returns its path."""
+
+    def write(seeds: int = 2, limit_s: int = 20, more: str = "") -> Path:
+        (tmp_path / "a.toml").write_text(PLAN.format(seeds=seeds, limit_s=limit_s) + more)
+        return tmp_path / "a.toml"
+
+    return write
+
+
+def study(path: Path, *options: str) -> int:
+    return main(["study", str(path), "--out", str(path.parent / "out"), "--jobs", "2", *options])
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_a_study_has_a_row_for_each_run_environment_and_contact(plan, tmp_path, capsys):
+    assert study(plan()) == 0
+
+    assert f"wrote     {tmp_path / 'out'} (4 runs)" in capsys.readouterr().out
+    tables = StudyFolder(tmp_path / "out").tables()
+    runs = tables["runs"]
+    assert sorted(zip(runs["condition"], runs["seed"], strict=True)) == [
+        ("article", 1), ("article", 2), ("never", 1), ("never", 2),
+    ]  # fmt: skip
+    assert len(tables["environments"]["seed"]) == 4
+    expected = run_trial(Trial("never", 2, 1, limit_s=20.0))
+    digest = runs["log_sha256"][(runs["condition"] == "never") & (runs["seed"] == 2)]
+    assert digest.tolist() == [expected.log_sha256]
+    contacts = tables["contacts"]
+    ours = (contacts["condition"] == "never") & (contacts["seed"] == 2)
+    assert contacts["trials"][ours].tolist() == [it.trials for it in expected.rows[0].contacts[0]]
+    assert contacts["number"][ours].tolist() == list(range(1, ours.sum() + 1))
+
+
+def test_each_table_has_the_columns_that_are_described():
+    described = {
+        name: re.findall(r"^\| (\w+) +\| ", table, re.MULTILINE)
+        for name, table in re.findall(
+            r"^\| (\w+) +\| [^\n]+\n\| -+ \|[^\n]+\n((?:\|[^\n]+\n)+)", tables.__doc__, re.MULTILINE
+        )
+    }
+
+    assert {name: list(columns) for name, columns in tables.COLUMNS.items()} == described
+
+
+def test_other_programs_read_the_tables(plan, tmp_path):
+    study(plan())
+
+    parquet = library("pyarrow.parquet", "study")
+    assert parquet.read_table(tmp_path / "out/environments").num_rows == 4
+
+
+def test_what_is_there_is_not_made_again_and_more_seeds_are_added(plan, tmp_path, capsys):
+    study(plan(seeds=1))
+    before = contents(tmp_path / "out/runs")
+    capsys.readouterr()
+
+    assert study(plan(seeds=3)) == 0
+
+    assert "(4 runs, 2 were there)" in capsys.readouterr().out
+    after = contents(tmp_path / "out/runs")
+    assert {name: after[name] for name in before} == before
+    runs = StudyFolder(tmp_path / "out").tables()["runs"]
+    assert len(set(zip(runs["condition"], runs["seed"], strict=True))) == len(runs["seed"]) == 6
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+def test_a_study_that_was_stopped_goes_on_without_loss_or_repetition(plan, tmp_path, number):
+    path = plan(seeds=30, limit_s=60)
+    words = ["study", path, "--out", tmp_path / "out", "--jobs", "1", "--chunk", "1"]
+    process = subprocess.Popen([sys.executable, "-m", "host_sim", *words], cwd=ROOT, stderr=subprocess.DEVNULL)
+    while not list((tmp_path / "out").glob("runs/*.parquet")):
+        assert process.poll() is None
+        time.sleep(0.01)
+    workers_of_it = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+    process.send_signal(number)
+    assert process.wait() != 0
+    while any(Path(f"/proc/{worker}").exists() for worker in workers_of_it):  # they end with the one that began them
+        time.sleep(0.01)
+    before = StudyFolder(tmp_path / "out").done()
+
+    assert study(path) == 0
+
+    runs = StudyFolder(tmp_path / "out").tables()["runs"]
+    assert 0 < len(before) < 60
+    assert len(set(zip(runs["condition"], runs["seed"], strict=True))) == len(runs["seed"]) == 60
+
+
+def test_rows_of_a_part_that_was_cut_short_do_not_count(plan, tmp_path):
+    study(plan())
+    for part in (tmp_path / "out/runs").iterdir():
+        part.unlink()
+
+    assert not len(StudyFolder(tmp_path / "out").tables()["contacts"]["seed"])
+    assert study(plan()) == 0
+    assert len(StudyFolder(tmp_path / "out").tables()["environments"]["seed"]) == 4
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"format": 99}, "is of format 99, this Octet's is 1; nothing was changed"),
+        ({"code": "another"}, "was made with another version of robot or world; nothing was changed"),
+        ({"limit_s": 7}, "has other limit_s; nothing was changed"),
+    ],
+)
+def test_the_study_of_another_version_is_refused_and_stays(plan, tmp_path, capsys, change, said):
+    study(plan())
+    about = tmp_path / "out/study.json"
+    about.write_text(json.dumps({**json.loads(about.read_text()), **change}))
+    before = contents(tmp_path / "out")
+    capsys.readouterr()
+
+    assert study(plan(seeds=3)) == 2
+
+    assert said in capsys.readouterr().err
+    assert contents(tmp_path / "out") == before
+
+
+def test_a_folder_with_something_else_in_it_stays(plan, tmp_path, capsys):
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out/thesis.tex").write_text("precious")
+
+    assert study(plan()) == 2
+
+    assert "has something else in it" in capsys.readouterr().err
+    assert contents(tmp_path / "out") == {"thesis.tex": b"precious"}
+
+
+def test_a_study_that_was_stopped_before_it_was_described_goes_on(plan, tmp_path):
+    (tmp_path / "out/contacts").mkdir(parents=True)
+
+    assert study(plan(seeds=1)) == 0
+
+
+def test_a_study_whose_runs_do_not_tell_their_world_goes_on(plan, tmp_path):
+    study(plan(seeds=1))
+    parquet = library("pyarrow.parquet", "study")
+    for part in (tmp_path / "out/runs").iterdir():
+        parquet.write_table(parquet.read_table(part).drop_columns(["world"]), part)
+
+    assert study(plan(seeds=2)) == 0
+
+    assert StudyFolder(tmp_path / "out").tables()["runs"]["world"].tolist() == [None] * 2 + ["random"] * 2
+
+
+def test_a_part_that_is_damaged_is_named(plan, tmp_path, capsys):
+    study(plan())
+    part = next((tmp_path / "out/runs").iterdir())
+    part.write_bytes(b"PAR1")
+
+    assert main(["compare", str(tmp_path / "out")]) == 2
+
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def die_once(trials):
+    """Makes runs as a worker does that dies in its first chunk."""
+    mark = Path(os.environ["OCTET_TEST_MARK"])
+    if not mark.exists():
+        mark.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return workers.Chunk([run_trial(trial) for trial in trials], workers.code_version())
+
+
+def test_the_runs_of_a_dead_worker_are_made_again(tmp_path, monkeypatch):
+    monkeypatch.setenv("OCTET_TEST_MARK", str(tmp_path / "mark"))
+    monkeypatch.setattr(workers, "run_chunk", die_once)
+    trials = [Trial("article", seed, 1, limit_s=5) for seed in range(4)]
+
+    made = [run.trial for runs in workers.run_all(trials, workers.processes(2), chunk=1) for run in runs]
+
+    assert sorted(made, key=lambda trial: trial.seed) == trials
+
+
+def die(_trials):
+    """A worker that dies in each chunk."""
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_workers_that_die_each_time_are_given_up(plan, capsys, monkeypatch):
+    monkeypatch.setattr(workers, "run_chunk", die)
+
+    assert study(plan(seeds=1)) == 1
+
+    assert "octet: workers die each time, perhaps in the run tools/run --bus none" in capsys.readouterr().err
+
+
+def of_another_version(trials):
+    return workers.Chunk([run_trial(trial) for trial in trials], "another")
+
+
+def test_rows_of_a_worker_of_another_version_are_not_taken(plan, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(workers, "run_chunk", of_another_version)
+
+    assert study(plan(seeds=1)) == 1
+
+    assert "a worker has another version" in capsys.readouterr().err
+    assert StudyFolder(tmp_path / "out").done() == set()
