@@ -1,7 +1,7 @@
 /* flash.h: two pages of flash memory, as the flash store needs them. Exactly one implementation is linked in.
  *
- * Flash is written in units of some bytes, each unit once between two erases. An offset is in bytes from the start
- * of a page. Offsets and counts are multiples of flash_unit(). */
+ * Flash is written in units of some bytes, each unit once between two erases; zeros can be written over anything. An offset is
+ * in bytes from the start of a page. Offsets and counts are multiples of flash_unit(). */
 #ifndef OCTET_FLASH_H
 #define OCTET_FLASH_H
 
@@ -24,7 +24,7 @@ int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
            something there that was never wholly written, and words holds anything. */
 
 int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count);
-        /* Writes count erased bytes, unit by unit, the lowest first. 0: they read back as written. Else -1: whatever is
+        /* Writes count bytes, unit by unit, the lowest first: erased ones, or any with zeros. 0: they read back as written. Else -1: whatever is
            there now, no other byte has changed. Takes under 0.2 ms for each 4 bytes. */
 
 int flash_erase(unsigned page);

@@ -104,11 +104,16 @@ static bool is_erased(unsigned page, union place *scratch)
     return used_of(page, scratch) == size_of_place() && look(page, 0, scratch) == MARK;
 }
 
-/* A mark that cannot be written is done without: the page is in use from now on, and its records are as good a sign. */
+/* The old mark is overwritten first, lest it outlive an erase that loses its power. A mark that cannot be written is done
+ * without: the page is in use from now on, and its records are as good a sign. */
 static int erase(unsigned page, union place *scratch)
 {
     static const uint8_t nothing[CELL_COUNT];   /* zeros */
 
+    if (look(page, 0, scratch) != BLANK) {
+        memset(scratch, 0, sizeof *scratch);
+        (void)flash_write(page, 0, scratch->words, size_of_place());
+    }
     if (flash_erase(page) < 0 || used_of(page, scratch) > 0)
         return HAL_E_STORE;
     make_record(scratch, 0, nothing);

@@ -8,7 +8,8 @@
  * Nothing is erased to make room but the page that does not hold the newest whole record, and that only when the page in use is
  * full: once for as many changes as a page has records, less the mark (63 on an F103, 1023 on an F405, 127 on a G431). An erase
  * that lost its power can leave a page that reads blank and soon loses what is written to it, so that a mark in the first place
- * tells an erase that came to its end; a blank page without one is erased again. Because an erase stops the machine for up to
+ * tells an erase that came to its end; a blank page without one is erased again. The mark is overwritten with zeros before the
+ * erase: one that is cut short cannot leave it standing. Because an erase stops the machine for up to
  * 0.8 s, it is left to the start, or to a moment when the wheels are at rest and no answer is awaited; until then the old
  * memory is what a loss of power leaves.
  *

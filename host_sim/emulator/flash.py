@@ -11,6 +11,8 @@ from host_sim.emulator.registers import BoardError, Peripheral, PowerCut, Regist
 BASE = 0x08000000
 _ERASED = b"\xff"
 _KEYS = (0x45670123, 0xCDEF89AB)
+_OUTLIVES = 16
+"""Bytes at the begin of a page that an erase cut short leaves as they were; the others read blank."""
 _WAIT_STATES = 7
 _UNFINISHED = 0x0F
 """Bits of a byte that are not written yet when the power goes in the middle."""
@@ -70,6 +72,7 @@ class Flash(Peripheral):
         operations: Writes and erasures so far.
         erasures: These alone.
         cuts: Numbers of the operations in whose middle the power goes.
+        erasure_cuts: Numbers of the erasures in whose middle it goes.
         code_end: Offset in the memory up to which the image lies; it must not change that.
         on_wait_states: Called when they have changed.
     """
@@ -87,6 +90,7 @@ class Flash(Peripheral):
         self.memory = bytearray(_ERASED) * sum(self.kind.pages)
         self._half_erased: set[int] = set()
         self.cuts = {faults.cut_at}
+        self.erasure_cuts: set[int] = set()
         self.operations = self.erasures = self.code_end = self._keys_taken = 0
         self.on_wait_states: Callable[[], None] = _disregard
         self._acr = Register("ACR", on_write=self._write_acr)
@@ -139,7 +143,7 @@ class Flash(Peripheral):
             PowerCut: The power went in the middle.
         """
         self._protect(offset)
-        if self._page_of(offset) in self._half_erased:
+        if value and self._page_of(offset) in self._half_erased:
             raise BoardError(f"page {self._page_of(offset)} of the flash was written, but its erase was cut short")
         flags = self.refusal(offset, size, value)
         if flags:
@@ -157,7 +161,10 @@ class Flash(Peripheral):
         self._protect(offset)
         self.erasures += 1
         self._half_erased.add(page)
-        self._change(offset, _ERASED * size, _ERASED * size)  # cut short, it reads blank and is not
+        if self.erasures in self.erasure_cuts:
+            self.cuts.add(self.operations + 1)
+        blank = _ERASED * size
+        self._change(offset, blank, bytes(self.memory[offset : offset + _OUTLIVES]) + blank[_OUTLIVES:])
         self._half_erased.discard(page)
         self._clock.skip(self.kind.erase_span)
 

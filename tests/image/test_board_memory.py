@@ -38,6 +38,18 @@ def test_a_flash_that_is_full_is_erased_and_written_again():
     assert memory_after_power_up(talk) == (0, 2, 0, 0, 0, 0, 0, 0)
 
 
+def test_a_page_whose_erase_lost_its_power_is_erased_again():
+    talk = talk_to("blue_pill")
+    flash = talk.board.hardware.flash
+    flash.erasure_cuts.add(3)  # of a page with a mark
+    for i in range(300):
+        learn(talk, (Side.LEFT, Side.RIGHT)[i % 2])
+
+    assert talk.board.resets == ["power"]
+    assert flash.erasures > 4
+    assert memory_after_power_up(talk) == (0, 2, 0, 0, 0, 0, 0, 0)
+
+
 def test_a_memory_that_cannot_be_stored_is_counted_and_the_robot_goes_on(name):
     talk = talk_to(name, Faults(flash=FlashFaults(failing=frozenset(range(1, 1000)))))
     talk.start()

@@ -34,7 +34,7 @@ struct fake_flash {
     uint8_t worn[FLASH_PAGES];  /* bit r: record r of the page takes no writes */
 };
 
-enum { FAKE_DAMAGES = 4 };      /* not begun, half done, nearly or wholly done, unreadable where that can be */
+enum { FAKE_DAMAGES = 5 };      /* not begun, half done, nearly or wholly done, unreadable where that can be, half otherwise */
 
 extern struct fake_flash fake_flash;
 

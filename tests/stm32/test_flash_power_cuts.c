@@ -96,26 +96,43 @@ TEST(power_cut_anywhere_twice_in_a_row_leaves_old_or_new)
             cut_everywhere(before);
 }
 
-/* An erase, a mark and a record, step by step. */
+/* Zeros over a mark, an erase, a mark and a record, step by step. */
 TEST(the_power_cuts_reach_every_operation)
 {
     FOR_EACH_KIND {
         unsigned last;
 
         setUp();
-        last = 1 + 2 * fake_flash_place() / kind->step;
+        last = 1 + 3 * fake_flash_place() / kind->step;
         TEST_ASSERT_TRUE(is_cut_once(2 * CHANGES, last));
         TEST_ASSERT_FALSE(is_cut_once(2 * CHANGES, last + 1));
     }
 }
 
+/* After zeros over the mark. */
+static unsigned the_erase(void)
+{
+    return fake_flash_place() / kind->step + 1;
+}
+
 TEST(a_page_whose_erase_was_cut_short_is_erased_again_though_it_reads_blank)
 {
     begin_with(2 * CHANGES);
-    TEST_ASSERT_TRUE(life_is_cut(100, 1, 2));
+    TEST_ASSERT_TRUE(life_is_cut(100, the_erase(), 2));
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, fake_flash.bytes[0], CHANGES * 16);
     TEST_ASSERT_FALSE(life_is_cut(101, 0, 0));
     TEST_ASSERT_EQUAL_UINT(4, fake_flash.erases);
+}
+
+TEST(a_mark_does_not_outlive_an_erase_that_was_cut_short)
+{
+    FOR_EACH_KIND {
+        begin_with(2 * CHANGES);
+        TEST_ASSERT_TRUE(life_is_cut(100, the_erase(), FAKE_DAMAGES - 1));
+        TEST_ASSERT_EACH_EQUAL_HEX8(0, fake_flash.bytes[0], fake_flash_place());
+        TEST_ASSERT_FALSE(life_is_cut(101, 0, 0));
+        TEST_ASSERT_EQUAL_UINT(4, fake_flash.erases);
+    }
 }
 
 TEST(an_unreadable_unit_is_passed_over_and_no_blank_flash)

@@ -72,7 +72,7 @@ class Board:
         """The power goes while the page with the memories is full, and again in the erase that is to make room."""
         flash = self.board.hardware.flash
         flash.fill_last_page(_RECORD)
-        flash.cuts |= {flash.operations + 1, flash.operations + 2}
+        flash.erasure_cuts |= {flash.erasures + 1, flash.erasures + 2}
         self.board.cut_power()
 
     def _bus(self, what: str, span_ms: int) -> None:
