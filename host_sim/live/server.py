@@ -65,7 +65,7 @@ class LiveServer:
         nodes = live.simulation.nodes
         self._seats = Seats(nodes) if listener.is_open and len(nodes) > 1 else None
         self._sockets: set[web.WebSocketResponse] = set()
-        self._parts = {path.name for path in WEB.iterdir() if path.suffix in (".js", ".css")}
+        self._parts = {path.relative_to(WEB).as_posix() for path in WEB.rglob("*") if path.suffix in (".js", ".css")}
         self._app = web.Application(client_max_size=TEXT_MAX, middlewares=[self._check_host])
         self._app.on_response_prepare.append(_secure)
         for path, handler in (
@@ -73,7 +73,7 @@ class LiveServer:
             ("/board", self._board),
             ("/live", self._page_socket),
             ("/board-live", self._board_socket),
-            ("/{name}", self._part),
+            ("/{name:.+}", self._part),
         ):
             self._app.router.add_get(path, handler)
 

@@ -15,8 +15,8 @@ from collections.abc import Iterator
 from host_sim.base.paths import WEB
 
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
-_SCRIPT = re.compile(r'<script type="module" src="([\w.-]+)"></script>')
-_WORKER = re.compile(r'(<script type="text/plain" id="[\w-]+" data-module="([\w.-]+)">)</script>')
+_SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')
+_WORKER = re.compile(r'(<script type="text/plain" id="[\w-]+" data-module="([\w./-]+)">)</script>')
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "(\.\.?/[\w./-]+)";$', re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function\*?|const|let|class) (\w+))", re.MULTILINE)
 

@@ -20,7 +20,7 @@ def in_node(folder: Path, module: str, code: str, *files: Path) -> Any:
         code: The body of a function of (modules, page, texts).
         files: Files whose texts the code wants.
     """
-    script = folder / f"{module}.bundle"
+    script = folder / f"{Path(module).name}.bundle"
     script.write_text(bundle(module))
     done = subprocess.run(
         ["node", RUN_IN_NODE, script, PAGE_WASM, code, *files], capture_output=True, text=True, check=False

@@ -12,7 +12,7 @@ from tests.web.node import in_node
 RUNS = """
 const [worlds, ...experiments] = texts.map((text) => JSON.parse(text));
 return experiments.map((experiment) => {
-  const simulation = new modules["simulation.js"].Simulation(page, experiment, worlds, true);
+  const simulation = new modules["sim/simulation.js"].Simulation(page, experiment, worlds, true);
   for (const _ of simulation.run());
   const log = Buffer.concat(simulation.log).toString("latin1");
   return { log, run: simulation.result().run };
@@ -54,7 +54,7 @@ def run_in_page(folder: Path, *wanted: dict[str, Any]) -> Sequence[dict[str, Any
     files = [folder / f"{i}.json" for i in range(len(wanted) + 1)]
     for file, content in zip(files, (world_dimensions(), *wanted), strict=True):
         file.write_text(json.dumps(content))
-    return in_node(folder, "simulation.js", RUNS, *files)
+    return in_node(folder, "sim/simulation.js", RUNS, *files)
 
 
 def page_file(folder: Path) -> Path:

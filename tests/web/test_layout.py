@@ -27,7 +27,7 @@ LIVE = (
 REPLAY = ("#floor", "#play", "#scrub", "#doing", "#cells", "#pin", "#before", "#after")
 # How far from the middle of each item, at right angles to a bar, a finger may be: px.
 REACH = """async () => {
-  const { itemAt } = await import("/hit_testing.js");
+  const { itemAt } = await import("/edit/hit_testing.js");
   const { scene, renderer } = octet.view;
   const [, ax, ay, bx, by] = scene.environment.bars[0];
   const length = Math.hypot(bx - ax, by - ay);

@@ -228,7 +228,7 @@ def test_the_verdict_is_that_of_the_terminal(page):
         ),
     ]
     say = """async (trials) => {
-      const { verdict } = await import("/phrases.js");
+      const { verdict } = await import("/core/phrases.js");
       return trials.map((trial) => verdict({ trial }));
     }"""
 

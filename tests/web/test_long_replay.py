@@ -10,7 +10,7 @@ from host_sim.sim.run_config import RunConfig
 from tests.web.node import in_node
 
 STATES = """
-const data = await modules["run_data.js"].RunData.from(JSON.parse(texts[0]));
+const data = await modules["core/run_data.js"].RunData.from(JSON.parse(texts[0]));
 const states = [];
 for (let tick = data.first; tick <= data.last; tick += 7) states.push(...data.statesAt(tick));
 return states;
@@ -26,7 +26,7 @@ def test_the_states_of_the_retained_ticks_are_those_of_the_run(tmp_path, monkeyp
     file = tmp_path / "run.json"
     file.write_text(json.dumps(run_data(trajectory, "a long run")))
 
-    states = in_node(tmp_path, "run_data.js", STATES, file)
+    states = in_node(tmp_path, "core/run_data.js", STATES, file)
 
     assert sum(trajectory.tracks[0].uses_before) > 0
     assert states == [trajectory.at(tick) for tick in range(trajectory.first_tick, trajectory.ticks, 7)]

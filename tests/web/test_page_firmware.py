@@ -8,7 +8,7 @@ from host_sim.protocol.generated import PROFILES
 from tests.runs.support import octet
 from tests.web.node import in_node
 
-REPLAY = 'return texts.map((text) => modules["log_replay.js"].replayLog(page, text));'
+REPLAY = 'return texts.map((text) => modules["sim/log_replay.js"].replayLog(page, text));'
 
 
 def recorded(out: Path, *words: str) -> Path:
@@ -25,7 +25,7 @@ def logs(tmp_path_factory) -> list[Path]:
 
 
 def test_every_recorded_log_is_answered_frame_by_frame(tmp_path, logs):
-    compared = in_node(tmp_path, "log_replay.js", REPLAY, *logs)
+    compared = in_node(tmp_path, "sim/log_replay.js", REPLAY, *logs)
 
     assert [it.get("difference") for it in compared] == [None] * len(logs)
     assert [it["frames"] for it in compared] == [len(log.read_text().splitlines()) for log in logs]
@@ -38,6 +38,6 @@ def test_a_drive_that_differs_is_found(tmp_path, logs):
     log = tmp_path / "run.log"
     log.write_text("\n".join(lines))
 
-    (compared,) = in_node(tmp_path, "log_replay.js", REPLAY, log)
+    (compared,) = in_node(tmp_path, "sim/log_replay.js", REPLAY, log)
 
     assert compared["difference"]["line"] == changed + 1

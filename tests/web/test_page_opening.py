@@ -12,7 +12,7 @@ from tests.web.node import in_node
 OPEN = """
 const [worlds, log, world] = texts;
 try {
-  return modules["log_opening.js"].openLog(page, JSON.parse(worlds), log, world ?? "").news;
+  return modules["sim/log_opening.js"].openLog(page, JSON.parse(worlds), log, world ?? "").news;
 } catch (error) {
   return error.message;
 }
@@ -34,7 +34,7 @@ def opened(folder: Path, log: str, *world: str) -> str:
     files = [folder / str(i) for i in range(len(texts))]
     for file, text in zip(files, texts, strict=True):
         file.write_text(text)
-    return in_node(folder, "log_opening.js", OPEN, *files)
+    return in_node(folder, "sim/log_opening.js", OPEN, *files)
 
 
 def changed(run: Path, **fields: object) -> str:

@@ -17,8 +17,8 @@ from tests.world.golden_layouts import WANTED as WANTED_LAYOUTS
 
 LAYOUTS = """
 const [{ worlds, layouts }] = texts.map((text) => JSON.parse(text));
-const { "native_layouts.js": { drawFrom, drawLayout }, "worlds.js": { worldOf } } = modules;
-const { NativeRun } = modules["native_run.js"];
+const { "sim/native_layouts.js": { drawFrom, drawLayout }, "sim/worlds.js": { worldOf } } = modules;
+const { NativeRun } = modules["sim/native_run.js"];
 const native = new NativeRun(page, 4);
 return layouts.map(({ world, ...which }) => {
   const { params, written } = worldOf(world, worlds);
@@ -35,7 +35,7 @@ def test_the_layouts_of_a_world_stay_the_same_for_ever(tmp_path, name):
     layouts = [{"world": world, **which._asdict()} for which in WANTED_LAYOUTS]
     asked.write_text(json.dumps({"worlds": world_dimensions(), "layouts": layouts}))
 
-    assert digest(in_node(tmp_path, "simulation.js", LAYOUTS, asked)) == DIGESTS[name]
+    assert digest(in_node(tmp_path, "sim/simulation.js", LAYOUTS, asked)) == DIGESTS[name]
 
 
 def comparable(run: dict[str, Any]) -> dict[str, Any]:

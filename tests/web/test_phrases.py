@@ -13,7 +13,7 @@ from host_sim.view import phrases
 from tests.web.fake_run import HOME, FakeRun, robot_state
 
 SAY = """async (lists) => {
-  const { lessonSentence, sentence } = await import("/phrases.js");
+  const { lessonSentence, sentence } = await import("/core/phrases.js");
   return [lists[0].map((state) => sentence(state, false)), lists[1].map(lessonSentence)];
 }"""
 LEFT, RIGHT = {"left": -9, "right": 9}, {"left": 9, "right": -9}
@@ -69,11 +69,11 @@ def test_other_numbers_change_no_word(open_page):
 
 @pytest.mark.parametrize(("name", "number"), [("REASON.TRIAL", "5"), ("SIDE.LEFT", "1")])
 def test_a_number_that_stands_by_hand_is_noticed(open_page, name, number):
-    text = (WEB / "phrases.js").read_text()
+    text = (WEB / "core/phrases.js").read_text()
     by_hand = text.replace(name, number)
     assert by_hand != text
 
-    assert words(open_page, {"generated.js": renumbered(), "phrases.js": by_hand}) != IN_TERMINAL
+    assert words(open_page, {"generated.js": renumbered(), "core/phrases.js": by_hand}) != IN_TERMINAL
 
 
 def test_every_reason_has_its_colours_its_name_and_its_width(open_page):
@@ -81,4 +81,4 @@ def test_every_reason_has_its_colours_its_name_and_its_width(open_page):
 
     assert page.evaluate("octet.view.renderer.palette.reasons.every((colour) => /^#/.test(colour))")
     assert page.locator("#legend [data-reason]").count() == len(Reason) == len(MARKS)
-    assert page.evaluate("import('/trail_layer.js').then(({ WIDTH_MM }) => WIDTH_MM.size)") == len(Reason)
+    assert page.evaluate("import('/draw/trail_layer.js').then(({ WIDTH_MM }) => WIDTH_MM.size)") == len(Reason)

@@ -238,7 +238,7 @@ def test_only_the_page_and_its_parts_are_served(watched):
 
     for path in ("live.html", "../cli.py", "%2e%2e%2fcli.py", "replay.html", "nothing.js"):
         assert asyncio.run(get(path)) in (400, 403, 404)
-    assert asyncio.run(get("live.js")) == 200
+    assert asyncio.run(get("live/live.js")) == 200
 
 
 @pytest.mark.parametrize("words", [(), ("--listen", "127.0.0.1")], ids=["this machine", "other machines"])

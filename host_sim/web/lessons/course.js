@@ -1,27 +1,27 @@
 // @ts-check
 /* The course: the lesson that is open, and its goals, which the runs themselves reach. */
 
-import { byId } from "../elements.js";
+import { byId } from "../core/elements.js";
 import { LessonView } from "./lesson_view.js";
 import { firstLanguage, keepLanguage, textsIn } from "./language.js";
 import { PLANS } from "./plans.js";
 import { Worksheet } from "./worksheet.js";
 
 /**
- * @typedef {import("../lane.js").Lane} Lane
+ * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
  * @typedef {import("../types.js").Change} Change
  * @typedef {import("../types.js").Experiment} Experiment
  *
  * The page, as far as the course knows it.
  * @typedef {Object} Lab
- * @property {Lane} lane
- * @property {Lane[]} lanes
+ * @property {ShownRun} lane
+ * @property {ShownRun[]} lanes
  * @property {number} tick
  * @property {(change: Change) => void} change
- * @property {(lane: Lane) => void} simulate
+ * @property {(lane: ShownRun) => void} simulate
  * @property {(experiment: Experiment) => void} begin
- * @property {(experiment: Experiment) => Lane} addLane
- * @property {(lane: Lane) => void} select
+ * @property {(experiment: Experiment) => ShownRun} addLane
+ * @property {(lane: ShownRun) => void} select
  */
 
 /** Shows lessons in the element panel-lessons. The part of the address behind # may name the one to open. */

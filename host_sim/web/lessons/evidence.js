@@ -4,9 +4,9 @@
 import { PARAMETERS, REASON } from "../generated.js";
 
 /**
- * @typedef {import("../lane.js").Lane} Lane
- * @typedef {import("../run_data.js").RobotData} RobotData
- * @typedef {import("../run_data.js").RunData} RunData
+ * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
+ * @typedef {import("../core/run_data.js").RobotData} RobotData
+ * @typedef {import("../core/run_data.js").RunData} RunData
  *
  * Ticks, both ends included.
  * @typedef {{first: number, last: number}} Stretch
@@ -62,7 +62,7 @@ export function ticksPerObstacle(robot, upTo) {
 
 /**
  * Whether a run is simulated to its end, and shown to it.
- * @param {Lane} lane
+ * @param {ShownRun} lane
  * @param {number} tick
  */
 export function hasEnded(lane, tick) {
@@ -84,7 +84,7 @@ export function hasEatenAll(data, tick) {
 
 /**
  * A parameter of a robot at a tick.
- * @param {Lane} lane
+ * @param {ShownRun} lane
  * @param {{robot: number, name: keyof typeof PARAMETERS}} which
  * @param {number} tick
  */

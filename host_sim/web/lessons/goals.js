@@ -6,11 +6,11 @@ import { hasEatenAll, hasEnded, isProgrammed, longestStretch, settingAt, stretch
 import { meetingsOf } from "./plant_meetings.js";
 
 /**
- * @typedef {import("../lane.js").Lane} Lane
- * @typedef {import("../run_data.js").RunData} RunData
+ * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
+ * @typedef {import("../core/run_data.js").RunData} RunData
  *
  * A run whose first environments are there to be looked at.
- * @typedef {{lane: Lane, data: RunData}} Shown
+ * @typedef {{lane: ShownRun, data: RunData}} Shown
  */
 
 const FRONT_RIGHT = PATTERNS.indexOf("front-right");
@@ -116,7 +116,7 @@ export function areApart(meetings) {
 
 /**
  * The ticks up to this one in which a sensor was broken in this way.
- * @param {Lane} lane
+ * @param {ShownRun} lane
  * @param {string} how
  * @param {number} tick
  */
@@ -155,7 +155,7 @@ export function bumpsBlindly({ lane, data }, tick) {
 }
 
 /**
- * @param {Lane} lane
+ * @param {ShownRun} lane
  * @param {number} tick
  */
 export function isSharing(lane, tick) {

@@ -1,7 +1,7 @@
 // @ts-check
 /* The language of the lessons: the browser's, or the one that was chosen here before. */
 
-import { byId } from "../elements.js";
+import { byId } from "../core/elements.js";
 
 /**
  * The words of one language, as in texts/.

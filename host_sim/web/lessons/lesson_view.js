@@ -1,7 +1,7 @@
 // @ts-check
 /* A lesson in the page: its question, its steps, its goals and what it needs. */
 
-import { byId, setText } from "../elements.js";
+import { byId, setText } from "../core/elements.js";
 import { buttonOf, choiceOf, glossaryOf, listOf, made } from "./building.js";
 import { LANGUAGES } from "./language.js";
 import { PLANS } from "./plans.js";

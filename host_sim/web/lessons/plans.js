@@ -2,7 +2,7 @@
 /* The six lessons: what each begins with, and when its goals are reached. Their words are in texts/. */
 
 import { PARAMETERS } from "../generated.js";
-import { experimentOf } from "../lane.js";
+import { experimentOf } from "../lab/shown_run.js";
 import { hasEnded, isProgrammed } from "./evidence.js";
 import { areApart, bumpsBlindly, eatsWithoutBelieving, hadToTry, hasEatenFast, hasFreedItself } from "./goals.js";
 import { hasHeard, hasLearnedBothSides, hasPassed, hasTried, isLearnerBeaten, isSharing } from "./goals.js";

@@ -5,8 +5,8 @@ import { REASON } from "../generated.js";
 import { stretchesOf } from "./evidence.js";
 
 /**
- * @typedef {import("../run_data.js").RobotData} RobotData
- * @typedef {import("../run_data.js").RunData} RunData
+ * @typedef {import("../core/run_data.js").RobotData} RobotData
+ * @typedef {import("../core/run_data.js").RunData} RunData
  * @typedef {import("../types.js").EnvironmentScene} EnvironmentScene
  * @typedef {import("../types.js").Place} Place
  *

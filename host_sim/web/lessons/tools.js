@@ -1,8 +1,8 @@
 // @ts-check
 /* What some lessons need beside the rest of the page: one kind of tool each. */
 
-import { SENSORS, SOUND, withFault } from "../body_faults.js";
-import { byId, setText } from "../elements.js";
+import { SENSORS, SOUND, withFault } from "../sim/body_faults.js";
+import { byId, setText } from "../core/elements.js";
 import { PARAMETERS } from "../generated.js";
 import { choiceOf, made } from "./building.js";
 import { settingAt, ticksPerObstacle } from "./evidence.js";

@@ -1,10 +1,10 @@
 // @ts-check
 /* What is printed: a worksheet with room to write, or the notes for teachers. */
 
-import { pictureOf } from "../cells_view.js";
-import { byId } from "../elements.js";
+import { pictureOf } from "../panel/cells_view.js";
+import { byId } from "../core/elements.js";
 import { CELL_COUNT } from "../generated.js";
-import { binary } from "../phrases.js";
+import { binary } from "../core/phrases.js";
 import { glossaryOf, listOf, made } from "./building.js";
 
 /**

@@ -1,0 +1,33 @@
+// @ts-check
+/* The colours of a canvas: those of the style sheet, so that light and dark are decided in one place. */
+
+import { REASON } from "../generated.js";
+
+const NAMES = /** @type {const} */ ([
+  "floor", "grid", "ink", "paper", "bar", "food", "cone", "cone-dark", "beam", "select", "plant",
+]);
+
+/**
+ * @typedef {Object} Palette
+ * @property {Record<typeof NAMES[number], string>} of - Colour by name.
+ * @property {string[]} reasons - Colour by reason.
+ */
+
+/** What the style sheet calls each reason, by reason: "toward-food". */
+export const REASON_KEYS = Object.entries(REASON)
+  .sort(([, a], [, b]) => a - b)
+  .map(([name]) => name.toLowerCase().replaceAll("_", "-"));
+
+/**
+ * Reads the colours that an element has now.
+ * @param {Element} element
+ * @returns {Palette}
+ */
+export function paletteOf(element) {
+  const style = getComputedStyle(element);
+  const colour = (/** @type {string} */ name) => style.getPropertyValue(`--${name}`).trim();
+  return {
+    of: /** @type {Palette["of"]} */ (Object.fromEntries(NAMES.map((name) => [name, colour(name)]))),
+    reasons: REASON_KEYS.map((key) => colour(`reason-${key}`)),
+  };
+}

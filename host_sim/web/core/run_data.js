@@ -1,0 +1,221 @@
+// @ts-check
+/* A recorded run: gives the states of any tick. */
+
+import { CELL_COUNT } from "../generated.js";
+import { unpackColumns } from "./packed_columns.js";
+
+/**
+ * @typedef {import("./packed_columns.js").Columns} Columns
+ * @typedef {import("../draw/trail.js").Trail} Trail
+ * @typedef {import("../types.js").EnvironmentScene} EnvironmentScene
+ * @typedef {import("../types.js").EventKind} EventKind
+ * @typedef {import("../types.js").Lesson} Lesson
+ * @typedef {import("../types.js").RobotRun} RobotRun
+ * @typedef {import("../types.js").Run} Run
+ * @typedef {import("../types.js").State} State
+ */
+
+const VERSION = 2;
+const TRAIL_TICKS = 6000;
+const PLACES_PER_MM = 10;
+
+/** A run in memory. Ticks are counted from the start of the run. */
+export class RunData {
+  /**
+   * Unpacks a run.
+   * @param {Run} run
+   * @returns {Promise<RunData>}
+   */
+  static async from(run) {
+    if (run.version !== VERSION) throw new Error(`This page shows runs of version ${VERSION}, not ${run.version}.`);
+    const columns = run.robots.map((robot) => unpackColumns(robot.data, robot.columns, run.ticks));
+    return new RunData(run, await Promise.all(columns));
+  }
+
+  /**
+   * @param {Run} run
+   * @param {Columns[]} columns - Of each robot.
+   */
+  constructor(run, columns) {
+    this.run = run;
+    this.first = run.first_tick;
+    this.last = run.first_tick + run.ticks - 1;
+    this.measures = run.measures;
+    this.robots = run.robots.map((robot, i) => new RobotData(robot, columns[i], run.first_tick));
+  }
+
+  /**
+   * The states of all robots at a tick.
+   * @param {number} tick
+   * @returns {State[]}
+   */
+  statesAt(tick) {
+    const eaten = latest(this.run.eaten, tick);
+    const start = this.sceneAt(tick).start_tick;
+    return this.robots.map((robot) => robot.stateAt(tick, start, eaten));
+  }
+
+  /** @param {number} tick */
+  sceneAt(tick) {
+    return latest(this.run.scenes, tick);
+  }
+
+  /**
+   * Makes trails those up to a tick, in its environment.
+   * @param {number} tick
+   * @param {Trail[]} trails
+   */
+  trailsAt(tick, trails) {
+    const begin = this.sceneAt(tick).first_tick;
+    trails.forEach((trail) => trail.clear());
+    this.addTrails(trails, Math.max(this.first, begin, tick - TRAIL_TICKS), tick);
+  }
+
+  /**
+   * Adds ticks to trails, both ends included.
+   * @param {Trail[]} trails
+   * @param {number} from
+   * @param {number} to
+   */
+  addTrails(trails, from, to) {
+    this.robots.forEach((robot, i) => robot.addTrail(trails[i], from, to));
+  }
+}
+
+/** What a recorded run has of one robot. */
+export class RobotData {
+  /**
+   * @param {RobotRun} run
+   * @param {Columns} columns
+   * @param {number} first - The first tick of the columns.
+   */
+  constructor(run, columns, first) {
+    this.run = run;
+    this.columns = columns;
+    this.first = first;
+  }
+
+  /**
+   * @param {number} tick
+   * @param {number} start - The first tick since the run was started over.
+   * @param {number[]} eaten
+   * @returns {State}
+   */
+  stateAt(tick, start, eaten) {
+    const lessons = this.lastLessons(tick, start);
+    const at = (/** @type {string} */ column) => this.columns[column][tick - this.first];
+    return {
+      node: this.run.node,
+      tick,
+      x: at("x") / PLACES_PER_MM,
+      y: at("y") / PLACES_PER_MM,
+      heading: at("heading"),
+      lifted: at("lifted"),
+      feel: at("feel"),
+      bump: at("bump"),
+      beacon: at("beacon"),
+      left: at("left"),
+      right: at("right"),
+      reason: at("reason"),
+      repeat_count: at("repeat_count"),
+      action: at("action"),
+      pattern: at("pattern"),
+      eaten,
+      memory: this.memoryAt(tick),
+      uses: this.usesAt(tick, lessons.map((lesson) => lesson?.tick ?? start)),
+      learned: lessons.map((lesson) => lesson?.tick ?? -1),
+      by_hand: lessons.map((lesson) => lesson?.by_hand ?? 0),
+      frozen: at("frozen"),
+      trial: latest(this.run.trials, tick),
+    };
+  }
+
+  /** @param {number} tick */
+  memoryAt(tick) {
+    return latest(this.run.memory, tick);
+  }
+
+  /**
+   * How often the content of each cell was used, up to a tick.
+   * @param {number} tick
+   * @param {number[]} since - For each cell, the first tick to count.
+   */
+  usesAt(tick, since) {
+    const uses = since.map((first, cell) => (first < this.first ? this.run.uses_before[cell] : 0));
+    const turns = this.run.turns.slice(0, countUpTo(this.run.turns, tick, ([at]) => at));
+    for (const [at, cell] of turns) uses[cell] += Number(at >= since[cell]);
+    return uses;
+  }
+
+  /**
+   * The last change of each cell up to a tick; undefined if it did not change.
+   * @param {number} tick
+   * @param {number} start - The first tick to count.
+   */
+  lastLessons(tick, start) {
+    /** @type {(Lesson | undefined)[]} */
+    const last = Array.from({ length: CELL_COUNT }, () => undefined);
+    for (const lesson of this.lessonsUpTo(tick, start)) last[lesson.cell] = lesson;
+    return last;
+  }
+
+  /**
+   * @param {number} tick
+   * @param {number} start - The first tick to count.
+   */
+  lessonsUpTo(tick, start) {
+    const tickOf = (/** @type {Lesson} */ lesson) => lesson.tick;
+    return this.run.lessons.slice(countUpTo(this.run.lessons, start - 1, tickOf), countUpTo(this.run.lessons, tick, tickOf));
+  }
+
+  /**
+   * The tick of the next event of a kind after a tick, or the one before it; undefined if there is none.
+   * @param {EventKind} kind
+   * @param {number} tick
+   * @param {number} step - 1 or -1.
+   */
+  eventFrom(kind, tick, step) {
+    const ticks = this.run.events.filter(([at, what]) => what === kind && (at - tick) * step > 0).map(([at]) => at);
+    return step > 0 ? ticks[0] : ticks.at(-1);
+  }
+
+  /**
+   * @param {Trail} trail
+   * @param {number} from
+   * @param {number} to
+   */
+  addTrail(trail, from, to) {
+    const { x, y, reason } = this.columns;
+    for (let i = from - this.first; i <= to - this.first; i += 1) {
+      trail.add(x[i] / PLACES_PER_MM, y[i] / PLACES_PER_MM, reason[i]);
+    }
+  }
+}
+
+/**
+ * What holds at a tick, of pairs [from which tick on, what] in their order; the first holds at least from there.
+ * @template T
+ * @param {[number, T][]} pairs
+ * @param {number} tick
+ * @returns {T}
+ */
+function latest(pairs, tick) {
+  return pairs[countUpTo(pairs, tick, ([at]) => at) - 1][1];
+}
+
+/**
+ * How many entries, in the order of their ticks, are at a tick or before.
+ * @template T
+ * @param {T[]} entries
+ * @param {number} tick
+ * @param {(entry: T) => number} tickOf
+ */
+function countUpTo(entries, tick, tickOf) {
+  let [low, high] = [0, entries.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (tickOf(entries[middle]) <= tick) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}

@@ -1,0 +1,174 @@
+// @ts-check
+/* Draws a scene on a canvas: the arena to scale, the trails, the robots. */
+
+import { contextOf } from "../core/elements.js";
+import { paletteOf } from "../core/palette.js";
+import { drawLook, drawRobot } from "./robot_view.js";
+import { circle, drawPlant } from "./shapes.js";
+import { TrailLayer } from "./trail_layer.js";
+
+/**
+ * @typedef {import("./scene.js").Item} Item
+ * @typedef {import("./scene.js").Scene} Scene
+ * @typedef {import("../types.js").Measures} Measures
+ * @typedef {import("../types.js").Place} Place
+ */
+
+/** Room around the arena, for its walls. */
+const MARGIN_MM = 40;
+const GRID_MM = 500;
+const FOOD_MM = 50;
+
+/** Keeps its canvas as sharp as the screen. */
+export class Renderer {
+  /** @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.context = contextOf(canvas, { alpha: false });
+    /** Asked before each drawing: a listener would hold this canvas for as long as the page is open. */
+    this.dark = matchMedia("(prefers-color-scheme: dark)");
+    this.isDark = this.dark.matches;
+    this.palette = paletteOf(canvas);
+    this.trailLayer = new TrailLayer();
+    this.scale = 1;
+    this.size = { width: canvas.clientWidth, height: canvas.clientHeight };
+    new ResizeObserver(() => this.measure()).observe(canvas);
+  }
+
+  /** @param {Scene} scene */
+  draw(scene) {
+    this.useColours();
+    const { context, palette } = this;
+    const states = [...scene.states.filter(({ node }) => node !== scene.node), scene.state];
+    this.fit(scene.measures);
+    this.drawFloor(scene.measures);
+    this.trailLayer.draw(context, scene.trails, palette.reasons, scene.trail);
+    for (const state of states) drawLook(context, scene, state, palette);
+    this.drawFood(scene);
+    this.drawBars(scene);
+    this.drawPlants(scene);
+    for (const state of states) drawRobot(context, scene, state, palette);
+  }
+
+  /**
+   * The place in the arena at a place of the page.
+   * @param {{clientX: number, clientY: number}} at
+   * @returns {Place} mm
+   */
+  placeOf(at) {
+    const box = this.canvas.getBoundingClientRect();
+    const perMm = (this.scale * box.width) / this.canvas.width;
+    return { x: (at.clientX - box.left) / perMm - MARGIN_MM, y: (at.clientY - box.top) / perMm - MARGIN_MM };
+  }
+
+  /**
+   * A length on the page as one in the arena.
+   * @param {number} px
+   * @returns {number} mm
+   */
+  lengthOf(px) {
+    return (px * this.canvas.width) / (this.scale * this.canvas.getBoundingClientRect().width);
+  }
+
+  /** Reads the colours anew if the page has become dark or light. */
+  useColours() {
+    if (this.isDark === this.dark.matches) return;
+    this.isDark = this.dark.matches;
+    this.palette = paletteOf(this.canvas);
+  }
+
+  measure() {
+    this.size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
+  /**
+   * Gives the canvas a pixel for each of the screen's, and mm as its unit.
+   * @param {Measures} measures
+   */
+  fit(measures) {
+    const width = Math.max(1, Math.round(this.size.width * devicePixelRatio));
+    const height = Math.max(1, Math.round(this.size.height * devicePixelRatio));
+    if (this.canvas.width !== width || this.canvas.height !== height) {
+      this.canvas.width = width;
+      this.canvas.height = height;
+    }
+    this.scale = Math.min(width / (measures.width + 2 * MARGIN_MM), height / (measures.height + 2 * MARGIN_MM));
+    this.context.setTransform(this.scale, 0, 0, this.scale, MARGIN_MM * this.scale, MARGIN_MM * this.scale);
+  }
+
+  /** @param {Measures} measures */
+  drawFloor(measures) {
+    const { context, palette } = this;
+    context.fillStyle = palette.of.bar;
+    context.fillRect(-MARGIN_MM, -MARGIN_MM, this.canvas.width / this.scale, this.canvas.height / this.scale);
+    context.fillStyle = palette.of.floor;
+    context.fillRect(0, 0, measures.width, measures.height);
+    context.fillStyle = palette.of.grid;
+    for (let x = GRID_MM; x < measures.width; x += GRID_MM) context.fillRect(x - 2, 0, 4, measures.height);
+    for (let y = GRID_MM; y < measures.height; y += GRID_MM) context.fillRect(0, y - 2, measures.width, 4);
+  }
+
+  /**
+   * A full disc; an empty ring once it is eaten.
+   * @param {Scene} scene
+   */
+  drawFood({ environment, state, item }) {
+    const { context, palette } = this;
+    environment.food.forEach(([x, y], id) => {
+      circle(context, x, y, FOOD_MM);
+      context.fillStyle = palette.of[state.eaten[id] ? "floor" : "food"];
+      context.fill();
+      context.strokeStyle = palette.of[isSelected(item, "food", id) ? "select" : "food"];
+      context.lineWidth = 14;
+      context.stroke();
+    });
+  }
+
+  /** @param {Scene} scene */
+  drawBars({ environment, measures, item }) {
+    const { palette } = this;
+    this.context.lineCap = "round";
+    for (const bar of environment.bars) {
+      if (isSelected(item, "bar", bar[0])) this.drawBar(bar, measures.bar + 40, palette.of.select);
+      this.drawBar(bar, measures.bar, palette.of.bar);
+    }
+  }
+
+  /** @param {Scene} scene */
+  drawPlants({ environment, item }) {
+    const { context, palette } = this;
+    for (const plant of environment.plants ?? []) {
+      const [id, x, y, radius] = plant;
+      drawPlant(context, plant, palette.of);
+      if (!isSelected(item, "plant", id)) continue;
+      context.strokeStyle = palette.of.select;
+      context.lineWidth = 20;
+      circle(context, x, y, radius);
+      context.stroke();
+    }
+  }
+
+  /**
+   * @param {number[]} bar
+   * @param {number} width
+   * @param {string} colour
+   */
+  drawBar([, ax, ay, bx, by], width, colour) {
+    const { context } = this;
+    context.strokeStyle = colour;
+    context.lineWidth = width;
+    context.beginPath();
+    context.moveTo(ax, ay);
+    context.lineTo(bx, by);
+    context.stroke();
+  }
+}
+
+/**
+ * @param {Item | undefined} item
+ * @param {Item["kind"]} kind
+ * @param {number} id
+ */
+function isSelected(item, kind, id) {
+  return item?.kind === kind && item.id === id;
+}

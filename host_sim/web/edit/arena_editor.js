@@ -1,0 +1,197 @@
+// @ts-check
+/* What a person does to the world: selects items, moves obstacles, plants, food and robots, adds and removes obstacles. */
+
+import { byId, setText, typedById } from "../core/elements.js";
+import { allItems, whole } from "./hit_testing.js";
+import { endsOf, insideWalls, movedBar, plantOf, turnedBar, wirePlace } from "./placement.js";
+
+/**
+ * @typedef {import("../draw/scene.js").Ghost} Ghost
+ * @typedef {import("../draw/scene.js").Item} Item
+ * @typedef {import("../draw/scene.js").Scene} Scene
+ * @typedef {import("../types.js").Command} Command
+ * @typedef {import("../types.js").Place} Place
+ */
+
+const NEW_BAR_MM = 250;
+/** A new obstacle lies in the middle, or higher up if the robot is about there. */
+const NEW_BAR_ROOM_MM = 300;
+
+/** Sends commands about the world. */
+export class ArenaEditor {
+  /**
+   * @param {Scene} scene - Its `item`, `node` and `ghosts` are ours.
+   * @param {(command: Command) => void} send
+   * @param {() => void} onChange - Called when there is something new to draw.
+   */
+  constructor(scene, send, onChange) {
+    this.scene = scene;
+    this.send = send;
+    this.onChange = onChange;
+    this.barPending = false;
+    this.plantPending = false;
+    /**
+     * Robots that we asked to be lifted, and that are not yet.
+     * @type {Set<number>}
+     */
+    this.lifting = new Set();
+    byId("lift").addEventListener("click", () => this.liftOrPut());
+    byId("add-bar").addEventListener("click", () => this.addBar());
+    byId("remove-bar").addEventListener("click", () => this.removeBar());
+  }
+
+  /** The arena has changed: what was selected may be gone, and an obstacle that we asked for may be there. */
+  onEnvironment() {
+    const { environment, item } = this.scene;
+    if (this.barPending) this.select(whole("bar", Math.max(...environment.bars.map(([id]) => id))));
+    else if (this.plantPending) this.select(whole("plant", Math.max(...(environment.plants ?? []).map(([id]) => id))));
+    else if (item?.kind === "bar" && !endsOf(environment, item.id)) this.select(undefined);
+    else if (item?.kind === "plant" && !plantOf(environment, item.id)) this.select(undefined);
+    this.barPending = this.plantPending = false;
+  }
+
+  /**
+   * The robots are where the states say, but for those that a person holds.
+   * @param {number} [dragged] - The robot that is being dragged.
+   */
+  onStates(dragged) {
+    const { states, ghosts } = this.scene;
+    for (const { node, lifted } of states) {
+      if (lifted) this.lifting.delete(node);
+      else if (node !== dragged && !this.lifting.has(node)) ghosts.delete(node);
+    }
+    const which = states.length > 1 ? `robot ${this.robot.node}` : "the robot";
+    setText(byId("lift"), `${this.robot.lifted ? "Put down" : "Pick up"} ${which}`);
+  }
+
+  /** Something could not be done: no robot is about to be lifted, and no obstacle about to come. */
+  onRefusal() {
+    this.lifting.clear();
+    this.barPending = this.plantPending = false;
+    this.onChange();
+  }
+
+  /** The state of the robot that the buttons act on: that of the panel. */
+  get robot() {
+    return this.scene.state;
+  }
+
+  /** @param {Item | undefined} item */
+  select(item) {
+    this.scene.item = item;
+    if (item?.kind === "robot") this.scene.node = item.id;
+    this.onChange();
+    typedById("remove-bar", HTMLButtonElement).disabled = item?.kind !== "bar" && item?.kind !== "plant";
+  }
+
+  /**
+   * Selects the next item.
+   * @param {number} step - 1 forward, -1 back.
+   */
+  selectNext(step) {
+    const items = allItems(this.scene);
+    const { item } = this.scene;
+    const now = items.findIndex(({ kind, id }) => kind === item?.kind && id === item.id);
+    const first = step > 0 ? 0 : items.length - 1;
+    this.select(items[now < 0 ? first : (now + step + items.length) % items.length]);
+  }
+
+  /**
+   * Shows a robot in the panel; if another robot is selected in the arena, selects this one instead.
+   * @param {number} node
+   */
+  pick(node) {
+    if (this.scene.item?.kind === "robot") this.select(whole("robot", node));
+    this.scene.node = node;
+    this.onChange();
+  }
+
+  liftOrPut() {
+    const { robot, scene } = this;
+    const { x, y, heading } = scene.poseOf(robot);
+    this.hold(robot.node, { x, y, heading });
+    if (robot.lifted) this.put(robot.node);
+    else this.lift(robot.node);
+    this.select(whole("robot", robot.node));
+  }
+
+  /** @param {number} node */
+  lift(node) {
+    this.lifting.add(node);
+    this.send({ do: "lift", node });
+  }
+
+  /**
+   * Puts a robot down where a person holds it.
+   * @param {number} node
+   */
+  put(node) {
+    const ghost = this.scene.ghosts.get(node);
+    if (!ghost) return;
+    this.send({ do: "put", node, at: wirePlace(ghost, this.scene.measures), heading: ghost.heading });
+  }
+
+  /**
+   * Draws a robot where a person holds it, which is never beyond the walls.
+   * @param {number} node
+   * @param {Ghost} ghost
+   */
+  hold(node, ghost) {
+    this.scene.ghosts.set(node, insideWalls(ghost, this.scene.measures));
+    this.onChange();
+  }
+
+  addBar() {
+    const { width, height } = this.scene.measures;
+    const isFree = this.scene.states.every(({ y }) => Math.abs(y - height / 2) > NEW_BAR_ROOM_MM);
+    const x = Math.round(width / 2);
+    const y = Math.round(height * (isFree ? 0.5 : 0.2));
+    this.barPending = true;
+    this.send({ do: "add_bar", a: [x - NEW_BAR_MM, y], b: [x + NEW_BAR_MM, y] });
+  }
+
+  removeBar() {
+    const { item } = this.scene;
+    if (item?.kind === "bar") this.send({ do: "remove_bar", id: item.id });
+    if (item?.kind === "plant") this.send({ do: "remove_plant", id: item.id });
+  }
+
+  /**
+   * Moves the selected item.
+   * @param {Place} by - mm
+   */
+  nudge(by) {
+    const { item, environment, measures, ghosts } = this.scene;
+    if (!item) return;
+    const ghost = item.kind === "robot" && ghosts.get(item.id);
+    if (ghost) this.hold(item.id, { ...ghost, x: ghost.x + by.x, y: ghost.y + by.y });
+    if (item.kind === "food") {
+      const [x, y] = environment.food[item.id];
+      this.send({ do: "move_food", id: item.id, at: wirePlace({ x: x + by.x, y: y + by.y }, measures) });
+    }
+    const ends = item.kind === "bar" && endsOf(environment, item.id);
+    if (ends) this.send({ do: "move_bar", id: item.id, ...movedBar(ends, "whole", by, measures) });
+    const plant = item.kind === "plant" && plantOf(environment, item.id);
+    if (plant) this.send({ do: "move_plant", id: item.id, at: wirePlace({ x: plant.x + by.x, y: plant.y + by.y }, measures) });
+  }
+
+  /**
+   * Turns the selected item to the right.
+   * @param {number} radians
+   */
+  turn(radians) {
+    const { item, environment, measures, ghosts } = this.scene;
+    const ghost = item?.kind === "robot" && ghosts.get(item.id);
+    if (ghost) this.hold(item.id, { ...ghost, heading: Math.round(1000 * wrap(ghost.heading / 1000 + radians)) });
+    const ends = item?.kind === "bar" && endsOf(environment, item.id);
+    if (ends) this.send({ do: "move_bar", id: item.id, ...turnedBar(ends, radians, measures) });
+  }
+}
+
+/**
+ * An angle in -pi..pi.
+ * @param {number} radians
+ */
+function wrap(radians) {
+  return Math.atan2(Math.sin(radians), Math.cos(radians));
+}

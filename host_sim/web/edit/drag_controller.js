@@ -1,0 +1,106 @@
+// @ts-check
+/* Dragging in the arena: what the pointer does to obstacles, plants, food and robots. */
+
+import { distance, itemAt } from "./hit_testing.js";
+import { endsOf, movedBar, wirePlace } from "./placement.js";
+
+/**
+ * @typedef {import("./arena_editor.js").ArenaEditor} ArenaEditor
+ * @typedef {import("./placement.js").Ends} Ends
+ * @typedef {import("../draw/renderer.js").Renderer} Renderer
+ * @typedef {import("../draw/scene.js").Item} Item
+ * @typedef {import("../types.js").Command} Command
+ * @typedef {import("../types.js").Place} Place
+ *
+ * What is dragged, from where, and for a bar its ends then.
+ * @typedef {{item: Item, from: Place, ends: Ends | undefined}} Drag
+ */
+
+const LIFT_AFTER_MM = 30;
+const CLICK_MM = 1;
+const SEND_EVERY_MS = 30;
+/** Half of what a finger needs to hit. */
+const FINGER_PX = 22;
+
+/** Selects what is pressed, and moves it with the pointer. */
+export class DragController {
+  /**
+   * @param {Renderer} renderer
+   * @param {ArenaEditor} editor
+   */
+  constructor(renderer, editor) {
+    this.renderer = renderer;
+    this.editor = editor;
+    /** @type {Drag | undefined} */
+    this.drag = undefined;
+    this.sentAt = 0;
+    const { canvas } = renderer;
+    canvas.addEventListener("pointerdown", (event) => this.begin(event));
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    canvas.addEventListener("pointerup", (event) => this.end(event));
+    canvas.addEventListener("pointercancel", (event) => this.end(event));
+  }
+
+  /** The robot that is being dragged, if one is. */
+  get robot() {
+    return this.drag?.item.kind === "robot" ? this.drag.item.id : undefined;
+  }
+
+  /** @param {PointerEvent} event */
+  begin(event) {
+    const { scene } = this.editor;
+    const from = this.renderer.placeOf(event);
+    const slack = event.pointerType === "touch" ? this.renderer.lengthOf(FINGER_PX) : 0;
+    const item = itemAt(scene, from, slack);
+    this.editor.select(item);
+    if (!item) return;
+    this.renderer.canvas.setPointerCapture(event.pointerId);
+    this.drag = { item, from, ends: item.kind === "bar" ? endsOf(scene.environment, item.id) : undefined };
+  }
+
+  /** @param {PointerEvent} event */
+  move(event) {
+    if (!this.drag) return;
+    const at = this.renderer.placeOf(event);
+    if (this.drag.item.kind === "robot") this.moveRobot(this.drag, at);
+    else if (event.timeStamp - this.sentAt > SEND_EVERY_MS) {
+      this.sentAt = event.timeStamp;
+      this.moveItem(this.drag, at);
+    }
+  }
+
+  /** @param {PointerEvent} event */
+  end(event) {
+    const drag = this.drag;
+    this.drag = undefined;
+    if (!drag) return;
+    const at = this.renderer.placeOf(event);
+    if (drag.item.kind === "robot") this.editor.put(drag.item.id);
+    else if (distance(at, drag.from) > CLICK_MM) this.moveItem(drag, at);
+  }
+
+  /**
+   * @param {Drag} drag
+   * @param {Place} at
+   */
+  moveItem({ item, from, ends }, at) {
+    const { measures } = this.editor.scene;
+    const by = { x: at.x - from.x, y: at.y - from.y };
+    if (item.kind === "food") this.editor.send({ do: "move_food", id: item.id, at: wirePlace(at, measures) });
+    else if (item.kind === "plant") this.editor.send({ do: "move_plant", id: item.id, at: wirePlace(at, measures) });
+    else if (ends) this.editor.send({ do: "move_bar", id: item.id, ...movedBar(ends, item.part, by, measures) });
+  }
+
+  /**
+   * @param {Drag} drag
+   * @param {Place} at
+   */
+  moveRobot({ item, from }, at) {
+    const { scene } = this.editor;
+    const state = scene.states.find(({ node }) => node === item.id);
+    const held = scene.ghosts.has(item.id);
+    if (!state || (!held && distance(at, from) < LIFT_AFTER_MM)) return;
+    if (!state.lifted && !held) this.editor.lift(item.id);
+    this.editor.hold(item.id, { ...at, heading: scene.poseOf(state).heading });
+  }
+}

@@ -1,0 +1,51 @@
+// @ts-check
+/* Files that the page writes and reads. */
+
+import { EDIT_FIELDS } from "../core/edit_fields.js";
+import { CELL_COUNT } from "../generated.js";
+import { RANDOM } from "../core/world_names.js";
+
+/**
+ * Lets the browser save a file.
+ * @param {string} name
+ * @param {BlobPart[]} parts
+ */
+export function save(name, parts) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob(parts));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href));
+}
+
+/**
+ * A memory file's bytes.
+ * @param {File} file
+ */
+export async function memoryIn(file) {
+  const bytes = [...new Uint8Array(await file.arrayBuffer())];
+  if (bytes.length !== CELL_COUNT) throw new Error(`${file.name} is not a memory file: it has ${bytes.length} bytes, not ${CELL_COUNT}`);
+  return bytes;
+}
+
+/**
+ * The world file of a run, as host_sim/recording/world_file.py writes it.
+ * @param {import("../types.js").Experiment} experiment
+ * @param {import("../core/run_data.js").RunData} data
+ * @param {number} frontExtraMm
+ */
+export function worldText({ seed, environments, limit_ticks, robots, changes, world = RANDOM }, data, frontExtraMm) {
+  const begun = data.robots[0].run.events.filter(([, kind]) => kind === "environment");
+  const content = {
+    format: 1,
+    seed,
+    of: environments,
+    limit_ticks,
+    robots: robots.length,
+    front_extra_mm: frontExtraMm,
+    ...(world !== RANDOM && { world }),
+    environments: begun.map(([tick]) => ({ seed, number: data.sceneAt(tick).number, first_tick: tick })),
+    edits: changes.filter((change) => EDIT_FIELDS.has(change.do)),
+  };
+  return `${JSON.stringify(content)}\n`;
+}

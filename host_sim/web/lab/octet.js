@@ -1,0 +1,161 @@
+// @ts-check
+/* octet.html: runs of the real firmware in this page, side by side; what a person changes makes another future. */
+
+import { SidePanel } from "./side_panel.js";
+import { byId, isForPage, setText, typedById } from "../core/elements.js";
+import { LabEditor } from "./lab_editor.js";
+import { experimentOf } from "./shown_run.js";
+import { nextTick } from "./run_events.js";
+import { Laboratory } from "./laboratory.js";
+import { Course } from "../lessons/course.js";
+import { Panel } from "../panel/panel.js";
+import { DivergenceView } from "../panel/divergence.js";
+import { RobotPicker } from "../panel/robot_picker.js";
+import { drawMarks } from "../panel/timeline.js";
+
+/**
+ * A recorded run that the page begins with: the tick and the robot that are shown.
+ * @typedef {{recorded: import("../sim/log_opening.js").RecordedRun, tick: number, node: number}} Begin
+ */
+
+/** Shows the laboratory's runs, and what belongs to the one that is selected. */
+class LabPage extends Laboratory {
+  /**
+   * @param {import("./laboratory.js").Parts} parts
+   * @param {Begin | null} begin - What to begin with; null for a new run.
+   */
+  constructor(parts, begin) {
+    const first = experimentOf({ seed: 1, environments: 5, robots: 1, profile: "article" });
+    super(parts, begin ? { ...first, ticks_max: 1 } : first);
+    this.panel = new Panel((cell, side) => this.change({ do: "write", robot: this.lane.robot, cell, side }));
+    this.desk = new SidePanel(this);
+    this.course = new Course(this);
+    this.parting = new DivergenceView();
+    /** @type {RobotPicker | undefined} */
+    this.picker = undefined;
+    /** @type {LabEditor | undefined} */
+    this.editor = undefined;
+    /** Settled when a recorded run that the page begins with, and its copy, are simulated to their ends. */
+    this.repeated = begin ? this.repeat(begin) : Promise.resolve();
+  }
+
+  /**
+   * Simulates a recorded run again, and lays a copy beside it.
+   * @param {Begin} begin
+   */
+  async repeat({ recorded, tick, node }) {
+    this.begin(await this.simulator.repeat(recorded));
+    await this.lane.done;
+    this.go(tick);
+    this.whatIf();
+    await this.lane.done;
+    this.pick(node);
+  }
+
+  /** @override */
+  onLanes() {
+    byId("floors").dataset.lanes = `${this.lanes.length}`;
+    typedById("remove-lane", HTMLButtonElement).disabled = this.lanes.length < 2;
+    typedById("what-if", HTMLButtonElement).disabled = this.isFull;
+    this.stale = true;
+  }
+
+  /** @override */
+  onScene() {
+    const { scene } = this;
+    this.resize();
+    if (!scene) return;
+    this.picker ??= new RobotPicker(scene, (node) => this.pick(node));
+    this.picker.scene = scene;
+    this.editor ??= new LabEditor(this, scene);
+    this.editor.scene = scene;
+    for (const lane of this.lanes) this.editor.watch(lane);
+  }
+
+  /** @override */
+  onRefusal() {
+    this.editor?.onRefusal();
+  }
+
+  /** @param {number} node */
+  pick(node) {
+    if (this.scene) this.scene.node = node;
+    this.onScene();
+  }
+
+  /** @override */
+  drawMarks() {
+    const { data, robot } = this.lane;
+    if (data) drawMarks(this.marks, data.robots[robot], { first: this.first, last: this.last });
+  }
+
+  /**
+   * @override
+   * @param {number} step
+   */
+  jump(step) {
+    const { data, robot } = this.lane;
+    if (!data) return;
+    const kind = typedById("kind", HTMLSelectElement).value;
+    const tick = nextTick(data.robots[robot], kind, this.tick, step);
+    if (tick === undefined) {
+      this.note.show(`There is no ${step > 0 ? "later" : "earlier"} ${kind}.`);
+      return;
+    }
+    this.setPlaying(false);
+    this.go(tick);
+  }
+
+  /** @override */
+  draw() {
+    const { lane, lanes, tick } = this;
+    const { scene, data } = lane;
+    if (!scene || !data) return;
+    this.editor?.beforeDrawing();
+    for (const each of lanes) {
+      if (each.scene) this.panel.settle(each.scene, !this.playing);
+      each.draw(tick);
+      each.figure.classList.toggle("selected", each === lane);
+    }
+    this.panel.settle(scene, !this.playing);
+    this.panel.show(scene, { exact: !this.playing, ...this.otherMemory() });
+    this.picker?.show();
+    this.desk.show();
+    setText(byId("news"), scene.lastNews);
+    this.course.show();
+    this.parting.show(lanes, lane);
+    this.showTime(scene.clock(tick));
+  }
+
+  /** The memory in the first other run, to compare with. */
+  otherMemory() {
+    const other = this.lanes.find((lane) => lane !== this.lane && lane.scene);
+    const states = other?.scene?.states ?? [];
+    return { then: states[Math.min(this.lane.robot, states.length - 1)]?.memory, where: `in ${other?.name}` };
+  }
+
+  /**
+   * @override
+   * @param {KeyboardEvent} event
+   */
+  takesKey(event) {
+    const inArena = event.target instanceof HTMLCanvasElement;
+    const fields = event.key === " " ? "select, button, input, summary" : "select, input:not(#scrub), [role=tab]";
+    return isForPage(event, fields) && !event.defaultPrevented && !(inArena && event.key.startsWith("Arrow"));
+  }
+
+  /**
+   * @override
+   * @param {number} step
+   */
+  actions(step) {
+    return { ...super.actions(step), b: () => this.jump(-1) };
+  }
+}
+
+try {
+  const [parts, begin] = ["parts", "begin"].map((id) => JSON.parse(byId(id).textContent || "null"));
+  Object.assign(window, { octet: new LabPage(parts, begin) });
+} catch (error) {
+  setText(byId("status"), error instanceof Error ? error.message : `${error}`);
+}

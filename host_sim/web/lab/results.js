@@ -1,0 +1,90 @@
+// @ts-check
+/* What a run has come to, up to a tick: numbers for curves, for a table and for a file. */
+
+import { REASON } from "../generated.js";
+
+/**
+ * @typedef {import("./shown_run.js").ShownRun} ShownRun
+ * @typedef {import("../core/run_data.js").RobotData} RobotData
+ *
+ * @typedef {"trials" | "blocked" | "meals"} Curve
+ *
+ * A count that grows: the ticks in which it does, and what it is from then on.
+ * @typedef {{ticks: number[], counts: number[]}} Growth
+ */
+
+/** The columns of the table and of the file. */
+export const NAMES = ["run", "robot", "behaviour", "seed", "environment", "finished", "time s", "trials", "lessons", "bored", "blocked s", "meals"];
+
+const AVOIDING = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
+
+/**
+ * How something grows in a run.
+ * @param {RobotData} robot
+ * @param {Curve} curve
+ * @param {number} tickMs
+ * @returns {Growth}
+ */
+export function growthOf(robot, curve, tickMs) {
+  if (curve === "blocked") return blockedGrowth(robot.columns.reason, tickMs / 1000);
+  const kind = curve === "trials" ? "trial" : "eat";
+  const ticks = robot.run.events.filter(([, what]) => what === kind).map(([tick]) => tick);
+  return { ticks, counts: ticks.map((_, i) => i + 1) };
+}
+
+/**
+ * One row for each robot and environment that has begun by a tick.
+ * @param {ShownRun} lane
+ * @param {number} upTo
+ * @returns {(string | number)[][]}
+ */
+export function rowsOf(lane, upTo) {
+  const { data, experiment } = lane;
+  if (!data) return [];
+  const begun = data.robots[0].run.events.filter(([tick, kind]) => kind === "environment" && tick <= upTo);
+  return begun.flatMap(([first], i) => {
+    const last = Math.min(upTo, data.last, (begun[i + 1]?.[0] ?? Infinity) - 1);
+    const eaten = data.statesAt(last)[0].eaten;
+    return data.robots.map((robot, r) => [
+      lane.name, robot.run.node, experiment.robots[r].profile, experiment.seed, data.sceneAt(first).number,
+      eaten.every(Boolean) ? "yes" : "no", ...numbersOf(robot, first, last, data.measures.tick_ms),
+    ]);
+  });
+}
+
+/**
+ * @param {RobotData} robot
+ * @param {number} first
+ * @param {number} last
+ * @param {number} tickMs
+ */
+function numbersOf(robot, first, last, tickMs) {
+  const inside = (/** @type {number} */ tick) => tick >= first && tick <= last;
+  const count = (/** @type {string} */ kind) => robot.run.events.filter(([tick, what]) => what === kind && inside(tick)).length;
+  const blocked = robot.columns.reason.subarray(first, last + 1).filter((reason) => isAvoiding(reason)).length;
+  const seconds = (/** @type {number} */ ticks) => Number(((ticks * tickMs) / 1000).toFixed(2));
+  return [seconds(last + 1 - first), count("trial"), count("lesson"), count("boredom"), seconds(blocked), count("eat")];
+}
+
+/** @param {number} reason */
+function isAvoiding(reason) {
+  return AVOIDING.includes(reason);
+}
+
+/**
+ * @param {Int32Array} reasons
+ * @param {number} tickS
+ * @returns {Growth}
+ */
+function blockedGrowth(reasons, tickS) {
+  /** @type {Growth} */
+  const growth = { ticks: [], counts: [] };
+  let blocked = 0;
+  reasons.forEach((reason, tick) => {
+    if (!isAvoiding(reason)) return;
+    blocked += 1;
+    growth.ticks.push(tick);
+    growth.counts.push(blocked * tickS);
+  });
+  return growth;
+}

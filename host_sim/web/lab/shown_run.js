@@ -1,0 +1,200 @@
+// @ts-check
+/* One of the runs that are shown side by side: its experiment, what came of it, and its arena. */
+
+import { PARAMETERS } from "../generated.js";
+import { showTick } from "../draw/recorded_scene.js";
+import { Renderer } from "../draw/renderer.js";
+import { RunData } from "../core/run_data.js";
+import { Scene } from "../draw/scene.js";
+import { RANDOM, nameOf } from "../core/world_names.js";
+
+/**
+ * @typedef {import("../types.js").Change} Change
+ * @typedef {import("../types.js").Experiment} Experiment
+ * @typedef {import("../types.js").RobotSetup} RobotSetup
+ */
+
+const LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+let lanes = 0;
+
+/** The next lane is A again. */
+export function restartNames() {
+  lanes = 0;
+}
+
+/** Shows its run at any tick. `data` and `scene` are there once the first environment was simulated. */
+export class ShownRun {
+  /**
+   * @param {Experiment} experiment
+   * @param {HTMLElement} parent - Where its arena goes.
+   */
+  constructor(experiment, parent) {
+    this.experiment = experiment;
+    this.name = LETTERS[lanes % LETTERS.length];
+    lanes += 1;
+    this.figure = parent.appendChild(document.createElement("figure"));
+    this.figure.className = "lane";
+    this.canvas = this.figure.appendChild(document.createElement("canvas"));
+    this.caption = this.figure.appendChild(document.createElement("figcaption"));
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("role", "application");
+    this.canvas.setAttribute("aria-label", `Arena of run ${this.name}, seen from above`);
+    this.canvas.setAttribute("aria-describedby", "help");
+    this.renderer = new Renderer(this.canvas);
+    /** @type {RunData | undefined} */
+    this.data = undefined;
+    /** @type {Scene | undefined} */
+    this.scene = undefined;
+    /** How often it was asked to simulate, and whether the last time is over. */
+    this.asked = 0;
+    this.isRunning = false;
+    /**
+     * Settled when what was asked for last is simulated to its end.
+     * @type {Promise<void>}
+     */
+    this.done = Promise.resolve();
+  }
+
+  /** The last tick that is known. */
+  get last() {
+    return this.data?.last ?? 0;
+  }
+
+  /** The robot that is selected, counted from 0. */
+  get robot() {
+    return this.scene?.index ?? 0;
+  }
+
+  /** How the selected robot was started. */
+  get setup() {
+    return this.experiment.robots[this.robot];
+  }
+
+  /**
+   * How a robot is set up at a tick.
+   * @param {number} tick
+   * @param {number} [robot] - Counted from 0; the selected one by default.
+   */
+  setupAt(tick, robot = this.robot) {
+    const { profile, settings } = this.experiment.robots[robot];
+    const now = { profile, settings: { ...settings } };
+    for (const change of this.experiment.changes.filter((it) => it.tick <= tick)) {
+      if (change.do === "start" && change.robot === robot) Object.assign(now, { profile: change.profile, settings: { ...settings } });
+      if (change.do === "set" && change.robot === robot) now.settings[change.parameter] = change.value;
+    }
+    return now;
+  }
+
+  /**
+   * Simulates it anew; what could not be changed goes from its experiment.
+   * @param {import("./simulator.js").Simulator} simulator
+   * @param {import("./simulator.js").OnAnswer} onAnswer - Called when there is a run, and at its end.
+   */
+  simulate(simulator, onAnswer) {
+    const { experiment } = this;
+    const asked = (this.asked += 1);
+    this.isRunning = true;
+    this.done = new Promise((resolve) => {
+      simulator.run(this, experiment, (answer) => {
+        if (answer.run) this.take(answer.run);
+        this.takeBack((answer.refusals ?? []).map(([place]) => experiment.changes[place]));
+        if (answer.done && asked === this.asked) this.isRunning = false;
+        if (answer.done) resolve();
+        onAnswer(answer);
+      });
+    });
+  }
+
+  /**
+   * Takes over what was simulated.
+   * @param {import("../sim/run_recorder.js").Recorded} recorded
+   */
+  take({ run, columns }) {
+    this.data = new RunData(run, columns);
+    const { first } = this.data;
+    if (!this.scene) this.scene = new Scene(run.measures, this.data.sceneAt(first), this.data.statesAt(first));
+    this.scene.measures = run.measures;
+    this.scene.news = run.news ?? [];
+  }
+
+  /**
+   * Shows a tick; beyond the end it shows the end.
+   * @param {number} tick
+   * @param {boolean} anew - Whether the trail must be drawn from its beginning.
+   */
+  go(tick, anew) {
+    if (this.data && this.scene) showTick(this.scene, this.data, tick, anew);
+  }
+
+  /** @param {number} tick */
+  draw(tick) {
+    const { scene } = this;
+    if (!scene) return;
+    this.renderer.draw(scene);
+    const { seed, world = RANDOM } = this.experiment;
+    const own = this.setup.seed ?? seed;
+    const text = `${this.name}: ${this.setupAt(tick).profile}, seed ${seed}${own === seed ? "" : `, its own ${own}`}${world === RANDOM ? "" : `, ${nameOf(world)}`}`;
+    if (this.caption.textContent !== text) this.caption.textContent = text;
+  }
+
+  /**
+   * The experiment with one more change, in place of an earlier one of the same thing at the same tick.
+   * @param {Change & {tick: number}} change
+   */
+  change(change) {
+    const { changes } = this.experiment;
+    const key = draggedKey(change);
+    const kept = changes.filter((it) => !key || draggedKey(it) !== key);
+    const at = kept.findIndex(({ tick }) => tick > change.tick);
+    const place = at < 0 ? kept.length : at;
+    this.experiment = { ...this.experiment, changes: [...kept.slice(0, place), change, ...kept.slice(place)] };
+  }
+
+  /** @param {Change[]} changes */
+  takeBack(changes) {
+    if (!changes.length) return;
+    this.experiment = { ...this.experiment, changes: this.experiment.changes.filter((it) => !changes.includes(it)) };
+  }
+
+  /** Takes the change back that was made last; false if there is none. */
+  undo() {
+    const { changes } = this.experiment;
+    this.experiment = { ...this.experiment, changes: changes.slice(0, -1) };
+    return changes.length > 0;
+  }
+
+  /**
+   * Starts the selected robot in another way.
+   * @param {Partial<RobotSetup>} setup
+   */
+  setUp(setup) {
+    const robots = this.experiment.robots.map((it, robot) => (robot === this.robot ? { ...it, ...setup } : it));
+    this.experiment = { ...this.experiment, robots };
+  }
+
+  remove() {
+    this.figure.remove();
+  }
+}
+
+/**
+ * What tells that a later change stands for an earlier one; empty for a change that stands for itself.
+ * @param {Change & {tick: number}} change
+ */
+function draggedKey(change) {
+  if (change.do === "move_bar" || change.do === "move_food" || change.do === "move_plant") return `${change.tick} ${change.do} ${change.id}`;
+  if (change.do === "set") return `${change.tick} set ${change.robot} ${change.parameter}`;
+  if (change.do === "start") return `${change.tick} start ${change.robot}`;
+  return "";
+}
+
+/**
+ * An experiment with one behaviour for all its robots.
+ * @param {{seed: number, environments: number, robots: number, profile: string, world?: Experiment["world"]}} wanted
+ * @returns {Experiment}
+ */
+export function experimentOf({ seed, environments, robots, profile, world = RANDOM }) {
+  const setup = () => ({ profile, settings: {}, memory: null });
+  const limit_ticks = Math.round(600_000 / PARAMETERS.tick_ms.default);
+  return { seed, environments, limit_ticks, robots: Array.from({ length: robots }, setup), changes: [], world };
+}

@@ -1,0 +1,256 @@
+// @ts-check
+/* The desk beside the arena: the run, the parameters, the listing, the curves and the files, one at a time. */
+
+import { ParameterSliders } from "./parameter_sliders.js";
+import { Curves, csvOf } from "./curves.js";
+import { byId, setText, typedById } from "../core/elements.js";
+import { FAULTS, faultName } from "./fault_names.js";
+import { memoryIn, save, worldText } from "./files.js";
+import { PROFILES } from "../generated.js";
+import { experimentOf } from "./shown_run.js";
+import { actionStart } from "./run_events.js";
+import { LessonsView } from "../panel/lessons_view.js";
+import { ListingView } from "../panel/listing_view.js";
+import { RANDOM, nameOf } from "../core/world_names.js";
+
+/**
+ * @typedef {import("./shown_run.js").ShownRun} ShownRun
+ * @typedef {import("../types.js").Change} Change
+ * @typedef {import("../types.js").Experiment} Experiment
+ *
+ * @typedef {NonNullable<Experiment["world"]>} World
+ *
+ * The page, as far as the desk knows it.
+ * @typedef {Object} Lab
+ * @property {ShownRun} lane
+ * @property {ShownRun[]} lanes
+ * @property {number} tick
+ * @property {import("../sim/worlds.js").Worlds} worlds
+ * @property {import("../types.js").SimParams} params
+ * @property {import("./simulator.js").Simulator} simulator
+ * @property {(change: Change) => void} change
+ * @property {(lane: ShownRun) => void} simulate
+ * @property {(lane: ShownRun) => void} removeLane
+ * @property {(experiment: Experiment) => void} begin
+ */
+
+const TABS = ["run", "parameters", "listing", "curves", "files", "lessons"];
+
+/** Shows and changes the selected run. */
+export class SidePanel {
+  /** @param {Lab} lab */
+  constructor(lab) {
+    this.lab = lab;
+    this.tab = TABS[0];
+    this.bench = new ParameterSliders((parameter, value) => this.set(parameter, value));
+    this.listing = new ListingView();
+    this.curves = new Curves();
+    this.lessons = new LessonsView();
+    this.behaviour = typedById("behaviour", HTMLSelectElement);
+    this.behaviour.append(...PROFILES.map((name) => new Option(name, name)));
+    /** The worlds to choose from, by name. */
+    this.worlds = new Map(Object.keys(lab.worlds).map((name) => [name, /** @type {World} */ (name)]));
+    this.world = typedById("world", HTMLSelectElement);
+    this.offerWorlds(RANDOM);
+    this.fault = typedById("fault", HTMLSelectElement);
+    this.fault.append(...FAULTS.map((what) => new Option(faultName(what), what)));
+    this.robotSeed = typedById("robot-seed", HTMLInputElement);
+    this.frozen = 0;
+    this.bindTabs();
+    this.bindRun();
+    this.bindFiles();
+  }
+
+  bindTabs() {
+    for (const tab of TABS) byId(`tab-${tab}`).addEventListener("click", () => this.open(tab));
+    byId("tabs").addEventListener("keydown", ({ key }) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[key];
+      if (!step) return;
+      this.open(TABS[(TABS.indexOf(this.tab) + step + TABS.length) % TABS.length]);
+      byId(`tab-${this.tab}`).focus();
+    });
+  }
+
+  /** @param {string} tab */
+  open(tab) {
+    this.tab = tab;
+    for (const name of TABS) {
+      byId(`tab-${name}`).setAttribute("aria-selected", `${name === tab}`);
+      byId(`tab-${name}`).tabIndex = name === tab ? 0 : -1;
+      byId(`panel-${name}`).hidden = name !== tab;
+    }
+    this.show();
+  }
+
+  bindRun() {
+    const { lab } = this;
+    const on = (/** @type {string} */ id, /** @type {() => void} */ action) => byId(id).addEventListener("click", action);
+    byId("new-run").addEventListener("submit", (event) => this.newRun(event));
+    this.behaviour.addEventListener("change", () => this.choose(this.behaviour.value));
+    this.robotSeed.addEventListener("change", () => this.reseed());
+    byId("curve").addEventListener("change", () => this.show());
+    on("erase", () => lab.change({ do: "erase", robot: lab.lane.robot }));
+    on("freeze", () => lab.change({ do: "freeze", robot: lab.lane.robot, on: 1 - this.frozen }));
+    on("break", () => {
+      const { robot, experiment } = lab.lane;
+      lab.change({ do: "body", what: this.fault.value, robot, seed: experiment.seed });
+    });
+    on("remove-lane", () => lab.removeLane(lab.lane));
+    on("undo", () => {
+      if (lab.lane.undo()) lab.simulate(lab.lane);
+    });
+  }
+
+  bindFiles() {
+    const on = (/** @type {string} */ id, /** @type {() => Promise<void>} */ action) =>
+      byId(id).addEventListener("click", () => this.tell(action()));
+    on("save-csv", async () => save("octet.csv", [csvOf(this.lab.lanes)]));
+    on("save-log", async () => save("run.log", await this.lab.simulator.log(this.lab.lane.experiment)));
+    on("save-world", async () => {
+      const { experiment, data } = this.lab.lane;
+      if (data) save("run.world.json", [worldText(experiment, data, this.lab.params.front_extra_mm)]);
+    });
+    on("save-memory", async () => {
+      const { lane, simulator, tick } = this.lab;
+      save("robot.mem", [await simulator.memory(lane.experiment, lane.robot, Math.min(tick, lane.last))]);
+    });
+    const input = typedById("open", HTMLInputElement);
+    input.addEventListener("change", () => {
+      this.tell(this.openFiles([...(input.files ?? [])]));
+      input.value = "";
+    });
+  }
+
+  /**
+   * Tells why something could not be done with a file.
+   * @param {Promise<void>} done
+   */
+  tell(done) {
+    done.catch((error) => setText(byId("file-news"), error instanceof Error ? error.message : `${error}`));
+  }
+
+  /** @param {SubmitEvent} event */
+  newRun(event) {
+    event.preventDefault();
+    this.lab.begin(this.wanted);
+  }
+
+  /** The experiment that the form describes. */
+  get wanted() {
+    const number = (/** @type {string} */ id) => Number(typedById(id, HTMLInputElement).value);
+    const wanted = { seed: number("seed"), environments: number("environments"), robots: number("robot-count") };
+    return experimentOf({ ...wanted, profile: this.behaviour.value, world: this.worlds.get(this.world.value) });
+  }
+
+  /** @param {string} chosen - The name of the world that is chosen. */
+  offerWorlds(chosen) {
+    this.world.replaceChildren(...[...this.worlds.keys()].map((name) => new Option(name, name, false, name === chosen)));
+  }
+
+  /**
+   * Begins anew with the run of a file; its world can be chosen from then on.
+   * @param {Experiment} experiment
+   */
+  begin(experiment) {
+    const { world = RANDOM } = experiment;
+    this.worlds.set(nameOf(world), world);
+    this.offerWorlds(nameOf(world));
+    this.lab.begin(experiment);
+  }
+
+  /** The robot begins with other random turns. */
+  reseed() {
+    if (!this.robotSeed.checkValidity() || this.robotSeed.value === "") return;
+    this.lab.lane.setUp({ seed: Number(this.robotSeed.value) });
+    this.lab.simulate(this.lab.lane);
+  }
+
+  /** Whether a change is to hold from the start of the run. */
+  get fromStart() {
+    return typedById("when", HTMLSelectElement).value === "start";
+  }
+
+  /** @param {string} profile */
+  choose(profile) {
+    const { lane } = this.lab;
+    if (!this.fromStart) this.lab.change({ do: "start", robot: lane.robot, profile });
+    else {
+      lane.setUp({ profile });
+      this.lab.simulate(lane);
+    }
+  }
+
+  /**
+   * @param {string} parameter
+   * @param {number} value
+   */
+  set(parameter, value) {
+    const { lane } = this.lab;
+    if (!this.fromStart) this.lab.change({ do: "set", robot: lane.robot, parameter, value });
+    else {
+      lane.setUp({ settings: { ...lane.setup.settings, [parameter]: value } });
+      this.lab.simulate(lane);
+    }
+  }
+
+  /** @param {File[]} files */
+  async openFiles(files) {
+    const named = (/** @type {string[]} */ ...ends) => files.find(({ name }) => ends.some((end) => name.endsWith(end)));
+    const [memory, log, world] = [named(".mem"), named(".log"), named(".json", ".toml")];
+    const strange = files.find((file) => ![memory, log, world].includes(file));
+    if (strange) throw new Error(`${strange.name}: a log ends with .log, a world with .toml or .json, a memory with .mem`);
+    if (log) await this.openLog(log, world);
+    else if (world) await this.openWorld(world);
+    if (memory) await this.openMemory(memory);
+  }
+
+  /** @param {File} file */
+  async openMemory(file) {
+    const { lane, simulator } = this.lab;
+    const memory = await memoryIn(file);
+    const robots = lane.experiment.robots.map((it, robot) => (robot === lane.robot ? { ...it, memory } : it));
+    await simulator.memory({ ...lane.experiment, robots }, lane.robot, 0); // it throws if they are not a memory
+    lane.setUp({ memory });
+    this.lab.simulate(lane);
+    setText(byId("file-news"), `The robot begins with ${file.name}.`);
+  }
+
+  /** @param {File} file */
+  async openWorld(file) {
+    this.begin(await this.lab.simulator.world({ name: file.name, text: await file.text() }, this.wanted));
+    setText(byId("file-news"), `A new run in ${file.name}.`);
+  }
+
+  /**
+   * @param {File} log
+   * @param {File | undefined} world
+   */
+  async openLog(log, world) {
+    setText(byId("file-news"), `reading ${log.name}`);
+    const opened = await this.lab.simulator.open(await log.text(), world ? await world.text() : "");
+    if (!opened) return;
+    this.begin(opened.experiment);
+    setText(byId("file-news"), opened.news);
+  }
+
+  show() {
+    const { lane, lanes, tick } = this.lab;
+    const { scene, data } = lane;
+    if (!scene || !data) return;
+    const { state } = scene;
+    const setup = lane.setupAt(tick);
+    this.frozen = state.frozen;
+    if (document.activeElement !== this.behaviour) this.behaviour.value = setup.profile;
+    if (document.activeElement !== this.robotSeed) {
+      this.robotSeed.value = `${lane.setup.seed ?? lane.experiment.seed + lane.robot}`;
+    }
+    byId("freeze").setAttribute("aria-pressed", `${Boolean(state.frozen)}`);
+    setText(byId("freeze"), state.frozen ? "Learning is frozen" : "Freeze learning");
+    typedById("undo", HTMLButtonElement).disabled = lane.experiment.changes.length === 0;
+    const robot = data.robots[lane.robot];
+    if (this.tab === "run") this.lessons.show(scene, robot.lessonsUpTo(state.tick, scene.environment.start_tick));
+    if (this.tab === "parameters") this.bench.show(setup.settings);
+    if (this.tab === "listing") this.listing.show(state, actionStart(robot, state.tick));
+    if (this.tab === "curves") this.curves.show(lanes, tick);
+  }
+}

@@ -1,0 +1,135 @@
+// @ts-check
+/* Asks the worker for runs. Of an experiment that changes while it is simulated, only the newest is simulated next. */
+
+import { byId } from "../core/elements.js";
+
+/**
+ * @typedef {import("../sim/page_worker.js").Answer} Answer
+ * @typedef {import("../sim/page_worker.js").Request} Request
+ * @typedef {import("../types.js").Experiment} Experiment
+ *
+ * @typedef {(answer: Answer) => void} OnAnswer
+ */
+
+/** Has one worker; answers come in the order of the questions. */
+export class Simulator {
+  /**
+   * @param {ArrayBuffer} wasm
+   * @param {import("../sim/worlds.js").Worlds} worlds
+   */
+  constructor(wasm, worlds) {
+    const source = new Blob([byId("worker").textContent ?? ""], { type: "text/javascript" });
+    this.worker = new Worker(URL.createObjectURL(source));
+    this.nextId = 0;
+    /** @type {Map<number, OnAnswer>} */
+    this.waiting = new Map();
+    /**
+     * What is to be run next, by who asks.
+     * @type {Map<object, [Experiment, OnAnswer]>}
+     */
+    this.queued = new Map();
+    /**
+     * The run that is simulated now.
+     * @type {number | undefined}
+     */
+    this.running = undefined;
+    this.worker.addEventListener("message", ({ data }) => this.take(data));
+    this.worker.postMessage({ do: "begin", wasm, worlds });
+  }
+
+  /**
+   * Runs an experiment, in place of one that the same one has asked for and that has not begun.
+   * @param {object} who
+   * @param {Experiment} experiment
+   * @param {OnAnswer} onAnswer - Called after the first environment and at the end.
+   */
+  run(who, experiment, onAnswer) {
+    this.queued.set(who, [experiment, onAnswer]);
+    this.next();
+  }
+
+  /**
+   * The whole log of an experiment.
+   * @param {Experiment} experiment
+   * @returns {Promise<Uint8Array[]>}
+   */
+  async log(experiment) {
+    const { log } = await this.ask({ do: "log", id: this.newId(), experiment });
+    return log ?? [];
+  }
+
+  /**
+   * A robot's eight bytes at a tick, with whatever its behaviour keeps in them.
+   * @param {Experiment} experiment
+   * @param {number} robot
+   * @param {number} tick
+   */
+  async memory(experiment, robot, tick) {
+    const until = { ...experiment, changes: experiment.changes.filter((change) => change.tick <= tick), ticks_max: tick + 1 };
+    const { memory } = await this.ask({ do: "memory", id: this.newId(), experiment: until, robot });
+    return Uint8Array.from(memory ?? []);
+  }
+
+  /**
+   * The experiment that a world file is of.
+   * @param {{name: string, text: string}} file
+   * @param {Experiment} base - Says what the file does not.
+   */
+  async world(file, base) {
+    const { experiment } = await this.ask({ do: "world", id: this.newId(), file, base });
+    return experiment ?? base;
+  }
+
+  /**
+   * The experiment that a recorded log is of.
+   * @param {string} text
+   * @param {string} world - The text of its world file; empty if there is none.
+   */
+  async open(text, world) {
+    const { opened } = await this.ask({ do: "open", id: this.newId(), text, world });
+    return opened;
+  }
+
+  /**
+   * The experiment that a recorded run is of.
+   * @param {import("../sim/log_opening.js").RecordedRun} recorded
+   */
+  async repeat(recorded) {
+    const { experiment } = await this.ask({ do: "repeat", id: this.newId(), recorded });
+    if (!experiment) throw new Error("the worker has no experiment");
+    return experiment;
+  }
+
+  /** @param {Exclude<Request, {do: "begin"}>} request */
+  ask(request) {
+    return new Promise((/** @type {OnAnswer} */ resolve, reject) => {
+      this.waiting.set(request.id, (answer) => (answer.error ? reject(new Error(answer.error)) : resolve(answer)));
+      this.worker.postMessage(request);
+    });
+  }
+
+  newId() {
+    this.nextId += 1;
+    return this.nextId;
+  }
+
+  next() {
+    const [who] = this.queued.keys();
+    const asked = who && this.queued.get(who);
+    if (this.running !== undefined || !asked) return;
+    this.queued.delete(who);
+    const id = this.newId();
+    this.running = id;
+    this.waiting.set(id, asked[1]);
+    this.worker.postMessage({ do: "run", id, experiment: asked[0] });
+  }
+
+  /** @param {Answer} answer */
+  take(answer) {
+    this.waiting.get(answer.id)?.(answer);
+    if (!answer.done) return;
+    this.waiting.delete(answer.id);
+    if (answer.id === this.running) this.running = undefined;
+    this.next();
+  }
+}

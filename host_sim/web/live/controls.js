@@ -1,0 +1,112 @@
+// @ts-check
+/* The live page's buttons and keys for time, memory and run. */
+
+import { byId, isForPage, setText, typedById } from "../core/elements.js";
+import { ending } from "../core/phrases.js";
+
+/**
+ * @typedef {import("../draw/scene.js").Scene} Scene
+ * @typedef {import("../types.js").Command} Command
+ * @typedef {import("../types.js").Play} Play
+ */
+
+/** @type {Record<string, string>} */
+const KEYS = { " ": "play", ".": "decision", n: "next" };
+/** What has no effect once the run is over. */
+const NEEDS_A_RUN = ["play", "decision", "lift", "add-bar"];
+
+/** Sends what a person asks for, and shows how things stand. */
+export class Controls {
+  /** @param {(command: Command) => void} send */
+  constructor(send) {
+    this.send = send;
+    this.playing = true;
+    this.frozen = 0;
+    this.node = 0;
+    this.speed = typedById("speed", HTMLSelectElement);
+    this.seed = typedById("seed", HTMLInputElement);
+    this.keep = typedById("keep", HTMLInputElement);
+    this.bindButtons();
+    document.addEventListener("keydown", (event) => this.onKey(event));
+  }
+
+  /**
+   * @param {Scene} scene
+   * @param {Play} play
+   */
+  show({ state, environment, measures }, play) {
+    this.playing = play.playing;
+    this.node = state.node;
+    this.showFrozen(state.frozen);
+    setText(byId("play"), play.playing ? "Pause" : "Play");
+    setText(byId("status"), statusOf(play));
+    setText(byId("fact-speed"), play.rate ? `${((play.rate * measures.tick_ms) / 1000).toFixed(1)} ×` : "0 ×");
+    for (const id of NEEDS_A_RUN) typedById(id, HTMLButtonElement).disabled = play.done;
+    typedById("next", HTMLButtonElement).disabled = play.done || environment.number >= environment.of;
+    showEnding(play);
+    if (document.activeElement !== this.speed) this.speed.value = `${play.speed}`;
+    const empty = this.seed.value === "" && document.activeElement !== this.seed;
+    if (empty) this.seed.value = `${environment.seed + 1}`;
+  }
+
+  /** @param {number} frozen */
+  showFrozen(frozen) {
+    if (frozen === this.frozen) return;
+    this.frozen = frozen;
+    byId("freeze").setAttribute("aria-pressed", `${Boolean(frozen)}`);
+    setText(byId("freeze"), frozen ? "Learning is frozen" : "Freeze learning");
+  }
+
+  bindButtons() {
+    const on = (/** @type {string} */ id, /** @type {() => Command} */ command) =>
+      byId(id).addEventListener("click", () => this.send(command()));
+    on("play", () => ({ do: this.playing ? "pause" : "play" }));
+    on("decision", () => ({ do: "decision" }));
+    on("next", () => ({ do: "next" }));
+    on("erase", () => ({ do: "erase", node: this.node }));
+    on("freeze", () => ({ do: "freeze", node: this.node, on: 1 - this.frozen }));
+    this.speed.addEventListener("change", () => {
+      this.send({ do: "speed", factor: Number(this.speed.value) });
+      this.speed.blur();
+    });
+    byId("seed-form").addEventListener("submit", (event) => this.startOver(event));
+  }
+
+  /** @param {SubmitEvent} event */
+  startOver(event) {
+    event.preventDefault();
+    this.send({ do: "seed", seed: Number(this.seed.value), keep: Number(this.keep.checked) });
+    this.seed.value = "";
+    this.seed.blur();
+  }
+
+  /**
+   * Keys work wherever they do not mean something else already.
+   * @param {KeyboardEvent} event
+   */
+  onKey(event) {
+    const id = KEYS[event.key.toLowerCase()];
+    const fields = event.key === " " ? "input, select, summary, button" : "input, select, summary";
+    if (id === undefined || !isForPage(event, fields)) return;
+    event.preventDefault();
+    const button = typedById(id, HTMLButtonElement);
+    if (!button.disabled) button.click();
+  }
+}
+
+/**
+ * Says over the arena how the environment ended, or the run.
+ * @param {Play} play
+ */
+function showEnding({ ended, done }) {
+  const [heading, text] = ended ? ending(ended, done) : ["", ""];
+  setText(byId("banner"), ended ? `${heading}\n${text}` : "");
+}
+
+/** @param {Play} play */
+function statusOf(play) {
+  if (play.waits) return "waiting for the board to begin";
+  if (play.done) return play.stays ? "all done: start over with a seed" : "all done";
+  if (play.ended) return "on to the next environment";
+  return play.playing ? "live" : "paused";
+}

@@ -1,0 +1,122 @@
+// @ts-check
+/* The live page: shows what comes over the WebSocket, sends what a person does. */
+
+import { byId, setText } from "../core/elements.js";
+import { LiveSeat, pageKey } from "./live_seat.js";
+import { LiveView } from "./live_view.js";
+import { Toast } from "../core/toast.js";
+import { restarted } from "../core/phrases.js";
+import { Scene } from "../draw/scene.js";
+
+/**
+ * @typedef {import("../types.js").Command} Command
+ * @typedef {import("../types.js").Message} Message
+ */
+
+const RECONNECT_MS = 1000;
+const GOING_AWAY = 1001;
+
+/** Connects, and connects again; draws at most once a frame of the screen. */
+class LivePage {
+  constructor() {
+    /** @type {LiveView | undefined} */
+    this.view = undefined;
+    /**
+     * The last message.
+     * @type {Message | undefined}
+     */
+    this.message = undefined;
+    this.isNew = false;
+    /** How old the state was when it was last drawn, for measurements. */
+    this.timing = { lagMs: 0 };
+    this.note = new Toast();
+    this.key = pageKey();
+    this.seat = new LiveSeat((command) => this.send(command));
+    this.hasEnded = false;
+    this.socket = this.connect();
+  }
+
+  get scene() {
+    return this.view?.scene;
+  }
+
+  get play() {
+    return this.message?.play;
+  }
+
+  connect() {
+    const scheme = location.protocol === "https:" ? "wss:" : "ws:";
+    const socket = new WebSocket(`${scheme}//${location.host}/live${query(this.key)}`);
+    socket.addEventListener("message", (event) => this.accept(JSON.parse(event.data)));
+    socket.addEventListener("close", (event) => this.onClose(event));
+    return socket;
+  }
+
+  /**
+   * Connects again: the next run may come to the same address.
+   * @param {CloseEvent} event
+   */
+  onClose(event) {
+    this.hasEnded ||= event.code === GOING_AWAY;
+    const lost = this.hasEnded ? "the run has ended; waiting for the next one" : "no connection, trying again";
+    setText(byId("status"), lost);
+    document.body.classList.add("lost");
+    setTimeout(() => (this.socket = this.connect()), RECONNECT_MS);
+  }
+
+  /** @param {Command} command */
+  send(command) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
+  }
+
+  /** @param {Message} message */
+  accept(message) {
+    const { measures, environment, states } = message;
+    if (measures) this.onConnected();
+    const startedOver = !measures && environment && environment.start_tick !== this.scene?.environment.start_tick;
+    if (measures && environment) {
+      const scene = new Scene(measures, environment, states);
+      this.view ??= new LiveView(scene, (command) => this.send(command), () => this.drawSoon());
+    }
+    this.view?.accept(message);
+    if (message.seat !== undefined) this.seat.take(message.seat, this.view);
+    if (startedOver) this.note.show(restarted(environment, states));
+    if (message.notes) this.view?.editor.onRefusal();
+    message.notes?.forEach((text) => this.note.show(text));
+    this.message = message;
+    this.drawSoon();
+  }
+
+  onConnected() {
+    this.hasEnded = false;
+    document.body.classList.remove("lost");
+  }
+
+  /** Draws with the next frame of the screen. */
+  drawSoon() {
+    if (this.isNew) return;
+    this.isNew = true;
+    requestAnimationFrame(() => this.draw());
+  }
+
+  draw() {
+    const { view, message } = this;
+    this.isNew = false;
+    if (!view || !message) return;
+    view.draw(message);
+    this.timing.lagMs = Date.now() - message.at;
+  }
+}
+
+/**
+ * The address's query, with what this page is recognised by.
+ * @param {string} key
+ */
+function query(key) {
+  const fields = new URLSearchParams(location.search);
+  fields.set("page", key);
+  return `?${fields}`;
+}
+
+if ("WebSocket" in window) Object.assign(window, { octet: new LivePage() });
+else setText(byId("status"), "This browser has no WebSocket: take a newer one, or open replay.html later.");

@@ -1,0 +1,62 @@
+// @ts-check
+/* A live page with a robot of its own: it shows that robot, and what else it has no right to change is hidden. */
+
+import { byId, typedById } from "../core/elements.js";
+
+/**
+ * @typedef {import("./live_view.js").LiveView} LiveView
+ * @typedef {import("../types.js").Command} Command
+ * @typedef {import("../types.js").Seat} Seat
+ */
+
+const KEY = "octet-page";
+const KEY_BYTES = 16;
+
+/** Fills the elements own-robot, name-form and my-name. */
+export class LiveSeat {
+  /** @param {(command: Command) => void} send */
+  constructor(send) {
+    this.name = typedById("my-name", HTMLInputElement);
+    byId("name-form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      send({ do: "name", name: this.name.value });
+      this.name.blur();
+    });
+  }
+
+  /**
+   * @param {Seat | null} seat - Null where the robots are everyone's.
+   * @param {LiveView | undefined} view
+   */
+  take(seat, view) {
+    document.body.classList.toggle("own", seat !== null && seat.node > 0);
+    document.body.classList.toggle("watcher", seat?.node === 0);
+    byId("own-robot").textContent = wordsOf(seat);
+    byId("name-form").hidden = !seat?.node;
+    if (!seat?.node) return;
+    if (!this.name.value) this.name.value = seat.name;
+    view?.editor.pick(seat.node);
+  }
+}
+
+/** @param {Seat | null} seat */
+function wordsOf(seat) {
+  if (!seat) return "";
+  return seat.node ? `Robot ${seat.node} is yours.` : "Every robot has a page already: here you can watch.";
+}
+
+/** What this page is recognised by when it is loaded again: its own secret, which ends with the tab. */
+export function pageKey() {
+  try {
+    const known = sessionStorage.getItem(KEY) ?? newKey();
+    sessionStorage.setItem(KEY, known);
+    return known;
+  } catch {
+    return newKey();
+  }
+}
+
+function newKey() {
+  const bytes = crypto.getRandomValues(new Uint8Array(KEY_BYTES));
+  return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
+}

@@ -1,0 +1,182 @@
+// @ts-check
+/* The eight cells: for each pattern its picture, what was learned, when, and how often it was used. */
+
+import { CELL_COUNT, PATTERNS, REASON, SIDE, SIDES } from "../generated.js";
+import { binary } from "../core/phrases.js";
+import { CONES, patternBit } from "../core/sensors.js";
+
+/**
+ * @typedef {import("../draw/scene.js").Scene} Scene
+ *
+ * What a cell shows; `then` is what it held at another time,
+ * or in another run.
+ * @typedef {{cell: number, side: number, when: string, byHand: boolean, uses: number, inUse: boolean, trying: number,
+ *   then: number | null, where: string}} Facts
+ *
+ * The elements of a cell.
+ * @typedef {{button: HTMLElement, name: HTMLElement, side: HTMLElement, history: HTMLElement, then: HTMLElement}} Parts
+ *
+ * @typedef {(cell: number, side: number) => void} OnPress
+ */
+
+const SVG = "http://www.w3.org/2000/svg";
+/** A cone of 45 degrees that looks up. */
+const SECTOR = "M0 0 L-12.2 -29.6 A32 32 0 0 1 12.2 -29.6 Z";
+
+/** Shows a memory in a list; a cell can be pressed where someone listens. */
+export class CellsView {
+  /**
+   * @param {HTMLElement} list
+   * @param {OnPress} [onPress] - Gets the cell that was pressed, and what it is to hold next.
+   */
+  constructor(list, onPress) {
+    this.cells = Array.from({ length: CELL_COUNT }, (_, cell) => makeCell(list, cell, onPress));
+    /** @type {string[]} */
+    this.shown = [];
+  }
+
+  /**
+   * @param {Scene} scene
+   * @param {number[]} [then] - A memory to compare with,
+   * @param {string} [where] - and when or where it is.
+   */
+  show(scene, then, where = "then") {
+    this.cells.forEach((parts, cell) => {
+      const facts = { ...factsOf(scene, cell, then), where };
+      const key = JSON.stringify(facts);
+      if (this.shown[cell] !== key) fillCell(parts, facts);
+      this.shown[cell] = key;
+    });
+  }
+}
+
+/**
+ * @param {Scene} scene
+ * @param {number} cell
+ * @param {number[]} [then]
+ * @returns {Omit<Facts, "where">}
+ */
+function factsOf(scene, cell, then) {
+  const { state } = scene;
+  const about = state.pattern === cell && !state.lifted;
+  return {
+    cell,
+    side: state.memory[cell],
+    when: state.learned[cell] < 0 ? "" : scene.clock(state.learned[cell]),
+    byHand: Boolean(state.by_hand[cell]),
+    uses: state.uses[cell],
+    inUse: about && state.reason === REASON.REMEMBERED,
+    trying: about && state.reason === REASON.TRIAL && state.trial ? state.trial.side : SIDE.NOTHING,
+    then: then ? then[cell] : null,
+  };
+}
+
+/**
+ * @param {Parts} parts
+ * @param {Facts} facts
+ */
+function fillCell(parts, facts) {
+  const { button } = parts;
+  if (button.dataset.side !== SIDES[facts.side]) delete button.dataset.wanted;
+  button.dataset.side = SIDES[facts.side];
+  button.classList.toggle("in-use", facts.inUse);
+  button.classList.toggle("trying", facts.trying !== SIDE.NOTHING);
+  button.classList.toggle("changed", facts.then !== null && facts.then !== facts.side);
+  parts.side.textContent = sideWords(facts);
+  parts.history.textContent = historyOf(facts);
+  parts.then.textContent = facts.then === null ? "" : `${facts.where}: ${facts.then ? SIDES[facts.then] : "empty"}`;
+  const words = [parts.name, parts.side, parts.history, parts.then].map(({ textContent }) => textContent);
+  button.setAttribute("aria-label", `Cell ${facts.cell}, ${words.filter(Boolean).join(", ")}`);
+}
+
+/** @param {Facts} facts */
+function sideWords({ cell, side, trying }) {
+  if (cell === 0) return "drive on";
+  if (trying !== SIDE.NOTHING) return `${trying === SIDE.LEFT ? "↰" : "↱"} ${SIDES[trying]}?`;
+  if (side === SIDE.NOTHING) return "empty";
+  return side === SIDE.LEFT ? `↰ ${SIDES[side]}` : `${SIDES[side]} ↱`;
+}
+
+/** @param {Facts} facts */
+function historyOf({ cell, side, when, byHand, uses }) {
+  if (cell === 0 || side === SIDE.NOTHING) return "";
+  const learned = when && `${byHand ? "told" : "learned"} ${when}`;
+  return [learned, uses ? `used ${uses}×` : ""].filter(Boolean).join(", ");
+}
+
+/**
+ * @param {HTMLElement} list
+ * @param {number} cell
+ * @param {OnPress} [onPress]
+ * @returns {Parts}
+ */
+function makeCell(list, cell, onPress) {
+  const item = list.appendChild(document.createElement("li"));
+  const button = item.appendChild(onPress ? makeButton(cell, onPress) : makeImage());
+  button.classList.add("cell");
+  button.appendChild(pictureOf(cell));
+  const [name, side, history, then] = ["name", "side", "history", "then"].map((part) => addSpan(button, part));
+  name.textContent = `${PATTERNS[cell]} ${binary(cell)}`;
+  return { button, name, side, history, then };
+}
+
+/**
+ * @param {number} cell
+ * @param {OnPress} onPress
+ */
+function makeButton(cell, onPress) {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.disabled = cell === 0;
+  button.title = cell ? "Press to change: empty, left, right" : "Nothing in the way: nothing to learn";
+  button.addEventListener("click", () => {
+    // Pressed again before the first press is shown, it goes on from what was wanted.
+    const next = (SIDES.indexOf(button.dataset.wanted ?? button.dataset.side ?? "") + 1) % SIDES.length;
+    button.dataset.wanted = SIDES[next];
+    onPress(cell, next);
+  });
+  return button;
+}
+
+function makeImage() {
+  const image = document.createElement("div");
+  image.setAttribute("role", "img");
+  return image;
+}
+
+/**
+ * @param {HTMLElement} parent
+ * @param {string} name
+ */
+function addSpan(parent, name) {
+  const span = parent.appendChild(document.createElement("span"));
+  span.className = `cell-${name}`;
+  return span;
+}
+
+/**
+ * The robot from above with its three front sensors, those of the pattern lit.
+ * @param {number} pattern
+ */
+export function pictureOf(pattern) {
+  const svg = document.createElementNS(SVG, "svg");
+  svg.setAttribute("viewBox", "-34 -34 68 50");
+  svg.setAttribute("aria-hidden", "true");
+  for (const { bit, bearing } of CONES.filter((cone) => patternBit(cone.bit))) {
+    const lit = pattern & patternBit(bit) ? "lit" : "dark";
+    addShape(svg, "path", { d: SECTOR, class: lit, transform: `rotate(${bearing})` });
+  }
+  addShape(svg, "circle", { r: "13", class: "body" });
+  addShape(svg, "path", { d: "M0 -9 L5 4 H-5 Z", class: "nose" });
+  return svg;
+}
+
+/**
+ * @param {Element} svg
+ * @param {string} name
+ * @param {Record<string, string>} attributes
+ */
+function addShape(svg, name, attributes) {
+  const shape = svg.appendChild(document.createElementNS(SVG, name));
+  for (const [key, value] of Object.entries(attributes)) shape.setAttribute(key, value);
+}

@@ -1,0 +1,39 @@
+// @ts-check
+/* The list of what was learned, the newest first. */
+
+import { byId } from "../core/elements.js";
+import { lessonSentence } from "../core/phrases.js";
+
+/**
+ * @typedef {import("../draw/scene.js").Scene} Scene
+ * @typedef {import("../types.js").Lesson} Lesson
+ */
+
+/** Fills the element `lessons`. */
+export class LessonsView {
+  constructor() {
+    this.list = byId("lessons");
+    this.key = "";
+  }
+
+  /**
+   * @param {Scene} scene
+   * @param {Lesson[]} lessons - Those of the robot that the panel shows, the oldest first.
+   */
+  show(scene, lessons) {
+    const key = [scene.node, scene.environment.start_tick, lessons.length, lessons.at(-1)?.tick].join();
+    if (this.key === key) return;
+    this.key = key;
+    this.list.replaceChildren(...lessons.map((lesson) => itemFor(lesson, scene)).reverse());
+  }
+}
+
+/**
+ * @param {Lesson} lesson
+ * @param {Scene} scene
+ */
+function itemFor(lesson, scene) {
+  const item = document.createElement("li");
+  item.textContent = `${scene.clock(lesson.tick)} ${lessonSentence(lesson)}`;
+  return item;
+}

@@ -1,0 +1,120 @@
+// @ts-check
+/* The article's listing, with the line lit that the robot executes. */
+
+import { pictureOf } from "./cells_view.js";
+import { byId, setText } from "../core/elements.js";
+import { PATTERNS, REASON, SIDE } from "../generated.js";
+import { binary } from "../core/phrases.js";
+
+/** @typedef {import("../types.js").State} State */
+
+/** Figure 4 of the article, line by line; a step of the robot is named before its line. */
+const LISTING = /** @type {const} */ ([
+  ["", "while FoodCnt"],
+  ["sense", "  Senses = (rFeel()>>1)&7"],
+  ["", "  if Senses=0"],
+  ["", "    RepeatCount = 0"],
+  ["forward", "    rForward Dist"],
+  ["", "    if rLook(0)=Green"],
+  ["", "      if rBeacon(Green)<30"],
+  ["eat", "        FoodCnt--"],
+  ["", "      endif"],
+  ["", "    else"],
+  ["", "      if random(2)"],
+  ["look right", "        rTurn 2 +random(10)"],
+  ["", "      else"],
+  ["look left", "        rTurn -(2+random(10))"],
+  ["", "      endif"],
+  ["", "    endif"],
+  ["", "  else"],
+  ["", "    if Mem[Senses]"],
+  ["remember left", "      if Mem[Senses] = TurnLeft then rTurn -Deg"],
+  ["remember right", "      if Mem[Senses] = TurnRight then rTurn Deg"],
+  ["", "      RepeatCount++"],
+  ["boredom", "      if RepeatCount=10 then rturn (150+random(60))"],
+  ["", "    else"],
+  ["", "      call CountSensors(Senses,Cnt)"],
+  ["", "      OldSenses = Senses"],
+  ["", "      r=random(2)+1"],
+  ["try left", "      if r=TurnLeft then rTurn -45"],
+  ["try right", "      if r=TurnRight then rTurn 45"],
+  ["", "      Senses = (rFeel()>>1)&7"],
+  ["", "      call CountSensors(Senses,NewCnt)"],
+  ["learn", "      if NewCnt<Cnt then Mem[OldSenses]=r"],
+  ["", "    endif"],
+  ["", "  endif"],
+  ["", "wend"],
+]);
+
+/** Fills the elements listing, pattern-picture and pattern-sum. */
+export class ListingView {
+  constructor() {
+    const list = byId("listing");
+    /** @type {Map<string, HTMLElement>} */
+    this.lines = new Map();
+    for (const [step, text] of LISTING) {
+      const item = list.appendChild(document.createElement("li"));
+      item.appendChild(document.createElement("code")).textContent = text;
+      if (step) this.lines.set(step, item);
+    }
+    this.shown = "";
+    this.pattern = -1;
+  }
+
+  /**
+   * @param {State} state
+   * @param {number} actionTick - The tick in which its action began.
+   */
+  show(state, actionTick) {
+    const steps = stepsOf(state, actionTick);
+    this.showSenses(state);
+    const key = steps.join();
+    if (key === this.shown) return;
+    this.shown = key;
+    for (const [step, line] of this.lines) {
+      line.toggleAttribute("aria-current", steps.includes(step));
+      if (steps.at(-1) === step) scrollTo(line);
+    }
+  }
+
+  /** @param {State} state */
+  showSenses({ feel, pattern }) {
+    setText(byId("pattern-sum"), `(%${feel.toString(2).padStart(5, "0")}>>1)&7 = %${binary((feel >> 1) & 7)} = ${(feel >> 1) & 7}`);
+    if (pattern === this.pattern) return;
+    this.pattern = pattern;
+    const picture = byId("pattern-picture");
+    picture.replaceChildren(pictureOf(pattern));
+    picture.setAttribute("aria-label", `The robot decided with ${PATTERNS[pattern]} in the way`);
+  }
+}
+
+/**
+ * What of the listing the robot executes.
+ * @param {State} state
+ * @param {number} actionTick
+ */
+function stepsOf(state, actionTick) {
+  const side = state.left < state.right ? "left" : "right";
+  /** @type {Record<number, string>} */
+  const steps = {
+    [REASON.WANDER]: "forward",
+    [REASON.TOWARD_FOOD]: "forward",
+    [REASON.LOOK_AROUND]: `look ${side}`,
+    [REASON.REMEMBERED]: `remember ${side}`,
+    [REASON.TRIAL]: `try ${state.trial?.side === SIDE.LEFT ? "left" : "right"}`,
+    [REASON.BOREDOM]: "boredom",
+    [REASON.EAT]: "eat",
+  };
+  const begins = state.tick === actionTick;
+  const learns = begins && state.learned.includes(state.tick);
+  return [...(learns ? ["learn"] : []), ...(begins ? ["sense"] : []), steps[state.reason] ?? ""];
+}
+
+/** @param {HTMLElement} line */
+function scrollTo(line) {
+  const list = line.parentElement;
+  if (!list) return;
+  const [top, bottom] = [line.offsetTop - list.offsetTop, line.offsetTop - list.offsetTop + line.offsetHeight];
+  if (top < list.scrollTop) list.scrollTop = top;
+  else if (bottom > list.scrollTop + list.clientHeight) list.scrollTop = bottom - list.clientHeight;
+}

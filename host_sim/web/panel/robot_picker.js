@@ -1,0 +1,70 @@
+// @ts-check
+/* Which of several robots the panel shows: a button for each, and keys. With one robot there is nothing to see. */
+
+import { byId, isForPage } from "../core/elements.js";
+
+/** @typedef {import("../draw/scene.js").Scene} Scene */
+
+const FIELDS = "select, summary, input:not([type=range])";
+
+/** Fills the element `robots`. Keys: 1..9 for the robot of that number, [ and ] for the one before and after. */
+export class RobotPicker {
+  /**
+   * @param {Scene} scene
+   * @param {(node: number) => void} onPick
+   */
+  constructor(scene, onPick) {
+    this.scene = scene;
+    this.onPick = onPick;
+    this.element = byId("robots");
+    /** @type {HTMLButtonElement[]} */
+    this.buttons = [];
+    document.addEventListener("keydown", (event) => this.onKey(event));
+  }
+
+  show() {
+    const { states, node } = this.scene;
+    const nodes = states.length > 1 ? states.map((state) => state.node) : [];
+    if (nodes.join() !== this.buttons.map(({ value }) => value).join()) this.fill(nodes);
+    for (const button of this.buttons) button.setAttribute("aria-pressed", `${button.value === `${node}`}`);
+  }
+
+  /** @param {number[]} nodes */
+  fill(nodes) {
+    this.element.hidden = nodes.length === 0;
+    this.buttons = nodes.map((node) => this.makeButton(node));
+    this.element.replaceChildren("Robot", ...this.buttons);
+  }
+
+  /** @param {number} node */
+  makeButton(node) {
+    const button = document.createElement("button");
+    button.type = "button";
+    button.value = button.textContent = `${node}`;
+    button.setAttribute("aria-label", `Robot ${node}`);
+    button.addEventListener("click", () => this.onPick(node));
+    return button;
+  }
+
+  /** @param {KeyboardEvent} event */
+  onKey(event) {
+    if (this.scene.states.length < 2 || !isForPage(event, FIELDS)) return;
+    const node = nodeFor(event.key, this.scene);
+    if (node === undefined) return;
+    event.preventDefault();
+    this.onPick(node);
+  }
+}
+
+/**
+ * The robot that a key stands for, if it stands for one.
+ * @param {string} key
+ * @param {Scene} scene
+ */
+function nodeFor(key, { states, index }) {
+  if (key === "[" || key === "]") {
+    const step = key === "]" ? 1 : states.length - 1;
+    return states[(index + step) % states.length].node;
+  }
+  return states.find(({ node }) => key === `${node}`)?.node;
+}

@@ -1,0 +1,154 @@
+// @ts-check
+/* A page that plays a run, forward and back: the tick that it shows, its buttons and its keys. */
+
+import { byId, isForPage, setText, typedById } from "../core/elements.js";
+
+/**
+ * A class that extends it says which ticks there are (`last`, `tickMs`), shows one (`show`), draws (`draw`, `drawMarks`),
+ * and does what the buttons ask for (`jump`, `whatIf`).
+ */
+export class PlayingPage {
+  /** @param {number} first - The first tick. */
+  constructor(first) {
+    this.first = first;
+    /** The tick that is shown. */
+    this.tick = first;
+    /** The same with its fraction, as it plays on. */
+    this.exactTick = first;
+    this.playing = false;
+    /**
+     * When the last frame was drawn, ms.
+     * @type {number | undefined}
+     */
+    this.frameAt = undefined;
+    /** Whether there is anything new to draw. */
+    this.stale = true;
+    this.scrub = typedById("scrub", HTMLInputElement);
+    this.marks = typedById("marks", HTMLCanvasElement);
+    this.scrub.min = `${first}`;
+    this.scrub.addEventListener("input", () => this.go(Number(this.scrub.value)));
+    byId("play").addEventListener("click", () => this.setPlaying(!this.playing));
+    byId("before").addEventListener("click", () => this.jump(-1));
+    byId("after").addEventListener("click", () => this.jump(1));
+    byId("what-if").addEventListener("click", () => this.whatIf());
+    document.addEventListener("keydown", (event) => this.onKey(event));
+    new ResizeObserver(() => this.resize()).observe(this.marks);
+    requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** The last tick. */
+  get last() {
+    return this.first;
+  }
+
+  /** Length of a tick, ms of robot time. */
+  get tickMs() {
+    return Infinity;
+  }
+
+  /** Shows the tick. */
+  show() {}
+
+  draw() {}
+
+  /** Draws the marks above the scrubber. */
+  drawMarks() {}
+
+  /** @param {number} _step - 1 for the next event of the chosen kind, -1 for the one before. */
+  jump(_step) {}
+
+  /** Asks what would have been if something were changed at this tick. */
+  whatIf() {}
+
+  resize() {
+    this.drawMarks();
+    this.stale = true;
+  }
+
+  /**
+   * Shows a tick; one beyond the ends shows the end.
+   * @param {number} tick
+   */
+  go(tick) {
+    this.goAhead(Math.min(this.last, Math.max(this.first, tick)));
+  }
+
+  /**
+   * Shows a tick that may be there only later.
+   * @param {number} tick
+   */
+  goAhead(tick) {
+    this.exactTick = tick;
+    this.tick = Math.floor(tick);
+    this.show();
+    this.stale = true;
+  }
+
+  /** @param {boolean} playing */
+  setPlaying(playing) {
+    if (playing && this.tick >= this.last) this.go(this.first);
+    this.playing = playing;
+    this.frameAt = undefined;
+    setText(byId("play"), playing ? "Pause" : "Play");
+    this.stale = true;
+  }
+
+  /** @param {number} now */
+  frame(now) {
+    if (this.playing) this.advance(now);
+    if (this.stale) {
+      this.stale = false;
+      this.draw();
+    }
+    requestAnimationFrame((next) => this.frame(next));
+  }
+
+  /** @param {number} now */
+  advance(now) {
+    const speed = Number(typedById("speed", HTMLSelectElement).value);
+    const passed = ((now - (this.frameAt ?? now)) / this.tickMs) * speed;
+    this.frameAt = now;
+    this.go(this.exactTick + passed);
+    if (this.tick >= this.last) this.setPlaying(false);
+  }
+
+  /** @param {string} clock - The robot time that is shown. */
+  showTime(clock) {
+    this.scrub.max = `${this.last}`;
+    this.scrub.value = `${this.tick}`;
+    this.scrub.setAttribute("aria-valuetext", clock);
+  }
+
+  /** @param {KeyboardEvent} event */
+  onKey(event) {
+    if (!this.takesKey(event)) return;
+    const action = this.actions(event.shiftKey ? Math.round(1000 / this.tickMs) : 1)[event.key.toLowerCase()];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+
+  /**
+   * Whether a key is meant for the page.
+   * @param {KeyboardEvent} event
+   */
+  takesKey(event) {
+    return isForPage(event, event.key === " " ? "select, button" : "select");
+  }
+
+  /**
+   * What each key does.
+   * @param {number} step - Ticks that an arrow goes.
+   * @returns {Record<string, () => void>}
+   */
+  actions(step) {
+    return {
+      " ": () => this.setPlaying(!this.playing),
+      arrowright: () => this.go(this.tick + step),
+      arrowleft: () => this.go(this.tick - step),
+      home: () => this.go(this.first),
+      end: () => this.go(this.last),
+      n: () => this.jump(1),
+    };
+  }
+}

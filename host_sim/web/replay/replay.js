@@ -1,0 +1,149 @@
+// @ts-check
+/* The page of a recorded run: plays it, forward and back, and compares its memory at two times. */
+
+import { byId, setText, typedById } from "../core/elements.js";
+import { itemAt } from "../edit/hit_testing.js";
+import { LessonsView } from "../panel/lessons_view.js";
+import { Panel } from "../panel/panel.js";
+import { PlayingPage } from "./playing_page.js";
+import { showTick } from "../draw/recorded_scene.js";
+import { Renderer } from "../draw/renderer.js";
+import { ReplayWhatIf } from "./replay_what_if.js";
+import { RobotPicker } from "../panel/robot_picker.js";
+import { RunData } from "../core/run_data.js";
+import { Scene } from "../draw/scene.js";
+import { drawMarks } from "../panel/timeline.js";
+
+/** @typedef {import("../types.js").EventKind} EventKind */
+
+/** Shows one run. */
+class Player extends PlayingPage {
+  /** @param {RunData} data */
+  constructor(data) {
+    super(data.first);
+    this.data = data;
+    /**
+     * The tick that the memory is compared with.
+     * @type {number | undefined}
+     */
+    this.pinned = undefined;
+    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement));
+    this.panel = new Panel();
+    this.lessonsView = new LessonsView();
+    this.scene = new Scene(data.measures, data.sceneAt(data.first), data.statesAt(data.first));
+    this.scene.news = data.run.news ?? [];
+    this.picker = new RobotPicker(this.scene, (node) => this.select(node));
+    this.laboratory = new ReplayWhatIf(data);
+    data.trailsAt(data.first, this.scene.trails);
+    byId("pin").addEventListener("click", () => this.pin());
+    this.renderer.canvas.addEventListener("click", (event) => this.onClick(event));
+  }
+
+  /** @override */
+  get last() {
+    return this.data.last;
+  }
+
+  /** @override */
+  get tickMs() {
+    return this.data.measures.tick_ms;
+  }
+
+  /** The robot that is selected. */
+  get robot() {
+    return this.data.robots[this.scene.index];
+  }
+
+  /** @param {number} node */
+  select(node) {
+    this.scene.node = node;
+    this.resize();
+  }
+
+  /** @override */
+  drawMarks() {
+    drawMarks(this.marks, this.robot, this.data);
+  }
+
+  /** @override */
+  show() {
+    showTick(this.scene, this.data, this.tick, false);
+  }
+
+  /**
+   * @override
+   * @param {number} step
+   */
+  jump(step) {
+    const kind = /** @type {EventKind} */ (typedById("kind", HTMLSelectElement).value);
+    const tick = this.robot.eventFrom(kind, this.tick, step);
+    const none = `no ${step > 0 ? "later" : "earlier"} ${kind}`;
+    setText(byId("status"), tick === undefined ? none : this.data.run.title);
+    if (tick === undefined) return;
+    this.setPlaying(false);
+    this.go(tick);
+  }
+
+  /** Compares the memory of now with that of other times; once more ends that. */
+  pin() {
+    this.pinned = this.pinned === undefined ? this.tick : undefined;
+    const words = this.pinned === undefined ? "Compare with now" : `Compared with ${this.scene.clock(this.pinned)}`;
+    setText(byId("pin"), words);
+    byId("pin").setAttribute("aria-pressed", `${this.pinned !== undefined}`);
+    this.stale = true;
+  }
+
+  /**
+   * @override
+   * @returns {Promise<void>}
+   */
+  whatIf() {
+    this.setPlaying(false);
+    return this.laboratory.open(this.tick, this.scene.node);
+  }
+
+  /** @override */
+  draw() {
+    const { scene, robot, tick } = this;
+    this.panel.settle(scene, !this.playing);
+    this.renderer.draw(scene);
+    const then = this.pinned === undefined ? undefined : robot.memoryAt(this.pinned);
+    this.panel.show(scene, { exact: !this.playing, then });
+    this.picker.show();
+    setText(byId("news"), scene.lastNews);
+    this.lessonsView.show(scene, robot.lessonsUpTo(tick, scene.environment.start_tick));
+    this.showTime(scene.clock(tick));
+  }
+
+  /** @param {MouseEvent} event */
+  onClick(event) {
+    const item = itemAt(this.scene, this.renderer.placeOf(event));
+    if (item?.kind === "robot") this.select(item.id);
+  }
+
+  /**
+   * @override
+   * @param {KeyboardEvent} event
+   */
+  takesKey(event) {
+    return !this.laboratory.isOpen && super.takesKey(event);
+  }
+
+  /**
+   * @override
+   * @param {number} step
+   */
+  actions(step) {
+    return { ...super.actions(step), p: () => this.jump(-1), w: () => this.whatIf() };
+  }
+}
+
+async function start() {
+  const text = byId("run").textContent;
+  if (!text) throw new Error("This page has no run in it: tools/octet replay RUN.LOG --html makes one that has.");
+  const run = JSON.parse(text);
+  setText(byId("status"), run.title);
+  Object.assign(window, { octet: new Player(await RunData.from(run)) });
+}
+
+start().catch((error) => setText(byId("status"), error.message));

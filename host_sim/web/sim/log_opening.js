@@ -1,0 +1,204 @@
+// @ts-check
+/* The experiment that a recorded log is of: what its commands say, and what its world file has. */
+
+import { SOUND, withFault } from "./body_faults.js";
+import { EDIT_FIELDS } from "../core/edit_fields.js";
+import { CELL_COUNT, FRAMES, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
+import { bytesOf, framesOf, replayLog } from "./log_replay.js";
+import { checkedWorld } from "./native_layouts.js";
+import { NativeRun } from "./native_run.js";
+import { Simulation } from "./simulation.js";
+
+/**
+ * @typedef {import("../types.js").Change} Change
+ * @typedef {import("../types.js").Experiment} Experiment
+ * @typedef {import("../types.js").RobotSetup} RobotSetup
+ * @typedef {import("../types.js").WorldEdit} WorldEdit
+ * @typedef {import("./worlds.js").Worlds} Worlds
+ *
+ * @typedef {{experiment: Experiment, news: string}} Opened
+ *
+ * A recorded run, as host_sim/report/laboratory.py has it.
+ * @typedef {{commands: [number, number, string][], ticks: number, world: string}} RecordedRun
+ *
+ * What a world file has.
+ * @typedef {{seed: number, of: number, limit_ticks: number, robots?: number, edits: (WorldEdit & {tick: number})[],
+ *   world?: Experiment["world"]}} World
+ */
+
+const LIMIT_TICKS = 30_000;
+const ENVIRONMENTS_MAX = 10_000;
+const HALF = CELL_COUNT / 2;
+const NO_WORLD = "that is not a world file: open a run.world.json";
+
+/**
+ * @param {WebAssembly.Module} module - page.wasm, compiled.
+ * @param {Worlds} worlds
+ * @param {string} text - The log.
+ * @param {string} world - The text of its world file; empty if there is none.
+ * @returns {Opened}
+ */
+export function openLog(module, worlds, text, world) {
+  const read = experimentIn(module, framesOf(text), world ? worldIn(module, worlds, world) : undefined);
+  const simulation = new Simulation(module, read, worlds, true);
+  simulation.finish();
+  const experiment = { ...read, environments: Math.min(read.environments, simulation.scene.number) };
+  return { experiment, news: comparison(module, text, simulation.log ?? []) };
+}
+
+/**
+ * The experiment that a recorded run is of.
+ * @param {WebAssembly.Module} module - page.wasm, compiled.
+ * @param {Worlds} worlds
+ * @param {RecordedRun} recorded
+ * @returns {Experiment}
+ */
+export function recordedExperiment(module, worlds, { commands, ticks, world }) {
+  return experimentIn(module, recordedFrames(commands, ticks), world ? worldIn(module, worlds, world) : undefined);
+}
+
+/**
+ * The commands of a recorded run, with one frame of senses for each of its ticks.
+ * @param {RecordedRun["commands"]} commands
+ * @param {number} ticks
+ */
+function* recordedFrames(commands, ticks) {
+  const sensed = { robot: 0, base: FRAMES.SENSES, data: new Uint8Array() };
+  let done = 0;
+  for (const [tick, robot, hex] of commands) {
+    for (; done < tick; done += 1) yield sensed;
+    yield { robot, base: FRAMES.COMMAND, data: bytesOf(hex) };
+  }
+  for (; done < ticks; done += 1) yield sensed;
+}
+
+/**
+ * The content of a world file.
+ * @param {WebAssembly.Module} module - page.wasm, compiled.
+ * @param {Worlds} worlds
+ * @param {string} text
+ * @returns {World}
+ */
+export function worldIn(module, worlds, text) {
+  const world = parsed(text);
+  if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
+  if (!isCount(world.of) || !isCount(world.limit_ticks) || !world.edits.every(isEdit)) throw new Error(NO_WORLD);
+  return { ...world, world: placeIn(module, worlds, world.world) };
+}
+
+/**
+ * Where the run of a world file takes place: a world with a name, or all of one that a person wrote.
+ * @param {WebAssembly.Module} module
+ * @param {Worlds} worlds
+ * @param {unknown} world
+ * @returns {Experiment["world"]}
+ */
+function placeIn(module, worlds, world) {
+  if (world === undefined || (typeof world === "string" && Object.hasOwn(worlds, world))) return world;
+  if (typeof world !== "object" || world === null) throw new Error(`this page knows no world ${JSON.stringify(world)}`);
+  const { name, ...content } = /** @type {Record<string, unknown>} */ (world);
+  return { name: `${name}`, ...checkedWorld(module, worlds.random, content) };
+}
+
+/** @param {string} text */
+function parsed(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    throw new Error(NO_WORLD);
+  }
+}
+
+/** @param {unknown} number */
+function isCount(number) {
+  return Number.isInteger(number) && Number(number) > 0;
+}
+
+/** @param {Record<string, unknown> | null} edit */
+function isEdit(edit) {
+  const fields = EDIT_FIELDS.get(`${edit?.do}`);
+  const isWhole = edit !== null && Number.isInteger(edit.tick) && Boolean(fields?.every((name) => isField(edit[name])));
+  return isWhole && (edit.do !== "body" || withFault(SOUND, `${edit.what}`, 0n) !== undefined);
+}
+
+/**
+ * A whole number, or a place.
+ * @param {unknown} value
+ */
+function isField(value) {
+  return Array.isArray(value) ? value.length === 2 && value.every(Number.isInteger) : Number.isInteger(value);
+}
+
+/**
+ * @param {WebAssembly.Module} module
+ * @param {Iterable<{robot: number, base: number, data: Uint8Array}>} frames
+ * @param {World | undefined} world
+ * @returns {Experiment}
+ */
+function experimentIn(module, frames, world) {
+  const native = new NativeRun(module, 1);
+  /** @type {RobotSetup[]} */
+  const robots = [];
+  /** @type {(Change & {tick: number})[]} */
+  const changes = [];
+  let [seed, ticks] = [0, 0];
+  for (const { robot, base, data } of frames) {
+    if (base === FRAMES.SENSES && robot === 0) ticks += 1;
+    if (base !== FRAMES.COMMAND) continue;
+    const command = native.readCommand(data);
+    if (ticks > 0) changes.push({ do: "command", robot, ...command, tick: ticks });
+    else if (command.opcode === OPCODE.START && robot === 0) seed = command.value;
+    if (ticks === 0) robots[robot] = setUp(robots[robot], command);
+  }
+  if (!robots.length || !ticks) throw new Error("this log has no robot of nodes 1 to 4 that was started");
+  const [environments, limit_ticks] = world ? [world.of, world.limit_ticks] : [ENVIRONMENTS_MAX, LIMIT_TICKS];
+  const during = changes.filter((change) => change.tick < ticks);
+  const all = [...during, ...(world?.edits ?? [])].sort((a, b) => a.tick - b.tick);
+  return { seed, environments, limit_ticks, robots, changes: all, ticks_max: ticks, world: world?.world };
+}
+
+/**
+ * How a robot is started, with one more command.
+ * @param {RobotSetup | undefined} before
+ * @param {{opcode: number, which: number, value: number}} command
+ * @returns {RobotSetup}
+ */
+function setUp(before, { opcode, which, value }) {
+  const setup = before ?? { profile: PROFILES[0], settings: {}, memory: null };
+  if (opcode === OPCODE.START && !PROFILES[which]) throw new Error("this log has a behaviour that this page does not know");
+  if (opcode === OPCODE.START) return { ...setup, profile: PROFILES[which], settings: {}, seed: value };
+  if (opcode === OPCODE.SET) return { ...setup, settings: { ...setup.settings, [Object.keys(PARAMETERS)[which]]: value } };
+  if (opcode === OPCODE.ERASE) return { ...setup, memory: Array.from({ length: CELL_COUNT }, () => 0) };
+  if (opcode === OPCODE.WRITE) return { ...setup, memory: written(setup.memory, which, value) };
+  return setup;
+}
+
+/**
+ * @param {number[] | null} memory
+ * @param {number} which
+ * @param {number} value
+ */
+function written(memory, which, value) {
+  const first = which >> HALF ? HALF : 0;
+  const bytes = memory ?? Array.from({ length: CELL_COUNT }, () => 0);
+  return bytes.map((byte, i) => (i >= first && i < first + HALF && (which >> (i - first)) & 1 ? (value >>> (8 * (i - first))) & 255 : byte));
+}
+
+/**
+ * How the log and what was simulated compare.
+ * @param {WebAssembly.Module} module
+ * @param {string} text
+ * @param {Uint8Array[]} simulated
+ */
+function comparison(module, text, simulated) {
+  const decoder = new TextDecoder();
+  const lines = simulated.map((part) => decoder.decode(part)).join("").split("\n");
+  const recorded = text.trimEnd().split("\n");
+  const at = recorded.findIndex((line, i) => line !== lines[i]);
+  if (at < 0 && lines.length > recorded.length + 1) return "The log ends before the run does; this is its run so far, byte for byte.";
+  if (at < 0) return "This is the run of the log, byte for byte.";
+  const { difference } = replayLog(module, text);
+  const line = `From line ${at + 1} on, the log and this page's run differ`;
+  if (difference) return `${line}: the robot in the log was built from other sources (line ${difference.line}).`;
+  return `${line}: open the log together with its run.world.json.`;
+}

@@ -1,0 +1,79 @@
+// @ts-check
+/* Feeds a recorded log to the firmware, and compares what it answers with what was recorded. */
+
+import { FRAMES, NODE_MAX } from "../generated.js";
+import { NativeRun, ROBOTS_MAX } from "./native_run.js";
+
+/**
+ * The first frame that differs: its line in the log, counted from 1, and what the firmware says instead.
+ * @typedef {{line: number, recorded: string, replayed: string}} Difference
+ *
+ * @typedef {{frames: number, difference: Difference | undefined}} Comparison
+ */
+
+/** A line as candump -L writes it: time, channel, identifier, bytes. */
+const LINE = /^\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#((?:[0-9A-F]{2})*)$/;
+const TO_ROBOT = [FRAMES.COMMAND, FRAMES.SENSES, FRAMES.RANGES];
+
+/**
+ * Compares a log of robots in lockstep, of which no frame was lost.
+ * @param {WebAssembly.Module} module - page.wasm, compiled.
+ * @param {string} text - The log.
+ * @returns {Comparison}
+ */
+export function replayLog(module, text) {
+  const run = new NativeRun(module, ROBOTS_MAX);
+  /** @type {string[][]} */
+  const answers = Array.from({ length: ROBOTS_MAX }, () => []);
+  let frames = 0;
+  for (const { line, robot, base, words, data } of framesOf(text)) {
+    frames += 1;
+    if (TO_ROBOT.includes(base)) {
+      for (const said of run.exchange(robot, { id: base + robot, data })) answers[robot].push(wordsOf(said));
+    } else {
+      const replayed = answers[robot].shift() ?? "nothing";
+      if (replayed !== words) return { frames, difference: { line, recorded: words, replayed } };
+    }
+  }
+  return { frames, difference: undefined };
+}
+
+/**
+ * The frames of a log that are a robot's.
+ * @param {string} text
+ */
+export function* framesOf(text) {
+  for (const [index, line] of text.split("\n").entries()) {
+    const frame = line && frameOf(line, index + 1);
+    if (frame) yield { line: index + 1, ...frame };
+  }
+}
+
+/**
+ * @param {string} line
+ * @param {number} number
+ */
+function frameOf(line, number) {
+  const [, , id, hex] = LINE.exec(line) ?? [];
+  if (id === undefined) throw new Error(`line ${number} is not a frame of a log: open a run.log`);
+  const numeric = parseInt(id, 16);
+  const base = Object.values(FRAMES).find((first) => numeric >= first && numeric < first + NODE_MAX);
+  if (base === undefined) return undefined;
+  const robot = numeric - base;
+  if (robot >= ROBOTS_MAX) throw new Error(`line ${number} is of node ${robot + 1}: a page has up to ${ROBOTS_MAX}`);
+  return { robot, base, words: `${id}#${hex}`, data: bytesOf(hex) };
+}
+
+/**
+ * The bytes of a frame, from their digits.
+ * @param {string} hex
+ */
+export function bytesOf(hex) {
+  return Uint8Array.from(hex.match(/../g) ?? [], (byte) => parseInt(byte, 16));
+}
+
+/** @param {import("./native_run.js").Frame} frame */
+function wordsOf({ id, data }) {
+  const hex = Array.from(data, (byte) => byte.toString(16).padStart(2, "0"));
+  return `${id.toString(16).padStart(3, "0")}#${hex.join("")}`.toUpperCase();
+}

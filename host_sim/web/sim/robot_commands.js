@@ -1,0 +1,147 @@
+// @ts-check
+/* What is said to a run's robots: the commands of tools/run, in its order. */
+
+import { ANSWER_WANTS_RANGES, CELL_COUNT, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
+
+/**
+ * @typedef {import("../types.js").Experiment} Experiment
+ * @typedef {import("../types.js").RobotChange} RobotChange
+ */
+
+const HALF = CELL_COUNT / 2;
+const UPPER_HALF = 1 << HALF;
+const ALL_CELLS = Array.from({ length: CELL_COUNT }, (_, cell) => cell);
+
+/** `wantsRanges` tells of each robot whether its behaviour asks for distances. */
+export class RobotCommands {
+  /**
+   * @param {import("./native_run.js").NativeRun} native
+   * @param {Experiment} experiment - How the robots are set up.
+   */
+  constructor(native, { robots, seed }) {
+    this.native = native;
+    this.setups = robots.map((setup, robot) => ({ ...setup, seed: setup.seed ?? seed + robot }));
+    this.wantsRanges = robots.map(() => false);
+  }
+
+  /** Starts all robots as they are set up. */
+  startAll() {
+    for (const [robot, { profile, memory }] of this.setups.entries()) {
+      this.start(robot, profile);
+      if (memory) this.writeMemory(robot, memory);
+    }
+  }
+
+  /**
+   * @param {number} robot
+   * @param {string} profile
+   */
+  start(robot, profile) {
+    const { native } = this;
+    const { seed, settings } = this.setups[robot];
+    native.command(robot, OPCODE.START, PROFILES.indexOf(profile), seed);
+    this.wantsRanges[robot] = Boolean(native.c.page_answer_value() & ANSWER_WANTS_RANGES);
+    for (const [name, value] of Object.entries(settings)) this.set(robot, name, value);
+  }
+
+  /** @param {number} robot */
+  stop(robot) {
+    this.send(robot, OPCODE.STOP);
+  }
+
+  /**
+   * Asks a robot that has stopped by itself how it is: of its frames, not each came when it should.
+   * @param {number} robot
+   */
+  askIfHalted(robot) {
+    if (this.native.c.page_has_halted(robot)) this.send(robot, OPCODE.REPORT);
+  }
+
+  /**
+   * Carries out a change that a person makes.
+   * @param {RobotChange} change
+   */
+  carryOut(change) {
+    const { robot } = change;
+    if (change.do === "write") this.writeSide(robot, change.cell, change.side);
+    else if (change.do === "erase") this.send(robot, OPCODE.ERASE);
+    else if (change.do === "set") this.set(robot, change.parameter, change.value);
+    else if (change.do === "command") this.send(robot, change.opcode, change.which, change.value);
+    else if (change.do === "freeze") this.native.command(robot, OPCODE.FREEZE, change.on);
+    else this.start(robot, change.profile);
+  }
+
+  /**
+   * @param {number} robot
+   * @param {string} name - Of a parameter.
+   * @param {number} value
+   */
+  set(robot, name, value) {
+    this.native.command(robot, OPCODE.SET, Object.keys(PARAMETERS).indexOf(name), value);
+  }
+
+  /**
+   * Writes all eight bytes, translated to what the robot understands.
+   * @param {number} robot
+   * @param {number[]} memory
+   */
+  writeMemory(robot, memory) {
+    const { native } = this;
+    native.bytes.set(memory);
+    if (!native.c.page_translate(robot)) throw new Error("these eight bytes are not a memory of a robot");
+    this.write(robot, [...native.bytes], ALL_CELLS);
+  }
+
+  /**
+   * Writes the turn for one pattern.
+   * @param {number} robot
+   * @param {number} cell
+   * @param {number} side
+   */
+  writeSide(robot, cell, side) {
+    const { native } = this;
+    const before = native.memory(robot);
+    native.bytes.set(before);
+    native.c.page_write_side(robot, cell, side);
+    const after = [...native.bytes];
+    this.write(robot, after, ALL_CELLS.filter((i) => after[i] !== before[i] || (i === cell && !after[0])));
+  }
+
+  /**
+   * Writes some bytes of a memory.
+   * @param {number} robot
+   * @param {number[]} memory
+   * @param {number[]} cells - Those to write.
+   */
+  write(robot, memory, cells) {
+    if (cells.length === CELL_COUNT && !memory.some(Boolean)) this.send(robot, OPCODE.ERASE);
+    else {
+      for (const first of [0, HALF]) this.writeHalf(robot, memory, cells.filter((cell) => cell >= first && cell < first + HALF));
+    }
+  }
+
+  /**
+   * @param {number} robot
+   * @param {number[]} memory
+   * @param {number[]} cells - Of one half.
+   */
+  writeHalf(robot, memory, cells) {
+    if (!cells.length) return;
+    const [mask, value] = cells.reduce(
+      ([bits, bytes], cell) => [bits | (1 << cell % HALF), bytes | (memory[cell] << (8 * (cell % HALF)))], [0, 0],
+    );
+    this.send(robot, OPCODE.WRITE, mask | (cells[0] >= HALF ? UPPER_HALF : 0), value);
+  }
+
+  /**
+   * Sends a command, and takes the reports that follow it.
+   * @param {number} robot
+   * @param {number} opcode
+   * @param {number} [which]
+   * @param {number} [value]
+   */
+  send(robot, opcode, which = 0, value = 0) {
+    this.native.command(robot, opcode, which, value);
+    this.native.c.page_take_reports(robot);
+  }
+}

@@ -1,0 +1,188 @@
+// @ts-check
+/* A run in the page: robots in one environment after the other. The same frames as those of tools/run. */
+
+import { Arena } from "./arena.js";
+import { DueChanges } from "./due_changes.js";
+import { EDIT_FIELDS } from "../core/edit_fields.js";
+import { measuresOf } from "./measures.js";
+import { drawFrom, drawLayout } from "./native_layouts.js";
+import { NativeRun } from "./native_run.js";
+import { RobotCommands } from "./robot_commands.js";
+import { RunRecorder } from "./run_recorder.js";
+import { RANDOM } from "../core/world_names.js";
+import { worldOf } from "./worlds.js";
+
+/**
+ * @typedef {import("../types.js").Change} Change
+ * @typedef {import("../types.js").Experiment} Experiment
+ */
+
+const BLOCK_TICKS = 256;
+
+/** Takes robots through their environments. */
+export class Simulation {
+  /**
+   * @param {WebAssembly.Module} module - page.wasm, compiled.
+   * @param {Experiment} experiment
+   * @param {import("./worlds.js").Worlds} worlds
+   * @param {boolean} [keepsLog] - Whether to record every frame.
+   */
+  constructor(module, experiment, worlds, keepsLog = false) {
+    const { environments, seed, robots, changes } = experiment;
+    this.experiment = experiment;
+    this.world = worldOf(experiment.world ?? RANDOM, worlds);
+    this.native = new NativeRun(module, robots.length);
+    drawFrom(this.native, this.world.params, this.world.written);
+    this.arena = new Arena(this.native, this.world.params, robots.length);
+    this.commands = new RobotCommands(this.native, experiment);
+    this.changes = new DueChanges(changes);
+    this.robots = [...robots.keys()];
+    this.tick = 0;
+    /** @type {Uint8Array[] | undefined} */
+    this.log = keepsLog ? [] : undefined;
+    /** @type {import("../types.js").EnvironmentScene} */
+    this.scene = { number: 0, of: environments, seed, first_tick: 0, start_tick: 0, bars: [], food: [] };
+    this.stopAll(); // as in the handshake of tools/run
+    this.commands.startAll();
+    this.recorder = new RunRecorder(measuresOf(this.world.params, experiment), this.native, this.sides);
+  }
+
+  /**
+   * Runs all environments; pauses after each.
+   * @returns {Generator<number, void>} The number of each.
+   */
+  *run() {
+    const { environments, limit_ticks, ticks_max = Infinity } = this.experiment;
+    for (let number = 1; number <= environments && this.tick < ticks_max; number += 1) {
+      this.enter(number);
+      const end = Math.min(this.tick + limit_ticks, ticks_max);
+      while (this.tick < end && this.arena.eaten.includes(0)) this.runBlock(end);
+      this.settle();
+      yield number;
+    }
+    this.stopAll();
+  }
+
+  /** Runs all that is left. */
+  finish() {
+    const run = this.run();
+    while (!run.next().done) continue;
+  }
+
+  /** What was recorded so far. */
+  result() {
+    const { seed, environments } = this.experiment;
+    return this.recorder.result(`seed ${seed}, ${environments} environment${environments === 1 ? "" : "s"}`);
+  }
+
+  /** For each robot, the turn that it knows for each pattern. */
+  get sides() {
+    return this.robots.map((robot) => this.native.sides(robot));
+  }
+
+  stopAll() {
+    for (const robot of this.robots) {
+      this.commands.stop(robot);
+      this.keepLog();
+    }
+  }
+
+  /** The robots that have stopped by themselves say how they are. */
+  settle() {
+    for (const robot of this.robots) this.commands.askIfHalted(robot);
+    this.keepLog();
+  }
+
+  /** @param {number} number */
+  enter(number) {
+    this.arena.furnish(drawLayout(this.native, { seed: this.experiment.seed, number, robots: this.robots.length }));
+    this.scene = { ...this.scene, number, first_tick: this.tick };
+    this.show();
+  }
+
+  /** Records the scene as it is now. */
+  show() {
+    const { plants: _, ...before } = this.scene;
+    const { plants, ...drawn } = this.arena.drawn;
+    this.scene = { ...before, ...drawn, ...(plants.length && { plants }) };
+    this.recorder.enter(this.scene);
+  }
+
+  /** @param {number} end - The tick at which the environment ends. */
+  runBlock(end) {
+    this.changes.makeThoseOf(this.tick, (change) => this.change(change));
+    this.keepLog();
+    const measures = this.commands.wantsRanges.includes(true);
+    const next = Math.min(end, this.changes.nextTick);
+    const before = this.sides;
+    if (measures) this.sendRanges();
+    const ticks = this.native.c.page_run(this.tick, measures ? 1 : Math.min(next - this.tick, BLOCK_TICKS));
+    this.keepLog();
+    if (!ticks) throw new Error(`a robot does not answer tick ${this.tick}: it was not started, or was stopped`);
+    for (const robot of this.robots) this.record(robot, ticks, before[robot]);
+    this.tick += ticks;
+    this.recorder.eat(this.arena.eaten);
+  }
+
+  /**
+   * @param {number} robot
+   * @param {number} ticks
+   * @param {number[]} before - What the robot knew before them, for each pattern.
+   */
+  record(robot, ticks, before) {
+    const block = this.native.block(robot, ticks);
+    this.recorder.tracks[robot].add(block, before, this.native.sides(robot));
+    this.arena.moved(robot, block.poses.slice(-3));
+  }
+
+  /** Tells the robots that want it how far away things are. */
+  sendRanges() {
+    this.setTime();
+    for (const robot of this.robots) if (this.commands.wantsRanges[robot]) this.native.c.page_send_ranges(robot, this.tick);
+    this.keepLog();
+  }
+
+  /** @param {Change} change */
+  change(change) {
+    if (isWorldEdit(change)) this.changeWorld(change);
+    else this.changeRobot(change);
+  }
+
+  /** @param {import("../types.js").WorldEdit} edit */
+  changeWorld(edit) {
+    this.arena.edit(edit);
+    this.recorder.edits.push({ ...edit, tick: this.tick });
+    this.show();
+  }
+
+  /** @param {import("../types.js").RobotChange} change */
+  changeRobot(change) {
+    const { robot } = change;
+    const { history } = this.recorder.tracks[robot];
+    const before = this.native.sides(robot);
+    this.setTime();
+    this.commands.carryOut(change);
+    if (change.do === "freeze") history.freeze(change.on);
+    if (change.do === "start") history.restart(before);
+    history.relearn(this.tick, this.native.sides(robot));
+  }
+
+  /** Sets the log's time to that of the next tick. */
+  setTime() {
+    this.native.c.page_set_time(Math.round(this.tick * this.world.params.tick_s * 1e6));
+  }
+
+  keepLog() {
+    const lines = this.native.takeLog();
+    if (lines.length) this.log?.push(lines);
+  }
+}
+
+/**
+ * Whether it changes the world or the bodies in it; all else is said to a robot.
+ * @param {Change} change
+ * @returns {change is import("../types.js").WorldEdit}
+ */
+function isWorldEdit(change) {
+  return EDIT_FIELDS.has(change.do);
+}

@@ -1,0 +1,48 @@
+// @ts-check
+/* The experiment that a world file is of: a world that a person wrote, or that of a run with what changed in it. */
+
+import { worldIn } from "./log_opening.js";
+import { WrittenError, checkedWorld } from "./native_layouts.js";
+import { ROBOTS_MAX } from "./native_run.js";
+import { LineError, parseToml } from "./toml.js";
+
+/**
+ * @typedef {import("../types.js").Experiment} Experiment
+ * @typedef {import("./worlds.js").Worlds} Worlds
+ */
+
+/**
+ * @param {{module: WebAssembly.Module, worlds: Worlds}} parts - The module is page.wasm, compiled.
+ * @param {{name: string, text: string}} file
+ * @param {Experiment} base - Says what the file does not.
+ * @returns {Experiment}
+ */
+export function openWorld({ module, worlds }, { name, text }, base) {
+  if (name.endsWith(".toml")) return { ...base, world: writtenWorld(module, worlds.random, { name, text }) };
+  const { seed, of, limit_ticks, robots = 1, edits, world } = worldIn(module, worlds, text);
+  if (!(robots >= 1 && robots <= ROBOTS_MAX)) throw new Error(`${name} is of ${robots} robots; this page has room for ${ROBOTS_MAX}`);
+  const setups = Array.from({ length: robots }, () => ({ ...base.robots[0] }));
+  return { ...base, seed, environments: of, limit_ticks, robots: setups, changes: edits, world: world ?? base.world };
+}
+
+/**
+ * The world in a file.
+ * @param {WebAssembly.Module} module
+ * @param {import("../types.js").SimParams} params - Of the random world.
+ * @param {{name: string, text: string}} file
+ * @returns {import("../types.js").WrittenWorld}
+ */
+function writtenWorld(module, params, { name, text }) {
+  /** @type {import("./toml.js").Toml["lines"]} */
+  let lines = new Map();
+  try {
+    const toml = parseToml(text);
+    lines = toml.lines;
+    return { name, ...checkedWorld(module, params, Object.fromEntries(toml.content)) };
+  } catch (error) {
+    if (error instanceof LineError) throw new Error(`${name}:${error.line}: this is not TOML: ${error.message}`);
+    if (!(error instanceof WrittenError)) throw error;
+    const [line, entries] = lines.get(error.key) ?? [1, []];
+    throw new Error(`${name}:${entries[error.entry] ?? line}: ${error.message}`);
+  }
+}

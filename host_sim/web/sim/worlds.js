@@ -1,0 +1,22 @@
+// @ts-check
+/* The worlds that a run can take place in: those with a name, and written ones. */
+
+/**
+ * @typedef {import("../types.js").SimParams} SimParams
+ * @typedef {import("../types.js").WrittenWorld} WrittenWorld
+ *
+ * The dimensions of each world with a name.
+ * @typedef {Record<string, SimParams>} Worlds
+ */
+
+/**
+ * What a run's world is drawn from.
+ * @param {string | WrittenWorld} world
+ * @param {Worlds} worlds
+ * @returns {{params: SimParams, written?: WrittenWorld}}
+ */
+export function worldOf(world, worlds) {
+  if (typeof world === "string") return { params: worlds[world] };
+  const [width_mm, height_mm] = world.size ?? [worlds.random.width_mm, worlds.random.height_mm];
+  return { params: { ...worlds.random, width_mm, height_mm }, written: world };
+}

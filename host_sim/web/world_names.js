@@ -1,9 +1,0 @@
-// @ts-check
-/* What worlds are called. */
-
-export const RANDOM = "random";
-
-/** @param {string | import("./types.js").WrittenWorld} world */
-export function nameOf(world) {
-  return typeof world === "string" ? world : world.name;
-}
