@@ -5,11 +5,11 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from host_sim.backends.relay import Relay
 from host_sim.protocol.codec import Protocol
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
-from host_sim.transport.relay import Relay
 
 if TYPE_CHECKING:
     from host_sim.transport.shared_line import SharedLine

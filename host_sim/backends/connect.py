@@ -5,10 +5,10 @@ from contextlib import ExitStack
 from host_sim.backends.bus_choice import check_robot
 from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.images import BOARDS
+from host_sim.backends.in_process_link import InProcessLink
+from host_sim.backends.relay import Relay, RelayedLink
 from host_sim.client.connection import Connection
-from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.line_stats import LineStats
-from host_sim.transport.relay import Relay, RelayedLink
 
 _EMULATED_S = 30.0
 """An emulator on a busy machine may take its time."""

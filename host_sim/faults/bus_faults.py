@@ -6,9 +6,7 @@ from random import Random
 from typing import NamedTuple, Protocol
 
 from host_sim.base.errors import UsageError
-from host_sim.faults.forgery import Forger
-from host_sim.protocol.codec import Frame
-from host_sim.protocol.codec import Protocol as Wire
+from host_sim.base.frame import Frame
 from host_sim.transport.clock import VirtualClock
 
 _IDS = 0x800
@@ -144,12 +142,26 @@ class Babble:
         return [Passing(_BABBLE)] * self._frames + [passing._replace(delay_s=late_s)]
 
 
+class Forger(Protocol):
+    """Somebody who knows the messages of a bus, listens, and sends frames in another's name."""
+
+    def hear(self, frame: Frame) -> None:
+        """Somebody sends a frame."""
+
+    def forge(self, dice: Random) -> Frame:
+        """A frame whose CRC is true."""
+
+
+Forgers = Callable[[str], Forger]
+"""Makes a forger of what is named; of anything, for an empty name."""
+
+
 class Forge:
     """Somebody sends a frame in another's name, with a true CRC: `forge:stop` a command, `forge:MEMORY` a message."""
 
-    def __init__(self, size: str, wire: Wire) -> None:
+    def __init__(self, size: str, forgers: Forgers) -> None:
         """Takes the name of a command or of a message (any message)."""
-        self._forger = Forger(size, wire)
+        self._forger = forgers(size)
 
     def hear(self, frame: Frame) -> None:
         """Somebody sends a frame."""
@@ -165,29 +177,29 @@ def random_frame(dice: Random) -> Frame:
     return Frame(dice.randrange(_IDS), dice.randbytes(dice.randrange(_BYTES + 1)))
 
 
-def make_fault(name: str, size: str, wire: Wire) -> Fault:
+def make_fault(name: str, size: str, forgers: Forgers) -> Fault:
     """A fault by its name.
 
     Args:
         name: One of `FAULTS`.
         size: How large, in the fault's own terms; empty for its default.
-        wire: The protocol of the node that forged frames are for.
+        forgers: Who forges frames.
 
     Raises:
         UsageError: There is no such fault, or not of that size.
     """
     if name not in FAULTS:
         raise UsageError(f"there is no fault {name!r}; there are {', '.join(FAULTS)}")
-    return FAULTS[name](size, wire)
+    return FAULTS[name](size, forgers)
 
 
-def _drop(size: str, _wire: Wire) -> Fault:
+def _drop(size: str, _forgers: Forgers) -> Fault:
     if size:
         raise UsageError(f"drop has no size, not {size}")
     return Drop()
 
 
-FAULTS: dict[str, Callable[[str, Wire], Fault]] = {
+FAULTS: dict[str, Callable[[str, Forgers], Fault]] = {
     "drop": _drop,
     "duplicate": lambda size, _: Duplicate(size),
     "reorder": lambda size, _: Reorder(size),
@@ -198,7 +210,7 @@ FAULTS: dict[str, Callable[[str, Wire], Fault]] = {
     "babble": lambda size, _: Babble(size),
     "forge": Forge,
 }
-"""Makes each fault from its size and the protocol of the node."""
+"""Makes each fault from its size and those who forge."""
 
 
 def _number(text: str, least: int, most: int) -> int:

@@ -7,10 +7,11 @@ import select
 import selectors
 import threading
 import tty
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from host_sim.protocol.codec import Frame, node_of
+from host_sim.base.frame import Frame
 from host_sim.transport.slcan_link import decode, encode
 
 _END, _UNPLUG, _PLUG = b".", b"u", b"p"
@@ -113,12 +114,14 @@ class Adapter:
         orders: What the host told the adapter itself.
     """
 
-    def __init__(self, *nodes: int) -> None:
+    def __init__(self, *nodes: int, node_of: Callable[[int], int]) -> None:
         """Plugs it in.
 
         Args:
             *nodes: The robots on its bus.
+            node_of: The node that an identifier belongs to.
         """
+        self._node_of = node_of
         pairs = [pty.openpty() for _ in range(1 + len(nodes))]
         self._masters, self._slaves = (list(fds) for fds in zip(*pairs, strict=True))
         for slave in self._slaves:
@@ -154,7 +157,7 @@ class Adapter:
                     os.write(other, b"".join(encode(frame) for frame in frames if self._hears(other, frame)))
 
     def _hears(self, end: int, frame: Frame) -> bool:
-        return end == self._host or bool(node_of(frame.id) == self._nodes[end])
+        return end == self._host or bool(self._node_of(frame.id) == self._nodes[end])
 
     def close(self) -> None:
         """Unplugs it, and the robots too."""

@@ -4,10 +4,10 @@ import math
 from collections import deque
 from dataclasses import dataclass, field
 
+from host_sim.base.frame import Frame
 from host_sim.faults.bus_faults import Passing
 from host_sim.faults.rule import DIRECTIONS, Direction
 from host_sim.faults.schedule import Schedule
-from host_sim.protocol.codec import Frame
 from host_sim.transport.clock import Clock, WallClock
 from host_sim.transport.link import Link
 

@@ -4,9 +4,9 @@ from array import array
 from collections.abc import Sequence
 from random import Random
 
-from host_sim.faults.bus_faults import Fault, Forge, Passing, make_fault
+from host_sim.base.frame import Frame
+from host_sim.faults.bus_faults import Fault, Forge, Forgers, Passing, make_fault
 from host_sim.faults.rule import DIRECTIONS, Direction, Rule
-from host_sim.protocol.codec import Frame, Protocol
 
 RECORD_MAX = 100_000
 """Number of faults that are recorded; later ones are only counted."""
@@ -39,20 +39,20 @@ class Schedule:
         count: Number of faults so far.
     """
 
-    def __init__(self, rules: Sequence[Rule], seed: int, protocol: Protocol) -> None:
+    def __init__(self, rules: Sequence[Rule], seed: int, forgers: Forgers) -> None:
         """Prepares the faults.
 
         Args:
             rules: Applied in this order, those for a single frame first.
             seed: Seed for all that is random.
-            protocol: The protocol of the node that forged frames are for.
+            forgers: Who forges frames.
 
         Raises:
             UsageError: There is no such fault, or not of that size.
         """
         self._rules = [*rules]
         rolled = [
-            _Rolled(place, rule, make_fault(rule.name, rule.size, protocol), seed) for place, rule in enumerate(rules)
+            _Rolled(place, rule, make_fault(rule.name, rule.size, forgers), seed) for place, rule in enumerate(rules)
         ]
         self._wide = [each for each in rolled if not each.rule.is_single]
         self._single: dict[int, list[_Rolled]] = {}

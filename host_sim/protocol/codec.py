@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from host_sim.base.frame import Frame
 from host_sim.base.paths import ROOT
 from host_sim.base.robot_io import Drive, Ranges, Senses
 from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, RANGE_NONE, SAME_LAYOUT, Signal
@@ -34,13 +35,6 @@ _SIGNALS = {"beacon_mm": "beacon", "left_mm_s": "left", "right_mm_s": "right"}
 _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
 _SENSES = places(MESSAGES["SENSES"], [_SIGNALS.get(field, field) for field in Senses._fields])
 _DRIVE = places(MESSAGES["DRIVE"], [_SIGNALS.get(field, field) for field in Drive._fields])
-
-
-class Frame(NamedTuple):
-    """One CAN frame with an 11-bit identifier, and 0..8 bytes of data."""
-
-    id: int
-    data: bytes
 
 
 class DecodedFrame(NamedTuple):

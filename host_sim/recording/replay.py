@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass
 
+from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import UsageError
 from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, node_of
 from host_sim.protocol.generated import Opcode, Reason
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, first_memory
-from host_sim.transport.in_process_link import InProcessLink
 
 _TO_ROBOT = ("SENSES", "COMMAND")
 _AT_REST = (Reason.STOP, Reason.SILENCE)

@@ -6,12 +6,12 @@ import time
 from struct import Struct
 from typing import Any, NamedTuple, Protocol
 
+from host_sim.backends.in_process_link import InProcessLink
+from host_sim.backends.relay import RelayedLink
 from host_sim.client.elsewhere import Ticks, routine_reports, take_last_reports, take_routine_reports, take_ticks
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.codec import MEMORY_IDS, Frame
-from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.link import FrameSocket, SocketLink
-from host_sim.transport.relay import RelayedLink
 
 WAIT_MS = 5
 """Time for which C code waits for a frame over a link, ms; Python waits for what takes longer."""

@@ -160,7 +160,8 @@ def _with_faults(connection: Connection, config: RunConfig, node: int) -> Connec
     from host_sim.faults.faulty_link import FaultyLink  # noqa: PLC0415 - see above
     from host_sim.faults.rule import Rule  # noqa: PLC0415 - see above
     from host_sim.faults.schedule import Schedule  # noqa: PLC0415 - see above
+    from host_sim.protocol.forgery import forgers  # noqa: PLC0415 - see above
 
     clock = VirtualClock() if connection.answers_at_once else WallClock()
-    schedule = Schedule([Rule.parse(rule) for rule in config.faults], config.fault_seed, Protocol(node))
+    schedule = Schedule([Rule.parse(rule) for rule in config.faults], config.fault_seed, forgers(Protocol(node)))
     return replace(connection, link=FaultyLink(connection.link, schedule, clock), now=clock.now)

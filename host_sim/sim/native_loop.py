@@ -5,13 +5,13 @@ from dataclasses import asdict
 from functools import cache
 from typing import Any, NamedTuple
 
+from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.paths import BUILD, ROOT
 from host_sim.base.robot_io import Drive, Senses
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.pacing import BegunTick
 from host_sim.client.robot_client import RobotClient
 from host_sim.sim.loop_robots import LoopRobot, Native, RobotBehindLink, RobotInProcess
-from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.link import SocketLink
 from host_sim.world.arena import Arena
 from host_sim.world.body_faults import SOUND

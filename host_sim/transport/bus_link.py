@@ -8,7 +8,7 @@ from collections.abc import Callable
 import can
 
 from host_sim.base.errors import LinkDownError
-from host_sim.protocol.codec import Frame
+from host_sim.base.frame import Frame
 from host_sim.transport.line_stats import LineStats
 
 _SEND_S = 0.1

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Protocol, runtime_checkable
 
-from host_sim.protocol.codec import Frame
+from host_sim.base.frame import Frame
 
 
 class Link(Protocol):

@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from host_sim.protocol.codec import Frame
+from host_sim.base.frame import Frame
 from host_sim.transport.link import Link
 
 _WAITING_MAX = 4096

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from host_sim.base.errors import LinkDownError
-from host_sim.protocol.codec import Frame
+from host_sim.base.frame import Frame
 from host_sim.transport.line_stats import LineStats
 
 _LINE = re.compile(rb"t([0-9A-Fa-f]{3})([0-8])((?:[0-9A-Fa-f]{2}){0,8})")

@@ -4,13 +4,13 @@ import time
 from collections import deque
 from collections.abc import Callable
 
+from host_sim.backends.in_process_link import InProcessLink
 from host_sim.client.commands import start
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.generated import Opcode
-from host_sim.transport.in_process_link import InProcessLink
 from tests.client.support import PROTOCOL, connected, drive_for, rolled
 
 LEARNED = 300

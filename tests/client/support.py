@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
+from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.robot_io import NOTHING_SENSED, Drive, Senses
 from host_sim.client.commands import start, stop
 from host_sim.client.connection import DEADLINE_S, Connection
@@ -16,8 +17,8 @@ from host_sim.faults.faulty_link import FaultyLink
 from host_sim.faults.rule import Rule
 from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.forgery import forgers
 from host_sim.transport.clock import VirtualClock
-from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.link import Link
 
 PROTOCOL = Protocol()
@@ -45,7 +46,7 @@ def connected(
 ) -> Iterator[RobotClient]:
     """A client whose robot has answered; its log is a `Diary`."""
     clock = VirtualClock()
-    schedule = Schedule([Rule.parse(rule) for rule in faults], seed, PROTOCOL)
+    schedule = Schedule([Rule.parse(rule) for rule in faults], seed, forgers(PROTOCOL))
     faulty = FaultyLink(link or InProcessLink(), schedule, clock)
     connection = Connection(faulty, deadline_s=deadline_s, now=clock.now)
     client = RobotClient(connection, PROTOCOL, FrameLog(), **options)

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
+from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RefusedError, RobotError
 from host_sim.base.robot_io import NOTHING_SENSED, Drive, Senses
 from host_sim.client.commands import start
@@ -15,7 +16,6 @@ from host_sim.client.pacing import HOLD_TICKS, Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame, Protocol, crc8
-from host_sim.transport.in_process_link import InProcessLink
 
 PROTOCOL = Protocol()
 Tamper = Callable[[Frame], list[Frame]]

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RobotError
 from host_sim.client.commands import start
 from host_sim.client.connection import Connection
@@ -13,7 +14,6 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.client.supervision import settle
 from host_sim.protocol.codec import Frame
-from host_sim.transport.in_process_link import InProcessLink
 from tests.client.support import PROTOCOL, Diary, drive_for
 
 FRAME_S = 0.065

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.faults.cable import Adapter, Cable, Socket
+from host_sim.protocol.codec import node_of
 
 SOON_S = 30.0
 TO_NODE_1, TO_NODE_2, FROM_NODE_1 = b"t0210\r", b"t0220\r", b"t0410\r"
@@ -99,7 +100,7 @@ def test_a_cable_that_is_unplugged_can_be_taken_away():
 
 
 def test_an_adapter_passes_frames_to_the_robots_whose_they_are_and_to_the_host(open_tty):
-    with closing(Adapter(1, 2)) as adapter:
+    with closing(Adapter(1, 2, node_of=node_of)) as adapter:
         host, first, second = (open_tty(name) for name in (adapter.host, *adapter.robots.values()))
 
         os.write(host, b"S6\rO\r\r" + TO_NODE_2 + TO_NODE_1[:3])
@@ -113,7 +114,7 @@ def test_an_adapter_passes_frames_to_the_robots_whose_they_are_and_to_the_host(o
 
 
 def test_what_nobody_reads_is_lost_and_holds_nobody_up(open_tty):
-    with closing(Adapter(1)) as adapter:
+    with closing(Adapter(1, node_of=node_of)) as adapter:
         host, robot = open_tty(adapter.host), open_tty(adapter.robots[1])
         for _ in range(100):
             os.write(robot, FROM_NODE_1 * 20)
@@ -141,7 +142,7 @@ def test_a_cable_whose_far_end_nobody_reads_can_be_taken_away(open_tty):
 
 
 def test_an_adapter_loses_what_is_no_frame_and_goes_on(open_tty):
-    with closing(Adapter(1)) as adapter:
+    with closing(Adapter(1, node_of=node_of)) as adapter:
         host, robot = open_tty(adapter.host), open_tty(adapter.robots[1])
 
         os.write(host, b"t\rtXYZ0\r" + TO_NODE_1)  # a host that was killed in the middle of a line

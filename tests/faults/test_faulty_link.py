@@ -9,6 +9,7 @@ from host_sim.faults.faulty_link import FaultyLink
 from host_sim.faults.rule import Rule
 from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.forgery import forgers
 from host_sim.protocol.generated import Opcode
 from host_sim.transport.clock import VirtualClock
 
@@ -41,7 +42,7 @@ class Journey:
     def __init__(self, *rules: str | Rule, seed: int = 1) -> None:
         self.mirror, self.clock = Mirror(), VirtualClock()
         parsed = [rule if isinstance(rule, Rule) else Rule.parse(rule) for rule in rules]
-        self.link = FaultyLink(self.mirror, Schedule(parsed, seed, PROTOCOL), self.clock)
+        self.link = FaultyLink(self.mirror, Schedule(parsed, seed, forgers(PROTOCOL)), self.clock)
         self.back: list[Frame] = []
         self.times: list[float] = []
         for frame in SENT:
@@ -69,7 +70,7 @@ class Flood(Mirror):
 
 
 def test_a_timeout_ends_even_if_frames_that_are_lost_keep_coming():
-    link = FaultyLink(Flood(), Schedule([Rule.parse("drop:100%/from")], 1, PROTOCOL))
+    link = FaultyLink(Flood(), Schedule([Rule.parse("drop:100%/from")], 1, forgers(PROTOCOL)))
 
     assert link.receive(0.001) is None
 
@@ -183,7 +184,7 @@ def test_recorded_faults_happen_again():
 
 
 def test_a_fault_takes_a_few_bytes_to_record():
-    schedule = Schedule([Rule.parse("drop:50%"), Rule.parse("duplicate:50%")], 1, PROTOCOL)
+    schedule = Schedule([Rule.parse("drop:50%"), Rule.parse("duplicate:50%")], 1, forgers(PROTOCOL))
     tracemalloc.start()
 
     for _ in range(1000):
@@ -220,6 +221,6 @@ def test_a_link_that_is_closed_closes_what_it_stands_on():
     mirror = Mirror()
     mirror.waiting.append(SENT[0])
 
-    FaultyLink(mirror, Schedule([], 1, PROTOCOL), VirtualClock()).close()
+    FaultyLink(mirror, Schedule([], 1, forgers(PROTOCOL)), VirtualClock()).close()
 
     assert not mirror.waiting

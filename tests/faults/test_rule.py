@@ -7,6 +7,7 @@ from host_sim.faults.bus_faults import FAULTS
 from host_sim.faults.rule import Rule, read_rules
 from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import Protocol
+from host_sim.protocol.forgery import forgers
 
 TEXTS = [
     "drop",
@@ -31,7 +32,7 @@ def test_a_rule_is_written_as_it_was_read(text):
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_each_fault_has_a_default_size(name):
-    Schedule([Rule.parse(name)], 1, Protocol())
+    Schedule([Rule.parse(name)], 1, forgers(Protocol()))
 
 
 @pytest.mark.parametrize(
@@ -58,7 +59,7 @@ def test_each_fault_has_a_default_size(name):
 )
 def test_what_is_no_fault_is_refused_in_one_line(text):
     with pytest.raises(UsageError) as refused:
-        Schedule([Rule.parse(text)], 1, Protocol())
+        Schedule([Rule.parse(text)], 1, forgers(Protocol()))
 
     assert "\n" not in str(refused.value)
 

@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from host_sim.backends.in_process_link import InProcessLink
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.robot_client import INCIDENTS_MAX, RobotClient
@@ -13,7 +14,6 @@ from host_sim.protocol.codec import Protocol
 from host_sim.recording.summary import Summary, frame_counts, summarize
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.world_record import WorldRecord
-from host_sim.transport.in_process_link import InProcessLink
 
 
 @pytest.fixture

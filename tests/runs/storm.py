@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Callable
 from random import Random
 
+from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RobotError
 from host_sim.base.robot_io import NOTHING_SENSED
 from host_sim.client.commands import start
@@ -17,11 +18,10 @@ from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.faults.bus_faults import random_frame
-from host_sim.faults.forgery import forge
 from host_sim.protocol.codec import Frame, Protocol, crc8
+from host_sim.protocol.forgery import forge
 from host_sim.protocol.generated import MESSAGES
 from host_sim.transport.clock import VirtualClock
-from host_sim.transport.in_process_link import InProcessLink
 
 PROTOCOL = Protocol()
 BURST = 500

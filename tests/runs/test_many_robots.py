@@ -15,7 +15,7 @@ import pytest
 from host_sim.cli.main import main
 from host_sim.client.robot_reports import REPORTS
 from host_sim.faults.cable import Adapter
-from host_sim.protocol.codec import Frame
+from host_sim.protocol.codec import Frame, node_of
 from host_sim.protocol.every_node import hear
 from host_sim.recording.log_reader import read_log
 from host_sim.report.bus_load import measure
@@ -52,7 +52,7 @@ def adapter() -> Iterator[Callable[..., Adapter]]:
     with ExitStack() as stack:
 
         def plug(*nodes: int) -> Adapter:
-            plugged = Adapter(*nodes)
+            plugged = Adapter(*nodes, node_of=node_of)
             stack.callback(plugged.close)
             stack.enter_context(robots_at({node: f"slcan:{tty}" for node, tty in plugged.robots.items()}))
             return plugged

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RobotError
 from host_sim.client.commands import stop
 from host_sim.client.connection import Connection
@@ -21,7 +22,6 @@ from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.transport.bus_link import BusLink
-from host_sim.transport.in_process_link import InProcessLink
 from host_sim.transport.socket_pair_bus import SocketPairBus
 
 PROTOCOL = Protocol()

@@ -2,8 +2,8 @@
 
 from collections import deque
 
+from host_sim.backends.relay import Relay, RelayedLink
 from host_sim.protocol.codec import Frame, Protocol
-from host_sim.transport.relay import Relay, RelayedLink
 
 CELLS = {f"cell_{i}": 1 for i in range(4)}
 

@@ -1,5 +1,6 @@
 """Frames in another's name: any message with any content, whose CRC is true."""
 
+from collections.abc import Callable
 from random import Random
 
 from host_sim.base.errors import UsageError
@@ -46,6 +47,11 @@ class Forger:
         frame = forge(self._protocol, name, dice, **fixed)
         self.hear(frame)
         return frame
+
+
+def forgers(protocol: Protocol) -> Callable[[str], Forger]:
+    """Makes forgers of what is named, as `Forger` has it, for one node."""
+    return lambda what: Forger(what, protocol)
 
 
 def _content(dice: Random) -> dict[str, int]:

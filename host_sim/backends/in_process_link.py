@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from host_sim.backends.relay import Relay
 from host_sim.base.c_interface import c_interface
 from host_sim.base.errors import OctetError
 from host_sim.base.paths import BUILD
 from host_sim.protocol.codec import Frame
-from host_sim.transport.relay import Relay
 
 LIBRARY = BUILD / "host" / "hal" / "library" / "liboctet.so"
 
