@@ -1,7 +1,6 @@
 """What layouts were drawn when this was written; they stay the same for ever.
 
-`layouts.json` has a digest for each world: of its numbers to a millionth of a millimetre, for sines and cosines
-differ in their last place from one mathematical library to the other.
+`layouts.json` has a digest for each world: of its numbers to the last bit, which are the same on every machine.
 """
 
 import hashlib
@@ -51,5 +50,5 @@ def numbers(layout: Layout) -> list[float]:
 
 def digest(layouts: Iterable[list[float]]) -> str:
     """The digest of the numbers of layouts."""
-    text = "\n".join(" ".join(f"{number + 0.0:.6f}" for number in layout) for layout in layouts)
+    text = "\n".join(" ".join((number + 0.0).hex() for number in layout) for layout in layouts)
     return hashlib.sha256(text.encode()).hexdigest()

@@ -1,4 +1,5 @@
 #include "host_sim/world/native/clearance.h"
+#include "host_sim/world/native/trig.h"
 
 #include <math.h>
 
@@ -31,7 +32,7 @@ static struct vector off_plant(const struct plant *plant, struct vector at)
 
 static double beyond_mm(struct vector off, double radius_mm)
 {
-    return hypot(off.x, off.y) - radius_mm;
+    return trig_hypot(off.x, off.y) - radius_mm;
 }
 
 double clearance_mm(const struct obstacles *obstacles, struct vector at)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "host_sim/world/native/draw.h"
+#include "host_sim/world/native/trig.h"
 
 enum { TRIES = 1000, DIGITS_MAX = 20 };
 
@@ -89,7 +90,7 @@ static bool is_apart(struct vector at, const struct layout *layout, const struct
     for (uint32_t i = 0; i < layout->start_count; i++) {
         struct vector other = layout->starts[i].at;
 
-        if (hypot(at.x - other.x, at.y - other.y) - params->body_radius_mm < layout_room_mm(params))
+        if (trig_hypot(at.x - other.x, at.y - other.y) - params->body_radius_mm < layout_room_mm(params))
             return false;
     }
     return true;

@@ -1,4 +1,5 @@
 #include "host_sim/world/native/reach.h"
+#include "host_sim/world/native/trig.h"
 
 #include <math.h>
 #include <string.h>
@@ -137,7 +138,7 @@ double reach_distance_mm(const struct reach *reach, struct vector from)
         struct vector middle = reach_middle(reach, i);
 
         if (reach->cells[i] == REACHED)
-            nearest = fmin(nearest, hypot(middle.x - from.x, middle.y - from.y));
+            nearest = fmin(nearest, trig_hypot(middle.x - from.x, middle.y - from.y));
     }
     return nearest;
 }

@@ -1,4 +1,5 @@
 #include "host_sim/world/native/written.h"
+#include "host_sim/world/native/trig.h"
 
 #include <math.h>
 #include <string.h>
@@ -120,7 +121,7 @@ static bool check_bar(const struct check *it, int32_t index)
 
     if (!check_place(it, WRITTEN_BARS, index, bar) || !check_inside(it, WRITTEN_BARS, index, b))
         return false;
-    return hypot(b.x - a.x, b.y - a.y) >= least
+    return trig_hypot(b.x - a.x, b.y - a.y) >= least
            || written_fails(it->fault, WRITTEN_BARS, index, " must be at least %g mm long", least);
 }
 
