@@ -20,7 +20,7 @@ def clearances_mm(
     for bar in bars:
         nearest = np.minimum(nearest, _distance_mm(x, y, bar) - params.bar_thickness_mm / 2)
     for (at_x, at_y), radius_mm in plants:
-        nearest = np.minimum(nearest, np.hypot(x - at_x, y - at_y) - radius_mm)
+        nearest = np.minimum(nearest, length(x - at_x, y - at_y) - radius_mm)
     return nearest
 
 
@@ -28,7 +28,12 @@ def _distance_mm(x: NDArray[np.float64], y: NDArray[np.float64], bar: Bar) -> ND
     (ax, ay), (bx, by) = bar
     dx, dy = bx - ax, by - ay
     along = np.clip(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0, 1.0)
-    return np.asarray(np.hypot(x - ax - along * dx, y - ay - along * dy))
+    return length(x - ax - along * dx, y - ay - along * dy)
+
+
+def length(dx: NDArray[np.float64], dy: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The lengths of ways, to the last bit as IEEE 754 has them; numpy's hypot is that of the C library."""
+    return np.asarray(np.sqrt(dx * dx + dy * dy))
 
 
 def middles(params: SimParams) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Plant
 from host_sim.world.params import SimParams
 from host_sim.world.reach import Reach
-from tests.world.clearances import CELL_MM, clearances_mm, flooded, free_cells, middles
+from tests.world.clearances import CELL_MM, clearances_mm, flooded, free_cells, length, middles
 
 PARAMS = SimParams()
 
@@ -41,7 +41,7 @@ def test_the_same_cells_are_reached_in_20_crowded_layouts():
 
         assert [[tuple(at) in reach for at in row] for row in middles(PARAMS).tolist()] == expected.tolist(), seed
         unlike += bool(0 < expected.sum() < free.sum())
-        apart = np.hypot(*(middles(PARAMS)[expected] - start).T)
+        apart = length(*(middles(PARAMS)[expected] - start).T)
         assert reach.distance_mm(start) == apart.min(initial=math.inf)
     assert unlike > 2, "hardly a layout had a free cell that cannot be reached"
 
