@@ -1,8 +1,8 @@
 #include "firmware/brain.h"
 
 #include "firmware/behaviours/behaviour.h"
-#include "firmware/memory_kind.h"
-#include "firmware/memory_write.h"
+#include "firmware/memory/memory_kind.h"
+#include "firmware/memory/memory_write.h"
 
 #define KIND(profile, name, kind) [profile] = kind,
 

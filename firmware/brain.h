@@ -4,7 +4,7 @@
 #define OCTET_BRAIN_H
 
 #include "firmware/config.h"
-#include "firmware/memory.h"
+#include "firmware/memory/memory.h"
 #include "firmware/random.h"
 
 /* One thing to do. */

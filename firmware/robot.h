@@ -3,7 +3,7 @@
 #ifndef OCTET_ROBOT_H
 #define OCTET_ROBOT_H
 
-#include "firmware/motion.h"
+#include "firmware/motion/motion.h"
 #include "firmware/perception.h"
 #include "firmware/sharing.h"
 

@@ -1,6 +1,6 @@
 #include "firmware/sharing.h"
 
-#include "firmware/confidence.h"
+#include "firmware/memory/confidence.h"
 
 enum { HALF = CELL_COUNT / 2, SIDE_BITS = 3 };
 

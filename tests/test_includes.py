@@ -39,10 +39,9 @@ def includes(root: Path) -> list[tuple[str, str]]:
 
 
 def own_folder(file: str) -> str:
-    """The folder whose files may include each other."""
-    if file.startswith("hal/"):
-        return "/".join(file.split("/")[:2]) + "/"
-    return "firmware/" if file.startswith("firmware/") else f"{Path(file).parent.as_posix()}/"
+    """The folder whose files may include each other, with the folders in it."""
+    parts = file.split("/")
+    return "/".join(parts[: {"firmware": 1, "hal": 2, "host_sim": 3}[parts[0]]]) + "/"
 
 
 def goes_down(file: str, name: str) -> bool:

@@ -2,7 +2,7 @@
  * way, and judge a trial. Boredom can strike again, as in rearmed. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
-#include "firmware/feel_memory.h"
+#include "firmware/memory/feel_memory.h"
 
 bool five_begin(struct brain *brain)
 {

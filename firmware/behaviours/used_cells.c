@@ -1,7 +1,7 @@
 #include "firmware/behaviours/used_cells.h"
 
 #include "firmware/behaviours/listing.h"
-#include "firmware/confidence.h"
+#include "firmware/memory/confidence.h"
 #include "firmware/pattern.h"
 
 enum { BLAME = -2 };

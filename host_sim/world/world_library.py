@@ -9,10 +9,17 @@ LIBRARY = BUILD / "host" / "host_sim" / "world" / "native" / "liboctet_world.so"
 _NATIVE = ROOT / "host_sim" / "world" / "native"
 _WORDS = BUILD / "host" / "generated" / "robot_words.h"
 WORLD_HEADERS = tuple(
-    _NATIVE / f"{name}.h" for name in ("vector", "space", "world", "capsule", "cones", "plain_space", "body_faults")
+    _NATIVE / f"{name}.h"
+    for name in ("vector", "space/space", "world", "space/capsule", "cones", "space/plain_space", "body_faults")
 )
-_REST = ("body", "ranges", "draws", "clearance", "reach", "layout", "layouts", "written_fault", "written", "history")
-HEADERS = (ROOT / "firmware" / "io.h", *WORLD_HEADERS, *(_NATIVE / f"{name}.h" for name in _REST))
+_DRAW = tuple(_NATIVE / "draw" / f"{name}.h" for name in ("reach", "layout", "layouts", "written_fault", "written"))
+HEADERS = (
+    ROOT / "firmware" / "io.h",
+    *WORLD_HEADERS,
+    *(_NATIVE / f"{name}.h" for name in ("body", "ranges", "draw/draws", "clearance")),
+    *_DRAW,
+    _NATIVE / "history.h",
+)
 
 
 @cache

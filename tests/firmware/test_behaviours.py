@@ -8,7 +8,7 @@ import pytest
 
 from host_sim.protocol.generated import MEMORY_KINDS, PROFILES
 from tests.firmware.many_brains import default_config
-from tests.firmware.memories import MEMORIES, random_memory
+from tests.firmware.memory.memories import MEMORIES, random_memory
 from tests.firmware.octet_c import load
 from tests.firmware.oracle_robots import Reading, SensingRobot, oracle_of, repeat_count_during
 from tests.firmware.oracles.listing import Listing

@@ -19,10 +19,10 @@ CANARY = """\
 
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
-#include "firmware/confidence.h"
-#include "firmware/feel_memory.h"
-#include "firmware/memory_kind.h"
-#include "firmware/memory_write.h"
+#include "firmware/memory/confidence.h"
+#include "firmware/memory/feel_memory.h"
+#include "firmware/memory/memory_kind.h"
+#include "firmware/memory/memory_write.h"
 #include "firmware/pattern.h"
 #include "firmware/robot.h"
 

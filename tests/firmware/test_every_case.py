@@ -13,7 +13,7 @@ import pytest
 
 from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, MemoryKind
 from tests.firmware.many_brains import ACTION, Brains, C
-from tests.firmware.memories import CELL_VALUES, MEMORIES
+from tests.firmware.memory.memories import CELL_VALUES, MEMORIES
 from tests.firmware.oracle_robots import Reading, ScriptedRobot, SensingRobot, oracle_of, oracle_says
 from tests.firmware.oracles.listing import Action, Listing
 

@@ -5,7 +5,7 @@ import random
 import pytest
 
 from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, TICK_SPAN, MemoryKind
-from tests.firmware.memories import random_memory
+from tests.firmware.memory.memories import random_memory
 from tests.firmware.octet_c import load
 from tests.firmware.oracles.sharing import taught
 

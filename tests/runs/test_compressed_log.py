@@ -9,7 +9,7 @@ import pytest
 from host_sim.client.frame_log import FrameLog
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.resimulation import resimulate
-from tests.runs.doomed import Witness, run_doomed, with_full_disk
+from tests.runs.endurance.doomed import Witness, run_doomed, with_full_disk
 from tests.runs.support import octet, start_octet, wait_until
 
 SHORT = ("--environments", "1", "--limit-s", "20", "--bus", "none", "--quiet")

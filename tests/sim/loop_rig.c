@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "octet.h"
-#include "tests/world/fake_space.h"
+#include "tests/world/native/fake_space.h"
 
 struct octet octets[ROBOTS];
 struct loop_robot robots[ROBOTS];

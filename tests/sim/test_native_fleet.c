@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "tests/test.h"
-#include "host_sim/world/native/plain_space.h"
+#include "host_sim/world/native/space/plain_space.h"
 
 enum { ROBOTS = 2, WORDS = PLAIN_WORDS(WALLS + ROBOTS), TICKS = 50 };
 

@@ -128,7 +128,7 @@ def test_an_unknown_source_is_refused_with_those_there_are():
 
     assert result.returncode == 1
     assert "no C test is built from firmware/nothing.c" in result.stderr
-    assert "firmware/motion.c" in result.stderr
+    assert "firmware/motion/motion.c" in result.stderr
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ from playwright.sync_api import Browser, Page, Playwright
 
 from tests.runs.support import octet
 from tests.web.browsers import BROWSERS, launch
-from tests.web.page_runs import LOGS, experiment, page_file, words
+from tests.web.sim.page_runs import LOGS, experiment, page_file, words
 from tests.web.support import wait_for
 
 WANTED = [experiment(profile, 31, limit_ticks=500) for profile in ("article", "searcher", "distance")]

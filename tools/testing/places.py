@@ -20,7 +20,7 @@ PROVE: Mapping[str, Sequence[str]] = {
     "mutants": ("tests/tools/test_mutate.py", "tests/tools/test_equivalent_mutants.py"),
     "coverage": ("tests/tools/test_coverage.py", "tests/tools/test_python_coverage.py"),
     "campaign": ("tests/lab/campaign",),
-    "endurance": tuple(f"tests/runs/test_{name}.py" for name in ("kills", "noise", "soak", "storm")),
+    "endurance": ("tests/runs/endurance",),
     "exhaustive": ("tests/firmware/test_every_case.py",),
     "formats": ("tests/lab/export",),
     "documents": ("tests/docs/test_commands.py", "tests/docs/test_python_blocks.py"),

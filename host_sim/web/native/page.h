@@ -8,10 +8,10 @@
 #include "hal/library/exchange.h"
 #include "host_sim/sim/native/loop.h"
 #include "host_sim/world/native/history.h"
-#include "host_sim/world/native/layouts.h"
-#include "host_sim/world/native/plain_space.h"
+#include "host_sim/world/native/draw/layouts.h"
+#include "host_sim/world/native/space/plain_space.h"
 #include "host_sim/world/native/ranges.h"
-#include "host_sim/world/native/written.h"
+#include "host_sim/world/native/draw/written.h"
 
 enum {
     PAGE_ROBOTS_MAX = 4,

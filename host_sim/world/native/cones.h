@@ -2,7 +2,7 @@
 #ifndef OCTET_CONES_H
 #define OCTET_CONES_H
 
-#include "host_sim/world/native/capsule.h"
+#include "host_sim/world/native/space/capsule.h"
 
 enum { CONES = 5, CONE_CORNERS = 6 };
 

@@ -2,7 +2,7 @@
 #ifndef OCTET_RANGES_H
 #define OCTET_RANGES_H
 
-#include "host_sim/world/native/capsule.h"
+#include "host_sim/world/native/space/capsule.h"
 #include "host_sim/world/native/world.h"
 
 /* What is measured. */

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "firmware/io.h"
-#include "host_sim/world/native/space.h"
+#include "host_sim/world/native/space/space.h"
 
 enum { WORLD_CONES = 5 };   /* of a body; cone n sets bit n of feel */
 

@@ -1,5 +1,5 @@
 #include "firmware/brain.h"
-#include "firmware/feel_memory.h"
+#include "firmware/memory/feel_memory.h"
 #include "tests/test.h"
 
 enum { CLEAR = 0, FRONT = FEEL_FRONT, ALL_THREE = 14 };

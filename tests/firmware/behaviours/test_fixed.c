@@ -1,5 +1,5 @@
 #include "firmware/brain.h"
-#include "firmware/memory_write.h"
+#include "firmware/memory/memory_write.h"
 #include "tests/test.h"
 
 static const uint8_t PROGRAMMED[CELL_COUNT] = {0, 1, 1, 1, 2, 1, 2, 1};

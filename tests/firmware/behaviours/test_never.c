@@ -1,5 +1,5 @@
 #include "firmware/brain.h"
-#include "firmware/memory_write.h"
+#include "firmware/memory/memory_write.h"
 #include "tests/test.h"
 
 enum { ALL_THREE = 7, MANY = 100 };

@@ -1,6 +1,6 @@
 #include "brain_rig.h"
 
-#include "firmware/memory_kind.h"
+#include "firmware/memory/memory_kind.h"
 
 void setUp(void)
 {

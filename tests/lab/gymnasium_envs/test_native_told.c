@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "tests/test.h"
-#include "firmware/motion.h"
-#include "host_sim/world/native/plain_space.h"
+#include "firmware/motion/motion.h"
+#include "host_sim/world/native/space/plain_space.h"
 
 enum { BODIES = 2, WORDS = PLAIN_WORDS(WALLS + BODIES), ODOMETER = 5 };
 

@@ -1,6 +1,6 @@
 #include "host_sim/lab/gymnasium_envs/native/told.h"
 
-#include "firmware/motion.h"
+#include "firmware/motion/motion.h"
 
 enum { ABOUT_DEG = 180 };
 

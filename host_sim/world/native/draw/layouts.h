@@ -1,0 +1,19 @@
+/* layouts.h: one layout for each seed and number of an environment: always the same one. */
+#ifndef OCTET_LAYOUTS_H
+#define OCTET_LAYOUTS_H
+
+#include "host_sim/world/native/draw/layout.h"
+#include "host_sim/world/native/draw/reach.h"
+
+struct layout_which {
+    int64_t seed;
+    int64_t number;
+    uint32_t robots;   /* at least 1; more of them do not change the rest of the layout */
+};
+
+bool layouts_draw(const struct layout_kind *kind, const struct layout_which *which, struct reach *reach, struct layout *out);
+        /* Draws the first fair layout: nothing is within sensor reach of a start or of a piece of food, and every piece can
+           be reached from each start. out->starts has room for the robots; start_count tells for how many there is room in
+           the arena. False if 1000 draws gave no fair layout. reach is room to work in: that of an arena of this size. */
+
+#endif

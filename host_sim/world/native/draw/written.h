@@ -1,0 +1,46 @@
+/* written.h: a world that a person wrote, as it was written. docs/worlds.md explains its keys. */
+#ifndef OCTET_WRITTEN_H
+#define OCTET_WRITTEN_H
+
+#include "host_sim/world/native/draw/layout.h"
+#include "host_sim/world/native/draw/reach.h"
+#include "host_sim/world/native/draw/written_fault.h"
+
+enum { WRITTEN_BARS_MAX = 40, WRITTEN_FOOD_MAX = LAYOUT_FOOD_MAX, WRITTEN_NUMBERS_MAX = 4 };
+enum { WRITTEN_SIZE_MIN_MM = 600, WRITTEN_WIDTH_MAX_MM = 6000, WRITTEN_HEIGHT_MAX_MM = 5000 };
+enum { WRITTEN_CELLS_MAX = 48884 };   /* reach_size of the largest world */
+enum { WRITTEN_LEFT_OUT = -2, WRITTEN_NO_LIST = -1 };   /* in place of a count */
+
+/* Such as [x, y]. */
+struct written_entry {
+    int32_t count;   /* of numbers, those beyond WRITTEN_NUMBERS_MAX included */
+    double numbers[WRITTEN_NUMBERS_MAX];   /* NaN: no number; the start's heading in degrees */
+};
+
+struct written {
+    int32_t food_count;   /* of entries, those beyond the arrays included */
+    int32_t bar_count;
+    struct written_entry size;
+    struct written_entry start;
+    struct written_entry food[WRITTEN_FOOD_MAX];
+    struct written_entry bars[WRITTEN_BARS_MAX];
+};
+
+void written_clear(struct written *written);
+        /* Nothing was written. */
+
+void written_list(struct written *written, enum written_key key, int32_t count);
+        /* A list has as many entries, or is WRITTEN_NO_LIST. */
+
+struct written_entry *written_entry(struct written *written, enum written_key key, uint32_t index);
+        /* An entry; null beyond the arrays. index is 0 for size and start. */
+
+bool written_check(const struct written *written, struct layout_params params, struct reach *reach,
+                   struct written_fault *out);
+        /* Whether it is a fair world; else, *out is the first fault. params are those of a world that does not say its
+           size; reach is room to work in, of WRITTEN_CELLS_MAX. */
+
+void written_lay_out(const struct written *written, struct layout *out);
+        /* Its bars and its food; it has no fault. */
+
+#endif

@@ -1,0 +1,253 @@
+#include "firmware/motion/motion.h"
+
+#include <math.h>
+
+#include "tests/test.h"
+#include "motion_rig.h"
+
+void setUp(void)
+{
+    config_reset(&config);
+    random_seed(&dice, 1);
+    stand_at(0.0, 0.0);
+}
+
+TEST(a_turn_against_stuck_wheels_is_given_up)
+{
+    body.grip = 0.0;
+    TEST_ASSERT_LESS_OR_EQUAL_UINT(2 * 59 + 25, act(210, 0));   /* 59 ticks at full speed */
+}
+
+TEST(a_step_against_stuck_wheels_is_given_up)
+{
+    body.grip = 0.0;
+    TEST_ASSERT_LESS_OR_EQUAL_UINT(2 * 3 + 25, act(0, 12));
+}
+
+TEST(a_turn_that_was_given_up_is_not_made_up_for)
+{
+    body.grip = 0.0;
+    act(210, 0);
+    body.grip = 1.0;
+    act(10, 0);
+    TEST_ASSERT_INT_WITHIN(HALF, 10000, heading_mdeg());
+}
+
+TEST(slow_wheels_are_not_given_up)
+{
+    body.grip = 0.6;
+    act(210, 0);
+    TEST_ASSERT_INT_WITHIN(HALF, 210000, heading_mdeg());
+}
+
+/* Whether wheels with a share of their speed are denied, in turns of any size. */
+static void check_wheels_at(double share, bool are_denied)
+{
+    static const int paced[] = {-210, -150, -45, 45, 150, 210};
+
+    for (unsigned i = 0; i < sizeof paced / sizeof *paced; i++) {
+        stand_at(0.0, 0.0);
+        body.grip = share;
+        act(paced[i], 0);
+        TEST_ASSERT_EQUAL(are_denied, motion_is_denied(&motion, &config));
+    }
+}
+
+TEST(wheels_that_turn_at_half_the_speed_are_denied)
+{
+    check_wheels_at(0.3, true);
+    check_wheels_at(0.4, true);
+    check_wheels_at(0.5, true);
+}
+
+TEST(wheels_that_are_a_little_off_are_not_denied)
+{
+    check_wheels_at(0.6, false);
+    check_wheels_at(0.8, false);
+    check_wheels_at(1.0, false);
+    check_wheels_at(1.2, false);
+}
+
+/* At full speed each wheel makes 251 mm/s in a turn, 50 counts a tick. */
+TEST(odometers_that_count_twice_the_way_are_not_credible)
+{
+    struct senses senses = sensed();
+
+    senses.odometer_left = (uint16_t)(senses.odometer_left + 60);
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 1));
+    senses.odometer_left = (uint16_t)(senses.odometer_left + 40);
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 2));
+}
+
+/* The faster of the two counts: here a step's 200 mm/s, 40 counts a tick. */
+TEST(wheels_faster_than_in_a_turn_are_credible_where_steps_are_faster)
+{
+    struct senses senses = sensed();
+
+    config.value[TURN_SPEED_DEG_S] = 30;
+    senses.odometer_right = (uint16_t)(senses.odometer_right + 60);
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 1));
+    senses.odometer_right = (uint16_t)(senses.odometer_right + 10);
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+}
+
+/* After a gap of two ticks, in which each wheel may have rolled 100 counts. */
+static bool is_credible_from(uint16_t left, uint16_t right, uint16_t left_now, uint16_t right_now)
+{
+    const struct senses before = {.odometer_left = left, .odometer_right = right};
+    const struct senses now = {.odometer_left = left_now, .odometer_right = right_now};
+
+    motion_track(&motion, &before);
+    return motion_is_credible(&motion, &config, &now, 2);
+}
+
+TEST(odometers_that_both_begin_at_0_are_not_credible_even_where_one_has_stood_there)
+{
+    TEST_ASSERT_FALSE(is_credible_from(0, 90, 0, 0));
+    TEST_ASSERT_FALSE(is_credible_from(90, 0, 0, 0));
+}
+
+TEST(one_odometer_that_comes_to_0_has_rolled_there)
+{
+    TEST_ASSERT_TRUE(is_credible_from(90, 90, 0, 40));
+    TEST_ASSERT_TRUE(is_credible_from(90, 90, 40, 0));
+}
+
+TEST(ticks_that_were_never_sensed_count_for_the_pace)
+{
+    begin(150, 0);
+    for (unsigned senses = 0; !tick(); senses++) {
+        body.tick += 2;   /* of three ticks, the senses of one come */
+        TEST_ASSERT_LESS_THAN_UINT(100, senses);
+    }
+    TEST_ASSERT_TRUE(motion_is_denied(&motion, &config));
+}
+
+static void carry_on(void)
+{
+    while (!tick())
+        continue;
+}
+
+TEST(an_outage_counts_as_long_as_wheels_are_held)
+{
+    begin(45, 0);
+    (void)tick();
+    body.tick += 100;
+    carry_on();
+    TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
+}
+
+/* Wheels of each speed, down to those that are just believed. */
+TEST(the_rest_after_a_turn_takes_none_of_its_time)
+{
+    const struct action trial = {.turn_deg = 45, .rest_ticks = 2};
+
+    for (unsigned percent = 100; percent > 50; percent--) {
+        stand_at(0.0, 0.0);
+        body.grip = percent / 100.0;
+        motion_begin(&motion, &config, &trial);
+        carry_on();
+        if (motion_is_denied(&motion, &config))
+            return;
+        TEST_ASSERT_TRUE(motion_rest(&motion, &config));
+        carry_on();
+        TEST_ASSERT_FALSE(motion_is_denied(&motion, &config));
+    }
+    TEST_FAIL_MESSAGE("all were believed");
+}
+
+TEST(what_food_left_of_a_turn_is_not_made_up_for_after_its_rest)
+{
+    const struct action search = {.turn_deg = 90, .rest_ticks = 2, .until_food = true};
+    struct senses senses;
+    long found_at;
+
+    motion_begin(&motion, &config, &search);
+    for (unsigned i = 0; i < 5; i++)
+        TEST_ASSERT_FALSE(tick());
+    senses = sensed();
+    senses.look = true;
+    motion_track(&motion, &senses);
+    TEST_ASSERT_TRUE(motion_ended(&motion, &config, &senses));
+    TEST_ASSERT_TRUE(motion_rest(&motion, &config));
+    carry_on();
+    found_at = heading_mdeg();
+    act(10, 0);
+    TEST_ASSERT_INT_WITHIN(HALF, 10000, heading_mdeg() - found_at);
+}
+
+TEST(what_happens_while_lifted_is_not_the_robots_way)
+{
+    struct senses senses;
+
+    begin(90, 0);
+    (void)tick();
+    motion_lift(&motion);
+    body.left_mm += 123.0;
+    senses = sensed();
+    motion_track(&motion, &senses);
+    carry_on();
+    TEST_ASSERT_INT_WITHIN(HALF, lround(1000.0 * (90.0 + 123.0 / 160.0 * 180.0 / PI)), heading_mdeg());
+}
+
+TEST(stuck_wheels_are_given_up_at_both_ends_of_every_range)
+{
+    for (unsigned corner = 0; corner < 16; corner++) {
+        set_corner(corner);
+        stand_at(0.0, 0.0);
+        body.grip = 0.0;
+        TEST_ASSERT_GREATER_THAN_UINT(25, act(TURN_MAX_DEG, 0));
+        TEST_ASSERT_GREATER_THAN_UINT(25, act(0, STEP_MAX_MM));
+    }
+}
+
+static uint16_t random_odometer(void)
+{
+    return (uint16_t)(random_next(&dice) & (ODOMETER_SPAN - 1));
+}
+
+/* Odometers gone mad: the sanitizers watch for overflow, this test for speeds that do not fit the wire. */
+TEST(wild_odometers_make_no_wild_speeds)
+{
+    for (unsigned i = 0; i < 200000; i++) {
+        const struct senses senses = {.odometer_left = random_odometer(), .odometer_right = random_odometer()};
+
+        if (i % 1000 == 0)
+            set_corner(i / 1000 % 16);
+        motion_track(&motion, &senses);
+        if (motion_ended(&motion, &config, &senses) || random_below(&dice, 50) == 0)
+            begin(random_below(&dice, 2) ? TURN_MAX_DEG : -TURN_MAX_DEG, random_below(&dice, 2) * (unsigned)STEP_MAX_MM);
+        TEST_ASSERT_INT16_WITHIN(1257, 0, driven().left_mm_s);
+        TEST_ASSERT_INT16_WITHIN(1257, 0, driven().right_mm_s);
+    }
+}
+
+TEST(either_wheel_that_jumps_is_not_credible)
+{
+    struct senses senses = {.odometer_left = 0};
+
+    config_reset(&config);
+    motion = (struct motion){.referenced = true};
+    TEST_ASSERT_TRUE(motion_is_credible(&motion, &config, &senses, 1));
+    senses.odometer_left = 2000;
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+    senses = (struct senses){.odometer_right = 2000};
+    TEST_ASSERT_FALSE(motion_is_credible(&motion, &config, &senses, 1));
+}
+
+/* The same way each time, so that the error grows to its limit. */
+TEST(a_body_that_spins_by_itself_overflows_nothing)
+{
+    uint16_t odometer = 0;
+
+    for (unsigned i = 0; i < 10000; i++) {
+        const struct senses senses = {.odometer_left = odometer, .odometer_right = (uint16_t)(4095 - odometer)};
+
+        motion_track(&motion, &senses);
+        begin(i < 5000 ? -TURN_MAX_DEG : TURN_MAX_DEG, 0);
+        odometer = (uint16_t)((odometer + 2000) % ODOMETER_SPAN);
+        TEST_ASSERT_INT16_WITHIN(2047, 0, driven().left_mm_s);
+    }
+}

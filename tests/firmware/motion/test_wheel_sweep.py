@@ -1,0 +1,20 @@
+"""The page on motion says what the sweep prints."""
+
+from tests.firmware.motion.wheel_sweep import TOO_LATE_MS, lines, run
+from tests.firmware.octet_c import ROOT
+
+SEEDS_OF_THE_PAGE = 10
+
+
+def test_the_page_has_what_the_sweep_prints():
+    page = (ROOT / "docs/motion.md").read_text().splitlines()
+
+    for line in lines(SEEDS_OF_THE_PAGE, (0, 60)):
+        assert line in page
+
+
+def test_a_lag_that_is_far_too_long_is_found():
+    figures = run(TOO_LATE_MS, 0)
+
+    assert figures.stopped
+    assert figures.denied > 0

@@ -1,0 +1,65 @@
+"""A robot in real time behind a serial line on which many of the bytes are damaged.
+
+`.venv/bin/python -m tests.runs.endurance.noise 600` prints the figures of 600 s of robot time with 5 % of the bytes
+damaged. The exit code is 1 if the run did not go on to its end, or something wrong was learned. A sample is among the
+tests.
+"""
+
+import argparse
+import os
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from host_sim.faults.cable import Cable
+from tests.runs.support import ROBOT, Run, is_right, octet_process
+
+CHANCE = 0.05
+TICKS_PER_S = 50
+
+
+def run_through_noise(out: Path, limit_s: float, chance: float = CHANCE) -> Run:
+    """A run in one environment, which ends early only if all the food is eaten."""
+    cable = Cable()
+    robot = subprocess.Popen([os.fspath(ROBOT), f"slcan:{cable.ends[0]}"], stdout=subprocess.PIPE)
+    try:
+        assert robot.stdout is not None
+        robot.stdout.readline()
+        cable.noise = chance
+        words = ("--environments", "1", "--limit-s", f"{limit_s:g}", "--real-time", "--memory", out / "robot.mem")
+        bus = ("--bus", f"slcan:{cable.ends[1]}", "--robot", "external")
+        out.mkdir()
+        done = octet_process("run", "--out", out, *words, *bus)
+    finally:
+        robot.kill()
+        robot.communicate()
+        cable.close()
+    return Run(done.returncode, done.stdout, done.stderr, out)
+
+
+def is_whole(run: Run, limit_s: float) -> bool:
+    """Whether the run went on to its end, its counters say what the line was like, and its memory is right."""
+    if not (run.out / "summary.json").exists():
+        return False
+    (environment,), (robot,) = run.summary["environments"], run.summary["robots"]
+    ended = environment["finished"] or environment["ticks"] == round(limit_s * TICKS_PER_S)
+    counted = robot["frames"]["lost"] > 0 and robot["frames"]["refused"] > 0 and robot["faults"]["damaged"] > 0
+    saved = (run.out / f"robot.mem{'.doubtful' * (run.code == 1)}").read_bytes() == bytes(run.memory)
+    return ended and counted and saved and is_right(run.memory)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("seconds", type=float)
+    limit_s = parser.parse_args().seconds
+    with TemporaryDirectory() as folder:
+        run = run_through_noise(Path(folder) / "out", limit_s)
+        sys.stdout.write(run.output + run.errors)
+        good = is_whole(run, limit_s)
+    sys.stdout.write(f"noise     {CHANCE:.0%} of the bytes for {limit_s:g} s: {'went on' if good else 'FAILED'}\n")
+    return int(not good)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

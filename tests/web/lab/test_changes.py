@@ -1,0 +1,143 @@
+"""What is changed in octet.html makes another future beside the first, and the host replays it."""
+
+import json
+
+import pytest
+from playwright.sync_api import Page
+
+from tests.runs.support import octet
+from tests.web.lab.support import saved, simulated
+from tests.web.support import run_in, wait_for, wait_for_text
+
+
+@pytest.fixture
+def page(page: Page) -> Page:
+    """A run of one environment."""
+    page.fill("#environments", "1")
+    page.click("text=New run")
+    wait_for(page, "octet.lane.data && octet.lane.experiment.environments === 1")
+    simulated(page)
+    return page
+
+
+def test_a_changed_cell_makes_another_future_beside_the_first(page):
+    page.evaluate("octet.go(2200)")
+    page.click("#what-if")
+    page.click("#cells li:nth-child(2) button")
+    simulated(page)
+
+    wait_for_text(page, "#parting", "A and B part at 0:50.5 (tick 2523)")
+    assert "Their memories differ: front-right." in page.inner_text("#parting")
+    assert page.evaluate("octet.lanes.map((lane) => lane.experiment.changes.length)") == [0, 1]
+    same = "octet.lanes.map((lane) => [...lane.data.robots[0].columns.x.slice(0, 2523)].join())"
+    one, other = page.evaluate(same)
+    assert one == other
+
+
+def test_a_pressed_cell_shows_its_turn_at_once_and_the_next_one_when_it_is_pressed_again(page):
+    cell = "#cells li:nth-child(5)"
+
+    page.click(f"{cell} button")
+    wait_for_text(page, f"{cell} .cell-side", "left")
+    page.click(f"{cell} button")
+
+    wait_for_text(page, f"{cell} .cell-side", "right")
+
+
+def test_a_cell_that_is_pressed_twice_before_anything_is_shown_takes_the_second_turn(page):
+    page.evaluate("octet.simulator.run = () => {}")  # as on a slow machine
+
+    page.dblclick("#cells li:nth-child(5) button")
+
+    assert page.evaluate("octet.lane.experiment.changes.map((change) => change.side)") == [1, 2]
+
+
+def test_a_change_is_made_at_the_tick_that_is_shown_even_where_its_run_is_not_yet_simulated_so_far(page):
+    page.evaluate("octet.go(2200)")
+    page.evaluate("octet.simulator.run = () => {}")  # as on a slow machine
+    page.click("#what-if")
+    page.click("#cells li:nth-child(2) button")
+
+    assert page.evaluate("octet.lane.experiment.changes.map((change) => change.tick)") == [2201]
+    assert page.evaluate("octet.tick") == 2201
+
+
+@pytest.mark.parametrize("change", ["behaviour", "parameter", "obstacle", "seed"])
+def test_a_changed_behaviour_parameter_or_obstacle_makes_another_future(page, change):
+    page.evaluate("octet.go(1000)")
+    page.click("#what-if")
+    if change == "behaviour":
+        page.select_option("#behaviour", "searcher")
+    elif change == "parameter":
+        page.click("#tab-parameters")
+        page.locator(".slider input").first.fill("90")
+        page.locator(".slider input").first.dispatch_event("change")
+    elif change == "obstacle":
+        page.click("#add-plant")
+    else:
+        page.fill("#robot-seed", "77")
+        page.locator("#robot-seed").blur()
+    simulated(page)
+
+    wait_for_text(page, "#parting", "A and B part at")
+
+
+def test_what_was_changed_is_replayed_by_the_host(page, tmp_path):
+    page.evaluate("octet.go(400)")
+    page.click("#add-plant")
+    simulated(page)
+    page.click("#grow")
+    page.click("#lift")
+    simulated(page)
+    page.click("#lift")
+    page.evaluate("octet.go(700)")
+    page.click("#cells li:nth-child(3) button")
+    page.click("#freeze")
+    page.select_option("#behaviour", "adaptive")
+    simulated(page)
+    (tmp_path / "run.log").write_bytes(saved(page, "#save-log"))
+    (tmp_path / "run.world.json").write_bytes(saved(page, "#save-world"))
+
+    assert "no difference" in octet("replay", tmp_path / "run.log").stdout
+    done = octet("replay", tmp_path / "run.log", "--html", tmp_path / "replay.html")
+    assert (done.returncode, done.stderr) == (0, "")
+    edits = json.loads((tmp_path / "run.world.json").read_text())["edits"]
+    assert [edit["do"] for edit in edits] == ["plant", "grow_plant", "lift", "put"]
+
+
+def test_a_change_that_cannot_be_made_is_told_and_dropped(page):
+    page.evaluate("octet.go(300)")
+    page.evaluate(
+        "(() => { const { x, y } = octet.scene.state; const at = [Math.round(x), Math.round(y)];"
+        " octet.change({ do: 'add_bar', a: at, b: [at[0] + 300, at[1]] }); })()"
+    )
+
+    wait_for_text(page, "#note", "the robot stands there")
+    wait_for(page, "octet.lane.experiment.changes.length === 0")
+
+
+def test_a_run_in_another_world_with_plants_and_a_broken_body_can_be_repeated_from_its_files(page, tmp_path):
+    page.select_option("#world", "posts")
+    page.click("text=New run")
+    wait_for(page, "octet.lane.data")
+    page.evaluate("octet.go(150)")
+    page.click("#add-plant")
+    simulated(page)
+    wait_for(page, "octet.scene.item?.kind === 'plant'")
+    page.click("#grow")
+    simulated(page)
+    page.evaluate("octet.go(300)")
+    page.evaluate("octet.editor.nudge({ x: 50, y: 50 })")
+    page.select_option("#fault", "stuck-off:front")
+    page.click("#break")
+    simulated(page)
+    wait_for_text(page, "#news", "The front sensor is dead")
+    (tmp_path / "run.log").write_bytes(saved(page, "#save-log"))
+    (tmp_path / "run.world.json").write_bytes(saved(page, "#save-world"))
+
+    done = octet("replay", tmp_path / "run.log", "--html", tmp_path / "replay.html")
+
+    assert (done.returncode, done.stderr) == (0, "")
+    edits = json.loads((tmp_path / "run.world.json").read_text())["edits"]
+    assert [edit["do"] for edit in edits] == ["plant", "grow_plant", "move_plant", "body"]
+    assert run_in(tmp_path / "replay.html")["scenes"] == page.evaluate("octet.lane.data.run.scenes")

@@ -1,0 +1,119 @@
+"""The panel of lessons in octet.html: its languages, how it looks, and what it prints."""
+
+from pathlib import Path
+
+from playwright.sync_api import Page
+
+from tests.web.lab.support import READY, SIZES, go
+from tests.web.looks import PHONES, TOO_SMALL, check, out_of_view, resize, violations, violations_at
+from tests.web.support import wait_for
+
+LESSONS = ("watch", "program", "boredom", "plant", "sensor", "share")
+IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#lesson", "#begin-lesson", "#cells")
+
+
+def test_the_language_is_the_browsers_until_another_is_chosen_which_stays(file, open_page):
+    page = open_page(f"{file.as_uri()}?#program", ready=READY, locale="de-AT")
+    assert page.inner_text("#begin-lesson") == "Lektion starten"
+    assert page.get_attribute("#panel-lessons", "lang") == "de"
+
+    page.select_option("#language", "en")
+    assert page.inner_text("#begin-lesson") == "Start this lesson"
+    page.reload()
+    wait_for(page, READY)
+
+    assert page.inner_text("#begin-lesson") == "Start this lesson"
+    assert page.input_value("#lesson") == "program"
+
+
+def test_a_language_that_is_not_there_is_english(file, open_page):
+    page = open_page(f"{file.as_uri()}?#watch", ready=READY, locale="fi-FI")
+
+    assert page.inner_text("#begin-lesson") == "Start this lesson"
+
+
+def test_all_that_matters_is_in_view_while_a_lesson_is_open(lesson):
+    page = lesson("program")
+    for size in SIZES:
+        resize(page, size)
+        page.evaluate("scrollTo(0, 0)")
+        assert out_of_view(page, IN_VIEW, size) == [], size
+    for size in (*SIZES, *PHONES):
+        resize(page, size)
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
+
+
+def test_each_lesson_can_be_used_by_fingers_and_by_screen_readers(lesson):
+    page = lesson("watch")
+    for name in LESSONS:
+        page.select_option("#lesson", name)
+        page.evaluate("document.querySelectorAll('#panel-lessons details').forEach((it) => { it.open = true; })")
+        for size in PHONES:
+            resize(page, size)
+            assert page.evaluate(TOO_SMALL) == [], (name, size)
+        resize(page, SIZES[0])
+        assert violations(page) == [], name
+
+
+def test_axe_finds_nothing_at_three_sizes_light_and_dark(lesson):
+    page = lesson("sensor")
+    go(page, 300)
+
+    assert violations_at(page, (PHONES[0], SIZES[0], SIZES[-1])) == []
+
+
+def test_screens(lesson):
+    looks = (("program", "light", SIZES[2]), ("sensor", "dark", SIZES[0]), ("boredom", "dark", PHONES[0]))
+    for name, scheme, size in looks:
+        page = lesson(name)
+        page.emulate_media(color_scheme=scheme)
+        resize(page, size)
+        check(page, f"lesson-{name}-{scheme}-{size[0]}")
+
+
+def printed(page: Page, folder: Path) -> str:
+    """What goes to the printer, as a text."""
+    seen = page.evaluate_handle(
+        "(() => { const seen = []; addEventListener('beforeprint', () => queueMicrotask(() =>"
+        " seen.push(document.querySelector('#sheet').innerText)), { once: true }); return seen; })()"
+    )
+    page.pdf(path=folder / "sheet.pdf", format="A4")
+    return seen.json_value()[-1]
+
+
+def test_who_prints_an_open_lesson_gets_its_worksheet(tmp_path, lesson):
+    for name in LESSONS:
+        page = lesson(name)
+        words = page.evaluate("octet.course.texts.lessons[octet.course.plan.id]")
+
+        text = printed(page, tmp_path)
+
+        assert text.startswith(words["title"])
+        assert [line for line in (*words["steps"], *words["goals"], *words["tasks"]) if line not in text] == []
+        assert ("111" in text) == bool(words["table"])
+        assert page.evaluate("document.querySelector('#sheet').childElementCount") == 0
+
+
+def test_who_prints_another_tab_gets_the_page(tmp_path, lesson):
+    page = lesson("watch")
+    page.click("#tab-run")
+
+    assert printed(page, tmp_path) == ""
+
+    page.click("#tab-lessons")
+
+
+def test_the_buttons_print_the_worksheet_and_the_notes(lesson):
+    page = lesson("share")
+    page.evaluate("window.print = () => { window.printed = document.querySelector('#sheet').innerText; }")
+
+    page.click("text=Print the worksheet")
+    sheet = page.evaluate("window.printed")
+    page.click("text=Print the notes")
+    notes = page.evaluate("window.printed")
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+
+    words = page.evaluate("octet.course.texts")
+    answers = words["lessons"]["share"]["notes"]["answers"]
+    assert [answer for answer in answers if answer in sheet or answer not in notes] == []
+    assert [it["term"] for it in words["glossary"] if it["term"] not in notes] == []

@@ -1,0 +1,163 @@
+"""octet.html: one file without a server that runs the real robot, and shows what it does."""
+
+import itertools
+
+import pytest
+from playwright.sync_api import Page
+
+from host_sim.protocol.generated import PARAMETERS
+from tests.runs.support import octet
+from tests.web.lab.support import SIZES, go, saved, settle, simulated
+from tests.web.looks import PHONES, TOO_SMALL, check, out_of_view, resize, violations_at
+from tests.web.support import wait_for
+
+SIZE_MAX = 500_000
+IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#cells")
+
+
+def test_the_page_is_one_small_file(file):
+    assert file.stat().st_size < SIZE_MAX
+
+
+def test_the_page_is_the_same_from_the_same_sources(file, tmp_path):
+    assert octet("page", tmp_path / "again.html").returncode == 0
+
+    assert (tmp_path / "again.html").read_bytes() == file.read_bytes()
+
+
+def test_a_page_that_cannot_be_written_is_told_in_one_line(tmp_path):
+    done = octet("page", tmp_path / "no" / "such" / "octet.html")
+
+    assert done.returncode != 0
+    assert len(done.stderr.splitlines()) == 1
+
+
+def test_the_table_is_saved_for_a_spreadsheet(shared):
+    shared.click("#tab-curves")
+
+    lines = saved(shared, "#save-csv").decode().splitlines()
+
+    assert lines[0].startswith("run,robot,behaviour,seed,environment,finished,time s,trials")
+    assert len(lines) == 6
+
+
+def test_each_parameter_has_a_slider_with_its_range(shared):
+    sliders = "[...document.querySelectorAll('.slider input')]"
+    ranges = shared.evaluate(f"{sliders}.map(({{ title, min, max }}) => [title, Number(min), Number(max)])")
+
+    assert ranges == [[name, it.minimum, it.maximum] for name, it in PARAMETERS.items()]
+
+
+def test_it_plays_on_from_where_it_is_scrubbed_to(shared):
+    shared.evaluate("octet.go(0)")
+    shared.click("#play")
+    go(shared, 1000)
+    settle(shared)
+    tick = shared.evaluate("octet.tick")
+    shared.click("#play")
+
+    assert tick >= 1000
+
+
+@pytest.mark.parametrize("kind", ["obstacle", "decision", "lesson"])
+def test_it_goes_to_the_next_one(shared, kind):
+    shared.select_option("#kind", kind)
+    shared.evaluate("octet.go(60)")
+    shared.click("#after")
+    here = shared.evaluate("octet.tick")
+    actions, patterns = shared.evaluate(
+        "[octet.lane.data.robots[0].columns.action, octet.lane.data.robots[0].columns.pattern].map((it) => [...it])"
+    )
+    lessons = [lesson["tick"] for lesson in shared.evaluate("octet.lane.data.robots[0].run.lessons")]
+
+    wanted = {
+        "obstacle": lambda tick: patterns[tick] and not patterns[tick - 1],
+        "decision": lambda tick: actions[tick] != actions[tick - 1],
+        "lesson": lambda tick: tick in lessons,
+    }[kind]
+    assert here == next(tick for tick in range(61, len(actions)) if wanted(tick))
+
+
+@pytest.mark.parametrize(
+    ("reason", "line"), [(5, "if r=Turn"), (4, "if Mem[Senses] = Turn"), (1, "rForward Dist"), (7, "FoodCnt--")]
+)
+def test_the_line_is_lit_that_the_robot_executes(shared, reason, line):
+    shared.click("#tab-listing")
+    shared.evaluate("reason => octet.go(octet.lane.data.robots[0].columns.reason.indexOf(reason))", reason)
+
+    wait_for(
+        shared,
+        "line => [...document.querySelectorAll('#listing [aria-current]')].some((it) => it.innerText.includes(line))",
+        line,
+    )
+
+
+def test_all_that_matters_is_in_view(shared):
+    for size in SIZES:
+        resize(shared, size)
+        assert out_of_view(shared, IN_VIEW, size) == [], size
+    for size in (*SIZES, *PHONES):
+        resize(shared, size)
+        assert shared.evaluate("document.documentElement.scrollWidth <= innerWidth"), size
+
+
+def test_fingers_can_hit_everything_on_a_phone(shared):
+    for size, tab in itertools.product(PHONES, ("run", "parameters", "curves", "files")):
+        resize(shared, size)
+        shared.click(f"#tab-{tab}")
+        assert shared.evaluate(TOO_SMALL) == [], (size, tab)
+
+
+def test_runs_that_are_gone_take_no_memory(page):
+    for _ in range(3):
+        page.evaluate("octet.begin(octet.lane.experiment)")
+        simulated(page)
+
+    assert {kind: alive(page, f"octet.lane{path}") for kind, path in (("run", ""), ("drawing", ".renderer"))} == {
+        "run": 1,
+        "drawing": 1,
+    }
+
+
+def alive(page: Page, one: str) -> int:
+    """How many objects of the class of this one the browser cannot free."""
+    debugger = page.context.new_cdp_session(page)
+    kind = debugger.send("Runtime.evaluate", {"expression": f"{one}.constructor.prototype"})["result"]["objectId"]
+    found = debugger.send("Runtime.queryObjects", {"prototypeObjectId": kind})["objects"]["objectId"]
+    count = {"functionDeclaration": "function () { return this.length; }", "objectId": found, "returnByValue": True}
+    return debugger.send("Runtime.callFunctionOn", count)["result"]["value"]
+
+
+def test_what_it_says_of_two_runs_is_of_those_that_are_there(page):
+    page.click("#what-if")
+    simulated(page)
+    page.select_option("#behaviour", "never")
+    settle(page)
+    assert page.inner_text("#parting").startswith("A and B part at")
+
+    # Another run of the same name, simulated as often; the next frame shows those that are there again.
+    said = page.evaluate(
+        "() => { const [a, b] = octet.lanes; const other = Object.assign(Object.create(Object.getPrototypeOf(b)), b,"
+        " { data: a.data }); octet.parting.show([a, other], other);"
+        " return document.querySelector('#parting').textContent; }"
+    )
+
+    assert said == "A and B do the same to the end."
+
+
+def test_axe_finds_nothing(page):
+    page.click("#what-if")
+    page.evaluate("octet.go(3000)")
+    simulated(page)
+    assert violations_at(page, (PHONES[0], SIZES[0], SIZES[-1])) == []
+    for tab in ("parameters", "listing", "curves", "files"):
+        page.click(f"#tab-{tab}")
+        assert violations_at(page, (SIZES[-1],)) == [], tab
+
+
+def test_screens(shared):
+    shared.evaluate("octet.go(3000)")
+    for scheme, size in itertools.product(("light", "dark"), (*SIZES[:1], *SIZES[2:3], PHONES[0])):
+        shared.emulate_media(color_scheme=scheme)
+        resize(shared, size)
+        check(shared, f"octet-{scheme}-{size[0]}")

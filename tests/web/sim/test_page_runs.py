@@ -1,0 +1,108 @@
+"""A run in the page is that of tools/run: the same layouts, the same bytes in its log, the same pictures."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from host_sim.protocol.generated import PROFILES
+from host_sim.report.octet_page import world_dimensions
+from tests.runs.support import octet
+from tests.web.sim.node import in_node
+from tests.web.sim.page_runs import experiment, run_in_page, with_changes_of, words
+from tests.web.support import run_in
+from tests.world.golden_layouts import DIGESTS, WRITTEN, digest
+from tests.world.golden_layouts import WANTED as WANTED_LAYOUTS
+
+LAYOUTS = """
+const [{ worlds, layouts }] = texts.map((text) => JSON.parse(text));
+const { "sim/native_layouts.js": { drawFrom, drawLayout }, "sim/worlds.js": { worldOf } } = modules;
+const { NativeRun } = modules["sim/native_run.js"];
+const native = new NativeRun(page, 4);
+return layouts.map(({ world, ...which }) => {
+  const { params, written } = worldOf(world, worlds);
+  drawFrom(native, params, written);
+  const { bars, food, starts } = drawLayout(native, which);
+  return [...bars, ...food, ...starts].flat();
+});
+"""
+
+
+@pytest.mark.parametrize("name", DIGESTS)
+def test_the_layouts_of_a_world_stay_the_same_for_ever(tmp_path, name):
+    asked, world = tmp_path / "layouts.json", {"name": name, **WRITTEN[name]} if name in WRITTEN else name
+    layouts = [{"world": world, **which._asdict()} for which in WANTED_LAYOUTS]
+    asked.write_text(json.dumps({"worlds": world_dimensions(), "layouts": layouts}))
+
+    assert digest(in_node(tmp_path, "sim/simulation.js", LAYOUTS, asked)) == DIGESTS[name]
+
+
+def comparable(run: dict[str, Any]) -> dict[str, Any]:
+    """A run but for its title and its packed columns, and without what was programmed before its first tick."""
+    for robot in run["robots"]:
+        robot["data"] = ""
+        robot["lessons"] = [lesson for lesson in robot["lessons"] if not lesson["by_hand"]]
+    return {**run, "title": None}
+
+
+WANTED = [*(experiment(profile, 7 + number) for number, profile in enumerate(PROFILES)), experiment("article", 5, 4)]
+NAMES = [f"{it['robots'][0]['profile']}-{len(it['robots'])}" for it in WANTED]
+
+
+@pytest.fixture(scope="module")
+def in_page(tmp_path_factory) -> dict[str, dict[str, Any]]:
+    return dict(zip(NAMES, run_in_page(tmp_path_factory.mktemp("runs"), *WANTED), strict=True))
+
+
+@pytest.mark.parametrize(("name", "wanted"), list(zip(NAMES, WANTED, strict=True)), ids=NAMES)
+def test_a_run_has_the_log_and_the_page_of_tools_run(tmp_path, in_page, name, wanted):
+    assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words(wanted)).returncode == 0
+
+    assert in_page[name]["log"] == (tmp_path / "run.log").read_text()
+    there, here = run_in(tmp_path / "replay.html"), in_page[name]["run"]
+    assert comparable(here) == comparable(there)
+
+
+CHANGED = {
+    "plants": ("random", "article", 1, "plant@1s grow@3s plant@4s plant@env2 grow:100@env2+1s"),
+    "bodies": (
+        "crowded",
+        "forgetful",
+        2,
+        "swap-motors@2s mirror@5s/2 stuck-on:front@8s weak-motor:left:60%@9s repair@env2",
+    ),
+    "odometers": (
+        "random",
+        "adaptive",
+        2,
+        "odometer:left:133%@1s odometer:right:-100%@4s/2 odometer:right:100%@4.4s/2 "
+        "swap-odometers@9s swap-odometers@9.5s false-beacon:100@env2+2s odometer:right:0%@env2+3.5s/1 repair@env2+4s",
+    ),
+    "noise": ("posts", "adaptive", 2, "noise:10/1000@0s noise:200/1000@env2 stuck-off:left@3s/1"),
+    "distances": ("small", "distance", 1, "plant@0s mirror@1s stuck-off:front@3s stuck-on:left@env2"),
+    "corridors": ("corridors", "searcher", 1, "plant@2s"),
+    "dead ends": ("dead-ends", "five", 3, "mirror@2s"),
+    "written": ("docs/worlds/two_walls.toml", "article", 1, "plant@2s grow@3s"),
+}
+
+
+@pytest.mark.parametrize(("world", "profile", "robots", "changes"), CHANGED.values(), ids=CHANGED)
+def test_a_run_in_another_world_that_changes_is_that_of_tools_run(tmp_path, world, profile, robots, changes):
+    assert_same_run(tmp_path, experiment(profile, 3, robots, world=world), changes, code=0)
+
+
+def test_a_run_in_which_robots_stop_because_of_their_wheels_is_that_of_tools_run(tmp_path):
+    broken = "odometer:left:-100%@3s/2 odometer:left:0%@env2 odometer:right:0%@env2 repair@env2+9s"
+
+    assert_same_run(tmp_path, experiment("article", 3, 2), broken, code=1)
+
+
+def assert_same_run(tmp_path: Path, wanted: dict[str, Any], changes: str, code: int) -> None:
+    what = [word for change in changes.split() for word in ("--change", change)]
+    assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words(wanted), *what).returncode == code
+
+    (there,) = run_in_page(tmp_path, with_changes_of(wanted, tmp_path))
+
+    assert there["log"] == (tmp_path / "run.log").read_text()
+    assert comparable(there["run"]) == comparable(run_in(tmp_path / "replay.html"))

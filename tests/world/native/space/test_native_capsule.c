@@ -1,0 +1,128 @@
+#include "host_sim/world/native/space/capsule.h"
+#include "tests/test.h"
+
+static const struct vector CENTRE = {1000.0, 1000.0};
+static struct capsule bar;
+static struct contact contact;
+
+void setUp(void)
+{
+    capsule_set(&bar, (struct vector){900.0, 1110.0}, (struct vector){1100.0, 1110.0}, 20.0);
+}
+
+TEST(a_disc_overlaps_a_side)
+{
+    capsule_meet_disc(&bar, CENTRE, 100.0, &contact);
+    TEST_ASSERT_TRUE(contact.touches);
+    TEST_ASSERT_EQUAL_DOUBLE(110.0 * 110.0, contact.apart_mm2);
+    TEST_ASSERT_EQUAL_DOUBLE(10.0, contact.depth_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, contact.normal.x);
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, contact.normal.y);
+}
+
+TEST(a_disc_overlaps_a_round_end)
+{
+    capsule_meet_disc(&bar, (struct vector){1160.0, 1190.0}, 100.0, &contact);
+    TEST_ASSERT_TRUE(contact.touches);
+    TEST_ASSERT_EQUAL_DOUBLE(100.0 * 100.0, contact.apart_mm2);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 20.0, contact.depth_mm);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.6, contact.normal.x);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, -0.8, contact.normal.y);
+}
+
+TEST(a_disc_that_only_just_reaches_does_not_overlap)
+{
+    capsule_meet_disc(&bar, CENTRE, 90.0, &contact);
+    TEST_ASSERT_FALSE(contact.touches);
+}
+
+TEST(a_disc_on_the_centre_line_is_pushed_sideways)
+{
+    capsule_meet_disc(&bar, (struct vector){1000.0, 1110.0}, 100.0, &contact);
+    TEST_ASSERT_EQUAL_DOUBLE(120.0, contact.depth_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(-1.0, contact.normal.y);
+}
+
+TEST(two_discs_overlap_along_the_line_between_their_centres)
+{
+    capsule_meet_discs(CENTRE, (struct vector){1150.0, 1000.0}, 100.0, &contact);
+    TEST_ASSERT_TRUE(contact.touches);
+    TEST_ASSERT_EQUAL_DOUBLE(50.0, contact.depth_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, contact.normal.x);
+    capsule_meet_discs(CENTRE, (struct vector){1200.0, 1000.0}, 100.0, &contact);
+    TEST_ASSERT_FALSE(contact.touches);
+    capsule_meet_discs(CENTRE, CENTRE, 100.0, &contact);
+    TEST_ASSERT_EQUAL_DOUBLE(200.0, contact.depth_mm);
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, contact.normal.x);
+}
+
+TEST(the_walls_insides_are_the_arenas_edge)
+{
+    static const struct vector INSIDE[] = {{2000.0, 99.0}, {3901.0, 1500.0}, {2000.0, 2901.0}, {99.0, 1500.0}};
+    struct capsule walls[WALLS];
+
+    capsule_set_walls(walls, 4000.0, 3000.0);
+    for (unsigned place = 0; place < WALLS; place++)
+        for (unsigned wall = 0; wall < WALLS; wall++) {
+            capsule_meet_disc(&walls[wall], INSIDE[place], 100.0, &contact);
+            TEST_ASSERT_EQUAL_INT(place == wall, contact.touches);
+            if (contact.touches)
+                TEST_ASSERT_DOUBLE_WITHIN(1e-9, 1.0, contact.depth_mm);
+        }
+}
+
+TEST(a_thing_is_at_least_as_far_away_as_its_box)
+{
+    static const struct vector FAR[] = {{879.0, 1100.0}, {1121.0, 1100.0}, {1000.0, 1089.0}, {1000.0, 1131.0}};
+
+    TEST_ASSERT_EQUAL_DOUBLE(-20.0, capsule_apart_mm(&bar, (struct vector){1000.0, 1110.0}));
+    for (unsigned i = 0; i < sizeof FAR / sizeof *FAR; i++)
+        TEST_ASSERT_EQUAL_DOUBLE(1.0, capsule_apart_mm(&bar, FAR[i]));
+}
+
+static bool hides(double x, double y)
+{
+    return capsule_hides(&bar, CENTRE, (struct vector){x, y});
+}
+
+TEST(a_capsule_hides_what_is_behind_it)
+{
+    TEST_ASSERT_TRUE(hides(1000.0, 1200.0));
+    TEST_ASSERT_TRUE(hides(900.0, 1300.0));
+    TEST_ASSERT_FALSE(hides(1000.0, 1089.0));
+    TEST_ASSERT_FALSE(hides(1000.0, 800.0));
+    TEST_ASSERT_FALSE(hides(1300.0, 1110.0));
+}
+
+TEST(its_round_ends_hide_too)
+{
+    TEST_ASSERT_TRUE(hides(1200.0, 1180.0));
+    TEST_ASSERT_TRUE(hides(800.0, 1180.0));
+    TEST_ASSERT_FALSE(hides(1200.0, 1160.0));
+    TEST_ASSERT_FALSE(hides(1105.0, 1085.0));
+}
+
+TEST(everything_is_hidden_from_inside)
+{
+    TEST_ASSERT_TRUE(capsule_hides(&bar, (struct vector){1000.0, 1095.0}, (struct vector){1000.0, 0.0}));
+    TEST_ASSERT_TRUE(capsule_disc_hides(CENTRE, 100.0, (struct vector){1050.0, 1000.0}, (struct vector){2000.0, 0.0}));
+}
+
+TEST(a_disc_hides_what_is_behind_it)
+{
+    const struct vector from = {500.0, 1000.0};
+
+    TEST_ASSERT_TRUE(capsule_disc_hides(CENTRE, 100.0, from, (struct vector){1200.0, 1000.0}));
+    TEST_ASSERT_FALSE(capsule_disc_hides(CENTRE, 100.0, from, (struct vector){890.0, 1000.0}));
+    TEST_ASSERT_FALSE(capsule_disc_hides(CENTRE, 100.0, from, (struct vector){0.0, 1000.0}));
+    TEST_ASSERT_FALSE(capsule_disc_hides(CENTRE, 100.0, from, (struct vector){1200.0, 1300.0}));
+}
+
+TEST(a_plant_hides_what_is_right_behind_its_middle)
+{
+    struct capsule plant;
+
+    capsule_set(&plant, CENTRE, CENTRE, 80.0);
+    TEST_ASSERT_TRUE(capsule_hides(&plant, (struct vector){500.0, 1000.0}, (struct vector){1200.0, 1000.0}));
+    TEST_ASSERT_FALSE(capsule_hides(&plant, (struct vector){500.0, 1000.0}, (struct vector){910.0, 1000.0}));
+}
