@@ -60,7 +60,7 @@ class Run:
         episodes: The result of each environment.
         trajectory: What pictures and pages are made of; of a very long run, its last environments.
         memories: Each robot's eight cells in the end.
-        log_sha256: SHA-256 of the log, in hexadecimal: equal for equal frames.
+        log_sha256: SHA-256 of the log without the data of BOOT, in hexadecimal: equal for equal frames in any build.
     """
 
     episodes: list[EpisodeResult]

@@ -1,11 +1,13 @@
 """The log of a run's frames, written during the run in candump's format (`candump -L`).
 
-Time stamps are in robot time, so that a log depends only on the seed and the options.
+Time stamps are in robot time, so that a log depends only on the seed and the options, but for one thing: BOOT names
+the build. The digest of a log leaves out the data of BOOT, so that it is the same for every build.
 """
 
 import errno
 import hashlib
 import os
+import re
 import stat
 from contextlib import suppress
 from pathlib import Path
@@ -13,7 +15,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from host_sim.base.compressed_file import COMPRESSED
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.protocol.codec import Frame
+from host_sim.protocol.codec import NODE_MAX, Frame, Protocol
 
 if TYPE_CHECKING:
     from host_sim.base.compressed_file import CompressedFile
@@ -23,6 +25,13 @@ CHANNEL = "octet"
 
 _FLUSH_LINES = 4096
 _STAMP = f"({{:010d}}.{{:06d}}) {CHANNEL}"
+_BOOTS = frozenset(Protocol(node).id_of("BOOT") for node in range(1, NODE_MAX + 1))
+_BOOT_DATA = re.compile(rb"(?<= (?:%s)#)[0-9A-F]+" % b"|".join(b"%03X" % boot for boot in sorted(_BOOTS)))
+
+
+def digest_of(text: bytes) -> str:
+    """SHA-256 of a log's lines without the data of BOOT, in hexadecimal."""
+    return hashlib.sha256(_BOOT_DATA.sub(b"", text)).hexdigest()
 
 
 def line_of(time_us: int, frame: Frame) -> str:
@@ -55,6 +64,7 @@ class FrameLog:
         self._part = self._path if path is None else path.with_name(path.name + ".part")
         self.set_time(0)
         self._lines: list[str] = []
+        self._boots = False
         self._digest = hashlib.sha256()
         self._failed = False
         try:
@@ -81,6 +91,7 @@ class FrameLog:
         """Records a frame with the current time stamp."""
         frame_id, data = frame
         self._lines.append(f"{self._stamp} {frame_id:03X}#{data.hex().upper()}\n")
+        self._boots |= frame_id in _BOOTS
         if len(self._lines) >= _FLUSH_LINES:
             self._flush()
 
@@ -100,15 +111,16 @@ class FrameLog:
             raise OctetError(f"cannot write {self._part}: {error.strerror}") from error
 
     def add_block(self, text: bytes) -> None:
-        """Records lines that were written elsewhere, each with its line end."""
+        """Records lines that were written elsewhere, each with its line end; BOOT is not among them."""
         self._flush()
+        self._digest.update(text)
         self._write(text)
 
     def close(self) -> str:
         """Closes the log; closing it again does nothing. A log without frames does not replace the old one.
 
         Returns:
-            SHA-256 of the log's lines, in hexadecimal.
+            SHA-256 of the log's lines without the data of BOOT, in hexadecimal.
 
         Raises:
             OctetError: The file cannot be written; `PATH.part` holds what could be.
@@ -144,10 +156,11 @@ class FrameLog:
     def _flush(self) -> None:
         block = "".join(self._lines).encode("ascii")
         self._lines.clear()
+        self._digest.update(_BOOT_DATA.sub(b"", block) if self._boots else block)
+        self._boots = False
         self._write(block)
 
     def _write(self, block: bytes) -> None:
-        self._digest.update(block)
         try:
             self._file.write(block)
         except OSError as error:

@@ -42,7 +42,7 @@ class Summary:
             those missed, for which the run or their environment was too short.
         incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run. Of
             very many, the last entry of a robot says how many are left out.
-        log_sha256: SHA-256 of the lines of the log, in hexadecimal.
+        log_sha256: SHA-256 of the log's lines without the data of BOOT, which names the build; in hexadecimal.
         wall_s: Duration of the run, s of wall-clock time.
         real_time_factor: Robot time divided by wall-clock time.
     """

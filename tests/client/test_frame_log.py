@@ -10,8 +10,8 @@ import pytest
 
 from host_sim.base.compressed_file import CompressedFile
 from host_sim.base.errors import OctetError, UsageError
-from host_sim.client.frame_log import FrameLog, line_of
-from host_sim.protocol.codec import Frame
+from host_sim.client.frame_log import FrameLog, digest_of, line_of
+from host_sim.protocol.codec import Frame, Protocol
 
 FRAME = Frame(0x081, bytes(range(8)))
 
@@ -35,6 +35,19 @@ def test_what_is_added_is_written_and_its_digest_is_returned(path):
 
     assert text_in(path).decode() == line_of(1_020_000, FRAME) + "\n"
     assert digest == hashlib.sha256(text_in(path)).hexdigest()
+
+
+def test_the_digest_is_the_same_whatever_build_boot_names(tmp_path):
+    digests, boot = [], Protocol(3).id_of("BOOT")
+    for build in (bytes(8), bytes(range(8))):
+        log = FrameLog(tmp_path / "run.log")
+        for frame in (FRAME, Frame(boot, build), FRAME):
+            log.add(frame)
+        digests.append(log.close())
+
+        assert digest_of(text_in(tmp_path / "run.log")) == digests[-1]
+    assert digests[0] == digests[1]
+    assert digest_of(b"(1.0) octet 081#00\n") != digest_of(b"(1.0) octet 081#01\n")
 
 
 def test_lines_that_were_written_elsewhere_stand_in_order_among_the_others(path):

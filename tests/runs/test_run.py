@@ -1,11 +1,11 @@
 """What a run leaves behind, and that it depends on seed and options only."""
 
-import hashlib
 import json
 
 import can
 import pytest
 
+from host_sim.client.frame_log import digest_of
 from tests.runs.support import Run, assert_healthy, octet
 
 
@@ -30,7 +30,7 @@ def test_a_run_leaves_log_summary_and_picture(run):
     done = run("--environments", "1", "--limit-s", "10", "--bus", "none", process=True)
 
     assert (done.out / "arena.png").read_bytes().startswith(b"\x89PNG")
-    assert hashlib.sha256(done.log).hexdigest() == done.summary["log_sha256"]
+    assert digest_of(done.log) == done.summary["log_sha256"]
     assert not list(done.out.glob("*.part"))
 
 
