@@ -63,3 +63,9 @@ def test_what_is_wrong_is_an_error_of_one_line(tmp_path):
         run(RunConfig(robots=32))
     with pytest.raises(UsageError, match="cannot write"):
         run(CONFIG, log=tmp_path / "nowhere" / "run.log")
+
+
+@pytest.mark.parametrize(("name", "value"), [("seed", -1), ("limit_s", 1e6), ("profile", "genius"), ("owner", 256)])
+def test_a_configuration_with_a_wrong_value_is_refused_by_its_name(name, value):
+    with pytest.raises(UsageError, match=f"{name} must be one of .*, not {value!r}"):
+        RunConfig(**{name: value})

@@ -53,4 +53,4 @@ class LinkDownError(RobotError):
 
 
 class DoubtfulError(OctetError):
-    """The run went on to its end and its files were written, but its result is not to be trusted."""
+    """The run went on to its end and its files were written, but its result is unreliable."""

@@ -1,12 +1,10 @@
 """Conducts a run from its start to its output files."""
 
-import argparse
 import json
 import os
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from dataclasses import replace
 from pathlib import Path
 
 from host_sim.base.atomic_file import write_bytes
@@ -14,7 +12,7 @@ from host_sim.base.errors import DoubtfulError, OctetError, UsageError
 from host_sim.base.regular_file import read_bytes
 from host_sim.cli.interruption import stop_soon
 from host_sim.cli.outputs import PAGE, PICTURE, SUMMARY, Outputs
-from host_sim.cli.run_options import LOGS, RunOptions, WatchOptions, run_options
+from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.cli.run_through import each, open_listener, run_through
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
@@ -38,27 +36,6 @@ REFUSED = "refused.log"
 
 _NOTHING = (0,) * CELL_COUNT
 _SUMMARY_MAX = 10_000_000
-_PROCESSES_MAX = 8
-"""Maximum number of robots of a watched run that have a process each, unless a bus is named."""
-
-
-def conduct_watched(arguments: argparse.Namespace, watch: WatchOptions) -> Summary:
-    """Conducts a run that people watch.
-
-    The page sets the pace, so the robot waits for it (lockstep); an external robot has its own clock, and the page
-    follows.
-    """
-    external = arguments.robot == "external"
-    watch = replace(watch, speed=1.0) if external else watch
-    options = run_options(arguments, _watched_bus(arguments), watch)
-    return conduct(replace(options, config=replace(options.config, real_time=external)))
-
-
-def _watched_bus(arguments: argparse.Namespace) -> str:
-    """The bus. In a network namespace with its own, no browser could reach the page; a class needs no processes."""
-    if arguments.bus != "auto":
-        return str(arguments.bus)
-    return "none" if arguments.robot == "spawn" and arguments.robots > _PROCESSES_MAX else "fd"
 
 
 def conduct(options: RunOptions) -> Summary:
@@ -68,21 +45,21 @@ def conduct(options: RunOptions) -> Summary:
         UsageError: The options are invalid; nothing was changed.
         OctetError: The run could not continue; what was recorded up to there was written.
     """
-    world_of(options.config.world)  # a mistake in it is found before anything is begun
+    world_of(options.world)  # a mistake in it is found before anything is begun
     with _memories(options) as loaded, run_folder(options.out):
         _announce(options, loaded)
         with ExitStack() as stack:
-            listener = open_listener(stack, options.watch)
+            listener = open_listener(stack, options)
             log = FrameLog(options.log)
             stack.callback(log.drop)
             memories = _first_memories(options, loaded)
             simulation = stack.enter_context(
-                make(options.config, log, memories, lambda client: _print_robot(options, client))
+                make(options, log, memories, lambda client: _print_robot(options, client))
             )
-            if options.config.faults:
+            if options.faults:
                 stack.callback(_write_faults, options.out / FAULTS, simulation.clients)
             stack.callback(_write_refused, options.out / REFUSED, simulation.clients)
-            recorder = RunRecorder.of(simulation, options.config.boredom_limit)
+            recorder = RunRecorder.of(simulation, options.boredom_limit)
             _save_memories(stack, simulation, options, loaded)
             outputs = Outputs(options, simulation, recorder, log)
             try:
@@ -146,7 +123,7 @@ def _seed_of(summary: Path) -> str:
 
 
 def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
-    """Writes a run that was cut short. The reason for that is reported, and not what fails here."""
+    """Writes what an interrupted run has; errors here are suppressed in favour of the original one."""
     with suppress(OctetError):
         if isinstance(end, KeyboardInterrupt):
             stop_soon(outputs.simulation.clients)
@@ -162,7 +139,7 @@ def _check_trust(summary: Summary) -> None:
     if summary.incidents:
         first, *more = summary.incidents
         others = f" (and {len(more)} more in {SUMMARY})" if more else ""
-        raise DoubtfulError(f"the result is not to be trusted: {first}{others}")
+        raise DoubtfulError(f"result unreliable: {first}{others}")
 
 
 def _write_faults(path: Path, clients: Sequence[RobotClient]) -> None:
@@ -192,8 +169,8 @@ def _write_refused(path: Path, clients: Sequence[RobotClient]) -> None:
 
 def _print_robot(options: RunOptions, client: RobotClient) -> None:
     if options.talks:
-        config, bus = options.config, client.connection.bus
-        print(f"robot     node {client.node} on {bus}, profile {config.profile}, seed {config.seed}")
+        bus = client.connection.bus
+        print(f"robot     node {client.node} on {bus}, profile {options.profile}, seed {options.seed}")
 
 
 def _first_memories(options: RunOptions, loaded: Sequence[Memory | None]) -> list[Memory | None]:
@@ -202,7 +179,7 @@ def _first_memories(options: RunOptions, loaded: Sequence[Memory | None]) -> lis
     Where the file does not exist yet: a robot that is started here has an empty memory; that of an external one is
     erased.
     """
-    missing = _NOTHING if options.config.robot == "external" else None
+    missing = _NOTHING if options.robot == "external" else None
     return [memory or missing for memory in loaded]
 
 
@@ -230,10 +207,8 @@ def _save_memories(
 
 
 def _memory_paths(options: RunOptions) -> list[Path]:
-    config = options.config
-    return (
-        [] if options.memory is None else [memory_path(options.memory, node, config.robots) for node in config.nodes]
-    )
+    memory = options.memory
+    return [] if memory is None else [memory_path(memory, node, options.robots) for node in options.nodes]
 
 
 def _print_results(options: RunOptions, summary: Summary) -> None:

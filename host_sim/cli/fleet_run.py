@@ -33,7 +33,7 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
         UsageError: There is no such world; nothing was changed.
         OctetError: The run could not be made.
     """
-    config = options.config
+    config = options
     world_of(config.world)  # a mistake in it is found before anything is begun
     results: list[FleetResult] = []
     samples: list[NDArray[np.int64]] = []
@@ -61,7 +61,7 @@ class _Progress:
     """A line on a terminal, rewritten during the run."""
 
     def __init__(self, options: RunOptions, results: Sequence[FleetResult]) -> None:
-        config = options.config
+        config = options
         self._planned, self._results = config.robots * config.environments, results
         self._shown = options.talks and sys.stderr.isatty()
         self._began = self._then = time.monotonic()

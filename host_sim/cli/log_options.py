@@ -4,8 +4,8 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import file_path, number
-from host_sim.protocol.words import NODE_MAX
+from host_sim.cli.parsing import file_path
+from host_sim.cli.run_options import add_option
 
 if TYPE_CHECKING:
     from host_sim.recording.resimulation import Resimulation
@@ -15,13 +15,7 @@ def add_log_options(parser: argparse.ArgumentParser) -> None:
     """Adds the options that `replay` and `picture` share."""
     add = parser.add_argument
     add("log", type=file_path, metavar="RUN.LOG", help="log of a run, of candump or of python-can; ASC or BLF")
-    add(
-        "--node",
-        type=number(1, NODE_MAX),
-        default=1,
-        metavar="NODE",
-        help="the robot's number on the bus; with several robots, that of the first (default: %(default)s)",
-    )
+    add_option(parser, "node")
     add(
         "--no-world",
         action="store_true",

@@ -1,6 +1,6 @@
 """The command line, `tools/octet COMMAND ...`.
 
-Each module NAME_command of this package, or of a folder in host_sim/lab, adds a command NAME.
+Each module NAME_command of this package, or of a folder in host_sim/lab, adds a command NAME; A_B_command adds two.
 """
 
 import argparse
@@ -18,8 +18,6 @@ from host_sim.cli.parsing import Parser
 from host_sim.cli.standard_streams import drop_output, is_full, open_closed
 
 _ROOMS = ("cli", "lab/*")
-_SUFFIX = "_command"
-
 
 class _EndedBySignal(KeyboardInterrupt):
     """SIGTERM or SIGHUP: ends a command as Ctrl-C does."""
@@ -127,7 +125,6 @@ def _raise_end(number: int, _frame: FrameType | None) -> NoReturn:
 def _modules_for(arguments: Sequence[str]) -> list[str]:
     """The module of the command that is called, so that it does not wait for the others to load; else all modules."""
     top = Path(__file__).parents[1]
-    files = sorted(path for room in _ROOMS for path in top.glob(f"{room}/*{_SUFFIX}.py"))
-    modules = {path.stem: ".".join((top.name, *path.relative_to(top).with_suffix("").parts)) for path in files}
-    called = arguments[0].replace("-", "_") + _SUFFIX if arguments else ""
-    return [modules[called]] if called in modules else [modules[name] for name in sorted(modules)]
+    files = sorted((file for room in _ROOMS for file in top.glob(f"{room}/*_command.py")), key=lambda file: file.stem)
+    called = [file for file in files if arguments and arguments[0] in file.stem.split("_")[:-1]]
+    return [".".join((top.name, *file.relative_to(top).with_suffix("").parts)) for file in called or files]

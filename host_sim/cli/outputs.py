@@ -60,7 +60,7 @@ class Outputs:
             self.episodes.append(self.simulation.leave())
         with _undisturbed():
             digest = self._replace_log()
-            summary = summarize(self.options.config, self.simulation, self.episodes, digest, wall_s)
+            summary = summarize(self.options, self.simulation, self.episodes, digest, wall_s)
             summary.write(self.options.out / SUMMARY)
             self._draw()
         return summary

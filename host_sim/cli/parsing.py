@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, NoReturn
 
 from host_sim.base.errors import UsageError
 from host_sim.protocol.words import PARAMETERS
-from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
 
 if TYPE_CHECKING:
     Subparsers = argparse._SubParsersAction["Parser"]
@@ -124,19 +123,6 @@ def check_outputs(command: str, source: Path | None, outputs: Mapping[str, Path 
         if target in options:
             raise UsageError(f"{options[target]} and {option} name the same file: {path}")
         options[target] = option
-
-
-def add_bitrate(parser: argparse.ArgumentParser) -> None:
-    """Adds the option for the bit rate of a bus."""
-    parser.add_argument(
-        "--bitrate",
-        type=int,
-        choices=BIT_RATES,
-        default=BIT_RATE,
-        metavar="BITS",
-        help=f"bits a second of the bus: {', '.join(map(str, BIT_RATES))}; set up in an adapter that is not the"
-        " kernel's (default: %(default)s)",
-    )
 
 
 def setting(text: str) -> tuple[str, int]:

@@ -1,15 +1,21 @@
-"""The options of a run, as data: from the parsed command line to what a run is made of."""
+"""The options of `run` and `watch`: those of `RunConfig`, and where a run's files go and how people watch it."""
 
 import argparse
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from argparse import Namespace
+from collections.abc import Callable
+from dataclasses import Field, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from host_sim.backends.bus_choice import check_robot
 from host_sim.base.compressed_file import COMPRESSED
 from host_sim.base.errors import UsageError
-from host_sim.sim.run_config import RunConfig
+from host_sim.cli.parsing import file_path, number, setting
+from host_sim.faults.rule import read_rules
+from host_sim.protocol.words import NODE_MAX
+from host_sim.sim.run_config import Option, RunConfig, option, options_of
 from host_sim.transport.bit_rates import BIT_RATE
+from host_sim.world.changes import read_changes
 from host_sim.world.physics_names import PYMUNK
 
 LOGS = ("run.log", f"run.log{COMPRESSED}")
@@ -21,47 +27,49 @@ FLEET_TABLE = "robots.csv"
 _NO_ADAPTER = ("auto", "none", "fd", "socketcan")
 """The interfaces whose bit rate is not set up here."""
 
+_FLEETS = f"a fleet (more than {NODE_MAX} robots, or --worlds own)"
+_PARSERS: dict[Any, Callable[[str], Any]] = {
+    Path | None: file_path,
+    Path: file_path,
+    dict[str, int]: setting,
+    int: int,
+}
+
 
 @dataclass(frozen=True)
-class WatchOptions:
-    """How people watch a run.
+class RunOptions(RunConfig):
+    """A run, its files, and how people watch it.
 
     Attributes:
-        listen: Address to listen on for other machines; None for this machine only.
-        port: Port to listen on; 0 for any free port.
-        speed: Initial speed as a multiple of real time; 0 is as fast as possible.
+        speed: Initial speed of a run that people watch, as a multiple of real time; 0 is as fast as possible.
         stays: Whether the page is still served after the last environment.
-        terminal: Whether the run is drawn in the terminal rather than served.
     """
 
-    listen: str | None = None
-    port: int = 8138
+    bus: str = field(default="auto", metadata=RunConfig.__dataclass_fields__["bus"].metadata)
+    memory: Path | None = option(
+        None,
+        "load the eight bytes from FILE before the run, if it exists; save them afterwards",
+        metavar="FILE",
+        unset="no file",
+        fleet=False,
+    )
+    out: Path = option(Path("out"), "folder for page, picture, summary and log", metavar="DIR")
+    compress_log: bool = option(False, f"write the log compressed, as {LOGS[True]}", fleet=False)
+    json: bool = option(False, "print only the summary, as JSON")
+    quiet: bool = option(False, "print nothing")
+    watch: bool = option(False, "show the run in the browser", commands=("run",))
+    terminal: bool = option(False, "draw the run in this terminal instead of a browser", commands=("watch",))
+    port: int = option(8138, "port to serve the page on; 0 for any free port", limits=(0, 65535), metavar="PORT")
+    listen: str | None = option(
+        None,
+        "serve the page to other machines, with a token: on all interfaces, or on one address; with several robots, "
+        "each page gets one of its own",
+        metavar="ADDRESS",
+        unset="this machine only",
+        const="0.0.0.0",
+    )
     speed: float = 1.0
-    stays: bool = True
-    terminal: bool = False
-
-
-@dataclass(frozen=True)
-class RunOptions:
-    """A run and its outputs.
-
-    Attributes:
-        config: Configuration of the run.
-        memory: File to load the memory from before the run, and to save it to afterwards; None for no file.
-        out: Folder for the output files.
-        compress_log: Whether the log is compressed.
-        quiet: Whether to print nothing.
-        json: Whether to print only the summary, as JSON.
-        watch: How people watch the run; None if they do not.
-    """
-
-    config: RunConfig
-    memory: Path | None = None
-    out: Path = Path("out")
-    compress_log: bool = False
-    quiet: bool = False
-    json: bool = False
-    watch: WatchOptions | None = None
+    stays: bool = False
 
     @property
     def log(self) -> Path:
@@ -73,120 +81,95 @@ class RunOptions:
         """Whether to print progress and results as text."""
         return not (self.quiet or self.json)
 
-
-def watch_options(arguments: argparse.Namespace, **others: Any) -> WatchOptions:
-    """How people watch a run, as the command line and the command say."""
-    port = WatchOptions().port if arguments.port is None else arguments.port
-    return WatchOptions(arguments.listen, port, **others)
-
-
-def check_no_page(arguments: argparse.Namespace, instead: str) -> None:
-    """Refuses options for a page where there is none.
-
-    Args:
-        arguments: The parsed command line.
-        instead: What to do about it.
-
-    Raises:
-        UsageError: There are such options.
-    """
-    given = {"--listen": arguments.listen, "--port": arguments.port}
-    option = next((option for option, value in given.items() if value is not None), None)
-    if option is not None:
-        raise UsageError(f"{option} is for a page in the browser: {instead}, or leave {option} out")
+    @property
+    def stages(self) -> list[str]:
+        """The stages of tools/setup that the run needs."""
+        robot = {"qemu": ["images"], "emulated": ["images", "emulator"]}.get(self.robot, ["run"])
+        return robot if self.listen is None else [*robot, "classroom"]
 
 
-def run_options(arguments: argparse.Namespace, bus: str, watch: WatchOptions | None = None) -> RunOptions:
-    """The options of a run.
-
-    Args:
-        arguments: The parsed command line.
-        bus: The bus, resolved.
-        watch: How people watch the run; None if they do not.
-    """
-    from host_sim.world.changes import read_changes
-
-    changes = tuple(change for text in arguments.change for change in read_changes(text))
-    names = {field.name for field in fields(RunConfig)} & vars(arguments).keys()
-    given = {name: getattr(arguments, name) for name in names}
-    faults = _rules(arguments.fault)
-    config = RunConfig(**{**given, **_resolved(arguments), "bus": bus, "faults": faults, "changes": changes})
-    return RunOptions(
-        config,
-        arguments.memory,
-        arguments.out,
-        compress_log=arguments.compress_log,
-        quiet=arguments.quiet,
-        json=arguments.json,
-        watch=watch,
-    )
+def add_options(parser: argparse.ArgumentParser, command: str) -> None:
+    """Adds the options that a command has; only those that are given are set."""
+    for name, (_, row) in options_of(RunOptions).items():
+        if command in row.commands:
+            add_option(parser, name, argparse.SUPPRESS)
 
 
-def check_run(arguments: argparse.Namespace) -> RunConfig:
-    """Refuses options that contradict each other; the standard library is enough for that.
+def add_option(parser: argparse.ArgumentParser, name: str, default: object = None) -> None:
+    """Adds an option of a run to any command; without a default, with that of a run."""
+    it, row = options_of(RunOptions)[name]
+    value = it.default if default is None else default
+    parser.add_argument(_flag(name), dest=name, default=value, **_argument(it, row))
 
-    Returns:
-        The configuration of the run, with the bus as it was given.
+
+def run_options(arguments: Namespace, **others: Any) -> RunOptions:
+    """The options that a command line gives, and others.
 
     Raises:
-        UsageError: There are such options.
+        UsageError: They contradict each other, or a file of them cannot be read.
     """
-    from host_sim.backends.bus_choice import check_robot
+    given = {name: value for name, value in vars(arguments).items() if name in options_of(RunOptions)}
+    given["settings"] = dict(given.get("settings", ()))
+    given["changes"] = tuple(change for text in given.get("changes", ()) for change in read_changes(text))
+    given["faults"] = tuple(rule for text in given.get("faults", ()) for rule in read_rules(text))
+    if given.get("robots", 1) > NODE_MAX:
+        given.setdefault("worlds", "own")
+    options = RunOptions(**{**given, **others})
+    _check(options)
+    return options
 
-    if arguments.board and arguments.robot != "emulated":
-        raise UsageError(f"--board {arguments.board} is for --robot emulated: add that, or leave --board out")
-    _check_bitrate(arguments.bitrate, arguments.bus)
-    options = run_options(arguments, arguments.bus)
-    if options.config.is_fleet:
+
+def _flag(name: str) -> str:
+    return options_of(RunOptions)[name][1].flag or f"--{name.replace('_', '-')}"
+
+
+def _argument(it: "Field[Any]", row: Option) -> dict[str, Any]:
+    """An option as `ArgumentParser.add_argument` takes it."""
+    if it.type is bool:
+        return {"action": "store_true", "help": row.text}
+    kind: Any = it.type
+    default = f"{it.default:g}" if kind is float else str(it.default)
+    values = [row.range] if row.limits or (row.metavar and row.choices) else []
+    values += [f"default: {row.unset or default}"] if row.unset or it.default else []
+    text = f"{row.text} ({'; '.join(values)})" if values else row.text
+    how: dict[str, Any] = {"help": text.replace("%", "%%"), "metavar": row.metavar}
+    how["type"] = number(*row.limits, kind) if row.limits else _PARSERS.get(kind, str)
+    if row.choices:
+        how["choices"] = row.choices
+    if row.const is not None:
+        how |= {"nargs": "?", "const": row.const}
+    if kind in (dict[str, int], tuple[str, ...]):
+        how["action"] = "append"
+    return how
+
+
+def _check(options: RunOptions) -> None:
+    """Refuses options that contradict each other; the standard library is enough for that."""
+    if not options.watch or options.terminal:
+        for name in ("listen", "port"):
+            if getattr(options, name) != getattr(RunOptions, name):
+                instead = "leave --terminal out" if options.terminal else "add --watch"
+                raise UsageError(f"--{name} is for a page in the browser: {instead}, or leave --{name} out")
+    if options.board and options.robot != "emulated":
+        raise UsageError(f"--board {options.board} is for --robot emulated: add that, or leave --board out")
+    if options.bitrate != BIT_RATE and options.bus.partition(":")[0] in _NO_ADAPTER:
+        raise UsageError(
+            f"--bitrate is for an adapter that is not the kernel's, not for --bus {options.bus}: leave --bitrate out"
+        )
+    if options.is_fleet:
         _check_fleet(options)
     else:
-        check_robot(arguments.bus, arguments.robot, options.config.nodes)
-    return options.config
-
-
-def run_stages(arguments: argparse.Namespace) -> list[str]:
-    """The stages of tools/setup that a run needs."""
-    robot = {"qemu": ["images"], "emulated": ["images", "emulator"]}.get(arguments.robot, ["run"])
-    return robot if arguments.listen is None else [*robot, "classroom"]
+        check_robot(options.bus, options.robot, options.nodes)
 
 
 def _check_fleet(options: RunOptions) -> None:
     """Refuses what a fleet does not have."""
-    config, default = options.config, RunConfig()
-    fleets = "a fleet (more than 31 robots, or --worlds own)"
-    if config.bus not in {"auto", "none"}:
-        raise UsageError(f"{fleets} has no bus: leave --bus {config.bus} out, or run fewer robots in one world")
-    unsuited = {
-        "--robot": config.robot != default.robot,
-        "--node": config.node != default.node,
-        "--physics pymunk": config.physics == PYMUNK,
-        "--change": config.changes != default.changes,
-        "--fault": config.faults != default.faults,
-        "--memory": options.memory is not None,
-        "--compress-log": options.compress_log,
-        "--real-time": config.real_time,
-    }
-    for name in (name for name, given in unsuited.items() if given):
-        raise UsageError(f"{fleets} has no bus and keeps its memories in {FLEET_TABLE}: leave {name} out")
-
-
-def _check_bitrate(bitrate: int, bus: str) -> None:
-    """Refuses a bit rate where there is nothing to set it up in."""
-    if bitrate != BIT_RATE and bus.partition(":")[0] in _NO_ADAPTER:
-        raise UsageError(
-            f"--bitrate is for an adapter that is not the kernel's, not for --bus {bus}: leave --bitrate out"
-        )
-
-
-def _resolved(arguments: argparse.Namespace) -> dict[str, Any]:
-    """What the command line gives in another form than the configuration has it."""
-    return {"settings": dict(arguments.set), "board": arguments.board or ""}
-
-
-def _rules(texts: Sequence[str]) -> tuple[str, ...]:
-    """The rules that the command line gives for faults."""
-    if not texts:
-        return ()
-    from host_sim.faults.rule import read_rules
-
-    return tuple(rule for text in texts for rule in read_rules(text))
+    if options.watch:
+        raise UsageError(f"a fleet cannot be watched: take up to {NODE_MAX} robots in one world, or run it unwatched")
+    if options.bus not in {"auto", "none"}:
+        raise UsageError(f"{_FLEETS} has no bus: leave --bus {options.bus} out, or run fewer robots in one world")
+    rows = options_of(RunOptions)
+    unsuited = [_flag(it) for it, (its, row) in rows.items() if not row.fleet and getattr(options, it) != its.default]
+    unsuited += ["--physics pymunk"] if options.physics == PYMUNK else []
+    if unsuited:
+        raise UsageError(f"{_FLEETS} has no bus and keeps its memories in {FLEET_TABLE}: leave {unsuited[0]} out")

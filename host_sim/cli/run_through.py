@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from host_sim.cli.interruption import interrupted_between_ticks
 from host_sim.cli.outputs import Outputs
-from host_sim.cli.run_options import WatchOptions
+from host_sim.cli.run_options import RunOptions
 from host_sim.live.progress import Progress
 from host_sim.recording.summary import environment_line
 from host_sim.sim.make import start_robots
@@ -21,23 +21,23 @@ if TYPE_CHECKING:
 _PAUSE_STEP_S = 0.05
 
 
-def open_listener(stack: ExitStack, watch: WatchOptions | None) -> "Listener | None":
+def open_listener(stack: ExitStack, options: RunOptions) -> "Listener | None":
     """The listener for browsers; None if the run is not watched, or watched in the terminal."""
-    if watch is None or watch.terminal:
+    if not options.watch or options.terminal:
         return None
     from host_sim.live.listener import Listener  # a run that is not watched begins without the server
 
-    listener = Listener(watch.listen, watch.port)
+    listener = Listener(options.listen, options.port)
     stack.callback(listener.socket.close)
     return listener
 
 
 def run_through(outputs: Outputs, listener: "Listener | None") -> None:
     """Takes a run through its environments."""
-    if outputs.options.watch is None:
-        _run_unwatched(outputs)
+    if outputs.options.watch:
+        _show(outputs, listener)
     else:
-        _show(outputs, outputs.options.watch, listener)
+        _run_unwatched(outputs)
 
 
 def _run_unwatched(outputs: Outputs) -> None:
@@ -53,7 +53,7 @@ def _run_unwatched(outputs: Outputs) -> None:
                 if talks:
                     progress.clear()
                     print(environment_line(len(outputs.episodes), episode))
-                if outputs.options.config.real_time and len(outputs.episodes) < simulation.environments:
+                if outputs.options.real_time and len(outputs.episodes) < simulation.environments:
                     _pause(simulation)
     except BaseException:
         progress.clear()
@@ -61,7 +61,7 @@ def _run_unwatched(outputs: Outputs) -> None:
 
 
 def _pause(simulation: Simulation) -> None:
-    """Lets people see how an environment ended. No robot time passes, and nothing of it is logged."""
+    """Lets people see how an environment ended. Robot time stands still; nothing is logged."""
     from host_sim.live.paced_run import PAUSE_S
     from host_sim.live.robot_orders import discard_reports
 
@@ -96,7 +96,7 @@ def each(*watchers: Callable[[Simulation], object]) -> Callable[[Simulation], ob
     return watch
 
 
-def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") -> None:
+def _show(outputs: Outputs, listener: "Listener | None") -> None:
     """Runs with people watching: in the browser, or in the terminal if there is no listener."""
     from host_sim.live.paced_run import PacedRun
 
@@ -104,11 +104,11 @@ def _show(outputs: Outputs, watch: WatchOptions, listener: "Listener | None") ->
     live = PacedRun(
         simulation,
         outputs.recorder,
-        lambda seed: start_robots(simulation.clients, replace(options.config, seed=seed)),
+        lambda seed: start_robots(simulation.clients, replace(options, seed=seed)),
         episodes=outputs.episodes,
-        stays=watch.stays,
-        waits=listener is not None and (watch.stays or listener.is_open),
-        speed=watch.speed,
+        stays=options.stays,
+        waits=listener is not None and (options.stays or listener.is_open),
+        speed=options.speed,
     )
     if listener is None:
         from host_sim.live.terminal_view import watch_in_terminal

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import DEFAULT, add_command, check_outputs, number, output_of
+from host_sim.cli.run_options import add_option
 from host_sim.world.world_names import WORLD_NAMES
 
 if TYPE_CHECKING:
@@ -25,13 +26,13 @@ def add(commands: "Subparsers") -> None:
         "world",
         _world,
         summary="check a world, and draw one of its environments",
-        description="Checks a world, and says what an environment of it has. Exit code 2: there is a mistake in it.",
+        description="Checks a world and describes one of its environments. Exit code 2: it has a mistake.",
         epilog=_EXAMPLES,
         check=lambda arguments: check_outputs("world", Path(arguments.world), {"--png": arguments.png}),
     )
     add = parser.add_argument
     add("world", metavar="WORLD", help=f"one of {', '.join(WORLD_NAMES)}, or a file of your own, such as my.toml")
-    add("--seed", type=number(0, 2**32 - 1), default=1, metavar="SEED", help="the run's seed" + DEFAULT)
+    add_option(parser, "seed")
     add("--number", type=number(1, 1000), default=1, metavar="N", help="number of the environment" + DEFAULT)
     add("--png", type=output_of(".png"), metavar="FILE", help="draw it to FILE")
     add("--width", type=number(100, 4000), default=640, metavar="PX", help="width of the picture" + DEFAULT)

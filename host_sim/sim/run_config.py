@@ -1,11 +1,16 @@
-"""The configuration of a run, as data: seed, robots, and where they run."""
+"""The options of a run, a row each: the command line, its help text, the checks and `RunConfig` are made of them."""
 
-from dataclasses import dataclass, field
+from dataclasses import Field, dataclass, field, fields
+from functools import cache
+from typing import Any
 
-from host_sim.protocol.words import NODE_MAX, PARAMETERS
-from host_sim.transport.bit_rates import BIT_RATE
-from host_sim.world.physics_names import FAST, PYMUNK
-from host_sim.world.world_names import RANDOM
+from host_sim.backends.images import BOARDS
+from host_sim.base.errors import UsageError
+from host_sim.faults.rule import FAULT_NAMES
+from host_sim.protocol.words import NODE_MAX, PARAMETERS, PROFILES
+from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
+from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
+from host_sim.world.world_names import RANDOM, WORLD_NAMES
 
 ROBOTS = ("spawn", "external", "qemu", "emulated")
 """The ways to get a robot."""
@@ -16,62 +21,181 @@ FLEET_MAX = 10_000
 WORLDS = ("one", "own", "hall")
 """Whether the robots of a run share one world, each has its own, or all share a hall of as many as they need."""
 
+_SEEDS = (0, 2**32 - 1)
+
+
+@dataclass(frozen=True)
+class Option:
+    """A row of the table: what is known of an option beside its name, type and default.
+
+    Attributes:
+        text: What it is, for people.
+        limits: Its least and its largest value; None if it is not a number, or one of a few.
+        choices: The values to choose from; empty if there are others.
+        metavar: What stands for its value in a help text.
+        unset: What the default means, where its value does not say that.
+        flag: Its name on the command line, where that is not the field's.
+        const: The value where only the flag is given; None if there must be a value.
+        commands: The commands that have it.
+        fleet: Whether a fleet has it.
+    """
+
+    text: str
+    limits: tuple[float, float] | None = None
+    choices: tuple[Any, ...] = ()
+    metavar: str | None = None
+    unset: str = ""
+    flag: str = ""
+    const: str | None = None
+    commands: tuple[str, ...] = ("run", "watch")
+    fleet: bool = True
+
+    def allows(self, value: Any) -> bool:
+        """Whether a value is one of the choices and within the limits."""
+        if self.limits is not None:
+            return bool(self.limits[0] <= value <= self.limits[1])
+        return not self.choices or value in self.choices
+
+
+    @property
+    def range(self) -> str:
+        """The values that it may have, for people; empty if any."""
+        return "{:.10g}..{:.10g}".format(*self.limits) if self.limits else ", ".join(map(str, self.choices))
+
+
+def option(default: Any, text: str, **row: Any) -> Any:
+    """A field of a dataclass that is an option; the further arguments are those of `Option`."""
+    given: dict[str, Any] = {"default_factory": dict} if default == {} else {"default": default}
+    return field(metadata={"option": Option(text, **row)}, **given)
+
+
+@cache
+def options_of(config: Any) -> dict[str, tuple["Field[Any]", Option]]:
+    """The options of a configuration: for each name, its field and its row."""
+    return {it.name: (it, it.metadata["option"]) for it in fields(config) if "option" in it.metadata}
+
 
 @dataclass(frozen=True)
 class RunConfig:
-    """The configuration of a run. The command line checks the ranges.
+    """What a run is made of: its robots, their world, and how they are reached.
 
-    Attributes:
-        seed: Seed for environments and random turns, 0..2**32 - 1.
-        environments: Number of environments, one after the other.
-        world: Name of the world that they are drawn from, or path of a file that describes one.
-        limit_s: Time limit for each environment, s of robot time.
-        robots: Number of robots in each environment, at least 1.
-        worlds: One of `WORLDS`.
-        node: Node number of the first robot on the bus, 1..31; the others follow.
-        profile: Name of the robots' behaviour.
-        settings: Parameters to change from their defaults, by name.
-        bus: Where the robots are: none (in this process), fd (socket pairs), or python-can's INTERFACE:CHANNEL.
-        bitrate: Bits a second of the bus, for an adapter that is set up when opened.
-        robot: One of `ROBOTS`: spawn starts the firmware, external waits for a robot on the bus, qemu and emulated
-            run the flash image in QEMU or on an emulated board.
-        board: Name of the emulated board; empty for the first.
-        owner: Number of this simulator, 1..255, by which robots on a shared bus know whom they obey; 0: 1 for a robot
-            that is started here, one drawn from the seed for an external one.
-        reconnect_s: Time to wait for a bus or a serial line that is gone, s of wall-clock time.
-        physics: One of `PHYSICS`, which give the same bytes; None for pymunk on a CAN bus, and fast elsewhere.
-        unanswered_max: Largest share of ticks without an answer, %, with which a run in real time is sound.
-        gap_max_s: Likewise the longest time without an answer, s.
-        late_max: Likewise the share of ticks that this host begins late, %.
-        changes: What the world and the bodies are to meet with, as `host_sim.world.changes` has it.
-        faults: Faults to make on the way to the robots and back, as `host_sim.faults.rule` has them.
-        fault_seed: Seed for them.
-        real_time: Whether to run at wall-clock speed rather than in lockstep, as fast as possible.
+    Raises:
+        UsageError: A value is out of range, or not one of the choices.
     """
 
-    seed: int = 1
-    environments: int = 5
-    world: str = RANDOM
-    limit_s: float = 600.0
-    robots: int = 1
-    worlds: str = WORLDS[0]
-    node: int = 1
-    profile: str = "article"
-    settings: dict[str, int] = field(default_factory=dict)
-    bus: str = "none"
-    bitrate: int = BIT_RATE
-    robot: str = ROBOTS[0]
-    board: str = ""
-    owner: int = 0
-    reconnect_s: float = 10.0
-    unanswered_max: float = 10.0
-    gap_max_s: float = 1.0
-    late_max: float = 50.0
-    physics: str | None = None
-    changes: tuple[str, ...] = ()
-    faults: tuple[str, ...] = ()
-    fault_seed: int = 1
-    real_time: bool = False
+    seed: int = option(1, "seed for environments and random turns", limits=_SEEDS, metavar="SEED")
+    environments: int = option(5, "number of environments, one after the other", limits=(1, 1000), metavar="N")
+    world: str = option(
+        RANDOM,
+        f"world to draw environments from: {', '.join(WORLD_NAMES)}, or your own file, such as my.toml",
+        metavar="WORLD",
+    )
+    limit_s: float = option(
+        600.0, "time limit for each environment, s of robot time", limits=(0.02, 36000), metavar="S"
+    )
+    robots: int = option(
+        1, f"number of robots; more than {NODE_MAX} are a fleet and need no bus", limits=(1, FLEET_MAX), metavar="N"
+    )
+    worlds: str = option(
+        WORLDS[0],
+        "one: the robots share a world; own: each has its own; hall: they share a hall as large as they need",
+        choices=WORLDS,
+        unset=f"one for up to {NODE_MAX} robots, else own",
+        commands=("run",),
+    )
+    profile: str = option("article", "the robot's behaviour", choices=PROFILES)
+    settings: dict[str, int] = option(
+        {}, "set a parameter; may be repeated", flag="--set", metavar="NAME=VALUE", unset="the values below"
+    )
+    bus: str = option(
+        "none",
+        "how to reach the robot: none (in this process), fd (socket pair), python-can's INTERFACE:CHANNEL, or auto "
+        "(virtual CAN if available, else fd)",
+    )
+    bitrate: int = option(
+        BIT_RATE,
+        "bus bit rate, bit/s; only for adapters that python-can configures itself",
+        choices=BIT_RATES,
+        metavar="BITS",
+    )
+    robot: str = option(
+        ROBOTS[0],
+        "spawn: start the firmware here; external: wait for a robot on the bus; qemu, emulated: run the flash image "
+        "in QEMU or on an emulated board",
+        choices=ROBOTS,
+        fleet=False,
+    )
+    board: str = option("", "board for --robot emulated", choices=BOARDS, unset=BOARDS[0])
+    node: int = option(
+        1,
+        "the robot's node number on the bus; further robots get the next ones",
+        limits=(1, NODE_MAX),
+        metavar="NODE",
+        fleet=False,
+    )
+    owner: int = option(
+        0,
+        "owner ID of this simulator; a robot on a shared bus obeys only its owner",
+        limits=(1, 255),
+        metavar="N",
+        unset="1 for robots started here, drawn from the seed for external ones",
+    )
+    reconnect_s: float = option(
+        10.0, "how long to wait for a lost bus or adapter to come back, s", limits=(0, 3600), metavar="S"
+    )
+    unanswered_max: float = option(
+        10.0,
+        "real time: largest share of unanswered ticks, %; above it, the result is doubtful",
+        limits=(0, 100),
+        metavar="PERCENT",
+    )
+    gap_max_s: float = option(
+        1.0,
+        "real time: longest time without an answer, s; above it, the result is doubtful",
+        limits=(0, 3600),
+        metavar="S",
+    )
+    late_max: float = option(
+        50.0,
+        "real time: largest share of ticks that this host begins late, %; above it, the result is doubtful",
+        limits=(0, 100),
+        metavar="PERCENT",
+    )
+    physics: str | None = option(
+        None,
+        "physics engine: pymunk, the reference, or fast, which gives the same bytes in a fraction of the time",
+        choices=PHYSICS,
+        unset="pymunk on a CAN bus, else fast",
+    )
+    changes: tuple[str, ...] = option(
+        (),
+        "schedule a change: NAME@120s, NAME@env6 or NAME@env6+20s of robot time, where NAME is plant, grow, "
+        "swap-motors, mirror, stuck-on:SENSOR, stuck-off:SENSOR, noise:10/1000, weak-motor:left:60%, "
+        "swap-odometers, odometer:left:0%, false-beacon:100 or repair, and /2 at the end means only the second "
+        "robot; or a file with one change per line; may be repeated",
+        flag="--change",
+        metavar="CHANGE",
+        fleet=False,
+    )
+    faults: tuple[str, ...] = option(
+        (),
+        "inject a fault into the frames to or from the robot: NAME[:CHANCE%][:SIZE][@FIRST[-LAST]][/to|/from], where "
+        f"NAME is {', '.join(FAULT_NAMES)} and frames are counted from 1; @FILE: rules from a file; may be repeated",
+        flag="--fault",
+        metavar="RULE",
+        fleet=False,
+    )
+    fault_seed: int = option(1, "seed for the faults", limits=_SEEDS, metavar="SEED")
+    real_time: bool = option(
+        False, "run at wall-clock speed instead of as fast as possible", commands=("run",), fleet=False
+    )
+
+    def __post_init__(self) -> None:
+        table: Any = type(self)
+        for name, (it, row) in options_of(table).items():
+            value = getattr(self, name)
+            if value != it.default and not row.allows(value):
+                raise UsageError(f"{name} must be one of {row.range}, not {value!r}")
 
     @property
     def is_fleet(self) -> bool:

@@ -119,4 +119,4 @@ def test_fleets_are_for_run_only():
     done = octet("watch", "--robots", "32")
 
     assert done.returncode == 2
-    assert "1 to 31" in done.stderr
+    assert "up to 31 robots" in done.stderr

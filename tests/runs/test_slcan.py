@@ -114,7 +114,7 @@ def test_an_adapter_that_is_unplugged_and_plugged_in_again_is_waited_for(robot_o
     assert process.returncode == 1
     assert re.fullmatch(
         r"octet: the run is doubtful: its memory is in .*\n"
-        r"octet: the result is not to be trusted: at tick \d+ \(node 1\) the robot restarted.*\n",
+        r"octet: result unreliable: at tick \d+ \(node 1\) the robot restarted.*\n",
         errors,
     )
     assert "gone 1 time" in output
@@ -154,7 +154,7 @@ def test_a_robot_that_restarts_goes_on_with_its_memory_and_the_result_is_doubted
 
     _, errors = process.communicate(timeout=DEADLINE_S)
     assert process.returncode == 1
-    assert "not to be trusted: at tick" in errors
+    assert "result unreliable: at tick" in errors
     assert "its memory restored" in errors
     assert f"its memory is in {memory}.doubtful" in errors
     assert errors.count("\n") == 2
@@ -168,7 +168,7 @@ def test_watching_an_external_robot_is_in_real_time_on_its_own_clock(robot_on, c
 
     done = octet("run", "--watch", "--out", tmp_path, *words)
 
-    assert (done.returncode, "not to be trusted" in done.stderr) == (0, False), done.stderr
+    assert (done.returncode, "result unreliable" in done.stderr) == (0, False), done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
     assert summary["environments"][0]["ticks"] == 150
     assert summary["wall_s"] > 2.5

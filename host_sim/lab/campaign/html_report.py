@@ -37,7 +37,7 @@ _HEAD = (
 )
 _EXPLAINED = (
     "<p>Each cell says how a run ended: <em>went on</em> to its end; <em>ended</em> before it, with a reason; "
-    "<em>doubted</em>, where the run went on and says that its result is not to be trusted. It opens to what was "
+    "<em>doubted</em>, where the run went on and says that its result is unreliable. It opens to what was "
     "noticed, whether the robot took part again, the longest time for which wheels turned without a new drive, what "
     "was learned wrong, and the command that repeats the run. A green cell went on as if nothing had happened, a "
     "yellow one says what is wrong, or that the fault did not reach its receiver, and a red one is not as it should "

@@ -10,7 +10,8 @@ from collections.abc import Callable, Iterator
 from types import FrameType
 from typing import TYPE_CHECKING
 
-from host_sim.cli.parsing import add_bitrate, add_command, number
+from host_sim.cli.parsing import add_command, number
+from host_sim.cli.run_options import add_option
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
@@ -31,13 +32,13 @@ def add(commands: "Subparsers") -> None:
         _monitor,
         summary="show what is on a bus, live",
         description="Shows the robots on a bus, live: their state, rates, lost and damaged frames, and what looks\n"
-        "wrong. Where the output is no terminal, each frame is a line. Ctrl-C ends it.",
+        "wrong. Prints one line per frame if the output is not a terminal. Ctrl-C ends it.",
         epilog=_EXAMPLES,
     )
     add = parser.add_argument
     add("bus", metavar="BUS", help="any bus of python-can: INTERFACE:CHANNEL, such as socketcan:can0")
-    add("--all", action="store_true", help="other frames too; without it, the kernel keeps them away")
-    add_bitrate(parser)
+    add("--all", action="store_true", help="show all frames (default: only the robots'; the kernel filters the rest)")
+    add_option(parser, "bitrate")
     add(
         "--limit-s",
         type=number(0.1, 1e9, float),

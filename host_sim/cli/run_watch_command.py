@@ -1,0 +1,103 @@
+"""`tools/octet run` and `tools/octet watch`: a robot learns, while nobody or everybody looks on."""
+
+import argparse
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from host_sim.backends.images import BOARDS
+from host_sim.cli.parsing import add_command, parameter_table
+from host_sim.cli.run_options import RunOptions, add_options, run_options
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+
+_RUN_EXAMPLES = f"""\
+examples:
+  tools/run                                          one robot, five environments
+  tools/run --seed 7 --environments 1 --real-time    one environment, as fast as a real robot
+  tools/run --memory robot.mem                       resume with the memory in robot.mem, and save it there
+  tools/run --set turn_deg=20 --set boredom_limit=6  other parameters
+  tools/run --robots 4                               four robots in the same environments
+  tools/run --robots 1000                            a fleet: a thousand robots, each in its own world
+  tools/run --robot emulated --board {BOARDS[-1]}       the flash image on an emulated board
+  tools/run --bus socketcan:can0 --robot external --real-time
+                                                     a real robot on a real bus
+"""
+_WATCH_EXAMPLES = """\
+examples:
+  tools/octet watch                                  one robot, five environments
+  tools/octet watch --robots 3                       three robots in the same environments
+  tools/octet watch --seed 7 --memory robot.mem      other environments, with the memory in robot.mem
+  tools/octet watch --listen                         for other machines too: prints an address and a QR code
+  tools/octet watch --listen --robots 30             for a class: a robot for each page, and a board for all
+  tools/octet watch --terminal                       without a browser, for example over ssh
+"""
+_PROCESSES_MAX = 8
+"""Maximum number of robots of a watched run that have a process each, unless a bus is named."""
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the commands."""
+    _add(
+        commands,
+        "run",
+        summary="let a robot learn in simulated environments",
+        description="Runs the real firmware in random simulated environments, where it learns to find food.\n"
+        "`tools/run` is short for `tools/octet run`.",
+        examples=_RUN_EXAMPLES,
+    )
+    _add(
+        commands,
+        "watch",
+        summary="watch a robot learn in the browser, and interfere",
+        description="Shows a run in the browser, in real time, with controls. Ctrl-C ends it.",
+        examples=_WATCH_EXAMPLES,
+        watch=True,
+        stays=True,
+    )
+
+
+def _add(commands: "Subparsers", name: str, *, examples: str, summary: str, description: str, **others: bool) -> None:
+    def check(arguments: argparse.Namespace) -> None:
+        arguments.options = run_options(arguments, **others)
+
+    parser = add_command(
+        commands,
+        name,
+        lambda arguments: _conduct(arguments.options),
+        summary=summary,
+        description=description,
+        epilog=f"{parameter_table()}\n\n{examples}",
+        check=check,
+        stages=lambda arguments: arguments.options.stages,
+    )
+    add_options(parser, name)
+
+
+def _conduct(options: RunOptions) -> int:
+    from host_sim.cli.conduct import conduct
+
+    if options.is_fleet:
+        from host_sim.cli.fleet_run import conduct_fleet
+
+        conduct_fleet(options)
+    elif options.watch:
+        conduct(_watched(options))
+    else:
+        from host_sim.backends.bus_choice import choose_bus
+
+        conduct(replace(options, bus=choose_bus(options.bus, options.robot)))
+    return 0
+
+
+def _watched(options: RunOptions) -> RunOptions:
+    """A run that people watch.
+
+    The page sets the pace, so the robot waits for it (lockstep); an external robot has its own clock, and the page
+    follows. On a bus in a network namespace of its own, no browser could reach the page; a class needs no processes.
+    """
+    external = options.robot == "external"
+    speed = 1.0 if external or options.stays or options.real_time else 0.0
+    auto = "none" if options.robot == "spawn" and options.robots > _PROCESSES_MAX else "fd"
+    bus = auto if options.bus == "auto" else options.bus
+    return replace(options, bus=bus, speed=speed, real_time=external)
