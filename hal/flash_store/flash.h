@@ -25,9 +25,10 @@ int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 
 int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count);
         /* Writes count bytes, unit by unit, the lowest first: erased ones, or any with zeros. 0: they read back as written. Else -1: whatever is
-           there now, no other byte has changed. Takes under 0.2 ms for each 4 bytes. */
+           there now, no other byte has changed; where the supply is low, none at all. Takes under 0.2 ms for each 4 bytes. */
 
 int flash_erase(unsigned page);
-        /* 0: the whole page is erased. Else -1. Takes up to 0.8 s, and on some machines nothing else goes on meanwhile. */
+        /* 0: the whole page is erased. Else -1, with nothing done where the supply is low. Takes up to 0.5 s, and on some
+           machines nothing else goes on meanwhile. */
 
 #endif

@@ -10,7 +10,7 @@
  * that lost its power can leave a page that reads blank and soon loses what is written to it, so that a mark in the first place
  * tells an erase that came to its end; a blank page without one is erased again. The mark is overwritten with zeros before the
  * erase: one that is cut short cannot leave it standing. Because an erase stops the machine for up to
- * 0.8 s, it is left to the start, or to a moment when the wheels are at rest and no answer is awaited; until then the old
+ * 0.5 s, it is left to the start, or to a moment when the wheels are at rest and no answer is awaited; until then the old
  * memory is what a loss of power leaves.
  *
  * What the eight bytes mean is for the robot to judge: they are kept as they are, and no older record takes the place of one

@@ -22,6 +22,7 @@ uint32_t chip_reset_flags(void);
         /* RCC_CSR: what has reset the chip since the last call. */
 
 void pins_start(void);
-        /* Power for all peripherals in use; the pins of the board's LED, CAN and serial port as such. */
+        /* Power for all peripherals in use, and a watch over the supply, for flash.h; the pins of the board's LED, CAN and
+           serial port as such. */
 
 #endif

@@ -8,7 +8,7 @@ enum {
     WATCHDOG_FEED = 0xAAAA,
     WATCHDOG_ON = 0xCCCC,
     WATCHDOG_BY_32 = 3,
-    WATCHDOG_COUNTS = 2000,      /* 2 s at 32 kHz on an F4 or a G4, 1.6 s at 40 kHz on an F1 */
+    WATCHDOG_COUNTS = 2000,      /* by the data sheets 1.07..2.13 s on an F103, 1.36..3.76 s on an F405, 1.88..2.17 s on a G431 */
     WATCHDOG_WAIT_MAX = 200000   /* looks: its clock is slow, the change takes up to 5 periods of it */
 };
 

@@ -35,6 +35,7 @@ class Chip:
         gpio_gates: The gate of each port's clock, from port A.
         can_banks: Number of the filter banks of CAN.
         can_gate: The gate of CAN's clock.
+        power_gate: The gate of the clock of what watches the supply.
         usart_base: Where USART1 lies.
         usart_gate: The gate of USART1's clock.
         afio_gate: The gate of the clock of the alternate functions' registers; None if the chip has none.
@@ -55,12 +56,13 @@ class Chip:
     gpio_gates: Sequence[Gate]
     can_banks: int
     can_gate: Gate
+    power_gate: Gate
     usart_base: int
     usart_gate: Gate
     afio_gate: Gate | None = None
 
 
-WATCHDOG_BASE, CAN_BASE, AFIO_BASE = 0x40003000, 0x40006400, 0x40010000
+WATCHDOG_BASE, CAN_BASE, POWER_BASE, AFIO_BASE = 0x40003000, 0x40006400, 0x40007000, 0x40010000
 SYSTICK_BASE, SCB_BASE = 0xE000E010, 0xE000ED00
 """Where both chips have the same."""
 
@@ -87,6 +89,7 @@ STM32F405 = Chip(
     gpio_gates=[(0x30, port) for port in range(9)],
     can_banks=28,
     can_gate=(0x40, 25),
+    power_gate=(0x40, 28),
     usart_base=0x40011000,
     usart_gate=(0x44, 4),
 )
@@ -110,6 +113,7 @@ STM32F103 = Chip(
     gpio_gates=[(0x18, 2 + port) for port in range(5)],
     can_banks=14,
     can_gate=(0x1C, 25),
+    power_gate=(0x1C, 28),
     usart_base=0x40013800,
     usart_gate=(0x18, 14),
     afio_gate=(0x18, 0),

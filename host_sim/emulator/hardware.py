@@ -8,6 +8,7 @@ from host_sim.emulator.chips import (
     AFIO_BASE,
     CAN_BASE,
     GPIO_STRIDE,
+    POWER_BASE,
     SCB_BASE,
     SYSTICK_BASE,
     WATCHDOG_BASE,
@@ -20,7 +21,7 @@ from host_sim.emulator.flash import FlashFaults
 from host_sim.emulator.rcc import RccFaults
 from host_sim.emulator.registers import AddressSpace, Peripheral, Register, Window
 from host_sim.emulator.serial import SlcanLine, Usart
-from host_sim.emulator.system import SystemControl, SysTick, Watchdog
+from host_sim.emulator.system import PowerControl, SystemControl, SysTick, Watchdog
 
 _WINDOWS = ((0x40000000, 0x80000), (0xE000E000, PAGE))
 """(base, bytes) of where registers can be."""
@@ -51,6 +52,7 @@ class Hardware:
         can: The CAN controller and its bus.
         usart: The serial port, with slcan on its line.
         flash: The flash.
+        power: What watches the supply.
         pins: The ports, from A.
         rcc: The clocks.
         watchdog: The independent watchdog.
@@ -85,6 +87,7 @@ class Hardware:
         self.can = BxCan(self.clock, self.rcc.apb1_hz, chip.can_banks, faults.can, heard)
         self.usart = Usart(self.clock, self.rcc.apb2_hz, SlcanLine(heard).take)
         self.space = AddressSpace(self.clock)
+        self.power = PowerControl()
         self._systick = SysTick(self.clock)
         self._scb = SystemControl(chip.cpuid, lambda: restart("software"))
         self.watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))
@@ -139,9 +142,13 @@ class Hardware:
 
     def _gated(self) -> list[tuple[int, Peripheral]]:
         chip = self.chip
-        gated: list[tuple[int, Peripheral]] = [(CAN_BASE, self.can), (chip.usart_base, self.usart)]
+        gated: list[tuple[int, Peripheral]] = [
+            (CAN_BASE, self.can),
+            (POWER_BASE, self.power),
+            (chip.usart_base, self.usart),
+        ]
         gated += [(chip.gpio_base + GPIO_STRIDE * number, port) for number, port in enumerate(self.pins)]
-        gates = [chip.can_gate, chip.usart_gate, *chip.gpio_gates]
+        gates = [chip.can_gate, chip.power_gate, chip.usart_gate, *chip.gpio_gates]
         if chip.afio_gate is not None:
             gated.append((AFIO_BASE, Peripheral("AFIO", {0x00: Register("EVCR"), 0x04: Register("MAPR")})))
             gates.append(chip.afio_gate)

@@ -12,6 +12,7 @@ _START, _FEED, _UNLOCK, _RELOAD_MAX = 0xCCCC, 0xAAAA, 0x5555, 0xFFF
 _KEY, _KEY_MASK, _SYSRESETREQ, _AIRCR_READ = 0x05FA0000, 0xFFFF0000, 1 << 2, 0xFA050000
 _FORCED, _BFARVALID = 1 << 30, 1 << 15
 _PINS = 0xFFFF
+_PVD_ON, _PVD_LEVEL_SHIFT, _PVD_LOW, _SUPPLY_MV = 1 << 4, 5, 1 << 2, 3300
 
 
 class SysTick(Peripheral):
@@ -136,6 +137,25 @@ class Watchdog(Peripheral):
             self._expires = NEVER
             self._bite()
         return self._expires
+
+
+class PowerControl(Peripheral):
+    """Compares the supply with a voltage (RM0090 5, RM0008 5).
+
+    Attributes:
+        supply_mv: The supply, mV.
+    """
+
+    def __init__(self) -> None:
+        """A good supply."""
+        self.supply_mv = _SUPPLY_MV
+        self._cr = Register("CR")
+        super().__init__("PWR", {0x0: self._cr, 0x4: Register("CSR", on_read=self._read_csr)})
+
+    def _read_csr(self) -> int:
+        """The highest level is 2.9 V in both families; the others are as in an F1."""
+        level_mv = 2200 + 100 * (self._cr.value >> _PVD_LEVEL_SHIFT & 7)
+        return _PVD_LOW if self._cr.value & _PVD_ON and self.supply_mv < level_mv else 0
 
 
 class SystemControl(Peripheral):

@@ -13,6 +13,13 @@ def told(talk: Talk) -> dict[str, int]:
     return {names[said.signals["name"]]: said.signals["value"] for said in talk.heard if said.name == "CRASH"}
 
 
+VTOR, FLASH = 0xE000ED08, 0x08000000
+
+
+def test_its_own_vectors_are_in_force_whoever_started_it(name):
+    assert talk_to(name).board.hardware.space.read(VTOR, 4) == FLASH
+
+
 def test_a_crash_is_told_afterwards(name):
     talk = talk_to(name)
     talk.start()

@@ -61,6 +61,21 @@ def test_a_memory_that_cannot_be_stored_is_counted_and_the_robot_goes_on(name):
     assert talk.board.resets == []
 
 
+def test_nothing_is_written_while_the_supply_is_low_and_all_is_when_it_is_good(name):
+    talk = talk_to(name)
+    talk.board.hardware.power.supply_mv = 2800
+    operations = talk.board.hardware.flash.operations
+    learn(talk, Side.LEFT)
+    talk.wait(1.0)
+
+    assert talk.board.hardware.flash.operations == operations
+    assert talk.ask()["unsaved"] > 0
+    talk.board.hardware.power.supply_mv = 3300
+    learn(talk, Side.RIGHT)
+    talk.wait(1.0)
+    assert memory_after_power_up(talk) == (0, 2, 0, 0, 0, 0, 0, 0)
+
+
 def test_a_loss_of_power_while_storing_leaves_the_old_memory_or_the_new(name):
     found, cut_at, operations = set(), 0, 1
     while cut_at < operations:

@@ -17,7 +17,7 @@ enum reset_cause mcu_reset_cause(void);
         /* What has reset the chip since the last call. A reset that the core asked for is RESET_SOFTWARE. */
 
 void mcu_feed(void);
-        /* Without this the watchdog resets the chip after 2 s, give or take a third. */
+        /* Without this the watchdog resets the chip, after 1 to 4 s. */
 
 void mcu_light(bool on);
         /* The board's LED. */

@@ -49,6 +49,7 @@ static void restart(void)
 
 void startup_reset(void)
 {
+    SCB.vtor = (uint32_t)(uintptr_t)&vectors;   /* a boot loader's may be in force */
     memcpy(data_start, data_image, (size_t)((char *)data_end - (char *)data_start));
     memset(bss_start, 0, (size_t)((char *)bss_end - (char *)bss_start));
     systick_start(mcu_start());

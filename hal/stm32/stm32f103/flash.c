@@ -15,7 +15,8 @@ enum {
     CR_WRITE = 1 << 0,
     CR_ERASE = 1 << 1,
     CR_START = 1 << 6,
-    CR_LOCK = 1 << 7
+    CR_LOCK = 1 << 7,
+    SUPPLY_LOW = 1 << 2         /* in CSR: the supply, compared with what pins.c says */
 };
 
 extern volatile uint16_t STORE[FLASH_PAGES][PAGE_SIZE / 2];   /* written by halves of a word */
@@ -44,12 +45,14 @@ int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
     return 0;
 }
 
-static void unlock(uint32_t setting)
+/* 0, or -1: the supply is too low to begin a write or an erase. */
+static int unlock(uint32_t setting)
 {
     FLASH.keyr = 0x45670123;
     FLASH.keyr = 0xCDEF89ABu;
     FLASH.sr = SR_ERRORS | SR_DONE;
     FLASH.cr = setting;
+    return PWR.csr & SUPPLY_LOW ? -1 : 0;
 }
 
 /* Waits for what is under way. */
@@ -83,9 +86,8 @@ static int write_half(volatile uint16_t *at, uint16_t half)
 int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
 {
     volatile uint16_t *at = &STORE[page][offset / 2];
-    int result = 0;
+    int result = unlock(CR_WRITE);
 
-    unlock(CR_WRITE);
     for (uint32_t i = 0; i < count / 2 && result == 0; i++)
         result = write_half(&at[i], (uint16_t)(words[i / 2] >> 16 * (i % 2)));
     return lock(result);
@@ -93,7 +95,8 @@ int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t
 
 int flash_erase(unsigned page)
 {
-    unlock(CR_ERASE);
+    if (unlock(CR_ERASE) < 0)
+        return lock(-1);
     FLASH.ar = (uint32_t)(uintptr_t)STORE[page];
     FLASH.cr = CR_ERASE | CR_START;
     return lock(wait(ERASE_MS));

@@ -5,6 +5,8 @@
 
 enum {
     CAN1_ON = 1u << 25,           /* in apb1enr */
+    PWR_ON = 1u << 28,
+    BELOW_2_9_V = 1u << 4 | 7u << 5,
     AFIO_ON = 1u << 0,            /* in apb2enr */
     GPIO_A_TO_C = 7u << 2,
     USART1_ON = 1u << 14,
@@ -32,7 +34,8 @@ static void listen_on(struct pin pin)
 void pins_start(void)
 {
     RCC.apb2enr |= AFIO_ON | GPIO_A_TO_C | USART1_ON;
-    RCC.apb1enr |= CAN1_ON;
+    RCC.apb1enr |= CAN1_ON | PWR_ON;
+    PWR.cr |= BELOW_2_9_V;
     AFIO.mapr = MAPR_CAN_B8_B9;
     listen_on(BOARD_CAN_RX);
     listen_on(BOARD_UART_RX);

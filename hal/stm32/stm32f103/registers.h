@@ -45,7 +45,13 @@ struct afio_registers {       /* 9.5 */
     uint32_t mapr;            /* rw, SWJ bits w   9.4.2 */
 };
 
+struct power_registers {      /* 5.4 */
+    uint32_t cr;              /* rw   5.4.1 */
+    uint32_t csr;             /* r but for bit 8   5.4.2 */
+};
+
 extern volatile struct rcc_registers RCC;
+extern volatile struct power_registers PWR;
 extern volatile struct flash_registers FLASH;
 extern volatile struct gpio_port GPIO[5];   /* A..E */
 extern volatile struct afio_registers AFIO;

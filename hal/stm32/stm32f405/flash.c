@@ -16,7 +16,8 @@ enum {
     CR_ERASE = 1 << 1,
     CR_SECTOR_AT = 3,
     CR_WORDS = 2 << 8,         /* four bytes at once, for 2.7 V and more */
-    CR_START = 1 << 16
+    CR_START = 1 << 16,
+    SUPPLY_LOW = 1 << 2         /* in CSR: the supply, compared with what pins.c says */
 };
 
 static const uint32_t CR_LOCK = 1u << 31;
@@ -45,12 +46,14 @@ int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
     return 0;
 }
 
-static void unlock(uint32_t setting)
+/* 0, or -1: the supply is too low to begin a write or an erase. */
+static int unlock(uint32_t setting)
 {
     FLASH.keyr = 0x45670123;
     FLASH.keyr = 0xCDEF89ABu;
     FLASH.sr = SR_ERRORS | SR_DONE;
     FLASH.cr = CR_WORDS | setting;
+    return PWR.csr & SUPPLY_LOW ? -1 : 0;
 }
 
 /* Waits for what is under way. */
@@ -83,9 +86,8 @@ static int write_word(volatile uint32_t *at, uint32_t word)
 int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
 {
     volatile uint32_t *at = &STORE[page][offset / 4];
-    int result = 0;
+    int result = unlock(CR_WRITE);
 
-    unlock(CR_WRITE);
     for (uint32_t i = 0; i < count / 4 && result == 0; i++)
         result = write_word(&at[i], words[i]);
     return lock(result);
@@ -95,7 +97,8 @@ int flash_erase(unsigned page)
 {
     uint32_t setting = CR_ERASE | (FIRST_SECTOR + page) << CR_SECTOR_AT;
 
-    unlock(setting);
+    if (unlock(setting) < 0)
+        return lock(-1);
     FLASH.cr = CR_WORDS | setting | CR_START;
     return lock(wait(ERASE_MS));
 }

@@ -5,6 +5,8 @@
 enum {
     GPIO_A_TO_C = 7,              /* in ahb1enr */
     CAN1_ON = 1u << 25,           /* in apb1enr */
+    PWR_ON = 1u << 28,
+    BELOW_2_9_V = 1u << 4 | 7u << 5,
     USART1_ON = 1u << 4,          /* in apb2enr */
     AF_USART1 = 7,
     AF_CAN1 = 9
@@ -13,7 +15,8 @@ enum {
 void pins_start(void)
 {
     RCC.ahb1enr |= GPIO_A_TO_C;
-    RCC.apb1enr |= CAN1_ON;
+    RCC.apb1enr |= CAN1_ON | PWR_ON;
     RCC.apb2enr |= USART1_ON;
+    PWR.cr |= BELOW_2_9_V;
     gpio_start(AF_CAN1, AF_USART1);
 }

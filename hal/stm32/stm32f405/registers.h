@@ -27,7 +27,13 @@ struct flash_registers {      /* 3.9.8 */
     uint32_t cr;              /* rw once unlocked, STRT w1s   3.9.5 */
 };
 
+struct power_registers {      /* 5.5 */
+    uint32_t cr;              /* rw, not 0 after a reset   5.5.1 */
+    uint32_t csr;             /* r but for bits 8, 9   5.5.2 */
+};
+
 extern volatile struct rcc_registers RCC;
+extern volatile struct power_registers PWR;
 extern volatile struct flash_registers FLASH;
 
 #endif

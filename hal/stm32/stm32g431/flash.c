@@ -21,7 +21,8 @@ enum {
     CR_WRITE = 1 << 0,
     CR_ERASE = 1 << 1,
     CR_PAGE_AT = 3,
-    CR_START = 1 << 16
+    CR_START = 1 << 16,
+    SUPPLY_LOW = 1 << 11         /* in SR2: the supply, compared with what pins.c says */
 };
 
 static const uint32_t CR_LOCK = 1u << 31, ECCR_TWO_BITS = 1u << 31;
@@ -66,12 +67,14 @@ int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
     return unreadable || FLASH.eccr & ECCR_TWO_BITS ? -1 : 0;
 }
 
-static void unlock(uint32_t setting)
+/* 0, or -1: the supply is too low to begin a write or an erase. */
+static int unlock(uint32_t setting)
 {
     FLASH.keyr = 0x45670123;
     FLASH.keyr = 0xCDEF89ABu;
     FLASH.sr = SR_ERRORS | SR_DONE;
     FLASH.cr = setting;
+    return PWR.sr2 & SUPPLY_LOW ? -1 : 0;
 }
 
 /* Waits for what is under way. */
@@ -109,9 +112,8 @@ static bool reads_back(unsigned page, uint32_t offset, const uint32_t words[2])
 
 int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
 {
-    int result = 0;
+    int result = unlock(CR_WRITE);
 
-    unlock(CR_WRITE);
     for (uint32_t done = 0; done < count && result == 0; done += UNIT) {
         result = write_unit(&STORE[page][(offset + done) / 4], &words[done / 4]);
         if (result == 0 && !reads_back(page, offset + done, &words[done / 4]))
@@ -124,7 +126,8 @@ int flash_erase(unsigned page)
 {
     uint32_t setting = CR_ERASE | (FIRST_PAGE + page) << CR_PAGE_AT;
 
-    unlock(setting);
+    if (unlock(setting) < 0)
+        return lock(-1);
     FLASH.cr = setting | CR_START;
     return lock(wait(ERASE_MS));
 }

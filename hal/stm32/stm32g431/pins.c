@@ -6,6 +6,8 @@ enum {
     GPIO_A_TO_C = 7,              /* in ahb2enr */
     FDCAN_ON = 1u << 25,          /* in apb1enr1 */
     USART2_ON = 1u << 17,
+    PWR_ON = 1u << 28,
+    BELOW_2_9_V = 1u << 0 | 6u << 1,
     CCIPR_FDCAN_PCLK1 = 2u << 24, /* else straight from the crystal, which may not be there */
     AF_USART2 = 7,
     AF_FDCAN1 = 9
@@ -15,6 +17,7 @@ void pins_start(void)
 {
     RCC.ahb2enr |= GPIO_A_TO_C;
     RCC.ccipr = CCIPR_FDCAN_PCLK1;
-    RCC.apb1enr1 |= FDCAN_ON | USART2_ON;
+    RCC.apb1enr1 |= FDCAN_ON | USART2_ON | PWR_ON;
+    PWR.cr2 |= BELOW_2_9_V;
     gpio_start(AF_FDCAN1, AF_USART2);
 }

@@ -42,7 +42,17 @@ struct flash_registers {      /* 5.7 */
     uint32_t eccr;            /* flags w1c, address r   error correction */
 };
 
+struct power_registers {      /* 6.4 */
+    uint32_t cr1;             /* rw */
+    uint32_t cr2;             /* rw   6.4.2 */
+    uint32_t cr3;             /* rw */
+    uint32_t cr4;             /* rw */
+    uint32_t sr1;             /* r */
+    uint32_t sr2;             /* r   6.4.6 */
+};
+
 extern volatile struct rcc_registers RCC;
+extern volatile struct power_registers PWR;
 extern volatile struct flash_registers FLASH;
 
 #endif

@@ -16,7 +16,13 @@ typedef uint32_t store_word;
 static const uint32_t LOCK = 1u << 31;
 
 volatile struct flash_registers FLASH;
+volatile struct power_registers PWR;
 volatile store_word STORE[FLASH_PAGES][STORE_WORDS];
+
+static void supply(bool low)
+{
+    PWR.csr = low ? 1u << 2 : ~(1u << 2);
+}
 
 static int page_asked_for(void)
 {

@@ -31,6 +31,7 @@ static void model_reset(void)
 {
     memset(&model, 0, sizeof model);
     memset((void *)&FLASH, 0, sizeof FLASH);
+    supply(false);
     memset((void *)STORE, 0xFF, sizeof STORE);
     remember();
     FLASH.cr = LOCK;

@@ -9,12 +9,15 @@ enum { CAN_FUNCTION = 9, UART_FUNCTION = 7, LIT = 1 << 5, DARK = 1 << 21 };
 static const uint32_t MODES_A = 0xABFFFFFF;   /* after a reset: analog, but for the debugger's */
 
 volatile struct rcc_registers RCC;
+volatile struct power_registers PWR;
 
 /* And CAN runs from the bus clock. */
 static void assert_powered(void)
 {
     TEST_ASSERT_EQUAL_HEX32(7, RCC.ahb2enr);
-    TEST_ASSERT_EQUAL_HEX32(1 << 25 | 1 << 17, RCC.apb1enr1);
+    TEST_ASSERT_EQUAL_HEX32(1 << 25 | 1 << 17 | 1 << 28, RCC.apb1enr1);
+    TEST_ASSERT_EQUAL_HEX32(6 << 1 | 1 << 0, PWR.cr2);
+    TEST_ASSERT_EQUAL_HEX(0x14, offsetof(struct power_registers, sr2));
     TEST_ASSERT_EQUAL_HEX32(2u << 24, RCC.ccipr);   /* and nothing else does not */
 }
 

@@ -89,6 +89,15 @@ TEST(errors_left_over_from_before_fail_nothing)
     TEST_ASSERT_EQUAL(0, erase(0));
 }
 
+TEST(while_the_supply_is_low_nothing_is_begun)
+{
+    supply(true);
+    TEST_ASSERT_EQUAL(-1, write_all(0, 0));
+    TEST_ASSERT_EQUAL(-1, erase(0));
+    TEST_ASSERT_EQUAL_UINT(0, model.operations);
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, (const void *)STORE[0], PAGE_BYTES);
+}
+
 TEST(an_operation_is_waited_for_as_long_as_it_takes_and_no_longer)
 {
     uint32_t start = model.now_ms;

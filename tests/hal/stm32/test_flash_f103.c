@@ -10,6 +10,7 @@
 enum { HALVES = 512, LOCK = 1 << 7 };
 
 volatile struct flash_registers FLASH;
+volatile struct power_registers PWR;
 volatile uint16_t STORE[FLASH_PAGES][HALVES];
 
 static struct {

@@ -12,6 +12,7 @@ enum { PORTS = 5, FLOATING = 4, PULLED = 8, OUTPUT_2_MHZ = 2, ALTERNATE_50_MHZ =
 static const uint32_t ALL_FLOATING = 0x44444444;   /* as after a reset */
 
 volatile struct rcc_registers RCC;
+volatile struct power_registers PWR;
 volatile struct gpio_port GPIO[PORTS];
 volatile struct afio_registers AFIO;
 
@@ -37,6 +38,7 @@ TEST(the_registers_lie_where_the_manual_has_them)
     TEST_ASSERT_EQUAL_HEX(0x18, offsetof(struct rcc_registers, apb2enr));
     TEST_ASSERT_EQUAL_HEX(0x1C, offsetof(struct rcc_registers, apb1enr));
     TEST_ASSERT_EQUAL_HEX(0x04, offsetof(struct afio_registers, mapr));
+    TEST_ASSERT_EQUAL_HEX(0x04, offsetof(struct power_registers, csr));
 }
 
 TEST(can_and_the_serial_port_have_their_pins)
@@ -67,7 +69,8 @@ TEST(no_other_pin_is_touched)
 TEST(what_is_used_has_power)
 {
     TEST_ASSERT_EQUAL_HEX32(1 << 0 | 7 << 2 | 1 << 14, RCC.apb2enr);
-    TEST_ASSERT_EQUAL_HEX32(1 << 25, RCC.apb1enr);
+    TEST_ASSERT_EQUAL_HEX32(1 << 25 | 1 << 28, RCC.apb1enr);
+    TEST_ASSERT_EQUAL_HEX32(7 << 5 | 1 << 4, PWR.cr);
 }
 
 TEST(the_led_is_lit_by_a_low_pin)
