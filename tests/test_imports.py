@@ -108,6 +108,7 @@ ELSEWHERE = {
     "pandas",
     "pyarrow",
     "pycparser",
+    "rich",
     "subprocess",
     "tomllib",
 }

@@ -2,13 +2,14 @@
 
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.base.atomic_file import write_bytes
+from host_sim.cli.progress_line import ProgressLine
 from host_sim.cli.run_options import FLEET_TABLE, RunOptions
 from host_sim.recording.fleet_summary import FleetSummary, environment_line, summarize_fleet, table
 from host_sim.recording.run_folder import run_folder
@@ -22,7 +23,6 @@ from host_sim.world.worlds import world_of
 SUMMARY, PICTURE, PAGE = "summary.json", "fleet.png", "fleet.html"
 """The files of a fleet in its output folder, beside its table."""
 
-_EVERY_S = 0.25
 _WHERE = {"one": "all in one world", "own": "each in its own world", "hall": "all in one hall"}
 
 
@@ -33,12 +33,11 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
         UsageError: There is no such world; nothing was changed.
         OctetError: The run could not be made.
     """
-    config = options
+    config, line = options, ProgressLine(shown=options.talks)
     world_of(config.world)  # a mistake in it is found before anything is begun
     results: list[FleetResult] = []
     samples: list[NDArray[np.int64]] = []
-    progress = _Progress(options, results)
-    run = run_fleet(config, progress, samples)
+    run = run_fleet(config, _progress_shown(line, config, results), samples)
     with run_folder(options.out):
         if options.talks:
             what = f"{config.robots} robots, {_WHERE[config.worlds]}, profile {config.profile}"
@@ -46,7 +45,7 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
         began = time.monotonic()
         for result in run:
             results.append(result)  # noqa: PERF402 - the progress reads it meanwhile
-        progress.clear()
+        line.clear()
         summary = summarize_fleet(config, results, SimParams.tick_s, time.monotonic() - began)
         write_bytes(options.out / FLEET_TABLE, table(results).encode())
         _draw(options.out / PICTURE, config, results)
@@ -57,28 +56,18 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
     return summary
 
 
-class _Progress:
-    """A line on a terminal, rewritten during the run."""
+def _progress_shown(
+    line: ProgressLine, config: RunOptions, results: Sequence[FleetResult]
+) -> Callable[[int], object]:
+    """A function that shows how far a fleet has come, given the ticks of all its robots."""
+    planned, began = config.robots * config.environments, time.monotonic()
 
-    def __init__(self, options: RunOptions, results: Sequence[FleetResult]) -> None:
-        config = options
-        self._planned, self._results = config.robots * config.environments, results
-        self._shown = options.talks and sys.stderr.isatty()
-        self._began = self._then = time.monotonic()
+    def show(ticks: int) -> None:
+        if line.is_due():
+            speed = ticks * SimParams.tick_s / (time.monotonic() - began)
+            line.show(f"{len(results)} of {planned} environments   {speed:.0f} x real time")
 
-    def __call__(self, ticks: int) -> None:
-        now = time.monotonic()
-        if not self._shown or now - self._then < _EVERY_S:
-            return
-        self._then = now
-        speed = ticks * SimParams.tick_s / (now - self._began)
-        sys.stderr.write(f"\r\x1b[K{len(self._results)} of {self._planned} environments   {speed:.0f} x real time")
-        sys.stderr.flush()
-
-    def clear(self) -> None:
-        if self._shown:
-            sys.stderr.write("\r\x1b[K")
-            sys.stderr.flush()
+    return show
 
 
 def _draw(path: Path, config: RunConfig, results: Sequence[FleetResult]) -> None:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 from host_sim.cli.interruption import interrupted_between_ticks
 from host_sim.cli.outputs import Outputs
+from host_sim.cli.progress_line import ProgressLine
 from host_sim.cli.run_options import RunOptions
-from host_sim.live.progress import Progress
+from host_sim.protocol.memory_kinds import sides_of
 from host_sim.recording.summary import environment_line
 from host_sim.sim.make import start_robots
 from host_sim.sim.simulation import Simulation
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from host_sim.live.listener import Listener
 
 _PAUSE_STEP_S = 0.05
+_MEMORIES_MAX = 4
+_SIGNS = ".LR"
+"""What a cell knows: nothing, left or right."""
 
 
 def open_listener(stack: ExitStack, options: RunOptions) -> "Listener | None":
@@ -42,10 +46,10 @@ def run_through(outputs: Outputs, listener: "Listener | None") -> None:
 
 def _run_unwatched(outputs: Outputs) -> None:
     """Runs all environments, as fast as possible or in real time."""
-    progress, simulation, talks = Progress(), outputs.simulation, outputs.options.talks
+    simulation, talks = outputs.simulation, outputs.options.talks
+    progress = ProgressLine(shown=talks)
     _say_refused(simulation, progress.clear)
-    if talks:
-        simulation.watch = each(simulation.watch, progress)
+    simulation.watch = each(simulation.watch, _progress_shown(progress))
     try:
         with interrupted_between_ticks(simulation):
             for episode in simulation.run():
@@ -58,6 +62,27 @@ def _run_unwatched(outputs: Outputs) -> None:
     except BaseException:
         progress.clear()
         raise
+
+
+def _progress_shown(line: ProgressLine) -> Callable[[Simulation], object]:
+    """A function that shows how far a run has come."""
+    began = time.monotonic()
+
+    def show(simulation: Simulation) -> None:
+        if line.is_due():
+            robot_s = simulation.tick * simulation.params.tick_s
+            memories = " ".join(
+                "".join(_SIGNS[side] for side in sides_of(client.memory))
+                for client in simulation.clients[:_MEMORIES_MAX]
+            )
+            eaten = simulation.arena.food.eaten
+            line.show(
+                f"environment {simulation.record.begun[-1].number} of {simulation.environments}   "
+                f"food {sum(eaten)} of {len(eaten)}   memory {memories}   {robot_s:.0f} s   "
+                f"{robot_s / (time.monotonic() - began):.0f} x real time"
+            )
+
+    return show
 
 
 def _pause(simulation: Simulation) -> None:

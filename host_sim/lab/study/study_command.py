@@ -101,18 +101,19 @@ def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
 
 
 def with_progress(trials: "Sequence[Trial]", workers: "Workers", chunk: int = 0) -> "Iterator[Sequence[Run]]":
-    """Makes runs, with a progress bar."""
-    from host_sim.cli.progress_bar import ProgressBar
+    """Makes runs, with a progress line."""
+    from host_sim.cli.progress_line import ProgressLine
     from host_sim.lab.study.workers import run_all
 
-    bar = ProgressBar(len(trials), "runs")
-    bar.add(0)
+    line, done = ProgressLine(len(trials)), 0
     try:
         for runs in run_all(trials, workers, chunk):
-            bar.add(len(runs))
+            done += len(runs)
+            if line.is_due():
+                line.show("runs", done)
             yield runs
     finally:
-        bar.clear()
+        line.clear()
 
 
 class _Keeper:
