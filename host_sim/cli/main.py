@@ -5,7 +5,9 @@ Each module NAME_command of this package, or of a folder in host_sim/lab, adds a
 
 import argparse
 import contextlib
+import errno
 import importlib
+import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -15,9 +17,10 @@ from typing import NoReturn
 
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.cli.parsing import Parser
-from host_sim.cli.standard_streams import drop_output, is_full, open_closed
 
 _ROOMS = ("cli", "lab/*")
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+
 
 class _EndedBySignal(KeyboardInterrupt):
     """SIGTERM or SIGHUP: ends a command as Ctrl-C does."""
@@ -70,7 +73,7 @@ def judge(arguments: Sequence[str]) -> Sequence[str]:
 
 def _run(action: Callable[[], int]) -> int:
     """Does something; what goes wrong is told in a line. Returns the exit code."""
-    open_closed()
+    _open_closed()
     with _signals_raised():
         try:
             return action()
@@ -78,12 +81,12 @@ def _run(action: Callable[[], int]) -> int:
             print(f"octet: {error}", file=sys.stderr)
             return error.exit_code
         except BrokenPipeError:  # the reader of standard output has closed it
-            drop_output()
+            _drop_output()
             return 1
         except OSError as error:
-            if not is_full(error):
+            if not _is_full(error):
                 raise
-            drop_output()
+            _drop_output()
             print(f"octet: cannot write to standard output: {error.strerror}", file=sys.stderr)
             return 1
         except KeyboardInterrupt as end:
@@ -128,3 +131,31 @@ def _modules_for(arguments: Sequence[str]) -> list[str]:
     files = sorted((file for room in _ROOMS for file in top.glob(f"{room}/*_command.py")), key=lambda file: file.stem)
     called = [file for file in files if arguments and arguments[0] in file.stem.split("_")[:-1]]
     return [".".join((top.name, *file.relative_to(top).with_suffix("").parts)) for file in called or files]
+
+
+def _open_closed() -> None:
+    """Opens the null device for each stream that is closed: else a file of the run would get the stream's number."""
+    for number in filter(_is_closed, range(3)):
+        os.dup2(os.open(os.devnull, os.O_RDWR), number)
+        os.set_inheritable(number, True)
+    sys.stdin = sys.stdin or open(0, closefd=False)  # noqa: SIM115 - as long as the process lasts
+    sys.stdout = sys.stdout or open(1, "w", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.stderr or open(2, "w", closefd=False)  # noqa: SIM115
+
+
+def _is_full(error: OSError) -> bool:
+    """Whether standard output takes no more. An error of a file that a command writes names the file."""
+    return error.filename is None and error.errno in _FULL
+
+
+def _drop_output() -> None:
+    """Drops what is not written to standard output yet: it must not fail a second time at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _is_closed(number: int) -> bool:
+    try:
+        os.fstat(number)
+    except OSError:
+        return True
+    return False

@@ -39,7 +39,7 @@ def add(commands: "Subparsers") -> None:
 
 
 def _world(arguments: argparse.Namespace) -> int:
-    from host_sim.report.world_picture import write_world_picture
+    from host_sim.report.drawing import write_world_picture
     from host_sim.world.worlds import world_of
 
     world = world_of(arguments.world)

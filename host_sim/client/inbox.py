@@ -5,10 +5,9 @@ from dataclasses import dataclass, field
 
 from host_sim.base.errors import SessionLostError
 from host_sim.base.robot_io import REST, Drive
-from host_sim.client.asked_commands import AskedCommands
+from host_sim.client.asked_commands import AskedCommands, Rivals
 from host_sim.client.freshness import Arrival
 from host_sim.client.report_checks import check_heartbeat, check_report
-from host_sim.client.rivals import Rivals
 from host_sim.client.robot_reports import REPORTS, RobotReports
 from host_sim.client.session import FrameCounts, Session
 from host_sim.client.told import Told

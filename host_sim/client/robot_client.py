@@ -8,9 +8,8 @@ from host_sim.client.connection import Connection
 from host_sim.client.dialogue import Dialogue
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.inbox import Inbox
-from host_sim.client.incident import Incident
+from host_sim.client.incidents import Incident, RefusedFrames
 from host_sim.client.punctuality import Punctuality
-from host_sim.client.refused_frames import RefusedFrames
 from host_sim.client.robot_reports import RobotReports
 from host_sim.client.round_trip import RoundTrip
 from host_sim.client.session import FrameCounts

@@ -10,8 +10,9 @@ from typing import Any
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED
 from host_sim.live.seats import Rights
-from host_sim.live.trails import points
+from host_sim.protocol.generated import Reason
 from host_sim.recording.summary import frame_counts
+from host_sim.recording.trajectory import AXES, ROW, RobotTrack
 from host_sim.view.history import Lesson
 from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene, measures, states
@@ -22,6 +23,8 @@ TRAIL_MAX = 3000
 _POINTS_MAX = 200
 _NOTES_MAX = 8
 _NEWS_MAX = 8
+_REASON = ROW.index("reason")
+_USUAL = (Reason.WANDER, Reason.LOOK_AROUND)
 
 
 class Memo:
@@ -166,6 +169,30 @@ class PageFeed:
             "late": self.live.late,
             "orders_refused": self.live.refused,
         }
+
+
+def points(track: RobotTrack, ticks: range) -> list[int]:
+    """A part of a robot's trail.
+
+    Args:
+        track: The robot.
+        ticks: Retained ticks. If they have a step, a look around between two small steps is left out; where more than
+            that begins, a tick is added: no trial, remembered turn or meal is missing.
+
+    Returns:
+        [x, y, reason, ...], x and y in mm.
+    """
+    first, end, step = ticks.start - track.first_tick, ticks.stop - track.first_tick, ticks.step
+    poses, reasons = track.poses_flat, track.rows_flat[first * len(ROW) + _REASON : end * len(ROW) : len(ROW)]
+    left_out = None if step == 1 else Reason.LOOK_AROUND
+    found: list[int] = []
+    before, due = -1, 0
+    for i, reason in enumerate(reasons):
+        if (i >= due and reason != left_out) or (reason != before and reason not in _USUAL):
+            at, due = (first + i) * AXES, i + step
+            found += (round(poses[at]), round(poses[at + 1]), reason)
+        before = reason
+    return found
 
 
 def play_state(live: PacedRun) -> dict[str, Any]:

@@ -8,9 +8,14 @@ import socket
 from yarl import URL
 
 from host_sim.base.errors import UsageError
-from host_sim.live.addresses import numbers_of
+from host_sim.base.extra_library import library
 from host_sim.live.qr_code import modules_of
 from host_sim.live.token_file import local_token
+
+ANYWHERE = ("0.0.0.0", "::")
+"""The addresses of all networks."""
+
+_Address = ipaddress.IPv4Address | ipaddress.IPv6Address
 
 
 class Listener:
@@ -110,3 +115,25 @@ def _is_address(name: str | None) -> bool:
     except ValueError:
         return False
     return True
+
+
+def numbers_of(listening: socket.socket) -> list[str]:
+    """The addresses at which a listening socket can be reached, those of other machines' networks first.
+
+    Raises:
+        UsageError: The library that lists the networks is not installed.
+    """
+    host = str(listening.getsockname()[0])
+    if host not in ANYWHERE:
+        return [host]
+    kind = ipaddress.IPv6Address if listening.family is socket.AF_INET6 else ipaddress.IPv4Address
+    return [str(it) for it in sorted(_own(kind), key=lambda it: not it.is_private)]
+
+
+def _own(kind: type[_Address]) -> list[_Address]:
+    """The addresses of all networks that others can be in; that of this machine alone if there is none."""
+    adapters = library("ifaddr", "classroom").get_adapters()
+    texts = [ip.ip if isinstance(ip.ip, str) else ip.ip[0] for adapter in adapters for ip in adapter.ips]
+    found = [ipaddress.ip_address(text) for text in texts]
+    others = [it for it in found if isinstance(it, kind) and not (it.is_loopback or it.is_link_local)]
+    return others or [kind("::1" if kind is ipaddress.IPv6Address else "127.0.0.1")]

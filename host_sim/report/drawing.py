@@ -2,14 +2,18 @@
 
 import math
 from collections.abc import Iterable, Sequence
+from io import BytesIO
 from itertools import groupby
+from pathlib import Path
 from typing import NamedTuple
 
 from PIL import Image, ImageDraw, ImageFont
 
+from host_sim.base.atomic_file import write_bytes
 from host_sim.protocol.generated import FEEL, Reason, Side
 from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline
 from host_sim.world.geometry import Point, Pose, ahead_of
+from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
 
 PAPER, INK, FLOOR, OBSTACLE = "#ffffff", "#20262e", "#f6f5f1", "#4b535d"
@@ -178,3 +182,20 @@ def _draw_arrow(plan: Plan, pose: Pose, radius_mm: float, side: int) -> None:
 def write(image: Image.Image, place: Point, text: str, size_px: int, anchor: str) -> None:
     """Writes a line of text; `anchor` is a text anchor of Pillow."""
     ImageDraw.Draw(image).text(place, text, INK, ImageFont.load_default(size_px), anchor=anchor)
+
+
+def write_world_picture(path: Path, layout: Layout, params: SimParams, width_px: int) -> None:
+    """Writes an environment as PNG; equal environments give equal bytes.
+
+    Raises:
+        OctetError: The file cannot be written.
+    """
+    plan = Plan(params.width_mm, params.height_mm, width_px, FLOOR)
+    draw_obstacles(plan, layout.bars, params)
+    for at in layout.food:
+        draw_food(plan, at, FOOD_MM, eaten=False)
+    for start in layout.starts:
+        draw_robot(plan, start, 2 * params.body_radius_mm, PAPER)
+    content = BytesIO()
+    plan.done().quantize().save(content, "PNG", optimize=True)
+    write_bytes(path, content.getvalue())

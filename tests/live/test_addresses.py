@@ -16,9 +16,9 @@ import pytest
 
 from host_sim.base.errors import UsageError
 from host_sim.base.extra_library import library
-from host_sim.live import addresses, announcement, qr_code
-from host_sim.live.addresses import numbers_of
-from host_sim.live.listener import Listener
+from host_sim.live import browser, qr_code
+from host_sim.live import listener as listener_module
+from host_sim.live.listener import Listener, numbers_of
 from host_sim.live.qr_code import BORDER, lines_for, modules_of
 
 URL = "http://192.168.100.123:65535/?token=" + 22 * "W"
@@ -58,7 +58,7 @@ def adapters(*numbers: str) -> SimpleNamespace:
     ],
 )
 def test_the_addresses_are_those_of_this_machines_networks_by_number(monkeypatch, own, printed):
-    monkeypatch.setattr(addresses, "library", lambda *_: adapters(*own))
+    monkeypatch.setattr(listener_module, "library", lambda *_: adapters(*own))
     with socket.create_server(("0.0.0.0", 0)) as listening:
         assert numbers_of(listening) == printed
 
@@ -129,7 +129,7 @@ def test_what_it_waits_for_is_said(monkeypatch, tmp_path, listen):
     listener = Listener(listen, 0)
     listener.socket.close()
     with (tmp_path / "said").open("w+") as out:
-        announcement.announce(listener, 3, out, waits=True)
+        browser.announce(listener, 3, out, waits=True)
         out.seek(0)
         said = out.read()
 

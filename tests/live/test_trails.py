@@ -1,6 +1,6 @@
 """The trails in the messages to pages."""
 
-from host_sim.live.trails import points
+from host_sim.live.feed import points
 from host_sim.protocol.generated import Reason
 from host_sim.recording.trajectory import ROW, RobotTrack
 

@@ -17,7 +17,7 @@ def test_a_forged_command_is_kept_with_its_time(run):
 
 @pytest.mark.faulty
 def test_no_more_are_kept_than_there_is_room_for(run, monkeypatch):
-    monkeypatch.setattr("host_sim.client.refused_frames.REFUSED_MAX", 5)
+    monkeypatch.setattr("host_sim.client.incidents.REFUSED_MAX", 5)
 
     done = run(*SHORT, "--fault", "corrupt:10%/from")
 

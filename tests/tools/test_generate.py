@@ -10,8 +10,7 @@ import pytest
 
 from host_sim.protocol import generated
 from tools.robot_words import to_javascript, to_python
-from tools.robot_words.layout import layout_hash
-from tools.robot_words.model import DescriptionError, read
+from tools.robot_words.model import DescriptionError, layout_hash, read
 
 ROOT = Path(__file__).resolve().parents[2]
 DBC = ROOT / "hal/protocol/octet.dbc"

@@ -1,5 +1,6 @@
 """What `octet.dbc` and `robot.toml` say together, checked: all that the generated files are made of."""
 
+import hashlib
 import importlib
 import itertools
 import sys
@@ -12,8 +13,6 @@ from typing import Any
 import cantools
 from cantools.database.can import Database, Message
 from cantools.database.can.signal import Signal
-
-from tools.robot_words.layout import layout_hash
 
 # Python 3.10 has none of its own.
 _toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
@@ -264,3 +263,24 @@ def _counts_per_mm(*odometers: Signal) -> int:
     if unit not in _UNITS_PER_MM:
         raise DescriptionError(f"the odometers' unit is {unit!r}; known are {', '.join(_UNITS_PER_MM)}")
     return _UNITS_PER_MM[unit]
+
+
+def layout_text(database: Database) -> str:
+    """The layout of all messages, one line for each message and signal, the same however the file was written."""
+    lines: list[str] = []
+    for message in sorted(database.messages, key=lambda message: message.frame_id):
+        lines.append(f"{message.frame_id} {message.length}")
+        lines += sorted(_signal_line(signal) for signal in message.signals)
+    return "\n".join(lines) + "\n"
+
+
+def layout_hash(database: Database) -> int:
+    """The first two bytes of the SHA-256 of `layout_text`, the first one in the high half."""
+    return int.from_bytes(hashlib.sha256(layout_text(database).encode()).digest()[:2], "big")
+
+
+def _signal_line(signal: Signal) -> str:
+    sign = "-" if signal.is_signed else "+"
+    selects = "M" if signal.is_multiplexer else ""
+    selected_by = ",".join(str(number) for number in sorted(signal.multiplexer_ids or ()))
+    return f" {signal.start:02} {signal.name} {signal.length} {signal.byte_order} {sign} {selects}{selected_by}"

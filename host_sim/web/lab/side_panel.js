@@ -4,7 +4,8 @@
 import { ParameterSliders } from "./parameter_sliders.js";
 import { Curves, csvOf } from "./curves.js";
 import { byId, setText, typedById } from "../core/elements.js";
-import { FAULTS, faultName } from "./fault_names.js";
+import { SENSORS } from "../sim/body_faults.js";
+import { bodySentence } from "../core/phrases.js";
 import { memoryIn, save, worldText } from "./files.js";
 import { PROFILES } from "../generated.js";
 import { experimentOf } from "./shown_run.js";
@@ -34,6 +35,12 @@ import { RANDOM, nameOf } from "../core/world_names.js";
  * @property {(experiment: Experiment) => void} begin
  */
 
+/** What can be let happen to a body, as `tools/run --change` has it; docs/worlds.md explains each. */
+const FAULTS = [
+  ...[...SENSORS.keys()].flatMap((sensor) => [`stuck-on:${sensor}`, `stuck-off:${sensor}`]),
+  "mirror", "noise:10/1000", "noise:100/1000", "swap-motors", "weak-motor:left:60%", "weak-motor:right:60%",
+  "swap-odometers", "odometer:left:0%", "odometer:right:0%", "false-beacon:100", "repair",
+];
 const TABS = ["run", "parameters", "listing", "curves", "files", "lessons"];
 
 /** Shows and changes the selected run. */
@@ -253,4 +260,9 @@ export class SidePanel {
     if (this.tab === "listing") this.listing.show(state, actionStart(robot, state.tick));
     if (this.tab === "curves") this.curves.show(lanes, tick);
   }
+}
+
+/** @param {string} what */
+function faultName(what) {
+  return bodySentence(what).replace(/\.$/, "");
 }

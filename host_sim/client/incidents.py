@@ -1,10 +1,29 @@
-"""What came to the simulator and was refused: damaged, foreign, not asked for. It explains a doubtful run."""
+"""What goes wrong in a run: incidents that its result depends on, and frames that were refused."""
+
+from typing import NamedTuple
 
 from host_sim.client.frame_log import FrameLog
 from host_sim.protocol.codec import Frame
 
 REFUSED_MAX = 10_000
 """Number of frames that are kept; later ones are only counted."""
+
+
+class Incident(NamedTuple):
+    """Something that should not happen in a run.
+
+    Attributes:
+        tick: Number of the tick, from the first of the run.
+        node: Node number of the robot.
+        text: What happened, as a sentence without a full stop.
+    """
+
+    tick: int
+    node: int
+    text: str
+
+    def __str__(self) -> str:
+        return f"at tick {self.tick} (node {self.node}) {self.text}"
 
 
 class RefusedFrames:
