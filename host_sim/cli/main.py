@@ -1,6 +1,7 @@
 """The command line, `tools/octet COMMAND ...`.
 
 Each module NAME_command of this package, or of a folder in host_sim/lab, adds a command NAME; A_B_command adds two.
+A name with a hyphen has none there.
 """
 
 import argparse
@@ -129,7 +130,8 @@ def _modules_for(arguments: Sequence[str]) -> list[str]:
     """The module of the command that is called, so that it does not wait for the others to load; else all modules."""
     top = Path(__file__).parents[1]
     files = sorted((file for room in _ROOMS for file in top.glob(f"{room}/*_command.py")), key=lambda file: file.stem)
-    called = [file for file in files if arguments and arguments[0] in file.stem.split("_")[:-1]]
+    name = arguments[0].replace("-", "") if arguments else ""
+    called = [file for file in files if name in file.stem.split("_")[:-1]]
     return [".".join((top.name, *file.relative_to(top).with_suffix("").parts)) for file in called or files]
 
 

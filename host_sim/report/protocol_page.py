@@ -26,72 +26,77 @@ head -n 20 out/run.log | .venv/bin/cantools decode --single-line hal/protocol/oc
 
 ## A conversation
 
-1. At power-up the robot sends BOOT.
-2. **stop** (COMMAND). The robot answers with ANSWER, then all its reports: HEARTBEAT, BOOT, both halves of MEMORY,
-   both pages of FAULTS, CRASH if it has crashed, and HEALTH, which is always the last of them; then a DRIVE at
-   rest. HEARTBEAT has the hash of the messages' layout, 0x{layout:04X} for those of this page; the simulator
-   rejects a robot with another hash.
+What is asked of a robot has a number in brackets; [`tools/octet check-robot`](bench.md#a-robot-of-your-own) checks
+a robot against these, number by number.
+
+1. At power-up the robot sends BOOT (T1).
+2. **stop** (COMMAND). The robot answers with ANSWER (T2), then all its reports: HEARTBEAT, BOOT, both halves of
+   MEMORY, both pages of FAULTS, CRASH if it has crashed (T3), and HEALTH, which is always the last of them (T4);
+   then a DRIVE at rest (T5). HEARTBEAT has the hash of the messages' layout, 0x{layout:04X} for those of this page
+   (T6); the simulator rejects a robot with another hash.
 3. **start** with profile and seed, then optionally **set** for parameters and **write** for the memory. Each
-   command is answered; the answer to **start** says whether the robot wants RANGES.
-4. SENSES with tick n; the robot answers DRIVE with tick n. This repeats every 20 ms of robot time. The first tick
-   may have any number.
+   command is answered (T7); the answer to **start** says whether the robot wants RANGES (T8).
+4. SENSES with tick n; the robot answers DRIVE with tick n (T9). This repeats every 20 ms of robot time. The first
+   tick may have any number (T10).
 5. The robot's other frames of a tick (MEMORY when it has learned; once a second each report, one of them in each of
-   the first ticks of the second; EMERGENCY after a fault) come before that tick's DRIVE: DRIVE is always the last.
+   the first ticks of the second (T11); EMERGENCY after a fault (T12)) come before that tick's DRIVE: DRIVE is
+   always the last (T13).
 
 A program that does this is among the [recipes](recipes.md#a-world-of-your-own).
 
 ## Bytes
 
-Frames are classic CAN data frames with identifiers of 11 bits, at 500 kbit/s unless the robot was flashed for
-another bit rate, and have exactly the length that the table says. Bit 0 is the lowest bit of byte 0, bit 8 that of
-byte 1; the first bit of a signal is its lowest (little-endian). Signals with a negative range are two's complement.
-Where several signals have the same bits, `opcode`, `half` or `page` says which of them is there. Bits without a
-signal are 0.
+Frames are classic CAN data frames with identifiers of 11 bits (B1), at 500 kbit/s unless the robot was flashed for
+another bit rate (B2), and have exactly the length that the table says (B3). Bit 0 is the lowest bit of byte 0, bit
+8 that of byte 1; the first bit of a signal is its lowest (little-endian) (B4). Signals with a negative range are
+two's complement (B5). Where several signals have the same bits, `opcode`, `half` or `page` says which of them is
+there (B6). Bits without a signal are 0 (B7).
 
 `crc` is CRC-8 with polynomial 0x1D, start value 0 and no final xor, over the low byte of the identifier, its high
-byte, and bytes 1 to the last. For example, **stop** by owner 1 with counter 0 is `{stop}` for node 1,
-in the notation of candump.
+byte, and bytes 1 to the last (B8). For example, **stop** by owner 1 with counter 0 is `{stop}` for node 1, in the
+notation of candump.
 
 ## Protection
 
 Every message is protected as in AUTOSAR E2E profile 1, with its identifier as Data ID: a CRC over all but its own
-byte, and an alive counter from 0 to 14. The counter of SENSES and RANGES goes on with the tick, and a DRIVE has
-that of the SENSES that it answers. A frame is accepted if its identifier, length and CRC are right and its tick or
-counter goes on: up to 14 ticks ahead of the last tick, 1 to 7 ahead of the owner's last command. All other frames
-are refused: they are counted in FAULTS, told at once by EMERGENCY, and change nothing.
+byte, and an alive counter from 0 to 14 (P1). The counter of SENSES and RANGES goes on with the tick, and a DRIVE
+has that of the SENSES that it answers (P2). A frame is accepted if its identifier, length and CRC are right (P3)
+and its tick or counter goes on: up to 14 ticks ahead of the last tick (P4), 1 to 7 ahead of the owner's last
+command (P5). All other frames are refused: they are counted in FAULTS (P6), told at once by EMERGENCY (P7), and
+change nothing (P8).
 
 ## Silence
 
 If no fresh SENSES come for 100 ms, the robot sends a DRIVE at rest with reason **silence** and the last tick that
-it received, every 100 ms, also when it is stopped, and a HEARTBEAT with `silent` set every second. Its memory and
-its current action stay; it continues with the next SENSES. Of the SENSES that queued up meanwhile, only the newest
-are used.
+it received (S1), every 100 ms (S2), also when it is stopped (S3), and a HEARTBEAT with `silent` set every second
+(S4). Its memory and its current action stay; it continues with the next SENSES (S5). Of the SENSES that queued up
+meanwhile, only the newest are used (S6).
 
 ## Lockstep
 
-A robot that was started with `lockstep` lets the sender's clock count: silence is no fault then, and the robot
-takes the SENSES of tick n + 1 only after those of tick n. The same SENSES again are answered by the same DRIVE
-again, and change nothing: on a bus that loses frames, repeating is all that a simulator needs to do. The same holds
-for a COMMAND, in lockstep or not.
+A robot that was started with `lockstep` lets the sender's clock count: silence is no fault then (L1), and the robot
+takes the SENSES of tick n + 1 only after those of tick n (L2). The same SENSES again are answered by the same DRIVE
+again, and change nothing (L3): on a bus that loses frames, repeating is all that a simulator needs to do. The same
+holds for a COMMAND, in lockstep or not (L4).
 
 ## Owner
 
-**start** makes the sender the robot's owner, until **stop**, or until its SENSES have failed to come for 100 ms (in
-lockstep for a second). Meanwhile the commands of other senders are refused, but for **stop**. HEARTBEAT names the
-owner. A robot that hears two DRIVEs or HEARTBEATs with its own identifiers within a second has a twin: it stops. Each
-is counted in FAULTS.
+**start** makes the sender the robot's owner, until **stop** (O1), or until its SENSES have failed to come for 100
+ms (O2) (in lockstep for a second (O3)). Meanwhile the commands of other senders are refused (O4), but for **stop**
+(O5). HEARTBEAT names the owner (O6). A robot that hears two DRIVEs or HEARTBEATs with its own identifiers within a
+second has a twin: it stops (O7). Each is counted in FAULTS (O8).
 
 ## What it was told
 
-Whoever knows the protocol can send a command in the owner's name, with the next counter, and the robot obeys. So
-it says once a second, in HEALTH, what it holds: `held` covers all commands that it has carried out. Its owner
+Whoever knows the protocol can send a command in the owner's name, with the next counter, and the robot obeys. So it
+says once a second, in HEALTH, what it holds: `held` covers all commands that it has carried out (H1). Its owner
 computes the same from the answers that it got, and knows within a second that there was another one.
 
 `held` is a CRC-16 with polynomial 0x1021, start value 0, high bit first and no final xor (XMODEM; Python has it as
-`binascii.crc_hqx`). With each COMMAND that the robot has carried out it goes on over the frame's bytes 1 to 7, but
-for **get** and **report**; a **stop** without an owner sets it to 0. While the robot has no owner, HEALTH goes on
-over its eight cells, too: so the report that ends a run also proves its memory. For example, after `{start}` alone,
-`held` is 0x{held:04X}.
+`binascii.crc_hqx`) (H2). With each COMMAND that the robot has carried out it goes on over the frame's bytes 1 to 7,
+but for **get** and **report** (H3); a **stop** without an owner sets it to 0 (H4). While the robot has no owner,
+HEALTH goes on over its eight cells, too (H5): so the report that ends a run also proves its memory. For example,
+after `{start}` alone, `held` is 0x{held:04X}.
 
 The cost on the bus is two bytes, at most 20 bits, a second for each robot, and no frame more.
 

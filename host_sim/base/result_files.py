@@ -1,0 +1,62 @@
+"""The results of checks as JSON and as JUnit's XML, which build servers read."""
+
+import json
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+from xml.etree import ElementTree as ET
+
+from host_sim.base.atomic_file import write_bytes
+
+_NOT_IN_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+class Case(NamedTuple):
+    """One check.
+
+    Attributes:
+        name: What was checked.
+        result: `passed`, `failed` or `skipped`.
+        text: What there is to say about it.
+        seconds: The time that it took; 0 if that is not known.
+    """
+
+    name: str
+    result: str
+    text: str = ""
+    seconds: float = 0.0
+
+
+def write_results(suite: str, cases: Sequence[Case], json_path: Path | None, junit_path: Path | None) -> None:
+    """Writes the files that are wanted.
+
+    Args:
+        suite: What the checks are of.
+        cases: The checks.
+        json_path: A list of objects with the fields of `Case`; None for no such file.
+        junit_path: A `testsuite`; None for no such file.
+
+    Raises:
+        OctetError: A file cannot be written.
+    """
+    if json_path is not None:
+        write_bytes(json_path, (json.dumps([case._asdict() for case in cases], indent=1) + "\n").encode())
+    if junit_path is not None:
+        write_bytes(junit_path, _junit(suite, cases))
+
+
+def _junit(suite: str, cases: Sequence[Case]) -> bytes:
+    results = [case.result for case in cases]
+    numbers = {"tests": len(cases), "failures": results.count("failed"), "skipped": results.count("skipped")}
+    top = ET.Element("testsuite", {"name": suite, **{name: str(number) for name, number in numbers.items()}})
+    for case in cases:
+        element = ET.SubElement(top, "testcase", classname=suite, name=_text(case.name), time=f"{case.seconds:.3f}")
+        if case.result != "passed":
+            kind, lines = ("failure", "skipped")[case.result == "skipped"], _text(case.text)
+            ET.SubElement(element, kind, message=lines.partition("\n")[0]).text = lines
+    return ET.tostring(top, encoding="unicode", xml_declaration=True).encode()
+
+
+def _text(text: str) -> str:
+    return _NOT_IN_XML.sub("?", text)

@@ -1,0 +1,1 @@
+"""Checks a robot against docs/protocol.md, sentence by sentence."""

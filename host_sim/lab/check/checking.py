@@ -1,0 +1,102 @@
+"""Runs the checks, each on a robot that was just powered up, and judges each sentence."""
+
+from collections.abc import Collection, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+from host_sim.base.errors import RobotError
+from host_sim.lab.check import conversation, session, silence  # noqa: F401 - each notes its checks
+from host_sim.lab.check.invariants import breaches
+from host_sim.lab.check.registry import CHECKS
+from host_sim.lab.check.robots import Robots
+from host_sim.lab.check.sentences import NOT_CHECKED, sentences
+from host_sim.lab.check.talk import BrokenError, Said, Talk
+
+_FRAMES = 12
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What came of a sentence.
+
+    Attributes:
+        number: The sentence's, or the name of a message or a signal.
+        text: The sentence.
+        state: `holds`, `fails`, or `not checked`.
+        why: What is wrong, or why it is not checked.
+        frames: The last frames before that, for people.
+    """
+
+    number: str
+    text: str
+    state: str
+    why: str = ""
+    frames: tuple[str, ...] = ()
+
+
+@dataclass
+class _Course:
+    """What came of one check."""
+
+    number: str
+    why: str
+    talk: Talk | None
+
+
+def check_robot(robots: Robots, missing: Collection[str] = (), jobs: int = 1) -> list[Verdict]:
+    """Judges each sentence.
+
+    Args:
+        robots: Gives a robot for each check.
+        missing: Checks that are not possible with it.
+        jobs: Number of robots there may be at once.
+
+    Raises:
+        UsageError: There is no robot, or it does not answer at all.
+    """
+    with robots():
+        pass  # whatever keeps it from answering is said at once
+    possible = sorted(set(CHECKS) - set(missing), key=lambda number: CHECKS[number].__module__ != silence.__name__)
+    with ThreadPoolExecutor(jobs) as pool:
+        courses = pool.map(lambda number: _run(number, robots), possible)
+        return list(_judge({course.number: course for course in courses}, missing))
+
+
+def _run(number: str, robots: Robots) -> _Course:
+    course = _Course(number, "", None)
+    try:
+        with robots() as course.talk:
+            CHECKS[number](course.talk)
+    except (BrokenError, RobotError) as error:
+        course.why = str(error)
+    return course
+
+
+def _judge(courses: dict[str, _Course], missing: Collection[str]) -> Iterator[Verdict]:
+    broken: dict[str, tuple[str, tuple[str, ...]]] = {}
+    heard: set[str] = set()
+    for course in courses.values():
+        talk = course.talk
+        said = talk.said if talk is not None else []
+        heard |= {each.name for each in said if each.by_robot}
+        if course.why:
+            broken[course.number] = (course.why, tuple(talk.lines(_FRAMES)) if talk is not None else ())
+        for breach in breaches(said):
+            assert talk is not None
+            broken.setdefault(breach.number, (breach.why, tuple(_until(talk, breach.said))))
+    for number, text in sentences().items():
+        message = number.partition(".")[0]
+        if number in broken:
+            yield Verdict(number, text, "fails", *broken[number])
+        elif number in NOT_CHECKED or number in missing:
+            reason = NOT_CHECKED.get(number, "the robot would have to be started or stopped here: --robot-command")
+            yield Verdict(number, text, "not checked", reason)
+        elif "." in number and message not in heard:
+            yield Verdict(number, text, "not checked", f"no {message} came")
+        else:
+            yield Verdict(number, text, "holds")
+
+
+def _until(talk: Talk, said: Said) -> Iterator[str]:
+    index = next(i for i, each in enumerate(talk.said) if each is said)
+    return Talk(talk.link, talk.clock, talk.protocol, said=talk.said[: index + 1]).lines(_FRAMES // 3)

@@ -1,0 +1,238 @@
+"""Checks of a session: what is accepted, repeated, owned and held."""
+
+from binascii import crc_hqx
+
+from host_sim.base.frame import Frame
+from host_sim.lab.check.registry import AT_ONCE_S, SECOND, damaged, sentence, unhurried
+from host_sim.lab.check.talk import ANSWER_S, Talk, answering, expect, one
+from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, Opcode, Result
+
+
+@sentence("P2")
+def _a_drive_has_the_counter_of_its_senses(talk: Talk) -> None:
+    talk.start()
+    for _ in range(20):
+        counter = talk.drive().signals["counter"]
+        expect(counter == talk.tick % 15, f"DRIVE has counter {counter}, its SENSES {talk.tick % 15}")
+
+
+def _unanswered(talk: Talk, frame: Frame, why: str) -> None:
+    talk.send(frame)
+    answers = [said for said in talk.hear(AT_ONCE_S) if said.is_answer or said.name == "ANSWER"]
+    expect(not answers, f"{why} is answered")
+
+
+@sentence("P3")
+def _what_is_damaged_is_not_accepted(talk: Talk) -> None:
+    talk.start()
+    talk.drive()
+    senses = talk.senses(talk.tick + 1)
+    _unanswered(talk, damaged(senses), "SENSES with a wrong CRC")
+    _unanswered(talk, Frame(senses.id, senses.data[:7]), "SENSES of 7 bytes")
+    _unanswered(talk, Frame(senses.id + 1, senses.data), "SENSES of another node")
+    talk.counter += 1
+    _unanswered(talk, damaged(talk.order(Opcode.GET, owner=1)), "a COMMAND with a wrong CRC")
+
+
+@sentence("P4")
+def _ticks_go_on_by_up_to_14(talk: Talk) -> None:
+    def attempt(talk: Talk) -> None:
+        talk.start(lockstep=0)
+        talk.drive()
+        talk.drive(ahead=14)
+        _unanswered(talk, talk.senses(talk.tick - 1), "the tick before the last one")
+        talk.drive()
+        _unanswered(talk, talk.senses(talk.tick + 15), "a tick 15 ahead")
+
+    unhurried(talk, attempt)
+
+
+@sentence("P5")
+def _commands_go_on_by_up_to_7(talk: Talk) -> None:
+    talk.start()
+    talk.drive()
+    for ahead, wanted in ((7, Result.DONE), (8, Result.OUT_OF_SEQUENCE)):
+        got = one(talk.command(Opcode.GET, ahead=ahead), "ANSWER").signals["result"]
+        expect(got == wanted, f"a command {ahead} ahead of the one before gets result {got}, not {int(wanted)}")
+
+
+@sentence("P6")
+def _what_is_refused_is_counted(talk: Talk) -> None:
+    talk.start()
+    talk.drive()
+    before = talk.report()
+    talk.send(damaged(talk.senses(talk.tick + 1)))
+    talk.send(talk.senses(talk.tick + 9))
+    talk.drive()
+    talk.result(Opcode.FREEZE, owner=2, freeze=1)
+    talk.counter -= 1
+    after = talk.report()
+    grown = {name: after[name] - before[name] for name in ("damaged", "stale", "refused")}
+    expect(set(grown.values()) == {1}, f"after one of each, FAULTS has grown by {grown}")
+
+
+@sentence("P8")
+def _what_is_refused_changes_nothing(talk: Talk) -> None:
+    talk.start()
+    talk.drive()
+    before = talk.report()
+    talk.result(Opcode.SET, owner=2, parameter=0, value=99)
+    talk.send(damaged(talk.senses(talk.tick + 1)))
+    talk.counter -= 1
+    talk.drive()
+    after = talk.report()
+    value = talk.result(Opcode.GET, wanted=0).signals["value"]
+    expect(value == PARAMETERS["turn_deg"].default, f"a refused set has set the parameter to {value}")
+    expect(before["held"] == after["held"], "held differs after a refused command")
+
+
+@sentence("L2")
+def _lockstep_waits_for_the_next_tick(talk: Talk) -> None:
+    talk.start()
+    talk.drive()
+    _unanswered(talk, talk.senses(talk.tick + 2), "in lockstep, the tick after the next one")
+    talk.drive()
+
+
+@sentence("L3")
+def _the_same_senses_get_the_same_drive(talk: Talk) -> None:
+    talk.start()
+    for tick in range(SECOND):
+        first = talk.drive(feel=4 * (tick // 10 % 2))
+        talk.send(next(said.frame for said in reversed(talk.said) if not said.by_robot))
+        again = answering(talk.hear(ANSWER_S, lambda said: said.is_answer), "the same SENSES again")
+        expect(first.frame == again.frame, "SENSES that come again get another DRIVE")
+
+
+@sentence("L4")
+def _the_same_command_gets_the_same_answer(talk: Talk) -> None:
+    talk.start()
+    talk.result(Opcode.SET, parameter=0, value=20)
+    held = talk.report()["held"]
+    order = talk.result(Opcode.ERASE)
+    talk.send(next(said.frame for said in reversed(talk.said) if not said.by_robot))
+    again = one(talk.hear(ANSWER_S, lambda said: said.name == "ANSWER"), "ANSWER")
+    expect(order.frame == again.frame, "a COMMAND that comes again gets another ANSWER")
+    command = talk.order(Opcode.ERASE, owner=1)
+    once = crc_hqx(command.data[1:], held)
+    expect(talk.report()["held"] == once, "a COMMAND that came twice is carried out twice")
+
+
+@sentence("O1")
+def _stop_ends_the_ownership(talk: Talk) -> None:
+    talk.start(owner=1)
+    talk.drive()
+    talk.stop(owner=1)
+    result = talk.result(Opcode.GET, owner=2).signals["result"]
+    expect(result == Result.DONE, f"after the owner's stop, another sender's command gets result {result}")
+
+
+@sentence("O4")
+def _others_are_refused(talk: Talk) -> None:
+    talk.start(owner=1)
+    talk.drive()
+    result = talk.result(Opcode.ERASE, owner=2).signals["result"]
+    expect(result == Result.OWNED, f"another sender's command gets result {result}")
+
+
+@sentence("O5")
+def _anybody_may_stop_it(talk: Talk) -> None:
+    talk.start(owner=1)
+    talk.drive()
+    result = talk.result(Opcode.STOP, owner=2).signals["result"]
+    expect(result == Result.DONE, f"another sender's stop gets result {result}")
+
+
+@sentence("O6")
+def _heartbeat_names_the_owner(talk: Talk) -> None:
+    sender = 77
+    talk.start(owner=sender)
+    talk.drive()
+    owner = talk.report(owner=sender)["owner"]
+    expect(owner == sender, f"HEARTBEAT names owner {owner}, not {sender}")
+
+
+_TWINS = (1, 2)
+"""The counters of another robot's DRIVEs."""
+
+
+def _meet_a_twin(talk: Talk) -> dict[str, int]:
+    talk.start()
+    talk.drive()
+    zeros = dict.fromkeys((signal.name for signal in MESSAGES["DRIVE"].signals), 0)
+    for counter in _TWINS:
+        talk.send(talk.protocol.encode("DRIVE", {**zeros, "counter": counter}))
+    talk.hear(AT_ONCE_S)
+    return talk.report()
+
+
+@sentence("O7")
+def _a_robot_with_a_twin_stops(talk: Talk) -> None:
+    expect(_meet_a_twin(talk)["state"] == 0, "after two DRIVEs with its identifier it runs on")
+
+
+@sentence("O8")
+def _twins_are_counted(talk: Talk) -> None:
+    twins = _meet_a_twin(talk)["twins"]
+    expect(twins == len(_TWINS), f"after two DRIVEs with its identifier, twins is {twins}")
+
+
+def _carried_out(talk: Talk, held: int, opcode: Opcode, **signals: int) -> int:
+    talk.result(opcode, **signals)
+    return crc_hqx(talk.order(opcode, **{"owner": 1, **signals}).data[1:], held)
+
+
+def _expect_held(held: int, wanted: int) -> None:
+    expect(held == wanted, f"held is 0x{held:04X}, not 0x{wanted:04X}")
+
+
+@sentence("H1")
+def _held_covers_the_commands(talk: Talk) -> None:
+    talk.stop()
+    start = {"lockstep": 1, "seed": 7}
+    held = _carried_out(talk, 0, Opcode.START, **start)
+    _expect_held(talk.report()["held"], held)
+    held = _carried_out(talk, held, Opcode.SET, value=20)
+    held = _carried_out(talk, held, Opcode.WRITE, mask=2, byte_1=1)
+    held = _carried_out(talk, held, Opcode.ERASE)
+    _expect_held(talk.report()["held"], held)
+
+
+@sentence("H3")
+def _held_leaves_out_get_and_report(talk: Talk) -> None:
+    talk.start()
+    before = talk.report()["held"]
+    talk.result(Opcode.GET, wanted=3)
+    _expect_held(talk.report()["held"], before)
+
+
+@sentence("H4")
+def _a_stop_without_an_owner_sets_held_to_0(talk: Talk) -> None:
+    talk.result(Opcode.ERASE)
+    talk.start()
+    talk.stop()
+    talk.stop()
+    _expect_held(talk.report()["held"], crc_hqx(bytes(CELL_COUNT), 0))
+
+
+@sentence("H5")
+def _held_covers_the_cells_without_an_owner(talk: Talk) -> None:
+    talk.stop()
+    held = _carried_out(talk, 0, Opcode.ERASE)
+    held = _carried_out(talk, held, Opcode.WRITE, half=1, mask=15, byte_0=1, byte_1=2, byte_2=1, byte_3=2)
+    told = talk.report()
+    cells = bytes(told[f"cell_{cell}"] for cell in range(CELL_COUNT))
+    _expect_held(told["held"], crc_hqx(cells, held))
+
+
+@sentence("MEMORY")
+def _a_memory_that_changes_is_told(talk: Talk) -> None:
+    talk.start()
+    talk.drive()
+    heard = talk.command(Opcode.WRITE, half=1, mask=15, byte_0=1, byte_1=2, byte_2=1, byte_3=2) + talk.step()
+    halves = [said.signals["half"] for said in heard if said.name == "MEMORY"]
+    expect(sorted(halves[:2]) == [0, 1], f"after write come the halves {halves} of MEMORY")
+    told = next(said.signals for said in heard if said.name == "MEMORY" and said.signals["half"] == 1)
+    cells = [told[f"cell_{cell}"] for cell in range(4, 8)]
+    expect(cells == [1, 2, 1, 2], f"written were 1, 2, 1, 2; MEMORY has {cells}")
+

@@ -1,0 +1,202 @@
+"""A talk with a robot that may be wrong: all that is said is kept, and read whatever its CRC and its counters are."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple, NoReturn
+
+from host_sim.base.frame import Frame
+from host_sim.base.robot_io import Senses
+from host_sim.protocol.codec import COUNTERS, Protocol
+from host_sim.protocol.generated import MESSAGES, ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, TICK_SPAN, Opcode, Reason
+from host_sim.protocol.signal_layout import MessageLayout
+from host_sim.transport.clock import Clock
+from host_sim.transport.link import Link
+
+ANSWER_S = 0.5
+"""An answer takes no longer, on a busy machine either."""
+
+_TICK_S = 0.02
+_LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
+
+
+class BrokenError(Exception):
+    """The robot does not do what a sentence says; the message says what it does."""
+
+
+class Said(NamedTuple):
+    """A frame of the talk.
+
+    Attributes:
+        at_s: When, on the talk's clock.
+        frame: The frame.
+        name: Its message; empty for one that no robot may send.
+        signals: What it says; empty if its length is wrong.
+        by_robot: Whether the robot has sent it.
+    """
+
+    at_s: float
+    frame: Frame
+    name: str
+    signals: dict[str, int]
+    by_robot: bool = True
+
+    @property
+    def is_answer(self) -> bool:
+        """Whether it answers senses: it is a DRIVE that is not due to silence."""
+        return self.name == "DRIVE" and self.signals.get("reason") != Reason.SILENCE
+
+
+class Told(dict[str, int]):
+    """What reports say, by signal; one that none of them has is the robot's fault."""
+
+    def __missing__(self, name: str) -> NoReturn:
+        raise BrokenError(f"no report has {name}")
+
+
+@dataclass
+class Talk:
+    """One sender's talk with a robot, from its power-up on.
+
+    Attributes:
+        link: The way to it.
+        clock: The time in which it lives.
+        protocol: That of its node.
+        hang: Has the robot stand still for some ms, without knowing of it; None where that cannot be done.
+        said: All frames so far.
+    """
+
+    link: Link
+    clock: Clock
+    protocol: Protocol = field(default_factory=Protocol)
+    hang: Callable[[int], None] | None = None
+    said: list[Said] = field(default_factory=list)
+    tick: int = -1
+    counter: int = 0
+    _odometers: list[int] = field(default_factory=lambda: [0, 0])
+
+    def __post_init__(self) -> None:
+        self._names = {self.protocol.id_of(name): name for name in MESSAGES}
+
+    def send(self, frame: Frame) -> Frame:
+        """Sends any frame."""
+        self.said.append(self._read(frame, by_robot=False))
+        self.link.send(frame)
+        return frame
+
+    def hear(self, span_s: float, until: Callable[[Said], bool] = lambda _: False) -> list[Said]:
+        """What the robot says in a time, or until it says something; that is the last of them."""
+        end, first = self.clock.now() + span_s, len(self.said)
+        while (left_s := end - self.clock.now()) >= 0:
+            frame = self.clock.receive(self.link, left_s)
+            if frame is None:
+                break
+            self.said.append(self._read(frame))
+            if until(self.said[-1]):
+                break
+        return self.said[first:]
+
+    def command(self, opcode: int, owner: int = 1, ahead: int = 1, **signals: int) -> list[Said]:
+        """Sends a command with the next counter; returns all that the robot says up to its ANSWER."""
+        self.counter = (self.counter + ahead) % COUNTERS
+        self.send(self.order(opcode, owner=owner, **signals))
+        return self.hear(ANSWER_S, lambda said: said.name == "ANSWER")
+
+    def order(self, opcode: int, **signals: int) -> Frame:
+        """A command's frame."""
+        fields = {signal.name: 0 for signal in MESSAGES["COMMAND"].signals}
+        return self.protocol.encode("COMMAND", {**fields, "counter": self.counter, "opcode": opcode, **signals})
+
+    def result(self, opcode: int, owner: int = 1, **signals: int) -> Said:
+        """Sends a command; returns its ANSWER.
+
+        Raises:
+            BrokenError: There is none.
+        """
+        return one(self.command(opcode, owner, **signals), "ANSWER")
+
+    def start(self, *, lockstep: int = 1, owner: int = 1) -> None:
+        """Starts the robot; the tick before the first one is -1."""
+        self.result(Opcode.START, owner, lockstep=lockstep, seed=1)
+        self.tick = -1
+
+    def stop(self, owner: int = 1) -> list[Said]:
+        """Stops the robot; returns all that it says up to its DRIVE."""
+        return [*self.command(Opcode.STOP, owner), *self.hear(ANSWER_S, lambda said: said.is_answer)]
+
+    def report(self, owner: int = 1) -> dict[str, int]:
+        """What the robot says of itself in all its reports, by signal.
+
+        Raises:
+            BrokenError: It does not answer.
+        """
+        said = self.command(Opcode.REPORT, owner) + self.hear(ANSWER_S, lambda said: said.name == "HEALTH")
+        one(said, "HEALTH")
+        return Told({name: value for each in said for name, value in each.signals.items()})
+
+    def senses(self, tick: int, feel: int = 0, counter: int | None = None) -> Frame:
+        """The senses of a tick, of a body whose wheels have done as they were told."""
+        known = Senses(tick % TICK_SPAN, feel, False, False, 0, *self._odometers)
+        return self.protocol.encode_senses(known, tick % COUNTERS if counter is None else counter)
+
+    def step(self, ahead: int = 1, feel: int = 0) -> list[Said]:
+        """The senses of a tick to come; returns all that the robot says up to its DRIVE."""
+        self.tick += ahead
+        self.send(self.senses(self.tick, feel))
+        heard = self.hear(ANSWER_S, lambda said: said.is_answer)
+        for drive in heard[-1:]:
+            for i, side in enumerate(("left", "right")):
+                rolled = round(drive.signals.get(side, 0) * _TICK_S * ODOMETER_COUNTS_PER_MM)
+                self._odometers[i] = (self._odometers[i] + rolled) % ODOMETER_SPAN
+        return heard
+
+    def drive(self, ahead: int = 1, feel: int = 0) -> Said:
+        """As `step`, but returns the DRIVE.
+
+        Raises:
+            BrokenError: There is none.
+        """
+        return answering(self.step(ahead, feel), f"SENSES of tick {self.tick % TICK_SPAN}")
+
+    def lines(self, last: int) -> Iterator[str]:
+        """The last frames, for people."""
+        for said in self.said[-last:]:
+            way = "robot" if said.by_robot else "     "
+            yield f"{said.at_s - self.said[0].at_s:8.3f} s {way} {self.protocol.describe(said.frame)}"
+
+    def _read(self, frame: Frame, *, by_robot: bool = True) -> Said:
+        name = self._names.get(frame.id, "")
+        is_whole = bool(name) and len(frame.data) == MESSAGES[name].length
+        signals = _LAYOUTS[name].unpack(frame.data) if is_whole else {}
+        return Said(self.clock.now(), frame, name, signals, by_robot)
+
+
+def answering(heard: list[Said], what: str) -> Said:
+    """The DRIVE that answers senses.
+
+    Raises:
+        BrokenError: There is none.
+    """
+    expect(bool(heard) and heard[-1].is_answer, f"no DRIVE answers {what}")
+    return heard[-1]
+
+
+def one(heard: list[Said], name: str) -> Said:
+    """The last frame of a message.
+
+    Raises:
+        BrokenError: There is none.
+    """
+    for said in reversed(heard):
+        if said.name == name and said.signals:
+            return said
+    raise BrokenError(f"no {name} came")
+
+
+def expect(is_so: bool, otherwise: str) -> None:
+    """Says what is wrong.
+
+    Raises:
+        BrokenError: It is not so.
+    """
+    if not is_so:
+        raise BrokenError(otherwise)

@@ -1,0 +1,112 @@
+"""`tools/octet check-robot`: the project's robot and one written from the protocol pass; what is none is told so."""
+
+import json
+import re
+import sys
+import xml.etree.ElementTree as ET
+
+import pytest
+
+from host_sim.backends.robot_process import PROGRAM
+from host_sim.cli.main import main
+from host_sim.lab.check import robots
+from host_sim.lab.check.registry import CHECKS
+from host_sim.lab.check.sentences import NOT_CHECKED, prose, sentences
+from tests.lab.check.virtual import EXAMPLE
+
+OF_OTHERS = (
+    "What is asked of a robot has a number",
+    "**stop** (COMMAND).",
+    "**start** with profile and seed",
+    "This repeats every 20 ms",
+    "A program that does this",
+    "For example, ",
+    "Whoever knows the protocol",
+    "Its owner computes the same",
+    "The cost on the bus",
+)
+"""How sentences begin that ask nothing of a robot."""
+
+
+def check(capsys, command, *more):
+    code = main(["check-robot", "--robot-command", command, *map(str, more)])
+    printed = capsys.readouterr()
+    return code, printed.out, printed.err
+
+
+def test_each_sentence_about_a_robot_has_a_number():
+    bare = [text for text in prose() if not re.search(r"\([A-Z]\d+\)", text)]
+
+    assert [text for text in bare if not text.startswith(OF_OTHERS)] == []
+
+
+def test_each_sentence_has_a_check_or_a_reason():
+    of_frames = {"B1", "B3", "B7", "B8", "P1"}
+    rows = {number for number in sentences() if "." in number}
+
+    assert set(sentences()) == set(CHECKS) | set(NOT_CHECKED) | of_frames | rows
+    assert not (set(CHECKS) | of_frames | rows) & set(NOT_CHECKED)
+
+
+def test_the_project_s_robot_passes(capsys):
+    code, out, _ = check(capsys, f"sh -c 'exec {PROGRAM} --node $OCTET_NODE fd:$CAN_CHANNEL'")
+
+    assert code == 0, out
+
+
+def test_a_robot_written_from_the_protocol_passes_and_the_results_are_written(capsys, tmp_path):
+    json_path, junit_path = tmp_path / "robot.json", tmp_path / "robot.xml"
+
+    files = ("--json", json_path, "--junit", junit_path)
+    code, out, _ = check(capsys, f"{sys.executable} {EXAMPLE}", *files, "--node", 3)
+
+    assert code == 0, out
+    cases = json.loads(json_path.read_text())
+    suite = ET.parse(junit_path).getroot()
+    assert len(cases) == len(suite) == len(sentences())
+    assert suite.get("failures") == "0"
+    assert {case["result"] for case in cases} == {"passed", "skipped"}
+
+
+def test_a_robot_that_fails_is_shown_with_its_frames(capsys, tmp_path):
+    defective = tmp_path / "robot.py"
+    defective.write_text(EXAMPLE.read_text().replace("0x4B13", "0x4B14"))
+
+    code, out, _ = check(capsys, f"{sys.executable} {defective}", "--junit", tmp_path / "robot.xml")
+
+    assert code == 1
+    assert "fails T6: HEARTBEAT has the hash" in out
+    assert "layout is 0x4B14, not 0x4B13" in out
+    assert "robot HEARTBEAT counter=" in out
+    assert out.splitlines()[-1].endswith("1 fail: T6")
+    assert "layout is 0x4B14" in ET.parse(tmp_path / "robot.xml").find(".//failure").get("message")
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        ("no-such-robot", "cannot start 'no-such-robot': No such file or directory"),
+        ("", "cannot start '': it is empty"),
+        ("sh -c 'echo no bus; exit 3'", "ended with exit code 3 and printed no bus"),
+        ("sleep 60", "the robot does not answer stop within 0.5 s: it sends nothing at all"),
+        ("'", "No closing quotation"),
+    ],
+)
+def test_what_is_no_robot_is_told_in_a_line(capsys, monkeypatch, command, message):
+    monkeypatch.setattr(robots, "WAKE_S", 0.5)
+
+    code, _, err = check(capsys, command)
+
+    assert code == 2
+    assert message in err
+    assert err.count("\n") == 1
+
+
+def test_a_bus_that_is_none_is_told_in_a_line(capsys):
+    assert main(["check-robot", "--bus", "socketcan:no-such-bus"]) == 2
+    assert "cannot open the bus socketcan:no-such-bus" in capsys.readouterr().err
+
+
+def test_a_robot_must_be_named(capsys):
+    assert main(["check-robot"]) == 2
+    assert "--robot-command CMD" in capsys.readouterr().err
