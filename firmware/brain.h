@@ -10,7 +10,7 @@
 /* One thing to do. */
 struct action {
     enum reason reason;
-    uint8_t forward_mm;   /* 0 for no step */
+    int16_t forward_mm;   /* backward negative; 0 for no step */
     int16_t turn_deg;     /* right positive; 0 for no turn */
     uint8_t rest_ticks;   /* at rest after that, for the sensors to settle */
     bool until_food;      /* the turn ends when food is seen; what was left of it is not made up for */

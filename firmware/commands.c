@@ -18,6 +18,7 @@ static enum result start(struct robot *robot, const struct command *command, uin
     robot->turn_denied = false;
     motion_start(&robot->motion);
     perception_start(&robot->perception);
+    robot->caution = (struct caution){.doing = 0};
     sharing_start(&robot->sharing);
     robot->running = true;
     *value = robot->brain.wants_ranges ? ANSWER_WANTS_RANGES : 0;

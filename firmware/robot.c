@@ -3,6 +3,7 @@
 enum {
     SECOND_MS = 1000,      /* a report is due once a second of robot time, */
     REPORT_SILENCES = 10,  /* or, where no tick comes, with every tenth silence */
+    FRONT = 4,             /* of feel */
     DENIALS_MAX = 2        /* so many are held against the wheels: the next one stops the robot */
 };
 
@@ -14,9 +15,9 @@ void robot_init(struct robot *robot, uint32_t seed)
     motion_start(&robot->motion);
 }
 
-static void begin_next_action(struct robot *robot, const struct senses *senses)
+static void begin_next_action(struct robot *robot, struct senses *senses)
 {
-    struct action action = brain_next(&robot->brain, &robot->config, senses);
+    struct action action = caution_next(&robot->caution, &robot->brain, &robot->config, senses);
 
     motion_begin(&robot->motion, &robot->config, &action);
     robot->reason = (uint8_t)action.reason;
@@ -48,7 +49,9 @@ static void judge(struct robot *robot, bool denied)
 
 static bool has_ended(struct robot *robot, const struct senses *senses)
 {
-    return motion_ended(&robot->motion, &robot->config, senses)
+    bool stops = caution_stops(&robot->caution, senses, robot->motion.kind == MOTION_STEP);
+
+    return (stops || motion_ended(&robot->motion, &robot->config, senses))
         && (motion_gave_up(&robot->motion) || !motion_rest(&robot->motion, &robot->config));
 }
 
@@ -66,6 +69,7 @@ static bool go_on(struct robot *robot, struct senses *senses)
     judge(robot, denied);
     perception_decide(&robot->perception, &robot->config, feel);
     senses->feel = perception_believed(&robot->perception, &robot->config, feel);
+    caution_see(&robot->caution, senses->feel, (feel & ~senses->feel & FRONT) != 0);
     if (robot->running)
         begin_next_action(robot, senses);
     return denied;

@@ -3,6 +3,7 @@
 #ifndef OCTET_ROBOT_H
 #define OCTET_ROBOT_H
 
+#include "firmware/caution.h"
 #include "firmware/motion/motion.h"
 #include "firmware/perception.h"
 #include "firmware/sharing.h"
@@ -18,6 +19,7 @@ struct robot {
     uint8_t tick;         /* of the last senses */
     struct config config;
     struct perception perception;
+    struct caution caution;
     struct sharing sharing;
     uint16_t part_ms;     /* of the second that has begun */
     uint16_t uptime_s;    /* robot time since power-up, counted in ticks, wraps */

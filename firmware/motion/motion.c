@@ -3,8 +3,6 @@
 #include "firmware/pattern.h"
 #include "firmware/motion/wheels.h"
 
-enum kind { REST, STEP, TURN, TURN_UNTIL_FOOD, GLANCE };   /* nothing is judged by where a glance ends */
-
 enum {
     TURN_LIMIT = 1000000000,                       /* of turn_left: far beyond any turn, and no sum overflows */
     TURN_PRECISION = 8,                            /* a turn ends within 1/8 degree */
@@ -25,7 +23,7 @@ enum {
 
 static bool is_turn(const struct motion *motion)
 {
-    return motion->kind >= TURN;
+    return motion->kind >= MOTION_TURN;
 }
 
 /* The highest speed of each wheel in the current action, mm/s. */
@@ -37,7 +35,7 @@ static uint32_t full_speed(const struct motion *motion, const struct config *con
 /* What the wheels are still to be told of the current action: the counts of both together, right or forward positive. */
 static int32_t counts_left(const struct motion *motion)
 {
-    if (motion->kind == REST)
+    if (motion->kind == MOTION_REST)
         return 0;
     if (is_turn(motion))
         return motion->turn_left / WHEELS_TURN_UNIT - owed_counts(&motion->apart);
@@ -57,7 +55,7 @@ static int16_t speed_for(int32_t counts, const struct config *config, uint32_t l
 
 void motion_start(struct motion *motion)
 {
-    *motion = (struct motion){.kind = REST, .pace_left = ANY_PACE};
+    *motion = (struct motion){.kind = MOTION_REST, .pace_left = ANY_PACE};
 }
 
 void motion_lift(struct motion *motion)
@@ -98,7 +96,7 @@ bool motion_is_credible(const struct motion *motion, const struct config *config
 
 bool motion_gave_up(const struct motion *motion)
 {
-    return motion->kind != REST && motion->ticks_left == 0;
+    return motion->kind != MOTION_REST && motion->ticks_left == 0;
 }
 
 bool motion_tells(const struct motion *motion)
@@ -169,7 +167,7 @@ static void judge_pace(struct motion *motion, unsigned ticks)
 /* It goes back to where it saw food, if it has gone past. */
 static void find_food(struct motion *motion)
 {
-    motion->kind = TURN;
+    motion->kind = MOTION_TURN;
     motion->turn_left = 0;
 }
 
@@ -181,7 +179,7 @@ void motion_track(struct motion *motion, const struct senses *senses)
         follow(motion, wheels_counts_between(motion->odometer_left, senses->odometer_left),
                wheels_counts_between(motion->odometer_right, senses->odometer_right), ticks);
     judge_pace(motion, ticks);
-    if (motion->kind == TURN_UNTIL_FOOD && senses->look)
+    if (motion->kind == MOTION_TURN_UNTIL_FOOD && senses->look)
         find_food(motion);
     motion->odometer_left = senses->odometer_left;
     motion->odometer_right = senses->odometer_right;
@@ -198,7 +196,7 @@ static bool has_turned(const struct motion *motion, const struct config *config)
     if (wheels_magnitude(motion->apart.rolled) <= STOPPED_COUNTS && wheels_magnitude(motion->turn_left) <= degree / 2)
         return true;
     return wheels_magnitude(motion->turn_left - owed) <= degree / TURN_PRECISION
-        && (motion->kind == GLANCE || wheels_magnitude(owed) <= degree * 3u / TURN_PRECISION);
+        && (motion->kind == MOTION_GLANCE || wheels_magnitude(owed) <= degree * 3u / TURN_PRECISION);
 }
 
 bool motion_ended(const struct motion *motion, const struct config *config, const struct senses *senses)
@@ -207,7 +205,9 @@ bool motion_ended(const struct motion *motion, const struct config *config, cons
         return true;
     if (is_turn(motion))
         return has_turned(motion, config);
-    return motion->kind == STEP && (counts_left(motion) <= WAY_PRECISION || pattern_of(senses->feel) != 0);
+    if (motion->kind == MOTION_BACK)
+        return counts_left(motion) >= -WAY_PRECISION;
+    return motion->kind == MOTION_STEP && (counts_left(motion) <= WAY_PRECISION || pattern_of(senses->feel) != 0);
 }
 
 /* A turn that was not finished is not made up for: it would come as a surprise much later. */
@@ -224,17 +224,19 @@ bool motion_rest(struct motion *motion, const struct config *config)
     if (motion->rest_ticks == 0)
         return false;
     leave_turn(motion, config);
-    motion->kind = REST;
+    motion->kind = MOTION_REST;
     motion->ticks_left = motion->rest_ticks;
     motion->rest_ticks = 0;
     return true;
 }
 
-static enum kind kind_of(const struct action *action)
+static enum motion_kind kind_of(const struct action *action)
 {
     if (action->turn_deg != 0)
-        return action->until_food ? TURN_UNTIL_FOOD : action->reason == REASON_LOOK_AROUND ? GLANCE : TURN;
-    return action->forward_mm != 0 ? STEP : REST;
+        return action->until_food ? MOTION_TURN_UNTIL_FOOD : action->reason == REASON_LOOK_AROUND ? MOTION_GLANCE : MOTION_TURN;
+    if (action->forward_mm < 0)
+        return MOTION_BACK;
+    return action->forward_mm > 0 ? MOTION_STEP : MOTION_REST;
 }
 
 /* Ticks to allow: twice what a step needs at full speed, half as many more for a turn, and a little. What a turn may be told: 7/4
@@ -246,9 +248,9 @@ static void allow(struct motion *motion, const struct config *config)
     uint32_t most = counts * 7u / 4u + PACE_MARGIN_TICKS * in_a_tick;
 
     motion->pace_left = ANY_PACE;
-    if (motion->kind == TURN && counts >= PACED_TICKS * in_a_tick && most < ANY_PACE)
+    if (motion->kind == MOTION_TURN && counts >= PACED_TICKS * in_a_tick && most < ANY_PACE)
         motion->pace_left = (uint16_t)most;
-    if (motion->kind == REST)
+    if (motion->kind == MOTION_REST)
         motion->ticks_left = 1;
     else
         motion->ticks_left = (uint16_t)((is_turn(motion) ? counts * 3u : counts * 4u) / 2u / in_a_tick + TIMEOUT_MARGIN_TICKS);

@@ -7,6 +7,9 @@
 #include "firmware/brain.h"
 #include "firmware/motion/owed.h"
 
+enum motion_kind { MOTION_REST, MOTION_STEP, MOTION_BACK, MOTION_TURN, MOTION_TURN_UNTIL_FOOD, MOTION_GLANCE };
+        /* Of an action. Nothing is judged by where a glance ends. */
+
 struct motion {
     int32_t turn_left;         /* still to turn, right positive: left wheel less right wheel, 0.1 mm / 16384 */
     int16_t way_left;          /* still to drive: left wheel plus right wheel, 0.1 mm */
@@ -16,7 +19,7 @@ struct motion {
     uint16_t pace_left;        /* what may be told in a turn until it is too much to be believed, 0.1 mm */
     uint16_t astray;           /* the way that the wheels rolled against orders, less 3/4 of what they rolled as told, 0.1 mm */
     uint8_t tick;              /* as of the last senses */
-    uint8_t kind;              /* of the action under way: an enum kind of motion.c */
+    uint8_t kind;              /* of the action under way: an enum motion_kind */
     bool referenced;           /* the odometers above are valid */
     struct owed apart;         /* left wheel less right wheel */
     struct owed together;      /* left wheel plus right wheel */

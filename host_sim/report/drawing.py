@@ -49,6 +49,7 @@ MARKS = {
     Reason.BOREDOM: Mark("bored, about face", "#cc79a7", 68.0, 4),
     Reason.EAT: Mark("eats", "#000000", 44.0, 5),
     Reason.SILENCE: Mark("hears nothing", "#8c564b", 44.0, 5),
+    Reason.AVOID: Mark("avoids", "#4b535d", 44.0, 5),
 }
 """By reason; colours after Okabe and Ito, which colour-blind people can tell apart."""
 

@@ -5,6 +5,7 @@ from host_sim.view.history import Lesson, Trial
 from host_sim.view.state import State
 
 _WANDERING = "Nothing in my way: I drive on and look about for food."
+_AVOIDING = ("I do not believe my front sensor: I look aside.", "I have touched something: I back off.")
 
 
 def sentence(state: State) -> str:
@@ -24,6 +25,7 @@ def sentence(state: State) -> str:
         Reason.BOREDOM: f"{turns} turns in a row, and still blocked. I am bored: about face!",
         Reason.EAT: "Food! I eat it.",
         Reason.SILENCE: "I hear nothing from my body: my wheels rest.",
+        Reason.AVOID: _AVOIDING[state["left"] == state["right"]],
     }[Reason(state["reason"])]
 
 

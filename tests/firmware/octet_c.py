@@ -16,6 +16,7 @@ _HEADERS = [
     "firmware/memory/memory_kind.h",
     "firmware/random.h",
     "firmware/brain.h",
+    "firmware/caution.h",
     "firmware/motion/owed.h",
     "firmware/motion/motion.h",
     "firmware/perception.h",

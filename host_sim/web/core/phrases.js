@@ -31,6 +31,8 @@ const REASONS = [
     (state) => `${state.repeat_count || "Many"} turns in a row, and still blocked. I am bored: about face!`],
   [REASON.EAT, "eats", () => "Food! I eat it."],
   [REASON.SILENCE, "hears nothing", () => "I hear nothing from my body: my wheels rest."],
+  [REASON.AVOID, "avoids", ({ left, right }) => (left === right ? "I have touched something: I back off."
+    : "I do not believe my front sensor: I look aside.")],
 ];
 
 const SENTENCES = new Map(REASONS.map(([reason, , words]) => [reason, words]));

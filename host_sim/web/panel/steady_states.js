@@ -12,7 +12,7 @@ const LIFTED_WEIGHT = 9;
 const WEIGHT = new Map([
   [REASON.STOP, 0], [REASON.WANDER, 1], [REASON.TOWARD_FOOD, 2], [REASON.LOOK_AROUND, 1],
   [REASON.REMEMBERED, 3], [REASON.TRIAL, 4], [REASON.BOREDOM, 5], [REASON.EAT, 5],
-  [REASON.SILENCE, 5],
+  [REASON.SILENCE, 5], [REASON.AVOID, 5],
 ]);
 
 /** Gives the states to show, by node. */
