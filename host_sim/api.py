@@ -20,11 +20,12 @@ from numpy.typing import NDArray
 from host_sim.base.errors import OctetError, RobotError, UsageError
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
+from host_sim.protocol.generated import ROW
 from host_sim.recording.frame_table import arrow_table
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.run_recorder import RunRecorder
-from host_sim.recording.trajectory import ROW, Trajectory
+from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path, write_world
 from host_sim.report.picture import write_picture
 from host_sim.report.replay_page import write_page

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from host_sim.base.errors import SessionLostError
-from host_sim.base.robot_io import REST, Drive
 from host_sim.client.asked_commands import AskedCommands, Rivals
 from host_sim.client.freshness import Arrival
 from host_sim.client.report_checks import check_heartbeat, check_report
@@ -12,7 +11,7 @@ from host_sim.client.robot_reports import REPORTS, RobotReports
 from host_sim.client.session import FrameCounts, Session
 from host_sim.client.told import Told
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol, counter_of
-from host_sim.protocol.generated import TICK_SPAN, Reason, Result
+from host_sim.protocol.generated import REST, TICK_SPAN, Drive, Reason, Result
 
 _TICK_MASK = TICK_SPAN - 1
 _FORGED, _COMMANDED = "somebody sends frames in the robot's name", "somebody else commands the robot"

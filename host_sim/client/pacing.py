@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from host_sim.base.errors import SessionLostError
-from host_sim.base.robot_io import REST, Drive, Senses
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import drive_after, recover
-from host_sim.protocol.generated import TICK_SPAN, Reason
+from host_sim.protocol.generated import REST, TICK_SPAN, Drive, Reason, Senses
 
 HOLD_TICKS = 5
 """A body without a new drive continues with its last one for this many ticks (100 ms); then its wheels stop."""

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 
 from host_sim.base.errors import SessionLostError
-from host_sim.base.robot_io import NOTHING_NEAR, Drive, Ranges, Senses
 from host_sim.client.connection import Connection
 from host_sim.client.dialogue import Dialogue
 from host_sim.client.frame_log import FrameLog
@@ -15,7 +14,7 @@ from host_sim.client.round_trip import RoundTrip
 from host_sim.client.session import FrameCounts
 from host_sim.client.waiting import Waiting
 from host_sim.protocol.codec import Frame, Protocol
-from host_sim.protocol.generated import MemoryKind
+from host_sim.protocol.generated import NOTHING_NEAR, Drive, MemoryKind, Ranges, Senses
 
 INCIDENTS_MAX = 1000
 """Number of incidents that are listed; later ones are only counted."""

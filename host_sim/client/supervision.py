@@ -1,12 +1,12 @@
 """Finds out what has become of a robot that no longer takes part in its session, and starts it again if it can."""
 
 from host_sim.base.errors import FirmwareError, RivalError, SessionLostError, TwinError
-from host_sim.base.robot_io import Drive
 from host_sim.client.commands import freeze, start
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import COUNTERS
+from host_sim.protocol.generated import Drive
 
 _FIRMWARE = ("commit", "modified", "version_major", "version_minor")
 _ATTEMPTS = 5

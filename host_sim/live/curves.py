@@ -3,9 +3,8 @@
 from dataclasses import dataclass, field
 
 from host_sim.live.paced_run import PacedRun
-from host_sim.protocol.generated import Reason
+from host_sim.protocol.generated import ROW, Reason
 from host_sim.protocol.memory_kinds import sides_of
-from host_sim.recording.trajectory import ROW
 
 SAMPLES_MAX = 600
 """Maximum number of samples; beyond it, every other one goes."""

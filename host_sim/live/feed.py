@@ -10,9 +10,9 @@ from typing import Any
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED
 from host_sim.live.seats import Rights
-from host_sim.protocol.generated import Reason
+from host_sim.protocol.generated import ROW, Reason
 from host_sim.recording.summary import frame_counts
-from host_sim.recording.trajectory import AXES, ROW, RobotTrack
+from host_sim.recording.trajectory import AXES, RobotTrack
 from host_sim.view.history import Lesson
 from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene, measures, states

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from host_sim.base.errors import RefusedError
-from host_sim.base.robot_io import Drive
 from host_sim.client.commands import erase_memory
 from host_sim.live.page_commands import (
     FULL_SPEED,
@@ -24,7 +23,7 @@ from host_sim.live.page_commands import (
     WriteCell,
 )
 from host_sim.live.robot_orders import command_robot, discard_reports, edit
-from host_sim.protocol.generated import Reason
+from host_sim.protocol.generated import Drive, Reason
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.simulation import Simulation
@@ -292,6 +291,6 @@ class PacedRun:
             for client in simulation.clients:
                 erase_memory(client)
         self.restart(seed)
-        for client, history in zip(simulation.clients, self.recorder.histories, strict=True):
-            history.restart(simulation.tick, client.memory)
+        for index, client in enumerate(simulation.clients):
+            self.recorder.between(index, client.memory, [])
         self._enter(1)

@@ -33,7 +33,7 @@ def command_robot(simulation: Simulation, recorder: RunRecorder, command: WriteC
         RobotError: The robot does not answer.
     """
     index = _index(simulation, command.node)
-    client, history = simulation.clients[index], recorder.histories[index]
+    client = simulation.clients[index]
     simulation.set_clock()
     match command:
         case WriteCell(cell, side):
@@ -42,8 +42,8 @@ def command_robot(simulation: Simulation, recorder: RunRecorder, command: WriteC
             erase_memory(client)
         case Freeze(on):
             freeze(client, on)
-            history.frozen = on
-    history.relearn(simulation.tick, client.memory)
+            recorder.histories[index].frozen = on
+    recorder.between(index, None, [client.memory])
 
 
 def discard_reports(simulation: Simulation) -> None:

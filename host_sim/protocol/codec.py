@@ -4,8 +4,17 @@ from typing import NamedTuple
 
 from host_sim.base.frame import Frame
 from host_sim.base.paths import ROOT
-from host_sim.base.robot_io import Drive, Ranges, Senses
-from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, NODE_MAX, RANGE_NONE, SAME_LAYOUT, Signal
+from host_sim.protocol.generated import (
+    LAYOUT_HASH,
+    MESSAGES,
+    NODE_MAX,
+    RANGE_NONE,
+    SAME_LAYOUT,
+    Drive,
+    Ranges,
+    Senses,
+    Signal,
+)
 from host_sim.protocol.signal_layout import MessageLayout, places
 
 __all__ = [
@@ -30,11 +39,8 @@ MEMORY_IDS = range(MESSAGES["MEMORY"].id, MESSAGES["MEMORY"].id + NODE_MAX)
 _LENGTH = 8
 _COUNTER_START = 8
 _COUNTER_MASK = 15
-# The fields of `Senses` and of `Drive` whose signals have other names: a signal has its unit beside its name.
-_SIGNALS = {"beacon_mm": "beacon", "left_mm_s": "left", "right_mm_s": "right"}
 _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
-_SENSES = places(MESSAGES["SENSES"], [_SIGNALS.get(field, field) for field in Senses._fields])
-_DRIVE = places(MESSAGES["DRIVE"], [_SIGNALS.get(field, field) for field in Drive._fields])
+_SENSES, _DRIVE = (places(MESSAGES[name]) for name in ("SENSES", "DRIVE"))
 
 
 class DecodedFrame(NamedTuple):

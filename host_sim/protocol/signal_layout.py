@@ -1,9 +1,12 @@
 """Where a message's signals lie in its frame."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from host_sim.protocol.generated import Message, Signal
+
+UNSAID = ("crc", "counter")
+"""The signals that protect a message: they are not part of what it says."""
 
 
 class _Field(NamedTuple):
@@ -63,12 +66,6 @@ class MessageLayout:
         return self._branches.get(selected, self._common)
 
 
-def places(message: Message, names: Sequence[str]) -> list[tuple[int, int, int]]:
-    """Start, mask and sign bit of signals, for packing and unpacking in an order of one's own.
-
-    Args:
-        message: Has the signals.
-        names: The signals, in the order of the values.
-    """
-    by_name = {signal.name: signal for signal in message.signals}
-    return [_field(by_name[name])[1:] for name in names]
+def places(message: Message) -> list[tuple[int, int, int]]:
+    """Start, mask and sign bit of what `Senses` and `Drive` have of their messages, in the same order."""
+    return [_field(signal)[1:] for signal in message.signals if signal.name not in UNSAID]

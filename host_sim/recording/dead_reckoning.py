@@ -4,8 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from host_sim.base.robot_io import Senses
-from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN
+from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, Senses
 from host_sim.recording.recording import Recording
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory

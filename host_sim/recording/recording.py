@@ -4,11 +4,11 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from host_sim.base.errors import UsageError
-from host_sim.base.robot_io import Drive, Senses
 from host_sim.client.pacing import applied
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
-from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Opcode
+from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, Drive, Opcode, Senses
 from host_sim.protocol.memory_report import MemoryReport
+from host_sim.protocol.signal_layout import UNSAID
 from host_sim.recording.log_reader import LogReader, check_protocol, first_memory, frames_of
 from host_sim.recording.tick import Tick
 
@@ -168,13 +168,4 @@ class _Reader:
 
 def _senses_from(decoded: DecodedFrame) -> Senses:
     """The senses in a decoded SENSES frame."""
-    signals = decoded.signals
-    return Senses(
-        tick=signals["tick"],
-        feel=signals["feel"],
-        bump=bool(signals["bump"]),
-        look=bool(signals["look"]),
-        beacon_mm=signals["beacon"],
-        odometer_left=signals["odometer_left"],
-        odometer_right=signals["odometer_right"],
-    )
+    return Senses._make(number for name, number in decoded.signals.items() if name not in UNSAID)

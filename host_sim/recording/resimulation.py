@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from host_sim.base.errors import OctetError
-from host_sim.base.robot_io import Senses
 from host_sim.protocol.codec import NODE_MAX, Protocol
-from host_sim.protocol.generated import TICK_SPAN
+from host_sim.protocol.generated import TICK_SPAN, Senses
 from host_sim.recording.dead_reckoning import reckon
 from host_sim.recording.log_reader import LogReader, nodes_in, read_log
 from host_sim.recording.recording import Recording, read_recording

@@ -1,12 +1,12 @@
 """Records the trajectory of a run, tick by tick."""
 
-from array import array
 from collections.abc import Mapping, Sequence
+from operator import attrgetter
 from struct import Struct
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
-from host_sim.base.robot_io import Drive, Senses
-from host_sim.recording.trajectory import ROW, Changes, RobotTrack, Trajectory, at, since
+from host_sim.protocol.generated import ROW, Drive, Reason, Senses
+from host_sim.recording.trajectory import Begun, Changes, RobotTrack, Trajectory, at, since
 from host_sim.sim.native_loop import RobotBlock
 from host_sim.sim.simulation import Simulation
 from host_sim.view.history import LearningHistory
@@ -23,7 +23,8 @@ TICKS_MAX = 450_000
 _SLACK = 8
 """A trajectory gets longer by this part of its length before it is cut: cutting moves all that is retained."""
 
-_PATTERN, _FROZEN = ROW.index("pattern"), ROW.index("frozen")
+_FOOD_EATEN = attrgetter("food_eaten")
+_TURNS = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
 _PACKED = Struct(f"={len(ROW)}h")
 
 
@@ -56,10 +57,12 @@ class RunRecorder:
             memories: Each robot's eight cells before the first tick, by node number.
         """
         self.histories = [LearningHistory(node, memory) for node, memory in memories.items()]
-        tracks = [RobotTrack(history.node, lessons=history.lessons) for history in self.histories]
+        tracks = [
+            RobotTrack(it.node, lessons=it.lessons, memories=[(0, list(it.memory))], trials=[(0, None)])
+            for it in self.histories
+        ]
         self.trajectory = Trajectory(params, boredom_limit, tracks)
-        self._actions = [-1] * len(tracks)
-        self._memories: list[Memory] = [()] * len(tracks)
+        self._memories: list[Memory] = [tuple(memory) for memory in memories.values()]
         self._layouts = 0
 
     @classmethod
@@ -80,7 +83,7 @@ class RunRecorder:
                 self.add(i, arena.bodies[i], simulation.senses[i], simulation.drives[i], client.memory)
             else:
                 self.add_block(i, simulation.loop.block(i), client.memory)
-        if sum([robot.food_eaten for robot in simulation.episode.robots]) != self.trajectory.meals[-1][1].count(1):
+        if sum(map(_FOOD_EATEN, simulation.episode.robots)) != self.trajectory.meals[-1][1].count(1):
             self.eaten(arena.food.eaten, simulation.drives)
 
     def enter(self, scene: EnvironmentScene) -> None:
@@ -90,7 +93,6 @@ class RunRecorder:
             _note(trajectory.meals, trajectory.ticks, [0] * len(scene["food"]))
             trajectory.environments += 1
         trajectory.scenes.append((trajectory.ticks, scene))
-        self._actions = [-1] * len(self._actions)
         if trajectory.ticks - trajectory.first_tick > TICKS_MAX + TICKS_MAX // _SLACK:
             begun = [scene["first_tick"] for _, scene in trajectory.scenes]
             self._forget(next((first for first in begun if trajectory.ticks - first <= TICKS_MAX), begun[-1]))
@@ -105,12 +107,9 @@ class RunRecorder:
             drive: Its drive.
             memory: Its eight cells after its answer.
         """
-        history, track = self.histories[robot], self.trajectory.tracks[robot]
-        if drive.action != self._actions[robot] or memory != self._memories[robot]:
-            self._actions[robot], self._memories[robot] = drive.action, memory
-            self._take(robot, track.ticks, senses, drive, memory)
-        track.poses_flat.extend(body.pose)
-        track.rows_flat.frombytes(_PACKED.pack(*senses, *drive, history.pattern, body.lifted, history.frozen))
+        row = bytearray(_PACKED.pack(*senses, *drive, 0, body.lifted, 0))
+        self._take(robot, row, memory)
+        self.trajectory.tracks[robot].poses_flat.extend(body.pose)
 
     def between(self, robot: int, started: Memory | None, written: Sequence[Memory]) -> None:
         """Records what happened to one robot between the last tick and the next one.
@@ -120,11 +119,15 @@ class RunRecorder:
             started: Its eight cells when it was started again; None if it was not.
             written: Its eight cells after each report since then.
         """
-        history, tick = self.histories[robot], self.trajectory.tracks[robot].ticks
+        history, track = self.histories[robot], self.trajectory.tracks[robot]
         if started is not None:
-            history.restart(tick, started)
+            history.restart(track.ticks, started)
+            _note(track.trials, track.ticks, None)
+            self._memories[robot] = started
         for memory in written:
-            history.relearn(tick, memory)
+            history.relearn(track.ticks, memory)
+            self._memories[robot] = memory
+        _note(track.memories, track.ticks, list(history.memory))
 
     def add_block(self, robot: int, block: RobotBlock, memory: Memory) -> None:
         """Adds one robot's ticks of a block: what a robot eats or reports belongs to the last one, and ended it.
@@ -134,20 +137,12 @@ class RunRecorder:
             block: Its ticks.
             memory: Its eight cells after the last one.
         """
-        history, track = self.histories[robot], self.trajectory.tracks[robot]
-        rows, first, last = memoryview(block.rows).cast("h"), track.ticks, len(block.rows) // _PACKED.size - 1
-        is_new = self._actions[robot] < 0 or block.memory != self._memories[robot]
-        for tick in sorted({0, last, *block.decisions} if is_new else {last, *block.decisions}):
-            if tick:
-                history.pass_over(_exchanged(rows, tick - 1)[1], rows[(tick - 1) * len(ROW) + _PATTERN])
-            senses, drive = _exchanged(rows, tick)
-            self._take(robot, first + tick, senses, drive, memory if tick == last else block.memory)
-        self._actions[robot], self._memories[robot] = history.action, memory
-        track.poses_flat.frombytes(block.poses)
-        track.rows_flat.frombytes(block.rows)
-        if history.frozen:
-            ones = array("h", [1]) * (last + 1)
-            track.rows_flat[(first - track.first_tick) * len(ROW) + _FROZEN :: len(ROW)] = ones
+        rows, first = memoryview(block.rows), 0
+        if block.memory != self._memories[robot] and len(rows) > _PACKED.size:
+            first = _PACKED.size
+            self._take(robot, rows[:first], block.memory)
+        self._take(robot, rows[first:], memory)
+        self.trajectory.tracks[robot].poses_flat.frombytes(block.poses)
 
     def eaten(self, eaten: Sequence[bool], drives: Sequence[Drive]) -> None:
         """Records that food was eaten in the last tick added.
@@ -162,12 +157,18 @@ class RunRecorder:
             if drive.eat:
                 track.meals.append(trajectory.ticks - 1)
 
-    def _take(self, robot: int, tick: int, senses: Senses, drive: Drive, memory: Memory) -> None:
-        """Records what can change with a new action or a MEMORY frame."""
+    def _take(self, robot: int, rows: Any, memory: Memory) -> None:
+        """Adds the rows of ticks; what the robot reports belongs to the last one."""
         history, track = self.histories[robot], self.trajectory.tracks[robot]
-        history.take(tick, senses, drive, memory)
-        _note(track.memories, tick, list(history.memory))
-        _note(track.trials, tick, history.trial)
+        for tick, reason, cell, trial in history.take(rows):
+            _note(track.trials, tick, trial)
+            if reason in _TURNS:
+                track.begun.append(Begun(tick, reason, cell))
+        if memory != self._memories[robot]:
+            history.learn(memory)
+            self._memories[robot] = memory
+            _note(track.memories, history.ticks - 1, list(history.memory))
+        track.rows_flat.frombytes(rows)
 
     def _forget(self, first: int) -> None:
         """Drops everything before a tick."""
@@ -179,13 +180,6 @@ class RunRecorder:
             track.forget(first, start)
             history.forget_lessons(first)
         trajectory.scenes, trajectory.meals = since(trajectory.scenes, first), since(trajectory.meals, first)
-
-
-def _exchanged(rows: "memoryview[int]", tick: int) -> tuple[Senses, Drive]:
-    """The senses and the drive in one of these rows."""
-    row = rows[tick * len(ROW) : (tick + 1) * len(ROW)].tolist()
-    count = len(Senses._fields)
-    return Senses._make(row[:count]), Drive._make(row[count : count + len(Drive._fields)])
 
 
 def _note(changes: Changes[T], tick: int, value: T) -> None:

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from host_sim.base.robot_io import Drive, Senses
+from host_sim.protocol.generated import Drive, Senses
 
 
 class Tick(NamedTuple):

@@ -8,11 +8,10 @@ from itertools import pairwise
 from operator import itemgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from host_sim.base.robot_io import Drive, Senses
-from host_sim.protocol.generated import CELL_COUNT, Reason
-from host_sim.view.history import Lesson, Trial
+from host_sim.protocol.generated import CELL_COUNT, ROW, Reason
+from host_sim.view.history import Learned, Lesson, Trial
 from host_sim.view.news import News
-from host_sim.view.state import EnvironmentScene, State
+from host_sim.view.state import EnvironmentScene, State, state
 from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams
 
@@ -24,9 +23,6 @@ T = TypeVar("T")
 Changes = list[tuple[int, T]]
 """A value that changes seldom: pairs of the tick from which it holds, and the value."""
 
-ROW = (*Senses._fields, *Drive._fields, "pattern", "lifted", "frozen")
-"""The fields that are recorded for each robot and tick besides its pose, 16 bits each."""
-
 AXES = len(Pose._fields)
 
 
@@ -35,6 +31,14 @@ class Event(NamedTuple):
 
     tick: int
     kind: str
+
+
+class Begun(NamedTuple):
+    """A turn that began: its tick, its reason, and the pattern when it was decided."""
+
+    tick: int
+    reason: int
+    cell: int
 
 
 @dataclass
@@ -49,8 +53,8 @@ class RobotTrack:
         lessons: Changes of cells, learned or made by hand: before `first_tick` only the last of each cell.
         meals: The ticks in which it ate.
         poses_flat: x and y in mm, heading in rad, tick after tick.
-        rows_flat: The fields of `ROW`, tick after tick.
-        action_before: Number of the action in the tick before the first that is retained; -1 if there was none.
+        rows_flat: The fields of `ROW`, 16 bits each, tick after tick.
+        begun: The remembered turns, trials and about-faces.
         uses_before: For each cell, the number of remembered turns before `first_tick` that used what it held then.
     """
 
@@ -62,7 +66,7 @@ class RobotTrack:
     meals: list[int] = field(default_factory=list)
     poses_flat: "array[float]" = field(default_factory=lambda: array("d"))
     rows_flat: "array[int]" = field(default_factory=lambda: array("h"))
-    action_before: int = -1
+    begun: list[Begun] = field(default_factory=list)
     uses_before: list[int] = field(default_factory=lambda: [0] * CELL_COUNT)
 
     @property
@@ -70,10 +74,10 @@ class RobotTrack:
         """The number of ticks so far, including those that are no longer retained."""
         return self.first_tick + len(self.poses_flat) // AXES
 
-    def row(self, tick: int) -> dict[str, int]:
+    def row(self, tick: int) -> "array[int]":
         """The fields of `ROW` at a retained tick."""
         at_row = tick - self.first_tick
-        return dict(zip(ROW, self.rows_flat[at_row * len(ROW) : (at_row + 1) * len(ROW)], strict=True))
+        return self.rows_flat[at_row * len(ROW) : (at_row + 1) * len(ROW)]
 
     def pose(self, tick: int) -> Pose:
         """The pose after a retained tick."""
@@ -92,18 +96,13 @@ class RobotTrack:
 
         return np.frombuffer(self.rows_flat, np.int16).reshape(-1, len(ROW))[:, ROW.index(name)]
 
-    def begun(self, reason: int) -> "NDArray[np.int64]":
-        """The ticks in which actions with a reason began."""
-        import numpy as np  # noqa: PLC0415 - see above
-
-        news = np.diff(self.column("action"), prepend=np.int16(self.action_before)) != 0
-        return np.flatnonzero(news & (self.column("reason") == reason)) + self.first_tick
+    def ticks_of(self, reason: Reason) -> list[int]:
+        """The retained ticks in which turns with a reason began."""
+        return [begun.tick for begun in self.begun if begun.reason == reason]
 
     def turns(self) -> list[tuple[int, int]]:
         """Each remembered turn that is retained: its first tick, and the cell that it used."""
-        ticks = self.begun(Reason.REMEMBERED)
-        cells = self.column("pattern")[ticks - self.first_tick]
-        return list(zip(ticks.tolist(), cells.tolist(), strict=True))
+        return [(begun.tick, begun.cell) for begun in self.begun if begun.reason == Reason.REMEMBERED]
 
     def uses(self, start: int, tick: int) -> list[int]:
         """For each cell, the number of remembered turns that used its content at a tick; as in `State.uses`."""
@@ -121,12 +120,24 @@ class RobotTrack:
             start: First tick since the run was started over, before that.
         """
         self.uses_before = self.uses(start, first - 1)
-        self.action_before = self.row(first - 1)["action"]
         del self.poses_flat[: (first - self.first_tick) * AXES]
         del self.rows_flat[: (first - self.first_tick) * len(ROW)]
         self.memories, self.trials = since(self.memories, first), since(self.trials, first)
+        self.begun = [begun for begun in self.begun if begun.tick >= first]
         self.meals = [tick for tick in self.meals if tick >= first]
         self.first_tick = first
+
+    def known(self, start: int, tick: int) -> Learned:
+        """What the robot knew after a retained tick; start is the first tick since the run was started over."""
+        lessons = self.last_lessons(start, tick)
+        return Learned(
+            memory=at(self.memories, tick),
+            uses=self.uses(start, tick),
+            learned=[lesson["tick"] if lesson else -1 for lesson in lessons],
+            by_hand=[lesson["by_hand"] if lesson else 0 for lesson in lessons],
+            frozen=self.row(tick)[ROW.index("frozen")],
+            trial=at(self.trials, tick),
+        )
 
     def last_lessons(self, start: int, tick: int) -> list[Lesson | None]:
         """For each cell, its last change from tick `start` up to a tick; None if there was none."""
@@ -182,33 +193,8 @@ class Trajectory:
         if not self.first_tick <= tick < self.ticks:
             raise IndexError(f"tick {tick} of {self.first_tick}..{self.ticks - 1}")
         track = self.tracks[robot]
-        row, (x, y, heading) = track.row(tick), track.pose(tick)
-        start = at(self.scenes, tick)["start_tick"]
-        lessons = track.last_lessons(start, tick)
-        return State(
-            node=track.node,
-            tick=tick,
-            x=round(x, 1),
-            y=round(y, 1),
-            heading=round(heading * 1000),
-            lifted=row["lifted"],
-            feel=row["feel"],
-            bump=row["bump"],
-            beacon=row["beacon_mm"],
-            left=row["left_mm_s"],
-            right=row["right_mm_s"],
-            reason=row["reason"],
-            repeat_count=row["repeat_count"],
-            action=row["action"],
-            pattern=row["pattern"],
-            eaten=at(self.meals, tick),
-            memory=at(track.memories, tick),
-            uses=track.uses(start, tick),
-            learned=[lesson["tick"] if lesson else -1 for lesson in lessons],
-            by_hand=[lesson["by_hand"] if lesson else 0 for lesson in lessons],
-            frozen=row["frozen"],
-            trial=at(track.trials, tick),
-        )
+        known = track.known(at(self.scenes, tick)["start_tick"], tick)
+        return state(track.node, tick, track.pose(tick), track.row(tick), known, at(self.meals, tick))
 
     def events(self, robot: int = 0) -> list[Event]:
         """A robot's events in the order of their ticks."""
@@ -218,8 +204,8 @@ class Trajectory:
             (
                 *(Event(tick, "environment") for tick in self.begun()),
                 *(Event(tick, "change") for tick in dict.fromkeys(tick for tick, _ in self.retained_news())),
-                *(Event(tick, "trial") for tick in track.begun(Reason.TRIAL).tolist()),
-                *(Event(tick, "boredom") for tick in track.begun(Reason.BOREDOM).tolist()),
+                *(Event(tick, "trial") for tick in track.ticks_of(Reason.TRIAL)),
+                *(Event(tick, "boredom") for tick in track.ticks_of(Reason.BOREDOM)),
                 *(Event(lesson["tick"], "lesson") for lesson in lessons if lesson["tick"] >= self.first_tick),
                 *(Event(tick, "eat") for tick in track.meals if tick >= self.first_tick),
             )

@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 
 from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.paths import BUILD, ROOT
-from host_sim.base.robot_io import Drive, Senses
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.pacing import BegunTick
 from host_sim.client.robot_client import RobotClient
+from host_sim.protocol.generated import ROW, Drive, Senses
 from host_sim.sim.loop_robots import LoopRobot, Native, RobotBehindLink, RobotInProcess
 from host_sim.transport.link import SocketLink
 from host_sim.world.arena import Arena
@@ -27,7 +27,7 @@ BLOCK_TICKS = 1024
 
 _LINES_A_TICK = 3
 _SENSES_END = len(Senses._fields)
-_REASON = _SENSES_END + Drive._fields.index("reason")
+_REASON = ROW.index("reason")
 _DRIVE_END = _SENSES_END + len(Drive._fields)
 
 
@@ -35,17 +35,13 @@ class RobotBlock(NamedTuple):
     """One robot's part of a block.
 
     Attributes:
-        rows: 16-bit numbers, tick after tick: the fields of `Senses` and `Drive`, the pattern when the current action
-            was decided, whether the robot is lifted, and 0.
+        rows: 16-bit numbers, tick after tick, those of `ROW`; `pattern` and `frozen` are yet to be filled in.
         poses: Doubles, tick after tick: x and y in mm and heading in rad, after the tick.
-        decisions: The ticks, counted from the block's first, in which a remembered turn or a trial began, or an
-            action after a trial.
         memory: The robot's eight cells before the block.
     """
 
     rows: Any
     poses: Any
-    decisions: Sequence[int]
     memory: tuple[int, ...]
 
 
@@ -141,7 +137,7 @@ class NativeLoop:
             drives: Each robot's drive.
             food_eaten: For each robot, the number of pieces of food that it has eaten since `enter`.
         """
-        first = self._loop.ticks * self._library.LOOP_ROW
+        first = self._loop.ticks * len(ROW)
         for robot, sensed, drive, eaten in zip(self._robots, senses, drives, food_eaten, strict=True):
             robot.rows[first : first + _DRIVE_END] = [*sensed, *drive]
             robot.food_eaten = eaten
@@ -151,21 +147,20 @@ class NativeLoop:
         """A robot's part of the last block; it is valid until the next block."""
         robot, ticks, ffi = self._robots[index], self._loop.ticks, self._ffi
         return RobotBlock(
-            ffi.buffer(robot.rows, ticks * self._library.LOOP_ROW * 2),
+            ffi.buffer(robot.rows, ticks * len(ROW) * 2),
             ffi.buffer(robot.poses, ticks * self._library.LOOP_POSE * 8),
-            robot.decisions[0 : robot.decision_count],
             self._memories[index],
         )
 
     def reasons(self, index: int) -> Sequence[int]:
         """A robot's reason in each tick of the last block."""
-        row = self._library.LOOP_ROW
+        row = len(ROW)
         numbers: Sequence[int] = self._ffi.unpack(self._robots[index].rows, self._loop.ticks * row)
         return numbers[_REASON::row]
 
     def last(self, index: int) -> tuple[Senses, Drive]:
         """A robot's senses and drive in the last tick."""
-        first = (self._loop.ticks - 1) * self._library.LOOP_ROW
+        first = (self._loop.ticks - 1) * len(ROW)
         numbers = self._ffi.unpack(self._robots[index].rows + first, _DRIVE_END)
         senses = Senses._make(numbers[:_SENSES_END])
         drive = Drive._make(numbers[_SENSES_END:])
@@ -187,11 +182,10 @@ class NativeLoop:
             client.protocol.id_of, ("SENSES", "DRIVE", "HEARTBEAT")
         )
         buffers = (
-            ffi.new("int16_t[]", BLOCK_TICKS * library.LOOP_ROW),
+            ffi.new("int16_t[]", BLOCK_TICKS * len(ROW)),
             ffi.new("double[]", BLOCK_TICKS * library.LOOP_POSE),
-            ffi.new("uint32_t[]", BLOCK_TICKS),
         )
-        robot.rows, robot.poses, robot.decisions = buffers
+        robot.rows, robot.poses = buffers
         self._kept += buffers
         native = Native(ffi, library, self._loop, robot)
         if isinstance(link, InProcessLink):

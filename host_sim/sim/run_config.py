@@ -56,7 +56,6 @@ class Option:
             return bool(self.limits[0] <= value <= self.limits[1])
         return not self.choices or value in self.choices
 
-
     @property
     def range(self) -> str:
         """The values that it may have, for people; empty if any."""

@@ -4,11 +4,10 @@ import gc
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
-from host_sim.base.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.client.pacing import BegunTick, Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import settle
-from host_sim.protocol.generated import TICK_SPAN
+from host_sim.protocol.generated import NOTHING_SENSED, REST, TICK_SPAN, Drive, Senses
 from host_sim.sim.change_schedule import ChangeSchedule
 from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop, suits

@@ -1,11 +1,9 @@
 """What a robot has learned in a run: its trials and their results, its lessons, and the use of each cell."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from typing import Any, TypedDict
+from typing import Any, NamedTuple, TypedDict
 
-from host_sim.base.robot_io import Drive, Senses
-from host_sim.protocol.generated import CELL_COUNT
+from host_sim.protocol.generated import CELL_COUNT, ROW
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.world.world_library import world_library
 
@@ -46,6 +44,33 @@ class Lesson(TypedDict):
     by_hand: int
 
 
+class Learned(TypedDict):
+    """What a robot knows at a tick; see `State`."""
+
+    memory: list[int]
+    uses: list[int]
+    learned: list[int]
+    by_hand: list[int]
+    frozen: int
+    trial: Trial | None
+
+
+class Note(NamedTuple):
+    """A turn or a trial that began, or a trial that ended.
+
+    Attributes:
+        tick: Number of the tick.
+        reason: Reason of the action that began.
+        cell: The pattern when it was decided.
+        trial: The last trial, after it.
+    """
+
+    tick: int
+    reason: int
+    cell: int
+    trial: Trial | None
+
+
 def pattern_of(feel: int) -> int:
     """The pattern of the three front sensors: bit 0 front-right, bit 1 front, bit 2 front-left.
 
@@ -55,81 +80,90 @@ def pattern_of(feel: int) -> int:
     return feel >> 1 & 7
 
 
-@dataclass
 class LearningHistory:
     """One robot's history, built from every tick of a run in order, in C (`host_sim/world/native/history.h`).
 
     Attributes:
         node: The robot's node number on the bus.
-        memory: The turn for each pattern, whatever kind of memory the robot has.
-        frozen: Whether learning is frozen; set by the caller that sends the command.
-        pattern: The front sensors' pattern when the current action was decided, 0..7.
-        uses: For each cell, the number of remembered turns that used its present content.
-        learned: For each cell, the tick of its last change; -1 if there was none.
-        by_hand: For each cell, 1 if its last change came from outside, from a person or from another robot; else 0.
-        trial: The last trial, or None.
-        trials: Number of trials.
-        action: Number of the current action; -1 before the first.
         lessons: All lessons that were not forgotten, in order.
         forgotten: Number of lessons that were forgotten.
+        ticks: Number of ticks so far.
     """
 
-    node: int = 1
-    memory: Sequence[int] = (0,) * CELL_COUNT
-    frozen: bool = False
-    pattern: int = 0
-    uses: list[int] = field(default_factory=lambda: [0] * CELL_COUNT)
-    learned: list[int] = field(default_factory=lambda: [-1] * CELL_COUNT)
-    by_hand: list[int] = field(default_factory=lambda: [0] * CELL_COUNT)
-    trial: Trial | None = None
-    trials: int = 0
-    lessons: list[Lesson] = field(default_factory=list)
-    forgotten: int = 0
-    action: int = -1
-    _in_c: Any = field(default=None, compare=False, repr=False)
+    def __init__(self, node: int = 1, memory: Sequence[int] = (0,) * CELL_COUNT) -> None:
+        """Begins with the eight bytes of a memory, whatever kind of memory the robot has."""
+        self.node, self.forgotten, self.ticks = node, 0, 0
+        self.lessons: list[Lesson] = []
+        self._ffi, self._library = world_library()
+        self._in_c: Any = self._ffi.new("struct history *")
+        self._notes: Any = self._ffi.new("struct history_note[]", 1)
+        self._library.history_begin(self._in_c, sides_of(tuple(memory)))
 
-    def __post_init__(self) -> None:
-        ffi, library = world_library()
-        self._in_c = ffi.new("struct history *")
-        self.memory = sides_of(tuple(self.memory))
-        library.history_begin(self._in_c, self.memory)
+    @property
+    def memory(self) -> tuple[int, ...]:
+        """The turn for each pattern."""
+        return tuple(self._in_c.sides)
 
-    def take(self, tick: int, senses: Senses, drive: Drive, memory: Sequence[int]) -> None:
-        """Adds a tick.
+    @property
+    def frozen(self) -> bool:
+        """Whether learning is frozen; set by the caller that sends the command."""
+        return bool(self._in_c.frozen)
+
+    @frozen.setter
+    def frozen(self, frozen: bool) -> None:
+        self._in_c.frozen = frozen
+
+    @property
+    def pattern(self) -> int:
+        """The front sensors' pattern when the current action was decided, 0..7."""
+        return int(self._in_c.pattern)
+
+    @property
+    def trials(self) -> int:
+        """Number of trials."""
+        return int(self._in_c.trials)
+
+    def known(self) -> Learned:
+        """What the robot knows now."""
+        now = self._in_c
+        return Learned(
+            memory=list(now.sides),
+            uses=list(now.uses),
+            learned=list(map(int, now.learned)),
+            by_hand=list(now.by_hand),
+            frozen=int(now.frozen),
+            trial=_trial(now.trial),
+        )
+
+    def take(self, rows: Any) -> list[Note]:
+        """Adds ticks, and fills in what their rows have of learning: `pattern` and `frozen`.
 
         Args:
-            tick: Number of the tick, from the start of the run.
-            senses: The senses of the tick.
-            drive: The robot's answer.
-            memory: The eight bytes after the answer.
+            rows: A writable buffer: 16-bit numbers, those of `ROW` for each tick.
         """
-        _, library = world_library()
-        self._in_c.frozen = self.frozen
-        what = senses.feel, drive.left_mm_s, drive.right_mm_s, drive.reason, drive.action
-        library.history_take(self._in_c, tick, [what], sides_of(tuple(memory)))
-        self._refresh(tick)
+        numbers = self._ffi.from_buffer("int16_t[]", rows)
+        if (ticks := len(numbers) // len(ROW)) > len(self._notes):
+            self._notes = self._ffi.new("struct history_note[]", ticks)
+        count = self._library.history_take(self._in_c, self.ticks, numbers, ticks, self._notes)
+        self.ticks += ticks
+        if not count:
+            return []
+        return [Note(int(it.tick), it.reason, it.cell, _trial(it.trial)) for it in self._notes[0:count]]
 
-    def pass_over(self, drive: Drive, pattern: int) -> None:
-        """Skips ticks in which no remembered turn and no trial began or ended, and the memory stayed the same.
-
-        Args:
-            drive: The robot's answer in the last of these ticks.
-            pattern: The pattern when its action was decided.
-        """
-        _, library = world_library()
-        library.history_pass_over(self._in_c, [(0, 0, 0, drive.reason, drive.action)], pattern)
-        self.action, self.pattern = drive.action, pattern
+    def learn(self, memory: Sequence[int]) -> None:
+        """Adds a lesson for each pattern whose turn changed in the last tick: these are the eight bytes after it."""
+        self._library.history_learn(self._in_c, self.ticks - 1, sides_of(tuple(memory)))
+        self._add_lessons(self.ticks - 1)
 
     def relearn(self, tick: int, memory: Sequence[int]) -> None:
         """Adds a lesson for each pattern whose turn changed: it was told, by a person or by another robot.
 
         Args:
-            tick: Number of the tick.
+            tick: Number of the next tick.
             memory: The eight bytes now.
         """
-        _, library = world_library()
-        library.history_relearn(self._in_c, tick, sides_of(tuple(memory)))
-        self._refresh(tick)
+        self._library.history_relearn(self._in_c, tick, sides_of(tuple(memory)))
+        self._add_lessons(tick)
 
     def restart(self, tick: int, memory: Sequence[int]) -> None:
         """Begins anew, as the robot has been started again; earlier lessons stay in the list.
@@ -138,12 +172,9 @@ class LearningHistory:
             tick: Number of the next tick. Lessons of this tick are dropped: no tick of either run was after them.
             memory: The eight cells now.
         """
-        _, library = world_library()
         while self.lessons and self.lessons[-1]["tick"] >= tick:
             self.lessons.pop()
-        library.history_restart(self._in_c, sides_of(tuple(memory)))
-        self.frozen = False
-        self._refresh(tick)
+        self._library.history_restart(self._in_c, sides_of(tuple(memory)))
 
     def forget_lessons(self, first: int) -> None:
         """Drops the lessons before a tick but the last one of each cell."""
@@ -152,15 +183,8 @@ class LearningHistory:
         self.forgotten += len(self.lessons) - len(kept)
         self.lessons[:] = kept
 
-    def _refresh(self, tick: int) -> None:
-        """Takes over what C code knows now, and its lessons of a tick."""
-        ffi, _ = world_library()
-        now = self._in_c
-        self.memory, self.action, self.pattern, self.trials = tuple(now.sides), now.action, now.pattern, now.trials
-        self.uses, self.by_hand = ffi.unpack(now.uses, CELL_COUNT), ffi.unpack(now.by_hand, CELL_COUNT)
-        self.learned = list(map(int, now.learned))
-        self.trial = _trial(now.trial)
-        for it in now.lessons[0 : now.lesson_count]:
+    def _add_lessons(self, tick: int) -> None:
+        for it in self._in_c.lessons[0 : self._in_c.lesson_count]:
             self.lessons.append(Lesson(node=self.node, tick=tick, cell=it.cell, side=it.side, by_hand=it.by_hand))
 
 

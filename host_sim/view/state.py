@@ -5,14 +5,14 @@ mrad, 0 along +x, positive to the right. Sides: 0 nothing, 1 left, 2 right. Reas
 """
 
 from collections.abc import Sequence
-from typing import TypedDict
+from typing import TypedDict, cast
 
-from host_sim.base.robot_io import Drive, Senses
+from host_sim.protocol.generated import COLUMNS
 from host_sim.sim.simulation import Simulation
 from host_sim.sim.world_record import Begun
-from host_sim.view.history import LearningHistory, Lesson, Trial
+from host_sim.view.history import Learned, LearningHistory, Lesson, Trial
 from host_sim.world.arena import Arena
-from host_sim.world.body import Body
+from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams
 
 __all__ = ["EnvironmentScene", "Lesson", "Measures", "State", "Trial", "environment_scene", "measures", "state"]
@@ -165,50 +165,30 @@ def environment_scene(begun: Sequence[Begun], of: int, arena: Arena) -> Environm
 
 
 def state(  # noqa: PLR0913, PLR0917 - everything that a display shows
-    tick: int, body: Body, eaten: Sequence[bool], senses: Senses, drive: Drive, history: LearningHistory
+    node: int, tick: int, pose: Pose, row: Sequence[int], known: Learned, eaten: Sequence[int]
 ) -> State:
     """A robot's state after a tick.
 
     Args:
+        node: The robot's node number on the bus.
         tick: Number of the tick.
-        body: The robot's body, after its move.
-        eaten: For each piece of food, whether it was eaten.
-        senses: The senses of the tick.
-        drive: The drive of the tick.
-        history: The robot's history, including the tick.
+        pose: Its position and heading, after its move.
+        row: The numbers of `ROW`.
+        known: What the robot knows.
+        eaten: For each piece of food, 1 if it was eaten, else 0.
     """
-    x, y, heading = body.pose
-    return State(
-        node=history.node,
-        tick=tick,
-        x=round(x, 1),
-        y=round(y, 1),
-        heading=round(heading * 1000),
-        lifted=int(body.lifted),
-        feel=senses.feel,
-        bump=int(senses.bump),
-        beacon=senses.beacon_mm,
-        left=drive.left_mm_s,
-        right=drive.right_mm_s,
-        reason=drive.reason,
-        repeat_count=drive.repeat_count,
-        action=drive.action,
-        pattern=history.pattern,
-        eaten=[int(is_eaten) for is_eaten in eaten],
-        memory=list(history.memory),
-        uses=list(history.uses),
-        learned=list(history.learned),
-        by_hand=list(history.by_hand),
-        frozen=int(history.frozen),
-        trial=history.trial,
-    )
+    x, y, heading = pose
+    place = {"node": node, "tick": tick, "x": round(x, 1), "y": round(y, 1), "heading": round(heading * 1000)}
+    shown = {name: row[number] for name, number in COLUMNS.items()}
+    return cast("State", {**place, **shown, "eaten": list(eaten), **known})
 
 
 def states(simulation: Simulation, histories: Sequence[LearningHistory]) -> list[State]:
     """The state of each robot after the last tick of a simulation, which `histories` must include."""
-    arena, tick = simulation.arena, max(0, simulation.tick - 1)
-    eaten = arena.food.eaten
-    return [
-        state(tick, arena.bodies[i], eaten, simulation.senses[i], simulation.drives[i], history)
-        for i, history in enumerate(histories)
-    ]
+    tick, eaten = max(0, simulation.tick - 1), [int(is_eaten) for is_eaten in simulation.arena.food.eaten]
+    robots = zip(simulation.arena.bodies, simulation.senses, simulation.drives, histories, strict=True)
+    found = []
+    for body, senses, drive, history in robots:
+        row = [*map(int, (*senses, *drive, history.pattern, body.lifted, history.frozen))]
+        found.append(state(history.node, tick, body.pose, row, history.known(), eaten))
+    return found

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from host_sim.base.robot_io import Ranges
+from host_sim.protocol.generated import Ranges
 from host_sim.world.body import Body
 from host_sim.world.body_faults import SOUND
 from host_sim.world.geometry import Point

@@ -1,16 +1,17 @@
 """One robot's body: it moves with its wheels, senses, and is pushed out of whatever it runs into."""
 
+from functools import cache
 from struct import Struct
 from typing import Any
 
-from host_sim.base.robot_io import Senses
+from host_sim.protocol.generated import Senses
 from host_sim.world.body_faults import SOUND
 from host_sim.world.geometry import Point, Pose
+from host_sim.world.native_library import members
 from host_sim.world.native_world import NativeWorld
 from host_sim.world.world_library import world_library
 
-_POSE, _ODOMETER = Struct("=3d"), Struct("=24x2d")  # as struct body begins
-_SENSES = Struct("=xB??3H")  # as struct senses begins
+_POSE, _ODOMETER = ("x_mm", "y_mm", "heading_rad"), ("left_mm", "right_mm")
 
 
 class Body:
@@ -37,6 +38,7 @@ class Body:
         self.faults, self.lifted = SOUND, False
         self._inside, self._library, self._world = inside, inside.library, inside.world
         self._body: Any = inside.bodies + index
+        self._pose, self._odometer, self._senses = _readers()
         self._bytes = inside.ffi.buffer(self._body, inside.ffi.sizeof("struct body"))
         self._tick_span = int(inside.library.TICK_SPAN)
         self._sensed: Any = inside.ffi.new("struct senses *")
@@ -46,12 +48,12 @@ class Body:
     @property
     def pose(self) -> Pose:
         """Its position and heading."""
-        return Pose._make(_POSE.unpack_from(self._bytes))
+        return Pose._make(self._pose.unpack_from(self._bytes))
 
     @property
     def odometer(self) -> Point:
         """Counted by the left and the right odometer since the first arena, mm, forward positive, with slip."""
-        left_mm, right_mm = _ODOMETER.unpack_from(self._bytes)
+        left_mm, right_mm = self._odometer.unpack_from(self._bytes)
         return left_mm, right_mm
 
     @property
@@ -71,7 +73,7 @@ class Body:
             tick: Number of the control tick, as the robot is to be told it.
         """
         self._library.world_sense(self._world, self._body, tick % self._tick_span, self._sensed)
-        return Senses(tick, *_SENSES.unpack_from(self._sensed_bytes))
+        return Senses(tick, *self._senses.unpack_from(self._sensed_bytes))
 
     def eat(self) -> bool:
         """Eats the food that was sensed straight ahead, if it is near enough and no other robot was quicker.
@@ -108,6 +110,14 @@ class Body:
         self._body.lifted = self.lifted = False
         self._body.x_mm, self._body.y_mm, self._body.heading_rad = pose
         self._inside.settle()
+
+
+@cache
+def _readers() -> tuple[Struct, Struct, Struct]:
+    """What reads a pose, the odometers, and the senses but their tick."""
+    ffi, _ = world_library()
+    body, senses = "struct body", "struct senses"
+    return members(ffi, body, _POSE), members(ffi, body, _ODOMETER), members(ffi, senses, Senses._fields[1:])
 
 
 def rolled(pose: Pose, left_mm: float, right_mm: float, track_mm: float) -> Pose:

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from host_sim.base.near_word import near_word
-from host_sim.base.robot_io import Ranges, Senses
+from host_sim.protocol.generated import Ranges, Senses
 from host_sim.world.cones import CONE_BEARINGS_DEG
 from host_sim.world.world_library import world_library
 

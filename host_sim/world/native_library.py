@@ -5,10 +5,13 @@ import os
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from struct import Struct
 from typing import Any
 
 from host_sim.base.c_interface import c_interface
 from host_sim.base.errors import OctetError
+
+_CODES = {"double": "d", "uint8_t": "B", "uint16_t": "H", "_Bool": "?"}
 
 
 class NoNativeError(OctetError):
@@ -44,6 +47,16 @@ def load_native(library: Path, prefix: str, headers: Sequence[Path], words: Path
     if stamp.decode() != "".join(hashlib.sha256(header.read_bytes()).hexdigest() for header in headers):
         raise NoNativeError(f"{library.name} was built from other sources")
     return ffi, loaded
+
+
+def members(ffi: Any, kind: str, names: Sequence[str]) -> Struct:
+    """Reads some members of a C struct, given in its order, from wherever its header has them."""
+    layout, end = "=", 0
+    for name, member in ffi.typeof(kind).fields:
+        if name in names:
+            layout += f"{member.offset - end}x{_CODES[member.type.cname]}"
+            end = member.offset + ffi.sizeof(member.type)
+    return Struct(layout)
 
 
 def declarations(header: Path) -> str:

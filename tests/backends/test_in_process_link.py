@@ -7,8 +7,8 @@ import pytest
 from host_sim.backends.in_process_link import InProcessLink
 from host_sim.backends.relay import Relay
 from host_sim.base.errors import OctetError
-from host_sim.base.robot_io import Senses
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.generated import Senses
 
 KNOWS = (0, 1, 0, 0, 2, 0, 0, 0)
 

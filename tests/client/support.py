@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from host_sim.backends.in_process_link import InProcessLink
-from host_sim.base.robot_io import NOTHING_SENSED, Drive, Senses
 from host_sim.client.commands import start, stop
 from host_sim.client.connection import DEADLINE_S, Connection
 from host_sim.client.frame_log import FrameLog
@@ -18,6 +17,7 @@ from host_sim.faults.rule import Rule
 from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.forgery import forgers
+from host_sim.protocol.generated import NOTHING_SENSED, Drive, Senses
 from host_sim.transport.clock import VirtualClock
 from host_sim.transport.link import Link
 

@@ -7,7 +7,6 @@ import pytest
 
 from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RefusedError, RobotError
-from host_sim.base.robot_io import NOTHING_SENSED, Drive, Senses
 from host_sim.client.commands import start
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
@@ -16,6 +15,7 @@ from host_sim.client.pacing import HOLD_TICKS, Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame, Protocol, crc8
+from host_sim.protocol.generated import NOTHING_SENSED, Drive, Senses
 
 PROTOCOL = Protocol()
 Tamper = Callable[[Frame], list[Frame]]

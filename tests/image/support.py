@@ -3,7 +3,6 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from host_sim.base.robot_io import Senses
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.handshake import handshake
@@ -13,7 +12,7 @@ from host_sim.emulator.hardware import Faults
 from host_sim.lab.bench.short_run import step_through
 from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
-from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, TICK_SPAN
+from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, TICK_SPAN, Senses
 from host_sim.sim.make import assemble
 from host_sim.sim.run_config import RunConfig
 

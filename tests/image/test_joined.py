@@ -8,13 +8,13 @@ import time
 import can
 import pytest
 
-from host_sim.base.robot_io import Senses
 from host_sim.client.frame_log import FrameLog
 from host_sim.emulator.__main__ import JoinedBoard, main
 from host_sim.emulator.board import start_board
 from host_sim.lab.bench.equality import REFERENCE, first_difference, record
 from host_sim.lab.bench.short_run import run_ticks
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.generated import Senses
 from host_sim.sim.run_config import RunConfig
 
 PROTOCOL = Protocol()

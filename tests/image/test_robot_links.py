@@ -7,10 +7,9 @@ from contextlib import ExitStack
 import pytest
 
 from host_sim.backends.connect import connect
-from host_sim.base.robot_io import Senses
 from host_sim.protocol.codec import COUNTERS as COUNTER_SPAN
 from host_sim.protocol.codec import Frame, Protocol
-from host_sim.protocol.generated import Reason
+from host_sim.protocol.generated import Reason, Senses
 
 PROTOCOL = Protocol()
 COUNTERS = itertools.cycle(range(COUNTER_SPAN))  # the robots live longer than a test, and remember the last one

@@ -92,8 +92,9 @@ def test_starting_over_begins_everything_anew(live, keep):
 
     history = run.recorder.histories[0]
     assert run.simulation.clients[0].memory == history.memory == (before if keep else (0,) * 8)
-    assert (history.frozen, history.trial) == (False, None)
-    assert (history.uses, history.learned) == ([0] * 8, [-1] * 8)
+    known = history.known()
+    assert (known["frozen"], known["trial"]) == (0, None)
+    assert (known["uses"], known["learned"]) == ([0] * 8, [-1] * 8)
     message = json.loads(PageFeed(run).next())
     assert message["lessons"] == []
     assert message["environment"]["start_tick"] == run.simulation.tick

@@ -1,8 +1,8 @@
 """The trails in the messages to pages."""
 
 from host_sim.live.feed import points
-from host_sim.protocol.generated import Reason
-from host_sim.recording.trajectory import ROW, RobotTrack
+from host_sim.protocol.generated import ROW, Reason
+from host_sim.recording.trajectory import RobotTrack
 
 FIRST = 100
 WANDER, LOOK, TRIAL = Reason.WANDER, Reason.LOOK_AROUND, Reason.TRIAL

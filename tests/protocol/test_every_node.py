@@ -1,8 +1,8 @@
 """A frame of any node is known by its identifier."""
 
-from host_sim.base.robot_io import Senses
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.every_node import IDS, Heard, hear
+from host_sim.protocol.generated import Senses
 
 SENSES = Protocol(3).encode_senses(Senses(7, 4, False, False, 0, 1, 2), 5)
 

@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from host_sim.base.robot_io import Drive, Ranges, Senses
 from host_sim.protocol.codec import DBC, Frame, Protocol, crc8, node_of
-from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, RANGE_NONE, Opcode
+from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, RANGE_NONE, Drive, Opcode, Ranges, Senses
 from host_sim.protocol.signal_layout import MessageLayout
 
 PROTOCOL = Protocol()

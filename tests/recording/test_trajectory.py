@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 from host_sim.base.errors import OctetError
-from host_sim.base.robot_io import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.cli.main import main
 from host_sim.client.commands import freeze, write_cells
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, EraseMemory, Freeze, NewSeed, NextEnvironment, WriteCell
 from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.generated import NOTHING_SENSED, REST, Senses
 from host_sim.recording import run_recorder as run_recorder_module
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.recording import read_recording
@@ -209,7 +209,7 @@ def heartbeat_of(log: Path) -> Frame:
 def test_on_its_own_clock_a_body_holds_a_drive_for_a_while_and_then_rests(short, tmp_path):
     protocol = Protocol()
     start = {"counter": 1, "opcode": 2, "owner": 1, "lockstep": 0, "profile": 0, "seed": 5}
-    drive = Drive(0, 200, 190, 1, 0, 3, False)
+    drive = REST._replace(left_mm_s=200, right_mm_s=190, reason=1, action=3)
     moving = {"left": 200, "right": 190, "repeat_count": 0, "eat": 0, "action": 3}
     signals = {"counter": 0, "tick": 0, "reason": 1, **moving}
     log = write_log(

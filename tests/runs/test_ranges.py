@@ -1,11 +1,10 @@
 """Distances on the wire: who gets them, when, and that a run with them can be repeated from its log."""
 
 from host_sim.base.errors import SessionLostError
-from host_sim.base.robot_io import NOTHING_NEAR
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.supervision import recover
 from host_sim.protocol.codec import Protocol, counter_of
-from host_sim.protocol.generated import RANGE_NONE
+from host_sim.protocol.generated import NOTHING_NEAR, RANGE_NONE
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.replay import replay
 from host_sim.recording.resimulation import resimulate

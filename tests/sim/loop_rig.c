@@ -9,9 +9,8 @@ struct octet octets[ROBOTS];
 struct loop_robot robots[ROBOTS];
 struct world world;
 struct loop loop;
-int16_t rows[ROBOTS][TICKS * LOOP_ROW];
+int16_t rows[ROBOTS][TICKS * ROW_COUNT];
 double poses[ROBOTS][TICKS * LOOP_POSE];
-uint32_t decisions[ROBOTS][TICKS];
 char text[TICKS * ROBOTS * 20 * LOG_LINE_MAX];
 
 struct frame drive_of(const struct octet *octet, uint8_t tick)
@@ -66,7 +65,6 @@ void setUp(void)
         robots[i].drive_id = DRIVE + i;
         robots[i].rows = rows[i];
         robots[i].poses = poses[i];
-        robots[i].decisions = decisions[i];
     }
 }
 

@@ -26,9 +26,8 @@ extern struct octet octets[ROBOTS];
 extern struct loop_robot robots[ROBOTS];
 extern struct world world;
 extern struct loop loop;
-extern int16_t rows[ROBOTS][TICKS * LOOP_ROW];
+extern int16_t rows[ROBOTS][TICKS * ROW_COUNT];
 extern double poses[ROBOTS][TICKS * LOOP_POSE];
-extern uint32_t decisions[ROBOTS][TICKS];
 extern char text[TICKS * ROBOTS * 20 * LOG_LINE_MAX];   /* the log */
 
 struct frame drive_of(const struct octet *octet, uint8_t tick);

@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from host_sim.base.errors import RobotError
-from host_sim.base.robot_io import NOTHING_SENSED
 from host_sim.client.commands import erase_memory, stop, write_cells
 from host_sim.client.frame_log import FrameLog
 from host_sim.protocol.codec import Frame
+from host_sim.protocol.generated import NOTHING_SENSED
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim import loop_robots
 from host_sim.sim.make import make

@@ -14,7 +14,7 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 
 PACKAGE = str(Path(host_sim.__file__).parent)
-CALLS_MAX, FILES_MAX = 24, 9
+CALLS_MAX, FILES_MAX = 25, 10
 ORDINARY_TICK = 21
 """In the middle of a turn: no action begins, and no report is due."""
 

@@ -5,7 +5,7 @@ import random
 
 import pytest
 
-from host_sim.base.robot_io import Senses
+from host_sim.protocol.generated import Senses
 from host_sim.world.arena import Arena
 from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Point, Pose, ahead_of

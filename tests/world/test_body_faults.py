@@ -2,8 +2,7 @@
 
 import pytest
 
-from host_sim.base.robot_io import NOTHING_SENSED, Ranges
-from host_sim.protocol.generated import FEEL
+from host_sim.protocol.generated import FEEL, NOTHING_SENSED, Ranges
 from host_sim.world.arena import Arena
 from host_sim.world.body_faults import FAULT_NAMES, SOUND, BodyFaults, noise_key, with_fault
 from host_sim.world.layouts import generate

@@ -5,8 +5,7 @@ import random
 
 import pytest
 
-from host_sim.base.robot_io import NOTHING_NEAR, Ranges
-from host_sim.protocol.generated import RANGE_NONE
+from host_sim.protocol.generated import NOTHING_NEAR, RANGE_NONE, Ranges
 from host_sim.world.arena import Arena
 from host_sim.world.cones import CONE_BEARINGS_DEG
 from host_sim.world.geometry import Bar, Capsule, Pose, ahead_of

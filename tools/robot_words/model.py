@@ -19,6 +19,8 @@ _toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "t
 
 _BYTE_MAX = 255
 _UNITS_PER_MM = {"0.1 mm": 10, "mm": 1}
+_SUFFIXES = {"mm": "_mm", "mm/s": "_mm_s"}
+_UNSAID = ("crc", "counter")
 
 
 class DescriptionError(ValueError):
@@ -39,6 +41,23 @@ class Parameter:
 
 
 @dataclass(frozen=True)
+class Member:
+    """What SENSES or DRIVE says, as a member of `struct senses` or `struct drive`.
+
+    Attributes:
+        name: The member's name: the signal's with its unit.
+        signal: The signal's name.
+        is_flag: Whether it is a bit.
+        meaning: What it means, with range and unit.
+    """
+
+    name: str
+    signal: str
+    is_flag: bool
+    meaning: str
+
+
+@dataclass(frozen=True)
 class Description:
     """The robot's numbers and words.
 
@@ -51,6 +70,10 @@ class Description:
         memory: For each profile, what its eight bytes are: one of the enum `memory_kind`.
         patterns: Names by number.
         feel: Names of the proximity sensors, from bit 0 on.
+        senses: What a body tells its robot at each tick.
+        drive: What the robot answers.
+        row: The names of the numbers that are recorded of each tick: senses, drive, and what recorders add.
+        columns: What views show of a row: each with its place there.
         cell_count: Number of bytes of a memory.
         node_max: The last node.
         range_none: A distance where nothing is within reach.
@@ -71,6 +94,10 @@ class Description:
     memory: Mapping[str, str]
     patterns: Sequence[str]
     feel: Sequence[str]
+    senses: Sequence[Member]
+    drive: Sequence[Member]
+    row: Sequence[str]
+    columns: Mapping[str, int]
     cell_count: int
     node_max: int
     range_none: int
@@ -127,6 +154,7 @@ def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
     meanings = {name: toml.get(name, {}) for name in enums}
     _check_meanings(enums, meanings)
     hashed = layout_hash(database)
+    senses, drive = (_members(database.get_message_by_name(name)) for name in ("SENSES", "DRIVE"))
     return Description(
         messages=sorted(database.messages, key=lambda message: message.frame_id),
         enums=enums,
@@ -136,6 +164,10 @@ def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
         memory=_memory(toml["memory"], profiles, enums["memory_kind"]),
         patterns=_patterns(toml["patterns"]),
         feel=_feel(toml["feel"], signal("SENSES.feel")),
+        senses=senses,
+        drive=drive,
+        row=_row(senses, drive, toml["recorded"]),
+        columns=_columns(toml["columns"], [*(it.signal for it in (*senses, *drive)), *toml["recorded"]]),
         cell_count=_cell_count(toml["patterns"], database.get_message_by_name("MEMORY")),
         node_max=_node_max(toml["node_max"], database),
         range_none=toml["range_none"],
@@ -241,6 +273,28 @@ def _feel(names: Sequence[str], signal: Signal) -> Sequence[str]:
     if len(names) != signal.length:
         raise DescriptionError(f"feel names {len(names)} sensors, and the signal has {signal.length} bits")
     return names
+
+
+def _members(message: Message) -> list[Member]:
+    return [_member(signal) for signal in message.signals if signal.name not in _UNSAID]
+
+
+def _member(signal: Signal) -> Member:
+    unit = signal.unit or ""
+    meaning = f"{signal.comment} {signal.minimum}..{signal.maximum} {unit}".strip()
+    return Member(signal.name + _SUFFIXES.get(unit, ""), signal.name, signal.length == 1, meaning)
+
+
+def _row(senses: Sequence[Member], drive: Sequence[Member], recorded: Sequence[str]) -> list[str]:
+    """What both messages have is the drive's with its name before it."""
+    sensed = [member.name for member in senses]
+    return [*sensed, *(f"drive_{it.name}" if it.name in sensed else it.name for it in drive), *recorded]
+
+
+def _columns(names: Sequence[str], known: Sequence[str]) -> Mapping[str, int]:
+    if unknown := sorted(set(names) - set(known)):
+        raise DescriptionError(f"columns has {', '.join(unknown)}, which no row has")
+    return {name: known.index(name) for name in names}
 
 
 def _cell_count(patterns: Mapping[str, str], memory: Message) -> int:

@@ -16,7 +16,7 @@ def header(robot: Description) -> str:
     parts = [_HEAD, _numbers(robot)]
     parts += [_enum(name, words, robot.meanings[name]) for name, words in robot.enums.items()]
     parts += [f"enum {{ MEMORY_KIND_COUNT = {len(robot.enums['memory_kind'])} }};\n"]
-    parts += [_parameters(robot), _profiles(robot), "#endif\n"]
+    parts += [_parameters(robot), _profiles(robot), _row(robot), "#endif\n"]
     return "\n".join(parts)
 
 
@@ -73,4 +73,18 @@ def _profiles(robot: Description) -> str:
         f"enum profile {{\n{names}\n    PROFILE_COUNT\n}};\n\n"
         "/* X(profile, name, memory_kind) for each: the behaviour of that name. */\n"
         f"#define ROBOT_BEHAVIOURS(X) \\\n{rows}\n"
+    )
+
+
+def _row(robot: Description) -> str:
+    """What is recorded of a tick: the places, and what fills those of `struct senses` and `struct drive`."""
+    places = "".join(f"    {c_name('row', name)},\n" for name in robot.row)
+    lists = [
+        f"#define {name}(X) {' '.join(f'X({it.name}, {it.signal})' for it in members)}\n"
+        for name, members in (("ROBOT_SENSED", robot.senses), ("ROBOT_DRIVEN", robot.drive))
+    ]
+    return (
+        f"/* A tick as a row of numbers. */\nenum row {{\n{places}    ROW_COUNT\n}};\n\n"
+        "/* X(member, signal) for each that SENSES has of struct senses, and DRIVE of struct drive, as in a row. */\n"
+        f"{''.join(lists)}"
     )

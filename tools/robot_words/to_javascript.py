@@ -26,6 +26,8 @@ def module(robot: Description) -> str:
     exports["RANGE_NONE"] = robot.range_none
     exports["ANSWER_WANTS_RANGES"] = robot.answer_wants_ranges
     exports["FRAMES"] = {message.name: message.frame_id for message in robot.messages}
+    exports["ROW"] = list(robot.row)
+    exports["COLUMNS"] = dict(robot.columns)
     lines = [f"export const {name} = {_literal(value)};" for name, value in exports.items()]
     return "\n".join([_HEAD, *lines, ""])
 

@@ -1,11 +1,11 @@
 """The robot's numbers and words in Python: host_sim/protocol/generated.py."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from cantools.database.can import Message
 from cantools.database.can.signal import Signal
 
-from tools.robot_words.model import Description, Parameter
+from tools.robot_words.model import Description, Member, Parameter
 from tools.robot_words.to_c import c_name
 
 _HEAD = '''\
@@ -62,9 +62,36 @@ def module(robot: Description) -> str:
     parts = [_HEAD]
     parts += [_enum(name, words) for name, words in robot.enums.items()]
     parts += [f"{name} = {value}\n" for name, value in _constants(robot).items()]
+    parts += _exchanged(robot)
     parts.append(_dict("PARAMETERS: dict[str, Parameter]", map(_parameter, robot.parameters)))
     parts.append(_dict("MESSAGES: dict[str, Message]", map(_message, robot.messages)))
     return "".join(parts)
+
+
+def _exchanged(robot: Description) -> list[str]:
+    """What body and robot exchange at each tick, and how it is recorded."""
+    ranges = [Member(name.replace("-", "_"), name, False, f"Sensor {name}.") for name in robot.feel]
+    return [
+        _tuple("Senses", "What the body senses at one tick.", robot.senses),
+        _tuple("Drive", "What the wheels are to do until the next tick.", robot.drive),
+        _tuple("Ranges", "Whole mm from the rim to the nearest thing in each cone; None: out of reach.", ranges),
+        f"\n\nNOTHING_SENSED = Senses({_zeros(robot.senses)})\nREST = Drive({_zeros(robot.drive)})\n",
+        f"NOTHING_NEAR = Ranges({', '.join('None' for _ in ranges)})\n",
+        f"ROW: tuple[str, ...] = {tuple(robot.row)!r}\n",
+        f"COLUMNS: dict[str, int] = {robot.columns!r}\n",
+    ]
+
+
+def _zeros(members: Sequence[Member]) -> str:
+    return ", ".join("False" if member.is_flag else "0" for member in members)
+
+
+def _tuple(name: str, title: str, members: Sequence[Member]) -> str:
+    meanings = "".join(f"        {member.name}: {member.meaning}\n" for member in members)
+    kinds = {member.name: "bool" if member.is_flag else "int" for member in members}
+    kinds = dict.fromkeys(kinds, "int | None") if name == "Ranges" else kinds
+    lines = "".join(f"    {field}: {kind}\n" for field, kind in kinds.items())
+    return f'\n\nclass {name}(NamedTuple):\n    """{title}\n\n    Attributes:\n{meanings}    """\n\n{lines}'
 
 
 def _enum(name: str, words: Mapping[str, int]) -> str:

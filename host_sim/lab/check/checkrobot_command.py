@@ -94,5 +94,3 @@ def _summary(verdicts: "Sequence[Verdict]") -> str:
     failed = [verdict.number for verdict in verdicts if verdict.state == "fails"]
     names = f": {', '.join(failed)}" if failed else ""
     return f"{count['holds']} sentences hold, {count['not checked']} are not checked, {len(failed)} fail{names}"
-
-

@@ -235,4 +235,3 @@ def _a_memory_that_changes_is_told(talk: Talk) -> None:
     told = next(said.signals for said in heard if said.name == "MEMORY" and said.signals["half"] == 1)
     cells = [told[f"cell_{cell}"] for cell in range(4, 8)]
     expect(cells == [1, 2, 1, 2], f"written were 1, 2, 1, 2; MEMORY has {cells}")
-

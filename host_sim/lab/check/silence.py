@@ -131,4 +131,3 @@ def _in_lockstep_only_a_second_of_silence_does(talk: Talk) -> None:
     talk.hear(_LONG_S)
     late = _result_for_another(talk)
     expect(late == Result.DONE, f"in lockstep, after 1.6 s another sender's command gets result {late}")
-

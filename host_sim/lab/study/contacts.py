@@ -7,9 +7,8 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.protocol.generated import Reason
+from host_sim.protocol.generated import ROW, Reason
 from host_sim.protocol.memory_kinds import Memory, sides_of
-from host_sim.recording.trajectory import ROW
 from host_sim.sim.native_loop import NativeLoop
 from host_sim.sim.simulation import Simulation
 from host_sim.view.history import pattern_of

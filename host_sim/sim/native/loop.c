@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "firmware/pattern.h"
 #include "host_sim/sim/native/turn.h"
 
 enum { TURNS_MAX = NODE_MAX };
@@ -17,48 +16,29 @@ static void sense(const struct loop *loop, struct turn turns[])
     }
 }
 
-/* What a robot senses and does, as it is recorded: the first numbers of a row. */
+#define SENSED(member, signal) (int16_t)turn->senses.member,
+#define DRIVEN(member, signal) (int16_t)turn->drive.member,
+
+/* What a robot senses and does: the first numbers of a row. */
 static void fill_row(const struct turn *turn, int16_t row[])
 {
-    const struct senses *senses = &turn->senses;
-    const struct drive *drive = &turn->drive;
-    const int16_t numbers[ROW_PATTERN] = {
-        senses->tick, senses->feel, senses->bump, senses->look, (int16_t)senses->beacon_mm,
-        (int16_t)senses->odometer_left, (int16_t)senses->odometer_right,
-        drive->tick, drive->left_mm_s, drive->right_mm_s, (int16_t)drive->reason, drive->repeat_count,
-        drive->action, drive->eat,
-    };
+    const int16_t numbers[ROW_PATTERN] = {ROBOT_SENSED(SENSED) ROBOT_DRIVEN(DRIVEN)};
 
     for (unsigned i = 0; i < ROW_PATTERN; i++)
         row[i] = numbers[i];
 }
 
-/* Counts an action that begins, and notes it if it is a decision to learn from. */
-static void begin_action(struct loop_robot *robot, const int16_t row[], uint32_t tick_of_block)
-{
-    bool tried = robot->begun_any && robot->reason == REASON_TRIAL;
-    enum reason reason = (enum reason)row[ROW_REASON];
-
-    if (row[ROW_ACTION] != robot->action && (unsigned)reason < LOOP_REASONS)
-        robot->begun[reason]++;
-    robot->begun_any = true;
-    robot->pattern = pattern_of((uint8_t)row[ROW_FEEL]);
-    if (tried || reason == REASON_REMEMBERED || reason == REASON_TRIAL)
-        robot->decisions[robot->decision_count++] = tick_of_block;
-}
-
 static void record(struct loop_robot *robot, const struct body *body, uint32_t tick_of_block)
 {
-    int16_t *row = robot->rows + (size_t)tick_of_block * LOOP_ROW;
+    int16_t *row = robot->rows + (size_t)tick_of_block * ROW_COUNT;
     double *pose = robot->poses + (size_t)tick_of_block * LOOP_POSE;
 
-    if (!robot->begun_any || row[ROW_ACTION] != robot->action)
-        begin_action(robot, row, tick_of_block);
+    if (row[ROW_ACTION] != robot->action && (unsigned)row[ROW_REASON] < LOOP_REASONS)
+        robot->begun[row[ROW_REASON]]++;
     robot->action = (uint8_t)row[ROW_ACTION];
-    robot->reason = (uint8_t)row[ROW_REASON];
-    row[ROW_PATTERN] = robot->pattern;
-    row[ROW_PATTERN + 1] = body->lifted;
-    row[ROW_PATTERN + 2] = 0;
+    row[ROW_PATTERN] = 0;
+    row[ROW_LIFTED] = body->lifted;
+    row[ROW_FROZEN] = 0;
     pose[0] = body->x_mm;
     pose[1] = body->y_mm;
     pose[2] = body->heading_rad;
@@ -98,7 +78,7 @@ static bool run_tick(struct loop *loop)
     }
     for (size_t i = 0; i < loop->robot_count; i++) {
         goes_on &= !act(loop, i, &turns[i].drive) && !loop->robots[i].has_news;
-        fill_row(&turns[i], loop->robots[i].rows + (size_t)loop->ticks * LOOP_ROW);
+        fill_row(&turns[i], loop->robots[i].rows + (size_t)loop->ticks * ROW_COUNT);
     }
     loop_record(loop);
     return goes_on;
@@ -115,7 +95,6 @@ static bool has_room(const struct loop *loop)
 
 static void begin_block(struct loop_robot *robot)
 {
-    robot->decision_count = 0;
     robot->received = robot->refused = 0;
     for (size_t i = 0; i < LOOP_KINDS_MAX; i++)
         robot->told[i] = 0;

@@ -21,12 +21,8 @@ enum {
     LOOP_ASK_LINES = 32,     /* of the log, in which ask asks one robot */
     LOOP_KINDS_MAX = 32,     /* of reports of one robot: an identifier, and which page of it */
     LOOP_REASONS = 16,
-    LOOP_ROW = 17,           /* numbers that are recorded of each tick: the senses, the drive, the pattern, lifted, 0 */
     LOOP_POSE = 3
 };
-
-/* Where in such a row they are. */
-enum { ROW_FEEL = 1, ROW_LEFT = 8, ROW_RIGHT = 9, ROW_REASON = 10, ROW_ACTION = 12, ROW_PATTERN = 14 };
 
 struct loop_robot {
     struct octet *octet;              /* in this process, */
@@ -38,10 +34,7 @@ struct loop_robot {
     struct frame senses;              /* the last SENSES to a robot in this process */
     bool halted;                      /* it has stopped by itself: at rest it answers */
     struct body_faults faults;        /* what is wrong with its body */
-    bool begun_any;                   /* an action has begun, with this pattern: */
-    uint8_t pattern;
     uint8_t action;                   /* the last drive's */
-    uint8_t reason;
     uint32_t begun[LOOP_REASONS];     /* actions begun, by reason */
     uint32_t food_eaten;
     const struct frame *waiting;      /* what it said before the block, to be taken in its first tick */
@@ -56,10 +49,8 @@ struct loop_robot {
     struct frame reports[LOOP_FRAMES_MAX];  /* of the last tick, */
     size_t report_count;
     bool has_news;                          /* and whether one of them says something new */
-    int16_t *rows;                    /* LOOP_ROW for each tick of the block */
+    int16_t *rows;                    /* an enum row of numbers for each tick of the block; the last three: 0, lifted, 0 */
     double *poses;                    /* x and y in mm and heading in rad, after each tick */
-    uint32_t *decisions;              /* ticks of the block in which a remembered turn or a trial began, or ended a trial */
-    size_t decision_count;
 };
 
 struct turn;   /* turn.h */

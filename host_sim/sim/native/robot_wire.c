@@ -5,17 +5,13 @@
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
+#define SENT(member, signal) .signal = senses->member,
+
 void robot_wire_senses(struct loop_robot *robot, const struct senses *senses, struct frame *out)
 {
     struct octet_senses_t message = {
         .counter = e2e_next(robot->senses_counter),
-        .tick = senses->tick,
-        .feel = senses->feel,
-        .bump = senses->bump,
-        .look = senses->look,
-        .beacon = senses->beacon_mm,
-        .odometer_left = senses->odometer_left,
-        .odometer_right = senses->odometer_right,
+        ROBOT_SENSED(SENT)
     };
 
     robot->senses_counter = message.counter;
@@ -25,19 +21,15 @@ void robot_wire_senses(struct loop_robot *robot, const struct senses *senses, st
     e2e_protect(out);
 }
 
+#define TAKEN(member, signal) out->member = message.signal;
+
 bool robot_wire_drive(const struct frame *frame, uint8_t tick, struct drive *out)
 {
     struct octet_drive_t message;
 
     if (octet_drive_unpack(&message, frame->data, frame->len) != 0)
         return false;
-    out->tick = message.tick;
-    out->left_mm_s = message.left;
-    out->right_mm_s = message.right;
-    out->reason = message.reason;
-    out->repeat_count = message.repeat_count;
-    out->eat = message.eat;
-    out->action = message.action;
+    ROBOT_DRIVEN(TAKEN)
     return message.tick == tick && message.reason != REASON_STOP && message.reason != REASON_SILENCE;
 }
 

@@ -14,9 +14,8 @@ struct page *page_state(void)
 
 static void bind(struct loop_robot *robot, struct octet *octet)
 {
-    static int16_t rows[PAGE_ROBOTS_MAX][PAGE_TICKS_MAX * LOOP_ROW];
+    static int16_t rows[PAGE_ROBOTS_MAX][PAGE_TICKS_MAX * ROW_COUNT];
     static double poses[PAGE_ROBOTS_MAX][PAGE_TICKS_MAX * LOOP_POSE];
-    static uint32_t decisions[PAGE_ROBOTS_MAX][PAGE_TICKS_MAX];
     size_t index = (size_t)(robot - page_state()->robots);
 
     robot->octet = octet;
@@ -26,7 +25,6 @@ static void bind(struct loop_robot *robot, struct octet *octet)
     robot->waiting = page_state()->waiting[index];
     robot->rows = rows[index];
     robot->poses = poses[index];
-    robot->decisions = decisions[index];
 }
 
 /* As in host_sim/client/supervision.py: all that it has said but its drive, then its report. */

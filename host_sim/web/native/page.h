@@ -53,6 +53,7 @@ struct page_world {
 struct page {
     struct page_world world;
     struct history histories[PAGE_ROBOTS_MAX];
+    struct history_note notes[PAGE_TICKS_MAX];   /* of the last page_history_take */
     struct loop loop;
     struct loop_robot robots[PAGE_ROBOTS_MAX];
     struct frame waiting[PAGE_ROBOTS_MAX][PAGE_WAITING_MAX];
@@ -171,38 +172,32 @@ uint32_t page_is_eaten(uint32_t food);
         /* 1 if it is, else 0. */
 
 const int16_t *page_rows(uint32_t robot);
-        /* LOOP_ROW numbers for each tick of the block, */
+        /* For each tick of the block an enum row of numbers, */
 
 const double *page_poses(uint32_t robot);
-        /* LOOP_POSE numbers for each tick, */
+        /* and LOOP_POSE numbers. */
 
-const uint32_t *page_decisions(uint32_t robot);
-        /* the ticks with decisions, */
-
-uint32_t page_decision_count(uint32_t robot);
-        /* and how many they are. */
-
-/* page_history.c: what a robot has learned. The turns that it knows are those in page_bytes(). */
+/* page_history.c: what a robot has learned. */
 
 void page_history_begin(uint32_t robot);
-        /* As history_begin, */
+        /* As history_begin. */
 
-void page_history_take(uint32_t robot, double number, uint32_t tick);
-        /* history_take, with the number of a tick and its place in the last block, */
+uint32_t page_history_take(uint32_t robot, double tick);
+        /* history_take and history_learn of the last block, whose first tick this is. Returns the number of page_notes(). */
 
-void page_history_pass_over(uint32_t robot, uint32_t tick);
-        /* history_pass_over, with the last of these ticks, */
-
-void page_history_relearn(uint32_t robot, double number);
+void page_history_relearn(uint32_t robot, double tick);
 void page_history_restart(uint32_t robot);
-        /* and these. */
+        /* As history_relearn and history_restart. */
 
 void page_history_freeze(uint32_t robot, uint32_t on);
         /* Whether learning is frozen from now on. */
 
-const double *page_history(uint32_t robot);
-        /* The last trial as in struct history_trial, the number of lessons of the last call, and the cell, the side and
-           by_hand of each. */
+const struct history_note *page_notes(void);
+        /* Those of the last page_history_take. */
+
+const struct history_lesson *page_lessons(uint32_t robot);
+uint32_t page_lesson_count(uint32_t robot);
+        /* The lessons of the last take or relearn. */
 
 /* page_layouts.c: the layouts that environments begin with. */
 

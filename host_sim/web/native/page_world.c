@@ -190,13 +190,3 @@ const double *page_poses(uint32_t robot)
 {
     return page_state()->robots[robot].poses;
 }
-
-const uint32_t *page_decisions(uint32_t robot)
-{
-    return page_state()->robots[robot].decisions;
-}
-
-uint32_t page_decision_count(uint32_t robot)
-{
-    return (uint32_t)page_state()->robots[robot].decision_count;
-}

@@ -1,89 +1,70 @@
 // @ts-check
-/* What a robot has learned in a run, told by C: its trials and their results, and its lessons. */
+/* What a robot has learned in a run, told by C: its turns and trials, and its lessons. */
 
 /**
  * @typedef {import("../types.js").Lesson} Lesson
  * @typedef {import("../types.js").Trial} Trial
+ *
+ * A turn or a trial that began, or a trial that ended; `trial` is the last one, after it.
+ * @typedef {{tick: number, reason: number, cell: number, trial: Trial | null}} Note
  */
 
-/** In the order of native/page.h. */
-const TRIAL_NUMBERS = 5;
+/** In `struct history_note` and `struct history_lesson`, as 32-bit numbers; the ticks are doubles. */
+const NOTE_NUMBERS = 10;
 const LESSON_NUMBERS = 3;
 
-/** Built from the ticks of a run, in order, in which something begins. */
+/** Built from the blocks of a run, in order. */
 export class LearningHistory {
   /**
    * @param {import("./native_run.js").NativeRun} native
    * @param {number} robot
-   * @param {number[]} sides - The turn for each pattern before the first tick.
    */
-  constructor(native, robot, sides) {
+  constructor(native, robot) {
     this.native = native;
     this.robot = robot;
-    this.frozen = 0;
-    /** @type {Trial | null} */
-    this.trial = null;
     /** @type {Lesson[]} */
     this.lessons = [];
-    native.bytes.set(sides);
     native.c.page_history_begin(robot);
   }
 
   /**
-   * Adds a tick.
-   * @param {number} number - Of the tick, from the start of the run.
-   * @param {number} tick - Its place in the last block.
-   * @param {number[]} sides - The turn for each pattern after it.
+   * Adds the last block.
+   * @param {number} tick - Its first one, from the start of the run.
+   * @param {number} ticks
    */
-  take(number, tick, sides) {
-    this.native.bytes.set(sides);
-    this.native.c.page_history_take(this.robot, number, tick);
-    this.refresh(number);
-  }
-
-  /**
-   * Skips ticks in which no turn from the memory and no trial began or ended, and the memory stayed the same.
-   * @param {number} tick - The place of the last of them in the last block.
-   */
-  passOver(tick) {
-    this.native.c.page_history_pass_over(this.robot, tick);
+  take(tick, ticks) {
+    const count = this.native.c.page_history_take(this.robot, tick);
+    this.addLessons(tick + ticks - 1);
+    return Array.from({ length: count }, (_, i) => this.noteAt(this.native.c.page_notes() + 4 * NOTE_NUMBERS * i));
   }
 
   /**
    * Adds a lesson for each pattern whose turn has changed: it was told.
-   * @param {number} number - Of the tick.
-   * @param {number[]} sides
+   * @param {number} tick - The next one.
    */
-  relearn(number, sides) {
-    this.native.bytes.set(sides);
-    this.native.c.page_history_relearn(this.robot, number);
-    this.refresh(number);
+  relearn(tick) {
+    this.native.c.page_history_relearn(this.robot, tick);
+    this.addLessons(tick);
   }
 
-  /** @param {number} on */
-  freeze(on) {
-    this.frozen = on;
-    this.native.c.page_history_freeze(this.robot, on);
+  /** @param {number} tick - Of new lessons. */
+  addLessons(tick) {
+    const { c } = this.native;
+    const numbers = this.native.numbersAt(c.page_lessons(this.robot), LESSON_NUMBERS * c.page_lesson_count(this.robot));
+    for (let at = 0; at < numbers.length; at += LESSON_NUMBERS) {
+      const [cell, side, by_hand] = numbers.slice(at, at + LESSON_NUMBERS);
+      this.lessons.push({ node: this.robot + 1, tick, cell, side, by_hand });
+    }
   }
 
   /**
-   * The robot has been started again: its lessons stay.
-   * @param {number[]} sides
+   * @param {number} at
+   * @returns {Note}
    */
-  restart(sides) {
-    [this.frozen, this.trial] = [0, null];
-    this.native.bytes.set(sides);
-    this.native.c.page_history_restart(this.robot);
-  }
-
-  /** @param {number} number - Of the tick of new lessons. */
-  refresh(number) {
-    const at = this.native.c.page_history(this.robot);
-    const [tick, cell, side, helped, frozen, count] = this.native.doublesAt(at, TRIAL_NUMBERS + 1);
-    this.trial = tick < 0 ? null : { tick, cell, side, helped: helped < 0 ? null : helped, frozen };
-    for (let i = 0; i < count; i += 1) {
-      const [its, turn, by_hand] = this.native.doublesAt(at, TRIAL_NUMBERS + 1 + LESSON_NUMBERS * (i + 1)).slice(-LESSON_NUMBERS);
-      this.lessons.push({ node: this.robot + 1, tick: number, cell: its, side: turn, by_hand });
-    }
+  noteAt(at) {
+    const [tick, , begun] = this.native.doublesAt(at, NOTE_NUMBERS / 2);
+    const [, , reason, its, , , cell, side, helped, frozen] = this.native.numbersAt(at, NOTE_NUMBERS);
+    const trial = begun < 0 ? null : { tick: begun, cell, side, helped: helped < 0 ? null : helped, frozen };
+    return { tick, reason, cell: its, trial };
   }
 }

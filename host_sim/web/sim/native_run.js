@@ -1,7 +1,7 @@
 // @ts-check
 /* The C code behind a run: page.wasm, as native/page.h describes it. An instance is a run. */
 
-import { CELL_COUNT } from "../generated.js";
+import { CELL_COUNT, ROW } from "../generated.js";
 
 /**
  * What page.wasm exports: functions that take and return numbers, and its memory.
@@ -17,8 +17,7 @@ const LENGTH_AT = 4;
 const DATA_AT = 5;
 /** As in native/page.h. */
 export const ROBOTS_MAX = 4;
-/** Numbers of a tick and of a pose: LOOP_ROW and LOOP_POSE in host_sim/sim/native/loop.h. */
-export const ROW = 17;
+/** Numbers of a pose: LOOP_POSE. */
 export const AXES = 3;
 
 /** A run's robots, with an empty memory each. */
@@ -98,9 +97,9 @@ export class NativeRun {
   block(robot, ticks) {
     const { c } = this;
     const { buffer } = c.memory;
-    const rows = new Int16Array(buffer, c.page_rows(robot), ticks * ROW);
+    const rows = new Int16Array(buffer, c.page_rows(robot), ticks * ROW.length);
     const poses = new Float64Array(buffer, c.page_poses(robot), ticks * AXES);
-    return { ticks, rows, poses, decisions: new Uint32Array(buffer, c.page_decisions(robot), c.page_decision_count(robot)) };
+    return { ticks, rows, poses };
   }
 
   /**
@@ -129,6 +128,15 @@ export class NativeRun {
    */
   doublesAt(at, count) {
     return new Float64Array(this.c.memory.buffer, at, count);
+  }
+
+  /**
+   * Whole numbers in its memory.
+   * @param {number} at
+   * @param {number} count
+   */
+  numbersAt(at, count) {
+    return new Int32Array(this.c.memory.buffer, at, count);
   }
 
   /**

@@ -1,9 +1,9 @@
 // @ts-check
 /* Records a run as it is simulated, in the form in which a recorded run is shown. */
 
-import { CELL_COUNT, REASON } from "../generated.js";
+import { CELL_COUNT, COLUMNS, REASON, ROW } from "../generated.js";
 import { LearningHistory } from "./learning_history.js";
-import { AXES, ROW } from "./native_run.js";
+import { AXES } from "./native_run.js";
 import { newsOf } from "./world_news.js";
 
 /**
@@ -15,20 +15,18 @@ import { newsOf } from "./world_news.js";
  * @typedef {import("../types.js").Run} Run
  *
  * A block of one robot's ticks, as native/page.h has it.
- * @typedef {{ticks: number, rows: Int16Array, poses: Float64Array, decisions: Uint32Array}} Block
+ * @typedef {{ticks: number, rows: Int16Array, poses: Float64Array}} Block
  *
  * A run, and the columns of each robot.
  * @typedef {{run: Run, columns: Columns[]}} Recorded
  */
 
-/** Where in a row of host_sim/sim/native/loop.h each column is. */
-const PLACES = {
-  lifted: 15, feel: 1, bump: 2, beacon: 4, left: 8, right: 9, reason: 10, repeat_count: 11, action: 12, pattern: 14,
-};
-const MEAL_PLACE = 13;
 /** Of x, y and heading in a column. */
 const SCALES = /** @type {const} */ ([["x", 10], ["y", 10], ["heading", 1000]]);
-const NAMES = ["x", "y", "heading", ...Object.keys(PLACES), "frozen"];
+const NAMES = ["x", "y", "heading", ...Object.keys(COLUMNS)];
+const EAT = ROW.indexOf("eat");
+/** Reasons of turns that are recorded one by one. */
+const TURNS = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
 const FIRST_ROOM = 1 << 13;
 
 /** Is called with each block of each robot. */
@@ -36,11 +34,11 @@ export class RunRecorder {
   /**
    * @param {Measures} measures
    * @param {import("./native_run.js").NativeRun} native
-   * @param {number[][]} sides - What each robot knows before the first tick.
+   * @param {number[]} robots
    */
-  constructor(measures, native, sides) {
+  constructor(measures, native, robots) {
     this.measures = measures;
-    this.tracks = sides.map((known, robot) => new Track(new LearningHistory(native, robot, known)));
+    this.tracks = robots.map((robot) => new Track(native, robot));
     /** @type {[number, EnvironmentScene][]} */
     this.scenes = [];
     /** @type {[number, number[]][]} */
@@ -65,7 +63,6 @@ export class RunRecorder {
     }
     if (this.scenes.at(-1)?.[0] === this.ticks) this.scenes.pop();
     this.scenes.push([this.ticks, scene]);
-    for (const track of this.tracks) track.isNew = true;
   }
 
   /**
@@ -96,62 +93,61 @@ export class RunRecorder {
 
 /** One robot's part of it. */
 class Track {
-  /** @param {LearningHistory} history */
-  constructor(history) {
-    this.node = history.robot + 1;
-    this.history = history;
+  /**
+   * @param {import("./native_run.js").NativeRun} native
+   * @param {number} robot
+   */
+  constructor(native, robot) {
+    this.native = native;
+    this.robot = robot;
+    this.node = robot + 1;
+    this.history = new LearningHistory(native, robot);
     this.ticks = 0;
-    this.isNew = true;
     this.eats = false;
     this.columns = Object.fromEntries(NAMES.map((name) => [name, new Int32Array(FIRST_ROOM)]));
     /** @type {[number, number[]][]} */
-    this.memory = [];
+    this.memory = [[0, native.sides(robot)]];
     /** @type {RobotRun["trials"]} */
-    this.trials = [];
+    this.trials = [[0, null]];
+    /** @type {import("./learning_history.js").Note[]} */
+    this.begun = [];
     /** @type {number[]} */
     this.meals = [];
   }
 
-  /**
-   * @param {Block} block
-   * @param {number[]} before - What the robot knew before it, for each pattern,
-   * @param {number[]} after - and after its last tick.
-   */
-  add(block, before, after) {
-    const last = block.ticks - 1;
-    const first = this.isNew || before.join() !== this.memory.at(-1)?.[1].join() ? [0] : [];
-    for (const tick of new Set([...first, ...block.decisions, last])) {
-      if (tick) this.history.passOver(tick - 1);
-      this.take(this.ticks + tick, tick, tick === last ? after : before);
-    }
-    this.isNew = false;
-    this.eats = block.rows[last * ROW + MEAL_PLACE] !== 0;
+  /** @param {Block} block */
+  add(block) {
+    const notes = this.history.take(this.ticks, block.ticks);
+    for (const { tick, trial } of notes) note(this.trials, tick, trial);
+    this.begun.push(...notes.filter(({ reason }) => TURNS.includes(reason)));
+    this.eats = block.rows[(block.ticks - 1) * ROW.length + EAT] !== 0;
     this.append(block);
+    note(this.memory, this.ticks - 1, this.native.sides(this.robot));
   }
 
-  /**
-   * @param {number} number
-   * @param {number} tick - In the last block.
-   * @param {number[]} sides
-   */
-  take(number, tick, sides) {
-    this.history.take(number, tick, sides);
-    note(this.memory, number, sides);
-    note(this.trials, number, this.history.trial);
+  /** The robot was told something before the next tick. */
+  relearn() {
+    this.history.relearn(this.ticks);
+    note(this.memory, this.ticks, this.native.sides(this.robot));
+  }
+
+  /** It is about to be started again: its lessons stay. */
+  restart() {
+    this.native.c.page_history_restart(this.robot);
+    note(this.trials, this.ticks, null);
   }
 
   /** @param {Block} block */
   append({ ticks, rows, poses }) {
     this.makeRoom(this.ticks + ticks);
-    const { columns, history } = this;
+    const { columns } = this;
     for (const [axis, [name, scale]] of SCALES.entries()) {
       for (let i = 0; i < ticks; i += 1) columns[name][this.ticks + i] = Math.round(poses[AXES * i + axis] * scale);
     }
-    for (const [name, place] of Object.entries(PLACES)) {
+    for (const [name, place] of Object.entries(COLUMNS)) {
       const column = columns[name];
-      for (let i = 0; i < ticks; i += 1) column[this.ticks + i] = rows[ROW * i + place];
+      for (let i = 0; i < ticks; i += 1) column[this.ticks + i] = rows[ROW.length * i + place];
     }
-    columns.frozen.fill(history.frozen, this.ticks, this.ticks + ticks);
     this.ticks += ticks;
   }
 
@@ -177,9 +173,8 @@ class Track {
    */
   result(environments, changes) {
     const { node, memory, trials, history } = this;
-    const { pattern } = this.columns;
     const lessons = history.lessons.filter(({ tick }) => tick < this.ticks);
-    const turns = this.begun(REASON.REMEMBERED).map((tick) => /** @type {[number, number]} */ ([tick, pattern[tick]]));
+    const turns = this.begunFor(REASON.REMEMBERED).map(({ tick, cell }) => /** @type {[number, number]} */ ([tick, cell]));
     const uses_before = Array.from({ length: CELL_COUNT }, () => 0);
     const events = this.events(environments, changes);
     return { node, memory, trials, lessons, turns, uses_before, events, columns: NAMES, data: "" };
@@ -194,25 +189,23 @@ class Track {
     const learned = this.history.lessons.filter(({ by_hand, tick }) => !by_hand && tick < this.ticks);
     /** @type {[EventKind, number[]][]} */
     const kinds = [
-      ["environment", environments], ["change", changes], ["trial", this.begun(REASON.TRIAL)], ["boredom", this.begun(REASON.BOREDOM)],
-      ["lesson", learned.map(({ tick }) => tick)], ["eat", this.meals],
+      ["environment", environments], ["change", changes], ["eat", this.meals],
+      ["trial", this.begunFor(REASON.TRIAL).map(tickOf)], ["boredom", this.begunFor(REASON.BOREDOM).map(tickOf)],
+      ["lesson", learned.map(tickOf)],
     ];
     const events = kinds.flatMap(([kind, ticks]) => ticks.map((tick) => /** @type {[number, EventKind]} */ ([tick, kind])));
     return events.sort(([a, one], [b, other]) => a - b || (one < other ? -1 : 1));
   }
 
-  /**
-   * The ticks in which actions with a reason began.
-   * @param {number} wanted
-   */
-  begun(wanted) {
-    const { action, reason } = this.columns;
-    const ticks = [];
-    for (let tick = 0; tick < this.ticks; tick += 1) {
-      if (reason[tick] === wanted && (tick === 0 || action[tick] !== action[tick - 1])) ticks.push(tick);
-    }
-    return ticks;
+  /** @param {number} wanted */
+  begunFor(wanted) {
+    return this.begun.filter(({ reason }) => reason === wanted);
   }
+}
+
+/** @param {{tick: number}} it */
+function tickOf({ tick }) {
+  return tick;
 }
 
 /**

@@ -44,7 +44,7 @@ export class Simulation {
     this.scene = { number: 0, of: environments, seed, first_tick: 0, start_tick: 0, bars: [], food: [] };
     this.stopAll(); // as in the handshake of tools/run
     this.commands.startAll();
-    this.recorder = new RunRecorder(measuresOf(this.world.params, experiment), this.native, this.sides);
+    this.recorder = new RunRecorder(measuresOf(this.world.params, experiment), this.native, this.robots);
   }
 
   /**
@@ -73,11 +73,6 @@ export class Simulation {
   result() {
     const { seed, environments } = this.experiment;
     return this.recorder.result(`seed ${seed}, ${environments} environment${environments === 1 ? "" : "s"}`);
-  }
-
-  /** For each robot, the turn that it knows for each pattern. */
-  get sides() {
-    return this.robots.map((robot) => this.native.sides(robot));
   }
 
   stopAll() {
@@ -114,12 +109,11 @@ export class Simulation {
     this.keepLog();
     const measures = this.commands.wantsRanges.includes(true);
     const next = Math.min(end, this.changes.nextTick);
-    const before = this.sides;
     if (measures) this.sendRanges();
     const ticks = this.native.c.page_run(this.tick, measures ? 1 : Math.min(next - this.tick, BLOCK_TICKS));
     this.keepLog();
     if (!ticks) throw new Error(`a robot does not answer tick ${this.tick}: it was not started, or was stopped`);
-    for (const robot of this.robots) this.record(robot, ticks, before[robot]);
+    for (const robot of this.robots) this.record(robot, ticks);
     this.tick += ticks;
     this.recorder.eat(this.arena.eaten);
   }
@@ -127,11 +121,10 @@ export class Simulation {
   /**
    * @param {number} robot
    * @param {number} ticks
-   * @param {number[]} before - What the robot knew before them, for each pattern.
    */
-  record(robot, ticks, before) {
+  record(robot, ticks) {
     const block = this.native.block(robot, ticks);
-    this.recorder.tracks[robot].add(block, before, this.native.sides(robot));
+    this.recorder.tracks[robot].add(block);
     this.arena.moved(robot, block.poses.slice(-3));
   }
 
@@ -158,13 +151,12 @@ export class Simulation {
   /** @param {import("../types.js").RobotChange} change */
   changeRobot(change) {
     const { robot } = change;
-    const { history } = this.recorder.tracks[robot];
-    const before = this.native.sides(robot);
+    const track = this.recorder.tracks[robot];
+    if (change.do === "start") track.restart();
     this.setTime();
     this.commands.carryOut(change);
-    if (change.do === "freeze") history.freeze(change.on);
-    if (change.do === "start") history.restart(before);
-    history.relearn(this.tick, this.native.sides(robot));
+    if (change.do === "freeze") this.native.c.page_history_freeze(robot, change.on);
+    track.relearn();
   }
 
   /** Sets the log's time to that of the next tick. */

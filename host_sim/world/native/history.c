@@ -12,6 +12,13 @@ static int32_t ones(int32_t pattern)
     return (pattern & 1) + (pattern >> 1 & 1) + (pattern >> 2 & 1);
 }
 
+static void forget_doings(struct history *history)
+{
+    history->used = -1;
+    history->judged = (struct history_trial){.tick = -1.0};
+    history->forgets = false;
+}
+
 static void forget_cells(struct history *history, const uint8_t sides[CELL_COUNT])
 {
     memcpy(history->sides, sides, CELL_COUNT);
@@ -22,6 +29,7 @@ static void forget_cells(struct history *history, const uint8_t sides[CELL_COUNT
     history->trial = (struct history_trial){.tick = -1.0};
     history->frozen = false;
     history->lesson_count = 0;
+    forget_doings(history);
 }
 
 void history_begin(struct history *history, const uint8_t sides[CELL_COUNT])
@@ -35,43 +43,77 @@ void history_restart(struct history *history, const uint8_t sides[CELL_COUNT])
     forget_cells(history, sides);
 }
 
-void history_pass_over(struct history *history, const struct history_tick *last, int32_t pattern)
-{
-    history->action = last->action;
-    history->reason = last->reason;
-    history->pattern = pattern;
-}
-
-/* Ends the trial that is under way with the senses that decide the next action. Null if there is none. */
-static const struct history_trial *judge(struct history *history)
+/* Ends the trial that is under way with the senses that decide the next action. */
+static void judge(struct history *history)
 {
     struct history_trial *trial = &history->trial;
 
     if (trial->tick < 0.0 || trial->helped >= 0)
-        return NULL;
+        return;
     trial->helped = ones(history->pattern) < ones(trial->cell);
     trial->frozen = history->frozen;
-    return trial;
+    history->judged = *trial;
 }
 
-/* What a robot may have done itself: learned from a trial that has just ended, or erased what it used. */
-struct doings {
-    const struct history_trial *judged;
-    bool forgets;
-};
-
-static bool did_itself(const struct doings *doings, int32_t cell, uint8_t side)
+static void begin_action(struct history *history, double tick, const int16_t *row)
 {
-    const struct history_trial *trial = doings->judged;
+    int32_t reason = row[ROW_REASON];
 
-    return (trial && trial->cell == cell && trial->side == side && trial->helped == 1) || (doings->forgets && side == 0);
+    history->action = row[ROW_ACTION];
+    history->pattern = pattern_of(row[ROW_FEEL]);
+    judge(history);
+    history->forgets = reason == REASON_REMEMBERED || history->reason == REASON_REMEMBERED || reason == REASON_BOREDOM;
+    history->reason = reason;
+    if (reason == REASON_REMEMBERED) {
+        history->used = history->pattern;
+        history->uses[history->pattern]++;
+    } else if (reason == REASON_TRIAL) {
+        int32_t side = row[ROW_LEFT_MM_S] < row[ROW_RIGHT_MM_S] ? SIDE_LEFT : SIDE_RIGHT;
+
+        history->trial = (struct history_trial){tick, history->pattern, side, -1, 0};
+        history->trials++;
+    }
 }
 
-static void add_lessons(struct history *history, double tick, const uint8_t sides[CELL_COUNT], const struct doings *doings)
+static bool is_noted(const struct history *history)
+{
+    return history->judged.tick >= 0.0 || history->reason == REASON_REMEMBERED || history->reason == REASON_TRIAL
+        || history->reason == REASON_BOREDOM;
+}
+
+size_t history_take(struct history *history, double tick, int16_t *rows, size_t ticks, struct history_note *notes)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < ticks; i++) {
+        int16_t *row = rows + i * ROW_COUNT;
+
+        forget_doings(history);
+        if (row[ROW_ACTION] != history->action) {
+            begin_action(history, tick + (double)i, row);
+            if (is_noted(history))
+                notes[count++] = (struct history_note){tick + (double)i, history->reason, history->pattern, history->trial};
+        }
+        row[ROW_PATTERN] = (int16_t)history->pattern;
+        row[ROW_FROZEN] = history->frozen;
+    }
+    return count;
+}
+
+/* Whether it has learned that from a trial that has just ended, or has erased what it used. */
+static bool did_itself(const struct history *history, int32_t cell, uint8_t side)
+{
+    const struct history_trial *trial = &history->judged;
+
+    return (trial->tick >= 0.0 && trial->cell == cell && trial->side == side && trial->helped == 1)
+        || (history->forgets && side == SIDE_NOTHING);
+}
+
+void history_learn(struct history *history, double tick, const uint8_t sides[CELL_COUNT])
 {
     history->lesson_count = 0;
     for (int32_t cell = 0; cell < CELL_COUNT; cell++) {
-        int32_t by_hand = !did_itself(doings, cell, sides[cell]);
+        int32_t by_hand = !did_itself(history, cell, sides[cell]);
 
         if (sides[cell] == history->sides[cell])
             continue;
@@ -79,43 +121,12 @@ static void add_lessons(struct history *history, double tick, const uint8_t side
         history->sides[cell] = sides[cell];
         history->learned[cell] = tick;
         history->by_hand[cell] = by_hand;
-        history->uses[cell] = 0;
+        history->uses[cell] = history->used == cell;
     }
 }
 
 void history_relearn(struct history *history, double tick, const uint8_t sides[CELL_COUNT])
 {
-    static const struct doings nothing;
-
-    add_lessons(history, tick, sides, &nothing);
-}
-
-static void begin_action(struct history *history, double tick, const struct history_tick *what)
-{
-    history->reason = what->reason;
-    if (what->reason == REASON_REMEMBERED) {
-        history->uses[history->pattern]++;
-    } else if (what->reason == REASON_TRIAL) {
-        int32_t side = what->left_mm_s < what->right_mm_s ? SIDE_LEFT : SIDE_RIGHT;
-
-        history->trial = (struct history_trial){tick, history->pattern, side, -1, 0};
-        history->trials++;
-    }
-}
-
-void history_take(struct history *history, double tick, const struct history_tick *what, const uint8_t sides[CELL_COUNT])
-{
-    struct doings doings = {NULL, false};
-    bool begins = what->action != history->action;
-
-    if (begins) {
-        history->action = what->action;
-        history->pattern = pattern_of(what->feel);
-        doings.judged = judge(history);
-        doings.forgets = what->reason == REASON_REMEMBERED || history->reason == REASON_REMEMBERED
-                         || what->reason == REASON_BOREDOM;
-    }
-    add_lessons(history, tick, sides, &doings);
-    if (begins)
-        begin_action(history, tick, what);
+    forget_doings(history);
+    history_learn(history, tick, sides);
 }

@@ -3,18 +3,10 @@
 #define OCTET_HISTORY_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #include "robot_words.h"
-
-/* What counts of a tick. */
-struct history_tick {
-    int32_t feel;
-    int32_t left_mm_s;
-    int32_t right_mm_s;
-    int32_t reason;
-    int32_t action;
-};
 
 /* A random turn, tried because the pattern's cell was empty. */
 struct history_trial {
@@ -23,6 +15,14 @@ struct history_trial {
     int32_t side;
     int32_t helped;    /* 1 if fewer front sensors were triggered afterwards, 0 if not; -1 during the turn */
     int32_t frozen;    /* 1 if learning was frozen when it ended */
+};
+
+/* A turn or a trial that began, or a trial that ended. */
+struct history_note {
+    double tick;
+    int32_t reason;    /* of the action that began */
+    int32_t cell;      /* the pattern when it was decided */
+    struct history_trial trial;   /* the last one, after it */
 };
 
 /* A change of a cell. */
@@ -39,26 +39,30 @@ struct history {
     int32_t reason;
     int32_t pattern;               /* of the front sensors when it was decided */
     int32_t trials;                /* so far */
+    int32_t used;                  /* cell of the remembered turn that began in the last tick; -1: none did */
+    struct history_trial judged;   /* the trial that ended in the last tick; tick is -1 if none did */
+    bool forgets;                  /* in the last tick it may have erased a cell itself */
     int32_t uses[CELL_COUNT];      /* remembered turns that used a cell's present content */
     int32_t by_hand[CELL_COUNT];   /* of a cell's last change */
     double learned[CELL_COUNT];    /* the tick of that change; -1: none */
     struct history_trial trial;    /* the last one */
-    uint32_t lesson_count;         /* lessons of the last call */
+    uint32_t lesson_count;         /* lessons of the last history_learn or history_relearn */
     struct history_lesson lessons[CELL_COUNT];
 };
 
 void history_begin(struct history *history, const uint8_t sides[CELL_COUNT]);
         /* Nothing has been learned yet. sides are the turns that the robot knows. */
 
-void history_take(struct history *history, double tick, const struct history_tick *what, const uint8_t sides[CELL_COUNT]);
-        /* Adds a tick, with the turns that the robot knows after it. */
+size_t history_take(struct history *history, double tick, int16_t *rows, size_t ticks, struct history_note *notes);
+        /* Adds ticks, from this one on: a row each, an enum row of numbers, in which pattern and frozen are filled in.
+           Returns the number of notes; there must be room for one for each tick. */
 
-void history_pass_over(struct history *history, const struct history_tick *last, int32_t pattern);
-        /* Skips ticks in which no remembered turn and no trial began or ended, and the memory stayed the same: the last of
-           them, and the pattern when its action was decided. */
+void history_learn(struct history *history, double tick, const uint8_t sides[CELL_COUNT]);
+        /* The robot knows these turns after that tick, the last one that was taken: it learned or forgot what that tick
+           explains, and was told the rest. */
 
 void history_relearn(struct history *history, double tick, const uint8_t sides[CELL_COUNT]);
-        /* The robot knows these turns now; it was told those that are new. */
+        /* The robot knows these turns before that tick; it was told those that are new. */
 
 void history_restart(struct history *history, const uint8_t sides[CELL_COUNT]);
         /* The robot has been started again, and knows these turns. */

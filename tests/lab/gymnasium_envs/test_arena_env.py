@@ -8,9 +8,9 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import host_sim.lab.gymnasium_envs  # noqa: F401 - registers the environments
-from host_sim.base.robot_io import Senses
 from host_sim.lab.gymnasium_envs.arena_env import ArenaEnv
 from host_sim.lab.gymnasium_envs.rules import Rewards
+from host_sim.protocol.generated import Senses
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.params import SimParams

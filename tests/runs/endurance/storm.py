@@ -10,7 +10,6 @@ from random import Random
 
 from host_sim.backends.in_process_link import InProcessLink
 from host_sim.base.errors import RobotError
-from host_sim.base.robot_io import NOTHING_SENSED
 from host_sim.client.commands import start
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
@@ -20,7 +19,7 @@ from host_sim.client.session import Session
 from host_sim.faults.bus_faults import random_frame
 from host_sim.protocol.codec import Frame, Protocol, crc8
 from host_sim.protocol.forgery import forge
-from host_sim.protocol.generated import MESSAGES
+from host_sim.protocol.generated import MESSAGES, NOTHING_SENSED
 from host_sim.transport.clock import VirtualClock
 
 PROTOCOL = Protocol()

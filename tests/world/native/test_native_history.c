@@ -2,31 +2,45 @@
 #include "host_sim/world/native/history.h"
 #include "tests/test.h"
 
+#include <string.h>
+
 enum { FRONT = 2, FRONT_RIGHT_TOO = 3 };   /* patterns */
 
 static const uint8_t NOTHING[CELL_COUNT], LEARNED[CELL_COUNT] = {[FRONT_RIGHT_TOO] = SIDE_LEFT};
 
 static struct history history;
-static struct history_tick what;
+static struct history_note notes[2];
+static int16_t rows[2][ROW_COUNT];
 
 void setUp(void)
 {
+    static const int16_t wanders[ROW_COUNT] = {[ROW_ACTION] = 1, [ROW_REASON] = REASON_WANDER};
+
     history_begin(&history, NOTHING);
-    what = (struct history_tick){.action = 1, .reason = REASON_WANDER, .left_mm_s = 200, .right_mm_s = 200};
+    memcpy(rows[0], wanders, sizeof wanders);
+    memcpy(rows[1], wanders, sizeof wanders);
+}
+
+static size_t take(double tick, const uint8_t sides[CELL_COUNT])
+{
+    size_t count = history_take(&history, tick, rows[0], 1, notes);
+
+    history_learn(&history, tick, sides);
+    return count;
 }
 
 /* The next action, for a reason. */
-static void begin(double tick, int32_t pattern, enum reason reason, const uint8_t sides[CELL_COUNT])
+static size_t begin(double tick, int16_t pattern, enum reason reason, const uint8_t sides[CELL_COUNT])
 {
-    what.action++;
-    what.feel = pattern << 1;
-    what.reason = (int32_t)reason;
-    history_take(&history, tick, &what, sides);
+    rows[0][ROW_ACTION]++;
+    rows[0][ROW_FEEL] = (int16_t)(pattern << 1);
+    rows[0][ROW_REASON] = (int16_t)reason;
+    return take(tick, sides);
 }
 
 static void try_left(double tick)
 {
-    what.left_mm_s = -200;
+    rows[0][ROW_LEFT_MM_S] = -200;
     begin(tick, FRONT_RIGHT_TOO, REASON_TRIAL, NOTHING);
 }
 
@@ -55,7 +69,7 @@ TEST(a_trial_is_under_way_until_the_next_action)
     TEST_ASSERT_EQUAL_INT32(SIDE_LEFT, history.trial.side);
     TEST_ASSERT_EQUAL_INT32(-1, history.trial.helped);
     TEST_ASSERT_EQUAL_INT32(1, history.trials);
-    history_take(&history, 8.0, &what, NOTHING);
+    take(8.0, NOTHING);
     TEST_ASSERT_EQUAL_INT32(-1, history.trial.helped);
     TEST_ASSERT_EQUAL_INT32(1, history.trials);
 }
@@ -83,7 +97,7 @@ TEST(a_trial_that_does_not_help_teaches_nothing)
 
 TEST(a_right_turn_has_the_faster_left_wheel)
 {
-    what.right_mm_s = -200;
+    rows[0][ROW_RIGHT_MM_S] = -200;
     begin(3.0, FRONT, REASON_TRIAL, NOTHING);
     TEST_ASSERT_EQUAL_INT32(SIDE_RIGHT, history.trial.side);
 }
@@ -128,7 +142,7 @@ TEST(only_a_robot_that_may_forget_erases_by_itself)
 TEST(within_an_action_turns_are_told)
 {
     try_left(7.0);
-    history_take(&history, 8.0, &what, LEARNED);
+    take(8.0, LEARNED);
     expect_lesson(FRONT_RIGHT_TOO, SIDE_LEFT, 1);
     history_relearn(&history, 9.0, NOTHING);
     expect_lesson(FRONT_RIGHT_TOO, SIDE_NOTHING, 1);
@@ -136,18 +150,48 @@ TEST(within_an_action_turns_are_told)
     TEST_ASSERT_EQUAL_UINT32(0, history.lesson_count);
 }
 
-TEST(ticks_that_are_passed_over_leave_their_action)
+TEST(what_a_tick_explains_is_told_before_the_next_one)
 {
-    const struct history_tick last = {.action = 5, .reason = REASON_REMEMBERED};
-
     history_begin(&history, LEARNED);
-    history_pass_over(&history, &last, FRONT);
-    TEST_ASSERT_EQUAL_INT32(FRONT, history.pattern);
-    what.action = 5;
-    history_take(&history, 4.0, &what, LEARNED);
-    TEST_ASSERT_EQUAL_INT32(FRONT, history.pattern);
-    begin(5.0, 0, REASON_WANDER, NOTHING);
-    expect_lesson(FRONT_RIGHT_TOO, SIDE_NOTHING, 0);
+    begin(1.0, FRONT_RIGHT_TOO, REASON_REMEMBERED, LEARNED);
+    history_relearn(&history, 2.0, NOTHING);
+    expect_lesson(FRONT_RIGHT_TOO, SIDE_NOTHING, 1);
+}
+
+TEST(a_turn_that_is_learned_as_it_is_used_was_used_once)
+{
+    try_left(7.0);
+    begin(9.0, FRONT, REASON_REMEMBERED, LEARNED);
+    TEST_ASSERT_EQUAL_INT32(0, history.uses[FRONT_RIGHT_TOO]);
+    begin(10.0, FRONT_RIGHT_TOO, REASON_REMEMBERED, NOTHING);
+    TEST_ASSERT_EQUAL_INT32(1, history.uses[FRONT_RIGHT_TOO]);
+}
+
+TEST(a_block_fills_in_what_its_rows_have_of_learning)
+{
+    rows[0][ROW_FEEL] = FRONT << 1;
+    rows[1][ROW_ACTION] = 2;
+    rows[1][ROW_FEEL] = FRONT_RIGHT_TOO << 1;
+    history.frozen = true;
+    (void)history_take(&history, 5.0, rows[0], 2, notes);
+    TEST_ASSERT_EQUAL_INT16(FRONT, rows[0][ROW_PATTERN]);
+    TEST_ASSERT_EQUAL_INT16(FRONT_RIGHT_TOO, rows[1][ROW_PATTERN]);
+    TEST_ASSERT_EQUAL_INT16(1, rows[1][ROW_FROZEN]);
+}
+
+TEST(turns_that_begin_and_trials_that_end_are_noted)
+{
+    TEST_ASSERT_EQUAL_size_t(0, begin(1.0, 0, REASON_WANDER, NOTHING));
+    TEST_ASSERT_EQUAL_size_t(1, begin(2.0, FRONT, REASON_TRIAL, NOTHING));
+    TEST_ASSERT_EQUAL_DOUBLE(2.0, notes[0].tick);
+    TEST_ASSERT_EQUAL_INT32(REASON_TRIAL, notes[0].reason);
+    TEST_ASSERT_EQUAL_INT32(FRONT, notes[0].cell);
+    TEST_ASSERT_EQUAL_INT32(-1, notes[0].trial.helped);
+    TEST_ASSERT_EQUAL_size_t(0, take(3.0, NOTHING));
+    TEST_ASSERT_EQUAL_size_t(1, begin(4.0, 0, REASON_WANDER, NOTHING));
+    TEST_ASSERT_EQUAL_INT32(1, notes[0].trial.helped);
+    TEST_ASSERT_EQUAL_size_t(1, begin(5.0, FRONT, REASON_REMEMBERED, NOTHING));
+    TEST_ASSERT_EQUAL_size_t(1, begin(6.0, FRONT, REASON_BOREDOM, NOTHING));
 }
 
 TEST(a_robot_that_is_started_again_has_learned_nothing_here)
