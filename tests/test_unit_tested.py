@@ -25,6 +25,9 @@ NOT_ON_THE_HOST = {
 }
 
 
+PAGE_PARTS = ("commands", "frames", "history", "layouts", "memory", "state", "world")
+
+
 @dataclass
 class Object:
     """What the compiler makes of a source.
@@ -137,7 +140,7 @@ def test_every_source_is_tested_or_has_its_reason(reach):
         ("tests/emulator/", {"core_blocks.c", "register_space.c", "board_clock.c", "systick_model.c"}),
         (
             "tests/web/",
-            {f"page{part}.c" for part in ("", "_commands", "_frames", "_history", "_layouts", "_memory", "_world")},
+            {f"page{part}.c" for part in ("", *map("_{}".format, PAGE_PARTS))},
         ),
         ("tests/hal/stm32/test_pins", {"gpio_f4.c", "pins.c"}),
     ],

@@ -5,13 +5,6 @@
 /* Room for a block's lines: the senses, the drive and a report of each tick, and all at once in one of them. */
 enum { LINES_A_TICK = 3, LOG_LINES = PAGE_ROBOTS_MAX * (LINES_A_TICK * PAGE_TICKS_MAX + PAGE_WAITING_MAX) };
 
-struct page *page_state(void)
-{
-    static struct page page;
-
-    return &page;
-}
-
 static void bind(struct loop_robot *robot, struct octet *octet)
 {
     static int16_t rows[PAGE_ROBOTS_MAX][PAGE_TICKS_MAX * ROW_COUNT];
@@ -62,34 +55,4 @@ bool page_open(uint32_t robots)
         bind(&loop->robots[i], octet);
     }
     return true;
-}
-
-uint8_t *page_bytes(void)
-{
-    return page_state()->bytes;
-}
-
-bool page_has_halted(uint32_t robot)
-{
-    return page_state()->robots[robot].halted;
-}
-
-void page_set_time(double time_us)
-{
-    log_lines_stamp(&page_state()->loop.log, (uint64_t)time_us);
-}
-
-const char *page_log(void)
-{
-    return page_state()->loop.log.text;
-}
-
-size_t page_log_used(void)
-{
-    return page_state()->loop.log.used;
-}
-
-void page_clear_log(void)
-{
-    page_state()->loop.log.used = 0;
 }
