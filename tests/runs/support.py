@@ -4,10 +4,11 @@ import contextlib
 import io
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
@@ -98,6 +99,14 @@ def robot_of(process: subprocess.Popen) -> int:
     children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
     wait_until(lambda: process.poll() is not None or children.read_text(), "a robot")
     return int(children.read_text().split()[0])
+
+
+@contextlib.contextmanager
+def halted(process: subprocess.Popen) -> Iterator[None]:
+    """Whatever is done meanwhile is done in the midst of the run, however slow the machine."""
+    process.send_signal(signal.SIGSTOP)
+    yield
+    process.send_signal(signal.SIGCONT)
 
 
 def wait_for_lines(path: Path, count: int) -> None:

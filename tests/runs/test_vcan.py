@@ -122,7 +122,8 @@ def drives_in(log: bytes) -> list[bytes]:
 def test_an_interface_that_vanishes_ends_the_run_with_one_line(tmp_path):
     subprocess.run(["ip", "link", "add", "dev", "vcan9", "type", "vcan"], check=True)
     subprocess.run(["ip", "link", "set", "vcan9", "up"], check=True)
-    process = start_octet("run", "--out", tmp_path, "--environments", "20", "--quiet", "--bus", "socketcan:vcan9")
+    words = ("--environments", "20", "--quiet", "--bus", "socketcan:vcan9", "--reconnect-s", "0.5")
+    process = start_octet("run", "--out", tmp_path, *words)
     wait_for_lines(tmp_path / "run.log", 1000)
 
     subprocess.run(["ip", "link", "del", "vcan9"], check=True)

@@ -1,8 +1,9 @@
-"""Events of a robot on SocketCAN."""
+"""Events of a robot on SocketCAN, and each command that somebody else may forge there."""
 
 import pytest
 
 from tests.lab.campaign.support import outcome_of
+from tests.runs.forged import OPCODES, PACES, forge_on_vcan
 
 pytestmark = pytest.mark.vcan
 
@@ -20,3 +21,9 @@ def test_what_happens_to_a_robot_on_a_bus_is_told_and_nothing_is_unsafe(event, t
 
     assert outcome.problems == []
     assert any(told in text for text in (outcome.end, outcome.seen, *outcome.doubts)), outcome
+
+
+@pytest.mark.parametrize("opcode", OPCODES)
+@pytest.mark.parametrize("pace", PACES)
+def test_each_forged_command_is_told(tmp_path, opcode, pace):
+    forge_on_vcan(tmp_path, pace, opcode)
