@@ -328,6 +328,17 @@ def test_tools_setup_has_each_stage():
 
 def test_each_test_has_one_stage():
     files = [path.relative_to(ROOT).as_posix() for path in (ROOT / "tests").rglob("test_*.py")]
-    stages = {path: [own for own in places.named() if f"{path}/".startswith(f"{own}/")] for path in files}
+    named = set(places.named())
+    stages = {path: [own for own in named if f"{path}/".startswith(f"{own}/")] for path in files if path not in named}
 
     assert {path: own for path, own in stages.items() if len(own) > 1} == {}
+
+
+def test_what_tools_prove_names_within_a_folder_of_tools_test_is_left_out_there(project):
+    (project.folder / "tests/web").mkdir()
+    for name, text in {"browsers": FAILS, "pages": PASSES}.items():
+        (project.folder / f"tests/web/test_{name}.py").write_text(text)
+
+    code, said = project.run("web")
+
+    assert (code, last(said)) == (0, "1 passed, 0 failed")

@@ -21,6 +21,7 @@ PROVE: Mapping[str, Sequence[str]] = {
     "coverage": ("tests/tools/test_coverage.py", "tests/tools/test_python_coverage.py"),
     "campaign": ("tests/lab/campaign",),
     "endurance": ("tests/runs/endurance",),
+    "browsers": ("tests/web/test_browsers.py",),
     "exhaustive": ("tests/firmware/test_every_case.py",),
     "formats": ("tests/lab/export",),
     "documents": ("tests/docs/test_commands.py", "tests/docs/test_python_blocks.py"),
