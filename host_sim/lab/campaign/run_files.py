@@ -1,6 +1,5 @@
 """The files that a run writes, and the harm that this host can do to them."""
 
-import hashlib
 import resource
 import shutil
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -10,6 +9,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from host_sim.base.errors import OctetError
+from host_sim.client.frame_log import digest_of
 from host_sim.faults.event import Event
 from host_sim.lab.campaign.course import CourseLog
 from host_sim.lab.campaign.killed import Tell, kill_at
@@ -223,4 +223,4 @@ def is_memory_held(folder: Path | None, saved: Sequence[str]) -> bool:
 
 
 def _digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest() if path.exists() else ""
+    return digest_of(path.read_bytes()) if path.exists() else ""
