@@ -3,7 +3,7 @@
 import argparse
 from argparse import Namespace
 from collections.abc import Callable
-from dataclasses import Field, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ from host_sim.base.errors import UsageError
 from host_sim.cli.parsing import file_path, number, setting
 from host_sim.faults.rule import read_rules
 from host_sim.protocol.words import NODE_MAX
-from host_sim.sim.run_config import Option, RunConfig, option, options_of
+from host_sim.sim.run_config import Option, RunConfig, flag_of, option, options_of
 from host_sim.transport.bit_rates import BIT_RATE
 from host_sim.world.changes import read_changes
 from host_sim.world.physics_names import PYMUNK
@@ -99,7 +99,7 @@ def add_option(parser: argparse.ArgumentParser, name: str, default: object = Non
     """Adds an option of a run to any command; without a default, with that of a run."""
     it, row = options_of(RunOptions)[name]
     value = it.default if default is None else default
-    parser.add_argument(_flag(name), dest=name, default=value, **_argument(it, row))
+    parser.add_argument(flag_of(name, row), dest=name, default=value, **_argument(it, row))
 
 
 def run_options(arguments: Namespace, **others: Any) -> RunOptions:
@@ -119,15 +119,11 @@ def run_options(arguments: Namespace, **others: Any) -> RunOptions:
     return options
 
 
-def _flag(name: str) -> str:
-    return options_of(RunOptions)[name][1].flag or f"--{name.replace('_', '-')}"
-
-
-def _argument(it: "Field[Any]", row: Option) -> dict[str, Any]:
+def _argument(it: Any, row: Option) -> dict[str, Any]:
     """An option as `ArgumentParser.add_argument` takes it."""
     if it.type is bool:
         return {"action": "store_true", "help": row.text}
-    kind: Any = it.type
+    kind = it.type
     default = f"{it.default:g}" if kind is float else str(it.default)
     values = [row.range] if row.limits or (row.metavar and row.choices) else []
     values += [f"default: {row.unset or default}"] if row.unset or it.default else []
@@ -168,8 +164,11 @@ def _check_fleet(options: RunOptions) -> None:
         raise UsageError(f"a fleet cannot be watched: take up to {NODE_MAX} robots in one world, or run it unwatched")
     if options.bus not in {"auto", "none"}:
         raise UsageError(f"{_FLEETS} has no bus: leave --bus {options.bus} out, or run fewer robots in one world")
-    rows = options_of(RunOptions)
-    unsuited = [_flag(it) for it, (its, row) in rows.items() if not row.fleet and getattr(options, it) != its.default]
+    unsuited = [
+        flag_of(name, row)
+        for name, (it, row) in options_of(RunOptions).items()
+        if not row.fleet and getattr(options, name) != it.default
+    ]
     unsuited += ["--physics pymunk"] if options.physics == PYMUNK else []
     if unsuited:
         raise UsageError(f"{_FLEETS} has no bus and keeps its memories in {FLEET_TABLE}: leave {unsuited[0]} out")

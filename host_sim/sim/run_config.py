@@ -1,6 +1,7 @@
 """The options of a run, a row each: the command line, its help text, the checks and `RunConfig` are made of them."""
 
-from dataclasses import Field, dataclass, field, fields
+import shlex
+from dataclasses import dataclass, field, fields
 from functools import cache
 from typing import Any
 
@@ -69,9 +70,14 @@ def option(default: Any, text: str, **row: Any) -> Any:
 
 
 @cache
-def options_of(config: Any) -> dict[str, tuple["Field[Any]", Option]]:
+def options_of(config: Any) -> dict[str, tuple[Any, Option]]:
     """The options of a configuration: for each name, its field and its row."""
     return {it.name: (it, it.metadata["option"]) for it in fields(config) if "option" in it.metadata}
+
+
+def flag_of(name: str, row: Option) -> str:
+    """What an option is called on the command line."""
+    return row.flag or f"--{name.replace('_', '-')}"
 
 
 @dataclass(frozen=True)
@@ -90,7 +96,7 @@ class RunConfig:
         metavar="WORLD",
     )
     limit_s: float = option(
-        600.0, "time limit for each environment, s of robot time", limits=(0.02, 36000), metavar="S"
+        600.0, "time limit for each environment, s of robot time", limits=(0.02, 86_400), metavar="S"
     )
     robots: int = option(
         1, f"number of robots; more than {NODE_MAX} are a fleet and need no bus", limits=(1, FLEET_MAX), metavar="N"
@@ -195,6 +201,21 @@ class RunConfig:
             value = getattr(self, name)
             if value != it.default and not row.allows(value):
                 raise UsageError(f"{name} must be one of {row.range}, not {value!r}")
+
+    def command(self) -> str:
+        """The command that makes this run."""
+        words = ["tools/run", "--bus", self.bus]
+        for name, (it, row) in options_of(RunConfig).items():
+            value, flag = getattr(self, name), flag_of(name, row)
+            if isinstance(value, bool):
+                words += [flag] * value
+            elif name == "settings":
+                words += [word for key in sorted(value) for word in (flag, f"{key}={value[key]}")]
+            elif isinstance(value, tuple):
+                words += [word for each in value for word in (flag, each)]
+            elif name != "bus" and value != it.default:
+                words += [flag, f"{value:g}" if isinstance(value, float) else str(value)]
+        return shlex.join(words)
 
     @property
     def is_fleet(self) -> bool:

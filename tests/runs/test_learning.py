@@ -45,7 +45,7 @@ def last(runs) -> list[tuple[int, ...]]:
 
 def blocked_s(profile: str) -> float:
     """How long a robot of a profile is blocked, s: the mean of all times that it is."""
-    trials = [Trial(profile, seed) for seed in SEEDS[:20]]
+    trials = [Trial(RunConfig(profile=profile, seed=seed)) for seed in SEEDS[:20]]
     with ProcessPoolExecutor(2) as processes:
         rows = [row for run in processes.map(run_trial, trials) for row in run.rows]
     times = [contact.blocked_ticks * row.tick_s for row in rows for robot in row.contacts for contact in robot]

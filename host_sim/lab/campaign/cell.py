@@ -128,10 +128,7 @@ class Cell:
         """A command that repeats it: one that leaves the files of a run where there is one."""
         if self.events or self.link not in PROCESS_LINKS:
             return f"tools/octet campaign --repeat '{self}'"
-        words = [f"tools/run --environments 1 --limit-s {self.limit_s:g} --seed {self.seed} --fault-seed {self.seed}"]
-        words += [f"--profile {self.profile} --bus {self.link}"]
-        words += [f"--fault {rule}" for rule in self.faults] + [f"--change {change}" for change in self.changes]
-        return " ".join(words + ["--real-time"] * self.is_real_time)
+        return replace(self.config, bus=self.link).command()
 
     def __str__(self) -> str:
         head = f"{self.profile} {self.link} {self.pace} seed={self.seed} limit={self.limit_s:g}"

@@ -96,9 +96,8 @@ def _compare(arguments: argparse.Namespace) -> int:
 
     folder = Path(arguments.what[0])
     plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
-    print(
-        f"{plan.title}: {counted(len(samples[0].seeds), 'seed')} of {counted(plan.environments, 'environment')} each"
-    )
+    environments = counted(plan.conditions[0].config.environments, "environment")
+    print(f"{plan.title}: {counted(len(samples[0].seeds), 'seed')} of {environments} each")
     print(table(samples, arguments.difference / 100))
     if arguments.plots:
         from host_sim.lab.study.plots import draw_plots
@@ -131,24 +130,25 @@ def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
 
     folder = StudyFolder(path)
     plan = read_plan(path / PLAN_FILE)
-    samples = samples_of(folder.tables(), [condition.name for condition in plan.conditions])
+    samples = samples_of(folder.tables(), [it.condition for it in plan.conditions])
     if not len(samples[0].seeds):
         raise UsageError(f"no seed in {path} has a run of each condition yet: go on with tools/octet study")
     return replace(plan, title=folder.about["title"]), samples
 
 
 def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]]":
-    from host_sim.lab.study.plan import Condition, Plan
+    from host_sim.lab.study.plan import Plan
     from host_sim.lab.study.sample import samples_of
     from host_sim.lab.study.tables import tables_of
+    from host_sim.lab.study.trial import Trial
+    from host_sim.sim.run_config import RunConfig
     from host_sim.world.changes import Change
 
-    change = next(iter(arguments.change), "")
-    if change:
-        Change.parse(change)
     a = arguments
+    for change in a.change:
+        Change.parse(change)
+    shared = RunConfig(environments=a.environments, settings=dict(a.set), changes=tuple(a.change), robot=a.robot)
     names = list(dict.fromkeys(a.what))
-    conditions = [Condition(name, name, dict(a.set), change=change, robot=a.robot) for name in names]
-    plan = Plan(" ".join(names), conditions, a.first, a.seeds, a.environments)
+    plan = Plan(" ".join(names), [Trial(replace(shared, profile=name), name) for name in names], a.first, a.seeds)
     runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]
     return plan, samples_of(tables_of(runs), names)

@@ -10,9 +10,11 @@ from typing import Any
 from host_sim.base.errors import UsageError
 from host_sim.base.regular_file import read_text
 from host_sim.lab.study.figures import FIGURES
-from host_sim.lab.study.plan import Condition, Goal, Plan
+from host_sim.lab.study.plan import Goal, Plan
 from host_sim.lab.study.toml_lines import line_of, meant
-from host_sim.protocol.generated import PARAMETERS, PROFILES
+from host_sim.lab.study.trial import Trial
+from host_sim.protocol.generated import NODE_MAX, PARAMETERS, PROFILES
+from host_sim.sim.run_config import RunConfig, options_of
 from host_sim.world.changes import Change
 from host_sim.world.world_names import RANDOM
 from host_sim.world.worlds import world_of
@@ -69,29 +71,31 @@ class _Reader:
             conditions=conditions,
             first_seed=first,
             seeds=self._number("seeds", Plan.seeds, 1, min(100_000, _SEED_MAX + 1 - first)),
-            environments=self._number("environments", Plan.environments, 1, 1000),
-            limit_s=float(self._number("limit_s", Plan.limit_s, 1, 86_400)),
             goals=[self._goal(i, goal, conditions) for i, goal in enumerate(self._tables("goals"))],
         )
 
-    def _conditions(self) -> list[Condition]:
+    def _conditions(self) -> list[Trial]:
         profiles = self._words("profiles", _is_one_of(PROFILES))
         settings = self._settings() or {_PLAIN: {}}
         worlds = self._words("worlds", _is_world, [RANDOM])
         changes = self._words("changes", _is_change, [_NO_CHANGE])
         robots = self._content.get("robots", [1])
         for count in robots if isinstance(robots, list) and robots else [None]:
-            self._check_number(count, "robots", 1, 31)
+            self._check_number(count, "robots", 1, NODE_MAX)
         every = itertools.product(profiles, settings, worlds, changes, robots)
         several = [len(values) > 1 for values in (profiles, settings, worlds, changes, robots)]
         return [
-            Condition(
-                name=_name([profile, setting, world, change, f"{count} robots"], several),
-                profile=profile,
-                settings=settings[setting],
-                world=world,
-                change="" if change == _NO_CHANGE else change,
-                robots=count,
+            Trial(
+                RunConfig(
+                    environments=self._option("environments"),
+                    limit_s=float(self._option("limit_s")),
+                    profile=profile,
+                    settings=settings[setting],
+                    world=world,
+                    changes=() if change == _NO_CHANGE else (change,),
+                    robots=count,
+                ),
+                _name([profile, setting, world, change, f"{count} robots"], several),
             )
             for profile, setting, world, change, count in every
         ]
@@ -106,11 +110,11 @@ class _Reader:
                 self._check_number(value, key, PARAMETERS[key].minimum, PARAMETERS[key].maximum, f"settings.{name}")
         return tables
 
-    def _goal(self, index: int, goal: dict[str, Any], conditions: Sequence[Condition]) -> Goal:
+    def _goal(self, index: int, goal: dict[str, Any], conditions: Sequence[Trial]) -> Goal:
         def fail(message: str, key: str) -> UsageError:
             return self._error(message, "goals", key, index)
 
-        names = [condition.name for condition in conditions]
+        names = [it.condition for it in conditions]
         self._check_keys(goal, _GOAL_KEYS, "goals", index)
         for key, words in (("figure", FIGURES), ("condition", names)):
             if not isinstance(goal.get(key), str) or goal[key] not in words:
@@ -147,6 +151,12 @@ class _Reader:
         value = self._content.get(key, default)
         self._check_number(value, key, low, high, whole=isinstance(default, int))
         return value
+
+    def _option(self, name: str) -> Any:
+        """An option of a run."""
+        it, row = options_of(RunConfig)[name]
+        assert row.limits is not None
+        return self._number(name, it.default, *row.limits)
 
     def _check_number(  # noqa: PLR0913 - which number, and what it may be
         self, value: Any, key: str, low: float, high: float, table: str = "", *, whole: bool = True

@@ -109,7 +109,7 @@ Tables = dict[str, Columns]
 
 def rows_of(run: Run) -> dict[str, list[Row]]:
     """A run's rows for each table."""
-    key = {"condition": run.trial.key[0], "seed": run.trial.seed}
+    key = {"condition": run.trial.key[0], "seed": run.trial.config.seed}
     return {
         "runs": [key | _run(run)],
         "environments": [key | row for row in _environments(run)],
@@ -134,17 +134,17 @@ def _kind(kind: type) -> Any:
 
 
 def _run(run: Run) -> Row:
-    trial, known = run.trial, run.known_s
+    config, known = run.trial.config, run.known_s
     return {
-        "profile": trial.profile,
-        "settings": json.dumps(trial.settings, sort_keys=True),
-        "world": trial.world,
-        "change": trial.change,
-        "robots": trial.robots,
+        "profile": config.profile,
+        "settings": json.dumps(config.settings, sort_keys=True),
+        "world": config.world,
+        "change": " ".join(config.changes),
+        "robots": config.robots,
         "known_s": float(np.median([np.inf if time is None else time for time in known])),
         "log_sha256": run.log_sha256,
         "code": code_version(),
-        "command": trial.command(),
+        "command": config.command(),
     }
 
 

@@ -1,7 +1,7 @@
 """One run of a study: robots in some environments, and what it shows of their behaviour."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
@@ -12,7 +12,6 @@ from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.world.world_names import RANDOM
 
 PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
 """The turn away from what is beside the robot, for each pattern in which something is on one side only."""
@@ -25,42 +24,17 @@ class Trial:
     """A run to be made.
 
     Attributes:
-        profile: The behaviour.
-        seed: Seed for environments and random turns.
-        environments: Number of environments.
-        settings: Parameters to change from their defaults, by name.
-        world: Name of the world that the environments are drawn from.
-        change: What the world and the bodies meet with, as `host_sim.world.changes` has it; empty for nothing.
-        limit_s: Time limit for each environment, s of robot time.
-        robots: Number of robots in each environment.
-        robot: Where they come from: `spawn` for this process, `emulated` for the flash image on an emulated board.
-        condition: What the run's condition is called: all runs that differ only in the seed have the same.
+        config: The robots are in this process, or on emulated boards.
+        condition: What all runs that differ only in the seed are called; empty for the name of the behaviour.
     """
 
-    profile: str
-    seed: int
-    environments: int = 5
-    settings: dict[str, int] = field(default_factory=dict)
-    world: str = RANDOM
-    change: str = ""
-    limit_s: float = 600.0
-    robots: int = 1
-    robot: str = "spawn"
+    config: RunConfig
     condition: str = ""
 
     @property
     def key(self) -> tuple[str, int]:
         """What tells the runs of a study apart."""
-        return self.condition or self.profile, self.seed
-
-    def command(self) -> str:
-        """A command that repeats the run."""
-        change = f" --change {self.change}" if self.change else ""
-        sets = "".join(f" --set {name}={value}" for name, value in sorted(self.settings.items()))
-        return (
-            f"tools/run --bus none --seed {self.seed} --profile {self.profile} --environments {self.environments}"
-            f" --limit-s {self.limit_s:g} --robots {self.robots} --world {self.world}{change}{sets}"
-        )
+        return self.condition or self.config.profile, self.config.seed
 
 
 @dataclass
@@ -109,9 +83,9 @@ class Run:
 def run_trial(trial: Trial) -> Run:
     """Runs a trial in this process; equal trials give equal results."""
     log = FrameLog()
-    known_s: list[float | None] = [None] * trial.robots
+    known_s: list[float | None] = [None] * trial.config.robots
     try:
-        with make(_config(trial), log) as simulation:
+        with make(trial.config, log) as simulation:
             rows = list(_rows(trial, simulation, known_s))
             for client in simulation.clients:
                 stop(client)
@@ -120,20 +94,14 @@ def run_trial(trial: Trial) -> Run:
     return Run(trial, rows, known_s, sha256)
 
 
-def _config(trial: Trial) -> RunConfig:
-    names = ("seed", "environments", "profile", "settings", "world", "limit_s", "robots", "robot")
-    changes = (trial.change,) if trial.change else ()
-    return RunConfig(**{name: getattr(trial, name) for name in names}, changes=changes)
-
-
 def _rows(trial: Trial, simulation: Simulation, known_s: list[float | None]) -> Iterator[Row]:
-    for number in range(1, trial.environments + 1):
+    for number in range(1, trial.config.environments + 1):
         simulation.enter(number)
         yield _run_environment(simulation, trial, number, known_s)
 
 
 def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s: list[float | None]) -> Row:
-    watches = [ContactWatch(index) for index in range(trial.robots)]
+    watches = [ContactWatch(index) for index in range(trial.config.robots)]
 
     def watch(simulation: Simulation) -> None:
         for each in watches:

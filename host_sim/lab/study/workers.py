@@ -121,7 +121,7 @@ def run_all(trials: Sequence[Trial], workers: Workers, chunk: int = 0) -> Iterat
         breaks = 0 if len(left) < count else breaks + 1
         if breaks == _BREAKS_MAX:
             raise OctetError(
-                f"workers die each time, perhaps in the run {left[0][0].command()}; what was made is there"
+                f"workers die each time, perhaps in the run {left[0][0].config.command()}; what was made is there"
             )
 
 

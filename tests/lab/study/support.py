@@ -4,6 +4,7 @@ from host_sim.lab.study.contacts import BodyState, Contact
 from host_sim.lab.study.sample import Sample, samples_of
 from host_sim.lab.study.tables import tables_of
 from host_sim.lab.study.trial import Row, Run, Trial
+from host_sim.sim.run_config import RunConfig
 
 NOTHING = (0,) * 8
 SOUND, SWAPPED = BodyState(), BodyState(is_changed=True, is_reversed=True)
@@ -20,8 +21,13 @@ def row(robot_s: float = 100.0, contacts=(), **fields) -> Row:
     return Row(**{**known, "robot_s": robot_s, "contacts": [list(contacts)], "tick_s": TICK_S, **fields})
 
 
-def run(condition: str, seed: int, *rows: Row, known_s: float | None = None, **fields) -> Run:
-    return Run(Trial("article", seed, len(rows), condition=condition, **fields), list(rows), [known_s], "")
+def trial(profile: str, seed: int, environments: int = 1, **options) -> Trial:
+    return Trial(RunConfig(profile=profile, seed=seed, environments=environments, **options))
+
+
+def run(condition: str, seed: int, *rows: Row, known_s: float | None = None, **options) -> Run:
+    config = RunConfig(seed=seed, environments=len(rows), **options)
+    return Run(Trial(config, condition), list(rows), [known_s], "")
 
 
 def samples(*runs: Run) -> list[Sample]:

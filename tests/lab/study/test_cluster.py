@@ -13,7 +13,8 @@ from host_sim.cli.main import main
 from host_sim.lab.study import workers
 from host_sim.lab.study.dask_command import _here_only
 from host_sim.lab.study.folder import StudyFolder
-from host_sim.lab.study.trial import Trial, run_trial
+from host_sim.lab.study.trial import run_trial
+from tests.lab.study.support import trial
 
 ROOT = Path(__file__).resolve().parents[3]
 NO_PAGE = ("--no-dashboard",)
@@ -93,7 +94,7 @@ def test_two_workers_of_a_cluster_make_the_rows_that_are_made_here(cluster, plan
 
 def test_the_runs_of_a_worker_that_dies_are_made_by_another(cluster):
     first, _ = cluster.worker(), cluster.worker()
-    trials = [Trial("article", seed, 1, limit_s=60) for seed in range(12)]
+    trials = [trial("article", seed, limit_s=60) for seed in range(12)]
 
     made = []
     for runs in workers.run_all(trials, workers.cluster(cluster.address), chunk=1):
@@ -101,14 +102,14 @@ def test_the_runs_of_a_worker_that_dies_are_made_by_another(cluster):
             os.killpg(first.pid, signal.SIGKILL)
         made += runs
 
-    assert sorted(run.trial.seed for run in made) == list(range(12))
+    assert sorted(run.trial.config.seed for run in made) == list(range(12))
     assert run_trial(trials[5]).log_sha256 in {run.log_sha256 for run in made}
 
 
 def test_a_scheduler_that_goes_away_is_said(cluster, monkeypatch):
     monkeypatch.setattr(workers, "_CONNECT_S", 1)
     cluster.worker()
-    trials = [Trial("article", seed, 1, limit_s=60) for seed in range(12)]
+    trials = [trial("article", seed, limit_s=60) for seed in range(12)]
     every = workers.run_all(trials, workers.cluster(cluster.address), chunk=1)
 
     assert next(every)

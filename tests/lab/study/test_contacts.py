@@ -3,11 +3,11 @@
 import numpy as np
 
 from host_sim.lab.study.contacts import ContactWatch, _contacts
-from host_sim.lab.study.trial import Trial, run_trial
+from host_sim.lab.study.trial import run_trial
 from host_sim.protocol.generated import Reason
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from tests.lab.study.support import NOTHING, SOUND, SWAPPED
+from tests.lab.study.support import NOTHING, SOUND, SWAPPED, trial
 
 FRONT_RIGHT = 0b00010
 LEARNED = (0, 1, 0, 0, 0, 0, 0, 0)
@@ -47,7 +47,7 @@ def test_the_loop_in_c_and_the_readable_one_give_the_same_contacts():
 
 
 def test_the_turns_of_the_contacts_are_those_that_the_robot_began():
-    run = run_trial(Trial("article", 2, 1))
+    run = run_trial(trial("article", 2))
     with make(RunConfig(seed=2, environments=1)) as simulation:
         (episode,) = simulation.run()
 

@@ -1,17 +1,15 @@
 """A study's rows are the same for the flash image on the emulated board."""
 
-from dataclasses import replace
-
 from host_sim.lab.study.sample import samples_of
 from host_sim.lab.study.tables import tables_of
-from host_sim.lab.study.trial import Trial, run_trial
+from host_sim.lab.study.trial import run_trial
+from tests.lab.study.support import trial
 
 
 def test_the_flash_image_learns_by_the_very_curve_of_the_host():
-    here = Trial("article", 3, 1, limit_s=14.0)
-    there = replace(here, robot="emulated")
+    here, there = (trial("article", 3, limit_s=14.0, robot=robot) for robot in ("spawn", "emulated"))
 
-    ours, theirs = (run_trial(trial) for trial in (here, there))
+    ours, theirs = (run_trial(each) for each in (here, there))
 
     assert theirs.rows == ours.rows
     (curve,) = (sample.blocked_at[0] for sample in samples_of(tables_of([ours])))

@@ -25,11 +25,11 @@ def test_every_combination_is_a_condition_and_the_seeds_are_the_same(plan):
         "[settings.plain]\n[settings.careful]\nfilter = 1\n"
     )
 
-    names = [condition.name for condition in found.conditions]
+    names = [it.condition for it in found.conditions]
     assert len(names) == 8
     assert names[:3] == ["article plain none", "article plain swap-motors@env2", "article careful none"]
-    assert [(trial.condition, trial.seed) for trial in found.trials()] == [(n, s) for s in (7, 8) for n in names]
-    assert found.conditions[2].settings == {"filter": 1}
+    assert [it.key for it in found.trials()] == [(name, seed) for seed in (7, 8) for name in names]
+    assert found.conditions[2].config.settings == {"filter": 1}
 
 
 def test_brackets_without_end_are_refused(plan):
@@ -38,12 +38,13 @@ def test_brackets_without_end_are_refused(plan):
 
 
 def test_a_condition_is_named_by_what_varies(plan):
-    assert [it.name for it in plan('profiles = ["article"]\nrobots = [1, 4]').conditions] == ["1 robots", "4 robots"]
-    assert [it.world for it in plan('profiles = ["article"]\nworlds = ["small", "posts"]').conditions] == [
+    several = plan('profiles = ["article"]\nrobots = [1, 4]')
+    assert [it.condition for it in several.conditions] == ["1 robots", "4 robots"]
+    assert [it.config.world for it in plan('profiles = ["article"]\nworlds = ["small", "posts"]').conditions] == [
         "small",
         "posts",
     ]
-    assert [it.name for it in plan('profiles = ["article"]').conditions] == ["article"]
+    assert [it.condition for it in plan('profiles = ["article"]').conditions] == ["article"]
 
 
 @pytest.mark.parametrize(
@@ -65,7 +66,7 @@ def test_a_condition_is_named_by_what_varies(plan):
         ('profiles = ["article"]\nrobots = [0]', ":2: robots is a whole number from 1 to 31, not 0"),
         ('profiles = ["article"]\nrobots = []', ":2: robots is a whole number"),
         ('profiles = ["article"]\ntitle = 3', ":2: title is a line of text, not 3"),
-        ('profiles = ["article"]\nlimit_s = nan', ":2: limit_s is a number from 1 to 86400, not nan"),
+        ('profiles = ["article"]\nlimit_s = nan', ":2: limit_s is a number from 0.02 to 86400, not nan"),
         ('profiles = ["article"]\n\n[settings.a]\nfilter = 2', ":4: filter is a whole number from 0 to 1, not 2"),
         ('profiles = ["article"]\n[settings.a]\nfliter = 1', ":3: unknown key 'fliter'; did you mean filter?"),
         ('profiles = ["article"]\n[settings]\nfilter = 1', ":2: settings is a table for each setting"),

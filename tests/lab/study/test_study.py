@@ -15,7 +15,8 @@ from host_sim.base.extra_library import library
 from host_sim.cli.main import main
 from host_sim.lab.study import tables, workers
 from host_sim.lab.study.folder import StudyFolder
-from host_sim.lab.study.trial import Trial, run_trial
+from host_sim.lab.study.trial import run_trial
+from tests.lab.study.support import trial
 
 ROOT = Path(__file__).resolve().parents[3]
 PLAN = 'profiles = ["article", "never"]\nseeds = {seeds}\nenvironments = 1\nlimit_s = {limit_s}\n'
@@ -50,7 +51,7 @@ def test_a_study_has_a_row_for_each_run_environment_and_contact(plan, tmp_path, 
         ("article", 1), ("article", 2), ("never", 1), ("never", 2),
     ]  # fmt: skip
     assert len(tables["environments"]["seed"]) == 4
-    expected = run_trial(Trial("never", 2, 1, limit_s=20.0))
+    expected = run_trial(trial("never", 2, limit_s=20.0))
     digest = runs["log_sha256"][(runs["condition"] == "never") & (runs["seed"] == 2)]
     assert digest.tolist() == [expected.log_sha256]
     contacts = tables["contacts"]
@@ -128,7 +129,7 @@ def test_rows_of_a_part_that_was_cut_short_do_not_count(plan, tmp_path):
     [
         ({"format": 99}, "is of format 99, this Octet's is 1; nothing was changed"),
         ({"code": "another"}, "was made with another version of robot or world; nothing was changed"),
-        ({"limit_s": 7}, "has other limit_s; nothing was changed"),
+        ({"conditions": {}}, "has other conditions; nothing was changed"),
     ],
 )
 def test_the_study_of_another_version_is_refused_and_stays(plan, tmp_path, capsys, change, said):
@@ -193,11 +194,11 @@ def die_once(trials):
 def test_the_runs_of_a_dead_worker_are_made_again(tmp_path, monkeypatch):
     monkeypatch.setenv("OCTET_TEST_MARK", str(tmp_path / "mark"))
     monkeypatch.setattr(workers, "run_chunk", die_once)
-    trials = [Trial("article", seed, 1, limit_s=5) for seed in range(4)]
+    trials = [trial("article", seed, limit_s=5) for seed in range(4)]
 
     made = [run.trial for runs in workers.run_all(trials, workers.processes(2), chunk=1) for run in runs]
 
-    assert sorted(made, key=lambda trial: trial.seed) == trials
+    assert sorted(made, key=lambda it: it.config.seed) == trials
 
 
 def die(_trials):
