@@ -21,7 +21,7 @@ struct robot {
     struct perception perception;
     struct caution caution;
     struct sharing sharing;
-    uint16_t part_ms;     /* of the second that has begun */
+    uint16_t part_ms;     /* of the second that has begun, with a start at the latest */
     uint16_t uptime_s;    /* robot time since power-up, counted in ticks, wraps */
     struct brain brain;
     struct motion motion;

@@ -158,6 +158,12 @@ static void write_next_part(struct wire *wire, const struct output *out, struct 
     wire->part = (uint8_t)(part == PART_NONE || part == PART_HEALTH ? PART_NONE : part + 1);
 }
 
+void wire_report_start(struct wire *wire)
+{
+    wire->part = PART_NONE;
+    wire->told_lower = wire->told_upper = 0;
+}
+
 /* In silence, a sign of life only: the rest would differ with how long it lasts. A tick that tells a new memory has enough
    to do: the report waits. */
 void wire_report(struct wire *wire, const struct output *out, struct frames *frames)
@@ -171,8 +177,8 @@ void wire_report(struct wire *wire, const struct output *out, struct frames *fra
         return;
     }
     if (out->has_report) {
+        wire_report_start(wire);
         wire->part = PART_HEARTBEAT;
-        wire->told_lower = wire->told_upper = 0;
     }
     if (out->has_memory)
         write_memory(wire, out->memory, frames);

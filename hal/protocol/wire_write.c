@@ -92,6 +92,7 @@ static void write_result(struct wire *wire, const struct output *out, struct fra
     if (out->answer == RESULT_DONE && wire->session.request.command.opcode == OPCODE_START) {
         wire->twin = wire->has_ranges = false;
         wire->strangers = 0;
+        wire_report_start(wire);
         wire->wants_ranges = out->answer_value & ANSWER_WANTS_RANGES;
     }
 }

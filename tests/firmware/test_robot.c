@@ -109,3 +109,37 @@ TEST(actions_are_numbered_0_to_127_round_and_round)
     }
     TEST_ASSERT_EQUAL_UINT(300, changes);
 }
+
+enum { RUN_TICKS = 300 };
+
+/* Half a minute of robot time with others to hear, but for what counts since power-up. */
+static void run(struct output told[RUN_TICKS])
+{
+    static const struct input peer = {.peer = {.cell = {0, 1, 2, 1}}};
+
+    wheels = (struct senses){.tick = 0};
+    command(OPCODE_START, PROFILE_ADAPTIVE, 7);
+    command(OPCODE_SET, SHARE, 1);
+    command(OPCODE_SET, TICK_MS, 100);
+    for (unsigned tick = 0; tick < RUN_TICKS; tick++) {
+        respond_to(INPUT_PEER, &peer);
+        obey(tick % 11 == 0 ? FRONT : CLEAR);
+        told[tick] = out;
+        told[tick].report.uptime_s = 0;
+    }
+}
+
+TEST(a_robot_that_ran_before_runs_as_a_new_one)
+{
+    struct output fresh[RUN_TICKS], again[RUN_TICKS];
+
+    run(fresh);
+    for (unsigned before = 1; before < 2 * TICKS_PER_SECOND; before += 9) {
+        command(OPCODE_STOP, 0, 0);
+        command(OPCODE_ERASE, 0, 0);
+        for (unsigned tick = 0; tick < before; tick++)
+            feel(FRONT);
+        run(again);
+        TEST_ASSERT_EQUAL_MEMORY(fresh, again, sizeof fresh);
+    }
+}

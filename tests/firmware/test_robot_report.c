@@ -86,6 +86,23 @@ TEST(where_no_tick_ends_with_a_second_the_next_one_reports)
     TEST_ASSERT_EQUAL_UINT32(4, out.report.uptime_s);
 }
 
+/* The same ticks to the report as of a robot that was never started before. */
+TEST(a_start_begins_a_second)
+{
+    static const uint8_t tick_ms[] = {20, 30, 100};
+
+    for (unsigned before = 1; before < 2 * TICKS_PER_SECOND; before += 7) {
+        command(OPCODE_SET, TICK_MS, tick_ms[before % sizeof tick_ms]);
+        for (unsigned tick = 0; tick < before; tick++)
+            feel(CLEAR);
+        command(OPCODE_START, PROFILE_ARTICLE, 1);
+        for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++) {
+            feel(CLEAR);
+            TEST_ASSERT_EQUAL(tick == TICKS_PER_SECOND, out.has_report);
+        }
+    }
+}
+
 TEST(uptime_counts_seconds)
 {
     for (unsigned tick = 0; tick < 90 * TICKS_PER_SECOND; tick++)

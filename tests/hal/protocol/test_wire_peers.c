@@ -35,6 +35,14 @@ TEST(a_memory_is_heard_once_from_report_to_report)
     TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 1, 0)));
 }
 
+TEST(a_memory_is_heard_again_after_a_start)
+{
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
+    TEST_ASSERT_EQUAL(INPUT_COMMAND, hear(command_frame((struct octet_command_t){.counter = 1, .opcode = OPCODE_START})));
+    respond((struct output){.has_answer = true});
+    TEST_ASSERT_EQUAL(INPUT_PEER, hear(memory_frame(2, 0, 0)));
+}
+
 TEST(the_last_robot_hears_all_others_again_after_a_report)
 {
     wire_init(&wire, NODE_MAX);

@@ -37,6 +37,18 @@ TEST(a_whole_report_ends_one_that_is_under_way)
     assert_ids(&drive, 1);
 }
 
+TEST(a_start_ends_a_report_that_is_under_way)
+{
+    static const uint32_t drive = 0x041;
+
+    out = (struct output){.has_report = true, .has_drive = true};
+    write_out();
+    out = (struct output){.has_answer = true};
+    (void)answer_to((struct octet_command_t){.counter = 1, .opcode = OPCODE_START}, RESULT_DONE);
+    out = (struct output){.has_drive = true};
+    assert_ids(&drive, 1);
+}
+
 TEST(what_is_whole_is_sent_only_if_there_is_a_report)
 {
     out = (struct output){.whole_report = true};
