@@ -35,6 +35,11 @@ _COMMAND = _found(r"^BO_ (\d+) COMMAND:", _DBC)
 PROFILES: tuple[str, ...] = tuple(re.findall(r'"(\w+)"', _found(rf"^VAL_ {_COMMAND} profile (.*);", _DBC)))
 """The robot's behaviours."""
 
+SENSORS, BODY_FAULTS = (
+    tuple(re.findall(r'"([\w-]+)"', _found(rf"^{name} = \[([^]]*)\]", _WORDS))) for name in ("feel", "body_faults")
+)
+"""The proximity sensors, from bit 0 of feel on, and what can be wrong with a body, as changes call them."""
+
 PARAMETERS = {
     name: Range(int(low), int(high), int(default), unit, _COMMENTS[name])
     for name, low, high, unit, default in _PARAMETER.findall(_DBC)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from host_sim.base.errors import OctetError
 from host_sim.protocol.codec import NODE_MAX, Protocol
-from host_sim.protocol.generated import TICK_SPAN, Senses
+from host_sim.protocol.generated import Senses
 from host_sim.recording.dead_reckoning import reckon
 from host_sim.recording.log_reader import LogReader, nodes_in, read_log
 from host_sim.recording.recording import Recording, read_recording
@@ -118,11 +118,11 @@ class _Resimulator:
     def _run_tick(self, tick: int, robots: Sequence[Tick]) -> None:
         arena = self._prepare(tick)
         for node, body, robot in zip(self._nodes, arena.bodies, robots, strict=True):
-            self._check(tick, node, body.faults.sensed(body.sense(tick % TICK_SPAN), tick), robot.senses)
+            self._check(tick, node, body.sense(tick), robot.senses)
         ate = False
         for body, robot in zip(arena.bodies, robots, strict=True):
             ate |= robot.drive.eat and body.eat()
-            body.move(*body.faults.driven(robot.drive.left_mm_s, robot.drive.right_mm_s))
+            body.move(robot.drive.left_mm_s, robot.drive.right_mm_s)
         for i, robot in enumerate(robots):
             self._recorder.between(i, robot.started, robot.written)
             self._recorder.histories[i].frozen = robot.frozen

@@ -20,7 +20,16 @@ from host_sim.world.plain_space import cones_in_c
 
 LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_fleet.so"
 _WORLD = ROOT / "host_sim" / "world" / "native"
-_NAMES = ("vector", "space/space", "world", "space/capsule", "cones", "space/plain_grid", "space/plain_space")
+_NAMES = (
+    "vector",
+    "space/space",
+    "body_faults",
+    "world",
+    "space/capsule",
+    "cones",
+    "space/plain_grid",
+    "space/plain_space",
+)
 HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), ROOT / "host_sim" / "sim" / "native" / "fleet.h")
 
 _CELL_MM, _GRID_FROM = 500.0, 8

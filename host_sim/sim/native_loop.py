@@ -1,7 +1,6 @@
 """The tick loop in C (`native/`): a block of ticks a call, with the same frames."""
 
 from collections.abc import Sequence
-from dataclasses import asdict
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -14,7 +13,6 @@ from host_sim.protocol.generated import ROW, Drive, Senses
 from host_sim.sim.loop_robots import LoopRobot, Native, RobotBehindLink, RobotInProcess
 from host_sim.transport.link import SocketLink
 from host_sim.world.arena import Arena
-from host_sim.world.body_faults import SOUND
 from host_sim.world.native_library import load_native
 from host_sim.world.world_library import WORLD_HEADERS
 
@@ -72,7 +70,6 @@ class NativeLoop:
         self._ffi, self._library = _loaded()
         self.handed_over = False
         self._clients, self._log = clients, log
-        self._faults = [SOUND] * len(clients)
         self._memories = [client.memory for client in clients]
         self._kept: list[Any] = []  # what C code points to, and Python must not free
         self._text: Any = None
@@ -204,8 +201,6 @@ class NativeLoop:
     def _look_up(self, index: int, client: RobotClient) -> None:
         """Takes over what commands and people may have changed."""
         robot = self._robots[index]
-        if (faults := self._arena.bodies[index].faults) is not self._faults[index]:
-            self._faults[index], robot.faults = faults, asdict(faults)
         robot.senses_counter, self._memories[index] = client.inbox.sent_counter, client.memory
 
 

@@ -7,14 +7,13 @@ from dataclasses import dataclass, field
 from host_sim.client.pacing import BegunTick, Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import settle
-from host_sim.protocol.generated import NOTHING_SENSED, REST, TICK_SPAN, Drive, Senses
+from host_sim.protocol.generated import NOTHING_SENSED, REST, Drive, Senses
 from host_sim.sim.change_schedule import ChangeSchedule
 from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop, suits
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
-from host_sim.world.body_faults import SOUND
 from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change
 from host_sim.world.edits import Edit, EditError, make_edit
@@ -189,16 +188,14 @@ class Simulation:
         self._set_time(self.tick)
         bodies, before = self.arena.bodies, self.drives
         for i, body in enumerate(bodies):
-            sensed = body.sense(self.tick % TICK_SPAN)
-            self.senses[i] = sensed if body.faults is SOUND else body.faults.sensed(sensed, self.tick)
+            self.senses[i] = body.sense(self.tick)
         for i in self._measuring:
-            self.clients[i].ranges = bodies[i].faults.measured(self.arena.ranges(i))
+            self.clients[i].ranges = self.arena.ranges(i)
         self.drives = self.pace.exchange(self.senses) if tick is None else self._go_on(tick)
         for i, (body, drive) in enumerate(zip(bodies, self.drives, strict=True)):
             if drive.eat and body.eat():
                 self.episode.robots[i].food_eaten += 1
-            speeds = drive.left_mm_s, drive.right_mm_s
-            body.move(*(speeds if body.faults is SOUND else body.faults.driven(*speeds)))
+            body.move(drive.left_mm_s, drive.right_mm_s)
             if drive.action != before[i].action:
                 begun = self.episode.robots[i].begun
                 begun[drive.reason] = begun.get(drive.reason, 0) + 1

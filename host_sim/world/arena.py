@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 from host_sim.protocol.generated import Ranges
 from host_sim.world.body import Body
-from host_sim.world.body_faults import SOUND
 from host_sim.world.geometry import Point
 from host_sim.world.layouts import Layout
 from host_sim.world.native_world import NativeWorld
@@ -75,11 +74,8 @@ class Arena:
         self.inside = NativeWorld(self._starts, layout.food, params, physics)
         self.food = Food(self.inside)
         self.bodies = [
-            Body(self.inside, index, before[index].odometer if before else (0.0, 0.0))
-            for index in range(len(self._starts))
+            Body(self.inside, index, before[index] if before else None) for index in range(len(self._starts))
         ]
-        for body, earlier in zip(self.bodies, before, strict=False):
-            body.faults = earlier.faults
         self.obstacles = Obstacles(self.inside, layout.bars, params)
 
     @property
@@ -93,11 +89,11 @@ class Arena:
         return Layout(tuple(self.obstacles.bars.values()), tuple(self.food.at), self._starts[0], self._starts[1:])
 
     def ranges(self, index: int) -> Ranges:
-        """What a robot's sensors measure where it stands: walls, bars and other robots."""
+        """What a robot is told that its sensors measure where it stands: walls, bars and other robots."""
         none = self.inside.library.RANGE_NONE
         return Ranges._make(None if range_mm == none else range_mm for range_mm in self.inside.measure(index))
 
     def repair(self) -> None:
         """Makes all bodies sound."""
         for body in self.bodies:
-            body.faults = SOUND
+            body.add_fault("repair")

@@ -5,7 +5,7 @@ from struct import Struct
 from typing import Any
 
 from host_sim.protocol.generated import Senses
-from host_sim.world.body_faults import SOUND
+from host_sim.world.body_faults import add_fault
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.native_library import members
 from host_sim.world.native_world import NativeWorld
@@ -17,33 +17,34 @@ _POSE, _ODOMETER = ("x_mm", "y_mm", "heading_rad"), ("left_mm", "right_mm")
 class Body:
     """A disc with two wheels, five proximity cones and a beam that sees food: a view of a `struct body`.
 
-    Each tick is `sense`, optionally `eat`, then `move`: the wheels roll the body along an arc, and a body pressed
-    into an obstacle is pushed straight out of it, so it stops or slides. Another robot's disc is an obstacle like any
-    other.
+    Each tick is `sense`, optionally `eat`, then `move`, each as its faults make it. The wheels roll the body along an
+    arc. A body pressed into an obstacle, such as another robot, is pushed straight out of it, so it stops or slides.
 
     Attributes:
         lifted: Whether a person holds it in the air.
-        faults: What is wrong with it. Its odometers count accordingly; the other faults apply where senses and drives
-            pass between body and robot.
+        faults: What is wrong with it, a `struct body_faults`.
     """
 
-    def __init__(self, inside: NativeWorld, index: int, odometer: Point) -> None:
+    def __init__(self, inside: NativeWorld, index: int, before: "Body | None" = None) -> None:
         """Shows a body of a world.
 
         Args:
             inside: The world.
             index: Its number there, from 0.
-            odometer: What the left and the right odometer have counted in earlier arenas, mm.
+            before: The robot's body in an earlier arena, whose odometers and faults go on.
         """
-        self.faults, self.lifted = SOUND, False
+        self.lifted, self._index = False, index
         self._inside, self._library, self._world = inside, inside.library, inside.world
+        self._ffi = inside.ffi
         self._body: Any = inside.bodies + index
         self._pose, self._odometer, self._senses = _readers()
         self._bytes = inside.ffi.buffer(self._body, inside.ffi.sizeof("struct body"))
-        self._tick_span = int(inside.library.TICK_SPAN)
         self._sensed: Any = inside.ffi.new("struct senses *")
         self._sensed_bytes = inside.ffi.buffer(self._sensed)
-        self._body.left_mm, self._body.right_mm = odometer
+        self.faults: Any = self._body.faults
+        if before is not None:
+            self._body.faults = before.faults
+            self._body.left_mm, self._body.right_mm = before.odometer
 
     @property
     def pose(self) -> Pose:
@@ -67,13 +68,15 @@ class Body:
         return int(self._body.touches)
 
     def sense(self, tick: int) -> Senses:
-        """What the robot senses where it stands. Food is seen in a corridor straight ahead if nothing hides it.
+        """What the robot is told of what it senses where it stands.
+
+        Food is seen in a corridor straight ahead if nothing hides it.
 
         Args:
-            tick: Number of the control tick, as the robot is to be told it.
+            tick: Number of the control tick in the run.
         """
-        self._library.world_sense(self._world, self._body, tick % self._tick_span, self._sensed)
-        return Senses(tick, *self._senses.unpack_from(self._sensed_bytes))
+        self._library.world_sense(self._world, self._body, tick, self._sensed)
+        return Senses._make(self._senses.unpack_from(self._sensed_bytes))
 
     def eat(self) -> bool:
         """Eats the food that was sensed straight ahead, if it is near enough and no other robot was quicker.
@@ -90,15 +93,17 @@ class Body:
             left_mm_s: Speed of the left wheel, mm/s, forward positive; limited to `SimParams.max_wheel_speed_mm_s`.
             right_mm_s: Speed of the right wheel, likewise.
         """
-        body, world, library = self._body, self._world, self._library
-        left_mm, right_mm = body.left_mm, body.right_mm
-        library.world_move(world, body, left_mm_s, right_mm_s)
-        if self.faults is not SOUND:
-            ways = library.world_way_mm(world, left_mm_s), library.world_way_mm(world, right_mm_s)
-            counted = self.faults.counted(*ways)
-            body.left_mm, body.right_mm = left_mm + counted[0], right_mm + counted[1]
+        self._library.world_move(self._world, self._body, left_mm_s, right_mm_s)
         if self._inside.space.failures:
             self._inside.check()
+
+    def add_fault(self, what: str, seed: int = 0) -> None:
+        """Breaks or mends something, as in `add_fault`.
+
+        Raises:
+            ValueError: There is no such fault.
+        """
+        add_fault(self._ffi.addressof(self.faults), what, seed, self._index)
 
     def lift(self) -> None:
         """Lifts the body off the floor: its wheels still turn, but it does not move or sense anything."""
@@ -114,10 +119,10 @@ class Body:
 
 @cache
 def _readers() -> tuple[Struct, Struct, Struct]:
-    """What reads a pose, the odometers, and the senses but their tick."""
+    """What reads a pose, the odometers, and the senses."""
     ffi, _ = world_library()
     body, senses = "struct body", "struct senses"
-    return members(ffi, body, _POSE), members(ffi, body, _ODOMETER), members(ffi, senses, Senses._fields[1:])
+    return members(ffi, body, _POSE), members(ffi, body, _ODOMETER), members(ffi, senses, Senses._fields)
 
 
 def rolled(pose: Pose, left_mm: float, right_mm: float, track_mm: float) -> Pose:

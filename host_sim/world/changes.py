@@ -7,10 +7,11 @@ from pathlib import Path
 from host_sim.base.errors import UsageError
 from host_sim.base.near_word import near_word
 from host_sim.base.regular_file import read_text
-from host_sim.world.body_faults import FAULT_NAMES, SOUND, with_fault
+from host_sim.protocol.words import BODY_FAULTS
+from host_sim.world.body_faults import check_fault
 
 PLANT, GROW = "plant", "grow"
-CHANGE_NAMES = (PLANT, GROW, *FAULT_NAMES)
+CHANGE_NAMES = (PLANT, GROW, *BODY_FAULTS)
 """What can happen."""
 
 _WHEN = r"(?:(?P<from_start>\d{1,6}(?:\.\d{1,3})?)s|env(?P<number>\d{1,4})(?:\+(?P<after>\d{1,6}(?:\.\d{1,3})?)s)?)"
@@ -91,7 +92,7 @@ def _problem(what: str) -> str | None:
         pattern, form = _DETAILS[name]
         return None if pattern.fullmatch(what.removeprefix(name)) else f"write {form}"
     try:
-        with_fault(SOUND, what)
+        check_fault(what)
     except ValueError as error:
         return str(error)
     return None

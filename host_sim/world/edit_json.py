@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from host_sim.world.body_faults import SOUND, with_fault
+from host_sim.world.body_faults import check_fault
 from host_sim.world.edits import (
     PLANT_MAX_MM,
     PLANT_MIN_MM,
@@ -99,7 +99,7 @@ def _fault(fields: Mapping[str, Any]) -> str:
     what = fields.get("what")
     if not isinstance(what, str):
         raise ValueError("what must be a text")
-    with_fault(SOUND, what)
+    check_fault(what)
     return what
 
 

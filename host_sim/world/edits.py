@@ -7,7 +7,6 @@ from typing import Any
 
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
-from host_sim.world.body_faults import noise_key, with_fault
 from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Plant, Point, Pose
 from host_sim.world.params import SimParams
@@ -99,7 +98,7 @@ class RemovePlant:
 class ChangeBody:
     """Breaks something in the body of a robot, counted from 0, or repairs it.
 
-    `what` is as in `with_fault`; when noise strikes follows from the seed.
+    `what` is as in `check_fault`; when noise strikes follows from the seed.
     """
 
     what: str
@@ -178,7 +177,7 @@ def _remove_plant(arena: Arena, edit: RemovePlant, _params: SimParams) -> None:
 def _change_body(arena: Arena, edit: ChangeBody, _params: SimParams) -> None:
     body = _robot(arena, edit.robot)
     try:
-        body.faults = with_fault(body.faults, edit.what, noise_key(edit.seed, edit.robot))
+        body.add_fault(edit.what, edit.seed)
     except ValueError as error:
         raise EditError(f"{edit.what!r} cannot happen to a body: {error}") from None
 

@@ -10,7 +10,7 @@ _NATIVE = ROOT / "host_sim" / "world" / "native"
 _WORDS = BUILD / "host" / "generated" / "robot_words.h"
 WORLD_HEADERS = tuple(
     _NATIVE / f"{name}.h"
-    for name in ("vector", "space/space", "world", "space/capsule", "cones", "space/plain_space", "body_faults")
+    for name in ("vector", "space/space", "body_faults", "world", "space/capsule", "cones", "space/plain_space")
 )
 _DRAW = tuple(_NATIVE / "draw" / f"{name}.h" for name in ("reach", "layout", "layouts", "written_fault", "written"))
 HEADERS = (

@@ -2,10 +2,10 @@
 
 import pytest
 
+from host_sim.protocol.words import BODY_FAULTS
 from host_sim.sim.world_record import Edited, Refused, WorldRecord
 from host_sim.view.news import news_of
 from host_sim.view.phrases import body_sentence
-from host_sim.world.body_faults import FAULT_NAMES
 from host_sim.world.edits import AddBar, AddPlant, ChangeBody, GrowPlant, Lift
 from host_sim.world.geometry import Bar, Plant
 
@@ -66,4 +66,4 @@ def test_every_fault_has_a_sentence():
     details = {"stuck-on": ":front", "stuck-off": ":front", "noise": ":1/2", "false-beacon": ":9"}
     details |= dict.fromkeys(("weak-motor", "odometer"), ":left:50%")
 
-    assert all(body_sentence(name + details.get(name, "")).endswith(".") for name in FAULT_NAMES)
+    assert all(body_sentence(name + details.get(name, "")).endswith(".") for name in BODY_FAULTS)

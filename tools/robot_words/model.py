@@ -149,6 +149,7 @@ def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
         "fault": _choices(signal("EMERGENCY.first")),
         "side": {name: number for number, name in enumerate(toml["sides"])},
         "memory_kind": {kind: number for number, kind in enumerate(toml["memory_kind"])},
+        "body_fault": {name: number for number, name in enumerate(toml["body_faults"])},
     }
     profiles = _listed(_same_choices(signal("COMMAND.profile"), signal("HEARTBEAT.profile")), "profile")
     meanings = {name: toml.get(name, {}) for name in enums}

@@ -1,6 +1,7 @@
 """The robot's numbers and words in C: robot_words.h."""
 
-from collections.abc import Mapping
+import json
+from collections.abc import Iterable, Mapping
 
 from tools.robot_words.model import Description
 
@@ -16,6 +17,7 @@ def header(robot: Description) -> str:
     parts = [_HEAD, _numbers(robot)]
     parts += [_enum(name, words, robot.meanings[name]) for name, words in robot.enums.items()]
     parts += [f"enum {{ MEMORY_KIND_COUNT = {len(robot.enums['memory_kind'])} }};\n"]
+    parts += [_names("FEEL_NAMES", robot.feel), _names("BODY_FAULT_NAMES", robot.enums["body_fault"])]
     parts += [_parameters(robot), _profiles(robot), _row(robot), "#endif\n"]
     return "\n".join(parts)
 
@@ -42,6 +44,11 @@ def _numbers(robot: Description) -> str:
     }
     lines = ",\n".join(f"    {name} = {number}" for name, number in numbers.items())
     return f"enum {{\n{lines}\n}};\n"
+
+
+def _names(name: str, words: Iterable[str]) -> str:
+    """A macro that initialises an array of texts."""
+    return f"#define {name} {{{', '.join(json.dumps(word) for word in words)}}}\n"
 
 
 def _enum(name: str, words: Mapping[str, int], meanings: Mapping[str, str]) -> str:

@@ -8,7 +8,7 @@ from host_sim.backends.images import BOARDS
 from host_sim.faults.event import Event
 from host_sim.lab.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.protocol.generated import MESSAGES, Opcode
-from host_sim.world.body_faults import SENSORS
+from host_sim.protocol.words import SENSORS
 
 _LINES, _PROCESSES = ("slcan", "vcan"), ("fd", "slcan", "vcan")
 _COMPARED = (LOCKSTEP,)

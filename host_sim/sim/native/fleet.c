@@ -36,7 +36,7 @@ void fleet_memory(const struct fleet_robot *robot, uint8_t *cells)
 
 static void sense(struct fleet_robot *robot)
 {
-    world_sense(robot->world, robot->body, (uint8_t)(robot->tick % TICK_SPAN), &robot->core->in.senses);
+    world_sense(robot->world, robot->body, robot->tick, &robot->core->in.senses);
 }
 
 /* What the core makes of its senses, and what that does in the world. */

@@ -8,12 +8,8 @@ enum { TURNS_MAX = NODE_MAX };
 
 static void sense(const struct loop *loop, struct turn turns[])
 {
-    uint8_t tick = (uint8_t)(loop->tick % TICK_SPAN);
-
-    for (size_t i = 0; i < loop->robot_count; i++) {
-        world_sense(loop->world, &loop->world->bodies[i], tick, &turns[i].senses);
-        body_faults_sense(&loop->robots[i].faults, loop->tick, &turns[i].senses);
-    }
+    for (size_t i = 0; i < loop->robot_count; i++)
+        world_sense(loop->world, &loop->world->bodies[i], loop->tick, &turns[i].senses);
 }
 
 #define SENSED(member, signal) (int16_t)turn->senses.member,
@@ -59,7 +55,7 @@ static bool act(struct loop *loop, size_t index, const struct drive *drive)
     bool eaten = drive->eat && world_eat(loop->world, body);
 
     loop->robots[index].food_eaten += eaten;
-    body_faults_move(&loop->robots[index].faults, loop->world, body, drive);
+    world_move(loop->world, body, drive->left_mm_s, drive->right_mm_s);
     return eaten;
 }
 

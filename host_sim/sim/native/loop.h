@@ -11,7 +11,6 @@
 
 #include "hal/link/link.h"
 #include "host_sim/sim/native/log_lines.h"
-#include "host_sim/world/native/body_faults.h"
 #include "host_sim/world/native/world.h"
 
 struct octet;   /* a robot as a library call: hal/library/exchange.h */
@@ -33,7 +32,6 @@ struct loop_robot {
     uint8_t senses_counter;           /* of the last SENSES */
     struct frame senses;              /* the last SENSES to a robot in this process */
     bool halted;                      /* it has stopped by itself: at rest it answers */
-    struct body_faults faults;        /* what is wrong with its body */
     uint8_t action;                   /* the last drive's */
     uint32_t begun[LOOP_REASONS];     /* actions begun, by reason */
     uint32_t food_eaten;

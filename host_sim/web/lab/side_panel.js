@@ -4,7 +4,7 @@
 import { ParameterSliders } from "./parameter_sliders.js";
 import { Curves, csvOf } from "./curves.js";
 import { byId, setText, typedById } from "../core/elements.js";
-import { SENSORS } from "../sim/body_faults.js";
+import { SENSORS } from "../core/sensors.js";
 import { bodySentence } from "../core/phrases.js";
 import { memoryIn, save, worldText } from "./files.js";
 import { PROFILES } from "../generated.js";
@@ -37,7 +37,7 @@ import { RANDOM, nameOf } from "../core/world_names.js";
 
 /** What can be let happen to a body, as `tools/run --change` has it; docs/worlds.md explains each. */
 const FAULTS = [
-  ...[...SENSORS.keys()].flatMap((sensor) => [`stuck-on:${sensor}`, `stuck-off:${sensor}`]),
+  ...SENSORS.flatMap((sensor) => [`stuck-on:${sensor}`, `stuck-off:${sensor}`]),
   "mirror", "noise:10/1000", "noise:100/1000", "swap-motors", "weak-motor:left:60%", "weak-motor:right:60%",
   "swap-odometers", "odometer:left:0%", "odometer:right:0%", "false-beacon:100", "repair",
 ];

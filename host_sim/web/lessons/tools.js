@@ -1,8 +1,8 @@
 // @ts-check
 /* What some lessons need beside the rest of the page: one kind of tool each. */
 
-import { SENSORS, SOUND, withFault } from "../sim/body_faults.js";
 import { byId, setText } from "../core/elements.js";
+import { SENSORS } from "../core/sensors.js";
 import { PARAMETERS } from "../generated.js";
 import { choiceOf, made } from "./building.js";
 import { settingAt, ticksPerObstacle } from "./evidence.js";
@@ -19,8 +19,6 @@ import { filled } from "./language.js";
  */
 
 const DISTRUST_DECISIONS = 32;
-/** Of the sensors, from bit 0 of `feel` on. */
-const NAMES = [...SENSORS.keys()];
 
 /** @type {Record<string, (lab: Lab, texts: Texts) => Tool>} */
 const MAKERS = {
@@ -106,13 +104,13 @@ function makeSensors(lab, { words }) {
   const states = [["sound", words.sound], ["stuck-on", words.stuckOn], ["stuck-off", words.stuckOff]];
   const names = [words.sensorRight, words.sensorFrontRight, words.sensorFront, words.sensorFrontLeft, words.sensorLeft];
   /** @type {ReturnType<typeof choiceOf>[]} */
-  const choices = NAMES.map((_, place) => choiceOf(names[place], states, () => breakAsChosen()));
+  const choices = SENSORS.map((_, place) => choiceOf(names[place], states, () => breakAsChosen()));
   const breakAsChosen = () => breakSensors(lab, choices.map(({ select }) => select.value));
   const distrust = makeSwitch(lab, "distrust", DISTRUST_DECISIONS, words.distrust);
   const fields = made("fieldset", [made("legend", [words.sensors]), ...choices.map(({ label }) => label).reverse()]);
   const show = () => {
     choices.forEach(({ select }, place) => {
-      if (document.activeElement !== select) select.value = stateOf(lab, 1 << place);
+      if (document.activeElement !== select) select.value = stateOf(lab, SENSORS[place]);
     });
     distrust.show();
   };
@@ -125,22 +123,20 @@ function makeSensors(lab, { words }) {
  */
 function breakSensors(lab, states) {
   const { robot } = lab.lane;
-  const faults = states.flatMap((state, place) => (state === "sound" ? [] : [`${state}:${NAMES[place]}`]));
+  const faults = states.flatMap((state, place) => (state === "sound" ? [] : [`${state}:${SENSORS[place]}`]));
   for (const what of ["repair", ...faults]) lab.change({ do: "body", what, robot, seed: 0 });
 }
 
 /**
+ * The last that was done to a sensor, as `breakSensors` does it.
  * @param {Lab} lab
- * @param {number} bit
+ * @param {string} sensor
  */
-function stateOf({ lane, tick }, bit) {
-  let faults = SOUND;
-  for (const change of lane.experiment.changes) {
-    if (change.do !== "body" || (change.robot ?? 0) !== lane.robot || change.tick > tick) continue;
-    faults = withFault(faults, change.what, 0n) ?? faults;
-  }
-  if (faults.stuckOn & bit) return "stuck-on";
-  return faults.stuckOff & bit ? "stuck-off" : "sound";
+function stateOf({ lane, tick }, sensor) {
+  const done = lane.experiment.changes.flatMap((change) =>
+    change.do === "body" && (change.robot ?? 0) === lane.robot && change.tick <= tick ? [change.what] : []);
+  const [what, which] = done.filter((it) => it === "repair" || it.endsWith(`:${sensor}`)).at(-1)?.split(":") ?? [];
+  return what && which ? what : "sound";
 }
 
 /**

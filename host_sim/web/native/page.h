@@ -19,7 +19,8 @@ enum {
     PAGE_WAITING_MAX = 64,  /* frames of a robot that have not been taken yet */
     PAGE_OBSTACLES_MAX = 60,   /* bars and plants */
     PAGE_FOOD_MAX = 20,
-    PAGE_BYTES = 8
+    PAGE_BYTES = 8,
+    PAGE_TEXT_MAX = 256   /* with the 0 at its end */
 };
 
 /* The dimensions of a world, as in SimParams. */
@@ -30,11 +31,6 @@ enum { PAGE_WIDTH_MM, PAGE_HEIGHT_MM, PAGE_BODY_MM, PAGE_TRACK_MM, PAGE_REACH_MM
 enum { PAGE_DRAW_STYLE, PAGE_DRAW_WIDTH_MM, PAGE_DRAW_HEIGHT_MM, PAGE_DRAW_BODY_MM, PAGE_DRAW_REACH_MM,
        PAGE_DRAW_THICKNESS_MM, PAGE_DRAW_BAR_COUNT, PAGE_DRAW_BAR_MIN_MM, PAGE_DRAW_BAR_MAX_MM, PAGE_DRAW_FOOD_COUNT,
        PAGE_DRAW_FOOD, PAGE_DRAW_NUMBERS = PAGE_DRAW_FOOD + 2 * LAYOUT_FOOD_MAX };
-
-/* What is wrong with a body, as in struct body_faults; the noise's key comes in two halves. */
-enum { PAGE_MIRRORED, PAGE_SWAPPED, PAGE_STUCK_ON, PAGE_STUCK_OFF, PAGE_LEFT_LOST, PAGE_RIGHT_LOST, PAGE_NOISE,
-       PAGE_NOISE_OF, PAGE_KEY_HIGH, PAGE_KEY_LOW, PAGE_ODOMETERS_SWAPPED, PAGE_LEFT_MISCOUNTED, PAGE_RIGHT_MISCOUNTED,
-       PAGE_FALSE_BEACON, PAGE_FAULTS };
 
 /* Where robots are. */
 struct page_world {
@@ -62,7 +58,7 @@ struct page {
     struct command command;              /* read last */
     uint8_t bytes[PAGE_BYTES];
     double dimensions[PAGE_DIMENSIONS];
-    double faults[PAGE_FAULTS];
+    char text[PAGE_TEXT_MAX];
 };
 
 struct page *page_state(void);
@@ -149,11 +145,11 @@ void page_put_body(uint32_t robot, double x_mm, double y_mm, double heading_rad)
 void page_lift(uint32_t robot);
         /* Takes a robot off the floor, until page_put_body. */
 
-double *page_faults(void);
-        /* Where JavaScript puts what is wrong with a body: PAGE_FAULTS numbers. */
+char *page_text(void);
+        /* Where JavaScript puts a text: PAGE_TEXT_MAX bytes. */
 
-void page_break(uint32_t robot);
-        /* From now on, that is what is wrong with a robot's body. */
+const char *page_break(uint32_t robot, uint32_t seed);
+        /* As body_faults_add, with what is in page_text(). */
 
 void page_measure(uint32_t robot, uint8_t *range_mm);
         /* What a robot is told of the FEEL_COUNT distances. */

@@ -12,6 +12,11 @@ uint8_t *page_bytes(void)
     return page_state()->bytes;
 }
 
+char *page_text(void)
+{
+    return page_state()->text;
+}
+
 bool page_has_halted(uint32_t robot)
 {
     return page_state()->robots[robot].halted;

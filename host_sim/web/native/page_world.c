@@ -80,30 +80,9 @@ void page_lift(uint32_t robot)
     page_world()->bodies[robot].lifted = true;
 }
 
-double *page_faults(void)
+const char *page_break(uint32_t robot, uint32_t seed)
 {
-    return page_state()->faults;
-}
-
-void page_break(uint32_t robot)
-{
-    const double *faults = page_faults();
-
-    page_state()->robots[robot].faults = (struct body_faults){
-        .mirrored = faults[PAGE_MIRRORED] > 0,
-        .swapped = faults[PAGE_SWAPPED] > 0,
-        .stuck_on = (uint8_t)faults[PAGE_STUCK_ON],
-        .stuck_off = (uint8_t)faults[PAGE_STUCK_OFF],
-        .left_lost_percent = (uint8_t)faults[PAGE_LEFT_LOST],
-        .right_lost_percent = (uint8_t)faults[PAGE_RIGHT_LOST],
-        .noise = (uint32_t)faults[PAGE_NOISE],
-        .noise_of = (uint32_t)faults[PAGE_NOISE_OF],
-        .noise_key = (uint64_t)faults[PAGE_KEY_HIGH] << 32 | (uint64_t)faults[PAGE_KEY_LOW],
-        .odometers_swapped = faults[PAGE_ODOMETERS_SWAPPED] > 0,
-        .left_miscounted_percent = (int16_t)faults[PAGE_LEFT_MISCOUNTED],
-        .right_miscounted_percent = (int16_t)faults[PAGE_RIGHT_MISCOUNTED],
-        .false_beacon_mm = (uint16_t)faults[PAGE_FALSE_BEACON],
-    };
+    return body_faults_add(&page_world()->bodies[robot].faults, page_state()->text, seed, robot);
 }
 
 static void count_obstacles(uint32_t obstacles)
@@ -124,6 +103,7 @@ static void begin_body(struct body *body)
         .heading_rad = body->heading_rad,
         .left_mm = body->left_mm,
         .right_mm = body->right_mm,
+        .faults = body->faults,
         .seen = -1,
     };
 }
@@ -145,7 +125,6 @@ void page_measure(uint32_t robot, uint8_t *range_mm)
     struct page_world *of = page_world();
 
     ranges_measure(&of->ranges, &of->world, &of->bodies[robot], range_mm);
-    body_faults_measure(&page_state()->robots[robot].faults, range_mm);
 }
 
 void page_enter(uint32_t obstacles, uint32_t food)

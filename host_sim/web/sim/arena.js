@@ -1,7 +1,6 @@
 // @ts-check
 /* The arena of a run: what stands in it, where the robots' bodies are, and what is wrong with them. */
 
-import { SOUND, faultNumbers, noiseKey, withFault } from "./body_faults.js";
 import { EditError, Furniture } from "./world_edits.js";
 
 /**
@@ -29,8 +28,6 @@ export class Arena {
     this.params = params;
     this.furniture = new Furniture({ bars: [], food: [], starts: [] }, params);
     this.bodies = Array.from({ length: robots }, () => ({ x: 0, y: 0, heading: 0, lifted: false }));
-    /** @type {import("./body_faults.js").Faults[]} */
-    this.faults = this.bodies.map(() => SOUND);
     native.build(DIMENSIONS.map((name) => params[name]));
   }
 
@@ -120,9 +117,7 @@ export class Arena {
    * @param {{what: string, seed?: number}} edit
    */
   breakBody(robot, { what, seed = 0 }) {
-    const faults = withFault(this.faults[robot], what, noiseKey(seed, robot));
-    if (!faults) throw new EditError(`'${what}' cannot happen to a body`);
-    this.faults[robot] = faults;
-    this.native.setFaults(robot, faultNumbers(faults));
+    const why = this.native.breakBody(robot, what, seed);
+    if (why) throw new EditError(`'${what}' cannot happen to a body: ${why}`);
   }
 }

@@ -1,7 +1,6 @@
 // @ts-check
 /* The experiment that a recorded log is of: what its commands say, and what its world file has. */
 
-import { SOUND, withFault } from "./body_faults.js";
 import { EDIT_FIELDS } from "../core/edit_fields.js";
 import { CELL_COUNT, FRAMES, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
 import { bytesOf, framesOf, replayLog } from "./log_replay.js";
@@ -82,7 +81,9 @@ function* recordedFrames(commands, ticks) {
 export function worldIn(module, worlds, text) {
   const world = parsed(text);
   if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
-  if (!isCount(world.of) || !isCount(world.limit_ticks) || !world.edits.every(isEdit)) throw new Error(NO_WORLD);
+  const native = new NativeRun(module, 1);
+  const isEdited = world.edits.every((/** @type {Record<string, unknown> | null} */ edit) => isEdit(native, edit));
+  if (!isCount(world.of) || !isCount(world.limit_ticks) || !isEdited) throw new Error(NO_WORLD);
   return { ...world, world: placeIn(module, worlds, world.world) };
 }
 
@@ -114,11 +115,14 @@ function isCount(number) {
   return Number.isInteger(number) && Number(number) > 0;
 }
 
-/** @param {Record<string, unknown> | null} edit */
-function isEdit(edit) {
+/**
+ * @param {NativeRun} native - Tells what a fault is.
+ * @param {Record<string, unknown> | null} edit
+ */
+function isEdit(native, edit) {
   const fields = EDIT_FIELDS.get(`${edit?.do}`);
   const isWhole = edit !== null && Number.isInteger(edit.tick) && Boolean(fields?.every((name) => isField(edit[name])));
-  return isWhole && (edit.do !== "body" || withFault(SOUND, `${edit.what}`, 0n) !== undefined);
+  return isWhole && (edit.do !== "body" || !native.breakBody(0, `${edit.what}`));
 }
 
 /**

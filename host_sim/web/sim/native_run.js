@@ -15,6 +15,8 @@ import { CELL_COUNT, ROW } from "../generated.js";
 const FRAME_BYTES = 16;
 const LENGTH_AT = 4;
 const DATA_AT = 5;
+/** Longer texts do not fit into page_text, if each character has three bytes. */
+const TEXT_MAX = 80;
 /** As in native/page.h. */
 export const ROBOTS_MAX = 4;
 /** Numbers of a pose: LOOP_POSE. */
@@ -112,13 +114,17 @@ export class NativeRun {
   }
 
   /**
-   * Sets what is wrong with a robot's body.
+   * Breaks or mends something in a robot's body.
    * @param {number} robot
-   * @param {number[]} faults - In the order of native/page.h.
+   * @param {string} what - Such as "stuck-on:front"; docs/worlds.md has all.
+   * @param {number} [seed] - From which it follows when noise strikes.
+   * @returns {string} Why not; empty if it is done.
    */
-  setFaults(robot, faults) {
-    this.doublesAt(this.c.page_faults(), faults.length).set(faults);
-    this.c.page_break(robot);
+  breakBody(robot, what, seed = 0) {
+    const text = new TextEncoder().encode(what.slice(0, TEXT_MAX));
+    this.bytesAt(this.c.page_text(), text.length + 1).set([...text, 0]);
+    const why = this.c.page_break(robot, seed);
+    return why ? this.textAt(why) : "";
   }
 
   /**

@@ -1,5 +1,9 @@
 #include "host_sim/world/native/body_faults.h"
 
+#include <math.h>
+
+#include "firmware/io.h"
+
 enum { STREAMS = 8, FULL_PERCENT = 100 };   /* random numbers of a tick: at least one for each sensor */
 
 static uint8_t mirror(uint8_t feel)
@@ -11,14 +15,13 @@ static uint8_t mirror(uint8_t feel)
     return (uint8_t)mirrored;
 }
 
-/* 32 bits of the SplitMix64 generator's number after this one. */
-static uint32_t chance(uint64_t number)
+uint64_t body_faults_mix(uint64_t number)
 {
     uint64_t mixed = number + 0x9E3779B97F4A7C15u;
 
     mixed = (mixed ^ mixed >> 30) * 0xBF58476D1CE4E5B9u;
     mixed = (mixed ^ mixed >> 27) * 0x94D049BB133111EBu;
-    return (uint32_t)((mixed ^ mixed >> 31) >> 32);
+    return mixed ^ mixed >> 31;
 }
 
 /* The sensors that are wrong in a tick. */
@@ -30,7 +33,7 @@ static uint8_t wrong(const struct body_faults *faults, uint32_t tick)
     if (faults->noise == 0)
         return 0;
     for (unsigned n = 0; n < FEEL_COUNT; n++)
-        bits |= (unsigned)(chance(first + n) % faults->noise_of < faults->noise) << n;
+        bits |= (unsigned)((body_faults_mix(first + n) >> 32) % faults->noise_of < faults->noise) << n;
     return (uint8_t)bits;
 }
 
@@ -62,13 +65,18 @@ void body_faults_measure(const struct body_faults *faults, uint8_t *range_mm)
         range_mm[n] = faults->stuck_off >> n & 1u ? RANGE_NONE : faults->stuck_on >> n & 1u ? 0 : range_mm[n];
 }
 
-void body_faults_drive(const struct body_faults *faults, struct drive *drive)
+static double weakened(double speed_mm_s, int lost_percent)
 {
-    int left = faults->swapped ? drive->right_mm_s : drive->left_mm_s;
-    int right = faults->swapped ? drive->left_mm_s : drive->right_mm_s;
+    return lost_percent == 0 ? speed_mm_s : trunc(speed_mm_s * (FULL_PERCENT - lost_percent) / FULL_PERCENT);
+}
 
-    drive->left_mm_s = (int16_t)(left * (FULL_PERCENT - faults->left_lost_percent) / FULL_PERCENT);
-    drive->right_mm_s = (int16_t)(right * (FULL_PERCENT - faults->right_lost_percent) / FULL_PERCENT);
+void body_faults_drive(const struct body_faults *faults, double *left_mm_s, double *right_mm_s)
+{
+    double left = faults->swapped ? *right_mm_s : *left_mm_s;
+    double right = faults->swapped ? *left_mm_s : *right_mm_s;
+
+    *left_mm_s = weakened(left, faults->left_lost_percent);
+    *right_mm_s = weakened(right, faults->right_lost_percent);
 }
 
 static double miscounted(double rolled_mm, int miscounted_percent)
@@ -83,18 +91,4 @@ void body_faults_count(const struct body_faults *faults, double *left_mm, double
 
     *left_mm = miscounted(left_way_mm, faults->left_miscounted_percent);
     *right_mm = miscounted(right_way_mm, faults->right_miscounted_percent);
-}
-
-void body_faults_move(const struct body_faults *faults, struct world *world, struct body *body, const struct drive *drive)
-{
-    struct drive wheels = *drive;
-    double left_mm = body->left_mm, right_mm = body->right_mm, left_way_mm, right_way_mm;
-
-    body_faults_drive(faults, &wheels);
-    world_move(world, body, wheels.left_mm_s, wheels.right_mm_s);
-    left_way_mm = world_way_mm(world, wheels.left_mm_s);
-    right_way_mm = world_way_mm(world, wheels.right_mm_s);
-    body_faults_count(faults, &left_way_mm, &right_way_mm);
-    body->left_mm = left_mm + left_way_mm;
-    body->right_mm = right_mm + right_way_mm;
 }

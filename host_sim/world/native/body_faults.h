@@ -1,8 +1,12 @@
-/* body_faults.h: what is wrong with a body, between what it senses and what its robot is told, and back to its motors. */
+/* body_faults.h: what is wrong with a body, between what it senses and what its robot is told, and back to its motors.
+ * body_fault_words.c reads what people call that. */
 #ifndef OCTET_BODY_FAULTS_H
 #define OCTET_BODY_FAULTS_H
 
-#include "host_sim/world/native/world.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+struct senses;
 
 struct body_faults {
     bool mirrored;           /* the ring of sensors is mounted the other way round */
@@ -26,13 +30,17 @@ void body_faults_sense(const struct body_faults *faults, uint32_t tick, struct s
 void body_faults_measure(const struct body_faults *faults, uint8_t *range_mm);
         /* The same for its FEEL_COUNT distances; noise does not change them. */
 
-void body_faults_drive(const struct body_faults *faults, struct drive *drive);
-        /* Makes what the robot says into what the wheels do. */
+void body_faults_drive(const struct body_faults *faults, double *left_mm_s, double *right_mm_s);
+        /* Makes the speeds that the robot asks for into those of the wheels. */
 
 void body_faults_count(const struct body_faults *faults, double *left_mm, double *right_mm);
         /* Makes the ways that the wheels roll into those that the odometers count. */
 
-void body_faults_move(const struct body_faults *faults, struct world *world, struct body *body, const struct drive *drive);
-        /* Lets the wheels do that for one control tick, and the odometers count it. */
+const char *body_faults_add(struct body_faults *faults, const char *what, uint32_t seed, uint32_t robot);
+        /* One fault more, such as "stuck-on:front"; docs/worlds.md has all. The ticks of noise follow from the seed and from
+           which robot it is. Null, or why it cannot be, such as "write mirror". */
+
+uint64_t body_faults_mix(uint64_t number);
+        /* The SplitMix64 generator's number after this one. */
 
 #endif

@@ -23,10 +23,10 @@ static uint16_t odometer(double rolled_mm)
     return (uint16_t)((long long)vector_whole(rolled_mm * ODOMETER_COUNTS_PER_MM) & (ODOMETER_SPAN - 1));
 }
 
-void world_sense(struct world *world, struct body *body, uint8_t tick, struct senses *out)
+void world_sense(struct world *world, struct body *body, uint32_t tick, struct senses *out)
 {
     sight_look(world, body);
-    out->tick = tick;
+    out->tick = (uint8_t)(tick % TICK_SPAN);
     out->feel = body->feel;
     out->bump = body->touches > 0;
     out->look = body->seen_mm > 0;
@@ -35,6 +35,7 @@ void world_sense(struct world *world, struct body *body, uint8_t tick, struct se
     out->odometer_right = odometer(body->right_mm);
     for (unsigned n = 0; n < FEEL_COUNT; n++)
         out->range_mm[n] = RANGE_NONE;
+    body_faults_sense(&body->faults, tick, out);
 }
 
 bool world_eat(struct world *world, struct body *body)
@@ -56,11 +57,15 @@ double world_way_mm(const struct world *world, double speed_mm_s)
 
 void world_move(struct world *world, struct body *body, double left_mm_s, double right_mm_s)
 {
-    double left_mm = world_way_mm(world, left_mm_s), right_mm = world_way_mm(world, right_mm_s);
+    double left_mm, right_mm, left_counted_mm, right_counted_mm;
     struct vector before = {body->x_mm, body->y_mm};
 
-    body->left_mm += left_mm;
-    body->right_mm += right_mm;
+    body_faults_drive(&body->faults, &left_mm_s, &right_mm_s);
+    left_counted_mm = left_mm = world_way_mm(world, left_mm_s);
+    right_counted_mm = right_mm = world_way_mm(world, right_mm_s);
+    body_faults_count(&body->faults, &left_counted_mm, &right_counted_mm);
+    body->left_mm += left_counted_mm;
+    body->right_mm += right_counted_mm;
     if (body->lifted)
         return;
     body_roll(body, left_mm, right_mm, world->params.wheel_track_mm);

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "firmware/io.h"
+#include "host_sim/world/native/body_faults.h"
 #include "host_sim/world/native/space/space.h"
 
 enum { WORLD_CONES = 5 };   /* of a body; cone n sets bit n of feel */
@@ -44,6 +45,7 @@ struct body {
     /* What follows from its heading: */
     double ahead_rad;             /* the heading of */
     struct vector ahead;          /* one millimetre straight ahead */
+    struct body_faults faults;
 };
 
 struct world {
@@ -61,8 +63,8 @@ void world_begin(struct world *world);
 void world_settle(struct world *world);
         /* The same where its space has them already: finds what they overlap now. */
 
-void world_sense(struct world *world, struct body *body, uint8_t tick, struct senses *out);
-        /* What the robot senses where it stands. tick is as the robot is to be told it. */
+void world_sense(struct world *world, struct body *body, uint32_t tick, struct senses *out);
+        /* What the robot is told of what its body senses where it stands. tick is the number of the tick in the run. */
 
 bool world_eat(struct world *world, struct body *body);
         /* Eats the food that was last sensed straight ahead, if it is near enough and still there. */
@@ -71,7 +73,7 @@ double world_way_mm(const struct world *world, double speed_mm_s);
         /* How far a wheel rolls in one control tick. */
 
 void world_move(struct world *world, struct body *body, double left_mm_s, double right_mm_s);
-        /* Lets the wheels roll for one control tick. */
+        /* Does for one control tick what the robot asks of its wheels. */
 
 size_t world_food_left(const struct world *world);
         /* Number of pieces that have not been eaten. */

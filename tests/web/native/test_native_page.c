@@ -103,7 +103,7 @@ TEST(distances_are_logged_in_the_order_of_the_sensors)
 
     start(0, PROFILE_DISTANCE);
     page_state()->robots[0].senses_counter = 3;
-    page_state()->robots[0].faults = (struct body_faults){.stuck_on = FEEL_FRONT};
+    page_state()->world.bodies[0].faults.stuck_on = FEEL_FRONT;
     page_send_ranges(0, TICK_SPAN + 9);
     TEST_ASSERT_EQUAL_UINT(1, logged("121"));
     memcpy(data, page_log() + LOG_STAMP + 4, 16);

@@ -1,6 +1,8 @@
 /* The world of a page: what is placed is there, and robots drive about in it. */
 #include "page_rig.h"
 
+#include <string.h>
+
 enum { TICKS = 50 };
 
 /* Robots far apart that look along x, in an arena of 4 m by 3 m. */
@@ -114,31 +116,18 @@ TEST(a_lifted_robot_stays_in_the_air_until_it_is_put_down)
     TEST_ASSERT_EQUAL_DOUBLE(1.5, body(0)->heading_rad);
 }
 
-TEST(a_body_is_broken_as_the_numbers_say)
+static const char *break_body(uint32_t robot, const char *what)
 {
-    static const double numbers[PAGE_FAULTS] = {
-        [PAGE_MIRRORED] = 1, [PAGE_SWAPPED] = 0, [PAGE_STUCK_ON] = 5, [PAGE_STUCK_OFF] = 16, [PAGE_LEFT_LOST] = 30,
-        [PAGE_RIGHT_LOST] = 100, [PAGE_NOISE] = 1, [PAGE_NOISE_OF] = 4000000000.0, [PAGE_KEY_HIGH] = 0x12345678,
-        [PAGE_KEY_LOW] = 0x9ABCDEF0, [PAGE_ODOMETERS_SWAPPED] = 1, [PAGE_LEFT_MISCOUNTED] = -100,
-        [PAGE_RIGHT_MISCOUNTED] = 25, [PAGE_FALSE_BEACON] = 777,
-    };
-    const struct body_faults *faults = &page_state()->robots[1].faults;
+    strcpy(page_text(), what);
+    return page_break(robot, 1);
+}
 
-    for (unsigned i = 0; i < PAGE_FAULTS; i++)
-        page_faults()[i] = numbers[i];
-    page_break(1);
-    TEST_ASSERT_TRUE(faults->mirrored && !faults->swapped && faults->odometers_swapped);
-    TEST_ASSERT_EQUAL_UINT8(5, faults->stuck_on);
-    TEST_ASSERT_EQUAL_UINT8(16, faults->stuck_off);
-    TEST_ASSERT_EQUAL_UINT8(30, faults->left_lost_percent);
-    TEST_ASSERT_EQUAL_UINT8(100, faults->right_lost_percent);
-    TEST_ASSERT_EQUAL_UINT32(1, faults->noise);
-    TEST_ASSERT_EQUAL_UINT32(4000000000u, faults->noise_of);
-    TEST_ASSERT_EQUAL_HEX64(0x123456789ABCDEF0, faults->noise_key);
-    TEST_ASSERT_EQUAL_INT16(-100, faults->left_miscounted_percent);
-    TEST_ASSERT_EQUAL_INT16(25, faults->right_miscounted_percent);
-    TEST_ASSERT_EQUAL_UINT16(777, faults->false_beacon_mm);
-    TEST_ASSERT_EQUAL_UINT8(0, page_state()->robots[0].faults.stuck_on);
+TEST(a_body_is_broken_as_the_text_says)
+{
+    TEST_ASSERT_NULL(break_body(1, "stuck-on:front"));
+    TEST_ASSERT_EQUAL_STRING("write mirror", break_body(1, "mirror:left"));
+    TEST_ASSERT_EQUAL_UINT8(FEEL_FRONT, body(1)->faults.stuck_on);
+    TEST_ASSERT_EQUAL_UINT8(0, body(0)->faults.stuck_on);
 }
 
 /* Its motors are dead: it denies its drives, stops by itself, and is asked how it is. */
@@ -148,8 +137,8 @@ TEST(a_robot_that_stops_by_itself_is_told_and_starts_again)
 
     build();
     page_enter(0, 0);
-    page_faults()[PAGE_LEFT_LOST] = page_faults()[PAGE_RIGHT_LOST] = 100;
-    page_break(0);
+    TEST_ASSERT_NULL(break_body(0, "weak-motor:left:0%"));
+    TEST_ASSERT_NULL(break_body(0, "weak-motor:right:0%"));
     while (tick < 5000 && !page_has_halted(0))
         tick += page_run(tick, PAGE_TICKS_MAX);
     TEST_ASSERT_TRUE(page_has_halted(0));

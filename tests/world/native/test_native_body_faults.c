@@ -1,4 +1,5 @@
 #include "host_sim/world/native/body_faults.h"
+#include "host_sim/world/native/world.h"
 #include "tests/test.h"
 
 static struct body_faults faults;
@@ -16,14 +17,17 @@ static uint8_t felt(uint8_t feel, uint32_t tick)
     return senses.feel;
 }
 
+static void assert_driven(double left_mm_s, double right_mm_s, double left_told_mm_s, double right_told_mm_s)
+{
+    body_faults_drive(&faults, &left_told_mm_s, &right_told_mm_s);
+    TEST_ASSERT_EQUAL_DOUBLE(left_mm_s, left_told_mm_s);
+    TEST_ASSERT_EQUAL_DOUBLE(right_mm_s, right_told_mm_s);
+}
+
 TEST(a_sound_body_is_told_as_it_is)
 {
-    struct drive drive = {.left_mm_s = -2047, .right_mm_s = 2047};
-
-    body_faults_drive(&faults, &drive);
     TEST_ASSERT_EQUAL_UINT8(19, felt(19, 5));
-    TEST_ASSERT_EQUAL_INT16(-2047, drive.left_mm_s);
-    TEST_ASSERT_EQUAL_INT16(2047, drive.right_mm_s);
+    assert_driven(-2047.0, 0.5, -2047.0, 0.5);
 }
 
 TEST(a_mirrored_ring_has_right_for_left)
@@ -43,35 +47,28 @@ TEST(stuck_sensors_see_always_or_never)
 TEST(swapped_motors_are_swapped_with_their_odometers)
 {
     struct senses senses = {.odometer_left = 3, .odometer_right = 4095};
-    struct drive drive = {.left_mm_s = 200, .right_mm_s = -150};
 
     faults.swapped = true;
     body_faults_sense(&faults, 0, &senses);
-    body_faults_drive(&faults, &drive);
     TEST_ASSERT_EQUAL_UINT16(4095, senses.odometer_left);
     TEST_ASSERT_EQUAL_UINT16(3, senses.odometer_right);
-    TEST_ASSERT_EQUAL_INT16(-150, drive.left_mm_s);
-    TEST_ASSERT_EQUAL_INT16(200, drive.right_mm_s);
+    assert_driven(-150.0, 200.0, 200.0, -150.0);
 }
 
 TEST(a_weak_motor_turns_at_its_share_of_the_speed_toward_0)
 {
-    struct drive drive = {.left_mm_s = -201, .right_mm_s = 200};
-
     faults.left_lost_percent = 40;
     faults.right_lost_percent = 100;
-    body_faults_drive(&faults, &drive);
-    TEST_ASSERT_EQUAL_INT16(-120, drive.left_mm_s);
-    TEST_ASSERT_EQUAL_INT16(0, drive.right_mm_s);
+    assert_driven(-120.0, 0.0, -201.0, 200.0);
 }
 
 static void roll(struct body *body, int left_mm_s, int right_mm_s)
 {
-    struct drive drive = {.left_mm_s = (int16_t)left_mm_s, .right_mm_s = (int16_t)right_mm_s};
     struct world world = {.params = {.tick_s = 0.02, .max_wheel_speed_mm_s = 500.0}};
 
     body->lifted = true;
-    body_faults_move(&faults, &world, body, &drive);
+    body->faults = faults;
+    world_move(&world, body, left_mm_s, right_mm_s);
 }
 
 TEST(sound_odometers_count_the_way)

@@ -36,7 +36,7 @@ static void sense(struct told *told, size_t i, struct senses *senses)
 {
     struct told_robot *robot = &told->robots[i];
 
-    world_sense(told->world, &told->world->bodies[i], (uint8_t)(told->tick & (TICK_SPAN - 1)), senses);
+    world_sense(told->world, &told->world->bodies[i], told->tick, senses);
     robot->senses[0] = senses->tick;
     robot->senses[1] = senses->feel;
     robot->senses[2] = senses->bump;
