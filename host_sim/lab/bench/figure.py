@@ -3,6 +3,8 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from host_sim.lab.table import aligned
+
 ROUNDS = 3
 """Number of measurements of each figure. The best counts: the others were disturbed by other work of the machine."""
 
@@ -78,6 +80,4 @@ def table(figures: Sequence[Figure]) -> str:
         rows.append(
             (figure.name, measured, figure.bar, figure.reference, ratio, figure.ratio_bar, verdict, figure.bound)
         )
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)) for row in rows)
-    return "\n".join(line.rstrip() for line in lines)
+    return "\n".join(aligned(rows))

@@ -2,7 +2,8 @@
 
 import argparse
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from host_sim.backends.images import BOARDS
@@ -92,33 +93,41 @@ def _campaign(arguments: argparse.Namespace) -> int:
     from host_sim.lab.campaign.html_report import page, summary, verdict
     from host_sim.lab.campaign.outcome import unreached
 
-    outcomes = []
-    for outcome in _outcomes(arguments):
-        outcomes.append(outcome)
-        if outcome.problems:
-            cell = outcome.cell
-            print(f"{verdict(outcome)}: {outcome.end or cell.fault}: {cell.command()}", file=sys.stderr)
+    found = []
+    for group, some in _outcomes(arguments):
+        for outcome in some:
+            found.append((group, outcome))
+            if outcome.problems:
+                cell = outcome.cell
+                print(f"{verdict(outcome)}: {outcome.end or cell.fault}: {cell.command()}", file=sys.stderr)
+    outcomes = [outcome for _, outcome in sorted(found, key=itemgetter(0))]
     write_bytes(arguments.html, page(outcomes).encode())
     print(summary(outcomes))
     print(f"wrote {arguments.html}")
     return int(any(outcome.problems for outcome in outcomes) or bool(unreached(outcomes, ("never came",))))
 
 
-def _outcomes(arguments: argparse.Namespace) -> "Iterator[Outcome]":
+def _outcomes(arguments: argparse.Namespace) -> "Iterator[tuple[int, Iterable[Outcome]]]":
+    """The outcomes of each configuration, with its number; several at once come in any order."""
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
     from host_sim.lab.campaign.cell import PACES
     from host_sim.lab.campaign.matrix import default_limit_s, groups
-    from host_sim.lab.campaign.running import run_all
-    from host_sim.lab.campaign.workers import run_in_processes
+    from host_sim.lab.campaign.running import Group, run_group
+    from host_sim.lab.campaign.running import run_all as run_cells
+    from host_sim.lab.workers import Workers, run_all
 
     paces = PACES if arguments.real_time else PACES[:1]
-    found = groups(
+    cells = groups(
         arguments.profiles, arguments.links, paces, lambda pace: arguments.limit_s or default_limit_s(pace)
     )
+    every = [Group(number, some) for number, some in enumerate(cells)]
     if arguments.jobs == 1:
-        for cells in found:
-            yield from run_all(cells)
+        yield from ((number, run_cells(some)) for number, some in every)
     else:
-        yield from run_in_processes(list(found), arguments.jobs)
+        pool = Workers(lambda: ProcessPoolExecutor(arguments.jobs, mp_context=get_context("spawn")))
+        yield from run_all(run_group, every, pool)
 
 
 def _with_clean(cell: "Cell") -> "Sequence[Cell]":

@@ -1,8 +1,9 @@
 """Runs cells: has their faults happen, and notes how each run ends."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
+from typing import NamedTuple
 
 from host_sim.base.errors import OctetError, RobotError, UsageError
 from host_sim.client.commands import stop
@@ -25,6 +26,22 @@ _PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
 _REFUSING = ("stale", "damaged", "foreign", "refused")
 _SIGNS_MAX = 10
 """A robot in lockstep that waits says so now and then: some frames more are no sign of a fault."""
+
+
+class Group(NamedTuple):
+    """The cells of one configuration; the first has no fault."""
+
+    number: int
+    cells: Sequence[Cell]
+
+    def __str__(self) -> str:
+        return str(self.cells[0])
+
+
+def run_group(groups: Sequence[Group]) -> tuple[int, list[Outcome]]:
+    """The number of a group, the only one, and the outcomes of its cells."""
+    (group,) = groups
+    return group.number, list(run_all(group.cells))
 
 
 def run_all(cells: Iterable[Cell]) -> Iterator[Outcome]:

@@ -4,13 +4,14 @@ from collections.abc import Sequence
 
 from host_sim.lab.monitor.bus_watch import BusWatch
 from host_sim.lab.monitor.robot_watch import RobotWatch
+from host_sim.lab.table import aligned
 from host_sim.protocol.generated import MESSAGES, SIDES
 
 _HEAD = (
     "node", "state", "clock", "profile", "owner", "SENSES/s", "DRIVE/s", "other/s", "lost", "again", "damaged",
     "memory", "doing",
 )  # fmt: skip
-_LEFT = ("state", "clock", "profile", "memory", "doing")
+_RIGHT = [i for i, name in enumerate(_HEAD) if name not in ("state", "clock", "profile", "memory", "doing")]
 _CHOICES = {(name, signal.name): signal.choices for name, message in MESSAGES.items() for signal in message.signals}
 
 
@@ -28,7 +29,7 @@ def lines_of(bus: BusWatch, name: str, now_s: float) -> list[str]:
     robots = [robot for _, robot in sorted(bus.robots.items())]
     if not robots:
         return [head + others, "", "no robot is heard"]
-    table = _aligned([_HEAD, *(_row(robot, now_s) for robot in robots)])
+    table = aligned([_HEAD, *(_row(robot, now_s) for robot in robots)], _RIGHT)
     return [head + others, "", *table, "", *(f"! {what}" for what in bus.wrong(now_s))]
 
 
@@ -66,14 +67,3 @@ def _doing(robot: RobotWatch) -> str:
     if not robot.messages["DRIVE"].frames:
         return "?"
     return f"{_word(robot, 'DRIVE', 'reason')} {robot.said('DRIVE', 'left')} {robot.said('DRIVE', 'right')}"
-
-
-def _aligned(rows: Sequence[Sequence[str]]) -> list[str]:
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return [
-        "  ".join(
-            cell.ljust(width) if title in _LEFT else cell.rjust(width)
-            for title, cell, width in zip(_HEAD, row, widths, strict=True)
-        ).rstrip()
-        for row in rows
-    ]

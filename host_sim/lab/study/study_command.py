@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
     from host_sim.lab.study.folder import StudyFolder
     from host_sim.lab.study.trial import Run, Trial
-    from host_sim.lab.study.workers import Workers
+    from host_sim.lab.workers import Workers
 
 _EXAMPLES = """\
 examples:
@@ -71,7 +71,7 @@ def workers_of(arguments: argparse.Namespace) -> "Workers":
     Raises:
         UsageError: There is no scheduler at the address.
     """
-    from host_sim.lab.study.workers import cluster, processes
+    from host_sim.lab.workers import cluster, processes
 
     return cluster(arguments.dask) if arguments.dask else processes(arguments.jobs)
 

@@ -8,6 +8,7 @@ import numpy as np
 from host_sim.lab.study.bootstrap import Estimate, estimate
 from host_sim.lab.study.figures import ALWAYS, FIGURES, Figure
 from host_sim.lab.study.sample import Sample
+from host_sim.lab.table import aligned
 
 _WITH_HALF_WIDTH = frozenset(("finished", "median_s", "iqm_s", "mean_s", "blocked_s"))
 _RATIO = "mean_s"
@@ -28,9 +29,7 @@ def table(samples: Sequence[Sample], difference: float = 0.05) -> str:
         ratio = estimate(FIGURES[_RATIO], sample, samples[0])
         needed = "-" if sample is samples[0] else _whole(ratio.seeds_for(difference))
         lines.append((sample.name, *(_figure(name, sample) for name in names), _interval(ratio), needed))
-    widths = [max(len(line[column]) for line in lines) for column in range(len(head))]
-    text = ["  ".join(word.ljust(width) for word, width in zip(line, widths, strict=True)).rstrip() for line in lines]
-    return "\n".join([*text, "", _notes(names, wanted)])
+    return "\n".join([*aligned(lines), "", _notes(names, wanted)])
 
 
 def _others(samples: Sequence[Sample]) -> list[str]:
@@ -75,5 +74,4 @@ def _notes(names: Sequence[str], wanted: str) -> str:
     notes["±"] = "half of the 95 % interval, by drawing the seeds anew 10,000 times"
     notes["ratio"] = "of the mean times on the same seeds, with its 95 % interval"
     notes[wanted] = "with so many, half of that interval would be this difference"
-    width = max(map(len, notes))
-    return "\n".join(f"{name.ljust(width)}  {meaning}" for name, meaning in notes.items())
+    return "\n".join(aligned(list(notes.items())))

@@ -36,6 +36,9 @@ class Trial:
         """What tells the runs of a study apart."""
         return self.condition or self.config.profile, self.config.seed
 
+    def __str__(self) -> str:
+        return self.config.command()
+
 
 @dataclass
 class Row:

@@ -1,39 +1,12 @@
-"""Makes runs in other processes: on all cores of this machine, or on a cluster. What a dead one had is made again."""
+"""Makes the runs of a study in other processes, all of them by the same version of robot and world."""
 
-import ctypes
-import signal
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, ProcessPoolExecutor, wait
-from contextlib import suppress
-from typing import Any, NamedTuple
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
-from host_sim.base.errors import OctetError, UsageError
-from host_sim.base.extra_library import library
+from host_sim.base.errors import OctetError
+from host_sim.lab import workers as of_lab
 from host_sim.lab.study.trial import Run, Trial, run_trial
 from host_sim.lab.study.version import code_version
-
-_CHUNK_MAX = 16
-_CHUNKS_A_PROCESS = 8
-_CLUSTER_CHUNK = 100
-_CONNECT_S = 10
-_CHECK_S = 1.0
-_RETRIES = 3
-_BREAKS_MAX = 3
-_PR_SET_PDEATHSIG = 1
-
-
-class Workers(NamedTuple):
-    """Who makes the runs.
-
-    Attributes:
-        open: Makes an executor.
-        chunk: Number of runs to hand over at once, given the number of all.
-        check: Raises OctetError if they are out of reach.
-    """
-
-    open: Callable[[], Executor]
-    chunk: Callable[[int], int]
-    check: Callable[[], None] = lambda: None
 
 
 class Chunk(NamedTuple):
@@ -43,109 +16,18 @@ class Chunk(NamedTuple):
     code: str
 
 
-def processes(count: int) -> Workers:
-    """Processes of this machine."""
-    return Workers(
-        open=lambda: ProcessPoolExecutor(count, initializer=_begin),
-        chunk=lambda trials: max(1, min(_CHUNK_MAX, trials // (count * _CHUNKS_A_PROCESS))),
-    )
-
-
-def cluster(address: str) -> Workers:
-    """The workers of a Dask cluster.
-
-    Args:
-        address: Its scheduler's address.
-
-    Raises:
-        UsageError: Dask is not installed, or the scheduler does not answer.
-    """
-    distributed, dask = library("distributed", "cluster"), library("dask", "cluster")
-    dask.config.set({"distributed.comm.timeouts.connect": f"{_CONNECT_S}s"})
-    try:
-        client = distributed.Client(address, timeout=_CONNECT_S)
-    except (OSError, ValueError) as error:
-        raise UsageError(f"no Dask scheduler answers at {address}: {str(error).splitlines()[0]}") from None
-
-    def check() -> None:
-        if client.status in ("closing", "closed"):
-            raise OctetError(
-                f"the cluster at {address} is gone; what was made is there, and the same command goes on"
-            )
-
-    return Workers(open=lambda: _Cluster(client), chunk=lambda _: _CLUSTER_CHUNK, check=check)
-
-
-class _Cluster(Executor):
-    """Dask's own executor, with its errors as those of other executors."""
-
-    def __init__(self, client: Any) -> None:
-        self._executor = client.get_executor(retries=_RETRIES, pure=False)
-
-    def submit(self, call: Any, /, *arguments: Any, **named: Any) -> Any:
-        try:
-            return self._executor.submit(call, *arguments, **named)
-        except Exception as error:
-            raise BrokenExecutor from error
-
-    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        with suppress(Exception):  # a cluster that is gone cannot be told
-            self._executor.shutdown(wait=wait and not cancel_futures)
-
-
 def run_chunk(trials: Sequence[Trial]) -> Chunk:
     """Makes runs in this process."""
     return Chunk([run_trial(trial) for trial in trials], code_version())
 
 
-def run_all(trials: Sequence[Trial], workers: Workers, chunk: int = 0) -> Iterator[Sequence[Run]]:
-    """Makes runs, in any order.
-
-    Args:
-        trials: The runs to be made.
-        workers: Who makes them.
-        chunk: Number of runs to hand over at once; 0 leaves it to the workers.
-
-    Yields:
-        Runs, as soon as they have been made.
+def run_all(trials: Sequence[Trial], workers: of_lab.Workers, chunk: int = 0) -> Iterator[Sequence[Run]]:
+    """Makes runs; arguments and errors are those of `host_sim.lab.workers.run_all`.
 
     Raises:
-        OctetError: Workers die again and again, or are of another version.
+        OctetError: A worker is of another version.
     """
-    size = chunk or workers.chunk(len(trials))
-    left = [trials[i : i + size] for i in range(0, len(trials), size)]
-    breaks = 0
-    while left:
-        count = len(left)
-        yield from _run_until_broken(left, workers)
-        breaks = 0 if len(left) < count else breaks + 1
-        if breaks == _BREAKS_MAX:
-            raise OctetError(
-                f"workers die each time, perhaps in the run {left[0][0].config.command()}; what was made is there"
-            )
-
-
-def _run_until_broken(left: list[Sequence[Trial]], workers: Workers) -> Iterator[Sequence[Run]]:
-    """Makes what is left, and takes it off the list, until all is made or a worker has died."""
-    workers.check()
-    executor = workers.open()
-    try:
-        futures = {executor.submit(run_chunk, trials): trials for trials in left}
-        while futures:
-            workers.check()
-            for future in wait(futures, _CHECK_S, FIRST_COMPLETED).done:
-                runs, code = future.result()
-                if code != code_version():
-                    raise OctetError("a worker has another version of robot or world; what was made here is there")
-                left.remove(futures.pop(future))
-                yield runs
-    except (BrokenExecutor, CancelledError):
-        pass
-    finally:
-        executor.shutdown(cancel_futures=True)
-
-
-def _begin() -> None:
-    """A process of the pool: Ctrl-C is for the one that started it, and without that one it ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    for runs, code in of_lab.run_all(run_chunk, trials, workers, chunk):
+        if code != code_version():
+            raise OctetError("a worker has another version of robot or world; what was made here is there")
+        yield runs

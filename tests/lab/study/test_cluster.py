@@ -14,6 +14,7 @@ from host_sim.lab.study import workers
 from host_sim.lab.study.dask_command import _here_only
 from host_sim.lab.study.folder import StudyFolder
 from host_sim.lab.study.trial import run_trial
+from host_sim.lab.workers import cluster as cluster_of
 from tests.lab.study.support import trial
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -97,7 +98,7 @@ def test_the_runs_of_a_worker_that_dies_are_made_by_another(cluster):
     trials = [trial("article", seed, limit_s=60) for seed in range(12)]
 
     made = []
-    for runs in workers.run_all(trials, workers.cluster(cluster.address), chunk=1):
+    for runs in workers.run_all(trials, cluster_of(cluster.address), chunk=1):
         if not made:
             os.killpg(first.pid, signal.SIGKILL)
         made += runs
@@ -107,10 +108,10 @@ def test_the_runs_of_a_worker_that_dies_are_made_by_another(cluster):
 
 
 def test_a_scheduler_that_goes_away_is_said(cluster, monkeypatch):
-    monkeypatch.setattr(workers, "_CONNECT_S", 1)
+    monkeypatch.setattr("host_sim.lab.workers._CONNECT_S", 1)
     cluster.worker()
     trials = [trial("article", seed, limit_s=60) for seed in range(12)]
-    every = workers.run_all(trials, workers.cluster(cluster.address), chunk=1)
+    every = workers.run_all(trials, cluster_of(cluster.address), chunk=1)
 
     assert next(every)
     cluster.scheduler.kill()
@@ -120,7 +121,7 @@ def test_a_scheduler_that_goes_away_is_said(cluster, monkeypatch):
 
 
 def test_where_no_scheduler_answers_it_is_one_line(plan, capsys, monkeypatch):
-    monkeypatch.setattr(workers, "_CONNECT_S", 1)
+    monkeypatch.setattr("host_sim.lab.workers._CONNECT_S", 1)
 
     assert main(["study", str(plan), "--dask", "tcp://127.0.0.1:1"]) == 2
 

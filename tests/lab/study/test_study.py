@@ -16,6 +16,7 @@ from host_sim.cli.main import main
 from host_sim.lab.study import tables, workers
 from host_sim.lab.study.folder import StudyFolder
 from host_sim.lab.study.trial import run_trial
+from host_sim.lab.workers import processes
 from tests.lab.study.support import trial
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -196,7 +197,7 @@ def test_the_runs_of_a_dead_worker_are_made_again(tmp_path, monkeypatch):
     monkeypatch.setattr(workers, "run_chunk", die_once)
     trials = [trial("article", seed, limit_s=5) for seed in range(4)]
 
-    made = [run.trial for runs in workers.run_all(trials, workers.processes(2), chunk=1) for run in runs]
+    made = [run.trial for runs in workers.run_all(trials, processes(2), chunk=1) for run in runs]
 
     assert sorted(made, key=lambda it: it.config.seed) == trials
 

@@ -1,0 +1,24 @@
+"""Tables of text."""
+
+from collections.abc import Collection, Sequence
+
+
+def aligned(rows: Sequence[Sequence[str]], right: Collection[int] = ()) -> list[str]:
+    """The lines of a table whose columns stand below each other.
+
+    >>> aligned([("node", "lost"), ("1", "0")], right=[1])
+    ['node  lost', '1        0']
+
+    Args:
+        rows: The cells; all rows have as many.
+        right: The columns whose cells stand at the right.
+    """
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = (
+        [
+            cell.rjust(width) if column in right else cell.ljust(width)
+            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
+        ]
+        for row in rows
+    )
+    return ["  ".join(line).rstrip() for line in lines]

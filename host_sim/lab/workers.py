@@ -1,0 +1,141 @@
+"""Work in other processes: on all cores of this machine, or on a cluster. What a dead one had is done again."""
+
+import ctypes
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, ProcessPoolExecutor, wait
+from contextlib import suppress
+from typing import Any, NamedTuple, TypeVar
+
+from host_sim.base.errors import OctetError, UsageError
+from host_sim.base.extra_library import library
+
+_CHUNK_MAX = 16
+_CHUNKS_A_PROCESS = 8
+_CLUSTER_CHUNK = 100
+_CONNECT_S = 10
+_CHECK_S = 1.0
+_RETRIES = 3
+_BREAKS_MAX = 3
+_PR_SET_PDEATHSIG = 1
+
+Item = TypeVar("Item")
+Done = TypeVar("Done")
+
+
+class Workers(NamedTuple):
+    """Who does the work.
+
+    Attributes:
+        open: Makes an executor.
+        chunk: Number of items to hand over at once, given the number of all.
+        check: Raises OctetError if they are out of reach.
+    """
+
+    open: Callable[[], Executor]
+    chunk: Callable[[int], int] = lambda _: 1
+    check: Callable[[], None] = lambda: None
+
+
+def processes(count: int) -> Workers:
+    """Processes of this machine."""
+    return Workers(
+        open=lambda: ProcessPoolExecutor(count, initializer=_begin),
+        chunk=lambda items: max(1, min(_CHUNK_MAX, items // (count * _CHUNKS_A_PROCESS))),
+    )
+
+
+def cluster(address: str) -> Workers:
+    """The workers of a Dask cluster.
+
+    Args:
+        address: Its scheduler's address.
+
+    Raises:
+        UsageError: Dask is not installed, or the scheduler does not answer.
+    """
+    distributed, dask = library("distributed", "cluster"), library("dask", "cluster")
+    dask.config.set({"distributed.comm.timeouts.connect": f"{_CONNECT_S}s"})
+    try:
+        client = distributed.Client(address, timeout=_CONNECT_S)
+    except (OSError, ValueError) as error:
+        raise UsageError(f"no Dask scheduler answers at {address}: {str(error).splitlines()[0]}") from None
+
+    def check() -> None:
+        if client.status in ("closing", "closed"):
+            raise OctetError(
+                f"the cluster at {address} is gone; what was made is there, and the same command goes on"
+            )
+
+    return Workers(open=lambda: _Cluster(client), chunk=lambda _: _CLUSTER_CHUNK, check=check)
+
+
+class _Cluster(Executor):
+    """Dask's own executor, with its errors as those of other executors."""
+
+    def __init__(self, client: Any) -> None:
+        self._executor = client.get_executor(retries=_RETRIES, pure=False)
+
+    def submit(self, call: Any, /, *arguments: Any, **named: Any) -> Any:
+        try:
+            return self._executor.submit(call, *arguments, **named)
+        except Exception as error:
+            raise BrokenExecutor from error
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        with suppress(Exception):  # a cluster that is gone cannot be told
+            self._executor.shutdown(wait=wait and not cancel_futures)
+
+
+def run_all(
+    work: Callable[[Sequence[Item]], Done], items: Sequence[Item], workers: Workers, chunk: int = 0
+) -> Iterator[Done]:
+    """Has work done, in any order.
+
+    Args:
+        work: Does some items.
+        items: What there is to do; each says as a text what it is.
+        workers: Who does it.
+        chunk: Number of items to hand over at once; 0 leaves it to the workers.
+
+    Yields:
+        What came of some items, as soon as they are done.
+
+    Raises:
+        OctetError: Workers die again and again.
+    """
+    size = chunk or workers.chunk(len(items))
+    left = [items[i : i + size] for i in range(0, len(items), size)]
+    breaks = 0
+    while left:
+        count = len(left)
+        yield from _run_until_broken(work, left, workers)
+        breaks = 0 if len(left) < count else breaks + 1
+        if breaks == _BREAKS_MAX:
+            raise OctetError(f"workers die each time, perhaps in the run {left[0][0]}; what was made is there")
+
+
+def _run_until_broken(
+    work: Callable[[Sequence[Item]], Done], left: list[Sequence[Item]], workers: Workers
+) -> Iterator[Done]:
+    """Does what is left, and takes it off the list, until all is done or a worker has died."""
+    workers.check()
+    executor = workers.open()
+    try:
+        futures = {executor.submit(work, items): items for items in left}
+        while futures:
+            workers.check()
+            for future in wait(futures, _CHECK_S, FIRST_COMPLETED).done:
+                done = future.result()
+                left.remove(futures.pop(future))
+                yield done
+    except (BrokenExecutor, CancelledError):
+        pass
+    finally:
+        executor.shutdown(cancel_futures=True)
+
+
+def _begin() -> None:
+    """A process of the pool: Ctrl-C is for the one that started it, and without that one it ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
