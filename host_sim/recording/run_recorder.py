@@ -6,7 +6,7 @@ from struct import Struct
 from typing import Any, Protocol, TypeVar
 
 from host_sim.protocol.generated import ROW, Drive, Reason, Senses
-from host_sim.recording.trajectory import Begun, Changes, RobotTrack, Trajectory, at, since
+from host_sim.recording.trajectory import NEW_CELLS, Changes, RobotTrack, Trajectory, since
 from host_sim.sim.native_loop import RobotBlock
 from host_sim.sim.simulation import Simulation
 from host_sim.view.history import LearningHistory
@@ -24,7 +24,7 @@ _SLACK = 8
 """A trajectory gets longer by this part of its length before it is cut: cutting moves all that is retained."""
 
 _FOOD_EATEN = attrgetter("food_eaten")
-_TURNS = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
+_EVENTS = (Reason.TRIAL, Reason.BOREDOM)
 _PACKED = Struct(f"={len(ROW)}h")
 
 
@@ -123,9 +123,10 @@ class RunRecorder:
         if started is not None:
             history.restart(track.ticks, started)
             _note(track.trials, track.ticks, None)
+            track.cells += [cell._replace(tick=track.ticks) for cell in NEW_CELLS]
             self._memories[robot] = started
         for memory in written:
-            history.relearn(track.ticks, memory)
+            track.cells += history.relearn(track.ticks, memory)
             self._memories[robot] = memory
         _note(track.memories, track.ticks, list(history.memory))
 
@@ -162,10 +163,12 @@ class RunRecorder:
         history, track = self.histories[robot], self.trajectory.tracks[robot]
         for tick, reason, cell, trial in history.take(rows):
             _note(track.trials, tick, trial)
-            if reason in _TURNS:
-                track.begun.append(Begun(tick, reason, cell))
+            if reason == Reason.REMEMBERED:
+                track.cells.append(cell)
+            elif reason in _EVENTS:
+                track.begun.append((tick, reason))
         if memory != self._memories[robot]:
-            history.learn(memory)
+            track.cells += history.learn(memory)
             self._memories[robot] = memory
             _note(track.memories, history.ticks - 1, list(history.memory))
         track.rows_flat.frombytes(rows)
@@ -175,9 +178,8 @@ class RunRecorder:
         trajectory = self.trajectory
         if first <= trajectory.first_tick:
             return
-        start = at(trajectory.scenes, first - 1)["start_tick"]
         for track, history in zip(trajectory.tracks, self.histories, strict=True):
-            track.forget(first, start)
+            track.forget(first)
             history.forget_lessons(first)
         trajectory.scenes, trajectory.meals = since(trajectory.scenes, first), since(trajectory.meals, first)
 

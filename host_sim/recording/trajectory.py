@@ -9,7 +9,7 @@ from operator import itemgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from host_sim.protocol.generated import CELL_COUNT, ROW, Reason
-from host_sim.view.history import Learned, Lesson, Trial
+from host_sim.view.history import Cell, Learned, Lesson, Trial
 from host_sim.view.news import News
 from host_sim.view.state import EnvironmentScene, State, state
 from host_sim.world.geometry import Pose
@@ -33,12 +33,8 @@ class Event(NamedTuple):
     kind: str
 
 
-class Begun(NamedTuple):
-    """A turn that began: its tick, its reason, and the pattern when it was decided."""
-
-    tick: int
-    reason: int
-    cell: int
+NEW_CELLS = [Cell(0, cell, uses=0, learned=-1, by_hand=0) for cell in range(CELL_COUNT)]
+"""What is known of the cells of a robot that has just been started."""
 
 
 @dataclass
@@ -54,8 +50,8 @@ class RobotTrack:
         meals: The ticks in which it ate.
         poses_flat: x and y in mm, heading in rad, tick after tick.
         rows_flat: The fields of `ROW`, 16 bits each, tick after tick.
-        begun: The remembered turns, trials and about-faces.
-        uses_before: For each cell, the number of remembered turns before `first_tick` that used what it held then.
+        begun: The ticks in which trials and about-faces began, each with the reason.
+        cells: What is known of the cells: each change, in order.
     """
 
     node: int
@@ -66,8 +62,8 @@ class RobotTrack:
     meals: list[int] = field(default_factory=list)
     poses_flat: "array[float]" = field(default_factory=lambda: array("d"))
     rows_flat: "array[int]" = field(default_factory=lambda: array("h"))
-    begun: list[Begun] = field(default_factory=list)
-    uses_before: list[int] = field(default_factory=lambda: [0] * CELL_COUNT)
+    begun: list[tuple[int, int]] = field(default_factory=list)
+    cells: list[Cell] = field(default_factory=NEW_CELLS.copy)
 
     @property
     def ticks(self) -> int:
@@ -98,54 +94,34 @@ class RobotTrack:
 
     def ticks_of(self, reason: Reason) -> list[int]:
         """The retained ticks in which turns with a reason began."""
-        return [begun.tick for begun in self.begun if begun.reason == reason]
+        return [tick for tick, why in self.begun if why == reason]
 
-    def turns(self) -> list[tuple[int, int]]:
-        """Each remembered turn that is retained: its first tick, and the cell that it used."""
-        return [(begun.tick, begun.cell) for begun in self.begun if begun.reason == Reason.REMEMBERED]
+    def cells_at(self, tick: int) -> list[Cell]:
+        """What was known of each cell after a retained tick."""
+        return list({it.cell: it for it in self.cells[: bisect_right(self.cells, tick, key=itemgetter(0))]}.values())
 
-    def uses(self, start: int, tick: int) -> list[int]:
-        """For each cell, the number of remembered turns that used its content at a tick; as in `State.uses`."""
-        held = [lesson["tick"] if lesson else start for lesson in self.last_lessons(start, tick)]
-        uses = [old if begun < self.first_tick else 0 for old, begun in zip(self.uses_before, held, strict=True)]
-        for begun, cell in self.turns():
-            uses[cell] += held[cell] <= begun <= tick
-        return uses
-
-    def forget(self, first: int, start: int) -> None:
-        """Drops everything before a tick but how often what the cells hold was used; lessons are not dropped here.
-
-        Args:
-            first: The first tick that stays.
-            start: First tick since the run was started over, before that.
-        """
-        self.uses_before = self.uses(start, first - 1)
+    def forget(self, first: int) -> None:
+        """Drops everything before a tick but what is known of the cells; lessons are not dropped here."""
         del self.poses_flat[: (first - self.first_tick) * AXES]
         del self.rows_flat[: (first - self.first_tick) * len(ROW)]
         self.memories, self.trials = since(self.memories, first), since(self.trials, first)
-        self.begun = [begun for begun in self.begun if begun.tick >= first]
+        held = [it._replace(tick=first) for it in self.cells_at(first - 1)]
+        self.cells = [*held, *(it for it in self.cells if it.tick >= first)]
+        self.begun = [begun for begun in self.begun if begun[0] >= first]
         self.meals = [tick for tick in self.meals if tick >= first]
         self.first_tick = first
 
-    def known(self, start: int, tick: int) -> Learned:
-        """What the robot knew after a retained tick; start is the first tick since the run was started over."""
-        lessons = self.last_lessons(start, tick)
+    def known(self, tick: int) -> Learned:
+        """What the robot knew after a retained tick."""
+        cells = self.cells_at(tick)
         return Learned(
             memory=at(self.memories, tick),
-            uses=self.uses(start, tick),
-            learned=[lesson["tick"] if lesson else -1 for lesson in lessons],
-            by_hand=[lesson["by_hand"] if lesson else 0 for lesson in lessons],
+            uses=[it.uses for it in cells],
+            learned=[it.learned for it in cells],
+            by_hand=[it.by_hand for it in cells],
             frozen=self.row(tick)[ROW.index("frozen")],
             trial=at(self.trials, tick),
         )
-
-    def last_lessons(self, start: int, tick: int) -> list[Lesson | None]:
-        """For each cell, its last change from tick `start` up to a tick; None if there was none."""
-        last: list[Lesson | None] = [None] * CELL_COUNT
-        for lesson in self.lessons:
-            if start <= lesson["tick"] <= tick:
-                last[lesson["cell"]] = lesson
-        return last
 
 
 @dataclass
@@ -193,8 +169,7 @@ class Trajectory:
         if not self.first_tick <= tick < self.ticks:
             raise IndexError(f"tick {tick} of {self.first_tick}..{self.ticks - 1}")
         track = self.tracks[robot]
-        known = track.known(at(self.scenes, tick)["start_tick"], tick)
-        return state(track.node, tick, track.pose(tick), track.row(tick), known, at(self.meals, tick))
+        return state(track.node, tick, track.pose(tick), track.row(tick), track.known(tick), at(self.meals, tick))
 
     def events(self, robot: int = 0) -> list[Event]:
         """A robot's events in the order of their ticks."""

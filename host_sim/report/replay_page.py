@@ -7,7 +7,7 @@ The run is one object. Measures, EnvironmentScene and State are as in view/state
 view/history.py. The value in a pair holds from the pair's tick until that of the next pair; the first pair is that of
 tick `first_tick`.
 
-    version      2
+    version      3
     title        the page's title, such as "seed 7, 3 environments"
     measures     Measures
     first_tick   the first tick on the page; 0 except for very long runs, of which it shows the last part
@@ -20,8 +20,7 @@ tick `first_tick`.
         memory       [[tick, [8 cells]], ...]
         trials       [[tick, Trial or null], ...]: State.trial
         lessons      [Lesson, ...]: before first_tick the last one of each cell, and none after the last tick
-        turns        [[tick, cell], ...]: each use of a cell from first_tick on; see State.uses
-        uses_before  [8 numbers]: for each cell, the uses before first_tick of what it held then
+        cells        [[tick, cell, uses, learned, by_hand], ...]: what State has of a cell, from that tick on
         events       [[tick, kind], ...], in order: kind is "environment", "change", "trial", "lesson", "boredom" or
                      "eat"
         columns      the names of the columns, in the order of the data
@@ -51,16 +50,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.base.atomic_file import write_bytes
+from host_sim.protocol.generated import COLUMNS, ROW
 from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.report.page_bundle import page_of, with_data
 from host_sim.view.state import measures
 
 _TEMPLATE = "replay.html"
-_FIELDS = {"beacon": "beacon_mm", "left": "left_mm_s", "right": "right_mm_s"}
 _POSE = {"x": (0, 10), "y": (1, 10), "heading": (2, 1000)}
-_SENSED = ("lifted", "feel", "bump", "beacon")
-_DONE = ("left", "right", "reason", "repeat_count", "action", "pattern", "frozen")
-_COLUMNS = (*_POSE, *_SENSED, *_DONE)
+_COLUMNS = (*_POSE, *COLUMNS)
 
 
 def write_page(path: Path, trajectory: Trajectory, title: str, laboratory: Mapping[str, Any] | None = None) -> None:
@@ -81,7 +78,7 @@ def write_page(path: Path, trajectory: Trajectory, title: str, laboratory: Mappi
 def run_data(trajectory: Trajectory, title: str) -> dict[str, Any]:
     """The run in the page's format; see above."""
     return {
-        "version": 2,
+        "version": 3,
         "title": ", ".join([title, *omissions(trajectory)]),
         "measures": measures(trajectory.params, trajectory.boredom_limit),
         "first_tick": trajectory.first_tick,
@@ -106,8 +103,7 @@ def _robot_data(trajectory: Trajectory, robot: int) -> dict[str, Any]:
         "memory": track.memories,
         "trials": track.trials,
         "lessons": [lesson for lesson in track.lessons if lesson["tick"] < trajectory.ticks],
-        "turns": track.turns(),
-        "uses_before": track.uses_before,
+        "cells": track.cells,
         "events": trajectory.events(robot),
         "columns": list(_COLUMNS),
         "data": pack(_column(track, name) for name in _COLUMNS),
@@ -142,6 +138,6 @@ def page(run: dict[str, Any], laboratory: Mapping[str, Any] | None = None) -> st
 def _column(track: RobotTrack, name: str) -> NDArray[np.int64]:
     """A column, as whole numbers."""
     if name not in _POSE:
-        return track.column(_FIELDS.get(name, name)).astype(np.int64)
+        return track.column(ROW[COLUMNS[name]]).astype(np.int64)
     axis, scale = _POSE[name]
     return np.asarray(np.rint(track.poses()[:, axis] * scale), np.int64)

@@ -55,19 +55,29 @@ class Learned(TypedDict):
     trial: Trial | None
 
 
+class Cell(NamedTuple):
+    """What is known of a cell from a tick on: see `State.uses`, `learned` and `by_hand`."""
+
+    tick: int
+    cell: int
+    uses: int
+    learned: int
+    by_hand: int
+
+
 class Note(NamedTuple):
     """A turn or a trial that began, or a trial that ended.
 
     Attributes:
         tick: Number of the tick.
         reason: Reason of the action that began.
-        cell: The pattern when it was decided.
+        cell: That of the pattern when it was decided.
         trial: The last trial, after it.
     """
 
     tick: int
     reason: int
-    cell: int
+    cell: Cell
     trial: Trial | None
 
 
@@ -148,14 +158,14 @@ class LearningHistory:
         self.ticks += ticks
         if not count:
             return []
-        return [Note(int(it.tick), it.reason, it.cell, _trial(it.trial)) for it in self._notes[0:count]]
+        return [_note(it) for it in self._notes[0:count]]
 
-    def learn(self, memory: Sequence[int]) -> None:
+    def learn(self, memory: Sequence[int]) -> list[Cell]:
         """Adds a lesson for each pattern whose turn changed in the last tick: these are the eight bytes after it."""
         self._library.history_learn(self._in_c, self.ticks - 1, sides_of(tuple(memory)))
-        self._add_lessons(self.ticks - 1)
+        return self._add_lessons(self.ticks - 1)
 
-    def relearn(self, tick: int, memory: Sequence[int]) -> None:
+    def relearn(self, tick: int, memory: Sequence[int]) -> list[Cell]:
         """Adds a lesson for each pattern whose turn changed: it was told, by a person or by another robot.
 
         Args:
@@ -163,7 +173,7 @@ class LearningHistory:
             memory: The eight bytes now.
         """
         self._library.history_relearn(self._in_c, tick, sides_of(tuple(memory)))
-        self._add_lessons(tick)
+        return self._add_lessons(tick)
 
     def restart(self, tick: int, memory: Sequence[int]) -> None:
         """Begins anew, as the robot has been started again; earlier lessons stay in the list.
@@ -183,9 +193,17 @@ class LearningHistory:
         self.forgotten += len(self.lessons) - len(kept)
         self.lessons[:] = kept
 
-    def _add_lessons(self, tick: int) -> None:
-        for it in self._in_c.lessons[0 : self._in_c.lesson_count]:
+    def _add_lessons(self, tick: int) -> list[Cell]:
+        lessons = self._in_c.lessons[0 : self._in_c.lesson_count]
+        for it in lessons:
             self.lessons.append(Lesson(node=self.node, tick=tick, cell=it.cell, side=it.side, by_hand=it.by_hand))
+        return [Cell(tick, it.cell, it.uses, tick, it.by_hand) for it in lessons]
+
+
+def _note(it: Any) -> Note:
+    """A note, from a `struct history_note`."""
+    cell = Cell(int(it.tick), it.cell, it.uses, int(it.learned), it.by_hand)
+    return Note(cell.tick, it.reason, cell, _trial(it.trial))
 
 
 def _trial(it: Any) -> Trial | None:

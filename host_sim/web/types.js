@@ -141,8 +141,7 @@
  * @property {[number, number[]][]} memory
  * @property {[number, Trial | null][]} trials
  * @property {Lesson[]} lessons
- * @property {[number, number][]} turns
- * @property {number[]} uses_before
+ * @property {[number, number, number, number, number][]} cells
  * @property {[number, EventKind][]} events
  * @property {string[]} columns
  * @property {string} data

@@ -49,6 +49,7 @@ def retained(recorder: RunRecorder) -> dict[str, int]:
         "trials": len(track.trials),
         "eaten": len(track.meals),
         "lessons": len(track.lessons),
+        "cells": len(track.cells),
     }
 
 
@@ -60,6 +61,7 @@ def test_a_run_of_sixty_environments_retains_no_more_than_one_of_twenty():
     assert long["rows"] <= 17 * room
     assert long["scenes"] <= room // EPISODE_TICKS
     assert all(long[name] <= short[name] + 8 for name in ("meals", "memories", "trials", "eaten", "lessons"))
+    assert long["cells"] <= 8 + room // 10
 
 
 def test_environments_with_faults_leave_their_results_behind_and_nothing_else():
@@ -107,7 +109,7 @@ def test_turns_that_are_no_longer_retained_still_count():
         whole = recorded(30).trajectory
 
     assert trajectory.first_tick > whole.first_tick == 0
-    assert sum(trajectory.tracks[0].uses_before) > 0
+    assert sum(cell.uses for cell in trajectory.tracks[0].cells[:8]) > 0
     ticks = range(trajectory.first_tick, trajectory.ticks, 7)
     assert [trajectory.at(tick) for tick in ticks] == [whole.at(tick) for tick in ticks]
 

@@ -37,7 +37,7 @@ def assert_equal(one: Trajectory, other: Trajectory) -> None:
     for robot, (ours, theirs) in enumerate(zip(one.tracks, other.tracks, strict=True)):
         assert np.array_equal(ours.poses(), theirs.poses())
         assert ours.memories == theirs.memories
-        assert (ours.trials, ours.lessons, ours.turns()) == (theirs.trials, theirs.lessons, theirs.turns())
+        assert (ours.trials, ours.lessons, ours.cells) == (theirs.trials, theirs.lessons, theirs.cells)
         assert one.events(robot) == other.events(robot)
         for tick in range(0, one.ticks, 97):
             assert one.at(tick, robot) == other.at(tick, robot)

@@ -32,23 +32,14 @@ def unpacked(data: str, columns: int) -> list[list[int]]:
 def state_in(run: dict, robot: dict, columns: dict[str, list[int]], tick: int) -> State:
     """The state of a robot at a tick, from what the page holds."""
     row = {name: values[tick - run["first_tick"]] for name, values in columns.items()}
-    start = at(run["scenes"], tick)["start_tick"]
-    last = [None] * 8
-    for lesson in robot["lessons"]:
-        if start <= lesson["tick"] <= tick:
-            last[lesson["cell"]] = lesson
-    since = [lesson["tick"] if lesson else start for lesson in last]
-    turns = [cell for turn, cell in robot["turns"] if since[cell] <= turn <= tick]
-    before = [uses if since[cell] < run["first_tick"] else 0 for cell, uses in enumerate(robot["uses_before"])]
+    cells = {it[1]: it for it in robot["cells"] if it[0] <= tick}.values()
     return State(
         **{**row, "x": row["x"] / 10, "y": row["y"] / 10},
         node=robot["node"],
         tick=tick,
         eaten=at(run["eaten"], tick),
         memory=at(robot["memory"], tick),
-        uses=[turns.count(cell) + before[cell] for cell in range(8)],
-        learned=[lesson["tick"] if lesson else -1 for lesson in last],
-        by_hand=[lesson["by_hand"] if lesson else 0 for lesson in last],
+        **{name: [it[i] for it in cells] for i, name in enumerate(("uses", "learned", "by_hand"), 2)},
         trial=at(robot["trials"], tick),
     )
 

@@ -94,7 +94,7 @@ class FakeRun:
 def write_replay(path: Path, robots: Sequence[Mapping[str, Any]]) -> Path:
     """Writes the page of a recorded run in which each robot drives 2 mm a tick to the right."""
     run = {
-        "version": 2,
+        "version": 3,
         "title": "a run of many",
         "measures": MEASURES,
         "first_tick": 0,
@@ -119,7 +119,7 @@ def _recorded(node: int, y: int, cell: int, learned_at: int) -> dict[str, Any]:
         "memory": [[0, [0] * 8], [learned_at, learned]],
         "trials": [[0, None]],
         "lessons": [{"node": node, "tick": learned_at, "cell": cell, "side": 1, "by_hand": 0}],
-        "turns": [],
+        "cells": [*([0, i, 0, -1, 0] for i in range(8)), [learned_at, cell, 0, learned_at, 0]],
         "events": [[0, "environment"], [learned_at, "lesson"]],
         "columns": COLUMNS,
         "data": pack(columns),

@@ -15,7 +15,7 @@ import { unpackColumns } from "./packed_columns.js";
  * @typedef {import("../types.js").State} State
  */
 
-const VERSION = 2;
+const VERSION = 3;
 const TRAIL_TICKS = 6000;
 const PLACES_PER_MM = 10;
 
@@ -51,8 +51,7 @@ export class RunData {
    */
   statesAt(tick) {
     const eaten = latest(this.run.eaten, tick);
-    const start = this.sceneAt(tick).start_tick;
-    return this.robots.map((robot) => robot.stateAt(tick, start, eaten));
+    return this.robots.map((robot) => robot.stateAt(tick, eaten));
   }
 
   /** @param {number} tick */
@@ -97,37 +96,25 @@ export class RobotData {
 
   /**
    * @param {number} tick
-   * @param {number} start - The first tick since the run was started over.
    * @param {number[]} eaten
    * @returns {State}
    */
-  stateAt(tick, start, eaten) {
-    const lessons = this.lastLessons(tick, start);
-    const at = (/** @type {string} */ column) => this.columns[column][tick - this.first];
-    return {
+  stateAt(tick, eaten) {
+    const cells = this.cellsAt(tick);
+    const row = Object.fromEntries(this.run.columns.map((name) => [name, this.columns[name][tick - this.first]]));
+    return /** @type {State} */ (/** @type {unknown} */ ({
+      ...row,
       node: this.run.node,
       tick,
-      x: at("x") / PLACES_PER_MM,
-      y: at("y") / PLACES_PER_MM,
-      heading: at("heading"),
-      lifted: at("lifted"),
-      feel: at("feel"),
-      bump: at("bump"),
-      beacon: at("beacon"),
-      left: at("left"),
-      right: at("right"),
-      reason: at("reason"),
-      repeat_count: at("repeat_count"),
-      action: at("action"),
-      pattern: at("pattern"),
+      x: row.x / PLACES_PER_MM,
+      y: row.y / PLACES_PER_MM,
       eaten,
       memory: this.memoryAt(tick),
-      uses: this.usesAt(tick, lessons.map((lesson) => lesson?.tick ?? start)),
-      learned: lessons.map((lesson) => lesson?.tick ?? -1),
-      by_hand: lessons.map((lesson) => lesson?.by_hand ?? 0),
-      frozen: at("frozen"),
+      uses: cells.map(([, , uses]) => uses),
+      learned: cells.map(([, , , learned]) => learned),
+      by_hand: cells.map(([, , , , by_hand]) => by_hand),
       trial: latest(this.run.trials, tick),
-    };
+    }));
   }
 
   /** @param {number} tick */
@@ -136,26 +123,24 @@ export class RobotData {
   }
 
   /**
-   * How often the content of each cell was used, up to a tick.
+   * What is known of each cell after a tick.
    * @param {number} tick
-   * @param {number[]} since - For each cell, the first tick to count.
    */
-  usesAt(tick, since) {
-    const uses = since.map((first, cell) => (first < this.first ? this.run.uses_before[cell] : 0));
-    const turns = this.run.turns.slice(0, countUpTo(this.run.turns, tick, ([at]) => at));
-    for (const [at, cell] of turns) uses[cell] += Number(at >= since[cell]);
-    return uses;
+  cellsAt(tick) {
+    /** @type {RobotRun["cells"]} */
+    const cells = [];
+    for (const change of this.run.cells.slice(0, countUpTo(this.run.cells, tick, ([at]) => at))) cells[change[1]] = change;
+    return cells;
   }
 
   /**
-   * The last change of each cell up to a tick; undefined if it did not change.
+   * The last change of each cell up to a tick, whenever the run was started over; undefined if it did not change.
    * @param {number} tick
-   * @param {number} start - The first tick to count.
    */
-  lastLessons(tick, start) {
+  lastLessons(tick) {
     /** @type {(Lesson | undefined)[]} */
     const last = Array.from({ length: CELL_COUNT }, () => undefined);
-    for (const lesson of this.lessonsUpTo(tick, start)) last[lesson.cell] = lesson;
+    for (const lesson of this.lessonsUpTo(tick, 0)) last[lesson.cell] = lesson;
     return last;
   }
 

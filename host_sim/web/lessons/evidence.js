@@ -98,6 +98,6 @@ export function settingAt(lane, { robot, name }, tick) {
  * @param {number} tick
  */
 export function isProgrammed(robot, tick) {
-  const last = robot.lastLessons(tick, 0);
+  const last = robot.lastLessons(tick);
   return last.every((lesson, cell) => cell === 0 || Boolean(lesson?.by_hand && lesson.side));
 }

@@ -43,7 +43,7 @@ export function hasTried(data, tick, helped) {
  * @param {number} tick
  */
 export function hasLearnedBothSides(data, tick) {
-  const last = data.robots[0].lastLessons(tick, 0);
+  const last = data.robots[0].lastLessons(tick);
   const learned = (/** @type {number} */ pattern, /** @type {number} */ side) =>
     last[pattern]?.side === side && !last[pattern]?.by_hand;
   return learned(FRONT_RIGHT, SIDE.LEFT) && learned(FRONT_LEFT, SIDE.RIGHT);
@@ -56,7 +56,7 @@ export function hasLearnedBothSides(data, tick) {
  */
 export function isLearnerBeaten(runs, tick) {
   const robots = runs.map(({ data }) => data.robots[0]);
-  const learners = robots.filter((robot) => robot.lastLessons(tick, 0).every((lesson) => !lesson?.by_hand));
+  const learners = robots.filter((robot) => robot.lastLessons(tick).every((lesson) => !lesson?.by_hand));
   const programmed = robots.filter((robot) => isProgrammed(robot, tick));
   const best = Math.min(...programmed.map((robot) => ticksPerObstacle(robot, tick)));
   return learners.some((learner) => best < ticksPerObstacle(learner, tick));

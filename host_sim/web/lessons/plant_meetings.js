@@ -44,7 +44,7 @@ function meetingIn(data, first, last) {
   const [robot] = data.robots;
   const { measures } = data;
   const near = measures.body + measures.reach + SLACK_MM;
-  const from = robot.stateAt(first, 0, []);
+  const from = robot.stateAt(first, []);
   const thing = addedThings(data, first).find((it) => distance(from, it) <= near);
   if (!thing) return [];
   const tried = robot.columns.reason.subarray(first, last + 1).includes(REASON.TRIAL);

@@ -1,17 +1,22 @@
 // @ts-check
 /* What a robot has learned in a run, told by C: its turns and trials, and its lessons. */
 
+import { CELL_COUNT, REASON } from "../generated.js";
+
 /**
  * @typedef {import("../types.js").Lesson} Lesson
  * @typedef {import("../types.js").Trial} Trial
  *
+ * What is known of a cell from a tick on: tick, cell, uses, learned, by_hand.
+ * @typedef {import("../types.js").RobotRun["cells"][number]} Cell
+ *
  * A turn or a trial that began, or a trial that ended; `trial` is the last one, after it.
- * @typedef {{tick: number, reason: number, cell: number, trial: Trial | null}} Note
+ * @typedef {{tick: number, reason: number, cell: Cell, trial: Trial | null}} Note
  */
 
 /** In `struct history_note` and `struct history_lesson`, as 32-bit numbers; the ticks are doubles. */
-const NOTE_NUMBERS = 10;
-const LESSON_NUMBERS = 3;
+const NOTE_NUMBERS = 14;
+const LESSON_NUMBERS = 4;
 
 /** Built from the blocks of a run, in order. */
 export class LearningHistory {
@@ -24,6 +29,9 @@ export class LearningHistory {
     this.robot = robot;
     /** @type {Lesson[]} */
     this.lessons = [];
+    /** @type {Cell[]} */
+    this.cells = [];
+    this.forgetCells(0);
     native.c.page_history_begin(robot);
   }
 
@@ -34,8 +42,15 @@ export class LearningHistory {
    */
   take(tick, ticks) {
     const count = this.native.c.page_history_take(this.robot, tick);
+    const notes = Array.from({ length: count }, (_, i) => this.noteAt(this.native.c.page_notes() + 4 * NOTE_NUMBERS * i));
+    this.cells.push(...notes.filter(({ reason }) => reason === REASON.REMEMBERED).map(({ cell }) => cell));
     this.addLessons(tick + ticks - 1);
-    return Array.from({ length: count }, (_, i) => this.noteAt(this.native.c.page_notes() + 4 * NOTE_NUMBERS * i));
+    return notes;
+  }
+
+  /** @param {number} tick - From which on nothing is known of the cells. */
+  forgetCells(tick) {
+    for (let cell = 0; cell < CELL_COUNT; cell += 1) this.cells.push([tick, cell, 0, -1, 0]);
   }
 
   /**
@@ -52,8 +67,9 @@ export class LearningHistory {
     const { c } = this.native;
     const numbers = this.native.numbersAt(c.page_lessons(this.robot), LESSON_NUMBERS * c.page_lesson_count(this.robot));
     for (let at = 0; at < numbers.length; at += LESSON_NUMBERS) {
-      const [cell, side, by_hand] = numbers.slice(at, at + LESSON_NUMBERS);
+      const [cell, side, uses, by_hand] = numbers.slice(at, at + LESSON_NUMBERS);
       this.lessons.push({ node: this.robot + 1, tick, cell, side, by_hand });
+      this.cells.push([tick, cell, uses, tick, by_hand]);
     }
   }
 
@@ -62,9 +78,9 @@ export class LearningHistory {
    * @returns {Note}
    */
   noteAt(at) {
-    const [tick, , begun] = this.native.doublesAt(at, NOTE_NUMBERS / 2);
-    const [, , reason, its, , , cell, side, helped, frozen] = this.native.numbersAt(at, NOTE_NUMBERS);
+    const [tick, , , learned, begun] = this.native.doublesAt(at, NOTE_NUMBERS / 2);
+    const [, , reason, pattern, uses, by_hand, , , , , cell, side, helped, frozen] = this.native.numbersAt(at, NOTE_NUMBERS);
     const trial = begun < 0 ? null : { tick: begun, cell, side, helped: helped < 0 ? null : helped, frozen };
-    return { tick, reason, cell: its, trial };
+    return { tick, reason, cell: [tick, pattern, uses, learned, by_hand], trial };
   }
 }

@@ -1,7 +1,7 @@
 // @ts-check
 /* Records a run as it is simulated, in the form in which a recorded run is shown. */
 
-import { CELL_COUNT, COLUMNS, REASON, ROW } from "../generated.js";
+import { COLUMNS, REASON, ROW } from "../generated.js";
 import { LearningHistory } from "./learning_history.js";
 import { AXES } from "./native_run.js";
 import { newsOf } from "./world_news.js";
@@ -25,8 +25,6 @@ import { newsOf } from "./world_news.js";
 const SCALES = /** @type {const} */ ([["x", 10], ["y", 10], ["heading", 1000]]);
 const NAMES = ["x", "y", "heading", ...Object.keys(COLUMNS)];
 const EAT = ROW.indexOf("eat");
-/** Reasons of turns that are recorded one by one. */
-const TURNS = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
 const FIRST_ROOM = 1 << 13;
 
 /** Is called with each block of each robot. */
@@ -86,7 +84,7 @@ export class RunRecorder {
     const news = newsOf(this.edits, this.tracks.length);
     const changes = [...new Set(news.map(([tick]) => tick))];
     const robots = this.tracks.map((track) => track.result(begun.map(([tick]) => tick), changes));
-    const run = { version: 2, title, measures, first_tick: 0, ticks, scenes, news, eaten, robots };
+    const run = { version: 3, title, measures, first_tick: 0, ticks, scenes, news, eaten, robots };
     return { run, columns: this.tracks.map((track) => track.trimmed()) };
   }
 }
@@ -119,7 +117,7 @@ class Track {
   add(block) {
     const notes = this.history.take(this.ticks, block.ticks);
     for (const { tick, trial } of notes) note(this.trials, tick, trial);
-    this.begun.push(...notes.filter(({ reason }) => TURNS.includes(reason)));
+    this.begun.push(...notes);
     this.eats = block.rows[(block.ticks - 1) * ROW.length + EAT] !== 0;
     this.append(block);
     note(this.memory, this.ticks - 1, this.native.sides(this.robot));
@@ -134,6 +132,7 @@ class Track {
   /** It is about to be started again: its lessons stay. */
   restart() {
     this.native.c.page_history_restart(this.robot);
+    this.history.forgetCells(this.ticks);
     note(this.trials, this.ticks, null);
   }
 
@@ -174,10 +173,8 @@ class Track {
   result(environments, changes) {
     const { node, memory, trials, history } = this;
     const lessons = history.lessons.filter(({ tick }) => tick < this.ticks);
-    const turns = this.begunFor(REASON.REMEMBERED).map(({ tick, cell }) => /** @type {[number, number]} */ ([tick, cell]));
-    const uses_before = Array.from({ length: CELL_COUNT }, () => 0);
     const events = this.events(environments, changes);
-    return { node, memory, trials, lessons, turns, uses_before, events, columns: NAMES, data: "" };
+    return { node, memory, trials, lessons, cells: history.cells, events, columns: NAMES, data: "" };
   }
 
   /**
@@ -190,8 +187,8 @@ class Track {
     /** @type {[EventKind, number[]][]} */
     const kinds = [
       ["environment", environments], ["change", changes], ["eat", this.meals],
-      ["trial", this.begunFor(REASON.TRIAL).map(tickOf)], ["boredom", this.begunFor(REASON.BOREDOM).map(tickOf)],
-      ["lesson", learned.map(tickOf)],
+      ["trial", this.begunFor(REASON.TRIAL)], ["boredom", this.begunFor(REASON.BOREDOM)],
+      ["lesson", learned.map(({ tick }) => tick)],
     ];
     const events = kinds.flatMap(([kind, ticks]) => ticks.map((tick) => /** @type {[number, EventKind]} */ ([tick, kind])));
     return events.sort(([a, one], [b, other]) => a - b || (one < other ? -1 : 1));
@@ -199,13 +196,8 @@ class Track {
 
   /** @param {number} wanted */
   begunFor(wanted) {
-    return this.begun.filter(({ reason }) => reason === wanted);
+    return this.begun.filter(({ reason }) => reason === wanted).map(({ tick }) => tick);
   }
-}
-
-/** @param {{tick: number}} it */
-function tickOf({ tick }) {
-  return tick;
 }
 
 /**

@@ -75,6 +75,15 @@ static void begin_action(struct history *history, double tick, const int16_t *ro
     }
 }
 
+static struct history_note note(const struct history *history, double tick)
+{
+    int32_t cell = history->pattern;
+
+    return (struct history_note){
+        tick, history->reason, cell, history->uses[cell], history->by_hand[cell], history->learned[cell], history->trial,
+    };
+}
+
 static bool is_noted(const struct history *history)
 {
     return history->judged.tick >= 0.0 || history->reason == REASON_REMEMBERED || history->reason == REASON_TRIAL
@@ -92,7 +101,7 @@ size_t history_take(struct history *history, double tick, int16_t *rows, size_t 
         if (row[ROW_ACTION] != history->action) {
             begin_action(history, tick + (double)i, row);
             if (is_noted(history))
-                notes[count++] = (struct history_note){tick + (double)i, history->reason, history->pattern, history->trial};
+                notes[count++] = note(history, tick + (double)i);
         }
         row[ROW_PATTERN] = (int16_t)history->pattern;
         row[ROW_FROZEN] = history->frozen;
@@ -117,11 +126,12 @@ void history_learn(struct history *history, double tick, const uint8_t sides[CEL
 
         if (sides[cell] == history->sides[cell])
             continue;
-        history->lessons[history->lesson_count++] = (struct history_lesson){cell, sides[cell], by_hand};
         history->sides[cell] = sides[cell];
         history->learned[cell] = tick;
         history->by_hand[cell] = by_hand;
         history->uses[cell] = history->used == cell;
+        history->lessons[history->lesson_count++] =
+            (struct history_lesson){cell, sides[cell], history->uses[cell], by_hand};
     }
 }
 

@@ -21,7 +21,10 @@ struct history_trial {
 struct history_note {
     double tick;
     int32_t reason;    /* of the action that began */
-    int32_t cell;      /* the pattern when it was decided */
+    int32_t cell;      /* the pattern when it was decided; its cell then: */
+    int32_t uses;
+    int32_t by_hand;
+    double learned;
     struct history_trial trial;   /* the last one, after it */
 };
 
@@ -29,6 +32,7 @@ struct history_note {
 struct history_lesson {
     int32_t cell;
     int32_t side;
+    int32_t uses;      /* of its new content: 1 if it was used as it changed */
     int32_t by_hand;   /* 1 if it came from outside, 0 if the robot learned or forgot it */
 };
 

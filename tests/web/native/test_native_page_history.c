@@ -40,10 +40,11 @@ TEST(the_notes_of_a_block_are_handed_over)
 
 TEST(javascript_finds_the_numbers_of_notes_and_lessons_in_their_places)
 {
-    TEST_ASSERT_EQUAL_size_t(10 * sizeof(int32_t), sizeof(struct history_note));
+    TEST_ASSERT_EQUAL_size_t(14 * sizeof(int32_t), sizeof(struct history_note));
     TEST_ASSERT_EQUAL_size_t(8, offsetof(struct history_note, reason));
-    TEST_ASSERT_EQUAL_size_t(16, offsetof(struct history_note, trial));
-    TEST_ASSERT_EQUAL_size_t(3 * sizeof(int32_t), sizeof(struct history_lesson));
+    TEST_ASSERT_EQUAL_size_t(24, offsetof(struct history_note, learned));
+    TEST_ASSERT_EQUAL_size_t(32, offsetof(struct history_note, trial));
+    TEST_ASSERT_EQUAL_size_t(4 * sizeof(int32_t), sizeof(struct history_lesson));
 }
 
 TEST(a_turn_that_is_no_longer_known_is_a_lesson)

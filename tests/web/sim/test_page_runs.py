@@ -43,6 +43,7 @@ def comparable(run: dict[str, Any]) -> dict[str, Any]:
     for robot in run["robots"]:
         robot["data"] = ""
         robot["lessons"] = [lesson for lesson in robot["lessons"] if not lesson["by_hand"]]
+        robot["cells"] = [[tick, cell, uses] for tick, cell, uses, _, _ in robot["cells"] if tick]
     return {**run, "title": None}
 
 
