@@ -1,5 +1,5 @@
-/* chip.h: what each chip does in its own way. Each has a folder with these and mcu_light, flash.h, its registers, its linker
- * script, and chip.cmake, which names the links that it has and the shared drivers that they are made of. */
+/* chip.h: what each chip does in its own way. Its folder has pins_start and mcu_light, the functions of flash.h, the table of
+ * clock.h, its registers, its linker script, and chip.cmake, which names its links and the shared drivers in them. */
 #ifndef OCTET_CHIP_H
 #define OCTET_CHIP_H
 

@@ -1,0 +1,54 @@
+#include "hal/stm32/clock.h"
+
+#include "hal/port/cortex_m/systick.h"
+#include "hal/stm32/comes_up.h"
+
+static const struct clock_table *const chip = &CLOCK_TABLE;
+
+static bool start_crystal(void)
+{
+    *chip->cr |= HSEON;
+    return comes_up(chip->cr, HSERDY, HSERDY, CRYSTAL_MS);
+}
+
+static bool start_pll(uint32_t setting)
+{
+    if (chip->buses != chip->internal)
+        *chip->cfgr = chip->buses;
+    *chip->pll = setting;
+    *chip->cr |= PLLON;
+    return comes_up(chip->cr, PLLRDY, PLLRDY, SWITCH_MS);
+}
+
+/* The flash, which says when it is (RM0090 3.5.1), is slowed down before the clock gets faster. */
+static bool switch_to_pll(uint32_t setting)
+{
+    *chip->acr = chip->caches | chip->waits;
+    if (!comes_up(chip->acr, chip->waits_mask, chip->waits, SWITCH_MS))
+        return false;
+    *chip->cfgr = (chip->pll == chip->cfgr ? setting : chip->buses) | chip->switch_to_pll;
+    return comes_up(chip->cfgr, SWS, chip->from_pll, SWITCH_MS);
+}
+
+struct clocks clock_start(void)
+{
+    const struct clock_source *source;
+
+    /* An emulator without a clock controller, as QEMU's, runs at full speed at once. */
+    if (chip->on_after_reset && !(*chip->cr & chip->on_after_reset))
+        return CLOCK_SOURCES[1].clocks;
+    systick_start(CLOCK_SLOW.core_hz);
+    source = &CLOCK_SOURCES[start_crystal() ? 1 : 0];
+    if (start_pll(source->pll) && switch_to_pll(source->pll))
+        return source->clocks;
+    *chip->cfgr = chip->internal;
+    return CLOCK_SLOW;
+}
+
+uint32_t chip_reset_flags(void)
+{
+    uint32_t flags = *chip->csr;
+
+    *chip->csr = flags | chip->forget;
+    return flags;
+}

@@ -1,0 +1,38 @@
+/* clock.h: what clock.c needs to know of a chip. Notation as in registers.h. */
+#ifndef OCTET_CLOCK_H
+#define OCTET_CLOCK_H
+
+#include "hal/stm32/chip.h"
+
+struct clock_source {
+    uint32_t pll;            /* the PLL's setting with this source */
+    struct clocks clocks;    /* that come of it */
+};
+
+struct clock_table {
+    volatile uint32_t *cr, *cfgr, *pll, *csr, *acr;   /* of RCC, the one that sets up the PLL, and of the flash */
+    uint32_t on_after_reset; /* a bit of CR that is never 0 on the chip itself, or 0 */
+    uint32_t forget;         /* in CSR: clears the flags */
+    uint32_t internal;       /* CFGR: the internal oscillator as it is */
+    uint32_t buses;          /* CFGR: the same, with the buses slow enough for the PLL, where its setting does not say so */
+    uint32_t switch_to_pll;  /* CFGR: SW */
+    uint32_t from_pll;       /* CFGR: SWS */
+    uint32_t caches;         /* ACR, and the wait states in it */
+    uint32_t waits_mask;
+    uint32_t waits;
+};
+
+/* In the chip's clock.c. */
+extern const struct clock_table CLOCK_TABLE;
+extern const struct clock_source CLOCK_SOURCES[2];   /* the internal oscillator, the crystal */
+extern const struct clocks CLOCK_SLOW;   /* the internal oscillator as it is */
+
+enum {
+    HSEON = 1u << 16,        /* CR, on all of them */
+    HSERDY = 1u << 17,
+    PLLON = 1u << 24,
+    PLLRDY = 1u << 25,
+    SWS = 3u << 2            /* CFGR */
+};
+
+#endif
