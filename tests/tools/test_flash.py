@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tools.flashing import FlashError  # noqa: E402 - found by the line above
-from tools.flashing.images import Image, all_boards, build, choose_board, identify, node_max  # noqa: E402
+from tools.flashing.images import Image, all_boards, build, choose_board, identify  # noqa: E402
 from tools.flashing.probes import Probe, choose_probe, find_probes  # noqa: E402
 from tools.flashing.programs import CHIP_IDS, Plan, check_chip, make_plan, write  # noqa: E402
 
@@ -187,19 +187,6 @@ def test_a_dry_run_says_what_it_would_do_and_calls_nothing(tmp_path: Path, monke
 
     assert [line.split()[0] for line in result.stdout.splitlines()] == ["image", "robot", "board", "check", "write"]
     assert not called.exists()
-
-
-def test_an_image_is_built_for_a_node_and_a_bit_rate() -> None:
-    board = BOARDS["blue_pill"]
-
-    image = identify(build(board, "bxcan", node_max(), 125_000), board)
-
-    assert (image.node, image.bitrate) == (str(node_max()), "125000")
-
-
-def test_a_node_that_the_protocol_does_not_have_is_refused() -> None:
-    with pytest.raises(FlashError, match="cmake --build"):
-        build(BOARDS["blue_pill"], "bxcan", node_max() + 1, 500_000)
 
 
 def test_an_image_built_earlier_keeps_its_node(tmp_path: Path) -> None:
