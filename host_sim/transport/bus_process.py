@@ -12,6 +12,7 @@ import subprocess
 import tempfile
 from collections.abc import Mapping
 from contextlib import suppress
+from pathlib import Path
 
 from host_sim.base.errors import LinkDownError, UsageError
 from host_sim.transport.bus_link import BusLink
@@ -29,14 +30,17 @@ class BusProcess:
         pid: Process id. All that the program starts is in a process group of this number.
     """
 
-    def __init__(self, command: str, bus: str, environment: Mapping[str, str], *, fd: int | None = None) -> None:
+    def __init__(
+        self, command: str, bus: str, environment: Mapping[str, str], folder: Path | None = None, fd: int = -1
+    ) -> None:
         """Starts it.
 
         Args:
             command: Program and arguments, as in a shell, but without one.
             bus: `INTERFACE:CHANNEL`, for the program to open.
             environment: What the program is told besides.
-            fd: The socket that it inherits, if the bus is one.
+            folder: Where it begins; by default here.
+            fd: The socket that it inherits, if the bus is one; else -1.
 
         Raises:
             UsageError: The command cannot be started.
@@ -48,7 +52,8 @@ class BusProcess:
             self._process = subprocess.Popen(
                 shlex.split(command),
                 env={**os.environ, **told},
-                pass_fds=() if fd is None else (fd,),
+                cwd=folder,
+                pass_fds=() if fd < 0 else (fd,),
                 stdin=subprocess.DEVNULL,
                 stdout=self._output,
                 stderr=subprocess.STDOUT,
@@ -98,7 +103,7 @@ class BusProcess:
 
 
 def start_on_socket_pair(
-    command: str, environment: Mapping[str, str], stats: LineStats | None = None
+    command: str, environment: Mapping[str, str], stats: LineStats | None = None, folder: Path | None = None
 ) -> tuple[BusLink, BusProcess]:
     """Starts a program at the other end of a socket pair.
 
@@ -106,6 +111,7 @@ def start_on_socket_pair(
         command: As `BusProcess` has it.
         environment: As `BusProcess` has it.
         stats: Counts what happens to the line.
+        folder: As `BusProcess` has it.
 
     Returns:
         The link to it, and the process; the caller closes both.
@@ -115,7 +121,7 @@ def start_on_socket_pair(
     """
     ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     with ours, theirs:
-        process = BusProcess(command, f"octet:{theirs.fileno()}", environment, fd=theirs.fileno())
+        process = BusProcess(command, f"octet:{theirs.fileno()}", environment, folder, theirs.fileno())
         link = BusLink(SocketPairBus(ours.detach()), stats, is_socket=True)
     link.explain = process.account_for_silence
     return link, process

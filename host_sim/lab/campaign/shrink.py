@@ -1,10 +1,10 @@
 """From a schedule of faults the smallest that still brings the same about."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import groupby
 
 from host_sim.faults.rule import Rule
+from host_sim.faults.shrink import fewer, in_ranges
 from host_sim.lab.campaign.cell import Cell
 from host_sim.lab.campaign.outcome import Outcome
 
@@ -37,41 +37,20 @@ def _same(found: Outcome, cell: Cell, attempt: Attempt) -> Outcome | None:
 
 
 def _fewer(found: Outcome, attempt: Attempt) -> Iterator[Outcome]:
-    """Delta debugging: ever smaller parts of the items are left out, as long as one can be."""
-    size = max(len(found.cell.items) // 2, 1)
-    while size:
-        at = 0
-        while at < len(items := found.cell.items):
-            rest = items[:at] + items[at + size :]
-            smaller = _same(found, found.cell.with_items(rest), attempt) if rest else None
-            if smaller is None:
-                at += size
-            else:
-                found = smaller
-                yield found
-        size //= 2
+    """Items are left out, as long as one can be."""
+    for _, smaller in fewer(found.cell.items, lambda rest: _same(found, found.cell.with_items(rest), attempt)):
+        yield smaller
 
 
 def _single(found: Outcome, attempt: Attempt) -> Iterator[Outcome]:
     """Rules with a chance, or for many frames, become the strikes that they made, if those alone do the same."""
     items = [item for item in found.cell.items if not item.startswith("fault=")]
-    strikes = [f"fault={rule}" for rule in _ranges(list(map(Rule.parse, found.struck)))]
+    strikes = [f"fault={rule}" for rule in in_ranges(list(map(Rule.parse, found.struck)))]
     if not strikes or len(strikes) <= len(found.cell.faults):
         return
     smaller = _same(found, found.cell.with_items([*items, *strikes]), attempt)
     if smaller is not None:
         yield smaller
-
-
-def _ranges(rules: Sequence[Rule]) -> Iterator[Rule]:
-    """Strikes of one kind at frame after frame are one rule."""
-    kinds = sorted(rules, key=lambda rule: (rule.name, rule.size, rule.directions, rule.first))
-    numbered = enumerate(kinds)
-    for _, run in groupby(
-        numbered, lambda each: (each[1].name, each[1].size, each[1].directions, each[1].first - each[0])
-    ):
-        strikes = [rule for _, rule in run]
-        yield replace(strikes[0], last=strikes[-1].last)
 
 
 def _shorter(found: Outcome, attempt: Attempt) -> Iterator[Outcome]:

@@ -1,0 +1,27 @@
+"""Tests of a heater: `pytest examples/heater`. It is a good one; its time is that of the wall clock."""
+
+import pytest
+
+
+def test_it_heats_when_asked_to(can_bench):
+    can_bench.send_cyclic("REQUEST", wanted=60)
+    can_bench.run(ms=600)
+
+    assert can_bench["HEATER_STATE.power"] == 100
+    assert can_bench["HEATER_STATE.temperature"] > 20
+
+
+@pytest.mark.can_faults("drop:30%/to", "duplicate:30%/from")
+def test_it_heats_in_spite_of_loss(can_bench):
+    can_bench.send_cyclic("REQUEST", wanted=60)
+    can_bench.run(ms=600)
+
+    assert can_bench["HEATER_STATE.temperature"] > 20
+
+
+@pytest.mark.can_faults("truncate:1@15-/to")
+def test_it_is_off_when_nothing_whole_comes(can_bench):
+    can_bench.send_cyclic("REQUEST", wanted=60)
+    can_bench.run(ms=900)
+
+    assert can_bench["HEATER_STATE.power"] == 0

@@ -1,0 +1,58 @@
+"""From faults that bring something about the fewest that still do."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from itertools import groupby
+from typing import TypeVar
+
+from host_sim.faults.rule import Rule
+
+_Item = TypeVar("_Item")
+_Result = TypeVar("_Result")
+
+
+def fewer(
+    items: list[_Item], attempt: Callable[[list[_Item]], _Result | None]
+) -> Iterator[tuple[list[_Item], _Result]]:
+    """Delta debugging: ever smaller parts of the items are left out, as long as one can be.
+
+    Args:
+        items: What brings it about.
+        attempt: Tries some of them; None if they do not bring it about.
+
+    Yields:
+        Ever fewer items that do, and what `attempt` gave for them.
+    """
+    size = max(len(items) // 2, 1)
+    while size:
+        at = 0
+        while at < len(items):
+            rest = items[:at] + items[at + size :]
+            result = attempt(rest) if rest else None
+            if result is None:
+                at += size
+            else:
+                items = rest
+                yield items, result
+        size //= 2
+
+
+def in_ranges(rules: Sequence[Rule]) -> Iterator[Rule]:
+    """Strikes of one kind at frame after frame as one rule."""
+    kinds = sorted(rules, key=lambda rule: (rule.name, rule.size, rule.directions, rule.first))
+    numbered = enumerate(kinds)
+    for _, run in groupby(
+        numbered, lambda each: (each[1].name, each[1].size, each[1].directions, each[1].first - each[0])
+    ):
+        strikes = [rule for _, rule in run]
+        yield replace(strikes[0], last=strikes[-1].last)
+
+
+def narrower(rule: Rule, holds: Callable[[Rule], bool]) -> Rule:
+    """The rule for as few frames as still do, taken away at its end, then at its beginning."""
+    step = (rule.last - rule.first + 1) // 2
+    while step:
+        ends = [replace(rule, last=rule.last - step), replace(rule, first=rule.first + step)]
+        found = next((each for each in ends if each.first <= each.last and holds(each)), None)
+        rule, step = (rule, step // 2) if found is None else (found, step)
+    return rule

@@ -1,0 +1,257 @@
+"""The bench of the pytest plug-in: messages, devices, faults."""
+
+import sys
+from contextlib import closing
+from pathlib import Path
+
+import pytest
+
+from host_sim.base.errors import UsageError
+from tools.pytest_canbench.bench import Bench, BenchError, Setup
+from tools.pytest_canbench.devices import open_device
+from tools.pytest_canbench.messages import Messages
+from tools.pytest_canbench.protection import PROFILES
+
+MOTOR = Path(__file__).resolve().parents[3] / "examples" / "motor"
+DBC = MOTOR / "motor.dbc"
+SPEEDING = """
+#include <stdint.h>
+struct frame {{ uint32_t id; uint8_t len; uint8_t data[8]; }};
+void receive(const struct frame *frame) {{ (void)frame; }}
+int tick(uint32_t now_ms, struct frame frames[16]) {{ (void)now_ms; (void)frames; return {}; }}
+"""
+
+
+@pytest.fixture
+def open_bench():
+    opened = []
+
+    def make(*rules, device="motor.c", folder=MOTOR, crc="e2e1", node="MOTOR", seed=1):
+        setup = Setup(Messages(DBC, crc), lambda: open_device(device, folder), rules, seed, node)
+        opened.append(Bench(setup))
+        return opened[-1]
+
+    yield make
+    for bench in opened:
+        bench.close()
+
+
+VECTORS = [  # of another implementation, autosar-e2e
+    ("e2e1", bytes(7), [0x123], 0, 0xCC),
+    ("e2e2", bytes([1, 0, 0, 0, 0, 0, 0]), list(range(1, 17)), 1, 0x1B),
+    ("e2e5", bytes(6), [0x1234], 0, 0xCA1C),
+    ("j1850", b"123456789", [], 0, 0x4B),
+]
+
+
+@pytest.mark.parametrize(("profile", "data", "ids", "count", "crc"), VECTORS, ids=[each[0] for each in VECTORS])
+def test_crcs_are_those_of_the_profiles(profile, data, ids, count, crc):
+    assert PROFILES[profile].crc(data, ids, count) == crc
+
+
+def test_counters_go_round_as_the_profile_has_them():
+    for profile, span in (("e2e1", 15), ("e2e2", 16), ("none", 16)):
+        messages = Messages(DBC, profile)
+        counts = [messages.frame("SETPOINT", {}).data[1] & 15 for _ in range(40)]
+
+        assert counts == [n % span for n in range(40)]
+
+
+def test_a_frame_is_read_as_it_was_written_and_a_damaged_one_is_not():
+    messages = Messages(DBC, "j1850")
+    frame = messages.frame("SETPOINT", {"speed": -1234})
+
+    assert messages.decode(frame)[1]["speed"] == -1234
+    for data in (frame.data[:7], bytes([frame.data[0] ^ 1]) + frame.data[1:]):
+        with pytest.raises(ValueError, match="damaged"):
+            messages.decode(frame._replace(data=data))
+    assert messages.decode(frame._replace(id=0x700)) is None
+
+
+def test_data_ids_stand_in_the_dbc(tmp_path):
+    told = 'BA_DEF_ BO_ "DataID" INT 0 65535;\nBA_DEF_DEF_ "DataID" 0;\nBA_ "DataID" BO_ 256 291;\n'
+    (tmp_path / "told.dbc").write_text(DBC.read_text() + told)
+
+    frames = [Messages(file, "e2e1").frame("SETPOINT", {}) for file in (DBC, tmp_path / "told.dbc")]
+
+    assert frames[0].data[0] == 0x5F
+    assert frames[1].data[0] == 0xCC
+
+
+def test_the_rest_of_the_bus_is_sent_at_its_cycle_time(open_bench):
+    bench = open_bench()
+    bench.run(ms=95)
+
+    assert [at_ms for at_ms, way, _ in bench._frames if way == "to"] == [0, 20, 40, 60, 80]
+    bench.silence("SETPOINT")
+    bench.run(ms=100)
+    assert sum(way == "to" for _, way, _ in bench._frames) == 5
+
+
+def test_without_a_node_only_what_is_named_is_sent(open_bench):
+    bench = open_bench(node="")
+    bench.run(ms=50)
+    bench.send("SETPOINT", speed=1)
+
+    assert [at_ms for at_ms, way, _ in bench._frames if way == "to"] == [50]
+
+
+def test_what_the_device_says_has_its_time(open_bench):
+    bench = open_bench()
+    bench.send_cyclic("SETPOINT", speed=800)
+    bench.run(ms=30)
+
+    assert [at_ms for at_ms, _ in bench.history("STATUS.speed")] == [0, 10, 20]
+    assert bench["STATUS.speed"] == bench.history("STATUS.speed")[-1][1] > 0
+
+
+def test_the_same_seed_makes_the_same_faults(open_bench):
+    found = []
+    for seed in (1, 1, 2):
+        bench = open_bench("drop:30%/to", "corrupt:10%/from", seed=seed)
+        bench.run(ms=500)
+        found.append(([str(rule) for rule in bench.faults], bench.damaged))
+
+    assert found[0] == found[1] != found[2]
+    assert found[0][1] > 0
+
+
+def test_delays_pass_in_simulated_time(open_bench):
+    bench = open_bench("delay:35ms/from")
+    bench.run(ms=60)
+
+    assert [heard.at_ms for heard in bench.heard] == [35, 45, 55]
+
+
+def test_each_device_is_as_at_power_up(open_bench):
+    first, second = open_bench(), open_bench()
+    first.send_cyclic("SETPOINT", speed=1000)
+    first.run(ms=300)
+    second.run(ms=300)
+
+    assert first["STATUS.speed"] > 900
+    assert second["STATUS.speed"] == 0
+
+
+def test_a_forged_frame_is_taken_for_a_true_one(open_bench):
+    bench = open_bench("forge:SETPOINT@5-9/to", "forge:STATUS@5-9/from")
+    bench.run(ms=400)
+
+    assert bench["STATUS.refused"] == bench.damaged == 0
+    assert sum(speed != 0 for _, speed in bench.history("STATUS.speed")) >= 4
+
+
+ECHO = """
+import os, socket
+bus = socket.socket(fileno=int(os.environ["CAN_CHANNEL"]))
+while frame := bus.recv(16):
+    bus.send(bytes([0, 2]) + frame[2:])
+"""
+
+
+def test_a_program_is_a_device(open_bench, tmp_path):
+    (tmp_path / "echo.py").write_text(ECHO)
+    bench = open_bench(device=f"{sys.executable} echo.py", folder=tmp_path, crc="none", node="")
+    bench.send("SETPOINT", speed=7)
+    for _ in range(200):
+        bench.run(ms=50)
+        if bench.heard:
+            break
+
+    assert bench["STATUS.speed"] == 7
+
+
+def wrong(text, message):
+    return pytest.param(text, message, id=message)
+
+
+@pytest.mark.parametrize(
+    ("device", "message"),
+    [
+        wrong("no-such.so", "cannot load .*no-such.so: No such file or directory"),
+        wrong("no-such.c", "cannot compile .*no-such.c"),
+        wrong("motor.dbc.so", "cannot load .*motor.dbc.so"),
+        wrong("no-such-program", "cannot start 'no-such-program': No such file"),
+        wrong("image:z80:no.elf", "no emulated chip 'z80'; there are"),
+        wrong("image:blue_pill:no.elf", "there is no image .*no.elf"),
+    ],
+)
+def test_what_is_no_device_is_told(open_bench, device, message):
+    with pytest.raises(UsageError, match=message):
+        open_bench(device=device)
+
+
+def test_a_library_without_the_seam_is_told(open_bench, tmp_path):
+    (tmp_path / "other.c").write_text("int tick(void) { return 0; }\n")
+
+    with pytest.raises(UsageError, match="does not have both of receive and tick"):
+        open_bench(device="other.c", folder=tmp_path)
+
+
+@pytest.mark.parametrize("count", [17, -1])
+def test_a_tick_that_returns_nonsense_is_told(open_bench, tmp_path, count):
+    (tmp_path / "mad.c").write_text(SPEEDING.format(count))
+    bench = open_bench(device="mad.c", folder=tmp_path)
+
+    with pytest.raises(BenchError, match=f"after 0 ms: tick has returned {count}"):
+        bench.run(ms=5)
+
+
+def test_a_program_that_ends_at_once_is_told(open_bench):
+    bench = open_bench(device="sh -c 'echo no bus; exit 3'")
+
+    with pytest.raises(BenchError, match=r"ended with exit code 3 and printed no bus|the far end is closed"):
+        bench.run(ms=5000)
+
+
+def test_a_device_that_never_answers_is_told(open_bench, tmp_path):
+    (tmp_path / "mute.c").write_text(SPEEDING.format(0))
+    bench = open_bench(device="mute.c", folder=tmp_path)
+    bench.run(ms=100)
+
+    with pytest.raises(BenchError, match="in 100 ms the device has sent no STATUS, and nothing else"):
+        bench["STATUS.speed"]
+
+
+def test_what_is_not_in_the_dbc_is_told(open_bench):
+    bench = open_bench()
+    bench.run(ms=20)
+
+    for act, message in (
+        (lambda: bench.send("SETPIONT"), "has no message SETPIONT; it has SETPOINT, STATUS"),
+        (lambda: bench.send("SETPOINT", spede=1), "SETPOINT has no signal spede; it has crc, counter, speed"),
+        (lambda: bench.send_cyclic("SETPOINT", speed=99999), "SETPOINT: "),
+        (lambda: bench["STATUS.spede"], "STATUS has no signal spede"),
+        (lambda: open_bench(node="MOTRO"), "has no message that MOTRO sends; senders are HOST, MOTOR"),
+        (lambda: open_bench(crc="crc32"), "no CRC profile 'crc32'; there are e2e1"),
+        (lambda: open_bench("fall@3"), "there is no fault 'fall'"),
+        (lambda: open_bench("forge:SETPIONT"), "has no message SETPIONT"),
+        (lambda: open_bench(crc="e2e5"), "crc is no place for a CRC of 16 bits"),
+    ):
+        with pytest.raises(UsageError, match=message):
+            act()
+
+
+@pytest.mark.parametrize("text", ["", "BO_ nonsense", "\x00\xff", 'VERSION ""\n'])
+def test_what_is_no_dbc_is_told(tmp_path, text):
+    (tmp_path / "bad.dbc").write_text(text)
+
+    with pytest.raises(UsageError, match=r"bad\.dbc (is not a DBC file|has no messages)"):
+        Messages(tmp_path / "bad.dbc", "none")
+    with pytest.raises(UsageError, match=r"cannot read .*: No such file"):
+        Messages(tmp_path / "no.dbc", "none")
+
+
+@pytest.mark.vcan
+def test_a_program_is_a_device_on_vcan():
+    heater = MOTOR.parent / "heater"
+    command = f"{sys.executable} heater.py"
+    messages = Messages(heater / "heater.dbc", "none")
+    setup = Setup(messages, lambda: open_device(command, heater, "socketcan:vcan0"), node="HEATER")
+    with closing(Bench(setup)) as bench:
+        for _ in range(200):
+            bench.run(ms=50)
+            if bench.heard:
+                break
+
+        assert bench["HEATER_STATE.power"] == 0

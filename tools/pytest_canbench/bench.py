@@ -1,0 +1,237 @@
+"""The bench: a device, the rest of its bus, and what happens to the frames between them."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple, NoReturn
+
+from host_sim.base.errors import LinkDownError, UsageError
+from host_sim.base.frame import Frame
+from host_sim.faults.faulty_link import FaultyLink
+from host_sim.faults.rule import Rule
+from host_sim.faults.schedule import Schedule
+from host_sim.faults.shrink import in_ranges
+from host_sim.transport.link import Link
+
+from .devices import Device
+from .messages import Messages
+
+_FRAMES = 12
+_FAULTS = 20
+
+
+class BenchError(AssertionError):
+    """The device cannot go on, or never said what the test asks for."""
+
+
+class Heard(NamedTuple):
+    """What the device has said.
+
+    Attributes:
+        at_ms: When.
+        name: The message.
+        signals: The value of each signal.
+    """
+
+    at_ms: int
+    name: str
+    signals: dict[str, float]
+
+
+class _Moment(float):
+    """A time in s: that of 10 ms and 35 ms more is the same number as that of 45 ms."""
+
+    def __add__(self, span_s: float) -> "_Moment":
+        return _Moment(round(float(self) + span_s, 6))
+
+
+class _Time:
+    """The bench's time, as a clock for the link: a wait takes none."""
+
+    def __init__(self) -> None:
+        self.now_ms = 0
+
+    def now(self) -> float:
+        """As in `Clock`."""
+        return _Moment(self.now_ms / 1000)
+
+    def receive(self, link: Link, timeout_s: float) -> Frame | None:  # noqa: ARG002 - as in `Clock`
+        """As in `Clock`."""
+        return link.receive(0.0)
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What a bench is made of.
+
+    Attributes:
+        messages: Those of the bus.
+        open_device: Powers up a device.
+        rules: The faults.
+        seed: For all that is random in them.
+        node: The device's name in the DBC file: all that others send with a cycle time is sent; empty to send only
+            what the test names.
+    """
+
+    messages: Messages
+    open_device: Callable[[], Device]
+    rules: Sequence[str] = ()
+    seed: int = 1
+    node: str = ""
+
+
+class Bench:
+    """What a test gets as `can_bench`.
+
+    Attributes:
+        heard: All that the device has said.
+        damaged: Number of frames from the device with a wrong CRC or length.
+        setup: What it is made of.
+    """
+
+    def __init__(self, setup: Setup) -> None:
+        """Powers the device up.
+
+        Raises:
+            UsageError: There is something in the setup that is not there.
+        """
+        self.setup = setup
+        self._device: Device | None = None
+        self.restart([Rule.parse(text) for text in setup.rules])
+
+    def restart(self, rules: Sequence[Rule]) -> None:
+        """Begins anew, with a device that was just powered up, at 0 ms, with these faults."""
+        self.close()
+        schedule = Schedule(rules, self.setup.seed, self.setup.messages.forger)
+        self._time = _Time()
+        self.heard: list[Heard] = []
+        self.damaged = 0
+        self._last: dict[str, Heard] = {}
+        self._frames: list[tuple[int, str, Frame]] = []
+        self._cyclic: dict[str, dict[str, float]] = {}
+        if self.setup.node:
+            self._cyclic = {name: {} for name in self.setup.messages.senders_of(self.setup.node)}
+        self._device = self.setup.open_device()
+        self._link = FaultyLink(self._device, schedule, self._time)
+
+    @property
+    def device(self) -> Device:
+        """The device under test."""
+        assert self._device is not None
+        return self._device
+
+    @property
+    def now_ms(self) -> int:
+        """The bench's time."""
+        return self._time.now_ms
+
+    @property
+    def faults(self) -> list[Rule]:
+        """The faults that have happened, each with its frames."""
+        return list(in_ranges(self._link.schedule.struck))
+
+    def send(self, name: str, **signals: float) -> None:
+        """Sends a message once, now."""
+        self.setup.messages.check(name, signals)
+        self._send(name, signals)
+
+    def send_cyclic(self, name: str, **signals: float) -> None:
+        """From now on sends a message with these values at its GenMsgCycleTime."""
+        self.setup.messages.check(name, signals)
+        if not self.setup.messages[name].cycle_time:
+            raise UsageError(f"{name} has no GenMsgCycleTime in {self.setup.messages.file}: use send")
+        self._cyclic[name] = {**self._cyclic.get(name, {}), **signals}
+
+    def silence(self, name: str) -> None:
+        """Sends a message no longer."""
+        self._cyclic.pop(name, None)
+
+    def run(self, ms: int) -> None:
+        """Lets time pass.
+
+        Raises:
+            BenchError: The device has ended.
+        """
+        __tracebackhide__ = True
+        for _ in range(ms):
+            try:
+                self._step()
+            except LinkDownError as error:
+                raise BenchError(f"after {self.now_ms} ms: {error}") from None
+            self._time.now_ms += 1
+
+    def __getitem__(self, signal: str) -> float:
+        """The value that the device has sent last, as `can_bench["STATUS.speed"]`.
+
+        Raises:
+            BenchError: It has sent none yet.
+        """
+        __tracebackhide__ = True
+        name, _, signal = signal.partition(".")
+        if name not in self._last:
+            self._never_heard(name)
+        self.setup.messages.check(name, {signal: self._last[name].signals.get(signal, 0)})
+        return self._last[name].signals[signal]
+
+    def history(self, signal: str) -> list[tuple[int, float]]:
+        """All values that the device has sent, each with its time in ms.
+
+        Raises:
+            BenchError: It has sent none yet.
+        """
+        name, _, of = signal.partition(".")
+        self[signal]  # says what is wrong
+        return [(heard.at_ms, heard.signals[of]) for heard in self.heard if heard.name == name]
+
+    def close(self) -> None:
+        """Switches the device off."""
+        if self._device is not None:
+            self._device.close()
+        self._device = None
+
+    def lines(self) -> Iterator[str]:
+        """What happened, for people."""
+        faults = [str(rule) for rule in self.faults]
+        yield f"{self._link.schedule.count} faults by {self.now_ms} ms: {', '.join(faults[:_FAULTS]) or 'none'}" + (
+            f", and {len(faults) - _FAULTS} more" if len(faults) > _FAULTS else ""
+        )
+        for at_ms, way, frame in self._frames[-_FRAMES:]:
+            yield f"{at_ms:8} ms {way:4} {frame.id:03X}#{frame.data.hex().upper()} {self._said_in(frame)}"
+
+    def _said_in(self, frame: Frame) -> str:
+        try:
+            told = self.setup.messages.decode(frame)
+        except ValueError:
+            return "damaged"
+        if told is None:
+            return ""
+        return f"{told[0]} " + " ".join(f"{name}={value:g}" for name, value in told[1].items())
+
+    def _never_heard(self, name: str) -> NoReturn:
+        __tracebackhide__ = True
+        known = self.setup.messages[name].name
+        but = ", ".join(sorted(self._last)) or (f"{self.damaged} damaged frames" if self.damaged else "nothing else")
+        raise BenchError(f"in {self.now_ms} ms the device has sent no {known}, and {but}")
+
+    def _send(self, name: str, signals: dict[str, float]) -> None:
+        frame = self.setup.messages.frame(name, signals)
+        self._frames.append((self.now_ms, "to", frame))
+        self._link.send(frame)
+
+    def _step(self) -> None:
+        for name, signals in self._cyclic.items():
+            if self.now_ms % (self.setup.messages[name].cycle_time or 1) == 0:
+                self._send(name, signals)
+        self.device.tick(self.now_ms)
+        while (frame := self._link.receive(0.0)) is not None:
+            self._hear(frame)
+
+    def _hear(self, frame: Frame) -> None:
+        self._frames.append((self.now_ms, "from", frame))
+        try:
+            told = self.setup.messages.decode(frame)
+        except ValueError:
+            self.damaged += 1
+            return
+        if told is not None:
+            self._last[told[0]] = Heard(self.now_ms, *told)
+            self.heard.append(self._last[told[0]])

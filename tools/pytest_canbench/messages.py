@@ -1,0 +1,197 @@
+"""The messages of a DBC file: frames with counters that go on and true CRCs, and what frames say."""
+
+import re
+from pathlib import Path
+from random import Random
+from typing import NamedTuple
+
+import cantools
+from cantools.database.can import Database, Message
+from cantools.database.can.signal import Signal
+from cantools.database.errors import Error as CantoolsError
+
+from host_sim.base.errors import UsageError
+from host_sim.base.frame import Frame
+
+from .protection import PROFILES
+
+_CRC = re.compile(r"(?:.*_)?(?:crc|checksum)\d*", re.IGNORECASE)
+_COUNTER = re.compile(r"(?:.*_)?(?:counter|cnt|alive|rolling)\d*", re.IGNORECASE)
+
+
+class _Guard(NamedTuple):
+    """The signals that protect a message; None where it has none."""
+
+    crc: Signal | None
+    counter: Signal | None
+    data_ids: list[int]
+
+
+class Messages:
+    """Encodes and decodes. The signals `crc` or `checksum`, and `counter`, are filled in, whatever stands before a _.
+
+    The data ID of a message is its attribute `DataID` or, 16 of them by commas, `DataIDList`; else its identifier.
+
+    Attributes:
+        file: The DBC file.
+    """
+
+    def __init__(self, file: Path, profile: str) -> None:
+        """Reads the file.
+
+        Raises:
+            UsageError: It is not a DBC file, or there is no such profile.
+        """
+        if profile not in PROFILES:
+            raise UsageError(f"there is no CRC profile {profile!r}; there are {', '.join(PROFILES)}")
+        self.file, self._profile = file, PROFILES[profile]
+        try:
+            database = cantools.database.load_file(file, strict=True)
+        except OSError as error:
+            raise UsageError(f"cannot read {file}: {error.strerror}") from None
+        except (CantoolsError, ValueError, LookupError) as error:
+            raise UsageError(f"{file} is not a DBC file: {str(error).partition(chr(10))[0]}") from None
+        if not isinstance(database, Database) or not database.messages:
+            raise UsageError(f"{file} has no messages")
+        self._names = {message.name: message for message in database.messages}
+        self._ids = {message.frame_id: message for message in database.messages if not message.is_extended_frame}
+        self._guards = {name: self._guard(message) for name, message in self._names.items()}
+        self._counts: dict[str, int] = {}
+
+    def __getitem__(self, name: str) -> Message:
+        """A message by its name.
+
+        Raises:
+            UsageError: There is none.
+        """
+        if name not in self._names:
+            raise UsageError(f"{self.file} has no message {name}; it has {', '.join(sorted(self._names))}")
+        return self._names[name]
+
+    def check(self, name: str, signals: dict[str, float]) -> None:
+        """Makes sure that a message has signals, and room for their values.
+
+        Raises:
+            UsageError: There is no such message or signal, or a value does not fit.
+        """
+        known = [signal.name for signal in self[name].signals]
+        for signal in signals:
+            if signal not in known:
+                raise UsageError(f"{name} has no signal {signal}; it has {', '.join(known)}")
+        try:
+            self._encode(name, signals, strict=bool(signals))
+        except (CantoolsError, OverflowError) as error:
+            raise UsageError(f"{name}: {error}") from None
+
+    def frame(self, name: str, signals: dict[str, float]) -> Frame:
+        """The next frame of a message: what is not told is 0, or what GenSigStartValue says."""
+        counter, told = self._guards[name].counter, dict(signals)
+        if counter is not None and counter.name not in signals:
+            count = self._counts.get(name, -1) + 1
+            told[counter.name] = self._counts[name] = count % self._span(counter)
+        return self._protected(name, self._encode(name, told))
+
+    def decode(self, frame: Frame) -> tuple[str, dict[str, float]] | None:
+        """What a frame says; None if it is of no message.
+
+        Raises:
+            ValueError: It is damaged: its length or its CRC is wrong, or it cannot be read.
+        """
+        message = self._ids.get(frame.id)
+        if message is None:
+            return None
+        if len(frame.data) != message.length or self._protected(message.name, frame.data) != frame:
+            raise ValueError("damaged")
+        try:
+            told = message.decode(frame.data, decode_choices=False)
+        except CantoolsError as error:
+            raise ValueError("damaged") from error
+        return message.name, {str(name): float(str(value)) for name, value in dict(told).items()}
+
+    def senders_of(self, node: str) -> list[str]:
+        """The messages that others send than a node, and have a cycle time.
+
+        Raises:
+            UsageError: No message has this node as its sender.
+        """
+        if not any(node in message.senders for message in self._names.values()):
+            nodes = sorted({sender for message in self._names.values() for sender in message.senders})
+            raise UsageError(f"{self.file} has no message that {node} sends; senders are {', '.join(nodes)}")
+        return [name for name, message in self._names.items() if message.cycle_time and node not in message.senders]
+
+    def forger(self, name: str) -> "Forger":
+        """Somebody who sends frames of a message, or of any.
+
+        Raises:
+            UsageError: There is no such message.
+        """
+        return Forger(self, [self[name].name] if name else list(self._names))
+
+    def forged(self, name: str, dice: Random, count: int) -> Frame:
+        """A frame of a message with random content, a true CRC and this count."""
+        data, counter = dice.randbytes(self[name].length), self._guards[name].counter
+        if counter is not None:
+            word, mask = int.from_bytes(data, "little"), (1 << counter.length) - 1
+            word = word & ~(mask << counter.start) | (count % self._span(counter)) << counter.start
+            data = word.to_bytes(len(data), "little")
+        return self._protected(name, data)
+
+    def count_in(self, frame: Frame) -> tuple[str, int]:
+        """The message that a frame is of, and its count; an empty name for one of none."""
+        message = self._ids.get(frame.id)
+        counter = self._guards[message.name].counter if message is not None else None
+        if message is None or counter is None:
+            return (message.name if message else ""), 0
+        word = int.from_bytes(frame.data, "little")
+        return message.name, word >> counter.start & (1 << counter.length) - 1
+
+    def _guard(self, message: Message) -> _Guard:
+        named = [
+            next((signal for signal in message.signals if kind.fullmatch(signal.name)), None)
+            for kind in (_CRC, _COUNTER)
+        ]
+        told = {name: each.value for name, each in (message.dbc.attributes if message.dbc else {}).items()}
+        ids = [int(each) for each in str(told.get("DataIDList") or told.get("DataID") or message.frame_id).split(",")]
+        crc, bits = named[0], self._profile.bits if self._profile is not None else 0
+        if crc is not None and bits and (crc.length != bits or crc.start % 8):
+            raise UsageError(f"{message.name}.{crc.name} is no place for a CRC of {bits} bits")
+        return _Guard(crc, named[1], ids)
+
+    def _span(self, counter: Signal) -> int:
+        room = 1 << counter.length
+        return min(self._profile.counters or room, room) if self._profile is not None else room
+
+    def _encode(self, name: str, signals: dict[str, float], *, strict: bool = False) -> bytes:
+        message = self._names[name]
+        start = {signal.name: signal.initial or 0 for signal in message.signals}
+        return bytes(message.encode({**start, **signals}, strict=strict))
+
+    def _protected(self, name: str, data: bytes) -> Frame:
+        guard, frame_id = self._guards[name], self._names[name].frame_id
+        if self._profile is None or guard.crc is None:
+            return Frame(frame_id, data)
+        first, last = guard.crc.start // 8, guard.crc.start // 8 + self._profile.bits // 8
+        count = 0
+        if guard.counter is not None:
+            count = int.from_bytes(data, "little") >> guard.counter.start & (1 << guard.counter.length) - 1
+        crc = self._profile.crc(data[:first] + data[last:], guard.data_ids, count)
+        return Frame(frame_id, data[:first] + crc.to_bytes(last - first, "little") + data[last:])
+
+
+class Forger:
+    """As in `host_sim.faults.bus_faults`: has listened, and goes on counting where the sender is."""
+
+    def __init__(self, messages: Messages, names: list[str]) -> None:
+        """Has heard nothing yet."""
+        self._messages, self._names, self._counts = messages, names, dict[str, int]()
+
+    def hear(self, frame: Frame) -> None:
+        """Somebody sends a frame."""
+        name, count = self._messages.count_in(frame)
+        self._counts[name] = count
+
+    def forge(self, dice: Random) -> Frame:
+        """A frame whose CRC and counter are right."""
+        name = dice.choice(self._names)
+        self._counts[name] = self._counts.get(name, -1) + 1
+        return self._messages.forged(name, dice, self._counts[name])
