@@ -132,6 +132,15 @@ def _after_a_fault(talk: Talk) -> list[Said]:
     return [said for said in heard if said.name in ("EMERGENCY", "DRIVE")]
 
 
+@sentence("T14")
+def _seconds_begin_with_start(talk: Talk) -> None:
+    for ticks in (SECOND // 2, SECOND):
+        talk.start()
+        heard = [_names(talk.step()) for _ in range(ticks)]
+    at = [tick for tick, names in enumerate(heard, 1) if "HEARTBEAT" in names]
+    expect(at == [SECOND], f"after a second start, HEARTBEAT comes in the ticks {at} of {len(heard)}")
+
+
 @sentence("P7")
 def _a_fault_is_told_at_once(talk: Talk) -> None:
     emergency = one(_after_a_fault(talk), "EMERGENCY").signals

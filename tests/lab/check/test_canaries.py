@@ -104,6 +104,15 @@ class WantsWhatThereIsNot(Obeying):
         return (told[0], 2) if opcode == example.START else told
 
 
+@breaks("T14")
+class CountsSecondsForItself(Robot):
+    def carry_out(self, opcode, word):
+        before = self.part_ms
+        told = super().carry_out(opcode, word)
+        self.part_ms = before
+        return told
+
+
 @breaks("ANSWER.value")
 class GetsWrongValues(Obeying):
     def changed(self, opcode, word, told):
