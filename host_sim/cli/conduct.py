@@ -11,7 +11,7 @@ from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import DoubtfulError, OctetError, UsageError
 from host_sim.base.regular_file import read_bytes
 from host_sim.cli.interruption import stop_soon
-from host_sim.cli.outputs import PAGE, PICTURE, SUMMARY, Outputs
+from host_sim.cli.outputs import PAGE, PICTURE, SUMMARY, Outputs, tell
 from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.cli.run_through import each, open_listener, run_through
 from host_sim.client.commands import stop
@@ -69,7 +69,7 @@ def conduct(options: RunOptions) -> Summary:
                 _write_what_there_is(outputs, end)
                 raise
             summary = outputs.write()
-    _print_results(options, summary)
+    tell(options, summary, (*(options.out / name for name in (PAGE, PICTURE, SUMMARY)), options.log))
     _check_trust(summary)
     return summary
 
@@ -136,8 +136,8 @@ def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:
 
 
 def _check_trust(summary: Summary) -> None:
-    if summary.incidents:
-        first, *more = summary.incidents
+    if incidents := summary.content["incidents"]:
+        first, *more = incidents
         others = f" (and {len(more)} more in {SUMMARY})" if more else ""
         raise DoubtfulError(f"result unreliable: {first}{others}")
 
@@ -209,13 +209,3 @@ def _save_memories(
 def _memory_paths(options: RunOptions) -> list[Path]:
     memory = options.memory
     return [] if memory is None else [memory_path(memory, node, options.robots) for node in options.nodes]
-
-
-def _print_results(options: RunOptions, summary: Summary) -> None:
-    if options.json:
-        sys.stdout.write(summary.to_json())
-    elif options.talks:
-        print(summary.for_people())
-        files = (*(options.out / name for name in (PAGE, PICTURE, SUMMARY)), options.log)
-        print(f"wrote     {', '.join(str(path) for path in files if path.exists())}")
-        print(summary.ending())

@@ -1,6 +1,5 @@
 """Runs a fleet and writes its summary, its table and its picture."""
 
-import sys
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -9,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.base.atomic_file import write_bytes
+from host_sim.cli.outputs import SUMMARY, tell
 from host_sim.cli.progress_line import ProgressLine
 from host_sim.cli.run_options import FLEET_TABLE, RunOptions
-from host_sim.recording.fleet_summary import FleetSummary, environment_line, summarize_fleet, table
+from host_sim.recording.fleet_summary import summarize_fleet, table
 from host_sim.recording.run_folder import run_folder
+from host_sim.recording.summary import Summary
 from host_sim.report.fleet_page import write_fleet_page
 from host_sim.report.fleet_picture import write_fleet_picture
 from host_sim.sim.fleet import FleetResult, run_fleet, shared_world
@@ -20,13 +21,13 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
 
-SUMMARY, PICTURE, PAGE = "summary.json", "fleet.png", "fleet.html"
+PICTURE, PAGE = "fleet.png", "fleet.html"
 """The files of a fleet in its output folder, beside its table."""
 
 _WHERE = {"one": "all in one world", "own": "each in its own world", "hall": "all in one hall"}
 
 
-def conduct_fleet(options: RunOptions) -> FleetSummary:
+def conduct_fleet(options: RunOptions) -> Summary:
     """Conducts the run of a fleet and writes its files.
 
     Raises:
@@ -51,8 +52,8 @@ def conduct_fleet(options: RunOptions) -> FleetSummary:
         _draw(options.out / PICTURE, config, results)
         world = None if config.worlds == "own" else shared_world(config, 1)
         write_fleet_page(options.out / PAGE, config, samples, world)
-        write_bytes(options.out / SUMMARY, summary.to_json().encode())
-    _print(options, summary)
+        summary.write(options.out / SUMMARY)
+    tell(options, summary, [options.out / name for name in (PAGE, PICTURE, FLEET_TABLE, SUMMARY)])
     return summary
 
 
@@ -77,14 +78,3 @@ def _draw(path: Path, config: RunConfig, results: Sequence[FleetResult]) -> None
     layout, params = shared_world(config, config.environments)
     eaten = next(result.eaten for result in results if result.environment == config.environments)
     write_fleet_picture(path, results, params, (layout, eaten))
-
-
-def _print(options: RunOptions, summary: FleetSummary) -> None:
-    if options.json:
-        sys.stdout.write(summary.to_json())
-    elif options.talks:
-        for environment in summary.environments:
-            print(environment_line(environment, summary.robots))
-        print(summary.for_people())
-        files = (PAGE, PICTURE, FLEET_TABLE, SUMMARY)
-        print(f"wrote     {', '.join(str(Path(options.out) / name) for name in files)}")

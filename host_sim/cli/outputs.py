@@ -2,8 +2,9 @@
 
 import os
 import signal
+import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -93,6 +94,15 @@ class Outputs:
         if trajectory.ticks:
             write_picture(self.options.out / PICTURE, trajectory)
             write_page(self.options.out / PAGE, trajectory, self.simulation.record.title)
+
+
+def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:
+    """Prints what came of a run, as was asked for, and which of the files there are."""
+    if options.json:
+        sys.stdout.write(summary.to_json())
+    elif options.talks:
+        there = ", ".join(str(path) for path in files if path.exists())
+        print("\n".join(filter(None, (summary.text, f"wrote     {there}", summary.ending))))
 
 
 def _keep(path: Path) -> None:

@@ -2,14 +2,13 @@
 
 import csv
 import io
-import json
 import statistics
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
 from typing import Any
 
 from host_sim.protocol.generated import CELL_COUNT, PATTERNS, SIDES, Reason
 from host_sim.protocol.memory_kinds import sides_of
+from host_sim.recording.summary import Summary
 from host_sim.sim.fleet import FleetResult
 from host_sim.sim.run_config import RunConfig
 
@@ -20,50 +19,16 @@ COLUMNS = (
 """Columns of the table: `memory` is the eight bytes in hexadecimal, the pose is that at the environment's end."""
 
 
-@dataclass(frozen=True)
-class FleetSummary:
-    """The contents of a fleet's `summary.json`.
-
-    Attributes:
-        seed: Seed of the first robot; each other one has the next number.
-        profile: Name of the robots' behaviour.
-        worlds: Where the robots are, one of `WORLDS`: one, own or hall.
-        robots: Number of robots.
-        environments: One entry per environment: number, robots_finished, robot_s (median robot time of the robots
-            that finished, s; None if there are none), and learned: for each pattern, the number of robots that know
-            nothing, left and right at its end.
-        robot_ticks: Number of ticks of all robots.
-        wall_s: Duration of the run, s of wall-clock time.
-        real_time_factor: Robot time of all robots divided by wall-clock time.
-    """
-
-    seed: int
-    profile: str
-    worlds: str
-    robots: int
-    environments: list[dict[str, Any]]
-    robot_ticks: int
-    wall_s: float
-    real_time_factor: float
-
-    def to_json(self) -> str:
-        """The text of `summary.json`."""
-        return json.dumps(asdict(self), indent=2) + "\n"
-
-    def for_people(self) -> str:
-        """A few lines of text: what the robots have learned, and the speed."""
-        known = self.environments[-1]["learned"]
-        lines = [
-            f"learned   {PATTERNS[pattern]}: "
-            + ", ".join(f"{SIDES[side]} {known[pattern][side]}" for side in (1, 2, 0))
-            for pattern in range(1, CELL_COUNT)
-        ]
-        speed = f"{self.real_time_factor:.0f} x real time, all robots together, {self.wall_s:.1f} s"
-        return "\n".join([*lines, f"speed     {speed}"])
-
-
-def summarize_fleet(config: RunConfig, results: Sequence[FleetResult], tick_s: float, wall_s: float) -> FleetSummary:
+def summarize_fleet(config: RunConfig, results: Sequence[FleetResult], tick_s: float, wall_s: float) -> Summary:
     """Summarizes a fleet's run.
+
+    - seed, profile, worlds, robots: as asked for; the seed is the first robot's, each other one has the next number.
+    - environments: One entry per environment: number, robots_finished, robot_s (median robot time of the robots that
+      finished, s; null if there are none), and learned (for each pattern, the number of robots that know nothing,
+      left and right at its end).
+    - robot_ticks: Number of ticks of all robots.
+    - wall_s: Duration of the run, s of wall-clock time.
+    - real_time_factor: Robot time of all robots divided by wall-clock time.
 
     Args:
         config: The configuration.
@@ -72,19 +37,25 @@ def summarize_fleet(config: RunConfig, results: Sequence[FleetResult], tick_s: f
         wall_s: Duration of the run, s of wall-clock time.
     """
     ticks = sum(result.ticks for result in results)
-    return FleetSummary(
-        seed=config.seed,
-        profile=config.profile,
-        worlds=config.worlds,
-        robots=config.robots,
-        environments=[
-            _environment(number, [result for result in results if result.environment == number], tick_s)
-            for number in range(1, config.environments + 1)
-        ],
-        robot_ticks=ticks,
-        wall_s=round(wall_s, 3),
-        real_time_factor=round(ticks * tick_s / wall_s, 1),
-    )
+    environments = [
+        _environment(number, [result for result in results if result.environment == number], tick_s)
+        for number in range(1, config.environments + 1)
+    ]
+    content: dict[str, Any] = {
+        **{name: getattr(config, name) for name in ("seed", "profile", "worlds", "robots")},
+        "environments": environments,
+        "robot_ticks": ticks,
+        "wall_s": round(wall_s, 3),
+        "real_time_factor": round(ticks * tick_s / wall_s, 1),
+    }
+    known = environments[-1]["learned"]
+    lines = [environment_line(environment, config.robots) for environment in environments]
+    lines += [
+        f"learned   {PATTERNS[pattern]}: " + ", ".join(f"{SIDES[side]} {known[pattern][side]}" for side in (1, 2, 0))
+        for pattern in range(1, CELL_COUNT)
+    ]
+    speed = f"{content['real_time_factor']:.0f} x real time, all robots together, {wall_s:.1f} s"
+    return Summary(content, "\n".join([*lines, f"speed     {speed}"]))
 
 
 def environment_line(environment: dict[str, Any], robots: int) -> str:

@@ -23,45 +23,21 @@ _COUNTED = {"trials": Reason.TRIAL, "remembered_turns": Reason.REMEMBERED, "bore
 
 @dataclass(frozen=True)
 class Summary:
-    """The contents of `summary.json`.
+    """What came of a run, of one robot or of thousands.
 
     Attributes:
-        seed: Seed for environments and random turns.
-        profile: Name of the robots' behaviour.
-        world: Name of the world, or path of its file.
-        bus: Where the robots were: none, fd, INTERFACE:CHANNEL, qemu, or an emulated board.
-        environments: One entry per environment: finished, food_eaten, ticks, robot_s, and robots, with each robot's
-            node, food_eaten, trials, remembered_turns, boredom_turns, collisions and memory (the eight cells at the
-            end of the environment).
-        robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, repeated,
-            duplicate, lost, refused), faults (the robot's own fault counters), saturated (those of them that stand at
-            255, their limit, and may be more), round_trip_ms (mean time of an answer), real_time (ticks, share
-            without an answer, longest gap, share that began late, the most that one was late; null in lockstep), line
-            (outages and unsent frames).
-        changes: The changes that were asked for: those that happened, those refused because they could not be, and
-            those missed, for which the run or their environment was too short.
-        incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run. Of
-            very many, the last entry of a robot says how many are left out.
-        log_sha256: SHA-256 of the log's lines without the data of BOOT, which names the build; in hexadecimal.
-        wall_s: Duration of the run, s of wall-clock time.
-        real_time_factor: Robot time divided by wall-clock time.
+        content: The contents of `summary.json`: see `summarize`, or `summarize_fleet` for a fleet.
+        text: The same in a few lines for people.
+        ending: The last line for people; empty for none.
     """
 
-    seed: int
-    profile: str
-    world: str
-    bus: str
-    environments: list[dict[str, Any]]
-    robots: list[dict[str, Any]]
-    changes: dict[str, list[str]]
-    incidents: list[str]
-    log_sha256: str
-    wall_s: float
-    real_time_factor: float
+    content: dict[str, Any]
+    text: str
+    ending: str = ""
 
     def to_json(self) -> str:
         """The text of `summary.json`."""
-        return json.dumps(asdict(self), indent=2) + "\n"
+        return json.dumps(self.content, indent=2) + "\n"
 
     def write(self, path: Path) -> None:
         """Writes `summary.json`.
@@ -70,35 +46,6 @@ class Summary:
             OctetError: The file cannot be written.
         """
         write_bytes(path, self.to_json().encode())
-
-    def for_people(self) -> str:
-        """A few lines of text: what each robot has learned, what changed, and the speed."""
-        several = len(self.robots) > 1
-        memories = [f"memory    {self._whose(robot) if several else ''}{_cells(robot)}" for robot in self.robots]
-        speed = f"speed     {_factor(self.real_time_factor)} x real time on {self.bus}, {self.wall_s:.1f} s"
-        links = [
-            f"link      {self._whose(robot) if several else ''}{line}"
-            for robot in self.robots
-            if (line := _link(robot))
-        ]
-        words = {"happened": "happened", "refused": "could not happen", "missed": "came after the end"}
-        parts = [f"{len(self.changes[kind])} {text}" for kind, text in words.items() if self.changes[kind]]
-        changes = [f"changes   {', '.join(parts)}"] if parts else []
-        return "\n".join([*memories, *changes, *links, speed])
-
-    def ending(self) -> str:
-        """The last line for people: ALL DONE if no food is left."""
-        finished = sum(environment["finished"] for environment in self.environments)
-        count = len(self.environments)
-        return "ALL DONE" if finished == count else f"done      {finished} of {count} environments finished"
-
-    def _whose(self, robot: dict[str, Any]) -> str:
-        return f"robot {robot['node']}: "
-
-
-def _factor(value: float) -> str:
-    """A multiple of real time: whole from 10 on; a run that is watched may be slower than real time."""
-    return f"{value:.0f}" if value >= 10 else f"{value:.1f}"  # noqa: PLR2004 - two digits are enough
 
 
 def summarize(
@@ -110,6 +57,23 @@ def summarize(
 ) -> Summary:
     """Summarizes a run that has ended.
 
+    - seed, profile, world, bus: as asked for; the bus of an emulated robot is qemu, or its board.
+    - environments: One entry per environment: finished, food_eaten, ticks, robot_s, and robots, with each robot's
+      node, food_eaten, trials, remembered_turns, boredom_turns, collisions and memory (the eight cells at the end of
+      the environment).
+    - robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, repeated,
+      duplicate, lost, refused), faults (the robot's own fault counters), saturated (those of them that stand at 255,
+      their limit, and may be more), round_trip_ms (mean time of an answer), real_time (ticks, share without an
+      answer, longest gap, share that began late, the most that one was late; null in lockstep), line (outages and
+      unsent frames).
+    - changes: The changes that were asked for: those that happened, those refused because they could not be, and
+      those missed, for which the run or their environment was too short.
+    - incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run. Of very
+      many, the last entry of a robot says how many are left out.
+    - log_sha256: SHA-256 of the lines of the log without the data of BOOT, in hexadecimal.
+    - wall_s: Duration of the run, s of wall-clock time.
+    - real_time_factor: Robot time divided by wall-clock time.
+
     Args:
         config: The configuration of the run.
         simulation: The run, at its end.
@@ -117,21 +81,37 @@ def summarize(
         log_sha256: SHA-256 of the log, in hexadecimal.
         wall_s: Duration of the run, s of wall-clock time.
     """
-    clients, record = simulation.clients, simulation.record
-    robot_s = sum(episode.robot_s for episode in episodes)
-    return Summary(
-        seed=config.seed,
-        profile=config.profile,
-        world=config.world,
-        bus=clients[0].connection.bus,
-        environments=[_environment(episode) for episode in episodes],
-        robots=[_robot(client) for client in clients],
-        changes=_changes(config, record),
-        incidents=[told for client in clients for told in _incidents(client)],
-        log_sha256=log_sha256,
-        wall_s=round(wall_s, 3),
-        real_time_factor=round(robot_s / wall_s, 2),
-    )
+    clients = simulation.clients
+    content: dict[str, Any] = {
+        "seed": config.seed,
+        "profile": config.profile,
+        "world": config.world,
+        "bus": clients[0].connection.bus,
+        "environments": [_environment(episode) for episode in episodes],
+        "robots": [_robot(client) for client in clients],
+        "changes": _changes(config, simulation.record),
+        "incidents": [told for client in clients for told in _incidents(client)],
+        "log_sha256": log_sha256,
+        "wall_s": round(wall_s, 3),
+        "real_time_factor": round(sum(episode.robot_s for episode in episodes) / wall_s, 2),
+    }
+    count, finished = len(episodes), sum(episode.finished for episode in episodes)
+    ending = "ALL DONE" if finished == count else f"done      {finished} of {count} environments finished"
+    return Summary(content, text_of(content), ending)
+
+
+def text_of(content: dict[str, Any]) -> str:
+    """A summary in a few lines of text: what each robot has learned, what changed, and the speed."""
+    robots, changed = content["robots"], content["changes"]
+    whose = [f"robot {robot['node']}: " if len(robots) > 1 else "" for robot in robots]
+    words = {"happened": "happened", "refused": "could not happen", "missed": "came after the end"}
+    parts = [f"{len(changed[kind])} {text}" for kind, text in words.items() if changed[kind]]
+    lines = [f"memory    {who}{_cells(robot)}" for who, robot in zip(whose, robots, strict=True)]
+    lines += [f"changes   {', '.join(parts)}"] if parts else []
+    lines += [f"link      {who}{told}" for who, robot in zip(whose, robots, strict=True) if (told := _link(robot))]
+    speed = content["real_time_factor"]  # a run that is watched may be slower than real time
+    factor = f"{speed:.0f}" if speed >= 10 else f"{speed:.1f}"  # noqa: PLR2004 - two digits are enough
+    return "\n".join([*lines, f"speed     {factor} x real time on {content['bus']}, {content['wall_s']:.1f} s"])
 
 
 def _incidents(client: RobotClient) -> list[str]:
