@@ -1,13 +1,14 @@
 """The programming interface: the same runs as by the command line, and tables of them."""
 
-import hashlib
 import json
+from dataclasses import fields
 
 import numpy as np
 import pytest
 
 from host_sim.api import RunConfig, UsageError, resimulate, run
 from host_sim.cli.main import main
+from host_sim.client.frame_log import digest_of
 
 CONFIG = RunConfig(seed=3, environments=2, limit_s=20)
 
@@ -27,7 +28,7 @@ def test_it_is_the_run_of_the_command_line(done, folder, tmp_path):
     assert main(["run", *options, "--out", str(tmp_path)]) == 0
 
     assert json.loads((tmp_path / "summary.json").read_text())["log_sha256"] == done.log_sha256
-    assert hashlib.sha256((folder / "run.log").read_bytes()).hexdigest() == done.log_sha256
+    assert digest_of((folder / "run.log").read_bytes()) == done.log_sha256
     assert (folder / "run.world.json").read_bytes() == (tmp_path / "run.world.json").read_bytes()
 
 
@@ -69,3 +70,8 @@ def test_what_is_wrong_is_an_error_of_one_line(tmp_path):
 def test_a_configuration_with_a_wrong_value_is_refused_by_its_name(name, value):
     with pytest.raises(UsageError, match=f"{name} must be one of .*, not {value!r}"):
         RunConfig(**{name: value})
+
+
+def test_help_on_a_configuration_has_each_option_with_its_range():
+    assert "seed: seed for environments and random turns (0..4294967295)." in RunConfig.__doc__
+    assert all(f"        {field.name}: " in RunConfig.__doc__ for field in fields(RunConfig))

@@ -1,4 +1,4 @@
-"""What was probably meant by a word that is not among those that there are."""
+"""Did-you-mean suggestions."""
 
 from collections.abc import Iterable
 

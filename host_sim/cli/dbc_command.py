@@ -28,7 +28,7 @@ def add(commands: "Subparsers") -> None:
         _dbc,
         summary="print a DBC or KCD file for any nodes",
         description="Prints the messages of any nodes as a DBC file: with cycle times, send types, start values,\n"
-        "the parameters of the end-to-end protection, and names that stay apart, such as N3_SENSES_feel.",
+        "the parameters of the end-to-end protection, and unique names per node, such as N3_SENSES_feel.",
         epilog=_EXAMPLES,
     )
     which = parser.add_mutually_exclusive_group(required=True)

@@ -1,4 +1,4 @@
-"""`tools/octet load`: how much of a CAN bus the robots take."""
+"""`tools/octet load`: the bus load, at worst or in a log."""
 
 import argparse
 import sys
@@ -22,12 +22,12 @@ def add(commands: "Subparsers") -> None:
         commands,
         "load",
         _load,
-        summary="how much of a CAN bus the robots take",
-        description="Prints how much of a CAN bus the robots take: at worst, by octet.dbc, or in a log.\n"
-        "In brackets: robots that ask for RANGES too.",
+        summary="print the bus load",
+        description="Prints the bus load: the worst case from octet.dbc, or as measured in a log.\n"
+        "In brackets: with robots that ask for RANGES.",
         epilog=_EXAMPLES,
     )
-    parser.add_argument("log", type=file_path, nargs="?", metavar="LOG", help="a log; without one: the worst case")
+    parser.add_argument("log", type=file_path, nargs="?", metavar="LOG", help="log to measure (default: worst case)")
 
 
 def _load(arguments: argparse.Namespace) -> int:

@@ -132,10 +132,12 @@ def _check(config: RunConfig, world: World) -> None:
 
 
 def _check_change(change: Change, config: RunConfig) -> None:
-    if (change.number or 1) > config.environments:
-        raise UsageError(f"the change {change} never comes: the last environment is {config.environments}")
-    if (change.robot or 1) > config.robots:
-        raise UsageError(f"the change {change} is for a robot that is not there: the last is {config.robots}")
+    for what, number, last in (
+        ("environment", change.number, config.environments),
+        ("robot", change.robot, config.robots),
+    ):
+        if (number or 1) > last:
+            raise UsageError(f"{change.what} is scheduled for {what} {number}, but the run has {last}")
 
 
 def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:
@@ -154,7 +156,7 @@ def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, 
 def _with_faults(connection: Connection, config: RunConfig, node: int) -> Connection:
     """The connection with the faults that were asked for.
 
-    A robot in this process answers at once; what is late there is late in a time of its own, which costs none.
+    For a robot in this process, delays are simulated on a virtual clock and cost no wall time.
     """
     # A run without faults, as most are, begins without loading them.
     from host_sim.faults.faulty_link import FaultyLink  # noqa: PLC0415 - see above

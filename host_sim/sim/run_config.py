@@ -236,3 +236,8 @@ class RunConfig:
     def nodes(self) -> range:
         """The robots' node numbers on the bus."""
         return range(self.node, self.node + self.robots)
+
+
+_ROWS = [(name, row.text, f" ({row.range})" if row.range else "") for name, (_, row) in options_of(RunConfig).items()]
+_ATTRIBUTES = "".join(f"        {name}: {text}{values}.\n" for name, text, values in _ROWS)
+RunConfig.__doc__ = f"{RunConfig.__doc__}\n    Attributes:\n{_ATTRIBUTES}"

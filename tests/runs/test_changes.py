@@ -97,8 +97,8 @@ def test_a_plant_on_the_robot_cannot_be(run):
     ("change", "why"),
     [
         ("plnat@5s", "'plnat@5s' is not a change: did you mean 'plant'?"),
-        ("swap-motors@env6", "the change swap-motors@env6 never comes: the last environment is 2"),
-        ("swap-motors@5s/2", "the change swap-motors@5s/2 is for a robot that is not there: the last is 1"),
+        ("swap-motors@env6", "swap-motors is scheduled for environment 6, but the run has 2"),
+        ("swap-motors@5s/2", "swap-motors is scheduled for robot 2, but the run has 1"),
     ],
 )
 def test_a_mistake_ends_the_run_before_it_begins(run, change, why):

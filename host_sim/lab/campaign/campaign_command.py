@@ -25,7 +25,7 @@ examples:
   tools/octet campaign --repeat 'article fd lockstep seed=12 limit=8 event=hang:300@100'
   tools/octet campaign --shrink 'article none lockstep seed=12 limit=30 fault=drop:30% fault=forge:stop@300/to'
 
-The exit code is 1 if in any run a fault went unnoticed, wheels turned on for more than 100 ms, something wrong was
+The exit code is 1 if in any run a fault went unnoticed, wheels kept turning for more than 100 ms, something wrong was
 learned, something was missing from the run's files without a message, or the run broke.
 """
 
@@ -36,8 +36,8 @@ def add(commands: "Subparsers") -> None:
         commands,
         "campaign",
         _campaign,
-        summary="make every fault happen, and report what came of it",
-        description="Makes every fault happen in every configuration, and writes a report: a page for a browser.",
+        summary="inject every fault, and report the outcomes",
+        description="Injects every fault into every configuration, and writes a report: a page for a browser.",
         epilog=_EXAMPLES,
         check=_check,
         stages=_stages,
@@ -58,10 +58,10 @@ def add(commands: "Subparsers") -> None:
         choices=_LINKS,
         default=["none"],
         metavar="LINK",
-        help="where the robot is: none (in this process), fd (a socket pair), slcan (a serial line), vcan (inside "
+        help="how to reach the robot: none (in this process), fd (socket pair), slcan (serial line), vcan (inside "
         f"tools/with-vcan), or an emulated board: {', '.join(BOARDS)} (default: none)",
     )
-    add("--real-time", action="store_true", help="in real time, too, where the robot is not in this process")
+    add("--real-time", action="store_true", help="also run in real time (not with --links none)")
     add(
         "--limit-s",
         type=number(1, 600, float),
@@ -69,8 +69,8 @@ def add(commands: "Subparsers") -> None:
         help="robot time of each run, 1..600 s (default: 60, in real time 10)",
     )
     add("--jobs", type=number(1, 64), default=1, metavar="N", help="processes at once (default: %(default)d)")
-    add("--repeat", metavar="CELL", help="repeat one run of a report, and say what came of it")
-    add("--shrink", metavar="CELL", help="find the smallest schedule of faults with which that run ends as it does")
+    add("--repeat", metavar="CELL", help="rerun one run of a report and print its outcome")
+    add("--shrink", metavar="CELL", help="find the smallest schedule of faults with the same outcome")
 
 
 def _check(arguments: argparse.Namespace) -> None:

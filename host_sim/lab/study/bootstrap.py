@@ -1,4 +1,4 @@
-"""How far figures are to be trusted: intervals by drawing the seeds anew, with replacement."""
+"""Bootstrap confidence intervals over seeds."""
 
 import math
 from dataclasses import dataclass

@@ -20,13 +20,13 @@ if TYPE_CHECKING:
 
 _EXAMPLES = """\
 examples:
-  tools/octet compare out/studies/learned                           what came of a study
+  tools/octet compare out/studies/learned                           the results of a study
   tools/octet compare out/studies/learned --plots out/plots         the same, and as pictures
   tools/octet compare article fixed never --seeds 40                what learning and remembering are worth
   tools/octet compare article --seeds 2 --robot emulated            the flash image, on an emulated board
   tools/octet compare article forgetful --change swap-motors@env1      with the motors' plugs exchanged
 
-Of a study with goals, the exit code is 1 if one of them is missed.
+Exit code 1 if the study has goals and misses one.
 """
 _OF_RUNS = ("seeds", "first", "environments", "set", "change", "robot", "jobs", "dask", "chunk")
 """The options that say which runs to make; those of a study were made before."""
@@ -41,7 +41,7 @@ def add(commands: "Subparsers") -> None:
         "compare",
         _compare,
         summary="compare the conditions of a study, or behaviours at once",
-        description="Prints what came of a study, or runs each profile with the same seeds and prints that.",
+        description="Summarizes a study, or runs each profile with the same seeds and summarizes that.",
         epilog=_EXAMPLES,
         check=_check,
         stages=_stages,
@@ -54,7 +54,7 @@ def add(commands: "Subparsers") -> None:
         type=number(0, 100, float),
         default=5,
         metavar="PERCENT",
-        help="difference that matters, for the number of seeds that it needs" + DEFAULT,
+        help="smallest difference of interest, %%; prints how many seeds it takes to detect it" + DEFAULT,
     )
     add("--plots", type=file_path, metavar="FOLDER", help="draw plots into this folder")
     profiles = parser.add_argument_group("with profiles").add_argument

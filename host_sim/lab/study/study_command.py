@@ -21,9 +21,9 @@ examples:
   tools/octet study studies/learned.toml                          learned against programmed
   tools/octet study studies/learned.toml --out out/mine           into another folder
   tools/octet study studies/learned.toml --dask tcp://host:8786   on a cluster (tools/octet dask)
-  tools/octet compare out/studies/learned                         what came of it
+  tools/octet compare out/studies/learned                         its results
 
-A study that was stopped goes on with the same command. More seeds in the file are added in the same way.
+Run the same command again to resume a study that was stopped, or to add the seeds that its file has more by now.
 """
 _WRITE_S = 5.0
 _OUT = Path("out/studies")
@@ -35,7 +35,7 @@ def add(commands: "Subparsers") -> None:
         commands,
         "study",
         _study,
-        summary="run behaviours through many environments, as a file says",
+        summary="run a study: behaviours in many environments, as its file says",
         description="Runs each condition of a study with the same seeds, on all cores, and writes Parquet.",
         epilog=_EXAMPLES,
         stages=lambda arguments: ["study", *worker_stages(arguments)],
@@ -50,14 +50,11 @@ def add_workers(parser: argparse.ArgumentParser) -> None:
     """Adds the options that say who makes the runs."""
     add = parser.add_argument
     add("--jobs", type=number(1, 1024), default=os.cpu_count(), metavar="N", help="processes" + DEFAULT)
-    add("--dask", metavar="ADDRESS", help="use the cluster of this Dask scheduler, such as tcp://host:8786, instead")
     add(
-        "--chunk",
-        type=number(1, 100_000),
-        default=0,
-        metavar="N",
-        help="runs to hand over at once (default: as many as suit the work)",
+        "--dask", metavar="ADDRESS", help="run on the cluster of this Dask scheduler instead, such as tcp://host:8786"
     )
+    chunk = "runs per work item (default: automatic)"
+    add("--chunk", type=number(1, 100_000), default=0, metavar="N", help=chunk)
 
 
 def worker_stages(arguments: argparse.Namespace) -> list[str]:
