@@ -1,0 +1,93 @@
+"""`tools/octet talk`: asks a robot about a run; or talks to ELIZA."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from host_sim.base.errors import UsageError
+from host_sim.cli.log_options import resimulated
+from host_sim.cli.parsing import add_command, file_path, number
+from host_sim.protocol.words import NODE_MAX
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+    from host_sim.talk.conversation import Conversation
+
+_LINE_MAX = 2_000_000
+_ROBOT = "robot"
+_EXAMPLES = """\
+examples:
+  tools/octet talk                                 ask the robot of the last run
+  tools/octet talk --at 41.9                       as it was after 41.9 s
+  tools/octet talk --script eliza                  talk to ELIZA of 1966, by a script of our own
+  echo "Why did you turn left?" | tools/octet talk
+"""
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "talk",
+        _talk,
+        summary="ask the robot what it has learned, and why it did what it did",
+        description="Answers sentences in the manner of ELIZA. [log] marks an answer whose facts were looked up in\n"
+        "the log, with the lines on which they rest; [words] one that is only words. Ctrl-D ends it.",
+        epilog=_EXAMPLES,
+        check=_check,
+    )
+    add = parser.add_argument
+    add("--log", type=file_path, metavar="RUN.LOG", help="log of the run to ask about (default: out/run.log)")
+    add("--at", type=number(0, 1e9, float), metavar="S", help="robot time to ask about, s (default: end of the run)")
+    add(
+        "--node",
+        type=number(1, NODE_MAX),
+        default=1,
+        metavar="NODE",
+        help="the robot's number (default: %(default)s)",
+    )
+    add("--no-world", action="store_true", help="ignore seed and world file, as for a real body")
+    add("--memory", type=file_path, metavar="FILE", help="ask a robot of which only this memory file is known")
+    add("--script", default=_ROBOT, metavar="FILE", help="script: a file, robot or eliza (default: %(default)s)")
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    if arguments.memory is not None and (arguments.log is not None or arguments.at is not None):
+        raise UsageError("--memory is for a robot without a log: leave out --log and --at")
+
+
+def _talk(arguments: argparse.Namespace) -> int:
+    conversation = _begin(arguments)
+    if sys.stdin.isatty():
+        import readline
+
+        readline.parse_and_bind("tab: complete")
+    sys.stdin.reconfigure(errors="replace")  # type: ignore[union-attr]
+    print(conversation.greeting, flush=True)
+    while True:
+        try:
+            sentence = input("> ") if sys.stdin.isatty() else sys.stdin.readline(_LINE_MAX)
+        except EOFError:
+            print()
+            return 0
+        if not sentence and not sys.stdin.isatty():
+            return 0
+        print(conversation.answer(sentence), flush=True)
+
+
+def _begin(arguments: argparse.Namespace) -> "Conversation":
+    from host_sim.talk.conversation import Conversation, about_memory, about_run
+
+    if arguments.memory is not None:
+        return about_memory(arguments.script, arguments.memory)
+    if arguments.script != _ROBOT and arguments.log is None:
+        return Conversation(arguments.script, {})
+    if arguments.log is None:
+        arguments.log = Path("out/run.log")
+        if not arguments.log.exists():
+            raise UsageError(
+                "there is no run in out/ to talk about: make one with tools/run, or give --log or --memory"
+            )
+    trajectory = resimulated(arguments).trajectory
+    return about_run(arguments.script, trajectory, arguments.log, arguments.node, arguments.at)

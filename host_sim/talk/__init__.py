@@ -1,0 +1,1 @@
+"""ELIZA of 1966, and a robot that answers from its log."""

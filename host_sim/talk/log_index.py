@@ -1,0 +1,60 @@
+"""What a log says of a robot besides its ticks, and the lines of the log on which a tick rests."""
+
+from array import array
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from host_sim.protocol.codec import Protocol
+from host_sim.protocol.generated import PROFILES
+from host_sim.recording.log_files import frames_in
+from host_sim.recording.log_text import Recorded
+
+_PROFILES = {number: name for name, number in PROFILES.items()}
+
+
+@dataclass
+class LogIndex:
+    """An index of one robot's frames.
+
+    Attributes:
+        lines: For each tick the line, or number of the frame, of its SENSES, from 1.
+        starts: The tick before which the robot was started, and its behaviour.
+        health: The tick of each HEALTH frame, and its signals.
+    """
+
+    lines: "array[int]" = field(default_factory=lambda: array("L"))
+    starts: list[tuple[int, str]] = field(default_factory=list)
+    health: list[tuple[int, dict[str, int]]] = field(default_factory=list)
+
+    def lines_of(self, ticks: Iterable[int]) -> list[int]:
+        """The lines of ticks; of a tick that is not in the log, none."""
+        return [self.lines[tick] for tick in ticks if tick < len(self.lines)]
+
+
+def index_log(path: Path, node: int, tick_us: int) -> LogIndex:
+    """Indexes a log.
+
+    Args:
+        path: The log.
+        node: The robot's node number.
+        tick_us: The length of a tick, us.
+
+    Raises:
+        UsageError: The log cannot be read, or is damaged.
+    """
+    protocol, index = Protocol(node), LogIndex()
+    wanted = {protocol.id_of(name): name for name in ("SENSES", "COMMAND", "HEALTH")}
+    begun: int | None = None
+    for line, it in enumerate(frames_in(path), 1):
+        if not isinstance(it, Recorded) or it.frame.id not in wanted:
+            continue
+        if wanted[it.frame.id] == "SENSES":
+            begun = it.time_us if begun is None else begun
+            if (it.time_us - begun) // tick_us == len(index.lines):
+                index.lines.append(line)
+        elif (message := protocol.decode(it.frame)) and message.name == "HEALTH":
+            index.health.append((len(index.lines), message.signals))
+        elif message and message.signals.get("profile") in _PROFILES:
+            index.starts.append((len(index.lines), _PROFILES[message.signals["profile"]]))
+    return index

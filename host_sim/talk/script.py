@@ -1,0 +1,273 @@
+"""Scripts in the language of ELIZA (Weizenbaum, CACM 9/1, 1966), read and checked.
+
+Two things are not of 1966: `;` begins a comment, and a reassembly may ask for facts, `(* NAME 1)`.
+"""
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple, NoReturn
+
+from host_sim.base.errors import UsageError
+from host_sim.talk.script_text import Group, Node, Word, read_groups
+
+_DIGITS_MAX = 9
+
+MEMORIES = 4
+"""The transformations of a MEMORY rule."""
+
+
+class AnyOf(NamedTuple):
+    """One word out of several: `(*A B)`."""
+
+    words: frozenset[str]
+
+
+class Tagged(NamedTuple):
+    """A word that carries one of several tags: `(/A B)`."""
+
+    tags: frozenset[str]
+
+
+class Fact(NamedTuple):
+    """A fact, asked about a part: `(* NAME 1)`; or about nothing: `(* NAME)`."""
+
+    name: str
+    part: int | None
+
+
+Part = str | int | AnyOf | Tagged
+"""A piece of a decomposition; a number of words, 0 for any number."""
+
+Pieces = tuple[str | int | Fact, ...]
+"""Words, numbers of parts, and facts."""
+
+
+class Reassembly(NamedTuple):
+    """What is said, and the keyword to go on with, if any.
+
+    With pieces alone it is an answer; with a key alone, `(=KEY)`; with both, `(PRE (...) (=KEY))`: the pieces become
+    the sentence. With neither, `(NEWKEY)`: go on with the sentence's next keyword.
+    """
+
+    pieces: Pieces | None = None
+    key: str | None = None
+
+
+@dataclass
+class Transformation:
+    """A decomposition and its reassemblies, which take turns; `turn` is the number of the next one."""
+
+    parts: tuple[Part, ...]
+    reassemblies: tuple[Reassembly, ...]
+    turn: int = 0
+
+    def next(self) -> Reassembly:
+        """The reassembly whose turn it is."""
+        turn, self.turn = self.turn, (self.turn + 1) % len(self.reassemblies)
+        return self.reassemblies[turn]
+
+
+@dataclass
+class Rule:
+    """What is done about a keyword.
+
+    Attributes:
+        key: The keyword.
+        line: Its line in the script.
+        substitute: The word that takes its place in the sentence.
+        tags: What decompositions know it by.
+        rank: Its rank among the keywords of a sentence.
+        transformations: In their order; the first whose decomposition matches is taken.
+        link: The keyword to go on with where none matches.
+    """
+
+    key: str
+    line: int
+    substitute: str | None = None
+    tags: frozenset[str] = frozenset()
+    rank: int = 0
+    transformations: list[Transformation] = field(default_factory=list)
+    link: str | None = None
+
+    @property
+    def can_answer(self) -> bool:
+        """Whether it does more than change words and carry tags."""
+        return bool(self.transformations or self.link)
+
+
+@dataclass
+class Script:
+    """A script.
+
+    Attributes:
+        greeting: What is said first.
+        rules: By keyword.
+        none: The rule for sentences without a keyword.
+        memory: Its keyword's sentences are remembered, by one of four transformations.
+    """
+
+    greeting: str
+    rules: dict[str, Rule]
+    none: Rule
+    memory: Rule
+
+
+def read_script(text: str, name: str, facts: Collection[str] = ()) -> Script:
+    """Reads a script.
+
+    Args:
+        text: The script.
+        name: What errors call it.
+        facts: The names of the facts that it may ask for.
+
+    Raises:
+        UsageError: Something in it is wrong; the message has the line.
+    """
+    return _Reader(name, facts).read(text)
+
+
+class _Reader:
+    def __init__(self, name: str, facts: Collection[str]) -> None:
+        self._name, self._facts = name, facts
+        self._links: list[Word] = []
+
+    def read(self, text: str) -> Script:
+        groups = read_groups(text, self._name)
+        if not groups:
+            raise UsageError(f"{self._name}: a script begins with its greeting, a list of words")
+        greeting = " ".join(self._word(node) for node in groups[0])
+        rules: dict[str, Rule] = {}
+        special: dict[str, Rule] = {}
+        for group in groups[1:]:
+            key = self._word(group[0])
+            known = special if key in {"MEMORY", "NONE"} else rules
+            if key in known:
+                self._fail(group, f"{key} has a rule already, in line {known[key].line}")
+            known[str(key)] = self._memory(group) if key == "MEMORY" else self._rule(group)
+        for needed in ("NONE", "MEMORY"):
+            if needed not in special:
+                self._fail(groups[-1], f"the script has no {needed}")
+        script = Script(greeting, rules, special["NONE"], special["MEMORY"])
+        self._check_links(script)
+        return script
+
+    def _check_links(self, script: Script) -> None:
+        memory = script.memory
+        if memory.key not in script.rules:
+            raise UsageError(f"{self._name}, line {memory.line}: MEMORY's keyword {memory.key} has no rule")
+        for link in self._links:
+            if link not in script.rules or not script.rules[link].can_answer:
+                self._fail(link, f"the link leads to {link}, which has no transformation")
+
+    def _rule(self, group: Group) -> Rule:
+        rule, nodes = Rule(group[0], group.line), group[1:]
+        if nodes[:1] == ["="]:
+            rule.substitute = self._word(nodes[1] if len(nodes) > 1 else group)
+            nodes = nodes[2:]
+        for node in (node for node in nodes if node != "DLIST"):
+            if isinstance(node, Word):
+                rule.rank = (
+                    int(node) if _is_number(node) else self._fail(node, f"{node} is neither a rank nor a list")
+                )
+            elif node.starts_with("="):
+                rule.link = self._link(node)
+            elif node.starts_with("/"):
+                rule.tags = frozenset(self._listed(node))
+            else:
+                rule.transformations.append(self._transformation(node))
+        if not rule.can_answer and rule.substitute is None and not rule.tags:
+            self._fail(group, f"the rule of {rule.key} is empty")
+        if rule.key == "NONE" and not any(_always_speaks(it) for it in rule.transformations):
+            self._fail(group, "NONE needs a transformation ((0) (...)) with an answer that asks for no fact")
+        return rule
+
+    def _memory(self, group: Group) -> Rule:
+        if len(group) != MEMORIES + 2:
+            self._fail(group, f"MEMORY has a keyword and exactly {MEMORIES} transformations")
+        rule = Rule(self._word(group[1]), group.line)
+        for node in group[2:]:
+            if isinstance(node, Word) or "=" not in node:
+                self._fail(node, "a transformation of MEMORY is (DECOMPOSITION = REASSEMBLY)")
+            middle = node.index("=")
+            parts = self._parts(node[:middle], node)
+            pieces = self._pieces(node[middle + 1 :], node, len(parts), ())
+            rule.transformations.append(Transformation(parts, (Reassembly(pieces),)))
+        return rule
+
+    def _transformation(self, group: Group) -> Transformation:
+        decomposition, *reassemblies = group or [group]
+        if isinstance(decomposition, Word) or not reassemblies:
+            self._fail(group, "a transformation is a decomposition and its reassemblies: ((0) (...) ...)")
+        parts = self._parts(decomposition, group)
+        return Transformation(parts, tuple(self._reassembly(node, len(parts)) for node in reassemblies))
+
+    def _parts(self, nodes: Sequence[Node], where: Node) -> tuple[Part, ...]:
+        return tuple(map(self._part, nodes)) or self._fail(where, "a decomposition is empty")
+
+    def _part(self, node: Node) -> Part:
+        if isinstance(node, Word):
+            return int(node) if _is_number(node) else node
+        if node.starts_with("/"):
+            return Tagged(frozenset(self._listed(node)))
+        if node.starts_with("*"):
+            return AnyOf(frozenset(self._listed(node)))
+        return self._fail(node, "a list in a decomposition begins with * or /")
+
+    def _reassembly(self, node: Node, parts: int) -> Reassembly:
+        if isinstance(node, Word):
+            self._fail(node, "a reassembly is a list")
+        if node.starts_with("="):
+            return Reassembly(None, self._link(node))
+        if node == ["NEWKEY"]:
+            return Reassembly()
+        if node[:1] != ["PRE"]:
+            return Reassembly(self._pieces(node, node, parts, self._facts))
+        match node[1:]:
+            case [Group() as pieces, Group() as link] if link.starts_with("="):
+                return Reassembly(self._pieces(pieces, node, parts, ()), self._link(link))
+        return self._fail(node, "PRE is written (PRE (REASSEMBLY) (=KEY))")
+
+    def _pieces(self, nodes: Sequence[Node], where: Node, parts: int, facts: Collection[str]) -> Pieces:
+        def piece(node: Node) -> str | int | Fact:
+            if isinstance(node, Word):
+                return self._number(node, parts) if _is_number(node) else node
+            name, *rest = self._listed(node) if node.starts_with("*") else self._fail(node, "(* NAME 1) is expected")
+            if name not in facts:
+                self._fail(node, f"there is no fact {name} here; there are: {', '.join(sorted(facts)) or 'none'}")
+            return Fact(name, self._number(rest[0], parts) if rest else None)
+
+        return tuple(map(piece, nodes)) or self._fail(where, "a reassembly is empty")
+
+    def _number(self, word: Word, parts: int) -> int:
+        if _is_number(word) and 1 <= int(word) <= parts:
+            return int(word)
+        return self._fail(word, f"there is no part {word}: the decomposition has {parts}")
+
+    def _link(self, group: Group) -> Word:
+        _, *keys = group
+        key = self._word(keys[0] if len(keys) == 1 else group)
+        self._links.append(key)
+        return key
+
+    def _listed(self, group: Group) -> list[Word]:
+        """The words of a list after its sign, which may be joined to the first."""
+        first = Word.at(group.line, self._word(group[0])[1:])
+        return [self._word(it) for it in ([first] if first else []) + group[1:]] or self._fail(
+            group, "no word follows"
+        )
+
+    def _word(self, node: Node) -> Word:
+        return node if isinstance(node, Word) else self._fail(node, "a word is expected")
+
+    def _fail(self, node: Node, what: str) -> NoReturn:
+        raise UsageError(f"{self._name}, line {node.line}: {what}")
+
+
+def _is_number(word: str) -> bool:
+    return word.isascii() and word.isdigit() and len(word) <= _DIGITS_MAX
+
+
+def _always_speaks(it: Transformation) -> bool:
+    """Whether it has an answer to any sentence that rests on no fact."""
+    answers = [one.pieces for one in it.reassemblies if one.pieces and one.key is None]
+    return it.parts == (0,) and any(not isinstance(piece, Fact) for pieces in answers for piece in pieces)

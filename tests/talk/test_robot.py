@@ -1,0 +1,178 @@
+"""A robot's answers: those that are marked rest on its log, and other code finds the same in the frames."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from host_sim.api import RunConfig, resimulate, run
+from host_sim.client.frame_log import line_of
+from host_sim.protocol.codec import Protocol
+from host_sim.protocol.generated import PATTERNS, SIDES, Reason
+from host_sim.recording.log_reader import frames_of, read_log
+from host_sim.talk.conversation import about_memory, about_run
+from host_sim.talk.facts import FACTS, POINT, RobotFacts
+from host_sim.talk.log_index import index_log
+from tests.runs.support import octet, octet_process
+
+HERE = Path(__file__).parent
+QUESTIONS = [
+    (line.partition(" ")[0], line.partition(" ")[2])
+    for line in (HERE / "questions.txt").read_text().splitlines()
+    if not line.startswith(";")
+]
+PROTOCOL = Protocol(1)
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory):
+    path = tmp_path_factory.mktemp("talk") / "run.log"
+    run(RunConfig(seed=3, environments=3, bus="none"), path)
+    return path
+
+
+@pytest.fixture(scope="module")
+def trajectory(log):
+    return resimulate(log).trajectory
+
+
+@pytest.fixture
+def robot(log, trajectory):
+    return about_run("robot", trajectory, log, 1)
+
+
+def test_nine_of_ten_questions_are_answered_from_the_log_and_none_that_it_cannot_know(log, trajectory):
+    marks = [(kind, about_run("robot", trajectory, log, 1).answer(text).split()[0], text) for kind, text in QUESTIONS]
+
+    invented = [text for kind, mark, text in marks if kind == "words" and mark != "[words]"]
+    known = [mark == "[log]" for kind, mark, _ in marks if kind == "log"]
+    assert len(marks) >= 100
+    assert invented == []
+    assert sum(known) >= 0.9 * len(known), [text for kind, mark, text in marks if (kind, mark) == ("log", "[words]")]
+
+
+class Frames:
+    """What the frames of a log say up to a tick, read without a world."""
+
+    def __init__(self, log: Path, tick: int) -> None:
+        self.bumps, self.meals, self.bored, self.cells = 0, 0, 0, (0,) * 8
+        ticks, action, bump = -1, None, 0
+        for line in frames_of(read_log(log), 1):
+            frame = PROTOCOL.decode(line.frame)
+            if frame is None:
+                continue
+            if frame.name == "SENSES":
+                ticks += 1
+                if ticks > tick:
+                    break
+                self.bumps += frame.signals["bump"] and not bump
+                bump = frame.signals["bump"]
+            elif drive := PROTOCOL.decode_drive(line.frame):
+                self.bored += drive.action != action and drive.reason == Reason.BOREDOM
+                self.meals += drive.eat
+                action = drive.action
+
+
+@pytest.mark.parametrize("part", [0.1, 0.35, 0.6, 0.99])
+def test_other_code_finds_the_same_numbers_in_the_frames(log, trajectory, part):
+    tick = round(part * (trajectory.ticks - 1))
+    facts, frames = RobotFacts(trajectory, index_log(log, 1, 20_000), tick), Frames(log, tick)
+
+    assert facts.bored([]).text.startswith(
+        f"I WAS BORED {frames.bored} TIME" if frames.bored != 1 else "I WAS BORED ONCE"
+    )
+    assert f"TOUCHED SOMETHING {'ONCE' if frames.bumps == 1 else frames.bumps}" in facts.touched([]).text
+    assert len(facts.food([]).evidence) == max(1, frames.meals)
+
+
+def test_what_it_learned_is_what_its_memory_holds_in_the_end(log, trajectory, robot):
+    said = robot.answer("What have you learned?")
+
+    memory = trajectory.at(trajectory.ticks - 1)["memory"]
+    known = [f"{PATTERNS[i]} blocked, turn {SIDES[side]}".upper() for i, side in enumerate(memory) if i and side]
+    assert len(known) >= 3
+    assert said.startswith(f"[log] {'; '.join(known)} ({log}:")
+
+
+def test_the_lines_on_which_an_answer_rests_are_those_of_its_tick(log, robot):
+    said = robot.answer("Why did you turn left?")
+
+    seconds, line = re.search(r"AT ([\d.]+) S:", said)[1], int(re.search(r":(\d+)\)$", said)[1])
+    stamp = log.read_text().splitlines()[line - 1].split()[0]
+    assert float(stamp.strip("()")) == pytest.approx(float(seconds), abs=0.02)
+
+
+def test_it_knows_nothing_of_what_comes_later(log, trajectory):
+    early = about_run("robot", trajectory, log, 1, 0.0)
+
+    assert early.answer("What have you learned?").startswith("[log] NOTHING YET")
+    assert early.answer("What did you do at 12.5 s?").startswith("[words]")
+    assert "I HAVE EATEN NOTHING" in early.answer("What did you eat?")
+
+
+def test_a_drive_that_is_altered_changes_the_answer_that_rests_on_it_and_no_other(log, tmp_path):
+    index = index_log(log, 1, 20_000)
+    before = resimulate(log, ignore_world=True).trajectory
+    tick = int(np.flatnonzero(before.tracks[0].column("reason") == Reason.REMEMBERED)[-1])
+    lines, at = log.read_text().splitlines(keepends=True), index.lines[tick] - 1
+    read = [*read_log(log)]
+    place = next(i for i in range(at, len(read)) if PROTOCOL.decode_drive(read[i].frame))
+    frame = PROTOCOL.decode(read[place].frame)
+    left, right = frame.signals["left"], frame.signals["right"]
+    altered = PROTOCOL.encode("DRIVE", {**frame.signals, "left": right, "right": left})
+    lines[place] = line_of(read[place].time_us, altered) + "\n"
+    (tmp_path / "run.log").write_text("".join(lines))
+    after = resimulate(tmp_path / "run.log", ignore_world=True).trajectory
+
+    def answers(trajectory):
+        facts = RobotFacts(trajectory, index, trajectory.ticks - 1)
+        return {
+            name: getattr(facts, name)([f"{tick // 50}{POINT}{tick % 50 * 2:02}"])
+            for name in FACTS
+            if name != "where"
+        }
+
+    changed = {name for name, answer in answers(before).items() if answers(after)[name] != answer}
+    assert changed == {"why", "turn"}
+
+
+def test_a_robot_without_a_log_knows_its_memory_only(tmp_path):
+    memory = tmp_path / "robot.mem"
+    memory.write_bytes(bytes([0, 1, 0, 0, 2, 0, 0, 0]))
+    robot = about_memory("robot", memory)
+
+    assert robot.answer("What have you learned?").startswith(
+        "[memory] FRONT-RIGHT BLOCKED, TURN LEFT; FRONT-LEFT BLOCKED"
+    )
+    assert robot.answer("What do you do when the front is blocked?").startswith(
+        "[memory] FRONT BLOCKED: I DO NOT KNOW"
+    )
+    assert robot.answer("What did you eat?").startswith("[words]")
+
+
+def test_the_command_answers_lines_of_any_kind(log):
+    asked = b"What have you learned?\n\xff\xfe\x00\n\n" + b"x" * 1_000_000 + b"\nWhere are you?"
+
+    done = octet_process("talk", "--log", log, input=asked.decode(errors="surrogateescape"), errors="surrogateescape")
+
+    lines = done.stdout.splitlines()
+    assert (done.returncode, len(lines)) == (0, 6)
+    assert [line.split()[0] for line in lines[1:]] == ["[log]", "[words]", "[words]", "[words]", "[log]"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error"),
+    [
+        (["--log", "nowhere.log"], "nowhere.log"),
+        (["--script", "nowhere"], "there is no script nowhere: give a file, or one of eliza, robot"),
+        (["--memory", "nowhere.mem"], "there is no nowhere.mem"),
+        (["--memory", "x", "--at", "1"], "--memory is for a robot without a log"),
+    ],
+)
+def test_what_cannot_be_read_is_a_line_and_exit_code_2(arguments, error):
+    done = octet("talk", *arguments)
+
+    assert (done.returncode, done.stdout) == (2, "")
+    assert error in done.stderr
+    assert done.stderr.count("\n") == 1
