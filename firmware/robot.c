@@ -178,7 +178,7 @@ static void respond_to_command(struct robot *robot, const struct command *comman
     out->has_drive = true;
 }
 
-/* The brain is not asked and the motion not touched: with the next senses all goes on where it was. */
+/* Leaves brain and motion untouched, so the next senses resume where they stopped. */
 static void respond_to_silence(struct robot *robot, struct output *out)
 {
     drive_init(&out->drive, robot, REASON_SILENCE);

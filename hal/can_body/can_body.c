@@ -137,7 +137,7 @@ static int take_senses(struct hal *hal, struct input *in)
 {
     int result = INPUT_SENSES;
 
-    /* A robot that was held up itself finds its senses waiting, and has heard of no silence. */
+    /* If the robot itself stalled, senses are queued and no silence was reported yet. */
     if (hal->silent_ms >= HAL_SILENCE_MS && !hal->outage)
         note_silence(hal);
     if (hal->outage && !hal->wire.session.lockstep)

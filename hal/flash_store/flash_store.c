@@ -138,7 +138,7 @@ static int turn_page(struct flash_store *store, union place *scratch, bool may_e
     return 0;
 }
 
-/* The records after the newest one could not be written. They may read well another day: their numbers are left out. */
+/* The records after the newest one failed to write. They may become readable later, so their sequence numbers are skipped. */
 static void go_on_behind_newest(struct flash_store *store, union place *scratch)
 {
     store->page = store->kept;

@@ -1,1 +1,1 @@
-"""Where a robot comes from: a process, this process, a bus, or an image on a board that is not there."""
+"""Where robots run: in a process, in this process, on a bus, or as an image on an emulated board."""

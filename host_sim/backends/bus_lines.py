@@ -1,4 +1,4 @@
-"""The lines to the robots of a run that are on one bus: one each where the bus allows that, else one for all."""
+"""The lines to the robots of a run on one bus: one per robot where the bus allows that, else a shared one."""
 
 from collections.abc import Sequence
 from contextlib import ExitStack

@@ -1,4 +1,4 @@
-"""Connects to a robot that is named on the command line, and starts it first where needed."""
+"""Connects to the robot that the command line names; starts it first if necessary."""
 
 from contextlib import ExitStack
 

@@ -1,4 +1,4 @@
-"""The firmware within this process: a link that is a function call into its shared library."""
+"""The firmware inside this process, as a link that calls its shared library."""
 
 import os
 import time

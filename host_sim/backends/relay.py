@@ -1,4 +1,4 @@
-"""Robots that each have a line of their own still hear each other's memories, as on a bus."""
+"""Relays memories between robots that have a line each, as a shared bus would."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass

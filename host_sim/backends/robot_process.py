@@ -1,4 +1,4 @@
-"""The host build of the firmware, in its own process."""
+"""The host build of the firmware as a process of its own."""
 
 import contextlib
 import os

@@ -1,1 +1,1 @@
-"""What every room stands on: errors, paths, files, C interfaces."""
+"""What every other package uses: errors, paths, files, C interfaces."""

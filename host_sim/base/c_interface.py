@@ -1,4 +1,4 @@
-"""Interfaces to C code, made from its declarations. Reading C takes a third of a start, so each is read only once."""
+"""Interfaces to C code, parsed from declarations. Parsing takes a third of a start, so results are cached."""
 
 import contextlib
 import hashlib

@@ -1,4 +1,4 @@
-"""A file that is compressed while it is written."""
+"""A file that is compressed as it is written."""
 
 import zlib
 from typing import BinaryIO

@@ -1,4 +1,4 @@
-"""Counts in sentences."""
+"""Numbers with their nouns, in sentences."""
 
 
 def counted(count: int, what: str) -> str:

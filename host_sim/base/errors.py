@@ -1,4 +1,4 @@
-"""The errors that a user can see. Each message is one line that says what was wrong and what to do."""
+"""The errors that users see. Each message is one line that says what is wrong and what to do."""
 
 
 class OctetError(Exception):

@@ -1,4 +1,4 @@
-"""Libraries that only some commands need, loaded by those commands only."""
+"""Loads libraries that only some commands need."""
 
 import importlib
 import os

@@ -1,4 +1,4 @@
-"""Locks that keep other runs away, and end with the process that holds them, in whatever way it ends."""
+"""Locks against other runs; they end with the process that holds them, however it ends."""
 
 import fcntl
 import os

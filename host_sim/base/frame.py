@@ -1,4 +1,4 @@
-"""A CAN frame, the one thing that all know who are on a bus."""
+"""A CAN frame, which everything on a bus shares."""
 
 from typing import NamedTuple
 

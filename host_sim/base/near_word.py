@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 
 def near_word(word: str, words: Iterable[str]) -> str | None:
-    """The word that looks most like it; None if none does.
+    """The most similar word; None if none is similar.
 
     >>> near_word("corridor", ["random", "corridors"])
     'corridors'

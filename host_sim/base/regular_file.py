@@ -1,4 +1,4 @@
-"""Reads of regular files, up to a size."""
+"""Reads regular files up to a maximum size."""
 
 import os
 import stat

@@ -1,4 +1,4 @@
-"""The results of checks as JSON and as JUnit's XML, which build servers read."""
+"""Check results as JSON and as JUnit XML, for build servers."""
 
 import json
 import re

@@ -1,1 +1,1 @@
-"""The host's side of the protocol: commands, senses, drives, and how they are paced."""
+"""The host's side of the protocol: commands, senses, drives, and pacing."""

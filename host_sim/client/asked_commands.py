@@ -1,4 +1,4 @@
-"""The commands that a robot was sent lately, by which its answers are judged, and others who command it."""
+"""Recent commands, to match answers with, and detection of other simulators."""
 
 from collections import deque
 
@@ -10,7 +10,7 @@ _RIVAL_S = 1.0
 
 
 class AskedCommands:
-    """As many commands as can be told apart by their alive counters.
+    """The latest commands, as many as their alive counters can tell apart.
 
     Attributes:
         answered: Whether the last one was answered, or there was none.
@@ -36,7 +36,7 @@ class AskedCommands:
         return command in self._asked
 
     def judge(self, answer: Frame) -> Arrival:
-        """What an answer is: NEW, once, if it is that to the last command; AGAIN; or OTHER, to what was not asked."""
+        """Classifies an answer: NEW if first to the last command, AGAIN if repeated, OTHER if nothing matches."""
         matching = [asked for asked in self._asked if counter_of(asked) == counter_of(answer)]
         if not matching or matching[-1].data[1] != answer.data[1]:
             return Arrival.OTHER
@@ -50,14 +50,14 @@ class Rivals:
     """Others who command the same robot.
 
     Attributes:
-        heard: The second frame within a second from another simulator; None while there is none.
+        heard: Second frame heard within a second from another simulator, if any.
     """
 
     def __init__(self, owner: int, asked: AskedCommands) -> None:
-        """Has heard nobody.
+        """Starts without any rival heard.
 
         Args:
-            owner: Number of this simulator.
+            owner: Owner ID of this simulator.
             asked: The commands that it has sent.
         """
         self.heard: Frame | None = None
@@ -65,13 +65,13 @@ class Rivals:
         self._last_s: float | None = None
 
     def hear(self, frame: Frame, now_s: float) -> bool:
-        """Takes a frame. Returns whether it is the second one within a second: one may be noise, two are not."""
+        """Counts a frame. Returns whether it is the second within a second: one may be noise, two are not."""
         if self._last_s is not None and now_s - self._last_s <= _RIVAL_S:
             self.heard = frame
         self._last_s = now_s
         return self.heard is frame
 
     def poses_as_us(self, frame: Frame, decoded: DecodedFrame) -> bool:
-        """Whether it is a command in our name that is not ours: the robot obeys it, and it is no noise."""
+        """Whether it is a command with our owner ID that we did not send: the robot obeys it, and it is not noise."""
         is_ours = decoded.signals.get("owner") == self._owner
         return decoded.name == "COMMAND" and is_ours and not self._asked.has(frame)

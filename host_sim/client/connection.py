@@ -1,4 +1,4 @@
-"""A connection to a robot: the link, and what is known of the robot at its other end."""
+"""A connection to a robot: the link, and what is known about the robot behind it."""
 
 import time
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""The dialogue with a robot: commands, their answers, and the reports that they ask for."""
+"""The dialogue with a robot: commands, answers, and requested reports."""
 
 from collections.abc import Mapping
 from contextlib import suppress

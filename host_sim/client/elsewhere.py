@@ -1,4 +1,4 @@
-"""Ticks whose frames were exchanged and logged by C code, on a client's behalf."""
+"""Brings a client up to date with ticks whose frames C code exchanged and logged."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

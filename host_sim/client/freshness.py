@@ -1,4 +1,4 @@
-"""Tells new messages from repeated and late ones, by their alive counters."""
+"""Distinguishes new messages from repeated and late ones by their alive counters."""
 
 from enum import Enum, auto
 

@@ -1,4 +1,4 @@
-"""Takes in every frame that comes from a robot's side: answers, drives, reports, and what should not come at all."""
+"""Sorts all frames from a robot's side: answers, drives, reports, and what should not be there."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""The two ways for world and robots to keep time: in lockstep, or by the wall clock."""
+"""The two ways to keep world and robots in step: lockstep, or the wall clock."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""How far a run in real time was one: answers that did not come, gaps between them, ticks that began late."""
+"""How close a run came to real time: unanswered ticks, gaps between answers, ticks that began late."""
 
 from dataclasses import dataclass, field
 

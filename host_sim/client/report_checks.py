@@ -1,4 +1,4 @@
-"""What a robot says of itself, held against how it was started."""
+"""Compares a robot's reports with how it was started."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""A client for one robot: sends senses until they are answered, takes in what comes, and logs every frame once."""
+"""A client for one robot: sends senses until they are answered, handles its frames, and logs each frame once."""
 
 from collections.abc import Mapping
 

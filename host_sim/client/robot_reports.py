@@ -1,4 +1,4 @@
-"""What a robot has reported: its memory, its state, its identity and its faults."""
+"""A robot's latest reports: memory, state, identity and faults."""
 
 from collections.abc import Collection
 

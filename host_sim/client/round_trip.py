@@ -1,4 +1,4 @@
-"""How long to wait before a frame is sent again, from how long answers have taken so far."""
+"""The retransmission timeout, estimated from the round-trip times so far."""
 
 _LEAST_S, _MOST_S = 0.01, 0.25
 _FIRST_S = 0.2

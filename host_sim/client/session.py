@@ -1,4 +1,4 @@
-"""What a robot was told when it was started, and how it went on."""
+"""What a robot was told at its start, and the session's counters."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""Finds out what has become of a robot that no longer takes part in its session, and starts it again if it can."""
+"""Finds out what happened to a robot that dropped out of its session, and restarts it if possible."""
 
 from host_sim.base.errors import FirmwareError, RivalError, SessionLostError, TwinError
 from host_sim.client.commands import freeze, start

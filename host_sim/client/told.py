@@ -1,4 +1,4 @@
-"""What a robot has been told: the check by which it says so itself, computed from the commands that it answered."""
+"""Checks what a robot was told: recomputes the CRC that it reports from the commands that it answered."""
 
 from binascii import crc_hqx
 from collections.abc import Sequence

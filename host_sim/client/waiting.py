@@ -1,4 +1,4 @@
-"""Waiting for a robot's frames: for as long as the robot has been given, whatever holds up this host."""
+"""Waits for a robot's frames; time in which this host was stalled does not count."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

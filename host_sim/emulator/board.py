@@ -1,4 +1,4 @@
-"""A board: hardware, the image that it runs, and a link to the simulator."""
+"""An emulated board: hardware, the image that it runs, and a link to the simulator."""
 
 import time
 from collections import deque

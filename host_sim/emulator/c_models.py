@@ -1,4 +1,4 @@
-"""The models that are C (`models/`), declared by their own headers."""
+"""The models that are written in C (`models/`), declared by their own headers."""
 
 from functools import cache
 from typing import Any

@@ -1,4 +1,4 @@
-"""CAN: the model of bxCAN and of the wire, which is C (`models/`), as a peripheral of the board."""
+"""CAN as a peripheral of the board: the models of bxCAN and of the wire, which are written in C (`models/`)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The chips that there are: what lies where in each."""
+"""The supported chips and their memory maps."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""The board's time: the model `struct board_clock`, and the events that come with time."""
+"""The board's time, `struct board_clock`, and the events scheduled on it."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,4 +1,4 @@
-"""The processor core: Unicorn's, joined to the clock and the registers. The only file that knows Unicorn."""
+"""The processor core: Unicorn, connected to the clock and the registers. No other file uses Unicorn."""
 
 import struct
 from collections.abc import Callable

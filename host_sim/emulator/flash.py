@@ -1,4 +1,4 @@
-"""The chip's own flash, of both families (F1: PM0075, F4: RM0090 3). While it works, the core stands still."""
+"""The chip's internal flash, for both families (F1: PM0075, F4: RM0090 3). The core stalls while it works."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence

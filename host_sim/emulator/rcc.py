@@ -1,4 +1,4 @@
-"""Reset and clock control: what both families have in common."""
+"""Reset and clock control: what both families share."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Mapping

@@ -1,4 +1,4 @@
-"""Registers at addresses: what all models of peripherals stand on."""
+"""Registers at addresses: the base of all peripheral models."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field

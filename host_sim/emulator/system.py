@@ -1,4 +1,4 @@
-"""What every chip has: the core's timer and control block, the watchdog, and pins."""
+"""What every chip has: SysTick, the system control block, the watchdog, and pins."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,1 +1,1 @@
-"""Faults of a bus, made on purpose: a schedule as data, and a link that keeps to it."""
+"""Bus faults on purpose: a schedule as data, and a link that follows it."""

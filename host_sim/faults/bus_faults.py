@@ -1,4 +1,4 @@
-"""What can happen to a frame on its way. Each fault is one class; `FAULTS` has them by name."""
+"""The faults that can happen to a frame. Each is a class; `FAULTS` has them by name."""
 
 import re
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Serial lines made of ptys: a cable, with noise on the line and an end to unplug, and an slcan adapter."""
+"""Emulated serial lines made of ptys: a cable with noise that can be unplugged, and an slcan adapter."""
 
 import os
 import pty

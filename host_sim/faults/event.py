@@ -1,4 +1,4 @@
-"""Events: what happens to a robot, its line or this host at a tick, as a person writes it."""
+"""Events: what happens to a robot, its line or this host at a tick, and how that is written."""
 
 import re
 from dataclasses import dataclass

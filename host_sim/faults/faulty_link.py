@@ -1,4 +1,4 @@
-"""A link on which a schedule's faults happen, around any other link."""
+"""A link that injects a schedule's faults into any other link."""
 
 import math
 from collections import deque

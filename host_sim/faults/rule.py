@@ -1,4 +1,4 @@
-"""Rules: which frames meet with which fault, as a person writes them."""
+"""Rules: which frames get which fault, and how that is written."""
 
 import re
 from dataclasses import dataclass, replace

@@ -1,4 +1,4 @@
-"""A schedule of faults: rules, drawn frame by frame from a seed, with a record of what they did."""
+"""A schedule of faults: rules applied frame by frame with a seed, and a record of their effects."""
 
 from array import array
 from collections.abc import Sequence

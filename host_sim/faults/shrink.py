@@ -1,4 +1,4 @@
-"""From faults that bring something about the fewest that still do."""
+"""Reduces a list of faults to the fewest that still cause the same effect."""
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace

@@ -1,1 +1,1 @@
-"""Live runs: people watch them and interfere."""
+"""Live runs, which people watch and interact with."""

@@ -1,4 +1,4 @@
-"""The messages to a board: who is there, how each robot learns, and how the run stands."""
+"""The messages to a board: the people, each robot's learning curve, and the state of the run."""
 
 import json
 from collections import deque

@@ -1,4 +1,4 @@
-"""The page server's connections: few enough, short enough, and reported in one line where something is wrong."""
+"""Limits and one-line error reports for the page server's connections."""
 
 import asyncio
 import logging

@@ -1,4 +1,4 @@
-"""How each robot's learning grows with time: trials, blocked time, cells known, meals."""
+"""Each robot's learning curves over time: trials, blocked time, cells known, meals."""
 
 from dataclasses import dataclass, field
 

@@ -1,4 +1,4 @@
-"""The signals that end a run in order: Ctrl-C, a request to end, a terminal that is closed."""
+"""Handles the signals that end a run in an orderly way: SIGINT, SIGTERM and SIGHUP."""
 
 import signal
 from collections.abc import Callable, Iterator

@@ -1,4 +1,4 @@
-"""The messages to one watching page: only what has changed, and only the latest state."""
+"""The messages to one open page: only what has changed, and only the latest state."""
 
 import json
 import time

@@ -1,4 +1,4 @@
-"""A run that people watch and interfere with: paced by the wall clock, with commands carried out between ticks."""
+"""A run that people watch and interact with: paced by the wall clock, with commands carried out between ticks."""
 
 import asyncio
 import time

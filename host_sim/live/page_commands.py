@@ -1,4 +1,4 @@
-"""The commands of a watching page, parsed and validated."""
+"""The commands that a page sends, parsed and validated."""
 
 import json
 from collections.abc import Callable, Mapping

@@ -1,4 +1,4 @@
-"""What people at a page do with the robots of a run, between two ticks: move them, command them."""
+"""Moves and commands robots between two ticks, as people at a page request."""
 
 from host_sim.client.commands import erase_memory, freeze, write_cells
 from host_sim.live.page_commands import EraseMemory, Freeze, LiftRobot, PutRobot, WriteCell

@@ -1,4 +1,4 @@
-"""Which page has which robot, where each page has one of its own."""
+"""Assigns robots to pages where each page has its own."""
 
 import re
 import unicodedata

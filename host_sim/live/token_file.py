@@ -1,4 +1,4 @@
-"""The token of pages on this machine: the same for each run, so that a page can stay open from run to run."""
+"""The access token of pages on this machine; it stays the same, so a page can stay open across runs."""
 
 import contextlib
 import os

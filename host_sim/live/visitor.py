@@ -1,4 +1,4 @@
-"""A page that is open: it is sent what is new, and what it asks for is carried out if it may."""
+"""One open page: sends it updates, and carries out its commands if it may give them."""
 
 import asyncio
 import contextlib

@@ -1,1 +1,1 @@
-"""The bus protocol: frames and what they say."""
+"""The bus protocol: frames and their contents."""

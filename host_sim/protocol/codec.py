@@ -1,4 +1,4 @@
-"""The wire, as `hal/protocol/octet.dbc` has it: what the simulator sends to frames, frames to what the robot says."""
+"""Encodes and decodes frames as `hal/protocol/octet.dbc` describes them."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""The frames of all nodes: whose each is, and what it says."""
+"""The frames of all nodes: sender and contents of each."""
 
 from typing import NamedTuple
 

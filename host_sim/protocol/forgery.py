@@ -1,4 +1,4 @@
-"""Frames in another's name: any message with any content, whose CRC is true."""
+"""Forged frames: any message with any content and a valid CRC."""
 
 from collections.abc import Callable
 from random import Random

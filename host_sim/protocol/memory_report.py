@@ -1,4 +1,4 @@
-"""The learned memory, which comes in two frames."""
+"""Joins the two frames that report the learned memory."""
 
 from host_sim.protocol.codec import DecodedFrame
 from host_sim.protocol.generated import CELL_COUNT

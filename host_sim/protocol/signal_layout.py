@@ -1,4 +1,4 @@
-"""Where a message's signals lie in its frame."""
+"""The positions of a message's signals in its frame."""
 
 from collections.abc import Mapping
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""The words and ranges of a command line, from octet.dbc itself: they are needed before anything is generated."""
+"""The words and ranges of the command line, read from octet.dbc: they are needed before anything is generated."""
 
 import re
 from typing import NamedTuple

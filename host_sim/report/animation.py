@@ -1,4 +1,4 @@
-"""A short animation of a run: the arena with the robot's senses, its reason in words, and its memory as it fills."""
+"""An animated GIF of a run: the arena with the robot's senses, its reason in words, and its memory."""
 
 from dataclasses import dataclass
 from io import BytesIO

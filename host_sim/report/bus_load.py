@@ -1,4 +1,4 @@
-"""How much of a CAN bus the robots take: at worst, by octet.dbc, and in a log. The tables are Markdown."""
+"""Bus load of the robots: the worst case by octet.dbc, and as measured in a log. The tables are Markdown."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field

@@ -1,4 +1,4 @@
-"""Drawing for all pictures: a plan in mm, its colours, and the robot, food, cones and cells on it."""
+"""What all pictures share: a plan in mm with its colours, and how to draw robot, food, cones and cells on it."""
 
 import math
 from collections.abc import Iterable, Sequence

@@ -1,4 +1,4 @@
-"""One picture of a fleet: who finished when, each robot a square; what they have learned; their common world."""
+"""The picture of a fleet: when each robot finished, one square each; what they learned; their common world."""
 
 from collections.abc import Sequence
 from io import BytesIO

@@ -1,4 +1,4 @@
-"""The one palette of all pictures: looking for the best colours of each takes longer than drawing it."""
+"""One fixed palette for all pictures: computing the best one for each takes longer than drawing."""
 
 from functools import cache
 from itertools import combinations

@@ -1,4 +1,4 @@
-"""One picture of a whole run: every environment with the robots' paths, and below them the robots' memories."""
+"""The picture of a whole run: every environment with the robots' paths, and the robots' memories below."""
 
 import math
 from collections.abc import Iterator, Mapping, Sequence

@@ -1,4 +1,4 @@
-"""How the pictures of a run and of a fleet are laid out on paper: rows of images under lines of text."""
+"""The layout of the pictures of runs and fleets: rows of images under lines of text."""
 
 from collections.abc import Sequence
 

@@ -233,7 +233,7 @@ class Simulation:
             self._happen(change)
 
     def _happen(self, change: Change) -> None:
-        """Makes a change; what cannot be is noted, and the run goes on."""
+        """Applies a change; if that is impossible, records why and continues."""
         try:
             for edit in edits_of(change, self.arena, self.params, self.seed):
                 self.edit(edit)

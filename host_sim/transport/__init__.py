@@ -1,1 +1,1 @@
-"""How frames get to a robot and back."""
+"""Links that carry frames to a robot and back."""

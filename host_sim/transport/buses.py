@@ -1,4 +1,4 @@
-"""From the name that a person types to an open link on a bus."""
+"""Opens the link that a bus name on the command line stands for."""
 
 import errno
 import logging

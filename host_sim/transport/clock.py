@@ -1,4 +1,4 @@
-"""The time that waiting takes: wall-clock time, or a virtual time that passes only during a wait."""
+"""Clocks to wait by: the wall clock, or a virtual clock that advances only during a wait."""
 
 import time
 from typing import Protocol

@@ -1,4 +1,4 @@
-"""What happens to a line below the frames."""
+"""Counters of what happens below the frames: outages and unsent frames."""
 
 from dataclasses import dataclass
 

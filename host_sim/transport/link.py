@@ -1,4 +1,4 @@
-"""Ways for frames to get to a robot and back."""
+"""The interface of links that carry frames to a robot and back."""
 
 from collections.abc import Callable
 from typing import Protocol, runtime_checkable

@@ -1,4 +1,4 @@
-"""A line that comes back: a bus that goes down and up, an adapter that is unplugged and plugged in again."""
+"""A link that reconnects: after a bus went down, or an adapter was unplugged."""
 
 import time
 from collections.abc import Callable

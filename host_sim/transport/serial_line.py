@@ -1,4 +1,4 @@
-"""An slcan adapter, or a robot that speaks slcan itself, on a serial port."""
+"""A serial port with an slcan adapter, or with a robot that speaks slcan itself."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""One line for several robots, where a bus can be opened only once: an adapter on a serial port."""
+"""One line shared by several robots, for buses that can be opened only once, such as a serial adapter."""
 
 import time
 from collections import deque

@@ -1,4 +1,4 @@
-"""Frames as slcan text over a stream, a socket or a serial line: `tIIILDD..` and a carriage return for each."""
+"""Frames as slcan text over a stream, such as a socket or a serial line: one `tIIILDD..` and carriage return each."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""A python-can bus over a socket pair: SocketCAN's 16-byte frames, one a datagram, with no CAN in the kernel."""
+"""A python-can bus over a socket pair, with SocketCAN's 16-byte frames as datagrams; needs no CAN in the kernel."""
 
 import errno
 import math

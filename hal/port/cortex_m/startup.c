@@ -37,8 +37,8 @@ static const struct vectors vectors = {
     },
 };
 
-/* It takes a few cycles; and if it never comes, the watchdog does. Without the barrier, neither the compiler nor the core's write
- * buffer has to store what was noted of a crash before. */
+/* Takes a few cycles; if the reset fails, the watchdog resets. The barrier forces the compiler and the core's write buffer to
+ * store the crash record first. */
 static void restart(void)
 {
     __asm__ volatile("dsb" ::: "memory");

@@ -44,7 +44,7 @@ static int replace(const char *path, const uint8_t memory[CELL_COUNT])
     return -1;
 }
 
-/* A rename is on the disk once its folder is. */
+/* fsync of the directory: only then is the rename durable. */
 static int sync_folder(const char *path)
 {
     char copy[PATH_MAX] = {0};   /* dirname writes into it */

@@ -3,9 +3,9 @@
  * Simulation.step in host_sim/sim/simulation.py is the readable reference. Here the same happens in the same order, with
  * the same frames: the robots hear and answer by the wire's own codec. The caller provides all memory.
  *
- * A robot is in this process, or behind a link. Of one behind a link, only the usual is dealt with here: the drive that
- * answers its senses, and reports that say what is known. At whatever else comes or does not come, the tick is handed
- * over as it is, for the caller to go on with: the rules of a session are in host_sim/client/. */
+ * A robot is in this process, or behind a link. For a robot behind a link, this handles only the common case: the drive
+ * that answers its senses, and reports that say nothing new. Anything else, or a timeout, hands the unfinished tick to
+ * the caller: the rules of a session are in host_sim/client/. */
 #ifndef OCTET_LOOP_H
 #define OCTET_LOOP_H
 
