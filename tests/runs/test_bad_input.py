@@ -42,6 +42,9 @@ WRONG = {
         "leave --bitrate out",
     ),
     "a port, and no page": (["--port", "8139"], "--watch"),
+    "robots beyond the last number": (["--robots", "2", "--node", "31", "--bus", "none"], "the last is 31"),
+    "more robots than a bus has numbers": (["--robots", "32"], "has no bus"),
+    "two flash images": (["--robots", "2", "--robot", "qemu"], "leave out --node and --robots"),
     "a port, and a fleet": (["--robots", "40", "--bus", "none", "--port", "8139"], "--watch"),
 }
 

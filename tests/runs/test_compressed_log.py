@@ -84,10 +84,3 @@ def test_on_a_full_disk_the_run_ends_in_order_and_what_fitted_can_be_read(tmp_pa
     assert (fate.status, fate.is_orderly) == (1, True), fate.errors
     assert part.stat().st_size == size
     assert sum(1 for _ in read_log(part)) > size // 40
-
-
-def test_a_fleet_has_no_log_to_compress(tmp_path):
-    done = octet("run", "--robots", "100", "--compress-log", "--out", tmp_path)
-
-    assert done.returncode == 2
-    assert done.stderr.endswith("leave --compress-log out\n")

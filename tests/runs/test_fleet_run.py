@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from host_sim.cli.run_options import RunOptions
+from host_sim.sim.run_config import flag_of, options_of
 from tests.runs.support import octet
 
 SHORT = ("--environments", "2", "--limit-s", "20", "--seed", "3")
@@ -96,6 +98,7 @@ REFUSED = {
     "another robot": (("--robot", "emulated"), "leave --robot out"),
     "a node number": (("--node", "5"), "leave --node out"),
     "the reference physics": (("--physics", "pymunk"), "leave --physics pymunk out"),
+    "a compressed log": (("--compress-log",), "leave --compress-log out"),
     "changes": (("--change", "plant@5s"), "leave --change out"),
     "faults": (("--fault", "drop:1%"), "leave --fault out"),
     "people who watch": (("--watch",), "a fleet cannot be watched"),
@@ -113,6 +116,12 @@ def test_what_a_fleet_does_not_have_is_refused(tmp_path, words, reason):
     assert done.stderr.count("\n") == 1
     assert reason in done.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_each_option_that_the_table_keeps_from_fleets_is_among_them():
+    kept = {flag_of(name, row) for name, (_, row) in options_of(RunOptions).items() if not row.fleet}
+
+    assert kept <= {words[0] for words, _ in REFUSED.values()}
 
 
 def test_fleets_are_for_run_only():
