@@ -7,6 +7,7 @@ set(CMAKE_SYSROOT /usr)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)   # a program would want a start-up
 
 set(CMAKE_C_FLAGS_INIT "-ffp-contract=off")
-set(CMAKE_C_STANDARD_LIBRARIES_INIT "-lc")
+# GNU ar, which is what CMake takes where there is no llvm-ar, makes no index of such objects: take them without one.
+set(CMAKE_C_STANDARD_LIBRARIES_INIT "-Wl,--no-whole-archive -lc")
 set(CMAKE_EXE_LINKER_FLAGS_INIT
-  "-nostartfiles -nodefaultlibs -Wl,--no-entry -Wl,--strip-all -Wl,--fatal-warnings -Wl,-z,stack-size=65536")
+  "-nostartfiles -nodefaultlibs -Wl,--no-entry -Wl,--strip-all -Wl,--fatal-warnings -Wl,-z,stack-size=65536 -Wl,--whole-archive")

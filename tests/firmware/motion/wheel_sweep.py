@@ -45,7 +45,7 @@ class Figures(NamedTuple):
 def _interface():
     ffi, library = load()
     for name in ("real_wheels", "wheel_run"):
-        ffi.cdef(declarations(ROOT / f"tests/firmware/{name}.h"))
+        ffi.cdef(declarations(ROOT / f"tests/firmware/motion/{name}.h"))
     return ffi, library
 
 
