@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
 from tools.verify import command  # noqa: E402 - found by the line above
-from tools.verify.command import VerifyError  # noqa: E402
+from tools.verify.command import ChoiceError  # noqa: E402
 from tools.verify.size.budget import read  # noqa: E402
 from tools.verify.size.core_alone import compiler_of  # noqa: E402
 from tools.verify.size.pieces import read_pieces  # noqa: E402
@@ -128,7 +128,7 @@ def test_each_image_has_a_budget_for_each_compiler() -> None:
 def test_a_table_that_cannot_be_read_is_an_error(text: str, tmp_path: Path) -> None:
     (tmp_path / "size.md").write_text(text)
 
-    with pytest.raises(VerifyError, match=r"cannot read .*size\.md"):
+    with pytest.raises(ChoiceError, match=r"cannot read .*size\.md"):
         read(tmp_path / "size.md")
 
 

@@ -126,7 +126,7 @@ def test_without_a_test_its_mutants_live():
 def test_an_unknown_source_is_refused_with_those_there_are():
     result = mutate("firmware/nothing.c")
 
-    assert result.returncode == 1
+    assert result.returncode == 2
     assert "no C test is built from firmware/nothing.c" in result.stderr
     assert "firmware/motion/motion.c" in result.stderr
 

@@ -12,6 +12,10 @@ class VerifyError(Exception):
     """It cannot be verified; says why."""
 
 
+class ChoiceError(VerifyError):
+    """What was asked for is not there."""
+
+
 def parser(name: str, description: str | None) -> argparse.ArgumentParser:
     """The parser of a command, which is named by its path."""
     return argparse.ArgumentParser(
@@ -20,13 +24,15 @@ def parser(name: str, description: str | None) -> argparse.ArgumentParser:
 
 
 def run(name: str, check: Callable[[], Sequence[str]]) -> int:
-    """Checks, and prints the complaints; returns the exit code: 0, or 1 if there are any."""
+    """Checks, and prints the complaints; returns the exit code: 0, 1 if there are any, 2 if it was asked wrongly."""
+    code = 1
     try:
         complaints = check()
     except VerifyError as error:
         complaints = [str(error)]
+        code = 2 if isinstance(error, ChoiceError) else 1
     sys.stderr.writelines(f"{name}: {complaint}\n" for complaint in complaints)
-    return 1 if complaints else 0
+    return code if complaints else 0
 
 
 def output_of(*command: object, error: type[VerifyError] = VerifyError, env: Mapping[str, str] | None = None) -> str:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from tools.verify.command import VerifyError
+from tools.verify.command import ChoiceError, VerifyError
 
 COLUMNS = ("flash", "ram", "stack", "instructions")
 
@@ -64,7 +64,7 @@ def read(path: Path) -> Budget:
     """The table in a file.
 
     Raises:
-        VerifyError: It cannot be read.
+        ChoiceError: It cannot be read.
     """
     try:
         head, bar, text = path.read_text().partition("| what ")
@@ -73,7 +73,7 @@ def read(path: Path) -> Budget:
             raise ValueError("there is no row")
         return Budget(head, {(what, compiler): _cells(cells) for what, compiler, *cells in lines[2:]})
     except (OSError, ValueError) as error:
-        raise VerifyError(f"cannot read {path}: {error!r}") from error
+        raise ChoiceError(f"cannot read {path}: {error!r}") from error
 
 
 def _cells(texts: list[str]) -> dict[str, Cell]:
