@@ -54,6 +54,7 @@ class Tree:
             "tools/generate",
             "requirements/unity.lock",
             "tools/robot_words/model.py",
+            "tools/cmake/wasm32.cmake",
         ):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.folder / name)
@@ -139,6 +140,15 @@ def test_a_warning_of_a_compiler_is_shown_and_goes_on(tree: Tree) -> None:
     done, _ = tree.setup("run")
     assert done.returncode == 0
     assert done.stderr.splitlines()[-1] == "x.c:1:5: warning: unused"
+
+
+def test_a_toolchain_that_changed_is_configured_anew(tree: Tree) -> None:
+    tree.setup("images")
+    (tree.folder / "tools/cmake/wasm32.cmake").write_text("# another one")
+
+    tree.setup("images")
+
+    assert sorted(tree.built()) == ["build/blue_pill", "build/feather_stm32f405", "build/nucleo_g431rb"]
 
 
 def test_a_build_that_fails_fails_the_set_up_and_the_others_end(tree: Tree) -> None:
