@@ -19,7 +19,7 @@ from host_sim.sim.world_record import Begun, WorldRecord
 from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene
 from host_sim.world.arena import Arena
-from host_sim.world.edits import Edit, EditError, make_edit
+from host_sim.world.edits import Edit, EditError
 from host_sim.world.params import SimParams
 
 _LIMIT_S = 600.0
@@ -175,7 +175,7 @@ class _Resimulator:
 
     def _edit(self, arena: Arena, tick: int, edit: Edit) -> None:
         try:
-            make_edit(arena, edit, self._params)
+            arena.edit(edit)
         except EditError as error:
             raise self._mismatch(tick, str(error)) from None
 

@@ -16,7 +16,7 @@ from host_sim.world.arena import Arena
 from host_sim.world.body import Body
 from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change
-from host_sim.world.edits import Edit, EditError, make_edit
+from host_sim.world.edits import Edit, EditError
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
 from host_sim.world.physics_names import FAST, PYMUNK
@@ -225,7 +225,7 @@ class Simulation:
         Raises:
             EditError: The change cannot be made; nothing was changed.
         """
-        make_edit(self.arena, edit, self.params)
+        self.arena.edit(edit)
         self.record.add(Edited(self.tick, edit))
 
     def _surprise(self) -> None:

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 
 from host_sim.protocol.generated import Ranges
 from host_sim.world.body import Body
+from host_sim.world.edit_json import edit_in_c
+from host_sim.world.edits import Edit, EditError
 from host_sim.world.geometry import Point
 from host_sim.world.layouts import Layout
 from host_sim.world.native_world import NativeWorld
@@ -39,10 +41,6 @@ class Food:
         """Number of pieces that are left."""
         return int(self._inside.library.world_food_left(self._inside.world))
 
-    def move(self, food_id: int, at: Point) -> None:
-        """Moves a piece; an eaten one stays eaten."""
-        self._pieces[food_id].x_mm, self._pieces[food_id].y_mm = at
-
 
 class Arena:
     """One layout with its robots in it. Equal layouts and drives give equal senses, bit for bit.
@@ -57,7 +55,7 @@ class Arena:
         inside: All of it in C, of which the others are views.
         bodies: The robots' bodies, in the order of the layout's starts.
         food: The food, shared by all robots.
-        obstacles: Walls and bars, the bars by id: at first 0, 1, ... as in the layout.
+        obstacles: The obstacles; the bars' ids are at first 0, 1, ... as in the layout.
     """
 
     def __init__(self, layout: Layout, params: SimParams, before: Sequence[Body] = (), physics: str = FAST) -> None:
@@ -71,12 +69,12 @@ class Arena:
             physics: One of `PHYSICS`; both have the same results.
         """
         self._starts, self.params = layout.starts, params
-        self.inside = NativeWorld(self._starts, layout.food, params, physics)
+        self.inside = NativeWorld(layout, params, physics)
         self.food = Food(self.inside)
         self.bodies = [
             Body(self.inside, index, before[index] if before else None) for index in range(len(self._starts))
         ]
-        self.obstacles = Obstacles(self.inside, layout.bars, params)
+        self.obstacles = Obstacles(self.inside.furniture)
 
     @property
     def body(self) -> Body:
@@ -92,6 +90,19 @@ class Arena:
         """What a robot is told that its sensors measure where it stands: walls, bars and other robots."""
         none = self.inside.library.RANGE_NONE
         return Ranges._make(None if range_mm == none else range_mm for range_mm in self.inside.measure(index))
+
+    def edit(self, edit: Edit) -> None:
+        """Makes one edit, between two ticks; bodies feel it at once. Equal edits at equal ticks give equal runs.
+
+        Raises:
+            EditError: The edit cannot be made; nothing was changed.
+        """
+        inside = self.inside
+        if why := inside.library.edit_make(inside.furniture, inside.world, edit_in_c(edit)):
+            raise EditError(inside.ffi.string(why).decode())
+        inside.lay_out()
+        for body, in_c in zip(self.bodies, inside.bodies, strict=True):
+            body.lifted = bool(in_c.lifted)
 
     def repair(self) -> None:
         """Makes all bodies sound."""

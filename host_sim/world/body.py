@@ -21,7 +21,7 @@ class Body:
     arc. A body pressed into an obstacle, such as another robot, is pushed straight out of it, so it stops or slides.
 
     Attributes:
-        lifted: Whether a person holds it in the air.
+        lifted: Whether a person holds it in the air: its wheels turn, but it does not move or sense anything.
         faults: What is wrong with it, a `struct body_faults`.
     """
 
@@ -104,17 +104,6 @@ class Body:
             ValueError: There is no such fault.
         """
         add_fault(self._ffi.addressof(self.faults), what, seed, self._index)
-
-    def lift(self) -> None:
-        """Lifts the body off the floor: its wheels still turn, but it does not move or sense anything."""
-        self._body.lifted = self.lifted = True
-        self._inside.settle()
-
-    def put(self, pose: Pose) -> None:
-        """Puts the body down. The caller makes sure that there is room for it."""
-        self._body.lifted = self.lifted = False
-        self._body.x_mm, self._body.y_mm, self._body.heading_rad = pose
-        self._inside.settle()
 
 
 @cache

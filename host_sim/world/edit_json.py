@@ -21,6 +21,7 @@ from host_sim.world.edits import (
     RemovePlant,
 )
 from host_sim.world.geometry import Bar, Plant, Point, Pose
+from host_sim.world.world_library import world_library
 
 SIZE_MAX_MM = 100_000
 """Maximum coordinate in an edit, mm."""
@@ -45,6 +46,15 @@ def edit_to(edit: Edit) -> dict[str, Any]:
     """The JSON object of an edit, from which `edit_from` makes an equal edit."""
     name, fields = _WRITERS[type(edit)]
     return {"do": name, **fields(edit)}
+
+
+def edit_in_c(edit: Edit) -> Any:
+    """The same as a `struct edit *`."""
+    ffi, library = world_library()
+    fields = edit_to(edit)
+    kind = getattr(library, f"EDIT_KIND_{fields.pop('do').upper()}")
+    what = fields.pop("what", "").encode()[: library.EDIT_TEXT_MAX - 1]
+    return ffi.new("struct edit *", {"kind": kind, "what": what, **fields})
 
 
 def whole(fields: Mapping[str, Any], name: str, low: int, high: int) -> int:

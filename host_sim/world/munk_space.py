@@ -4,7 +4,6 @@ C code calls the functions of `native/space.h`, which are Python here, whenever 
 world is in C.
 """
 
-from collections.abc import Sequence
 from typing import Any
 
 import pymunk
@@ -46,10 +45,10 @@ class MunkSpace:
         self._in_c = ffi.new("struct space *", self._asked)
         world.space = self._in_c
 
-    def lay_out(self, obstacles: Sequence[Capsule]) -> None:
-        """Takes these obstacles instead of those before; those that stay are left as they are."""
+    def lay_out(self, obstacles: Any) -> None:
+        """Takes these obstacles, a `struct capsule[]`; those that were there before are left as they are."""
         before, self._obstacles = self._obstacles, {}
-        for thing in obstacles:
+        for thing in (Capsule((it.a.x, it.a.y), (it.b.x, it.b.y), it.radius_mm) for it in obstacles):
             shapes = before.get(thing)
             self._obstacles.setdefault(thing, []).append(shapes.pop(0) if shapes else self._add(thing))
         for shapes in before.values():

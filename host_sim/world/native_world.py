@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from typing import Any, Protocol
 
-from host_sim.world.geometry import Capsule, Point, Pose
+from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
 from host_sim.world.physics_names import FAST
-from host_sim.world.plain_space import PlainSpace, capsules_in_c
+from host_sim.world.plain_space import PlainSpace
 from host_sim.world.world_library import world_library
 
 
@@ -19,8 +19,8 @@ class Space(Protocol):
 
     failures: list[BaseException]
 
-    def lay_out(self, obstacles: Sequence[Capsule]) -> None:
-        """Takes these obstacles instead of those before. What a body touches already is not new to it."""
+    def lay_out(self, obstacles: Any) -> None:
+        """Takes these obstacles, a `struct capsule[]`, instead of others. What a body touches is not new to it."""
 
 
 class NativeWorld:
@@ -32,15 +32,15 @@ class NativeWorld:
         world: The `struct world *`.
         bodies: Its bodies, a `struct body[]`.
         food: Its food, a `struct food[]`.
+        furniture: Its obstacles, a `struct furniture *`.
         space: What finds overlaps.
     """
 
-    def __init__(self, starts: Sequence[Pose], food: Sequence[Point], params: SimParams, physics: str = FAST) -> None:
-        """Puts bodies and food where they begin; there are no obstacles yet.
+    def __init__(self, layout: Layout, params: SimParams, physics: str = FAST) -> None:
+        """Puts everything where it begins.
 
         Args:
-            starts: A pose for each body.
-            food: Where the pieces of food are.
+            layout: Obstacles, food, and a start for each body.
             params: The dimensions of the world.
             physics: One of `PHYSICS`.
 
@@ -49,6 +49,7 @@ class NativeWorld:
         """
         self.ffi, self.library = world_library()
         ffi = self.ffi
+        starts, food = layout.starts, layout.food
         self.bodies: Any = ffi.new("struct body[]", len(starts))
         for body, pose in zip(self.bodies, starts, strict=True):
             body.x_mm, body.y_mm, body.heading_rad = pose
@@ -59,10 +60,13 @@ class NativeWorld:
         self.world.body_count, self.world.food_count = len(starts), len(food)
         self.world.bodies, self.world.food = self.bodies, self.food
         self.space = self._space(params, physics)
-        self._capsules: Any = None
+        size = params.width_mm, params.height_mm, params.bar_thickness_mm / 2, params.body_radius_mm
+        self.furniture: Any = ffi.new("struct furniture *", size)
+        self.library.furniture_set(self.furniture, ffi.new("struct bar[]", layout.bars), len(layout.bars))
         self._ranges: Any = ffi.new("struct ranges *")
         self._ranges.body_radius_mm, self._ranges.front_extra_mm = params.body_radius_mm, params.front_extra_mm
         self._ranges.reach_mm = params.body_radius_mm + params.sensor_reach_mm
+        self.lay_out()
 
     def _space(self, params: SimParams, physics: str) -> Space:
         if physics == FAST:
@@ -76,23 +80,19 @@ class NativeWorld:
         """Where the `struct world` is, for another library."""
         return int(self.ffi.cast("uintptr_t", self.world))
 
-    def lay_out(self, obstacles: Sequence[Capsule]) -> None:
-        """Takes these obstacles instead of those before."""
-        self._capsules = capsules_in_c(self.ffi, self.library, obstacles)
-        self._ranges.capsules, self._ranges.capsule_count = self._capsules, len(obstacles)
-        self.space.lay_out(obstacles)
-        self.settle()
+    def lay_out(self) -> None:
+        """Takes the furniture as it is now."""
+        capsules = self.furniture.capsules[0 : self.furniture.capsule_count]
+        self._ranges.capsules, self._ranges.capsule_count = capsules, len(capsules)
+        self.space.lay_out(capsules)
+        self.library.world_settle(self.world)
+        self.check()
 
     def measure(self, index: int) -> Sequence[int]:
         """What a body's sensors measure, in the order of feel's bits: whole mm, or `RANGE_NONE`."""
         measured = self.ffi.new("uint8_t[]", self.library.FEEL_COUNT)
         self.library.ranges_measure(self._ranges, self.world, self.bodies + index, measured)
         return list(measured)
-
-    def settle(self) -> None:
-        """Finds what all bodies overlap, now that one of them or an obstacle was moved."""
-        self.library.world_settle(self.world)
-        self.check()
 
     def check(self) -> None:
         """Raises what the space raised while C code asked it, such as KeyboardInterrupt."""

@@ -1,9 +1,7 @@
 """What overlaps in an arena, by plain geometry in C (`native/plain_space.h`)."""
 
-from collections.abc import Sequence
 from typing import Any
 
-from host_sim.world.geometry import Capsule
 from host_sim.world.params import SimParams
 
 
@@ -12,14 +10,6 @@ def cones_in_c(ffi: Any, library: Any, params: SimParams) -> Any:
     cones = ffi.new("struct cones *")
     library.cones_set(cones, params.body_radius_mm + params.sensor_reach_mm, params.front_extra_mm)
     return cones
-
-
-def capsules_in_c(ffi: Any, library: Any, things: Sequence[Capsule]) -> Any:
-    """Obstacles, a `struct capsule[]`."""
-    capsules = ffi.new("struct capsule[]", len(things))
-    for i, (a, b, radius_mm) in enumerate(things):
-        library.capsule_set(capsules + i, [*a], [*b], radius_mm)
-    return capsules
 
 
 class PlainSpace:
@@ -39,22 +29,17 @@ class PlainSpace:
             params: Its dimensions.
         """
         self.failures: list[BaseException] = []
-        self._ffi, self._library, self._world = ffi, library, world
+        self._library, self._world = library, world
         # cffi frees what no name holds any more.
         self._places = ffi.new("struct plain_place[]", world.body_count)
         self._cones = cones_in_c(ffi, library, params)
-        self._capsules: Any = None
-        self._touching: Any = None
+        bodies, most = world.body_count, library.FURNITURE_CAPSULES_MAX
+        self._touching = ffi.new("uint64_t[]", (bodies + 1) * -(-(most + bodies) // library.PLAIN_WORD_BITS))
         self._space: Any = ffi.new("struct plain_world *")
         self._space.body_radius_mm, self._space.cones = params.body_radius_mm, self._cones
-        self._space.places = self._places
+        self._space.places, self._space.touching = self._places, self._touching
 
-    def lay_out(self, obstacles: Sequence[Capsule]) -> None:
-        """Takes these obstacles instead of those before."""
-        ffi, space, bodies = self._ffi, self._space, self._world.body_count
-        self._capsules = capsules_in_c(ffi, self._library, obstacles)
-        words = -(-(len(obstacles) + bodies) // self._library.PLAIN_WORD_BITS)
-        self._touching = ffi.new("uint64_t[]", words * (bodies + 1))
-        space.capsules, space.capsule_count = self._capsules, len(obstacles)
-        space.touching, space.words = self._touching, words
-        self._library.plain_space_take(space, self._world)
+    def lay_out(self, obstacles: Any) -> None:
+        """Takes these obstacles, a `struct capsule[]`, instead of those before."""
+        self._space.capsules, self._space.capsule_count = obstacles, len(obstacles)
+        self._library.plain_space_take(self._space, self._world)

@@ -18,7 +18,7 @@ HEADERS = (
     *WORLD_HEADERS,
     *(_NATIVE / f"{name}.h" for name in ("body", "ranges", "draw/draws", "clearance")),
     *_DRAW,
-    _NATIVE / "history.h",
+    *(_NATIVE / f"{name}.h" for name in ("furniture", "edits", "history")),
 )
 
 

@@ -42,7 +42,7 @@ def test_a_cone_that_reaches_a_little_farther_is_found(monkeypatch):
     def enter(self, arena) -> None:
         farther = replace(arena.params, sensor_reach_mm=61.0)
         arena.inside.space = PlainSpace(*world_library(), arena.inside.world, farther)
-        arena.inside.lay_out(arena.obstacles.capsules)
+        arena.inside.lay_out()
         entered(self, arena)
 
     monkeypatch.setattr(NativeLoop, "enter", enter)

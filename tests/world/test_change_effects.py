@@ -7,7 +7,7 @@ import pytest
 from host_sim.world.arena import Arena
 from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change
-from host_sim.world.edits import AddPlant, ChangeBody, EditError, GrowPlant, make_edit
+from host_sim.world.edits import AddPlant, ChangeBody, EditError, GrowPlant
 from host_sim.world.geometry import Bar, Plant, Pose
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams
@@ -19,7 +19,7 @@ PARAMS = SimParams()
 def happen(arena: Arena, text: str, seed: int = 1) -> list:
     edits = edits_of(Change.parse(text), arena, PARAMS, seed)
     for edit in edits:
-        make_edit(arena, edit, PARAMS)
+        arena.edit(edit)
     return edits
 
 
@@ -95,7 +95,7 @@ def test_a_plant_is_an_obstacle_like_any_other():
     arena = Arena(Layout((Bar((9.0, 9.0), (99.0, 99.0)),), ((2500.0, 1500.0),), Pose(2000.0, 1500.0, 0.0)), PARAMS)
     assert arena.body.sense(0).look
 
-    make_edit(arena, AddPlant(Plant((2230.0, 1500.0), 80.0)), PARAMS)
+    arena.edit(AddPlant(Plant((2230.0, 1500.0), 80.0)))
 
     assert arena.body.sense(0).feel == 4
     assert not arena.body.sense(0).look

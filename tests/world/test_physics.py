@@ -12,7 +12,7 @@ from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import SPACES_MAX
 from host_sim.world.arena import Arena
-from host_sim.world.edits import AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar, make_edit
+from host_sim.world.edits import AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar
 from host_sim.world.geometry import Bar, Point, Pose
 from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
@@ -76,7 +76,7 @@ def random_edit(draws: random.Random, robots: int) -> Edit:
 def refusal(arena: Arena, edit: Edit) -> str:
     """Makes a change, or says why not."""
     try:
-        make_edit(arena, edit, PARAMS)
+        arena.edit(edit)
     except EditError as error:
         return str(error)
     return ""

@@ -8,6 +8,7 @@ import pytest
 from host_sim.protocol.generated import NOTHING_NEAR, RANGE_NONE, Ranges
 from host_sim.world.arena import Arena
 from host_sim.world.cones import CONE_BEARINGS_DEG
+from host_sim.world.edits import Lift
 from host_sim.world.geometry import Bar, Capsule, Pose, ahead_of
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.native_world import NativeWorld
@@ -25,8 +26,11 @@ def peg(bearing_deg: float, gap_mm: float, radius_mm: float = 20.0) -> Capsule:
 
 
 def measured(*things: Capsule, pose: Pose = START) -> Ranges:
-    inside = NativeWorld([pose], [], PARAMS)
-    inside.lay_out(things)
+    inside = NativeWorld(Layout((), (), pose), PARAMS)
+    for there, (a, b, radius_mm) in enumerate(things, inside.library.WALLS):
+        inside.library.capsule_set(inside.furniture.capsules + there, a, b, radius_mm)
+    inside.furniture.capsule_count += len(things)
+    inside.lay_out()
     return Ranges._make(None if range_mm == RANGE_NONE else range_mm for range_mm in inside.measure(0))
 
 
@@ -48,10 +52,9 @@ def test_the_front_cone_reaches_half_a_millimetre_farther(bearing_deg, gap_mm, s
 
 def test_a_wall_ahead_is_farther_away_in_the_cones_beside():
     gap_mm = 30.0
-    wall = Capsule((4100.0, -100.0), (4100.0, 3100.0), 100.0)
     beside_mm = (RADIUS_MM + gap_mm) / math.cos(math.radians(22.5)) - RADIUS_MM
 
-    ranges = measured(wall, pose=Pose(4000.0 - RADIUS_MM - gap_mm, 1500.0, 0.0))
+    ranges = measured(pose=Pose(4000.0 - RADIUS_MM - gap_mm, 1500.0, 0.0))
 
     assert ranges == Ranges(None, round(beside_mm), round(gap_mm), round(beside_mm), None)
 
@@ -120,7 +123,9 @@ def test_what_is_measured_is_felt():
     for _ in range(100):
         x, y = dice.choice(layout.bars).a
         beside = ahead_of(Pose(x, y, 0.0), dice.uniform(125.0, 185.0), dice.uniform(-math.pi, math.pi))
-        arena.body.put(Pose(*beside, dice.uniform(-math.pi, math.pi)))
+        body, heading_rad = arena.inside.bodies[0], dice.uniform(-math.pi, math.pi)
+        body.x_mm, body.y_mm, body.heading_rad = *beside, heading_rad
+        arena.inside.lay_out()
         feel = arena.body.sense(0).feel
         for bit, range_mm in zip(CONE_BEARINGS_DEG, arena.ranges(0), strict=True):
             if range_mm is not None and range_mm < 59:
@@ -134,7 +139,7 @@ def test_robots_measure_each_other_and_none_that_is_in_the_air():
     arena = Arena(Layout((), (), Pose(2000.0, 1500.0, 0.0), (there,)), PARAMS)
     assert (arena.ranges(0).front, arena.ranges(1)) == (25, NOTHING_NEAR)
 
-    arena.bodies[1].lift()
+    arena.edit(Lift(1))
     assert arena.ranges(0) == NOTHING_NEAR
     assert arena.ranges(1) == NOTHING_NEAR
 
@@ -144,5 +149,5 @@ def test_a_body_in_the_air_measures_nothing():
     arena = Arena(Layout((Bar((x, y), (x + 100.0, y)),), (), START), PARAMS)
     assert arena.ranges(0) != NOTHING_NEAR
 
-    arena.body.lift()
+    arena.edit(Lift())
     assert arena.ranges(0) == NOTHING_NEAR

@@ -6,6 +6,7 @@ import pytest
 
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
+from host_sim.world.edits import Lift
 from host_sim.world.geometry import Bar, Point, Pose
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams
@@ -104,15 +105,15 @@ def test_food_is_eaten_by_one_of_them_only() -> None:
 
 def test_a_lifted_robot_is_in_nobodys_way() -> None:
     arena = arena_with(at(0.0), at(240.0))
-    arena.bodies[1].lift()
+    arena.edit(Lift(1))
 
     assert feel(arena.bodies[0]) == 0
 
 
 def test_lifted_robots_sense_nothing_not_even_each_other() -> None:
     arena = arena_with(at(0.0), at(240.0))
-    for body in arena.bodies:
-        body.lift()
+    for robot in range(2):
+        arena.edit(Lift(robot))
 
     assert [body.sense(0)[1:5] for body in arena.bodies] == [(0, False, False, 0)] * 2
 

@@ -70,6 +70,7 @@ class Description:
         memory: For each profile, what its eight bytes are: one of the enum `memory_kind`.
         patterns: Names by number.
         feel: Names of the proximity sensors, from bit 0 on.
+        edits: What is changed in a world, each with the names of its fields.
         senses: What a body tells its robot at each tick.
         drive: What the robot answers.
         row: The names of the numbers that are recorded of each tick: senses, drive, and what recorders add.
@@ -94,6 +95,7 @@ class Description:
     memory: Mapping[str, str]
     patterns: Sequence[str]
     feel: Sequence[str]
+    edits: Mapping[str, Sequence[str]]
     senses: Sequence[Member]
     drive: Sequence[Member]
     row: Sequence[str]
@@ -149,6 +151,7 @@ def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
         "fault": _choices(signal("EMERGENCY.first")),
         "side": {name: number for number, name in enumerate(toml["sides"])},
         "memory_kind": {kind: number for number, kind in enumerate(toml["memory_kind"])},
+        "edit_kind": {name: number for number, name in enumerate(toml["edits"])},
         "body_fault": {name: number for number, name in enumerate(toml["body_faults"])},
     }
     profiles = _listed(_same_choices(signal("COMMAND.profile"), signal("HEARTBEAT.profile")), "profile")
@@ -165,6 +168,7 @@ def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
         memory=_memory(toml["memory"], profiles, enums["memory_kind"]),
         patterns=_patterns(toml["patterns"]),
         feel=_feel(toml["feel"], signal("SENSES.feel")),
+        edits=toml["edits"],
         senses=senses,
         drive=drive,
         row=_row(senses, drive, toml["recorded"]),

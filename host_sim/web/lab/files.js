@@ -1,8 +1,7 @@
 // @ts-check
 /* Files that the page writes and reads. */
 
-import { EDIT_FIELDS } from "../core/edit_fields.js";
-import { CELL_COUNT } from "../generated.js";
+import { CELL_COUNT, EDITS } from "../generated.js";
 import { RANDOM } from "../core/world_names.js";
 
 /**
@@ -45,7 +44,7 @@ export function worldText({ seed, environments, limit_ticks, robots, changes, wo
     front_extra_mm: frontExtraMm,
     ...(world !== RANDOM && { world }),
     environments: begun.map(([tick]) => ({ seed, number: data.sceneAt(tick).number, first_tick: tick })),
-    edits: changes.filter((change) => EDIT_FIELDS.has(change.do)),
+    edits: changes.filter((change) => Object.hasOwn(EDITS, change.do)),
   };
   return `${JSON.stringify(content)}\n`;
 }

@@ -4,9 +4,9 @@
 import { ArenaEditor } from "../edit/arena_editor.js";
 import { bindArenaKeys } from "../edit/arena_keys.js";
 import { DragController } from "../edit/drag_controller.js";
-import { EDIT_FIELDS } from "../core/edit_fields.js";
 import { byId, typedById } from "../core/elements.js";
 import { isInside, plantOf, wirePlace } from "../edit/placement.js";
+import { EDITS } from "../generated.js";
 
 /**
  * @typedef {import("./shown_run.js").ShownRun} ShownRun
@@ -116,5 +116,5 @@ export class LabEditor extends ArenaEditor {
  * @returns {command is Command & import("../types.js").WorldEdit}
  */
 function isWorldEdit(command) {
-  return EDIT_FIELDS.has(command.do);
+  return Object.hasOwn(EDITS, command.do);
 }

@@ -7,6 +7,7 @@
 
 #include "hal/library/exchange.h"
 #include "host_sim/sim/native/loop.h"
+#include "host_sim/world/native/edits.h"
 #include "host_sim/world/native/history.h"
 #include "host_sim/world/native/draw/layouts.h"
 #include "host_sim/world/native/space/plain_space.h"
@@ -17,15 +18,19 @@ enum {
     PAGE_ROBOTS_MAX = 4,
     PAGE_TICKS_MAX = 256,   /* of a block */
     PAGE_WAITING_MAX = 64,  /* frames of a robot that have not been taken yet */
-    PAGE_OBSTACLES_MAX = 60,   /* bars and plants */
-    PAGE_FOOD_MAX = 20,
     PAGE_BYTES = 8,
-    PAGE_TEXT_MAX = 256   /* with the 0 at its end */
+    PAGE_TEXT_MAX = EDIT_TEXT_MAX
 };
 
 /* The dimensions of a world, as in SimParams. */
 enum { PAGE_WIDTH_MM, PAGE_HEIGHT_MM, PAGE_BODY_MM, PAGE_TRACK_MM, PAGE_REACH_MM, PAGE_FRONT_EXTRA_MM, PAGE_BEAM_MM,
-       PAGE_EAT_MM, PAGE_TICK_S, PAGE_SPEED_MM_S, PAGE_DIMENSIONS };
+       PAGE_EAT_MM, PAGE_TICK_S, PAGE_SPEED_MM_S, PAGE_THICKNESS_MM, PAGE_DIMENSIONS };
+
+/* The numbers of an edit, as in struct edit; each of the last three places has two. */
+enum { PAGE_EDIT_ID, PAGE_EDIT_ROBOT, PAGE_EDIT_SEED, PAGE_EDIT_HEADING, PAGE_EDIT_RADIUS, PAGE_EDIT_A, PAGE_EDIT_B = PAGE_EDIT_A + 2,
+       PAGE_EDIT_AT = PAGE_EDIT_B + 2 };
+
+enum { PAGE_NUMBERS = PAGE_DIMENSIONS };   /* that JavaScript hands over at most, but for layouts */
 
 /* What layouts are drawn from, as in struct layout_kind; the bands of food are pairs of numbers. */
 enum { PAGE_DRAW_STYLE, PAGE_DRAW_WIDTH_MM, PAGE_DRAW_HEIGHT_MM, PAGE_DRAW_BODY_MM, PAGE_DRAW_REACH_MM,
@@ -39,10 +44,10 @@ struct page_world {
     struct cones cones;
     struct ranges ranges;
     struct body bodies[PAGE_ROBOTS_MAX];
-    struct food food[PAGE_FOOD_MAX];
-    struct capsule capsules[WALLS + PAGE_OBSTACLES_MAX];
+    struct food food[LAYOUT_FOOD_MAX];
+    struct furniture furniture;
     struct plain_place places[PAGE_ROBOTS_MAX];
-    uint64_t touching[PLAIN_WORDS(WALLS + PAGE_OBSTACLES_MAX + PAGE_ROBOTS_MAX) * (PAGE_ROBOTS_MAX + 1)];
+    uint64_t touching[PLAIN_WORDS(FURNITURE_CAPSULES_MAX + PAGE_ROBOTS_MAX) * (PAGE_ROBOTS_MAX + 1)];
 };
 
 /* A run. */
@@ -57,7 +62,7 @@ struct page {
     uint32_t answer_value;
     struct command command;              /* read last */
     uint8_t bytes[PAGE_BYTES];
-    double dimensions[PAGE_DIMENSIONS];
+    double numbers[PAGE_NUMBERS];
     char text[PAGE_TEXT_MAX];
 };
 
@@ -125,47 +130,33 @@ size_t page_log_used(void);
 
 void page_clear_log(void);
 
-/* page_world.c: the world around them. What is placed is settled by page_enter and page_settle. */
+/* page_world.c: the world around them. */
 
-double *page_dimensions(void);
-        /* Where JavaScript puts the dimensions of arena and bodies: PAGE_DIMENSIONS numbers. */
-
-void page_build(void);
-        /* Builds the arena by its dimensions. */
-
-void page_put_obstacle(uint32_t index, double ax_mm, double ay_mm, double bx_mm, double by_mm, double radius_mm);
-        /* Places obstacle 0..PAGE_OBSTACLES_MAX - 1: a bar or, if its ends are the same, a plant. */
-
-void page_put_food(uint32_t index, double x_mm, double y_mm);
-        /* Places piece 0..PAGE_FOOD_MAX - 1. */
-
-void page_put_body(uint32_t robot, double x_mm, double y_mm, double heading_rad);
-        /* Places a robot on the floor. */
-
-void page_lift(uint32_t robot);
-        /* Takes a robot off the floor, until page_put_body. */
+double *page_numbers(void);
+        /* Where JavaScript puts dimensions or the numbers of an edit. */
 
 char *page_text(void);
         /* Where JavaScript puts a text: PAGE_TEXT_MAX bytes. */
 
-const char *page_break(uint32_t robot, uint32_t seed);
-        /* As body_faults_add, with what is in page_text(). */
+void page_build(void);
+        /* Builds the arena with the dimensions in page_numbers(). */
+
+void page_enter(void);
+        /* An environment begins as page_draw has drawn it. */
+
+const char *page_edit(int32_t kind);
+        /* As edit_make, with what is in page_numbers() and page_text(). */
+
+const double *page_scene(void);
+        /* The numbers of bars, of plants and of pieces of food, then id and ends of each bar, id, middle and radius of each plant, and
+           of each piece of food its place and whether it is eaten. */
 
 void page_measure(uint32_t robot, uint8_t *range_mm);
         /* What a robot is told of the FEEL_COUNT distances. */
 
-void page_enter(uint32_t obstacles, uint32_t food);
-        /* An environment begins with this number of obstacles and pieces of food; none is eaten yet. */
-
-void page_settle(uint32_t obstacles);
-        /* A person has changed something; this is the number of obstacles now. */
-
 uint32_t page_run(uint32_t tick, uint32_t ticks_max);
         /* Runs a block, as loop_run does, from this tick of the run. ticks_max is 1..PAGE_TICKS_MAX. Returns how many ticks have
            been run. */
-
-uint32_t page_is_eaten(uint32_t food);
-        /* 1 if it is, else 0. */
 
 const int16_t *page_rows(uint32_t robot);
         /* For each tick of the block an enum row of numbers, */
@@ -215,6 +206,9 @@ const double *page_check(void);
 
 const char *page_fault_text(void);
         /* That fault in words. */
+
+struct layout *page_drawn(void);
+        /* What page_draw has drawn. */
 
 const double *page_draw(double seed, double number, uint32_t robots);
         /* Draws an environment for 1..PAGE_ROBOTS_MAX robots. Returns the numbers of bars, of pieces of food and of starts, and then these, as in struct

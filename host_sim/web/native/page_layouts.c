@@ -87,6 +87,11 @@ const double *page_check(void)
     return drawing.out;
 }
 
+struct layout *page_drawn(void)
+{
+    return &drawing.layout;
+}
+
 const char *page_fault_text(void)
 {
     return drawing.fault.text;

@@ -12,6 +12,11 @@ uint8_t *page_bytes(void)
     return page_state()->bytes;
 }
 
+double *page_numbers(void)
+{
+    return page_state()->numbers;
+}
+
 char *page_text(void)
 {
     return page_state()->text;

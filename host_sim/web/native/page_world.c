@@ -1,5 +1,7 @@
 #include "host_sim/web/native/page.h"
 
+#include <string.h>
+
 static struct page_world *page_world(void)
 {
     return &page_state()->world;
@@ -19,88 +21,53 @@ static void set_world(struct page_world *of, const double dimensions[PAGE_DIMENS
     of->space = (struct plain_world){
         .body_radius_mm = d[PAGE_BODY_MM],
         .cones = &of->cones,
-        .capsules = of->capsules,
+        .capsules = of->furniture.capsules,
         .places = of->places,
         .touching = of->touching,
     };
     of->ranges = (struct ranges){
-        .capsules = of->capsules,
+        .capsules = of->furniture.capsules,
         .body_radius_mm = d[PAGE_BODY_MM],
         .reach_mm = d[PAGE_BODY_MM] + d[PAGE_REACH_MM],
         .front_extra_mm = d[PAGE_FRONT_EXTRA_MM],
+    };
+    of->furniture = (struct furniture){
+        .width_mm = d[PAGE_WIDTH_MM],
+        .height_mm = d[PAGE_HEIGHT_MM],
+        .bar_radius_mm = d[PAGE_THICKNESS_MM] / 2,
+        .body_radius_mm = d[PAGE_BODY_MM],
     };
     cones_set(&of->cones, d[PAGE_BODY_MM] + d[PAGE_REACH_MM], d[PAGE_FRONT_EXTRA_MM]);
     of->world.bodies = of->bodies;
     of->world.food = of->food;
 }
 
-double *page_dimensions(void)
+/* What the bodies overlap where they are now is not new to them. */
+static void take_furniture(struct page_world *of)
 {
-    return page_state()->dimensions;
+    of->space.capsule_count = of->ranges.capsule_count = of->furniture.capsule_count;
+    world_begin(&of->world);
+    plain_space_take(&of->space, &of->world);
 }
 
 void page_build(void)
 {
     struct page_world *of = page_world();
-    const double *dimensions = page_state()->dimensions;
 
-    set_world(of, dimensions);
+    set_world(of, page_numbers());
+    furniture_set(&of->furniture, NULL, 0);
     of->world.body_count = page_state()->loop.robot_count;
-    capsule_set_walls(of->capsules, dimensions[PAGE_WIDTH_MM], dimensions[PAGE_HEIGHT_MM]);
     page_state()->loop.world = &of->world;
-}
-
-void page_put_obstacle(uint32_t index, double ax_mm, double ay_mm, double bx_mm, double by_mm, double radius_mm)
-{
-    struct vector a = {ax_mm, ay_mm}, b = {bx_mm, by_mm};
-
-    capsule_set(&page_world()->capsules[WALLS + index], a, b, radius_mm);
-}
-
-void page_put_food(uint32_t index, double x_mm, double y_mm)
-{
-    struct food *food = &page_world()->food[index];
-
-    food->x_mm = x_mm;
-    food->y_mm = y_mm;
-}
-
-void page_put_body(uint32_t robot, double x_mm, double y_mm, double heading_rad)
-{
-    struct body *body = &page_world()->bodies[robot];
-
-    body->x_mm = x_mm;
-    body->y_mm = y_mm;
-    body->heading_rad = heading_rad;
-    body->lifted = false;
-}
-
-void page_lift(uint32_t robot)
-{
-    page_world()->bodies[robot].lifted = true;
-}
-
-const char *page_break(uint32_t robot, uint32_t seed)
-{
-    return body_faults_add(&page_world()->bodies[robot].faults, page_state()->text, seed, robot);
-}
-
-static void count_obstacles(uint32_t obstacles)
-{
-    struct page_world *of = page_world();
-
-    of->space.capsule_count = WALLS + obstacles;
-    of->ranges.capsule_count = of->space.capsule_count;
-    of->space.words = PLAIN_WORDS(of->space.capsule_count + of->world.body_count);
+    take_furniture(of);
 }
 
 /* A body that has come from another environment has rolled as far as it has; of the rest it knows nothing. */
-static void begin_body(struct body *body)
+static void begin_body(struct body *body, const struct pose *start)
 {
     *body = (struct body){
-        .x_mm = body->x_mm,
-        .y_mm = body->y_mm,
-        .heading_rad = body->heading_rad,
+        .x_mm = start->at.x,
+        .y_mm = start->at.y,
+        .heading_rad = start->heading_rad,
         .left_mm = body->left_mm,
         .right_mm = body->right_mm,
         .faults = body->faults,
@@ -108,16 +75,78 @@ static void begin_body(struct body *body)
     };
 }
 
-/* What the bodies overlap where they are now is not new to them. */
-static void take_space(uint32_t obstacles)
+void page_enter(void)
 {
     struct page_world *of = page_world();
+    const struct layout *layout = page_drawn();
 
-    count_obstacles(obstacles);
-    for (size_t i = 0; i < sizeof of->touching / sizeof of->touching[0]; i++)
-        of->touching[i] = 0;
-    world_begin(&of->world);
-    plain_space_take(&of->space, &of->world);
+    furniture_set(&of->furniture, layout->bars, layout->bar_count);
+    of->world.food_count = layout->food_count;
+    for (size_t i = 0; i < layout->food_count; i++)
+        of->food[i] = (struct food){layout->food[i].x, layout->food[i].y, false};
+    for (size_t i = 0; i < of->world.body_count; i++) {
+        begin_body(&of->bodies[i], &layout->starts[i]);
+        page_state()->robots[i].food_eaten = 0;
+    }
+    take_furniture(of);
+}
+
+static struct vector place_at(unsigned first)
+{
+    return (struct vector){page_numbers()[first], page_numbers()[first + 1]};
+}
+
+const char *page_edit(int32_t kind)
+{
+    struct page_world *of = page_world();
+    const double *numbers = page_numbers();
+    struct edit edit = {
+        .kind = kind,
+        .id = (uint32_t)numbers[PAGE_EDIT_ID],
+        .robot = (uint32_t)numbers[PAGE_EDIT_ROBOT],
+        .seed = (uint32_t)numbers[PAGE_EDIT_SEED],
+        .a = place_at(PAGE_EDIT_A),
+        .b = place_at(PAGE_EDIT_B),
+        .at = place_at(PAGE_EDIT_AT),
+        .heading = numbers[PAGE_EDIT_HEADING],
+        .radius = numbers[PAGE_EDIT_RADIUS],
+    };
+    const char *why;
+
+    memcpy(edit.what, page_text(), sizeof edit.what);
+    why = edit_make(&of->furniture, &of->world, &edit);
+    if (!why)
+        take_furniture(of);
+    return why;
+}
+
+static double *put(double *at, const double numbers[], size_t count)
+{
+    memcpy(at, numbers, count * sizeof *at);
+    return at + count;
+}
+
+const double *page_scene(void)
+{
+    static double scene[3 + 5 * FURNITURE_BARS_MAX + 4 * FURNITURE_PLANTS_MAX + 3 * LAYOUT_FOOD_MAX];
+    const struct page_world *of = page_world();
+    const struct furniture *furniture = &of->furniture;
+    const double counts[] = {(double)furniture->bar_count, (double)furniture->plant_count, (double)of->world.food_count};
+    double *at = put(scene, counts, 3);
+
+    for (size_t i = 0; i < furniture->bar_count; i++) {
+        const struct bar *bar = &furniture->bars[i];
+
+        at = put(at, (double[]){furniture->bar_ids[i], bar->a.x, bar->a.y, bar->b.x, bar->b.y}, 5);
+    }
+    for (size_t i = 0; i < furniture->plant_count; i++) {
+        const struct plant *plant = &furniture->plants[i];
+
+        at = put(at, (double[]){furniture->plant_ids[i], plant->at.x, plant->at.y, plant->radius_mm}, 4);
+    }
+    for (size_t i = 0; i < of->world.food_count; i++)
+        at = put(at, (double[]){of->food[i].x_mm, of->food[i].y_mm, of->food[i].eaten}, 3);
+    return scene;
 }
 
 void page_measure(uint32_t robot, uint8_t *range_mm)
@@ -127,25 +156,6 @@ void page_measure(uint32_t robot, uint8_t *range_mm)
     ranges_measure(&of->ranges, &of->world, &of->bodies[robot], range_mm);
 }
 
-void page_enter(uint32_t obstacles, uint32_t food)
-{
-    struct page_world *of = page_world();
-
-    of->world.food_count = food;
-    for (uint32_t i = 0; i < food; i++)
-        of->food[i].eaten = false;
-    for (size_t i = 0; i < of->world.body_count; i++) {
-        begin_body(&of->bodies[i]);
-        page_state()->robots[i].food_eaten = 0;
-    }
-    take_space(obstacles);
-}
-
-void page_settle(uint32_t obstacles)
-{
-    take_space(obstacles);
-}
-
 uint32_t page_run(uint32_t tick, uint32_t ticks_max)
 {
     struct loop *loop = &page_state()->loop;
@@ -153,11 +163,6 @@ uint32_t page_run(uint32_t tick, uint32_t ticks_max)
     loop->tick = tick;
     loop_run(loop, ticks_max);
     return loop->ticks;
-}
-
-uint32_t page_is_eaten(uint32_t food)
-{
-    return page_world()->food[food].eaten;
 }
 
 const int16_t *page_rows(uint32_t robot)

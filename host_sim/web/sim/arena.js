@@ -1,58 +1,57 @@
 // @ts-check
-/* The arena of a run: what stands in it, where the robots' bodies are, and what is wrong with them. */
+/* The arena of a run, in C: what stands in it, where the robots' bodies are, and what is wrong with them. */
 
-import { EditError, Furniture } from "./world_edits.js";
+import { EDITS } from "../generated.js";
 
 /**
- * @typedef {import("../types.js").Layout} Layout
- * @typedef {import("../types.js").Pose} Pose
  * @typedef {import("../types.js").SimParams} SimParams
  * @typedef {import("../types.js").WorldEdit} WorldEdit
  */
 
+/** A change that cannot be made. */
+export class EditError extends Error {}
+
 /** The order of the dimensions in native/page.h. */
 const DIMENSIONS = /** @type {const} */ ([
   "width_mm", "height_mm", "body_radius_mm", "wheel_track_mm", "sensor_reach_mm", "front_extra_mm", "beam_width_mm",
-  "eat_reach_mm", "tick_s", "max_wheel_speed_mm_s",
+  "eat_reach_mm", "tick_s", "max_wheel_speed_mm_s", "bar_thickness_mm",
 ]);
+/** That of an edit's numbers. */
+const NUMBERS = ["id", "robot", "seed", "heading", "radius"];
+const PLACES = ["a", "b", "at"];
 
-/** Keeps the C code's arena as it is changed here. */
+/** What stands in the arena of a run. Bars and plants come with their ids, pieces of food with a 1 if they are eaten. */
 export class Arena {
   /**
    * @param {import("./native_run.js").NativeRun} native
    * @param {SimParams} params
-   * @param {number} robots - Number of robots.
    */
-  constructor(native, params, robots) {
+  constructor(native, params) {
     this.native = native;
-    this.params = params;
-    this.furniture = new Furniture({ bars: [], food: [], starts: [] }, params);
-    this.bodies = Array.from({ length: robots }, () => ({ x: 0, y: 0, heading: 0, lifted: false }));
-    native.build(DIMENSIONS.map((name) => params[name]));
+    native.handOver(DIMENSIONS.map((name) => params[name]));
+    native.c.page_build();
+  }
+
+  /** All things. */
+  get things() {
+    const at = this.native.c.page_scene();
+    const [bars, plants, food] = this.native.doublesAt(at, 3);
+    const numbers = [...this.native.doublesAt(at, 3 + 5 * bars + 4 * plants + 3 * food).slice(3)];
+    const taken = (/** @type {number} */ count, /** @type {number} */ size) =>
+      Array.from({ length: count }, () => numbers.splice(0, size));
+    return { bars: taken(bars, 5), plants: taken(plants, 4), food: taken(food, 3) };
   }
 
   /** For each piece of food, 1 if it was eaten. */
   get eaten() {
-    return this.furniture.food.map((_, i) => this.native.c.page_is_eaten(i));
+    return this.things.food.map(([, , eaten]) => eaten);
   }
 
   /** What stands in it, for a drawing: to a tenth of a mm. */
   get drawn() {
+    const { bars, plants, food } = this.things;
     const tenths = (/** @type {number[]} */ places) => places.map((mm) => Math.round(mm * 10) / 10);
-    const bars = [...this.furniture.bars].map(([id, bar]) => [id, ...tenths(bar)]);
-    const plants = [...this.furniture.plants].map(([id, plant]) => [id, ...tenths(plant)]);
-    return { bars, food: this.furniture.food.map(tenths), plants };
-  }
-
-  /**
-   * Furnishes it for an environment, and puts the robots at its starts.
-   * @param {Layout} layout
-   */
-  furnish(layout) {
-    this.furniture = new Furniture(layout, this.params);
-    layout.starts.forEach((start, robot) => this.putDown(robot, start));
-    this.placeFurniture();
-    this.native.c.page_enter(layout.bars.length, layout.food.length);
+    return { bars: bars.map(tenths), food: food.map(([x, y]) => tenths([x, y])), plants: plants.map(tenths) };
   }
 
   /**
@@ -60,64 +59,11 @@ export class Arena {
    * @param {WorldEdit} edit
    */
   edit(edit) {
-    if ("robot" in edit && !this.bodies[edit.robot ?? 0]) throw new EditError(`there is no such robot; there are ${this.bodies.length}`);
-    if (edit.do === "lift") this.lift(edit.robot ?? 0);
-    else if (edit.do === "put") this.put(edit.robot ?? 0, edit);
-    else if (edit.do === "body") this.breakBody(edit.robot ?? 0, edit);
-    else this.furniture.edit(edit, this.bodies);
-    this.placeFurniture();
-    this.native.c.page_settle(this.furniture.capsules.length);
-  }
-
-  placeFurniture() {
-    const { c } = this.native;
-    this.furniture.capsules.forEach((capsule, i) => c.page_put_obstacle(i, ...capsule));
-    this.furniture.food.forEach((at, i) => c.page_put_food(i, ...at));
-  }
-
-  /**
-   * @param {number} robot
-   * @param {Pose} pose
-   */
-  putDown(robot, [x, y, heading]) {
-    this.native.c.page_put_body(robot, x, y, heading);
-    this.bodies[robot] = { x, y, heading, lifted: false };
-  }
-
-  /**
-   * A robot has moved.
-   * @param {number} robot
-   * @param {Iterable<number>} pose
-   */
-  moved(robot, pose) {
-    const [x, y, heading] = pose;
-    Object.assign(this.bodies[robot], { x, y, heading });
-  }
-
-  /** @param {number} robot */
-  lift(robot) {
-    if (this.bodies[robot].lifted) throw new EditError("the robot is in the air already");
-    this.native.c.page_lift(robot);
-    this.bodies[robot].lifted = true;
-  }
-
-  /**
-   * @param {number} robot
-   * @param {{at: [number, number], heading: number}} where
-   */
-  put(robot, { at, heading }) {
-    const others = this.bodies.filter((_, i) => i !== robot);
-    if (!this.bodies[robot].lifted) throw new EditError("the robot is not in the air");
-    if (!this.furniture.hasRoom(at, others)) throw new EditError("there is no room for the robot");
-    this.putDown(robot, [...at, heading / 1000]);
-  }
-
-  /**
-   * @param {number} robot
-   * @param {{what: string, seed?: number}} edit
-   */
-  breakBody(robot, { what, seed = 0 }) {
-    const why = this.native.breakBody(robot, what, seed);
-    if (why) throw new EditError(`'${what}' cannot happen to a body: ${why}`);
+    /** @type {Record<string, any>} */
+    const fields = edit;
+    const places = PLACES.flatMap((name) => fields[name] ?? [0, 0]);
+    this.native.handOver([...NUMBERS.map((name) => fields[name] ?? 0), ...places], fields.what);
+    const why = this.native.c.page_edit(Object.keys(EDITS).indexOf(edit.do));
+    if (why) throw new EditError(this.native.textAt(why));
   }
 }

@@ -1,7 +1,7 @@
 // @ts-check
 /* The changes of an experiment, each made when its tick comes. */
 
-import { EditError } from "./world_edits.js";
+import { EditError } from "./arena.js";
 
 /** @typedef {import("../types.js").Change & {tick: number}} TimedChange */
 

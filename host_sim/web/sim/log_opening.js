@@ -1,8 +1,8 @@
 // @ts-check
 /* The experiment that a recorded log is of: what its commands say, and what its world file has. */
 
-import { EDIT_FIELDS } from "../core/edit_fields.js";
-import { CELL_COUNT, FRAMES, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
+import { Arena, EditError } from "./arena.js";
+import { CELL_COUNT, EDITS, FRAMES, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
 import { bytesOf, framesOf, replayLog } from "./log_replay.js";
 import { checkedWorld } from "./native_layouts.js";
 import { NativeRun } from "./native_run.js";
@@ -27,6 +27,8 @@ import { Simulation } from "./simulation.js";
 
 const LIMIT_TICKS = 30_000;
 const ENVIRONMENTS_MAX = 10_000;
+/** Of the fields of an edit: a text, and those that may be left out. */
+const OTHERS = ["what", "robot", "seed"];
 const HALF = CELL_COUNT / 2;
 const NO_WORLD = "that is not a world file: open a run.world.json";
 
@@ -81,8 +83,8 @@ function* recordedFrames(commands, ticks) {
 export function worldIn(module, worlds, text) {
   const world = parsed(text);
   if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
-  const native = new NativeRun(module, 1);
-  const isEdited = world.edits.every((/** @type {Record<string, unknown> | null} */ edit) => isEdit(native, edit));
+  const arena = new Arena(new NativeRun(module, 1), worlds.random);
+  const isEdited = world.edits.every((/** @type {Record<string, unknown> | null} */ edit) => isEdit(arena, edit));
   if (!isCount(world.of) || !isCount(world.limit_ticks) || !isEdited) throw new Error(NO_WORLD);
   return { ...world, world: placeIn(module, worlds, world.world) };
 }
@@ -116,13 +118,27 @@ function isCount(number) {
 }
 
 /**
- * @param {NativeRun} native - Tells what a fault is.
+ * @param {Arena} arena - Tells what a fault is.
  * @param {Record<string, unknown> | null} edit
  */
-function isEdit(native, edit) {
-  const fields = EDIT_FIELDS.get(`${edit?.do}`);
+function isEdit(arena, edit) {
+  const fields = new Map(Object.entries(EDITS)).get(`${edit?.do}`)?.filter((name) => !OTHERS.includes(name));
   const isWhole = edit !== null && Number.isInteger(edit.tick) && Boolean(fields?.every((name) => isField(edit[name])));
-  return isWhole && (edit.do !== "body" || !native.breakBody(0, `${edit.what}`));
+  return isWhole && (edit.do !== "body" || isFault(arena, `${edit.what}`));
+}
+
+/**
+ * @param {Arena} arena
+ * @param {string} what
+ */
+function isFault(arena, what) {
+  try {
+    arena.edit({ do: "body", what });
+    return true;
+  } catch (error) {
+    if (!(error instanceof EditError)) throw error;
+    return false;
+  }
 }
 
 /**

@@ -105,26 +105,14 @@ export class NativeRun {
   }
 
   /**
-   * Builds an arena.
-   * @param {number[]} dimensions - In the order of native/page.h.
+   * Hands over what the next call of C wants.
+   * @param {number[]} numbers - In the order of native/page.h.
+   * @param {string} [text]
    */
-  build(dimensions) {
-    this.doublesAt(this.c.page_dimensions(), dimensions.length).set(dimensions);
-    this.c.page_build();
-  }
-
-  /**
-   * Breaks or mends something in a robot's body.
-   * @param {number} robot
-   * @param {string} what - Such as "stuck-on:front"; docs/worlds.md has all.
-   * @param {number} [seed] - From which it follows when noise strikes.
-   * @returns {string} Why not; empty if it is done.
-   */
-  breakBody(robot, what, seed = 0) {
-    const text = new TextEncoder().encode(what.slice(0, TEXT_MAX));
-    this.bytesAt(this.c.page_text(), text.length + 1).set([...text, 0]);
-    const why = this.c.page_break(robot, seed);
-    return why ? this.textAt(why) : "";
+  handOver(numbers, text = "") {
+    const bytes = new TextEncoder().encode(text.slice(0, TEXT_MAX));
+    this.doublesAt(this.c.page_numbers(), numbers.length).set(numbers);
+    this.bytesAt(this.c.page_text(), bytes.length + 1).set([...bytes, 0]);
   }
 
   /**

@@ -3,13 +3,13 @@
 
 import { Arena } from "./arena.js";
 import { DueChanges } from "./due_changes.js";
-import { EDIT_FIELDS } from "../core/edit_fields.js";
 import { measuresOf } from "./measures.js";
 import { drawFrom, drawLayout } from "./native_layouts.js";
 import { NativeRun } from "./native_run.js";
 import { RobotCommands } from "./robot_commands.js";
 import { RunRecorder } from "./run_recorder.js";
 import { RANDOM } from "../core/world_names.js";
+import { EDITS } from "../generated.js";
 import { worldOf } from "./worlds.js";
 
 /**
@@ -33,7 +33,7 @@ export class Simulation {
     this.world = worldOf(experiment.world ?? RANDOM, worlds);
     this.native = new NativeRun(module, robots.length);
     drawFrom(this.native, this.world.params, this.world.written);
-    this.arena = new Arena(this.native, this.world.params, robots.length);
+    this.arena = new Arena(this.native, this.world.params);
     this.commands = new RobotCommands(this.native, experiment);
     this.changes = new DueChanges(changes);
     this.robots = [...robots.keys()];
@@ -90,7 +90,8 @@ export class Simulation {
 
   /** @param {number} number */
   enter(number) {
-    this.arena.furnish(drawLayout(this.native, { seed: this.experiment.seed, number, robots: this.robots.length }));
+    drawLayout(this.native, { seed: this.experiment.seed, number, robots: this.robots.length });
+    this.native.c.page_enter();
     this.scene = { ...this.scene, number, first_tick: this.tick };
     this.show();
   }
@@ -123,9 +124,7 @@ export class Simulation {
    * @param {number} ticks
    */
   record(robot, ticks) {
-    const block = this.native.block(robot, ticks);
-    this.recorder.tracks[robot].add(block);
-    this.arena.moved(robot, block.poses.slice(-3));
+    this.recorder.tracks[robot].add(this.native.block(robot, ticks));
   }
 
   /** Tells the robots that want it how far away things are. */
@@ -176,5 +175,5 @@ export class Simulation {
  * @returns {change is import("../types.js").WorldEdit}
  */
 function isWorldEdit(change) {
-  return EDIT_FIELDS.has(change.do);
+  return Object.hasOwn(EDITS, change.do);
 }

@@ -171,7 +171,7 @@ def test_what_is_in_order_but_impossible_is_answered_in_words(watched):
             if "notes" in said:
                 return said["notes"]
 
-    assert talk(watched, ask) == ["there is no number 999"]
+    assert talk(watched, ask) == ["there is no such number"]
 
 
 def test_orders_beyond_what_may_wait_are_refused(watched):

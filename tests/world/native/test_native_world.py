@@ -1,7 +1,6 @@
 """The shapes of the world in C are those that Python draws."""
 
 from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline, cone_reach_mm
-from host_sim.world.obstacles import walls_of
 from host_sim.world.params import SimParams
 from host_sim.world.plain_space import cones_in_c
 from host_sim.world.world_library import world_library
@@ -15,11 +14,3 @@ def test_the_cones_are_those_that_are_drawn():
     for n, (bit, bearing_deg) in enumerate(CONE_BEARINGS_DEG.items()):
         corners = [(corner.x, corner.y) for corner in cones.of[n].corners]
         assert corners == cone_outline(bearing_deg, cone_reach_mm(bit, PARAMS))
-
-
-def test_the_walls_are_those_of_a_fleet():
-    ffi, library = world_library()
-    walls = ffi.new("struct capsule[]", library.WALLS)
-    library.capsule_set_walls(walls, PARAMS.width_mm, PARAMS.height_mm)
-
-    assert [((wall.a.x, wall.a.y), (wall.b.x, wall.b.y), wall.radius_mm) for wall in walls] == walls_of(PARAMS)

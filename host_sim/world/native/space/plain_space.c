@@ -220,7 +220,10 @@ static void place(struct world *world, struct body *body)
 void plain_space_take(struct plain_world *space, struct world *world)
 {
     space->space = (struct space){place, plain_view_hides};
+    space->words = PLAIN_WORDS(space->capsule_count + world->body_count);
     world->space = &space->space;
+    for (size_t i = 0; i < space->words * (world->body_count + 1); i++)
+        space->touching[i] = 0;
     for (size_t i = 0; i < world->body_count; i++) {
         const struct body *body = &world->bodies[i];
 

@@ -21,7 +21,7 @@ struct plain_world {
     struct capsule *capsules;      /* walls and bars */
     struct plain_grid *grid;       /* null: everything is looked at; for at most PLAIN_NEAR_MAX bodies */
     struct plain_place *places;    /* one for each body */
-    size_t words;                  /* PLAIN_WORDS(capsule_count + body_count) */
+    size_t words;                  /* PLAIN_WORDS(capsule_count + body_count) once it is taken */
     uint64_t *touching;            /* words for each body, and once more: a bit for each thing that it touches */
 };
 
