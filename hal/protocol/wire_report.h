@@ -5,7 +5,7 @@
 #include "hal/protocol/frames.h"
 
 void wire_report_start(struct wire *wire);
-        /* A second begins: no report is under way, and no other robot has told its memory in it. */
+        /* A run begins, and a second with it: no report is under way, and no other robot has told its memory in it. */
 
 void wire_report(struct wire *wire, const struct output *out, struct frames *frames);
         /* Writes what is due of the report: all of it if it is marked whole, else one part an output, from the output that

@@ -82,17 +82,21 @@ static void note(struct wire *wire, const struct output *out)
 /* The answer to what was asked; a stop of the wire's own was not asked for. */
 static void write_result(struct wire *wire, const struct output *out, struct frames *frames)
 {
+    bool begins;
+
     if (wire->unasked) {
         wire->unasked = false;
         session_end(&wire->session);
         return;
     }
+    begins = wire->session.owner == 0;
     write_answer(wire, out, frames);
     session_executed(&wire->session, out->answer);
     if (out->answer == RESULT_DONE && wire->session.request.command.opcode == OPCODE_START) {
         wire->twin = wire->has_ranges = false;
         wire->strangers = 0;
-        wire_report_start(wire);
+        if (begins)
+            wire_report_start(wire);
         wire->wants_ranges = out->answer_value & ANSWER_WANTS_RANGES;
     }
 }

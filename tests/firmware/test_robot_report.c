@@ -95,11 +95,21 @@ TEST(a_start_begins_a_second)
         command(OPCODE_SET, TICK_MS, tick_ms[before % sizeof tick_ms]);
         for (unsigned tick = 0; tick < before; tick++)
             feel(CLEAR);
+        command(OPCODE_STOP, 0, 0);
         command(OPCODE_START, PROFILE_ARTICLE, 1);
         for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++) {
             feel(CLEAR);
             TEST_ASSERT_EQUAL(tick == TICKS_PER_SECOND, out.has_report);
         }
+    }
+}
+
+TEST(the_second_of_a_robot_that_runs_goes_on)
+{
+    for (unsigned tick = 1; tick <= TICKS_PER_SECOND; tick++) {
+        command(OPCODE_START, PROFILE_ARTICLE, 1);
+        feel(CLEAR);
+        TEST_ASSERT_EQUAL(tick == TICKS_PER_SECOND, out.has_report);
     }
 }
 

@@ -49,6 +49,19 @@ TEST(a_start_ends_a_report_that_is_under_way)
     assert_ids(&drive, 1);
 }
 
+TEST(a_start_of_a_robot_that_has_an_owner_ends_no_report)
+{
+    static const uint32_t ids[] = {0x681, 0x681, 0x041};
+
+    (void)answer_to((struct octet_command_t){.counter = 1, .opcode = OPCODE_START, .owner = 1}, RESULT_DONE);
+    out = (struct output){.has_report = true, .has_drive = true};
+    write_out();
+    out = (struct output){.has_answer = true};
+    (void)answer_to((struct octet_command_t){.counter = 2, .opcode = OPCODE_START, .owner = 1}, RESULT_DONE);
+    out = (struct output){.has_drive = true};
+    assert_ids(ids, 3);
+}
+
 TEST(what_is_whole_is_sent_only_if_there_is_a_report)
 {
     out = (struct output){.whole_report = true};
