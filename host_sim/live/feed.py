@@ -13,9 +13,9 @@ from host_sim.live.seats import Rights
 from host_sim.protocol.generated import ROW, Reason
 from host_sim.recording.summary import frame_counts
 from host_sim.recording.trajectory import AXES, RobotTrack
-from host_sim.view.history import Lesson
 from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene, measures, states
+from host_sim.view.state_types import Lesson
 
 TRAIL_MAX = 3000
 """Maximum number of ticks in the trail of a page that joins late."""
@@ -75,8 +75,8 @@ class PageFeed:
     def next(self) -> str | None:
         """The message that brings the page up to date as JSON, or None if it is up to date.
 
-        Its fields: `states`, one per robot, and if they are new `environment` and `measures`, as in view/state.py,
-        with `news`, the last changes of the world and the bodies, as [tick, sentence];
+        Its fields: `states`, one per robot, and if they are new `environment` and `measures`, as in
+        view/state_types.py, with `news`, the last changes of the world and the bodies, as [tick, sentence];
         `trails`, for each robot the ticks since the last message as [x, y, reason, ...], thinned out if many;
         `lessons`, those of all robots since the last message; `play`, the state of the controls; `health`; `notes`,
         if there are any; `at`, wall-clock time in ms since 1970. The first message has `seat`: the page's own robot

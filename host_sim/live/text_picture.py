@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from host_sim.protocol.generated import FEEL, PATTERNS, SIDES, Reason
 from host_sim.view.phrases import sentence, verdict
-from host_sim.view.state import EnvironmentScene, State
+from host_sim.view.state_types import EnvironmentScene, State
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.params import SimParams
 

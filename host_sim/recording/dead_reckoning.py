@@ -8,7 +8,7 @@ from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, S
 from host_sim.recording.recording import Recording
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory
-from host_sim.view.state import EnvironmentScene
+from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.body import rolled
 from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams

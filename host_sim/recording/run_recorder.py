@@ -10,7 +10,8 @@ from host_sim.recording.trajectory import NEW_CELLS, Changes, RobotTrack, Trajec
 from host_sim.sim.native_loop import RobotBlock
 from host_sim.sim.simulation import Simulation
 from host_sim.view.history import LearningHistory
-from host_sim.view.state import EnvironmentScene, environment_scene
+from host_sim.view.state import environment_scene
+from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams
 

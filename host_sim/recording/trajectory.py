@@ -9,9 +9,10 @@ from operator import itemgetter
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from host_sim.protocol.generated import CELL_COUNT, ROW, Reason
-from host_sim.view.history import Cell, Learned, Lesson, Trial
+from host_sim.view.history import Cell
 from host_sim.view.news import News
-from host_sim.view.state import EnvironmentScene, State, state
+from host_sim.view.state import state
+from host_sim.view.state_types import EnvironmentScene, Learned, Lesson, State, Trial
 from host_sim.world.geometry import Pose
 from host_sim.world.params import SimParams
 

@@ -27,9 +27,8 @@ from host_sim.report.drawing import (
     write,
 )
 from host_sim.report.palette import BEAM, IN_USE, LEARNED, in_palette
-from host_sim.view.history import Lesson
 from host_sim.view.phrases import lesson_sentence, sentence
-from host_sim.view.state import State
+from host_sim.view.state_types import Lesson, State
 from host_sim.world.cones import CONE_BEARINGS_DEG
 from host_sim.world.geometry import Pose, ahead_of
 from host_sim.world.params import SimParams

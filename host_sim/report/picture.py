@@ -32,7 +32,7 @@ from host_sim.report.drawing import (
 )
 from host_sim.report.palette import in_palette
 from host_sim.report.sheet import GAP_PX, LINE_PX, TEXT_PX, WIDTH_PX, abreast, stacked, titled
-from host_sim.view.state import EnvironmentScene
+from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.geometry import Point, Pose
 from host_sim.world.params import SimParams
 

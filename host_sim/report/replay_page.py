@@ -3,9 +3,8 @@
 The page is `web/replay.html` as `page_bundle` puts it together; its element `run` has the run, and its element
 `laboratory` what laboratory.py has for it.
 
-The run is one object. Measures, EnvironmentScene and State are as in view/state.py, Trial and Lesson as in
-view/history.py. The value in a pair holds from the pair's tick until that of the next pair; the first pair is that of
-tick `first_tick`.
+The run is one object. Measures, EnvironmentScene, State, Trial and Lesson are as in view/state_types.py. The value in
+a pair holds from the pair's tick until that of the next pair; the first pair is that of tick `first_tick`.
 
     version      3
     title        the page's title, such as "seed 7, 3 environments"

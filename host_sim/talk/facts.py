@@ -9,8 +9,8 @@ from host_sim.protocol.generated import PATTERNS, ROW, SIDES, Reason, Side
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.talk.eliza import Known
 from host_sim.talk.log_index import LogIndex
-from host_sim.view.history import Lesson
 from host_sim.view.phrases import lesson_sentence, sentence, verdict
+from host_sim.view.state_types import Lesson
 
 POINT = "\u00b7"
 """The decimal point in a question: ELIZA takes a full stop for the end of a sentence."""

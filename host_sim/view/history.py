@@ -1,58 +1,12 @@
 """What a robot has learned in a run: its trials and their results, its lessons, and the use of each cell."""
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple, TypedDict
+from typing import Any, NamedTuple
 
 from host_sim.protocol.generated import CELL_COUNT, ROW
 from host_sim.protocol.memory_kinds import sides_of
+from host_sim.view.state_types import Learned, Lesson, Trial
 from host_sim.world.world_library import world_library
-
-
-class Trial(TypedDict):
-    """A random turn, tried because the pattern's cell was empty.
-
-    Attributes:
-        tick: Tick in which it began.
-        cell: The pattern, 1..7.
-        side: Direction of the turn: 1 left, 2 right.
-        helped: 1 if fewer front sensors were triggered afterwards, 0 if not; None during the turn.
-        frozen: 1 if learning was frozen when it ended, else 0.
-    """
-
-    tick: int
-    cell: int
-    side: int
-    helped: int | None
-    frozen: int
-
-
-class Lesson(TypedDict):
-    """A change of a cell.
-
-    Attributes:
-        node: Node number of the robot.
-        tick: Tick of the change.
-        cell: The cell, 1..7.
-        side: Its new content: 0 nothing, 1 left, 2 right.
-        by_hand: 1 if a person wrote or erased it, 0 if the robot learned or forgot it.
-    """
-
-    node: int
-    tick: int
-    cell: int
-    side: int
-    by_hand: int
-
-
-class Learned(TypedDict):
-    """What a robot knows at a tick; see `State`."""
-
-    memory: list[int]
-    uses: list[int]
-    learned: list[int]
-    by_hand: list[int]
-    frozen: int
-    trial: Trial | None
 
 
 class Cell(NamedTuple):

@@ -2,20 +2,16 @@
 
 from itertools import groupby
 
+from host_sim.protocol.generated import SENTENCES
 from host_sim.sim.world_record import Edited, WorldRecord
 from host_sim.view.phrases import body_sentence
+from host_sim.world.edit_json import edit_to
 from host_sim.world.edits import AddPlant, ChangeBody, GrowPlant, MovePlant, RemovePlant
 
 News = tuple[int, str]
 """The tick before which something changed, and a sentence."""
 
-_PLANTS = {
-    AddPlant: "A plant was put down.",
-    MovePlant: "A plant was moved.",
-    GrowPlant: "A plant has grown.",
-    RemovePlant: "A plant was removed.",
-}
-_SHOWN = (*_PLANTS, ChangeBody)
+_SHOWN = (AddPlant, MovePlant, GrowPlant, RemovePlant, ChangeBody)
 
 
 def news_of(record: WorldRecord) -> list[News]:
@@ -33,6 +29,6 @@ def _sentences(record: WorldRecord) -> list[News]:
 def _sentence(edited: Edited, edits: list[Edited], robots: int) -> str:
     edit = edited.edit
     if not isinstance(edit, ChangeBody):
-        return _PLANTS[type(edit)]
+        return SENTENCES[edit_to(edit)["do"]]
     everyone = sum((tick, it.what) == (edited.tick, edit.what) for tick, it in edits if isinstance(it, ChangeBody))
     return ("" if everyone == robots else f"Robot {edit.robot + 1}: ") + body_sentence(edit.what)

@@ -1,76 +1,13 @@
 // @ts-check
-/* The shapes of what the server sends and takes. What the fields mean stands where they are made: Measures,
-   EnvironmentScene and State in host_sim/view/state.py, Trial and Lesson in host_sim/view/history.py, Message in
-   host_sim/live/feed.py, Run in host_sim/report/replay_page.py. */
+/* The shapes of what the server sends and takes. What the fields mean stands where they are made: Message in
+   host_sim/live/feed.py, Run in host_sim/report/replay_page.py, the generated ones in host_sim/view/state_types.py. */
 
 /**
- * @typedef {Object} Measures
- * @property {number} width
- * @property {number} height
- * @property {number} body
- * @property {number} track
- * @property {number} reach
- * @property {number} beam
- * @property {number} eat
- * @property {number} bar
- * @property {number} tick_ms
- * @property {number} boredom
- */
-
-/**
- * @typedef {Object} EnvironmentScene
- * @property {number} number
- * @property {number} of
- * @property {number} seed
- * @property {number} first_tick
- * @property {number} start_tick
- * @property {number[][]} bars
- * @property {number[][]} food
- * @property {number[][]} [plants]
- */
-
-/**
- * @typedef {Object} State
- * @property {number} node
- * @property {number} tick
- * @property {number} x
- * @property {number} y
- * @property {number} heading
- * @property {number} lifted
- * @property {number} feel
- * @property {number} bump
- * @property {number} beacon
- * @property {number} left
- * @property {number} right
- * @property {number} reason
- * @property {number} repeat_count
- * @property {number} action
- * @property {number} pattern
- * @property {number[]} eaten
- * @property {number[]} memory
- * @property {number[]} uses
- * @property {number[]} learned
- * @property {number[]} by_hand
- * @property {number} frozen
- * @property {Trial | null} trial
- */
-
-/**
- * @typedef {Object} Trial
- * @property {number} tick
- * @property {number} cell
- * @property {number} side
- * @property {number | null} helped
- * @property {number} frozen
- */
-
-/**
- * @typedef {Object} Lesson
- * @property {number} node
- * @property {number} tick
- * @property {number} cell
- * @property {number} side
- * @property {number} by_hand
+ * @typedef {import("./generated_types.js").Measures} Measures
+ * @typedef {import("./generated_types.js").EnvironmentScene} EnvironmentScene
+ * @typedef {import("./generated_types.js").State} State
+ * @typedef {import("./generated_types.js").Trial} Trial
+ * @typedef {import("./generated_types.js").Lesson} Lesson
  */
 
 /**

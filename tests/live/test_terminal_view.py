@@ -25,9 +25,8 @@ from host_sim.live.page_commands import FULL_SPEED
 from host_sim.live.terminal_view import faster, slower
 from host_sim.live.text_picture import View, draw_text
 from host_sim.recording.trajectory import Trajectory, at
-from host_sim.view.history import Trial
 from host_sim.view.phrases import sentence
-from host_sim.view.state import EnvironmentScene
+from host_sim.view.state_types import EnvironmentScene, Trial
 from host_sim.world.params import SimParams
 
 DEADLINE_S = 600

@@ -11,7 +11,7 @@ from host_sim.recording.trajectory import Trajectory
 from host_sim.report.animation import Clip, draw_frame, write_gif
 from host_sim.report.drawing import CONE_LIT
 from host_sim.view.phrases import lesson_sentence, sentence
-from host_sim.view.state import State
+from host_sim.view.state_types import State
 
 README_BYTES_MAX = 1_500_000
 IMAGES = Path(__file__).resolve().parents[2] / "docs/images"
@@ -66,7 +66,16 @@ def test_a_frame_is_as_wide_as_asked(short):
 
 
 def state(**fields: object) -> State:
-    rest = {"lifted": 0, "left": 251, "right": -251, "beacon": 0, "pattern": 0, "repeat_count": 0, "reason": 0}
+    rest = {
+        "lifted": 0,
+        "left": 251,
+        "right": -251,
+        "beacon": 0,
+        "pattern": 0,
+        "repeat_count": 0,
+        "reason": 0,
+        "trial": None,
+    }
     return State(**{**rest, **fields})
 
 

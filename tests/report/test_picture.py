@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from host_sim.report.picture import Panel, draw_run, omissions
 from host_sim.sim.world_record import Begun
-from host_sim.view.state import EnvironmentScene, environment_scene
+from host_sim.view.state import environment_scene
+from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.arena import Arena
 from host_sim.world.geometry import Pose
 from host_sim.world.layouts import generate

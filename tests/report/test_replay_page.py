@@ -15,7 +15,7 @@ from host_sim.recording.resimulation import resimulate
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.report import page_bundle
 from host_sim.report.replay_page import pack, page, run_data, write_page
-from host_sim.view.state import State
+from host_sim.view.state_types import State
 from tests.recording.support import record_run
 
 SVG = "http://www.w3.org/2000/svg"

@@ -9,7 +9,7 @@ import cantools
 import pytest
 
 from host_sim.protocol import generated
-from tools.robot_words import to_javascript, to_python
+from tools.robot_words import to_javascript, to_python, to_typedefs
 from tools.robot_words.model import DescriptionError, layout_hash, read
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -148,6 +148,11 @@ UNFIT_WORDS = {
     "a kind of memory that no profile has": ('five = "all_sensors"', 'five = "sides"', "[memory] has"),
     "a kind of memory that is not explained": ('five = "all_sensors"', 'five = "colours"', "[memory] has"),
     "a column that no row has": ('"lifted", "feel"', '"lifted", "glow"', "columns has glow"),
+    "a reason that nothing is said of": (
+        'silence = "I hear',
+        'quiet = "I hear',
+        "[sentences] says nothing of silence",
+    ),
     "the meaning of no reason": ('trial = "blocked', 'tried = "blocked', "[reason] explains tried"),
 }
 
@@ -177,6 +182,14 @@ def test_what_was_generated_is_what_the_files_say_today():
 
     assert (ROOT / "host_sim/protocol/generated.py").read_text() == to_python.module(robot)
     assert (ROOT / "host_sim/web/generated.js").read_text() == to_javascript.module(robot)
+    assert (ROOT / "host_sim/web/generated_types.js").read_text() == to_typedefs.module()
+
+
+def test_a_typedef_is_the_typed_dict():
+    lines = to_typedefs.module().splitlines()
+
+    for line in ("{number} beacon", "{Trial | null} trial", "{number[][]} bars", "{number[][]} [plants]"):
+        assert f" * @property {line}" in lines
 
 
 def test_each_export_to_javascript_is_one_line():

@@ -12,7 +12,8 @@ from playwright.sync_api import Page, Route, WebSocketRoute
 from host_sim.base.paths import WEB
 from host_sim.report.page_bundle import page_of
 from host_sim.report.replay_page import pack, page
-from host_sim.view.state import EnvironmentScene, Measures, State, measures
+from host_sim.view.state import measures
+from host_sim.view.state_types import EnvironmentScene, Measures, State
 from host_sim.world.params import SimParams
 
 HOME = "http://octet.test/"

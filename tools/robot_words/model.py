@@ -75,6 +75,8 @@ class Description:
         drive: What the robot answers.
         row: The names of the numbers that are recorded of each tick: senses, drive, and what recorders add.
         columns: What views show of a row: each with its place there.
+        sentences: What the robot says, by reasons and other names.
+        body_sentences: What has happened to a body, by the names of faults.
         cell_count: Number of bytes of a memory.
         node_max: The last node.
         range_none: A distance where nothing is within reach.
@@ -100,6 +102,8 @@ class Description:
     drive: Sequence[Member]
     row: Sequence[str]
     columns: Mapping[str, int]
+    sentences: Mapping[str, str]
+    body_sentences: Mapping[str, str]
     cell_count: int
     node_max: int
     range_none: int
@@ -173,6 +177,8 @@ def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
         drive=drive,
         row=_row(senses, drive, toml["recorded"]),
         columns=_columns(toml["columns"], [*(it.signal for it in (*senses, *drive)), *toml["recorded"]]),
+        sentences=_sentences(toml["sentences"], enums["reason"]),
+        body_sentences=toml["body_sentences"],
         cell_count=_cell_count(toml["patterns"], database.get_message_by_name("MEMORY")),
         node_max=_node_max(toml["node_max"], database),
         range_none=toml["range_none"],
@@ -300,6 +306,12 @@ def _columns(names: Sequence[str], known: Sequence[str]) -> Mapping[str, int]:
     if unknown := sorted(set(names) - set(known)):
         raise DescriptionError(f"columns has {', '.join(unknown)}, which no row has")
     return {name: known.index(name) for name in names}
+
+
+def _sentences(sentences: Mapping[str, str], reasons: Mapping[str, int]) -> Mapping[str, str]:
+    if missing := sorted(set(reasons) - set(sentences)):
+        raise DescriptionError(f"[sentences] says nothing of {', '.join(missing)}")
+    return sentences
 
 
 def _cell_count(patterns: Mapping[str, str], memory: Message) -> int:

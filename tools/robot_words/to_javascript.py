@@ -29,6 +29,8 @@ def module(robot: Description) -> str:
     exports["FRAMES"] = {message.name: message.frame_id for message in robot.messages}
     exports["ROW"] = list(robot.row)
     exports["COLUMNS"] = dict(robot.columns)
+    exports["SENTENCES"] = dict(robot.sentences)
+    exports["BODY_SENTENCES"] = {json.dumps(name): words for name, words in robot.body_sentences.items()}
     lines = [f"export const {name} = {_literal(value)};" for name, value in exports.items()]
     return "\n".join([_HEAD, *lines, ""])
 

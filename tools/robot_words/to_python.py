@@ -79,6 +79,8 @@ def _exchanged(robot: Description) -> list[str]:
         f"NOTHING_NEAR = Ranges({', '.join('None' for _ in ranges)})\n",
         f"ROW: tuple[str, ...] = {tuple(robot.row)!r}\n",
         f"COLUMNS: dict[str, int] = {robot.columns!r}\n",
+        f"SENTENCES: dict[str, str] = {robot.sentences!r}\n",
+        f"BODY_SENTENCES: dict[str, str] = {robot.body_sentences!r}\n",
     ]
 
 

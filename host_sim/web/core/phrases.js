@@ -1,7 +1,8 @@
 // @ts-check
-/* What a robot does and why, in its own words; those of host_sim/view/phrases.py. */
+/* What a robot does and why, in its own words: those of robot.toml. */
 
-import { PATTERNS, REASON, SIDE, SIDES } from "../generated.js";
+import { BODY_SENTENCES, PATTERNS, REASON, SENTENCES, SIDE, SIDES } from "../generated.js";
+import { REASON_KEYS } from "./palette.js";
 
 /**
  * @typedef {import("../types.js").Ended} Ended
@@ -11,56 +12,52 @@ import { PATTERNS, REASON, SIDE, SIDES } from "../generated.js";
  * @typedef {import("../types.js").State} State
  */
 
-const WANDERING = "Nothing in my way: I drive on and look about for food.";
-
-/**
- * What each reason is called, and its sentence. `exact` tells a step from the look around that follows: too quick to
- * read in motion.
- * @type {[number, string, (state: State, exact: boolean) => string][]}
- */
-const REASONS = [
-  [REASON.STOP, "stands still", () => "I am standing still."],
-  [REASON.WANDER, "wanders", (_, exact) => (exact ? "Nothing in my way: I take a step forward." : WANDERING)],
-  [REASON.TOWARD_FOOD, "goes toward food", towardFood],
-  [REASON.LOOK_AROUND, "looks around",
-    (state, exact) => (exact ? `No food straight ahead: I look a little to the ${turnOf(state)}.` : WANDERING)],
-  [REASON.REMEMBERED, "remembers", (state) => `${blocked(state)}: I remember that turning ${turnOf(state)} helped.`],
-  [REASON.TRIAL, "tries",
-    (state) => `${blocked(state)}: I do not know what helps yet, so I try turning ${trialSide(state)}.`],
-  [REASON.BOREDOM, "is bored",
-    (state) => `${state.repeat_count || "Many"} turns in a row, and still blocked. I am bored: about face!`],
-  [REASON.EAT, "eats", () => "Food! I eat it."],
-  [REASON.SILENCE, "hears nothing", () => "I hear nothing from my body: my wheels rest."],
-  [REASON.AVOID, "avoids", ({ left, right }) => (left === right ? "I have touched something: I back off."
-    : "I do not believe my front sensor: I look aside.")],
-];
-
-const SENTENCES = new Map(REASONS.map(([reason, , words]) => [reason, words]));
+const NAMES = {
+  STOP: "stands still", WANDER: "wanders", TOWARD_FOOD: "goes toward food", LOOK_AROUND: "looks around",
+  REMEMBERED: "remembers", TRIAL: "tries", BOREDOM: "is bored", EAT: "eats", SILENCE: "hears nothing", AVOID: "avoids",
+};
 
 /** What each reason is called, in the order of the reasons. */
-export const REASON_NAMES = REASONS.sort(([a], [b]) => a - b).map(([, name]) => name);
+export const REASON_NAMES = /** @type {(keyof typeof NAMES)[]} */ (Object.keys(REASON)).map((name) => NAMES[name]);
+
+/** @type {Record<string, string>} */
+const WORDS = SENTENCES;
 
 /**
  * One sentence for what a state shows.
  * @param {State} state
- * @param {boolean} exact - Whether to tell every move.
+ * @param {boolean} exact - Whether to tell a step from the look around that follows: too quick to read in motion.
  * @returns {string}
  */
 export function sentence(state, exact) {
-  if (state.lifted) return "Someone has picked me up: my wheels turn in the air.";
-  return SENTENCES.get(state.reason)?.(state, exact) ?? "";
+  const name = nameOf(state);
+  const pattern = PATTERNS[state.pattern];
+  const turned = state.left < state.right ? SIDE.LEFT : SIDE.RIGHT;
+  return filled((exact && WORDS[`${name}_exact`]) || WORDS[name], {
+    Pattern: pattern[0].toUpperCase() + pattern.slice(1),
+    side: SIDES[state.reason === REASON.TRIAL ? (state.trial?.side ?? turned) : turned], // it also stands still while it tries
+    turns: state.repeat_count || "Many",
+    beacon: (state.beacon / 1000).toFixed(2),
+  });
+}
+
+/** @param {State} state */
+function nameOf({ lifted, reason, beacon, left, right }) {
+  if (lifted) return "lifted";
+  if (reason === REASON.AVOID && left !== right) return "look_aside";
+  if (reason === REASON.TOWARD_FOOD && !beacon) return "wander";
+  return REASON_KEYS[reason].replaceAll("-", "_");
 }
 
 /**
- * One sentence for how the last trial went; empty if there was none, or it still goes on.
+ * How the last trial went; empty if there was none, or it still goes on.
  * @param {State} state
  * @returns {string}
  */
 export function verdict({ trial }) {
   if (!trial || trial.helped === null) return "";
-  const what = `Last try: ${PATTERNS[trial.cell]} blocked, I turned ${SIDES[trial.side]}.`;
-  if (!trial.helped) return `${what} It did not help, so I forgot it.`;
-  return `${what} It helped${trial.frozen ? ", but my learning was frozen." : ", so I remembered it!"}`;
+  const helped = trial.frozen ? "helped_frozen" : "helped";
+  return ofCell(trial.helped ? helped : "useless", trial);
 }
 
 /**
@@ -69,10 +66,7 @@ export function verdict({ trial }) {
  * @returns {string}
  */
 export function lessonSentence(lesson) {
-  const name = PATTERNS[lesson.cell];
-  if (!lesson.side) return `${lesson.by_hand ? "Erased by hand" : "Forgotten"}: ${name}.`;
-  if (!lesson.by_hand) return `Learned: ${name} blocked, turn ${SIDES[lesson.side]}.`;
-  return `Told: ${name} blocked, turn ${SIDES[lesson.side]}.`;
+  return ofCell(["forgotten", "erased", "learned", "told"][2 * Number(lesson.side > 0) + lesson.by_hand], lesson);
 }
 
 /**
@@ -81,22 +75,24 @@ export function lessonSentence(lesson) {
  * @returns {string}
  */
 export function bodySentence(what) {
-  const [name, ...parts] = what.split(":");
-  const details = parts.join(":");
-  /** @type {Record<string, string>} */
-  const sentences = {
-    "weak-motor": `The ${parts[0]} motor turns at ${parts[1]} of its speed.`,
-    odometer: `The ${parts[0]} odometer counts ${parts[1]} of its wheel's way.`,
-    "swap-odometers": "The plugs of the odometers were swapped.",
-    "false-beacon": `The beacon shows food ${details} mm ahead where there is none.`,
-    "swap-motors": "The plugs of the motors were swapped.",
-    mirror: "The ring of sensors was mounted the other way round.",
-    "stuck-on": `The ${details} sensor is stuck: it always sees something.`,
-    "stuck-off": `The ${details} sensor is dead: it never sees anything.`,
-    noise: `Each sensor is wrong in ${details.replace("/", " of ")} ticks.`,
-    repair: "The body was repaired.",
-  };
-  return sentences[name];
+  const [name, ...details] = what.replace("/", " of ").split(":");
+  return filled(/** @type {Record<string, string>} */ (BODY_SENTENCES)[name], details);
+}
+
+/**
+ * @param {string} name - Of a sentence.
+ * @param {{cell: number, side: number}} which
+ */
+function ofCell(name, { cell, side }) {
+  return filled(WORDS[name], { pattern: PATTERNS[cell], side: SIDES[side] });
+}
+
+/**
+ * @param {string} text - With words in braces,
+ * @param {Record<string, string | number> | string[]} words - and what they stand for.
+ */
+function filled(text, words) {
+  return text.replace(/\{(\w+)\}/g, (_, word) => `${/** @type {Record<string, string | number>} */ (words)[word]}`);
 }
 
 /**
@@ -148,25 +144,4 @@ export function minutes(seconds) {
  */
 export function binary(pattern) {
   return pattern.toString(2).padStart(3, "0");
-}
-
-/** @param {State} state */
-function towardFood({ beacon }) {
-  return beacon ? `I see food ${(beacon / 1000).toFixed(2)} m ahead: I drive toward it.` : WANDERING;
-}
-
-/** @param {State} state */
-function blocked(state) {
-  const name = PATTERNS[state.pattern];
-  return `${name[0].toUpperCase()}${name.slice(1)} blocked`;
-}
-
-/** @param {State} state */
-function turnOf(state) {
-  return SIDES[state.left < state.right ? SIDE.LEFT : SIDE.RIGHT];
-}
-
-/** @param {State} state */
-function trialSide(state) {
-  return state.trial ? SIDES[state.trial.side] : turnOf(state);
 }

@@ -1,7 +1,8 @@
 // @ts-check
-/* What changed in the world and the bodies during a run, in plain sentences: as host_sim/view/news.py has them. */
+/* What changed in the world and the bodies during a run, in plain sentences. */
 
 import { bodySentence } from "../core/phrases.js";
+import { SENTENCES } from "../generated.js";
 
 /**
  * @typedef {import("../types.js").News} News
@@ -9,12 +10,8 @@ import { bodySentence } from "../core/phrases.js";
  */
 
 /** @type {Record<string, string>} */
-const PLANTS = {
-  plant: "A plant was put down.",
-  move_plant: "A plant was moved.",
-  grow_plant: "A plant has grown.",
-  remove_plant: "A plant was removed.",
-};
+const SAID = SENTENCES;
+const SHOWN = ["plant", "move_plant", "grow_plant", "remove_plant", "body"];
 
 /**
  * All that changed, in order; what a person moved by hand is not among it.
@@ -23,7 +20,7 @@ const PLANTS = {
  * @returns {News[]}
  */
 export function newsOf(edits, robots) {
-  const shown = edits.filter((edit) => edit.do === "body" || PLANTS[edit.do]);
+  const shown = edits.filter((edit) => SHOWN.includes(edit.do));
   const news = shown.map((edit) => /** @type {News} */ ([edit.tick, sentenceOf(edit, shown, robots)]));
   return news.filter(([tick, sentence], i) => tick !== news[i - 1]?.[0] || sentence !== news[i - 1][1]);
 }
@@ -34,7 +31,7 @@ export function newsOf(edits, robots) {
  * @param {number} robots
  */
 function sentenceOf(edit, edits, robots) {
-  if (edit.do !== "body") return PLANTS[edit.do];
+  if (edit.do !== "body") return SAID[edit.do];
   const { tick, what, robot = 0 } = edit;
   const alike = edits.filter((it) => it.do === "body" && it.tick === tick && it.what === what).length;
   return `${alike === robots ? "" : `Robot ${robot + 1}: `}${bodySentence(what)}`;

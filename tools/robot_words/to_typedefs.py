@@ -1,0 +1,32 @@
+"""The types of what pages are sent, for the TypeScript compiler: host_sim/web/generated_types.js."""
+
+from types import NoneType, UnionType
+from typing import Any, get_args, get_origin, get_type_hints
+
+from host_sim.view.state_types import EnvironmentScene, Lesson, Measures, State, Trial
+
+_NAMES: dict[object, str] = {int: "number", float: "number", NoneType: "null"}
+_TYPES: tuple[Any, ...] = (Measures, EnvironmentScene, Trial, Lesson, State)
+_HEAD = "// @ts-check\n/* Made by tools/generate; what the fields mean stands in host_sim/view/state_types.py. */\n\n"
+
+
+def module() -> str:
+    """The text of generated_types.js."""
+    return _HEAD + "\n".join(map(_typedef, _TYPES)) + "\nexport {};\n"
+
+
+def _typedef(kind: Any) -> str:
+    lines = [f" * @typedef {{Object}} {kind.__name__}"]
+    for name, hint in get_type_hints(kind).items():
+        shown = f"[{name}]" if name in kind.__optional_keys__ else name
+        lines.append(f" * @property {{{_in_javascript(hint)}}} {shown}")
+    return "\n".join(["/**", *lines, " */"]) + "\n"
+
+
+def _in_javascript(kind: Any) -> str:
+    """The JSDoc type of a Python type."""
+    if get_origin(kind) is list:
+        return f"{_in_javascript(get_args(kind)[0])}[]"
+    if get_origin(kind) is UnionType:
+        return " | ".join(map(_in_javascript, get_args(kind)))
+    return _NAMES.get(kind) or str(kind.__name__)
