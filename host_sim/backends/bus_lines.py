@@ -24,6 +24,7 @@ class BusLines:
         nodes: The robots.
         bitrate: Bits a second, for a bus that is set up when opened.
         reconnect_s: Time to wait for a bus that is gone, s of wall-clock time.
+        command: Program to start as each robot; empty for the firmware.
         relay: What the robots hear of each other where there is no bus; None for one robot.
     """
 
@@ -31,6 +32,7 @@ class BusLines:
     nodes: Sequence[int]
     bitrate: int = BIT_RATE
     reconnect_s: float = 0.0
+    command: str = ""
     relay: Relay | None = field(init=False)
     _shared: "SharedLine | None" = None
     _shared_stats: LineStats = field(default_factory=LineStats)

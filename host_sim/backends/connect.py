@@ -45,6 +45,8 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
     if robot == "emulated":
         return _on_emulated_board(stack, board or BOARDS[0])
     lines = lines or BusLines(bus, [node])
+    if lines.command:
+        return _of_ones_own(stack, lines, node)
     if bus == "none":
         link = InProcessLink(node, relay=lines.relay)
         return Connection(link, bus, lambda: "runs in this process", answers_at_once=True)
@@ -71,6 +73,12 @@ def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
     board = start_board(name)
     stack.callback(board.close)
     return Connection(board, f"emulated {name}", board.status, deadline_s=_EMULATED_S)
+
+
+def _of_ones_own(stack: ExitStack, lines: BusLines, node: int) -> Connection:
+    from host_sim.backends.own_robot import own_robot  # noqa: PLC0415 - see above
+
+    return own_robot(stack, lines, node)
 
 
 def _over_socket_pair(stack: ExitStack, node: int, relay: Relay | None) -> Connection:

@@ -3,7 +3,7 @@
 import argparse
 from argparse import Namespace
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -114,8 +114,12 @@ def run_options(arguments: Namespace, **others: Any) -> RunOptions:
     given["faults"] = tuple(rule for text in given.get("faults", ()) for rule in read_rules(text))
     if given.get("robots", 1) > NODE_MAX:
         given.setdefault("worlds", "own")
+    if not given.get("robot_command", "any").strip():
+        raise UsageError("--robot-command is empty: name a program, or leave it out")
     options = RunOptions(**{**given, **others})
     _check(options)
+    if options.robot_command and options.bus == "auto":
+        return replace(options, bus="fd")
     return options
 
 
@@ -146,6 +150,9 @@ def _check(options: RunOptions) -> None:
             if getattr(options, name) != getattr(RunOptions, name):
                 instead = "leave --terminal out" if options.terminal else "add --watch"
                 raise UsageError(f"--{name} is for a page in the browser: {instead}, or leave --{name} out")
+    if options.robot_command and (options.bus == "none" or options.robot != "spawn"):
+        other = "--bus none" if options.bus == "none" else f"--robot {options.robot}"
+        raise UsageError(f"--robot-command starts a program on fd or socketcan: leave {other} out")
     if options.board and options.robot != "emulated":
         raise UsageError(f"--board {options.board} is for --robot emulated: add that, or leave --board out")
     if options.bitrate != BIT_RATE and options.bus.partition(":")[0] in _NO_ADAPTER:

@@ -74,7 +74,7 @@ def make(
             log = NoLog()
             stack.callback(log.close)
         clients = []
-        lines = BusLines(config.bus, config.nodes, config.bitrate, config.reconnect_s)
+        lines = BusLines(config.bus, config.nodes, config.bitrate, config.reconnect_s, config.robot_command)
         for node in config.nodes:
             client = _connected(stack, config, node, lines, log)
             ready(client)

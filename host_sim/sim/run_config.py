@@ -130,6 +130,14 @@ class RunConfig:
         choices=ROBOTS,
         fleet=False,
     )
+    robot_command: str = option(
+        "",
+        "start this program as the robot, for each node, and again when it ends; it finds its bus in CAN_INTERFACE "
+        "and CAN_CHANNEL, its number in OCTET_NODE",
+        metavar="CMD",
+        unset="the firmware",
+        fleet=False,
+    )
     board: str = option("", "board for --robot emulated", choices=BOARDS, unset=BOARDS[0])
     node: int = option(
         1,

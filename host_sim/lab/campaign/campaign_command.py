@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from host_sim.backends.images import BOARDS
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import add_command, check_outputs, file_path, number
+from host_sim.cli.parsing import add_command, check_outputs, file_path, number, output_of
 from host_sim.protocol.words import PROFILES
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from host_sim.lab.campaign.cell import Cell
     from host_sim.lab.campaign.outcome import Outcome
 
-_LINKS = ("none", "fd", "slcan", "vcan", *BOARDS)
+_LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS)
 _EXAMPLES = """\
 examples:
   tools/octet campaign out/campaign.html                     every behaviour in lockstep, within this process
@@ -58,9 +58,13 @@ def add(commands: "Subparsers") -> None:
         choices=_LINKS,
         default=["none"],
         metavar="LINK",
-        help="how to reach the robot: none (in this process), fd (socket pair), slcan (serial line), vcan (inside "
-        f"tools/with-vcan), or an emulated board: {', '.join(BOARDS)} (default: none)",
+        help="how to reach the robot: none (in this process), fd (socket pair), external (your own program), slcan "
+        "(serial line), vcan (inside tools/with-vcan), or an emulated board: "
+        f"{', '.join(BOARDS)} (default: none)",
     )
+    add("--robot-command", default="", metavar="CMD", help="program to start as the robot, for --links external")
+    add("--json", type=output_of(".json"), metavar="FILE.json", help="also write the outcomes as JSON")
+    add("--junit", type=output_of(".xml"), metavar="FILE.xml", help="also write the outcomes as JUnit XML")
     add("--real-time", action="store_true", help="also run in real time (not with --links none)")
     add(
         "--limit-s",
@@ -76,7 +80,12 @@ def add(commands: "Subparsers") -> None:
 def _check(arguments: argparse.Namespace) -> None:
     if arguments.html is None and not (arguments.repeat or arguments.shrink):
         raise UsageError("campaign needs a FILE.html to write the report to, or --repeat or --shrink")
-    check_outputs("campaign", None, {"FILE.html": arguments.html})
+    check_outputs(
+        "campaign", None, {"FILE.html": arguments.html, "--json": arguments.json, "--junit": arguments.junit}
+    )
+    links = (arguments.repeat or arguments.shrink or "").split() or arguments.links
+    if bool(arguments.robot_command.strip()) != ("external" in links):
+        raise UsageError("--links external and --robot-command CMD, the robot that is there, go together")
     if arguments.jobs > 1 and "vcan" in arguments.links:
         raise UsageError("vcan0 is one bus for one robot at a time: leave out --jobs")
 
@@ -88,8 +97,10 @@ def _stages(arguments: argparse.Namespace) -> Sequence[str]:
 
 def _campaign(arguments: argparse.Namespace) -> int:
     if arguments.repeat or arguments.shrink:
-        return _repeat(arguments.repeat) if arguments.repeat else _shrink(arguments.shrink)
+        act = _repeat if arguments.repeat else _shrink
+        return act(arguments.repeat or arguments.shrink, arguments.robot_command)
     from host_sim.base.atomic_file import write_bytes
+    from host_sim.base.result_files import Case, write_results
     from host_sim.lab.campaign.html_report import page, summary, verdict
     from host_sim.lab.campaign.outcome import unreached
 
@@ -102,6 +113,15 @@ def _campaign(arguments: argparse.Namespace) -> int:
                 print(f"{verdict(outcome)}: {outcome.end or cell.fault}: {cell.command()}", file=sys.stderr)
     outcomes = [outcome for _, outcome in sorted(found, key=itemgetter(0))]
     write_bytes(arguments.html, page(outcomes).encode())
+    cases = [
+        Case(
+            f"{it.cell.configuration}: {it.cell.fault or 'no fault'}",
+            "failed" if it.problems else "passed",
+            f"{verdict(it)}\n{it.cell.command()}",
+        )
+        for it in outcomes
+    ]
+    write_results("campaign", cases, arguments.json, arguments.junit)
     print(summary(outcomes))
     print(f"wrote {arguments.html}")
     return int(any(outcome.problems for outcome in outcomes) or bool(unreached(outcomes, ("never came",))))
@@ -110,6 +130,7 @@ def _campaign(arguments: argparse.Namespace) -> int:
 def _outcomes(arguments: argparse.Namespace) -> "Iterator[tuple[int, Iterable[Outcome]]]":
     """The outcomes of each configuration, with its number; several at once come in any order."""
     from concurrent.futures import ProcessPoolExecutor
+    from dataclasses import replace
     from multiprocessing import get_context
 
     from host_sim.lab.campaign.cell import PACES
@@ -122,6 +143,7 @@ def _outcomes(arguments: argparse.Namespace) -> "Iterator[tuple[int, Iterable[Ou
     cells = groups(
         arguments.profiles, arguments.links, paces, lambda pace: arguments.limit_s or default_limit_s(pace)
     )
+    cells = ([replace(cell, command_of_own=arguments.robot_command) for cell in some] for some in cells)
     every = [Group(number, some) for number, some in enumerate(cells)]
     if arguments.jobs == 1:
         yield from ((number, run_cells(some)) for number, some in every)
@@ -137,18 +159,22 @@ def _with_clean(cell: "Cell") -> "Sequence[Cell]":
     return [replace(cell, faults=(), changes=(), events=(), fault=""), cell]
 
 
-def _repeat(text: str) -> int:
+def _repeat(text: str, program: str) -> int:
+    from dataclasses import replace
+
     from host_sim.lab.campaign.cell import Cell
     from host_sim.lab.campaign.html_report import account
     from host_sim.lab.campaign.matrix import recognised
     from host_sim.lab.campaign.running import run_all
 
-    *_, outcome = run_all(_with_clean(recognised(Cell.parse(text))))
+    *_, outcome = run_all(_with_clean(replace(recognised(Cell.parse(text)), command_of_own=program)))
     print(account(outcome))
     return int(bool(outcome.problems))
 
 
-def _shrink(text: str) -> int:
+def _shrink(text: str, program: str) -> int:
+    from dataclasses import replace
+
     from host_sim.lab.campaign.cell import Cell
     from host_sim.lab.campaign.running import run_all
     from host_sim.lab.campaign.shrink import shrink
@@ -157,6 +183,6 @@ def _shrink(text: str) -> int:
         *_, outcome = run_all(_with_clean(smaller))
         return outcome
 
-    for outcome in shrink(Cell.parse(text), attempt):
+    for outcome in shrink(replace(Cell.parse(text), command_of_own=program), attempt):
         print(f"{outcome.kind}: {outcome.cell}", flush=True)
     return 0

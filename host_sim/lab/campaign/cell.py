@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass, field, replace
+from shlex import quote
 
 from host_sim.base.errors import UsageError
 from host_sim.faults.event import Event
@@ -37,6 +38,7 @@ class Cell:
         faults: Faults of the frames, as `--fault` has them.
         changes: Faults of the body, as `--change` has them.
         events: Events of the robot, its line or this host.
+        command_of_own: The program of a robot of one's own.
         fault: All that in words; empty for a run without a fault.
         harmless: Whether the fault may go unnoticed; in lockstep it must leave no trace then.
         denies: Whether the robot itself must tell of the fault, and learn nothing wrong.
@@ -50,6 +52,7 @@ class Cell:
     faults: tuple[str, ...] = ()
     changes: tuple[str, ...] = ()
     events: tuple[Event, ...] = ()
+    command_of_own: str = ""
     fault: str = field(default="", compare=False)
     harmless: bool = field(default=False, compare=False)
     denies: bool = field(default=False, compare=False)
@@ -127,7 +130,8 @@ class Cell:
     def command(self) -> str:
         """A command that repeats it: one that leaves the files of a run where there is one."""
         if self.events or self.link not in PROCESS_LINKS:
-            return f"tools/octet campaign --repeat '{self}'"
+            program = f" --robot-command {quote(self.command_of_own)}" if self.command_of_own else ""
+            return f"tools/octet campaign{program} --repeat '{self}'"
         return replace(self.config, bus=self.link).command()
 
     def __str__(self) -> str:

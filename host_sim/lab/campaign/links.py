@@ -26,15 +26,16 @@ class InProcess:
         """As in `Setup`."""
 
 
-LINKS = ("none", "fd", "slcan", "vcan", *BOARDS)
-"""In this process, on a socket pair, on a serial line, on vcan0, and on an emulated board."""
+LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS)
+"""In this process, on a socket pair, there but of one's own, on a serial line, on vcan0, and on an emulated board."""
 
 
-def open_setup(link: str) -> AbstractContextManager[Setup]:
+def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
     """Sets up a robot; leaving the context ends it.
 
     Args:
         link: One of `LINKS`.
+        command: The program of a robot of one's own.
 
     Raises:
         UsageError: There is no such link, or not on this machine.
@@ -46,6 +47,10 @@ def open_setup(link: str) -> AbstractContextManager[Setup]:
         from host_sim.lab.campaign.socket_pair_setup import SocketPair  # noqa: PLC0415 - each loads what it needs
 
         return nullcontext(SocketPair())
+    if link == "external":
+        from host_sim.lab.campaign.own_setup import OwnProgram  # noqa: PLC0415 - see above
+
+        return nullcontext(OwnProgram(command))
     if link in ("slcan", "vcan"):
         from host_sim.lab.campaign.line_setups import serial_line, virtual_bus  # noqa: PLC0415 - see above
 

@@ -10,7 +10,7 @@ from host_sim.lab.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
 from host_sim.protocol.generated import MESSAGES, Opcode
 from host_sim.protocol.words import SENSORS
 
-_LINES, _PROCESSES = ("slcan", "vcan"), ("fd", "slcan", "vcan")
+_LINES, _PROCESSES = ("external", "slcan", "vcan"), ("fd", "external", "slcan", "vcan")
 _COMPARED = (LOCKSTEP,)
 """Where runs can be compared tick by tick."""
 

@@ -72,7 +72,8 @@ def run_cell(cell: Cell) -> Outcome:
 def _run_there(outcome: Outcome) -> None:
     cell, is_killed = outcome.cell, any(event.name in KILL_EVENTS for event in outcome.cell.events)
     with ExitStack() as stack:
-        setup, folder = stack.enter_context(open_setup(cell.link)), make_folder(cell.events, stack)
+        setup = stack.enter_context(open_setup(cell.link, cell.command_of_own))
+        folder = make_folder(cell.events, stack)
         check_events({*setup.events, *FILE_EVENTS, *CLOCK_EVENTS}, cell.link, cell.events)
         if is_killed and not _run_killed(outcome, setup, folder):
             return

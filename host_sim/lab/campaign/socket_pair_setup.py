@@ -27,7 +27,11 @@ class SocketPair:
 
     def found(self, client: RobotClient) -> None:  # noqa: ARG002 - as in `Setup`
         """As in `Setup`: the robot is the only new child of this process."""
-        (self._pid,) = _children() - self._before
+        self._pid = self._only_child()
+
+    def _only_child(self) -> int:
+        (pid,) = _children() - self._before
+        return pid
 
 
 def _children() -> set[int]:

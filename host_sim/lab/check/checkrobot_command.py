@@ -45,9 +45,9 @@ def add(commands: "Subparsers") -> None:
         help="fd (a socket pair, with --robot-command), or INTERFACE:CHANNEL (default: fd)",
     )
     add("--node", type=number(1, 31), default=1, help="the robot's node number, 1..31 (default: 1)")
-    add("--json", type=output_of(".json"), metavar="FILE.json", help="write the results as JSON, too")
-    add("--junit", type=output_of(".xml"), metavar="FILE.xml", help="write the results as JUnit's XML, too")
-    add("--all", action="store_true", help="print the sentences that hold, too")
+    add("--json", type=output_of(".json"), metavar="FILE.json", help="also write the results as JSON")
+    add("--junit", type=output_of(".xml"), metavar="FILE.xml", help="also write the results as JUnit XML")
+    add("--all", action="store_true", help="also print the sentences that hold")
 
 
 def _check(arguments: argparse.Namespace) -> None:

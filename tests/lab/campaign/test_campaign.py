@@ -61,7 +61,7 @@ def test_a_fault_without_effect_fails_the_campaign(tmp_path, monkeypatch):
 
 
 def test_a_robot_that_does_not_come_up_breaks_its_run_and_not_the_campaign(monkeypatch):
-    def fail(link):
+    def fail(link, _program):
         raise RobotError(f"the robot on {link} was not ready")
 
     monkeypatch.setattr("host_sim.lab.campaign.running.open_setup", fail)

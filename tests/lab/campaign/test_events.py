@@ -60,7 +60,7 @@ def test_the_power_goes_twice_in_a_row_while_flash_is_written_and_the_memory_is_
 
 def test_the_power_goes_twice_in_a_row_while_flash_is_erased_and_the_memory_is_kept(monkeypatch):
     setup = Board("blue_pill")
-    monkeypatch.setattr("host_sim.lab.campaign.running.open_setup", lambda _: nullcontext(setup))
+    monkeypatch.setattr("host_sim.lab.campaign.running.open_setup", lambda *_: nullcontext(setup))
 
     outcome = run_cell(Cell.parse("article blue_pill lockstep seed=12 limit=8 event=erase-cut@300"))
 
