@@ -24,7 +24,10 @@ int tick(uint32_t now_ms, struct frame frames[16]);
 """
 """What a library has: `tick` is called every ms, from 0 on, and returns the number of frames that it sends."""
 
-_FRAMES_MAX = 16
+START_S = 5.0
+"""A program that has said nothing by then says something only when it is asked."""
+
+_FRAMES_MAX, _SLICE_S = 16, 0.1
 
 
 class Device(Protocol):
@@ -113,7 +116,10 @@ def _build(source: Path, library: Path) -> None:
 
 
 class ProcessDevice:
-    """A program on a socket pair, or on a bus such as vcan; a ms of its time is one of the wall clock."""
+    """A program on a socket pair, or on a bus such as vcan; a ms of its time is one of the wall clock.
+
+    Its time begins with its first frame, or after `START_S`.
+    """
 
     def __init__(self, command: str, folder: Path, bus: str) -> None:
         """Starts it.
@@ -140,7 +146,21 @@ class ProcessDevice:
             except UsageError:
                 self._link.close()
                 raise
+        try:
+            self._await_first_frame()
+        except LinkDownError as error:
+            self.close()
+            raise UsageError(f"the device {error}") from None
         self._begun_s = time.monotonic()
+
+    def _await_first_frame(self) -> None:
+        """Its time begins with what it says first, since a busy machine may take long to start a program."""
+        for _ in range(round(START_S / _SLICE_S)):
+            frame = self._link.receive(_SLICE_S)
+            self._process.status()
+            if frame is not None:
+                self._link.put_back(frame)
+                return
 
     def send(self, frame: Frame) -> None:
         """As in `Device`."""
