@@ -1,9 +1,28 @@
 #include "hal/stm32/clock.h"
 
 #include "hal/port/cortex_m/systick.h"
-#include "hal/stm32/comes_up.h"
+
+/* On all chips. */
+enum {
+    HSEON = 1u << 16,   /* CR */
+    HSERDY = 1u << 17,
+    PLLON = 1u << 24,
+    PLLRDY = 1u << 25,
+    SWS = 3u << 2       /* CFGR */
+};
 
 static const struct clock_table *const chip = &CLOCK_TABLE;
+
+/* False: these bits of the register have not become what is wanted within that time. */
+static bool comes_up(volatile const uint32_t *reg, uint32_t mask, uint32_t wanted, uint32_t limit_ms)
+{
+    uint32_t start = machine_ms();
+
+    while ((*reg & mask) != wanted)
+        if (machine_ms() - start > limit_ms)
+            return false;
+    return true;
+}
 
 static bool start_crystal(void)
 {

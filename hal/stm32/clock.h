@@ -28,11 +28,8 @@ extern const struct clock_source CLOCK_SOURCES[2];   /* the internal oscillator,
 extern const struct clocks CLOCK_SLOW;   /* the internal oscillator as it is */
 
 enum {
-    HSEON = 1u << 16,        /* CR, on all of them */
-    HSERDY = 1u << 17,
-    PLLON = 1u << 24,
-    PLLRDY = 1u << 25,
-    SWS = 3u << 2            /* CFGR */
+    CRYSTAL_MS = 100,        /* most start in 2 ms; the maker's own code allows as much */
+    SWITCH_MS = 5            /* a PLL locks in 0.3 ms; a switch takes a few cycles */
 };
 
 #endif

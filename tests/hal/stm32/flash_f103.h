@@ -2,7 +2,6 @@
 #ifndef OCTET_FLASH_F103_H
 #define OCTET_FLASH_F103_H
 
-#include "hal/stm32/line.h"
 #include "hal/stm32/stm32f103/registers.h"
 
 enum {
@@ -19,10 +18,6 @@ static const uint32_t LOCK = 1u << 7;
 volatile struct flash_registers FLASH;
 volatile struct power_registers PWR;
 volatile store_word STORE[FLASH_PAGES][STORE_WORDS];
-
-void line_pump(void)
-{
-}
 
 static void supply(bool low)
 {

@@ -1,0 +1,32 @@
+/* flash_table.h: what flash.c needs to know of a chip. Notation as in registers.h. */
+#ifndef OCTET_FLASH_TABLE_H
+#define OCTET_FLASH_TABLE_H
+
+#include "hal/flash_store/flash.h"
+
+struct flash_table {
+    volatile uint32_t *keyr, *sr, *cr;
+    volatile uint32_t *ar;              /* takes the address of the page to erase; NULL: CR has its number */
+    const volatile uint32_t *supply;    /* the supply, compared with what pins.c says */
+    const volatile void *store;
+    uint32_t supply_low;                /* in *supply */
+    uint32_t page_size;
+    uint32_t unit;
+    uint32_t at_once;                   /* bytes that are written at once: a unit, or half of one */
+    uint32_t erase_ms;                  /* at least twice what a page takes */
+    uint32_t busy, errors, done;        /* SR */
+    uint32_t lock, write, erase, start; /* CR, with erase of the first page, */
+    uint32_t next_page;                 /* and what is added to that for the second */
+    bool slow;                          /* a unit takes longer than a byte on a serial line */
+};
+
+/* In the chip's flash.c, with flash_read. */
+extern const struct flash_table FLASH_TABLE;
+
+void flash_begin(unsigned page, uint32_t offset, const uint32_t words[]);
+        /* Begins to write the bytes that are written at once; half a word is the low half of words[0]. */
+
+bool flash_has(unsigned page, uint32_t offset, const uint32_t words[]);
+        /* Whether they read back as written. */
+
+#endif
