@@ -129,7 +129,8 @@ class Robot:
             if which & 127 > 9:
                 return UNKNOWN_PROFILE, 0
             self.profile, self.lockstep, self.parameters, self.frozen = which & 127, which >> 7, DEFAULTS, 0
-            self.part_ms, self.due = 0, []
+            if not self.running:
+                self.part_ms, self.due = 0, []
         if opcode in (START, RESUME):
             self.running, self.owner, self.hears_owner = 1, word >> 16 & 255, True
             self.knows_tick, self.strangers = False, 0

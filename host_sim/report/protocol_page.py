@@ -40,7 +40,8 @@ a robot against these, number by number.
    tick may have any number (T10).
 5. The robot's other frames of a tick (MEMORY when it has learned; once a second each report, one of them in each of
    the first ticks of the second (T11); EMERGENCY after a fault (T12)) come before that tick's DRIVE: DRIVE is
-   always the last (T13). Seconds are counted from **start** (T14).
+   always the last (T13). Seconds are counted from the
+   **start** of a stopped robot (T14).
 
 A program that does this is among the [recipes](recipes.md#a-world-of-your-own).
 

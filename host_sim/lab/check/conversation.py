@@ -135,10 +135,11 @@ def _after_a_fault(talk: Talk) -> list[Said]:
 @sentence("T14")
 def _seconds_begin_with_start(talk: Talk) -> None:
     for ticks in (SECOND // 2, SECOND):
+        talk.stop()
         talk.start()
         heard = [_names(talk.step()) for _ in range(ticks)]
     at = [tick for tick, names in enumerate(heard, 1) if "HEARTBEAT" in names]
-    expect(at == [SECOND], f"after a second start, HEARTBEAT comes in the ticks {at} of {len(heard)}")
+    expect(at == [SECOND], f"after stop and start, HEARTBEAT comes in the ticks {at} of {len(heard)}")
 
 
 @sentence("P7")
