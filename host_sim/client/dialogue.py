@@ -11,7 +11,7 @@ from host_sim.client.waiting import Waiting
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame
 from host_sim.protocol.generated import MESSAGES, Opcode, Result
 
-_REPORT_S = 1.0
+_REPORT_S, _NOISY_REPORT_S = 1.0, 0.03
 _REPORT_DEMANDS = 100
 _JUMP = 7
 
@@ -97,7 +97,8 @@ class Dialogue:
         reports.await_end()
         self.inbox.silent = False
         while not (self._has_reported and reports.ended):
-            heard = self.waiting.receive(self._take_any, _REPORT_S)
+            noisy = self.connection.line.noisy
+            heard = self.waiting.receive(self._take_any, _NOISY_REPORT_S if noisy else _REPORT_S)
             if heard is None or self.inbox.silent or now() > give_up:
                 break
             if reports.ended and not reports.complete:

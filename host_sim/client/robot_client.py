@@ -141,6 +141,8 @@ class RobotClient:
         self.connection.link.send(frame)
         inbox.counts.sent += 1
         inbox.record(frame)  # while the robot thinks
+        if self.connection.line.noisy:
+            self._note_copies()
 
     def note_sent(self, senses: Senses) -> None:
         """Takes over the senses of one tick that were sent and logged elsewhere."""
@@ -152,9 +154,7 @@ class RobotClient:
         """Sends the senses of the last tick again, and the distances that went before them."""
         if self.wants_ranges:
             self.waiting.repeat(self._ranges)
-        self._note_lost_answers(self.inbox.ticks - 1)
-        self.inbox.owed += 1
-        self._owed_tick = self.inbox.ticks
+        self._expect_answers(self.connection.line.copies)
         self.waiting.repeat(self._senses)
 
     def await_drive(self) -> Drive:
@@ -190,6 +190,7 @@ class RobotClient:
             RobotError: The robot does not answer.
         """
         self._note_lost_answers(self.inbox.ticks)
+        self._lossy = self._lossy or self.connection.line.noisy
         if self.inbox.owed and not self._lossy:
             self.waiting.receive(self._take_owed, self.connection.deadline_s)
         self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.lost > 0
@@ -216,6 +217,19 @@ class RobotClient:
         self.connection.link.send(self._ranges)
         self.inbox.counts.sent += 1
         self.inbox.record(self._ranges)
+
+    def _expect_answers(self, count: int) -> None:
+        """That many repeated senses are about to be answered."""
+        self._note_lost_answers(self.inbox.ticks - 1)
+        self.inbox.owed += count
+        self._owed_tick = self.inbox.ticks
+
+    def _note_copies(self) -> None:
+        """The senses of this tick have gone out several times at once."""
+        copies = self.connection.line.copies - 1
+        self._expect_answers(copies)
+        self.frames.repeated += copies
+        self.connection.line.ease()
 
     def _await_late_drive(self, *, was_silent: bool) -> Drive:
         repeated = self.frames.repeated

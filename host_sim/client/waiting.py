@@ -16,6 +16,7 @@ _REPEAT_S = 0.05
 _STRETCH_MAX = 16
 _DUST_S = 1e-6
 _WAITING_MAX = 64
+_MEANS = 4
 
 
 @dataclass(frozen=True)
@@ -56,15 +57,21 @@ class Waiting:
         """As `receive`, for an answer: `repeat` sends again what it is to answer, when that takes too long.
 
         A robot that is still answering what was repeated before would only be later for more of it. So the pauses
-        double, and the timeout begins anew, a few times at most.
+        double, and the timeout begins anew, a few times at most. Where a line is noisy, not the pauses double but the
+        copies.
         """
-        left_s, wait_s, stretch = timeout_s, self.round_trip.timeout_s, 1
-        again = self.inbox.answered_again
+        line, left_s, wait_s, stretch = self.connection.line, timeout_s, self._first_wait_s(), 1
+        again, garbled = self.inbox.answered_again, line.garbled
         while True:
             result = self.receive(take, min(wait_s, left_s))
             left_s -= wait_s
             if result is not None or left_s <= 0:
                 return result
+            if line.garbled > garbled:
+                garbled = line.garbled
+                line.insist()
+                repeat()
+                continue
             repeat()
             if self.inbox.answered_again > again and stretch < _STRETCH_MAX:
                 self.round_trip.back_off()
@@ -72,8 +79,13 @@ class Waiting:
             wait_s = min(2 * wait_s, stretch * _REPEAT_S)
 
     def repeat(self, frame: Frame) -> None:
-        """Sends a frame again."""
-        if self.round_trip.is_sure:
+        """Sends a frame again, on a noisy line many times."""
+        if self.round_trip.is_sure and not self.connection.line.noisy:
             self.round_trip.back_off()
         self.connection.link.send(frame)
-        self.inbox.counts.repeated += 1
+        self.inbox.counts.repeated += self.connection.line.copies
+
+    def _first_wait_s(self) -> float:
+        """On a noisy line all copies may be lost, but none is held up."""
+        expected_s, mean_s = self.round_trip.timeout_s, self.round_trip.mean_s
+        return min(expected_s, _MEANS * mean_s) if self.connection.line.noisy and mean_s else expected_s

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+_COPIES_MAX = 32
+
 
 @dataclass
 class LineStats:
@@ -10,12 +12,32 @@ class LineStats:
     Attributes:
         outages: Number of times that the line was gone.
         unsent: Number of frames that could not be sent; a frame that matters is sent again.
+        garbled: Number of lines of text that are no frame: noise.
+        copies: How many times a serial line sends each frame at once: more than once while it is noisy.
         reason: Why the line was gone last.
     """
 
     outages: int = 0
     unsent: int = 0
+    garbled: int = 0
+    copies: int = 1
+    _garbled_before: int = 0
     reason: str = ""
+
+    @property
+    def noisy(self) -> bool:
+        """Whether frames get lost by noise: then each is sent several times."""
+        return self.copies > 1
+
+    def insist(self) -> None:
+        """Doubles the copies: noise, unlike congestion, does not grow with what is sent."""
+        self.copies = min(2 * self.copies, _COPIES_MAX)
+
+    def ease(self) -> None:
+        """Halves the copies if the line has been clean since the last call."""
+        if self.garbled == self._garbled_before:
+            self.copies = max(self.copies // 2, 1)
+        self._garbled_before = self.garbled
 
     def account(self) -> str:
         """What is worth telling in an error message, as a continuation of a sentence; empty for nothing."""

@@ -13,6 +13,7 @@ from host_sim.transport.line_stats import LineStats
 
 _LINE = re.compile(rb"t([0-9A-Fa-f]{3})([0-8])((?:[0-9A-Fa-f]{2}){0,8})")
 _ENDS = re.compile(rb"[\r\a]")
+_OTHER_FRAMES = (b"T", b"r", b"R")
 _ACKNOWLEDGED = (b"", b"z", b"Z")
 _CHUNK = 4096
 _LINE_MAX = 64
@@ -69,7 +70,7 @@ class SlcanLink:
 
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
-        self.write(encode(frame))
+        self.write(encode(frame) * self._stats.copies)
 
     def write(self, text: bytes) -> None:
         """Sends any text; what there is no room for in time is lost."""
@@ -106,8 +107,11 @@ class SlcanLink:
             if line in _ACKNOWLEDGED:
                 continue
             frame = decode(line)
-            if frame is None or not self._ids or frame.id in self._ids:
-                return frame or _NO_FRAME
+            if frame is None:
+                self._stats.garbled += not line.startswith(_OTHER_FRAMES)
+                return _NO_FRAME
+            if not self._ids or frame.id in self._ids:
+                return frame
         return None
 
     def _await(self, event: int, timeout_s: float) -> bool:

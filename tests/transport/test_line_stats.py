@@ -11,7 +11,10 @@ from host_sim.transport.line_stats import LineStats
         (LineStats(), ""),
         (LineStats(outages=2, reason="no such device"), "; the line was gone 2 times, last: no such device"),
         (LineStats(unsent=3), "; 3 frames could not be sent"),
-        (LineStats(1, 4, "x"), "; the line was gone 1 times, last: x; 4 frames could not be sent"),
+        (
+            LineStats(outages=1, unsent=4, reason="x"),
+            "; the line was gone 1 times, last: x; 4 frames could not be sent",
+        ),
     ],
 )
 def test_only_what_happened_is_told(stats, told):

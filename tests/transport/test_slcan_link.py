@@ -52,6 +52,34 @@ def test_a_line_that_is_no_frame_costs_no_other(ends, noise):
     assert [link.receive(0.5), link.receive(0.5)] == [NO_FRAME, FRAME]
 
 
+def test_only_what_is_no_frame_at_all_is_noise():
+    near, far = socket.socketpair()
+    stats = LineStats()
+    link = SlcanLink(near, stats)
+
+    far.send(b"\xff\xfe\rt12\rT000001230\rr1230\rR000001230\r" + encode(FRAME))
+    while link.receive(0.5) != FRAME:
+        pass
+
+    assert stats.garbled == 2
+    link.close()
+    far.close()
+
+
+def test_on_a_noisy_line_each_frame_is_sent_several_times():
+    near, far = socket.socketpair()
+    stats = LineStats()
+    link = SlcanLink(near, stats)
+
+    stats.insist()
+    stats.insist()
+    link.send(FRAME)
+
+    assert far.recv(4096) == 4 * encode(FRAME)
+    link.close()
+    far.close()
+
+
 def test_frames_with_other_identifiers_are_skipped():
     near, far = socket.socketpair()
     link = SlcanLink(near, ids=[0x123])
