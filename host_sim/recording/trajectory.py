@@ -93,6 +93,12 @@ class RobotTrack:
 
         return np.frombuffer(self.rows_flat, np.int16).reshape(-1, len(ROW))[:, ROW.index(name)]
 
+    def trail(self, first: int, end: int) -> list[tuple[float, float, int]]:
+        """For each tick from `first` to before `end`, x and y in mm after it, and the reason of its drive."""
+        ticks = slice(first - self.first_tick, end - self.first_tick)
+        places, reasons = self.poses()[ticks, :2].tolist(), self.column("reason")[ticks].tolist()
+        return [(x, y, reason) for (x, y), reason in zip(places, reasons, strict=True)]
+
     def ticks_of(self, reason: Reason) -> list[int]:
         """The retained ticks in which turns with a reason began."""
         return [tick for tick, why in self.begun if why == reason]

@@ -14,15 +14,12 @@ from host_sim.report.drawing import (
     CONE_DARK,
     CONE_LIT,
     FLOOR,
-    FOOD_MM,
     PAPER,
     Plan,
     draw_cell,
     draw_cone,
-    draw_food,
-    draw_obstacles,
-    draw_plants,
     draw_robot,
+    draw_scene,
     draw_trail,
     write,
 )
@@ -129,10 +126,7 @@ def _draw_arena(trajectory: Trajectory, tick: int, width_px: int) -> Image.Image
         _draw_trail(plan, trajectory, track, tick)
     for state in states:
         _draw_cones(plan, state, params)
-    draw_obstacles(plan, (((ax, ay), (bx, by)) for _, ax, ay, bx, by in scene["bars"]), params)
-    draw_plants(plan, scene.get("plants", []))
-    for (x, y), eaten in zip(scene["food"], states[0]["eaten"], strict=True):
-        draw_food(plan, (x, y), FOOD_MM, bool(eaten))
+    draw_scene(plan, scene, states[0]["eaten"], params)
     for state in states:
         draw_robot(plan, _pose(state), 2 * params.body_radius_mm, PAPER)
     return plan.done()
@@ -152,9 +146,8 @@ def _draw_trail(plan: Plan, trajectory: Trajectory, track: RobotTrack, tick: int
     """Draws the last `_TRAIL_S` of a robot's path, within this environment."""
     begun = at(trajectory.scenes, tick)["first_tick"]
     first = max(tick - round(_TRAIL_S / trajectory.params.tick_s), begun, track.first_tick)
-    rows = slice(first - track.first_tick, tick + 1 - track.first_tick)
-    places, reasons = track.poses()[rows, :2].tolist(), track.column("reason")[rows].tolist()
-    draw_trail(plan, tuple(places[0]), [(x, y, reason) for (x, y), reason in zip(places, reasons, strict=True)])
+    trail = track.trail(first, tick + 1)
+    draw_trail(plan, trail[0][:2], trail)
 
 
 def _draw_memory(state: State, lesson: Lesson | None, params: SimParams, width_px: int) -> Image.Image:

@@ -11,6 +11,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from host_sim.base.atomic_file import write_bytes
 from host_sim.protocol.generated import FEEL, Reason, Side
+from host_sim.view.state_types import EnvironmentScene
 from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline
 from host_sim.world.geometry import Point, Pose, ahead_of
 from host_sim.world.layouts import Layout
@@ -133,7 +134,15 @@ def draw_obstacles(plan: Plan, bars: Iterable[Sequence[Point]], params: SimParam
     plan.line([(0, 0), (right, 0), (right, bottom), (0, bottom), (0, 0)], _FRAME_MM, OBSTACLE)
 
 
-def draw_plants(plan: Plan, plants: Iterable[Sequence[float]]) -> None:
+def draw_scene(plan: Plan, scene: EnvironmentScene, eaten: Sequence[int], params: SimParams) -> None:
+    """Draws what stands in an arena: walls, bars, plants and food; for each piece, 1 if it was eaten, else 0."""
+    draw_obstacles(plan, (((ax, ay), (bx, by)) for _, ax, ay, bx, by in scene["bars"]), params)
+    _draw_plants(plan, scene.get("plants", []))
+    for (x, y), is_eaten in zip(scene["food"], eaten, strict=True):
+        draw_food(plan, (x, y), FOOD_MM, bool(is_eaten))
+
+
+def _draw_plants(plan: Plan, plants: Iterable[Sequence[float]]) -> None:
     """Draws plants, given by id, centre and radius in mm: leaves around a pot, as large as they are."""
     for _, x, y, radius in plants:
         plan.disc((x, y), 2 * radius, _LEAF)

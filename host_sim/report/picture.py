@@ -24,9 +24,8 @@ from host_sim.report.drawing import (
     draw_cell,
     draw_food,
     draw_mark,
-    draw_obstacles,
-    draw_plants,
     draw_robot,
+    draw_scene,
     draw_trail,
     write,
 )
@@ -100,16 +99,11 @@ class _Panels:
 
 def _panel(trajectory: Trajectory, first: int, end: int) -> Panel:
     """The panel of the environment from tick `first` to before tick `end`."""
-    rows = slice(first - trajectory.first_tick, end - trajectory.first_tick)
-    trails = []
-    for track in trajectory.tracks:
-        places, reasons = track.poses()[rows, :2].tolist(), track.column("reason")[rows].tolist()
-        trails.append([(x, y, reason) for (x, y), reason in zip(places, reasons, strict=True)])
     return Panel(
         scene=at(trajectory.scenes, end - 1),
         eaten=at(trajectory.meals, end - 1),
         robot_s=(end - first) * trajectory.params.tick_s,
-        trails=trails,
+        trails=[track.trail(first, end) for track in trajectory.tracks],
         starts=[track.pose(first) for track in trajectory.tracks],
         nodes=[track.node for track in trajectory.tracks],
         news=[((tick - first) * trajectory.params.tick_s, it) for tick, it in trajectory.news if first <= tick < end],
@@ -206,10 +200,7 @@ def _environment(panel: Panel, params: SimParams, width_px: int) -> Image.Image:
     plan = Plan(params.width_mm, params.height_mm, width_px, FLOOR)
     for start, trail in zip(panel.starts, panel.trails, strict=True):
         draw_trail(plan, start[:2], trail)
-    draw_obstacles(plan, (((ax, ay), (bx, by)) for _, ax, ay, bx, by in panel.scene["bars"]), params)
-    draw_plants(plan, panel.scene.get("plants", []))
-    for (x, y), eaten in zip(panel.scene["food"], panel.eaten, strict=True):
-        draw_food(plan, (x, y), FOOD_MM, bool(eaten))
+    draw_scene(plan, panel.scene, panel.eaten, params)
     for start, trail in zip(panel.starts, panel.trails, strict=True):
         draw_robot(plan, start, 2 * params.body_radius_mm, PAPER)
         draw_robot(plan, _end(start, trail), 2 * params.body_radius_mm, INK)
