@@ -3,7 +3,6 @@
 import os
 import sys
 import time
-from struct import Struct
 from typing import Any, NamedTuple, Protocol
 
 from host_sim.backends.in_process_link import InProcessLink
@@ -19,7 +18,6 @@ WAIT_MS = 5
 _TIMED_EVERY = 4096
 """One in this many ticks over a link is left to Python, which measures how long an answer takes."""
 
-_FRAME = Struct("=IB8s3x")
 _BLOCK_S, _FIRST_TICKS = 0.05, 64
 """Longest time of a block over a link, s of wall-clock time, since people can interfere only between blocks; and the
 length of the first block, ticks, which is a guess.
@@ -120,7 +118,6 @@ class RobotBehindLink:
         self._native, self._client, self._link = native, client, link
         self._socket: FrameSocket | None = None
         self._opened: Any = None  # what C code points to, and Python must not free
-        self._known: Any = native.ffi.buffer(native.robot.known)
         self._kinds: list[str] = []  # of the reports that C code knows
         self._counts: tuple[int, ...] = ()
         self._began_s, self._ticks_max = 0.0, _FIRST_TICKS
@@ -147,7 +144,7 @@ class RobotBehindLink:
             self._ticks_max = max(1, int(_BLOCK_S * ticks / (time.perf_counter() - self._began_s)))
         told = self._native.ffi.unpack(robot.told, len(self._kinds)) if self._kinds else []
         in_order = sorted((when, i) for i, when in enumerate(told) if when)
-        take_routine_reports(client, [(self._kinds[i], self._report(i)) for _, i in in_order])
+        take_routine_reports(client, [(self._kinds[i], _frame(robot.known[i])) for _, i in in_order])
         client.frames.received += robot.received
         if ticks:
             take_ticks(client, Ticks(ticks, _frame(robot.drive)))
@@ -184,10 +181,6 @@ class RobotBehindLink:
         self._socket.closing = lambda: None
         self._native.ffi.release(self._opened)
         self._socket = None
-
-    def _report(self, index: int) -> Frame:
-        frame_id, length, data = _FRAME.unpack_from(self._known, index * _FRAME.size)
-        return Frame(frame_id, data[:length])
 
     def _know_reports(self) -> None:
         """What others must hear, Python passes on: they hear it where it stands in the order of frames."""
