@@ -14,7 +14,7 @@ READS = {
 """What reads it, by the ends of files' names."""
 
 ALLOWED = {
-    "host_sim/lab/campaign/wall_clock.py": "sets it, for those who read it",
+    "host_sim/lab/campaign/host_events.py": "sets it, for those who read it",
     "host_sim/live/feed.py": "tells the page when a message was made",
     "host_sim/transport/socket_pair_bus.py": "the time stamp that python-can wants of a frame",
 }

@@ -66,13 +66,11 @@ def _measure(options: argparse.Namespace) -> int:
 
 
 def _all_figures() -> "list[Figure]":
-    from host_sim.lab.bench.fleet_figures import fleet_figures
+    from host_sim.lab.bench.fleet_figures import fleet_figures, vector_figure
     from host_sim.lab.bench.image_figures import image_figures
-    from host_sim.lab.bench.learner_figures import vector_figure
     from host_sim.lab.bench.lockstep_figures import lockstep_figures
-    from host_sim.lab.bench.memory_figures import memory_figure
     from host_sim.lab.bench.page_figures import page_figures
-    from host_sim.lab.bench.start_figures import start_figure
+    from host_sim.lab.bench.run_figures import memory_figure, start_figure
 
     return [
         start_figure(),

@@ -3,10 +3,36 @@
 import json
 import os
 import signal
+import sys
+import tempfile
 from collections.abc import Callable
+from pathlib import Path
+from types import FrameType
 from typing import Any
 
-from host_sim.lab.campaign.instructions import before_each_instruction
+_TRACED = (str(Path(__file__).parents[2]), tempfile.__file__)
+
+
+def before_each_instruction(happen: Callable[[], None]) -> None:
+    """Has a function called before each Python instruction of this package that begins from now on, in this thread.
+
+    The functions that run already are left alone, but for what they call. `sys.settrace(None)` ends it.
+
+    Args:
+        happen: The function.
+    """
+
+    def trace(frame: FrameType, event: str, _: Any) -> Any:
+        if event == "opcode":
+            happen()
+        elif event == "call":
+            if not frame.f_code.co_filename.startswith(_TRACED):
+                return None
+            frame.f_trace_opcodes = True
+        return trace
+
+    sys.settrace(trace)
+
 
 Tell = Callable[..., None]
 """Takes what a run wants to be known of it, though it may be killed at any time: numbers, words and lists of them."""

@@ -12,7 +12,7 @@ from host_sim.backends.robot_process import RobotProcess
 from host_sim.base.errors import UsageError
 from host_sim.client.robot_client import RobotClient
 from host_sim.faults.cable import Cable, Socket
-from host_sim.lab.campaign.process_events import process_events
+from host_sim.lab.campaign.host_events import process_events
 from host_sim.lab.campaign.setup import Happen
 from host_sim.sim.run_config import RunConfig
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from host_sim.base.errors import UsageError
-from host_sim.lab.campaign.process_events import process_events
+from host_sim.lab.campaign.host_events import process_events
 from host_sim.lab.campaign.setup import Happen
 from host_sim.lab.campaign.socket_pair_setup import SocketPair
 from host_sim.sim.run_config import RunConfig

@@ -1,5 +1,7 @@
 """The files that a run writes, and the harm that this host can do to them."""
 
+import ctypes
+import hashlib
 import resource
 import shutil
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -9,14 +11,63 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from host_sim.base.errors import OctetError
-from host_sim.client.frame_log import digest_of
+from host_sim.client.frame_log import FrameLog, digest_of
 from host_sim.faults.event import Event
-from host_sim.lab.campaign.course import CourseLog
 from host_sim.lab.campaign.killed import Tell, kill_at
-from host_sim.lab.campaign.permissions import obey_permissions
 from host_sim.lab.campaign.setup import Happen
+from host_sim.protocol.codec import Protocol
 from host_sim.protocol.memory_kinds import Memory
 from host_sim.recording.memory_file import MemorySaver, load_memory
+
+_NODE = 1
+_OF_COURSE = tuple(f" {Protocol(_NODE).id_of(name):03X}#".encode() for name in ("SENSES", "DRIVE"))
+
+
+class CourseLog(FrameLog):
+    """A log that knows the course of its run, too."""
+
+    def __init__(self, path: Path | None = None) -> None:
+        """As in `FrameLog`."""
+        self._course = hashlib.sha256()
+        super().__init__(path)
+
+    @property
+    def course(self) -> str:
+        """SHA-256 of the lines of the course that were written, in hexadecimal."""
+        return self._course.hexdigest()
+
+    def _write(self, block: bytes) -> None:
+        for line in block.splitlines():
+            if any(name in line for name in _OF_COURSE):
+                self._course.update(line)
+        super()._write(block)
+
+
+_VERSION = 0x20080522
+_WORDS = 6
+_OVERRIDE = 1 << 1
+"""CAP_DAC_OVERRIDE, by which permissions mean nothing to root."""
+
+
+def obey_permissions(undo: ExitStack) -> None:
+    """Has this thread obey the permissions of files, even as root.
+
+    Args:
+        undo: Takes it back.
+    """
+    header, data = (ctypes.c_uint32 * 2)(_VERSION, 0), (ctypes.c_uint32 * _WORDS)()
+    libc = ctypes.CDLL(None, use_errno=True)
+    _check(libc.capget(header, data))
+    before = (ctypes.c_uint32 * _WORDS)(*data)
+    data[0] &= ~_OVERRIDE
+    _check(libc.capset(header, data))
+    undo.callback(libc.capset, header, before)
+
+
+def _check(result: int) -> None:
+    if result:
+        raise OSError(ctypes.get_errno(), "cannot set the capabilities of this process")
+
 
 _READ_ONLY = 0o555
 _MEMORY = "robot.mem"

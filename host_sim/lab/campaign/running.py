@@ -11,12 +11,12 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.faults.event import Event
 from host_sim.faults.faulty_link import FaultyLink
 from host_sim.lab.campaign.cell import Cell
+from host_sim.lab.campaign.host_events import CLOCK_EVENTS, clock_events
 from host_sim.lab.campaign.killed import Tell, run_to_be_killed
 from host_sim.lab.campaign.links import check_events, open_setup
 from host_sim.lab.campaign.outcome import Outcome
 from host_sim.lab.campaign.run_files import FILE_EVENTS, KILL_EVENTS, NoFiles, is_memory_held, make_folder, open_files
 from host_sim.lab.campaign.setup import Happen, Setup
-from host_sim.lab.campaign.wall_clock import CLOCK_EVENTS, clock_events
 from host_sim.protocol.generated import TICK_SPAN, Side
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.make import make

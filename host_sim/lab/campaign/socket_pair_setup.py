@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from host_sim.client.robot_client import RobotClient
-from host_sim.lab.campaign.process_events import process_events
+from host_sim.lab.campaign.host_events import process_events
 from host_sim.lab.campaign.setup import Happen
 from host_sim.sim.run_config import RunConfig
 

@@ -63,7 +63,7 @@ def _check(arguments: argparse.Namespace) -> None:
 def _export(arguments: argparse.Namespace) -> int:
     from host_sim.base.atomic_file import replacing
     from host_sim.base.extra_library import library
-    from host_sim.lab.export.time_limits import within_limits
+    from host_sim.lab.export.frames import within_limits
     from host_sim.recording.log_reader import read_log
 
     wanted = _wanted(arguments)

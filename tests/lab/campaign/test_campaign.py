@@ -10,11 +10,11 @@ from host_sim.base.errors import RobotError, UsageError
 from host_sim.faults.event import Event
 from host_sim.lab.campaign import matrix
 from host_sim.lab.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
-from host_sim.lab.campaign.course import CourseLog
 from host_sim.lab.campaign.html_report import page, summary, verdict
 from host_sim.lab.campaign.links import LINKS, open_setup
 from host_sim.lab.campaign.matrix import FaultClass, default_limit_s, groups
 from host_sim.lab.campaign.outcome import Outcome
+from host_sim.lab.campaign.run_files import CourseLog
 from host_sim.lab.campaign.running import run_all
 from host_sim.lab.campaign.shrink import shrink
 from host_sim.protocol.codec import Frame

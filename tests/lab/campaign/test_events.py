@@ -8,11 +8,11 @@ import pytest
 from host_sim.backends.images import BOARDS
 from host_sim.lab.campaign.board_setup import Board
 from host_sim.lab.campaign.cell import PACES, Cell
+from host_sim.lab.campaign.host_events import CLOCK_EVENTS
 from host_sim.lab.campaign.links import open_setup
 from host_sim.lab.campaign.matrix import default_limit_s, groups
 from host_sim.lab.campaign.run_files import FILE_EVENTS
 from host_sim.lab.campaign.running import run_cell
-from host_sim.lab.campaign.wall_clock import CLOCK_EVENTS
 from tests.lab.campaign.support import leaves_a_trace, outcome_of
 
 

@@ -6,8 +6,8 @@ from contextlib import ExitStack
 import pytest
 
 from host_sim.base.errors import OctetError
+from host_sim.lab.campaign.host_events import clock_events
 from host_sim.lab.campaign.run_files import RunFiles
-from host_sim.lab.campaign.wall_clock import clock_events
 from host_sim.protocol.codec import Frame
 from host_sim.recording.memory_file import MemorySaver
 from tests.lab.campaign.support import leaves_a_trace, outcome_of

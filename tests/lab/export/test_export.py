@@ -16,7 +16,7 @@ from vblf.reader import BlfReader
 
 from host_sim.base.extra_library import library
 from host_sim.cli.main import main
-from host_sim.lab.export.time_limits import LAST_S
+from host_sim.lab.export.frames import LAST_S
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.every_node import hear
 from host_sim.protocol.generated import MESSAGES

@@ -1,11 +1,12 @@
-"""How long a start takes."""
+"""How long the start of a run takes, and how much memory a long one."""
 
+import os
 import subprocess
 import sys
 from tempfile import TemporaryDirectory
 
 from host_sim.base.paths import ROOT
-from host_sim.lab.bench.figure import Figure
+from host_sim.lab.bench.figure import Figure, most_figure
 
 _STARTS = 10
 _RATIO_MAX = 1.6
@@ -34,3 +35,19 @@ def start_figure() -> Figure:
 def _ms(*arguments: str) -> float:
     command = [sys.executable, *arguments]
     return float(subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout)
+
+
+_ENVIRONMENTS = 1000
+_MB_MAX = 150.0
+
+
+def memory_figure() -> Figure:
+    """The greatest memory of a run of a thousand environments, its page and its picture included."""
+    with TemporaryDirectory() as folder:
+        options = ["run", "--bus", "none", "--environments", str(_ENVIRONMENTS), "--quiet", "--out", folder]
+        process = os.spawnv(os.P_NOWAIT, sys.executable, [sys.executable, "-m", "host_sim", *options])
+        _, status, usage = os.wait4(process, 0)
+    if status:
+        raise ChildProcessError(f"the run of {_ENVIRONMENTS} environments ended with {status}")
+    name = f"memory of a run of {_ENVIRONMENTS} environments"
+    return most_figure(name, usage.ru_maxrss / 1024, "MB", _MB_MAX, "the ticks that page and picture show")
