@@ -1,54 +1,9 @@
-"""The rows of a study: a table of runs, one of environments and one of contacts.
-
-| runs        | a run                                                                                |
-| ----------- | ------------------------------------------------------------------------------------ |
-| condition   | name of its condition                                                                |
-| seed        | its seed                                                                             |
-| profile     | the behaviour                                                                        |
-| settings    | parameters that differ from their defaults, as JSON                                  |
-| world       | where the environments are drawn from                                                |
-| change      | what world and bodies met with; empty for nothing                                    |
-| robots      | number of robots                                                                     |
-| known_s     | robot time until a turn was known for patterns 1, 3, 4 and 6, s, the robots' median  |
-| log_sha256  | digest of its log                                                                    |
-| code        | version of the sources                                                               |
-| command     | what repeats it                                                                      |
-
-| environments | an environment of a run                                                             |
-| ------------ | ----------------------------------------------------------------------------------- |
-| condition    | as above                                                                            |
-| seed         | as above                                                                            |
-| environment  | its number, from 1                                                                  |
-| finished     | whether all food was eaten                                                          |
-| robot_s      | robot time, s                                                                       |
-| collisions   | times that a body began to touch something                                          |
-| wrong        | robots that know a wrong turn for pattern 1, 3, 4 or 6 in the end                   |
-| changed      | whether the change had been made                                                    |
-| sides        | the turns that each robot knows in the end, for patterns 0 to 7: 0, 1 left, 2 right |
-
-| contacts    | a time that a robot was blocked                                                      |
-| ----------- | ------------------------------------------------------------------------------------ |
-| condition   | as above                                                                             |
-| seed        | as above                                                                             |
-| environment | as above                                                                             |
-| robot       | the robot, from 0                                                                    |
-| number      | the contacts of this robot, counted from 1 through all environments                  |
-| changed     | whether the change had been made                                                     |
-| begun_s     | robot time from the start of the environment, s                                      |
-| pattern     | what the front sensors said, 1 to 7                                                  |
-| blocked_s   | robot time until the way was clear, s                                                |
-| trials      | random turns                                                                         |
-| remembered  | remembered turns                                                                     |
-| boredoms    | about-faces                                                                          |
-| cleared     | whether the way became clear                                                         |
-| sides       | the turns known in the end                                                           |
-| wrong       | whether one of them is wrong                                                         |
-"""
+"""The rows of a study: tables of its runs, of their environments, and of the contacts, when a robot was blocked."""
 
 import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,47 +11,55 @@ from numpy.typing import NDArray
 from host_sim.lab.study.trial import Run, knows_wrong
 from host_sim.lab.study.version import code_version
 
-COLUMNS: Mapping[str, Mapping[str, type]] = {
+
+class Column(NamedTuple):
+    """A column of a table: the kind of its values, and what they mean."""
+
+    kind: type
+    meaning: str
+
+
+COLUMNS: Mapping[str, Mapping[str, Column]] = {
     "runs": {
-        "condition": str,
-        "seed": int,
-        "profile": str,
-        "settings": str,
-        "world": str,
-        "change": str,
-        "robots": int,
-        "known_s": float,
-        "log_sha256": str,
-        "code": str,
-        "command": str,
+        "condition": Column(str, "name of its condition"),
+        "seed": Column(int, "its seed"),
+        "profile": Column(str, "the behaviour"),
+        "settings": Column(str, "parameters that differ from their defaults, as JSON"),
+        "world": Column(str, "where the environments are drawn from"),
+        "change": Column(str, "what world and bodies met with; empty for nothing"),
+        "robots": Column(int, "number of robots"),
+        "known_s": Column(float, "robot time until turns for patterns 1, 3, 4 and 6 were known, s; the median"),
+        "log_sha256": Column(str, "digest of its log"),
+        "code": Column(str, "version of the sources"),
+        "command": Column(str, "what repeats it"),
     },
     "environments": {
-        "condition": str,
-        "seed": int,
-        "environment": int,
-        "finished": bool,
-        "robot_s": float,
-        "collisions": int,
-        "wrong": int,
-        "changed": bool,
-        "sides": str,
+        "condition": Column(str, "name of its condition"),
+        "seed": Column(int, "its seed"),
+        "environment": Column(int, "its number, from 1"),
+        "finished": Column(bool, "whether all food was eaten"),
+        "robot_s": Column(float, "robot time, s"),
+        "collisions": Column(int, "times that a body began to touch something"),
+        "wrong": Column(int, "robots that know a wrong turn for pattern 1, 3, 4 or 6 in the end"),
+        "changed": Column(bool, "whether the change had been made"),
+        "sides": Column(str, "the turns that each robot knows in the end, for patterns 0 to 7: 0, 1 left, 2 right"),
     },
     "contacts": {
-        "condition": str,
-        "seed": int,
-        "environment": int,
-        "robot": int,
-        "number": int,
-        "changed": bool,
-        "begun_s": float,
-        "pattern": int,
-        "blocked_s": float,
-        "trials": int,
-        "remembered": int,
-        "boredoms": int,
-        "cleared": bool,
-        "sides": str,
-        "wrong": bool,
+        "condition": Column(str, "name of its condition"),
+        "seed": Column(int, "its seed"),
+        "environment": Column(int, "its number, from 1"),
+        "robot": Column(int, "the robot, from 0"),
+        "number": Column(int, "the contacts of this robot, counted from 1 through all environments"),
+        "changed": Column(bool, "whether the change had been made"),
+        "begun_s": Column(float, "robot time from the start of the environment, s"),
+        "pattern": Column(int, "what the front sensors said, 1 to 7"),
+        "blocked_s": Column(float, "robot time until the way was clear, s"),
+        "trials": Column(int, "random turns"),
+        "remembered": Column(int, "remembered turns"),
+        "boredoms": Column(int, "about-faces"),
+        "cleared": Column(bool, "whether the way became clear"),
+        "sides": Column(str, "the turns known in the end"),
+        "wrong": Column(bool, "whether one of them is wrong"),
     },
 }
 """The columns of each table."""
@@ -124,8 +87,8 @@ def tables_of(runs: Iterable[Run]) -> Tables:
         for name, more in rows_of(run).items():
             rows[name] += more
     return {
-        name: {column: np.array([row[column] for row in rows[name]], _kind(kind)) for column, kind in kinds.items()}
-        for name, kinds in COLUMNS.items()
+        table: {name: np.array([row[name] for row in rows[table]], _kind(it.kind)) for name, it in columns.items()}
+        for table, columns in COLUMNS.items()
     }
 
 

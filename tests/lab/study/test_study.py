@@ -2,7 +2,6 @@
 
 import json
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -13,7 +12,7 @@ import pytest
 
 from host_sim.base.extra_library import library
 from host_sim.cli.main import main
-from host_sim.lab.study import tables, workers
+from host_sim.lab.study import workers
 from host_sim.lab.study.folder import StudyFolder
 from host_sim.lab.study.trial import run_trial
 from host_sim.lab.workers import processes
@@ -59,17 +58,6 @@ def test_a_study_has_a_row_for_each_run_environment_and_contact(plan, tmp_path, 
     ours = (contacts["condition"] == "never") & (contacts["seed"] == 2)
     assert contacts["trials"][ours].tolist() == [it.trials for it in expected.rows[0].contacts[0]]
     assert contacts["number"][ours].tolist() == list(range(1, ours.sum() + 1))
-
-
-def test_each_table_has_the_columns_that_are_described():
-    described = {
-        name: re.findall(r"^\| (\w+) +\| ", table, re.MULTILINE)
-        for name, table in re.findall(
-            r"^\| (\w+) +\| [^\n]+\n\| -+ \|[^\n]+\n((?:\|[^\n]+\n)+)", tables.__doc__, re.MULTILINE
-        )
-    }
-
-    assert {name: list(columns) for name, columns in tables.COLUMNS.items()} == described
 
 
 def test_other_programs_read_the_tables(plan, tmp_path):
