@@ -20,7 +20,8 @@ ROW = '[[exception]]\nin = "firmware/a.c"\nwhat = ["{}"]\nwhy = "{}"\n'
     ("change", "listed", "unknown"),
     [
         ("return x < 3; -> return x <= 3;", 1, []),
-        ("return x < 3; -> *", 4, []),
+        ("return x < 3; -> *;", 4, []),
+        ("return x < 3; -> *", 4, ["firmware/a.c: `return x < 3; -> *` would excuse any: name the mutants"]),
         ("return x -> return x", 0, ["firmware/a.c: no mutant is `return x -> return x`"]),
     ],
 )

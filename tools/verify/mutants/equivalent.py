@@ -11,8 +11,9 @@ from tools.verify.mutants.sources import Source
 
 
 def unmatched(table: Sequence[Permit], mutants: Sequence[Mutant]) -> list[str]:
-    """What the table lists and no mutant is, in sentences."""
-    return [f"{permit.file}: no mutant is `{permit.what}`" for permit in uncovering(table, mutants)]
+    """What the table lists and no mutant is, or any mutant of a line would be, in sentences."""
+    broad = [f"{permit} would excuse any: name the mutants" for permit in table if permit.what.endswith("-> *")]
+    return [*broad, *(f"{permit.file}: no mutant is `{permit.what}`" for permit in uncovering(table, mutants))]
 
 
 def needless(table: Sequence[Permit], killed: Sequence[Mutant], alive: Sequence[Mutant]) -> list[str]:
