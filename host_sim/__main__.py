@@ -21,11 +21,17 @@ def _main() -> int:
     interruptible = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if interruptible:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-    from host_sim.cli.main import main  # noqa: PLC0415 - this takes the time
+    try:
+        from host_sim.cli.main import main  # noqa: PLC0415 - this takes the time
 
-    if interruptible:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-    return main()
+        if interruptible:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        return main()
+    except ModuleNotFoundError as error:
+        if (error.name or "host_sim").startswith("host_sim"):
+            raise
+        sys.stderr.write(f"octet: {error.name} is missing from .venv: remove that folder, and call again\n")
+        return 1
 
 
 if __name__ == "__main__":

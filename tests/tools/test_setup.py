@@ -25,7 +25,7 @@ case "${0##*/} $*" in
     mkdir -p "$3/bin" && cp "$0" "$3/bin/python"
     printf '%s\\n' "#!$PWD/$3/bin/python" >"$3/bin/script"
     ;;
-  "python tools/generate"*) touch "$3" "$5" ;;
+  "python tools/generate"*) touch "$3" "$5" "$7" ;;
   cmake*) mkdir -p "$2" ;;
   *" download "*)
     mkdir -p build/unity/its/tests/c/test_framework && touch build/unity/its/tests/c/test_framework/unity.c
@@ -55,6 +55,7 @@ class Tree:
             "requirements/unity.lock",
             "tools/robot_words/model.py",
             "tools/cmake/wasm32.cmake",
+            "host_sim/view/state_types.py",
         ):
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / name, self.folder / name)
@@ -167,6 +168,17 @@ def test_an_interrupted_set_up_is_repaired(tree: Tree) -> None:
     assert calls.count("cmake") == 1
 
 
+def test_without_a_network_the_last_line_says_what_to_do_and_nothing_is_left_of_the_call(tree: Tree) -> None:
+    with tree.offline("requirements/run.lock"):
+        done, _ = tree.setup()
+    (tree.folder / "build/setup.A1b2C3").touch()
+    tree.setup()
+
+    last = "octet: cannot get the Python packages of requirements/run.lock: call again when there is a network"
+    assert (done.returncode, done.stderr.splitlines()[-1]) == (1, last)
+    assert [path.name for path in tree.folder.glob("build/setup.*")] == ["setup.lock"]
+
+
 def test_a_moved_folder_is_repaired_without_a_network(tree: Tree) -> None:
     tree.setup()
     tree.folder = tree.folder.rename(tree.folder.with_name("moved"))
@@ -277,7 +289,7 @@ def test_help_lists_the_stages_and_sets_nothing_up(tree: Tree, word: str) -> Non
 
 
 def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
-    for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink"):
+    for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
         (tree.bin / name).symlink_to(str(shutil.which(name)))
     (tree.bin / "cmake").unlink()
     done, _ = tree.setup(path=str(tree.bin))
@@ -292,7 +304,7 @@ def test_packages_alone_are_installed_without_a_venv_or_a_build(tree: Tree) -> N
 
 
 def test_packages_alone_that_cannot_be_installed_are_named(tree: Tree) -> None:
-    for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink"):
+    for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
         (tree.bin / name).symlink_to(str(shutil.which(name)))
     (tree.bin / "cmake").unlink()
     done, _ = tree.setup("--packages", "c", path=str(tree.bin))
