@@ -12,6 +12,8 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 EXTRAS = ("export", "study", "cluster", "classroom")
+INSTALLERS = ("sudo", "apt-get")
+"""With stand-ins for these, no test installs a package that this machine lacks."""
 STAGES = ("run", "emulator", "gym", *EXTRAS, "tests", "web")
 LOCKS = tuple(f"requirements/{name}.lock" for name in STAGES)
 
@@ -62,7 +64,7 @@ class Tree:
         for name in ("host_sim/protocol", "host_sim/web"):
             (self.folder / name).mkdir(parents=True)
         self.bin.mkdir()
-        for name in ("python3", "cmake", "ninja"):
+        for name in ("python3", "cmake", "ninja", *INSTALLERS):
             (self.bin / name).write_text(STAND_IN)
             (self.bin / name).chmod(0o755)
 
@@ -291,7 +293,8 @@ def test_help_lists_the_stages_and_sets_nothing_up(tree: Tree, word: str) -> Non
 def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
     for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
         (tree.bin / name).symlink_to(str(shutil.which(name)))
-    (tree.bin / "cmake").unlink()
+    for name in ("cmake", *INSTALLERS):
+        (tree.bin / name).unlink()
     done, _ = tree.setup(path=str(tree.bin))
     assert done.returncode != 0
     assert "apt-get install gcc cmake\n" in done.stderr
@@ -306,7 +309,8 @@ def test_packages_alone_are_installed_without_a_venv_or_a_build(tree: Tree) -> N
 def test_packages_alone_that_cannot_be_installed_are_named(tree: Tree) -> None:
     for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
         (tree.bin / name).symlink_to(str(shutil.which(name)))
-    (tree.bin / "cmake").unlink()
+    for name in ("cmake", *INSTALLERS):
+        (tree.bin / name).unlink()
     done, _ = tree.setup("--packages", "c", path=str(tree.bin))
     assert done.returncode != 0
     assert "apt-get install gcc cmake\n" in done.stderr
