@@ -9,7 +9,9 @@ from typing import Any
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
 from host_sim.base.paths import PAGE_WASM, WEB
+from host_sim.protocol.generated import PARAMETERS
 from host_sim.report.page_bundle import page_of, with_data
+from host_sim.view.state import measures
 from host_sim.world.world_names import WORLD_NAMES
 from host_sim.world.worlds import world_of
 
@@ -51,9 +53,12 @@ def octet_page() -> str:
 
 
 def world_dimensions() -> dict[str, dict[str, Any]]:
-    """The dimensions of each world with a name, and the number of what its layouts are drawn from."""
-    worlds = map(world_of, WORLD_NAMES)
-    return {world.name: {**asdict(world.params), "style": world.style} for world in worlds}
+    """The dimensions of each world with a name, what a drawing needs of them, and what its layouts are drawn from."""
+    boredom = PARAMETERS["boredom_limit"].default
+    return {
+        world.name: {**asdict(world.params), "style": world.style, "measures": measures(world.params, boredom)}
+        for world in map(world_of, WORLD_NAMES)
+    }
 
 
 def lesson_texts() -> dict[str, Any]:

@@ -183,6 +183,7 @@
  * @property {[number, number][]} food_bands_mm
  * @property {number} tick_s
  * @property {number} max_wheel_speed_mm_s
+ * @property {Measures} measures - With the default limit of boredom.
  *
  * Both ends of an obstacle: ax, ay, bx, by in mm.
  * @typedef {[number, number, number, number]} Bar

@@ -11,7 +11,7 @@ import { ending } from "../core/phrases.js";
  * @typedef {import("../types.js").Command} Command
  * @typedef {import("../types.js").Play} Play
  *
- * What the board receives, as host_sim/live/board_feed.py has it.
+ * What the board receives from host_sim/live/board_feed.py.
  * @typedef {Object} BoardMessage
  * @property {{urls: string[], modules: string[]}} [join]
  * @property {number} tick_ms

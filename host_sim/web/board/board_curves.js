@@ -7,7 +7,7 @@
  * The samples of one robot.
  * @typedef {Record<CurveName, number[]>} Samples
  *
- * New samples, as host_sim/live/board_feed.py has them.
+ * New samples from host_sim/live/board_feed.py.
  * @typedef {{anew: boolean, ticks: number[], robots: Samples[]}} NewSamples
  */
 

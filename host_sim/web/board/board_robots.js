@@ -9,7 +9,7 @@ import { PATTERNS } from "../generated.js";
  * @typedef {import("./board_curves.js").BoardCurves} BoardCurves
  * @typedef {import("./board_curves.js").CurveName} CurveName
  *
- * A robot, as host_sim/live/board_feed.py has it.
+ * A robot, from host_sim/live/board_feed.py.
  * @typedef {{node: number, name: string, page: boolean, sides: number[]}} BoardRobot
  *
  * @typedef {{item: HTMLElement, name: HTMLElement, value: HTMLElement, path: Element, knows: HTMLElement}} Card

@@ -17,7 +17,7 @@ import { Simulation } from "./simulation.js";
  *
  * @typedef {{experiment: Experiment, news: string}} Opened
  *
- * A recorded run, as host_sim/report/laboratory.py has it.
+ * A recorded run, from host_sim/report/laboratory.py.
  * @typedef {{commands: [number, number, string][], ticks: number, world: string}} RecordedRun
  *
  * What a world file has.

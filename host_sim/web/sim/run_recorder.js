@@ -14,7 +14,7 @@ import { newsOf } from "./world_news.js";
  * @typedef {import("../types.js").RobotRun} RobotRun
  * @typedef {import("../types.js").Run} Run
  *
- * A block of one robot's ticks, as native/page.h has it.
+ * A block of one robot's ticks, in the order of native/page.h.
  * @typedef {{ticks: number, rows: Int16Array, poses: Float64Array}} Block
  *
  * A run, and the columns of each robot.

@@ -3,7 +3,6 @@
 
 import { Arena } from "./arena.js";
 import { DueChanges } from "./due_changes.js";
-import { measuresOf } from "./measures.js";
 import { drawFrom, drawLayout } from "./native_layouts.js";
 import { NativeRun } from "./native_run.js";
 import { RobotCommands } from "./robot_commands.js";
@@ -44,7 +43,7 @@ export class Simulation {
     this.scene = { number: 0, of: environments, seed, first_tick: 0, start_tick: 0, bars: [], food: [] };
     this.stopAll(); // as in the handshake of tools/run
     this.commands.startAll();
-    this.recorder = new RunRecorder(measuresOf(this.world.params, experiment), this.native, this.robots);
+    this.recorder = new RunRecorder(this.measures, this.native, this.robots);
   }
 
   /**
@@ -73,6 +72,12 @@ export class Simulation {
   result() {
     const { seed, environments } = this.experiment;
     return this.recorder.result(`seed ${seed}, ${environments} environment${environments === 1 ? "" : "s"}`);
+  }
+
+  /** What a drawing needs. */
+  get measures() {
+    const { measures, width_mm: width, height_mm: height } = this.world.params;
+    return { ...measures, width, height, boredom: this.experiment.robots[0].settings.boredom_limit ?? measures.boredom };
   }
 
   stopAll() {

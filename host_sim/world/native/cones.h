@@ -1,4 +1,4 @@
-/* cones.h: the five proximity cones around the front of a body, as host_sim/world/cones.py has them. */
+/* cones.h: the five proximity cones around the front of a body. host_sim/world/cones.py makes pymunk's. */
 #ifndef OCTET_CONES_H
 #define OCTET_CONES_H
 
