@@ -22,7 +22,8 @@ MAY_INCLUDE = {
     "hal/port/cortex_m/": ("hal/hal.h", "hal/can_body/port.h", "hal/flash_store/", "hal/protocol/health.h"),
     "hal/stm32/": ("hal/can_body/port.h", "hal/flash_store/", "hal/link/", "hal/port/"),
     "hal/library/": ("firmware/", "hal/protocol/"),
-    "host_sim/world/native/": ("firmware/io.h",),
+    "hal/pins_body/": (),
+    "host_sim/world/native/": ("firmware/io.h", "hal/pins_body/wheel.h"),
     "host_sim/sim/native/": ("firmware/", "hal/link/link.h", "hal/protocol/e2e.h", "host_sim/world/native/"),
 }
 FOLDERS = ("firmware", "hal", "host_sim/world/native", "host_sim/sim/native")

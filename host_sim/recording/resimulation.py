@@ -153,9 +153,9 @@ class _Resimulator:
     def _enter(self, begun: Begun) -> Arena:
         before = self._arena.bodies if self._arena else ()
         layout = self._record.world.generate(begun.seed, begun.number, self._record.robots)
-        self._arena = Arena(layout, self._params, before)
+        self._arena = Arena(layout, self._params, before, kind=self._record.kind)
         if begun.number == 1:
-            self._arena.repair()
+            self._arena.begin(begun.seed)
         self._begun = begun
         return self._arena
 

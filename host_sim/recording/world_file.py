@@ -16,6 +16,7 @@ from host_sim.base.errors import UsageError
 from host_sim.base.regular_file import read_bytes
 from host_sim.protocol.codec import NODE_MAX
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
+from host_sim.world.body_kinds import kind_from
 from host_sim.world.edit_json import edit_from, edit_to, whole
 from host_sim.world.layouts import World
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
@@ -44,6 +45,7 @@ def write_world(record: WorldRecord, path: Path) -> None:
         "robots": record.robots,
         "front_extra_mm": record.world.params.front_extra_mm,
         **_world_content(record.world),
+        **({"body": dict(record.kind.traits)} if record.kind else {}),
         "environments": [begun._asdict() for begun in record.begun],
         "edits": [{"tick": tick, **edit_to(edit)} for tick, edit in record.edits],
         **({"refused": [refused._asdict() for refused in record.refused]} if record.refused else {}),
@@ -89,6 +91,7 @@ def _record(content: dict[str, Any]) -> WorldRecord:
         edits,
         [_refused(entry) for entry in _objects(content, "refused")] if "refused" in content else [],
         _world(content),
+        kind_from(content["body"]) if "body" in content else None,
     )
 
 

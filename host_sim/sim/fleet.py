@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from host_sim.base.errors import UsageError
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.body_kinds import body_kind
 from host_sim.world.geometry import Pose
 from host_sim.world.hall import hall_of
 from host_sim.world.layouts import Layout, NoRoomError
@@ -94,7 +95,7 @@ class _Run:
         self._shared = [] if self._own else _shared_worlds(config)
         if self._shared:
             params = self._shared[0][1]
-        self._fleet = NativeFleet(config.robots, config.robots if self._own else 1, params)
+        self._fleet = NativeFleet(config.robots, config.robots if self._own else 1, params, body_kind(config.body))
         for index in range(config.robots):
             self._fleet.start(index, self._seed(index), config.profile, config.settings)
         self._entered = [0] * self._fleet.worlds

@@ -20,6 +20,7 @@ from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.transport.clock import VirtualClock, WallClock
+from host_sim.world.body_kinds import body_kind
 from host_sim.world.changes import Change
 from host_sim.world.layouts import NoRoomError, World
 from host_sim.world.worlds import world_of
@@ -97,6 +98,7 @@ def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequen
         *(world, clients, pace, config.seed, config.environments, config.limit_s),
         changes=changes,
         physics=config.chosen_physics,
+        kind=body_kind(config.body),
     )
 
 

@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import BUILD, ROOT
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
+from host_sim.world.body_kinds import BodyKind
 from host_sim.world.geometry import Capsule, Pose
 from host_sim.world.layouts import Layout
 from host_sim.world.native_library import load_native
 from host_sim.world.params import SimParams
 from host_sim.world.plain_space import cones_in_c
+from host_sim.world.world_library import world_library
 
 LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_fleet.so"
 _WORLD = ROOT / "host_sim" / "world" / "native"
@@ -43,13 +45,14 @@ class NativeFleet:
         worlds: The number of worlds: 1, or as many as there are robots.
     """
 
-    def __init__(self, robots: int, worlds: int, params: SimParams) -> None:
+    def __init__(self, robots: int, worlds: int, params: SimParams, kind: BodyKind | None = None) -> None:
         """Makes room.
 
         Args:
             robots: Number of robots.
             worlds: 1, or as many as there are robots.
             params: The dimensions of the worlds.
+            kind: What the bodies are like; None: ideal.
 
         Raises:
             NoNativeError: The library cannot be used.
@@ -62,7 +65,13 @@ class NativeFleet:
         # cffi frees what no name holds any more.
         self._things: list[tuple[Any, ...]] = [()] * worlds
         self._grids: list[tuple[Any, ...]] = [()] * worlds
-        self._cones = cones_in_c(ffi, self._library, params)
+        self._kind, reach = kind, params if kind is None else kind.reach(params)
+        self._cones = cones_in_c(ffi, self._library, reach)
+        self._kits: list[Any] = [None] * robots
+        self._ranges: Any = None if kind is None else world_library()[0].new("struct ranges[]", worlds)
+        for ranges in self._ranges or ():
+            ranges.body_radius_mm = params.body_radius_mm
+            ranges.reach_mm = params.body_radius_mm + reach.sensor_reach_mm
         self._cores = ffi.new("char[]", robots * self._library.fleet_core_size())
         self._bodies: Any = ffi.new("struct body[]", robots)
         self._places: Any = ffi.new("struct plain_place[]", robots)
@@ -78,6 +87,10 @@ class NativeFleet:
             UsageError: It refuses, or wants what a fleet does not have.
         """
         robot = self._robots[index]
+        if self._kind is not None:
+            kit = self._kits[index] = self._kind.draw(seed, 0)
+            kit.ranges = self._ranges + index // self._each
+            self._bodies[index].kit = self._ffi.cast("struct kit *", _address(kit))
         self._library.fleet_wake(self._ffi.addressof(robot))
         if self._command(robot, Opcode.START, PROFILES[profile], seed) & ANSWER_WANTS_RANGES:
             raise UsageError(f"profile {profile} needs distances, which a fleet's robots are not told; take another")
@@ -186,6 +199,10 @@ class NativeFleet:
         self._things[world] = capsules, food, touching
         there, space = self._worlds[world], self._spaces[world]
         there.food, there.food_count = food, len(layout.food)
+        if self._ranges is not None:
+            ranges = self._ranges[world]
+            ranges.capsules = world_library()[0].cast("struct capsule *", int(ffi.cast("uintptr_t", capsules)))
+            ranges.capsule_count = count
         space.capsules, space.capsule_count, space.touching, space.words = capsules, count, touching, words
 
     def _lay_grid(self, world: int, boxes: Sequence[tuple[Any, Any]]) -> None:
@@ -214,6 +231,10 @@ class NativeFleet:
                 f"the robot refuses {Opcode(opcode).name.lower()} {which} {value}: check profile and --set"
             )
         return int(answer[0])
+
+
+def _address(pointer: Any) -> int:
+    return int(world_library()[0].cast("uintptr_t", pointer))
 
 
 def _cells(low_mm: float, high_mm: float, count: int) -> range:

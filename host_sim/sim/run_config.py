@@ -95,6 +95,12 @@ class RunConfig:
         f"world to draw environments from: {', '.join(WORLD_NAMES)}, or your own file, such as my.toml",
         metavar="WORLD",
     )
+    body: str = option(
+        "ideal",
+        "the robots' bodies: ideal; kit, with motors and sensors as they come off the bench; or your own file, "
+        "such as my_body.toml",
+        metavar="BODY",
+    )
     limit_s: float = option(
         600.0, "time limit for each environment, s of robot time", limits=(0.02, 86_400), metavar="S"
     )

@@ -14,6 +14,7 @@ from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop, suits
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
+from host_sim.world.body_kinds import BodyKind
 from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change
 from host_sim.world.edits import Edit, EditError
@@ -46,6 +47,7 @@ class Simulation:
         physics: What finds overlaps: one of `PHYSICS`.
         native: Whether to use the loop in C where that can be: in lockstep, with robots in this process or behind
             a socket, that want no distances.
+        kind: What the robots' bodies are like; None: ideal.
         params: The dimensions of the world.
         record: The environments so far, and what a person changed in them.
         tick: Number of the next tick.
@@ -67,6 +69,7 @@ class Simulation:
     block_ticks: int = BLOCK_TICKS
     physics: str = FAST
     native: bool = True
+    kind: BodyKind | None = None
     params: SimParams = field(init=False)
     record: WorldRecord = field(init=False)
     tick: int = 0
@@ -83,7 +86,7 @@ class Simulation:
     def __post_init__(self) -> None:
         robots, self.params = len(self.clients), self.world.params
         limit_ticks = round(self.limit_s / self.params.tick_s)
-        self.record = WorldRecord(self.seed, self.environments, limit_ticks, robots, world=self.world)
+        self.record = WorldRecord(self.seed, self.environments, limit_ticks, robots, world=self.world, kind=self.kind)
         self._schedule = ChangeSchedule(self.changes, self.params.tick_s)
         self.senses, self.drives = [NOTHING_SENSED] * robots, [REST] * robots
 
@@ -123,9 +126,9 @@ class Simulation:
             NoRoomError: The environment has no room for all the robots.
         """
         layout = self.world.generate(self.seed, number, len(self.clients))
-        self.arena = Arena(layout, self.params, self._before, self.physics)
+        self.arena = Arena(layout, self.params, self._before, self.physics, self.kind)
         if number == 1:
-            self.arena.repair()
+            self.arena.begin(self.seed)
         self.episode = EpisodeResult(self.params.tick_s, [RobotResult(node) for node in self.nodes])
         self._measuring = [i for i, client in enumerate(self.clients) if client.wants_ranges]
         self._enter_loop()

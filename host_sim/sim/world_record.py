@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from host_sim.world.body_kinds import BodyKind
 from host_sim.world.edits import ChangeBody, Edit, MoveBar, MoveFood
 from host_sim.world.layouts import World
 from host_sim.world.world_names import RANDOM
@@ -45,6 +46,7 @@ class WorldRecord:
         edits: What a person changed, in order.
         refused: The changes of a schedule that could not be made, in order.
         world: What the environments were drawn from.
+        kind: What the robots' bodies are like; None: ideal.
         happened: The changes of a schedule that were made, in order; they are among the edits, too.
     """
 
@@ -56,6 +58,7 @@ class WorldRecord:
     edits: list[Edited] = field(default_factory=list)
     refused: list[Refused] = field(default_factory=list)
     world: World = field(default_factory=lambda: world_of(RANDOM))
+    kind: BodyKind | None = None
     happened: list[str] = field(default_factory=list, compare=False)
 
     @property

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from host_sim.protocol.generated import Ranges
 from host_sim.world.body import Body
+from host_sim.world.body_kinds import BodyKind
 from host_sim.world.edit_json import edit_in_c
 from host_sim.world.edits import Edit, EditError
 from host_sim.world.geometry import Point
@@ -58,7 +59,14 @@ class Arena:
         obstacles: The obstacles; the bars' ids are at first 0, 1, ... as in the layout.
     """
 
-    def __init__(self, layout: Layout, params: SimParams, before: Sequence[Body] = (), physics: str = FAST) -> None:
+    def __init__(
+        self,
+        layout: Layout,
+        params: SimParams,
+        before: Sequence[Body] = (),
+        physics: str = FAST,
+        kind: BodyKind | None = None,
+    ) -> None:
         """Puts everything where it begins.
 
         Args:
@@ -67,9 +75,11 @@ class Arena:
             before: For each robot that comes from another arena its body there, whose odometer and faults go on;
                 empty for robots that have not moved yet.
             physics: One of `PHYSICS`; both have the same results.
+            kind: What the bodies are like; None: ideal. Those that come from no other arena are ideal until `draw`.
         """
         self._starts, self.params = layout.starts, params
-        self.inside = NativeWorld(layout, params, physics)
+        self._kind = kind
+        self.inside = NativeWorld(layout, params, physics, kind)
         self.food = Food(self.inside)
         self.bodies = [
             Body(self.inside, index, before[index] if before else None) for index in range(len(self._starts))
@@ -104,7 +114,9 @@ class Arena:
         for body, in_c in zip(self.bodies, inside.bodies, strict=True):
             body.lifted = bool(in_c.lifted)
 
-    def repair(self) -> None:
-        """Makes all bodies sound."""
-        for body in self.bodies:
+    def begin(self, seed: int) -> None:
+        """Makes all bodies sound and, where they are not ideal, draws them from a seed."""
+        for index, body in enumerate(self.bodies):
             body.add_fault("repair")
+            if self._kind is not None:
+                body.become(self._kind.draw(seed, index))

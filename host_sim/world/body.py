@@ -23,6 +23,7 @@ class Body:
     Attributes:
         lifted: Whether a person holds it in the air: its wheels turn, but it does not move or sense anything.
         faults: What is wrong with it, a `struct body_faults`.
+        kit: What makes it a real one, a `struct kit *`; None: it is ideal.
     """
 
     def __init__(self, inside: NativeWorld, index: int, before: "Body | None" = None) -> None:
@@ -42,9 +43,18 @@ class Body:
         self._sensed: Any = inside.ffi.new("struct senses *")
         self._sensed_bytes = inside.ffi.buffer(self._sensed)
         self.faults: Any = self._body.faults
+        self.kit: Any = None
         if before is not None:
             self._body.faults = before.faults
             self._body.left_mm, self._body.right_mm = before.odometer
+            self.become(before.kit)
+
+    def become(self, kit: Any) -> None:
+        """Makes it a body of a kind, or, with None, an ideal one."""
+        self.kit = kit
+        self._body.kit = self._ffi.NULL if kit is None else kit
+        if kit is not None:
+            kit.ranges = self._inside.kit_ranges
 
     @property
     def pose(self) -> Pose:

@@ -27,16 +27,26 @@ def read_layout_file(path: Path) -> World:
         UsageError: The file cannot be read, or does not describe a fair world; the message says in which line, and
             what was meant.
     """
+    content, lines = read_toml(path, "a world")
+    try:
+        return world_from(content, path.name)
+    except WrittenError as error:
+        raise UsageError(f"{path}:{line_of(lines, error.key, error.number)}: {error}") from None
+
+
+def read_toml(path: Path, what: str) -> tuple[Mapping[str, Any], Sequence[str]]:
+    """Reads a TOML file that describes something; its content, and its lines.
+
+    Raises:
+        UsageError: It cannot be read, or is not TOML.
+    """
     try:
         text = read_text(path, _FILE_MAX)
     except OSError as error:
         raise UsageError(f"cannot read {path}: {error.strerror}") from None
     except UnicodeDecodeError:
-        raise UsageError(f"{path} is not a world: it is not text") from None
-    try:
-        return world_from(_parsed(path, text), path.name)
-    except WrittenError as error:
-        raise UsageError(f"{path}:{_line_of(text.splitlines(), error.key, error.number)}: {error}") from None
+        raise UsageError(f"{path} is not {what}: it is not text") from None
+    return _parsed(path, text), text.splitlines()
 
 
 def _parsed(path: Path, text: str) -> Mapping[str, Any]:
@@ -49,7 +59,7 @@ def _parsed(path: Path, text: str) -> Mapping[str, Any]:
     return content
 
 
-def _line_of(lines: Sequence[str], key: str, number: int) -> int:
+def line_of(lines: Sequence[str], key: str, number: int) -> int:
     """The line in which a key stands or, for a number from 0 on, that entry of its list."""
     is_key = re.compile(rf"\s*[\[\"']*{re.escape(key)}\b")
     first = next((i for i, line in enumerate(lines, 1) if is_key.match(line)), 1)

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from typing import Any, Protocol
 
+from host_sim.world.body_kinds import BodyKind
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
 from host_sim.world.physics_names import FAST
@@ -36,13 +37,16 @@ class NativeWorld:
         space: What finds overlaps.
     """
 
-    def __init__(self, layout: Layout, params: SimParams, physics: str = FAST) -> None:
+    def __init__(
+        self, layout: Layout, params: SimParams, physics: str = FAST, kind: BodyKind | None = None
+    ) -> None:
         """Puts everything where it begins.
 
         Args:
             layout: Obstacles, food, and a start for each body.
             params: The dimensions of the world.
             physics: One of `PHYSICS`.
+            kind: What the bodies are like; None: ideal.
 
         Raises:
             NoNativeError: The library cannot be used.
@@ -59,13 +63,16 @@ class NativeWorld:
         self.world.params = {name: getattr(params, name) for name, _ in ffi.typeof("struct world_params").fields}
         self.world.body_count, self.world.food_count = len(starts), len(food)
         self.world.bodies, self.world.food = self.bodies, self.food
-        self.space = self._space(params, physics)
+        reach = params if kind is None else kind.reach(params)
+        self.space = self._space(reach, physics)
         size = params.width_mm, params.height_mm, params.bar_thickness_mm / 2, params.body_radius_mm
         self.furniture: Any = ffi.new("struct furniture *", size)
         self.library.furniture_set(self.furniture, ffi.new("struct bar[]", layout.bars), len(layout.bars))
         self._ranges: Any = ffi.new("struct ranges *")
         self._ranges.body_radius_mm, self._ranges.front_extra_mm = params.body_radius_mm, params.front_extra_mm
         self._ranges.reach_mm = params.body_radius_mm + params.sensor_reach_mm
+        self.kit_ranges: Any = ffi.new("struct ranges *", self._ranges[0])
+        self.kit_ranges.reach_mm = params.body_radius_mm + reach.sensor_reach_mm
         self.lay_out()
 
     def _space(self, params: SimParams, physics: str) -> Space:
@@ -83,7 +90,8 @@ class NativeWorld:
     def lay_out(self) -> None:
         """Takes the furniture as it is now."""
         capsules = self.furniture.capsules[0 : self.furniture.capsule_count]
-        self._ranges.capsules, self._ranges.capsule_count = capsules, len(capsules)
+        for ranges in (self._ranges, self.kit_ranges):
+            ranges.capsules, ranges.capsule_count = capsules, len(capsules)
         self.space.lay_out(capsules)
         self.library.world_settle(self.world)
         self.check()

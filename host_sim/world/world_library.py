@@ -15,10 +15,11 @@ WORLD_HEADERS = tuple(
 _DRAW = tuple(_NATIVE / "draw" / f"{name}.h" for name in ("reach", "layout", "layouts", "written_fault", "written"))
 HEADERS = (
     ROOT / "firmware" / "io.h",
+    ROOT / "hal" / "pins_body" / "wheel.h",
     *WORLD_HEADERS,
     *(_NATIVE / f"{name}.h" for name in ("body", "ranges", "draw/draws", "clearance")),
     *_DRAW,
-    *(_NATIVE / f"{name}.h" for name in ("furniture", "edits", "history")),
+    *(_NATIVE / f"{name}.h" for name in ("furniture", "edits", "history", "kit")),
 )
 
 

@@ -37,7 +37,7 @@ def test_faults_go_on_in_the_next_arena_until_they_are_repaired(arena):
     following = Arena(generate(1, 2, SimParams()), SimParams(), arena.bodies)
     assert following.body.sense(0).feel == 4
 
-    following.repair()
+    following.begin(1)
 
     assert following.body.sense(0).feel == 0
     assert arena.body.sense(0).feel == 4

@@ -1,4 +1,5 @@
 #include "host_sim/world/native/sight.h"
+#include "host_sim/world/native/kit.h"
 #include "host_sim/world/native/vector_sums.h"
 
 static const double FAR_MM = 8191.0;   /* farther food is not seen: a robot could not be told */
@@ -13,7 +14,11 @@ static bool is_in_line(const struct world *world, const struct body *body, const
 {
     struct vector way = way_to(body, food);
 
-    return __builtin_fabs(way.y * body->ahead.x - way.x * body->ahead.y) <= world->params.beam_width_mm / 2;
+    double beam_mm = world->params.beam_width_mm;
+
+    if (body->kit)
+        beam_mm = kit_beam_mm(body->kit, vector_dot(way, body->ahead), beam_mm);
+    return __builtin_fabs(way.y * body->ahead.x - way.x * body->ahead.y) <= beam_mm / 2;
 }
 
 /* Distance to food in the corridor, whole mm; 0 for food that is eaten, behind or too far away. */

@@ -1,6 +1,7 @@
 #include "host_sim/world/native/world.h"
 
 #include "host_sim/world/native/body.h"
+#include "host_sim/world/native/kit.h"
 #include "host_sim/world/native/sight.h"
 #include "host_sim/world/native/vector_sums.h"
 
@@ -35,6 +36,8 @@ void world_sense(struct world *world, struct body *body, uint32_t tick, struct s
     out->odometer_right = odometer(body->right_mm);
     for (unsigned n = 0; n < FEEL_COUNT; n++)
         out->range_mm[n] = RANGE_NONE;
+    if (body->kit)
+        kit_sense(body->kit, world, body, tick, out);
     body_faults_sense(&body->faults, tick, out);
 }
 
@@ -57,18 +60,20 @@ double world_way_mm(const struct world *world, double speed_mm_s)
 
 void world_move(struct world *world, struct body *body, double left_mm_s, double right_mm_s)
 {
-    double left_mm, right_mm, left_counted_mm, right_counted_mm;
+    double rolled_mm[KIT_WHEELS], counted_mm[KIT_WHEELS], track_mm = world->params.wheel_track_mm;
     struct vector before = {body->x_mm, body->y_mm};
 
     body_faults_drive(&body->faults, &left_mm_s, &right_mm_s);
-    left_counted_mm = left_mm = world_way_mm(world, left_mm_s);
-    right_counted_mm = right_mm = world_way_mm(world, right_mm_s);
-    body_faults_count(&body->faults, &left_counted_mm, &right_counted_mm);
-    body->left_mm += left_counted_mm;
-    body->right_mm += right_counted_mm;
+    counted_mm[0] = rolled_mm[0] = world_way_mm(world, left_mm_s);
+    counted_mm[1] = rolled_mm[1] = world_way_mm(world, right_mm_s);
+    if (body->kit)
+        track_mm *= kit_roll(body->kit, world->params.tick_s, counted_mm, rolled_mm);
+    body_faults_count(&body->faults, &counted_mm[0], &counted_mm[1]);
+    body->left_mm += counted_mm[0];
+    body->right_mm += counted_mm[1];
     if (body->lifted)
         return;
-    body_roll(body, left_mm, right_mm, world->params.wheel_track_mm);
+    body_roll(body, rolled_mm[0], rolled_mm[1], track_mm);
     body_place(world, body);
     body_push_out(world, body, before);
 }

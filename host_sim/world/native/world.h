@@ -11,6 +11,8 @@
 
 enum { WORLD_CONES = 5 };   /* of a body; cone n sets bit n of feel */
 
+struct kit;   /* kit.h */
+
 /* Dimensions, as in SimParams. */
 struct world_params {
     double wheel_track_mm;
@@ -46,6 +48,7 @@ struct body {
     double ahead_rad;             /* the heading of */
     struct vector ahead;          /* one millimetre straight ahead */
     struct body_faults faults;
+    struct kit *kit;              /* what makes it a real one; null: it is ideal */
 };
 
 struct world {

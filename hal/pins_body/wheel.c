@@ -1,0 +1,50 @@
+#include "hal/pins_body/wheel.h"
+
+enum {
+    MODEL_PART = 8,            /* of what is missing, the model gains in a period: 37 ms */
+    LEAD_2 = 3,                /* twice 60 ms / (8 periods of 5 ms): feed-forward inverts the motor */
+    BEHIND_MAX_UM = 4000,
+    BATTERY_MIN_MV = 3000,     /* less is no measurement */
+    STILL_DUTY = 1000          /* less is not worth a jump over the dead band */
+};
+
+static int32_t limited(int32_t x, int32_t limit)
+{
+    return x > limit ? limit : x < -limit ? -limit : x;
+}
+
+/* How far the wheel has rolled since the last period, um. */
+static int32_t moved_um(struct wheel *wheel, uint16_t count)
+{
+    int32_t counts = wheel->known ? (int16_t)(uint16_t)(count - wheel->count) : 0;
+    int32_t way_256 = counts * WHEEL_COUNT_256 + wheel->rest_256;
+    int32_t way_um = way_256 / 256;
+
+    wheel->rest_256 = way_256 - way_um * 256;
+    wheel->count = count;
+    wheel->known = true;
+    return way_um;
+}
+
+int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32_t battery_mv)
+{
+    int32_t told_um = told_mm_s * WHEEL_PERIOD_MS, missing_256 = told_um * 256 - wheel->model_256;
+    int32_t model_um = wheel->model_256 / 256, error_um = model_um - moved_um(wheel, count);
+    int32_t behind_um = limited(wheel->behind_um + error_um, BEHIND_MAX_UM), duty, out;
+
+    wheel->model_256 += missing_256 / MODEL_PART;
+    duty = (model_um + missing_256 / 256 * LEAD_2 / 2) * WHEEL_FORWARD / WHEEL_PERIOD_MS + error_um * WHEEL_KP
+         + behind_um * WHEEL_KI_16 / 16;
+    if (duty > STILL_DUTY)
+        duty += WHEEL_DEAD;
+    else if (duty < -STILL_DUTY)
+        duty -= WHEEL_DEAD;
+    else
+        duty = 0;
+    if (battery_mv >= BATTERY_MIN_MV)
+        duty = limited(duty, WHEEL_DUTY_MAX * 2) * (WHEEL_NOMINAL_MV / 100) / (int32_t)(battery_mv / 100);
+    out = limited(duty, WHEEL_DUTY_MAX);
+    if (out == duty)   /* no more is gathered while the motor cannot give more */
+        wheel->behind_um = behind_um;
+    return out;
+}

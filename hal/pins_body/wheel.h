@@ -1,0 +1,31 @@
+/* wheel.h: holds the speed of one wheel by its encoder: feed-forward and PI in whole numbers, once in WHEEL_PERIOD_MS.
+ *
+ * The wheel follows a first-order model of 37 ms. Feed-forward drives the motor along it, and PI corrects what is missing of its
+ * way, so that the wheel rolls in the end what it was told. The zero of the PI cancels the pole of the motor: what is left is
+ * an integrator that crosses over at 20 rad/s, with a phase margin of 80 degrees and a gain margin of 20 dB at a delay of 7.5 ms. */
+#ifndef OCTET_WHEEL_H
+#define OCTET_WHEEL_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { WHEEL_PERIOD_MS = 5, WHEEL_NOMINAL_MV = 7200, WHEEL_DUTY_MAX = 62000 };
+
+/* A motor of 674 mm/s at full duty and a dead band of 8 %, with a time constant of 60 ms; duties in 1/65536. */
+enum { WHEEL_FORWARD = 97, WHEEL_DEAD = 5243, WHEEL_KP = 23, WHEEL_KI_16 = 31 };
+
+struct wheel {
+    int32_t model_256;    /* the model's speed, 1/256 um in a period */
+    int32_t behind_um;    /* the way that the wheel is behind the model */
+    int32_t rest_256;     /* of a um that has been counted, 1/256 um */
+    uint16_t count;       /* of the encoder, when it was last read */
+    bool known;
+};   /* all 0: at rest */
+
+int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32_t battery_mv);
+        /* The duty for the next period, forward positive, at most WHEEL_DUTY_MAX either way. count: of the encoder, which wraps,
+           WHEEL_COUNT_256 each. */
+
+enum { WHEEL_COUNT_256 = 23450 };   /* 91.6 um: 12 x 30 x 4 counts a turn of a wheel of 42 mm */
+
+#endif

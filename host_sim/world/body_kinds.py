@@ -1,0 +1,110 @@
+"""The kinds of body that a robot may have: an ideal one, the kit's, or one that a person describes in a file."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from host_sim.base.errors import UsageError
+from host_sim.base.near_word import near_word
+from host_sim.world.layout_file import line_of, read_toml
+from host_sim.world.params import SimParams
+from host_sim.world.world_library import world_library
+
+IDEAL, KIT = "ideal", "kit"
+_VALUES = 2  # a value, and its tolerance
+_KEY_SPAN = 10_000
+
+
+@dataclass(frozen=True)
+class BodyKind:
+    """What the bodies of a run are like.
+
+    Attributes:
+        traits: For each trait of `KIT_TRAITS`, by name, its value and its tolerance.
+    """
+
+    traits: Mapping[str, tuple[float, float]]
+
+    def draw(self, seed: int, robot: int) -> Any:
+        """A robot's own body, a `struct kit *`.
+
+        Args:
+            seed: Seed of the run.
+            robot: Number of the robot, from 0.
+        """
+        ffi, library = world_library()
+        kit = ffi.new("struct kit *")
+        library.kit_draw(kit, *zip(*self.traits.values(), strict=True), seed * _KEY_SPAN + robot + 1 << 8)
+        return kit
+
+    def reach(self, params: SimParams) -> SimParams:
+        """The dimensions of a world whose cones reach as far as any sensor of these bodies."""
+        farthest = max(sum(self.traits[name]) for name in self.traits if name in _SENSORS)
+        more = sum(sum(self.traits[name]) for name in ("hysteresis_mm", "noise_mm"))
+        return replace(params, sensor_reach_mm=farthest + more + 1, front_extra_mm=0.0)
+
+
+_SENSORS = ("right_mm", "front_right_mm", "front_mm", "front_left_mm", "left_mm")
+
+
+def body_kind(text: str) -> BodyKind | None:
+    """The kind of body with a name, or that a file describes; None for the ideal one.
+
+    A file is TOML: a line such as `lag_ms = 40`, or with a tolerance `lag_ms = [40, 10]`, for each trait that is not
+    ideal; `base = "kit"` takes the others from the kit. docs/bodies.md has all.
+
+    Raises:
+        UsageError: There is no such kind; for a file, the message has the line, and what may stand there.
+    """
+    if text == IDEAL:
+        return None
+    if text == KIT:
+        return BodyKind({name: (row.kit, row.tolerance) for name, row in _rows().items()})
+    path = Path(text)
+    content, lines = read_toml(path, "a body")
+    try:
+        return kind_from(content)
+    except _TraitError as error:
+        raise UsageError(f"{path}:{line_of(lines, error.name, -1)}: {error}") from None
+
+
+class _TraitError(ValueError):
+    def __init__(self, name: str, why: str) -> None:
+        super().__init__(why)
+        self.name = name
+
+
+def _rows() -> dict[str, Any]:
+    ffi, library = world_library()
+    return {ffi.string(row.name).decode(): row for row in library.KIT_TRAITS}
+
+
+def kind_from(content: Mapping[str, Any]) -> BodyKind:
+    """The kind of body that the content of a file describes.
+
+    Raises:
+        ValueError: It is none.
+    """
+    rows, base = _rows(), content.get("base", IDEAL)
+    if base not in {IDEAL, KIT}:
+        raise _TraitError("base", f"base is {IDEAL} or {KIT}, not {base!r}")
+    traits = {name: (row.kit, row.tolerance) if base == KIT else (row.ideal, 0.0) for name, row in rows.items()}
+    for name, value in content.items():
+        if name != "base":
+            traits[name] = _value(name, value, rows)
+    return BodyKind(traits)
+
+
+def _value(name: str, given: Any, rows: Mapping[str, Any]) -> tuple[float, float]:
+    if name not in rows:
+        near = near_word(name, tuple(rows))
+        raise _TraitError(name, f"there is no {name!r}" + (f": did you mean {near!r}?" if near else ""))
+    values = given if isinstance(given, list) else [given, 0]
+    least, most = rows[name].least, rows[name].most
+    numbers = [value for value in values if isinstance(value, int | float) and not isinstance(value, bool)]
+    if len(numbers) != len(values) or len(values) != _VALUES:
+        raise _TraitError(name, f"{name} is a number, or [number, tolerance]")
+    if not least <= numbers[0] <= most or not 0 <= numbers[1] <= most - least:
+        raise _TraitError(name, f"{name} is {least:g} to {most:g}, its tolerance 0 to {most - least:g}")
+    return float(numbers[0]), float(numbers[1])

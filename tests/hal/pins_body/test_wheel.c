@@ -1,0 +1,126 @@
+#include "hal/pins_body/wheel.h"
+#include "tests/test.h"
+
+#include <math.h>
+
+enum { PERIODS = 400, SETTLED = 100, PARTS = 50 };
+
+/* A motor, and what came of a step from rest to some speed. */
+struct motor {
+    double volts, strength, dead, lag_s, ripple_v;
+};
+
+struct came {
+    double overshoot, rise_ms, behind_mm, rough_mm_s;
+    int32_t duty;
+};
+
+static const struct motor NOMINAL = {.volts = 7.2, .strength = 1, .dead = 0.08, .lag_s = 0.06};
+
+static double pushed_mm_s(const struct motor *motor, double volts, int32_t duty)
+{
+    double push = fabs(duty / 65536.0) * volts / 7.2;
+
+    return push < motor->dead ? 0 : copysign((push - motor->dead) * 674 * motor->strength, duty);
+}
+
+static struct came step_to(int16_t told_mm_s, const struct motor *motor)
+{
+    struct wheel wheel = {.known = false};
+    struct came came = {.rise_ms = -1};
+    double v = 0, x = 0;
+
+    for (int k = 0; k < PERIODS; k++) {
+        double volts = motor->volts + motor->ripple_v * (k % 2 ? 1 : -1);
+
+        came.duty = wheel_run(&wheel, (uint16_t)(int32_t)floor(x * 256000 / WHEEL_COUNT_256), 
+            told_mm_s, (uint32_t)(motor->volts * 1000));
+        for (int i = 0; i < PARTS; i++) {
+            v += (pushed_mm_s(motor, volts, came.duty) - v) * 1e-4 / motor->lag_s;
+            x += v * 1e-4;
+        }
+        came.overshoot = fmax(came.overshoot, v / told_mm_s - 1);
+        if (came.rise_ms < 0 && v / told_mm_s > 0.63)
+            came.rise_ms = (k + 1) * WHEEL_PERIOD_MS;
+        if (k > SETTLED)
+            came.rough_mm_s = fmax(came.rough_mm_s, fabs(v - told_mm_s));
+    }
+    came.behind_mm = fabs((double)told_mm_s) * PERIODS * WHEEL_PERIOD_MS / 1000.0 - fabs(x);
+    return came;
+}
+
+static void assert_held(const struct motor *motor)
+{
+    static const int16_t speeds_mm_s[] = {200, -200, 251, 120};
+
+    for (unsigned i = 0; i < sizeof speeds_mm_s / sizeof *speeds_mm_s; i++) {
+        struct came came = step_to(speeds_mm_s[i], motor);
+
+        TEST_ASSERT_LESS_THAN_DOUBLE(0.10, came.overshoot);
+        TEST_ASSERT_LESS_THAN_DOUBLE(80, came.rise_ms);
+        TEST_ASSERT_GREATER_THAN_DOUBLE(0, came.rise_ms);
+        TEST_ASSERT_LESS_THAN_DOUBLE(30, came.rough_mm_s);
+    }
+}
+
+TEST(a_wheel_reaches_its_speed_with_the_lag_of_the_model)
+{
+    struct came came = step_to(200, &NOMINAL);
+
+    TEST_ASSERT_DOUBLE_WITHIN(15, 37, came.rise_ms);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0, 200 * 0.037, came.behind_mm);
+}
+
+TEST(it_runs_over_by_less_than_a_tenth_at_any_voltage)
+{
+    struct motor motor = NOMINAL;
+
+    for (motor.volts = 6.0; motor.volts < 8.45; motor.volts += 0.2)
+        assert_held(&motor);
+}
+
+TEST(it_holds_a_motor_that_is_weak_stiff_quick_or_slow)
+{
+    struct motor motor = NOMINAL;
+
+    motor.strength = 0.7;
+    assert_held(&motor);
+    motor.strength = 1.2;
+    assert_held(&motor);
+    motor = NOMINAL;
+    motor.dead = 0.14;
+    assert_held(&motor);
+    motor = NOMINAL;
+    motor.lag_s = 0.045;
+    assert_held(&motor);
+    motor.lag_s = 0.075;
+    assert_held(&motor);
+}
+
+TEST(ripple_of_the_supply_does_not_disturb_it)
+{
+    struct motor motor = NOMINAL;
+
+    motor.ripple_v = 0.5;
+    assert_held(&motor);
+}
+
+TEST(against_a_stuck_wheel_it_gathers_no_more_than_it_can_give)
+{
+    struct motor motor = NOMINAL;
+    struct came came;
+
+    motor.strength = 0;
+    came = step_to(500, &motor);
+    TEST_ASSERT_EQUAL_INT32(WHEEL_DUTY_MAX, came.duty);
+    came = step_to(-500, &motor);
+    TEST_ASSERT_EQUAL_INT32(-WHEEL_DUTY_MAX, came.duty);
+}
+
+TEST(at_rest_a_motor_gets_nothing)
+{
+    struct wheel wheel = {.known = false};
+
+    TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, WHEEL_NOMINAL_MV));
+    TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, 0));
+}

@@ -1,0 +1,98 @@
+"""Runs with bodies that are not ideal: the same in Python, in C, in a fleet and from the log; and their files."""
+
+import pytest
+
+from host_sim.base.errors import UsageError
+from host_sim.recording.resimulation import resimulate
+from host_sim.sim.fleet import run_fleet
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
+from host_sim.world.body_kinds import KIT, body_kind
+from tests.runs.support import octet
+
+BRIEF = ("--environments", "2", "--limit-s", "8", "--seed", "3", "--body", KIT)
+
+
+def results(native: bool = True, physics: str = "fast", limit_s: float = 60.0) -> list[tuple[int, ...]]:
+    config = RunConfig(seed=3, environments=2, limit_s=limit_s, body=KIT, physics=physics)
+    with make(config) as simulation:
+        simulation.native = native
+        return [(it.ticks, it.robots[0].food_eaten, *it.robots[0].memory) for it in simulation.run()]
+
+
+def test_a_run_is_the_same_in_python_in_c_and_with_pymunk():
+    assert results() == results(native=False) == results(physics="pymunk")
+
+
+def test_a_robot_of_a_fleet_does_what_it_does_alone():
+    fleet = run_fleet(RunConfig(seed=3, robots=1, worlds="own", environments=2, limit_s=60.0, body=KIT))
+
+    assert [(it.ticks, it.food_eaten, *it.memory) for it in fleet] == results()
+
+
+def test_a_run_is_repeated_from_its_log_and_the_same_over_another_bus(run):
+    done = run(*BRIEF)
+
+    assert (done.code, done.errors) == (0, "")
+    assert resimulate(done.out / "run.log").trajectory.ticks == 800
+    assert done.log == run(*BRIEF, "--bus", "fd").log
+
+
+def test_each_robot_comes_off_the_bench_a_little_different():
+    kind = body_kind(KIT)
+    assert kind is not None
+
+    kits = [kind.draw(1, robot) for robot in range(3)]
+
+    assert len({kit.trait[kit_trait] for kit in kits for kit_trait in (5,)}) == len(kits)
+
+
+def test_a_file_takes_the_rest_from_its_base(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text('base = "kit"\nlag_ms = [40, 10]\nslip = 0\n')
+
+    kind = body_kind(str(path))
+
+    assert kind is not None
+    assert (kind.traits["lag_ms"], kind.traits["slip"], kind.traits["motor_ms"]) == ((40, 10), (0, 0), (60, 15))
+
+
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [
+        ("slip = 2", "slip is 0 to 1, its tolerance 0 to 1"),
+        ("lag_ms = [10, -1]", "lag_ms is 0 to 1000, its tolerance 0 to 1000"),
+        ("lag_ms = 'much'", "lag_ms is a number, or [number, tolerance]"),
+        ("lag = 3", "there is no 'lag'"),
+        ("base = 'other'", "base is ideal or kit, not 'other'"),
+    ],
+)
+def test_a_value_that_no_body_can_have_is_named_with_its_line(tmp_path, line, why):
+    path = tmp_path / "mine.toml"
+    path.write_text(f"# a body\n{line}\n")
+
+    with pytest.raises(UsageError, match=r"mine\.toml:2: ") as refused:
+        body_kind(str(path))
+    assert why in str(refused.value)
+
+
+def test_the_command_line_refuses_it_too(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text("slack_mm = 99\n")
+
+    done = octet("run", "--body", path, "--out", tmp_path / "out")
+
+    assert done.returncode != 0
+    assert f"{path}:1: slack_mm is 0 to 10" in done.stderr
+
+
+def test_a_lag_that_the_robot_cannot_hold_stops_it_in_order(tmp_path):
+    path = tmp_path / "late.toml"
+    path.write_text("lag_ms = 300\n")
+
+    with make(RunConfig(seed=1, environments=1, limit_s=60.0, body=str(path))) as simulation:
+        episode = next(simulation.run())
+
+        assert episode.robots[0].memory == (0,) * 8
+        assert not simulation.drives[0].left_mm_s
+        assert not simulation.drives[0].right_mm_s
