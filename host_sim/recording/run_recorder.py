@@ -124,6 +124,7 @@ class RunRecorder:
         if started is not None:
             history.restart(track.ticks, started)
             _note(track.trials, track.ticks, None)
+            track.cells = [cell for cell in track.cells if cell.tick < track.ticks]
             track.cells += [cell._replace(tick=track.ticks) for cell in NEW_CELLS]
             self._memories[robot] = started
         for memory in written:

@@ -43,7 +43,7 @@ import base64
 import zlib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,6 +53,8 @@ from host_sim.protocol.generated import COLUMNS, ROW
 from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.report.page_bundle import page_of, with_data
 from host_sim.view.state import measures
+
+T = TypeVar("T", bound=tuple[Any, ...])
 
 _TEMPLATE = "replay.html"
 _POSE = {"x": (0, 10), "y": (1, 10), "heading": (2, 1000)}
@@ -99,14 +101,19 @@ def _robot_data(trajectory: Trajectory, robot: int) -> dict[str, Any]:
     track = trajectory.tracks[robot]
     return {
         "node": track.node,
-        "memory": track.memories,
-        "trials": track.trials,
+        "memory": _shown(track.memories, trajectory.ticks),
+        "trials": _shown(track.trials, trajectory.ticks),
         "lessons": [lesson for lesson in track.lessons if lesson["tick"] < trajectory.ticks],
-        "cells": track.cells,
+        "cells": _shown(track.cells, trajectory.ticks),
         "events": trajectory.events(robot),
         "columns": list(_COLUMNS),
         "data": pack(_column(track, name) for name in _COLUMNS),
     }
+
+
+def _shown(changes: Iterable[T], end: int) -> list[T]:
+    """The changes before a tick: what people changed after the last one shows in none."""
+    return [change for change in changes if change[0] < end]
 
 
 def pack(columns: Iterable[NDArray[np.int64]]) -> str:
