@@ -1,21 +1,55 @@
-"""A room is small enough to find a file in it by guessing: no folder has more than `FILES_MAX` files."""
+"""A folder is small enough to find a file in it by guessing, and a file large enough to be one.
 
+No folder has more than `FILES_MAX` files. A module under `LINES_MIN` lines that only one other file
+imports is part of that one.
+"""
+
+import os
+import re
 import subprocess
-from collections import Counter
-from collections.abc import Iterable
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping
 from pathlib import PurePath
 
 import pytest
 
 from tests.runs.support import ROOT
 
-FILES_MAX = 30
+FILES_MAX, LINES_MIN = 30, 40
+STAND_ALONE = {
+    "host_sim/web/sim/due_changes.js": "the schedule of changes, apart from what they do",
+    "host_sim/web/sim/world_news.js": "the sentences of changes, apart from the rows of a run",
+    "host_sim/world/obstacles.py": "a view of one struct, as body.py is",
+}
+PYTHON = re.compile(r"^\s*(?:from ([\w.]+) import ([\w, ]+|\()|import ([\w.]+))", re.MULTILINE)
+JAVASCRIPT = re.compile(r'from "(\.[^"]+)"')
 
 
 def crowded(files: Iterable[str]) -> dict[str, int]:
     """The folders with too many files, and how many they have."""
     counts = Counter(str(PurePath(file).parent) for file in files)
     return {folder: count for folder, count in counts.items() if count > FILES_MAX}
+
+
+def imported(file: str, text: str) -> set[str]:
+    """The modules that a file imports, as paths."""
+    if file.endswith(".js"):
+        return {os.path.normpath(PurePath(file).parent / name) for name in JAVASCRIPT.findall(text)}
+    found: set[str] = set()
+    for package, names, module in PYTHON.findall(text):
+        dotted = [package or module, *(f"{package}.{name.strip()}" for name in names.split(",") if package)]
+        found |= {f"{name.replace('.', '/')}.py" for name in dotted}
+    return found
+
+
+def too_small(texts: Mapping[str, str]) -> set[str]:
+    """The modules of the product that belong into the only file that imports them."""
+    importers: dict[str, set[str]] = defaultdict(set)
+    for file, text in texts.items():
+        for module in imported(file, text):
+            importers[module].add(file)
+    small = {file for file, text in texts.items() if text.count("\n") < LINES_MIN and not file.startswith("tests/")}
+    return {file for file in small if len(importers[file]) == 1}
 
 
 @pytest.fixture(scope="module")
@@ -37,3 +71,26 @@ def test_one_file_too_many_is_found(files):
     assert room
     assert crowded([*files, *planted[1:]]) == {}
     assert crowded([*files, *planted]) == {"host_sim/base": FILES_MAX + 1}
+
+
+@pytest.fixture(scope="module")
+def texts(files) -> dict[str, str]:
+    """The sources in Python and JavaScript."""
+    scripts = [file for file in files if file.startswith("tools/") and "." not in PurePath(file).name]
+    sources = [file for file in files if file.endswith((".py", ".js"))]
+    return {file: (ROOT / file).read_text() for file in sources + scripts}
+
+
+def test_no_module_is_too_small_to_stand_alone(texts):
+    assert too_small(texts) <= set(STAND_ALONE)
+
+
+@pytest.mark.parametrize("where", ["host_sim/live/board_feed.py", "host_sim/web/board/board.js"])
+def test_a_small_module_with_one_importer_is_found(texts, where):
+    planted = str(PurePath(where).with_stem("planted"))
+    line = {".js": 'import { planted } from "./planted.js";', ".py": "from host_sim.live.planted import planted"}
+    one = {**texts, planted: "\n", where: f"{line[PurePath(where).suffix]}\n{texts[where]}"}
+    another = str(PurePath(where).with_stem("another"))
+
+    assert planted in too_small(one)
+    assert planted not in too_small({**one, another: one[where]})

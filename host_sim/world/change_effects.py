@@ -6,11 +6,10 @@ from collections.abc import Sequence
 
 from host_sim.world.arena import Arena
 from host_sim.world.changes import GROW, PLANT, Change
-from host_sim.world.clearance import clearance_mm
 from host_sim.world.edits import AddPlant, ChangeBody, Edit, EditError, GrowPlant
 from host_sim.world.geometry import Plant, Point
 from host_sim.world.params import SimParams
-from host_sim.world.reach import Reach
+from host_sim.world.reach import Reach, clearance_mm
 
 _RADIUS_MM, _GROWTH_MM = 80.0, 40
 _TRIES = 200

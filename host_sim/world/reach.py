@@ -1,4 +1,6 @@
-"""Where in a layout the centre of a body can get to."""
+"""Room and ways in a layout: clearance around a place, and where the centre of a body can get to."""
+
+from collections.abc import Iterable
 
 from host_sim.world.geometry import Bar, Plant, Point
 from host_sim.world.native_drawing import Obstacles, ReachRoom
@@ -30,3 +32,22 @@ class Reach:
     def distance_mm(self, point: Point) -> float:
         """The distance from a point to the nearest middle of a cell that it can get to; infinite if there is none."""
         return float(self._library.reach_distance_mm(self._room.in_c, point))
+
+
+def clearance_mm(point: Point, bars: Iterable[Bar], params: SimParams, plants: Iterable[Plant] = ()) -> float:
+    """The distance from a point to the nearest obstacle or wall.
+
+    >>> clearance_mm((2000.0, 1500.0), [Bar((1900.0, 1800.0), (2100.0, 1800.0))], SimParams())
+    280.0
+
+    Args:
+        point: The point.
+        bars: The bars among the obstacles.
+        params: The dimensions of the world.
+        plants: The plants among them.
+
+    Returns:
+        mm; negative inside an obstacle or beyond a wall.
+    """
+    _, library = world_library()
+    return float(library.clearance_mm(Obstacles(tuple(bars), tuple(plants), params).in_c, point))

@@ -5,10 +5,9 @@ import random
 
 import numpy as np
 
-from host_sim.world.clearance import clearance_mm
 from host_sim.world.geometry import Bar, Plant
 from host_sim.world.params import SimParams
-from host_sim.world.reach import Reach
+from host_sim.world.reach import Reach, clearance_mm
 from tests.world.clearances import CELL_MM, clearances_mm, flooded, free_cells, length, middles
 
 PARAMS = SimParams()

@@ -48,7 +48,7 @@ def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
 
         return nullcontext(SocketPair())
     if link == "external":
-        from host_sim.lab.campaign.own_setup import OwnProgram  # noqa: PLC0415 - see above
+        from host_sim.lab.campaign.socket_pair_setup import OwnProgram  # noqa: PLC0415 - see above
 
         return nullcontext(OwnProgram(command))
     if link in ("slcan", "vcan"):

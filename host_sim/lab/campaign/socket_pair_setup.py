@@ -1,4 +1,4 @@
-"""A robot in a process of its own, at the other end of a socket pair."""
+"""A robot in a process of its own at the other end of a socket pair: the firmware, or a program of one's own."""
 
 import os
 import threading
@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
+from host_sim.base.errors import UsageError
 from host_sim.client.robot_client import RobotClient
 from host_sim.lab.campaign.host_events import process_events
 from host_sim.lab.campaign.setup import Happen
@@ -32,6 +33,31 @@ class SocketPair:
     def _only_child(self) -> int:
         (pid,) = _children() - self._before
         return pid
+
+
+class OwnProgram(SocketPair):
+    """As in `Setup`."""
+
+    def __init__(self, command: str) -> None:
+        """Before the robot is there.
+
+        Args:
+            command: The program.
+
+        Raises:
+            UsageError: It is empty.
+        """
+        if not command:
+            raise UsageError("the link external needs --robot-command CMD, the robot")
+        super().__init__()
+        self._command = command
+        # The whole process group, since a shell may have started the program; it is another one after each restart.
+        events = process_events(lambda: -self._only_child())
+        self.events: Mapping[str, Happen] = {**events, "reset": events["kill"]}
+
+    def configured(self, config: RunConfig) -> RunConfig:
+        """As in `Setup`."""
+        return replace(config, bus="fd", robot_command=self._command)
 
 
 def _children() -> set[int]:
