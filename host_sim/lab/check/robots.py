@@ -22,6 +22,8 @@ WAKE_S = 5.0
 """A robot that has not answered by then never does."""
 
 _AGAIN_S = 0.25
+_ANYBODY = 254
+"""A sender whose stop is no old one of the owner's, whoever that is."""
 
 
 def wake(talk: Talk) -> None:
@@ -32,7 +34,7 @@ def wake(talk: Talk) -> None:
     """
     for _ in range(round(WAKE_S / _AGAIN_S)):
         talk.counter = (talk.counter + 1) % COUNTERS
-        talk.send(talk.order(Opcode.STOP, owner=1))
+        talk.send(talk.order(Opcode.STOP, owner=_ANYBODY))
         said = talk.hear(_AGAIN_S, lambda said: _answers(said, talk.counter))
         if said and _answers(said[-1], talk.counter):
             talk.hear(_AGAIN_S, lambda said: said.is_answer)
@@ -43,7 +45,7 @@ def wake(talk: Talk) -> None:
 
 
 def _answers(said: Said, counter: int) -> bool:
-    return said.name == "ANSWER" and said.signals.get("counter") == counter
+    return said.name == "ANSWER" and said.signals.get("counter") == counter and not said.signals["result"]
 
 
 def _hang(pid: int, span_ms: int) -> None:

@@ -4,7 +4,7 @@ import pytest
 
 from host_sim.lab.check.checking import check_robot
 from host_sim.lab.check.registry import CHECKS
-from tests.lab.check.virtual import example, virtual
+from tests.lab.check.virtual import example, one_for_all, virtual
 
 CANARIES = {}
 
@@ -439,6 +439,13 @@ class AnswersAllThatQueued(Robot):
         if len(frames) > 1:
             self.heard_ms, self.count = now_ms, self.count
         return super().step(frames, now_ms)
+
+
+def test_a_good_robot_that_is_there_already_passes():
+    verdicts = check_robot(one_for_all(example.Robot()), missing=("T1", "S6"))
+
+    assert [verdict for verdict in verdicts if verdict.state == "fails"] == []
+    assert {verdict.number for verdict in verdicts if "--robot-command" in verdict.why} == {"T1", "S6"}
 
 
 def test_every_check_has_a_canary():
