@@ -149,6 +149,11 @@ class NativeLoop:
             self._memories[index],
         )
 
+    @property
+    def ticks(self) -> int:
+        """Number of ticks in the last block."""
+        return int(self._loop.ticks)
+
     def reasons(self, index: int) -> Sequence[int]:
         """A robot's reason in each tick of the last block."""
         row = len(ROW)
@@ -159,9 +164,8 @@ class NativeLoop:
         """A robot's senses and drive in the last tick."""
         first = (self._loop.ticks - 1) * len(ROW)
         numbers = self._ffi.unpack(self._robots[index].rows + first, _DRIVE_END)
-        senses = Senses._make(numbers[:_SENSES_END])
-        drive = Drive._make(numbers[_SENSES_END:])
-        return senses._replace(bump=bool(senses.bump), look=bool(senses.look)), drive
+        tick, feel, bump, look, *rest = numbers[:_SENSES_END]
+        return Senses(tick, feel, bump != 0, look != 0, *rest), Drive(*numbers[_SENSES_END:])
 
     def begun(self, index: int) -> dict[int, int]:
         """Number of actions that a robot has begun since `enter`, by reason."""

@@ -181,10 +181,13 @@ class Simulation:
                 self.watch(self)
 
     def _take_block(self, loop: NativeLoop) -> None:
-        lasts = [loop.last(i) for i in range(len(self.clients))]
-        self.senses, self.drives = [senses for senses, _ in lasts], [drive for _, drive in lasts]
+        before, self.drives = self.drives, [REST] * len(self.clients)
         for i, robot in enumerate(self.episode.robots):
-            robot.begun, robot.food_eaten = loop.begun(i), loop.food_eaten(i)
+            self.senses[i], self.drives[i] = loop.last(i)
+            if loop.ticks > 1 or self.drives[i].action != before[i].action:
+                robot.begun = loop.begun(i)
+            if loop.ticks > 1 or self.drives[i].eat:
+                robot.food_eaten = loop.food_eaten(i)
         self._set_time(self.tick - 1)
 
     def _step_once(self, tick: BegunTick | None = None) -> None:
