@@ -56,7 +56,8 @@ def check_robot(robots: Robots, missing: Collection[str] = (), jobs: int = 1) ->
     """
     with robots():
         pass  # whatever keeps it from answering is said at once
-    possible = sorted(set(CHECKS) - set(missing), key=lambda number: CHECKS[number].__module__ != silence.__name__)
+    possible = [number for number in CHECKS if number not in missing]
+    possible.sort(key=lambda number: CHECKS[number].__module__ != silence.__name__)  # those that wait longest first
     with ThreadPoolExecutor(jobs) as pool:
         courses = pool.map(lambda number: _run(number, robots), possible)
         return list(_judge({course.number: course for course in courses}, missing))

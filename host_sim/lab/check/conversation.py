@@ -13,7 +13,8 @@ def _at_rest(said: Said) -> bool:
 
 def _names(heard: list[Said]) -> list[str]:
     """What the robot says, but for faults and silence."""
-    return [said.name for said in heard if said.name not in ("", "EMERGENCY", "DRIVE") or said.is_answer]
+    spoken = [said for said in heard if not said.signals.get("silent")]
+    return [said.name for said in spoken if said.name not in ("", "EMERGENCY", "DRIVE") or said.is_answer]
 
 
 @sentence("T2")
@@ -79,6 +80,7 @@ def _each_command_is_answered(talk: Talk) -> None:
 
 @sentence("ANSWER.value")
 def _get_tells_the_value(talk: Talk) -> None:
+    talk.start()
     for name, parameter in PARAMETERS.items():
         answer = talk.result(Opcode.GET, wanted=parameter.number).signals
         told = (answer["which"], answer["value"])

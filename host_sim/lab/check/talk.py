@@ -19,8 +19,8 @@ from host_sim.protocol.signal_layout import MessageLayout
 from host_sim.transport.clock import Clock
 from host_sim.transport.link import Link
 
-ANSWER_S = 0.5
-"""An answer takes no longer, on a busy machine either."""
+ANSWER_S = 0.9
+"""An answer takes no longer, on a busy machine either; after a second, a HEARTBEAT may come by itself."""
 
 _TICK_S = 0.02
 _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
