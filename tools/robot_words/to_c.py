@@ -91,7 +91,7 @@ def _row(robot: Description) -> str:
         for name, members in (("ROBOT_SENSED", robot.senses), ("ROBOT_DRIVEN", robot.drive))
     ]
     return (
-        f"/* A tick as a row of numbers. */\nenum row {{\n{places}    ROW_COUNT\n}};\n\n"
+        f"/* A tick as a row of numbers. */\nenum {{\n{places}    ROW_COUNT\n}};\n\n"
         "/* X(member, signal) for each that SENSES has of struct senses, and DRIVE of struct drive, as in a row. */\n"
         f"{''.join(lists)}"
     )

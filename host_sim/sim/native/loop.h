@@ -47,7 +47,7 @@ struct loop_robot {
     struct frame reports[LOOP_FRAMES_MAX];  /* of the last tick, */
     size_t report_count;
     bool has_news;                          /* and whether one of them says something new */
-    int16_t *rows;                    /* an enum row of numbers for each tick of the block; the last three: 0, lifted, 0 */
+    int16_t *rows;                    /* ROW_COUNT numbers for each tick of the block; the last three: 0, lifted, 0 */
     double *poses;                    /* x and y in mm and heading in rad, after each tick */
 };
 

@@ -159,7 +159,7 @@ uint32_t page_run(uint32_t tick, uint32_t ticks_max);
            been run. */
 
 const int16_t *page_rows(uint32_t robot);
-        /* For each tick of the block an enum row of numbers, */
+        /* For each tick of the block ROW_COUNT numbers, */
 
 const double *page_poses(uint32_t robot);
         /* and LOOP_POSE numbers. */

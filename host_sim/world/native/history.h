@@ -58,7 +58,7 @@ void history_begin(struct history *history, const uint8_t sides[CELL_COUNT]);
         /* Nothing has been learned yet. sides are the turns that the robot knows. */
 
 size_t history_take(struct history *history, double tick, int16_t *rows, size_t ticks, struct history_note *notes);
-        /* Adds ticks, from this one on: a row each, an enum row of numbers, in which pattern and frozen are filled in.
+        /* Adds ticks, from this one on: a row each, ROW_COUNT numbers, in which pattern and frozen are filled in.
            Returns the number of notes; there must be room for one for each tick. */
 
 void history_learn(struct history *history, double tick, const uint8_t sides[CELL_COUNT]);
