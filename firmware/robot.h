@@ -1,5 +1,5 @@
-/* robot.h: the whole robot in one struct: senses in, drive out, one tick at a time. Nothing here waits, and nothing is shared
- * between two robots; one thread at a time uses a robot. */
+/* robot.h: the whole robot in one struct: senses in, drive out, one tick at a time. Nothing here waits. Robots share nothing;
+ * one thread at a time uses a robot. */
 #ifndef OCTET_ROBOT_H
 #define OCTET_ROBOT_H
 
@@ -28,16 +28,16 @@ struct robot {
 };
 
 void robot_init(struct robot *robot, uint32_t seed);
-        /* As after power-up: stopped, nothing learned, the article's profile. */
+        /* Resets to the power-up state: stopped, nothing learned, the article's profile. */
 
 void robot_step(struct robot *robot, const struct senses *senses, struct drive *drive);
-        /* One tick: fills *drive for these senses. A stopped robot's wheels rest. */
+        /* Runs one tick: fills *drive for these senses. A stopped robot's wheels rest. */
 
 enum result robot_execute(struct robot *robot, const struct command *command, uint32_t *value);
-        /* Carries out one command, or says why not and changes nothing. *value is set where the answer has one. */
+        /* Executes one command, or returns why not and changes nothing. Sets *value if the answer has one. */
 
 void robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
-        /* Fills *out with all that one input calls for: the drive for senses, rest for silence, the answer to a
-           command, nothing for another robot's memory, and a report and the memory whenever they are due. */
+        /* Fills *out with the response to one input: a drive to senses, rest to silence, an answer to a command, nothing to
+           another robot's memory; plus a report and the memory when they are due. */
 
 #endif

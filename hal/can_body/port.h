@@ -1,4 +1,4 @@
-/* port.h: the little that the CAN body needs of the machine it runs on, besides a link. One thread calls all of it. */
+/* port.h: what the CAN body needs from its machine besides a link. One thread calls all of it. */
 #ifndef OCTET_PORT_H
 #define OCTET_PORT_H
 
@@ -17,17 +17,17 @@ struct port {
 };
 
 int port_open(struct port *port, int argc, char *const argv[]);
-        /* Fills *port from the command line, or with what is built in. 0 or HAL_E_USAGE, said on the console. */
+        /* Fills *port from the command line, or with built-in values. Returns 0, or HAL_E_USAGE, reported on the console. */
 
 void port_ready(const struct port *port);
-        /* The link is open: says so, in the machine's own way. */
+        /* Reports that the link is open, in the machine's own way. */
 
 uint32_t port_clock_ms(void);
         /* Milliseconds from any start; wraps. */
 
 void port_alive(bool outage);
-        /* The program is alive: called whenever the body begins to wait, which is at least every HAL_SILENCE_MS but for the time
-           that storing takes. For a watchdog, and for a light that shows whether senses come; outage: they do not. */
+        /* Feeds the watchdog and drives the status light. Called whenever the body begins to wait: at least every
+           HAL_SILENCE_MS, plus the time of a store. outage: no senses arrive. */
 
 int port_load(uint8_t memory[CELL_COUNT]);
 uint32_t port_entropy(void);
@@ -39,6 +39,6 @@ enum { PORT_LATER = 1 };
 
 int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort);
         /* As hal_store. Or PORT_LATER, and nothing is changed: it takes longer than a tick, and effort is PORT_QUICKLY.
-           With PORT_AT_REST, when the wheels are at rest and no answer is awaited, it may take a second. */
+           With PORT_AT_REST, the wheels are at rest and no answer is awaited: the call may take a second. */
 
 #endif

@@ -11,7 +11,7 @@
 enum { FLASH_PAGES = 2, FLASH_UNIT_MAX = 32 };
 
 bool flash_exists(void);
-        /* False on a machine without flash to write to, as an emulator may be. Then nothing else here is called. */
+        /* False on a machine without writable flash, such as some emulators. Then nothing else here may be called. */
 
 uint32_t flash_page_size(void);
         /* In bytes, a multiple of 32, at most 32768. The same for both pages. */
@@ -20,15 +20,16 @@ uint32_t flash_unit(void);
         /* In bytes: 4, 8, 16 or 32. */
 
 int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count);
-        /* Reads count bytes, as they lie there; erased ones are 0xFF. 0, or -1: the flash's own error correction finds
-           something there that was never wholly written, and words holds anything. */
+        /* Reads count bytes; erased ones are 0xFF. Returns 0, or -1 if the flash's error correction reports a partial write;
+           words is then undefined. */
 
 int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count);
-        /* Writes count bytes, unit by unit, the lowest first: erased ones, or any with zeros. 0: they read back as written. Else -1: whatever is
-           there now, no other byte has changed; where the supply is low, none at all. Takes under 0.2 ms for each 4 bytes. */
+        /* Writes count bytes unit by unit, lowest first: over erased bytes, or zeros over any. Returns 0 if they read back as
+           written. Otherwise -1: these bytes are undefined, and no other byte has changed; with a low supply, none at all.
+           Takes under 0.2 ms per 4 bytes. */
 
 int flash_erase(unsigned page);
-        /* 0: the whole page is erased. Else -1, with nothing done where the supply is low. Takes up to 0.5 s, and on some
-           machines nothing else goes on meanwhile. */
+        /* Returns 0 if the whole page is erased, else -1; with a low supply, nothing was done. Takes up to 0.5 s, during which
+           some machines stall. */
 
 #endif
