@@ -141,7 +141,7 @@ class RobotClient:
         self.connection.link.send(frame)
         inbox.counts.sent += 1
         inbox.record(frame)  # while the robot thinks
-        if self.connection.line.noisy:
+        if self.connection.line.copies > 1:
             self._note_copies()
 
     def note_sent(self, senses: Senses) -> None:

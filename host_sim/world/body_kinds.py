@@ -7,7 +7,6 @@ from typing import Any
 
 from host_sim.base.errors import UsageError
 from host_sim.base.near_word import near_word
-from host_sim.world.layout_file import line_of, read_toml
 from host_sim.world.params import SimParams
 from host_sim.world.world_library import world_library
 
@@ -61,6 +60,8 @@ def body_kind(text: str) -> BodyKind | None:
         return None
     if text == KIT:
         return BodyKind({name: (row.kit, row.tolerance) for name, row in _rows().items()})
+    from host_sim.world.layout_file import line_of, read_toml  # noqa: PLC0415 - seldom needed, and slow to load
+
     path = Path(text)
     content, lines = read_toml(path, "a body")
     try:
