@@ -92,7 +92,7 @@ BAD = {
     make_other_protocol: (2, "another octet.dbc"),
     take_the_world_of_another_seed: (1, "not recorded in the world of"),
     let_the_world_begin_later: (1, "begins later"),
-    edit_what_cannot_be: (1, "no number 77"),
+    edit_what_cannot_be: (1, "there is no such number"),
     make_world_no_json: (2, "not a world file"),
     make_world_folder: (2, "directory"),
 }

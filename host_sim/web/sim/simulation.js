@@ -9,7 +9,7 @@ import { RobotCommands } from "./robot_commands.js";
 import { RunRecorder } from "./run_recorder.js";
 import { RANDOM } from "../core/world_names.js";
 import { EDITS } from "../generated.js";
-import { measuresOf, worldOf } from "./worlds.js";
+import { worldOf } from "./worlds.js";
 
 /**
  * @typedef {import("../types.js").Change} Change

@@ -21,7 +21,7 @@ Socket = aiohttp.ClientWebSocketResponse
 @pytest.fixture(scope="module")
 def shared(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Watched]:
     """A run for all tests of this module. However it was treated, no robot has counted a fault at its end."""
-    watched = start_watched(tmp_path_factory.mktemp("watched") / "run", "--environments", "20")
+    watched = start_watched(tmp_path_factory.mktemp("watched") / "run", "--environments", "200")
     yield watched
     ends_well(watched)
     watched.process.communicate()
