@@ -119,7 +119,7 @@ async def _with_page(run: PacedRun, ticks: int) -> int:
 def hours(count: float, step: float, folder: Path) -> Iterator[tuple[str, bool]]:
     """A run of so many robot hours; what there is to say after each step, and whether all is well."""
     log = FrameLog(folder / "run.log")
-    config = RunConfig(environments=10**6, faults=FAULTS, profile="adaptive")
+    config = RunConfig(environments=1000, faults=FAULTS, profile="adaptive")
     with make(config, log) as simulation:
         recorder = RunRecorder.of(simulation, PARAMETERS["boredom_limit"].default)
         run = PacedRun(simulation, recorder, lambda _: None, speed=FULL_SPEED, stays=False)
