@@ -188,11 +188,10 @@ class RunRecorder:
 
 def _note(changes: Changes[T], tick: int, value: T) -> None:
     """Adds a value if it has changed; it replaces a value of the same tick."""
-    if changes and changes[-1][1] == value:
-        return
     if changes and changes[-1][0] == tick:
         changes.pop()
-    changes.append((tick, value))
+    if not changes or changes[-1][1] != value:
+        changes.append((tick, value))
 
 
 def _name(scene: EnvironmentScene) -> tuple[int, int, int]:

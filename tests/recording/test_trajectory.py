@@ -28,6 +28,7 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.world.edits import AddBar, Lift, MoveFood, Put
 from host_sim.world.geometry import Bar, Pose
+from host_sim.world.params import SimParams
 from tests.recording.support import open_simulation, record_run, run_through, without, write_log
 
 
@@ -136,6 +137,18 @@ def test_what_people_did_live_happens_again(tmp_path):
     assert complaints == []
     assert_equal(resimulate(tmp_path / "run.log").trajectory, recorder.trajectory)
     assert [begun.seed for begun in simulation.record.begun] == [3, 3, 9, 9, 4, 4]
+
+
+@pytest.mark.parametrize("ticks", [0, 3])
+def test_a_cell_that_is_written_and_erased_between_two_ticks_is_no_change(ticks):
+    empty, written = (0,) * 8, (0, 0, 1, 0, 0, 0, 0, 0)
+    recorder = RunRecorder(SimParams(), 10, {1: empty})
+    recorder.trajectory.tracks[0].poses_flat.extend([0.0] * 3 * ticks)
+
+    for memory in (written, empty):
+        recorder.between(0, None, [memory])
+
+    assert recorder.trajectory.tracks[0].memories == [(0, list(empty))]
 
 
 def test_senses_that_contradict_the_world_are_named(short):
