@@ -22,7 +22,7 @@ from host_sim.recording.wire_1 import OldLog
 from host_sim.recording.world_file import read_world
 from host_sim.world.changes import read_changes
 from host_sim.world.worlds import world_of
-from tools.robot_words.model import DescriptionError
+from tools.robot_words.description import DescriptionError
 from tools.robot_words.model import read as read_description
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -10,7 +10,8 @@ import pytest
 
 from host_sim.protocol import generated
 from tools.robot_words import to_javascript, to_python, to_typedefs
-from tools.robot_words.model import DescriptionError, layout_hash, read
+from tools.robot_words.description import DescriptionError
+from tools.robot_words.model import layout_hash, read
 
 ROOT = Path(__file__).resolve().parents[2]
 DBC = ROOT / "hal/protocol/octet.dbc"

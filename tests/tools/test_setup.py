@@ -55,6 +55,7 @@ class Tree:
             "hal/protocol/robot.toml",
             "tools/generate",
             "requirements/unity.lock",
+            "tools/robot_words/description.py",
             "tools/robot_words/model.py",
             "tools/cmake/wasm32.cmake",
             "host_sim/view/state_types.py",

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterable, Mapping
 
-from tools.robot_words.model import Description
+from tools.robot_words.description import Description
 
 _HEAD = """\
 /* robot_words.h: the robot's numbers and words. Made by tools/generate from octet.dbc and robot.toml. */

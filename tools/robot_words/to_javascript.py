@@ -2,7 +2,7 @@
 
 import json
 
-from tools.robot_words.model import Description
+from tools.robot_words.description import Description
 from tools.robot_words.to_c import c_name
 
 _HEAD = "/* Made by tools/generate from octet.dbc and robot.toml. */\n"

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from cantools.database.can import Message
 from cantools.database.can.signal import Signal
 
-from tools.robot_words.model import Description, Member, Parameter
+from tools.robot_words.description import Description, Member, Parameter
 from tools.robot_words.to_c import c_name
 
 _HEAD = '''\
