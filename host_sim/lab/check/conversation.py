@@ -41,8 +41,7 @@ def _health_is_last(talk: Talk) -> None:
 
 @sentence("T5")
 def _then_a_drive_at_rest(talk: Talk) -> None:
-    talk.start()
-    talk.drive()
+    talk.drive_once()
     heard = talk.stop()
     expect(heard[-1].is_answer and _at_rest(heard[-1]), "after its reports comes no DRIVE at rest")
 
@@ -127,8 +126,7 @@ def _reports_come_once_a_second(talk: Talk) -> None:
 
 
 def _after_a_fault(talk: Talk) -> list[Said]:
-    talk.start()
-    talk.drive()
+    talk.drive_once()
     talk.send(damaged(talk.senses(talk.tick + 1)))
     heard = talk.step() + talk.hear(AT_ONCE_S)
     return [said for said in heard if said.name in ("EMERGENCY", "DRIVE")]

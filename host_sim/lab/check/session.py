@@ -24,8 +24,7 @@ def _unanswered(talk: Talk, frame: Frame, why: str) -> None:
 
 @sentence("P3")
 def _what_is_damaged_is_not_accepted(talk: Talk) -> None:
-    talk.start()
-    talk.drive()
+    talk.drive_once()
     senses = talk.senses(talk.tick + 1)
     _unanswered(talk, damaged(senses), "SENSES with a wrong CRC")
     _unanswered(talk, Frame(senses.id, senses.data[:7]), "SENSES of 7 bytes")
@@ -37,8 +36,7 @@ def _what_is_damaged_is_not_accepted(talk: Talk) -> None:
 @sentence("P4")
 def _ticks_go_on_by_up_to_14(talk: Talk) -> None:
     def attempt(talk: Talk) -> None:
-        talk.start(lockstep=0)
-        talk.drive()
+        talk.drive_once(lockstep=0)
         talk.drive(ahead=14)
         _unanswered(talk, talk.senses(talk.tick - 1), "the tick before the last one")
         talk.drive()
@@ -49,8 +47,7 @@ def _ticks_go_on_by_up_to_14(talk: Talk) -> None:
 
 @sentence("P5")
 def _commands_go_on_by_up_to_7(talk: Talk) -> None:
-    talk.start()
-    talk.drive()
+    talk.drive_once()
     for ahead, wanted in ((7, Result.DONE), (8, Result.OUT_OF_SEQUENCE)):
         got = one(talk.command(Opcode.GET, ahead=ahead), "ANSWER").signals["result"]
         expect(got == wanted, f"a command {ahead} ahead of the one before gets result {got}, not {int(wanted)}")
@@ -61,8 +58,7 @@ _FULL = 255
 
 @sentence("P6")
 def _what_is_refused_is_counted(talk: Talk) -> None:
-    talk.start()
-    talk.drive()
+    talk.drive_once()
     before = talk.report()
     names = ("damaged", "stale", "refused")
     expect(max(before[name] for name in names) < _FULL, "its counters are full: switch it off and on")
@@ -78,8 +74,7 @@ def _what_is_refused_is_counted(talk: Talk) -> None:
 
 @sentence("P8")
 def _what_is_refused_changes_nothing(talk: Talk) -> None:
-    talk.start()
-    talk.drive()
+    talk.drive_once()
     before = talk.report()
     talk.result(Opcode.SET, owner=2, parameter=0, value=99)
     talk.send(damaged(talk.senses(talk.tick + 1)))
@@ -93,8 +88,7 @@ def _what_is_refused_changes_nothing(talk: Talk) -> None:
 
 @sentence("L2")
 def _lockstep_waits_for_the_next_tick(talk: Talk) -> None:
-    talk.start()
-    talk.drive()
+    talk.drive_once()
     _unanswered(talk, talk.senses(talk.tick + 2), "in lockstep, the tick after the next one")
     talk.drive()
 
@@ -123,36 +117,34 @@ def _the_same_command_gets_the_same_answer(talk: Talk) -> None:
     expect(talk.report()["held"] == once, "a COMMAND that came twice is carried out twice")
 
 
+def _expect_of_another(talk: Talk, opcode: Opcode, wanted: Result, when: str) -> None:
+    result = talk.result(opcode, owner=2).signals["result"]
+    expect(result == wanted, f"{when}, another sender's {opcode.name.lower()} gets result {result}")
+
+
 @sentence("O1")
 def _stop_ends_the_ownership(talk: Talk) -> None:
-    talk.start(owner=1)
-    talk.drive()
+    talk.drive_once()
     talk.stop(owner=1)
-    result = talk.result(Opcode.GET, owner=2).signals["result"]
-    expect(result == Result.DONE, f"after the owner's stop, another sender's command gets result {result}")
+    _expect_of_another(talk, Opcode.GET, Result.DONE, "after the owner's stop")
 
 
 @sentence("O4")
 def _others_are_refused(talk: Talk) -> None:
-    talk.start(owner=1)
-    talk.drive()
-    result = talk.result(Opcode.ERASE, owner=2).signals["result"]
-    expect(result == Result.OWNED, f"another sender's command gets result {result}")
+    talk.drive_once()
+    _expect_of_another(talk, Opcode.ERASE, Result.OWNED, "while it has an owner")
 
 
 @sentence("O5")
 def _anybody_may_stop_it(talk: Talk) -> None:
-    talk.start(owner=1)
-    talk.drive()
-    result = talk.result(Opcode.STOP, owner=2).signals["result"]
-    expect(result == Result.DONE, f"another sender's stop gets result {result}")
+    talk.drive_once()
+    _expect_of_another(talk, Opcode.STOP, Result.DONE, "while it has an owner")
 
 
 @sentence("O6")
 def _heartbeat_names_the_owner(talk: Talk) -> None:
     sender = 77
-    talk.start(owner=sender)
-    talk.drive()
+    talk.drive_once(owner=sender)
     owner = talk.report(owner=sender)["owner"]
     expect(owner == sender, f"HEARTBEAT names owner {owner}, not {sender}")
 
@@ -162,8 +154,7 @@ _TWINS = (1, 2)
 
 
 def _meet_a_twin(talk: Talk) -> dict[str, int]:
-    talk.start()
-    talk.drive()
+    talk.drive_once()
     zeros = dict.fromkeys((signal.name for signal in MESSAGES["DRIVE"].signals), 0)
     for counter in _TWINS:
         talk.send(talk.protocol.encode("DRIVE", {**zeros, "counter": counter}))
@@ -233,8 +224,7 @@ def _held_covers_the_cells_without_an_owner(talk: Talk) -> None:
 
 @sentence("MEMORY")
 def _a_memory_that_changes_is_told(talk: Talk) -> None:
-    talk.start()
-    talk.drive()
+    talk.drive_once()
     heard = talk.command(Opcode.WRITE, half=1, mask=15, byte_0=1, byte_1=2, byte_2=1, byte_3=2) + talk.step()
     halves = [said.signals["half"] for said in heard if said.name == "MEMORY"]
     expect(sorted(halves[:2]) == [0, 1], f"after write come the halves {halves} of MEMORY")

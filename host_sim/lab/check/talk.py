@@ -126,6 +126,11 @@ class Talk:
         self.result(Opcode.START, owner, lockstep=lockstep, seed=1)
         self.tick = -1
 
+    def drive_once(self, *, lockstep: int = 1, owner: int = 1) -> None:
+        """Starts the robot and takes it through its first tick."""
+        self.start(lockstep=lockstep, owner=owner)
+        self.drive()
+
     def stop(self, owner: int = 1) -> list[Said]:
         """Stops the robot; returns all that it says up to its DRIVE."""
         return [*self.command(Opcode.STOP, owner), *self.hear(ANSWER_S, lambda said: said.is_answer)]
