@@ -12,12 +12,6 @@ struct pin {
     uint8_t number;   /* 0..15 */
 };
 
-static const struct pin BOARD_LED = {OCTET_LED};
-static const struct pin BOARD_CAN_RX = {OCTET_CAN_RX};
-static const struct pin BOARD_CAN_TX = {OCTET_CAN_TX};
-static const struct pin BOARD_UART_RX = {OCTET_UART_RX};
-static const struct pin BOARD_UART_TX = {OCTET_UART_TX};
-
-static const bool BOARD_LED_HIGH = OCTET_LED_HIGH;   /* the pin is high while the LED shines */
+#include "board_pins.h"   /* BOARD_LED and its like, made by tools/pins */
 
 #endif

@@ -9,14 +9,7 @@ endif()
 include(${OCTET_STM32}/boards/${OCTET_BOARD}.cmake)
 include(${OCTET_STM32}/${OCTET_CHIP}/chip.cmake)
 
-# octet_define_pins(TARGET): what the board's file says, as board.h reads it.
-function(octet_define_pins target)
-  foreach(name LED CAN_RX CAN_TX UART_RX UART_TX)
-    list(JOIN OCTET_${name} "," pin)
-    target_compile_definitions(${target} PRIVATE "OCTET_${name}=${pin}")
-  endforeach()
-  target_compile_definitions(${target} PRIVATE OCTET_LED_HIGH=${OCTET_LED_HIGH} OCTET_CRYSTAL_MHZ=${OCTET_CRYSTAL_MHZ})
-endfunction()
+include(boards)
 
 # octet_image(LINK LIBRARY...): the robot on this board, over that link: .elf, .bin and .hex.
 function(octet_image link)

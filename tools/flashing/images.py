@@ -51,7 +51,8 @@ class Image:
     dbc: str
 
 
-def _settings(path: Path) -> dict[str, str]:
+def settings(path: Path) -> dict[str, str]:
+    """What a file of CMake sets."""
     return dict(_SET.findall(path.read_text()))
 
 
@@ -59,8 +60,8 @@ def all_boards(root: Path = ROOT) -> dict[str, Board]:
     """Every board by its name."""
     boards = {}
     for path in sorted((root / STM32 / "boards").glob("*.cmake")):
-        chip = _settings(path)["OCTET_CHIP"]
-        links = _settings(root / STM32 / chip / "chip.cmake")["OCTET_LINKS"]
+        chip = settings(path)["OCTET_CHIP"]
+        links = settings(root / STM32 / chip / "chip.cmake")["OCTET_LINKS"]
         boards[path.stem] = Board(path.stem, chip, tuple(links.split()))
     return boards
 

@@ -1,9 +1,32 @@
 # Blue Pill: STM32F103C8.
 set(OCTET_CHIP stm32f103)
 set(OCTET_CRYSTAL_MHZ 8)
-set(OCTET_LED PORT_C 13)
+set(OCTET_LED PC13)
 set(OCTET_LED_HIGH 0)
-set(OCTET_CAN_RX PORT_B 8)
-set(OCTET_CAN_TX PORT_B 9)
-set(OCTET_UART_RX PORT_A 10)
-set(OCTET_UART_TX PORT_A 9)
+set(OCTET_CAN_RX PB8)
+set(OCTET_CAN_TX PB9)
+set(OCTET_UART_RX PA10)
+set(OCTET_UART_TX PA9)
+
+# A robot of its own: five infrared pairs, two motors with encoders behind a bridge, a beacon's receiver.
+set(OCTET_PROXIMITY_RIGHT PA0)
+set(OCTET_PROXIMITY_FRONT_RIGHT PA1)
+set(OCTET_PROXIMITY_FRONT PA2)
+set(OCTET_PROXIMITY_FRONT_LEFT PA3)
+set(OCTET_PROXIMITY_LEFT PA4)
+set(OCTET_INFRARED PB13)        # on: the pairs shine
+set(OCTET_BATTERY PA5)          # a third of it: 20 kohm above, 10 kohm below
+set(OCTET_LEFT_ENCODER_A PA6)
+set(OCTET_LEFT_ENCODER_B PA7)
+set(OCTET_RIGHT_ENCODER_A PB6)
+set(OCTET_RIGHT_ENCODER_B PB7)
+set(OCTET_LEFT_PWM PB14)
+set(OCTET_RIGHT_PWM PB15)
+set(OCTET_LEFT_BACK PB0)        # low: the bridge drives forward
+set(OCTET_RIGHT_BACK PB1)
+set(OCTET_BRIDGE_AWAKE PB5)     # nSLEEP
+set(OCTET_BRIDGE_FAULT PB12)    # nFAULT
+set(OCTET_BEACON PA15)
+set(OCTET_BUMPER_LEFT PB10)     # to ground when pressed
+set(OCTET_BUMPER_RIGHT PB11)
+set(OCTET_BUTTON PA8)           # to ground when pressed

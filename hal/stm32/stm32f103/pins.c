@@ -10,7 +10,7 @@ enum {
     AFIO_ON = 1u << 0,            /* in apb2enr */
     GPIO_A_TO_C = 7u << 2,
     USART1_ON = 1u << 14,
-    MAPR_CAN_B8_B9 = 2u << 13,    /* else CAN is on the USB pins */
+    MAPR_NO_JTAG = 2u << 24,      /* SWD stays: the other pins of JTAG are free */
     INPUT_PULLED = 8,
     OUTPUT_2_MHZ = 2,
     ALTERNATE_50_MHZ = 11
@@ -36,7 +36,7 @@ void pins_start(void)
     RCC.apb2enr |= AFIO_ON | GPIO_A_TO_C | USART1_ON;
     RCC.apb1enr |= CAN1_ON | PWR_ON;
     PWR.cr |= BELOW_2_9_V;
-    AFIO.mapr = MAPR_CAN_B8_B9;
+    AFIO.mapr = (uint32_t)BOARD_REMAP | MAPR_NO_JTAG;
     listen_on(BOARD_CAN_RX);
     listen_on(BOARD_UART_RX);
     set_mode(BOARD_CAN_TX, ALTERNATE_50_MHZ);

@@ -47,7 +47,13 @@ TEST(can_and_the_serial_port_have_their_pins)
     TEST_ASSERT_EQUAL_HEX32(ALTERNATE_50_MHZ, mode(1, 9));
     TEST_ASSERT_EQUAL_HEX32(PULLED, mode(0, 10));
     TEST_ASSERT_EQUAL_HEX32(ALTERNATE_50_MHZ, mode(0, 9));
-    TEST_ASSERT_EQUAL_HEX32(2 << 13, AFIO.mapr);
+    TEST_ASSERT_EQUAL_HEX32(2 << 13, AFIO.mapr & 3 << 13);
+}
+
+TEST(the_beacon_has_its_timer_and_jtag_leaves_its_pins)
+{
+    TEST_ASSERT_EQUAL_HEX32(1 << 8, AFIO.mapr & 3 << 8);
+    TEST_ASSERT_EQUAL_HEX32(2 << 24, AFIO.mapr & 7 << 24);
 }
 
 TEST(open_receive_pins_are_pulled_up)

@@ -1,0 +1,80 @@
+"""tools/pins: what a board's pins can be, and what is refused."""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tools.flashing import ChoiceError
+from tools.flashing.board_pins import read_pins
+from tools.flashing.images import ROOT, STM32, all_boards
+
+
+@pytest.fixture
+def root(tmp_path: Path) -> Path:
+    """A copy of what is known of boards and chips."""
+    for path in (*(ROOT / STM32).glob("boards/*.cmake"), *(ROOT / STM32).glob("*/pins.toml")):
+        copy = tmp_path / path.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, copy)
+    return tmp_path
+
+
+def change(root: Path, old: str, new: str) -> None:
+    path = root / STM32 / "boards" / "blue_pill.cmake"
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+@pytest.mark.parametrize("board", sorted(all_boards()))
+def test_each_board_has_pins_that_its_chip_has(board: str) -> None:
+    assert len(read_pins(board).signals) >= 5
+
+
+def test_a_blue_pill_is_a_robot() -> None:
+    pins = read_pins("blue_pill")
+    assert pins.remap == 2 << 13 | 1 << 8
+    assert pins.channels["BATTERY"] == 5
+    assert pins.functions["RIGHT_PWM"] == "TIM1 ch3n"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("(OCTET_BUTTON PA8)", "(OCTET_BUTTON PB10)", "BUMPER_LEFT and BUTTON are both on PB10"),
+        ("(OCTET_BUTTON PA8)", "(OCTET_BUTTON PA13)", "SWDIO and BUTTON are both on PA13"),
+        ("(OCTET_BUTTON PA8)", "(OCTET_BUTTON PC1)", "BUTTON is on PC1, which an stm32f103 does not have"),
+        ("(OCTET_BATTERY PA5)", "(OCTET_BATTERY PB2)", "BATTERY is on PB2, which has no ADC"),
+        (
+            "(OCTET_CAN_RX PB8)",
+            "(OCTET_CAN_RX PA11)",
+            "CAN_RX on PA11 and CAN_TX on PB9: an stm32f103 has CAN rx, tx on PA11, PA12 or PB8, PB9",
+        ),
+        (
+            "(OCTET_RIGHT_ENCODER_A PB6)",
+            "(OCTET_RIGHT_ENCODER_A PB4)",
+            "RIGHT_ENCODER_A on PB4 and RIGHT_ENCODER_B on PB7: an stm32f103 has TIM4 ch1, ch2 on PB6, PB7",
+        ),
+        ("(OCTET_LED PC13)", "(OCTET_LED 13)", "no pin for LED"),
+    ],
+)
+def test_pins_that_cannot_be_are_refused_by_name(root: Path, old: str, new: str, why: str) -> None:
+    change(root, old, new)
+    with pytest.raises(ChoiceError) as refused:
+        read_pins("blue_pill", root)
+    assert why in str(refused.value)
+
+
+def test_a_board_that_is_refused_is_not_built(root: Path, tmp_path: Path) -> None:
+    change(root, "(OCTET_BUTTON PA8)", "(OCTET_BUTTON PB10)")
+    header = tmp_path / "board_pins.h"
+    done = subprocess.run(
+        [ROOT / "tools/pins", "blue_pill", "--root", root, "--c", header], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr.count("\n"), header.exists()) == (2, 1, False)
+
+
+def test_the_wiring_in_the_documents_is_that_of_the_board() -> None:
+    assert read_pins("blue_pill").table() in (ROOT / "docs" / "hardware.md").read_text()
