@@ -1,11 +1,15 @@
 #include "hal/pins_body/wheel.h"
 
+#include "robot_words.h"
+
 enum {
     MODEL_PART = 8,            /* of what is missing, the model gains in a period: 37 ms */
     LEAD_2 = 3,                /* twice 60 ms / (8 periods of 5 ms): feed-forward inverts the motor */
     BEHIND_MAX_UM = 4000,
     BATTERY_MIN_MV = 3000,     /* less is no measurement */
-    STILL_DUTY = 1000          /* less is not worth a jump over the dead band */
+    STILL_DUTY = 1000,         /* less is not worth a jump over the dead band */
+    UNIT_256 = 25600,          /* a unit of the odometer, 0.1 mm */
+    SPAN_256 = ODOMETER_SPAN * UNIT_256
 };
 
 static int32_t limited(int32_t x, int32_t limit)
@@ -20,6 +24,7 @@ static int32_t moved_um(struct wheel *wheel, uint16_t count)
     int32_t way_256 = counts * WHEEL_COUNT_256 + wheel->rest_256;
     int32_t way_um = way_256 / 256;
 
+    wheel->way_256 = (wheel->way_256 + counts * WHEEL_COUNT_256) % SPAN_256;
     wheel->rest_256 = way_256 - way_um * 256;
     wheel->count = count;
     wheel->known = true;
@@ -47,4 +52,9 @@ int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32
     if (out == duty)   /* no more is gathered while the motor cannot give more */
         wheel->behind_um = behind_um;
     return out;
+}
+
+uint16_t wheel_odometer(const struct wheel *wheel)
+{
+    return (uint16_t)((wheel->way_256 + SPAN_256) % SPAN_256 / UNIT_256);
 }

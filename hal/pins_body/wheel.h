@@ -18,6 +18,7 @@ struct wheel {
     int32_t model_256;    /* the model's speed, 1/256 um in a period */
     int32_t behind_um;    /* the way that the wheel is behind the model */
     int32_t rest_256;     /* of a um that has been counted, 1/256 um */
+    int32_t way_256;      /* rolled since the start, 1/256 um; wraps with the odometer */
     uint16_t count;       /* of the encoder, when it was last read */
     bool known;
 };   /* all 0: at rest */
@@ -25,6 +26,9 @@ struct wheel {
 int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32_t battery_mv);
         /* The duty for the next period, forward positive, at most WHEEL_DUTY_MAX either way. count: of the encoder, which wraps,
            WHEEL_COUNT_256 each. */
+
+uint16_t wheel_odometer(const struct wheel *wheel);
+        /* How far it has rolled, as of the last period: 0.1 mm, forward counts up, wraps at ODOMETER_SPAN. */
 
 enum { WHEEL_COUNT_256 = 23450 };   /* 91.6 um: 12 x 30 x 4 counts a turn of a wheel of 42 mm */
 

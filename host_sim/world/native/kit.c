@@ -1,5 +1,6 @@
 #include "host_sim/world/native/kit.h"
 
+#include "hal/pins_body/proximity.h"
 #include "host_sim/world/native/vector_sums.h"
 
 enum { PARTS = 4, STREAMS = 8 };   /* of a tick of 20 ms: a period of the controller each; random numbers of a tick */
@@ -90,22 +91,54 @@ static double pushed_mm_s(const struct kit *kit, const struct kit_wheel *wheel, 
     return push < -DEAD_DUTY ? (push + DEAD_DUTY) * FREE_MM_S * strength : 0.0;
 }
 
+uint16_t kit_count(const struct kit *kit, unsigned side)
+{
+    return (uint16_t)(int64_t)whole_down(kit->wheels[side].motor_mm * (256.0 * MS_PER_S / WHEEL_COUNT_256));
+}
+
+static void turn_motor(struct kit *kit, unsigned side)
+{
+    struct kit_wheel *wheel = &kit->wheels[side];
+
+    wheel->speed_mm_s += (pushed_mm_s(kit, wheel, kit->trait[TRAIT_LEFT_MOTOR + side]) - wheel->speed_mm_s)
+                       * kit->motor_gain;
+}
+
 /* A period of the board's controller and its motor. */
 static void run_motor(struct kit *kit, unsigned side)
 {
     struct kit_wheel *wheel = &kit->wheels[side];
-    double counts = whole_down(wheel->motor_mm * (256.0 * MS_PER_S / WHEEL_COUNT_256));
     uint32_t battery_mv = (uint32_t)(kit->trait[TRAIT_BATTERY_V] * MV_PER_V);
 
-    wheel->duty = wheel_run(&wheel->control, (uint16_t)(int64_t)counts, (int16_t)vector_whole(wheel->told_mm_s), battery_mv) * (1.0 / DUTY_ONE);
-    wheel->speed_mm_s += (pushed_mm_s(kit, wheel, kit->trait[TRAIT_LEFT_MOTOR + side]) - wheel->speed_mm_s)
-                       * kit->motor_gain;
+    wheel->duty = wheel_run(&wheel->control, kit_count(kit, side), (int16_t)vector_whole(wheel->told_mm_s), battery_mv) * (1.0 / DUTY_ONE);
+    turn_motor(kit, side);
+}
+
+static void turn_wheel(struct kit *kit, unsigned side, double period_ms)
+{
+    struct kit_wheel *wheel = &kit->wheels[side];
+    double slack_mm = kit->trait[TRAIT_SLACK_MM] / 2.0;
+
+    wheel->motor_mm += wheel->speed_mm_s * period_ms / MS_PER_S;
+    wheel->wheel_mm = limited(wheel->wheel_mm, wheel->motor_mm - slack_mm, wheel->motor_mm + slack_mm);
+}
+
+void kit_push(struct kit *kit, const int32_t duty[KIT_WHEELS])
+{
+    kit->pushed = kit->wheels_differ = true;
+    kit->motor_gain = gain(WHEEL_PERIOD_MS, kit->trait[TRAIT_MOTOR_MS]);
+    for (unsigned side = 0; side < KIT_WHEELS; side++)
+        kit->wheels[side].duty = duty[side] * (1.0 / DUTY_ONE);
+    for (unsigned side = 0; side < KIT_WHEELS; side++) {
+        turn_motor(kit, side);
+        turn_wheel(kit, side, WHEEL_PERIOD_MS);
+    }
 }
 
 static void run_wheel(struct kit *kit, unsigned side, double order_mm_s, double period_ms)
 {
     struct kit_wheel *wheel = &kit->wheels[side];
-    double step_mm_s = kit->trait[TRAIT_ACCELERATION_MM_S2] * period_ms / MS_PER_S, slack_mm = kit->trait[TRAIT_SLACK_MM] / 2.0;
+    double step_mm_s = kit->trait[TRAIT_ACCELERATION_MM_S2] * period_ms / MS_PER_S;
 
     if (__builtin_fabs(order_mm_s) < kit->trait[TRAIT_DEAD_MM_S])
         order_mm_s = 0.0;
@@ -114,8 +147,7 @@ static void run_wheel(struct kit *kit, unsigned side, double order_mm_s, double 
         run_motor(kit, side);
     else
         wheel->speed_mm_s = wheel->told_mm_s;
-    wheel->motor_mm += wheel->speed_mm_s * period_ms / MS_PER_S;
-    wheel->wheel_mm = limited(wheel->wheel_mm, wheel->motor_mm - slack_mm, wheel->motor_mm + slack_mm);
+    turn_wheel(kit, side, period_ms);
 }
 
 static double counted(const struct kit *kit, double way_mm)
@@ -146,13 +178,14 @@ double kit_roll(struct kit *kit, double tick_s, double *counted_mm, double *roll
     kit->motor_gain = gain(tick_s * MS_PER_S / PARTS, kit->trait[TRAIT_MOTOR_MS]);
     for (unsigned side = 0; side < KIT_WHEELS; side++) {
         struct kit_wheel *wheel = &kit->wheels[side];
-        double motor_mm = wheel->motor_mm, wheel_mm = wheel->wheel_mm;
         double slip = kit->trait[TRAIT_SLIP] * (1.0 + chance(kit, SLIPS + (uint64_t)kit->moved * KIT_WHEELS + side)) / 2.0;
 
-        for (unsigned i = 0; i < PARTS; i++)
+        for (unsigned i = 0; i < PARTS && !kit->pushed; i++)
             run_wheel(kit, side, kit->told[late][side], tick_s * MS_PER_S / PARTS);
-        counted_mm[side] = counted(kit, wheel->motor_mm) - counted(kit, motor_mm);
-        rolled_mm[side] = (wheel->wheel_mm - wheel_mm) * kit->trait[TRAIT_LEFT_WHEEL + side] * (1.0 - slip);
+        counted_mm[side] = counted(kit, wheel->motor_mm) - counted(kit, wheel->motor_was_mm);
+        rolled_mm[side] = (wheel->wheel_mm - wheel->wheel_was_mm) * kit->trait[TRAIT_LEFT_WHEEL + side] * (1.0 - slip);
+        wheel->motor_was_mm = wheel->motor_mm;
+        wheel->wheel_was_mm = wheel->wheel_mm;
     }
     return kit->trait[TRAIT_TRACK];
 }
@@ -164,15 +197,37 @@ double kit_beam_mm(const struct kit *kit, double far_mm, double ideal_mm)
     return ideal_mm + 2.0 * far_mm * kit->trait[TRAIT_BEAM_DEG] * RAD_PER_DEG;
 }
 
+/* How far a sensor reaches in this tick. */
+static double reach(const struct kit *kit, uint32_t tick, unsigned sensor)
+{
+    double reach_mm = kit->trait[TRAIT_RIGHT_MM + sensor] * kit->trait[TRAIT_WALL];
+
+    return reach_mm + kit->trait[TRAIT_NOISE_MM] * chance(kit, SENSES + (uint64_t)tick * STREAMS + sensor);
+}
+
+/* Behind its window, a pair sees about as if it were so much farther away. */
+void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, uint16_t light[FEEL_COUNT])
+{
+    static const double BEHIND_MM = 20.0, MOST = 4095.0;
+    uint8_t range_mm[FEEL_COUNT] = {RANGE_NONE, RANGE_NONE, RANGE_NONE, RANGE_NONE, RANGE_NONE};
+
+    if (body->feel != 0)
+        ranges_measure(kit->ranges, world, body, range_mm);
+    for (unsigned n = 0; n < FEEL_COUNT; n++) {
+        double part = (reach(kit, tick, n) + BEHIND_MM) / (range_mm[n] + BEHIND_MM);
+
+        light[n] = range_mm[n] == RANGE_NONE ? 0 : (uint16_t)limited(PROXIMITY_NEAR * part * part, 0.0, MOST);
+    }
+}
+
 /* A sensor is triggered within its reach, and lets go farther away. */
 static uint8_t feel(struct kit *kit, const uint8_t *range_mm)
 {
     unsigned triggered = 0;
 
     for (unsigned n = 0; n < FEEL_COUNT; n++) {
-        double reach_mm = kit->trait[TRAIT_RIGHT_MM + n] * kit->trait[TRAIT_WALL];
+        double reach_mm = reach(kit, kit->tick, n);
 
-        reach_mm += kit->trait[TRAIT_NOISE_MM] * chance(kit, SENSES + (uint64_t)kit->tick * STREAMS + n);
         if ((unsigned)kit->feel >> n & 1u)
             reach_mm += kit->trait[TRAIT_HYSTERESIS_MM];
         triggered |= (range_mm[n] != RANGE_NONE && range_mm[n] <= reach_mm ? 1u : 0u) << n;
@@ -190,7 +245,7 @@ static void see(struct kit *kit, struct senses *senses)
 
 void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses)
 {
-    unsigned late = (unsigned)kit->trait[TRAIT_SENSES_TICKS];
+    unsigned late = kit->pushed ? 0 : (unsigned)kit->trait[TRAIT_SENSES_TICKS];
     uint8_t range_mm[FEEL_COUNT], told_tick = senses->tick;
 
     if (kit->has_sensed && tick == kit->tick) {

@@ -30,12 +30,14 @@ struct kit_wheel {
     double told_mm_s;    /* as it follows with the lag */
     double speed_mm_s;   /* of the motor, at the wheel's rim */
     double motor_mm;     /* way of the motor, at the wheel's rim, */
-    double wheel_mm;     /* and of the wheel behind the slack */
+    double wheel_mm;     /* and of the wheel behind the slack; */
+    double motor_was_mm, wheel_was_mm;   /* both when it last rolled */
     double duty;         /* -1..1 */
 };
 
 struct kit {
     bool wheels_differ, senses_differ;   /* false: they are ideal */
+    bool pushed;         /* a board drives the motors itself, by kit_push */
     double trait[TRAIT_COUNT];
     uint64_t key;        /* from which its random numbers follow */
     uint32_t moved;      /* ticks in which it has rolled */
@@ -56,6 +58,17 @@ void kit_draw(struct kit *kit, const double *trait, const double *tolerance, uin
 double kit_roll(struct kit *kit, double tick_s, double *counted_mm, double *rolled_mm);
         /* Lets both wheels, left and right, follow their orders for a tick. rolled_mm: as far as they are told, then as far as they
            roll. counted_mm: what the odometers count. Its track, as a part of the ideal one. */
+
+void kit_push(struct kit *kit, const int32_t duty[KIT_WHEELS]);
+        /* A board drives both motors itself for a period of the controller: duty in 1/65536 of the battery. From now on the body rolls
+           as far as it is pushed, whatever it is told, and its senses are not delayed: the board does that by itself. */
+
+uint16_t kit_count(const struct kit *kit, unsigned side);
+        /* Counts of a wheel's encoder; wraps. */
+
+void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, uint16_t light[FEEL_COUNT]);
+        /* Light of its own LEDs that each infrared sensor receives back, 0..4095: PROXIMITY_NEAR where a wall is as far away as the
+           sensor reaches. */
 
 void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses);
         /* Makes what an ideal body senses into what this one does; asked again in the same tick, the same. */

@@ -124,3 +124,18 @@ TEST(at_rest_a_motor_gets_nothing)
     TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, WHEEL_NOMINAL_MV));
     TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, 0));
 }
+
+TEST(the_odometer_counts_tenths_of_a_millimetre_and_wraps_either_way)
+{
+    struct wheel wheel = {.known = false};
+
+    (void)wheel_run(&wheel, 65000, 0, 7200);
+    TEST_ASSERT_EQUAL_UINT16(0, wheel_odometer(&wheel));
+    (void)wheel_run(&wheel, (uint16_t)(65000 + 1000), 0, 7200);   /* 91.6 mm */
+    TEST_ASSERT_EQUAL_UINT16(916, wheel_odometer(&wheel));
+    (void)wheel_run(&wheel, 65000 - 1000, 0, 7200);
+    TEST_ASSERT_EQUAL_UINT16(4096 - 916 - 1, wheel_odometer(&wheel));   /* rounded down */
+    for (unsigned i = 1; i <= 10; i++)
+        (void)wheel_run(&wheel, (uint16_t)(64000 + 1000 * i), 0, 7200);
+    TEST_ASSERT_EQUAL_UINT16((9160 - 916) % 4096, wheel_odometer(&wheel));
+}
