@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,7 @@ from host_sim.protocol.words import NODE_MAX
 
 if TYPE_CHECKING:
     from host_sim.cli.parsing import Subparsers
-    from host_sim.talk.conversation import Conversation
+    from host_sim.talk.conversation import Conversation, Source
 
 _LINE_MAX = 2_000_000
 _ROBOT = "robot"
@@ -20,6 +21,7 @@ _EXAMPLES = """\
 examples:
   tools/octet talk                                 ask the robot of the last run
   tools/octet talk --at 41.9                       as it was after 41.9 s
+  tools/octet talk --script robot-de               ask it in German
   tools/octet talk --script eliza                  talk to ELIZA of 1966, by a script of our own
   echo "Why did you turn left?" | tools/octet talk
 """
@@ -49,7 +51,12 @@ def add(commands: "Subparsers") -> None:
     )
     add("--no-world", action="store_true", help="ignore seed and world file, as for a real body")
     add("--memory", type=file_path, metavar="FILE", help="ask a robot of which only this memory file is known")
-    add("--script", default=_ROBOT, metavar="FILE", help="script: a file, robot or eliza (default: %(default)s)")
+    add(
+        "--script",
+        default=_ROBOT,
+        metavar="FILE",
+        help="robot, robot-de, eliza, eliza-de or a file (default: %(default)s)",
+    )
 
 
 def _check(arguments: argparse.Namespace) -> None:
@@ -58,13 +65,11 @@ def _check(arguments: argparse.Namespace) -> None:
 
 
 def _talk(arguments: argparse.Namespace) -> int:
-    conversation = _begin(arguments)
+    conversation, source = _begin(arguments)
     if sys.stdin.isatty():
-        import readline
-
-        readline.parse_and_bind("tab: complete")
+        _complete([word.lower() for word in conversation.script.rules])
     sys.stdin.reconfigure(errors="replace")  # type: ignore[union-attr]
-    print(conversation.greeting, flush=True)
+    print(conversation.script.greeting, flush=True)
     while True:
         try:
             sentence = input("> ") if sys.stdin.isatty() else sys.stdin.readline(_LINE_MAX)
@@ -73,17 +78,33 @@ def _talk(arguments: argparse.Namespace) -> int:
             return 0
         if not sentence and not sys.stdin.isatty():
             return 0
-        print(conversation.answer(sentence), flush=True)
+        said = conversation.answer(sentence)
+        print(source.line_of(said) if source else f"[{said.mark}] {said.text}", flush=True)
 
 
-def _begin(arguments: argparse.Namespace) -> "Conversation":
-    from host_sim.talk.conversation import Conversation, about_memory, about_run
+def _complete(words: list[str]) -> None:
+    """Gives the console a history, and completes the words that a script knows with the tab key."""
+    try:
+        import readline
+    except ImportError:
+        return  # on Windows the console has both of its own
+
+    def completed(begun: str, number: int) -> str | None:
+        return next(islice((word for word in words if word.startswith(begun.lower())), number, None), None)
+
+    readline.set_completer(completed)
+    readline.parse_and_bind("tab: complete")
+
+
+def _begin(arguments: argparse.Namespace) -> "tuple[Conversation, Source | None]":
+    from host_sim.talk.conversation import about_memory, about_nothing, about_run
 
     if arguments.memory is not None:
         return about_memory(arguments.script, arguments.memory)
-    if arguments.script != _ROBOT and arguments.log is None:
-        return Conversation(arguments.script, {})
     if arguments.log is None:
+        conversation = about_nothing(arguments.script)
+        if not conversation.script.facts:
+            return conversation, None
         arguments.log = Path("out/run.log")
         if not arguments.log.exists():
             raise UsageError(

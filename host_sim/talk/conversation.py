@@ -1,129 +1,173 @@
 """A conversation with a robot about a run, with ELIZA, or by any script; it marks what is known."""
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.regular_file import read_text
-from host_sim.protocol.generated import PATTERNS, SIDES
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.recording.memory_file import load_memory
 from host_sim.recording.trajectory import Trajectory
 from host_sim.talk.eliza import Eliza, Facts, Known
-from host_sim.talk.facts import FACTS, POINT, RobotFacts, cell_in
+from host_sim.talk.facts import FACTS, Rests, RobotFacts
 from host_sim.talk.log_index import LogIndex, index_log
-from host_sim.talk.script import read_script
+from host_sim.talk.script import Script, read_script
+from host_sim.talk.texts import POINT, Texts, read_texts
 
 SCRIPTS = Path(__file__).with_name("scripts")
-"""Our own scripts; a file `NAME.script` is known as NAME."""
+"""Our own scripts, `NAME.script`, and the texts of the facts that they ask for, `NAME.toml`."""
 
 _SIZE_MAX = 1_000_000
 _LINES_SHOWN = 3
-_DECIMAL = re.compile(r"(?<=\d)[.,](?=\d)")
+_NO_FACTS: Facts = dict.fromkeys((name.upper() for name in FACTS), lambda _: None)
+
+
+class Said(NamedTuple):
+    """An answer.
+
+    Attributes:
+        mark: `log` or `memory` if each fact in it is known from there, else `words`.
+        text: What is said.
+        rests: What the facts in it rest on and speak of.
+    """
+
+    mark: str
+    text: str
+    rests: Rests
 
 
 class Conversation:
     """Answers sentence by sentence.
 
     Attributes:
-        greeting: What to say first.
+        script: The script that it follows.
     """
 
-    def __init__(self, script: str, facts: Facts, source: str = "", index: LogIndex | None = None) -> None:
+    def __init__(self, script: Script, facts: Facts, texts: Texts, mark: str = "log") -> None:
         """Begins a conversation.
 
         Args:
-            script: The name of one of our own scripts, or that of a file.
+            script: The script.
             facts: The facts that it may ask for.
-            source: The file that they come from.
-            index: The lines of the log that they come from; None if that is not a log.
-
-        Raises:
-            UsageError: The script cannot be read, or is wrong; the message has the line.
+            texts: The language in which it hears and tells them.
+            mark: What marks an answer of facts.
         """
-        read = read_script(_text_of(script), script, facts)
-        self.greeting = read.greeting
-        self._eliza, self._source, self._index = Eliza(read, facts), source, index
+        self.script, self._texts, self._mark = script, texts, mark
+        self._eliza = Eliza(script, facts)
 
-    def answer(self, sentence: str) -> str:
-        """The answer to a sentence, in one line, marked by what it rests on.
-
-        Returns:
-            `[log] ANSWER (FILE LINES)`, `[memory] ANSWER (FILE)` or `[words] ANSWER`; if the script loops for ever, a
-            line that says so.
-        """
+    def answer(self, sentence: str) -> Said:
+        """The answer to a sentence; if the script loops for ever, words that say so."""
         try:
-            said, evidence = self._eliza.answer(_DECIMAL.sub(POINT, sentence))
+            said, evidence = self._eliza.answer(self._texts.heard(sentence))
         except OctetError as error:
-            return f"[words] {error}"
-        said = said.replace(POINT, ".")
-        if not evidence:
-            return f"[words] {said}"
-        if self._index is None:
-            return f"[memory] {said} ({self._source})"
-        lines = self._index.lines_of(sorted({tick for ticks in evidence for tick in ticks}))
+            return Said("words", str(error), Rests([], [], []))
+        rests = Rests(*(sorted({it for known in evidence for it in known[part]}) for part in range(3)))
+        return Said(self._mark if evidence else "words", said.replace(POINT, self._texts.words.point), rests)
+
+
+class Source(NamedTuple):
+    """Where facts come from.
+
+    Attributes:
+        path: The log or the memory file.
+        log: The log's lines; None if it is none.
+    """
+
+    path: Path
+    log: LogIndex | None
+
+    def line_of(self, said: Said) -> str:
+        """An answer in one line: `[log] ANSWER (FILE:LINES)`, `[memory] ANSWER (FILE)` or `[words] ANSWER`."""
+        if said.mark == "words":
+            return f"[words] {said.text}"
+        if self.log is None:
+            return f"[{said.mark}] {said.text} ({self.path})"
+        lines = self.log.lines_of(said.rests.ticks)
         more = f" and {len(lines) - _LINES_SHOWN} more" if len(lines) > _LINES_SHOWN else ""
-        return f"[log] {said} ({self._source}:{','.join(map(str, lines[-_LINES_SHOWN:]))}{more})"
+        return f"[{said.mark}] {said.text} ({self.path}:{','.join(map(str, lines[-_LINES_SHOWN:]))}{more})"
 
 
-def about_run(script: str, trajectory: Trajectory, log: Path, node: int, at_s: float | None = None) -> Conversation:
+def about_nothing(script: str) -> Conversation:
+    """A conversation in which nothing is known.
+
+    Raises:
+        UsageError: As `script_named` does.
+    """
+    return Conversation(script_named(script), _NO_FACTS, texts_of(script))
+
+
+def about_run(
+    script: str, trajectory: Trajectory, log: Path, node: int, at_s: float | None = None
+) -> tuple[Conversation, Source]:
     """A conversation about a run.
 
     Args:
-        script: As for `Conversation`.
+        script: As for `script_named`.
         trajectory: The run.
         log: Its log.
         node: The robot's node number.
         at_s: The robot time that is asked about, s; by default, the end of the run.
 
     Raises:
-        UsageError: That time is not in the log, or as `Conversation` does.
+        UsageError: That time is not in the log, or as `script_named` does.
     """
     tick_s, last = trajectory.params.tick_s, trajectory.ticks - 1
     tick = last if at_s is None else round(at_s / tick_s)
     if not trajectory.first_tick <= tick <= last:
         first_s, last_s = trajectory.first_tick * tick_s, last * tick_s
         raise UsageError(f"{log} has no {at_s:g} s: it can be asked about {first_s:.2f} to {last_s:.2f} s")
-    index = index_log(log, node, round(tick_s * 1e6))
-    return Conversation(script, RobotFacts(trajectory, index, tick).by_name(), str(log), index)
+    index, texts = index_log(log, node, round(tick_s * 1e6)), texts_of(script)
+    facts = RobotFacts(trajectory, index, tick, texts)
+    return Conversation(script_named(script), facts.by_name(), texts), Source(log, index)
 
 
-def about_memory(script: str, path: Path) -> Conversation:
+def about_memory(script: str, path: Path) -> tuple[Conversation, Source]:
     """A conversation with a robot of which only the memory is known.
 
     Raises:
-        UsageError: It is no memory file, or as `Conversation` does.
+        UsageError: It is no memory file, or as `script_named` does.
     """
-    memory = load_memory(path)
+    memory, texts = load_memory(path), texts_of(script)
     if memory is None:
         raise UsageError(f"there is no {path}")
-    cells = {cell: SIDES[side] for cell, side in enumerate(sides_of(memory)) if cell and side}
+    cells = {cell: texts.of_cell(cell, side) for cell, side in enumerate(sides_of(memory)) if cell and side}
 
     def learned(_: Sequence[str]) -> Known:
-        told = [f"{PATTERNS[cell]} blocked, turn {side}" for cell, side in cells.items()]
-        return Known(("; ".join(told) or "nothing yet").upper(), tuple(cells))
+        told = "; ".join(texts.say("learned", **it) for it in cells.values()) or texts.say("learned_none")
+        return Known(told.upper(), Rests([], [*cells], []))
 
     def cell(words: Sequence[str]) -> Known | None:
-        asked = cell_in(words)
-        if not asked:
-            return None
-        what = f"I turn {cells[asked]}" if asked in cells else "I do not know yet what helps"
-        return Known(f"{PATTERNS[asked]} blocked: {what}".upper(), (asked,))
+        asked = texts.cell_in(words)
+        told = texts.say("learned" if asked in cells else "cell_none", **cells.get(asked, texts.of_cell(asked, 0)))
+        return Known(told.upper(), Rests([], [asked], [])) if asked else None
 
-    nothing: Facts = dict.fromkeys((name.upper() for name in FACTS), lambda _: None)
-    return Conversation(script, {**nothing, "LEARNED": learned, "CELL": cell}, str(path))
+    facts = {**_NO_FACTS, "LEARNED": learned, "CELL": cell}
+    return Conversation(script_named(script), facts, texts, "memory"), Source(path, None)
 
 
-def _text_of(script: str) -> str:
-    own = SCRIPTS / f"{script}.script"
-    path = own if own.parent == SCRIPTS and own.exists() else Path(script)
+def script_named(name: str) -> Script:
+    """One of our own scripts, or that of a file.
+
+    Raises:
+        UsageError: It cannot be read, or is wrong; the message has the line.
+    """
     try:
-        return read_text(path, _SIZE_MAX)
+        return read_script(read_text(_path_of(name), _SIZE_MAX), name, _NO_FACTS)
     except FileNotFoundError:
         names = ", ".join(sorted(it.stem for it in SCRIPTS.glob("*.script")))
-        raise UsageError(f"there is no script {script}: give a file, or one of {names}") from None
+        raise UsageError(f"there is no script {name}: give a file, or one of {names}") from None
     except UnicodeDecodeError as error:
-        raise UsageError(
-            f"{script} is not text in UTF-8: byte {error.start} is {error.object[error.start]:#04x}"
-        ) from None
+        wrong = f"byte {error.start} is {error.object[error.start]:#04x}"
+        raise UsageError(f"{name} is not text in UTF-8: {wrong}") from None
+
+
+def texts_of(script: str) -> Texts:
+    """The texts of the language of one of our own scripts; for any other, the English ones."""
+    path = _path_of(script).with_suffix(".toml")
+    return read_texts(path if path.parent == SCRIPTS and path.exists() else SCRIPTS / "robot.toml")
+
+
+def _path_of(name: str) -> Path:
+    own = SCRIPTS / f"{name}.script"
+    return own if own.parent == SCRIPTS and own.exists() else Path(name)

@@ -17,7 +17,7 @@ _NOTHING_MATCHES = ("PLEASE CONTINUE", "HMMM", "GO ON , PLEASE", "I SEE")
 _DELIMITERS = frozenset({",", ".", "BUT"})
 _SIGNS = {"!?": ".", ":;\u2012\u2013\u2014\u2015": ",", '"`\u201c\u201d\u201e': " ", "\u2018\u2019": "'"}
 _PUNCTUATION = str.maketrans({sign: to for signs, to in _SIGNS.items() for sign in signs})
-_WORDS = re.compile(r"[,.]|[^\s,.]+")
+_WORDS = re.compile(r"[,.]|[^,.\x00-\x20\x7f-\xa0\u1680\u2000-\u200a\u2028\u2029\u202f\u205f\u3000\ufeff]+")
 
 
 class Known(NamedTuple):
@@ -120,7 +120,7 @@ class Eliza:
         texts, evidence = [], []
         for piece in pieces:
             if isinstance(piece, Fact):
-                known = self._facts[piece.name]([] if piece.part is None else found[piece.part - 1])
+                known = self._facts[piece.fact]([] if piece.part is None else found[piece.part - 1])
                 if known is None:
                     return None
                 texts.append(known.text)
@@ -182,7 +182,7 @@ class Eliza:
             return word in part.words
         if isinstance(part, Tagged):
             rule = self._script.rules.get(word)
-            return rule is not None and not part.tags.isdisjoint(rule.tags)
+            return rule is not None and not set(part.tags).isdisjoint(rule.tags)
         return word == part
 
 

@@ -1,39 +1,50 @@
 """What a robot knows: facts that are computed from its log, up to one tick. None of them guesses."""
 
+import math
 import re
 from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from host_sim.protocol.generated import PATTERNS, ROW, SIDES, Reason, Side
+from host_sim.protocol.generated import Reason, Side
 from host_sim.recording.trajectory import Trajectory, at
 from host_sim.talk.eliza import Known
 from host_sim.talk.log_index import LogIndex
-from host_sim.view.phrases import lesson_sentence, sentence, verdict
+from host_sim.talk.texts import POINT, Texts
+from host_sim.view.phrases import decimal, lesson_sentence, sentence, verdict
 from host_sim.view.state_types import Lesson
 
-POINT = "\u00b7"
-"""The decimal point in a question: ELIZA takes a full stop for the end of a sentence."""
-
-_SECONDS = re.compile(rf"\d{{1,9}}(?:{POINT}\d{{1,3}})?")
+_SECONDS = re.compile(rf"[0-9]{{1,9}}(?:{POINT}[0-9]{{1,3}})?")
 _TURNS = (Reason.REMEMBERED, Reason.TRIAL, Reason.BOREDOM)
+_MOVES = tuple(reason for reason in Reason if reason != Reason.STOP)
+_LAST = 3
+
+
+class Rests(NamedTuple):
+    """The ticks on which a fact rests, in order, and the cells and pieces of food that it speaks of."""
+
+    ticks: list[int]
+    cells: list[int]
+    food: list[int]
 
 
 class RobotFacts:
-    """The facts of one robot up to a tick; the evidence of each is a tuple of the ticks on which it rests."""
+    """The facts of one robot up to a tick. Each method of `FACTS` is one; their evidence is a `Rests`."""
 
-    def __init__(self, trajectory: Trajectory, index: LogIndex, tick: int, robot: int = 0) -> None:
+    def __init__(self, trajectory: Trajectory, index: LogIndex, tick: int, texts: Texts, robot: int = 0) -> None:
         """Takes a run.
 
         Args:
             trajectory: The run.
             index: The other frames of the run's log.
             tick: The tick that is asked about; what came later is not known.
+            texts: The words in which facts are told.
             robot: Index of the robot in the trajectory.
         """
-        self._run, self._index, self._tick, self._robot = trajectory, index, tick, robot
-        self._track = trajectory.tracks[robot]
-        self._tick_s = trajectory.params.tick_s
+        self._run, self._index, self._tick, self._texts, self._robot = trajectory, index, tick, texts, robot
+        self._track, self._tick_ms = trajectory.tracks[robot], trajectory.params.tick_s * 1000
+        self._now = self._run.at(tick, robot)
 
     def by_name(self) -> dict[str, Callable[[Sequence[str]], Known | None]]:
         """The facts by the names that scripts know them by: each method of `FACTS`, in capitals."""
@@ -41,179 +52,171 @@ class RobotFacts:
 
     def learned(self, _: Sequence[str]) -> Known:
         """What the cells hold."""
-        now = self._run.at(self._tick, self._robot)
-        cells = [(PATTERNS[i], SIDES[side]) for i, side in enumerate(now["memory"]) if i and side]
-        told = [f"{pattern} blocked, turn {side}" for pattern, side in cells]
-        return self._known("; ".join(told) or "nothing yet", now["learned"])
-
-    def cell(self, words: Sequence[str]) -> Known | None:
-        """What it does at the pattern that is spoken of, since when, and how often it did."""
-        cell = cell_in(words)
-        now = self._run.at(self._tick, self._robot)
-        side, since = now["memory"][cell], now["learned"][cell]
-        if not cell:
-            return None
-        if not side:
-            return self._known(f"{PATTERNS[cell]} blocked: I do not know yet what helps", [since])
-        how = "told" if now["by_hand"][cell] else "learned"
-        when = f"{how} at {self._seconds(since)}" if since >= 0 else "known from the start"
-        used = f"used {_times(now['uses'][cell])} since"
-        return self._known(f"{PATTERNS[cell]} blocked: I turn {SIDES[side]}, {when}, {used}", [since])
+        return self._each_cell("learned")
 
     def sure(self, _: Sequence[str]) -> Known:
         """How often it used what each cell holds."""
-        now = self._run.at(self._tick, self._robot)
-        cells = [(PATTERNS[i], now["uses"][i]) for i, side in enumerate(now["memory"]) if i and side]
-        told = [f"{pattern} blocked, used {_times(uses)}" for pattern, uses in cells]
-        return self._known("; ".join(told) or "of nothing: I have not learned anything yet", now["learned"])
+        return self._each_cell("sure")
+
+    def cell(self, words: Sequence[str]) -> Known | None:
+        """What it does at the pattern that is spoken of, since when, and how often it did."""
+        cell, now = self._texts.cell_in(words), self._now
+        if not cell:
+            return None
+        since = "start" if now["learned"][cell] < 0 else "told" if now["by_hand"][cell] else "learned"
+        said = self._texts.say(f"since_{since}", at=self._seconds(now["learned"][cell]))
+        text = self._of_cell("cell" if now["memory"][cell] else "cell_none", cell, since=said)
+        return self._known(text, [now["learned"][cell]], [cell])
 
     def why(self, words: Sequence[str]) -> Known | None:
         """Why it did what it did: at a time, or at its last move."""
-        if said := _SECONDS.search(" ".join(words)):
-            return self._reason(self._at(float(said[0].replace(POINT, "."))))
-        moves = self._begun(*(reason for reason in Reason if reason != Reason.STOP))
-        return self._reason(max(moves, default=None))
+        return self._reason(words, self._begun(*_MOVES))
 
     def turn(self, words: Sequence[str]) -> Known | None:
         """Why it turned: at a time, or at its last turn, to the side that is spoken of."""
-        if _SECONDS.search(" ".join(words)):
-            return self.why(words)
-        wanted = Side.LEFT if "LEFT" in words else Side.RIGHT if "RIGHT" in words else None
-        turns = self._begun(*_TURNS)
-        return self._reason(next((tick for tick in reversed(turns) if wanted in {None, self._side(tick)}), None))
+        wanted = self._texts.side_in(words)
+        return self._reason(words, [tick for tick in self._begun(*_TURNS) if wanted in {0, self._side(tick)}])
 
     def bored(self, _: Sequence[str]) -> Known:
         """How often it was bored, and how near it is to it."""
-        ticks = self._begun(Reason.BOREDOM)
-        count = self._run.at(self._tick, self._robot)["repeat_count"]
-        last = f", last at {self._seconds(ticks[-1])}" if ticks else ""
-        now = f"now my repeat count is {count} of {self._run.boredom_limit}"
-        return self._known(f"I was bored {_times(len(ticks))}{last}; {now}", ticks)
+        count, limit = self._now["repeat_count"], self._run.boredom_limit
+        return self._counted("bored", self._begun(Reason.BOREDOM), count=count, limit=limit)
 
     def food(self, _: Sequence[str]) -> Known:
-        """What was eaten of this environment's food, and what is left."""
-        eaten = self._run.at(self._tick, self._robot)["eaten"]
-        meals = self._until(self._track.meals)
-        last = f"; my last meal was at {self._seconds(meals[-1])}" if meals else "; I have eaten nothing"
-        return self._known(f"{sum(eaten)} of {len(eaten)} pieces of food are eaten here{last}", meals)
+        """What was eaten of this environment's food, and when it ate last."""
+        eaten = self._now["eaten"]
+        pieces = [piece for piece, gone in enumerate(eaten) if gone] or range(len(eaten))
+        known = self._counted("food", self._until(self._track.meals), eaten=sum(eaten), pieces=len(eaten))
+        return known._replace(evidence=known.evidence._replace(food=[*pieces]))
 
     def where(self, _: Sequence[str]) -> Known:
         """Where it is, and how long its way was."""
-        now = self._run.at(self._tick, self._robot)
-        poses = self._track.poses()[: self._tick + 1 - self._track.first_tick, :2]
+        poses = self._track.poses()[: self._tick + 1 - self._track.first_tick, :2].round(1)
         steps = ((poses[1:] - poses[:-1]) ** 2).sum(axis=1) ** 0.5
-        way_m = steps[steps < self._run.params.body_radius_mm].sum() / 1000
-        place = f"{now['x'] / 1000:.2f} m from the left wall and {now['y'] / 1000:.2f} m from the top wall"
-        return self._known(f"{place}; I have come {way_m:.1f} m", [self._tick])
+        way = self._metres(steps[steps < self._run.params.body_radius_mm].sum(), 1)
+        x, y = self._metres(self._now["x"], 2), self._metres(self._now["y"], 2)
+        return self._known(self._texts.say("where", x=x, y=y, way=way))
 
     def touched(self, _: Sequence[str]) -> Known:
         """How often it touched something."""
-        bumps = self._track.column("bump")[: self._tick + 1 - self._track.first_tick]
-        ticks = [t + self._track.first_tick for t in range(len(bumps)) if bumps[t] and not (t and bumps[t - 1])]
-        return self._known(f"I have touched something {_times(len(ticks))}", ticks)
+        begun = np.diff(self._track.column("bump"), prepend=np.int16(0)) > 0
+        return self._counted("touched", self._until((np.flatnonzero(begun) + self._track.first_tick).tolist()))
 
     def forgotten(self, _: Sequence[str]) -> Known:
         """What it forgot by itself."""
-        lost = [it for it in self._lessons() if not it["side"] and not it["by_hand"]]
-        said = [f"at {self._seconds(it['tick'])} {lesson_sentence(it)}" for it in lost[-3:]]
-        return self._known(
-            f"I have forgotten {_times(len(lost))} {' '.join(said)}".rstrip(), [it["tick"] for it in lost]
-        )
+        return self._noted("forgotten", [it for it in self._lessons() if not it["side"] and not it["by_hand"]])
 
     def told(self, _: Sequence[str]) -> Known:
         """What others wrote into its memory."""
-        told = [it for it in self._lessons() if it["by_hand"]]
-        said = " ".join(f"at {self._seconds(it['tick'])} {lesson_sentence(it)}" for it in told[-3:])
-        return self._known(said or "nobody told me anything", [it["tick"] for it in told])
+        return self._noted("told", [it for it in self._lessons() if it["by_hand"]])
 
     def tried(self, _: Sequence[str]) -> Known:
-        """How often it tried a random turn, and what came of the last one that ended."""
-        ticks = self._begun(Reason.TRIAL)
-        last = verdict(self._run.at(self._tick, self._robot)["trial"])
-        return self._known(f"I have tried {_times(len(ticks))}. {last}".rstrip(), ticks)
+        """How often it tried a random turn, and what came of the last one, if that has ended."""
+        said = verdict(self._now["trial"], self._texts.words)
+        return self._counted("tried", self._begun(Reason.TRIAL), verdict=said)
 
     def sees(self, _: Sequence[str]) -> Known:
         """What its sensors say."""
-        now = self._run.at(self._tick, self._robot)
-        near = PATTERNS[now["feel"] >> 1 & 7] if now["feel"] & 0b01110 else "nothing"
-        food = f"food {now['beacon'] / 1000:.2f} m ahead" if now["beacon"] else "no food"
-        return self._known(f"{near} blocked, and {food}", [self._tick])
+        now, say = self._now, self._texts.say
+        cell = now["feel"] >> 1 & 7
+        food = say("sees_food", beacon=self._metres(now["beacon"], 2)) if now["beacon"] else say("sees_none")
+        text = self._of_cell("sees" if cell else "sees_clear", cell, food=food)
+        return self._known(text, cells=[cell] if cell else [], food=self._ahead() if now["beacon"] else [])
 
     def changed(self, _: Sequence[str]) -> Known:
-        """What happened to the world and the body."""
-        news = [(tick, said) for tick, said in self._run.news if tick <= self._tick]
-        said = " ".join(f"at {self._seconds(tick)} {it}" for tick, it in news[-3:])
-        return self._known(said or "nothing was changed, neither in the world nor in my body", [t for t, _ in news])
+        """What happened to the world and the bodies."""
+        news = [it for it in self._run.news if it[0] <= self._tick and "could not happen:" not in it[1]]
+        told = [self._texts.say("changed_item", at=self._seconds(tick), news=said) for tick, said in news[-_LAST:]]
+        return self._counted("changed", [tick for tick, _ in news], last=" ".join(told))
 
     def behaviour(self, _: Sequence[str]) -> Known | None:
         """Which behaviour it was started with."""
-        start = next((it for it in reversed(self._index.starts) if it[0] <= self._tick), None)
-        return self._known(f"my behaviour is {start[1]}", [start[0]]) if start else None
+        started = [it for it in self._index.starts if it[0] <= self._tick]
+        return self._known(self._texts.say("behaviour", name=started[-1][1]), [started[-1][0]]) if started else None
 
     def bus(self, _: Sequence[str]) -> Known | None:
         """What its last report on the bus says."""
-        health = next((it for it in reversed(self._index.health) if it[0] <= self._tick), None)
-        if health is None:
+        reports = [it for it in self._index.health if it[0] <= self._tick]
+        if not reports:
             return None
-        tick, it = health
-        return self._known(
-            f"at {self._seconds(tick)}: {it['bus_offs']} times off the bus, {it['dropped']} frames dropped, "
-            f"{it['tx_errors']} errors sending and {it['rx_errors']} receiving",
-            [tick],
-        )
+        tick, said = reports[-1]
+        return self._known(self._texts.say("bus", at=self._seconds(tick), **said), [tick])
 
-    def _known(self, text: str, ticks: Iterable[int]) -> Known:
+    def _known(
+        self, text: str, ticks: Iterable[int] = (), cells: Iterable[int] = (), food: Iterable[int] = ()
+    ) -> Known:
         """A fact that rests on ticks; where on none, on the one that is asked about."""
-        rests = tuple(sorted({tick for tick in ticks if tick >= 0})) or (self._tick,)
-        return Known(text.upper(), rests)
+        rests = sorted({tick for tick in ticks if tick >= 0}) or [self._tick]
+        return Known(text.upper(), Rests(rests, sorted(set(cells)), [*food]))
+
+    def _counted(self, name: str, ticks: Sequence[int], cells: Iterable[int] = (), **values: object) -> Known:
+        """How often something has happened, and when last."""
+        if not ticks:
+            return self._known(self._texts.say(f"{name}_none", **values))
+        times, last = self._texts.times(len(ticks)), self._seconds(ticks[-1])
+        return self._known(self._texts.say(name, **{"times": times, "at": last, **values}), ticks, cells)
+
+    def _noted(self, name: str, lessons: Sequence[Lesson]) -> Known:
+        said = [(self._seconds(it["tick"]), lesson_sentence(it, self._texts.words)) for it in lessons[-_LAST:]]
+        last = " ".join(self._texts.say("why", at=when, sentence=it) for when, it in said)
+        return self._counted(name, [it["tick"] for it in lessons], [it["cell"] for it in lessons], last=last)
+
+    def _each_cell(self, name: str) -> Known:
+        """A sentence for each cell that holds a turn."""
+        held = [cell for cell, side in enumerate(self._now["memory"]) if cell and side]
+        said = "; ".join(self._of_cell(name, cell) for cell in held)
+        return self._known(said or self._texts.say(f"{name}_none"), self._now["learned"], held)
+
+    def _of_cell(self, name: str, cell: int, **values: object) -> str:
+        side, times = self._now["memory"][cell], self._texts.times(self._now["uses"][cell])
+        return self._texts.say(name, **self._texts.of_cell(cell, side), times=times, **values)
+
+    def _reason(self, words: Sequence[str], begun: Sequence[int]) -> Known | None:
+        """Why it did what it did at the time in a question; where none is in it, in the last of some ticks."""
+        asked = _SECONDS.search(" ".join(words))
+        tick = self._tick_at(asked[0]) if asked else max(begun, default=-1)
+        if not self._track.first_tick <= tick <= self._tick:
+            return None
+        state = self._run.at(tick, self._robot)
+        cells = [state["pattern"]] if state["reason"] in _TURNS and state["pattern"] else []
+        said = sentence(state, self._texts.words)
+        return self._known(self._texts.say("why", at=self._seconds(tick), sentence=said), [tick], cells)
+
+    def _tick_at(self, seconds: str) -> int:
+        return math.floor(float(seconds.replace(POINT, ".")) * 1000 / self._tick_ms + 0.5)
 
     def _seconds(self, tick: int) -> str:
-        return f"{tick * self._tick_s:.2f} s"
+        return f"{decimal(tick * self._tick_ms / 1000, 2, self._texts.words)} s"
 
-    def _at(self, seconds: float) -> int | None:
-        tick = round(seconds / self._tick_s)
-        return tick if self._track.first_tick <= tick <= self._tick else None
-
-    def _reason(self, tick: int | None) -> Known | None:
-        if tick is None:
-            return None
-        return self._known(f"at {self._seconds(tick)}: {sentence(self._run.at(tick, self._robot))}", [tick])
+    def _metres(self, length_mm: float, digits: int) -> str:
+        return decimal(length_mm / 1000, digits, self._texts.words)
 
     def _side(self, tick: int) -> int:
-        row = dict(zip(ROW, self._track.row(tick), strict=True))
-        return Side.LEFT if row["left_mm_s"] < row["right_mm_s"] else Side.RIGHT
+        state = self._run.at(tick, self._robot)
+        return Side.LEFT if state["left"] < state["right"] else Side.RIGHT
 
     def _begun(self, *reasons: int) -> list[int]:
         """The ticks up to now in which actions with one of the reasons began."""
         news = np.diff(self._track.column("action"), prepend=np.int16(-1)) != 0
-        ticks = np.flatnonzero(news & np.isin(self._track.column("reason"), reasons)) + self._track.first_tick
-        return self._until(ticks.tolist())
+        wanted = np.flatnonzero(news & np.isin(self._track.column("reason"), reasons))
+        return self._until((wanted + self._track.first_tick).tolist())
 
     def _until(self, ticks: Iterable[int]) -> list[int]:
         return [tick for tick in ticks if tick <= self._tick]
 
     def _lessons(self) -> list[Lesson]:
+        """Those since the run was started over."""
         start = at(self._run.scenes, self._tick)["start_tick"]
         return [it for it in self._track.lessons if start <= it["tick"] <= self._tick]
+
+    def _ahead(self) -> list[int]:
+        """The piece of food nearest to where the robot sees one."""
+        now, scene = self._now, at(self._run.scenes, self._tick)
+        x = now["x"] + now["beacon"] * math.cos(now["heading"] / 1000)
+        y = now["y"] + now["beacon"] * math.sin(now["heading"] / 1000)
+        far = [((fx - x) ** 2 + (fy - y) ** 2, piece) for piece, (fx, fy) in enumerate(scene["food"])]
+        return [min(far)[1]] if far else []
 
 
 FACTS = tuple(name for name, it in vars(RobotFacts).items() if callable(it) and name[0] != "_" and name != "by_name")
 """The names of all facts."""
-
-
-def _times(count: int) -> str:
-    return "once" if count == 1 else f"{count} times"
-
-
-def cell_in(words: Sequence[str]) -> int:
-    """The number of the pattern of front sensors that is spoken of; 0 if there is none."""
-    said = " ".join(words).replace("-", " ")
-    sides = {1: "FRONT RIGHT", 4: "FRONT LEFT"}
-    cell = 0
-    for bit, name in sides.items():
-        if name in said or name.split()[1] in said.split():
-            cell |= bit
-            said = said.replace(name, "")
-    if {"FRONT", "AHEAD"} & set(said.split()):
-        cell |= 2
-    return 7 if {"ALL", "EVERYTHING"} & set(words) else cell

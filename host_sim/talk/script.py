@@ -16,22 +16,25 @@ MEMORIES = 4
 """The transformations of a MEMORY rule."""
 
 
-class AnyOf(NamedTuple):
+@dataclass(frozen=True)
+class AnyOf:
     """One word out of several: `(*A B)`."""
 
-    words: frozenset[str]
+    words: tuple[str, ...]
 
 
-class Tagged(NamedTuple):
+@dataclass(frozen=True)
+class Tagged:
     """A word that carries one of several tags: `(/A B)`."""
 
-    tags: frozenset[str]
+    tags: tuple[str, ...]
 
 
-class Fact(NamedTuple):
+@dataclass(frozen=True)
+class Fact:
     """A fact, asked about a part: `(* NAME 1)`; or about nothing: `(* NAME)`."""
 
-    name: str
+    fact: str
     part: int | None
 
 
@@ -84,7 +87,7 @@ class Rule:
     key: str
     line: int
     substitute: str | None = None
-    tags: frozenset[str] = frozenset()
+    tags: tuple[str, ...] = ()
     rank: int = 0
     transformations: list[Transformation] = field(default_factory=list)
     link: str | None = None
@@ -104,12 +107,14 @@ class Script:
         rules: By keyword.
         none: The rule for sentences without a keyword.
         memory: Its keyword's sentences are remembered, by one of four transformations.
+        facts: The names of the facts that it asks for.
     """
 
     greeting: str
     rules: dict[str, Rule]
     none: Rule
     memory: Rule
+    facts: list[str]
 
 
 def read_script(text: str, name: str, facts: Collection[str] = ()) -> Script:
@@ -130,6 +135,7 @@ class _Reader:
     def __init__(self, name: str, facts: Collection[str]) -> None:
         self._name, self._facts = name, facts
         self._links: list[Word] = []
+        self._asked: set[str] = set()
 
     def read(self, text: str) -> Script:
         groups = read_groups(text, self._name)
@@ -147,7 +153,7 @@ class _Reader:
         for needed in ("NONE", "MEMORY"):
             if needed not in special:
                 self._fail(groups[-1], f"the script has no {needed}")
-        script = Script(greeting, rules, special["NONE"], special["MEMORY"])
+        script = Script(greeting, rules, special["NONE"], special["MEMORY"], sorted(self._asked))
         self._check_links(script)
         return script
 
@@ -172,7 +178,7 @@ class _Reader:
             elif node.starts_with("="):
                 rule.link = self._link(node)
             elif node.starts_with("/"):
-                rule.tags = frozenset(self._listed(node))
+                rule.tags = tuple(self._listed(node))
             else:
                 rule.transformations.append(self._transformation(node))
         if not rule.can_answer and rule.substitute is None and not rule.tags:
@@ -208,9 +214,9 @@ class _Reader:
         if isinstance(node, Word):
             return int(node) if _is_number(node) else node
         if node.starts_with("/"):
-            return Tagged(frozenset(self._listed(node)))
+            return Tagged(tuple(self._listed(node)))
         if node.starts_with("*"):
-            return AnyOf(frozenset(self._listed(node)))
+            return AnyOf(tuple(self._listed(node)))
         return self._fail(node, "a list in a decomposition begins with * or /")
 
     def _reassembly(self, node: Node, parts: int) -> Reassembly:
@@ -234,6 +240,7 @@ class _Reader:
             name, *rest = self._listed(node) if node.starts_with("*") else self._fail(node, "(* NAME 1) is expected")
             if name not in facts:
                 self._fail(node, f"there is no fact {name} here; there are: {', '.join(sorted(facts)) or 'none'}")
+            self._asked.add(name)
             return Fact(name, self._number(rest[0], parts) if rest else None)
 
         return tuple(map(piece, nodes)) or self._fail(where, "a reassembly is empty")

@@ -1,20 +1,55 @@
 """What a robot does and why, in its own words. The pages use the same sentences, those of robot.toml."""
 
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
 from host_sim.protocol.generated import BODY_SENTENCES, PATTERNS, SENTENCES, SIDES, Reason, Side
 from host_sim.view.state_types import Lesson, State, Trial
 
 
-def sentence(state: State) -> str:
+class Words(NamedTuple):
+    """The words of a language.
+
+    Attributes:
+        sentences: By their names in robot.toml.
+        patterns: The patterns of the front sensors.
+        sides: The sides of a turn.
+        point: The decimal point.
+        many: A number of turns that is not known.
+    """
+
+    sentences: Mapping[str, str]
+    patterns: Sequence[str]
+    sides: Sequence[str]
+    point: str = "."
+    many: str = "Many"
+
+
+ENGLISH = Words(SENTENCES, PATTERNS, SIDES)
+
+
+def sentence(state: State, words: Words = ENGLISH) -> str:
     """A robot's state in one sentence."""
     side: int = Side.LEFT if state["left"] < state["right"] else Side.RIGHT
     if state["reason"] == Reason.TRIAL and state["trial"]:
         side = state["trial"]["side"]  # it also stands still while it tries
-    return SENTENCES[_name(state)].format(
-        Pattern=PATTERNS[state["pattern"]].capitalize(),
-        side=SIDES[side],
-        turns=state["repeat_count"] or "Many",
-        beacon=f"{state['beacon'] / 1000:.2f}",
+    return words.sentences[_name(state)].format(
+        Pattern=words.patterns[state["pattern"]].capitalize(),
+        side=words.sides[side],
+        turns=state["repeat_count"] or words.many,
+        beacon=decimal(state["beacon"] / 1000, 2, words),
     )
+
+
+def decimal(value: float, digits: int, words: Words = ENGLISH) -> str:
+    """A number that is not negative, rounded half up, for pages round so.
+
+    >>> decimal(0.125, 2)
+    '0.13'
+    """
+    unit = 10**digits
+    return f"{math.floor(value * unit + 0.5) / unit:.{digits}f}".replace(".", words.point)
 
 
 def _name(state: State) -> str:
@@ -26,12 +61,12 @@ def _name(state: State) -> str:
     return "look_aside" if reason == Reason.AVOID and state["left"] != state["right"] else reason.name.lower()
 
 
-def verdict(trial: Trial | None) -> str:
+def verdict(trial: Trial | None, words: Words = ENGLISH) -> str:
     """How a trial went, in two sentences; empty if there was none, or if it still goes on."""
     if trial is None or trial["helped"] is None:
         return ""
     helped = "helped_frozen" if trial["frozen"] else "helped"
-    return _of_cell(helped if trial["helped"] else "useless", trial["cell"], trial["side"])
+    return _of_cell(helped if trial["helped"] else "useless", trial["cell"], trial["side"], words)
 
 
 def body_sentence(what: str) -> str:
@@ -40,11 +75,11 @@ def body_sentence(what: str) -> str:
     return BODY_SENTENCES[name].format(*details)
 
 
-def lesson_sentence(lesson: Lesson) -> str:
+def lesson_sentence(lesson: Lesson, words: Words = ENGLISH) -> str:
     """A change of a cell in one sentence."""
     names = ("forgotten", "erased", "learned", "told")
-    return _of_cell(names[2 * bool(lesson["side"]) + lesson["by_hand"]], lesson["cell"], lesson["side"])
+    return _of_cell(names[2 * bool(lesson["side"]) + lesson["by_hand"]], lesson["cell"], lesson["side"], words)
 
 
-def _of_cell(name: str, cell: int, side: int) -> str:
-    return SENTENCES[name].format(pattern=PATTERNS[cell], side=SIDES[side])
+def _of_cell(name: str, cell: int, side: int, words: Words) -> str:
+    return words.sentences[name].format(pattern=words.patterns[cell], side=words.sides[side])

@@ -1,0 +1,86 @@
+"""In which words a robot tells its facts: a file beside the script, one for each language."""
+
+import importlib
+import re
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from host_sim.protocol.generated import PATTERNS, SENTENCES, SIDES, Side
+from host_sim.view.phrases import Words
+
+_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+
+POINT = "\u00b7"
+"""The decimal point in a question: ELIZA takes a full stop for the end of a sentence."""
+
+_BITS = {"turns": 0, "all": 7, "right": 1, "left": 4, "front": 2}
+_DECIMAL = re.compile(r"(?<=[0-9])[.,](?=[0-9])")
+
+
+@dataclass(frozen=True)
+class Texts:
+    """The words of one language.
+
+    Attributes:
+        words: Those of the robot's own sentences.
+        facts: For each fact, and for the case that there is nothing to tell, a text with gaps in braces.
+        spoken: How questions speak of turns, which are no place, and of the front sensors; longer names first.
+        joined: A comma before one of these words does not cut a sentence.
+    """
+
+    words: Words
+    facts: Mapping[str, str]
+    spoken: Mapping[str, Sequence[str]]
+    joined: Sequence[str]
+
+    def say(self, name: str, /, **values: object) -> str:
+        """A text with its gaps filled."""
+        return self.facts[name].format(**values)
+
+    def times(self, count: int) -> str:
+        """How often something happened."""
+        return self.say("once" if count == 1 else "times", count=count)
+
+    def of_cell(self, cell: int, side: int) -> dict[str, str]:
+        """What a text may say of a cell."""
+        return {"pattern": self.words.patterns[cell], "side": self.words.sides[side]}
+
+    def cell_in(self, words: Sequence[str]) -> int:
+        """The number of the pattern of front sensors that is spoken of; 0 if there is none."""
+        said, cell = f" {' '.join(words)} ".replace("-", " "), 0
+        for where, names in self.spoken.items():
+            for name in names:
+                if f" {name} " in said:
+                    cell |= _BITS[where]
+                    said = said.replace(f" {name} ", " ")
+        return cell
+
+    def side_in(self, words: Sequence[str]) -> int:
+        """The side that is spoken of; 0 if there is none."""
+        sides = (Side.LEFT, "left"), (Side.RIGHT, "right")
+        return next((side for side, name in sides if not set(self.spoken[name]).isdisjoint(words)), Side.NOTHING)
+
+    def heard(self, sentence: str) -> str:
+        """A question as the script is to read it: with decimal points, and without commas that do not cut."""
+        joined = rf",(?=\s+(?:{'|'.join(self.joined)})\s)" if self.joined else "(?!)"
+        return re.sub(joined, " ", _DECIMAL.sub(POINT, sentence), flags=re.IGNORECASE)
+
+
+def read_texts(path: Path) -> Texts:
+    """Reads the texts of a language.
+
+    Raises:
+        OSError, ValueError, KeyError: It is not such a file; those of the project are.
+    """
+    read: dict[str, Any] = _toml.loads(path.read_text(encoding="utf-8"))
+    words = Words(
+        {**SENTENCES, **read.get("sentences", {})},
+        read.get("patterns", PATTERNS),
+        read.get("sides", SIDES),
+        read["point"],
+        read.get("many", "Many"),
+    )
+    return Texts(words, read["facts"], read["spoken"], read["joined"])
