@@ -23,7 +23,8 @@ struct session {
     bool knows_tick;        /* false: whatever tick comes next is taken */
     uint8_t tick;           /* of the last senses taken, */
     uint8_t counter;        /* and their alive counter */
-    uint16_t told;          /* CRC-16 over the commands carried out since a stop without an owner, */
+    uint16_t told;          /* CRC-16 over the commands carried out since a stop without an owner, and over senses for a tick
+                               that had others, */
     uint16_t telling;       /* and what it becomes once the request is carried out */
 };
 

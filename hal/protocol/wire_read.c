@@ -93,6 +93,13 @@ static void fill_senses(const struct wire *wire, const struct octet_senses_t *go
         senses->range_mm[i] = have_ranges(wire, got->tick) ? wire->range_mm[i] : RANGE_NONE;
 }
 
+/* Two that differ for one tick are not both the owner's: what the robot holds must not agree with what its owner told. */
+static void note_other(struct wire *wire, const struct frame *frame, uint8_t tick)
+{
+    if (wire->session.knows_tick && tick == wire->session.tick && frame->data[0] != wire->senses_crc)
+        wire->session.told = e2e_crc16(wire->session.told, &frame->data[1], OCTET_SENSES_LENGTH - 1u);
+}
+
 static enum input_kind read_senses(struct wire *wire, const struct frame *frame, struct senses *senses)
 {
     struct octet_senses_t got;
@@ -100,6 +107,7 @@ static enum input_kind read_senses(struct wire *wire, const struct frame *frame,
 
     if (!e2e_is_whole(frame, OCTET_SENSES_LENGTH) || octet_senses_unpack(&got, frame->data, frame->len) != 0)
         return refused(wire, FAULT_DAMAGED);
+    note_other(wire, frame, got.tick);
     /* In lockstep both come again. */
     if (wire->session.lockstep && wire->wants_ranges && !have_ranges(wire, got.tick))
         return refused(wire, FAULT_MISSED);
@@ -112,6 +120,7 @@ static enum input_kind read_senses(struct wire *wire, const struct frame *frame,
         break;
     }
     count_many(wire, FAULT_MISSED, missed);
+    wire->senses_crc = frame->data[0];
     fill_senses(wire, &got, senses);
     return INPUT_SENSES;
 }

@@ -218,8 +218,15 @@ class Inbox:
             self._refuse(frame, "of another simulator")
             if self.rivals.hear(frame, self.now()):
                 self.lose("is commanded by somebody else too")
-            elif self.rivals.poses_as_us(frame, decoded):
+            elif self.rivals.poses_as_us(frame, decoded) or self._goes_on(decoded):
                 self.lose(f"was told {self.protocol.describe(frame)}", _COMMANDED)
+
+    def _goes_on(self, decoded: DecodedFrame) -> bool:
+        """Whether these are senses or distances that the robot takes for those of this simulator."""
+        if decoded.name not in {"SENSES", "RANGES"}:
+            return False
+        ahead = (decoded.signals["tick"] - self.sent_tick) & _TICK_MASK
+        return ahead < COUNTERS and (decoded.signals["counter"] - self.sent_counter - ahead) % COUNTERS == 0
 
     def _take_any_answer(self, frame: Frame, decoded: DecodedFrame) -> DecodedFrame | None:
         arrival = self.asked.judge(frame)

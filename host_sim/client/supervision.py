@@ -59,6 +59,16 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
         FirmwareError: The robot runs another firmware than before.
         RobotError: The robot does not answer.
     """
+    if lost.doubt:
+        client.distrust(f"{lost.doubt}: {lost}")
+    try:
+        _find_out(client, lost)
+    except (RivalError, TwinError) as meddled:
+        client.distrust(str(meddled))
+        raise
+
+
+def _find_out(client: RobotClient, lost: SessionLostError) -> None:
     session, memory, before = client.inbox.session, client.memory, _State(client)
     assert session is not None
     client.inbox.session = None
@@ -75,8 +85,6 @@ def recover(client: RobotClient, lost: SessionLostError) -> None:
     _check_owner(client, lost)
     client.inbox.session = session
     client.frames.refused += lost.booted  # a BOOT, but the robot did not start anew
-    if lost.doubt:
-        client.distrust(f"{lost.doubt}: {lost}")
     client.check_held()
 
 
@@ -176,4 +184,5 @@ def _check_owner(client: RobotClient, lost: SessionLostError) -> None:
         raise RivalError(f"simulator {heartbeat['owner']} has taken over node {client.node} at tick {client.tick}")
     if not heartbeat["state"]:
         client.dialogue.stop_at_once()
-        raise RivalError(f"somebody else stopped node {client.node}: {lost}")
+        how = "somebody else stopped" if client.tick else "a restart or somebody else stopped"
+        raise RivalError(f"{how} node {client.node}: {lost}")

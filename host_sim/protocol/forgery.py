@@ -4,12 +4,12 @@ from collections.abc import Callable
 from random import Random
 
 from host_sim.base.errors import UsageError
-from host_sim.protocol.codec import COUNTERS, Frame, Protocol
-from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, PROFILES, Opcode, Signal
+from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, Protocol
+from host_sim.protocol.generated import CELL_COUNT, MESSAGES, PARAMETERS, PROFILES, TICK_SPAN, Opcode, Signal
 
 
 class Forger:
-    """Somebody who has listened, and sends frames in another's name: a command as the robot expects the next one."""
+    """Somebody who has listened, and sends frames in another's name: commands and senses as it awaits them."""
 
     def __init__(self, what: str, protocol: Protocol) -> None:
         """Has heard nothing yet.
@@ -22,9 +22,10 @@ class Forger:
             UsageError: There is no such command or message.
         """
         self._protocol = protocol
+        self._followed = {protocol.id_of(name) for name in ("COMMAND", "SENSES")}
         self._fixed: dict[str, int] = {}
         self._names = (what,) if what else tuple(MESSAGES)
-        self._command: Frame | None = None
+        self._heard: dict[str, DecodedFrame] = {}
         if what.upper() in Opcode.__members__ and what.islower():
             self._names, self._fixed = ("COMMAND",), {"opcode": int(Opcode[what.upper()])}
         elif what and what not in MESSAGES:
@@ -33,17 +34,22 @@ class Forger:
 
     def hear(self, frame: Frame) -> None:
         """Somebody sends a frame."""
-        if frame.id == self._protocol.id_of("COMMAND"):
-            self._command = frame
+        if frame.id in self._followed and (decoded := self._protocol.decode(frame)) is not None:
+            self._heard[decoded.name] = decoded
 
     def forge(self, dice: Random) -> Frame:
-        """A frame with random content. A command has the last sender's number, the next counter, and is obeyed."""
+        """A frame with random content. A command has the last sender's number, the next counter, and is obeyed.
+
+        Senses are those of the next tick, and are taken.
+        """
         name, fixed = dice.choice(self._names), self._fixed
-        if name == "COMMAND" and self._command is not None:
-            told = self._protocol.decode(self._command)
-            assert told is not None
-            its = {"counter": (told.signals["counter"] + 1) % COUNTERS, "owner": told.signals["owner"]}
-            fixed = {"opcode": dice.choice(tuple(Opcode)), **_content(dice), **fixed, **its}
+        if name in self._heard:
+            told = self._heard[name].signals
+            fixed = {**fixed, "counter": (told["counter"] + 1) % COUNTERS}
+            if name == "SENSES":
+                fixed["tick"] = (told["tick"] + 1) % TICK_SPAN
+            else:
+                fixed = {"opcode": dice.choice(tuple(Opcode)), **_content(dice), **fixed, "owner": told["owner"]}
         frame = forge(self._protocol, name, dice, **fixed)
         self.hear(frame)
         return frame

@@ -20,6 +20,7 @@ def test_a_robot_that_somebody_else_stops_ends_the_run():
 
     with pytest.raises(RivalError, match="somebody else stopped node 1"):
         drive_for(client, 1, LEARNED)
+    assert "somebody else stopped node 1" in str(client.incidents)
 
 
 def test_a_robot_that_somebody_else_starts_ends_the_run():

@@ -2,6 +2,7 @@
 
 import tracemalloc
 from collections import deque
+from random import Random
 
 import pytest
 
@@ -10,7 +11,7 @@ from host_sim.faults.rule import Rule
 from host_sim.faults.schedule import Schedule
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.protocol.forgery import forgers
-from host_sim.protocol.generated import Opcode
+from host_sim.protocol.generated import NOTHING_SENSED, Opcode
 from host_sim.transport.clock import VirtualClock
 
 PROTOCOL = Protocol()
@@ -154,6 +155,15 @@ def test_forge_sends_a_command_in_our_name():
     decoded = PROTOCOL.decode(forged)
     assert decoded is not None
     assert (decoded.name, decoded.signals["opcode"]) == ("COMMAND", Opcode.STOP)
+
+
+def test_forged_senses_are_those_of_the_next_tick():
+    (forger, sent) = forgers(PROTOCOL)("SENSES"), PROTOCOL.encode_senses(NOTHING_SENSED._replace(tick=255), 14)
+
+    forger.hear(sent)
+
+    signals = PROTOCOL.decode(forger.forge(Random(1))).signals
+    assert (signals["tick"], signals["counter"]) == (0, 0)
 
 
 EVERYTHING = (

@@ -1,10 +1,10 @@
 """What the checks share: where they are noted, by the numbers of docs/protocol.md."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from host_sim.base.frame import Frame
 from host_sim.lab.check.talk import BrokenError, Talk
-from host_sim.protocol.generated import Reason
+from host_sim.protocol.generated import Fault, Reason
 
 Check = Callable[[Talk], None]
 
@@ -46,11 +46,16 @@ def unhurried(talk: Talk, attempt: Check) -> None:
             attempt(talk)
         except BrokenError as error:
             broken = error
-        if not any(said.signals.get("reason") == Reason.SILENCE for said in talk.said[first:]):
+        if not any(_heard_silence(said.signals) for said in talk.said[first:]):
             if broken is not None:
                 raise broken
             return
     raise BrokenError("it heard silence at once, however soon the next SENSES came")
+
+
+def _heard_silence(signals: Mapping[str, int]) -> bool:
+    """Whether a robot says so: in a DRIVE, or in an EMERGENCY once the next SENSES have come."""
+    return signals.get("reason") == Reason.SILENCE or bool(signals.get("kinds", 0) >> Fault.SILENCE & 1)
 
 
 def damaged(frame: Frame) -> Frame:

@@ -222,6 +222,15 @@ def _held_covers_the_cells_without_an_owner(talk: Talk) -> None:
     _expect_held(told["held"], crc_hqx(cells, held))
 
 
+@sentence("H6")
+def _held_covers_senses_for_a_tick_that_had_others(talk: Talk) -> None:
+    talk.drive_once()
+    before = talk.report()["held"]
+    senses = talk.senses(talk.tick, feel=4)
+    talk.send(senses)
+    _expect_held(talk.report()["held"], crc_hqx(senses.data[1:], before))
+
+
 @sentence("MEMORY")
 def _a_memory_that_changes_is_told(talk: Talk) -> None:
     talk.drive_once()

@@ -117,6 +117,55 @@ TEST(what_comes_again_is_held_once)
     assert_held_with_memory();
 }
 
+/* SENSES of tick 9; those that differ from the first ones, which feel nothing, are held. */
+static void sense(uint8_t feel)
+{
+    const struct octet_senses_t senses = {.tick = 9, .counter = 9, .feel = feel};
+    struct frame frame = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH};
+    struct input in;
+
+    (void)octet_senses_pack(frame.data, &senses, sizeof frame.data);
+    frame = protected_frame(frame);
+    (void)wire_read(&wire, &frame, &in);
+    if (feel != 0)
+        told_here = e2e_crc16(told_here, frame.data + 1, 7);
+}
+
+static void senses_of_one_tick(uint8_t lockstep)
+{
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = lockstep}, RESULT_DONE);
+    sense(0);
+    sense(0);
+    assert_held();
+    sense(4);
+    assert_held();
+}
+
+TEST(in_lockstep_the_senses_of_one_tick_are_held_only_if_they_differ)
+{
+    senses_of_one_tick(1);
+}
+
+TEST(on_its_own_clock_as_well)
+{
+    senses_of_one_tick(0);
+    expect(FAULT_STALE, 2);
+}
+
+TEST(the_first_senses_after_a_start_differ_from_none)
+{
+    uint16_t before;
+
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
+    sense(0);
+    tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
+    before = held();
+    sense(4);
+    TEST_ASSERT_EQUAL_HEX16(before, held());
+}
+
 TEST(the_stop_of_a_robot_with_an_owner_is_held_too_and_the_next_one_forgets_all)
 {
     begin();

@@ -242,7 +242,7 @@ def test_what_need_not_be_noticed_must_not_leave_a_trace():
 
 
 NEVER = FaultClass("a fault that never comes", ("forge:erase@99999/to",), harmless=PACES)
-REFUSED = FaultClass("forged senses", ("forge:SENSES@300-303/to",), harmless=PACES)
+REFUSED = FaultClass("forged distances", ("forge:RANGES@300-303/to",), harmless=PACES)
 REACHED = FaultClass("a forged erase", ("forge:erase@300/to",))
 
 

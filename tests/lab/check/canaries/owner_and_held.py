@@ -1,6 +1,6 @@
-"""Defects of an owner and of what is held: O1 to O8, H1 to H5."""
+"""Defects of an owner and of what is held: O1 to O8, H1 to H6."""
 
-from tests.lab.check.canaries.meddled import Commanded, Counting, Robot, Silent, breaks, meddling
+from tests.lab.check.canaries.meddled import Commanded, Counting, Robot, Sensing, Silent, breaks, meddling
 from tests.lab.check.virtual import example
 
 breaks("O6")(meddling(example.HEARTBEAT, lambda word: word & ~(255 << 24)))
@@ -57,6 +57,15 @@ class HoldsWhatIsAsked(Holding):
 class HoldsForEver(Holding):
     def kept(self, opcode, before, had_owner):
         return before if opcode == example.STOP and not had_owner else self.held
+
+
+@breaks("H6")
+class HearsOnlyTheFirstSenses(Sensing):
+    def changed(self, sense, data, word, now_ms):
+        held = self.held
+        said = sense(data, word, now_ms)
+        self.held = held
+        return said
 
 
 @breaks("H5")

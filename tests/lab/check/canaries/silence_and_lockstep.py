@@ -21,10 +21,10 @@ class SkipsTicksInLockstep(Sensing):
 @breaks("L3")
 class ActsAgain(Sensing):
     def changed(self, sense, data, word, now_ms):
-        if self.knows_tick and word >> 12 & 255 == self.tick and self.lockstep:
-            self.action = (self.action + 1) % 128
-            return self.say_drive(1, 200, 200)
-        return sense(data, word, now_ms)
+        is_again = self.knows_tick and word >> 12 & 255 == self.tick and self.lockstep
+        said = sense(data, word, now_ms)
+        self.action = (self.action + is_again) % 128
+        return self.say_drive(1, 200, 200) if is_again else said
 
 
 @breaks("L4")
