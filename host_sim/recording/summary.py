@@ -9,7 +9,7 @@ from typing import Any
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.counted import counted
 from host_sim.client.robot_client import RobotClient
-from host_sim.protocol.generated import PATTERNS, SIDES, Reason
+from host_sim.protocol.generated import FEEL, PATTERNS, SIDES, Reason
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.run_config import RunConfig
@@ -59,8 +59,8 @@ def summarize(
 
     - seed, profile, world, bus: as asked for; the bus of an emulated robot is qemu, or its board.
     - environments: One entry per environment: finished, food_eaten, ticks, robot_s, and robots, with each robot's
-      node, food_eaten, trials, remembered_turns, boredom_turns, collisions and memory (the eight cells at the end of
-      the environment).
+      node, food_eaten, trials, remembered_turns, boredom_turns, collisions, stuck_sensors (the number of them at the
+      end) and memory (the eight cells at the end of the environment).
     - robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, repeated,
       duplicate, lost, refused), faults (the robot's own fault counters), saturated (those of them that stand at 255,
       their limit, and may be more), round_trip_ms (mean time of an answer), real_time (ticks, share without an
@@ -133,6 +133,7 @@ def environment_line(number: int, episode: EpisodeResult) -> str:
         episode: Its result.
     """
     end = "all food found" if episode.finished else f"{sum(episode.eaten)} of {len(episode.eaten)} food found"
+    end += ", every sensor stuck" if any(robot.stuck_sensors == len(FEEL) for robot in episode.robots) else ""
     trials, known, bored = (episode.begun(reason) for reason in (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM))
     return (
         f"environment {number}   {end} in {episode.robot_s:.0f} s; {counted(trials, 'trial')}, "
@@ -197,6 +198,7 @@ def _robot_in_environment(robot: RobotResult) -> dict[str, Any]:
         "food_eaten": robot.food_eaten,
         **{name: robot.begun.get(reason, 0) for name, reason in _COUNTED.items()},
         "collisions": robot.collisions,
+        "stuck_sensors": robot.stuck_sensors,
         "memory": list(robot.memory),
     }
 

@@ -14,6 +14,7 @@ class RobotResult:
         begun: Number of actions begun, by reason.
         food_eaten: Number of pieces of food that it ate.
         collisions: Number of times that its body began to touch something.
+        stuck_sensors: Number of proximity sensors that are stuck at the end.
         memory: The eight cells at the end.
     """
 
@@ -21,6 +22,7 @@ class RobotResult:
     begun: dict[int, int] = field(default_factory=dict)
     food_eaten: int = 0
     collisions: int = 0
+    stuck_sensors: int = 0
     memory: tuple[int, ...] = (0,) * CELL_COUNT
 
 

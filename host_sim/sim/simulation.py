@@ -1,13 +1,14 @@
 """A run: robots in one environment after the other, their memories carried over."""
 
 import gc
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from host_sim.client.pacing import BegunTick, Lockstep, Pace
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.supervision import settle
-from host_sim.protocol.generated import NOTHING_SENSED, REST, Drive, Senses
+from host_sim.protocol.generated import NOTHING_SENSED, PARAMETERS, REST, Drive, Senses
 from host_sim.sim.change_schedule import ChangeSchedule
 from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.native_loop import BLOCK_TICKS, NativeLoop, suits
@@ -25,6 +26,11 @@ from host_sim.world.physics_names import FAST, PYMUNK
 SPACES_MAX = 32
 """Number of pymunk spaces that may wait to be freed. A space and its handlers form a cycle that holds 260 kB in C, of
 which Python's garbage collector knows nothing."""
+
+WHEEL_MM_S_MAX = math.ceil(
+    math.radians(PARAMETERS["turn_speed_deg_s"].maximum) * PARAMETERS["wheel_track_mm"].maximum / 2
+)
+"""A robot tells its wheels no more, whatever its parameters are, mm/s."""
 
 
 @dataclass
@@ -81,6 +87,7 @@ class Simulation:
     _before: Sequence[Body] = ()
     _measuring: list[int] = field(default_factory=list)
     _settled: bool = False
+    _hasty: set[int] = field(default_factory=set)
     _schedule: ChangeSchedule = field(init=False)
 
     def __post_init__(self) -> None:
@@ -202,11 +209,21 @@ class Simulation:
             if drive.eat and body.eat():
                 self.episode.robots[i].food_eaten += 1
             body.move(drive.left_mm_s, drive.right_mm_s)
+            if abs(drive.left_mm_s) > WHEEL_MM_S_MAX or abs(drive.right_mm_s) > WHEEL_MM_S_MAX:
+                self._note_haste(i)
             if drive.action != before[i].action:
                 begun = self.episode.robots[i].begun
                 begun[drive.reason] = begun.get(drive.reason, 0) + 1
         self.tick += 1
         self.episode.ticks += 1
+
+    def _note_haste(self, index: int) -> None:
+        """Notes once that a robot told its wheels more than it may."""
+        if index in self._hasty:
+            return
+        self._hasty.add(index)
+        told = f"{self.drives[index].left_mm_s} and {self.drives[index].right_mm_s} mm/s"
+        self.clients[index].distrust(f"the robot told its wheels {told}; it may do {WHEEL_MM_S_MAX} at most")
 
     def _go_on(self, tick: BegunTick) -> Sequence[Drive]:
         assert isinstance(self.pace, Lockstep)  # there is no loop otherwise
@@ -223,6 +240,7 @@ class Simulation:
         episode.eaten = arena.food.eaten
         for robot, body, client in zip(episode.robots, arena.bodies, self.clients, strict=True):
             robot.collisions, robot.memory = body.collisions, client.memory
+            robot.stuck_sensors = (body.faults.stuck_on | body.faults.stuck_off).bit_count()
         return episode
 
     def edit(self, edit: Edit) -> None:

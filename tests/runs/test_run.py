@@ -45,6 +45,7 @@ def test_the_summary_has_all_that_is_promised(run):
     }
     robot = {"node", "memory", "frames", "faults", "saturated", "round_trip_ms", "real_time", "line"}
     deeds = {"node", "food_eaten", "trials", "remembered_turns", "boredom_turns", "collisions", "memory"}
+    deeds |= {"stuck_sensors"}
     assert top == summary.keys()
     assert {"finished", "food_eaten", "ticks", "robot_s", "robots"} == summary["environments"][0].keys()
     assert deeds == summary["environments"][0]["robots"][0].keys()

@@ -119,6 +119,19 @@ def test_what_contradicts_the_session_is_found_by_the_same_rules(tmp_path, frame
     assert_alike(tmp_path, {40: foreign(frame), 200: foreign(frame)})
 
 
+def test_a_robot_whose_wheels_may_not_do_what_it_tells_them_is_doubted_once(tmp_path):
+    def rush(answers: list[bytes]) -> list[bytes]:
+        frame = Frame(DRIVE, answers[-1][8:])
+        signals = PROTOCOL.decode(frame).signals
+        return [*answers[:-1], packed(PROTOCOL.encode("DRIVE", {**signals, "left": 2047}))]
+
+    result = assert_alike(tmp_path, {40: rush, 41: rush})
+
+    assert [text.partition(") ")[2].partition(" and")[0] for text in result.incidents] == [
+        "the robot told its wheels 2047"
+    ]
+
+
 COMMANDS = {
     100: lambda client: write_cells(client, {1: 2, 4: 1}),
     101: erase_memory,

@@ -7,7 +7,7 @@
 #include "logged_lines.h"
 #include "octet.h"
 
-enum { ROBOTS = 2, SENSES = 0x101, DRIVE = 0x041, FAULTS = 0x781, TICK = 9, COUNTER = 4, WAIT_MS = 3 };
+enum { ROBOTS = 2, SENSES = 0x101, DRIVE = 0x041, FAULTS = 0x781, TICK = 9, COUNTER = 4, WAIT_MS = 3, FASTEST = 500 };
 
 /* A bus on which comes what the test says. */
 struct link {
@@ -22,6 +22,7 @@ struct link {
 static struct link links[ROBOTS];
 static struct loop_robot robots[ROBOTS];
 static struct loop loop;
+static struct world world = {.params = {.max_wheel_speed_mm_s = FASTEST}};
 static struct turn turns[ROBOTS];
 static char text[64 * LOG_LINE_MAX];
 
@@ -72,7 +73,7 @@ void setUp(void)
     memset(links, 0, sizeof links);
     memset(robots, 0, sizeof robots);
     memset(turns, 0, sizeof turns);
-    loop = (struct loop){.robot_count = ROBOTS, .robots = robots, .wait_ms = WAIT_MS, .log = {.text = text},
+    loop = (struct loop){.robot_count = ROBOTS, .robots = robots, .wait_ms = WAIT_MS, .world = &world, .log = {.text = text},
         .log_size = sizeof text};
     for (unsigned i = 0; i < ROBOTS; i++) {
         robots[i] = (struct loop_robot){.link = &links[i], .senses_id = SENSES + i, .drive_id = DRIVE + i,
@@ -160,6 +161,25 @@ TEST(whatever_is_not_the_fresh_answer_is_handed_over)
     unusual(drive(1, TICK, COUNTER, REASON_WANDER));
     unusual(drive(1, TICK, COUNTER + 1, REASON_STOP));
     unusual(drive(1, TICK, COUNTER + 1, REASON_SILENCE));
+}
+
+static struct frame rushing(int16_t left, int16_t right)
+{
+    struct octet_drive_t message = {.counter = COUNTER + 1, .tick = TICK, .reason = REASON_WANDER, .left = left, .right = right};
+    struct frame frame = {.id = DRIVE + 1, .len = OCTET_DRIVE_LENGTH};
+
+    (void)octet_drive_pack(frame.data, &message, sizeof frame.data);
+    e2e_protect(&frame);
+    return frame;
+}
+
+TEST(what_is_faster_than_any_body_is_handed_over)
+{
+    unusual(rushing(FASTEST + 1, 0));
+    unusual(rushing(0, -FASTEST - 1));
+    setUp();
+    comes(1, 0, rushing(FASTEST, -FASTEST));
+    TEST_ASSERT_TRUE(turns_over_links(&loop, turns));
 }
 
 TEST(a_flood_of_reports_is_handed_over)

@@ -1,3 +1,5 @@
+#include <stdlib.h>
+
 #include "hal/protocol/e2e.h"
 #include "host_sim/sim/native/loop.h"
 #include "host_sim/sim/native/robot_wire.h"
@@ -14,6 +16,14 @@ static bool send_senses(struct loop *loop, const struct senses *senses)
         return false;
     log_lines_add(&loop->log, &frame);
     return true;
+}
+
+/* No body does more: what is faster is looked at in Python. */
+static bool is_slow(const struct loop *loop, const struct drive *drive)
+{
+    double limit = loop->world->params.max_wheel_speed_mm_s;
+
+    return abs(drive->left_mm_s) <= limit && abs(drive->right_mm_s) <= limit;
 }
 
 /* Whether a frame answers the senses of this tick, and fills *drive. A robot says so only once. */
@@ -34,7 +44,7 @@ static bool take_drive(struct loop *loop, struct turn *turn)
         loop->received = link_receive(robot->link, &loop->in_hand, loop->wait_ms);
         if (loop->received != 1)
             return false;
-        driven = is_answer(robot, frame, turn->senses.tick, &turn->drive);
+        driven = is_answer(robot, frame, turn->senses.tick, &turn->drive) && is_slow(loop, &turn->drive);
         if (driven)
             robot->drive = *frame;
         else if (!robot_wire_goes_on(robot, frame))
