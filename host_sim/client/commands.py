@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from host_sim.base.errors import RobotError
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, MEMORY_KINDS, PROFILES, MemoryKind
@@ -22,7 +23,7 @@ def start(client: RobotClient, session: Session, memory: Sequence[int] | None = 
 
     Raises:
         RefusedError: The robot refuses a command.
-        RobotError: The robot does not answer.
+        RobotError: The robot does not answer, or does not hold the memory.
     """
     client.inbox.session = None
     how = {"profile": session.profile, "seed": session.seed, "lockstep": int(client.inbox.lockstep)}
@@ -32,7 +33,10 @@ def start(client: RobotClient, session: Session, memory: Sequence[int] | None = 
     for name, value in session.settings.items():
         client.dialogue.command("set", parameter=client.protocol.choices("COMMAND", "parameter")[name], value=value)
     if memory is not None:
-        _write(client, dict(enumerate(translated(tuple(memory), client.memory_kind))))
+        cells = translated(tuple(memory), client.memory_kind)
+        _write(client, dict(enumerate(cells)))
+        if client.memory != cells:
+            raise RobotError(f"node {client.node} does not hold the memory that was just written to it: start again")
     client.inbox.session = replace(session, frozen=False, halted=False, missing=client.frames.missing)
 
 

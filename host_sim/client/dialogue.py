@@ -11,8 +11,8 @@ from host_sim.client.waiting import Waiting
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame
 from host_sim.protocol.generated import MESSAGES, Opcode, Result
 
-_REPORT_S, _NOISY_REPORT_S = 1.0, 0.03
-_REPORT_DEMANDS = 100
+_REPORT_S, _DRIVE_S, _NOISY_REPORT_S = 1.0, 0.1, 0.03
+_REPORT_DEMANDS = 50
 _JUMP = 7
 
 
@@ -80,7 +80,8 @@ class Dialogue:
             self.command(opcode)
             if self.await_reports():
                 return
-        raise RobotError(f"the robot did not report all after {opcode}; {self.account()}")
+        missing = ", ".join(self.inbox.reports.missing) or "a DRIVE at rest"
+        raise RobotError(f"after {opcode}, the robot did not send {missing}; {self.account()}")
 
     def expect_reports(self, opcode: str) -> None:
         """Prepares for the reports that `report` or `stop` asks for."""
@@ -97,8 +98,8 @@ class Dialogue:
         reports.await_end()
         self.inbox.silent = False
         while not (self._has_reported and reports.ended):
-            noisy = self.connection.line.noisy
-            heard = self.waiting.receive(self._take_any, _NOISY_REPORT_S if noisy else _REPORT_S)
+            usual_s = _DRIVE_S if reports.ended else _REPORT_S
+            heard = self.waiting.receive(self._take_any, _NOISY_REPORT_S if self.connection.line.noisy else usual_s)
             if heard is None or self.inbox.silent or now() > give_up:
                 break
             if reports.ended and not reports.complete:
@@ -142,7 +143,7 @@ class Dialogue:
         names = [name for name in MESSAGES if protocol.id_of(name) == frame.id]
         if self.inbox.refused_at != self.inbox.ticks or not names or protocol.decode(frame) is not None:
             return ""
-        return f"; a {names[0]} came, but with a wrong CRC or length: {frame.id:03X}#{frame.data.hex().upper()}"
+        return f"; its {names[0]} came with a wrong CRC or length: {frame.id:03X}#{frame.data.hex().upper()}"
 
     def _next(self, opcode: str, signals: Mapping[str, int], jump: int = 1) -> Frame:
         """A command with the next counter, or one some steps ahead."""

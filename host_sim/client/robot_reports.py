@@ -64,9 +64,14 @@ class RobotReports:
         self.ended = False
 
     @property
+    def missing(self) -> list[str]:
+        """What has not come since `await_all`."""
+        return sorted(_WHOLE - self._heard)
+
+    @property
     def complete(self) -> bool:
         """Whether each report has come since `await_all`."""
-        return self._heard >= _WHOLE
+        return not self.missing
 
     def is_awaited(self, decoded: DecodedFrame) -> bool:
         """Whether this is a report that has not come since `await_all`."""

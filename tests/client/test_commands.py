@@ -71,13 +71,34 @@ def test_a_command_that_is_out_of_sequence_again_and_again_is_refused():
         freeze(client, on=True)
 
 
-def test_a_robot_that_never_reports_all_is_given_up():
+@pytest.mark.parametrize("message", ["MEMORY", "HEALTH", "DRIVE"])
+def test_a_robot_that_never_reports_all_is_given_up_soon_and_told_what_is_missing(message):
     link = MeddledLink()
     client = learned(link, 10)
-    link.change = lambda frame: [] if frame.id == PROTOCOL.id_of("MEMORY") else [frame]
+    link.change = lambda frame: [] if frame.id == PROTOCOL.id_of(message) else [frame]
+    began_s = client.connection.now()
 
-    with pytest.raises(RobotError, match="the robot did not report all after stop"):
+    with pytest.raises(RobotError, match=f"after stop, the robot did not send .*{message}"):
         stop(client)
+
+    assert client.connection.now() - began_s < 60
+
+
+def test_a_robot_that_restarts_between_the_halves_of_its_memory_is_not_started_with_half_of_it():
+    link = MeddledLink()
+    half = PROTOCOL.id_of("MEMORY")
+
+    def restart(frame: Frame) -> list[Frame]:
+        if frame.id == half and frame.data[1] >> 4 == 1:
+            link.reboot()
+            link.change = lambda frame: [frame]
+        return [frame]
+
+    with connected(link) as client:
+        handshake(client, client.connection.deadline_s)
+        link.change = restart
+        with pytest.raises(RobotError, match="node 1 does not hold the memory that was just written to it"):
+            start(client, Session(1), (0, 1, 0, 1, 2, 0, 2, 0))
 
 
 def test_the_distances_go_before_the_senses_and_are_repeated_with_them():

@@ -139,4 +139,4 @@ def test_a_robot_whose_drives_are_all_damaged_is_told_so(run):
     done = run("--environments", "1", "--bus", "none", "--limit-s", "2", "--fault", "corrupt:1@60-/from")
 
     assert done.code == 1
-    assert re.search(r"; a [A-Z]+ came, but with a wrong CRC or length: [0-9A-F]{3}#", done.errors)
+    assert re.search(r"; its [A-Z]+ came with a wrong CRC or length: [0-9A-F]{3}#", done.errors)
