@@ -24,9 +24,10 @@ MAY_INCLUDE = {
     "hal/library/": ("firmware/", "hal/protocol/"),
     "hal/pins_body/": (),
     "host_sim/world/native/": ("firmware/io.h", "hal/pins_body/wheel.h"),
+    "host_sim/program/native/": ("firmware/", "hal/library/", "host_sim/world/native/trig.h"),
     "host_sim/sim/native/": ("firmware/", "hal/link/link.h", "hal/protocol/e2e.h", "host_sim/world/native/"),
 }
-FOLDERS = ("firmware", "hal", "host_sim/world/native", "host_sim/sim/native")
+FOLDERS = ("firmware", "hal", "host_sim/world/native", "host_sim/program/native", "host_sim/sim/native")
 GENERATED = ("octet.h", "build_id.h", "robot_words.h")
 
 
@@ -85,6 +86,7 @@ PLANTED = [
     ("host_sim/world/native/world.c", "firmware/robot.h"),
     ("host_sim/world/native/world.c", "host_sim/sim/native/loop.h"),
     ("host_sim/sim/native/loop.c", "hal/library/exchange.h"),
+    ("host_sim/program/native/machine.c", "host_sim/sim/native/loop.h"),
 ]
 
 

@@ -2,17 +2,22 @@
 
 #include <stdlib.h>
 
-struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT])
+void octet_init(struct octet *octet, uint8_t node, const uint8_t memory[CELL_COUNT])
 {
-    struct octet *octet = malloc(sizeof *octet);
-
-    if (!octet)
-        return NULL;
+    octet->respond = robot_respond;
     robot_init(&octet->robot, 0);
     (void)brain_adopt(&octet->robot.brain, memory);
     wire_init(&octet->wire, node);
     octet->wire.health.clock_exact = true;
     wire_boot(&octet->wire, octet->answers);   /* there is no listener yet */
+}
+
+struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT])
+{
+    struct octet *octet = malloc(sizeof *octet);
+
+    if (octet)
+        octet_init(octet, node, memory);
     return octet;
 }
 
@@ -32,7 +37,7 @@ size_t octet_exchange(struct octet *octet, const struct frame *in)
 
     if (kind == INPUT_SILENCE)
         return say_again(octet);
-    robot_respond(&octet->robot, kind, &input, &output);
+    octet->respond(&octet->robot, kind, &input, &output);
     return wire_write(&octet->wire, &output, octet->answers);
 }
 

@@ -10,7 +10,11 @@ struct octet {
     struct robot robot;
     struct wire wire;
     struct frame answers[WIRE_FRAMES_MAX];
+    void (*respond)(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
 };
+
+void octet_init(struct octet *octet, uint8_t node, const uint8_t memory[CELL_COUNT]);
+        /* A robot as octet_open's, in memory of the caller's. Another robot_respond may take the place of the firmware's. */
 
 struct octet *octet_open(uint8_t node, const uint8_t memory[CELL_COUNT]);
         /* A robot as after power-up, with what was stored; empty if that is not a memory. node is 1..NODE_MAX.

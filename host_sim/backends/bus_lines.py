@@ -25,6 +25,7 @@ class BusLines:
         bitrate: Bits a second, for a bus that is set up when opened.
         reconnect_s: Time to wait for a bus that is gone, s of wall-clock time.
         command: Program to start as each robot; empty for the firmware.
+        program: The file with the program that is each robot's brain; empty for the firmware's own.
         relay: What the robots hear of each other where there is no bus; None for one robot.
     """
 
@@ -33,6 +34,7 @@ class BusLines:
     bitrate: int = BIT_RATE
     reconnect_s: float = 0.0
     command: str = ""
+    program: str = ""
     relay: Relay | None = field(init=False)
     _shared: "SharedLine | None" = None
     _shared_stats: LineStats = field(default_factory=LineStats)

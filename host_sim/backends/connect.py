@@ -1,14 +1,20 @@
 """Connects to the robot that the command line names; starts it first if necessary."""
 
+from collections.abc import Sequence
 from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from host_sim.backends.bus_choice import check_robot
 from host_sim.backends.bus_lines import BusLines
 from host_sim.backends.images import BOARDS
 from host_sim.backends.in_process_link import InProcessLink
-from host_sim.backends.relay import Relay, RelayedLink
+from host_sim.backends.relay import RelayedLink
 from host_sim.client.connection import Connection
 from host_sim.transport.line_stats import LineStats
+
+if TYPE_CHECKING:
+    from host_sim.backends.robot_process import RobotProcess
 
 _EMULATED_S = 30.0
 """An emulator on a busy machine may take its time."""
@@ -48,10 +54,9 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
     if lines.command:
         return _of_ones_own(stack, lines, node)
     if bus == "none":
-        link = InProcessLink(node, relay=lines.relay)
-        return Connection(link, bus, lambda: "runs in this process", answers_at_once=True)
+        return _in_process(lines, node)
     if bus == "fd":
-        return _over_socket_pair(stack, node, lines.relay)
+        return _over_socket_pair(stack, node, lines)
     return _over_bus(stack, lines, robot, node)
 
 
@@ -81,10 +86,26 @@ def _of_ones_own(stack: ExitStack, lines: BusLines, node: int) -> Connection:
     return own_robot(stack, lines, node)
 
 
-def _over_socket_pair(stack: ExitStack, node: int, relay: Relay | None) -> Connection:
+def _in_process(lines: BusLines, node: int) -> Connection:
+    if not lines.program:
+        link = InProcessLink(node, relay=lines.relay)
+        return Connection(link, lines.bus, lambda: "runs in this process", answers_at_once=True)
+    from host_sim.backends.programmed_robot import ProgrammedLink  # noqa: PLC0415 - see above
+
+    programmed = ProgrammedLink(Path(lines.program), node, lines.relay)
+    return Connection(programmed, lines.bus, programmed.status, answers_at_once=True)
+
+
+def _process(link: str, node: int, brain: str, pass_fds: Sequence[int] = ()) -> "RobotProcess":
+    from host_sim.backends.programmed_robot import PROCESS  # noqa: PLC0415 - see above
+    from host_sim.backends.robot_process import PROGRAM, RobotProcess  # noqa: PLC0415 - see above
+
+    return RobotProcess(link, node, pass_fds, PROCESS if brain else PROGRAM, brain)
+
+
+def _over_socket_pair(stack: ExitStack, node: int, lines: BusLines) -> Connection:
     import socket  # noqa: PLC0415 - see above
 
-    from host_sim.backends.robot_process import RobotProcess  # noqa: PLC0415 - see above
     from host_sim.transport.bus_link import BusLink  # noqa: PLC0415 - see above
     from host_sim.transport.socket_pair_bus import SocketPairBus  # noqa: PLC0415 - see above
 
@@ -93,19 +114,18 @@ def _over_socket_pair(stack: ExitStack, node: int, relay: Relay | None) -> Conne
     with theirs:
         link = BusLink(SocketPairBus(ours.detach()), line, is_socket=True)
         stack.callback(link.close)
-        process = RobotProcess(f"fd:{theirs.fileno()}", node, [theirs.fileno()])
+        process = _process(f"fd:{theirs.fileno()}", node, lines.program, [theirs.fileno()])
     stack.callback(process.close)
     link.explain = process.account_for_silence
+    relay = lines.relay
     return Connection(RelayedLink(link, relay, node) if relay else link, "fd", process.status, process.pid, line)
 
 
 def _over_bus(stack: ExitStack, lines: BusLines, robot: str, node: int) -> Connection:
-    from host_sim.backends.robot_process import RobotProcess  # noqa: PLC0415 - see above
-
     bus = lines.bus
     link, line = lines.open(stack, node)
     if robot == "external":
         return Connection(link, bus, lambda: "was not started here", line=line)
-    process = RobotProcess(bus, node)
+    process = _process(bus, node, lines.program)
     stack.callback(process.close)
     return Connection(link, bus, process.status, process.pid, line)

@@ -22,6 +22,9 @@ struct octet *octet_open(uint8_t node, const uint8_t memory[8]);
 size_t octet_exchange(struct octet *octet, const struct frame *in);
 const struct frame *octet_answers(const struct octet *octet);
 void octet_close(struct octet *octet);
+struct octet *programmed_open(uint8_t node, const uint8_t memory[8], const char *text, size_t len);
+const void *programmed_state(const struct octet *octet);
+void programmed_tell(const void *program, char told[1024]);
 """
 
 
@@ -64,13 +67,16 @@ class InProcessLink:
         """
         self._ffi = c_interface(_DECLARATIONS)
         self._library = loaded = load_library(self._ffi, library)
-        opened = loaded.octet_open(node, bytes(memory))
+        opened = self._open(node, bytes(memory))
         # This function holds the library, which else might be unloaded before the robot is closed.
         self._octet = self._ffi.gc(opened, lambda octet: loaded.octet_close(octet))  # noqa: PLW0108 - see above
         self._in: Any = self._ffi.new("struct frame *")
         self._out: Any = self._library.octet_answers(self._octet)
         self._answers: deque[Frame] = deque()
         self._node, self._relay = node, relay
+
+    def _open(self, node: int, memory: bytes) -> Any:
+        return self._library.octet_open(node, memory)
 
     @property
     def pointers(self) -> RobotPointers:

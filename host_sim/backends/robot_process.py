@@ -25,7 +25,9 @@ class RobotProcess:
         pid: Process id.
     """
 
-    def __init__(self, link: str, node: int, pass_fds: Sequence[int] = (), program: Path = PROGRAM) -> None:
+    def __init__(
+        self, link: str, node: int, pass_fds: Sequence[int] = (), program: Path = PROGRAM, brain: str = ""
+    ) -> None:
         """Starts the robot and waits until it listens.
 
         Args:
@@ -33,12 +35,13 @@ class RobotProcess:
             node: Node number, 1..31.
             pass_fds: File descriptors that it inherits.
             program: The firmware.
+            brain: The file with the program that is its brain; empty for the firmware's own.
 
         Raises:
             OctetError: The program is missing.
             RobotError: The process ended, or was not ready in time; the message has what it printed.
         """
-        command = [os.fspath(program), "--with-parent", "--node", str(node), link]
+        command = [os.fspath(program), *([brain] if brain else []), "--with-parent", "--node", str(node), link]
         try:
             self._process = subprocess.Popen(
                 command,

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
+from host_sim.backends.programmed_robot import check_program
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import DoubtfulError, OctetError, UsageError
 from host_sim.base.regular_file import read_bytes
@@ -46,6 +47,7 @@ def conduct(options: RunOptions) -> Summary:
         OctetError: The run could not continue; what was recorded up to there was written.
     """
     world_of(options.world)  # a mistake in it is found before anything is begun
+    check_program(options.program)
     with _memories(options) as loaded, run_folder(options.out):
         _announce(options, loaded)
         with ExitStack() as stack:
@@ -65,6 +67,7 @@ def conduct(options: RunOptions) -> Summary:
             try:
                 run_through(outputs, listener)
                 _stop(outputs)
+                _tell_of_programs(options, simulation)
             except BaseException as end:
                 _write_what_there_is(outputs, end)
                 raise
@@ -72,6 +75,12 @@ def conduct(options: RunOptions) -> Summary:
     tell(options, summary, (*(options.out / name for name in (PAGE, PICTURE, SUMMARY)), options.log))
     _check_trust(summary)
     return summary
+
+
+def _tell_of_programs(options: RunOptions, simulation: Simulation) -> None:
+    for client in simulation.clients if options.program and options.talks else ():
+        with suppress(OctetError):  # the robot has ended, and that has been told
+            print(f"program   {options.program}: {client.connection.status()}")
 
 
 def _stop(outputs: Outputs) -> None:
@@ -170,7 +179,8 @@ def _write_refused(path: Path, clients: Sequence[RobotClient]) -> None:
 def _print_robot(options: RunOptions, client: RobotClient) -> None:
     if options.talks:
         bus = client.connection.bus
-        print(f"robot     node {client.node} on {bus}, profile {options.profile}, seed {options.seed}")
+        brain = f"program {options.program}" if options.program else f"profile {options.profile}"
+        print(f"robot     node {client.node} on {bus}, {brain}, seed {options.seed}")
 
 
 def _first_memories(options: RunOptions, loaded: Sequence[Memory | None]) -> list[Memory | None]:

@@ -153,6 +153,7 @@ def _check(options: RunOptions) -> None:
     if options.robot_command and (options.bus == "none" or options.robot != "spawn"):
         other = "--bus none" if options.bus == "none" else f"--robot {options.robot}"
         raise UsageError(f"--robot-command starts a program on fd or socketcan: leave {other} out")
+    _check_program(options)
     if options.board and options.robot != "emulated":
         raise UsageError(f"--board {options.board} is for --robot emulated: add that, or leave --board out")
     if options.bitrate != BIT_RATE and options.bus.partition(":")[0] in _NO_ADAPTER:
@@ -163,6 +164,14 @@ def _check(options: RunOptions) -> None:
         _check_fleet(options)
     else:
         check_robot(options.bus, options.robot, options.nodes)
+
+
+def _check_program(options: RunOptions) -> None:
+    """Refuses what a robot with a program does not have."""
+    for name in ("robot", "robot_command", "profile", "board") if options.program else ():
+        if getattr(options, name) != getattr(RunConfig, name):
+            flag = flag_of(name, options_of(RunOptions)[name][1])
+            raise UsageError(f"--program is the brain of a robot that is started here: leave {flag} out")
 
 
 def _check_fleet(options: RunOptions) -> None:

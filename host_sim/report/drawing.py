@@ -51,6 +51,7 @@ MARKS = {
     Reason.EAT: Mark("eats", "#000000", 44.0, 5),
     Reason.SILENCE: Mark("hears nothing", "#8c564b", 44.0, 5),
     Reason.AVOID: Mark("avoids", "#4b535d", 44.0, 5),
+    Reason.PROGRAM: Mark("as its program says", "#4b535d", 36.0, 3),
 }
 """By reason; colours after Okabe and Ito, which colour-blind people can tell apart."""
 
@@ -109,7 +110,7 @@ def draw_trail(plan: Plan, start: Point, trail: Sequence[tuple[float, float, int
     Args:
         plan: The plan to draw on.
         start: Start of the trail, mm.
-        trail: For each control tick, the position at its end (x and y in mm) and the reason of its drive, 0..8.
+        trail: For each control tick, the position at its end (x and y in mm) and the `Reason` of its drive.
     """
     points = [start, *((x, y) for x, y, _ in trail)]
     runs = [(reason, [i for i, _ in ticks]) for reason, ticks in groupby(enumerate(trail), lambda t: t[1][2])]

@@ -75,7 +75,9 @@ def make(
             log = NoLog()
             stack.callback(log.close)
         clients = []
-        lines = BusLines(config.bus, config.nodes, config.bitrate, config.reconnect_s, config.robot_command)
+        lines = BusLines(
+            config.bus, config.nodes, config.bitrate, config.reconnect_s, config.robot_command, config.program
+        )
         for node in config.nodes:
             client = _connected(stack, config, node, lines, log)
             ready(client)

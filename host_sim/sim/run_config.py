@@ -115,6 +115,14 @@ class RunConfig:
         commands=("run",),
     )
     profile: str = option("article", "the robot's behaviour", choices=PROFILES)
+    program: str = option(
+        "",
+        "the robot's brain is this program, in the language of the article's listing, such as "
+        "host_sim/program/examples/article.bas",
+        metavar="FILE",
+        unset="the firmware's own",
+        fleet=False,
+    )
     settings: dict[str, int] = option(
         {}, "set a parameter; may be repeated", flag="--set", metavar="NAME=VALUE", unset="the values below"
     )

@@ -22,5 +22,17 @@ PARTS = {
 
 _EXCHANGE = [*PARTS["wire"], HERE / "any_command.c", ROOT / "hal/library/exchange.c"]
 
-FUZZED = {**PARTS, "flash": PARTS["store"], "commands": _EXCHANGE, "session": _EXCHANGE}
+_PROGRAM = [
+    source
+    for source in sorted((ROOT / "host_sim/program/native").glob("*.c"))
+    if source.name not in {"brain.c", "programmed.c", "program_main.c", "tell.c"}
+]
+
+FUZZED = {
+    **PARTS,
+    "program": [*_PROGRAM, *_CORE, ROOT / "host_sim/world/native/trig.c"],
+    "flash": PARTS["store"],
+    "commands": _EXCHANGE,
+    "session": _EXCHANGE,
+}
 """What holds from one input to the next is too much for the analyser: that is fuzzed only."""

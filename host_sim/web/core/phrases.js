@@ -15,6 +15,7 @@ import { REASON_KEYS } from "./palette.js";
 const NAMES = {
   STOP: "stands still", WANDER: "wanders", TOWARD_FOOD: "goes toward food", LOOK_AROUND: "looks around",
   REMEMBERED: "remembers", TRIAL: "tries", BOREDOM: "is bored", EAT: "eats", SILENCE: "hears nothing", AVOID: "avoids",
+  PROGRAM: "does as its program says",
 };
 
 /** What each reason is called, in the order of the reasons. */

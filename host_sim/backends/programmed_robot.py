@@ -1,0 +1,70 @@
+"""Robots whose brain is a program in the language of the article's listing: docs/language.md."""
+
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+from host_sim.backends.in_process_link import InProcessLink
+from host_sim.backends.relay import Relay
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import BUILD
+from host_sim.base.regular_file import read_bytes
+
+_FOLDER = BUILD / "host" / "host_sim" / "program" / "native"
+LIBRARY, PROCESS = _FOLDER / "liboctet_programmed.so", _FOLDER / "octet-program"
+"""Such robots as a library, and as a process."""
+
+_SIZE_MAX = 16_383
+_TOLD_MAX = 1024
+
+
+class ProgrammedLink(InProcessLink):
+    """A robot with a program, in this process."""
+
+    def __init__(self, program: Path, node: int = 1, relay: Relay | None = None) -> None:
+        """Wakes a robot.
+
+        Args:
+            program: The file with its program.
+            node: 1..31.
+            relay: What it hears of other robots; None if it is alone.
+
+        Raises:
+            UsageError: The file cannot be read, or the program has a mistake, which the message names with its line.
+            OctetError: The library cannot be loaded.
+        """
+        try:
+            self._text = read_bytes(program, _SIZE_MAX)
+        except OSError as error:
+            raise UsageError(f"cannot read {program}: {error.strerror}") from None
+        super().__init__(node, library=LIBRARY, relay=relay)
+        if told := self.told():
+            raise UsageError(f"{program}, {told}")
+
+    def _open(self, node: int, memory: bytes) -> Any:
+        return self._library.programmed_open(node, memory, self._text, len(self._text))
+
+    def told(self) -> str:
+        """What a person should know of the program: its mistake, its end, what it shows; empty for nothing."""
+        told = self._ffi.new("char[]", _TOLD_MAX)
+        self._library.programmed_tell(self._library.programmed_state(self._octet), told)
+        text: Any = self._ffi.string(told)
+        return str(text.decode(errors="replace"))
+
+    def status(self) -> str:
+        """As in `Connection`."""
+        return f"runs in this process, {self.told() or 'as it should'}"
+
+
+def check_program(program: str) -> None:
+    """Refuses a program with a mistake.
+
+    Args:
+        program: The file with it; empty for none.
+
+    Raises:
+        UsageError: As `ProgrammedLink`.
+    """
+    if program:
+        with closing(ProgrammedLink(Path(program))):
+            pass

@@ -1,0 +1,106 @@
+/* compiler.h: what the parts of the compiler share. After the first mistake the text has ended, so that each part stops by itself. */
+#ifndef OCTET_PROGRAM_COMPILER_H
+#define OCTET_PROGRAM_COMPILER_H
+
+#include "host_sim/program/native/code.h"
+#include "host_sim/program/native/tokens.h"
+
+enum { BLOCKS_MAX = 32, DEPTH_MAX = 24, NO_PLACE = 0xFFFF };
+
+enum block_kind { BLOCK_IF, BLOCK_IF_LINE, BLOCK_WHILE, BLOCK_FOR };
+
+/* A block that has been opened. */
+struct block {
+    enum block_kind kind;
+    struct token word;                /* that has opened it */
+    uint16_t top;                     /* the instruction that a loop goes back to */
+    uint16_t otherwise;               /* the jump to what comes if a condition does not hold, */
+    uint16_t ends;                    /* and the last of the jumps to the end, which leads to the one before it; or NO_PLACE */
+    struct instruction load, store;   /* a for's variable, */
+    uint16_t limit, step;             /* and its cells */
+};
+
+struct compiler {
+    struct program *program;
+    struct token token;               /* that comes next */
+    unsigned depth;                   /* of brackets */
+    struct block blocks[BLOCKS_MAX + 1];   /* the last one is for what is too much */
+    unsigned block_count;
+    struct token parameters[PROGRAM_ARGUMENTS_MAX];   /* of the sub */
+    unsigned parameter_count;
+    bool in_sub;
+};
+
+void compiler_fail_at(struct compiler *compiler, const struct token *token, enum program_expected expected);
+void compiler_fail(struct compiler *compiler, enum program_expected expected);
+        /* Something else was expected in place of this token, or of the next one. Only the first mistake counts. */
+
+void compiler_advance(struct compiler *compiler);
+        /* On to the next token. */
+
+bool compiler_takes(struct compiler *compiler, const char *sign);
+        /* Takes this sign if it comes next. */
+
+void compiler_expect(struct compiler *compiler, const char *sign, enum program_expected expected);
+        /* Takes this sign. */
+
+bool compiler_is_word(const struct compiler *compiler, const char *word);
+        /* Whether this word comes next. */
+
+uint16_t compiler_emit(struct compiler *compiler, enum op op, unsigned operand, unsigned count);
+        /* Adds an instruction and returns its place. */
+
+uint16_t compiler_cell(struct compiler *compiler, unsigned count);
+        /* Takes cells and returns the first one. */
+
+uint16_t compiler_name(struct compiler *compiler, const struct token *word, enum name_kind kind);
+        /* The place of a name, which is new if it was not there. */
+
+void compile_expression(struct compiler *compiler);
+        /* An expression, whose value is left on the stack. */
+
+void compile_number(struct compiler *compiler, double number);
+        /* A number, which is left on the stack. */
+
+struct instruction compile_place(struct compiler *compiler, const struct token *word, bool gives);
+        /* After a word that names a variable, a parameter, or an array with an index, which is left on the stack: the instruction
+           that gives it a value, or that loads it. */
+
+unsigned compile_arguments(struct compiler *compiler, const char *close);
+        /* Expressions between commas, up to a sign, or to the end of the statement if that is null. Returns how many. */
+
+bool compiler_ends_statement(const struct compiler *compiler);
+        /* Whether a statement can end here. */
+
+void compile_text(struct compiler *compiler);
+        /* All statements. */
+
+void compile_block(struct compiler *compiler, const struct token *word, int keyword);
+        /* A statement that opens, divides or closes a block. */
+
+void compile_unclosed(struct compiler *compiler);
+        /* Here no block may be open: what begins here is reached by its name alone, or the text ends. */
+
+void compile_label(struct compiler *compiler, const struct token *word);
+void compile_sub(struct compiler *compiler);
+void compile_end_of_sub(struct compiler *compiler);
+void compile_call(struct compiler *compiler, enum name_kind kind);
+void compile_dim(struct compiler *compiler);
+        /* What defines a name, or leads to one. */
+
+void compile_line_end(struct compiler *compiler);
+        /* A line has ended, and with it an if on one line. */
+
+bool compiler_is_reserved(const char *word, size_t len);
+        /* Whether a word is none to be chosen for a name. */
+
+/* Words of the language; those up to KEY_NEXT belong to blocks. */
+enum keyword {
+    KEY_IF, KEY_ELSEIF, KEY_ELSE, KEY_ENDIF, KEY_WHILE, KEY_WEND, KEY_FOR, KEY_NEXT, KEY_GOSUB, KEY_RETURN, KEY_CALL, KEY_SUB,
+    KEY_END, KEY_DIM, KEY_THEN, KEY_TO, KEY_STEP, KEY_AND, KEY_OR, KEY_NOT, KEY_MOD
+};
+
+int compiler_keyword(const char *word, size_t len);
+        /* An enum keyword; -1: it is none. */
+
+#endif

@@ -1,0 +1,191 @@
+#include "host_sim/program/native/machine.h"
+
+#include <stddef.h>
+#include <string.h>
+
+enum { NO_CELL = -1, REST_TICKS = 250 };
+
+/* The first word of the line under way. */
+static void quote_line(const struct program *program, struct program_mistake *mistake)
+{
+    const char *at = program->text;
+    size_t len;
+
+    for (unsigned line = 1; line < mistake->line && strchr(at, '\n'); line++)
+        at = strchr(at, '\n') + 1;
+    at += strspn(at, " \t");
+    len = strcspn(at, " \t\r\n(/\\");
+    len = len < PROGRAM_WORD_MAX ? len : PROGRAM_WORD_MAX - 1;
+    memcpy(mistake->word, at, len);
+    mistake->word[len] = '\0';
+}
+
+void machine_fail(struct machine *machine, enum program_expected expected)
+{
+    struct program *program = machine->program;
+
+    if (program->state != PROGRAM_RUNS)
+        return;
+    program->state = PROGRAM_MISTAKEN;
+    program->mistake = (struct program_mistake){.line = program->line, .expected = (uint8_t)expected};
+    quote_line(program, &program->mistake);
+}
+
+void machine_push(struct machine *machine, double number, int cell)
+{
+    struct program *program = machine->program;
+
+    if (program->stack_count == PROGRAM_STACK_MAX)
+        machine_fail(machine, EXPECTED_PLAIN);
+    else
+        program->stack[program->stack_count++] = (struct program_value){number, (int16_t)cell};
+}
+
+/* The compiler has pushed what is popped, unless the stack was full. */
+double machine_pop(struct machine *machine)
+{
+    struct program *program = machine->program;
+
+    return program->stack_count > program->frame ? program->stack[--program->stack_count].number : 0;
+}
+
+static void binary(struct machine *machine, enum operation operation)
+{
+    double b = machine_pop(machine);
+    double a = operation < DO_NEGATE ? machine_pop(machine) : 0;
+
+    machine_push(machine, machine_operate(machine, operation, a, b), NO_CELL);
+}
+
+static void loop_on(struct machine *machine)
+{
+    double by = machine_pop(machine), limit = machine_pop(machine), at = machine_pop(machine);
+
+    machine_push(machine, by >= 0 ? at <= limit : at >= limit, NO_CELL);
+}
+
+/* Its arguments are the parameters; those that are not by reference come from nowhere. */
+static void call(struct machine *machine, const struct instruction *it)
+{
+    struct program *program = machine->program;
+    const struct program_name *name = &program->names[it->operand];
+    uint8_t base = (uint8_t)(program->stack_count - it->count);
+
+    if (program->call_count == PROGRAM_CALLS_MAX) {
+        machine_fail(machine, EXPECTED_RETURN);
+        return;
+    }
+    program->calls[program->call_count++] = (struct program_call){program->at, program->frame, base};
+    if (it->op == OP_CALL)
+        program->frame = base;
+    for (unsigned i = 0; it->op == OP_CALL && i < it->count; i++)
+        if (!(name->references & 1u << i))
+            machine_parameter(machine, i)->cell = NO_CELL;
+    program->at = name->place;
+}
+
+static void go_back(struct machine *machine)
+{
+    struct program *program = machine->program;
+    struct program_call *from;
+
+    if (program->call_count == 0) {
+        machine_fail(machine, EXPECTED_GOSUB);
+        return;
+    }
+    from = &program->calls[--program->call_count];
+    program->at = from->back;
+    program->frame = from->frame;
+    program->stack_count = from->stack;
+}
+
+/* Where to go on. False: it is another instruction. */
+static bool leads(struct machine *machine, const struct instruction *it)
+{
+    struct program *program = machine->program;
+
+    switch (it->op) {
+    case OP_JUMP:
+        program->at = it->operand;
+        return true;
+    case OP_JUMP_IF_NOT:
+        program->at = machine_pop(machine) != 0 ? program->at : it->operand;
+        return true;
+    case OP_FOR:
+        loop_on(machine);
+        return true;
+    case OP_GOSUB:
+    case OP_CALL:
+        call(machine, it);
+        return true;
+    case OP_RETURN:
+        go_back(machine);
+        return true;
+    case OP_FALL:
+        machine_fail(machine, EXPECTED_END);
+        return true;
+    case OP_END:
+        program->state = PROGRAM_ENDED;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static void execute(struct machine *machine, const struct instruction *it)
+{
+    if (machine_moves(machine, it) || leads(machine, it))
+        return;
+    if (it->op == OP_FUNCTION)
+        machine_function(machine, (enum function)it->operand, it->count);
+    else if (it->op == OP_COMMAND)
+        machine_command(machine, (enum deed)it->operand, it->count);
+    else if (it->op == OP_SHOW_NUMBER)
+        machine_show_number(machine, machine_pop(machine));
+    else if (it->op == OP_SHOW_TEXT)
+        machine_show_text(machine, machine->program->text + it->operand, it->count);
+    else if (it->op == OP_DIM)
+        machine_clear(machine, &machine->program->names[it->operand]);
+    else
+        binary(machine, (enum operation)it->operand);
+}
+
+static void run(struct machine *machine)
+{
+    struct program *program = machine->program;
+
+    for (unsigned steps = 0; program->state == PROGRAM_RUNS && !machine->acts; steps++) {
+        if (steps == PROGRAM_STEPS_MAX)
+            machine_fail(machine, EXPECTED_ACTION);
+        else
+            execute(machine, &program->code[program->at++]);
+    }
+}
+
+struct action program_next(struct program *program, struct brain *brain, const struct config *config,
+                           const struct senses *senses)
+{
+    struct machine machine = {.program = program, .brain = brain, .config = config, .senses = senses};
+
+    machine_take_memory(&machine);
+    machine_reckon(&machine);
+    if (!machine_continue(&machine)) {
+        program->trace_count = 0;
+        memcpy(program->before, program->cells, sizeof program->before);
+        run(&machine);
+    }
+    if (!machine.acts)
+        machine.action = (struct action){.reason = REASON_PROGRAM, .rest_ticks = REST_TICKS};
+    return machine.action;
+}
+
+/* What program_compile leaves without code never runs. */
+void program_begin(struct program *program)
+{
+    size_t first = offsetof(struct program, state);
+
+    memset((char *)program + first, 0, sizeof *program - first);
+    program->state = program->code_count > 0 ? PROGRAM_RUNS : PROGRAM_MISTAKEN;
+    if (program->code_count > 0)
+        program->mistake = (struct program_mistake){.expected = EXPECTED_NOTHING};
+}

@@ -1,0 +1,130 @@
+/* program.h: a robot's brain in the language of the article's listing. docs/language.md has the language.
+ *
+ * A program is compiled into instructions for a machine with a stack. The machine runs until the program wants the robot to do
+ * something, and goes on from there when that has ended: it waits for nothing, and needs no thread. The caller provides all
+ * memory. */
+#ifndef OCTET_PROGRAM_H
+#define OCTET_PROGRAM_H
+
+#include <stddef.h>
+
+#include "firmware/brain.h"
+
+enum {
+    PROGRAM_TEXT_MAX = 16384,    /* bytes of a program, with a 0 after it */
+    PROGRAM_CODE_MAX = 4096,     /* instructions */
+    PROGRAM_NUMBERS_MAX = 256,   /* different numbers that are written in it */
+    PROGRAM_NAMES_MAX = 192,     /* variables, arrays, labels and subs */
+    PROGRAM_CELLS_MAX = 1024,    /* variables and cells of arrays */
+    PROGRAM_STACK_MAX = 64,      /* values that are yet to be used, and parameters */
+    PROGRAM_CALLS_MAX = 32,      /* gosub or call without its return */
+    PROGRAM_ARGUMENTS_MAX = 8,   /* of a call */
+    PROGRAM_STEPS_MAX = 200000,  /* instructions without anything for the robot to do: then it loops for ever */
+    PROGRAM_TRACE_MAX = 256,     /* steps of the last decision that are kept */
+    PROGRAM_SHOWN_MAX = 16,      /* places of the screen with a text */
+    PROGRAM_SHOWN_TEXT = 48,     /* bytes of such a text, with a 0 after it */
+    PROGRAM_WORD_MAX = 32        /* bytes of a word in a mistake, with a 0 after it */
+};
+
+/* What would have been right; program_expected has it in words. */
+enum program_expected {
+    EXPECTED_NOTHING, EXPECTED_STATEMENT, EXPECTED_VALUE, EXPECTED_LINE_END, EXPECTED_CLOSE, EXPECTED_BRACKET, EXPECTED_QUOTE,
+    EXPECTED_EQUALS, EXPECTED_TO, EXPECTED_NAME, EXPECTED_COMMA, EXPECTED_ENDIF, EXPECTED_WEND, EXPECTED_NEXT, EXPECTED_IF,
+    EXPECTED_WHILE, EXPECTED_FOR, EXPECTED_LABEL, EXPECTED_SUB, EXPECTED_GIVEN, EXPECTED_DIM, EXPECTED_NEW_NAME, EXPECTED_SIZE,
+    EXPECTED_PLAIN, EXPECTED_SHORTER, EXPECTED_END, EXPECTED_INDEX, EXPECTED_SIDE, EXPECTED_ACTION, EXPECTED_RETURN,
+    EXPECTED_GOSUB, EXPECTED_ARGUMENTS, EXPECTED_DIVISOR, EXPECTED_DEGREES, EXPECTED_WAY, EXPECTED_DELAY, EXPECTED_CHOICES, EXPECTED_AHEAD,
+    EXPECTED_COUNT
+};
+
+struct program_mistake {
+    uint16_t line;                  /* from 1 */
+    uint8_t expected;               /* an enum program_expected; EXPECTED_NOTHING: there is no mistake */
+    char word[PROGRAM_WORD_MAX];    /* what is there instead; empty at the end of a line */
+};
+
+struct instruction {
+    uint8_t op;         /* an enum op of code.h */
+    uint8_t count;      /* of arguments */
+    uint16_t operand;
+};
+
+enum name_kind { NAME_VARIABLE, NAME_ARRAY, NAME_LABEL, NAME_SUB };
+
+struct program_name {
+    uint16_t at, len;       /* in the text */
+    uint16_t line;          /* where it is used first */
+    uint16_t place;         /* its cell or its first cell; of a label or a sub, its instruction */
+    uint16_t size;          /* cells */
+    uint8_t kind;           /* an enum name_kind */
+    uint8_t parameters;     /* of a sub, */
+    uint8_t references;     /* and bit i for its i-th parameter if it is one by reference */
+    bool given;             /* defined, or given a value somewhere */
+};
+
+struct program_value {
+    double number;
+    int16_t cell;           /* where it comes from; -1: from no variable */
+};
+
+struct program_call {
+    uint16_t back;          /* the instruction after the call */
+    uint8_t frame, stack;   /* the caller's first parameter and the height of its stack */
+};
+
+/* One step: at this line, and, unless cell is negative, with this value for a cell. */
+struct program_step {
+    uint16_t line;
+    int16_t cell;
+    double number;
+};
+
+struct program_shown {
+    double x, y;
+    char text[PROGRAM_SHOWN_TEXT];   /* empty: nothing is shown here */
+};
+
+enum program_state { PROGRAM_RUNS, PROGRAM_ENDED, PROGRAM_MISTAKEN };
+
+struct program {
+    char text[PROGRAM_TEXT_MAX];
+    struct instruction code[PROGRAM_CODE_MAX];
+    double numbers[PROGRAM_NUMBERS_MAX];
+    struct program_name names[PROGRAM_NAMES_MAX];
+    uint16_t code_count, number_count, name_count, cell_count;
+    uint16_t memory;                       /* the first cell of Mem, */
+    bool learns;                           /* if the program has it */
+    struct program_mistake mistake;
+
+    /* From here on it is what program_begin resets. */
+    uint8_t state;                         /* an enum program_state */
+    uint16_t at, line;                     /* the next instruction; the line under way */
+    uint8_t stack_count, call_count, frame, shown_at;
+    double cells[PROGRAM_CELLS_MAX];
+    struct program_value stack[PROGRAM_STACK_MAX];
+    struct program_call calls[PROGRAM_CALLS_MAX];
+    struct program_shown shown[PROGRAM_SHOWN_MAX];
+    struct program_step trace[PROGRAM_TRACE_MAX];
+    uint16_t trace_count;
+    double before[PROGRAM_CELLS_MAX];      /* the cells when the last decision began */
+    int32_t way_left_mm, rest_left;        /* of the command under way: way still to go, ticks still to rest */
+    double x_mm, y_mm;                     /* where the robot reckons it is, */
+    int32_t heading_deg, turned_deg;       /* and where to, right of up; the turn under way */
+    uint16_t odometer_left, odometer_right;
+    bool felt;                             /* rFeel was asked since the last action */
+    bool reckons;                          /* the odometers above are valid */
+};
+
+bool program_compile(struct program *program, const char *text, size_t len);
+        /* Compiles a program, ready to begin. False: program->mistake says what is wrong, and the program does nothing. */
+
+void program_begin(struct program *program);
+        /* From the top, with all variables 0. A program with a mistake does nothing. */
+
+struct action program_next(struct program *program, struct brain *brain, const struct config *config,
+                           const struct senses *senses);
+        /* As brain_next. A program that has ended, or that has made a mistake, rests. */
+
+const char *program_expected(uint8_t expected);
+        /* What an enum program_expected is in words. */
+
+#endif

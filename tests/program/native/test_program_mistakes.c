@@ -1,0 +1,171 @@
+#include "tests/program/native/program_rig.h"
+
+#include <string.h>
+
+#include "tests/test.h"
+
+void setUp(void)
+{
+    rig_reset();
+}
+
+static const struct {
+    const char *text;
+    unsigned line;
+    const char *word;
+    enum program_expected expected;
+} mistakes[] = {
+    {"rTrun 10", 1, "rTrun", EXPECTED_STATEMENT},
+    {"x=1\n 5 = x", 2, "5", EXPECTED_STATEMENT},
+    {"then", 1, "then", EXPECTED_STATEMENT},
+    {"x = ", 1, "", EXPECTED_VALUE},
+    {"x = while", 1, "while", EXPECTED_VALUE},
+    {"x = rFell()", 1, "rFell", EXPECTED_VALUE},
+    {"x = \"a\"", 1, "a", EXPECTED_VALUE},
+    {"x = 1 2", 1, "2", EXPECTED_LINE_END},
+    {"if 1 x = 2", 1, "x", EXPECTED_LINE_END},
+    {"x = (1 + 2", 1, "", EXPECTED_CLOSE},
+    {"x = random(1", 1, "", EXPECTED_CLOSE},
+    {"dim a[3]\nx = a[1", 2, "", EXPECTED_BRACKET},
+    {"dim a", 1, "", EXPECTED_BRACKET},
+    {"xyString 1,1,\"never ends\nx=1", 1, "never ends", EXPECTED_QUOTE},
+    {"for i 1 to 2\nnext", 1, "1", EXPECTED_EQUALS},
+    {"dim a[2]\na[1]++", 2, "++", EXPECTED_EQUALS},
+    {"for i = 1\nnext", 1, "", EXPECTED_TO},
+    {"for 1 = 1 to 2\nnext", 1, "1", EXPECTED_NAME},
+    {"dim a[2]\nfor a[1] = 1 to 2\nnext", 2, "a", EXPECTED_NAME},
+    {"rForward = 3", 1, "=", EXPECTED_VALUE},
+    {"Green = 3", 1, "Green", EXPECTED_NAME},
+    {"gosub 5", 1, "5", EXPECTED_NAME},
+    {"call", 1, "", EXPECTED_NAME},
+    {"sub", 1, "", EXPECTED_NAME},
+    {"dim if[3]", 1, "if", EXPECTED_NAME},
+    {"sub A(1)", 1, "1", EXPECTED_NAME},
+    {"sub A(a,b,c,d,e,f,g,h,i)", 1, "i", EXPECTED_NAME},
+    {"xyString 1", 1, "", EXPECTED_COMMA},
+    {"x=1\nif x\nx=2", 2, "if", EXPECTED_ENDIF},
+    {"while 1\nx=2", 1, "while", EXPECTED_WEND},
+    {"for i = 1 to 2", 1, "for", EXPECTED_NEXT},
+    {"while 1\nA:\nwend", 1, "while", EXPECTED_WEND},
+    {"endif", 1, "endif", EXPECTED_IF},
+    {"if 1\nelse\nelse\nendif", 3, "else", EXPECTED_IF},
+    {"if 1\nwend", 2, "wend", EXPECTED_WHILE},
+    {"next", 1, "next", EXPECTED_FOR},
+    {"gosub Nowhere", 1, "Nowhere", EXPECTED_LABEL},
+    {"call Nobody(1)", 1, "Nobody", EXPECTED_SUB},
+    {"x = 1\ny = z", 2, "z", EXPECTED_GIVEN},
+    {"a[1] = 2", 1, "a", EXPECTED_DIM},
+    {"A:\nA:", 2, "A", EXPECTED_NEW_NAME},
+    {"delay:", 1, "delay", EXPECTED_NEW_NAME},
+    {"dim a[0]", 1, "0", EXPECTED_SIZE},
+    {"dim a[x]", 1, "x", EXPECTED_SIZE},
+    {"dim Mem[9]", 1, "9", EXPECTED_SIZE},
+    {"dim a[1000]\ndim b[1000]", 2, "", EXPECTED_SHORTER},
+    {"x = ((((((((((((((((((((((((((1))))))))))))))))))))))))))", 1, "(", EXPECTED_PLAIN},
+    {"x = random()", 1, "random", EXPECTED_ARGUMENTS},
+    {"x = rFeel(1)", 1, "rFeel", EXPECTED_ARGUMENTS},
+    {"rTurn", 1, "rTurn", EXPECTED_ARGUMENTS},
+    {"rTurn 1,2", 1, "rTurn", EXPECTED_ARGUMENTS},
+    {"x=1\ncall A(1)\nend\nsub A(a,b)\nreturn", 2, "A", EXPECTED_ARGUMENTS},
+    {"x = 1\nsub A()", 1, "x", EXPECTED_END},
+    {"dim a[3]\nx = a[3]", 2, "x", EXPECTED_INDEX},
+    {"dim a[3]\na[-1] = 1", 2, "a[-1]", EXPECTED_INDEX},
+    {"Mem[2] = 3", 1, "Mem[2]", EXPECTED_SIDE},
+    {"Mem[0] = 1", 1, "Mem[0]", EXPECTED_SIDE},
+    {"while 1\nwend", 1, "while", EXPECTED_ACTION},
+    {"A:\ngosub A", 2, "gosub", EXPECTED_RETURN},
+    {"call A(1)\nend\nsub A(x)\n  call A(x)", 4, "call", EXPECTED_RETURN},
+    {"return", 1, "return", EXPECTED_GOSUB},
+    {"x = 1 / 0", 1, "x", EXPECTED_DIVISOR},
+    {"x = 1 mod 0.5", 1, "x", EXPECTED_DIVISOR},
+    {"rTurn 721", 1, "rTurn", EXPECTED_DEGREES},
+    {"rForward 801", 1, "rForward", EXPECTED_WAY},
+    {"delay -1", 1, "delay", EXPECTED_DELAY},
+    {"delay 60001", 1, "delay", EXPECTED_DELAY},
+    {"x = random(0)", 1, "x", EXPECTED_CHOICES},
+    {"x = rLook(45)", 1, "x", EXPECTED_AHEAD},
+};
+
+TEST(each_mistake_has_its_line_its_word_and_what_was_expected)
+{
+    for (unsigned i = 0; i < sizeof mistakes / sizeof *mistakes; i++)
+        rig_fails(mistakes[i].text, mistakes[i].line, mistakes[i].word, mistakes[i].expected);
+}
+
+TEST(everything_that_can_be_expected_is_expected_somewhere)
+{
+    bool seen[EXPECTED_COUNT] = {true};
+
+    for (unsigned i = 0; i < sizeof mistakes / sizeof *mistakes; i++)
+        seen[mistakes[i].expected] = true;
+    for (unsigned i = 0; i < EXPECTED_COUNT; i++)
+        TEST_ASSERT_TRUE_MESSAGE(seen[i], program_expected((uint8_t)i));
+    TEST_ASSERT_EQUAL_STRING(program_expected(EXPECTED_NOTHING), program_expected(EXPECTED_COUNT));
+}
+
+/* A program of count times this text. */
+static void is_too_much(const char *before, const char *text, unsigned count, enum program_expected expected)
+{
+    static char all[2 * PROGRAM_TEXT_MAX];
+    size_t used = strlen(strcpy(all, before));
+
+    for (unsigned i = 0; i < count; i++) {
+        size_t len = strlen(text);
+
+        memcpy(all + used, text, len);
+        for (char *at = all + used; (at = memchr(at, '?', len)) && at < all + used + len; at++)
+            *at = (char)('a' + i % 26);
+        for (char *at = all + used; (at = memchr(at, '!', len)) && at < all + used + len; at++)
+            *at = (char)('a' + i / 26);
+        used += len;
+    }
+    TEST_ASSERT_FALSE(program_compile(&program, all, used));
+    TEST_ASSERT_EQUAL_STRING(program_expected((uint8_t)expected), program_expected(program.mistake.expected));
+    TEST_ASSERT_EQUAL(REASON_PROGRAM, rig_next().reason);
+}
+
+TEST(what_there_is_no_room_for_is_refused)
+{
+    is_too_much("", "xxxxx = 12345678\n", 1200, EXPECTED_SHORTER);
+    is_too_much("", "x=1+1\n", 1000, EXPECTED_SHORTER);
+    is_too_much("", "!?x=1\n", 300, EXPECTED_SHORTER);
+    is_too_much("", "while 1\n", 40, EXPECTED_PLAIN);
+}
+
+TEST(too_many_numbers_are_refused)
+{
+    static char all[PROGRAM_TEXT_MAX];
+    size_t used = 0;
+
+    for (unsigned i = 0; i < 300; i++) {
+        const char digits[] = {'x', '=', (char)('1' + i / 100), (char)('0' + i / 10 % 10), (char)('0' + i % 10), '\n'};
+
+        memcpy(all + used, digits, sizeof digits);
+        used += sizeof digits;
+    }
+    TEST_ASSERT_FALSE(program_compile(&program, all, used));
+    TEST_ASSERT_EQUAL(EXPECTED_SHORTER, program.mistake.expected);
+    TEST_ASSERT_EQUAL(257, program.mistake.line);
+}
+
+TEST(a_long_word_is_quoted_in_part_and_no_letter_is_split)
+{
+    rig_fails("abcdefghijklmnopqrstuvwxyzabcdefghijklmnop 1", 1, "abcdefghijklmnopqrstuvwxyzabcde", EXPECTED_STATEMENT);
+    rig_fails("x = \"abcdefghijklmnopqrstuvwxyzabcd\xc3\xa4\xc3\xa4\"", 1, "abcdefghijklmnopqrstuvwxyzabcd", EXPECTED_VALUE);
+}
+
+TEST(a_zero_in_a_text_is_refused)
+{
+    TEST_ASSERT_FALSE(program_compile(&program, "x=1\0y=2", 7));
+    TEST_ASSERT_EQUAL(EXPECTED_SHORTER, program.mistake.expected);
+}
+
+TEST(a_program_that_was_stopped_by_a_mistake_begins_anew)
+{
+    rig_fails("x = 1 / Mem[1]", 1, "x", EXPECTED_DIVISOR);
+    brain.memory.cell[1] = SIDE_LEFT;
+    program_begin(&program);
+    (void)rig_next();
+    TEST_ASSERT_EQUAL(PROGRAM_ENDED, program.state);
+    TEST_ASSERT_EQUAL(EXPECTED_NOTHING, program.mistake.expected);
+}

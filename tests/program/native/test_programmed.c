@@ -1,0 +1,98 @@
+#include "host_sim/program/native/programmed.h"
+
+#include <string.h>
+
+#include "tests/test.h"
+
+static struct octet *octet;
+static struct input in;
+static struct output out;
+
+static void open(const char *text)
+{
+    static const uint8_t nothing[CELL_COUNT];
+
+    octet = programmed_open(3, nothing, text, strlen(text));
+    TEST_ASSERT_NOT_NULL(octet);
+    in = (struct input){.command = {.opcode = OPCODE_START, .which = PROFILE_ARTICLE, .value = 1}};
+    octet->respond(&octet->robot, INPUT_COMMAND, &in, &out);
+}
+
+static void tick(uint8_t feel)
+{
+    in.senses.tick++;
+    in.senses.feel = feel;
+    octet->respond(&octet->robot, INPUT_SENSES, &in, &out);
+}
+
+void tearDown(void)
+{
+    octet_close(octet);
+}
+
+TEST(the_wheels_do_what_the_program_says)
+{
+    open("rForward 100\n");
+    tick(0);
+    TEST_ASSERT_EQUAL(RESULT_DONE, out.answer);
+    TEST_ASSERT_EQUAL(200, out.drive.left_mm_s);
+    TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
+}
+
+TEST(what_it_puts_into_mem_is_reported_and_stored)
+{
+    open("Mem[4] = 2\ndelay 100");
+    tick(0);
+    TEST_ASSERT_TRUE(out.has_memory);
+    TEST_ASSERT_TRUE(out.store);
+    TEST_ASSERT_EQUAL(SIDE_RIGHT, out.memory[4]);
+}
+
+TEST(a_start_begins_the_program_anew)
+{
+    open("x = x + 1\nrForward 100\nrTurn 5");
+    tick(0);
+    in.command = (struct command){.opcode = OPCODE_START, .which = PROFILE_ARTICLE, .value = 1};
+    octet->respond(&octet->robot, INPUT_COMMAND, &in, &out);
+    TEST_ASSERT_EQUAL(1, programmed_state(octet)->code_count > 0);
+    TEST_ASSERT_EQUAL_DOUBLE(0, programmed_state(octet)->cells[0]);
+}
+
+TEST(another_behaviour_is_refused)
+{
+    open("rForward 1");
+    in.command = (struct command){.opcode = OPCODE_START, .which = PROFILE_NEVER, .value = 1};
+    octet->respond(&octet->robot, INPUT_COMMAND, &in, &out);
+    TEST_ASSERT_EQUAL(RESULT_UNKNOWN_PROFILE, out.answer);
+}
+
+TEST(a_robot_with_a_mistake_rests_and_says_so)
+{
+    char told[PROGRAMMED_TOLD_MAX];
+
+    open("x = 1\nrTrun 5");
+    tick(0);
+    TEST_ASSERT_EQUAL(0, out.drive.left_mm_s);
+    TEST_ASSERT_EQUAL(REASON_PROGRAM, out.drive.reason);
+    programmed_tell(programmed_state(octet), told);
+    TEST_ASSERT_EQUAL_STRING("line 2: \"rTrun\": expected a command, a label, or a variable with = after it", told);
+}
+
+TEST(it_tells_its_end_and_what_it_shows)
+{
+    char told[PROGRAMMED_TOLD_MAX];
+
+    open("xyString 1,1,\"a\"\nxyString 2,1,\"b\"\nend");
+    tick(0);
+    programmed_tell(programmed_state(octet), told);
+    TEST_ASSERT_EQUAL_STRING("it has ended; it shows a | b", told);
+}
+
+TEST(a_line_that_ends_too_soon_is_told)
+{
+    char told[PROGRAMMED_TOLD_MAX];
+
+    open("x =");
+    programmed_tell(programmed_state(octet), told);
+    TEST_ASSERT_EQUAL_STRING("line 1: the line ends: expected a number, a variable or a function", told);
+}

@@ -1,0 +1,108 @@
+"""Robots whose brain is a program: docs/language.md."""
+
+import hashlib
+from pathlib import Path
+
+import pytest
+
+from host_sim.api import RunConfig, UsageError, run
+from host_sim.base.paths import ROOT
+from host_sim.cli.main import main
+
+EXAMPLES = ROOT / "host_sim/program/examples"
+ARTICLE = EXAMPLES / "article.bas"
+
+
+def test_the_figures_stand_as_they_were_printed():
+    figures = ARTICLE.read_text().partition("// What the article has in its downloads")[0]
+
+    assert hashlib.sha256(figures.encode()).hexdigest()[:16] == "d4d25e444d14bb1c"
+
+
+@pytest.mark.parametrize("seed", range(1, 21))
+def test_the_article_s_program_learns_the_cells_that_the_firmware_learns(seed):
+    program = run(RunConfig(seed=seed, program=str(ARTICLE)))
+
+    assert program.memories == run(RunConfig(seed=seed)).memories
+
+
+@pytest.fixture
+def without_pause(tmp_path):
+    """The article's program, but for the pause between two environments, which the firmware does not make."""
+    program = tmp_path / "article.bas"
+    program.write_text(ARTICLE.read_text().replace("delay 2000", "delay 0"))
+    return str(program)
+
+
+@pytest.mark.parametrize("seed", [1, 4, 7])
+def test_without_its_pause_it_sends_the_firmware_s_frames_byte_for_byte(seed, without_pause):
+    program = run(RunConfig(seed=seed, program=without_pause))
+
+    assert program.log_sha256 == run(RunConfig(seed=seed)).log_sha256
+
+
+def test_on_a_real_body_it_goes_the_firmware_s_way(without_pause):
+    program = run(RunConfig(seed=2, environments=1, body="kit", program=without_pause))
+
+    assert program.log_sha256 == run(RunConfig(seed=2, environments=1, body="kit")).log_sha256
+
+
+def test_behind_a_link_it_sends_the_same_frames():
+    config = {"seed": 3, "environments": 2, "program": str(ARTICLE)}
+
+    assert run(RunConfig(bus="fd", **config)).log_sha256 == run(RunConfig(**config)).log_sha256
+
+
+def test_several_robots_have_a_program_each():
+    done = run(RunConfig(seed=1, environments=1, robots=3, program=str(ARTICLE)))
+
+    assert len(set(done.memories)) > 1
+
+
+@pytest.mark.parametrize("name", [path.name for path in EXAMPLES.iterdir()])
+def test_each_example_has_no_mistake(name):
+    run(RunConfig(environments=1, limit_s=10, program=str(EXAMPLES / name)))
+
+
+def written(folder: Path, text: str) -> str:
+    path = folder / "own.bas"
+    path.write_text(text)
+    return str(path)
+
+
+def test_a_mistake_is_told_with_its_line_before_anything_is_begun(tmp_path, capsys):
+    program = written(tmp_path, "x = 1\nrTrun 5\n")
+    out = tmp_path / "out"
+
+    assert main(["run", "--program", program, "--out", str(out), "--bus", "none"]) == 2
+
+    told = capsys.readouterr()
+    expected = "expected a command, a label, or a variable with = after it"
+    assert told.err == f'octet: {program}, line 2: "rTrun": {expected}\n'
+    assert not (out / "run.log").exists()
+
+
+@pytest.mark.parametrize("bus", ["none", "fd"])
+def test_a_program_that_loops_for_ever_is_stopped_and_told(bus, tmp_path, capsys):
+    program = written(tmp_path, "rForward 2\nwhile true\nwend\n")
+
+    short = ["--environments", "1", "--limit-s", "9"]
+    assert main(["run", "--program", program, "--out", str(tmp_path), "--bus", bus, *short]) == 0
+
+    assert 'line 2: "while": expected rForward, rTurn or delay in the loop' in capsys.readouterr().out
+
+
+def test_a_file_that_cannot_be_a_program_is_refused(tmp_path):
+    with pytest.raises(UsageError, match=r"no\.bas"):
+        run(RunConfig(program=str(tmp_path / "no.bas")))
+    with pytest.raises(UsageError, match=r"own\.bas"):
+        run(RunConfig(program=written(tmp_path, "x = 1\n" * 3000)))
+
+
+@pytest.mark.parametrize(
+    "other",
+    [["--robot", "qemu"], ["--profile", "never"], ["--robot-command", "true", "--bus", "fd"], ["--robots", "40"]],
+)
+def test_what_does_not_go_with_a_program_is_refused(other, capsys):
+    assert main(["run", "--program", str(ARTICLE), *other]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
