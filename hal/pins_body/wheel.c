@@ -7,6 +7,7 @@ enum {
     LEAD_2 = 3,                /* twice 60 ms / (8 periods of 5 ms): feed-forward inverts the motor */
     BEHIND_MAX_UM = 4000,
     BATTERY_MIN_MV = 3000,     /* less is no measurement */
+    PRECISION = 4096,          /* of what the duty gains at a lower voltage */
     STILL_DUTY = 1000,         /* less is not worth a jump over the dead band */
     UNIT_256 = 25600,          /* a unit of the odometer, 0.1 mm */
     SPAN_256 = ODOMETER_SPAN * UNIT_256
@@ -17,6 +18,16 @@ static int32_t limited(int32_t x, int32_t limit)
     return x > limit ? limit : x < -limit ? -limit : x;
 }
 
+/* What a duty has to be multiplied by at this voltage. It seldom changes. */
+static int32_t stronger(struct wheel *wheel, uint32_t battery_mv)
+{
+    if (battery_mv != wheel->battery_mv || !wheel->known) {
+        wheel->battery_mv = battery_mv;
+        wheel->stronger = battery_mv < BATTERY_MIN_MV ? PRECISION : WHEEL_NOMINAL_MV * PRECISION / (int32_t)battery_mv;
+    }
+    return wheel->stronger;
+}
+
 /* How far the wheel has rolled since the last period, um. */
 static int32_t moved_um(struct wheel *wheel, uint16_t count)
 {
@@ -24,7 +35,9 @@ static int32_t moved_um(struct wheel *wheel, uint16_t count)
     int32_t way_256 = counts * WHEEL_COUNT_256 + wheel->rest_256;
     int32_t way_um = way_256 / 256;
 
-    wheel->way_256 = (wheel->way_256 + counts * WHEEL_COUNT_256) % SPAN_256;
+    wheel->way_256 += counts * WHEEL_COUNT_256;
+    if (wheel->way_256 >= SPAN_256 || wheel->way_256 <= -SPAN_256)
+        wheel->way_256 %= SPAN_256;
     wheel->rest_256 = way_256 - way_um * 256;
     wheel->count = count;
     wheel->known = true;
@@ -33,7 +46,7 @@ static int32_t moved_um(struct wheel *wheel, uint16_t count)
 
 int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32_t battery_mv)
 {
-    int32_t told_um = told_mm_s * WHEEL_PERIOD_MS, missing_256 = told_um * 256 - wheel->model_256;
+    int32_t part = stronger(wheel, battery_mv), told_um = told_mm_s * WHEEL_PERIOD_MS, missing_256 = told_um * 256 - wheel->model_256;
     int32_t model_um = wheel->model_256 / 256, error_um = model_um - moved_um(wheel, count);
     int32_t behind_um = limited(wheel->behind_um + error_um, BEHIND_MAX_UM), duty, out;
 
@@ -46,8 +59,7 @@ int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32
         duty -= WHEEL_DEAD;
     else
         duty = 0;
-    if (battery_mv >= BATTERY_MIN_MV)
-        duty = limited(duty, WHEEL_DUTY_MAX * 2) * (WHEEL_NOMINAL_MV / 100) / (int32_t)(battery_mv / 100);
+    duty = limited(duty, WHEEL_DUTY_MAX * 2) * part / PRECISION;
     out = limited(duty, WHEEL_DUTY_MAX);
     if (out == duty)   /* no more is gathered while the motor cannot give more */
         wheel->behind_um = behind_um;

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import BUILD, ROOT
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
-from host_sim.world.body_kinds import BodyKind
+from host_sim.world.body_kinds import BodyKind, draw_body
 from host_sim.world.geometry import Capsule, Pose
 from host_sim.world.layouts import Layout
 from host_sim.world.native_library import load_native
@@ -88,7 +88,7 @@ class NativeFleet:
         """
         robot = self._robots[index]
         if self._kind is not None:
-            kit = self._kits[index] = self._kind.draw(seed, 0)
+            kit = self._kits[index] = draw_body(self._kind, seed, 0)
             kit.ranges = self._ranges + index // self._each
             self._bodies[index].kit = self._ffi.cast("struct kit *", _address(kit))
         self._library.fleet_wake(self._ffi.addressof(robot))

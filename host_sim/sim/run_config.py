@@ -198,8 +198,9 @@ class RunConfig:
         (),
         "schedule a change: NAME@120s, NAME@env6 or NAME@env6+20s of robot time, where NAME is plant, grow, "
         "swap-motors, mirror, stuck-on:SENSOR, stuck-off:SENSOR, noise:10/1000, weak-motor:left:60%, "
-        "swap-odometers, odometer:left:0%, false-beacon:100 or repair, and /2 at the end means only the second "
-        "robot; or a file with one change per line; may be repeated",
+        "swap-odometers, odometer:left:0%, false-beacon:100, lag:60ms, slack:3deg, slip:5%, latency:1, dark-wall, "
+        "weak-battery or repair, and /2 at the end means only the second robot; or a file with one change per line; "
+        "may be repeated",
         flag="--change",
         metavar="CHANGE",
         fleet=False,

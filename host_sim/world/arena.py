@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from host_sim.protocol.generated import Ranges
 from host_sim.world.body import Body
-from host_sim.world.body_kinds import BodyKind
+from host_sim.world.body_kinds import BodyKind, draw_body
 from host_sim.world.edit_json import edit_in_c
 from host_sim.world.edits import Edit, EditError
 from host_sim.world.geometry import Point
@@ -115,8 +115,7 @@ class Arena:
             body.lifted = bool(in_c.lifted)
 
     def begin(self, seed: int) -> None:
-        """Makes all bodies sound and, where they are not ideal, draws them from a seed."""
+        """Makes all bodies sound, and draws what is particular to each from a seed."""
         for index, body in enumerate(self.bodies):
             body.add_fault("repair")
-            if self._kind is not None:
-                body.become(self._kind.draw(seed, index))
+            body.become(draw_body(self._kind, seed, index))

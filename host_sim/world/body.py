@@ -23,7 +23,7 @@ class Body:
     Attributes:
         lifted: Whether a person holds it in the air: its wheels turn, but it does not move or sense anything.
         faults: What is wrong with it, a `struct body_faults`.
-        kit: What makes it a real one, a `struct kit *`; None: it is ideal.
+        kit: What is particular to it, a `struct kit *`.
     """
 
     def __init__(self, inside: NativeWorld, index: int, before: "Body | None" = None) -> None:
@@ -43,18 +43,15 @@ class Body:
         self._sensed: Any = inside.ffi.new("struct senses *")
         self._sensed_bytes = inside.ffi.buffer(self._sensed)
         self.faults: Any = self._body.faults
-        self.kit: Any = None
         if before is not None:
             self._body.faults = before.faults
             self._body.left_mm, self._body.right_mm = before.odometer
-            self.become(before.kit)
+        self.become(inside.ffi.new("struct kit *") if before is None else before.kit)
 
     def become(self, kit: Any) -> None:
-        """Makes it a body of a kind, or, with None, an ideal one."""
-        self.kit = kit
-        self._body.kit = self._ffi.NULL if kit is None else kit
-        if kit is not None:
-            kit.ranges = self._inside.kit_ranges
+        """Makes it a body of a kind: a `struct kit *`."""
+        self.kit = self._body.kit = kit
+        kit.ranges = self._inside.kit_ranges
 
     @property
     def pose(self) -> Pose:
@@ -114,6 +111,7 @@ class Body:
             ValueError: There is no such fault.
         """
         add_fault(self._ffi.addressof(self.faults), what, seed, self._index)
+        self._library.kit_suffer(self.kit, self._ffi.addressof(self.faults))
 
 
 @cache

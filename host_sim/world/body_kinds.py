@@ -12,7 +12,6 @@ from host_sim.world.world_library import world_library
 
 IDEAL, KIT = "ideal", "kit"
 _VALUES = 2  # a value, and its tolerance
-_KEY_SPAN = 10_000
 
 
 @dataclass(frozen=True)
@@ -25,23 +24,27 @@ class BodyKind:
 
     traits: Mapping[str, tuple[float, float]]
 
-    def draw(self, seed: int, robot: int) -> Any:
-        """A robot's own body, a `struct kit *`.
-
-        Args:
-            seed: Seed of the run.
-            robot: Number of the robot, from 0.
-        """
-        ffi, library = world_library()
-        kit = ffi.new("struct kit *")
-        library.kit_draw(kit, *zip(*self.traits.values(), strict=True), seed * _KEY_SPAN + robot + 1 << 8)
-        return kit
-
     def reach(self, params: SimParams) -> SimParams:
         """The dimensions of a world whose cones reach as far as any sensor of these bodies."""
         farthest = max(sum(self.traits[name]) for name in self.traits if name in _SENSORS)
         more = sum(sum(self.traits[name]) for name in ("hysteresis_mm", "noise_mm"))
         return replace(params, sensor_reach_mm=farthest + more + 1, front_extra_mm=0.0)
+
+
+def draw_body(kind: BodyKind | None, seed: int, robot: int) -> Any:
+    """A robot's own body, a `struct kit *`.
+
+    Args:
+        kind: What it is like; None: ideal.
+        seed: Seed of the run.
+        robot: Number of the robot, from 0.
+    """
+    ffi, library = world_library()
+    kit, traits = ffi.new("struct kit *"), ffi.NULL
+    if kind is not None:
+        traits = ffi.new("struct kit_kind *", [*zip(*kind.traits.values(), strict=True)])
+    library.kit_draw(kit, traits, seed, robot)
+    return kit
 
 
 _SENSORS = ("right_mm", "front_right_mm", "front_mm", "front_left_mm", "left_mm")

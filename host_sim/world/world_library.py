@@ -19,7 +19,7 @@ HEADERS = (
     *WORLD_HEADERS,
     *(_NATIVE / f"{name}.h" for name in ("body", "ranges", "draw/draws", "clearance")),
     *_DRAW,
-    *(_NATIVE / f"{name}.h" for name in ("furniture", "edits", "history", "kit")),
+    *(_NATIVE / f"{name}.h" for name in ("furniture", "edits", "history", "kit/kit")),
 )
 
 

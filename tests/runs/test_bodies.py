@@ -7,7 +7,7 @@ from host_sim.recording.resimulation import resimulate
 from host_sim.sim.fleet import run_fleet
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from host_sim.world.body_kinds import KIT, body_kind
+from host_sim.world.body_kinds import KIT, body_kind, draw_body
 from tests.runs.support import octet
 
 BRIEF = ("--environments", "2", "--limit-s", "8", "--seed", "3", "--body", KIT)
@@ -39,10 +39,7 @@ def test_a_run_is_repeated_from_its_log_and_the_same_over_another_bus(run):
 
 
 def test_each_robot_comes_off_the_bench_a_little_different():
-    kind = body_kind(KIT)
-    assert kind is not None
-
-    kits = [kind.draw(1, robot) for robot in range(3)]
+    kits = [draw_body(body_kind(KIT), 1, robot) for robot in range(3)]
 
     assert len({kit.trait[kit_trait] for kit in kits for kit_trait in (5,)}) == len(kits)
 

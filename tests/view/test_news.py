@@ -55,6 +55,7 @@ def test_what_could_not_happen_is_news_in_its_place():
         ("weak-motor:left:60%", "The left motor turns at 60% of its speed."),
         ("odometer:left:-100%", "The left odometer counts -100% of its wheel's way."),
         ("false-beacon:90", "The beacon shows food 90 mm ahead where there is none."),
+        ("slack:3deg", "The gears have 3deg more slack."),
         ("repair", "The body was repaired."),
     ],
 )
@@ -63,7 +64,8 @@ def test_a_fault_of_the_body_is_told_in_a_sentence(what, sentence):
 
 
 def test_every_fault_has_a_sentence():
-    details = {"stuck-on": ":front", "stuck-off": ":front", "noise": ":1/2", "false-beacon": ":9"}
+    details = {"stuck-on": ":front", "stuck-off": ":front", "noise": ":1/2", "false-beacon": ":9", "latency": ":1"}
     details |= dict.fromkeys(("weak-motor", "odometer"), ":left:50%")
+    details |= {"lag": ":60ms", "slack": ":3deg", "slip": ":5%"}
 
     assert all(body_sentence(name + details.get(name, "")).endswith(".") for name in BODY_FAULTS)

@@ -153,6 +153,13 @@ BODY: tuple[FaultClass, ...] = (
     _of_body("the right motor is dead", "weak-motor:right:0%", denies=True),
     _of_body("both motors are dead", "weak-motor:left:0%", "weak-motor:right:0%", denies=True),
     *_of_odometers(),
+    _of_body("the wheels follow late", "lag:60ms"),
+    _of_body("the wheels follow too late", "lag:300ms", denies=True),
+    _of_body("the gears have slack", "slack:3deg"),
+    _of_body("the wheels slip", "slip:5%"),
+    _of_body("senses come a tick late", "latency:1"),
+    _of_body("the walls are dark", "dark-wall"),
+    _of_body("the battery is weak", "weak-battery"),
     _of_body("the beacon shows food where there is none", "false-beacon:700"),
     _of_body("the beacon shows food to eat where there is none", "false-beacon:100"),
 )

@@ -11,8 +11,7 @@ enum { PUSHES = 8 };
 void body_face(struct body *body)
 {
     body->ahead_rad = body->heading_rad;
-    body->ahead.x = trig_cos(body->heading_rad);
-    body->ahead.y = trig_sin(body->heading_rad);
+    body->ahead = trig_along(body->heading_rad);
 }
 
 /* The same direction within half a turn. Up to a turn and a half this is what remainder() says, to the last bit. */
@@ -28,13 +27,13 @@ static double within_half_a_turn(double angle_rad)
 void body_roll(struct body *body, double left_mm, double right_mm, double track_mm)
 {
     double turn = (left_mm - right_mm) / track_mm, way_mm = (left_mm + right_mm) / 2;
-    double half = turn / 2, chord_mm = half == 0.0 ? way_mm : way_mm * trig_sin(half) / half;
-    struct vector along = body->ahead;
+    double half = turn / 2, square = half * half;
+    /* Sine by angle, and cosine: their series, for what a body can turn in a tick. */
+    double part = 1.0 + square * (-1.0 / 6 + square * (1.0 / 120 + square * (-1.0 / 5040 + square * (1.0 / 362880))));
+    double cosine = 1.0 + square * (-1.0 / 2 + square * (1.0 / 24 + square * (-1.0 / 720 + square * (1.0 / 40320))));
+    double sine = half * part, chord_mm = way_mm * part;
+    struct vector along = {body->ahead.x * cosine - body->ahead.y * sine, body->ahead.y * cosine + body->ahead.x * sine};
 
-    if (half != 0.0) {
-        along.x = trig_cos(body->heading_rad + half);
-        along.y = trig_sin(body->heading_rad + half);
-    }
     body->x_mm += chord_mm * along.x;
     body->y_mm += chord_mm * along.y;
     body->heading_rad = within_half_a_turn(body->heading_rad + turn);

@@ -4,6 +4,7 @@
 #include "host_sim/world/native/body_faults.h"
 
 enum { NOISE_OF_MAX = 1000000, FULL_PERCENT = 100, COUNTED_MAX_PERCENT = 999, BEACON_MAX_MM = 8191 };
+enum { LAG_MAX_MS = 1000, SLACK_MAX_DEG = 20, LATENCY_MAX = 5 };
 enum { DIGITS_MAX = 7, VALUES_MAX = 2, BODY_SIDES = 2, ROBOTS_A_SEED = 10000 };
 
 #define SENSORS "with SENSOR one of right, front-right, front, front-left, left"
@@ -16,17 +17,25 @@ static const char *const SIDE_NAMES[BODY_SIDES] = {"left", "right"};
 static const struct form {
     const char *details;
     const char *meant;
+    const char *range;   /* of a single number, */
+    int32_t most;        /* from 0 */
 } FORMS[] = {
-    [BODY_FAULT_SWAP_MOTORS] = {"", "write swap-motors"},
-    [BODY_FAULT_MIRROR] = {"", "write mirror"},
-    [BODY_FAULT_STUCK_ON] = {":S", "write stuck-on:SENSOR, " SENSORS},
-    [BODY_FAULT_STUCK_OFF] = {":S", "write stuck-off:SENSOR, " SENSORS},
-    [BODY_FAULT_NOISE] = {":N/N", "write noise:N/TICKS, such as noise:10/1000"},
-    [BODY_FAULT_WEAK_MOTOR] = {":D:N%", "write weak-motor:left:60% or weak-motor:right:60%"},
-    [BODY_FAULT_SWAP_ODOMETERS] = {"", "write swap-odometers"},
-    [BODY_FAULT_ODOMETER] = {":D:N%", "write odometer:left:0% or odometer:right:-100%"},
-    [BODY_FAULT_FALSE_BEACON] = {":N", "write false-beacon:MM, such as false-beacon:100"},
-    [BODY_FAULT_REPAIR] = {"", "write repair"},
+    [BODY_FAULT_SWAP_MOTORS] = {"", "write swap-motors", NULL, 0},
+    [BODY_FAULT_MIRROR] = {"", "write mirror", NULL, 0},
+    [BODY_FAULT_STUCK_ON] = {":S", "write stuck-on:SENSOR, " SENSORS, NULL, 0},
+    [BODY_FAULT_STUCK_OFF] = {":S", "write stuck-off:SENSOR, " SENSORS, NULL, 0},
+    [BODY_FAULT_NOISE] = {":N/N", "write noise:N/TICKS, such as noise:10/1000", NULL, 0},
+    [BODY_FAULT_WEAK_MOTOR] = {":D:N%", "write weak-motor:left:60% or weak-motor:right:60%", NULL, 0},
+    [BODY_FAULT_SWAP_ODOMETERS] = {"", "write swap-odometers", NULL, 0},
+    [BODY_FAULT_ODOMETER] = {":D:N%", "write odometer:left:0% or odometer:right:-100%", NULL, 0},
+    [BODY_FAULT_FALSE_BEACON] = {":N", "write false-beacon:MM, such as false-beacon:100", NULL, 0},
+    [BODY_FAULT_LAG] = {":Nms", "write lag:60ms", "wheels lag by 0 to 1000 ms", LAG_MAX_MS},
+    [BODY_FAULT_SLACK] = {":Ndeg", "write slack:3deg", "gears have a slack of 0 to 20 degrees", SLACK_MAX_DEG},
+    [BODY_FAULT_SLIP] = {":N%", "write slip:5%", "wheels slip by 0% to 100%", FULL_PERCENT},
+    [BODY_FAULT_LATENCY] = {":N", "write latency:1, in ticks", "senses are 0 to 5 ticks late", LATENCY_MAX},
+    [BODY_FAULT_DARK_WALL] = {"", "write dark-wall", NULL, 0},
+    [BODY_FAULT_WEAK_BATTERY] = {"", "write weak-battery", NULL, 0},
+    [BODY_FAULT_REPAIR] = {"", "write repair", NULL, 0},
 };
 
 enum { FAULTS = sizeof FORMS / sizeof *FORMS };
@@ -70,7 +79,7 @@ static bool read_value(char kind, const char *word, size_t len, int32_t *out)
 static bool read_details(const char *at, const char *form, int32_t values[])
 {
     for (; *form; form++) {
-        size_t len = strcspn(at, ":/%");
+        size_t len = *form == 'N' ? strspn(at, "-0123456789") : strcspn(at, ":/%");
 
         if (*form == 'S' || *form == 'D' || *form == 'N') {
             if (!read_value(*form, at, len, values++))
@@ -119,6 +128,19 @@ static const char *show_food(struct body_faults *faults, int32_t away_mm)
     return NULL;
 }
 
+/* What is late, loose or slips: a number of at most so many. */
+static const char *loosen(struct body_faults *faults, enum body_fault fault, int32_t much)
+{
+    if (much < 0 || much > FORMS[fault].most)
+        return FORMS[fault].range;
+    if (fault == BODY_FAULT_LAG)
+        faults->lag_ms = (uint16_t)much;
+    else
+        *(fault == BODY_FAULT_SLACK ? &faults->slack_deg : fault == BODY_FAULT_SLIP ? &faults->slip_percent : &faults->latency_ticks)
+            = (uint8_t)much;
+    return NULL;
+}
+
 static void stick(uint8_t *stuck, uint8_t *other, int32_t sensor)
 {
     *stuck = (uint8_t)(*stuck | 1u << sensor);
@@ -136,6 +158,17 @@ static const char *change(struct body_faults *faults, enum body_fault fault, con
         return miscount(faults, values[0], values[1]);
     case BODY_FAULT_FALSE_BEACON:
         return show_food(faults, values[0]);
+    case BODY_FAULT_LAG:
+    case BODY_FAULT_SLACK:
+    case BODY_FAULT_SLIP:
+    case BODY_FAULT_LATENCY:
+        return loosen(faults, fault, values[0]);
+    case BODY_FAULT_DARK_WALL:
+        faults->dark_wall = true;
+        return NULL;
+    case BODY_FAULT_WEAK_BATTERY:
+        faults->weak_battery = true;
+        return NULL;
     case BODY_FAULT_SWAP_MOTORS:
         faults->swapped = !faults->swapped;
         return NULL;

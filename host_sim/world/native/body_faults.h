@@ -19,6 +19,12 @@ struct body_faults {
     int16_t left_miscounted_percent;    /* what an odometer counts beyond its wheel's way, of that way: -100: it is stuck */
     int16_t right_miscounted_percent;
     uint16_t false_beacon_mm;     /* to food that is seen where there is none; 0: to none */
+    uint16_t lag_ms;         /* added to the lag of the wheels, */
+    uint8_t slack_deg;       /* to the slack of the gears, degrees of a wheel, */
+    uint8_t slip_percent;    /* to the slip, */
+    uint8_t latency_ticks;   /* and to the delay of the senses: 0: nothing. kit/kit.h makes them felt */
+    bool dark_wall;          /* walls are seen from nearer, */
+    bool weak_battery;       /* and the battery is nearly empty */
     uint32_t noise;          /* each sensor is wrong in this many */
     uint32_t noise_of;       /* out of this many ticks; not 0 where noise is not */
     uint64_t noise_key;      /* from which it follows in which */

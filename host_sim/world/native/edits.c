@@ -1,5 +1,6 @@
 #include "host_sim/world/native/edits.h"
 
+#include "host_sim/world/native/kit/kit.h"
 #include "host_sim/world/native/vector_sums.h"
 
 /* The arena that is edited. */
@@ -183,6 +184,15 @@ static const char *put(const struct arena *arena, const struct edit *edit)
     return NULL;
 }
 
+static const char *change_body(struct body *body, const struct edit *edit)
+{
+    const char *why = body_faults_add(&body->faults, edit->what, edit->seed, edit->robot);
+
+    if (!why && body->kit)
+        kit_suffer(body->kit, &body->faults);
+    return why;
+}
+
 static const char *change_robot(const struct arena *arena, const struct edit *edit)
 {
     struct body *body = arena->world->bodies;
@@ -191,7 +201,7 @@ static const char *change_robot(const struct arena *arena, const struct edit *ed
         return "there is no such robot";
     body += edit->robot;
     if (edit->kind == EDIT_KIND_BODY)
-        return body_faults_add(&body->faults, edit->what, edit->seed, edit->robot);
+        return change_body(body, edit);
     if (edit->kind == EDIT_KIND_PUT)
         return put(arena, edit);
     if (body->lifted)

@@ -4,16 +4,17 @@
 #include "host_sim/world/native/vector_sums.h"
 
 static const double RAD_PER_DEG = 3.141592653589793 / 180.0;
-static const double WIDTH_DEG = 45.0;
+static const double APART_DEG = 45.0;   /* from one cone's middle to the next one's */
 static const double FAR_MM = 1e9;   /* nothing is there */
 
-enum { EDGES = FEEL_COUNT + 1, FRONT = 2 };
+enum { FRONT = 2 };
 
-/* A body that measures: cone n is between edges n and n + 1, the first one rightmost. */
+/* A body that measures: cone 0 is rightmost. */
 struct view {
     const struct ranges *ranges;
     struct vector at;
-    struct vector edges[EDGES];
+    struct vector right[FEEL_COUNT], left[FEEL_COUNT];   /* the edges of the cones */
+    bool is_seamless;              /* each cone's right edge is the left one of the cone before */
     double found_mm[FEEL_COUNT];   /* from the centre of the body, so far */
 };
 
@@ -60,15 +61,9 @@ static double along(const struct view *view, const struct capsule *thing, struct
     return less(to_ends_mm, to_side(ray, a, b, thing->radius_mm));
 }
 
-/* Seen from outside, a capsule is near in one direction and farther away the more one looks past it to either side. So
- * the nearest of it within a cone is in that direction, or else on one of the cone's two edges. */
-static double in_cone(const struct view *view, const struct capsule *thing, struct vector nearest, unsigned cone)
+static bool is_within(const struct view *view, unsigned cone, struct vector way)
 {
-    struct vector right = view->edges[cone], left = view->edges[cone + 1];
-
-    if (vector_cross(left, nearest) >= 0.0 && vector_cross(nearest, right) >= 0.0)
-        return vector_length(nearest) - thing->radius_mm;
-    return less(along(view, thing, right), along(view, thing, left));
+    return vector_cross(view->left[cone], way) >= 0.0 && vector_cross(way, view->right[cone]) >= 0.0;
 }
 
 static double reach_mm(const struct ranges *ranges, unsigned cone)
@@ -76,14 +71,21 @@ static double reach_mm(const struct ranges *ranges, unsigned cone)
     return cone == FRONT ? ranges->reach_mm + ranges->front_extra_mm : ranges->reach_mm;
 }
 
+/* Seen from outside, a capsule is near in one direction and farther away the more one looks past it to either side. So
+ * the nearest of it within a cone is in that direction, or else on one of the cone's two edges. */
 static void measure_thing(struct view *view, const struct capsule *thing)
 {
     struct vector nearest = vector_to(view->at, capsule_nearest(thing, view->at));
+    double near_mm = vector_length(nearest) - thing->radius_mm, left_mm = FAR_MM;
 
-    if (vector_length(nearest) - thing->radius_mm > reach_mm(view->ranges, FRONT))
+    if (near_mm > reach_mm(view->ranges, FRONT))
         return;
-    for (unsigned n = 0; n < FEEL_COUNT; n++)
-        view->found_mm[n] = less(view->found_mm[n], in_cone(view, thing, nearest, n));
+    for (unsigned n = 0; n < FEEL_COUNT; n++) {
+        double right_mm = n > 0 && view->is_seamless ? left_mm : along(view, thing, view->right[n]);
+
+        left_mm = along(view, thing, view->left[n]);
+        view->found_mm[n] = less(view->found_mm[n], is_within(view, n, nearest) ? near_mm : less(right_mm, left_mm));
+    }
 }
 
 static void measure_bodies(struct view *view, const struct world *world, const struct body *body)
@@ -98,15 +100,26 @@ static void measure_bodies(struct view *view, const struct world *world, const s
     }
 }
 
-static void look_around(struct view *view, const struct body *body)
+static struct vector turned(struct vector ahead, struct vector way)
 {
-    for (unsigned i = 0; i < EDGES; i++) {
-        double edge_rad = body->heading_rad + WIDTH_DEG * (EDGES / 2.0 - 0.5 - (double)i) * RAD_PER_DEG;
+    return (struct vector){ahead.x * way.x - ahead.y * way.y, ahead.y * way.x + ahead.x * way.y};
+}
 
-        view->edges[i] = (struct vector){trig_cos(edge_rad), trig_sin(edge_rad)};
-    }
-    for (unsigned n = 0; n < FEEL_COUNT; n++)
+static void look_around(struct view *view, double heading_rad, double width_deg)
+{
+    /* One millimetre along each edge of seamless cones, as a body sees them that faces +x: 112.5 to -112.5 degrees. */
+    static const double COS_67 = 0.38268343236508984, SIN_67 = 0.9238795325112867;
+    const struct vector seamless[] = {{-COS_67, SIN_67}, {COS_67, SIN_67}, {SIN_67, COS_67}, {SIN_67, -COS_67}, {COS_67, -SIN_67}, {-COS_67, -SIN_67}};
+    struct vector ahead = trig_along(heading_rad);
+
+    view->is_seamless = width_deg >= APART_DEG;
+    for (unsigned n = 0; n < FEEL_COUNT; n++) {
+        double middle_deg = APART_DEG * (FRONT - (double)n);
+
+        view->right[n] = turned(ahead, view->is_seamless ? seamless[n] : trig_along((middle_deg + width_deg / 2.0) * RAD_PER_DEG));
+        view->left[n] = turned(ahead, view->is_seamless ? seamless[n + 1] : trig_along((middle_deg - width_deg / 2.0) * RAD_PER_DEG));
         view->found_mm[n] = FAR_MM;
+    }
 }
 
 /* What a robot can be told of a distance from the centre of its body. */
@@ -123,9 +136,10 @@ void ranges_measure(const struct ranges *ranges, const struct world *world, cons
 {
     struct view view = {.ranges = ranges, .at = {body->x_mm, body->y_mm}};
 
-    look_around(&view, body);
+    look_around(&view, body->heading_rad, ranges->cone_deg > 0.0 ? ranges->cone_deg : APART_DEG);
     for (size_t i = 0; i < ranges->capsule_count && !body->lifted; i++)
-        measure_thing(&view, &ranges->capsules[i]);
+        if (capsule_apart_mm(&ranges->capsules[i], view.at) <= reach_mm(ranges, FRONT))
+            measure_thing(&view, &ranges->capsules[i]);
     if (!body->lifted)
         measure_bodies(&view, world, body);
     for (unsigned n = 0; n < FEEL_COUNT; n++)

@@ -12,6 +12,7 @@ struct ranges {
     double body_radius_mm;
     double reach_mm;          /* of the cones, from the centre of a body, */
     double front_extra_mm;    /* and how much farther the front one reaches */
+    double cone_deg;          /* width of a cone; 0: 45, seamless */
 };
 
 void ranges_measure(const struct ranges *ranges, const struct world *world, const struct body *body, uint8_t *range_mm);

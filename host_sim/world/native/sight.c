@@ -1,5 +1,5 @@
 #include "host_sim/world/native/sight.h"
-#include "host_sim/world/native/kit.h"
+#include "host_sim/world/native/kit/kit.h"
 #include "host_sim/world/native/vector_sums.h"
 
 static const double FAR_MM = 8191.0;   /* farther food is not seen: a robot could not be told */
@@ -13,12 +13,11 @@ static struct vector way_to(const struct body *body, const struct food *food)
 static bool is_in_line(const struct world *world, const struct body *body, const struct food *food)
 {
     struct vector way = way_to(body, food);
-
-    double beam_mm = world->params.beam_width_mm;
+    double aside_mm = way.y * body->ahead.x - way.x * body->ahead.y, beam_mm = world->params.beam_width_mm;
 
     if (body->kit)
-        beam_mm = kit_beam_mm(body->kit, vector_dot(way, body->ahead), beam_mm);
-    return __builtin_fabs(way.y * body->ahead.x - way.x * body->ahead.y) <= beam_mm / 2;
+        return kit_sees(body->kit, vector_dot(way, body->ahead), aside_mm, beam_mm);
+    return __builtin_fabs(aside_mm) <= beam_mm / 2;
 }
 
 /* Distance to food in the corridor, whole mm; 0 for food that is eaten, behind or too far away. */

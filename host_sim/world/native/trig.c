@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "host_sim/world/native/vector_sums.h"
+
 /* A quarter turn, in three parts: a million times the first or the second is still exact in a double. */
 #define QUARTER_RAD 0x1.921fb544p0
 #define QUARTER_2ND 0x1.0b4611a6p-34
@@ -17,7 +19,7 @@ struct reduced {
 
 static struct reduced reduce(double angle_rad)
 {
-    double quarters = rint(angle_rad * QUARTERS_PER_RAD);
+    double quarters = vector_whole(angle_rad * QUARTERS_PER_RAD);
     double coarse = angle_rad - quarters * QUARTER_RAD;
     double fine = coarse - quarters * QUARTER_2ND;
     double rest = coarse - fine - quarters * QUARTER_2ND - quarters * QUARTER_3RD;
@@ -64,6 +66,13 @@ double trig_cos(double angle_rad)
     struct reduced x = reduce(angle_rad);
 
     return of_quarter(x, x.quarters + 1);
+}
+
+struct vector trig_along(double angle_rad)
+{
+    struct reduced x = reduce(angle_rad);
+
+    return (struct vector){of_quarter(x, x.quarters + 1), of_quarter(x, x.quarters)};
 }
 
 double trig_hypot(double dx, double dy)

@@ -3,8 +3,11 @@
 #ifndef OCTET_TRIG_H
 #define OCTET_TRIG_H
 
+#include "host_sim/world/native/vector.h"
+
 double trig_sin(double angle_rad);
 double trig_cos(double angle_rad);
+struct vector trig_along(double angle_rad);   /* both: one millimetre in that direction */
         /* Off by at most 1.1 units in the last place, for angles of -10^6..10^6 rad. */
 
 double trig_hypot(double dx, double dy);

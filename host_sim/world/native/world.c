@@ -1,7 +1,7 @@
 #include "host_sim/world/native/world.h"
 
 #include "host_sim/world/native/body.h"
-#include "host_sim/world/native/kit.h"
+#include "host_sim/world/native/kit/kit.h"
 #include "host_sim/world/native/sight.h"
 #include "host_sim/world/native/vector_sums.h"
 

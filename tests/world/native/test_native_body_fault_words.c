@@ -78,6 +78,21 @@ TEST(food_is_shown_where_none_is)
     TEST_ASSERT_EQUAL_UINT16(0, faults.false_beacon_mm);
 }
 
+TEST(what_is_late_or_loose_has_its_unit)
+{
+    add("lag:60ms");
+    add("slack:3deg");
+    add("slip:5%");
+    add("latency:1");
+    add("dark-wall");
+    add("weak-battery");
+    TEST_ASSERT_EQUAL_UINT16(60, faults.lag_ms);
+    TEST_ASSERT_EQUAL_UINT8(3, faults.slack_deg);
+    TEST_ASSERT_EQUAL_UINT8(5, faults.slip_percent);
+    TEST_ASSERT_EQUAL_UINT8(1, faults.latency_ticks);
+    TEST_ASSERT_TRUE(faults.dark_wall && faults.weak_battery);
+}
+
 TEST(noise_can_be_in_no_tick_and_in_all)
 {
     add("noise:1000000/1000000");
@@ -152,6 +167,13 @@ TEST(what_cannot_be_changes_nothing_and_says_what_was_meant)
     assert_refused("odometer:left:-1000%", "an odometer counts -999% to 999% of the way");
     assert_refused("false-beacon:+1", "write false-beacon:MM, such as false-beacon:100");
     assert_refused("false-beacon:8192", "food is seen up to 8191 mm away");
+    assert_refused("lag:60", "write lag:60ms");
+    assert_refused("lag:60msx", "write lag:60ms");
+    assert_refused("lag:1001ms", "wheels lag by 0 to 1000 ms");
+    assert_refused("slack:21deg", "gears have a slack of 0 to 20 degrees");
+    assert_refused("slip:101%", "wheels slip by 0% to 100%");
+    assert_refused("slip:-1%", "wheels slip by 0% to 100%");
+    assert_refused("latency:6", "senses are 0 to 5 ticks late");
     assert_refused("false-beacon:-1", "food is seen up to 8191 mm away");
     TEST_ASSERT_EQUAL_MEMORY(&nothing, &faults, sizeof faults);
 }

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "hal/pins_body/proximity.h"
-#include "host_sim/world/native/kit.h"
+#include "host_sim/world/native/kit/kit.h"
 #include "tests/test.h"
 
 enum { PERIODS = 200, HALF = 32768 };
@@ -12,13 +12,14 @@ static double counted_mm[KIT_WHEELS], rolled_mm[KIT_WHEELS];
 
 void setUp(void)
 {
-    double kit_of[TRAIT_COUNT], exact[TRAIT_COUNT] = {0};
+    struct kit_kind kind = {.tolerance = {0}};
 
     for (unsigned i = 0; i < TRAIT_COUNT; i++)
-        kit_of[i] = KIT_TRAITS[i].kit;
-    kit_of[TRAIT_SLIP] = kit_of[TRAIT_NOISE_MM] = 0;
-    kit_draw(&kit, kit_of, exact, 1);
-    kit_draw(&told, kit_of, exact, 1);
+        kind.trait[i] = KIT_TRAITS[i].kit;
+    kind.trait[TRAIT_SLIP] = kind.trait[TRAIT_NOISE_MM] = 0;
+    kit = told = (struct kit){0};
+    kit_draw(&kit, &kind, 1, 0);
+    kit_draw(&told, &kind, 1, 0);
 }
 
 static void push(int32_t left, int32_t right, unsigned periods)

@@ -8,7 +8,7 @@ static struct ranges ranges;
 
 void setUp(void)
 {
-    ranges = (struct ranges){things, 0, 100.0, 160.0, 0.5};
+    ranges = (struct ranges){.capsules = things, .body_radius_mm = 100.0, .reach_mm = 160.0, .front_extra_mm = 0.5};
     bodies[0] = (struct body){.x_mm = 1000.0, .y_mm = 1000.0};
     bodies[1] = (struct body){.x_mm = 3000.0, .y_mm = 1000.0};
     world = (struct world){.body_count = 2, .bodies = bodies};

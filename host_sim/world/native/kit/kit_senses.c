@@ -1,0 +1,110 @@
+#include "host_sim/world/native/kit/kit.h"
+
+#include "hal/pins_body/proximity.h"
+#include "host_sim/world/native/vector_sums.h"
+
+enum { STREAMS = 8 };   /* random numbers of a tick */
+
+static const uint64_t SENSES = (uint64_t)1 << 48;   /* where these random numbers begin */
+static const double FOLDED = 2.0;                   /* below fold_mm a thing seems to go away so many times as fast */
+static const double RAD_PER_DEG = 0.017453292519943295, BEACON_MAX_MM = 8191.0;
+
+static double chance(const struct kit *kit, uint32_t tick, unsigned n)
+{
+    return kit_chance(kit, SENSES + (uint64_t)tick * STREAMS + n);
+}
+
+bool kit_sees(const struct kit *kit, double ahead_mm, double aside_mm, double beam_mm)
+{
+    double slope = kit->trait[TRAIT_BEAM_DEG] * RAD_PER_DEG, beside_mm = __builtin_fabs(aside_mm) - beam_mm / 2.0, left;
+
+    if (!kit->senses_differ)
+        return beside_mm <= 0.0;
+    if (ahead_mm >= kit->trait[TRAIT_BEACON_MM] || beside_mm > ahead_mm * slope)
+        return false;
+    left = 1.0 - ahead_mm / kit->trait[TRAIT_BEACON_MM];
+    return beside_mm <= ahead_mm * slope * vector_root(left);
+}
+
+/* How far away a thing seems to be, mm. */
+static double seeming(const struct kit *kit, uint8_t range_mm)
+{
+    double under_mm = kit->trait[TRAIT_FOLD_MM] - range_mm;
+
+    return under_mm > 0.0 ? kit->trait[TRAIT_FOLD_MM] + FOLDED * under_mm : range_mm;
+}
+
+/* How far a sensor reaches in this tick. */
+static double reach(const struct kit *kit, uint32_t tick, unsigned n)
+{
+    return kit->trait[TRAIT_RIGHT_MM + n] * kit->trait[TRAIT_WALL] + kit->trait[TRAIT_NOISE_MM] * chance(kit, tick, n);
+}
+
+static void measure(const struct kit *kit, const struct world *world, const struct body *body, uint8_t *range_mm)
+{
+    struct ranges ranges = *kit->ranges;
+
+    ranges.cone_deg = kit->trait[TRAIT_CONE_DEG];
+    ranges_measure(&ranges, world, body, range_mm);
+}
+
+/* Behind its window, a pair sees about as if it were so much farther away. */
+void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, uint16_t light[FEEL_COUNT])
+{
+    static const double BEHIND_MM = 20.0, MOST = 4095.0;
+    uint8_t range_mm[FEEL_COUNT] = {RANGE_NONE, RANGE_NONE, RANGE_NONE, RANGE_NONE, RANGE_NONE};
+
+    if (body->feel != 0)
+        measure(kit, world, body, range_mm);
+    for (unsigned n = 0; n < FEEL_COUNT; n++) {
+        double part = (reach(kit, tick, n) + BEHIND_MM) / (range_mm[n] + BEHIND_MM), received = PROXIMITY_NEAR * part * part;
+
+        light[n] = range_mm[n] == RANGE_NONE ? 0 : (uint16_t)(received < MOST ? received : MOST);
+    }
+}
+
+/* A sensor is triggered within its reach, and lets go farther away. */
+static uint8_t feel(const struct kit *kit, uint32_t tick, const uint8_t *range_mm)
+{
+    unsigned triggered = 0, before = kit->sensed[(tick - 1) % KIT_SENSED].feel;
+
+    for (unsigned n = 0; n < FEEL_COUNT; n++) {
+        double reach_mm = reach(kit, tick, n);
+
+        if (before >> n & 1u)
+            reach_mm += kit->trait[TRAIT_HYSTERESIS_MM];
+        triggered |= (range_mm[n] != RANGE_NONE && seeming(kit, range_mm[n]) <= reach_mm ? 1u : 0u) << n;
+    }
+    return (uint8_t)triggered;
+}
+
+static void sense(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses)
+{
+    uint8_t range_mm[FEEL_COUNT];
+
+    if (senses->feel != 0) {
+        measure(kit, world, body, range_mm);
+        senses->feel = feel(kit, tick, range_mm);
+    }
+    if (senses->look) {
+        double far_mm = vector_whole(senses->beacon_mm * (1.0 + kit->trait[TRAIT_BEACON_NOISE] * chance(kit, tick, FEEL_COUNT)));
+
+        senses->beacon_mm = (uint16_t)(far_mm < 1.0 ? 1.0 : far_mm > BEACON_MAX_MM ? BEACON_MAX_MM : far_mm);
+    }
+}
+
+void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses)
+{
+    unsigned late = kit->pushed ? 0 : (unsigned)kit->trait[TRAIT_SENSES_TICKS];
+    uint8_t told_tick = senses->tick;
+
+    if (kit->senses_differ)
+        sense(kit, world, body, tick, senses);
+    for (unsigned i = 0; i < KIT_SENSED && !kit->has_sensed; i++)
+        kit->sensed[i] = *senses;
+    kit->has_sensed = true;
+    kit->sensed[tick % KIT_SENSED] = *senses;
+    if (late > 0)
+        *senses = kit->sensed[(tick - late) % KIT_SENSED];
+    senses->tick = told_tick;
+}
