@@ -20,10 +20,11 @@ MAY_INCLUDE = {
     "hal/flash_store/": ("firmware/io.h", "hal/hal.h"),
     "hal/port/": ("firmware/io.h", "hal/hal.h", "hal/can_body/port.h", "hal/protocol/health.h"),
     "hal/port/cortex_m/": ("hal/hal.h", "hal/can_body/port.h", "hal/flash_store/", "hal/protocol/health.h"),
+    "hal/boot/": ("hal/hal.h", "hal/flash_store/", "hal/link/link.h"),
     "hal/stm32/": ("hal/can_body/port.h", "hal/flash_store/", "hal/link/", "hal/port/"),
     "hal/library/": ("firmware/", "hal/protocol/"),
     "hal/pins_body/": (),
-    "host_sim/world/native/": ("firmware/io.h", "hal/pins_body/wheel.h"),
+    "host_sim/world/native/": ("firmware/io.h", "hal/boot/sha512.h", "hal/pins_body/wheel.h"),
     "host_sim/program/native/": ("firmware/", "hal/library/", "host_sim/world/native/trig.h"),
     "host_sim/sim/native/": ("firmware/", "hal/link/link.h", "hal/protocol/e2e.h", "host_sim/world/native/"),
 }

@@ -7,4 +7,7 @@
 
 uint32_t crc32(const uint8_t bytes[], size_t count);
 
+uint32_t crc32_more(uint32_t before, const uint8_t bytes[], size_t count);
+        /* That of what came before, or 0, and these bytes together. */
+
 #endif

@@ -1,4 +1,7 @@
-/* flash.h: two pages of flash memory, as the flash store needs them. Exactly one implementation is linked in.
+/* flash.h: pages of flash memory, as the flash store needs them. Exactly one implementation is linked in.
+ *
+ * Pages 0 and 1 are the store's. With a boot loader, page FLASH_PAGES + n is the nth of the chip, each as long as the store's;
+ * of a sector that is longer, only its first page can be erased, and all others with it.
  *
  * Flash is written in units of some bytes, each unit once between two erases; zeros can be written over anything. An offset is
  * in bytes from the start of a page. Offsets and counts are multiples of flash_unit(). */

@@ -125,7 +125,7 @@ static int erase(unsigned page, union place *scratch)
 /* Goes on in the page that can be spared. 0, or as flash_store_save. */
 static int turn_page(struct flash_store *store, union place *scratch, bool may_erase)
 {
-    uint8_t spare = 1 - (has_record(store) ? store->kept : store->page);
+    uint8_t spare = (uint8_t)(2 * store->first + 1 - (has_record(store) ? store->kept : store->page));
 
     if (!is_erased(spare, scratch)) {
         if (!may_erase)
@@ -146,13 +146,16 @@ static void go_on_behind_newest(struct flash_store *store, union place *scratch)
     store->number += (store->next - store->newest) / size_of_place() - 1;
 }
 
-int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
+int flash_store_open_at(struct flash_store *store, unsigned first_page, uint8_t memory[CELL_COUNT])
 {
     union place place;
     bool blank = true;
 
-    *store = (struct flash_store){.newest = FLASH_STORE_NOWHERE, .page = 1, .next = (uint16_t)flash_page_size()};
-    for (uint8_t page = 0; page < FLASH_PAGES; page++) {
+    *store = (struct flash_store){
+        .newest = FLASH_STORE_NOWHERE, .first = (uint8_t)first_page, .page = (uint8_t)(first_page + 1),
+        .next = (uint16_t)flash_page_size(),
+    };
+    for (uint8_t page = store->first; page < store->first + FLASH_PAGES; page++) {
         find_newest(store, page, &place, memory);
         blank = blank && (used_of(page, &place) == 0 || is_erased(page, &place));
     }
@@ -163,6 +166,11 @@ int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
     if (has_record(store))
         return 1;
     return blank ? 0 : HAL_E_STORE;
+}
+
+int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
+{
+    return flash_store_open_at(store, 0, memory);
 }
 
 /* A later try that failed may turn out to be whole after a reset: then the newest record is not the last word. */

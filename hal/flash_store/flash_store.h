@@ -24,6 +24,7 @@ struct flash_store {
     uint32_t number;   /* of the last try */
     uint16_t newest;   /* where it is in the page that holds it, in bytes; FLASH_STORE_NOWHERE: there is none */
     uint16_t next;     /* where the next record goes in the page in use */
+    uint8_t first;     /* of its two pages */
     uint8_t page;      /* in use: this or that */
     uint8_t kept;      /* holds the newest whole record, if there is one */
 };
@@ -34,6 +35,9 @@ int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT]);
         /* Looks at all records. As hal_load: 1, 0 where both pages are blank, or HAL_E_STORE where there is no whole
            record. Where there is no room for another one, erases the page that can be spared. The store is ready in
            each case. */
+
+int flash_store_open_at(struct flash_store *store, unsigned first_page, uint8_t bytes[CELL_COUNT]);
+        /* The same for another store, of eight bytes for whoever wants them, in that page and the next. */
 
 enum { FLASH_STORE_LATER = 1 };
 

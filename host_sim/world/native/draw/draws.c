@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "host_sim/world/native/draw/sha512.h"
+#include "hal/boot/sha512.h"
 
 enum { MIDDLE = 397, KEY_WORDS = (DRAWS_TEXT_MAX + SHA512_BYTES) / 4 };
 

@@ -1,0 +1,18 @@
+/* layout.h: where a chip's flash has what an update needs, in pages as flash.h counts them. Each chip has its own. */
+#ifndef OCTET_LAYOUT_H
+#define OCTET_LAYOUT_H
+
+#include "hal/boot/choice.h"
+
+struct layout {
+    const char *chip;             /* such as "stm32f103" */
+    const char *board;            /* such as "blue_pill" */
+    uint8_t number;               /* of this division of the chip's flash: an image for another one does not fit */
+    uint16_t choice_page;         /* the first of two */
+    uint16_t slot_page[SLOTS];    /* the first of each slot */
+    uint16_t slot_pages;          /* of a slot */
+};
+
+extern const struct layout LAYOUT;
+
+#endif

@@ -1,0 +1,42 @@
+#include "hal/boot/start.h"
+
+#include "hal/boot/image.h"
+
+static bool is_in(const struct choice *choice)
+{
+    return choice->installed >> choice->slot & 1u;
+}
+
+/* The newest of those that are signed. */
+static struct choice found(void)
+{
+    struct choice choice = {.installed = 0};
+    struct image image;
+
+    for (uint8_t slot = 0; slot < SLOTS; slot++)
+        if (image_verify(slot, &image) == REFUSAL_NONE) {
+            choice.installed |= (uint8_t)(1u << slot);
+            if (image.version >= choice.floor) {
+                choice.slot = slot;
+                choice.floor = image.version;
+            }
+        }
+    return choice;
+}
+
+int start_pick(struct choices *choices)
+{
+    struct choice next = choices->now.installed == 0 ? found() : choice_started(&choices->now);
+    struct image image;
+
+    if (choices->now.installed == 0) {
+        next.node = choices->now.node;
+        next.bitrate = choices->now.bitrate;
+    }
+    while (is_in(&next)) {
+        if (image_check(next.slot, &image) == REFUSAL_NONE && (choices_save(choices, &next, true) == 0 || !next.trial))
+            return next.slot;
+        next = choice_without(&next);
+    }
+    return SLOT_NONE;
+}

@@ -1,0 +1,44 @@
+/* uds_parts.h: what the two halves of uds.h's implementation have of each other. */
+#ifndef OCTET_UDS_PARTS_H
+#define OCTET_UDS_PARTS_H
+
+#include "hal/boot/uds.h"
+
+/* Negative response codes, by ISO 14229-1 annex A. */
+enum nrc {
+    NRC_NONE = 0,
+    NRC_SERVICE = 0x11, NRC_FUNCTION = 0x12, NRC_LENGTH = 0x13, NRC_BUSY = 0x21, NRC_CONDITIONS = 0x22, NRC_SEQUENCE = 0x24,
+    NRC_RANGE = 0x31, NRC_LOCKED = 0x33, NRC_KEY = 0x35, NRC_TRIES = 0x36, NRC_DELAY = 0x37, NRC_FAILURE = 0x72,
+    NRC_BLOCK = 0x73, NRC_PENDING = 0x78, NRC_SESSION = 0x7F
+};
+
+enum service {
+    SESSION_CONTROL = 0x10, RESET = 0x11, READ = 0x22, SECURITY = 0x27, WRITE = 0x2E, ROUTINE = 0x31, DOWNLOAD = 0x34,
+    TRANSFER = 0x36, TRANSFER_EXIT = 0x37, TESTER_PRESENT = 0x3E,
+    POSITIVE = 0x40, NEGATIVE = 0x7F
+};
+
+/* A request, and its answer behind the service: what is not negative begins with the service and POSITIVE. */
+struct exchange {
+    const uint8_t *request;
+    uint16_t len;
+    uint8_t *answer;
+    uint16_t size;       /* of the answer so far */
+};
+
+uint32_t uds_number(const uint8_t *bytes);
+        /* Four bytes, the highest first, as UDS has all numbers. */
+
+void uds_put(struct exchange *exchange, uint32_t number, unsigned bytes);
+        /* Appends to the answer. */
+
+enum nrc uds_routine(struct uds *uds, struct exchange *exchange);
+enum nrc uds_download(struct uds *uds, struct exchange *exchange);
+enum nrc uds_transfer(struct uds *uds, struct exchange *exchange);
+enum nrc uds_transfer_exit(struct uds *uds, struct exchange *exchange);
+        /* RoutineControl and so on, in a programming session that is unlocked. NRC_PENDING: uds_step does it. */
+
+enum nrc uds_step(struct uds *uds);
+        /* A step of uds->work. NRC_PENDING: there is more to do. */
+
+#endif

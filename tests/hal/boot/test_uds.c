@@ -1,0 +1,171 @@
+#include "hal/boot/uds.h"
+
+#include "tests/test.h"
+
+#include "tester.h"
+
+enum { NOW_MS = 100 };
+
+void setUp(void)
+{
+    boot_flash_clear();
+    tester_power_on();
+}
+
+TEST(a_session_is_entered_and_told)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0x50, 2, 0, 50, 1, 0xF4}), answer, 6);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xF1, 0x86));
+    TEST_ASSERT_EQUAL_HEX8(2, answer[3]);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 1));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xF1, 0x86));
+    TEST_ASSERT_EQUAL_HEX8(1, answer[3]);
+}
+
+TEST(what_is_asked_to_be_quiet_is)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 0x82));
+    TEST_ASSERT_EQUAL_UINT16(0, answered);
+    TEST_ASSERT_TRUE(uds.programming);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x3E, 0x80));
+    TEST_ASSERT_EQUAL_UINT16(0, answered);
+    TEST_ASSERT_EQUAL_HEX8(0x12, ASK(0x3E, 0x81));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x11, 0x81));
+    TEST_ASSERT_EQUAL_UINT16(0, answered);
+    TEST_ASSERT_TRUE(uds.restart);
+}
+
+/* {request}, its length, and the code that it is refused with: in the default session, and in a programming session. */
+TEST(what_does_not_fit_is_refused_with_its_code)
+{
+    static const struct {
+        uint8_t request[4];
+        uint8_t len, by_default, programming;
+    } wrong[] = {
+        {{0x99}, 1, 0x11, 0x11},
+        {{0x10}, 1, 0x13, 0x13}, {{0x10, 3}, 2, 0x12, 0x12}, {{0x10, 0}, 2, 0x12, 0x12}, {{0x10, 1, 0}, 3, 0x13, 0x13},
+        {{0x11}, 1, 0x13, 0x13}, {{0x11, 2}, 2, 0x12, 0x12}, {{0x11, 1, 0}, 3, 0x13, 0x13},
+        {{0x3E}, 1, 0x13, 0x13}, {{0x3E, 1}, 2, 0x12, 0x12}, {{0x3E, 0, 0}, 3, 0x13, 0x13},
+        {{0x22, 0xF1}, 2, 0x13, 0x13}, {{0x22, 0xF1, 0x8F}, 3, 0x31, 0x31}, {{0x22, 0xF1, 0x80, 0}, 4, 0x13, 0x13},
+        {{0x27}, 1, 0x7F, 0x13}, {{0x27, 1}, 2, 0x7F, 0}, {{0x27, 3}, 2, 0x7F, 0x12}, {{0x27, 1, 0}, 3, 0x7F, 0x13},
+        {{0x27, 2}, 2, 0x7F, 0x13},
+        {{0x2E, 0xFD, 4}, 3, 0x7F, 0x13}, {{0x2E, 0xFD, 5, 1}, 4, 0x7F, 0x31}, {{0x2E, 0xFD, 4, 1}, 4, 0x7F, 0x13},
+        {{0x31, 1, 0xFF}, 3, 0x7F, 0x13}, {{0x31, 1, 0xFF, 1}, 4, 0x7F, 0x33}, {{0x34, 0, 0x44}, 3, 0x7F, 0x33},
+        {{0x36, 1, 0}, 3, 0x7F, 0x33}, {{0x37}, 1, 0x7F, 0x33},
+    };
+
+    for (unsigned session = 1; session <= 2; session++)
+        for (unsigned i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+            TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, (uint8_t)session));
+            TEST_ASSERT_EQUAL_HEX8(session == 1 ? wrong[i].by_default : wrong[i].programming,
+                                   ask(wrong[i].request, wrong[i].len));
+        }
+}
+
+TEST(the_board_and_the_boot_loader_say_what_they_are)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xF1, 0x91));
+    TEST_ASSERT_EQUAL_STRING_LEN("test_board", &answer[3], answered - 3);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xF1, 0x80));
+    TEST_ASSERT_EQUAL_STRING_LEN("octet boot 1", &answer[3], answered - 3);
+}
+
+TEST(the_status_says_what_is_in_both_slots)
+{
+    struct choice choice = {.installed = 3, .slot = 1, .trial = true, .starts = 2, .floor = 0x01020304};
+    static const uint8_t expected[] = {3, 1, 3, 1, 1, 2, 3, 4, 0, 0, 0, 5, 0, 0, 0, 6, 7, 0, 0, SLOT_BYTES >> 8, SLOT_BYTES & 0xFF, 0,
+                                       0xFC, 0x51, 0xCD, 0x8E};
+
+    signer_put(0, 5);
+    signer_put(1, 6);
+    TEST_ASSERT_EQUAL(0, choices_save(&choices, &choice, true));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xFD, 0));
+    TEST_ASSERT_EQUAL_UINT16(3 + sizeof expected, answered);
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, &answer[3], sizeof expected);
+}
+
+TEST(who_proves_the_key_is_let_in)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8(0, prove());
+    TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x31, 1, 0xFF, 0));
+}
+
+TEST(a_session_that_is_entered_anew_is_locked)
+{
+    unlock();
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8(0x33, ASK(0x31, 1, 0xFF, 0));
+}
+
+static int prove_wrongly(void)
+{
+    uint8_t request[2 + IMAGE_SIGNATURE] = {0x27, 2};
+
+    (void)ASK(0x27, 1);
+    return ask(request, sizeof request);
+}
+
+TEST(a_challenge_is_good_for_one_proof)
+{
+    uint8_t text[32] = "octet challenge";
+    uint8_t request[2 + IMAGE_SIGNATURE] = {0x27, 2};
+
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8(0x24, ask(request, sizeof request));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x27, 1));
+    for (unsigned i = 0; i < UDS_CHALLENGE; i++)
+        text[16 + i] = answer[2 + i];
+    signer_sign(text, sizeof text, &request[2]);
+    TEST_ASSERT_EQUAL_HEX8(0, ask(request, sizeof request));
+    TEST_ASSERT_EQUAL_HEX8(0x24, ask(request, sizeof request));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x27, 1));
+    TEST_ASSERT_EQUAL_HEX8(0x35, ask(request, sizeof request));   /* said before */
+    TEST_ASSERT_EQUAL_HEX8(0x33, ASK(0x31, 1, 0xFF, 0));
+}
+
+TEST(who_guesses_three_times_waits)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8(0x35, prove_wrongly());
+    TEST_ASSERT_EQUAL_HEX8(0x35, prove_wrongly());
+    uds_pass(&uds, NOW_MS, true);
+    TEST_ASSERT_EQUAL_HEX8(0x36, prove_wrongly());
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8(0x37, ASK(0x27, 1));
+    uds_pass(&uds, NOW_MS + UDS_DELAY_MS - 1, true);
+    TEST_ASSERT_EQUAL_HEX8(0x37, ASK(0x27, 1));
+    uds_pass(&uds, NOW_MS + UDS_DELAY_MS, true);
+    TEST_ASSERT_EQUAL_HEX8(0, prove());
+    TEST_ASSERT_EQUAL_HEX8(0x35, prove_wrongly());
+}
+
+TEST(a_session_that_nobody_keeps_up_ends)
+{
+    unlock();
+    uds_pass(&uds, NOW_MS, true);
+    uds_pass(&uds, NOW_MS + UDS_SESSION_MS - 1, false);
+    TEST_ASSERT_TRUE(uds.unlocked);
+    uds_pass(&uds, NOW_MS + UDS_SESSION_MS, false);
+    TEST_ASSERT_FALSE(uds.programming);
+    TEST_ASSERT_FALSE(uds.unlocked);
+}
+
+TEST(number_and_bit_rate_can_be_written_with_the_key_only)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8(0x33, ASK(0x2E, 0xFD, 4, 2, BITRATE_250K));
+    TEST_ASSERT_EQUAL_HEX8(0, prove());
+    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x2E, 0xFD, 4, NODE_MAX + 1, BITRATE_250K));
+    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x2E, 0xFD, 4, 2, BITRATE_COUNT));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x2E, 0xFD, 4, NODE_MAX, BITRATE_250K));
+    tester_power_on();
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xFD, 4));
+    TEST_ASSERT_EQUAL_HEX8(NODE_MAX, answer[3]);
+    TEST_ASSERT_EQUAL_HEX8(BITRATE_250K, answer[4]);
+    unlock();
+    boot_flash.failing = true;
+    TEST_ASSERT_EQUAL_HEX8(0x72, ASK(0x2E, 0xFD, 4, 1, 0));
+}
