@@ -1,6 +1,5 @@
 """Conducts a run from its start to its output files."""
 
-import json
 import os
 import sys
 from collections.abc import Iterator, Sequence
@@ -10,7 +9,6 @@ from pathlib import Path
 from host_sim.backends.programmed_robot import check_program
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import DoubtfulError, OctetError, UsageError
-from host_sim.base.regular_file import read_bytes
 from host_sim.cli.interruption import stop_soon
 from host_sim.cli.outputs import PAGE, PICTURE, SUMMARY, Outputs, tell
 from host_sim.cli.run_options import LOGS, RunOptions
@@ -36,7 +34,6 @@ REFUSED = "refused.log"
 """The frames that were refused, each with its reason, in the folder of a run."""
 
 _NOTHING = (0,) * CELL_COUNT
-_SUMMARY_MAX = 10_000_000
 
 
 def conduct(options: RunOptions) -> Summary:
@@ -113,22 +110,12 @@ def _check_no_output(memory: Path, options: RunOptions) -> None:
 
 
 def _announce(options: RunOptions, loaded: Sequence[Memory | None]) -> None:
-    """Says what this run will overwrite, and which memories begin empty."""
+    """Says which memories begin empty."""
     if not options.talks:
         return
     for path, memory in zip(_memory_paths(options), loaded, strict=True):
         if memory is None:
             print(f"memory    {path} does not exist yet: the robot begins with an empty memory")
-    if any((options.out / name).exists() for name in LOGS):
-        print(f"replaces  the run in {options.out}{_seed_of(options.out / SUMMARY)}")
-
-
-def _seed_of(summary: Path) -> str:
-    """The seed in a summary, for a message; empty if there is none."""
-    try:
-        return f" (seed {json.loads(read_bytes(summary, _SUMMARY_MAX))['seed']})"
-    except (OSError, ValueError, LookupError, TypeError):
-        return ""
 
 
 def _write_what_there_is(outputs: Outputs, end: BaseException) -> None:

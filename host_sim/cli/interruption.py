@@ -11,7 +11,7 @@ from host_sim.client.robot_client import RobotClient
 from host_sim.live.ending_signals import ENDING_SIGNALS, TICK_S, at_most
 from host_sim.sim.simulation import Simulation
 
-STOP_S = 1.5
+STOP_S = 1.0
 """Time for all robots of a run that is cut short to stop and to report."""
 
 

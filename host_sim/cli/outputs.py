@@ -1,5 +1,6 @@
 """The output folder of a run: one run, whole, however it ended."""
 
+import json
 import os
 import signal
 import sys
@@ -10,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from host_sim.base.errors import OctetError
+from host_sim.base.regular_file import read_bytes
 from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
 from host_sim.live.ending_signals import ENDING_SIGNALS
@@ -22,6 +24,8 @@ from host_sim.view.news import news_of
 
 SUMMARY, PICTURE, PAGE = "summary.json", "arena.png", "replay.html"
 """The files in a run's output folder, beside the log and its world file."""
+
+_SUMMARY_MAX = 10_000_000
 
 
 @dataclass
@@ -77,6 +81,8 @@ class Outputs:
         """
         out, log = self.options.out, self.options.log
         self.log.flush()
+        if self.options.talks and any((out / name).exists() for name in LOGS):
+            print(f"replaces  the run in {out}{_seed_of(out / SUMMARY)}")
         earlier = [*(out / name for name in (SUMMARY, PICTURE, PAGE, *LOGS)), world_path(log)]
         for path in earlier if any(map(Path.exists, earlier)) else ():
             _keep(path)
@@ -118,6 +124,14 @@ def _keep(path: Path) -> None:
         path.unlink(missing_ok=True)
     except OSError as error:
         raise OctetError(f"cannot replace {path}: {error.strerror}") from error
+
+
+def _seed_of(summary: Path) -> str:
+    """The seed in a summary, for a message; empty if there is none."""
+    try:
+        return f" (seed {json.loads(read_bytes(summary, _SUMMARY_MAX))['seed']})"
+    except (OSError, ValueError, LookupError, TypeError):
+        return ""
 
 
 @contextmanager

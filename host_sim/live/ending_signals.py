@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 ENDING_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
-TICK_S = 1.0
+TICK_S = 0.5
 """Time for the current tick to end after such a signal: a robot that hangs does not hold up the end of a run."""
 
 
