@@ -22,7 +22,9 @@ struct wire {
     uint16_t news;                   /* kinds of faults that no EMERGENCY has reported yet, bit i for kind i, */
     uint8_t first_news;              /* and the first of them */
     struct session session;
-    uint8_t senses_crc;              /* of the last senses taken */
+    uint8_t senses_crc;              /* of the last senses taken, */
+    uint8_t other_crc;               /* and of the last others for their tick; the same if there were none */
+    bool noisy;                      /* a frame was damaged since the last heartbeat */
     uint8_t counters[COUNTED_KINDS]; /* of the next message of each kind */
     uint8_t part;                    /* of the report under way: which is sent next; 0 for none */
     bool wants_ranges;               /* the behaviour asks for RANGES */

@@ -25,6 +25,7 @@ static void write_heartbeat(struct wire *wire, const struct output *out, struct 
     if (!out->silent)
         (void)frames_count_up(wire, COUNTED_HEARTBEAT);
     wire->strangers = 0;
+    wire->noisy = false;
     (void)octet_heartbeat_pack(frame->data, &heartbeat, sizeof frame->data);
     e2e_protect(frame);
 }

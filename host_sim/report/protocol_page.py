@@ -93,7 +93,8 @@ Whoever knows the protocol can send a command in the owner's name, with the next
 says once a second, in HEALTH, what it holds: `held` covers all commands that it has carried out (H1). Its owner
 computes the same from the answers that it got, and knows within a second that there was another one. If SENSES come
 for the tick that it took last, with another CRC than those, `held` goes on over their bytes 1 to 7, and no longer is
-what the owner computes: somebody else sends SENSES (H6).
+what the owner computes: somebody else sends SENSES (H6). One damaged frame in 256 has a right CRC: in a second
+in which frames were damaged, these SENSES may have to come twice (H6).
 
 `held` is a CRC-16 with polynomial 0x1021, start value 0, high bit first and no final xor (XMODEM; Python has it as
 `binascii.crc_hqx`) (H2). With each COMMAND that the robot has carried out it goes on over the frame's bytes 1 to 7,

@@ -153,6 +153,28 @@ TEST(on_its_own_clock_as_well)
     expect(FAULT_STALE, 2);
 }
 
+TEST(on_a_noisy_line_they_are_held_if_they_come_twice)
+{
+    const struct frame damaged = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH, .data = {1}};
+    struct input in;
+    uint16_t before;
+
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
+    sense(0);
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, wire_read(&wire, &damaged, &in));
+    before = wire.session.told;
+    sense(4);
+    sense(5);
+    TEST_ASSERT_EQUAL_HEX16(before, wire.session.told);
+    sense(5);
+    TEST_ASSERT_NOT_EQUAL(before, wire.session.told);
+    told_here = held();   /* with a heartbeat, after which the line counts as clean */
+    sense(6);
+    assert_held();
+    expect(FAULT_DAMAGED, 1);
+}
+
 TEST(the_first_senses_after_a_start_differ_from_none)
 {
     uint16_t before;
