@@ -54,7 +54,7 @@ def index_log(path: Path, node: int, tick_us: int) -> LogIndex:
             if (it.time_us - begun) // tick_us == len(index.lines):
                 index.lines.append(line)
         elif (message := protocol.decode(it.frame)) and message.name == "HEALTH":
-            index.health.append((len(index.lines), message.signals))
+            index.health.append((max(0, len(index.lines) - 1), message.signals))
         elif message and message.signals.get("profile") in _PROFILES:
             index.starts.append((len(index.lines), _PROFILES[message.signals["profile"]]))
     return index

@@ -10,12 +10,13 @@ from host_sim.api import RunConfig, resimulate, run
 from host_sim.client.frame_log import line_of
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import PATTERNS, SENTENCES, SIDES, Reason
-from host_sim.recording.log_reader import frames_of, read_log
+from host_sim.recording.log_reader import read_log
 from host_sim.talk.conversation import Conversation, Source, about_memory, script_named, texts_of
 from host_sim.talk.facts import FACTS, RobotFacts
 from host_sim.talk.log_index import index_log
-from host_sim.talk.texts import POINT
+from host_sim.talk.texts import POINT, Texts
 from tests.runs.support import octet, octet_process
+from tests.talk.frames import differences
 
 HERE = Path(__file__).parent
 
@@ -91,42 +92,21 @@ def test_german_has_a_text_for_each_english_one_with_the_same_gaps():
     assert (len(german.words.patterns), len(german.words.sides)) == (len(PATTERNS), len(SIDES))
 
 
-class Frames:
-    """What the frames of a log say up to a tick, read without a world."""
+def test_other_code_finds_the_same_answers_in_the_frames(log, trajectory):
+    last = trajectory.ticks - 1
 
-    def __init__(self, log: Path, tick: int) -> None:
-        self.bumps, self.meals, self.bored, self.cells = 0, 0, 0, (0,) * 8
-        ticks, action, bump = -1, None, 0
-        for line in frames_of(read_log(log), 1):
-            frame = PROTOCOL.decode(line.frame)
-            if frame is None:
-                continue
-            if frame.name == "SENSES":
-                ticks += 1
-                if ticks > tick:
-                    break
-                self.bumps += frame.signals["bump"] and not bump
-                bump = frame.signals["bump"]
-            elif drive := PROTOCOL.decode_drive(line.frame):
-                self.bored += drive.action != action and drive.reason == Reason.BOREDOM
-                self.meals += drive.eat
-                action = drive.action
+    count, found = differences(log, [0, last // 3, last], [7, last // 4, last - 1])
+
+    assert count >= 75
+    assert found == []
 
 
-@pytest.mark.parametrize("part", [0.1, 0.35, 0.6, 0.99])
-def test_other_code_finds_the_same_numbers_in_the_frames(log, trajectory, index, part):
-    tick = round(part * (trajectory.ticks - 1))
-    facts, frames = RobotFacts(trajectory, index, tick, texts_of("robot")), Frames(log, tick)
+def test_an_answer_that_is_wrong_is_found_in_the_frames(log, trajectory, monkeypatch):
+    monkeypatch.setattr(Texts, "times", lambda self, count: self.say("times", count=count + 1))
 
-    assert count_in(facts.bored([]).text) == frames.bored
-    assert count_in(facts.touched([]).text) == frames.bumps
-    assert len(facts.food([]).evidence.ticks) == max(1, frames.meals)
+    _, found = differences(log, [trajectory.ticks - 1], [])
 
-
-def count_in(said: str) -> int:
-    """How often something happened, by what is said."""
-    times = re.search(r"(\d+) TIMES", said)
-    return int(times[1]) if times else int("ONCE" in said)
+    assert {it[2] for it in found} >= {"How sure are you?", "Were you bored?", "How often have you tried?"}
 
 
 def test_what_it_learned_is_what_its_memory_holds_in_the_end(log, trajectory, ask):
@@ -202,7 +182,7 @@ def test_the_command_answers_lines_of_any_kind(log):
     ("arguments", "error"),
     [
         (["--log", "nowhere.log"], "nowhere.log"),
-        (["--script", "nowhere"], "there is no script nowhere: give a file, or one of eliza, eliza-de, robot"),
+        (["--script", "nowhere"], "there is no script nowhere: give a file, or one of robot, robot-de, eliza"),
         (["--memory", "nowhere.mem"], "there is no nowhere.mem"),
         (["--memory", "x", "--at", "1"], "--memory is for a robot without a log"),
     ],

@@ -22,7 +22,7 @@ PROVE: Mapping[str, Sequence[str]] = {
     "campaign": ("tests/lab/campaign",),
     "endurance": ("tests/runs/endurance",),
     "browsers": ("tests/web/test_browsers.py",),
-    "exhaustive": ("tests/firmware/test_every_case.py",),
+    "exhaustive": ("tests/firmware/test_every_case.py", "tests/talk/test_every_answer.py"),
     "formats": ("tests/lab/export",),
     "documents": ("tests/docs/test_commands.py", "tests/docs/test_python_blocks.py"),
 }
