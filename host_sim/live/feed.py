@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from host_sim.live.paced_run import PacedRun
-from host_sim.live.page_commands import FULL_SPEED
+from host_sim.live.page_commands import FULL_SPEED, Question
+from host_sim.live.page_talk import PageTalk
 from host_sim.live.seats import Rights
 from host_sim.protocol.generated import ROW, Reason
 from host_sim.recording.summary import frame_counts
@@ -23,6 +24,7 @@ TRAIL_MAX = 3000
 _POINTS_MAX = 200
 _NOTES_MAX = 8
 _NEWS_MAX = 8
+_ANSWERS_MAX = 8
 _REASON = ROW.index("reason")
 _USUAL = (Reason.WANDER, Reason.LOOK_AROUND)
 
@@ -65,12 +67,21 @@ class PageFeed:
     memo: Memo = field(default_factory=Memo)
     rights: Rights = field(default_factory=Rights)
     notes: deque[str] = field(default_factory=lambda: deque(maxlen=_NOTES_MAX))
+    _answers: deque[dict[str, Any]] = field(default_factory=lambda: deque(maxlen=_ANSWERS_MAX))
+    _talk: PageTalk = field(init=False)
     _layout: int = -1
     _start: int = -1
     _environments: int = 0
     _sent: tuple[int, int] = (-1, -1)
     _trail: int = 0
     _lessons: dict[int, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._talk = PageTalk(self.live)
+
+    def ask(self, question: Question) -> None:
+        """Answers a question with the next message."""
+        self._answers.append(self._talk.answer(question))
 
     def next(self) -> str | None:
         """The message that brings the page up to date as JSON, or None if it is up to date.
@@ -79,8 +90,9 @@ class PageFeed:
         view/state_types.py, with `news`, the last changes of the world and the bodies, as [tick, sentence];
         `trails`, for each robot the ticks since the last message as [x, y, reason, ...], thinned out if many;
         `lessons`, those of all robots since the last message; `play`, the state of the controls; `health`; `notes`,
-        if there are any; `at`, wall-clock time in ms since 1970. The first message has `seat`: the page's own robot
-        as {node, name}, node 0 if it got none, or null where the robots are everyone's.
+        if there are any; `answers`, as of `PageTalk`, to what the page has asked since; `at`, wall-clock time in ms
+        since 1970. The first message has `seat`: the page's own robot as {node, name}, node 0 if it got none, or null
+        where the robots are everyone's.
         """
         now = (self.live.simulation.tick, self.live.change)
         if now == self._sent and not self.notes:
@@ -108,6 +120,9 @@ class PageFeed:
         if self.notes:
             parts["notes"] = list(self.notes)
             self.notes.clear()
+        if self._answers:
+            parts["answers"] = list(self._answers)
+            self._answers.clear()
         return {name: _json(part) for name, part in parts.items()}
 
     def _shared(self, key: object, make: Callable[[], object]) -> str:

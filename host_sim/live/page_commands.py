@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from host_sim.protocol.generated import CELL_COUNT, NODE_MAX, Side
+from host_sim.talk.conversation import SPEAKERS
 from host_sim.world.edit_json import edit_from, pose_from, whole
 from host_sim.world.edits import Edit
 from host_sim.world.geometry import Pose
@@ -99,12 +100,21 @@ class NameTag:
     text: str
 
 
+@dataclass(frozen=True)
+class Question:
+    """Say something to a speaker of `SPEAKERS`, about a robot; no node means the first robot."""
+
+    who: str
+    text: str
+    node: int | None = None
+
+
 RobotCommand = WriteCell | EraseMemory | Freeze | LiftRobot | PutRobot
 PageCommand = Play | OneDecision | Speed | NextEnvironment | NewSeed | RobotCommand | Edit
 """What a run carries out."""
 
 
-def page_command_from(text: str) -> PageCommand | NameTag:
+def page_command_from(text: str) -> PageCommand | NameTag | Question:
     """The command in a message.
 
     Args:
@@ -142,6 +152,13 @@ def _name_tag(fields: Mapping[str, Any]) -> NameTag:
     return NameTag(text)
 
 
+def _question(fields: Mapping[str, Any]) -> Question:
+    who, text = fields.get("who"), fields.get("text")
+    if not isinstance(who, str) or who not in SPEAKERS or not isinstance(text, str):
+        raise ValueError(f"who must be one of {', '.join(SPEAKERS)}, and text a text")
+    return Question(who, text, _node(fields))
+
+
 def _flag(fields: Mapping[str, Any], name: str) -> int:
     """An optional field that holds 0 or 1; 0 if it is missing."""
     return whole(fields, name, 0, 1) if name in fields else 0
@@ -151,7 +168,7 @@ def _node(fields: Mapping[str, Any]) -> int | None:
     return whole(fields, "node", 1, NODE_MAX) if "node" in fields else None
 
 
-_PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand | NameTag]] = {
+_PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand | NameTag | Question]] = {
     "play": lambda _: Play(True),
     "pause": lambda _: Play(False),
     "decision": lambda _: OneDecision(),
@@ -165,5 +182,6 @@ _PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand | NameTag]] = {
     "freeze": lambda fields: Freeze(bool(whole(fields, "on", 0, 1)), _node(fields)),
     "lift": lambda fields: LiftRobot(_node(fields)),
     "name": _name_tag,
+    "ask": _question,
     "put": lambda fields: PutRobot(pose_from(fields), _node(fields)),
 }

@@ -136,7 +136,7 @@ class LiveServer:
             self._begin_unless_the_board_does()
             feed = PageFeed(self._live, self._memo, rights)
             try:
-                await self._serve(Visitor(socket, feed, rights, self._pause_s))
+                await self._serve(Visitor(socket, feed, rights, self._pause_s, ask=feed.ask))
             finally:
                 self.pages -= 1
         return socket

@@ -10,7 +10,7 @@ from typing import Protocol
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from host_sim.live.paced_run import PacedRun
-from host_sim.live.page_commands import NameTag, Play, page_command_from
+from host_sim.live.page_commands import NameTag, Play, Question, page_command_from
 from host_sim.live.seats import NotYoursError, Rights
 
 _REFUSALS_MAX = 100
@@ -35,6 +35,7 @@ class Visitor:
         rights: What it may do.
         pause_s: Gives the minimum time between two messages to it.
         begins: Whether it begins a run that waits, when it is told to play.
+        ask: Is given what the page says to a robot; None for a board, which does not talk.
     """
 
     socket: web.WebSocketResponse
@@ -42,6 +43,7 @@ class Visitor:
     rights: Rights
     pause_s: Callable[[], float]
     begins: bool = False
+    ask: Callable[[Question], None] | None = None
 
     async def serve(self, live: PacedRun) -> None:
         """Serves it until it disconnects, or has sent too many invalid messages."""
@@ -92,6 +94,12 @@ class Visitor:
         command = page_command_from(text)
         if isinstance(command, NameTag):
             self.rights.rename(command.text)
+            live.change += 1
+            return
+        if isinstance(command, Question):
+            if self.ask is None:
+                raise ValueError("a board does not talk")
+            self.ask(command)
             live.change += 1
             return
         live.offer(self.rights.admit(command), self.feed.notes.append)

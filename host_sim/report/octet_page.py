@@ -11,6 +11,7 @@ from host_sim.base.errors import OctetError
 from host_sim.base.paths import PAGE_WASM, WEB
 from host_sim.protocol.generated import PARAMETERS
 from host_sim.report.page_bundle import page_of, with_data
+from host_sim.report.speakers import speakers
 from host_sim.view.state import measures
 from host_sim.world.world_names import WORLD_NAMES
 from host_sim.world.worlds import world_of
@@ -39,7 +40,7 @@ def octet_page() -> str:
     """The page's HTML.
 
     Its element `parts` has the WebAssembly in base64 and the dimensions of all named worlds, `lesson-texts` the
-    words of the lessons in each language.
+    words of the lessons in each language, `speakers` those who can be talked to.
 
     Raises:
         OctetError: The WebAssembly is not built.
@@ -49,7 +50,8 @@ def octet_page() -> str:
     except OSError as error:
         raise OctetError(f"cannot read {PAGE_WASM}: {error.strerror}; build it with tools/setup page") from None
     parts = {"wasm": base64.b64encode(wasm).decode(), "worlds": world_dimensions()}
-    return with_data(with_data(page_of(_TEMPLATE), "parts", parts), "lesson-texts", lesson_texts())
+    text = with_data(with_data(page_of(_TEMPLATE), "parts", parts), "speakers", speakers())
+    return with_data(text, "lesson-texts", lesson_texts())
 
 
 def world_dimensions() -> dict[str, dict[str, Any]]:

@@ -35,9 +35,10 @@ def with_data(text: str, element_id: str, data: object) -> str:
     return text.replace(element, element.replace("></", f">{inserted}</"))
 
 
-def bundle(name: str) -> str:
-    """A module and all that it imports, as one script; `</script` is escaped so that it cannot end the element."""
-    modules = "".join(_as_function(module) for module in _in_order(name, set()))
+def bundle(*names: str) -> str:
+    """Modules and all that they import, as one script; `</script` is escaped so that it cannot end the element."""
+    seen: set[str] = set()
+    modules = "".join(_as_function(module) for name in names for module in _in_order(name, seen))
     return f"const modules = {{}};\n{modules}".replace("</script", "<\\/script")
 
 

@@ -1,7 +1,7 @@
 """A run as one HTML page that needs no server.
 
-The page is `web/replay.html` as `page_bundle` puts it together; its element `run` has the run, and its element
-`laboratory` what laboratory.py has for it.
+The page is `web/replay.html` as `page_bundle` puts it together; its element `run` has the run, its element
+`laboratory` what laboratory.py has for it, and `speakers` those who can be talked to: see speakers.py.
 
 The run is one object. Measures, EnvironmentScene, State, Trial and Lesson are as in view/state_types.py. The value in
 a pair holds from the pair's tick until that of the next pair; the first pair is that of tick `first_tick`.
@@ -52,6 +52,7 @@ from host_sim.base.atomic_file import write_bytes
 from host_sim.protocol.generated import COLUMNS, ROW
 from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.report.page_bundle import page_of, with_data
+from host_sim.report.speakers import speakers
 from host_sim.view.state import measures
 
 T = TypeVar("T", bound=tuple[Any, ...])
@@ -137,7 +138,7 @@ def _planes(column: NDArray[np.int64]) -> bytes:
 
 def page(run: dict[str, Any], laboratory: Mapping[str, Any] | None = None) -> str:
     """The page's HTML."""
-    text = with_data(page_of(_TEMPLATE), "run", run)
+    text = with_data(with_data(page_of(_TEMPLATE), "run", run), "speakers", speakers())
     return text if laboratory is None else with_data(text, "laboratory", laboratory)
 
 

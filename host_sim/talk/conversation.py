@@ -18,9 +18,14 @@ from host_sim.talk.texts import POINT, Texts, read_texts
 SCRIPTS = Path(__file__).with_name("scripts")
 """Our own scripts, `NAME.script`, and the texts of the facts that they ask for, `NAME.toml`."""
 
+SPEAKERS = ("robot", "robot-de", "eliza", "eliza-de")
+"""The names of our own scripts, in the order in which pages offer them."""
+
 _SIZE_MAX = 1_000_000
 _LINES_SHOWN = 3
-_NO_FACTS: Facts = dict.fromkeys((name.upper() for name in FACTS), lambda _: None)
+
+NO_FACTS: Facts = dict.fromkeys((name.upper() for name in FACTS), lambda _: None)
+"""Nothing is known."""
 
 
 class Said(NamedTuple):
@@ -55,6 +60,10 @@ class Conversation:
         """
         self.script, self._texts, self._mark = script, texts, mark
         self._eliza = Eliza(script, facts)
+
+    def ask_about(self, facts: Facts) -> None:
+        """What is asked next is asked about these facts."""
+        self._eliza.facts = facts
 
     def answer(self, sentence: str) -> Said:
         """The answer to a sentence; if the script loops for ever, words that say so."""
@@ -94,7 +103,7 @@ def about_nothing(script: str) -> Conversation:
     Raises:
         UsageError: As `script_named` does.
     """
-    return Conversation(script_named(script), _NO_FACTS, texts_of(script))
+    return Conversation(script_named(script), NO_FACTS, texts_of(script))
 
 
 def about_run(
@@ -142,7 +151,7 @@ def about_memory(script: str, path: Path) -> tuple[Conversation, Source]:
         told = texts.say("learned" if asked in cells else "cell_none", **cells.get(asked, texts.of_cell(asked, 0)))
         return Known(told.upper(), Rests([], [asked], [])) if asked else None
 
-    facts = {**_NO_FACTS, "LEARNED": learned, "CELL": cell}
+    facts = {**NO_FACTS, "LEARNED": learned, "CELL": cell}
     return Conversation(script_named(script), facts, texts, "memory"), Source(path, None)
 
 
@@ -153,10 +162,9 @@ def script_named(name: str) -> Script:
         UsageError: It cannot be read, or is wrong; the message has the line.
     """
     try:
-        return read_script(read_text(_path_of(name), _SIZE_MAX), name, _NO_FACTS)
+        return read_script(read_text(_path_of(name), _SIZE_MAX), name, NO_FACTS)
     except FileNotFoundError:
-        names = ", ".join(sorted(it.stem for it in SCRIPTS.glob("*.script")))
-        raise UsageError(f"there is no script {name}: give a file, or one of {names}") from None
+        raise UsageError(f"there is no script {name}: give a file, or one of {', '.join(SPEAKERS)}") from None
     except UnicodeDecodeError as error:
         wrong = f"byte {error.start} is {error.object[error.start]:#04x}"
         raise UsageError(f"{name} is not text in UTF-8: {wrong}") from None

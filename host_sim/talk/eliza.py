@@ -51,10 +51,14 @@ def words_of(sentence: str) -> list[str]:
 
 
 class Eliza:
-    """A conversation. It remembers sentences, and changes the turns of its script."""
+    """A conversation. It remembers sentences, and changes the turns of its script.
+
+    Attributes:
+        facts: The facts that the script may ask for.
+    """
 
     def __init__(self, script: Script, facts: Facts | None = None) -> None:
-        self._script, self._facts = script, facts or {}
+        self._script, self.facts = script, facts or {}
         self._limit = 1
         self._memories: deque[str] = deque()
 
@@ -120,7 +124,7 @@ class Eliza:
         texts, evidence = [], []
         for piece in pieces:
             if isinstance(piece, Fact):
-                known = self._facts[piece.fact]([] if piece.part is None else found[piece.part - 1])
+                known = self.facts[piece.fact]([] if piece.part is None else found[piece.part - 1])
                 if known is None:
                     return None
                 texts.append(known.text)

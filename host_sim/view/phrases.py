@@ -2,13 +2,14 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from host_sim.protocol.generated import BODY_SENTENCES, PATTERNS, SENTENCES, SIDES, Reason, Side
 from host_sim.view.state_types import Lesson, State, Trial
 
 
-class Words(NamedTuple):
+@dataclass(frozen=True)
+class Words:
     """The words of a language.
 
     Attributes:

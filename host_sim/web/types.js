@@ -56,7 +56,16 @@
  * @property {Health} health
  * @property {News[]} [news]
  * @property {string[]} [notes]
+ * @property {Answer[]} [answers]
  * @property {Seat | null} [seat]
+ */
+
+/**
+ * An answer, and what its facts rest on and speak of: ticks, cells, pieces of food. `log` if each fact in it is known.
+ * @typedef {{mark: "log" | "words", text: string, ticks: number[], cells: number[], food: number[]}} Said
+ *
+ * What a page asked, and the answer: see PageTalk in host_sim/live/page_talk.py.
+ * @typedef {{who: string, sentence: string, said: Said, places: WirePlace[]}} Answer
  */
 
 /**
@@ -117,6 +126,7 @@
  *   | {do: "erase", node: number}
  *   | {do: "freeze", node: number, on: number}
  *   | {do: "name", name: string}
+ *   | {do: "ask", who: string, text: string, node: number}
  *   | {do: "add_bar", a: WirePlace, b: WirePlace}
  *   | {do: "move_bar", id: number, a: WirePlace, b: WirePlace}
  *   | {do: "remove_bar", id: number}

@@ -7,7 +7,7 @@ from tests.web.fake_run import HOME, FakeRun, robot_state
 
 SAY = """async (lists) => {
   const { lessonSentence, sentence } = await import("/core/phrases.js");
-  return [lists[0].map((state) => sentence(state, false)), lists[1].map(lessonSentence)];
+  return [lists[0].map((state) => sentence(state, false)), lists[1].map((lesson) => lessonSentence(lesson))];
 }"""
 LEFT, RIGHT = {"left": -9, "right": 9}, {"left": 9, "right": -9}
 STATES = [

@@ -101,7 +101,7 @@ def test_the_typedef_of_a_message_is_what_a_live_run_sends(watch, open_page):
     optional = {name.removesuffix("?") for name in found["Message"] if name.endswith("?")}
 
     assert set(json.loads(later)) == set(found["Message"]) - {f"{name}?" for name in optional}
-    assert set(json.loads(first)) | {"notes"} == {name.removesuffix("?") for name in found["Message"]}
+    assert set(json.loads(first)) | {"notes", "answers"} == {name.removesuffix("?") for name in found["Message"]}
     for part, name in (
         ("play", "Play"),
         ("health", "Health"),

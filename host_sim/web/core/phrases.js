@@ -21,25 +21,42 @@ const NAMES = {
 /** What each reason is called, in the order of the reasons. */
 export const REASON_NAMES = /** @type {(keyof typeof NAMES)[]} */ (Object.keys(REASON)).map((name) => NAMES[name]);
 
-/** @type {Record<string, string>} */
-const WORDS = SENTENCES;
+/**
+ * The words of a language: see Words in host_sim/view/phrases.py.
+ * @typedef {{sentences: Record<string, string>, patterns: string[], sides: string[], point: string, many: string}} Words
+ */
+
+/** @type {Words} */
+const ENGLISH = { sentences: SENTENCES, patterns: PATTERNS, sides: SIDES, point: ".", many: "Many" };
 
 /**
  * One sentence for what a state shows.
  * @param {State} state
  * @param {boolean} exact - Whether to tell a step from the look around that follows: too quick to read in motion.
+ * @param {Words} [words]
  * @returns {string}
  */
-export function sentence(state, exact) {
+export function sentence(state, exact, words = ENGLISH) {
   const name = nameOf(state);
-  const pattern = PATTERNS[state.pattern];
+  const pattern = words.patterns[state.pattern];
   const turned = state.left < state.right ? SIDE.LEFT : SIDE.RIGHT;
-  return filled((exact && WORDS[`${name}_exact`]) || WORDS[name], {
+  return filled((exact && words.sentences[`${name}_exact`]) || words.sentences[name], {
     Pattern: pattern[0].toUpperCase() + pattern.slice(1),
-    side: SIDES[state.reason === REASON.TRIAL ? (state.trial?.side ?? turned) : turned], // it also stands still while it tries
-    turns: state.repeat_count || "Many",
-    beacon: (state.beacon / 1000).toFixed(2),
+    side: words.sides[state.reason === REASON.TRIAL ? (state.trial?.side ?? turned) : turned], // it also stands still while it tries
+    turns: state.repeat_count || words.many,
+    beacon: decimal(state.beacon / 1000, 2, words),
   });
+}
+
+/**
+ * A number that is not negative, rounded half up.
+ * @param {number} value
+ * @param {number} digits
+ * @param {Words} [words]
+ */
+export function decimal(value, digits, words = ENGLISH) {
+  const unit = 10 ** digits;
+  return (Math.floor(value * unit + 0.5) / unit).toFixed(digits).replace(".", words.point);
 }
 
 /** @param {State} state */
@@ -53,21 +70,23 @@ function nameOf({ lifted, reason, beacon, left, right }) {
 /**
  * How the last trial went; empty if there was none, or it still goes on.
  * @param {State} state
+ * @param {Words} [words]
  * @returns {string}
  */
-export function verdict({ trial }) {
+export function verdict({ trial }, words = ENGLISH) {
   if (!trial || trial.helped === null) return "";
   const helped = trial.frozen ? "helped_frozen" : "helped";
-  return ofCell(trial.helped ? helped : "useless", trial);
+  return ofCell(trial.helped ? helped : "useless", trial, words);
 }
 
 /**
  * A sentence for a lesson.
  * @param {Lesson} lesson
+ * @param {Words} [words]
  * @returns {string}
  */
-export function lessonSentence(lesson) {
-  return ofCell(["forgotten", "erased", "learned", "told"][2 * Number(lesson.side > 0) + lesson.by_hand], lesson);
+export function lessonSentence(lesson, words = ENGLISH) {
+  return ofCell(["forgotten", "erased", "learned", "told"][2 * Number(lesson.side > 0) + lesson.by_hand], lesson, words);
 }
 
 /**
@@ -83,16 +102,17 @@ export function bodySentence(what) {
 /**
  * @param {string} name - Of a sentence.
  * @param {{cell: number, side: number}} which
+ * @param {Words} words
  */
-function ofCell(name, { cell, side }) {
-  return filled(WORDS[name], { pattern: PATTERNS[cell], side: SIDES[side] });
+function ofCell(name, { cell, side }, { sentences, patterns, sides }) {
+  return filled(sentences[name], { pattern: patterns[cell], side: sides[side] });
 }
 
 /**
  * @param {string} text - With words in braces,
  * @param {Record<string, string | number> | string[]} words - and what they stand for.
  */
-function filled(text, words) {
+export function filled(text, words) {
   return text.replace(/\{(\w+)\}/g, (_, word) => `${/** @type {Record<string, string | number>} */ (words)[word]}`);
 }
 
@@ -135,7 +155,8 @@ export function clock(tick, measures) {
  * @param {number} seconds
  */
 export function minutes(seconds) {
-  return `${Math.floor(seconds / 60)}:${(seconds % 60).toFixed(1).padStart(4, "0")}`;
+  const tenths = Math.round(seconds * 10);
+  return `${Math.floor(tenths / 600)}:${((tenths % 600) / 10).toFixed(1).padStart(4, "0")}`;
 }
 
 /**

@@ -48,6 +48,7 @@ export class Renderer {
     this.drawBars(scene);
     this.drawPlants(scene);
     for (const state of states) drawRobot(context, scene, state, palette);
+    if (scene.meant?.first_tick === scene.environment.first_tick) this.drawMeant(scene.meant, scene);
   }
 
   /**
@@ -122,6 +123,22 @@ export class Renderer {
       context.lineWidth = 14;
       context.stroke();
     });
+  }
+
+  /**
+   * Rings around what an answer speaks of.
+   * @param {import("./scene.js").Meant} meant
+   * @param {Scene} scene
+   */
+  drawMeant({ food, places }, { environment, measures }) {
+    const { context, palette } = this;
+    context.strokeStyle = palette.of.select;
+    context.lineWidth = 14;
+    const pieces = food.map((id) => environment.food[id]).filter(Boolean).map(([x, y]) => [x, y, 2 * FOOD_MM]);
+    for (const [x, y, radius] of [...pieces, ...places.map(([px, py]) => [px, py, measures.body + 30])]) {
+      circle(context, x, y, radius);
+      context.stroke();
+    }
   }
 
   /** @param {Scene} scene */

@@ -18,6 +18,11 @@ import { trailsFor } from "./trail.js";
  */
 
 /**
+ * Cells; and, in the environment that begins with a tick, pieces of food by their index, and places in mm.
+ * @typedef {{cells: number[], first_tick: number, food: number[], places: import("../types.js").WirePlace[]}} Meant
+ */
+
+/**
  * Where a person holds a robot: mm and mrad.
  * @typedef {{x: number, y: number, heading: number}} Ghost
  */
@@ -43,6 +48,8 @@ export class Scene {
     this.news = [];
     /** @type {Item | undefined} */
     this.item = undefined;
+    /** What an answer speaks of, and is lit up. @type {Meant | undefined} */
+    this.meant = undefined;
     /** @type {Map<number, Ghost>} */
     this.ghosts = new Map();
     /** @type {Map<number, State>} */

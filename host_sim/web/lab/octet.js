@@ -12,6 +12,8 @@ import { Panel } from "../panel/panel.js";
 import { DivergenceView } from "../panel/divergence.js";
 import { RobotPicker } from "../panel/robot_picker.js";
 import { drawMarks } from "../panel/timeline.js";
+import { Conversations } from "../talk/conversation.js";
+import { TalkBox } from "../talk/talk_box.js";
 
 /**
  * A recorded run that the page begins with: the tick and the robot that are shown.
@@ -29,6 +31,8 @@ class LabPage extends Laboratory {
     super(parts, begin ? { ...first, ticks_max: 1 } : first);
     this.panel = new Panel((cell, side) => this.change({ do: "write", robot: this.lane.robot, cell, side }));
     this.desk = new SidePanel(this);
+    this.conversations = new Conversations();
+    this.talk = new TalkBox(byId("panel-talk"), this);
     this.course = new Course(this);
     this.parting = new DivergenceView();
     /** @type {RobotPicker | undefined} */
@@ -77,6 +81,48 @@ class LabPage extends Laboratory {
     this.editor?.onRefusal();
   }
 
+  /**
+   * @param {string} who
+   * @param {string} sentence
+   */
+  ask(who, sentence) {
+    const { data, robot, experiment } = this.lane;
+    if (!data) return;
+    /** @type {[number, string][]} */
+    const starts = [[0, experiment.robots[robot].profile]];
+    for (const it of experiment.changes) if (it.do === "start" && it.robot === robot) starts.push([it.tick, it.profile]);
+    const about = { data, robot, tick: Math.min(this.tick, data.last), told: { starts, health: [] } };
+    const [exchange, places] = this.conversations.ask(who, sentence, about);
+    this.talk.answer({ ...exchange, changes: experiment.changes.length }, places);
+  }
+
+  /**
+   * Teaches a speaker what to say to a word.
+   * @param {string} who
+   * @param {string} word
+   * @param {string} answer
+   */
+  teach(who, word, answer) {
+    this.conversations.all[who].teach(word, answer);
+    this.talk.taught.add(answer.toUpperCase());
+  }
+
+  /** All that was said and taught is forgotten. */
+  restartTalk() {
+    this.conversations = new Conversations();
+    this.talk.forget();
+  }
+
+  /** @param {number} tick */
+  seek(tick) {
+    this.setPlaying(false);
+    this.go(tick);
+  }
+
+  lightUp() {
+    this.stale = true;
+  }
+
   /** @param {number} node */
   pick(node) {
     if (this.scene) this.scene.node = node;
@@ -122,6 +168,7 @@ class LabPage extends Laboratory {
     this.picker?.show();
     this.desk.show();
     setText(byId("news"), scene.lastNews);
+    if (!byId("panel-talk").hidden) this.talk.moveTo(byId("panel-talk"));
     this.course.show();
     this.parting.show(lanes, lane);
     this.showTime(scene.clock(tick));

@@ -22,6 +22,9 @@ import { Worksheet } from "./worksheet.js";
  * @property {(experiment: Experiment) => void} begin
  * @property {(experiment: Experiment) => ShownRun} addLane
  * @property {(lane: ShownRun) => void} select
+ * @property {import("../talk/talk_box.js").TalkBox} talk
+ * @property {(who: string, word: string, answer: string) => void} teach
+ * @property {() => void} restartTalk
  */
 
 /** Shows lessons in the element panel-lessons. The part of the address behind # may name the one to open. */
@@ -72,6 +75,7 @@ export class Course {
     this.reached.clear();
     this.begun = true;
     this.lab.begin(first);
+    this.lab.restartTalk();
     for (const experiment of others) this.lab.select(this.lab.addLane(experiment));
   }
 
@@ -86,7 +90,7 @@ export class Course {
     const runs = lanes.flatMap((lane) => (lane.data ? [{ lane, data: lane.data }] : []));
     if (runs.length < lanes.length) return;
     this.plan.goals.forEach((isReached, place) => {
-      if (!this.reached.has(place) && isReached(runs, tick)) this.reached.add(place);
+      if (!this.reached.has(place) && isReached(runs, tick, this.lab.talk)) this.reached.add(place);
     });
   }
 

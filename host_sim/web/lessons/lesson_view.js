@@ -2,7 +2,7 @@
 /* A lesson in the page: its question, its steps, its goals and what it needs. */
 
 import { byId, setText } from "../core/elements.js";
-import { buttonOf, choiceOf, glossaryOf, listOf, made } from "./building.js";
+import { buttonOf, choiceOf, glossaryOf, listOf, made } from "../core/building.js";
 import { LANGUAGES } from "./language.js";
 import { PLANS } from "./plans.js";
 import { toolOf } from "./tools.js";

@@ -1,5 +1,5 @@
 // @ts-check
-/* The six lessons: what each begins with, and when its goals are reached. Their words are in texts/. */
+/* The seven lessons: what each begins with, and when its goals are reached. Their words are in texts/. */
 
 import { PARAMETERS } from "../generated.js";
 import { experimentOf } from "../lab/shown_run.js";
@@ -7,20 +7,21 @@ import { hasEnded, isProgrammed } from "./evidence.js";
 import { areApart, bumpsBlindly, eatsWithoutBelieving, hadToTry, hasEatenFast, hasFreedItself } from "./goals.js";
 import { hasHeard, hasLearnedBothSides, hasPassed, hasTried, isLearnerBeaten, isSharing } from "./goals.js";
 import { isStuckBySensor, knowSooner, wasStuck } from "./goals.js";
+import { changedAnswer, repeatsWhatItWasTaught, tellsKnowingFromSaying } from "./talk_goals.js";
 
 /**
  * @typedef {import("../types.js").Experiment} Experiment
  * @typedef {import("./goals.js").Shown} Shown
  *
- * Whether a goal is reached, by what these runs show up to a tick.
- * @typedef {(runs: Shown[], tick: number) => boolean} Goal
+ * Whether a goal is reached, by what these runs show up to a tick, and by what was said.
+ * @typedef {(runs: Shown[], tick: number, talk: import("../talk/talk_box.js").TalkBox) => boolean} Goal
  *
  * `begin` are the runs that a lesson begins with; the last one is selected. `tool` is what it needs beside the rest of
  * the page.
  * @typedef {Object} Plan
- * @property {"watch" | "program" | "boredom" | "plant" | "sensor" | "share"} id
+ * @property {"watch" | "program" | "boredom" | "plant" | "sensor" | "share" | "talk"} id
  * @property {() => Experiment[]} begin
- * @property {"patience" | "sensors" | "share" | "score" | ""} tool
+ * @property {"patience" | "sensors" | "share" | "score" | "talk" | ""} tool
  * @property {Goal[]} goals
  */
 
@@ -86,6 +87,16 @@ export const PLANS = [
       (runs, tick) => runs.some(({ lane }) => isSharing(lane, tick)),
       (runs, tick) => runs.some((run) => isSharing(run.lane, tick) && hasHeard(run, tick)),
       (runs, tick) => knowSooner(runs, tick),
+    ],
+  },
+  {
+    id: "talk",
+    begin: () => [runOf({ seed: 12 })],
+    tool: "talk",
+    goals: [
+      (_runs, _tick, talk) => tellsKnowingFromSaying(talk),
+      (_runs, _tick, talk) => repeatsWhatItWasTaught(talk),
+      (_runs, _tick, talk) => changedAnswer(talk),
     ],
   },
 ];

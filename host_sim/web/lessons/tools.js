@@ -4,7 +4,7 @@
 import { byId, setText } from "../core/elements.js";
 import { SENSORS } from "../core/sensors.js";
 import { PARAMETERS } from "../generated.js";
-import { choiceOf, made } from "./building.js";
+import { choiceOf, made } from "../core/building.js";
 import { settingAt, ticksPerObstacle } from "./evidence.js";
 import { filled } from "./language.js";
 
@@ -26,6 +26,7 @@ const MAKERS = {
   sensors: makeSensors,
   share: (lab, { words }) => makeSwitch(lab, "share", 1, words.share),
   score: makeScore,
+  talk: makeTalk,
 };
 
 /**
@@ -155,6 +156,26 @@ function makeScore(lab, { words }) {
     setText(element, scores.join("\n") || words.noScore);
   };
   return { element, show };
+}
+
+/**
+ * The box to talk in, and a form to teach a speaker a word.
+ * @param {Lab} lab
+ * @param {Texts} texts
+ * @returns {Tool}
+ */
+function makeTalk(lab, { words }) {
+  const [word, answer] = ["teach-word", "teach-answer"].map((id) => made("input", [], { id, maxlength: "60", required: "" }));
+  const fields = [made("label", [`${words.word} `, word]), made("label", [`${words.answer} `, answer])];
+  const form = made("form", [...fields, made("button", [words.teach])], { class: "controls" });
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    lab.teach(lab.talk.who.value, word.value, answer.value);
+    form.reset();
+  });
+  const element = made("div", [form]);
+  lab.talk.who.value = words.robotScript;
+  return { element, show: () => lab.talk.moveTo(element) };
 }
 
 /**

@@ -5,7 +5,7 @@ import { pictureOf } from "../panel/cells_view.js";
 import { byId } from "../core/elements.js";
 import { CELL_COUNT } from "../generated.js";
 import { binary } from "../core/phrases.js";
-import { glossaryOf, listOf, made } from "./building.js";
+import { glossaryOf, listOf, made } from "../core/building.js";
 
 /**
  * @typedef {import("./language.js").Texts} Texts

@@ -7,6 +7,7 @@ import { LiveView } from "./live_view.js";
 import { Toast } from "../core/toast.js";
 import { restarted } from "../core/phrases.js";
 import { Scene } from "../draw/scene.js";
+import { TalkBox } from "../talk/talk_box.js";
 
 /**
  * @typedef {import("../types.js").Command} Command
@@ -32,6 +33,7 @@ class LivePage {
     this.note = new Toast();
     this.key = pageKey();
     this.seat = new LiveSeat((command) => this.send(command));
+    this.talk = new TalkBox(byId("talk"), this);
     this.hasEnded = false;
     this.socket = this.connect();
   }
@@ -69,6 +71,18 @@ class LivePage {
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
   }
 
+  /**
+   * @param {string} who
+   * @param {string} text
+   */
+  ask(who, text) {
+    this.send({ do: "ask", who, text, node: this.scene?.node ?? 1 });
+  }
+
+  lightUp() {
+    this.drawSoon();
+  }
+
   /** @param {Message} message */
   accept(message) {
     const { measures, environment, states } = message;
@@ -83,6 +97,7 @@ class LivePage {
     if (startedOver) this.note.show(restarted(environment, states));
     if (message.notes) this.view?.editor.onRefusal();
     message.notes?.forEach((text) => this.note.show(text));
+    message.answers?.forEach(({ places, ...exchange }) => this.talk.answer(exchange, places));
     this.message = message;
     this.drawSoon();
   }

@@ -10,7 +10,7 @@ import { CONES, patternBit } from "../core/sensors.js";
  *
  * What a cell shows; `then` is what it held at another time,
  * or in another run.
- * @typedef {{cell: number, side: number, when: string, byHand: boolean, uses: number, inUse: boolean, trying: number,
+ * @typedef {{cell: number, side: number, when: string, byHand: boolean, uses: number, inUse: boolean, trying: number, meant: boolean,
  *   then: number | null, where: string}} Facts
  *
  * The elements of a cell.
@@ -67,6 +67,7 @@ function factsOf(scene, cell, then) {
     uses: state.uses[cell],
     inUse: about && state.reason === REASON.REMEMBERED,
     trying: about && state.reason === REASON.TRIAL && state.trial ? state.trial.side : SIDE.NOTHING,
+    meant: scene.meant?.cells.includes(cell) ?? false,
     then: then ? then[cell] : null,
   };
 }
@@ -81,6 +82,7 @@ function fillCell(parts, facts) {
   button.dataset.side = SIDES[facts.side];
   button.classList.toggle("in-use", facts.inUse);
   button.classList.toggle("trying", facts.trying !== SIDE.NOTHING);
+  button.classList.toggle("meant", facts.meant);
   button.classList.toggle("changed", facts.then !== null && facts.then !== facts.side);
   parts.side.textContent = sideWords(facts);
   parts.history.textContent = historyOf(facts);

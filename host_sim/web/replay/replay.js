@@ -13,6 +13,8 @@ import { RobotPicker } from "../panel/robot_picker.js";
 import { RunData } from "../core/run_data.js";
 import { Scene } from "../draw/scene.js";
 import { drawMarks } from "../panel/timeline.js";
+import { Conversations } from "../talk/conversation.js";
+import { TalkBox } from "../talk/talk_box.js";
 
 /** @typedef {import("../types.js").EventKind} EventKind */
 
@@ -34,6 +36,8 @@ class Player extends PlayingPage {
     this.scene.news = data.run.news ?? [];
     this.picker = new RobotPicker(this.scene, (node) => this.select(node));
     this.laboratory = new ReplayWhatIf(data);
+    this.conversations = new Conversations();
+    this.talk = new TalkBox(byId("talk"), this);
     data.trailsAt(data.first, this.scene.trails);
     byId("pin").addEventListener("click", () => this.pin());
     this.renderer.canvas.addEventListener("click", (event) => this.onClick(event));
@@ -115,6 +119,25 @@ class Player extends PlayingPage {
     this.showTime(scene.clock(tick));
   }
 
+  /**
+   * @param {string} who
+   * @param {string} sentence
+   */
+  ask(who, sentence) {
+    const about = { data: this.data, robot: this.scene.index, tick: this.tick, told: { starts: [], health: [] } };
+    this.talk.answer(...this.conversations.ask(who, sentence, about));
+  }
+
+  /** @param {number} tick */
+  seek(tick) {
+    this.setPlaying(false);
+    this.go(tick);
+  }
+
+  lightUp() {
+    this.stale = true;
+  }
+
   /** @param {MouseEvent} event */
   onClick(event) {
     const item = itemAt(this.scene, this.renderer.placeOf(event));
@@ -126,7 +149,7 @@ class Player extends PlayingPage {
    * @param {KeyboardEvent} event
    */
   takesKey(event) {
-    return !this.laboratory.isOpen && super.takesKey(event);
+    return !this.laboratory.isOpen && !(event.target === this.talk.line) && super.takesKey(event);
   }
 
   /**

@@ -8,7 +8,7 @@ from tests.web.lab.support import READY, SIZES, go
 from tests.web.looks import PHONES, TOO_SMALL, check, out_of_view, resize, violations, violations_at
 from tests.web.support import wait_for
 
-LESSONS = ("watch", "program", "boredom", "plant", "sensor", "share")
+LESSONS = ("watch", "program", "boredom", "plant", "sensor", "share", "talk")
 IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#lesson", "#begin-lesson", "#cells")
 
 

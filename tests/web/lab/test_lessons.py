@@ -185,6 +185,45 @@ def test_share_is_not_done_by_robots_that_do_not_talk_nor_by_a_person_who_does(l
     assert reached(page) == [False, False, False]
 
 
+def say(page: Page, who: str, sentence: str) -> None:
+    page.select_option("#talk-who", who)
+    page.fill("#talk-line", sentence)
+    page.press("#talk-line", "Enter")
+    settle(page)
+
+
+def test_talk(lesson):
+    page = lesson("talk")
+    go(page, 1500)
+    say(page, "eliza", "Why did you turn left?")
+    assert reached(page) == [False, False, False]
+    say(page, "robot", "why did you turn left")
+    assert reached(page) == [True, False, False]
+
+    page.fill("#teach-word", "cheese")
+    page.fill("#teach-answer", "I like cheese")
+    page.press("#teach-answer", "Enter")
+    say(page, "robot", "Do you know cheese?")
+    assert reached(page) == [True, True, False]
+
+    say(page, "robot", "What have you learned?")
+    page.click("#cells li:nth-child(3) button")
+    settle(page)
+    say(page, "robot", "What have you learned?")
+    assert reached(page) == [True, True, True]
+
+
+def test_talk_is_not_done_by_words_nor_by_a_log_that_only_goes_on(lesson):
+    page = lesson("talk")
+    for tick in (0, 1500):
+        go(page, tick)
+        for who in ("robot", "eliza"):
+            say(page, who, "What have you learned, and do you love me?" if who == "eliza" else "Do you love me?")
+            say(page, "robot", "How sure are you?")
+
+    assert reached(page) == [False, False, False]
+
+
 def test_a_lesson_that_is_started_again_has_no_goal_reached(lesson):
     page = lesson("watch")
     go(page, 500)

@@ -237,3 +237,16 @@ def test_the_place_of_a_click_is_where_the_robot_is(page):
     now = state(page)
     page.mouse.click(*place_on_page(page, now["x"], now["y"]))
     assert page.evaluate("octet.scene.item.kind") == "robot"
+
+
+def test_a_robot_answers_while_it_runs(page):
+    page.fill("#talk-line", "Where are you?")
+    page.press("#talk-line", "Enter")
+
+    wait_for_text(page, "#talk-said", "FROM THE LEFT WALL")
+    wait_for(page, "octet.scene.meant.places.length === 1")
+    page.select_option("#talk-who", "eliza-de")
+    page.fill("#talk-line", "Ich bin traurig.")
+    page.press("#talk-line", "Enter")
+    wait_for_text(page, "#talk-said", "[words] ES TUT MIR LEID , DASS DU TRAURIG BIST")
+    assert page.evaluate("octet.scene.meant") is None

@@ -71,3 +71,51 @@ def test_keyboard_alone(page):
     assert page.evaluate("octet.scene.state.reason") == 5
     page.keyboard.press("Space")
     wait_for(page, "octet.playing")
+
+
+def say(page: Page, sentence: str, who: str = "robot") -> str:
+    """What is answered to a sentence."""
+    page.select_option("#talk-who", who)
+    page.fill("#talk-line", sentence)
+    page.press("#talk-line", "Enter")
+    next_frame(page)
+    return page.inner_text("#talk-said > li:last-child > p:last-child")
+
+
+def test_the_robot_answers_from_the_run_and_what_it_means_lights_up(page):
+    page.evaluate("octet.go(octet.data.last)")
+
+    assert say(page, "What have you learned?").startswith("[log]")
+
+    learned = page.evaluate("octet.scene.state.memory.flatMap((side, cell) => (side ? [cell] : []))")
+    lit = "[...document.querySelectorAll('.cell')].flatMap((it, i) => (it.classList.contains('meant') ? [i] : []))"
+    assert page.evaluate(lit) == learned != []
+    assert say(page, "Do you love me?").startswith("[words]")
+    assert page.evaluate(lit) == []
+
+
+def test_a_time_in_an_answer_shows_that_time_and_the_place_is_marked(page):
+    page.evaluate("octet.go(octet.data.last)")
+    say(page, "When was your last meal?")
+    at = page.evaluate("octet.talk.history.at(-1).said.ticks.at(-1)")
+    place = page.evaluate("octet.scene.meant.places.at(-1)")
+
+    page.click("#talk-said > li:last-child button >> nth=-1")
+
+    assert tick(page) == at
+    assert [page.evaluate("octet.scene.state.x"), page.evaluate("octet.scene.state.y")] == place
+    assert len(page.evaluate("octet.scene.meant.food")) == 3
+
+
+def test_keys_in_the_line_are_no_keys_of_the_page(page):
+    page.click("#talk-line")
+    page.keyboard.type("n w p end")
+
+    assert tick(page) == 0
+    assert page.input_value("#talk-line") == "n w p end"
+
+
+def test_eliza_answers_in_german_and_any_text_is_answered(page):
+    assert say(page, "Ich bin traurig.", "eliza-de") == "[words] ES TUT MIR LEID , DASS DU TRAURIG BIST"
+    assert say(page, "\u0007 <b>\U0001f600 my \U0001f600", "robot").startswith("[words]")
+    assert page.locator("#talk-said b").count() == 0

@@ -16,12 +16,12 @@ def in_node(folder: Path, module: str, code: str, *files: Path) -> Any:
 
     Args:
         folder: Where the bundle is written.
-        module: The module to bundle, with all that it imports.
+        module: The module to bundle, with all that it imports; several with spaces between them.
         code: The body of a function of (modules, page, texts).
         files: Files whose texts the code wants.
     """
     script = folder / f"{Path(module).name}.bundle"
-    script.write_text(bundle(module))
+    script.write_text(bundle(*module.split()))
     done = subprocess.run(
         ["node", RUN_IN_NODE, script, PAGE_WASM, code, *files], capture_output=True, text=True, check=False
     )

@@ -1,0 +1,79 @@
+// @ts-check
+/* A conversation in a page, with the robot of a run or with ELIZA; it marks what is known. */
+
+import { byId } from "../core/elements.js";
+import { Eliza } from "./eliza.js";
+import { POINT, RobotFacts, inOrder } from "./facts.js";
+
+/**
+ * One who talks: a script and, for its facts, the words of its language.
+ * @typedef {{script: import("./eliza.js").Script, texts: import("./facts.js").Texts}} Speaker
+ * @typedef {import("../types.js").Said} Said
+ * @typedef {ConstructorParameters<typeof RobotFacts>[0]} About
+ */
+
+const PLACES_MAX = 100;
+
+/** Answers sentence by sentence. */
+export class Conversation {
+  /** @param {Speaker} speaker */
+  constructor({ script, texts }) {
+    this.texts = texts;
+    this.eliza = new Eliza(structuredClone(script));
+    this.joined = new RegExp(texts.joined.length ? `,(?=\\s+(?:${texts.joined.join("|")})\\s)` : "(?!)", "gi");
+  }
+
+  /**
+   * @param {string} sentence
+   * @param {About | undefined} about - What is asked about; undefined where nothing is known.
+   * @returns {Said}
+   */
+  answer(sentence, about) {
+    const facts = /** @type {Record<string, ((words: string[]) => import("./eliza.js").Known | null)>} */ (
+      /** @type {unknown} */ (about ? new RobotFacts(about, this.texts) : {}));
+    const heard = sentence.replace(/(?<=[0-9])[.,](?=[0-9])/g, POINT).replace(this.joined, " ");
+    try {
+      const { text, known } = this.eliza.answer(heard, (name, words) => facts[name.toLowerCase()]?.(words) ?? null);
+      const of = (/** @type {"ticks" | "cells" | "food"} */ part) => inOrder(known.flatMap((it) => it[part]));
+      const said = text.replaceAll(POINT, this.texts.words.point);
+      return { mark: known.length ? "log" : "words", text: said, ticks: of("ticks"), cells: of("cells"), food: of("food") };
+    } catch (error) {
+      return { mark: "words", text: error instanceof Error ? error.message : `${error}`, ticks: [], cells: [], food: [] };
+    }
+  }
+
+  /**
+   * Teaches it a word: what it says to each sentence with that word. Nothing is known the more.
+   * @param {string} word
+   * @param {string} answer
+   */
+  teach(word, answer) {
+    const key = word.trim().toUpperCase();
+    const transformations = [{ parts: [0], reassemblies: [/** @type {[string[], null]} */ ([[answer.toUpperCase()], null])], turn: 0 }];
+    this.eliza.rules.set(key, { key, substitute: null, tags: [], rank: 99, transformations, link: null });
+  }
+}
+
+/** All who can be talked to in a page that has the whole run. */
+export class Conversations {
+  /** @param {Record<string, Speaker>} [speakers] - By default, those in the page. */
+  constructor(speakers = JSON.parse(byId("speakers").textContent || "{}")) {
+    this.all = Object.fromEntries(Object.entries(speakers).map(([name, speaker]) => [name, new Conversation(speaker)]));
+  }
+
+  /**
+   * What is asked, and its answer; and where the robot was in the ticks on which it rests, in this environment.
+   * @param {string} who
+   * @param {string} sentence
+   * @param {About} about
+   */
+  ask(who, sentence, about) {
+    const { data, robot, tick } = about;
+    const said = this.all[who].answer(sentence, about);
+    const { x, y } = data.robots[robot].columns;
+    const here = said.ticks.filter((it) => it >= data.sceneAt(tick).first_tick).slice(-PLACES_MAX);
+    /** @type {import("../types.js").WirePlace[]} */
+    const places = here.map((it) => [x[it - data.first] / 10, y[it - data.first] / 10]);
+    return /** @type {const} */ ([{ who, sentence, said, tick }, places]);
+  }
+}

@@ -1,0 +1,300 @@
+// @ts-check
+/* What a robot knows of a run in a page, up to a tick. host_sim/talk/facts.py says what each fact is. */
+
+import { REASON, SIDE } from "../generated.js";
+import { decimal, filled, lessonSentence, sentence, verdict } from "../core/phrases.js";
+
+/**
+ * @typedef {import("../core/run_data.js").RunData} RunData
+ * @typedef {import("../types.js").Lesson} Lesson
+ * @typedef {import("./eliza.js").Known} Known
+ * @typedef {{right: string[], left: string[], front: string[], all: string[], turns: string[]}} Spoken
+ *
+ * The words of a language, as in host_sim/talk/texts.py.
+ * @typedef {{words: import("../core/phrases.js").Words, facts: Record<string, string>, spoken: Spoken, joined: string[]}} Texts
+ *
+ * What a log has of a robot besides its ticks: the ticks from which it had a behaviour, and its reports on the bus.
+ * @typedef {{starts: [number, string][], health: [number, Record<string, number>][]}} Told
+ */
+
+export const POINT = "\u00b7";
+
+const BITS = { turns: 0, all: 7, right: 1, left: 4, front: 2 };
+const SECONDS = new RegExp(`[0-9]{1,9}(?:${POINT}[0-9]{1,3})?`);
+const TURNS = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
+const MOVES = Object.values(REASON).filter((reason) => reason !== REASON.STOP);
+const LAST = 3;
+
+/** The facts of one robot up to a tick: each public method is one. */
+export class RobotFacts {
+  /**
+   * @param {{data: RunData, robot: number, tick: number, told: Told}} about - The robots are counted from 0.
+   * @param {Texts} texts
+   */
+  constructor(about, texts) {
+    this.#about = about;
+    this.#texts = texts;
+    this.#now = this.#stateAt(about.tick);
+  }
+
+  #about;
+  #texts;
+  #now;
+
+  learned() {
+    return this.#eachCell("learned");
+  }
+
+  sure() {
+    return this.#eachCell("sure");
+  }
+
+  /** @param {string[]} words */
+  cell(words) {
+    const cell = cellIn(words, this.#texts.spoken);
+    if (!cell) return null;
+    const { learned, by_hand, memory } = this.#now;
+    const how = learned[cell] < 0 ? "start" : by_hand[cell] ? "told" : "learned";
+    const since = this.#say(`since_${how}`, { at: this.#seconds(learned[cell]) });
+    return this.#known(this.#ofCell(memory[cell] ? "cell" : "cell_none", cell, { since }), [learned[cell]], [cell]);
+  }
+
+  /** @param {string[]} words */
+  why(words) {
+    return this.#reason(words, this.#begun(MOVES));
+  }
+
+  /** @param {string[]} words */
+  turn(words) {
+    const { left, right } = this.#texts.spoken;
+    const spoken = (/** @type {string[]} */ names) => words.some((word) => names.includes(word));
+    const wanted = spoken(left) ? SIDE.LEFT : spoken(right) ? SIDE.RIGHT : SIDE.NOTHING;
+    const isLeft = (/** @type {{left: number, right: number}} */ { left: one, right: other }) => one < other;
+    const turns = this.#begun(TURNS);
+    return this.#reason(words, turns.filter((tick) => !wanted || isLeft(this.#stateAt(tick)) === (wanted === SIDE.LEFT)));
+  }
+
+  bored() {
+    const { repeat_count: count } = this.#now;
+    return this.#counted("bored", this.#begun([REASON.BOREDOM]), { count, limit: this.#about.data.measures.boredom });
+  }
+
+  food() {
+    const { eaten } = this.#now;
+    const all = eaten.map((_, piece) => piece);
+    const gone = all.filter((piece) => eaten[piece]);
+    const meals = this.#track.run.events.flatMap(([tick, kind]) => (kind === "eat" && tick <= this.#about.tick ? [tick] : []));
+    const known = this.#counted("food", meals, { eaten: gone.length, pieces: eaten.length });
+    return { ...known, food: gone.length ? gone : all };
+  }
+
+  where() {
+    const { x, y } = this.#track.columns;
+    const { body } = this.#about.data.measures;
+    let way = 0;
+    for (let i = 1; i <= this.#about.tick - this.#about.data.first; i += 1) {
+      const [dx, dy] = [(x[i] - x[i - 1]) / 10, (y[i] - y[i - 1]) / 10];
+      const step = Math.sqrt(dx * dx + dy * dy);
+      if (step < body) way += step;
+    }
+    const now = this.#now;
+    return this.#known(this.#say("where", { x: this.#metres(now.x, 2), y: this.#metres(now.y, 2), way: this.#metres(way, 1) }));
+  }
+
+  touched() {
+    const { bump } = this.#track.columns;
+    return this.#counted("touched", this.#ticks((i) => bump[i] > (i ? bump[i - 1] : 0)));
+  }
+
+  forgotten() {
+    return this.#noted("forgotten", ({ side, by_hand }) => !side && !by_hand);
+  }
+
+  told() {
+    return this.#noted("told", ({ by_hand }) => Boolean(by_hand));
+  }
+
+  tried() {
+    return this.#counted("tried", this.#begun([REASON.TRIAL]), { verdict: verdict(this.#now, this.#texts.words) });
+  }
+
+  sees() {
+    const { feel, beacon } = this.#now;
+    const cell = (feel >> 1) & 7;
+    const food = beacon ? this.#say("sees_food", { beacon: this.#metres(beacon, 2) }) : this.#say("sees_none");
+    const text = this.#ofCell(cell ? "sees" : "sees_clear", cell, { food });
+    return { ...this.#known(text, [], cell ? [cell] : []), food: beacon ? this.#ahead() : [] };
+  }
+
+  changed() {
+    const news = (this.#about.data.run.news ?? []).filter(([tick, said]) => tick <= this.#about.tick && !said.includes("could not happen:"));
+    const told = news.slice(-LAST).map(([tick, said]) => this.#say("changed_item", { at: this.#seconds(tick), news: said }));
+    return this.#counted("changed", news.map(([tick]) => tick), { last: told.join(" ") });
+  }
+
+  behaviour() {
+    const start = this.#about.told.starts.filter(([tick]) => tick <= this.#about.tick).at(-1);
+    return start ? this.#known(this.#say("behaviour", { name: start[1] }), [start[0]]) : null;
+  }
+
+  bus() {
+    const report = this.#about.told.health.filter(([tick]) => tick <= this.#about.tick).at(-1);
+    return report ? this.#known(this.#say("bus", { at: this.#seconds(report[0]), ...report[1] }), [report[0]]) : null;
+  }
+
+  get #track() {
+    return this.#about.data.robots[this.#about.robot];
+  }
+
+  /** @param {number} tick */
+  #stateAt(tick) {
+    return this.#about.data.statesAt(tick)[this.#about.robot];
+  }
+
+  /**
+   * @param {string} name
+   * @param {Record<string, string | number>} [values]
+   */
+  #say(name, values = {}) {
+    return filled(this.#texts.facts[name], values);
+  }
+
+  /**
+   * A fact that rests on ticks; where on none, on the one that is asked about.
+   * @param {string} text
+   * @param {number[]} [ticks]
+   * @param {number[]} [cells]
+   * @returns {Known}
+   */
+  #known(text, ticks = [], cells = []) {
+    const rests = inOrder(ticks.filter((tick) => tick >= 0));
+    return { text: text.toUpperCase(), ticks: rests.length ? rests : [this.#about.tick], cells: inOrder(cells), food: [] };
+  }
+
+  /**
+   * How often something has happened, and when last.
+   * @param {string} name
+   * @param {number[]} ticks
+   * @param {Record<string, string | number>} [values]
+   * @param {number[]} [cells]
+   */
+  #counted(name, ticks, values = {}, cells = []) {
+    if (!ticks.length) return this.#known(this.#say(`${name}_none`, values));
+    const times = { times: this.#times(ticks.length), at: this.#seconds(ticks[ticks.length - 1]) };
+    return this.#known(this.#say(name, { ...times, ...values }), ticks, cells);
+  }
+
+  /**
+   * @param {string} name
+   * @param {(lesson: Lesson) => boolean} isWanted
+   */
+  #noted(name, isWanted) {
+    const lessons = this.#track.lessonsUpTo(this.#about.tick, this.#about.data.sceneAt(this.#about.tick).start_tick).filter(isWanted);
+    const said = lessons.slice(-LAST).map((lesson) =>
+      this.#say("why", { at: this.#seconds(lesson.tick), sentence: lessonSentence(lesson, this.#texts.words) }));
+    return this.#counted(name, lessons.map(({ tick }) => tick), { last: said.join(" ") }, lessons.map(({ cell }) => cell));
+  }
+
+  /** @param {string} name */
+  #eachCell(name) {
+    const { memory, learned } = this.#now;
+    const held = memory.flatMap((side, cell) => (cell && side ? [cell] : []));
+    const said = held.map((cell) => this.#ofCell(name, cell)).join("; ");
+    return this.#known(said || this.#say(`${name}_none`), learned, held);
+  }
+
+  /**
+   * @param {string} name
+   * @param {number} cell
+   * @param {Record<string, string>} [values]
+   */
+  #ofCell(name, cell, values = {}) {
+    const { words } = this.#texts;
+    const { memory, uses } = this.#now;
+    return this.#say(name, { pattern: words.patterns[cell], side: words.sides[memory[cell]], times: this.#times(uses[cell]), ...values });
+  }
+
+  /**
+   * Why it did what it did at the time in a question; where none is in it, in the last of some ticks.
+   * @param {string[]} words
+   * @param {number[]} begun
+   */
+  #reason(words, begun) {
+    const asked = SECONDS.exec(words.join(" "))?.[0].replace(POINT, ".");
+    const { tick_ms } = this.#about.data.measures;
+    const tick = asked ? Math.floor((Number(asked) * 1000) / tick_ms + 0.5) : (begun.at(-1) ?? -1);
+    if (tick < this.#about.data.first || tick > this.#about.tick) return null;
+    const state = this.#stateAt(tick);
+    const said = this.#say("why", { at: this.#seconds(tick), sentence: sentence(state, false, this.#texts.words) });
+    return this.#known(said, [tick], TURNS.includes(state.reason) && state.pattern ? [state.pattern] : []);
+  }
+
+  /** @param {number} count */
+  #times(count) {
+    return this.#say(count === 1 ? "once" : "times", { count });
+  }
+
+  /** @param {number} tick */
+  #seconds(tick) {
+    return `${decimal((tick * this.#about.data.measures.tick_ms) / 1000, 2, this.#texts.words)} s`;
+  }
+
+  /**
+   * @param {number} length_mm
+   * @param {number} digits
+   */
+  #metres(length_mm, digits) {
+    return decimal(length_mm / 1000, digits, this.#texts.words);
+  }
+
+  /**
+   * The ticks up to now in which actions with one of the reasons began.
+   * @param {number[]} reasons
+   */
+  #begun(reasons) {
+    const { action, reason } = this.#track.columns;
+    return this.#ticks((i) => action[i] !== (i ? action[i - 1] : -1) && reasons.includes(reason[i]));
+  }
+
+  /**
+   * The ticks up to now of which something is true, by their places in the columns.
+   * @param {(place: number) => boolean} isTrue
+   */
+  #ticks(isTrue) {
+    const { first } = this.#about.data;
+    /** @type {number[]} */
+    const ticks = [];
+    for (let i = 0; i <= this.#about.tick - first; i += 1) if (isTrue(i)) ticks.push(first + i);
+    return ticks;
+  }
+
+  /** The piece of food nearest to where the robot sees one. */
+  #ahead() {
+    const { x, y, beacon, heading } = this.#now;
+    const [ax, ay] = [x + beacon * Math.cos(heading / 1000), y + beacon * Math.sin(heading / 1000)];
+    const far = this.#about.data.sceneAt(this.#about.tick).food.map(([fx, fy]) => (fx - ax) ** 2 + (fy - ay) ** 2);
+    return far.length ? [far.indexOf(Math.min(...far))] : [];
+  }
+}
+
+/** @param {number[]} numbers */
+export function inOrder(numbers) {
+  return [...new Set(numbers)].sort((a, b) => a - b);
+}
+
+/**
+ * The number of the pattern of front sensors that is spoken of; 0 if there is none.
+ * @param {string[]} words
+ * @param {Spoken} spoken
+ */
+function cellIn(words, spoken) {
+  let said = ` ${words.join(" ")} `.replaceAll("-", " ");
+  let cell = 0;
+  for (const [where, names] of Object.entries(spoken)) {
+    for (const name of names.filter((it) => said.includes(` ${it} `))) {
+      cell |= BITS[/** @type {keyof Spoken} */ (where)];
+      said = said.replaceAll(` ${name} `, " ");
+    }
+  }
+  return cell;
+}

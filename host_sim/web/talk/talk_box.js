@@ -1,0 +1,106 @@
+// @ts-check
+/* A box to talk in: who is asked, what was said, and a line to write in. */
+
+import { buttonOf, choiceOf, made } from "../core/building.js";
+
+/**
+ * @typedef {import("../types.js").WirePlace} WirePlace
+ * @typedef {import("../types.js").Said} Said
+ *
+ * What was asked, and the answer; and of a page that has the whole run, the tick that was asked about, and how often
+ * people had changed the run before.
+ * @typedef {{who: string, sentence: string, said: Said, tick?: number, changes?: number}} Exchange
+ *
+ * The page, as far as the box knows it: `ask` has a sentence answered, now or later, by `TalkBox.answer`; `seek` shows a
+ * tick, where the page can; `lightUp` draws the scene anew, with what is meant.
+ * @typedef {Object} Page
+ * @property {import("../draw/scene.js").Scene | undefined} scene
+ * @property {(who: string, sentence: string) => void} ask
+ * @property {(tick: number) => void} [seek]
+ * @property {() => void} lightUp
+ */
+
+const NAMES = { robot: "robot", "robot-de": "Roboter (Deutsch)", eliza: "ELIZA", "eliza-de": "ELIZA (Deutsch)" };
+const LENGTH_MAX = "300";
+const SAID_MAX = 50;
+const TIMES_SHOWN = 3;
+
+/** Is put into an element of the page. */
+export class TalkBox {
+  /**
+   * @param {HTMLElement} parent
+   * @param {Page} page
+   */
+  constructor(parent, page) {
+    this.page = page;
+    /**
+     * The oldest first.
+     * @type {Exchange[]}
+     */
+    this.history = [];
+    /** What speakers were taught to say. @type {Set<string>} */
+    this.taught = new Set();
+    const { label, select } = choiceOf("Talk to", Object.entries(NAMES), () => this.mean(undefined));
+    this.who = select;
+    this.who.id = "talk-who";
+    this.list = made("ol", [], { id: "talk-said", "aria-live": "polite", "aria-label": "What was said", tabindex: "0" });
+    this.line = made("input", [], { id: "talk-line", maxlength: LENGTH_MAX, autocomplete: "off", "aria-label": "What you say" });
+    this.line.placeholder = "Why did you turn left?";
+    const form = made("form", [label, this.line, made("button", ["Say"], { class: "main" })], { class: "controls" });
+    form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.page.ask(this.who.value, this.line.value);
+      this.line.value = "";
+    });
+    this.element = made("div", [this.list, form], { id: "talk-box" });
+    parent.append(this.element);
+  }
+
+  /** @param {HTMLElement} parent */
+  moveTo(parent) {
+    if (this.element.parentElement !== parent) parent.append(this.element);
+  }
+
+  /** Begins anew. */
+  forget() {
+    this.history = [];
+    this.taught.clear();
+    this.list.replaceChildren();
+    this.mean(undefined);
+  }
+
+  /**
+   * Shows an answer, and lights up what it speaks of.
+   * @param {Exchange} exchange
+   * @param {WirePlace[]} places - Where the robot was in the ticks on which the answer rests, if that is in view.
+   */
+  answer(exchange, places) {
+    const { who, sentence, said } = exchange;
+    this.history = [...this.history, exchange].slice(-SAID_MAX);
+    const mark = made("span", [`[${said.mark}]`], { class: `mark ${said.mark}` });
+    const lang = who.endsWith("-de") ? "de" : "en";
+    const answer = made("p", [mark, ` ${said.text} `, ...this.times(said)], { lang });
+    this.list.append(made("li", [made("p", [sentence || "…"], { class: "asked", lang }), answer]));
+    if (this.list.childElementCount > SAID_MAX) this.list.firstElementChild?.remove();
+    this.list.scrollTop = this.list.scrollHeight;
+    const { first_tick = 0 } = this.page.scene?.environment ?? {};
+    this.mean(said.mark === "log" ? { ...said, places, first_tick } : undefined);
+  }
+
+  /** @param {import("../draw/scene.js").Meant | undefined} meant */
+  mean(meant) {
+    if (this.page.scene) this.page.scene.meant = meant;
+    this.page.lightUp();
+  }
+
+  /**
+   * The last times on which an answer rests, to press where the page can show them.
+   * @param {Said} said
+   */
+  times({ ticks }) {
+    const { scene, seek } = this.page;
+    if (!scene) return [];
+    return ticks.slice(-TIMES_SHOWN).map((tick) =>
+      seek ? buttonOf(scene.clock(tick), () => this.page.seek?.(tick)) : made("span", [scene.clock(tick)], { class: "time" }));
+  }
+}
