@@ -1,4 +1,4 @@
-"""ELIZA once more, written from the description of the language alone: slow, plain, sharing no code with the engine."""
+"""ELIZA once more, from the description of the language alone: slow, plain, sharing no code with the engine."""
 
 import re
 from collections.abc import Callable, Iterator
