@@ -65,6 +65,7 @@ HELP = (
     *("octet watch --listen --help", "octet page --help", "octet run --robot emulated --help"),
     *("coverage --help", "flash --help", "fresh --help", "generate --help", "legacy-fpu --help", "licences --help"),
     *("misra --help", "mutate --help", "prove --help", "requirements --help", "size --help", "test --help"),
+    "pins --help",
     "with-vcan --help",
 )
 
@@ -135,7 +136,7 @@ def test_octet_sets_up_what_the_options_need(words: str, with_python: Path) -> N
 
 def test_the_benchmark_needs_what_the_tests_need(with_python: Path) -> None:
     assert call(with_python, "bench --json").stdout.splitlines() == [
-        "sets up: tests vcan",
+        "sets up: tests web vcan",
         "-m host_sim.lab.bench --json",
     ]
 

@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.testing import concerned, quick  # noqa: E402 - found by the line above
+from tools.testing import concerned, places, quick  # noqa: E402 - found by the line above
 
 FILES = {
     "host_sim/world/near.py": "X = 1\n",
@@ -79,3 +79,17 @@ def test_a_c_source_concerns_the_tests_that_are_made_of_it(changed, tests, tmp_p
     monkeypatch.setattr(concerned, "_noted_deps", lambda _: noted)
 
     assert concerned.c_tests(build, [changed]) == tests
+
+
+@pytest.mark.parametrize(
+    ("name", "test", "is_one"),
+    [
+        ("web", "tests/web/lab/test_lab.py", True),
+        ("web", "tests/web/test_browsers.py", False),
+        ("studies", "tests/lab/study/test_study.py", True),
+        ("studies", "tests/lab/study/test_emulated_board.py", False),
+        ("studies", "tests/web/test_types.py", False),
+    ],
+)
+def test_a_stage_has_the_tests_of_its_folders_that_no_other_stage_names(name, test, is_one):
+    assert places.is_of(name, test) == is_one

@@ -1,101 +1,12 @@
-"""tools/setup, with stand-ins for the programs that it calls."""
+"""tools/setup, with stand-ins for the programs that it calls: .venv, builds, and what a stage needs."""
 
 import os
-import shutil
 import subprocess
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-
-EXTRAS = ("export", "study", "cluster", "classroom")
-INSTALLERS = ("sudo", "apt-get")
-"""With stand-ins for these, no test installs a package that this machine lacks."""
-STAGES = ("run", "emulator", "gym", *EXTRAS, "tests", "web")
-LOCKS = tuple(f"requirements/{name}.lock" for name in STAGES)
-
-# Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
-# cmake, tools/generate and the download of Unity make what they are to make. With a file beside the notes, installing
-# that lock fails, as without a network.
-STAND_IN = """#!/bin/bash
-[ "$*" = --version ] || echo "${0##*/} $*" >>"$CALLS"
-case "${0##*/} $*" in
-  "python3 -m venv"*)
-    mkdir -p "$3/bin" && cp "$0" "$3/bin/python"
-    printf '%s\\n' "#!$PWD/$3/bin/python" >"$3/bin/script"
-    ;;
-  "python tools/generate"*) touch "$3" "$5" "$7" ;;
-  cmake*) mkdir -p "$2" ;;
-  *" download "*)
-    mkdir -p build/unity/its/tests/c/test_framework && touch build/unity/its/tests/c/test_framework/unity.c
-    tar -czf build/unity/cantools-1.tar.gz -C build/unity its
-    ;;
-  *install*--require-hashes*) lock=${!#} && [ ! -e "$CALLS.no-${lock##*/}" ] ;;
-esac
-"""
-
-
-class Tree:
-    """A copy of what tools/setup reads, in a folder of its own."""
-
-    def __init__(self, tmp_path: Path) -> None:
-        self.folder = tmp_path / "a tree"
-        self.calls = tmp_path / "calls"
-        self.bin = tmp_path / "bin"
-        (self.folder / "tools").mkdir(parents=True)
-        shutil.copy(ROOT / "tools/setup", self.folder / "tools")
-        for name in ("pyproject.toml", "CMakePresets.json"):
-            shutil.copy(ROOT / name, self.folder)
-        for name in (
-            *LOCKS,
-            "hal/protocol/octet.dbc",
-            "hal/protocol/robot.toml",
-            "tools/generate",
-            "requirements/unity.lock",
-            "tools/robot_words/description.py",
-            "tools/robot_words/model.py",
-            "tools/cmake/wasm32.cmake",
-            "host_sim/view/state_types.py",
-        ):
-            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(ROOT / name, self.folder / name)
-        for name in ("host_sim/protocol", "host_sim/web"):
-            (self.folder / name).mkdir(parents=True)
-        self.bin.mkdir()
-        for name in ("python3", "cmake", "ninja", *INSTALLERS):
-            (self.bin / name).write_text(STAND_IN)
-            (self.bin / name).chmod(0o755)
-
-    def setup(self, *stages: str, path: str | None = None) -> tuple[subprocess.CompletedProcess[str], list[str]]:
-        """Runs tools/setup and returns how it ended and what it called."""
-        self.calls.write_text("")
-        environment = {"PATH": path or f"{self.bin}:{os.environ['PATH']}", "CALLS": str(self.calls)}
-        command = [self.folder / "tools/setup", *stages]
-        done = subprocess.run(command, cwd="/", env=environment, capture_output=True, text=True, check=False)
-        return done, [line.split()[0] for line in self.calls.read_text().splitlines()]
-
-    def installed(self) -> list[str]:
-        """The lock files whose packages the last call installed."""
-        return [line.split()[-1] for line in self.calls.read_text().splitlines() if "--require-hashes" in line]
-
-    def built(self) -> list[str]:
-        """The folders that the last call configured."""
-        return [line.split()[2] for line in self.calls.read_text().splitlines() if line.startswith("cmake -B")]
-
-    @contextmanager
-    def offline(self, lock: str) -> Iterator[None]:
-        """Makes the installation of that lock file fail."""
-        broken = Path(f"{self.calls}.no-{Path(lock).name}")
-        broken.touch()
-        yield
-        broken.unlink()
-
-    def change(self, lock: str) -> None:
-        with (self.folder / lock).open("a") as text:
-            text.write("# changed\n")
+from tests.tools.setup_tree import EXTRAS, STAND_IN, Tree
 
 
 @pytest.fixture
@@ -287,45 +198,3 @@ def test_help_lists_the_stages_and_sets_nothing_up(tree: Tree, word: str) -> Non
     done, calls = tree.setup(word)
     assert (done.returncode, done.stderr, calls) == (0, "", [])
     assert "page:" in done.stdout
-
-
-def test_what_cannot_be_installed_is_named_with_the_command(tree: Tree) -> None:
-    for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
-        (tree.bin / name).symlink_to(str(shutil.which(name)))
-    for name in ("cmake", *INSTALLERS):
-        (tree.bin / name).unlink()
-    done, _ = tree.setup(path=str(tree.bin))
-    assert done.returncode != 0
-    assert "apt-get install gcc cmake\n" in done.stderr
-
-
-def test_packages_alone_are_installed_without_a_venv_or_a_build(tree: Tree) -> None:
-    done, calls = tree.setup("--packages", "c")
-    assert (done.returncode, set(calls) - {"python3"}) == (0, set())  # python3 is asked whether it can make a venv
-    assert not (tree.folder / ".venv").exists()
-
-
-def test_packages_alone_that_cannot_be_installed_are_named(tree: Tree) -> None:
-    for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "readlink", "rm"):
-        (tree.bin / name).symlink_to(str(shutil.which(name)))
-    for name in ("cmake", *INSTALLERS):
-        (tree.bin / name).unlink()
-    done, _ = tree.setup("--packages", "c", path=str(tree.bin))
-    assert done.returncode != 0
-    assert "apt-get install gcc cmake\n" in done.stderr
-
-
-def test_packages_whose_installation_was_killed_are_installed_by_the_next_call(tree: Tree) -> None:
-    for name in ("bash", "cat", "dirname", "env", "flock", "mkdir", "mktemp", "readlink", "rm", "sed", "cp"):
-        (tree.bin / name).symlink_to(str(shutil.which(name)))
-    gcc = tree.bin / "gcc"
-    half = f'[[ $* != *install* || -e "{gcc}" ]] || {{ cp "$0" "{gcc}"; kill -9 "$PPID"; }}'
-    for name, does in {"sudo": 'exec "$@"', "apt-get": half, "apt-cache": "echo gcc", "dpkg": ""}.items():
-        (tree.bin / name).write_text(f"{STAND_IN}{does}\n")
-        (tree.bin / name).chmod(0o755)
-
-    ended = [tree.setup("--packages", "c", path=str(tree.bin)) for _ in range(3)]
-
-    assert [done.returncode for done, _ in ended] == [-9, 0, 0]
-    assert [calls.count("apt-get") for _, calls in ended] == [2, 2, 0]
-    assert [done.stderr for done, _ in ended[1:]] == ["octet: installing gcc with apt-get\n", ""]

@@ -1,14 +1,9 @@
 """Which stage runs which Python tests; those that no stage names are the stage python's."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
-TEST: Mapping[str, Sequence[str]] = {
-    "web": ("tests/web",),
-}
-"""Of tools/test, beside python."""
-
-PROVE: Mapping[str, Sequence[str]] = {
+PROVE: Mapping[str, tuple[str, ...]] = {
     "boards": (
         "tests/image",
         "tests/lab/study/test_emulated_board.py",
@@ -21,6 +16,8 @@ PROVE: Mapping[str, Sequence[str]] = {
     "coverage": ("tests/tools/test_coverage.py", "tests/tools/test_python_coverage.py"),
     "campaign": ("tests/lab/campaign",),
     "endurance": ("tests/runs/endurance",),
+    "studies": ("tests/lab/study",),
+    "web": ("tests/web", "tests/report/test_laboratory.py"),
     "browsers": ("tests/web/test_browsers.py",),
     "exhaustive": ("tests/firmware/test_every_case.py", "tests/talk/test_every_answer.py"),
     "formats": ("tests/lab/export",),
@@ -28,13 +25,27 @@ PROVE: Mapping[str, Sequence[str]] = {
 }
 """Of tools/prove."""
 
+QUICK = ("studies", "web")
+"""The stages of tools/prove that tools/test --quick runs as well, if a change concerns their tests."""
+
 PROVE_ON_VCAN = ("boards", "campaign")
 """The stages of tools/prove with tests that need vcan0."""
 
 
 def named() -> list[str]:
     """All that some stage names."""
-    return [path for places in (TEST, PROVE) for paths in places.values() for path in paths]
+    return [path for paths in PROVE.values() for path in paths]
+
+
+def of_stage(name: str) -> list[str]:
+    """What a stage of tools/prove runs, for pytest: not what another stage names within it."""
+    within = (path for path in named() if path not in PROVE[name] and path.startswith(PROVE[name]))
+    return [*PROVE[name], *(f"--ignore={path}" for path in within)]
+
+
+def is_of(name: str, test: str) -> bool:
+    """Whether a file of tests is of that stage of tools/prove."""
+    return test.startswith(PROVE[name]) and f"--ignore={test}" not in of_stage(name)
 
 
 def with_vcan_tests(root: Path) -> list[str]:
@@ -42,8 +53,3 @@ def with_vcan_tests(root: Path) -> list[str]:
     files = (path.relative_to(root).as_posix() for path in sorted(root.glob("tests/**/test_*.py")))
     python = (path for path in files if not any(f"{path}/".startswith(f"{own}/") for own in named()))
     return [path for path in python if "pytest.mark.vcan" in (root / path).read_text()]
-
-
-def deep() -> tuple[str, ...]:
-    """All that a stage of tools/prove names."""
-    return tuple(path for paths in PROVE.values() for path in paths)

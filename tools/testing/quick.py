@@ -20,8 +20,11 @@ def run(arguments: argparse.Namespace) -> int:
         print("nothing has changed since the last commit")
         return 0
     tests, farther = python_tests(ROOT, changed)
-    deeper = sorted(test for test in tests if test.startswith(places.deep()))
-    stages = [*_checks(changed), *_c_stage(changed), *_python_stages(sorted(set(tests) - set(deeper)), arguments)]
+    own = {name: {test for test in tests if places.is_of(name, test)} for name in places.QUICK}
+    own["python"] = {test for test in tests if not test.startswith(tuple(places.named()))}
+    deeper = sorted(tests.difference(*own.values()))
+    python = (pytest_stage(name, sorted(paths), arguments.allow_missing) for name, paths in own.items() if paths)
+    stages = [*_checks(changed), *_c_stage(changed), *python]
     code = run_stages(stages, arguments)
     left = [f"{farther} files of tests that reach the change only through others"] if farther else []
     left += [f"of tools/prove {', '.join(deeper)}"] if deeper else []
@@ -68,11 +71,3 @@ def _c_stage(changed: Sequence[str]) -> list[Stage]:
         return [c_stage()] if sources else []
     names = concerned.c_tests(ROOT / "build" / C_BUILD, sources)
     return [c_stage("-LE", "vcan", "-R", f"^({'|'.join(names)})$")] if names else []
-
-
-def _python_stages(tests: Sequence[str], arguments: argparse.Namespace) -> list[Stage]:
-    """The Python tests, those of a browser in a stage of their own."""
-    web = [test for test in tests if test.startswith(tuple(places.TEST["web"]))]
-    others = [test for test in tests if test not in web]
-    named = [(name, paths) for name, paths in (("python", others), ("web", web)) if paths]
-    return [pytest_stage(name, paths, arguments.allow_missing) for name, paths in named]

@@ -28,7 +28,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def judge(arguments: Sequence[str]) -> Sequence[str]:
     """The stages of tools/setup that a command line needs; a wrong one, or a call for help, ends the process."""
     _parse(arguments)
-    return ["tests", "vcan"]
+    return ["tests", "web", "vcan"]
 
 
 def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:

@@ -2,8 +2,7 @@
 
 import pytest
 
-from host_sim.lab.check.checking import check_robot
-from host_sim.lab.check.registry import CHECKS
+from host_sim.lab.check.checking import CHECKS, check_robot
 from tests.lab.check.canaries import (  # noqa: F401 - they note their robots
     bytes_and_protection,
     conversation,

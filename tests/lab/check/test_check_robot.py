@@ -10,7 +10,7 @@ import pytest
 from host_sim.backends.robot_process import PROGRAM
 from host_sim.cli.main import main
 from host_sim.lab.check import robots
-from host_sim.lab.check.registry import CHECKS
+from host_sim.lab.check.checking import CHECKS
 from host_sim.lab.check.sentences import NOT_CHECKED, prose, sentences
 from tests.lab.check.virtual import EXAMPLE
 

@@ -1,0 +1,136 @@
+"""tools/test in a project of its own, when time runs out or it is ended from outside."""
+
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.tools.processes import alive, soon
+from tests.tools.project import HANGS, PASSES, ROOT, Project, last
+
+sys.path.insert(0, str(ROOT))
+
+from tools.testing.limits import NO_LIMIT, Limits, Steps, run_within, side_by_side
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    return Project(tmp_path)
+
+
+@dataclass(frozen=True)
+class Until(Limits):
+    """A limit that is reached when something has happened, however long that takes."""
+
+    happened: Callable[[], bool] = lambda: True
+
+    def passed(self, quiet_s: float = 0.0) -> str:
+        """The limit in words."""
+        del quiet_s
+        return "it happened" if self.happened() else ""
+
+
+def until(happened: Callable[[], bool]) -> Until:
+    return Until(1.0, 1.0, 0.0, happened)
+
+
+def run_until(project: Project, name: str, happened: Callable[[], bool]) -> Any:
+    """The result of a stage, which is stopped as soon as that has happened."""
+    script = project.stages()
+    stage = script.c_stage() if name == "c" else script.pytest_stage(name, [], ())
+    script.REPORTS.mkdir()
+    results: dict[str, Any] = {}
+    running = [False]
+
+    def passed() -> bool:
+        running[0] = running[0] or happened()  # what has happened stays so
+        return running[0]
+
+    def lane() -> Steps[None]:
+        results[name] = yield from script.run_stage(stage, (), until(passed), None)
+
+    side_by_side(lane())
+    return results[name]
+
+
+def test_at_a_limit_what_has_run_is_counted_and_what_runs_is_named(project, monkeypatch):
+    monkeypatch.setenv("PYTEST_XDIST_AUTO_NUM_WORKERS", "1")
+    hangs = project.folder / "hangs"
+    project.python_tests(PASSES, PASSES, HANGS.format(note=str(hangs)))
+
+    result = run_until(project, "python", hangs.exists)
+
+    assert (result.verdict, result.passed, result.failed) == ("FAILED", 2, 1)
+    assert result.why == "stopped: it happened during tests/test_2.py::test_that_hangs"
+
+
+def test_at_a_limit_the_c_tests_are_counted_as_well(project):
+    hangs = project.folder / "hangs"
+    project.c_tests(one="true", two=f"touch '{hangs}'; sleep 1000", three="true")
+
+    result = run_until(project, "c", hangs.exists)
+
+    assert (result.verdict, result.passed, result.failed) == ("FAILED", 1, 1)
+    assert result.why == "stopped: it happened during ctest two"
+
+
+def test_what_a_stopped_stage_had_started_ends_with_it(project):
+    note = project.folder / "pid"
+    project.c_tests(one=f"echo $$ >'{note}'; trap '' INT TERM; sleep 1000 & wait")
+
+    run_until(project, "c", lambda: note.exists() and note.read_text() != "")
+
+    assert soon(lambda: not alive(int(note.read_text())))
+
+
+def test_a_stage_that_the_time_limit_leaves_no_time_does_not_begin_and_says_why(project):
+    project.c_tests(one="true")
+
+    code, said = project.run("c", "--time-limit=0")
+
+    assert (code, last(said)) == (1, "0 passed, 1 failed")
+    assert "did not begin: the time limit of 0 min was reached (--time-limit)" in said
+
+
+def test_a_stage_in_which_nothing_happens_any_more_is_stopped(project):
+    project.c_tests(one="sleep 1000")
+
+    code, said = project.run("c", "--stall-limit=0.02")
+
+    assert (code, last(said)) == (1, "0 passed, 1 failed")
+    assert "stopped: no test began or ended for 0.02 min (--stall-limit)" in said
+
+
+def test_each_test_that_begins_or_ends_begins_the_stall_limit_anew(tmp_path, monkeypatch):
+    report, now_s = tmp_path / "report", [0.0]
+    monkeypatch.setattr("tools.testing.limits.time.monotonic", lambda: now_s[0])
+    steps = run_within(Limits(NO_LIMIT, 1.0, begun=0.0), ["sleep", "1000"], [report])
+    next(steps)
+
+    for _ in range(3):
+        now_s[0] += 59.0
+        with report.open("a") as file:
+            file.write("news\n")
+        next(steps)
+
+    now_s[0] += 60.0
+    with pytest.raises(StopIteration) as ended:
+        next(steps)
+    assert ended.value.value == (False, "no test began or ended for 1 min (--stall-limit)")
+
+
+def test_ended_from_outside_it_leaves_nothing_behind(project):
+    notes = [project.folder / "c_pid", project.folder / "python_pid"]
+    project.c_tests(one=f"echo $$ >'{notes[0]}'; exec sleep 1000")
+    project.python_tests(HANGS.format(note=str(notes[1])))
+    process = subprocess.Popen(project.command("c", "python"), stdout=subprocess.DEVNULL)
+    assert soon(lambda: all(note.exists() and note.read_text() != "" for note in notes))
+    process.send_signal(signal.SIGTERM)
+    process.wait()
+
+    assert soon(lambda: not any(alive(int(note.read_text())) for note in notes))
