@@ -12,3 +12,14 @@ def near_word(word: str, words: Iterable[str]) -> str | None:
     from difflib import get_close_matches  # noqa: PLC0415 - only mistakes need it
 
     return next(iter(get_close_matches(word, list(words), 1)), None)
+
+
+def meant(word: object, words: Iterable[object]) -> str:
+    """What there is, for a message about a word that is none of them; the nearest one alone if one is near.
+
+    >>> meant("artcle", ["article", "fixed"])
+    'did you mean article?'
+    """
+    every = [str(each) for each in words]
+    near = near_word(str(word), every)
+    return f"did you mean {near}?" if near else f"choose from {', '.join(every)}"

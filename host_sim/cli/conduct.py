@@ -25,6 +25,7 @@ from host_sim.recording.summary import Summary
 from host_sim.recording.world_file import world_path
 from host_sim.sim.make import Memory, make
 from host_sim.sim.simulation import Simulation
+from host_sim.world.body_kinds import body_kind
 from host_sim.world.worlds import world_of
 
 FAULTS = "faults.txt"
@@ -43,7 +44,8 @@ def conduct(options: RunOptions) -> Summary:
         UsageError: The options are invalid; nothing was changed.
         OctetError: The run could not continue; what was recorded up to there was written.
     """
-    world_of(options.world)  # a mistake in it is found before anything is begun
+    world_of(options.world)  # a mistake in it, or in the next ones, is found before anything is begun
+    body_kind(options.body)
     check_program(options.program)
     with _memories(options) as loaded, run_folder(options.out):
         _announce(options, loaded)

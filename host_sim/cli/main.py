@@ -9,17 +9,27 @@ import contextlib
 import errno
 import importlib
 import os
+import re
 import signal
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
-from host_sim.base.errors import OctetError, UsageError
+from host_sim.base.errors import OctetError
+from host_sim.base.paths import ROOT
 from host_sim.cli.parsing import Parser
 
 _ROOMS = ("cli", "lab/*")
+_GROUPS = {
+    "start": ("run", "watch", "page", "talk"),
+    "look at a run": ("replay", "picture", "export", "world", "convert"),
+    "measure": ("compare", "study", "campaign", "reproduce", "dask"),
+    "CAN bus and protocol": ("monitor", "load", "check-robot", "dbc", "protocol"),
+}
+"""What the list of commands has, and in which order."""
+
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 
@@ -97,16 +107,42 @@ def _run(action: Callable[[], int]) -> int:
 
 
 def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
-    parser = Parser(prog="tools/octet", description="Octet: a robot that learns with eight bytes of memory.")
-    commands = parser.add_subparsers(required=True, metavar="COMMAND", parser_class=Parser)
-    given = sys.argv[1:] if arguments is None else arguments
+    given = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    if given == ["--version"]:
+        print(_version())
+        raise SystemExit(0)
+    parser = Parser(
+        prog="tools/octet",
+        usage="%(prog)s COMMAND [OPTION ...]",
+        description="Octet: a robot that learns with eight bytes of memory. `tools/octet COMMAND --help` says more.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="store_true", help="print the version, and exit")
+    commands = parser.add_subparsers(
+        required=True, metavar="COMMAND", parser_class=Parser, prog=parser.prog, help=argparse.SUPPRESS
+    )
     for name in _modules_for(given):
         importlib.import_module(name).add(commands)
+    parser.epilog = _overview(commands.choices)
     parsed, unknown = parser.parse_known_args(given)
     if unknown:
-        raise UsageError(f"unrecognized arguments: {' '.join(unknown)}; see {parsed.prog} --help")
+        parsed.parser.unknown_option(unknown)
     parsed.check(parsed)
     return parsed
+
+
+def _version() -> str:
+    """The version of the project."""
+    found = re.search(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text(), re.MULTILINE)
+    return f"Octet {found[1] if found else 'of no version'}"
+
+
+def _overview(parsers: Mapping[str, Parser]) -> str:
+    """The commands that are loaded, in their groups."""
+    lines = []
+    for title, names in _GROUPS.items():
+        lines += [f"{title}:", *(f"  {name:12} {parsers[name].summary}" for name in names if name in parsers), ""]
+    return "\n".join(lines)
 
 
 @contextlib.contextmanager

@@ -81,11 +81,14 @@ class Outputs:
         """
         out, log = self.options.out, self.options.log
         self.log.flush()
-        if self.options.talks and any((out / name).exists() for name in LOGS):
-            print(f"replaces  the run in {out}{_seed_of(out / SUMMARY)}")
         earlier = [*(out / name for name in (SUMMARY, PICTURE, PAGE, *LOGS)), world_path(log)]
-        for path in earlier if any(map(Path.exists, earlier)) else ():
-            _keep(path)
+        if any(map(Path.exists, earlier)):
+            replaced, kept = f"replaced  the run in {out}{_seed_of(out / SUMMARY)}", _beside(out)
+            for path in earlier:
+                _keep(path)
+            if self.options.talks:
+                there = any((kept / path.name).exists() for path in earlier)
+                print(replaced + f", which is in {kept.name} now" * there)
         digest = self.log.close()
         write_world(self.simulation.record, world_path(log))
         return digest
@@ -107,14 +110,43 @@ def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:
     if options.json:
         sys.stdout.write(summary.to_json())
     elif options.talks:
-        there = ", ".join(str(path) for path in files if path.exists())
-        print("\n".join(filter(None, (summary.text, f"wrote     {there}", summary.ending))))
+        there = [path for path in files if path.exists()]
+        wrote = f"wrote     {', '.join(map(_linked, there))}"
+        print("\n".join(filter(None, (summary.text, wrote, _next(options, there), summary.ending))))
+
+
+def _next(options: RunOptions, there: Sequence[Path]) -> str:
+    """What a person may do with a run that is not a fleet's."""
+    if options.log not in there:
+        return ""
+    log = "" if options.log == RunOptions.out / LOGS[0] else f" --log {options.log}"
+    return f"next      open {PAGE} in a browser; ask the robot: tools/octet talk{log}; meddle: tools/octet watch"
+
+
+def _linked(path: Path) -> str:
+    """The name of a file; to click, where this is a terminal that may know such links."""
+    if not sys.stdout.isatty() or os.environ.get("TERM", "dumb") in ("dumb", "linux"):
+        return str(path)
+    return f"\x1b]8;;{path.absolute().as_uri()}\x1b\\{path}\x1b]8;;\x1b\\"
+
+
+def _seed_of(summary: Path) -> str:
+    """The seed in a summary, for a message; empty if there is none."""
+    try:
+        return f" (seed {json.loads(read_bytes(summary, _SUMMARY_MAX))['seed']})"
+    except (OctetError, OSError, ValueError, LookupError, TypeError):
+        return ""
+
+
+def _beside(out: Path) -> Path:
+    """The folder for what was in a run's folder before."""
+    folder = Path(os.path.realpath(out))
+    return folder.with_name(f"{folder.name}.1")
 
 
 def _keep(path: Path) -> None:
     """Moves a file of an earlier run to the folder beside; removes it where that cannot be."""
-    folder = Path(os.path.realpath(path.parent))
-    kept = folder.with_name(f"{folder.name}.1")
+    kept = _beside(path.parent)
     try:
         with suppress(OSError):
             kept.mkdir(exist_ok=True)
@@ -124,14 +156,6 @@ def _keep(path: Path) -> None:
         path.unlink(missing_ok=True)
     except OSError as error:
         raise OctetError(f"cannot replace {path}: {error.strerror}") from error
-
-
-def _seed_of(summary: Path) -> str:
-    """The seed in a summary, for a message; empty if there is none."""
-    try:
-        return f" (seed {json.loads(read_bytes(summary, _SUMMARY_MAX))['seed']})"
-    except (OSError, ValueError, LookupError, TypeError):
-        return ""
 
 
 @contextmanager

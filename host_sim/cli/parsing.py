@@ -3,11 +3,13 @@
 import argparse
 import math
 import os
+import re
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from host_sim.base.errors import UsageError
+from host_sim.base.near_word import meant, near_word
 from host_sim.protocol.words import PARAMETERS
 
 if TYPE_CHECKING:
@@ -18,7 +20,28 @@ DEFAULT = " (default: %(default)s)"
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser whose errors are one line each."""
+    """An argument parser whose errors are one line each.
+
+    Attributes:
+        summary: A command's line in the list of commands.
+    """
+
+    summary = ""
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """As in `argparse.ArgumentParser`, but with the nearest choice."""
+        if action.choices is not None and value not in action.choices:
+            raise argparse.ArgumentError(action, f"there is no {value!r}: {meant(value, action.choices)}")
+
+    def unknown_option(self, words: Sequence[str]) -> NoReturn:
+        """Refuses words that are left over.
+
+        Raises:
+            UsageError: Always.
+        """
+        flag = words[0].partition("=")[0]
+        near = near_word(flag, re.findall(r"--[\w-]+", self.format_help())) if flag.startswith("-") else None
+        self.error(f"unrecognized arguments: {' '.join(words)}" + (f": did you mean {near}?" if near else ""))
 
     def error(self, message: str) -> NoReturn:
         """As in `argparse.ArgumentParser`, but raises instead of exiting.
@@ -58,9 +81,10 @@ def add_command(  # noqa: PLR0913 - what a command's help is made of
     """
     formatter = argparse.RawDescriptionHelpFormatter
     parser = commands.add_parser(
-        name, help=summary, description=description, epilog=epilog, formatter_class=formatter, allow_abbrev=False
+        name, description=description, epilog=epilog, formatter_class=formatter, allow_abbrev=False
     )
-    parser.set_defaults(command=run, check=check, stages=stages, prog=parser.prog)
+    parser.summary = summary
+    parser.set_defaults(command=run, check=check, stages=stages, parser=parser)
     return parser
 
 
@@ -127,13 +151,15 @@ def check_outputs(command: str, source: Path | None, outputs: Mapping[str, Path 
 
 def setting(text: str) -> tuple[str, int]:
     """An argument type: NAME=VALUE for a parameter, the value within the parameter's range."""
-    name, _, value = text.partition("=")
+    name, equals, value = text.partition("=")
     if name not in PARAMETERS:
-        raise argparse.ArgumentTypeError(f"unknown parameter {name!r}; choose from {', '.join(PARAMETERS)}")
+        raise argparse.ArgumentTypeError(f"unknown parameter {name!r}: {meant(name, PARAMETERS)}")
     low, high, _, unit, _ = PARAMETERS[name]
+    values = f"a whole number from {low} to {high}{f' {unit}' if unit else ''}"
+    if not equals:
+        raise argparse.ArgumentTypeError(f"{name} has no value: write --set {name}=VALUE, {values}")
     if not value.isdecimal() or not low <= int(value) <= high:
-        unit = f" {unit}" if unit else ""
-        raise argparse.ArgumentTypeError(f"{name} must be a whole number from {low} to {high}{unit}, not {value!r}")
+        raise argparse.ArgumentTypeError(f"{name} must be {values}, not {value!r}")
     return name, int(value)
 
 

@@ -36,6 +36,20 @@ _PARSERS: dict[Any, Callable[[str], Any]] = {
 }
 
 
+_GROUPS = {
+    "the most used": (
+        *("environments", "seed", "world", "profile", "settings", "robots", "memory", "out", "watch", "terminal"),
+        "real_time",
+    ),
+    "the world": ("limit_s", "worlds", "body", "changes", "physics"),
+    "the robot, and the bus that it is on": (
+        *("bus", "bitrate", "robot", "robot_command", "program", "board", "node", "owner", "reconnect_s"),
+    ),
+    "faults, and when a result is doubtful": ("faults", "fault_seed", "unanswered_max", "gap_max_s", "late_max"),
+}
+"""How a help text lists the options; the others are about the output."""
+
+
 @dataclass(frozen=True)
 class RunOptions(RunConfig):
     """A run, its files, and how people watch it.
@@ -90,12 +104,16 @@ class RunOptions(RunConfig):
 
 def add_options(parser: argparse.ArgumentParser, command: str) -> None:
     """Adds the options that a command has; only those that are given are set."""
-    for name, (_, row) in options_of(RunOptions).items():
-        if command in row.commands:
-            add_option(parser, name, argparse.SUPPRESS)
+    rows = options_of(RunOptions)
+    others = [name for name in rows if not any(name in names for names in _GROUPS.values())]
+    for title, names in {**_GROUPS, "the output": others}.items():
+        group = parser.add_argument_group(title)
+        for name in names:
+            if command in rows[name][1].commands:
+                add_option(group, name, argparse.SUPPRESS)
 
 
-def add_option(parser: argparse.ArgumentParser, name: str, default: object = None) -> None:
+def add_option(parser: argparse._ActionsContainer, name: str, default: object = None) -> None:
     """Adds an option of a run to any command; without a default, with that of a run."""
     it, row = options_of(RunOptions)[name]
     value = it.default if default is None else default

@@ -71,6 +71,7 @@ def _add(commands: "Subparsers", name: str, *, examples: str, summary: str, desc
         check=check,
         stages=lambda arguments: arguments.options.stages,
     )
+    parser.usage = "%(prog)s [OPTION ...]"
     add_options(parser, name)
 
 

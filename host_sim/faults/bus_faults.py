@@ -7,6 +7,7 @@ from typing import NamedTuple, Protocol
 
 from host_sim.base.errors import UsageError
 from host_sim.base.frame import Frame
+from host_sim.base.near_word import meant
 from host_sim.transport.clock import VirtualClock
 
 _IDS = 0x800
@@ -189,7 +190,7 @@ def make_fault(name: str, size: str, forgers: Forgers) -> Fault:
         UsageError: There is no such fault, or not of that size.
     """
     if name not in FAULTS:
-        raise UsageError(f"there is no fault {name!r}; there are {', '.join(FAULTS)}")
+        raise UsageError(f"there is no fault {name!r}: {meant(name, FAULTS)}")
     return FAULTS[name](size, forgers)
 
 

@@ -8,14 +8,28 @@ import sys
 from host_sim.base.errors import UsageError
 from host_sim.live.ending_signals import on_ending_signals
 from host_sim.live.paced_run import PacedRun
-from host_sim.live.page_commands import FULL_SPEED, NextEnvironment, OneDecision, PageCommand, Play, Speed
+from host_sim.live.page_commands import (
+    FULL_SPEED,
+    EraseMemory,
+    Freeze,
+    LiftRobot,
+    NextEnvironment,
+    OneDecision,
+    PageCommand,
+    Play,
+    PutRobot,
+    Speed,
+)
 from host_sim.live.text_picture import View, draw_text
 from host_sim.recording.summary import environment_line
 from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene, states
+from host_sim.world.geometry import Pose
 
 _EVERY_S = 0.1
-_KEYS = "q quit   space pause   . one decision   + - speed   n next"
+_KEYS = """\
+q quit   space pause   . one decision   + - speed   n next
+e erase the memory   f freeze it   l lift, and put down"""
 _SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0, 256.0, 1000.0)
 """The speeds that + and - step through, as multiples of real time; above the last one, as fast as possible."""
 
@@ -65,13 +79,18 @@ async def _show(live: PacedRun, screen: "curses.window") -> None:
 
 
 def _press(live: PacedRun, key: int) -> None:
-    """Carries out the command of a key."""
+    """Carries out the command of a key; those about a robot are about the first."""
+    state = states(live.simulation, live.recorder.histories)[0]
+    node, here = state["node"], Pose(state["x"], state["y"], state["heading"] / 1000)
     commands: dict[int, PageCommand] = {
         ord(" "): Play(not live.playing),
         ord("."): OneDecision(),
         ord("+"): Speed(faster(live.speed)),
         ord("-"): Speed(slower(live.speed)),
         ord("n"): NextEnvironment(),
+        ord("e"): EraseMemory(node),
+        ord("f"): Freeze(not state["frozen"], node),
+        ord("l"): PutRobot(here, node) if state["lifted"] else LiftRobot(node),
     }
     if key == ord("q"):
         live.close()

@@ -14,9 +14,10 @@ from host_sim.world.params import SimParams
 COLUMNS_MIN, ROWS_MIN = 60, 20
 """Minimum size of the screen, characters."""
 
-_PANEL, _ROWS_BELOW, _WORD_ROWS = 22, 6, 2
+_PANEL, _ROWS_BELOW, _WORD_ROWS = 22, 8, 2
 _TALL = 2.0
 _FOOD, _EATEN, _BAR, _PLANT, _TRAIL, _ROBOT = "O", "x", "#", "*", ".", "@"
+_LEGEND = f"{_ROBOT} robot   {_FOOD} food   {_EATEN} eaten   {_BAR} obstacle   {_PLANT} plant   {_TRAIL} path"
 _DISC_STEPS = 8
 _NOSES = "-\\|/"
 _FEELERS = (("LEFT", "<"), ("FRONT_LEFT", "\\"), ("FRONT", "|"), ("FRONT_RIGHT", "/"), ("RIGHT", ">"))
@@ -34,7 +35,7 @@ class View:
         trails: Each robot's positions in this arena.
         boredom_limit: Number of remembered turns in a row at which a robot is bored.
         pace: The speed, in words.
-        keys: The keys and their meaning.
+        keys: The keys and their meaning, two lines.
         news: What has just changed or ended, in a sentence; empty if nothing did.
     """
 
@@ -73,7 +74,8 @@ def draw_text(view: View, columns: int, rows: int) -> list[str]:
     middle = [f"{left:{width}}  {right}" for left, right in zip(arena, _padded(panel, len(arena)), strict=True)]
     texts = sentence(view.state), verdict(view.state["trial"])
     words = [line for text in texts for line in _padded(textwrap.wrap(text, columns), _WORD_ROWS)]
-    return [line[:columns].rstrip() for line in (_head(view), *middle, view.news, *words, view.keys)]
+    lines = (_head(view), *middle, _LEGEND, view.news, *words, *view.keys.splitlines())
+    return [line[:columns].rstrip() for line in lines]
 
 
 def _head(view: View) -> str:
@@ -161,8 +163,7 @@ def _draw_panel(view: View) -> list[str]:
         f"senses  {feelers}",
         f"food    {food}",
         f"bored   [{bar:8}] {state['repeat_count']}",
-        "",
-        "memory         used",
+        "memory  frozen used" if state["frozen"] else "memory         used",
         *(_draw_cell(state, cell) for cell in range(1, len(PATTERNS))),
     ]
 

@@ -17,6 +17,12 @@ from host_sim.transport.serial_line import open_serial_line
 
 _ID_MASK = 0x7FF
 _STALE_MAX = 10_000
+_HINTS = {
+    errno.EAFNOSUPPORT: "; this kernel has no CAN: tools/with-vcan COMMAND has a bus, socketcan:vcan0",
+    errno.ENODEV: "; `ip link` lists the interfaces that there are",
+}
+"""What to do, by the number of the error."""
+
 
 
 def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats, bitrate: int = BIT_RATE) -> Link:
@@ -70,7 +76,8 @@ def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
         if errno.ENETDOWN in (getattr(error, "error_code", None), getattr(error, "errno", None)):
             raise LinkDownError(f"the bus {interface}:{channel} is down: {reason}") from error
-        raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}") from error
+        hint = _HINTS.get(getattr(error, "error_code", None) or getattr(error, "errno", None) or 0, "")
+        raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}{hint}") from error
 
 
 def _forget_unfiltered(bus: can.BusABC) -> None:

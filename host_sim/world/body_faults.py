@@ -3,7 +3,7 @@
 from importlib.util import find_spec
 from typing import Any
 
-from host_sim.base.near_word import near_word
+from host_sim.base.near_word import meant
 from host_sim.protocol.words import BODY_FAULTS
 from host_sim.world.world_library import world_library
 
@@ -18,8 +18,7 @@ def check_fault(what: str) -> None:
     """
     name = what.partition(":")[0]
     if name not in BODY_FAULTS:
-        near = near_word(name, BODY_FAULTS)
-        raise ValueError(f"did you mean {near!r}?" if near else f"choose from {', '.join(BODY_FAULTS)}")
+        raise ValueError(meant(name, BODY_FAULTS))
     if find_spec("_cffi_backend"):
         add_fault(world_library()[0].new("struct body_faults *"), what)
 

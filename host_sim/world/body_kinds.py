@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import UsageError
-from host_sim.base.near_word import near_word
+from host_sim.base.near_word import meant, near_word
 from host_sim.world.params import SimParams
 from host_sim.world.world_library import world_library
 
@@ -66,6 +66,8 @@ def body_kind(text: str) -> BodyKind | None:
     from host_sim.world.layout_file import line_of, read_toml  # noqa: PLC0415 - seldom needed, and slow to load
 
     path = Path(text)
+    if path.suffix != ".toml" and not path.exists():
+        raise UsageError(f"there is no body {text!r}: {meant(text, (IDEAL, KIT))}, or name a file")
     content, lines = read_toml(path, "a body")
     try:
         return kind_from(content)

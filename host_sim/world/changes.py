@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from host_sim.base.errors import UsageError
-from host_sim.base.near_word import near_word
+from host_sim.base.near_word import meant
 from host_sim.base.regular_file import read_text
 from host_sim.protocol.words import BODY_FAULTS
 from host_sim.world.body_faults import check_fault
@@ -86,8 +86,7 @@ def _problem(what: str) -> str | None:
     """What is wrong with a change, and what was meant; None if nothing is."""
     name = what.partition(":")[0]
     if name not in CHANGE_NAMES:
-        near = near_word(name, CHANGE_NAMES)
-        return f"did you mean {near!r}?" if near else f"choose from {', '.join(CHANGE_NAMES)}"
+        return meant(name, CHANGE_NAMES)
     if name in _DETAILS:
         pattern, form = _DETAILS[name]
         return None if pattern.fullmatch(what.removeprefix(name)) else f"write {form}"

@@ -8,9 +8,12 @@ from pathlib import Path
 import pytest
 
 from host_sim.live.paced_run import PacedRun
+from host_sim.live.text_picture import View
 from host_sim.recording.run_recorder import RunRecorder
+from host_sim.recording.trajectory import at
 from host_sim.sim.make import start_robots
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.params import SimParams
 from tests.live.support import Live
 from tests.recording.conftest import kept, short, ten_seconds
 from tests.recording.support import open_simulation
@@ -35,3 +38,12 @@ def live(tmp_path: Path) -> Iterator[Live]:
             return run
 
         yield begin
+
+
+@pytest.fixture(scope="session")
+def view(ten_seconds) -> View:
+    """What a terminal shows just before the first lesson."""
+    trajectory, tick = ten_seconds.trajectory, 170
+    trail = [(x, y) for x, y, _ in trajectory.tracks[0].poses()[: tick + 1].tolist()]
+    scene, states = at(trajectory.scenes, tick), [trajectory.at(tick)]
+    return View(SimParams(), scene, states, [trail], 10, "1 x real time", "q quits")

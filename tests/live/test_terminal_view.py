@@ -1,4 +1,4 @@
-"""A run drawn in a terminal: in plain characters of any size, and on a real pseudo-terminal."""
+"""A run on a real pseudo-terminal, and its keys."""
 
 import asyncio
 import fcntl
@@ -14,111 +14,24 @@ import subprocess
 import sys
 import termios
 import time
+from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from host_sim.live import terminal_view
-from host_sim.live.page_commands import FULL_SPEED
+from host_sim.live.page_commands import FULL_SPEED, Play, WriteCell
 from host_sim.live.terminal_view import faster, slower
-from host_sim.live.text_picture import View, draw_text
-from host_sim.recording.trajectory import Trajectory, at
-from host_sim.view.phrases import sentence
-from host_sim.view.state_types import EnvironmentScene, Trial
-from host_sim.world.params import SimParams
+from host_sim.view.state import states
+from host_sim.view.state_types import State
+from tests.live.support import order, play
 
 DEADLINE_S = 600
 WATCH = (sys.executable, "-m", "host_sim", "watch", "--terminal", "--seed", "3")
 LEAVE_FULL_SCREEN = b"\x1b[?1049l"
 CHANGED_TO_2 = b"\x1b[1;13H2"
 """Of "environment 1 of 5" in the first line, only the changed number is sent."""
-
-
-def view_of(trajectory: Trajectory, tick: int) -> View:
-    trail = [(x, y) for x, y, _ in trajectory.tracks[0].poses()[: tick + 1].tolist()]
-    scene, states = at(trajectory.scenes, tick), [trajectory.at(tick)]
-    return View(SimParams(), scene, states, [trail], 10, "1 x real time", "q quits")
-
-
-@pytest.fixture(scope="session")
-def view(ten_seconds) -> View:
-    """Just before the first lesson."""
-    return view_of(ten_seconds.trajectory, 170)
-
-
-@pytest.mark.parametrize(("columns", "rows"), [(60, 20), (80, 24), (100, 20), (60, 50), (250, 80)])
-def test_the_picture_fits_any_screen(view, columns, rows):
-    lines = draw_text(view, columns, rows)
-
-    assert len(lines) <= rows
-    assert max(map(len, lines)) <= columns
-    assert all(line.isascii() for line in lines)
-
-
-@pytest.mark.parametrize(("columns", "rows"), [(60, 20), (80, 24), (250, 80)])
-def test_the_picture_tells_all_there_is_to_know(view, columns, rows):
-    text = "\n".join(draw_text(view, columns, rows))
-
-    assert "environment 1 of 1   food 0 of 3   0:03.4   1 x real time" in text
-    assert sentence(view.state) in " ".join(text.split())
-    assert "> .|/  -" in text
-    assert text.count("@") == 1
-    assert text.count("O") == 3
-    assert "#" in text
-    assert "q quits" in text
-
-
-@pytest.mark.parametrize(("columns", "rows"), [(59, 24), (80, 19), (1, 1), (7, 3)])
-def test_on_a_screen_too_small_it_says_how_large(view, columns, rows):
-    lines = draw_text(view, columns, rows)
-
-    assert len(lines) <= rows
-    assert max(map(len, lines)) <= columns
-    assert re.match(r"\d", lines[0])
-
-
-@pytest.mark.parametrize("columns", [60, 80])
-def test_all_keys_are_named_on_the_smallest_screen(view, columns):
-    lines = draw_text(replace(view, keys=terminal_view._KEYS), columns, 20)
-
-    assert lines[-1] == terminal_view._KEYS
-
-
-@pytest.mark.parametrize(("helped", "said"), [(0, "It did not help, so I forgot it."), (1, "so I remembered it!")])
-def test_it_says_whether_a_try_helped(view, helped, said):
-    trial = Trial(tick=160, cell=7, side=1, helped=helped, frozen=0)
-    lines = draw_text(replace(view, states=[{**view.state, "trial": trial}]), 60, 20)
-
-    assert said in " ".join(" ".join(lines).split())
-    assert len(lines) <= 20
-
-
-@pytest.mark.parametrize(
-    ("heading", "row", "column", "nose"),
-    [
-        (0, 0, 1, "-"),
-        (785, 1, 1, "\\"),
-        (1571, 1, 0, "|"),
-        (2356, 1, -1, "/"),
-        (-1571, -1, 0, "|"),
-        (3141, 0, -1, "-"),
-    ],
-)
-def test_the_nose_is_where_the_robot_looks(view, heading, row, column, nose):
-    state = {**view.state, "x": 2000.0, "y": 1500.0, "heading": heading, "eaten": []}
-    lines = draw_text(replace(view, states=[state], scene={**view.scene, "bars": [], "food": []}, trails=[]), 80, 24)
-
-    at_row = next(i for i, line in enumerate(lines) if "@" in line)
-    assert lines[at_row + row][lines[at_row].index("@") + column] == nose
-
-
-def test_the_arena_is_as_wide_as_it_is_in_the_world(view):
-    lines = draw_text(view, 200, 60)
-
-    width, height = lines[1].count("-"), sum(line.startswith("|") for line in lines)
-    assert width / (2 * height) == pytest.approx(4 / 3, rel=0.05)
 
 
 def test_speed_goes_up_and_down_in_steps():
@@ -278,6 +191,26 @@ def test_keys_do_what_they_say(terminal, tmp_path):
     assert [environment["number"] for environment in begun] == [1, 2]
 
 
+def test_keys_erase_freeze_and_lift_the_first_robot_and_put_it_down_again(live):
+    run = live()
+
+    def state() -> State:
+        return states(run.simulation, run.recorder.histories)[0]
+
+    def press_until(key: str, happened: Callable[[], bool]) -> None:
+        terminal_view._press(run, ord(key))
+        play(run, happened)
+        assert happened()
+
+    order(run, WriteCell(5, 1), Play(on=True))
+    play(run, lambda: state()["memory"][5] == 1)
+    press_until("f", lambda: state()["frozen"] == 1)
+    press_until("e", lambda: not any(state()["memory"]))
+    press_until("l", lambda: state()["lifted"] == 1)
+    press_until("l", lambda: state()["lifted"] == 0)
+    press_until("f", lambda: state()["frozen"] == 0)
+
+
 @pytest.mark.parametrize("term", ["teletype-of-1930", "dumb"])
 def test_a_terminal_that_cannot_draw_is_one_line(tmp_path, term):
     terminal = Terminal(tmp_path, "--quiet", term=term)
@@ -296,12 +229,3 @@ def test_without_a_terminal_it_is_wrong_usage(tmp_path):
 
     assert done.returncode == 2
     assert re.fullmatch(r"octet: --terminal needs a terminal.*\n", done.stderr)
-
-
-def test_it_shows_plants_and_says_what_happened(view):
-    scene = EnvironmentScene(**view.scene, plants=[[0, 2000.0, 1500.0, 200.0]])
-
-    lines = draw_text(replace(view, scene=scene, news="A plant was put down."), 100, 30)
-
-    assert any("*" in line for line in lines)
-    assert "A plant was put down." in lines

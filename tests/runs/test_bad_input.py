@@ -10,57 +10,8 @@ import sys
 import pytest
 
 from host_sim.backends import bus_choice
-from host_sim.protocol.codec import crc8
 from host_sim.recording.memory_lock import memory_lock
 from tests.runs.support import ROBOT, ROOT, octet, octet_process
-
-WRONG = {
-    "an unknown profile": (["--profile", "genius"], "genius"),
-    "a seed that is no number": (["--seed", "x"], "'x'"),
-    "a seed out of range": (["--seed", "4294967296"], "4294967295"),
-    "a negative seed": (["--seed", "-1"], "'-1'"),
-    "no environments": (["--environments", "0"], "1 to 1000"),
-    "a limit that is not a number": (["--limit-s", "nan"], "'nan'"),
-    "a node out of range": (["--node", "32"], "1 to 31"),
-    "an unknown parameter": (["--set", "colour=3"], "turn_deg"),
-    "a parameter without a value": (["--set", "turn_deg"], "turn_deg"),
-    "a parameter out of its range": (["--set", "turn_deg=999"], "1 to 180 deg"),
-    "a bus without a channel": (["--bus", "socketcan"], "INTERFACE:CHANNEL"),
-    "an unknown interface": (["--bus", "carrier:pigeon"], "pigeon"),
-    "a CAN interface that does not exist": (["--bus", "socketcan:nowhere0"], "nowhere0"),
-    "a tty that does not exist": (["--bus", "slcan:/dev/nowhere", "--robot", "external"], "/dev/nowhere"),
-    "an external robot without a bus": (["--bus", "fd", "--robot", "external"], "INTERFACE:CHANNEL"),
-    "an unknown option": (["--warp", "9"], "see tools/octet run --help"),
-    "an option that is cut short": (["--see", "2"], "--see"),
-    "a memory file without a name": (["--memory", ""], "argument --memory: the name is empty"),
-    "a folder without a name": (["--out", ""], "argument --out: the name is empty"),
-    "a board for a robot that has none": (["--board", "blue_pill"], "--robot emulated"),
-    "other machines, and no page": (["--listen"], "--watch"),
-    "a bit rate, and no adapter": (["--bitrate", "250000"], "leave --bitrate out"),
-    "a bit rate, and the kernel's adapter": (
-        ["--bus", "socketcan:can0", "--bitrate", "250000"],
-        "leave --bitrate out",
-    ),
-    "a port, and no page": (["--port", "8139"], "--watch"),
-    "robots beyond the last number": (["--robots", "2", "--node", "31", "--bus", "none"], "the last is 31"),
-    "more robots than a bus has numbers": (["--robots", "32"], "has no bus"),
-    "two flash images": (["--robots", "2", "--robot", "qemu"], "leave out --node and --robots"),
-    "a port, and a fleet": (["--robots", "40", "--bus", "none", "--port", "8139"], "--watch"),
-}
-
-
-@pytest.mark.parametrize(("words", "named"), WRONG.values(), ids=WRONG.keys())
-def test_wrong_usage_gets_one_line_and_changes_nothing(run, words, named):
-    before = run("--environments", "1", "--bus", "none", "--limit-s", "1")
-
-    done = octet("run", "--bus", "fd", "--out", before.out, *words)
-
-    assert done.returncode == 2
-    assert done.stderr.startswith("octet: ")
-    assert done.stderr.count("\n") == 1
-    assert named in done.stderr
-    assert (before.out / "run.log").read_bytes() == before.log
-    assert not list(before.out.glob("*.part"))
 
 
 def test_an_option_whose_low_end_is_a_fraction_says_so():
@@ -99,15 +50,6 @@ def test_no_command_writes_two_things_into_one_file(run, tmp_path, words):
     assert refused.returncode == 2
     assert refused.stderr == f"octet: {first} and {second} name the same file: {tmp_path / 'x'}\n"
     assert not (tmp_path / "x").exists()
-
-
-def test_the_replay_of_several_robots_names_each(run):
-    done = run("--environments", "1", "--bus", "none", "--limit-s", "2", "--robots", "2", "--node", "3")
-
-    replayed = octet("replay", done.out / "run.log", "--node", "3")
-
-    log = done.out / "run.log"
-    assert replayed.stdout == "".join(f"{log}, node {node}: 100 drives, no difference\n" for node in (3, 4))
 
 
 def test_a_world_is_not_drawn_over_its_own_file(tmp_path):
@@ -201,52 +143,6 @@ def test_a_full_disk_is_named_and_the_old_log_stays(tmp_path):
     assert (tmp_path / "run.log").read_text() == "old"
 
 
-NO_LOGS = {
-    "missing": None,
-    "empty": b"",
-    "binary": bytes(range(256)),
-    "something else": b"hello\n",
-    "without a heartbeat": b"(0000000000.000000) octet 0C1#9100000000000000\n",
-}
-
-
-@pytest.mark.parametrize("content", NO_LOGS.values(), ids=NO_LOGS.keys())
-def test_a_replay_of_no_log_says_so_in_one_line(tmp_path, content):
-    log = tmp_path / "run.log"
-    if content is not None:
-        log.write_bytes(content)
-
-    done = octet("replay", log)
-
-    assert done.returncode == 2
-    assert done.stderr.startswith("octet: ")
-    assert done.stderr.count("\n") == 1
-    assert str(log) in done.stderr
-
-
-WRONG_FILES = (
-    *("replay README.md", "replay README.md --html {out}/a.html", "picture README.md --png {out}/a.png"),
-    *("export README.md --csv {out}/a.csv", "load README.md", "world README.md", "study README.md", "compare docs"),
-    *("page /nowhere/a.html", "page {out}", "campaign /nowhere/a.html", "world random --png {out}/a.xyz"),
-    *("picture {log} --png {out}/a.xyz", "picture {log} --gif {out}/a.png", "picture {log} --png /nowhere/a.png"),
-    *("export {log} --csv {out}", "replay {log} --html {out}/loop", "run --out {out} --memory {out}/loop"),
-)
-
-
-@pytest.mark.parametrize("words", WRONG_FILES)
-def test_a_wrong_file_is_one_line_and_exit_code_2(run, tmp_path, monkeypatch, words):
-    monkeypatch.chdir(ROOT)
-    log = run("--environments", "1", "--bus", "none", "--limit-s", "1").out / "run.log"
-    out = tmp_path / "out"
-    out.mkdir()
-    (out / "loop").symlink_to("loop")
-
-    done = octet(*words.format(out=out, log=log).split())
-
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert [path.name for path in out.iterdir()] == ["loop"]
-
-
 def test_text_may_begin_with_a_byte_order_mark(run, tmp_path):
     def marked(name: str, text: str):
         (tmp_path / name).write_text(text, encoding="utf-8-sig")
@@ -268,40 +164,6 @@ def test_a_run_finds_its_bus_without_with_vcan(tmp_path, monkeypatch):
     monkeypatch.delenv("OCTET_VCAN_CHOSEN", raising=False)
 
     assert bus_choice.choose_bus("auto", "spawn") == "fd"
-
-
-@pytest.mark.parametrize("cut_off", [1, 7, 30, 50, 70, 90, 110])
-def test_a_log_cut_anywhere_is_compared_as_far_as_it_goes(run, tmp_path, cut_off):
-    done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
-    cut = tmp_path / "cut.log"
-    cut.write_bytes(done.log[: len(done.log) // 2 - cut_off])
-
-    replayed = octet("replay", cut)
-
-    assert (replayed.returncode, replayed.stderr) == (0, "")
-    assert "no difference; the log ends before the run does" in replayed.stdout
-    page = octet("replay", cut, "--html", tmp_path / "cut.html")
-    assert page.returncode == 0
-    assert page.stderr == f"octet: {cut} ends before the run does; showing what it has\n"
-
-
-def with_another_layout(line: str) -> str:
-    """A heartbeat of a robot whose messages lie elsewhere."""
-    head, data = line.rstrip("\n").split("#")
-    frame_id, content = int(head[-3:], 16), bytes.fromhex(data)[:-2] + bytes(2)
-    return f"{head}#{crc8(frame_id, content):02X}{content[1:].hex().upper()}\n"
-
-
-def test_a_log_of_another_protocol_is_refused(run, tmp_path):
-    done = run("--environments", "1", "--bus", "none", "--limit-s", "2")
-    other = tmp_path / "other.log"
-    lines = done.log.decode().splitlines(keepends=True)
-    other.write_text("".join(with_another_layout(line) if " 6A1#" in line else line for line in lines))
-
-    replayed = octet("replay", other)
-
-    assert replayed.returncode == 2
-    assert "another octet.dbc" in replayed.stderr
 
 
 def test_a_robot_with_another_layout_of_messages_is_refused(tmp_path):

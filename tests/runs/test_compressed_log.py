@@ -40,7 +40,7 @@ def test_it_replaces_a_plain_one_and_the_other_way_round(tmp_path):
 
         assert {path.name for path in tmp_path.iterdir()} == {name, *FILES}
         assert f"{tmp_path / name}\n" in done.stdout
-    assert f"replaces  the run in {tmp_path} (seed 1)\n" in done.stdout
+    assert f"replaced  the run in {tmp_path} (seed 1), which" in done.stdout
 
 
 def test_wherever_it_is_cut_off_what_is_there_is_read(plain, tmp_path):

@@ -125,7 +125,7 @@ def test_what_is_overwritten_is_said(tmp_path):
 
     done = octet("run", *SHORT, "--out", tmp_path)
 
-    assert f"replaces  the run in {tmp_path} (seed 3)\n" in done.stdout
+    assert f"replaced  the run in {tmp_path} (seed 3), which is in {tmp_path.name}.1 now\n" in done.stdout
 
 
 def test_the_run_before_is_kept_beside(tmp_path):
@@ -160,7 +160,7 @@ def test_a_summary_that_is_none_does_no_harm(tmp_path, summary):
     done = octet("run", *SHORT, "--out", tmp_path)
 
     assert (done.returncode, done.stderr) == (0, "")
-    assert f"replaces  the run in {tmp_path}\n" in done.stdout
+    assert f"replaced  the run in {tmp_path}, which is in {tmp_path.name}.1 now\n" in done.stdout
 
 
 def test_a_memory_file_that_is_not_there_is_named(tmp_path):

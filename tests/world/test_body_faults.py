@@ -65,7 +65,7 @@ def test_noise_of_a_tick_is_the_same_whenever_it_is_asked_for(arena):
 @pytest.mark.parametrize(
     ("what", "meant"),
     [
-        ("mirrored", "did you mean 'mirror'?"),
+        ("mirrored", "did you mean mirror?"),
         ("explode", f"choose from {', '.join(BODY_FAULTS)}"),
         ("mirror:left", "write mirror"),
     ],

@@ -69,7 +69,7 @@ def add(commands: "Subparsers") -> None:
 
 
 def _check(arguments: argparse.Namespace) -> None:
-    from host_sim.lab.study.toml_lines import meant
+    from host_sim.base.near_word import meant
 
     folder = Path(arguments.what[0])
     if folder.is_dir() and len(arguments.what) > 1:

@@ -2,16 +2,18 @@
 
 import importlib
 import itertools
+import re
 import sys
+from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import UsageError
+from host_sim.base.near_word import meant
 from host_sim.base.regular_file import read_text
 from host_sim.lab.study.figures import FIGURES
 from host_sim.lab.study.plan import Goal, Plan
-from host_sim.lab.study.toml_lines import line_of, meant
 from host_sim.lab.study.trial import Trial
 from host_sim.protocol.generated import NODE_MAX, PARAMETERS, PROFILES
 from host_sim.sim.run_config import RunConfig, options_of
@@ -30,6 +32,7 @@ _KEYS = (
 _GOAL_KEYS = ("figure", "condition", "against", "at_least", "at_most")
 _PLAIN = "plain"
 _NO_CHANGE = "none"
+_HEADER = re.compile(r"\s*\[\[?\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
 
 
 def read_plan(path: Path) -> Plan:
@@ -178,9 +181,9 @@ class _Reader:
                 raise self._error(f"unknown key {key!r}; {meant(key, keys)}", name, key, i)
 
     def _error(self, message: str, table: str, key: str, index: int = 0) -> UsageError:
-        line = line_of(self._text, table, key, index)
+        line = _line_of(self._text, table, key, index)
         if line == 1 and not table and key in ("settings", "goals"):
-            line = line_of(self._text, key)
+            line = _line_of(self._text, key)
         return UsageError(f"{self._path}:{line}: {message}")
 
 
@@ -208,3 +211,33 @@ def _mistake(read: Callable[[str], object], word: str) -> str:
 def _name(parts: Sequence[str], several: Sequence[bool]) -> str:
     """What tells a condition from the others; its behaviour if there is only one."""
     return " ".join(part for part, varies in zip(parts, several, strict=True) if varies) or parts[0]
+
+
+def _line_of(text: str, table: str, key: str = "", index: int = 0) -> int:
+    r"""The line in which a key stands.
+
+    >>> _line_of('a = 1\n[[goals]]\n[[goals]]\nb = 2\n', "goals", "b", index=1)
+    4
+
+    Args:
+        text: The file.
+        table: Name of the key's table; empty for the keys before the first table.
+        key: The key; empty for the table's own line.
+        index: Which table of that name, from 0.
+
+    Returns:
+        The line, from 1. Where the key or its table is written in another way: the line of what holds it, or 1.
+    """
+    now, counts, held = "", Counter({"": 1}), 1
+    for number, line in enumerate(text.splitlines(), 1):
+        if header := _HEADER.match(line):
+            now = header[1].replace('"', "")
+            counts[now] += 1
+            if now == table and counts[now] == index + 1:
+                held = number
+        is_there = now == table and counts[now] == index + 1
+        if key and is_there and re.match(rf"""\s*["']?{re.escape(key)}["']?\s*[=.]""", line):
+            return number
+        if not now and table and re.match(rf"\s*{re.escape(table.split('.', maxsplit=1)[0])}\s*[=.]", line):
+            held = number
+    return held

@@ -71,7 +71,7 @@ def test_a_condition_is_named_by_what_varies(plan):
         ('profiles = ["article"]\n[settings.a]\nfliter = 1', ":3: unknown key 'fliter'; did you mean filter?"),
         ('profiles = ["article"]\n[settings]\nfilter = 1', ":2: settings is a table for each setting"),
         ('profiles = ["article"]\ngoals = 3', ":2: goals are tables, each under a line [[goals]]"),
-        ('profiles = ["article"]\n[[goals]]\nfigure = "median_s"', ":2: condition = None: there are article"),
+        ('profiles = ["article"]\n[[goals]]\nfigure = "median_s"', ":2: condition = None: choose from article"),
         (
             'profiles = ["article"]\n[[goals]]\nfigure = "median_s"\ncondition = "article"',
             ":2: a goal has at_least, at_most or both",
@@ -89,7 +89,7 @@ def test_a_condition_is_named_by_what_varies(plan):
         ('profiles = ["article"]\nseeds = ' + "9" * 5000, "a.toml: a number has too many digits"),
         (
             'profiles = ["article"]\n[[goals]]\nfigure="mean_s"\ncondition="article"\nagainst="fixed"\nat_most=1',
-            ":5: against = 'fixed': there are article",
+            ":5: against = 'fixed': choose from article",
         ),
     ],
 )

@@ -1,0 +1,150 @@
+"""Whatever is typed wrong gets one line that says what to do, and exit code 2; nothing is written."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.runs.support import ROOT, octet
+
+WRONG = {
+    "rnu": "did you mean run?",
+    "dance": "choose from campaign, check-robot, compare",
+    "--verbose": "see tools/octet --help",
+    "run --warp 9": "see tools/octet run --help",
+    "run --profle fixed": "did you mean --profile?",
+    "run --see 2": "did you mean --seed?",
+    "run run": "unrecognized arguments: run; see",
+    "run --profile articel": "did you mean article?",
+    "run --profile genius": "choose from article, fixed, never",
+    "run --seed x": "'x' is not a number from 0 to 4294967295",
+    "run --seed 4294967296": "from 0 to 4294967295",
+    "run --seed -1": "'-1' is not a number from 0",
+    "run --environments 0": "from 1 to 1000",
+    "run --limit-s nan": "'nan' is not a number from 0.02",
+    "run --robots 0": "from 1 to 10000",
+    "run --robots 2 --node 31 --bus none": "the last is 31",
+    "run --robots 32 --bus fd": "leave --bus fd out",
+    "run --robots 40 --port 8139": "leave --port out",
+    "run --robots 40 --robot qemu": "leave --robot out",
+    "run --robots 40 --watch": "run it unwatched",
+    "run --robots 2 --robot qemu": "leave out --node and --robots",
+    "run --node 32": "from 1 to 31",
+    "run --owner 0": "from 1 to 255",
+    "run --set colour=3": "choose from turn_deg, trial_deg",
+    "run --set turn_dg=3": "did you mean turn_deg?",
+    "run --set turn_deg": "write --set turn_deg=VALUE, a whole number from 1 to 180 deg",
+    "run --set turn_deg=": "a whole number from 1 to 180 deg, not ''",
+    "run --set turn_deg=999": "a whole number from 1 to 180 deg, not '999'",
+    "run --set": "expected one argument",
+    "run --world corridorz": "did you mean corridors?",
+    "run --world moon": "or name a file ending in .toml",
+    "run --body kitt": "did you mean kit?, or name a file",
+    "run --worlds hal": "did you mean hall?",
+    "run --physics fats": "did you mean fast?",
+    "run --change plnt@20s": "did you mean plant?",
+    "run --change explode@20s": "choose from plant, grow",
+    "run --fault dorp": "did you mean drop?",
+    "run --fault @nowhere": "cannot read nowhere",
+    "run --bus socketcan": "INTERFACE:CHANNEL such as socketcan:vcan0",
+    "run --bus carrier:pigeon --robot external": "cannot open the bus carrier:pigeon",
+    "run --bus carrier:pigeon": "use --robot external",
+    "run --bus slcan:/dev/nowhere --robot external": "/dev/nowhere",
+    "run --bus fd --robot external": "--bus INTERFACE:CHANNEL",
+    "run --robot emulated --board blue_pil": "did you mean blue_pill?",
+    "run --board blue_pill": "leave --board out",
+    "run --bitrate 9600": "choose from 125000, 250000",
+    "run --bitrate 250000": "leave --bitrate out",
+    "run --bus socketcan:can0 --bitrate 250000": "leave --bitrate out",
+    "run --listen": "add --watch, or leave --listen out",
+    "run --port 8139": "leave --port out",
+    "run --port 99999": "from 0 to 65535",
+    "run --memory=": "the name is empty",
+    "run --out=": "the name is empty",
+    "run --bus none --memory {out}/loop": "loop",
+    "watch --terminal --listen": "leave --terminal out",
+    "watch --listen 300.1.1.1 --port 0": "choose another with --port or --listen",
+    "replay": "required: RUN.LOG; see tools/octet replay --help",
+    "replay README.md": "README.md",
+    "replay README.md --html {out}/a.html": "README.md",
+    "replay {log} --html {out}/loop": "is a link to itself",
+    "replay {log} --node 9": "has no heartbeat of node 9",
+    "picture {log}": "give --gif FILE",
+    "picture README.md --png {out}/a.png": "README.md",
+    "picture {log} --png {out}/a.xyz": "does not end with .png",
+    "picture {log} --gif {out}/a.png": "does not end with .gif",
+    "picture {log} --png /nowhere/a.png": "there is no folder /nowhere",
+    "export {log}": "give --csv FILE",
+    "export {log} --cvs a.csv": "did you mean --csv?",
+    "export {log} --csv {out}": "it is a folder",
+    "export README.md --csv {out}/a.csv": "README.md",
+    "load README.md": "README.md",
+    "world README.md": "choose from random",
+    "world random --png {out}/a.xyz": "does not end with .png",
+    "talk --script nobody": "give a file, or one of",
+    "talk --at -3": "'-3' is not a number from 0",
+    "study nowhere.toml": "there is no file nowhere.toml",
+    "compare articel": "did you mean article?",
+    "compare docs": "docs",
+    "compare article --seeds 0": "from 1 to 100000",
+    "campaign /nowhere/a.html": "there is no folder /nowhere",
+    "campaign {out}/a.html --links fdd": "did you mean fd?",
+    "page": "required: FILE",
+    "page /nowhere/a.html": "there is no folder /nowhere",
+    "page {out}": "it is a folder",
+    "dbc 99": "--nodes --node is required",
+    "dask manager": "choose from",
+    "check-robot": "--robot-command CMD, or --bus INTERFACE:CHANNEL",
+}
+
+
+@pytest.fixture(scope="module")
+def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The log of a short run."""
+    out = tmp_path_factory.mktemp("short")
+    assert octet("run", "--bus", "none", "--environments", "1", "--limit-s", "1", "--out", out).returncode == 0
+    return out / "run.log"
+
+
+@pytest.mark.parametrize("words", WRONG)
+def test_a_wrong_line_is_answered_with_what_to_do_and_writes_nothing(log, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(ROOT)
+    before = log.read_bytes()
+    (tmp_path / "loop").symlink_to("loop")
+    out = ["--out", tmp_path] if words.startswith(("run ", "watch ")) and "--out" not in words else []
+
+    done = octet(*words.format(out=tmp_path, log=log).split(), *out)
+
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr.startswith("octet: ")
+    assert done.stderr.count("\n") == 1
+    assert WRONG[words] in done.stderr
+    assert [path.name for path in tmp_path.iterdir()] == ["loop"]
+    assert log.read_bytes() == before
+
+
+@pytest.mark.parametrize("words", [(), ("--help",)])
+def test_alone_it_lists_every_command_with_the_first_ones_first(words):
+    done = octet(*words)
+
+    listed = [line.split()[0] for line in done.stdout.splitlines() if line.startswith("  ") and "-" not in line[:4]]
+    rooms = (ROOT / "host_sim").glob("**/*_command.py")
+    named = {name for file in rooms for name in file.stem.split("_")[:-1]}
+    assert done.returncode == 0
+    assert listed[:4] == ["run", "watch", "page", "talk"]
+    assert {name.replace("-", "") for name in listed} == named
+
+
+@pytest.mark.parametrize("command", ["run", "watch"])
+def test_the_help_of_a_run_begins_with_the_options_that_are_used_most(command):
+    _, most_used, *others = octet(command, "--help").stdout.split(":\n  --")
+
+    assert most_used.startswith("environments N")
+    assert most_used.count("\n  --") in (8, 9)
+    assert len(others) == 4
+
+
+def test_its_version_is_that_of_the_project():
+    done = octet("--version")
+
+    assert (done.returncode, done.stdout) == (0, "Octet 1.0\n")
+    assert 'version = "1.0"' in (ROOT / "pyproject.toml").read_text()
