@@ -1,6 +1,7 @@
 """tools/test in a project of its own: what it counts, and what each stage is."""
 
 import re
+import signal
 import sys
 from pathlib import Path
 
@@ -91,6 +92,22 @@ def test_a_stage_whose_set_up_fails_is_not_run_and_the_others_are(project):
     assert (code, last(said)) == (1, "1 passed, 1 failed")
     assert re.search(r"^python +not run", said, re.MULTILINE)
     assert project.run("c", "python", "--allow-missing=python")[0] == 0
+
+
+def test_repeated_runs_are_counted_and_those_that_failed_are_numbered(project):
+    once = project.folder / "once"
+    project.c_tests(one=f"[ ! -e '{once}' ] && touch '{once}'")
+
+    code, said = project.run("c", "--repeat=3", "--beside=1")
+
+    assert (code, last(said)) == (1, "1 of 3 runs passed; failed: 2, 3")
+
+
+def test_busy_loops_end_with_what_they_are_beside(project):
+    with project.stages().busy(2) as loops:
+        assert [loop.poll() for loop in loops] == [None, None]
+
+    assert [loop.returncode for loop in loops] == [-signal.SIGKILL] * 2
 
 
 def test_each_stage_is_set_up_for_itself_alone(project):

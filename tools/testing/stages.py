@@ -6,7 +6,8 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TextIO
@@ -187,11 +188,43 @@ def parse(parser: argparse.ArgumentParser, names: Sequence[str]) -> argparse.Nam
     )
     add("--time-limit", type=float, default=NO_LIMIT, metavar="MINUTES", help="for everything (default: none)")
     add("--stall-limit", type=float, default=STALL_MIN, metavar="MINUTES", help="without news (default: %(default)g)")
+    add("--repeat", type=int, default=1, metavar="N", help="run it all so often, and say how many runs passed")
+    add("--beside", type=int, default=0, metavar="N", help="run it beside so many busy loops, as on a busy machine")
     arguments = parser.parse_args()
     unknown = set(arguments.stages) - set(names)
     if unknown:
         parser.error(f"no such stage: {', '.join(sorted(unknown))}; there are {', '.join(names)}")
+    if arguments.repeat < 1 or arguments.beside < 0:
+        parser.error("--repeat must be 1 or more, and --beside 0 or more")
     return arguments
+
+
+@contextmanager
+def busy(count: int) -> Iterator[Sequence[subprocess.Popen[bytes]]]:
+    """So many processes that do nothing but compute, and end with this one, even if it is killed."""
+    loop = "import os\nparent = os.getppid()\nwhile os.getppid() == parent: pass"
+    loops = [subprocess.Popen((sys.executable, "-c", loop)) for _ in range(count)]
+    try:
+        yield loops
+    finally:
+        for each in loops:
+            each.kill()
+            each.wait()
+
+
+def run_repeatedly(stages: Sequence[Stage], arguments: argparse.Namespace) -> int:
+    """As `run_stages`, as often and beside as many busy loops as the command line asks for.
+
+    Returns:
+        0 if every run passed, else 1.
+    """
+    with busy(arguments.beside):
+        codes = [run_stages(stages, arguments) for _ in range(arguments.repeat)]
+    failed = [str(number) for number, code in enumerate(codes, 1) if code != 0]
+    if arguments.repeat > 1:
+        which = f"; failed: {', '.join(failed)}" if failed else ""
+        print(f"{len(codes) - len(failed)} of {len(codes)} runs passed{which}")
+    return 1 if failed else 0
 
 
 def run_stages(stages: Sequence[Stage], arguments: argparse.Namespace) -> int:
