@@ -105,7 +105,6 @@ class Bench:
         self._time = _Time()
         self.heard: list[Heard] = []
         self.damaged = 0
-        self._last: dict[str, Heard] = {}
         self._frames: list[tuple[int, str, Frame]] = []
         self._cyclic: dict[str, dict[str, float]] = {}
         if self.setup.node:
@@ -150,8 +149,11 @@ class Bench:
 
         Raises:
             BenchError: The device has ended.
+            UsageError: Time does not pass backward.
         """
         __tracebackhide__ = True
+        if ms < 0:
+            raise UsageError(f"time does not pass backward: {ms} ms")
         for _ in range(ms):
             try:
                 self._step()
@@ -166,11 +168,7 @@ class Bench:
             BenchError: It has sent none yet.
         """
         __tracebackhide__ = True
-        name, _, signal = signal.partition(".")
-        if name not in self._last:
-            self._never_heard(name)
-        self.setup.messages.check(name, {signal: self._last[name].signals.get(signal, 0)})
-        return self._last[name].signals[signal]
+        return self.history(signal)[-1][1]
 
     def history(self, signal: str) -> list[tuple[int, float]]:
         """All values that the device has sent, each with its time in ms.
@@ -178,9 +176,15 @@ class Bench:
         Raises:
             BenchError: It has sent none yet.
         """
+        __tracebackhide__ = True
         name, _, of = signal.partition(".")
-        self[signal]  # says what is wrong
-        return [(heard.at_ms, heard.signals[of]) for heard in self.heard if heard.name == name]
+        self.setup.messages.check_names(name, [of])
+        told = [
+            (heard.at_ms, heard.signals[of]) for heard in self.heard if heard.name == name and of in heard.signals
+        ]
+        if not told:
+            self._never_heard(signal)
+        return told
 
     def close(self) -> None:
         """Switches the device off."""
@@ -206,11 +210,11 @@ class Bench:
             return ""
         return f"{told[0]} " + " ".join(f"{name}={value:g}" for name, value in told[1].items())
 
-    def _never_heard(self, name: str) -> NoReturn:
+    def _never_heard(self, signal: str) -> NoReturn:
         __tracebackhide__ = True
-        known = self.setup.messages[name].name
-        but = ", ".join(sorted(self._last)) or (f"{self.damaged} damaged frames" if self.damaged else "nothing else")
-        raise BenchError(f"in {self.now_ms} ms the device has sent no {known}, and {but}")
+        names = sorted({heard.name for heard in self.heard})
+        but = ", ".join(names) or (f"{self.damaged} damaged frames" if self.damaged else "nothing")
+        raise BenchError(f"in {self.now_ms} ms the device has sent no {signal}; it has sent {but}")
 
     def _send(self, name: str, signals: dict[str, float]) -> None:
         frame = self.setup.messages.frame(name, signals)
@@ -233,5 +237,4 @@ class Bench:
             self.damaged += 1
             return
         if told is not None:
-            self._last[told[0]] = Heard(self.now_ms, *told)
-            self.heard.append(self._last[told[0]])
+            self.heard.append(Heard(self.now_ms, *told))

@@ -1,6 +1,7 @@
 """The messages of a DBC file: frames with counters that go on and true CRCs, and what frames say."""
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
 from random import Random
 from typing import NamedTuple
@@ -68,16 +69,24 @@ class Messages:
             raise UsageError(f"{self.file} has no message {name}; it has {', '.join(sorted(self._names))}")
         return self._names[name]
 
+    def check_names(self, name: str, signals: Iterable[str]) -> None:
+        """Makes sure that a message has signals.
+
+        Raises:
+            UsageError: There is no such message or signal.
+        """
+        known = [signal.name for signal in self[name].signals]
+        for signal in signals:
+            if signal not in known:
+                raise UsageError(f"{name} has no signal {signal}; it has {', '.join(known)}")
+
     def check(self, name: str, signals: dict[str, float]) -> None:
         """Makes sure that a message has signals, and room for their values.
 
         Raises:
             UsageError: There is no such message or signal, or a value does not fit.
         """
-        known = [signal.name for signal in self[name].signals]
-        for signal in signals:
-            if signal not in known:
-                raise UsageError(f"{name} has no signal {signal}; it has {', '.join(known)}")
+        self.check_names(name, signals)
         try:
             self._encode(name, signals, strict=bool(signals))
         except (CantoolsError, OverflowError) as error:

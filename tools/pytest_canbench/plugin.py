@@ -67,7 +67,7 @@ def can_bench(request: pytest.FixtureRequest) -> Iterator[Bench]:
     try:
         bench = Bench(_setup(request))
     except OctetError as error:
-        pytest.fail(str(error), pytrace=False)
+        raise pytest.fail.Exception(str(error), pytrace=False) from None
     yield bench
     bench.close()
 

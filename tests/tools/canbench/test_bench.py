@@ -106,6 +106,20 @@ def test_what_the_device_says_has_its_time(open_bench):
     assert bench["STATUS.speed"] == bench.history("STATUS.speed")[-1][1] > 0
 
 
+def test_what_is_misspelt_is_said_before_anything_was_heard(open_bench):
+    bench = open_bench()
+
+    with pytest.raises(UsageError, match="STATUS has no signal sped; it has"):
+        bench["STATUS.sped"]
+    with pytest.raises(UsageError, match="has no message STATS; it has"):
+        bench.history("STATS.speed")
+
+
+def test_time_does_not_pass_backward(open_bench):
+    with pytest.raises(UsageError, match="backward: -5 ms"):
+        open_bench().run(ms=-5)
+
+
 def test_the_same_seed_makes_the_same_faults(open_bench):
     found = []
     for seed in (1, 1, 2):
@@ -217,7 +231,7 @@ def test_a_device_that_never_answers_is_told(open_bench, tmp_path):
     bench = open_bench(device="mute.c", folder=tmp_path)
     bench.run(ms=100)
 
-    with pytest.raises(BenchError, match="in 100 ms the device has sent no STATUS, and nothing else"):
+    with pytest.raises(BenchError, match=r"in 100 ms the device has sent no STATUS\.speed; it has sent nothing"):
         bench["STATUS.speed"]
 
 
