@@ -1,7 +1,11 @@
 """tools/setup and Debian's packages, with stand-ins for the programs that install them."""
 
+import os
+import re
 import shutil
+import subprocess
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -53,3 +57,17 @@ def test_packages_whose_installation_was_killed_are_installed_by_the_next_call(t
     assert [done.returncode for done, _ in ended] == [-9, 0, 0]
     assert [calls.count("apt-get") for _, calls in ended] == [2, 2, 0]
     assert [done.stderr for done, _ in ended[1:]] == ["octet: installing gcc with apt-get\n", ""]
+
+
+def test_a_set_up_that_is_somebody_elses_is_said_in_a_line_with_whose_it_is(tree: Tree) -> None:
+    with TemporaryDirectory() as place:  # whose path, unlike tmp_path's, is open to others
+        folder = Path(shutil.copytree(tree.folder / "tools", Path(place) / "tools")).parent
+        (folder / "build").mkdir()
+        (folder / "build/setup.lock").touch(mode=0o444)
+        folder.chmod(0o755)
+        nobody = ("setpriv", "--reuid=65534", "--regid=65534", "--clear-groups") if os.geteuid() == 0 else ()
+        done = subprocess.run([*nobody, folder / "tools/setup"], capture_output=True, text=True, check=False)
+
+    said = r"octet: cannot write to \S+, which is \w+'s: call as that user, or get a clone of your own\n"
+    assert (done.returncode, done.stdout) == (1, "")
+    assert re.fullmatch(said, done.stderr)

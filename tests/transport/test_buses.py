@@ -1,5 +1,7 @@
 """Opening buses of python-can."""
 
+import errno
+
 import can
 import pytest
 
@@ -133,3 +135,16 @@ def test_a_frame_that_is_put_back_is_received_again_before_the_socket_is_lent(mo
     assert link.frame_socket() is None
     assert link.receive(0.0) == Frame(0x41, b"1")
     assert link.frame_socket() is link
+
+
+@pytest.mark.parametrize(
+    ("number", "hint"), [(errno.EAFNOSUPPORT, "tools/with-vcan COMMAND"), (errno.ENODEV, "`ip link` lists")]
+)
+def test_what_to_do_is_said_where_it_is_known(monkeypatch, number, hint):
+    def fail(**_: object) -> None:
+        raise OSError(number, "so it is")
+
+    monkeypatch.setattr(can, "Bus", fail)
+
+    with pytest.raises(UsageError, match=f"cannot open the bus socketcan:can0: .*so it is; .*{hint}"):
+        open_bus("socketcan:can0")
