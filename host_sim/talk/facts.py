@@ -74,8 +74,7 @@ class RobotFacts:
 
     def turn(self, words: Sequence[str]) -> Known | None:
         """Why it turned: at a time, or at its last turn, to the side that is spoken of."""
-        wanted = self._texts.side_in(words)
-        return self._reason(words, [tick for tick in self._begun(*_TURNS) if wanted in {0, self._side(tick)}])
+        return self._reason(words, self._begun(*_TURNS, side=self._texts.side_in(words)))
 
     def bored(self, _: Sequence[str]) -> Known:
         """How often it was bored, and how near it is to it."""
@@ -191,15 +190,13 @@ class RobotFacts:
     def _metres(self, length_mm: float, digits: int) -> str:
         return decimal(length_mm / 1000, digits, self._texts.words)
 
-    def _side(self, tick: int) -> int:
-        state = self._run.at(tick, self._robot)
-        return Side.LEFT if state["left"] < state["right"] else Side.RIGHT
-
-    def _begun(self, *reasons: int) -> list[int]:
-        """The ticks up to now in which actions with one of the reasons began."""
-        news = np.diff(self._track.column("action"), prepend=np.int16(-1)) != 0
-        wanted = np.flatnonzero(news & np.isin(self._track.column("reason"), reasons))
-        return self._until((wanted + self._track.first_tick).tolist())
+    def _begun(self, *reasons: int, side: int = Side.NOTHING) -> list[int]:
+        """The ticks up to now in which actions with one of the reasons began; to a side, if one is given."""
+        wanted = np.diff(self._track.column("action"), prepend=np.int16(-1)) != 0
+        wanted &= np.isin(self._track.column("reason"), reasons)
+        if side:
+            wanted &= (self._track.column("left_mm_s") < self._track.column("right_mm_s")) == (side == Side.LEFT)
+        return self._until((np.flatnonzero(wanted) + self._track.first_tick).tolist())
 
     def _until(self, ticks: Iterable[int]) -> list[int]:
         return [tick for tick in ticks if tick <= self._tick]

@@ -11,6 +11,7 @@ from host_sim.client.frame_log import line_of
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import PATTERNS, SENTENCES, SIDES, Reason
 from host_sim.recording.log_reader import read_log
+from host_sim.recording.trajectory import Trajectory
 from host_sim.talk.conversation import Conversation, Source, about_memory, script_named, texts_of
 from host_sim.talk.facts import FACTS, RobotFacts
 from host_sim.talk.log_index import index_log
@@ -155,6 +156,36 @@ def test_a_drive_that_is_altered_changes_the_answer_that_rests_on_it_and_no_othe
 
     changed = {name for name, answer in answers(before).items() if answers(after)[name] != answer}
     assert changed == {"why", "turn"}
+
+
+def test_a_cell_that_is_altered_changes_the_answers_that_rest_on_it_and_no_other(log, index, tmp_path):
+    before = resimulate(log, ignore_world=True).trajectory
+    read = [*read_log(log)]
+    said = [PROTOCOL.decode(it.frame) for it in read]
+    place = [i for i, it in enumerate(said) if it and "cell_1" in it.signals][-3]
+    tick, signals = sum(it is not None and it.name == "SENSES" for it in said[:place]), said[place].signals
+    altered = PROTOCOL.encode("MEMORY", {**signals, "cell_1": 3 - signals["cell_1"]})
+    lines = log.read_text().splitlines(keepends=True)
+    lines[place] = line_of(read[place].time_us, altered) + "\n"
+    (tmp_path / "run.log").write_text("".join(lines))
+    after = resimulate(tmp_path / "run.log", ignore_world=True).trajectory
+
+    def answers(trajectory):
+        facts = RobotFacts(trajectory, index, tick, texts_of("robot"))
+        return {name: getattr(facts, name)(["FRONT-RIGHT"]) for name in FACTS}
+
+    changed = {name for name, answer in answers(before).items() if answers(after)[name] != answer}
+    assert changed == {"learned", "sure", "cell", "told"}  # it did not do that itself
+
+
+def test_an_answer_looks_at_few_states_however_long_the_run(ask, monkeypatch):
+    looked = []
+    at = Trajectory.at
+    monkeypatch.setattr(Trajectory, "at", lambda self, *args: looked.append(args) or at(self, *args))
+    for _, text in questions("robot"):
+        looked.clear()
+        ask(text)
+        assert len(looked) <= 2, text
 
 
 def test_a_robot_without_a_log_knows_its_memory_only(tmp_path):

@@ -69,9 +69,10 @@ export class RobotFacts {
     const { left, right } = this.#texts.spoken;
     const spoken = (/** @type {string[]} */ names) => words.some((word) => names.includes(word));
     const wanted = spoken(left) ? SIDE.LEFT : spoken(right) ? SIDE.RIGHT : SIDE.NOTHING;
-    const isLeft = (/** @type {{left: number, right: number}} */ { left: one, right: other }) => one < other;
-    const turns = this.#begun(TURNS);
-    return this.#reason(words, turns.filter((tick) => !wanted || isLeft(this.#stateAt(tick)) === (wanted === SIDE.LEFT)));
+    const { left: one, right: other } = this.#track.columns;
+    const sideAt = (/** @type {number} */ place) => (one[place] < other[place] ? SIDE.LEFT : SIDE.RIGHT);
+    const { first } = this.#about.data;
+    return this.#reason(words, this.#begun(TURNS).filter((tick) => !wanted || sideAt(tick - first) === wanted));
   }
 
   bored() {
