@@ -25,7 +25,7 @@ NOT_ON_THE_HOST = {
 }
 
 
-PAGE_PARTS = ("commands", "frames", "history", "layouts", "memory", "state", "world")
+PAGE_PARTS = ("commands", "frames", "history", "layouts", "memory", "program", "state", "world")
 
 
 @dataclass

@@ -8,7 +8,7 @@ from typing import Any
 
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
-from host_sim.base.paths import PAGE_WASM, WEB
+from host_sim.base.paths import PAGE_WASM, ROOT, WEB
 from host_sim.protocol.generated import PARAMETERS
 from host_sim.report.page_bundle import page_of, with_data
 from host_sim.report.speakers import speakers
@@ -39,8 +39,9 @@ def write_octet_page(path: Path) -> int:
 def octet_page() -> str:
     """The page's HTML.
 
-    Its element `parts` has the WebAssembly in base64 and the dimensions of all named worlds, `lesson-texts` the
-    words of the lessons in each language, `speakers` those who can be talked to.
+    Its element `parts` has the WebAssembly in base64 and the dimensions of all named worlds, `lesson-texts` and
+    `program-texts` the words of the lessons and of the editor of programs in each language, `speakers` those who can be
+    talked to.
 
     Raises:
         OctetError: The WebAssembly is not built.
@@ -49,9 +50,9 @@ def octet_page() -> str:
         wasm = PAGE_WASM.read_bytes()
     except OSError as error:
         raise OctetError(f"cannot read {PAGE_WASM}: {error.strerror}; build it with tools/setup page") from None
-    parts = {"wasm": base64.b64encode(wasm).decode(), "worlds": world_dimensions()}
+    parts = {"wasm": base64.b64encode(wasm).decode(), "worlds": world_dimensions(), "programs": programs()}
     text = with_data(with_data(page_of(_TEMPLATE), "parts", parts), "speakers", speakers())
-    return with_data(text, "lesson-texts", lesson_texts())
+    return with_data(with_data(text, "lesson-texts", texts("lessons")), "program-texts", texts("program"))
 
 
 def world_dimensions() -> dict[str, dict[str, Any]]:
@@ -63,7 +64,13 @@ def world_dimensions() -> dict[str, dict[str, Any]]:
     }
 
 
-def lesson_texts() -> dict[str, Any]:
-    """The words of the lessons, by the code of their language."""
-    files = sorted((WEB / "lessons" / "texts").glob("*.json"))
+def programs() -> dict[str, str]:
+    """The programs that a person can begin with, by name."""
+    files = sorted((ROOT / "host_sim" / "program" / "examples").glob("*.bas"))
+    return {path.stem: path.read_text(encoding="utf-8") for path in files}
+
+
+def texts(folder: str) -> dict[str, Any]:
+    """The words of a part of the page, by the code of their language."""
+    files = sorted((WEB / folder / "texts").glob("*.json"))
     return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in files}

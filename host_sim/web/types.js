@@ -144,6 +144,7 @@
  * @property {Record<string, number>} settings
  * @property {number[] | null} memory
  * @property {number} [seed] - Of its random turns; by default the experiment's, plus its place among the robots.
+ * @property {string} [program] - Its brain, in the language of the listing; without one, the firmware's own.
  */
 
 /**

@@ -11,8 +11,8 @@ import { Simulator } from "./simulator.js";
  * @typedef {import("../types.js").Change} Change
  * @typedef {import("../types.js").Experiment} Experiment
  *
- * What the page has in it: page.wasm in base64, and the worlds.
- * @typedef {{wasm: string, worlds: import("../sim/worlds.js").Worlds}} Parts
+ * What the page has in it: page.wasm in base64, the worlds, and the programs to choose from.
+ * @typedef {{wasm: string, worlds: import("../sim/worlds.js").Worlds, programs: Record<string, string>}} Parts
  */
 
 const LANES_MAX = 4;
@@ -23,8 +23,9 @@ export class Laboratory extends PlayingPage {
    * @param {Parts} parts
    * @param {Experiment} experiment - The first run's.
    */
-  constructor({ wasm, worlds }, experiment) {
+  constructor({ wasm, worlds, programs }, experiment) {
     super(0);
+    this.programs = programs;
     this.worlds = worlds;
     this.params = worlds.random;
     this.simulator = new Simulator(Uint8Array.from(atob(wasm), (letter) => letter.charCodeAt(0)).buffer, worlds);

@@ -11,6 +11,7 @@ import { Course } from "../lessons/course.js";
 import { Panel } from "../panel/panel.js";
 import { DivergenceView } from "../panel/divergence.js";
 import { RobotPicker } from "../panel/robot_picker.js";
+import { ProgramTab } from "../program/program_tab.js";
 import { drawMarks } from "../panel/timeline.js";
 import { Conversations } from "../talk/conversation.js";
 import { TalkBox } from "../talk/talk_box.js";
@@ -34,6 +35,7 @@ class LabPage extends Laboratory {
     this.conversations = new Conversations();
     this.talk = new TalkBox(byId("panel-talk"), this);
     this.course = new Course(this);
+    this.programTab = new ProgramTab(this);
     this.parting = new DivergenceView();
     /** @type {RobotPicker | undefined} */
     this.picker = undefined;
@@ -170,6 +172,7 @@ class LabPage extends Laboratory {
     setText(byId("news"), scene.lastNews);
     if (!byId("panel-talk").hidden) this.talk.moveTo(byId("panel-talk"));
     this.course.show();
+    this.programTab.show();
     this.parting.show(lanes, lane);
     this.showTime(scene.clock(tick));
   }
@@ -187,7 +190,7 @@ class LabPage extends Laboratory {
    */
   takesKey(event) {
     const inArena = event.target instanceof HTMLCanvasElement;
-    const fields = event.key === " " ? "select, button, input, summary" : "select, input:not(#scrub), [role=tab]";
+    const fields = event.key === " " ? "select, button, input, summary, textarea" : "select, input:not(#scrub), [role=tab], textarea";
     return isForPage(event, fields) && !event.defaultPrevented && !(inArena && event.key.startsWith("Arrow"));
   }
 

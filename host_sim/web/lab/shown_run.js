@@ -133,7 +133,8 @@ export class ShownRun {
     this.renderer.draw(scene);
     const { seed, world = RANDOM } = this.experiment;
     const own = this.setup.seed ?? seed;
-    const text = `${this.name}: ${this.setupAt(tick).profile}, seed ${seed}${own === seed ? "" : `, its own ${own}`}${world === RANDOM ? "" : `, ${nameOf(world)}`}`;
+    const brain = this.setup.program === undefined ? this.setupAt(tick).profile : "your program";
+    const text = `${this.name}: ${brain}, seed ${seed}${own === seed ? "" : `, its own ${own}`}${world === RANDOM ? "" : `, ${nameOf(world)}`}`;
     if (this.caption.textContent !== text) this.caption.textContent = text;
   }
 

@@ -41,7 +41,7 @@ const FAULTS = [
   "mirror", "noise:10/1000", "noise:100/1000", "swap-motors", "weak-motor:left:60%", "weak-motor:right:60%",
   "swap-odometers", "odometer:left:0%", "odometer:right:0%", "false-beacon:100", "repair",
 ];
-const TABS = ["run", "parameters", "listing", "curves", "files", "talk", "lessons"];
+const TABS = ["run", "parameters", "listing", "program", "curves", "files", "talk", "lessons"];
 
 /** Shows and changes the selected run. */
 export class SidePanel {
@@ -180,9 +180,9 @@ export class SidePanel {
   /** @param {string} profile */
   choose(profile) {
     const { lane } = this.lab;
-    if (!this.fromStart) this.lab.change({ do: "start", robot: lane.robot, profile });
+    if (!this.fromStart && lane.setup.program === undefined) this.lab.change({ do: "start", robot: lane.robot, profile });
     else {
-      lane.setUp({ profile });
+      lane.setUp({ profile, program: undefined });
       this.lab.simulate(lane);
     }
   }

@@ -65,9 +65,20 @@ export class Simulator {
    * @param {number} tick
    */
   async memory(experiment, robot, tick) {
-    const until = { ...experiment, changes: experiment.changes.filter((change) => change.tick <= tick), ticks_max: tick + 1 };
-    const { memory } = await this.ask({ do: "memory", id: this.newId(), experiment: until, robot });
+    const { memory } = await this.ask({ do: "memory", id: this.newId(), experiment: upTo(experiment, tick), robot });
     return Uint8Array.from(memory ?? []);
+  }
+
+  /**
+   * What a robot's program is doing at a tick.
+   * @param {Experiment} experiment
+   * @param {number} robot
+   * @param {number} tick
+   */
+  async program(experiment, robot, tick) {
+    const { program } = await this.ask({ do: "program", id: this.newId(), experiment: upTo(experiment, tick), robot });
+    if (!program) throw new Error("the worker has no program");
+    return program;
   }
 
   /**
@@ -132,4 +143,14 @@ export class Simulator {
     if (answer.id === this.running) this.running = undefined;
     this.next();
   }
+}
+
+/**
+ * An experiment that ends after a tick.
+ * @param {Experiment} experiment
+ * @param {number} tick
+ * @returns {Experiment}
+ */
+function upTo(experiment, tick) {
+  return { ...experiment, changes: experiment.changes.filter((change) => change.tick <= tick), ticks_max: tick + 1 };
 }

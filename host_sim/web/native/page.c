@@ -5,7 +5,7 @@
 /* Room for a block's lines: the senses, the drive and a report of each tick, and all at once in one of them. */
 enum { LINES_A_TICK = 3, LOG_LINES = PAGE_ROBOTS_MAX * (LINES_A_TICK * PAGE_TICKS_MAX + PAGE_WAITING_MAX) };
 
-static void bind(struct loop_robot *robot, struct octet *octet)
+void page_bind(struct loop_robot *robot, struct octet *octet)
 {
     static int16_t rows[PAGE_ROBOTS_MAX][PAGE_TICKS_MAX * ROW_COUNT];
     static double poses[PAGE_ROBOTS_MAX][PAGE_TICKS_MAX * LOOP_POSE];
@@ -52,7 +52,7 @@ bool page_open(uint32_t robots)
 
         if (!octet)
             return false;
-        bind(&loop->robots[i], octet);
+        page_bind(&loop->robots[i], octet);
     }
     return true;
 }

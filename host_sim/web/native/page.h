@@ -6,6 +6,7 @@
 #define OCTET_PAGE_H
 
 #include "hal/library/exchange.h"
+#include "host_sim/program/native/programmed.h"
 #include "host_sim/sim/native/loop.h"
 #include "host_sim/world/native/edits.h"
 #include "host_sim/world/native/history.h"
@@ -72,6 +73,9 @@ struct page *page_state(void);
 bool page_open(uint32_t robots);
         /* Wakes the robots of a run, with empty memories. False if there is no memory for them. robots is
            1..PAGE_ROBOTS_MAX. */
+
+void page_bind(struct loop_robot *robot, struct octet *octet);
+        /* Makes this the robot at a place of the run. */
 
 size_t page_exchange(uint32_t robot, uint32_t id, uint32_t len);
         /* Gives a robot the frame with the bytes in page_bytes(). Returns how many frames it answers: page_answers(). */
@@ -185,6 +189,34 @@ const struct history_note *page_notes(void);
 const struct history_lesson *page_lessons(uint32_t robot);
 uint32_t page_lesson_count(uint32_t robot);
         /* The lessons of the last take or relearn. */
+
+/* page_program.c: robots whose brain is a program. */
+
+char *page_program_text(void);
+        /* Where JavaScript puts a program: PROGRAM_TEXT_MAX bytes. */
+
+bool page_program(uint32_t robot, uint32_t len);
+        /* Puts a robot in the place of one that was never started, with that program for its brain and an empty memory. False
+           if there is no memory for it. */
+
+enum { PAGE_PROGRAM_STATE, PAGE_PROGRAM_LINE, PAGE_PROGRAM_EXPECTED, PAGE_PROGRAM_STEPS, PAGE_PROGRAM_NAMES, PAGE_PROGRAM_NUMBERS };
+
+const double *page_program_state(uint32_t robot);
+        /* Of a robot's program: its state, an enum program_state; the line of its mistake and what was expected; the number of the
+           steps of its last decision and of its names; then line, cell and value of each step, and kind, first cell, size, place in
+           the text and length of each name. */
+
+const double *page_program_cells(uint32_t robot);
+        /* Its variables before the last decision: PROGRAM_CELLS_MAX. */
+
+const char *page_program_word(uint32_t robot);
+        /* The word of its mistake. */
+
+const char *page_program_expected(uint32_t expected);
+        /* As program_expected. */
+
+const char *page_program_shown(uint32_t robot, uint32_t place);
+        /* What it shows at a place of 0..PROGRAM_SHOWN_MAX-1. */
 
 /* page_layouts.c: the layouts that environments begin with. */
 

@@ -41,14 +41,15 @@ export class DivergenceView {
  * The first tick in which a robot of one run does something else than that of another; undefined if none does.
  * @param {RunData} one
  * @param {RunData} other
+ * @param {string[]} [columns] - What is compared.
  * @returns {{tick: number, robot: number} | undefined}
  */
-export function partingOf(one, other) {
+export function partingOf(one, other, columns = DRIVE) {
   const robots = Math.min(one.robots.length, other.robots.length);
   const ticks = Math.min(one.last, other.last) + 1;
   let first = { tick: ticks, robot: 0 };
   for (let robot = 0; robot < robots; robot += 1) {
-    const tick = firstDifference(one.robots[robot].columns, other.robots[robot].columns, first.tick);
+    const tick = firstDifference(one.robots[robot].columns, other.robots[robot].columns, first.tick, columns);
     if (tick < first.tick) first = { tick, robot };
   }
   return first.tick < ticks || one.last !== other.last ? first : undefined;
@@ -58,9 +59,10 @@ export function partingOf(one, other) {
  * @param {import("../core/packed_columns.js").Columns} one
  * @param {import("../core/packed_columns.js").Columns} other
  * @param {number} ticks
+ * @param {string[]} names
  */
-function firstDifference(one, other, ticks) {
-  for (const name of DRIVE) {
+function firstDifference(one, other, ticks, names) {
+  for (const name of names) {
     const [a, b] = [one[name], other[name]];
     for (let tick = 0; tick < ticks; tick += 1) if (a[tick] !== b[tick]) ticks = tick;
   }

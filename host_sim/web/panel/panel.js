@@ -29,7 +29,8 @@ export class Panel {
   constructor(onPress) {
     this.cells = new CellsView(byId("cells"), onPress);
     this.legend = makeLegend(byId("legend"));
-    this.calm = new SteadyStates();
+    /** @type {WeakMap<Scene, SteadyStates>} */
+    this.calm = new WeakMap();
     this.reason = -1;
   }
 
@@ -39,7 +40,9 @@ export class Panel {
    * @param {boolean} exact - Whether to tell every move.
    */
   settle(scene, exact) {
-    scene.shown = this.calm.shown(scene.states, exact);
+    const calm = this.calm.get(scene) ?? new SteadyStates();
+    this.calm.set(scene, calm);
+    scene.shown = calm.shown(scene.states, exact);
   }
 
   /**

@@ -2,6 +2,7 @@
 /* What the page's worker does: it simulates experiments, and hands over what it has recorded after each environment. */
 
 import { openLog, recordedExperiment } from "./log_opening.js";
+import { programState } from "./native_program.js";
 import { Simulation } from "./simulation.js";
 import { openWorld } from "./world_opening.js";
 
@@ -15,14 +16,15 @@ import { openWorld } from "./world_opening.js";
  *   | {do: "run", id: number, experiment: Experiment}
  *   | {do: "log", id: number, experiment: Experiment}
  *   | {do: "memory", id: number, experiment: Experiment, robot: number}
+ *   | {do: "program", id: number, experiment: Experiment, robot: number}
  *   | {do: "world", id: number, file: {name: string, text: string}, base: Experiment}
  *   | {do: "open", id: number, text: string, world: string}
  *   | {do: "repeat", id: number, recorded: import("./log_opening.js").RecordedRun}} Request
  *
  * What it answers: a run, after each environment and at its end, with the changes that were refused; the whole log; the
- * eight bytes of a robot at the end; or the experiment that a world file, a log, or a recorded run, is of.
+ * eight bytes of a robot at the end, or what its program is doing then; or the experiment that a world file, a log, or a recorded run, is of.
  * @typedef {{id: number, run?: Recorded, refusals?: [number, string][], done: boolean, log?: Uint8Array[],
- *   memory?: number[], opened?: import("./log_opening.js").Opened, experiment?: Experiment, error?: string}} Answer
+ *   memory?: number[], program?: import("./native_program.js").ProgramState, opened?: import("./log_opening.js").Opened, experiment?: Experiment, error?: string}} Answer
  */
 
 /** @type {{module: WebAssembly.Module, worlds: Worlds} | undefined} */
@@ -44,6 +46,7 @@ function answer(request) {
   else if (request.do === "log") say({ id, done: true, log: finished(request.experiment, parts).log });
   else if (request.do === "world") say({ id, done: true, experiment: openWorld(parts, request.file, request.base) });
   else if (request.do === "memory") say({ id, done: true, memory: finished(request.experiment, parts).native.memory(request.robot) });
+  else if (request.do === "program") say({ id, done: true, program: program(request.experiment, request.robot, parts) });
   else run(id, request.experiment, parts);
 }
 
@@ -58,6 +61,15 @@ function run(id, experiment, { module, worlds }) {
     if (number === 1) say({ id, done: false, run: simulation.result(), refusals: [] });
   }
   say({ id, done: true, run: simulation.result(), refusals: [...simulation.changes.refusals] });
+}
+
+/**
+ * @param {Experiment} experiment
+ * @param {number} robot
+ * @param {NonNullable<typeof parts>} made
+ */
+function program(experiment, robot, made) {
+  return programState(finished(experiment, made).native, robot, experiment.robots[robot].program ?? "");
 }
 
 /**

@@ -4,6 +4,7 @@
 import { Arena } from "./arena.js";
 import { DueChanges } from "./due_changes.js";
 import { drawFrom, drawLayout } from "./native_layouts.js";
+import { loadProgram } from "./native_program.js";
 import { NativeRun } from "./native_run.js";
 import { RobotCommands } from "./robot_commands.js";
 import { RunRecorder } from "./run_recorder.js";
@@ -31,6 +32,7 @@ export class Simulation {
     this.experiment = experiment;
     this.world = worldOf(experiment.world ?? RANDOM, worlds);
     this.native = new NativeRun(module, robots.length);
+    for (const [robot, { program }] of robots.entries()) if (program !== undefined) loadProgram(this.native, robot, program);
     drawFrom(this.native, this.world.params, this.world.written);
     this.arena = new Arena(this.native, this.world.params);
     this.commands = new RobotCommands(this.native, experiment);

@@ -11,7 +11,7 @@ from tests.web.lab.support import SIZES, go, saved, settle, simulated
 from tests.web.looks import PHONES, TOO_SMALL, check, out_of_view, resize, violations_at
 from tests.web.support import wait_for
 
-SIZE_MAX = 500_000
+SIZE_MAX = 600_000
 IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#cells")
 
 

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from host_sim.base.paths import WEB
-from host_sim.report.octet_page import lesson_texts
+from host_sim.report.octet_page import texts
 
-TEXTS = lesson_texts()
+TEXTS = texts("lessons")
 FOLDER = WEB / "lessons"
 GAPS = re.compile(r"\{\w+\}")
 

@@ -1,0 +1,88 @@
+// @ts-check
+/* A field for a program, with the numbers of its lines, the one that is lit and the one with a mistake. */
+
+/** The text is in `field`. */
+export class Editor {
+  /** @param {() => void} onInput - Called when a person has changed the text. */
+  constructor(onInput) {
+    this.element = document.createElement("div");
+    this.element.className = "editor";
+    this.numbers = this.element.appendChild(document.createElement("pre"));
+    this.numbers.setAttribute("aria-hidden", "true");
+    this.lit = this.mark("lit");
+    this.wrong = this.mark("wrong");
+    this.field = this.element.appendChild(document.createElement("textarea"));
+    this.field.id = "program-text";
+    this.field.spellcheck = false;
+    this.field.setAttribute("autocapitalize", "off");
+    this.field.setAttribute("autocomplete", "off");
+    this.field.addEventListener("input", () => {
+      this.number();
+      onInput();
+    });
+    this.field.addEventListener("scroll", () => this.place());
+    /** The lines of the marks, from 1; 0 for none. */
+    this.lines = { lit: 0, wrong: 0 };
+  }
+
+  get text() {
+    return this.field.value;
+  }
+
+  set text(text) {
+    this.field.value = text;
+    this.number();
+  }
+
+  /** @param {string} name */
+  mark(name) {
+    const mark = this.element.appendChild(document.createElement("div"));
+    mark.className = `line ${name}`;
+    mark.hidden = true;
+    return mark;
+  }
+
+  number() {
+    const count = this.field.value.split("\n").length;
+    const numbers = Array.from({ length: count }, (_, i) => i + 1).join("\n");
+    if (this.numbers.textContent !== numbers) this.numbers.textContent = numbers;
+    this.place();
+  }
+
+  /**
+   * Lights a line and brings it into view, and marks one with a mistake.
+   * @param {number} lit - From 1; 0 for none.
+   * @param {number} wrong
+   */
+  show(lit, wrong) {
+    if (lit === this.lines.lit && wrong === this.lines.wrong) return;
+    this.lines = { lit, wrong };
+    this.bringIntoView(wrong || lit);
+    this.place();
+  }
+
+  /** The height of a line and the space above the first one, px. */
+  get measures() {
+    const { lineHeight, paddingTop } = getComputedStyle(this.field);
+    return { height: parseFloat(lineHeight), above: parseFloat(paddingTop) };
+  }
+
+  /** @param {number} line */
+  bringIntoView(line) {
+    if (!line) return;
+    const { field } = this;
+    const { height } = this.measures;
+    const top = (line - 1) * height;
+    const last = field.scrollTop + field.clientHeight - 3 * height;
+    if (top < field.scrollTop + height || top > last) field.scrollTop = Math.max(0, top - field.clientHeight / 2);
+  }
+
+  place() {
+    const { height, above } = this.measures;
+    this.numbers.style.transform = `translateY(${-this.field.scrollTop}px)`;
+    for (const name of /** @type {const} */ (["lit", "wrong"])) {
+      this[name].hidden = !this.lines[name];
+      this[name].style.top = `${above + (this.lines[name] - 1) * height - this.field.scrollTop}px`;
+    }
+  }
+}

@@ -1,0 +1,113 @@
+// @ts-check
+/* A link to an experiment: what it takes to see it again stands behind the # of the page's address. */
+
+import { CELL_COUNT, PROFILES } from "../generated.js";
+
+/**
+ * What a link has.
+ * @typedef {{seed: number, environments: number, world: string, behaviour: string, memory: number[], language: string,
+ *   program: string}} Linked
+ *
+ * What of a link could be taken, and what not: the names of its fields.
+ * @typedef {{taken: Partial<Linked>, left: string[], isCut: boolean, isOther: boolean}} Found
+ *
+ * What there is to choose from: programs by name, the names of worlds, the codes of languages.
+ * @typedef {{programs: Record<string, string>, worlds: string[], languages: string[]}} Known
+ */
+
+const VERSION = "1";
+const END = "end";
+const SEED_MAX = 999_999_999;
+const ENVIRONMENTS_MAX = 20;
+const PROGRAM_MAX = 16_383;
+
+/** @type {{[K in keyof Linked]: (text: string, known: Known) => Linked[K] | undefined}} */
+const READERS = {
+  seed: (text) => whole(text, 0, SEED_MAX),
+  environments: (text) => whole(text, 1, ENVIRONMENTS_MAX),
+  world: (text, { worlds }) => oneOf(text, worlds),
+  behaviour: (text) => oneOf(text, PROFILES),
+  memory: (text) => memoryIn(text),
+  language: (text, { languages }) => oneOf(text, languages),
+  program: (text, { programs }) => (text.startsWith("@") ? programs[text.slice(1)] : text.length <= PROGRAM_MAX ? text : undefined),
+};
+
+/**
+ * The part of an address behind the page's own, with its #.
+ * @param {Partial<Linked>} linked
+ * @param {Known} known
+ */
+export function linkOf({ memory, program, ...others }, { programs }) {
+  const name = Object.keys(programs).find((each) => programs[each] === program);
+  const fields = {
+    ...others,
+    ...(memory && { memory: memory.join(".") }),
+    ...(program !== undefined && { program: name ? `@${name}` : program }),
+  };
+  const parts = Object.entries(fields).map(([key, value]) => `${key}=${encodeURIComponent(value)}`);
+  return `#v=${VERSION}&${parts.join("&")}&${END}`;
+}
+
+/**
+ * What an address has; undefined if it is no such link.
+ * @param {string} hash - With its #.
+ * @param {Known} known
+ * @returns {Found | undefined}
+ */
+export function linkedIn(hash, known) {
+  if (!hash.startsWith("#v=")) return undefined;
+  const [version, ...parts] = hash.slice(1).split("&");
+  const isCut = parts.at(-1) !== END;
+  const whatIsLost = isCut ? parts.splice(-1).map((part) => part.split("=")[0]) : parts.splice(-1).slice(1);
+  /** @type {Found} */
+  const found = { taken: {}, left: whatIsLost.filter(Boolean), isCut, isOther: version !== `v=${VERSION}` };
+  for (const part of parts) take(part, known, found);
+  return found;
+}
+
+/**
+ * @param {string} part
+ * @param {Known} known
+ * @param {Found} found
+ */
+function take(part, known, { taken, left }) {
+  const [key, ...rest] = part.split("=");
+  const read = Object.hasOwn(READERS, key) ? READERS[/** @type {keyof Linked} */ (key)] : undefined;
+  const text = decoded(rest.join("="));
+  const value = text === undefined ? text : read?.(text, known);
+  if (value === undefined) left.push(key);
+  else Object.assign(taken, { [key]: value });
+}
+
+/** @param {string} text */
+function decoded(text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    return undefined;
+  }
+}
+
+/**
+ * @param {string} text
+ * @param {number} least
+ * @param {number} most
+ */
+function whole(text, least, most) {
+  const number = /^\d{1,9}$/.test(text) ? Number(text) : NaN;
+  return number >= least && number <= most ? number : undefined;
+}
+
+/**
+ * @param {string} text
+ * @param {readonly string[]} choices
+ */
+function oneOf(text, choices) {
+  return choices.includes(text) ? text : undefined;
+}
+
+/** @param {string} text */
+function memoryIn(text) {
+  const cells = text.split(".").map((cell) => whole(cell, 0, 255));
+  return cells.length === CELL_COUNT && cells.every((cell) => cell !== undefined) ? /** @type {number[]} */ (cells) : undefined;
+}

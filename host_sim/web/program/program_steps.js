@@ -1,0 +1,108 @@
+// @ts-check
+/* Where a program is: the steps of the decision that is under way at a tick, one by one, and its variables. */
+
+/**
+ * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
+ * @typedef {import("../sim/native_program.js").ProgramState} ProgramState
+ */
+
+const CELLS_SHOWN = 16;   // of an array
+const DECIMALS = 1000;
+
+/** `state` is the last that is known. */
+export class ProgramSteps {
+  /** @param {import("../lab/simulator.js").Simulator} simulator */
+  constructor(simulator) {
+    this.simulator = simulator;
+    /** @type {ProgramState | undefined} */
+    this.state = undefined;
+    /**
+     * The step that is shown; undefined for the last one.
+     * @type {number | undefined}
+     */
+    this.place = undefined;
+    /**
+     * Of what the state is: a run, its experiment and a tick.
+     * @type {unknown[]}
+     */
+    this.of = [];
+    this.isAsking = false;
+    this.stepsAt = -1;
+  }
+
+  /**
+   * Asks for the state at a tick, unless it is known.
+   * @param {ShownRun} lane - Its first robot has a program.
+   * @param {number} tick
+   * @param {() => void} onChange
+   */
+  look(lane, tick, onChange) {
+    const of = [lane.data, lane.experiment, Math.min(tick, lane.last)];
+    if (this.isAsking || !lane.data || of.every((it, i) => it === this.of[i])) return;
+    this.isAsking = true;
+    this.simulator.program(lane.experiment, 0, Math.min(tick, lane.last)).then((state) => {
+      this.state = state;
+      this.place = tick === this.stepsAt ? 0 : undefined;
+    }, () => {
+      this.state = undefined; // the run itself tells why
+    }).finally(() => {
+      this.of = of;
+      this.isAsking = false;
+      onChange();
+    });
+  }
+
+  /**
+   * At this tick, the first step is shown first.
+   * @param {number} tick
+   */
+  beginAt(tick) {
+    this.stepsAt = tick;
+  }
+
+  /** On to the next step; false if this was the last one. */
+  advance() {
+    const count = this.state?.steps.length ?? 0;
+    const next = this.place === undefined ? 0 : this.nextLine(this.place);
+    if (next >= count) return false;
+    this.place = next;
+    return true;
+  }
+
+  /**
+   * The first step after one that is not a value of the same line.
+   * @param {number} place
+   */
+  nextLine(place) {
+    const steps = this.state?.steps ?? [];
+    let next = place + 1;
+    while (next < steps.length && steps[next].cell >= 0) next += 1;
+    return next;
+  }
+
+  /** The line that is under way, from 1; 0 if there is none. */
+  get line() {
+    const steps = this.state?.steps ?? [];
+    return steps[this.place ?? steps.length - 1]?.line ?? 0;
+  }
+
+  /**
+   * The variables and their values after the step that is shown.
+   * @returns {[string, string][]}
+   */
+  get values() {
+    if (!this.state) return [];
+    const { steps, before, variables } = this.state;
+    const cells = [...before];
+    for (const { cell, value } of steps.slice(0, this.place === undefined ? steps.length : this.nextLine(this.place))) {
+      if (cell >= 0) cells[cell] = value;
+    }
+    return variables.map(({ name, cell, size }) =>
+      [name, cells.slice(cell, cell + Math.min(size || 1, CELLS_SHOWN)).map(shortened).join(" ")]);
+  }
+}
+
+/** @param {number} value */
+function shortened(value) {
+  return `${Math.round(value * DECIMALS) / DECIMALS}`;
+}

@@ -1,0 +1,303 @@
+// @ts-check
+/* The tab with a program for a robot: it runs beside the firmware, step by step if one likes. */
+
+import { byId, setText } from "../core/elements.js";
+import { RANDOM } from "../core/world_names.js";
+import { nextTick } from "../lab/run_events.js";
+import { experimentOf } from "../lab/shown_run.js";
+import { LANGUAGES, filled } from "../lessons/language.js";
+import { partingOf } from "../panel/divergence.js";
+import { Editor } from "./editor.js";
+import { linkOf, linkedIn } from "./link.js";
+import { ProgramSteps } from "./program_steps.js";
+
+/**
+ * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
+ * @typedef {import("../types.js").Experiment} Experiment
+ * @typedef {typeof import("./texts/en.json")} Texts
+ *
+ * The page, as far as the tab knows it.
+ * @typedef {Object} Lab
+ * @property {ShownRun} lane
+ * @property {ShownRun[]} lanes
+ * @property {boolean} isFull
+ * @property {number} tick
+ * @property {boolean} playing
+ * @property {Record<string, string>} programs
+ * @property {import("../sim/worlds.js").Worlds} worlds
+ * @property {import("../lab/simulator.js").Simulator} simulator
+ * @property {import("../lessons/course.js").Course} course
+ * @property {(lane: ShownRun) => void} simulate
+ * @property {(experiment: Experiment) => void} begin
+ * @property {(experiment: Experiment) => ShownRun} addLane
+ * @property {(lane: ShownRun) => void} select
+ * @property {(tick: number) => void} go
+ * @property {(playing: boolean) => void} setPlaying
+ */
+
+/** @type {Record<string, Texts>} */
+const ALL = JSON.parse(byId("program-texts").textContent ?? "");
+const FIRST = "article";
+const WHEELS = ["left", "right"];
+
+/** Fills the element panel-program. The part of the address behind # may have an experiment. */
+export class ProgramTab {
+  /** @param {Lab} lab */
+  constructor(lab) {
+    this.lab = lab;
+    this.language = "";
+    this.steps = new ProgramSteps(lab.simulator);
+    this.editor = new Editor(() => this.onInput());
+    this.isChanged = false;
+    this.choice = document.createElement("select");
+    this.choice.id = "program-choice";
+    this.choice.addEventListener("change", () => this.choose(this.choice.value));
+    this.news = element("p", "program-news", { role: "status" });
+    this.parting = element("p", "program-parting", { role: "status" });
+    this.variables = element("dl", "program-variables");
+    /**
+     * The runs whose parting is shown.
+     * @type {unknown[]}
+     */
+    this.compared = [];
+    this.note = "";
+    this.build();
+    this.choose(FIRST);
+    for (const event of ["click", "focus"]) byId("tab-program").addEventListener(event, () => this.show());
+    this.follow(location.hash);
+  }
+
+  /** @returns {Texts} */
+  get texts() {
+    return ALL[this.lab.course.language] ?? ALL.en;
+  }
+
+  /** The run of the program; undefined before the first one. */
+  get own() {
+    return this.lab.lanes.find(({ experiment }) => experiment.robots[0].program !== undefined);
+  }
+
+  /** The run of the firmware. */
+  get octet() {
+    return this.lab.lanes.find(({ experiment }) => experiment.robots[0].program === undefined);
+  }
+
+  build() {
+    const { texts } = this;
+    const chosen = this.choice.value;
+    this.language = this.lab.course.language;
+    const label = document.createElement("label");
+    label.append(`${texts.choose} `, this.choice);
+    this.choice.replaceChildren(...Object.entries(texts.names).map(([id, name]) => new Option(name, id, false, id === chosen)));
+    const buttons = [
+      button(texts.run, "program-run", () => this.run()), button(texts.step, "program-step", () => this.step()),
+      button(texts.decision, "program-decision", () => this.nextDecision()), button(texts.link, "program-link", () => this.link()),
+    ];
+    buttons[0].className = "main";
+    const controls = element("div", "program-controls", { class: "controls" });
+    controls.append(label, ...buttons);
+    this.editor.field.setAttribute("aria-label", texts.editor);
+    this.variables.setAttribute("aria-label", texts.variables);
+    const panel = byId("panel-program");
+    panel.lang = this.language;
+    panel.replaceChildren(controls, this.parting, this.news, this.editor.element, this.variables);
+    this.compared = [];
+  }
+
+  /** @param {string} name */
+  choose(name) {
+    this.choice.value = name;
+    this.editor.text = this.lab.programs[name];
+    this.onInput();
+  }
+
+  onInput() {
+    this.isChanged = true;
+    this.show();
+  }
+
+  /** Runs the program from the start, beside the firmware in the same world. */
+  run() {
+    const { lab, own } = this;
+    const program = this.editor.text;
+    this.isChanged = false;
+    this.note = "";
+    lab.setPlaying(false);
+    if (own) {
+      own.experiment = programmed(own.experiment, program);
+      lab.simulate(own);
+    } else {
+      if (lab.isFull) lab.begin({ ...lab.lane.experiment, changes: [] });
+      const { ticks_max: _, ...experiment } = lab.lane.experiment;
+      lab.addLane(programmed({ ...experiment, changes: [] }, program));
+    }
+    lab.select(/** @type {ShownRun} */ (this.own));
+    lab.go(0);
+    lab.setPlaying(true);
+  }
+
+  /** The next line, or, after the last one of a decision, the first one of the next. */
+  step() {
+    this.lab.setPlaying(false);
+    if (this.own && !this.steps.advance()) this.nextDecision();
+    else this.show();
+  }
+
+  nextDecision() {
+    const { lab, own } = this;
+    lab.setPlaying(false);
+    if (!own?.data) return;
+    const tick = nextTick(own.data.robots[0], "decision", lab.tick, 1);
+    if (tick === undefined) return;
+    this.steps.beginAt(tick);
+    lab.go(tick);
+  }
+
+  /** What the page shows, as a link. */
+  link() {
+    const { lab, texts } = this;
+    const { seed, environments, world = RANDOM, robots } = (this.octet ?? lab.lane).experiment;
+    const { profile, memory } = robots[0];
+    const named = typeof world === "string";
+    const linked = {
+      seed, environments, behaviour: profile, language: lab.course.language, ...(named && { world }), ...(memory && { memory }),
+      program: this.editor.text,
+    };
+    history.replaceState(null, "", linkOf(linked, this.known));
+    this.note = named ? texts.inAddress : texts.noWorld;
+    navigator.clipboard?.writeText(location.href).then(() => this.tell(named ? texts.copied : texts.noWorld), () => {});
+    this.show();
+  }
+
+  /** @param {string} note */
+  tell(note) {
+    this.note = note;
+    this.show();
+  }
+
+  get known() {
+    return { programs: this.lab.programs, worlds: Object.keys(this.lab.worlds), languages: LANGUAGES.map(({ code }) => code) };
+  }
+
+  /**
+   * Shows what a link has.
+   * @param {string} hash
+   */
+  follow(hash) {
+    const found = linkedIn(hash, this.known);
+    if (!found) return;
+    const { seed = 1, environments = 5, world = RANDOM, behaviour = "article", memory, program, language } = found.taken;
+    if (language) this.lab.course.language = language;
+    const experiment = experimentOf({ seed, environments, robots: 1, profile: behaviour, world });
+    if (memory) experiment.robots[0].memory = memory;
+    this.lab.begin(experiment);
+    this.note = this.wordsOf(found);
+    if (program === undefined) return;
+    this.editor.text = program;
+    this.isChanged = false;
+    this.lab.select(this.lab.addLane(programmed(experiment, program)));
+    byId("tab-program").click();
+  }
+
+  /** @param {import("./link.js").Found} found */
+  wordsOf({ taken, left, isCut, isOther }) {
+    const { texts } = this;
+    const named = (/** @type {string[]} */ keys) =>
+      keys.map((key) => texts.fields[/** @type {keyof Texts["fields"]} */ (key)] ?? key).join(", ");
+    return [
+      isOther ? texts.otherVersion : "", isCut ? texts.cutShort : "",
+      (isOther || isCut || left.length) && Object.keys(taken).length ? filled(texts.taken, { taken: named(Object.keys(taken)) }) : "",
+      left.length ? filled(texts.left, { left: named(left) }) : "",
+    ].filter(Boolean).join(" ");
+  }
+
+  show() {
+    if (byId("panel-program").hidden) return;
+    if (this.language !== this.lab.course.language) this.build();
+    const { own, lab } = this;
+    if (own) this.steps.look(own, lab.tick, () => this.show());
+    const state = this.isChanged ? undefined : this.steps.state;
+    const mistake = state?.mistake ?? null;
+    this.editor.show(state && !state.ended && !mistake ? this.steps.line : 0, mistake?.line ?? 0);
+    this.showNews(state);
+    this.showVariables(state ? this.steps.values : []);
+    this.showParting();
+  }
+
+  /** @param {import("../sim/native_program.js").ProgramState | undefined} state */
+  showNews(state) {
+    const { texts } = this;
+    const mistake = state?.mistake;
+    const expected = mistake ? (texts.expected[mistake.expected] ?? mistake.words) : "";
+    const word = mistake?.word ? `“${mistake.word}”` : texts.lineEnds;
+    const now = [
+      this.isChanged ? texts.changed : "",
+      mistake ? filled(texts.mistake, { line: `${mistake.line}`, word, expected }) : "",
+      state?.ended ? texts.ended : "",
+      state && !mistake && !state.ended && this.steps.line ? filled(texts.running, { line: `${this.steps.line}` }) : "",
+      state?.shown.length ? filled(texts.shows, { shown: state.shown.join(" | ") }) : "",
+    ];
+    this.news.dataset.kind = mistake ? "mistake" : "";
+    setText(this.news, [this.note, ...now].filter(Boolean).join(" "));
+  }
+
+  /** @param {[string, string][]} values */
+  showVariables(values) {
+    const key = JSON.stringify(values);
+    if (this.variables.dataset.key === key) return;
+    this.variables.dataset.key = key;
+    this.variables.replaceChildren(...values.map(([name, value]) => {
+      const row = document.createElement("div");
+      row.appendChild(document.createElement("dt")).textContent = name;
+      row.appendChild(document.createElement("dd")).textContent = value;
+      return row;
+    }));
+  }
+
+  showParting() {
+    const { texts, own, octet } = this;
+    const compared = own && octet && !this.isChanged ? [octet.data, own.data, own.isRunning, octet.isRunning] : [];
+    if (compared.length === this.compared.length && compared.every((it, i) => it === this.compared[i])) return;
+    this.compared = compared;
+    if (!own?.data || !octet?.data || this.isChanged || own.isRunning || octet.isRunning) setText(this.parting, "");
+    else {
+      const parting = partingOf(octet.data, own.data, WHEELS);
+      setText(this.parting, parting ? filled(texts.parts, { time: own.scene?.clock(parting.tick) ?? "" }) : texts.same);
+    }
+  }
+}
+
+/**
+ * An experiment whose robots have a program for their brain.
+ * @param {Experiment} experiment
+ * @param {string} program
+ * @returns {Experiment}
+ */
+function programmed(experiment, program) {
+  return { ...experiment, robots: experiment.robots.map((it) => ({ ...it, profile: "article", program })) };
+}
+
+/**
+ * @template {keyof HTMLElementTagNameMap} T
+ * @param {T} tag
+ * @param {string} id
+ * @param {Record<string, string>} [attributes]
+ */
+function element(tag, id, attributes = {}) {
+  const made = document.createElement(tag);
+  made.id = id;
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  return made;
+}
+
+/**
+ * @param {string} text
+ * @param {string} id
+ * @param {() => void} action
+ */
+function button(text, id, action) {
+  const made = element("button", id, { type: "button" });
+  made.textContent = text;
+  made.addEventListener("click", action);
+  return made;
+}

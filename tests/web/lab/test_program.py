@@ -1,0 +1,216 @@
+"""The tab with a program for a robot, and the link that holds an experiment."""
+
+import json
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page
+
+from host_sim.base.paths import ROOT
+from host_sim.report.octet_page import programs, texts
+from tests.runs.support import octet
+from tests.web.lab.support import READY, go, settle
+from tests.web.looks import violations_at
+from tests.web.sim.page_runs import LOGS, experiment
+from tests.web.support import wait_for
+
+ARTICLE = programs()["article"]
+SHOWN = "octet.programTab.steps.of[0] === octet.programTab.own?.data && !octet.programTab.steps.isAsking"
+
+
+@pytest.fixture
+def tab(page: Page) -> Page:
+    page.click("#tab-program")
+    return page
+
+
+def run(page: Page, program: str = "") -> None:
+    """Runs a program from its start, and stays there."""
+    if program:
+        page.fill("#program-text", program)
+    page.click("#program-run")
+    page.click("#play")
+    settle(page)
+    go(page, 0)
+    page.evaluate("octet.programTab.show()")
+    wait_for(page, SHOWN)
+
+
+def lit(page: Page) -> int:
+    return page.evaluate("octet.programTab.editor.lines.lit")
+
+
+def step(page: Page) -> int:
+    before = page.evaluate("[octet.tick, octet.programTab.steps.place]")
+    page.click("#program-step")
+    wait_for(
+        page, f"{SHOWN} && `${{[octet.tick, octet.programTab.steps.place]}}` !== '{before[0]},{before[1] or ''}'"
+    )
+    settle(page)
+    return lit(page)
+
+
+def test_the_article_s_program_parts_from_octet_where_it_waits_two_seconds(tab):
+    run(tab)
+
+    assert tab.inner_text("#program-parting") == "Your robot and Octet part at 1:28.3."
+    first, second = tab.evaluate("octet.lanes.map(({ data }) => data.statesAt(data.last)[0].memory)")
+    assert first == second
+
+
+def test_without_its_pause_it_goes_octet_s_way_to_the_end(tab):
+    run(tab, ARTICLE.replace("delay 2000", ""))
+
+    assert tab.inner_text("#program-parting") == "Your robot and Octet go the same way to the end."
+
+
+def test_step_by_step_one_line_is_lit_and_its_variables_stand_beside_it(tab):
+    run(tab, "x = 1\nwhile x\nx = x + 1\nrForward x\nwend\n")
+
+    assert [step(tab) for _ in range(6)] == [1, 2, 3, 4, 2, 3]
+    assert tab.evaluate("document.querySelectorAll('.editor .lit:not([hidden])').length") == 1
+    assert tab.inner_text("#program-variables").split() == ["x", "3"]
+
+
+def test_next_decision_goes_to_the_next_command(tab):
+    run(tab, "rForward 10\nrTurn 30\nrForward 10")
+
+    tab.click("#program-decision")
+    wait_for(tab, f"{SHOWN} && octet.tick > 0")
+    settle(tab)
+
+    assert lit(tab) == 2
+
+
+def test_a_mistake_is_told_and_marked_at_its_line(tab):
+    run(tab, "x = 1\n  rTrun 5\n")
+
+    assert tab.inner_text("#program-news") == (
+        "Line 2: “rTrun”: expected a command, a label, or a variable with = after it."
+    )
+    assert tab.evaluate("octet.programTab.editor.lines") == {"lit": 0, "wrong": 2}
+
+
+def test_a_loop_without_end_is_stopped_and_told(tab):
+    run(tab, "while true\nwend")
+
+    assert tab.inner_text("#program-news").startswith(
+        "Line 1: “while”: expected rForward, rTurn or delay in the loop"
+    )
+
+
+def test_a_program_that_has_ended_and_what_it_shows_are_told(tab):
+    run(tab, 'xyString 1,1,"Grüße"')
+
+    assert tab.inner_text("#program-news") == "The program has ended: the robot rests. It shows: Grüße"
+
+
+def test_a_program_that_has_changed_is_to_be_run_again(tab):
+    run(tab)
+    tab.locator("#program-text").press_sequentially("x")
+
+    assert tab.inner_text("#program-news") == "Run it to see what it does now."
+    assert tab.evaluate("octet.playing") is False
+
+
+def test_each_program_can_be_begun_with(tab):
+    for name, text in programs().items():
+        tab.select_option("#program-choice", name)
+        assert tab.input_value("#program-text") == text
+
+
+def test_a_behaviour_takes_the_place_of_a_program(tab):
+    run(tab)
+    tab.click("#tab-run")
+    tab.select_option("#behaviour", "never")
+    settle(tab)
+
+    assert tab.inner_text("figure:nth-child(2) figcaption") == "B: never, seed 1"
+
+
+def test_the_page_sends_the_frames_of_the_command_line(page, tmp_path):
+    wanted = experiment("article", seed=6)
+    wanted["robots"] = [{**wanted["robots"][0], "program": ARTICLE}]
+    options = ("--seed", "6", "--environments", "2", "--limit-s", "20", "--bus", "none", "--out", tmp_path)
+    octet("run", "--program", ROOT / "host_sim/program/examples/article.bas", *options)
+
+    (log,) = page.evaluate(LOGS, [wanted])
+
+    assert without_boot(log) == without_boot((tmp_path / "run.log").read_text())
+
+
+def without_boot(log: str) -> list[str]:
+    """The frames of senses and drives."""
+    return [line for line in log.splitlines() if " 101#" in line or " 041#" in line]
+
+
+def test_a_link_brings_the_experiment_back(tab, open_page):
+    run(tab, "rForward 10\nrTurn 90 // größer & mehr\n")
+    tab.click("#program-link")
+    address = tab.evaluate("location.href")
+
+    again = open_page(address, ready=READY)
+    settle(again)
+
+    assert again.input_value("#program-text") == "rForward 10\nrTurn 90 // größer & mehr\n"
+    assert again.evaluate("octet.lanes.map(({ experiment }) => experiment)") == tab.evaluate(
+        "octet.lanes.map(({ experiment }) => experiment)"
+    )
+
+
+FOUND = (
+    "#v=1&seed=7&environments=2&world=posts&behaviour=never&memory=0.1.0.0.2.0.0.0&language=de&program=@one_rule&end"
+)
+
+
+def test_a_link_has_seed_world_behaviour_memory_program_and_language(open_page, file):
+    page = open_page(file.as_uri() + FOUND, ready=READY)
+    settle(page)
+    first, second = page.evaluate("octet.lanes.map(({ experiment }) => experiment)")
+
+    assert (first["seed"], first["environments"], first["world"]) == (7, 2, "posts")
+    assert first["robots"][0]["profile"] == "never"
+    assert first["robots"][0]["memory"] == [0, 1, 0, 0, 2, 0, 0, 0]
+    assert second["robots"][0]["program"] == programs()["one_rule"]
+    assert page.inner_text("#program-run") == texts("program")["de"]["run"]
+
+
+@pytest.mark.parametrize(
+    ("link", "told"),
+    [
+        (
+            FOUND[: FOUND.index("_rule")],
+            "This link is cut short. Taken from it: seed, environments, world, behaviour, memory",
+        ),
+        (
+            FOUND.replace("v=1", "v=2"),
+            "This link is of another version of the page. Taken from it: seed, environments",
+        ),
+        ("#v=1&seed=x&world=moon&seed2=3&end", "Not taken: seed, world, seed2."),
+        ("#v=1&program=%E2%8&environments=3&end", "Taken from it: environments. Not taken: program."),
+        ("#v=1&memory=1.2.3&end", "Not taken: memory."),
+    ],
+)
+def test_what_of_a_link_was_taken_and_what_not_is_told(link, told, open_page, file):
+    page = open_page(file.as_uri() + link.replace("&language=de", ""), ready=READY)
+    settle(page)
+    page.click("#tab-program")
+
+    assert told in page.inner_text("#program-news")
+
+
+def test_the_tab_is_accessible(tab):
+    run(tab, "x = 1\nrTrun 5")
+
+    assert violations_at(tab) == []
+
+
+def test_both_languages_have_the_same_words():
+    english, german = (texts("program")[code] for code in ("en", "de"))
+    expected = Path(ROOT / "host_sim/program/native/program.h").read_text().partition("EXPECTED_NOTHING,")[2]
+
+    assert {key: type(value) for key, value in english.items()} == {key: type(value) for key, value in german.items()}
+    assert english["names"].keys() == german["names"].keys() == programs().keys()
+    assert english["fields"].keys() == german["fields"].keys()
+    assert len(german["expected"]) == expected.partition("EXPECTED_COUNT")[0].count("EXPECTED_") + 1
+    assert json.dumps(german) != json.dumps(english)
