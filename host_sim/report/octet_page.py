@@ -2,6 +2,7 @@
 
 import base64
 import json
+import zlib
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -39,9 +40,9 @@ def write_octet_page(path: Path) -> int:
 def octet_page() -> str:
     """The page's HTML.
 
-    Its element `parts` has the WebAssembly in base64 and the dimensions of all named worlds, `lesson-texts` and
-    `program-texts` the words of the lessons and of the editor of programs in each language, `speakers` those who can be
-    talked to.
+    Its element `parts` has the WebAssembly, as base64 of a zlib stream, the dimensions of all named worlds and the
+    programs to begin with; `lesson-texts` and `program-texts` have the words of the lessons and of the editor of
+    programs in each language, `speakers` those who can be talked to.
 
     Raises:
         OctetError: The WebAssembly is not built.
@@ -50,7 +51,8 @@ def octet_page() -> str:
         wasm = PAGE_WASM.read_bytes()
     except OSError as error:
         raise OctetError(f"cannot read {PAGE_WASM}: {error.strerror}; build it with tools/setup page") from None
-    parts = {"wasm": base64.b64encode(wasm).decode(), "worlds": world_dimensions(), "programs": programs()}
+    packed = base64.b64encode(zlib.compress(wasm, 9)).decode()
+    parts = {"wasm": packed, "worlds": world_dimensions(), "programs": programs()}
     text = with_data(with_data(page_of(_TEMPLATE), "parts", parts), "speakers", speakers())
     return with_data(with_data(text, "lesson-texts", texts("lessons")), "program-texts", texts("program"))
 

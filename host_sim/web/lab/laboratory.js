@@ -11,7 +11,7 @@ import { Simulator } from "./simulator.js";
  * @typedef {import("../types.js").Change} Change
  * @typedef {import("../types.js").Experiment} Experiment
  *
- * What the page has in it: page.wasm in base64, the worlds, and the programs to choose from.
+ * What the page has in it: page.wasm as base64 of a zlib stream, the worlds, and the programs to choose from.
  * @typedef {{wasm: string, worlds: import("../sim/worlds.js").Worlds, programs: Record<string, string>}} Parts
  */
 
@@ -28,7 +28,7 @@ export class Laboratory extends PlayingPage {
     this.programs = programs;
     this.worlds = worlds;
     this.params = worlds.random;
-    this.simulator = new Simulator(Uint8Array.from(atob(wasm), (letter) => letter.charCodeAt(0)).buffer, worlds);
+    this.simulator = new Simulator(wasm, worlds);
     this.note = new Toast();
     /** @type {ShownRun[]} */
     this.lanes = [];

@@ -2,6 +2,7 @@
 /* Asks the worker for runs. Of an experiment that changes while it is simulated, only the newest is simulated next. */
 
 import { byId } from "../core/elements.js";
+import { inflate } from "../core/packed_columns.js";
 
 /**
  * @typedef {import("../sim/page_worker.js").Answer} Answer
@@ -14,7 +15,7 @@ import { byId } from "../core/elements.js";
 /** Has one worker; answers come in the order of the questions. */
 export class Simulator {
   /**
-   * @param {ArrayBuffer} wasm
+   * @param {string} wasm - page.wasm, as base64 of a zlib stream.
    * @param {import("../sim/worlds.js").Worlds} worlds
    */
   constructor(wasm, worlds) {
@@ -34,7 +35,8 @@ export class Simulator {
      */
     this.running = undefined;
     this.worker.addEventListener("message", ({ data }) => this.take(data));
-    this.worker.postMessage({ do: "begin", wasm, worlds });
+    /** Settled when the worker has what it needs: it is asked for nothing before. */
+    this.ready = inflate(wasm).then((bytes) => this.worker.postMessage({ do: "begin", wasm: bytes, worlds }));
   }
 
   /**
@@ -115,8 +117,13 @@ export class Simulator {
   ask(request) {
     return new Promise((/** @type {OnAnswer} */ resolve, reject) => {
       this.waiting.set(request.id, (answer) => (answer.error ? reject(new Error(answer.error)) : resolve(answer)));
-      this.worker.postMessage(request);
+      this.post(request);
     });
+  }
+
+  /** @param {Request} request */
+  post(request) {
+    this.ready.then(() => this.worker.postMessage(request));
   }
 
   newId() {
@@ -132,7 +139,7 @@ export class Simulator {
     const id = this.newId();
     this.running = id;
     this.waiting.set(id, asked[1]);
-    this.worker.postMessage({ do: "run", id, experiment: asked[0] });
+    this.post({ do: "run", id, experiment: asked[0] });
   }
 
   /** @param {Answer} answer */
