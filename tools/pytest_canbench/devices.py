@@ -258,5 +258,3 @@ def open_device(what: str, folder: Path, bus: str = "fd") -> Device:
     if what.endswith((".so", ".c")) and " " not in what:
         return LibraryDevice(folder / what)
     return ProcessDevice(what, folder, bus)
-
-
