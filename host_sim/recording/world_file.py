@@ -16,7 +16,7 @@ from host_sim.base.errors import UsageError
 from host_sim.base.regular_file import read_bytes
 from host_sim.protocol.codec import NODE_MAX
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
-from host_sim.world.body_kinds import kind_from
+from host_sim.world.body_kinds import IDEAL, KIT, BodyKind, body_kind, kind_from
 from host_sim.world.edit_json import edit_from, edit_to, whole
 from host_sim.world.layouts import World
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
@@ -91,8 +91,13 @@ def _record(content: dict[str, Any]) -> WorldRecord:
         edits,
         [_refused(entry) for entry in _objects(content, "refused")] if "refused" in content else [],
         _world(content),
-        kind_from(content["body"]) if "body" in content else None,
+        _kind(content.get("body", IDEAL)),
     )
+
+
+def _kind(body: Any) -> BodyKind | None:
+    """What the bodies are like; the page of the laboratory calls the kit by its name."""
+    return body_kind(body) if body in (IDEAL, KIT) else kind_from(body)
 
 
 def _refused(entry: dict[str, Any]) -> Refused:

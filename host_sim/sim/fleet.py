@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.base.errors import UsageError
-from host_sim.sim.native_fleet import NativeFleet
+from host_sim.sim.native_fleet import Contacts, NativeFleet
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.body_kinds import body_kind
 from host_sim.world.geometry import Pose
@@ -37,6 +37,8 @@ class FleetResult:
         ticks: Number of ticks.
         begun: Number of actions begun, by reason.
         collisions: Number of times that its body began to touch something.
+        denied: Number of times that its wheels did not do what they were told.
+        contacts: The times that it was blocked.
         memory: Its eight cells at the end.
         pose: Where it was at the end.
     """
@@ -49,6 +51,8 @@ class FleetResult:
     ticks: int
     begun: dict[int, int]
     collisions: int
+    denied: int
+    contacts: Contacts
     memory: tuple[int, ...]
     pose: Pose
 
@@ -154,6 +158,8 @@ class _Run:
                 ticks=fleet.ticks(index),
                 begun=fleet.begun(index),
                 collisions=fleet.collisions(index),
+                denied=fleet.denied(index),
+                contacts=fleet.contacts(index),
                 memory=fleet.memory(index),
                 pose=fleet.pose(index),
             )

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from itertools import accumulate
 from math import ceil
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +35,22 @@ _NAMES = (
 HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), ROOT / "host_sim" / "sim" / "native" / "fleet.h")
 
 _CELL_MM, _GRID_FROM = 500.0, 8
+
+
+class Contacts(NamedTuple):
+    """The times that a robot was blocked in an environment.
+
+    Attributes:
+        number: How often.
+        ticks: How long, in all.
+        longest_ticks: How long once, at most.
+        goes_on: Whether the last one had not ended when the environment did.
+    """
+
+    number: int
+    ticks: int
+    longest_ticks: int
+    goes_on: bool
 
 
 class NativeFleet:
@@ -114,6 +130,7 @@ class NativeFleet:
             body.seen, body.collisions, body.depth_mm = -1, 0, 0.0
             robot.ticks, robot.ticks_max, robot.food_eaten = 0, ticks_max, 0
             robot.begun = [0] * self._library.FLEET_REASONS
+            robot.denied = robot.contacts = robot.blocked_ticks = robot.blocked_longest = robot.blocked_now = 0
         pointer = self._ffi.addressof(there)
         self._library.world_begin(pointer)
         self._library.plain_space_take(self._ffi.addressof(self._spaces[world]), pointer)
@@ -152,6 +169,15 @@ class NativeFleet:
     def collisions(self, index: int) -> int:
         """Number of times that a robot's body has begun to touch something in its environment."""
         return int(self._bodies[index].collisions)
+
+    def denied(self, index: int) -> int:
+        """Number of times that a robot's wheels did not do in its environment what they were told."""
+        return int(self._robots[index].denied)
+
+    def contacts(self, index: int) -> Contacts:
+        """The times that a robot was blocked in its environment."""
+        it = self._robots[index]
+        return Contacts(it.contacts, it.blocked_ticks, it.blocked_longest, bool(it.blocked_now))
 
     def memory(self, index: int) -> tuple[int, ...]:
         """A robot's eight cells."""

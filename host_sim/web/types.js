@@ -223,5 +223,11 @@
  * @property {RobotSetup[]} robots
  * @property {(Change & {tick: number})[]} changes
  * @property {string | WrittenWorld} [world] - Where it takes place; by default, the random one.
+ * @property {string | Traits} [body] - What the robots' bodies are like: "ideal", "kit", or as in docs/bodies.md; by default, ideal.
  * @property {number} [ticks_max] - Of a run that was ended early.
+ */
+
+/**
+ * What bodies are like: of each trait its value and its tolerance.
+ * @typedef {Record<string, [number, number]>} Traits
  */

@@ -26,9 +26,12 @@ class BodyKind:
 
     def reach(self, params: SimParams) -> SimParams:
         """The dimensions of a world whose cones reach as far as any sensor of these bodies."""
-        farthest = max(sum(self.traits[name]) for name in self.traits if name in _SENSORS)
-        more = sum(sum(self.traits[name]) for name in ("hysteresis_mm", "noise_mm"))
-        return replace(params, sensor_reach_mm=farthest + more + 1, front_extra_mm=0.0)
+        reach_mm = world_library()[1].kit_reach_mm(self.in_c())
+        return replace(params, sensor_reach_mm=reach_mm, front_extra_mm=0.0)
+
+    def in_c(self) -> Any:
+        """The same as a `struct kit_kind *`."""
+        return world_library()[0].new("struct kit_kind *", [*zip(*self.traits.values(), strict=True)])
 
 
 def draw_body(kind: BodyKind | None, seed: int, robot: int) -> Any:
@@ -40,14 +43,9 @@ def draw_body(kind: BodyKind | None, seed: int, robot: int) -> Any:
         robot: Number of the robot, from 0.
     """
     ffi, library = world_library()
-    kit, traits = ffi.new("struct kit *"), ffi.NULL
-    if kind is not None:
-        traits = ffi.new("struct kit_kind *", [*zip(*kind.traits.values(), strict=True)])
-    library.kit_draw(kit, traits, seed, robot)
+    kit = ffi.new("struct kit *")
+    library.kit_draw(kit, ffi.NULL if kind is None else kind.in_c(), seed, robot)
     return kit
-
-
-_SENSORS = ("right_mm", "front_right_mm", "front_mm", "front_left_mm", "left_mm")
 
 
 def body_kind(text: str) -> BodyKind | None:

@@ -37,9 +37,7 @@ class NativeWorld:
         space: What finds overlaps.
     """
 
-    def __init__(
-        self, layout: Layout, params: SimParams, physics: str = FAST, kind: BodyKind | None = None
-    ) -> None:
+    def __init__(self, layout: Layout, params: SimParams, physics: str = FAST, kind: BodyKind | None = None) -> None:
         """Puts everything where it begins.
 
         Args:

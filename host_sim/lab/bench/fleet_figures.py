@@ -12,6 +12,7 @@ from host_sim.lab.bench.figure import ROUNDS, Figure, Rate, best, rate_figure
 from host_sim.sim.make import make
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.body_kinds import KIT, BodyKind, body_kind
 from host_sim.world.hall import hall_of
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams
@@ -30,12 +31,13 @@ def fleet_figures() -> list[Figure]:
         (
             robot_ticks_per_second(alone, params),
             robot_ticks_per_second([together], hall),
+            robot_ticks_per_second(alone, params, body_kind(KIT)),
             _ticks_without_log(),
             _layouts(params),
         )
         for _ in range(ROUNDS)
     ]
-    own, one, single, drawn = (max(column) for column in zip(*rounds, strict=True))
+    own, one, kits, single, drawn = (max(column) for column in zip(*rounds, strict=True))
     reference = "one robot with its frames"
     return [
         rate_figure(
@@ -43,6 +45,11 @@ def fleet_figures() -> list[Figure]:
         ),
         rate_figure(
             Rate("fleet of 1,000, all in one hall", one, 1_000_000), Rate(reference, single), "who is near whom"
+        ),
+        rate_figure(
+            Rate("fleet of 1,000 with bodies of the kit", kits, 1_000_000),
+            Rate("the same with ideal bodies", own),
+            "the wheels' controllers, as on a board",
         ),
         rate_figure(
             Rate("in process, without a log", single, 1_000_000),
@@ -60,10 +67,10 @@ def fleet_figures() -> list[Figure]:
     ]
 
 
-def robot_ticks_per_second(layouts: list[Layout], params: SimParams) -> float:
+def robot_ticks_per_second(layouts: list[Layout], params: SimParams, kind: BodyKind | None = None) -> float:
     """Ticks per second of all robots of a fleet together, with one world for each layout."""
     robots = sum(len(layout.starts) for layout in layouts)
-    fleet = NativeFleet(robots, len(layouts), params)
+    fleet = NativeFleet(robots, len(layouts), params, kind)
     for index in range(robots):
         fleet.start(index, index + 1, "article", {})
     for world, layout in enumerate(layouts):

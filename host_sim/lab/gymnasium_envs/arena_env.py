@@ -57,7 +57,11 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
     metadata = {"render_modes": []}  # noqa: RUF012 - as Gymnasium has it
 
     def __init__(
-        self, limit_s: float = 600.0, step_ticks: int | None = None, rewards: rules.Rewards | None = None
+        self,
+        limit_s: float = 600.0,
+        step_ticks: int | None = None,
+        rewards: rules.Rewards | None = None,
+        body: str = "ideal",
     ) -> None:
         """Takes the rules.
 
@@ -65,6 +69,7 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
             limit_s: Time limit of an episode, s of robot time.
             step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
             rewards: What a step is worth.
+            body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md; each episode draws its own.
 
         Raises:
             gymnasium.error.Error: The limit is out of its range.
@@ -72,7 +77,7 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
         """
         self.observation_space, self.action_space = rules.senses_space(), rules.deed_space()
         self._params, self._rewards = SimParams(), rewards or rules.Rewards()
-        self._worlds = rules.told_worlds(1, 1, rules.Limits(limit_s, step_ticks), self._params)
+        self._worlds = rules.told_worlds(1, 1, rules.Limits(limit_s, step_ticks), self._params, body)
         self._limit_ticks = round(limit_s / self._params.tick_s)
         self._runs = False
 
@@ -85,8 +90,8 @@ class ArenaEnv(gymnasium.Env[Any, Any]):
             gymnasium.error.Error: Seed or options are not what they should be.
         """
         super().reset(seed=seed)
-        layout = rules.chosen_layout(options, 1, self._params)
-        self._worlds.enter(0, layout or rules.draw_layout(self.np_random, 1, self._params))
+        chosen = rules.chosen_layout(options, 1, self._params)
+        self._worlds.enter(0, *(chosen or rules.draw_environment(self.np_random, 1, self._params)))
         self._runs = True
         return self._senses(), self._info()
 

@@ -37,6 +37,7 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
         limit_s: float = 600.0,
         step_ticks: int | None = None,
         rewards: rules.Rewards | None = None,
+        body: str = "ideal",
     ) -> None:
         """Takes the rules; see `ArenaEnv`.
 
@@ -45,13 +46,14 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
             limit_s: Time limit of an episode, s of robot time.
             step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
             rewards: What a step is worth.
+            body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md; each episode draws its own.
 
         Raises:
             gymnasium.error.Error: A number is out of its range.
             gymnasium.error.DependencyNotInstalled: The C code cannot be used.
         """
         self._params, self._rewards, self._robots = SimParams(), rewards or rules.Rewards(), robots
-        self._worlds = rules.told_worlds(1, robots, rules.Limits(limit_s, step_ticks), self._params)
+        self._worlds = rules.told_worlds(1, robots, rules.Limits(limit_s, step_ticks), self._params, body)
         self._limit_ticks = round(limit_s / self._params.tick_s)
         self.possible_agents = [f"robot_{number}" for number in range(1, robots + 1)]
         self.agents: list[str] = []
@@ -75,8 +77,8 @@ class ArenaParallelEnv(ParallelEnv[str, NDArray[np.int32], int]):  # type: ignor
         """
         if seed is not None or self._draws is None:
             self._draws = seeding.np_random(seed)[0]
-        layout = rules.chosen_layout(options, self._robots, self._params)
-        self._worlds.enter(0, layout or rules.draw_layout(self._draws, self._robots, self._params))
+        chosen = rules.chosen_layout(options, self._robots, self._params)
+        self._worlds.enter(0, *(chosen or rules.draw_environment(self._draws, self._robots, self._params)))
         self.agents = list(self.possible_agents)
         return self._senses(), self._infos()
 

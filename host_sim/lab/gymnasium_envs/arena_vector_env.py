@@ -32,6 +32,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         limit_s: float = 600.0,
         step_ticks: int | None = None,
         rewards: rules.Rewards | None = None,
+        body: str = "ideal",
     ) -> None:
         """Takes the rules; see `ArenaEnv`.
 
@@ -40,6 +41,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
             limit_s: Time limit of an episode, s of robot time.
             step_ticks: Maximum number of control ticks of a step; None for as many as its actions need.
             rewards: What a step is worth.
+            body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md; each episode draws its own.
 
         Raises:
             gymnasium.error.Error: A number is out of its range.
@@ -52,7 +54,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._params, self._rewards = SimParams(), rewards or rules.Rewards()
-        self._worlds = rules.told_worlds(num_envs, 1, rules.Limits(limit_s, step_ticks), self._params)
+        self._worlds = rules.told_worlds(num_envs, 1, rules.Limits(limit_s, step_ticks), self._params, body)
         self._limit_ticks = round(limit_s / self._params.tick_s)
         self._draws: list[np.random.Generator] = []
         self._ended = np.zeros(num_envs, np.bool_)
@@ -70,9 +72,9 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
             gymnasium.error.Error: Seeds or options are not what they should be.
         """
         self._take_seeds(seed)
-        layout = rules.chosen_layout(options, 1, self._params)
+        chosen = rules.chosen_layout(options, 1, self._params)
         for i, draws in enumerate(self._draws):
-            self._worlds.enter(i, layout or rules.draw_layout(draws, 1, self._params))
+            self._worlds.enter(i, *(chosen or rules.draw_environment(draws, 1, self._params)))
         self._ended[:] = False
         return self._senses(), self._infos()
 
@@ -91,7 +93,7 @@ class ArenaVectorEnv(VectorEnv[NDArray[np.int32], NDArray[np.int64], NDArray[np.
         ticks = worlds.ticks - before
         rewards = self._rewards.of(worlds.food_eaten[:, 0], ticks, worlds.collisions[:, 0], self._params.tick_s)
         for i in np.flatnonzero(anew):
-            worlds.enter(int(i), rules.draw_layout(self._draws[i], 1, self._params))
+            worlds.enter(int(i), *rules.draw_environment(self._draws[i], 1, self._params))
         rewards = np.where(anew, 0.0, rewards)
         terminated = ~anew & (worlds.food_left == 0)
         truncated = ~anew & ~terminated & (worlds.ticks >= self._limit_ticks)

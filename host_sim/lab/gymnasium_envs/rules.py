@@ -9,9 +9,10 @@ import numpy as np
 from gymnasium import error, spaces
 from numpy.typing import NDArray
 
-from host_sim.base.errors import OctetError
+from host_sim.base.errors import OctetError, UsageError
 from host_sim.lab.gymnasium_envs.told_worlds import Deed, TickLimits, ToldWorlds
 from host_sim.protocol.generated import FEEL, NODE_MAX
+from host_sim.world.body_kinds import body_kind
 from host_sim.world.layouts import Layout, NoRoomError, generate
 from host_sim.world.params import SimParams
 
@@ -64,7 +65,7 @@ def deed_space() -> spaces.Discrete:
     return spaces.Discrete(len(Deed))
 
 
-def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams) -> ToldWorlds:
+def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams, body: str) -> ToldWorlds:
     """Worlds with a time limit.
 
     Args:
@@ -72,9 +73,10 @@ def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams) -> 
         robots: Number of robots in each.
         limits: Their limits.
         params: The dimensions of the worlds.
+        body: The robots' bodies: ideal, kit, or a file as in docs/bodies.md.
 
     Raises:
-        error.Error: A number is out of its range.
+        error.Error: A number is out of its range, or there is no such body.
         error.DependencyNotInstalled: The C code cannot be used.
     """
     if not 1 <= robots <= NODE_MAX:
@@ -85,7 +87,9 @@ def told_worlds(worlds: int, robots: int, limits: Limits, params: SimParams) -> 
         raise error.Error(f"step_ticks is {step_ticks}: give 1 to {STEP_TICKS_MAX}, or None")
     try:
         ticks = TickLimits(round(limit_s / params.tick_s), step_ticks or STEP_TICKS_MAX)
-        return ToldWorlds(worlds, robots, ticks, params)
+        return ToldWorlds(worlds, robots, ticks, params, body_kind(body))
+    except UsageError as fault:
+        raise error.Error(str(fault)) from None
     except OctetError as fault:
         raise error.DependencyNotInstalled(str(fault)) from None
 
@@ -100,15 +104,16 @@ def check_seconds(seconds: float, params: SimParams) -> None:
         raise error.Error(f"{seconds} s is not a possible length: give {params.tick_s} to {SECONDS_MAX:.0f} s")
 
 
-def draw_layout(draws: np.random.Generator, robots: int, params: SimParams) -> Layout:
-    """A random environment with room for the robots.
+def draw_environment(draws: np.random.Generator, robots: int, params: SimParams) -> tuple[Layout, int]:
+    """A random environment with room for the robots, and the seed that it and their bodies are drawn from.
 
     Raises:
         error.Error: None of many has room.
     """
     for _ in range(_DRAWS):
         with suppress(NoRoomError):
-            return generate(int(draws.integers(SEED_SPAN)), 1, params, robots)
+            seed = int(draws.integers(SEED_SPAN))
+            return generate(seed, 1, params, robots), seed
     raise error.Error(f"{robots} robots are too many: none of {_DRAWS} random arenas has room for them")
 
 
@@ -131,15 +136,15 @@ def chosen_environment(options: dict[str, Any] | None) -> tuple[int, int] | None
     return seed, number
 
 
-def chosen_layout(options: dict[str, Any] | None, robots: int, params: SimParams) -> Layout | None:
-    """The environment that the options of `reset` name; None if they do not.
+def chosen_layout(options: dict[str, Any] | None, robots: int, params: SimParams) -> tuple[Layout, int] | None:
+    """The environment that the options of `reset` name, and its seed; None if they do not.
 
     Raises:
         error.Error: What they name is none, or has no room for the robots.
     """
     chosen = chosen_environment(options)
     try:
-        return chosen and generate(*chosen, params, robots)
+        return chosen and (generate(*chosen, params, robots), chosen[0])
     except NoRoomError as fault:
         raise error.Error(f"{robots} robots are too many: {fault}") from None
 

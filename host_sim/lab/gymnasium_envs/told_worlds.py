@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from host_sim.base.paths import BUILD, ROOT
 from host_sim.world.arena import Arena
+from host_sim.world.body_kinds import BodyKind
 from host_sim.world.layouts import Layout
 from host_sim.world.native_library import load_native
 from host_sim.world.params import SimParams
@@ -42,7 +43,9 @@ class ToldWorlds:
         food_left: Shape (worlds,): pieces of food that are left.
     """
 
-    def __init__(self, worlds: int, robots: int, limits: TickLimits, params: SimParams) -> None:
+    def __init__(
+        self, worlds: int, robots: int, limits: TickLimits, params: SimParams, kind: BodyKind | None = None
+    ) -> None:
         """Makes room; each world must be entered before the first step.
 
         Args:
@@ -50,12 +53,13 @@ class ToldWorlds:
             robots: Number of robots in each.
             limits: Ticks after which nothing happens any more in a world, and after which a step ends.
             params: The dimensions of the worlds.
+            kind: What the bodies are like; None: ideal.
 
         Raises:
             NoNativeError: The library cannot be used.
         """
         self._ffi, self._library = _loaded()
-        self._params, self._robot_count = params, robots
+        self._params, self._kind = params, kind
         self._arenas: list[Arena | None] = [None] * worlds
         ffi, motion_size = self._ffi, self._library.told_motion_size()
         self._motions: Any = ffi.new("char[]", worlds * robots * motion_size)
@@ -78,14 +82,16 @@ class ToldWorlds:
         self.ticks: NDArray[np.uint32] = words[:, ffi.offsetof("struct told", "tick") // words.itemsize]
         self.food_left: NDArray[np.uint32] = words[:, ffi.offsetof("struct told", "food_left") // words.itemsize]
 
-    def enter(self, world: int, layout: Layout) -> None:
+    def enter(self, world: int, layout: Layout, seed: int) -> None:
         """Puts the robots of a world at their starts in a layout.
 
         Args:
             world: Index of the world.
             layout: Has a start for each robot.
+            seed: Their bodies are drawn from it.
         """
-        arena = Arena(layout, self._params)
+        arena = Arena(layout, self._params, kind=self._kind)
+        arena.begin(seed)
         self._arenas[world] = arena
         self._all[world].world = self._ffi.cast("struct world *", arena.inside.address)
         self._library.told_begin(self._ffi.addressof(self._all, world))

@@ -22,13 +22,15 @@ _EXAMPLES = """\
 examples:
   tools/octet compare out/studies/learned                           the results of a study
   tools/octet compare out/studies/learned --plots out/plots         the same, and as pictures
+  tools/octet compare studies/bodies.toml                           a study as fleets: behaviours on real bodies
   tools/octet compare article fixed never --seeds 40                what learning and remembering are worth
   tools/octet compare article --seeds 2 --robot emulated            the flash image, on an emulated board
+  tools/octet compare article searcher --body kit                   with real motors and sensors
   tools/octet compare article forgetful --change swap-motors@env1      with the motors' plugs exchanged
 
 Exit code 1 if the study has goals and misses one.
 """
-_OF_RUNS = ("seeds", "first", "environments", "set", "change", "robot", "jobs", "dask", "chunk")
+_OF_RUNS = ("seeds", "first", "environments", "set", "body", "change", "robot", "jobs", "dask", "chunk")
 """The options that say which runs to make; those of a study were made before."""
 
 _SET_HELP = "change a parameter, as tools/run --help lists them; may be repeated"
@@ -47,7 +49,7 @@ def add(commands: "Subparsers") -> None:
         stages=_stages,
     )
     add = parser.add_argument
-    words = f"folder of a study; or profiles, of {', '.join(PROFILES)}"
+    words = f"folder of a study; its file, to run it as fleets, without logs; or profiles, of {', '.join(PROFILES)}"
     add("what", nargs="+", metavar="STUDY|PROFILE", help=words)
     add(
         "--difference",
@@ -62,6 +64,7 @@ def add(commands: "Subparsers") -> None:
     profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + DEFAULT)
     profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + DEFAULT)
     profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help=_SET_HELP)
+    profiles("--body", default="ideal", metavar="BODY", help="the robots' bodies, as tools/run has them" + DEFAULT)
     profiles("--change", action="append", default=[], metavar="CHANGE", help="one change, as tools/run has them")
     profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + DEFAULT)
     add_workers(parser)
@@ -70,16 +73,18 @@ def add(commands: "Subparsers") -> None:
 
 def _check(arguments: argparse.Namespace) -> None:
     from host_sim.base.near_word import meant
+    from host_sim.world.body_kinds import body_kind
 
     folder = Path(arguments.what[0])
     if folder.is_dir() and len(arguments.what) > 1:
         raise UsageError(f"{folder} is the folder of a study, which is compared by itself: name nothing else")
-    if folder.is_dir():
+    if folder.is_dir() or folder.suffix == ".toml":
         _check_no_runs(arguments)
         return
     for word in arguments.what:
         if word not in PROFILES:
             raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
+    body_kind(arguments.body)
     if len(arguments.change) > 1:
         raise UsageError("profiles are compared with one --change: several go into a study, as a file of changes")
 
@@ -95,7 +100,10 @@ def _compare(arguments: argparse.Namespace) -> int:
     from host_sim.lab.study.table import table
 
     folder = Path(arguments.what[0])
-    plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
+    if folder.suffix == ".toml":
+        plan, samples = of_fleets(folder)
+    else:
+        plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
     environments = counted(plan.conditions[0].config.environments, "environment")
     print(f"{plan.title}: {counted(len(samples[0].seeds), 'seed')} of {environments} each")
     print(table(samples, arguments.difference / 100))
@@ -116,6 +124,19 @@ def _check_no_runs(arguments: argparse.Namespace) -> None:
         raise UsageError(
             f"{arguments.what[0]} is the folder of a study: leave out {', '.join(given)}, for profiles only"
         )
+
+
+def of_fleets(path: Path) -> "tuple[Plan, Sequence[Sample]]":
+    """The plan in a file, and what comes of its conditions as fleets.
+
+    Raises:
+        UsageError: There is no plan in it, or it is not one for fleets.
+    """
+    from host_sim.lab.study.fleets import samples_of_fleets
+    from host_sim.lab.study.plan_file import read_plan
+
+    plan = read_plan(path)
+    return plan, samples_of_fleets(plan)
 
 
 def of_study(path: Path) -> "tuple[Plan, Sequence[Sample]]":
@@ -147,7 +168,9 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
     a = arguments
     for change in a.change:
         Change.parse(change)
-    shared = RunConfig(environments=a.environments, settings=dict(a.set), changes=tuple(a.change), robot=a.robot)
+    shared = RunConfig(
+        environments=a.environments, settings=dict(a.set), body=a.body, changes=tuple(a.change), robot=a.robot
+    )
     names = list(dict.fromkeys(a.what))
     plan = Plan(" ".join(names), [Trial(replace(shared, profile=name), name) for name in names], a.first, a.seeds)
     runs = [run for some in with_progress(plan.trials(), workers_of(a), a.chunk) for run in some]

@@ -23,7 +23,7 @@ from host_sim.lab.study.table import text_of
 TABLES = "tables"
 
 _RATIO = Figure("mean by that of the first", "", "", 2, FIGURES["mean_s"].of)
-_ALL = {**FIGURES, "ratio": _RATIO}
+_ALL = {**{name: figure for name, figure in FIGURES.items() if name != "denied"}, "ratio": _RATIO}
 _COLUMNS = ("condition", "figure", "value", "low", "high")
 _LINK = re.compile(rf"\[[^\]]*\]\(({TABLES}/[\w-]+\.csv)#([^),]+),(\w+)(,interval)?\)")
 _BLOCK = re.compile(r"(<!-- table ([\w-]+\.csv): ([\w ]+?) -->\n)(?:\|[^\n]*\n)*")

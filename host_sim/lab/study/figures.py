@@ -87,6 +87,9 @@ FIGURES: dict[str, Figure] = {
     "trapped": Figure("trapped", "environments with more than 60 s of that at once", " %", 1, _mean("trapped", 100)),
     "wrong": Figure("wrong cells", _TOWARD, " %", 1, _mean("wrong", 100)),
     "bumped": Figure("bumps", "environments in which a body touched something", " %", 1, _mean("bumped", 100)),
+    "denied": Figure(
+        "denied", "environments in which wheels did not do what they were told", " %", 1, _mean("denied", 100)
+    ),
     "score": Figure("score", _SCORE, "", 2, _share("cleared", "turns")),
     "known_s": Figure("known", _KNOWN, " s", 0, _median("known_s")),
     "recovered": Figure("recovered", _RECOVERED, " %", 1, _recovered),

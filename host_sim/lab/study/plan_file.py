@@ -17,6 +17,7 @@ from host_sim.lab.study.plan import Goal, Plan
 from host_sim.lab.study.trial import Trial
 from host_sim.protocol.generated import NODE_MAX, PARAMETERS, PROFILES
 from host_sim.sim.run_config import RunConfig, options_of
+from host_sim.world.body_kinds import IDEAL, body_kind
 from host_sim.world.changes import Change
 from host_sim.world.world_names import RANDOM
 from host_sim.world.worlds import world_of
@@ -26,7 +27,7 @@ _toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "t
 _SIZE_MAX = 1_000_000
 _SEED_MAX = 2**32 - 1
 _KEYS = (
-    *("title", "profiles", "robots", "worlds", "changes", "seeds", "first_seed", "environments", "limit_s"),
+    *("title", "profiles", "robots", "worlds", "bodies", "changes", "seeds", "first_seed", "environments", "limit_s"),
     *("settings", "goals"),
 )
 _GOAL_KEYS = ("figure", "condition", "against", "at_least", "at_most")
@@ -81,12 +82,13 @@ class _Reader:
         profiles = self._words("profiles", _is_one_of(PROFILES))
         settings = self._settings() or {_PLAIN: {}}
         worlds = self._words("worlds", _is_world, [RANDOM])
+        bodies = self._words("bodies", _is_body, [IDEAL])
         changes = self._words("changes", _is_change, [_NO_CHANGE])
         robots = self._content.get("robots", [1])
         for count in robots if isinstance(robots, list) and robots else [None]:
             self._check_number(count, "robots", 1, NODE_MAX)
-        every = itertools.product(profiles, settings, worlds, changes, robots)
-        several = [len(values) > 1 for values in (profiles, settings, worlds, changes, robots)]
+        every = itertools.product(profiles, settings, worlds, bodies, changes, robots)
+        several = [len(values) > 1 for values in (profiles, settings, worlds, bodies, changes, robots)]
         return [
             Trial(
                 RunConfig(
@@ -95,12 +97,13 @@ class _Reader:
                     profile=profile,
                     settings=settings[setting],
                     world=world,
+                    body=body,
                     changes=() if change == _NO_CHANGE else (change,),
                     robots=count,
                 ),
-                _name([profile, setting, world, change, f"{count} robots"], several),
+                _name([profile, setting, world, body, change, f"{count} robots"], several),
             )
-            for profile, setting, world, change, count in every
+            for profile, setting, world, body, change, count in every
         ]
 
     def _settings(self) -> dict[str, dict[str, int]]:
@@ -197,6 +200,10 @@ def _is_change(word: str) -> str:
 
 def _is_world(word: str) -> str:
     return _mistake(world_of, word)
+
+
+def _is_body(word: str) -> str:
+    return _mistake(body_kind, word)
 
 
 def _mistake(read: Callable[[str], object], word: str) -> str:

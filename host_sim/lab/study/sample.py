@@ -24,6 +24,7 @@ class Sample:
         robot_s: For each environment, robot time, s.
         trapped: For each environment, 1 if a contact of it took more than 60 s, else 0.
         bumped: For each environment, 1 if a body touched something, else 0.
+        denied: For each environment, 1 if wheels did not do what they were told, else 0.
         wrong: The part of the robots that know a wrong turn in the end.
         contacts: Number of contacts.
         blocked_s: Robot time of all contacts, s.
@@ -44,6 +45,7 @@ class Sample:
     robot_s: Floats
     trapped: Floats
     bumped: Floats
+    denied: Floats
     wrong: Floats
     contacts: Floats
     blocked_s: Floats
@@ -58,7 +60,7 @@ class Sample:
 CURVE = 100
 """Number of contacts in a curve."""
 
-_TRAPPED_S = 60.0
+TRAPPED_S = 60.0
 _BESIDE = (1, 4)
 """The patterns of a thing beside the robot."""
 
@@ -100,7 +102,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
 
     robots = runs["robots"].astype(np.float64)
     trapped = np.zeros((count, len(environments["seed"]) // max(count, 1)))
-    long = contacts["blocked_s"] > _TRAPPED_S
+    long = contacts["blocked_s"] > TRAPPED_S
     trapped[index[long], contacts["environment"][long] - 1] = 1
     return Sample(
         name=name,
@@ -110,6 +112,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
         robot_s=each(environments["robot_s"]),
         trapped=trapped,
         bumped=each(environments["collisions"] > 0),
+        denied=each(environments["denied"] > 0),
         wrong=each(environments["wrong"])[:, -1] / robots if count else robots,
         contacts=total(np.ones(len(index))),
         blocked_s=total(contacts["blocked_s"]),

@@ -36,7 +36,8 @@ def _others(samples: Sequence[Sample]) -> list[str]:
     """The figures that only some studies have."""
     changed = any(not np.isnan(sample.recovery).all() for sample in samples)
     several = any(sample.robots > 1 for sample in samples)
-    return ["recovered", "recovery"] * changed + ["known_s"] * several
+    denied = any(sample.denied.any() for sample in samples)
+    return ["denied"] * denied + ["recovered", "recovery"] * changed + ["known_s"] * several
 
 
 def _figure(name: str, sample: Sample) -> str:

@@ -50,6 +50,7 @@ class Row:
         robot_s: Robot time, s.
         contacts: Each robot's contacts.
         collisions: Number of times that a body began to touch something.
+        denied: Number of times that a robot's wheels did not do what they were told.
         sides: The turns for each pattern that each robot knows in the end.
         bodies: What has happened to each robot's body.
         tick_s: Length of a tick, s.
@@ -60,6 +61,7 @@ class Row:
     robot_s: float
     contacts: list[list[Contact]]
     collisions: int
+    denied: int
     sides: list[Memory]
     bodies: list[BodyState]
     tick_s: float
@@ -110,7 +112,7 @@ def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s:
         for each in watches:
             each(simulation)
 
-    simulation.watch, first_tick = watch, simulation.tick
+    simulation.watch, first_tick, denied = watch, simulation.tick, _denied(simulation)
     while not simulation.over:
         simulation.step(BLOCK_TICKS)
     episode = simulation.leave()
@@ -123,10 +125,15 @@ def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s:
         robot_s=episode.robot_s,
         contacts=[each.contacts() for each in watches],
         collisions=sum(robot.collisions for robot in episode.robots),
+        denied=_denied(simulation) - denied,
         sides=[sides_of(robot.memory) for robot in episode.robots],
         bodies=[each.body for each in watches],
         tick_s=episode.tick_s,
     )
+
+
+def _denied(simulation: Simulation) -> int:
+    return sum(client.faults.get("denied", 0) for client in simulation.clients)
 
 
 def knows_wrong(sides: Sequence[int], body: BodyState) -> bool:

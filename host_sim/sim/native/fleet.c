@@ -39,6 +39,20 @@ static void sense(struct fleet_robot *robot)
     world_sense(robot->world, robot->body, robot->tick, &robot->core->in.senses);
 }
 
+/* A contact lasts from blocked to clear, as in host_sim/lab/study/contacts.py. */
+static void note_contact(struct fleet_robot *robot, enum reason reason)
+{
+    if (reason != REASON_REMEMBERED && reason != REASON_TRIAL && reason != REASON_BOREDOM) {
+        robot->blocked_now = 0;
+        return;
+    }
+    robot->contacts += robot->blocked_now == 0;
+    robot->blocked_ticks++;
+    robot->blocked_now++;
+    if (robot->blocked_now > robot->blocked_longest)
+        robot->blocked_longest = robot->blocked_now;
+}
+
 /* What the core makes of its senses, and what that does in the world. */
 static void act(struct fleet_robot *robot)
 {
@@ -48,6 +62,8 @@ static void act(struct fleet_robot *robot)
     if (out.drive.action != robot->action && (unsigned)out.drive.reason < FLEET_REASONS)
         robot->begun[out.drive.reason]++;
     robot->action = out.drive.action;
+    robot->denied += out.denied;
+    note_contact(robot, out.drive.reason);
     if (out.drive.eat)
         robot->food_eaten += world_eat(robot->world, robot->body);
     world_move(robot->world, robot->body, out.drive.left_mm_s, out.drive.right_mm_s);

@@ -20,7 +20,12 @@ struct fleet_robot {
     uint32_t ticks_max;               /* after which it ends, finished or not */
     uint8_t action;                   /* the last drive's */
     uint32_t begun[FLEET_REASONS];    /* actions begun in this environment, by reason */
-    uint32_t food_eaten;              /* in this environment */
+    uint32_t food_eaten;              /* in this environment, too: */
+    uint32_t denied;                  /* times that its wheels did not do what they were told */
+    uint32_t contacts;                /* times that it was blocked, */
+    uint32_t blocked_ticks;           /* ticks of all of them, */
+    uint32_t blocked_longest;         /* of the longest, */
+    uint32_t blocked_now;             /* and of the one that goes on */
 };
 
 size_t fleet_core_size(void);

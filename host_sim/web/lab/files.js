@@ -2,6 +2,7 @@
 /* Files that the page writes and reads. */
 
 import { CELL_COUNT, EDITS } from "../generated.js";
+import { IDEAL } from "../sim/arena.js";
 import { RANDOM } from "../core/world_names.js";
 
 /**
@@ -33,7 +34,7 @@ export async function memoryIn(file) {
  * @param {import("../core/run_data.js").RunData} data
  * @param {number} frontExtraMm
  */
-export function worldText({ seed, environments, limit_ticks, robots, changes, world = RANDOM }, data, frontExtraMm) {
+export function worldText({ seed, environments, limit_ticks, robots, changes, world = RANDOM, body = IDEAL }, data, frontExtraMm) {
   const begun = data.robots[0].run.events.filter(([, kind]) => kind === "environment");
   const content = {
     format: 1,
@@ -43,6 +44,7 @@ export function worldText({ seed, environments, limit_ticks, robots, changes, wo
     robots: robots.length,
     front_extra_mm: frontExtraMm,
     ...(world !== RANDOM && { world }),
+    ...(body !== IDEAL && { body }),
     environments: begun.map(([tick]) => ({ seed, number: data.sceneAt(tick).number, first_tick: tick })),
     edits: changes.filter((change) => Object.hasOwn(EDITS, change.do)),
   };

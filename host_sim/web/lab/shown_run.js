@@ -191,11 +191,12 @@ function draggedKey(change) {
 
 /**
  * An experiment with one behaviour for all its robots.
- * @param {{seed: number, environments: number, robots: number, profile: string, world?: Experiment["world"]}} wanted
+ * @param {{seed: number, environments: number, robots: number, profile: string,
+ *   world?: Experiment["world"], body?: Experiment["body"]}} wanted
  * @returns {Experiment}
  */
-export function experimentOf({ seed, environments, robots, profile, world = RANDOM }) {
+export function experimentOf({ seed, environments, robots, profile, world = RANDOM, body }) {
   const setup = () => ({ profile, settings: {}, memory: null });
   const limit_ticks = Math.round(600_000 / PARAMETERS.tick_ms.default);
-  return { seed, environments, limit_ticks, robots: Array.from({ length: robots }, setup), changes: [], world };
+  return { seed, environments, limit_ticks, robots: Array.from({ length: robots }, setup), changes: [], world, body };
 }

@@ -39,7 +39,8 @@ import { RANDOM, nameOf } from "../core/world_names.js";
 const FAULTS = [
   ...SENSORS.flatMap((sensor) => [`stuck-on:${sensor}`, `stuck-off:${sensor}`]),
   "mirror", "noise:10/1000", "noise:100/1000", "swap-motors", "weak-motor:left:60%", "weak-motor:right:60%",
-  "swap-odometers", "odometer:left:0%", "odometer:right:0%", "false-beacon:100", "repair",
+  "swap-odometers", "odometer:left:0%", "odometer:right:0%", "false-beacon:100", "lag:60ms", "slack:3deg",
+  "slip:5%", "latency:1", "dark-wall", "weak-battery", "repair",
 ];
 const TABS = ["run", "parameters", "listing", "program", "curves", "files", "talk", "lessons"];
 
@@ -59,6 +60,7 @@ export class SidePanel {
     this.worlds = new Map(Object.keys(lab.worlds).map((name) => [name, /** @type {World} */ (name)]));
     this.world = typedById("world", HTMLSelectElement);
     this.offerWorlds(RANDOM);
+    this.body = typedById("body", HTMLSelectElement);
     this.fault = typedById("fault", HTMLSelectElement);
     this.fault.append(...FAULTS.map((what) => new Option(faultName(what), what)));
     this.robotSeed = typedById("robot-seed", HTMLInputElement);
@@ -146,7 +148,8 @@ export class SidePanel {
   get wanted() {
     const number = (/** @type {string} */ id) => Number(typedById(id, HTMLInputElement).value);
     const wanted = { seed: number("seed"), environments: number("environments"), robots: number("robot-count") };
-    return experimentOf({ ...wanted, profile: this.behaviour.value, world: this.worlds.get(this.world.value) });
+    const body = this.body.value;
+    return experimentOf({ ...wanted, profile: this.behaviour.value, world: this.worlds.get(this.world.value), body });
   }
 
   /** @param {string} chosen - The name of the world that is chosen. */

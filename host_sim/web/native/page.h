@@ -9,6 +9,7 @@
 #include "host_sim/program/native/programmed.h"
 #include "host_sim/sim/native/loop.h"
 #include "host_sim/world/native/edits.h"
+#include "host_sim/world/native/kit/kit.h"
 #include "host_sim/world/native/history.h"
 #include "host_sim/world/native/draw/layouts.h"
 #include "host_sim/world/native/space/plain_space.h"
@@ -44,7 +45,11 @@ struct page_world {
     struct plain_world space;
     struct cones cones;
     struct ranges ranges;
+    struct ranges kit_ranges;   /* the same, as far as any sensor of a real body reaches */
     struct body bodies[PAGE_ROBOTS_MAX];
+    struct kit_kind kind;       /* what the bodies are like, */
+    bool is_real;               /* unless they are ideal */
+    struct kit kits[PAGE_ROBOTS_MAX];
     struct food food[LAYOUT_FOOD_MAX];
     struct furniture furniture;
     struct plain_place places[PAGE_ROBOTS_MAX];
@@ -141,6 +146,15 @@ double *page_numbers(void);
 
 char *page_text(void);
         /* Where JavaScript puts a text: PAGE_TEXT_MAX bytes. */
+
+void page_set_bodies(uint32_t is_real, uint32_t is_kit);
+        /* What the bodies of the next page_build are like: ideal, or real: those of the kit, or as page_set_trait says. */
+
+bool page_set_trait(double value, double tolerance);
+        /* Sets the trait with the name in page_text(). False if there is none, or it cannot be. */
+
+void page_draw_bodies(uint32_t seed);
+        /* Draws each robot's body from the seed of the run. */
 
 void page_build(void);
         /* Builds the arena with the dimensions in page_numbers(). */

@@ -37,7 +37,12 @@ static void set_world(struct page_world *of, const double dimensions[PAGE_DIMENS
         .bar_radius_mm = d[PAGE_THICKNESS_MM] / 2,
         .body_radius_mm = d[PAGE_BODY_MM],
     };
-    cones_set(&of->cones, d[PAGE_BODY_MM] + d[PAGE_REACH_MM], d[PAGE_FRONT_EXTRA_MM]);
+    of->kit_ranges = of->ranges;
+    if (of->is_real) {
+        of->kit_ranges.reach_mm = d[PAGE_BODY_MM] + kit_reach_mm(&of->kind);
+        of->kit_ranges.front_extra_mm = 0.0;
+    }
+    cones_set(&of->cones, of->kit_ranges.reach_mm, of->kit_ranges.front_extra_mm);
     of->world.bodies = of->bodies;
     of->world.food = of->food;
 }
@@ -45,9 +50,44 @@ static void set_world(struct page_world *of, const double dimensions[PAGE_DIMENS
 /* What the bodies overlap where they are now is not new to them. */
 static void take_furniture(struct page_world *of)
 {
-    of->space.capsule_count = of->ranges.capsule_count = of->furniture.capsule_count;
+    of->space.capsule_count = of->ranges.capsule_count = of->kit_ranges.capsule_count = of->furniture.capsule_count;
     world_begin(&of->world);
     plain_space_take(&of->space, &of->world);
+}
+
+void page_set_bodies(uint32_t is_real, uint32_t is_kit)
+{
+    struct page_world *of = page_world();
+
+    of->is_real = is_real != 0;
+    kit_set_kind(&of->kind, is_kit != 0);
+}
+
+bool page_set_trait(double value, double tolerance)
+{
+    struct kit_kind *kind = &page_world()->kind;
+
+    for (unsigned i = 0; i < TRAIT_COUNT; i++) {
+        const struct trait_row *row = &KIT_TRAITS[i];
+
+        if (strcmp(row->name, page_text()) == 0 && value >= row->least && value <= row->most && tolerance >= 0.0) {
+            kind->trait[i] = value;
+            kind->tolerance[i] = tolerance;
+            return true;
+        }
+    }
+    return false;
+}
+
+void page_draw_bodies(uint32_t seed)
+{
+    struct page_world *of = page_world();
+
+    for (uint32_t i = 0; i < of->world.body_count; i++) {
+        of->kits[i].ranges = &of->kit_ranges;
+        kit_draw(&of->kits[i], of->is_real ? &of->kind : NULL, seed, i);
+        of->bodies[i].kit = &of->kits[i];
+    }
 }
 
 void page_build(void)
@@ -71,6 +111,7 @@ static void begin_body(struct body *body, const struct pose *start)
         .left_mm = body->left_mm,
         .right_mm = body->right_mm,
         .faults = body->faults,
+        .kit = body->kit,
         .seen = -1,
     };
 }

@@ -6,7 +6,15 @@ import { EDITS } from "../generated.js";
 /**
  * @typedef {import("../types.js").SimParams} SimParams
  * @typedef {import("../types.js").WorldEdit} WorldEdit
+ * @typedef {import("../types.js").Traits} Traits
+ *
+ * What the bodies are like, and the seed that they are drawn from.
+ * @typedef {{body?: string | Traits, seed?: number}} Bodies
  */
+
+/** The kinds of bodies that have a name. */
+export const IDEAL = "ideal";
+export const KIT = "kit";
 
 /** A change that cannot be made. */
 export class EditError extends Error {}
@@ -25,11 +33,23 @@ export class Arena {
   /**
    * @param {import("./native_run.js").NativeRun} native
    * @param {SimParams} params
+   * @param {Bodies} bodies
    */
-  constructor(native, params) {
+  constructor(native, params, { body = IDEAL, seed = 0 } = {}) {
     this.native = native;
+    native.c.page_set_bodies(body === IDEAL ? 0 : 1, body === KIT ? 1 : 0);
+    if (typeof body === "object") this.describe(body);
     native.handOver(DIMENSIONS.map((name) => params[name]));
     native.c.page_build();
+    native.c.page_draw_bodies(seed);
+  }
+
+  /** @param {Traits} traits */
+  describe(traits) {
+    for (const [name, [value, tolerance]] of Object.entries(traits)) {
+      this.native.handOver([], name);
+      if (!this.native.c.page_set_trait(value, tolerance)) throw new Error(`this page knows no body with ${name} ${value}`);
+    }
   }
 
   /** All things. */

@@ -1,7 +1,7 @@
 // @ts-check
 /* The experiment that a recorded log is of: what its commands say, and what its world file has. */
 
-import { Arena, EditError } from "./arena.js";
+import { Arena, EditError, IDEAL, KIT } from "./arena.js";
 import { CELL_COUNT, EDITS, FRAMES, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
 import { bytesOf, framesOf, replayLog } from "./log_replay.js";
 import { checkedWorld } from "./native_layouts.js";
@@ -22,7 +22,7 @@ import { Simulation } from "./simulation.js";
  *
  * What a world file has.
  * @typedef {{seed: number, of: number, limit_ticks: number, robots?: number, edits: (WorldEdit & {tick: number})[],
- *   world?: Experiment["world"]}} World
+ *   world?: Experiment["world"], body?: Experiment["body"]}} World
  */
 
 const LIMIT_TICKS = 30_000;
@@ -84,6 +84,7 @@ export function worldIn(module, worlds, text) {
   const world = parsed(text);
   if (world?.format !== 1 || !Array.isArray(world.edits)) throw new Error(NO_WORLD);
   const arena = new Arena(new NativeRun(module, 1), worlds.random);
+  if (!isBody(module, worlds, world.body)) throw new Error(NO_WORLD);
   const isEdited = world.edits.every((/** @type {Record<string, unknown> | null} */ edit) => isEdit(arena, edit));
   if (!isCount(world.of) || !isCount(world.limit_ticks) || !isEdited) throw new Error(NO_WORLD);
   return { ...world, world: placeIn(module, worlds, world.world) };
@@ -101,6 +102,21 @@ function placeIn(module, worlds, world) {
   if (typeof world !== "object" || world === null) throw new Error(`this page knows no world ${JSON.stringify(world)}`);
   const { name, ...content } = /** @type {Record<string, unknown>} */ (world);
   return { name: `${name}`, ...checkedWorld(module, worlds.random, content) };
+}
+
+/**
+ * @param {WebAssembly.Module} module
+ * @param {Worlds} worlds
+ * @param {Experiment["body"]} body
+ */
+function isBody(module, worlds, body) {
+  if (body === undefined) return true;
+  try {
+    new Arena(new NativeRun(module, 1), worlds.random, { body });
+    return typeof body === "object" || [IDEAL, KIT].includes(body);
+  } catch {
+    return false;
+  }
 }
 
 /** @param {string} text */
@@ -174,7 +190,7 @@ function experimentIn(module, frames, world) {
   const [environments, limit_ticks] = world ? [world.of, world.limit_ticks] : [ENVIRONMENTS_MAX, LIMIT_TICKS];
   const during = changes.filter((change) => change.tick < ticks);
   const all = [...during, ...(world?.edits ?? [])].sort((a, b) => a.tick - b.tick);
-  return { seed, environments, limit_ticks, robots, changes: all, ticks_max: ticks, world: world?.world };
+  return { seed, environments, limit_ticks, robots, changes: all, ticks_max: ticks, world: world?.world, body: world?.body };
 }
 
 /**

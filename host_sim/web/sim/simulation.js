@@ -34,7 +34,7 @@ export class Simulation {
     this.native = new NativeRun(module, robots.length);
     for (const [robot, { program }] of robots.entries()) if (program !== undefined) loadProgram(this.native, robot, program);
     drawFrom(this.native, this.world.params, this.world.written);
-    this.arena = new Arena(this.native, this.world.params);
+    this.arena = new Arena(this.native, this.world.params, experiment);
     this.commands = new RobotCommands(this.native, experiment);
     this.changes = new DueChanges(changes);
     this.robots = [...robots.keys()];

@@ -19,10 +19,10 @@ import { LineError, parseToml } from "./toml.js";
  */
 export function openWorld({ module, worlds }, { name, text }, base) {
   if (name.endsWith(".toml")) return { ...base, world: writtenWorld(module, worlds.random, { name, text }) };
-  const { seed, of, limit_ticks, robots = 1, edits, world } = worldIn(module, worlds, text);
+  const { seed, of, limit_ticks, robots = 1, edits, world, body } = worldIn(module, worlds, text);
   if (!(robots >= 1 && robots <= ROBOTS_MAX)) throw new Error(`${name} is of ${robots} robots; this page has room for ${ROBOTS_MAX}`);
   const setups = Array.from({ length: robots }, () => ({ ...base.robots[0] }));
-  return { ...base, seed, environments: of, limit_ticks, robots: setups, changes: edits, world: world ?? base.world };
+  return { ...base, seed, environments: of, limit_ticks, robots: setups, changes: edits, world: world ?? base.world, body };
 }
 
 /**

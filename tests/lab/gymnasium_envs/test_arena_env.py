@@ -81,6 +81,28 @@ def test_it_is_the_world_of_the_firmware():
             assert env.step(FORWARD)[0].tolist()[1:] == [*map(int, next_senses(simulation))][1:]
 
 
+def test_each_episode_draws_a_body_of_the_kit_that_the_firmware_would_have():
+    env = ArenaEnv(step_ticks=1, body="kit")
+    env.reset(options={"environment": (3, 1)})
+    with make(
+        RunConfig(seed=3, environments=1, body="kit", settings={"look_min_deg": 1, "step_mm": 250})
+    ) as simulation:
+        simulation.enter(1)
+        for _ in range(40):
+            simulation.step()
+            assert env.step(FORWARD)[0].tolist()[1:] == [*map(int, next_senses(simulation))][1:]
+
+
+def test_real_bodies_differ_from_one_episode_to_the_next():
+    ways = []
+    env = ArenaEnv(body="kit")
+    for seed in (1, 2):
+        env.reset(seed=seed)
+        ways.append(tuple(env.step(TRY_LEFT)[0][5:]))
+
+    assert len(set(ways)) == len(ways)
+
+
 def next_senses(simulation) -> Senses:
     return simulation.arena.body.sense(simulation.tick)
 

@@ -32,6 +32,11 @@ NO_ACTIONS = [
 ]
 
 
+def test_a_body_that_is_none():
+    with pytest.raises(error.Error, match="nobody"):
+        ArenaEnv(body="nobody.toml")
+
+
 @pytest.mark.parametrize("action", NO_ACTIONS, ids=repr)
 def test_an_action_that_is_none(action):
     env = ArenaEnv()

@@ -44,6 +44,8 @@ def test_a_condition_is_named_by_what_varies(plan):
         "small",
         "posts",
     ]
+    bodies = plan('profiles = ["article"]\nbodies = ["ideal", "kit"]').conditions
+    assert [(it.condition, it.config.body) for it in bodies] == [("ideal", "ideal"), ("kit", "kit")]
     assert [it.condition for it in plan('profiles = ["article"]').conditions] == ["article"]
 
 
@@ -52,6 +54,7 @@ def test_a_condition_is_named_by_what_varies(plan):
     [
         ("seeds = 3", ":1: profiles is missing"),
         ('profiles = ["article"\nseeds = 3', "line 2"),
+        ('profiles = ["article"]\nbodies = ["nobody"]', ":2: bodies: "),
         ('seeds = 3\nprofiles = ["artcle"]', ":2: profiles: there is no 'artcle'; did you mean article?"),
         ('profiles = ["article"]\nsedes = 3', ":2: unknown key 'sedes'; did you mean seeds?"),
         ('profiles = ["article"]\nseeds = 0', ":2: seeds is a whole number from 1 to 100000, not 0"),

@@ -41,13 +41,19 @@ def words(wanted: dict[str, Any]) -> list[str]:
     profile, world = wanted["robots"][0]["profile"], wanted.get("world", "random")
     options = {"seed": wanted["seed"], "environments": wanted["environments"], "limit-s": wanted["limit_ticks"] / 50}
     words = [word for name, value in options.items() for word in (f"--{name}", str(value))]
-    return [*words, "--profile", profile, "--robots", str(len(wanted["robots"])), "--world", world]
+    body = wanted.get("body", "ideal")
+    return [*words, "--profile", profile, "--robots", str(len(wanted["robots"])), "--world", world, "--body", body]
 
 
 def with_changes_of(wanted: dict[str, Any], out: Path) -> dict[str, Any]:
     """The experiment with the world of a run that has ended, and with all that changed in it."""
     content = json.loads((out / "run.world.json").read_text())
-    return {**wanted, "changes": content["edits"], "world": content.get("world", "random")}
+    return {
+        **wanted,
+        "changes": content["edits"],
+        "world": content.get("world", "random"),
+        "body": content.get("body", "ideal"),
+    }
 
 
 def run_in_page(folder: Path, *wanted: dict[str, Any]) -> Sequence[dict[str, Any]]:

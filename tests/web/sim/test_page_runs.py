@@ -93,6 +93,22 @@ def test_a_run_in_another_world_that_changes_is_that_of_tools_run(tmp_path, worl
     assert_same_run(tmp_path, experiment(profile, 3, robots, world=world), changes, code=0)
 
 
+LATER = "lag:60ms@2s slack:3deg@3s/1 slip:5%@4s latency:1@5s/2 dark-wall@8s repair@env2 weak-battery@env2+3s"
+
+
+@pytest.mark.parametrize("body", ["ideal", "kit", "docs/bodies/late_body.toml", "docs/bodies/sharp_body.toml"])
+def test_a_run_with_other_bodies_that_get_worse_is_that_of_tools_run(tmp_path, body):
+    assert_same_run(tmp_path, experiment("adaptive", 3, 2, body=body), LATER, code=0)
+
+
+def test_the_kit_has_a_name_in_the_page_too(tmp_path):
+    wanted = experiment("searcher", 3, body="kit")
+
+    assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words(wanted)).returncode == 0
+
+    assert run_in_page(tmp_path, wanted)[0]["log"] == (tmp_path / "run.log").read_text()
+
+
 def test_a_run_in_which_robots_stop_because_of_their_wheels_is_that_of_tools_run(tmp_path):
     broken = "odometer:left:-100%@3s/2 odometer:left:0%@env2 odometer:right:0%@env2 repair@env2+9s"
 

@@ -112,3 +112,26 @@ void kit_draw(struct kit *kit, const struct kit_kind *kind, uint32_t seed, uint3
         kit->apart[i] = kind->trait[i] + kind->tolerance[i] * kit_chance(kit, i) - KIT_TRAITS[i].ideal;
     kit_suffer(kit, &(struct body_faults){0});
 }
+
+void kit_set_kind(struct kit_kind *kind, bool is_kit)
+{
+    for (unsigned i = 0; i < TRAIT_COUNT; i++) {
+        kind->trait[i] = is_kit ? KIT_TRAITS[i].kit : KIT_TRAITS[i].ideal;
+        kind->tolerance[i] = is_kit ? KIT_TRAITS[i].tolerance : 0.0;
+    }
+}
+
+static double most(const struct kit_kind *kind, enum trait trait)
+{
+    return kind->trait[trait] + kind->tolerance[trait];
+}
+
+double kit_reach_mm(const struct kit_kind *kind)
+{
+    double reach_mm = 0.0;
+
+    for (unsigned i = TRAIT_RIGHT_MM; i <= TRAIT_LEFT_MM; i++)
+        if (most(kind, (enum trait)i) > reach_mm)
+            reach_mm = most(kind, (enum trait)i);
+    return reach_mm + most(kind, TRAIT_HYSTERESIS_MM) + most(kind, TRAIT_NOISE_MM) + 1.0;
+}

@@ -69,6 +69,12 @@ void kit_draw(struct kit *kit, const struct kit_kind *kind, uint32_t seed, uint3
         /* A robot's body: each trait within its tolerance, and within its range; they follow from the seed of the run, and the number
            of the robot, from 0. kind: null: ideal. */
 
+void kit_set_kind(struct kit_kind *kind, bool is_kit);
+        /* That of the kit, or an ideal one. */
+
+double kit_reach_mm(const struct kit_kind *kind);
+        /* How far beyond its rim any sensor of such a body may sense anything. */
+
 void kit_suffer(struct kit *kit, const struct body_faults *faults);
         /* Gives it these faults instead of those that it had. Otherwise it is as it was drawn. */
 

@@ -1,0 +1,63 @@
+"""A study without logs: the robots of each condition are a fleet, which is several times as quick."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from host_sim.base.errors import UsageError
+from host_sim.lab.study.contacts import BodyState
+from host_sim.lab.study.plan import Plan
+from host_sim.lab.study.sample import CURVE, TRAPPED_S, Floats, Sample
+from host_sim.lab.study.trial import Trial, knows_wrong
+from host_sim.protocol.generated import Reason
+from host_sim.protocol.memory_kinds import sides_of
+from host_sim.sim.fleet import FleetResult, run_fleet
+from host_sim.world.params import SimParams
+
+_TURNS = (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM)
+
+
+def samples_of_fleets(plan: Plan) -> list[Sample]:
+    """Runs each condition as a fleet: the robots do what they do in runs of their own.
+
+    Raises:
+        UsageError: A condition has several robots in a world, or changes.
+    """
+    if any(it.config.robots > 1 or it.config.changes for it in plan.conditions):
+        raise UsageError(
+            "a fleet has neither several robots in a world nor changes: make the study with tools/octet study"
+        )
+    return [_sample(plan, it) for it in plan.conditions]
+
+
+def _sample(plan: Plan, trial: Trial) -> Sample:
+    config = replace(trial.config, seed=plan.first_seed, robots=plan.seeds, worlds="own")
+    results = sorted(run_fleet(config), key=lambda result: (result.robot, result.environment))
+    never = np.full((plan.seeds, CURVE), np.nan)
+
+    def each(of: Callable[[FleetResult], Any]) -> Floats:
+        return np.array([of(result) for result in results], np.float64).reshape(plan.seeds, -1)
+
+    tick_s = SimParams().tick_s
+    contacts = each(lambda it: it.contacts.number)
+    return Sample(
+        name=trial.condition,
+        robots=1,
+        seeds=np.arange(plan.first_seed, plan.first_seed + plan.seeds),
+        finished=each(lambda it: it.finished),
+        robot_s=each(lambda it: it.ticks * tick_s),
+        trapped=each(lambda it: it.contacts.longest_ticks * tick_s > TRAPPED_S),
+        bumped=each(lambda it: it.collisions > 0),
+        denied=each(lambda it: it.denied > 0),
+        wrong=each(lambda it: knows_wrong(sides_of(it.memory), BodyState()))[:, -1],
+        contacts=contacts.sum(-1),
+        blocked_s=each(lambda it: it.contacts.ticks * tick_s).sum(-1),
+        turns=each(lambda it: sum(it.begun.get(reason, 0) for reason in _TURNS)).sum(-1),
+        cleared=(contacts - each(lambda it: it.contacts.goes_on)).sum(-1),
+        known_s=np.full(plan.seeds, np.inf),
+        blocked_at=never,
+        wrong_at=never,
+        recovery=never[:, 0],
+    )
