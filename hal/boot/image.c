@@ -107,6 +107,13 @@ uint32_t image_written(unsigned slot)
     return pages > 0 ? (pages - 1) * flash_page_size() : 0;
 }
 
+uint32_t image_version(unsigned slot)
+{
+    uint32_t header[PIECE / 4];
+
+    return read(slot, 0, header) ? header[VERSION_AT / 4] : 0;
+}
+
 bool image_has_header(unsigned slot, const uint8_t header[IMAGE_HEADER])
 {
     uint32_t words[PIECE / 4];

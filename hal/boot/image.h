@@ -39,6 +39,9 @@ enum refusal image_verify(unsigned slot, struct image *out);
 uint32_t image_crc(unsigned slot, uint32_t end, bool *readable);
         /* CRC-32 of the bytes of a slot from VERSION on; end is a multiple of 64. */
 
+uint32_t image_version(unsigned slot);
+        /* As the header of what is in the slot has it; 0 if that cannot be read. Nothing is checked. */
+
 uint32_t image_written(unsigned slot);
         /* Bytes of the whole pages that are written in a slot: up to the last that is not blank, without that one, which a
            loss of power may have cut short. */

@@ -3,6 +3,7 @@
 #define OCTET_LAYOUT_H
 
 #include "hal/boot/choice.h"
+#include "hal/flash_store/flash.h"
 
 struct layout {
     const char *chip;             /* such as "stm32f103" */
@@ -14,5 +15,8 @@ struct layout {
 };
 
 extern const struct layout LAYOUT;
+
+void boot_start(unsigned slot);
+        /* Goes on with the image in that slot, with the chip as after a reset but for its watchdog. Does not return. */
 
 #endif

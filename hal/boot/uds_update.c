@@ -91,7 +91,7 @@ enum nrc uds_download(struct uds *uds, struct exchange *exchange)
         return NRC_LENGTH;
     if (exchange->request[1] != PLAIN || exchange->request[2] != FOUR_AND_FOUR)
         return NRC_RANGE;
-    if (!uds->erased)
+    if (!uds->erased && !(uds->loading && !uds->took))   /* its answer was lost, and it comes again */
         return NRC_SEQUENCE;
     if (uds_number(&exchange->request[3]) != uds->at || uds_number(&exchange->request[7]) != end - uds->at)
         return NRC_RANGE;
@@ -159,6 +159,8 @@ enum nrc uds_transfer_exit(struct uds *uds, struct exchange *exchange)
 {
     if (exchange->len != 1)
         return NRC_LENGTH;
+    if (uds->loaded)
+        return NRC_NONE;   /* as above */
     if (!uds->loading || uds->at != uds->image.size + IMAGE_SIGNATURE)
         return NRC_SEQUENCE;
     uds->loading = false;

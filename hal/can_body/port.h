@@ -29,6 +29,12 @@ void port_alive(bool outage);
         /* Feeds the watchdog and drives the status light. Called whenever the body begins to wait: at least every
            HAL_SILENCE_MS, plus the time of a store. outage: no senses arrive. */
 
+uint16_t port_id(void);
+        /* An identifier that the port listens for itself; 0 for none. To be called after port_open. */
+
+bool port_frame(const struct frame *frame, bool at_rest, struct frame *answer);
+        /* A frame with that identifier has come. at_rest: nobody drives the robot. True: *answer is to be sent. */
+
 int port_load(uint8_t memory[CELL_COUNT]);
 uint32_t port_entropy(void);
         /* As hal_load and hal_entropy in hal.h. */

@@ -8,7 +8,8 @@ enum {
     HSERDY = 1u << 17,
     PLLON = 1u << 24,
     PLLRDY = 1u << 25,
-    SWS = 3u << 2       /* CFGR */
+    SW = 3u,            /* CFGR */
+    SWS = 3u << 2
 };
 
 static const struct clock_table *const chip = &CLOCK_TABLE;
@@ -62,6 +63,13 @@ struct clocks clock_start(void)
         return source->clocks;
     *chip->cfgr = chip->internal;
     return CLOCK_SLOW;
+}
+
+void clock_stop(void)
+{
+    *chip->cfgr = chip->internal;
+    (void)comes_up(chip->cfgr, SWS, (chip->internal & SW) << 2, SWITCH_MS);
+    *chip->cr &= ~(uint32_t)(HSEON | PLLON);
 }
 
 uint32_t chip_reset_flags(void)

@@ -27,6 +27,9 @@ extern const struct clock_table CLOCK_TABLE;
 extern const struct clock_source CLOCK_SOURCES[2];   /* the internal oscillator, the crystal */
 extern const struct clocks CLOCK_SLOW;   /* the internal oscillator as it is */
 
+void clock_stop(void);
+        /* Back to the internal oscillator as it is, as after a reset. */
+
 enum {
     CRYSTAL_MS = 100,        /* most start in 2 ms; the maker's own code allows as much */
     SWITCH_MS = 5            /* a PLL locks in 0.3 ms; a switch takes a few cycles */

@@ -74,7 +74,7 @@ int flash_erase(unsigned page)
     if (unlock(setting) < 0)
         return lock(-1);
     if (chip->ar)
-        *chip->ar = (uint32_t)(uintptr_t)chip->store + page * chip->page_size;
+        *chip->ar = (uint32_t)(uintptr_t)flash_place(page, 0);
     *chip->cr = setting | chip->start;
     return lock(wait(chip->erase_ms));
 }

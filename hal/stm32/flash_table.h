@@ -8,7 +8,6 @@ struct flash_table {
     volatile uint32_t *keyr, *sr, *cr;
     volatile uint32_t *ar;              /* takes the address of the page to erase; NULL: CR has its number */
     const volatile uint32_t *supply;    /* the supply, compared with what pins.c says */
-    const volatile void *store;
     uint32_t supply_low;                /* in *supply */
     uint32_t page_size;
     uint32_t unit;
@@ -25,6 +24,9 @@ extern const struct flash_table FLASH_TABLE;
 
 void flash_begin(unsigned page, uint32_t offset, const uint32_t words[]);
         /* Begins to write the bytes that are written at once; half a word is the low half of words[0]. */
+
+volatile void *flash_place(unsigned page, uint32_t offset);
+        /* Where that is. */
 
 bool flash_has(unsigned page, uint32_t offset, const uint32_t words[]);
         /* Whether they read back as written. */

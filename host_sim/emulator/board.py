@@ -2,6 +2,8 @@
 
 import time
 from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from host_sim.base.errors import UsageError
@@ -10,6 +12,7 @@ from host_sim.emulator.can import CanFrame
 from host_sim.emulator.chips import CHIPS, Chip
 from host_sim.emulator.clock import NEVER, SECOND
 from host_sim.emulator.core import load_segments
+from host_sim.emulator.flash import BASE as FLASH
 from host_sim.emulator.hardware import Faults, Hardware
 from host_sim.emulator.registers import PowerCut
 from host_sim.protocol.codec import Frame
@@ -17,6 +20,19 @@ from host_sim.transport.slcan_link import encode
 
 _BOOT_S = 0.6
 """Enough to erase a page of flash."""
+
+
+@dataclass(frozen=True)
+class Slots:
+    """The slots of a boot loader.
+
+    Attributes:
+        span: Where they begin and end, bytes from the begin of the flash.
+        images: What is in them: (offset in the flash, bytes).
+    """
+
+    span: tuple[int, int]
+    images: Sequence[tuple[int, bytes]] = ()
 
 
 class EmulatedBoard:
@@ -28,7 +44,15 @@ class EmulatedBoard:
         drift: By how much its time runs faster than the simulator's: 0.02 for 2 %, negative for slower.
     """
 
-    def __init__(self, chip: Chip, image: Path, faults: Faults | None = None, *, serial: bool = False) -> None:
+    def __init__(
+        self,
+        chip: Chip,
+        image: Path,
+        faults: Faults | None = None,
+        *,
+        serial: bool = False,
+        slots: Slots | None = None,
+    ) -> None:
         """Flashes the image, and lets it run until it has settled.
 
         Args:
@@ -36,6 +60,7 @@ class EmulatedBoard:
             image: The `.elf`.
             faults: How the hardware misbehaves.
             serial: Whether its frames go over the serial line, as slcan text, rather than over the bus.
+            slots: If the image is a boot loader: where its slots are, and what a probe has written there.
 
         Raises:
             OctetError: The image cannot be read.
@@ -48,7 +73,10 @@ class EmulatedBoard:
         self._reset_cause: str | None = None
         self._deadline = NEVER
         self.hardware = Hardware(chip, faults or Faults(), self._receive, self._ask_reset)
-        self.hardware.flash_image(load_segments(image))
+        segments = load_segments(image)
+        if slots is not None:
+            segments += [(FLASH + at, data) for at, data in slots.images]
+        self.hardware.flash_image(segments, slots.span if slots else (0, 0))
         self._clock = self.hardware.clock
         self._alarm = self._clock.add(self._due)
         self._said.extend(self._listen(round(_BOOT_S * SECOND)))
@@ -130,6 +158,7 @@ class EmulatedBoard:
                 self.cut_power()
             if self._reset_cause is not None:
                 self.restart(self._reset_cause)
+            self.hardware.follow_vectors()
 
     def _due(self) -> int:
         if self._deadline <= self._clock.now:

@@ -109,6 +109,7 @@ class Core:
 
     Attributes:
         on_fault: Called when the image faults; then its hard fault handler runs.
+        vectors: Address of the vector table in force.
     """
 
     def __init__(self, clock: Clock, vectors: int) -> None:
@@ -116,10 +117,11 @@ class Core:
 
         Args:
             clock: The board's, which its instructions drive.
-            vectors: Address of the vector table.
+            vectors: Address of the vector table after a reset.
         """
         self.on_fault: Callable[[Fault], None] = _disregard
-        self._clock, self._vectors = clock, vectors
+        self._clock, self._begin = clock, vectors
+        self.vectors = vectors
         self._in_fault = False
         self._unreachable: int | None = None
         self._pc = 0
@@ -160,6 +162,11 @@ class Core:
         read, write = (ffi.addressof(models, name) for name in ("window_read", "window_write"))
         _check(self._library.uc_mmio_map(self._engine, window.base, window.size, read, made, write, made))
 
+    def remove(self, base: int, size: int) -> None:
+        """Takes away memory or registers that were added there, all of them."""
+        self._uc.mem_unmap(base, size)
+        self._uc.ctl_flush_tb()
+
     def clear_ram(self, base: int, size: int) -> None:
         """As after a loss of power."""
         self._uc.mem_write(base, bytes(size))
@@ -167,9 +174,10 @@ class Core:
     def reset(self) -> None:
         """Begins where the vector table says."""
         self._in_fault = False
-        self._uc.reg_write(UC_ARM_REG_SP, self._word(self._vectors))
+        self.vectors = self._begin
+        self._uc.reg_write(UC_ARM_REG_SP, self._word(self.vectors))
         self._uc.reg_write(UC_ARM_REG_LR, 0xFFFFFFFF)
-        self._pc = self._word(self._vectors + 4)
+        self._pc = self._word(self.vectors + 4)
 
     def derail(self, address: int, stack: int | None = None) -> None:
         """Goes on somewhere else, and with another stack if one is given, as if they had been hit."""
@@ -225,7 +233,7 @@ class Core:
         cause |= 0 if self._stack_registers() else _STKERR
         self.on_fault(Fault(cause, address, self._pc))
         self._uc.reg_write(UC_ARM_REG_LR, _RETURN_TO_THREAD)
-        self._pc = self._word(self._vectors + 4 * _HARD_FAULT)
+        self._pc = self._word(self.vectors + 4 * _HARD_FAULT)
 
     def _stack_registers(self) -> bool:
         """False if the stack is not in memory; the handler begins all the same."""

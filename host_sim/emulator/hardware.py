@@ -77,6 +77,8 @@ class Hardware:
         """
         self.chip = chip
         self.faults: list[Fault] = []
+        self._slots = (0, 0)
+        self._in_slot = False
         self.clock = Clock(chip.oscillators.internal)
         self.core = Core(self.clock, FLASH)
         self.core.on_fault = self._note_fault
@@ -89,33 +91,61 @@ class Hardware:
         self.space = AddressSpace(self.clock)
         self.power = PowerControl()
         self._systick = SysTick(self.clock)
-        self._scb = SystemControl(chip.cpuid, lambda: restart("software"))
+        self._scb = SystemControl(chip.cpuid, lambda: restart("software"), self._move_vectors)
         self.watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))
         self._peripherals = self._always_clocked() + self._gated()
         self._map()
 
-    def flash_image(self, segments: list[tuple[int, bytes]]) -> None:
+    def flash_image(self, segments: list[tuple[int, bytes]], slots: tuple[int, int] = (0, 0)) -> None:
         """Writes an image, as a probe does, and resets the core.
 
         The image's pages become memory that cannot be written; behind all others is the flash's model.
 
         Args:
             segments: (address, bytes).
+            slots: Where the slots of a boot loader begin and end: bytes from the begin of the flash, whole pages of
+                the core's. A program that runs in one cannot change them.
         """
         flash = self.flash
         for address, data in segments:
             offset = address - FLASH
             flash.memory[offset : offset + len(data)] = data
-            flash.code_end = max(flash.code_end, -(-(offset + len(data)) // PAGE) * PAGE)
+            if offset < slots[0] or not slots[0]:
+                flash.code_end = max(flash.code_end, -(-(offset + len(data)) // PAGE) * PAGE)
+        self._slots = slots
         self.core.add_rom(FLASH, bytes(flash.memory[: flash.code_end]))
-        behind = Window(
-            FLASH + flash.code_end,
-            len(flash.memory) - flash.code_end,
+        for begin, end in ((flash.code_end, slots[0]), slots, (max(flash.code_end, slots[1]), len(flash.memory))):
+            if begin < end:
+                self.core.add_registers(self._flash_window(begin, end))
+        self.core.reset()
+
+    def _flash_window(self, begin: int, end: int) -> Window:
+        flash = self.flash
+        return Window(
+            FLASH + begin,
+            end - begin,
             lambda address, width: flash.read(address - FLASH, width),
             lambda address, width, value: flash.write(address - FLASH, width, value),
         )
-        self.core.add_registers(behind)
-        self.core.reset()
+
+    def follow_vectors(self) -> None:
+        """Lets the core execute a slot to which its vectors have gone, or write to the slots again."""
+        begin, end = self._slots
+        inside = begin <= self.core.vectors - FLASH < end
+        if inside == self._in_slot:
+            return
+        self._in_slot = inside
+        self.core.remove(FLASH + begin, end - begin)
+        if inside:
+            self.core.add_rom(FLASH + begin, bytes(self.flash.memory[begin:end]))
+        else:
+            self.core.add_registers(self._flash_window(begin, end))
+
+    def _move_vectors(self, address: int) -> None:
+        """Takes effect between two blocks of instructions."""
+        self.core.vectors = address
+        if self._slots[1]:
+            self.core.stop()
 
     def restart(self, cause: str) -> None:
         """Resets the chip; a loss of power clears the RAM too.
@@ -130,6 +160,7 @@ class Hardware:
             peripheral.reset()
         self.rcc.restart(cause)
         self.core.reset()
+        self.follow_vectors()
 
     def _always_clocked(self) -> list[tuple[int, Peripheral]]:
         return [

@@ -161,17 +161,18 @@ class PowerControl(Peripheral):
 class SystemControl(Peripheral):
     """The core's system control block (PM0214 4.4): notes faults, and takes the request to reset."""
 
-    def __init__(self, cpuid: int, restart: Callable[[], None]) -> None:
+    def __init__(self, cpuid: int, restart: Callable[[], None], move: Callable[[int], None]) -> None:
         """No fault.
 
         Args:
             cpuid: What the core calls itself.
             restart: Resets the board.
+            move: Takes the address of a new vector table.
         """
         self._restart = restart
         self._icsr, self._bfar = Register("ICSR"), Register("BFAR")
         self._cfsr, self._hfsr = (self._clearing(name) for name in ("CFSR", "HFSR"))
-        plain = {0x08: "VTOR", 0x10: "SCR", 0x14: "CCR", 0x18: "SHPR1", 0x1C: "SHPR2", 0x20: "SHPR3", 0x24: "SHCSR"}
+        plain = {0x10: "SCR", 0x14: "CCR", 0x18: "SHPR1", 0x1C: "SHPR2", 0x20: "SHPR3", 0x24: "SHCSR"}
         plain |= {0x30: "DFSR", 0x34: "MMFAR", 0x88: "CPACR"}
         super().__init__(
             "SCB",
@@ -179,6 +180,7 @@ class SystemControl(Peripheral):
             | {
                 0x00: Register("CPUID", cpuid),
                 0x04: self._icsr,
+                0x08: Register("VTOR", on_write=move),
                 0x0C: Register("AIRCR", on_read=lambda: _AIRCR_READ, on_write=self._write_aircr),
                 0x28: self._cfsr,
                 0x2C: self._hfsr,

@@ -94,14 +94,15 @@ def test_a_pin_is_set_and_cleared(make):
 
 
 def test_a_reset_needs_its_key():
-    resets = []
-    scb = SystemControl(0, lambda: resets.append(1))
+    resets, moved = [], []
+    scb = SystemControl(0, lambda: resets.append(1), moved.append)
+    write(scb, 0x08, 0x08005100)
 
     with pytest.raises(BoardError, match="key"):
         write(scb, 0x0C, 4)
     write(scb, 0x0C, 0x05FA0004)
 
-    assert resets == [1]
+    assert (resets, moved) == ([1], [0x08005100])
 
 
 def test_a_core_that_faults_in_its_fault_handler_locks_up(clock):
@@ -114,7 +115,7 @@ def test_a_core_that_faults_in_its_fault_handler_locks_up(clock):
 
 
 def test_the_causes_of_faults_are_cleared_by_writing_ones():
-    scb = SystemControl(0, lambda: None)
+    scb = SystemControl(0, lambda: None, lambda _address: None)
     scb.note_fault(1 << 9 | 1 << 12, 0x60000000)
 
     write(scb, 0x28, 1 << 9)

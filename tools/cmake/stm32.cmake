@@ -11,14 +11,12 @@ include(${OCTET_STM32}/${OCTET_CHIP}/chip.cmake)
 
 include(boards)
 
-# octet_image(LINK LIBRARY...): the robot on this board, over that link: .elf, .bin and .hex.
-function(octet_image link)
-  set(image octet-${OCTET_BOARD}-${link})
+# octet_program(IMAGE LIBRARY...): for this board, IMAGE.elf, .bin and .hex.
+function(octet_program image)
   set(script ${OCTET_STM32}/${OCTET_CHIP}/${OCTET_CHIP}.ld)
   set(sections ${PROJECT_SOURCE_DIR}/hal/port/cortex_m)
   add_executable(${image})
-  target_link_libraries(${image} PRIVATE
-    octet_main octet_core octet_can_body octet_flash_store octet_cortex_m ${ARGN})
+  target_link_libraries(${image} PRIVATE octet_flash_store octet_cortex_m octet_stm32 ${ARGN})
   target_link_options(${image} PRIVATE -T ${script} -L ${sections})
   set_target_properties(${image} PROPERTIES
     SUFFIX .elf
@@ -29,5 +27,33 @@ function(octet_image link)
     add_custom_command(TARGET ${image} POST_BUILD
       COMMAND ${CMAKE_OBJCOPY} -O ${CMAKE_MATCH_1} $<TARGET_FILE:${image}> ${PROJECT_BINARY_DIR}/${image}.${CMAKE_MATCH_2}
       VERBATIM)
+  endforeach()
+endfunction()
+
+# octet_image(LINK): the robot on this board, over that link.
+function(octet_image link)
+  octet_program(octet-${OCTET_BOARD}-${link}
+    octet_main octet_core octet_can_body octet_alone octet_link_${link})
+endfunction()
+
+# octet_place(IMAGE ADDRESS SIZE): where it lies in the flash, and how long it may be.
+function(octet_place image address size)
+  target_link_options(${image} PRIVATE LINKER:--defsym=IMAGE_AT=${address} LINKER:--defsym=IMAGE_SIZE=${size})
+endfunction()
+
+# octet_boot(LINK): the boot loader, and the robot in each of its slots. The header is in front of the program there, the
+# signature behind it.
+function(octet_boot link)
+  set(boot octet-${OCTET_BOARD}-${link}-boot)
+  octet_program(${boot} octet_boot_main octet_boot octet_link_${link})
+  octet_place(${boot} 0x08000000 ${OCTET_BOOT_SIZE})
+  target_link_options(${boot} PRIVATE LINKER:--defsym=RAM_AT=${OCTET_BOOT_RAM})
+  math(EXPR room "${OCTET_SLOT_SIZE} - 256 - 64")
+  foreach(slot A B)
+    string(TOLOWER ${slot} name)
+    set(image octet-${OCTET_BOARD}-${link}-${name})
+    octet_program(${image} octet_main octet_core octet_can_body octet_resident octet_boot octet_link_${link})
+    math(EXPR start "${OCTET_SLOT_${slot}} + 256" OUTPUT_FORMAT HEXADECIMAL)
+    octet_place(${image} ${start} ${room})
   endforeach()
 endfunction()

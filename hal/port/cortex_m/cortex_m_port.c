@@ -5,6 +5,7 @@
 #include "hal/flash_store/flash_store.h"
 #include "hal/port/cortex_m/core.h"
 #include "hal/port/cortex_m/crash.h"
+#include "hal/port/cortex_m/loader.h"
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/port/cortex_m/systick.h"
 
@@ -22,7 +23,7 @@ int port_open(struct port *port, int argc, char *const argv[])
     (void)argv;
     *port = (struct port){
         .link = "",   /* there is one, linked in */
-        .node = OCTET_NODE,
+        .node = loader_node(OCTET_NODE),
         .reset_cause = crash_reset_cause(mcu_reset_cause()),
         .crash = crash_last(),
         .clock_exact = mcu_clock_is_exact(),
@@ -45,7 +46,18 @@ uint32_t port_clock_ms(void)
 void port_alive(bool outage)
 {
     mcu_feed();
+    loader_alive(outage);
     mcu_light(machine_ms() >> (outage ? BLINK_FAST : BLINK_SLOWLY) & 1u);
+}
+
+uint16_t port_id(void)
+{
+    return loader_id();
+}
+
+bool port_frame(const struct frame *frame, bool at_rest, struct frame *answer)
+{
+    return loader_frame(frame, at_rest, answer);
 }
 
 int port_load(uint8_t memory[CELL_COUNT])

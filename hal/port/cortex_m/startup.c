@@ -4,13 +4,12 @@
 
 #include "hal/port/cortex_m/core.h"
 #include "hal/port/cortex_m/crash.h"
+#include "hal/port/cortex_m/leave.h"
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/port/cortex_m/systick.h"
 
 enum {
-    ICSR_VECTOR = 0x1FF,      /* number of the exception under way */
-    AIRCR_KEY = 0x05FA << 16,
-    AIRCR_RESET = 1 << 2
+    ICSR_VECTOR = 0x1FF       /* number of the exception under way */
 };
 
 /* From the linker script: addresses only. */
@@ -37,16 +36,6 @@ static const struct vectors vectors = {
     },
 };
 
-/* Takes a few cycles; if the reset fails, the watchdog resets. The barrier forces the compiler and the core's write buffer to
- * store the crash record first. */
-static void restart(void)
-{
-    __asm__ volatile("dsb" ::: "memory");
-    SCB.aircr = AIRCR_KEY | AIRCR_RESET;
-    for (;;)
-        continue;
-}
-
 void startup_reset(void)
 {
     SCB.vtor = (uint32_t)(uintptr_t)&vectors;   /* a boot loader's may be in force */
@@ -54,7 +43,7 @@ void startup_reset(void)
     memset(bss_start, 0, (size_t)((char *)bss_end - (char *)bss_start));
     systick_start(mcu_start());
     (void)main(0, NULL);
-    restart();   /* main ends where its body cannot be had: once more, from the beginning */
+    leave_by_reset();   /* main ends where its body cannot be had: once more, from the beginning */
 }
 
 /* The stack may be what is broken: begins a new one, in the half where the frame that the core has pushed is not. */
@@ -72,5 +61,5 @@ __attribute__((naked)) void startup_crash(void)
 __attribute__((used)) void startup_crashed(const uint32_t *frame)   /* by the lines above, which the linker cannot read */
 {
     crash_keep(SCB.icsr & ICSR_VECTOR, frame, stack_bottom, stack_top);
-    restart();
+    leave_by_reset();
 }

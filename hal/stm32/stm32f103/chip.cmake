@@ -1,5 +1,13 @@
 # STM32F103: its own drivers, and the links that it has with what each is made of.
 set(OCTET_CHIP_SOURCES clock.c pins.c flash.c)
+
+# With a boot loader (docs/update.md): where it and the slots lie, bytes, and its RAM.
+set(OCTET_BOOT_SIZE 20480)
+set(OCTET_SLOT_A 0x08005000)
+set(OCTET_SLOT_B 0x0800A000)
+set(OCTET_SLOT_SIZE 20480)
+set(OCTET_BOOT_RAM 0x20001000)
+
 set(OCTET_LINKS bxcan slcan)
 set(OCTET_LINK_bxcan can_link.c can_queue.c can_timing.c bxcan.c)
 set(OCTET_LINK_slcan uart_slcan_link.c uart_f1.c)

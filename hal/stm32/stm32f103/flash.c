@@ -1,13 +1,13 @@
-/* The last two pages (PM0075 2.3), written by halves of a word. */
+/* 64 pages, the last two of them the store's (PM0075 2.3), written by halves of a word. */
 #include "hal/stm32/flash_table.h"
 #include "hal/stm32/stm32f103/registers.h"
 
 enum { PAGE_SIZE = 1024 };
 
-extern volatile uint16_t STORE[FLASH_PAGES][PAGE_SIZE / 2];
+extern volatile uint16_t STORE[], PAGES[];
 
 const struct flash_table FLASH_TABLE = {
-    .keyr = &FLASH.keyr, .sr = &FLASH.sr, .cr = &FLASH.cr, .ar = &FLASH.ar, .supply = &PWR.csr, .store = STORE,
+    .keyr = &FLASH.keyr, .sr = &FLASH.sr, .cr = &FLASH.cr, .ar = &FLASH.ar, .supply = &PWR.csr,
     .supply_low = 1u << 2,
     .page_size = PAGE_SIZE,
     .unit = 4,                   /* two halves of a word, one after the other */
@@ -23,9 +23,17 @@ const struct flash_table FLASH_TABLE = {
     .slow = true,
 };
 
+volatile void *flash_place(unsigned page, uint32_t offset)
+{
+    uint32_t at = page < FLASH_PAGES ? page : page - FLASH_PAGES;
+    volatile uint16_t *start = page < FLASH_PAGES ? STORE : PAGES;
+
+    return &start[(at * PAGE_SIZE + offset) / 2];
+}
+
 int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 {
-    const volatile uint16_t *at = &STORE[page][offset / 2];
+    const volatile uint16_t *at = flash_place(page, offset);
 
     for (uint32_t i = 0; i < count / 4; i++)
         words[i] = at[2 * i] | (uint32_t)at[2 * i + 1] << 16;
@@ -34,10 +42,10 @@ int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 
 void flash_begin(unsigned page, uint32_t offset, const uint32_t words[])
 {
-    STORE[page][offset / 2] = (uint16_t)words[0];
+    *(volatile uint16_t *)flash_place(page, offset) = (uint16_t)words[0];
 }
 
 bool flash_has(unsigned page, uint32_t offset, const uint32_t words[])
 {
-    return STORE[page][offset / 2] == (uint16_t)words[0];
+    return *(volatile uint16_t *)flash_place(page, offset) == (uint16_t)words[0];
 }

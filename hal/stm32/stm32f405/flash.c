@@ -27,6 +27,11 @@ const struct flash_table FLASH_TABLE = {
     .start = 1u << 16,
 };
 
+volatile void *flash_place(unsigned page, uint32_t offset)
+{
+    return &STORE[page][offset / 4];
+}
+
 int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 {
     for (uint32_t i = 0; i < count / 4; i++)

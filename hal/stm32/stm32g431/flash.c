@@ -45,6 +45,11 @@ __attribute__((used)) bool flash_forgives(void)   /* by nmi.c, in lines that the
     return true;
 }
 
+volatile void *flash_place(unsigned page, uint32_t offset)
+{
+    return &STORE[page][offset / 4];
+}
+
 int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 {
     unreadable = false;

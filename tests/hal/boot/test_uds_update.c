@@ -182,6 +182,17 @@ TEST(a_block_that_comes_again_is_written_once_and_one_that_is_missing_is_noticed
     TEST_ASSERT_EQUAL_MEMORY("OCTETIMG\xFF", boot_flash_slot(1), 9);
 }
 
+TEST(a_request_whose_answer_was_lost_can_come_again)
+{
+    unlock();
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+    TEST_ASSERT_EQUAL_HEX8(0, download(&image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x37));
+    TEST_ASSERT_EQUAL_HEX8(0, check());
+    TEST_ASSERT_EQUAL_HEX8(0x24, ASK(0x37));
+}
+
 TEST(what_was_written_is_told_and_gone_on_from)
 {
     TEST_ASSERT_EQUAL_HEX8(0, update(&image));

@@ -9,7 +9,31 @@ TEST(it_listens_for_what_the_wire_wants)
     uint16_t ids[WIRE_LISTEN_COUNT];
 
     wire_ids(&wire, ids);
+    TEST_ASSERT_EQUAL_size_t(WIRE_LISTEN_COUNT, fake.id_count);
     TEST_ASSERT_EQUAL_UINT16_ARRAY(ids, fake.ids, WIRE_LISTEN_COUNT);
+}
+
+TEST(a_frame_for_the_machine_is_for_the_machine_alone)
+{
+    fake.port_id = 0x6E1;
+    TEST_ASSERT_EQUAL(0, open_body());
+    TEST_ASSERT_EQUAL_size_t(WIRE_LISTEN_COUNT + 1, fake.id_count);
+    TEST_ASSERT_EQUAL_HEX16(0x6E1, fake.ids[WIRE_LISTEN_COUNT]);
+    happens(5, 1, (struct frame){.id = 0x6E1, .len = 1, .data = {7}});
+    fake.sends = 0;
+    fake.port_answers = true;
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT(1, fake.port_frames);
+    TEST_ASSERT_TRUE(fake.port_at_rest);
+    TEST_ASSERT_EQUAL_HEX32(0x61, fake.sent[fake.sends - 1].id);
+    TEST_ASSERT_EQUAL_HEX8(7, fake.sent[fake.sends - 1].data[0]);
+}
+
+TEST(a_machine_that_listens_for_nothing_hears_nothing)
+{
+    happens(5, 1, (struct frame){.id = 0, .len = 1});
+    TEST_ASSERT_EQUAL(INPUT_SILENCE, receive());
+    TEST_ASSERT_EQUAL_UINT(0, fake.port_frames);
 }
 
 TEST(arguments_that_make_no_sense_are_a_usage_error)

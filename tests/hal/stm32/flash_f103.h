@@ -18,6 +18,7 @@ static const uint32_t LOCK = 1u << 7;
 volatile struct flash_registers FLASH;
 volatile struct power_registers PWR;
 volatile store_word STORE[FLASH_PAGES][STORE_WORDS];
+volatile store_word PAGES[3][STORE_WORDS];   /* of the whole chip, some */
 
 static void supply(bool low)
 {

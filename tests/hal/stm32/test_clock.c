@@ -51,6 +51,15 @@ TEST(the_crystal_makes_the_full_speed)
     assert_runs_from_pll(BEST.core_hz / 1000000);
 }
 
+TEST(a_clock_that_is_stopped_is_that_after_a_reset)
+{
+    assert_starts_as(&BEST);
+    clock_stop();
+    TEST_ASSERT_EQUAL_HEX32(0, RCC.cr & (PLLON | HSEON));
+    TEST_ASSERT_EQUAL_HEX32((RCC.cfgr & 3u) << SWITCHED_AT, RCC.cfgr & SWITCH_MASK & ~3u);
+    TEST_ASSERT_NOT_EQUAL_HEX32(SW_PLL, RCC.cfgr & 3u);
+}
+
 TEST(a_slow_crystal_is_waited_for)
 {
     model.crystal_ms = 99;

@@ -12,6 +12,7 @@ enum { HALVES = 512, LOCK = 1 << 7 };
 volatile struct flash_registers FLASH;
 volatile struct power_registers PWR;
 volatile uint16_t STORE[FLASH_PAGES][HALVES];
+volatile uint16_t PAGES[3][HALVES];
 
 static struct {
     unsigned count;
@@ -56,4 +57,17 @@ TEST(the_line_is_pumped_after_an_erase)
 {
     TEST_ASSERT_EQUAL(0, flash_erase(1));
     TEST_ASSERT_EQUAL_UINT(1, pumped.count);
+}
+
+TEST(pages_behind_those_of_the_store_are_the_chips_own)
+{
+    uint32_t word = 0x12345678, read;
+
+    memset((void *)PAGES, 0xFF, sizeof PAGES);
+    TEST_ASSERT_EQUAL(0, flash_write(FLASH_PAGES + 1, 8, &word, sizeof word));
+    TEST_ASSERT_EQUAL(0, flash_read(FLASH_PAGES + 1, 8, &read, sizeof read));
+    TEST_ASSERT_EQUAL_HEX32(word, read);
+    TEST_ASSERT_EQUAL_HEX16(0x5678, PAGES[1][4]);
+    TEST_ASSERT_EQUAL(0, flash_erase(FLASH_PAGES + 2));
+    TEST_ASSERT_EQUAL_HEX32((uint32_t)(uintptr_t)PAGES[2], FLASH.ar);
 }

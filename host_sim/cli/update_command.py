@@ -1,0 +1,177 @@
+"""`tools/octet update` and `tools/octet keygen`: new firmware over the bus, and the key that it is signed with."""
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from host_sim.cli.parsing import add_command, number
+from host_sim.cli.run_options import add_option
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+    from host_sim.update.image import SlotImage
+    from host_sim.update.keys import Ed25519PrivateKey
+    from host_sim.update.updater import Updater
+
+_LAST_NODE = 31
+_EXAMPLES = """\
+examples:
+  tools/octet update blue_pill --bus socketcan:can0                   the image that is built, to node 1
+  tools/octet update out/robot.octet --bus socketcan:can0 --node 1-3  an image that was signed before, to three robots
+  tools/octet update blue_pill --key my.pem --save out/robot.octet    only sign it
+docs/update.md tells what happens, and what a loss of power leaves.
+"""
+_KEY_EXAMPLES = """\
+example: tools/octet keygen my.pem
+Keep that file: boards with its public half take no images but those that are signed with it.
+"""
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "update",
+        _update,
+        summary="put new firmware on robots, over the bus",
+        description="Puts new firmware on robots, over the bus that they drive on, into the slot that does not run.\n"
+        "Says what runs afterwards. It needs a boot loader on the board, and a robot that is not being driven.\n"
+        "An update that was interrupted goes on where it was.",
+        epilog=_EXAMPLES,
+    )
+    add_ = parser.add_argument
+    add_(
+        "image",
+        metavar="IMAGE",
+        help="file of --save, or a board, such as blue_pill, to sign what is built",
+    )
+    add_("--bus", metavar="BUS", help="any bus of python-can: INTERFACE:CHANNEL, such as socketcan:can0")
+    add_("--node", type=_nodes, default=[1], metavar="N[-M]", help="which robots, 1..31 (default: 1)")
+    add_(
+        "--key",
+        type=Path,
+        metavar="PEM",
+        help="private key, from tools/octet keygen (default: the development key)",
+    )
+    add_("--save", type=Path, metavar="FILE", help="write the signed image to a file")
+    add_(
+        "--version",
+        type=number(0, 2**32 - 1),
+        metavar="N",
+        help="version of an image that is signed here (default: the time)",
+    )
+    add_("--allow-older", action="store_true", help="let the boards take an older version")
+    add_option(parser, "bitrate")
+    keygen = add_command(
+        commands,
+        "keygen",
+        _keygen,
+        summary="make a key that firmware is signed with",
+        description="Makes an Ed25519 key, writes it to a file that only you can read, and prints its public half,\n"
+        "which the boot loader is built with.",
+        epilog=_KEY_EXAMPLES,
+    )
+    keygen.add_argument("key", type=Path, metavar="PEM", help="file to write; it must not be there yet")
+
+
+def _nodes(text: str) -> list[int]:
+    first, _, last = text.partition("-")
+    try:
+        nodes = list(range(int(first), int(last or first) + 1))
+    except ValueError:
+        nodes = []
+    if not nodes or nodes[0] < 1 or nodes[-1] > _LAST_NODE:
+        raise argparse.ArgumentTypeError(f"{text!r} is no node 1..{_LAST_NODE}, and no range of them such as 1-4")
+    return nodes
+
+
+def _keygen(arguments: argparse.Namespace) -> int:
+    from host_sim.update.keys import make_key, public_bytes
+
+    print(f"key: {arguments.key}; keep it")
+    print(f"for the boot loader: -DOCTET_SIGNER={public_bytes(make_key(arguments.key)).hex()}")
+    return 0
+
+
+def _update(arguments: argparse.Namespace) -> int:
+    from host_sim.base.errors import UsageError
+    from host_sim.update.keys import development_key, load_key
+
+    if arguments.bus is None and arguments.save is None:
+        raise UsageError("where to? --bus names the bus, --save a file")
+    key = load_key(arguments.key) if arguments.key else development_key()
+    images = _images(arguments, key)
+    if arguments.key is None:
+        print("octet: signed with the development key, which everybody has", file=sys.stderr)
+    if arguments.save is not None:
+        _save(arguments.save, images)
+    if arguments.bus is not None:
+        _update_all(arguments, images, key)
+    return 0
+
+
+def _images(arguments: argparse.Namespace, key: "Ed25519PrivateKey") -> "dict[int, SlotImage]":
+    from host_sim.update.image import LAYOUTS, built_images, read_file, version_now
+
+    if arguments.image not in LAYOUTS:
+        return read_file(Path(arguments.image))
+    version = version_now() if arguments.version is None else arguments.version
+    return {image.slot: image for image in built_images(arguments.image, "bxcan", version, key)}
+
+
+def _save(path: Path, images: "dict[int, SlotImage]") -> None:
+    from host_sim.base.errors import UsageError
+
+    try:
+        path.write_bytes(b"".join(image.data for image in images.values()))
+    except OSError as error:
+        raise UsageError(f"cannot write {path}: {error.strerror}") from error
+    print(f"saved: {path}, version {images[0].version}, for {images[0].board}")
+
+
+def _update_all(arguments: argparse.Namespace, images: "dict[int, SlotImage]", key: "Ed25519PrivateKey") -> None:
+    from host_sim.transport.buses import open_bus_link
+    from host_sim.transport.line_stats import LineStats
+    from host_sim.update.isotp_connection import ANSWER_ID
+    from host_sim.update.updater import Updater
+
+    ids = [ANSWER_ID + node for node in arguments.node]
+    link = open_bus_link(arguments.bus, ids, LineStats(), arguments.bitrate)
+    try:
+        for node in arguments.node:
+            _update_one(Updater(link, node, key), images, allow_older=arguments.allow_older)
+    finally:
+        link.close()
+
+
+def _update_one(tester: "Updater", images: "dict[int, SlotImage]", *, allow_older: bool) -> None:
+    from rich.console import Console
+    from rich.progress import Progress
+
+    from host_sim.update.keys import is_development
+    from host_sim.update.updater import check_images
+
+    tester.enter()
+    check_images(images, tester.board())
+    before = tester.status()
+    image = images[before.free]
+    print(
+        f"node {tester.node}: version {before.versions[before.slot]} in slot {'AB'[before.slot]} stays; "
+        f"version {image.version} goes to slot {'AB'[image.slot]}",
+        flush=True,
+    )
+    if is_development(before.signer):
+        print(
+            f"octet: node {tester.node} takes what is signed with the development key: anybody can update it",
+            file=sys.stderr,
+        )
+    tester.unlock()
+    if allow_older:
+        tester.lower_floor(min(before.floor, image.version))
+    with Progress(console=Console(stderr=True), transient=True) as progress:
+        bar = progress.add_task(f"node {tester.node}", total=len(image.data))
+        tester.install(image, lambda count: progress.update(bar, completed=count))
+    tester.restart()
+    version = tester.confirmed(image.version)
+    print(f"node {tester.node}: version {version} runs")

@@ -1,0 +1,1 @@
+"""Firmware updates over CAN, as docs/update.md has them."""

@@ -1,0 +1,89 @@
+"""ISO-TP over a link, for udsoncan, without threads: the time of an emulated board passes as it is waited for."""
+
+import logging
+import time
+
+from host_sim.base.errors import OctetError
+from host_sim.base.frame import Frame
+from host_sim.transport.link import Link
+
+try:
+    import isotp
+    from udsoncan.connections import BaseConnection
+    from udsoncan.exceptions import TimeoutException
+except ImportError as error:
+    raise OctetError("udsoncan or can-isotp is not installed: run tools/setup images") from error
+
+REQUEST_ID, ANSWER_ID = 0x6E0, 0x060
+"""And the node: hal/boot/server.h has them."""
+
+_SLICE_S = 0.002
+_PARAMS = {
+    "tx_padding": 0xCC,
+    "stmin": 0,
+    "blocksize": 0,
+    "rx_flowcontrol_timeout": 300,
+    "rx_consecutive_frame_timeout": 300,
+}
+
+
+class IsoTpConnection(BaseConnection):
+    """A connection to the boot loader of one node, or to an image that one started."""
+
+    def __init__(self, link: Link, node: int) -> None:
+        """Over an open link, which the caller closes.
+
+        Args:
+            link: Carries frames to the node and back.
+            node: Its number.
+        """
+        super().__init__(f"node {node}")
+        self.logger.setLevel(logging.CRITICAL)  # what fails is said by who asks
+        logging.getLogger(isotp.TransportLayerLogic.LOGGER_NAME).setLevel(logging.CRITICAL)
+        self._link = link
+        self._answer_id = ANSWER_ID + node
+        address = isotp.Address(isotp.AddressingMode.Normal_11bits, txid=REQUEST_ID + node, rxid=self._answer_id)
+        self._layer = isotp.TransportLayerLogic(self._receive, self._send, address, lambda _error: None, _PARAMS)
+
+    def open(self) -> "IsoTpConnection":
+        """As in udsoncan."""
+        return self
+
+    def close(self) -> None:
+        """As in udsoncan."""
+
+    def is_open(self) -> bool:
+        """As in udsoncan."""
+        return True
+
+    def empty_rxqueue(self) -> None:
+        """As in udsoncan: what was answered to an earlier request counts no more."""
+        self._layer.process(0.0)
+        self._layer.clear_rx_queue()
+        self._layer.stop_receiving()
+
+    def specific_send(self, payload: bytes, timeout: float | None = None) -> None:  # noqa: ARG002 - udsoncan's
+        """As in udsoncan; what is still on its way is given up."""
+        self._layer.stop_sending()
+        self._layer.clear_tx_queue()
+        self._layer.send(payload)
+
+    def specific_wait_frame(self, timeout: float | None = None) -> bytes | None:
+        """As in udsoncan."""
+        deadline = time.monotonic() + (timeout or 0.0)
+        while True:
+            self._layer.process(_SLICE_S)
+            answer = self._layer.recv()
+            if answer is not None:
+                return bytes(answer)
+            if time.monotonic() > deadline:
+                raise TimeoutException(f"no answer within {timeout} s")  # type: ignore[no-untyped-call]
+
+    def _send(self, message: "isotp.CanMessage") -> None:
+        self._link.send(Frame(message.arbitration_id, bytes(message.data)))
+
+    def _receive(self, timeout_s: float) -> "isotp.CanMessage | None":
+        frame = self._link.receive(timeout_s)
+        if frame is None or frame.id != self._answer_id:
+            return None
+        return isotp.CanMessage(arbitration_id=frame.id, data=frame.data)

@@ -1,0 +1,148 @@
+"""Updates on an emulated board: the boot loader and the images that are flashed, and the tester that people use."""
+
+import pytest
+from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
+
+from host_sim.emulator.flash import BASE
+from host_sim.protocol.codec import Protocol
+from host_sim.update.image import built_images
+from host_sim.update.updater import UpdateError, Updater
+from tests.image.support import Talk
+from tests.image.update_rig import BOARD, KEY, LAYOUT, NEW, OLD, board_with, fresh_board, images, put_on, runs_in
+
+LESSON = {"mask": 0b1111, "half": 0, "byte_0": 0, "byte_1": 1, "byte_2": 0, "byte_3": 0}
+STORE = 62 * 1024
+
+
+def learn(board):
+    talk = Talk(board)
+    talk.order("write", **LESSON)
+    talk.wait(0.2)
+    return talk
+
+
+def written(board):
+    """Writes and erases of the flash so far, and a copy of it."""
+    flash = board.hardware.flash
+    return flash.operations, bytes(flash.memory)
+
+
+def test_a_robot_starts_through_its_boot_loader():
+    board = fresh_board()
+
+    assert runs_in(board) == 0
+    assert board.resets == []
+    assert board.hardware.faults == []
+
+
+def test_a_start_takes_less_than_30_ms():
+    board = fresh_board()
+    core = board.hardware.core
+    board.cut_power()
+    began = board.now()
+    while runs_in(board) is None:
+        board.pass_time(0.0005)
+
+    assert core.vectors == BASE + LAYOUT.slots[0] + 256
+    assert board.now() - began < 0.030
+
+
+def test_after_an_update_the_new_image_runs_with_the_memory():
+    board = fresh_board()
+    learn(board)
+    before = board.now()
+    tester = put_on(board, NEW)
+    took_s = board.now() - before
+    tester.restart()
+
+    assert tester.running() == (NEW, True)
+    assert runs_in(board) == 1
+    assert took_s < 3.0
+    board.pass_time(6.0)
+    assert tester.running() == (NEW, False)
+    talk = Talk(board, protocol=Protocol())
+    talk.order("stop")
+    talk.wait(0.05)
+    assert talk.memory[1] == 1
+
+
+def test_a_robot_that_is_driven_is_not_updated():
+    board = fresh_board()
+    talk = Talk(board)
+    talk.start()
+    talk.live(5)
+
+    with pytest.raises(UpdateError, match="is being driven"):
+        Updater(board, 1, KEY).enter()
+
+
+def test_another_key_is_refused_before_anything_is_changed():
+    board = fresh_board()
+    tester = Updater(board, 1, Ed25519PrivateKey.generate())
+    tester.enter()
+    before = written(board)
+
+    with pytest.raises(UpdateError, match="has another key"):
+        tester.unlock()
+    assert written(board) == before
+
+
+def test_an_image_of_another_signer_is_not_chosen():
+    board = fresh_board()
+    tester = Updater(board, 1, KEY)
+    tester.enter()
+    tester.unlock()
+    foreign = built_images(BOARD, "bxcan", NEW, Ed25519PrivateKey.generate())[1]
+
+    with pytest.raises(UpdateError, match="not signed by the key of this board"):
+        tester.install(foreign, lambda _count: None)
+    tester.restart()
+    assert tester.running() == (OLD, False)
+
+
+def test_an_older_image_is_refused_before_anything_is_erased():
+    board = fresh_board()
+    tester = Updater(board, 1, KEY)
+    tester.enter()
+    tester.unlock()
+    before = written(board)
+
+    with pytest.raises(UpdateError, match="older than the board takes"):
+        tester.install(images(OLD - 1)[1], lambda _count: None)
+    assert written(board) == before
+    tester.lower_floor(OLD - 1)
+    tester.install(images(OLD - 1)[1], lambda _count: None)
+
+
+def test_a_new_image_that_is_never_confirmed_goes_back():
+    board = fresh_board()
+    put_on(board, NEW).restart()
+    slots = []
+    for _ in range(5):
+        board.pass_time(0.3)
+        slots.append(runs_in(board))
+        board.cut_power()
+
+    assert slots == [1, 1, 1, 0, 0]
+
+
+def test_an_update_that_was_cut_goes_on_where_it_was():
+    board = fresh_board()
+    flash = board.hardware.flash
+    flash.cuts.add(flash.operations + 30 + 6000)
+    put_on(board, NEW)
+
+    assert board.resets == ["software", "power", "software"]
+    assert flash.erasures < 2 * 20
+    assert bytes(flash.memory[LAYOUT.slots[1] :][: len(images(NEW)[1].data)]) == images(NEW)[1].data
+
+
+def test_a_chip_whose_image_is_not_signed_stays_in_the_boot_loader():
+    data = bytearray(images(OLD)[0].data)
+    data[-1] ^= 1
+    board = board_with((LAYOUT.slots[0], bytes(data)))
+
+    assert runs_in(board) is None
+    tester = put_on(board, NEW)
+    tester.restart()
+    assert tester.running() == (NEW, True)

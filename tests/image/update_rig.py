@@ -1,0 +1,68 @@
+"""What the tests of updates share: a board that starts through its boot loader, and images for it."""
+
+from functools import cache
+from random import Random
+
+from host_sim.base.frame import Frame
+from host_sim.base.paths import BUILD
+from host_sim.emulator.board import EmulatedBoard, Slots
+from host_sim.emulator.chips import CHIPS
+from host_sim.emulator.hardware import Faults
+from host_sim.update.image import LAYOUTS, SlotImage, built_images
+from host_sim.update.keys import development_key
+from host_sim.update.updater import Updater
+
+BOARD = "blue_pill"
+LAYOUT = LAYOUTS[BOARD]
+OLD, NEW = 1000, 1001
+KEY = development_key()
+
+
+@cache
+def images(version: int) -> list[SlotImage]:
+    return built_images(BOARD, "bxcan", version, KEY)
+
+
+def board_with(*parts: tuple[int, bytes], faults: Faults | None = None) -> EmulatedBoard:
+    """A board with a boot loader, and these bytes at these offsets of its flash."""
+    boot = BUILD / BOARD / f"octet-{BOARD}-bxcan-boot.elf"
+    span = (LAYOUT.slots[0], LAYOUT.slots[1] + LAYOUT.slot_bytes)
+    return EmulatedBoard(CHIPS[BOARD], boot, faults, slots=Slots(span, parts))
+
+
+def fresh_board(faults: Faults | None = None) -> EmulatedBoard:
+    """As a probe leaves it: the old image in slot A."""
+    return board_with((LAYOUT.slots[0], images(OLD)[0].data), faults=faults)
+
+
+def runs_in(board: EmulatedBoard) -> int | None:
+    """The slot of the image that runs; None for the boot loader."""
+    at = board.hardware.core.vectors - 0x08000000
+    return next((slot for slot in (1, 0) if at >= LAYOUT.slots[slot]), None)
+
+
+def put_on(board: EmulatedBoard, version: int) -> Updater:
+    """Enters the boot loader and installs a version; the boot loader still runs."""
+    tester = Updater(board, 1, KEY)
+    tester.enter()
+    tester.unlock()
+    tester.install(images(version)[tester.status().free], lambda _count: None)
+    return tester
+
+
+class LossyLink:
+    """Loses frames, both ways."""
+
+    def __init__(self, board: EmulatedBoard, share: float, seed: int) -> None:
+        self._board, self._share, self._random = board, share, Random(seed)
+
+    def send(self, frame: Frame) -> None:
+        if self._random.random() >= self._share:
+            self._board.send(frame)
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        frame = self._board.receive(timeout_s)
+        return None if self._random.random() < self._share else frame
+
+    def close(self) -> None:
+        self._board.close()
