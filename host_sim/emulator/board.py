@@ -175,13 +175,17 @@ class EmulatedBoard:
         self.hardware.core.stop()
 
 
-def start_board(name: str, faults: Faults | None = None, link: str = "bxcan") -> EmulatedBoard:
+def start_board(
+    name: str, faults: Faults | None = None, link: str = "bxcan", *, boot: bool = False, version: int = 1
+) -> EmulatedBoard:
     """A board with the image that the build leaves for it, up and running.
 
     Args:
         name: `feather_stm32f405` or `blue_pill`.
         faults: How its hardware misbehaves.
         link: `bxcan` or `slcan`: which of its images.
+        boot: Whether it starts through a boot loader, with an image in its first slot.
+        version: Of that image.
 
     Raises:
         UsageError: No board has that name.
@@ -190,4 +194,13 @@ def start_board(name: str, faults: Faults | None = None, link: str = "bxcan") ->
     """
     if name not in CHIPS:
         raise UsageError(f"no board {name!r}; there are {', '.join(CHIPS)}")
-    return EmulatedBoard(CHIPS[name], image_path(name, link), faults, serial=link == "slcan")
+    serial = link == "slcan"
+    if not boot:
+        return EmulatedBoard(CHIPS[name], image_path(name, link), faults, serial=serial)
+    from host_sim.update.image import LAYOUTS, built_images  # noqa: PLC0415 - only updates need the packages
+    from host_sim.update.keys import development_key  # noqa: PLC0415 - as above
+
+    image = built_images(name, link, version, development_key())[0]
+    first, second = LAYOUTS[name].slots
+    slots = Slots((first, second + LAYOUTS[name].slot_bytes), [(first, image.data)])
+    return EmulatedBoard(CHIPS[name], image_path(name, f"{link}-boot"), faults, serial=serial, slots=slots)

@@ -5,7 +5,7 @@ from random import Random
 
 from host_sim.base.frame import Frame
 from host_sim.base.paths import BUILD
-from host_sim.emulator.board import EmulatedBoard, Slots
+from host_sim.emulator.board import EmulatedBoard, Slots, start_board
 from host_sim.emulator.chips import CHIPS
 from host_sim.emulator.hardware import Faults
 from host_sim.update.image import LAYOUTS, SlotImage, built_images
@@ -32,7 +32,7 @@ def board_with(*parts: tuple[int, bytes], faults: Faults | None = None) -> Emula
 
 def fresh_board(faults: Faults | None = None) -> EmulatedBoard:
     """As a probe leaves it: the old image in slot A."""
-    return board_with((LAYOUT.slots[0], images(OLD)[0].data), faults=faults)
+    return start_board(BOARD, faults, boot=True, version=OLD)
 
 
 def runs_in(board: EmulatedBoard) -> int | None:

@@ -39,6 +39,7 @@ def add(commands: "Subparsers") -> None:
         "Says what runs afterwards. It needs a boot loader on the board, and a robot that is not being driven.\n"
         "An update that was interrupted goes on where it was.",
         epilog=_EXAMPLES,
+        stages=lambda _: ["images"],
     )
     add_ = parser.add_argument
     add_(
@@ -71,6 +72,7 @@ def add(commands: "Subparsers") -> None:
         description="Makes an Ed25519 key, writes it to a file that only you can read, and prints its public half,\n"
         "which the boot loader is built with.",
         epilog=_KEY_EXAMPLES,
+        stages=lambda _: ["images"],
     )
     keygen.add_argument("key", type=Path, metavar="PEM", help="file to write; it must not be there yet")
 
@@ -89,8 +91,9 @@ def _nodes(text: str) -> list[int]:
 def _keygen(arguments: argparse.Namespace) -> int:
     from host_sim.update.keys import make_key, public_bytes
 
+    key = make_key(arguments.key)
     print(f"key: {arguments.key}; keep it")
-    print(f"for the boot loader: -DOCTET_SIGNER={public_bytes(make_key(arguments.key)).hex()}")
+    print(f"for the boot loader: -DOCTET_SIGNER={public_bytes(key).hex()}")
     return 0
 
 
@@ -103,7 +106,7 @@ def _update(arguments: argparse.Namespace) -> int:
     key = load_key(arguments.key) if arguments.key else development_key()
     images = _images(arguments, key)
     if arguments.key is None:
-        print("octet: signed with the development key, which everybody has", file=sys.stderr)
+        print("octet: using the development key, which everybody has", file=sys.stderr)
     if arguments.save is not None:
         _save(arguments.save, images)
     if arguments.bus is not None:
