@@ -6,7 +6,7 @@
 
 #include "boot_flash.h"
 
-enum { PROGRAM = 320, SIGNED_BYTES = IMAGE_VECTORS + PROGRAM + IMAGE_SIGNATURE };
+enum { PROGRAM_BYTES = 320, SIGNED_BYTES = IMAGE_VECTORS + PROGRAM_BYTES + IMAGE_SIGNATURE };
 
 struct signed_image {
     uint8_t bytes[SIGNED_BYTES];
