@@ -129,22 +129,17 @@ class _Comparison:
                 self._memory = self._replayed.join(decoded) or self._memory
 
     def _compare_drive(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
+        reason = decoded.signals["reason"]
+        if reason == Reason.SILENCE and not self._lockstep:
+            return None  # on its own clock, a robot that received nothing says so; here it receives everything
         answer = self._pending.pop(decoded.signals["tick"], None)
-        if answer is None and self._needs_no_senses(decoded.signals["reason"]):
-            return None
+        if answer is None and reason == Reason.STOP:
+            return None  # a stopped robot rests, and a stop is sent again until all its reports have come
         if answer is None and frame == self._drive:
             return None
         self._drive = frame
         self.drives += answer == frame
         return None if answer == frame else Difference(self._time_us, frame, answer)
-
-    def _needs_no_senses(self, reason: int) -> bool:
-        """Whether a robot sends such a drive by itself.
-
-        A stopped robot rests, and a stop is sent again until all its reports have come. On its own clock,
-        one that received nothing says so; here it receives everything.
-        """
-        return reason == Reason.STOP or (reason == Reason.SILENCE and not self._lockstep)
 
     def _compare_memory(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
         recorded = self._recorded.join(decoded)

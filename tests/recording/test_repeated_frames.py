@@ -1,10 +1,14 @@
 """On a bus that loses frames, what was lost is sent again; a log of such a bus tells the same run."""
 
+from host_sim.client.commands import stop
+from host_sim.client.frame_log import FrameLog
 from host_sim.protocol.codec import Protocol
-from host_sim.protocol.generated import Opcode
+from host_sim.protocol.generated import MESSAGES, Opcode, Reason
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.recording import read_recording
 from host_sim.recording.replay import replay
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
 
 
 def with_repeats(log) -> None:
@@ -53,3 +57,22 @@ def test_a_report_that_is_asked_for_in_the_middle_of_a_tick_is_no_difference(sho
     short.log.write_text("".join(lines))
 
     assert replay(read_log(short.log), protocol).difference is None
+
+
+def test_a_robot_that_says_in_real_time_that_it_heard_nothing_makes_no_difference(tmp_path):
+    """It says so with the last tick, whose SENSES may have come by then, and are yet to be answered."""
+    protocol, log = Protocol(), FrameLog(tmp_path / "run.log")
+    with make(RunConfig(environments=1, limit_s=0.4, real_time=True, late_max=100.0), log) as simulation:
+        [*simulation.run()]
+        stop(simulation.clients[0])
+    log.close()
+    lines = (tmp_path / "run.log").read_text().splitlines(keepends=True)
+    senses = next(i for i, line in enumerate(lines) if f" {protocol.id_of('SENSES'):03X}#" in line)
+    nothing = dict.fromkeys((signal.name for signal in MESSAGES["DRIVE"].signals), 0)
+    silence = protocol.encode("DRIVE", {**nothing, "reason": Reason.SILENCE})
+    lines.insert(senses + 1, f"{lines[senses].rsplit(maxsplit=1)[0]} {silence.id:03X}#{silence.data.hex().upper()}\n")
+    (tmp_path / "run.log").write_text("".join(lines))
+
+    outcome = replay(read_log(tmp_path / "run.log"), protocol)
+
+    assert (outcome.drives, outcome.difference) == (20, None)
