@@ -3,16 +3,9 @@
 
 #include "host_sim/program/native/programmed.h"
 
-int robot_main(int argc, char *argv[]);   /* firmware/main.c, which calls the other */
-void program_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
+int robot_main(int argc, char *argv[]);   /* firmware/main.c */
 
 static struct program program;   /* main of the firmware hands nothing on: there is one robot to a process */
-
-struct program *programmed_program(struct brain *brain)
-{
-    (void)brain;
-    return &program;
-}
 
 static void tell(const char *what)
 {
@@ -41,13 +34,16 @@ static int load(const char *path)
     return -1;
 }
 
-void program_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out)
+/* With each decision, whether it has stopped with the one before. */
+struct program *programmed_program(struct brain *brain)
 {
-    uint8_t before = program.state;
+    static uint8_t known = PROGRAM_RUNS;
 
-    programmed_robot_respond(robot, kind, in, out);
-    if (program.state != before && program.state != PROGRAM_RUNS)
+    (void)brain;
+    if (program.state != known && program.state != PROGRAM_RUNS)
         tell("the program");
+    known = program.state;
+    return &program;
 }
 
 int main(int argc, char *argv[])

@@ -6,7 +6,6 @@
 
 int program_main(int argc, char *argv[]);
 int robot_main(int argc, char *argv[]);
-void program_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
 
 static char node[] = "--node", one[] = "1", name[] = "octet-program", path[] = "program.bas.tmp";
 static int calls;
@@ -22,8 +21,8 @@ int robot_main(int argc, char *argv[])
     TEST_ASSERT_EQUAL(3, argc);
     TEST_ASSERT_EQUAL_STRING("--node", argv[1]);
     robot_init(&robot, 1);
-    program_respond(&robot, INPUT_COMMAND, &in, &out);
-    program_respond(&robot, INPUT_SENSES, &in, &out);
+    programmed_robot_respond(&robot, INPUT_COMMAND, &in, &out);
+    programmed_robot_respond(&robot, INPUT_SENSES, &in, &out);
     return out.drive.reason;
 }
 
