@@ -21,6 +21,18 @@ def test_the_good_memory_is_as_it_was(run, tmp_path):
 
 
 @pytest.mark.faulty
+def test_a_run_that_somebody_ended_is_doubtful_too(run, tmp_path):
+    memory = tmp_path / "robot.mem"
+    memory.write_bytes(GOOD)
+
+    done = run(*LONG, "--fault", "forge:stop@500/to", "--memory", memory)
+
+    assert "somebody else stopped node 1" in done.errors
+    assert memory.read_bytes() == GOOD
+    assert "somebody else stopped node 1" in str(done.summary["incidents"])
+
+
+@pytest.mark.faulty
 def test_where_there_was_none_there_is_none(run, tmp_path):
     memory = tmp_path / "robot.mem"
 
