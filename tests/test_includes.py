@@ -21,15 +21,17 @@ MAY_INCLUDE = {
     "hal/port/": ("firmware/io.h", "hal/hal.h", "hal/can_body/port.h", "hal/protocol/health.h"),
     "hal/port/cortex_m/": ("hal/hal.h", "hal/can_body/port.h", "hal/flash_store/", "hal/protocol/health.h"),
     "hal/boot/": ("hal/hal.h", "hal/flash_store/", "hal/link/link.h", "hal/port/cortex_m/"),
-    "hal/stm32/": ("hal/boot/", "hal/can_body/port.h", "hal/flash_store/", "hal/link/", "hal/port/"),
+    "hal/stm32/": (
+        "hal/boot/", "hal/can_body/port.h", "hal/flash_store/", "hal/link/", "hal/pins_body/", "hal/port/",
+    ),  # fmt: skip
     "hal/library/": ("firmware/", "hal/protocol/"),
-    "hal/pins_body/": (),
-    "host_sim/world/native/": ("firmware/io.h", "hal/boot/sha512.h", "hal/pins_body/wheel.h"),
+    "hal/pins_body/": ("firmware/io.h", "hal/hal.h", "hal/can_body/port.h", "hal/protocol/"),
+    "host_sim/world/native/": ("firmware/io.h", "hal/boot/sha512.h", "hal/pins_body/"),
     "host_sim/program/native/": ("firmware/", "hal/library/", "host_sim/world/native/trig.h"),
     "host_sim/sim/native/": ("firmware/", "hal/link/link.h", "hal/protocol/e2e.h", "host_sim/world/native/"),
 }
 FOLDERS = ("firmware", "hal", "host_sim/world/native", "host_sim/program/native", "host_sim/sim/native")
-GENERATED = ("octet.h", "build_id.h", "robot_words.h")
+GENERATED = ("octet.h", "board_pins.h", "build_id.h", "robot_words.h")
 
 
 def includes(root: Path) -> list[tuple[str, str]]:

@@ -61,6 +61,9 @@ size_t wire_write(struct wire *wire, const struct output *out, struct frame fram
         /* Returns how many frames the marked parts make, 0..WIRE_FRAMES_MAX; the drive is last. A report is spread over this
            output and those after it, one part each, unless it is marked whole; a new memory goes first. */
 
+void wire_senses(struct wire *wire, const struct senses *senses, struct frame *frame);
+        /* What the robot's own body senses, for those who listen. The drive that is written next answers it. */
+
 void wire_outage(struct wire *wire);
         /* The senses have failed to come: counted if they had been coming. The next tick need not follow the last, and
            the owner has lost the robot. In lockstep only the latter. */

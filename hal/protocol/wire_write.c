@@ -101,6 +101,28 @@ static void write_result(struct wire *wire, const struct output *out, struct fra
     }
 }
 
+void wire_senses(struct wire *wire, const struct senses *senses, struct frame *frame)
+{
+    struct session *session = &wire->session;
+    struct octet_senses_t packed = {
+        .counter = (uint8_t)((session->counter + 1) % E2E_COUNTERS),
+        .tick = senses->tick,
+        .feel = senses->feel,
+        .bump = senses->bump,
+        .look = senses->look,
+        .beacon = senses->beacon_mm,
+        .odometer_left = senses->odometer_left,
+        .odometer_right = senses->odometer_right,
+    };
+
+    session->counter = packed.counter;
+    session->tick = packed.tick;
+    session->knows_tick = session->hears = true;
+    *frame = (struct frame){.id = wire_id(wire, OCTET_SENSES_FRAME_ID), .len = OCTET_SENSES_LENGTH};
+    (void)octet_senses_pack(frame->data, &packed, sizeof frame->data);
+    e2e_protect(frame);
+}
+
 size_t wire_write(struct wire *wire, const struct output *out, struct frame frames[WIRE_FRAMES_MAX])
 {
     struct frames written = {.first = frames};

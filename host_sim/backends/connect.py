@@ -27,6 +27,8 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
     node: int,
     board: str = "",
     lines: BusLines | None = None,
+    *,
+    pins: bool = False,
 ) -> Connection:
     """Opens a bus and, unless the robot is external, starts a robot on it.
 
@@ -39,6 +41,7 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
         node: Node number of the robot, 1..31.
         board: One of `BOARDS`, for an emulated robot; empty for the first.
         lines: The lines to all robots of this run on that bus; by default, this one is alone.
+        pins: Whether an emulated robot senses and drives by itself, through its pins.
 
     Raises:
         UsageError: The options contradict each other, or the bus cannot be opened.
@@ -49,7 +52,7 @@ def connect(  # noqa: PLR0913, PLR0917 - the options of the command line
     if robot == "qemu":
         return _in_qemu(stack)
     if robot == "emulated":
-        return _on_emulated_board(stack, board or BOARDS[0])
+        return (_on_pins if pins else _on_emulated_board)(stack, board or BOARDS[0])
     lines = lines or BusLines(bus, [node])
     if lines.command:
         return _of_ones_own(stack, lines, node)
@@ -78,6 +81,15 @@ def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
     board = start_board(name)
     stack.callback(board.close)
     return Connection(board, f"emulated {name}", board.status, deadline_s=_EMULATED_S)
+
+
+def _on_pins(stack: ExitStack, name: str) -> Connection:
+    from host_sim.emulator.pins_board import start_robot  # noqa: PLC0415 - see above
+
+    board = start_robot(name)
+    stack.callback(board.close)
+    bus = f"emulated {name} on its pins"
+    return Connection(board, bus, board.status, deadline_s=_EMULATED_S, sense=board.sense)
 
 
 def _of_ones_own(stack: ExitStack, lines: BusLines, node: int) -> Connection:

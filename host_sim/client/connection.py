@@ -4,8 +4,10 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from host_sim.protocol.generated import Senses
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.link import Link
+from host_sim.world.body import Body
 
 DEADLINE_S = 5.0
 """Time for a robot to answer before it is given up, s of wall-clock time."""
@@ -24,6 +26,8 @@ class Connection:
         deadline_s: Time for the robot to answer before it is given up, s of wall-clock time.
         answers_at_once: Whether the robot answers within `send`, or not at all.
         now: Tells the time in which the link waits, s.
+        sense: What a robot that senses by itself makes of its body, of what the world says that it senses, and of
+            the number of the tick; None for all others.
     """
 
     link: Link
@@ -34,3 +38,4 @@ class Connection:
     deadline_s: float = DEADLINE_S
     answers_at_once: bool = False
     now: Callable[[], float] = time.monotonic
+    sense: Callable[[Body, Senses, int], Senses] | None = None

@@ -90,7 +90,8 @@ class EmulatedBoard:
 
     def put(self, frame: CanFrame) -> None:
         """Another node on the bus wants to send a frame of any kind."""
-        self.hardware.can.put(frame)
+        if self.hardware.on_bus:
+            self.hardware.can.put(frame)
 
     def now(self) -> float:
         """The board's time since power-up, s. By it, a client in lockstep waits as long on a busy host as on any."""
@@ -151,7 +152,7 @@ class EmulatedBoard:
         """Runs until the board says something, at the latest until then."""
         self._deadline = moment
         self._alarm.set(moment)
-        while not self._said and self._clock.now < moment:
+        while not self._has_news() and self._clock.now < moment:
             try:
                 self.hardware.core.run()
             except PowerCut:
@@ -159,6 +160,9 @@ class EmulatedBoard:
             if self._reset_cause is not None:
                 self.restart(self._reset_cause)
             self.hardware.follow_vectors()
+
+    def _has_news(self) -> bool:
+        return bool(self._said)
 
     def _due(self) -> int:
         if self._deadline <= self._clock.now:

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from host_sim.emulator.clock import Clock
 from host_sim.emulator.flash import Factory as FlashFactory
 from host_sim.emulator.flash import FlashF1, FlashF4
+from host_sim.emulator.gpio_f1 import GpioF1
 from host_sim.emulator.rcc import Oscillators, Rcc, RccFaults
 from host_sim.emulator.rcc_f1 import RccF1
 from host_sim.emulator.rcc_f4 import RccF4
-from host_sim.emulator.system import Gpio, gpio_f1, gpio_f4
+from host_sim.emulator.system import Gpio, gpio_f4
 
 Gate = tuple[int, int]
 """What switches a peripheral's clock: the offset of a register of RCC, and the number of a bit in it."""
@@ -39,6 +40,7 @@ class Chip:
         usart_base: Where USART1 lies.
         usart_gate: The gate of USART1's clock.
         afio_gate: The gate of the clock of the alternate functions' registers; None if the chip has none.
+        robot: Whether the board has pins for a robot of its own.
     """
 
     name: str
@@ -51,7 +53,7 @@ class Chip:
     rcc_base: int
     flash: FlashFactory
     flash_base: int
-    gpio: Callable[[str], Gpio]
+    gpio: Callable[[str], Gpio | GpioF1]
     gpio_base: int
     gpio_gates: Sequence[Gate]
     can_banks: int
@@ -60,10 +62,11 @@ class Chip:
     usart_base: int
     usart_gate: Gate
     afio_gate: Gate | None = None
+    robot: bool = False
 
 
 WATCHDOG_BASE, CAN_BASE, POWER_BASE, AFIO_BASE = 0x40003000, 0x40006400, 0x40007000, 0x40010000
-SYSTICK_BASE, SCB_BASE = 0xE000E010, 0xE000ED00
+SYSTICK_BASE, SCB_BASE, NVIC_BASE = 0xE000E010, 0xE000ED00, 0xE000E100
 """Where both chips have the same."""
 
 GPIO_STRIDE = 0x400
@@ -108,7 +111,7 @@ STM32F103 = Chip(
     rcc_base=0x40021000,
     flash=FlashF1,
     flash_base=0x40022000,
-    gpio=gpio_f1,
+    gpio=GpioF1,
     gpio_base=0x40010800,
     gpio_gates=[(0x18, 2 + port) for port in range(5)],
     can_banks=14,
@@ -117,6 +120,7 @@ STM32F103 = Chip(
     usart_base=0x40013800,
     usart_gate=(0x18, 14),
     afio_gate=(0x18, 0),
+    robot=True,
 )
 """Blue Pill."""
 

@@ -139,6 +139,12 @@ class Clock:
             self._library.clock_skip_to(self.model, (ns, fs))
             self.raise_failure()
 
+    def skip_to_event(self) -> None:
+        """Lets time pass until something happens, an hour at most."""
+        self._library.clock_execute(self.model, 0)
+        self._library.clock_skip_to_event(self.model, _HOUR // _NS)
+        self.raise_failure()
+
     def skip(self, span: int) -> None:
         """As `skip_to`, by a span of time."""
         self.skip_to(self.now + span)

@@ -61,6 +61,7 @@ _STACKED = (
 _RETURN_TO_THREAD = 0xFFFFFFF9
 _HARD_FAULT = 3
 _IBUSERR, _PRECISERR, _STKERR, _UNDEFINSTR = 1 << 8, 1 << 9, 1 << 12, 1 << 16
+_WFI = b"\x30\xbf"
 _WIDE_PREFIXES = (0b11101, 0b11110, 0b11111)
 
 _ELF_HEADER, _PROGRAM_HEADER = struct.Struct("<4s5B7x2H5I3H"), struct.Struct("<8I")
@@ -84,8 +85,9 @@ class Fault:
 
 @cache
 def _calls() -> Any:
-    """Those calls of Unicorn that take functions in C, as its header declares them; its Python wraps Python's."""
+    """Those calls of Unicorn that take functions in C, and the one made most, as its header declares them."""
     return c_interface(
+        "int uc_emu_start(void *uc, uint64_t begin, uint64_t until, uint64_t timeout, size_t count);"
         "int uc_emu_stop(void *uc);"
         "int uc_mem_read(void *uc, uint64_t address, void *bytes, uint64_t size);"
         "int uc_hook_add("
@@ -110,6 +112,7 @@ class Core:
     Attributes:
         on_fault: Called when the image faults; then its hard fault handler runs.
         vectors: Address of the vector table in force.
+        wakes: Whether something ends the sleep that it began with WFI.
     """
 
     def __init__(self, clock: Clock, vectors: int) -> None:
@@ -120,11 +123,13 @@ class Core:
             vectors: Address of the vector table after a reset.
         """
         self.on_fault: Callable[[Fault], None] = _disregard
+        self.wakes: Callable[[], bool] = lambda: True
         self._clock, self._begin = clock, vectors
         self.vectors = vectors
         self._in_fault = False
         self._unreachable: int | None = None
         self._pc = 0
+        self._asleep = False
         unicorn = cast("Any", Uc)  # half of its methods lack types
         self._uc = unicorn(UC_ARCH_ARM, UC_MODE_THUMB | UC_MODE_MCLASS)
         self._uc.ctl_set_tcg_buffer_size(_TRANSLATED_MAX)
@@ -171,8 +176,13 @@ class Core:
         """As after a loss of power."""
         self._uc.mem_write(base, bytes(size))
 
+    def write(self, address: int, data: bytes) -> None:
+        """Something else than the core writes to a memory."""
+        self._uc.mem_write(address, data)
+
     def reset(self) -> None:
         """Begins where the vector table says."""
+        self._asleep = False
         self._in_fault = False
         self.vectors = self._begin
         self._uc.reg_write(UC_ARM_REG_SP, self._word(self.vectors))
@@ -198,14 +208,24 @@ class Core:
         """
         self._blocks.stopping = False
         while not self._blocks.stopping:
+            if self._asleep:
+                self._sleep()
+                continue
             try:
-                self._uc.emu_start(self._pc | _THUMB, 0)
+                _check(self._library.uc_emu_start(self._engine, self._pc | _THUMB, 0, 0, 0))
             except UcError as error:
                 self._pc = self._uc.reg_read(UC_ARM_REG_PC)
                 self._enter_fault(error)
                 continue
             self._pc = self._uc.reg_read(UC_ARM_REG_PC)
             self._clock.raise_failure()
+            self._asleep = self._uc.mem_read(self._pc - len(_WFI), len(_WFI)) == _WFI
+
+    def _sleep(self) -> None:
+        """Skips to what is next due, until something wakes it."""
+        self._asleep = not self.wakes()
+        if self._asleep:
+            self._clock.skip_to_event()
 
     def _hook_blocks(self) -> Any:
         """Has the models count what is executed. A call of Python for each block would take most of the time."""

@@ -2,12 +2,15 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import cast
 
+from host_sim.emulator.board_pins import read_pins
 from host_sim.emulator.can import BxCan, CanFaults, CanFrame
 from host_sim.emulator.chips import (
     AFIO_BASE,
     CAN_BASE,
     GPIO_STRIDE,
+    NVIC_BASE,
     POWER_BASE,
     SCB_BASE,
     SYSTICK_BASE,
@@ -15,14 +18,22 @@ from host_sim.emulator.chips import (
     Chip,
 )
 from host_sim.emulator.clock import Clock
+from host_sim.emulator.converter import Converter, Dma
 from host_sim.emulator.core import PAGE, Core, Fault
 from host_sim.emulator.flash import BASE as FLASH
 from host_sim.emulator.flash import FlashFaults
+from host_sim.emulator.gpio_f1 import GpioF1, Wiring
+from host_sim.emulator.interrupts import Interrupts
 from host_sim.emulator.rcc import RccFaults
-from host_sim.emulator.registers import AddressSpace, Peripheral, Register, Window
+from host_sim.emulator.rcc_f1 import RccF1
+from host_sim.emulator.registers import AddressSpace, KeptPeripheral, Peripheral, Register, Window
+from host_sim.emulator.robot_on_pins import RobotOnPins
 from host_sim.emulator.serial import SlcanLine, Usart
 from host_sim.emulator.system import PowerControl, SystemControl, SysTick, Watchdog
+from host_sim.emulator.timers import MotorTimer, Timer
 
+_COUNTERS = {"TIM2": 0x40000000, "TIM3": 0x40000400, "TIM4": 0x40000800}
+_TIM1_BASE, _ADC_BASE, _DMA_BASE, _TIM1_UP = 0x40012C00, 0x40012400, 0x40020000, 25
 _WINDOWS = ((0x40000000, 0x80000), (0xE000E000, PAGE))
 """(base, bytes) of where registers can be."""
 
@@ -58,6 +69,8 @@ class Hardware:
         watchdog: The independent watchdog.
         space: All registers by address.
         faults: What the image did that the core cannot do.
+        interrupts: What wakes the core.
+        robot: What is wired to the pins of a robot of its own; None where the board has none.
     """
 
     def __init__(
@@ -75,7 +88,7 @@ class Hardware:
             heard: Takes the frames that the board sends, on the bus and on the serial line.
             restart: Told the cause when something in the chip asks for a reset.
         """
-        self.chip = chip
+        self.chip, self._heard = chip, heard
         self.faults: list[Fault] = []
         self._slots = (0, 0)
         self._in_slot = False
@@ -86,15 +99,25 @@ class Hardware:
         self.pins = [chip.gpio(f"GPIO{letter}") for letter in "ABCDEFGHI"[: len(chip.gpio_gates)]]
         self.rcc = chip.rcc(self.clock, chip.oscillators, self.flash.core_hz_max, faults.rcc)
         self.flash.on_wait_states = self.rcc.check_speeds
-        self.can = BxCan(self.clock, self.rcc.apb1_hz, chip.can_banks, faults.can, heard)
+        self.can = BxCan(self.clock, self.rcc.apb1_hz, chip.can_banks, faults.can, self._hear)
         self.usart = Usart(self.clock, self.rcc.apb2_hz, SlcanLine(heard).take)
         self.space = AddressSpace(self.clock)
         self.power = PowerControl()
         self._systick = SysTick(self.clock)
         self._scb = SystemControl(chip.cpuid, lambda: restart("software"), self._move_vectors)
         self.watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))
+        self.interrupts = Interrupts()
+        self.core.wakes = lambda: self.interrupts.wakes
+        self.robot: RobotOnPins | None = None
         self._peripherals = self._always_clocked() + self._gated()
+        if chip.robot:
+            self._peripherals += self._for_robot()
         self._map()
+
+    @property
+    def on_bus(self) -> bool:
+        """Whether the CAN controller is at the pins that lead to the bus. Where that is not modelled, it is."""
+        return self.robot is None or all(map(self.robot.wiring.meets, ("CAN_RX", "CAN_TX")))
 
     def flash_image(self, segments: list[tuple[int, bytes]], slots: tuple[int, int] = (0, 0)) -> None:
         """Writes an image, as a probe does, and resets the core.
@@ -169,6 +192,7 @@ class Hardware:
             (WATCHDOG_BASE, self.watchdog),
             (SYSTICK_BASE, self._systick),
             (SCB_BASE, self._scb),
+            (NVIC_BASE, self.interrupts),
         ]
 
     def _gated(self) -> list[tuple[int, Peripheral]]:
@@ -187,10 +211,29 @@ class Hardware:
             self.rcc.add_gate(*gate, peripheral)
         return gated
 
+    def _for_robot(self) -> list[tuple[int, Peripheral]]:
+        """What a robot of its own needs of the chip, and its wiring."""
+        rcc = cast("RccF1", self.rcc)
+        motors = MotorTimer(self.clock, rcc.apb2_hz, lambda: self.interrupts.pend(_TIM1_UP))
+        dma, timers = Dma(), {name: Timer(name) for name in _COUNTERS}
+        converter = Converter(_ADC_BASE, rcc.apb2_hz, rcc.adc_divisor, dma)
+        for gate, peripheral in (((0x18, 11), motors), ((0x18, 9), converter), ((0x14, 0), dma)):
+            rcc.add_gate(*gate, peripheral)
+        for bit, timer in enumerate(timers.values()):
+            rcc.add_gate(0x1C, bit, timer)
+        ports = [port for port in self.pins if isinstance(port, GpioF1)]
+        afio = next(it for base, it in self._peripherals if base == AFIO_BASE)
+        wiring = Wiring(read_pins(self.chip.name), ports, afio.registers[0x04])
+        self.robot = RobotOnPins(self.core, wiring, motors, timers, converter)
+        made: list[tuple[int, Peripheral]] = [(_TIM1_BASE, motors), (_ADC_BASE, converter), (_DMA_BASE, dma)]
+        return made + [(_COUNTERS[name], timer) for name, timer in timers.items()]
+
     def _map(self) -> None:
         space = self.space
         for base, peripheral in self._peripherals:
             space.attach(base, peripheral)
+            if isinstance(peripheral, KeptPeripheral):
+                peripheral.keep_in(space.model, base)
         self.can.access_directly(space.model, CAN_BASE)
         self._systick.access_directly(space.model, SYSTICK_BASE)
         space.model.direct = True
@@ -198,6 +241,10 @@ class Hardware:
             self.core.add_registers(Window(base, size, space.read, space.write, space.model))
         for base, size in self.chip.ram:
             self.core.add_ram(base, size)
+
+    def _hear(self, frame: CanFrame) -> None:
+        if self.on_bus:
+            self._heard(frame)
 
     def _note_fault(self, fault: Fault) -> None:
         self.faults.append(fault)

@@ -1,6 +1,6 @@
 """Registers at addresses: the base of all peripheral models."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -92,6 +92,87 @@ class Peripheral:
         self.set_clocked(self._always_clocked)
         for register in self.registers.values():
             register.reset()
+
+
+class KeptRegister(Register):
+    """A register that C keeps, in a `struct plain_block`: it only holds what is put there."""
+
+    def __init__(self, block: Any, offset: int, name: str, reset_value: int = 0) -> None:
+        """One of a block.
+
+        Args:
+            block: The `struct plain_block`.
+            offset: Its offset there.
+            name: As in the reference manual.
+            reset_value: What it holds after a reset.
+        """
+        self._values, self._word = block.value, offset // _WORD
+        super().__init__(name, reset_value)
+
+    @property
+    def value(self) -> int:
+        """What it holds."""
+        return int(self._values[self._word])
+
+    @value.setter
+    def value(self, value: int) -> None:
+        self._values[self._word] = value
+
+    def clear_by_zeros(self, value: int) -> None:
+        """Keeps the bits that are set in both."""
+        self.value &= value
+
+
+class KeptPeripheral(Peripheral):
+    """A peripheral most of whose registers C keeps (`register_space.h`).
+
+    Attributes:
+        block: The `struct plain_block`.
+    """
+
+    def __init__(  # noqa: PLR0913 - each by its name
+        self,
+        name: str,
+        kept: Mapping[int, str],
+        others: Mapping[int, Register] = {},
+        *,
+        resets: Mapping[int, int] = {},
+        read_only: Sequence[int] = (),
+        zeros_clear: Sequence[int] = (),
+    ) -> None:
+        """After a reset.
+
+        Args:
+            name: As in the reference manual.
+            kept: The registers that C keeps, by offset.
+            others: Those that do more.
+            resets: What kept ones hold after a reset; 0 for all others.
+            read_only: Offsets of those whose writes are left to Python.
+            zeros_clear: Offsets of those in which a write clears bits, and sets none.
+        """
+        ffi, library = c_models()
+        self.block: Any = ffi.new("struct plain_block *")
+        registers = {
+            offset: KeptRegister(self.block, offset, it, resets.get(offset, 0)) for offset, it in kept.items()
+        }
+        for offset in kept:
+            self.block.readable |= 1 << offset // _WORD
+            self.block.writable |= (offset not in read_only) << offset // _WORD
+        for offset in zeros_clear:
+            self.block.write[offset // _WORD] = library.SPACE_ZEROS_CLEAR
+            registers[offset].on_write = registers[offset].clear_by_zeros
+        super().__init__(name, {**registers, **others})
+
+    def set_clocked(self, clocked: bool) -> None:
+        """As in `Peripheral`."""
+        super().set_clocked(clocked)
+        self.block.clocked = clocked
+
+    def keep_in(self, space: Any, base: int) -> None:
+        """Has a `struct register_space` access the registers without Python."""
+        self.block.base = base
+        space.blocks[space.block_count] = self.block
+        space.block_count += 1
 
 
 @dataclass(frozen=True)

@@ -260,17 +260,6 @@ class Gpio(Peripheral):
         self.output.value |= value & _PINS
 
 
-def gpio_f1(name: str) -> Gpio:
-    """A port of the STM32F1 (RM0008 9.2)."""
-    setup = {
-        0x00: Register("CRL", 0x44444444),
-        0x04: Register("CRH", 0x44444444),
-    }
-    port = Gpio(name, setup, data=0x08, lock=0x18)
-    port.registers[0x14] = Register("BRR", on_write=port.clear)
-    return port
-
-
 def gpio_f4(name: str) -> Gpio:
     """A port of the STM32F4 (RM0090 8.4)."""
     names = {0x00: "MODER", 0x04: "OTYPER", 0x08: "OSPEEDR", 0x0C: "PUPDR", 0x20: "AFRL", 0x24: "AFRH"}

@@ -20,7 +20,7 @@ from host_sim.protocol.codec import NODE_MAX, Protocol
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.transport.clock import VirtualClock, WallClock
-from host_sim.world.body_kinds import body_kind
+from host_sim.world.body_kinds import PINS, body_kind
 from host_sim.world.changes import Change
 from host_sim.world.layouts import NoRoomError, World
 from host_sim.world.worlds import world_of
@@ -145,7 +145,7 @@ def _check_change(change: Change, config: RunConfig) -> None:
 
 
 def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:
-    connection = connect(stack, config.bus, config.robot, node, config.board, lines)
+    connection = connect(stack, config.bus, config.robot, node, config.board, lines, pins=config.body == PINS)
     if config.faults:
         connection = _with_faults(connection, config, node)
     external = config.robot == "external"

@@ -10,6 +10,7 @@ from host_sim.base.errors import UsageError
 from host_sim.faults.rule import FAULT_NAMES
 from host_sim.protocol.words import NODE_MAX, PARAMETERS, PROFILES
 from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
+from host_sim.world.body_kinds import PINS
 from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
 
@@ -97,8 +98,8 @@ class RunConfig:
     )
     body: str = option(
         "ideal",
-        "the robots' bodies: ideal; kit, with motors and sensors as they come off the bench; or your own file, "
-        "such as my_body.toml",
+        "the robots' bodies: ideal; kit, with motors and sensors as they come off the bench; pins, a kit that an "
+        "emulated board drives by itself through its pins; or your own file, such as my_body.toml",
         metavar="BODY",
     )
     limit_s: float = option(
@@ -224,6 +225,10 @@ class RunConfig:
             value = getattr(self, name)
             if value != it.default and not row.allows(value):
                 raise UsageError(f"{name} must be one of {row.range}, not {value!r}")
+        if self.body == PINS and self.robot != "emulated":
+            raise UsageError(
+                "--body pins is a robot on the pins of an emulated board: use --robot emulated --board blue_pill"
+            )
 
     def command(self) -> str:
         """The command that makes this run."""

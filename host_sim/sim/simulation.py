@@ -202,6 +202,8 @@ class Simulation:
         bodies, before = self.arena.bodies, self.drives
         for i, body in enumerate(bodies):
             self.senses[i] = body.sense(self.tick)
+            if (sense := self.clients[i].connection.sense) is not None:
+                self.senses[i] = sense(body, self.senses[i], self.tick)
         for i in self._measuring:
             self.clients[i].ranges = self.arena.ranges(i)
         self.drives = self.pace.exchange(self.senses) if tick is None else self._go_on(tick)

@@ -85,6 +85,15 @@ class Body:
         self._library.world_sense(self._world, self._body, tick, self._sensed)
         return Senses._make(self._senses.unpack_from(self._sensed_bytes))
 
+    def measure_light(self, tick: int, light: Any) -> None:
+        """What the infrared sensors of a kit receive back of their own light.
+
+        Args:
+            tick: Number of the control tick in the run.
+            light: Takes it, a `uint16_t[]`, 0..4095 each, in the order of feel's bits.
+        """
+        self._library.kit_light(self.kit, self._world, self._body, tick, light)
+
     def eat(self) -> bool:
         """Eats the food that was sensed straight ahead, if it is near enough and no other robot was quicker.
 

@@ -10,7 +10,7 @@ from host_sim.base.near_word import meant, near_word
 from host_sim.world.params import SimParams
 from host_sim.world.world_library import world_library
 
-IDEAL, KIT = "ideal", "kit"
+IDEAL, KIT, PINS = "ideal", "kit", "pins"
 _VALUES = 2  # a value, and its tolerance
 
 
@@ -59,7 +59,7 @@ def body_kind(text: str) -> BodyKind | None:
     """
     if text == IDEAL:
         return None
-    if text == KIT:
+    if text in {KIT, PINS}:
         return BodyKind({name: (row.kit, row.tolerance) for name, row in _rows().items()})
     from host_sim.world.layout_file import line_of, read_toml  # noqa: PLC0415 - seldom needed, and slow to load
 

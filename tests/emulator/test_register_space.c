@@ -232,3 +232,62 @@ TEST(what_python_reads_and_does_counts_as_well)
     space_note(&space, false);
     TEST_ASSERT_EQUAL_UINT64(start + SPACE_SKIP_NS, board.now.ns);
 }
+
+/* ---- registers that only hold what is written */
+
+enum { BLOCK_BASE = 0x40010800, IDR = 2, ODR, BSRR, STATUS, OFTEN };
+
+static struct plain_block block;
+
+static void keep(void)
+{
+    block = (struct plain_block){.base = BLOCK_BASE, .clocked = true, .readable = 1u << IDR | 1u << ODR | 1u << STATUS | 1u << OFTEN,
+        .writable = 1u << BSRR | 1u << STATUS | 1u << OFTEN, .outputs = 0x00F0,
+        .write = {[BSRR] = SPACE_SETS_PINS, [STATUS] = SPACE_ZEROS_CLEAR}};
+    space.blocks[space.block_count++] = &block;
+    window.base = BLOCK_BASE;
+}
+
+TEST(what_is_written_is_kept_and_read)
+{
+    keep();
+    window_write(NULL, 4 * OFTEN, 4, 0x12345678, &window);
+    TEST_ASSERT_EQUAL_HEX32(0x12345678, look(4 * OFTEN));
+    TEST_ASSERT_EQUAL_UINT(0, python.reads + python.writes);
+}
+
+TEST(zeros_clear_a_status_and_ones_leave_it)
+{
+    keep();
+    block.value[STATUS] = 0x81;
+    window_write(NULL, 4 * STATUS, 4, 0xFFFFFFFE, &window);
+    TEST_ASSERT_EQUAL_HEX32(0x80, look(4 * STATUS));
+}
+
+TEST(pins_are_set_and_cleared_and_outputs_read_back)
+{
+    keep();
+    block.value[IDR] = 0x0F0F;
+    window_write(NULL, 4 * BSRR, 4, 0x00FF, &window);
+    TEST_ASSERT_EQUAL_HEX32(0x00FF, look(4 * ODR));
+    TEST_ASSERT_EQUAL_HEX32(0x0FFF, look(4 * IDR));
+    window_write(NULL, 4 * BSRR, 4, 0x00100010 | 0x0F << 16, &window);   /* what is both set and cleared is set */
+    TEST_ASSERT_EQUAL_HEX32(0x00F0, look(4 * ODR));
+}
+
+TEST(a_kept_register_without_a_clock_or_of_another_kind_is_left_to_python)
+{
+    keep();
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, look(4 * BSRR));
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, (uint32_t)window_read(NULL, 4 * OFTEN, 2, &window));
+    window_write(NULL, 4 * IDR, 4, 1, &window);
+    TEST_ASSERT_EQUAL_UINT(1, python.writes);
+    block.clocked = false;
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, look(4 * OFTEN));
+    block.clocked = true;
+    space.direct = false;
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, look(4 * OFTEN));
+    window_write(NULL, 4 * OFTEN, 4, 1, &window);
+    TEST_ASSERT_EQUAL_UINT(2, python.writes);
+    TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, look(4 * SPACE_BLOCK_WORDS));
+}

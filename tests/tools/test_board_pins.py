@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from tools.flashing import ChoiceError
-from tools.flashing.board_pins import read_pins
-from tools.flashing.images import ROOT, STM32, all_boards
+from host_sim.base.errors import UsageError
+from host_sim.emulator.board_pins import STM32, read_pins
+from tools.flashing.images import ROOT, all_boards
 
 
 @pytest.fixture
@@ -37,7 +37,8 @@ def test_a_blue_pill_is_a_robot() -> None:
     pins = read_pins("blue_pill")
     assert pins.remap == 2 << 13 | 1 << 8
     assert pins.channels["BATTERY"] == 5
-    assert pins.functions["RIGHT_PWM"] == "TIM1 ch3n"
+    assert pins.chip.pin_of("TIM1 ch3n", pins.remap) == pins.signals["RIGHT_PWM"]
+    assert pins.chip.pin_of("CAN rx", 0) == "PA11"
 
 
 @pytest.mark.parametrize(
@@ -62,7 +63,7 @@ def test_a_blue_pill_is_a_robot() -> None:
 )
 def test_pins_that_cannot_be_are_refused_by_name(root: Path, old: str, new: str, why: str) -> None:
     change(root, old, new)
-    with pytest.raises(ChoiceError) as refused:
+    with pytest.raises(UsageError) as refused:
         read_pins("blue_pill", root)
     assert why in str(refused.value)
 

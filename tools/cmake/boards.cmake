@@ -1,5 +1,5 @@
 # octet_board_pins(TARGET BOARD): the pins of a board, for board.h.
-set(OCTET_PINS_MAKERS ${PROJECT_SOURCE_DIR}/tools/pins ${PROJECT_SOURCE_DIR}/tools/flashing/board_pins.py)
+set(OCTET_PINS_MAKERS ${PROJECT_SOURCE_DIR}/tools/pins ${PROJECT_SOURCE_DIR}/host_sim/emulator/board_pins.py)
 function(octet_board_pins target board)
   include(${PROJECT_SOURCE_DIR}/hal/stm32/boards/${board}.cmake)
   set(folder ${PROJECT_BINARY_DIR}/generated/${board})

@@ -5,11 +5,10 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
+from host_sim.emulator.board_pins import STM32, settings
 from tools.flashing import ChoiceError, FlashError
 
 ROOT = Path(__file__).resolve().parents[2]
-STM32 = Path("hal", "stm32")
-_SET = re.compile(r"^set\((\w+) ([^)]*)\)", re.MULTILINE)
 _IDENTITY = re.compile(rb"octet-image board=(\S+) chip=(\S+) node=(\d+) bitrate=(\d+) version=(\S+) dbc=(\w+)\0")
 
 
@@ -20,7 +19,7 @@ class Board:
     Attributes:
         name: Its name, that of its file in hal/stm32/boards and of the CMake preset that builds for it.
         chip: Such as stm32f405.
-        links: The links that the chip has, such as bxcan and slcan.
+        links: Its images: one for each link of its chip, such as bxcan and slcan, and those of a robot of its own.
     """
 
     name: str
@@ -51,17 +50,13 @@ class Image:
     dbc: str
 
 
-def settings(path: Path) -> dict[str, str]:
-    """What a file of CMake sets."""
-    return dict(_SET.findall(path.read_text()))
-
-
 def all_boards(root: Path = ROOT) -> dict[str, Board]:
     """Every board by its name."""
     boards = {}
     for path in sorted((root / STM32 / "boards").glob("*.cmake")):
         chip = settings(path)["OCTET_CHIP"]
-        links = settings(root / STM32 / chip / "chip.cmake")["OCTET_LINKS"]
+        made = settings(root / STM32 / chip / "chip.cmake")
+        links = f"{made['OCTET_LINKS']} {made.get('OCTET_BODIES', '')}"
         boards[path.stem] = Board(path.stem, chip, tuple(links.split()))
     return boards
 

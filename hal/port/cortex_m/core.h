@@ -31,7 +31,18 @@ struct system_registers {
     uint32_t bfar;            /* rw   address of a bus fault */
 };
 
+struct interrupt_registers {  /* PM0056 4.3: bit n of word m is for interrupt 32 m + n */
+    uint32_t iser[32];        /* w1s  enable */
+    uint32_t icer[32];        /* w1c  the same */
+    uint32_t ispr[32];        /* w1s  pending */
+    uint32_t icpr[32];        /* w1c  the same */
+};
+
 extern volatile struct systick_registers SYSTICK;
 extern volatile struct system_registers SCB;
+extern volatile struct interrupt_registers NVIC;
+
+void core_sleep(void);
+        /* Until an interrupt is pending that is enabled. None is ever taken: they only wake the core. */
 
 #endif

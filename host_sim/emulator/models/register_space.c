@@ -51,13 +51,65 @@ static bool read_can(struct register_space *space, uint32_t word, uint32_t *out)
     return true;
 }
 
+/* The block and the word of a register that is kept here, or NULL. */
+static struct plain_block *find(const struct register_space *space, uint32_t address, unsigned width, uint32_t *word)
+{
+    for (unsigned i = 0; i < space->block_count && width == WORD && address % WORD == 0; i++) {
+        struct plain_block *block = space->blocks[i];
+
+        *word = (address - block->base) / WORD;
+        if (address >= block->base && *word < SPACE_BLOCK_WORDS)
+            return block->clocked ? block : NULL;
+    }
+    return NULL;
+}
+
+static bool read_kept(struct register_space *space, uint32_t address, unsigned width, uint32_t *out)
+{
+    uint32_t word;
+    const struct plain_block *block = find(space, address, width, &word);
+
+    if (!block || !(block->readable >> word & 1u))
+        return false;
+    *out = block->value[word];
+    space_begin_anew(space);
+    return true;
+}
+
+static void set_pins(struct plain_block *block, uint32_t bsrr, uint32_t value)
+{
+    uint32_t *idr = &block->value[bsrr - 2], *odr = &block->value[bsrr - 1];
+
+    *odr = (*odr & ~(value >> 16)) | (value & 0xFFFFu);
+    *idr = (*idr & ~block->outputs) | (*odr & block->outputs);
+}
+
+static bool write_kept(struct register_space *space, uint32_t address, unsigned width, uint32_t value)
+{
+    uint32_t word;
+    struct plain_block *block = find(space, address, width, &word);
+
+    if (!block || !(block->writable >> word & 1u))
+        return false;
+    space_begin_anew(space);
+    if (block->write[word] == SPACE_SETS_PINS)
+        set_pins(block, word, value);
+    else
+        block->value[word] = block->write[word] == SPACE_KEPT ? value : block->value[word] & value;
+    return true;
+}
+
 static bool read_here(struct register_space *space, uint32_t address, unsigned width, uint32_t *out)
 {
     uint32_t word = can_word(space, address, width);
 
     if (word != NOT_CAN && space->can_readable[word])
         return read_can(space, word, out);
-    if (!space->direct || address != space->systick_val || width != WORD)
+    if (!space->direct)
+        return false;
+    if (read_kept(space, address, width, out))
+        return true;
+    if (address != space->systick_val || width != WORD)
         return false;
     *out = systick_value(space->systick);
     space_note_time(space);
@@ -68,6 +120,8 @@ static bool write_here(struct register_space *space, uint32_t address, unsigned 
 {
     uint32_t word = can_word(space, address, width);
 
+    if (space->direct && write_kept(space, address, width, value))
+        return true;
     if (word == NOT_CAN || !space->can_writable[word])
         return false;
     space_begin_anew(space);

@@ -16,12 +16,27 @@
 enum {
     SPACE_WAITING_READS = 8,    /* reads in a row that bring nothing new, after which the image counts as waiting */
     SPACE_SKIP_NS = 1000000,    /* longest skip before its next read: it may be waiting for the time itself */
-    SPACE_CAN_WORDS = 0x100     /* registers of CAN that there can be */
+    SPACE_CAN_WORDS = 0x100,    /* registers of CAN that there can be */
+    SPACE_BLOCKS = 12, SPACE_BLOCK_WORDS = 32
 };
 
 struct seen_value {
     bool known;
     uint32_t value;
+};
+
+/* What a write does to a register that is kept here. */
+enum space_write { SPACE_KEPT, SPACE_ZEROS_CLEAR, SPACE_SETS_PINS };
+
+/* Registers that only hold what is written, or what their model puts there; and of a port of pins, whose registers IDR, ODR and
+ * BSRR follow each other. */
+struct plain_block {
+    uint32_t base;
+    bool clocked;
+    uint32_t readable, writable;            /* bit n: word n is accessed here, while there is a clock */
+    uint8_t write[SPACE_BLOCK_WORDS];       /* an enum space_write each */
+    uint32_t outputs;                       /* of a port: the pins that are outputs */
+    uint32_t value[SPACE_BLOCK_WORDS];
 };
 
 struct register_space {
@@ -32,6 +47,8 @@ struct register_space {
     bool direct;                      /* whether any register is accessed here */
     bool can_readable[SPACE_CAN_WORDS], can_writable[SPACE_CAN_WORDS];   /* here, while CAN has a clock */
     struct seen_value seen[SPACE_CAN_WORDS];
+    struct plain_block *blocks[SPACE_BLOCKS];
+    unsigned block_count;
     unsigned old_news;                /* reads in a row that brought nothing new */
     bool looks_at_time;
 };

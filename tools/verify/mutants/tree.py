@@ -8,16 +8,7 @@ from typing import Any
 
 from tools.verify.command import VerifyError, output_of
 
-FOLDERS = (
-    "firmware",
-    "hal",
-    "host_sim",
-    "tests",
-    "tools/cmake",
-    "tools/flashing",
-    "tools/reference",
-    "tools/robot_words",
-)
+FOLDERS = ("firmware", "hal", "host_sim", "tests", "tools/cmake", "tools/reference", "tools/robot_words")
 SUFFIXES = {".c", ".h", ".txt", ".cmake", ".dbc", ".toml", ".map", ".py", ".inc"}
 FILES = ("CMakeLists.txt", "tools/generate", "tools/pins")
 RUNTIME = Path(__file__).with_name("runtime.c")

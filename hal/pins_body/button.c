@@ -1,0 +1,53 @@
+#include "hal/pins_body/button.h"
+
+enum { SURE = 3, START_TICKS = 50, FORGET_TICKS = 250 };
+
+static bool told(struct command *command, enum opcode opcode, uint8_t which)
+{
+    *command = (struct command){.opcode = opcode, .which = which};
+    return true;
+}
+
+/* True if it goes down or up now. A contact bounces for some milliseconds. */
+static bool changes(struct button *button, bool pressed)
+{
+    button->same = pressed == button->down ? 0 : (uint8_t)(button->same + 1);
+    if (button->same < SURE) {
+        button->ticks = (uint16_t)(button->ticks + (button->ticks < FORGET_TICKS ? 1 : 0));
+        return false;
+    }
+    button->same = 0;
+    button->down = pressed;
+    button->ticks = 0;
+    return true;
+}
+
+static bool let_go(struct button *button, bool running, struct command *command)
+{
+    if (button->held || running) {
+        button->presses = 0;
+        return !button->held && told(command, OPCODE_STOP, 0);
+    }
+    button->presses = (uint8_t)(button->presses % PROFILE_COUNT + 1);
+    return false;
+}
+
+bool button_look(struct button *button, bool pressed, bool running, struct command *command)
+{
+    if (changes(button, pressed)) {
+        if (!button->down)
+            return let_go(button, running, command);
+        button->held = false;
+    }
+    if (button->down && !button->held && button->ticks == FORGET_TICKS) {
+        button->held = true;
+        return told(command, OPCODE_ERASE, 0);
+    }
+    if (!button->down && button->presses > 0 && button->ticks >= START_TICKS) {
+        uint8_t profile = (uint8_t)(button->presses - 1);
+
+        button->presses = 0;
+        return told(command, OPCODE_START, profile);
+    }
+    return false;
+}

@@ -1,0 +1,30 @@
+/* A robot of its own that talks to nobody: neither a bus nor a line. */
+#include "hal/pins_body/telemetry.h"
+#include "hal/stm32/line.h"
+
+int telemetry_open(const struct port *port)
+{
+    (void)port;
+    return 0;
+}
+
+enum input_kind telemetry_receive(struct input *in)
+{
+    (void)in;
+    return INPUT_SILENCE;
+}
+
+void telemetry_senses(const struct senses *senses)
+{
+    (void)senses;
+}
+
+void telemetry_output(const struct output *out, bool asked)
+{
+    (void)out;
+    (void)asked;
+}
+
+void line_pump(void)
+{
+}

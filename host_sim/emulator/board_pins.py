@@ -1,0 +1,172 @@
+"""The pins of a board: its signals, checked against what the chip's pins can be, for C, for people and for emulation.
+
+A board's file in hal/stm32/boards names a pin for each signal; `pins.toml` in its chip's folder, what a pin can be.
+"""
+
+import importlib
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import ROOT
+
+STM32 = Path("hal", "stm32")
+"""Where boards and chips are, from the root."""
+
+ADC = "ADC"
+"""The function of a pin whose voltage is measured."""
+
+_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
+
+_SET = re.compile(r"^set\((\w+) ([^)]*)\)", re.MULTILINE)
+_PIN = re.compile(r"P([A-I])(\d+)")
+_ALWAYS = ("LED", "CAN_RX", "CAN_TX", "UART_RX", "UART_TX")
+
+
+def settings(path: Path) -> dict[str, str]:
+    """What a file of CMake sets."""
+    return dict(_SET.findall(path.read_text()))
+
+
+def place_of(pin: str) -> tuple[int, int]:
+    """The number of a pin's port, from 0 for A, and its own in that."""
+    return ord(pin[1]) - ord("A"), int(pin[2:])
+
+
+class ChipPins:
+    """What a chip's pins can be.
+
+    Attributes:
+        signals: What the drivers use for each signal, such as `CAN rx`; plain inputs and outputs are left out.
+        channels: The channel of the ADC of each pin that has one.
+    """
+
+    def __init__(self, name: str, root: Path = ROOT) -> None:
+        """Reads the table of a chip."""
+        table: dict[str, Any] = _toml.loads((root / STM32 / name / "pins.toml").read_text())
+        self.name = name
+        self._all = {f"P{port}{n}" for port, count in table["ports"].items() for n in range(count)}
+        self._all |= set(table.get("more", ()))
+        self._reserved: dict[str, str] = table["reserved"]
+        self._functions: dict[str, list[dict[str, Any]]] = table["functions"]
+        self.signals: dict[str, str] = table["signals"]
+        self.channels: dict[str, int] = table.get("channels", {})
+
+    def check(self, signals: dict[str, str]) -> None:
+        """Each signal has a pin of its own, which the chip has.
+
+        Raises:
+            UsageError: It has not.
+        """
+        taken = dict(self._reserved)
+        for signal, pin in signals.items():
+            if pin not in self._all:
+                raise UsageError(f"{signal} is on {pin}, which an {self.name} does not have")
+            if pin in taken:
+                raise UsageError(f"{taken[pin]} and {signal} are both on {pin}")
+            taken[pin] = signal
+            if self.signals.get(signal) == ADC and pin not in self.channels:
+                raise UsageError(f"{signal} is on {pin}, which has no ADC on an {self.name}")
+
+    def remap(self, signals: dict[str, str]) -> int:
+        """The fields of AFIO_MAPR with which each function has its pins: all at one of the places that it can be.
+
+        Raises:
+            UsageError: It cannot be there.
+        """
+        wanted: dict[str, dict[str, str]] = {}
+        for signal in (name for name, use in self.signals.items() if use != ADC and name in signals):
+            function, role = self.signals[signal].split()
+            wanted.setdefault(function, {})[role] = signal
+        return sum(self._remap(function, roles, signals) for function, roles in wanted.items())
+
+    def pin_of(self, use: str, mapr: int) -> str | None:
+        """The pin of a function such as `CAN rx`, as AFIO_MAPR has it; None if there is none."""
+        function, role = use.split()
+        options = self._functions[function]
+        width = max(option["set"] for option in options).bit_length()
+        for option in options:
+            if mapr >> option["at"] & (1 << width) - 1 == option["set"]:
+                pin: str | None = option.get(role)
+                return pin
+        return None
+
+    def _remap(self, function: str, roles: dict[str, str], signals: dict[str, str]) -> int:
+        wanted = [signals[name] for name in roles.values()]
+        options = [option for option in self._functions[function] if all(role in option for role in roles)]
+        places = [[option[role] for role in roles] for option in options]
+        if wanted not in places:
+            given = " and ".join(f"{name} on {signals[name]}" for name in roles.values())
+            there = " or ".join(dict.fromkeys(map(", ".join, places)))
+            raise UsageError(f"{given}: an {self.name} has {function} {', '.join(roles)} on {there}")
+        option = options[places.index(wanted)]
+        return int(option.get("set", 0)) << int(option.get("at", 0))
+
+
+@dataclass(frozen=True)
+class Pins:
+    """The pins of a board.
+
+    Attributes:
+        board: Its name.
+        signals: The pin of each signal, such as PB8.
+        chip: What its chip's pins can be.
+        remap: The fields of AFIO_MAPR that go with them.
+        led_high: Whether the LED shines while its pin is high.
+    """
+
+    board: str
+    signals: dict[str, str]
+    chip: ChipPins
+    remap: int
+    led_high: bool
+
+    @property
+    def channels(self) -> dict[str, int]:
+        """The channel of the ADC, by signal."""
+        return {
+            name: self.chip.channels[pin] for name, pin in self.signals.items() if self.chip.signals.get(name) == ADC
+        }
+
+    def header(self) -> str:
+        """What board.h includes."""
+        lines = [f"/* Generated from hal/stm32/boards/{self.board}.cmake. */"]
+        for signal, pin in self.signals.items():
+            lines.append(f"static const struct pin BOARD_{signal} = {{PORT_{pin[1]}, {pin[2:]}}};")
+        lines += [f"enum {{ BOARD_{signal}_CHANNEL = {channel} }};" for signal, channel in self.channels.items()]
+        lines += [f"enum {{ BOARD_REMAP = 0x{self.remap:X} }};"]
+        lines += [f"static const bool BOARD_LED_HIGH = {str(self.led_high).lower()};   /* while it shines */"]
+        return "\n".join(lines) + "\n"
+
+    def table(self) -> str:
+        """The wiring in Markdown."""
+        lines = ["| signal | pin | as |", "| --- | --- | --- |"]
+        for signal, pin in sorted(self.signals.items(), key=lambda row: place_of(row[1])):
+            use = self.chip.signals.get(signal, "input or output")
+            lines.append(f"| {signal.lower().replace('_', ' ')} | {pin} | {use} |")
+        return "\n".join(lines) + "\n"
+
+
+def read_pins(board: str, root: Path = ROOT) -> Pins:
+    """The pins of a board.
+
+    Raises:
+        UsageError: There is no such board, two signals have the same pin, or a pin cannot be what its signal needs.
+    """
+    path = root / STM32 / "boards" / f"{board}.cmake"
+    if not path.exists():
+        names = ", ".join(sorted(each.stem for each in path.parent.glob("*.cmake")))
+        raise UsageError(f"no board {board}; there are {names}")
+    given = {name.removeprefix("OCTET_"): value for name, value in settings(path).items()}
+    chip = ChipPins(given["CHIP"], root)
+    signals = {name: pin for name, pin in given.items() if name in chip.signals or _PIN.fullmatch(pin)}
+    try:
+        for name in (name for name in _ALWAYS if name not in signals):
+            raise UsageError(f"no pin for {name}")
+        chip.check(signals)
+        return Pins(board, signals, chip, chip.remap(signals), given["LED_HIGH"] == "1")
+    except UsageError as error:
+        raise UsageError(f"{board}: {error}") from None

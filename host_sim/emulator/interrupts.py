@@ -1,0 +1,50 @@
+"""The interrupt controller of the core (PM0056 4.3), as far as it wakes a core. No interrupt is ever taken."""
+
+from host_sim.emulator.registers import Peripheral, Register
+
+_WORDS = 2
+"""Of 32 interrupts each."""
+
+
+class Interrupts(Peripheral):
+    """Which interrupts are enabled, and which are pending."""
+
+    def __init__(self) -> None:
+        """None is either."""
+        self._enabled = self._pending = 0
+        registers = {}
+        for word in range(_WORDS):
+            registers[0x000 + 4 * word] = self._register(f"ISER{word}", 32 * word, 1, 0)
+            registers[0x080 + 4 * word] = self._register(f"ICER{word}", 32 * word, -1, 0)
+            registers[0x100 + 4 * word] = self._register(f"ISPR{word}", 32 * word, 0, 1)
+            registers[0x180 + 4 * word] = self._register(f"ICPR{word}", 32 * word, 0, -1)
+        super().__init__("NVIC", registers, clocked=True)
+
+    def reset(self) -> None:
+        """As in `Peripheral`."""
+        super().reset()
+        self._enabled = self._pending = 0
+
+    def pend(self, number: int) -> None:
+        """Something asks for an interrupt."""
+        self._pending |= 1 << number
+
+    @property
+    def wakes(self) -> bool:
+        """Whether one is pending that is enabled."""
+        return bool(self._enabled & self._pending)
+
+    def _register(self, name: str, shift: int, enabled: int, pending: int) -> Register:
+        """Ones set (1) or clear (-1) what is enabled or pending."""
+
+        def on_write(value: int) -> None:
+            bits = value << shift
+            if enabled:
+                self._enabled = self._enabled | bits if enabled > 0 else self._enabled & ~bits
+            if pending:
+                self._pending = self._pending | bits if pending > 0 else self._pending & ~bits
+
+        def on_read() -> int:
+            return (self._enabled if enabled else self._pending) >> shift & 0xFFFFFFFF
+
+        return Register(name, on_read=on_read, on_write=on_write)

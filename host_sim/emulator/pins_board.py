@@ -1,0 +1,149 @@
+"""A robot of its own on an emulated board, in the simulated arena: it senses and moves through its pins."""
+
+from collections import deque
+from pathlib import Path
+from typing import Any
+
+from host_sim.base.errors import UsageError
+from host_sim.base.paths import image_path
+from host_sim.emulator.board import EmulatedBoard
+from host_sim.emulator.can import CanFrame
+from host_sim.emulator.chips import CHIPS, Chip
+from host_sim.emulator.clock import SECOND
+from host_sim.emulator.hardware import Faults
+from host_sim.emulator.robot_on_pins import RobotOnPins
+from host_sim.protocol.codec import Frame, Protocol, counter_of
+from host_sim.protocol.generated import Reason, Senses
+from host_sim.world.body import Body
+from host_sim.world.world_library import world_library
+
+PINS = "pins"
+"""The image, and the kind of body."""
+
+_NEAR_MM, _STRONG, _WEAK = 150, 4, 4
+"""A beacon's bursts in a tick: strong ones reach as far as it is seen, weak ones only so far."""
+
+_ANSWER_S = 0.1
+
+
+class PinsBoard(EmulatedBoard):
+    """A `Link` to a robot that senses by itself: `sense` is where its body is, and what it senses there.
+
+    The client's senses never reach the board: they are what it has said itself, and its drives answer them with
+    the client's numbers.
+    """
+
+    def __init__(self, chip: Chip, image: Path, faults: Faults | None = None, node: int = 1) -> None:
+        """As in `EmulatedBoard`."""
+        self._protocol = Protocol(node)
+        self._senses_id, self._drive_id = self._protocol.id_of("SENSES"), self._protocol.id_of("DRIVE")
+        self._pairs: deque[tuple[Frame, Frame]] = deque()
+        self._sensed: Frame | None = None
+        self._drive: Frame | None = None
+        self._waits = self._asked = False
+        self._ffi, self._library = world_library()
+        self._light: Any = self._ffi.new("uint16_t[5]")
+        super().__init__(chip, image, faults)
+        assert self.hardware.robot is not None  # such chips alone have such images
+        self.robot: RobotOnPins = self.hardware.robot
+
+    def sense(self, body: Body, senses: Senses, tick: int) -> Senses:
+        """Lets a tick pass on the board.
+
+        Args:
+            body: Where it is.
+            senses: What an ideal body senses there.
+            tick: Number of the tick in the run.
+
+        Returns:
+            What the board says that it senses; `senses` if it says nothing.
+        """
+        self.robot.join(body.kit)
+        body.measure_light(tick, self._light)
+        self.robot.light = list(self._light)
+        self.robot.set_bumped(senses.bump)
+        if senses.look:
+            self.robot.receive_bursts(_STRONG + _WEAK * (senses.beacon_mm < _NEAR_MM))
+        self._waits = True
+        deadline = self._clock.now + round(_ANSWER_S * SECOND)
+        said = self._said
+        self._said = deque()
+        while not self._pairs and self._clock.now < deadline:
+            self._run_until(deadline)
+            said.extend(self._said)
+            self._said.clear()
+        self._said, self._waits = said, False
+        if not self._pairs:
+            return senses
+        sensed, self._drive = self._pairs.popleft()
+        decoded = self._protocol.decode(sensed)
+        assert decoded is not None  # it was checked when it came
+        return senses._replace(
+            feel=decoded.signals["feel"],
+            bump=bool(decoded.signals["bump"]),
+            look=bool(decoded.signals["look"]),
+            beacon_mm=decoded.signals["beacon"],
+            odometer_left=decoded.signals["odometer_left"],
+            odometer_right=decoded.signals["odometer_right"],
+        )
+
+    def send(self, frame: Frame) -> None:
+        """As in `Link`."""
+        if frame.id != self._senses_id:
+            self._asked = True
+            super().send(frame)
+        elif self._drive is not None:
+            drive = self._protocol.decode(self._drive)
+            senses = self._protocol.decode(frame)
+            assert drive is not None  # it was checked when it came
+            assert senses is not None  # our own
+            numbers = {"tick": senses.signals["tick"], "counter": counter_of(frame)}
+            answer = self._protocol.encode("DRIVE", {**drive.signals, **numbers})
+            self._said.append(CanFrame(answer.id, answer.data))
+            self._drive = None
+
+    def status(self) -> str:
+        """As in `EmulatedBoard`."""
+        return f"{super().status()}; it runs on its own pins"
+
+    def _has_news(self) -> bool:
+        return bool(self._said) or (self._waits and bool(self._pairs))
+
+    def _receive(self, frame: CanFrame) -> None:
+        said = Frame(frame.id, frame.data)
+        if said.id == self._senses_id:
+            self._sensed = said
+        elif said.id == self._drive_id and self._sensed is not None:
+            self._take_pair(self._sensed, said)
+        else:
+            super()._receive(frame)
+
+    def _take_pair(self, sensed: Frame, drive: Frame) -> None:
+        """While it rests and nobody waits, each tick is like the other: the first after a command is told."""
+        decoded = self._protocol.decode_drive(drive)
+        if self._protocol.decode(sensed) is None or decoded is None:
+            return
+        if self._waits or decoded.reason != Reason.STOP:
+            self._pairs.append((sensed, drive))
+            self.hardware.core.stop()
+        elif self._asked:
+            self._asked = False
+            super()._receive(CanFrame(drive.id, drive.data))
+
+
+def start_robot(name: str, faults: Faults | None = None) -> PinsBoard:
+    """A board with the image of a robot of its own, up and running.
+
+    Args:
+        name: `blue_pill`.
+        faults: How its hardware misbehaves.
+
+    Raises:
+        UsageError: That board has no such image.
+        OctetError: It is not built.
+        BoardError: It does what the hardware does not allow.
+    """
+    boards = [chip.name for chip in CHIPS.values() if chip.robot]
+    if name not in boards:
+        raise UsageError(f"no robot of its own runs on {name}: use --board {' or '.join(boards)}")
+    return PinsBoard(CHIPS[name], image_path(name, PINS), faults)

@@ -1,0 +1,122 @@
+"""What is wired to the pins of a robot of its own: motors, encoders, sensors, bumpers, a button and a battery."""
+
+from typing import Any
+
+from host_sim.emulator.converter import Converter
+from host_sim.emulator.core import Core
+from host_sim.emulator.gpio_f1 import Wiring
+from host_sim.emulator.timers import MotorTimer, Timer
+from host_sim.protocol.generated import FEEL
+from host_sim.world.world_library import world_library
+
+_SIDES = ("LEFT", "RIGHT")
+_SENSORS = [f"PROXIMITY_{name.upper().replace('-', '_')}" for name in FEEL]
+_SAMPLE_PER_MV = 4096 / 3300 / 3
+_ONE = 65536
+
+
+class RobotOnPins:
+    """Joins the pins of a board to a body of the world, a `struct kit`.
+
+    Attributes:
+        wiring: The board's.
+        motors: TIM1.
+        timers: TIM2 to TIM4 by name.
+        kit: The body; None while there is none: nothing turns.
+        light: What each proximity sensor receives of its own LEDs' light while they shine, 0..4095.
+        ambient: What it receives without them.
+        battery_v: Its voltage without a load.
+        counts_by: What an encoder makes of each of its counts: -1 where its wires are swapped.
+    """
+
+    def __init__(
+        self, core: Core, wiring: Wiring, motors: MotorTimer, timers: dict[str, Timer], converter: Converter
+    ) -> None:
+        """With everything at rest.
+
+        Args:
+            core: Has the memory into which samples go.
+            wiring: The board's.
+            motors: TIM1.
+            timers: TIM2 to TIM4 by name.
+            converter: Measures the sensors.
+        """
+        self._core, self.wiring, self.motors, self.timers, self._converter = core, wiring, motors, timers, converter
+        self._ffi, self._library = world_library()
+        self.kit: Any = None
+        self.light, self.ambient, self.battery_v = [0] * len(_SENSORS), 300, 7.4
+        self.counts_by = [1, 1]
+        self._duty: Any = self._ffi.new("int32_t[2]")
+        self._counts = [0, 0]
+        self._channels = wiring.pins.channels
+        motors.on_update = self._beat
+
+    def join(self, kit: Any) -> None:
+        """Puts the board into a body."""
+        if kit != self.kit:
+            self.kit = kit
+            self._counts = [self._library.kit_count(kit, side) for side in range(2)]
+
+    def set_bumped(self, bumped: bool) -> None:
+        """Something presses the bumpers, or nothing."""
+        for side in _SIDES:
+            self._set(f"BUMPER_{side}", high=not bumped)
+
+    def set_button(self, pressed: bool) -> None:
+        """Somebody presses the button."""
+        self._set("BUTTON", high=not pressed)
+
+    def set_bridge_fault(self, failed: bool) -> None:
+        """The bridge reports a fault."""
+        self._set("BRIDGE_FAULT", high=not failed)
+        if self.wiring.meets("BRIDGE_FAULT"):
+            self.motors.break_at(low=failed)
+
+    def receive_bursts(self, count: int) -> None:
+        """So many bursts of a beacon's light arrive."""
+        timer = self.timers["TIM2"]
+        if timer.counts_input_1() and self.wiring.meets("BEACON"):
+            timer.count(count)
+
+    def _set(self, signal: str, *, high: bool) -> None:
+        port, pin = self.wiring.port(signal)
+        port.drive(pin, high=high)
+
+    def _high(self, signal: str) -> bool:
+        port, pin = self.wiring.port(signal)
+        return port.drives(pin)
+
+    def _push(self, side: int) -> int:
+        """What the bridge gives a motor, 1/65536 of the battery: the half that PWM drives less the other."""
+        if not self._high("BRIDGE_AWAKE"):
+            return 0
+        duty = self.motors.duty(2 + side) if self.wiring.meets(f"{_SIDES[side]}_PWM") else 0.0
+        return round((duty - self._high(f"{_SIDES[side]}_BACK")) * _ONE)
+
+    def _beat(self) -> None:
+        if self.kit is not None:
+            self._duty[0], self._duty[1] = self._push(0), self._push(1)
+            self._library.kit_push(self.kit, self._duty)
+            for side in range(2):
+                self._count(side)
+        self._fill()
+
+    def _count(self, side: int) -> None:
+        """An encoder of which one wire is elsewhere counts nothing."""
+        count = self._library.kit_count(self.kit, side)
+        more, self._counts[side] = count - self._counts[side], count
+        timer, name = self.timers[f"TIM{3 + side}"], f"{_SIDES[side]}_ENCODER_"
+        if timer.follows_encoder() and self.wiring.meets(f"{name}A") and self.wiring.meets(f"{name}B"):
+            timer.count(self.counts_by[side] * ((more + 0x8000) % 0x10000 - 0x8000))
+
+    def _fill(self) -> None:
+        shines, battery_v = self._high("INFRARED"), self.battery_v
+        samples = {}
+        for light, signal in zip(self.light, _SENSORS, strict=True):
+            if self.wiring.meets(signal):
+                samples[self._channels[signal]] = self.ambient + light * shines
+        if self.wiring.meets("BATTERY"):
+            samples[self._channels["BATTERY"]] = round(battery_v * 1000 * _SAMPLE_PER_MV)
+        filled = self._converter.convert(samples)
+        if filled is not None:
+            self._core.write(*filled)

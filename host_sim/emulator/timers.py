@@ -1,0 +1,130 @@
+"""The timers of an STM32F1 (RM0008 14, 15), as a robot uses them: PWM with a break, encoders, external clock."""
+
+from collections.abc import Callable
+
+from host_sim.emulator.clock import NEVER, SECOND, Clock
+from host_sim.emulator.registers import KeptPeripheral, Register
+
+_NAMES = {
+    0x00: "CR1", 0x04: "CR2", 0x08: "SMCR", 0x0C: "DIER", 0x10: "SR", 0x18: "CCMR1", 0x1C: "CCMR2", 0x20: "CCER",
+    0x24: "CNT", 0x28: "PSC", 0x2C: "ARR", 0x34: "CCR1", 0x38: "CCR2", 0x3C: "CCR3", 0x40: "CCR4",
+}  # fmt: skip
+_CR1, _SMCR, _DIER, _SR, _CCMR1, _CCER, _CNT, _PSC, _ARR, _RCR, _BDTR = (
+    0x00, 0x08, 0x0C, 0x10, 0x18, 0x20, 0x24, 0x28, 0x2C, 0x30, 0x44,
+)  # fmt: skip
+_COUNT_MASK = 0xFFFF
+_CEN, _UIE, _UIF, _BIF = 1, 1, 1, 1 << 7
+_ENCODER_BOTH, _EXTERNAL, _FROM_INPUT_1 = 3, 7, 5
+_INPUTS = 0x0303
+_INPUT_1, _BOTH_INPUTS = 0x0001, 0x0101
+_BREAK_ON, _BREAK_HIGH, _OUTPUTS_ON = 1 << 12, 1 << 13, 1 << 15
+_PWM_1, _MODE_MASK = 6, 7
+
+
+class Timer(KeptPeripheral):
+    """TIM2 to TIM4: counts what its inputs do."""
+
+    def __init__(self, name: str) -> None:
+        """At rest."""
+        super().__init__(name, _NAMES, {0x14: Register("EGR")}, resets={_ARR: _COUNT_MASK}, zeros_clear=[_SR])
+
+    def follows_encoder(self) -> bool:
+        """Whether it counts both edges of both inputs, in quadrature."""
+        return self._runs(_ENCODER_BOTH) and self._get(_CCMR1) & _INPUTS == _BOTH_INPUTS
+
+    def counts_input_1(self) -> bool:
+        """Whether it counts pulses at its first input."""
+        from_1 = self._get(_SMCR) >> 4 & 7 == _FROM_INPUT_1
+        return self._runs(_EXTERNAL) and from_1 and self._get(_CCMR1) & 3 == _INPUT_1
+
+    def count(self, more: int) -> None:
+        """Counts on, or back."""
+        self.registers[_CNT].value = (self._get(_CNT) + more) % (self._get(_ARR) + 1)
+
+    def _runs(self, mode: int) -> bool:
+        return bool(self._get(_CR1) & _CEN) and self._get(_SMCR) & 7 == mode
+
+    def _get(self, offset: int) -> int:
+        return self.registers[offset].value
+
+
+class MotorTimer(KeptPeripheral):
+    """TIM1: the PWM of the motors on its inverted outputs, and an update event every so many of its periods.
+
+    Attributes:
+        on_update: Called at each update event.
+    """
+
+    def __init__(self, clock: Clock, bus_hz: Callable[[], int], pend: Callable[[], None]) -> None:
+        """At rest.
+
+        Args:
+            clock: The board's.
+            bus_hz: Gives the speed of its clock.
+            pend: Makes its update interrupt pending.
+        """
+        self._clock, self._bus_hz, self._pend = clock, bus_hz, pend
+        self.on_update: Callable[[], None] = lambda: None
+        self._next = NEVER
+        self._cr1, self._bdtr = Register("CR1", on_write=self._write_cr1), Register("BDTR")
+        kept = {offset: name for offset, name in _NAMES.items() if offset != _CR1} | {_RCR: "RCR"}
+        others = {0x00: self._cr1, 0x14: Register("EGR", on_write=self._generate), _BDTR: self._bdtr}
+        super().__init__("TIM1", kept, others, resets={_ARR: _COUNT_MASK}, zeros_clear=[_SR])
+        self._alarm = clock.add(self._due)
+
+    def reset(self) -> None:
+        """As in `Peripheral`."""
+        super().reset()
+        self._next = NEVER
+        self._alarm.set(NEVER)
+
+    def duty(self, channel: int) -> float:
+        """How much of the time its inverted output is high, 0..1.
+
+        Args:
+            channel: 1..3.
+        """
+        mode = self._get(0x18 + 4 * (channel > 2)) >> (4 if channel % 2 else 12) & _MODE_MASK  # noqa: PLR2004
+        on = (
+            self._get(_CCER) >> 4 * (channel - 1) + 2 & 1
+            and self._bdtr.value & _OUTPUTS_ON
+            and self._cr1.value & _CEN
+        )
+        if not on or mode != _PWM_1:
+            return 0.0
+        return min(self._get(0x30 + 4 * channel) / (self._get(_ARR) + 1), 1.0)
+
+    def break_at(self, *, low: bool) -> None:
+        """The level at its break input; it takes the current off the outputs by itself."""
+        if self._bdtr.value & _BREAK_ON and low != bool(self._bdtr.value & _BREAK_HIGH):
+            self._bdtr.value &= ~_OUTPUTS_ON
+            self.registers[_SR].value |= _BIF
+
+    def period(self) -> int:
+        """From one update to the next, fs."""
+        cycles = (self._get(_PSC) + 1) * (self._get(_ARR) + 1) * (self._get(_RCR) + 1)
+        return cycles * (SECOND // self._bus_hz())
+
+    def _write_cr1(self, value: int) -> None:
+        started = value & ~self._cr1.value & _CEN
+        self._cr1.value = value
+        if started:
+            self._next = self._clock.now + self.period()
+        elif not value & _CEN:
+            self._next = NEVER
+        self._alarm.set(self._next)
+
+    def _generate(self, value: int) -> None:
+        self.registers[_SR].value |= value & _UIF
+
+    def _due(self) -> int:
+        if self._next <= self._clock.now:
+            self._next += self.period()
+            self.registers[_SR].value |= _UIF
+            if self._get(_DIER) & _UIE:
+                self._pend()
+            self.on_update()
+        return self._next
+
+    def _get(self, offset: int) -> int:
+        return self.registers[offset].value

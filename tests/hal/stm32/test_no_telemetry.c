@@ -1,0 +1,23 @@
+/* A robot that talks to nobody. */
+#include "hal/can_body/port.h"
+#include "hal/pins_body/telemetry.h"
+#include "hal/stm32/line.h"
+#include "tests/test.h"
+
+void setUp(void)
+{
+}
+
+TEST(it_opens_hears_nothing_and_says_nothing)
+{
+    const struct port port = {.node = 1};
+    const struct senses senses = {.tick = 1};
+    const struct output out = {.has_drive = true};
+    struct input in;
+
+    TEST_ASSERT_EQUAL_INT(0, telemetry_open(&port));
+    telemetry_senses(&senses);
+    telemetry_output(&out, true);
+    line_pump();
+    TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
+}

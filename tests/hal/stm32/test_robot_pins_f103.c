@@ -1,0 +1,177 @@
+/* The pins of a robot of its own on a Blue Pill, on registers that lie in the test's memory (RM0008). */
+#include <stddef.h>
+#include <string.h>
+
+#include "hal/pins_body/pins.h"
+#include "hal/port/cortex_m/core.h"
+#include "hal/stm32/machine.h"
+#include "hal/stm32/stm32f103/registers.h"
+#include "tests/test.h"
+
+enum { PORTS = 5, TOP = 3600, ANALOGUE = 0, PULLED = 8, OUTPUT = 2, ALTERNATE = 11, FLOATING = 4 };
+enum { A = 0, B = 1 };
+
+volatile struct rcc_registers RCC;
+volatile struct gpio_port GPIO[PORTS];
+volatile struct timer_registers TIM1, TIM2, TIM3, TIM4;
+volatile struct adc_registers ADC1;
+volatile struct dma_registers DMA1;
+volatile struct interrupt_registers NVIC;
+
+static unsigned slept;
+
+struct clocks machine_clocks(void)
+{
+    return (struct clocks){.core_hz = 72000000};
+}
+
+void core_sleep(void)
+{
+    slept++;
+    TIM1.sr = slept >= 2 ? 1 : 0;   /* woken once by something else */
+}
+
+void setUp(void)
+{
+    memset((void *)&TIM1, 0, sizeof TIM1);
+    memset((void *)&ADC1, 0, sizeof ADC1);
+    memset((void *)GPIO, 0, sizeof GPIO);
+    for (unsigned port = 0; port < PORTS; port++)
+        GPIO[port].at.cr[0] = GPIO[port].at.cr[1] = 0x44444444;
+    slept = 0;
+    pins_open();
+}
+
+static uint32_t mode(unsigned port, unsigned pin)
+{
+    return GPIO[port].at.cr[pin / 8] >> 4 * (pin % 8) & 15u;
+}
+
+TEST(the_registers_lie_where_the_manual_has_them)
+{
+    TEST_ASSERT_EQUAL_HEX(0x24, offsetof(struct timer_registers, cnt));
+    TEST_ASSERT_EQUAL_HEX(0x34, offsetof(struct timer_registers, ccr));
+    TEST_ASSERT_EQUAL_HEX(0x44, offsetof(struct timer_registers, bdtr));
+    TEST_ASSERT_EQUAL_HEX(0x2C, offsetof(struct adc_registers, sqr));
+    TEST_ASSERT_EQUAL_HEX(0x4C, offsetof(struct adc_registers, dr));
+    TEST_ASSERT_EQUAL_HEX(0x14, offsetof(struct dma_registers, channel[0].cmar));
+    TEST_ASSERT_EQUAL_HEX(0x180, offsetof(struct interrupt_registers, icpr));
+}
+
+TEST(each_pin_is_what_its_signal_needs)
+{
+    for (unsigned pin = 0; pin <= 5; pin++)
+        TEST_ASSERT_EQUAL_HEX32(ANALOGUE, mode(A, pin));
+    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(A, 6));
+    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(A, 8));
+    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(A, 15));
+    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(B, 12));
+    TEST_ASSERT_EQUAL_HEX32(OUTPUT, mode(B, 5));
+    TEST_ASSERT_EQUAL_HEX32(OUTPUT, mode(B, 13));
+    TEST_ASSERT_EQUAL_HEX32(ALTERNATE, mode(B, 14));
+    TEST_ASSERT_EQUAL_HEX32(ALTERNATE, mode(B, 15));
+    TEST_ASSERT_EQUAL_HEX32(FLOATING, mode(A, 13));
+}
+
+TEST(what_is_used_has_power)
+{
+    TEST_ASSERT_EQUAL_HEX32(1, RCC.ahbenr & 1);
+    TEST_ASSERT_EQUAL_HEX32(1 << 9 | 1 << 11, RCC.apb2enr & (1 << 9 | 1 << 11));
+    TEST_ASSERT_EQUAL_HEX32(7, RCC.apb1enr & 7);
+    TEST_ASSERT_EQUAL_HEX32(2 << 14, RCC.cfgr & 3 << 14);
+}
+
+TEST(a_beat_is_5_ms_of_pwm_at_20_khz_and_the_bridge_can_break_it)
+{
+    TEST_ASSERT_EQUAL_UINT32(72000000 / 200, (TIM1.arr + 1) * (TIM1.rcr + 1));
+    TEST_ASSERT_EQUAL_UINT32(72000000 / 20000, TIM1.arr + 1);
+    TEST_ASSERT_EQUAL_HEX32(1 << 6 | 1 << 10, TIM1.ccer);
+    TEST_ASSERT_EQUAL_HEX32(1 << 15 | 1 << 12 | 1 << 10, TIM1.bdtr);
+    TEST_ASSERT_EQUAL_HEX32(1 << 25, NVIC.iser[0]);
+    TEST_ASSERT_EQUAL_HEX32(1, TIM1.cr1 & 1);
+}
+
+TEST(encoders_and_bursts_are_counted_by_timers)
+{
+    TEST_ASSERT_EQUAL_HEX32(3, TIM3.smcr);
+    TEST_ASSERT_EQUAL_HEX32(3, TIM4.smcr);
+    TEST_ASSERT_EQUAL_HEX32(7 | 5 << 4, TIM2.smcr);
+    TIM3.cnt = 0xFFFF;
+    TIM4.cnt = 5;
+    TIM2.cnt = 9;
+    TEST_ASSERT_EQUAL_UINT16(0xFFFF, pins_count(0));
+    TEST_ASSERT_EQUAL_UINT16(5, pins_count(1));
+    TEST_ASSERT_EQUAL_UINT16(9, pins_bursts());
+}
+
+TEST(the_converter_goes_round_six_channels_into_memory)
+{
+    uint32_t order = 0 | 1 << 5 | 2 << 10 | 3 << 15 | 4 << 20 | 5 << 25;
+
+    TEST_ASSERT_EQUAL_UINT32(6, DMA1.channel[0].cndtr);
+    TEST_ASSERT_EQUAL_HEX32(0x5A1, DMA1.channel[0].ccr);
+    TEST_ASSERT_EQUAL_HEX32(order, ADC1.sqr[2]);
+    TEST_ASSERT_EQUAL_HEX32(5 << 20, ADC1.sqr[0]);
+    TEST_ASSERT_EQUAL_HEX32(0x3FFFF, ADC1.smpr[1]);
+    TEST_ASSERT_EQUAL_HEX32(1 << 22 | 1 << 20 | 7 << 17 | 1 << 8 | 3, ADC1.cr2);
+}
+
+TEST(a_beat_is_slept_for_and_cleared)
+{
+    pins_wait();
+    TEST_ASSERT_EQUAL_UINT(2, slept);
+    TEST_ASSERT_EQUAL_HEX32(~1u, TIM1.sr);
+    TEST_ASSERT_EQUAL_HEX32(1 << 25, NVIC.icpr[0]);
+    TIM1.sr = 1;
+    pins_wait();
+    TEST_ASSERT_EQUAL_UINT(2, slept);
+}
+
+TEST(a_duty_is_time_high_forward_and_time_low_backward)
+{
+    pins_push(0, 16384);
+    TEST_ASSERT_EQUAL_UINT32(TOP / 4, TIM1.ccr[1]);
+    TEST_ASSERT_EQUAL_HEX32(1 << 16, GPIO[B].at.bsrr);
+    pins_push(1, -16384);
+    TEST_ASSERT_EQUAL_UINT32(TOP - TOP / 4, TIM1.ccr[2]);
+    TEST_ASSERT_EQUAL_HEX32(1 << 1, GPIO[B].at.bsrr);
+}
+
+TEST(outputs_are_set_and_cleared)
+{
+    pins_wake_bridge(true);
+    TEST_ASSERT_EQUAL_HEX32(1 << 5, GPIO[B].at.bsrr);
+    pins_wake_bridge(false);
+    TEST_ASSERT_EQUAL_HEX32(1 << 21, GPIO[B].at.bsrr);
+    pins_shine(true);
+    TEST_ASSERT_EQUAL_HEX32(1 << 13, GPIO[B].at.bsrr);
+}
+
+TEST(what_is_pressed_is_low)
+{
+    GPIO[A].at.idr = GPIO[B].at.idr = 0xFFFF;
+    TEST_ASSERT_FALSE(pins_bumped() || pins_button());
+    GPIO[B].at.idr = 0xFFFF & ~(1u << 10);
+    TEST_ASSERT_TRUE(pins_bumped());
+    GPIO[B].at.idr = 0xFFFF & ~(1u << 11);
+    TEST_ASSERT_TRUE(pins_bumped());
+    GPIO[A].at.idr = 0xFFFF & ~(1u << 8);
+    TEST_ASSERT_TRUE(pins_button());
+}
+
+TEST(a_break_is_seen)
+{
+    TEST_ASSERT_FALSE(pins_bridge_failed());
+    TIM1.sr = 1 << 7;
+    TEST_ASSERT_TRUE(pins_bridge_failed());
+}
+
+TEST(before_the_first_sample_everything_is_dark)
+{
+    uint16_t light[FEEL_COUNT] = {1, 1, 1, 1, 1};
+
+    pins_measure(light);
+    for (unsigned i = 0; i < FEEL_COUNT; i++)
+        TEST_ASSERT_EQUAL_UINT16(0, light[i]);
+    TEST_ASSERT_EQUAL_UINT32(0, pins_battery_mv());
+}

@@ -1,0 +1,180 @@
+"""The models of what a robot of its own uses on an STM32F1: ports, timers, the converter, interrupts that wake."""
+
+import pytest
+
+from host_sim.emulator.board_pins import read_pins
+from host_sim.emulator.clock import SECOND
+from host_sim.emulator.converter import Converter, Dma
+from host_sim.emulator.gpio_f1 import GpioF1, Wiring
+from host_sim.emulator.interrupts import Interrupts
+from host_sim.emulator.registers import BoardError, Register
+from host_sim.emulator.timers import MotorTimer, Timer
+from tests.image.support import read, write
+
+CRL, IDR, ODR, BSRR = 0x00, 0x08, 0x0C, 0x10
+HZ = 8_000_000
+
+
+def test_an_open_input_reads_its_pull_and_a_driven_one_its_level():
+    port = GpioF1("GPIOA")
+    write(port, CRL, 0x44444488)
+    write(port, BSRR, 1)
+    write(port, CRL, 0x44444488)
+    assert read(port, IDR) == 1
+    port.drive(0, high=False)
+    port.drive(1, high=True)
+    assert read(port, IDR) == 2
+    assert not port.drives(0)
+
+
+def test_an_output_reads_back_and_an_alternate_one_is_not_the_images():
+    port = GpioF1("GPIOA")
+    write(port, CRL, 0x444444B2)
+    write(port, BSRR, 3)
+    assert (port.drives(0), port.drives(1)) == (True, False)
+    assert read(port, IDR) == 3
+
+
+@pytest.fixture
+def wiring():
+    ports = [GpioF1(f"GPIO{letter}") for letter in "ABC"]
+    return Wiring(read_pins("blue_pill"), ports, Register("MAPR")), ports
+
+
+def test_a_signal_meets_its_function_with_the_right_mode_and_remap(wiring):
+    wires, ports = wiring
+    mapr = wires._mapr
+    write(ports[1], 0x04, 0x444444B8)
+    assert not wires.meets("CAN_RX")
+    mapr.write(2 << 13)
+    assert wires.meets("CAN_RX")
+    assert wires.meets("CAN_TX")
+    write(ports[1], 0x04, 0x44444428)
+    assert not wires.meets("CAN_TX")
+    wires.rewire("CAN_RX", "PA11")
+    assert not wires.meets("CAN_RX")
+
+
+def test_pins_of_jtag_are_free_only_where_it_is_off(wiring):
+    wires, _ = wiring
+    wires._mapr.write(1 << 8)
+    assert not wires.meets("BEACON")
+    wires._mapr.write(1 << 8 | 2 << 24)
+    assert wires.meets("BEACON")
+
+
+def test_a_sensor_needs_an_analogue_pin(wiring):
+    wires, ports = wiring
+    assert not wires.meets("BATTERY")
+    write(ports[0], CRL, 0x44044444)
+    assert wires.meets("BATTERY")
+
+
+def test_an_encoder_is_counted_either_way_and_wraps():
+    timer = Timer("TIM3")
+    assert not timer.follows_encoder()
+    for offset, value in ((0x18, 0x3131), (0x08, 3), (0x00, 1)):
+        write(timer, offset, value)
+    assert timer.follows_encoder()
+    assert not timer.counts_input_1()
+    timer.count(-1)
+    assert read(timer, 0x24) == 0xFFFF
+
+
+def test_bursts_are_counted_at_the_first_input():
+    timer = Timer("TIM2")
+    for offset, value in ((0x18, 0x31), (0x08, 7 | 5 << 4), (0x00, 1)):
+        write(timer, offset, value)
+    assert timer.counts_input_1()
+
+
+@pytest.fixture
+def motors(clock):
+    pended = []
+    timer = MotorTimer(clock, lambda: HZ, lambda: pended.append(clock.now))
+    for offset, value in ((0x2C, 399), (0x30, 99), (0x18, 0x6800), (0x38, 100), (0x20, 1 << 6), (0x44, 9 << 12)):
+        write(timer, offset, value)
+    return timer, pended
+
+
+def test_an_update_comes_each_so_many_periods_and_asks_for_its_interrupt(clock, motors):
+    timer, pended = motors
+    write(timer, 0x0C, 1)
+    write(timer, 0x00, 1)
+    clock.skip(SECOND // 50)
+    assert len(pended) == 4
+    assert read(timer, 0x10) & 1
+    timer.registers[0x10].value &= ~1
+    clock.skip(SECOND // 400)
+    assert not read(timer, 0x10) & 1
+
+
+def test_a_duty_is_that_of_a_running_enabled_unbroken_channel(motors):
+    timer, _ = motors
+    assert timer.duty(2) == 0
+    write(timer, 0x00, 1)
+    assert timer.duty(2) == 0.25
+    assert timer.duty(3) == 0
+    timer.break_at(low=False)
+    assert timer.duty(2) == 0.25
+    timer.break_at(low=True)
+    assert timer.duty(2) == 0
+    assert read(timer, 0x10) & 1 << 7
+
+
+@pytest.fixture
+def converter():
+    dma = Dma()
+    made = Converter(0x40012400, lambda: 72_000_000, lambda: 6, dma)
+    for offset, value in ((0x08, 0x5A1), (0x0C, 2), (0x10, 0x4001244C), (0x14, 0x20000100)):
+        write(dma, offset, value)
+    for offset, value in ((0x2C, 1 << 20), (0x34, 3 | 5 << 5), (0x04, 1 << 8), (0x08, 1), (0x08, 1 | 1 << 2)):
+        write(made, offset, value)
+    return made, dma
+
+
+def test_a_round_is_converted_in_its_order(converter):
+    made, _ = converter
+    assert made.convert({}) is None
+    write(made, 0x08, 1 | 2 | 1 << 8 | 15 << 17 | 1 << 22)
+    assert made.convert({3: 700, 5: 9999}) == (0x20000100, (700).to_bytes(2, "little") + b"\xff\x0f")
+    assert read(made, 0x08) & 12 == 0
+
+
+def test_samples_that_nobody_carries_off_are_lost(converter):
+    made, dma = converter
+    write(made, 0x08, 1 | 2 | 1 << 8 | 15 << 17 | 1 << 22)
+    write(dma, 0x08, 0)
+    assert made.convert({3: 700}) is None
+
+
+def test_a_round_of_another_length_and_a_clock_too_fast_are_refused(converter):
+    made, dma = converter
+    write(made, 0x08, 1 | 2 | 1 << 8 | 15 << 17 | 1 << 22)
+    write(dma, 0x0C, 3)
+    with pytest.raises(BoardError, match="converts 2 channels in a round, and DMA1 carries 3 off"):
+        made.convert({})
+    fast = Converter(0x40012400, lambda: 72_000_000, lambda: 2, dma)
+    with pytest.raises(BoardError, match="36000000 Hz, where 14000000 is allowed"):
+        write(fast, 0x08, 1)
+
+
+def test_a_status_is_cleared_by_zeros_from_python_too():
+    timer = Timer("TIM3")
+    timer.registers[0x10].value = 0x81
+    write(timer, 0x10, 0xFFFFFFFE)
+    assert read(timer, 0x10) == 0x80
+
+
+def test_what_is_enabled_and_pending_wakes():
+    interrupts = Interrupts()
+    interrupts.pend(25)
+    assert not interrupts.wakes
+    write(interrupts, 0x00, 1 << 25)
+    assert interrupts.wakes
+    assert read(interrupts, 0x100) == 1 << 25
+    write(interrupts, 0x180, 1 << 25)
+    assert not interrupts.wakes
+    interrupts.pend(33)
+    write(interrupts, 0x04, 2)
+    assert interrupts.wakes
