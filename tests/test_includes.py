@@ -22,8 +22,9 @@ MAY_INCLUDE = {
     "hal/port/cortex_m/": ("hal/hal.h", "hal/can_body/port.h", "hal/flash_store/", "hal/protocol/health.h"),
     "hal/boot/": ("hal/hal.h", "hal/flash_store/", "hal/link/link.h", "hal/port/cortex_m/"),
     "hal/stm32/": (
-        "hal/boot/", "hal/can_body/port.h", "hal/flash_store/", "hal/link/", "hal/pins_body/", "hal/port/",
-    ),  # fmt: skip
+        *("hal/boot/", "hal/can_body/port.h", "hal/flash_store/", "hal/link/"),
+        *("hal/pins_body/", "hal/port/"),
+    ),
     "hal/library/": ("firmware/", "hal/protocol/"),
     "hal/pins_body/": ("firmware/io.h", "hal/hal.h", "hal/can_body/port.h", "hal/protocol/"),
     "host_sim/world/native/": ("firmware/io.h", "hal/boot/sha512.h", "hal/pins_body/"),
