@@ -30,7 +30,7 @@ static uint16_t take_single(struct isotp *isotp, const struct frame *frame)
 
 static void take_first(struct isotp *isotp, const struct frame *frame, uint32_t now_ms)
 {
-    unsigned len = (frame->data[0] & LOW) << 8 | frame->data[1];
+    unsigned len = (unsigned)(frame->data[0] & LOW) << 8 | frame->data[1];
 
     if (frame->len < FRAME_BYTES || len <= SINGLE_MAX)
         return;

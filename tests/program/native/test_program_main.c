@@ -23,7 +23,7 @@ int robot_main(int argc, char *argv[])
     robot_init(&robot, 1);
     programmed_robot_respond(&robot, INPUT_COMMAND, &in, &out);
     programmed_robot_respond(&robot, INPUT_SENSES, &in, &out);
-    return out.drive.reason;
+    return (int)out.drive.reason;
 }
 
 void setUp(void)

@@ -33,7 +33,7 @@ static const char *edit(enum edit_kind kind, uint32_t robot, const double place[
     page_numbers()[PAGE_EDIT_HEADING] = 1500.0;
     memcpy(page_numbers() + PAGE_EDIT_AT, place, 2 * sizeof *place);
     strcpy(page_text(), what);
-    return page_edit(kind);
+    return page_edit((int32_t)kind);
 }
 
 static struct body *body(uint32_t robot)

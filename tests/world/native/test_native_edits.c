@@ -26,12 +26,12 @@ static const char *edit(struct edit edit)
 
 static const char *bar(enum edit_kind kind, uint32_t id, double ax, double ay, double bx, double by)
 {
-    return edit((struct edit){.kind = kind, .id = id, .a = {ax, ay}, .b = {bx, by}});
+    return edit((struct edit){.kind = (int32_t)kind, .id = id, .a = {ax, ay}, .b = {bx, by}});
 }
 
 static const char *plant(enum edit_kind kind, uint32_t id, double x, double y, double radius)
 {
-    return edit((struct edit){.kind = kind, .id = id, .at = {x, y}, .radius = radius});
+    return edit((struct edit){.kind = (int32_t)kind, .id = id, .at = {x, y}, .radius = radius});
 }
 
 static const char *put(double x, double y)
