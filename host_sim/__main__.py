@@ -1,4 +1,4 @@
-"""`python -m host_sim`: the same as `tools/octet`."""
+"""`python -m host_sim`: the same as `tools/octet`, and as the command `octet` of a wheel."""
 
 import gc
 import signal
@@ -15,24 +15,28 @@ def judge(arguments: Sequence[str]) -> Sequence[str]:
     return judge(arguments)
 
 
-def _main() -> int:
+def main() -> int:
     """Runs the command; until it is loaded, Ctrl-C ends the process without a traceback."""
     gc.set_threshold(_OBJECTS_A_COLLECTION)  # loaded modules are not garbage, and looking for garbage takes time
     interruptible = signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if interruptible:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
-        from host_sim.cli.main import main  # noqa: PLC0415 - this takes the time
+        from host_sim.cli.main import main as run  # noqa: PLC0415 - this takes the time
 
         if interruptible:
             signal.signal(signal.SIGINT, signal.default_int_handler)
-        return main()
+        return run()
     except ModuleNotFoundError as error:
         if (error.name or "host_sim").startswith("host_sim"):
             raise
-        sys.stderr.write(f"octet: {error.name} is missing from .venv: remove that folder, and call again\n")
+        from host_sim.base.extra_library import missing  # noqa: PLC0415 - see above
+        from host_sim.base.paths import INSTALLED  # noqa: PLC0415 - see above
+
+        again = f"{error.name} is missing from .venv: remove that folder, and call again"
+        sys.stderr.write(f"octet: {missing(error.name or '', '') if INSTALLED else again}\n")
         return 1
 
 
 if __name__ == "__main__":
-    sys.exit(_main())
+    sys.exit(main())

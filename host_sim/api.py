@@ -12,10 +12,7 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any
 
 from host_sim.base.errors import OctetError, RobotError, UsageError
 from host_sim.client.commands import stop
@@ -33,6 +30,9 @@ from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import Memory, make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 __all__ = [
     "EpisodeResult",
@@ -69,7 +69,7 @@ class Run:
     memories: list[tuple[int, ...]]
     log_sha256: str
 
-    def ticks(self, robot: int = 0) -> dict[str, NDArray[Any]]:
+    def ticks(self, robot: int = 0) -> "dict[str, NDArray[Any]]":
         """As `ticks_of`."""
         return ticks_of(self.trajectory, robot)
 
@@ -113,7 +113,7 @@ def run(
     return Run(episodes, recorder.trajectory, cells, digest)
 
 
-def ticks_of(trajectory: Trajectory, robot: int = 0) -> dict[str, NDArray[Any]]:
+def ticks_of(trajectory: Trajectory, robot: int = 0) -> "dict[str, NDArray[Any]]":
     """A robot's ticks as columns of equal length, as pandas and Arrow take them.
 
     The columns are `tick_number`, counted from the start of the run; `x` and `y` in mm and `heading` in rad, after
@@ -123,10 +123,12 @@ def ticks_of(trajectory: Trajectory, robot: int = 0) -> dict[str, NDArray[Any]]:
         trajectory: The run.
         robot: Index of the robot.
     """
+    import numpy as np  # noqa: PLC0415 - nothing else here needs it
+
     track = trajectory.tracks[robot]
     x, y, heading = track.poses().T
     number = np.arange(trajectory.first_tick, trajectory.ticks)
-    rows = {name: track.column(name).copy() for name in ROW}
+    rows = {name: np.array(track.column(name)) for name in ROW}
     return {"tick_number": number, "x": x.copy(), "y": y.copy(), "heading": heading.copy(), **rows}
 
 

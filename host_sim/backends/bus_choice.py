@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
+from host_sim.base.system import HAS_ROBOT_PROCESSES
 
 _WITH_VCAN = ROOT / "tools" / "with-vcan"
 _VCAN = "socketcan:vcan0"
@@ -32,6 +33,8 @@ def check_robot(bus: str, robot: str, nodes: Sequence[int]) -> None:
         _check_emulated(bus, robot, nodes)
     elif robot == "external" and interface in ("auto", "none", "fd"):
         raise UsageError(f"--robot external needs --bus INTERFACE:CHANNEL, the bus that it is on, not --bus {bus}")
+    elif robot == "spawn" and interface not in ("auto", "none") and not HAS_ROBOT_PROCESSES:
+        raise UsageError(f"on this system a robot starts in this process only, not on {bus}: use --bus none")
     elif robot == "spawn" and ":" in bus and interface != "socketcan":
         raise UsageError(f"a robot cannot be started on {bus}, only on socketcan or fd: use --robot external")
 
@@ -62,6 +65,8 @@ def choose_bus(bus: str, robot: str) -> str:
         return bus
     if robot != "spawn":
         return "fd"
+    if not HAS_ROBOT_PROCESSES:
+        return "none"
     if os.environ.get(_CHOSEN) == "1":
         return _VCAN
     import subprocess  # noqa: PLC0415 - a run in this process begins sooner without

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from host_sim.base.errors import OctetError
+from host_sim.base.system import give_mode, sync_folder
 
 
 def write_bytes(path: Path, content: bytes) -> None:
@@ -47,37 +48,16 @@ def replacing(path: Path) -> Iterator[Path]:
         except BaseException:
             Path(name).unlink(missing_ok=True)
             raise
-        _sync_folder(target.parent)
+        sync_folder(target.parent)
     except OSError as error:
         raise OctetError(f"cannot write {path}: {error.strerror or error}") from error
 
 
 def _finish(name: str, before: os.stat_result | None) -> None:
     """Gives the new file the old one's mode and owner, or those of a new file, and waits until it is on the disk."""
-    descriptor = os.open(name, os.O_RDONLY)
+    descriptor = os.open(name, os.O_RDWR)
     try:
-        if before is None:
-            os.fchmod(descriptor, 0o666 & ~_umask())
-        else:
-            os.fchmod(descriptor, stat.S_IMODE(before.st_mode))
-            if os.geteuid() == 0:
-                os.fchown(descriptor, before.st_uid, before.st_gid)
-        os.fsync(descriptor)
-    finally:
-        os.close(descriptor)
-
-
-def _umask() -> int:
-    """The process's mask, which can only be read by setting it."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
-
-
-def _sync_folder(folder: Path) -> None:
-    """Syncs a directory: only then is a rename in it durable."""
-    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    try:
+        give_mode(descriptor, before)
         os.fsync(descriptor)
     finally:
         os.close(descriptor)

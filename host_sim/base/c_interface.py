@@ -4,14 +4,11 @@ import contextlib
 import hashlib
 import importlib.util
 import io
-import sys
 from functools import cache
 from pathlib import Path
 from typing import Any
 
-import _cffi_backend
-
-from host_sim.base.paths import BUILD
+from host_sim.base.paths import BUILD, INSTALLED
 
 FOLDER = BUILD / "cffi"
 """What was read, as modules of Python."""
@@ -28,14 +25,14 @@ def c_interface(declarations: str) -> Any:
     Args:
         declarations: What the C code declares, as `FFI.cdef` reads it.
     """
-    made_by = f"{_cffi_backend.__version__} {sys.implementation.cache_tag}"
-    name = "octet_" + hashlib.sha256(f"{made_by}\n{declarations}".encode()).hexdigest()[:16]
+    name = "octet_" + hashlib.sha256(declarations.encode()).hexdigest()[:16]
     path = FOLDER / f"{name}.py"
-    with contextlib.suppress(Exception):  # nothing is there yet, or what a loss of power has left
+    with contextlib.suppress(Exception):  # nothing is there, or of a cffi that this one cannot read, or damaged
         return _load(path)
-    with contextlib.suppress(Exception):  # the folder is read-only, or the disk is full
-        _write(path, declarations)
-        return _load(path)
+    if not INSTALLED:
+        with contextlib.suppress(Exception):  # the folder is read-only, or the disk is full
+            _write(path, declarations)
+            return _load(path)
     return _read(declarations)
 
 

@@ -7,7 +7,20 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import UsageError
-from host_sim.base.paths import BUILD
+from host_sim.base.paths import BUILD, INSTALLED
+
+
+def missing(name: str, stage: str) -> str:
+    """What to do about a library that is not there, in a line.
+
+    Args:
+        name: Its module.
+        stage: The stage of tools/setup that installs it in a checkout.
+    """
+    needed = name.partition(".")[0]
+    # By its own name: a registry may have something else that is called octet.
+    how = f"python -m pip install {needed}" if INSTALLED else f"tools/setup {stage}"
+    return f"this needs {needed}, which is not installed: run {how}"
 
 
 def library(name: str, stage: str, build: Path = BUILD) -> Any:
@@ -27,5 +40,4 @@ def library(name: str, stage: str, build: Path = BUILD) -> Any:
     try:
         return importlib.import_module(name)
     except ModuleNotFoundError:
-        needed = name.partition(".")[0]
-        raise UsageError(f"this needs {needed}, which is not installed: run tools/setup {stage}") from None
+        raise UsageError(missing(name, stage)) from None

@@ -1,10 +1,10 @@
 """Locks against other runs; they end with the process that holds them, however it ends."""
 
-import fcntl
 import os
 from pathlib import Path
 
 from host_sim.base.errors import UsageError
+from host_sim.base.system import lock_at_once
 
 _LOCKS = Path("/proc/locks")
 
@@ -21,7 +21,7 @@ def lock(descriptor: int, name: str, instead: str) -> None:
         UsageError: It cannot be locked, or another run has done so.
     """
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        lock_at_once(descriptor)
     except BlockingIOError:
         raise UsageError(f"{name} is in use by another run{_owner(descriptor)}; {instead}") from None
     except OSError as error:

@@ -1,16 +1,39 @@
 """Paths within the project."""
 
+import re
 from pathlib import Path
 
 from host_sim.base.errors import OctetError
 
-ROOT = Path(__file__).resolve().parents[2]
-"""The project's root folder."""
+PACKAGE = Path(__file__).resolve().parents[1]
+"""The folder of the Python files, and of what is read beside them."""
+
+_TREE = PACKAGE / "tree"
+INSTALLED = _TREE.is_dir()
+"""Whether this came as a wheel; otherwise it is a checkout, which tools/setup builds."""
+
+ROOT = _TREE if INSTALLED else PACKAGE.parent
+"""The project's root folder, or what a wheel has of it."""
 
 BUILD = ROOT / "build"
 """Build output."""
 
-WEB = ROOT / "host_sim" / "web"
+_CALLED = {
+    r"(run|build (it|them) with) tools/setup( \w+)?": "this wheel was built without it",
+    r"\btools/octet\b": "octet",
+    r"\btools/run\b": "octet run",
+    r"\btools/with-vcan\b": str(ROOT / "tools" / "with-vcan"),
+}
+
+
+def as_called(text: str) -> str:
+    """A text for people with the project's commands as they are called here: those of a checkout, or of a wheel."""
+    for checkout, wheel in _CALLED.items() if INSTALLED else ():
+        text = re.sub(checkout, wheel.replace("\\", r"\\"), text)
+    return text
+
+
+WEB = PACKAGE / "web"
 """The HTML, CSS and JavaScript of the pages."""
 
 PAGE_WASM = BUILD / "page" / "host_sim" / "web" / "native" / "page.wasm"

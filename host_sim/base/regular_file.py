@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from host_sim.base.errors import UsageError
+from host_sim.base.system import NO_WAIT
 
 
 def open_bytes(path: Path, limit: int) -> BinaryIO:
@@ -53,4 +54,4 @@ def read_text(path: Path, limit: int) -> str:
 
 
 def _open_without_waiting(path: str, flags: int) -> int:
-    return os.open(path, flags | os.O_NONBLOCK)
+    return os.open(path, flags | NO_WAIT)

@@ -6,9 +6,10 @@ from contextlib import contextmanager
 from types import FrameType
 
 from host_sim.base.errors import RobotError
+from host_sim.base.system import ENDING_SIGNALS, on_alarm, set_alarm
 from host_sim.client.commands import stop
 from host_sim.client.robot_client import RobotClient
-from host_sim.live.ending_signals import ENDING_SIGNALS, TICK_S, at_most
+from host_sim.live.ending_signals import TICK_S, at_most
 from host_sim.sim.simulation import Simulation
 
 STOP_S = 1.0
@@ -31,7 +32,7 @@ def interrupted_between_ticks(simulation: Simulation) -> Iterator[None]:
         pending.append(number)
         if len(pending) > 1:
             handlers[signal.Signals(number)](number, frame)
-        signal.setitimer(signal.ITIMER_REAL, TICK_S)
+        set_alarm(TICK_S)
 
     watch = simulation.watch
 
@@ -43,12 +44,12 @@ def interrupted_between_ticks(simulation: Simulation) -> Iterator[None]:
     simulation.watch = check
     for number in handlers:
         signal.signal(number, remember)
-    before = signal.signal(signal.SIGALRM, lambda _, frame: handlers[signal.Signals(pending[0])](pending[0], frame))
+    before = on_alarm(lambda _, frame: handlers[signal.Signals(pending[0])](pending[0], frame))
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        set_alarm(0)
+        on_alarm(before)
         for number, handler in handlers.items():
             signal.signal(number, handler)
 

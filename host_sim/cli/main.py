@@ -18,7 +18,8 @@ from types import FrameType
 from typing import NoReturn
 
 from host_sim.base.errors import OctetError
-from host_sim.base.paths import ROOT
+from host_sim.base.paths import ROOT, as_called
+from host_sim.base.system import ENDING_SIGNALS
 from host_sim.cli.parsing import Parser
 
 _ROOMS = ("cli", "lab/*")
@@ -90,7 +91,7 @@ def _run(action: Callable[[], int]) -> int:
         try:
             return action()
         except OctetError as error:
-            print(f"octet: {error}", file=sys.stderr)
+            print(as_called(f"octet: {error}"), file=sys.stderr)
             return error.exit_code
         except BrokenPipeError:  # the reader of standard output has closed it
             _drop_output()
@@ -107,13 +108,10 @@ def _run(action: Callable[[], int]) -> int:
             return 128 + number
 
 
-def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
-    given = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
-    if given == ["--version"]:
-        print(_version())
-        raise SystemExit(0)
+def parser_of(given: Sequence[str]) -> Parser:
+    """The parser of a command line: with the command that it names, or else with all commands."""
     parser = Parser(
-        prog="tools/octet",
+        prog=as_called("tools/octet"),
         usage="%(prog)s COMMAND [OPTION ...]",
         description="Octet: a robot that learns with eight bytes of memory. `tools/octet COMMAND --help` says more.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
@@ -125,7 +123,15 @@ def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     for name in _modules_for(given):
         importlib.import_module(name).add(commands)
     parser.epilog = _overview(commands.choices)
-    parsed, unknown = parser.parse_known_args(given)
+    return parser
+
+
+def _parse(arguments: Sequence[str] | None) -> argparse.Namespace:
+    given = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    if given == ["--version"]:
+        print(_version())
+        raise SystemExit(0)
+    parsed, unknown = parser_of(given).parse_known_args(given)
     if unknown:
         parsed.parser.unknown_option(unknown)
     parsed.check(parsed)
@@ -149,7 +155,7 @@ def _overview(parsers: Mapping[str, Parser]) -> str:
 @contextlib.contextmanager
 def _signals_raised() -> Iterator[None]:
     """Has SIGTERM and SIGHUP raise here, unless the process was started to ignore them, as by nohup."""
-    numbers = [n for n in (signal.SIGTERM, signal.SIGHUP) if signal.getsignal(n) == signal.SIG_DFL]
+    numbers = [n for n in ENDING_SIGNALS if n != signal.SIGINT and signal.getsignal(n) == signal.SIG_DFL]
     for number in numbers:
         signal.signal(number, _raise_end)
     try:

@@ -2,19 +2,19 @@
 
 import json
 import os
-import signal
 import sys
 import time
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from host_sim.base.errors import OctetError
+from host_sim.base.paths import as_called
 from host_sim.base.regular_file import read_bytes
+from host_sim.base.system import signals_held
 from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
-from host_sim.live.ending_signals import ENDING_SIGNALS
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
 from host_sim.recording.world_file import world_path, write_world
@@ -63,7 +63,7 @@ class Outputs:
         wall_s = time.monotonic() - self._began_s
         if len(self.episodes) < len(self.simulation.record.begun):
             self.episodes.append(self.simulation.leave())
-        with _undisturbed():
+        with signals_held():
             digest = self._replace_log()
             summary = summarize(self.options, self.simulation, self.episodes, digest, wall_s)
             summary.write(self.options.out / SUMMARY)
@@ -120,7 +120,8 @@ def _next(options: RunOptions, there: Sequence[Path]) -> str:
     if options.log not in there:
         return ""
     log = "" if options.log == RunOptions.out / LOGS[0] else f" --log {options.log}"
-    return f"next      open {PAGE} in a browser; ask the robot: tools/octet talk{log}; meddle: tools/octet watch"
+    then = f"next      open {PAGE} in a browser; ask the robot: tools/octet talk{log}; meddle: tools/octet watch"
+    return as_called(then)
 
 
 def _linked(path: Path) -> str:
@@ -156,13 +157,3 @@ def _keep(path: Path) -> None:
         path.unlink(missing_ok=True)
     except OSError as error:
         raise OctetError(f"cannot replace {path}: {error.strerror}") from error
-
-
-@contextmanager
-def _undisturbed() -> Iterator[None]:
-    """Holds signals back."""
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING_SIGNALS)
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from host_sim.base.errors import UsageError
 from host_sim.base.near_word import meant, near_word
+from host_sim.base.paths import as_called
 from host_sim.protocol.words import PARAMETERS
 
 if TYPE_CHECKING:
@@ -42,6 +43,10 @@ class Parser(argparse.ArgumentParser):
         flag = words[0].partition("=")[0]
         near = near_word(flag, re.findall(r"--[\w-]+", self.format_help())) if flag.startswith("-") else None
         self.error(f"unrecognized arguments: {' '.join(words)}" + (f": did you mean {near}?" if near else ""))
+
+    def format_help(self) -> str:
+        """As in `argparse.ArgumentParser`, with the project's commands as they are called here."""
+        return as_called(super().format_help())
 
     def error(self, message: str) -> NoReturn:
         """As in `argparse.ArgumentParser`, but raises instead of exiting.
@@ -157,7 +162,7 @@ def setting(text: str) -> tuple[str, int]:
     low, high, _, unit, _ = PARAMETERS[name]
     values = f"a whole number from {low} to {high}{f' {unit}' if unit else ''}"
     if not equals:
-        raise argparse.ArgumentTypeError(f"{name} has no value: write --set {name}=VALUE, {values}")
+        raise UsageError(f"{name} has no value: write --set {name}=VALUE, {values}")
     if not value.isdecimal() or not low <= int(value) <= high:
         raise argparse.ArgumentTypeError(f"{name} must be {values}, not {value!r}")
     return name, int(value)

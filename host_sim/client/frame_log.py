@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, BinaryIO
 
 from host_sim.base.compressed_file import COMPRESSED
 from host_sim.base.errors import OctetError, UsageError
+from host_sim.base.system import NO_LINK, NO_WAIT
 from host_sim.protocol.codec import NODE_MAX, Frame, Protocol
 
 if TYPE_CHECKING:
@@ -193,7 +194,7 @@ def _open_regular(path: str, flags: int) -> int:
     """Opens a file without following a link, and without waiting for the reader of a pipe."""
     if path == os.devnull:
         return os.open(path, flags)
-    descriptor = os.open(path, flags | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+    descriptor = os.open(path, flags | NO_LINK | NO_WAIT, 0o666)
     if not stat.S_ISREG(os.fstat(descriptor).st_mode):
         os.close(descriptor)
         raise OSError(errno.EINVAL, "it is not a regular file")

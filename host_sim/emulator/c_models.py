@@ -5,10 +5,10 @@ from typing import Any
 
 from host_sim.base.c_interface import c_interface
 from host_sim.base.errors import OctetError
-from host_sim.base.paths import BUILD, ROOT
+from host_sim.base.paths import BUILD, PACKAGE, ROOT
 
 LIBRARY = BUILD / "host" / "host_sim" / "emulator" / "models" / "liboctet_models.so"
-_MODELS = ROOT / "host_sim" / "emulator" / "models"
+_MODELS = PACKAGE / "emulator" / "models"
 _NAMES = ("can_wire", "bxcan_model", "board_clock", "core_blocks", "systick_model", "register_space")
 _HEADERS = (ROOT / "hal" / "link" / "link.h", *(_MODELS / f"{name}.h" for name in _NAMES))
 

@@ -9,6 +9,7 @@ from typing import Any, cast
 
 from host_sim.base.c_interface import c_interface
 from host_sim.base.errors import OctetError
+from host_sim.base.extra_library import missing
 from host_sim.emulator.c_models import c_models
 from host_sim.emulator.clock import Clock
 from host_sim.emulator.registers import BoardError, Window
@@ -39,7 +40,7 @@ try:
     from unicorn.unicorn import Uc, UcError
     from unicorn.unicorn_py3.unicorn import uclib
 except ImportError as error:
-    raise OctetError("unicorn is not installed: run tools/setup emulator") from error
+    raise OctetError(missing("unicorn", "emulator")) from error
 
 PAGE = 0x1000
 _THUMB = 1
@@ -84,7 +85,7 @@ class Fault:
 
 
 @cache
-def _calls() -> Any:
+def unicorn_calls() -> Any:
     """Those calls of Unicorn that take functions in C, and the one made most, as its header declares them."""
     return c_interface(
         "int uc_emu_start(void *uc, uint64_t begin, uint64_t until, uint64_t timeout, size_t count);"
@@ -135,7 +136,7 @@ class Core:
         self._uc.ctl_set_tcg_buffer_size(_TRANSLATED_MAX)
         self._uc.hook_add(UC_HOOK_MEM_INVALID, self._on_unreachable)
         self._ffi, self._models = c_models()
-        self._library: Any = _calls().dlopen(uclib._name)
+        self._library: Any = unicorn_calls().dlopen(uclib._name)
         self._engine: Any = self._ffi.cast("void *", self._uc._uch.value)
         self._kept: list[Any] = []
         self._blocks = self._hook_blocks()

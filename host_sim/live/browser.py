@@ -1,11 +1,11 @@
 """Shows a live run in the browser, and prints where it can be watched."""
 
 import asyncio
-import os
 import sys
 import webbrowser
 from typing import TextIO
 
+from host_sim.base.system import has_screen
 from host_sim.live.ending_signals import on_ending_signals
 from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
@@ -39,8 +39,7 @@ async def _serve(live: PacedRun, listener: Listener, out: TextIO) -> None:
 
 def _on_a_desktop() -> bool:
     """Whether this is an interactive session on a desktop, where a browser can be opened."""
-    screen = sys.platform == "darwin" or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
-    return screen and sys.stdout.isatty()
+    return has_screen() and sys.stdout.isatty()
 
 
 def announce(listener: Listener, robots: int, out: TextIO, *, waits: bool) -> None:

@@ -2,11 +2,12 @@
 
 import asyncio
 import logging
-import resource
 from collections.abc import Callable, Mapping
 from typing import Any, TextIO
 
 from aiohttp import web
+
+from host_sim.base.system import files_max
 
 CONNECTIONS_MAX = 512
 """Maximum number of open connections; a new one then takes the place of the oldest that is not a WebSocket."""
@@ -38,8 +39,7 @@ class Connections:
             headers: Headers of the answers to requests that are not HTTP.
             logger: Gets what goes wrong.
         """
-        files, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
-        self.most = min(CONNECTIONS_MAX, files // 2)
+        self.most = min(CONNECTIONS_MAX, files_max() // 2)
         self._server, self._headers, self._logger = server, headers, logger
         self._closable: dict[_Connection, None] = {}
 

@@ -7,11 +7,10 @@ from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
 from host_sim.base.errors import RobotError
+from host_sim.base.system import ENDING_SIGNALS, on_alarm, on_signal, set_alarm
 
 if TYPE_CHECKING:
     import asyncio
-
-ENDING_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 TICK_S = 0.5
 """Time for the current tick to end after such a signal: a robot that hangs does not hold up the end of a run."""
@@ -25,31 +24,29 @@ def on_ending_signals(loop: "asyncio.AbstractEventLoop", close: Callable[[], Non
     """
 
     def end() -> None:
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        set_alarm(0)
         close()
 
-    signal.signal(signal.SIGALRM, _give_up)
+    on_alarm(_give_up)
     for number in ENDING_SIGNALS:
-        loop.add_signal_handler(number, end)
-        # The loop hears of the signal all the same, as soon as a step ends.
-        signal.signal(number, lambda *_: signal.setitimer(signal.ITIMER_REAL, TICK_S))
+        on_signal(loop, number, end, lambda: set_alarm(TICK_S))
     try:
         yield
     finally:
-        signal.signal(signal.SIGALRM, signal.SIG_IGN)
-        signal.setitimer(signal.ITIMER_REAL, 0)
+        on_alarm(signal.SIG_IGN)
+        set_alarm(0)
 
 
 @contextmanager
 def at_most(seconds: float) -> Iterator[None]:
     """Raises a RobotError inside if it takes longer."""
-    before = signal.signal(signal.SIGALRM, _give_up)
-    signal.setitimer(signal.ITIMER_REAL, seconds)
+    before = on_alarm(_give_up)
+    set_alarm(seconds)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0)
-        signal.signal(signal.SIGALRM, before)
+        set_alarm(0)
+        on_alarm(before)
 
 
 def _give_up(_number: int, _frame: FrameType | None) -> NoReturn:

@@ -122,12 +122,12 @@ def _draw(live: PacedRun, screen: "curses.window") -> None:
 def _view(live: PacedRun) -> View:
     simulation, trajectory = live.simulation, live.recorder.trajectory
     begun = simulation.record.begun[-1]
-    first = max(begun.first_tick, trajectory.first_tick) - trajectory.first_tick
+    first = max(begun.first_tick, trajectory.first_tick)
     return View(
         live.params,
         environment_scene(simulation.record.begun, simulation.environments, simulation.arena),
         states(simulation, live.recorder.histories),
-        [[(x, y) for x, y, _ in track.poses()[first:].tolist()] for track in trajectory.tracks],
+        [[(x, y) for x, y, _ in track.trail(first, track.ticks)] for track in trajectory.tracks],
         trajectory.boredom_limit,
         _pace(live),
         _KEYS,

@@ -7,8 +7,9 @@ import secrets
 import stat
 from pathlib import Path
 
+from host_sim.base.system import NO_LINK, NO_WAIT, is_own
+
 _TOKEN = re.compile(r"[\w-]{22}")
-_OTHERS = stat.S_IRWXG | stat.S_IRWXO
 _READ_MAX = 64
 
 
@@ -45,10 +46,10 @@ def _stored(path: Path, new: str) -> str:
 
 
 def _read(path: Path) -> str:
-    descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    descriptor = os.open(path, os.O_RDONLY | NO_LINK | NO_WAIT)
     with os.fdopen(descriptor, "rb") as file:
         about = os.fstat(descriptor)
-        if not stat.S_ISREG(about.st_mode) or about.st_uid != os.geteuid() or about.st_mode & _OTHERS:
+        if not stat.S_ISREG(about.st_mode) or not is_own(about):
             raise PermissionError(f"{path} is not this user's alone")
         text = file.read(_READ_MAX).decode("ascii", "replace")
     if not _TOKEN.fullmatch(text):

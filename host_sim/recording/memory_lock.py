@@ -7,6 +7,7 @@ from pathlib import Path
 
 from host_sim.base.errors import UsageError
 from host_sim.base.file_lock import lock
+from host_sim.base.system import NO_LINK, NO_WAIT
 
 _INSTEAD = "choose another file with --memory"
 
@@ -28,7 +29,7 @@ def memory_lock(path: Path) -> Iterator[None]:
         yield
     finally:
         with suppress(OSError):
-            beside.unlink()
+            beside.unlink()  # on Windows it stays, for it is open
         os.close(descriptor)
 
 
@@ -48,7 +49,7 @@ def _open_locked(beside: Path, path: Path) -> int:
 
 def _open(beside: Path, path: Path) -> int:
     try:
-        return os.open(beside, os.O_RDONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
+        return os.open(beside, os.O_RDONLY | os.O_CREAT | NO_LINK | NO_WAIT, 0o666)
     except OSError as error:
         raise UsageError(f"cannot lock {path} by {beside}: {error.strerror}; {_INSTEAD}") from None
 

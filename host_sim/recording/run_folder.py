@@ -7,6 +7,7 @@ from pathlib import Path
 
 from host_sim.base.errors import UsageError
 from host_sim.base.file_lock import lock
+from host_sim.base.system import open_to_lock
 
 
 @contextmanager
@@ -27,6 +28,6 @@ def run_folder(path: Path) -> Iterator[None]:
 def _open(path: Path) -> int:
     try:
         path.mkdir(parents=True, exist_ok=True)
-        return os.open(path, os.O_RDONLY | os.O_DIRECTORY)
+        return open_to_lock(path)
     except OSError as error:
         raise UsageError(f"cannot make the folder {path}: {error.strerror}; choose another with --out") from None

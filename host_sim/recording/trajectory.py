@@ -83,21 +83,19 @@ class RobotTrack:
 
     def poses(self) -> "NDArray[np.float64]":
         """A view of the poses: shape (ticks, 3), x and y in mm, heading in rad. Do not add ticks while it exists."""
-        import numpy as np  # noqa: PLC0415 - a run begins sooner without
+        import numpy as np  # noqa: PLC0415 - most commands do without
 
         return np.frombuffer(self.poses_flat, np.float64).reshape(-1, AXES)
 
-    def column(self, name: str) -> "NDArray[np.int16]":
-        """A view of one field of `ROW`: shape (ticks,). Do not add ticks while it exists."""
-        import numpy as np  # noqa: PLC0415 - see above
-
-        return np.frombuffer(self.rows_flat, np.int16).reshape(-1, len(ROW))[:, ROW.index(name)]
+    def column(self, name: str) -> "array[int]":
+        """One field of `ROW`, tick after tick."""
+        return self.rows_flat[ROW.index(name) :: len(ROW)]
 
     def trail(self, first: int, end: int) -> list[tuple[float, float, int]]:
         """For each tick from `first` to before `end`, x and y in mm after it, and the reason of its drive."""
-        ticks = slice(first - self.first_tick, end - self.first_tick)
-        places, reasons = self.poses()[ticks, :2].tolist(), self.column("reason")[ticks].tolist()
-        return [(x, y, reason) for (x, y), reason in zip(places, reasons, strict=True)]
+        begin, stop = (AXES * (tick - self.first_tick) for tick in (first, end))
+        reasons = self.column("reason")[begin // AXES : stop // AXES]
+        return list(zip(*(self.poses_flat[begin + axis : stop : AXES] for axis in (0, 1)), reasons, strict=True))
 
     def ticks_of(self, reason: Reason) -> list[int]:
         """The retained ticks in which turns with a reason began."""

@@ -75,4 +75,4 @@ def _columns(positions: NDArray[np.int64]) -> dict[str, Any]:
     """The columns of positions of shape (samples, robots, 3)."""
     places = [(robot, axis) for robot in range(positions.shape[1]) for axis in range(len(_AXES))]
     names = [f"{_AXES[axis]}{robot}" for robot, axis in places]
-    return {"columns": names, "data": pack(positions[:, robot, axis] for robot, axis in places)}
+    return {"columns": names, "data": pack(positions[:, robot, axis].tolist() for robot, axis in places)}

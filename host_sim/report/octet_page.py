@@ -9,7 +9,7 @@ from typing import Any
 
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
-from host_sim.base.paths import PAGE_WASM, ROOT, WEB
+from host_sim.base.paths import PACKAGE, PAGE_WASM, WEB
 from host_sim.protocol.generated import PARAMETERS
 from host_sim.report.page_bundle import page_of, with_data
 from host_sim.report.speakers import speakers
@@ -68,7 +68,7 @@ def world_dimensions() -> dict[str, dict[str, Any]]:
 
 def programs() -> dict[str, str]:
     """The programs that a person can begin with, by name."""
-    files = sorted((ROOT / "host_sim" / "program" / "examples").glob("*.bas"))
+    files = sorted((PACKAGE / "program" / "examples").glob("*.bas"))
     return {path.stem: path.read_text(encoding="utf-8") for path in files}
 
 

@@ -40,13 +40,12 @@ JavaScript, with the inflated bytes b, column c, n ticks and value = 0 before th
 """
 
 import base64
+import struct
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from operator import sub
 from pathlib import Path
 from typing import Any, TypeVar
-
-import numpy as np
-from numpy.typing import NDArray
 
 from host_sim.base.atomic_file import write_bytes
 from host_sim.protocol.generated import COLUMNS, ROW
@@ -117,23 +116,22 @@ def _shown(changes: Iterable[T], end: int) -> list[T]:
     return [change for change in changes if change[0] < end]
 
 
-def pack(columns: Iterable[NDArray[np.int64]]) -> str:
+def pack(columns: Iterable[Sequence[int]]) -> str:
     """Encodes columns as text, one at a time, for all of a long run's take much memory; see above.
 
     Args:
-        columns: Each of shape (ticks,); differences from tick to tick must fit in 31 bits.
+        columns: A number for each tick; differences from tick to tick must fit in 31 bits.
     """
     stream = zlib.compressobj()
     parts = [stream.compress(_planes(column)) for column in columns]
     return base64.b64encode(b"".join([*parts, stream.flush()])).decode("ascii")
 
 
-def _planes(column: NDArray[np.int64]) -> bytes:
+def _planes(column: Sequence[int]) -> bytes:
     """A column's differences, byte by byte."""
-    steps = np.diff(column, prepend=0)
-    zigzag = (steps << 1 ^ steps >> 63).astype("<u4")
-    planes: bytes = zigzag.view(np.uint8).reshape(-1, 4).T.tobytes()
-    return planes
+    zigzag = [step << 1 ^ step >> 31 for step in map(sub, column, (0, *column))]
+    packed = struct.pack(f"<{len(zigzag)}I", *zigzag)
+    return b"".join(packed[byte::4] for byte in range(4))
 
 
 def page(run: dict[str, Any], laboratory: Mapping[str, Any] | None = None) -> str:
@@ -142,9 +140,9 @@ def page(run: dict[str, Any], laboratory: Mapping[str, Any] | None = None) -> st
     return text if laboratory is None else with_data(text, "laboratory", laboratory)
 
 
-def _column(track: RobotTrack, name: str) -> NDArray[np.int64]:
+def _column(track: RobotTrack, name: str) -> Sequence[int]:
     """A column, as whole numbers."""
     if name not in _POSE:
-        return track.column(ROW[COLUMNS[name]]).astype(np.int64)
+        return track.column(ROW[COLUMNS[name]])
     axis, scale = _POSE[name]
-    return np.asarray(np.rint(track.poses()[:, axis] * scale), np.int64)
+    return [round(value * scale) for value in track.poses_flat[axis :: len(_POSE)]]

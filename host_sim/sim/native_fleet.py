@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from host_sim.base.errors import UsageError
-from host_sim.base.paths import BUILD, ROOT
+from host_sim.base.paths import BUILD, PACKAGE
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
 from host_sim.world.body_kinds import BodyKind, draw_body
 from host_sim.world.geometry import Capsule, Pose
@@ -21,7 +21,7 @@ from host_sim.world.plain_space import cones_in_c
 from host_sim.world.world_library import world_library
 
 LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_fleet.so"
-_WORLD = ROOT / "host_sim" / "world" / "native"
+_WORLD = PACKAGE / "world" / "native"
 _NAMES = (
     "vector",
     "space/space",
@@ -32,7 +32,7 @@ _NAMES = (
     "space/plain_grid",
     "space/plain_space",
 )
-HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), ROOT / "host_sim" / "sim" / "native" / "fleet.h")
+HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), PACKAGE / "sim" / "native" / "fleet.h")
 
 _CELL_MM, _GRID_FROM = 500.0, 8
 

@@ -5,7 +5,7 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from host_sim.backends.in_process_link import InProcessLink
-from host_sim.base.paths import BUILD, ROOT
+from host_sim.base.paths import BUILD, PACKAGE, ROOT
 from host_sim.client.frame_log import FrameLog
 from host_sim.client.pacing import BegunTick
 from host_sim.client.robot_client import RobotClient
@@ -17,7 +17,7 @@ from host_sim.world.native_library import load_native
 from host_sim.world.world_library import WORLD_HEADERS
 
 LIBRARY = BUILD / "host" / "host_sim" / "sim" / "native" / "liboctet_loop.so"
-_NATIVE = ROOT / "host_sim" / "sim" / "native"
+_NATIVE = PACKAGE / "sim" / "native"
 HEADERS = (ROOT / "hal" / "link" / "link.h", *WORLD_HEADERS, _NATIVE / "log_lines.h", _NATIVE / "loop.h")
 
 BLOCK_TICKS = 1024
@@ -67,7 +67,7 @@ class NativeLoop:
         Raises:
             NoNativeError: The library cannot be used.
         """
-        self._ffi, self._library = _loaded()
+        self._ffi, self._library = loaded()
         self.handed_over = False
         self._clients, self._log = clients, log
         self._memories = [client.memory for client in clients]
@@ -209,5 +209,6 @@ class NativeLoop:
 
 
 @cache
-def _loaded() -> tuple[Any, Any]:
+def loaded() -> tuple[Any, Any]:
+    """The interface to the library, and the library; raises NoNativeError if it cannot be used."""
     return load_native(LIBRARY, "loop_", HEADERS)

@@ -3,9 +3,8 @@
 import math
 import re
 from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
 from typing import NamedTuple
-
-import numpy as np
 
 from host_sim.protocol.generated import Reason, Side
 from host_sim.recording.trajectory import Trajectory, at
@@ -90,16 +89,18 @@ class RobotFacts:
 
     def where(self, _: Sequence[str]) -> Known:
         """Where it is, and how long its way was."""
-        poses = self._track.poses()[: self._tick + 1 - self._track.first_tick, :2].round(1)
-        steps = ((poses[1:] - poses[:-1]) ** 2).sum(axis=1) ** 0.5
-        way = self._metres(steps[steps < self._run.params.body_radius_mm].sum(), 1)
+        trail = self._track.trail(self._track.first_tick, self._tick + 1)
+        places = [(round(x, 1), round(y, 1)) for x, y, _ in trail]
+        steps = (math.dist(*both) for both in pairwise(places))
+        way = self._metres(sum(step for step in steps if step < self._run.params.body_radius_mm), 1)
         x, y = self._metres(self._now["x"], 2), self._metres(self._now["y"], 2)
         return self._known(self._texts.say("where", x=x, y=y, way=way))
 
     def touched(self, _: Sequence[str]) -> Known:
         """How often it touched something."""
-        begun = np.diff(self._track.column("bump"), prepend=np.int16(0)) > 0
-        return self._counted("touched", self._until((np.flatnonzero(begun) + self._track.first_tick).tolist()))
+        bumps = self._track.column("bump")
+        begun = (tick for tick, (before, bump) in enumerate(zip((0, *bumps), bumps, strict=False)) if bump > before)
+        return self._counted("touched", self._until(tick + self._track.first_tick for tick in begun))
 
     def forgotten(self, _: Sequence[str]) -> Known:
         """What it forgot by itself."""
@@ -192,11 +193,12 @@ class RobotFacts:
 
     def _begun(self, *reasons: int, side: int = Side.NOTHING) -> list[int]:
         """The ticks up to now in which actions with one of the reasons began; to a side, if one is given."""
-        wanted = np.diff(self._track.column("action"), prepend=np.int16(-1)) != 0
-        wanted &= np.isin(self._track.column("reason"), reasons)
-        if side:
-            wanted &= (self._track.column("left_mm_s") < self._track.column("right_mm_s")) == (side == Side.LEFT)
-        return self._until((np.flatnonzero(wanted) + self._track.first_tick).tolist())
+        names = ("action", "reason", "left_mm_s", "right_mm_s")
+        actions, why, left, right = (self._track.column(name) for name in names)
+        news = (tick for tick, both in enumerate(zip((-1, *actions), actions, strict=False)) if both[0] != both[1])
+        wanted = (tick for tick in news if why[tick] in reasons)
+        to_it = (tick for tick in wanted if not side or (left[tick] < right[tick]) == (side == Side.LEFT))
+        return self._until(tick + self._track.first_tick for tick in to_it)
 
     def _until(self, ticks: Iterable[int]) -> list[int]:
         return [tick for tick in ticks if tick <= self._tick]

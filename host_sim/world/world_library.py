@@ -3,10 +3,10 @@
 from functools import cache
 from typing import Any
 
-from host_sim.base.paths import BUILD, ROOT
+from host_sim.base.paths import BUILD, PACKAGE, ROOT
 
 LIBRARY = BUILD / "host" / "host_sim" / "world" / "native" / "liboctet_world.so"
-_NATIVE = ROOT / "host_sim" / "world" / "native"
+_NATIVE = PACKAGE / "world" / "native"
 _WORDS = BUILD / "host" / "generated" / "robot_words.h"
 WORLD_HEADERS = tuple(
     _NATIVE / f"{name}.h"

@@ -142,7 +142,7 @@ def test_a_module_in_a_folder_finds_what_it_imports_from_there(tmp_path, monkeyp
 
 @given(st.lists(st.lists(st.integers(-(2**29), 2**29), min_size=3, max_size=3), min_size=1, max_size=5))
 def test_columns_come_out_as_they_went_in(columns):
-    assert unpacked(pack(np.array(columns)), len(columns)) == columns
+    assert unpacked(pack(columns), len(columns)) == columns
 
 
 def test_a_reckoned_way_makes_a_page_as_well(kept):

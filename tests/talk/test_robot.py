@@ -135,7 +135,7 @@ def test_it_knows_nothing_of_what_comes_later(ask):
 
 def test_a_drive_that_is_altered_changes_the_answer_that_rests_on_it_and_no_other(log, index, tmp_path):
     before = resimulate(log, ignore_world=True).trajectory
-    tick = int(np.flatnonzero(before.tracks[0].column("reason") == Reason.REMEMBERED)[-1])
+    tick = int(np.flatnonzero(np.array(before.tracks[0].column("reason")) == Reason.REMEMBERED)[-1])
     lines, at = log.read_text().splitlines(keepends=True), index.lines[tick] - 1
     read = [*read_log(log)]
     place = next(i for i in range(at, len(read)) if PROTOCOL.decode_drive(read[i].frame))

@@ -65,8 +65,7 @@ HELP = (
     *("octet watch --listen --help", "octet page --help", "octet run --robot emulated --help"),
     *("coverage --help", "flash --help", "fresh --help", "generate --help", "legacy-fpu --help", "licences --help"),
     *("misra --help", "mutate --help", "prove --help", "requirements --help", "size --help", "test --help"),
-    "pins --help",
-    "with-vcan --help",
+    *("pins --help", "wheels --help", "with-vcan --help"),
 )
 
 
@@ -175,10 +174,10 @@ def test_the_words_of_the_command_line_are_those_that_are_generated() -> None:
 
 
 def test_a_package_that_is_gone_from_the_venv_is_one_line() -> None:
-    without = "import runpy, sys; sys.modules['numpy'] = None; runpy.run_module('host_sim', run_name='__main__')"
+    without = "import runpy, sys; sys.modules['can'] = None; runpy.run_module('host_sim', run_name='__main__')"
     done = subprocess.run(
         [sys.executable, "-c", without, "run"], capture_output=True, text=True, check=False, cwd=ROOT
     )
 
     assert done.returncode == 1
-    assert done.stderr == "octet: numpy is missing from .venv: remove that folder, and call again\n"
+    assert done.stderr == "octet: can is missing from .venv: remove that folder, and call again\n"

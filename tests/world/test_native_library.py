@@ -9,7 +9,7 @@ from host_sim.sim.run_config import RunConfig
 from host_sim.world import world_library
 
 WORLD = world_library, world_library.world_library
-LOOP = native_loop, native_loop._loaded
+LOOP = native_loop, native_loop.loaded
 
 
 @pytest.fixture(params=[WORLD, LOOP], ids=["world", "loop"])

@@ -2,7 +2,7 @@
 # Its function PREFIXstamp returns the SHA-256 of each header, one after the other: Python compares them with those that
 # it reads, and so finds a library that was built from others.
 function(octet_native_library target static prefix)
-  if(CMAKE_CROSSCOMPILING)
+  if(NOT OCTET_ON_HOST)
     return()   # Python runs on the host
   endif()
   set(texts "")
@@ -14,9 +14,9 @@ function(octet_native_library target static prefix)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${prefix}stamp.c)
   file(CONFIGURE OUTPUT ${source} CONTENT
     "const char *${prefix}stamp(void);\n\nconst char *${prefix}stamp(void)\n{\n    return \"${texts}\";\n}\n")
-  add_library(${target} SHARED ${source})
-  target_link_libraries(${target} PRIVATE octet_warnings -Wl,--whole-archive ${static} -Wl,--no-whole-archive
-    -Wl,-Bsymbolic-functions)
+  list(TRANSFORM static REPLACE "(.+)" "$<TARGET_OBJECTS:\\1>" OUTPUT_VARIABLE objects)
+  add_library(${target} SHARED ${source} ${objects})
+  target_link_libraries(${target} PRIVATE octet_warnings ${static} ${OCTET_ELF_OPTIONS})
   string(REGEX REPLACE "_shared$" "" name ${target})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name})
 endfunction()

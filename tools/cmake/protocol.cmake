@@ -1,8 +1,12 @@
 # What is made of octet.dbc and robot.toml when building: C code for packing and unpacking the wire's frames, and the
 # robot's numbers and words.
 find_program(CANTOOLS cantools HINTS ${PROJECT_SOURCE_DIR}/.venv/bin REQUIRED)
-get_filename_component(python ${CANTOOLS} DIRECTORY)
-set(python ${python}/python3)
+if(DEFINED SKBUILD)
+  set(python ${Python_EXECUTABLE})   # the one that builds the wheel
+else()
+  get_filename_component(python ${CANTOOLS} DIRECTORY)
+  set(python ${python}/python3)
+endif()
 
 set(OCTET_DBC ${PROJECT_SOURCE_DIR}/hal/protocol/octet.dbc)
 set(words ${PROJECT_SOURCE_DIR}/hal/protocol/robot.toml)

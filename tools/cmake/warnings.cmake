@@ -7,6 +7,6 @@ target_compile_options(octet_warnings INTERFACE
 # Named numbers stand in enumerations, and some are multiplied by what is none: clang alone warns of that.
 target_compile_options(octet_warnings INTERFACE $<$<C_COMPILER_ID:Clang>:-Wno-enum-float-conversion>)
 # Tests look behind the registers; what runs on a chip never casts volatile away.
-if(CMAKE_CROSSCOMPILING)
+if(NOT OCTET_ON_HOST)
   target_compile_options(octet_warnings INTERFACE -Wcast-qual)
 endif()

@@ -21,6 +21,7 @@ PROVE: Mapping[str, tuple[str, ...]] = {
     "browsers": ("tests/web/test_browsers.py",),
     "exhaustive": ("tests/firmware/test_every_case.py", "tests/talk/test_every_answer.py"),
     "formats": ("tests/lab/export",),
+    "wheels": ("tests/wheel",),
     "documents": ("tests/docs/test_commands.py", "tests/docs/test_python_blocks.py"),
 }
 """Of tools/prove."""

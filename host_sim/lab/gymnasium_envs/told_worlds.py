@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.base.paths import BUILD, ROOT
+from host_sim.base.paths import BUILD, PACKAGE
 from host_sim.world.arena import Arena
 from host_sim.world.body_kinds import BodyKind
 from host_sim.world.layouts import Layout
@@ -16,7 +16,7 @@ from host_sim.world.params import SimParams
 from host_sim.world.world_library import WORLD_HEADERS
 
 LIBRARY = BUILD / "host" / "host_sim" / "lab" / "gymnasium_envs" / "native" / "liboctet_told.so"
-HEADERS = (*WORLD_HEADERS, ROOT / "host_sim" / "lab" / "gymnasium_envs" / "native" / "told.h")
+HEADERS = (*WORLD_HEADERS, PACKAGE / "lab" / "gymnasium_envs" / "native" / "told.h")
 
 
 class Deed(IntEnum):
@@ -58,7 +58,7 @@ class ToldWorlds:
         Raises:
             NoNativeError: The library cannot be used.
         """
-        self._ffi, self._library = _loaded()
+        self._ffi, self._library = loaded()
         self._params, self._kind = params, kind
         self._arenas: list[Arena | None] = [None] * worlds
         ffi, motion_size = self._ffi, self._library.told_motion_size()
@@ -107,5 +107,6 @@ class ToldWorlds:
 
 
 @cache
-def _loaded() -> tuple[Any, Any]:
+def loaded() -> tuple[Any, Any]:
+    """The interface to the library, and the library; raises NoNativeError if it cannot be used."""
     return load_native(LIBRARY, "told_", HEADERS)

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from host_sim.base.paths import as_called
 from host_sim.cli.parsing import DEFAULT, add_command, file_path, number
 
 if TYPE_CHECKING:
@@ -76,7 +77,7 @@ def workers_of(arguments: argparse.Namespace) -> "Workers":
 def _study(arguments: argparse.Namespace) -> int:
     out = arguments.out or _OUT / arguments.plan.stem
     runs = run_study(arguments.plan, out, workers_of(arguments), arguments.chunk)
-    print(f"wrote     {out} ({runs})\ncompare   tools/octet compare {out}")
+    print(f"wrote     {out} ({runs})\ncompare   {as_called('tools/octet')} compare {out}")
     return 0
 
 

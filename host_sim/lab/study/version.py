@@ -3,7 +3,7 @@
 import hashlib
 from functools import cache
 
-from host_sim.base.paths import ROOT
+from host_sim.base.paths import BUILD, ROOT
 
 FORMAT = 1
 """Number of the layout of a study's folder and tables."""
@@ -16,6 +16,9 @@ _KINDS = (".c", ".h", ".dbc", ".toml", ".py")
 @cache
 def code_version() -> str:
     """A digest of the sources of robot and world, in hexadecimal: runs of other sources may be other runs."""
+    stored = BUILD / "code_version"  # in a wheel, which has no sources
+    if stored.exists():
+        return stored.read_text(encoding="ascii")
     digest = hashlib.sha256()
     folders = (path for name in _FOLDERS for path in (ROOT / name).rglob("*") if path.suffix in _KINDS)
     for path in sorted([*folders, *(ROOT / name for name in _FILES)]):

@@ -168,6 +168,6 @@ def test_no_arenas():
 
 def test_c_code_that_is_missing_is_named(monkeypatch, tmp_path):
     monkeypatch.setattr(told_worlds, "LIBRARY", tmp_path / "liboctet_told.so")
-    told_worlds._loaded.cache_clear()
+    told_worlds.loaded.cache_clear()
     with pytest.raises(error.DependencyNotInstalled, match=r"liboctet_told\.so is missing; build it"):
         ArenaEnv()

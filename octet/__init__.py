@@ -1,0 +1,9 @@
+"""Runs and logs for programs of your own, as `host_sim.api` has them. docs/recipes.md shows how.
+
+>>> import octet
+>>> [episode.robot_s for episode in octet.run(octet.RunConfig(environments=1, limit_s=20)).episodes]
+[20.0]
+"""
+
+from host_sim.api import *  # noqa: F403 - its names are this package's
+from host_sim.api import __all__ as __all__

@@ -1,0 +1,85 @@
+"""The one module about operating systems: others do not ask, and without what Windows lacks a run is the same."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+ROOM = "host_sim/base/system.py"
+ASKS = re.compile(
+    r"sys\.platform|os\.name\b|import platform|platform\.system|hasattr\((os|signal|socket),"
+    r"|_WIN32|__APPLE__|__linux__"
+)
+OF_POSIX = re.compile(
+    r"import (fcntl|resource)|os\.(O_DIRECTORY|O_NOFOLLOW|O_NONBLOCK|geteuid|fchmod|fchown)"
+    r"|signal\.(SIGHUP|SIGALRM|setitimer|pthread_sigmask)"
+)
+OUTSIDE = ("host_sim/lab/campaign/", "host_sim/faults/cable.py")
+"""They hurt robots that are processes, and so run where there are such."""
+
+WITHOUT = """
+import asyncio, builtins, os, signal, socket, sys
+import asyncio.unix_events, pathlib, runpy, shutil, subprocess, tempfile
+for name in ("fcntl", "resource", "termios", "pty", "tty", "grp", "pwd"):
+    sys.modules[name] = None
+sys.modules["msvcrt"] = type(sys)("msvcrt")
+sys.modules["msvcrt"].LK_NBLCK, sys.modules["msvcrt"].locking = 0, lambda *_: None
+for where, names in (
+    (signal, "SIGHUP SIGKILL SIGUSR1 SIGUSR2 SIGALRM SIGPIPE SIGSTOP SIGCONT SIGCHLD pthread_sigmask setitimer"),
+    (os, "fork geteuid getuid killpg fchmod fchown O_DIRECTORY O_NOFOLLOW O_NONBLOCK O_CLOEXEC set_blocking"),
+    (socket, "AF_UNIX AF_CAN SOCK_SEQPACKET MSG_DONTWAIT"),
+):
+    for name in names.split():
+        if hasattr(where, name):
+            delattr(where, name)
+sys.platform = "win32"
+sys.argv = ["octet", *sys.argv[1:]]
+runpy.run_module("host_sim", run_name="__main__")
+"""
+"""Runs octet on a Python that lacks what Python lacks on Windows."""
+
+
+def sources() -> dict[str, str]:
+    folders = (ROOT / name for name in ("host_sim", "octet", "firmware", "hal"))
+    paths = (path for folder in folders for path in folder.rglob("*") if path.suffix in {".py", ".c", ".h"})
+    names = {path.relative_to(ROOT).as_posix(): path for path in paths}
+    return {name: path.read_text() for name, path in names.items() if name != ROOM}
+
+
+def test_no_other_file_asks_which_system_it_runs_on():
+    assert len(sources()) > 500
+    assert [name for name, text in sources().items() if ASKS.search(text)] == []
+
+
+def test_no_other_file_needs_what_windows_lacks():
+    assert [name for name, text in sources().items() if OF_POSIX.search(text) and not name.startswith(OUTSIDE)] == []
+
+
+@pytest.mark.parametrize("line", ['if sys.platform == "win32":', "#ifdef _WIN32", 'hasattr(os, "fork")'])
+def test_a_file_that_asks_is_noticed(line):
+    assert ASKS.search(line)
+
+
+def test_without_what_windows_lacks_a_run_is_the_same(tmp_path):
+    words = ("run", "--environments", "1", "--limit-s", "20", "--quiet", "--memory", tmp_path / "robot.mem", "--out")
+    subprocess.run([ROOT / "tools/octet", *words[:-3], "--out", tmp_path / "here"], check=True)
+
+    command = [sys.executable, "-c", WITHOUT, *words, tmp_path / "there"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    one, other = (json.loads((tmp_path / it / "summary.json").read_text()) for it in ("here", "there"))
+    assert one["log_sha256"] == other["log_sha256"]
+
+
+def test_where_robots_are_no_processes_a_bus_is_refused_in_a_line():
+    done = subprocess.run(
+        [sys.executable, "-c", WITHOUT, "run", "--bus", "fd"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+
+    assert done.returncode == 2
+    assert done.stderr == "octet: on this system a robot starts in this process only, not on fd: use --bus none\n"

@@ -1,0 +1,161 @@
+"""What the wheel for this system does: all that a checkout does, from a place that it does not write to."""
+
+import json
+import os
+import re
+import shlex
+import shutil
+import signal
+import subprocess
+import sysconfig
+import urllib.request
+from pathlib import Path
+
+import pytest
+
+from host_sim.cli.main import parser_of
+
+ROOT = Path(__file__).resolve().parents[2]
+PLAN = """\
+profiles = ["article", "never"]
+seeds = 2
+environments = 1
+limit_s = 5
+"""
+RUN = "run --environments 1 --limit-s 20 --quiet"
+USES = {
+    "campaign": "campaign --repeat 'article none lockstep seed=12 limit=8 fault=drop:30%'",
+    "check-robot": f"check-robot --robot-command 'python3 {ROOT}/examples/robot/robot.py'",
+    "compare": "compare article never --seeds 2 --environments 1",
+    "convert": f"convert {ROOT}/tests/recording/data/wire_1_three_robots.log new.log",
+    "dask": "dask worker --version",
+    "dbc": "dbc --nodes 1-8",
+    "export": "export out/run.log --csv run.csv --mf4 run.mf4 --parquet run.parquet",
+    "load": "load out/run.log",
+    "monitor": "monitor virtual:nobody --help",
+    "page": "page octet.html",
+    "picture": "picture out/run.log --png run.png",
+    "protocol": "protocol",
+    "replay": "replay out/run.log --html run.html --what-if",
+    "reproduce": "reproduce --help",
+    "run": "run --environments 1 --limit-s 5 --robot emulated --quiet --out emulated",
+    "study": "study plan.toml",
+    "talk": "talk",
+    "watch": "watch --port 0 --environments 1 --limit-s 5",
+    "world": "world corridors --png corridors.png",
+}
+"""A use of each command; `watch` has a test of its own."""
+
+
+NOT_NEEDED = "numpy unicorn gymnasium pettingzoo pyarrow matplotlib distributed asammdf mcap ifaddr segno pymunk"
+"""Libraries that only some commands load."""
+
+
+def commands() -> set[str]:
+    groups = parser_of([])._subparsers._group_actions
+    return {name for action in groups for name in action.choices}
+
+
+def test_each_command_is_tried():
+    assert commands() == set(USES)
+
+
+@pytest.mark.parametrize("name", sorted(set(USES) - {"watch"}))
+def test_a_command_does_what_that_of_a_checkout_does(name, octet, tmp_path):
+    (tmp_path / "plan.toml").write_text(PLAN)
+    assert "tools/" not in octet(*RUN.split()[:-1]).stdout
+
+    done = octet(*shlex.split(USES[name]), input="")
+
+    assert done.returncode == 0, done.stderr
+    assert "tools/octet" not in done.stdout + done.stderr or name == "protocol"
+
+
+def test_a_run_is_that_of_the_checkout(octet, tmp_path):
+    octet(*RUN.split(), "--out", "here")
+    subprocess.run([ROOT / "tools/octet", *RUN.split(), "--out", tmp_path / "there"], check=True)
+
+    one, other = (json.loads((tmp_path / it / "summary.json").read_text()) for it in ("here", "there"))
+
+    assert one["log_sha256"] == other["log_sha256"]
+
+
+def test_a_watched_run_serves_its_page(environment, tmp_path):
+    command = [environment / "bin/octet", "watch", "--port", "0", "--environments", "1", "--limit-s", "5"]
+    with subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, text=True) as watched:
+        address = next(found[0] for line in watched.stdout if (found := re.search(r"http://\S+", line)))
+        page = urllib.request.urlopen(address, timeout=20).read()
+        watched.send_signal(signal.SIGINT)
+        watched.wait(30)
+
+    assert b"<canvas" in page
+
+
+def test_the_api_has_the_name_of_the_project(environment, tmp_path):
+    program = "import octet; print(len(octet.run(octet.RunConfig(environments=1, limit_s=1)).log_sha256))"
+
+    done = subprocess.check_output([environment / "bin/python", "-c", program], cwd=tmp_path, text=True)
+
+    assert done == "64\n"
+
+
+def test_a_run_needs_neither_numpy_nor_an_extra(environment, tmp_path):
+    loads = "import sys; sys.modules.update(dict.fromkeys(sys.argv.pop(1).split()))"
+    program = f"{loads}; from host_sim.__main__ import main; sys.exit(main())"
+
+    def call(*words: str) -> subprocess.CompletedProcess[str]:
+        command = [environment / "bin/python", "-c", program, NOT_NEEDED, *words]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+
+    assert call(*RUN.split()).returncode == 0
+    assert call("picture", "out/run.log", "--png", "a.png").returncode == 0
+    wanted = call("run", "--robots", "40", "--quiet")
+    assert (wanted.returncode, wanted.stderr) == (
+        1,
+        "octet: this needs numpy, which is not installed: run python -m pip install numpy\n",
+    )
+
+
+def test_nothing_is_written_beside_the_program(environment, octet):
+    before = {path: path.stat().st_mtime_ns for path in environment.rglob("*") if path.suffix != ".pyc"}
+
+    octet(*RUN.split())
+    octet("page", "octet.html")
+
+    after = {path: path.stat().st_mtime_ns for path in environment.rglob("*") if path.suffix != ".pyc"}
+    folders = {path for path in {*before, *after} if path.name == "__pycache__" or path.is_dir()}
+    assert {**after, **dict.fromkeys(folders)} == {**before, **dict.fromkeys(folders)}
+
+
+def test_a_home_that_cannot_be_written_stops_no_run(octet):
+    nowhere = {**os.environ, "HOME": "/dev/null", "XDG_STATE_HOME": "/dev/null"}
+
+    assert octet(*RUN.split(), env=nowhere).stderr == ""
+
+
+def test_the_commands_of_the_page_do_what_it_says(wheel, tmp_path):
+    page = (ROOT / "docs/wheels.md").read_text()
+    (block,) = re.findall(r"^```sh from-a-wheel\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    shutil.copy(wheel, tmp_path)
+    libraries = sysconfig.get_path("purelib")
+    alone = {
+        **os.environ,
+        "PIP_NO_DEPS": "1",
+        "PIP_NO_INDEX": "1",
+        "PIP_IGNORE_INSTALLED": "1",
+        "PYTHONPATH": libraries,
+    }
+
+    subprocess.run(["bash", "-ec", block], cwd=tmp_path, env=alone, check=True)
+
+    assert (tmp_path / "out/replay.html").exists()
+    assert (tmp_path / "octet.html").exists()
+
+
+def test_the_wheel_is_small_and_carries_man_pages_and_completions(wheel, environment):
+    assert wheel.stat().st_size < 1_300_000
+    page = (environment / "share/man/man1/octet-run.1").read_text()
+    assert "tools/" not in page.replace("host_sim/tree/tools", "")
+    script = environment / "share/bash-completion/completions/octet"
+    subprocess.run(["bash", "-n", script], check=True)
+    assert "--environments" in script.read_text()

@@ -1,0 +1,1 @@
+"""What tools/wheels builds wheels with."""
