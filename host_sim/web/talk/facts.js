@@ -18,7 +18,6 @@ import { decimal, filled, lessonSentence, sentence, verdict } from "../core/phra
  */
 
 export const POINT = "\u00b7";
-
 const BITS = { turns: 0, all: 7, right: 1, left: 4, front: 2 };
 const SECONDS = new RegExp(`[0-9]{1,9}(?:${POINT}[0-9]{1,3})?`);
 const TURNS = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
@@ -263,7 +262,6 @@ export class RobotFacts {
    */
   #ticks(isTrue) {
     const { first } = this.#about.data;
-    /** @type {number[]} */
     const ticks = [];
     for (let i = 0; i <= this.#about.tick - first; i += 1) if (isTrue(i)) ticks.push(first + i);
     return ticks;
