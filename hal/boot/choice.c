@@ -19,7 +19,7 @@ static void pack(const struct choice *choice, uint8_t out[CELL_COUNT])
     out[4] = (uint8_t)(choice->installed | (unsigned)choice->slot << SLOT_AT | (choice->trial ? 1u : 0u) << TRIAL_AT |
                        (unsigned)choice->starts << STARTS_AT);
     out[5] = choice->node;
-    out[6] = choice->bitrate;
+    out[6] = 0;
     out[7] = FORMAT;
 }
 
@@ -31,7 +31,6 @@ static struct choice unpack(const uint8_t bytes[CELL_COUNT])
         .trial = bytes[4] >> TRIAL_AT & 1u,
         .starts = bytes[4] >> STARTS_AT,
         .node = bytes[5],
-        .bitrate = bytes[6] < BITRATE_COUNT ? bytes[6] : (uint8_t)BITRATE_AS_BUILT,
     };
 
     for (unsigned i = 0; i < 4; i++)

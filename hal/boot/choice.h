@@ -14,10 +14,7 @@ struct choice {
     bool trial;          /* its image has not been confirmed yet */
     uint8_t starts;      /* of an image on trial so far, 0..TRIAL_STARTS */
     uint8_t node;        /* 1..NODE_MAX; 0: as built */
-    uint8_t bitrate;     /* an enum choice_bitrate; 0: as built */
 };
-
-enum choice_bitrate { BITRATE_AS_BUILT, BITRATE_125K, BITRATE_250K, BITRATE_500K, BITRATE_1M, BITRATE_COUNT };
 
 struct choices {
     struct flash_store store;

@@ -29,10 +29,7 @@ int start_pick(struct choices *choices)
     struct choice next = choices->now.installed == 0 ? found() : choice_started(&choices->now);
     struct image image;
 
-    if (choices->now.installed == 0) {
-        next.node = choices->now.node;
-        next.bitrate = choices->now.bitrate;
-    }
+    next.node = choices->now.node;
     while (is_in(&next)) {
         if (image_check(next.slot, &image) == REFUSAL_NONE && (choices_save(choices, &next, true) == 0 || !next.trial))
             return next.slot;

@@ -173,13 +173,12 @@ static enum nrc read(struct uds *uds, struct exchange *exchange)
     case DID_WRITTEN: put_written(uds, exchange); return NRC_NONE;
     case DID_WHO:
         uds_put(exchange, uds->choices->now.node, 1);
-        uds_put(exchange, uds->choices->now.bitrate, 1);
         return NRC_NONE;
     default: return NRC_RANGE;
     }
 }
 
-/* Node and bit rate, which hold from the next start on. */
+/* The robot's number, which holds from the next start on. */
 static enum nrc write(struct uds *uds, struct exchange *exchange)
 {
     struct choice next = uds->choices->now;
@@ -189,13 +188,12 @@ static enum nrc write(struct uds *uds, struct exchange *exchange)
         return NRC_LENGTH;
     if (((unsigned)request[1] << 8 | request[2]) != DID_WHO)
         return NRC_RANGE;
-    if (exchange->len != 1 + ID_LEN + 2)
+    if (exchange->len != 1 + ID_LEN + 1)
         return NRC_LENGTH;
     if (!uds->unlocked)
         return NRC_LOCKED;
     next.node = request[3];
-    next.bitrate = request[4];
-    if (next.node > NODE_MAX || next.bitrate >= BITRATE_COUNT)
+    if (next.node > NODE_MAX)
         return NRC_RANGE;
     uds_put(exchange, DID_WHO, ID_LEN);
     return choices_save(uds->choices, &next, true) == 0 ? NRC_NONE : NRC_FAILURE;

@@ -148,33 +148,31 @@ def _update_all(arguments: argparse.Namespace, images: "dict[int, SlotImage]", k
         link.close()
 
 
-def _update_one(tester: "Updater", images: "dict[int, SlotImage]", *, allow_older: bool) -> None:
+def _update_one(updater: "Updater", images: "dict[int, SlotImage]", *, allow_older: bool) -> None:
     from rich.console import Console
     from rich.progress import Progress
 
     from host_sim.update.keys import is_development
     from host_sim.update.updater import check_images
 
-    tester.enter()
-    check_images(images, tester.board())
-    before = tester.status()
+    updater.enter()
+    check_images(images, updater.board())
+    before = updater.status()
     image = images[before.free]
-    print(
-        f"node {tester.node}: version {before.versions[before.slot]} in slot {'AB'[before.slot]} stays; "
-        f"version {image.version} goes to slot {'AB'[image.slot]}",
-        flush=True,
-    )
+    kept = before.versions[before.slot] if before.installed >> before.slot & 1 else None
+    stays = "it has no image" if kept is None else f"version {kept} stays in slot {'AB'[before.slot]}"
+    print(f"node {updater.node}: {stays}; version {image.version} goes to slot {'AB'[image.slot]}", flush=True)
     if is_development(before.signer):
         print(
-            f"octet: node {tester.node} takes what is signed with the development key: anybody can update it",
+            f"octet: node {updater.node} takes what is signed with the development key: anybody can update it",
             file=sys.stderr,
         )
-    tester.unlock()
+    updater.unlock()
     if allow_older:
-        tester.lower_floor(min(before.floor, image.version))
+        updater.lower_floor(min(before.floor, image.version))
     with Progress(console=Console(stderr=True), transient=True) as progress:
-        bar = progress.add_task(f"node {tester.node}", total=len(image.data))
-        tester.install(image, lambda count: progress.update(bar, completed=count))
-    tester.restart()
-    version = tester.confirmed(image.version)
-    print(f"node {tester.node}: version {version} runs")
+        bar = progress.add_task(f"node {updater.node}", total=len(image.data))
+        updater.install(image, lambda count: progress.update(bar, completed=count))
+    updater.restart()
+    version = updater.confirmed(image.version)
+    print(f"node {updater.node}: version {version} runs")

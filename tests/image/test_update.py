@@ -8,7 +8,19 @@ from host_sim.protocol.codec import Protocol
 from host_sim.update.image import built_images
 from host_sim.update.updater import UpdateError, Updater
 from tests.image.support import Talk
-from tests.image.update_rig import BOARD, KEY, LAYOUT, NEW, OLD, board_with, fresh_board, images, put_on, runs_in
+from tests.image.update_rig import (
+    BOARD,
+    KEY,
+    LAYOUT,
+    NEW,
+    OLD,
+    LossyLink,
+    board_with,
+    fresh_board,
+    images,
+    put_on,
+    runs_in,
+)
 
 LESSON = {"mask": 0b1111, "half": 0, "byte_0": 0, "byte_1": 1, "byte_2": 0, "byte_3": 0}
 STORE = 62 * 1024
@@ -146,3 +158,16 @@ def test_a_chip_whose_image_is_not_signed_stays_in_the_boot_loader():
     tester = put_on(board, NEW)
     tester.restart()
     assert tester.running() == (NEW, True)
+
+
+def test_with_lost_frames_it_arrives_all_the_same():
+    board = fresh_board()
+    updater = Updater(LossyLink(board, 0.02, seed=1), 1, KEY)
+    updater.enter()
+    updater.unlock()
+    updater.install(images(NEW)[1], lambda _count: None)
+
+    data = images(NEW)[1].data
+    assert bytes(board.hardware.flash.memory[LAYOUT.slots[1] :][: len(data)]) == data
+    updater.restart()
+    assert updater.running() == (NEW, True)
