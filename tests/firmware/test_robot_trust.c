@@ -88,6 +88,33 @@ TEST(a_dead_motor_stops_a_robot_that_only_takes_steps)
     assert_at_rest();
 }
 
+TEST(a_turn_that_was_denied_is_not_forgiven_for_steps)
+{
+    command(OPCODE_START, PROFILE_SEARCHER, 1);
+    obey(FRONT);
+    while (!out.denied)
+        sense((struct senses){.tick = wheels.tick++, .feel = CLEAR, .look = true, .beacon_mm = 700});
+    wheels.look = true;
+    wheels.beacon_mm = 700;
+    for (unsigned i = 0; i < 100; i++)
+        obey(CLEAR);
+    TEST_ASSERT_EQUAL_UINT8(1, robot.denials);
+}
+
+TEST(a_step_that_was_denied_is_forgiven_for_steps)
+{
+    command(OPCODE_START, PROFILE_SEARCHER, 1);
+    wheels.look = true;
+    wheels.beacon_mm = 700;
+    while (!out.denied) {
+        out.drive.left_mm_s = 0;
+        obey(CLEAR);
+    }
+    for (unsigned i = 0; i < 100; i++)
+        obey(CLEAR);
+    TEST_ASSERT_EQUAL_UINT8(0, robot.denials);
+}
+
 TEST(wheels_that_obey_again_are_forgiven)
 {
     while (!out.denied)
