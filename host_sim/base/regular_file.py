@@ -2,11 +2,14 @@
 
 import os
 import stat
+from collections.abc import Callable
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, TypeVar
 
 from host_sim.base.errors import UsageError
 from host_sim.base.system import NO_WAIT
+
+Word = TypeVar("Word")
 
 
 def open_bytes(path: Path, limit: int) -> BinaryIO:
@@ -51,6 +54,33 @@ def read_text(path: Path, limit: int) -> str:
         UnicodeDecodeError: It is not text.
     """
     return read_bytes(path, limit).decode("utf-8-sig")
+
+
+def read_words(path: Path, limit: int, parse: Callable[[str], Word]) -> list[Word]:
+    """What is in a file with a word on each line; # begins a comment.
+
+    Args:
+        path: The file.
+        limit: The greatest size accepted, bytes.
+        parse: Makes something of a word, or raises UsageError.
+
+    Raises:
+        UsageError: The file cannot be read, is not text, or has a wrong word; the message names the line.
+    """
+    try:
+        lines = read_text(path, limit).splitlines()
+    except FileNotFoundError:
+        raise UsageError(f"cannot read {path}: there is no such file") from None
+    except UnicodeDecodeError:
+        raise UsageError(f"{path} is not text") from None
+    words = []
+    for number, line in enumerate(lines, 1):
+        if word := line.partition("#")[0].strip():
+            try:
+                words.append(parse(word))
+            except UsageError as error:
+                raise UsageError(f"{path}:{number}: {error}") from None
+    return words
 
 
 def _open_without_waiting(path: str, flags: int) -> int:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from host_sim.base.errors import UsageError
 from host_sim.base.near_word import meant, near_word
 from host_sim.base.paths import as_called
+from host_sim.base.regular_file import read_words
 from host_sim.protocol.words import PARAMETERS
 
 if TYPE_CHECKING:
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 DEFAULT = " (default: %(default)s)"
 """The end of the help text of an option that has a default."""
+
+_SETTINGS_MAX = 100_000
 
 
 class Parser(argparse.ArgumentParser):
@@ -154,17 +157,23 @@ def check_outputs(command: str, source: Path | None, outputs: Mapping[str, Path 
         options[target] = option
 
 
-def setting(text: str) -> tuple[str, int]:
-    """An argument type: NAME=VALUE for a parameter, the value within the parameter's range."""
+def settings(text: str) -> dict[str, int]:
+    """An argument type: NAME=VALUE for a parameter, the value within its range; or @FILE, with one on each line."""
+    if text.startswith("@"):
+        return dict(read_words(Path(text[1:]), _SETTINGS_MAX, _setting))
+    return dict([_setting(text)])
+
+
+def _setting(text: str) -> tuple[str, int]:
     name, equals, value = text.partition("=")
     if name not in PARAMETERS:
-        raise argparse.ArgumentTypeError(f"unknown parameter {name!r}: {meant(name, PARAMETERS)}")
+        raise UsageError(f"unknown parameter {name!r}: {meant(name, PARAMETERS)}")
     low, high, _, unit, _ = PARAMETERS[name]
     values = f"a whole number from {low} to {high}{f' {unit}' if unit else ''}"
     if not equals:
         raise UsageError(f"{name} has no value: write --set {name}=VALUE, {values}")
     if not value.isdecimal() or not low <= int(value) <= high:
-        raise argparse.ArgumentTypeError(f"{name} must be {values}, not {value!r}")
+        raise UsageError(f"{name} must be {values}, not {value!r}")
     return name, int(value)
 
 

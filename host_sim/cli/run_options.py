@@ -10,7 +10,7 @@ from typing import Any
 from host_sim.backends.bus_choice import check_robot
 from host_sim.base.compressed_file import COMPRESSED
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import file_path, number, setting
+from host_sim.cli.parsing import file_path, number, settings
 from host_sim.faults.rule import read_rules
 from host_sim.protocol.words import NODE_MAX
 from host_sim.sim.run_config import Option, RunConfig, flag_of, option, options_of
@@ -31,7 +31,7 @@ _FLEETS = f"a fleet (more than {NODE_MAX} robots, or --worlds own)"
 _PARSERS: dict[Any, Callable[[str], Any]] = {
     Path | None: file_path,
     Path: file_path,
-    dict[str, int]: setting,
+    dict[str, int]: settings,
     int: int,
 }
 
@@ -127,7 +127,7 @@ def run_options(arguments: Namespace, **others: Any) -> RunOptions:
         UsageError: They contradict each other, or a file of them cannot be read.
     """
     given = {name: value for name, value in vars(arguments).items() if name in options_of(RunOptions)}
-    given["settings"] = dict(given.get("settings", ()))
+    given["settings"] = {name: value for each in given.get("settings", ()) for name, value in each.items()}
     given["changes"] = tuple(change for text in given.get("changes", ()) for change in read_changes(text))
     given["faults"] = tuple(rule for text in given.get("faults", ()) for rule in read_rules(text))
     if given.get("robots", 1) > NODE_MAX:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from host_sim.base.errors import UsageError
-from host_sim.base.regular_file import read_text
+from host_sim.base.regular_file import read_words
 
 Direction = Literal["to", "from"]
 """To the robot, or from it."""
@@ -116,11 +116,4 @@ def read_rules(text: str) -> list[str]:
     """
     if not text.startswith("@"):
         return [str(Rule.parse(text))]
-    path = Path(text[1:])
-    try:
-        lines = read_text(path, _FILE_MAX).splitlines()
-    except OSError as error:
-        raise UsageError(f"cannot read {path}: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise UsageError(f"{path} is not a list of faults: it is not text") from None
-    return [str(Rule.parse(line)) for line in lines if line and not line.startswith("#")]
+    return read_words(Path(text[1:]), _FILE_MAX, lambda word: str(Rule.parse(word)))

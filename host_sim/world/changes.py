@@ -6,7 +6,7 @@ from pathlib import Path
 
 from host_sim.base.errors import UsageError
 from host_sim.base.near_word import meant
-from host_sim.base.regular_file import read_text
+from host_sim.base.regular_file import read_words
 from host_sim.protocol.words import BODY_FAULTS
 from host_sim.world.body_faults import check_fault
 
@@ -108,21 +108,6 @@ def read_changes(text: str) -> list[str]:
     if "@" in text.removeprefix("@"):
         return [str(Change.parse(text))]
     path = Path(text.removeprefix("@"))
-    try:
-        lines = read_text(path, _FILE_MAX).splitlines()
-    except OSError as error:
-        raise UsageError(f"{text!r} is neither a change nor a file of changes ({error.strerror}): {_FORM}") from None
-    except UnicodeDecodeError:
-        raise UsageError(f"{path} is not a list of changes: it is not text") from None
-    changes = []
-    for number, line in enumerate(lines, 1):
-        if word := line.partition("#")[0].strip():
-            changes.append(_in_line(path, number, word))
-    return changes
-
-
-def _in_line(path: Path, number: int, word: str) -> str:
-    try:
-        return str(Change.parse(word))
-    except UsageError as error:
-        raise UsageError(f"{path}:{number}: {error}") from None
+    if not path.exists():
+        raise UsageError(f"{text!r} is neither a change nor a file of changes that is there: {_FORM}")
+    return read_words(path, _FILE_MAX, lambda word: str(Change.parse(word)))

@@ -90,5 +90,5 @@ def test_what_is_neither_a_change_nor_a_file_is_refused():
 def test_a_file_that_is_not_text_is_refused(tmp_path):
     (tmp_path / "changes").write_bytes(b"\xff\xfe")
 
-    with pytest.raises(UsageError, match="it is not text"):
+    with pytest.raises(UsageError, match="is not text"):
         read_changes(str(tmp_path / "changes"))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from host_sim.base.counted import counted
 from host_sim.base.errors import UsageError
-from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, setting
+from host_sim.cli.parsing import DEFAULT, add_command, file_path, number, settings
 from host_sim.lab.study.study_command import add_workers, with_progress, worker_stages, workers_of
 from host_sim.protocol.words import PROFILES
 
@@ -59,11 +59,17 @@ def add(commands: "Subparsers") -> None:
         help="smallest difference of interest, %%; prints how many seeds it takes to detect it" + DEFAULT,
     )
     add("--plots", type=file_path, metavar="FOLDER", help="draw plots into this folder")
+    add(
+        "--coverage",
+        type=number(10, 100_000),
+        metavar="N",
+        help="print how often the intervals from N seeds of the study hold the figures of all its seeds",
+    )
     profiles = parser.add_argument_group("with profiles").add_argument
-    profiles("--seeds", type=number(1, 100_000), default=20, metavar="N", help="number of seeds" + DEFAULT)
+    profiles("--seeds", type=number(1, 100_000), default=100, metavar="N", help="number of seeds" + DEFAULT)
     profiles("--first", type=number(0, 2**31), default=1, metavar="SEED", help="first seed" + DEFAULT)
     profiles("--environments", type=number(1, 1000), default=5, metavar="N", help="environments a seed" + DEFAULT)
-    profiles("--set", type=setting, action="append", default=[], metavar="NAME=VALUE", help=_SET_HELP)
+    profiles("--set", type=settings, action="append", default=[], metavar="NAME=VALUE", help=_SET_HELP)
     profiles("--body", default="ideal", metavar="BODY", help="the robots' bodies, as tools/run has them" + DEFAULT)
     profiles("--change", action="append", default=[], metavar="CHANGE", help="one change, as tools/run has them")
     profiles("--robot", choices=("spawn", "emulated"), default="spawn", help="where robots come from" + DEFAULT)
@@ -81,6 +87,8 @@ def _check(arguments: argparse.Namespace) -> None:
     if folder.is_dir() or folder.suffix == ".toml":
         _check_no_runs(arguments)
         return
+    if arguments.coverage:
+        raise UsageError("--coverage draws from the seeds of a study: name its folder")
     for word in arguments.what:
         if word not in PROFILES:
             raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
@@ -97,7 +105,7 @@ def _stages(arguments: argparse.Namespace) -> "Sequence[str]":
 
 def _compare(arguments: argparse.Namespace) -> int:
     from host_sim.lab.study.goals import judge
-    from host_sim.lab.study.table import table
+    from host_sim.lab.study.table import coverage_table, table
 
     folder = Path(arguments.what[0])
     if folder.suffix == ".toml":
@@ -105,7 +113,11 @@ def _compare(arguments: argparse.Namespace) -> int:
     else:
         plan, samples = of_study(folder) if folder.is_dir() else _of_profiles(arguments)
     environments = counted(plan.conditions[0].config.environments, "environment")
-    print(f"{plan.title}: {counted(len(samples[0].seeds), 'seed')} of {environments} each")
+    held_out = f", none of {plan.chosen_on[0]}..{plan.chosen_on[1]}" if plan.chosen_on else ""
+    print(f"{plan.title}: {counted(len(samples[0].seeds), 'seed')} of {environments} each{held_out}")
+    if arguments.coverage:
+        print(coverage_table(samples, arguments.coverage))
+        return 0
     print(table(samples, arguments.difference / 100))
     if arguments.plots:
         from host_sim.lab.study.plots import draw_plots
@@ -168,8 +180,9 @@ def _of_profiles(arguments: argparse.Namespace) -> "tuple[Plan, Sequence[Sample]
     a = arguments
     for change in a.change:
         Change.parse(change)
+    chosen = {name: value for each in a.set for name, value in each.items()}
     shared = RunConfig(
-        environments=a.environments, settings=dict(a.set), body=a.body, changes=tuple(a.change), robot=a.robot
+        environments=a.environments, settings=chosen, body=a.body, changes=tuple(a.change), robot=a.robot
     )
     names = list(dict.fromkeys(a.what))
     plan = Plan(" ".join(names), [Trial(replace(shared, profile=name), name) for name in names], a.first, a.seeds)

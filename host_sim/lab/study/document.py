@@ -1,8 +1,9 @@
 """Figures of studies as small tables, and a document whose numbers are those of the tables.
 
 In the document a number is a link to its table: the part behind # names the row, with + for a space, and the figure,
-such as [0.38 s](tables/learned.csv#article,blocked_s). A third word, interval, wants the 95 % interval instead. Below
-a comment such as <!-- table learned.csv: finished median_s --> stands the table itself.
+such as [0.38 s](tables/learned.csv#article,blocked_s). A third word, interval, wants the 95 % interval instead. A
+figure with _compared behind its name is what it differs by from that of the first row: a ratio, or points of a
+percentage. Below a comment such as <!-- table learned.csv: finished median_s --> stands the table itself.
 """
 
 import csv
@@ -15,15 +16,18 @@ import numpy as np
 
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
-from host_sim.lab.study.bootstrap import estimate
 from host_sim.lab.study.figures import FIGURES, Figure
+from host_sim.lab.study.intervals import compare, estimate
 from host_sim.lab.study.sample import Sample
-from host_sim.lab.study.table import text_of
+from host_sim.lab.study.table import interval_of, text_of
 
 TABLES = "tables"
 
-_RATIO = Figure("mean by that of the first", "", "", 2, FIGURES["mean_s"].of)
-_ALL = {**{name: figure for name, figure in FIGURES.items() if name != "denied"}, "ratio": _RATIO}
+_COMPARED = {
+    f"{name}_compared": Figure(it.heading, "", " points" if it.counted else "", 1 if it.counted else 2, it.of)
+    for name, it in FIGURES.items()
+}
+_ALL = {**FIGURES, **_COMPARED}
 _COLUMNS = ("condition", "figure", "value", "low", "high")
 _LINK = re.compile(rf"\[[^\]]*\]\(({TABLES}/[\w-]+\.csv)#([^),]+),(\w+)(,interval)?\)")
 _BLOCK = re.compile(r"(<!-- table ([\w-]+\.csv): ([\w ]+?) -->\n)(?:\|[^\n]*\n)*")
@@ -38,10 +42,11 @@ def write_table(samples: Sequence[Sample], path: Path) -> None:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(_COLUMNS)
     for sample in samples:
-        for name, figure in _ALL.items():
-            found = estimate(figure, sample, samples[0] if name == "ratio" else None)
-            if not np.isnan(found.value):
-                writer.writerow([sample.name, name, *(f"{it:.6g}" for it in (found.value, found.low, found.high))])
+        for name, figure in FIGURES.items():
+            found = {name: estimate(figure, sample), f"{name}_compared": compare(figure, sample, samples[0])}
+            for key, it in found.items():
+                if not np.isnan(it.value) and not (sample is samples[0] and key != name):
+                    writer.writerow([sample.name, key, *(f"{end:.6g}" for end in (it.value, it.low, it.high))])
     path.parent.mkdir(parents=True, exist_ok=True)
     write_bytes(path, text.getvalue().encode())
 
@@ -62,7 +67,7 @@ def fill(text: str, folder: Path) -> str:
         except KeyError:
             raise OctetError(f"{folder / table} has no figure {figure} of {condition}") from None
         what = _ALL[figure]
-        return f"{low:.{what.digits}f}..{text_of(what, high)}" if kind else text_of(what, value)
+        return interval_of(what, low, high) if kind else text_of(what, value)
 
     def link(found: re.Match[str]) -> str:
         number = look_up(found[1], found[2].replace("+", " "), found[3], found[4] or "")
@@ -72,7 +77,12 @@ def fill(text: str, folder: Path) -> str:
         table, figures = f"{TABLES}/{found[2]}", found[3].split()
         look_up(table, next(iter(_read(folder / table)))[0], figures[0])
         conditions = dict.fromkeys(condition for condition, _ in tables[table])
-        return found[1] + _markdown(list(conditions), figures, lambda *key: look_up(table, *key))
+
+        def cell(condition: str, figure: str) -> str:
+            value, interval = (look_up(table, condition, figure, kind) for kind in ("", "interval"))
+            return value if interval == f"{value}..{value}" else f"{value} ({interval})"
+
+        return found[1] + _markdown(list(conditions), figures, cell)
 
     return _LINK.sub(link, _BLOCK.sub(block, text))
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.lab.study.sample import Floats, Sample
+from host_sim.lab.study.sample import TRAPPED_S, Floats, Sample
 
 Take = NDArray[np.int64]
 """Shape (..., seeds): which seeds to take, by index, each as often as it is there."""
@@ -23,6 +23,7 @@ class Figure:
         unit: Its unit, with a space before it; empty if it has none.
         digits: Digits after the point.
         of: Makes it of the seeds that are taken: shape (...).
+        counted: For a percentage, the attribute of the sample that it counts, of 0 and 1; empty for other figures.
     """
 
     heading: str
@@ -30,11 +31,16 @@ class Figure:
     unit: str
     digits: int
     of: Callable[[Sample, Take], Any]
+    counted: str = ""
 
 
 def _mean(name: str, factor: float = 1.0) -> Callable[[Sample, Take], Any]:
     """The mean over all environments, or over all seeds."""
     return lambda sample, take: factor * _flat(getattr(sample, name)[take], take).mean(-1)
+
+
+def _percentage(heading: str, meaning: str, counted: str) -> Figure:
+    return Figure(heading, meaning, " %", 1, _mean(counted, 100), counted)
 
 
 def _median(name: str) -> Callable[[Sample, Take], Any]:
@@ -53,49 +59,36 @@ def _flat(values: Floats, take: Take) -> Floats:
     return values.reshape(*take.shape[:-1], -1)
 
 
-def interquartile_mean(values: Floats) -> Any:
-    """The mean of the middle half, along the last axis.
-
-    >>> float(interquartile_mean(np.array([1.0, 2.0, 4.0, 1000.0])))
-    3.0
-    """
-    cut = values.shape[-1] // 4
-    return np.sort(values)[..., cut : values.shape[-1] - cut].mean(-1)
-
-
-def _iqm(sample: Sample, take: Take) -> Any:
-    return interquartile_mean(_flat(sample.robot_s[take], take))
-
-
-def _recovered(sample: Sample, take: Take) -> Any:
-    return 100 * np.isfinite(sample.recovery[take]).mean(-1)
-
-
 _TOWARD = "robots that in the end know a turn toward what is beside them"
 _SCORE = "Heiserman's: turns after which the way was clear, of all turns"
-_RECOVERED = "robots that after the change know what to do beside things again, and no wrong turn"
 _KNOWN = "robot time until a turn is known for patterns 1, 3, 4 and 6, median"
 
+_FIRST = "robots that after the change once knew what to do beside things, and no wrong turn"
+_LASTING = "robots that still did when the run ended"
+
 FIGURES: dict[str, Figure] = {
-    "finished": Figure("finished", "environments with all food eaten", " %", 1, _mean("finished", 100)),
-    "median_s": Figure("median", "robot time of an environment", " s", 0, _median("robot_s")),
-    "iqm_s": Figure("IQM", "the mean of the middle half of these times", " s", 0, _iqm),
-    "mean_s": Figure("mean", "the mean of all of them", " s", 0, _mean("robot_s")),
+    "finished": _percentage("finished", "environments with all food eaten", "finished"),
+    "median_s": Figure("median", "time until half of the environments are finished", " s", 0, _median("finished_s")),
+    "mean_s": Figure("mean", "robot time of an environment, up to the limit of the run", " s", 0, _mean("robot_s")),
     "blocked_s": Figure(
-        "blocked", "robot time from blocked to clear, mean", " s", 2, _share("blocked_s", "contacts")
+        "blocked",
+        f"robot time from blocked to clear, mean; counted up to {TRAPPED_S:g} s",
+        " s",
+        2,
+        _share("blocked_s", "contacts"),
     ),
-    "trapped": Figure("trapped", "environments with more than 60 s of that at once", " %", 1, _mean("trapped", 100)),
-    "wrong": Figure("wrong cells", _TOWARD, " %", 1, _mean("wrong", 100)),
-    "bumped": Figure("bumps", "environments in which a body touched something", " %", 1, _mean("bumped", 100)),
-    "denied": Figure(
-        "denied", "environments in which wheels did not do what they were told", " %", 1, _mean("denied", 100)
-    ),
+    "trapped": _percentage("trapped", f"environments with more than {TRAPPED_S:g} s of that at once", "trapped"),
+    "wrong": _percentage("wrong cells", _TOWARD, "wrong"),
+    "bumped": _percentage("bumps", "environments in which a body touched something", "bumped"),
+    "denied": _percentage("denied", "environments in which wheels did not do what they were told", "denied"),
     "score": Figure("score", _SCORE, "", 2, _share("cleared", "turns")),
     "known_s": Figure("known", _KNOWN, " s", 0, _median("known_s")),
-    "recovered": Figure("recovered", _RECOVERED, " %", 1, _recovered),
+    "recovered": _percentage("recovered", _FIRST, "recovered"),
     "recovery": Figure("after", "contacts until then, median", " contacts", 0, _median("recovery")),
+    "lasting": _percentage("for good", _LASTING, "lasting"),
+    "lasting_recovery": Figure("for good after", "contacts until then, median", " contacts", 0, _median("settled")),
 }
 """Each figure by its name in a study's goals."""
 
-ALWAYS = ("finished", "median_s", "iqm_s", "mean_s", "blocked_s", "trapped", "wrong", "bumped", "score")
+OF_EACH = ("finished", "median_s", "mean_s", "blocked_s", "trapped", "wrong", "bumped", "score")
 """The figures that each table has."""

@@ -10,10 +10,11 @@ from host_sim.base.errors import UsageError
 from host_sim.lab.study.contacts import BodyState
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import CURVE, TRAPPED_S, Floats, Sample
-from host_sim.lab.study.trial import Trial, knows_wrong
+from host_sim.lab.study.trial import knows_wrong
 from host_sim.protocol.generated import Reason
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.fleet import FleetResult, run_fleet
+from host_sim.sim.run_config import RunConfig
 from host_sim.world.params import SimParams
 
 _TURNS = (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM)
@@ -29,23 +30,24 @@ def samples_of_fleets(plan: Plan) -> list[Sample]:
         raise UsageError(
             "a fleet has neither several robots in a world nor changes: make the study with tools/octet study"
         )
-    return [_sample(plan, it) for it in plan.conditions]
+    return [sample_of(it.condition, it.config, plan.first_seed, plan.seeds) for it in plan.conditions]
 
 
-def _sample(plan: Plan, trial: Trial) -> Sample:
-    config = replace(trial.config, seed=plan.first_seed, robots=plan.seeds, worlds="own")
+def sample_of(name: str, config: RunConfig, first_seed: int, seeds: int) -> Sample:
+    """Runs robots in worlds of their own, with the seeds from the first one on, in this process."""
+    config = replace(config, seed=first_seed, robots=seeds, worlds="own")
     results = sorted(run_fleet(config), key=lambda result: (result.robot, result.environment))
-    never = np.full((plan.seeds, CURVE), np.nan)
+    never = np.full((seeds, CURVE), np.nan)
 
     def each(of: Callable[[FleetResult], Any]) -> Floats:
-        return np.array([of(result) for result in results], np.float64).reshape(plan.seeds, -1)
+        return np.array([of(result) for result in results], np.float64).reshape(seeds, -1)
 
     tick_s = SimParams().tick_s
     contacts = each(lambda it: it.contacts.number)
     return Sample(
-        name=trial.condition,
+        name=name,
         robots=1,
-        seeds=np.arange(plan.first_seed, plan.first_seed + plan.seeds),
+        seeds=np.arange(first_seed, first_seed + seeds),
         finished=each(lambda it: it.finished),
         robot_s=each(lambda it: it.ticks * tick_s),
         trapped=each(lambda it: it.contacts.longest_ticks * tick_s > TRAPPED_S),
@@ -56,8 +58,9 @@ def _sample(plan: Plan, trial: Trial) -> Sample:
         blocked_s=each(lambda it: it.contacts.ticks * tick_s).sum(-1),
         turns=each(lambda it: sum(it.begun.get(reason, 0) for reason in _TURNS)).sum(-1),
         cleared=(contacts - each(lambda it: it.contacts.goes_on)).sum(-1),
-        known_s=np.full(plan.seeds, np.inf),
+        known_s=np.full(seeds, np.inf),
         blocked_at=never,
         wrong_at=never,
         recovery=never[:, 0],
+        settled=never[:, 0],
     )

@@ -14,7 +14,8 @@ class Goal:
     Attributes:
         figure: Name of the figure.
         condition: Name of the condition.
-        against: Name of the condition by whose figure it is divided; empty for none.
+        against: Name of the condition that it is compared with: as a ratio, or in points of a percentage. Empty for
+            none.
         at_least: The lowest value that is good enough; None for any.
         at_most: The highest value that is good enough; None for any.
     """
@@ -35,13 +36,15 @@ class Plan:
         conditions: A run of each condition, all with the same seed; the others are held against the first one.
         first_seed: The first seed.
         seeds: Number of seeds, the same for each condition.
+        chosen_on: First and last of the seeds on which anything was chosen; empty if nothing was.
         goals: What is to come of it.
     """
 
     title: str
     conditions: Sequence[Trial]
     first_seed: int = 1
-    seeds: int = 20
+    seeds: int = 100
+    chosen_on: Sequence[int] = ()
     goals: Sequence[Goal] = ()
 
     def trials(self) -> list[Trial]:

@@ -27,8 +27,8 @@ _toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "t
 _SIZE_MAX = 1_000_000
 _SEED_MAX = 2**32 - 1
 _KEYS = (
-    *("title", "profiles", "robots", "worlds", "bodies", "changes", "seeds", "first_seed", "environments", "limit_s"),
-    *("settings", "goals"),
+    *("title", "profiles", "robots", "worlds", "bodies", "changes", "seeds", "first_seed", "chosen_on"),
+    *("environments", "limit_s", "settings", "goals"),
 )
 _GOAL_KEYS = ("figure", "condition", "against", "at_least", "at_most")
 _PLAIN = "plain"
@@ -70,13 +70,26 @@ class _Reader:
             raise UsageError(f'{self._path}:1: profiles is missing, such as profiles = ["article", "fixed"]')
         conditions = self._conditions()
         first = self._number("first_seed", 1, 0, _SEED_MAX)
+        seeds = self._number("seeds", Plan.seeds, 1, min(100_000, _SEED_MAX + 1 - first))
         return Plan(
             title=self._text_of("title", self._path.stem),
             conditions=conditions,
             first_seed=first,
-            seeds=self._number("seeds", Plan.seeds, 1, min(100_000, _SEED_MAX + 1 - first)),
+            seeds=seeds,
+            chosen_on=self._chosen_on(first, first + seeds - 1),
             goals=[self._goal(i, goal, conditions) for i, goal in enumerate(self._tables("goals"))],
         )
+
+    def _chosen_on(self, first: int, last: int) -> Sequence[int]:
+        """The seeds on which something was chosen: none of them is a seed of the study."""
+        chosen = self._content.get("chosen_on", [])
+        numbers = isinstance(chosen, list) and all(isinstance(it, int) and not isinstance(it, bool) for it in chosen)
+        if not numbers or len(chosen) not in (0, 2) or chosen != sorted(chosen):
+            raise self._error("chosen_on is the first and the last of some seeds, such as [1, 1000]", "", "chosen_on")
+        if chosen and chosen[0] <= last and first <= chosen[1]:
+            told = f"{first}..{last} are not held out: something was chosen on {chosen[0]}..{chosen[1]}"
+            raise self._error(f"the study's seeds {told}", "", "chosen_on")
+        return tuple(chosen)
 
     def _conditions(self) -> list[Trial]:
         profiles = self._words("profiles", _is_one_of(PROFILES))

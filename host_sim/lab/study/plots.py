@@ -8,9 +8,9 @@ import numpy as np
 
 from host_sim.base.atomic_file import replacing
 from host_sim.base.extra_library import library
-from host_sim.lab.study.bootstrap import estimate
-from host_sim.lab.study.figures import FIGURES, interquartile_mean
+from host_sim.lab.study.figures import FIGURES
 from host_sim.lab.study.heiserman import CLASSES, scores
+from host_sim.lab.study.intervals import estimate
 from host_sim.lab.study.sample import CURVE, Floats, Sample
 
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#999999")
@@ -63,7 +63,7 @@ def _learning(axes: Any, samples: Sequence[Sample]) -> None:
     """How long the robot is blocked, the more often it was."""
     numbers = np.arange(1, CURVE + 1)
     for sample in samples:
-        axes.plot(numbers, _smooth(_over_seeds(sample.blocked_at, interquartile_mean)), label=sample.name)
+        axes.plot(numbers, _smooth(_over_seeds(sample.blocked_at, _interquartile_mean)), label=sample.name)
     axes.set(xlabel="contact, counted from the robot's birth", ylabel="blocked, s (interquartile mean)")
     axes.set(xlim=(1, CURVE), ylim=(0, None))
     axes.legend(frameon=False)
@@ -99,12 +99,13 @@ def _score(axes: Any, samples: Sequence[Sample]) -> None:
     found = [estimate(FIGURES["score"], sample) for sample in samples]
     names = [*creatures, *(sample.name for sample in samples)]
     values = [*creatures.values(), *(it.value for it in found)]
-    errors = [*[0.0] * len(creatures), *(it.half_width for it in found)]
+    errors = np.zeros((2, len(names)))
+    errors[:, len(creatures) :] = [[it.value - it.low for it in found], [it.high - it.value for it in found]]
     colours = ["#999999"] * len(creatures) + [_COLOURS[i % len(_COLOURS)] for i in range(len(samples))]
     axes.barh(names, values, xerr=errors, color=colours)
     blocked = [f"{float(FIGURES['blocked_s'].of(it, np.arange(len(it.seeds)))):.2f} s blocked" for it in samples]
     for place, text in enumerate(blocked, len(creatures)):
-        axes.text(values[place] + errors[place] + 0.01, place, text, va="center")
+        axes.text(values[place] + errors[1, place] + 0.01, place, text, va="center")
     axes.set(xlabel=f"Heiserman's score: good moves by contacts (his creatures: after {_CONTACTS})", xlim=(0, 1.25))
     axes.invert_yaxis()
     axes.grid(visible=False, axis="y")
@@ -114,6 +115,12 @@ def _over_seeds(curves: Floats, of: Callable[[Floats], Any]) -> Floats:
     """What comes of the seeds' values at each contact; NaN where fewer than a quarter of them have come so far."""
     there = [column[np.isfinite(column)] for column in curves.T]
     return np.array([of(column) if len(column) >= max(1, len(curves) // 4) else np.nan for column in there])
+
+
+def _interquartile_mean(values: Floats) -> Any:
+    """The mean of the middle half."""
+    cut = len(values) // 4
+    return np.sort(values)[cut : len(values) - cut].mean()
 
 
 def _smooth(curve: Floats) -> Floats:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 _DOCUMENT = "learning.md"
 _EXAMPLES = """\
 examples:
-  tools/octet reproduce                  all of it: hours
+  tools/octet reproduce                  all of it: a quarter of an hour on two cores
   tools/octet reproduce --only learned   one study; the other tables and plots stay
 """
 _PLOTS = {"learned": ("learning", "survival"), "swapped": ("recovery",), "score": ("score",)}

@@ -1,7 +1,8 @@
 """What the rows of one condition say, seed by seed: what figures are made of."""
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,7 @@ class Sample:
         denied: For each environment, 1 if wheels did not do what they were told, else 0.
         wrong: The part of the robots that know a wrong turn in the end.
         contacts: Number of contacts.
-        blocked_s: Robot time of all contacts, s.
+        blocked_s: Robot time of all contacts, s; of one that trapped the robot, only the first 60 s.
         turns: Turns of all contacts.
         cleared: Number of contacts after which the way was clear.
         known_s: Robot time until a turn was known for patterns 1, 3, 4 and 6, s; infinite if it never was.
@@ -36,6 +37,7 @@ class Sample:
             0; NaN where there was none.
         recovery: Contacts after the change until the turns for patterns 1 and 4 were right, and no wrong one known;
             infinite if that never was, and NaN without a change.
+        settled: The same, but that it stayed so until the run ended.
     """
 
     name: str
@@ -55,12 +57,45 @@ class Sample:
     blocked_at: Floats
     wrong_at: Floats
     recovery: Floats
+    settled: Floats
+
+    @property
+    def finished_s(self) -> Floats:
+        """For each environment, robot time until it was finished, s; infinite if it was not."""
+        return np.where(self.finished > 0, self.robot_s, np.inf)
+
+    @property
+    def recovered(self) -> Floats:
+        """1 if the robot recovered, else 0; NaN without a change."""
+        return _has_been(self.recovery)
+
+    @property
+    def lasting(self) -> Floats:
+        """1 if it recovered for good, else 0; NaN without a change."""
+        return _has_been(self.settled)
+
+    def take(self, seeds: NDArray[np.int64]) -> "Sample":
+        """The same of some of its seeds, by index, each as often as it is there."""
+        taken: dict[str, Any] = {name: getattr(self, name)[seeds] for name in _arrays()}
+        return replace(self, **taken)
+
+
+def joined(samples: Sequence[Sample]) -> Sample:
+    """Samples of one condition with different seeds, as one."""
+    every: dict[str, Any] = {name: np.concatenate([getattr(it, name) for it in samples]) for name in _arrays()}
+    return replace(samples[0], **every)
+
+
+def _arrays() -> list[str]:
+    return [it.name for it in fields(Sample) if it.name not in ("name", "robots")]
 
 
 CURVE = 100
 """Number of contacts in a curve."""
 
 TRAPPED_S = 60.0
+"""A contact that takes longer has trapped the robot, s."""
+
 _BESIDE = (1, 4)
 """The patterns of a thing beside the robot."""
 
@@ -104,6 +139,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
     trapped = np.zeros((count, len(environments["seed"]) // max(count, 1)))
     long = contacts["blocked_s"] > TRAPPED_S
     trapped[index[long], contacts["environment"][long] - 1] = 1
+    recoveries = np.array([_recovery(contacts, environments, seed) for seed in seeds]).reshape(count, 2)
     return Sample(
         name=name,
         robots=int(np.max(robots, initial=1)),
@@ -115,13 +151,14 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
         denied=each(environments["denied"] > 0),
         wrong=each(environments["wrong"])[:, -1] / robots if count else robots,
         contacts=total(np.ones(len(index))),
-        blocked_s=total(contacts["blocked_s"]),
+        blocked_s=total(np.minimum(contacts["blocked_s"], TRAPPED_S)),
         turns=total(contacts["trials"] + contacts["remembered"] + contacts["boredoms"]),
         cleared=total(contacts["cleared"]),
         known_s=runs["known_s"].astype(np.float64),
         blocked_at=_curve(index, contacts["blocked_s"], first, count),
         wrong_at=_curve(index, contacts["wrong"], first & contacts["changed"], count),
-        recovery=np.array([_recovery(contacts, environments, seed) for seed in seeds]),
+        recovery=recoveries[:, 0],
+        settled=recoveries[:, 1],
     )
 
 
@@ -134,11 +171,19 @@ def _curve(index: NDArray[np.int64], values: NDArray[Any], wanted: NDArray[np.bo
     return curve
 
 
-def _recovery(contacts: Columns, environments: Columns, seed: int) -> float:
-    """The number of the first robot's contacts after the change up to the one with which it has recovered."""
+def _recovery(contacts: Columns, environments: Columns, seed: int) -> tuple[float, float]:
+    """The numbers of the first robot's contacts after the change with which it has recovered, once and for good."""
     if not environments["changed"][environments["seed"] == seed].any():
-        return float("nan")
+        return math.nan, math.nan
     ours = (contacts["seed"] == seed) & contacts["changed"] & (contacts["robot"] == 0)
     knows = [all(sides[pattern] != "0" for pattern in _BESIDE) for sides in contacts["sides"][ours]]
-    recovered = np.flatnonzero(np.array(knows, bool) & ~contacts["wrong"][ours])
-    return float(recovered[0] + 1) if len(recovered) else float("inf")
+    recovered = np.array(knows, bool) & ~contacts["wrong"][ours]
+    if not recovered.any():
+        return math.inf, math.inf
+    lost = np.flatnonzero(~recovered)
+    settled = lost[-1] + 2 if len(lost) else 1
+    return float(np.argmax(recovered) + 1), float(settled) if recovered[-1] else math.inf
+
+
+def _has_been(contacts: Floats) -> Floats:
+    return np.where(np.isnan(contacts), np.nan, np.isfinite(contacts).astype(np.float64))

@@ -1,52 +1,42 @@
 """Samples side by side, as a table for people."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from host_sim.lab.study.bootstrap import Estimate, estimate
-from host_sim.lab.study.figures import ALWAYS, FIGURES, Figure
+from host_sim.lab.study.figures import FIGURES, OF_EACH, Figure
+from host_sim.lab.study.intervals import LEVEL, Estimate, compare, coverage, estimate
 from host_sim.lab.study.sample import Sample
 from host_sim.lab.table import aligned
 
-_WITH_HALF_WIDTH = frozenset(("finished", "median_s", "iqm_s", "mean_s", "blocked_s"))
 _RATIO = "mean_s"
 
 
 def table(samples: Sequence[Sample], difference: float = 0.05) -> str:
-    """The samples, each compared with the first one.
+    """Each figure of each sample, and how it compares with that of the first one.
 
     Args:
         samples: Samples with the same seeds.
         difference: The difference of two mean times, as a part of them, for which the number of seeds is wanted.
     """
-    names = [*ALWAYS, *_others(samples)]
-    wanted = f"seeds for {100 * difference:g} %"
-    head = ("condition", *(FIGURES[name].heading for name in names), "ratio to the first", wanted)
-    lines = [head]
-    for sample in samples:
-        ratio = estimate(FIGURES[_RATIO], sample, samples[0])
-        needed = "-" if sample is samples[0] else _whole(ratio.seeds_for(difference))
-        lines.append((sample.name, *(_figure(name, sample) for name in names), _interval(ratio), needed))
-    return "\n".join([*aligned(lines), "", _notes(names, wanted)])
+    others = len(samples) - 1
+    lines: list[str] = []
+    for name in (*OF_EACH, *_of_some(samples)):
+        figure = FIGURES[name]
+        rows = [_row(figure, sample, samples[0], others) for sample in samples]
+        lines += ["", f"{figure.heading}: {figure.meaning}", *(f"  {row}" for row in aligned(rows, right=(1,)))]
+    return "\n".join([*lines[1:], "", *_notes(samples, difference)])
 
 
-def _others(samples: Sequence[Sample]) -> list[str]:
-    """The figures that only some studies have."""
-    changed = any(not np.isnan(sample.recovery).all() for sample in samples)
-    several = any(sample.robots > 1 for sample in samples)
-    denied = any(sample.denied.any() for sample in samples)
-    return ["denied"] * denied + ["recovered", "recovery"] * changed + ["known_s"] * several
-
-
-def _figure(name: str, sample: Sample) -> str:
-    figure = FIGURES[name]
-    if name not in _WITH_HALF_WIDTH:
-        return text_of(figure, float(figure.of(sample, np.arange(len(sample.seeds)))))
-    found = estimate(figure, sample)
-    half = f" ±{found.half_width:.{figure.digits}f}" if math.isfinite(found.half_width) else ""
-    return text_of(figure, found.value).replace(figure.unit, half + figure.unit)
+def coverage_table(samples: Sequence[Sample], seeds: int) -> str:
+    """How often the intervals of each figure from so many seeds hold the figure of all seeds; 95 % is right."""
+    names = [*OF_EACH, *_of_some(samples)]
+    rows = [("", *(sample.name for sample in samples))]
+    for name in names:
+        figure = FIGURES[name]
+        rows.append((figure.heading, *(f"{100 * coverage(figure, sample, seeds):.1f} %" for sample in samples)))
+    return "\n".join(aligned(rows, right=range(1, len(samples) + 1)))
 
 
 def text_of(figure: Figure, value: float) -> str:
@@ -60,19 +50,54 @@ def text_of(figure: Figure, value: float) -> str:
     return "never" if math.isinf(value) else f"{value:.{figure.digits}f}{figure.unit}"
 
 
-def _interval(ratio: Estimate) -> str:
-    if ratio.seeds == 1:
-        return f"{ratio.value:.2f}"
-    return f"{ratio.value:.2f} ({ratio.low:.2f}..{ratio.high:.2f})"
+def interval_of(figure: Figure, low: float, high: float) -> str:
+    """The interval of a figure, with its unit.
+
+    >>> interval_of(FIGURES["mean_s"], 90.2, math.inf)
+    '90 s..never'
+    """
+    ends = text_of(figure, low), text_of(figure, high)
+    return f"{ends[0].removesuffix(figure.unit) if math.isfinite(high) else ends[0]}..{ends[1]}"
 
 
-def _whole(number: float) -> str:
-    return "-" if math.isnan(number) else str(number)
+def _of_some(samples: Sequence[Sample]) -> list[str]:
+    """The figures that only some studies have."""
+    changed = any(not np.isnan(sample.recovery).all() for sample in samples)
+    several = any(sample.robots > 1 for sample in samples)
+    denied = any(sample.denied.any() for sample in samples)
+    after = ["recovered", "recovery", "lasting", "lasting_recovery"] * changed
+    return ["denied"] * denied + after + ["known_s"] * several
 
 
-def _notes(names: Sequence[str], wanted: str) -> str:
-    notes = {FIGURES[name].heading: FIGURES[name].meaning for name in names}
-    notes["±"] = "half of the 95 % interval, by drawing the seeds anew 10,000 times"
-    notes["ratio"] = "of the mean times on the same seeds, with its 95 % interval"
-    notes[wanted] = "with so many, half of that interval would be this difference"
-    return "\n".join(aligned(list(notes.items())))
+def _row(figure: Figure, sample: Sample, first: Sample, others: int) -> tuple[str, ...]:
+    found = estimate(figure, sample)
+    cells = sample.name, text_of(figure, found.value), interval_of(figure, found.low, found.high)
+    if sample is first:
+        return *cells, ""
+    return *cells, compared(figure, compare(figure, sample, first, _level(others)))
+
+
+def _level(others: int) -> float:
+    """Bonferroni's: all comparisons of a figure hold together."""
+    return 1 - (1 - LEVEL) / max(1, others)
+
+
+def compared(figure: Figure, it: Estimate) -> str:
+    """What two figures differ by, with its interval."""
+    if math.isnan(it.value):
+        return ""
+    if figure.counted:
+        return f"{it.value:+.1f} points ({it.low:+.1f}..{it.high:+.1f})"
+    return f"x {it.value:.2f} ({it.low:.2f}..{it.high:.2f})"
+
+
+def _notes(samples: Sequence[Sample], difference: float) -> Iterator[str]:
+    yield f"The first interval is one of {100 * LEVEL:g} %, over seeds."
+    if len(samples) == 1:
+        return
+    together = f", and all {len(samples) - 1} of a figure hold together" if len(samples) > 2 else ""  # noqa: PLR2004
+    yield f"The last column compares with {samples[0].name}: points of a percentage, ratio of all else{together}."
+    for sample in samples[1:]:
+        needed = compare(FIGURES[_RATIO], sample, samples[0]).seeds_for(difference)
+        seeds = "an unknown number of" if math.isnan(needed) else f"{needed:g}"
+        yield f"To detect {100 * difference:g} % of the mean time of {sample.name}: {seeds} seeds (power 80 %)."

@@ -47,7 +47,7 @@ static void note_contact(struct fleet_robot *robot, enum reason reason)
         return;
     }
     robot->contacts += robot->blocked_now == 0;
-    robot->blocked_ticks++;
+    robot->blocked_ticks += robot->blocked_now < FLEET_TRAPPED_TICKS;
     robot->blocked_now++;
     if (robot->blocked_now > robot->blocked_longest)
         robot->blocked_longest = robot->blocked_now;

@@ -9,7 +9,10 @@
 
 struct fleet_core;   /* a robot's firmware: fleet_core_size() bytes */
 
-enum { FLEET_REASONS = 16 };
+enum {
+    FLEET_REASONS = 16,
+    FLEET_TRAPPED_TICKS = 3000   /* 60 s: a longer contact counts as one of that length */
+};
 
 struct fleet_robot {
     struct fleet_core *core;
@@ -23,7 +26,7 @@ struct fleet_robot {
     uint32_t food_eaten;              /* in this environment, too: */
     uint32_t denied;                  /* times that its wheels did not do what they were told */
     uint32_t contacts;                /* times that it was blocked, */
-    uint32_t blocked_ticks;           /* ticks of all of them, */
+    uint32_t blocked_ticks;           /* ticks of all of them, of each at most FLEET_TRAPPED_TICKS, */
     uint32_t blocked_longest;         /* of the longest, */
     uint32_t blocked_now;             /* and of the one that goes on */
 };

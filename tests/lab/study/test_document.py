@@ -56,13 +56,14 @@ def docs(tmp_path) -> Path:
     [
         ("[?](tables/t.csv#a,mean_s)", "[102 s](tables/t.csv#a,mean_s)"),
         ("[3 s](tables/t.csv#b+c,median_s)", "[50 s](tables/t.csv#b+c,median_s)"),
-        ("[](tables/t.csv#b+c,ratio)", "[0.49](tables/t.csv#b+c,ratio)"),
+        ("[](tables/t.csv#b+c,mean_s_compared)", "[0.49](tables/t.csv#b+c,mean_s_compared)"),
         ("[](tables/t.csv#a,mean_s,interval)", "[101..103 s](tables/t.csv#a,mean_s,interval)"),
         ("[a](b.md)", "[a](b.md)"),
         (
             "<!-- table t.csv: mean_s finished -->\n| old |\n\nnext",
             "<!-- table t.csv: mean_s finished -->\n|  | mean | finished |\n| --- | --- | --- |\n"
-            "| `a` | 102 s | 100.0 % |\n| `b c` | 50 s | 100.0 % |\n\nnext",
+            "| `a` | 102 s (101..103 s) | 100.0 % (56.6..100.0 %) |\n"
+            "| `b c` | 50 s (50..50 s) | 100.0 % (56.6..100.0 %) |\n\nnext",
         ),
     ],
 )

@@ -1,0 +1,222 @@
+"""Searches the parameters of a behaviour by CMA-ES over fleets.
+
+A generation is judged in rounds that leave fewer settings and take more seeds, none of which was used before: no
+setting wins by luck with some environments twice. The best of each generation, and the defaults, meet once more on
+new seeds. A robot that touches things is worse than any that does not, however quick it is.
+"""
+
+import json
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from host_sim.base.atomic_file import write_bytes
+from host_sim.base.errors import UsageError
+from host_sim.base.extra_library import library
+from host_sim.base.regular_file import read_text
+from host_sim.lab.study.figures import FIGURES
+from host_sim.lab.study.fleets import sample_of
+from host_sim.lab.study.sample import Sample, joined
+from host_sim.lab.study.version import code_version
+from host_sim.protocol.generated import PARAMETERS
+from host_sim.sim.run_config import RunConfig
+
+GOALS = {"time": "mean_s", "finished": "finished"}
+"""The figure that each goal is about."""
+
+OF_THE_BODY = ("speed_mm_s", "turn_speed_deg_s", "wheel_track_mm", "tick_ms", "share")
+"""Parameters that are not searched unless they are named: what a body can do, and what a fleet does not have."""
+
+_PART = 25  # seeds of one piece of work
+_KEPT = 3  # of so many settings one goes on to the next round, which has as many times the seeds
+_ROUNDS = 3
+_FINALISTS = 4
+_BUMPED_MAX, _UNFIT = 0.02, 1e6  # a robot that touches something in more of its environments is worse than any other
+_NOTES_MAX = 100_000_000
+_SPREAD = 0.15  # of the first generation, as a part of a parameter's range
+
+Settings = tuple[tuple[str, int], ...]
+"""Parameters and their values, in the order of PARAMETERS; those that are left out have their defaults."""
+
+
+class Piece(NamedTuple):
+    """A setting on some seeds."""
+
+    config: RunConfig
+    seeds: int
+
+    def __str__(self) -> str:
+        return self.config.command()
+
+
+def run_pieces(pieces: Sequence[Piece]) -> list[tuple[Piece, Sample]]:
+    """Runs fleets in this process."""
+    return [(piece, sample_of(str(piece), piece.config, piece.config.seed, piece.seeds)) for piece in pieces]
+
+
+Runner = Callable[[Sequence[Piece]], Iterator[Sequence[tuple[Piece, Sample]]]]
+"""Has pieces run, in any order."""
+
+
+class Wanted(NamedTuple):
+    """What is searched.
+
+    Attributes:
+        config: The run; its seed is the first one.
+        goal: One of GOALS.
+        names: The parameters to search.
+        seeds: How many seeds the last round of a generation has.
+    """
+
+    config: RunConfig
+    goal: str
+    names: Sequence[str]
+    seeds: int
+
+
+class Search:
+    """A search for settings.
+
+    Attributes:
+        best: The settings that were found; empty if the defaults are best.
+    """
+
+    def __init__(self, wanted: Wanted, run: Runner, notes: Path) -> None:
+        """Begins, or goes on.
+
+        Args:
+            wanted: What is searched.
+            run: Has pieces run.
+            notes: File of the values that are known; more are added.
+
+        Raises:
+            UsageError: The file is that of another search.
+        """
+        self._config, self._names, self._figure = wanted.config, wanted.names, FIGURES[GOALS[wanted.goal]]
+        self._sign = -1 if wanted.goal == "finished" else 1
+        self._rounds = [max(2, wanted.seeds // _KEPT**i) for i in reversed(range(_ROUNDS))]
+        self._run, self._next = run, wanted.config.seed
+        about = wanted.config.command(), wanted.goal, *wanted.names, *self._rounds, code_version()
+        self._notes = _Notes(notes, json.dumps(about))
+        self.best: Settings = ()
+
+    @property
+    def seeds(self) -> tuple[int, int]:
+        """First and last of the seeds on which anything was chosen."""
+        return self._config.seed, self._next - 1
+
+    def go(self, trials: int, progress: Callable[[int], object]) -> None:
+        """Tries about so many settings.
+
+        Args:
+            trials: Number of settings to try.
+            progress: Called with the number of settings that were tried.
+        """
+        cmaes = library("cmaes", "study")
+        size = min(trials, 8 + int(3 * math.log(len(self._names))))
+        search = cmaes.CMA(
+            mean=np.array([_place(name, PARAMETERS[name].default) for name in self._names]),
+            sigma=_SPREAD,
+            bounds=np.tile([0.0, 1.0], (len(self._names), 1)),
+            seed=self._config.seed,
+            population_size=size,
+        )
+        finalists: dict[Settings, None] = {(): None}
+        for done in range(size, trials + 1, size):
+            asked = [search.ask() for _ in range(size)]
+            order = self._ranked([self._settings(it) for it in asked])
+            search.tell([(it, float(order.index(self._settings(it)))) for it in asked])
+            finalists[order[0]] = None
+            progress(done)
+        left = list(finalists)
+        for seeds in (2 * self._rounds[-1], 6 * self._rounds[-1]):
+            left = self._round(left, seeds)[:_FINALISTS]
+        self.best = left[0]
+
+    def _ranked(self, tried: Sequence[Settings]) -> list[Settings]:
+        """The settings, best first; those that came into a later round before all others."""
+        left, behind = list(dict.fromkeys(tried)), list[Settings]()
+        for seeds in self._rounds:
+            left = self._round(left, seeds)
+            if seeds != self._rounds[-1]:
+                kept = max(1, len(left) // _KEPT)
+                left, behind = left[:kept], left[kept:] + behind
+        return left + behind
+
+    def _round(self, settings: Sequence[Settings], seeds: int) -> list[Settings]:
+        """Runs settings on seeds that none of them saw: best first."""
+        first, self._next = self._next, self._next + seeds
+        missing = [it for it in settings if (it, first) not in self._notes]
+        for it, sample in zip(missing, samples_of(self._config, missing, first, seeds, self._run), strict=True):
+            value = self._sign * float(self._figure.of(sample, np.arange(seeds)))
+            touches = float(sample.bumped.mean()) > _BUMPED_MAX
+            self._notes.add(it, first, value + _UNFIT * touches)
+        return sorted(settings, key=lambda it: self._notes[it, first])
+
+    def _settings(self, places: Any) -> Settings:
+        """What is at a place in the search; a parameter at its default is left out."""
+        values = {name: _value(name, float(place)) for name, place in zip(self._names, places, strict=True)}
+        return tuple((name, value) for name, value in values.items() if value != PARAMETERS[name].default)
+
+
+def samples_of(config: RunConfig, settings: Sequence[Settings], first: int, seeds: int, run: Runner) -> list[Sample]:
+    """A sample for each of some settings, all on the same seeds."""
+    parts = [(at, min(_PART, seeds - at)) for at in range(0, seeds, _PART)]
+    pieces = [
+        Piece(replace(config, seed=first + at, settings={**config.settings, **dict(it)}), count)
+        for it in settings
+        for at, count in parts
+    ]
+    known = {str(piece): sample for done in run(pieces) for piece, sample in done}
+    found = [known[str(piece)] for piece in pieces]
+    return [
+        replace(
+            joined(found[i * len(parts) : (i + 1) * len(parts)]),
+            name=" ".join(f"{name}={value}" for name, value in it) or "defaults",
+        )
+        for i, it in enumerate(settings)
+    ]
+
+
+class _Notes:
+    """The values that a search has found, in a file of JSON lines."""
+
+    def __init__(self, path: Path, about: str) -> None:
+        self._path = path
+        self._known: dict[tuple[Settings, int], float] = {}
+        lines = read_text(path, _NOTES_MAX).splitlines() if path.exists() else [about]
+        if lines[0] != about:
+            raise UsageError(f"{path} is of another search, or of another version; choose another folder with --out")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_bytes(path, f"{about}\n".encode())
+        for line in lines[1:]:
+            with suppress(ValueError):  # the last line of a search that was killed
+                settings, first, value = json.loads(line)
+                self.add(tuple((name, number) for name, number in settings), first, value)
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._known
+
+    def __getitem__(self, key: tuple[Settings, int]) -> float:
+        return self._known[key]
+
+    def add(self, settings: Settings, first: int, value: float) -> None:
+        self._known[settings, first] = value
+        with self._path.open("a", encoding="ascii") as file:
+            file.write(json.dumps([settings, first, value]) + "\n")
+
+
+def _place(name: str, value: int) -> float:
+    """Where a value is between the ends of its range, on a scale of ratios: 0 to 1."""
+    it = PARAMETERS[name]
+    return math.log1p(value - it.minimum) / math.log1p(it.maximum - it.minimum)
+
+
+def _value(name: str, place: float) -> int:
+    it = PARAMETERS[name]
+    return it.minimum + round(math.expm1(place * math.log1p(it.maximum - it.minimum)))

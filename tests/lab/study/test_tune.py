@@ -1,0 +1,157 @@
+"""`tools/octet tune`: it finds what is better, not what touches things, and goes on where it was stopped."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from host_sim.base.errors import UsageError
+from host_sim.cli.main import main
+from host_sim.lab.study.tuning import Piece, Search, Wanted, run_pieces, samples_of
+from host_sim.sim.run_config import RunConfig
+from tests.lab.study.support import row, run, samples
+
+CONFIG = RunConfig(seed=1, environments=1)
+NAMES = ("turn_deg", "step_mm")
+
+
+def made_up(piece, robot_s, bumped=0.0):
+    """What came of a piece if its robots took these times."""
+    (sample,) = samples(*(run("", seed, row()) for seed in range(piece.seeds)))
+    return replace(sample, robot_s=robot_s, bumped=np.full(robot_s.shape, bumped))
+
+
+class World:
+    """The nearer turn_deg is to 40, the sooner a robot is done; with long steps it touches things."""
+
+    def __init__(self) -> None:
+        self.runs = 0
+
+    def __call__(self, pieces):
+        self.runs += len(pieces)
+        for piece in pieces:
+            settings, shape = piece.config.settings, (piece.seeds, 1)
+            luck = np.random.default_rng(piece.config.seed).normal(0.0, 2.0, shape)
+            step_mm = settings.get("step_mm", 12)
+            robot_s = 100.0 + abs(settings.get("turn_deg", 10) - 40) - step_mm / 10 + luck
+            yield [(piece, made_up(piece, robot_s, float(step_mm > 50)))]
+
+
+def search(notes, run, seeds=12):
+    return Search(Wanted(CONFIG, "time", NAMES, seeds), run, notes)
+
+
+def test_it_finds_what_is_better_and_does_not_touch(tmp_path):
+    one = search(tmp_path / "notes.jsonl", World())
+    one.go(120, lambda _: None)
+
+    found = dict(one.best)
+    assert 36 <= found["turn_deg"] <= 44
+    assert found.get("step_mm", 12) <= 50
+
+
+def test_where_nothing_is_better_the_defaults_stay(tmp_path):
+    def same(pieces):
+        for piece in pieces:
+            shape = piece.seeds, 1
+            worse = 10.0 * len(piece.config.settings)
+            yield [(piece, made_up(piece, np.full(shape, 100.0 + worse)))]
+
+    one = search(tmp_path / "notes.jsonl", same)
+    one.go(40, lambda _: None)
+
+    assert one.best == ()
+
+
+def test_a_search_that_was_stopped_goes_on_and_finds_the_same(tmp_path):
+    whole, again = World(), World()
+    one = search(tmp_path / "notes.jsonl", whole)
+    one.go(60, lambda _: None)
+    lines = (tmp_path / "notes.jsonl").read_text().splitlines()
+    half = len(lines) // 2
+    (tmp_path / "notes.jsonl").write_text("\n".join([*lines[:half], lines[half][:7]]))
+
+    other = search(tmp_path / "notes.jsonl", again)
+    other.go(60, lambda _: None)
+
+    assert (other.best, other.seeds) == (one.best, one.seeds)
+    assert 0 < again.runs < whole.runs
+
+
+def test_notes_of_another_search_are_refused_and_kept(tmp_path):
+    search(tmp_path / "notes.jsonl", World())
+    before = (tmp_path / "notes.jsonl").read_bytes()
+
+    with pytest.raises(UsageError, match="of another search"):
+        search(tmp_path / "notes.jsonl", World(), seeds=13)
+
+    assert (tmp_path / "notes.jsonl").read_bytes() == before
+
+
+def test_a_sample_is_what_its_robots_do_alone():
+    config = RunConfig(environments=1, limit_s=30)
+    (sample,) = samples_of(config, [(("turn_deg", 20),)], 5, 30, lambda pieces: [run_pieces(pieces)])
+
+    ((_, alone),) = run_pieces([Piece(RunConfig(seed=33, environments=1, limit_s=30, settings={"turn_deg": 20}), 1)])
+    assert sample.seeds.tolist() == list(range(5, 35))
+    assert sample.robot_s[28, 0] == alone.robot_s[0, 0]
+
+
+def test_the_command_prints_what_it_found_and_a_run_takes_it(tmp_path, capsys):
+    few = ["--only", "turn_deg", "--environments", "1", "--limit-s", "40", "--trials", "8", "--seeds", "4"]
+    words = ["tune", *few, "--held-out", "4", "--set", "step_mm=12", "--out", str(tmp_path), "--jobs", "1"]
+    assert main(words) == 0
+
+    said = capsys.readouterr().out
+    assert said.startswith("searched  1 parameters of article on seeds 1..")
+    preset = tmp_path / "article.txt"
+    if "nothing better" not in said:
+        assert "held out  seeds 1000001..1000004" in said
+        assert preset.read_text().splitlines()[1].startswith("turn_deg=")
+    preset.write_text("# by hand\nturn_deg=20  # wider\nstep_mm=15\n")
+
+    def log_of(*words: str) -> str:
+        short = [
+            "run",
+            "--environments",
+            "1",
+            "--limit-s",
+            "5",
+            "--bus",
+            "none",
+            "--quiet",
+            "--out",
+            str(tmp_path / "run"),
+        ]
+        assert main([*short, *words]) == 0
+        return str(json.loads((tmp_path / "run/summary.json").read_text())["log_sha256"])
+
+    last_wins = log_of("--set", f"@{preset}", "--set", "step_mm=16")
+    assert last_wins == log_of("--set", "turn_deg=20", "--set", "step_mm=16") != log_of("--set", f"@{preset}")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--only", "turn_deg", "--set", "turn_deg=3"], "nothing to search"),
+        (["--profile", "genius"], "genius"),
+        (["--set", "@nowhere.txt"], "cannot read nowhere.txt: there is no such file"),
+        (["--set", "turn_deg=999"], "from 1 to 180"),
+        (["--held-out", "1"], "--held-out"),
+    ],
+)
+def test_wrong_usage_is_one_line(tmp_path, capsys, words, said):
+    assert main(["tune", "--out", str(tmp_path / "out"), *words]) == 2
+
+    error = capsys.readouterr().err
+    assert said in error
+    assert error.count("\n") == 1
+
+
+def test_a_mistake_in_a_file_of_settings_has_its_line(tmp_path, capsys):
+    (tmp_path / "a.txt").write_text("turn_deg=20\n\nturn=3\n")
+
+    assert main(["run", "--set", f"@{tmp_path}/a.txt", "--out", str(tmp_path / "run")]) == 2
+
+    assert f"{tmp_path}/a.txt:3: unknown parameter 'turn'" in capsys.readouterr().err
