@@ -16,6 +16,7 @@ READS = {
 ALLOWED = {
     "host_sim/lab/campaign/host_events.py": "sets it, for those who read it",
     "host_sim/live/feed.py": "tells the page when a message was made",
+    "host_sim/update/image.py": "numbers the versions of images that are signed",
     "host_sim/transport/socket_pair_bus.py": "the time stamp that python-can wants of a frame",
 }
 

@@ -26,7 +26,7 @@ _ROOMS = ("cli", "lab/*")
 _GROUPS = {
     "start": ("run", "watch", "page", "talk"),
     "look at a run": ("replay", "picture", "export", "world", "convert"),
-    "measure": ("compare", "study", "campaign", "reproduce", "dask"),
+    "measure": ("compare", "study", "tune", "campaign", "reproduce", "dask"),
     "CAN bus and protocol": ("monitor", "load", "check-robot", "dbc", "protocol"),
     "firmware": ("update", "keygen"),
 }

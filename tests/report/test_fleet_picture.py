@@ -7,6 +7,7 @@ from PIL import Image
 
 from host_sim.report.fleet_picture import write_fleet_picture
 from host_sim.sim.fleet import FleetResult
+from host_sim.sim.native_fleet import Contacts
 from host_sim.world.geometry import Pose
 from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
@@ -17,7 +18,8 @@ ORANGE = (213, 94, 0)
 
 def result(robot: int, finished: bool = True, environment: int = 1, sides: tuple[int, ...] = (0,) * 8) -> FleetResult:
     pose = Pose(100.0 + 35.0 * (robot % 100), 200.0 + 300.0 * (robot // 100), 0.0)
-    return FleetResult(robot, robot, environment, (finished,), 1, 3000 + robot, {}, 0, sides, pose)
+    none = Contacts(0, 0, 0, False)
+    return FleetResult(robot, robot, environment, (finished,), 1, 3000 + robot, {}, 0, 0, none, sides, pose)
 
 
 def drawn(folder, results, world=None) -> Image.Image:

@@ -12,12 +12,12 @@ ROOT = Path(__file__).resolve().parents[2]
 EXTRAS = ("export", "study", "cluster", "classroom")
 INSTALLERS = ("sudo", "apt-get")
 """With stand-ins for these, no test installs a package that this machine lacks."""
-STAGES = ("run", "emulator", "gym", *EXTRAS, "tests", "web")
+STAGES = ("run", "emulator", "gym", *EXTRAS, "tests", "update", "web")
 LOCKS = tuple(f"requirements/{name}.lock" for name in STAGES)
 
 # Notes each call. `python3 -m venv` makes a folder whose python does the same, with a script as pip writes it;
-# cmake, tools/generate and the download of Unity make what they are to make. With a file beside the notes, installing
-# that lock fails, as without a network.
+# cmake, tools/generate and the downloads of Unity and Monocypher make what they are to make. With a file beside the
+# notes, installing that lock fails, as without a network.
 STAND_IN = """#!/bin/bash
 [ "$*" = --version ] || echo "${0##*/} $*" >>"$CALLS"
 case "${0##*/} $*" in
@@ -27,6 +27,10 @@ case "${0##*/} $*" in
     ;;
   "python tools/generate"*) touch "$3" "$5" "$7" ;;
   cmake*) mkdir -p "$2" ;;
+  *" download "*pymonocypher*)
+    mkdir -p build/monocypher/its && touch build/monocypher/its/monocypher.c
+    tar -czf build/monocypher/pymonocypher-1.tar.gz -C build/monocypher its
+    ;;
   *" download "*)
     mkdir -p build/unity/its/tests/c/test_framework && touch build/unity/its/tests/c/test_framework/unity.c
     tar -czf build/unity/cantools-1.tar.gz -C build/unity its
@@ -52,6 +56,7 @@ class Tree:
             "hal/protocol/octet.dbc",
             "hal/protocol/robot.toml",
             "tools/generate",
+            "requirements/monocypher.lock",
             "requirements/unity.lock",
             "tools/robot_words/description.py",
             "tools/robot_words/model.py",

@@ -9,7 +9,7 @@ from setuptools.command.build_py import build_py
 HERE = Path(__file__).resolve().parent
 HOST_SIM = HERE.parents[1] / "host_sim"
 TAKEN = (
-    *("base/errors", "base/frame", "base/regular_file"),
+    *("base/errors", "base/frame", "base/near_word", "base/regular_file", "base/system"),
     *(f"faults/{name}" for name in ("bus_faults", "faulty_link", "rule", "schedule", "shrink")),
     *(f"transport/{name}" for name in ("bus_link", "bus_process", "clock", "line_stats", "link", "socket_pair_bus")),
 )
