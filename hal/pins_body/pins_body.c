@@ -125,7 +125,7 @@ int hal_receive(struct hal *hal, struct input *in)
 
     hal->asked = kind == INPUT_COMMAND;
     if (kind != INPUT_SILENCE)
-        return kind;
+        return (int)kind;
     while (!pass_beat(hal))
         continue;
     port_alive(guard_forbids(&hal->guard));
