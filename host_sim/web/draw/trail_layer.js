@@ -18,7 +18,7 @@ const JUMP_MM = 150;
 export const WIDTH_MM = new Map([
   [REASON.LOOK_AROUND, 30], [REASON.STOP, 30], [REASON.WANDER, 14], [REASON.TOWARD_FOOD, 20],
   [REASON.REMEMBERED, 36], [REASON.BOREDOM, 60], [REASON.TRIAL, 60], [REASON.EAT, 44],
-  [REASON.SILENCE, 44], [REASON.AVOID, 44],
+  [REASON.SILENCE, 44], [REASON.AVOID, 44], [REASON.PROGRAM, 44],
 ]);
 
 /** Keeps a picture of trails that grow slowly, so that most frames draw their newest points only. */
