@@ -169,8 +169,9 @@ class SystemControl(Peripheral):
             restart: Resets the board.
             move: Takes the address of a new vector table.
         """
-        self._restart = restart
+        self._restart, self._move = restart, move
         self._icsr, self._bfar = Register("ICSR"), Register("BFAR")
+        self._vtor = Register("VTOR", on_write=self._write_vtor)
         self._cfsr, self._hfsr = (self._clearing(name) for name in ("CFSR", "HFSR"))
         plain = {0x10: "SCR", 0x14: "CCR", 0x18: "SHPR1", 0x1C: "SHPR2", 0x20: "SHPR3", 0x24: "SHCSR"}
         plain |= {0x30: "DFSR", 0x34: "MMFAR", 0x88: "CPACR"}
@@ -180,7 +181,7 @@ class SystemControl(Peripheral):
             | {
                 0x00: Register("CPUID", cpuid),
                 0x04: self._icsr,
-                0x08: Register("VTOR", on_write=move),
+                0x08: self._vtor,
                 0x0C: Register("AIRCR", on_read=lambda: _AIRCR_READ, on_write=self._write_aircr),
                 0x28: self._cfsr,
                 0x2C: self._hfsr,
@@ -211,6 +212,10 @@ class SystemControl(Peripheral):
 
         register.on_write = write
         return register
+
+    def _write_vtor(self, value: int) -> None:
+        self._vtor.value = value
+        self._move(value)
 
     def _write_aircr(self, value: int) -> None:
         if value & _KEY_MASK != _KEY:
