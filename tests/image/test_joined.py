@@ -114,7 +114,7 @@ def test_without_unicorn_one_line_says_what_to_install(words, tmp_path):
     result = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, check=False)
 
     assert result.returncode == 1
-    assert result.stderr == "octet: unicorn is not installed: run tools/setup emulator\n"
+    assert result.stderr == "octet: this needs unicorn, which is not installed: run tools/setup emulator\n"
 
 
 @pytest.fixture

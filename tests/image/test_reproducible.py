@@ -10,7 +10,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 KINDS = {".elf", ".bin", ".hex"}
-SOURCES = ("CMakeLists.txt", "CMakePresets.json", "firmware", "hal", "tools")
+SOURCES = ("CMakeLists.txt", "CMakePresets.json", "firmware", "hal", "tools", "build/monocypher")
 
 
 def images(folder: Path, preset: str) -> dict[str, bytes]:
