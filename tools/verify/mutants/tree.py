@@ -105,8 +105,9 @@ class Tree:
         _run("cc", "-O1", "-fPIC", "-c", RUNTIME, "-o", runtime)
         _run(
             *("cmake", "-G", "Ninja", "-S", self.folder, "-B", to, "-DCMAKE_BUILD_TYPE=", "-DCMAKE_C_FLAGS=-O1 -w"),
-            *(f"-DCMAKE_C_STANDARD_LIBRARIES={runtime}", f"-DUNITY_DIR={self._root / 'build/unity'}"),
-            *(f"-DCANTOOLS={self._root / '.venv/bin/cantools'}", *build.options),
+            *(f"-DUNITY_DIR={self._root / 'build/unity'}", f"-DMONOCYPHER_DIR={self._root / 'build/monocypher'}"),
+            *(f"-DCANTOOLS={self._root / '.venv/bin/cantools'}", f"-DCMAKE_C_STANDARD_LIBRARIES={runtime}"),
+            *build.options,
         )
         _run("ninja", "-C", to, *GENERATED)
 
