@@ -39,15 +39,15 @@ static volatile uint16_t samples[SAMPLES];   /* the converter's */
 
 static void set_modes(void)
 {
-    static const struct pin analogue[SAMPLES] = {
+    const struct pin analogue[SAMPLES] = {
         BOARD_PROXIMITY_RIGHT, BOARD_PROXIMITY_FRONT_RIGHT, BOARD_PROXIMITY_FRONT, BOARD_PROXIMITY_FRONT_LEFT,
         BOARD_PROXIMITY_LEFT, BOARD_BATTERY,
     };
-    static const struct pin pulled_up[] = {
+    const struct pin pulled_up[] = {
         BOARD_LEFT_ENCODER_A, BOARD_LEFT_ENCODER_B, BOARD_RIGHT_ENCODER_A, BOARD_RIGHT_ENCODER_B, BOARD_BEACON,
         BOARD_BRIDGE_FAULT, BOARD_BUMPER_LEFT, BOARD_BUMPER_RIGHT, BOARD_BUTTON,
     };
-    static const struct pin outputs[] = {BOARD_BRIDGE_AWAKE, BOARD_LEFT_BACK, BOARD_RIGHT_BACK, BOARD_INFRARED};
+    const struct pin outputs[] = {BOARD_BRIDGE_AWAKE, BOARD_LEFT_BACK, BOARD_RIGHT_BACK, BOARD_INFRARED};
 
     for (unsigned i = 0; i < sizeof outputs / sizeof *outputs; i++) {
         gpio_write(outputs[i], false);
