@@ -27,7 +27,8 @@ static bool is_text(const uint8_t *field, size_t size, const char *text)
     for (size_t i = 0; i < size; i++) {
         if (field[i] != (uint8_t)*text)
             return false;
-        text += *text != '\0';
+        if (*text != '\0')
+            text++;
     }
     return true;
 }

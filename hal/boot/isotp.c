@@ -180,6 +180,9 @@ void isotp_sent(struct isotp *isotp, uint32_t now_ms)
         return;
     }
     isotp->tx_number = (isotp->tx_number + 1) & LOW;
-    if (isotp->block > 0 && --isotp->block == 0)
-        isotp->waiting = isotp->tx_at < isotp->tx_len;
+    if (isotp->block > 0) {
+        isotp->block--;
+        if (isotp->block == 0)
+            isotp->waiting = isotp->tx_at < isotp->tx_len;
+    }
 }

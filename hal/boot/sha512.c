@@ -109,7 +109,7 @@ void sha512_add(struct sha512 *hash, const uint8_t bytes[], size_t count)
 
 void sha512_end(struct sha512 *hash, uint8_t out[SHA512_BYTES])
 {
-    static const uint8_t one = 0x80;
+    static const uint8_t one = 0x80u;
     static const uint8_t zero = 0;
     uint64_t bits = (uint64_t)hash->count * 8;
 

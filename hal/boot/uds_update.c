@@ -187,7 +187,7 @@ static enum nrc step_erase(struct uds *uds)
 {
     struct choice cleared = choice_cleared(&uds->choices->now);
 
-    if (uds->choices->now.installed & 1u << uds->slot) {
+    if ((uds->choices->now.installed & 1u << uds->slot) != 0) {
         if (choices_save(uds->choices, &cleared, true) != 0)
             return refuse(uds, REFUSAL_FLASH, NRC_FAILURE);
         return NRC_PENDING;

@@ -46,7 +46,7 @@ static enum input_kind read_frame(const struct frame *frame, struct input *in)
         return INPUT_SILENCE;
     }
     kind = wire_read(&wire, frame, in);
-    if (wire.again)
+    if (wire.again != NULL)
         say(wire.again);
     return kind;
 }

@@ -83,8 +83,9 @@ static void fill_senses(struct hal *hal, struct senses *senses)
 
     pins_measure(dark);
     hal->bursts = bursts;
+    hal->tick++;
     *senses = (struct senses){
-        .tick = ++hal->tick,
+        .tick = hal->tick,
         .feel = proximity_feel(&hal->proximity, dark),
         .bump = pins_bumped(),
         .look = seen >= BURSTS_SEEN,

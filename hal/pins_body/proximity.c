@@ -15,7 +15,7 @@ uint8_t proximity_feel(struct proximity *proximity, const uint16_t dark[FEEL_COU
         unsigned back = proximity->lit[i] > dark[i] ? (unsigned)proximity->lit[i] - dark[i] : 0;
         unsigned near = proximity->near[i];
 
-        if (proximity->feel >> i & 1)
+        if ((proximity->feel >> i & 1) != 0)
             near -= near / PROXIMITY_HYSTERESIS_PART;
         triggered |= (back >= near ? 1u : 0u) << i;
     }
