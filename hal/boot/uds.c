@@ -184,8 +184,6 @@ static enum nrc write(struct uds *uds, struct exchange *exchange)
     struct choice next = uds->choices->now;
     const uint8_t *request = exchange->request;
 
-    if (exchange->len < 1 + ID_LEN + 1)
-        return NRC_LENGTH;
     if (((unsigned)request[1] << 8 | request[2]) != DID_WHO)
         return NRC_RANGE;
     if (exchange->len != 1 + ID_LEN + 1)
@@ -245,11 +243,12 @@ static uint16_t refuse(uint8_t service, enum nrc why, uint8_t answer[UDS_ANSWER_
     return 3;
 }
 
-static bool is_quiet(const uint8_t request[], uint16_t len)
+/* Of a request that was served: those that have a function are long enough for it. */
+static bool is_quiet(const uint8_t request[])
 {
     bool has_function = request[0] == SESSION_CONTROL || request[0] == RESET || request[0] == TESTER_PRESENT;
 
-    return has_function && len > 1 && request[1] & QUIET;
+    return has_function && request[1] & QUIET;
 }
 
 uint16_t uds_serve(struct uds *uds, const uint8_t request[], uint16_t len, uint8_t answer[UDS_ANSWER_MAX])
@@ -263,7 +262,7 @@ uint16_t uds_serve(struct uds *uds, const uint8_t request[], uint16_t len, uint8
     why = dispatch(uds, &exchange);
     if (why != NRC_NONE)
         return refuse(request[0], why, answer);
-    return is_quiet(request, len) ? 0 : exchange.size;
+    return is_quiet(request) ? 0 : exchange.size;
 }
 
 uint16_t uds_do(struct uds *uds, uint8_t answer[UDS_ANSWER_MAX])

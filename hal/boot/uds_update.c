@@ -91,7 +91,7 @@ enum nrc uds_download(struct uds *uds, struct exchange *exchange)
         return NRC_LENGTH;
     if (exchange->request[1] != PLAIN || exchange->request[2] != FOUR_AND_FOUR)
         return NRC_RANGE;
-    if (!uds->erased && !(uds->loading && !uds->took))   /* its answer was lost, and it comes again */
+    if (!uds->erased && (!uds->loading || uds->took))   /* its answer was lost, and it comes again */
         return NRC_SEQUENCE;
     if (uds_number(&exchange->request[3]) != uds->at || uds_number(&exchange->request[7]) != end - uds->at)
         return NRC_RANGE;

@@ -26,7 +26,7 @@ static bool let_go(struct button *button, bool running, struct command *command)
 {
     if (button->held || running) {
         button->presses = 0;
-        return !button->held && told(command, OPCODE_STOP, 0);
+        return button->held ? false : told(command, OPCODE_STOP, 0);
     }
     button->presses = (uint8_t)(button->presses % PROFILE_COUNT + 1);
     return false;

@@ -9,7 +9,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 
-from tools.verify.coverage.measure import CLANG, FLAGS, NOT_MEASURED, Gap, MeasureError, measure  # noqa: E402 - found by the line above
+from tools.verify.coverage.measure import CLANG, COPY, FLAGS, NOT_MEASURED, Gap, MeasureError, measure  # noqa: E402 - found by the line above
 from tools.verify.exceptions import compare, read  # noqa: E402
 
 # It is told what a, b and c are: "100" for a true and the others false.
@@ -70,6 +70,17 @@ def test_runs_that_show_all_leave_no_gap(built):
 )
 def test_what_no_run_shows_is_a_gap(built, runs, missing):
     assert missing_after(built, *runs) == missing
+
+
+@pytest.mark.parametrize(
+    ("prefix", "missing"), [(COPY, []), ("other_", ["10: never reached: void other_step(void)"])]
+)
+def test_a_copy_of_the_core_under_other_names_leaves_no_gap(built, prefix, missing):
+    source = built / "firmware" / "a.c"
+    source.write_text(f"{SOURCE}void {prefix}step(void);\nvoid {prefix}step(void)\n{{\n}}\n")
+    subprocess.run((CLANG, *FLAGS, "-o", "test_a", source), cwd=built / "build", check=True)
+
+    assert missing_after(built, *ENOUGH) == missing
 
 
 def test_runs_add_up(built):

@@ -123,7 +123,10 @@ TEST(a_confirmed_image_counts_no_starts)
 {
     struct choice choice = choice_started(&BOTH);
 
-    TEST_ASSERT_EQUAL_MEMORY(&BOTH, &choice, sizeof choice);
+    TEST_ASSERT_EQUAL_UINT8(0, choice.starts);
+    TEST_ASSERT_EQUAL_UINT8(BOTH.installed, choice.installed);
+    TEST_ASSERT_EQUAL_UINT8(BOTH.slot, choice.slot);
+    TEST_ASSERT_FALSE(choice.trial);
 }
 
 TEST(a_confirmed_image_raises_the_floor_and_never_lowers_it)

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "hal/flash_store/crc32.h"
 #include "tests/test.h"
 
 #include "signer.h"
@@ -114,6 +115,24 @@ TEST(what_cannot_be_read_is_damaged)
         boot_flash.unreadable = SLOT_A + page;
         TEST_ASSERT_EQUAL(REFUSAL_DAMAGED, image_verify(0, &found));
     }
+    boot_flash.unreadable = SLOT_A;
+    TEST_ASSERT_EQUAL_UINT32(0, image_version(0));
+}
+
+TEST(a_signature_on_a_page_that_cannot_be_read_is_damaged)
+{
+    struct signed_image image = signer_image(0, 5);
+    uint32_t crc;
+
+    image.bytes[8] = 0;
+    image.bytes[9] = 2 * PAGE >> 8;
+    crc = crc32_more(0, &image.bytes[16], 2 * PAGE - 16);
+    for (unsigned i = 0; i < 4; i++)
+        image.bytes[12 + i] = (uint8_t)(crc >> 8 * i);
+    put(&image, 0);
+    TEST_ASSERT_EQUAL(REFUSAL_SIGNATURE, image_verify(0, &found));
+    boot_flash.unreadable = SLOT_A + 2;
+    TEST_ASSERT_EQUAL(REFUSAL_DAMAGED, image_verify(0, &found));
 }
 
 TEST(what_is_written_are_whole_pages_without_the_last)
@@ -128,6 +147,8 @@ TEST(what_is_written_are_whole_pages_without_the_last)
     boot_flash.unreadable = SLOT_A;
     boot_flash_slot(0)[SLOT_BYTES - 1] = 0xFF;
     TEST_ASSERT_EQUAL_UINT32(PAGE, image_written(0));
+    boot_flash.unreadable = SLOT_A + SLOT_PAGES - 1;
+    TEST_ASSERT_EQUAL_UINT32(SLOT_BYTES - PAGE, image_written(0));
 }
 
 TEST(the_header_that_was_announced_is_the_one_that_came)

@@ -47,6 +47,7 @@ static void send(uint16_t len)
 static void begin_message(uint16_t len)
 {
     TEST_ASSERT_EQUAL_UINT16(0, TAKE((uint8_t)(0x10 | len >> 8), (uint8_t)len, 0, 1, 2, 3, 4, 5));
+    TEST_ASSERT_TRUE(isotp_busy(&isotp));
     TEST_ASSERT_TRUE(next());
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0x30, 0, 0, 0xCC, 0xCC, 0xCC, 0xCC, 0xCC}), sent.data, 8);
 }
@@ -141,6 +142,13 @@ TEST(a_short_answer_is_one_frame)
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){7, 1, 2, 3, 4, 5, 6, 7}), sent.data, 8);
     TEST_ASSERT_FALSE(isotp_busy(&isotp));
     TEST_ASSERT_FALSE(next());
+}
+
+TEST(a_flow_control_that_nobody_waits_for_changes_nothing)
+{
+    send(7);
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(0x32, 0, 0));
+    TEST_ASSERT_TRUE(next());
 }
 
 static void begin_sending(uint16_t len)

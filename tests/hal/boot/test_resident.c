@@ -85,6 +85,9 @@ TEST(it_says_what_runs)
     ASSERT_SAID(7, 0x62, 0xFD, 2, 0, 0, 0, 6);
     TEST_ASSERT_TRUE(HEARS(true, 3, 0x22, 0xFD, 3));
     ASSERT_SAID(7, 0x62, 0xFD, 3, 1, 1, 0, 0);
+    begin((struct choice){.installed = 3, .slot = 1});
+    TEST_ASSERT_TRUE(HEARS(true, 3, 0x22, 0xFD, 3));
+    ASSERT_SAID(7, 0x62, 0xFD, 3, 1, 0, 0, 0);
 }
 
 TEST(all_else_is_the_boot_loaders)

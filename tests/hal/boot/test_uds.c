@@ -40,7 +40,7 @@ TEST(what_is_asked_to_be_quiet_is)
 TEST(what_does_not_fit_is_refused_with_its_code)
 {
     static const struct {
-        uint8_t request[4];
+        uint8_t request[5];
         uint8_t len, by_default, programming;
     } wrong[] = {
         {{0x99}, 1, 0x11, 0x11},
@@ -51,6 +51,7 @@ TEST(what_does_not_fit_is_refused_with_its_code)
         {{0x27}, 1, 0x7F, 0x13}, {{0x27, 1}, 2, 0x7F, 0}, {{0x27, 3}, 2, 0x7F, 0x12}, {{0x27, 1, 0}, 3, 0x7F, 0x13},
         {{0x27, 2}, 2, 0x7F, 0x13},
         {{0x2E, 0xFD, 4}, 3, 0x7F, 0x13}, {{0x2E, 0xFD, 5, 1}, 4, 0x7F, 0x31}, {{0x2E, 0xFD, 4, 1}, 4, 0x7F, 0x33},
+        {{0x2E, 0xFD, 4, 1, 0}, 5, 0x7F, 0x13},
         {{0x31, 1, 0xFF}, 3, 0x7F, 0x13}, {{0x31, 1, 0xFF, 1}, 4, 0x7F, 0x33}, {{0x34, 0, 0x44}, 3, 0x7F, 0x33},
         {{0x36, 1, 0}, 3, 0x7F, 0x33}, {{0x37}, 1, 0x7F, 0x33},
     };
@@ -83,6 +84,12 @@ TEST(the_status_says_what_is_in_both_slots)
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xFD, 0));
     TEST_ASSERT_EQUAL_UINT16(3 + sizeof expected, answered);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, &answer[3], sizeof expected);
+}
+
+TEST(the_status_of_a_blank_chip_has_no_versions)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xFD, 0));
+    TEST_ASSERT_EACH_EQUAL_HEX8(0, &answer[3], 16);
 }
 
 TEST(who_proves_the_key_is_let_in)

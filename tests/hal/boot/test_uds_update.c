@@ -179,6 +179,7 @@ TEST(a_block_that_comes_again_is_written_once_and_one_that_is_missing_is_noticed
     TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x36, 2, 1, 2));
     TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x36, 2));
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x36, 2, 'T', 'I', 'M', 'G'));
+    TEST_ASSERT_EQUAL_HEX8(0x24, download(&image, 0));
     TEST_ASSERT_EQUAL_MEMORY("OCTETIMG\xFF", boot_flash_slot(1), 9);
 }
 
@@ -206,6 +207,17 @@ TEST(what_was_written_is_told_and_gone_on_from)
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, boot_flash_slot(1) + 2 * PAGE, SLOT_BYTES - 2 * PAGE);
     TEST_ASSERT_EQUAL_HEX8(0, download(&image, 2 * PAGE));
     TEST_ASSERT_EQUAL_HEX8(0, check());
+}
+
+TEST(no_block_goes_beyond_the_end)
+{
+    uint8_t block[2 + SIGNED_BYTES + 4] = {0x36, 1};
+
+    unlock();
+    TEST_ASSERT_EQUAL_HEX8(0x31, erase_for(&image, PAGE));   /* nothing is written there yet */
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+    TEST_ASSERT_EQUAL_HEX8(0x31, ask(block, sizeof block));
 }
 
 TEST(a_slot_that_cannot_be_read_is_begun_anew)

@@ -143,6 +143,23 @@ TEST(what_the_button_asked_for_is_not_answered_on_the_bus)
     TEST_ASSERT_EQUAL_size_t(0, said_count);
 }
 
+TEST(a_stop_for_a_twin_is_not_answered)
+{
+    const struct output out = {.has_answer = true, .answer = RESULT_DONE};
+    enum input_kind kind = INPUT_SILENCE;
+    uint8_t data[8] = {0};
+
+    while (kind == INPUT_SILENCE && heard_count < ROOM) {
+        hear(OCTET_DRIVE_FRAME_ID + 1, data, OCTET_DRIVE_LENGTH);
+        kind = telemetry_receive(&in);
+    }
+    TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, kind);
+    TEST_ASSERT_EQUAL_INT(OPCODE_STOP, in.command.opcode);
+    telemetry_output(&out, true);
+    for (size_t i = 0; i < said_count; i++)
+        TEST_ASSERT_NOT_EQUAL_HEX32(OCTET_ANSWER_FRAME_ID + 1, said[i].id);
+}
+
 TEST(senses_of_another_body_are_not_ours)
 {
     uint8_t data[8] = {0};

@@ -115,7 +115,11 @@ static const struct senses *sense(void)
 
 static void drive(int16_t left_mm_s, int16_t right_mm_s)
 {
-    const struct output out = {.has_drive = true, .report.running = true, .drive = {.left_mm_s = left_mm_s, .right_mm_s = right_mm_s}};
+    const struct output out = {
+        .has_drive = true, .report.running = true,
+        .drive = {.left_mm_s = left_mm_s, .right_mm_s = right_mm_s,
+                  .reason = left_mm_s != 0 || right_mm_s != 0 ? REASON_WANDER : REASON_STOP},
+    };
 
     TEST_ASSERT_EQUAL_INT(0, hal_send(hal, &out));
 }
@@ -244,6 +248,27 @@ TEST(the_button_starts_with_a_seed_of_its_own)
     TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, kind);
     TEST_ASSERT_EQUAL_INT(OPCODE_START, in.command.opcode);
     TEST_ASSERT_EQUAL_UINT32(1000, in.command.value);
+}
+
+TEST(the_button_stops_a_robot_that_runs_and_a_wheel_that_turns_is_no_rest)
+{
+    const uint8_t memory[CELL_COUNT] = {0};
+    int kind = INPUT_SENSES;
+
+    port.result = PORT_LATER;
+    drive(0, 200);
+    TEST_ASSERT_EQUAL_INT(0, hal_store(hal, memory, false));
+    drive(0, 200);
+    TEST_ASSERT_EQUAL_UINT(1, port.stores);
+    pins.pressed = true;
+    for (unsigned i = 0; i < 10; i++)
+        (void)sense();
+    pins.pressed = false;
+    for (unsigned i = 0; i < 10 && kind == INPUT_SENSES; i++)
+        kind = hal_receive(hal, &in);
+    TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, kind);
+    TEST_ASSERT_EQUAL_INT(OPCODE_STOP, in.command.opcode);
+    drive(0, 0);
 }
 
 TEST(light_makes_a_seed_another_one)

@@ -123,6 +123,8 @@ TEST(at_rest_a_motor_gets_nothing)
 
     TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, WHEEL_NOMINAL_MV));
     TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, 0));
+    wheel = (struct wheel){.known = false};
+    TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, 0));
 }
 
 TEST(the_odometer_counts_tenths_of_a_millimetre_and_wraps_either_way)
@@ -138,4 +140,9 @@ TEST(the_odometer_counts_tenths_of_a_millimetre_and_wraps_either_way)
     for (unsigned i = 1; i <= 10; i++)
         (void)wheel_run(&wheel, (uint16_t)(64000 + 1000 * i), 0, 7200);
     TEST_ASSERT_EQUAL_UINT16((9160 - 916) % 4096, wheel_odometer(&wheel));
+    for (int32_t count = 74000; count >= 45000; count -= 1000)   /* beyond a span, and back to where it began */
+        (void)wheel_run(&wheel, (uint16_t)count, 0, 7200);
+    for (int32_t count = 45000; count <= 65000; count += 1000)
+        (void)wheel_run(&wheel, (uint16_t)count, 0, 7200);
+    TEST_ASSERT_EQUAL_UINT16(0, wheel_odometer(&wheel));
 }
