@@ -170,6 +170,8 @@ def test_a_sample_has_no_mutant_that_is_listed(listing):
         ("*p++ += !a;", {"*p-- += !a;", "*p++ -= !a;", "*p++ += !!a;", "(void)0;"}),
         ("a = sizeof(int);", {"(void)0;"}),
         ("p = (void *)0;", {"(void)0;"}),
+        ("const int one = 1; a += *&one;", {"const int one = (1 + 1); a += *&one;", "const int one = 1; a -= *&one;"}
+         | {"const int one = 1; (void)0;"}),
     ],
 )  # fmt: skip
 def test_each_operator_has_its_mutants(tmp_path, statement, expected):

@@ -125,6 +125,8 @@ class _Finder:
             return
         if node.macro and self._text[node.end :].lstrip().startswith("("):
             return  # a macro with arguments
+        if node.kind == "UnaryOperator" and node.operator == "&" and node.children[0].bare.names_constant:
+            return  # the place of a constant: a value has none
         site = site_of(self._text, node, self._counting)
         if site:
             sites.append(site)
