@@ -14,7 +14,7 @@ sys.path.insert(0, str(ROOT))
 from tests.tools.mutants_of_text import STANDARD, TEXT, mutants  # noqa: E402 - found by the line above
 from tools.verify.mutants import runner  # noqa: E402
 from tools.verify.mutants.equivalent import Compiler  # noqa: E402
-from tools.verify.mutants.sources import Source  # noqa: E402
+from tools.verify.mutants.sources import MUTATED, Source, group_of  # noqa: E402
 from tools.verify.mutants.syntax import SourceError  # noqa: E402
 from tools.verify.mutants.tree import PLAIN, RUNTIME, SANITIZED  # noqa: E402
 from tools.verify.mutants.trial import Trial  # noqa: E402
@@ -121,6 +121,12 @@ def test_without_a_test_its_mutants_live():
     assert result.returncode == 1
     assert "1 groups below their bar" in result.stdout
     assert "hal/port/cortex_m/crash.c:" in result.stdout
+
+
+def test_every_source_is_judged_with_some_group():
+    files = [path.relative_to(ROOT).as_posix() for top in MUTATED for path in (ROOT / top).rglob("*.c")]
+
+    assert len({group_of(file).name for file in files}) > 1
 
 
 def test_an_unknown_source_is_refused_with_those_there_are():

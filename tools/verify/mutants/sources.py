@@ -37,6 +37,8 @@ GROUPS = (
     Group("links", 99.0, ("hal/link/", "hal/can_body/", "hal/port/posix/")),
     Group("library", 99.0, ("hal/library/",)),
     Group("drivers", 97.0, ("hal/stm32/", "hal/port/cortex_m/")),
+    Group("boot loader", 97.0, ("hal/boot/",)),
+    Group("pins", 97.0, ("hal/pins_body/",)),
 )
 
 
