@@ -1,5 +1,7 @@
 #include "hal/boot/uds.h"
 
+#include <string.h>
+
 #include "tests/test.h"
 
 #include "tester.h"
@@ -67,8 +69,10 @@ TEST(what_does_not_fit_is_refused_with_its_code)
 TEST(the_board_and_the_boot_loader_say_what_they_are)
 {
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xF1, 0x91));
+    TEST_ASSERT_EQUAL_UINT(3 + strlen("test_board"), answered);
     TEST_ASSERT_EQUAL_STRING_LEN("test_board", &answer[3], answered - 3);
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xF1, 0x80));
+    TEST_ASSERT_EQUAL_UINT(3 + strlen("octet boot 1"), answered);
     TEST_ASSERT_EQUAL_STRING_LEN("octet boot 1", &answer[3], answered - 3);
 }
 
