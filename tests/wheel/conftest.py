@@ -1,5 +1,6 @@
 """The wheel for Linux on x86-64, as tools/wheels builds it, in an environment that knows nothing of the checkout."""
 
+import fcntl
 import subprocess
 import sys
 import venv
@@ -15,7 +16,9 @@ LIBRARIES = (".venv/lib/python*/site-packages", "build/export", "build/study", "
 @pytest.fixture(scope="session")
 def wheel(tmp_path_factory) -> Path:
     out = tmp_path_factory.mktemp("wheelhouse")
-    subprocess.run([ROOT / "tools/wheels", "--out", out, "linux-x86_64"], check=True)
+    with (ROOT / "build/wheels.lock").open("w") as lock:  # one worker at a time: all build in the same folders
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        subprocess.run([ROOT / "tools/wheels", "--out", out, "linux-x86_64"], check=True)
     (built,) = out.iterdir()
     return built
 

@@ -28,6 +28,10 @@ SHELLS = {
 """Where each shell looks for a completion, in share/ of a prefix."""
 
 
+SLOTS = ("-a", "-b")
+"""The ends of the names of what an update sends."""
+
+
 def copy_page_and_images() -> None:
     """Copies what was built for pages and boards; images without what a debugger alone reads."""
     page = TREE / paths.PAGE_WASM.relative_to(paths.BUILD)
@@ -36,7 +40,10 @@ def copy_page_and_images() -> None:
     for image in sorted(it for board in BOARDS for it in paths.BUILD.glob(f"{board}/octet-*.elf")):
         stripped = TREE / image.relative_to(paths.BUILD)
         stripped.parent.mkdir(exist_ok=True)
-        subprocess.run(["arm-none-eabi-strip", "--strip-debug", "-o", stripped, image], check=True)
+        if image.with_suffix(".bin").exists() and image.stem.endswith(SLOTS):
+            shutil.copyfile(image.with_suffix(".bin"), stripped.with_suffix(".bin"))
+        elif not image.stem.endswith("-boot"):
+            subprocess.run(["arm-none-eabi-strip", "--strip-debug", "-o", stripped, image], check=True)
 
 
 def read_interfaces() -> None:
@@ -79,6 +86,10 @@ def write_texts() -> None:
     from host_sim.cli.main import parser_of  # noqa: PLC0415 - names in it depend on the line above
 
     parser = parser_of([])
+    for action in parser._subparsers._group_actions:  # shtab leaves out what the plain list of argparse does
+        action.help = "command"
+        entries = ((name, (), it.summary) for name, it in action.choices.items())
+        action._choices_actions = [action._ChoicesPseudoAction(*entry) for entry in entries]
     for shell, place in SHELLS.items():
         completion = MADE / "share" / place
         completion.parent.mkdir(parents=True)
