@@ -105,13 +105,13 @@ def led_to(objects: Iterable[Object]) -> set[str]:
             waiting.append(it)
         for symbol in it.defined:
             makers[symbol].append(it)
-    found: dict[str, Object] = {}
+    found: dict[int, Object] = {}  # not by source: one may be compiled twice, with other names
     while waiting:
         it = waiting.pop()
-        if it.source not in found:
-            found[it.source] = it
+        if id(it) not in found:
+            found[id(it)] = it
             waiting += [maker for symbol in it.needed for maker in makers[symbol]]
-    return set(found)
+    return {it.source for it in found.values()}
 
 
 def reach_of_programs(build: Path) -> dict[str, set[str]]:
