@@ -1,6 +1,6 @@
 """Logs of earlier versions are still good: `convert` writes every frame of wire 1 anew as frames of today's.
 
-`data/version_1_0.log` is a run of 5 s in which the robot learned one cell; its HEARTBEATs carry the hash of the DBC
+`data/version_1_0.log` is a run of 2 s in which the robot learned one cell; its HEARTBEATs carry the hash of the DBC
 file of that time. The other logs are of the last version with wire 1.
 """
 
@@ -22,7 +22,7 @@ from host_sim.recording.wire_1 import OldLog, Transcoder
 from host_sim.recording.world_file import world_path
 
 OLD = Path(__file__).with_name("data") / "version_1_0.log"
-DRIVES = 250
+DRIVES = 100
 
 
 def transcoded(*lines: str, transcoder: Transcoder | None = None) -> list[tuple[str, dict[str, int]]]:
@@ -142,7 +142,7 @@ def test_a_rest_in_silence_has_its_own_reason_today():
 
 def test_a_damaged_frame_of_an_old_log_is_counted(tmp_path):
     lines = OLD.read_text().splitlines(keepends=True)
-    lines[300] = lines[300].rstrip()[:-1] + ("0" if lines[300].rstrip()[-1] != "0" else "1") + "\n"
+    lines[150] = lines[150].rstrip()[:-1] + ("0" if lines[150].rstrip()[-1] != "0" else "1") + "\n"
     (tmp_path / "a.log").write_text("".join(lines))
     log = OldLog(tmp_path / "a.log")
 
@@ -160,7 +160,7 @@ def test_an_old_log_replays_without_a_difference(convert, capsys):
 def test_each_robot_of_an_old_log_is_compared(convert, capsys):
     assert main(["replay", str(convert(OLD.with_name("wire_1_three_robots.log")))]) == 0
 
-    assert capsys.readouterr().out.count(": 150 drives, no difference") == 3
+    assert capsys.readouterr().out.count(": 50 drives, no difference") == 3
 
 
 def test_an_old_log_of_real_time_is_read_whole(convert):
@@ -189,7 +189,7 @@ def test_an_old_log_with_two_drives_exchanged_differs(convert, tmp_path):
     changed = tmp_path / "changed.log"
     lines = OLD.read_text().splitlines(keepends=True)
     drives = [i for i, line in enumerate(lines) if " 081#" in line]
-    lines[drives[100]], lines[drives[101]] = lines[drives[101]], lines[drives[100]]
+    lines[drives[40]], lines[drives[41]] = lines[drives[41]], lines[drives[40]]
     changed.write_text("".join(lines))
 
     assert replay(read_log(convert(changed)), Protocol()).difference is not None

@@ -1,128 +1,6 @@
-/* The body of a robot of its own, on pins that the tests hold. */
-#include <string.h>
+#include "pins_rig.h"
 
-#include "hal/can_body/port.h"
-#include "hal/pins_body/pins.h"
-#include "hal/pins_body/telemetry.h"
 #include "tests/test.h"
-
-enum { BEATS = 4, GOOD_MV = 7200, MOST = 4000 };
-
-static struct {
-    uint16_t counts[PINS_SIDES], light, ambient, bursts;
-    int32_t duty[PINS_SIDES];
-    bool awake, shines, bumped, pressed, failed;
-    unsigned beats;
-    uint32_t battery_mv;
-} pins;
-
-static struct {
-    struct input in;
-    enum input_kind next;
-    struct senses said;
-    unsigned outputs;
-    bool asked;
-    int opens;
-} told;
-
-static struct { unsigned stores, alive; int result; enum port_effort effort; bool outage; uint8_t memory[CELL_COUNT]; } port;
-static struct hal *hal;
-static struct input in;
-
-void pins_open(void) { pins.beats = 0; }
-uint16_t pins_count(unsigned side) { return pins.counts[side]; }
-void pins_push(unsigned side, int32_t duty) { pins.duty[side] = duty; }
-void pins_wake_bridge(bool awake) { pins.awake = awake; }
-bool pins_bridge_failed(void) { return pins.failed; }
-void pins_shine(bool on) { pins.shines = on; }
-uint32_t pins_battery_mv(void) { return pins.battery_mv; }
-uint16_t pins_bursts(void) { return pins.bursts; }
-bool pins_bumped(void) { return pins.bumped; }
-bool pins_button(void) { return pins.pressed; }
-
-/* What was on during the beat that ends now is what the converter has. */
-static uint16_t sampled;
-
-void pins_wait(void)
-{
-    pins.beats++;
-    sampled = (uint16_t)(pins.ambient + (pins.shines ? pins.light : 0));
-}
-
-void pins_measure(uint16_t light[FEEL_COUNT])
-{
-    for (unsigned i = 0; i < FEEL_COUNT; i++)
-        light[i] = sampled;
-}
-
-int telemetry_open(const struct port *opened) { (void)opened; return told.opens; }
-void telemetry_senses(const struct senses *senses) { told.said = *senses; }
-
-void telemetry_output(const struct output *out, bool asked)
-{
-    (void)out;
-    told.outputs++;
-    told.asked = asked;
-}
-
-enum input_kind telemetry_receive(struct input *taken)
-{
-    enum input_kind kind = told.next;
-
-    told.next = INPUT_SILENCE;
-    if (kind != INPUT_SILENCE)
-        *taken = told.in;
-    return kind;
-}
-
-int port_open(struct port *opened, int argc, char *const argv[])
-{
-    (void)argv;
-    *opened = (struct port){.node = 1};
-    return argc < 0 ? HAL_E_USAGE : 0;
-}
-
-void port_ready(const struct port *opened) { (void)opened; }
-uint32_t port_clock_ms(void) { return 0; }
-void port_alive(bool outage) { port.alive++; port.outage = outage; }
-int port_load(uint8_t memory[CELL_COUNT]) { memory[0] = 7; return 1; }
-uint32_t port_entropy(void) { return 1000; }
-
-int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
-{
-    port.stores++;
-    port.effort = effort;
-    memcpy(port.memory, memory, CELL_COUNT);
-    return effort == PORT_AT_REST ? 0 : port.result;
-}
-
-/* There is one body to a program: each test goes on with a new tick of it. */
-void setUp(void)
-{
-    memset(&pins, 0, sizeof pins);
-    memset(&told, 0, sizeof told);
-    memset(&port, 0, sizeof port);
-    pins.battery_mv = GOOD_MV;
-    TEST_ASSERT_EQUAL_INT(0, hal_open(&hal, 0, NULL));
-    (void)hal_receive(hal, &in);
-}
-
-static const struct senses *sense(void)
-{
-    TEST_ASSERT_EQUAL_INT(INPUT_SENSES, hal_receive(hal, &in));
-    return &in.senses;
-}
-
-static void drive(int16_t left_mm_s, int16_t right_mm_s)
-{
-    const struct output out = {
-        .has_drive = true, .report.running = true,
-        .drive = {.left_mm_s = left_mm_s, .right_mm_s = right_mm_s,
-                  .reason = left_mm_s != 0 || right_mm_s != 0 ? REASON_WANDER : REASON_STOP},
-    };
-
-    TEST_ASSERT_EQUAL_INT(0, hal_send(hal, &out));
-}
 
 TEST(senses_come_every_four_beats_with_the_next_tick)
 {
@@ -194,12 +72,10 @@ TEST(a_bump_takes_back_what_was_told_and_the_next_order_counts)
     }
     pins.bumped = true;
     TEST_ASSERT_TRUE(sense()->bump);
-    for (unsigned i = 0; i < 20; i++)
-        (void)sense();
+    stay(20);
     TEST_ASSERT_TRUE(pins.duty[0] < 5000);
     drive(-100, -100);
-    for (unsigned i = 0; i < 5; i++)
-        (void)sense();
+    stay(5);
     TEST_ASSERT_TRUE(pins.duty[0] < -5000);
     drive(0, 0);
 }
@@ -233,41 +109,38 @@ TEST(a_command_from_outside_comes_before_the_senses_and_its_answer_was_asked_for
     TEST_ASSERT_FALSE(told.asked);
 }
 
+static int told_by_a_press_within(unsigned ticks)
+{
+    int kind = INPUT_SENSES;
+
+    pins.pressed = true;
+    stay(10);
+    pins.pressed = false;
+    for (unsigned i = 0; i < ticks && kind == INPUT_SENSES; i++)
+        kind = hal_receive(hal, &in);
+    TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, kind);
+    return in.command.opcode;
+}
+
 TEST(the_button_starts_with_a_seed_of_its_own)
 {
     const struct output rests = {.report.running = false};
-    int kind = INPUT_SENSES;
 
     (void)hal_send(hal, &rests);
-    pins.pressed = true;
-    for (unsigned i = 0; i < 10; i++)
-        (void)sense();
-    pins.pressed = false;
-    for (unsigned i = 0; i < 70 && kind == INPUT_SENSES; i++)
-        kind = hal_receive(hal, &in);
-    TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, kind);
-    TEST_ASSERT_EQUAL_INT(OPCODE_START, in.command.opcode);
+    TEST_ASSERT_EQUAL_INT(OPCODE_START, told_by_a_press_within(70));
     TEST_ASSERT_EQUAL_UINT32(1000, in.command.value);
 }
 
 TEST(the_button_stops_a_robot_that_runs_and_a_wheel_that_turns_is_no_rest)
 {
     const uint8_t memory[CELL_COUNT] = {0};
-    int kind = INPUT_SENSES;
 
     port.result = PORT_LATER;
     drive(0, 200);
     TEST_ASSERT_EQUAL_INT(0, hal_store(hal, memory, false));
     drive(0, 200);
     TEST_ASSERT_EQUAL_UINT(1, port.stores);
-    pins.pressed = true;
-    for (unsigned i = 0; i < 10; i++)
-        (void)sense();
-    pins.pressed = false;
-    for (unsigned i = 0; i < 10 && kind == INPUT_SENSES; i++)
-        kind = hal_receive(hal, &in);
-    TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, kind);
-    TEST_ASSERT_EQUAL_INT(OPCODE_STOP, in.command.opcode);
+    TEST_ASSERT_EQUAL_INT(OPCODE_STOP, told_by_a_press_within(10));
     drive(0, 0);
 }
 
@@ -318,8 +191,7 @@ TEST(z_wheels_of_a_robot_with_an_empty_battery_rest_for_good)
     (void)sense();
     TEST_ASSERT_FALSE(port.outage);
     pins.battery_mv = 5000;
-    for (unsigned i = 0; i < 11; i++)
-        (void)sense();
+    stay(11);
     TEST_ASSERT_FALSE(pins.awake);
     TEST_ASSERT_EQUAL_INT32(0, pins.duty[0]);
     TEST_ASSERT_TRUE(port.outage);

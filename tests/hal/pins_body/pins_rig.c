@@ -1,0 +1,114 @@
+/* The body of a robot of its own on pins, a port and telemetry that the tests hold. */
+#include "pins_rig.h"
+
+#include <string.h>
+
+#include "hal/pins_body/telemetry.h"
+#include "tests/test.h"
+
+struct fake_pins pins;
+struct fake_telemetry told;
+struct fake_port port;
+struct hal *hal;
+struct input in;
+
+void pins_open(void) { pins.beats = 0; }
+uint16_t pins_count(unsigned side) { return pins.counts[side]; }
+void pins_push(unsigned side, int32_t duty) { pins.duty[side] = duty; }
+void pins_wake_bridge(bool awake) { pins.awake = awake; }
+bool pins_bridge_failed(void) { return pins.failed; }
+void pins_shine(bool on) { pins.shines = on; }
+uint32_t pins_battery_mv(void) { return pins.battery_mv; }
+uint16_t pins_bursts(void) { return pins.bursts; }
+bool pins_bumped(void) { return pins.bumped; }
+bool pins_button(void) { return pins.pressed; }
+
+/* What was on during the beat that ends now is what the converter has. */
+static uint16_t sampled;
+
+void pins_wait(void)
+{
+    pins.beats++;
+    sampled = (uint16_t)(pins.ambient + (pins.shines ? pins.light : 0));
+}
+
+void pins_measure(uint16_t light[FEEL_COUNT])
+{
+    for (unsigned i = 0; i < FEEL_COUNT; i++)
+        light[i] = sampled;
+}
+
+int telemetry_open(const struct port *opened) { (void)opened; return told.opens; }
+void telemetry_senses(const struct senses *senses) { told.said = *senses; }
+
+void telemetry_output(const struct output *out, bool asked)
+{
+    (void)out;
+    told.outputs++;
+    told.asked = asked;
+}
+
+enum input_kind telemetry_receive(struct input *taken)
+{
+    enum input_kind kind = told.next;
+
+    told.next = INPUT_SILENCE;
+    if (kind != INPUT_SILENCE)
+        *taken = told.in;
+    return kind;
+}
+
+int port_open(struct port *opened, int argc, char *const argv[])
+{
+    (void)argv;
+    *opened = (struct port){.node = 1};
+    return argc < 0 ? HAL_E_USAGE : 0;
+}
+
+void port_ready(const struct port *opened) { (void)opened; }
+uint32_t port_clock_ms(void) { return 0; }
+void port_alive(bool outage) { port.alive++; port.outage = outage; }
+int port_load(uint8_t memory[CELL_COUNT]) { memory[0] = 7; return 1; }
+uint32_t port_entropy(void) { return 1000; }
+
+int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
+{
+    port.stores++;
+    port.effort = effort;
+    memcpy(port.memory, memory, CELL_COUNT);
+    return effort == PORT_AT_REST ? 0 : port.result;
+}
+
+/* There is one body to a program: each test goes on with a new tick of it. */
+void setUp(void)
+{
+    memset(&pins, 0, sizeof pins);
+    memset(&told, 0, sizeof told);
+    memset(&port, 0, sizeof port);
+    pins.battery_mv = GOOD_MV;
+    TEST_ASSERT_EQUAL_INT(0, hal_open(&hal, 0, NULL));
+    (void)hal_receive(hal, &in);
+}
+
+const struct senses *sense(void)
+{
+    TEST_ASSERT_EQUAL_INT(INPUT_SENSES, hal_receive(hal, &in));
+    return &in.senses;
+}
+
+void drive(int16_t left_mm_s, int16_t right_mm_s)
+{
+    const struct output out = {
+        .has_drive = true, .report.running = true,
+        .drive = {.left_mm_s = left_mm_s, .right_mm_s = right_mm_s,
+                  .reason = left_mm_s != 0 || right_mm_s != 0 ? REASON_WANDER : REASON_STOP},
+    };
+
+    TEST_ASSERT_EQUAL_INT(0, hal_send(hal, &out));
+}
+
+void stay(unsigned ticks)
+{
+    for (unsigned i = 0; i < ticks; i++)
+        (void)sense();
+}

@@ -1,0 +1,42 @@
+/* pins_rig.h: what the body of a robot of its own finds, and what it did with that. */
+#ifndef OCTET_TEST_PINS_RIG_H
+#define OCTET_TEST_PINS_RIG_H
+
+#include "hal/can_body/port.h"
+#include "hal/pins_body/pins.h"
+
+enum { BEATS = 4, GOOD_MV = 7200, MOST = 4000 };
+
+extern struct fake_pins {
+    uint16_t counts[PINS_SIDES], light, ambient, bursts;
+    int32_t duty[PINS_SIDES];
+    bool awake, shines, bumped, pressed, failed;
+    unsigned beats;
+    uint32_t battery_mv;
+} pins;
+
+extern struct fake_telemetry {
+    struct input in;
+    enum input_kind next;
+    struct senses said;
+    unsigned outputs;
+    bool asked;
+    int opens;
+} told;
+
+extern struct fake_port {
+    unsigned stores, alive;
+    int result;
+    enum port_effort effort;
+    bool outage;
+    uint8_t memory[CELL_COUNT];
+} port;
+
+extern struct hal *hal;
+extern struct input in;   /* what was received last */
+
+const struct senses *sense(void);
+void stay(unsigned ticks);
+void drive(int16_t left_mm_s, int16_t right_mm_s);
+
+#endif
