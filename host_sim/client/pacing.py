@@ -1,5 +1,6 @@
 """The two ways to keep world and robots in step: lockstep, or the wall clock."""
 
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -11,6 +12,9 @@ from host_sim.protocol.generated import REST, TICK_SPAN, Drive, Reason, Senses
 
 HOLD_TICKS = 5
 """A body without a new drive continues with its last one for this many ticks (100 ms); then its wheels stop."""
+
+_TURN_S = 0.002
+"""In real time, the longest wait for one robot before the next one is listened to."""
 
 
 class Pace(Protocol):
@@ -114,7 +118,7 @@ class RealTime:
     """Ticks follow the wall clock and wait for no robot: a late answer applies when it comes, as on a real body."""
 
     def __init__(self, clients: Sequence[RobotClient], tick_s: float) -> None:
-        """Starts with the wheels at rest.
+        """Starts with the wheels at rest; the clock begins with the first tick.
 
         Args:
             clients: The robots' clients, which have the same time.
@@ -123,35 +127,37 @@ class RealTime:
         self._tick_s = tick_s
         self._wheels = [_Wheels(client) for client in clients]
         self._now = clients[0].connection.now
-        self._next_s = self._now()
+        self._next_s: float | None = None
+
+    def rest(self) -> None:
+        """The world stands still on purpose: its clock begins anew with the next tick."""
+        self._next_s = None
 
     def exchange(self, senses: Sequence[Senses]) -> Sequence[Drive]:
         """As in `Pace`: the drives are the robots' answers, or earlier ones that are still held."""
-        early = self._listen(self._next_s, until_all_answer=False)
-        late_s = max(self._now() - self._next_s, 0.0)
+        begin_s = self._now() if self._next_s is None else self._next_s
+        early = self._listen(begin_s, until_all_answer=False)
+        late_s, lost_s = max(self._now() - begin_s, 0.0), 0.0
         for wheels, sensed in zip(self._wheels, senses, strict=True):
-            wheels.client.punctuality.begin(late_s, self._tick_s)
+            lost_s = wheels.client.punctuality.begin(late_s, self._tick_s)
             wheels.client.send_senses(sensed)
-        # A host that was delayed does not catch up: that would not be real time either.
-        self._next_s = max(self._next_s, self._now()) + self._tick_s
+        self._next_s = begin_s + lost_s + self._tick_s
         fresh = self._listen(self._next_s, until_all_answer=True)
         newest = [drive or before for drive, before in zip(fresh, early, strict=True)]
         both = zip(self._wheels, newest, senses, strict=True)
         return [wheels.turn(drive, sensed.tick, self._tick_s) for wheels, drive, sensed in both]
 
     def _listen(self, end_s: float, *, until_all_answer: bool) -> list[Drive | None]:
-        """For each robot, the last drive that comes before a time."""
+        """For each robot, the last drive that comes before a time. They are listened to in turn."""
         fresh: list[Drive | None] = [None] * len(self._wheels)
-        while (left_s := end_s - self._now()) > 0:
-            if until_all_answer and all(self._is_answer(drive, i) for i, drive in enumerate(fresh)):
-                break
-            for i, wheels in enumerate(self._wheels):
-                fresh[i] = self._receive(wheels.client, left_s / len(self._wheels)) or fresh[i]
+        listening = deque(enumerate(wheels.client for wheels in self._wheels))
+        while listening:
+            (i, client), left_s = listening.popleft(), end_s - self._now()
+            drive = self._receive(client, min(max(left_s, 0.0), _TURN_S))
+            fresh[i] = drive or fresh[i]
+            if left_s > 0 and not (until_all_answer and _is_answer(drive, client)):
+                listening.append((i, client))
         return fresh
-
-    def _is_answer(self, drive: Drive | None, index: int) -> bool:
-        """Whether a drive answers a robot's last senses."""
-        return drive is not None and drive.tick == self._wheels[index].client.inbox.sent_tick
 
     @staticmethod
     def _receive(client: RobotClient, timeout_s: float) -> Drive | None:
@@ -160,3 +166,8 @@ class RealTime:
         except SessionLostError as lost:
             recover(client, lost)
             return None
+
+
+def _is_answer(drive: Drive | None, client: RobotClient) -> bool:
+    """Whether a drive answers a robot's last senses."""
+    return drive is not None and drive.tick == client.inbox.sent_tick

@@ -1,4 +1,4 @@
-"""How close a run came to real time: unanswered ticks, gaps between answers, ticks that began late."""
+"""How close a run came to real time: unanswered ticks, gaps between answers, and how fast the clock was."""
 
 from dataclasses import dataclass, field
 
@@ -10,16 +10,13 @@ class Limits:
     Attributes:
         unanswered_percent: Share of the ticks without an answer.
         gap_s: Longest time without an answer, s.
-        late_percent: Share of the ticks that this host began late, by more than a tick.
+        behind_percent: Share of the wall-clock time by which the world's clock falls behind on this host.
     """
 
     unanswered_percent: float = 10.0
     gap_s: float = 1.0
-    late_percent: float = 10.0
+    behind_percent: float = 5.0
 
-
-_LATE = 1.0
-"""Of a tick."""
 
 _TICKS_MIN = 50
 """In fewer ticks, a share says nothing."""
@@ -34,8 +31,10 @@ class Punctuality:
         ticks: Number of ticks.
         unanswered: Number of those without an answer.
         gap_s: The longest time without an answer, s.
-        late: Number of ticks that began late.
+        late: Number of ticks that began late, by more than a tick.
         latest_s: The most that one was late, s.
+        lost_s: By how much they put the world's clock behind the wall clock, s.
+        robot_s: How far the world's clock has come, s.
     """
 
     limits: Limits = field(default_factory=Limits)
@@ -44,12 +43,19 @@ class Punctuality:
     gap_s: float = 0.0
     late: int = 0
     latest_s: float = 0.0
+    lost_s: float = 0.0
+    robot_s: float = 0.0
 
-    def begin(self, late_s: float, tick_s: float) -> None:
-        """A tick begins, some time after it should."""
-        self.ticks += 1
-        self.late += late_s > _LATE * tick_s
+    def begin(self, late_s: float, tick_s: float) -> float:
+        """A tick begins, some time after it should. Returns how much of that is lost, s.
+
+        What is less than a tick is caught up. More is not: many ticks at once would not be real time either.
+        """
+        lost_s = late_s if late_s > tick_s else 0.0
+        self.ticks, self.robot_s, self.lost_s = self.ticks + 1, self.robot_s + tick_s, self.lost_s + lost_s
+        self.late += lost_s > 0
         self.latest_s = max(self.latest_s, late_s)
+        return lost_s
 
     def miss(self, gap_s: float, tick_s: float) -> bool:
         """A tick has no answer, and none has come for some time. Returns whether this is now too long."""
@@ -67,19 +73,20 @@ class Punctuality:
         """Share of the ticks that began late."""
         return 100 * self.late / max(self.ticks, 1)
 
+    @property
+    def speed(self) -> float:
+        """How fast the world's clock was, as a multiple of real time: 1 if it never lost anything."""
+        return self.robot_s / (self.robot_s + self.lost_s) if self.lost_s else 1.0
+
     def doubts(self) -> list[str]:
         """What makes the result doubtful at the end of the run."""
         if self.ticks < _TICKS_MIN:
             return []
-        shares = (
-            (self.unanswered_percent, self.limits.unanswered_percent, "had no answer"),
-            (self.late_percent, self.limits.late_percent, "began late on this host"),
-        )
-        return [
-            f"{share:.1f} % of the {self.ticks} ticks {what}; the limit is {limit:g} %"
-            for share, limit, what in shares
-            if share > limit
-        ]
+        share, limit = self.unanswered_percent, self.limits.unanswered_percent
+        slowest = 1 - self.limits.behind_percent / 100
+        deaf = f"{share:.1f} % of the {self.ticks} ticks had no answer; the limit is {limit:g} %"
+        slow = f"this host was too slow for real time: {self.speed:.3f} x; the limit is {slowest:g} x"
+        return [deaf] * (share > limit) + [slow] * (self.speed < slowest)
 
     def summary(self) -> dict[str, float] | None:
         """For `summary.json`; None in lockstep."""
@@ -87,6 +94,7 @@ class Punctuality:
             return None
         return {
             "ticks": self.ticks,
+            "speed": round(self.speed, 4),
             "unanswered_percent": round(self.unanswered_percent, 2),
             "longest_gap_ms": round(self.gap_s * 1000),
             "late_percent": round(self.late_percent, 2),

@@ -48,7 +48,7 @@ class Waiting:
                 return result
             left_s = max(left_s - min(self.connection.now() - before_s, asked_s), 0.0)
             spare -= left_s <= _DUST_S  # what waits already is taken in, even if this host was held up
-            if left_s <= _DUST_S and (frame is None or not spare or not timeout_s):
+            if left_s <= _DUST_S and (frame is None or not spare):
                 return None
 
     def receive_or_repeat(

@@ -1,6 +1,7 @@
 """Moves and commands robots between two ticks, as people at a page request."""
 
 from host_sim.client.commands import erase_memory, freeze, write_cells
+from host_sim.client.pacing import RealTime
 from host_sim.live.page_commands import EraseMemory, Freeze, LiftRobot, PutRobot, WriteCell
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.simulation import Simulation
@@ -51,6 +52,8 @@ def discard_reports(simulation: Simulation) -> None:
 
     Of a line that never falls silent, only so many frames are taken that a page does not have to wait for them.
     """
+    if isinstance(simulation.pace, RealTime):
+        simulation.pace.rest()
     for client in simulation.clients:
         for _ in range(_DISCARDED_MAX):
             if client.connection.link.receive(0.0) is None:

@@ -63,9 +63,9 @@ def summarize(
       end) and memory (the eight cells at the end of the environment).
     - robots: One entry per robot: node, memory (the eight cells at the end), frames (sent, received, repeated,
       duplicate, lost, refused), faults (the robot's own fault counters), saturated (those of them that stand at 255,
-      their limit, and may be more), round_trip_ms (mean time of an answer), real_time (ticks, share without an
-      answer, longest gap, share that began late, the most that one was late; null in lockstep), line (outages and
-      unsent frames).
+      their limit, and may be more), round_trip_ms (mean time of an answer), real_time (ticks, how
+      fast the clock was, share of ticks without an answer, longest gap, share that began late by more than a tick,
+      the most that one was late; null in lockstep), line (outages and unsent frames).
     - changes: The changes that were asked for: those that happened, those refused because they could not be, and
       those missed, for which the run or their environment was too short.
     - incidents: What happened that makes the result doubtful, each with tick and node; empty for a sound run. Of very

@@ -184,8 +184,8 @@ class RunConfig:
         metavar="S",
     )
     late_max: float = option(
-        50.0,
-        "real time: largest share of ticks that this host begins late, %; above it, the result is doubtful",
+        5.0,
+        "real time: by how much the clock may fall behind on this host, %; above it, the result is doubtful",
         limits=(0, 100),
         metavar="PERCENT",
     )
