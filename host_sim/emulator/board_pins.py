@@ -116,6 +116,8 @@ class Pins:
         chip: What its chip's pins can be.
         remap: The fields of AFIO_MAPR that go with them.
         led_high: Whether the LED shines while its pin is high.
+        headers: What is printed on the pins of the board's two headers, top down; empty if nobody has told.
+        ends: By signal, the part of a robot of its own that the wire goes to, and the terminal there.
     """
 
     board: str
@@ -123,6 +125,8 @@ class Pins:
     chip: ChipPins
     remap: int
     led_high: bool
+    headers: list[list[str]]
+    ends: dict[str, tuple[str, str]]
 
     @property
     def channels(self) -> dict[str, int]:
@@ -143,11 +147,17 @@ class Pins:
 
     def table(self) -> str:
         """The wiring in Markdown."""
-        lines = ["| signal | pin | as |", "| --- | --- | --- |"]
+        lines = ["| signal | pin | as | goes to |", "| --- | --- | --- | --- |"]
         for signal, pin in sorted(self.signals.items(), key=lambda row: place_of(row[1])):
             use = self.chip.signals.get(signal, "input or output")
-            lines.append(f"| {signal.lower().replace('_', ' ')} | {pin} | {use} |")
+            end = ": ".join(self.ends.get(signal, ("",)))
+            lines.append(f"| {signal.lower().replace('_', ' ')} | {pin} | {use} | {end} |")
         return "\n".join(lines) + "\n"
+
+
+def _ends(root: Path) -> dict[str, tuple[str, str]]:
+    parts = _toml.loads((root / "hal" / "pins_body" / "wiring.toml").read_text())
+    return {signal: (part, end) for part, ends in parts.items() for signal, end in ends.items()}
 
 
 def read_pins(board: str, root: Path = ROOT) -> Pins:
@@ -167,6 +177,7 @@ def read_pins(board: str, root: Path = ROOT) -> Pins:
         for name in (name for name in _ALWAYS if name not in signals):
             raise UsageError(f"no pin for {name}")
         chip.check(signals)
-        return Pins(board, signals, chip, chip.remap(signals), given["LED_HIGH"] == "1")
+        headers = [given[f"HEADER_{number}"].strip('"').split() for number in (1, 2) if f"HEADER_{number}" in given]
+        return Pins(board, signals, chip, chip.remap(signals), given["LED_HIGH"] == "1", headers, _ends(root))
     except UsageError as error:
         raise UsageError(f"{board}: {error}") from None

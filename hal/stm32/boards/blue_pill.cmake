@@ -30,3 +30,7 @@ set(OCTET_BEACON PA15)
 set(OCTET_BUMPER_LEFT PB10)     # to ground when pressed
 set(OCTET_BUMPER_RIGHT PB11)
 set(OCTET_BUTTON PA8)           # to ground when pressed
+
+# What is printed beside its headers, seen from above, from the end with B12 on.
+set(OCTET_HEADER_1 "B12 B13 B14 B15 A8 A9 A10 A11 A12 A15 B3 B4 B5 B6 B7 B8 B9 5V G 3.3")
+set(OCTET_HEADER_2 "G G 3.3 R B11 B10 B1 B0 A7 A6 A5 A4 A3 A2 A1 A0 C15 C14 C13 VB")
