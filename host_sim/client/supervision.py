@@ -74,14 +74,16 @@ def _find_out(client: RobotClient, lost: SessionLostError) -> None:
     client.inbox.session = None
     _check_rival(client)
     _ask_how_it_is(client, lost)
+    has_restarted = _has_restarted(client, before, lost)
+    # A restart sets the robot's counters to 0.
+    _check_twins(client, 0 if has_restarted else before.faults.get("twins", 0))
     if _has_halted(client, before):
         _note_halt(client, session)
         return
-    if _has_restarted(client, before, lost):
+    if has_restarted:
         _check_firmware(client)
         _start_again(client, session, memory)
         return
-    _check_twins(client, before)
     _check_owner(client, lost)
     client.inbox.session = session
     client.frames.refused += lost.booted  # a BOOT, but the robot did not start anew
@@ -154,8 +156,8 @@ def _check_rival(client: RobotClient) -> None:
         )
 
 
-def _check_twins(client: RobotClient, before: _State) -> None:
-    if client.faults.get("twins", 0) > before.faults.get("twins", 0):
+def _check_twins(client: RobotClient, before: int) -> None:
+    if client.faults.get("twins", 0) > before:
         client.dialogue.stop_at_once()
         raise TwinError(
             f"two robots are node {client.node} on this bus, seen at tick {client.tick}: give each its own number"

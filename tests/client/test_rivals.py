@@ -87,11 +87,14 @@ def test_a_robot_that_another_simulator_drives_is_left_alone():
     assert link.sent == []
 
 
-def test_a_twin_ends_the_run():
+@pytest.mark.parametrize("heard_first", ["the first", "the second"])
+def test_a_twin_ends_the_run(heard_first):
     link = MeddledLink()
     client = learned(link)
     said_by_twin = drives_in(client.log.frames)[-1]
 
+    if heard_first == "the second":  # whose reports look like those of a robot that has started anew
+        link.reboot()
     for _ in range(3):
         link.put(said_by_twin)
 

@@ -61,8 +61,7 @@ def test_a_second_robot_with_the_same_number_ends_the_run(tmp_path, second_robot
 
     _, errors = process.communicate(timeout=DEADLINE_S)
     assert process.returncode == 1
-    # Which it is depends on whose report is heard first: both robots have the number, and both rest.
-    assert "two robots are node 1 on this bus" in errors or "somebody else stopped node 1" in errors
+    assert "two robots are node 1 on this bus" in errors
     assert errors.count("\n") == 1
 
 
