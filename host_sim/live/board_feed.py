@@ -1,90 +1,67 @@
-"""The messages to a board: the people, each robot's learning curve, and the state of the run."""
+"""The messages to a board: those of a page, and the people, each robot's learning curve, and how to join."""
 
-import json
-from collections import deque
 from dataclasses import dataclass, field
 from typing import Any
 
 from host_sim.live.curves import NAMES, Curves
-from host_sim.live.feed import play_state
+from host_sim.live.feed import PageFeed, as_json
 from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.seats import Seats
-from host_sim.protocol.memory_kinds import sides_of
-
-_NOTES_MAX = 8
 
 
 @dataclass
-class BoardFeed:
-    """Tracks what one board has been sent.
+class Class:
+    """What boards show besides the run.
 
     Attributes:
         live: The run.
-        curves: How each robot learns.
+        listener: Has the addresses that pupils open.
         seats: Who has which robot; None if the robots are everyone's.
-        listener: Has the address that pupils open.
-        notes: Messages to show, about commands that could not be carried out.
+        curves: How each robot learns.
     """
 
     live: PacedRun
-    curves: Curves
-    seats: Seats | None
     listener: Listener
-    notes: deque[str] = field(default_factory=lambda: deque(maxlen=_NOTES_MAX))
+    seats: Seats | None
+    curves: Curves = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.curves = Curves(self.live)
+
+
+@dataclass
+class BoardFeed(PageFeed):
+    """Tracks what one board has been sent."""
+
+    of: Class = field(kw_only=True)
     _version: int = -1
     _samples: int = 0
 
-    def next(self) -> str:
-        """The next message as JSON.
+    def _news(self, first: bool) -> dict[str, str]:
+        """The parts of a page, and `board`.
 
-        Its fields: `join`, in the first message, with the addresses of the page as `urls` and the rows of the QR code
-        of the first as `modules`; `tick_ms`; `clock_ms`, robot time since the run was started over; `environment` as
-        [number, of]; `ended`, the environments before as [with all food found, all]; `food` as [eaten, of]; `seed`;
-        `play`, as the page is sent it; `robots`, each with `node`, `name`, `page`, whether one of its own is open,
-        and the turns that it knows as `sides`; `notes`, if any.
-        `curves` has the new samples: `anew`, whether earlier ones go, `ticks` since the start, and for each robot the
-        samples of each of `NAMES`.
+        Its fields: `join`, in the first message, with the addresses to type or to open as `urls`, and the rows of the
+        QR code of the first page's address as `modules`; `ended`, the environments before as [with all food found,
+        all]; `robots`, each with `name` and `page`, whether one of its own is open, or null if the robots are
+        everyone's; `curves`, the new samples: `anew`, whether earlier ones go, `ticks` since the start, and for each
+        robot the samples of each of `NAMES`.
         """
-        message = self._state() | {"curves": self._new_samples()}
-        if self._version < 0:
-            message["join"] = {"urls": self.listener.urls, "modules": self.listener.qr_modules}
-        self._version = self.curves.version
-        if self.notes:
-            message["notes"] = list(self.notes)
-            self.notes.clear()
-        return json.dumps(message, separators=(",", ":"))
-
-    def _state(self) -> dict[str, Any]:
-        simulation = self.live.simulation
-        tick_ms, eaten = simulation.params.tick_s * 1000, simulation.arena.food.eaten
-        since = self.live.episodes[self.live.started_over :]
-        return {
-            "tick_ms": tick_ms,
-            "clock_ms": round((simulation.tick - self.live.start_tick) * tick_ms),
-            "environment": [simulation.record.begun[-1].number, simulation.environments],
+        since, seats = self.live.episodes[self.live.started_over :], self.of.seats
+        board: dict[str, Any] = {
             "ended": [sum(episode.finished for episode in since), len(since)],
-            "food": [sum(eaten), len(eaten)],
-            "seed": simulation.seed,
-            "play": play_state(self.live),
-            "robots": [self._robot(i) for i in range(len(simulation.clients))],
+            "robots": seats and [{"name": seat.name, "page": seat.pages > 0} for seat in seats.all],
+            "curves": self._new_samples(),
         }
-
-    def _robot(self, index: int) -> dict[str, Any]:
-        client = self.live.simulation.clients[index]
-        seat = self.seats.all[index] if self.seats else None
-        return {
-            "node": client.node,
-            "name": seat.name if seat else "",
-            "page": bool(seat and seat.pages),
-            "sides": list(sides_of(client.memory)),
-        }
+        if first:
+            board["join"] = {"urls": self.of.listener.short_urls, "modules": self.of.listener.qr_modules}
+        return super()._news(first) | {"board": as_json(board)}
 
     def _new_samples(self) -> dict[str, Any]:
-        curves = self.curves
+        curves = self.of.curves
         anew = curves.version != self._version
         first = 0 if anew else self._samples
-        self._samples = len(curves.ticks)
+        self._version, self._samples = curves.version, len(curves.ticks)
         robots = [
             {name: [sample[i] for sample in samples[first:]] for i, name in enumerate(NAMES)}
             for samples in curves.robots

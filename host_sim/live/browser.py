@@ -58,9 +58,9 @@ def announce(listener: Listener, robots: int, out: TextIO, *, waits: bool) -> No
     _say(out, f"watch     {first}")
     for url in others:
         _say(out, f"          {url}")
-    _say(out, f"board     {listener.board_url}")
+    _say(out, f"board     {listener.board_url} (yours alone)")
     shares = f"each page gets one of {robots}" if robots > 1 else "all pages share one"
-    _say(out, f"robots    {shares}; keep the board's address to yourself")
+    _say(out, f"to type   {listener.short_urls[0]}: {shares}")
     for line in lines_for(first, out):
         _say(out, line)
     if waits:

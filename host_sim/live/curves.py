@@ -40,7 +40,7 @@ class Curves:
     _trials: list[int] = field(default_factory=list)
 
     def sample(self) -> None:
-        """Adds a sample if the run has gone on since the last one."""
+        """Adds a sample if the run has gone on since the last one, which is a change that boards show."""
         live = self.live
         start, tick = live.start_tick, live.simulation.tick
         if start != self.start:
@@ -53,6 +53,7 @@ class Curves:
         self.ticks.append(tick)
         for robot, samples in enumerate(self.robots):
             samples.append(self._sample(robot))
+        self.live.change += 1
 
     def _begin(self, start: int) -> None:
         histories = self.live.recorder.histories

@@ -48,7 +48,7 @@ class Memo:
             self._now = now
             self._parts.clear()
         if key not in self._parts:
-            self._parts[key] = _json(make())
+            self._parts[key] = as_json(make())
         return self._parts[key]
 
 
@@ -123,7 +123,7 @@ class PageFeed:
         if self._answers:
             parts["answers"] = list(self._answers)
             self._answers.clear()
-        return {name: _json(part) for name, part in parts.items()}
+        return {name: as_json(part) for name, part in parts.items()}
 
     def _shared(self, key: object, make: Callable[[], object]) -> str:
         return self.memo.part(self._sent, key, make)
@@ -241,5 +241,6 @@ def _ended(live: PacedRun) -> dict[str, Any] | None:
     }
 
 
-def _json(value: object) -> str:
+def as_json(value: object) -> str:
+    """A part of a message."""
     return json.dumps(value, separators=(",", ":"))

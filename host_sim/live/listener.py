@@ -9,6 +9,7 @@ from yarl import URL
 
 from host_sim.base.errors import UsageError
 from host_sim.base.extra_library import library
+from host_sim.live.join_code import JoinCode
 from host_sim.live.qr_code import modules_of
 from host_sim.live.token_file import local_token
 
@@ -29,6 +30,8 @@ class Listener:
         board_token: Secret that the board's address must contain, which only its owner is told.
         socket: The socket.
         urls: The page's address, by number; one for each network that this machine is in.
+        code: By what a page's address can be short enough to type; None for this machine only.
+        short_urls: Such an address for each of `urls`; where there is no code, `urls`.
         board_url: The board's address.
         qr_modules: The first of the page's addresses as a QR code: see `modules_of`; empty for this machine only.
     """
@@ -47,6 +50,7 @@ class Listener:
         self.is_open = listen is not None
         self.token = secrets.token_urlsafe(16) if listen else local_token()
         self.board_token = secrets.token_urlsafe(16) if listen else self.token
+        self.code = JoinCode() if listen else None
         try:
             family, *_, address = socket.getaddrinfo(self.host, port, type=socket.SOCK_STREAM)[0]
             self.socket = socket.create_server((address[0], port), family=family)
@@ -65,13 +69,11 @@ class Listener:
     def _name(self) -> None:
         """Works out under which addresses others find the socket."""
         numbers = numbers_of(self.socket)
-        self.urls = [self._url(number, "/", self.token) for number in numbers]
-        self.board_url = self._url(numbers[0], "/board", self.board_token)
+        homes = [f"[{number}]:{self.port}" if ":" in number else f"{number}:{self.port}" for number in numbers]
+        self.urls = [f"http://{home}/?token={self.token}" for home in homes]
+        self.short_urls = [f"{home}/{self.code.text}" for home in homes] if self.code else self.urls
+        self.board_url = f"http://{homes[0]}/board?token={self.board_token}"
         self.qr_modules = modules_of(self.urls[0]) if self.is_open else []
-
-    def _url(self, number: str, path: str, token: str) -> str:
-        host = f"[{number}]" if ":" in number else number
-        return f"http://{host}:{self.port}{path}?token={token}"
 
     def holds(self, given: str) -> bool:
         """Whether a secret opens the page."""

@@ -8,10 +8,10 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from aiohttp import WSCloseCode, web
 
 from host_sim.base.paths import WEB
-from host_sim.live.board_feed import BoardFeed
+from host_sim.live.board_feed import BoardFeed, Class
 from host_sim.live.connections import Connections, one_line_logger, report_to
-from host_sim.live.curves import Curves
 from host_sim.live.feed import Memo, PageFeed
+from host_sim.live.join_code import TooManyGuessesError
 from host_sim.live.listener import Listener
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
@@ -26,9 +26,6 @@ FRAME_S, RACING_FRAME_S = 1 / 60, 1 / 20
 
 STATE_S = 1 / 9000
 """Time for each robot's state in a message to a page; thirty pages with thirty robots get ten messages a second."""
-
-BOARD_S = 0.5
-"""Time between two messages to a board."""
 
 _SAMPLE_S = 0.5
 
@@ -61,9 +58,10 @@ class LiveServer:
                 gets a robot of its own.
         """
         self.pages = self.boards = 0
-        self._live, self._listener, self._memo, self._curves = live, listener, Memo(), Curves(live)
+        self._live, self._listener, self._memo = live, listener, Memo()
         nodes = live.simulation.nodes
         self._seats = Seats(nodes) if listener.is_open and len(nodes) > 1 else None
+        self._class = Class(live, listener, self._seats)
         self._sockets: set[web.WebSocketResponse] = set()
         self._parts = {path.relative_to(WEB).as_posix() for path in WEB.rglob("*") if path.suffix in (".js", ".css")}
         self._app = web.Application(client_max_size=TEXT_MAX, middlewares=[self._check_host])
@@ -73,6 +71,7 @@ class LiveServer:
             ("/board", self._board),
             ("/live", self._page_socket),
             ("/board-live", self._board_socket),
+            ("/{code:[A-Za-z]+-?[0-9]{4}}", self._join),
             ("/{name:.+}", self._part),
         ):
             self._app.router.add_get(path, handler)
@@ -102,7 +101,7 @@ class LiveServer:
     async def _sample(self) -> None:
         """Samples the curves, whether a board is open or not: one that is opened late shows all of them."""
         while True:
-            self._curves.sample()
+            self._class.curves.sample()
             await asyncio.sleep(_SAMPLE_S)
 
     @web.middleware
@@ -119,6 +118,18 @@ class LiveServer:
     async def _board(self, request: web.Request) -> web.StreamResponse:
         self._check_token(request, self._listener.holds_board)
         return _file("board.html")
+
+    async def _join(self, request: web.Request) -> web.StreamResponse:
+        """Takes who has typed the code to the page."""
+        if self._listener.code is None:
+            raise web.HTTPNotFound
+        try:
+            if self._listener.code.opens(request.match_info["code"], request.remote or ""):
+                raise web.HTTPFound(f"/?token={self._listener.token}")
+        except TooManyGuessesError as error:
+            raise web.HTTPTooManyRequests(text=f"{error}\n") from None
+        self._live.refused += 1
+        raise web.HTTPForbidden(text="that is not the code: compare it with the one on the board\n")
 
     async def _part(self, request: web.Request) -> web.StreamResponse:
         name = request.match_info["name"]
@@ -146,10 +157,9 @@ class LiveServer:
         socket = await self._accepted(request)
         self.pages += 1
         self.boards += 1
-        feed = BoardFeed(self._live, self._curves, self._seats, self._listener)
+        feed = BoardFeed(self._live, self._memo, of=self._class)
         try:
-            with Rights.of(None, "") as rights:
-                await self._serve(Visitor(socket, feed, rights, lambda: BOARD_S, begins=True))
+            await self._serve(Visitor(socket, feed, feed.rights, self._pause_s, begins=True))
         finally:
             self.pages -= 1
             self.boards -= 1

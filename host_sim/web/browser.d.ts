@@ -5,3 +5,7 @@ declare class DecompressionStream implements GenericTransformStream {
   readonly readable: ReadableStream;
   readonly writable: WritableStream;
 }
+
+interface CanvasPath {
+  roundRect(x: number, y: number, width: number, height: number, radius: number): void;
+}

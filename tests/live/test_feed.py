@@ -2,8 +2,7 @@
 
 from types import SimpleNamespace
 
-from host_sim.live.board_feed import BoardFeed
-from host_sim.live.curves import Curves
+from host_sim.live.board_feed import BoardFeed, Class
 from host_sim.live.feed import PageFeed
 from host_sim.live.page_commands import FULL_SPEED
 from host_sim.live.seats import Rights, Seats
@@ -31,9 +30,9 @@ def test_a_page_that_asks_seldom_gets_no_more_than_one_that_asks_often(live):
 def test_nobody_is_told_what_a_page_is_recognised_by(live):
     run, seats, key = live(robots=2), Seats([1, 2]), "0123456789abcdef" * 2
     seat = seats.take(key)
-    listener = SimpleNamespace(urls=["http://octet"], qr_modules=[])
+    listener = SimpleNamespace(short_urls=["octet/mint-4711"], qr_modules=[])
 
-    said = [PageFeed(run, rights=Rights(seats, seat)).next(), BoardFeed(run, Curves(run), seats, listener).next()]
+    said = [PageFeed(run, rights=Rights(seats, seat)).next(), BoardFeed(run, of=Class(run, listener, seats)).next()]
 
     assert all(text and "node" in text for text in said)
     assert not any(key in text for text in said)

@@ -41,6 +41,28 @@ LEAST_CONTRAST = """() => {
   }).sort((p, q) => p[0] - q[0])[0];
 }"""
 
+# The share of the window's squares of 24 px that no line of text, picture, table cell or control touches.
+BLANK = """(side) => {
+  const things = [...document.querySelectorAll("canvas, svg, button, select, input, td")];
+  const boxes = things.filter((e) => e.checkVisibility()).map((e) => e.getBoundingClientRect());
+  const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let text; (text = texts.nextNode()); ) {
+    const range = document.createRange();
+    range.selectNodeContents(text);
+    if (text.textContent.trim() && text.parentElement.checkVisibility()) boxes.push(...range.getClientRects());
+  }
+  const [across, down] = [innerWidth, innerHeight].map((px) => Math.floor(px / side));
+  const touched = (x, y) => boxes.some((b) => b.left < x + side && b.right > x && b.top < y + side && b.bottom > y);
+  const places = Array.from({ length: across * down }, (_, i) => [i % across, Math.floor(i / across)]);
+  return places.filter(([x, y]) => !touched(x * side, y * side)).length / places.length;
+}"""
+
+
+def blank(page: Page) -> float:
+    """The part of the window in which there is nothing within about 24 px."""
+    next_frame(page)
+    return page.evaluate(BLANK, 24)
+
 
 def out_of_view(page: Page, selectors: tuple[str, ...], size: tuple[int, int]) -> list[str]:
     """What is not wholly in the window."""

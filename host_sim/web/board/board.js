@@ -1,56 +1,60 @@
 // @ts-check
-/* The board of a class: how to join, how the run stands, and how each robot learns. */
+/* The board of a class: how to join, the arena, and how each robot learns. */
 
 import { BoardCurves } from "./board_curves.js";
 import { BoardRobots } from "./board_robots.js";
+import { made } from "../core/building.js";
 import { byId, contextOf, setText, typedById } from "../core/elements.js";
-import { Toast } from "../core/toast.js";
 import { ending } from "../core/phrases.js";
+import { Toast } from "../core/toast.js";
+import { Renderer } from "../draw/renderer.js";
+import { Scene } from "../draw/scene.js";
+import { Connection } from "../live/connection.js";
+import { showMessage } from "../live/message_scene.js";
+import { showFacts } from "../panel/panel.js";
 
 /**
  * @typedef {import("../types.js").Command} Command
  * @typedef {import("../types.js").Play} Play
  *
- * What the board receives from host_sim/live/board_feed.py.
- * @typedef {Object} BoardMessage
+ * What a board is told besides; see host_sim/live/board_feed.py.
+ * @typedef {Object} Class
  * @property {{urls: string[], modules: string[]}} [join]
- * @property {number} tick_ms
- * @property {number} clock_ms
- * @property {[number, number]} environment
  * @property {[number, number]} ended
- * @property {[number, number]} food
- * @property {number} seed
- * @property {Play} play
- * @property {import("./board_robots.js").BoardRobot[]} robots
+ * @property {{name: string, page: boolean}[] | null} robots
  * @property {import("./board_curves.js").NewSamples} curves
- * @property {string[]} [notes]
+ *
+ * @typedef {import("../types.js").Message & {board: Class}} BoardMessage
  */
 
-const RECONNECT_MS = 1000;
 const BORDER = 2;
 
-/** Connects, and connects again. */
+/** Shows the last message, at most once a frame of the screen. */
 class Board {
   constructor() {
     this.curves = new BoardCurves();
     this.robots = new BoardRobots();
     this.note = new Toast();
-    this.curve = typedById("curve", HTMLSelectElement);
+    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement));
     this.speed = typedById("speed", HTMLSelectElement);
+    /** @type {Scene | undefined} */
+    this.scene = undefined;
     /** @type {BoardMessage | undefined} */
     this.message = undefined;
+    this.isNew = false;
+    this.connection = new Connection(`/board-live${location.search}`, (message) => this.accept(message));
     this.bind();
-    this.socket = this.connect();
   }
 
   bind() {
     const on = (/** @type {string} */ id, /** @type {() => Command} */ command) =>
-      byId(id).addEventListener("click", () => this.send(command()));
+      byId(id).addEventListener("click", () => this.connection.send(command()));
     on("play", () => ({ do: this.runs ? "pause" : "play" }));
     on("next", () => ({ do: "next" }));
-    on("again", () => ({ do: "seed", seed: this.message?.seed ?? 1, keep: 0 }));
-    this.speed.addEventListener("change", () => this.send({ do: "speed", factor: Number(this.speed.value) }));
-    this.curve.addEventListener("change", () => this.show());
+    on("again", () => ({ do: "seed", seed: this.scene?.environment.seed ?? 1, keep: 0 }));
+    this.speed.addEventListener("change", () => this.connection.send({ do: "speed", factor: Number(this.speed.value) }));
+    this.curves.select.addEventListener("change", () => this.drawSoon());
+    addEventListener("resize", () => this.drawSoon());
   }
 
   /** Whether time goes on. */
@@ -59,76 +63,73 @@ class Board {
     return Boolean(play?.playing && !play.waits);
   }
 
-  connect() {
-    const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-    const socket = new WebSocket(`${scheme}//${location.host}/board-live${location.search}`);
-    socket.addEventListener("message", (event) => this.accept(JSON.parse(event.data)));
-    socket.addEventListener("close", () => {
-      setText(byId("status"), "no connection, trying again");
-      document.body.classList.add("lost");
-      setTimeout(() => (this.socket = this.connect()), RECONNECT_MS);
-    });
-    return socket;
-  }
-
-  /** @param {Command} command */
-  send(command) {
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
-  }
-
   /** @param {BoardMessage} message */
   accept(message) {
-    document.body.classList.remove("lost");
-    if (message.join) showJoin(message.join);
-    this.curves.add(message.curves);
+    const { measures, environment, states, board } = message;
+    if (measures && environment) this.scene ??= new Scene(measures, environment, states);
+    if (!this.scene) return;
+    showMessage(this.scene, message);
+    if (measures) document.body.style.setProperty("--ratio", `${(measures.width + 80) / (measures.height + 80)}`);
+    if (board.join) showJoin(board.join);
+    this.curves.add(board.curves);
     this.message = message;
     message.notes?.forEach((text) => this.note.show(text));
-    this.show();
+    this.drawSoon();
   }
 
-  show() {
-    const { message } = this;
-    if (!message) return;
-    const { environment, food, seed, play, robots, tick_ms, clock_ms } = message;
-    const curve = /** @type {import("./board_curves.js").CurveName} */ (this.curve.value);
-    const own = robots.length > 1;
-    this.robots.show(robots, this.curves, { curve, tickMs: tick_ms, own });
-    setText(byId("fact-environment"), `${environment[0]} of ${environment[1]}`);
-    setText(byId("fact-food"), `${food[1] - food[0]} of ${food[1]}`);
-    setText(byId("fact-time"), clockOf(clock_ms));
-    setText(byId("fact-seed"), `${seed}`);
-    setText(byId("present"), own ? presence(robots) : "All pages share one robot.");
-    setText(byId("scale"), `Each curve grows with robot time; all have the same scale.`);
-    setText(byId("result"), resultOf(message));
-    this.showPlay(play, environment);
+  /** Draws with the next frame of the screen. */
+  drawSoon() {
+    if (!this.isNew) requestAnimationFrame(() => this.draw());
+    this.isNew = true;
+  }
+
+  draw() {
+    const { message, scene, renderer } = this;
+    this.isNew = false;
+    if (!message || !scene) return;
+    const { play, board } = message;
+    renderer.useColours();
+    const rows = this.rowsOf(scene, board.robots);
+    scene.tags = rows.map(({ node, name, colour }) => ({ name: name || `${node}`, colour }));
+    renderer.draw(scene);
+    this.robots.show(rows);
+    this.curves.draw(scene, renderer.palette.robots);
+    showFacts(scene);
+    setText(byId("present"), board.robots ? presence(board.robots) : "All pages share the robots.");
+    setText(byId("result"), play.ended ? ending(play.ended, play.done).join(": ") : "");
+    setText(byId("fact-finished"), board.ended.join(" of "));
+    this.showPlay(play, scene.environment);
+  }
+
+  /**
+   * @param {Scene} scene
+   * @param {Class["robots"]} robots
+   * @returns {import("./board_robots.js").Row[]}
+   */
+  rowsOf({ states }, robots) {
+    const colours = this.renderer.palette.robots;
+    return states.map(({ node, memory }, i) => {
+      const { name, page } = robots?.[i] ?? { name: "", page: true };
+      return { node, name, page, memory, colour: colours[i % colours.length], meals: this.curves.last(i, "meals") };
+    });
   }
 
   /**
    * @param {Play} play
-   * @param {[number, number]} environment
+   * @param {import("../types.js").EnvironmentScene} environment
    */
-  showPlay(play, environment) {
+  showPlay(play, { number, of }) {
     setText(byId("play"), play.waits ? "Begin" : play.playing ? "Pause" : "Play");
     setText(byId("status"), statusOf(play));
     typedById("play", HTMLButtonElement).disabled = play.done;
-    typedById("next", HTMLButtonElement).disabled = play.done || environment[0] >= environment[1];
+    typedById("next", HTMLButtonElement).disabled = play.done || number >= of;
     if (document.activeElement !== this.speed) this.speed.value = `${play.speed}`;
   }
 }
 
-/** @param {import("./board_robots.js").BoardRobot[]} robots */
+/** @param {{page: boolean}[]} robots */
 function presence(robots) {
-  const open = robots.filter(({ page }) => page).length;
-  return `${open} of ${robots.length} robots have a page.`;
-}
-
-/**
- * How the environment has ended or, while it goes on, how those before it did.
- * @param {BoardMessage} message
- */
-function resultOf({ play, ended: [finished, all] }) {
-  if (play.ended) return ending(play.ended, play.done).join(": ");
-  return all ? `All food found in ${finished} of ${all} environments so far` : "";
+  return `${robots.filter(({ page }) => page).length} of ${robots.length} robots have a page.`;
 }
 
 /** @param {Play} play */
@@ -138,18 +139,11 @@ function statusOf(play) {
   return play.playing ? "live" : "paused";
 }
 
-/** @param {number} ms */
-function clockOf(ms) {
-  const seconds = Math.floor(ms / 1000);
-  return `${Math.floor(seconds / 60)}:${`${seconds % 60}`.padStart(2, "0")}`;
-}
-
 /** @param {{urls: string[], modules: string[]}} join */
 function showJoin({ urls, modules }) {
   byId("urls").replaceChildren(...urls.map((url) => {
-    const item = document.createElement("li");
-    item.textContent = url;
-    return item;
+    const [, home, code] = /^([^/]+\/)([^/]+)$/.exec(url) ?? ["", url, ""];
+    return made("li", [home, made("b", [code])]);
   }));
   const canvas = typedById("qr", HTMLCanvasElement);
   canvas.hidden = modules.length === 0;

@@ -1,5 +1,9 @@
 // @ts-check
-/* The curves of all robots on the board: what came so far, and how it is drawn. */
+/* The curves of all robots on the board: what came so far, in one chart. */
+
+import { typedById } from "../core/elements.js";
+import { drawChart, strokeOf } from "../draw/chart.js";
+import { PATTERNS } from "../generated.js";
 
 /**
  * @typedef {"trials" | "blocked" | "cells" | "meals"} CurveName
@@ -11,14 +15,11 @@
  * @typedef {{anew: boolean, ticks: number[], robots: Samples[]}} NewSamples
  */
 
-/** Size of a drawing: any, for it is stretched. */
-const WIDTH = 100;
-const HEIGHT = 30;
-const MARGIN = 1.5;
-
-/** Collects samples. */
+/** Collects samples, and fills the element `chart` with the curves that the element `curve` asks for. */
 export class BoardCurves {
   constructor() {
+    this.canvas = typedById("chart", HTMLCanvasElement);
+    this.select = typedById("curve", HTMLSelectElement);
     /** @type {number[]} */
     this.ticks = [];
     /** @type {Samples[]} */
@@ -44,25 +45,18 @@ export class BoardCurves {
   }
 
   /**
-   * The highest value of all robots, at least 1.
-   * @param {CurveName} name
+   * @param {import("../draw/scene.js").Scene} scene
+   * @param {string[]} colours - That tell robots apart.
    */
-  most(name) {
-    return this.robots.reduce((most, samples) => samples[name].reduce((high, value) => Math.max(high, value), most), 1);
-  }
-
-  /**
-   * A robot's curve as an SVG path.
-   * @param {number} robot
-   * @param {CurveName} name
-   * @param {number} most - The value at the top.
-   */
-  path(robot, name, most) {
-    const end = Math.max(1, this.ticks.at(-1) ?? 1);
-    const y = (/** @type {number} */ value) => HEIGHT - MARGIN - (value / most) * (HEIGHT - 2 * MARGIN);
-    const points = this.ticks.map((tick, i) => `${((tick / end) * WIDTH).toFixed(1)} ${y(this.robots[robot][name][i]).toFixed(1)}`);
-    return points.length ? `M${points.join("L")}` : "";
+  draw(scene, colours) {
+    const curve = /** @type {CurveName} */ (this.select.value);
+    const unit = curve === "blocked" ? scene.measures.tick_ms / 1000 : 1;
+    const end = this.ticks.at(-1) ?? 0;
+    const lines = this.robots.map((samples, i) => ({
+      ...strokeOf(i, colours), name: `${scene.states[i].node}`, ticks: this.ticks, counts: samples[curve].map((count) => count * unit), end,
+    }));
+    const high = Math.max(1, ...this.robots.map((_, i) => this.last(i, curve) * unit));
+    const most = curve === "cells" ? PATTERNS.length - 1 : Math.ceil(high);
+    drawChart(this.canvas, lines, { last: end, most, time: scene.clock(scene.environment.start_tick + end) });
   }
 }
-
-export const VIEW_BOX = `0 0 ${WIDTH} ${HEIGHT}`;

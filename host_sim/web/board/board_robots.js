@@ -1,81 +1,61 @@
 // @ts-check
-/* The board's cards: each robot with its name tag, its curve, and how much it knows. */
+/* Who has learned what: a row for each robot, a column for each pattern. */
 
-import { VIEW_BOX } from "./board_curves.js";
-import { byId, setText } from "../core/elements.js";
-import { PATTERNS } from "../generated.js";
+import { made } from "../core/building.js";
+import { byId } from "../core/elements.js";
+import { binary } from "../core/phrases.js";
+import { PATTERNS, SIDES } from "../generated.js";
+import { pictureOf } from "../panel/cells_view.js";
 
 /**
- * @typedef {import("./board_curves.js").BoardCurves} BoardCurves
- * @typedef {import("./board_curves.js").CurveName} CurveName
+ * @typedef {import("../draw/scene.js").Scene} Scene
  *
- * A robot, from host_sim/live/board_feed.py.
- * @typedef {{node: number, name: string, page: boolean, sides: number[]}} BoardRobot
- *
- * @typedef {{item: HTMLElement, name: HTMLElement, value: HTMLElement, path: Element, knows: HTMLElement}} Card
+ * A robot in the table: `page`, whether one of its own is open; `meals`, the pieces of food that it has eaten.
+ * @typedef {{node: number, name: string, colour: string, page: boolean, memory: number[], meals: number}} Row
  */
 
-const SVG = "http://www.w3.org/2000/svg";
 const ALL = PATTERNS.length - 1;
+const ARROWS = ["·", "↰", "↱"];
+/** Robots in one table; more of them stand in several, side by side. */
+const ROWS_MAX = 16;
 
-/** Fills the element robots. */
+/** Fills the element `class`. */
 export class BoardRobots {
   constructor() {
-    this.list = byId("robots");
-    /** @type {Card[]} */
-    this.cards = [];
+    this.element = byId("class");
+    this.shown = "";
   }
 
-  /**
-   * @param {BoardRobot[]} robots
-   * @param {BoardCurves} curves
-   * @param {{curve: CurveName, tickMs: number, own: boolean}} how - `own`: whether each page has a robot of its own.
-   */
-  show(robots, curves, { curve, tickMs, own }) {
-    while (this.cards.length < robots.length) this.cards.push(this.addCard());
-    const most = curve === "cells" ? ALL : curves.most(curve);
-    robots.forEach((robot, i) => {
-      const { item, name, value, path, knows } = this.cards[i];
-      const known = robot.sides.filter(Boolean).length;
-      setText(name, robot.name || `Robot ${robot.node}`);
-      setText(value, textOf(curve === "cells" ? known : curves.last(i, curve), curve, tickMs));
-      setText(knows, wordsOf(known, curves.last(i, "meals")));
-      path.setAttribute("d", curves.path(i, curve, most));
-      item.classList.toggle("empty", own && !robot.page);
-      item.classList.toggle("whole", known === ALL);
-    });
-  }
-
-  addCard() {
-    const item = this.list.appendChild(document.createElement("li"));
-    const head = item.appendChild(document.createElement("div"));
-    head.className = "name";
-    const [name, value] = [0, 1].map(() => head.appendChild(document.createElement("span")));
-    const drawing = item.appendChild(document.createElementNS(SVG, "svg"));
-    drawing.setAttribute("viewBox", VIEW_BOX);
-    drawing.setAttribute("preserveAspectRatio", "none");
-    drawing.setAttribute("aria-hidden", "true");
-    const path = drawing.appendChild(document.createElementNS(SVG, "path"));
-    const knows = item.appendChild(document.createElement("div"));
-    knows.className = "knows";
-    return { item, name, value, path, knows };
+  /** @param {Row[]} rows */
+  show(rows) {
+    const key = JSON.stringify(rows);
+    if (key === this.shown) return;
+    this.shown = key;
+    const tables = Math.ceil(rows.length / ROWS_MAX);
+    const each = Math.ceil(rows.length / tables);
+    document.body.classList.toggle("many", tables > 1);
+    document.body.style.setProperty("--rows", `${each + 1}`);
+    this.element.replaceChildren(...Array.from({ length: tables }, (_, i) => tableOf(rows.slice(i * each, (i + 1) * each))));
   }
 }
 
-/**
- * @param {number} value
- * @param {CurveName} curve
- * @param {number} tickMs
- */
-function textOf(value, curve, tickMs) {
-  return curve === "blocked" ? `${((value * tickMs) / 1000).toFixed(1)} s` : `${value}`;
+/** @param {Row[]} rows */
+function tableOf(rows) {
+  const patterns = PATTERNS.slice(1).map((name, i) => {
+    return made("th", [pictureOf(i + 1), binary(i + 1)], { scope: "col", title: name });
+  });
+  const numbers = ["knows", "ate"].map((name) => made("th", [name], { scope: "col" }));
+  const head = made("tr", [made("th", ["Robot"], { scope: "col" }), ...patterns, ...numbers]);
+  return made("table", [made("thead", [head]), made("tbody", rows.map(rowOf))]);
 }
 
-/**
- * @param {number} known
- * @param {number} meals
- */
-function wordsOf(known, meals) {
-  const knows = known === ALL ? `✓ knows all ${ALL} patterns` : `knows ${known} of ${ALL}`;
-  return `${knows}, ate ${meals}`;
+/** @param {Row} row */
+function rowOf({ node, name, colour, page, memory, meals }) {
+  const tag = made("span", [`${node}`], { class: "tag" });
+  tag.style.setProperty("--colour", colour);
+  const cells = memory.slice(1).map((side) => made("td", [ARROWS[side]], { "data-side": SIDES[side], title: SIDES[side] }));
+  const known = memory.filter((side, cell) => cell > 0 && side > 0).length;
+  const numbers = [`${known}/${ALL}`, `${meals}`];
+  const head = made("th", [tag, name || (page ? "–" : "free")], { scope: "row", title: name || `Robot ${node}` });
+  return made("tr", [head, ...cells, ...numbers.map((text) => made("td", [text], { class: "number" }))], page ? {} : { class: "empty" });
 }

@@ -7,10 +7,13 @@ const NAMES = /** @type {const} */ ([
   "floor", "grid", "ink", "paper", "bar", "food", "cone", "cone-dark", "beam", "select", "plant",
 ]);
 
+const ROBOT_COLOURS = 8;
+
 /**
  * @typedef {Object} Palette
  * @property {Record<typeof NAMES[number], string>} of - Colour by name.
  * @property {string[]} reasons - Colour by reason.
+ * @property {string[]} robots - Colours that tell robots apart.
  */
 
 /** What the style sheet calls each reason, by reason: "toward-food". */
@@ -29,5 +32,6 @@ export function paletteOf(element) {
   return {
     of: /** @type {Palette["of"]} */ (Object.fromEntries(NAMES.map((name) => [name, colour(name)]))),
     reasons: REASON_KEYS.map((key) => colour(`reason-${key}`)),
+    robots: Array.from({ length: ROBOT_COLOURS }, (_, i) => colour(`robot-${i}`)),
   };
 }

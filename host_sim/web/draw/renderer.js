@@ -3,7 +3,7 @@
 
 import { contextOf } from "../core/elements.js";
 import { paletteOf } from "../core/palette.js";
-import { drawLook, drawRobot } from "./robot_view.js";
+import { drawLook, drawRobot, drawTag } from "./robot_view.js";
 import { circle, drawPlant } from "./shapes.js";
 import { TrailLayer } from "./trail_layer.js";
 
@@ -39,7 +39,7 @@ export class Renderer {
   draw(scene) {
     this.useColours();
     const { context, palette } = this;
-    const states = [...scene.states.filter(({ node }) => node !== scene.node), scene.state];
+    const states = [...scene.states].sort((a, b) => Number(a === scene.state) - Number(b === scene.state));
     this.fit(scene.measures);
     this.drawFloor(scene.measures);
     this.trailLayer.draw(context, scene.trails, palette.reasons, scene.trail);
@@ -48,6 +48,7 @@ export class Renderer {
     this.drawBars(scene);
     this.drawPlants(scene);
     for (const state of states) drawRobot(context, scene, state, palette);
+    if (scene.tags.length) for (const state of states) drawTag(context, scene, state, palette);
     if (scene.meant?.first_tick === scene.environment.first_tick) this.drawMeant(scene.meant, scene);
   }
 

@@ -3,7 +3,7 @@
 
 import { REASON } from "../generated.js";
 import { CONES } from "../core/sensors.js";
-import { circle, drawDisc, drawRing, drawText } from "./shapes.js";
+import { circle, drawDisc, drawRing, drawText, textWidth } from "./shapes.js";
 
 /**
  * @typedef {import("../core/palette.js").Palette} Palette
@@ -19,6 +19,9 @@ const SIGN_MM = 290;
 const SIGN_ROOM_MM = 400;
 const NUMBER_MM = 165;
 const NUMBER_ROOM_MM = 260;
+const TAG_MM = 95;
+const TAG_AT_MM = 200;
+const TAG_ROOM_MM = 280;
 
 /**
  * @param {CanvasRenderingContext2D} context - In mm.
@@ -38,7 +41,7 @@ export function drawRobot(context, scene, state, palette) {
   if (item?.kind === "robot" && item.id === state.node) drawRing(context, measures.body * 1.12, palette.of.select);
   drawBody(context, palette.reasons[scene.reasonOf(state)], measures, palette);
   context.restore();
-  if (scene.states.length > 1) drawNumber(context, scene, state, palette);
+  if (scene.states.length > 1 && !scene.tags.length) drawNumber(context, scene, state, palette);
   drawTrial(context, state, measures, palette);
   context.restore();
 }
@@ -152,6 +155,28 @@ function drawNumber(context, scene, state, palette) {
   const [ground, ink] = shown ? [palette.of.ink, palette.of.paper] : [palette.of.paper, palette.of.ink];
   drawDisc(context, { ...at, radius: 72, ground, edge: palette.of.ink, width: 10 });
   drawText(context, `${state.node}`, { ...at, size: state.node < 10 ? 100 : 80, colour: ink });
+}
+
+/**
+ * The robot's name below its body, or above it where there is no room.
+ * @param {CanvasRenderingContext2D} context
+ * @param {Scene} scene
+ * @param {State} state
+ * @param {Palette} palette
+ */
+export function drawTag(context, scene, state, palette) {
+  const { x, y } = scene.poseOf(state);
+  const { name, colour } = scene.tags[scene.states.indexOf(state)];
+  const half = textWidth(context, name, TAG_MM) / 2 + TAG_MM / 3;
+  const at = {
+    x: Math.max(half, Math.min(scene.measures.width - half, x)),
+    y: y + (y < scene.measures.height - TAG_ROOM_MM ? TAG_AT_MM : -TAG_AT_MM),
+  };
+  context.fillStyle = colour;
+  context.beginPath();
+  context.roundRect(at.x - half, at.y - 0.65 * TAG_MM, 2 * half, 1.3 * TAG_MM, TAG_MM / 2);
+  context.fill();
+  drawText(context, name, { ...at, size: TAG_MM, colour: palette.of.paper });
 }
 
 /**

@@ -23,6 +23,10 @@ import { trailsFor } from "./trail.js";
  */
 
 /**
+ * @typedef {{name: string, colour: string}} Tag
+ */
+
+/**
  * Where a person holds a robot: mm and mrad.
  * @typedef {{x: number, y: number, heading: number}} Ghost
  */
@@ -50,6 +54,8 @@ export class Scene {
     this.item = undefined;
     /** What an answer speaks of, and is lit up. @type {Meant | undefined} */
     this.meant = undefined;
+    /** What each robot wears in place of its number, in the order of the states; empty where none does. @type {Tag[]} */
+    this.tags = [];
     /** @type {Map<number, Ghost>} */
     this.ghosts = new Map();
     /** @type {Map<number, State>} */

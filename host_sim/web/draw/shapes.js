@@ -66,6 +66,17 @@ export function drawText(context, text, { x, y, size, colour }) {
 }
 
 /**
+ * How wide `drawText` writes a text.
+ * @param {CanvasRenderingContext2D} context
+ * @param {string} text
+ * @param {number} size
+ */
+export function textWidth(context, text, size) {
+  context.font = `bold ${size}px ${FONT}`;
+  return context.measureText(text).width;
+}
+
+/**
  * Begins a path that is one circle.
  * @param {CanvasRenderingContext2D} context
  * @param {number} x

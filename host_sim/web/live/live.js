@@ -2,6 +2,7 @@
 /* The live page: shows what comes over the WebSocket, sends what a person does. */
 
 import { byId, setText } from "../core/elements.js";
+import { Connection } from "./connection.js";
 import { LiveSeat, pageKey } from "./live_seat.js";
 import { LiveView } from "./live_view.js";
 import { Toast } from "../core/toast.js";
@@ -14,10 +15,7 @@ import { TalkBox } from "../talk/talk_box.js";
  * @typedef {import("../types.js").Message} Message
  */
 
-const RECONNECT_MS = 1000;
-const GOING_AWAY = 1001;
-
-/** Connects, and connects again; draws at most once a frame of the screen. */
+/** Draws at most once a frame of the screen. */
 class LivePage {
   constructor() {
     /** @type {LiveView | undefined} */
@@ -34,8 +32,7 @@ class LivePage {
     this.key = pageKey();
     this.seat = new LiveSeat((command) => this.send(command));
     this.talk = new TalkBox(byId("talk"), this);
-    this.hasEnded = false;
-    this.socket = this.connect();
+    this.connection = new Connection(`/live${query(this.key)}`, (message) => this.accept(message));
   }
 
   get scene() {
@@ -46,29 +43,9 @@ class LivePage {
     return this.message?.play;
   }
 
-  connect() {
-    const scheme = location.protocol === "https:" ? "wss:" : "ws:";
-    const socket = new WebSocket(`${scheme}//${location.host}/live${query(this.key)}`);
-    socket.addEventListener("message", (event) => this.accept(JSON.parse(event.data)));
-    socket.addEventListener("close", (event) => this.onClose(event));
-    return socket;
-  }
-
-  /**
-   * Connects again: the next run may come to the same address.
-   * @param {CloseEvent} event
-   */
-  onClose(event) {
-    this.hasEnded ||= event.code === GOING_AWAY;
-    const lost = this.hasEnded ? "the run has ended; waiting for the next one" : "no connection, trying again";
-    setText(byId("status"), lost);
-    document.body.classList.add("lost");
-    setTimeout(() => (this.socket = this.connect()), RECONNECT_MS);
-  }
-
   /** @param {Command} command */
   send(command) {
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
+    this.connection.send(command);
   }
 
   /**
@@ -86,7 +63,6 @@ class LivePage {
   /** @param {Message} message */
   accept(message) {
     const { measures, environment, states } = message;
-    if (measures) this.onConnected();
     const startedOver = !measures && environment && environment.start_tick !== this.scene?.environment.start_tick;
     if (measures && environment) {
       const scene = new Scene(measures, environment, states);
@@ -100,11 +76,6 @@ class LivePage {
     message.answers?.forEach(({ places, ...exchange }) => this.talk.answer(exchange, places));
     this.message = message;
     this.drawSoon();
-  }
-
-  onConnected() {
-    this.hasEnded = false;
-    document.body.classList.remove("lost");
   }
 
   /** Draws with the next frame of the screen. */

@@ -10,13 +10,13 @@ import { LessonsView } from "../panel/lessons_view.js";
 import { Panel } from "../panel/panel.js";
 import { Renderer } from "../draw/renderer.js";
 import { RobotPicker } from "../panel/robot_picker.js";
-import { Scene } from "../draw/scene.js";
+import { showMessage } from "./message_scene.js";
 
 /**
  * @typedef {import("../types.js").Command} Command
- * @typedef {import("../types.js").EnvironmentScene} EnvironmentScene
  * @typedef {import("../types.js").Lesson} Lesson
  * @typedef {import("../types.js").Message} Message
+ * @typedef {import("../draw/scene.js").Scene} Scene
  */
 
 const LESSONS_SHOWN = 30;
@@ -46,38 +46,12 @@ export class LiveView {
   }
 
   /** @param {Message} message */
-  accept({ measures, environment, states, trails, lessons, news }) {
-    const { scene } = this;
-    if (measures && environment) this.restart(new Scene(measures, environment, states));
-    if (environment) this.enter(environment);
-    scene.states = states;
-    scene.news = news ?? scene.news;
-    trails.forEach((points, i) => {
-      for (let at = 0; at < points.length; at += 3) scene.trails[i].add(points[at], points[at + 1], points[at + 2]);
-    });
-    for (const lesson of lessons) this.addLesson(lesson);
-  }
-
-  /**
-   * The page has connected again: nothing of before holds, but for the robot that is selected.
-   * @param {Scene} scene
-   */
-  restart(scene) {
-    const { node } = this.scene;
-    Object.assign(this.scene, scene);
-    if (scene.states.some((state) => state.node === node)) this.scene.node = node;
-    this.lessons.clear();
-  }
-
-  /** @param {EnvironmentScene} environment */
-  enter(environment) {
-    const { scene } = this;
-    const before = scene.environment;
-    const isNew = before.number !== environment.number || before.seed !== environment.seed;
-    if (isNew) scene.trails.forEach((trail) => trail.clear());
-    if (before.start_tick !== environment.start_tick) this.lessons.clear();
-    scene.environment = environment;
-    this.editor.onEnvironment();
+  accept(message) {
+    const before = this.scene.environment.start_tick;
+    showMessage(this.scene, message);
+    if (message.measures || this.scene.environment.start_tick !== before) this.lessons.clear();
+    if (message.environment) this.editor.onEnvironment();
+    for (const lesson of message.lessons) this.addLesson(lesson);
   }
 
   /** @param {Lesson} lesson */

@@ -54,7 +54,7 @@ export class Panel {
     const { state, measures } = scene;
     this.showSentence(scene.shown.get(state.node) ?? state, exact);
     this.showBoredom(state, measures);
-    this.showFacts(scene);
+    showFacts(scene);
     setText(byId("memory-title"), scene.states.length > 1 ? MEMORY.replace(":", ` of robot ${state.node}:`) : MEMORY);
     this.cells.show(scene, then, where);
   }
@@ -91,16 +91,19 @@ export class Panel {
     meter.setAttribute("aria-valuemax", `${measures.boredom}`);
     setText(byId("boredom-count"), words);
   }
+}
 
-  /** @param {Scene} scene */
-  showFacts(scene) {
-    const { environment, state } = scene;
-    const left = environment.food.length - state.eaten.reduce((sum, eaten) => sum + eaten, 0);
-    setText(byId("fact-environment"), `${environment.number} of ${environment.of}`);
-    setText(byId("fact-food"), `${left} of ${environment.food.length}`);
-    setText(byId("fact-time"), scene.clock(state.tick));
-    setText(byId("fact-seed"), `${environment.seed}`);
-  }
+/**
+ * How the run stands.
+ * @param {Scene} scene
+ */
+export function showFacts(scene) {
+  const { environment, state } = scene;
+  const left = environment.food.length - state.eaten.reduce((sum, eaten) => sum + eaten, 0);
+  setText(byId("fact-environment"), `${environment.number} of ${environment.of}`);
+  setText(byId("fact-food"), `${left} of ${environment.food.length}`);
+  setText(byId("fact-time"), scene.clock(state.tick));
+  setText(byId("fact-seed"), `${environment.seed}`);
 }
 
 /** @param {HTMLElement} list */

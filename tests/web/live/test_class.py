@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 import aiohttp
 import pytest
 
+from host_sim.live.join_code import EACH_MAX
 from tests.web.live.class_load import Pupil, attend, home, socket_url
 from tests.web.support import DEADLINE_S, Watched, start_watched
 
@@ -87,6 +88,22 @@ def test_a_pupil_cannot_open_the_board(of_two, path, allowed):
         assert asyncio.run(status(board_url(of_two).partition("?")[2])) == 200
 
 
+def test_the_code_leads_to_the_page_and_guesses_are_limited(watch):
+    watched = watch("--listen", "127.0.0.1", "--robots", "2")
+    line = next(line for line in watched.process.stdout if line.startswith("to type"))
+    code = re.search(r"/([a-z]+-\d{4})", line)[1]
+
+    async def ask(*codes: str) -> list[tuple[int, str]]:
+        async with aiohttp.ClientSession() as session:
+            answers = [await session.get(f"{home(watched.url)}/{code}", allow_redirects=False) for code in codes]
+            return [(answer.status, answer.headers.get("Location", "")) for answer in answers]
+
+    to_the_page = (302, watched.url.removeprefix(home(watched.url)))
+    wrong = ["zzz-0000"] * EACH_MAX
+    assert asyncio.run(ask(code, code.upper(), code.replace("-", ""))) == [to_the_page] * 3
+    assert asyncio.run(ask(*wrong, code)) == [(403, "")] * EACH_MAX + [(429, "")]
+
+
 def test_nothing_moves_before_someone_watches(watch):
     watched = watch("--listen", "127.0.0.1", "--limit-s", "600")
     board_url(watched)
@@ -110,14 +127,14 @@ def test_the_board_begins_the_run_if_it_is_open_first(watch):
             first = json.loads(await board.receive_str(timeout=DEADLINE_S))
             await attend(socket_url(watched), [pupil], 0)
             await board.send_str('{"do": "play"}')
-            while (last := json.loads(await board.receive_str(timeout=DEADLINE_S)))["clock_ms"] == 0:
+            while (last := json.loads(await board.receive_str(timeout=DEADLINE_S)))["states"][0]["tick"] == 0:
                 pass
         return first, last
 
     first, last = asyncio.run(teach())
 
     assert first["play"]["waits"]
-    assert first["join"]["urls"] == [watched.url]
+    assert re.fullmatch(r"127\.0\.0\.1:\d+/[a-z]+-\d{4}", first["board"]["join"]["urls"][0])
     assert (pupil.first["play"]["waits"], pupil.first["states"][0]["tick"]) == (True, 0)
     assert not last["play"]["waits"]
-    assert [robot["page"] for robot in first["robots"]] == [False, False]
+    assert [robot["page"] for robot in first["board"]["robots"]] == [False, False]

@@ -1,0 +1,117 @@
+// @ts-check
+/* A chart of counts that grow with time: a line for each robot, with its name at the end. */
+
+import { contextOf } from "../core/elements.js";
+import { paletteOf } from "../core/palette.js";
+
+/**
+ * `counts[i]` holds from `ticks[i]` on; before the first one, it is 0. The line ends at the tick `end`.
+ * @typedef {{name: string, colour: string, dash: number[], ticks: ArrayLike<number>, counts: ArrayLike<number>, end: number}} Line
+ *
+ * @typedef {{x: (tick: number) => number, y: (count: number) => number, size: number}} Scale
+ */
+
+const DASHES = [[], [8, 4], [2, 3], [8, 3, 2, 3]];
+
+/**
+ * How the line of one of many robots is drawn.
+ * @param {number} index
+ * @param {string[]} colours
+ */
+export function strokeOf(index, colours) {
+  return { colour: colours[index % colours.length], dash: DASHES[Math.floor(index / colours.length) % DASHES.length] };
+}
+
+/**
+ * @param {HTMLCanvasElement} canvas - Gives the size of the font.
+ * @param {Line[]} lines
+ * @param {{last: number, most: number, time: string}} ends - The tick at the right end, what to call it, and the count at
+ *   the top.
+ */
+export function drawChart(canvas, lines, { last, most, time }) {
+  const [width, height, size] = [canvas.clientWidth, canvas.clientHeight, parseFloat(getComputedStyle(canvas).fontSize)];
+  canvas.width = Math.round(width * devicePixelRatio);
+  canvas.height = Math.round(height * devicePixelRatio);
+  const context = contextOf(canvas);
+  context.scale(devicePixelRatio, devicePixelRatio);
+  const [left, right, top, bottom] = [2.2 * size, width - 1.8 * size, 0.6 * size, height - 1.6 * size];
+  const scale = {
+    x: (/** @type {number} */ tick) => left + (tick / Math.max(1, last)) * (right - left),
+    y: (/** @type {number} */ count) => bottom - (count / Math.max(1, most)) * (bottom - top),
+    size,
+  };
+  context.font = `${size}px system-ui, sans-serif`;
+  drawAxes(context, paletteOf(canvas), scale, { last, most, time });
+  const names = lines.map((line, i) => {
+    const shift = (i - (lines.length - 1) / 2) * Math.min(size / 5, (bottom - top) / Math.max(1, most) / (2 * lines.length));
+    return { ...line, y: drawLine(context, line, { ...scale, y: (count) => scale.y(count) + shift }) };
+  });
+  drawNames(context, names, scale, { top, bottom });
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {import("../core/palette.js").Palette} palette
+ * @param {Scale} scale
+ * @param {{last: number, most: number, time: string}} ends
+ */
+function drawAxes(context, { of }, { x, y, size }, { last, most, time }) {
+  context.fillStyle = of.ink;
+  context.strokeStyle = of["cone-dark"];
+  context.lineWidth = 1;
+  context.textAlign = "right";
+  const step = Math.max(1, Math.ceil(most / 7));
+  for (let count = 0; count <= most; count += step) {
+    context.beginPath();
+    context.moveTo(x(0), y(count));
+    context.lineTo(x(last), y(count));
+    context.stroke();
+    context.fillText(`${count}`, x(0) - size / 2, y(count) + size / 3);
+  }
+  context.fillText(time, x(last), y(0) + 1.3 * size);
+}
+
+/**
+ * @param {CanvasRenderingContext2D} context
+ * @param {Line} line
+ * @param {Scale} scale
+ * @returns {number} The height at which it ends, px.
+ */
+function drawLine(context, { ticks, counts, end, colour, dash }, { x, y, size }) {
+  context.strokeStyle = colour;
+  context.lineWidth = size / 6;
+  context.setLineDash(dash);
+  context.beginPath();
+  context.moveTo(x(0), y(0));
+  let count = 0;
+  for (let i = 0; i < ticks.length && ticks[i] <= end; i += 1) {
+    context.lineTo(x(ticks[i]), y(count));
+    count = counts[i];
+    context.lineTo(x(ticks[i]), y(count));
+  }
+  context.lineTo(x(end), y(count));
+  context.stroke();
+  context.setLineDash([]);
+  return y(count);
+}
+
+/**
+ * Writes each name beside the end of its line, or as near to it as the others leave room.
+ * @param {CanvasRenderingContext2D} context
+ * @param {(Line & {y: number})[]} lines
+ * @param {Scale} scale
+ * @param {{top: number, bottom: number}} room
+ */
+function drawNames(context, lines, { x, size }, { top, bottom }) {
+  const gap = Math.min(size, (bottom - top) / lines.length);
+  const order = [...lines].sort((a, b) => a.y - b.y);
+  context.font = `bold ${gap}px system-ui, sans-serif`;
+  context.textAlign = "left";
+  let lowest = top;
+  order.forEach(({ name, colour, y, end }, i) => {
+    lowest = Math.min(Math.max(lowest, y), bottom - (order.length - 1 - i) * gap);
+    context.fillStyle = colour;
+    context.fillText(name, x(end) + size / 3, lowest + gap / 3);
+    lowest += gap;
+  });
+}

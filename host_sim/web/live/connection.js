@@ -1,0 +1,52 @@
+// @ts-check
+/* The WebSocket of a live run: connects, and connects again. */
+
+import { byId, setText } from "../core/elements.js";
+
+/** @typedef {import("../types.js").Command} Command */
+
+const RECONNECT_MS = 1000;
+const GOING_AWAY = 1001;
+
+/** Says in the element `status` when it is lost; the next run may come to the same address. */
+export class Connection {
+  /**
+   * @param {string} path - The address, with its query.
+   * @param {(message: any) => void} accept - Gets each message.
+   */
+  constructor(path, accept) {
+    this.path = path;
+    this.accept = accept;
+    this.hasEnded = false;
+    this.socket = this.connect();
+  }
+
+  connect() {
+    const scheme = location.protocol === "https:" ? "wss:" : "ws:";
+    const socket = new WebSocket(`${scheme}//${location.host}${this.path}`);
+    socket.addEventListener("message", (event) => this.onMessage(event.data));
+    socket.addEventListener("close", (event) => this.onClose(event));
+    return socket;
+  }
+
+  /** @param {string} text */
+  onMessage(text) {
+    this.hasEnded = false;
+    document.body.classList.remove("lost");
+    this.accept(JSON.parse(text));
+  }
+
+  /** @param {CloseEvent} event */
+  onClose(event) {
+    this.hasEnded ||= event.code === GOING_AWAY;
+    const lost = this.hasEnded ? "the run has ended; waiting for the next one" : "no connection, trying again";
+    setText(byId("status"), lost);
+    document.body.classList.add("lost");
+    setTimeout(() => (this.socket = this.connect()), RECONNECT_MS);
+  }
+
+  /** @param {Command} command */
+  send(command) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(command));
+  }
+}
