@@ -17,6 +17,7 @@ from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
 from host_sim.live.seats import Rights, Seats
 from host_sim.live.visitor import Visitor
+from host_sim.view.languages import with_languages
 
 PAGES_MAX = 64
 """Maximum number of open pages: a class, those that have just been reloaded, and the board."""
@@ -113,11 +114,11 @@ class LiveServer:
 
     async def _page(self, request: web.Request) -> web.StreamResponse:
         self._check_token(request, self._listener.holds)
-        return _file("live.html")
+        return _html("live.html")
 
     async def _board(self, request: web.Request) -> web.StreamResponse:
         self._check_token(request, self._listener.holds_board)
-        return _file("board.html")
+        return _html("board.html")
 
     async def _join(self, request: web.Request) -> web.StreamResponse:
         """Takes who has typed the code to the page."""
@@ -212,6 +213,10 @@ class LiveServer:
 async def _say_goodbye(page: web.WebSocketResponse) -> None:
     with contextlib.suppress(ConnectionError, asyncio.TimeoutError):
         await asyncio.wait_for(page.close(code=WSCloseCode.GOING_AWAY, message=b"the run has ended"), 1.0)
+
+
+def _html(name: str) -> web.Response:
+    return web.Response(text=with_languages((WEB / name).read_text(encoding="utf-8")), content_type="text/html")
 
 
 def _file(name: str) -> web.FileResponse:

@@ -1,7 +1,6 @@
 """`octet.html`: the robot itself, its world and the laboratory around them, in one page without a server."""
 
 import base64
-import json
 import zlib
 from dataclasses import asdict
 from pathlib import Path
@@ -9,7 +8,7 @@ from typing import Any
 
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
-from host_sim.base.paths import PACKAGE, PAGE_WASM, WEB
+from host_sim.base.paths import PACKAGE, PAGE_WASM
 from host_sim.protocol.generated import PARAMETERS
 from host_sim.report.page_bundle import page_of, with_data
 from host_sim.report.speakers import speakers
@@ -41,8 +40,7 @@ def octet_page() -> str:
     """The page's HTML.
 
     Its element `parts` has the WebAssembly, as base64 of a zlib stream, the dimensions of all named worlds and the
-    programs to begin with; `lesson-texts` and `program-texts` have the words of the lessons and of the editor of
-    programs in each language, `speakers` those who can be talked to.
+    programs to begin with; `speakers` those who can be talked to.
 
     Raises:
         OctetError: The WebAssembly is not built.
@@ -53,8 +51,7 @@ def octet_page() -> str:
         raise OctetError(f"cannot read {PAGE_WASM}: {error.strerror}; build it with tools/setup page") from None
     packed = base64.b64encode(zlib.compress(wasm, 9)).decode()
     parts = {"wasm": packed, "worlds": world_dimensions(), "programs": programs()}
-    text = with_data(with_data(page_of(_TEMPLATE), "parts", parts), "speakers", speakers())
-    return with_data(with_data(text, "lesson-texts", texts("lessons")), "program-texts", texts("program"))
+    return with_data(with_data(page_of(_TEMPLATE), "parts", parts), "speakers", speakers())
 
 
 def world_dimensions() -> dict[str, dict[str, Any]]:
@@ -70,9 +67,3 @@ def programs() -> dict[str, str]:
     """The programs that a person can begin with, by name."""
     files = sorted((PACKAGE / "program" / "examples").glob("*.bas"))
     return {path.stem: path.read_text(encoding="utf-8") for path in files}
-
-
-def texts(folder: str) -> dict[str, Any]:
-    """The words of a part of the page, by the code of their language."""
-    files = sorted((WEB / folder / "texts").glob("*.json"))
-    return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in files}

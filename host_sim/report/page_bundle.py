@@ -7,12 +7,12 @@ So that a template can be opened as it is:
   declaration. A module in a folder of `web/` is known by its path from there, `folder/y.js`.
 """
 
-import json
 import posixpath
 import re
 from collections.abc import Iterator
 
 from host_sim.base.paths import WEB
+from host_sim.view.languages import as_script, with_languages
 
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
 _SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')
@@ -22,8 +22,8 @@ _EXPORT = re.compile(r"^export ((?:async )?(?:function\*?|const|let|class) (\w+)
 
 
 def page_of(template: str) -> str:
-    """A template with its style sheet and its modules inserted."""
-    text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", _read(template))
+    """A template with its words, its style sheet and its modules inserted."""
+    text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", with_languages(_read(template)))
     text = _SCRIPT.sub(lambda match: f'<script type="module">\n{bundle(match[1])}</script>', text)
     return _WORKER.sub(lambda match: f"{match[1]}\n{bundle(match[2])}</script>", text)
 
@@ -31,8 +31,7 @@ def page_of(template: str) -> str:
 def with_data(text: str, element_id: str, data: object) -> str:
     r"""A page whose empty element `<script type="application/json" id="...">` holds data, each `<` as `\u003c`."""
     element = f'<script type="application/json" id="{element_id}"></script>'
-    inserted = json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
-    return text.replace(element, element.replace("></", f">{inserted}</"))
+    return text.replace(element, element.replace("></", f">{as_script(data)}</"))
 
 
 def bundle(*names: str) -> str:

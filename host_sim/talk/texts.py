@@ -4,12 +4,13 @@ import importlib
 import re
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from host_sim.protocol.generated import PATTERNS, SENTENCES, SIDES, Side
-from host_sim.view.phrases import Words
+from host_sim.protocol.generated import Side
+from host_sim.view.languages import languages
+from host_sim.view.phrases import ENGLISH, Words
 
 _toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
 
@@ -76,11 +77,6 @@ def read_texts(path: Path) -> Texts:
         OSError, ValueError, KeyError: It is not such a file; those of the project are.
     """
     read: dict[str, Any] = _toml.loads(path.read_text(encoding="utf-8"))
-    words = Words(
-        {**SENTENCES, **read.get("sentences", {})},
-        read.get("patterns", PATTERNS),
-        read.get("sides", SIDES),
-        read["point"],
-        read.get("many", "Many"),
-    )
+    own: dict[str, Any] = languages()[read["language"]]["robot"]
+    words = replace(ENGLISH, **{**own, "sentences": {**ENGLISH.sentences, **own.get("sentences", {})}})
     return Texts(words, read["facts"], read["spoken"], read["joined"])

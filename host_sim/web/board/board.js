@@ -5,7 +5,7 @@ import { BoardCurves } from "./board_curves.js";
 import { BoardRobots } from "./board_robots.js";
 import { made } from "../core/building.js";
 import { byId, contextOf, setText, typedById } from "../core/elements.js";
-import { ending } from "../core/phrases.js";
+import { ending } from "../core/endings.js";
 import { Toast } from "../core/toast.js";
 import { Renderer } from "../draw/renderer.js";
 import { Scene } from "../draw/scene.js";

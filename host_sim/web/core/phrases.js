@@ -5,21 +5,10 @@ import { BODY_SENTENCES, PATTERNS, REASON, SENTENCES, SIDE, SIDES } from "../gen
 import { REASON_KEYS } from "./palette.js";
 
 /**
- * @typedef {import("../types.js").Ended} Ended
- * @typedef {import("../types.js").EnvironmentScene} EnvironmentScene
  * @typedef {import("../types.js").Lesson} Lesson
  * @typedef {import("../types.js").Measures} Measures
  * @typedef {import("../types.js").State} State
  */
-
-const NAMES = {
-  STOP: "stands still", WANDER: "wanders", TOWARD_FOOD: "goes toward food", LOOK_AROUND: "looks around",
-  REMEMBERED: "remembers", TRIAL: "tries", BOREDOM: "is bored", EAT: "eats", SILENCE: "hears nothing", AVOID: "avoids",
-  PROGRAM: "does as its program says",
-};
-
-/** What each reason is called, in the order of the reasons. */
-export const REASON_NAMES = /** @type {(keyof typeof NAMES)[]} */ (Object.keys(REASON)).map((name) => NAMES[name]);
 
 /**
  * The words of a language: see Words in host_sim/view/phrases.py.
@@ -27,7 +16,7 @@ export const REASON_NAMES = /** @type {(keyof typeof NAMES)[]} */ (Object.keys(R
  */
 
 /** @type {Words} */
-const ENGLISH = { sentences: SENTENCES, patterns: PATTERNS, sides: SIDES, point: ".", many: "Many" };
+export const ENGLISH = { sentences: SENTENCES, patterns: PATTERNS, sides: SIDES, point: ".", many: "Many" };
 
 /**
  * One sentence for what a state shows.
@@ -113,50 +102,28 @@ function ofCell(name, { cell, side }, { sentences, patterns, sides }) {
  * @param {Record<string, string | number> | string[]} words - and what they stand for.
  */
 export function filled(text, words) {
-  return text.replace(/\{(\w+)\}/g, (_, word) => `${/** @type {Record<string, string | number>} */ (words)[word]}`);
-}
-
-/**
- * How an environment ended, and after the last one how all did: a heading and a sentence.
- * @param {Ended} ended
- * @param {boolean} done - Whether it was the last one.
- * @returns {[string, string]}
- */
-export function ending(ended, done) {
-  const food = ended.finished ? "All food found" : `${ended.eaten} of ${ended.food} food found`;
-  if (!done) return [food, `environment ${ended.number}, ${minutes(ended.robot_s)}`];
-  const { environments, environments_finished, environments_robot_s } = ended;
-  const all = `${environments_finished} of ${environments} environments finished`;
-  return ["ALL DONE", `${all}, ${minutes(environments_robot_s)}`];
-}
-
-/**
- * What "start over" has done.
- * @param {EnvironmentScene} environment
- * @param {State[]} states
- */
-export function restarted({ seed }, states) {
-  const empty = states.every(({ memory }) => memory.every((side) => side === SIDE.NOTHING));
-  return `Started over with seed ${seed}: ${empty ? "empty memory" : "the memory was kept"}, learning is on.`;
+  return text.replace(/\{(\w+)\}/g, (gap, word) => `${/** @type {Record<string, string | number>} */ (words)[word] ?? gap}`);
 }
 
 /**
  * Robot time of a tick, such as 1:05.2.
  * @param {number} tick - Counted from where the clock begins.
  * @param {Measures} measures
+ * @param {string} [point] - The decimal point.
  * @returns {string}
  */
-export function clock(tick, measures) {
-  return minutes((tick * measures.tick_ms) / 1000);
+export function clock(tick, measures, point) {
+  return minutes((Math.max(0, tick) * measures.tick_ms) / 1000, point);
 }
 
 /**
  * Seconds, such as 1:05.2.
  * @param {number} seconds
+ * @param {string} [point] - The decimal point.
  */
-export function minutes(seconds) {
+export function minutes(seconds, point = ".") {
   const tenths = Math.round(seconds * 10);
-  return `${Math.floor(tenths / 600)}:${((tenths % 600) / 10).toFixed(1).padStart(4, "0")}`;
+  return `${Math.floor(tenths / 600)}:${((tenths % 600) / 10).toFixed(1).padStart(4, "0").replace(".", point)}`;
 }
 
 /**

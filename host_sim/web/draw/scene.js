@@ -1,6 +1,7 @@
 // @ts-check
 /* What a page shows: the world, its robots, and what a person has selected or holds. */
 
+import { heard, robotWords } from "../core/language.js";
 import { clock } from "../core/phrases.js";
 import { trailsFor } from "./trail.js";
 
@@ -98,7 +99,7 @@ export class Scene {
   get lastNews() {
     const { environment, news, state } = this;
     const known = news.filter(([tick]) => tick >= environment.first_tick && tick <= state.tick);
-    return known.slice(-1).map(([tick, sentence]) => `${this.clock(tick)} ${sentence}`).join("");
+    return known.slice(-1).map(([tick, sentence]) => `${this.clock(tick)} ${heard(sentence)}`).join("");
   }
 
   /**
@@ -106,7 +107,7 @@ export class Scene {
    * @param {number} tick
    */
   clock(tick) {
-    return clock(tick - this.environment.start_tick, this.measures);
+    return clock(tick - this.environment.start_tick, this.measures, robotWords().point);
   }
 
   /**

@@ -2,6 +2,7 @@
 /* What a person does to the world: selects items, moves obstacles, plants, food and robots, adds and removes obstacles. */
 
 import { byId, setText, typedById } from "../core/elements.js";
+import { say } from "../core/language.js";
 import { allItems, whole } from "./hit_testing.js";
 import { endsOf, insideWalls, movedBar, plantOf, turnedBar, wirePlace } from "./placement.js";
 
@@ -60,8 +61,9 @@ export class ArenaEditor {
       if (lifted) this.lifting.delete(node);
       else if (node !== dragged && !this.lifting.has(node)) ghosts.delete(node);
     }
-    const which = states.length > 1 ? `robot ${this.robot.node}` : "the robot";
-    setText(byId("lift"), `${this.robot.lifted ? "Put down" : "Pick up"} ${which}`);
+    const { node, lifted } = this.robot;
+    const several = states.length > 1;
+    setText(byId("lift"), say(lifted ? (several ? "putDownNumber" : "putDown") : several ? "pickUpNumber" : "pickUp", { node }));
   }
 
   /** Something could not be done: no robot is about to be lifted, and no obstacle about to come. */

@@ -2,6 +2,7 @@
 /* The curves of the runs, growing with time, and the table of what they have come to. */
 
 import { byId, setText, typedById } from "../core/elements.js";
+import { heard, inEachLanguage, nameIn, say } from "../core/language.js";
 import { paletteOf } from "../core/palette.js";
 import { drawChart, strokeOf } from "../draw/chart.js";
 import { NAMES, growthOf, rowsOf } from "./results.js";
@@ -17,10 +18,13 @@ export class Curves {
   constructor() {
     this.canvas = typedById("chart", HTMLCanvasElement);
     this.select = typedById("curve", HTMLSelectElement);
-    byId("result-names").append(...NAMES.map((name) => cellFor("th", name)));
     /** @type {WeakMap<import("../core/run_data.js").RobotData, Map<Curve, Growth>>} */
     this.grown = new WeakMap();
     this.key = "";
+    inEachLanguage(() => {
+      this.key = "";
+      byId("result-names").replaceChildren(...NAMES.map((name) => cellFor("th", nameIn("columns", name))));
+    });
   }
 
   /**
@@ -33,7 +37,7 @@ export class Curves {
     const key = JSON.stringify(rows);
     if (key === this.key) return;
     this.key = key;
-    byId("results").replaceChildren(...rows.map(rowFor));
+    byId("results").replaceChildren(...rows.map((row) => rowFor(row.map(said))));
   }
 
   /**
@@ -83,10 +87,18 @@ export function csvOf(lanes) {
   return rows.map((row) => `${row.join(",")}\n`).join("");
 }
 
-/** @param {(string | number)[]} row */
+/**
+ * A value as the page says it; a file has it in English.
+ * @param {string | number} value
+ */
+function said(value) {
+  return value === "yes" || value === "no" ? say(value) : heard(`${value}`);
+}
+
+/** @param {string[]} row */
 function rowFor(row) {
   const element = document.createElement("tr");
-  element.append(...row.map((value) => cellFor("td", `${value}`)));
+  element.append(...row.map((value) => cellFor("td", value)));
   return element;
 }
 

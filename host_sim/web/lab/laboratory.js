@@ -2,6 +2,7 @@
 /* Runs side by side at the same tick: what is simulated, which one is selected, and what a person changes in it. */
 
 import { byId, setText } from "../core/elements.js";
+import { heard, inEachLanguage, say } from "../core/language.js";
 import { ShownRun, restartNames } from "./shown_run.js";
 import { Toast } from "../core/toast.js";
 import { PlayingPage } from "../replay/playing_page.js";
@@ -33,6 +34,7 @@ export class Laboratory extends PlayingPage {
     /** @type {ShownRun[]} */
     this.lanes = [];
     this.lane = this.addLane(experiment);
+    inEachLanguage(() => this.showStatus());
   }
 
   /** There is another number of runs. */
@@ -127,7 +129,7 @@ export class Laboratory extends PlayingPage {
     this.setPlaying(false);
     const { experiment } = this.lane;
     this.select(this.addLane({ ...experiment, changes: [...experiment.changes], ticks_max: undefined }));
-    this.note.show("Change a cell, an obstacle, the behaviour or a parameter: this copy runs on from here with it.");
+    this.note.show(say("copyHint"));
   }
 
   /**
@@ -137,15 +139,19 @@ export class Laboratory extends PlayingPage {
   simulate(lane) {
     const isNew = !lane.scene;
     lane.simulate(this.simulator, ({ run, refusals = [], error, done }) => {
-      if (error) this.note.show(error);
+      if (error) this.note.show(heard(error));
       if (!run) return;
       if (done) this.go(this.tick);
       lane.go(this.tick, true);
       if (isNew || lane === this.lane) this.onScene();
       if (refusals.length) this.refuse(lane, refusals.map(([, why]) => why));
       if (done) this.resize();
-      setText(byId("status"), done ? "the real firmware, in this page" : "running ahead");
+      this.showStatus();
     });
+  }
+
+  showStatus() {
+    setText(byId("status"), say(!this.scene ? "waking" : this.lanes.some((lane) => lane.isRunning) ? "runningAhead" : "realFirmware"));
   }
 
   /**
@@ -154,7 +160,7 @@ export class Laboratory extends PlayingPage {
    * @param {string[]} reasons
    */
   refuse(lane, reasons) {
-    this.note.show(reasons.join("; "));
+    this.note.show(reasons.map(heard).join("; "));
     this.onRefusal();
     this.simulate(lane);
   }

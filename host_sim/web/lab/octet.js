@@ -3,6 +3,7 @@
 
 import { SidePanel } from "./side_panel.js";
 import { byId, isForPage, setText, typedById } from "../core/elements.js";
+import { heard, nameIn, say } from "../core/language.js";
 import { LabEditor } from "./lab_editor.js";
 import { experimentOf } from "./shown_run.js";
 import { nextTick } from "./run_events.js";
@@ -147,7 +148,7 @@ class LabPage extends Laboratory {
     const kind = typedById("kind", HTMLSelectElement).value;
     const tick = nextTick(data.robots[robot], kind, this.tick, step);
     if (tick === undefined) {
-      this.note.show(`There is no ${step > 0 ? "later" : "earlier"} ${kind}.`);
+      this.note.show(say(step > 0 ? "noLater" : "noEarlier", { kind: nameIn("kinds", kind) }));
       return;
     }
     this.setPlaying(false);
@@ -181,7 +182,7 @@ class LabPage extends Laboratory {
   otherMemory() {
     const other = this.lanes.find((lane) => lane !== this.lane && lane.scene);
     const states = other?.scene?.states ?? [];
-    return { then: states[Math.min(this.lane.robot, states.length - 1)]?.memory, where: `in ${other?.name}` };
+    return { then: states[Math.min(this.lane.robot, states.length - 1)]?.memory, where: say("inRun", { run: other?.name ?? "" }) };
   }
 
   /**
@@ -207,5 +208,5 @@ try {
   const [parts, begin] = ["parts", "begin"].map((id) => JSON.parse(byId(id).textContent || "null"));
   Object.assign(window, { octet: new LabPage(parts, begin) });
 } catch (error) {
-  setText(byId("status"), error instanceof Error ? error.message : `${error}`);
+  setText(byId("status"), heard(error instanceof Error ? error.message : `${error}`));
 }

@@ -2,6 +2,7 @@
 /* A slider for each parameter of the robot. */
 
 import { byId } from "../core/elements.js";
+import { heard, inEachLanguage, say } from "../core/language.js";
 import { PARAMETERS } from "../generated.js";
 
 /**
@@ -17,8 +18,13 @@ export class ParameterSliders {
     this.onChange = onChange;
     /** @type {Map<Parameter, Slider>} */
     this.sliders = new Map();
-    const names = /** @type {Parameter[]} */ (Object.keys(PARAMETERS));
-    for (const name of names) this.sliders.set(name, this.makeSlider(byId("panel-parameters"), name));
+    inEachLanguage(() => this.fill(byId("panel-parameters")));
+  }
+
+  /** @param {HTMLElement} panel */
+  fill(panel) {
+    panel.replaceChildren();
+    for (const name of /** @type {Parameter[]} */ (Object.keys(PARAMETERS))) this.sliders.set(name, this.makeSlider(panel, name));
   }
 
   /** @param {Record<string, number>} settings - All but the defaults. */
@@ -27,7 +33,7 @@ export class ParameterSliders {
       const value = settings[name] ?? PARAMETERS[name].default;
       if (document.activeElement !== input || input.value === output.dataset.value) input.value = `${value}`;
       output.dataset.value = `${value}`;
-      output.textContent = `${input.value} ${PARAMETERS[name].unit}`;
+      output.textContent = `${input.value} ${heard(PARAMETERS[name].unit)}`;
       reset.disabled = value === PARAMETERS[name].default;
     }
   }
@@ -38,7 +44,8 @@ export class ParameterSliders {
    * @returns {Slider}
    */
   makeSlider(parent, name) {
-    const { min, max, meaning } = PARAMETERS[name];
+    const { min, max, default: usual } = PARAMETERS[name];
+    const meaning = heard(PARAMETERS[name].meaning);
     const row = parent.appendChild(document.createElement("div"));
     row.className = "slider";
     const label = row.appendChild(document.createElement("label"));
@@ -47,11 +54,11 @@ export class ParameterSliders {
     const input = label.appendChild(document.createElement("input"));
     Object.assign(input, { type: "range", min: `${min}`, max: `${max}`, step: "1", title: name });
     const reset = row.appendChild(document.createElement("button"));
-    Object.assign(reset, { type: "button", textContent: "↺", title: `${PARAMETERS[name].default}` });
-    reset.setAttribute("aria-label", `${meaning} Back to ${PARAMETERS[name].default}`);
-    input.addEventListener("input", () => (output.textContent = `${input.value} ${PARAMETERS[name].unit}`));
+    Object.assign(reset, { type: "button", textContent: "↺", title: `${usual}` });
+    reset.setAttribute("aria-label", say("backTo", { meaning, value: usual }));
+    input.addEventListener("input", () => (output.textContent = `${input.value} ${heard(PARAMETERS[name].unit)}`));
     input.addEventListener("change", () => this.onChange(name, Number(input.value)));
-    reset.addEventListener("click", () => this.onChange(name, PARAMETERS[name].default));
+    reset.addEventListener("click", () => this.onChange(name, usual));
     return { input, output, reset };
   }
 }

@@ -1,6 +1,8 @@
 // @ts-check
 /* One of the runs that are shown side by side: its experiment, what came of it, and its arena. */
 
+import { heard, say } from "../core/language.js";
+import { setText } from "../core/elements.js";
 import { PARAMETERS } from "../generated.js";
 import { showTick } from "../draw/recorded_scene.js";
 import { Renderer } from "../draw/renderer.js";
@@ -38,7 +40,6 @@ export class ShownRun {
     this.caption = this.figure.appendChild(document.createElement("figcaption"));
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "application");
-    this.canvas.setAttribute("aria-label", `Arena of run ${this.name}, seen from above`);
     this.canvas.setAttribute("aria-describedby", "help");
     this.renderer = new Renderer(this.canvas);
     /** @type {RunData | undefined} */
@@ -133,9 +134,13 @@ export class ShownRun {
     this.renderer.draw(scene);
     const { seed, world = RANDOM } = this.experiment;
     const own = this.setup.seed ?? seed;
-    const brain = this.setup.program === undefined ? this.setupAt(tick).profile : "your program";
-    const text = `${this.name}: ${brain}, seed ${seed}${own === seed ? "" : `, its own ${own}`}${world === RANDOM ? "" : `, ${nameOf(world)}`}`;
-    if (this.caption.textContent !== text) this.caption.textContent = text;
+    const brain = this.setup.program === undefined ? heard(this.setupAt(tick).profile) : say("yourProgram");
+    const parts = [
+      say("caption", { run: this.name, brain, seed }), own === seed ? "" : say("captionOwn", { seed: own }),
+      world === RANDOM ? "" : say("captionWorld", { world: heard(nameOf(world)) }),
+    ];
+    setText(this.caption, parts.join(""));
+    this.canvas.setAttribute("aria-label", say("arenaOf", { run: this.name }));
   }
 
   /**

@@ -4,6 +4,7 @@
 import { ParameterSliders } from "./parameter_sliders.js";
 import { Curves, csvOf } from "./curves.js";
 import { byId, setText, typedById } from "../core/elements.js";
+import { heard, inEachLanguage, say } from "../core/language.js";
 import { SENSORS } from "../core/sensors.js";
 import { bodySentence } from "../core/phrases.js";
 import { memoryIn, save, worldText } from "./files.js";
@@ -55,19 +56,24 @@ export class SidePanel {
     this.curves = new Curves();
     this.lessons = new LessonsView();
     this.behaviour = typedById("behaviour", HTMLSelectElement);
-    this.behaviour.append(...PROFILES.map((name) => new Option(name, name)));
     /** The worlds to choose from, by name. */
     this.worlds = new Map(Object.keys(lab.worlds).map((name) => [name, /** @type {World} */ (name)]));
     this.world = typedById("world", HTMLSelectElement);
-    this.offerWorlds(RANDOM);
     this.body = typedById("body", HTMLSelectElement);
     this.fault = typedById("fault", HTMLSelectElement);
-    this.fault.append(...FAULTS.map((what) => new Option(faultName(what), what)));
     this.robotSeed = typedById("robot-seed", HTMLInputElement);
     this.frozen = 0;
+    inEachLanguage(() => this.offer());
     this.bindTabs();
     this.bindRun();
     this.bindFiles();
+  }
+
+  /** Fills the fields with what can be chosen. */
+  offer() {
+    offer(this.behaviour, PROFILES.map((name) => [name, heard(name)]));
+    offer(this.fault, FAULTS.map((what) => [what, faultName(what)]));
+    this.offerWorlds(this.world.value || RANDOM);
   }
 
   bindTabs() {
@@ -135,7 +141,7 @@ export class SidePanel {
    * @param {Promise<void>} done
    */
   tell(done) {
-    done.catch((error) => setText(byId("file-news"), error instanceof Error ? error.message : `${error}`));
+    done.catch((error) => setText(byId("file-news"), heard(error instanceof Error ? error.message : `${error}`)));
   }
 
   /** @param {SubmitEvent} event */
@@ -154,7 +160,7 @@ export class SidePanel {
 
   /** @param {string} chosen - The name of the world that is chosen. */
   offerWorlds(chosen) {
-    this.world.replaceChildren(...[...this.worlds.keys()].map((name) => new Option(name, name, false, name === chosen)));
+    offer(this.world, [...this.worlds.keys()].map((name) => [name, heard(name)]), chosen);
   }
 
   /**
@@ -222,13 +228,13 @@ export class SidePanel {
     await simulator.memory({ ...lane.experiment, robots }, lane.robot, 0); // it throws if they are not a memory
     lane.setUp({ memory });
     this.lab.simulate(lane);
-    setText(byId("file-news"), `The robot begins with ${file.name}.`);
+    setText(byId("file-news"), say("memoryBegins", { file: file.name }));
   }
 
   /** @param {File} file */
   async openWorld(file) {
     this.begin(await this.lab.simulator.world({ name: file.name, text: await file.text() }, this.wanted));
-    setText(byId("file-news"), `A new run in ${file.name}.`);
+    setText(byId("file-news"), say("worldBegins", { file: file.name }));
   }
 
   /**
@@ -236,11 +242,11 @@ export class SidePanel {
    * @param {File | undefined} world
    */
   async openLog(log, world) {
-    setText(byId("file-news"), `reading ${log.name}`);
+    setText(byId("file-news"), say("reading", { file: log.name }));
     const opened = await this.lab.simulator.open(await log.text(), world ? await world.text() : "");
     if (!opened) return;
     this.begin(opened.experiment);
-    setText(byId("file-news"), opened.news);
+    setText(byId("file-news"), heard(opened.news));
   }
 
   show() {
@@ -255,7 +261,7 @@ export class SidePanel {
       this.robotSeed.value = `${lane.setup.seed ?? lane.experiment.seed + lane.robot}`;
     }
     byId("freeze").setAttribute("aria-pressed", `${Boolean(state.frozen)}`);
-    setText(byId("freeze"), state.frozen ? "Learning is frozen" : "Freeze learning");
+    setText(byId("freeze"), say(state.frozen ? "frozen" : "freeze"));
     typedById("undo", HTMLButtonElement).disabled = lane.experiment.changes.length === 0;
     const robot = data.robots[lane.robot];
     if (this.tab === "run") this.lessons.show(scene, robot.lessonsUpTo(state.tick, scene.environment.start_tick));
@@ -267,5 +273,15 @@ export class SidePanel {
 
 /** @param {string} what */
 function faultName(what) {
-  return bodySentence(what).replace(/\.$/, "");
+  return heard(bodySentence(what)).replace(/\.$/, "");
+}
+
+/**
+ * Fills a field; what was chosen stays so.
+ * @param {HTMLSelectElement} select
+ * @param {[string, string][]} options - Their values and names.
+ * @param {string} [chosen]
+ */
+function offer(select, options, chosen = select.value || options[0][0]) {
+  select.replaceChildren(...options.map(([value, name]) => new Option(name, value, false, value === chosen)));
 }

@@ -2,8 +2,9 @@
 /* The course: the lesson that is open, and its goals, which the runs themselves reach. */
 
 import { byId } from "../core/elements.js";
+import { keep, kept } from "../core/kept.js";
 import { LessonView } from "./lesson_view.js";
-import { firstLanguage, keepLanguage, textsIn } from "./language.js";
+import { inEachLanguage, languageCode, wordsOf } from "../core/language.js";
 import { PLANS } from "./plans.js";
 import { Worksheet } from "./worksheet.js";
 
@@ -32,41 +33,34 @@ export class Course {
   /** @param {Lab} lab */
   constructor(lab) {
     this.lab = lab;
-    this.language = firstLanguage();
-    this.plan = PLANS.find(({ id }) => `#${id}` === location.hash) ?? PLANS[0];
+    this.plan = PLANS.find(({ id }) => `#${id}` === location.hash) ?? PLANS.find(({ id }) => id === kept("lesson")) ?? PLANS[0];
     /** Places of the goals that are reached. @type {Set<number>} */
     this.reached = new Set();
     this.begun = false;
     this.sheet = new Worksheet();
     this.view = new LessonView(this);
+    inEachLanguage(() => this.renew());
     addEventListener("beforeprint", () => this.onPrint());
     if (`#${this.plan.id}` === location.hash) byId("tab-lessons").click();
   }
 
   get texts() {
-    return textsIn(this.language);
+    return wordsOf("lessons");
   }
 
   /** @param {string} id */
   choose(id) {
     this.plan = PLANS.find((plan) => plan.id === id) ?? this.plan;
+    keep("lesson", id);
     this.reached.clear();
     this.begun = false;
-    this.renew("lesson");
+    this.renew();
+    byId("lesson").focus();
   }
 
-  /** @param {string} code */
-  speak(code) {
-    this.language = code;
-    keepLanguage(code);
-    this.renew("language");
-  }
-
-  /** @param {string} focused - The id of the field that was used. */
-  renew(focused) {
+  renew() {
     this.view = new LessonView(this);
-    this.show();
-    byId(focused).focus();
+    if (this.lab.lane) this.show();
   }
 
   /** Sets up the runs of the lesson. */
@@ -98,7 +92,7 @@ export class Course {
   print(notes) {
     if (notes) this.sheet.fillNotes(this.plan, this.texts);
     else this.sheet.fill(this.plan, this.texts);
-    this.sheet.element.lang = this.language;
+    this.sheet.element.lang = languageCode();
     print();
   }
 
@@ -106,6 +100,6 @@ export class Course {
   onPrint() {
     if (byId("panel-lessons").hidden || !this.sheet.isEmpty) return;
     this.sheet.fill(this.plan, this.texts);
-    this.sheet.element.lang = this.language;
+    this.sheet.element.lang = languageCode();
   }
 }

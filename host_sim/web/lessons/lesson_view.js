@@ -3,14 +3,12 @@
 
 import { byId, setText } from "../core/elements.js";
 import { buttonOf, choiceOf, glossaryOf, listOf, made } from "../core/building.js";
-import { LANGUAGES } from "./language.js";
 import { PLANS } from "./plans.js";
 import { toolOf } from "./tools.js";
 import { notesOf } from "./worksheet.js";
 
 /**
  * @typedef {import("./course.js").Course} Course
- * @typedef {import("./language.js").Texts} Texts
  */
 
 /** Fills the element panel-lessons, for one lesson in one language. */
@@ -26,7 +24,6 @@ export class LessonView {
     this.begin.className = "main";
     this.begin.id = "begin-lesson";
     byId("panel-lessons").replaceChildren(...this.parts());
-    byId("panel-lessons").lang = course.language;
   }
 
   parts() {
@@ -49,12 +46,9 @@ export class LessonView {
     /** @type {[string, string][]} */
     const titles = PLANS.map(({ id }, i) => [id, `${i + 1} ${lessons[id].title}`]);
     const lesson = choiceOf(words.lesson, titles, (id) => course.choose(id));
-    const language = choiceOf(words.language, LANGUAGES.map(({ code, language: name }) => [code, name]), (code) => course.speak(code));
     lesson.select.value = course.plan.id;
     lesson.select.id = "lesson";
-    language.select.value = course.language;
-    language.select.id = "language";
-    return made("div", [lesson.label, language.label], { class: "choices" });
+    return made("div", [lesson.label], { class: "choices" });
   }
 
   prints() {

@@ -1,16 +1,17 @@
 // @ts-check
 /* What some lessons need beside the rest of the page: one kind of tool each. */
 
-import { byId, setText } from "../core/elements.js";
+import { setText } from "../core/elements.js";
+import { languageCode } from "../core/language.js";
+import { filled } from "../core/phrases.js";
 import { SENSORS } from "../core/sensors.js";
 import { PARAMETERS } from "../generated.js";
 import { choiceOf, made } from "../core/building.js";
 import { settingAt, ticksPerObstacle } from "./evidence.js";
-import { filled } from "./language.js";
 
 /**
  * @typedef {import("./course.js").Lab} Lab
- * @typedef {import("./language.js").Texts} Texts
+ * @typedef {import("../core/language.js").Texts["lessons"]} Texts
  *
  * A tool in the page; `show` brings it up to date.
  * @typedef {{element: HTMLElement, show: () => void}} Tool
@@ -174,7 +175,7 @@ function makeTalk(lab, { words }) {
     form.reset();
   });
   const element = made("div", [form]);
-  lab.talk.who.value = words.robotScript;
+  lab.talk.meetRobot();
   return { element, show: () => lab.talk.moveTo(element) };
 }
 
@@ -183,5 +184,5 @@ function makeTalk(lab, { words }) {
  * @param {number} number
  */
 function thousandths(number) {
-  return number.toLocaleString(byId("panel-lessons").lang, { minimumFractionDigits: 3, maximumFractionDigits: 3 });
+  return number.toLocaleString(languageCode(), { minimumFractionDigits: 3, maximumFractionDigits: 3 });
 }

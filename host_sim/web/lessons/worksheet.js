@@ -8,7 +8,7 @@ import { binary } from "../core/phrases.js";
 import { glossaryOf, listOf, made } from "../core/building.js";
 
 /**
- * @typedef {import("./language.js").Texts} Texts
+ * @typedef {import("../core/language.js").Texts["lessons"]} Texts
  * @typedef {import("./plans.js").Plan} Plan
  */
 

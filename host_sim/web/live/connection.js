@@ -2,6 +2,7 @@
 /* The WebSocket of a live run: connects, and connects again. */
 
 import { byId, setText } from "../core/elements.js";
+import { say } from "../core/language.js";
 
 /** @typedef {import("../types.js").Command} Command */
 
@@ -39,8 +40,7 @@ export class Connection {
   /** @param {CloseEvent} event */
   onClose(event) {
     this.hasEnded ||= event.code === GOING_AWAY;
-    const lost = this.hasEnded ? "the run has ended; waiting for the next one" : "no connection, trying again";
-    setText(byId("status"), lost);
+    setText(byId("status"), say(this.hasEnded ? "runEnded" : "noConnection"));
     document.body.classList.add("lost");
     setTimeout(() => (this.socket = this.connect()), RECONNECT_MS);
   }

@@ -2,7 +2,8 @@
 /* The live page's buttons and keys for time, memory and run. */
 
 import { byId, isForPage, setText, typedById } from "../core/elements.js";
-import { ending } from "../core/phrases.js";
+import { ending } from "../core/endings.js";
+import { inEachLanguage, say } from "../core/language.js";
 
 /**
  * @typedef {import("../draw/scene.js").Scene} Scene
@@ -27,6 +28,7 @@ export class Controls {
     this.seed = typedById("seed", HTMLInputElement);
     this.keep = typedById("keep", HTMLInputElement);
     this.bindButtons();
+    inEachLanguage(() => this.showFrozen(this.frozen));
     document.addEventListener("keydown", (event) => this.onKey(event));
   }
 
@@ -38,7 +40,7 @@ export class Controls {
     this.playing = play.playing;
     this.node = state.node;
     this.showFrozen(state.frozen);
-    setText(byId("play"), play.playing ? "Pause" : "Play");
+    setText(byId("play"), say(play.playing ? "pause" : "play"));
     setText(byId("status"), statusOf(play));
     setText(byId("fact-speed"), play.rate ? `${((play.rate * measures.tick_ms) / 1000).toFixed(1)} ×` : "0 ×");
     for (const id of NEEDS_A_RUN) typedById(id, HTMLButtonElement).disabled = play.done;
@@ -51,10 +53,9 @@ export class Controls {
 
   /** @param {number} frozen */
   showFrozen(frozen) {
-    if (frozen === this.frozen) return;
     this.frozen = frozen;
     byId("freeze").setAttribute("aria-pressed", `${Boolean(frozen)}`);
-    setText(byId("freeze"), frozen ? "Learning is frozen" : "Freeze learning");
+    setText(byId("freeze"), say(frozen ? "frozen" : "freeze"));
   }
 
   bindButtons() {
@@ -105,8 +106,8 @@ function showEnding({ ended, done }) {
 
 /** @param {Play} play */
 function statusOf(play) {
-  if (play.waits) return "waiting for the board to begin";
-  if (play.done) return play.stays ? "all done: start over with a seed" : "all done";
-  if (play.ended) return "on to the next environment";
-  return play.playing ? "live" : "paused";
+  if (play.waits) return say("waitsForBoard");
+  if (play.done) return say(play.stays ? "allDoneSeed" : "allDone");
+  if (play.ended) return say("onToNext");
+  return say(play.playing ? "live" : "paused");
 }

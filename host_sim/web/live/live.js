@@ -2,11 +2,12 @@
 /* The live page: shows what comes over the WebSocket, sends what a person does. */
 
 import { byId, setText } from "../core/elements.js";
+import { restarted } from "../core/endings.js";
+import { heard, inEachLanguage, say } from "../core/language.js";
 import { Connection } from "./connection.js";
 import { LiveSeat, pageKey } from "./live_seat.js";
 import { LiveView } from "./live_view.js";
 import { Toast } from "../core/toast.js";
-import { restarted } from "../core/phrases.js";
 import { Scene } from "../draw/scene.js";
 import { TalkBox } from "../talk/talk_box.js";
 
@@ -33,6 +34,9 @@ class LivePage {
     this.seat = new LiveSeat((command) => this.send(command));
     this.talk = new TalkBox(byId("talk"), this);
     this.connection = new Connection(`/live${query(this.key)}`, (message) => this.accept(message));
+    setText(byId("status"), say("connecting"));
+    setText(byId("doing"), say("waitingRobot"));
+    inEachLanguage(() => this.drawSoon());
   }
 
   get scene() {
@@ -72,7 +76,7 @@ class LivePage {
     if (message.seat !== undefined) this.seat.take(message.seat, this.view);
     if (startedOver) this.note.show(restarted(environment, states));
     if (message.notes) this.view?.editor.onRefusal();
-    message.notes?.forEach((text) => this.note.show(text));
+    message.notes?.forEach((text) => this.note.show(heard(text)));
     message.answers?.forEach(({ places, ...exchange }) => this.talk.answer(exchange, places));
     this.message = message;
     this.drawSoon();
@@ -105,4 +109,4 @@ function query(key) {
 }
 
 if ("WebSocket" in window) Object.assign(window, { octet: new LivePage() });
-else setText(byId("status"), "This browser has no WebSocket: take a newer one, or open replay.html later.");
+else setText(byId("status"), say("needsSocket"));

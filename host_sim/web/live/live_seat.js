@@ -1,7 +1,8 @@
 // @ts-check
 /* A live page with a robot of its own: it shows that robot, and what else it has no right to change is hidden. */
 
-import { byId, typedById } from "../core/elements.js";
+import { byId, setText, typedById } from "../core/elements.js";
+import { inEachLanguage, say } from "../core/language.js";
 
 /**
  * @typedef {import("./live_view.js").LiveView} LiveView
@@ -16,12 +17,20 @@ const KEY_BYTES = 16;
 export class LiveSeat {
   /** @param {(command: Command) => void} send */
   constructor(send) {
+    /** @type {Seat | null} */
+    this.seat = null;
+    inEachLanguage(() => this.tell());
     this.name = typedById("my-name", HTMLInputElement);
     byId("name-form").addEventListener("submit", (event) => {
       event.preventDefault();
       send({ do: "name", name: this.name.value });
       this.name.blur();
     });
+  }
+
+  tell() {
+    const { seat } = this;
+    setText(byId("own-robot"), seat ? say(seat.node ? "robotYours" : "seatsTaken", seat) : "");
   }
 
   /**
@@ -31,18 +40,13 @@ export class LiveSeat {
   take(seat, view) {
     document.body.classList.toggle("own", seat !== null && seat.node > 0);
     document.body.classList.toggle("watcher", seat?.node === 0);
-    byId("own-robot").textContent = wordsOf(seat);
+    this.seat = seat;
+    this.tell();
     byId("name-form").hidden = !seat?.node;
     if (!seat?.node) return;
     if (!this.name.value) this.name.value = seat.name;
     view?.editor.pick(seat.node);
   }
-}
-
-/** @param {Seat | null} seat */
-function wordsOf(seat) {
-  if (!seat) return "";
-  return seat.node ? `Robot ${seat.node} is yours.` : "Every robot has a page already: here you can watch.";
 }
 
 /** What this page is recognised by when it is loaded again: its own secret, which ends with the tab. */

@@ -1,7 +1,8 @@
 // @ts-check
 /* The eight cells: for each pattern its picture, what was learned, when, and how often it was used. */
 
-import { CELL_COUNT, PATTERNS, REASON, SIDE, SIDES } from "../generated.js";
+import { CELL_COUNT, REASON, SIDE, SIDES } from "../generated.js";
+import { inEachLanguage, robotWords, say } from "../core/language.js";
 import { binary } from "../core/phrases.js";
 import { CONES, patternBit } from "../core/sensors.js";
 
@@ -33,6 +34,15 @@ export class CellsView {
     this.cells = Array.from({ length: CELL_COUNT }, (_, cell) => makeCell(list, cell, onPress));
     /** @type {string[]} */
     this.shown = [];
+    inEachLanguage(() => this.nameCells());
+  }
+
+  nameCells() {
+    this.shown = [];
+    this.cells.forEach(({ name, button }, cell) => {
+      name.textContent = `${robotWords().patterns[cell]} ${binary(cell)}`;
+      if (button instanceof HTMLButtonElement) button.title = say(cell ? "pressCell" : "nothingToLearn");
+    });
   }
 
   /**
@@ -40,7 +50,7 @@ export class CellsView {
    * @param {number[]} [then] - A memory to compare with,
    * @param {string} [where] - and when or where it is.
    */
-  show(scene, then, where = "then") {
+  show(scene, then, where = say("then")) {
     this.cells.forEach((parts, cell) => {
       const facts = { ...factsOf(scene, cell, then), where };
       const key = JSON.stringify(facts);
@@ -86,24 +96,28 @@ function fillCell(parts, facts) {
   button.classList.toggle("changed", facts.then !== null && facts.then !== facts.side);
   parts.side.textContent = sideWords(facts);
   parts.history.textContent = historyOf(facts);
-  parts.then.textContent = facts.then === null ? "" : `${facts.where}: ${facts.then ? SIDES[facts.then] : "empty"}`;
+  parts.then.textContent = facts.then === null ? "" : `${facts.where}: ${sideName(facts.then)}`;
   const words = [parts.name, parts.side, parts.history, parts.then].map(({ textContent }) => textContent);
-  button.setAttribute("aria-label", `Cell ${facts.cell}, ${words.filter(Boolean).join(", ")}`);
+  button.setAttribute("aria-label", say("cell", { cell: facts.cell, words: words.filter(Boolean).join(", ") }));
 }
 
 /** @param {Facts} facts */
 function sideWords({ cell, side, trying }) {
-  if (cell === 0) return "drive on";
-  if (trying !== SIDE.NOTHING) return `${trying === SIDE.LEFT ? "↰" : "↱"} ${SIDES[trying]}?`;
-  if (side === SIDE.NOTHING) return "empty";
-  return side === SIDE.LEFT ? `↰ ${SIDES[side]}` : `${SIDES[side]} ↱`;
+  if (cell === 0) return say("driveOn");
+  if (trying !== SIDE.NOTHING) return `${trying === SIDE.LEFT ? "↰" : "↱"} ${sideName(trying)}?`;
+  return side === SIDE.RIGHT ? `${sideName(side)} ↱` : `${side ? "↰ " : ""}${sideName(side)}`;
+}
+
+/** @param {number} side */
+function sideName(side) {
+  return side ? robotWords().sides[side] : say("empty");
 }
 
 /** @param {Facts} facts */
 function historyOf({ cell, side, when, byHand, uses }) {
   if (cell === 0 || side === SIDE.NOTHING) return "";
-  const learned = when && `${byHand ? "told" : "learned"} ${when}`;
-  return [learned, uses ? `used ${uses}×` : ""].filter(Boolean).join(", ");
+  const learned = when && say(byHand ? "toldAt" : "learnedAt", { time: when });
+  return [learned, uses ? say("usedTimes", { uses }) : ""].filter(Boolean).join(", ");
 }
 
 /**
@@ -118,7 +132,6 @@ function makeCell(list, cell, onPress) {
   button.classList.add("cell");
   button.appendChild(pictureOf(cell));
   const [name, side, history, then] = ["name", "side", "history", "then"].map((part) => addSpan(button, part));
-  name.textContent = `${PATTERNS[cell]} ${binary(cell)}`;
   return { button, name, side, history, then };
 }
 
@@ -130,7 +143,6 @@ function makeButton(cell, onPress) {
   const button = document.createElement("button");
   button.type = "button";
   button.disabled = cell === 0;
-  button.title = cell ? "Press to change: empty, left, right" : "Nothing in the way: nothing to learn";
   button.addEventListener("click", () => {
     // Pressed again before the first press is shown, it goes on from what was wanted.
     const next = (SIDES.indexOf(button.dataset.wanted ?? button.dataset.side ?? "") + 1) % SIDES.length;

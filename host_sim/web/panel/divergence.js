@@ -2,7 +2,8 @@
 /* Where two runs part, and why. */
 
 import { byId, setText } from "../core/elements.js";
-import { CELL_COUNT, PATTERNS } from "../generated.js";
+import { CELL_COUNT } from "../generated.js";
+import { languageCode, robotWords, say } from "../core/language.js";
 import { sentence } from "../core/phrases.js";
 
 /**
@@ -18,7 +19,7 @@ export class DivergenceView {
   constructor() {
     /**
      * What the words are of.
-     * @type {(RunData | undefined)[]}
+     * @type {unknown[]}
      */
     this.compared = [];
   }
@@ -30,7 +31,7 @@ export class DivergenceView {
    */
   show([first, ...others], selected) {
     const other = selected === first ? others[0] : selected;
-    const compared = other ? [first.data, other.data] : [];
+    const compared = other ? [first.data, other.data, languageCode()] : [];
     if (compared.length === this.compared.length && compared.every((data, i) => data === this.compared[i])) return;
     this.compared = compared;
     setText(byId("parting"), other ? partingWords(first, other) : "");
@@ -77,12 +78,12 @@ function firstDifference(one, other, ticks, names) {
 export function partingWords(one, other) {
   if (!one.data || !other.data || !one.scene) return "";
   const parting = partingOf(one.data, other.data);
-  if (!parting) return `${one.name} and ${other.name} do the same to the end.`;
+  if (!parting) return say("sameToEnd", { a: one.name, b: other.name });
   const { tick, robot } = parting;
   const [a, b] = [one, other].map(({ data }) => data?.statesAt(Math.min(tick, data.last))[robot]);
   if (!a || !b) return "";
-  const when = `${one.name} and ${other.name} part at ${one.scene.clock(tick)} (tick ${tick}):`;
-  return `${when} ${one.name}: ${sentence(a, true)} ${other.name}: ${sentence(b, true)} ${reasonOf(a, b)}`.trim();
+  const [said, otherSaid] = [a, b].map((state) => sentence(state, true, robotWords()));
+  return say("partAt", { a: one.name, b: other.name, time: one.scene.clock(tick), tick, said, otherSaid, why: reasonOf(a, b) });
 }
 
 /**
@@ -91,9 +92,10 @@ export function partingWords(one, other) {
  * @param {State} b
  */
 function reasonOf(a, b) {
+  const { patterns } = robotWords();
   const cells = Array.from({ length: CELL_COUNT }, (_, cell) => cell).filter((cell) => a.memory[cell] !== b.memory[cell]);
-  if (cells.length) return `Their memories differ: ${cells.map((cell) => PATTERNS[cell]).join(", ")}.`;
-  if (a.pattern !== b.pattern) return `Their front sensors differ: ${PATTERNS[a.pattern]} and ${PATTERNS[b.pattern]}.`;
-  if (a.feel !== b.feel || a.beacon !== b.beacon) return "They sense something else.";
-  return "They know and feel the same: the behaviour, a parameter or chance decides.";
+  if (cells.length) return say("memoriesDiffer", { cells: cells.map((cell) => patterns[cell]).join(", ") });
+  if (a.pattern !== b.pattern) return say("sensorsDiffer", { one: patterns[a.pattern], other: patterns[b.pattern] });
+  if (a.feel !== b.feel || a.beacon !== b.beacon) return say("senseElse");
+  return say("chanceDecides");
 }

@@ -1,7 +1,9 @@
 // @ts-check
 /* The list of what was learned, the newest first. */
 
+import { made } from "../core/building.js";
 import { byId } from "../core/elements.js";
+import { languageCode, robotWords, say } from "../core/language.js";
 import { lessonSentence } from "../core/phrases.js";
 
 /**
@@ -21,10 +23,11 @@ export class LessonsView {
    * @param {Lesson[]} lessons - Those of the robot that the panel shows, the oldest first.
    */
   show(scene, lessons) {
-    const key = [scene.node, scene.environment.start_tick, lessons.length, lessons.at(-1)?.tick].join();
+    const key = [languageCode(), scene.node, scene.environment.start_tick, lessons.length, lessons.at(-1)?.tick].join();
     if (this.key === key) return;
     this.key = key;
     this.list.replaceChildren(...lessons.map((lesson) => itemFor(lesson, scene)).reverse());
+    if (!lessons.length) this.list.append(made("li", [say("nothingLearned")]));
   }
 }
 
@@ -33,7 +36,5 @@ export class LessonsView {
  * @param {Scene} scene
  */
 function itemFor(lesson, scene) {
-  const item = document.createElement("li");
-  item.textContent = `${scene.clock(lesson.tick)} ${lessonSentence(lesson)}`;
-  return item;
+  return made("li", [`${scene.clock(lesson.tick)} ${lessonSentence(lesson, robotWords())}`]);
 }

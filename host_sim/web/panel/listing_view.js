@@ -3,7 +3,8 @@
 
 import { pictureOf } from "./cells_view.js";
 import { byId, setText } from "../core/elements.js";
-import { PATTERNS, REASON, SIDE } from "../generated.js";
+import { inEachLanguage, robotWords, say } from "../core/language.js";
+import { REASON, SIDE } from "../generated.js";
 import { binary } from "../core/phrases.js";
 
 /** @typedef {import("../types.js").State} State */
@@ -59,6 +60,7 @@ export class ListingView {
     }
     this.shown = "";
     this.pattern = -1;
+    inEachLanguage(() => (this.pattern = -1));
   }
 
   /**
@@ -84,7 +86,7 @@ export class ListingView {
     this.pattern = pattern;
     const picture = byId("pattern-picture");
     picture.replaceChildren(pictureOf(pattern));
-    picture.setAttribute("aria-label", `The robot decided with ${PATTERNS[pattern]} in the way`);
+    picture.setAttribute("aria-label", say("decidedWith", { pattern: robotWords().patterns[pattern] }));
   }
 }
 

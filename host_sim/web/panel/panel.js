@@ -3,9 +3,11 @@
 
 import { SteadyStates } from "./steady_states.js";
 import { CellsView } from "./cells_view.js";
+import { made } from "../core/building.js";
 import { byId, setText } from "../core/elements.js";
 import { REASON_KEYS } from "../core/palette.js";
-import { REASON_NAMES, sentence, verdict } from "../core/phrases.js";
+import { inEachLanguage, nameIn, robotWords, say } from "../core/language.js";
+import { sentence, verdict } from "../core/phrases.js";
 
 /**
  * @typedef {import("../draw/scene.js").Scene} Scene
@@ -15,20 +17,21 @@ import { REASON_NAMES, sentence, verdict } from "../core/phrases.js";
 
 /**
  * What else is drawn in the arena, by its name in the style sheet.
- * @type {[string, string][]}
+ * @type {[string, import("../core/language.js").Key][]}
  */
 const THINGS = [
-  ["cone", "sensor: something is near"], ["cone-dark", "sensor: nothing is near"], ["beam", "looks for food"],
-  ["food", "food"], ["eaten", "food that was eaten"], ["bar", "obstacle, wall"],
+  ["cone", "thingCone"], ["cone-dark", "thingConeDark"], ["beam", "thingBeam"], ["food", "thingFood"], ["eaten", "thingEaten"],
+  ["bar", "thingBar"],
 ];
-const MEMORY = "Memory: eight bytes, all it ever learns";
 
 /** Fills the elements of a page that have these ids: doing why boredom facts legend cells memory-title. */
 export class Panel {
   /** @param {import("./cells_view.js").OnPress} [onPress] - As in `CellsView`. */
   constructor(onPress) {
     this.cells = new CellsView(byId("cells"), onPress);
-    this.legend = makeLegend(byId("legend"));
+    /** @type {HTMLElement[]} */
+    this.legend = [];
+    inEachLanguage(() => this.fillLegend(byId("legend")));
     /** @type {WeakMap<Scene, SteadyStates>} */
     this.calm = new WeakMap();
     this.reason = -1;
@@ -55,7 +58,7 @@ export class Panel {
     this.showSentence(scene.shown.get(state.node) ?? state, exact);
     this.showBoredom(state, measures);
     showFacts(scene);
-    setText(byId("memory-title"), scene.states.length > 1 ? MEMORY.replace(":", ` of robot ${state.node}:`) : MEMORY);
+    setText(byId("memory-title"), say(scene.states.length > 1 ? "memoryOf" : "memory", { node: state.node }));
     this.cells.show(scene, then, where);
   }
 
@@ -64,8 +67,8 @@ export class Panel {
    * @param {boolean} exact
    */
   showSentence(state, exact) {
-    setText(byId("doing"), sentence(state, exact));
-    setText(byId("why"), verdict(state));
+    setText(byId("doing"), sentence(state, exact, robotWords()));
+    setText(byId("why"), verdict(state, robotWords()));
     this.showReason(state.reason);
   }
 
@@ -84,12 +87,19 @@ export class Panel {
   showBoredom(state, measures) {
     const count = Math.min(state.repeat_count, measures.boredom);
     const meter = byId("boredom");
-    const words = `${count} of ${measures.boredom}`;
+    const words = say("ofCount", { count, all: measures.boredom });
     if (byId("boredom-count").textContent === words) return;
     meter.style.setProperty("--share", `${count / measures.boredom}`);
     meter.setAttribute("aria-valuenow", `${count}`);
     meter.setAttribute("aria-valuemax", `${measures.boredom}`);
     setText(byId("boredom-count"), words);
+  }
+
+  /** @param {HTMLElement} list */
+  fillLegend(list) {
+    this.legend = REASON_KEYS.map((key) => made("li", [nameIn("reasons", key)], { "data-reason": key }));
+    list.replaceChildren(...this.legend, ...THINGS.map(([name, key]) => made("li", [say(key)], { "data-thing": name })));
+    this.reason = -1;
   }
 }
 
@@ -100,24 +110,8 @@ export class Panel {
 export function showFacts(scene) {
   const { environment, state } = scene;
   const left = environment.food.length - state.eaten.reduce((sum, eaten) => sum + eaten, 0);
-  setText(byId("fact-environment"), `${environment.number} of ${environment.of}`);
-  setText(byId("fact-food"), `${left} of ${environment.food.length}`);
+  setText(byId("fact-environment"), say("ofCount", { count: environment.number, all: environment.of }));
+  setText(byId("fact-food"), say("ofCount", { count: left, all: environment.food.length }));
   setText(byId("fact-time"), scene.clock(state.tick));
   setText(byId("fact-seed"), `${environment.seed}`);
-}
-
-/** @param {HTMLElement} list */
-function makeLegend(list) {
-  const add = (/** @type {string} */ text) => {
-    const item = list.appendChild(document.createElement("li"));
-    item.textContent = text;
-    return item;
-  };
-  const reasons = REASON_NAMES.map((name, reason) => {
-    const item = add(name);
-    item.dataset.reason = REASON_KEYS[reason];
-    return item;
-  });
-  for (const [name, text] of THINGS) add(text).dataset.thing = name;
-  return reasons;
 }

@@ -2,6 +2,7 @@
 /* Which of several robots the panel shows: a button for each, and keys. With one robot there is nothing to see. */
 
 import { byId, isForPage } from "../core/elements.js";
+import { inEachLanguage, say } from "../core/language.js";
 
 /** @typedef {import("../draw/scene.js").Scene} Scene */
 
@@ -20,6 +21,7 @@ export class RobotPicker {
     /** @type {HTMLButtonElement[]} */
     this.buttons = [];
     document.addEventListener("keydown", (event) => this.onKey(event));
+    inEachLanguage(() => this.fill(this.buttons.map(({ value }) => Number(value))));
   }
 
   show() {
@@ -33,7 +35,7 @@ export class RobotPicker {
   fill(nodes) {
     this.element.hidden = nodes.length === 0;
     this.buttons = nodes.map((node) => this.makeButton(node));
-    this.element.replaceChildren("Robot", ...this.buttons);
+    this.element.replaceChildren(say("robot"), ...this.buttons);
   }
 
   /** @param {number} node */
@@ -41,7 +43,7 @@ export class RobotPicker {
     const button = document.createElement("button");
     button.type = "button";
     button.value = button.textContent = `${node}`;
-    button.setAttribute("aria-label", `Robot ${node}`);
+    button.setAttribute("aria-label", say("robotNumber", { node }));
     button.addEventListener("click", () => this.onPick(node));
     return button;
   }

@@ -1,6 +1,7 @@
 // @ts-check
 /* A link to an experiment: what it takes to see it again stands behind the # of the page's address. */
 
+import { filled } from "../core/phrases.js";
 import { CELL_COUNT, PROFILES } from "../generated.js";
 
 /**
@@ -63,6 +64,21 @@ export function linkedIn(hash, known) {
   const found = { taken: {}, left: whatIsLost.filter(Boolean), isCut, isOther: version !== `v=${VERSION}` };
   for (const part of parts) take(part, known, found);
   return found;
+}
+
+/**
+ * What of a link was taken, and what not; empty if all of it was.
+ * @param {Found} found
+ * @param {import("../core/language.js").Texts["program"]} texts
+ */
+export function tellFound({ taken, left, isCut, isOther }, texts) {
+  const fields = /** @type {Record<string, string>} */ (texts.fields);
+  const named = (/** @type {string[]} */ keys) => keys.map((key) => fields[key] ?? key).join(", ");
+  const keys = isOther || isCut || left.length ? Object.keys(taken) : [];
+  return [
+    isOther ? texts.otherVersion : "", isCut ? texts.cutShort : "", keys.length ? filled(texts.taken, { taken: named(keys) }) : "",
+    left.length ? filled(texts.left, { left: named(left) }) : "",
+  ].filter(Boolean).join(" ");
 }
 
 /**

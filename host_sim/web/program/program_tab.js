@@ -1,20 +1,21 @@
 // @ts-check
 /* The tab with a program for a robot: it runs beside the firmware, step by step if one likes. */
 
+import { buttonOf, choiceOf, made } from "../core/building.js";
 import { byId, setText } from "../core/elements.js";
+import { LANGUAGES, inEachLanguage, languageCode, speak, wordsOf } from "../core/language.js";
+import { filled } from "../core/phrases.js";
 import { RANDOM } from "../core/world_names.js";
 import { nextTick } from "../lab/run_events.js";
 import { experimentOf } from "../lab/shown_run.js";
-import { LANGUAGES, filled } from "../lessons/language.js";
 import { partingOf } from "../panel/divergence.js";
 import { Editor } from "./editor.js";
-import { linkOf, linkedIn } from "./link.js";
+import { linkOf, linkedIn, tellFound } from "./link.js";
 import { ProgramSteps } from "./program_steps.js";
 
 /**
  * @typedef {import("../lab/shown_run.js").ShownRun} ShownRun
  * @typedef {import("../types.js").Experiment} Experiment
- * @typedef {typeof import("./texts/en.json")} Texts
  *
  * The page, as far as the tab knows it.
  * @typedef {Object} Lab
@@ -26,7 +27,6 @@ import { ProgramSteps } from "./program_steps.js";
  * @property {Record<string, string>} programs
  * @property {import("../sim/worlds.js").Worlds} worlds
  * @property {import("../lab/simulator.js").Simulator} simulator
- * @property {import("../lessons/course.js").Course} course
  * @property {(lane: ShownRun) => void} simulate
  * @property {(experiment: Experiment) => void} begin
  * @property {(experiment: Experiment) => ShownRun} addLane
@@ -35,8 +35,6 @@ import { ProgramSteps } from "./program_steps.js";
  * @property {(playing: boolean) => void} setPlaying
  */
 
-/** @type {Record<string, Texts>} */
-const ALL = JSON.parse(byId("program-texts").textContent ?? "");
 const FIRST = "article";
 const WHEELS = ["left", "right"];
 
@@ -45,31 +43,27 @@ export class ProgramTab {
   /** @param {Lab} lab */
   constructor(lab) {
     this.lab = lab;
-    this.language = "";
     this.steps = new ProgramSteps(lab.simulator);
     this.editor = new Editor(() => this.onInput());
     this.isChanged = false;
-    this.choice = document.createElement("select");
-    this.choice.id = "program-choice";
-    this.choice.addEventListener("change", () => this.choose(this.choice.value));
-    this.news = element("p", "program-news", { role: "status" });
-    this.parting = element("p", "program-parting", { role: "status" });
-    this.variables = element("dl", "program-variables");
+    this.news = made("p", [], { id: "program-news", role: "status" });
+    this.parting = made("p", [], { id: "program-parting", role: "status" });
+    this.variables = made("dl", [], { id: "program-variables" });
+    this.choice = made("select", []);
     /**
      * The runs whose parting is shown.
      * @type {unknown[]}
      */
     this.compared = [];
     this.note = "";
-    this.build();
+    inEachLanguage(() => this.build());
     this.choose(FIRST);
     for (const event of ["click", "focus"]) byId("tab-program").addEventListener(event, () => this.show());
     this.follow(location.hash);
   }
 
-  /** @returns {Texts} */
   get texts() {
-    return ALL[this.lab.course.language] ?? ALL.en;
+    return wordsOf("program");
   }
 
   /** The run of the program; undefined before the first one. */
@@ -83,24 +77,22 @@ export class ProgramTab {
   }
 
   build() {
-    const { texts } = this;
-    const chosen = this.choice.value;
-    this.language = this.lab.course.language;
-    const label = document.createElement("label");
-    label.append(`${texts.choose} `, this.choice);
-    this.choice.replaceChildren(...Object.entries(texts.names).map(([id, name]) => new Option(name, id, false, id === chosen)));
-    const buttons = [
-      button(texts.run, "program-run", () => this.run()), button(texts.step, "program-step", () => this.step()),
-      button(texts.decision, "program-decision", () => this.nextDecision()), button(texts.link, "program-link", () => this.link()),
+    const { texts, choice } = this;
+    const { label, select } = choiceOf(texts.choose, Object.entries(texts.names), (name) => this.choose(name));
+    this.choice = select;
+    select.id = "program-choice";
+    select.value = choice.value || FIRST;
+    /** @type {[string, string, () => void][]} */
+    const actions = [
+      ["run", texts.run, () => this.run()], ["step", texts.step, () => this.step()],
+      ["decision", texts.decision, () => this.nextDecision()], ["link", texts.link, () => this.link()],
     ];
+    const buttons = actions.map(([id, text, action]) => Object.assign(buttonOf(text, action), { id: `program-${id}` }));
     buttons[0].className = "main";
-    const controls = element("div", "program-controls", { class: "controls" });
-    controls.append(label, ...buttons);
     this.editor.field.setAttribute("aria-label", texts.editor);
     this.variables.setAttribute("aria-label", texts.variables);
-    const panel = byId("panel-program");
-    panel.lang = this.language;
-    panel.replaceChildren(controls, this.parting, this.news, this.editor.element, this.variables);
+    const controls = made("div", [label, ...buttons], { id: "program-controls", class: "controls" });
+    byId("panel-program").replaceChildren(controls, this.parting, this.news, this.editor.element, this.variables);
     this.compared = [];
   }
 
@@ -160,7 +152,7 @@ export class ProgramTab {
     const { profile, memory } = robots[0];
     const named = typeof world === "string";
     const linked = {
-      seed, environments, behaviour: profile, language: lab.course.language, ...(named && { world }), ...(memory && { memory }),
+      seed, environments, behaviour: profile, language: languageCode(), ...(named && { world }), ...(memory && { memory }),
       program: this.editor.text,
     };
     history.replaceState(null, "", linkOf(linked, this.known));
@@ -176,7 +168,7 @@ export class ProgramTab {
   }
 
   get known() {
-    return { programs: this.lab.programs, worlds: Object.keys(this.lab.worlds), languages: LANGUAGES.map(({ code }) => code) };
+    return { programs: this.lab.programs, worlds: Object.keys(this.lab.worlds), languages: LANGUAGES.map(([code]) => code) };
   }
 
   /**
@@ -187,11 +179,11 @@ export class ProgramTab {
     const found = linkedIn(hash, this.known);
     if (!found) return;
     const { seed = 1, environments = 5, world = RANDOM, behaviour = "article", memory, program, language } = found.taken;
-    if (language) this.lab.course.language = language;
+    if (language) speak(language);
     const experiment = experimentOf({ seed, environments, robots: 1, profile: behaviour, world });
     if (memory) experiment.robots[0].memory = memory;
     this.lab.begin(experiment);
-    this.note = this.wordsOf(found);
+    this.note = tellFound(found, this.texts);
     if (program === undefined) return;
     this.editor.text = program;
     this.isChanged = false;
@@ -199,21 +191,8 @@ export class ProgramTab {
     byId("tab-program").click();
   }
 
-  /** @param {import("./link.js").Found} found */
-  wordsOf({ taken, left, isCut, isOther }) {
-    const { texts } = this;
-    const named = (/** @type {string[]} */ keys) =>
-      keys.map((key) => texts.fields[/** @type {keyof Texts["fields"]} */ (key)] ?? key).join(", ");
-    return [
-      isOther ? texts.otherVersion : "", isCut ? texts.cutShort : "",
-      (isOther || isCut || left.length) && Object.keys(taken).length ? filled(texts.taken, { taken: named(Object.keys(taken)) }) : "",
-      left.length ? filled(texts.left, { left: named(left) }) : "",
-    ].filter(Boolean).join(" ");
-  }
-
   show() {
     if (byId("panel-program").hidden) return;
-    if (this.language !== this.lab.course.language) this.build();
     const { own, lab } = this;
     if (own) this.steps.look(own, lab.tick, () => this.show());
     const state = this.isChanged ? undefined : this.steps.state;
@@ -246,12 +225,7 @@ export class ProgramTab {
     const key = JSON.stringify(values);
     if (this.variables.dataset.key === key) return;
     this.variables.dataset.key = key;
-    this.variables.replaceChildren(...values.map(([name, value]) => {
-      const row = document.createElement("div");
-      row.appendChild(document.createElement("dt")).textContent = name;
-      row.appendChild(document.createElement("dd")).textContent = value;
-      return row;
-    }));
+    this.variables.replaceChildren(...values.map(([name, value]) => made("div", [made("dt", [name]), made("dd", [value])])));
   }
 
   showParting() {
@@ -275,29 +249,4 @@ export class ProgramTab {
  */
 function programmed(experiment, program) {
   return { ...experiment, robots: experiment.robots.map((it) => ({ ...it, profile: "article", program })) };
-}
-
-/**
- * @template {keyof HTMLElementTagNameMap} T
- * @param {T} tag
- * @param {string} id
- * @param {Record<string, string>} [attributes]
- */
-function element(tag, id, attributes = {}) {
-  const made = document.createElement(tag);
-  made.id = id;
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  return made;
-}
-
-/**
- * @param {string} text
- * @param {string} id
- * @param {() => void} action
- */
-function button(text, id, action) {
-  const made = element("button", id, { type: "button" });
-  made.textContent = text;
-  made.addEventListener("click", action);
-  return made;
 }

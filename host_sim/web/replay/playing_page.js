@@ -2,6 +2,7 @@
 /* A page that plays a run, forward and back: the tick that it shows, its buttons and its keys. */
 
 import { byId, isForPage, setText, typedById } from "../core/elements.js";
+import { inEachLanguage, say } from "../core/language.js";
 
 /**
  * A class that extends it says which ticks there are (`last`, `tickMs`), shows one (`show`), draws (`draw`, `drawMarks`),
@@ -32,6 +33,10 @@ export class PlayingPage {
     byId("after").addEventListener("click", () => this.jump(1));
     byId("what-if").addEventListener("click", () => this.whatIf());
     document.addEventListener("keydown", (event) => this.onKey(event));
+    inEachLanguage(() => {
+      this.showPlaying();
+      this.stale = true;
+    });
     new ResizeObserver(() => this.resize()).observe(this.marks);
     requestAnimationFrame((now) => this.frame(now));
   }
@@ -89,8 +94,12 @@ export class PlayingPage {
     if (playing && this.tick >= this.last) this.go(this.first);
     this.playing = playing;
     this.frameAt = undefined;
-    setText(byId("play"), playing ? "Pause" : "Play");
+    this.showPlaying();
     this.stale = true;
+  }
+
+  showPlaying() {
+    setText(byId("play"), say(this.playing ? "pause" : "play"));
   }
 
   /** @param {number} now */

@@ -2,6 +2,7 @@
 /* The page of a recorded run: plays it, forward and back, and compares its memory at two times. */
 
 import { byId, setText, typedById } from "../core/elements.js";
+import { heard, inEachLanguage, nameIn, say } from "../core/language.js";
 import { itemAt } from "../edit/hit_testing.js";
 import { LessonsView } from "../panel/lessons_view.js";
 import { Panel } from "../panel/panel.js";
@@ -40,6 +41,10 @@ class Player extends PlayingPage {
     this.talk = new TalkBox(byId("talk"), this);
     data.trailsAt(data.first, this.scene.trails);
     byId("pin").addEventListener("click", () => this.pin());
+    inEachLanguage(() => {
+      this.showPin();
+      setText(byId("status"), heard(data.run.title));
+    });
     this.renderer.canvas.addEventListener("click", (event) => this.onClick(event));
   }
 
@@ -81,8 +86,8 @@ class Player extends PlayingPage {
   jump(step) {
     const kind = /** @type {EventKind} */ (typedById("kind", HTMLSelectElement).value);
     const tick = this.robot.eventFrom(kind, this.tick, step);
-    const none = `no ${step > 0 ? "later" : "earlier"} ${kind}`;
-    setText(byId("status"), tick === undefined ? none : this.data.run.title);
+    const none = say(step > 0 ? "noLater" : "noEarlier", { kind: nameIn("kinds", kind) });
+    setText(byId("status"), tick === undefined ? none : heard(this.data.run.title));
     if (tick === undefined) return;
     this.setPlaying(false);
     this.go(tick);
@@ -91,10 +96,13 @@ class Player extends PlayingPage {
   /** Compares the memory of now with that of other times; once more ends that. */
   pin() {
     this.pinned = this.pinned === undefined ? this.tick : undefined;
-    const words = this.pinned === undefined ? "Compare with now" : `Compared with ${this.scene.clock(this.pinned)}`;
-    setText(byId("pin"), words);
+    this.showPin();
     byId("pin").setAttribute("aria-pressed", `${this.pinned !== undefined}`);
     this.stale = true;
+  }
+
+  showPin() {
+    setText(byId("pin"), this.pinned === undefined ? say("compareNow") : say("comparedWith", { time: this.scene.clock(this.pinned) }));
   }
 
   /**
@@ -165,8 +173,7 @@ async function start() {
   const text = byId("run").textContent;
   if (!text) throw new Error("This page has no run in it: tools/octet replay RUN.LOG --html makes one that has.");
   const run = JSON.parse(text);
-  setText(byId("status"), run.title);
   Object.assign(window, { octet: new Player(await RunData.from(run)) });
 }
 
-start().catch((error) => setText(byId("status"), error.message));
+start().catch((error) => setText(byId("status"), heard(error.message)));

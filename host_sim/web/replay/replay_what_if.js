@@ -2,6 +2,7 @@
 /* "What if?" on the page of a recorded run: the laboratory of octet.html over it, with the run and a copy to change. */
 
 import { byId, setText, typedById } from "../core/elements.js";
+import { heard, say } from "../core/language.js";
 import { inflate } from "../core/packed_columns.js";
 import { partingOf } from "../panel/divergence.js";
 
@@ -46,10 +47,10 @@ export class ReplayWhatIf {
     /** @type {Laboratory} */
     const laboratory = text ? JSON.parse(text) : NONE;
     if ("why" in laboratory) {
-      setText(byId("no-what-if"), laboratory.why);
+      setText(byId("no-what-if"), heard(laboratory.why));
       return;
     }
-    setText(byId("what-if-news"), "the firmware runs the recorded run again");
+    setText(byId("what-if-news"), heard("the firmware runs the recorded run again"));
     this.view.showModal();
     try {
       const page = await pageOf(laboratory.page, { recorded: laboratory.run, tick, node });
@@ -71,7 +72,7 @@ export class ReplayWhatIf {
   /** @param {string} html */
   show(html) {
     const frame = document.createElement("iframe");
-    frame.title = "Laboratory";
+    frame.title = say("desk");
     frame.srcdoc = html;
     frame.addEventListener("load", () => this.check(/** @type {LabWindow} */ (frame.contentWindow)));
     this.frame?.remove();
@@ -86,7 +87,7 @@ export class ReplayWhatIf {
     try {
       await octet?.repeated;
       const [run] = octet?.lanes ?? [];
-      setText(byId("what-if-news"), run?.data ? verdict(this.data, run.data) : "");
+      setText(byId("what-if-news"), run?.data ? heard(verdict(this.data, run.data)) : "");
     } catch (error) {
       this.giveUp(error);
     }

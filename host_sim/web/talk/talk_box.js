@@ -1,7 +1,9 @@
 // @ts-check
 /* A box to talk in: who is asked, what was said, and a line to write in. */
 
-import { buttonOf, choiceOf, made } from "../core/building.js";
+import { buttonOf, made } from "../core/building.js";
+import { setText } from "../core/elements.js";
+import { inEachLanguage, LANGUAGES, languageCode, say } from "../core/language.js";
 
 /**
  * @typedef {import("../types.js").WirePlace} WirePlace
@@ -20,7 +22,8 @@ import { buttonOf, choiceOf, made } from "../core/building.js";
  * @property {() => void} lightUp
  */
 
-const NAMES = { robot: "robot", "robot-de": "Roboter (Deutsch)", eliza: "ELIZA", "eliza-de": "ELIZA (Deutsch)" };
+/** The speakers, and the language of each. */
+const SPEAKERS = { robot: "en", "robot-de": "de", eliza: "en", "eliza-de": "de" };
 const LENGTH_MAX = "300";
 const SAID_MAX = 50;
 const TIMES_SHOWN = 3;
@@ -40,13 +43,13 @@ export class TalkBox {
     this.history = [];
     /** What speakers were taught to say. @type {Set<string>} */
     this.taught = new Set();
-    const { label, select } = choiceOf("Talk to", Object.entries(NAMES), () => this.mean(undefined));
-    this.who = select;
-    this.who.id = "talk-who";
-    this.list = made("ol", [], { id: "talk-said", "aria-live": "polite", "aria-label": "What was said", tabindex: "0" });
-    this.line = made("input", [], { id: "talk-line", maxlength: LENGTH_MAX, autocomplete: "off", "aria-label": "What you say" });
-    this.line.placeholder = "Why did you turn left?";
-    const form = made("form", [label, this.line, made("button", ["Say"], { class: "main" })], { class: "controls" });
+    this.who = made("select", Object.keys(SPEAKERS).map((value) => made("option", [], { value })), { id: "talk-who" });
+    this.who.addEventListener("change", () => this.mean(undefined));
+    this.list = made("ol", [], { id: "talk-said", "aria-live": "polite", tabindex: "0" });
+    this.line = made("input", [], { id: "talk-line", maxlength: LENGTH_MAX, autocomplete: "off" });
+    const to = made("span", []);
+    const button = made("button", [], { class: "main" });
+    const form = made("form", [made("label", [to, " ", this.who]), this.line, button], { class: "controls" });
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       this.page.ask(this.who.value, this.line.value);
@@ -54,6 +57,26 @@ export class TalkBox {
     });
     this.element = made("div", [this.list, form], { id: "talk-box" });
     parent.append(this.element);
+    inEachLanguage(() => this.name(to, button));
+  }
+
+  /**
+   * Writes its words. The robot is asked in the page's language, if it knows that.
+   * @param {HTMLElement} to
+   * @param {HTMLElement} button
+   */
+  name(to, button) {
+    setText(to, say("talkTo"));
+    setText(button, say("say"));
+    this.list.setAttribute("aria-label", say("said"));
+    this.line.setAttribute("aria-label", say("youSay"));
+    this.line.placeholder = say("talkExample");
+    for (const option of this.who.options) option.text = speakerName(option.value);
+    this.meetRobot();
+  }
+
+  meetRobot() {
+    this.who.value = Object.entries(SPEAKERS).find(([, code]) => code === languageCode())?.[0] ?? "robot";
   }
 
   /** @param {HTMLElement} parent */
@@ -78,7 +101,7 @@ export class TalkBox {
     const { who, sentence, said } = exchange;
     this.history = [...this.history, exchange].slice(-SAID_MAX);
     const mark = made("span", [`[${said.mark}]`], { class: `mark ${said.mark}` });
-    const lang = who.endsWith("-de") ? "de" : "en";
+    const lang = SPEAKERS[/** @type {keyof typeof SPEAKERS} */ (who)];
     const answer = made("p", [mark, ` ${said.text} `, ...this.times(said)], { lang });
     this.list.append(made("li", [made("p", [sentence || "…"], { class: "asked", lang }), answer]));
     if (this.list.childElementCount > SAID_MAX) this.list.firstElementChild?.remove();
@@ -103,4 +126,11 @@ export class TalkBox {
     return ticks.slice(-TIMES_SHOWN).map((tick) =>
       seek ? buttonOf(scene.clock(tick), () => this.page.seek?.(tick)) : made("span", [scene.clock(tick)], { class: "time" }));
   }
+}
+
+/** @param {string} who */
+function speakerName(who) {
+  const code = SPEAKERS[/** @type {keyof typeof SPEAKERS} */ (who)];
+  const name = who.startsWith("eliza") ? "ELIZA" : say("speakerRobot");
+  return code === languageCode() ? name : `${name} (${LANGUAGES.find(([known]) => known === code)?.[1]})`;
 }

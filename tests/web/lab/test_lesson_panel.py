@@ -15,7 +15,7 @@ IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#what-if", "#tabs", "#lesson
 def test_the_language_is_the_browsers_until_another_is_chosen_which_stays(file, open_page):
     page = open_page(f"{file.as_uri()}?#program", ready=READY, locale="de-AT")
     assert page.inner_text("#begin-lesson") == "Lektion starten"
-    assert page.get_attribute("#panel-lessons", "lang") == "de"
+    assert page.get_attribute("html", "lang") == "de"
 
     page.select_option("#language", "en")
     assert page.inner_text("#begin-lesson") == "Start this lesson"

@@ -7,7 +7,8 @@ import pytest
 from playwright.sync_api import Page
 
 from host_sim.base.paths import ROOT
-from host_sim.report.octet_page import programs, texts
+from host_sim.report.octet_page import programs
+from host_sim.view.languages import languages
 from tests.runs.support import octet
 from tests.web.lab.support import READY, go, settle
 from tests.web.looks import violations_at
@@ -172,7 +173,7 @@ def test_a_link_has_seed_world_behaviour_memory_program_and_language(open_page, 
     assert first["robots"][0]["profile"] == "never"
     assert first["robots"][0]["memory"] == [0, 1, 0, 0, 2, 0, 0, 0]
     assert second["robots"][0]["program"] == programs()["one_rule"]
-    assert page.inner_text("#program-run") == texts("program")["de"]["run"]
+    assert page.inner_text("#program-run") == languages()["de"]["program"]["run"]
 
 
 @pytest.mark.parametrize(
@@ -206,7 +207,7 @@ def test_the_tab_is_accessible(tab):
 
 
 def test_both_languages_have_the_same_words():
-    english, german = (texts("program")[code] for code in ("en", "de"))
+    english, german = (languages()[code]["program"] for code in ("en", "de"))
     expected = Path(ROOT / "host_sim/program/native/program.h").read_text().partition("EXPECTED_NOTHING,")[2]
 
     assert {key: type(value) for key, value in english.items()} == {key: type(value) for key, value in german.items()}

@@ -193,7 +193,7 @@ def test_starting_over_says_what_it_did_and_begins_its_clock_and_lessons_anew(pa
     run.send(environment={**ENVIRONMENT, "seed": 8, "first_tick": 1000, "start_tick": 1000}, play=PLAY)
 
     wait_for_text(page, "#note", "Started over with seed 8: empty memory, learning is on.")
-    wait_for(page, "document.querySelector('#lessons').children.length === 0")
+    wait_for(page, "document.querySelector('#lessons').textContent === 'Nothing yet.'")
     assert page.inner_text("#fact-time") == "0:01.0"
 
 

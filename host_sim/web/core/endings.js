@@ -1,0 +1,30 @@
+// @ts-check
+/* What is said when an environment has ended, or a run was started over. */
+
+import { SIDE } from "../generated.js";
+import { robotWords, say } from "./language.js";
+import { minutes } from "./phrases.js";
+
+/**
+ * How an environment ended, and after the last one how all did: a heading and a sentence.
+ * @param {import("../types.js").Ended} ended
+ * @param {boolean} done - Whether it was the last one.
+ * @returns {[string, string]}
+ */
+export function ending(ended, done) {
+  const { number, eaten, food, environments, environments_finished, environments_robot_s } = ended;
+  const { point } = robotWords();
+  if (done) return [say("allDoneBig"), say("endedAll", { finished: environments_finished, all: environments, time: minutes(environments_robot_s, point) })];
+  const found = ended.finished ? say("allFood") : say("someFood", { eaten, food });
+  return [found, say("endedAt", { number, time: minutes(ended.robot_s, point) })];
+}
+
+/**
+ * What "start over" has done.
+ * @param {import("../types.js").EnvironmentScene} environment
+ * @param {import("../types.js").State[]} states
+ */
+export function restarted({ seed }, states) {
+  const isEmpty = states.every(({ memory }) => memory.every((side) => side === SIDE.NOTHING));
+  return say(isEmpty ? "restartedEmpty" : "restartedKept", { seed });
+}

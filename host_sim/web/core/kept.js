@@ -1,0 +1,26 @@
+// @ts-check
+/* What this browser keeps from one visit to the next, where it is allowed to. */
+
+/**
+ * The text that was kept under a name; empty if there is none.
+ * @param {string} name
+ */
+export function kept(name) {
+  try {
+    return localStorage.getItem(`octet-${name}`) ?? "";
+  } catch {
+    return ""; // a browser may forbid it to files
+  }
+}
+
+/**
+ * @param {string} name
+ * @param {string} text
+ */
+export function keep(name, text) {
+  try {
+    localStorage.setItem(`octet-${name}`, text);
+  } catch {
+    // then for this visit only
+  }
+}

@@ -1,0 +1,141 @@
+// @ts-check
+/* The words of the page in its reader's language: the browser's, or the one that was chosen here before. */
+
+import { made } from "./building.js";
+import { byId } from "./elements.js";
+import { keep, kept } from "./kept.js";
+import { ENGLISH, filled } from "./phrases.js";
+
+/**
+ * The words of one language, as in texts/: those of the page, and those in which it says what it hears in English from
+ * the firmware, the worker or the server.
+ * @typedef {typeof import("../texts/en.json")} Texts
+ * @typedef {keyof Texts["page"]} Key
+ * @typedef {"kinds" | "reasons" | "columns"} Group
+ */
+
+const FALLBACK = "en";
+const CHANGED = "octet-language";
+
+/**
+ * The languages that are in the page, by their codes.
+ * @type {Record<string, Texts>}
+ */
+const ALL = JSON.parse(byId("texts").textContent ?? "");
+
+/**
+ * The codes and the names of all languages.
+ * @type {[string, string][]}
+ */
+export const LANGUAGES = Object.entries(ALL).map(([code, { language }]) => [code, language]);
+
+let spoken = [kept("language"), ...navigator.languages.map((tag) => tag.split("-")[0])].find((code) => code in ALL) ?? FALLBACK;
+let robot = readRobot();
+
+/** The code of the page's language. */
+export function languageCode() {
+  return spoken;
+}
+
+/**
+ * A part of the words of the page's language.
+ * @template {keyof Texts} P
+ * @param {P} part
+ * @returns {Texts[P]}
+ */
+export function wordsOf(part) {
+  return ALL[spoken][part];
+}
+
+/**
+ * A text of the page, with its gaps filled.
+ * @param {Key} key
+ * @param {Record<string, string | number>} [values]
+ */
+export function say(key, values = {}) {
+  return filled(ALL[spoken].page[key] ?? ALL[FALLBACK].page[key], values);
+}
+
+/**
+ * What something is called.
+ * @param {Group} group
+ * @param {string} name
+ */
+export function nameIn(group, name) {
+  const names = /** @type {Record<string, string>} */ (ALL[spoken][group] ?? ALL[FALLBACK][group]);
+  return names[name] ?? name;
+}
+
+/** The robot's own words. */
+export function robotWords() {
+  return robot;
+}
+
+/** @returns {import("./phrases.js").Words} */
+function readRobot() {
+  const own = /** @type {Partial<import("./phrases.js").Words>} */ (ALL[spoken].robot ?? {});
+  return { ...ENGLISH, ...own, sentences: { ...ENGLISH.sentences, ...own.sentences } };
+}
+
+/**
+ * A name or a sentence that comes in English, in the page's language; as it is where that language has none for it.
+ * @param {string} text
+ * @returns {string}
+ */
+export function heard(text) {
+  const known = /** @type {Record<string, string>} */ (ALL[spoken].heard ?? {});
+  if (text in known) return known[text];
+  for (const [english, own] of Object.entries(known)) {
+    const gaps = english.includes("{") && new RegExp(`^${english.replace(/[.?*+()|[\]$^]/g, "\\$&").replace(/\{\d\}/g, "(.+?)")}$`).exec(text);
+    if (gaps) return filled(own, gaps.slice(1).map(heard));
+  }
+  return text;
+}
+
+/**
+ * Chooses a language for this visit and the next.
+ * @param {string} code
+ */
+export function speak(code) {
+  spoken = code;
+  robot = readRobot();
+  keep("language", code);
+  sayAll();
+  dispatchEvent(new Event(CHANGED));
+}
+
+/**
+ * Calls back now, and whenever another language is chosen.
+ * @param {() => void} write
+ */
+export function inEachLanguage(write) {
+  addEventListener(CHANGED, write);
+  write();
+}
+
+/** Writes what elements say from the beginning: `data-say` names an element's text, `data-say-title` a title. */
+function sayAll() {
+  document.documentElement.lang = spoken;
+  const write = (/** @type {string} */ name, /** @type {(element: Element, text: string) => void} */ into) => {
+    for (const element of document.querySelectorAll(`[${name}]`)) {
+      const [key, value = ""] = (element.getAttribute(name) ?? "").split(":");
+      into(element, say(/** @type {Key} */ (key), { key: value }));
+    }
+  };
+  write("data-say", (element, text) => (element.textContent = text));
+  write("data-say-label", (element, text) => element.setAttribute("aria-label", text));
+  write("data-say-title", (element, text) => element.setAttribute("title", text));
+  for (const option of document.querySelectorAll("[data-kinds] option")) option.textContent = nameIn("kinds", option.getAttribute("value") ?? "");
+}
+
+/** Fills the element `language`, where the page has one. */
+function offerLanguages() {
+  const field = document.getElementById("language");
+  if (!(field instanceof HTMLSelectElement)) return;
+  field.append(...LANGUAGES.map(([value, name]) => made("option", [name], { value, lang: value })));
+  field.value = spoken;
+  field.addEventListener("change", () => speak(field.value));
+}
+
+sayAll();
+offerLanguages();
