@@ -116,8 +116,8 @@ def _campaign(arguments: argparse.Namespace) -> int:
     cases = [
         Case(
             f"{it.cell.configuration}: {it.cell.fault or 'no fault'}",
-            "failed" if it.problems else "passed",
-            f"{verdict(it)}\n{it.cell.command()}",
+            "failed" if it.problems else "passed" if it.reach in {"", "reached"} else "skipped",
+            "\n".join((verdict(it), *[f"fault: {it.reach}"] * bool(it.reach), it.cell.command())),
         )
         for it in outcomes
     ]

@@ -93,12 +93,12 @@ class Outcome:
     def reach(self) -> str:
         """Whether its fault reached its receiver: reached, refused (all of it), or never came; empty without one."""
         cell = self.cell
-        if not cell.items or self.end or self.doubts:
+        if not cell.items or self.end:
             return "reached" if cell.items else ""
         if cell.faults and not self.strikes and not cell.changes and not cell.events:
             return "never came"
         is_forged = bool(cell.faults) and all(rule.startswith("forge") for rule in cell.faults)
-        return "refused" if is_forged and self.refusals >= self.strikes else "reached"
+        return "refused" if is_forged and self.refusals >= self.strikes and not self.doubts else "reached"
 
     @property
     def recovered(self) -> bool:

@@ -1,5 +1,6 @@
 """A sample of the campaign: each fault is seen, nothing is unsafe, and what is not seen fails it."""
 
+import json
 import shlex
 from dataclasses import replace
 from pathlib import Path
@@ -259,9 +260,16 @@ def test_each_run_says_whether_its_fault_reached_its_receiver(fault, reach):
 
 def test_a_fault_that_never_comes_fails_the_campaign(tmp_path, monkeypatch):
     monkeypatch.setattr("host_sim.lab.campaign.matrix.groups.__defaults__", ((NEVER,),))
-    words = ("--profiles", "article", "--limit-s", "3")
+    words = ("--profiles", "article", "--limit-s", "3", "--json", tmp_path / "campaign.json")
 
     done = octet("campaign", tmp_path / "campaign.html", *words)
 
     assert done.returncode == 1
     assert "none reached its receiver: a fault that never comes" in done.stdout
+    assert [case["result"] for case in json.loads((tmp_path / "campaign.json").read_text())] == ["passed", "skipped"]
+
+
+def test_a_run_that_is_doubted_for_something_else_does_not_say_that_its_fault_came():
+    outcome = Outcome(replace(CLEAN, fault=NEVER.name, faults=NEVER.faults), doubts=("this host was too slow",))
+
+    assert outcome.reach == "never came"
