@@ -1,9 +1,20 @@
-"""Changes as a person writes them."""
+"""Changes as a person writes them, what they do to an arena, and what can be wrong with a body."""
+
+import math
 
 import pytest
 
 from host_sim.base.errors import UsageError
+from host_sim.protocol.words import BODY_FAULTS
+from host_sim.world.arena import Arena
+from host_sim.world.body_faults import check_fault
+from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change, read_changes
+from host_sim.world.edits import AddPlant, ChangeBody, EditError, GrowPlant
+from host_sim.world.geometry import Bar, Plant, Pose
+from host_sim.world.layouts import Layout, generate
+from host_sim.world.params import SimParams
+from host_sim.world.reach import Reach
 
 
 @pytest.mark.parametrize(
@@ -92,3 +103,147 @@ def test_a_file_that_is_not_text_is_refused(tmp_path):
 
     with pytest.raises(UsageError, match="is not text"):
         read_changes(str(tmp_path / "changes"))
+
+
+PARAMS = SimParams()
+
+
+def happen(arena: Arena, text: str, seed: int = 1) -> list:
+    edits = edits_of(Change.parse(text), arena, PARAMS, seed)
+    for edit in edits:
+        arena.edit(edit)
+    return edits
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_plant_is_put_where_it_leaves_a_way_to_all_food(seed):
+    layout = generate(seed, 1, PARAMS, robots=2)
+    arena = Arena(layout, PARAMS)
+
+    happen(arena, "plant@1s", seed)
+    happen(arena, "plant@1s", seed)
+
+    plants = tuple(arena.obstacles.plants.values())
+    reach = Reach(layout.bars, layout.start[:2], PARAMS, plants)
+    assert len(set(plants)) == 2
+    assert all(food in reach for food in layout.food)
+    for plant in plants:
+        near = (*layout.food, *(start[:2] for start in layout.starts))
+        assert min(math.dist(plant.at, place) for place in near) >= plant.radius_mm + 160
+
+
+def test_the_place_of_a_plant_follows_from_the_seed():
+    places = {happen(Arena(generate(1, 1, PARAMS), PARAMS), "plant@1s", seed)[0].plant.at for seed in (1, 1, 2)}
+
+    assert len(places) == 2
+
+
+def test_a_plant_can_be_put_at_a_place():
+    edits = happen(Arena(generate(1, 1, PARAMS), PARAMS), "plant:2000,1500@1s")
+
+    assert edits == [AddPlant(Plant((2000.0, 1500.0), 80.0))]
+
+
+def test_where_every_plant_would_be_in_the_way_there_is_no_room():
+    narrow = SimParams(width_mm=600.0, height_mm=600.0)
+    arena = Arena(Layout((), ((400.0, 300.0),), Pose(200.0, 300.0, 0.0)), narrow)
+
+    with pytest.raises(EditError, match="no room for a plant"):
+        edits_of(Change.parse("plant@1s"), arena, narrow, 1)
+
+
+def test_a_plant_beside_a_robot_that_touches_a_wall_leaves_it_a_way():
+    arena = Arena(Layout((), ((3000.0, 1500.0),), Pose(100.0, 1500.0, 0.0)), PARAMS)
+
+    assert happen(arena, "plant@1s")
+
+
+def test_all_plants_grow():
+    arena = Arena(generate(1, 1, PARAMS), PARAMS)
+    happen(arena, "plant@1s")
+    happen(arena, "plant@1s")
+
+    grown = happen(arena, "grow@2s")
+    more = happen(arena, "grow:7@2s")
+
+    assert [type(edit) for edit in grown] == [GrowPlant] * 2
+    assert [edit.radius_mm for edit in (*grown, *more)] == [120.0] * 2 + [127.0] * 2
+
+
+def test_where_there_is_no_plant_none_grows():
+    with pytest.raises(EditError, match="no plant"):
+        happen(Arena(generate(1, 1, PARAMS), PARAMS), "grow@2s")
+
+
+def test_what_happens_to_bodies_happens_to_all_or_to_the_one_named():
+    arena = Arena(generate(1, 1, PARAMS, robots=3), PARAMS)
+
+    assert happen(arena, "mirror@1s", seed=7) == [ChangeBody("mirror", robot, 7) for robot in range(3)]
+    assert happen(arena, "mirror@1s/2", seed=7) == [ChangeBody("mirror", 1, 7)]
+    assert [body.faults.mirrored for body in arena.bodies] == [True, False, True]
+
+
+def test_a_plant_is_an_obstacle_like_any_other():
+    arena = Arena(Layout((Bar((9.0, 9.0), (99.0, 99.0)),), ((2500.0, 1500.0),), Pose(2000.0, 1500.0, 0.0)), PARAMS)
+    assert arena.body.sense(0).look
+
+    arena.edit(AddPlant(Plant((2230.0, 1500.0), 80.0)))
+
+    assert arena.body.sense(0).feel == 4
+    assert not arena.body.sense(0).look
+    assert arena.ranges(0).front == 50
+    for _ in range(40):
+        arena.body.move(200, 200)
+    assert arena.body.pose.x_mm == pytest.approx(2050, abs=0.1)
+    assert arena.body.sense(0).bump
+
+
+@pytest.fixture
+def arena() -> Arena:
+    """Nothing is felt, and no food seen."""
+    return Arena(generate(1, 1, SimParams()), SimParams())
+
+
+def test_faults_go_on_in_the_next_arena_until_they_are_repaired(arena):
+    arena.body.add_fault("stuck-on:front")
+    following = Arena(generate(1, 2, SimParams()), SimParams(), arena.bodies)
+    assert following.body.sense(0).feel == 4
+
+    following.begin(1)
+
+    assert following.body.sense(0).feel == 0
+    assert arena.body.sense(0).feel == 4
+
+
+def wrong_bits(arena: Arena, ticks: range) -> list[int]:
+    return [arena.body.sense(tick).feel for tick in ticks]
+
+
+def test_noise_makes_each_sensor_wrong_as_often_as_it_says(arena):
+    arena.body.add_fault("noise:10/1000", seed=1)
+
+    bits = wrong_bits(arena, range(40_000))
+
+    for sensor in range(5):
+        assert sum(wrong >> sensor & 1 for wrong in bits) == pytest.approx(400, abs=80)
+
+
+def test_noise_of_a_tick_is_the_same_whenever_it_is_asked_for(arena):
+    arena.body.add_fault("noise:1/3", seed=1)
+
+    assert wrong_bits(arena, range(50))[40:] == wrong_bits(arena, range(40, 50))
+
+
+@pytest.mark.parametrize(
+    ("what", "meant"),
+    [
+        ("mirrored", "did you mean mirror?"),
+        ("explode", f"choose from {', '.join(BODY_FAULTS)}"),
+        ("mirror:left", "write mirror"),
+    ],
+)
+def test_what_cannot_happen_is_refused_with_what_was_meant(what, meant):
+    with pytest.raises(ValueError) as raised:  # noqa: PT011 - the text is compared below
+        check_fault(what)
+
+    assert str(raised.value) == meant

@@ -1,16 +1,19 @@
-"""Environments: the same for the same seed, fair to the robot, and turned the right way round."""
+"""Environments: drawn in C from Python's random numbers, fair, and turned the right way round."""
 
 import itertools
 import math
+import random
 
 import numpy as np
 import pytest
 
 from host_sim.world.body import rolled
-from host_sim.world.geometry import Bar, Pose, ahead_of
+from host_sim.world.geometry import Pose, ahead_of
 from host_sim.world.layouts import Layout, NoRoomError, generate
 from host_sim.world.params import SimParams
+from host_sim.world.world_library import world_library
 from tests.world.clearances import clearances_mm
+from tests.world.golden_layouts import DIGESTS, WANTED, digest, numbers, world
 from tests.world.walk import can_reach
 
 PARAMS = SimParams()
@@ -35,57 +38,9 @@ def test_a_bearing_counts_from_the_heading() -> None:
     assert ahead_of(Pose(0.0, 0.0, math.pi / 2), 5.0, math.pi / 2) == pytest.approx((-5.0, 0.0))
 
 
-def test_the_same_seed_and_number_give_the_same_environment() -> None:
-    assert generate(7, 2, PARAMS) == generate(7, 2, PARAMS)
-
-
-def test_the_environment_of_a_seed_stays_the_same_for_ever() -> None:
-    start = generate(1, 1, PARAMS).start
-
-    assert start == pytest.approx((314.651908, 385.035638, -2.400630), abs=1e-6)
-
-
 @pytest.mark.parametrize(("seed", "number"), [(2, 1), (1, 2), (-1, 1), (11, 1), (1, 11)])
 def test_another_seed_or_number_gives_another_environment(seed: int, number: int) -> None:
     assert generate(seed, number, PARAMS) != generate(1, 1, PARAMS)
-
-
-def test_clearance_is_the_distance_to_the_nearest_surface() -> None:
-    layout = Layout((Bar((1000.0, 1000.0), (2000.0, 1000.0)),), (), Pose(0.0, 0.0, 0.0))
-
-    beside, beyond_the_end, by_the_wall, inside, outside = room_mm(
-        layout, (1500.0, 1100.0), (2130.0, 1000.0), (4.0, 500.0), (1500.0, 1005.0), (-3.0, 500.0)
-    )
-
-    assert (beside, beyond_the_end, by_the_wall) == pytest.approx((80.0, 110.0, 4.0))
-    assert (inside, outside) == pytest.approx((-15.0, -3.0))
-
-
-@pytest.mark.parametrize("seed", range(200))
-def test_every_environment_is_fair(seed: int) -> None:
-    layout = generate(seed, 1, PARAMS)
-
-    for food, (low, high) in zip(layout.food, PARAMS.food_bands_mm, strict=True):
-        assert low <= food[0] <= high
-    assert len(layout.bars) == PARAMS.bar_count
-    assert min(room_mm(layout, layout.start[:2])) >= PARAMS.body_radius_mm + PARAMS.sensor_reach_mm
-
-
-@pytest.mark.parametrize("seed", range(200))
-def test_every_obstacle_is_as_long_as_it_may_be_and_inside_the_walls(seed: int) -> None:
-    half = PARAMS.bar_thickness_mm / 2
-    for a, b in generate(seed, 1, PARAMS).bars:
-        assert PARAMS.bar_length_mm[0] - 1e-9 <= math.dist(a, b) + 2 * half <= PARAMS.bar_length_mm[1] + 1e-9
-        for x, y in (a, b):
-            assert half - 1e-9 <= x <= PARAMS.width_mm - half + 1e-9
-            assert half - 1e-9 <= y <= PARAMS.height_mm - half + 1e-9
-
-
-@pytest.mark.parametrize("seed", range(0, 200, 5))
-def test_the_body_can_get_from_the_start_to_all_food(seed: int) -> None:
-    layout = generate(seed, 1, PARAMS)
-
-    assert all(can_reach(layout, food, PARAMS) for food in layout.food)
 
 
 def test_food_behind_obstacles_is_drawn_again() -> None:
@@ -115,14 +70,6 @@ def test_more_than_can_be_drawn_is_refused(params: SimParams) -> None:
         generate(1, 1, params)
 
 
-def test_more_robots_leave_the_layout_and_the_starts_of_fewer_as_they_are() -> None:
-    layouts = [generate(7, 2, PARAMS, robots) for robots in (1, 2, 5)]
-
-    assert len({(layout.bars, layout.food, layout.start) for layout in layouts}) == 1
-    assert layouts[2].starts[:2] == layouts[1].starts
-    assert [len(layout.starts) for layout in layouts] == [1, 2, 5]
-
-
 def test_no_robot_starts_within_reach_of_another_or_of_an_obstacle() -> None:
     layout = generate(3, 1, PARAMS, robots=20)
     reach_mm = PARAMS.body_radius_mm + PARAMS.sensor_reach_mm
@@ -139,3 +86,39 @@ def test_more_robots_than_there_is_room_for_say_how_many_fit() -> None:
         generate(1, 1, small, robots=60)
 
     assert len(generate(1, 1, small, robots=raised.value.fitting).starts) == raised.value.fitting
+
+
+def drawn(text: str, count: int) -> list[float]:
+    ffi, library = world_library()
+    draws = ffi.new("struct draws *")
+    library.draws_seed(draws, text.encode())
+    return [library.draws_next(draws) for _ in range(count)]
+
+
+def drawn_by_python(text: str, count: int) -> list[float]:
+    draws = random.Random(text)
+    return [draws.random() for _ in range(count)]
+
+
+def test_the_first_numbers_of_many_seeds_are_those_of_python():
+    for seed in (*range(2000), -1, 2**32 - 1, 2**63 - 1, -(2**63)):
+        text = f"octet {seed} {seed % 7}"
+
+        assert drawn(text, 3) == drawn_by_python(text, 3), text
+
+
+def test_the_numbers_of_a_text_of_any_length_are_those_of_python():
+    for length in range(101):
+        text = "".join(chr(33 + (7 * i) % 90) for i in range(length))
+
+        assert drawn(text, 3) == drawn_by_python(text, 3), text
+
+
+@pytest.mark.parametrize("text", ["octet 1 1", "octet 7 3 starts", ""])
+def test_a_long_sequence_is_that_of_python(text):
+    assert drawn(text, 10_000) == drawn_by_python(text, 10_000)
+
+
+@pytest.mark.parametrize("name", DIGESTS)
+def test_the_layouts_of_a_world_stay_the_same_for_ever(name):
+    assert digest(numbers(world(name).generate(*which)) for which in WANTED) == DIGESTS[name]

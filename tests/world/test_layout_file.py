@@ -57,18 +57,6 @@ def test_a_start_that_is_left_out_is_drawn_for_each_environment_and_fair(tmp_pat
     assert all(is_fair(layout, world.params) for layout in layouts)
 
 
-def test_food_is_enough_for_a_world(tmp_path):
-    layout = read(tmp_path, "food = [[3500, 400]]").generate(1, 1)
-
-    assert (layout.bars, layout.food) == ((), ((3500.0, 400.0),))
-
-
-def test_where_only_the_place_of_the_food_has_room_the_robot_starts_there(tmp_path):
-    box = [[100, 100, 100, 460], [460, 100, 460, 460], [100, 100, 460, 100], [100, 460, 460, 460]]
-
-    assert read(tmp_path, f"food = [[280, 280]]\nbars = {box}").generate(1, 1).start[:2] == (280.0, 280.0)
-
-
 def test_a_world_can_be_written_out_and_made_again(tmp_path):
     world = read(tmp_path, FULL)
     assert isinstance(world.draw, WrittenLayout)
@@ -92,25 +80,12 @@ def test_the_example_in_the_documents_is_the_file_beside_them():
         ("# c\nfood = []", 2, "a world needs food"),
         ("food = [[500, 500]]\nbar = []", 2, "there is no 'bar': did you mean 'bars'?"),
         ("food = [[500, 500]]\n[wall]", 2, "there is no 'wall': a world has size, start, food, bars"),
-        ("food = [[500, 500]]\nsize = [100, 100]", 2, "size must be [width, height] in mm, from [600, 600]"),
         ("food = [[500, 500]]\nsize = 3", 2, "size must be [width, height]: 2 numbers"),
         ("food = 3", 1, "food must be a list of at most 20"),
-        (f"food = {[[500, 500]] * 21}", 1, "food must be a list of at most 20"),
-        ("food = [\n  [500, 500], # [one]\n  [1, true],\n]", 3, "food 2 must be [x, y]: 2 numbers"),
-        ("food = [\n  [nan, 500],\n]", 2, "food 1 must be [x, y]: 2 numbers"),
         ("food = [3]", 1, "food 1 must be [x, y]: 2 numbers"),
+        ("food = [\n  [500, 500], # [one]\n  [1, true],\n]", 3, "food 2 must be [x, y]: 2 numbers"),
         ("food = [\n[500, 500],\n[5000, 3]]", 3, "food 2: [5000, 3] is outside of the arena, whose size is [4000"),
-        ("food = [\n[500, 500],\n[100, 500]]", 3, "food 2 is only 100 mm away from an obstacle or a wall; 160 mm"),
-        ("food = [[500, 500]]\nbars = [\n[100, 500, 900, 500]]", 1, "food 1 is inside an obstacle; 160 mm"),
-        ("food = [[500, 500]]\nstart = [50, 500, 0]", 2, "the start is only 50 mm away"),
-        ("food = [[500, 500]]\nstart = [50, 500]", 2, "the start must be [x, y, heading]: 3 numbers"),
         ("food = [[500, 500]]\nbars = [\n[9, 9, 99, 99],\n[3, 4, 3, 5]]", 4, "bar 2 must be at least 40 mm long"),
-        ("food = [[500, 500]]\nbars = [[3, 4, 3]]", 2, "bar 1 must be [x, y, x, y]: 4 numbers"),
-        (
-            "start = [500, 500, 0]\nfood = [\n[3000, 500],\n]\nbars = [[2000, 0, 2000, 3000]]",
-            3,
-            "food 1 cannot be reached from the start: the robot does not fit through",
-        ),
         (
             "food = [\n[500, 500],\n[3000, 500]]\nbars = [[2000, 0, 2000, 2900]]",
             3,

@@ -8,8 +8,7 @@ import pytest
 from host_sim.protocol.generated import NOTHING_NEAR, RANGE_NONE, Ranges
 from host_sim.world.arena import Arena
 from host_sim.world.cones import CONE_BEARINGS_DEG
-from host_sim.world.edits import Lift
-from host_sim.world.geometry import Bar, Capsule, Pose, ahead_of
+from host_sim.world.geometry import Capsule, Pose, ahead_of
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.native_world import NativeWorld
 from host_sim.world.params import SimParams
@@ -48,27 +47,6 @@ def test_a_thing_in_one_cone_is_measured_there_alone(place, bearing_deg, gap_mm,
 )
 def test_the_front_cone_reaches_half_a_millimetre_farther(bearing_deg, gap_mm, seen):
     assert (measured(peg(bearing_deg, gap_mm)) != NOTHING_NEAR) == seen
-
-
-def test_a_wall_ahead_is_farther_away_in_the_cones_beside():
-    gap_mm = 30.0
-    beside_mm = (RADIUS_MM + gap_mm) / math.cos(math.radians(22.5)) - RADIUS_MM
-
-    ranges = measured(pose=Pose(4000.0 - RADIUS_MM - gap_mm, 1500.0, 0.0))
-
-    assert ranges == Ranges(None, round(beside_mm), round(gap_mm), round(beside_mm), None)
-
-
-def test_what_is_behind_is_not_measured():
-    assert measured(peg(180.0, 5.0), peg(-130.0, 5.0)) == NOTHING_NEAR
-
-
-def test_the_nearest_of_several_things_counts():
-    assert measured(peg(0.0, 40.0), peg(5.0, 20.0), peg(-5.0, 50.0)).front == 20
-
-
-def test_what_the_body_is_pressed_into_is_at_no_distance():
-    assert measured(peg(0.0, -0.01)).front == 0
 
 
 def outline_point(bar: Capsule, part: float) -> tuple[float, float]:
@@ -132,22 +110,3 @@ def test_what_is_measured_is_felt():
                 assert feel & bit
                 agreed += 1
     assert agreed > 50
-
-
-def test_robots_measure_each_other_and_none_that_is_in_the_air():
-    there = Pose(2000.0 + 2 * RADIUS_MM + 25.0, 1500.0, 0.0)
-    arena = Arena(Layout((), (), Pose(2000.0, 1500.0, 0.0), (there,)), PARAMS)
-    assert (arena.ranges(0).front, arena.ranges(1)) == (25, NOTHING_NEAR)
-
-    arena.edit(Lift(1))
-    assert arena.ranges(0) == NOTHING_NEAR
-    assert arena.ranges(1) == NOTHING_NEAR
-
-
-def test_a_body_in_the_air_measures_nothing():
-    x, y = ahead_of(START, RADIUS_MM + 30.0)
-    arena = Arena(Layout((Bar((x, y), (x + 100.0, y)),), (), START), PARAMS)
-    assert arena.ranges(0) != NOTHING_NEAR
-
-    arena.edit(Lift())
-    assert arena.ranges(0) == NOTHING_NEAR

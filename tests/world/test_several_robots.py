@@ -6,7 +6,6 @@ import pytest
 
 from host_sim.world.arena import Arena
 from host_sim.world.body import Body
-from host_sim.world.edits import Lift
 from host_sim.world.geometry import Bar, Point, Pose
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams
@@ -39,12 +38,6 @@ def test_a_robot_is_felt_where_it_is(heading_deg: float, bit: int) -> None:
     assert feel(arena.bodies[0]) & (FRONT | LEFT | RIGHT) == bit
 
 
-def test_two_robots_face_to_face_feel_each_other_alike() -> None:
-    arena = arena_with(at(0.0), at(240.0, 180.0))
-
-    assert [feel(body) for body in arena.bodies] == [FRONT, FRONT]
-
-
 def test_neither_steals_the_others_senses() -> None:
     peg = Bar((MIDDLE[0] + 130.0, MIDDLE[1]), (MIDDLE[0] + 130.01, MIDDLE[1]))
     far = Pose(500.0, 500.0, 0.0)
@@ -54,16 +47,6 @@ def test_neither_steals_the_others_senses() -> None:
 
     assert (feel(one), feel(other)) == (FRONT, 0)
     assert [feel(body) for body in swapped] == [0, FRONT]
-
-
-def test_a_robot_that_moves_away_is_felt_no_longer() -> None:
-    arena = arena_with(at(0.0), at(240.0))
-    assert feel(arena.bodies[0]) == FRONT
-
-    for _ in range(100):
-        arena.bodies[1].move(200.0, 200.0)
-
-    assert feel(arena.bodies[0]) == 0
 
 
 def test_robots_stop_at_each_other_and_both_feel_the_bump() -> None:
@@ -101,21 +84,6 @@ def test_food_is_eaten_by_one_of_them_only() -> None:
         body.sense(0)
 
     assert [body.eat() for body in arena.bodies] == [True, False]
-
-
-def test_a_lifted_robot_is_in_nobodys_way() -> None:
-    arena = arena_with(at(0.0), at(240.0))
-    arena.edit(Lift(1))
-
-    assert feel(arena.bodies[0]) == 0
-
-
-def test_lifted_robots_sense_nothing_not_even_each_other() -> None:
-    arena = arena_with(at(0.0), at(240.0))
-    for robot in range(2):
-        arena.edit(Lift(robot))
-
-    assert [body.sense(0)[1:5] for body in arena.bodies] == [(0, False, False, 0)] * 2
 
 
 def test_a_robot_far_from_all_others_senses_what_it_would_alone() -> None:
