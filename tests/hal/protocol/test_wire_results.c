@@ -109,3 +109,95 @@ TEST(news_waits_while_nothing_goes_out)
     expect(FAULT_UNSENT, 1);
     TEST_ASSERT_EQUAL_size_t(0, write_out());
 }
+
+/* The frames of each kind: their length, and a counter of their own. */
+
+static const struct crash CRASH = {.cause = 1, .count = 1, .values = {1}};
+
+static const struct {
+    uint32_t id;
+    uint8_t len;
+    enum counted kind;   /* COUNTED_KINDS: numbered as what it answers */
+} KINDS[] = {
+    {OCTET_EMERGENCY_FRAME_ID, OCTET_EMERGENCY_LENGTH, COUNTED_EMERGENCY},
+    {OCTET_MEMORY_FRAME_ID, OCTET_MEMORY_LENGTH, COUNTED_MEMORY},
+    {OCTET_HEARTBEAT_FRAME_ID, OCTET_HEARTBEAT_LENGTH, COUNTED_HEARTBEAT},
+    {OCTET_BOOT_FRAME_ID, OCTET_BOOT_LENGTH, COUNTED_BOOT},
+    {OCTET_FAULTS_FRAME_ID, OCTET_FAULTS_LENGTH, COUNTED_FAULTS},
+    {OCTET_CRASH_FRAME_ID, OCTET_CRASH_LENGTH, COUNTED_CRASH},
+    {OCTET_HEALTH_FRAME_ID, OCTET_HEALTH_LENGTH, COUNTED_HEALTH},
+    {OCTET_ANSWER_FRAME_ID, OCTET_ANSWER_LENGTH, COUNTED_KINDS},
+    {OCTET_DRIVE_FRAME_ID, OCTET_DRIVE_LENGTH, COUNTED_KINDS},
+};
+
+enum { KIND_COUNT = sizeof KINDS / sizeof *KINDS };
+
+/* Everything at once: a fault that is news, an answer, a whole report with a crash, and a drive. */
+static size_t write_all_kinds(void)
+{
+    wire.health.crash = &CRASH;
+    wire_count(&wire, FAULT_UNSENT);
+    expect(FAULT_UNSENT, 1);
+    out = (struct output){.has_answer = true, .has_report = true, .whole_report = true, .has_drive = true,
+                          .memory = {1, 2, 3, 4, 5, 6, 7, 8}};
+    return write_out();
+}
+
+static unsigned kind_of(const struct frame *frame)
+{
+    unsigned kind = 0;
+
+    while (kind < KIND_COUNT && KINDS[kind].id != frame->id)
+        kind++;
+    TEST_ASSERT_LESS_THAN_UINT(KIND_COUNT, kind);
+    return kind;
+}
+
+TEST(each_has_the_length_that_octet_dbc_gives_it)
+{
+    const size_t count = write_all_kinds();
+    unsigned seen = 0;
+
+    for (unsigned i = 0; i < count; i++) {
+        TEST_ASSERT_EQUAL_UINT8(KINDS[kind_of(&frames[i])].len, frames[i].len);
+        seen |= 1u << kind_of(&frames[i]);
+    }
+    TEST_ASSERT_EQUAL_HEX32((1u << KIND_COUNT) - 1, seen);
+}
+
+TEST(each_kind_of_message_counts_by_itself)
+{
+    size_t count;
+
+    for (unsigned kind = 0; kind < COUNTED_KINDS; kind++)
+        wire.counters[kind] = (uint8_t)(kind + 3);
+    count = write_all_kinds();
+    for (unsigned i = 0; i < count; i++) {
+        enum counted kind = KINDS[kind_of(&frames[i])].kind;
+
+        if (kind != COUNTED_KINDS)
+            TEST_ASSERT_EQUAL_UINT8(kind + 3, frames[i].data[1] & 0x0F);
+    }
+    for (unsigned kind = 0; kind < COUNTED_KINDS; kind++)
+        TEST_ASSERT_EQUAL_UINT8(kind + 4, wire.counters[kind]);
+}
+
+TEST(no_byte_behind_a_frame_is_written)
+{
+    const size_t count = write_all_kinds();
+
+    for (unsigned i = 0; i < count; i++)
+        for (unsigned beyond = frames[i].len; beyond < 8; beyond++)
+            TEST_ASSERT_EQUAL_HEX8(0, frames[i].data[beyond]);
+}
+
+TEST(both_pages_of_faults_have_the_same_number)
+{
+    const size_t count = write_all_kinds();
+    unsigned pages = 0;
+
+    for (unsigned i = 0; i < count; i++)
+        if (frames[i].id == OCTET_FAULTS_FRAME_ID)
+            TEST_ASSERT_EQUAL_HEX8(pages++ << 4, frames[i].data[1]);
+    TEST_ASSERT_EQUAL_UINT(2, pages);
+}

@@ -1,7 +1,11 @@
 /* The eight bytes of a page's robots: as they are, as turns, and as another behaviour would have them. */
 #include "page_rig.h"
 
+#include <string.h>
+#include <stddef.h>
+
 #include "firmware/memory/feel_memory.h"
+#include "tests/test.h"
 
 enum { ALL_FOUR = 15, UPPER = 1 << 4 };
 
@@ -85,4 +89,120 @@ TEST(turns_are_told_whatever_kind_of_memory_it_is)
         }
         TEST_ASSERT_EQUAL_HEX8_ARRAY(sides, page_sides(0), CELL_COUNT);
     }
+}
+
+/* Robots of a page whose brain is a program. */
+
+static const double *load(const char *text)
+{
+    memcpy(page_program_text(), text, strlen(text));
+    TEST_ASSERT_TRUE(page_program(0, (uint32_t)strlen(text)));
+    return page_program_state(0);
+}
+
+TEST(a_program_is_the_robot_s_brain)
+{
+    const double *state = load("rForward 5");
+    struct input in = {.senses = {.tick = 1}};
+    struct output out;
+
+    start(0, PROFILE_ARTICLE);
+    page_state()->robots[0].octet->respond(&page_state()->robots[0].octet->robot, INPUT_SENSES, &in, &out);
+    state = page_program_state(0);
+    TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
+    TEST_ASSERT_EQUAL_DOUBLE(PROGRAM_RUNS, state[PAGE_PROGRAM_STATE]);
+    TEST_ASSERT_EQUAL_DOUBLE(1, state[PAGE_PROGRAM_STEPS]);
+    TEST_ASSERT_EQUAL_DOUBLE(1, state[PAGE_PROGRAM_NUMBERS]);
+}
+
+TEST(its_mistake_is_told)
+{
+    const double *state = load("x = 1\nrTrun 5");
+
+    TEST_ASSERT_EQUAL_DOUBLE(PROGRAM_MISTAKEN, state[PAGE_PROGRAM_STATE]);
+    TEST_ASSERT_EQUAL_DOUBLE(2, state[PAGE_PROGRAM_LINE]);
+    TEST_ASSERT_EQUAL_STRING("rTrun", page_program_word(0));
+    TEST_ASSERT_EQUAL_STRING("a command, a label, or a variable with = after it",
+                             page_program_expected((uint32_t)state[PAGE_PROGRAM_EXPECTED]));
+    TEST_ASSERT_EQUAL_STRING("", page_program_shown(0, 0));
+}
+
+TEST(its_names_have_their_places)
+{
+    const double *state = load("ab = 5\ndim c[3]"), *names = state + PAGE_PROGRAM_NUMBERS;
+
+    TEST_ASSERT_EQUAL_DOUBLE(2, state[PAGE_PROGRAM_NAMES]);
+    TEST_ASSERT_EQUAL_DOUBLE(NAME_VARIABLE, names[0]);
+    TEST_ASSERT_EQUAL_DOUBLE(2, names[4]);
+    TEST_ASSERT_EQUAL_DOUBLE(NAME_ARRAY, names[5]);
+    TEST_ASSERT_EQUAL_DOUBLE(3, names[7]);
+    TEST_ASSERT_EQUAL_DOUBLE(0, page_program_cells(0)[0]);
+}
+
+/* What a robot of a page has learned, from the rows of its last block. */
+
+static void fill(uint32_t tick, int16_t action, enum reason reason, int16_t feel)
+{
+    int16_t *at = page_state()->robots[1].rows + tick * ROW_COUNT;
+
+    at[ROW_FEEL] = feel;
+    at[ROW_LEFT_MM_S] = -200;
+    at[ROW_RIGHT_MM_S] = 200;
+    at[ROW_REASON] = (int16_t)reason;
+    at[ROW_ACTION] = action;
+    page_state()->loop.ticks = tick + 1;
+}
+
+/* The robot itself knows nothing, whatever a test has put into the history. */
+static void begin(void)
+{
+    page_history_begin(1);
+    fill(0, 1, REASON_TRIAL, 6 << 1);
+    fill(1, 2, REASON_WANDER, 0);
+}
+
+TEST(the_notes_of_a_block_are_handed_over)
+{
+    begin();
+    page_history_freeze(1, 1);
+    TEST_ASSERT_EQUAL_UINT32(2, page_history_take(1, 100.0));
+    TEST_ASSERT_EQUAL_DOUBLE(100.0, page_notes()[0].tick);
+    TEST_ASSERT_EQUAL_INT32(REASON_TRIAL, page_notes()[0].reason);
+    TEST_ASSERT_EQUAL_INT32(6, page_notes()[0].cell);
+    TEST_ASSERT_EQUAL_DOUBLE(101.0, page_notes()[1].tick);
+    TEST_ASSERT_EQUAL_INT32(1, page_notes()[1].trial.helped);
+    TEST_ASSERT_EQUAL_INT32(1, page_notes()[1].trial.frozen);
+    TEST_ASSERT_EQUAL_UINT32(0, page_lesson_count(1));
+}
+
+TEST(javascript_finds_the_numbers_of_notes_and_lessons_in_their_places)
+{
+    TEST_ASSERT_EQUAL_size_t(14 * sizeof(int32_t), sizeof(struct history_note));
+    TEST_ASSERT_EQUAL_size_t(8, offsetof(struct history_note, reason));
+    TEST_ASSERT_EQUAL_size_t(24, offsetof(struct history_note, learned));
+    TEST_ASSERT_EQUAL_size_t(32, offsetof(struct history_note, trial));
+    TEST_ASSERT_EQUAL_size_t(4 * sizeof(int32_t), sizeof(struct history_lesson));
+}
+
+TEST(a_turn_that_is_no_longer_known_is_a_lesson)
+{
+    begin();
+    page_state()->histories[1].sides[3] = SIDE_RIGHT;
+    (void)page_history_take(1, 100.0);
+    TEST_ASSERT_EQUAL_UINT32(1, page_lesson_count(1));
+    TEST_ASSERT_EQUAL_INT32(3, page_lessons(1)->cell);
+    TEST_ASSERT_EQUAL_INT32(1, page_lessons(1)->by_hand);
+    TEST_ASSERT_EQUAL_UINT32(0, page_lesson_count(0));
+}
+
+TEST(what_is_told_between_ticks_is_by_hand)
+{
+    begin();
+    page_state()->histories[1].sides[3] = SIDE_RIGHT;
+    page_history_relearn(1, 50.0);
+    TEST_ASSERT_EQUAL_INT32(3, page_lessons(1)->cell);
+    TEST_ASSERT_EQUAL_DOUBLE(50.0, page_state()->histories[1].learned[3]);
+    page_history_restart(1);
+    TEST_ASSERT_EQUAL_UINT32(0, page_lesson_count(1));
+    TEST_ASSERT_EQUAL_DOUBLE(-1.0, page_state()->histories[1].learned[3]);
 }

@@ -2,6 +2,8 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
+#include <signal.h>
 
 #include "contract.h"
 
@@ -146,4 +148,146 @@ TEST_IF(an_interface_that_is_not_there_is_refused, is_interface)
     struct link *link = NULL;
     TEST_ASSERT_EQUAL_INT(LINK_E_OPEN, link_open(&link, "socketcan:nosuch0", (const uint16_t[]){0x123}, 1));
     TEST_ASSERT_NULL(link);
+}
+
+/* link.h, about frames: they arrive as they were, in their order, and what is not wanted is filtered where that is possible. */
+
+TEST(a_frame_from_the_far_end_arrives_as_it_was)
+{
+    rig->put(&HELLO);
+
+    assert_receives(&HELLO);
+}
+
+TEST(a_frame_to_the_far_end_arrives_as_it_was)
+{
+    TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
+
+    assert_far_takes(&HELLO);
+}
+
+TEST(what_is_sent_does_not_come_back)
+{
+    TEST_ASSERT_EQUAL_INT(0, link_send(near, &HELLO));
+
+    assert_silent_for(WAIT_MS);
+}
+
+TEST(every_length_passes_both_ways)
+{
+    for (uint8_t len = 0; len <= 8; len++) {
+        struct frame frame = {.id = 0x123, .len = len};
+        memset(frame.data, 0xF0 + len, len);
+        rig->put(&frame);
+        assert_receives(&frame);
+        TEST_ASSERT_EQUAL_INT(0, link_send(near, &frame));
+        assert_far_takes(&frame);
+    }
+}
+
+TEST(frames_keep_their_order)
+{
+    for (uint16_t i = 0; i < 5; i++) rig->put(&(struct frame){.id = 0x100u + i});
+
+    for (uint16_t i = 0; i < 5; i++) assert_receives(&(struct frame){.id = 0x100u + i});
+}
+
+TEST_IF(garbage_counts_once_and_the_next_frame_arrives, is_pair)
+{
+    struct frame frame;
+    rig->put_garbage();
+    rig->put(&HELLO);
+
+    TEST_ASSERT_EQUAL_INT(LINK_E_GARBLED, link_receive(near, &frame, SOON_MS));
+    assert_receives(&HELLO);
+    assert_silent_for(0);
+}
+
+/* Where nothing filters, all arrives, with its flags. */
+static void assert_unwanted(const struct frame *frame)
+{
+    rig->put(frame);
+    rig->put(&HELLO);
+    if (!rig->filters) assert_receives(frame);
+    assert_receives(&HELLO);
+    assert_silent_for(0);
+}
+
+TEST(other_identifiers_are_filtered_where_that_is_possible)
+{
+    assert_unwanted(&(struct frame){.id = 0x122});
+    assert_unwanted(&(struct frame){.id = 0x000});
+    assert_unwanted(&(struct frame){.id = 0x7FF});
+}
+
+TEST(extended_and_remote_frames_are_filtered_where_that_is_possible)
+{
+    assert_unwanted(&(struct frame){.id = 0x123 | FRAME_EXTENDED});
+    assert_unwanted(&(struct frame){.id = 0x123 | FRAME_REMOTE});
+    assert_unwanted(&(struct frame){.id = 0x1FFFF123 | FRAME_EXTENDED | FRAME_REMOTE, .len = 2});
+}
+
+TEST(extended_and_remote_frames_can_be_sent)
+{
+    const struct frame frames[] = {{.id = 0x123 | FRAME_EXTENDED}, {.id = 0x123 | FRAME_REMOTE, .len = 3}};
+    for (int i = 0; i < 2; i++) {
+        TEST_ASSERT_EQUAL_INT(0, link_send(near, &frames[i]));
+        assert_far_takes(&frames[i]);
+    }
+}
+
+/* link.h, about time: a receive waits for as long as it was told, whatever happens meanwhile. */
+
+TEST(silence_is_said_after_the_wait)
+{
+    assert_silent_for(WAIT_MS);
+}
+
+TEST(a_changed_wait_is_kept)
+{
+    assert_silent_for(WAIT_MS);
+    assert_silent_for(2 * WAIT_MS);
+    assert_silent_for(1);
+}
+
+TEST(a_wait_of_zero_just_looks)
+{
+    assert_silent_for(0);
+    rig->put(&HELLO);
+    assert_receives(&HELLO);
+    assert_silent_for(0);
+}
+
+static void on_alarm(int signal)
+{
+    (void)signal;
+}
+
+static void set_alarm_each_ms(int ms)
+{
+    struct itimerval timer = {{0, ms * 1000}, {0, ms * 1000}};
+    TEST_ASSERT_EQUAL_INT(0, setitimer(ITIMER_REAL, &timer, NULL));
+}
+
+TEST(signals_do_not_cut_a_wait_short)
+{
+    struct sigaction action = {.sa_handler = on_alarm};
+    TEST_ASSERT_EQUAL_INT(0, sigaction(SIGALRM, &action, NULL));
+
+    set_alarm_each_ms(7);
+    assert_silent_for(WAIT_MS);
+    set_alarm_each_ms(0);
+}
+
+TEST(a_signal_late_in_a_wait_does_not_prolong_it)
+{
+    struct frame frame;
+    struct sigaction action = {.sa_handler = on_alarm};
+    TEST_ASSERT_EQUAL_INT(0, sigaction(SIGALRM, &action, NULL));
+
+    int64_t start = now_ms();
+    set_alarm_each_ms(5 * WAIT_MS);
+    TEST_ASSERT_EQUAL_INT(0, link_receive(near, &frame, 6 * WAIT_MS));
+    set_alarm_each_ms(0);
+    TEST_ASSERT_TRUE(now_ms() - start < 6 * WAIT_MS + LATE_MS);   /* begun anew by each signal, it would never end */
 }
