@@ -1,12 +1,12 @@
 """The oracles of the behaviours, and robots for them: they sense what they are told to, and draw as they are told to.
 
-The oracle of the profile NAME is `Oracle` in `oracles/NAME.py`.
+The oracle of a profile is the class of its name in `oracles/behaviours.py`.
 """
 
-import importlib
 from typing import NamedTuple
 
 from tests.firmware.octet_c import load
+from tests.firmware.oracles import behaviours
 from tests.firmware.oracles.listing import Action, Listing
 
 FFI, C = load()
@@ -26,7 +26,8 @@ class Reading(NamedTuple):
 
 
 def oracle_of(profile: str) -> type[Listing]:
-    return importlib.import_module(f"tests.firmware.oracles.{profile}").Oracle
+    oracle: type[Listing] = getattr(behaviours, profile.title())
+    return oracle
 
 
 class SensingRobot:

@@ -1,4 +1,4 @@
-"""Each behaviour decides as its oracle does, in random situations, and not as another's."""
+"""Each behaviour, what robots learn from each other, and caution are as their oracles have them, at random."""
 
 import itertools
 import random
@@ -6,12 +6,14 @@ from collections import Counter
 
 import pytest
 
-from host_sim.protocol.generated import MEMORY_KINDS, PROFILES
+from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, TICK_SPAN, MemoryKind
 from tests.firmware.many_brains import default_config
 from tests.firmware.memory.memories import MEMORIES, random_memory
 from tests.firmware.octet_c import load
 from tests.firmware.oracle_robots import Reading, SensingRobot, oracle_of, repeat_count_during
+from tests.firmware.oracles.caution import Action, Caution
 from tests.firmware.oracles.listing import Listing
+from tests.firmware.oracles.sharing import taught
 
 FFI, C = load()
 
@@ -100,3 +102,105 @@ def test_a_run_begins_with_the_memory_that_the_oracle_says(profile):
         assert C.brain_start(brain, PROFILES[profile], 1)
         assert FFI.buffer(brain.memory.cell)[:] == oracle_of(profile).begin(bytes(before))
         assert brain.changed or FFI.buffer(brain.memory.cell)[:] == bytes(before)
+
+
+FFI, C = load()
+TICKS = 4000
+
+
+@pytest.mark.parametrize("profile", ["article", "searcher"])
+def test_random_ticks_are_those_of_the_oracle(profile):
+    dice, oracle, seen = random.Random(1), Caution(), set()
+    caution, brain, twin = FFI.new("struct caution *"), FFI.new("struct brain *"), FFI.new("struct brain *")
+    config, senses = FFI.new("struct config *"), FFI.new("struct senses *")
+    C.config_reset(config)
+    for one in (brain, twin):
+        C.brain_start(one, PROFILES[profile], 1)
+    action = Action()
+
+    def ask(feel: int) -> Action:
+        senses.feel = feel
+        chosen = C.brain_next(twin, config, senses)
+        return Action(chosen.forward_mm, chosen.turn_deg)
+
+    blind = False
+    for _ in range(TICKS):
+        feel, bump = dice.choice([0, 0, 0, 0, 0, 2, 8, 10]), dice.random() < 0.2
+        blind = blind ^ (dice.random() < 0.01)
+        senses.feel, senses.bump = feel, bump
+        forward = action.forward_mm > 0
+        stops = oracle.stops(bump, forward)
+        assert C.caution_stops(caution, senses, forward) == stops
+        if not stops and dice.random() < 0.5:
+            continue
+        C.caution_see(caution, feel, blind)
+        told = C.caution_next(caution, brain, config, senses)
+        felt = senses.feel
+        assert (felt, Action(told.forward_mm, told.turn_deg)) == oracle.next(feel, bump, blind, ask)
+        action = Action(told.forward_mm, told.turn_deg)
+        seen.add(action if told.reason == C.REASON_AVOID else told.reason)
+    assert seen >= {Action(-20, 0), Action(0, -24), Action(0, 24), C.REASON_TRIAL, C.REASON_REMEMBERED}
+
+
+FFI, C = load()
+CASES = 400
+TICKS_A_SECOND = 50
+
+
+def rolled(odometer: int, mm_s: int) -> int:
+    """An odometer after a tick."""
+    return (odometer + mm_s * C.ODOMETER_COUNTS_PER_MM // TICKS_A_SECOND) % C.ODOMETER_SPAN
+
+
+class SharingRobot:
+    """A robot whose way is always clear, so that it learns nothing by itself."""
+
+    def __init__(self, profile: str) -> None:
+        self._robot, self._in, self._out = (FFI.new(f"struct {name} *") for name in ("robot", "input", "output"))
+        C.robot_init(self._robot, 1)
+        self._command(C.OPCODE_START, PROFILES[profile], 1)
+        self._command(C.OPCODE_SET, C.SHARE, 1)
+        self.pass_second()
+
+    @property
+    def brain(self):
+        return self._robot.brain
+
+    def pass_second(self) -> None:
+        """To the tick in which the second is full, on wheels that obey."""
+        senses, drive, self._out.has_report = self._in.senses, self._out.drive, False
+        while not self._out.has_report:
+            C.robot_respond(self._robot, C.INPUT_SENSES, self._in, self._out)
+            senses.tick = (senses.tick + 1) % TICK_SPAN
+            senses.odometer_left = rolled(senses.odometer_left, drive.left_mm_s)
+            senses.odometer_right = rolled(senses.odometer_right, drive.right_mm_s)
+
+    def hear(self, half: int, cells: bytes) -> None:
+        self._in.peer.upper, self._in.peer.cell = bool(half), cells
+        C.robot_respond(self._robot, C.INPUT_PEER, self._in, self._out)
+
+    def _command(self, opcode: int, which: int, value: int) -> None:
+        self._in.command.opcode, self._in.command.which, self._in.command.value = opcode, which, value
+        C.robot_respond(self._robot, C.INPUT_COMMAND, self._in, self._out)
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_what_is_taken_is_what_the_oracle_says(profile):
+    dice, robot, taken = random.Random(1), SharingRobot(profile), 0
+    cells = FFI.buffer(robot.brain.memory.cell)
+    for _ in range(CASES):
+        # Given a memory, and others that were heard in any order
+        cells[:] = memory = random_memory(MEMORY_KINDS[profile], dice)
+        robot.brain.unlearned = dice.randrange(0, 256, 2)
+        kinds = dice.choices([MemoryKind.SIDES, MemoryKind.CONFIDENCE], k=dice.choice([0, 1, 2, 3, 7, 30]))
+        others = [random_memory(kind, dice) for kind in kinds]
+        halves = [(half, other[4 * half : 4 * half + 4]) for other in others for half in range(2)]
+        for half, heard in dice.sample(halves, len(halves)):
+            robot.hear(half, heard)
+        # When the second is over
+        robot.pass_second()
+        # Then it knows what the oracle says
+        expected = taught(profile, memory, robot.brain.unlearned, others)
+        assert cells[:] == bytes(expected)
+        taken += bytes(expected) != memory
+    assert bool(taken) == (profile not in {"fixed", "never", "five"})
