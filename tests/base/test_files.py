@@ -1,16 +1,23 @@
-"""Files are written whole or not at all, and read only where that ends."""
+"""Files are written whole or not at all, and read only where that ends; also compressed ones that are cut off."""
 
 import errno
+import gzip
+import json
 import os
+import random
 import stat
 import tracemalloc
+import xml.etree.ElementTree as ET
+import zlib
 from pathlib import Path
 
 import pytest
 
-from host_sim.base.atomic_file import write_bytes
+from host_sim.base.atomic_file import replacing, write_bytes
+from host_sim.base.compressed_file import CompressedFile
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.regular_file import read_bytes
+from host_sim.base.result_files import Case, write_results
 
 
 def test_a_file_is_written_and_leaves_nothing_else(tmp_path):
@@ -126,3 +133,110 @@ def test_a_small_file_takes_little_memory_whatever_the_limit(tmp_path):
     tracemalloc.stop()
 
     assert peak < 1_000_000
+
+
+def write_half(path: Path, error: BaseException) -> None:
+    """Begins to write a file, and fails."""
+    with replacing(path) as part:
+        part.write_text("half")
+        raise error
+
+
+def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(tmp_path):
+    path = tmp_path / "file"
+    path.write_text("old")
+
+    with pytest.raises(OctetError, match=f"^cannot write {path}: the encoder failed$"):
+        write_half(path, OSError("the encoder failed"))  # as Pillow says it, without a number
+
+    assert [(it.name, it.read_text()) for it in tmp_path.iterdir()] == [("file", "old")]
+
+
+def test_an_interruption_stays_one_where_the_new_file_is_gone(tmp_path, monkeypatch):
+    monkeypatch.setattr(Path, "write_text", lambda part, _text: part.unlink())  # somebody has tidied up meanwhile
+
+    with pytest.raises(KeyboardInterrupt):
+        write_half(tmp_path / "file", KeyboardInterrupt())
+
+    assert list(tmp_path.iterdir()) == []
+
+
+CASES = [Case("drives", "passed", seconds=1.5), Case("a<b", "failed", "it \x1bdoes\nnot"), Case("c", "skipped")]
+
+
+def test_junit_has_a_case_for_each_and_whatever_the_text_can_be_read(tmp_path):
+    write_results("robot", CASES, None, tmp_path / "robot.xml")
+
+    suite = ET.parse(tmp_path / "robot.xml").getroot()
+    assert {name: suite.get(name) for name in ("name", "tests", "failures", "skipped")} == {
+        "name": "robot",
+        "tests": "3",
+        "failures": "1",
+        "skipped": "1",
+    }
+    assert [case.get("name") for case in suite] == ["drives", "a<b", "c"]
+    assert suite[0].get("time") == "1.500"
+    assert (suite[1][0].tag, suite[1][0].get("message"), suite[1][0].text) == ("failure", "it ?does", "it ?does\nnot")
+    assert suite[2][0].tag == "skipped"
+
+
+def test_json_has_the_same(tmp_path):
+    write_results("robot", CASES, tmp_path / "robot.json", None)
+
+    assert [Case(**case) for case in json.loads((tmp_path / "robot.json").read_text())] == CASES
+
+
+CONTENT = b"".join(b"(0000000001.%06d) octet 081#%08X\n" % (i, i * 2654435761 % 2**32) for i in range(8000))
+KEPT_BACK = 1 << 16
+
+
+def write(path: Path, sizes: list[int]) -> bytes:
+    """Writes the content in pieces of these sizes, and then the rest."""
+    file, at = CompressedFile(path.open("wb")), 0
+    for size in sizes:
+        file.write(CONTENT[at : at + size])
+        at += size
+    file.write(CONTENT[at:])
+    file.close()
+    return path.read_bytes()
+
+
+def test_what_is_written_can_be_read(tmp_path):
+    assert gzip.decompress(write(tmp_path / "a", [])) == CONTENT
+
+
+def test_the_bytes_do_not_depend_on_how_the_content_was_handed_over(tmp_path):
+    draws = random.Random(1)
+
+    assert write(tmp_path / "a", []) == write(tmp_path / "b", [draws.randrange(5000) for _ in range(50)])
+
+
+def test_all_but_the_last_that_was_written_is_in_the_file_at_once(tmp_path):
+    path = tmp_path / "a"
+    file = CompressedFile(path.open("wb"))
+    for at in range(0, len(CONTENT), 1000):
+        file.write(CONTENT[at : at + 1000])
+
+        read = zlib.decompressobj(31).decompress(path.read_bytes())
+
+        assert CONTENT.startswith(read)
+        assert len(read) > at + 1000 - KEPT_BACK
+    file.close()
+
+
+def test_an_empty_file_stays_empty(tmp_path):
+    CompressedFile((tmp_path / "a").open("wb")).close()
+
+    assert (tmp_path / "a").read_bytes() == b""
+
+
+def test_on_a_full_disk_it_fails_and_is_closed_all_the_same():
+    file = CompressedFile(Path("/dev/full").open("wb", buffering=0))  # noqa: SIM115 - it is closed below
+    file.write(b"some")
+
+    with pytest.raises(OSError, match="No space left"):
+        file.flush()
+    with pytest.raises(OSError, match="No space left"):
+        file.close()
+
+    assert file.closed

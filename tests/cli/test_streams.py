@@ -1,10 +1,17 @@
-"""A standard stream that is closed, full or read only in part ends no command with a traceback, and loses no file."""
+"""Standard streams that are closed, full or read only in part; the progress line; what a run says of its files."""
 
+import io
 import os
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+
+from host_sim.cli.outputs import _linked
+from host_sim.cli.progress_line import ProgressLine
+from tests.runs.support import octet, octet_process
 
 RUN = ("run", "--environments", "1", "--limit-s", "2", "--bus", "fd", "--out")
 
@@ -48,3 +55,70 @@ def test_a_run_whose_output_is_full_leaves_its_files(tmp_path):
 @pytest.mark.parametrize("unbuffered", ["1", ""])
 def test_a_reader_who_closes_the_pipe_is_no_error_worth_a_word(unbuffered):
     assert octet_with("| head -1", "load", PYTHONUNBUFFERED=unbuffered).stderr == ""
+
+
+CONTROL = re.compile(r"\x1b\[[?0-9;]*[A-Za-z]|\r")
+
+
+class Terminal(io.StringIO):
+    """What is written to a terminal."""
+
+    def isatty(self) -> bool:
+        return True
+
+
+def begun(monkeypatch, total: int | None = None) -> tuple[Terminal, ProgressLine]:
+    """A terminal, and a line there."""
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    return sys.stderr, ProgressLine(total)
+
+
+@pytest.mark.parametrize("total", [None, 7])
+@pytest.mark.parametrize("columns", [20, 200])
+def test_the_line_never_wraps(monkeypatch, columns, total):
+    monkeypatch.setenv("COLUMNS", str(columns))
+    terminal, line = begun(monkeypatch, total)
+
+    for done in range(3):
+        line.show("environment 1 of 5   food 0 of 3   memory LLRR....", done)
+
+    shown = CONTROL.sub("\n", terminal.getvalue()).splitlines()
+    assert max(map(len, shown)) <= columns
+    assert "enviro" in "".join(shown)
+    line.clear()
+    assert terminal.getvalue().endswith("\x1b[2K")
+
+
+def test_it_is_due_now_and_then(monkeypatch):
+    _, line = begun(monkeypatch)
+    assert line.is_due()
+
+    line.show("now")
+
+    assert not line.is_due()
+
+
+def test_without_a_terminal_there_is_none(tmp_path):
+    done = octet_process("run", "--bus", "none", "--environments", "1", "--limit-s", "2", "--out", tmp_path)
+
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_a_run_says_what_to_do_with_it_next(tmp_path):
+    done = octet("run", "--bus", "none", "--environments", "1", "--limit-s", "1", "--out", tmp_path)
+
+    (line,) = [line for line in done.stdout.splitlines() if line.startswith("next ")]
+    assert "open replay.html in a browser" in line
+    words = line.partition("tools/octet ")[2].partition(";")[0].split()
+    assert words == ["talk", "--log", str(tmp_path / "run.log")]
+
+
+@pytest.mark.parametrize(
+    ("term", "link"), [("xterm-256color", "\x1b]8;;file:///a/b\x1b\\/a/b\x1b]8;;\x1b\\"), ("dumb", ""), ("linux", "")]
+)
+def test_a_file_is_a_link_where_the_terminal_may_know_links(monkeypatch, term, link):
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    monkeypatch.setenv("TERM", term)
+
+    assert _linked(Path("/a/b")) == (link or "/a/b")

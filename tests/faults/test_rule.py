@@ -1,11 +1,13 @@
-"""Rules for faults, as a person writes them."""
+"""Rules and events of faults, as a person writes them; the fewest faults that still bring something about."""
 
 import pytest
 
 from host_sim.base.errors import UsageError
 from host_sim.faults.bus_faults import FAULTS
+from host_sim.faults.event import Event
 from host_sim.faults.rule import Rule, read_rules
 from host_sim.faults.schedule import Schedule
+from host_sim.faults.shrink import fewer, in_ranges, narrower
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.forgery import forgers
 
@@ -86,3 +88,42 @@ def test_a_file_of_rules_that_cannot_be_read_is_told(tmp_path):
         read_rules(f"@{tmp_path / 'none'}")
     with pytest.raises(UsageError, match="not text"):
         read_rules(f"@{tmp_path / 'binary'}")
+
+
+@pytest.mark.parametrize("text", ["hang:300@150", "reset@150"])
+def test_an_event_is_written_as_it_was_read(text):
+    assert str(Event.parse(text)) == text
+
+
+@pytest.mark.parametrize("text", ["", "hang", "hang@", "hang:@5", "Hang@5", "hang:300@150s"])
+def test_what_is_no_event_is_refused(text):
+    with pytest.raises(UsageError, match="is not an event"):
+        Event.parse(text)
+
+
+def test_what_is_not_needed_is_left_out():
+    needed = {3, 11}
+
+    *_, (items, result) = fewer(list(range(16)), lambda some: sum(some) if needed <= set(some) else None)
+
+    assert (items, result) == ([3, 11], 14)
+
+
+def test_what_is_needed_whole_stays():
+    assert list(fewer([1, 2], lambda _: None)) == []
+
+
+def test_strikes_at_frame_after_frame_are_one_rule():
+    strikes = [Rule.parse(text) for text in ("drop@5/to", "drop@3/to", "drop@4/to", "drop@4/from", "corrupt:2@9/to")]
+
+    assert list(map(str, in_ranges(strikes))) == ["corrupt:2@9/to", "drop@4/from", "drop@3-5/to"]
+
+
+def test_a_rule_is_narrowed_from_both_ends():
+    found = narrower(Rule.parse("drop@20-500/to"), lambda rule: rule.first <= 37 and rule.last >= 41)
+
+    assert str(found) == "drop@37-41/to"
+
+
+def test_a_rule_for_one_frame_stays():
+    assert str(narrower(Rule.parse("drop@20/to"), lambda _: True)) == "drop@20/to"

@@ -1,4 +1,4 @@
-"""The same firmware does the same everywhere: the frames of the host build are those of each image, byte for byte."""
+"""The same firmware does the same everywhere: host and images, byte for byte, with every profile."""
 
 import pytest
 
@@ -6,6 +6,7 @@ from host_sim.backends.images import BOARDS
 from host_sim.client.connection import Connection
 from host_sim.emulator.board import start_board
 from host_sim.lab.bench.equality import IMAGES, REFERENCE, compare, first_difference, record
+from host_sim.protocol.generated import PROFILES
 from tests.image.support import run_robot
 
 TICKS = 700
@@ -65,3 +66,21 @@ def test_the_slcan_image_does_the_same_on_an_emulated_serial_line(board, tmp_pat
     run_robot(Connection(emulated, board, emulated.status), 4, 300, logs[1])
 
     assert first_difference(*logs) is None
+
+
+TICKS_OF_PROFILES = 150
+QEMU, BOARD = IMAGES[:2]
+# One of each kind of memory, since an emulated board is slow.
+CASES = [
+    *((QEMU, profile) for profile in PROFILES),
+    *((BOARD, profile) for profile in ("article", "searcher", "five")),
+]
+
+
+@pytest.mark.parametrize(("image", "profile"), CASES)
+def test_the_image_does_what_the_host_build_does_with_each_profile(image, profile, tmp_path):
+    logs = {where: tmp_path / f"{where}.log" for where in (REFERENCE, image)}
+    for where, log in logs.items():
+        record(where, 2, TICKS_OF_PROFILES, log, profile)
+
+    assert first_difference(*logs.values()) is None

@@ -1,21 +1,26 @@
-"""An emulated board on a python-can bus, and the command that puts it there."""
+"""An emulated board on a python-can bus: the command that puts it there, and as a device of the pytest plug-in."""
 
 import signal
 import subprocess
 import sys
 import time
+from itertools import pairwise
 
 import can
 import pytest
 
+from host_sim.base.paths import image_path
 from host_sim.client.frame_log import FrameLog
 from host_sim.emulator.__main__ import JoinedBoard, main
 from host_sim.emulator.board import start_board
 from host_sim.lab.bench.equality import REFERENCE, first_difference, record
 from host_sim.lab.bench.short_run import run_ticks
-from host_sim.protocol.codec import Frame, Protocol
+from host_sim.protocol.codec import DBC, Frame, Protocol
 from host_sim.protocol.generated import Senses
 from host_sim.sim.run_config import RunConfig
+from tools.pytest_canbench.bench import Bench, Setup
+from tools.pytest_canbench.devices import open_device
+from tools.pytest_canbench.messages import Messages
 
 PROTOCOL = Protocol()
 STOP = PROTOCOL.encode("COMMAND", {"counter": 1, "opcode": 1, "owner": 1})
@@ -143,3 +148,36 @@ def test_interrupted_it_ends(board_on_vcan):
     board_on_vcan.send_signal(signal.SIGINT)
 
     assert board_on_vcan.wait() == 130
+
+
+@pytest.fixture
+def bench(name):
+    image = image_path(name, "bxcan")
+    opened = Bench(Setup(Messages(DBC, "e2e1"), lambda: open_device(f"image:{name}:{image.name}", image.parent)))
+    yield opened
+    opened.close()
+
+
+def test_an_image_speaks_in_simulated_time(bench):
+    bench.run(ms=1000)
+
+    silences = [at_ms for at_ms, reason in bench.history("DRIVE.reason") if reason == 8]
+    gaps = {later - sooner for sooner, later in pairwise(silences[-8:])}
+    assert gaps <= {99, 100, 101}
+    assert bench.damaged == 0
+
+
+def test_a_shorted_bus_drives_the_controller_off_it_and_it_comes_back(bench):
+    bench.device.short_bus(True)
+    for _ in range(300):
+        bench.run(ms=1)
+        if bench.device.is_bus_off:
+            break
+    assert bench.device.is_bus_off
+    assert bench.device.error_counters[0] > 255
+
+    bench.device.short_bus(False)
+    before = len(bench.heard)
+    bench.run(ms=1000)
+    assert not bench.device.is_bus_off
+    assert len(bench.heard) > before

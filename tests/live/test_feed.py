@@ -1,11 +1,23 @@
-"""What a page is told of a run: what is new, and only that."""
+"""What pages are told of a run: what is new and only that, trails, each lesson once, and what robots answer."""
 
+import json
 from types import SimpleNamespace
 
+import pytest
+
+from host_sim.client.commands import write_cells
 from host_sim.live.board_feed import BoardFeed, Class
-from host_sim.live.feed import PageFeed
-from host_sim.live.page_commands import FULL_SPEED
+from host_sim.live.curves import Curves
+from host_sim.live.feed import PageFeed, points
+from host_sim.live.paced_run import PacedRun
+from host_sim.live.page_commands import FULL_SPEED, Question, page_command_from
+from host_sim.live.page_talk import PageTalk
 from host_sim.live.seats import Rights, Seats
+from host_sim.protocol.generated import ROW, Reason
+from host_sim.recording.run_recorder import RunRecorder
+from host_sim.recording.trajectory import RobotTrack
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
 
 
 def test_a_page_is_told_what_is_new_and_only_that(live):
@@ -36,3 +48,106 @@ def test_nobody_is_told_what_a_page_is_recognised_by(live):
 
     assert all(text and "node" in text for text in said)
     assert not any(key in text for text in said)
+
+
+def test_a_page_is_told_each_lesson_once_though_earlier_ones_are_forgotten():
+    with make(RunConfig(environments=1)) as simulation:
+        run = PacedRun(simulation, RunRecorder.of(simulation, boredom_limit=10), lambda _: None)
+        run.begin()
+        feed, (history,), (client,) = PageFeed(run), run.recorder.histories, simulation.clients
+
+        def write(cell: int, side: int) -> None:
+            write_cells(client, {cell: side})
+            history.relearn(simulation.tick, client.memory)
+
+        write(3, 1)
+        write(3, 2)
+        write(5, 1)
+        assert len(json.loads(feed.next())["lessons"]) == 3
+
+        simulation.step()
+        history.forget_lessons(simulation.tick)
+        write(6, 2)
+
+        assert history.forgotten == 1
+        assert [lesson["cell"] for lesson in json.loads(feed.next())["lessons"]] == [6]
+
+
+FIRST = 100
+WANDER, LOOK, TRIAL = Reason.WANDER, Reason.LOOK_AROUND, Reason.TRIAL
+
+
+def track_of(*reasons: int) -> RobotTrack:
+    """A robot that drives 10 mm a tick along x; its first ticks are no longer retained."""
+    track = RobotTrack(1, first_tick=FIRST)
+    for i, reason in enumerate(reasons):
+        track.poses_flat.extend((10.0 * i + 0.4, 7.0, 0.0))
+        track.rows_flat.extend(reason if name == "reason" else 99 for name in ROW)
+    return track
+
+
+def test_each_tick_is_a_place_and_a_reason():
+    assert points(track_of(WANDER, LOOK), range(FIRST, FIRST + 2)) == [0, 7, WANDER, 10, 7, LOOK]
+
+
+def test_with_a_step_the_next_tick_counts_that_is_no_look_around():
+    track = track_of(WANDER, WANDER, LOOK, WANDER, WANDER, WANDER)
+
+    assert points(track, range(FIRST, FIRST + 6, 2)) == [0, 7, WANDER, 30, 7, WANDER, 50, 7, WANDER]
+
+
+def test_no_trial_is_left_out_between_two_steps():
+    track = track_of(WANDER, TRIAL, TRIAL, WANDER, TRIAL, WANDER)
+
+    assert points(track, range(FIRST, FIRST + 6, 5)) == [0, 7, WANDER, 10, 7, TRIAL, 40, 7, TRIAL]
+
+
+def test_it_is_of_the_ticks_that_are_asked_for():
+    track = track_of(WANDER, TRIAL, TRIAL, LOOK)
+
+    assert points(track, range(FIRST + 2, FIRST + 4)) == [20, 7, TRIAL, 30, 7, LOOK]
+    assert points(track, range(FIRST + 4, FIRST + 4)) == []
+
+
+def test_a_robot_that_has_not_begun_knows_nothing(live):
+    assert PageTalk(live()).answer(Question("robot", "What have you learned?"))["said"]["mark"] == "words"
+
+
+def test_each_robot_answers_for_itself(live):
+    run = live(robots=2)
+    for _ in range(20):
+        run.simulation.step(1)
+    talk = PageTalk(run)
+
+    said = [talk.answer(Question("robot", "Where are you?", node)) for node in (1, 2, 31)]
+
+    assert {it["said"]["mark"] for it in said} == {"log"}
+    assert said[0]["said"]["text"] != said[1]["said"]["text"]
+    assert said[0]["said"]["text"] == said[2]["said"]["text"]  # a robot that is not there: the first
+    places = [[round(part, 1) for part in body.pose[:2]] for body in run.simulation.arena.bodies]
+    assert [it["places"] for it in said[:2]] == [[places[0]], [places[1]]]
+
+
+def test_an_answer_comes_with_the_next_message_and_only_once(live):
+    run = live()
+    run.simulation.step(1)
+    feed = PageFeed(run)
+    feed.ask(Question("eliza", "Hello"))
+
+    assert feed.next().count('"answers"') == 1
+    run.change += 1
+    assert '"answers"' not in feed.next()
+
+
+def test_a_question_in_a_message_is_checked():
+    asked = page_command_from('{"do": "ask", "who": "robot-de", "text": "Wo bist du?", "node": 2}')
+
+    assert asked == Question("robot-de", "Wo bist du?", 2)
+
+
+@pytest.mark.parametrize(
+    "fields", ['"who": "../robot", "text": ""', '"who": "robot"', '"who": ["robot"], "text": "x"']
+)
+def test_a_question_to_nobody_or_without_words_is_refused(fields):
+    with pytest.raises(ValueError, match="who must be one of"):
+        page_command_from(f'{{"do": "ask", {fields}}}')

@@ -1,8 +1,11 @@
-"""Runs in which the world and the bodies change: recorded, repeated, and refused when they cannot be."""
+"""Runs in other worlds, and in worlds and bodies that change: recorded, repeated, and refused when they cannot be."""
 
 import pytest
 
+from host_sim.protocol.generated import FEEL
 from host_sim.recording.resimulation import resimulate
+from host_sim.sim.make import make
+from host_sim.sim.run_config import RunConfig
 from tests.runs.support import octet
 
 BRIEF = ("--environments", "2", "--limit-s", "8", "--bus", "none", "--seed", "6")
@@ -118,3 +121,77 @@ def test_a_mistake_in_a_schedule_names_its_line(run, tmp_path):
     assert done.errors == (
         f"octet: {schedule}:3: 'noise@6s' is not a change: write noise:N/TICKS, such as noise:10/1000\n"
     )
+
+
+SHORT = ("--environments", "1", "--limit-s", "5", "--bus", "none")
+
+
+@pytest.mark.parametrize("world", ["corridors", "small"])
+def test_a_run_in_another_world_can_be_repeated_from_its_log(run, world):
+    done = run("--world", world, "--environments", "2", "--limit-s", "5", "--bus", "none")
+
+    result = resimulate(done.out / "run.log")
+    assert done.summary["world"] == world
+    assert result.title == f"seed 1, {world}"
+    assert result.trajectory.ticks == sum(environment["ticks"] for environment in done.summary["environments"])
+
+
+def test_a_run_in_a_world_of_ones_own_can_be_repeated_when_its_file_is_gone(run, tmp_path):
+    own = tmp_path / "own.toml"
+    own.write_text("size = [1000, 1000]\nstart = [200, 500, 0]\nfood = [[800, 500]]")
+    done = run("--world", own, *SHORT)
+    own.unlink()
+
+    assert resimulate(done.out / "run.log").trajectory.params.width_mm == 1000
+    assert done.summary["environments"][0]["finished"]
+
+
+def test_the_random_world_is_what_a_run_takes_place_in_unless_another_is_named(run):
+    assert run(*SHORT).log == run("--world", "random", *SHORT).log
+
+
+def test_a_mistake_in_a_world_leaves_everything_as_it_was(run, tmp_path):
+    own = tmp_path / "own.toml"
+    own.write_text("# two mistakes\nfoot = []")
+    done = run("--world", own, *SHORT)
+
+    assert (done.code, done.output) == (2, "")
+    assert done.errors == f"octet: {own}:2: there is no 'foot': did you mean 'food'?\n"
+    assert not done.out.exists()
+
+
+def test_more_robots_than_a_world_has_room_for_are_refused(tmp_path):
+    own = tmp_path / "own.toml"
+    own.write_text("size = [600, 600]\nfood = [[300, 300]]")
+
+    done = octet("run", "--world", own, "--robots", "9", "--out", tmp_path / "out", *SHORT)
+
+    assert done.returncode == 2
+    assert "9 robots are too many for seed 1" in done.stderr
+
+
+SEEDS, ENVIRONMENTS = 12, 3
+CAREFUL = {"filter": 1, "distrust": 32}
+
+
+def test_a_careful_robot_with_a_stuck_front_sensor_rarely_touches_anything():
+    # Given a front sensor that always shows something, and robots that stop believing it
+    touched = 0
+    for seed in range(1, SEEDS + 1):
+        config = RunConfig(seed, ENVIRONMENTS, profile="adaptive", settings=CAREFUL, changes=("stuck-on:front@env1",))
+        with make(config) as simulation:
+            # When they have been through their environments
+            touched += sum(episode.robots[0].collisions > 0 for episode in simulation.run())
+    # Then they touched something in less than 5 % of them; without a look aside it was in 18 %
+    assert touched < 0.05 * SEEDS * ENVIRONMENTS
+
+
+@pytest.mark.parametrize(("how", "left_out", "said"), [("on", 0, True), ("off", 0, True), ("on", 1, False)])
+def test_that_every_sensor_is_stuck_is_said(run, how, left_out, said):
+    sensors = [name.lower().replace("_", "-") for name in FEEL][left_out:]
+    words = [word for sensor in sensors for word in ("--change", f"stuck-{how}:{sensor}@1s")]
+
+    done = run("--environments", "1", "--limit-s", "2", "--bus", "none", *words)
+
+    assert (", every sensor stuck" in done.output) == said
+    assert done.summary["environments"][0]["robots"][0]["stuck_sensors"] == len(sensors)

@@ -1,6 +1,8 @@
-"""What is doubtful replaces nothing: the memory of a doubtful run is saved beside the good one."""
+"""A run that is not right says so, keeps what it refused, and replaces no good memory."""
 
 import pytest
+
+from tests.runs.forged import OPCODES, PACES, SAID, forge_on_vcan
 
 GOOD = bytes((0, 1, 0, 0, 2, 0, 2, 0))
 LONG = ("--environments", "1", "--limit-s", "20", "--bus", "none")
@@ -50,3 +52,106 @@ def test_a_good_run_sets_nothing_aside(run, tmp_path):
     assert memory.read_bytes() == bytes(done.memory)
     assert list(tmp_path.glob("robot.mem*")) == [memory]
     assert done.errors == ""
+
+
+IN_BETWEEN = {
+    "in this process": ("--bus", "none", "--limit-s", "8", "--fault", "forge:{}@300/to"),
+    "socket pair, lockstep": ("--bus", "fd", "--limit-s", "8", "--fault", "forge:{}@300/to"),
+    "socket pair, real time": ("--bus", "fd", "--limit-s", "3", "--real-time", "--fault", "forge:{}@100/to"),
+}
+
+
+@pytest.mark.faulty
+@pytest.mark.parametrize("opcode", OPCODES)
+@pytest.mark.parametrize("way", IN_BETWEEN)
+def test_from_in_between(run, opcode, way):
+    done = run("--environments", "1", *(word.format(opcode) for word in IN_BETWEEN[way]))
+
+    assert done.code == 1
+    assert SAID.get(opcode, "somebody else commands the robot") in done.errors
+
+
+@pytest.mark.vcan
+@pytest.mark.faulty
+@pytest.mark.parametrize("pace", PACES)
+def test_from_the_bus(tmp_path, pace):
+    forge_on_vcan(tmp_path, pace, "set")
+
+
+SHORT = ("--environments", "1", "--limit-s", "4", "--bus", "none")
+
+
+@pytest.mark.faulty
+def test_a_forged_command_is_kept_with_its_time(run):
+    done = run(*SHORT, "--fault", "forge:freeze@100/from")
+
+    line, *more = (done.out / "refused.log").read_text().splitlines()
+    stamp, channel, frame, reason = line.split(maxsplit=3)
+    assert (channel, frame[:4], reason, more) == ("octet", "021#", "; of another simulator", [])
+    assert 1.0 < float(stamp.strip("()")) < 4.0
+
+
+@pytest.mark.faulty
+def test_no_more_are_kept_than_there_is_room_for(run, monkeypatch):
+    monkeypatch.setattr("host_sim.client.incidents.REFUSED_MAX", 5)
+
+    done = run(*SHORT, "--fault", "corrupt:10%/from")
+
+    *kept, left_out = (done.out / "refused.log").read_text().splitlines()
+    assert len(kept) == 5
+    assert all(line.endswith("; damaged or foreign") for line in kept)
+    assert left_out == f"# and {done.summary['robots'][0]['frames']['refused'] - 5} more, not recorded"
+
+
+@pytest.mark.faulty
+def test_a_run_that_refused_nothing_leaves_no_file_of_an_earlier_one(run):
+    bad = run(*SHORT, "--fault", "corrupt:10%/from")
+    assert (bad.out / "refused.log").exists()
+
+    run(*SHORT, "--out", bad.out)
+
+    assert not (bad.out / "refused.log").exists()
+
+
+REAL_TIME = ("--environments", "1", "--limit-s", "4", "--bus", "fd", "--real-time")
+DEAF = {
+    "senses are lost": ("drop:90%@20-/to",),
+    "answers are late": ("delay:0-250ms@20-",),
+    "bits flip": ("corrupt:50%:3@20-/from",),
+}
+
+
+@pytest.mark.faulty
+@pytest.mark.parametrize("name", DEAF)
+def test_where_most_ticks_have_no_answer_the_result_is_doubtful(run, name):
+    done = run(*REAL_TIME, *(word for rule in DEAF[name] for word in ("--fault", rule)))
+
+    real_time = done.summary["robots"][0]["real_time"]
+    assert real_time["unanswered_percent"] > 10.0
+    assert done.code == 1
+    assert "of the 200 ticks had no answer; the limit is 10 %" in " ".join(done.summary["incidents"])
+
+
+@pytest.mark.faulty
+def test_the_limits_are_options(run):
+    done = run(*REAL_TIME, "--fault", "drop:30%@20-/to", "--unanswered-max", "100", "--late-max", "100")
+
+    assert (done.code, done.errors) == (0, "")
+    assert done.summary["robots"][0]["real_time"]["unanswered_percent"] > 10.0
+
+
+@pytest.mark.faulty
+def test_a_gap_beyond_its_limit_is_doubtful(run):
+    loose = ("--unanswered-max", "100", "--late-max", "100", "--gap-max-s", "0.4")
+
+    done = run(*REAL_TIME, "--fault", "drop@80-105/to", *loose)
+
+    assert done.code == 1
+    assert "the robot did not answer for 0.4 s" in done.errors
+    assert done.summary["robots"][0]["real_time"]["longest_gap_ms"] >= 400
+
+
+def test_in_lockstep_nothing_is_late(run):
+    done = run("--environments", "1", "--limit-s", "2", "--bus", "none")
+
+    assert done.summary["robots"][0]["real_time"] is None

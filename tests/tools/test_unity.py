@@ -1,4 +1,4 @@
-"""A C test that tests nothing fails: Unity itself says OK to no test, and to one that is ignored."""
+"""C tests as they are built: one that tests nothing fails; a warning stops a developer's build, and no other."""
 
 import os
 import re
@@ -103,3 +103,31 @@ def test_no_c_test_is_listed_by_hand():
     listing = [path for path in sorted(ROOT.glob("tests/**/*.c")) if "RUN_TEST(" in path.read_text()]
 
     assert listing == []
+
+
+WARNS = f"""
+cmake_minimum_required(VERSION 3.22)
+project(canary LANGUAGES C)
+include({ROOT}/tools/cmake/warnings.cmake)
+add_library(canary STATIC canary.c)
+target_link_libraries(canary PRIVATE octet_warnings)
+"""
+
+
+@pytest.mark.parametrize(("option", "succeeds"), [("-DOCTET_WERROR=ON", False), ("-DOCTET_WERROR=OFF", True)])
+def test_a_warning_is_shown_and_is_an_error_if_asked_for(tmp_path: Path, option: str, succeeds: bool) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(WARNS)
+    (tmp_path / "canary.c").write_text("int undeclared(void) { return 0; }\n")
+    subprocess.run(["cmake", "-G", "Ninja", "-S", tmp_path, "-B", tmp_path, option], check=True, capture_output=True)
+
+    done = subprocess.run(["ninja", "-C", tmp_path], capture_output=True, text=True, check=False)
+
+    assert (done.returncode == 0) == succeeds
+    assert "-Wmissing-prototypes" in done.stdout
+
+
+def test_who_tests_by_hand_has_warnings_as_errors() -> None:
+    command = ["cmake", "--preset", "host-san", "-N"]
+    listed = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout
+
+    assert 'OCTET_WERROR="ON"' in listed

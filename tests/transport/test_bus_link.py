@@ -1,7 +1,8 @@
-"""A link over a python-can bus."""
+"""A link over a python-can bus, and the time in which links wait."""
 
 import errno
 import socket
+import time
 from collections.abc import Iterator
 from threading import Timer
 
@@ -11,6 +12,7 @@ import pytest
 from host_sim.base.errors import LinkDownError
 from host_sim.protocol.codec import Frame
 from host_sim.transport.bus_link import BusLink
+from host_sim.transport.clock import VirtualClock, WallClock
 from host_sim.transport.line_stats import LineStats
 from host_sim.transport.socket_pair_bus import SocketPairBus
 
@@ -128,3 +130,34 @@ def test_what_is_said_of_a_line_that_is_gone_may_come_from_elsewhere(error):
 )
 def test_what_is_no_frame_of_ours_has_no_identifier(heard):
     assert BusLink(Bus(heard)).receive(0.0) == Frame(-1, b"")
+
+
+class Line:
+    """A link that has some frames, and notes how long it was waited for."""
+
+    def __init__(self, *frames: Frame) -> None:
+        self.frames, self.waits_s = list(frames), []
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        self.waits_s.append(timeout_s)
+        return self.frames.pop() if self.frames else None
+
+
+def test_the_wall_clock_waits_for_the_link_and_never_goes_back():
+    clock, line = WallClock(), Line(FRAME)
+
+    before = clock.now()
+
+    assert clock.receive(line, 1.5) == FRAME
+    assert line.waits_s == [1.5]
+    assert before <= clock.now() <= time.monotonic()
+
+
+def test_waiting_in_virtual_time_takes_none_and_a_frame_its_time_on_the_bus():
+    clock, line = VirtualClock(), Line(FRAME)
+
+    assert clock.receive(line, 1.5) == FRAME
+    assert clock.now() == clock.FRAME_S
+    assert clock.receive(line, 1.5) is None
+    assert clock.now() == clock.FRAME_S + 1.5
+    assert line.waits_s == [0.0, 0.0]

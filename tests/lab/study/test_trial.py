@@ -1,14 +1,26 @@
-"""One run of a study: equal trials give equal rows, and a row's command repeats it."""
+"""One run of a study: equal trials give equal rows, alone or as fleets; contacts are counted tick by tick."""
 
 import json
 import shlex
+from dataclasses import fields
 
+import numpy as np
 import pytest
 
+from host_sim.base.errors import UsageError
 from host_sim.cli.main import main
-from host_sim.lab.study.contacts import BodyState
-from host_sim.lab.study.trial import knows_wrong, run_trial
-from tests.lab.study.support import SWAPPED, trial
+from host_sim.lab.study.contacts import BodyState, ContactWatch, _contacts
+from host_sim.lab.study.fleets import samples_of_fleets
+from host_sim.lab.study.plan import Plan
+from host_sim.lab.study.sample import TRAPPED_S, samples_of
+from host_sim.lab.study.tables import tables_of
+from host_sim.lab.study.trial import Trial, knows_wrong, run_trial
+from host_sim.protocol.generated import Reason
+from host_sim.sim.make import make
+from host_sim.sim.native_fleet import loaded
+from host_sim.sim.run_config import RunConfig
+from host_sim.world.params import SimParams
+from tests.lab.study.support import NOTHING, SOUND, SWAPPED, trial
 
 
 def test_equal_trials_give_equal_rows():
@@ -61,3 +73,76 @@ def test_a_change_can_come_later_and_between_two_contacts():
     assert before == [contact for contact in sound.contacts[0] if contact.tick < 3000]
     assert {contact.body.is_changed for contact in before} == {False}
     assert {contact.body for contact in late.contacts[0][len(before) :]} == {SWAPPED}
+
+
+FRONT_RIGHT = 0b00010
+LEARNED = (0, 1, 0, 0, 0, 0, 0, 0)
+
+
+def test_a_contact_is_from_the_first_turn_to_the_clear_way():
+    ticks = [
+        (0, Reason.WANDER, 1),
+        *[(FRONT_RIGHT, Reason.TRIAL, 2)] * 3,
+        *[(FRONT_RIGHT, Reason.REMEMBERED, 3)] * 2,
+        (FRONT_RIGHT, Reason.REMEMBERED, 4),
+        (0, Reason.WANDER, 5),
+        (FRONT_RIGHT, Reason.BOREDOM, 6),
+    ]
+
+    first, second = _contacts(np.array(ticks, np.int16), [(0, NOTHING), (5, LEARNED)], [(0, SOUND), (8, SWAPPED)])
+
+    assert (first.tick, first.pattern, first.blocked_ticks, first.cleared) == (1, 1, 6, True)
+    assert (first.trials, first.remembered, first.boredoms, first.turns) == (1, 2, 0, 3)
+    assert first.sides == LEARNED
+    assert (first.body, second.body) == (SOUND, SWAPPED)
+    assert (second.tick, second.blocked_ticks, second.boredoms, second.cleared) == (8, 1, 1, False)
+
+
+def test_the_loop_in_c_and_the_readable_one_give_the_same_contacts():
+    def contacts(native: bool):
+        watch = ContactWatch(0)
+        with make(RunConfig(seed=4, environments=1, limit_s=40.0)) as simulation:
+            simulation.native, simulation.watch = native, watch
+            list(simulation.run())
+        return [(it.tick, it.pattern, it.blocked_ticks, it.turns, it.cleared) for it in watch.contacts()]
+
+    native = contacts(native=True)
+
+    assert native == contacts(native=False)
+    assert native
+
+
+def test_the_turns_of_the_contacts_are_those_that_the_robot_began():
+    run = run_trial(trial("article", 2))
+    with make(RunConfig(seed=2, environments=1)) as simulation:
+        (episode,) = simulation.run()
+
+    contacts = run.rows[0].contacts[0]
+    assert sum(it.trials for it in contacts) == episode.begun(Reason.TRIAL)
+    assert sum(it.remembered for it in contacts) == episode.begun(Reason.REMEMBERED)
+
+
+LOGGED = {"known_s", "blocked_at", "wrong_at", "recovery", "settled"}
+"""What only logs tell."""
+
+
+@pytest.mark.parametrize("body", ["ideal", "kit"])
+def test_a_fleet_has_the_figures_of_runs_of_their_own(body):
+    plan = Plan("", [Trial(RunConfig(environments=2, limit_s=40.0, profile="never", body=body))], 3, 3)
+
+    (one,), (other,) = samples_of_fleets(plan), samples_of(tables_of(map(run_trial, plan.trials())))
+
+    for name in {it.name for it in fields(one)} - LOGGED - {"name", "robots"}:
+        assert np.allclose(getattr(one, name), getattr(other, name)), name
+    assert one.contacts.sum() > 0
+
+
+def test_a_contact_counts_as_far_as_in_a_study():
+    assert loaded()[1].FLEET_TRAPPED_TICKS * SimParams().tick_s == TRAPPED_S
+
+
+def test_what_a_fleet_cannot_do_is_refused():
+    plan = Plan("", [Trial(RunConfig(changes=("mirror@1s",)))])
+
+    with pytest.raises(UsageError, match="tools/octet study"):
+        samples_of_fleets(plan)

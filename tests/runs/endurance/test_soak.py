@@ -1,8 +1,12 @@
-"""A sample of the soak; hours of it are run by name, as its module says."""
+"""Samples of what runs for hours: each is run whole by name, as its module says."""
 
 import subprocess
 import sys
 
+import pytest
+
+from tests.runs.endurance.noise import is_whole, run_through_noise
+from tests.runs.endurance.storm import storm_at_robot, storm_at_simulator
 from tests.runs.support import ROOT
 
 
@@ -13,3 +17,33 @@ def test_neither_time_nor_starts_make_anything_grow():
 
     assert (done.returncode, done.stderr) == (0, ""), done.stdout
     assert done.stdout.count(" h  ") == 2
+
+
+def test_however_a_run_is_ended_the_last_lesson_is_in_the_memory_file():
+    command = [sys.executable, "-m", "tests.runs.endurance.kills", "4"]
+
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+
+    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    assert done.stdout.count(" 0 lost\n") == 8
+
+
+@pytest.mark.faulty
+def test_over_a_noisy_line_a_run_in_real_time_goes_on(tmp_path):
+    run = run_through_noise(tmp_path / "out", 2.0, chance=0.03)
+
+    assert is_whole(run, 2.0), run.output + run.errors
+    assert run.code == 0 or "result unreliable" in run.errors
+
+
+def test_whatever_a_robot_hears_it_says_only_what_it_may():
+    said = storm_at_robot(20_000, seed=1)
+
+    assert said["ANSWER"] > 0
+
+
+def test_whatever_a_simulator_hears_is_counted_and_ends_in_order():
+    outcomes = storm_at_simulator(20_000, seed=1)
+
+    assert sum(outcomes.values()) == 40
+    assert outcomes.keys() <= {"went on", "SessionLostError"}
