@@ -7,7 +7,6 @@ import pytest
 
 from host_sim.client.commands import write_cells
 from host_sim.live.board_feed import BoardFeed, Class
-from host_sim.live.curves import Curves
 from host_sim.live.feed import PageFeed, points
 from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, Question, page_command_from
