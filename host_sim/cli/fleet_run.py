@@ -4,9 +4,6 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from host_sim.base.atomic_file import write_bytes
 from host_sim.cli.outputs import SUMMARY, tell
 from host_sim.cli.progress_line import ProgressLine
@@ -17,6 +14,7 @@ from host_sim.recording.summary import Summary
 from host_sim.report.fleet_page import write_fleet_page
 from host_sim.report.fleet_picture import write_fleet_picture
 from host_sim.sim.fleet import FleetResult, run_fleet, shared_world
+from host_sim.sim.fleet_film import FleetFilm
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
@@ -37,8 +35,8 @@ def conduct_fleet(options: RunOptions) -> Summary:
     config, line = options, ProgressLine(shown=options.talks)
     world_of(config.world)  # a mistake in it is found before anything is begun
     results: list[FleetResult] = []
-    samples: list[NDArray[np.int64]] = []
-    run = run_fleet(config, _progress_shown(line, config, results), samples)
+    film = FleetFilm()
+    run = run_fleet(config, _progress_shown(line, config, results), film)
     with run_folder(options.out):
         if options.talks:
             what = f"{config.robots} robots, {_WHERE[config.worlds]}, profile {config.profile}"
@@ -50,8 +48,7 @@ def conduct_fleet(options: RunOptions) -> Summary:
         summary = summarize_fleet(config, results, SimParams.tick_s, time.monotonic() - began)
         write_bytes(options.out / FLEET_TABLE, table(results).encode())
         _draw(options.out / PICTURE, config, results)
-        world = None if config.worlds == "own" else shared_world(config, 1)
-        write_fleet_page(options.out / PAGE, config, samples, world)
+        write_fleet_page(options.out / PAGE, config, film, _params(config))
         summary.write(options.out / SUMMARY)
     tell(options, summary, [options.out / name for name in (PAGE, PICTURE, FLEET_TABLE, SUMMARY)])
     return summary
@@ -69,6 +66,10 @@ def _progress_shown(
             line.show(f"{len(results)} of {planned} environments   {speed:.0f} x real time")
 
     return show
+
+
+def _params(config: RunConfig) -> SimParams:
+    return world_of(config.world).params if config.worlds == "own" else shared_world(config, 1)[1]
 
 
 def _draw(path: Path, config: RunConfig, results: Sequence[FleetResult]) -> None:

@@ -3,10 +3,8 @@
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
 from host_sim.base.errors import UsageError
+from host_sim.sim.fleet_film import SAMPLE_TICKS, FleetFilm
 from host_sim.sim.native_fleet import Contacts, NativeFleet
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.body_kinds import body_kind
@@ -18,10 +16,6 @@ from host_sim.world.worlds import world_of
 
 _SEED_SPAN = 2**32
 _BLOCK_TICKS = 1000
-SAMPLE_TICKS = 50
-"""From one sample of the robots' positions to the next."""
-
-_SAMPLES_MAX, _POSITIONS_MAX = 600, 600_000
 
 
 @dataclass(frozen=True)
@@ -65,7 +59,7 @@ class FleetResult:
 def run_fleet(
     config: RunConfig,
     progress: Callable[[int], object] = lambda _: None,
-    samples: list[NDArray[np.int64]] | None = None,
+    film: FleetFilm | None = None,
 ) -> Iterator[FleetResult]:
     """Runs a fleet.
 
@@ -75,8 +69,7 @@ def run_fleet(
     Args:
         config: The run; of its options for buses and boards, none may be set.
         progress: Called now and then with the number of ticks that all robots have run so far.
-        samples: Gets the positions of all robots, as `NativeFleet.positions` has them: at the start, and every
-            `SAMPLE_TICKS` for ten minutes; of more than 1,000 robots for less.
+        film: Gets a sample at the start, and one every `SAMPLE_TICKS` until it is full.
 
     Yields:
         The result of each robot in each environment, once it has ended.
@@ -85,15 +78,15 @@ def run_fleet(
         UsageError: The robots do not fit into their world, or refuse their configuration.
         OctetError: Something that must be built is missing.
     """
-    return _Run(config, samples).results(progress)
+    return _Run(config, film).results(progress)
 
 
 class _Run:
     """A fleet under way."""
 
-    def __init__(self, config: RunConfig, samples: list[NDArray[np.int64]] | None) -> None:
+    def __init__(self, config: RunConfig, film: FleetFilm | None) -> None:
         self._config, self._world = config, world_of(config.world)
-        self._samples = samples
+        self._film = film
         params = self._world.params
         self._own = config.worlds == "own"
         self._shared = [] if self._own else _shared_worlds(config)
@@ -122,14 +115,14 @@ class _Run:
                     self._enter(world, self._entered[world] + 1)
 
     def _run_block(self) -> None:
-        samples, fleet = self._samples, self._fleet
-        if samples is None or len(samples) >= min(_SAMPLES_MAX, _POSITIONS_MAX // fleet.robots):
+        film, fleet = self._film, self._fleet
+        if film is None or film.is_full(fleet.robots):
             fleet.run(_BLOCK_TICKS)
             return
-        if not samples:
-            samples.append(fleet.positions())
+        if not film.poses:
+            film.add(fleet)
         fleet.run(SAMPLE_TICKS)
-        samples.append(fleet.positions())
+        film.add(fleet)
 
     def _seed(self, index: int) -> int:
         return (self._config.seed + index) % _SEED_SPAN
@@ -142,6 +135,8 @@ class _Run:
         layout = self._world.generate(self._seed(world), number) if self._own else self._shared[number - 1][0]
         self._fleet.enter(world, layout, round(self._config.limit_s / self._world.params.tick_s))
         self._entered[world] = number
+        if self._film:
+            self._film.enter(world, layout, self._fleet.robots)
 
     def _leave(self, world: int) -> Iterator[FleetResult]:
         """Ends an environment."""

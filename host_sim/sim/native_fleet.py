@@ -181,9 +181,23 @@ class NativeFleet:
 
     def memory(self, index: int) -> tuple[int, ...]:
         """A robot's eight cells."""
-        cells = self._ffi.new("uint8_t[]", CELL_COUNT)
-        self._library.fleet_memory(self._ffi.addressof(self._robots[index]), cells)
-        return tuple(cells)
+        return tuple(self._memories(index, 1))
+
+    def memories(self) -> list[bytes]:
+        """All robots' memories."""
+        cells = self._memories(0, self.robots)
+        return [cells[at : at + CELL_COUNT] for at in range(0, len(cells), CELL_COUNT)]
+
+    def _memories(self, first: int, count: int) -> bytes:
+        cells = self._ffi.new("uint8_t[]", count * CELL_COUNT)
+        self._library.fleet_memories(self._robots + first, count, cells)
+        return bytes(self._ffi.buffer(cells))
+
+    def meals(self) -> NDArray[np.uint32]:
+        """The number of pieces of food that each robot has eaten in its environment."""
+        at = self._ffi.offsetof("struct fleet_robot", "food_eaten")
+        robots = np.frombuffer(self._ffi.buffer(self._robots), np.uint8).reshape(self.robots, -1)
+        return np.asarray(robots[:, at : at + 4].copy().view(np.uint32)[:, 0])
 
     def pose(self, index: int) -> Pose:
         """Where a robot is."""

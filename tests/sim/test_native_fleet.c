@@ -95,6 +95,6 @@ TEST(a_memory_is_the_cores)
     uint8_t cells[CELL_COUNT];
 
     TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(robots, OPCODE_START, PROFILE_FIXED, 1, &answer));
-    fleet_memory(robots, cells);
+    fleet_memories(robots, 1, cells);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0, 1, 1, 1, 2, 1, 2, 1}), cells, CELL_COUNT);
 }

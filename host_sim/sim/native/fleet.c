@@ -28,10 +28,10 @@ int fleet_command(struct fleet_robot *robot, int opcode, uint8_t which, uint32_t
     return (int)robot_execute(&robot->core->robot, &command, answer);
 }
 
-void fleet_memory(const struct fleet_robot *robot, uint8_t *cells)
+void fleet_memories(const struct fleet_robot robots[], size_t count, uint8_t *cells)
 {
-    for (unsigned i = 0; i < CELL_COUNT; i++)
-        cells[i] = robot->core->robot.brain.memory.cell[i];
+    for (size_t i = 0; i < count * CELL_COUNT; i++)
+        cells[i] = robots[i / CELL_COUNT].core->robot.brain.memory.cell[i % CELL_COUNT];
 }
 
 static void sense(struct fleet_robot *robot)

@@ -40,8 +40,8 @@ void fleet_wake(struct fleet_robot *robot);
 int fleet_command(struct fleet_robot *robot, int opcode, uint8_t which, uint32_t value, uint32_t *answer);
         /* Has the core carry out one command. 0, or a result that says why not. */
 
-void fleet_memory(const struct fleet_robot *robot, uint8_t *cells);
-        /* Copies a core's memory: CELL_COUNT bytes. */
+void fleet_memories(const struct fleet_robot robots[], size_t count, uint8_t *cells);
+        /* Copies the memories of robots, one after the other: CELL_COUNT bytes each. */
 
 size_t fleet_run_alone(struct fleet_robot robots[], size_t count, uint32_t ticks);
         /* Runs each robot in its own world for a number of ticks, one robot after the other, or to the end of its

@@ -4,7 +4,7 @@
 import { REASON } from "../generated.js";
 
 const NAMES = /** @type {const} */ ([
-  "floor", "grid", "ink", "paper", "bar", "food", "cone", "cone-dark", "beam", "select", "plant",
+  "floor", "grid", "ink", "paper", "bar", "food", "cone", "cone-dark", "beam", "select", "plant", "level",
 ]);
 
 const ROBOT_COLOURS = 8;

@@ -34,7 +34,9 @@ export function drawChart(canvas, lines, { last, most, time }) {
   canvas.height = Math.round(height * devicePixelRatio);
   const context = contextOf(canvas);
   context.scale(devicePixelRatio, devicePixelRatio);
-  const [left, right, top, bottom] = [2.2 * size, width - 1.8 * size, 0.6 * size, height - 1.6 * size];
+  context.font = `bold ${size}px system-ui, sans-serif`;
+  const names = Math.max(0, ...lines.map(({ name }) => context.measureText(name).width));
+  const [left, right, top, bottom] = [2.2 * size, width - names - 0.8 * size, 0.6 * size, height - 1.6 * size];
   const scale = {
     x: (/** @type {number} */ tick) => left + (tick / Math.max(1, last)) * (right - left),
     y: (/** @type {number} */ count) => bottom - (count / Math.max(1, most)) * (bottom - top),
@@ -42,11 +44,11 @@ export function drawChart(canvas, lines, { last, most, time }) {
   };
   context.font = `${size}px system-ui, sans-serif`;
   drawAxes(context, paletteOf(canvas), scale, { last, most, time });
-  const names = lines.map((line, i) => {
+  const drawn = lines.map((line, i) => {
     const shift = (i - (lines.length - 1) / 2) * Math.min(size / 5, (bottom - top) / Math.max(1, most) / (2 * lines.length));
     return { ...line, y: drawLine(context, line, { ...scale, y: (count) => scale.y(count) + shift }) };
   });
-  drawNames(context, names, scale, { top, bottom });
+  drawNames(context, drawn, scale, { top, bottom });
 }
 
 /**

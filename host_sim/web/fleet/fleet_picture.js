@@ -3,50 +3,33 @@
 
 import { contextOf } from "../core/elements.js";
 import { paletteOf } from "../core/palette.js";
+import { PATTERNS } from "../generated.js";
 
-/**
- * What host_sim/report/fleet_page.py has written.
- * @typedef {Object} Fleet
- * @property {string} title
- * @property {number} robots
- * @property {boolean} own
- * @property {number} width
- * @property {number} height
- * @property {number} body
- * @property {number} bar
- * @property {number} sample_s
- * @property {number} samples
- * @property {number[][]} bars
- * @property {number[][]} food
- * @property {string[]} columns
- * @property {string} data
- */
-
-const GAP_MM = 80;
+const GAP_MM = 120;
 const FOOD_MM = 50;
-/** A robot that is farther away in the next sample was carried into another environment. */
-const JUMP_MM = 600;
-/** Robots of their own small worlds are drawn larger than they are. */
-const OWN_SCALE = 3;
+/** In small worlds, what is in them is drawn larger than it is. */
+const SMALL_PX_PER_MM = 0.08;
+const ENLARGED = 2.2;
 /** From this radius on one can see that a robot is round, and where it looks. */
 const ROUND_PX = 3;
 
-/** Draws only what differs from what is there. */
+/** Draws some worlds with all that is in them, if anything differs from what is there. */
 export class FleetPicture {
   /**
    * @param {HTMLCanvasElement} canvas
-   * @param {Fleet} fleet
-   * @param {import("../core/packed_columns.js").Columns} columns
+   * @param {import("./fleet_data.js").FleetData} data
    */
-  constructor(canvas, fleet, columns) {
+  constructor(canvas, data) {
     this.canvas = canvas;
-    this.fleet = fleet;
-    this.tracks = Array.from({ length: fleet.robots }, (_, i) => [columns[`x${i}`], columns[`y${i}`], columns[`heading${i}`]]);
+    this.data = data;
     this.context = contextOf(canvas, { alpha: false });
-    this.background = document.createElement("canvas");
     this.palette = paletteOf(canvas);
+    /** The worlds that it shows, and the robot that is marked. */
+    this.worlds = Array.from({ length: data.worlds }, (_, world) => world);
+    this.marked = -1;
     /** Worlds in a row, and pixels per mm. */
     this.columns = this.scale = 1;
+    this.margin = { x: 0, y: 0 };
     this.isNew = true;
     /** The time that is drawn. */
     this.at = NaN;
@@ -54,108 +37,139 @@ export class FleetPicture {
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => (this.isNew = true));
   }
 
-  /** @param {number} at - Number of a sample; between two, robots go straight ahead. */
-  draw(at) {
-    if (at === this.at && !this.isNew) return;
-    if (this.isNew) this.begin();
-    this.isNew = false;
-    this.at = at;
-    this.context.resetTransform();
-    this.context.drawImage(this.background, 0, 0);
-    this.useMm(this.context);
-    this.drawRobots(at);
+  /**
+   * @param {number[]} worlds
+   * @param {number} marked - A robot, or -1.
+   */
+  choose(worlds, marked) {
+    this.worlds = worlds;
+    this.marked = marked;
+    this.isNew = true;
   }
 
-  /** The canvas has another size, or the page other colours: draws what does not move anew. */
-  begin() {
-    this.palette = paletteOf(this.canvas);
-    this.fit();
-    [this.background.width, this.background.height] = [this.canvas.width, this.canvas.height];
-    const layer = contextOf(this.background, { alpha: false });
-    this.useMm(layer);
-    this.drawWorlds(layer);
+  /** @param {number} at - Number of a sample. */
+  draw(at) {
+    if (at === this.at && !this.isNew) return;
+    if (this.isNew) this.fit();
+    this.isNew = false;
+    this.at = at;
+    const { context, margin, scale } = this;
+    context.setTransform(scale, 0, 0, scale, margin.x + (GAP_MM / 2) * scale, margin.y + (GAP_MM / 2) * scale);
+    this.drawWorlds(at);
+    this.drawRobots(at);
   }
 
   /** Gives the canvas a pixel for each of the screen's, and all worlds room on it. */
   fit() {
-    const { canvas, fleet } = this;
+    const { canvas, worlds, data: { fleet } } = this;
+    this.palette = paletteOf(canvas);
     const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((px) => Math.max(1, Math.round(px * devicePixelRatio)));
     [canvas.width, canvas.height] = [width, height];
-    const worlds = fleet.own ? fleet.robots : 1;
     const [across, down] = [fleet.width + GAP_MM, fleet.height + GAP_MM];
-    this.columns = fleet.own ? Math.max(1, Math.ceil(Math.sqrt((worlds * down * width) / (across * height)))) : 1;
-    this.scale = Math.min(width / (this.columns * across), height / (Math.ceil(worlds / this.columns) * down));
+    const fits = (/** @type {number} */ columns) => Math.min(width / (columns * across), height / (Math.ceil(worlds.length / columns) * down));
+    const all = worlds.map((_, i) => i + 1);
+    this.columns = all.reduce((best, columns) => (fits(columns) > fits(best) ? columns : best), 1);
+    this.scale = fits(this.columns);
+    this.margin = {
+      x: (width - this.columns * across * this.scale) / 2,
+      y: (height - Math.ceil(worlds.length / this.columns) * down * this.scale) / 2,
+    };
   }
 
-  /** @param {CanvasRenderingContext2D} context */
-  useMm(context) {
-    const { scale } = this;
-    context.setTransform(scale, 0, 0, scale, (GAP_MM / 2) * scale, (GAP_MM / 2) * scale);
+  /** How much larger than it is everything is drawn. */
+  get enlarged() {
+    return this.scale / devicePixelRatio < SMALL_PX_PER_MM ? ENLARGED : 1;
   }
 
-  /** @param {CanvasRenderingContext2D} context */
-  drawWorlds(context) {
-    const { fleet, palette } = this;
+  /** @param {number} at */
+  drawWorlds(at) {
+    const { context, palette, data, worlds } = this;
+    const { width, height, bar } = data.fleet;
     context.fillStyle = palette.of.paper;
-    context.fillRect(-GAP_MM, -GAP_MM, 1e6, 1e6);
-    context.fillStyle = palette.of[fleet.own ? "grid" : "floor"];
-    for (let world = 0; world < (fleet.own ? fleet.robots : 1); world += 1) {
-      const [x, y] = this.cornerOf(world);
-      context.fillRect(x, y, fleet.width, fleet.height);
+    context.fillRect(-1e6, -1e6, 2e6, 2e6);
+    const places = worlds.map((world, i) => ({ world, corner: this.cornerOf(i), scene: data.sceneAt(world, at) }));
+    for (const { world, corner: [x, y] } of places) {
+      const isFinished = data.isFinished(world, at);
+      context.fillStyle = palette.of[isFinished ? "food" : "bar"];
+      const edge = isFinished ? GAP_MM / 2.5 : GAP_MM / 6;
+      context.fillRect(x - edge, y - edge, width + 2 * edge, height + 2 * edge);
+      context.fillStyle = palette.of.floor;
+      context.fillRect(x, y, width, height);
     }
-    context.fillStyle = palette.of.food;
-    discs(context, fleet.food, FOOD_MM);
     context.strokeStyle = palette.of.bar;
-    context.lineWidth = fleet.bar;
+    context.lineWidth = bar * Math.sqrt(this.enlarged);
     context.lineCap = "round";
-    lines(context, fleet.bars);
+    lines(context, places.flatMap(({ corner: [x, y], scene }) => scene.bars.map(([ax, ay, bx, by]) => [x + ax, y + ay, x + bx, y + by])));
+    const food = places.flatMap(({ world, corner: [x, y], scene }) =>
+      scene.food.map(([fx, fy], piece) => ({ place: [x + fx, y + fy], isEaten: data.isEaten(world, piece, at) })));
+    context.fillStyle = context.strokeStyle = palette.of.food;
+    const radius = FOOD_MM * this.enlarged;
+    discs(context, food.filter(({ isEaten }) => !isEaten).map(({ place }) => place), radius, () => context.fill());
+    context.lineWidth = radius / 4;
+    discs(context, food.filter(({ isEaten }) => isEaten).map(({ place }) => place), radius, () => context.stroke());
   }
 
   /** @param {number} at */
   drawRobots(at) {
-    const { context, fleet, palette } = this;
-    const radius = fleet.body * (fleet.own ? OWN_SCALE : 1);
-    const poses = this.tracks.map((_, robot) => this.placeOf(robot, at));
-    context.fillStyle = palette.reasons[1];
-    if (radius * this.scale < ROUND_PX) {
-      squares(context, poses, radius);
-      return;
+    const { context, palette, data } = this;
+    const radius = data.fleet.body * this.enlarged;
+    const levels = data.levelsAt(at);
+    const robots = this.placesOf(at);
+    const isRound = radius * this.scale >= ROUND_PX;
+    const marks = isRound ? discs : squares;
+    context.fillStyle = palette.of.ink;
+    marks(context, robots.map(({ place }) => place), radius * 1.2, () => context.fill());
+    for (let level = 0; level < PATTERNS.length; level += 1) {
+      const places = robots.filter(({ robot }) => levels[robot] === level).map(({ place }) => place);
+      context.fillStyle = palette.of.paper;
+      marks(context, places, radius, () => context.fill());
+      context.globalAlpha = level / (PATTERNS.length - 1);
+      context.fillStyle = palette.of.level;
+      marks(context, places, radius, () => context.fill());
+      context.globalAlpha = 1;
     }
-    discs(context, poses, radius);
     context.strokeStyle = palette.of.ink;
     context.lineWidth = radius / 3;
-    lines(context, poses.map(([x, y, heading]) => [x, y, x + radius * Math.cos(heading), y + radius * Math.sin(heading)]));
+    if (isRound) lines(context, robots.map(({ place: [x, y, heading] }) => [x, y, x + radius * Math.cos(heading), y + radius * Math.sin(heading)]));
+    context.strokeStyle = palette.of.select;
+    context.lineWidth = Math.max(radius / 2, 2 / this.scale);
+    discs(context, robots.filter(({ robot }) => robot === this.marked).map(({ place }) => place), 2 * radius, () => context.stroke());
   }
 
   /**
-   * Where a robot is in the picture.
-   * @param {number} robot
+   * The robots in the worlds that are shown, and where each is in the picture.
    * @param {number} at
    */
-  placeOf(robot, at) {
-    const [left, top] = this.cornerOf(this.fleet.own ? robot : 0);
-    const [x, y, heading] = this.poseOf(robot, at);
-    return [left + x, top + y, heading];
-  }
-
-  /** @param {number} world */
-  cornerOf(world) {
-    const { width, height } = this.fleet;
-    return [(world % this.columns) * (width + GAP_MM), Math.floor(world / this.columns) * (height + GAP_MM)];
+  placesOf(at) {
+    const { data, worlds } = this;
+    const robots = data.fleet.own ? worlds : Array.from({ length: data.fleet.robots }, (_, robot) => robot);
+    return robots.map((robot, i) => {
+      const [left, top] = this.cornerOf(data.fleet.own ? i : 0);
+      const [x, y, heading] = data.poseOf(robot, at);
+      return { robot, place: [left + x, top + y, heading] };
+    });
   }
 
   /**
-   * Where a robot is in its world.
-   * @param {number} robot
-   * @param {number} at
+   * The robot whose world is at a place of the page or, where all share one, the nearest.
+   * @param {{offsetX: number, offsetY: number}} where
    */
-  poseOf(robot, at) {
-    const [x, y, heading] = this.tracks[robot];
-    const before = Math.floor(at);
-    const after = Math.min(this.fleet.samples - 1, before + 1);
-    const [dx, dy] = [x[after] - x[before], y[after] - y[before]];
-    const part = Math.hypot(dx, dy) > JUMP_MM ? 0 : at - before;
-    return [x[before] + part * dx, y[before] + part * dy, heading[before] / 1000];
+  robotAt({ offsetX, offsetY }) {
+    const { data: { fleet }, scale, columns, margin } = this;
+    const [x, y] = [offsetX * devicePixelRatio - margin.x, offsetY * devicePixelRatio - margin.y].map((px) => px / scale);
+    if (fleet.own) {
+      const [column, row] = [Math.floor(x / (fleet.width + GAP_MM)), Math.floor(y / (fleet.height + GAP_MM))];
+      return column >= 0 && column < columns ? this.worlds[row * columns + column] : undefined;
+    }
+    const [px, py] = [x - GAP_MM / 2, y - GAP_MM / 2];
+    const distance = (/** @type {number[]} */ [rx, ry]) => Math.hypot(rx - px, ry - py);
+    return this.placesOf(this.at).sort((a, b) => distance(a.place) - distance(b.place))[0].robot;
+  }
+
+  /** @param {number} place - Number of a world in the picture. */
+  cornerOf(place) {
+    const { width, height } = this.data.fleet;
+    return [(place % this.columns) * (width + GAP_MM), Math.floor(place / this.columns) * (height + GAP_MM)];
   }
 }
 
@@ -163,24 +177,28 @@ export class FleetPicture {
  * @param {CanvasRenderingContext2D} context
  * @param {number[][]} places
  * @param {number} radius
+ * @param {() => void} paint
  */
-function discs(context, places, radius) {
+function discs(context, places, radius, paint) {
   context.beginPath();
   for (const [x, y] of places) {
     context.moveTo(x + radius, y);
     context.arc(x, y, radius, 0, 2 * Math.PI);
   }
-  context.fill();
+  paint();
 }
 
 /**
- * What takes the place of discs too small to tell from squares, and is drawn sooner: most of all one by one.
+ * What takes the place of discs too small to tell from squares, and is drawn sooner.
  * @param {CanvasRenderingContext2D} context
  * @param {number[][]} places
  * @param {number} radius
+ * @param {() => void} paint
  */
-function squares(context, places, radius) {
-  for (const [x, y] of places) context.fillRect(x - radius, y - radius, 2 * radius, 2 * radius);
+function squares(context, places, radius, paint) {
+  context.beginPath();
+  for (const [x, y] of places) context.rect(x - radius, y - radius, 2 * radius, 2 * radius);
+  paint();
 }
 
 /**
