@@ -1,5 +1,6 @@
 """Robots whose brain is a program in the language of the article's listing: docs/language.md."""
 
+from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import Any
@@ -21,25 +22,25 @@ _TOLD_MAX = 1024
 class ProgrammedLink(InProcessLink):
     """A robot with a program, in this process."""
 
-    def __init__(self, program: Path, node: int = 1, relay: Relay | None = None) -> None:
+    def __init__(
+        self, program: Path | bytes, node: int = 1, relay: Relay | None = None, memory: Sequence[int] = (0,) * 8
+    ) -> None:
         """Wakes a robot.
 
         Args:
-            program: The file with its program.
+            program: The file with its program, or its text.
             node: 1..31.
             relay: What it hears of other robots; None if it is alone.
+            memory: Eight cells that it wakes up with.
 
         Raises:
             UsageError: The file cannot be read, or the program has a mistake, which the message names with its line.
             OctetError: The library cannot be loaded.
         """
-        try:
-            self._text = read_bytes(program, _SIZE_MAX)
-        except OSError as error:
-            raise UsageError(f"cannot read {program}: {error.strerror}") from None
-        super().__init__(node, library=LIBRARY, relay=relay)
+        self._text = program if isinstance(program, bytes) else read_program(program)
+        super().__init__(node, memory, library=LIBRARY, relay=relay)
         if told := self.told():
-            raise UsageError(f"{program}, {told}")
+            raise UsageError(f"{'the program of the run' if isinstance(program, bytes) else program}, {told}")
 
     def _open(self, node: int, memory: bytes) -> Any:
         return self._library.programmed_open(node, memory, self._text, len(self._text))
@@ -54,6 +55,18 @@ class ProgrammedLink(InProcessLink):
     def status(self) -> str:
         """As in `Connection`."""
         return f"runs in this process, {self.told() or 'as it should'}"
+
+
+def read_program(path: Path) -> bytes:
+    """The text of a program.
+
+    Raises:
+        UsageError: The file cannot be read.
+    """
+    try:
+        return read_bytes(path, _SIZE_MAX)
+    except OSError as error:
+        raise UsageError(f"cannot read {path}: {error.strerror}") from None
 
 
 def check_program(program: str) -> None:

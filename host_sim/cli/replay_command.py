@@ -61,7 +61,7 @@ def _check(arguments: argparse.Namespace) -> None:
 def _replay(arguments: argparse.Namespace) -> int:
     if arguments.protocol:
         return _check_protocol(arguments.log, arguments.node)
-    return _compare(arguments.log, arguments.node) if arguments.html is None else _write_page(arguments)
+    return _compare(arguments) if arguments.html is None else _write_page(arguments)
 
 
 def _check_protocol(log: Path, first_node: int) -> int:
@@ -79,18 +79,21 @@ def _check_protocol(log: Path, first_node: int) -> int:
     return 0 if sound else 1
 
 
-def _compare(log: Path, first_node: int) -> int:
+def _compare(arguments: argparse.Namespace) -> int:
     """Compares the robots from a node on; the log must have the first of them."""
     from host_sim.protocol.codec import Protocol
     from host_sim.recording.log_reader import nodes_in, read_log
     from host_sim.recording.replay import replay, report
+    from host_sim.recording.world_file import read_world, world_path
 
-    lines = read_log(log)
+    log, first_node = arguments.log, arguments.node
+    lines, world = read_log(log), world_path(log)
+    program = read_world(world).program if world.exists() and not arguments.no_world else None
     equal = True
     nodes = sorted({first_node, *(node for node in nodes_in(lines) if node > first_node)})
     for node in nodes:
         protocol = Protocol(node)
-        outcome = replay(lines, protocol)
+        outcome = replay(lines, protocol, program)
         print(report(outcome, f"{log}, node {node}" if len(nodes) > 1 else str(log), protocol))
         equal = equal and outcome.difference is None
     if note := lines.note():

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from host_sim.backends.in_process_link import InProcessLink
+from host_sim.backends.programmed_robot import ProgrammedLink
 from host_sim.base.errors import UsageError
 from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, node_of
 from host_sim.protocol.generated import Opcode, Reason
@@ -43,18 +44,19 @@ class Replay:
     stopped: bool = True
 
 
-def replay(log: LogReader, protocol: Protocol) -> Replay:
+def replay(log: LogReader, protocol: Protocol, program: bytes | None = None) -> Replay:
     """Feeds what one robot has heard, by a log, to the firmware, and compares drives and memories.
 
     Args:
         log: The log.
         protocol: The protocol of the robot's node.
+        program: The program that was its brain; None for the firmware's own.
 
     Raises:
         UsageError: The log is of another protocol, has no heartbeat of this node, or holds a damaged frame.
     """
     check_protocol(log, protocol)
-    comparison = _Comparison(log, protocol)
+    comparison = _Comparison(log, protocol, program)
     for line in log:
         if line.frame.id in MEMORY_IDS and line.frame.id != protocol.id_of("MEMORY"):
             comparison.overhear(line.frame)
@@ -72,11 +74,12 @@ class _Comparison:
         stopped: Whether the last command so far was to stop.
     """
 
-    def __init__(self, log: LogReader, protocol: Protocol) -> None:
+    def __init__(self, log: LogReader, protocol: Protocol, program: bytes | None) -> None:
         self.drives = 0
         self.stopped = False
         self._log, self._protocol = log, protocol
-        self._link = InProcessLink(protocol.node, first_memory(log, protocol))
+        node, memory = protocol.node, first_memory(log, protocol)
+        self._link = InProcessLink(node, memory) if program is None else ProgrammedLink(program, node, memory=memory)
         self._pending: dict[int, Frame] = {}
         self._lockstep, self._time_us = True, 0
         self._sent: Frame | None = None

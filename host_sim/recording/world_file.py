@@ -27,6 +27,7 @@ from host_sim.world.written_world import content_of, world_from
 _FORMAT = 1
 _SIZE_MAX = 16_000_000
 _TEXT_MAX = 1000
+_AS_BYTES = "surrogateescape"
 _FRONT_EXTRA_MAX_MM = 100.0
 _SEED_MAX, _TICK_MAX, _NUMBER_MAX = 2**32 - 1, 2**53, 1_000_000
 
@@ -46,6 +47,7 @@ def write_world(record: WorldRecord, path: Path) -> None:
         "front_extra_mm": record.world.params.front_extra_mm,
         **_world_content(record.world),
         **({"body": dict(record.kind.traits)} if record.kind else {}),
+        **({} if record.program is None else {"program": record.program.decode(errors=_AS_BYTES)}),
         "environments": [begun._asdict() for begun in record.begun],
         "edits": [{"tick": tick, **edit_to(edit)} for tick, edit in record.edits],
         **({"refused": [refused._asdict() for refused in record.refused]} if record.refused else {}),
@@ -92,7 +94,14 @@ def _record(content: dict[str, Any]) -> WorldRecord:
         [_refused(entry) for entry in _objects(content, "refused")] if "refused" in content else [],
         _world(content),
         _kind(content.get("body", IDEAL)),
+        _program(content.get("program")),
     )
+
+
+def _program(text: Any) -> bytes | None:
+    if text is not None and not isinstance(text, str):
+        raise ValueError("program must be a text")
+    return None if text is None else text.encode(errors=_AS_BYTES)
 
 
 def _kind(body: Any) -> BodyKind | None:

@@ -47,6 +47,8 @@ def laboratory(log: LogReader, run: Resimulation) -> dict[str, Any]:
     nodes = [track.node for track in run.trajectory.tracks]
     if run.record is None:
         raise NoLaboratoryError("What if? needs the world of the run, which is not known here.")
+    if run.record.program is not None:
+        raise NoLaboratoryError("What if? runs the firmware's own brain, and the brain of this run was a program.")
     if nodes != list(range(1, len(nodes) + 1)) or len(nodes) > ROBOTS_MAX:
         raise NoLaboratoryError(f"What if? knows robots of nodes 1 to {ROBOTS_MAX} only.")
     if run.trajectory.first_tick:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from pathlib import Path
 from random import Random
 
 from host_sim.backends.bus_lines import BusLines
@@ -96,12 +97,17 @@ def assemble(clients: Sequence[RobotClient], config: RunConfig, memories: Sequen
     start_robots(clients, config, memories)
     pace: Pace = RealTime(clients, world.params.tick_s) if config.real_time else Lockstep(clients)
     changes = [Change.parse(change) for change in config.changes]
-    return Simulation(
+    simulation = Simulation(
         *(world, clients, pace, config.seed, config.environments, config.limit_s),
         changes=changes,
         physics=config.chosen_physics,
         kind=body_kind(config.body),
     )
+    if config.program:
+        from host_sim.backends.programmed_robot import read_program  # noqa: PLC0415 - a run without one begins sooner
+
+        simulation.record.program = read_program(Path(config.program))
+    return simulation
 
 
 def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Sequence[Memory | None] = ()) -> None:

@@ -47,6 +47,7 @@ class WorldRecord:
         refused: The changes of a schedule that could not be made, in order.
         world: What the environments were drawn from.
         kind: What the robots' bodies are like; None: ideal.
+        program: The program that is each robot's brain; None for the firmware's own.
         happened: The changes of a schedule that were made, in order; they are among the edits, too.
     """
 
@@ -59,6 +60,7 @@ class WorldRecord:
     refused: list[Refused] = field(default_factory=list)
     world: World = field(default_factory=lambda: world_of(RANDOM))
     kind: BodyKind | None = None
+    program: bytes | None = None
     happened: list[str] = field(default_factory=list, compare=False)
 
     @property

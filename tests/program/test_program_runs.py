@@ -106,3 +106,16 @@ def test_a_file_that_cannot_be_a_program_is_refused(tmp_path):
 def test_what_does_not_go_with_a_program_is_refused(other, capsys):
     assert main(["run", "--program", str(ARTICLE), *other]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_replay_runs_the_program_again_that_was_there_then(tmp_path, capsys):
+    program = written(tmp_path, (EXAMPLES / "one_rule.bas").read_text())
+    out = tmp_path / "out"
+    words = ["--environments", "1", "--limit-s", "9", "--bus", "none", "--out", str(out)]
+    assert main(["run", "--program", program, *words]) == 0
+    written(tmp_path, "rTurn 5\n")
+
+    assert main(["replay", str(out / "run.log")]) == 0
+    assert main(["replay", str(out / "run.log"), "--no-world"]) == 1
+
+    assert "drives, no difference" in capsys.readouterr().out

@@ -53,6 +53,7 @@ def record() -> WorldRecord:
         list(EDITS),
         [Refused(12, "plant@1s", "the robot stands there")],
         world,
+        program="\u201cx = 1\u201d\n".encode() + b"\xff",
     )
 
 
