@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include <unity.h>
+#include "tests/test.h"
 
 struct robot robot;
 struct output out;
@@ -38,6 +38,13 @@ void command(enum opcode opcode, uint8_t which, uint32_t value)
     const struct input in = {.command = {.opcode = opcode, .which = which, .value = value}};
 
     respond_to(INPUT_COMMAND, &in);
+}
+
+void setUp(void)
+{
+    wheels = (struct senses){.tick = 0};
+    robot_init(&robot, 1);
+    command(OPCODE_START, PROFILE_ARTICLE, 1);
 }
 
 void learned(enum side side)

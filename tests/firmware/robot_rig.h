@@ -1,4 +1,4 @@
-/* robot_rig.h: a robot, and what it answers to what a test lets it sense. */
+/* robot_rig.h: a robot that each test starts anew as the article's, and what it answers to what a test lets it sense. */
 #ifndef OCTET_ROBOT_RIG_H
 #define OCTET_ROBOT_RIG_H
 

@@ -4,13 +4,6 @@
 
 enum { FRONT_RIGHT = 2, FRONT_LEFT = 8, DISTRUST_AFTER = 5, BACK_MM = 20, ENOUGH = 500 };
 
-void setUp(void)
-{
-    wheels = (struct senses){.tick = 0};
-    robot_init(&robot, 1);
-    command(OPCODE_START, PROFILE_ARTICLE, 1);
-}
-
 static void go_until(enum reason reason, uint8_t feel_there)
 {
     unsigned ticks = 0;

@@ -3,13 +3,6 @@
 #include "tests/test.h"
 #include "robot_rig.h"
 
-void setUp(void)
-{
-    wheels = (struct senses){.tick = 0};
-    robot_init(&robot, 1);
-    command(OPCODE_START, PROFILE_ARTICLE, 1);
-}
-
 TEST(after_power_up_it_rests)
 {
     robot_init(&robot, 1);

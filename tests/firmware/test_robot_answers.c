@@ -6,13 +6,6 @@
 #include "tests/test.h"
 #include "robot_rig.h"
 
-void setUp(void)
-{
-    wheels = (struct senses){.tick = 0};
-    robot_init(&robot, 1);
-    command(OPCODE_START, PROFILE_ARTICLE, 1);
-}
-
 TEST(a_command_is_answered_and_not_driven)
 {
     command(OPCODE_RESUME, 0, 0);

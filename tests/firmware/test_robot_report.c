@@ -3,13 +3,6 @@
 #include "tests/test.h"
 #include "robot_rig.h"
 
-void setUp(void)
-{
-    wheels = (struct senses){.tick = 0};
-    robot_init(&robot, 1);
-    command(OPCODE_START, PROFILE_ARTICLE, 1);
-}
-
 TEST(every_tenth_silence_brings_a_report)
 {
     for (unsigned i = 1; i <= 100; i++) {

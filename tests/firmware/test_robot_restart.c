@@ -13,13 +13,6 @@ enum {
 
 static const unsigned OUTAGES_MS[] = {50, 100, 300, 1000};
 
-void setUp(void)
-{
-    wheels = (struct senses){.tick = 0};
-    robot_init(&robot, 1);
-    command(OPCODE_START, PROFILE_ARTICLE, 1);
-}
-
 /* How far the wheels are from one body's odometers to the next, right positive. */
 static int turned(const struct senses *from)
 {

@@ -2,13 +2,6 @@
 #include "tests/test.h"
 #include "robot_rig.h"
 
-void setUp(void)
-{
-    wheels = (struct senses){.tick = 0};
-    robot_init(&robot, 1);
-    command(OPCODE_START, PROFILE_ARTICLE, 1);
-}
-
 TEST(wheels_that_obey_are_no_fault)
 {
     for (unsigned i = 0; i < MANY; i++) {

@@ -1,16 +1,8 @@
-#include "firmware/brain.h"
-#include "tests/test.h"
-
-enum { FRONT = FEEL_FRONT, PATTERN_FRONT = 2 };
-
-static struct brain brain;
-static struct config config;
+#include "brain_rig.h"
 
 void setUp(void)
 {
-    brain = (struct brain){.frozen = false};
-    config_reset(&config);
-    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_DISTANCE, 1));
+    begin(PROFILE_DISTANCE);
 }
 
 static struct senses blocked(unsigned sensor, uint8_t range_mm)
@@ -27,7 +19,7 @@ static int turn_with(enum side side, unsigned sensor, uint8_t range_mm)
     struct action action;
 
     brain.awaits = 0;
-    memory_learn(&brain.memory, PATTERN_FRONT, side);
+    learned(PATTERN_FRONT, side);
     action = brain_next(&brain, &config, &senses);
     TEST_ASSERT_EQUAL(REASON_REMEMBERED, action.reason);
     return action.turn_deg;
@@ -64,7 +56,7 @@ TEST(the_nearest_counts)
 
     senses.range_mm[2] = 21;
     senses.range_mm[3] = 40;
-    memory_learn(&brain.memory, PATTERN_FRONT, SIDE_LEFT);
+    learned(PATTERN_FRONT, SIDE_LEFT);
     TEST_ASSERT_EQUAL_INT(-23, brain_next(&brain, &config, &senses).turn_deg);
 }
 

@@ -1,24 +1,10 @@
-#include "firmware/brain.h"
+#include "brain_rig.h"
+
 #include "firmware/memory/feel_memory.h"
-#include "tests/test.h"
-
-enum { CLEAR = 0, FRONT = FEEL_FRONT, ALL_THREE = 14 };
-
-static struct brain brain;
-static struct config config;
 
 void setUp(void)
 {
-    brain = (struct brain){.frozen = false};
-    config_reset(&config);
-    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_FIVE, 1));
-}
-
-static struct action next(uint8_t feel)
-{
-    const struct senses senses = {.feel = feel};
-
-    return brain_next(&brain, &config, &senses);
+    begin(PROFILE_FIVE);
 }
 
 TEST(the_side_sensors_tell_readings_apart)

@@ -1,24 +1,12 @@
-#include "firmware/brain.h"
+#include "brain_rig.h"
+
 #include "firmware/memory/memory_write.h"
-#include "tests/test.h"
 
 static const uint8_t PROGRAMMED[CELL_COUNT] = {0, 1, 1, 1, 2, 1, 2, 1};
 
-static struct brain brain;
-static struct config config;
-
 void setUp(void)
 {
-    brain = (struct brain){.frozen = false};
-    config_reset(&config);
-    TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_FIXED, 1));
-}
-
-static struct action next(uint8_t pattern)
-{
-    const struct senses senses = {.feel = (uint8_t)(pattern << 1)};
-
-    return brain_next(&brain, &config, &senses);
+    begin(PROFILE_FIXED);
 }
 
 TEST(it_begins_with_the_programmed_turns)
@@ -37,7 +25,7 @@ TEST(whatever_was_remembered_gives_way_to_them)
 TEST(every_pattern_has_its_turn)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
-        struct action action = next(pattern);
+        struct action action = next((uint8_t)(pattern << 1));
 
         TEST_ASSERT_EQUAL(REASON_REMEMBERED, action.reason);
         TEST_ASSERT_EQUAL(PROGRAMMED[pattern] == SIDE_LEFT ? -10 : 10, action.turn_deg);
@@ -47,24 +35,23 @@ TEST(every_pattern_has_its_turn)
 TEST(what_a_person_writes_is_used)
 {
     TEST_ASSERT_TRUE(memory_write(&brain.memory, MEMORY_KIND_SIDES, 1u << 1, SIDE_RIGHT << 8));
-    TEST_ASSERT_EQUAL(10, next(1).turn_deg);
+    TEST_ASSERT_EQUAL(10, next(FRONT_RIGHT).turn_deg);
 }
 
 TEST(a_cell_that_a_person_erased_is_tried_and_not_learned)
 {
     memory_erase(&brain.memory);
     brain.changed = false;
-    TEST_ASSERT_EQUAL(REASON_TRIAL, next(7).reason);
-    TEST_ASSERT_EQUAL(REASON_TRIAL, next(2).reason);
-    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, 7));
+    TEST_ASSERT_EQUAL(REASON_TRIAL, next(ALL_THREE).reason);
+    TEST_ASSERT_EQUAL(REASON_TRIAL, next(FRONT).reason);
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, memory_recall(&brain.memory, PATTERN_ALL_THREE));
     TEST_ASSERT_FALSE(brain.changed);
 }
 
 TEST(it_is_bored_as_the_article_is)
 {
-    for (unsigned i = 0; i < 10; i++)
-        TEST_ASSERT_EQUAL(REASON_REMEMBERED, next(2).reason);
-    TEST_ASSERT_EQUAL(REASON_BOREDOM, next(2).reason);
+    remembered_turns(10);
+    TEST_ASSERT_EQUAL(REASON_BOREDOM, next(FRONT).reason);
 }
 
 TEST(it_stores_nothing)

@@ -1,34 +1,23 @@
-#include "firmware/brain.h"
-#include "firmware/memory/memory_write.h"
-#include "tests/test.h"
+#include "brain_rig.h"
 
-enum { ALL_THREE = 7, MANY = 100 };
+#include "firmware/memory/memory_write.h"
+
+enum { MANY = 100 };
 
 static const uint8_t REMEMBERED[CELL_COUNT] = {0, 1, 2, 1, 2, 1, 2, 1};
-
-static struct brain brain;
-static struct config config;
 
 /* A robot that knows something from before. */
 void setUp(void)
 {
-    brain = (struct brain){.frozen = false};
-    config_reset(&config);
+    begin(PROFILE_NEVER);
     TEST_ASSERT_TRUE(memory_adopt(&brain.memory, REMEMBERED));
     TEST_ASSERT_TRUE(brain_start(&brain, PROFILE_NEVER, 1));
-}
-
-static struct action next(uint8_t pattern)
-{
-    const struct senses senses = {.feel = (uint8_t)(pattern << 1)};
-
-    return brain_next(&brain, &config, &senses);
 }
 
 TEST(every_blockage_is_a_trial)
 {
     for (uint8_t pattern = 1; pattern < CELL_COUNT; pattern++) {
-        struct action action = next(pattern);
+        struct action action = next((uint8_t)(pattern << 1));
 
         TEST_ASSERT_EQUAL(REASON_TRIAL, action.reason);
         TEST_ASSERT_TRUE(action.turn_deg == -45 || action.turn_deg == 45);
@@ -39,8 +28,8 @@ TEST(a_trial_that_helps_teaches_nothing)
 {
     for (unsigned i = 0; i < MANY; i++) {
         next(ALL_THREE);
-        next(0);
-        next(0);   /* looks around */
+        next(CLEAR);
+        next(CLEAR);   /* looks around */
     }
     TEST_ASSERT_EQUAL_UINT8_ARRAY(REMEMBERED, brain.memory.cell, CELL_COUNT);
     TEST_ASSERT_FALSE(brain.changed);
@@ -61,8 +50,8 @@ TEST(a_clear_way_ends_the_trials_in_a_row)
 {
     for (unsigned i = 1; i < 10; i++)
         next(ALL_THREE);
-    next(0);
-    next(0);   /* looks around */
+    next(CLEAR);
+    next(CLEAR);   /* looks around */
     TEST_ASSERT_EQUAL(REASON_TRIAL, next(ALL_THREE).reason);
 }
 
@@ -90,7 +79,7 @@ TEST(the_bigger_turn_is_to_the_side_that_is_drawn)
 TEST(only_trials_are_counted)
 {
     for (unsigned i = 0; i < MANY; i++)
-        TEST_ASSERT_NOT_EQUAL_INT(REASON_BOREDOM, next(0).reason);
+        TEST_ASSERT_NOT_EQUAL_INT(REASON_BOREDOM, next(CLEAR).reason);
     TEST_ASSERT_EQUAL_UINT8(0, brain.repeat_count);
 }
 
