@@ -3,35 +3,19 @@
 
 enum { RIGHT = 1, FRONT_RIGHT = 2, FRONT = 4, FRONT_LEFT = 8, LEFT = 16 };
 
-TEST(front_right_is_bit_0)
+TEST(each_front_sensor_has_its_bit)
 {
     TEST_ASSERT_EQUAL_UINT8(1, pattern_of(FRONT_RIGHT));
-}
-
-TEST(front_is_bit_1)
-{
     TEST_ASSERT_EQUAL_UINT8(2, pattern_of(FRONT));
-}
-
-TEST(front_left_is_bit_2)
-{
     TEST_ASSERT_EQUAL_UINT8(4, pattern_of(FRONT_LEFT));
 }
 
-TEST(the_side_sensors_leave_the_way_clear)
+TEST(side_sensors_and_what_is_no_sensor_change_no_pattern)
 {
-    TEST_ASSERT_EQUAL_UINT8(0, pattern_of(RIGHT | LEFT));
-}
-
-TEST(the_side_sensors_change_no_pattern)
-{
-    for (unsigned front = 0; front < 8; front++)
+    for (unsigned front = 0; front < 8; front++) {
         TEST_ASSERT_EQUAL_UINT8(front, pattern_of((uint8_t)(front << 1 | RIGHT | LEFT)));
-}
-
-TEST(what_is_no_sensor_changes_no_pattern)
-{
-    TEST_ASSERT_EQUAL_UINT8(0, pattern_of(0xE0));
+        TEST_ASSERT_EQUAL_UINT8(front, pattern_of((uint8_t)(front << 1 | 0xE0)));
+    }
 }
 
 TEST(the_count_is_the_number_of_triggered_sensors)

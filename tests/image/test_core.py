@@ -112,27 +112,6 @@ def test_a_register_is_accessed_as_a_whole(space):
         space.write(0x40000000, 1, 0)
 
 
-def test_time_is_skipped_for_who_waits_and_looks_at_the_time(space, clock):
-    for _ in range(20):
-        space.read(0x40000000, 4)
-        space.read(0x40000008, 4)
-
-    assert clock.now >= SECOND // 1000
-
-
-def test_no_time_is_skipped_for_who_counts_or_works(space, clock):
-    for _ in range(100):
-        space.read(0x40000000, 4)
-        space.read(0x40000004, 4)
-    space.write(0x40000000, 4, 1)
-    for i in range(100):
-        space.read(0x40000008, 4)
-        space.read(0x40000000, 4)
-        space.write(0x40000004, 4, i)
-
-    assert clock.now == 0
-
-
 def test_events_happen_in_their_order_while_time_is_skipped(clock):
     seen = []
     moments = {"a": [3, 9], "b": [5]}

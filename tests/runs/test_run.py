@@ -101,21 +101,6 @@ def test_the_same_run_again_leaves_the_same_bytes(run):
     assert (once.out / "arena.png").read_bytes() == (again.out / "arena.png").read_bytes()
 
 
-def test_another_seed_is_another_run(run):
-    one, other = (run("--environments", "1", "--seed", seed, "--bus", "none") for seed in ("1", "2"))
-
-    assert one.log != other.log
-
-
-def test_a_replay_of_a_run_finds_no_difference(run):
-    done = run("--environments", "1", "--bus", "fd")
-
-    replayed = octet("replay", done.out / "run.log")
-
-    assert (replayed.returncode, replayed.stderr) == (0, "")
-    assert "no difference" in replayed.stdout
-
-
 def test_a_replay_names_the_first_drive_that_differs(run, tmp_path):
     done = run("--environments", "1", "--bus", "none")
     lines = done.log.decode().splitlines(keepends=True)

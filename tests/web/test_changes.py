@@ -1,8 +1,18 @@
-"""Changes of the world and the bodies, as the pages show them."""
+"""Changes of the world and the bodies, as pages show them; a campaign's report; what pages and terminal say alike."""
+
+import itertools
 
 import pytest
 
+from host_sim.lab.campaign.html_report import page
+from host_sim.lab.campaign.matrix import groups
+from host_sim.lab.campaign.outcome import Outcome
+from host_sim.protocol.generated import Reason
+from host_sim.report.drawing import MARKS
+from host_sim.view import phrases
 from tests.runs.support import octet
+from tests.web.fake_run import HOME, FakeRun, robot_state
+from tests.web.looks import THREE_SIZES, resize, violations_at
 from tests.web.support import full_speed, wait_for, wait_for_text
 
 CHANGES = ("--change", "plant@1s", "--change", "swap-motors@2s", "--change", "grow:900@3s")
@@ -55,3 +65,60 @@ def test_a_page_that_joins_late_is_told_what_happened(watch, open_page):
     page = open_page(watched.url)
 
     wait_for_text(page, "#news", "The plugs of the motors were swapped.")
+
+
+SAY = """async (lists) => {
+  const { lessonSentence, sentence } = await import("/core/phrases.js");
+  return [lists[0].map((state) => sentence(state, false)), lists[1].map((lesson) => lessonSentence(lesson))];
+}"""
+LEFT, RIGHT = {"left": -9, "right": 9}, {"left": 9, "right": -9}
+STATES = [
+    robot_state(1, 0, 0, **fields)
+    for reason in Reason
+    for pattern in range(8)
+    for fields in (
+        {"reason": reason, "pattern": pattern, **LEFT, "repeat_count": 10},
+        {"reason": reason, "pattern": pattern, **RIGHT, "beacon": 1250, "repeat_count": 3},
+        {"reason": reason, "pattern": pattern, **RIGHT, "lifted": 1},
+    )
+]
+LESSONS = [
+    {"tick": 0, "cell": cell, "side": side, "by_hand": by_hand}
+    for cell in range(1, 8)
+    for side, by_hand in ((0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1))
+]
+IN_TERMINAL = [[phrases.sentence(it) for it in STATES], [phrases.lesson_sentence(it) for it in LESSONS]]
+
+
+def test_the_sentences_are_those_of_the_terminal(open_page):
+    page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)]).serve)
+
+    assert page.evaluate(SAY, [STATES, LESSONS]) == IN_TERMINAL
+
+
+def test_every_reason_has_its_colours_its_name_and_its_width(open_page):
+    page = open_page(HOME, prepare=FakeRun([robot_state(1, 800, 700)]).serve)
+
+    assert page.evaluate("octet.view.renderer.palette.reasons.every((colour) => /^#/.test(colour))")
+    assert page.locator("#legend [data-reason]").count() == len(Reason) == len(MARKS)
+    assert page.evaluate("import('/draw/trail_layer.js').then(({ WIDTH_MM }) => WIDTH_MM.size)") == len(Reason)
+
+
+ENDS = ("", "somebody else stopped node 1: it rests")
+
+
+def test_axe_finds_nothing_on_the_report_of_a_campaign_and_it_fits(tmp_path, open_page):
+    (cells, _) = groups(["article"], ["none", "fd"], ["lockstep"], lambda _: 8.0)
+    outcomes = [
+        Outcome(cell, seen="12 lost", end=end) for cell, end in zip(cells, itertools.cycle(ENDS), strict=False)
+    ]
+    outcomes[1].oldest = 9
+    report = tmp_path / "campaign.html"
+    report.write_text(page(outcomes))
+
+    shown = open_page(report.as_uri(), ready="() => document.readyState === 'complete'")
+
+    assert violations_at(shown) == []
+    for size in THREE_SIZES:
+        resize(shown, size)
+        assert shown.evaluate("document.documentElement.scrollWidth") <= size[0]

@@ -1,13 +1,16 @@
-"""What the page makes of the logs and world files that people open in it."""
+"""What the page makes of what people open in it or ask of it; its firmware gives the answers of this machine's."""
 
 import json
 from pathlib import Path
 
 import pytest
 
+from host_sim.protocol.generated import PROFILES
 from host_sim.report.octet_page import world_dimensions
 from tests.runs.support import octet
 from tests.web.sim.node import in_node
+from tests.web.sim.page_runs import page_file
+from tests.web.support import wait_for, wait_for_text
 
 OPEN = """
 const [worlds, log, world] = texts;
@@ -92,3 +95,57 @@ def test_what_is_no_json_is_no_world(tmp_path, run):
 def test_what_is_no_run_is_refused_in_a_line(tmp_path, log):
     assert len(opened(tmp_path, log).splitlines()) == 1
     assert "byte for byte" not in opened(tmp_path, log)
+
+
+READY = "window.octet?.scene?.state && octet.last > 0"
+CHANGES = """
+octet.lane.change({ do: "remove_bar", id: 98, tick: 5 });
+octet.lane.change({ do: "move_food", id: 0, at: [5000, 0], tick: 5 });
+octet.lane.change({ do: "freeze", robot: 0, on: 1, tick: 6 });
+octet.simulate(octet.lane);
+"""
+
+
+def test_of_several_changes_only_those_that_cannot_be_made_are_taken_back(open_page, tmp_path):
+    page = open_page(page_file(tmp_path).as_uri(), ready=READY)
+
+    page.evaluate(f"() => {{ {CHANGES} }}")
+
+    wait_for_text(page, "#note", "there is no such number; that is outside of the arena")
+    wait_for(page, "octet.simulator.running === undefined && octet.simulator.queued.size === 0")
+    assert page.evaluate("octet.lane.experiment.changes.map((change) => change.do)") == ["freeze"]
+
+
+REPLAY = 'return texts.map((text) => modules["sim/log_replay.js"].replayLog(page, text));'
+
+
+def recorded(out: Path, *words: str) -> Path:
+    assert octet("run", "--bus", "none", "--environments", "1", "--quiet", "--out", out, *words).returncode == 0
+    return out / "run.log"
+
+
+@pytest.fixture(scope="module")
+def logs(tmp_path_factory) -> list[Path]:
+    """A short run of each behaviour, and one of four robots."""
+    folder = tmp_path_factory.mktemp("logs")
+    runs = {name: ("--profile", name, "--limit-s", "20") for name in PROFILES}
+    return [recorded(folder / name, *words) for name, words in (runs | {"four": ("--robots", "4")}).items()]
+
+
+def test_every_recorded_log_is_answered_frame_by_frame(tmp_path, logs):
+    compared = in_node(tmp_path, "sim/log_replay.js", REPLAY, *logs)
+
+    assert [it.get("difference") for it in compared] == [None] * len(logs)
+    assert [it["frames"] for it in compared] == [len(log.read_text().splitlines()) for log in logs]
+
+
+def test_a_drive_that_differs_is_found(tmp_path, logs):
+    lines = logs[0].read_text().splitlines()
+    changed = next(i for i, line in enumerate(lines) if i > 100 and " 041#" in line)
+    lines[changed] = lines[changed][:-1] + ("0" if lines[changed][-1] != "0" else "1")
+    log = tmp_path / "run.log"
+    log.write_text("\n".join(lines))
+
+    (compared,) = in_node(tmp_path, "sim/log_replay.js", REPLAY, log)
+
+    assert compared["difference"]["line"] == changed + 1
