@@ -36,6 +36,7 @@ def handshake(client: RobotClient, timeout_s: float, *, shared: bool = False) ->
             )
         assert client.inbox.last is not None
         held[:] = [client.inbox.asked.last, client.inbox.last]
+        client.reports.await_all()  # what came before the answer is not in the log
         if not client.dialogue.await_reports():
             client.dialogue.demand_reports("stop")
         if not client.inbox.holds():  # it had an owner, and was told more than this

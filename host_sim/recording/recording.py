@@ -154,7 +154,7 @@ class _Reader:
 
     def _accept_command(self, signals: dict[str, int]) -> None:
         opcode = signals["opcode"]
-        self.recording.stopped = opcode == Opcode.STOP
+        self.recording.stopped = opcode == Opcode.STOP or (self.recording.stopped and opcode == Opcode.REPORT)
         if opcode == Opcode.START:
             self._frozen, self._lockstep = False, bool(signals["lockstep"])
             self._started = self._memory if self.ticks else None

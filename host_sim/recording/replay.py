@@ -102,7 +102,7 @@ class _Comparison:
             # What was lost on a bus is sent again, and answered again. A report is asked for in the middle of a tick.
             difference = self.end() if frame != self._sent and opcode != Opcode.REPORT else None
             self._sent = frame if opcode != Opcode.REPORT else self._sent
-            self.stopped = opcode == Opcode.STOP
+            self.stopped = opcode == Opcode.STOP or (self.stopped and opcode == Opcode.REPORT)
             self._lockstep = bool(decoded.signals.get("lockstep", self._lockstep))
             self._feed(frame)
             return difference

@@ -119,3 +119,20 @@ def test_of_many_incidents_the_later_ones_are_only_counted():
         client.distrust("it rattles")
 
     assert (len(client.incidents), client.unlisted) == (INCIDENTS_MAX, 2)
+
+
+def test_the_log_has_the_reports_of_the_handshake_even_if_the_first_answer_is_lost():
+    link, lost = MeddledLink(), []
+
+    def lose_first_answer(frame: Frame) -> list[Frame]:
+        lost.append(frame.id == PROTOCOL.id_of("ANSWER") and True not in lost)
+        return [] if lost[-1] else [frame]
+
+    link.change = lose_first_answer
+    with connected(link) as client:
+        handshake(client, client.connection.deadline_s)
+
+    names = [decoded.name for frame in client.log.frames if (decoded := PROTOCOL.decode(frame)) is not None]
+    assert True in lost
+    assert names[:2] == ["COMMAND", "ANSWER"]
+    assert {"HEARTBEAT", "BOOT", "MEMORY", "FAULTS", "HEALTH"} <= set(names)

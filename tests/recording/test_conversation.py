@@ -129,6 +129,15 @@ def test_a_report_that_is_asked_for_in_the_middle_of_a_tick_is_no_difference(sho
     assert replay(read_log(short.log), protocol).difference is None
 
 
+def test_a_report_that_is_asked_for_after_the_stop_is_part_of_the_end(short):
+    ask = Protocol().encode("COMMAND", {"counter": 9, "opcode": Opcode.REPORT, "owner": 1})
+    with short.log.open("a") as log:
+        log.write(f"(0000009999.000000) octet {ask.id:03X}#{ask.data.hex().upper()}\n")
+
+    assert replay(read_log(short.log), Protocol()).stopped
+    assert read_recording(read_log(short.log), Protocol()).stopped
+
+
 def test_a_robot_that_says_in_real_time_that_it_heard_nothing_makes_no_difference(tmp_path):
     """It says so with the last tick, whose SENSES may have come by then, and are yet to be answered."""
     protocol, log = Protocol(), FrameLog(tmp_path / "run.log")
