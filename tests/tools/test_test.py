@@ -140,7 +140,7 @@ def test_what_a_stage_is_to_run_exists(path):
 
 def test_tools_setup_has_each_stage():
     setup = (ROOT / "tools/setup").read_text()
-    (proving,) = re.findall(r"^prove_stages=\((.*)\)$", setup, re.MULTILINE)
+    (proving,) = re.findall(r"^  \[prove\]='(.*)'$", setup, re.MULTILINE)
 
     assert proving.split() == list(places.PROVE)
 
