@@ -40,6 +40,11 @@ SENSORS, BODY_FAULTS = (
 )
 """The proximity sensors, from bit 0 of feel on, and what can be wrong with a body, as changes call them."""
 
+KIT_SETTINGS = {
+    name: int(value) for name, value in re.findall(r"(\w+) = (\d+)", _found(r"^\[kit_settings\]\n([^[]*)", _WORDS))
+}
+"""Parameters that a robot with a body of the kit is set to, unless a run says otherwise."""
+
 PARAMETERS = {
     name: Range(int(low), int(high), int(default), unit, _COMMENTS[name])
     for name, low, high, unit, default in _PARAMETER.findall(_DBC)

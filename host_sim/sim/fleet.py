@@ -93,8 +93,9 @@ class _Run:
         if self._shared:
             params = self._shared[0][1]
         self._fleet = NativeFleet(config.robots, config.robots if self._own else 1, params, body_kind(config.body))
+        told = config.told
         for index in range(config.robots):
-            self._fleet.start(index, self._seed(index), config.profile, config.settings)
+            self._fleet.start(index, self._seed(index), config.profile, told)
         self._entered = [0] * self._fleet.worlds
         self._ticks = 0
 

@@ -121,7 +121,7 @@ def start_robots(clients: Sequence[RobotClient], config: RunConfig, memories: Se
         profile = client.protocol.choices("COMMAND", "profile")[config.profile]
         memory = memories[index] if index < len(memories) else None
         try:
-            start(client, Session((config.seed + index) % _SEED_SPAN, profile, config.settings), memory)
+            start(client, Session((config.seed + index) % _SEED_SPAN, profile, config.told), memory)
         except RefusedError as refused:
             raise UsageError(f"{refused}; give values within the robot's range") from refused
 

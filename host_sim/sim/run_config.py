@@ -10,7 +10,7 @@ from host_sim.base.errors import UsageError
 from host_sim.faults.rule import FAULT_NAMES
 from host_sim.protocol.words import NODE_MAX, PARAMETERS, PROFILES
 from host_sim.transport.bit_rates import BIT_RATE, BIT_RATES
-from host_sim.world.body_kinds import PINS
+from host_sim.world.body_kinds import PINS, body_kind
 from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
 
@@ -254,6 +254,12 @@ class RunConfig:
     def chosen_physics(self) -> str:
         """One of `PHYSICS`."""
         return self.physics or (PYMUNK if ":" in self.bus else FAST)
+
+    @property
+    def told(self) -> dict[str, int]:
+        """What the robots' parameters are set to: what suits their bodies, and what `settings` says."""
+        kind = body_kind(self.body)
+        return {**(kind.settings if kind else {}), **self.settings}
 
     @property
     def boredom_limit(self) -> int:

@@ -1,12 +1,13 @@
 """The kinds of body that a robot may have: an ideal one, the kit's, or one that a person describes in a file."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import UsageError
 from host_sim.base.near_word import meant, near_word
+from host_sim.protocol.words import KIT_SETTINGS
 from host_sim.world.params import SimParams
 from host_sim.world.world_library import world_library
 
@@ -20,9 +21,11 @@ class BodyKind:
 
     Attributes:
         traits: For each trait of `KIT_TRAITS`, by name, its value and its tolerance.
+        settings: Parameters that their robots are set to unless a run says otherwise.
     """
 
     traits: Mapping[str, tuple[float, float]]
+    settings: Mapping[str, int] = field(default_factory=dict)
 
     def reach(self, params: SimParams) -> SimParams:
         """The dimensions of a world whose cones reach as far as any sensor of these bodies."""
@@ -60,7 +63,7 @@ def body_kind(text: str) -> BodyKind | None:
     if text == IDEAL:
         return None
     if text in {KIT, PINS}:
-        return BodyKind({name: (row.kit, row.tolerance) for name, row in _rows().items()})
+        return kind_from({"base": KIT})
     from host_sim.world.layout_file import line_of, read_toml  # noqa: PLC0415 - seldom needed, and slow to load
 
     path = Path(text)
@@ -97,7 +100,7 @@ def kind_from(content: Mapping[str, Any]) -> BodyKind:
     for name, value in content.items():
         if name != "base":
             traits[name] = _value(name, value, rows)
-    return BodyKind(traits)
+    return BodyKind(traits, KIT_SETTINGS if base == KIT else {})
 
 
 def _value(name: str, given: Any, rows: Mapping[str, Any]) -> tuple[float, float]:

@@ -42,9 +42,9 @@ def test_without_its_pause_it_sends_the_firmware_s_frames_byte_for_byte(seed, wi
 
 
 def test_on_a_real_body_it_goes_the_firmware_s_way(without_pause):
-    program = run(RunConfig(seed=2, environments=1, body="kit", program=without_pause))
+    config = {"seed": 2, "environments": 1, "body": "kit", "settings": {"step_mm": 12}}
 
-    assert program.log_sha256 == run(RunConfig(seed=2, environments=1, body="kit")).log_sha256
+    assert run(RunConfig(program=without_pause, **config)).log_sha256 == run(RunConfig(**config)).log_sha256
 
 
 def test_behind_a_link_it_sends_the_same_frames():

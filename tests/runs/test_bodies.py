@@ -61,6 +61,15 @@ def test_a_file_takes_the_rest_from_its_base(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("body", "step_mm"),
+    [("ideal", None), ("kit", 24), ("docs/bodies/sharp_body.toml", 24), ("docs/bodies/late_body.toml", None)],
+)
+def test_a_kit_and_what_is_based_on_it_bring_their_settings_unless_a_run_says_otherwise(body, step_mm):
+    assert RunConfig(body=body).told.get("step_mm") == step_mm
+    assert RunConfig(body=body, settings={"step_mm": 12}).told["step_mm"] == 12
+
+
+@pytest.mark.parametrize(
     ("line", "why"),
     [
         ("slip = 2", "slip is 0 to 1, its tolerance 0 to 1"),

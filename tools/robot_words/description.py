@@ -59,6 +59,7 @@ class Description:
         row: The names of the numbers that are recorded of each tick: senses, drive, and what recorders add.
         columns: What views show of a row: each with its place there.
         sentences: What the robot says, by reasons and other names.
+        kit_settings: Parameters that a robot with a body of the kit is set to, unless a run says otherwise.
         body_sentences: What has happened to a body, by the names of faults.
         cell_count: Number of bytes of a memory.
         node_max: The last node.
@@ -86,6 +87,7 @@ class Description:
     row: Sequence[str]
     columns: Mapping[str, int]
     sentences: Mapping[str, str]
+    kit_settings: Mapping[str, int]
     body_sentences: Mapping[str, str]
     cell_count: int
     node_max: int

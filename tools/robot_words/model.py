@@ -86,6 +86,7 @@ def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
         row=_row(senses, drive, toml["recorded"]),
         columns=_columns(toml["columns"], [*(it.signal for it in (*senses, *drive)), *toml["recorded"]]),
         sentences=_sentences(toml["sentences"], enums["reason"]),
+        kit_settings=toml["kit_settings"],
         body_sentences=toml["body_sentences"],
         cell_count=_cell_count(toml["patterns"], database.get_message_by_name("MEMORY")),
         node_max=_node_max(toml["node_max"], database),

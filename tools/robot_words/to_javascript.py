@@ -23,6 +23,7 @@ def module(robot: Description) -> str:
         p.name: {"min": p.minimum, "max": p.maximum, "default": p.default, "unit": p.unit, "meaning": p.comment}
         for p in robot.parameters
     }
+    exports["KIT_SETTINGS"] = dict(robot.kit_settings)
     exports["NODE_MAX"] = robot.node_max
     exports["RANGE_NONE"] = robot.range_none
     exports["ANSWER_WANTS_RANGES"] = robot.answer_wants_ranges

@@ -98,6 +98,8 @@ class Search:
             UsageError: The file is that of another search.
         """
         self._config, self._names, self._figure = wanted.config, wanted.names, FIGURES[GOALS[wanted.goal]]
+        told = wanted.config.told
+        self._defaults = {name: told.get(name, PARAMETERS[name].default) for name in wanted.names}
         self._sign = -1 if wanted.goal == "finished" else 1
         self._rounds = [max(2, wanted.seeds // _KEPT**i) for i in reversed(range(_ROUNDS))]
         self._run, self._next = run, wanted.config.seed
@@ -120,7 +122,7 @@ class Search:
         cmaes = library("cmaes", "study")
         size = min(trials, 8 + int(3 * math.log(len(self._names))))
         search = cmaes.CMA(
-            mean=np.array([_place(name, PARAMETERS[name].default) for name in self._names]),
+            mean=np.array([_place(*it) for it in self._defaults.items()]),
             sigma=_SPREAD,
             bounds=np.tile([0.0, 1.0], (len(self._names), 1)),
             seed=self._config.seed,
@@ -161,7 +163,7 @@ class Search:
     def _settings(self, places: Any) -> Settings:
         """What is at a place in the search; a parameter at its default is left out."""
         values = {name: _value(name, float(place)) for name, place in zip(self._names, places, strict=True)}
-        return tuple((name, value) for name, value in values.items() if value != PARAMETERS[name].default)
+        return tuple((name, value) for name, value in values.items() if value != self._defaults[name])
 
 
 def samples_of(config: RunConfig, settings: Sequence[Settings], first: int, seeds: int, run: Runner) -> list[Sample]:

@@ -85,7 +85,7 @@ def test_each_episode_draws_a_body_of_the_kit_that_the_firmware_would_have():
     env = ArenaEnv(step_ticks=1, body="kit")
     env.reset(options={"environment": (3, 1)})
     with make(
-        RunConfig(seed=3, environments=1, body="kit", settings={"look_min_deg": 1, "step_mm": 250})
+        RunConfig(seed=3, environments=1, body="kit", settings={"look_min_deg": 1, "step_mm": 250, "speed_mm_s": 200})
     ) as simulation:
         simulation.enter(1)
         for _ in range(40):

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.report.octet_page import world_dimensions
+from host_sim.sim.run_config import RunConfig
 from tests.runs.support import octet
 from tests.web.sim.node import in_node
 
@@ -32,7 +33,7 @@ LOGS = """async (experiments) => {
 
 
 def experiment(profile: str, seed: int, robots: int = 1, **more: Any) -> dict[str, Any]:
-    setup = {"profile": profile, "settings": {}, "memory": None}
+    setup = {"profile": profile, "settings": RunConfig(body=more.get("body", "ideal")).told, "memory": None}
     return {"seed": seed, "environments": 2, "limit_ticks": 1000, "robots": [setup] * robots, "changes": [], **more}
 
 

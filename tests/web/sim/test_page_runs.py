@@ -109,6 +109,16 @@ def test_the_kit_has_a_name_in_the_page_too(tmp_path):
     assert run_in_page(tmp_path, wanted)[0]["log"] == (tmp_path / "run.log").read_text()
 
 
+def test_the_laboratory_sets_a_kit_up_as_tools_run_does(tmp_path):
+    wanted = {"seed": 3, "environments": 2, "robots": 1, "profile": "searcher", "body": "kit"}
+    (tmp_path / "wanted.json").write_text(json.dumps(wanted))
+    made = 'return modules["lab/shown_run.js"].experimentOf(JSON.parse(texts[0]));'
+
+    there = in_node(tmp_path, "lab/shown_run.js", made, tmp_path / "wanted.json")
+
+    assert there["robots"] == experiment("searcher", 3, body="kit")["robots"]
+
+
 def test_a_run_in_which_robots_stop_because_of_their_wheels_is_that_of_tools_run(tmp_path):
     broken = "odometer:left:-100%@3s/2 odometer:left:0%@env2 odometer:right:0%@env2 repair@env2+9s"
 
