@@ -205,7 +205,7 @@ class Simulation:
             if (sense := self.clients[i].connection.sense) is not None:
                 self.senses[i] = sense(body, self.senses[i], self.tick)
         for i in self._measuring:
-            self.clients[i].ranges = self.arena.ranges(i)
+            self.clients[i].ranges = self.arena.ranges(i, self.tick)
         self.drives = self.pace.exchange(self.senses) if tick is None else self._go_on(tick)
         for i, (body, drive) in enumerate(zip(bodies, self.drives, strict=True)):
             if drive.eat and body.eat():

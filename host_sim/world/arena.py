@@ -96,10 +96,10 @@ class Arena:
         """The layout as it is now, with the original start poses."""
         return Layout(tuple(self.obstacles.bars.values()), tuple(self.food.at), self._starts[0], self._starts[1:])
 
-    def ranges(self, index: int) -> Ranges:
-        """What a robot is told that its sensors measure where it stands: walls, bars and other robots."""
+    def ranges(self, index: int, tick: int = 0) -> Ranges:
+        """What a robot is told in that tick of how far away things are: walls, bars and other robots."""
         none = self.inside.library.RANGE_NONE
-        return Ranges._make(None if range_mm == none else range_mm for range_mm in self.inside.measure(index))
+        return Ranges._make(None if range_mm == none else range_mm for range_mm in self.inside.measure(index, tick))
 
     def edit(self, edit: Edit) -> None:
         """Makes one edit, between two ticks; bodies feel it at once. Equal edits at equal ticks give equal runs.

@@ -94,10 +94,10 @@ class NativeWorld:
         self.library.world_settle(self.world)
         self.check()
 
-    def measure(self, index: int) -> Sequence[int]:
-        """What a body's sensors measure, in the order of feel's bits: whole mm, or `RANGE_NONE`."""
+    def measure(self, index: int, tick: int) -> Sequence[int]:
+        """What a body's sensors measure in that tick, in the order of feel's bits: whole mm, or `RANGE_NONE`."""
         measured = self.ffi.new("uint8_t[]", self.library.FEEL_COUNT)
-        self.library.ranges_measure(self._ranges, self.world, self.bodies + index, measured)
+        self.library.world_measure(self.world, self.bodies + index, tick, self._ranges, measured)
         return list(measured)
 
     def check(self) -> None:

@@ -7,7 +7,9 @@ import pytest
 
 from host_sim.protocol.generated import NOTHING_NEAR, RANGE_NONE, Ranges
 from host_sim.world.arena import Arena
+from host_sim.world.body_kinds import kind_from
 from host_sim.world.cones import CONE_BEARINGS_DEG
+from host_sim.world.edits import Lift, Put
 from host_sim.world.geometry import Capsule, Pose, ahead_of
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.native_world import NativeWorld
@@ -30,7 +32,7 @@ def measured(*things: Capsule, pose: Pose = START) -> Ranges:
         inside.library.capsule_set(inside.furniture.capsules + there, a, b, radius_mm)
     inside.furniture.capsule_count += len(things)
     inside.lay_out()
-    return Ranges._make(None if range_mm == RANGE_NONE else range_mm for range_mm in inside.measure(0))
+    return Ranges._make(None if range_mm == RANGE_NONE else range_mm for range_mm in inside.measure(0, 0))
 
 
 @pytest.mark.parametrize(("place", "bearing_deg"), list(enumerate(CONE_BEARINGS_DEG.values())))
@@ -110,3 +112,56 @@ def test_what_is_measured_is_felt():
                 assert feel & bit
                 agreed += 1
     assert agreed > 50
+
+
+def told_of_a_wall(
+    gap_mm: float, fault: str = "", tick: int = 0, bearing_deg: float = 0.0, **traits: float
+) -> Ranges:
+    """What a robot with such a body is told with a wall so far away in that direction."""
+    pose = Pose(PARAMS.width_mm - RADIUS_MM - gap_mm, 1500.0, math.radians(-bearing_deg))
+    arena = Arena(Layout((), (), pose), PARAMS, kind=kind_from(traits))
+    arena.begin(1)
+    if fault:
+        arena.body.add_fault(fault)
+    feel = arena.body.sense(tick).feel
+    ranges = arena.ranges(0, tick)
+    assert feel == sum(1 << bit for bit, range_mm in enumerate(ranges) if range_mm is not None)
+    return ranges
+
+
+def test_a_real_sensor_tells_a_distance_as_far_as_it_reaches_itself():
+    assert told_of_a_wall(30, front_mm=40).front == 30
+    assert told_of_a_wall(50, front_mm=40).front is None
+    assert told_of_a_wall(75, front_mm=80).front == 75
+
+
+def test_a_thing_nearer_than_a_sensor_s_curve_folds_back_seems_farther_away():
+    assert told_of_a_wall(20, front_mm=80, fold_mm=30).front == 50
+
+
+def test_a_real_sensor_s_distances_are_as_noisy_as_what_it_feels():
+    told = {told_of_a_wall(30, tick=tick, noise_mm=5).front for tick in range(40)}
+
+    assert len(told) > 5
+    assert told <= set(range(25, 36))
+
+
+@pytest.mark.parametrize("traits", [{}, {"hysteresis_mm": 1}], ids=["ideal", "real"])
+def test_a_ring_that_is_mirrored_feels_and_measures_on_the_other_side(traits):
+    sound, mirrored = (told_of_a_wall(30, fault, bearing_deg=45, **traits) for fault in ("", "mirror"))
+
+    assert sound.front_left is not None or sound.front_right is not None
+    assert tuple(mirrored) == sound[::-1] != sound
+
+
+def test_distances_come_as_late_as_the_other_senses():
+    near = Pose(PARAMS.width_mm - RADIUS_MM - 30.0, 1500.0, 0.0)
+    arena = Arena(Layout((), (), Pose(2000.0, 1500.0, 0.0)), PARAMS, kind=kind_from({"senses_ticks": 1}))
+    arena.begin(1)
+    arena.body.sense(0)
+    for edit in (Lift(), Put(near)):
+        arena.edit(edit)
+
+    told = [(arena.body.sense(tick).feel != 0, arena.ranges(0, tick).front) for tick in (1, 2)]
+
+    assert told == [(False, None), (True, 30)]

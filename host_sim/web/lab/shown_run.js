@@ -3,13 +3,13 @@
 
 import { heard, say } from "../core/language.js";
 import { setText } from "../core/elements.js";
-import { KIT_SETTINGS, PARAMETERS } from "../generated.js";
+import { PARAMETERS } from "../generated.js";
 import { showTick } from "../draw/recorded_scene.js";
 import { Renderer } from "../draw/renderer.js";
 import { RunData } from "../core/run_data.js";
 import { Scene } from "../draw/scene.js";
 import { RANDOM, nameOf } from "../core/world_names.js";
-import { KIT } from "../sim/arena.js";
+import { settingsOf } from "../sim/arena.js";
 
 /**
  * @typedef {import("../types.js").Change} Change
@@ -202,7 +202,7 @@ function draggedKey(change) {
  * @returns {Experiment}
  */
 export function experimentOf({ seed, environments, robots, profile, world = RANDOM, body }) {
-  const setup = () => ({ profile, settings: body === KIT ? { ...KIT_SETTINGS } : {}, memory: null });
+  const setup = () => ({ profile, settings: settingsOf(body), memory: null });
   const limit_ticks = Math.round(600_000 / PARAMETERS.tick_ms.default);
   return { seed, environments, limit_ticks, robots: Array.from({ length: robots }, setup), changes: [], world, body };
 }

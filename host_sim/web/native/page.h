@@ -169,8 +169,8 @@ const double *page_scene(void);
         /* The numbers of bars, of plants and of pieces of food, then id and ends of each bar, id, middle and radius of each plant, and
            of each piece of food its place and whether it is eaten. */
 
-void page_measure(uint32_t robot, uint8_t *range_mm);
-        /* What a robot is told of the FEEL_COUNT distances. */
+void page_measure(uint32_t robot, uint32_t tick, uint8_t *range_mm);
+        /* What a robot is told of the FEEL_COUNT distances in that tick. */
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max);
         /* Runs a block, as loop_run does, from this tick of the run. ticks_max is 1..PAGE_TICKS_MAX. Returns how many ticks have

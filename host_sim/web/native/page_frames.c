@@ -55,7 +55,7 @@ void page_send_ranges(uint32_t robot, uint32_t tick)
         .tick = (uint8_t)(tick & (TICK_SPAN - 1)),
     };
 
-    page_measure(robot, range);
+    page_measure(robot, tick, range);
     message.range_right = range[0];
     message.range_front_right = range[1];
     message.range_front = range[2];

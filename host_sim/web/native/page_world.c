@@ -190,11 +190,11 @@ const double *page_scene(void)
     return scene;
 }
 
-void page_measure(uint32_t robot, uint8_t *range_mm)
+void page_measure(uint32_t robot, uint32_t tick, uint8_t *range_mm)
 {
     struct page_world *of = page_world();
 
-    ranges_measure(&of->ranges, &of->world, &of->bodies[robot], range_mm);
+    world_measure(&of->world, &of->bodies[robot], tick, &of->ranges, range_mm);
 }
 
 uint32_t page_run(uint32_t tick, uint32_t ticks_max)

@@ -1,7 +1,7 @@
 // @ts-check
 /* The arena of a run, in C: what stands in it, where the robots' bodies are, and what is wrong with them. */
 
-import { EDITS } from "../generated.js";
+import { EDITS, KIT_SETTINGS } from "../generated.js";
 
 /**
  * @typedef {import("../types.js").SimParams} SimParams
@@ -15,6 +15,15 @@ import { EDITS } from "../generated.js";
 /** The kinds of bodies that have a name. */
 export const IDEAL = "ideal";
 export const KIT = "kit";
+
+/**
+ * Parameters that a robot with such a body is set to.
+ * @param {Bodies["body"]} body
+ * @returns {Record<string, number>}
+ */
+export function settingsOf(body) {
+  return body === KIT ? { ...KIT_SETTINGS } : {};
+}
 
 /** A change that cannot be made. */
 export class EditError extends Error {}

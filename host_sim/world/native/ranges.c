@@ -144,5 +144,4 @@ void ranges_measure(const struct ranges *ranges, const struct world *world, cons
         measure_bodies(&view, world, body);
     for (unsigned n = 0; n < FEEL_COUNT; n++)
         range_mm[n] = told(ranges, view.found_mm[n], n);
-    body_faults_measure(&body->faults, range_mm);
 }

@@ -16,7 +16,7 @@ struct ranges {
 };
 
 void ranges_measure(const struct ranges *ranges, const struct world *world, const struct body *body, uint8_t *range_mm);
-        /* What a robot is told that its body measures where it stands, of capsules and of other bodies: for each of the FEEL_COUNT cones, whole mm
-           beyond its rim, or RANGE_NONE where nothing is in reach. In the air nothing is. */
+        /* How far away capsules and other bodies are from where a body stands: for each of the FEEL_COUNT cones, whole mm beyond
+           its rim, or RANGE_NONE where nothing is in reach. In the air nothing is. */
 
 #endif

@@ -41,6 +41,20 @@ void world_sense(struct world *world, struct body *body, uint32_t tick, struct s
     body_faults_sense(&body->faults, tick, out);
 }
 
+void world_measure(struct world *world, struct body *body, uint32_t tick, const struct ranges *ideal, uint8_t *range_mm)
+{
+    struct senses senses;
+
+    if (body->kit && body->kit->senses_differ) {
+        world_sense(world, body, tick, &senses);
+        for (unsigned n = 0; n < FEEL_COUNT; n++)
+            range_mm[n] = senses.range_mm[n];
+    } else {
+        ranges_measure(ideal, world, body, range_mm);
+    }
+    body_faults_measure(&body->faults, range_mm);
+}
+
 bool world_eat(struct world *world, struct body *body)
 {
     struct food *food = body->seen < 0 ? NULL : &world->food[body->seen];

@@ -60,6 +60,8 @@ struct world {
     struct food *food;
 };
 
+struct ranges;
+
 void world_begin(struct world *world);
         /* To be called once the bodies' poses have been set from outside. */
 
@@ -68,6 +70,10 @@ void world_settle(struct world *world);
 
 void world_sense(struct world *world, struct body *body, uint32_t tick, struct senses *out);
         /* What the robot is told of what its body senses where it stands. tick is the number of the tick in the run. */
+
+void world_measure(struct world *world, struct body *body, uint32_t tick, const struct ranges *ideal, uint8_t *range_mm);
+        /* The distances that a robot is told in that tick, FEEL_COUNT of them as in struct senses. ideal: what an ideal body measures;
+           a real one has sensors of its own. */
 
 bool world_eat(struct world *world, struct body *body);
         /* Eats the food that was last sensed straight ahead, if it is near enough and still there. */

@@ -8,6 +8,7 @@ import pytest
 
 from host_sim.protocol.generated import PROFILES
 from host_sim.report.octet_page import world_dimensions
+from host_sim.sim.run_config import RunConfig
 from tests.runs.support import octet
 from tests.web.sim.node import in_node
 from tests.web.sim.page_runs import experiment, run_in_page, with_changes_of, words
@@ -101,22 +102,20 @@ def test_a_run_with_other_bodies_that_get_worse_is_that_of_tools_run(tmp_path, b
     assert_same_run(tmp_path, experiment("adaptive", 3, 2, body=body), LATER, code=0)
 
 
-def test_the_kit_has_a_name_in_the_page_too(tmp_path):
-    wanted = experiment("searcher", 3, body="kit")
+@pytest.mark.parametrize("profile", ["searcher", "distance"])
+def test_the_kit_has_a_name_in_the_page_too(tmp_path, profile):
+    wanted = experiment(profile, 3, body="kit")
 
     assert octet("run", "--bus", "none", "--quiet", "--out", tmp_path, *words(wanted)).returncode == 0
 
     assert run_in_page(tmp_path, wanted)[0]["log"] == (tmp_path / "run.log").read_text()
 
 
-def test_the_laboratory_sets_a_kit_up_as_tools_run_does(tmp_path):
-    wanted = {"seed": 3, "environments": 2, "robots": 1, "profile": "searcher", "body": "kit"}
-    (tmp_path / "wanted.json").write_text(json.dumps(wanted))
-    made = 'return modules["lab/shown_run.js"].experimentOf(JSON.parse(texts[0]));'
+@pytest.mark.parametrize("body", ["ideal", "kit"])
+def test_the_page_sets_robots_up_for_their_bodies_as_tools_run_does(tmp_path, body):
+    settings = in_node(tmp_path, "sim/arena.js", f'return modules["sim/arena.js"].settingsOf("{body}");')
 
-    there = in_node(tmp_path, "lab/shown_run.js", made, tmp_path / "wanted.json")
-
-    assert there["robots"] == experiment("searcher", 3, body="kit")["robots"]
+    assert settings == RunConfig(body=body).told
 
 
 def test_a_run_in_which_robots_stop_because_of_their_wheels_is_that_of_tools_run(tmp_path):

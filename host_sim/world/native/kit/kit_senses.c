@@ -34,10 +34,15 @@ static double seeming(const struct kit *kit, uint8_t range_mm)
     return under_mm > 0.0 ? kit->trait[TRAIT_FOLD_MM] + FOLDED * under_mm : range_mm;
 }
 
-/* How far a sensor reaches in this tick. */
-static double reach(const struct kit *kit, uint32_t tick, unsigned n)
+/* How much farther a sensor reaches in this tick, mm, and how much nearer things seem to it. */
+static double noise(const struct kit *kit, uint32_t tick, unsigned n)
 {
-    return kit->trait[TRAIT_RIGHT_MM + n] * kit->trait[TRAIT_WALL] + kit->trait[TRAIT_NOISE_MM] * chance(kit, tick, n);
+    return kit->trait[TRAIT_NOISE_MM] * chance(kit, tick, n);
+}
+
+static double reach(const struct kit *kit, unsigned n)
+{
+    return kit->trait[TRAIT_RIGHT_MM + n] * kit->trait[TRAIT_WALL];
 }
 
 static void measure(const struct kit *kit, const struct world *world, const struct body *body, uint8_t *range_mm)
@@ -56,26 +61,30 @@ void kit_light(const struct kit *kit, const struct world *world, const struct bo
 
     if (body->feel != 0)
         measure(kit, world, body, range_mm);
+    body_faults_measure(&body->faults, range_mm);
     for (unsigned n = 0; n < FEEL_COUNT; n++) {
-        double part = (reach(kit, tick, n) + BEHIND_MM) / (range_mm[n] + BEHIND_MM), received = PROXIMITY_NEAR * part * part;
+        double part = (reach(kit, n) + noise(kit, tick, n) + BEHIND_MM) / (range_mm[n] + BEHIND_MM), received = PROXIMITY_NEAR * part * part;
 
         light[n] = range_mm[n] == RANGE_NONE ? 0 : (uint16_t)(received < MOST ? received : MOST);
     }
 }
 
-/* A sensor is triggered within its reach, and lets go farther away. */
-static uint8_t feel(const struct kit *kit, uint32_t tick, const uint8_t *range_mm)
+/* A sensor is triggered within its reach, and lets go farther away. Triggered, it tells a distance. */
+static void feel(const struct kit *kit, uint32_t tick, const uint8_t *range_mm, struct senses *senses)
 {
-    unsigned triggered = 0, before = kit->sensed[(tick - 1) % KIT_SENSED].feel;
+    unsigned before = kit->sensed[(tick - 1) % KIT_SENSED].feel;
 
+    senses->feel = 0;
     for (unsigned n = 0; n < FEEL_COUNT; n++) {
-        double reach_mm = reach(kit, tick, n);
+        double noise_mm = noise(kit, tick, n), reach_mm = reach(kit, n) + noise_mm, seems_mm = seeming(kit, range_mm[n]);
 
         if (before >> n & 1u)
             reach_mm += kit->trait[TRAIT_HYSTERESIS_MM];
-        triggered |= (range_mm[n] != RANGE_NONE && seeming(kit, range_mm[n]) <= reach_mm ? 1u : 0u) << n;
+        if (range_mm[n] == RANGE_NONE || seems_mm > reach_mm)
+            continue;
+        senses->feel = (uint8_t)(senses->feel | 1u << n);
+        senses->range_mm[n] = (uint8_t)vector_whole(seems_mm > noise_mm ? seems_mm - noise_mm : 0.0);
     }
-    return (uint8_t)triggered;
 }
 
 static void sense(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses)
@@ -84,7 +93,7 @@ static void sense(const struct kit *kit, const struct world *world, const struct
 
     if (senses->feel != 0) {
         measure(kit, world, body, range_mm);
-        senses->feel = feel(kit, tick, range_mm);
+        feel(kit, tick, range_mm, senses);
     }
     if (senses->look) {
         double far_mm = vector_whole(senses->beacon_mm * (1.0 + kit->trait[TRAIT_BEACON_NOISE] * chance(kit, tick, FEEL_COUNT)));
