@@ -1,12 +1,13 @@
-"""No number or word of the robot's stands by hand beside octet.dbc and robot.toml.
+"""No number, word or rule of the robot's stands twice: beside octet.dbc and robot.toml, or in two languages.
 
-Three ways of copying one are found: a constant with the name of a word that is given a number, an enum of the robot's
-that is written out, and the name of a pattern in a string. Tests may name the numbers that they expect; what helps
-several tests may not.
+Three ways of copying a number or a word are found: a constant with the name of a word that is given a number, an enum
+of the robot's that is written out, and the name of a pattern in a string. Tests may name the numbers that they
+expect; what helps several tests may not.
 """
 
 import re
-from collections.abc import Iterable, Iterator
+import subprocess
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 import pytest
@@ -122,3 +123,31 @@ FINE = {
 @pytest.mark.parametrize("text", FINE.values(), ids=FINE)
 def test_what_is_no_copy_is_let_through(text):
     assert copies_in(text) == []
+
+
+TWIN = re.compile(r"\bas [\w/]+\.(?:c|h|js|py) has (?:it|them)\b", re.IGNORECASE)
+SOURCES = ("firmware/*.[ch]", "hal/*.[ch]", "host_sim/*.[ch]", "host_sim/*.py", "host_sim/*.js")
+
+
+def twins(texts: Mapping[str, str]) -> set[str]:
+    """The files that say to be another one's twin; where a line ends does not matter."""
+    return {file for file, text in texts.items() if TWIN.search(" ".join(text.replace("*", " ").split()))}
+
+
+@pytest.fixture(scope="module")
+def texts() -> dict[str, str]:
+    command = ("git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", *SOURCES)
+    files = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split("\0")[:-1]
+    return {file: (ROOT / file).read_text() for file in files if (ROOT / file).exists()}
+
+
+def test_no_file_says_to_be_the_twin_of_another(texts):
+    assert len(texts) > 500
+    assert twins(texts) == set()
+
+
+@pytest.mark.parametrize(
+    "comment", ["/* Ranges: as host_sim/world/ranges.py has them. */", "// as host_sim/sim/loop.c\n// * has it"]
+)
+def test_a_file_that_says_so_is_found(comment):
+    assert twins({"one.js": comment.replace("//", "*"), "other.js": "/* As in the article. */"}) == {"one.js"}

@@ -1,4 +1,4 @@
-"""What the documents say is so: their files exist, their quotations stand in the code."""
+"""What the documents say is so: files exist, quotations stand in the code, each protection has its test."""
 
 import re
 from pathlib import Path
@@ -61,3 +61,23 @@ def test_no_document_is_for_one_machine_only():
     places = (f"{ROOT}/", f"{Path.home()}/")
 
     assert [path.name for path in PAGES if any(place in path.read_text() for place in places)] == []
+
+
+PAGE = (ROOT / "docs/security.md").read_text()
+NAMED = re.compile(r"`(tests/[\w/]+\.(?:py|c))::(test_\w+)`")
+
+
+def test_each_threat_names_a_test_that_exists():
+    rows = [
+        line for line in PAGE.splitlines() if line.startswith("| ") and not line.startswith(("| threat", "| ---"))
+    ]
+
+    assert len(rows) > 15
+    for row in rows:
+        ((path, name),) = NAMED.findall(row)
+        defined = rf"^(def {name}\(|TEST\({name.removeprefix('test_')}\))"
+        assert re.search(defined, (ROOT / path).read_text(), re.MULTILINE), row
+
+
+def test_the_readme_leads_to_the_page():
+    assert "docs/security.md" in (ROOT / "README.md").read_text()

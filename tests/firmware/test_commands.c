@@ -143,8 +143,10 @@ TEST(set_changes_one_parameter)
 
 TEST(an_unknown_parameter_changes_nothing)
 {
-    for (unsigned parameter = PARAMETER_COUNT; parameter <= UINT8_MAX; parameter++)
+    for (unsigned parameter = PARAMETER_COUNT; parameter <= UINT8_MAX; parameter++) {
         assert_refused(RESULT_UNKNOWN_PARAMETER, OPCODE_SET, parameter, 10);
+        assert_refused(RESULT_UNKNOWN_PARAMETER, OPCODE_GET, parameter, 0);
+    }
 }
 
 TEST(a_value_out_of_range_changes_nothing)
@@ -214,12 +216,6 @@ TEST(freeze_0_lets_it_learn_again)
     execute(OPCODE_FREEZE, 1, 0);
     TEST_ASSERT_EQUAL(RESULT_DONE, execute(OPCODE_FREEZE, 0, 0));
     TEST_ASSERT_FALSE(robot.brain.frozen);
-}
-
-TEST(get_of_any_parameter_beyond_the_last_is_refused)
-{
-    for (unsigned parameter = PARAMETER_COUNT; parameter <= UINT8_MAX; parameter++)
-        assert_refused(RESULT_UNKNOWN_PARAMETER, OPCODE_GET, parameter, 0);
 }
 
 /* Whoever stopped the robot may have carried it elsewhere while no senses came. */

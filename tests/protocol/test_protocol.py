@@ -102,44 +102,6 @@ def test_choices_are_told_by_name():
     assert line == "COMMAND counter=3 opcode=start owner=2 profile=fixed lockstep=lockstep seed=7"
 
 
-def test_the_crc_is_the_published_one():
-    assert crc8(0x123, bytes(8)) == 0xCC  # the example of AUTOSAR's specification of E2E profile 1
-
-
-def test_a_drive_is_read_with_its_signs():
-    signals = {
-        "counter": 9,
-        "tick": 9,
-        "reason": 5,
-        "left": -251,
-        "right": 251,
-        "repeat_count": 3,
-        "eat": 1,
-        "action": 127,
-    }
-
-    drive = PROTOCOL.decode_drive(PROTOCOL.encode("DRIVE", {"counter": 9, **signals}))
-
-    assert drive == Drive(tick=9, left_mm_s=-251, right_mm_s=251, reason=5, repeat_count=3, action=127, eat=True)
-
-
-@given(any_senses, st.integers(0, 63), st.integers(0, 63))
-def test_no_two_flipped_bits_get_through(senses, one, other):
-    frame = PROTOCOL.encode_senses(senses, 0)
-    flips = (1 << one) | (1 << other)
-
-    damaged = (int.from_bytes(frame.data, "little") ^ flips).to_bytes(8, "little")
-
-    assert PROTOCOL.decode(Frame(frame.id, damaged)) is None
-
-
-def test_frames_of_other_nodes_are_not_ours():
-    theirs = Protocol(2).encode_senses(NOTHING_SENSED, 0)
-
-    assert PROTOCOL.decode(theirs) is None
-    assert Protocol(2).decode(theirs) is not None
-
-
 @pytest.mark.parametrize("node", [0, 32, -1])
 def test_a_node_out_of_range_is_refused(node):
     with pytest.raises(ValueError, match=r"1\.\.31"):

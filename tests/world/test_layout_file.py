@@ -11,7 +11,7 @@ from host_sim.world.layouts import World
 from host_sim.world.worlds import world_of
 from host_sim.world.written_layout import WrittenLayout
 from host_sim.world.written_world import content_of, world_from
-from tests.world.walk import is_fair
+from tests.world.clearances import is_fair
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 

@@ -1,14 +1,16 @@
-"""What the robot feels and sees, with one small obstacle at a time."""
+"""What the robot feels and sees, with one small obstacle at a time; cones are those that are drawn."""
 
 import math
 
 import pytest
 
 from host_sim.world.arena import Arena
-from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline
+from host_sim.world.cones import CONE_BEARINGS_DEG, cone_outline, cone_reach_mm
 from host_sim.world.geometry import Bar, Point, Pose, ahead_of
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
+from host_sim.world.plain_space import cones_in_c
+from host_sim.world.world_library import world_library
 
 PARAMS = SimParams()
 START = Pose(2000.0, 1500.0, 0.7)
@@ -104,3 +106,11 @@ def test_food_beyond_hidden_food_is_seen_past_the_bar() -> None:
     bars = (bar_across(400.0, 21.0, 200.0),)
 
     assert beacon_mm(food_at(500.0, 45.0), food_at(900.0, -45.0), bars=bars) == round(math.hypot(900.0, 45.0))
+
+
+def test_the_cones_are_those_that_are_drawn():
+    cones = cones_in_c(*world_library(), PARAMS)
+
+    for n, (bit, bearing_deg) in enumerate(CONE_BEARINGS_DEG.items()):
+        corners = [(corner.x, corner.y) for corner in cones.of[n].corners]
+        assert corners == cone_outline(bearing_deg, cone_reach_mm(bit, PARAMS))

@@ -82,15 +82,6 @@ TEST(in_lockstep_senses_again_are_answered_as_before)
     TEST_ASSERT_EQUAL_UINT16(20, octet->robot.part_ms);   /* one tick */
 }
 
-TEST(a_damaged_frame_is_counted_and_not_answered)
-{
-    struct frame damaged = senses_frame(1, 0);
-
-    damaged.data[0] ^= 1;
-    TEST_ASSERT_EQUAL_size_t(0, exchange(damaged));
-    TEST_ASSERT_EQUAL_UINT8(1, octet->wire.faults[FAULT_DAMAGED]);
-}
-
 TEST(stale_senses_do_not_reach_the_robot)
 {
     exchange(senses_frame(1, 0));

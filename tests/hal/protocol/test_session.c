@@ -9,12 +9,6 @@ TEST(without_an_owner_whatever_comes_is_taken)
     TEST_ASSERT_EQUAL_UINT8(0, session.owner);
 }
 
-TEST(start_makes_its_sender_the_owner)
-{
-    start(0);
-    TEST_ASSERT_EQUAL_UINT8(OURS, session.owner);
-}
-
 TEST(a_start_that_the_robot_refused_makes_no_owner)
 {
     command(OPCODE_START, 1, OURS);
@@ -32,21 +26,6 @@ TEST(only_start_says_whose_clock_counts)
     TEST_ASSERT_TRUE(session.lockstep);
 }
 
-TEST(other_senders_are_refused)
-{
-    start(0);
-    refuses(RESULT_OWNED, OPCODE_ERASE, 2, THEIRS);
-    refuses(RESULT_OWNED, OPCODE_START, 2, THEIRS);
-}
-
-TEST(anybody_may_stop_the_robot)
-{
-    start(0);
-    TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command(OPCODE_STOP, 9, THEIRS));
-    session_executed(&session, RESULT_DONE);
-    TEST_ASSERT_EQUAL_UINT8(0, session.owner);
-}
-
 TEST(resume_makes_an_owner_again)
 {
     start(1);
@@ -56,13 +35,6 @@ TEST(resume_makes_an_owner_again)
     session_executed(&session, RESULT_DONE);
     TEST_ASSERT_EQUAL_UINT8(OURS, session.owner);
     TEST_ASSERT_TRUE(session.lockstep);
-}
-
-TEST(an_owner_whose_senses_fail_to_come_has_lost_the_robot)
-{
-    start(0);
-    session.hears = false;
-    TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command(OPCODE_START, 9, THEIRS));
 }
 
 TEST(an_owner_whose_senses_come_again_is_the_owner_again)
@@ -91,13 +63,6 @@ TEST(an_owners_old_stop_does_not_stop_the_robot)
 {
     start(0);
     refuses(RESULT_OUT_OF_SEQUENCE, OPCODE_STOP, 0, OURS);
-}
-
-TEST(the_same_command_again_is_told_apart)
-{
-    start(0);
-    TEST_ASSERT_EQUAL(ARRIVAL_FRESH, command(OPCODE_ERASE, 2, OURS));
-    TEST_ASSERT_EQUAL(ARRIVAL_AGAIN, command(OPCODE_ERASE, 2, OURS));
 }
 
 TEST(a_command_that_differs_in_anything_is_another)
@@ -161,22 +126,6 @@ TEST(the_counter_goes_on_with_the_tick)
     }
 }
 
-TEST(stale_senses_change_nothing)
-{
-    tick(5);
-    tick(3);
-    TEST_ASSERT_EQUAL(ARRIVAL_FRESH, tick(6));
-}
-
-TEST(in_lockstep_only_the_next_tick_is_fresh)
-{
-    start(1);
-    tick(5);
-    TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(7));
-    TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(4));
-    TEST_ASSERT_EQUAL(ARRIVAL_FRESH, tick(6));
-}
-
 TEST(in_lockstep_the_last_tick_may_come_again)
 {
     start(1);
@@ -197,12 +146,6 @@ TEST(in_lockstep_another_tick_with_the_last_counter_is_stale)
     start(1);
     tick(5);
     TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(5 + E2E_COUNTERS));
-}
-
-TEST(on_its_own_clock_the_last_tick_again_is_stale)
-{
-    tick(5);
-    TEST_ASSERT_EQUAL(ARRIVAL_STALE, tick(5));
 }
 
 TEST(after_start_and_stop_any_tick_is_taken)

@@ -1,4 +1,4 @@
-"""`tools/octet check-robot`: the project's robot and one written from the protocol pass; what is none is told so."""
+"""`tools/octet check-robot`: sound robots pass, one with a defect fails the sentence that it breaks, and no other."""
 
 import json
 import re
@@ -10,9 +10,17 @@ import pytest
 from host_sim.backends.robot_process import PROGRAM
 from host_sim.cli.main import main
 from host_sim.lab.check import robots
-from host_sim.lab.check.checking import CHECKS
+from host_sim.lab.check.checking import CHECKS, check_robot
 from host_sim.lab.check.sentences import NOT_CHECKED, prose, sentences
-from tests.lab.check.virtual import EXAMPLE
+from tests.lab.check.canaries import (  # noqa: F401 - they note their robots
+    bytes_and_protection,
+    conversation,
+    messages,
+    owner_and_held,
+    silence_and_lockstep,
+)
+from tests.lab.check.canaries.meddled import CANARIES
+from tests.lab.check.virtual import EXAMPLE, example, one_for_all, virtual
 
 OF_OTHERS = (
     "What is asked of a robot has a number",
@@ -110,3 +118,21 @@ def test_a_bus_that_is_none_is_told_in_a_line(capsys):
 def test_a_robot_must_be_named(capsys):
     assert main(["check-robot"]) == 2
     assert "--robot-command CMD" in capsys.readouterr().err
+
+
+def test_a_good_robot_that_is_there_already_passes():
+    verdicts = check_robot(one_for_all(example.Robot()), missing=("T1", "S6"))
+
+    assert [verdict for verdict in verdicts if verdict.state == "fails"] == []
+    assert {verdict.number for verdict in verdicts if "--robot-command" in verdict.why} == {"T1", "S6"}
+
+
+def test_every_check_has_a_canary():
+    assert sorted(set(CHECKS) - set(CANARIES)) == []
+
+
+@pytest.mark.parametrize("number", sorted(CANARIES))
+def test_a_robot_with_one_defect_fails_that_sentence_and_no_other(number):
+    verdicts = check_robot(virtual(CANARIES[number]))
+
+    assert [verdict.number for verdict in verdicts if verdict.state == "fails"] == [number]

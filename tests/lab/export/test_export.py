@@ -1,4 +1,4 @@
-"""What `tools/octet export` writes, opened by readers that share no code with what wrote it."""
+"""What `tools/octet export` writes, opened by readers that share no code with what wrote it; a log as a table."""
 
 import re
 import subprocess
@@ -14,6 +14,7 @@ from small_mcap import JSONDecoderFactory, read_message_decoded
 from vblf.can import CanMessage
 from vblf.reader import BlfReader
 
+from host_sim.api import RunConfig, log_table, run
 from host_sim.base.extra_library import library
 from host_sim.cli.main import main
 from host_sim.lab.export.frames import LAST_S
@@ -193,3 +194,15 @@ def test_a_time_that_a_format_has_no_room_for_is_one_line_and_leaves_nothing(tmp
     assert main(["export", str(log), f"--{name}", str(path)]) == 1
     assert re.fullmatch("octet: a frame at [0-9]+ s is too late for .*\n", capsys.readouterr().err)
     assert path.read_bytes() == written
+
+
+def test_a_log_is_a_table_of_arrow_and_of_pandas(tmp_path):
+    log = tmp_path / "run.log"
+    done = run(RunConfig(seed=3, environments=2, limit_s=20), log=log)
+
+    table = log_table(log)
+    frames = table.to_pandas()
+
+    assert table.column_names[:3] == ["time_s", "node", "message"]
+    assert len(frames) == len(log.read_text().splitlines())
+    assert frames["SENSES.feel"].dropna().tolist() == done.ticks()["feel"].tolist()
