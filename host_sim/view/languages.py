@@ -29,5 +29,5 @@ def with_languages(page: str) -> str:
 
 
 def as_script(data: object) -> str:
-    r"""Data as the text of a script element, each `<` as `\u003c`."""
-    return json.dumps(data, separators=(",", ":"), ensure_ascii=False).replace("<", "\\u003c")
+    r"""Data as the text of a script element, each `<` as `\u003c`. An object is what its attributes are."""
+    return json.dumps(data, separators=(",", ":"), ensure_ascii=False, default=vars).replace("<", "\\u003c")

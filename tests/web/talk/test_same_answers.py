@@ -76,7 +76,7 @@ def test_thousands_of_sentences_get_the_same_answers_in_the_page(tmp_path: Path)
     contents = (speakers(), run_data(trajectory, ""), {"starts": index.starts, "health": index.health}, table)
     files = [tmp_path / f"{i}.json" for i in range(len(contents))]
     for file, content in zip(files, contents, strict=True):
-        file.write_text(json.dumps(content))
+        file.write_text(json.dumps(content, default=vars))
 
     answers = in_node(tmp_path, "core/run_data.js talk/conversation.js", ANSWERS, *files)
 
