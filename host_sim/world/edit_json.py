@@ -1,7 +1,7 @@
 """Edits as JSON objects: in `run.world.json`, and as commands of a page."""
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from host_sim.world.body_faults import check_fault
 from host_sim.world.edits import (
@@ -38,14 +38,15 @@ def edit_from(fields: Mapping[str, Any]) -> Edit | None:
     Raises:
         ValueError: A field is missing, of the wrong type, or out of range.
     """
-    parse = _PARSERS.get(str(fields.get("do")))
-    return None if parse is None else parse(fields)
+    kind = _KINDS.get(str(fields.get("do")))
+    return None if kind is None else kind[0](**{part.name: part.read(fields) for part in kind[1:]})
 
 
 def edit_to(edit: Edit) -> dict[str, Any]:
     """The JSON object of an edit, from which `edit_from` makes an equal edit."""
-    name, fields = _WRITERS[type(edit)]
-    return {"do": name, **fields(edit)}
+    name, (_, *parts) = next((name, kind) for name, kind in _KINDS.items() if kind[0] is type(edit))
+    written = (part.write(getattr(edit, part.name)) for part in parts)
+    return {"do": name, **{field: value for fields in written for field, value in fields.items()}}
 
 
 def edit_in_c(edit: Edit) -> Any:
@@ -117,21 +118,6 @@ def _seed(fields: Mapping[str, Any]) -> int:
     return whole(fields, "seed", 0, _SEED_MAX) if "seed" in fields else 0
 
 
-_PARSERS: dict[str, Callable[[Mapping[str, Any]], Edit]] = {
-    "add_bar": lambda fields: AddBar(_bar(fields)),
-    "move_bar": lambda fields: MoveBar(whole(fields, "id", 0, _ID_MAX), _bar(fields)),
-    "remove_bar": lambda fields: RemoveBar(whole(fields, "id", 0, _ID_MAX)),
-    "move_food": lambda fields: MoveFood(whole(fields, "id", 0, _ID_MAX), _point(fields, "at")),
-    "lift": lambda fields: Lift(_robot_index(fields)),
-    "put": lambda fields: Put(pose_from(fields), _robot_index(fields)),
-    "plant": lambda fields: AddPlant(_plant(fields)),
-    "move_plant": lambda fields: MovePlant(whole(fields, "id", 0, _ID_MAX), _point(fields, "at")),
-    "grow_plant": lambda fields: GrowPlant(whole(fields, "id", 0, _ID_MAX), _radius_mm(fields)),
-    "remove_plant": lambda fields: RemovePlant(whole(fields, "id", 0, _ID_MAX)),
-    "body": lambda fields: ChangeBody(_fault(fields), _robot_index(fields), _seed(fields)),
-}
-
-
 def _ends(bar: Bar) -> dict[str, list[int]]:
     return {"a": _whole_point(bar.a), "b": _whole_point(bar.b)}
 
@@ -153,16 +139,35 @@ def _plant_fields(plant: Plant) -> dict[str, Any]:
     return {"at": _whole_point(plant.at), "radius": round(plant.radius_mm)}
 
 
-_WRITERS: dict[type, tuple[str, Callable[[Any], dict[str, Any]]]] = {
-    AddBar: ("add_bar", lambda edit: _ends(edit.bar)),
-    MoveBar: ("move_bar", lambda edit: {"id": edit.id, **_ends(edit.bar)}),
-    RemoveBar: ("remove_bar", lambda edit: {"id": edit.id}),
-    MoveFood: ("move_food", lambda edit: {"id": edit.id, "at": _whole_point(edit.at)}),
-    Lift: ("lift", lambda edit: _which(edit.robot)),
-    Put: ("put", lambda edit: {**_which(edit.robot), **_pose_fields(edit.pose)}),
-    AddPlant: ("plant", lambda edit: _plant_fields(edit.plant)),
-    MovePlant: ("move_plant", lambda edit: {"id": edit.id, "at": _whole_point(edit.at)}),
-    GrowPlant: ("grow_plant", lambda edit: {"id": edit.id, "radius": round(edit.radius_mm)}),
-    RemovePlant: ("remove_plant", lambda edit: {"id": edit.id}),
-    ChangeBody: ("body", lambda edit: {"what": edit.what, **_which(edit.robot), "seed": edit.seed}),
+class _Part(NamedTuple):
+    """An attribute of an edit: its name, how it is read from the fields of an object, and the fields for it."""
+
+    name: str
+    read: Callable[[Mapping[str, Any]], Any]
+    write: Callable[[Any], dict[str, Any]]
+
+
+_ID = _Part("id", lambda fields: whole(fields, "id", 0, _ID_MAX), lambda number: {"id": number})
+_BAR = _Part("bar", _bar, _ends)
+_AT = _Part("at", lambda fields: _point(fields, "at"), lambda point: {"at": _whole_point(point)})
+_PLANT = _Part("plant", _plant, _plant_fields)
+_RADIUS = _Part("radius_mm", _radius_mm, lambda radius_mm: {"radius": round(radius_mm)})
+_ROBOT = _Part("robot", _robot_index, _which)
+_POSE = _Part("pose", pose_from, _pose_fields)
+_WHAT = _Part("what", _fault, lambda what: {"what": what})
+_SEED = _Part("seed", _seed, lambda seed: {"seed": seed})
+
+_KINDS: dict[str, tuple[Any, ...]] = {
+    "add_bar": (AddBar, _BAR),
+    "move_bar": (MoveBar, _ID, _BAR),
+    "remove_bar": (RemoveBar, _ID),
+    "move_food": (MoveFood, _ID, _AT),
+    "lift": (Lift, _ROBOT),
+    "put": (Put, _ROBOT, _POSE),
+    "plant": (AddPlant, _PLANT),
+    "move_plant": (MovePlant, _ID, _AT),
+    "grow_plant": (GrowPlant, _ID, _RADIUS),
+    "remove_plant": (RemovePlant, _ID),
+    "body": (ChangeBody, _WHAT, _ROBOT, _SEED),
 }
+"""Each edit by its name, with its parts in the order in which they are written."""
