@@ -150,14 +150,7 @@ class _Run:
                 seed=self._seed(index),
                 environment=self._entered[world],
                 eaten=eaten,
-                food_eaten=fleet.food_eaten(index),
-                ticks=fleet.ticks(index),
-                begun=fleet.begun(index),
-                collisions=fleet.collisions(index),
-                denied=fleet.denied(index),
-                contacts=fleet.contacts(index),
-                memory=fleet.memory(index),
-                pose=fleet.pose(index),
+                **fleet.told(index),
             )
 
 

@@ -158,30 +158,19 @@ class NativeFleet:
         """Number of ticks of a robot in its environment so far."""
         return int(self._robots[index].ticks)
 
-    def begun(self, index: int) -> dict[int, int]:
-        """Number of actions that a robot has begun in its environment, by reason."""
-        return {reason: count for reason, count in enumerate(self._robots[index].begun) if count}
-
-    def food_eaten(self, index: int) -> int:
-        """Number of pieces of food that a robot has eaten in its environment."""
-        return int(self._robots[index].food_eaten)
-
-    def collisions(self, index: int) -> int:
-        """Number of times that a robot's body has begun to touch something in its environment."""
-        return int(self._bodies[index].collisions)
-
-    def denied(self, index: int) -> int:
-        """Number of times that a robot's wheels did not do in its environment what they were told."""
-        return int(self._robots[index].denied)
-
-    def contacts(self, index: int) -> Contacts:
-        """The times that a robot was blocked in its environment."""
-        it = self._robots[index]
-        return Contacts(it.contacts, it.blocked_ticks, it.blocked_longest, bool(it.blocked_now))
-
-    def memory(self, index: int) -> tuple[int, ...]:
-        """A robot's eight cells."""
-        return tuple(self._memories(index, 1))
+    def told(self, index: int) -> dict[str, Any]:
+        """What a robot has done in its environment so far, by the fields of a `FleetResult`."""
+        robot, body = self._robots[index], self._bodies[index]
+        return {
+            "food_eaten": int(robot.food_eaten),
+            "ticks": self.ticks(index),
+            "begun": {reason: count for reason, count in enumerate(robot.begun) if count},
+            "collisions": int(body.collisions),
+            "denied": int(robot.denied),
+            "contacts": Contacts(robot.contacts, robot.blocked_ticks, robot.blocked_longest, bool(robot.blocked_now)),
+            "memory": tuple(self._memories(index, 1)),
+            "pose": Pose(body.x_mm, body.y_mm, body.heading_rad),
+        }
 
     def memories(self) -> list[bytes]:
         """All robots' memories."""
@@ -198,11 +187,6 @@ class NativeFleet:
         at = self._ffi.offsetof("struct fleet_robot", "food_eaten")
         robots = np.frombuffer(self._ffi.buffer(self._robots), np.uint8).reshape(self.robots, -1)
         return np.asarray(robots[:, at : at + 4].copy().view(np.uint32)[:, 0])
-
-    def pose(self, index: int) -> Pose:
-        """Where a robot is."""
-        body = self._bodies[index]
-        return Pose(body.x_mm, body.y_mm, body.heading_rad)
 
     def positions(self) -> NDArray[np.int64]:
         """Where all robots are: shape (robots, 3), x and y in mm and heading in mrad."""
