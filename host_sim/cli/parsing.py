@@ -168,7 +168,7 @@ def _setting(text: str) -> tuple[str, int]:
     name, equals, value = text.partition("=")
     if name not in PARAMETERS:
         raise UsageError(f"unknown parameter {name!r}: {meant(name, PARAMETERS)}")
-    low, high, _, unit, _ = PARAMETERS[name]
+    _, low, high, _, unit, _ = PARAMETERS[name]
     values = f"a whole number from {low} to {high}{f' {unit}' if unit else ''}"
     if not equals:
         raise UsageError(f"{name} has no value: write --set {name}=VALUE, {values}")

@@ -8,7 +8,7 @@ from host_sim.base.paths import ROOT
 _PROTOCOL = ROOT / "hal" / "protocol"
 _DBC = (_PROTOCOL / "octet.dbc").read_text(encoding="utf-8")
 _WORDS = (_PROTOCOL / "robot.toml").read_text(encoding="utf-8")
-_PARAMETER = re.compile(r'^EV_ (\w+): 0 \[(\d+)\|(\d+)\] "(.*)" (\d+) \d+ .*;', re.MULTILINE)
+_PARAMETER = re.compile(r'^EV_ (\w+): 0 \[(\d+)\|(\d+)\] "(.*)" (\d+) (\d+) .*;', re.MULTILINE)
 _COMMENTS = dict(re.findall(r'^CM_ EV_ (\w+) "(.*)";', _DBC, re.MULTILINE))
 
 
@@ -18,9 +18,10 @@ def _found(pattern: str, text: str) -> str:
     return found[1]
 
 
-class Range(NamedTuple):
-    """What a parameter may be."""
+class Parameter(NamedTuple):
+    """A number that the robot is set up with."""
 
+    number: int
     minimum: int
     maximum: int
     default: int
@@ -46,7 +47,7 @@ KIT_SETTINGS = {
 """Parameters that a robot with a body of the kit is set to, unless a run says otherwise."""
 
 PARAMETERS = {
-    name: Range(int(low), int(high), int(default), unit, _COMMENTS[name])
-    for name, low, high, unit, default in _PARAMETER.findall(_DBC)
+    name: Parameter(int(number), int(low), int(high), int(default), unit, _COMMENTS[name])
+    for name, low, high, unit, default, number in _PARAMETER.findall(_DBC)
 }
 """The robot's parameters, by name."""

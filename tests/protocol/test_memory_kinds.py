@@ -1,8 +1,7 @@
-"""Kinds of memories, their two halves on the wire, frames of any node, and words of a command line."""
+"""Kinds of memories, their two halves on the wire, and frames of any node."""
 
 import pytest
 
-from host_sim.protocol import generated, words
 from host_sim.protocol.codec import DecodedFrame, Frame, Protocol
 from host_sim.protocol.every_node import IDS, Heard, hear
 from host_sim.protocol.generated import CELL_COUNT, MemoryKind, Senses
@@ -104,17 +103,3 @@ def test_an_identifier_of_no_message_is_nobodys():
     unknown = next(number for number in range(0x800) if number not in IDS)
 
     assert hear(Frame(unknown, b"")) is None
-
-
-def test_the_behaviours_are_those_of_the_protocol():
-    assert set(words.PROFILES) == set(generated.PROFILES)
-
-
-def test_the_parameters_are_those_of_the_protocol():
-    assert {name: it[:3] for name, it in words.PARAMETERS.items()} == {
-        name: (it.minimum, it.maximum, it.default) for name, it in generated.PARAMETERS.items()
-    }
-
-
-def test_the_last_node_is_that_of_the_protocol():
-    assert words.NODE_MAX == generated.NODE_MAX

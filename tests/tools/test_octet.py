@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+from dataclasses import astuple
 from pathlib import Path
 
 import pytest
@@ -12,8 +13,10 @@ import pytest
 from host_sim.faults.bus_faults import FAULTS
 from host_sim.faults.rule import FAULT_NAMES
 from host_sim.protocol import generated, words
+from tools.robot_words.model import read
 
 ROOT = Path(__file__).resolve().parents[2]
+PROTOCOL = ROOT / "hal" / "protocol"
 
 STAGES = {
     "run": "run",
@@ -168,9 +171,8 @@ def test_without_python_the_package_is_named(sources: Path, tmp_path: Path) -> N
 def test_the_words_of_the_command_line_are_those_that_are_generated() -> None:
     assert words.NODE_MAX == generated.NODE_MAX
     assert list(words.PROFILES) == list(generated.PROFILES)
-    assert {name: tuple(it) for name, it in words.PARAMETERS.items()} == {
-        name: tuple(it)[1:] for name, it in generated.PARAMETERS.items()
-    }
+    described = read(PROTOCOL / "octet.dbc", PROTOCOL / "robot.toml").parameters
+    assert [(name, *it) for name, it in words.PARAMETERS.items()] == [astuple(it) for it in described]
     assert tuple(FAULTS) == FAULT_NAMES
 
 

@@ -1,11 +1,11 @@
 """The robot's numbers and words in Python: host_sim/protocol/generated.py."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 
 from cantools.database.can import Message
 from cantools.database.can.signal import Signal
 
-from tools.robot_words.description import Description, Member, Parameter
+from tools.robot_words.description import Description, Member
 from tools.robot_words.to_c import c_name
 
 _HEAD = '''\
@@ -14,16 +14,7 @@ _HEAD = '''\
 from enum import IntEnum
 from typing import NamedTuple
 
-
-class Parameter(NamedTuple):
-    """A number that the robot is set up with."""
-
-    number: int
-    minimum: int
-    maximum: int
-    default: int
-    unit: str
-    comment: str
+from host_sim.protocol.words import PARAMETERS as PARAMETERS
 
 
 class Signal(NamedTuple):
@@ -63,9 +54,7 @@ def module(robot: Description) -> str:
     parts += [_enum(name, words) for name, words in robot.enums.items()]
     parts += [f"{name} = {value}\n" for name, value in _constants(robot).items()]
     parts += _exchanged(robot)
-    parts.append(_dict("PARAMETERS: dict[str, Parameter]", map(_parameter, robot.parameters)))
-    parts.append(_dict("MESSAGES: dict[str, Message]", map(_message, robot.messages)))
-    return "".join(parts)
+    return "".join([*parts, "MESSAGES: dict[str, Message] = {\n", *map(_message, robot.messages), "}\n"])
 
 
 def _exchanged(robot: Description) -> list[str]:
@@ -126,16 +115,6 @@ def _constants(robot: Description) -> dict[str, str]:
 def _memory_kinds(robot: Description) -> str:
     kinds = (f"{name!r}: MemoryKind.{c_name(robot.memory[name])}" for name in robot.profiles)
     return f"{{{', '.join(kinds)}}}"
-
-
-def _dict(declared: str, entries: Iterable[str]) -> str:
-    return f"{declared} = {{\n{''.join(entries)}}}\n"
-
-
-def _parameter(parameter: Parameter) -> str:
-    p = parameter
-    values = (p.number, p.minimum, p.maximum, p.default, p.unit, p.comment)
-    return f"    {p.name!r}: Parameter({', '.join(map(repr, values))}),\n"
 
 
 def _message(message: Message) -> str:
