@@ -2,7 +2,7 @@
 
 The page's element `fleet` has one object, with lengths in mm and headings in mrad:
 
-    title        a line for people
+    profile      the robots' behaviour
     robots       their number
     own          whether each is in a world of its own
     width height inside dimensions of a world
@@ -52,7 +52,7 @@ def write_fleet_page(path: Path, config: RunConfig, film: FleetFilm, params: Sim
     columns = dict(_columns(film))
     scenes = _scenes(film)
     fleet = {
-        "title": f"{config.robots} robots, profile {config.profile}, seed {config.seed}",
+        "profile": config.profile,
         "robots": config.robots,
         "own": config.worlds == "own",
         "width": params.width_mm,

@@ -21,7 +21,7 @@ from tests.web.support import next_frame
 
 TEXTS = languages()
 GAPS = re.compile(r"\{\w+\}")
-TEMPLATES = ("octet.html", "live.html", "replay.html")
+TEMPLATES = ("octet.html", "live.html", "replay.html", "board.html", "fleet.html")
 SAID_IN_ENGLISH = {
     "host_sim/world/native/edits.c": r'(?:return|:|=) "([^"]+)"',
     "host_sim/web/sim": r'(?:Error|LineError|error)\((?:\w+, )?(["`][^"`]+["`])\)',
@@ -103,7 +103,7 @@ def test_no_text_is_left_in_english():
 
 
 def test_every_text_is_used():
-    words = {part: TEXTS["en"][part] for part in ("page", "lessons")}
+    words = {part: TEXTS["en"][part] for part in ("page", "wall", "lessons")}
 
     assert unused(words, code()) == set()
 

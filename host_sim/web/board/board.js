@@ -6,6 +6,7 @@ import { BoardRobots } from "./board_robots.js";
 import { made } from "../core/building.js";
 import { byId, contextOf, setText, typedById } from "../core/elements.js";
 import { ending } from "../core/endings.js";
+import { inEachLanguage, say } from "../core/language.js";
 import { Toast } from "../core/toast.js";
 import { Renderer } from "../draw/renderer.js";
 import { Scene } from "../draw/scene.js";
@@ -44,6 +45,8 @@ class Board {
     this.isNew = false;
     this.connection = new Connection(`/board-live${location.search}`, (message) => this.accept(message));
     this.bind();
+    setText(byId("status"), say("connecting"));
+    inEachLanguage(() => this.drawSoon());
   }
 
   bind() {
@@ -95,9 +98,9 @@ class Board {
     this.robots.show(rows);
     this.curves.draw(scene, renderer.palette.robots);
     showFacts(scene);
-    setText(byId("present"), board.robots ? presence(board.robots) : "All pages share the robots.");
+    setText(byId("present"), board.robots ? presence(board.robots) : say("shared"));
     setText(byId("result"), play.ended ? ending(play.ended, play.done).join(": ") : "");
-    setText(byId("fact-finished"), board.ended.join(" of "));
+    setText(byId("fact-finished"), say("ofCount", { count: board.ended[0], all: board.ended[1] }));
     this.showPlay(play, scene.environment);
   }
 
@@ -119,7 +122,7 @@ class Board {
    * @param {import("../types.js").EnvironmentScene} environment
    */
   showPlay(play, { number, of }) {
-    setText(byId("play"), play.waits ? "Begin" : play.playing ? "Pause" : "Play");
+    setText(byId("play"), say(play.waits ? "begin" : play.playing ? "pause" : "play"));
     setText(byId("status"), statusOf(play));
     typedById("play", HTMLButtonElement).disabled = play.done;
     typedById("next", HTMLButtonElement).disabled = play.done || number >= of;
@@ -129,14 +132,14 @@ class Board {
 
 /** @param {{page: boolean}[]} robots */
 function presence(robots) {
-  return `${robots.filter(({ page }) => page).length} of ${robots.length} robots have a page.`;
+  return say("presence", { open: robots.filter(({ page }) => page).length, all: robots.length });
 }
 
 /** @param {Play} play */
 function statusOf(play) {
-  if (play.waits) return "the robots stand still until you press Begin";
-  if (play.done) return "all done";
-  return play.playing ? "live" : "paused";
+  if (play.waits) return say("standStill");
+  if (play.done) return say("allDone");
+  return say(play.playing ? "live" : "paused");
 }
 
 /** @param {{urls: string[], modules: string[]}} join */
@@ -158,4 +161,4 @@ function showJoin({ urls, modules }) {
 }
 
 if ("WebSocket" in window) Object.assign(window, { octet: new Board() });
-else setText(byId("status"), "This browser has no WebSocket: take a newer one.");
+else setText(byId("status"), say("needsSocket"));

@@ -3,6 +3,7 @@
 
 import { made } from "../core/building.js";
 import { byId } from "../core/elements.js";
+import { languageCode, robotWords, say } from "../core/language.js";
 import { binary } from "../core/phrases.js";
 import { PATTERNS, SIDES } from "../generated.js";
 import { pictureOf } from "../panel/cells_view.js";
@@ -28,7 +29,7 @@ export class BoardRobots {
 
   /** @param {Row[]} rows */
   show(rows) {
-    const key = JSON.stringify(rows);
+    const key = languageCode() + JSON.stringify(rows);
     if (key === this.shown) return;
     this.shown = key;
     const tables = Math.ceil(rows.length / ROWS_MAX);
@@ -41,11 +42,11 @@ export class BoardRobots {
 
 /** @param {Row[]} rows */
 function tableOf(rows) {
-  const patterns = PATTERNS.slice(1).map((name, i) => {
+  const patterns = robotWords().patterns.slice(1).map((name, i) => {
     return made("th", [pictureOf(i + 1), binary(i + 1)], { scope: "col", title: name });
   });
-  const numbers = ["knows", "ate"].map((name) => made("th", [name], { scope: "col" }));
-  const head = made("tr", [made("th", ["Robot"], { scope: "col" }), ...patterns, ...numbers]);
+  const numbers = [say("knows"), say("ate")].map((name) => made("th", [name], { scope: "col" }));
+  const head = made("tr", [made("th", [say("robot")], { scope: "col" }), ...patterns, ...numbers]);
   return made("table", [made("thead", [head]), made("tbody", rows.map(rowOf))]);
 }
 
@@ -53,9 +54,9 @@ function tableOf(rows) {
 function rowOf({ node, name, colour, page, memory, meals }) {
   const tag = made("span", [`${node}`], { class: "tag" });
   tag.style.setProperty("--colour", colour);
-  const cells = memory.slice(1).map((side) => made("td", [ARROWS[side]], { "data-side": SIDES[side], title: SIDES[side] }));
+  const cells = memory.slice(1).map((side) => made("td", [ARROWS[side]], { "data-side": SIDES[side], title: robotWords().sides[side] }));
   const known = memory.filter((side, cell) => cell > 0 && side > 0).length;
   const numbers = [`${known}/${ALL}`, `${meals}`];
-  const head = made("th", [tag, name || (page ? "–" : "free")], { scope: "row", title: name || `Robot ${node}` });
+  const head = made("th", [tag, name || (page ? "–" : say("free"))], { scope: "row", title: name || say("robotNumber", { node }) });
   return made("tr", [head, ...cells, ...numbers.map((text) => made("td", [text], { class: "number" }))], page ? {} : { class: "empty" });
 }

@@ -10,7 +10,7 @@ import { ENGLISH, filled } from "./phrases.js";
  * The words of one language, as in texts/: those of the page, and those in which it says what it hears in English from
  * the firmware, the worker or the server.
  * @typedef {typeof import("../texts/en.json")} Texts
- * @typedef {keyof Texts["page"]} Key
+ * @typedef {keyof Texts["page"] | keyof Texts["wall"]} Key
  * @typedef {"kinds" | "reasons" | "columns"} Group
  */
 
@@ -53,7 +53,17 @@ export function wordsOf(part) {
  * @param {Record<string, string | number>} [values]
  */
 export function say(key, values = {}) {
-  return filled(ALL[spoken].page[key] ?? ALL[FALLBACK].page[key], values);
+  return filled(textIn(spoken, key) ?? textIn(FALLBACK, key) ?? key, values);
+}
+
+/**
+ * A text of all pages, or of those on a wall: the board and the fleet.
+ * @param {string} code - Of the language.
+ * @param {Key} key
+ */
+function textIn(code, key) {
+  const { page, wall } = ALL[code];
+  return /** @type {Record<string, string>} */ ({ ...page, ...wall })[key];
 }
 
 /**

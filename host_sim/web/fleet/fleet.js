@@ -5,6 +5,7 @@ import { made } from "../core/building.js";
 import { byId, setText, typedById } from "../core/elements.js";
 import { fleetData } from "./fleet_data.js";
 import { FleetPicture } from "./fleet_picture.js";
+import { inEachLanguage, robotWords, say } from "../core/language.js";
 import { minutes } from "../core/phrases.js";
 import { drawChart } from "../draw/chart.js";
 import { PATTERNS, SIDES } from "../generated.js";
@@ -32,11 +33,20 @@ class FleetPage {
     /** @type {number | undefined} */
     this.frameAt = undefined;
     this.shown = "";
-    setText(byId("status"), this.fleet.title);
+    inEachLanguage(() => this.write());
     byId("frame-legend").hidden = !this.fleet.own;
     typedById("open", HTMLInputElement).max = `${this.fleet.robots}`;
     this.bind();
     requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Writes what depends on the language. */
+  write() {
+    const { robots, profile, seed } = this.fleet;
+    setText(byId("status"), say("fleetTitle", { robots, profile, seed }));
+    setText(byId("play"), say(this.playing ? "pause" : "play"));
+    setText(byId("opened-name"), say("robotNumber", { node: this.opened + 1 }));
+    this.shown = "";
   }
 
   bind() {
@@ -66,10 +76,9 @@ class FleetPage {
     this.one.choose([fleet.own ? robot : 0], -1);
     this.one.canvas.hidden = !fleet.own;
     const seed = (fleet.seed + robot) % SEED_SPAN;
-    setText(byId("opened-name"), `Robot ${robot + 1}`);
     setText(byId("opened-run"), `tools/run --seed ${seed} ${fleet.alone}`);
     byId("opened-run").parentElement?.toggleAttribute("hidden", !fleet.own);
-    this.shown = "";
+    this.write();
   }
 
   /** @param {boolean} playing */
@@ -77,7 +86,7 @@ class FleetPage {
     if (playing && this.at >= this.last) this.at = 0;
     this.playing = playing;
     this.frameAt = undefined;
-    setText(byId("play"), playing ? "Pause" : "Play");
+    this.write();
   }
 
   /** @param {number} now */
@@ -117,9 +126,9 @@ class FleetPage {
     this.shown = key;
     const levels = data.levelsAt(sample);
     const { eaten, finished } = data.countsAt(sample);
-    setText(byId("fact-finished"), `${finished} of ${this.fleet.environments * data.worlds}`);
+    setText(byId("fact-finished"), say("ofCount", { count: finished, all: this.fleet.environments * data.worlds }));
     setText(byId("fact-eaten"), `${eaten}`);
-    setText(byId("fact-learned"), `${levels.filter((level) => level === ALL).length} of ${this.fleet.robots}`);
+    setText(byId("fact-learned"), say("ofCount", { count: levels.filter((level) => level === ALL).length, all: this.fleet.robots }));
     const counts = this.bars.map((_, level) => levels.filter((other) => other === level).length);
     counts.forEach((count, level) => {
       setText(this.bars[level].count, `${count}`);
@@ -135,8 +144,8 @@ class FleetPage {
     const { robots } = this.picture.palette;
     const ticks = Array.from({ length: fleet.samples }, (_, i) => i);
     const lines = [
-      { name: "known", counts: data.known, colour: robots[0] },
-      { name: "eaten", counts: data.meals, colour: robots[2] },
+      { name: say("known"), counts: data.known, colour: robots[0] },
+      { name: say("eaten"), counts: data.meals, colour: robots[2] },
     ].map((line) => ({ ...line, ticks, dash: [], end: sample }));
     const most = Math.ceil(Math.max(1, ...data.known, ...data.meals));
     drawChart(this.chart, lines, { last, most, time: minutes(last * fleet.sample_s) });
@@ -153,7 +162,7 @@ function barFor(level) {
 /** @param {number[]} sides */
 function cellsOf(sides) {
   return sides.slice(1).map((side, i) =>
-    made("li", [pictureOf(i + 1), ARROWS[side]], { "data-side": SIDES[side], title: `${PATTERNS[i + 1]}: ${SIDES[side]}` }));
+    made("li", [pictureOf(i + 1), ARROWS[side]], { "data-side": SIDES[side], title: `${robotWords().patterns[i + 1]}: ${robotWords().sides[side]}` }));
 }
 
 async function open() {

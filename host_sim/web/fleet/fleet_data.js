@@ -6,7 +6,7 @@ import { PATTERNS } from "../generated.js";
 
 /**
  * @typedef {Object} Fleet
- * @property {string} title
+ * @property {string} profile
  * @property {number} robots
  * @property {boolean} own
  * @property {number} width
