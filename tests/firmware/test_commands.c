@@ -226,12 +226,16 @@ TEST(where_the_wheels_were_before_a_stop_is_forgotten)
     TEST_ASSERT_FALSE(robot.motion.referenced);
 }
 
-TEST(start_trusts_every_sensor_again)
+TEST(start_trusts_every_sensor_and_the_wheels_again)
 {
     static const struct perception fresh;
 
     execute(OPCODE_SET, DISTRUST, 1);
     step(FRONT);
+    robot.denials = 2;
+    robot.turn_denied = true;
     execute(OPCODE_START, PROFILE_ARTICLE, 1);
     TEST_ASSERT_EQUAL_MEMORY(&fresh, &robot.perception, sizeof fresh);
+    TEST_ASSERT_EQUAL_UINT(0, robot.denials);
+    TEST_ASSERT_FALSE(robot.turn_denied);
 }
