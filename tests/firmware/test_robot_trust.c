@@ -226,3 +226,35 @@ TEST(a_sensor_is_distrusted_in_the_very_decision_that_is_one_too_many)
     feel(FRONT);
     TEST_ASSERT_EQUAL(REASON_WANDER, out.drive.reason);
 }
+
+/* Whether a robot that believes no sensor that is stuck ever looks aside. */
+static bool looks_aside(uint8_t stuck)
+{
+    bool looked = false;
+
+    setUp();
+    command(OPCODE_SET, DISTRUST, 1);
+    for (unsigned ticks = 0; ticks < MANY; ticks++) {
+        obey(stuck);
+        looked = looked || out.drive.reason == REASON_AVOID;
+    }
+    return looked;
+}
+
+TEST(a_robot_looks_aside_for_a_front_sensor_that_it_does_not_believe_and_for_no_other)
+{
+    for (uint8_t stuck = 1; stuck < 1u << FEEL_COUNT; stuck = (uint8_t)(stuck << 1))
+        TEST_ASSERT_EQUAL(stuck == FRONT, looks_aside(stuck));
+}
+
+TEST(in_a_single_silence_too_wheels_may_have_rolled_on)
+{
+    for (unsigned ticks = 0; ticks < 3; ticks++)
+        obey(CLEAR);
+    silence();
+    wheels.tick++;
+    wheels.odometer_left = (uint16_t)(wheels.odometer_left + 200);
+    wheels.odometer_right = (uint16_t)(wheels.odometer_right + 200);
+    sense(wheels);
+    TEST_ASSERT_FALSE(out.contradiction);
+}
