@@ -4,16 +4,15 @@
 #include "hal/boot/handover.h"
 #include "hal/boot/image.h"
 #include "hal/boot/server.h"
+#include "hal/boot/uds_parts.h"
 #include "hal/port/cortex_m/leave.h"
 #include "hal/port/cortex_m/loader.h"
 #include "hal/port/cortex_m/systick.h"
 
 enum {
     CONFIRM_MS = 5000,            /* without a crash */
-    SESSION_CONTROL = 0x10, READ = 0x22, TESTER_PRESENT = 0x3E, POSITIVE = 0x40, NEGATIVE = 0x7F,
     PROGRAMMING = 2, QUIET = 0x80,
     DID_VERSION = 0xFD02, DID_RUNNING = 0xFD03,
-    NOT_NOW = 0x22, PENDING = 0x78, NOT_HERE = 0x7F,
     SINGLE_MAX = 7
 };
 
@@ -63,11 +62,11 @@ void loader_alive(bool outage)
     }
 }
 
-static uint8_t refuse(uint8_t service, uint8_t why, uint8_t *out)
+static uint8_t refuse(uint8_t service, enum nrc why, uint8_t *out)
 {
     out[0] = NEGATIVE;
     out[1] = service;
-    out[2] = why;
+    out[2] = (uint8_t)why;
     return 3;
 }
 
@@ -79,7 +78,7 @@ static uint8_t control_session(uint8_t session, bool at_rest, uint8_t *out)
     if (session == PROGRAMMING) {
         resident.leaving = at_rest;
         resident.leaving_ms = machine_ms();
-        return refuse(SESSION_CONTROL, at_rest ? PENDING : NOT_NOW, out);
+        return refuse(SESSION_CONTROL, at_rest ? NRC_PENDING : NRC_CONDITIONS, out);
     }
     memcpy(out, usual, sizeof usual);
     return sizeof usual;
@@ -91,7 +90,7 @@ static uint8_t read(unsigned id, uint8_t *out)
     uint32_t value = id == DID_VERSION ? image_version(now->slot) : (uint32_t)now->slot << 24 | (now->trial ? 1u : 0u) << 16;
 
     if (id != DID_VERSION && id != DID_RUNNING)
-        return refuse(READ, NOT_HERE, out);
+        return refuse(READ, NRC_SESSION, out);
     out[0] = READ | POSITIVE;
     out[1] = (uint8_t)(id >> 8);
     out[2] = (uint8_t)id;
@@ -111,7 +110,7 @@ static uint8_t serve(const uint8_t *request, uint8_t len, bool at_rest, uint8_t 
         out[1] = 0;
         return request[1] & QUIET ? 0 : 2;
     }
-    return refuse(request[0], NOT_HERE, out);
+    return refuse(request[0], NRC_SESSION, out);
 }
 
 bool loader_frame(const struct frame *frame, bool at_rest, struct frame *answer)

@@ -1,4 +1,5 @@
-/* uds_parts.h: what the two halves of uds.h's implementation have of each other. */
+/* uds_parts.h: what the two halves of uds.h's implementation have of each other, and UDS's numbers, which an image
+ * answers with, too. */
 #ifndef OCTET_UDS_PARTS_H
 #define OCTET_UDS_PARTS_H
 
