@@ -23,11 +23,11 @@ struct brain {
     uint8_t repeat_count;    /* remembered turns since the way was last clear; stays at 255 */
     uint8_t awaits;          /* what the action under way leaves to be done when it ends; 0 for nothing */
     uint8_t tried_feel;      /* what was sensed when the last turn away from something began */
-    uint8_t tried_side;      /* on trial: where to */
+    uint8_t tried_side;      /* where to, on trial or as remembered */
     uint8_t used;            /* used_cells.h: bit p for cell p */
     uint8_t unlearned;       /* likewise: boredom has emptied it since the start */
     bool chasing, ate;       /* searcher: it was going to food; the last step led to it */
-    uint8_t misses;          /* searcher: times that it has lost sight of food since its last meal */
+    bool lost;               /* searcher: it has lost sight of food since its last meal */
     uint16_t since_mm;       /* searcher: way since it last looked around or saw food */
     bool learns;             /* whether the profile learns; if not, its memory is not stored */
     bool wants_ranges;       /* true: the behaviour decides by range_mm */

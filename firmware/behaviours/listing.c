@@ -40,6 +40,7 @@ static struct action turn_as_learned(struct brain *brain, const struct config *c
 {
     if (brain->repeat_count < UINT8_MAX)
         brain->repeat_count++;
+    brain->tried_side = (uint8_t)side;
     brain->awaits = brain->repeat_count == config->value[BOREDOM_LIMIT] ? AWAITS_BOREDOM : AWAITS_CHECK;
     return turn(REASON_REMEMBERED, side, config->value[TURN_DEG]);
 }

@@ -1,5 +1,6 @@
-/* searcher: as adaptive, with another way of looking for food: it drives straight on, turns once around where it has not
- * looked for a while, and goes straight to what it sees. */
+/* searcher: as adaptive, but a lesson of what is on one side is one of what is on the other, too. It has another way of
+ * looking for food: it drives straight on, turns once around where it has not looked for a while, and goes straight to what
+ * it sees. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
 #include "firmware/behaviours/used_cells.h"
@@ -9,54 +10,49 @@ enum {
     CONFIDENCE = 1,
     PRAISE = 1,
     LOOK_EVERY_MM = 1000,   /* way between two turns around */
-    LOOK_AGAIN_MM = 200,    /* after losing sight of food: way to the next one */
-    MISSES_MAX = 2,         /* the way to the next look doubles at most this many times */
+    LOOK_AGAIN_MM = 200,    /* after losing sight of food: way to the next one; twice that when it is lost again */
     WHOLE_TURN_DEG = 360,
-    LEAVE_CHOICES = 180     /* of the direction in which it goes on where it has seen no food, one degree apart */
+    LEAVE_CHOICES = 60,     /* of the direction in which it goes on where it has seen no food, one degree apart; */
+    SOONER_MM = 8           /* for each of these degrees it looks so much sooner again: it never goes the same round for ever */
 };
+
+enum { FRONT_RIGHT = 1, FRONT = 2, FRONT_LEFT = 4 };   /* of a pattern */
 
 bool searcher_begin(struct brain *brain)
 {
-    brain->since_mm = LOOK_EVERY_MM;
-    brain->chasing = false;
-    brain->ate = false;
-    brain->misses = 0;
+    brain->ate = true;   /* all the same: it looks around first */
+    brain->tried_side = SIDE_NOTHING;
     return true;
 }
 
+/* Food that it has lost sight of is where the thing is that it has turned away from. */
 static struct action look_all_around(struct brain *brain)
 {
-    int sign = random_below(&brain->random, 2) ? 1 : -1;
     int more = random_below(&brain->random, LEAVE_CHOICES);
+    int turn_deg = WHOLE_TURN_DEG + more;
 
-    brain->since_mm = 0;
+    brain->since_mm = (uint16_t)(SOONER_MM * more);
     return (struct action){
         .reason = REASON_LOOK_AROUND,
-        .turn_deg = (int16_t)(sign * (WHOLE_TURN_DEG + more)),
+        .turn_deg = (int16_t)(brain->lost && brain->tried_side == SIDE_RIGHT ? -turn_deg : turn_deg),
         .until_food = true,
     };
-}
-
-/* Food that was lost sight of once and again is in a place that it cannot be reached from: each time it goes farther. */
-static void miss(struct brain *brain)
-{
-    brain->since_mm = (uint16_t)(LOOK_EVERY_MM - (LOOK_AGAIN_MM << brain->misses));
-    if (brain->misses < MISSES_MAX)
-        brain->misses++;
 }
 
 static void note_what_is_seen(struct brain *brain, bool look)
 {
     if (brain->ate) {
         brain->ate = false;
-        brain->misses = 0;
+        brain->lost = false;
         brain->chasing = false;
         brain->since_mm = LOOK_EVERY_MM;
     }
-    if (look)
+    if (look) {
         brain->since_mm = 0;
-    else if (brain->chasing)
-        miss(brain);
+    } else if (brain->chasing) {
+        brain->since_mm = (uint16_t)(LOOK_EVERY_MM - (LOOK_AGAIN_MM << brain->lost));
+        brain->lost = true;
+    }
     brain->chasing = look;
 }
 
@@ -90,12 +86,28 @@ static struct action choose(struct brain *brain, const struct config *config, co
     return listing_next(brain, config, senses, memory_recall(&brain->memory, pattern));
 }
 
+/* The body is the same on both sides, whatever has been mixed up in it: a lesson of a thing on one side is one of a thing on
+ * the other, too. */
+static void generalize(struct brain *brain)
+{
+    uint8_t *cell = brain->memory.cell;
+    uint8_t pattern = pattern_of(brain->tried_feel);
+    bool right = (pattern & FRONT_RIGHT) != 0, left = (pattern & FRONT_LEFT) != 0;
+    uint8_t same = cell[pattern], mirrored = same ^ (SIDE_LEFT | SIDE_RIGHT);
+
+    if (right == left)
+        return;
+    cell[FRONT_RIGHT] = cell[FRONT_RIGHT | FRONT] = right ? same : mirrored;
+    cell[FRONT_LEFT] = cell[FRONT_LEFT | FRONT] = right ? mirrored : same;
+}
+
 struct action searcher_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
     uint8_t pattern = pattern_of(senses->feel);
     struct action action;
 
-    used_cells_learn(brain, senses, CONFIDENCE);
+    if (used_cells_learn(brain, senses, CONFIDENCE))
+        generalize(brain);
     action = choose(brain, config, senses, pattern);
     used_cells_judge(brain, &action, pattern, PRAISE);
     return action;

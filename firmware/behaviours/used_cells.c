@@ -14,22 +14,24 @@ static void set_cell(struct brain *brain, uint8_t pattern, uint8_t value)
     brain->changed = true;
 }
 
-void used_cells_learn(struct brain *brain, const struct senses *senses, unsigned confidence)
+bool used_cells_learn(struct brain *brain, const struct senses *senses, unsigned confidence)
 {
     uint8_t pattern = pattern_of(brain->tried_feel);
 
     if (!listing_trial_helped(brain, senses) || brain->frozen)
-        return;
+        return false;
     set_cell(brain, pattern, confidence_cell((enum side)brain->tried_side, confidence));
     brain->used |= (uint8_t)(1u << pattern);
+    return true;
 }
 
 static void change_used(struct brain *brain, uint8_t pattern, int change)
 {
-    uint8_t before = brain->memory.cell[pattern];
+    uint8_t *cell = &brain->memory.cell[pattern];
+    uint8_t before = *cell;
 
     set_cell(brain, pattern, confidence_changed(before, change));
-    if (before != 0 && brain->memory.cell[pattern] == 0)
+    if (before != 0 && *cell == 0)
         brain->unlearned |= (uint8_t)(1u << pattern);
 }
 
@@ -65,7 +67,7 @@ struct action used_cells_next(struct brain *brain, const struct config *config, 
     uint8_t pattern = pattern_of(senses->feel);
     struct action action;
 
-    used_cells_learn(brain, senses, confidence);
+    (void)used_cells_learn(brain, senses, confidence);
     action = listing_next(brain, config, senses, memory_recall(&brain->memory, pattern));
     used_cells_judge(brain, &action, pattern, praise);
     return action;

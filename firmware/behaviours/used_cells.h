@@ -7,9 +7,9 @@
 
 #include "firmware/brain.h"
 
-void used_cells_learn(struct brain *brain, const struct senses *senses, unsigned confidence);
+bool used_cells_learn(struct brain *brain, const struct senses *senses, unsigned confidence);
         /* If a trial has just helped, stores its side with that confidence; the cell is used then. Call before the next
-           action is chosen. */
+           action is chosen. True if so. */
 
 void used_cells_judge(struct brain *brain, const struct action *action, uint8_t pattern, int praise);
         /* Takes note of the action that was chosen with that pattern in sight. An about-face, which takes a confidence

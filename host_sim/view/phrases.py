@@ -46,11 +46,11 @@ def sentence(state: State, words: Words = ENGLISH) -> str:
 def decimal(value: float, digits: int, words: Words = ENGLISH) -> str:
     """A number that is not negative, rounded half up, for pages round so.
 
-    >>> decimal(0.125, 2)
-    '0.13'
+    >>> decimal(0.125, 2), decimal(1.015, 2)
+    ('0.13', '1.02')
     """
     unit = 10**digits
-    return f"{math.floor(value * unit + 0.5) / unit:.{digits}f}".replace(".", words.point)
+    return f"{math.floor(value * unit + 0.5 + 1e-9) / unit:.{digits}f}".replace(".", words.point)
 
 
 def _name(state: State) -> str:

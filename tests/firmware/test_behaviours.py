@@ -38,7 +38,8 @@ def random_state(oracle: type[Listing], dice: random.Random) -> dict[str, int]:
         "used": range(0, 256, 2),
         "unlearned": range(0, 256, 2),
         "since_mm": range(0, 1013, 4),
-        "misses": range(3),
+        "lost": range(2),
+        "tried_side": range(3),
         "chasing": range(2),
         "ate": range(2),
     }

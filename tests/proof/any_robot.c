@@ -56,12 +56,12 @@ static void take_any_brain(struct brain *brain)
     brain->repeat_count = any_u8();
     brain->awaits = any_u8() & AWAITS_ALL;
     brain->tried_feel = any_u8() & FEEL_ALL;
-    brain->tried_side = any_between(SIDE_LEFT, SIDE_RIGHT);
+    brain->tried_side = any_between(SIDE_NOTHING, SIDE_RIGHT);
     brain->used = any_u8();
     brain->unlearned = any_u8();
     brain->chasing = any_bool();
     brain->ate = any_bool();
-    brain->misses = any_between(0, 2);
+    brain->lost = any_bool();
     brain->since_mm = any_u16();
     brain->learns = any_bool();
     brain->wants_ranges = any_bool();

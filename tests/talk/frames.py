@@ -94,7 +94,7 @@ class Frames:
     def _uses(self, cell: int, tick: int) -> str:
         since = self._changed(cell, tick)
         begun = [i for i, it in self.starts(tick) if it.drive.reason == Reason.REMEMBERED and pattern(it) == cell]
-        return times_of(sum(i > since for i in begun))
+        return times_of(sum(i >= since for i in begun))
 
     def _cells(self, tick: int, text: str, none: str) -> str:
         memory = self.ticks[tick].memory

@@ -45,7 +45,7 @@ export function sentence(state, exact, words = ENGLISH) {
  */
 export function decimal(value, digits, words = ENGLISH) {
   const unit = 10 ** digits;
-  return (Math.floor(value * unit + 0.5) / unit).toFixed(digits).replace(".", words.point);
+  return (Math.floor(value * unit + 0.5 + 1e-9) / unit).toFixed(digits).replace(".", words.point);
 }
 
 /** @param {State} state */

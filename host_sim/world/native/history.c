@@ -109,13 +109,27 @@ size_t history_take(struct history *history, double tick, int16_t *rows, size_t 
     return count;
 }
 
+static bool is_of_one_side(int32_t pattern)
+{
+    return ((pattern ^ pattern >> 2) & 1) != 0;
+}
+
+/* Whether it learned that turn from a trial: in its cell, or, where the robot generalizes, in all cells of a thing on one side. */
+static bool taught(const struct history_trial *trial, int32_t cell, uint8_t side)
+{
+    bool mirrored = ((trial->cell ^ cell) & 1) != 0;
+
+    if (trial->tick < 0.0 || trial->helped != 1)
+        return false;
+    if (trial->cell != cell && !(is_of_one_side(trial->cell) && is_of_one_side(cell)))
+        return false;
+    return side == (mirrored ? SIDE_LEFT + SIDE_RIGHT - trial->side : trial->side);
+}
+
 /* Whether it has learned that from a trial that has just ended, or has erased what it used. */
 static bool did_itself(const struct history *history, int32_t cell, uint8_t side)
 {
-    const struct history_trial *trial = &history->judged;
-
-    return (trial->tick >= 0.0 && trial->cell == cell && trial->side == side && trial->helped == 1)
-        || (history->forgets && side == SIDE_NOTHING);
+    return taught(&history->judged, cell, side) || (history->forgets && side == SIDE_NOTHING);
 }
 
 void history_learn(struct history *history, double tick, const uint8_t sides[CELL_COUNT])

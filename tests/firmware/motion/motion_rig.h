@@ -22,7 +22,7 @@ extern struct random dice;
 
 enum {
     HALF = 500, HARDLY_ANY = 1,                  /* of a degree or a millimetre, in thousandths */
-    STEP_MAX_MM = 250, TURN_MAX_DEG = 360 + 179  /* the greatest step and turn of any behaviour: a searcher looks all around */
+    STEP_MAX_MM = 250, TURN_MAX_DEG = 360 + 179  /* no step or turn of any behaviour is greater */
 };
 
 uint16_t counted(double mm);

@@ -18,6 +18,9 @@ from tests.firmware.oracles.listing import (
 SENSORS_MM = 60
 NOTHING_MM = 255
 
+ON_THE_RIGHT, ON_THE_LEFT = (1, 3), (4, 6)
+"""The patterns of a thing on one side."""
+
 
 # `article`: the listing as it is
 class Article(Listing):
@@ -181,32 +184,52 @@ class Adaptive(Forgetful):
 
 # `searcher`: as `adaptive`, with another way of looking for food
 class Searcher(Adaptive):
-    """It drives straight on, looks around after a metre without looking, and goes straight to what it sees."""
+    """It drives straight on, looks around after a metre without looking, and goes straight to what it sees.
 
-    STATE = ("used", "unlearned", "since_mm", "misses", "chasing", "ate")
+    A lesson of what is on one side is one of what is on the other, too.
+    """
+
+    STATE = ("used", "unlearned", "since_mm", "lost", "chasing", "ate", "tried_side")
 
     since_mm = 1000
-    misses = 0
-    chasing = ate = False
+    tried_side = 0
+    chasing = ate = lost = False
+
+    def learn(self, feel: int, side: int) -> None:
+        """All patterns of one side get the turn that agrees with it."""
+        super().learn(feel, side)
+        learned = pattern(feel)
+        for same, others in ((ON_THE_RIGHT, ON_THE_LEFT), (ON_THE_LEFT, ON_THE_RIGHT)):
+            if learned in same:
+                turns = dict.fromkeys(same, side) | dict.fromkeys(others, TURN_LEFT + TURN_RIGHT - side)
+                for cell, turn in turns.items():
+                    self.mem[cell] = turn + 4
+
+    def search(self) -> Iterator[Action]:
+        """It keeps in mind to which side it turns away from things."""
+        for action in super().search():
+            if action.why in ("TRIAL", "REMEMBERED"):
+                self.tried_side = TURN_LEFT if action.turn_deg < 0 else TURN_RIGHT
+            yield action
 
     def go_forward(self) -> Iterator[Action]:
         """The way is clear."""
         robot = self.robot
         if self.ate:
-            self.ate = self.chasing = False
-            self.since_mm, self.misses = 1000, 0
+            self.ate = self.chasing = self.lost = False
+            self.since_mm = 1000
         if robot.look():
             self.since_mm = 0
             self.chasing = True
         elif self.chasing:
             self.chasing = False
-            self.since_mm = 1000 - 200 * 2**self.misses
-            self.misses = min(2, self.misses + 1)
+            self.since_mm = 600 if self.lost else 800
+            self.lost = True
         if not robot.look() and self.since_mm >= 1000:
-            self.since_mm = 0
-            to_the_right = robot.random(2)
-            degrees = 360 + robot.random(180)
-            yield Action("LOOK_AROUND", degrees if to_the_right else -degrees, until_food=True)
+            more = robot.random(60)
+            self.since_mm = 8 * more
+            to_the_left = self.lost and self.tried_side == TURN_RIGHT
+            yield Action("LOOK_AROUND", -360 - more if to_the_left else 360 + more, until_food=True)
             return
         yield Action("TOWARD_FOOD" if robot.look() else "WANDER", forward_mm=DIST_MM)
         self.since_mm += DIST_MM

@@ -115,6 +115,23 @@ TEST(another_turn_than_the_tried_one_was_told)
     expect_lesson(FRONT, SIDE_LEFT, 1);
 }
 
+TEST(a_robot_that_generalizes_learned_all_turns_that_follow)
+{
+    static const uint8_t all[CELL_COUNT] = {
+        [1] = SIDE_LEFT, [FRONT] = SIDE_LEFT, [3] = SIDE_LEFT, [4] = SIDE_RIGHT, [5] = SIDE_LEFT, [6] = SIDE_LEFT,
+    };
+
+    try_left(0.0);
+    begin(1.0, 0, REASON_WANDER, all);
+    TEST_ASSERT_EQUAL_UINT32(6, history.lesson_count);
+    TEST_ASSERT_EQUAL_INT32(0, history.by_hand[1]);
+    TEST_ASSERT_EQUAL_INT32(0, history.by_hand[3]);
+    TEST_ASSERT_EQUAL_INT32(0, history.by_hand[4]);
+    TEST_ASSERT_EQUAL_INT32(1, history.by_hand[FRONT]);   /* ahead, it has no side */
+    TEST_ASSERT_EQUAL_INT32(1, history.by_hand[5]);
+    TEST_ASSERT_EQUAL_INT32(1, history.by_hand[6]);       /* the wrong one */
+}
+
 TEST(the_use_of_a_remembered_turn_is_counted_until_it_changes)
 {
     history_begin(&history, LEARNED);
