@@ -109,7 +109,7 @@ class FleetPage {
     this.picture.draw(at);
     if (this.opened >= 0) this.one.draw(at);
     if (document.activeElement !== scrub || this.playing) scrub.value = `${at}`;
-    const time = minutes(at * fleet.sample_s);
+    const time = minutes(at * fleet.sample_s, robotWords().point);
     if (byId("clock").textContent !== time) {
       scrub.setAttribute("aria-valuetext", time);
       setText(byId("clock"), time);
@@ -148,7 +148,7 @@ class FleetPage {
       { name: say("eaten"), counts: data.meals, colour: robots[2] },
     ].map((line) => ({ ...line, ticks, dash: [], end: sample }));
     const most = Math.ceil(Math.max(1, ...data.known, ...data.meals));
-    drawChart(this.chart, lines, { last, most, time: minutes(last * fleet.sample_s) });
+    drawChart(this.chart, lines, { last, most, time: minutes(last * fleet.sample_s, robotWords().point) });
   }
 }
 
