@@ -2,6 +2,7 @@
 
 import argparse
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -92,7 +93,8 @@ def _check(arguments: argparse.Namespace) -> None:
     for word in arguments.what:
         if word not in PROFILES:
             raise UsageError(f"{word!r} is neither a profile nor the folder of a study; {meant(word, PROFILES)}")
-    body_kind(arguments.body)
+    if find_spec("_cffi_backend"):  # the plain python3 that judges a command line cannot call C
+        body_kind(arguments.body)
     if len(arguments.change) > 1:
         raise UsageError("profiles are compared with one --change: several go into a study, as a file of changes")
 

@@ -1,9 +1,13 @@
 """`tools/octet compare`, of studies and of profiles, and its exit code; plots of a study."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 from PIL import Image
 
+from host_sim.base.paths import ROOT
 from host_sim.cli.main import main
 from host_sim.lab.study.heiserman import CLASSES, scores
 from host_sim.lab.study.plots import draw_plots
@@ -19,6 +23,14 @@ def test_profiles_are_compared_at_once(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "never five: 1 seed of 1 environment each"
     assert [line.split()[0] for line in lines[2:4]] == ["never", "five"]
+
+
+def test_a_python_without_packages_judges_a_command_line_with_a_body():
+    code = 'from host_sim.__main__ import judge; print(*judge(["compare", "article", "--body", "kit"]))'
+
+    judged = subprocess.run([sys.executable, "-S", "-c", code], capture_output=True, text=True, check=False, cwd=ROOT)
+
+    assert (judged.returncode, judged.stderr) == (0, "")
 
 
 @pytest.mark.parametrize(("word", "bound", "code"), [("least", 0, 0), ("most", -1, 1)])
