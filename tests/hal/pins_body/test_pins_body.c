@@ -119,7 +119,7 @@ static int told_by_a_press_within(unsigned ticks)
     for (unsigned i = 0; i < ticks && kind == INPUT_SENSES; i++)
         kind = hal_receive(hal, &in);
     TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, kind);
-    return in.command.opcode;
+    return (int)in.command.opcode;
 }
 
 TEST(the_button_starts_with_a_seed_of_its_own)
