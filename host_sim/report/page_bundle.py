@@ -5,6 +5,8 @@ So that a template can be opened as it is:
 - `<script type="module" src="X"></script>` becomes that module, after all modules that it imports, directly or not,
   each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
   declaration. A module in a folder of `web/` is known by its path from there, `folder/y.js`.
+
+Comments that have lines of their own are left out, a quarter of a page.
 """
 
 import posixpath
@@ -18,6 +20,7 @@ _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
 _SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')
 _WORKER = re.compile(r'(<script type="text/plain" id="[\w-]+" data-module="([\w./-]+)">)</script>')
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "(\.\.?/[\w./-]+)";$', re.MULTILINE)
+_COMMENT = re.compile(r"^[ \t]*(?:/\*(?:(?!\*/).)*\*/|//[^\n]*)\n", re.MULTILINE | re.DOTALL)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function\*?|const|let|class) (\w+))", re.MULTILINE)
 
 
@@ -65,4 +68,4 @@ def _place(name: str, needed: str) -> str:
 
 
 def _read(name: str) -> str:
-    return (WEB / name).read_text(encoding="utf-8")
+    return _COMMENT.sub("", (WEB / name).read_text(encoding="utf-8"))

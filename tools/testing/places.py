@@ -18,7 +18,7 @@ PROVE: Mapping[str, tuple[str, ...]] = {
     "endurance": ("tests/runs/endurance",),
     "studies": ("tests/lab/study",),
     "web": ("tests/web", "tests/report/test_laboratory.py"),
-    "browsers": ("tests/web/test_browsers.py",),
+    "browsers": ("tests/web/lab/test_school_screens.py", "tests/web/test_browsers.py"),
     "exhaustive": ("tests/firmware/test_every_case.py", "tests/talk/test_every_answer.py"),
     "formats": ("tests/lab/export",),
     "wheels": ("tests/wheel",),

@@ -182,7 +182,7 @@ def _few_robots(browser: Browser, folder: Path) -> Page:
     write_octet_page(folder / "octet.html")
     page = _open(browser, (folder / "octet.html").as_uri())
     page.fill("#robot-count", str(_ROBOTS))
-    page.click("text=New run")
+    page.click("#new-run button")
     _wait_for(page, "octet.lane.data && octet.simulator.running === undefined && octet.simulator.queued.size === 0")
     return page
 

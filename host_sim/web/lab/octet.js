@@ -44,6 +44,7 @@ class LabPage extends Laboratory {
     this.editor = undefined;
     /** Settled when a recorded run that the page begins with, and its copy, are simulated to their ends. */
     this.repeated = begin ? this.repeat(begin) : Promise.resolve();
+    this.movesFirst = !begin && !location.hash && !matchMedia("(prefers-reduced-motion: reduce)").matches;
   }
 
   /**
@@ -72,6 +73,8 @@ class LabPage extends Laboratory {
     const { scene } = this;
     this.resize();
     if (!scene) return;
+    if (this.movesFirst) this.setPlaying(true);
+    this.movesFirst = false;
     this.picker ??= new RobotPicker(scene, (node) => this.pick(node));
     this.picker.scene = scene;
     this.editor ??= new LabEditor(this, scene);

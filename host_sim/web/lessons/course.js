@@ -33,15 +33,47 @@ export class Course {
   /** @param {Lab} lab */
   constructor(lab) {
     this.lab = lab;
+    /**
+     * Places of the goals that are reached, and of the steps that are done, by lesson; they outlive the page.
+     * @type {Record<string, {goals: number[], steps: number[]}>}
+     */
+    this.progress = progressIn(kept("lessons"));
     this.plan = PLANS.find(({ id }) => `#${id}` === location.hash) ?? PLANS.find(({ id }) => id === kept("lesson")) ?? PLANS[0];
-    /** Places of the goals that are reached. @type {Set<number>} */
-    this.reached = new Set();
     this.begun = false;
     this.sheet = new Worksheet();
     this.view = new LessonView(this);
     inEachLanguage(() => this.renew());
     addEventListener("beforeprint", () => this.onPrint());
     if (`#${this.plan.id}` === location.hash) byId("tab-lessons").click();
+  }
+
+  /** Places of the goals that are reached. */
+  get reached() {
+    return new Set(this.progress[this.plan.id]?.goals);
+  }
+
+  /** Places of the steps that are done. */
+  get done() {
+    return new Set(this.progress[this.plan.id]?.steps);
+  }
+
+  get next() {
+    return PLANS[PLANS.indexOf(this.plan) + 1];
+  }
+
+  /**
+   * @param {Iterable<number>} goals
+   * @param {Iterable<number>} steps
+   */
+  note(goals, steps) {
+    this.progress[this.plan.id] = { goals: [...goals], steps: [...steps] };
+    keep("lessons", JSON.stringify(this.progress));
+  }
+
+  /** @param {number} step - Is done. */
+  tick(step) {
+    this.note(this.reached, this.done.add(step));
+    this.show();
   }
 
   get texts() {
@@ -52,7 +84,6 @@ export class Course {
   choose(id) {
     this.plan = PLANS.find((plan) => plan.id === id) ?? this.plan;
     keep("lesson", id);
-    this.reached.clear();
     this.begun = false;
     this.renew();
     byId("lesson").focus();
@@ -66,7 +97,8 @@ export class Course {
   /** Sets up the runs of the lesson. */
   begin() {
     const [first, ...others] = this.plan.begin();
-    this.reached.clear();
+    this.note([], []);
+    this.view.go(0);
     this.begun = true;
     this.lab.begin(first);
     this.lab.restartTalk();
@@ -83,9 +115,9 @@ export class Course {
     const { lanes, tick } = this.lab;
     const runs = lanes.flatMap((lane) => (lane.data ? [{ lane, data: lane.data }] : []));
     if (runs.length < lanes.length) return;
-    this.plan.goals.forEach((isReached, place) => {
-      if (!this.reached.has(place) && isReached(runs, tick, this.lab.talk)) this.reached.add(place);
-    });
+    const { reached } = this;
+    const now = this.plan.goals.flatMap((isReached, place) => (reached.has(place) || !isReached(runs, tick, this.lab.talk) ? [] : [place]));
+    if (now.length) this.note([...reached, ...now], this.done);
   }
 
   /** @param {boolean} notes - Whether to print those for teachers, and not the worksheet. */
@@ -101,5 +133,22 @@ export class Course {
     if (byId("panel-lessons").hidden || !this.sheet.isEmpty) return;
     this.sheet.fill(this.plan, this.texts);
     this.sheet.element.lang = languageCode();
+  }
+}
+
+/**
+ * What was kept of the lessons; nothing if that is no such text.
+ * @param {string} text
+ * @returns {Record<string, {goals: number[], steps: number[]}>}
+ */
+function progressIn(text) {
+  try {
+    const read = JSON.parse(text || "{}");
+    return Object.fromEntries(PLANS.flatMap(({ id }) => {
+      const { goals, steps } = read[id] ?? {};
+      return Array.isArray(goals) && Array.isArray(steps) ? [[id, { goals, steps }]] : [];
+    }));
+  } catch {
+    return {};
   }
 }

@@ -2,7 +2,8 @@
 /* A lesson in the page: its question, its steps, its goals and what it needs. */
 
 import { byId, setText } from "../core/elements.js";
-import { buttonOf, choiceOf, glossaryOf, listOf, made } from "../core/building.js";
+import { buttonOf, choiceOf, glossaryOf, made } from "../core/building.js";
+import { filled } from "../core/phrases.js";
 import { PLANS } from "./plans.js";
 import { toolOf } from "./tools.js";
 import { notesOf } from "./worksheet.js";
@@ -23,19 +24,22 @@ export class LessonView {
     this.begin = buttonOf(texts.words.start, () => course.begin());
     this.begin.className = "main";
     this.begin.id = "begin-lesson";
+    this.step = made("div", [], { id: "step", role: "group" });
+    /** The place of the step that is shown, and what is written of it. */
+    this.place = this.firstOpen;
+    this.written = "";
     byId("panel-lessons").replaceChildren(...this.parts());
   }
 
   parts() {
     const { texts, plan } = this.course;
     const { words, lessons } = texts;
-    const { question, steps } = lessons[plan.id];
+    const { question } = lessons[plan.id];
     const heading = (/** @type {string} */ text) => made("h2", [text]);
     return [
-      this.choices(), made("p", [question], { class: "question" }), this.begin,
+      this.choices(), made("p", [question], { class: "question" }), this.step,
       heading(words.goals), made("ul", this.marks.map(({ item }) => item), { id: "goals" }), this.news,
       ...(this.tool ? [heading(words.tools), this.tool.element] : []),
-      heading(words.steps), made("div", [listOf("ol", steps)], { class: "steps" }),
       this.prints(), ...this.details(),
     ];
   }
@@ -48,7 +52,7 @@ export class LessonView {
     const lesson = choiceOf(words.lesson, titles, (id) => course.choose(id));
     lesson.select.value = course.plan.id;
     lesson.select.id = "lesson";
-    return made("div", [lesson.label], { class: "choices" });
+    return made("div", [lesson.label, this.begin], { class: "choices" });
   }
 
   prints() {
@@ -68,7 +72,60 @@ export class LessonView {
     ];
   }
 
+  get steps() {
+    return this.course.texts.lessons[this.course.plan.id].steps;
+  }
+
+  /** The first step that is not done, or the last one. */
+  get firstOpen() {
+    const open = this.steps.findIndex((_, place) => !this.course.done.has(place));
+    return open < 0 ? this.steps.length - 1 : open;
+  }
+
+  /** @param {number} place - Of the step to show. */
+  go(place) {
+    this.place = place;
+    this.showStep();
+  }
+
+  showStep() {
+    const { course, place, steps } = this;
+    const { done, next, texts: { words } } = course;
+    const key = JSON.stringify([place, ...done]);
+    if (key === this.written) return;
+    this.written = key;
+    const said = filled(words.stepOf, { step: place + 1, all: steps.length });
+    const marks = steps.map((_, i) => {
+      const mark = buttonOf(done.has(i) ? `${i + 1} ✓` : `${i + 1}`, () => this.go(i));
+      mark.classList.toggle("done", done.has(i));
+      mark.setAttribute("aria-label", `${filled(words.stepOf, { step: i + 1, all: steps.length })}${done.has(i) ? `, ${words.ticked}` : ""}`);
+      if (i === place) mark.setAttribute("aria-current", "step");
+      return mark;
+    });
+    const isLast = done.size === steps.length;
+    const on = isLast ? next && buttonOf(words.nextLesson, () => course.choose(next.id)) : buttonOf(this.doneWords, () => this.tick());
+    if (on) Object.assign(on, { id: "step-done", className: "main" });
+    this.step.setAttribute("aria-label", said);
+    this.step.replaceChildren(
+      made("div", [made("b", [said]), ...marks], { class: "head" }), made("p", [steps[place]]),
+      ...(isLast ? [made("p", [words.allSteps])] : []), ...(on ? [on] : []),
+    );
+  }
+
+  get doneWords() {
+    const { words } = this.course.texts;
+    return this.place < this.steps.length - 1 ? words.stepDone : words.lastDone;
+  }
+
+  /** The step is done, and the next one that is not comes. */
+  tick() {
+    this.course.tick(this.place);
+    this.go(this.firstOpen);
+    document.getElementById("step-done")?.focus();
+  }
+
   show() {
+    this.showStep();
     const { reached, texts, begun } = this.course;
     const { words } = texts;
     this.tool?.show();

@@ -1,9 +1,11 @@
 // @ts-check
 /* The strip above the scrubber: a mark for every event that one can jump to. */
 
-import { contextOf } from "../core/elements.js";
+import { made } from "../core/building.js";
+import { byId, contextOf } from "../core/elements.js";
+import { inEachLanguage, nameIn } from "../core/language.js";
 import { REASON } from "../generated.js";
-import { paletteOf } from "../core/palette.js";
+import { paletteOf, REASON_KEYS } from "../core/palette.js";
 
 /**
  * @typedef {import("../core/run_data.js").RobotData} RobotData
@@ -23,6 +25,13 @@ const MARKS = {
   change: [REASON.STOP, 1],
 };
 const THUMB_PX = 8;
+
+/** Says in the element marks-legend what each mark stands for, in the language of the page. */
+export function explainMarks() {
+  const items = () => Object.entries(MARKS).map(([kind, [reason]]) =>
+    made("li", [nameIn("kinds", kind)], kind === "change" ? { "data-thing": kind } : { "data-reason": REASON_KEYS[reason] }));
+  inEachLanguage(() => byId("marks-legend").replaceChildren(...items()));
+}
 
 /**
  * @param {HTMLCanvasElement} canvas

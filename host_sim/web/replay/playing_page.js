@@ -3,6 +3,7 @@
 
 import { byId, isForPage, setText, typedById } from "../core/elements.js";
 import { inEachLanguage, say } from "../core/language.js";
+import { explainMarks } from "../panel/timeline.js";
 
 /**
  * A class that extends it says which ticks there are (`last`, `tickMs`), shows one (`show`), draws (`draw`, `drawMarks`),
@@ -33,6 +34,7 @@ export class PlayingPage {
     byId("after").addEventListener("click", () => this.jump(1));
     byId("what-if").addEventListener("click", () => this.whatIf());
     document.addEventListener("keydown", (event) => this.onKey(event));
+    explainMarks();
     inEachLanguage(() => {
       this.showPlaying();
       this.stale = true;

@@ -19,7 +19,7 @@ def file(tmp_path_factory) -> Path:
 
 @pytest.fixture
 def page(file: Path, open_page: Callable[..., Page]) -> Page:
-    page = open_page(file.as_uri(), ready=READY)
+    page = open_page(file.as_uri(), ready=READY, reduced_motion="reduce")
     wait_for(page, DONE)
     return page
 
@@ -27,7 +27,7 @@ def page(file: Path, open_page: Callable[..., Page]) -> Page:
 @pytest.fixture(scope="module")
 def shared(file: Path, browser: Browser) -> Iterator[Page]:
     """One page for all tests of a module that only look around in it, or begin anew."""
-    page = browser.new_context().new_page()
+    page = browser.new_context(reduced_motion="reduce").new_page()
     faults = Faults(file.as_uri())
     faults.listen(page)
     page.goto(file.as_uri())

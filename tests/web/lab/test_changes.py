@@ -14,7 +14,7 @@ from tests.web.support import run_in, wait_for, wait_for_text
 def page(page: Page) -> Page:
     """A run of one environment."""
     page.fill("#environments", "1")
-    page.click("text=New run")
+    page.click("#new-run button")
     wait_for(page, "octet.lane.data && octet.lane.experiment.environments === 1")
     simulated(page)
     return page
@@ -118,7 +118,7 @@ def test_a_change_that_cannot_be_made_is_told_and_dropped(page):
 
 def test_a_run_in_another_world_with_plants_and_a_broken_body_can_be_repeated_from_its_files(page, tmp_path):
     page.select_option("#world", "posts")
-    page.click("text=New run")
+    page.click("#new-run button")
     wait_for(page, "octet.lane.data")
     page.evaluate("octet.go(150)")
     page.click("#add-plant")

@@ -62,7 +62,7 @@ def test_a_memory_goes_out_and_comes_back(page, tmp_path):
 def test_a_memory_is_saved_with_its_confidence(page, tmp_path):
     page.select_option("#behaviour", "adaptive")
     page.fill("#environments", "1")
-    page.click("text=New run")
+    page.click("#new-run button")
     wait_for(page, "octet.lane.data")
     simulated(page)
     page.evaluate("octet.go(octet.last)")

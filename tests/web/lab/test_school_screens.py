@@ -1,0 +1,112 @@
+"""octet.html on a school's screens: what matters is in view, nothing is cut, and no card is half empty."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Browser, Page, Playwright
+
+from tests.web.browsers import BROWSERS, launch
+from tests.web.lab.support import READY, go, settle
+from tests.web.looks import out_of_view, resize
+from tests.web.support import next_frame
+
+SIZES = [(1366, 657), (1280, 720), (1024, 768)]
+LESSONS = ("watch", "program", "boredom", "plant", "sensor", "share", "talk")
+IN_VIEW = ("#floors", "#scrub", "#play", "#doing", "#step", "#cells", "#memory-title", "#begin-lesson")
+
+# Of all that has no scroll bar: what is wider or higher than its element, and what lies on its neighbour.
+FAULTS = """() => {
+  const name = (e) => e.id || `${e.tagName} ${e.className} ${e.textContent.slice(0, 30)}`;
+  const isWhole = (e) => e.scrollWidth <= e.clientWidth + 1 && e.scrollHeight <= e.clientHeight + 3;
+  const scrolls = (e) => getComputedStyle(e).overflowY === "auto" || e.matches("input, select, textarea");
+  const cut = [...document.querySelectorAll("main *")].filter((e) => e.checkVisibility() && e.clientWidth
+    && !e.closest("svg, canvas, table, .editor, #listing") && !e.querySelector("[role=tabpanel]")
+    && !scrolls(e) && !isWhole(e));
+  const neighbours = [...document.querySelectorAll("main > section, #desk > *, #stage > *, #step > *, .cell > span")]
+    .filter((e) => e.checkVisibility() && e.clientHeight).map((e) => [e, e.getBoundingClientRect()]);
+  const over = neighbours.flatMap(([a, p], i) => neighbours.slice(i + 1)
+    .filter(([b, q]) => a.parentElement === b.parentElement
+      && Math.min(p.right, q.right) - Math.max(p.left, q.left) > 1
+      && Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top) > 1)
+    .map(([b]) => `${name(a)} on ${name(b)}`));
+  const size = (e) => `${e.scrollWidth}/${e.clientWidth} ${e.scrollHeight}/${e.clientHeight}`;
+  return [...cut.map((e) => `cut: ${name(e)} ${size(e)}`), ...over];
+}"""
+
+# The cards whose contents leave more than a third of them free, below or beside.
+EMPTY = """() => [...document.querySelectorAll("main > section:not(#desk)")].flatMap((card) => {
+  const box = card.getBoundingClientRect();
+  const seen = [...card.querySelectorAll("*")].filter((e) => e.checkVisibility());
+  const inside = seen.map((e) => e.getBoundingClientRect());
+  const below = (box.bottom - Math.max(...inside.map((it) => it.bottom))) / box.height;
+  const beside = (box.right - Math.max(...inside.map((it) => it.right))) / box.width;
+  return Math.max(below, beside) > 0.34 ? [`${card.id}: ${Math.max(below, beside).toFixed(2)} is empty`] : [];
+})"""
+
+
+@pytest.fixture(scope="module", params=BROWSERS)
+def browser(request: pytest.FixtureRequest, playwright: Playwright) -> Iterator[Browser]:
+    """In place of Chromium alone."""
+    with launch(playwright, request.param) as browser:
+        yield browser
+
+
+@pytest.fixture(scope="module")
+def page(file: Path, open_shared: Callable[..., Page]) -> Page:
+    page = open_shared(file.as_uri(), ready=READY, locale="de", reduced_motion="reduce")
+    settle(page)
+    return page
+
+
+def faults(page: Page) -> list[str]:
+    next_frame(page)
+    return [*page.evaluate(FAULTS), *page.evaluate(EMPTY)]
+
+
+def test_the_step_of_every_lesson_is_in_view_with_arena_and_memory(page):
+    page.click("#tab-lessons")
+    for lesson in LESSONS:
+        page.select_option("#lesson", lesson)
+        page.click("#begin-lesson")
+        settle(page)
+        go(page, 600)
+        for size in SIZES:
+            resize(page, size)
+            page.evaluate("scrollTo(0, 0)")
+            for language in ("en", "de"):
+                page.select_option("#language", language)
+                for step in range(page.locator("#step .head button").count()):
+                    page.click(f"#step .head button >> nth={step}")
+                    assert out_of_view(page, IN_VIEW, size) == [], (lesson, size, language, step)
+                    assert page.evaluate("document.querySelector('#panel-lessons').scrollTop") == 0
+                assert faults(page) == [], (lesson, size, language)
+
+
+@pytest.mark.parametrize("tab", ["run", "parameters", "listing", "program", "curves", "files", "talk"])
+def test_nothing_is_cut_and_no_card_is_half_empty(tab, page):
+    page.evaluate("octet.begin({ ...octet.lane.experiment, changes: [] })")
+    settle(page)
+    page.click(f"#tab-{tab}")
+    for lanes in (1, 2):
+        if lanes == 2:
+            page.click("#what-if")
+            settle(page)
+        go(page, 3000)
+        for size in SIZES:
+            resize(page, size)
+            assert out_of_view(page, ("#floors", "#play", "#doing", "#what-if", "#tabs", "#cells"), size) == [], size
+            assert faults(page) == [], (lanes, size)
+
+
+def test_what_is_cut_what_overlaps_and_what_is_empty_is_found(page):
+    page.evaluate(
+        "document.body.insertAdjacentHTML('beforeend', '<style id=planted>#play { width: 20px; }"
+        "#tabs { margin-top: -20px; } #reference { padding-bottom: 400px; }</style>')"
+    )
+    found = "\n".join(faults(page))
+    page.evaluate("document.querySelector('#planted').remove()")
+
+    assert "cut: play" in found
+    assert "world-tools on tabs" in found
+    assert "reference: 0." in found
