@@ -98,8 +98,9 @@ class RunConfig:
     )
     body: str = option(
         "ideal",
-        "the robots' bodies: ideal; kit, with motors and sensors as they come off the bench; pins, a kit that an "
-        "emulated board drives by itself through its pins; or your own file, such as my_body.toml",
+        "the robots' bodies: ideal; kit, with motors and sensors as they come off the bench and settings that suit "
+        "them; pins, a kit that an emulated board drives by itself through its pins; or your own file, such as "
+        "my_body.toml",
         metavar="BODY",
     )
     limit_s: float = option(
