@@ -24,7 +24,6 @@ from host_sim.recording.resimulation import resimulate
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path, write_world
-from host_sim.report.picture import write_picture
 from host_sim.report.replay_page import write_page
 from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import Memory, make
@@ -130,6 +129,13 @@ def ticks_of(trajectory: Trajectory, robot: int = 0) -> "dict[str, NDArray[Any]]
     number = np.arange(trajectory.first_tick, trajectory.ticks)
     rows = {name: np.array(track.column(name)) for name in ROW}
     return {"tick_number": number, "x": x.copy(), "y": y.copy(), "heading": heading.copy(), **rows}
+
+
+def write_picture(path: Path, trajectory: Trajectory) -> None:
+    """As `host_sim.report.picture.write_picture`, which needs Pillow."""
+    from host_sim.report import picture  # noqa: PLC0415 - nothing else here needs it
+
+    picture.write_picture(path, trajectory)
 
 
 def log_table(log: Path | str) -> Any:

@@ -18,6 +18,7 @@ def missing(name: str, stage: str) -> str:
         stage: The stage of tools/setup that installs it in a checkout.
     """
     needed = name.partition(".")[0]
+    needed = {"PIL": "pillow"}.get(needed, needed)
     # By its own name: a registry may have something else that is called octet.
     how = f"python -m pip install {needed}" if INSTALLED else f"tools/setup {stage}"
     return f"this needs {needed}, which is not installed: run {how}"

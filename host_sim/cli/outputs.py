@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from host_sim.base.errors import OctetError
+from host_sim.base.extra_library import missing
 from host_sim.base.paths import as_called
 from host_sim.base.regular_file import read_bytes
 from host_sim.base.system import signals_held
@@ -95,14 +96,19 @@ class Outputs:
 
     def _draw(self) -> None:
         # Loaded late: a run begins the sooner.
-        from host_sim.report.picture import write_picture
         from host_sim.report.replay_page import write_page
 
         trajectory = self.recorder.trajectory
         trajectory.news = news_of(self.simulation.record)
         if trajectory.ticks:
-            write_picture(self.options.out / PICTURE, trajectory)
             write_page(self.options.out / PAGE, trajectory, self.simulation.record.title)
+            try:
+                from host_sim.report.picture import write_picture
+
+                write_picture(self.options.out / PICTURE, trajectory)
+            except ModuleNotFoundError as error:  # what draws is an extra of a wheel
+                if self.options.talks:
+                    print(f"left out  {PICTURE}: {missing(error.name or '', 'run')}")
 
 
 def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:

@@ -7,6 +7,7 @@ import shlex
 import shutil
 import signal
 import subprocess
+import sys
 import sysconfig
 import urllib.request
 from pathlib import Path
@@ -50,7 +51,9 @@ USES = {
 """A use of each command; `watch` has a test of its own."""
 
 
-NOT_NEEDED = "numpy unicorn gymnasium pettingzoo pyarrow matplotlib distributed asammdf mcap ifaddr segno pymunk"
+NOT_NEEDED = (
+    "aiohttp PIL numpy unicorn gymnasium pettingzoo pyarrow matplotlib distributed asammdf mcap ifaddr segno pymunk"
+)
 """Libraries that only some commands load."""
 
 
@@ -110,8 +113,13 @@ def test_a_run_needs_neither_numpy_nor_an_extra(environment, tmp_path):
         command = [environment / "bin/python", "-c", program, NOT_NEEDED, *words]
         return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
 
-    assert call(*RUN.split()).returncode == 0
-    assert call("picture", "out/run.log", "--png", "a.png").returncode == 0
+    ran = call(*RUN.split()[:-1])
+    assert (ran.returncode, ran.stderr) == (0, "")
+    assert (
+        "left out  arena.png: this needs pillow, which is not installed: run python -m pip install pillow"
+        in ran.stdout
+    )
+    assert call("page", "octet.html").returncode == 0
     wanted = call("run", "--robots", "40", "--quiet")
     assert (wanted.returncode, wanted.stderr) == (
         1,
@@ -134,6 +142,34 @@ def test_a_home_that_cannot_be_written_stops_no_run(octet):
     nowhere = {**os.environ, "HOME": "/dev/null", "XDG_STATE_HOME": "/dev/null"}
 
     assert octet(*RUN.split(), env=nowhere).stderr == ""
+
+
+def test_two_versions_live_beside_each_other(wheel, tmp_path):
+    def version(name: str) -> str:
+        variables = {
+            **os.environ,
+            "PYTHONPATH": os.pathsep.join((str(tmp_path / name), sysconfig.get_path("purelib"))),
+        }
+        command = [sys.executable, "-m", "host_sim", "--version"]
+        return subprocess.check_output(command, cwd=tmp_path, env=variables, text=True)
+
+    for name in ("new", "old"):
+        shutil.unpack_archive(wheel, tmp_path / name, "zip")
+    about = tmp_path / "old/host_sim/tree/pyproject.toml"
+    about.write_text(about.read_text().replace('version = "1.0"', 'version = "0.9"'))
+
+    assert "1.0" in version("new")
+    assert "0.9" in version("old")
+
+
+def test_pip_says_that_a_wheel_is_for_another_system(wheel, tmp_path):
+    other = shutil.copy(wheel, tmp_path / "octet-1.0-py3-none-win_amd64.whl")
+    command = [sys.executable, "-m", "pip", "install", "--no-index", "--no-deps", "--target", tmp_path / "in", other]
+
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+
+    assert done.returncode == 1
+    assert "is not a supported wheel on this platform" in done.stderr
 
 
 def test_the_commands_of_the_page_do_what_it_says(wheel, tmp_path):
