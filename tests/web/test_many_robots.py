@@ -100,7 +100,7 @@ def test_a_click_selects_a_robot(page):
 def test_the_panel_shows_the_selected_robot(page, run):
     run.send(lessons=[{"node": 2, "tick": 5, "cell": 1, "side": 1, "by_hand": 0}])
     wait_for_text(page, "#memory-title", "Memory of robot 1: eight bytes")
-    assert page.inner_text("#lessons") == ""
+    assert page.inner_text("#lessons") == "Nothing yet."
 
     page.keyboard.press("2")
 
@@ -111,7 +111,7 @@ def test_the_panel_shows_the_selected_robot(page, run):
     page.keyboard.press("]")
     wait_for_text(page, "#doing", "I am standing still.")
     wait_for_text(page, "#cells li:nth-child(5)", "right")
-    assert page.inner_text("#lessons") == ""
+    assert page.inner_text("#lessons") == "Nothing yet."
 
 
 def test_a_dragged_robot_is_lifted_and_put_by_its_number(page, run):
