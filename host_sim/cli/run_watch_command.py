@@ -5,6 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from host_sim.backends.images import BOARDS
+from host_sim.base.system import HAS_ROBOT_PROCESSES
 from host_sim.cli.parsing import add_command, parameter_table
 from host_sim.cli.run_options import RunOptions, add_options, run_options
 
@@ -99,6 +100,7 @@ def _watched(options: RunOptions) -> RunOptions:
     """
     external = options.robot == "external"
     speed = 1.0 if external or options.stays or options.real_time else 0.0
-    auto = "none" if options.robot == "spawn" and options.robots > _PROCESSES_MAX else "fd"
+    as_processes = HAS_ROBOT_PROCESSES and options.robots <= _PROCESSES_MAX
+    auto = "none" if options.robot == "spawn" and not as_processes else "fd"
     bus = auto if options.bus == "auto" else options.bus
     return replace(options, bus=bus, speed=speed, real_time=external)

@@ -39,7 +39,6 @@ def add(commands: "Subparsers") -> None:
 
 
 def _world(arguments: argparse.Namespace) -> int:
-    from host_sim.report.drawing import write_world_picture
     from host_sim.world.worlds import world_of
 
     world = world_of(arguments.world)
@@ -49,6 +48,8 @@ def _world(arguments: argparse.Namespace) -> int:
         f"{len(layout.food)} pieces of food, all of which can be reached"
     )
     if arguments.png is not None:
+        from host_sim.report.drawing import write_world_picture
+
         write_world_picture(arguments.png, layout, params, arguments.width)
         print(f"wrote     {arguments.png}")
     return 0

@@ -11,6 +11,8 @@ import pytest
 
 from host_sim.base import c_interface as module
 from host_sim.base.c_interface import c_interface
+from host_sim.cli import run_watch_command
+from host_sim.cli.run_options import RunOptions
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOM = "host_sim/base/system.py"
@@ -132,3 +134,10 @@ def test_where_nothing_can_be_kept_all_goes_on(folder):
     folder.touch()  # no folder can be made here
 
     assert c_interface(DECLARATIONS).sizeof("struct pair") == 8
+
+
+@pytest.mark.parametrize(("has_processes", "bus"), [(True, "fd"), (False, "none")])
+def test_a_watched_robot_is_where_this_system_can_have_it(monkeypatch, has_processes, bus):
+    monkeypatch.setattr(run_watch_command, "HAS_ROBOT_PROCESSES", has_processes)
+
+    assert run_watch_command._watched(RunOptions()).bus == bus

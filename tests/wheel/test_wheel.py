@@ -120,6 +120,7 @@ def test_a_run_needs_neither_numpy_nor_an_extra(environment, tmp_path):
         in ran.stdout
     )
     assert call("page", "octet.html").returncode == 0
+    assert call("world", "corridors").returncode == 0
     wanted = call("run", "--robots", "40", "--quiet")
     assert (wanted.returncode, wanted.stderr) == (
         1,
