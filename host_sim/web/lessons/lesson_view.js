@@ -37,7 +37,7 @@ export class LessonView {
     const { question } = lessons[plan.id];
     const heading = (/** @type {string} */ text) => made("h2", [text]);
     return [
-      this.choices(), made("p", [question], { class: "question" }), this.step,
+      this.choices(), this.step, made("p", [question], { class: "question" }),
       heading(words.goals), made("ul", this.marks.map(({ item }) => item), { id: "goals" }), this.news,
       ...(this.tool ? [heading(words.tools), this.tool.element] : []),
       this.prints(), ...this.details(),
