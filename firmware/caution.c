@@ -8,7 +8,7 @@ enum {
     BACK_OFF_MM = 20,
     AWAY_DEG = 40,         /* four remembered turns, or one trial */
     ASIDE_DEG = 24,        /* to the left, where the front-right sensor sees what the front one should, */
-    ASIDE_EVERY_MM = 60,   /* as far as it reaches */
+    ASIDE_EVERY_MM = 60,   /* at most: as far as it reaches */
     FRONT_RIGHT = 2,       /* of feel */
     FRONT = 4,
     FRONT_LEFT = 8
@@ -40,7 +40,7 @@ void caution_see(struct caution *caution, uint8_t feel, bool blind)
 }
 
 /* What is done before the brain is asked: a step back, or a turn aside and back again. False: nothing. */
-static bool acts(struct caution *caution, const struct senses *senses, struct action *action)
+static bool acts(struct caution *caution, const struct config *config, const struct senses *senses, struct action *action)
 {
     enum doing done = (enum doing)caution->doing;
 
@@ -54,7 +54,7 @@ static bool acts(struct caution *caution, const struct senses *senses, struct ac
         action->forward_mm = -BACK_OFF_MM;
     } else if (done == LOOKING_ASIDE) {
         action->turn_deg = ASIDE_DEG;
-    } else if (caution->blind_mm >= ASIDE_EVERY_MM && pattern_of(senses->feel) == 0) {
+    } else if (caution->blind_mm + config->value[STEP_MM] > ASIDE_EVERY_MM && pattern_of(senses->feel) == 0) {
         caution->doing = LOOKING_ASIDE;
         caution->blind_mm = 0;
         action->turn_deg = -ASIDE_DEG;
@@ -84,7 +84,7 @@ struct action caution_next(struct caution *caution, struct brain *brain, const s
 
     if (caution->ahead)
         senses->feel |= FRONT;
-    if (!acts(caution, senses, &action))
+    if (!acts(caution, config, senses, &action))
         action = brain_next(brain, config, senses);
     note(caution, &action, senses->feel);
     return action;

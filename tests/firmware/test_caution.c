@@ -106,7 +106,7 @@ static void be_blind(void)
     go_until(REASON_WANDER, FRONT);
 }
 
-TEST(a_robot_that_does_not_believe_its_front_sensor_looks_aside_every_60_mm)
+static int way_until_it_looks_aside(void)
 {
     int way = 0;
 
@@ -116,7 +116,18 @@ TEST(a_robot_that_does_not_believe_its_front_sensor_looks_aside_every_60_mm)
             way += out.drive.left_mm_s / 5;
         obey(FRONT);
     }
-    TEST_ASSERT_INT_WITHIN(20, 600, way);
+    return way;
+}
+
+TEST(with_longer_steps_it_looks_aside_earlier_and_not_later)
+{
+    command(OPCODE_SET, STEP_MM, 24);
+    TEST_ASSERT_INT_WITHIN(20, 480, way_until_it_looks_aside());
+}
+
+TEST(a_robot_that_does_not_believe_its_front_sensor_looks_aside_every_60_mm)
+{
+    TEST_ASSERT_INT_WITHIN(20, 600, way_until_it_looks_aside());
     TEST_ASSERT_LESS_THAN_INT16(0, out.drive.left_mm_s);    /* to the left, */
     TEST_ASSERT_GREATER_THAN_INT16(0, out.drive.right_mm_s);
     while (out.drive.left_mm_s <= 0)
