@@ -40,7 +40,7 @@ void caution_see(struct caution *caution, uint8_t feel, bool blind)
 }
 
 /* What is done before the brain is asked: a step back, or a turn aside and back again. False: nothing. */
-static bool acts(struct caution *caution, const struct config *config, const struct senses *senses, struct action *action)
+static bool acts(struct caution *caution, const struct senses *senses, struct action *action)
 {
     enum doing done = (enum doing)caution->doing;
 
@@ -54,7 +54,7 @@ static bool acts(struct caution *caution, const struct config *config, const str
         action->forward_mm = -BACK_OFF_MM;
     } else if (done == LOOKING_ASIDE) {
         action->turn_deg = ASIDE_DEG;
-    } else if (caution->blind_mm + config->value[STEP_MM] > ASIDE_EVERY_MM && pattern_of(senses->feel) == 0) {
+    } else if (caution->blind_mm >= ASIDE_EVERY_MM && pattern_of(senses->feel) == 0) {
         caution->doing = LOOKING_ASIDE;
         caution->blind_mm = 0;
         action->turn_deg = -ASIDE_DEG;
@@ -62,6 +62,14 @@ static bool acts(struct caution *caution, const struct config *config, const str
         return false;
     }
     return true;
+}
+
+/* It is as far as it may be where another step would be farther. */
+static void drive_blind(struct caution *caution, int forward_mm)
+{
+    int driven = caution->blind_mm + forward_mm;
+
+    caution->blind_mm = (uint8_t)(driven + forward_mm > ASIDE_EVERY_MM ? ASIDE_EVERY_MM : driven);
 }
 
 static void note(struct caution *caution, const struct action *action, uint8_t feel)
@@ -74,7 +82,7 @@ static void note(struct caution *caution, const struct action *action, uint8_t f
     if (action->turn_deg != 0)
         caution->beside = feel & (action->turn_deg < 0 ? FRONT_LEFT : FRONT_RIGHT);
     if (action->forward_mm > 0)
-        caution->blind_mm = (uint16_t)(caution->blind_mm + action->forward_mm);
+        drive_blind(caution, action->forward_mm);
 }
 
 struct action caution_next(struct caution *caution, struct brain *brain, const struct config *config,
@@ -84,7 +92,7 @@ struct action caution_next(struct caution *caution, struct brain *brain, const s
 
     if (caution->ahead)
         senses->feel |= FRONT;
-    if (!acts(caution, config, senses, &action))
+    if (!acts(caution, senses, &action))
         action = brain_next(brain, config, senses);
     note(caution, &action, senses->feel);
     return action;

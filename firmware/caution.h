@@ -8,7 +8,7 @@
 struct caution {
     uint8_t doing;       /* an enum doing of caution.c */
     uint8_t beside;      /* what the sensor to which the turn under way goes showed when it began, as a bit of feel */
-    uint16_t blind_mm;   /* driven since it last looked aside */
+    uint8_t blind_mm;    /* driven since it last looked aside; ASIDE_EVERY_MM if that is far enough */
     bool ahead;          /* something is ahead that no sensor shows, */
     int8_t turned_deg;   /* and the robot has turned by so much since, right positive */
     bool pressed;        /* the bumper has not let go since the robot backed off: what it touches is not ahead */
