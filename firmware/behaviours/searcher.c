@@ -97,8 +97,10 @@ static void generalize(struct brain *brain)
 
     if (right == left)
         return;
-    cell[FRONT_RIGHT] = cell[FRONT_RIGHT | FRONT] = right ? same : mirrored;
-    cell[FRONT_LEFT] = cell[FRONT_LEFT | FRONT] = right ? mirrored : same;
+    cell[FRONT_RIGHT] = right ? same : mirrored;
+    cell[FRONT_RIGHT | FRONT] = cell[FRONT_RIGHT];
+    cell[FRONT_LEFT] = right ? mirrored : same;
+    cell[FRONT_LEFT | FRONT] = cell[FRONT_LEFT];
 }
 
 struct action searcher_next(struct brain *brain, const struct config *config, const struct senses *senses)

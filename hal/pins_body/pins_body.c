@@ -120,15 +120,25 @@ static bool is_told(struct hal *hal, struct command *command)
     return true;
 }
 
-int hal_receive(struct hal *hal, struct input *in)
+/* Orders to a robot whose wheels rest come before its next tick: that begins with them, so that none is in between. */
+static enum input_kind take_order(struct hal *hal, struct input *in)
 {
     enum input_kind kind = telemetry_receive(in);
 
     hal->asked = kind == INPUT_COMMAND;
-    if (kind != INPUT_SILENCE)
-        return (int)kind;
-    while (!pass_beat(hal))
-        continue;
+    if (hal->asked && hal->told_mm_s[0] == 0 && hal->told_mm_s[1] == 0)
+        hal->beat = BEAT_DARK;
+    return kind;
+}
+
+int hal_receive(struct hal *hal, struct input *in)
+{
+    do {
+        enum input_kind kind = take_order(hal, in);
+
+        if (kind != INPUT_SILENCE)
+            return (int)kind;
+    } while (!pass_beat(hal));
     port_alive(guard_forbids(&hal->guard));
     if (is_told(hal, &in->command))
         return INPUT_COMMAND;

@@ -52,6 +52,8 @@ enum input_kind telemetry_receive(struct input *taken)
 {
     enum input_kind kind = told.next;
 
+    if (pins.beats < told.from_beat)
+        return INPUT_SILENCE;
     told.next = INPUT_SILENCE;
     if (kind != INPUT_SILENCE)
         *taken = told.in;

@@ -18,6 +18,7 @@ extern struct fake_pins {
 extern struct fake_telemetry {
     struct input in;
     enum input_kind next;
+    unsigned from_beat;   /* when it comes */
     struct senses said;
     unsigned outputs;
     bool asked;

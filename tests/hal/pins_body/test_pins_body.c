@@ -12,6 +12,31 @@ TEST(senses_come_every_four_beats_with_the_next_tick)
     TEST_ASSERT_EQUAL_UINT8(told.said.tick, in.senses.tick);
 }
 
+/* Returns after how many beats from an order on the next senses come; it comes two beats before they would have. */
+static unsigned beats_after_an_order(void)
+{
+    unsigned beats;
+
+    (void)sense();
+    told.in = (struct input){.command = {.opcode = OPCODE_SET}};
+    told.next = INPUT_COMMAND;
+    told.from_beat = pins.beats + BEATS - 2;
+    TEST_ASSERT_EQUAL_INT(INPUT_COMMAND, hal_receive(hal, &in));
+    beats = pins.beats;
+    TEST_ASSERT_EQUAL_UINT(told.from_beat, beats);
+    (void)sense();
+    return pins.beats - beats;
+}
+
+TEST(at_rest_the_next_tick_begins_with_an_order_and_under_way_no_tick_waits_for_one)
+{
+    TEST_ASSERT_EQUAL_UINT(BEATS, beats_after_an_order());
+    drive(0, 100);
+    TEST_ASSERT_EQUAL_UINT(2, beats_after_an_order());
+    drive(100, 0);
+    TEST_ASSERT_EQUAL_UINT(2, beats_after_an_order());
+}
+
 TEST(a_wall_is_felt_and_light_of_the_room_is_not)
 {
     pins.ambient = MOST;
