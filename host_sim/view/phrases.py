@@ -59,6 +59,8 @@ def _name(state: State) -> str:
         return "lifted"
     if reason == Reason.TOWARD_FOOD and not state["beacon"]:
         return "wander"
+    if reason == Reason.REMEMBERED and state["by_hand"][state["pattern"]]:
+        return "remembered_told"
     return "look_aside" if reason == Reason.AVOID and state["left"] != state["right"] else reason.name.lower()
 
 

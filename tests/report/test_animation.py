@@ -75,6 +75,7 @@ def state(**fields: object) -> State:
         "repeat_count": 0,
         "reason": 0,
         "trial": None,
+        "by_hand": [0] * 8,
     }
     return State(**{**rest, **fields})
 
@@ -85,6 +86,7 @@ def state(**fields: object) -> State:
         ({"reason": 1}, "Nothing in my way: I drive on and look about for food."),
         ({"reason": 2, "beacon": 430}, "I see food 0.43 m ahead: I drive toward it."),
         ({"reason": 4, "pattern": 4}, "Front-left blocked: I remember that turning right helped."),
+        ({"reason": 4, "pattern": 4, "by_hand": [1] * 8}, "Front-left blocked: I was told to turn right."),
         ({"reason": 5, "pattern": 7}, "All three blocked: I do not know what helps yet, so I try turning right."),
         ({"reason": 6, "repeat_count": 10}, "10 turns in a row, and still blocked. I am bored: about face!"),
         ({"reason": 7}, "Food! I eat it."),

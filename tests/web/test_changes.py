@@ -78,6 +78,7 @@ STATES = [
     for pattern in range(8)
     for fields in (
         {"reason": reason, "pattern": pattern, **LEFT, "repeat_count": 10},
+        {"reason": reason, "pattern": pattern, **LEFT, "by_hand": [0, 0, 0, 0, 1, 1, 1, 1]},
         {"reason": reason, "pattern": pattern, **RIGHT, "beacon": 1250, "repeat_count": 3},
         {"reason": reason, "pattern": pattern, **RIGHT, "lifted": 1},
     )

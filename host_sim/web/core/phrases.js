@@ -49,10 +49,11 @@ export function decimal(value, digits, words = ENGLISH) {
 }
 
 /** @param {State} state */
-function nameOf({ lifted, reason, beacon, left, right }) {
+function nameOf({ lifted, reason, beacon, left, right, by_hand, pattern }) {
   if (lifted) return "lifted";
   if (reason === REASON.AVOID && left !== right) return "look_aside";
   if (reason === REASON.TOWARD_FOOD && !beacon) return "wander";
+  if (reason === REASON.REMEMBERED && by_hand[pattern]) return "remembered_told";
   return REASON_KEYS[reason].replaceAll("-", "_");
 }
 
