@@ -1,11 +1,12 @@
 """A fleet: up to thousands of robots without a bus, each in a world of its own or all in one."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from host_sim.base.errors import UsageError
 from host_sim.sim.fleet_film import SAMPLE_TICKS, FleetFilm
-from host_sim.sim.native_fleet import Contacts, NativeFleet
+from host_sim.sim.native_fleet import Contacts, NativeFleet, on_all_processors
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.body_kinds import body_kind
 from host_sim.world.geometry import Pose
@@ -16,6 +17,7 @@ from host_sim.world.worlds import world_of
 
 _SEED_SPAN = 2**32
 _BLOCK_TICKS = 1000
+_SHARING_MAX = 10_000  # room for who touches whom grows with the square
 
 
 @dataclass(frozen=True)
@@ -102,18 +104,17 @@ class _Run:
     def results(self, progress: Callable[[int], object]) -> Iterator[FleetResult]:
         """Takes all robots through their environments."""
         fleet = self._fleet
-        for world in range(fleet.worlds):
-            self._enter(world, 1)
         active = list(range(fleet.worlds))
+        self._enter(active)
         while active:
             self._run_block()
             progress(self._ticks + sum(fleet.ticks(index) for world in active for index in self._robots_of(world)))
-            for world in [world for world in active if fleet.is_over(world)]:
+            over = [world for world in active if fleet.is_over(world)]
+            for world in over:
                 yield from self._leave(world)
-                if self._entered[world] == self._config.environments:
-                    active.remove(world)
-                else:
-                    self._enter(world, self._entered[world] + 1)
+            last = {world for world in over if self._entered[world] == self._config.environments}
+            self._enter([world for world in over if world not in last])
+            active = [world for world in active if world not in last]
 
     def _run_block(self) -> None:
         film, fleet = self._film, self._fleet
@@ -131,13 +132,19 @@ class _Run:
     def _robots_of(self, world: int) -> Iterable[int]:
         return (world,) if self._own else range(self._fleet.robots)
 
-    def _enter(self, world: int, number: int) -> None:
-        """Begins an environment; world 0 is the only one, or the first robot's."""
-        layout = self._world.generate(self._seed(world), number) if self._own else self._shared[number - 1][0]
-        self._fleet.enter(world, layout, round(self._config.limit_s / self._world.params.tick_s))
-        self._entered[world] = number
-        if self._film:
-            self._film.enter(world, layout, self._fleet.robots)
+    def _enter(self, worlds: list[int]) -> None:
+        """Begins the next environments of some worlds; world 0 is the only one, or the first robot's."""
+        layouts = chain.from_iterable(on_all_processors(self._layouts, worlds))
+        for world, layout in zip(worlds, layouts, strict=True):
+            self._fleet.enter(world, layout, round(self._config.limit_s / self._world.params.tick_s))
+            self._entered[world] += 1
+            if self._film:
+                self._film.enter(world, layout, self._fleet.robots)
+
+    def _layouts(self, worlds: Sequence[int]) -> list[Layout]:
+        if self._shared:
+            return [self._shared[self._entered[world]][0] for world in worlds]
+        return [self._world.generate(self._seed(world), self._entered[world] + 1) for world in worlds]
 
     def _leave(self, world: int) -> Iterator[FleetResult]:
         """Ends an environment."""
@@ -167,6 +174,8 @@ def shared_world(config: RunConfig, number: int) -> tuple[Layout, SimParams]:
 
 
 def _shared_worlds(config: RunConfig) -> list[tuple[Layout, SimParams]]:
+    if config.robots > _SHARING_MAX:
+        raise UsageError(f"at most {_SHARING_MAX} robots share a world, not {config.robots}; take --worlds own")
     try:
         return [shared_world(config, number) for number in range(1, config.environments + 1)]
     except NoRoomError as error:

@@ -1,10 +1,12 @@
 """Robots by the thousand in C (`native/fleet.h`): each with its own core, without a wire."""
 
-from collections.abc import Mapping, Sequence
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from itertools import accumulate
 from math import ceil
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +36,9 @@ _NAMES = (
 )
 HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), PACKAGE / "sim" / "native" / "fleet.h")
 
+_Done = TypeVar("_Done")
 _CELL_MM, _GRID_FROM = 500.0, 8
+_SLICE = 50  # things that a thread takes at a time: few enough for all threads to be busy to the end
 
 
 class Contacts(NamedTuple):
@@ -138,11 +142,18 @@ class NativeFleet:
     def run(self, ticks: int) -> int:
         """Runs all robots for a number of ticks, or to the ends of their environments.
 
+        Robots in worlds of their own share nothing: they run on all processors.
+
         Returns:
             The number of robots whose environment has not ended.
         """
-        run = self._library.fleet_run_alone if self.worlds == self.robots else self._library.fleet_run_together
-        return int(run(self._robots, self.robots, ticks))
+        if self.worlds < self.robots:
+            return int(self._library.fleet_run_together(self._robots, self.robots, ticks))
+
+        def run(some: Sequence[int]) -> int:
+            return int(self._library.fleet_run_alone(self._robots + some[0], len(some), ticks))
+
+        return sum(on_all_processors(run, range(self.robots)))
 
     def is_over(self, world: int) -> bool:
         """Whether a world's environment has ended."""
@@ -255,6 +266,13 @@ class NativeFleet:
                 f"the robot refuses {Opcode(opcode).name.lower()} {which} {value}: check profile and --set"
             )
         return int(answer[0])
+
+
+def on_all_processors(work: Callable[[Sequence[int]], _Done], numbers: Sequence[int]) -> Iterator[_Done]:
+    """What C code makes of numbers, some of them at a time and in their order; it must not share what it changes."""
+    slices = [numbers[at : at + _SLICE] for at in range(0, len(numbers), _SLICE)]
+    with ThreadPoolExecutor(os.cpu_count()) as threads:
+        return threads.map(work, slices)
 
 
 def _address(pointer: Any) -> int:

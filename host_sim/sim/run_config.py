@@ -17,7 +17,7 @@ from host_sim.world.world_names import RANDOM, WORLD_NAMES
 ROBOTS = ("spawn", "external", "qemu", "emulated")
 """The ways to get a robot."""
 
-FLEET_MAX = 10_000
+FLEET_MAX = 100_000
 """Maximum number of robots of a fleet."""
 
 WORLDS = ("one", "own", "hall")

@@ -21,7 +21,7 @@ WRONG = {
     "run --seed -1": "'-1' is not a number from 0",
     "run --environments 0": "from 1 to 1000",
     "run --limit-s nan": "'nan' is not a number from 0.02",
-    "run --robots 0": "from 1 to 10000",
+    "run --robots 0": "from 1 to 100000",
     "run --robots 2 --node 31 --bus none": "the last is 31",
     "run --robots 32 --bus fd": "leave --bus fd out",
     "run --robots 40 --port 8139": "leave --port out",

@@ -2,12 +2,17 @@
 
 import csv
 import json
+import os
+from concurrent.futures import ThreadPoolExecutor
+from hashlib import sha256
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from PIL import Image
 
 from host_sim.cli.run_options import RunOptions
+from host_sim.sim import native_fleet
 from host_sim.sim.run_config import flag_of, options_of
 from tests.runs.support import octet
 
@@ -72,6 +77,19 @@ def test_a_robot_of_the_fleet_is_the_robot_of_a_run_with_its_seed(fleet, tmp_pat
     assert int(last["trials"]) == alone["environments"][1]["robots"][0]["trials"]
 
 
+def test_a_fleet_is_the_same_on_any_number_of_processors(monkeypatch, tmp_path):
+    def files_on(processors: int) -> dict[str, str]:
+        monkeypatch.setattr(os, "cpu_count", lambda: processors)
+        with mock.patch.object(native_fleet, "ThreadPoolExecutor", wraps=ThreadPoolExecutor) as threads:
+            octet("run", "--robots", "120", "--body", "kit", *SHORT, "--out", tmp_path)
+        assert threads.call_args_list == [mock.call(processors)] * threads.call_count != []
+        summary = json.loads((tmp_path / "summary.json").read_text())
+        digests = {path.name: sha256(path.read_bytes()).hexdigest() for path in tmp_path.iterdir()}
+        return digests | {"summary.json": str({**summary, "wall_s": 0, "real_time_factor": 0})}
+
+    assert files_on(1) == files_on(2) == files_on(3)
+
+
 @pytest.mark.parametrize("world", ["random", "posts"])
 def test_a_fleet_in_one_world_is_drawn_there(tmp_path, world):
     done = octet("run", "--robots", "35", "--worlds", "one", "--world", world, *SHORT, "--json", "--out", tmp_path)
@@ -92,6 +110,7 @@ def test_a_hall_is_drawn_whole(tmp_path):
 REFUSED = {
     "an unknown world": (("--world", "corridor"), "did you mean corridors?"),
     "too many for one world": (("--worlds", "one"), "1000 robots are too many for one world with seed 3"),
+    "too many for a hall": (("--worlds", "hall", "--robots", "10001"), "at most 10000 robots share a world"),
     "a bus": (("--bus", "fd"), "leave --bus fd out"),
     "memory files": (("--memory", "robot.mem"), "leave --memory out"),
     "real time": (("--real-time",), "leave --real-time out"),
@@ -105,7 +124,7 @@ REFUSED = {
     "faults": (("--fault", "drop:1%"), "leave --fault out"),
     "people who watch": (("--watch",), "a fleet cannot be watched"),
     "distances": (("--profile", "distance"), "profile distance needs distances"),
-    "more than a fleet can be": (("--robots", "10001"), "1 to 10000"),
+    "more than a fleet can be": (("--robots", "100001"), "1 to 100000"),
 }
 
 
