@@ -190,7 +190,7 @@ class PacedRun:
         return False
 
     def _run_slice(self) -> None:
-        """Runs the ticks that are due, for at most `_SLICE_S`."""
+        """Runs the ticks that are due, for at most `_SLICE_S` and until there is a command."""
         began = time.monotonic()
         if began - self._next_s > _LATE_S:
             self.late += self._next_s > 0.0 and self.speed != FULL_SPEED
@@ -200,6 +200,8 @@ class PacedRun:
             self._tick()
             self._next_s = now if self.speed == FULL_SPEED else self._next_s + self.params.tick_s / self.speed
             now = time.monotonic()
+            if self._commands:
+                break
         self._measure(now)
 
     def _tick(self) -> None:

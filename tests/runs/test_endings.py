@@ -234,7 +234,7 @@ def test_a_run_in_real_time_pauses_after_an_environment_and_the_log_knows_nothin
 
     summaries = [json.loads((out / "summary.json").read_text()) for out in (paused, at_once)]
     assert [[it["ticks"] for it in summary["environments"]] for summary in summaries] == [[50, 50]] * 2
-    assert summaries[0]["wall_s"] >= 2 + PAUSE_S
+    assert summaries[0]["wall_s"] > 2 + PAUSE_S - 0.05  # what is left of the last ticks is not waited for
     assert octet("replay", paused / "run.log").returncode == 0
 
 

@@ -118,10 +118,11 @@ static bool is_of_one_side(int32_t pattern)
 static bool taught(const struct history_trial *trial, int32_t cell, uint8_t side)
 {
     bool mirrored = ((trial->cell ^ cell) & 1) != 0;
+    bool generalized = is_of_one_side(trial->cell) && is_of_one_side(cell);
 
     if (trial->tick < 0.0 || trial->helped != 1)
         return false;
-    if (trial->cell != cell && !(is_of_one_side(trial->cell) && is_of_one_side(cell)))
+    if (trial->cell != cell && !generalized)
         return false;
     return side == (mirrored ? SIDE_LEFT + SIDE_RIGHT - trial->side : trial->side);
 }
