@@ -78,7 +78,7 @@ def _progress_shown(line: ProgressLine) -> Callable[[Simulation], object]:
             eaten = simulation.arena.food.eaten
             line.show(
                 f"environment {simulation.record.begun[-1].number} of {simulation.environments}   "
-                f"food {sum(eaten)} of {len(eaten)}   memory {memories}   {robot_s:.0f} s   "
+                f"eaten {sum(eaten)} of {len(eaten)}   memory {memories}   {robot_s:.0f} s   "
                 f"{robot_s / (time.monotonic() - began):.0f} x real time"
             )
 
@@ -145,6 +145,6 @@ def _show(outputs: Outputs, listener: "Listener | None") -> None:
 
     _say_refused(simulation)
     if options.talks:
-        live.ended = lambda episode: print(environment_line(len(live.episodes), episode))
+        live.ended = lambda episode: print(environment_line(simulation.record.begun[-1].number, episode))
     watch_run(live, listener, sys.stdout if options.talks else sys.stderr)
     outputs.cut_short = live.closed

@@ -42,7 +42,7 @@ class BoardFeed(PageFeed):
         """The parts of a page, and `board`.
 
         Its fields: `join`, in the first message, with the addresses to type or to open as `urls`, and the rows of the
-        QR code of the first page's address as `modules`; `ended`, the environments before as [with all food found,
+        QR code of the first page's address as `modules`; `ended`, the environments before as [with all food eaten,
         all]; `robots`, each with `name` and `page`, whether one of its own is open, or null if the robots are
         everyone's; `curves`, the new samples: `anew`, whether earlier ones go, `ticks` since the start, and for each
         robot the samples of each of `NAMES`.

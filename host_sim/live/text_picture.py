@@ -81,7 +81,7 @@ def draw_text(view: View, columns: int, rows: int) -> list[str]:
 def _head(view: View) -> str:
     scene, state = view.scene, view.state
     seconds = state["tick"] * view.params.tick_s
-    food = f"food {sum(state['eaten'])} of {len(state['eaten'])}"
+    food = f"eaten {sum(state['eaten'])} of {len(state['eaten'])}"
     clock = f"{int(seconds // 60)}:{seconds % 60:04.1f}"
     return f"environment {scene['number']} of {scene['of']}   {food}   {clock}   {view.pace}"
 

@@ -95,7 +95,7 @@ def summarize(
         "wall_s": round(wall_s, 3),
         "real_time_factor": round(sum(episode.robot_s for episode in episodes) / wall_s, 2),
     }
-    count, finished = len(episodes), sum(episode.finished for episode in episodes)
+    count, finished = max(len(episodes), config.environments), sum(episode.finished for episode in episodes)
     ending = "ALL DONE" if finished == count else f"done      {finished} of {count} environments finished"
     return Summary(content, text_of(content), ending)
 
@@ -132,7 +132,7 @@ def environment_line(number: int, episode: EpisodeResult) -> str:
         number: Number of the environment, from 1.
         episode: Its result.
     """
-    end = "all food found" if episode.finished else f"{sum(episode.eaten)} of {len(episode.eaten)} food found"
+    end = "all food eaten" if episode.finished else f"{sum(episode.eaten)} of {len(episode.eaten)} food eaten"
     end += ", every sensor stuck" if any(robot.stuck_sensors == len(FEEL) for robot in episode.robots) else ""
     trials, known, bored = (episode.begun(reason) for reason in (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM))
     return (

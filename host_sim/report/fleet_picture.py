@@ -147,7 +147,7 @@ def _arena(results: Sequence[FleetResult], layout: Layout, eaten: Sequence[bool]
     for result in results if len(results) <= _MOST_NAMES else ():
         place = result.pose.x_mm * px_per_mm, (result.pose.y_mm + 1.4 * params.body_radius_mm) * px_per_mm
         write(image, place, str(result.robot), TEXT_PX, "mm")
-    found = f"{sum(eaten)} of {len(eaten)} food found"
+    found = f"{sum(eaten)} of {len(eaten)} food eaten"
     return titled(f"environment {results[0].environment}: {len(results)} robots at its end, {found}", image)
 
 

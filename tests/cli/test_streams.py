@@ -81,7 +81,7 @@ def test_the_line_never_wraps(monkeypatch, columns, total):
     terminal, line = begun(monkeypatch, total)
 
     for done in range(3):
-        line.show("environment 1 of 5   food 0 of 3   memory LLRR....", done)
+        line.show("environment 1 of 5   eaten 0 of 3   memory LLRR....", done)
 
     shown = CONTROL.sub("\n", terminal.getvalue()).splitlines()
     assert max(map(len, shown)) <= columns

@@ -25,7 +25,7 @@ def test_the_picture_tells_all_there_is_to_know(view, columns, rows):
     lines = draw_text(view, columns, rows)
     text, arena = "\n".join(lines), "".join(line for line in lines if line.startswith("|"))
 
-    assert "environment 1 of 1   food 0 of 3   0:03.4   1 x real time" in text
+    assert "environment 1 of 1   eaten 0 of 3   0:03.4   1 x real time" in text
     assert sentence(view.state) in " ".join(text.split())
     assert "> .|/  -" in text
     assert (arena.count("@"), arena.count("O"), "#" in arena) == (1, 3, True)

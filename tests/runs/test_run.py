@@ -19,7 +19,7 @@ def test_a_run_finishes_its_environments_and_says_so(run):
     assert (done.code, done.errors) == (0, "")
     assert [environment["finished"] for environment in done.summary["environments"]] == [True, True]
     assert all(environment["food_eaten"] == 3 for environment in done.summary["environments"])
-    assert "all food found" in done.output
+    assert "all food eaten" in done.output
     assert done.output.splitlines()[-1] == "ALL DONE"
 
 

@@ -148,7 +148,7 @@ def test_what_matters_more_is_seen_at_once(page, run):
 def test_the_end_of_an_environment_is_said_in_large_letters(page, run):
     run.states[0]["eaten"] = [1, 1, 1]
     run.send(play=PLAY | {"ended": ENDED})
-    wait_for_text(page, "#banner", "All food found")
+    wait_for_text(page, "#banner", "All food eaten")
 
     assert "1:23.4" in page.inner_text("#banner")
     assert page.inner_text("#fact-food") == "0 of 3"
