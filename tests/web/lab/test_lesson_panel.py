@@ -1,5 +1,6 @@
 """The panel of lessons in octet.html: its languages, how it looks, and what it prints."""
 
+import re
 from pathlib import Path
 
 from playwright.sync_api import Page
@@ -81,6 +82,10 @@ def printed(page: Page, folder: Path) -> str:
     return seen.json_value()[-1]
 
 
+def pages_printed(page: Page, landscape: bool) -> int:
+    return len(re.findall(rb"/Type\s*/Page\b", page.pdf(format="A4", landscape=landscape)))
+
+
 def test_who_prints_an_open_lesson_gets_its_worksheet(tmp_path, lesson):
     for name in LESSONS:
         page = lesson(name)
@@ -99,6 +104,7 @@ def test_who_prints_another_tab_gets_the_page(tmp_path, lesson):
     page.click("#tab-run")
 
     assert printed(page, tmp_path) == ""
+    assert [pages_printed(page, landscape) for landscape in (False, True)] == [2, 3]
 
     page.click("#tab-lessons")
 
