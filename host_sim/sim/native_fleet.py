@@ -1,7 +1,7 @@
 """Robots by the thousand in C (`native/fleet.h`): each with its own core, without a wire."""
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from itertools import accumulate
@@ -38,7 +38,7 @@ HEADERS = (*(_WORLD / f"{name}.h" for name in _NAMES), PACKAGE / "sim" / "native
 
 _Done = TypeVar("_Done")
 _CELL_MM, _GRID_FROM = 500.0, 8
-_SLICE = 50  # things that a thread takes at a time: few enough for all threads to be busy to the end
+_SLICE = 20  # things that a thread takes at a time: few enough for all threads to be busy to the end
 
 
 class Contacts(NamedTuple):
@@ -268,11 +268,11 @@ class NativeFleet:
         return int(answer[0])
 
 
-def on_all_processors(work: Callable[[Sequence[int]], _Done], numbers: Sequence[int]) -> Iterator[_Done]:
+def on_all_processors(work: Callable[[Sequence[int]], _Done], numbers: Sequence[int]) -> list[_Done]:
     """What C code makes of numbers, some of them at a time and in their order; it must not share what it changes."""
     slices = [numbers[at : at + _SLICE] for at in range(0, len(numbers), _SLICE)]
     with ThreadPoolExecutor(os.cpu_count()) as threads:
-        return threads.map(work, slices)
+        return list(threads.map(work, slices))  # one who interrupts it need not wait for the rest
 
 
 def _address(pointer: Any) -> int:

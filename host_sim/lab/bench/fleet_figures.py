@@ -1,5 +1,6 @@
-"""The speed of fleets, arenas of learners, worlds without a log, and layouts: processor time, for one processor."""
+"""Fleets, arenas of learners, worlds without a log, layouts: processor time, where it is not said otherwise."""
 
+import os
 import time
 from collections.abc import Callable
 from itertools import count
@@ -9,6 +10,8 @@ import numpy as np
 
 import host_sim.lab.gymnasium_envs  # noqa: F401 - registers the environments
 from host_sim.lab.bench.figure import ROUNDS, Figure, Rate, best, rate_figure
+from host_sim.lab.bench.lockstep_figures import on_one_processor
+from host_sim.sim.fleet import run_fleet
 from host_sim.sim.make import make
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.sim.run_config import RunConfig
@@ -56,6 +59,7 @@ def fleet_figures() -> list[Figure]:
             Rate("a fleet's robots", own),
             "the wire's checksums; drawing the next layout is not counted",
         ),
+        _processors_figure(),
         Figure(
             "layouts drawn and checked",
             round(drawn),
@@ -65,6 +69,28 @@ def fleet_figures() -> list[Figure]:
             "the walk over the grid",
         ),
     ]
+
+
+def _processors_figure() -> Figure:
+    """The same fleet on all processors and on one, in turn, from drawing its worlds to its last result."""
+    processors = len(os.sched_getaffinity(0))
+    all_of_them, one = [], []
+    for _ in range(ROUNDS):
+        all_of_them.append(_whole_fleet())
+        with on_one_processor():
+            one.append(_whole_fleet())
+    return rate_figure(
+        Rate(f"fleet of 1,000 with its worlds, processors: {processors}", max(all_of_them)),
+        Rate("the same on one of them", max(one), 0.95 * processors),
+        "handing results to Python, on one",
+    )
+
+
+def _whole_fleet() -> float:
+    """Ticks per second, of a clock on the wall, of all robots together."""
+    began = time.perf_counter()
+    done = sum(result.ticks for result in run_fleet(RunConfig(robots=_FLEET, worlds="own", environments=1)))
+    return done / (time.perf_counter() - began)
 
 
 def robot_ticks_per_second(layouts: list[Layout], params: SimParams, kind: BodyKind | None = None) -> float:

@@ -46,7 +46,7 @@ def lockstep_figures() -> list[Figure]:
 
 def _socket_pair_figure() -> Figure:
     """In turn, and both on one processor: from one to another, a frame takes as long as the machine is idle."""
-    with _on_one_processor():
+    with on_one_processor():
         pairs = [(_c_turns_per_second(), _ticks_per_second("fd", _WHOLE_S)) for _ in range(ROUNDS)]
     return rate_figure(
         Rate("lockstep over a socket pair", max(ours for _, ours in pairs), 5000),
@@ -56,7 +56,7 @@ def _socket_pair_figure() -> Figure:
 
 
 @contextmanager
-def _on_one_processor() -> Iterator[None]:
+def on_one_processor() -> Iterator[None]:
     """Keeps this process, and those that it starts, on one processor."""
     before = os.sched_getaffinity(0)
     os.sched_setaffinity(0, {max(before)})
