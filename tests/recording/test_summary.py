@@ -68,6 +68,10 @@ def test_one_of_a_kind_is_in_the_singular(client):
     assert "link      1 frame repeated, gone 1 time" in summary_of(client).text
 
 
+def test_a_run_that_was_cut_short_counts_the_environments_asked_for(client):
+    assert summary_of(client).ending == "done      0 of 5 environments finished"
+
+
 def test_incidents_are_listed(client):
     client.distrust("the robot restarted")
 

@@ -30,6 +30,7 @@ import { RANDOM, nameOf } from "../core/world_names.js";
  * @property {import("../sim/worlds.js").Worlds} worlds
  * @property {import("../types.js").SimParams} params
  * @property {import("./simulator.js").Simulator} simulator
+ * @property {() => void} lightUp
  * @property {(change: Change) => void} change
  * @property {(lane: ShownRun) => void} simulate
  * @property {(lane: ShownRun) => void} removeLane
@@ -95,6 +96,7 @@ export class SidePanel {
       byId(`panel-${name}`).hidden = name !== tab;
     }
     this.show();
+    this.lab.lightUp(); // what other modules write into the tab is written with the next picture
   }
 
   bindRun() {

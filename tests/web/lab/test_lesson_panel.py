@@ -5,7 +5,7 @@ from pathlib import Path
 
 from playwright.sync_api import Page
 
-from tests.web.lab.support import READY, SIZES, go
+from tests.web.lab.support import READY, SIZES, go, reached, settle
 from tests.web.looks import PHONES, TOO_SMALL, check, out_of_view, resize, violations, violations_at
 from tests.web.support import wait_for
 
@@ -31,6 +31,29 @@ def test_a_language_that_is_not_there_is_english(file, open_page):
     page = open_page(f"{file.as_uri()}?#watch", ready=READY, locale="fi-FI")
 
     assert page.inner_text("#begin-lesson") == "Start this lesson"
+
+
+def test_goals_steps_and_the_lesson_survive_a_reload(page):
+    def seen() -> tuple[str, list[bool], list[str]]:
+        return page.input_value("#lesson"), reached(page), page.locator("#step .head button").all_inner_texts()
+
+    page.click("#tab-lessons")
+    page.select_option("#lesson", "plant")
+    page.select_option("#lesson", "watch")
+    page.click("#begin-lesson")
+    settle(page)
+    go(page, 500)
+    page.click("#step-done")
+    before = seen()
+    assert before[:2] == ("watch", [True, True, False])
+    assert before[2][:2] == ["1 ✓", "2"]
+
+    page.reload()
+    wait_for(page, READY)
+    page.click("#tab-lessons")
+    settle(page)
+
+    assert seen() == before
 
 
 def test_all_that_matters_is_in_view_while_a_lesson_is_open(lesson):
