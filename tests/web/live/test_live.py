@@ -1,6 +1,7 @@
 """A person watches a run and interacts with it."""
 
 import math
+import re
 from collections.abc import Callable
 
 import pytest
@@ -149,6 +150,7 @@ def test_a_run_that_a_person_changed_replays(watch, open_page):
     page.press("#seed", "Enter")
     wait_for(page, "octet.scene.environment.seed === 8 && octet.scene.trail.length > 5")
     assert watched.end() == 0
+    assert re.findall(r"^environment (\d+)", watched.process.stdout.read(), re.MULTILINE) == ["1", "2", "1"]
     log, again = watched.out / "run.log", watched.out / "again.html"
     assert octet("replay", log).returncode == 0
     assert octet("replay", log, "--html", again).returncode == 0
