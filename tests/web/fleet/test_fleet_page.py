@@ -94,6 +94,18 @@ def test_it_plays_to_the_end_and_goes_to_any_time(page_of, open_page):
     wait_for(page, "document.querySelector('#clock').textContent === '0:02.0'")
 
 
+def test_each_line_of_the_legend_has_its_mark(page_of, open_page):
+    page = open_page(page_of[1].as_uri(), ready=READY)
+
+    widths = page.eval_on_selector_all(
+        "#legend li:not([hidden], [data-thing='level'])",
+        "items => items.map((item) => parseFloat(getComputedStyle(item, '::before').width))",
+    )
+
+    assert len(widths) >= 3
+    assert all(width >= 8 for width in widths)
+
+
 def test_axe_finds_nothing_and_fingers_hit_everything(page_of, open_page):
     page = open_page(page_of[1].as_uri(), ready=READY)
 
