@@ -33,6 +33,13 @@ export class FleetPicture {
     this.isNew = true;
     /** The time that is drawn. */
     this.at = NaN;
+    /** What stays from frame to frame: the worlds, each in this state, and how much each robot knows, all at this sample. */
+    this.ground = contextOf(document.createElement("canvas"), { alpha: false });
+    /** @type {string[]} */
+    this.shown = [];
+    /** @type {number[]} */
+    this.levels = [];
+    this.sample = NaN;
     new ResizeObserver(() => (this.isNew = true)).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => (this.isNew = true));
   }
@@ -64,7 +71,11 @@ export class FleetPicture {
     const { canvas, worlds, data: { fleet } } = this;
     this.palette = paletteOf(canvas);
     const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((px) => Math.max(1, Math.round(px * devicePixelRatio)));
-    [canvas.width, canvas.height] = [width, height];
+    for (const each of [canvas, this.ground.canvas]) [each.width, each.height] = [width, height];
+    this.ground.fillStyle = this.palette.of.paper;
+    this.ground.fillRect(0, 0, width, height);
+    this.shown = [];
+    this.sample = NaN;
     const [across, down] = [fleet.width + GAP_MM, fleet.height + GAP_MM];
     const fits = (/** @type {number} */ columns) => Math.min(width / (columns * across), height / (Math.ceil(worlds.length / columns) * down));
     const all = worlds.map((_, i) => i + 1);
@@ -81,39 +92,63 @@ export class FleetPicture {
     return this.scale / devicePixelRatio < SMALL_PX_PER_MM ? ENLARGED : 1;
   }
 
-  /** @param {number} at */
+  /**
+   * Draws what has changed in the worlds since the last sample on the ground, and copies that.
+   * @param {number} at
+   */
   drawWorlds(at) {
-    const { context, palette, data, worlds } = this;
-    const { width, height, bar } = data.fleet;
-    context.fillStyle = palette.of.paper;
-    context.fillRect(-1e6, -1e6, 2e6, 2e6);
-    const places = worlds.map((world, i) => ({ world, corner: this.cornerOf(i), scene: data.sceneAt(world, at) }));
-    for (const { world, corner: [x, y] } of places) {
-      const isFinished = data.isFinished(world, at);
-      context.fillStyle = palette.of[isFinished ? "food" : "bar"];
-      const edge = isFinished ? GAP_MM / 2.5 : GAP_MM / 6;
-      context.fillRect(x - edge, y - edge, width + 2 * edge, height + 2 * edge);
-      context.fillStyle = palette.of.floor;
-      context.fillRect(x, y, width, height);
+    const { context, data, ground, worlds } = this;
+    if (this.sample !== Math.floor(at)) {
+      this.sample = Math.floor(at);
+      this.levels = data.levelsAt(at);
+      ground.setTransform(context.getTransform());
+      worlds.forEach((world, place) => {
+        const scene = data.sceneAt(world, at);
+        const eaten = scene.food.map((_, piece) => data.isEaten(world, piece, at));
+        const state = `${scene.first} ${eaten}`;
+        if (this.shown[place] !== state) this.drawWorld(place, scene, eaten);
+        this.shown[place] = state;
+      });
     }
-    context.strokeStyle = palette.of.bar;
-    context.lineWidth = bar * Math.sqrt(this.enlarged);
-    context.lineCap = "round";
-    lines(context, places.flatMap(({ corner: [x, y], scene }) => scene.bars.map(([ax, ay, bx, by]) => [x + ax, y + ay, x + bx, y + by])));
-    const food = places.flatMap(({ world, corner: [x, y], scene }) =>
-      scene.food.map(([fx, fy], piece) => ({ place: [x + fx, y + fy], isEaten: data.isEaten(world, piece, at) })));
-    context.fillStyle = context.strokeStyle = palette.of.food;
+    context.save();
+    context.resetTransform();
+    context.drawImage(ground.canvas, 0, 0);
+    context.restore();
+  }
+
+  /**
+   * @param {number} place - Number of the world in the picture.
+   * @param {import("./fleet_data.js").FleetScene} scene
+   * @param {boolean[]} eaten - Of each piece of food.
+   */
+  drawWorld(place, scene, eaten) {
+    const { ground, palette, data: { fleet: { width, height, bar } } } = this;
+    const [x, y] = this.cornerOf(place);
+    const rectangle = (/** @type {string} */ colour, /** @type {number} */ edge) => {
+      ground.fillStyle = colour;
+      ground.fillRect(x - edge, y - edge, width + 2 * edge, height + 2 * edge);
+    };
+    const isFinished = eaten.every(Boolean);
+    rectangle(palette.of.paper, GAP_MM / 2);
+    rectangle(palette.of[isFinished ? "food" : "bar"], isFinished ? GAP_MM / 2.5 : GAP_MM / 6);
+    rectangle(palette.of.floor, 0);
+    ground.strokeStyle = palette.of.bar;
+    ground.lineWidth = bar * Math.sqrt(this.enlarged);
+    ground.lineCap = "round";
+    lines(ground, scene.bars.map(([ax, ay, bx, by]) => [x + ax, y + ay, x + bx, y + by]));
+    const food = scene.food.map(([fx, fy]) => [x + fx, y + fy]);
     const radius = FOOD_MM * this.enlarged;
-    discs(context, food.filter(({ isEaten }) => !isEaten).map(({ place }) => place), radius, () => context.fill());
-    context.lineWidth = radius / 4;
-    discs(context, food.filter(({ isEaten }) => isEaten).map(({ place }) => place), radius, () => context.stroke());
+    ground.fillStyle = ground.strokeStyle = palette.of.food;
+    discs(ground, food.filter((_, piece) => !eaten[piece]), radius, () => ground.fill());
+    ground.lineWidth = radius / 4;
+    discs(ground, food.filter((_, piece) => eaten[piece]), radius, () => ground.stroke());
   }
 
   /** @param {number} at */
   drawRobots(at) {
     const { context, palette, data } = this;
     const radius = data.fleet.body * this.enlarged;
-    const levels = data.levelsAt(at);
+    const { levels } = this;
     const robots = this.placesOf(at);
     const isRound = radius * this.scale >= ROUND_PX;
     const marks = isRound ? discs : squares;
