@@ -24,7 +24,6 @@ _HINTS = {
 """What to do, by the number of the error."""
 
 
-
 def open_bus_link(bus: str, ids: Sequence[int], stats: LineStats, bitrate: int = BIT_RATE) -> Link:
     """Opens a link on a bus: on a serial port for `slcan:DEVICE`, else by python-can.
 

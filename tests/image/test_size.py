@@ -1,23 +1,17 @@
 """The images stay within their budget, and an image that does not is noticed."""
 
 import subprocess
-import sys
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))
-
-from tools.verify import command  # noqa: E402 - found by the line above
-from tools.verify.command import ChoiceError  # noqa: E402
-from tools.verify.size.budget import read  # noqa: E402
-from tools.verify.size.core_alone import compiler_of  # noqa: E402
-from tools.verify.size.pieces import read_pieces  # noqa: E402
-from tools.verify.size.stack import CallGraph, StackError, worst_stack  # noqa: E402
+from tests.tools.project import ROOT, script_named
+from tools.verify import command
+from tools.verify.command import ChoiceError
+from tools.verify.size.budget import read
+from tools.verify.size.core_alone import compiler_of
+from tools.verify.size.pieces import read_pieces
+from tools.verify.size.stack import CallGraph, StackError, worst_stack
 
 BUDGET = ROOT / "tools" / "verify" / "size.md"
 HEAD = "# Budgets\n\n| what | compiler | flash | ram | stack | instructions |\n| - | - | - | - | - | - |\n"
@@ -35,14 +29,6 @@ edge: { sourcename: "a.c:small" targetname: "memset" label: "a.c:2:2" }
 def table(path: Path) -> None:
     """A table of one image."""
     path.write_text(f"{HEAD}| an image | gcc 12 | 90 / 100 | | | |\n")
-
-
-def size_script() -> ModuleType:
-    """tools/size as a module."""
-    loader = SourceFileLoader("tools_size", str(ROOT / "tools" / "size"))
-    module = module_from_spec(spec_from_loader(loader.name, loader))
-    loader.exec_module(module)
-    return module
 
 
 def graph(text: str) -> CallGraph:
@@ -96,7 +82,7 @@ def test_a_limit_that_is_passed_or_not_there_is_an_error(
     table(tmp_path / "size.md")
     sizes = {("an image", compiler): {"flash": flash}}
 
-    over = command.run("size", lambda: size_script().show(sizes, {}, read(tmp_path / "size.md"), depth=2))
+    over = command.run("size", lambda: script_named("size").show(sizes, {}, read(tmp_path / "size.md"), depth=2))
 
     assert over == (1 if complaint else 0)
     assert capsys.readouterr().err == complaint

@@ -203,21 +203,20 @@ def test_a_forged_stop_ends_a_run_with_its_tick(run):
 
 
 @pytest.mark.faulty
-@pytest.mark.parametrize("rule", ["forge:DRIVE@100-102/to", "forge:HEARTBEAT@100-102/to"])
-def test_a_twin_ends_a_run(run, rule):
+@pytest.mark.parametrize(
+    ("rule", "reason"),
+    [
+        ("forge:DRIVE@100-102/to", "two robots are node 1"),
+        ("forge:HEARTBEAT@100-102/to", "two robots are node 1"),
+        ("forge:SENSES@100-110/from", "another simulator commands node 1"),
+        ("forge:COMMAND@100-110/from", "another simulator commands node 1"),
+    ],
+)
+def test_a_twin_or_a_second_simulator_ends_a_run(run, rule, reason):
     done = run(*SHORT, "--bus", "none", "--fault", rule)
 
     assert done.code == 1
-    assert "two robots are node 1" in done.errors
-
-
-@pytest.mark.faulty
-@pytest.mark.parametrize("rule", ["forge:SENSES@100-110/from", "forge:COMMAND@100-110/from"])
-def test_a_second_simulator_ends_a_run(run, rule):
-    done = run(*SHORT, "--bus", "none", "--fault", rule)
-
-    assert done.code == 1
-    assert "another simulator commands node 1" in done.errors
+    assert reason in done.errors
 
 
 @pytest.mark.faulty

@@ -11,6 +11,17 @@ from types import ModuleType
 
 ROOT = Path(__file__).resolve().parents[2]
 
+
+def script_named(name: str) -> ModuleType:
+    """A script of tools/ as a module."""
+    loader = SourceFileLoader(f"tools_{name}", str(ROOT / "tools" / name))
+    spec = spec_from_loader(loader.name, loader)
+    assert spec is not None
+    module = module_from_spec(spec)
+    loader.exec_module(module)
+    return module
+
+
 PASSES = "def test_that_passes():\n    pass\n"
 FAILS = "def test_that_fails():\n    assert False\n"
 TEARDOWN_FAILS = (

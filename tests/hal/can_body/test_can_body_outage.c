@@ -100,15 +100,21 @@ TEST(an_outage_ends_with_its_first_senses)
     TEST_ASSERT_EQUAL_UINT16(1, in.senses.tick);
 }
 
-TEST(a_robot_that_was_held_up_itself_takes_the_newest_senses)
+/* The tick that a robot takes next which was held up, while senses came so many milliseconds apart. */
+static unsigned tick_after(uint32_t held_up_ms, unsigned ticks, uint32_t apart_ms)
 {
     senses_come(0, 0);
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
-    for (unsigned tick = 1; tick <= 7; tick++)
-        senses_come(20u * tick, tick);
-    fake.clock_ms += 150;
+    for (unsigned tick = 1; tick <= ticks; tick++)
+        senses_come(apart_ms * tick, tick);
+    fake.clock_ms += held_up_ms;
     TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
-    TEST_ASSERT_EQUAL_UINT16(7, in.senses.tick);
+    return in.senses.tick;
+}
+
+TEST(a_robot_that_was_held_up_itself_takes_the_newest_senses)
+{
+    TEST_ASSERT_EQUAL_UINT(7, tick_after(150, 7, 20));
     assert_faults((struct octet_faults_t){.silences = 1, .stale = 6});
 }
 
@@ -127,24 +133,12 @@ TEST(silence_counts_from_the_last_senses_whatever_else_comes)
 
 TEST(held_up_for_the_limit_it_takes_the_newest_senses)
 {
-    senses_come(0, 0);
-    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
-    for (unsigned tick = 1; tick <= 5; tick++)
-        senses_come(20u * tick, tick);
-    fake.clock_ms += HAL_SILENCE_MS;
-    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
-    TEST_ASSERT_EQUAL_UINT16(5, in.senses.tick);
+    TEST_ASSERT_EQUAL_UINT(5, tick_after(HAL_SILENCE_MS, 5, 20));
 }
 
 TEST(held_up_for_less_it_takes_the_next_senses)
 {
-    senses_come(0, 0);
-    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
-    for (unsigned tick = 1; tick <= 5; tick++)
-        senses_come(19u * tick, tick);
-    fake.clock_ms += HAL_SILENCE_MS - 1;
-    TEST_ASSERT_EQUAL(INPUT_SENSES, receive());
-    TEST_ASSERT_EQUAL_UINT16(1, in.senses.tick);
+    TEST_ASSERT_EQUAL_UINT(1, tick_after(HAL_SILENCE_MS - 1, 5, 19));
 }
 
 TEST(held_up_for_longer_with_nothing_of_use_it_reports_silence_at_once)

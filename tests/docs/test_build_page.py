@@ -1,0 +1,87 @@
+"""docs/build.md: its drawings and its table are those of the board, and its beacon sends what the robot sees."""
+
+import math
+import operator
+import re
+import runpy
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from host_sim.base.errors import UsageError
+from host_sim.emulator.board_pins import read_pins
+from tools.drawings import draw_plate, draw_wiring, write_drawings
+from tools.flashing.images import ROOT
+
+
+def test_the_pictures_and_the_table_in_the_documents_are_those_of_the_board(tmp_path: Path) -> None:
+    pins = read_pins("blue_pill")
+
+    drawn = write_drawings(pins, tmp_path)
+
+    assert pins.table() in (ROOT / "docs/hardware.md").read_text()
+    assert {path.name: path.read_text() for path in drawn} == {
+        path.name: (ROOT / "docs/images" / path.name).read_text() for path in drawn
+    }
+
+
+def test_the_wiring_shows_where_each_signal_ends_but_those_that_stay_on_the_board() -> None:
+    pins = read_pins("blue_pill")
+    texts = re.findall("<text[^>]*>([^<]*)</text>", draw_wiring(pins))
+
+    for signal in pins.signals.keys() - {"LED"}:
+        assert ": ".join(pins.ends[signal]) in texts
+    assert len(texts) == 1 + len(pins.ends) + 40
+
+
+def test_a_board_whose_headers_are_not_known_is_not_drawn() -> None:
+    with pytest.raises(UsageError, match=r"nucleo_g431rb: its file .* does not say"):
+        draw_wiring(read_pins("nucleo_g431rb"))
+
+
+def test_what_the_plates_hold_is_on_them_and_not_in_each_other_s_way() -> None:
+    radius = 95.0
+    for upper in (False, True):
+        text = draw_plate(upper=upper)
+        holes = [tuple(map(float, found)) for found in re.findall(r'cx="(.*?)" cy="(.*?)" r="(.*?)"', text)]
+        assert len(holes) == (16 if upper else 4)
+        for number, (x, y, r) in enumerate(holes):
+            assert math.hypot(x, y) + r < radius - 3
+            assert all(math.dist((x, y), (u, v)) > r + s + 3 for u, v, s in holes[:number])
+
+
+class StoppedError(Exception):
+    """The time of the beacon's test is over."""
+
+
+def test_a_beacon_sends_four_strong_and_four_weak_bursts_in_a_tick(monkeypatch: pytest.MonkeyPatch) -> None:
+    now_us, begun, lengths = 7, [], []
+
+    class FakePwm:
+        def __init__(self, pin: int, freq: int, duty_u16: int) -> None:
+            assert (freq, duty_u16) == (38000, 0)
+            self.pin = pin
+
+        def duty_u16(self, duty: int) -> None:
+            if duty:
+                begun.append((now_us, self.pin))
+            else:
+                lengths.append(now_us - begun[-1][0])
+
+    def sleep(us: int) -> None:
+        nonlocal now_us
+        now_us += us + 3  # the program itself takes time
+        if now_us > 100_000:
+            raise StoppedError
+
+    clock = {"ticks_us": lambda: now_us, "ticks_add": operator.add, "ticks_diff": operator.sub}
+    monkeypatch.setitem(sys.modules, "machine", SimpleNamespace(PWM=FakePwm, Pin=int))
+    monkeypatch.setitem(sys.modules, "time", SimpleNamespace(sleep_us=sleep, **clock))
+    with pytest.raises(StoppedError):
+        runpy.run_path(str(ROOT / "examples/beacon/beacon.py"))
+
+    ticks = [[pin for at, pin in begun if start <= at < start + 20_000] for start in range(20_000, 80_000, 20_000)]
+    assert ticks == [[14, 15] * 4] * 3
+    assert set(lengths) == {603}

@@ -1,0 +1,99 @@
+"""Each package has a licence that was judged, and is pinned by its hash."""
+
+import re
+import sys
+from collections.abc import Sequence
+from importlib import metadata
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from tests.tools.project import ROOT, script_named
+
+PAGE = (ROOT / "docs/licences.md").read_text()
+
+
+@pytest.fixture
+def script(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> ModuleType:
+    """tools/licences as a module, with a copy of the page, and with --check."""
+    module = script_named("licences")
+    monkeypatch.setattr(module, "PAGE", tmp_path / "licences.md")
+    monkeypatch.setattr(sys, "argv", ["tools/licences", "--check"])
+    module.PAGE.write_text(PAGE)
+    return module
+
+
+def installed_as(script: ModuleType, monkeypatch: pytest.MonkeyPatch, **licences: str) -> None:
+    found = script.installed()
+    monkeypatch.setattr(script, "installed", lambda: {**found, **licences})
+
+
+def test_the_page_is_what_the_packages_say_today(script, capsys):
+    assert (script.main(), capsys.readouterr().err) == (0, "")
+
+
+def test_a_package_without_a_row_is_noticed_where_it_is_installed(script, capsys):
+    script.PAGE.write_text(PAGE.replace("| numpy |", "| nompy |"))
+
+    assert script.main() == 1
+    assert "not up to date" in capsys.readouterr().err
+
+
+def test_a_package_without_a_row_is_noticed_where_it_is_not_installed(script, monkeypatch, capsys):
+    monkeypatch.setattr(script, "locked", lambda: {"no-such-package": "run"})
+
+    assert script.main() == 1
+    assert "no-such-package is not installed here and has no row yet" in capsys.readouterr().err
+
+
+def test_a_licence_that_has_changed_is_noticed(script, monkeypatch):
+    installed_as(script, monkeypatch, numpy="MIT")
+
+    assert script.main() == 1
+
+
+@pytest.mark.parametrize(("package", "licence"), [("numpy", "Proprietary"), ("numpy", "MIT AND GPL-2.0-only")])
+def test_a_licence_that_was_not_judged_fit_is_named(script, monkeypatch, capsys, package, licence):
+    installed_as(script, monkeypatch, **{package: licence})
+
+    assert script.main() == 1
+    assert f"{package}: {licence.split()[-1]} is not among" in capsys.readouterr().err
+
+
+def test_without_check_the_page_is_written(script, monkeypatch):
+    script.PAGE.write_text(PAGE.replace("| numpy | BSD", "| numpy | ABC"))
+    monkeypatch.setattr(sys, "argv", ["tools/licences"])
+
+    assert script.main() == 0
+    assert script.PAGE.read_text() == PAGE
+
+
+RUN = ROOT / "requirements/run.lock"
+LOCKS = sorted(ROOT.glob("requirements/*.lock"))
+
+
+def test_the_lock_files_pin_by_hash_and_name_no_address() -> None:
+    for path in LOCKS:
+        text = path.read_text()
+        assert "://" not in text
+        assert 0 < text.count("==") <= text.count("--hash=sha256:")
+
+
+def megabytes(locks: Sequence[Path]) -> float:
+    """The size of the packages of lock files, as they are installed here."""
+    names = set(re.findall(r"^([\w.-]+)==", "".join(lock.read_text() for lock in locks), re.MULTILINE))
+    installed = {it.name.lower().replace("_", "-"): it for it in metadata.distributions()}
+    files = [
+        Path(it.locate_file(file)) for name in names & set(installed) for it in [installed[name]] for file in it.files
+    ]
+    return sum(file.stat().st_size for file in files if file.exists()) / 1e6
+
+
+def test_a_run_installs_less_than_200_mb() -> None:
+    pip = 20
+    assert 50 < megabytes([RUN]) < 200 - pip
+
+
+def test_a_run_that_installed_what_the_tests_need_would_be_noticed() -> None:
+    assert megabytes(LOCKS) > 200
