@@ -59,30 +59,27 @@ static uint64_t next_word(uint64_t w[WORDS], unsigned t)
     return w[t % WORDS];
 }
 
-/* s holds a to h of the standard; it is turned round by one place a round. */
-static void turn(uint64_t s[8], uint64_t word)
+/* s[1] to s[8] are a to h of the standard, s[0] to s[7] those of the next round. */
+static void turn(uint64_t s[9], uint64_t word)
 {
-    uint64_t e = s[4];
-    uint64_t a = s[0];
-    uint64_t t1 = s[7] + (rotate(e, 14) ^ rotate(e, 18) ^ rotate(e, 41)) + ((e & s[5]) ^ (~e & s[6])) + word;
-    uint64_t t2 = (rotate(a, 28) ^ rotate(a, 34) ^ rotate(a, 39)) + ((a & s[1]) ^ (a & s[2]) ^ (s[1] & s[2]));
+    uint64_t e = s[5];
+    uint64_t a = s[1];
+    uint64_t t1 = s[8] + (rotate(e, 14) ^ rotate(e, 18) ^ rotate(e, 41)) + ((e & s[6]) ^ (~e & s[7])) + word;
 
-    for (unsigned i = 7; i > 0; i--)
-        s[i] = s[i - 1];
     s[4] += t1;
-    s[0] = t1 + t2;
+    s[0] = t1 + (rotate(a, 28) ^ rotate(a, 34) ^ rotate(a, 39)) + ((a & s[2]) ^ (a & s[3]) ^ (s[2] & s[3]));
 }
 
 static void take_block(struct sha512 *hash)
 {
     uint64_t w[WORDS];
-    uint64_t s[8];
+    uint64_t s[ROUNDS + 8];
 
-    memcpy(s, hash->state, sizeof s);
+    memcpy(&s[ROUNDS], hash->state, sizeof hash->state);
     for (unsigned t = 0; t < WORDS; t++)
         w[t] = big_endian(&hash->block[WORD_BYTES * t]);
     for (unsigned t = 0; t < ROUNDS; t++)
-        turn(s, K[t] + (t < WORDS ? w[t] : next_word(w, t)));
+        turn(&s[ROUNDS - 1 - t], K[t] + (t < WORDS ? w[t] : next_word(w, t)));
     for (unsigned i = 0; i < 8; i++)
         hash->state[i] += s[i];
 }

@@ -40,7 +40,7 @@ class Layout:
     page: int
 
 
-LAYOUTS = {"blue_pill": Layout(1, "stm32f103", 0x5000, (0x5000, 0xA000), 0x5000, 1024)}
+LAYOUTS = {"blue_pill": Layout(2, "stm32f103", 0x4000, (0x4000, 0x9800), 0x5800, 1024)}
 """Of each board that has a boot loader, as hal/stm32 has them."""
 
 

@@ -3,5 +3,13 @@ set(MONOCYPHER_DIR ${PROJECT_SOURCE_DIR}/build/monocypher CACHE PATH "where mono
 if(NOT EXISTS ${MONOCYPHER_DIR}/monocypher.c)
   message(FATAL_ERROR "Monocypher is not in ${MONOCYPHER_DIR}: run tools/setup images")
 endif()
-add_library(monocypher STATIC ${MONOCYPHER_DIR}/monocypher.c)
+
+# 1.7 kB smaller and a third slower, in ways that its comments offer: squares by fe_mul, one multiple of the base point and not eight.
+file(READ ${MONOCYPHER_DIR}/monocypher.c fast)
+string(REGEX REPLACE "fe_sq *\\(([^,()]+),([^,()]+)\\);" "fe_mul(\\1,\\2,\\2);" small "${fast}")
+string(REPLACE "#define B_W_WIDTH 5" "#define B_W_WIDTH 2" small "${small}")
+string(REPLACE "ge_precomp b_window[8] =" "ge_precomp b_window[1] =" small "${small}")
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/monocypher.c CONTENT "${small}" @ONLY)
+add_library(monocypher STATIC ${PROJECT_BINARY_DIR}/generated/monocypher.c)
 target_include_directories(monocypher SYSTEM PUBLIC ${MONOCYPHER_DIR})
+target_compile_options(monocypher PRIVATE -w)   # its other multiples are left over

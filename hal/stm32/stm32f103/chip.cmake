@@ -2,10 +2,10 @@
 set(OCTET_CHIP_SOURCES clock.c gpio.c pins.c flash.c)
 
 # With a boot loader (docs/update.md): where it and the slots lie, bytes, and its RAM.
-set(OCTET_BOOT_SIZE 20480)
-set(OCTET_SLOT_A 0x08005000)
-set(OCTET_SLOT_B 0x0800A000)
-set(OCTET_SLOT_SIZE 20480)
+set(OCTET_BOOT_SIZE 16384)
+set(OCTET_SLOT_A 0x08004000)
+set(OCTET_SLOT_B 0x08009800)
+set(OCTET_SLOT_SIZE 22528)
 set(OCTET_BOOT_RAM 0x20001000)
 
 set(OCTET_LINKS bxcan slcan)
