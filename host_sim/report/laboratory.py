@@ -2,15 +2,13 @@
 
 The page's element `laboratory` has one object, with
 
-    page         octet.html, as base64 of a zlib stream
+    page         octet.html, packed
     run          the run: `commands`, each [tick, robot counted from 0, digits of a COMMAND frame]; `ticks`, their
                  number; `world`, the text of its world file, empty if there is none
 
 or, if the run cannot be repeated, with `why`, a sentence for people.
 """
 
-import base64
-import zlib
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -22,6 +20,7 @@ from host_sim.recording.log_reader import LogReader, Recorded
 from host_sim.recording.resimulation import Resimulation
 from host_sim.recording.world_file import world_path
 from host_sim.report.octet_page import octet_page
+from host_sim.report.page_bundle import packed
 
 ROBOTS_MAX = 4
 """Maximum number of robots in the laboratory: PAGE_ROBOTS_MAX in host_sim/web/native/page.h."""
@@ -53,9 +52,8 @@ def laboratory(log: LogReader, run: Resimulation) -> dict[str, Any]:
         raise NoLaboratoryError(f"What if? knows robots of nodes 1 to {ROBOTS_MAX} only.")
     if run.trajectory.first_tick:
         raise NoLaboratoryError("What if? is for shorter runs: this page has the last part of one only.")
-    packed = base64.b64encode(zlib.compress(octet_page().encode())).decode("ascii")
     recorded = {"commands": _commands(log, len(nodes)), "ticks": run.trajectory.ticks, "world": _world(log.path)}
-    return {"page": packed, "run": recorded}
+    return {"page": packed(octet_page()), "run": recorded}
 
 
 def _commands(log: Iterable[Recorded], robots: int) -> list[tuple[int, int, str]]:

@@ -1,7 +1,5 @@
 """`octet.html`: the robot itself, its world and the laboratory around them, in one page without a server."""
 
-import base64
-import zlib
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -10,13 +8,13 @@ from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import OctetError
 from host_sim.base.paths import PACKAGE, PAGE_WASM
 from host_sim.protocol.generated import PARAMETERS
-from host_sim.report.page_bundle import page_of, with_data
-from host_sim.report.speakers import speakers
+from host_sim.report.page_bundle import bundle, packed, page_of, with_data
+from host_sim.report.speakers import with_speakers
 from host_sim.view.state import measures
 from host_sim.world.world_names import WORLD_NAMES
 from host_sim.world.worlds import world_of
 
-_TEMPLATE = "octet.html"
+_TEMPLATE, _WORKER = "octet.html", "sim/page_worker.js"
 
 
 def write_octet_page(path: Path) -> int:
@@ -39,8 +37,8 @@ def write_octet_page(path: Path) -> int:
 def octet_page() -> str:
     """The page's HTML.
 
-    Its element `parts` has the WebAssembly, as base64 of a zlib stream, the dimensions of all named worlds and the
-    programs to begin with; `speakers` those who can be talked to.
+    Its element `parts` has the WebAssembly and the worker's script, packed, the dimensions of all named worlds and
+    the programs to begin with; `speakers` those who can be talked to.
 
     Raises:
         OctetError: The WebAssembly is not built.
@@ -49,9 +47,13 @@ def octet_page() -> str:
         wasm = PAGE_WASM.read_bytes()
     except OSError as error:
         raise OctetError(f"cannot read {PAGE_WASM}: {error.strerror}; build it with tools/setup page") from None
-    packed = base64.b64encode(zlib.compress(wasm, 9)).decode()
-    parts = {"wasm": packed, "worlds": world_dimensions(), "programs": programs()}
-    return with_data(with_data(page_of(_TEMPLATE), "parts", parts), "speakers", speakers())
+    parts = {
+        "wasm": packed(wasm),
+        "worker": packed(bundle(_WORKER)),
+        "worlds": world_dimensions(),
+        "programs": programs(),
+    }
+    return with_speakers(with_data(page_of(_TEMPLATE), "parts", parts))
 
 
 def world_dimensions() -> dict[str, dict[str, Any]]:

@@ -6,11 +6,13 @@ So that a template can be opened as it is:
   each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
   declaration. A module in a folder of `web/` is known by its path from there, `folder/y.js`.
 
-Comments that have lines of their own are left out, a quarter of a page.
+Comments that have lines of their own, and indentation, are left out: a third of a page.
 """
 
+import base64
 import posixpath
 import re
+import zlib
 from collections.abc import Iterator
 
 from host_sim.base.paths import WEB
@@ -18,23 +20,27 @@ from host_sim.view.languages import as_script, with_languages
 
 _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
 _SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')
-_WORKER = re.compile(r'(<script type="text/plain" id="[\w-]+" data-module="([\w./-]+)">)</script>')
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "(\.\.?/[\w./-]+)";$', re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*(?:/\*(?:(?!\*/).)*\*/|//[^\n]*)\n", re.MULTILINE | re.DOTALL)
+_INDENTATION = re.compile(r"^[ \t]+", re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function\*?|const|let|class) (\w+))", re.MULTILINE)
 
 
 def page_of(template: str) -> str:
     """A template with its words, its style sheet and its modules inserted."""
     text = _STYLE.sub(lambda match: f"<style>\n{_read(match[1])}</style>", with_languages(_read(template)))
-    text = _SCRIPT.sub(lambda match: f'<script type="module">\n{bundle(match[1])}</script>', text)
-    return _WORKER.sub(lambda match: f"{match[1]}\n{bundle(match[2])}</script>", text)
+    return _SCRIPT.sub(lambda match: f'<script type="module">\n{bundle(match[1])}</script>', text)
 
 
 def with_data(text: str, element_id: str, data: object) -> str:
     r"""A page whose empty element `<script type="application/json" id="...">` holds data, each `<` as `\u003c`."""
     element = f'<script type="application/json" id="{element_id}"></script>'
     return text.replace(element, element.replace("></", f">{as_script(data)}</"))
+
+
+def packed(data: bytes | str) -> str:
+    """Data, or a text in UTF-8, as base64 of a zlib stream: `inflate` in `core/packed_columns.js` unpacks it."""
+    return base64.b64encode(zlib.compress(data.encode() if isinstance(data, str) else data, 9)).decode("ascii")
 
 
 def bundle(*names: str) -> str:
@@ -68,4 +74,4 @@ def _place(name: str, needed: str) -> str:
 
 
 def _read(name: str) -> str:
-    return _COMMENT.sub("", (WEB / name).read_text(encoding="utf-8"))
+    return _INDENTATION.sub("", _COMMENT.sub("", (WEB / name).read_text(encoding="utf-8")))

@@ -51,7 +51,7 @@ from host_sim.base.atomic_file import write_bytes
 from host_sim.protocol.generated import COLUMNS, ROW
 from host_sim.recording.trajectory import RobotTrack, Trajectory
 from host_sim.report.page_bundle import page_of, with_data
-from host_sim.report.speakers import speakers
+from host_sim.report.speakers import with_speakers
 from host_sim.view.state import measures
 
 T = TypeVar("T", bound=tuple[Any, ...])
@@ -136,7 +136,7 @@ def _planes(column: Sequence[int]) -> bytes:
 
 def page(run: dict[str, Any], laboratory: Mapping[str, Any] | None = None) -> str:
     """The page's HTML."""
-    text = with_data(with_data(page_of(_TEMPLATE), "run", run), "speakers", speakers())
+    text = with_speakers(with_data(page_of(_TEMPLATE), "run", run))
     return text if laboratory is None else with_data(text, "laboratory", laboratory)
 
 

@@ -2,9 +2,16 @@
 
 from typing import Any
 
+from host_sim.report.page_bundle import packed, with_data
 from host_sim.talk.conversation import SPEAKERS, script_named, texts_of
+from host_sim.view.languages import as_script
 
 
 def speakers() -> dict[str, Any]:
     """Each speaker by its name: `script`, of `host_sim.talk.script`, and `texts`, of `host_sim.talk.texts`."""
     return {name: {"script": script_named(name), "texts": texts_of(name)} for name in SPEAKERS}
+
+
+def with_speakers(page: str) -> str:
+    """A page whose empty element `speakers` holds them, packed."""
+    return with_data(page, "speakers", packed(as_script(speakers())))

@@ -12,8 +12,8 @@ import { Simulator } from "./simulator.js";
  * @typedef {import("../types.js").Change} Change
  * @typedef {import("../types.js").Experiment} Experiment
  *
- * What the page has in it: page.wasm as base64 of a zlib stream, the worlds, and the programs to choose from.
- * @typedef {{wasm: string, worlds: import("../sim/worlds.js").Worlds, programs: Record<string, string>}} Parts
+ * What the page has in it: page.wasm and the worker's script, packed, the worlds, and the programs to choose from.
+ * @typedef {{wasm: string, worker: string, worlds: import("../sim/worlds.js").Worlds, programs: Record<string, string>}} Parts
  */
 
 const LANES_MAX = 4;
@@ -24,12 +24,13 @@ export class Laboratory extends PlayingPage {
    * @param {Parts} parts
    * @param {Experiment} experiment - The first run's.
    */
-  constructor({ wasm, worlds, programs }, experiment) {
+  constructor(parts, experiment) {
     super(0);
+    const { worlds, programs } = parts;
     this.programs = programs;
     this.worlds = worlds;
     this.params = worlds.random;
-    this.simulator = new Simulator(wasm, worlds);
+    this.simulator = new Simulator(parts);
     this.note = new Toast();
     /** @type {ShownRun[]} */
     this.lanes = [];

@@ -91,14 +91,14 @@ class LabPage extends Laboratory {
    * @param {string} who
    * @param {string} sentence
    */
-  ask(who, sentence) {
+  async ask(who, sentence) {
     const { data, robot, experiment } = this.lane;
     if (!data) return;
     /** @type {[number, string][]} */
     const starts = [[0, experiment.robots[robot].profile]];
     for (const it of experiment.changes) if (it.do === "start" && it.robot === robot) starts.push([it.tick, it.profile]);
     const about = { data, robot, tick: Math.min(this.tick, data.last), told: { starts, health: [] } };
-    const [exchange, places] = this.conversations.ask(who, sentence, about);
+    const [exchange, places] = await this.conversations.ask(who, sentence, about);
     this.talk.answer({ ...exchange, changes: experiment.changes.length }, places);
   }
 
@@ -108,8 +108,8 @@ class LabPage extends Laboratory {
    * @param {string} word
    * @param {string} answer
    */
-  teach(who, word, answer) {
-    this.conversations.all[who].teach(word, answer);
+  async teach(who, word, answer) {
+    (await this.conversations.all)[who].teach(word, answer);
     this.talk.taught.add(answer.toUpperCase());
   }
 

@@ -1,7 +1,6 @@
 // @ts-check
 /* Asks the worker for runs. Of an experiment that changes while it is simulated, only the newest is simulated next. */
 
-import { byId } from "../core/elements.js";
 import { inflate } from "../core/packed_columns.js";
 
 /**
@@ -14,13 +13,8 @@ import { inflate } from "../core/packed_columns.js";
 
 /** Has one worker; answers come in the order of the questions. */
 export class Simulator {
-  /**
-   * @param {string} wasm - page.wasm, as base64 of a zlib stream.
-   * @param {import("../sim/worlds.js").Worlds} worlds
-   */
-  constructor(wasm, worlds) {
-    const source = new Blob([byId("worker").textContent ?? ""], { type: "text/javascript" });
-    this.worker = new Worker(URL.createObjectURL(source));
+  /** @param {import("./laboratory.js").Parts} parts */
+  constructor(parts) {
     this.nextId = 0;
     /** @type {Map<number, OnAnswer>} */
     this.waiting = new Map();
@@ -34,9 +28,17 @@ export class Simulator {
      * @type {number | undefined}
      */
     this.running = undefined;
-    this.worker.addEventListener("message", ({ data }) => this.take(data));
-    /** Settled when the worker has what it needs: it is asked for nothing before. */
-    this.ready = inflate(wasm).then((bytes) => this.worker.postMessage({ do: "begin", wasm: bytes, worlds }));
+    /** The worker, when it has what it needs. */
+    this.worker = this.begin(parts);
+  }
+
+  /** @param {import("./laboratory.js").Parts} parts */
+  async begin({ wasm, worker, worlds }) {
+    const [bytes, script] = await Promise.all([inflate(wasm), inflate(worker)]);
+    const begun = new Worker(URL.createObjectURL(new Blob([script], { type: "text/javascript" })));
+    begun.addEventListener("message", ({ data }) => this.take(data));
+    begun.postMessage({ do: "begin", wasm: bytes, worlds });
+    return begun;
   }
 
   /**
@@ -123,7 +125,7 @@ export class Simulator {
 
   /** @param {Request} request */
   post(request) {
-    this.ready.then(() => this.worker.postMessage(request));
+    this.worker.then((worker) => worker.postMessage(request));
   }
 
   newId() {

@@ -131,9 +131,9 @@ class Player extends PlayingPage {
    * @param {string} who
    * @param {string} sentence
    */
-  ask(who, sentence) {
+  async ask(who, sentence) {
     const about = { data: this.data, robot: this.scene.index, tick: this.tick, told: { starts: [], health: [] } };
-    this.talk.answer(...this.conversations.ask(who, sentence, about));
+    this.talk.answer(...(await this.conversations.ask(who, sentence, about)));
   }
 
   /** @param {number} tick */

@@ -2,6 +2,7 @@
 /* A conversation in a page, with the robot of a run or with ELIZA; it marks what is known. */
 
 import { byId } from "../core/elements.js";
+import { inflate } from "../core/packed_columns.js";
 import { Eliza } from "./eliza.js";
 import { POINT, RobotFacts, inOrder } from "./facts.js";
 
@@ -54,11 +55,14 @@ export class Conversation {
   }
 }
 
-/** All who can be talked to in a page that has the whole run. */
+/** All who can be talked to in a page that has the whole run. They are unpacked when the first of them is spoken to. */
 export class Conversations {
-  /** @param {Record<string, Speaker>} [speakers] - By default, those in the page. */
-  constructor(speakers = JSON.parse(byId("speakers").textContent || "{}")) {
-    this.all = Object.fromEntries(Object.entries(speakers).map(([name, speaker]) => [name, new Conversation(speaker)]));
+  /** @type {Promise<Record<string, Conversation>> | undefined} */
+  #all;
+
+  get all() {
+    this.#all ??= speakersInPage();
+    return this.#all;
   }
 
   /**
@@ -67,13 +71,20 @@ export class Conversations {
    * @param {string} sentence
    * @param {About} about
    */
-  ask(who, sentence, about) {
+  async ask(who, sentence, about) {
     const { data, robot, tick } = about;
-    const said = this.all[who].answer(sentence, about);
+    const said = (await this.all)[who].answer(sentence, about);
     const { x, y } = data.robots[robot].columns;
     const here = said.ticks.filter((it) => it >= data.sceneAt(tick).first_tick).slice(-PLACES_MAX);
     /** @type {import("../types.js").WirePlace[]} */
     const places = here.map((it) => [x[it - data.first] / 10, y[it - data.first] / 10]);
     return /** @type {const} */ ([{ who, sentence, said, tick }, places]);
   }
+}
+
+async function speakersInPage() {
+  const text = new TextDecoder().decode(await inflate(JSON.parse(byId("speakers").textContent ?? "")));
+  /** @type {[string, Speaker][]} */
+  const speakers = Object.entries(JSON.parse(text));
+  return Object.fromEntries(speakers.map(([name, speaker]) => [name, new Conversation(speaker)]));
 }
