@@ -12,13 +12,12 @@ from host_sim.live.page_commands import (
     FULL_SPEED,
     EraseMemory,
     Freeze,
-    LiftRobot,
+    MoveRobot,
     NewSeed,
     NextEnvironment,
     OneDecision,
     PageCommand,
     Play,
-    PutRobot,
     Speed,
     WriteCell,
 )
@@ -274,7 +273,7 @@ class PacedRun:
             raise EditError("the robot has a clock of its own and runs at its own speed")
         self.speed, self._next_s = factor, 0.0
 
-    def _edit(self, command: LiftRobot | PutRobot | Edit) -> None:
+    def _edit(self, command: MoveRobot | Edit) -> None:
         if self.done:
             raise EditError("the run is over: start over to see more")
         if self.ended_at is not None:

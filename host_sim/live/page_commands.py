@@ -7,9 +7,7 @@ from typing import Any
 
 from host_sim.protocol.generated import CELL_COUNT, NODE_MAX, Side
 from host_sim.talk.conversation import SPEAKERS
-from host_sim.world.edit_json import edit_from, pose_from, whole
-from host_sim.world.edits import Edit
-from host_sim.world.geometry import Pose
+from host_sim.world.edits import Edit, edit_from, whole
 
 TEXT_MAX = 4096
 """Maximum length of a command, bytes."""
@@ -79,17 +77,10 @@ class Freeze:
 
 
 @dataclass(frozen=True)
-class LiftRobot:
-    """Lift a robot off the floor."""
+class MoveRobot:
+    """Lift a robot off the floor, or put a lifted one down: the edit, and whose it is."""
 
-    node: int | None = None
-
-
-@dataclass(frozen=True)
-class PutRobot:
-    """Put a lifted robot down."""
-
-    pose: Pose
+    edit: Edit
     node: int | None = None
 
 
@@ -109,7 +100,7 @@ class Question:
     node: int | None = None
 
 
-RobotCommand = WriteCell | EraseMemory | Freeze | LiftRobot | PutRobot
+RobotCommand = WriteCell | EraseMemory | Freeze | MoveRobot
 PageCommand = Play | OneDecision | Speed | NextEnvironment | NewSeed | RobotCommand | Edit
 """What a run carries out."""
 
@@ -133,6 +124,8 @@ def page_command_from(text: str) -> PageCommand | NameTag | Question:
     command = edit_from(fields) if parse is None else parse(fields)
     if command is None:
         raise ValueError("no such command")
+    if isinstance(command, Edit) and command.do in {"lift", "put"}:
+        return MoveRobot(command, _node(fields))
     return command
 
 
@@ -180,8 +173,6 @@ _PARSERS: dict[str, Callable[[Mapping[str, Any]], PageCommand | NameTag | Questi
     ),
     "erase": lambda fields: EraseMemory(_node(fields)),
     "freeze": lambda fields: Freeze(bool(whole(fields, "on", 0, 1)), _node(fields)),
-    "lift": lambda fields: LiftRobot(_node(fields)),
     "name": _name_tag,
     "ask": _question,
-    "put": lambda fields: PutRobot(pose_from(fields), _node(fields)),
 }

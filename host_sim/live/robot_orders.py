@@ -1,28 +1,26 @@
 """Moves and commands robots between two ticks, as people at a page request."""
 
+from dataclasses import replace
+
 from host_sim.client.commands import erase_memory, freeze, write_cells
 from host_sim.client.pacing import RealTime
-from host_sim.live.page_commands import EraseMemory, Freeze, LiftRobot, PutRobot, WriteCell
+from host_sim.live.page_commands import EraseMemory, Freeze, MoveRobot, WriteCell
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.sim.simulation import Simulation
-from host_sim.world.edits import Edit, EditError, Lift, Put
+from host_sim.world.edits import Edit, EditError
 
 _DISCARDED_MAX = 256
 
 
-def edit(simulation: Simulation, command: LiftRobot | PutRobot | Edit) -> None:
+def edit(simulation: Simulation, command: MoveRobot | Edit) -> None:
     """Changes the arena, or where a robot is.
 
     Raises:
         EditError: The change is not possible, or there is no such robot.
     """
-    match command:
-        case LiftRobot(node):
-            simulation.edit(Lift(_index(simulation, node)))
-        case PutRobot(pose, node):
-            simulation.edit(Put(pose, _index(simulation, node)))
-        case _:
-            simulation.edit(command)
+    if isinstance(command, MoveRobot):
+        command = replace(command.edit, robot=_index(simulation, command.node))
+    simulation.edit(command)
 
 
 def command_robot(simulation: Simulation, recorder: RunRecorder, command: WriteCell | EraseMemory | Freeze) -> None:

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from host_sim.base.errors import OctetError
-from host_sim.live.page_commands import EraseMemory, Freeze, LiftRobot, PageCommand, PutRobot, RobotCommand, WriteCell
+from host_sim.live.page_commands import PageCommand, RobotCommand
 
 NAME_MAX = 20
 """Maximum length of a name tag, characters."""
@@ -145,7 +145,7 @@ class Rights:
             return command
         if self.seat is None:
             raise NotYoursError(_ONLY_WATCHING)
-        if not isinstance(command, (WriteCell, EraseMemory, Freeze, LiftRobot, PutRobot)):
+        if not isinstance(command, RobotCommand):
             raise NotYoursError(_THE_BOARDS)
         return _for_node(command, self.seat.node)
 

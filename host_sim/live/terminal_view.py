@@ -12,19 +12,18 @@ from host_sim.live.page_commands import (
     FULL_SPEED,
     EraseMemory,
     Freeze,
-    LiftRobot,
+    MoveRobot,
     NextEnvironment,
     OneDecision,
     PageCommand,
     Play,
-    PutRobot,
     Speed,
 )
 from host_sim.live.text_picture import View, draw_text
 from host_sim.recording.summary import environment_line
 from host_sim.view.news import news_of
 from host_sim.view.state import environment_scene, states
-from host_sim.world.geometry import Pose
+from host_sim.world.edits import Edit
 
 _EVERY_S = 0.1
 _KEYS = """\
@@ -81,7 +80,8 @@ async def _show(live: PacedRun, screen: "curses.window") -> None:
 def _press(live: PacedRun, key: int) -> None:
     """Carries out the command of a key; those about a robot are about the first."""
     state = states(live.simulation, live.recorder.histories)[0]
-    node, here = state["node"], Pose(state["x"], state["y"], state["heading"] / 1000)
+    node = state["node"]
+    put = Edit("put", at=(state["x"], state["y"]), heading=state["heading"])
     commands: dict[int, PageCommand] = {
         ord(" "): Play(not live.playing),
         ord("."): OneDecision(),
@@ -90,7 +90,7 @@ def _press(live: PacedRun, key: int) -> None:
         ord("n"): NextEnvironment(),
         ord("e"): EraseMemory(node),
         ord("f"): Freeze(not state["frozen"], node),
-        ord("l"): PutRobot(here, node) if state["lifted"] else LiftRobot(node),
+        ord("l"): MoveRobot(put if state["lifted"] else Edit("lift"), node),
     }
     if key == ord("q"):
         live.close()

@@ -17,7 +17,7 @@ from host_sim.base.regular_file import read_bytes
 from host_sim.protocol.codec import NODE_MAX
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
 from host_sim.world.body_kinds import IDEAL, KIT, BodyKind, body_kind, kind_from
-from host_sim.world.edit_json import edit_from, edit_to, whole
+from host_sim.world.edits import edit_from, edit_to, whole
 from host_sim.world.layouts import World
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
 from host_sim.world.worlds import world_of

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from host_sim.world.body_kinds import BodyKind
-from host_sim.world.edits import ChangeBody, Edit, MoveBar, MoveFood
+from host_sim.world.edits import Edit
 from host_sim.world.layouts import World
 from host_sim.world.world_names import RANDOM
 from host_sim.world.worlds import world_of
@@ -81,7 +81,7 @@ class WorldRecord:
         last: list[Edited] = []
         while self.edits and self.edits[-1].tick == begun.first_tick:
             last.insert(0, self.edits.pop())
-        self.edits += [it for it in last if isinstance(it.edit, ChangeBody) and begun.number > 1]
+        self.edits += [it for it in last if it.edit.do == "body" and begun.number > 1]
         self.begun.append(begun)
 
     def add(self, edited: Edited) -> None:
@@ -91,7 +91,7 @@ class WorldRecord:
         self.edits.append(edited)
 
 
-def _dragged(edited: Edited) -> tuple[int, type, int] | None:
+def _dragged(edited: Edited) -> tuple[int, str, int] | None:
     """The tick of an edit that moves a thing, and which thing; None for other edits."""
     edit = edited.edit
-    return (edited.tick, type(edit), edit.id) if isinstance(edit, (MoveBar, MoveFood)) else None
+    return (edited.tick, edit.do, edit.id) if edit.do in ("move_bar", "move_food") else None

@@ -5,13 +5,11 @@ from itertools import groupby
 from host_sim.protocol.generated import SENTENCES
 from host_sim.sim.world_record import Edited, WorldRecord
 from host_sim.view.phrases import body_sentence
-from host_sim.world.edit_json import edit_to
-from host_sim.world.edits import AddPlant, ChangeBody, GrowPlant, MovePlant, RemovePlant
 
 News = tuple[int, str]
 """The tick before which something changed, and a sentence."""
 
-_SHOWN = (AddPlant, MovePlant, GrowPlant, RemovePlant, ChangeBody)
+_SHOWN = ("plant", "move_plant", "grow_plant", "remove_plant", "body")
 
 
 def news_of(record: WorldRecord) -> list[News]:
@@ -22,13 +20,13 @@ def news_of(record: WorldRecord) -> list[News]:
 
 
 def _sentences(record: WorldRecord) -> list[News]:
-    edits = [edited for edited in record.edits if isinstance(edited.edit, _SHOWN)]
+    edits = [edited for edited in record.edits if edited.edit.do in _SHOWN]
     return [(edited.tick, _sentence(edited, edits, record.robots)) for edited in edits]
 
 
 def _sentence(edited: Edited, edits: list[Edited], robots: int) -> str:
     edit = edited.edit
-    if not isinstance(edit, ChangeBody):
-        return SENTENCES[edit_to(edit)["do"]]
-    everyone = sum((tick, it.what) == (edited.tick, edit.what) for tick, it in edits if isinstance(it, ChangeBody))
+    if edit.do != "body":
+        return SENTENCES[edit.do]
+    everyone = sum((tick, it.do, it.what) == (edited.tick, "body", edit.what) for tick, it in edits)
     return ("" if everyone == robots else f"Robot {edit.robot + 1}: ") + body_sentence(edit.what)

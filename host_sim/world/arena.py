@@ -5,8 +5,7 @@ from collections.abc import Sequence
 from host_sim.protocol.generated import Ranges
 from host_sim.world.body import Body
 from host_sim.world.body_kinds import BodyKind, draw_body
-from host_sim.world.edit_json import edit_in_c
-from host_sim.world.edits import Edit, EditError
+from host_sim.world.edits import Edit, EditError, edit_in_c
 from host_sim.world.geometry import Point
 from host_sim.world.layouts import Layout
 from host_sim.world.native_world import NativeWorld

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from host_sim.world.arena import Arena
 from host_sim.world.changes import GROW, PLANT, Change
-from host_sim.world.edits import AddPlant, ChangeBody, Edit, EditError, GrowPlant
+from host_sim.world.edits import Edit, EditError
 from host_sim.world.geometry import Plant, Point
 from host_sim.world.params import SimParams
 from host_sim.world.reach import Reach, clearance_mm
@@ -26,18 +26,21 @@ def edits_of(change: Change, arena: Arena, params: SimParams, seed: int) -> list
     if change.name == PLANT:
         numbers = change.numbers
         at = (float(numbers[0]), float(numbers[1])) if numbers else _place(arena, params, seed)
-        return [AddPlant(Plant(at, _RADIUS_MM))]
+        return [Edit("plant", at=at, radius=_RADIUS_MM)]
     if change.name == GROW:
         return _growth(arena, change.numbers)
     robots = range(len(arena.bodies)) if change.robot is None else [change.robot - 1]
-    return [ChangeBody(change.what, robot, seed) for robot in robots]
+    return [Edit("body", what=change.what, robot=robot, seed=seed) for robot in robots]
 
 
 def _growth(arena: Arena, numbers: Sequence[int]) -> list[Edit]:
     if not arena.obstacles.plants:
         raise EditError("there is no plant in this environment")
     growth_mm = numbers[0] if numbers else _GROWTH_MM
-    return [GrowPlant(plant_id, plant.radius_mm + growth_mm) for plant_id, plant in arena.obstacles.plants.items()]
+    return [
+        Edit("grow_plant", plant_id, radius=plant.radius_mm + growth_mm)
+        for plant_id, plant in arena.obstacles.plants.items()
+    ]
 
 
 def _place(arena: Arena, params: SimParams, seed: int) -> Point:

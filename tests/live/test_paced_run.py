@@ -15,7 +15,7 @@ from host_sim.live.page_commands import (
     FULL_SPEED,
     EraseMemory,
     Freeze,
-    LiftRobot,
+    MoveRobot,
     NewSeed,
     NextEnvironment,
     OneDecision,
@@ -24,8 +24,7 @@ from host_sim.live.page_commands import (
 )
 from host_sim.protocol.codec import Frame
 from host_sim.protocol.generated import Reason
-from host_sim.world.edits import AddBar, Lift
-from host_sim.world.geometry import Bar
+from host_sim.world.edits import Edit
 from tests.live.support import Live, order, play
 
 
@@ -116,7 +115,7 @@ def test_many_slow_orders_do_not_hold_up_the_pages(live, monkeypatch):
 def test_what_cannot_be_done_is_complained_of_and_not_recorded(live):
     run = live()
     robot = run.simulation.arena.body.pose
-    assert order(run, AddBar(Bar(robot[:2], (0.0, 0.0)))) == ["the robot stands there"]
+    assert order(run, Edit("add_bar", a=robot[:2], b=(0.0, 0.0))) == ["the robot stands there"]
     assert run.simulation.record.edits == []
 
 
@@ -129,7 +128,7 @@ def test_more_orders_than_fit_are_refused_and_counted(live):
 
 def test_each_robot_is_told_by_its_node(live):
     run = live(robots=2)
-    assert order(run, WriteCell(3, 1, node=2), LiftRobot(2), Freeze(True, node=1)) == []
+    assert order(run, WriteCell(3, 1, node=2), MoveRobot(Edit("lift"), 2), Freeze(True, node=1)) == []
     assert [client.memory[3] for client in run.simulation.clients] == [0, 1]
     assert [body.lifted for body in run.simulation.arena.bodies] == [False, True]
     assert [history.frozen for history in run.recorder.histories] == [True, False]
@@ -171,7 +170,7 @@ def test_the_next_environment_and_a_new_seed_are_recorded(live):
 def test_after_the_last_environment_it_waits_for_a_new_seed(live):
     run = live(speed=FULL_SPEED)
     to_the_end(run)
-    assert order(run, Lift()) == ["the run is over: start over to see more"]
+    assert order(run, Edit("lift")) == ["the run is over: start over to see more"]
     order(run, NewSeed(2))
     assert not run.done
     assert run.simulation.record.begun[-1][:2] == (2, 1)
@@ -201,7 +200,7 @@ def test_the_end_of_an_environment_stays_in_view_for_a_while(live, monkeypatch):
     assert (run.simulation.tick, run.simulation.record.begun[-1].number) == (3, 1)
     ended = json.loads(PageFeed(run).next())["play"]["ended"]
     assert (ended["number"], ended["finished"], ended["eaten"], ended["food"]) == (1, False, 0, 3)
-    assert order(run, Lift()) == ["this environment is over: the next one begins in a moment"]
+    assert order(run, Edit("lift")) == ["this environment is over: the next one begins in a moment"]
 
 
 def test_after_the_pause_the_next_environment_begins(live, monkeypatch):

@@ -5,8 +5,7 @@ from host_sim.live.page_commands import EraseMemory, Freeze, NewSeed, NextEnviro
 from host_sim.recording.resimulation import resimulate
 from host_sim.recording.world_file import world_path, write_world
 from host_sim.report.replay_page import run_data
-from host_sim.world.edits import AddBar, Lift, MoveFood, Put
-from host_sim.world.geometry import Bar, Pose
+from host_sim.world.edits import Edit
 from tests.live.support import order
 
 
@@ -15,9 +14,9 @@ def test_equal_orders_at_equal_ticks_give_equal_runs(live):
         run = live(name)
         simulation = run.simulation
         for orders in (
-            [AddBar(Bar((1000.0, 200.0), (1000.0, 900.0))), WriteCell(2, 1)],
-            [Lift()],
-            [Put(Pose(2000.0, 2700.0, 0.5)), MoveFood(0, (300.0, 300.0))],
+            [Edit("add_bar", a=(1000.0, 200.0), b=(1000.0, 900.0)), WriteCell(2, 1)],
+            [Edit("lift")],
+            [Edit("put", at=(2000.0, 2700.0), heading=500), Edit("move_food", 0, at=(300.0, 300.0))],
             [NextEnvironment(), Freeze(True)],
             [NewSeed(4)],
         ):

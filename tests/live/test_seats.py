@@ -8,17 +8,15 @@ from host_sim.live.page_commands import (
     FULL_SPEED,
     EraseMemory,
     Freeze,
-    LiftRobot,
+    MoveRobot,
     NewSeed,
     NextEnvironment,
     Play,
-    PutRobot,
     WriteCell,
 )
 from host_sim.live.seats import NAME_MAX, NotYoursError, Rights, Seats, name_from
 from host_sim.protocol.generated import Reason
-from host_sim.world.edits import AddBar
-from host_sim.world.geometry import Bar, Pose
+from host_sim.world.edits import Edit
 from tests.live.support import order, play
 
 A, B, C = (f"{i:032x}" for i in (10, 11, 12))
@@ -88,12 +86,14 @@ def test_a_page_changes_its_own_robot_only(seats):
         assert first.admit(EraseMemory()) == EraseMemory(1)
         assert rights.admit(WriteCell(3, 1)) == WriteCell(3, 1, 2)
         assert rights.admit(Freeze(on=True, node=2)) == Freeze(on=True, node=2)
-        assert rights.admit(LiftRobot(2)) == LiftRobot(2)
+        assert rights.admit(MoveRobot(Edit("lift"), 2)) == MoveRobot(Edit("lift"), 2)
         with pytest.raises(NotYoursError, match="robot 1 is not yours: yours is robot 2"):
-            rights.admit(PutRobot(Pose(1, 2, 0), 1))
+            rights.admit(MoveRobot(Edit("put", at=(1, 2)), 1))
 
 
-@pytest.mark.parametrize("command", [Play(on=False), NextEnvironment(), NewSeed(1), AddBar(Bar((0, 0), (9, 9)))])
+@pytest.mark.parametrize(
+    "command", [Play(on=False), NextEnvironment(), NewSeed(1), Edit("add_bar", a=(0, 0), b=(9, 9))]
+)
 def test_what_is_for_all_is_for_the_board(seats, command):
     with Rights.of(seats, A) as rights, pytest.raises(NotYoursError, match="the board does that for all"):
         rights.admit(command)

@@ -26,8 +26,8 @@ from host_sim.recording.world_file import world_path, write_world
 from host_sim.sim.make import start_robots
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.world.edits import AddBar, Lift, MoveFood, Put
-from host_sim.world.geometry import Bar, Pose
+from host_sim.world.edits import Edit
+from host_sim.world.geometry import Bar
 from host_sim.world.params import SimParams
 from tests.recording.support import open_simulation, record_run, run_through, without, write_log
 
@@ -81,10 +81,10 @@ def test_without_a_world_file_the_environments_are_those_of_the_seed(tmp_path):
 def meddle(simulation: Simulation, run_recorder: RunRecorder) -> None:
     """What a person may do in the first 12 seconds."""
     at_tick = {
-        100: lambda: simulation.edit(AddBar(Bar((500.0, 2500.0), (900.0, 2700.0)))),
-        150: lambda: simulation.edit(Lift()),
-        180: lambda: simulation.edit(Put(Pose(2000.0, 1500.0, 0.5))),
-        200: lambda: simulation.edit(MoveFood(0, (2600.0, 1800.0))),
+        100: lambda: simulation.edit(Edit("add_bar", a=(500.0, 2500.0), b=(900.0, 2700.0))),
+        150: lambda: simulation.edit(Edit("lift")),
+        180: lambda: simulation.edit(Edit("put", at=(2000.0, 1500.0), heading=500)),
+        200: lambda: simulation.edit(Edit("move_food", 0, at=(2600.0, 1800.0))),
         250: lambda: write_cells(simulation.clients[0], {1: 2}),
         300: lambda: freeze(simulation.clients[0], True),
     }
@@ -108,11 +108,17 @@ def test_what_people_did_happens_again(tmp_path):
 def test_what_people_did_live_happens_again(tmp_path):
     bar = Bar((500.0, 2500.0), (900.0, 2700.0))
     orders = {
-        100: [AddBar(bar), Lift(), NextEnvironment()],
+        100: [Edit("add_bar", **bar._asdict()), Edit("lift"), NextEnvironment()],
         300: [WriteCell(2, 1), Freeze(True)],
-        500: [MoveFood(0, (100.0, 100.0)), NewSeed(9)],
+        500: [Edit("move_food", 0, at=(100.0, 100.0)), NewSeed(9)],
         700: [EraseMemory()],
-        900: [AddBar(bar), NextEnvironment(), NewSeed(4), NextEnvironment(), AddBar(bar)],
+        900: [
+            Edit("add_bar", **bar._asdict()),
+            NextEnvironment(),
+            NewSeed(4),
+            NextEnvironment(),
+            Edit("add_bar", **bar._asdict()),
+        ],
     }
     complaints = []
     with ExitStack() as stack:

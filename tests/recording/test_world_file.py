@@ -7,20 +7,8 @@ import pytest
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.recording.world_file import read_world, world_path, write_world
 from host_sim.sim.world_record import Begun, Edited, Refused, WorldRecord
-from host_sim.world.edits import (
-    AddBar,
-    AddPlant,
-    ChangeBody,
-    GrowPlant,
-    Lift,
-    MoveBar,
-    MoveFood,
-    MovePlant,
-    Put,
-    RemoveBar,
-    RemovePlant,
-)
-from host_sim.world.geometry import Bar, Plant, Pose
+from host_sim.world.edits import Edit
+from host_sim.world.geometry import Bar, Plant
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
 from host_sim.world.worlds import world_of
@@ -28,17 +16,17 @@ from host_sim.world.worlds import world_of
 PLANT = Plant((500.0, 600.0), 80.0)
 BAR = Bar((10.0, 20.0), (300.0, 40.0))
 EDITS = [
-    Edited(3, AddBar(BAR)),
-    Edited(3, MoveBar(6, BAR)),
-    Edited(4, RemoveBar(6)),
-    Edited(9, MoveFood(2, (1.0, 2.0))),
-    Edited(9, Lift()),
-    Edited(12, Put(Pose(100.0, 200.0, -3.1))),
-    Edited(13, AddPlant(PLANT)),
-    Edited(14, MovePlant(0, (900.0, 800.0))),
-    Edited(14, GrowPlant(0, 120.0)),
-    Edited(15, ChangeBody("noise:10/1000", 1, 7)),
-    Edited(16, RemovePlant(0)),
+    Edited(3, Edit("add_bar", **BAR._asdict())),
+    Edited(3, Edit("move_bar", 6, **BAR._asdict())),
+    Edited(4, Edit("remove_bar", 6)),
+    Edited(9, Edit("move_food", 2, at=(1.0, 2.0))),
+    Edited(9, Edit("lift")),
+    Edited(12, Edit("put", at=(100.0, 200.0), heading=-3100)),
+    Edited(13, Edit("plant", at=PLANT.at, radius=PLANT.radius_mm)),
+    Edited(14, Edit("move_plant", 0, at=(900.0, 800.0))),
+    Edited(14, Edit("grow_plant", 0, radius=120.0)),
+    Edited(15, Edit("body", what="noise:10/1000", robot=1, seed=7)),
+    Edited(16, Edit("remove_plant", 0)),
 ]
 
 
@@ -96,32 +84,36 @@ def test_a_file_that_does_not_say_is_of_a_world_with_five_equal_cones(tmp_path):
 def test_dragging_between_two_ticks_leaves_the_last_place_only():
     dragged = WorldRecord(1, 5, 30000)
     for x in (1.0, 2.0, 3.0):
-        dragged.add(Edited(5, MoveFood(0, (x, 0.0))))
-    dragged.add(Edited(5, MoveFood(1, (9.0, 0.0))))
-    dragged.add(Edited(6, MoveFood(1, (10.0, 0.0))))
+        dragged.add(Edited(5, Edit("move_food", 0, at=(x, 0.0))))
+    dragged.add(Edited(5, Edit("move_food", 1, at=(9.0, 0.0))))
+    dragged.add(Edited(6, Edit("move_food", 1, at=(10.0, 0.0))))
     places = [(edited.tick, edited.edit.id, edited.edit.at[0]) for edited in dragged.edits]
     assert places == [(5, 0, 3.0), (5, 1, 9.0), (6, 1, 10.0)]
 
 
 def test_edits_after_an_environments_last_tick_are_dropped_but_not_what_is_wrong_with_a_body():
     kept = WorldRecord(1, 5, 30000)
-    for edit in (AddBar(BAR), ChangeBody("mirror"), AddPlant(PLANT)):
+    for edit in (
+        Edit("add_bar", **BAR._asdict()),
+        Edit("body", what="mirror"),
+        Edit("plant", at=PLANT.at, radius=PLANT.radius_mm),
+    ):
         kept.add(Edited(5, edit))
     kept.begin(Begun(1, 2, 5))
-    assert kept.edits == [Edited(5, ChangeBody("mirror"))]
+    assert kept.edits == [Edited(5, Edit("body", what="mirror"))]
 
 
 def test_a_run_that_begins_anew_begins_with_sound_bodies():
     kept = WorldRecord(1, 5, 30000)
-    kept.add(Edited(5, ChangeBody("mirror")))
+    kept.add(Edited(5, Edit("body", what="mirror")))
     kept.begin(Begun(2, 1, 5))
     assert kept.edits == []
 
 
 def test_equal_edits_in_a_row_that_move_nothing_are_all_kept():
     kept = WorldRecord(1, 5, 30000)
-    kept.add(Edited(5, AddBar(BAR)))
-    kept.add(Edited(5, AddBar(BAR)))
+    kept.add(Edited(5, Edit("add_bar", **BAR._asdict())))
+    kept.add(Edited(5, Edit("add_bar", **BAR._asdict())))
     assert len(kept.edits) == 2
 
 

@@ -26,35 +26,21 @@ from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.world.edits import (
-    AddBar,
-    AddPlant,
-    ChangeBody,
-    EditError,
-    GrowPlant,
-    Lift,
-    MoveBar,
-    MoveFood,
-    MovePlant,
-    Put,
-    RemoveBar,
-    RemovePlant,
-)
-from host_sim.world.geometry import Bar, Plant, Pose
+from host_sim.world.edits import Edit, EditError
 from host_sim.world.world_names import WORLD_NAMES
 
 EDITS = {
-    60: AddPlant(Plant((700.0, 600.0), 80.0)),
-    100: AddBar(Bar((0.0, 0.0), (0.0, 900.0))),
-    150: Lift(),
-    170: Put(Pose(1000.0, 1000.0, 1.0)),
-    200: ChangeBody("mirror"),
-    210: GrowPlant(0, 200.0),
-    250: MoveBar(0, Bar((900.0, 900.0), (900.0, 1500.0))),
-    300: MoveFood(1, (50.0, 2950.0)),
-    350: MovePlant(0, (1400.0, 1100.0)),
-    400: RemoveBar(1),
-    450: RemovePlant(0),
+    60: Edit("plant", at=(700.0, 600.0), radius=80.0),
+    100: Edit("add_bar", a=(0.0, 0.0), b=(0.0, 900.0)),
+    150: Edit("lift"),
+    170: Edit("put", at=(1000.0, 1000.0), heading=1000),
+    200: Edit("body", what="mirror"),
+    210: Edit("grow_plant", 0, radius=200.0),
+    250: Edit("move_bar", 0, a=(900.0, 900.0), b=(900.0, 1500.0)),
+    300: Edit("move_food", 1, at=(50.0, 2950.0)),
+    350: Edit("move_plant", 0, at=(1400.0, 1100.0)),
+    400: Edit("remove_bar", 1),
+    450: Edit("remove_plant", 0),
 }
 """By the tick before which each of them is made, where it can be."""
 

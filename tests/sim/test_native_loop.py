@@ -18,8 +18,7 @@ from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.world.edits import AddBar, Lift, MoveFood, Put, RemoveBar
-from host_sim.world.geometry import Bar, Pose
+from host_sim.world.edits import Edit
 from tests.sim.meddled_runs import learned
 
 READABLE, IN_C = "in Python", "in C"
@@ -123,13 +122,13 @@ def press_freeze(simulation: Simulation, recorder: RunRecorder) -> None:
 
 
 CHANGES: dict[int, Change] = {
-    100: lambda simulation, _: simulation.edit(AddBar(Bar((0.0, 0.0), (0.0, 900.0)))),
-    150: lambda simulation, _: simulation.edit(Lift()),
-    170: lambda simulation, _: simulation.edit(Put(Pose(*simulation.arena.body.pose[:2], 1.0))),
+    100: lambda simulation, _: simulation.edit(Edit("add_bar", a=(0.0, 0.0), b=(0.0, 900.0))),
+    150: lambda simulation, _: simulation.edit(Edit("lift")),
+    170: lambda simulation, _: simulation.edit(Edit("put", at=simulation.arena.body.pose[:2], heading=1000 * 1.0)),
     200: lambda simulation, _: write_cells(simulation.clients[0], {1: 2, 4: 1}),
     201: lambda simulation, _: erase_memory(simulation.clients[0]),
-    300: lambda simulation, _: simulation.edit(MoveFood(1, (50.0, 2950.0))),
-    400: lambda simulation, _: simulation.edit(RemoveBar(0)),
+    300: lambda simulation, _: simulation.edit(Edit("move_food", 1, at=(50.0, 2950.0))),
+    400: lambda simulation, _: simulation.edit(Edit("remove_bar", 0)),
     1200: press_freeze,
     1400: lambda simulation, _: write_cells(simulation.clients[0], {6: 1}),
 }

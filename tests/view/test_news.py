@@ -6,8 +6,8 @@ from host_sim.protocol.words import BODY_FAULTS
 from host_sim.sim.world_record import Edited, Refused, WorldRecord
 from host_sim.view.news import news_of
 from host_sim.view.phrases import body_sentence
-from host_sim.world.edits import AddBar, AddPlant, ChangeBody, GrowPlant, Lift
-from host_sim.world.geometry import Bar, Plant
+from host_sim.world.edits import Edit
+from host_sim.world.geometry import Plant
 
 PLANT = Plant((500.0, 500.0), 80.0)
 
@@ -17,20 +17,24 @@ def record(*edits: Edited, robots: int = 1) -> WorldRecord:
 
 
 def test_news_are_what_changed_by_itself_and_not_what_a_hand_moved():
-    edits = [Edited(5, AddBar(Bar((1.0, 1.0), (90.0, 90.0)))), Edited(6, AddPlant(PLANT)), Edited(7, Lift())]
+    edits = [
+        Edited(5, Edit("add_bar", a=(1.0, 1.0), b=(90.0, 90.0))),
+        Edited(6, Edit("plant", at=PLANT.at, radius=PLANT.radius_mm)),
+        Edited(7, Edit("lift")),
+    ]
 
     assert news_of(record(*edits)) == [(6, "A plant was put down.")]
 
 
 def test_plants_that_grow_at_once_are_one_piece_of_news():
-    assert news_of(record(Edited(6, GrowPlant(0, 90.0)), Edited(6, GrowPlant(1, 90.0)))) == [
-        (6, "A plant has grown.")
-    ]
+    assert news_of(
+        record(Edited(6, Edit("grow_plant", 0, radius=90.0)), Edited(6, Edit("grow_plant", 1, radius=90.0)))
+    ) == [(6, "A plant has grown.")]
 
 
 def test_what_happens_to_all_robots_is_one_piece_of_news_and_else_the_robot_is_named():
-    both = [Edited(6, ChangeBody("mirror", robot)) for robot in (0, 1)]
-    one = Edited(9, ChangeBody("swap-motors", 1))
+    both = [Edited(6, Edit("body", what="mirror", robot=robot)) for robot in (0, 1)]
+    one = Edited(9, Edit("body", what="swap-motors", robot=1))
 
     assert news_of(record(*both, one, robots=2)) == [
         (6, "The ring of sensors was mounted the other way round."),
@@ -39,7 +43,7 @@ def test_what_happens_to_all_robots_is_one_piece_of_news_and_else_the_robot_is_n
 
 
 def test_what_could_not_happen_is_news_in_its_place():
-    made = record(Edited(9, AddPlant(PLANT)))
+    made = record(Edited(9, Edit("plant", at=PLANT.at, radius=PLANT.radius_mm)))
     made.refused.append(Refused(6, "grow@1s", "there is no plant"))
 
     assert [tick for tick, _ in news_of(made)] == [6, 9]

@@ -10,8 +10,8 @@ from host_sim.world.arena import Arena
 from host_sim.world.body_faults import check_fault
 from host_sim.world.change_effects import edits_of
 from host_sim.world.changes import Change, read_changes
-from host_sim.world.edits import AddPlant, ChangeBody, EditError, GrowPlant
-from host_sim.world.geometry import Bar, Plant, Pose
+from host_sim.world.edits import Edit, EditError
+from host_sim.world.geometry import Bar, Pose
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.params import SimParams
 from host_sim.world.reach import Reach
@@ -133,7 +133,7 @@ def test_a_plant_is_put_where_it_leaves_a_way_to_all_food(seed):
 
 
 def test_the_place_of_a_plant_follows_from_the_seed():
-    places = {happen(Arena(generate(1, 1, PARAMS), PARAMS), "plant@1s", seed)[0].plant.at for seed in (1, 1, 2)}
+    places = {happen(Arena(generate(1, 1, PARAMS), PARAMS), "plant@1s", seed)[0].at for seed in (1, 1, 2)}
 
     assert len(places) == 2
 
@@ -141,7 +141,7 @@ def test_the_place_of_a_plant_follows_from_the_seed():
 def test_a_plant_can_be_put_at_a_place():
     edits = happen(Arena(generate(1, 1, PARAMS), PARAMS), "plant:2000,1500@1s")
 
-    assert edits == [AddPlant(Plant((2000.0, 1500.0), 80.0))]
+    assert edits == [Edit("plant", at=(2000.0, 1500.0), radius=80.0)]
 
 
 def test_where_every_plant_would_be_in_the_way_there_is_no_room():
@@ -166,8 +166,8 @@ def test_all_plants_grow():
     grown = happen(arena, "grow@2s")
     more = happen(arena, "grow:7@2s")
 
-    assert [type(edit) for edit in grown] == [GrowPlant] * 2
-    assert [edit.radius_mm for edit in (*grown, *more)] == [120.0] * 2 + [127.0] * 2
+    assert [edit.do for edit in grown] == ["grow_plant"] * 2
+    assert [edit.radius for edit in (*grown, *more)] == [120.0] * 2 + [127.0] * 2
 
 
 def test_where_there_is_no_plant_none_grows():
@@ -178,8 +178,10 @@ def test_where_there_is_no_plant_none_grows():
 def test_what_happens_to_bodies_happens_to_all_or_to_the_one_named():
     arena = Arena(generate(1, 1, PARAMS, robots=3), PARAMS)
 
-    assert happen(arena, "mirror@1s", seed=7) == [ChangeBody("mirror", robot, 7) for robot in range(3)]
-    assert happen(arena, "mirror@1s/2", seed=7) == [ChangeBody("mirror", 1, 7)]
+    assert happen(arena, "mirror@1s", seed=7) == [
+        Edit("body", what="mirror", robot=robot, seed=7) for robot in range(3)
+    ]
+    assert happen(arena, "mirror@1s/2", seed=7) == [Edit("body", what="mirror", robot=1, seed=7)]
     assert [body.faults.mirrored for body in arena.bodies] == [True, False, True]
 
 
@@ -187,7 +189,7 @@ def test_a_plant_is_an_obstacle_like_any_other():
     arena = Arena(Layout((Bar((9.0, 9.0), (99.0, 99.0)),), ((2500.0, 1500.0),), Pose(2000.0, 1500.0, 0.0)), PARAMS)
     assert arena.body.sense(0).look
 
-    arena.edit(AddPlant(Plant((2230.0, 1500.0), 80.0)))
+    arena.edit(Edit("plant", at=(2230.0, 1500.0), radius=80.0))
 
     assert arena.body.sense(0).feel == 4
     assert not arena.body.sense(0).look

@@ -12,8 +12,8 @@ from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import SPACES_MAX
 from host_sim.world.arena import Arena
-from host_sim.world.edits import AddBar, Edit, EditError, Lift, MoveBar, MoveFood, Put, RemoveBar
-from host_sim.world.geometry import Bar, Point, Pose
+from host_sim.world.edits import Edit, EditError
+from host_sim.world.geometry import Bar, Point
 from host_sim.world.layouts import generate
 from host_sim.world.params import SimParams
 from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
@@ -61,12 +61,12 @@ def random_edit(draws: random.Random, robots: int) -> Edit:
     robot = draws.randrange(robots)
     return draws.choice(
         [
-            AddBar(bar),
-            MoveBar(draws.randrange(8), bar),
-            RemoveBar(draws.randrange(8)),
-            MoveFood(draws.randrange(3), point(draws)),
-            Lift(robot),
-            Put(Pose(*point(draws), draws.uniform(-3.0, 3.0)), robot),
+            Edit("add_bar", **bar._asdict()),
+            Edit("move_bar", draws.randrange(8), **bar._asdict()),
+            Edit("remove_bar", draws.randrange(8)),
+            Edit("move_food", draws.randrange(3), at=point(draws)),
+            Edit("lift", robot=robot),
+            Edit("put", at=point(draws), heading=1000 * draws.uniform(-3.0, 3.0), robot=robot),
         ]
     )
 

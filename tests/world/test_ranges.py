@@ -9,7 +9,7 @@ from host_sim.protocol.generated import NOTHING_NEAR, RANGE_NONE, Ranges
 from host_sim.world.arena import Arena
 from host_sim.world.body_kinds import kind_from
 from host_sim.world.cones import CONE_BEARINGS_DEG
-from host_sim.world.edits import Lift, Put
+from host_sim.world.edits import Edit
 from host_sim.world.geometry import Capsule, Pose, ahead_of
 from host_sim.world.layouts import Layout, generate
 from host_sim.world.native_world import NativeWorld
@@ -159,7 +159,7 @@ def test_distances_come_as_late_as_the_other_senses():
     arena = Arena(Layout((), (), Pose(2000.0, 1500.0, 0.0)), PARAMS, kind=kind_from({"senses_ticks": 1}))
     arena.begin(1)
     arena.body.sense(0)
-    for edit in (Lift(), Put(near)):
+    for edit in (Edit("lift"), Edit("put", at=near[:2], heading=1000 * near.heading_rad)):
         arena.edit(edit)
 
     told = [(arena.body.sense(tick).feel != 0, arena.ranges(0, tick).front) for tick in (1, 2)]

@@ -66,6 +66,7 @@ def _exchanged(robot: Description) -> list[str]:
         _tuple("Ranges", "Whole mm from the rim to the nearest thing in each cone; None: out of reach.", ranges),
         f"\n\nNOTHING_SENSED = Senses({_zeros(robot.senses)})\nREST = Drive({_zeros(robot.drive)})\n",
         f"NOTHING_NEAR = Ranges({', '.join('None' for _ in ranges)})\n",
+        f"EDITS: dict[str, tuple[str, ...]] = { ({name: tuple(fields) for name, fields in robot.edits.items()})!r}\n",
         f"ROW: tuple[str, ...] = {tuple(robot.row)!r}\n",
         f"COLUMNS: dict[str, int] = {robot.columns!r}\n",
         f"SENTENCES: dict[str, str] = {robot.sentences!r}\n",

@@ -20,20 +20,8 @@ from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
-from host_sim.world.edits import (
-    AddBar,
-    AddPlant,
-    ChangeBody,
-    Edit,
-    EditError,
-    GrowPlant,
-    Lift,
-    MoveBar,
-    MoveFood,
-    Put,
-    RemoveBar,
-)
-from host_sim.world.geometry import Bar, Plant, Point, Pose
+from host_sim.world.edits import Edit, EditError
+from host_sim.world.geometry import Bar, Point
 from host_sim.world.physics_names import PYMUNK
 
 _ENVIRONMENTS, _LIMIT_S = 2, 300.0
@@ -141,19 +129,24 @@ def _bar_id(simulation: Simulation, draws: random.Random) -> int:
 
 
 _EDITS: list[Callable[[Simulation, random.Random], Edit]] = [
-    lambda simulation, draws: AddBar(_bar(simulation, draws)),
-    lambda simulation, draws: MoveBar(_bar_id(simulation, draws), _bar(simulation, draws)),
-    lambda simulation, draws: RemoveBar(_bar_id(simulation, draws)),
-    lambda simulation, draws: MoveFood(draws.randrange(len(simulation.arena.food.at)), _point(simulation, draws)),
-    lambda simulation, draws: AddPlant(Plant(_point(simulation, draws), draws.randint(20, 200))),
-    lambda _, draws: GrowPlant(0, draws.randint(20, 200)),
-    lambda simulation, draws: ChangeBody(
-        draws.choice(_BODY_FAULTS), draws.randrange(len(simulation.clients)), simulation.seed
+    lambda simulation, draws: Edit("add_bar", **_bar(simulation, draws)._asdict()),
+    lambda simulation, draws: Edit("move_bar", _bar_id(simulation, draws), **_bar(simulation, draws)._asdict()),
+    lambda simulation, draws: Edit("remove_bar", _bar_id(simulation, draws)),
+    lambda simulation, draws: Edit(
+        "move_food", draws.randrange(len(simulation.arena.food.at)), at=_point(simulation, draws)
     ),
-    lambda simulation, draws: Lift(draws.randrange(len(simulation.clients))),
+    lambda simulation, draws: Edit("plant", at=_point(simulation, draws), radius=draws.randint(20, 200)),
+    lambda _, draws: Edit("grow_plant", 0, radius=draws.randint(20, 200)),
+    lambda simulation, draws: Edit(
+        "body", what=draws.choice(_BODY_FAULTS), robot=draws.randrange(len(simulation.clients)), seed=simulation.seed
+    ),
+    lambda simulation, draws: Edit("lift", robot=draws.randrange(len(simulation.clients))),
     *[
-        lambda simulation, draws: Put(
-            Pose(*_point(simulation, draws), draws.uniform(-3.0, 3.0)), draws.randrange(len(simulation.clients))
+        lambda simulation, draws: Edit(
+            "put",
+            at=_point(simulation, draws),
+            heading=1000 * draws.uniform(-3.0, 3.0),
+            robot=draws.randrange(len(simulation.clients)),
         )
     ]
     * 3,
