@@ -7,17 +7,20 @@ import time
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from operator import itemgetter
 from pathlib import Path
+from typing import Any
 
 from host_sim.base.errors import OctetError
 from host_sim.base.extra_library import missing
-from host_sim.base.paths import as_called
+from host_sim.base.paths import PAGE_WASM, as_called
 from host_sim.base.regular_file import read_bytes
 from host_sim.base.system import signals_held
 from host_sim.cli.run_options import LOGS, RunOptions
 from host_sim.client.frame_log import FrameLog
 from host_sim.recording.run_recorder import RunRecorder
 from host_sim.recording.summary import Summary, summarize
+from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path, write_world
 from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.simulation import Simulation
@@ -101,7 +104,8 @@ class Outputs:
         trajectory = self.recorder.trajectory
         trajectory.news = news_of(self.simulation.record)
         if trajectory.ticks:
-            write_page(self.options.out / PAGE, trajectory, self.simulation.record.title)
+            laboratory = self._laboratory(trajectory)
+            write_page(self.options.out / PAGE, trajectory, self.simulation.record.title, laboratory)
             try:
                 from host_sim.report.picture import write_picture
 
@@ -109,6 +113,16 @@ class Outputs:
             except ModuleNotFoundError as error:  # what draws is an extra of a wheel
                 if self.options.talks:
                     print(f"left out  {PICTURE}: {missing(error.name or '', 'run')}")
+
+    def _laboratory(self, trajectory: Trajectory) -> dict[str, Any] | None:
+        """What the page needs to ask "What if?"; None where the firmware was not built for pages."""
+        if not PAGE_WASM.exists():
+            return None
+        from host_sim.report.laboratory import laboratory
+
+        clients = self.simulation.clients
+        commands = sorted((it for client in clients for it in client.dialogue.commands), key=itemgetter(0))
+        return laboratory(self.options.log, trajectory, self.simulation.record, commands)
 
 
 def tell(options: RunOptions, summary: Summary, files: Sequence[Path]) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from host_sim.base.errors import UsageError
+from host_sim.base.paths import PAGE_WASM
 from host_sim.cli.log_options import add_log_options, resimulated
 from host_sim.cli.parsing import add_command, check_outputs, file_path
 
@@ -46,7 +47,8 @@ def add(commands: "Subparsers") -> None:
     parser.add_argument(
         "--what-if",
         action="store_true",
-        help="with --html: put the firmware into the page, so that it can run on from any tick with what you change",
+        help="with --html: build the firmware for pages first, so that the page can run on from any tick with what\n"
+        "you change",
     )
 
 
@@ -105,7 +107,7 @@ def _write_page(arguments: argparse.Namespace) -> int:
     from host_sim.report.replay_page import write_page
 
     result = resimulated(arguments)
-    laboratory = _laboratory(arguments, result) if arguments.what_if else None
+    laboratory = _laboratory(arguments, result) if arguments.what_if or PAGE_WASM.exists() else None
     write_page(arguments.html, result.trajectory, result.title, laboratory)
     print(f"wrote     {arguments.html}")
     return 0
@@ -114,10 +116,9 @@ def _write_page(arguments: argparse.Namespace) -> int:
 def _laboratory(arguments: argparse.Namespace, result: "Resimulation") -> dict[str, Any]:
     """What the page needs to ask "What if?", or why it cannot."""
     from host_sim.recording.log_reader import read_log
-    from host_sim.report.laboratory import NoLaboratoryError, laboratory
+    from host_sim.report.laboratory import commands_in, laboratory
 
-    try:
-        return laboratory(read_log(arguments.log), result)
-    except NoLaboratoryError as error:
-        print(f"octet: {error}", file=sys.stderr)
-        return {"why": str(error)}
+    found = laboratory(arguments.log, result.trajectory, result.record, commands_in(read_log(arguments.log)))
+    if "why" in found and arguments.what_if:
+        print(f"octet: {found['why']}", file=sys.stderr)
+    return found

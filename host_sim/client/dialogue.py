@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from host_sim.base.errors import RefusedError, RivalError, RobotError
 from host_sim.client.connection import Connection
@@ -24,11 +24,13 @@ class Dialogue:
         connection: Carries the frames.
         inbox: Takes in what comes.
         waiting: Waits for it.
+        commands: What was sent, each command with the number of ticks before it.
     """
 
     connection: Connection
     inbox: Inbox
     waiting: Waiting
+    commands: list[tuple[int, Frame]] = field(default_factory=list)
     _counter: int = 0
 
     def command(self, opcode: str, **signals: int) -> DecodedFrame:
@@ -155,6 +157,7 @@ class Dialogue:
         waiting, counts = self.waiting, self.inbox.counts
         self.inbox.asked.add(command)
         self.inbox.record(command)
+        self.commands.append((self.inbox.ticks, command))
         counts.sent += 1
         began, repeated = self.connection.now(), counts.repeated
         self.connection.link.send(command)

@@ -9,18 +9,18 @@ The page's element `laboratory` has one object, with
 or, if the run cannot be repeated, with `why`, a sentence for people.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from host_sim.base.errors import OctetError
 from host_sim.base.regular_file import read_bytes
-from host_sim.protocol.codec import Protocol
-from host_sim.recording.log_reader import LogReader, Recorded
-from host_sim.recording.resimulation import Resimulation
+from host_sim.protocol.codec import Frame, Protocol
+from host_sim.recording.log_reader import LogReader
+from host_sim.recording.trajectory import Trajectory
 from host_sim.recording.world_file import world_path
 from host_sim.report.octet_page import octet_page
 from host_sim.report.page_bundle import packed
+from host_sim.sim.world_record import WorldRecord
 
 ROBOTS_MAX = 4
 """Maximum number of robots in the laboratory: PAGE_ROBOTS_MAX in host_sim/web/native/page.h."""
@@ -28,45 +28,40 @@ ROBOTS_MAX = 4
 _WORLD_MAX = 16_000_000
 
 
-class NoLaboratoryError(OctetError):
-    """A run that the laboratory cannot repeat."""
-
-
-def laboratory(log: LogReader, run: Resimulation) -> dict[str, Any]:
-    """What the page of a run needs to ask "What if?".
+def laboratory(
+    log: Path, trajectory: Trajectory, record: WorldRecord | None, commands: Iterable[tuple[int, Frame]]
+) -> dict[str, Any]:
+    """What the page of a run needs to ask "What if?", or why it cannot.
 
     Args:
-        log: The run's log.
-        run: What was reconstructed from it.
+        log: The run's log, beside its world file.
+        trajectory: The run.
+        record: Its world; None if that is not known.
+        commands: Each command in the order of their ticks, with the number of ticks before it.
 
     Raises:
-        NoLaboratoryError: The laboratory cannot repeat this run.
         OctetError: The WebAssembly is not built.
     """
-    nodes = [track.node for track in run.trajectory.tracks]
-    if run.record is None:
-        raise NoLaboratoryError("What if? needs the world of the run, which is not known here.")
-    if run.record.program is not None:
-        raise NoLaboratoryError("What if? runs the firmware's own brain, and the brain of this run was a program.")
+    nodes = [track.node for track in trajectory.tracks]
+    if record is None:
+        return {"why": "What if? needs the world of the run, which is not known here."}
+    if record.program is not None:
+        return {"why": "What if? runs the firmware's own brain, and the brain of this run was a program."}
     if nodes != list(range(1, len(nodes) + 1)) or len(nodes) > ROBOTS_MAX:
-        raise NoLaboratoryError(f"What if? knows robots of nodes 1 to {ROBOTS_MAX} only.")
-    if run.trajectory.first_tick:
-        raise NoLaboratoryError("What if? is for shorter runs: this page has the last part of one only.")
-    recorded = {"commands": _commands(log, len(nodes)), "ticks": run.trajectory.ticks, "world": _world(log.path)}
-    return {"page": packed(octet_page()), "run": recorded}
+        return {"why": f"What if? knows robots of nodes 1 to {ROBOTS_MAX} only."}
+    if trajectory.first_tick:
+        return {"why": "What if? is for shorter runs: this page has the last part of one only."}
+    robot_of = {Protocol(robot + 1).id_of("COMMAND"): robot for robot in range(len(nodes))}
+    told = [(tick, robot_of[frame.id], frame.data.hex()) for tick, frame in commands if frame.id in robot_of]
+    return {"page": packed(octet_page()), "run": {"commands": told, "ticks": trajectory.ticks, "world": _world(log)}}
 
 
-def _commands(log: Iterable[Recorded], robots: int) -> list[tuple[int, int, str]]:
-    """Each command, with its robot and the tick before which it was sent."""
-    robot_of = {Protocol(robot + 1).id_of("COMMAND"): robot for robot in range(robots)}
+def commands_in(log: LogReader) -> Iterator[tuple[int, Frame]]:
+    """The frames of a log that may be commands, each with the number of ticks before it."""
     senses, tick = Protocol(1).id_of("SENSES"), 0
-    commands = []
     for line in log:
         tick += line.frame.id == senses
-        robot = robot_of.get(line.frame.id)
-        if robot is not None:
-            commands.append((tick, robot, line.frame.data.hex()))
-    return commands
+        yield tick, line.frame
 
 
 def _world(log: Path) -> str:

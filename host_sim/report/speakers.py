@@ -1,5 +1,6 @@
 """Those who can be talked to in a page: their scripts as they were read, and the words of their facts."""
 
+from functools import cache
 from typing import Any
 
 from host_sim.report.page_bundle import packed, with_data
@@ -14,4 +15,9 @@ def speakers() -> dict[str, Any]:
 
 def with_speakers(page: str) -> str:
     """A page whose empty element `speakers` holds them, packed."""
-    return with_data(page, "speakers", packed(as_script(speakers())))
+    return with_data(page, "speakers", _packed())
+
+
+@cache
+def _packed() -> str:
+    return packed(as_script(speakers()))

@@ -8,11 +8,12 @@ from pathlib import Path
 
 import pytest
 
+from host_sim.cli import replay_command
 from host_sim.protocol.codec import Frame
 from host_sim.recording.log_reader import read_log
 from host_sim.report import octet_page as octet_page_module
 from host_sim.report.octet_page import octet_page
-from tests.runs.support import octet
+from tests.runs.support import octet, octet_process
 
 
 @pytest.fixture
@@ -49,13 +50,26 @@ def test_the_page_holds_octet_html_and_what_the_robots_were_told(run_of, tmp_pat
     assert {tick for tick, *_ in held["run"]["commands"]} == {0, 200}
 
 
-def test_a_page_is_without_it_unless_it_is_asked_for(run_of, tmp_path):
+def test_a_run_writes_into_its_page_what_its_log_says(tmp_path):
+    words = ("--robots", "2", "--limit-s", "4", "--environments", "1", "--set", "turn_deg=20", "--change", "plant@2s")
+
+    done = octet_process("run", "--bus", "none", "--quiet", "--out", tmp_path, *words)
+
+    assert (done.returncode, done.stderr) == (0, "")
+    octet("replay", tmp_path / "run.log", "--html", tmp_path / "page.html")
+    [own, replayed] = [laboratory_in(tmp_path / name) for name in ("replay.html", "page.html")]
+    assert [own["page"], own["run"]["world"]] == [replayed["page"], replayed["run"]["world"]]
+    assert sorted(own["run"]["commands"]) == sorted(replayed["run"]["commands"])
+
+
+def test_a_page_is_without_it_where_the_firmware_was_not_built_for_pages(run_of, tmp_path, monkeypatch):
+    monkeypatch.setattr(replay_command, "PAGE_WASM", tmp_path / "missing.wasm")
     log, page = run_of(), tmp_path / "page.html"
 
     done = octet("replay", log, "--html", page)
 
     assert (done.returncode, done.stderr) == (0, "")
-    assert laboratory_in(page) == {}
+    assert laboratory_in(page) == laboratory_in(log.with_name("replay.html")) == {}
 
 
 def test_what_must_be_built_for_it_is_named(run_of, tmp_path, monkeypatch):

@@ -46,10 +46,11 @@ class Run:
 
 
 def octet(*words: str | Path) -> Ended:
-    """`tools/octet WORDS` by a call in this process, and without its picture: a hundred of them are to be cheap."""
+    """`tools/octet WORDS` by a call in this process, without what takes long to write: a hundred are to be cheap."""
     output, errors = io.StringIO(), io.StringIO()
     with (
         mock.patch("host_sim.report.picture.write_picture", lambda path, _: path.touch()),
+        mock.patch("host_sim.cli.outputs.PAGE_WASM", Path(os.devnull) / "left out"),
         mock.patch("os.execve", side_effect=AssertionError("`--bus auto` needs a process of its own")),
         contextlib.redirect_stdout(output),
         contextlib.redirect_stderr(errors),
