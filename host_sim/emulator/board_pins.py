@@ -3,23 +3,20 @@
 A board's file in hal/stm32/boards names a pin for each signal; `pins.toml` in its chip's folder, what a pin can be.
 """
 
-import importlib
 import re
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
+from host_sim.base.toml_file import toml
 
 STM32 = Path("hal", "stm32")
 """Where boards and chips are, from the root."""
 
 ADC = "ADC"
 """The function of a pin whose voltage is measured."""
-
-_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
 
 _SET = re.compile(r"^set\((\w+) ([^)]*)\)", re.MULTILINE)
 _PIN = re.compile(r"P([A-I])(\d+)")
@@ -46,7 +43,7 @@ class ChipPins:
 
     def __init__(self, name: str, root: Path = ROOT) -> None:
         """Reads the table of a chip."""
-        table: dict[str, Any] = _toml.loads((root / STM32 / name / "pins.toml").read_text())
+        table: dict[str, Any] = toml.loads((root / STM32 / name / "pins.toml").read_text())
         self.name = name
         self._all = {f"P{port}{n}" for port, count in table["ports"].items() for n in range(count)}
         self._all |= set(table.get("more", ()))
@@ -156,7 +153,7 @@ class Pins:
 
 
 def _ends(root: Path) -> dict[str, tuple[str, str]]:
-    parts = _toml.loads((root / "hal" / "pins_body" / "wiring.toml").read_text())
+    parts = toml.loads((root / "hal" / "pins_body" / "wiring.toml").read_text())
     return {signal: (part, end) for part, ends in parts.items() for signal, end in ends.items()}
 
 

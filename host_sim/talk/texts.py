@@ -1,18 +1,15 @@
 """In which words a robot tells its facts: a file beside the script, one for each language."""
 
-import importlib
 import re
-import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from host_sim.base.toml_file import toml
 from host_sim.protocol.generated import Side
 from host_sim.view.languages import languages
 from host_sim.view.phrases import ENGLISH, Words
-
-_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
 
 POINT = "\u00b7"
 """The decimal point in a question: ELIZA takes a full stop for the end of a sentence."""
@@ -76,7 +73,7 @@ def read_texts(path: Path) -> Texts:
     Raises:
         OSError, ValueError, KeyError: It is not such a file; those of the project are.
     """
-    read: dict[str, Any] = _toml.loads(path.read_text(encoding="utf-8"))
+    read: dict[str, Any] = toml.loads(path.read_text(encoding="utf-8"))
     own: dict[str, Any] = languages()[read["language"]]["robot"]
     words = replace(ENGLISH, **{**own, "sentences": {**ENGLISH.sentences, **own.get("sentences", {})}})
     return Texts(words, read["facts"], read["spoken"], read["joined"])

@@ -64,16 +64,16 @@ def body_kind(text: str) -> BodyKind | None:
         return None
     if text in {KIT, PINS}:
         return kind_from({"base": KIT})
-    from host_sim.world.layout_file import line_of, read_toml  # noqa: PLC0415 - seldom needed, and slow to load
+    from host_sim.base.toml_file import read_toml  # noqa: PLC0415 - seldom needed, and slow to load
 
     path = Path(text)
     if path.suffix != ".toml" and not path.exists():
         raise UsageError(f"there is no body {text!r}: {meant(text, (IDEAL, KIT))}, or name a file")
-    content, lines = read_toml(path, "a body")
+    file = read_toml(path, "a body")
     try:
-        return kind_from(content)
+        return kind_from(file.content)
     except _TraitError as error:
-        raise UsageError(f"{path}:{line_of(lines, error.name, -1)}: {error}") from None
+        raise file.error(error, error.name) from None
 
 
 class _TraitError(ValueError):

@@ -7,6 +7,7 @@ from host_sim.base.near_word import near_word
 from host_sim.world.layouts import World
 from host_sim.world.params import SimParams
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
+from host_sim.world.written_world import read_world_file
 
 _SMALL = SimParams(
     width_mm=2000.0,
@@ -44,9 +45,7 @@ def world_of(text: str) -> World:
     if text in _WORLDS:
         return _WORLDS[text]
     if text.endswith(".toml"):
-        from host_sim.world.layout_file import read_layout_file  # noqa: PLC0415 - seldom needed, and slow to load
-
-        return read_layout_file(Path(text))
+        return read_world_file(Path(text))
     near = near_word(text, WORLD_NAMES)
     names = f"choose from {', '.join(WORLD_NAMES)}, or name a file ending in .toml"
     meant = f"did you mean {near}?" if near else names

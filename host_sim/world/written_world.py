@@ -1,6 +1,7 @@
 """A world that a person wrote, as plain lists of numbers: checked in C, and made into one for a run."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from host_sim.base.near_word import near_word
@@ -27,6 +28,22 @@ class WrittenError(ValueError):
         """Takes the place and the message."""
         super().__init__(what)
         self.key, self.number = key, number
+
+
+def read_world_file(path: Path) -> World:
+    """Reads a world that a person wrote, in TOML. All its environments have the same obstacles and food.
+
+    Raises:
+        UsageError: The file cannot be read, or does not describe a fair world; the message says in which line, and
+            what was meant.
+    """
+    from host_sim.base.toml_file import read_toml  # noqa: PLC0415 - seldom needed, and slow to load
+
+    file = read_toml(path, "a world")
+    try:
+        return world_from(file.content, path.name)
+    except WrittenError as error:
+        raise file.error(error, error.key, entry=error.number) from None
 
 
 def world_from(content: Mapping[str, Any], name: str) -> World:

@@ -1,9 +1,7 @@
 """Reads `octet.dbc` and `robot.toml`, and checks that they fit together."""
 
 import hashlib
-import importlib
 import itertools
-import sys
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -13,10 +11,8 @@ import cantools
 from cantools.database.can import Database, Message
 from cantools.database.can.signal import Signal
 
+from host_sim.base.toml_file import toml
 from tools.robot_words.description import Description, DescriptionError, Member, Parameter
-
-# Python 3.10 has none of its own.
-_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
 
 _BYTE_MAX = 255
 _UNITS_PER_MM = {"0.1 mm": 10, "mm": 1}
@@ -31,7 +27,7 @@ def read(dbc: Path, words: Path) -> Description:
         DescriptionError: They do not fit together.
     """
     try:
-        return _describe(_load(dbc), _toml.loads(words.read_text(encoding="utf-8")))
+        return _describe(_load(dbc), toml.loads(words.read_text(encoding="utf-8")))
     except DescriptionError:
         raise
     except (OSError, LookupError, TypeError, AttributeError, ValueError) as error:
@@ -52,7 +48,7 @@ def _load(dbc: Path) -> Database:
     return database
 
 
-def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
+def _describe(database: Database, words: Mapping[str, Any]) -> Description:
     for message in database.messages:
         _check_message(message)
     signal = partial(_signal, database)
@@ -61,13 +57,13 @@ def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
         "opcode": _same_choices(signal("COMMAND.opcode"), signal("ANSWER.opcode")),
         "result": _choices(signal("ANSWER.result")),
         "fault": _choices(signal("EMERGENCY.first")),
-        "side": {name: number for number, name in enumerate(toml["sides"])},
-        "memory_kind": {kind: number for number, kind in enumerate(toml["memory_kind"])},
-        "edit_kind": {name: number for number, name in enumerate(toml["edits"])},
-        "body_fault": {name: number for number, name in enumerate(toml["body_faults"])},
+        "side": {name: number for number, name in enumerate(words["sides"])},
+        "memory_kind": {kind: number for number, kind in enumerate(words["memory_kind"])},
+        "edit_kind": {name: number for number, name in enumerate(words["edits"])},
+        "body_fault": {name: number for number, name in enumerate(words["body_faults"])},
     }
     profiles = _listed(_same_choices(signal("COMMAND.profile"), signal("HEARTBEAT.profile")), "profile")
-    meanings = {name: toml.get(name, {}) for name in enums}
+    meanings = {name: words.get(name, {}) for name in enums}
     _check_meanings(enums, meanings)
     hashed = layout_hash(database)
     senses, drive = (_members(database.get_message_by_name(name)) for name in ("SENSES", "DRIVE"))
@@ -77,27 +73,27 @@ def _describe(database: Database, toml: Mapping[str, Any]) -> Description:
         meanings=meanings,
         parameters=_parameters(database, _choices(signal("COMMAND.parameter"))),
         profiles=profiles,
-        memory=_memory(toml["memory"], profiles, enums["memory_kind"]),
-        patterns=_patterns(toml["patterns"]),
-        feel=_feel(toml["feel"], signal("SENSES.feel")),
-        edits=toml["edits"],
+        memory=_memory(words["memory"], profiles, enums["memory_kind"]),
+        patterns=_patterns(words["patterns"]),
+        feel=_feel(words["feel"], signal("SENSES.feel")),
+        edits=words["edits"],
         senses=senses,
         drive=drive,
-        row=_row(senses, drive, toml["recorded"]),
-        columns=_columns(toml["columns"], [*(it.signal for it in (*senses, *drive)), *toml["recorded"]]),
-        sentences=_sentences(toml["sentences"], enums["reason"]),
-        kit_settings=toml["kit_settings"],
-        body_sentences=toml["body_sentences"],
-        cell_count=_cell_count(toml["patterns"], database.get_message_by_name("MEMORY")),
-        node_max=_node_max(toml["node_max"], database),
-        range_none=toml["range_none"],
-        answer_wants_ranges=toml["answer_wants_ranges"],
+        row=_row(senses, drive, words["recorded"]),
+        columns=_columns(words["columns"], [*(it.signal for it in (*senses, *drive)), *words["recorded"]]),
+        sentences=_sentences(words["sentences"], enums["reason"]),
+        kit_settings=words["kit_settings"],
+        body_sentences=words["body_sentences"],
+        cell_count=_cell_count(words["patterns"], database.get_message_by_name("MEMORY")),
+        node_max=_node_max(words["node_max"], database),
+        range_none=words["range_none"],
+        answer_wants_ranges=words["answer_wants_ranges"],
         tick_span=1 << signal("SENSES.tick").length,
         action_span=1 << signal("DRIVE.action").length,
         odometer_span=1 << signal("SENSES.odometer_left").length,
         odometer_counts_per_mm=_counts_per_mm(signal("SENSES.odometer_left"), signal("SENSES.odometer_right")),
         layout_hash=hashed,
-        same_layout=[int(text, 16) for text in toml.get("same_layout", {}).get(f"{hashed:04X}", [])],
+        same_layout=[int(text, 16) for text in words.get("same_layout", {}).get(f"{hashed:04X}", [])],
     )
 
 

@@ -6,18 +6,14 @@ what = ["never true: default"]     # what is found there, one or several; * stan
 why = "A reason."
 """
 
-import importlib
-import sys
 from collections.abc import Sequence
 from fnmatch import fnmatchcase
 from itertools import product
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
+from host_sim.base.toml_file import toml
 from tools.verify.command import VerifyError
-
-# Python 3.10 has none of its own.
-_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
 
 
 class TableError(VerifyError):
@@ -62,9 +58,9 @@ def read(path: Path) -> list[Permit]:
         TableError: It cannot be read, or an exception lacks a part.
     """
     try:
-        rows = _toml.loads(path.read_text())["exception"]
+        rows = toml.loads(path.read_text())["exception"]
         parts = [(_several(row["in"]), _several(row["what"]), row["why"].strip()) for row in rows]
-    except (OSError, _toml.TOMLDecodeError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, toml.TOMLDecodeError, KeyError, TypeError, AttributeError) as error:
         raise TableError(f"cannot read {path}: {error!r}") from error
     for files, texts, why in parts:
         if not (files and texts and why):

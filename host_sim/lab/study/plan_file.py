@@ -1,17 +1,13 @@
 """Reads a study's plan from its TOML file. A mistake is answered with its line and with what there is."""
 
-import importlib
 import itertools
-import re
-import sys
-from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from host_sim.base.errors import UsageError
 from host_sim.base.near_word import meant
-from host_sim.base.regular_file import read_text
+from host_sim.base.toml_file import TomlFile, read_toml
 from host_sim.lab.study.figures import FIGURES
 from host_sim.lab.study.plan import Goal, Plan
 from host_sim.lab.study.trial import Trial
@@ -22,9 +18,6 @@ from host_sim.world.changes import Change
 from host_sim.world.world_names import RANDOM
 from host_sim.world.worlds import world_of
 
-_toml = importlib.import_module("tomllib" if sys.version_info >= (3, 11) else "tomli")
-
-_SIZE_MAX = 1_000_000
 _SEED_MAX = 2**32 - 1
 _KEYS = (
     *("title", "profiles", "robots", "worlds", "bodies", "changes", "seeds", "first_seed", "chosen_on"),
@@ -33,7 +26,6 @@ _KEYS = (
 _GOAL_KEYS = ("figure", "condition", "against", "at_least", "at_most")
 _PLAIN = "plain"
 _NO_CHANGE = "none"
-_HEADER = re.compile(r"\s*\[\[?\s*([^\[\]]+?)\s*\]\]?\s*(?:#.*)?$")
 
 
 def read_plan(path: Path) -> Plan:
@@ -42,37 +34,24 @@ def read_plan(path: Path) -> Plan:
     Raises:
         UsageError: The file cannot be read, or there is a mistake in it; the message names its line.
     """
-    try:
-        text = read_text(path, _SIZE_MAX)
-        content = _toml.loads(text)
-    except FileNotFoundError:
-        raise UsageError(f"there is no file {path}") from None
-    except RecursionError:
-        raise UsageError(f"{path}: too many brackets within each other") from None
-    except UnicodeDecodeError:
-        raise UsageError(f"{path} is not a study: it is not text") from None
-    except _toml.TOMLDecodeError as error:
-        raise UsageError(f"{path}: {error}") from None
-    except ValueError:  # of Python, which reads no whole number of thousands of digits
-        raise UsageError(f"{path}: a number has too many digits") from None
-    return _Reader(path, text, content).plan()
+    return _Reader(read_toml(path, "a study")).plan()
 
 
 class _Reader:
     """Reads one file."""
 
-    def __init__(self, path: Path, text: str, content: dict[str, Any]) -> None:
-        self._path, self._text, self._content = path, text, content
+    def __init__(self, file: TomlFile) -> None:
+        self._file, self._content = file, file.content
 
     def plan(self) -> Plan:
         self._check_keys(self._content, _KEYS, "")
         if "profiles" not in self._content:
-            raise UsageError(f'{self._path}:1: profiles is missing, such as profiles = ["article", "fixed"]')
+            raise self._error('profiles is missing, such as profiles = ["article", "fixed"]', "", "profiles")
         conditions = self._conditions()
         first = self._number("first_seed", 1, 0, _SEED_MAX)
         seeds = self._number("seeds", Plan.seeds, 1, min(100_000, _SEED_MAX + 1 - first))
         return Plan(
-            title=self._text_of("title", self._path.stem),
+            title=self._text_of("title", self._file.path.stem),
             conditions=conditions,
             first_seed=first,
             seeds=seeds,
@@ -191,16 +170,15 @@ class _Reader:
             raise self._error(f"{key} is a line of text, not {value!r}", "", key)
         return value
 
-    def _check_keys(self, table: dict[str, Any], keys: Sequence[str] | dict[str, Any], name: str, i: int = 0) -> None:
+    def _check_keys(
+        self, table: Mapping[str, Any], keys: Sequence[str] | dict[str, Any], name: str, i: int = 0
+    ) -> None:
         for key in table:
             if key not in keys:
                 raise self._error(f"unknown key {key!r}; {meant(key, keys)}", name, key, i)
 
     def _error(self, message: str, table: str, key: str, index: int = 0) -> UsageError:
-        line = _line_of(self._text, table, key, index)
-        if line == 1 and not table and key in ("settings", "goals"):
-            line = _line_of(self._text, key)
-        return UsageError(f"{self._path}:{line}: {message}")
+        return self._file.error(message, key, table=table, index=index)
 
 
 def _is_one_of(words: dict[str, Any]) -> Callable[[str], str]:
@@ -231,33 +209,3 @@ def _mistake(read: Callable[[str], object], word: str) -> str:
 def _name(parts: Sequence[str], several: Sequence[bool]) -> str:
     """What tells a condition from the others; its behaviour if there is only one."""
     return " ".join(part for part, varies in zip(parts, several, strict=True) if varies) or parts[0]
-
-
-def _line_of(text: str, table: str, key: str = "", index: int = 0) -> int:
-    r"""The line in which a key stands.
-
-    >>> _line_of('a = 1\n[[goals]]\n[[goals]]\nb = 2\n', "goals", "b", index=1)
-    4
-
-    Args:
-        text: The file.
-        table: Name of the key's table; empty for the keys before the first table.
-        key: The key; empty for the table's own line.
-        index: Which table of that name, from 0.
-
-    Returns:
-        The line, from 1. Where the key or its table is written in another way: the line of what holds it, or 1.
-    """
-    now, counts, held = "", Counter({"": 1}), 1
-    for number, line in enumerate(text.splitlines(), 1):
-        if header := _HEADER.match(line):
-            now = header[1].replace('"', "")
-            counts[now] += 1
-            if now == table and counts[now] == index + 1:
-                held = number
-        is_there = now == table and counts[now] == index + 1
-        if key and is_there and re.match(rf"""\s*["']?{re.escape(key)}["']?\s*[=.]""", line):
-            return number
-        if not now and table and re.match(rf"\s*{re.escape(table.split('.', maxsplit=1)[0])}\s*[=.]", line):
-            held = number
-    return held

@@ -53,7 +53,7 @@ def test_a_condition_is_named_by_what_varies(plan):
     ("text", "said"),
     [
         ("seeds = 3", ":1: profiles is missing"),
-        ('profiles = ["article"\nseeds = 3', "line 2"),
+        ('profiles = ["article"\nseeds = 3', "a.toml:2: this is not TOML"),
         ('profiles = ["article"]\nbodies = ["nobody"]', ":2: bodies: "),
         ('seeds = 3\nprofiles = ["artcle"]', ":2: profiles: there is no 'artcle'; did you mean article?"),
         ('profiles = ["article"]\nsedes = 3', ":2: unknown key 'sedes'; did you mean seeds?"),

@@ -8,8 +8,7 @@ import pytest
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import ROOT
 from host_sim.report.octet_page import world_dimensions
-from host_sim.world.layout_file import read_layout_file
-from host_sim.world.written_world import content_of
+from host_sim.world.written_world import content_of, read_world_file
 from tests.web.sim.node import in_node
 
 OPEN = """
@@ -46,7 +45,7 @@ def opened(folder: Path, text: str) -> object:
 
 
 def test_a_world_file_is_that_of_the_command_line(tmp_path):
-    world = read_layout_file(ROOT / "docs/worlds/two_walls.toml")
+    world = read_world_file(ROOT / "docs/worlds/two_walls.toml")
 
     read = opened(tmp_path, GOOD)["world"]
 
@@ -57,7 +56,7 @@ def test_a_world_file_is_that_of_the_command_line(tmp_path):
 def test_a_mistake_in_a_world_file_is_told_with_its_line_as_on_the_command_line(tmp_path, text):
     (tmp_path / "my.toml").write_text(text)
     with pytest.raises(UsageError) as error:
-        read_layout_file(tmp_path / "my.toml")
+        read_world_file(tmp_path / "my.toml")
     where, _, what = str(error.value).removeprefix(f"{tmp_path}/").partition(": ")
 
     said = opened(tmp_path, text)

@@ -109,5 +109,5 @@ def test_what_is_no_text_for_people_is_refused(tmp_path, content):
 
 
 def test_a_missing_file_is_said():
-    with pytest.raises(UsageError, match=r"cannot read nowhere\.toml"):
+    with pytest.raises(UsageError, match=r"there is no file nowhere\.toml"):
         world_of("nowhere.toml")
