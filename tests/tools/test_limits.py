@@ -134,3 +134,17 @@ def test_ended_from_outside_it_leaves_nothing_behind(project):
     process.wait()
 
     assert soon(lambda: not any(alive(int(note.read_text())) for note in notes))
+
+
+def test_a_second_one_in_the_same_checkout_is_refused_and_the_first_goes_on(project):
+    note, leave = project.folder / "pid", project.folder / "leave"
+    project.c_tests(one=f"echo $$ >'{note}'; until [ -e '{leave}' ]; do sleep 0.05; done")
+    first = subprocess.Popen(project.command("c"), stdout=subprocess.PIPE, text=True)
+    assert soon(note.exists)
+
+    second = subprocess.run(project.command("c"), capture_output=True, text=True, check=False)
+    leave.touch()
+
+    assert (second.returncode, second.stdout) == (2, "")
+    assert second.stderr.endswith("tools/test: error: it is running in this checkout already: wait for its end\n")
+    assert last(first.communicate()[0]) == "1 passed, 0 failed"

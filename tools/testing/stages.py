@@ -1,6 +1,7 @@
 """The stages of tools/test and tools/prove: each is set up, run and judged on its own."""
 
 import argparse
+import fcntl
 import os
 import signal
 import subprocess
@@ -196,7 +197,18 @@ def parse(parser: argparse.ArgumentParser, names: Sequence[str]) -> argparse.Nam
         parser.error(f"no such stage: {', '.join(sorted(unknown))}; there are {', '.join(names)}")
     if arguments.repeat < 1 or arguments.beside < 0:
         parser.error("--repeat must be 1 or more, and --beside 0 or more")
+    be_alone(parser)
     return arguments
+
+
+def be_alone(parser: argparse.ArgumentParser) -> None:
+    """Ends the command if it runs in this checkout already, for both would write the same reports."""
+    REPORTS.mkdir(parents=True, exist_ok=True)
+    lock = os.open(REPORTS / f"{Path(parser.prog).name}.lock", os.O_CREAT | os.O_RDWR)  # open until the end
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        parser.error("it is running in this checkout already: wait for its end")
 
 
 @contextmanager
@@ -235,7 +247,6 @@ def run_stages(stages: Sequence[Stage], arguments: argparse.Namespace) -> int:
     """
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # what runs is stopped on the way out
     limits = Limits(arguments.time_limit, arguments.stall_limit, begun=time.monotonic())
-    REPORTS.mkdir(parents=True, exist_ok=True)
     chosen = [stage for stage in stages if not arguments.stages or stage.name in arguments.stages]
     results = {it.name: Result("not run", failed=int(it.name not in arguments.allow_missing)) for it in chosen}
     ready = set_up(chosen)
