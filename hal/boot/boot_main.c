@@ -45,7 +45,7 @@ int main(int argc, char *argv[])
         boot_start((unsigned)slot);
     node = choices.now.node != 0 ? choices.now.node : (uint8_t)OCTET_NODE;
     server_begin(&server, &choices, node, machine_ms());
-    if (link_open(&link, "", &server.request_id, 1) < 0)
+    if (link_open(&link, choice_link(&choices.now), &server.request_id, 1) < 0)
         return 1;
     if (asked)
         server_programming(&server);

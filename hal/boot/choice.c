@@ -1,6 +1,6 @@
 #include "hal/boot/choice.h"
 
-enum { FORMAT = 0xC1, SLOT_AT = 2, TRIAL_AT = 3, STARTS_AT = 4 };
+enum { HALF_OF_SLOWEST = 62500, FORMAT = 0xC1, SLOT_AT = 2, TRIAL_AT = 3, STARTS_AT = 4 };
 
 static uint8_t bit(unsigned slot)
 {
@@ -19,7 +19,7 @@ static void pack(const struct choice *choice, uint8_t out[CELL_COUNT])
     out[4] = (uint8_t)(choice->installed | (unsigned)choice->slot << SLOT_AT | (choice->trial ? 1u : 0u) << TRIAL_AT |
                        (unsigned)choice->starts << STARTS_AT);
     out[5] = choice->node;
-    out[6] = 0;
+    out[6] = choice->bitrate;
     out[7] = FORMAT;
 }
 
@@ -31,6 +31,7 @@ static struct choice unpack(const uint8_t bytes[CELL_COUNT])
         .trial = bytes[4] >> TRIAL_AT & 1u,
         .starts = bytes[4] >> STARTS_AT,
         .node = bytes[5],
+        .bitrate = bytes[6] < BITRATES ? bytes[6] : 0,
     };
 
     for (unsigned i = 0; i < 4; i++)
@@ -57,6 +58,27 @@ int choices_save(struct choices *choices, const struct choice *next, bool may_er
     if (result == 0)
         choices->now = *next;
     return result;
+}
+
+uint32_t choice_bitrate(const struct choice *choice)
+{
+    return choice->bitrate == 0 ? 0 : (uint32_t)HALF_OF_SLOWEST << choice->bitrate;
+}
+
+uint8_t choice_bitrate_place(uint32_t bitrate)
+{
+    struct choice choice = {.bitrate = 0};
+
+    while (choice.bitrate < BITRATES && choice_bitrate(&choice) != bitrate)
+        choice.bitrate++;
+    return choice.bitrate;
+}
+
+const char *choice_link(const struct choice *choice)
+{
+    static const char *const names[BITRATES] = {"", "125000", "250000", "500000", "1000000"};
+
+    return names[choice->bitrate];
 }
 
 uint8_t choice_free_slot(const struct choice *choice)

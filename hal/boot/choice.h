@@ -5,7 +5,7 @@
 
 #include "hal/flash_store/flash_store.h"
 
-enum { SLOTS = 2, TRIAL_STARTS = 3, SLOT_NONE = -1 };
+enum { SLOTS = 2, TRIAL_STARTS = 3, SLOT_NONE = -1, BITRATES = 5 };
 
 struct choice {
     uint32_t floor;      /* images with lower versions are refused */
@@ -14,6 +14,7 @@ struct choice {
     bool trial;          /* its image has not been confirmed yet */
     uint8_t starts;      /* of an image on trial so far, 0..TRIAL_STARTS */
     uint8_t node;        /* 1..NODE_MAX; 0: as built */
+    uint8_t bitrate;     /* of the bus: a place in choice_bitrate's row, under BITRATES; 0: as built */
 };
 
 struct choices {
@@ -26,6 +27,15 @@ int choices_open(struct choices *choices, unsigned first_page);
 
 int choices_save(struct choices *choices, const struct choice *next, bool may_erase);
         /* As flash_store_save; choices->now is *next only if that returned 0. */
+
+uint32_t choice_bitrate(const struct choice *choice);
+        /* bit/s; 0: as built. */
+
+uint8_t choice_bitrate_place(uint32_t bitrate);
+        /* The place of a bit rate; BITRATES for one that is none. */
+
+const char *choice_link(const struct choice *choice);
+        /* The same, as link_open of a CAN controller takes it. */
 
 uint8_t choice_free_slot(const struct choice *choice);
         /* The slot that an update writes to: never that of a confirmed image, unless there is none in it. */

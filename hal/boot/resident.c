@@ -36,6 +36,11 @@ uint8_t loader_node(uint8_t built)
     return resident.node;
 }
 
+const char *loader_link(void)
+{
+    return choice_link(&resident.choices.now);
+}
+
 uint16_t loader_id(void)
 {
     return resident.id;

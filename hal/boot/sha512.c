@@ -44,8 +44,12 @@ static uint64_t big_endian(const uint8_t *bytes)
 
 static void put_big_endian(uint64_t word, uint8_t *bytes)
 {
-    for (unsigned i = 0; i < WORD_BYTES; i++)
-        bytes[i] = (uint8_t)(word >> (56 - 8 * i));
+    uint64_t rest = word;
+
+    for (unsigned i = WORD_BYTES; i > 0; i--) {
+        bytes[i - 1] = (uint8_t)rest;
+        rest >>= 8;
+    }
 }
 
 /* The message schedule, in place: word t takes the place of word t - 16. */

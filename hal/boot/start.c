@@ -8,9 +8,9 @@ static bool is_in(const struct choice *choice)
 }
 
 /* The newest of those that are signed. */
-static struct choice found(void)
+static struct choice found(const struct choice *now)
 {
-    struct choice choice = {.installed = 0};
+    struct choice choice = {.node = now->node, .bitrate = now->bitrate};
     struct image image;
 
     for (uint8_t slot = 0; slot < SLOTS; slot++)
@@ -26,10 +26,9 @@ static struct choice found(void)
 
 int start_pick(struct choices *choices)
 {
-    struct choice next = choices->now.installed == 0 ? found() : choice_started(&choices->now);
+    struct choice next = choices->now.installed == 0 ? found(&choices->now) : choice_started(&choices->now);
     struct image image;
 
-    next.node = choices->now.node;
     while (is_in(&next)) {
         if (image_check(next.slot, &image) == REFUSAL_NONE && (choices_save(choices, &next, true) == 0 || !next.trial))
             return next.slot;

@@ -13,6 +13,7 @@ enum {
     P2_MS = 50, P2_STAR_10_MS = 500,
     ID_LEN = 2,
     DID_BOOT = 0xF180, DID_SESSION = 0xF186, DID_BOARD = 0xF191, DID_STATUS = 0xFD00, DID_WRITTEN = 0xFD01, DID_WHO = 0xFD04,
+    DID_BITRATE = 0xFD05,
     KEY_SHOWN = 4                 /* bytes of the public key, to tell one from another */
 };
 
@@ -171,29 +172,32 @@ static enum nrc read(struct uds *uds, struct exchange *exchange)
     case DID_BOARD: put_text(exchange, LAYOUT.board); return NRC_NONE;
     case DID_STATUS: put_status(uds, exchange); return NRC_NONE;
     case DID_WRITTEN: put_written(uds, exchange); return NRC_NONE;
-    case DID_WHO:
-        uds_put(exchange, uds->choices->now.node, 1);
-        return NRC_NONE;
+    case DID_WHO: uds_put(exchange, uds->choices->now.node, 1); return NRC_NONE;
+    case DID_BITRATE: uds_put(exchange, choice_bitrate(&uds->choices->now), 4); return NRC_NONE;
     default: return NRC_RANGE;
     }
 }
 
-/* The robot's number, which holds from the next start on. */
+/* The robot's number, and the bit rate of the bus: they hold from the next start on. */
 static enum nrc write(struct uds *uds, struct exchange *exchange)
 {
     struct choice next = uds->choices->now;
     const uint8_t *request = exchange->request;
+    unsigned id = (unsigned)request[1] << 8 | request[2];
 
-    if (((unsigned)request[1] << 8 | request[2]) != DID_WHO)
+    if (id != DID_WHO && id != DID_BITRATE)
         return NRC_RANGE;
-    if (exchange->len != 1 + ID_LEN + 1)
+    if (exchange->len != 1 + ID_LEN + (id == DID_WHO ? 1 : 4))
         return NRC_LENGTH;
     if (!uds->unlocked)
         return NRC_LOCKED;
-    next.node = request[3];
-    if (next.node > NODE_MAX)
+    if (id == DID_WHO)
+        next.node = request[3];
+    else
+        next.bitrate = choice_bitrate_place(uds_number(&request[3]));
+    if (next.node > NODE_MAX || next.bitrate == BITRATES)
         return NRC_RANGE;
-    uds_put(exchange, DID_WHO, ID_LEN);
+    uds_put(exchange, id, ID_LEN);
     return choices_save(uds->choices, &next, true) == 0 ? NRC_NONE : NRC_FAILURE;
 }
 

@@ -20,17 +20,28 @@ struct link {
 
 static struct link the_link;   /* one controller */
 
+/* As the name says, in bit/s, or as built. */
+static uint32_t bitrate_of(const char *name)
+{
+    uint32_t bitrate = 0;
+
+    for (const char *at = name; *at != '\0'; at++)
+        bitrate = 10u * bitrate + (uint32_t)(*at - '0');
+    return bitrate != 0 ? bitrate : (uint32_t)CAN_BITRATE;
+}
+
 int link_open(struct link **link, const char *name, const uint16_t ids[], size_t id_count)
 {
     uint32_t clock_hz = machine_clocks().can_hz;
-    uint32_t quanta = can_quanta(clock_hz);
+    uint32_t bitrate = bitrate_of(name);
+    uint32_t quanta = can_quanta(clock_hz, bitrate);
 
-    (void)name;
     if (id_count > LINK_IDS_MAX || quanta == 0 || !can_stop())
         return LINK_E_OPEN;
-    can_set_up(clock_hz / (CAN_BITRATE * quanta), quanta, ids, id_count);
+    can_set_up(clock_hz / (bitrate * quanta), quanta, ids, id_count);
     can_start();
     the_link = (struct link){.off = false};
+    can_queue_begin(&the_link.queue, bitrate);
     *link = &the_link;
     return 0;
 }

@@ -1,15 +1,19 @@
 #include "hal/stm32/can_queue.h"
 
 #include "hal/stm32/can_controller.h"
-#include "hal/stm32/can_timing.h"
 #include "hal/stm32/machine.h"
 
-enum {
-    FRAME_BITS = 135,   /* of a full frame with all its stuff bits, and the pause after it */
-    STUCK_MS = 1000 * FRAME_BITS / CAN_BITRATE + 1,   /* on an idle bus a frame leaves in less, */
-    ALL_MS = 1000 * FRAME_BITS * (CAN_QUEUE_MAX + CAN_BUFFERS) / CAN_BITRATE + 1,   /* and all that can wait in this; */
-    DRAIN_MS = ALL_MS < LINK_SEND_MS ? ALL_MS : LINK_SEND_MS   /* but link_send has promised to be back */
-};
+enum { FRAME_BITS = 135 };   /* of a full frame with all its stuff bits, and the pause after it */
+
+void can_queue_begin(struct can_queue *queue, uint32_t bitrate)
+{
+    uint32_t all_ms = 1000u * FRAME_BITS * (CAN_QUEUE_MAX + CAN_BUFFERS) / bitrate + 1u;
+
+    *queue = (struct can_queue){
+        .stuck_ms = (uint8_t)(1000u * FRAME_BITS / bitrate + 1u),
+        .drain_ms = (uint8_t)(all_ms < LINK_SEND_MS ? all_ms : (uint32_t)LINK_SEND_MS),
+    };
+}
 
 static void note_dropped(struct can_queue *queue, unsigned more)
 {
@@ -59,7 +63,7 @@ static bool drain(struct can_queue *queue, unsigned left)
     while (can_queue_pump(queue) > left) {
         uint32_t now = machine_ms();   /* behind the look, whose time it is compared with */
 
-        if (now - queue->moved_ms > STUCK_MS || now - start > DRAIN_MS)
+        if (now - queue->moved_ms > queue->stuck_ms || now - start > queue->drain_ms)
             return false;
     }
     return true;

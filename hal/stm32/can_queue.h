@@ -18,7 +18,12 @@ struct can_queue {
     uint8_t dropped;      /* as in struct link_health */
     unsigned waiting;     /* frames that had not left as of the last look */
     uint32_t moved_ms;    /* when one last did, or none was there */
+    uint8_t stuck_ms;     /* on an idle bus a frame leaves in less, */
+    uint8_t drain_ms;     /* and all that can wait in this; but link_send has promised to be back */
 };
+
+void can_queue_begin(struct can_queue *queue, uint32_t bitrate);
+        /* Empties it, for a bus of that many bit/s. */
 
 bool can_queue_put(struct can_queue *queue, const struct frame *frame);
         /* False, and counted: the bus takes nothing. One that is more urgent than all that waits overtakes them where they do

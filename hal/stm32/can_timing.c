@@ -3,10 +3,10 @@
 enum { QUANTA_MIN = 8, QUANTA_MAX = 18 };
 
 /* The most there are: the finer the quanta, the closer the nodes keep step. */
-uint32_t can_quanta(uint32_t clock_hz)
+uint32_t can_quanta(uint32_t clock_hz, uint32_t bitrate)
 {
     for (uint32_t quanta = QUANTA_MAX; quanta >= QUANTA_MIN; quanta--)
-        if (clock_hz % (CAN_BITRATE * quanta) == 0)
+        if (clock_hz % (bitrate * quanta) == 0)
             return quanta;
     return 0;
 }

@@ -10,8 +10,8 @@ enum {
     CAN_QUANTA_JUMP = 2     /* that a bit may grow or shrink by to keep step with the other nodes */
 };
 
-uint32_t can_quanta(uint32_t clock_hz);
-        /* Quanta of a bit, 8..18, such that a whole prescaler makes exactly CAN_BITRATE; every controller of ours can do
+uint32_t can_quanta(uint32_t clock_hz, uint32_t bitrate);
+        /* Quanta of a bit, 8..18, such that a whole prescaler makes exactly that bit rate; every controller of ours can do
            that. 0: the clock has no such divisor. */
 
 #endif

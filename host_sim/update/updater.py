@@ -26,7 +26,15 @@ from host_sim.update.keys import Ed25519PrivateKey
 
 _T = TypeVar("_T")
 _STATUS = struct.Struct(">BBBBIIIBIB4s")
-_BOARD, _STATUS_ID, _WRITTEN, _VERSION, _RUNNING = 0xF191, 0xFD00, 0xFD01, 0xFD02, 0xFD03
+_BOARD, _STATUS_ID, _WRITTEN, _VERSION, _RUNNING, _NODE, _BITRATE = (
+    0xF191,
+    0xFD00,
+    0xFD01,
+    0xFD02,
+    0xFD03,
+    0xFD04,
+    0xFD05,
+)
 _ERASE, _CHECK, _FLOOR = 0xFF00, 0xFF01, 0xF000
 _PURPOSE = b"octet challenge\0"
 _PROGRAMMING, _CRC_FROM = 2, 16
@@ -150,6 +158,14 @@ class Updater:
         """Lets the board take versions from that one on. It must be unlocked."""
         self._persist(lambda: self._client.start_routine(_FLOOR, struct.pack(">I", version)))
 
+    def set_node(self, node: int) -> None:
+        """Gives the board another number from its next start on; 0 is that of its build. It must be unlocked."""
+        self._write(_NODE, bytes([node]))
+
+    def set_bitrate(self, bitrate: int) -> None:
+        """Has the board use another bit rate from its next start on; 0 is that of its build. It must be unlocked."""
+        self._write(_BITRATE, struct.pack(">I", bitrate))
+
     def install(self, image: SlotImage, progress: Callable[[int], None]) -> None:
         """Writes an image to the free slot, and has it chosen. The session must be entered.
 
@@ -246,12 +262,19 @@ class Updater:
         raise UpdateError(f"node {self.node} refuses the image: {said}") from None
 
     def _read(self, identifier: int, tries: int = _TRIES) -> bytes:
+        return self._ask(0x22, identifier, b"", tries)
+
+    def _write(self, identifier: int, value: bytes) -> None:
+        self._ask(0x2E, identifier, value, _TRIES)
+
+    def _ask(self, service: int, identifier: int, value: bytes, tries: int) -> bytes:
+        request = struct.pack(">BH", service, identifier)
+
         def ask() -> bytes:
-            request = struct.pack(">BH", 0x22, identifier)
             self._client.conn.empty_rxqueue()
-            self._client.conn.send(request)
+            self._client.conn.send(request + value)
             answer = self._client.conn.wait_frame(timeout=_WAIT_S, exception=True) or b""
-            if answer[:3] != bytes([0x62]) + request[1:]:
+            if answer[:3] != bytes([service | 0x40]) + request[1:]:
                 raise TimeoutException("an answer to something else")  # type: ignore[no-untyped-call]
             return bytes(answer[3:])
 

@@ -4,6 +4,7 @@ import pytest
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
 from host_sim.emulator.flash import BASE
+from host_sim.emulator.registers import BoardError
 from host_sim.protocol.codec import Protocol
 from host_sim.update.image import built_images
 from host_sim.update.updater import UpdateError, Updater
@@ -171,3 +172,33 @@ def test_with_lost_frames_it_arrives_all_the_same():
     assert bytes(board.hardware.flash.memory[LAYOUT.slots[1] :][: len(data)]) == data
     updater.restart()
     assert updater.running() == (NEW, True)
+
+
+def test_one_image_serves_a_robot_of_another_number():
+    board = fresh_board()
+    tester = Updater(board, 1, KEY)
+    tester.enter()
+    tester.unlock()
+    tester.set_node(7)
+    tester.restart()
+
+    assert Updater(board, 7, KEY).running() == (OLD, False)
+    robot = Talk(board, protocol=Protocol(7))
+    robot.wait(1.5)
+    assert robot.last("HEARTBEAT")
+
+
+@pytest.mark.parametrize("slot", [0, 1], ids=["image", "boot loader"])
+def test_robot_and_boot_loader_join_a_bus_of_the_bit_rate_that_was_set(slot):
+    board = fresh_board()
+    tester = Updater(board, 1, KEY)
+    tester.enter()
+    tester.unlock()
+    tester.set_bitrate(250_000)
+    if slot:
+        board.hardware.flash.memory[LAYOUT.slots[0] + 300] ^= 1
+    tester.restart()
+
+    with pytest.raises(BoardError, match="set up for 250000 bit/s, on a bus of 500000"):
+        board.pass_time(0.2)
+    assert (runs_in(board) is None) == bool(slot)

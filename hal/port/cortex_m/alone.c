@@ -5,6 +5,11 @@ uint8_t loader_node(uint8_t built)
     return built;
 }
 
+const char *loader_link(void)
+{
+    return "";
+}
+
 void loader_alive(bool outage)
 {
     (void)outage;

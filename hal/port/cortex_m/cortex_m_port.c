@@ -22,12 +22,12 @@ int port_open(struct port *port, int argc, char *const argv[])
     (void)argc;
     (void)argv;
     *port = (struct port){
-        .link = "",   /* there is one, linked in */
         .node = loader_node(OCTET_NODE),
         .reset_cause = crash_reset_cause(mcu_reset_cause()),
         .crash = crash_last(),
         .clock_exact = mcu_clock_is_exact(),
     };
+    port->link = loader_link();
     mcu_light(true);
     return 0;
 }

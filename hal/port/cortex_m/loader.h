@@ -10,6 +10,9 @@
 uint8_t loader_node(uint8_t built);
         /* The robot's number: as the boot loader has it, or as built. To be called before all else here. */
 
+const char *loader_link(void);
+        /* The link's name: the bus's bit rate as the boot loader has it, or nothing. */
+
 void loader_alive(bool outage);
         /* As port_alive. */
 

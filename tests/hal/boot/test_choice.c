@@ -27,7 +27,7 @@ TEST(on_a_blank_chip_nothing_is_chosen)
 
 TEST(what_was_saved_is_there_after_a_start)
 {
-    struct choice all = {.floor = 0x12345678, .installed = 2, .slot = 1, .trial = true, .starts = 3, .node = 31};
+    struct choice all = {.floor = 0x12345678, .installed = 2, .slot = 1, .trial = true, .starts = 3, .node = 31, .bitrate = 4};
 
     save(all);
     TEST_ASSERT_EQUAL(1, choices_open(&choices, CHOICE_PAGE));
@@ -37,6 +37,7 @@ TEST(what_was_saved_is_there_after_a_start)
     TEST_ASSERT_TRUE(choices.now.trial);
     TEST_ASSERT_EQUAL_UINT8(3, choices.now.starts);
     TEST_ASSERT_EQUAL_UINT8(31, choices.now.node);
+    TEST_ASSERT_EQUAL_UINT8(4, choices.now.bitrate);
 }
 
 TEST(what_is_no_choice_of_ours_counts_as_none)
@@ -46,6 +47,15 @@ TEST(what_is_no_choice_of_ours_counts_as_none)
     TEST_ASSERT_EQUAL(0, flash_store_save(&choices.store, bytes, true));
     TEST_ASSERT_EQUAL(0, choices_open(&choices, CHOICE_PAGE));
     TEST_ASSERT_EQUAL_UINT8(0, choices.now.installed);
+}
+
+TEST(a_bit_rate_that_nobody_knows_is_that_of_the_build)
+{
+    uint8_t bytes[CELL_COUNT] = {0, 0, 0, 0, 3, 0, BITRATES, 0xC1};
+
+    TEST_ASSERT_EQUAL(0, flash_store_save(&choices.store, bytes, true));
+    TEST_ASSERT_EQUAL(1, choices_open(&choices, CHOICE_PAGE));
+    TEST_ASSERT_EQUAL_UINT8(0, choices.now.bitrate);
 }
 
 TEST(what_could_not_be_saved_does_not_hold)

@@ -78,6 +78,17 @@ TEST(its_number_is_the_one_that_is_stored_or_that_of_the_build)
     TEST_ASSERT_EQUAL_HEX16(0x6E9, loader_id());
 }
 
+TEST(so_is_the_bit_rate_of_the_bus)
+{
+    static const char *const rates[] = {"", "125000", "250000", "500000", "1000000"};
+
+    for (uint8_t rate = 0; rate < BITRATES; rate++) {
+        begin((struct choice){.installed = 3, .bitrate = rate});
+        (void)loader_node(NODE);
+        TEST_ASSERT_EQUAL_STRING(rates[rate], loader_link());
+    }
+}
+
 TEST(it_says_what_runs)
 {
     TEST_ASSERT_TRUE(HEARS(true, 3, 0x22, 0xFD, 2));

@@ -103,10 +103,11 @@ TEST(a_start_on_trial_that_cannot_be_counted_goes_back)
     TEST_ASSERT_EQUAL(1, start());
 }
 
-TEST(its_number_outlives_the_images)
+TEST(its_number_and_the_bit_rate_outlive_the_images)
 {
-    choose((struct choice){.installed = 0, .node = 3});
+    choose((struct choice){.installed = 0, .node = 3, .bitrate = 2});
     signer_put(0, 5);
     TEST_ASSERT_EQUAL(0, start());
     TEST_ASSERT_EQUAL_UINT8(3, choices.now.node);
+    TEST_ASSERT_EQUAL_UINT8(2, choices.now.bitrate);
 }

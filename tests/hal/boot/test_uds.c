@@ -4,6 +4,8 @@
 
 #include "tests/test.h"
 
+#include "hal/boot/uds_parts.h"
+
 #include "tester.h"
 
 enum { NOW_MS = 100 };
@@ -52,7 +54,7 @@ TEST(what_does_not_fit_is_refused_with_its_code)
         {{0x22, 0xF1}, 2, 0x13, 0x13}, {{0x22, 0xF1, 0x8F}, 3, 0x31, 0x31}, {{0x22, 0xF1, 0x80, 0}, 4, 0x13, 0x13},
         {{0x27}, 1, 0x7F, 0x13}, {{0x27, 1}, 2, 0x7F, 0}, {{0x27, 3}, 2, 0x7F, 0x12}, {{0x27, 1, 0}, 3, 0x7F, 0x13},
         {{0x27, 2}, 2, 0x7F, 0x13},
-        {{0x2E, 0xFD, 4}, 3, 0x7F, 0x13}, {{0x2E, 0xFD, 5, 1}, 4, 0x7F, 0x31}, {{0x2E, 0xFD, 4, 1}, 4, 0x7F, 0x33},
+        {{0x2E, 0xFD, 4}, 3, 0x7F, 0x13}, {{0x2E, 0xFD, 6, 1}, 4, 0x7F, 0x31}, {{0x2E, 0xFD, 4, 1}, 4, 0x7F, 0x33},
         {{0x2E, 0xFD, 4, 1, 0}, 5, 0x7F, 0x13},
         {{0x31, 1, 0xFF}, 3, 0x7F, 0x13}, {{0x31, 1, 0xFF, 1}, 4, 0x7F, 0x33}, {{0x34, 0, 0x44}, 3, 0x7F, 0x33},
         {{0x36, 1, 0}, 3, 0x7F, 0x33}, {{0x37}, 1, 0x7F, 0x33},
@@ -178,4 +180,25 @@ TEST(its_number_can_be_written_with_the_key_only)
     unlock();
     boot_flash.failing = true;
     TEST_ASSERT_EQUAL_HEX8(0x72, ASK(0x2E, 0xFD, 4, 1));
+}
+
+TEST(the_bit_rate_of_the_bus_can_be_written_with_the_key_only)
+{
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
+    TEST_ASSERT_EQUAL_HEX8(0x33, ASK(0x2E, 0xFD, 5, 0, 3, 0xD0, 0x90));
+    unlock();
+    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x2E, 0xFD, 5, 0, 3, 0xD0, 0x91));
+    TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x2E, 0xFD, 5, 0));
+    TEST_ASSERT_EQUAL_HEX8(0x31, ASK(0x2E, 0xFD, 6, 0));
+    for (uint32_t rate = 125000; rate <= 1000000; rate *= 2) {
+        TEST_ASSERT_EQUAL_HEX8(0, ASK(0x2E, 0xFD, 5, 0, (uint8_t)(rate >> 16), (uint8_t)(rate >> 8), (uint8_t)rate));
+        TEST_ASSERT_EQUAL_UINT32(rate, choice_bitrate(&choices.now));
+    }
+    tester_power_on();
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x22, 0xFD, 5));
+    TEST_ASSERT_EQUAL_UINT32(1000000, uds_number(&answer[3]));
+    TEST_ASSERT_EQUAL_UINT16(7, answered);
+    unlock();
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x2E, 0xFD, 5, 0, 0, 0, 0));
+    TEST_ASSERT_EQUAL_UINT32(0, choice_bitrate(&choices.now));
 }

@@ -1,4 +1,4 @@
-/* The images' own memcpy and memset, under other names: what they write, and that they write nothing else. */
+/* The images' own memcpy, memset and memcmp, under other names: what they write, and that they write nothing else. */
 #include <stdint.h>
 #include <string.h>
 
@@ -8,6 +8,7 @@ enum { LENGTHS = 20, OFFSETS = 5, BUFFER = 32, GUARD = 0xEE };
 
 void *octet_memcpy(void *restrict to, const void *restrict from, size_t count);
 void *octet_memset(void *to, int value, size_t count);
+int octet_memcmp(const void *one, const void *other, size_t count);
 
 static uint8_t buffer[BUFFER], source[BUFFER];
 
@@ -28,6 +29,17 @@ static void assert_guarded_but(unsigned offset, unsigned length)
     for (unsigned i = 0; i < BUFFER; i++)
         if (i < offset || i >= offset + length)
             TEST_ASSERT_EQUAL_HEX8(GUARD, buffer[i]);
+}
+
+TEST(the_first_byte_that_differs_tells_which_is_greater)
+{
+    static const uint8_t low[] = {1, 2, 3, 200}, high[] = {1, 2, 200, 3};
+
+    for (unsigned length = 0; length <= 4; length++) {
+        TEST_ASSERT_EQUAL(0, octet_memcmp(low, low, length));
+        TEST_ASSERT_TRUE((octet_memcmp(low, high, length) < 0) == (length > 2));
+        TEST_ASSERT_TRUE((octet_memcmp(high, low, length) > 0) == (length > 2));
+    }
 }
 
 TEST(bytes_are_copied_from_and_to_any_address)

@@ -71,6 +71,11 @@ uint8_t loader_node(uint8_t built)
     return board.other_node != 0 ? board.other_node : built;
 }
 
+const char *loader_link(void)
+{
+    return "250000";
+}
+
 void loader_alive(bool outage)
 {
     board.loader_outage = outage;
@@ -121,7 +126,7 @@ TEST(it_opens_as_what_it_was_built_for)
     board.clock_exact = true;
     board.chip_cause = RESET_WATCHDOG;
     TEST_ASSERT_EQUAL(0, port_open(&port, 0, NULL));
-    TEST_ASSERT_EQUAL_STRING("", port.link);
+    TEST_ASSERT_EQUAL_STRING("250000", port.link);
     TEST_ASSERT_EQUAL_UINT8(NODE, port.node);
     TEST_ASSERT_EQUAL(RESET_WATCHDOG, port.reset_cause);
     TEST_ASSERT_EQUAL_PTR(&CRASH, port.crash);

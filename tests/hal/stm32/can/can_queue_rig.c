@@ -1,7 +1,5 @@
 #include "can_queue_rig.h"
 
-#include <string.h>
-
 #include "hal/stm32/machine.h"
 
 struct can_queue queue;
@@ -9,7 +7,7 @@ struct can_queue queue;
 void setUp(void)
 {
     fake_reset();
-    memset(&queue, 0, sizeof queue);
+    can_queue_begin(&queue, 500000);
 }
 
 bool put(uint32_t id, uint8_t number)

@@ -8,9 +8,11 @@ static const uint16_t WANTED[] = {0x0C1, 0x041};
 
 void setUp(void)
 {
+    uint32_t quanta = can_quanta(RIG_CLOCKS_HZ[0], CAN_BITRATE);
+
     rig_reset();
     TEST_ASSERT_TRUE(can_stop());
-    can_set_up(RIG_CLOCKS_HZ[0] / (CAN_BITRATE * can_quanta(RIG_CLOCKS_HZ[0])), can_quanta(RIG_CLOCKS_HZ[0]), WANTED, 2);
+    can_set_up(RIG_CLOCKS_HZ[0] / (CAN_BITRATE * quanta), quanta, WANTED, 2);
     rig_set_clock(RIG_CLOCKS_HZ[0]);
     can_start();
     rig_pass_us(100);

@@ -26,6 +26,25 @@ TEST(the_bit_rate_is_500_kbit_s_from_every_clock_it_may_run_at)
     }
 }
 
+TEST(its_name_may_tell_another_bit_rate)
+{
+    static const struct {
+        const char *name;
+        uint32_t bitrate;
+    } rates[] = {{"125000", 125000}, {"250000", 250000}, {"500000", 500000}, {"1000000", 1000000}};
+
+    for (unsigned i = 0; i < sizeof rates / sizeof rates[0]; i++)
+        for (const uint32_t *hz = RIG_CLOCKS_HZ; *hz != 0; hz++) {
+            struct rig_bit bit;
+
+            rig_reset();
+            rig_set_clock(*hz);
+            TEST_ASSERT_EQUAL(0, link_open(&link_here, rates[i].name, WANTED, 2));
+            bit = rig_bit();
+            TEST_ASSERT_EQUAL_UINT32(*hz, rates[i].bitrate * bit.prescaler * (bit.before + bit.after));
+        }
+}
+
 TEST(a_clock_without_a_divisor_for_500_kbit_s_does_not_open)
 {
     rig_reset();

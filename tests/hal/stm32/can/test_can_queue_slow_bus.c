@@ -4,6 +4,7 @@
 /* A full frame takes 1.08 ms; with others' frames between, nearly two. */
 static void fill_queue(uint32_t frame_us)
 {
+    can_queue_begin(&queue, 125000);
     controller.frame_us = frame_us;
     for (uint8_t n = 0; n < CAN_QUEUE_MAX + CAN_BUFFERS - 1; n++)
         TEST_ASSERT_TRUE(put(HEARTBEAT, n));
@@ -32,6 +33,7 @@ TEST(a_frame_leaves_in_time_to_let_the_next_one_in)
 
 TEST(a_frame_is_stuck_only_once_it_has_had_time_to_leave)
 {
+    can_queue_begin(&queue, 125000);
     controller.frame_us = 1990;
     TEST_ASSERT_TRUE(put(HEARTBEAT, 0));
     TEST_ASSERT_TRUE(put(DRIVE, 1));
