@@ -84,7 +84,7 @@ class EmulatedBoard:
     def send(self, frame: Frame) -> None:
         """As in `Link`."""
         if self._serial:
-            self.hardware.usart.feed(encode(frame))
+            self.hardware.feed_line(encode(frame))
         else:
             self.put(CanFrame(frame.id, frame.data))
 
@@ -180,14 +180,14 @@ class EmulatedBoard:
 
 
 def start_board(
-    name: str, faults: Faults | None = None, link: str = "bxcan", *, boot: bool = False, version: int = 1
+    name: str, faults: Faults | None = None, link: str = "", *, boot: bool = False, version: int = 1
 ) -> EmulatedBoard:
     """A board with the image that the build leaves for it, up and running.
 
     Args:
-        name: `feather_stm32f405` or `blue_pill`.
+        name: One of `CHIPS`.
         faults: How its hardware misbehaves.
-        link: `bxcan` or `slcan`: which of its images.
+        link: Such as `bxcan` or `slcan`: which of its images; by default that for its CAN controller.
         boot: Whether it starts through a boot loader, with an image in its first slot.
         version: Of that image.
 
@@ -198,6 +198,7 @@ def start_board(
     """
     if name not in CHIPS:
         raise UsageError(f"no board {name!r}; there are {', '.join(CHIPS)}")
+    link = link or CHIPS[name].link
     serial = link == "slcan"
     if not boot:
         return EmulatedBoard(CHIPS[name], image_path(name, link), faults, serial=serial)

@@ -91,6 +91,11 @@ class ChipPins:
                 return pin
         return None
 
+    def function_of(self, use: str, pin: str) -> int | None:
+        """The number of the alternate function with which a pin is, for example, `CAN rx`; None if it cannot be."""
+        function, role = use.split()
+        return next((option["af"] for option in self._functions[function] if option.get(role) == pin), None)
+
     def _remap(self, function: str, roles: dict[str, str], signals: dict[str, str]) -> int:
         wanted = [signals[name] for name in roles.values()]
         options = [option for option in self._functions[function] if all(role in option for role in roles)]

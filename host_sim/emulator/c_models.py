@@ -9,7 +9,16 @@ from host_sim.base.paths import BUILD, PACKAGE, ROOT
 
 LIBRARY = BUILD / "host" / "host_sim" / "emulator" / "models" / "liboctet_models.so"
 _MODELS = PACKAGE / "emulator" / "models"
-_NAMES = ("can_wire", "bxcan_model", "board_clock", "core_blocks", "systick_model", "register_space")
+_NAMES = (
+    "can_wire",
+    "can_node",
+    "bxcan_model",
+    "fdcan_model",
+    "board_clock",
+    "core_blocks",
+    "systick_model",
+    "register_space",
+)
 _HEADERS = (ROOT / "hal" / "link" / "link.h", *(_MODELS / f"{name}.h" for name in _NAMES))
 
 

@@ -1,6 +1,7 @@
-"""CAN as a peripheral of the board: the models of bxCAN and of the wire, which are written in C (`models/`)."""
+"""CAN as a peripheral of the board: the models of its controllers and of the wire, written in C (`models/`)."""
 
-from collections.abc import Callable
+from abc import abstractmethod
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -9,9 +10,6 @@ from host_sim.emulator.clock import SECOND, Clock
 from host_sim.emulator.registers import BoardError, Peripheral, Register
 
 _NS = SECOND // 10**9
-_MCR, _MAILBOX, _OUTPUT, _BANK = 0x00, 0x180, 0x1B0, 0x240
-_NAMED = {0x00: "MCR", 0x04: "MSR", 0x08: "TSR", 0x0C: "RF0R", 0x10: "RF1R", 0x14: "IER", 0x18: "ESR", 0x1C: "BTR"}
-_FILTERS = {0x200: "FMR", 0x204: "FM1R", 0x20C: "FS1R", 0x214: "FFA1R", 0x21C: "FA1R"}
 _EXTENDED, _REMOTE, _ID = 1 << 31, 1 << 30, (1 << 29) - 1
 
 
@@ -44,112 +42,187 @@ class CanFaults:
     stuck_mailboxes: int = 0
 
 
-def _names(banks: int) -> dict[int, str]:
-    """Names of the registers by offset."""
-    names = _NAMED | _FILTERS
-    for base, words, count in ((_MAILBOX, ("TI", "TDT", "TDL", "TDH"), 3), (_OUTPUT, ("RI", "RDT", "RDL", "RDH"), 2)):
-        names |= {base + 16 * n + 4 * i: f"{word}{n}R" for n in range(count) for i, word in enumerate(words)}
-    return names | {_BANK + 8 * bank + 4 * half: f"F{bank}R{half + 1}" for bank in range(banks) for half in range(2)}
-
-
-class BxCan(Peripheral):
-    """The controller, with its wire and one more node there that stands for the rest of the world.
+class CanController(Peripheral):
+    """A controller, with its wire and one more node there that stands for the rest of the world.
 
     Attributes:
-        model: The C model, `struct bxcan`.
+        model: The C model of its kind.
+        node: What that has in common with all kinds, `struct can_node`.
         wire: Its bus, `struct can_wire`.
     """
 
+    called: str
+    """As in the reference manual."""
+    control: int
+    """Offset of the register with which a driver lets it join the bus."""
+
     def __init__(
         self,
+        names: Mapping[int, str],
         clock: Clock,
         bus_hz: Callable[[], int],
-        banks: int,
         faults: CanFaults,
         heard: Callable[[CanFrame], None],
     ) -> None:
-        """A controller that sleeps.
+        """A controller that is on no bus.
 
         Args:
+            names: Of its registers by offset.
             clock: The board's.
             bus_hz: Gives the speed of the controller's clock.
-            banks: Number of filter banks.
             faults: How it misbehaves.
             heard: Takes what the board has sent.
 
         Raises:
             OctetError: The models are not built.
         """
-        ffi, self._library = c_models()
-        self._clock, self._bus_hz, self._heard, self._ffi = clock, bus_hz, heard, ffi
+        self.ffi, self.library = ffi, library = c_models()
+        self._clock, self._bus_hz, self._heard = clock, bus_hz, heard
         self._frame: Any = ffi.new("struct frame *")
         self._data = ffi.buffer(self._frame.data)
         self.wire: Any = ffi.new("struct can_wire *")
-        self.model: Any = ffi.new("struct bxcan *")
-        self._library.wire_open(self.wire)
-        self._library.bxcan_open(self.model, self.wire, banks)
-        self.model.init_stuck, self.model.stuck_mailboxes = faults.init_stuck, faults.stuck_mailboxes
-        super().__init__("CAN1", {offset: self._register(offset, name) for offset, name in _names(banks).items()})
+        library.wire_open(self.wire)
+        self.model: Any = self.open()
+        self.node: Any = self.model.node
+        self.node.init_stuck, self.node.stuck_mailboxes = faults.init_stuck, faults.stuck_mailboxes
+        super().__init__(self.called, {offset: self._register(offset, name) for offset, name in names.items()})
         clock.join_wire(self.wire, self._take)
+
+    @abstractmethod
+    def open(self) -> Any:
+        """Makes the model of this kind, on the wire."""
+
+    @abstractmethod
+    def restart(self) -> None:
+        """The model, as after a reset."""
 
     def reset(self) -> None:
         """As in `Peripheral`."""
         super().reset()
-        self._library.bxcan_reset(self.model)
+        self.restart()
 
     def set_clocked(self, clocked: bool) -> None:
         """As in `Peripheral`."""
         super().set_clocked(clocked)
-        self.model.clocked = clocked
+        self.node.clocked = clocked
 
     def access_directly(self, space: Any, base: int) -> None:
         """Has a `struct register_space` read and write the registers without Python.
 
-        MCR is written here, since the controller then asks for the speed of its clock.
+        `control` is written here, since the controller then asks for the speed of its clock.
         """
-        space.can, space.can_base = self.model, base
+        space.can, space.can_base = self.ffi.addressof(self.node), base
         for offset in self.registers:
-            space.can_readable[offset // 4] = True
-            space.can_writable[offset // 4] = offset != _MCR
+            word = self.library.space_can_word(offset)
+            space.can_readable[word] = True
+            space.can_writable[word] = offset != self.control
 
     def put(self, frame: CanFrame) -> None:
         """The rest of the world wants to send a frame; where too many are waiting already, it is lost."""
         flags = (_EXTENDED if frame.extended else 0) | (_REMOTE if frame.remote else 0)
         self._frame.id, self._frame.len = frame.id | flags, len(frame.data)
         self._data[:] = frame.data.ljust(8, b"\0")
-        self._library.wire_put(self.wire, self._frame)
+        self.library.wire_put(self.wire, self._frame)
         self._clock.expect_now()
 
     def _register(self, offset: int, name: str) -> Register:
-        model, read, write = self.model, self._library.bxcan_read, self._library.bxcan_write
+        node, read, write = self.ffi.addressof(self.node), self.library.node_read, self.library.node_write
 
         def on_read() -> int:
-            value: int = read(model, offset)
+            value: int = read(node, offset)
             if value < 0:
                 self._refuse()
             return value
 
         def on_write(value: int) -> None:
             self.wire.now_ns = self._clock.now // _NS
-            if offset == _MCR:
-                model.clock_hz = self._bus_hz()
-            if not write(model, offset, value):
+            if offset == self.control:
+                self.node.clock_hz = self._bus_hz()
+            if not write(node, offset, value):
                 self._refuse()
             self._clock.expect_now()
 
         return Register(name, on_read=on_read, on_write=on_write)
 
     def _take(self) -> None:
-        if self.model.refusal[0] != b"\0":
+        if self.node.refusal[0] != b"\0":
             self._refuse()
         while self.wire.heard.count:
-            self._library.wire_fetch(self.wire, self._frame)
+            self.library.wire_fetch(self.wire, self._frame)
             frame = self._frame
             remote = bool(frame.id & _REMOTE)
             data = bytes(frame.len) if remote else self._data[: frame.len]
             self._heard(CanFrame(frame.id & _ID, data, bool(frame.id & _EXTENDED), remote))
 
     def _refuse(self) -> None:
-        reason = self._ffi.string(self.model.refusal).decode()
-        self.model.refusal = b""
+        reason = self.ffi.string(self.node.refusal).decode()
+        self.node.refusal = b""
         raise BoardError(reason)
+
+
+_MAILBOX, _OUTPUT, _BANK = 0x180, 0x1B0, 0x240
+_NAMED = {0x00: "MCR", 0x04: "MSR", 0x08: "TSR", 0x0C: "RF0R", 0x10: "RF1R", 0x14: "IER", 0x18: "ESR", 0x1C: "BTR"}
+_FILTERS = {0x200: "FMR", 0x204: "FM1R", 0x20C: "FS1R", 0x214: "FFA1R", 0x21C: "FA1R"}
+
+
+class BxCan(CanController):
+    """The controller of F1 and F4; see `CanController`."""
+
+    called, control = "CAN1", 0x00
+
+    def __init__(
+        self,
+        clock: Clock,
+        bus_hz: Callable[[], int],
+        faults: CanFaults,
+        heard: Callable[[CanFrame], None],
+        banks: int = 14,
+    ) -> None:
+        """Asleep; with so many filter banks."""
+        self._banks = banks
+        names = _NAMED | _FILTERS
+        boxes = ((_MAILBOX, ("TI", "TDT", "TDL", "TDH"), 3), (_OUTPUT, ("RI", "RDT", "RDL", "RDH"), 2))
+        for base, words, count in boxes:
+            names |= {base + 16 * n + 4 * i: f"{word}{n}R" for n in range(count) for i, word in enumerate(words)}
+        names |= {_BANK + 8 * bank + 4 * half: f"F{bank}R{half + 1}" for bank in range(banks) for half in range(2)}
+        super().__init__(names, clock, bus_hz, faults, heard)
+
+    def open(self) -> Any:
+        """As in `CanController`."""
+        model = self.ffi.new("struct bxcan *")
+        self.library.bxcan_open(model, self.wire, self._banks)
+        return model
+
+    def restart(self) -> None:
+        """As in `CanController`."""
+        self.library.bxcan_reset(self.model)
+
+
+_FD_NAMES = {0x000: "CREL", 0x004: "ENDN", 0x018: "CCCR", 0x01C: "NBTP", 0x040: "ECR", 0x044: "PSR", 0x050: "IR"}
+_FD_NAMES |= {0x054: "IE", 0x058: "ILS", 0x05C: "ILE", 0x080: "RXGFC", 0x090: "RXF0S", 0x094: "RXF0A"}
+_FD_NAMES |= {0x098: "RXF1S", 0x09C: "RXF1A", 0x0C0: "TXBC", 0x0C4: "TXFQS", 0x0C8: "TXBRP", 0x0CC: "TXBAR"}
+_FD_NAMES |= {0x0D0: "TXBCR", 0x0D4: "TXBTO", 0x0D8: "TXBCF"}
+
+
+class FdCan(CanController):
+    """That of G4, in classic CAN mode, with its message RAM; see `CanController`."""
+
+    called, control = "FDCAN1", 0x018
+
+    def __init__(
+        self, clock: Clock, bus_hz: Callable[[], int], faults: CanFaults, heard: Callable[[CanFrame], None]
+    ) -> None:
+        """In initialization."""
+        _, library = c_models()
+        ram = {library.FDCAN_RAM_AT + 4 * word: f"RAM[{word}]" for word in range(library.FDCAN_RAM_WORDS)}
+        super().__init__(_FD_NAMES | ram, clock, bus_hz, faults, heard)
+
+    def open(self) -> Any:
+        """As in `CanController`."""
+        model = self.ffi.new("struct fdcan *")
+        self.library.fdcan_open(model, self.wire)
+        return model
+
+    def restart(self) -> None:
+        """As in `CanController`."""
+        self.library.fdcan_reset(self.model)

@@ -2,15 +2,18 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
+from host_sim.emulator.can import BxCan, CanController, CanFaults, CanFrame, FdCan
 from host_sim.emulator.clock import Clock
 from host_sim.emulator.flash import Factory as FlashFactory
-from host_sim.emulator.flash import FlashF1, FlashF4
-from host_sim.emulator.gpio_f1 import GpioF1
+from host_sim.emulator.flash import FlashF1, FlashF4, FlashG4
+from host_sim.emulator.ports import GpioF1, GpioF4, GpioG4, Port
 from host_sim.emulator.rcc import Oscillators, Rcc, RccFaults
 from host_sim.emulator.rcc_f1 import RccF1
-from host_sim.emulator.rcc_f4 import RccF4
-from host_sim.emulator.system import Gpio, gpio_f4
+from host_sim.emulator.rcc_f4 import RccF4, RccG4
+from host_sim.emulator.serial import Usart, UsartG4
+from host_sim.emulator.system import POWER_F1, POWER_G4, PowerKind
 
 Gate = tuple[int, int]
 """What switches a peripheral's clock: the offset of a register of RCC, and the number of a bit in it."""
@@ -26,7 +29,6 @@ class Chip:
         slow_hz: Speed of the watchdog's oscillator.
         oscillators: The others' speeds; the crystal is the board's.
         ram: (base, bytes) of each RAM.
-        system_rom: Base of the page with the unique identifier.
         rcc: Makes the reset and clock control.
         rcc_base: Where it lies.
         flash: Makes the flash.
@@ -34,11 +36,14 @@ class Chip:
         gpio: Makes a port by its name.
         gpio_base: Where port A lies; each has 1 kB.
         gpio_gates: The gate of each port's clock, from port A.
-        can_banks: Number of the filter banks of CAN.
+        link: The image that talks through its CAN controller, by its link.
+        can: Makes that controller.
         can_gate: The gate of CAN's clock.
         power_gate: The gate of the clock of what watches the supply.
-        usart_base: Where USART1 lies.
-        usart_gate: The gate of USART1's clock.
+        power: Where it has what watches the supply.
+        usart: Makes the serial port.
+        usart_base: Where that lies.
+        usart_gate: The gate of its clock.
         afio_gate: The gate of the clock of the alternate functions' registers; None if the chip has none.
         robot: Whether the board has pins for a robot of its own.
     """
@@ -48,17 +53,19 @@ class Chip:
     slow_hz: int
     oscillators: Oscillators
     ram: Sequence[tuple[int, int]]
-    system_rom: int
     rcc: Callable[[Clock, Oscillators, Callable[[], int], RccFaults], Rcc]
     rcc_base: int
     flash: FlashFactory
     flash_base: int
-    gpio: Callable[[str], Gpio | GpioF1]
+    gpio: Callable[[str], Port]
     gpio_base: int
     gpio_gates: Sequence[Gate]
-    can_banks: int
+    link: str
+    can: Callable[[Clock, Callable[[], int], CanFaults, Callable[[CanFrame], None]], CanController]
     can_gate: Gate
     power_gate: Gate
+    power: PowerKind
+    usart: Callable[[Clock, Callable[[], int], Callable[[int], None]], Usart]
     usart_base: int
     usart_gate: Gate
     afio_gate: Gate | None = None
@@ -67,7 +74,7 @@ class Chip:
 
 WATCHDOG_BASE, CAN_BASE, POWER_BASE, AFIO_BASE = 0x40003000, 0x40006400, 0x40007000, 0x40010000
 SYSTICK_BASE, SCB_BASE, NVIC_BASE = 0xE000E010, 0xE000ED00, 0xE000E100
-"""Where both chips have the same."""
+"""Where all chips have the same."""
 
 GPIO_STRIDE = 0x400
 """From one port to the next."""
@@ -82,17 +89,19 @@ STM32F405 = Chip(
         internal=16 * _MHZ, crystal=12 * _MHZ, core_max=168 * _MHZ, apb1_max=42 * _MHZ, apb2_max=84 * _MHZ
     ),
     ram=((0x20000000, 128 << 10), (0x10000000, 64 << 10)),
-    system_rom=0x1FFF7000,
     rcc=RccF4,
     rcc_base=0x40023800,
     flash=FlashF4,
     flash_base=0x40023C00,
-    gpio=gpio_f4,
+    gpio=GpioF4,
     gpio_base=0x40020000,
     gpio_gates=[(0x30, port) for port in range(9)],
-    can_banks=28,
+    link="bxcan",
+    can=partial(BxCan, banks=28),
     can_gate=(0x40, 25),
     power_gate=(0x40, 28),
+    power=POWER_F1,
+    usart=Usart,
     usart_base=0x40011000,
     usart_gate=(0x44, 4),
 )
@@ -106,7 +115,6 @@ STM32F103 = Chip(
         internal=8 * _MHZ, crystal=8 * _MHZ, core_max=72 * _MHZ, apb1_max=36 * _MHZ, apb2_max=72 * _MHZ
     ),
     ram=((0x20000000, 20 << 10),),
-    system_rom=0x1FFFF000,
     rcc=RccF1,
     rcc_base=0x40021000,
     flash=FlashF1,
@@ -114,9 +122,12 @@ STM32F103 = Chip(
     gpio=GpioF1,
     gpio_base=0x40010800,
     gpio_gates=[(0x18, 2 + port) for port in range(5)],
-    can_banks=14,
+    link="bxcan",
+    can=BxCan,
     can_gate=(0x1C, 25),
     power_gate=(0x1C, 28),
+    power=POWER_F1,
+    usart=Usart,
     usart_base=0x40013800,
     usart_gate=(0x18, 14),
     afio_gate=(0x18, 0),
@@ -124,4 +135,30 @@ STM32F103 = Chip(
 )
 """Blue Pill."""
 
-CHIPS = {chip.name: chip for chip in (STM32F405, STM32F103)}
+STM32G431 = Chip(
+    name="nucleo_g431rb",
+    cpuid=0x410FC241,
+    slow_hz=32_000,
+    oscillators=Oscillators(
+        internal=16 * _MHZ, crystal=24 * _MHZ, core_max=80 * _MHZ, apb1_max=80 * _MHZ, apb2_max=80 * _MHZ
+    ),
+    ram=((0x20000000, 32 << 10),),
+    rcc=RccG4,
+    rcc_base=0x40021000,
+    flash=FlashG4,
+    flash_base=0x40022000,
+    gpio=GpioG4,
+    gpio_base=0x48000000,
+    gpio_gates=[(0x4C, port) for port in range(7)],
+    link="fdcan",
+    can=FdCan,
+    can_gate=(0x58, 25),
+    power_gate=(0x58, 28),
+    power=POWER_G4,
+    usart=UsartG4,
+    usart_base=0x40004400,
+    usart_gate=(0x58, 17),
+)
+"""ST NUCLEO-G431RB. To be faster, the chip needs a higher voltage and a rest at half speed: not modelled."""
+
+CHIPS = {chip.name: chip for chip in (STM32F405, STM32F103, STM32G431)}

@@ -60,7 +60,7 @@ _STACKED = (
 """What the hardware saves when it enters an exception, from the lowest address."""
 
 _RETURN_TO_THREAD = 0xFFFFFFF9
-_HARD_FAULT = 3
+_NMI, _HARD_FAULT = 2, 3
 _IBUSERR, _PRECISERR, _STKERR, _UNDEFINSTR = 1 << 8, 1 << 9, 1 << 12, 1 << 16
 _WFI = b"\x30\xbf"
 _WIDE_PREFIXES = (0b11101, 0b11110, 0b11111)
@@ -114,6 +114,7 @@ class Core:
         on_fault: Called when the image faults; then its hard fault handler runs.
         vectors: Address of the vector table in force.
         wakes: Whether something ends the sleep that it began with WFI.
+        on_nmi: Called when the non-maskable interrupt is taken, and when its handler returns.
     """
 
     def __init__(self, clock: Clock, vectors: int) -> None:
@@ -125,6 +126,9 @@ class Core:
         """
         self.on_fault: Callable[[Fault], None] = _disregard
         self.wakes: Callable[[], bool] = lambda: True
+        self.on_nmi: Callable[[bool], None] = lambda _taken: None
+        self._nmi = False
+        self._interrupted: int | None = None
         self._clock, self._begin = clock, vectors
         self.vectors = vectors
         self._in_fault = False
@@ -184,7 +188,8 @@ class Core:
     def reset(self) -> None:
         """Begins where the vector table says."""
         self._asleep = False
-        self._in_fault = False
+        self._in_fault = self._nmi = False
+        self._interrupted = None
         self.vectors = self._begin
         self._uc.reg_write(UC_ARM_REG_SP, self._word(self.vectors))
         self._uc.reg_write(UC_ARM_REG_LR, 0xFFFFFFFF)
@@ -195,6 +200,11 @@ class Core:
         self._pc = address
         if stack is not None:
             self._uc.reg_write(UC_ARM_REG_SP, stack)
+
+    def interrupt(self) -> None:
+        """Asks for the non-maskable interrupt: it is taken at the end of the block of instructions."""
+        self._nmi = True
+        self.stop()
 
     def stop(self) -> None:
         """Ends `run` soon."""
@@ -208,6 +218,8 @@ class Core:
             PowerCut: As the flash's.
         """
         self._blocks.stopping = False
+        if self._nmi and self._interrupted is None:
+            self._take_nmi()
         while not self._blocks.stopping:
             if self._asleep:
                 self._sleep()
@@ -244,9 +256,31 @@ class Core:
         self._unreachable = cast("int", access[2])
         return False
 
+    def _take_nmi(self) -> None:
+        self._nmi = False
+        self._interrupted = self._uc.reg_read(UC_ARM_REG_SP)
+        self._uc.reg_write(UC_ARM_REG_PC, self._pc)
+        self._stack_registers()
+        self.on_nmi(True)
+        self._uc.reg_write(UC_ARM_REG_LR, _RETURN_TO_THREAD)
+        self._pc = self._word(self.vectors + 4 * _NMI)
+
+    def _return_from_nmi(self, stack: int) -> None:
+        saved = self._uc.mem_read(self._uc.reg_read(UC_ARM_REG_SP), 4 * len(_STACKED))
+        for register, value in zip(_STACKED, struct.unpack(f"<{len(_STACKED)}I", saved), strict=True):
+            self._uc.reg_write(register, value)
+            if register == UC_ARM_REG_PC:
+                self._pc = value
+        self._uc.reg_write(UC_ARM_REG_SP, stack)
+        self._interrupted = None
+        self.on_nmi(False)
+
     def _enter_fault(self, error: UcError) -> None:
         """As the hardware does: the registers on the stack, and on in the handler."""
         address, self._unreachable = self._unreachable, None
+        if self._interrupted is not None and self._pc | _THUMB == _RETURN_TO_THREAD:
+            self._return_from_nmi(self._interrupted)
+            return
         if self._in_fault:
             raise BoardError(f"the core locked up: a fault at 0x{self._pc:08X} within the fault handler ({error})")
         self._in_fault = True

@@ -1,4 +1,4 @@
-"""The chip's internal flash, for both families (F1: PM0075, F4: RM0090 3). The core stalls while it works."""
+"""The chip's internal flash (F1: PM0075, F4: RM0090 3, G4: RM0440 5). The core stalls while it works."""
 
 from abc import abstractmethod
 from collections.abc import Callable, Sequence
@@ -20,6 +20,8 @@ _UNFINISHED = 0x0F
 _PG, _ERASE = 1 << 0, 1 << 1
 _F1_PGERR = 1 << 2
 _F4_OPERR, _F4_PGPERR, _F4_PGSERR = 1 << 1, 1 << 6, 1 << 7
+_G4_PROGERR, _G4_PGAERR, _G4_SIZERR, _G4_PGSERR = 1 << 3, 1 << 5, 1 << 6, 1 << 7
+_G4_ERRORS, _G4_TWO_BITS, _G4_ONE_BIT = 0xC3FA, 1 << 31, 1 << 30
 _F4_SNB_SHIFT, _F4_PSIZE_SHIFT = 3, 8
 
 
@@ -48,6 +50,7 @@ class FlashKind:
         start: Bit STRT of CR.
         lock: Bit LOCK of CR.
         failure: Flag of SR for what went wrong inside.
+        registers: Offsets of KEYR, SR and CR.
     """
 
     pages: Sequence[int]
@@ -57,6 +60,7 @@ class FlashKind:
     start: int
     lock: int
     failure: int
+    registers: tuple[int, int, int] = (0x04, 0x0C, 0x10)
 
 
 def _disregard() -> None:
@@ -75,6 +79,7 @@ class Flash(Peripheral):
         erasure_cuts: Numbers of the erasures in whose middle it goes.
         code_end: Offset in the memory up to which the image lies; it must not change that.
         on_wait_states: Called when they have changed.
+        on_unreadable: Called when the core has read what no error correction fits.
     """
 
     kind: FlashKind
@@ -93,15 +98,12 @@ class Flash(Peripheral):
         self.erasure_cuts: set[int] = set()
         self.operations = self.erasures = self.code_end = self._keys_taken = 0
         self.on_wait_states: Callable[[], None] = _disregard
+        self.on_unreadable: Callable[[], None] = _disregard
         self._acr = Register("ACR", on_write=self._write_acr)
         self._cr = Register("CR", self.kind.lock, on_write=self._write_cr)
         self._sr = Register("SR", on_write=self._write_sr)
-        registers = {
-            0x00: self._acr,
-            0x04: Register("KEYR", on_write=self._write_key),
-            0x0C: self._sr,
-            0x10: self._cr,
-        }
+        keyr, sr, cr = self.kind.registers
+        registers = {0x00: self._acr, keyr: Register("KEYR", on_write=self._write_key), sr: self._sr, cr: self._cr}
         super().__init__("FLASH", registers, clocked=True)
 
     def fill_last_page(self, size: int) -> None:
@@ -121,6 +123,9 @@ class Flash(Peripheral):
     @abstractmethod
     def page_to_erase(self) -> int:
         """Number of the page that the registers name."""
+
+    def changed(self, offset: int, size: int, *, cut: bool) -> None:
+        """Bytes of the memory have been written or erased, or the power has gone in the middle of that."""
 
     def reset(self) -> None:
         """As in `Peripheral`; the memory stays."""
@@ -175,6 +180,7 @@ class Flash(Peripheral):
             return
         cut = self.operations in self.cuts
         self.memory[offset : offset + len(whole)] = partial if cut else whole
+        self.changed(offset, len(whole), cut=cut)
         if cut:
             raise PowerCut
 
@@ -260,6 +266,82 @@ class FlashF4(Flash):
     def page_to_erase(self) -> int:
         """As in `Flash`."""
         return self._cr.value >> _F4_SNB_SHIFT & 0xF
+
+
+class FlashG4(Flash):
+    """The STM32G431xB's: two words are written at once, with eight bits to correct an error in them.
+
+    Attributes:
+        unreadable: Where the double words are that no correction fits, since the power went while they were written.
+    """
+
+    kind = FlashKind(
+        pages=(2048,) * 64,
+        hz_per_wait_state=30_000_000,
+        write_span=82 * SECOND // 10**6,
+        erase_span=22 * SECOND // 1000,
+        start=1 << 16,
+        lock=1 << 31,
+        failure=_F4_OPERR,
+        registers=(0x08, 0x10, 0x14),
+    )
+    _WORD, _DOUBLE = 4, 8
+
+    def __init__(self, clock: Clock, faults: FlashFaults) -> None:
+        """As in `Flash`."""
+        super().__init__(clock, faults)
+        self.unreadable: set[int] = set()
+        self._first: tuple[int, int] | None = None
+        self._eccr = self.registers[0x18] = Register("ECCR", on_write=self._write_eccr)
+
+    def reset(self) -> None:
+        """As in `Peripheral`; the memory stays."""
+        super().reset()
+        self._first = None
+
+    def read(self, offset: int, size: int) -> int:
+        """As in `Flash`; what cannot be corrected is noted, and told by an interrupt."""
+        place = offset - offset % self._DOUBLE
+        if place in self.unreadable:
+            if not self._eccr.value & _G4_TWO_BITS:
+                self._eccr.value |= _G4_TWO_BITS | place
+            self.on_unreadable()
+        return super().read(offset, size)
+
+    def write(self, offset: int, size: int, value: int) -> None:
+        """As in `Flash`; the second word of a pair starts it."""
+        first, self._first = self._first, None
+        if not self._cr.value & _PG or self._sr.value & _G4_ERRORS:
+            self._sr.value |= _G4_PGSERR
+        elif size != self._WORD:
+            self._sr.value |= _G4_SIZERR
+        elif first is None and offset % self._DOUBLE == 0:
+            self._first = offset, value
+        elif first is None or offset != first[0] + self._WORD:
+            self._sr.value |= _G4_PGAERR
+        else:
+            super().write(first[0], self._DOUBLE, first[1] | value << 32)
+
+    def refusal(self, offset: int, size: int, value: int) -> int:
+        """As in `Flash`; what is not erased takes zeros only."""
+        blank = self.memory[offset : offset + size] == _ERASED * size and offset not in self.unreadable
+        return 0 if blank or value == 0 else _G4_PROGERR
+
+    def changed(self, offset: int, size: int, *, cut: bool) -> None:
+        """As in `Flash`."""
+        kept = _OUTLIVES if cut and size > self._DOUBLE else 0
+        self.unreadable -= set(range(offset + kept, offset + size, self._DOUBLE))
+        if cut and size == self._DOUBLE:
+            self.unreadable.add(offset)
+
+    def page_to_erase(self) -> int:
+        """As in `Flash`."""
+        return self._cr.value >> _F4_SNB_SHIFT & 0x7F
+
+    def _write_eccr(self, value: int) -> None:
+        self._eccr.value &= ~(value & (_G4_TWO_BITS | _G4_ONE_BIT))
+        if not self._eccr.value & _G4_TWO_BITS:
+            self._eccr.value = 0
 
 
 Factory = Callable[[Clock, FlashFaults], Flash]

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import cast
 
 from host_sim.emulator.board_pins import read_pins
-from host_sim.emulator.can import BxCan, CanFaults, CanFrame
+from host_sim.emulator.can import CanFaults, CanFrame
 from host_sim.emulator.chips import (
     AFIO_BASE,
     CAN_BASE,
@@ -22,19 +22,21 @@ from host_sim.emulator.converter import Converter, Dma
 from host_sim.emulator.core import PAGE, Core, Fault
 from host_sim.emulator.flash import BASE as FLASH
 from host_sim.emulator.flash import FlashFaults
-from host_sim.emulator.gpio_f1 import GpioF1, Wiring
 from host_sim.emulator.interrupts import Interrupts
 from host_sim.emulator.rcc import RccFaults
 from host_sim.emulator.rcc_f1 import RccF1
 from host_sim.emulator.registers import AddressSpace, KeptPeripheral, Peripheral, Register, Window
 from host_sim.emulator.robot_on_pins import RobotOnPins
-from host_sim.emulator.serial import SlcanLine, Usart
+from host_sim.emulator.serial import SlcanLine
 from host_sim.emulator.system import PowerControl, SystemControl, SysTick, Watchdog
 from host_sim.emulator.timers import MotorTimer, Timer
+from host_sim.emulator.wiring import Wiring
 
 _COUNTERS = {"TIM2": 0x40000000, "TIM3": 0x40000400, "TIM4": 0x40000800}
+_NMI = 2
+"""Number of the exception."""
 _TIM1_BASE, _ADC_BASE, _DMA_BASE, _TIM1_UP = 0x40012C00, 0x40012400, 0x40020000, 25
-_WINDOWS = ((0x40000000, 0x80000), (0xE000E000, PAGE))
+_WINDOWS = ((0x40000000, 0x80000), (0x48000000, 2 * PAGE), (0xE000E000, PAGE))
 """(base, bytes) of where registers can be."""
 
 
@@ -67,6 +69,7 @@ class Hardware:
         pins: The ports, from A.
         rcc: The clocks.
         watchdog: The independent watchdog.
+        wiring: What its pins are joined to.
         space: All registers by address.
         faults: What the image did that the core cannot do.
         interrupts: What wakes the core.
@@ -99,25 +102,30 @@ class Hardware:
         self.pins = [chip.gpio(f"GPIO{letter}") for letter in "ABCDEFGHI"[: len(chip.gpio_gates)]]
         self.rcc = chip.rcc(self.clock, chip.oscillators, self.flash.core_hz_max, faults.rcc)
         self.flash.on_wait_states = self.rcc.check_speeds
-        self.can = BxCan(self.clock, self.rcc.apb1_hz, chip.can_banks, faults.can, self._hear)
-        self.usart = Usart(self.clock, self.rcc.apb2_hz, SlcanLine(heard).take)
+        self.can = chip.can(self.clock, self.rcc.can_hz, faults.can, self._hear)
+        self._line = SlcanLine(heard)
+        self.usart = chip.usart(self.clock, self.rcc.usart_hz, self._hear_byte)
         self.space = AddressSpace(self.clock)
-        self.power = PowerControl()
+        self.power = PowerControl(chip.power)
         self._systick = SysTick(self.clock)
         self._scb = SystemControl(chip.cpuid, lambda: restart("software"), self._move_vectors)
         self.watchdog = Watchdog(self.clock, chip.slow_hz, lambda: restart("watchdog"))
         self.interrupts = Interrupts()
         self.core.wakes = lambda: self.interrupts.wakes
+        self.flash.on_unreadable = self.core.interrupt
+        self.core.on_nmi = lambda taken: self._scb.enter(_NMI if taken else 0)
         self.robot: RobotOnPins | None = None
         self._peripherals = self._always_clocked() + self._gated()
+        afio = next((it for base, it in self._peripherals if base == AFIO_BASE), None)
+        self.wiring = Wiring(read_pins(chip.name), self.pins, afio.registers[0x04] if afio else None)
         if chip.robot:
             self._peripherals += self._for_robot()
         self._map()
 
     @property
     def on_bus(self) -> bool:
-        """Whether the CAN controller is at the pins that lead to the bus. Where that is not modelled, it is."""
-        return self.robot is None or all(map(self.robot.wiring.meets, ("CAN_RX", "CAN_TX")))
+        """Whether the CAN controller is at the pins that lead to the bus."""
+        return self.wiring.meets("CAN_RX", "CAN_TX")
 
     def flash_image(self, segments: list[tuple[int, bytes]], slots: tuple[int, int] = (0, 0)) -> None:
         """Writes an image, as a probe does, and resets the core.
@@ -221,10 +229,7 @@ class Hardware:
             rcc.add_gate(*gate, peripheral)
         for bit, timer in enumerate(timers.values()):
             rcc.add_gate(0x1C, bit, timer)
-        ports = [port for port in self.pins if isinstance(port, GpioF1)]
-        afio = next(it for base, it in self._peripherals if base == AFIO_BASE)
-        wiring = Wiring(read_pins(self.chip.name), ports, afio.registers[0x04])
-        self.robot = RobotOnPins(self.core, wiring, motors, timers, converter)
+        self.robot = RobotOnPins(self.core, self.wiring, motors, timers, converter)
         made: list[tuple[int, Peripheral]] = [(_TIM1_BASE, motors), (_ADC_BASE, converter), (_DMA_BASE, dma)]
         return made + [(_COUNTERS[name], timer) for name, timer in timers.items()]
 
@@ -245,6 +250,15 @@ class Hardware:
     def _hear(self, frame: CanFrame) -> None:
         if self.on_bus:
             self._heard(frame)
+
+    def _hear_byte(self, byte: int) -> None:
+        if self.wiring.meets("UART_TX"):
+            self._line.take(byte)
+
+    def feed_line(self, text: bytes) -> None:
+        """Text comes over the serial line."""
+        if self.wiring.meets("UART_RX"):
+            self.usart.feed(text)
 
     def _note_fault(self, fault: Fault) -> None:
         self.faults.append(fault)

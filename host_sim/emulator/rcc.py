@@ -1,23 +1,20 @@
-"""Reset and clock control: what both families share."""
+"""Reset and clock control: what the families share."""
 
 from abc import abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 from host_sim.emulator.clock import SECOND, Clock
 from host_sim.emulator.registers import BoardError, Peripheral, Register
 
-HSI, HSE, PLL = 0, 16, 24
-"""The oscillators, by the number of their ON bit in CR; READY is the bit above."""
+HSI, HSE, PLL = "HSI", "HSE", "PLL"
+"""The oscillators."""
 
 _STARTUP = {HSI: 0, PLL: SECOND // 5000}
 """Time from ON to READY; the crystal's is its own."""
 
-_SOURCES = (HSI, HSE, PLL)
-"""The sources of the core's clock, as SW in CFGR numbers them."""
-
 _HPRE_SHIFT = 4
-_RMVF = 1 << 24
 _ALL_FLAGS = 0xFE000000
 RESET_FLAGS = {"power": 1 << 27 | 1 << 26, "software": 1 << 28 | 1 << 26, "watchdog": 1 << 29 | 1 << 26}
 """Flags of CSR by the cause of a reset; each drives the reset pin too."""
@@ -62,6 +59,12 @@ class Rcc(Peripheral):
 
     cfgr: Register
     csr_offset: int
+    sources: ClassVar[Sequence[str]] = (HSI, HSE, PLL)
+    """The sources of the core's clock, as SW in CFGR numbers them."""
+    bits: ClassVar[Mapping[str, tuple[int, int]]] = {HSI: (0, 1), HSE: (16, 17), PLL: (24, 25)}
+    """The numbers of their bits ON and READY in CR."""
+    forget: ClassVar[int] = 24
+    """Bit RMVF of CSR."""
 
     def __init__(
         self,
@@ -83,15 +86,15 @@ class Rcc(Peripheral):
         self._clock, self._oscillators, self._flash_hz = clock, oscillators, flash_hz
         self._dead = {source for source, dead in ((HSE, faults.crystal_dead), (PLL, faults.pll_dead)) if dead}
         self._startup = _STARTUP | {HSE: round(faults.crystal_s * SECOND)}
-        self._ready_at: dict[int, int] = {}
+        self._ready_at: dict[str, int] = {}
         self._gates: dict[tuple[int, int], Peripheral] = {}
-        self._cr = Register("CR", 1, on_read=self._read_cr, on_write=self._write_cr)
+        self._cr = Register("CR", 1 << self.bits[HSI][0], on_read=self._read_cr, on_write=self._write_cr)
         self._csr = Register("CSR", on_write=self._write_csr)
         super().__init__("RCC", {0x00: self._cr, self.csr_offset: self._csr, **registers}, clocked=True)
         self.restart("power")
 
     @abstractmethod
-    def pll_source(self) -> int:
+    def pll_source(self) -> str:
         """Which oscillator the PLL is set up to follow."""
 
     @abstractmethod
@@ -140,20 +143,28 @@ class Rcc(Peripheral):
 
     def follows_crystal(self) -> bool:
         """Whether the core's clock comes from the external oscillator, and is thus exact."""
-        source = _SOURCES[self.cfgr.value >> 2 & 3]
+        source = self.sources[self.cfgr.value >> 2 & 3]
         return (self.pll_source() if source == PLL else source) == HSE
 
+    def can_hz(self) -> int:
+        """Speed of CAN's clock."""
+        return self.apb1_hz()
+
+    def usart_hz(self) -> int:
+        """Speed of the serial port's clock."""
+        return self.apb2_hz()
+
     def apb1_hz(self) -> int:
-        """Speed of the bus that CAN hangs on."""
+        """Speed of the slower bus."""
         return self._hclk() >> max(self.prescalers()[0] - 3, 0)
 
     def apb2_hz(self) -> int:
-        """Speed of the bus that USART1 hangs on."""
+        """Speed of the faster bus."""
         return self._hclk() >> max(self.prescalers()[1] - 3, 0)
 
     def pll_is_on(self) -> bool:
         """Whether the PLL is switched on: then it cannot be set up."""
-        return bool(self._cr.value >> PLL & 1)
+        return bool(self._cr.value >> self.bits[PLL][0] & 1)
 
     def _source_hz(self) -> int:
         return self._oscillators.crystal if self.pll_source() == HSE else self._oscillators.internal
@@ -164,20 +175,21 @@ class Rcc(Peripheral):
             if at == offset:
                 peripheral.set_clocked(bool(value >> bit & 1))
 
-    def _ready(self, source: int) -> bool:
+    def _ready(self, source: str) -> bool:
         return self._clock.now >= self._ready_at.get(source, self._clock.now + 1)
 
     def _read_cr(self) -> int:
-        return self._cr.value | sum(2 << source for source in _SOURCES if self._ready(source))
+        return self._cr.value | sum(1 << ready for source, (_, ready) in self.bits.items() if self._ready(source))
 
     def _write_cr(self, value: int) -> None:
-        if value & ~self._cr.value & 1 << PLL and not self._ready(self.pll_source()):
+        starts_pll = value & ~self._cr.value & 1 << self.bits[PLL][0]
+        if starts_pll and not self._ready(self.pll_source()):
             raise BoardError("RCC CR was written to start the PLL from an oscillator that does not run")
-        if value & ~self._cr.value & 1 << PLL:
+        if starts_pll:
             self.check_pll()
-        self._cr.value = value & ~sum(2 << source for source in _SOURCES)
-        for source in _SOURCES:
-            if not value >> source & 1:
+        self._cr.value = value & ~sum(1 << ready for _, ready in self.bits.values())
+        for source, (on, _) in self.bits.items():
+            if not value >> on & 1:
                 self._ready_at.pop(source, None)
             elif source not in self._ready_at and source not in self._dead:
                 self._ready_at[source] = self._clock.now + self._startup[source]
@@ -185,7 +197,7 @@ class Rcc(Peripheral):
     def _switch(self, value: int) -> None:
         """Takes a new CFGR: SWS follows SW if that clock runs."""
         source = value & 3
-        if not self._ready(_SOURCES[source]):
+        if not self._ready(self.sources[source]):
             source = self.cfgr.value >> 2 & 3
         # The new source counts at once, the new divisors some cycles later.
         self.cfgr.value = self.cfgr.value & ~0xF | value & 3 | source << 2
@@ -211,15 +223,16 @@ class Rcc(Peripheral):
                 raise BoardError(f"the clocks were set so that the {name} runs at {hz} Hz, where {limit} is allowed")
 
     def _hclk(self) -> int:
-        source = self.cfgr.value >> 2 & 3
-        hz = self.pll_hz() if source > 1 else (self._oscillators.internal, self._oscillators.crystal)[source]
+        source = self.sources[self.cfgr.value >> 2 & 3]
+        speeds = {HSI: self._oscillators.internal, HSE: self._oscillators.crystal}
+        hz = self.pll_hz() if source == PLL else speeds[source]
         divisor = self.cfgr.value >> _HPRE_SHIFT & 0xF
         return hz >> max(divisor - 7, 0)
 
     def _write_csr(self, value: int) -> None:
         """The low bits are the slow oscillator's: on, and ready."""
         slow = value & 1
-        noted = 0 if value & _RMVF else self._csr.value & _ALL_FLAGS
+        noted = 0 if value >> self.forget & 1 else self._csr.value & _ALL_FLAGS
         self._csr.value = noted | slow | slow << 1
 
 

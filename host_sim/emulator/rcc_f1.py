@@ -26,7 +26,7 @@ class RccF1(Rcc):
         registers = without_effect | {0x04: self.cfgr, 0x14: Register("AHBENR", 0x14)}
         super().__init__(registers, clock, oscillators, flash_hz, faults)
 
-    def pll_source(self) -> int:
+    def pll_source(self) -> str:
         """As in `Rcc`."""
         return HSE if self.cfgr.value & _PLLSRC else HSI
 

@@ -1,41 +1,57 @@
-"""Reset and clock control of the F4 (RM0090 7.3)."""
+"""Reset and clock control of F4 (RM0090 7.3) and G4 (RM0440 7.4), whose PLL has a register of its own."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import ClassVar
 
 from host_sim.emulator.clock import Clock
-from host_sim.emulator.rcc import HSE, HSI, Oscillators, Rcc, RccFaults, plain
+from host_sim.emulator.rcc import HSE, HSI, PLL, Oscillators, Rcc, RccFaults, plain
 from host_sim.emulator.registers import BoardError, Register
 
-_PLLSRC, _PLLCFGR_RESET = 1 << 22, 0x24003010
-_PLL_IN, _PLL_INSIDE = (950_000, 2_100_000), (100_000_000, 432_000_000)
-"""Hz, from and to: behind its first divisor, and of its oscillator (datasheet, 5.3.10)."""
+_F4_PLLSRC = 1 << 22
+_G4_FROM_HSE, _G4_OUTPUT_R, _G4_CAN_SHIFT, _G4_CAN_PCLK1 = 3, 1 << 24, 24, 2
 
 
 class RccF4(Rcc):
-    """The F4's: the PLL has a register of its own."""
+    """The F4's."""
 
     csr_offset = 0x74
+    pll_in: ClassVar[tuple[int, int]] = (950_000, 2_100_000)
+    """Hz, from and to, behind the PLL's first divisor (datasheet, 5.3.10)."""
+    pll_inside: ClassVar[tuple[int, int]] = (100_000_000, 432_000_000)
+    """Hz, from and to, of its oscillator."""
+    pllcfgr_at: ClassVar[tuple[int, int]] = (0x04, 0x24003010)
+    """Offset of PLLCFGR, and what it holds after a reset."""
+    cfgr_at: ClassVar[tuple[int, int]] = (0x08, 0)
+    without_effect: ClassVar[Mapping[int, str]] = {
+        0x0C: "CIR", 0x10: "AHB1RSTR", 0x20: "APB1RSTR", 0x24: "APB2RSTR", 0x40: "APB1ENR", 0x44: "APB2ENR",
+        0x70: "BDCR",
+    }  # fmt: skip
+    gates_on: ClassVar[Mapping[int, tuple[str, int]]] = {0x30: ("AHB1ENR", 0x00100000)}
+    """Gates of which some are open after a reset."""
 
     def __init__(
         self, clock: Clock, oscillators: Oscillators, flash_hz: Callable[[], int], faults: RccFaults
     ) -> None:
         """As in `Rcc`."""
-        self.cfgr = Register("CFGR", on_write=self._switch)
-        self._pllcfgr = Register("PLLCFGR", _PLLCFGR_RESET, on_write=self._write_pllcfgr)
-        without_effect = plain({0x0C: "CIR", 0x10: "AHB1RSTR", 0x20: "APB1RSTR", 0x24: "APB2RSTR", 0x40: "APB1ENR"})
-        without_effect |= plain({0x44: "APB2ENR", 0x70: "BDCR"})
-        registers = without_effect | {0x04: self._pllcfgr, 0x08: self.cfgr, 0x30: Register("AHB1ENR", 0x00100000)}
-        super().__init__(registers, clock, oscillators, flash_hz, faults)
+        self.cfgr = Register("CFGR", self.cfgr_at[1], on_write=self._switch)
+        self._pllcfgr = Register("PLLCFGR", self.pllcfgr_at[1], on_write=self._write_pllcfgr)
+        gates = {offset: Register(*gate) for offset, gate in self.gates_on.items()}
+        own = {self.pllcfgr_at[0]: self._pllcfgr, self.cfgr_at[0]: self.cfgr}
+        super().__init__(plain(self.without_effect) | gates | own, clock, oscillators, flash_hz, faults)
 
-    def pll_source(self) -> int:
+    def pll_source(self) -> str:
         """As in `Rcc`."""
-        return HSE if self._pllcfgr.value & _PLLSRC else HSI
+        return HSE if self._pllcfgr.value & _F4_PLLSRC else HSI
+
+    def pll_factors(self) -> tuple[int, int, int]:
+        """What divides the source, multiplies that, and divides it again."""
+        setting = self._pllcfgr.value
+        return max(setting & 0x3F, 1), setting >> 6 & 0x1FF, ((setting >> 16 & 3) + 1) * 2
 
     def pll_hz(self) -> int:
         """As in `Rcc`."""
-        setting = self._pllcfgr.value
-        m, n, p = setting & 0x3F, setting >> 6 & 0x1FF, ((setting >> 16 & 3) + 1) * 2
-        return self._source_hz() * n // max(m, 1) // p
+        m, n, p = self.pll_factors()
+        return self._source_hz() * n // m // p
 
     def prescalers(self) -> tuple[int, int]:
         """As in `Rcc`."""
@@ -43,9 +59,9 @@ class RccF4(Rcc):
 
     def check_pll(self) -> None:
         """As in `Rcc`."""
-        fed = self._source_hz() // max(self._pllcfgr.value & 0x3F, 1)
-        inside = fed * (self._pllcfgr.value >> 6 & 0x1FF)
-        for name, hz, (low, high) in (("input", fed, _PLL_IN), ("oscillator", inside, _PLL_INSIDE)):
+        m, n, _ = self.pll_factors()
+        fed = self._source_hz() // m
+        for name, hz, (low, high) in (("input", fed, self.pll_in), ("oscillator", fed * n, self.pll_inside)):
             if not low <= hz <= high:
                 raise BoardError(f"RCC CR was written to start the PLL with its {name} at {hz} Hz, not {low}..{high}")
 
@@ -53,3 +69,50 @@ class RccF4(Rcc):
         if self.pll_is_on():
             raise BoardError("RCC PLLCFGR was written while the PLL is on")
         self._pllcfgr.value = value
+
+
+class RccG4(RccF4):
+    """The G4's. CAN has a choice of clocks."""
+
+    csr_offset, forget = 0x94, 23
+    sources = ("", HSI, HSE, PLL)
+    bits: ClassVar[Mapping[str, tuple[int, int]]] = {HSI: (8, 10), HSE: (16, 17), PLL: (24, 25)}
+    pll_in, pll_inside = (2_660_000, 16_000_000), (96_000_000, 344_000_000)
+    pllcfgr_at, cfgr_at = (0x0C, 0x1000), (0x08, 5)
+    without_effect: ClassVar[Mapping[int, str]] = {
+        0x04: "ICSCR", 0x18: "CIER", 0x4C: "AHB2ENR", 0x50: "AHB3ENR", 0x5C: "APB1ENR2", 0x60: "APB2ENR",
+        0x88: "CCIPR", 0x90: "BDCR",
+    }  # fmt: skip
+    gates_on: ClassVar[Mapping[int, tuple[str, int]]] = {0x48: ("AHB1ENR", 0x100), 0x58: ("APB1ENR1", 0x400)}
+
+    def pll_source(self) -> str:
+        """As in `Rcc`."""
+        return HSE if self._pllcfgr.value & 3 == _G4_FROM_HSE else HSI
+
+    def pll_factors(self) -> tuple[int, int, int]:
+        """As in `RccF4`."""
+        setting = self._pllcfgr.value
+        return (setting >> 4 & 15) + 1, setting >> 8 & 127, ((setting >> 25 & 3) + 1) * 2
+
+    def check_pll(self) -> None:
+        """As in `Rcc`."""
+        super().check_pll()
+        if not self._pllcfgr.value & _G4_OUTPUT_R:
+            raise BoardError(
+                "RCC CR was written to start the PLL without its output R, which the core's clock comes from"
+            )
+
+    def prescalers(self) -> tuple[int, int]:
+        """As in `Rcc`."""
+        return self.cfgr.value >> 8 & 7, self.cfgr.value >> 11 & 7
+
+    def can_hz(self) -> int:
+        """As in `Rcc`; PLLQ is not modelled."""
+        choice = self.registers[0x88].value >> _G4_CAN_SHIFT & 3
+        if choice == _G4_CAN_PCLK1:
+            return self.apb1_hz()
+        return self._oscillators.crystal if choice == 0 and self._ready(HSE) else 0
+
+    def usart_hz(self) -> int:
+        """As in `Rcc`: USART2 hangs on the other bus."""
+        return self.apb1_hz()

@@ -222,9 +222,10 @@ class AddressSpace:
     def watch(self) -> None:
         """Leaves every access to Python from now on, so that `Register.on_read` and `on_write` may be replaced."""
         self.model.direct = False
-        for word, seen in enumerate(self.model.seen):
-            if seen.known:
-                self._seen[self.model.can_base + _WORD * word] = seen.value
+        for address in self._at:
+            word = self._library.space_can_word((address - self.model.can_base) % 2**32)
+            if word < len(self.model.seen) and self.model.seen[word].known:
+                self._seen[address] = self.model.seen[word].value
 
     def read(self, address: int, width: int) -> int:
         """Reads a register.

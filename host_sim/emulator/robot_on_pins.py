@@ -4,8 +4,8 @@ from typing import Any
 
 from host_sim.emulator.converter import Converter
 from host_sim.emulator.core import Core
-from host_sim.emulator.gpio_f1 import Wiring
 from host_sim.emulator.timers import MotorTimer, Timer
+from host_sim.emulator.wiring import Wiring
 from host_sim.protocol.generated import FEEL
 from host_sim.world.world_library import world_library
 

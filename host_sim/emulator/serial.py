@@ -1,4 +1,4 @@
-"""USART1 (RM0090 30, RM0008 27), polled, on a line at 115,200 baud (8N1) that carries frames as slcan text."""
+"""The serial port (F1: RM0008 27, F4: RM0090 30, G4: RM0440 37), polled, with slcan text at 115,200 baud (8N1)."""
 
 from collections import deque
 from collections.abc import Callable
@@ -11,16 +11,20 @@ from host_sim.transport.slcan_link import decode
 BAUD = 115_200
 _BYTE_SPAN = 10 * SECOND // BAUD
 _RATE_TOLERANCE = 0.02
-_ORE, _RXNE, _TC, _TXE = 1 << 3, 1 << 5, 1 << 6, 1 << 7
-_RE, _UE, _INTERRUPTS = 1 << 2, 1 << 13, 0x1F0
-_NAMES = {0x08: "BRR", 0x10: "CR2", 0x14: "CR3", 0x18: "GTPR"}
+_ORE, _RXNE, _TC, _TXE, _RE, _INTERRUPTS = 1 << 3, 1 << 5, 1 << 6, 1 << 7, 1 << 2, 0x1F0
 _LINE_END = ord("\r")
-_UNDER_WAY_MAX = 2
-"""Bytes on their way out: one on the line, one behind it."""
+_FIFO, _FIFO_ON = 8, 1 << 29
 
 
 class Usart(Peripheral):
-    """Bytes in and out, one at a time."""
+    """Bytes in and out, one at a time: that of F1 and F4.
+
+    Attributes:
+        depth: Bytes that have come and wait to be taken, at most; as many wait behind the one that leaves.
+    """
+
+    on_bit, baud_at = 13, 0x08
+    """Bit UE of CR1, and the offset of BRR."""
 
     def __init__(self, clock: Clock, bus_hz: Callable[[], int], heard: Callable[[int], None]) -> None:
         """At rest.
@@ -34,22 +38,24 @@ class Usart(Peripheral):
         self._coming: deque[int] = deque()
         self._came_at = self._left_at = 0
         self._cr1 = Register("CR1", on_write=self._write_cr1)
-        super().__init__(
-            "USART1",
-            {offset: Register(name) for offset, name in _NAMES.items()}
-            | {
-                0x00: Register("SR", on_read=self._read_sr, on_write=ignore),
-                0x04: Register("DR", on_read=self._accept, on_write=self._put),
-                0x0C: self._cr1,
-            },
-        )
+        super().__init__("USART", self.layout())
         self._alarm = clock.add(self._due)
         self.reset()
+
+    def layout(self) -> dict[int, Register]:
+        """The registers by offset."""
+        names = {0x08: "BRR", 0x10: "CR2", 0x14: "CR3", 0x18: "GTPR"}
+        return {offset: Register(name) for offset, name in names.items()} | {
+            0x00: Register("SR", on_read=self._read_status, on_write=ignore),
+            0x04: Register("DR", on_read=self._accept_and_clear, on_write=self._put),
+            0x0C: self._cr1,
+        }
 
     def reset(self) -> None:
         """As in `Peripheral`."""
         super().reset()
-        self._received: int | None = None
+        self.depth = 1
+        self._received: deque[int] = deque()
         self._overrun = False
         self._leaving: deque[int] = deque()
         self._alarm.set(self._next())
@@ -75,26 +81,28 @@ class Usart(Peripheral):
 
     def _receive(self, byte: int) -> None:
         """Without a receiver it is lost, and so it is where the one before was not taken."""
-        if not self._cr1.value & _UE or not self._cr1.value & _RE:
+        if not self._cr1.value >> self.on_bit & 1 or not self._cr1.value & _RE:
             return
-        self._overrun = self._overrun or self._received is not None
-        if self._received is None:
-            self._received = byte
+        self._overrun = self._overrun or len(self._received) == self.depth
+        if len(self._received) < self.depth:
+            self._received.append(byte)
 
-    def _read_sr(self) -> int:
+    def _read_status(self) -> int:
         value = _ORE if self._overrun else 0
-        value |= 0 if self._received is None else _RXNE
+        value |= _RXNE if self._received else 0
         value |= 0 if self._leaving else _TC
-        return value | (_TXE if len(self._leaving) < _UNDER_WAY_MAX else 0)
+        return value | (_TXE if len(self._leaving) <= self.depth else 0)
 
     def _accept(self) -> int:
-        byte, self._received = self._received, None
+        return self._received.popleft() if self._received else 0
+
+    def _accept_and_clear(self) -> int:
         self._overrun = False
-        return byte or 0
+        return self._accept()
 
     def _put(self, value: int) -> None:
-        if len(self._leaving) == _UNDER_WAY_MAX:
-            raise BoardError("USART1 DR was written while TXE is 0")
+        if len(self._leaving) > self.depth:
+            raise BoardError("USART was written a byte to send while TXE is 0")
         if not self._leaving:
             self._left_at = self._clock.now + _BYTE_SPAN
         self._leaving.append(value & 0xFF)
@@ -102,11 +110,43 @@ class Usart(Peripheral):
 
     def _write_cr1(self, value: int) -> None:
         if value & _INTERRUPTS:
-            raise BoardError("USART1 interrupts were enabled, which are not modelled")
-        rate = self._bus_hz() / max(self.registers[0x08].value, 1)
-        if value & _UE and abs(rate - BAUD) > BAUD * _RATE_TOLERANCE:
-            raise BoardError(f"USART1 was set up for {rate:.0f} baud, on a line of {BAUD}")
+            raise BoardError("USART interrupts were enabled, which are not modelled")
+        rate = self._bus_hz() / max(self.registers[self.baud_at].value, 1)
+        if value >> self.on_bit & 1 and abs(rate - BAUD) > BAUD * _RATE_TOLERANCE:
+            raise BoardError(f"USART was set up for {rate:.0f} baud, on a line of {BAUD}")
         self._cr1.value = value
+
+
+class UsartG4(Usart):
+    """That of G4, with FIFOs, and flags that are cleared by name."""
+
+    on_bit, baud_at = 0, 0x0C
+
+    def layout(self) -> dict[int, Register]:
+        """As in `Usart`."""
+        names = {0x04: "CR2", 0x08: "CR3", 0x0C: "BRR", 0x10: "GTPR", 0x14: "RTOR", 0x18: "RQR"}
+        return {offset: Register(name) for offset, name in names.items()} | {
+            0x00: self._cr1,
+            0x1C: Register("ISR", on_read=self._read_status, on_write=ignore),
+            0x20: Register("ICR", on_write=self._clear),
+            0x24: Register("RDR", on_read=self._accept, on_write=ignore),
+            0x28: Register("TDR", on_write=self._put),
+            0x2C: Register("PRESC", on_write=self._write_presc),
+        }
+
+    def _write_cr1(self, value: int) -> None:
+        if value & self._cr1.value & 1 and (value ^ self._cr1.value) & _FIFO_ON:
+            raise BoardError("USART CR1.FIFOEN was changed while UE is 1")
+        super()._write_cr1(value)
+        self.depth = _FIFO if value & _FIFO_ON else 1
+
+    def _clear(self, value: int) -> None:
+        self._overrun = self._overrun and not value & _ORE
+
+    @staticmethod
+    def _write_presc(value: int) -> None:
+        if value:
+            raise BoardError("USART PRESC was written, which is not modelled")
 
 
 class SlcanLine:

@@ -1,6 +1,7 @@
-"""What every chip has: SysTick, the system control block, the watchdog, and pins."""
+"""What every chip has: SysTick, the system control block, the watchdog, and a watch over the supply."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from host_sim.emulator.c_models import c_models
@@ -11,8 +12,7 @@ _TICKINT, _COUNTFLAG, _COUNT_MAX = 1 << 1, 1 << 16, 0xFFFFFF
 _START, _FEED, _UNLOCK, _RELOAD_MAX = 0xCCCC, 0xAAAA, 0x5555, 0xFFF
 _KEY, _KEY_MASK, _SYSRESETREQ, _AIRCR_READ = 0x05FA0000, 0xFFFF0000, 1 << 2, 0xFA050000
 _FORCED, _BFARVALID = 1 << 30, 1 << 15
-_PINS = 0xFFFF
-_PVD_ON, _PVD_LEVEL_SHIFT, _PVD_LOW, _SUPPLY_MV = 1 << 4, 5, 1 << 2, 3300
+_SUPPLY_MV = 3300
 
 
 class SysTick(Peripheral):
@@ -139,23 +139,61 @@ class Watchdog(Peripheral):
         return self._expires
 
 
+@dataclass(frozen=True)
+class PowerKind:
+    """Where a family has what compares the supply with a voltage.
+
+    Attributes:
+        registers: Their names by offset.
+        control: Offset of the one that switches it on.
+        status: Offset of the one with what comes of it.
+        on: Bit that switches it on; its level follows from the bit `level` on.
+        level: See there.
+        low: Bit of the status.
+        levels_mv: The voltages, by level.
+    """
+
+    registers: Mapping[int, str]
+    control: int
+    status: int
+    on: int
+    level: int
+    low: int
+    levels_mv: Sequence[int]
+
+
+POWER_F1 = PowerKind({0x0: "CR", 0x4: "CSR"}, 0x0, 0x4, 4, 5, 2, range(2200, 3000, 100))
+"""RM0008 5; the highest level is the same in an F4 (RM0090 5)."""
+
+POWER_G4 = PowerKind(
+    {0x00: "CR1", 0x04: "CR2", 0x08: "CR3", 0x0C: "CR4", 0x10: "SR1", 0x14: "SR2"},
+    0x04,
+    0x14,
+    0,
+    1,
+    11,
+    (2000, 2200, 2400, 2500, 2600, 2800, 2900, 0),
+)
+"""RM0440 6.4; the last level is a pin's."""
+
+
 class PowerControl(Peripheral):
-    """Compares the supply with a voltage (RM0090 5, RM0008 5).
+    """Compares the supply with a voltage.
 
     Attributes:
         supply_mv: The supply, mV.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, kind: PowerKind) -> None:
         """A good supply."""
-        self.supply_mv = _SUPPLY_MV
-        self._cr = Register("CR")
-        super().__init__("PWR", {0x0: self._cr, 0x4: Register("CSR", on_read=self._read_csr)})
+        self.supply_mv, self._kind = _SUPPLY_MV, kind
+        super().__init__("PWR", {offset: Register(name) for offset, name in kind.registers.items()})
+        self.registers[kind.status].on_read = self._read_status
 
-    def _read_csr(self) -> int:
-        """The highest level is 2.9 V in both families; the others are as in an F1."""
-        level_mv = 2200 + 100 * (self._cr.value >> _PVD_LEVEL_SHIFT & 7)
-        return _PVD_LOW if self._cr.value & _PVD_ON and self.supply_mv < level_mv else 0
+    def _read_status(self) -> int:
+        kind, control = self._kind, self.registers[self._kind.control].value
+        level_mv = kind.levels_mv[control >> kind.level & 7]
+        return 1 << kind.low if control >> kind.on & 1 and self.supply_mv < level_mv else 0
 
 
 class SystemControl(Peripheral):
@@ -197,10 +235,14 @@ class SystemControl(Peripheral):
             cause: Bits of CFSR.
             address: The address that could not be reached; None where it was the instruction itself.
         """
-        self._icsr.value = 3
+        self.enter(3)
         self._cfsr.value |= cause | (0 if address is None else _BFARVALID)
         self._hfsr.value |= _FORCED
         self._bfar.value = address or 0
+
+    def enter(self, exception: int) -> None:
+        """The number of the exception under way; 0 for none."""
+        self._icsr.value = exception
 
     @staticmethod
     def _clearing(name: str) -> Register:
@@ -222,50 +264,3 @@ class SystemControl(Peripheral):
             raise BoardError(f"SCB AIRCR was written without its key: 0x{value:08X}")
         if value & _SYSRESETREQ:
             self._restart()
-
-
-class Gpio(Peripheral):
-    """One port of pins: what is written shows, nothing is joined to them.
-
-    Attributes:
-        output: ODR: the levels that it drives.
-    """
-
-    def __init__(self, name: str, setup: dict[int, Register], *, data: int, lock: int) -> None:
-        """All pins are inputs.
-
-        Args:
-            name: The port's, such as GPIOA.
-            setup: The family's registers for modes and functions, by offset.
-            data: Offset of IDR; ODR and BSRR follow.
-            lock: Offset of LCKR.
-        """
-        self.output = Register("ODR")
-        super().__init__(
-            name,
-            setup
-            | {
-                data: Register("IDR", on_read=lambda: self.output.value),
-                data + 4: self.output,
-                data + 8: Register("BSRR", on_write=self._write_bsrr),
-                lock: Register("LCKR"),
-            },
-        )
-
-    def level(self, pin: int) -> bool:
-        """Whether a pin is driven high."""
-        return bool(self.output.value >> pin & 1)
-
-    def clear(self, pins: int) -> None:
-        """Drives pins low."""
-        self.output.value &= ~pins
-
-    def _write_bsrr(self, value: int) -> None:
-        self.clear(value >> 16)
-        self.output.value |= value & _PINS
-
-
-def gpio_f4(name: str) -> Gpio:
-    """A port of the STM32F4 (RM0090 8.4)."""
-    names = {0x00: "MODER", 0x04: "OTYPER", 0x08: "OSPEEDR", 0x0C: "PUPDR", 0x20: "AFRL", 0x24: "AFRH"}
-    return Gpio(name, {offset: Register(name) for offset, name in names.items()}, data=0x10, lock=0x1C)

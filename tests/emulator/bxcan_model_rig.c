@@ -5,15 +5,15 @@ struct bxcan can, other;
 
 uint32_t read_register(uint32_t offset)
 {
-    int64_t value = bxcan_read(&can, offset);
+    int64_t value = node_read(&can.node, offset);
 
-    TEST_ASSERT_TRUE_MESSAGE(value >= 0, can.refusal);
+    TEST_ASSERT_TRUE_MESSAGE(value >= 0, can.node.refusal);
     return (uint32_t)value;
 }
 
 void write_register(uint32_t offset, uint32_t value)
 {
-    TEST_ASSERT_TRUE_MESSAGE(bxcan_write(&can, offset, value), can.refusal);
+    TEST_ASSERT_TRUE_MESSAGE(node_write(&can.node, offset, value), can.node.refusal);
 }
 
 void pass_us(uint32_t us)
@@ -27,19 +27,19 @@ void pass_us(uint32_t us)
 
 void enter_init(struct bxcan *node)
 {
-    TEST_ASSERT_TRUE(bxcan_write(node, MCR, INRQ));
+    TEST_ASSERT_TRUE(node_write(&node->node, MCR, INRQ));
     pass_us(30);
 }
 
 void join(struct bxcan *node, uint32_t mcr)
 {
     enter_init(node);
-    node->clock_hz = CLOCK_HZ;
-    TEST_ASSERT_TRUE(bxcan_write(node, BTR, BIT_TIMING));
-    TEST_ASSERT_TRUE(bxcan_write(node, FS1R, 1));
-    TEST_ASSERT_TRUE(bxcan_write(node, BANK_0, 0) && bxcan_write(node, BANK_0 + 4, 0));
-    TEST_ASSERT_TRUE(bxcan_write(node, FA1R, 1) && bxcan_write(node, FMR, 0));
-    TEST_ASSERT_TRUE(bxcan_write(node, MCR, mcr));
+    node->node.clock_hz = CLOCK_HZ;
+    TEST_ASSERT_TRUE(node_write(&node->node, BTR, BIT_TIMING));
+    TEST_ASSERT_TRUE(node_write(&node->node, FS1R, 1));
+    TEST_ASSERT_TRUE(node_write(&node->node, BANK_0, 0) && node_write(&node->node, BANK_0 + 4, 0));
+    TEST_ASSERT_TRUE(node_write(&node->node, FA1R, 1) && node_write(&node->node, FMR, 0));
+    TEST_ASSERT_TRUE(node_write(&node->node, MCR, mcr));
     pass_us(30);
 }
 
@@ -54,8 +54,8 @@ void request_from(struct bxcan *node, uint32_t mailbox, uint32_t id)
 {
     uint32_t base = 0x180 + 0x10 * mailbox;
 
-    TEST_ASSERT_TRUE(bxcan_write(node, base + 0x4, 8) && bxcan_write(node, base + 0x8, 0x04030201));
-    TEST_ASSERT_TRUE(bxcan_write(node, base + 0xC, mailbox) && bxcan_write(node, base, id << 21 | 1));
+    TEST_ASSERT_TRUE(node_write(&node->node, base + 0x4, 8) && node_write(&node->node, base + 0x8, 0x04030201));
+    TEST_ASSERT_TRUE(node_write(&node->node, base + 0xC, mailbox) && node_write(&node->node, base, id << 21 | 1));
 }
 
 void request(uint32_t mailbox, uint32_t id)

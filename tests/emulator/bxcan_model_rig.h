@@ -59,9 +59,9 @@ void join_other(void);
     assert_heard(sizeof((uint32_t[]){__VA_ARGS__}) / sizeof(uint32_t), (const uint32_t[]){__VA_ARGS__})
 #define ASSERT_REFUSED(REASON, ACCESS)                                                                                 \
     do {                                                                                                               \
-        can.refusal[0] = '\0';                                                                                         \
+        can.node.refusal[0] = '\0';                                                                                         \
         (void)(ACCESS);                                                                                                \
-        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(can.refusal, REASON), can.refusal);                                        \
+        TEST_ASSERT_NOT_NULL_MESSAGE(strstr(can.node.refusal, REASON), can.node.refusal);                                        \
     } while (0)
 
 #endif

@@ -199,7 +199,7 @@ TEST(what_a_controller_refuses_is_taken_too)
 {
     connect();
     TEST_ASSERT_EQUAL_UINT(0, takes);
-    (void)bxcan_write(&can, 0x20, 0);
+    (void)node_write(&can.node, 0x20, 0);
     clock_settle(&board);
     TEST_ASSERT_EQUAL_UINT(1, takes);
 }

@@ -27,7 +27,7 @@ TEST(init_is_acknowledged_but_not_at_once)
 
 TEST(init_can_be_asked_for_in_vain)
 {
-    can.init_stuck = true;
+    can.node.init_stuck = true;
     write_register(MCR, INRQ);
     pass_us(1000000);
     TEST_ASSERT_EQUAL_HEX32(0, read_register(MSR) & INAK);
@@ -65,12 +65,12 @@ TEST(another_speed_than_the_bus_is_refused)
 
 TEST(bit_timing_can_be_written_in_init_only)
 {
-    ASSERT_REFUSED("BTR", bxcan_write(&can, BTR, BIT_TIMING));
+    ASSERT_REFUSED("BTR", node_write(&can.node, BTR, BIT_TIMING));
 }
 
 TEST(asking_for_the_mode_that_is_changes_nothing)
 {
-    can.bus_off = true;
+    can.node.bus_off = true;
     write_register(MCR, TXFP | RFLM);
     pass_us(30 + RECOVERY_US);
     TEST_ASSERT_EQUAL_HEX32(0, read_register(MSR) & (INAK | SLAK));
@@ -92,10 +92,10 @@ TEST(a_master_reset_empties_everything_and_sleeps)
 TEST(what_is_not_modelled_is_refused)
 {
     enter_init(&can);
-    ASSERT_REFUSED("interrupts", bxcan_write(&can, IER, 1));
-    ASSERT_REFUSED("loop back", bxcan_write(&can, BTR, 1u << 30));
-    ASSERT_REFUSED("no register at 0x020", bxcan_read(&can, 0x20));
-    ASSERT_REFUSED("no register at 0x208", bxcan_write(&can, 0x208, 0));
+    ASSERT_REFUSED("interrupts", node_write(&can.node, IER, 1));
+    ASSERT_REFUSED("loop back", node_write(&can.node, BTR, 1u << 30));
+    ASSERT_REFUSED("no register at 0x020", node_read(&can.node, 0x20));
+    ASSERT_REFUSED("no register at 0x208", node_write(&can.node, 0x208, 0));
 }
 
 /* ---- receiving */
@@ -127,7 +127,7 @@ static void assert_left_of_five(uint32_t mcr, uint32_t last)
     rejoin(mcr);
     for (uint32_t id = 1; id <= 5; id++)
         bring(id);
-    TEST_ASSERT_EQUAL_UINT(2, can.fifos[0].overruns);
+    TEST_ASSERT_EQUAL_UINT(2, can.node.overruns);
     TEST_ASSERT_EQUAL_HEX32(1, take());
     TEST_ASSERT_EQUAL_HEX32(2, take());
     TEST_ASSERT_EQUAL_HEX32(last, take());
@@ -153,8 +153,8 @@ TEST(a_slow_release_shows_the_frame_on)
 
 TEST(an_output_mailbox_is_read_only_and_only_when_there_is_a_frame)
 {
-    ASSERT_REFUSED("FIFO 0", bxcan_read(&can, OUTPUT_0));
-    ASSERT_REFUSED("read-only", bxcan_write(&can, OUTPUT_0, 0));
+    ASSERT_REFUSED("FIFO 0", node_read(&can.node, OUTPUT_0));
+    ASSERT_REFUSED("read-only", node_write(&can.node, OUTPUT_0, 0));
 }
 
 TEST(a_received_frame_reads_as_it_was_sent)
@@ -222,7 +222,7 @@ TEST(nothing_passes_without_an_active_filter_or_while_they_are_set_up)
 
 TEST(filters_in_use_must_not_be_changed)
 {
-    ASSERT_REFUSED("F0R1", bxcan_write(&can, BANK_0, 1));
-    ASSERT_REFUSED("FM1R", bxcan_write(&can, FM1R, 1));
+    ASSERT_REFUSED("F0R1", node_write(&can.node, BANK_0, 1));
+    ASSERT_REFUSED("FM1R", node_write(&can.node, FM1R, 1));
     write_register(BANK_0 + 8, 1);
 }

@@ -54,7 +54,7 @@ TEST(bus_off_ends_by_itself_with_abom_unless_it_is_stuck)
 {
     for (unsigned stuck = 0; stuck < 2; stuck++) {
         rejoin(TXFP | ABOM);
-        can.recovery_stuck = stuck;
+        can.node.recovery_stuck = stuck;
         request_shorted(32);
         wire.shorted = false;
         pass_us(RECOVERY_US);
@@ -85,11 +85,11 @@ TEST(successes_make_up_for_errors)
 {
     join_other();
     request_shorted(5);
-    TEST_ASSERT_EQUAL_UINT(5, other.rec);
+    TEST_ASSERT_EQUAL_UINT(5, other.node.rec);
     wire.shorted = false;
     pass_us(400);
     TEST_ASSERT_EQUAL_UINT(5 * 8 - 1, read_register(ESR) >> 16 & 0xFF);
-    TEST_ASSERT_EQUAL_UINT(4, other.rec);
+    TEST_ASSERT_EQUAL_UINT(4, other.node.rec);
 }
 
 TEST(a_destroyed_frame_that_was_given_up_is_over)
@@ -112,7 +112,7 @@ TEST(a_shorted_bus_makes_the_world_give_up_its_frames)
 
 TEST(a_frame_received_ends_the_passive_state_and_clears_the_last_error)
 {
-    can.rec = 200;
+    can.node.rec = 200;
     write_register(ESR, 7 << 4);
     bring(5);
     TEST_ASSERT_EQUAL_HEX32(120u << 24 | EWGF, read_register(ESR));
@@ -131,7 +131,7 @@ TEST(the_last_error_is_told_until_it_is_written_over)
     wire.alone = true;
     request(0, 0x81);
     pass_us(300);
-    TEST_ASSERT_EQUAL_UINT(BXCAN_NO_ACKNOWLEDGE, read_register(ESR) >> 4 & 7);
+    TEST_ASSERT_EQUAL_UINT(NODE_NO_ACKNOWLEDGE, read_register(ESR) >> 4 & 7);
     write_register(ESR, 7 << 4);
     TEST_ASSERT_EQUAL_UINT(7, read_register(ESR) >> 4 & 7);
 }

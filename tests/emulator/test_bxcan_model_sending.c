@@ -80,7 +80,7 @@ TEST(the_status_names_a_free_mailbox_or_the_one_to_leave_last)
 TEST(a_pending_mailbox_must_not_be_written)
 {
     request(0, 0x81);
-    ASSERT_REFUSED("mailbox 0", bxcan_write(&can, 0x184, 1));
+    ASSERT_REFUSED("mailbox 0", node_write(&can.node, 0x184, 1));
 }
 
 TEST(a_request_is_given_up_unless_it_is_on_the_wire)
@@ -97,7 +97,7 @@ TEST(a_request_is_given_up_unless_it_is_on_the_wire)
 
 TEST(a_stuck_mailbox_neither_sends_nor_gives_up)
 {
-    can.stuck_mailboxes = 1;
+    can.node.stuck_mailboxes = 1;
     request(0, 0x81);
     request(1, 0x82);
     write_register(TSR, ABRQ);
@@ -186,7 +186,7 @@ TEST(controllers_acknowledge_each_other_and_the_lower_identifier_goes_first)
     request_from(&other, 0, 0x100);
     pass_us(1000);
     TEST_ASSERT_EQUAL_HEX32(0x100, take());
-    TEST_ASSERT_EQUAL_HEX32(0x200u << 21, (uint32_t)bxcan_read(&other, OUTPUT_0));
+    TEST_ASSERT_EQUAL_HEX32(0x200u << 21, (uint32_t)node_read(&other.node, OUTPUT_0));
     TEST_ASSERT_EQUAL_HEX32(0, read_register(ESR));
     TEST_ASSERT_EQUAL_UINT(0, wire.heard.count);
 }

@@ -38,12 +38,12 @@ static void ignore(struct board_clock *clock)
 void setUp(void)
 {
     rejoin(TXFP);
-    can.clocked = true;
+    can.node.clocked = true;
     board = (struct board_clock){.now = {wire.now_ns, 0}, .period_fs = 1000000, .wire = &wire,
         .take = ignore};
     clock_settle(&board);
     timer = (struct systick){.clock = &board, .ctrl = SYSTICK_ENABLE | SYSTICK_CLKSOURCE, .load = 999};
-    space = (struct register_space){.clock = &board, .can = &can, .systick = &timer, .can_base = CAN_BASE,
+    space = (struct register_space){.clock = &board, .can = &can.node, .systick = &timer, .can_base = CAN_BASE,
         .systick_val = SYSTICK_VAL, .direct = true};
     for (unsigned word = 0; word < SPACE_CAN_WORDS; word++)
         space.can_readable[word] = space.can_writable[word] = true;
@@ -112,9 +112,9 @@ TEST(all_other_accesses_are_pythons)
     space.can_readable[BTR / 4] = false;
     assert_read_by_python(BTR, 4);
     space.can_readable[BTR / 4] = true;
-    can.clocked = false;
+    can.node.clocked = false;
     assert_read_by_python(BTR, 4);
-    can.clocked = true;
+    can.node.clocked = true;
     space.direct = false;
     assert_read_by_python(BTR, 4);
     window.space = NULL;
@@ -290,4 +290,13 @@ TEST(a_kept_register_without_a_clock_or_of_another_kind_is_left_to_python)
     window_write(NULL, 4 * OFTEN, 4, 1, &window);
     TEST_ASSERT_EQUAL_UINT(2, python.writes);
     TEST_ASSERT_EQUAL_HEX32(FROM_PYTHON, look(4 * SPACE_BLOCK_WORDS));
+}
+
+TEST(words_of_a_message_ram_follow_the_registers)
+{
+    static const uint32_t offsets[] = {0, 4, 0x3FC, 0x400, SPACE_CAN_RAM, SPACE_CAN_RAM + 0x34C, SPACE_CAN_RAM + 0x400, 2};
+    static const uint32_t words[] = {0, 1, 0xFF, SPACE_CAN_WORDS, 0x100, 0x1D3, SPACE_CAN_WORDS, SPACE_CAN_WORDS};
+
+    for (unsigned i = 0; i < 8; i++)
+        TEST_ASSERT_EQUAL_HEX32(words[i], space_can_word(offsets[i]));
 }

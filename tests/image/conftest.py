@@ -2,8 +2,8 @@
 
 import pytest
 
+from host_sim.backends.images import BOARDS
 from host_sim.emulator.clock import Clock
-from tests.image.support import BOARDS
 
 
 @pytest.fixture

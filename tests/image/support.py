@@ -16,7 +16,6 @@ from host_sim.protocol.generated import ODOMETER_COUNTS_PER_MM, ODOMETER_SPAN, T
 from host_sim.sim.make import assemble
 from host_sim.sim.run_config import RunConfig
 
-BOARDS = ("feather_stm32f405", "blue_pill")
 TICK_S = 0.02
 READY_S = 5.0
 COUNTERS = (

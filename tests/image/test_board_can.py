@@ -1,5 +1,7 @@
 """An emulated board's CAN controller and bus fail, or carry noise: frames are lost at most, and counted."""
 
+import pytest
+
 from host_sim.emulator.can import CanFaults, CanFrame
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.hardware import Faults
@@ -29,11 +31,20 @@ def test_it_does_with_two_mailboxes(name):
     assert len(drives) >= 99
 
 
+@pytest.mark.parametrize("signal", ["CAN_RX", "CAN_TX"])
+def test_an_image_with_can_on_another_pin_hears_and_says_nothing(name, signal):
+    talk = talk_to(name)
+    talk.board.hardware.wiring.rewire(signal, "PC13")
+    talk.start()
+
+    assert talk.live(5) == []
+
+
 def test_stuck_mailboxes_cost_frames_and_no_more(name):
     talk = talk_to(name)
     talk.start()
     talk.live(5)
-    model = talk.board.hardware.can.model
+    model = talk.board.hardware.can.node
 
     model.stuck_mailboxes = 0b111
     during = talk.live(20)
@@ -56,11 +67,11 @@ def test_frames_lost_in_the_controller_are_counted(name):
     talk.board.hardware.clock.skip(5 * SECOND // 1000)  # the core stands still meanwhile
     talk.wait(0.02)
 
-    assert talk.board.hardware.can.model.fifos[0].overruns == 3
+    assert talk.board.hardware.can.node.overruns == 3
+    assert len(talk.live(10)) == 10
     report = counted(talk.ask())
     assert report.pop("missed") == 3
     assert report
-    assert len(talk.live(10)) == 10
 
 
 def test_after_bus_off_it_joins_again(name):
@@ -103,7 +114,7 @@ def test_a_lone_robot_is_passive_and_drives_on_when_the_other_comes_back(name):
 
     talk.board.hardware.can.wire.alone = True
     talk.wait(1.0)
-    errors = talk.board.hardware.can.model.tec
+    errors = talk.board.hardware.can.node.tec
     talk.board.hardware.can.wire.alone = False
     talk.wait(0.05)
 

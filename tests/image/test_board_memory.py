@@ -1,5 +1,7 @@
 """An emulated board keeps the robot's memory in its flash, starts again after crashes, and tells why."""
 
+import struct
+
 import pytest
 
 from host_sim.emulator.flash import FlashFaults
@@ -29,8 +31,12 @@ def test_the_memory_survives_a_loss_of_power(name):
     assert memory_after_power_up(talk) == (0, 1, 0, 0, 0, 0, 0, 0)
 
 
-def test_a_flash_that_is_full_is_erased_and_written_again():
-    talk = talk_to("blue_pill")  # its pages are the smaller ones
+SMALL_PAGES = pytest.mark.parametrize("board", ["blue_pill", "nucleo_g431rb"])
+
+
+@SMALL_PAGES
+def test_a_flash_that_is_full_is_erased_and_written_again(board):
+    talk = talk_to(board)
     for i in range(300):
         learn(talk, (Side.LEFT, Side.RIGHT)[i % 2])
     flash = talk.board.hardware.flash
@@ -40,15 +46,16 @@ def test_a_flash_that_is_full_is_erased_and_written_again():
     assert memory_after_power_up(talk) == (0, 2, 0, 0, 0, 0, 0, 0)
 
 
-def test_a_page_whose_erase_lost_its_power_is_erased_again():
-    talk = talk_to("blue_pill")
+@SMALL_PAGES
+def test_a_page_whose_erase_lost_its_power_is_erased_again(board):
+    talk = talk_to(board)
     flash = talk.board.hardware.flash
     flash.erasure_cuts.add(3)  # of a page with a mark
     for i in range(300):
         learn(talk, (Side.LEFT, Side.RIGHT)[i % 2])
 
     assert talk.board.resets == ["power"]
-    assert flash.erasures > 4
+    assert flash.erasures > 3
     assert memory_after_power_up(talk) == (0, 2, 0, 0, 0, 0, 0, 0)
 
 
@@ -130,6 +137,21 @@ def test_a_crash_is_told_wherever_the_stack_is(name, depth):
     talk.wait(0.1)
 
     assert told(talk)["pc"] == 0x60000000
+
+
+def test_what_cannot_be_corrected_is_a_crash_where_nobody_expects_it():
+    talk = talk_to("nucleo_g431rb")
+    hardware = talk.board.hardware
+    hardware.flash.unreadable.add(0x1F800)
+    ram, load, stay = 0x20001000, (0x4801, 0x6800), 0xE7FE  # ldr r0, [pc, #4]; ldr r0, [r0]; b .
+    hardware.core.write(ram, struct.pack("<4HI", *load, stay, stay, FLASH + 0x1F800))
+
+    hardware.core.derail(ram)
+    talk.wait(0.1)
+
+    assert talk.board.resets == ["software"]
+    assert ram <= told(talk)["pc"] <= ram + 8
+    assert talk.last("BOOT")["reset_cause"] == talk.protocol.choices("BOOT", "reset_cause")["crash"]
 
 
 def test_a_stack_that_has_left_the_ram_ends_in_a_crash_too(name):

@@ -11,9 +11,6 @@ from host_sim.emulator.rcc import RccFaults
 from host_sim.lab.bench.tick_cost import count_ticks
 from tests.image.support import counted, is_rest, talk_to
 
-LED_PINS = {"feather_stm32f405": 1, "blue_pill": 13}
-"""Of port C."""
-
 
 def changes(levels: list[bool]) -> int:
     return sum(before != after for before, after in pairwise(levels))
@@ -61,7 +58,7 @@ def test_wheels_stop_after_100_ms_without_senses(name):
 def test_the_led_blinks_slowly_while_all_is_well_and_fast_while_senses_fail(name):
     talk = talk_to(name)
     talk.start()
-    port, pin = talk.board.hardware.pins[2], LED_PINS[name]
+    port, pin = talk.board.hardware.wiring.port("LED")
 
     well = [port.level(pin) for _ in range(150) if talk.live(1)]
     talk.wait(0.2)
@@ -93,7 +90,7 @@ def test_in_lockstep_it_waits_longer_than_its_watchdog_would(name):
     assert counted(talk.ask()) == {}
 
 
-INTERNAL_MHZ = {"feather_stm32f405": (168, 16), "blue_pill": (64, 8)}
+INTERNAL_MHZ = {"feather_stm32f405": (168, 16), "blue_pill": (64, 8), "nucleo_g431rb": (80, 16)}
 """What the internal oscillator makes of the core's clock, with the PLL and without."""
 
 

@@ -3,11 +3,12 @@
 import pytest
 
 from host_sim.emulator.clock import SECOND
-from host_sim.emulator.flash import FlashF1, FlashF4, FlashFaults
+from host_sim.emulator.flash import FlashF1, FlashF4, FlashFaults, FlashG4
 from host_sim.emulator.registers import BoardError, PowerCut
 from tests.image.support import read, write
 
 KEYR, SR, CR = 0x04, 0x0C, 0x10
+G4_SR, G4_CR, ECCR, TWO_BITS = 0x10, 0x14, 0x18, 1 << 31
 KEYS = (0x45670123, 0xCDEF89AB)
 
 
@@ -23,6 +24,19 @@ def f1(clock, **faults):
 
 def f4(clock, **faults):
     return unlocked(FlashF4(clock, FlashFaults(**faults)))
+
+
+def g4(clock, **faults):
+    flash = FlashG4(clock, FlashFaults(**faults))
+    for key in KEYS:
+        write(flash, 0x08, key)
+    write(flash, G4_CR, 1)
+    return flash
+
+
+def write_double(flash, offset, low, high):
+    flash.write(offset, 4, low)
+    flash.write(offset + 4, 4, high)
 
 
 def test_an_f1_page_is_erased_and_nothing_else(clock):
@@ -165,3 +179,80 @@ def test_a_page_whose_erase_was_cut_short_reads_blank_but_for_its_begin_and_take
     with pytest.raises(BoardError, match="cut short"):
         flash.write(start + 16, 2, 1)
     flash.write(start + 16, 2, 0)
+
+
+def test_a_g4_writes_two_words_at_once(clock):
+    flash = g4(clock)
+
+    flash.write(0x1F000, 4, 1)
+    before = flash.read(0x1F000, 4)
+    flash.write(0x1F004, 4, 2)
+
+    assert before == 0xFFFFFFFF
+    assert (flash.read(0x1F000, 4), flash.read(0x1F004, 4), read(flash, G4_SR)) == (1, 2, 0)
+    assert flash.operations == 1
+
+
+@pytest.mark.parametrize(
+    ("writes", "flag"),
+    [
+        ([(0x1F004, 4)], 1 << 5),
+        ([(0x1F000, 4), (0x1F008, 4)], 1 << 5),
+        ([(0x1F000, 2)], 1 << 6),
+        ([(0x1F000, 4), (0x1F004, 4), (0x1F000, 4), (0x1F004, 4)], 1 << 3),
+        ([(0x1F000, 2), (0x1F000, 4)], 1 << 6 | 1 << 7),
+    ],
+    ids=["second half", "another pair", "half-word", "twice", "after an error"],
+)
+def test_a_g4_refuses_other_writes(clock, writes, flag):
+    flash = g4(clock)
+
+    for offset, size in writes:
+        flash.write(offset, size, 0x12)
+
+    assert read(flash, G4_SR) == flag
+
+
+def test_a_g4_takes_no_writes_without_consent_and_zeros_over_anything(clock):
+    flash = g4(clock)
+    write_double(flash, 0x1F000, 1, 2)
+    write_double(flash, 0x1F000, 0, 0)
+    zeroed = flash.read(0x1F000, 4), flash.read(0x1F004, 4), read(flash, G4_SR)
+    write(flash, G4_CR, 0)
+
+    write_double(flash, 0x1F008, 1, 2)
+
+    assert zeroed == (0, 0, 0)
+    assert (flash.read(0x1F008, 4), read(flash, G4_SR)) == (0xFFFFFFFF, 1 << 7)
+
+
+def test_a_g4_write_that_was_cut_short_cannot_be_corrected_and_is_told(clock):
+    flash, told = g4(clock, cut_at=1), []
+    flash.on_unreadable = lambda: told.append(read(flash, ECCR))
+
+    with pytest.raises(PowerCut):
+        write_double(flash, 0x1F010, 1, 2)
+    flash.read(0x1F008, 4)
+    calm = list(told)
+    flash.read(0x1F014, 4)
+    write(flash, ECCR, TWO_BITS)
+
+    assert (calm, told, read(flash, ECCR)) == ([], [TWO_BITS | 0x1F010], 0)
+    write_double(flash, 0x1F010, 3, 4)
+    assert read(flash, G4_SR) == 1 << 3
+    write(flash, G4_SR, 1 << 3)
+    write_double(flash, 0x1F010, 0, 0)
+    assert flash.read(0x1F010, 4) == 0
+    assert len(told) == 1
+
+
+def test_an_erase_makes_a_g4_readable_again_but_where_it_was_cut_short(clock):
+    flash = g4(clock)
+    flash.unreadable = {0x1F000, 0x1F800, 0x1F808, 0x1F810}
+    write(flash, G4_CR, 2 | 62 << 3 | 1 << 16)
+    flash.erasure_cuts.add(2)
+
+    with pytest.raises(PowerCut):
+        write(flash, G4_CR, 2 | 63 << 3 | 1 << 16)
+
+    assert flash.unreadable == {0x1F800, 0x1F808}

@@ -13,6 +13,7 @@ from host_sim.base.paths import image_path
 from host_sim.client.frame_log import FrameLog
 from host_sim.emulator.__main__ import JoinedBoard, main
 from host_sim.emulator.board import start_board
+from host_sim.emulator.chips import CHIPS
 from host_sim.lab.bench.equality import REFERENCE, first_difference, record
 from host_sim.lab.bench.short_run import run_ticks
 from host_sim.protocol.codec import DBC, Frame, Protocol
@@ -152,7 +153,7 @@ def test_interrupted_it_ends(board_on_vcan):
 
 @pytest.fixture
 def bench(name):
-    image = image_path(name, "bxcan")
+    image = image_path(name, CHIPS[name].link)
     opened = Bench(Setup(Messages(DBC, "e2e1"), lambda: open_device(f"image:{name}:{image.name}", image.parent)))
     yield opened
     opened.close()

@@ -5,10 +5,11 @@ import pytest
 from host_sim.emulator.board_pins import read_pins
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.converter import Converter, Dma
-from host_sim.emulator.gpio_f1 import GpioF1, Wiring
 from host_sim.emulator.interrupts import Interrupts
+from host_sim.emulator.ports import GpioF1, GpioG4
 from host_sim.emulator.registers import BoardError, Register
 from host_sim.emulator.timers import MotorTimer, Timer
+from host_sim.emulator.wiring import Wiring
 from tests.image.support import read, write
 
 CRL, IDR, ODR, BSRR = 0x00, 0x08, 0x0C, 0x10
@@ -53,6 +54,28 @@ def test_a_signal_meets_its_function_with_the_right_mode_and_remap(wiring):
     assert not wires.meets("CAN_TX")
     wires.rewire("CAN_RX", "PA11")
     assert not wires.meets("CAN_RX")
+
+
+def test_a_pin_of_a_g4_serves_with_its_function_alone():
+    ports = [GpioG4(f"GPIO{letter}") for letter in "ABC"]
+    wires = Wiring(read_pins("nucleo_g431rb"), ports, None)
+    write(ports[0], 0x24, 9 << 12 | 9 << 16)
+    analogue = wires.meets("CAN_RX")
+    write(ports[0], 0x00, 0xABFFFFFF & ~(5 << 22))
+    alternate = wires.meets("CAN_RX", "CAN_TX")
+    write(ports[0], 0x24, 9 << 12 | 7 << 16)
+    assert (analogue, alternate, wires.meets("CAN_RX"), wires.meets("CAN_TX")) == (False, True, True, False)
+    wires.rewire("CAN_RX", "PB9")
+    assert not wires.meets("CAN_RX")
+
+
+def test_a_pin_of_a_g4_is_analogue_until_told_otherwise_and_reads_its_pull():
+    port = GpioG4("GPIOC")
+    assert port.measures(3)
+    write(port, 0x00, 0xFFFFFFF1)
+    write(port, 0x0C, 0b0101)
+    write(port, 0x18, 1)
+    assert (read(port, 0x10), port.drives(0), port.measures(1)) == (3, True, False)
 
 
 def test_pins_of_jtag_are_free_only_where_it_is_off(wiring):

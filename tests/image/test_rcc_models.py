@@ -3,7 +3,7 @@
 import pytest
 
 from host_sim.emulator.board import start_board
-from host_sim.emulator.chips import STM32F103, STM32F405
+from host_sim.emulator.chips import STM32F103, STM32F405, STM32G431
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.rcc import RccFaults
 from host_sim.emulator.registers import BoardError
@@ -35,6 +35,25 @@ def test_an_f4_runs_at_168_mhz(clock):
     assert rcc.follows_crystal()
 
 
+def test_a_g4_runs_at_80_mhz_and_its_can_as_it_was_told(clock):
+    rcc = rcc_of(STM32G431, clock)
+    reset = read(rcc, 0x00), read(rcc, 0x08), rcc.core_hz(), rcc.can_hz()
+
+    start(rcc, clock, 16)
+    write(rcc, 0x0C, 1 << 24 | 40 << 8 | 5 << 4 | 3)
+    start(rcc, clock, 24)
+    write(rcc, 0x08, 3)
+    speeds = []
+    for choice in range(3):
+        write(rcc, 0x88, choice << 24)
+        speeds.append(rcc.can_hz())
+
+    assert reset == (0x500, 5, 16_000_000, 0)
+    assert (read(rcc, 0x08), rcc.core_hz(), rcc.usart_hz()) == (15, 80_000_000, 80_000_000)
+    assert speeds == [24_000_000, 0, 80_000_000]
+    assert rcc.follows_crystal()
+
+
 @pytest.mark.parametrize(
     ("before", "switch", "name"),
     [
@@ -58,6 +77,8 @@ def test_a_bus_that_is_too_fast_even_for_a_moment_is_an_error(clock, before, swi
 @pytest.mark.parametrize(
     ("chip", "setup"),
     [
+        (STM32G431, 1 << 24 | 10 << 8 | 5 << 4 | 3),
+        (STM32G431, 40 << 8 | 5 << 4 | 3),
         (STM32F405, 1 << 22 | 336 << 6 | 6),
         (STM32F405, 1 << 22 | 336 << 6 | 24),
         (STM32F405, 1 << 22 | 440 << 6 | 12),
@@ -68,7 +89,7 @@ def test_a_bus_that_is_too_fast_even_for_a_moment_is_an_error(clock, before, swi
 def test_a_pll_is_not_asked_for_what_it_cannot_make(clock, chip, setup):
     rcc = rcc_of(chip, clock)
     start(rcc, clock, 16)
-    write(rcc, 0x04, setup)
+    write(rcc, 0x0C if chip is STM32G431 else 0x04, setup)
 
     with pytest.raises(BoardError, match="start the PLL"):
         start(rcc, clock, 24)

@@ -21,6 +21,7 @@ ROBOTS = {
     "qemu": ("fd", "qemu", "feather_stm32f405"),
     "emulated feather_stm32f405": ("fd", "emulated", "feather_stm32f405"),
     "emulated blue_pill": ("fd", "emulated", "blue_pill"),
+    "emulated nucleo_g431rb": ("fd", "emulated", "nucleo_g431rb"),
 }
 
 

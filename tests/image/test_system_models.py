@@ -7,9 +7,9 @@ from host_sim.base.errors import OctetError
 from host_sim.emulator.c_models import c_models
 from host_sim.emulator.clock import SECOND
 from host_sim.emulator.core import PAGE, Core, load_segments
-from host_sim.emulator.gpio_f1 import GpioF1
+from host_sim.emulator.ports import GpioF1, GpioF4, GpioG4
 from host_sim.emulator.registers import BoardError
-from host_sim.emulator.system import SystemControl, SysTick, Watchdog, gpio_f4
+from host_sim.emulator.system import SystemControl, SysTick, Watchdog
 from tests.image.support import read, write
 
 
@@ -82,7 +82,7 @@ def test_a_watchdog_tells_its_period(clock):
     assert (stopped, watchdog.period_s()) == (0, 2)
 
 
-@pytest.mark.parametrize("make", [GpioF1, gpio_f4])
+@pytest.mark.parametrize("make", [GpioF1, GpioF4, GpioG4])
 def test_a_pin_is_set_and_cleared(make):
     port = make("GPIOC")
     bsrr = next(offset for offset, register in port.registers.items() if register.name == "BSRR")

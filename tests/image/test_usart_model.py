@@ -5,7 +5,7 @@ import pytest
 from host_sim.emulator.can import BxCan, CanFaults, CanFrame
 from host_sim.emulator.clock import SECOND, Clock
 from host_sim.emulator.registers import BoardError
-from host_sim.emulator.serial import SlcanLine, Usart
+from host_sim.emulator.serial import SlcanLine, Usart, UsartG4
 from tests.image.support import read, write
 
 
@@ -65,6 +65,48 @@ def test_two_bytes_can_be_on_their_way_out():
     assert (bytes(port.heard), port.status() & 0xC0) == (b"xy", 0xC0)
 
 
+def fifo_port(heard, setup=1 << 29 | 0xD):
+    usart = UsartG4(Clock(80_000_000), lambda: 80_000_000, heard.append)
+    write(usart, 0x0C, 694)
+    write(usart, 0x00, setup)
+    return usart
+
+
+def test_a_fifo_keeps_eight_bytes_and_tells_of_a_ninth_until_that_is_cleared():
+    usart = fifo_port([])
+    usart.feed(b"abcdefghi")
+
+    usart._clock.skip(SECOND // 1000)
+    status = read(usart, 0x1C)
+    taken = bytes(read(usart, 0x24) for _ in range(8))
+    write(usart, 0x20, 8)
+
+    assert (status & 0x28, taken, read(usart, 0x1C) & 0x28) == (0x28, b"abcdefgh", 0)
+
+
+def test_nine_bytes_can_be_on_their_way_out_with_a_fifo_and_two_without():
+    heard = []
+    for setup, count in ((1 << 29 | 0xD, 9), (0xD, 2)):
+        usart = fifo_port(heard, setup)
+        for _ in range(count):
+            assert read(usart, 0x1C) & 0x80
+            write(usart, 0x28, ord("x"))
+        with pytest.raises(BoardError, match="TXE is 0"):
+            write(usart, 0x28, ord("x"))
+        usart._clock.skip(SECOND // 1000)
+
+    assert bytes(heard) == b"x" * 11
+
+
+def test_what_a_port_with_fifo_cannot_do_is_an_error():
+    usart = fifo_port([])
+
+    with pytest.raises(BoardError, match="FIFOEN was changed while UE"):
+        write(usart, 0x00, 0xD)
+    with pytest.raises(BoardError, match="PRESC"):
+        write(usart, 0x2C, 1)
+
+
 def test_without_its_receiver_bytes_are_lost():
     port = Port()
     write(port.usart, 0x0C, 0)
@@ -97,7 +139,7 @@ def test_a_line_that_is_no_frame_is_dropped():
 
 def controller(clock, heard, timing):
     """A controller on its way from initialization to the bus."""
-    can = BxCan(clock, lambda: 42_000_000, 14, CanFaults(), heard.append)
+    can = BxCan(clock, lambda: 42_000_000, CanFaults(), heard.append)
     write(can, 0x00, 1)
     clock.skip(SECOND // 10_000)
     write(can, 0x1C, timing)

@@ -213,12 +213,12 @@ class ImageDevice:
     @property
     def error_counters(self) -> tuple[int, int]:
         """The transmit and the receive error counter of the chip's CAN controller."""
-        return self.board.hardware.can.model.tec, self.board.hardware.can.model.rec
+        return self.board.hardware.can.node.tec, self.board.hardware.can.node.rec
 
     @property
     def is_bus_off(self) -> bool:
         """Whether the controller is off the bus."""
-        return bool(self.board.hardware.can.model.bus_off)
+        return bool(self.board.hardware.can.node.bus_off)
 
     def short_bus(self, is_shorted: bool) -> None:
         """Destroys all that the controller sends, until told otherwise: it goes bus-off."""

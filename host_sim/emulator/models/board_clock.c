@@ -1,6 +1,6 @@
 #include "host_sim/emulator/models/board_clock.h"
 
-#include "host_sim/emulator/models/bxcan_model.h"
+#include "host_sim/emulator/models/can_node.h"
 
 static const uint64_t FS_PER_NS = 1000000;
 static const struct moment NEVER = { UINT64_MAX, 0 };

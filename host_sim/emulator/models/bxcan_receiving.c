@@ -6,7 +6,7 @@
 enum {
     RFLM = 1 << 3, FULL = 1 << 3, FOVR = 1 << 4, RFOM = 1 << 5,
     FMR = 0x200, BANK_0 = 0x240, FM1R = 1, FS1R = 3, FFA1R = 5, FA1R = 7, FINIT = 1,
-    REC_AFTER_PASSIVE = 120, SLOW_RELEASE_NS = 100000
+    SLOW_RELEASE_NS = 100000
 };
 
 static const uint32_t UNDEFINED_TIME = 0xABCD0000u;
@@ -64,23 +64,29 @@ bool bxcan_write_filters(struct bxcan *can, uint32_t offset, uint32_t value)
 
     if (offset >= BANK_0) {
         if (!in_init && can->filters.words[FA1R] >> bank & 1u)
-            return bxcan_refuse(can, "CAN1 F%uR%u was written while its filter is active", (unsigned)bank,
+            return node_refuse(&can->node, "CAN1 F%uR%u was written while its filter is active", (unsigned)bank,
                                 offset / 4 % 2 + 1u);
         can->filters.banks[(offset - BANK_0) / 4] = value;
         return true;
     }
     if (!in_init && at != 0 && at != FA1R)
-        return bxcan_refuse(can, "CAN1 %s was written outside the filters' set-up (FMR FINIT)", names[at]);
+        return node_refuse(&can->node, "CAN1 %s was written outside the filters' set-up (FMR FINIT)", names[at]);
     can->filters.words[at] = value;
     return true;
 }
 
 /* A full FIFO keeps what it has with RFLM; otherwise the newest frame takes the place of the one before. */
-static void store(struct bxcan *can, struct bxcan_fifo *fifo, const struct frame *frame)
+void bxcan_store(struct can_node *node, const struct frame *frame)
 {
+    struct bxcan *can = (struct bxcan *)node;
+    int number = bxcan_fifo_for(can, frame);
+    struct bxcan_fifo *fifo = &can->fifos[number > 0];
+
+    if (number < 0)
+        return;
     if (fifo->count == BXCAN_FIFO_DEPTH) {
         fifo->flags |= FOVR;
-        fifo->overruns++;
+        node->overruns++;
         if (can->mcr & RFLM)
             return;
         fifo->count--;
@@ -90,30 +96,18 @@ static void store(struct bxcan *can, struct bxcan_fifo *fifo, const struct frame
         fifo->flags |= FULL;
 }
 
-void bxcan_arrived(struct bxcan *can, const struct frame *frame, bool destroyed)
-{
-    int number = bxcan_fifo_for(can, frame);
-
-    if (destroyed) {
-        can->rec++;
-        return;
-    }
-    can->rec = can->rec >= BXCAN_PASSIVE ? REC_AFTER_PASSIVE : can->rec - (can->rec > 0);
-    can->last_error = 0;
-    if (number >= 0)
-        store(can, &can->fifos[number], frame);
-}
-
 static void release(struct bxcan_fifo *fifo)
 {
     fifo->flags &= ~(uint32_t)RFOM;
     memmove(&fifo->frames[0], &fifo->frames[1], --fifo->count * sizeof fifo->frames[0]);
 }
 
-void bxcan_release_due(struct bxcan *can)
+void bxcan_release_due(struct can_node *node)
 {
+    struct bxcan *can = (struct bxcan *)node;
+
     for (unsigned n = 0; n < 2; n++)
-        if (can->fifos[n].flags & RFOM && can->fifos[n].release_ns <= can->wire->now_ns)
+        if (can->fifos[n].flags & RFOM && can->fifos[n].release_ns <= can->node.wire->now_ns)
             release(&can->fifos[n]);
 }
 
@@ -124,7 +118,7 @@ void bxcan_write_rfr(const struct bxcan *can, struct bxcan_fifo *fifo, uint32_t 
         return;
     if (can->release_slow) {
         fifo->flags |= RFOM;
-        fifo->release_ns = can->wire->now_ns + SLOW_RELEASE_NS;
+        fifo->release_ns = can->node.wire->now_ns + SLOW_RELEASE_NS;
     } else {
         release(fifo);
     }
@@ -143,7 +137,7 @@ int64_t bxcan_read_output(struct bxcan *can, uint32_t at)
     uint32_t remote = frame->id & FRAME_REMOTE ? BXCAN_RTR : 0;
 
     if (fifo->count == 0) {
-        (void)bxcan_refuse(can, "the output mailbox of CAN1 FIFO %u was read, but the FIFO is empty", (unsigned)at / 16);
+        (void)node_refuse(&can->node, "the output mailbox of CAN1 FIFO %u was read, but the FIFO is empty", (unsigned)at / 16);
         return -1;
     }
     switch (at / 4 % 4) {

@@ -1,10 +1,9 @@
-/* Transmit mailboxes of the bxCAN, and what sending does to its error counters. */
+/* Transmit mailboxes of the bxCAN. */
 #include "host_sim/emulator/models/bxcan_parts.h"
 
 enum {
-    TXFP = 1 << 2, NART = 1 << 4, ABOM = 1 << 6,
-    RQCP = 1 << 0, TXOK = 1 << 1, ALST = 1 << 2, TERR = 1 << 3, ABRQ = 1 << 7,
-    BUS_OFF_COUNT = 256, PENALTY = 8
+    TXFP = 1 << 2, NART = 1 << 4,
+    RQCP = 1 << 0, TXOK = 1 << 1, ALST = 1 << 2, TERR = 1 << 3, ABRQ = 1 << 7
 };
 
 static void end(struct bxcan *can, unsigned n, uint32_t status)
@@ -52,55 +51,26 @@ static int pick(const struct bxcan *can, unsigned mask, bool last)
     return picked;
 }
 
-bool bxcan_listens(const struct bxcan *can)
+bool bxcan_offer(struct can_node *node, struct frame *out)
 {
-    return can->mode == BXCAN_NORMAL && !can->bus_off;
-}
+    struct bxcan *can = (struct bxcan *)node;
 
-bool bxcan_offer(struct bxcan *can, struct frame *out)
-{
-    can->on_wire = pick(can, ~can->stuck_mailboxes, false);
-    if (can->on_wire < 0)
+    node->on_wire = pick(can, ~node->stuck_mailboxes, false);
+    if (node->on_wire < 0)
         return false;
-    *out = frame_in(&can->mailboxes[can->on_wire]);
+    *out = frame_in(&can->mailboxes[node->on_wire]);
     return true;
 }
 
-static void try_again(struct bxcan *can, uint32_t status)
+void bxcan_end(struct can_node *node, enum node_outcome outcome)
 {
-    int n = can->on_wire;
+    static const uint32_t status[] = {TXOK, ALST, TERR};
+    struct bxcan *can = (struct bxcan *)node;
+    int n = node->on_wire;
 
-    can->on_wire = -1;
-    if (n >= 0 && (can->mcr & NART || can->mailboxes[n].aborting))
-        end(can, (unsigned)n, status);
-}
-
-void bxcan_lost_arbitration(struct bxcan *can)
-{
-    try_again(can, ALST);
-}
-
-void bxcan_sent(struct bxcan *can)
-{
-    can->tec -= can->tec > 0;
-    can->last_error = 0;
-    if (can->on_wire >= 0)
-        end(can, (unsigned)can->on_wire, TXOK);
-    can->on_wire = -1;
-}
-
-/* Missing acknowledgements take a node as far as error passive, and no further. */
-void bxcan_failed(struct bxcan *can, enum bxcan_error error)
-{
-    can->last_error = error;
-    if (error != BXCAN_NO_ACKNOWLEDGE || !bxcan_is_passive(can))
-        can->tec += PENALTY;
-    if (can->tec >= BUS_OFF_COUNT && !can->bus_off) {
-        can->bus_off = true;
-        if (can->mcr & ABOM)
-            bxcan_recover(can);
-    }
-    try_again(can, TERR);
+    node->on_wire = -1;
+    if (n >= 0 && (outcome == NODE_SENT || can->mcr & NART || can->mailboxes[n].aborting))
+        end(can, (unsigned)n, status[outcome]);
 }
 
 uint32_t bxcan_read_tsr(const struct bxcan *can)
@@ -128,7 +98,7 @@ void bxcan_write_tsr(struct bxcan *can, uint32_t value)
         if (!(written & ABRQ) || !box->pending)
             continue;
         box->aborting = true;
-        if ((int)n != can->on_wire && !(can->stuck_mailboxes >> n & 1u))
+        if ((int)n != can->node.on_wire && !(can->node.stuck_mailboxes >> n & 1u))
             end(can, n, 0);
     }
 }
@@ -139,7 +109,7 @@ bool bxcan_write_mailbox(struct bxcan *can, uint32_t at, uint32_t value)
     struct bxcan_mailbox *box = &can->mailboxes[n];
 
     if (box->pending)
-        return bxcan_refuse(can, "CAN1 transmit mailbox %u was written while its frame is pending", n);
+        return node_refuse(&can->node, "CAN1 transmit mailbox %u was written while its frame is pending", n);
     box->words[at / 4 % 4] = value;
     if (at % 16 == 0 && value & BXCAN_TXRQ) {
         box->pending = true;

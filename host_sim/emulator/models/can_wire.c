@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "host_sim/emulator/models/bxcan_model.h"
+#include "host_sim/emulator/models/can_node.h"
 
 enum {
     STANDARD_BITS = 47,   /* of a frame without data, with the pause after it */
@@ -69,9 +69,9 @@ static unsigned deliver(struct can_wire *wire, bool destroyed)
     unsigned listeners = 0;
 
     for (unsigned n = 0; n < wire->node_count; n++)
-        if ((int)n != wire->sender && bxcan_listens(wire->nodes[n])) {
+        if ((int)n != wire->sender && node_listens(wire->nodes[n])) {
             listeners++;
-            bxcan_arrived(wire->nodes[n], &wire->passing, destroyed);
+            node_arrived(wire->nodes[n], &wire->passing, destroyed);
         }
     return listeners;
 }
@@ -81,14 +81,14 @@ static void finish(struct can_wire *wire)
     unsigned listeners = deliver(wire, wire->shorted && wire->sender != WIRE_WORLD);
 
     if (wire->sender != WIRE_WORLD) {
-        struct bxcan *sender = wire->nodes[wire->sender];
+        struct can_node *sender = wire->nodes[wire->sender];
 
         if (wire->shorted)
-            bxcan_failed(sender, BXCAN_BIT_DOMINANT);
+            node_failed(sender, NODE_BIT_DOMINANT);
         else if (wire->alone && listeners == 0)
-            bxcan_failed(sender, BXCAN_NO_ACKNOWLEDGE);
+            node_failed(sender, NODE_NO_ACKNOWLEDGE);
         else
-            bxcan_sent(sender);
+            node_sent(sender);
         if (!wire->shorted && !wire->alone)
             (void)push(&wire->heard, &wire->passing);
     }
@@ -112,14 +112,14 @@ static void arbitrate(struct can_wire *wire)
     struct frame offer;
 
     for (unsigned n = 0; n < wire->node_count; n++) {
-        if (!bxcan_listens(wire->nodes[n]) || !bxcan_offer(wire->nodes[n], &offer))
+        if (!node_listens(wire->nodes[n]) || !node_offer(wire->nodes[n], &offer))
             continue;
         if (wire->sender != WIRE_IDLE && priority(&offer) >= priority(&wire->passing)) {
-            bxcan_lost_arbitration(wire->nodes[n]);
+            node_lost_arbitration(wire->nodes[n]);
             continue;
         }
         if (wire->sender >= 0)
-            bxcan_lost_arbitration(wire->nodes[wire->sender]);
+            node_lost_arbitration(wire->nodes[wire->sender]);
         wire->passing = offer;
         wire->sender = (int)n;
     }
@@ -131,7 +131,7 @@ static void begin(struct can_wire *wire)
     struct frame taken;
 
     for (unsigned n = 0; n < wire->node_count; n++)
-        listened = listened || bxcan_listens(wire->nodes[n]);
+        listened = listened || node_listens(wire->nodes[n]);
     begin_world(wire, listened);
     arbitrate(wire);
     if (wire->sender == WIRE_WORLD)
@@ -147,7 +147,7 @@ uint64_t wire_advance(struct can_wire *wire, uint64_t now_ns)
     if (wire->sender != WIRE_IDLE && wire->ends_ns <= now_ns)
         finish(wire);
     for (unsigned n = 0; n < wire->node_count; n++) {
-        uint64_t due = bxcan_advance(wire->nodes[n]);
+        uint64_t due = node_advance(wire->nodes[n]);
 
         next = due < next ? due : next;
     }

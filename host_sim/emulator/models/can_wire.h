@@ -15,7 +15,7 @@ enum {
     WIRE_QUEUE_MAX = 1024
 };
 
-struct bxcan;
+struct can_node;
 
 struct frame_queue {
     struct frame frames[WIRE_QUEUE_MAX];
@@ -31,7 +31,7 @@ struct can_wire {
     uint64_t ends_ns;            /* when the frame on the wire is over */
     int sender;                  /* of that frame: a controller's number, or one of enum wire_sender */
     unsigned node_count;
-    struct bxcan *nodes[WIRE_NODES_MAX];
+    struct can_node *nodes[WIRE_NODES_MAX];
     struct frame passing;        /* on the wire */
     struct frame_queue waiting;  /* what the world wants to send */
     struct frame_queue heard;    /* what the world has received: wire_fetch takes it */

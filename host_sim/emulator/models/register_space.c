@@ -26,19 +26,23 @@ void space_note_time(struct register_space *space)
     space->looks_at_time = true;
 }
 
+uint32_t space_can_word(uint32_t offset)
+{
+    uint32_t half = offset >= SPACE_CAN_RAM ? SPACE_CAN_WORDS / 2 : 0;
+    uint32_t word = (half ? offset - SPACE_CAN_RAM : offset) / WORD;
+
+    return offset % WORD == 0 && word < SPACE_CAN_WORDS / 2 ? half + word : NOT_CAN;
+}
+
 /* The number of a register of CAN that can be accessed here, or NOT_CAN. */
 static uint32_t can_word(const struct register_space *space, uint32_t address, unsigned width)
 {
-    uint32_t offset = address - space->can_base;
-
-    if (!space->direct || width != WORD || offset % WORD != 0 || offset / WORD >= SPACE_CAN_WORDS)
-        return NOT_CAN;
-    return space->can->clocked ? offset / WORD : NOT_CAN;
+    return space->direct && width == WORD && space->can->clocked ? space_can_word(address - space->can_base) : NOT_CAN;
 }
 
-static bool read_can(struct register_space *space, uint32_t word, uint32_t *out)
+static bool read_can(struct register_space *space, uint32_t address, uint32_t word, uint32_t *out)
 {
-    int64_t value = bxcan_read(space->can, word * WORD);
+    int64_t value = node_read(space->can, address - space->can_base);
     struct seen_value *seen = &space->seen[word];
     bool is_news;
 
@@ -104,7 +108,7 @@ static bool read_here(struct register_space *space, uint32_t address, unsigned w
     uint32_t word = can_word(space, address, width);
 
     if (word != NOT_CAN && space->can_readable[word])
-        return read_can(space, word, out);
+        return read_can(space, address, word, out);
     if (!space->direct)
         return false;
     if (read_kept(space, address, width, out))
@@ -126,7 +130,7 @@ static bool write_here(struct register_space *space, uint32_t address, unsigned 
         return false;
     space_begin_anew(space);
     space->can->wire->now_ns = space->clock->now.ns;
-    if (!bxcan_write(space->can, word * WORD, value))
+    if (!node_write(space->can, address - space->can_base, value))
         return false;
     clock_expect(space->clock, space->clock->now);
     return true;

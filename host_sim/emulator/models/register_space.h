@@ -10,13 +10,14 @@
 #include <stdint.h>
 
 #include "host_sim/emulator/models/board_clock.h"
-#include "host_sim/emulator/models/bxcan_model.h"
+#include "host_sim/emulator/models/can_node.h"
 #include "host_sim/emulator/models/systick_model.h"
 
 enum {
     SPACE_WAITING_READS = 8,    /* reads in a row that bring nothing new, after which the image counts as waiting */
     SPACE_SKIP_NS = 1000000,    /* longest skip before its next read: it may be waiting for the time itself */
-    SPACE_CAN_WORDS = 0x100,    /* registers of CAN that there can be */
+    SPACE_CAN_WORDS = 0x200,    /* registers of CAN that there can be, with the words of a message RAM in the upper half */
+    SPACE_CAN_RAM = 0x4000,     /* offset of that RAM from the registers */
     SPACE_BLOCKS = 12, SPACE_BLOCK_WORDS = 32
 };
 
@@ -41,7 +42,7 @@ struct plain_block {
 
 struct register_space {
     struct board_clock *clock;
-    struct bxcan *can;
+    struct can_node *can;
     struct systick *systick;
     uint32_t can_base, systick_val;   /* addresses */
     bool direct;                      /* whether any register is accessed here */
@@ -60,6 +61,9 @@ struct register_window {
     uint64_t (*read)(uint32_t address, uint32_t width);                   /* Python's */
     void (*write)(uint32_t address, uint32_t width, uint32_t value);
 };
+
+uint32_t space_can_word(uint32_t offset);
+        /* The number of the register or word of CAN at an offset; SPACE_CAN_WORDS: there is none. */
 
 void space_begin_anew(struct register_space *space);
         /* The image does something other than wait. */

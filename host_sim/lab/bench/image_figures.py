@@ -21,7 +21,7 @@ def image_figures() -> list[Figure]:
     """Figures for lockstep with each image, in a whole run with physics and log."""
     emulated = [
         rate_figure(
-            Rate(f"bxCAN image on an emulated {board}", _ticks_per_second("emulated", board), _EMULATED_AT_LEAST),
+            Rate(f"CAN image on an emulated {board}", _ticks_per_second("emulated", board), _EMULATED_AT_LEAST),
             _REAL_TIME,
             "the simulator's Python, and Unicorn",
         )

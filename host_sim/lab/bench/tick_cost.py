@@ -3,7 +3,8 @@
 What the robot spends on waiting until its other frames have left is not counted: that is the wire's time.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
 
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import FrameLog
@@ -17,9 +18,41 @@ from host_sim.sim.make import assemble
 from host_sim.sim.run_config import RunConfig
 
 _READY_S = 5.0
-_TSR, _RF0R, _MAILBOXES, _RI0R = 0x08, 0x0C, (0x180, 0x190, 0x1A0), 0x1B0
-_FMP, _RFOM, _TXRQ, _ALL_FREE = 3, 1 << 5, 1, 7 << 26
-_ID_SHIFT = 21
+_TXBAR = 0x0CC
+"""Of FDCAN alone."""
+
+
+class _Layout(NamedTuple):
+    """What to watch of a CAN controller: offsets of registers, and what they tell."""
+
+    transmit: int
+    is_taken: Callable[[int], bool]
+    """Whether a mailbox is, by that register."""
+    received: int
+    level: int
+    """Bits of that register: how many frames wait."""
+    release: int
+    releases: Callable[[int], bool]
+    requests: Sequence[int]
+    received_id: Callable[[int], int]
+    """Of the next frame, by `received`."""
+    requested_id: Callable[[int], int | None]
+    """Of the frame that a write to one of `requests` sends."""
+
+
+def _layout_of(registers: Mapping[int, Register]) -> _Layout:
+    if _TXBAR in registers:
+        return _Layout(
+            *(0x0C8, bool, 0x090, 15, 0x094, lambda _place: True, (_TXBAR,)),
+            received_id=lambda status: registers[0x40B0 + 72 * (status >> 8 & 3)].read() >> 18,
+            requested_id=lambda buffer: registers[0x4278 + 72 * (buffer.bit_length() - 1)].read() >> 18,
+        )
+    return _Layout(
+        *(0x08, lambda status: status >> 26 & 7 != 7, 0x0C, 3, 0x0C, lambda value: bool(value & 1 << 5)),  # noqa: PLR2004
+        requests=(0x180, 0x190, 0x1A0),
+        received_id=lambda _status: registers[0x1B0].read() >> 21,
+        requested_id=lambda value: value >> 21 if value & 1 else None,
+    )
 
 
 class TickCost:
@@ -43,31 +76,33 @@ class TickCost:
         self._is_news = True
         self._transmit_status, self._seen = 0, 0
         self.counts: list[int] = []
-        _watch(self._registers[_TSR], self._note_waiting, lambda _value: None)
-        _watch(self._registers[_RF0R], self._note_status, self._note_release)
-        for mailbox in _MAILBOXES:
+        self._layout = layout = _layout_of(self._registers)
+        _watch(self._registers[layout.transmit], self._note_waiting, lambda _value: None)
+        _watch(self._registers[layout.received], self._note_status, lambda _value: None)
+        _watch(self._registers[layout.release], lambda _value: None, self._note_release)
+        for mailbox in layout.requests:
             _watch(self._registers[mailbox], lambda _value: None, self._note_request)
 
     def _note_status(self, value: int) -> None:
-        if not (value & _FMP and self._is_news):
+        if not (value & self._layout.level and self._is_news):
             return
         self._is_news = False
-        if self._registers[_RI0R].read() >> _ID_SHIFT == self._senses:
+        if self._layout.received_id(value) == self._senses:
             self._begun = self._core.instructions
 
     def _note_waiting(self, status: int) -> None:
         """Takes off what has passed since the last look, if mailboxes were taken then and nothing has changed."""
         now = self._core.instructions
-        if status == self._transmit_status and status & _ALL_FREE != _ALL_FREE and self._begun is not None:
+        if status == self._transmit_status and self._layout.is_taken(status) and self._begun is not None:
             self._begun += now - self._seen
         self._transmit_status, self._seen = status, now
 
     def _note_release(self, value: int) -> None:
-        self._is_news = self._is_news or bool(value & _RFOM)
+        self._is_news = self._is_news or self._layout.releases(value)
 
     def _note_request(self, value: int) -> None:
         self._transmit_status = 0
-        if value & _TXRQ and value >> _ID_SHIFT == self._drive and self._begun is not None:
+        if self._layout.requested_id(value) == self._drive and self._begun is not None:
             self.counts.append(self._core.instructions - self._begun)
             self._begun = None
 

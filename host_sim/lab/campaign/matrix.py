@@ -14,8 +14,8 @@ _LINES, _PROCESSES = ("external", "slcan", "vcan"), ("fd", "external", "slcan", 
 _COMPARED = (LOCKSTEP,)
 """Where runs can be compared tick by tick."""
 
-_RECORD_WRITES = {"feather_stm32f405": 4, "blue_pill": 8}
-"""Writes to flash that store a memory: of words, of half-words."""
+_RECORD_WRITES = {"feather_stm32f405": 4, "blue_pill": 8, "nucleo_g431rb": 2}
+"""Writes to flash that store a memory: of words, of half-words, of double words."""
 
 _INSTRUCTIONS, _SAVING_INSTRUCTIONS = 20_000, 400
 """Python instructions of a dozen ticks, and of the saving of a memory."""

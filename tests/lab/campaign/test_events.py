@@ -33,6 +33,7 @@ ENDS = [
     ("slcan lockstep", "event=unplug:100@20", "1 outages"),
     ("slcan lockstep", "event=noise:1@20", "repeated"),
     ("feather_stm32f405 lockstep", "event=power@20", "the robot restarted (power_on) with its memory kept"),
+    ("nucleo_g431rb lockstep", "event=bus-off:400@20", "repeated"),
     ("blue_pill lockstep", "event=watchdog@20", "the robot restarted (watchdog) with its memory kept"),
     ("blue_pill lockstep", "event=stack@20", "the robot restarted (crash) with its memory kept"),
     ("feather_stm32f405 lockstep", "event=bus-off:400@20", "repeated"),
@@ -51,8 +52,15 @@ def test_what_happens_to_a_robot_is_told_and_nothing_is_unsafe(where, event, tol
     assert outcome.recovered or outcome.end
 
 
-def test_the_power_goes_twice_in_a_row_while_flash_is_written_and_the_memory_is_restored():
-    outcome = outcome_of("article feather_stm32f405 lockstep seed=12 limit=6 event=flash-cut:3@200")
+@pytest.mark.parametrize(
+    "where",
+    [
+        "feather_stm32f405 lockstep seed=12 limit=6 event=flash-cut:3@200",
+        "nucleo_g431rb lockstep seed=12 limit=6 event=flash-cut:2@200",
+    ],
+)
+def test_the_power_goes_twice_in_a_row_while_flash_is_written_and_the_memory_is_restored(where):
+    outcome = outcome_of(f"article {where}")
 
     assert outcome.problems == []
     assert "its memory restored" in outcome.doubts[0]

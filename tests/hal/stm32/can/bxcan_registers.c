@@ -2,63 +2,51 @@
 
 #include <string.h>
 
-#include <unity.h>
-
+#include "can_rig.h"
 #include "hal/stm32/registers.h"
 
-enum { WORDS = sizeof(struct can_registers) / 4, OUTPUT_0 = 0x1B0 / 4, OUTPUT_1 = 0x1C0 / 4, FMR = 0x200 / 4 };
+enum { OUTPUT_0 = 0x1B0, OUTPUT_1 = 0x1C0, OUTPUT_END = 0x1D0 };
 
+const uint32_t RIG_CLOCKS_HZ[] = {42000000, 36000000, 32000000, 16000000, 8000000, 0};
 volatile struct can_registers CAN1;
-struct can_wire wire;
 struct bxcan can;
-struct clocks machine;
 
-static uint32_t shown[WORDS];   /* what the driver has read or could have */
-
-static bool is_reserved(uint32_t word)
+static bool is_reserved(uint32_t offset)
 {
-    uint32_t offset = 4 * word;
-
-    return (offset >= 0x20 && offset < 0x180) || (offset >= 0x1D0 && offset < 0x200) || offset == 0x208
+    return (offset >= 0x20 && offset < 0x180) || (offset >= OUTPUT_END && offset < 0x200) || offset == 0x208
            || offset == 0x210 || offset == 0x218 || (offset >= 0x220 && offset < 0x240);
 }
 
-static bool is_empty_output(uint32_t word)
+static bool is_empty_output(uint32_t offset)
 {
-    return (word >= OUTPUT_0 && word < OUTPUT_1 && can.fifos[0].count == 0)
-           || (word >= OUTPUT_1 && word < FMR && can.fifos[1].count == 0);
+    return (offset >= OUTPUT_0 && offset < OUTPUT_1 && can.fifos[0].count == 0)
+           || (offset >= OUTPUT_1 && offset < OUTPUT_END && can.fifos[1].count == 0);
 }
 
-static void show(uint32_t count)
+static bool shows(uint32_t offset, uint32_t *out)
 {
-    volatile uint32_t *memory = (volatile uint32_t *)&CAN1;
-
-    for (uint32_t word = 0; word < count; word++)
-        if (!is_reserved(word) && !is_empty_output(word))
-            memory[word] = shown[word] = (uint32_t)bxcan_read(&can, 4 * word);
+    if (is_reserved(offset) || is_empty_output(offset))
+        return false;
+    *out = (uint32_t)node_read(&can.node, offset);
+    return true;
 }
 
-/* From the last register to the first: what starts something comes behind what it needs. */
-static void take_writes(void)
-{
-    const volatile uint32_t *memory = (const volatile uint32_t *)&CAN1;
-
-    for (uint32_t word = WORDS; word-- > 0;)
-        if (memory[word] != shown[word])
-            TEST_ASSERT_TRUE_MESSAGE(bxcan_write(&can, 4 * word, memory[word]), can.refusal);
-}
-
-void registers_reset(void)
+static void open_controller(void)
 {
     memset((void *)&CAN1, 0, sizeof CAN1);
-    memset(shown, 0, sizeof shown);
-    wire_open(&wire);
     bxcan_open(&can, &wire, 14);
     can.ier = can.filters.words[3] = can.filters.words[5] = 0xFF;   /* IER, FS1R, FFA1R */
     machine = (struct clocks){72000000, 36000000, 72000000, true};
-    can.clock_hz = machine.can_hz;
-    show(WORDS);
 }
+
+static void prepare(uint32_t offset)
+{
+    (void)offset;
+}
+
+const struct can_memory CAN_MEMORY = {
+    &can.node, {(volatile uint32_t *)&CAN1}, {sizeof CAN1 / 4}, 0, shows, open_controller, prepare,
+};
 
 void registers_leave_filters(uint32_t modes, uint32_t scales, uint32_t bank)
 {
@@ -67,31 +55,28 @@ void registers_leave_filters(uint32_t modes, uint32_t scales, uint32_t bank)
     can.filters.words[7] = 0x3FFF;
     for (unsigned i = 0; i < 2 * 14; i++)
         can.filters.banks[i] = bank;
-    show(WORDS);
+    registers_show();
 }
 
-void registers_pass_us(uint32_t us)
+struct rig_bit rig_bit(void)
 {
-    uint64_t end = wire.now_ns + 1000u * (uint64_t)us, next;
-    bool changed = memcmp((const void *)&CAN1, shown, sizeof shown) != 0;
+    uint32_t timing = CAN1.btr;
 
-    can.clock_hz = machine.can_hz;
-    if (changed)
-        take_writes();
-    while ((next = wire_advance(&wire, wire.now_ns)) < end)
-        (void)wire_advance(&wire, next);
-    (void)wire_advance(&wire, end);
-    TEST_ASSERT_EQUAL_STRING("", can.refusal);
-    show(changed ? WORDS : FMR);   /* filters change only where they are written */
+    return (struct rig_bit){(timing & 0x3FFu) + 1, (timing >> 16 & 15u) + 2, (timing >> 20 & 7u) + 1, (timing >> 24) + 1};
 }
 
-uint32_t machine_ms(void)
+int rig_fifo_for(uint32_t id)
 {
-    registers_pass_us(LOOK_US);
-    return (uint32_t)(wire.now_ns / 1000000);
+    return bxcan_fifo_for(&can, &(struct frame){.id = id});
 }
 
-struct clocks machine_clocks(void)
+void rig_open_filters(void)
 {
-    return machine;
+    can.filters.words[1] = 0;                           /* FM1R: a mask ... */
+    can.filters.banks[0] = can.filters.banks[1] = 0;    /* ... that asks for nothing */
+}
+
+bool rig_is_apart(void)
+{
+    return CAN1.msr & 1u;
 }

@@ -57,7 +57,7 @@ TEST(what_came_before_the_bus_was_lost_is_still_received)
     for (uint8_t n = 0; n < 5; n++)
         TEST_ASSERT_TRUE(wire_put(&wire, &(struct frame){.id = 0x0C1, .len = 1, .data = {n}}));
     registers_pass_us(1500);
-    can.bus_off = can.recovery_stuck = true;
+    can.node.bus_off = can.node.recovery_stuck = true;
     registers_pass_us(0);
     TEST_ASSERT_EQUAL(LINK_E_GARBLED, link_receive(link_here, &frame, 0));
     TEST_ASSERT_EQUAL(1, link_receive(link_here, &frame, 0));
