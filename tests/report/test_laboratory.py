@@ -50,6 +50,10 @@ def test_the_page_holds_octet_html_and_what_the_robots_were_told(run_of, tmp_pat
     assert {tick for tick, *_ in held["run"]["commands"]} == {0, 200}
 
 
+def test_octet_html_is_small_enough_for_a_slow_line():
+    assert len(octet_page().encode()) <= 400_000
+
+
 def test_a_run_writes_into_its_page_what_its_log_says(tmp_path):
     words = ("--robots", "2", "--limit-s", "4", "--environments", "1", "--set", "turn_deg=20", "--change", "plant@2s")
 
