@@ -98,8 +98,8 @@ int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t v
 uint32_t page_answer_value(void);
         /* The value of that answer. */
 
-uint32_t page_read_command(void);
-        /* Reads page_bytes() as a COMMAND. Returns its opcode, */
+uint32_t page_read_command(uint32_t robot);
+        /* Reads page_bytes() as a COMMAND to a robot, which would take it to be the first that it hears. Returns its opcode, */
 
 uint32_t page_command_which(void);
         /* and then what struct command has of it: which */

@@ -1,5 +1,7 @@
 #include "host_sim/web/native/page_frames.h"
 
+#include <string.h>
+
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
@@ -9,7 +11,7 @@ static struct octet_command_t message_of(uint32_t opcode, uint32_t which, uint32
 {
     struct octet_command_t message = {.opcode = (uint8_t)opcode, .owner = OWNER};
 
-    message.profile = message.parameter = (uint8_t)which;
+    message.profile = message.parameter = message.wanted = (uint8_t)which;
     message.freeze = which != 0;
     message.mask = which & MASK;
     message.half = which >> HALF & 1u;
@@ -54,34 +56,18 @@ int32_t page_command(uint32_t robot, uint32_t opcode, uint32_t which, uint32_t v
     return -1;
 }
 
-static struct command command_of(const struct octet_command_t *message)
+uint32_t page_read_command(uint32_t robot)
 {
-    uint32_t bytes = message->byte_0 | (uint32_t)message->byte_1 << 8 | (uint32_t)message->byte_2 << 16
-                     | (uint32_t)message->byte_3 << 24;
-    struct command command = {.opcode = (enum opcode)message->opcode};
+    struct input in = {.command = {0}};
+    struct frame frame = {.len = OCTET_COMMAND_LENGTH};
+    struct wire wire;
 
-    if (command.opcode == OPCODE_START) {
-        command.which = message->profile;
-        command.value = message->seed;
-    } else if (command.opcode == OPCODE_SET) {
-        command.which = message->parameter;
-        command.value = message->value;
-    } else if (command.opcode == OPCODE_WRITE) {
-        command.which = (uint8_t)(message->half << HALF | message->mask);
-        command.value = bytes;
-    } else if (command.opcode == OPCODE_FREEZE) {
-        command.which = message->freeze;
-    }
-    return command;
-}
-
-uint32_t page_read_command(void)
-{
-    struct octet_command_t message = {0};
-
-    (void)octet_command_unpack(&message, page_bytes(), OCTET_COMMAND_LENGTH);
-    page_state()->command = command_of(&message);
-    return page_state()->command.opcode;
+    wire_init(&wire, page_octet(robot)->wire.node);
+    frame.id = wire_id(&wire, OCTET_COMMAND_FRAME_ID);
+    memcpy(frame.data, page_bytes(), sizeof frame.data);
+    (void)wire_read(&wire, &frame, &in);
+    page_state()->command = in.command;
+    return in.command.opcode;
 }
 
 uint32_t page_command_which(void)

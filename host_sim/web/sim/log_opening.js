@@ -5,7 +5,7 @@ import { Arena, EditError, IDEAL, KIT } from "./arena.js";
 import { CELL_COUNT, EDITS, FRAMES, OPCODE, PARAMETERS, PROFILES } from "../generated.js";
 import { bytesOf, framesOf, replayLog } from "./log_replay.js";
 import { checkedWorld } from "./native_layouts.js";
-import { NativeRun } from "./native_run.js";
+import { NativeRun, ROBOTS_MAX } from "./native_run.js";
 import { Simulation } from "./simulation.js";
 
 /**
@@ -172,7 +172,7 @@ function isField(value) {
  * @returns {Experiment}
  */
 function experimentIn(module, frames, world) {
-  const native = new NativeRun(module, 1);
+  const native = new NativeRun(module, ROBOTS_MAX);
   /** @type {RobotSetup[]} */
   const robots = [];
   /** @type {(Change & {tick: number})[]} */
@@ -181,7 +181,7 @@ function experimentIn(module, frames, world) {
   for (const { robot, base, data } of frames) {
     if (base === FRAMES.SENSES && robot === 0) ticks += 1;
     if (base !== FRAMES.COMMAND) continue;
-    const command = native.readCommand(data);
+    const command = native.readCommand(robot, data);
     if (ticks > 0) changes.push({ do: "command", robot, ...command, tick: ticks });
     else if (command.opcode === OPCODE.START && robot === 0) seed = command.value;
     if (ticks === 0) robots[robot] = setUp(robots[robot], command);

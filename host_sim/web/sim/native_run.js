@@ -60,12 +60,13 @@ export class NativeRun {
   }
 
   /**
-   * What a COMMAND says, as in `struct command`.
+   * What a COMMAND to a robot says, as in `struct command`.
+   * @param {number} robot
    * @param {Uint8Array} data
    */
-  readCommand(data) {
+  readCommand(robot, data) {
     this.bytes.set(data);
-    const opcode = this.c.page_read_command();
+    const opcode = this.c.page_read_command(robot);
     return { opcode, which: this.c.page_command_which(), value: this.c.page_command_value() >>> 0 };
   }
 

@@ -43,9 +43,9 @@ TEST(a_refusal_is_told)
 TEST(a_parameter_is_set_and_told)
 {
     start(0, PROFILE_ARTICLE);
-    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_SET, TURN_DEG, 33));
-    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_GET, TURN_DEG, 0));
-    TEST_ASSERT_EQUAL_UINT32(33, page_answer_value());
+    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_SET, SPEED_MM_S, 133));
+    TEST_ASSERT_EQUAL_INT32(RESULT_DONE, page_command(0, OPCODE_GET, SPEED_MM_S, 0));
+    TEST_ASSERT_EQUAL_UINT32(133, page_answer_value());
 }
 
 TEST(a_freeze_is_begun_and_ended)
@@ -116,11 +116,12 @@ TEST(distances_are_logged_in_the_order_of_the_sensors)
 
 static void read_command(struct octet_command_t message)
 {
-    uint8_t bytes[PAGE_BYTES] = {0};
+    struct frame frame = {.id = OCTET_COMMAND_FRAME_ID + 1, .len = OCTET_COMMAND_LENGTH};
 
-    (void)octet_command_pack(bytes, &message, sizeof bytes);
-    put_bytes(bytes);
-    TEST_ASSERT_EQUAL_UINT32(message.opcode, page_read_command());
+    (void)octet_command_pack(frame.data, &message, sizeof frame.data);
+    e2e_protect(&frame);
+    put_bytes(frame.data);
+    TEST_ASSERT_EQUAL_UINT32(message.opcode, page_read_command(1));
 }
 
 static void assert_read(uint32_t which, uint32_t value)
@@ -140,6 +141,8 @@ TEST(a_command_is_read_from_its_frame)
     assert_read(1 << 4 | 9, 0x84030201);
     read_command((struct octet_command_t){.opcode = OPCODE_FREEZE, .freeze = 1});
     assert_read(1, 0);
+    read_command((struct octet_command_t){.opcode = OPCODE_GET, .wanted = SPEED_MM_S});
+    assert_read(SPEED_MM_S, 0);
     read_command((struct octet_command_t){.opcode = OPCODE_ERASE});
     assert_read(0, 0);
 }
