@@ -1,11 +1,14 @@
-"""Room and ways in a layout: clearance around a place, and where the centre of a body can get to."""
+"""Room and ways in a layout: clearance around a place, where the centre of a body can get to, and how far it is."""
 
 from collections.abc import Iterable
 
 from host_sim.world.geometry import Bar, Plant, Point
+from host_sim.world.layouts import Layout
 from host_sim.world.native_drawing import Obstacles, ReachRoom
 from host_sim.world.params import SimParams
 from host_sim.world.world_library import world_library
+
+_TANGENTS_MAX = 6000  # the random worlds have 200 to 1500
 
 
 class Reach:
@@ -51,3 +54,24 @@ def clearance_mm(point: Point, bars: Iterable[Bar], params: SimParams, plants: I
     """
     _, library = world_library()
     return float(library.clearance_mm(Obstacles(tuple(bars), tuple(plants), params).in_c, point))
+
+
+def tour_mm(layout: Layout, params: SimParams) -> float:
+    """The length of the shortest tour: from the start through the middles of all pieces of food, for a body's centre.
+
+    Food is eaten from a distance, so that a robot may do with less: by `eat_reach_mm` on the way to each piece and on
+    the way from all but the last.
+
+    >>> from host_sim.world.geometry import Pose
+    >>> tour_mm(Layout((), ((2000.0, 200.0), (3000.0, 200.0)), Pose(1000.0, 200.0, 0.0)), SimParams())
+    2000.0
+
+    Returns:
+        mm; infinite for more than eight pieces, which have too many orders to try, and where there is no way.
+    """
+    ffi, library = world_library()
+    obstacles = Obstacles(layout.bars, (), params)
+    places = [layout.start[:2], *layout.food]
+    tangents = ffi.new("struct tour_tangent[]", _TANGENTS_MAX)
+    tour = ffi.new("struct tour *", {"tangents": tangents, "tangents_max": _TANGENTS_MAX})
+    return float(library.tour_mm(tour, obstacles.in_c, params.body_radius_mm, places, len(places)))

@@ -12,7 +12,9 @@ WORLD_HEADERS = tuple(
     _NATIVE / f"{name}.h"
     for name in ("vector", "space/space", "body_faults", "world", "space/capsule", "cones", "space/plain_space")
 )
-_DRAW = tuple(_NATIVE / "draw" / f"{name}.h" for name in ("reach", "layout", "layouts", "written_fault", "written"))
+_DRAW = tuple(
+    _NATIVE / "draw" / f"{name}.h" for name in ("reach", "tour", "layout", "layouts", "written_fault", "written")
+)
 HEADERS = (
     ROOT / "firmware" / "io.h",
     ROOT / "hal" / "pins_body" / "wheel.h",

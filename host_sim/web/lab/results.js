@@ -1,7 +1,7 @@
 // @ts-check
 /* What a run has come to, up to a tick: numbers for curves, for a table and for a file. */
 
-import { REASON } from "../generated.js";
+import { PARAMETERS, REASON } from "../generated.js";
 
 /**
  * @typedef {import("./shown_run.js").ShownRun} ShownRun
@@ -14,7 +14,7 @@ import { REASON } from "../generated.js";
  */
 
 /** The columns of the table and of the file. */
-export const NAMES = ["run", "robot", "behaviour", "seed", "environment", "finished", "time s", "trials", "lessons", "bored", "blocked s", "meals"];
+export const NAMES = ["run", "robot", "behaviour", "seed", "environment", "finished", "time s", "shortest tour s", "trials", "lessons", "bored", "blocked s", "meals"];
 
 const AVOIDING = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
 
@@ -47,7 +47,8 @@ export function rowsOf(lane, upTo) {
     const eaten = data.statesAt(last)[0].eaten;
     return data.robots.map((robot, r) => [
       lane.name, robot.run.node, experiment.robots[r].profile, experiment.seed, data.sceneAt(first).number,
-      eaten.every(Boolean) ? "yes" : "no", ...numbersOf(robot, first, last, data.measures.tick_ms),
+      eaten.every(Boolean) ? "yes" : "no", seconds(last + 1 - first, data.measures.tick_ms), tourOf(lane, i, r),
+      ...numbersOf(robot, first, last, data.measures.tick_ms),
     ]);
   });
 }
@@ -62,8 +63,27 @@ function numbersOf(robot, first, last, tickMs) {
   const inside = (/** @type {number} */ tick) => tick >= first && tick <= last;
   const count = (/** @type {string} */ kind) => robot.run.events.filter(([tick, what]) => what === kind && inside(tick)).length;
   const blocked = robot.columns.reason.subarray(first, last + 1).filter((reason) => isAvoiding(reason)).length;
-  const seconds = (/** @type {number} */ ticks) => Number(((ticks * tickMs) / 1000).toFixed(2));
-  return [seconds(last + 1 - first), count("trial"), count("lesson"), count("boredom"), seconds(blocked), count("eat")];
+  return [count("trial"), count("lesson"), count("boredom"), seconds(blocked, tickMs), count("eat")];
+}
+
+/**
+ * @param {number} ticks
+ * @param {number} tickMs
+ */
+function seconds(ticks, tickMs) {
+  return Number(((ticks * tickMs) / 1000).toFixed(2));
+}
+
+/**
+ * How long the shortest tour through all food of an environment takes at the robot's speed, s, without turning.
+ * @param {ShownRun} lane
+ * @param {number} environment - Counted from 0.
+ * @param {number} robot
+ */
+function tourOf({ tours, experiment }, environment, robot) {
+  const { speed_mm_s: speed = PARAMETERS.speed_mm_s.default } = experiment.robots[robot].settings;
+  const isKnown = Number.isFinite(tours[environment]) && experiment.robots.length === 1;
+  return isKnown ? Number((tours[environment] / speed).toFixed(2)) : "";
 }
 
 /** @param {number} reason */

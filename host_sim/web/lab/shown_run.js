@@ -47,6 +47,11 @@ export class ShownRun {
     this.data = undefined;
     /** @type {Scene | undefined} */
     this.scene = undefined;
+    /**
+     * Of each environment so far, the length of the shortest tour, mm.
+     * @type {number[]}
+     */
+    this.tours = [];
     /** How often it was asked to simulate, and whether the last time is over. */
     this.asked = 0;
     this.isRunning = false;
@@ -109,10 +114,11 @@ export class ShownRun {
 
   /**
    * Takes over what was simulated.
-   * @param {import("../sim/run_recorder.js").Recorded} recorded
+   * @param {import("../sim/page_worker.js").Recorded} recorded
    */
-  take({ run, columns }) {
+  take({ run, columns, tours }) {
     this.data = new RunData(run, columns);
+    this.tours = tours;
     const { first } = this.data;
     if (!this.scene) this.scene = new Scene(run.measures, this.data.sceneAt(first), this.data.statesAt(first));
     this.scene.measures = run.measures;

@@ -12,6 +12,7 @@
 #include "host_sim/world/native/kit/kit.h"
 #include "host_sim/world/native/history.h"
 #include "host_sim/world/native/draw/layouts.h"
+#include "host_sim/world/native/draw/tour.h"
 #include "host_sim/world/native/space/plain_space.h"
 #include "host_sim/world/native/ranges.h"
 #include "host_sim/world/native/draw/written.h"
@@ -259,5 +260,9 @@ struct layout *page_drawn(void);
 const double *page_draw(double seed, double number, uint32_t robots);
         /* Draws an environment for 1..PAGE_ROBOTS_MAX robots. Returns the numbers of bars, of pieces of food and of starts, and then these, as in struct
            layout. There are fewer starts than robots if there is no room for all; none if 1000 draws gave no fair layout. */
+
+double page_tour(void);
+        /* The length of the shortest tour through all food of that environment, mm, from the first robot's start; infinite if none
+           was found. */
 
 #endif

@@ -2,7 +2,10 @@
 
 #include <string.h>
 
-enum { COUNTS = 3 };   /* that stand before what is handed over */
+enum {
+    COUNTS = 3,   /* that stand before what is handed over */
+    TANGENTS_MAX = 6000
+};
 
 static struct drawing {
     double numbers[PAGE_DRAW_NUMBERS];
@@ -10,8 +13,14 @@ static struct drawing {
     struct written_fault fault;
     struct layout layout;
     struct pose starts[PAGE_ROBOTS_MAX];
-    uint8_t cells[WRITTEN_CELLS_MAX];
-    uint32_t stack[WRITTEN_CELLS_MAX];
+    union {   /* used one after the other */
+        struct {
+            uint8_t cells[WRITTEN_CELLS_MAX];
+            uint32_t stack[WRITTEN_CELLS_MAX];
+        } reach;
+        struct tour_tangent tangents[TANGENTS_MAX];
+    } room;
+    struct tour tour;
     double out[COUNTS + (sizeof(struct layout) + sizeof(struct pose[PAGE_ROBOTS_MAX])) / sizeof(double)];
 } drawing;
 
@@ -63,7 +72,7 @@ static struct layout_params params_of(const double numbers[PAGE_DRAW_NUMBERS])
 
 static struct reach reach(void)
 {
-    return (struct reach){.cells = drawing.cells, .stack = drawing.stack};
+    return (struct reach){.cells = drawing.room.reach.cells, .stack = drawing.room.reach.stack};
 }
 
 /* Appends what consists of doubles. */
@@ -118,4 +127,16 @@ const double *page_draw(double seed, double number, uint32_t robots)
     at = put(at, layout->food, layout->food_count * sizeof *layout->food);
     (void)put(at, layout->starts, layout->start_count * sizeof *layout->starts);
     return drawing.out;
+}
+
+double page_tour(void)
+{
+    const struct layout_params params = params_of(drawing.numbers);
+    const struct obstacles obstacles = layout_obstacles(&drawing.layout, &params);
+    struct vector places[1 + LAYOUT_FOOD_MAX] = {drawing.starts[0].at};
+
+    memcpy(&places[1], drawing.layout.food, drawing.layout.food_count * sizeof places[0]);
+    drawing.tour.tangents = drawing.room.tangents;
+    drawing.tour.tangents_max = TANGENTS_MAX;
+    return tour_mm(&drawing.tour, &obstacles, params.body_radius_mm, places, 1 + drawing.layout.food_count);
 }

@@ -7,7 +7,7 @@ import { Simulation } from "./simulation.js";
 import { openWorld } from "./world_opening.js";
 
 /**
- * @typedef {import("./run_recorder.js").Recorded} Recorded
+ * @typedef {ReturnType<Simulation["result"]>} Recorded
  * @typedef {import("../types.js").Experiment} Experiment
  * @typedef {import("./worlds.js").Worlds} Worlds
  *

@@ -39,6 +39,8 @@ export class Simulation {
     this.changes = new DueChanges(changes);
     this.robots = [...robots.keys()];
     this.tick = 0;
+    /** @type {number[]} */
+    this.tours = [];
     /** @type {Uint8Array[] | undefined} */
     this.log = keepsLog ? [] : undefined;
     /** @type {import("../types.js").EnvironmentScene} */
@@ -73,7 +75,8 @@ export class Simulation {
   /** What was recorded so far. */
   result() {
     const { seed, environments } = this.experiment;
-    return this.recorder.result(`seed ${seed}, ${environments} environment${environments === 1 ? "" : "s"}`);
+    const title = `seed ${seed}, ${environments} environment${environments === 1 ? "" : "s"}`;
+    return { ...this.recorder.result(title), tours: this.tours };
   }
 
   /** What a drawing needs. */
@@ -98,6 +101,7 @@ export class Simulation {
   /** @param {number} number */
   enter(number) {
     drawLayout(this.native, { seed: this.experiment.seed, number, robots: this.robots.length });
+    this.tours.push(this.native.c.page_tour());
     this.native.c.page_enter();
     this.scene = { ...this.scene, number, first_tick: this.tick };
     this.show();

@@ -9,6 +9,8 @@ import pytest
 from host_sim.protocol.generated import PROFILES
 from host_sim.report.octet_page import world_dimensions
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.reach import tour_mm
+from host_sim.world.worlds import world_of
 from tests.runs.support import octet
 from tests.web.sim.node import in_node
 from tests.web.sim.page_runs import experiment, run_in_page, with_changes_of, words
@@ -37,6 +39,28 @@ def test_the_layouts_of_a_world_stay_the_same_for_ever(tmp_path, name):
     asked.write_text(json.dumps({"worlds": world_dimensions(), "layouts": layouts}))
 
     assert digest(in_node(tmp_path, "sim/simulation.js", LAYOUTS, asked)) == DIGESTS[name]
+
+
+TOURS = """
+const [{ worlds, seeds }] = texts.map((text) => JSON.parse(text));
+const { "sim/native_layouts.js": { drawFrom, drawLayout }, "sim/worlds.js": { worldOf } } = modules;
+const { NativeRun } = modules["sim/native_run.js"];
+const native = new NativeRun(page, 1);
+drawFrom(native, worldOf("crowded", worlds).params);
+return seeds.map((seed) => {
+  drawLayout(native, { seed, number: 1, robots: 1 });
+  return native.c.page_tour();
+});
+"""
+
+
+def test_the_shortest_tour_is_the_same_to_the_last_bit(tmp_path):
+    asked, world = tmp_path / "asked.json", world_of("crowded")
+    asked.write_text(json.dumps({"worlds": world_dimensions(), "seeds": [1, 2, 3, 4]}))
+
+    in_page = in_node(tmp_path, "sim/simulation.js", TOURS, asked)
+
+    assert in_page == [tour_mm(world.generate(seed, 1), world.params) for seed in (1, 2, 3, 4)]
 
 
 def comparable(run: dict[str, Any]) -> dict[str, Any]:
