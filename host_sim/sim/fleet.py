@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from itertools import chain
 
 from host_sim.base.errors import UsageError
+from host_sim.protocol.words import NODE_MAX
 from host_sim.sim.fleet_film import SAMPLE_TICKS, FleetFilm
 from host_sim.sim.native_fleet import Contacts, NativeFleet, on_all_processors
 from host_sim.sim.run_config import RunConfig
@@ -34,6 +35,8 @@ class FleetResult:
         begun: Number of actions begun, by reason.
         collisions: Number of times that its body began to touch something.
         denied: Number of times that its wheels did not do what they were told.
+        known_ticks: Number of ticks of all environments until it knew a turn for patterns 1, 3, 4 and 6; None if it
+            does not yet.
         contacts: The times that it was blocked.
         memory: Its eight cells at the end.
         pose: Where it was at the end.
@@ -48,6 +51,7 @@ class FleetResult:
     begun: dict[int, int]
     collisions: int
     denied: int
+    known_ticks: int | None
     contacts: Contacts
     memory: tuple[int, ...]
     pose: Pose
@@ -62,6 +66,7 @@ def run_fleet(
     config: RunConfig,
     progress: Callable[[int], object] = lambda _: None,
     film: FleetFilm | None = None,
+    company: int = NODE_MAX,
 ) -> Iterator[FleetResult]:
     """Runs a fleet.
 
@@ -72,6 +77,7 @@ def run_fleet(
         config: The run; of its options for buses and boards, none may be set.
         progress: Called now and then with the number of ticks that all robots have run so far.
         film: Gets a sample at the start, and one every `SAMPLE_TICKS` until it is full.
+        company: How many robots hear each other if their parameter `share` is on: up to `NODE_MAX`.
 
     Yields:
         The result of each robot in each environment, once it has ended.
@@ -80,13 +86,13 @@ def run_fleet(
         UsageError: The robots do not fit into their world, or refuse their configuration.
         OctetError: Something that must be built is missing.
     """
-    return _Run(config, film).results(progress)
+    return _Run(config, film, company).results(progress)
 
 
 class _Run:
     """A fleet under way."""
 
-    def __init__(self, config: RunConfig, film: FleetFilm | None) -> None:
+    def __init__(self, config: RunConfig, film: FleetFilm | None, company: int) -> None:
         self._config, self._world = config, world_of(config.world)
         self._film = film
         params = self._world.params
@@ -94,8 +100,9 @@ class _Run:
         self._shared = [] if self._own else _shared_worlds(config)
         if self._shared:
             params = self._shared[0][1]
-        self._fleet = NativeFleet(config.robots, config.robots if self._own else 1, params, body_kind(config.body))
-        told = config.told
+        told, worlds = config.told, config.robots if self._own else 1
+        company = company if told.get("share") else 1
+        self._fleet = NativeFleet(config.robots, worlds, params, body_kind(config.body), company)
         for index in range(config.robots):
             self._fleet.start(index, self._seed(index), config.profile, told)
         self._entered = [0] * self._fleet.worlds
@@ -119,7 +126,7 @@ class _Run:
     def _run_block(self) -> None:
         film, fleet = self._film, self._fleet
         if film is None or film.is_full(fleet.robots):
-            fleet.run(_BLOCK_TICKS)
+            fleet.run(fleet.ticks_max or _BLOCK_TICKS)
             return
         if not film.poses:
             film.add(fleet)

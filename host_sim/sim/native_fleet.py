@@ -63,9 +63,12 @@ class NativeFleet:
     Attributes:
         robots: Their number.
         worlds: The number of worlds: 1, or as many as there are robots.
+        ticks_max: Number of ticks that may be run at a time; None for any.
     """
 
-    def __init__(self, robots: int, worlds: int, params: SimParams, kind: BodyKind | None = None) -> None:
+    def __init__(
+        self, robots: int, worlds: int, params: SimParams, kind: BodyKind | None = None, company: int = 1
+    ) -> None:
         """Makes room.
 
         Args:
@@ -73,6 +76,7 @@ class NativeFleet:
             worlds: 1, or as many as there are robots.
             params: The dimensions of the worlds.
             kind: What the bodies are like; None: ideal.
+            company: How many robots hear each other: the first ones, the next ones, and so on.
 
         Raises:
             NoNativeError: The library cannot be used.
@@ -98,7 +102,13 @@ class NativeFleet:
         self._worlds: Any = ffi.new("struct world[]", worlds)
         self._spaces: Any = ffi.new("struct plain_world[]", worlds)
         self._robots: Any = ffi.new("struct fleet_robot[]", robots)
+        self._company: Any = ffi.new("uint8_t[]", robots * CELL_COUNT)
+        self.ticks_max: int | None = self._library.FLEET_SECOND_TICKS if company > 1 else None
         self._bind()
+        for index in range(robots if company > 1 else 0):
+            first, robot = index - index % company, self._robots[index]
+            robot.company, robot.company_place = self._company + first * CELL_COUNT, index - first
+            robot.company_size = min(company, robots - first)
 
     def start(self, index: int, seed: int, profile: str, settings: Mapping[str, int]) -> None:
         """Starts a robot with an empty memory.
@@ -142,11 +152,18 @@ class NativeFleet:
     def run(self, ticks: int) -> int:
         """Runs all robots for a number of ticks, or to the ends of their environments.
 
-        Robots in worlds of their own share nothing: they run on all processors.
+        Robots in worlds of their own run on all processors: those that hear each other hear what was known before.
+
+        Args:
+            ticks: At most `ticks_max`.
 
         Returns:
             The number of robots whose environment has not ended.
         """
+        if second := self.ticks_max:
+            self._library.fleet_memories(self._robots, self.robots, self._company)
+            if self.worlds < self.robots:  # to the end of their second
+                ticks = min(ticks, second - self._robots[0].tick % second)
         if self.worlds < self.robots:
             return int(self._library.fleet_run_together(self._robots, self.robots, ticks))
 
@@ -178,6 +195,7 @@ class NativeFleet:
             "begun": {reason: count for reason, count in enumerate(robot.begun) if count},
             "collisions": int(body.collisions),
             "denied": int(robot.denied),
+            "known_ticks": int(robot.known_ticks) or None,
             "contacts": Contacts(robot.contacts, robot.blocked_ticks, robot.blocked_longest, bool(robot.blocked_now)),
             "memory": tuple(self._memories(index, 1)),
             "pose": Pose(body.x_mm, body.y_mm, body.heading_rad),

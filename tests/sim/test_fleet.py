@@ -35,6 +35,7 @@ def results_with_frames(config: RunConfig, number_from: int = 1) -> list[FleetRe
                         robot.begun,
                         robot.collisions,
                         0,
+                        None,
                         UNSEEN,
                         robot.memory,
                         simulation.arena.bodies[index].pose,
@@ -45,7 +46,7 @@ def results_with_frames(config: RunConfig, number_from: int = 1) -> list[FleetRe
 
 def in_order(results: list[FleetResult]) -> list[FleetResult]:
     """Without the contacts, which a run of its own does not count; tests of studies compare them."""
-    seen = [replace(result, contacts=UNSEEN) for result in results]
+    seen = [replace(result, contacts=UNSEEN, known_ticks=None) for result in results]
     return sorted(seen, key=lambda result: (result.robot, result.environment))
 
 
@@ -73,6 +74,25 @@ def test_they_do_so_in_other_worlds(world):
     config = RunConfig(seed=1, robots=4, environments=2, limit_s=20.0, world=world)
 
     assert in_order(list(run_fleet(config))) == in_order(results_with_frames(config))
+
+
+@pytest.mark.parametrize(("profile", "seed"), [("article", 1), ("adaptive", 2), ("searcher", 3)])
+def test_they_hear_each_other_as_on_a_bus(profile, seed):
+    config = RunConfig(seed=seed, robots=5, environments=3, limit_s=60.0, profile=profile, settings={"share": 1})
+
+    results = in_order(list(run_fleet(config)))
+
+    assert results == in_order(results_with_frames(config))
+    assert results != in_order(list(run_fleet(replace(config, settings={}))))
+
+
+def test_robots_in_worlds_of_their_own_hear_their_company_only():
+    config = replace(OWN, robots=6, profile="adaptive", settings={"share": 1})
+
+    in_company = in_order(list(run_fleet(config, company=3)))
+
+    assert in_company[:6] == in_order(list(run_fleet(replace(config, robots=3), company=3)))
+    assert in_company != in_order(list(run_fleet(replace(config, settings={}), company=3)))
 
 
 def test_an_environment_that_is_finished_is_the_same():

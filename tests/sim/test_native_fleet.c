@@ -58,6 +58,32 @@ TEST(a_robot_runs_as_many_ticks_as_asked_for)
     TEST_ASSERT_GREATER_THAN_UINT32(0, robots[0].begun[REASON_WANDER]);
 }
 
+TEST(a_robot_with_company_hears_it_once_a_second_but_not_itself)
+{
+    static const uint8_t company[ROBOTS][CELL_COUNT] = {{0, 2, 0, 0, 2, 0, 0, 0}, {0, 1, 0, 1, 2, 0, 2, 0}};
+    uint8_t known[CELL_COUNT];
+
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(&robots[0], OPCODE_SET, SHARE, 1, &answer));
+    robots[0].company = company[0];
+    robots[0].company_size = ROBOTS;
+    robots[0].ticks_max = 3 * TICKS;
+    (void)fleet_run_alone(robots, 1, TICKS);
+    fleet_memories(robots, 1, known);
+    TEST_ASSERT_EACH_EQUAL_UINT8(0, known, CELL_COUNT);   /* what it hears in its second before SET does not count */
+    (void)fleet_run_alone(robots, 1, TICKS);
+    fleet_memories(robots, 1, known);
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(company[1], known, CELL_COUNT);
+    TEST_ASSERT_EQUAL_UINT32(2 * TICKS, robots[0].known_ticks);
+}
+
+TEST(what_a_robot_knows_from_the_start_it_has_known_for_a_tick)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, fleet_command(&robots[0], OPCODE_START, PROFILE_FIXED, 7, &answer));
+    (void)fleet_run_alone(robots, 2, TICKS);
+    TEST_ASSERT_EQUAL_UINT32(1, robots[0].known_ticks);
+    TEST_ASSERT_EQUAL_UINT32(0, robots[1].known_ticks);
+}
+
 TEST(an_environment_ends_when_its_time_is_up)
 {
     TEST_ASSERT_EQUAL_size_t(0, fleet_run_alone(robots, 1, TICKS + 1));

@@ -10,7 +10,7 @@ from host_sim.base.errors import UsageError
 from host_sim.lab.study.contacts import BodyState
 from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import CURVE, TRAPPED_S, Floats, Sample
-from host_sim.lab.study.trial import knows_wrong
+from host_sim.lab.study.trial import knows_wrong, tour_s
 from host_sim.protocol.generated import Reason
 from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.fleet import FleetResult, run_fleet
@@ -26,39 +26,60 @@ def samples_of_fleets(plan: Plan) -> list[Sample]:
     Raises:
         UsageError: A condition has several robots in a world, or changes.
     """
-    if any(it.config.robots > 1 or it.config.changes for it in plan.conditions):
+    if any(it.config.changes or (it.config.robots > 1 and not it.config.is_fleet) for it in plan.conditions):
         raise UsageError(
             "a fleet has neither several robots in a world nor changes: make the study with tools/octet study"
         )
-    return [sample_of(it.condition, it.config, plan.first_seed, plan.seeds) for it in plan.conditions]
+    return [
+        _with_tours(sample_of(it.condition, it.config, plan.first_seed, plan.seeds), it.config)
+        for it in plan.conditions
+    ]
+
+
+def _with_tours(sample: Sample, config: RunConfig) -> Sample:
+    numbers = range(1, config.environments + 1)
+    seeds = range(int(sample.seeds[0]), int(sample.seeds[0]) + len(sample.seeds) * config.robots)
+    alone = [replace(config, seed=seed, robots=1) for seed in seeds]
+    tours = np.array([[tour_s(it, number) for number in numbers] for it in alone])
+    return replace(sample, tour_s=tours.reshape(sample.robot_s.shape))
 
 
 def sample_of(name: str, config: RunConfig, first_seed: int, seeds: int) -> Sample:
-    """Runs robots in worlds of their own, with the seeds from the first one on, in this process."""
-    config = replace(config, seed=first_seed, robots=seeds, worlds="own")
-    results = sorted(run_fleet(config), key=lambda result: (result.robot, result.environment))
+    """Runs robots in worlds of their own, with the seeds from the first one on, in this process; without tours.
+
+    Several robots are company: the first ones, the next ones, and so on hear each other. A company is drawn, in place
+    of a seed.
+    """
+    each_company = config.robots
+    config = replace(config, seed=first_seed, robots=seeds * each_company, worlds="own")
+    results = sorted(run_fleet(config, company=each_company), key=lambda result: (result.robot, result.environment))
     never = np.full((seeds, CURVE), np.nan)
 
     def each(of: Callable[[FleetResult], Any]) -> Floats:
         return np.array([of(result) for result in results], np.float64).reshape(seeds, -1)
 
+    def at_last(of: Callable[[FleetResult], Any]) -> Floats:
+        """Of each robot, when its last environment had ended."""
+        return each(of).reshape(seeds, each_company, -1)[:, :, -1]
+
     tick_s = SimParams().tick_s
     contacts = each(lambda it: it.contacts.number)
     return Sample(
         name=name,
-        robots=1,
+        robots=each_company,
         seeds=np.arange(first_seed, first_seed + seeds),
         finished=each(lambda it: it.finished),
         robot_s=each(lambda it: it.ticks * tick_s),
+        tour_s=each(lambda _: np.nan),
         trapped=each(lambda it: it.contacts.longest_ticks * tick_s > TRAPPED_S),
         bumped=each(lambda it: it.collisions > 0),
         denied=each(lambda it: it.denied > 0),
-        wrong=each(lambda it: knows_wrong(sides_of(it.memory), BodyState()))[:, -1],
+        wrong=at_last(lambda it: knows_wrong(sides_of(it.memory), BodyState())).mean(-1),
         contacts=contacts.sum(-1),
         blocked_s=each(lambda it: it.contacts.ticks * tick_s).sum(-1),
         turns=each(lambda it: sum(it.begun.get(reason, 0) for reason in _TURNS)).sum(-1),
         cleared=(contacts - each(lambda it: it.contacts.goes_on)).sum(-1),
-        known_s=np.full(seeds, np.inf),
+        known_s=np.median(at_last(lambda it: (it.known_ticks or np.inf) * tick_s), -1),
         blocked_at=never,
         wrong_at=never,
         recovery=never[:, 0],

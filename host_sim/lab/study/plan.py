@@ -47,6 +47,11 @@ class Plan:
     chosen_on: Sequence[int] = ()
     goals: Sequence[Goal] = ()
 
+    @property
+    def is_fleet(self) -> bool:
+        """Whether its robots have worlds of their own: they are run without a bus, and leave no rows."""
+        return any(it.config.is_fleet for it in self.conditions)
+
     def trials(self) -> list[Trial]:
         """All runs, in an order in which those with the same environments are neighbours."""
         return [

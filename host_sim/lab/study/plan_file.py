@@ -20,7 +20,7 @@ from host_sim.world.worlds import world_of
 
 _SEED_MAX = 2**32 - 1
 _KEYS = (
-    *("title", "profiles", "robots", "worlds", "bodies", "changes", "seeds", "first_seed", "chosen_on"),
+    *("title", "profiles", "robots", "worlds", "bodies", "changes", "own_worlds", "seeds", "first_seed", "chosen_on"),
     *("environments", "limit_s", "settings", "goals"),
 )
 _GOAL_KEYS = ("figure", "condition", "against", "at_least", "at_most")
@@ -79,6 +79,9 @@ class _Reader:
         robots = self._content.get("robots", [1])
         for count in robots if isinstance(robots, list) and robots else [None]:
             self._check_number(count, "robots", 1, NODE_MAX)
+        own_worlds = self._content.get("own_worlds", False)
+        if not isinstance(own_worlds, bool):
+            raise self._error(f"own_worlds is true or false, not {own_worlds!r}", "", "own_worlds")
         every = itertools.product(profiles, settings, worlds, bodies, changes, robots)
         several = [len(values) > 1 for values in (profiles, settings, worlds, bodies, changes, robots)]
         return [
@@ -92,6 +95,7 @@ class _Reader:
                     body=body,
                     changes=() if change == _NO_CHANGE else (change,),
                     robots=count,
+                    worlds="own" if own_worlds else "one",
                 ),
                 _name([profile, setting, world, body, change, f"{count} robots"], several),
             )

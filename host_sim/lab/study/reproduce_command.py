@@ -28,7 +28,7 @@ def add(commands: "Subparsers") -> None:
         "reproduce",
         _reproduce,
         summary="measure all of docs/learning.md anew",
-        description="Runs every study of a folder and writes the document's tables, plots and numbers.",
+        description=f"Runs every study that {_DOCUMENT} has a table of, and writes its tables, plots and numbers.",
         epilog=_EXAMPLES,
         stages=lambda arguments: ["study", *worker_stages(arguments)],
     )
@@ -63,25 +63,34 @@ def _reproduce(arguments: argparse.Namespace) -> int:
     from host_sim.lab.study.document import fill
 
     a = arguments
-    paths = sorted(path for path in a.studies.glob("*.toml") if a.only in (None, path.stem))
+    document = a.docs / _DOCUMENT
+    asked = document.read_text()
+    paths = sorted(
+        path for path in a.studies.glob("*.toml") if f"{path.stem}.csv" in asked and a.only in (None, path.stem)
+    )
     if not paths:
         raise UsageError(f"there is no study {a.only or ''} in {a.studies}".replace("  ", " "))
     for path in paths:
         _reproduce_study(path, arguments)
-    document = a.docs / _DOCUMENT
     write_bytes(document, fill(document.read_text(), a.docs).encode())
     print(f"wrote     {document}")
     return 0
 
 
 def _reproduce_study(path: Path, arguments: argparse.Namespace) -> None:
-    from host_sim.lab.study.compare_command import of_study
+    from host_sim.lab.study.compare_command import of_fleets, of_study
     from host_sim.lab.study.document import TABLES, write_table
+    from host_sim.lab.study.plan_file import read_plan
     from host_sim.lab.study.plots import draw_plots
 
     name, docs = path.stem, arguments.docs
-    runs = run_study(path, arguments.out / name, workers_of(arguments), arguments.chunk)
-    _, samples = of_study(arguments.out / name)
+    plan = read_plan(path)
+    if plan.is_fleet:
+        runs = f"{len(plan.conditions)} fleets"
+        _, samples = of_fleets(path)
+    else:
+        runs = run_study(path, arguments.out / name, workers_of(arguments), arguments.chunk)
+        _, samples = of_study(arguments.out / name)
     write_table(samples, docs / TABLES / f"{name}.csv")
     draw_plots(samples, docs / "images", f"{name}-", _PLOTS.get(name, ()))
     print(f"{name:9} {runs}", flush=True)

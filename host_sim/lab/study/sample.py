@@ -23,6 +23,8 @@ class Sample:
         seeds: The seeds, ascending.
         finished: For each environment, 1 if all food was eaten, else 0.
         robot_s: For each environment, robot time, s.
+        tour_s: For each environment, robot time of the shortest tour through all food at the robot's speed, s; NaN
+            where several robots share it.
         trapped: For each environment, 1 if a contact of it took more than 60 s, else 0.
         bumped: For each environment, 1 if a body touched something, else 0.
         denied: For each environment, 1 if wheels did not do what they were told, else 0.
@@ -45,6 +47,7 @@ class Sample:
     seeds: NDArray[np.int64]
     finished: Floats
     robot_s: Floats
+    tour_s: Floats
     trapped: Floats
     bumped: Floats
     denied: Floats
@@ -63,6 +66,11 @@ class Sample:
     def finished_s(self) -> Floats:
         """For each environment, robot time until it was finished, s; infinite if it was not."""
         return np.where(self.finished > 0, self.robot_s, np.inf)
+
+    @property
+    def by_tour(self) -> Floats:
+        """For each environment, the time until it was finished by that of the shortest tour."""
+        return self.finished_s / self.tour_s
 
     @property
     def recovered(self) -> Floats:
@@ -146,6 +154,7 @@ def _sample(tables: Tables, name: str, seeds: NDArray[np.int64]) -> Sample:
         seeds=seeds,
         finished=each(environments["finished"]),
         robot_s=each(environments["robot_s"]),
+        tour_s=each(environments["tour_s"]),
         trapped=trapped,
         bumped=each(environments["collisions"] > 0),
         denied=each(environments["denied"] > 0),

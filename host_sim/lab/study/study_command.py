@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from host_sim.base.errors import UsageError
 from host_sim.base.paths import as_called
 from host_sim.cli.parsing import DEFAULT, add_command, file_path, number
 
@@ -88,6 +89,8 @@ def run_study(path: Path, out: Path, workers: "Workers", chunk: int = 0) -> str:
     from host_sim.lab.study.plan_file import read_plan
 
     plan = read_plan(path)
+    if plan.is_fleet:
+        raise UsageError(f"{path}: robots in worlds of their own are a fleet: run it with tools/octet compare {path}")
     with open_study(out, plan) as folder:
         write_bytes(out / PLAN_FILE, path.read_bytes())
         done = folder.done()

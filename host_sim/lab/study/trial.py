@@ -1,17 +1,21 @@
 """One run of a study: robots in some environments, and what it shows of their behaviour."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.lab.study.contacts import BodyState, Contact, ContactWatch, Course
-from host_sim.protocol.generated import Side
+from host_sim.protocol.generated import PARAMETERS, Side
 from host_sim.protocol.memory_kinds import Memory, sides_of
 from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.world.reach import tour_mm
+from host_sim.world.worlds import world_of
 
 PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
 """The turn away from what is beside the robot, for each pattern in which something is on one side only."""
@@ -48,6 +52,7 @@ class Row:
         number: Number of the environment, from 1.
         finished: Whether all food was eaten.
         robot_s: Robot time, s.
+        tour_s: Robot time of the shortest tour through all food, s; NaN for several robots.
         contacts: Each robot's contacts.
         collisions: Number of times that a body began to touch something.
         denied: Number of times that a robot's wheels did not do what they were told.
@@ -59,6 +64,7 @@ class Row:
     number: int
     finished: bool
     robot_s: float
+    tour_s: float
     contacts: list[list[Contact]]
     collisions: int
     denied: int
@@ -123,6 +129,7 @@ def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s:
         number=number,
         finished=episode.finished,
         robot_s=episode.robot_s,
+        tour_s=tour_s(trial.config, number),
         contacts=[each.contacts() for each in watches],
         collisions=sum(robot.collisions for robot in episode.robots),
         denied=_denied(simulation) - denied,
@@ -130,6 +137,25 @@ def _run_environment(simulation: Simulation, trial: Trial, number: int, known_s:
         bodies=[each.body for each in watches],
         tick_s=episode.tick_s,
     )
+
+
+def tour_s(config: RunConfig, number: int) -> float:
+    """Robot time of the shortest tour through all food of an environment, at the robot's speed, without turning, s.
+
+    NaN where several robots share the environment.
+    """
+    if config.robots > 1:
+        return math.nan
+    return _tour_mm(config.world, config.seed, number) / config.told.get(
+        "speed_mm_s", PARAMETERS["speed_mm_s"].default
+    )
+
+
+@cache
+def _tour_mm(world: str, seed: int, number: int) -> float:
+    """Of an environment; most conditions of a study have the same ones."""
+    drawn_from = world_of(world)
+    return tour_mm(drawn_from.generate(seed, number), drawn_from.params)
 
 
 def _denied(simulation: Simulation) -> int:

@@ -1,5 +1,8 @@
 #include "host_sim/sim/native/fleet.h"
 
+#include <string.h>
+
+#include "firmware/memory/memory_kind.h"
 #include "firmware/robot.h"
 
 struct fleet_core {
@@ -34,8 +37,33 @@ void fleet_memories(const struct fleet_robot robots[], size_t count, uint8_t *ce
         cells[i] = robots[i / CELL_COUNT].core->robot.brain.memory.cell[i % CELL_COUNT];
 }
 
+static void hear(struct fleet_robot *robot)
+{
+    struct input in;
+    struct output out;
+
+    for (uint32_t half = 0; half < 2 * robot->company_size; half++) {
+        if (half / 2 == robot->company_place)
+            continue;
+        in.peer.upper = half % 2;
+        memcpy(in.peer.cell, robot->company + half * sizeof in.peer.cell, sizeof in.peer.cell);
+        robot_respond(&robot->core->robot, INPUT_PEER, &in, &out);
+    }
+}
+
+static void note_known(struct fleet_robot *robot)
+{
+    struct memory memory = robot->core->robot.brain.memory;
+
+    (void)memory_translate(&memory, MEMORY_KIND_SIDES);
+    if (memory.cell[1] && memory.cell[3] && memory.cell[4] && memory.cell[6])
+        robot->known_ticks = robot->tick + 1;
+}
+
 static void sense(struct fleet_robot *robot)
 {
+    if (robot->company_size && robot->tick % FLEET_SECOND_TICKS == 0)
+        hear(robot);
     world_sense(robot->world, robot->body, robot->tick, &robot->core->in.senses);
 }
 
@@ -64,6 +92,8 @@ static void act(struct fleet_robot *robot)
     robot->action = out.drive.action;
     robot->denied += out.denied;
     note_contact(robot, out.drive.reason);
+    if (robot->known_ticks == 0 && (out.store || robot->tick == 0))
+        note_known(robot);
     if (out.drive.eat)
         robot->food_eaten += world_eat(robot->world, robot->body);
     world_move(robot->world, robot->body, out.drive.left_mm_s, out.drive.right_mm_s);

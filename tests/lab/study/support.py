@@ -18,7 +18,9 @@ def contact(blocked_s: float = 0.2, turns: int = 1, sides=NOTHING, cleared: bool
 def row(robot_s: float = 100.0, contacts=(), **fields) -> Row:
     """An environment, with one robot."""
     known = {"number": 1, "finished": True, "collisions": 0, "denied": 0, "sides": [NOTHING], "bodies": [SOUND]}
-    return Row(**{**known, "robot_s": robot_s, "contacts": [list(contacts)], "tick_s": TICK_S, **fields})
+    return Row(
+        **{**known, "robot_s": robot_s, "tour_s": 20.0, "contacts": [list(contacts)], "tick_s": TICK_S, **fields}
+    )
 
 
 def trial(profile: str, seed: int, environments: int = 1, **options) -> Trial:

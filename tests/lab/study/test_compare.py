@@ -120,3 +120,14 @@ def test_who_remembers_scores_more_and_who_does_not_never_learns():
     assert early["Alpha"] == pytest.approx(late["Alpha"], abs=0.06)
     assert late["Beta"] > late["Alpha"] + 0.25
     assert late["Gamma"] > late["Alpha"] + 0.25
+
+
+def test_a_study_of_robots_in_worlds_of_their_own_is_compared_as_fleets(tmp_path, capsys):
+    plan = tmp_path / "a.toml"
+    few = "robots = [2]\nown_worlds = true\nseeds = 2\nenvironments = 1\nlimit_s = 5\n"
+    plan.write_text(f'profiles = ["fixed"]\n{few}')
+
+    assert main(["study", str(plan), "--out", str(tmp_path / "out")]) == 2
+    assert f"run it with tools/octet compare {plan}" in capsys.readouterr().err
+    assert main(["compare", str(plan)]) == 0
+    assert "a: 2 seeds of 1 environment each" in capsys.readouterr().out

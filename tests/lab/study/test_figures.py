@@ -38,6 +38,10 @@ def test_an_environment_that_was_not_finished_has_no_time_to_finish():
     assert value("mean_s", *runs, run("a", 3, row(100.0))) == 475
 
 
+def test_a_time_is_held_against_that_of_the_shortest_tour():
+    assert value("by_tour", *FOUR, run("a", 4, row(600.0, finished=False))) == 15
+
+
 def test_finished_is_a_part_of_the_environments():
     assert value("finished", run("a", 1, row(), row(number=2, finished=False))) == 50
 

@@ -32,6 +32,11 @@ def test_every_combination_is_a_condition_and_the_seeds_are_the_same(plan):
     assert found.conditions[2].config.settings == {"filter": 1}
 
 
+def test_robots_of_a_study_share_a_world_or_have_their_own(plan):
+    assert not plan('profiles = ["article"]\nrobots = [4]').is_fleet
+    assert plan('profiles = ["article"]\nrobots = [4]\nown_worlds = true').is_fleet
+
+
 def test_brackets_without_end_are_refused(plan):
     with pytest.raises(UsageError, match="too many brackets"):
         plan("profiles = " + "[" * 5000)
@@ -56,6 +61,7 @@ def test_a_condition_is_named_by_what_varies(plan):
         ('profiles = ["article"\nseeds = 3', "a.toml:2: this is not TOML"),
         ('profiles = ["article"]\nbodies = ["nobody"]', ":2: bodies: "),
         ('seeds = 3\nprofiles = ["artcle"]', ":2: profiles: there is no 'artcle'; did you mean article?"),
+        ('profiles = ["article"]\nown_worlds = 1', ":2: own_worlds is true or false, not 1"),
         ('profiles = ["article"]\nsedes = 3', ":2: unknown key 'sedes'; did you mean seeds?"),
         ('profiles = ["article"]\nseeds = 0', ":2: seeds is a whole number from 1 to 100000, not 0"),
         ('profiles = ["article"]\nseeds = true', ":2: seeds is a whole number"),

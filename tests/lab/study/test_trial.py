@@ -1,6 +1,7 @@
 """One run of a study: equal trials give equal rows, alone or as fleets; contacts are counted tick by tick."""
 
 import json
+import math
 import shlex
 from dataclasses import fields
 
@@ -122,7 +123,7 @@ def test_the_turns_of_the_contacts_are_those_that_the_robot_began():
     assert sum(it.remembered for it in contacts) == episode.begun(Reason.REMEMBERED)
 
 
-LOGGED = {"known_s", "blocked_at", "wrong_at", "recovery", "settled"}
+LOGGED = {"blocked_at", "wrong_at", "recovery", "settled"}
 """What only logs tell."""
 
 
@@ -135,6 +136,41 @@ def test_a_fleet_has_the_figures_of_runs_of_their_own(body):
     for name in {it.name for it in fields(one)} - LOGGED - {"name", "robots"}:
         assert np.allclose(getattr(one, name), getattr(other, name)), name
     assert one.contacts.sum() > 0
+
+
+def test_a_robot_of_a_fleet_knows_its_turns_as_soon_as_one_of_its_own():
+    plan = Plan("", [Trial(RunConfig(environments=2, profile="adaptive"))], 3, 8)
+
+    (one,), (other,) = samples_of_fleets(plan), samples_of(tables_of(map(run_trial, plan.trials())))
+
+    assert np.isfinite(one.known_s).sum() > 3
+    assert np.array_equal(one.known_s, other.known_s)
+
+
+def test_robots_that_share_have_worlds_of_their_own_and_know_sooner():
+    alone, sharing = (
+        Trial(RunConfig(environments=2, profile="adaptive", robots=8, worlds="own", settings={"share": share}))
+        for share in (0, 1)
+    )
+
+    one, other = samples_of_fleets(Plan("", [alone, sharing], 1, 6))
+
+    assert one.robots == 8
+    assert one.robot_s.shape == one.tour_s.shape == (6, 16)
+    assert np.median(other.known_s) < np.median(one.known_s) / 3
+
+
+@pytest.mark.parametrize(("settings", "speed_mm_s"), [({}, 200), ({"speed_mm_s": 100}, 100)])
+def test_no_robot_is_quicker_than_the_shortest_tour_but_for_the_distance_from_which_it_eats(settings, speed_mm_s):
+    searching = [run_trial(trial("searcher", seed, settings=settings)).rows[0] for seed in range(1, 13)]
+
+    spared_s = 5 * SimParams().eat_reach_mm / speed_mm_s
+    assert all(it.robot_s > it.tour_s - spared_s for it in searching)
+    assert min(it.robot_s / it.tour_s for it in searching) < 1.5
+
+
+def test_robots_that_share_an_environment_have_no_tour():
+    assert math.isnan(run_trial(trial("searcher", 1, robots=2)).rows[0].tour_s)
 
 
 def test_a_contact_counts_as_far_as_in_a_study():
