@@ -17,7 +17,7 @@ from host_sim.live.paced_run import PacedRun
 from host_sim.live.page_commands import FULL_SPEED, TEXT_MAX
 from host_sim.live.seats import Rights, Seats
 from host_sim.live.visitor import Visitor
-from host_sim.view.languages import with_languages
+from host_sim.view.languages import languages, with_languages
 
 PAGES_MAX = 64
 """Maximum number of open pages: a class, those that have just been reloaded, and the board."""
@@ -109,7 +109,7 @@ class LiveServer:
     async def _check_host(self, request: web.Request, handler: _Handler) -> web.StreamResponse:
         if not self._listener.is_ours(request.host):
             self._live.refused += 1
-            raise web.HTTPForbidden(text="the address must be the one that octet printed\n")
+            raise web.HTTPForbidden(text=_told("the address must be the one that octet printed"))
         return await handler(request)
 
     async def _page(self, request: web.Request) -> web.StreamResponse:
@@ -128,9 +128,9 @@ class LiveServer:
             if self._listener.code.opens(request.match_info["code"], request.remote or ""):
                 raise web.HTTPFound(f"/?token={self._listener.token}")
         except TooManyGuessesError as error:
-            raise web.HTTPTooManyRequests(text=f"{error}\n") from None
+            raise web.HTTPTooManyRequests(text=_told(f"{error}")) from None
         self._live.refused += 1
-        raise web.HTTPForbidden(text="that is not the code: compare it with the one on the board\n")
+        raise web.HTTPForbidden(text=_told("that is not the code: compare it with the one on the board"))
 
     async def _part(self, request: web.Request) -> web.StreamResponse:
         name = request.match_info["name"]
@@ -201,7 +201,7 @@ class LiveServer:
     def _check_token(self, request: web.Request, holds: Callable[[str], bool]) -> None:
         if not holds(request.query.get("token", "")):
             self._live.refused += 1
-            raise web.HTTPForbidden(text="the address must end with ?token=..., as octet printed it\n")
+            raise web.HTTPForbidden(text=_told("the address must end with ?token=..., as octet printed it"))
 
     def _check_origin(self, request: web.Request) -> None:
         """Allows only our own page to open a socket: any other page in the same browser could try."""
@@ -213,6 +213,11 @@ class LiveServer:
 async def _say_goodbye(page: web.WebSocketResponse) -> None:
     with contextlib.suppress(ConnectionError, asyncio.TimeoutError):
         await asyncio.wait_for(page.close(code=WSCloseCode.GOING_AWAY, message=b"the run has ended"), 1.0)
+
+
+def _told(what: str) -> str:
+    """A refusal in all languages: it comes before any page that knows its reader's."""
+    return "".join(f"{words.get('heard', {}).get(what, what)}\n" for words in languages().values())
 
 
 def _html(name: str) -> web.Response:

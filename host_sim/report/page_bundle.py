@@ -6,7 +6,7 @@ So that a template can be opened as it is:
   each in its own function. An import must be one line, `import { a, b } from "./y.js";`, an export the word before a
   declaration. A module in a folder of `web/` is known by its path from there, `folder/y.js`.
 
-Comments that have lines of their own, types in a line, and indentation are left out: a third of a page.
+Comments that have lines of their own, types in a line, indentation and empty lines are left out: a third of a page.
 """
 
 import base64
@@ -22,7 +22,7 @@ _STYLE = re.compile(r'<link rel="stylesheet" href="([\w./-]+)">')
 _SCRIPT = re.compile(r'<script type="module" src="([\w./-]+)"></script>')
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "(\.\.?/[\w./-]+)";$', re.MULTILINE)
 _COMMENT = re.compile(r"^[ \t]*(?:/\*[^*]*\*+(?:[^/*][^*]*\*+)*/|//[^\n]*)\n", re.MULTILINE)
-_NOT_READ = re.compile(r"^[ \t]+|/\*\* @type [^*]*\*/ ?", re.MULTILINE)
+_NOT_READ = re.compile(r"^\s+|/\*\* @type [^*]*\*/ ?", re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:function\*?|const|let|class) (\w+))", re.MULTILINE)
 
 

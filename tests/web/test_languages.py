@@ -1,23 +1,19 @@
 """The words of the pages: every text in each language, none that no page shows, and none anywhere else."""
 
 import copy
-import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Page
 
 from host_sim.base.paths import WEB
-from host_sim.protocol.generated import BODY_SENTENCES, PARAMETERS, PATTERNS, SENTENCES, SIDES
-from host_sim.report.octet_page import octet_page
+from host_sim.protocol.generated import BODY_SENTENCES, PATTERNS, PROFILES, SENTENCES, SIDES
 from host_sim.view import languages as module
 from host_sim.view.languages import languages
+from host_sim.world.world_names import WORLD_NAMES
 from tests.runs.support import ROOT
-from tests.web.lab.support import READY, go, settle
-from tests.web.support import next_frame
 
 TEXTS = languages()
 GAPS = re.compile(r"\{\w+\}")
@@ -26,6 +22,12 @@ SAID_IN_ENGLISH = {
     "host_sim/world/native/edits.c": r'(?:return|:|=) "([^"]+)"',
     "host_sim/web/sim": r'(?:Error|LineError|error)\((?:\w+, )?(["`][^"`]+["`])\)',
     "host_sim/web/lab": r"Error\((`[^`]+`)\)",
+    "host_sim/web/replay": r'(?:why:|return) (["`][A-Z][^"`]+["`])',
+    "host_sim/report/laboratory.py": r'"why": f?("[^"]+")',
+    "host_sim/live/server.py": r'_told\(("[^"]+")',
+    "host_sim/live/join_code.py": r'Error\(("[^"]+")',
+    "host_sim/live/paced_run.py": r'EditError\(("[^"]+")',
+    "host_sim/live/seats.py": r'(?:_THE_BOARDS =|_ONLY_WATCHING =|Error\() ?f?("[^"]+")',
 }
 """Where sentences come from that a page hears in English, and how they stand there."""
 INSIDE = re.compile("the worker has|no program")
@@ -116,12 +118,12 @@ def said_in_english() -> set[str]:
         place = ROOT / where
         for path in sorted(place.rglob("*.js")) if place.is_dir() else [place]:
             said |= {numbered(it.strip('`"')) for it in re.findall(how, path.read_text())}
-    return {it for it in said if " " in it and not INSIDE.search(it)}
+    return {it for it in said if " " in it and not INSIDE.search(it)} | {*WORLD_NAMES, *PROFILES}
 
 
 def numbered(text: str) -> str:
     gaps = iter(range(9))
-    return re.sub(r"\$\{[^}]*\}", lambda _: f"{{{next(gaps)}}}", text)
+    return re.sub(r"\$?\{[^}]*\}", lambda _: f"{{{next(gaps)}}}", text)
 
 
 @pytest.mark.parametrize("code", [code for code in TEXTS if code != "en"])
@@ -146,91 +148,6 @@ def test_no_template_has_a_text(name):
 
     assert texts_in_html(html) == []
     assert texts_in_html(html.replace("<main>", '<main><p title="a title">words</p>')) == ["a title", "words"]
-
-
-SEEN = """() => {
-  const NOT_WORDS = "code, textarea, script, #language, #listing, #talk-said, #program-variables";
-  const said = [];
-  for (const element of document.querySelectorAll("body *")) {
-    if (!element.checkVisibility() || element.closest(NOT_WORDS)) continue;
-    said.push(...["aria-label", "title", "placeholder"].map((name) => element.getAttribute(name)));
-    said.push(...[...element.childNodes].filter(({ nodeType }) => nodeType === 3).map(({ data }) => data));
-  }
-  return said.filter(Boolean);
-}"""
-NAMES = re.compile("|".join(["Octet|ELIZA|English|Deutsch|Esperanto|mm/s|mm|ms", *PARAMETERS]))
-"""What is called so in every language."""
-
-
-def made_up(words: Any) -> Any:
-    """Words in letters that no other language has."""
-    if isinstance(words, str):
-        wide = {letter: letter + 0xFEE0 for letter in range(ord("!"), ord("~") + 1)}
-        return "".join(it if it.startswith("{") else it.translate(wide) for it in re.split(r"(\{\w+\})", words))
-    return {k: made_up(v) for k, v in words.items()} if isinstance(words, dict) else [made_up(it) for it in words]
-
-
-@pytest.fixture(scope="module")
-def esperanto(tmp_path_factory) -> Path:
-    """octet.html with a third language, of which nothing is known but its file."""
-    home = tmp_path_factory.mktemp("web")
-    (home / "texts").mkdir()
-    for code, words in TEXTS.items():
-        (home / f"texts/{code}.json").write_text(json.dumps(words))
-    robot = {"sentences": SENTENCES, "patterns": PATTERNS, "sides": SIDES}
-    heard = {it: made_up(it) for it in TEXTS["de"]["heard"]}
-    third = {**made_up({**TEXTS["en"], "robot": robot}), "heard": heard, "language": "Esperanto"}
-    (home / "texts/eo.json").write_text(json.dumps(third))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "WEB", home)
-        (home / "octet.html").write_text(octet_page())
-    return home / "octet.html"
-
-
-def foreign(page: Page) -> set[str]:
-    """What a page says in letters that its language does not have."""
-    next_frame(page)
-    return {it for it in page.evaluate(SEEN) if re.search("[A-Za-z]{2}", NAMES.sub("", it))}
-
-
-@pytest.fixture(scope="module")
-def third(esperanto: Path, open_shared: Callable[..., Page]) -> Page:
-    page = open_shared(esperanto.as_uri(), ready=READY, locale="eo", reduced_motion="reduce")
-    settle(page)
-    return page
-
-
-@pytest.mark.parametrize("tab", ["run", "parameters", "listing", "program", "curves", "files", "talk", "lessons"])
-def test_a_language_whose_file_alone_is_added_is_spoken_by_the_whole_page(tab, third):
-    third.click(f"#tab-{tab}")
-    third.click("summary >> visible=true >> nth=-1")
-    for tick in (0, 400, third.evaluate("octet.last")):
-        go(third, tick)
-        assert foreign(third) == set()
-
-
-def test_what_goes_wrong_is_said_in_it_too(third):
-    third.evaluate("octet.begin({ ...octet.lane.experiment, changes: [] })")
-    settle(third)
-    third.click("#what-if")
-    third.evaluate("octet.change({ do: 'put', robot: 0, at: [100, 100], heading: 0 })")
-    settle(third)
-    assert third.inner_text("#note") == made_up("the robot is not in the air")
-    third.evaluate("octet.change({ do: 'body', what: 'weak-motor:left:60%', robot: 0, seed: 1 })")
-    settle(third)
-    go(third, 2000)
-
-    assert third.inner_text("#news") != ""
-    assert foreign(third) == set()
-
-
-def test_another_language_is_chosen_without_loading_the_page_again(third):
-    third.select_option("#language", "de")
-    assert third.inner_text("#erase") == TEXTS["de"]["page"]["erase"]
-    assert third.get_attribute("html", "lang") == "de"
-
-    third.select_option("#language", "eo")
-    assert foreign(third) == set()
 
 
 @pytest.mark.parametrize("change", ["missing", "more", "empty", "gap", "shorter"])

@@ -21,9 +21,19 @@ const FOOD_MM = 50;
 
 /** Keeps its canvas as sharp as the screen. */
 export class Renderer {
-  /** @param {HTMLCanvasElement} canvas */
-  constructor(canvas) {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {import("./lens.js").Lens} [lens] - Says which part of the arena to show; without one, all of it.
+   */
+  constructor(canvas, lens) {
     this.canvas = canvas;
+    this.lens = lens;
+    lens?.watch(this);
+    /** The scene that was drawn last. @type {Scene | undefined} */
+    this.scene = undefined;
+    /** The upper left corner of what is in view, and its middle, mm. */
+    this.corner = { x: -MARGIN_MM, y: -MARGIN_MM };
+    this.middle = { x: 0, y: 0 };
     this.context = contextOf(canvas, { alpha: false });
     /** Asked before each drawing: a listener would hold this canvas for as long as the page is open. */
     this.dark = matchMedia("(prefers-color-scheme: dark)");
@@ -40,7 +50,8 @@ export class Renderer {
     this.useColours();
     const { context, palette } = this;
     const states = [...scene.states].sort((a, b) => Number(a === scene.state) - Number(b === scene.state));
-    this.fit(scene.measures);
+    this.scene = scene;
+    this.fit(scene);
     this.drawFloor(scene.measures);
     this.trailLayer.draw(context, scene.trails, palette.reasons, scene.trail);
     for (const state of states) drawLook(context, scene, state, palette);
@@ -60,7 +71,7 @@ export class Renderer {
   placeOf(at) {
     const box = this.canvas.getBoundingClientRect();
     const perMm = (this.scale * box.width) / this.canvas.width;
-    return { x: (at.clientX - box.left) / perMm - MARGIN_MM, y: (at.clientY - box.top) / perMm - MARGIN_MM };
+    return { x: (at.clientX - box.left) / perMm + this.corner.x, y: (at.clientY - box.top) / perMm + this.corner.y };
   }
 
   /**
@@ -84,25 +95,33 @@ export class Renderer {
   }
 
   /**
-   * Gives the canvas a pixel for each of the screen's, and mm as its unit.
-   * @param {Measures} measures
+   * Gives the canvas a pixel for each of the screen's, mm as its unit, and what is to be in view as its content.
+   * @param {Scene} scene
    */
-  fit(measures) {
+  fit(scene) {
+    const { measures } = scene;
     const width = Math.max(1, Math.round(this.size.width * devicePixelRatio));
     const height = Math.max(1, Math.round(this.size.height * devicePixelRatio));
     if (this.canvas.width !== width || this.canvas.height !== height) {
       this.canvas.width = width;
       this.canvas.height = height;
     }
-    this.scale = Math.min(width / (measures.width + 2 * MARGIN_MM), height / (measures.height + 2 * MARGIN_MM));
-    this.context.setTransform(this.scale, 0, 0, this.scale, MARGIN_MM * this.scale, MARGIN_MM * this.scale);
+    const whole = Math.min(width / (measures.width + 2 * MARGIN_MM), height / (measures.height + 2 * MARGIN_MM));
+    this.scale = whole * (this.lens?.zoom ?? 1);
+    const middle = this.lens?.middleOf(scene) ?? { x: 0, y: 0 };
+    const [across, down] = [width / this.scale, height / this.scale];
+    const { corner, scale } = this;
+    corner.x = Math.max(-MARGIN_MM, Math.min(middle.x - across / 2, measures.width + MARGIN_MM - across));
+    corner.y = Math.max(-MARGIN_MM, Math.min(middle.y - down / 2, measures.height + MARGIN_MM - down));
+    this.middle = { x: corner.x + across / 2, y: corner.y + down / 2 };
+    this.context.setTransform(scale, 0, 0, scale, -corner.x * scale, -corner.y * scale);
   }
 
   /** @param {Measures} measures */
   drawFloor(measures) {
-    const { context, palette } = this;
+    const { context, palette, corner } = this;
     context.fillStyle = palette.of.bar;
-    context.fillRect(-MARGIN_MM, -MARGIN_MM, this.canvas.width / this.scale, this.canvas.height / this.scale);
+    context.fillRect(corner.x, corner.y, this.canvas.width / this.scale, this.canvas.height / this.scale);
     context.fillStyle = palette.of.floor;
     context.fillRect(0, 0, measures.width, measures.height);
     context.fillStyle = palette.of.grid;

@@ -26,7 +26,7 @@ export class TrailLayer {
   constructor() {
     this.canvas = document.createElement("canvas");
     this.context = contextOf(this.canvas);
-    /** Which trails the last frame had, and how many points. */
+    /** Which trails the last frame had, in which part of the arena, and how many points. */
     this.before = { key: "", added: [0] };
     this.drawn = { at: 0, key: "", added: [0], colours: [""] };
   }
@@ -39,7 +39,8 @@ export class TrailLayer {
    */
   draw(context, trails, colours, selected) {
     const order = [...trails.filter((trail) => trail !== selected), selected];
-    const key = [order.map(({ epoch }) => epoch), trails.indexOf(selected)].join();
+    const { a, e, f } = context.getTransform();
+    const key = [order.map(({ epoch }) => epoch), trails.indexOf(selected), a, e, f].join();
     const { before } = this;
     this.before = { key, added: order.map(({ added }) => added) };
     if (before.key !== key || haveGrown(order, before.added)) {

@@ -48,6 +48,7 @@ export class DragController {
 
   /** @param {PointerEvent} event */
   begin(event) {
+    if (!event.isPrimary) return this.drop();
     const { scene } = this.editor;
     const from = this.renderer.placeOf(event);
     const slack = event.pointerType === "touch" ? this.renderer.lengthOf(FINGER_PX) : 0;
@@ -77,6 +78,13 @@ export class DragController {
     const at = this.renderer.placeOf(event);
     if (drag.item.kind === "robot") this.editor.put(drag.item.id);
     else if (distance(at, drag.from) > CLICK_MM) this.moveItem(drag, at);
+  }
+
+  /** With a second finger, what is dragged stays where it is. */
+  drop() {
+    const robot = this.robot;
+    this.drag = undefined;
+    if (robot !== undefined) this.editor.put(robot);
   }
 
   /**

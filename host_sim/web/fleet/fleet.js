@@ -5,7 +5,7 @@ import { made } from "../core/building.js";
 import { byId, setText, typedById } from "../core/elements.js";
 import { fleetData } from "./fleet_data.js";
 import { FleetPicture } from "./fleet_picture.js";
-import { inEachLanguage, robotWords, say } from "../core/language.js";
+import { heard, inEachLanguage, robotWords, say } from "../core/language.js";
 import { minutes } from "../core/phrases.js";
 import { drawChart } from "../draw/chart.js";
 import { PATTERNS, SIDES } from "../generated.js";
@@ -43,7 +43,7 @@ class FleetPage {
   /** Writes what depends on the language. */
   write() {
     const { robots, profile, seed } = this.fleet;
-    setText(byId("status"), say("fleetTitle", { robots, profile, seed }));
+    setText(byId("status"), say("fleetTitle", { robots, profile: heard(profile), seed }));
     setText(byId("play"), say(this.playing ? "pause" : "play"));
     setText(byId("opened-name"), say("robotNumber", { node: this.opened + 1 }));
     this.shown = "";

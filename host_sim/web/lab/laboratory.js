@@ -82,7 +82,7 @@ export class Laboratory extends PlayingPage {
    * @param {Experiment} experiment
    */
   addLane(experiment) {
-    const lane = new ShownRun(experiment, byId("floors"));
+    const lane = new ShownRun(experiment, byId("floors"), this.lens);
     this.lanes.push(lane);
     lane.canvas.addEventListener("pointerdown", () => this.select(lane), { capture: true });
     lane.canvas.addEventListener("focus", () => this.select(lane));

@@ -30,8 +30,9 @@ export class ShownRun {
   /**
    * @param {Experiment} experiment
    * @param {HTMLElement} parent - Where its arena goes.
+   * @param {import("../draw/lens.js").Lens} lens - Says which part of the arena to show.
    */
-  constructor(experiment, parent) {
+  constructor(experiment, parent, lens) {
     this.experiment = experiment;
     this.name = LETTERS[lanes % LETTERS.length];
     lanes += 1;
@@ -42,7 +43,7 @@ export class ShownRun {
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "application");
     this.canvas.setAttribute("aria-describedby", "help");
-    this.renderer = new Renderer(this.canvas);
+    this.renderer = new Renderer(this.canvas, lens);
     /** @type {RunData | undefined} */
     this.data = undefined;
     /** @type {Scene | undefined} */

@@ -3,6 +3,7 @@
 
 import { byId, isForPage, setText, typedById } from "../core/elements.js";
 import { inEachLanguage, say } from "../core/language.js";
+import { Lens } from "../draw/lens.js";
 import { explainMarks } from "../panel/timeline.js";
 
 /**
@@ -25,6 +26,7 @@ export class PlayingPage {
     this.frameAt = undefined;
     /** Whether there is anything new to draw. */
     this.stale = true;
+    this.lens = new Lens(() => (this.stale = true));
     this.scrub = typedById("scrub", HTMLInputElement);
     this.marks = typedById("marks", HTMLCanvasElement);
     this.scrub.min = `${first}`;
@@ -40,6 +42,7 @@ export class PlayingPage {
       this.stale = true;
     });
     new ResizeObserver(() => this.resize()).observe(this.marks);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.resize());
     requestAnimationFrame((now) => this.frame(now));
   }
 

@@ -30,7 +30,7 @@ class Player extends PlayingPage {
      * @type {number | undefined}
      */
     this.pinned = undefined;
-    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement));
+    this.renderer = new Renderer(typedById("arena", HTMLCanvasElement), this.lens);
     this.panel = new Panel();
     this.lessonsView = new LessonsView();
     this.scene = new Scene(data.measures, data.sceneAt(data.first), data.statesAt(data.first));

@@ -1,0 +1,169 @@
+// @ts-check
+/* Which part of the arena a page shows: zoomed and moved by wheel, fingers, buttons and keys, or following the robot. */
+
+import { byId, isForPage, typedById } from "../core/elements.js";
+import { itemAt } from "../edit/hit_testing.js";
+
+/**
+ * @typedef {import("./renderer.js").Renderer} Renderer
+ * @typedef {import("./scene.js").Scene} Scene
+ * @typedef {import("../types.js").Place} Place
+ */
+
+const ZOOM_MAX = 10;
+const ZOOM_STEP = 1.5;
+/** The zoom in which a robot is followed, if there was none. */
+const FOLLOW_ZOOM = 2.5;
+const WHEEL_PX = 400;
+/** The part of what is in view by which an arrow key moves it. */
+const ARROW_SHARE = 0.15;
+/** @type {Record<string, [number, number]>} */
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
+/** One for all arenas of a page, whose buttons are zoom-in, zoom-out and follow. */
+export class Lens {
+  /** @param {() => void} onChange - Called when the arenas are to be drawn anew. */
+  constructor(onChange) {
+    this.onChange = onChange;
+    this.zoom = 1;
+    this.follows = false;
+    /**
+     * The middle of what is in view, mm; undefined for that of the arena.
+     * @type {Place | undefined}
+     */
+    this.middle = undefined;
+    /**
+     * Where each finger is, by the number of its pointer.
+     * @type {Map<number, PointerEvent>}
+     */
+    this.fingers = new Map();
+    byId("zoom-in").addEventListener("click", () => this.magnify(ZOOM_STEP));
+    byId("zoom-out").addEventListener("click", () => this.magnify(1 / ZOOM_STEP));
+    byId("follow").addEventListener("click", () => this.follow(!this.follows));
+    document.addEventListener("keydown", (event) => this.onKey(event));
+    this.show();
+  }
+
+  /**
+   * The middle of what is to be in view of a scene.
+   * @param {Scene} scene
+   * @returns {Place} mm
+   */
+  middleOf(scene) {
+    const { width, height } = scene.measures;
+    return this.follows ? scene.poseOf(scene.state) : (this.middle ?? { x: width / 2, y: height / 2 });
+  }
+
+  /**
+   * @param {number} factor
+   * @param {Renderer} [renderer] - The arena in which a place stays where it is.
+   * @param {Place} [at] - That place, mm.
+   * @returns {boolean} Whether there is anything left to zoom.
+   */
+  magnify(factor, renderer, at) {
+    const zoom = Math.min(ZOOM_MAX, Math.max(1, this.zoom * factor));
+    if (zoom === this.zoom) return false;
+    const from = renderer?.middle;
+    const part = this.zoom / zoom;
+    if (at && from) this.middle = { x: at.x + (from.x - at.x) * part, y: at.y + (from.y - at.y) * part };
+    this.zoom = zoom;
+    if (zoom === 1) [this.follows, this.middle] = [false, undefined];
+    this.show();
+    return true;
+  }
+
+  /** @param {boolean} follows */
+  follow(follows) {
+    this.follows = follows;
+    if (follows && this.zoom === 1) this.zoom = FOLLOW_ZOOM;
+    this.show();
+  }
+
+  /**
+   * Moves what is in view.
+   * @param {Renderer} renderer
+   * @param {Place} by - mm
+   */
+  move({ middle }, by) {
+    this.follows = false;
+    this.middle = { x: middle.x + by.x, y: middle.y + by.y };
+    this.show();
+  }
+
+  show() {
+    typedById("zoom-out", HTMLButtonElement).disabled = this.zoom === 1;
+    typedById("zoom-in", HTMLButtonElement).disabled = this.zoom === ZOOM_MAX;
+    byId("follow").setAttribute("aria-pressed", `${this.follows}`);
+    document.body.classList.toggle("zoomed", this.zoom > 1);
+    this.onChange();
+  }
+
+  /** @param {KeyboardEvent} event */
+  onKey(event) {
+    if (!isForPage(event, "select, input, textarea")) return;
+    const { key } = event;
+    if (key === "+" || key === "=") this.magnify(ZOOM_STEP);
+    else if (key === "-") this.magnify(1 / ZOOM_STEP);
+    else if (key.toLowerCase() === "f") this.follow(!this.follows);
+  }
+
+  /**
+   * Lets an arena be zoomed and moved where it is.
+   * @param {Renderer} renderer
+   */
+  watch(renderer) {
+    const { canvas } = renderer;
+    canvas.addEventListener("wheel", (event) => {
+      const zooms = this.magnify(Math.exp(-event.deltaY / WHEEL_PX), renderer, renderer.placeOf(event));
+      if (zooms || this.zoom > 1) event.preventDefault();
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => this.onArrow(event, renderer));
+    canvas.addEventListener("pointerdown", (event) => this.press(event, renderer));
+    canvas.addEventListener("pointermove", (event) => this.drag(event, renderer));
+    for (const end of ["pointerup", "pointercancel"]) {
+      canvas.addEventListener(end, (event) => this.fingers.delete(/** @type {PointerEvent} */ (event).pointerId));
+    }
+  }
+
+  /**
+   * Arrow keys move what is in view, unless they move an item.
+   * @param {KeyboardEvent} event
+   * @param {Renderer} renderer
+   */
+  onArrow(event, renderer) {
+    const arrow = ARROWS[event.key];
+    if (!arrow || this.zoom === 1 || renderer.scene?.item || !isForPage(event, "select")) return;
+    const [x, y] = arrow.map((step) => step * ARROW_SHARE * renderer.lengthOf(renderer.canvas.clientWidth));
+    event.preventDefault();
+    event.stopPropagation();
+    this.move(renderer, { x, y });
+  }
+
+  /**
+   * @param {PointerEvent} event
+   * @param {Renderer} renderer
+   */
+  press(event, renderer) {
+    const hits = renderer.scene && itemAt(renderer.scene, renderer.placeOf(event));
+    if (hits && event.isPrimary) return;
+    this.fingers.set(event.pointerId, event);
+    if (this.zoom > 1) renderer.canvas.setPointerCapture(event.pointerId);
+  }
+
+  /**
+   * One finger moves what is in view, two zoom it, too.
+   * @param {PointerEvent} event
+   * @param {Renderer} renderer
+   */
+  drag(event, renderer) {
+    const before = this.fingers.get(event.pointerId);
+    if (!before) return;
+    const [from, to] = [renderer.placeOf(before), renderer.placeOf(event)];
+    const other = [...this.fingers.values()].find(({ pointerId }) => pointerId !== event.pointerId);
+    this.fingers.set(event.pointerId, event);
+    if (other) {
+      const apart = (/** @type {PointerEvent} */ it) => Math.hypot(it.clientX - other.clientX, it.clientY - other.clientY);
+      this.magnify(apart(event) / Math.max(1, apart(before)), renderer, renderer.placeOf(other));
+    } else if (this.zoom > 1) this.move(renderer, { x: from.x - to.x, y: from.y - to.y });
+  }
+}

@@ -1,0 +1,96 @@
+"""An arena is zoomed and moved by wheel, pointer, keys and buttons, and can follow its robot."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import Page
+
+from tests.web.support import next_frame
+
+AT = """([x, y]) => {
+  const place = octet.renderer.placeOf({ clientX: x, clientY: y });
+  return [place.x, place.y];
+}"""
+
+
+@pytest.fixture
+def page(recorded: Path, open_page: Callable[..., Page]) -> Page:
+    return open_page(recorded.as_uri())
+
+
+def at(page: Page, x: float, y: float) -> list[float]:
+    """The place in the arena at a part of its picture, mm."""
+    next_frame(page)
+    box = page.locator("#arena").bounding_box()
+    return page.evaluate(AT, [box["x"] + x * box["width"], box["y"] + y * box["height"]])
+
+
+def point(page: Page, x: float, y: float) -> None:
+    box = page.locator("#arena").bounding_box()
+    page.mouse.move(box["x"] + x * box["width"], box["y"] + y * box["height"])
+
+
+def test_the_wheel_zooms_where_the_pointer_is(page):
+    before, corner = at(page, 0.4, 0.6), at(page, 0, 0)
+    point(page, 0.4, 0.6)
+    page.mouse.wheel(0, -300)
+
+    assert at(page, 0.4, 0.6) == pytest.approx(before, abs=3)
+    assert at(page, 0, 0)[0] > corner[0] + 500
+    page.mouse.wheel(0, 3000)
+    assert at(page, 0, 0) == corner
+
+
+def test_a_pointer_on_the_floor_and_arrows_in_the_arena_move_what_is_in_view(page):
+    page.click("#zoom-in")
+    page.click("#zoom-in")
+    before = at(page, 0.5, 0.5)
+    point(page, 0.5, 0.5)
+    page.mouse.down()
+    point(page, 0.6, 0.7)
+    page.mouse.up()
+    assert at(page, 0.6, 0.7) == pytest.approx(before, abs=3)
+
+    tick, before = page.evaluate("octet.tick"), at(page, 0.5, 0.5)
+    page.focus("#arena")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowDown")
+    x, y = at(page, 0.5, 0.5)
+    assert (x > before[0] + 100, y > before[1] + 100) == (True, True)
+    assert page.evaluate("octet.tick") == tick
+
+
+def test_it_follows_the_robot_up_to_the_walls_until_all_is_in_view_again(page):
+    page.keyboard.press("f")
+    page.keyboard.press("+")
+    assert page.get_attribute("#follow", "aria-pressed") == "true"
+    for tick in (200, 900):
+        page.evaluate("tick => octet.go(tick)", tick)
+        (x0, y0), (x1, y1) = at(page, 0, 0), at(page, 1, 1)
+        robot = page.evaluate("[octet.scene.state.x, octet.scene.state.y]")
+        assert x0 < robot[0] < x1
+        assert y0 < robot[1] < y1
+        assert min(x0, y0) >= -41
+    for _ in range(6):
+        page.keyboard.press("-")
+
+    assert page.get_attribute("#follow", "aria-pressed") == "false"
+    assert page.is_disabled("#zoom-out")
+    assert at(page, 0, 0) == pytest.approx([-40, -40], abs=1)
+
+
+def test_two_fingers_zoom(recorded, open_page):
+    page = open_page(recorded.as_uri(), has_touch=True, viewport={"width": 390, "height": 844})
+    fingers = page.context.new_cdp_session(page)
+    box = page.locator("#arena").bounding_box()
+
+    def touch(kind: str, apart: float) -> None:
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        points = [{"x": x - apart, "y": y, "id": 0}, {"x": x + apart, "y": y, "id": 1}]
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points if apart else []})
+
+    for kind, apart in (("touchStart", 30), ("touchMove", 45), ("touchMove", 60), ("touchEnd", 0)):
+        touch(kind, apart)
+
+    assert page.evaluate("octet.lens.zoom") == pytest.approx(2, abs=0.3)
