@@ -217,7 +217,7 @@ async def _say_goodbye(page: web.WebSocketResponse) -> None:
 
 def _told(what: str) -> str:
     """A refusal in all languages: it comes before any page that knows its reader's."""
-    return "".join(f"{words.get('heard', {}).get(what, what)}\n" for words in languages().values())
+    return "".join(f"{words.get('refused', {}).get(what, what)}\n" for words in languages().values())
 
 
 def _html(name: str) -> web.Response:

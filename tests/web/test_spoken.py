@@ -48,8 +48,8 @@ def made_up(words: Any) -> Any:
 
 def third_language() -> dict[str, Any]:
     robot = {"sentences": SENTENCES, "patterns": PATTERNS, "sides": SIDES}
-    heard = {it: made_up(it) for it in GERMAN["heard"]}
-    return {**made_up({**ENGLISH, "robot": robot}), "heard": heard, "language": "Esperanto"}
+    parts = {part: {it: made_up(it) for it in GERMAN[part]} for part in ("heard", "refused")}
+    return {**made_up({**ENGLISH, "robot": robot}), **parts, "language": "Esperanto"}
 
 
 @pytest.fixture(scope="module")

@@ -93,7 +93,7 @@ function readRobot() {
  * @returns {string}
  */
 export function heard(text) {
-  const known = /** @type {Record<string, string>} */ (ALL[spoken].heard ?? {});
+  const known = /** @type {Record<string, string>} */ ({ ...ALL[spoken].heard, ...ALL[spoken].refused });
   if (text in known) return known[text];
   for (const [english, own] of Object.entries(known)) {
     const gaps = english.includes("{") && new RegExp(`^${english.replace(/[.?*+()|[\]$^]/g, "\\$&").replace(/\{\d\}/g, "(.+?)")}$`).exec(text);
