@@ -5,7 +5,11 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 HERE = Path(__file__).parent
 GENERATED = ROOT / "build/host-vcan/generated"
-INCLUDED = (f"-I{ROOT}", f"-I{GENERATED}", "-DOCTET_VERSION_MAJOR=1", "-DOCTET_VERSION_MINOR=0")
+INCLUDED = (
+    *(f"-I{folder}" for folder in (ROOT, GENERATED, ROOT / "build/monocypher")),
+    "-DOCTET_VERSION_MAJOR=1",
+    "-DOCTET_VERSION_MINOR=0",
+)
 
 _CORE = sorted({*(ROOT / "firmware").rglob("*.c")} - {ROOT / "firmware/main.c"})
 
@@ -20,6 +24,10 @@ PARTS = {
     "store": [ROOT / "hal/flash_store/flash_store.c", ROOT / "hal/flash_store/crc32.c"],
 }
 
+_ON_THE_CHIP = {"boot_main.c", "challenge.c", "resident.c", "signer.c"}
+
+_BOOT = [source for source in sorted((ROOT / "hal/boot").glob("*.c")) if source.name not in _ON_THE_CHIP]
+
 _EXCHANGE = [*PARTS["wire"], HERE / "any_command.c", ROOT / "hal/library/exchange.c"]
 
 _PROGRAM = [
@@ -32,6 +40,7 @@ FUZZED = {
     **PARTS,
     "program": [*_PROGRAM, *_CORE, ROOT / "host_sim/world/native/trig.c"],
     "flash": PARTS["store"],
+    "boot": [*_BOOT, *PARTS["store"]],
     "commands": _EXCHANGE,
     "session": _EXCHANGE,
 }
