@@ -47,4 +47,11 @@ int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort);
         /* As hal_store. Or PORT_LATER, and nothing is changed: it takes longer than a tick, and effort is PORT_QUICKLY.
            With PORT_AT_REST, the wheels are at rest and no answer is awaited: the call may take a second. */
 
+enum { PORT_MORE = 2 };
+
+int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT]);
+int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT]);
+        /* Eight bytes of the body's own, beside the memory: which is below PORT_MORE. As port_load, and port_store with
+           PORT_AT_REST. Only machines with a body on pins have them. */
+
 #endif

@@ -3,15 +3,15 @@
 #include "hal/pins_body/button.h"
 #include "hal/pins_body/guard.h"
 #include "hal/pins_body/pins.h"
-#include "hal/pins_body/proximity.h"
 #include "hal/pins_body/telemetry.h"
-#include "hal/pins_body/wheel.h"
+#include "hal/pins_body/upkeep.h"
 
 enum {
     BEATS = 4,             /* in a tick of 20 ms: */
     BEAT_LIT = 0,          /* the LEDs have been on for a beat */
     BEAT_DARK = 1,         /* and off for one: all that is sensed is known */
     BEAT_SHINE = 3,
+    FRONT = 2,             /* the bit of the front sensor in feel */
     BURSTS_SEEN = 3,       /* of the four strong bursts that the beacon sends in a tick */
     BURSTS_NEAR = 6,       /* those that it sends weakly arrive too */
     NEAR_MM = 100,         /* within reach */
@@ -23,11 +23,15 @@ struct hal {
     struct guard guard;
     struct proximity proximity;
     struct button button;
+    struct upkeep upkeep;
     int16_t told_mm_s[PINS_SIDES];
     uint8_t beat, tick;
     uint16_t bursts;       /* as of the last tick */
     bool running;
+    bool calibrates;       /* the button was pressed at power-up: its presses choose what is measured */
+    bool told_track;       /* the robot that the button has started is to be told its track next */
     bool asked;            /* the command under way came from outside */
+    struct output told;    /* of the robot, with the body's answer in it; here it takes no stack */
     bool unstored;         /* storing memory was put off */
     uint8_t memory[CELL_COUNT];
 };
@@ -42,8 +46,10 @@ int hal_open(struct hal **hal, int argc, char *const argv[])
         result = telemetry_open(&port);
     if (result < 0)
         return result;
-    proximity_init(&body.proximity);
+    traits_load(&body.upkeep.traits);
+    upkeep_use(&body.upkeep, &body.proximity, body.wheels);
     pins_open();
+    body.calibrates = pins_button();
     port_ready(&port);
     *hal = &body;
     return 0;
@@ -58,6 +64,29 @@ static void rest(struct hal *hal)
     }
 }
 
+/* A beat of the measurement under way, if there is one. */
+static void measure(struct hal *hal, const struct guard_look *seen)
+{
+    struct calibration *calibration = &hal->upkeep.calibration;
+    const struct calibrate_look look = {
+        .counts = {seen->counts[0], seen->counts[1]}, .battery_mv = seen->battery_mv,
+        .senses = hal->beat == BEAT_DARK, .back = hal->proximity.back, .wall = hal->proximity.feel >> FRONT & 1u,
+    };
+
+    if (guard_forbids(&hal->guard) || seen->bumped)
+        calibrate_interrupt(calibration);
+    if (calibration->measures == MEASURE_NOTHING)
+        return;
+    if (calibrate_beat(calibration, &look, &hal->upkeep.traits)) {
+        rest(hal);
+        upkeep_use(&hal->upkeep, &hal->proximity, hal->wheels);
+        hal->upkeep.unkept = calibration->refused == 0;
+    } else {
+        hal->told_mm_s[0] = calibrate_mm_s(calibration);
+        hal->told_mm_s[1] = (int16_t)-hal->told_mm_s[0];
+    }
+}
+
 /* A beat of the wheels. What is not safe ends at once; the robot learns of it with the next senses. */
 static void run_wheels(struct hal *hal)
 {
@@ -69,9 +98,12 @@ static void run_wheels(struct hal *hal)
     if (guard_stops(&hal->guard, &look))
         rest(hal);
     pins_wake_bridge(!guard_forbids(&hal->guard));
+    measure(hal, &look);
     for (unsigned side = 0; side < PINS_SIDES; side++) {
         int32_t duty = wheel_run(&hal->wheels[side], look.counts[side], hal->told_mm_s[side], battery_mv);
 
+        if (hal->upkeep.calibration.measures == MEASURE_MOTORS)
+            duty = calibrate_duty(&hal->upkeep.calibration);
         hal->guard.duty[side] = guard_forbids(&hal->guard) ? 0 : duty;
         pins_push(side, hal->guard.duty[side]);
     }
@@ -111,12 +143,29 @@ static bool pass_beat(struct hal *hal)
     return hal->beat == BEAT_DARK;
 }
 
+/* A body that calibrates does so instead of starting. */
 static bool is_told(struct hal *hal, struct command *command)
 {
-    if (!button_look(&hal->button, pins_button(), hal->running, command))
+    struct calibration *calibration = &hal->upkeep.calibration;
+    bool busy = hal->running || calibration->measures != MEASURE_NOTHING;
+
+    if (hal->told_track) {
+        hal->told_track = false;
+        *command = (struct command){OPCODE_SET, WHEEL_TRACK_MM, upkeep_trait(&hal->upkeep, BODY_TRACK_MM)};
+        return true;
+    }
+    if (!button_look(&hal->button, pins_button(), busy, command))
         return false;
-    if (command->opcode == OPCODE_START)
-        command->value = hal_entropy(hal);
+    if (command->opcode == OPCODE_STOP)
+        calibrate_interrupt(calibration);
+    if (command->opcode != OPCODE_START)
+        return true;
+    if (hal->calibrates && command->which < MEASURE_ENDS - 1)
+        calibrate_begin(calibration, (uint8_t)(command->which + 1));
+    if (hal->calibrates)
+        return false;
+    command->value = hal_entropy(hal);
+    hal->told_track = true;
     return true;
 }
 
@@ -128,6 +177,10 @@ static enum input_kind take_order(struct hal *hal, struct input *in)
     hal->asked = kind == INPUT_COMMAND;
     if (hal->asked && hal->told_mm_s[0] == 0 && hal->told_mm_s[1] == 0)
         hal->beat = BEAT_DARK;
+    if (hal->asked) {
+        upkeep_serve(&hal->upkeep, &in->command, hal->running);
+        upkeep_use(&hal->upkeep, &hal->proximity, hal->wheels);
+    }
     return kind;
 }
 
@@ -139,7 +192,7 @@ int hal_receive(struct hal *hal, struct input *in)
         if (kind != INPUT_SILENCE)
             return (int)kind;
     } while (!pass_beat(hal));
-    port_alive(guard_forbids(&hal->guard));
+    port_alive(guard_forbids(&hal->guard) || (hal->upkeep.calibration.refused != 0 && !hal->running));
     if (is_told(hal, &in->command))
         return INPUT_COMMAND;
     fill_senses(hal, &in->senses);
@@ -149,15 +202,28 @@ int hal_receive(struct hal *hal, struct input *in)
 /* An erase stops the machine for up to 40 ms: only where the wheels rest. */
 static void store_later(struct hal *hal)
 {
-    if (hal->unstored && hal->told_mm_s[0] == 0 && hal->told_mm_s[1] == 0)
+    if (hal->told_mm_s[0] != 0 || hal->told_mm_s[1] != 0)
+        return;
+    if (hal->unstored)
         hal->unstored = port_store(hal->memory, PORT_AT_REST) == PORT_LATER;
+    upkeep_store(&hal->upkeep);
+}
+
+static void tell(struct hal *hal, const struct output *out)
+{
+    hal->told = *out;
+    if (hal->asked)
+        upkeep_answer(&hal->upkeep, &hal->told);
+    telemetry_output(&hal->told, hal->asked);
 }
 
 int hal_send(struct hal *hal, const struct output *out)
 {
-    telemetry_output(out, hal->asked);
+    tell(hal, out);
     hal->running = out->report.running;
-    if (!out->has_drive)
+    if (hal->running)
+        calibrate_interrupt(&hal->upkeep.calibration);
+    if (!out->has_drive || hal->upkeep.calibration.measures != MEASURE_NOTHING)
         return 0;
     if (out->drive.reason == REASON_STOP)
         rest(hal);

@@ -1,12 +1,5 @@
 #include "hal/pins_body/proximity.h"
 
-void proximity_init(struct proximity *proximity)
-{
-    *proximity = (struct proximity){.feel = 0};
-    for (unsigned i = 0; i < FEEL_COUNT; i++)
-        proximity->near[i] = PROXIMITY_NEAR;
-}
-
 uint8_t proximity_feel(struct proximity *proximity, const uint16_t dark[FEEL_COUNT])
 {
     unsigned triggered = 0;
@@ -15,6 +8,7 @@ uint8_t proximity_feel(struct proximity *proximity, const uint16_t dark[FEEL_COU
         unsigned back = proximity->lit[i] > dark[i] ? (unsigned)proximity->lit[i] - dark[i] : 0;
         unsigned near = proximity->near[i];
 
+        proximity->back[i] = (uint16_t)back;
         if ((proximity->feel >> i & 1) != 0)
             near -= near / PROXIMITY_HYSTERESIS_PART;
         triggered |= (back >= near ? 1u : 0u) << i;

@@ -11,11 +11,10 @@ enum {
 
 struct proximity {
     uint16_t near[FEEL_COUNT];      /* light that triggers a sensor */
-    uint16_t lit[FEEL_COUNT];       /* measured with the LEDs on */
+    uint16_t lit[FEEL_COUNT];       /* measured with the LEDs on, */
+    uint16_t back[FEEL_COUNT];      /* and what of it was theirs, as of the last look */
     uint8_t feel;                   /* as last returned */
 };
-
-void proximity_init(struct proximity *proximity);
 
 uint8_t proximity_feel(struct proximity *proximity, const uint16_t dark[FEEL_COUNT]);
         /* The sensors that are triggered, the sum of the FEEL_ bits, given lit and what is received without the LEDs. */

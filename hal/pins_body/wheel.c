@@ -4,7 +4,7 @@
 
 enum {
     MODEL_PART = 8,            /* of what is missing, the model gains in a period: 37 ms */
-    LEAD_2 = 3,                /* twice 60 ms / (8 periods of 5 ms): feed-forward inverts the motor */
+    MODEL_MS = MODEL_PART * WHEEL_PERIOD_MS,   /* feed-forward inverts the motor: it leads by the lag / this */
     BEHIND_MAX_UM = 4000,
     BATTERY_MIN_MV = 3000,     /* less is no measurement */
     PRECISION = 4096,          /* of what the duty gains at a lower voltage */
@@ -49,14 +49,15 @@ int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32
     int32_t part = stronger(wheel, battery_mv), told_um = told_mm_s * WHEEL_PERIOD_MS, missing_256 = told_um * 256 - wheel->model_256;
     int32_t model_um = wheel->model_256 / 256, error_um = model_um - moved_um(wheel, count);
     int32_t behind_um = limited(wheel->behind_um + error_um, BEHIND_MAX_UM), duty, out;
+    int32_t dead = WHEEL_DEAD + wheel->dead_more, ahead_um = missing_256 / 256 * (WHEEL_LAG_MS + wheel->lag_more_ms) / MODEL_MS;
 
     wheel->model_256 += missing_256 / MODEL_PART;
-    duty = (model_um + missing_256 / 256 * LEAD_2 / 2) * WHEEL_FORWARD / WHEEL_PERIOD_MS + error_um * WHEEL_KP
+    duty = (model_um + ahead_um) * (WHEEL_FORWARD + wheel->forward_more) / WHEEL_PERIOD_MS + error_um * WHEEL_KP
          + behind_um * WHEEL_KI_16 / 16;
     if (duty > STILL_DUTY)
-        duty += WHEEL_DEAD;
+        duty += dead;
     else if (duty < -STILL_DUTY)
-        duty -= WHEEL_DEAD;
+        duty -= dead;
     else
         duty = 0;
     duty = limited(duty, WHEEL_DUTY_MAX * 2) * part / PRECISION;

@@ -12,7 +12,7 @@
 enum { WHEEL_PERIOD_MS = 5, WHEEL_NOMINAL_MV = 7200, WHEEL_DUTY_MAX = 62000 };
 
 /* A motor of 674 mm/s at full duty and a dead band of 8 %, with a time constant of 60 ms; duties in 1/65536. */
-enum { WHEEL_FORWARD = 97, WHEEL_DEAD = 5243, WHEEL_KP = 23, WHEEL_KI_16 = 31 };
+enum { WHEEL_FORWARD = 97, WHEEL_DEAD = 5243, WHEEL_LAG_MS = 60, WHEEL_KP = 23, WHEEL_KI_16 = 31 };
 
 struct wheel {
     int32_t model_256;    /* the model's speed, 1/256 um in a period */
@@ -23,6 +23,7 @@ struct wheel {
     uint32_t battery_mv;  /* at this voltage */
     uint16_t count;       /* of the encoder, when it was last read */
     bool known;
+    int16_t forward_more, dead_more, lag_more_ms;   /* by so much its motor differs from the one above */
 };   /* all 0: at rest */
 
 int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32_t battery_mv);

@@ -22,10 +22,12 @@ class RobotOnPins:
         wiring: The board's.
         motors: TIM1.
         timers: TIM2 to TIM4 by name.
+        ffi: Makes what the world's library takes,
+        library: which this is.
         kit: The body; None while there is none: nothing turns.
         light: What each proximity sensor receives of its own LEDs' light while they shine, 0..4095.
         ambient: What it receives without them.
-        battery_v: Its voltage without a load.
+        battery_v: The battery's voltage where there is no body with one.
         counts_by: What an encoder makes of each of its counts: -1 where its wires are swapped.
     """
 
@@ -42,11 +44,11 @@ class RobotOnPins:
             converter: Measures the sensors.
         """
         self._core, self.wiring, self.motors, self.timers, self._converter = core, wiring, motors, timers, converter
-        self._ffi, self._library = world_library()
+        self.ffi, self.library = world_library()
         self.kit: Any = None
         self.light, self.ambient, self.battery_v = [0] * len(_SENSORS), 300, 7.4
         self.counts_by = [1, 1]
-        self._duty: Any = self._ffi.new("int32_t[2]")
+        self._duty: Any = self.ffi.new("int32_t[2]")
         self._counts = [0, 0]
         self._channels = wiring.pins.channels
         motors.on_update = self._beat
@@ -55,7 +57,7 @@ class RobotOnPins:
         """Puts the board into a body."""
         if kit != self.kit:
             self.kit = kit
-            self._counts = [self._library.kit_count(kit, side) for side in range(2)]
+            self._counts = [self.library.kit_count(kit, side) for side in range(2)]
 
     def set_bumped(self, bumped: bool) -> None:
         """Something presses the bumpers, or nothing."""
@@ -96,21 +98,26 @@ class RobotOnPins:
     def _beat(self) -> None:
         if self.kit is not None:
             self._duty[0], self._duty[1] = self._push(0), self._push(1)
-            self._library.kit_push(self.kit, self._duty)
+            self.library.kit_push(self.kit, self._duty)
             for side in range(2):
                 self._count(side)
         self._fill()
 
     def _count(self, side: int) -> None:
         """An encoder of which one wire is elsewhere counts nothing."""
-        count = self._library.kit_count(self.kit, side)
+        count = self.library.kit_count(self.kit, side)
         more, self._counts[side] = count - self._counts[side], count
         timer, name = self.timers[f"TIM{3 + side}"], f"{_SIDES[side]}_ENCODER_"
         if timer.follows_encoder() and self.wiring.meets(f"{name}A") and self.wiring.meets(f"{name}B"):
             timer.count(self.counts_by[side] * ((more + 0x8000) % 0x10000 - 0x8000))
 
+    @property
+    def volts(self) -> float:
+        """Of the battery, under the load of both motors."""
+        return self.battery_v if self.kit is None else self.library.kit_supply_mv(self.kit) / 1000
+
     def _fill(self) -> None:
-        shines, battery_v = self._high("INFRARED"), self.battery_v
+        shines, battery_v = self._high("INFRARED"), self.volts
         samples = {}
         for light, signal in zip(self.light, _SENSORS, strict=True):
             if self.wiring.meets(signal):

@@ -46,8 +46,12 @@ KIT_SETTINGS = {
 }
 """Parameters that a robot with a body of the kit is set to, unless a run says otherwise."""
 
-PARAMETERS = {
+_ALL = {
     name: Parameter(int(number), int(low), int(high), int(default), unit, _COMMENTS[name])
     for name, low, high, unit, default, number in _PARAMETER.findall(_DBC)
 }
+PARAMETERS = {name: row for name, row in _ALL.items() if not name.startswith("body_")}
 """The robot's parameters, by name."""
+
+BODY_PARAMETERS = {name: row for name, row in _ALL.items() if name not in PARAMETERS}
+"""Those that a body on pins keeps for itself: how to calibrate it, and what came of it."""

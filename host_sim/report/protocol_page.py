@@ -8,7 +8,8 @@ from cantools.database.can import Database, Message
 from cantools.database.can.signal import Signal
 
 from host_sim.protocol.codec import DBC, NODE_MAX, Frame, Protocol
-from host_sim.protocol.generated import LAYOUT_HASH, PARAMETERS
+from host_sim.protocol.generated import LAYOUT_HASH
+from host_sim.protocol.words import BODY_PARAMETERS, PARAMETERS
 from host_sim.report.bus_load import COMFORTABLE, load_tables
 
 _HEAD = """\
@@ -110,6 +111,14 @@ Node 1 has the identifiers below; node n, up to {nodes}, adds n - 1. A smaller i
 
 """
 
+_PARAMETERS = """
+## Parameters
+
+What **set** changes, until the next **start**. Those of `body_` are kept by
+[a robot of its own](hardware.md#a-robot-of-its-own), which alone has them: `tools/octet calibrate` sets and shows
+them.
+
+"""
 _LOAD = f"""
 ## Bus load
 
@@ -148,9 +157,9 @@ def _parameters() -> str:
     head = ["| parameter | number | range | unit | default | meaning |", "| --- | --- | --- | --- | --- | --- |"]
     rows = [
         f"| {name} | {p.number} | {p.minimum}..{p.maximum} | {p.unit} | {p.default} | {p.comment} |"
-        for name, p in PARAMETERS.items()
+        for name, p in (PARAMETERS | BODY_PARAMETERS).items()
     ]
-    return "\n## Parameters\n\nWhat **set** changes, until the next **start**.\n\n" + "\n".join([*head, *rows]) + "\n"
+    return _PARAMETERS + "\n".join([*head, *rows]) + "\n"
 
 
 def _message_row(message: Message) -> str:

@@ -80,7 +80,7 @@ def make(
             config.bus, config.nodes, config.bitrate, config.reconnect_s, config.robot_command, config.program
         )
         for node in config.nodes:
-            client = _connected(stack, config, node, lines, log)
+            client = connected(stack, config, node, lines, log)
             ready(client)
             clients.append(client)
         yield assemble(clients, config, memories)
@@ -150,7 +150,13 @@ def _check_change(change: Change, config: RunConfig) -> None:
             raise UsageError(f"{change.what} is scheduled for {what} {number}, but the run has {last}")
 
 
-def _connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:
+def connected(stack: ExitStack, config: RunConfig, node: int, lines: BusLines, log: FrameLog) -> RobotClient:
+    """A robot that is reached as a run has it, stopped and known, but not started; the stack ends it.
+
+    Raises:
+        UsageError: The configuration is invalid.
+        RobotError: It does not answer.
+    """
     connection = connect(stack, config.bus, config.robot, node, config.board, lines, pins=config.body == PINS)
     if config.faults:
         connection = _with_faults(connection, config, node)

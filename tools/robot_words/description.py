@@ -49,6 +49,7 @@ class Description:
         enums: The words that firmware and simulator share, each with its number, by what they are of.
         meanings: What a word means, for some.
         parameters: By rising number, from 0 without a gap.
+        body_parameters: Those that a body on pins keeps, behind them.
         profiles: Names by number, from 0 without a gap.
         memory: For each profile, what its eight bytes are: one of the enum `memory_kind`.
         patterns: Names by number.
@@ -77,6 +78,7 @@ class Description:
     enums: Mapping[str, Mapping[str, int]]
     meanings: Mapping[str, Mapping[str, str]]
     parameters: Sequence[Parameter]
+    body_parameters: Sequence[Parameter]
     profiles: Sequence[str]
     memory: Mapping[str, str]
     patterns: Sequence[str]

@@ -18,6 +18,7 @@ _BYTE_MAX = 255
 _UNITS_PER_MM = {"0.1 mm": 10, "mm": 1}
 _SUFFIXES = {"mm": "_mm", "mm/s": "_mm_s"}
 _UNSAID = ("crc", "counter")
+_BODY = "body_"
 
 
 def read(dbc: Path, words: Path) -> Description:
@@ -66,12 +67,14 @@ def _describe(database: Database, words: Mapping[str, Any]) -> Description:
     meanings = {name: words.get(name, {}) for name in enums}
     _check_meanings(enums, meanings)
     hashed = layout_hash(database)
+    parameters = _parameters(database, _choices(signal("COMMAND.parameter")))
     senses, drive = (_members(database.get_message_by_name(name)) for name in ("SENSES", "DRIVE"))
     return Description(
         messages=sorted(database.messages, key=lambda message: message.frame_id),
         enums=enums,
         meanings=meanings,
-        parameters=_parameters(database, _choices(signal("COMMAND.parameter"))),
+        parameters=[parameter for parameter in parameters if not parameter.name.startswith(_BODY)],
+        body_parameters=[parameter for parameter in parameters if parameter.name.startswith(_BODY)],
         profiles=profiles,
         memory=_memory(words["memory"], profiles, enums["memory_kind"]),
         patterns=_patterns(words["patterns"]),
@@ -150,6 +153,8 @@ def _parameters(database: Database, choices: Mapping[str, int]) -> list[Paramete
     _listed(numbers, "parameter")
     for parameter in parameters:
         _check_parameter(parameter)
+    if sorted(parameters, key=lambda parameter: parameter.name.startswith(_BODY)) != parameters:
+        raise DescriptionError(f"parameters of the robot stand behind those of a body, {_BODY}..")
     return parameters
 
 

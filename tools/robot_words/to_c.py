@@ -1,9 +1,9 @@
 """The robot's numbers and words in C: robot_words.h."""
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
-from tools.robot_words.description import Description
+from tools.robot_words.description import Description, Parameter
 
 _HEAD = """\
 /* robot_words.h: the robot's numbers and words. Made by tools/generate from octet.dbc and robot.toml. */
@@ -18,7 +18,9 @@ def header(robot: Description) -> str:
     parts += [_enum(name, words, robot.meanings[name]) for name, words in robot.enums.items()]
     parts += [f"enum {{ MEMORY_KIND_COUNT = {len(robot.enums['memory_kind'])} }};\n"]
     parts += [_names("FEEL_NAMES", robot.feel), _names("BODY_FAULT_NAMES", robot.enums["body_fault"])]
-    parts += [_parameters(robot), _profiles(robot), _row(robot), "#endif\n"]
+    parts += [_parameters("ROBOT", robot.parameters, "PARAMETER_COUNT")]
+    parts += [_parameters("BODY", robot.body_parameters, "BODY_PARAMETER_END")]
+    parts += [_profiles(robot), _row(robot), "#endif\n"]
     return "\n".join(parts)
 
 
@@ -59,14 +61,15 @@ def _enum(name: str, words: Mapping[str, int], meanings: Mapping[str, str]) -> s
     return f"enum {name} {{\n" + "\n".join(lines) + "\n};\n"
 
 
-def _parameters(robot: Description) -> str:
+def _parameters(whose: str, parameters: Sequence[Parameter], end: str) -> str:
     names = "\n".join(
-        f"    {c_name(p.name)},   /* {p.unit}, {p.minimum}..{p.maximum}. {p.comment} */" for p in robot.parameters
+        f"    {c_name(p.name)} = {p.number},   /* {p.unit}, {p.minimum}..{p.maximum}. {p.comment} */"
+        for p in parameters
     )
-    rows = " \\\n".join(f"    X({c_name(p.name)}, {p.minimum}, {p.maximum}, {p.default})" for p in robot.parameters)
+    rows = " \\\n".join(f"    X({c_name(p.name)}, {p.minimum}, {p.maximum}, {p.default})" for p in parameters)
     return (
-        f"enum parameter {{\n{names}\n    PARAMETER_COUNT\n}};\n\n"
-        f"/* X(parameter, minimum, maximum, default) for each. */\n#define ROBOT_PARAMETERS(X) \\\n{rows}\n"
+        f"enum {'body_' if whose == 'BODY' else ''}parameter {{\n{names}\n    {end}\n}};\n\n"
+        f"/* X(parameter, minimum, maximum, default) for each. */\n#define {whose}_PARAMETERS(X) \\\n{rows}\n"
     )
 
 

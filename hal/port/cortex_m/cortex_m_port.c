@@ -12,9 +12,12 @@
 /* Else it does not compile. */
 enum { NODE_IS_IN_RANGE = 1 / (OCTET_NODE >= 1 && OCTET_NODE <= NODE_MAX) };
 
+enum { MORE_PAGE = FLASH_PAGES + 58 };
+
 enum { BLINK_SLOWLY = 9, BLINK_FAST = 7 };   /* bit of the milliseconds: about 1 Hz, 4 Hz */
 
-static struct flash_store store;                                /* there is one */
+static struct flash_store store;                                /* there is one, */
+static struct flash_store more[PORT_MORE];                      /* and these before it, in a chip of 64 pages */
 static uint32_t entropy __attribute__((section(".noinit")));    /* power-up fills it at random; a reset leaves it */
 
 int port_open(struct port *port, int argc, char *const argv[])
@@ -70,6 +73,16 @@ int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
     int result = flash_exists() ? flash_store_save(&store, memory, effort == PORT_AT_REST) : 0;
 
     return result == FLASH_STORE_LATER ? PORT_LATER : result;
+}
+
+int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT])
+{
+    return flash_exists() ? flash_store_open_at(&more[which], MORE_PAGE + FLASH_PAGES * which, bytes) : 0;
+}
+
+int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT])
+{
+    return flash_exists() ? flash_store_save(&more[which], bytes, true) : 0;
 }
 
 uint32_t port_entropy(void)

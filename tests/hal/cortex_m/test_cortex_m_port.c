@@ -26,6 +26,7 @@ static struct {
     uint8_t other_node;
     bool loader_outage;
     int opened, saved;         /* what the store returns */
+    unsigned page;             /* where another one begins */
     unsigned opens, saves;
     bool may_erase;
     uint8_t bytes[CELL_COUNT];   /* last saved */
@@ -103,6 +104,12 @@ int flash_store_open(struct flash_store *store, uint8_t memory[CELL_COUNT])
     memory[1] = SIDE_LEFT;
     board.opens++;
     return board.opened;
+}
+
+int flash_store_open_at(struct flash_store *store, unsigned first_page, uint8_t bytes[CELL_COUNT])
+{
+    board.page = first_page;
+    return flash_store_open(store, bytes);
 }
 
 int flash_store_save(struct flash_store *store, const uint8_t memory[CELL_COUNT], bool may_erase)
@@ -228,6 +235,22 @@ TEST(the_memory_is_stored_in_the_flash_which_may_be_erased_at_rest)
     TEST_ASSERT_EQUAL(HAL_E_STORE, port_store(memory, PORT_QUICKLY));
 }
 
+TEST(what_a_body_keeps_is_stored_in_the_pages_before_the_memory)
+{
+    uint8_t bytes[CELL_COUNT] = {0, SIDE_RIGHT};
+
+    board.opened = 1;
+    TEST_ASSERT_EQUAL(1, port_load_more(0, bytes));
+    TEST_ASSERT_EQUAL_UINT(FLASH_PAGES + 58, board.page);
+    TEST_ASSERT_EQUAL(1, port_load_more(1, bytes));
+    TEST_ASSERT_EQUAL_UINT(FLASH_PAGES + 60, board.page);
+    TEST_ASSERT_EQUAL_UINT8(SIDE_LEFT, bytes[1]);
+    TEST_ASSERT_EQUAL(0, port_store_more(1, bytes));
+    TEST_ASSERT_TRUE(board.may_erase);
+    board.saved = HAL_E_STORE;
+    TEST_ASSERT_EQUAL(HAL_E_STORE, port_store_more(1, bytes));
+}
+
 TEST(without_a_flash_nothing_is_kept_and_nothing_fails)
 {
     uint8_t memory[CELL_COUNT] = {0};
@@ -236,6 +259,8 @@ TEST(without_a_flash_nothing_is_kept_and_nothing_fails)
     board.opened = board.saved = HAL_E_STORE;
     TEST_ASSERT_EQUAL(0, port_load(memory));
     TEST_ASSERT_EQUAL(0, port_store(memory, PORT_AT_REST));
+    TEST_ASSERT_EQUAL(0, port_load_more(1, memory));
+    TEST_ASSERT_EQUAL(0, port_store_more(1, memory));
     TEST_ASSERT_EQUAL_UINT(0, board.opens + board.saves);
 }
 

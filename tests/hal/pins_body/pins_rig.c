@@ -43,7 +43,7 @@ void telemetry_senses(const struct senses *senses) { told.said = *senses; }
 
 void telemetry_output(const struct output *out, bool asked)
 {
-    (void)out;
+    told.out = *out;
     told.outputs++;
     told.asked = asked;
 }
@@ -73,6 +73,9 @@ void port_alive(bool outage) { port.alive++; port.outage = outage; }
 int port_load(uint8_t memory[CELL_COUNT]) { memory[0] = 7; return 1; }
 uint32_t port_entropy(void) { return 1000; }
 
+int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT]) { (void)which; (void)bytes; return 0; }
+int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT]) { (void)bytes; port.more |= 1u << which; return 0; }
+
 int port_store(const uint8_t memory[CELL_COUNT], enum port_effort effort)
 {
     port.stores++;
@@ -90,6 +93,15 @@ void setUp(void)
     pins.battery_mv = GOOD_MV;
     TEST_ASSERT_EQUAL_INT(0, hal_open(&hal, 0, NULL));
     (void)hal_receive(hal, &in);
+    rest_with(false);
+    told.outputs = 0;
+}
+
+void rest_with(bool running)
+{
+    const struct output out = {.has_drive = true, .report.running = running, .drive = {.reason = REASON_STOP}};
+
+    TEST_ASSERT_EQUAL_INT(0, hal_send(hal, &out));
 }
 
 const struct senses *sense(void)

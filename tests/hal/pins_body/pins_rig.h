@@ -21,12 +21,14 @@ extern struct fake_telemetry {
     unsigned from_beat;   /* when it comes */
     struct senses said;
     unsigned outputs;
+    struct output out;    /* the last */
     bool asked;
     int opens;
 } told;
 
 extern struct fake_port {
     unsigned stores, alive;
+    unsigned more;        /* records of the body that were stored, bit by bit */
     int result;
     enum port_effort effort;
     bool outage;
@@ -38,6 +40,7 @@ extern struct input in;   /* what was received last */
 
 const struct senses *sense(void);
 void stay(unsigned ticks);
+void rest_with(bool running);
 void drive(int16_t left_mm_s, int16_t right_mm_s);
 
 #endif

@@ -7,7 +7,7 @@ static struct proximity proximity;
 
 void setUp(void)
 {
-    proximity_init(&proximity);
+    proximity = (struct proximity){.near = {PROXIMITY_NEAR, PROXIMITY_NEAR, PROXIMITY_NEAR, PROXIMITY_NEAR, PROXIMITY_NEAR}};
 }
 
 /* All sensors receive so much of their own light, in this ambient light. */

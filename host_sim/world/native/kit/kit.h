@@ -91,6 +91,9 @@ void kit_push(struct kit *kit, const int32_t duty[KIT_WHEELS]);
         /* A board drives both motors itself for a period of the controller: duty in 1/65536 of the battery. From now on the body rolls
            as far as it is pushed, whatever it is told, and its senses are not delayed: the board does that by itself. */
 
+uint32_t kit_supply_mv(const struct kit *kit);
+        /* Of the battery, under the load of both motors. */
+
 uint16_t kit_count(const struct kit *kit, unsigned side);
         /* Counts of a wheel's encoder; wraps. */
 
@@ -99,6 +102,9 @@ uint16_t kit_count(const struct kit *kit, unsigned side);
 void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, uint16_t light[FEEL_COUNT]);
         /* Light of its own LEDs that each infrared sensor receives back, 0..4095: PROXIMITY_NEAR where a wall is as far away as the
            sensor reaches. */
+
+void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick, uint16_t light[FEEL_COUNT]);
+        /* The same, from walls so far beyond its rim; RANGE_NONE: from none. */
 
 void kit_sense(struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, struct senses *senses);
         /* Makes what an ideal body senses into what this one does; asked again in the same tick, the same. */

@@ -53,15 +53,21 @@ static void measure(const struct kit *kit, const struct world *world, const stru
     ranges_measure(&ranges, world, body, range_mm);
 }
 
-/* Behind its window, a pair sees about as if it were so much farther away. */
 void kit_light(const struct kit *kit, const struct world *world, const struct body *body, uint32_t tick, uint16_t light[FEEL_COUNT])
 {
-    static const double BEHIND_MM = 20.0, MOST = 4095.0;
     uint8_t range_mm[FEEL_COUNT] = {RANGE_NONE, RANGE_NONE, RANGE_NONE, RANGE_NONE, RANGE_NONE};
 
     if (body->feel != 0)
         measure(kit, world, body, range_mm);
     body_faults_measure(&body->faults, range_mm);
+    kit_light_from(kit, range_mm, tick, light);
+}
+
+/* Behind its window, a pair sees about as if it were so much farther away. */
+void kit_light_from(const struct kit *kit, const uint8_t range_mm[FEEL_COUNT], uint32_t tick, uint16_t light[FEEL_COUNT])
+{
+    static const double BEHIND_MM = 20.0, MOST = 4095.0;
+
     for (unsigned n = 0; n < FEEL_COUNT; n++) {
         double part = (reach(kit, n) + noise(kit, tick, n) + BEHIND_MM) / (range_mm[n] + BEHIND_MM), received = PROXIMITY_NEAR * part * part;
 

@@ -47,11 +47,23 @@ static uint32_t size(int32_t duty)
     return (uint32_t)(duty < 0 ? -duty : duty);
 }
 
+/* By the nominal voltage, 1/65536. */
+static int64_t supply_of(const struct kit *kit)
+{
+    uint64_t load = (uint64_t)size(kit->wheels[0].duty) + size(kit->wheels[1].duty);
+
+    return kit->supply - (int64_t)(kit->sag * load / (2 * ONE));
+}
+
+uint32_t kit_supply_mv(const struct kit *kit)
+{
+    return (uint32_t)(supply_of(kit) * WHEEL_NOMINAL_MV / ONE);
+}
+
 /* The motors get other duties for a period. The battery sags under the load of the period before. */
 static void turn_motors(struct kit *kit, const int32_t duty[KIT_WHEELS])
 {
-    uint64_t load = (uint64_t)size(kit->wheels[0].duty) + size(kit->wheels[1].duty);
-    int64_t supply = kit->supply - (int64_t)(kit->sag * load / (2 * ONE));
+    int64_t supply = supply_of(kit);
 
     for (unsigned side = 0; side < KIT_WHEELS; side++) {
         kit->wheels[side].duty = duty[side];

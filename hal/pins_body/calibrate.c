@@ -1,0 +1,164 @@
+#include "hal/pins_body/calibrate.h"
+
+#include "hal/pins_body/wheel.h"
+
+enum {
+    SETTLING_TICKS = 10, LIGHT_TICKS = 16,
+    LOW_DUTY = 16384, HIGH_DUTY = 49152,
+    PUSH = 64,                       /* what makes a push of a duty and millivolts, lest it be too long */
+    STAIR_BEATS = 100,               /* 0.5 s: the motors have settled long before */
+    LOW_MARK = 2,                    /* at the end of the lower one */
+    TURN_MM_S = 150,
+    TURNS = 4,
+    TURN_BEATS = 8000,               /* nothing turns for longer */
+    COUNTS_1000 = (int)(1608495439LL * TURNS / WHEEL_COUNT_256),   /* 2 pi: a mm of track, in as many turns */
+    /* A unit of the feed-forward in push by counts of a stair, and one of the dead band in push. */
+    FORWARD_1000 = (int)(1000LL * WHEEL_NOMINAL_MV * WHEEL_COUNT_256 / (PUSH * STAIR_BEATS * WHEEL_PERIOD_MS * 256)),
+    DEAD_10 = (int)(10LL * WHEEL_NOMINAL_MV * TRAIT_DEAD_OF / TRAIT_DEAD_BY / PUSH)
+};
+
+void calibrate_begin(struct calibration *calibration, uint8_t measures)
+{
+    *calibration = (struct calibration){.measures = measures, .saw_wall = true};
+}
+
+void calibrate_interrupt(struct calibration *calibration)
+{
+    if (calibration->measures != MEASURE_NOTHING)
+        *calibration = (struct calibration){.refused = BODY_MEASURE};
+}
+
+static int32_t rounded(int32_t dividend, int32_t divisor)
+{
+    return divisor > 0 ? (dividend + divisor / 2) / divisor : 0;
+}
+
+/* Notes a trait, unless it cannot be, or another one could not. */
+static void take(struct calibration *calibration, struct traits *traits, unsigned number, int32_t value)
+{
+    if (calibration->refused != 0)
+        return;
+    if (value < 0 || !traits_fit((uint8_t)number, (uint32_t)value)) {
+        calibration->refused = (uint8_t)number;
+        calibration->found = value;
+    }
+    traits->value[number - TRAIT_FIRST] = (uint8_t)value;
+}
+
+static bool measure_light(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+{
+    if (!look->senses)
+        return false;
+    calibration->sights++;
+    for (unsigned i = 0; i < FEEL_COUNT && calibration->sights > SETTLING_TICKS; i++)
+        calibration->light[i] += look->back[i];
+    if (calibration->sights < SETTLING_TICKS + LIGHT_TICKS)
+        return false;
+    for (unsigned i = 0; i < FEEL_COUNT; i++)
+        take(calibration, traits, BODY_NEAR_RIGHT + i, rounded((int32_t)calibration->light[i], TRAIT_LIGHT * LIGHT_TICKS));
+    return true;
+}
+
+/* Counts of a wheel between a mark and the next. */
+static int32_t stair(const struct calibration *calibration, unsigned side, unsigned mark)
+{
+    return (int16_t)(uint16_t)(calibration->marks[side][mark + 1] - calibration->marks[side][mark]);
+}
+
+/* Returns what the motor lacked of its speed after the step, ms; negative if it did not follow. */
+static int32_t take_motor(struct calibration *calibration, unsigned side, int32_t battery_mv, struct traits *traits)
+{
+    int32_t low = stair(calibration, side, 0), high = stair(calibration, side, 2), more = high - low;
+    int32_t push = LOW_DUTY / PUSH * calibration->low_mv, step = HIGH_DUTY / PUSH * battery_mv - push;
+
+    take(calibration, traits, BODY_FORWARD_LEFT + side, rounded(step, more * FORWARD_1000 / 1000));
+    take(calibration, traits, BODY_DEAD_LEFT + side, rounded((push - rounded(step / 16 * low, more) * 16) * 10, DEAD_10));
+    return rounded((high - stair(calibration, side, 1)) * STAIR_BEATS * WHEEL_PERIOD_MS, more);
+}
+
+static bool measure_motors(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+{
+    unsigned mark = calibration->beats / STAIR_BEATS;
+    int32_t battery_mv = (int32_t)look->battery_mv;
+
+    if (mark == 0 || calibration->beats % STAIR_BEATS != 0)
+        return false;
+    for (unsigned side = 0; side < PINS_SIDES; side++)
+        calibration->marks[side][mark - 1] = look->counts[side];
+    if (mark == LOW_MARK)
+        calibration->low_mv = battery_mv;
+    if (mark < CALIBRATE_MARKS)
+        return false;
+    take(calibration, traits, BODY_LAG_MS,
+         rounded(take_motor(calibration, 0, battery_mv, traits) + take_motor(calibration, 1, battery_mv, traits), 2));
+    return true;
+}
+
+static void turn(struct calibration *calibration, const struct calibrate_look *look)
+{
+    for (unsigned side = 0; side < PINS_SIDES; side++) {
+        int32_t more = (int16_t)(uint16_t)(look->counts[side] - calibration->counts[side]);
+
+        calibration->counts[side] = look->counts[side];
+        if (calibration->beats > 0)
+            calibration->turned += side == 0 ? more : -more;
+    }
+}
+
+static bool measure_track(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+{
+    bool sees;
+
+    turn(calibration, look);
+    if (calibration->beats >= TURN_BEATS) {
+        take(calibration, traits, BODY_TRACK_MM, 0);
+        return true;
+    }
+    if (!look->senses)
+        return false;
+    sees = look->wall && !calibration->saw_wall;
+    calibration->saw_wall = look->wall;
+    if (!sees)
+        return false;
+    if (calibration->sights++ == 0)
+        calibration->first = calibration->turned;
+    if (calibration->sights <= TURNS)
+        return false;
+    take(calibration, traits, BODY_TRACK_MM, rounded((calibration->turned - calibration->first) * 1000, COUNTS_1000));
+    return true;
+}
+
+static bool measure(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+{
+    if (calibration->measures == MEASURE_LIGHT)
+        return measure_light(calibration, look, traits);
+    if (calibration->measures == MEASURE_MOTORS)
+        return measure_motors(calibration, look, traits);
+    return measure_track(calibration, look, traits);
+}
+
+bool calibrate_beat(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits)
+{
+    struct traits found = *traits;
+
+    if (!measure(calibration, look, &found)) {
+        calibration->beats++;
+        return false;
+    }
+    calibration->measures = MEASURE_NOTHING;
+    if (calibration->refused == 0)
+        *traits = found;
+    return true;
+}
+
+int32_t calibrate_duty(const struct calibration *calibration)
+{
+    if (calibration->measures != MEASURE_MOTORS)
+        return 0;
+    return calibration->beats <= LOW_MARK * STAIR_BEATS ? LOW_DUTY : HIGH_DUTY;
+}
+
+int16_t calibrate_mm_s(const struct calibration *calibration)
+{
+    return calibration->measures == MEASURE_TRACK ? TURN_MM_S : 0;
+}

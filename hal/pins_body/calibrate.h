@@ -1,0 +1,55 @@
+/* calibrate.h: a body measures itself, one thing at a time, as BODY_MEASURE names it.
+ *
+ * Light: what its sensors receive of their own light from a white wall 60 mm before each, the mean of 16 ticks.
+ * Motors, wheels in the air: two stairs of duty, and a step from one to the other. The speeds on the stairs make a line: where it
+ * begins is the dead band, how steep it is the feed-forward. What the step lacks of the upper speed is the lag.
+ * Track, turning on the spot beside one wall: the ways of both wheels from one sight of the wall to the fourth after it. */
+#ifndef OCTET_CALIBRATE_H
+#define OCTET_CALIBRATE_H
+
+#include "hal/pins_body/pins.h"
+#include "hal/pins_body/traits.h"
+
+enum { MEASURE_NOTHING, MEASURE_LIGHT, MEASURE_MOTORS, MEASURE_TRACK, MEASURE_ENDS };
+
+enum { CALIBRATE_MARKS = 4 };
+
+struct calibration {
+    uint8_t measures;                 /* one of these */
+    uint8_t refused;                  /* as BODY_REFUSED has it */
+    bool saw_wall;
+    uint8_t sights;                   /* of the wall */
+    uint16_t beats;                   /* since it began */
+    uint16_t counts[PINS_SIDES];      /* in the last beat */
+    uint16_t marks[PINS_SIDES][CALIBRATE_MARKS];
+    int32_t low_mv;                   /* of the battery on the lower stair */
+    int32_t turned, first;            /* left wheel less right one, counts: since it began, and up to the first sight */
+    int32_t found;                    /* what was refused */
+    uint32_t light[FEEL_COUNT];
+};   /* all 0: at rest */
+
+struct calibrate_look {
+    uint16_t counts[PINS_SIDES];
+    uint32_t battery_mv;
+    bool senses;                      /* there is new light: */
+    const uint16_t *back;             /* as in struct proximity */
+    bool wall;                        /* the front sensor is triggered */
+};
+
+void calibrate_begin(struct calibration *calibration, uint8_t measures);
+        /* Forgets what was under way. */
+
+void calibrate_interrupt(struct calibration *calibration);
+        /* What is under way comes to nothing. */
+
+bool calibrate_beat(struct calibration *calibration, const struct calibrate_look *look, struct traits *traits);
+        /* Once in 5 ms, while it measures. True: it has ended. What cannot be is refused, and no trait has changed; otherwise
+           traits are to be stored. */
+
+int32_t calibrate_duty(const struct calibration *calibration);
+        /* Of both motors, in the next beat; 0: the wheels' controllers hold them. */
+
+int16_t calibrate_mm_s(const struct calibration *calibration);
+        /* Of the left wheel, and backward of the right one. */
+
+#endif

@@ -1,0 +1,1 @@
+"""Robots of their own that measure themselves."""

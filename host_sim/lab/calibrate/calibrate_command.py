@@ -1,0 +1,149 @@
+"""`tools/octet calibrate`: has a robot of its own measure itself, and shows what it keeps."""
+
+import argparse
+import sys
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from typing import TYPE_CHECKING
+
+from host_sim.base.errors import UsageError
+from host_sim.cli.parsing import add_command, number
+from host_sim.cli.run_options import add_option
+
+if TYPE_CHECKING:
+    from host_sim.cli.parsing import Subparsers
+    from host_sim.lab.calibrate.calibration import Calibration
+    from host_sim.lab.calibrate.places import Places
+
+STEPS = {
+    "light": "a white wall 60 mm before each of its five sensors: a half ring of cardboard",
+    "motors": "its wheels in the air",
+    "track": "beside one wall, 30 to 50 mm away, and nothing else within half a metre: it turns about five times",
+}
+_EXAMPLES = """\
+examples:
+  tools/octet calibrate --bus socketcan:can0             all three, with a word before each
+  tools/octet calibrate track --bus socketcan:can0       only that
+  tools/octet calibrate --show --bus socketcan:can0      what it keeps; nothing moves
+  tools/octet calibrate --set body_track_mm=163 --bus socketcan:can0
+  tools/octet calibrate --robot emulated --seed 3        an emulated Blue Pill in a body of the kit, and the truth
+
+A value that cannot be is refused, and the old ones stay. Without a PC, the button does it: see docs/hardware.md.
+"""
+
+
+def add(commands: "Subparsers") -> None:
+    """Adds the command."""
+    parser = add_command(
+        commands,
+        "calibrate",
+        _calibrate,
+        summary="have a robot of its own measure itself",
+        description="Has a robot of its own measure its sensors, motors and track, and store that in its flash.",
+        epilog=_EXAMPLES,
+        check=_check,
+        stages=lambda arguments: ["emulator", "images"] if arguments.robot == "emulated" else ["run"],
+    )
+    add_ = parser.add_argument
+    add_("steps", nargs="*", metavar="STEP", help=f"{', '.join(STEPS)} (default: all)")
+    add_("--bus", metavar="BUS", help="any bus of python-can: INTERFACE:CHANNEL, such as socketcan:can0")
+    add_("--robot", choices=("external", "emulated"), default="external", help="where it is (default: %(default)s)")
+    add_("--node", type=number(1, 31), default=1, help="its node number, 1..31 (default: 1)")
+    add_option(parser, "bitrate")
+    add_("--show", action="store_true", help="only show what it keeps")
+    add_("--set", action="append", default=[], metavar="NAME=VALUE", help="store a value instead of measuring it")
+    add_(
+        "--body", default="kit", metavar="BODY", help="emulated: what its body is like: kit or a file (default: kit)"
+    )
+    add_("--seed", type=number(0, 2**32 - 1), default=1, help="emulated: from which its body is drawn (default: 1)")
+    add_("--yes", action="store_true", help="do not ask before each step: it stands there already")
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    for step in arguments.steps:
+        if step not in STEPS:
+            raise UsageError(f"there is no {step!r} to calibrate: {', '.join(STEPS)}")
+    if (arguments.bus is None) == (arguments.robot == "external"):
+        raise UsageError("calibrate needs a robot: --bus INTERFACE:CHANNEL where it is, or --robot emulated")
+    if arguments.steps and (arguments.show or arguments.set):
+        raise UsageError("give steps to measure, or --show or --set")
+    arguments.settings = dict(map(_setting, arguments.set))
+
+
+def _setting(text: str) -> tuple[str, int]:
+    from host_sim.base.near_word import meant
+    from host_sim.lab.calibrate.calibration import TRAITS
+
+    name, _, value = text.partition("=")
+    if name not in TRAITS:
+        raise UsageError(f"there is no {name!r} to set: {meant(name, TRAITS)}")
+    row = TRAITS[name]
+    if not value.isdecimal() or not row.minimum <= int(value) <= row.maximum:
+        raise UsageError(
+            f"{name} must be a whole number from {row.minimum} to {row.maximum} {row.unit}, not {value!r}"
+        )
+    return name, int(value)
+
+
+def _calibrate(arguments: argparse.Namespace) -> int:
+    with ExitStack() as stack:
+        calibration, places = _reached(stack, arguments)
+        before = calibration.traits()
+        for name, value in arguments.settings.items():
+            calibration.set(name, value)
+        steps: Sequence[str] = () if arguments.show or arguments.set else arguments.steps or list(STEPS)
+        refused = [step for step in steps if not _measures(calibration, places, step, ask=not arguments.yes)]
+        _print(before, calibration.traits(), places.true_traits() if places else {})
+    return int(bool(refused))
+
+
+def _reached(stack: ExitStack, arguments: argparse.Namespace) -> "tuple[Calibration, Places | None]":
+    import time
+
+    from host_sim.backends.bus_lines import BusLines
+    from host_sim.client.frame_log import NoLog
+    from host_sim.lab.calibrate.calibration import Calibration
+    from host_sim.sim.make import connected
+    from host_sim.sim.run_config import RunConfig
+
+    emulated = arguments.robot == "emulated"
+    where = {"board": "blue_pill", "body": "pins"} if emulated else {"bus": arguments.bus}
+    config = RunConfig(
+        robot=arguments.robot, node=1 if emulated else arguments.node, bitrate=arguments.bitrate, **where
+    )
+    log = NoLog()
+    stack.callback(log.close)
+    lines = BusLines(config.bus, config.nodes, config.bitrate, config.reconnect_s, "", "")
+    client = connected(stack, config, config.node, lines, log)
+    if not emulated:
+        return Calibration(client, time.sleep), None
+    from host_sim.emulator.pins_board import PinsBoard
+    from host_sim.lab.calibrate.places import Places
+
+    board = client.connection.link
+    assert isinstance(board, PinsBoard)  # as the configuration has it
+    places = Places(board, arguments.body, arguments.seed)
+    return Calibration(client, places.wait), places
+
+
+def _measures(calibration: "Calibration", places: "Places | None", step: str, *, ask: bool) -> bool:
+    """Has it measure something, and says what came of it. True: it is stored."""
+    if places:
+        places.put(step)
+    elif ask and sys.stdin.isatty():
+        input(f"{step}: {STEPS[step]}. Enter when it stands so: ")
+    why = calibration.measure(step)
+    print(f"{step}: refused, and the old values stay: {why}" if why else f"{step}: measured and stored")
+    return not why
+
+
+def _print(before: Mapping[str, int], after: Mapping[str, int], true: Mapping[str, float]) -> None:
+    from host_sim.lab.calibrate.calibration import TRAITS
+    from host_sim.lab.table import aligned
+
+    head = ("", "before", "now", *(("true",) if true else ()), "unit")
+    rows = [
+        (name, str(before[name]), str(after[name]), *((f"{true[name]:.1f}",) if true else ()), TRAITS[name].unit)
+        for name in TRAITS
+    ]
+    print("\n".join(aligned([head, *rows], right=range(1, len(head) - 1))))

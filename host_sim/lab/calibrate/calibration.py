@@ -1,0 +1,88 @@
+"""A dialogue with a robot of its own, which measures itself: what it is to measure, and what came of it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from host_sim.base.errors import RefusedError, RobotError, UsageError
+from host_sim.client.robot_client import RobotClient
+from host_sim.protocol.words import BODY_PARAMETERS
+
+STEPS = ("light", "motors", "track")
+"""What it can measure, each by number from 1, as body_measure has it."""
+
+TRAITS = {name: row for name, row in BODY_PARAMETERS.items() if name not in ("body_measure", "body_refused")}
+"""What it keeps."""
+
+_LONGEST_S = 60.0
+_POLL_S = 0.3
+_NAMES = {row.number: name for name, row in BODY_PARAMETERS.items()}
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """The dialogue.
+
+    Attributes:
+        client: The robot's, stopped.
+        wait: Lets so much of the robot's time pass, s.
+    """
+
+    client: RobotClient
+    wait: Callable[[float], object]
+
+    def get(self, name: str) -> int:
+        """The value of a parameter of the body.
+
+        Raises:
+            UsageError: It is no robot of its own.
+            RobotError: It does not answer.
+        """
+        try:
+            answer = self.client.dialogue.command("get", wanted=BODY_PARAMETERS[name].number)
+        except RefusedError as error:
+            raise UsageError(
+                f"node {self.client.node} is no robot of its own that can be calibrated: {error}"
+            ) from None
+        return int(answer.signals["value"])
+
+    def set(self, name: str, value: int) -> None:
+        """Sets a parameter of the body, which stores it.
+
+        Raises:
+            RefusedError: The value is out of range, or cannot be stored.
+            RobotError: It does not answer.
+        """
+        self.client.dialogue.command("set", parameter=BODY_PARAMETERS[name].number, value=value)
+
+    def traits(self) -> dict[str, int]:
+        """All that it keeps, by name."""
+        return {name: self.get(name) for name in TRAITS}
+
+    def measure(self, step: str) -> str:
+        """Has it measure something.
+
+        Returns:
+            Why nothing came of it, in a sentence; empty if all is well.
+
+        Raises:
+            RobotError: It does not answer, or does not come to an end.
+        """
+        self.set("body_measure", 1 + STEPS.index(step))
+        for _ in range(round(_LONGEST_S / _POLL_S)):
+            self.wait(_POLL_S)
+            if self.get("body_measure") == 0:
+                return _why(self.get("body_refused"))
+        raise RobotError(f"node {self.client.node} still measures after {_LONGEST_S:g} s: switch it off")
+
+
+def _why(refused: int) -> str:
+    name, found = _NAMES.get(refused & 0xFF, ""), refused >> 8
+    found -= (found >> 23) << 24  # of 24 bits, with a sign
+    if not name:
+        return ""
+    if name == "body_measure":
+        return "it was interrupted: a bumper, the button, the bridge or the battery"
+    if name == "body_refused":
+        return "it was measured, but could not be stored"
+    row = BODY_PARAMETERS[name]
+    return f"{name} cannot be {found} {row.unit}: it is {row.minimum} to {row.maximum}"

@@ -1,0 +1,228 @@
+#include "hal/can_body/port.h"
+#include "hal/pins_body/calibrate.h"
+#include "tests/test.h"
+
+int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT]) { (void)which; (void)bytes; return 0; }
+int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT]) { (void)which; (void)bytes; return 0; }
+
+enum { STAIR = 100, TICK = 4, NOMINAL_MV = 7200, KEPT = 77 };
+
+static struct calibration calibration;
+static struct calibrate_look look;
+static struct traits traits;
+static uint16_t back[FEEL_COUNT];
+
+void setUp(void)
+{
+    look = (struct calibrate_look){.battery_mv = NOMINAL_MV, .back = back};
+    for (unsigned i = 0; i < TRAITS_KEPT; i++)
+        traits.value[i] = KEPT;
+}
+
+static uint8_t trait(unsigned number)
+{
+    return traits.value[number - TRAIT_FIRST];
+}
+
+static void assert_refused(unsigned number, int32_t found)
+{
+    TEST_ASSERT_EQUAL_UINT8(number, calibration.refused);
+    TEST_ASSERT_EQUAL_INT32(found, calibration.found);
+    for (unsigned i = 0; i < TRAITS_KEPT; i++)
+        TEST_ASSERT_EQUAL_UINT8(KEPT, traits.value[i]);
+}
+
+/* Returns how many ticks it took. */
+static unsigned measure_light(void)
+{
+    unsigned beats = 1;
+
+    calibrate_begin(&calibration, MEASURE_LIGHT);
+    for (; look.senses = beats % TICK == 0, !calibrate_beat(&calibration, &look, &traits); beats++)
+        TEST_ASSERT_TRUE(beats < 1000);
+    TEST_ASSERT_EQUAL_UINT8(MEASURE_NOTHING, calibration.measures);
+    return beats / TICK;
+}
+
+TEST(light_is_the_mean_of_sixteen_ticks_after_ten)
+{
+    for (unsigned i = 0; i < FEEL_COUNT; i++)
+        back[i] = (uint16_t)(1000 + 24 * i);
+    back[4] = 1048;
+    TEST_ASSERT_EQUAL_UINT(26, measure_light());
+    TEST_ASSERT_EQUAL_UINT8(63, trait(BODY_NEAR_RIGHT));          /* 62.5 */
+    TEST_ASSERT_EQUAL_UINT8(64, trait(BODY_NEAR_FRONT_RIGHT));    /* 64 */
+    TEST_ASSERT_EQUAL_UINT8(66, trait(BODY_NEAR_FRONT));          /* 65.5 */
+    TEST_ASSERT_EQUAL_UINT8(66, trait(BODY_NEAR_LEFT));           /* 65.5 */
+    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT8(0, calibration.refused);
+}
+
+TEST(a_sensor_that_receives_nothing_or_too_much_is_refused_and_all_stays)
+{
+    for (unsigned i = 0; i < FEEL_COUNT; i++)
+        back[i] = 1200;
+    back[3] = 0;
+    (void)measure_light();
+    assert_refused(BODY_NEAR_FRONT_LEFT, 0);
+    back[3] = 1200;
+    back[0] = 4080;
+    (void)measure_light();
+    assert_refused(BODY_NEAR_RIGHT, 255);
+}
+
+TEST(a_sensor_that_receives_nothing_in_one_tick_of_sixteen_counts_so)
+{
+    unsigned ticks = 0;
+
+    for (unsigned i = 0; i < FEEL_COUNT; i++)
+        back[i] = 1600;
+    calibrate_begin(&calibration, MEASURE_LIGHT);
+    look.senses = true;
+    do
+        back[2] = ++ticks == 11 ? 0 : 1600;
+    while (!calibrate_beat(&calibration, &look, &traits));
+    TEST_ASSERT_EQUAL_UINT8(94, trait(BODY_NEAR_FRONT));   /* 93.75 */
+}
+
+/* Two motors that make so many counts in a beat on each stair, and lack so many after the step. */
+static bool measure_motors(const int low[PINS_SIDES], const int high[PINS_SIDES], const int lack[PINS_SIDES], uint32_t sagged_mv)
+{
+    bool ended = false;
+    unsigned beat = 0;
+
+    look.counts[0] = 65500;
+    look.counts[1] = 30;
+    calibrate_begin(&calibration, MEASURE_MOTORS);
+    for (; !ended; beat++) {
+        bool upper = beat > 2 * STAIR;
+
+        for (unsigned side = 0; side < PINS_SIDES && beat > 0; side++)
+            look.counts[side] = (uint16_t)(look.counts[side] + (upper ? high[side] : low[side])
+                                         - (beat == 2 * STAIR + 5 ? lack[side] : 0));
+        look.battery_mv = upper ? sagged_mv : NOMINAL_MV;
+        ended = calibrate_beat(&calibration, &look, &traits);
+        if (!ended)
+            TEST_ASSERT_EQUAL_INT32(beat < 2 * STAIR ? 16384 : 49152, calibrate_duty(&calibration));
+        TEST_ASSERT_EQUAL_INT16(0, calibrate_mm_s(&calibration));
+    }
+    TEST_ASSERT_EQUAL_INT32(0, calibrate_duty(&calibration));
+    TEST_ASSERT_EQUAL_UINT(4 * STAIR + 1, beat);
+    return calibration.refused == 0;
+}
+
+TEST(two_stairs_tell_dead_band_feed_forward_and_lag)
+{
+    TEST_ASSERT_TRUE(measure_motors((int[]){6, 7}, (int[]){24, 28}, (int[]){200, 280}, NOMINAL_MV));
+    TEST_ASSERT_EQUAL_UINT8(99, trait(BODY_FORWARD_LEFT));     /* 65536 / 7.2 V x 5 ms / 91.6 um .. = 99.4 */
+    TEST_ASSERT_EQUAL_UINT8(85, trait(BODY_FORWARD_RIGHT));    /* 85.2 */
+    TEST_ASSERT_EQUAL_UINT8(83, trait(BODY_DEAD_LEFT));        /* 0.25 - 0.5 x 6 / 18, in 0.1 %: 83.3 */
+    TEST_ASSERT_EQUAL_UINT8(83, trait(BODY_DEAD_RIGHT));
+    TEST_ASSERT_EQUAL_UINT8(62, trait(BODY_LAG_MS));           /* 200 / 18 and 280 / 21 periods: 56 and 67 ms */
+    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_TRACK_MM));
+}
+
+TEST(a_battery_that_sags_under_load_is_reckoned_with)
+{
+    TEST_ASSERT_TRUE(measure_motors((int[]){6, 6}, (int[]){24, 24}, (int[]){200, 200}, NOMINAL_MV * 15 / 16));
+    TEST_ASSERT_EQUAL_UINT8(90, trait(BODY_FORWARD_LEFT));     /* (0.75 x 15 / 16 - 0.25) / 0.5 of 99.4: 90.05 */
+    TEST_ASSERT_EQUAL_UINT8(99, trait(BODY_DEAD_LEFT));        /* 250 - 453.1 x 6 / 18 = 98.96 */
+}
+
+TEST(motors_that_do_not_turn_or_not_faster_or_backward_are_refused)
+{
+    TEST_ASSERT_FALSE(measure_motors((int[]){0, 0}, (int[]){0, 0}, (int[]){0, 0}, NOMINAL_MV));
+    assert_refused(BODY_FORWARD_LEFT, 0);
+    TEST_ASSERT_FALSE(measure_motors((int[]){6, 6}, (int[]){24, 6}, (int[]){200, 0}, NOMINAL_MV));
+    assert_refused(BODY_FORWARD_RIGHT, 0);
+    TEST_ASSERT_FALSE(measure_motors((int[]){6, -6}, (int[]){24, -24}, (int[]){200, 0}, NOMINAL_MV));
+    assert_refused(BODY_FORWARD_RIGHT, 0);
+}
+
+TEST(a_dead_band_or_a_lag_that_cannot_be_is_refused_by_its_own_name)
+{
+    TEST_ASSERT_FALSE(measure_motors((int[]){9, 9}, (int[]){27, 27}, (int[]){200, 200}, NOMINAL_MV));
+    assert_refused(BODY_DEAD_LEFT, 0);
+    TEST_ASSERT_FALSE(measure_motors((int[]){6, 6}, (int[]){24, 24}, (int[]){0, 0}, NOMINAL_MV));
+    assert_refused(BODY_LAG_MS, 0);
+}
+
+enum { TURN_COUNTS = 11000 };   /* of both wheels together, by turn: 160.4 mm */
+
+/* Turns on the spot; the wall is seen through a tenth of the turn. Returns after how many beats it has ended. */
+static unsigned measure_track(unsigned counts_each, unsigned begins_at)
+{
+    unsigned turned = begins_at, beat = 0;
+    bool ended = false;
+
+    look.counts[0] = 65000;
+    look.counts[1] = 200;
+    calibrate_begin(&calibration, MEASURE_TRACK);
+    for (; !ended; beat++) {
+        look.senses = beat % TICK == 0;
+        look.wall = turned % TURN_COUNTS < TURN_COUNTS / 10;
+        ended = calibrate_beat(&calibration, &look, &traits);
+        TEST_ASSERT_EQUAL_INT16(ended ? 0 : 150, calibrate_mm_s(&calibration));
+        TEST_ASSERT_EQUAL_INT32(0, calibrate_duty(&calibration));
+        look.counts[0] = (uint16_t)(look.counts[0] + counts_each);
+        look.counts[1] = (uint16_t)(look.counts[1] - counts_each);
+        turned += 2 * counts_each;
+        TEST_ASSERT_TRUE(beat < 10000);
+    }
+    return beat;
+}
+
+TEST(the_track_is_what_the_wheels_make_between_the_first_and_the_fifth_sight_of_a_wall)
+{
+    (void)measure_track(5, TURN_COUNTS / 2);
+    TEST_ASSERT_EQUAL_UINT8(160, trait(BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT8(KEPT, trait(BODY_NEAR_LEFT));
+    TEST_ASSERT_EQUAL_UINT8(0, calibration.refused);
+}
+
+TEST(a_wall_that_is_seen_from_the_start_does_not_count_until_it_comes_again)
+{
+    unsigned beats = measure_track(5, 0);
+
+    TEST_ASSERT_EQUAL_UINT8(160, trait(BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT(5 * TURN_COUNTS / 10, beats / 10 * 10);
+}
+
+TEST(two_walls_in_a_turn_make_half_the_track_which_is_refused)
+{
+    bool ended = false;
+
+    calibrate_begin(&calibration, MEASURE_TRACK);
+    look.senses = true;
+    for (unsigned turned = TURN_COUNTS / 4; !ended; turned += 10) {
+        look.wall = turned % (TURN_COUNTS / 2) < TURN_COUNTS / 10;
+        ended = calibrate_beat(&calibration, &look, &traits);
+        look.counts[0] = (uint16_t)(look.counts[0] + 10);
+    }
+    assert_refused(BODY_TRACK_MM, 80);
+}
+
+TEST(without_a_wall_it_gives_up)
+{
+    unsigned beats = 0;
+
+    calibrate_begin(&calibration, MEASURE_TRACK);
+    look.senses = true;
+    while (!calibrate_beat(&calibration, &look, &traits))
+        beats++;
+    TEST_ASSERT_EQUAL_UINT(8000, beats);
+    assert_refused(BODY_TRACK_MM, 0);
+}
+
+TEST(interrupted_it_says_so_and_at_rest_there_is_nothing_to_interrupt)
+{
+    calibration = (struct calibration){.refused = BODY_LAG_MS};
+    calibrate_interrupt(&calibration);
+    TEST_ASSERT_EQUAL_UINT8(BODY_LAG_MS, calibration.refused);
+    calibrate_begin(&calibration, MEASURE_TRACK);
+    TEST_ASSERT_EQUAL_UINT8(0, calibration.refused);
+    calibrate_interrupt(&calibration);
+    TEST_ASSERT_EQUAL_UINT8(MEASURE_NOTHING, calibration.measures);
+    TEST_ASSERT_EQUAL_UINT8(BODY_MEASURE, calibration.refused);
+    TEST_ASSERT_EQUAL_INT16(0, calibrate_mm_s(&calibration));
+}

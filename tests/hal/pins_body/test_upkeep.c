@@ -1,0 +1,169 @@
+#include "hal/pins_body/upkeep.h"
+
+#include <string.h>
+
+#include "hal/can_body/port.h"
+#include "tests/test.h"
+
+static uint8_t records[PORT_MORE][CELL_COUNT];
+static bool is_blank[PORT_MORE];
+static unsigned stores, failing;   /* a store that fails, counted from 1; 0: none */
+
+int port_load_more(unsigned which, uint8_t bytes[CELL_COUNT])
+{
+    memcpy(bytes, records[which], CELL_COUNT);
+    return is_blank[which] ? 0 : 1;
+}
+
+int port_store_more(unsigned which, const uint8_t bytes[CELL_COUNT])
+{
+    if (++stores == failing)
+        return HAL_E_STORE;
+    memcpy(records[which], bytes, CELL_COUNT);
+    is_blank[which] = false;
+    return 0;
+}
+
+static struct upkeep upkeep;
+
+void setUp(void)
+{
+    memset(records, 255, sizeof records);
+    is_blank[0] = is_blank[1] = true;
+    stores = failing = 0;
+    upkeep = (struct upkeep){.unkept = false};
+    traits_load(&upkeep.traits);
+}
+
+static enum result asked(enum opcode opcode, uint8_t which, uint32_t value, bool running)
+{
+    struct output out = {.has_answer = true, .answer = RESULT_UNKNOWN_PARAMETER};
+
+    upkeep_serve(&upkeep, &(struct command){opcode, which, value}, running);
+    upkeep_answer(&upkeep, &out);
+    upkeep.value = out.answer_value;
+    return out.answer;
+}
+
+static uint32_t got(uint8_t which)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_GET, which, 0, true));
+    return upkeep.value;
+}
+
+TEST(an_uncalibrated_body_is_as_planned)
+{
+    struct proximity proximity;
+    struct wheel wheels[PINS_SIDES] = {{.known = false}};
+
+    upkeep_use(&upkeep, &proximity, wheels);
+    for (unsigned i = 0; i < FEEL_COUNT; i++)
+        TEST_ASSERT_EQUAL_UINT16(PROXIMITY_NEAR, proximity.near[i]);
+    for (unsigned side = 0; side < PINS_SIDES; side++) {
+        TEST_ASSERT_EQUAL_INT16(0, wheels[side].dead_more);
+        TEST_ASSERT_EQUAL_INT16(0, wheels[side].forward_more);
+        TEST_ASSERT_EQUAL_INT16(0, wheels[side].lag_more_ms);
+    }
+    TEST_ASSERT_EQUAL_UINT8(160, upkeep_trait(&upkeep, BODY_TRACK_MM));
+}
+
+TEST(sensors_and_wheels_go_by_what_is_set)
+{
+    struct proximity proximity;
+    struct wheel wheels[PINS_SIDES] = {{.known = false}};
+
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_NEAR_FRONT, 100, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_DEAD_RIGHT, 125, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_FORWARD_RIGHT, 107, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_LAG_MS, 50, false));
+    upkeep_use(&upkeep, &proximity, wheels);
+    TEST_ASSERT_EQUAL_UINT16(1600, proximity.near[2]);
+    TEST_ASSERT_EQUAL_UINT16(PROXIMITY_NEAR, proximity.near[1]);
+    TEST_ASSERT_EQUAL_INT16(8192 - WHEEL_DEAD, wheels[1].dead_more);
+    TEST_ASSERT_EQUAL_INT16(0, wheels[0].dead_more);
+    TEST_ASSERT_EQUAL_INT16(10, wheels[1].forward_more);
+    TEST_ASSERT_EQUAL_INT16(0, wheels[0].forward_more);
+    TEST_ASSERT_EQUAL_INT16(-10, wheels[0].lag_more_ms);
+    TEST_ASSERT_EQUAL_INT16(-10, wheels[1].lag_more_ms);
+}
+
+TEST(what_is_set_is_there_after_a_reset_and_what_cannot_be_is_not)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_TRACK_MM, 163, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_LAG_MS, 200, false));
+    memset(&upkeep.traits, 0, sizeof upkeep.traits);
+    traits_load(&upkeep.traits);
+    TEST_ASSERT_EQUAL_UINT32(163, got(BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT32(200, got(BODY_LAG_MS));
+    TEST_ASSERT_EQUAL_UINT32(97, got(BODY_FORWARD_LEFT));
+    records[1][4] = 201;
+    records[0][5] = 89;
+    traits_load(&upkeep.traits);
+    TEST_ASSERT_EQUAL_UINT32(160, got(BODY_TRACK_MM));
+    TEST_ASSERT_EQUAL_UINT32(60, got(BODY_LAG_MS));
+}
+
+TEST(values_out_of_range_are_refused_and_nothing_is_stored)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_OUT_OF_RANGE, asked(OPCODE_SET, BODY_TRACK_MM, 89, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_OUT_OF_RANGE, asked(OPCODE_SET, BODY_TRACK_MM, 251, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_OUT_OF_RANGE, asked(OPCODE_SET, BODY_MEASURE, MEASURE_ENDS, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_OUT_OF_RANGE, asked(OPCODE_SET, BODY_REFUSED, 0, false));
+    TEST_ASSERT_EQUAL_UINT(0, stores);
+    TEST_ASSERT_EQUAL_UINT32(160, got(BODY_TRACK_MM));
+}
+
+TEST(a_robot_that_runs_keeps_what_it_has)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_OWNED, asked(OPCODE_SET, BODY_TRACK_MM, 163, true));
+    TEST_ASSERT_EQUAL_INT(RESULT_OWNED, asked(OPCODE_SET, BODY_MEASURE, MEASURE_MOTORS, true));
+    TEST_ASSERT_EQUAL_UINT(0, stores);
+    TEST_ASSERT_EQUAL_UINT32(0, got(BODY_MEASURE));
+}
+
+TEST(what_cannot_be_stored_is_not_used)
+{
+    failing = 2;
+    TEST_ASSERT_EQUAL_INT(RESULT_UNSTORED, asked(OPCODE_SET, BODY_LAG_MS, 50, false));
+    TEST_ASSERT_EQUAL_UINT32(60, got(BODY_LAG_MS));
+    failing = 3;
+    TEST_ASSERT_EQUAL_INT(RESULT_UNSTORED, asked(OPCODE_SET, BODY_TRACK_MM, 163, false));
+    TEST_ASSERT_EQUAL_UINT(3, stores);
+    TEST_ASSERT_EQUAL_UINT32(160, got(BODY_TRACK_MM));
+}
+
+TEST(a_measurement_is_begun_and_told_of)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_MEASURE, MEASURE_TRACK, false));
+    TEST_ASSERT_EQUAL_UINT32(0, upkeep.value);
+    TEST_ASSERT_EQUAL_UINT32(MEASURE_TRACK, got(BODY_MEASURE));
+    upkeep.calibration.refused = BODY_DEAD_LEFT;
+    upkeep.calibration.found = -3;
+    TEST_ASSERT_EQUAL_HEX32(0xFFFFFD00u | BODY_DEAD_LEFT, got(BODY_REFUSED));
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_SET, BODY_MEASURE, MEASURE_NOTHING, false));
+    TEST_ASSERT_EQUAL_UINT32(0, got(BODY_REFUSED));
+}
+
+TEST(what_was_measured_is_stored_once_and_said_where_that_fails)
+{
+    upkeep_store(&upkeep);
+    TEST_ASSERT_EQUAL_UINT(0, stores);
+    upkeep.unkept = true;
+    upkeep_store(&upkeep);
+    upkeep_store(&upkeep);
+    TEST_ASSERT_EQUAL_UINT(2, stores);
+    TEST_ASSERT_EQUAL_UINT32(0, got(BODY_REFUSED));
+    upkeep.unkept = true;
+    failing = 3;
+    upkeep_store(&upkeep);
+    TEST_ASSERT_EQUAL_UINT32(BODY_REFUSED, got(BODY_REFUSED));
+}
+
+TEST(other_commands_are_the_robots)
+{
+    TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, asked(OPCODE_GET, BODY_PARAMETER_END, 0, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, asked(OPCODE_SET, BODY_MEASURE - 1, 1, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_UNKNOWN_PARAMETER, asked(OPCODE_FREEZE, BODY_TRACK_MM, 1, false));
+    TEST_ASSERT_EQUAL_INT(RESULT_DONE, asked(OPCODE_GET, BODY_PARAMETER_END - 1, 0, false));
+    upkeep_answer(&upkeep, &(struct output){.has_answer = false});
+}

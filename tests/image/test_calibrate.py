@@ -1,0 +1,147 @@
+"""A robot of its own on an emulated Blue Pill measures itself: near the truth, or refused with a reason."""
+
+import pytest
+
+from host_sim.base.paths import ROOT, image_path
+from host_sim.cli.main import main
+from host_sim.client.connection import Connection
+from host_sim.client.frame_log import NoLog
+from host_sim.client.handshake import handshake
+from host_sim.client.robot_client import RobotClient
+from host_sim.emulator.chips import STM32F103
+from host_sim.emulator.flash import FlashFaults
+from host_sim.emulator.hardware import Faults
+from host_sim.emulator.pins_board import PinsBoard, start_robot
+from host_sim.lab.calibrate.calibration import STEPS, TRAITS, Calibration
+from host_sim.lab.calibrate.places import Places
+from host_sim.protocol.codec import Protocol
+from host_sim.protocol.words import BODY_PARAMETERS
+from tests.image.support import Talk
+
+TRACK = BODY_PARAMETERS["body_track_mm"].number
+
+ODD = """\
+base = "kit"
+front_mm = 52
+left_mm = 68
+track = 1.03
+left_motor = 0.85
+right_motor = 1.15
+motor_ms = 80
+battery_v = 8.0
+"""
+
+
+class Rig:
+    """A robot of its own in a body whose every trait is off, and what talks to it."""
+
+    def __init__(self, tmp_path):
+        (tmp_path / "odd.toml").write_text(ODD)
+        self.board = start_robot("blue_pill")
+        self.places = Places(self.board, str(tmp_path / "odd.toml"), seed=1)
+        self.log = NoLog()
+        client = RobotClient(Connection(self.board, now=self.board.now), Protocol(), self.log)
+        handshake(client, 5.0)
+        self.calibration = Calibration(client, self.places.wait)
+
+    def measure(self, step):
+        self.places.put(step)
+        return self.calibration.measure(step)
+
+
+@pytest.fixture
+def rig(tmp_path):
+    made = Rig(tmp_path)
+    yield made
+    made.log.close()
+
+
+def test_what_it_measures_is_near_the_truth_and_survives_a_loss_of_power(rig):
+    assert [rig.measure(step) for step in STEPS] == ["", "", ""]
+    found, true = rig.calibration.traits(), rig.places.true_traits()
+    for name, row in TRAITS.items():
+        assert abs(found[name] - true[name]) <= max(abs(row.default - true[name]) / 4, 1.0), name
+    assert sum(abs(row.default - true[name]) > 2 for name, row in TRAITS.items()) >= 5
+    rig.board.cut_power()
+    rig.board.pass_time(0.1)
+    assert rig.calibration.traits() == found
+
+
+def test_a_sensor_without_its_wire_is_refused_by_name_and_the_old_values_stay(rig):
+    rig.board.robot.wiring.rewire("PROXIMITY_FRONT")
+    assert rig.measure("light") == "body_near_front cannot be 0 1/256: it is 20 to 250"
+    assert set(rig.calibration.traits().items()) == {(name, row.default) for name, row in TRAITS.items()}
+
+
+def test_a_motor_without_its_encoder_is_refused(rig):
+    rig.board.robot.wiring.rewire("RIGHT_ENCODER_A")
+    assert rig.measure("motors").startswith("body_forward_right cannot be 0 ")
+
+
+def test_a_bump_interrupts_it(rig):
+    rig.places.put("motors")
+    rig.calibration.set("body_measure", 1 + STEPS.index("motors"))
+    rig.places.wait(0.5)
+    rig.board.robot.set_bumped(True)
+    rig.places.wait(0.1)
+    assert rig.calibration.get("body_measure") == 0
+    assert rig.calibration.get("body_refused") == BODY_PARAMETERS["body_measure"].number
+
+
+def test_the_button_held_at_power_up_measures_light(rig):
+    rig.board.robot.set_button(True)
+    rig.board.cut_power()
+    rig.places.put("light")
+    rig.places.wait(0.5)
+    rig.board.robot.set_button(False)
+    rig.places.wait(2.5)
+    assert rig.calibration.get("body_near_front") == round(rig.places.true_traits()["body_near_front"])
+
+
+def test_a_power_cut_at_any_write_leaves_the_old_value_or_the_new_and_always_the_memory():
+    found, cut_at, operations = set(), 0, 1
+    while cut_at < operations:
+        cut_at += 1
+        faults = Faults(flash=FlashFaults(cut_at=cut_at))
+        talk = Talk(PinsBoard(STM32F103, image_path("blue_pill", "pins"), faults))
+        talk.order("write", mask=0b1111, half=0, byte_0=0, byte_1=1, byte_2=0, byte_3=0)
+        talk.wait(0.1)
+        of_memory = talk.board.hardware.flash.operations
+        for value in (163, 164):
+            talk.order("set", parameter=TRACK, value=value)
+            talk.wait(0.1)
+        operations = talk.board.hardware.flash.operations
+        talk.board.cut_power()
+        talk.wait(0.1)
+        talk.order("get", wanted=TRACK)
+        found.add(talk.last("ANSWER")["value"])
+        talk.order("stop")
+        talk.wait(0.1)
+        assert cut_at <= of_memory or talk.memory == (0, 1, 0, 0, 0, 0, 0, 0)
+    assert found == {163, 164}
+
+
+def test_the_command_prints_what_the_document_shows(capsys):
+    assert main(["calibrate", "--robot", "emulated", "--seed", "3"]) == 0
+    assert f"```text\n{capsys.readouterr().out}```" in (ROOT / "docs" / "build.md").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        ([], "calibrate needs a robot"),
+        (["dance", "--robot", "emulated"], "there is no 'dance' to calibrate: light, motors, track"),
+        (
+            ["--robot", "emulated", "--set", "body_track_mm=260"],
+            "must be a whole number from 90 to 250 mm, not '260'",
+        ),
+        (["--robot", "emulated", "--set", "body_measure=1"], "there is no 'body_measure' to set"),
+        (["light", "--robot", "emulated", "--show"], "give steps to measure, or --show or --set"),
+        (["--robot", "emulated", "--body", "ideal"], "a body to calibrate has motors"),
+    ],
+)
+def test_what_cannot_be_is_said_in_a_line(words, why, capsys):
+    assert main(["calibrate", *words]) == 2
+    said = capsys.readouterr().err
+    assert why in said
+    assert said.count("\n") == 1
