@@ -8,7 +8,7 @@ from host_sim.lab.calibrate.calibration import TRAITS
 from host_sim.protocol.words import SENSORS
 from host_sim.world.arena import Arena
 from host_sim.world.body_kinds import body_kind
-from host_sim.world.edits import Lift, Put
+from host_sim.world.edits import Edit
 from host_sim.world.geometry import Pose
 from host_sim.world.layouts import Layout
 from host_sim.world.params import SimParams
@@ -47,9 +47,9 @@ class Places:
     def put(self, step: str) -> None:
         """Puts it in the ring of walls, in the air, or beside a wall."""
         if self._step == "motors":
-            self._arena.edit(Put(_ABREAST))
+            self._arena.edit(Edit("put", at=(_ABREAST.x_mm, _ABREAST.y_mm), heading=1000 * _ABREAST.heading_rad))
         if step == "motors":
-            self._arena.edit(Lift())
+            self._arena.edit(Edit("lift"))
         self._step = step
 
     def wait(self, span_s: float) -> None:
