@@ -13,7 +13,7 @@ import base64
 import posixpath
 import re
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from host_sim.base.paths import WEB
 from host_sim.view.languages import as_script, with_languages
@@ -45,18 +45,24 @@ def packed(data: bytes | str) -> str:
 
 def bundle(*names: str) -> str:
     """Modules and all that they import, as one script; `</script` is escaped so that it cannot end the element."""
+    places = {module: i for i, module in enumerate(modules_of(*names))}
+    modules = "".join(_as_function(module, places) for module in places)
+    return f"const modules = [];\n{modules}".replace("</script", "<\\/script")
+
+
+def modules_of(*names: str) -> list[str]:
+    """Modules and all that they import, each after its own imports: in a bundle, `modules[i]` is the i-th."""
     seen: set[str] = set()
-    modules = "".join(_as_function(module) for name in names for module in _in_order(name, seen))
-    return f"const modules = {{}};\n{modules}".replace("</script", "<\\/script")
+    return [module for name in names for module in _in_order(name, seen)]
 
 
-def _as_function(name: str) -> str:
-    """A module as a function that is called once and returns the module's exports."""
+def _as_function(name: str, places: Mapping[str, int]) -> str:
+    """A module as a function that is called once and returns the module's exports, which go to its place."""
     text = _read(name)
     exported = ", ".join(match[2] for match in _EXPORT.finditer(text))
-    body = _IMPORT.sub(lambda match: f'const {match[1]} = modules["{_place(name, match[2])}"];', text)
+    body = _IMPORT.sub(lambda match: f'const {match[1]} = modules[{places[_place(name, match[2])]}];', text)
     body = _EXPORT.sub(r"\1", body)
-    return f'modules["{name}"] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n'
+    return f'modules[{places[name]}] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n'
 
 
 def _in_order(name: str, seen: set[str]) -> Iterator[str]:

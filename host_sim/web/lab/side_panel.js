@@ -11,6 +11,7 @@ import { memoryIn, save, worldText } from "./files.js";
 import { PROFILES } from "../generated.js";
 import { experimentOf } from "./shown_run.js";
 import { actionStart } from "./run_events.js";
+import { WorldPictures } from "./world_pictures.js";
 import { LessonsView } from "../panel/lessons_view.js";
 import { ListingView } from "../panel/listing_view.js";
 import { RANDOM, nameOf } from "../core/world_names.js";
@@ -59,7 +60,7 @@ export class SidePanel {
     this.behaviour = typedById("behaviour", HTMLSelectElement);
     /** The worlds to choose from, by name. */
     this.worlds = new Map(Object.keys(lab.worlds).map((name) => [name, /** @type {World} */ (name)]));
-    this.world = typedById("world", HTMLSelectElement);
+    this.pictures = new WorldPictures(lab.simulator);
     this.body = typedById("body", HTMLSelectElement);
     this.fault = typedById("fault", HTMLSelectElement);
     this.robotSeed = typedById("robot-seed", HTMLInputElement);
@@ -74,7 +75,7 @@ export class SidePanel {
   offer() {
     offer(this.behaviour, PROFILES.map((name) => [name, heard(name)]));
     offer(this.fault, FAULTS.map((what) => [what, faultName(what)]));
-    this.offerWorlds(this.world.value || RANDOM);
+    this.pictures.offer(this.worlds, this.pictures.chosen);
   }
 
   bindTabs() {
@@ -157,12 +158,7 @@ export class SidePanel {
     const number = (/** @type {string} */ id) => Number(typedById(id, HTMLInputElement).value);
     const wanted = { seed: number("seed"), environments: number("environments"), robots: number("robot-count") };
     const body = this.body.value;
-    return experimentOf({ ...wanted, profile: this.behaviour.value, world: this.worlds.get(this.world.value), body });
-  }
-
-  /** @param {string} chosen - The name of the world that is chosen. */
-  offerWorlds(chosen) {
-    offer(this.world, [...this.worlds.keys()].map((name) => [name, heard(name)]), chosen);
+    return experimentOf({ ...wanted, profile: this.behaviour.value, world: this.worlds.get(this.pictures.chosen), body });
   }
 
   /**
@@ -172,7 +168,7 @@ export class SidePanel {
   begin(experiment) {
     const { world = RANDOM } = experiment;
     this.worlds.set(nameOf(world), world);
-    this.offerWorlds(nameOf(world));
+    this.pictures.offer(this.worlds, nameOf(world));
     this.lab.begin(experiment);
   }
 
@@ -266,7 +262,10 @@ export class SidePanel {
     setText(byId("freeze"), say(state.frozen ? "frozen" : "freeze"));
     typedById("undo", HTMLButtonElement).disabled = lane.experiment.changes.length === 0;
     const robot = data.robots[lane.robot];
-    if (this.tab === "run") this.lessons.show(scene, robot.lessonsUpTo(state.tick, scene.environment.start_tick));
+    if (this.tab === "run") {
+      this.lessons.show(scene, robot.lessonsUpTo(state.tick, scene.environment.start_tick));
+      this.pictures.show();
+    }
     if (this.tab === "parameters") this.bench.show(setup.settings);
     if (this.tab === "listing") this.listing.show(state, actionStart(robot, state.tick));
     if (this.tab === "curves") this.curves.show(lanes, tick);
@@ -282,8 +281,8 @@ function faultName(what) {
  * Fills a field; what was chosen stays so.
  * @param {HTMLSelectElement} select
  * @param {[string, string][]} options - Their values and names.
- * @param {string} [chosen]
  */
-function offer(select, options, chosen = select.value || options[0][0]) {
+function offer(select, options) {
+  const chosen = select.value || options[0][0];
   select.replaceChildren(...options.map(([value, name]) => new Option(name, value, false, value === chosen)));
 }

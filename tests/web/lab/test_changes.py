@@ -116,8 +116,29 @@ def test_a_change_that_cannot_be_made_is_told_and_dropped(page):
     wait_for(page, "octet.lane.experiment.changes.length === 0")
 
 
+PICTURES = """() => [...document.querySelectorAll("#worlds canvas")].map((canvas) => canvas.toDataURL())"""
+DRAWN = "octet.desk.pictures.pictures.every(({ drawn }) => drawn)"
+
+
+def test_a_world_is_chosen_by_its_picture_which_is_that_of_the_seed(page):
+    simulated(page)
+    wait_for(page, DRAWN)
+    pictures = page.evaluate(PICTURES)
+    assert len(set(pictures)) == len(pictures) == 6
+
+    page.fill("#seed", "8")
+    page.focus("#worlds input:checked")
+    simulated(page)
+    wait_for(page, DRAWN)
+    assert not set(page.evaluate(PICTURES)) & set(pictures)
+
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Enter")
+    wait_for(page, "octet.lane.experiment.seed === 8 && octet.lane.experiment.world === 'corridors'")
+
+
 def test_a_run_in_another_world_with_plants_and_a_broken_body_can_be_repeated_from_its_files(page, tmp_path):
-    page.select_option("#world", "posts")
+    page.check("#worlds [value=posts]")
     page.click("#new-run button")
     wait_for(page, "octet.lane.data")
     page.evaluate("octet.go(150)")

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from host_sim.base.paths import PAGE_WASM
-from host_sim.report.page_bundle import bundle
+from host_sim.report.page_bundle import bundle, modules_of
 
 RUN_IN_NODE = Path(__file__).with_name("run_in_node.js")
 
@@ -21,7 +21,9 @@ def in_node(folder: Path, module: str, code: str, *files: Path) -> Any:
         files: Files whose texts the code wants.
     """
     script = folder / f"{Path(module).name}.bundle"
-    script.write_text(bundle(*module.split()))
+    names = {name: i for i, name in enumerate(modules_of(*module.split()))}
+    named = ", ".join(f'"{name}": modules[{i}]' for name, i in names.items())
+    script.write_text(f"{bundle(*module.split())}Object.assign(modules, {{ {named} }});\n")
     done = subprocess.run(
         ["node", RUN_IN_NODE, script, PAGE_WASM, code, *files], capture_output=True, text=True, check=False
     )
