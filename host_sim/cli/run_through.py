@@ -11,10 +11,10 @@ from host_sim.cli.interruption import interrupted_between_ticks
 from host_sim.cli.outputs import Outputs
 from host_sim.cli.progress_line import ProgressLine
 from host_sim.cli.run_options import RunOptions
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.recording.summary import environment_line
 from host_sim.sim.make import start_robots
 from host_sim.sim.simulation import Simulation
+from host_sim.world.memory_kinds import sides_of
 
 if TYPE_CHECKING:
     from host_sim.live.listener import Listener

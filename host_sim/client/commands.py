@@ -7,7 +7,7 @@ from host_sim.base.errors import RobotError
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, MEMORY_KINDS, PROFILES, MemoryKind
-from host_sim.protocol.memory_kinds import translated, with_sides
+from host_sim.world.memory_kinds import translated, with_sides
 
 _HALF = CELL_COUNT // 2
 _KINDS = {number: MEMORY_KINDS[name] for name, number in PROFILES.items()}

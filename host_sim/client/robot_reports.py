@@ -5,8 +5,8 @@ from collections.abc import Collection
 from host_sim.client.freshness import GAP_MIN, Arrival, Freshness
 from host_sim.protocol.codec import COUNTERS, DecodedFrame, Frame, counter_of
 from host_sim.protocol.generated import CELL_COUNT
-from host_sim.protocol.memory_kinds import kinds_of
 from host_sim.protocol.memory_report import MemoryReport
+from host_sim.world.memory_kinds import kinds_of
 
 REPORTS = frozenset({"EMERGENCY", "MEMORY", "HEARTBEAT", "BOOT", "FAULTS", "CRASH", "HEALTH"})
 """The messages that a robot sends of its own accord, beside DRIVE."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from host_sim.live.paced_run import PacedRun
 from host_sim.protocol.generated import ROW, Reason
-from host_sim.protocol.memory_kinds import sides_of
+from host_sim.world.memory_kinds import sides_of
 
 SAMPLES_MAX = 600
 """Maximum number of samples; beyond it, every other one goes."""

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from host_sim.protocol.generated import CELL_COUNT, PATTERNS, SIDES, Reason
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.recording.summary import Summary
 from host_sim.sim.fleet import FleetResult
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.memory_kinds import sides_of
 
 COLUMNS = (
     "robot", "seed", "environment", "finished", "food_eaten", "ticks", "trials", "remembered_turns", "boredom_turns",

@@ -9,7 +9,7 @@ from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import UsageError
 from host_sim.base.regular_file import read_bytes
 from host_sim.protocol.generated import CELL_COUNT
-from host_sim.protocol.memory_kinds import Memory, kinds_of, sides_of
+from host_sim.world.memory_kinds import Memory, kinds_of, sides_of
 
 _SIZE_MAX = 4096
 """Larger files are not looked at."""

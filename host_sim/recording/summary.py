@@ -10,11 +10,11 @@ from host_sim.base.atomic_file import write_bytes
 from host_sim.base.counted import counted
 from host_sim.client.robot_client import RobotClient
 from host_sim.protocol.generated import FEEL, PATTERNS, SIDES, Reason
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.episode_result import EpisodeResult, RobotResult
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
 from host_sim.sim.world_record import WorldRecord
+from host_sim.world.memory_kinds import sides_of
 
 _FAULTS_MAX = 255
 _REFUSED = ("stale", "damaged", "foreign")

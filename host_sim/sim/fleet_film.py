@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.native_fleet import NativeFleet
 from host_sim.world.layouts import Layout
+from host_sim.world.memory_kinds import sides_of
 
 SAMPLE_TICKS = 50
 """From one sample to the next."""

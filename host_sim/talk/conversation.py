@@ -6,7 +6,6 @@ from typing import NamedTuple
 
 from host_sim.base.errors import OctetError, UsageError
 from host_sim.base.regular_file import read_text
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.recording.memory_file import load_memory
 from host_sim.recording.trajectory import Trajectory
 from host_sim.talk.eliza import Eliza, Facts, Known
@@ -14,6 +13,7 @@ from host_sim.talk.facts import FACTS, Rests, RobotFacts
 from host_sim.talk.log_index import LogIndex, index_log
 from host_sim.talk.script import Script, read_script
 from host_sim.talk.texts import POINT, Texts, read_texts
+from host_sim.world.memory_kinds import sides_of
 
 SCRIPTS = Path(__file__).with_name("scripts")
 """Our own scripts, `NAME.script`, and the texts of the facts that they ask for, `NAME.toml`."""

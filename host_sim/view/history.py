@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from host_sim.protocol.generated import CELL_COUNT, ROW
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.view.state_types import Learned, Lesson, Trial
+from host_sim.world.memory_kinds import sides_of
 from host_sim.world.world_library import world_library
 
 

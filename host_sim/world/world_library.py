@@ -16,7 +16,7 @@ _DRAW = tuple(
     _NATIVE / "draw" / f"{name}.h" for name in ("reach", "tour", "layout", "layouts", "written_fault", "written")
 )
 HEADERS = (
-    ROOT / "firmware" / "io.h",
+    *(ROOT / "firmware" / name for name in ("io.h", "memory/memory.h", "memory/memory_kind.h")),
     ROOT / "hal" / "pins_body" / "wheel.h",
     *WORLD_HEADERS,
     *(_NATIVE / f"{name}.h" for name in ("body", "ranges", "draw/draws", "clearance")),

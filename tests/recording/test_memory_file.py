@@ -12,11 +12,11 @@ import pytest
 from host_sim.base.atomic_file import write_bytes
 from host_sim.base.errors import UsageError
 from host_sim.protocol.generated import MemoryKind
-from host_sim.protocol.memory_kinds import translated
 from host_sim.recording import memory_lock as module
 from host_sim.recording.memory_file import MemorySaver, load_memory
 from host_sim.recording.memory_lock import memory_lock
 from host_sim.recording.run_folder import run_folder
+from host_sim.world.memory_kinds import translated
 
 NOTHING, SOME, MORE = (0,) * 8, (0, 1, 0, 0, 2, 0, 0, 0), (0, 1, 0, 1, 2, 0, 0, 0)
 

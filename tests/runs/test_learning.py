@@ -14,13 +14,13 @@ from host_sim.client.frame_log import FrameLog
 from host_sim.lab.study.trial import Trial, run_trial
 from host_sim.protocol.codec import Protocol
 from host_sim.protocol.generated import MEMORY_KINDS, PROFILES, MemoryKind, Side
-from host_sim.protocol.memory_kinds import kinds_of, sides_of
 from host_sim.recording.log_reader import read_log
 from host_sim.recording.replay import replay
 from host_sim.sim.episode_result import EpisodeResult
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.world.memory_kinds import kinds_of, sides_of
 from tests.runs.support import octet
 
 SEEDS = range(1, 41)

@@ -25,7 +25,8 @@ install(FILES ${sources}/web/generated.js DESTINATION host_sim/web)
 install(FILES ${PROJECT_BINARY_DIR}/code_version DESTINATION ${tree}/build)
 install(FILES ${OCTET_GENERATED}/robot_words.h DESTINATION ${tree}/build/host/generated)
 
-foreach(file firmware/io.h hal/link/link.h hal/pins_body/wheel.h hal/protocol/octet.dbc hal/protocol/robot.toml)
+foreach(file firmware/io.h firmware/memory/memory.h firmware/memory/memory_kind.h hal/link/link.h hal/pins_body/wheel.h
+    hal/protocol/octet.dbc hal/protocol/robot.toml)
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/${file} DESTINATION ${tree}/${folder})
 endforeach()

@@ -16,8 +16,8 @@ from host_sim.faults.event import Event
 from host_sim.lab.campaign.killed import Tell, kill_at
 from host_sim.lab.campaign.setup import Happen
 from host_sim.protocol.codec import Protocol
-from host_sim.protocol.memory_kinds import Memory
 from host_sim.recording.memory_file import MemorySaver, load_memory
+from host_sim.world.memory_kinds import Memory
 
 _NODE = 1
 _OF_COURSE = tuple(f" {Protocol(_NODE).id_of(name):03X}#".encode() for name in ("SENSES", "DRIVE"))

@@ -19,9 +19,9 @@ from host_sim.lab.campaign.outcome import Outcome
 from host_sim.lab.campaign.run_files import FILE_EVENTS, KILL_EVENTS, NoFiles, is_memory_held, make_folder, open_files
 from host_sim.lab.campaign.setup import Happen, Setup
 from host_sim.protocol.generated import TICK_SPAN, Side
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.make import make
 from host_sim.sim.simulation import Simulation
+from host_sim.world.memory_kinds import sides_of
 
 _PROPER = {1: Side.LEFT, 3: Side.LEFT, 4: Side.RIGHT, 6: Side.RIGHT}
 _REFUSING = ("stale", "damaged", "foreign", "refused")

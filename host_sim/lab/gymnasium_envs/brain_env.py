@@ -15,10 +15,10 @@ from host_sim.client.commands import freeze, write_cells
 from host_sim.client.robot_client import RobotClient
 from host_sim.lab.gymnasium_envs import rules
 from host_sim.protocol.generated import CELL_COUNT, PARAMETERS, PROFILES, Reason, Side
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.make import make, start_robots
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.world.memory_kinds import sides_of
 from host_sim.world.params import SimParams
 
 KEEP = 3

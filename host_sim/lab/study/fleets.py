@@ -12,9 +12,9 @@ from host_sim.lab.study.plan import Plan
 from host_sim.lab.study.sample import CURVE, TRAPPED_S, Floats, Sample
 from host_sim.lab.study.trial import knows_wrong, tour_s
 from host_sim.protocol.generated import Reason
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.fleet import FleetResult, run_fleet
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.memory_kinds import sides_of
 from host_sim.world.params import SimParams
 
 _TURNS = (Reason.TRIAL, Reason.REMEMBERED, Reason.BOREDOM)

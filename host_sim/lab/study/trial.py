@@ -9,11 +9,11 @@ from host_sim.client.commands import stop
 from host_sim.client.frame_log import FrameLog
 from host_sim.lab.study.contacts import BodyState, Contact, ContactWatch, Course
 from host_sim.protocol.generated import PARAMETERS, Side
-from host_sim.protocol.memory_kinds import Memory, sides_of
 from host_sim.sim.make import make
 from host_sim.sim.native_loop import BLOCK_TICKS
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from host_sim.world.memory_kinds import Memory, sides_of
 from host_sim.world.reach import tour_mm
 from host_sim.world.worlds import world_of
 

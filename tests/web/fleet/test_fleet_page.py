@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from host_sim.protocol.memory_kinds import sides_of
 from host_sim.sim.fleet import FleetResult, run_fleet
 from host_sim.sim.fleet_film import SAMPLE_TICKS, FleetFilm
 from host_sim.sim.run_config import RunConfig
+from host_sim.world.memory_kinds import sides_of
 from tests.runs.support import octet
 from tests.web.looks import PHONES, TOO_SMALL, violations_at
 from tests.web.support import next_frame, wait_for
