@@ -125,7 +125,7 @@ def test_what_is_no_copy_is_let_through(text):
     assert copies_in(text) == []
 
 
-TWIN = re.compile(r"\bas [\w/]+\.(?:c|h|js|py) has (?:it|them)\b", re.IGNORECASE)
+TWIN = re.compile(r"\bas [\w/]+\.(?:c|h|js|py) has (?:it|them)\b|\.(?:c|h|js|py)`? has the same\b", re.IGNORECASE)
 SOURCES = ("firmware/*.[ch]", "hal/*.[ch]", "host_sim/*.[ch]", "host_sim/*.py", "host_sim/*.js")
 
 
@@ -147,7 +147,12 @@ def test_no_file_says_to_be_the_twin_of_another(texts):
 
 
 @pytest.mark.parametrize(
-    "comment", ["/* Ranges: as host_sim/world/ranges.py has them. */", "// as host_sim/sim/loop.c\n// * has it"]
+    "comment",
+    [
+        "/* Ranges: as host_sim/world/ranges.py has them. */",
+        "// as host_sim/sim/loop.c\n// * has it",
+        "The firmware's `memory_kind.c` has the same rules.",
+    ],
 )
 def test_a_file_that_says_so_is_found(comment):
     assert twins({"one.js": comment.replace("//", "*"), "other.js": "/* As in the article. */"}) == {"one.js"}
