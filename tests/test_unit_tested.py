@@ -22,6 +22,7 @@ NOT_ON_THE_HOST = {
     "hal/port/cortex_m/startup.c": "written in the core's own assembler, and in symbols of the linker script",
     "hal/port/cortex_m/leave.c": "as above",
     "hal/boot/boot_main.c": "a main of its own; tests/image/test_update.py runs it",
+    "hal/pins_body/body_main.c": "a main of its own; tests/image/test_body_node.py runs it",
     "hal/boot/signer.c": "the public key, and no code",
     "hal/stm32/stm32f103/layout.c": "numbers, and no code",
     "hal/stm32/stm32g431/nmi.c": "written in the core's own assembler; what it calls is tested as flash_forgives",

@@ -79,6 +79,11 @@ void telemetry_senses(const struct senses *senses)
     say(&frame);
 }
 
+bool telemetry_wants_ranges(void)
+{
+    return false;
+}
+
 void telemetry_output(const struct output *out, bool asked)
 {
     size_t count;

@@ -126,7 +126,7 @@ static void fill_senses(struct hal *hal, struct senses *senses)
         .odometer_right = wheel_odometer(&hal->wheels[1]),
     };
     for (unsigned i = 0; i < FEEL_COUNT; i++)
-        senses->range_mm[i] = RANGE_NONE;
+        senses->range_mm[i] = telemetry_wants_ranges() ? proximity_range_mm(&hal->proximity, i) : (uint8_t)RANGE_NONE;
     telemetry_senses(senses);
 }
 

@@ -19,4 +19,8 @@ struct proximity {
 uint8_t proximity_feel(struct proximity *proximity, const uint16_t dark[FEEL_COUNT]);
         /* The sensors that are triggered, the sum of the FEEL_ bits, given lit and what is received without the LEDs. */
 
+uint8_t proximity_range_mm(const struct proximity *proximity, unsigned sensor);
+        /* How far a wall is from the rim by its light, as of the last look: 60 mm where it just triggers the sensor. RANGE_NONE: it is
+           not triggered. */
+
 #endif

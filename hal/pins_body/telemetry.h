@@ -1,5 +1,5 @@
 /* telemetry.h: how a robot of its own talks, if it talks at all. Exactly one implementation is linked in: over CAN
- * (can_telemetry.c), or none (no_telemetry.c). Nothing here waits. */
+ * (can_telemetry.c), or not at all (no_telemetry.c); or, as a body whose brain is another node, with that (body_node.c). Nothing here waits. */
 #ifndef OCTET_TELEMETRY_H
 #define OCTET_TELEMETRY_H
 
@@ -15,6 +15,9 @@ enum input_kind telemetry_receive(struct input *in);
 
 void telemetry_senses(const struct senses *senses);
         /* Tells what the robot senses, before the output that answers it. */
+
+bool telemetry_wants_ranges(void);
+        /* Whether senses are to have distances. */
 
 void telemetry_output(const struct output *out, bool asked);
         /* Tells what the robot does. asked: its answer is one to a command from outside. */

@@ -19,6 +19,11 @@ void telemetry_senses(const struct senses *senses)
     (void)senses;
 }
 
+bool telemetry_wants_ranges(void)
+{
+    return false;
+}
+
 void telemetry_output(const struct output *out, bool asked)
 {
     (void)out;

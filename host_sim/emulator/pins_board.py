@@ -2,7 +2,6 @@
 
 from collections import deque
 from pathlib import Path
-from typing import Any
 
 from host_sim.base.errors import UsageError
 from host_sim.base.paths import image_path
@@ -15,13 +14,9 @@ from host_sim.emulator.robot_on_pins import RobotOnPins
 from host_sim.protocol.codec import Frame, Protocol, counter_of
 from host_sim.protocol.generated import Reason, Senses
 from host_sim.world.body import Body
-from host_sim.world.world_library import world_library
 
 PINS = "pins"
 """The image, and the kind of body."""
-
-_NEAR_MM, _STRONG, _WEAK = 150, 4, 4
-"""A beacon's bursts in a tick: strong ones reach as far as it is seen, weak ones only so far."""
 
 _ANSWER_S = 0.1
 
@@ -41,8 +36,6 @@ class PinsBoard(EmulatedBoard):
         self._sensed: Frame | None = None
         self._drive: Frame | None = None
         self._waits = self._asked = False
-        self._ffi, self._library = world_library()
-        self._light: Any = self._ffi.new("uint16_t[5]")
         super().__init__(chip, image, faults)
         assert self.hardware.robot is not None  # such chips alone have such images
         self.robot: RobotOnPins = self.hardware.robot
@@ -58,12 +51,7 @@ class PinsBoard(EmulatedBoard):
         Returns:
             What the board says that it senses; `senses` if it says nothing.
         """
-        self.robot.join(body.kit)
-        body.measure_light(tick, self._light)
-        self.robot.light = list(self._light)
-        self.robot.set_bumped(senses.bump)
-        if senses.look:
-            self.robot.receive_bursts(_STRONG + _WEAK * (senses.beacon_mm < _NEAR_MM))
+        self.robot.feel(body, senses, tick)
         self._waits = True
         deadline = self._clock.now + round(_ANSWER_S * SECOND)
         said = self._said

@@ -6,13 +6,17 @@ from host_sim.emulator.converter import Converter
 from host_sim.emulator.core import Core
 from host_sim.emulator.timers import MotorTimer, Timer
 from host_sim.emulator.wiring import Wiring
-from host_sim.protocol.generated import FEEL
+from host_sim.protocol.generated import FEEL, Senses
+from host_sim.world.body import Body
 from host_sim.world.world_library import world_library
 
 _SIDES = ("LEFT", "RIGHT")
 _SENSORS = [f"PROXIMITY_{name.upper().replace('-', '_')}" for name in FEEL]
 _SAMPLE_PER_MV = 4096 / 3300 / 3
 _ONE = 65536
+
+_NEAR_MM, _STRONG, _WEAK = 150, 4, 4
+"""A beacon's bursts in a tick: strong ones reach as far as it is seen, weak ones only so far."""
 
 
 class RobotOnPins:
@@ -47,6 +51,7 @@ class RobotOnPins:
         self.ffi, self.library = world_library()
         self.kit: Any = None
         self.light, self.ambient, self.battery_v = [0] * len(_SENSORS), 300, 7.4
+        self._light: Any = self.ffi.new("uint16_t[]", len(_SENSORS))
         self.counts_by = [1, 1]
         self._duty: Any = self.ffi.new("int32_t[2]")
         self._counts = [0, 0]
@@ -58,6 +63,21 @@ class RobotOnPins:
         if kit != self.kit:
             self.kit = kit
             self._counts = [self.library.kit_count(kit, side) for side in range(2)]
+
+    def feel(self, body: Body, senses: Senses, tick: int) -> None:
+        """What the sensors receive where a body is, in which the board is from now on.
+
+        Args:
+            body: Where it is.
+            senses: What an ideal body senses there.
+            tick: Number of the tick in the run.
+        """
+        self.join(body.kit)
+        body.measure_light(tick, self._light)
+        self.light = list(self._light)
+        self.set_bumped(senses.bump)
+        if senses.look:
+            self.receive_bursts(_STRONG + _WEAK * (senses.beacon_mm < _NEAR_MM))
 
     def set_bumped(self, bumped: bool) -> None:
         """Something presses the bumpers, or nothing."""

@@ -51,7 +51,7 @@ def flash(*options: str) -> subprocess.CompletedProcess[str]:
 
 def test_every_board_has_a_chip_and_its_links() -> None:
     assert {board.name: (board.chip, *board.links) for board in BOARDS.values()} == {
-        "blue_pill": ("stm32f103", "bxcan", "slcan", "pins", "mute"),
+        "blue_pill": ("stm32f103", "bxcan", "slcan", "pins", "mute", "body"),
         "feather_stm32f405": ("stm32f405", "bxcan", "slcan"),
         "nucleo_g431rb": ("stm32g431", "fdcan", "slcan"),
         "olimex_stm32_h405": ("stm32f405", "bxcan", "slcan"),

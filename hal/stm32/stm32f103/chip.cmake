@@ -9,7 +9,7 @@ set(OCTET_SLOT_SIZE 22528)
 set(OCTET_BOOT_RAM 0x20001000)
 
 set(OCTET_LINKS bxcan slcan)
-set(OCTET_BODIES pins mute)
+set(OCTET_BODIES pins mute body)
 set(OCTET_BODY_LINK bxcan)
 set(OCTET_BODY_SOURCES stm32f103/robot_pins.c)
 set(OCTET_LINK_bxcan can_link.c can_queue.c can_timing.c bxcan.c)

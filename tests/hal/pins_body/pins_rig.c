@@ -41,6 +41,8 @@ void pins_measure(uint16_t light[FEEL_COUNT])
 int telemetry_open(const struct port *opened) { (void)opened; return told.opens; }
 void telemetry_senses(const struct senses *senses) { told.said = *senses; }
 
+bool telemetry_wants_ranges(void) { return told.wants_ranges; }
+
 void telemetry_output(const struct output *out, bool asked)
 {
     told.out = *out;

@@ -22,7 +22,7 @@ extern struct fake_telemetry {
     struct senses said;
     unsigned outputs;
     struct output out;    /* the last */
-    bool asked;
+    bool asked, wants_ranges;
     int opens;
 } told;
 

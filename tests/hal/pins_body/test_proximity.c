@@ -60,3 +60,17 @@ TEST(each_sensor_has_its_bit_and_its_own_threshold)
     proximity.lit[4] = PROXIMITY_NEAR;
     TEST_ASSERT_EQUAL_HEX8(FEEL_FRONT_RIGHT | FEEL_LEFT, proximity_feel(&proximity, dark));
 }
+
+TEST(distance_is_that_of_a_wall_that_gives_back_so_much_light)
+{
+    (void)feel(PROXIMITY_NEAR, AMBIENT);
+    TEST_ASSERT_EQUAL_UINT8(60, proximity_range_mm(&proximity, 0));
+    (void)feel(PROXIMITY_NEAR * 9 / 10, AMBIENT);
+    TEST_ASSERT_EQUAL_UINT8(64, proximity_range_mm(&proximity, 4));   /* 80 / sqrt(0.9) - 20: 64.3 */
+    (void)feel(2700, AMBIENT);
+    TEST_ASSERT_EQUAL_UINT8(33, proximity_range_mm(&proximity, 2));   /* 80 x 2 / 3 - 20 */
+    (void)feel(4095, 0);
+    TEST_ASSERT_EQUAL_UINT8(23, proximity_range_mm(&proximity, 2));
+    (void)feel(PROXIMITY_NEAR / 2, AMBIENT);
+    TEST_ASSERT_EQUAL_UINT8(RANGE_NONE, proximity_range_mm(&proximity, 2));
+}
