@@ -18,6 +18,8 @@ from host_sim.cli.main import main
 ROOT = Path(__file__).resolve().parents[2]
 ROBOT = ROOT / "build/host/hal/port/posix/octet-robot"
 DEADLINE_S = 600
+BUSY_HOST = ("--gap-max-s", "60", "--unanswered-max", "100", "--late-max", "100")
+"""What lets a run in real time be right on a host that has little time for it."""
 
 Ended = subprocess.CompletedProcess[str]
 
@@ -51,6 +53,7 @@ def octet(*words: str | Path) -> Ended:
     with (
         mock.patch("host_sim.report.picture.write_picture", lambda path, _: path.touch()),
         mock.patch("host_sim.cli.outputs.PAGE_WASM", Path(os.devnull) / "left out"),
+        mock.patch("host_sim.cli.replay_command.PAGE_WASM", Path(os.devnull) / "left out"),
         mock.patch("os.execve", side_effect=AssertionError("`--bus auto` needs a process of its own")),
         contextlib.redirect_stdout(output),
         contextlib.redirect_stderr(errors),

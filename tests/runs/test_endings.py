@@ -13,7 +13,16 @@ import pytest
 from host_sim.backends.robot_process import RobotProcess
 from host_sim.base.errors import RobotError
 from host_sim.live.paced_run import PAUSE_S
-from tests.runs.support import DEADLINE_S, octet, octet_process, robot_of, start_octet, wait_for_lines, wait_until
+from tests.runs.support import (
+    BUSY_HOST,
+    DEADLINE_S,
+    octet,
+    octet_process,
+    robot_of,
+    start_octet,
+    wait_for_lines,
+    wait_until,
+)
 
 FILES = ("run.log", "run.world.json", "summary.json", "arena.png", "replay.html")
 SHORT = ("--environments", "1", "--limit-s", "5", "--bus", "none")
@@ -54,7 +63,7 @@ def test_a_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
 def test_a_watched_run_that_is_interrupted_leaves_one_whole_run(tmp_path, number):
     assert octet("run", *SHORT, "--quiet", "--out", tmp_path).returncode == 0
-    process = start_octet("run", "--watch", "--port", "0", *LONG, "--out", tmp_path)
+    process = start_octet("run", "--watch", "--port", "0", *BUSY_HOST, *LONG, "--out", tmp_path)
     wait_for_lines(tmp_path / "run.log", 4000)
 
     process.send_signal(number)
@@ -229,7 +238,7 @@ def test_a_run_in_real_time_pauses_after_an_environment_and_the_log_knows_nothin
     words = ("run", "--bus", "fd", "--environments", "2", "--limit-s", "1")
     paused, at_once = tmp_path / "paused", tmp_path / "at once"
 
-    assert octet(*words, "--real-time", "--late-max", "100", "--out", paused).returncode == 0
+    assert octet(*words, "--real-time", *BUSY_HOST, "--out", paused).returncode == 0
     assert octet(*words, "--out", at_once).returncode == 0
 
     summaries = [json.loads((out / "summary.json").read_text()) for out in (paused, at_once)]

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.runs.support import octet, robot_of, start_octet, wait_for_lines, wait_until
+from tests.runs.support import BUSY_HOST, octet, robot_of, start_octet, wait_for_lines, wait_until
 from tests.runs.test_slcan import drives_in
 from tests.tools.processes import alive
 
@@ -102,8 +102,7 @@ def test_delays_on_either_side_change_nothing(tmp_path, run):
 
 
 def test_in_real_time_a_held_up_robot_stops_and_then_goes_on(tmp_path):
-    words = ("--environments", "1", "--bus", "fd", "--limit-s", "4", "--real-time", "--json")
-    words += ("--unanswered-max", "100", "--late-max", "100")
+    words = ("--environments", "1", "--bus", "fd", "--limit-s", "4", "--real-time", "--json", *BUSY_HOST)
     process = start_octet("run", "--out", tmp_path, *words)
     robot = robot_of(process)
     wait_until(lambda: waits_of(robot) > 50, "fifty ticks of the robot")

@@ -10,7 +10,7 @@ import pytest
 from host_sim.client.frame_log import digest_of
 from host_sim.sim.run_config import RunConfig
 from tests.runs.log_hashes import Recorded, differences, digest_of_log, runs
-from tests.runs.support import Run, assert_healthy, octet
+from tests.runs.support import BUSY_HOST, Run, assert_healthy, octet
 
 
 def test_a_run_finishes_its_environments_and_says_so(run):
@@ -143,7 +143,7 @@ def test_a_short_time_limit_ends_an_environment_unfinished(run):
 
 @pytest.mark.faulty
 def test_real_time_takes_its_time(run):
-    done = run("--environments", "1", "--bus", "fd", "--limit-s", "3", "--real-time", "--late-max", "100")
+    done = run("--environments", "1", "--bus", "fd", "--limit-s", "3", "--real-time", *BUSY_HOST)
 
     assert done.summary["environments"][0]["ticks"] == 150
     assert done.summary["wall_s"] > 2.9

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 import pytest
 
 from host_sim.faults.cable import Cable, Socket
-from tests.runs.support import DEADLINE_S, ROBOT, octet, start_octet, wait_until
+from tests.runs.support import BUSY_HOST, DEADLINE_S, ROBOT, octet, start_octet, wait_until
 
 LEARNED = bytes([0, 1, 1, 1, 2, 1, 2, 1])
 SOME_TICKS = 6000
@@ -139,7 +139,7 @@ def test_a_line_that_stays_away_ends_the_run_with_one_line(robot_on, tmp_path):
 
 
 @pytest.mark.faulty
-@pytest.mark.parametrize("length", [("30",), ("6", "--real-time")], ids=["in lockstep", "in real time"])
+@pytest.mark.parametrize("length", [("30",), ("6", "--real-time", *BUSY_HOST)], ids=["in lockstep", "in real time"])
 def test_a_robot_that_restarts_goes_on_with_its_memory_and_the_result_is_doubted(robot_on, cable, tmp_path, length):
     words = ("--environments", "1", *external(cable), "--limit-s", *length)
     memory = tmp_path / "robot.mem"
@@ -165,9 +165,8 @@ def test_a_robot_that_restarts_goes_on_with_its_memory_and_the_result_is_doubted
 def test_watching_an_external_robot_is_in_real_time_on_its_own_clock(robot_on, cable, tmp_path):
     robot_on(cable)
     words = ("--environments", "1", "--limit-s", "3", "--port", "0", "--json", *external(cable))
-    busy_host = ("--gap-max-s", "60", "--unanswered-max", "100", "--late-max", "100")
 
-    done = octet("run", "--watch", *busy_host, "--out", tmp_path, *words)
+    done = octet("run", "--watch", *BUSY_HOST, "--out", tmp_path, *words)
 
     assert (done.returncode, "result unreliable" in done.stderr) == (0, False), done.stderr
     summary = json.loads((tmp_path / "summary.json").read_text())
