@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from PIL import Image
+from PIL import Image, ImageChops
 
 from host_sim.cli.main import main
 from host_sim.recording.trajectory import Trajectory
@@ -12,6 +12,7 @@ from host_sim.report.animation import Clip, draw_frame, write_gif
 from host_sim.report.drawing import CONE_LIT
 from host_sim.view.phrases import lesson_sentence, sentence
 from host_sim.view.state_types import State
+from tests.runs.support import octet_process
 
 README_BYTES_MAX = 1_500_000
 IMAGES = Path(__file__).resolve().parents[2] / "docs/images"
@@ -141,6 +142,13 @@ def test_a_clip_of_nothing_is_wrong_usage(short, capsys, words, named):
 def test_a_clip_without_end_is_refused(kept, tmp_path, capsys):
     assert main(["picture", str(kept.log), "--gif", str(tmp_path / "x.gif")]) == 2
     assert "more than 600: use --from" in capsys.readouterr().err
+
+
+def test_the_picture_of_the_readme_is_that_of_the_command(tmp_path):
+    assert octet_process("run", "--bus", "none", "--quiet", "--environments", "3", "--out", tmp_path).returncode == 0
+
+    with Image.open(tmp_path / "arena.png") as new, Image.open(IMAGES / "arena.png") as old:
+        assert ImageChops.difference(new.convert("RGB"), old.convert("RGB")).getbbox() is None
 
 
 def test_the_images_of_the_readme_are_small_and_whole():
