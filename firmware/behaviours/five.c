@@ -1,13 +1,25 @@
 /* five: the article's robot with a turn for each reading of all five sensors. The front three still say what is in the
- * way, and judge a trial. Boredom can strike again, as in rearmed. */
+ * way, and judge a trial. Boredom can strike again, as in rearmed, and forgets the turns for what was in the way. */
 #include "firmware/behaviours/behaviour.h"
 #include "firmware/behaviours/listing.h"
 #include "firmware/memory/feel_memory.h"
+#include "firmware/memory/memory_kind.h"
+#include "firmware/pattern.h"
 
 bool five_begin(struct brain *brain)
 {
     (void)brain;
     return true;
+}
+
+/* What was in the way was the same whatever was beside it. */
+static void forget(struct brain *brain)
+{
+    brain->repeat_count = 0;
+    if (brain->frozen)
+        return;
+    memory_put(&brain->memory, MEMORY_KIND_ALL_SENSORS, pattern_of(brain->tried_feel), SIDE_NOTHING);
+    brain->changed = true;
 }
 
 struct action five_next(struct brain *brain, const struct config *config, const struct senses *senses)
@@ -20,6 +32,6 @@ struct action five_next(struct brain *brain, const struct config *config, const 
     }
     action = listing_next(brain, config, senses, feel_memory_recall(&brain->memory, senses->feel));
     if (action.reason == REASON_BOREDOM)
-        brain->repeat_count = 0;
+        forget(brain);
     return action;
 }

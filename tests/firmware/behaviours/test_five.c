@@ -28,11 +28,39 @@ TEST(the_side_sensors_do_not_judge_a_trial)
     TEST_ASSERT_FALSE(brain.changed);
 }
 
+static void bore(void)
+{
+    for (unsigned i = 1; i <= 11; i++)
+        TEST_ASSERT_EQUAL(i == 11 ? REASON_BOREDOM : REASON_REMEMBERED, next(FRONT).reason);
+}
+
 TEST(boredom_can_strike_again)
 {
+    for (unsigned i = 0; i < 2; i++) {
+        feel_memory_learn(&brain.memory, FRONT, SIDE_LEFT);
+        bore();
+    }
+}
+
+TEST(boredom_forgets_what_was_in_front_whatever_was_beside_it)
+{
     feel_memory_learn(&brain.memory, FRONT, SIDE_LEFT);
-    for (unsigned i = 1; i <= 22; i++)
-        TEST_ASSERT_EQUAL(i % 11 == 0 ? REASON_BOREDOM : REASON_REMEMBERED, next(FRONT).reason);
+    feel_memory_learn(&brain.memory, FRONT | FEEL_LEFT, SIDE_RIGHT);
+    feel_memory_learn(&brain.memory, ALL_THREE, SIDE_RIGHT);
+    bore();
+    TEST_ASSERT_TRUE(brain.changed);
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, feel_memory_recall(&brain.memory, FRONT));
+    TEST_ASSERT_EQUAL(SIDE_NOTHING, feel_memory_recall(&brain.memory, FRONT | FEEL_LEFT));
+    TEST_ASSERT_EQUAL(SIDE_RIGHT, feel_memory_recall(&brain.memory, ALL_THREE));
+}
+
+TEST(a_frozen_brain_forgets_nothing_when_it_is_bored)
+{
+    feel_memory_learn(&brain.memory, FRONT, SIDE_LEFT);
+    brain.frozen = true;
+    bore();
+    bore();
+    TEST_ASSERT_FALSE(brain.changed);
 }
 
 TEST(a_frozen_brain_learns_nothing)

@@ -49,9 +49,19 @@ class Five(Listing):
     The four bits of readings 0 and 1, in which nothing is in the way, are set as soon as something was learned.
     """
 
+    tried_feel = 0
+    """The reading of the last remembered turn."""
+
+    def begin_remembered(self, feel: int) -> None:
+        """Boredom may be about this."""
+        self.tried_feel = feel
+
     def begin_about_face(self) -> None:
-        """Boredom can strike again."""
+        """Boredom can strike again, and forgets what was in front, whatever was beside it."""
         self.repeat_count = 0
+        if not self.frozen:
+            for beside in (0, 1, 16, 17):
+                self.learn(self.tried_feel & 14 | beside, 0)
 
     def recall(self, feel: int) -> int:
         """The two bits of a reading."""
