@@ -83,6 +83,7 @@ class NativeFleet:
         """
         self.robots, self.worlds = robots, worlds
         self._params = params
+        world_library()  # before threads ask for it, who would load one each
         self._ffi, self._library = loaded()
         ffi = self._ffi
         self._each = robots // worlds  # in one world

@@ -1,10 +1,13 @@
 """Fleets against runs of single robots, and of several in one world: the same results, robot by robot."""
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import pytest
 
 from host_sim.base.errors import UsageError
+from host_sim.base.paths import ROOT
 from host_sim.protocol.generated import PROFILES, Reason
 from host_sim.sim import fleet, native_fleet
 from host_sim.sim.fleet import FleetResult, run_fleet
@@ -93,6 +96,20 @@ def test_robots_in_worlds_of_their_own_hear_their_company_only():
 
     assert in_company[:6] == in_order(list(run_fleet(replace(config, robots=3), company=3)))
     assert in_company != in_order(list(run_fleet(replace(config, settings={}), company=3)))
+
+
+def test_the_library_that_threads_draw_worlds_with_is_loaded_before_they_begin():
+    code = (
+        "from host_sim.sim.fleet import run_fleet\n"
+        "from host_sim.sim.run_config import RunConfig\n"
+        "from host_sim.world.world_library import world_library\n"
+        "run_fleet(RunConfig(robots=2, worlds='own'))\n"
+        "print(world_library.cache_info().currsize)"
+    )
+
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=ROOT)
+
+    assert (done.stdout, done.stderr) == ("1\n", "")
 
 
 def test_an_environment_that_is_finished_is_the_same():
