@@ -5,5 +5,11 @@
 [20.0]
 """
 
+from importlib import import_module
+from importlib.util import find_spec
+
 from host_sim.api import *  # noqa: F403 - its names are this package's
 from host_sim.api import __all__ as __all__
+
+if find_spec("gymnasium"):  # so that gymnasium.make("octet:octet/Arena-v0") finds it
+    import_module("host_sim.lab.gymnasium_envs")

@@ -1,0 +1,116 @@
+"""Q-learning with a table, many arenas at a time: how soon it finds as much food as the eight bytes.
+
+.venv/bin/python -m host_sim.lab.gymnasium_envs.q_learning --plot docs/images/q-learning.png
+"""
+
+import argparse
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+import host_sim.lab.gymnasium_envs  # noqa: F401 - names the environments
+from host_sim.base.errors import OctetError
+from host_sim.base.extra_library import library
+from host_sim.sim.fleet import run_fleet
+from host_sim.sim.run_config import RunConfig
+
+STEPS, ARENAS, SECONDS = 8000, 200, 60.0
+_STATES, _DEEDS = 16, 6
+_DISCOUNT, _CURVE = 0.95, 500
+
+
+@dataclass(frozen=True)
+class Learned:
+    """What a learner did.
+
+    Attributes:
+        table: Shape (states, deeds): what a deed is worth. A state is what the front sensors say, whether food is
+            seen, and the last deed.
+        food: The pieces of food that were eaten in each episode of a minute, in the order in which these ended.
+        steps: The step in which it ended.
+    """
+
+    table: NDArray[np.float64]
+    food: NDArray[np.int64]
+    steps: NDArray[np.int64]
+
+    def curve(self) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+        """Food per episode, the mean over the episodes of every 500 steps."""
+        ends = np.arange(_CURVE, self.steps.max() + _CURVE, _CURVE)
+        which = self.steps // _CURVE
+        return ends, np.bincount(which, self.food, len(ends)) / np.maximum(np.bincount(which, minlength=len(ends)), 1)
+
+
+def learn(seed: int, steps: int = STEPS) -> Learned:
+    """Learns for so many steps of 200 arenas; equal seeds learn the same."""
+    env: Any = gymnasium.make_vec("octet/Arena-v0", num_envs=ARENAS, limit_s=SECONDS)
+    draws, values = np.random.default_rng(seed), np.zeros(_STATES * _DEEDS * _DEEDS)
+    state, over, eaten = _states(env.reset(seed=seed)[0], np.zeros(ARENAS, np.int64)), np.zeros(ARENAS, bool), []
+    food = np.zeros(ARENAS, np.int64)
+    for step in range(steps):
+        part = step / steps
+        best = (values.reshape(-1, _DEEDS)[state] + 1e-9 * draws.random((ARENAS, _DEEDS))).argmax(-1)
+        explores = draws.random(ARENAS) < max(0.02, 0.5 - 1.33 * part)
+        deeds = np.where(explores, draws.integers(_DEEDS, size=ARENAS), best)
+        senses, reward, ended, truncated, _ = env.step(deeds)
+        after, goes_on = _states(senses, deeds), ~(ended | truncated)
+        target = reward + _DISCOUNT * goes_on * values.reshape(-1, _DEEDS)[after].max(-1)
+        cell = (state * _DEEDS + deeds)[~over]  # a step after an end begins the next episode, and teaches nothing
+        times = np.bincount(cell, minlength=len(values))
+        error = np.bincount(cell, (target - values[state * _DEEDS + deeds])[~over], len(values))
+        values += (1 - (1 - max(0.01, 0.2 - 0.4 * part)) ** times) * error / np.maximum(times, 1)
+        food += ~over & (reward > 0.5)  # noqa: PLR2004 - a piece is worth 1
+        over = ~goes_on
+        eaten += [(step, int(many)) for many in food[over]]
+        food[over], state = 0, after
+    ends, many = np.array(eaten).reshape(-1, 2).T
+    return Learned(values.reshape(-1, _DEEDS), many, ends)
+
+
+def food_of(profile: str, robots: int = 1000) -> float:
+    """What robots of the firmware eat in their first minute, with an empty memory: the mean."""
+    config = RunConfig(profile=profile, robots=robots, worlds="own", environments=1, limit_s=SECONDS)
+    return float(np.mean([result.food_eaten for result in run_fleet(config)]))
+
+
+def _states(senses: NDArray[np.int32], deeds: NDArray[np.int64]) -> NDArray[np.int64]:
+    return (senses[:, 1] >> 1 & 7 | senses[:, 3] << 3) * _DEEDS + deeds
+
+
+def _plot(path: Path, learned: list[Learned], firmware: dict[str, float]) -> None:
+    figure = library("matplotlib.figure", "study").Figure((8, 4.5), layout="constrained")
+    axes = figure.add_subplot(xlabel=f"steps of each of {ARENAS} arenas", ylabel="food in a minute")
+    for seed, each in enumerate(learned, 1):
+        axes.plot(*each.curve(), label=f"Q-learning, seed {seed}")
+    for (profile, food), style in zip(firmware.items(), ("--", ":"), strict=True):
+        axes.axhline(food, color="0.3", linestyle=style, label=f"{profile}, its first minute")
+    axes.legend()
+    figure.savefig(path, dpi=100, metadata={"Software": None})
+
+
+def main() -> None:
+    """Learns with three seeds, and says what came of it."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--plot", type=Path, metavar="FILE", help="draw the curves into this PNG")
+    arguments = parser.parse_args()
+    learned = [learn(seed) for seed in (1, 2, 3)]
+    firmware = {profile: food_of(profile) for profile in ("article", "searcher")}
+    for seed, each in enumerate(learned, 1):
+        _, curve = each.curve()
+        first, last = curve[0], curve[-4:].mean()
+        print(f"Q-learning, seed {seed}: {first:.2f} pieces of food a minute at first, {last:.2f} at last")
+    for profile, food in firmware.items():
+        print(f"{profile}: {food:.2f} in its first minute")
+    try:
+        if arguments.plot:
+            _plot(arguments.plot, learned, firmware)
+    except (OctetError, OSError) as error:
+        parser.error(f"cannot draw {arguments.plot}: {error}")
+
+
+if __name__ == "__main__":
+    main()
