@@ -60,7 +60,7 @@ def test_a_run_writes_into_its_page_what_its_log_says(tmp_path):
     done = octet_process("run", "--bus", "none", "--quiet", "--out", tmp_path, *words)
 
     assert (done.returncode, done.stderr) == (0, "")
-    octet("replay", tmp_path / "run.log", "--html", tmp_path / "page.html")
+    octet_process("replay", tmp_path / "run.log", "--html", tmp_path / "page.html")
     [own, replayed] = [laboratory_in(tmp_path / name) for name in ("replay.html", "page.html")]
     assert [own["page"], own["run"]["world"]] == [replayed["page"], replayed["run"]["world"]]
     assert sorted(own["run"]["commands"]) == sorted(replayed["run"]["commands"])
