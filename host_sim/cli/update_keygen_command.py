@@ -2,24 +2,33 @@
 
 import argparse
 import sys
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from host_sim.cli.parsing import add_command, number
 from host_sim.cli.run_options import add_option
 
 if TYPE_CHECKING:
+    from rich.progress import Progress
+
     from host_sim.cli.parsing import Subparsers
+    from host_sim.update.hub import Share
     from host_sim.update.image import SlotImage
     from host_sim.update.keys import Ed25519PrivateKey
+    from host_sim.update.status import Status
     from host_sim.update.updater import Updater
 
+    Images = dict[int, SlotImage] | None
+
 _LAST_NODE = 31
+_BITRATES = (125_000, 250_000, 500_000, 1_000_000)
 _EXAMPLES = """\
 examples:
   tools/octet update blue_pill --bus socketcan:can0                   the image that is built, to node 1
   tools/octet update out/robot.octet --bus socketcan:can0 --node 1-3  an image that was signed before, to three robots
   tools/octet update blue_pill --key my.pem --save out/robot.octet    only sign it
+  tools/octet update --bus socketcan:can0 --node 1 --set-node 7       give robot 1 the number 7
 docs/update.md tells what happens, and what a loss of power leaves.
 """
 _KEY_EXAMPLES = """\
@@ -37,13 +46,15 @@ def add(commands: "Subparsers") -> None:
         summary="put new firmware on robots, over the bus",
         description="Puts new firmware on robots, over the bus that they drive on, into the slot that does not run.\n"
         "Says what runs afterwards. It needs a boot loader on the board, and a robot that is not being driven.\n"
-        "An update that was interrupted goes on where it was.",
+        "Several robots are updated at once. An update that was interrupted goes on where it was.\n"
+        "Exit code 2 if a robot did not take it; it runs what it ran before.",
         epilog=_EXAMPLES,
         stages=lambda _: ["images"],
     )
     add_ = parser.add_argument
     add_(
         "image",
+        nargs="?",
         metavar="IMAGE",
         help="file of --save, or a board, such as blue_pill, to sign what is built",
     )
@@ -61,6 +72,14 @@ def add(commands: "Subparsers") -> None:
         type=number(0, 2**32 - 1),
         metavar="N",
         help="version of an image that is signed here (default: the time)",
+    )
+    add_("--set-node", type=number(0, _LAST_NODE), metavar="N", help="give the robot this number; 0: as built")
+    add_(
+        "--set-bitrate",
+        type=int,
+        choices=(0, *_BITRATES),
+        metavar="BIT/S",
+        help="bit rate that the robot uses from then on: 125000, 250000, 500000, 1000000, or 0: as built",
     )
     add_("--allow-older", action="store_true", help="let the boards take an older version")
     add_option(parser, "bitrate")
@@ -101,17 +120,20 @@ def _update(arguments: argparse.Namespace) -> int:
     from host_sim.base.errors import UsageError
     from host_sim.update.keys import development_key, load_key
 
+    changes = arguments.set_node is not None or arguments.set_bitrate is not None
     if arguments.bus is None and arguments.save is None:
         raise UsageError("where to? --bus names the bus, --save a file")
+    if arguments.image is None and (arguments.save is not None or not changes):
+        raise UsageError("what? IMAGE is a file of --save, or a board such as blue_pill")
+    if arguments.set_node is not None and len(arguments.node) > 1:
+        raise UsageError("--set-node gives one robot its number: --node names which")
     key = load_key(arguments.key) if arguments.key else development_key()
-    images = _images(arguments, key)
+    images = _images(arguments, key) if arguments.image is not None else None
     if arguments.key is None:
         print("octet: using the development key, which everybody has", file=sys.stderr)
-    if arguments.save is not None:
+    if arguments.save is not None and images is not None:
         _save(arguments.save, images)
-    if arguments.bus is not None:
-        _update_all(arguments, images, key)
-    return 0
+    return _update_all(arguments, images, key) if arguments.bus is not None else 0
 
 
 def _images(arguments: argparse.Namespace, key: "Ed25519PrivateKey") -> "dict[int, SlotImage]":
@@ -133,46 +155,90 @@ def _save(path: Path, images: "dict[int, SlotImage]") -> None:
     print(f"saved: {path}, version {images[0].version}, for {images[0].board}")
 
 
-def _update_all(arguments: argparse.Namespace, images: "dict[int, SlotImage]", key: "Ed25519PrivateKey") -> None:
-    from host_sim.transport.buses import open_bus_link
-    from host_sim.transport.line_stats import LineStats
-    from host_sim.update.isotp_connection import ANSWER_ID
-    from host_sim.update.updater import Updater
+class _Task(NamedTuple):
+    """What is done to each node."""
 
-    ids = [ANSWER_ID + node for node in arguments.node]
-    link = open_bus_link(arguments.bus, ids, LineStats(), arguments.bitrate)
-    try:
-        for node in arguments.node:
-            _update_one(Updater(link, node, key), images, allow_older=arguments.allow_older)
-    finally:
-        link.close()
+    arguments: argparse.Namespace
+    images: "Images"
+    key: "Ed25519PrivateKey"
+    progress: "Progress"
 
 
-def _update_one(updater: "Updater", images: "dict[int, SlotImage]", *, allow_older: bool) -> None:
+def _update_all(
+    arguments: argparse.Namespace, images: "dict[int, SlotImage] | None", key: "Ed25519PrivateKey"
+) -> int:
     from rich.console import Console
     from rich.progress import Progress
 
-    from host_sim.update.keys import is_development
-    from host_sim.update.updater import check_images
+    from host_sim.base.errors import OctetError
+    from host_sim.transport.buses import open_bus_link
+    from host_sim.transport.line_stats import LineStats
+    from host_sim.update.hub import Hub
+    from host_sim.update.isotp_connection import ANSWER_ID
 
+    stats = LineStats()
+    link = open_bus_link(arguments.bus, [ANSWER_ID + node for node in arguments.node], stats, arguments.bitrate)
+    hub = Hub(link)
+    try:
+        with Progress(console=Console(stderr=True), transient=True, disable=not sys.stderr.isatty()) as progress:
+            task = _Task(arguments, images, key, progress)
+            failures = hub.run({node: partial(_update_one, hub.share(node), node, task) for node in arguments.node})
+    finally:
+        link.close()
+    for node, error in failures.items():
+        if error is not None:
+            full = "; the bus takes no frames: it is full, or nobody else is on it" if stats.unsent else ""
+            said = str(error) if isinstance(error, OctetError) else f"node {node}: {error}".splitlines()[0]
+            print(f"octet: {said}{full}", file=sys.stderr)
+    return 2 if any(failures.values()) else 0
+
+
+def _update_one(link: "Share", node: int, task: _Task) -> None:
+    """Runs in a thread of its own, one for each node."""
+    from host_sim.update.keys import is_development
+    from host_sim.update.updater import Updater, check_images
+
+    updater = Updater(link, node, task.key)
     updater.enter()
-    check_images(images, updater.board())
     before = updater.status()
-    image = images[before.free]
-    kept = before.versions[before.slot] if before.installed >> before.slot & 1 else None
-    stays = "it has no image" if kept is None else f"version {kept} stays in slot {'AB'[before.slot]}"
-    print(f"node {updater.node}: {stays}; version {image.version} goes to slot {'AB'[image.slot]}", flush=True)
+    if task.images is not None:
+        check_images(task.images, updater.board())
+        image = task.images[before.free]
+        kept = before.versions[before.slot] if before.installed >> before.slot & 1 else None
+        stays = "it has no image" if kept is None else f"version {kept} stays in slot {'AB'[before.slot]}"
+        print(f"node {node}: {stays}; version {image.version} goes to slot {'AB'[image.slot]}", flush=True)
     if is_development(before.signer):
         print(
-            f"octet: node {updater.node} takes what is signed with the development key: anybody can update it",
+            f"octet: node {node} takes what is signed with the development key: anybody can update it",
             file=sys.stderr,
         )
     updater.unlock()
-    if allow_older:
+    if task.images is not None:
+        _install(updater, image, before, task)
+    _set_up(updater, task.arguments)
+
+
+def _install(updater: "Updater", image: "SlotImage", before: "Status", task: _Task) -> None:
+    if task.arguments.allow_older:
         updater.lower_floor(min(before.floor, image.version))
-    with Progress(console=Console(stderr=True), transient=True) as progress:
-        bar = progress.add_task(f"node {updater.node}", total=len(image.data))
-        updater.install(image, lambda count: progress.update(bar, completed=count))
+    bar = task.progress.add_task(f"node {updater.node}", total=len(image.data))
+    updater.install(image, lambda count: task.progress.update(bar, completed=count))
     updater.restart()
     version = updater.confirmed(image.version)
-    print(f"node {updater.node}: version {version} runs")
+    print(f"node {updater.node}: version {version} runs", flush=True)
+
+
+def _set_up(updater: "Updater", arguments: argparse.Namespace) -> None:
+    """Number and bit rate, last: from the next start on the board may be found elsewhere."""
+    if arguments.set_node is None and arguments.set_bitrate is None:
+        return
+    updater.enter()
+    updater.unlock()
+    if arguments.set_node is not None:
+        updater.set_node(arguments.set_node)
+    if arguments.set_bitrate is not None:
+        updater.set_bitrate(arguments.set_bitrate)
+    updater.restart()
+    said = [f"number {arguments.set_node}"] if arguments.set_node is not None else []
+    said += [f"{arguments.set_bitrate} bit/s"] if arguments.set_bitrate is not None else []
+    print(f"node {updater.node}: has {' and '.join(said)} from now on", flush=True)

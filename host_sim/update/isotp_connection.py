@@ -18,6 +18,8 @@ REQUEST_ID, ANSWER_ID = 0x6E0, 0x060
 """And the node: hal/boot/server.h has them."""
 
 _SLICE_S = 0.002
+_OTHERS_S = 0.05
+_PADDING = [0xCC] * 6
 _PARAMS = {
     "tx_padding": 0xCC,
     "stmin": 0,
@@ -41,8 +43,8 @@ class IsoTpConnection(BaseConnection):
         self.logger.setLevel(logging.CRITICAL)  # what fails is said by who asks
         logging.getLogger(isotp.TransportLayerLogic.LOGGER_NAME).setLevel(logging.CRITICAL)
         self._link = link
-        self._answer_id = ANSWER_ID + node
-        address = isotp.Address(isotp.AddressingMode.Normal_11bits, txid=REQUEST_ID + node, rxid=self._answer_id)
+        self._request_id, self._answer_id = REQUEST_ID + node, ANSWER_ID + node
+        address = isotp.Address(isotp.AddressingMode.Normal_11bits, txid=self._request_id, rxid=self._answer_id)
         self._layer = isotp.TransportLayerLogic(self._receive, self._send, address, lambda _error: None, _PARAMS)
 
     def open(self) -> "IsoTpConnection":
@@ -78,6 +80,19 @@ class IsoTpConnection(BaseConnection):
                 return bytes(answer)
             if time.monotonic() > deadline:
                 raise TimeoutException(f"no answer within {timeout} s")  # type: ignore[no-untyped-call]
+
+    def answers(self, service: int, timeout_s: float) -> int:
+        """How many boards answer to a service that none has: each refuses it by its number."""
+        self.empty_rxqueue()
+        self._link.send(Frame(self._request_id, bytes([1, service, *_PADDING])))
+        count = 0
+        deadline = time.monotonic() + timeout_s
+        while (left := deadline - time.monotonic()) > 0:
+            frame = self._link.receive(min(left, _SLICE_S))
+            if frame is not None and frame.id == self._answer_id and frame.data[1:3] == bytes([0x7F, service]):
+                count += 1
+                deadline = min(deadline, time.monotonic() + _OTHERS_S)
+        return count
 
     def _send(self, message: "isotp.CanMessage") -> None:
         self._link.send(Frame(message.arbitration_id, bytes(message.data)))

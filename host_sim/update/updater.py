@@ -5,7 +5,6 @@ import time
 import zlib
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeVar
 
@@ -18,14 +17,14 @@ from udsoncan.exceptions import (
     UnexpectedResponseException,
 )
 
-from host_sim.base.errors import OctetError, RobotError
+from host_sim.base.errors import OctetError
 from host_sim.transport.link import Link
 from host_sim.update.image import LAYOUTS, SlotImage
 from host_sim.update.isotp_connection import IsoTpConnection
 from host_sim.update.keys import Ed25519PrivateKey
+from host_sim.update.status import REASONS, Status, UpdateError
 
 _T = TypeVar("_T")
-_STATUS = struct.Struct(">BBBBIIIBIB4s")
 _BOARD, _STATUS_ID, _WRITTEN, _VERSION, _RUNNING, _NODE, _BITRATE = (
     0xF191,
     0xFD00,
@@ -42,52 +41,11 @@ _BLOCKS = (1024, 128, 32)
 """Bytes of a block: shorter ones where frames are lost."""
 
 _TRIES, _FEW, _ROUNDS = 40, 3, 8
-_WAIT_S, _LONG_S, _START_S = 0.3, 5.0, 20.0
-_REASONS = {
-    1: "it is no image of ours",
-    2: "it is for another chip",
-    3: "it is for another board",
-    4: "it is for another layout of the flash",
-    5: "it is for the other slot",
-    6: "it is too long for its slot",
-    7: "it is older than the board takes; --allow-older lowers that",
-    8: "it is not the image that was announced",
-    9: "it arrived damaged",
-    10: "it is not signed by the key of this board",
-    11: "the board could not write its flash",
-}
-_NOT_NOW, _LOCKED, _WRONG_KEY, _TOO_MANY, _DELAYED = 0x22, 0x33, 0x35, 0x36, 0x37
+_QUICK_S, _WAIT_S, _WAIT_S_MAX, _LONG_S, _START_S = 0.1, 0.3, 1.0, 5.0, 20.0
+_UNUSED = (0xBA, 0xBB, 0xBC, 0xBD, 0xBE, 0xBA, 0xBB, 0xBC, 0xBD, 0xBE)
+"""Services that no board has: the answers tell how many boards there are."""
 
-
-class UpdateError(RobotError):
-    """The board did not take the update, and runs what it ran before; says why."""
-
-    exit_code = 2
-
-
-@dataclass(frozen=True)
-class Status:
-    """What a boot loader says of its board.
-
-    Attributes:
-        installed: Bit s is set if slot s has a signed image.
-        slot: The one that starts.
-        trial: 0 if its image is confirmed, else 1 more than its starts so far.
-        free: The slot that an update goes to.
-        floor: Lowest version that is taken.
-        versions: Of what is in the slots; 0 for none.
-        reason: Why the last image was refused.
-        signer: The begin of the public key.
-    """
-
-    installed: int
-    slot: int
-    trial: int
-    free: int
-    floor: int
-    versions: tuple[int, int]
-    reason: int
-    signer: bytes
+_NOT_NOW, _LOCKED, _WRONG_KEY, _TOO_MANY, _DELAYED, _NO_SESSION = 0x22, 0x33, 0x35, 0x36, 0x37, 0x7F
 
 
 class Updater:
@@ -112,25 +70,36 @@ class Updater:
             "data_identifiers": {},
             "standard_version": 2020,
         }
-        self._client = Client(IsoTpConnection(link, node), config=config)
+        self._connection = IsoTpConnection(link, node)
+        self._client = Client(self._connection, config=config)
         self._client.logger.setLevel("CRITICAL")
 
     def enter(self) -> None:
         """Has the boot loader run, in a programming session.
 
         Raises:
-            UpdateError: The node does not answer, has no boot loader, or the robot is being driven.
+            UpdateError: No board answers, or two do, or the robot is being driven.
         """
+        self._find()
         try:
             self._persist(lambda: self._client.change_session(_PROGRAMMING))
-        except TimeoutException:
-            raise UpdateError(f"node {self.node} does not answer: it is not there, or has no boot loader") from None
         except NegativeResponseException as error:
             if error.response.code == _NOT_NOW:
                 raise UpdateError(f"node {self.node} is being driven: end its run first") from None
             raise
 
-    def unlock(self) -> None:
+    def _find(self) -> None:
+        for service in _UNUSED:
+            count = self._connection.answers(service, _WAIT_S)
+            if count > 1:
+                raise UpdateError(
+                    f"{count} boards answer as node {self.node}: leave one of them on the bus"
+                ) from None
+            if count == 1:
+                return
+        raise UpdateError(f"node {self.node} does not answer: it is not there, or has no boot loader") from None
+
+    def unlock(self, again: int = _ROUNDS) -> None:
         """Proves the key.
 
         Raises:
@@ -141,6 +110,10 @@ class Updater:
         except NegativeResponseException as error:
             if error.response.code in (_WRONG_KEY, _TOO_MANY):
                 raise UpdateError(f"node {self.node} has another key: nothing was changed") from None
+            if error.response.code == _NO_SESSION and again:
+                self.enter()  # it ended meanwhile
+                self.unlock(again - 1)
+                return
             if error.response.code == _DELAYED:
                 raise UpdateError(f"node {self.node} was given too many wrong keys: wait for 10 s") from None
             raise
@@ -151,8 +124,7 @@ class Updater:
 
     def status(self) -> Status:
         """What the boot loader says."""
-        installed, slot, trial, free, floor, a, b, _, _, reason, signer = _STATUS.unpack(self._read(_STATUS_ID))
-        return Status(installed, slot, trial, free, floor, (a, b), reason, signer)
+        return Status.unpack(self._read(_STATUS_ID))
 
     def lower_floor(self, version: int) -> None:
         """Lets the board take versions from that one on. It must be unlocked."""
@@ -180,13 +152,13 @@ class Updater:
         for number in range(_ROUNDS):
             try:
                 return self._install(image, progress, _BLOCKS[min(number, len(_BLOCKS) - 1)])
-            except TimeoutException:  # noqa: PERF203 - a round takes seconds
+            except (TimeoutException, NegativeResponseException) as error:  # noqa: PERF203 - a round takes seconds
+                if isinstance(error, NegativeResponseException) and error.response.code not in (_NO_SESSION, _LOCKED):
+                    self._explain(error)
                 if number == _ROUNDS - 1:
                     raise
                 self.enter()
                 self.unlock()
-            except NegativeResponseException as error:
-                self._explain(error)
         return None
 
     def restart(self) -> None:
@@ -232,9 +204,8 @@ class Updater:
         self._persist(lambda: client.request_download(location))
         for number, at in enumerate(range(begin, len(image.data), block), 1):
             piece = image.data[at : at + block]
-            self._persist(
-                partial(client.transfer_data, number & 0xFF, piece), _FEW if block > min(_BLOCKS) else _TRIES
-            )
+            ask = partial(client.transfer_data, number & 0xFF, piece)
+            self._persist(ask, *((_FEW, _WAIT_S) if block > min(_BLOCKS) else (_TRIES, _QUICK_S)))
             progress(at + len(piece))
         self._persist(client.request_transfer_exit)
         self._check(image)
@@ -257,7 +228,7 @@ class Updater:
         return count if count and zlib.crc32(image.data[_CRC_FROM:count]) == crc else 0
 
     def _explain(self, error: NegativeResponseException) -> None:
-        reason = _REASONS.get(self.status().reason)
+        reason = REASONS.get(self.status().reason)
         said = reason or f"its answer is {error.response.code_name}"
         raise UpdateError(f"node {self.node} refuses the image: {said}") from None
 
@@ -273,17 +244,19 @@ class Updater:
         def ask() -> bytes:
             self._client.conn.empty_rxqueue()
             self._client.conn.send(request + value)
-            answer = self._client.conn.wait_frame(timeout=_WAIT_S, exception=True) or b""
+            answer = self._client.conn.wait_frame(timeout=self._client.config["p2_timeout"], exception=True) or b""
             if answer[:3] != bytes([service | 0x40]) + request[1:]:
                 raise TimeoutException("an answer to something else")  # type: ignore[no-untyped-call]
             return bytes(answer[3:])
 
         return self._persist(ask, tries)
 
-    @staticmethod
-    def _persist(ask: Callable[[], _T], tries: int = _TRIES) -> _T:
-        """Asks again where no answer comes."""
-        for _ in range(tries - 1):
+    def _persist(self, ask: Callable[[], _T], tries: int = _TRIES, wait_s: float = _WAIT_S) -> _T:
+        """Asks again where no answer comes, and waits longer after a few times."""
+        for number in range(tries):
+            self._client.config["p2_timeout"] = min(wait_s * 2 ** (number // _FEW), _WAIT_S_MAX)
+            if number == tries - 1:
+                break
             with suppress(TimeoutException, InvalidResponseException, UnexpectedResponseException):
                 return ask()
         return ask()

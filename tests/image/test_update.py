@@ -1,11 +1,14 @@
 """Updates on an emulated board: the boot loader and the images that are flashed, and the tester that people use."""
 
+from functools import partial
+
 import pytest
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
 from host_sim.emulator.flash import BASE
 from host_sim.emulator.registers import BoardError
 from host_sim.protocol.codec import Protocol
+from host_sim.update.hub import Hub
 from host_sim.update.image import built_images
 from host_sim.update.updater import UpdateError, Updater
 from tests.image.support import Talk
@@ -15,6 +18,7 @@ from tests.image.update_rig import (
     LAYOUT,
     NEW,
     OLD,
+    Crowd,
     LossyLink,
     board_with,
     fresh_board,
@@ -32,6 +36,23 @@ def learn(board):
     talk.order("write", **LESSON)
     talk.wait(0.2)
     return talk
+
+
+def number(board, node):
+    tester = Updater(board, 1, KEY)
+    tester.enter()
+    tester.unlock()
+    tester.set_node(node)
+    tester.restart()
+    board.pass_time(0.2)
+
+
+def update(tester):
+    tester.enter()
+    tester.unlock()
+    tester.install(images(NEW)[tester.status().free], lambda _count: None)
+    tester.restart()
+    tester.running()
 
 
 def written(board):
@@ -202,3 +223,34 @@ def test_robot_and_boot_loader_join_a_bus_of_the_bit_rate_that_was_set(slot):
     with pytest.raises(BoardError, match="set up for 250000 bit/s, on a bus of 500000"):
         board.pass_time(0.2)
     assert (runs_in(board) is None) == bool(slot)
+
+
+def test_two_boards_of_one_number_are_told_apart_before_anything_is_changed():
+    boards = [fresh_board(), fresh_board()]
+    before = [written(board) for board in boards]
+    tester = Updater(Crowd(boards), 1, KEY)
+
+    with pytest.raises(UpdateError, match="2 boards answer as node 1"):
+        tester.enter()
+    assert [written(board) for board in boards] == before
+
+
+def test_a_node_that_is_not_there_is_named():
+    with pytest.raises(UpdateError, match="node 9 does not answer"):
+        Updater(fresh_board(), 9, KEY).enter()
+
+
+def test_four_robots_are_updated_at_once_though_a_tenth_of_the_frames_is_lost():
+    boards = {node: fresh_board() for node in (1, 2, 3, 4)}
+    for node, board in boards.items():
+        number(board, node)
+    hub = Hub(LossyLink(Crowd(boards.values()), 0.1, seed=1))
+
+    failed = hub.run({node: partial(update, Updater(hub.share(node), node, KEY)) for node in boards})
+
+    assert failed == dict.fromkeys(boards)
+    assert {
+        bytes(board.hardware.flash.memory[LAYOUT.slots[1] :]).startswith(images(NEW)[1].data)
+        for board in boards.values()
+    } == {True}
+    assert [runs_in(board) for board in boards.values()] == [1, 1, 1, 1]

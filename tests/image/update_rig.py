@@ -1,5 +1,8 @@
 """What the tests of updates share: a board that starts through its boot loader, and images for it."""
 
+import time
+from collections import deque
+from collections.abc import Iterable
 from functools import cache
 from random import Random
 
@@ -8,6 +11,7 @@ from host_sim.base.paths import BUILD
 from host_sim.emulator.board import EmulatedBoard, Slots, start_board
 from host_sim.emulator.chips import CHIPS
 from host_sim.emulator.hardware import Faults
+from host_sim.transport.link import Link
 from host_sim.update.image import LAYOUTS, SlotImage, built_images
 from host_sim.update.keys import development_key
 from host_sim.update.updater import Updater
@@ -50,10 +54,35 @@ def put_on(board: EmulatedBoard, version: int) -> Updater:
     return tester
 
 
+class Crowd:
+    """Several boards on one bus. Their time passes together, and never faster than the wall clock."""
+
+    def __init__(self, boards: Iterable[EmulatedBoard]) -> None:
+        self._boards = list(boards)
+        self._said: deque[Frame] = deque()
+
+    def send(self, frame: Frame) -> None:
+        for board in self._boards:
+            board.send(frame)
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        began = time.monotonic()
+        if not self._said:
+            for board in self._boards:
+                self._said.extend(board.pass_time(timeout_s))
+        if self._said:
+            return self._said.popleft()
+        time.sleep(max(timeout_s - (time.monotonic() - began), 0.0))
+        return None
+
+    def close(self) -> None:
+        self._said.clear()
+
+
 class LossyLink:
     """Loses frames, both ways."""
 
-    def __init__(self, board: EmulatedBoard, share: float, seed: int) -> None:
+    def __init__(self, board: Link, share: float, seed: int) -> None:
         self._board, self._share, self._random = board, share, Random(seed)
 
     def send(self, frame: Frame) -> None:

@@ -226,3 +226,36 @@ TEST(an_answer_that_nobody_wants_is_given_up)
     TEST_ASSERT_FALSE(next());
     TEST_ASSERT_TRUE(isotp_busy(&isotp));
 }
+
+TEST(a_gap_that_was_asked_for_is_not_kept_by_the_next_answer)
+{
+    send(20);
+    TEST_ASSERT_TRUE(next());
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(0x30, 0, 0x7F));
+    send(20);
+    TEST_ASSERT_TRUE(next());
+    TEST_ASSERT_EQUAL_HEX8(0x10, sent.data[0]);
+    TEST_ASSERT_EQUAL_HEX8(20, sent.data[1]);
+}
+
+TEST(a_flow_control_goes_out_once_and_before_an_answer)
+{
+    send(2);
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(0x10, 9, 0, 1, 2, 3, 4, 5));
+    TEST_ASSERT_TRUE(next());
+    TEST_ASSERT_EQUAL_HEX8(0x30, sent.data[0]);
+    TEST_ASSERT_TRUE(next());
+    TEST_ASSERT_EQUAL_HEX8(2, sent.data[0]);
+    TEST_ASSERT_FALSE(next());
+}
+
+TEST(each_frame_of_a_message_gives_it_time)
+{
+    begin_message(30);
+    for (uint8_t number = 1; number <= 3; number++) {
+        now_ms += ISOTP_TIMEOUT_MS;
+        TEST_ASSERT_EQUAL_UINT16(0, TAKE((uint8_t)(0x20 | number), 1, 2, 3, 4, 5, 6, 7));
+    }
+    now_ms += ISOTP_TIMEOUT_MS;
+    TEST_ASSERT_EQUAL_UINT16(30, TAKE(0x24, 1, 2, 3));
+}

@@ -202,3 +202,35 @@ TEST(the_bit_rate_of_the_bus_can_be_written_with_the_key_only)
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x2E, 0xFD, 5, 0, 0, 0, 0));
     TEST_ASSERT_EQUAL_UINT32(0, choice_bitrate(&choices.now));
 }
+
+#define ASSERT_ANSWER(...) do { \
+    static const uint8_t expected[] = {__VA_ARGS__}; \
+    TEST_ASSERT_EQUAL_UINT16(sizeof expected, answered); \
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(expected, answer, sizeof expected); \
+} while (0)
+
+TEST(each_answer_is_what_the_standard_says_to_its_last_byte)
+{
+    struct signed_image image = signer_image(0, 7);
+    uint8_t block[2 + SIGNED_BYTES] = {0x36, 1};
+
+    boot_flash_clear();
+    tester_power_on();
+    unlock();
+    ASSERT_ANSWER(0x67, 2);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x31, 1, 0xF0, 0, 0, 0, 0, 1));
+    ASSERT_ANSWER(0x71, 1, 0xF0, 0, 0);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x2E, 0xFD, 4, 1));
+    ASSERT_ANSWER(0x6E, 0xFD, 4);
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    ASSERT_ANSWER(0x71, 1, 0xFF, 0, 0);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+    ASSERT_ANSWER(0x74, 0x20, 4, 2);
+    memcpy(&block[2], image.bytes, SIGNED_BYTES);
+    TEST_ASSERT_EQUAL_HEX8(0, ask(block, sizeof block));
+    ASSERT_ANSWER(0x76, 1);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x37));
+    ASSERT_ANSWER(0x77);
+    TEST_ASSERT_EQUAL_HEX8(0, check());
+    ASSERT_ANSWER(0x71, 1, 0xFF, 1, 0);
+}

@@ -1,0 +1,86 @@
+"""One link for the updates of several nodes at once."""
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
+from queue import Empty, SimpleQueue
+
+from host_sim.base.errors import LinkDownError
+from host_sim.base.frame import Frame
+from host_sim.transport.link import Link
+from host_sim.update.isotp_connection import ANSWER_ID
+
+_SLICE_S = 0.0005
+
+
+class Share:
+    """What one node's update has of the link; as a `Link`. A thread of its own may use it."""
+
+    def __init__(self, outbox: "SimpleQueue[Frame]") -> None:
+        """Nothing has come yet.
+
+        Args:
+            outbox: Takes what is to be sent.
+        """
+        self.inbox: SimpleQueue[Frame] = SimpleQueue()
+        self.ended = False
+        self._outbox = outbox
+
+    def send(self, frame: Frame) -> None:
+        """As in `Link`."""
+        self._outbox.put(frame)
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """As in `Link`."""
+        if self.ended:
+            raise LinkDownError("the update was interrupted; the same command goes on where it was")
+        try:
+            return self.inbox.get(timeout=timeout_s) if timeout_s > 0 else self.inbox.get_nowait()
+        except Empty:
+            return None
+
+    def close(self) -> None:
+        """As in `Link`: the hub's owner closes it."""
+
+
+class Hub:
+    """Hands frames on between a link and updates, each in a thread; only the caller's thread touches the link."""
+
+    def __init__(self, link: Link) -> None:
+        """Nobody has a share yet.
+
+        Args:
+            link: Open; the caller closes it.
+        """
+        self._link = link
+        self._outbox: SimpleQueue[Frame] = SimpleQueue()
+        self._shares: dict[int, Share] = {}
+
+    def share(self, node: int) -> Share:
+        """What the update of that node uses as its link."""
+        return self._shares.setdefault(ANSWER_ID + node, Share(self._outbox))
+
+    def run(self, jobs: Mapping[int, Callable[[], None]]) -> dict[int, BaseException | None]:
+        """Does the jobs, all at once.
+
+        Returns:
+            What each of them raised.
+
+        Raises:
+            LinkDownError: The link is gone.
+        """
+        with ThreadPoolExecutor(len(jobs)) as pool:
+            futures: dict[int, Future[None]] = {name: pool.submit(job) for name, job in jobs.items()}
+            try:
+                while not all(future.done() for future in futures.values()):
+                    self._carry()
+            finally:
+                for share in self._shares.values():
+                    share.ended = True
+        return {name: future.exception() for name, future in futures.items()}
+
+    def _carry(self) -> None:
+        while not self._outbox.empty():
+            self._link.send(self._outbox.get())
+        frame = self._link.receive(_SLICE_S)
+        if frame is not None and frame.id in self._shares:
+            self._shares[frame.id].inbox.put(frame)
