@@ -28,7 +28,7 @@ _GROUPS = {
     "look at a run": ("replay", "picture", "export", "world", "convert"),
     "measure": ("compare", "study", "tune", "campaign", "reproduce", "dask"),
     "CAN bus and protocol": ("monitor", "load", "check-robot", "dbc", "protocol"),
-    "firmware": ("update", "keygen"),
+    "firmware": ("calibrate", "update", "keygen"),
 }
 """What the list of commands has, and in which order."""
 

@@ -37,6 +37,13 @@ class Parser(argparse.ArgumentParser):
         if action.choices is not None and value not in action.choices:
             raise argparse.ArgumentError(action, f"there is no {value!r}: {meant(value, action.choices)}")
 
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        """As in `argparse.ArgumentParser`, but of choices that are numbers, what is no number is none, either."""
+        if action.choices is not None and action.type is int and not arg_string.isdecimal():
+            choices = ", ".join(map(str, action.choices))
+            raise argparse.ArgumentError(action, f"there is no {arg_string!r}: choose from {choices}")
+        return super()._get_value(action, arg_string)
+
     def unknown_option(self, words: Sequence[str]) -> NoReturn:
         """Refuses words that are left over.
 

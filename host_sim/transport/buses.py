@@ -76,6 +76,8 @@ def open_bus(bus: str, ids: Sequence[int] = (), bitrate: int = BIT_RATE) -> can.
         if errno.ENETDOWN in (getattr(error, "error_code", None), getattr(error, "errno", None)):
             raise LinkDownError(f"the bus {interface}:{channel} is down: {reason}") from error
         hint = _HINTS.get(getattr(error, "error_code", None) or getattr(error, "errno", None) or 0, "")
+        if isinstance(error, can.CanInterfaceNotImplementedError):
+            hint = "; name an interface that python-can has, such as socketcan or slcan"
         raise UsageError(f"cannot open the bus {interface}:{channel}: {reason}{hint}") from error
 
 

@@ -47,7 +47,7 @@ def make_key(path: Path) -> Ed25519PrivateKey:
         with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "wb") as file:
             file.write(key.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption()))
     except OSError as error:
-        raise UsageError(f"cannot write the key {path}: {error.strerror}") from error
+        raise UsageError(f"cannot write the key {path}: {error.strerror}; choose another file") from error
     return key
 
 

@@ -8,7 +8,7 @@ from tests.runs.support import ROOT, octet
 
 WRONG = {
     "rnu": "did you mean run?",
-    "dance": "choose from campaign, check-robot, compare",
+    "dance": "choose from calibrate, campaign, check-robot, compare",
     "--verbose": "see tools/octet --help",
     "run --warp 9": "see tools/octet run --help",
     "run --profle fixed": "did you mean --profile?",
@@ -48,11 +48,14 @@ WRONG = {
     "run --bus socketcan": "INTERFACE:CHANNEL such as socketcan:vcan0",
     "run --bus carrier:pigeon --robot external": "cannot open the bus carrier:pigeon",
     "run --bus carrier:pigeon": "use --robot external",
+    "monitor carrier:pigeon": "such as socketcan or slcan",
+    "keygen {out}": "choose another file",
     "run --bus slcan:/dev/nowhere --robot external": "/dev/nowhere",
     "run --bus fd --robot external": "--bus INTERFACE:CHANNEL",
     "run --robot emulated --board blue_pil": "did you mean blue_pill?",
     "run --board blue_pill": "leave --board out",
     "run --bitrate 9600": "choose from 125000, 250000",
+    "run --bitrate fast": "choose from 125000, 250000",
     "run --bitrate 250000": "leave --bitrate out",
     "run --bus socketcan:can0 --bitrate 250000": "leave --bitrate out",
     "run --listen": "add --watch, or leave --listen out",
