@@ -14,7 +14,7 @@ import { PARAMETERS, REASON } from "../generated.js";
  */
 
 /** The columns of the table and of the file. */
-export const NAMES = ["run", "robot", "behaviour", "seed", "environment", "finished", "time s", "shortest tour s", "trials", "lessons", "bored", "blocked s", "meals"];
+export const NAMES = ["run", "robot", "behaviour", "seed", "environment", "finished", "time s", "tour s", "trials", "lessons", "bored", "blocked s", "meals"];
 
 const AVOIDING = [REASON.REMEMBERED, REASON.TRIAL, REASON.BOREDOM];
 
