@@ -15,7 +15,7 @@ MAY_INCLUDE = {
     "firmware/main.c": ("hal/hal.h",),
     "hal/hal.h": ("firmware/io.h",),
     "hal/link/": (),
-    "hal/protocol/": ("firmware/io.h", "hal/link/link.h"),
+    "hal/protocol/": ("firmware/io.h", "hal/flash_store/crc32.h", "hal/link/link.h"),
     "hal/can_body/": ("firmware/io.h", "hal/hal.h", "hal/link/link.h", "hal/protocol/"),
     "hal/flash_store/": ("firmware/io.h", "hal/hal.h"),
     "hal/port/": ("firmware/io.h", "hal/hal.h", "hal/can_body/port.h", "hal/protocol/health.h"),

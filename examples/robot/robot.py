@@ -41,7 +41,7 @@ class Robot:
 
     def __init__(self, node=1):
         self.node, self.cells, self.parameters = node, [0] * 8, DEFAULTS
-        self.running = self.frozen = self.profile = self.lockstep = self.owner = self.held = 0
+        self.running = self.frozen = self.profile = self.lockstep = self.owner = self.held = self.opcodes = 0
         self.tick = self.counter = self.part_ms = self.uptime = self.action = self.strangers = 0
         self.knows_tick = self.hears_owner = False
         self.heard_ms, self.silences, self.faults, self.news, self.first = 0, 0, [0] * 11, 0, 0
@@ -86,7 +86,7 @@ class Robot:
     def sense(self, data, word, now_ms):
         tick, counter, ahead = word >> 12 & 255, data[1] & 15, ((word >> 12) - self.tick) % 256
         if self.knows_tick and not ahead and data != self.senses:
-            self.held = binascii.crc_hqx(data[1:], self.held)
+            self.held = binascii.crc32(data[1:], self.held)
         if self.knows_tick and self.lockstep and not ahead and counter == self.counter:
             return self.drive
         is_next = 1 <= ahead <= (1 if self.lockstep else 14) and (counter - self.counter - ahead) % 15 == 0
@@ -117,10 +117,12 @@ class Robot:
                 return self.say_answer(word, OUT_OF_SEQUENCE)
         had_owner, self.command = self.owner, data
         result, value = self.carry_out(opcode, word)
-        if result == DONE and opcode not in (GET, REPORT):
-            self.held = binascii.crc_hqx(data[1:], self.held) if opcode != STOP or had_owner else 0
-        self.count(REFUSED, int(result != DONE))
         self.answer = self.say_answer(word, result, value)
+        if result == DONE and opcode not in (GET, REPORT):
+            forgets = opcode == STOP and not had_owner
+            self.held = 0 if forgets else binascii.crc32(data[1:], self.held)
+            self.opcodes = 0 if forgets else self.opcodes + opcode
+        self.count(REFUSED, int(result != DONE))
         kinds = {WRITE: [MEMORY], ERASE: [MEMORY], STOP: WHOLE, REPORT: WHOLE}.get(opcode, [])
         told = [frame for kind in kinds for frame in self.report(kind)]
         return self.answer + self.emergency() + told + (self.say_drive() if opcode == STOP else [])
@@ -154,7 +156,7 @@ class Robot:
             self.frozen = which & 1
         elif opcode not in (GET, REPORT):
             return UNKNOWN_COMMAND, 0
-        return DONE, self.parameters[which] if opcode == GET else 0
+        return DONE, {GET: self.parameters[which % 16], STOP: self.held}.get(opcode, 0)
 
     def count(self, fault, more=1):
         if more:
@@ -172,7 +174,8 @@ class Robot:
 
     def say_answer(self, word, result, value=0):
         opcode, which = word >> 12 & 15, word >> 24 & 255
-        fields = (opcode, 12), (result, 16), (which if opcode == GET else 0, 24), (value, 32)
+        which = {GET: which, STOP: self.opcodes % 256}.get(opcode, 0)
+        fields = (opcode, 12), (result, 16), (which, 24), (value, 32)
         return self.say(ANSWER, *fields, counter=word >> 8 & 15)
 
     def say_drive(self, reason=0, left=0, right=0):
@@ -192,8 +195,8 @@ class Robot:
             fields = *flags, (self.owner, 24), (self.uptime % 65536, 32), (0x4B13, 48)
             return self.say(HEARTBEAT, *fields, counter=self.counters.get(HEARTBEAT, 0) if silent else None)
         if message == HEALTH:
-            cells = b"" if self.owner else bytes(self.cells)
-            return self.say(HEALTH, (1, 15), (binascii.crc_hqx(cells, self.held), 48))
+            held = binascii.crc32(b"" if self.owner else bytes(self.cells), self.held) % 65536
+            return self.say(HEALTH, (1, 15), (held, 48))
         split, values = (4, self.cells) if message == MEMORY else (6, self.faults)
         page = self.say(message, *((value, 16 + 8 * i) for i, value in enumerate(values[:split])))
         rest = ((value, 16 + 8 * i) for i, value in enumerate(values[split:]))

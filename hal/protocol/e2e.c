@@ -42,18 +42,6 @@ uint8_t e2e_next(uint8_t counter)
     return counter + 1u < E2E_COUNTERS ? (uint8_t)(counter + 1u) : 0;
 }
 
-/* A byte at a time, without a table: the shifts are the polynomial's powers, folded. */
-uint16_t e2e_crc16(uint16_t crc, const uint8_t bytes[], size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        unsigned mixed = (unsigned)(crc >> 8) ^ bytes[i];
-
-        mixed ^= mixed >> 4;
-        crc = (uint16_t)((unsigned)crc << 8 ^ mixed << 12 ^ mixed << 5 ^ mixed);
-    }
-    return crc;
-}
-
 unsigned e2e_ahead(uint8_t from, uint8_t to)
 {
     return to >= from ? (unsigned)(to - from) : (unsigned)(to + E2E_COUNTERS - from);

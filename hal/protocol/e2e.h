@@ -4,7 +4,6 @@
 #define OCTET_E2E_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #include "hal/link/link.h"
 
@@ -24,8 +23,5 @@ uint8_t e2e_next(uint8_t counter);
 
 unsigned e2e_ahead(uint8_t from, uint8_t to);
         /* How many steps lead from one counter to the other, 0..14. */
-
-uint16_t e2e_crc16(uint16_t crc, const uint8_t bytes[], size_t count);
-        /* Goes on with a CRC-16 (polynomial 0x1021, high bit first, no final xor): that of no bytes is 0. */
 
 #endif

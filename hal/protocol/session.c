@@ -71,10 +71,12 @@ void session_executed(struct session *session, enum result result)
         return;
     if (opcode == OPCODE_START)
         session->lockstep = session->request.lockstep;
-    if (opcode == OPCODE_STOP && session->owner == 0)
-        session->told = 0;
-    else if (opcode != OPCODE_GET && opcode != OPCODE_REPORT)
+    if (opcode == OPCODE_STOP && session->owner == 0) {
+        session->told = session->told_opcodes = 0;
+    } else if (opcode != OPCODE_GET && opcode != OPCODE_REPORT) {
         session->told = session->telling;
+        session->told_opcodes = (uint8_t)(session->told_opcodes + opcode);
+    }
     if (opcode == OPCODE_START || opcode == OPCODE_RESUME)
         begin(session);
     else if (opcode == OPCODE_STOP)

@@ -23,9 +23,10 @@ struct session {
     bool knows_tick;        /* false: whatever tick comes next is taken */
     uint8_t tick;           /* of the last senses taken, */
     uint8_t counter;        /* and their alive counter */
-    uint16_t told;          /* CRC-16 over the commands carried out since a stop without an owner, and over senses for a tick
+    uint32_t told;          /* CRC-32 over the commands carried out since a stop without an owner, and over senses for a tick
                                that had others, */
-    uint16_t telling;       /* and what it becomes once the request is carried out */
+    uint32_t telling;       /* and what it becomes once the request is carried out */
+    uint8_t told_opcodes;   /* the sum of those commands' opcodes */
 };
 
 enum arrival { ARRIVAL_FRESH, ARRIVAL_AGAIN, ARRIVAL_STALE };

@@ -1,5 +1,6 @@
 #include "hal/protocol/wire.h"
 
+#include "hal/flash_store/crc32.h"
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
@@ -103,7 +104,7 @@ static void note_other(struct wire *wire, const struct frame *frame, uint8_t tic
     if (!wire->session.knows_tick || tick != wire->session.tick || crc == wire->senses_crc)
         return;
     if (!wire->noisy || crc == wire->other_crc)
-        wire->session.told = e2e_crc16(wire->session.told, &frame->data[1], OCTET_SENSES_LENGTH - 1u);
+        wire->session.told = crc32_more(wire->session.told, &frame->data[1], OCTET_SENSES_LENGTH - 1u);
     wire->other_crc = crc;
 }
 
@@ -215,7 +216,7 @@ static enum input_kind read_command(struct wire *wire, const struct frame *frame
     case ARRIVAL_FRESH:
         break;
     }
-    wire->session.telling = e2e_crc16(wire->session.told, &frame->data[1], OCTET_COMMAND_LENGTH - 1u);
+    wire->session.telling = crc32_more(wire->session.told, &frame->data[1], OCTET_COMMAND_LENGTH - 1u);
     *command = request.command;
     return INPUT_COMMAND;
 }

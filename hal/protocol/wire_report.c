@@ -1,6 +1,7 @@
 #include "hal/protocol/wire_report.h"
 
 #include "build_id.h"
+#include "hal/flash_store/crc32.h"
 #include "hal/protocol/e2e.h"
 #include "octet.h"
 
@@ -91,7 +92,7 @@ static void write_health(struct wire *wire, const uint8_t memory[CELL_COUNT], st
         .rx_errors = wire->health.bus.rx_errors,
         .bus_offs = wire->health.bus.bus_offs,
         .dropped = wire->health.bus.dropped,
-        .held = e2e_crc16(wire->session.told, memory, wire->session.owner ? 0 : CELL_COUNT),
+        .held = (uint16_t)crc32_more(wire->session.told, memory, wire->session.owner ? 0 : CELL_COUNT),
     };
 
     (void)octet_health_pack(frame->data, &health, sizeof frame->data);

@@ -43,6 +43,10 @@ static void write_answer(struct wire *wire, const struct output *out, struct fra
         .value = out->answer_value,
     };
 
+    if (opcode == OPCODE_STOP) {
+        answer.which = wire->session.told_opcodes;
+        answer.value = wire->session.told;
+    }
     (void)octet_answer_pack(frame->data, &answer, sizeof frame->data);
     e2e_protect(frame);
     wire->answer = *frame;

@@ -49,7 +49,8 @@ def routine_reports(client: RobotClient) -> list[tuple[str, Frame]]:
         names.add("HEALTH")
     if client.reports.memory_is_last:
         names.add("MEMORY")
-    if heartbeat.get("state") and not heartbeat["silent"] and heartbeat["owner"] in (0, client.inbox.owner):
+    is_ours = heartbeat.get("state") and not heartbeat["silent"] and heartbeat["owner"] in (0, client.inbox.owner)
+    if is_ours and client.inbox.is_as_started():
         names.add("HEARTBEAT")
     return client.reports.last_of(names)
 

@@ -241,7 +241,7 @@ class Inbox:
             self.answered_again += 1
             return None
         if decoded.signals["result"] == Result.DONE:
-            self.told.carry_out(self.asked.last)
+            self.told.carry_out(self.asked.last, decoded)
         self._accept(frame)
         return decoded
 
@@ -277,6 +277,14 @@ class Inbox:
     def holds(self) -> bool:
         """Whether the robot's last report says that it holds what it was told here, and nothing else."""
         return self.told.agrees(self.reports.held, self.reports.memory)
+
+    def is_as_started(self) -> bool:
+        """Whether the robot's last heartbeat says that it runs as it was told here."""
+        session, said = self.session, self.reports.heartbeat
+        if session is None or self.told.given_up:
+            return True
+        ours = session.profile, int(self.lockstep), int(session.frozen)
+        return (said["profile"], said["lockstep"], said["frozen"]) == ours
 
     def _refuse(self, frame: Frame, why: str) -> None:
         self.counts.refused += 1

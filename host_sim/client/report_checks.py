@@ -19,6 +19,8 @@ def check_report(inbox: "Inbox", report: DecodedFrame) -> None:
     """
     if report.name == "HEARTBEAT":
         check_heartbeat(inbox, report)
+        if inbox.asked.answered and not inbox.is_as_started():
+            inbox.lose("does not run as it was told here")
     elif report.name == "EMERGENCY" and report.signals["kinds"] >> Fault.TWIN & 1:
         inbox.lose("hears another robot with its number")
     elif report.name == "HEALTH" and inbox.asked.answered and not inbox.holds():

@@ -79,6 +79,7 @@ class RobotClient:
         self.wants_ranges = False
         self.ranges: Ranges = NOTHING_NEAR
         self.unsettled: int | None = None
+        self._settled: tuple[int, ...] = ()
         self._senses = self._ranges = _NO_FRAME
         self._sent_s = 0.0
         self._timed = self._lossy = False
@@ -123,9 +124,9 @@ class RobotClient:
 
     def check_held(self) -> None:
         """Notes if the robot, by its last report, does not hold what it was told here."""
-        if not self.inbox.holds():
+        if not self.inbox.holds() or not self.inbox.is_as_started():
             self.distrust("the robot does not hold what it was told here: somebody else commands it")
-            self.inbox.told.give_up()
+            self.inbox.told.given_up = True
 
     def send_senses(self, senses: Senses) -> None:
         """Sends the senses of one tick, after the distances if the robot wants them, and logs them."""
@@ -196,7 +197,7 @@ class RobotClient:
         self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.lost > 0
         self.inbox.owed = 0
         self.reports.gap = None
-        self.unsettled = None if self._lossy else self.tick
+        self.unsettled, self._settled = None if self._lossy else self.tick, self.memory
         if self._lossy:
             self.dialogue.demand_reports("report")
 
@@ -206,7 +207,8 @@ class RobotClient:
 
     def check_settled(self) -> None:
         """Notes if it has turned out since that a memory was lost at the end of an environment."""
-        if self.unsettled is not None and self.reports.gap:
+        is_late = self.unsettled == self.tick and self.memory != self._settled
+        if self.unsettled is not None and (self.reports.gap or is_late):
             self.distrust(
                 f"an environment ended at tick {self.unsettled}, and its last memory may have been lost on the way"
             )

@@ -78,7 +78,7 @@ class _Check:
         if asked.data[1] != frame.data[1] and decoded.signals["result"] == Result.DONE:
             self._complain("an answer has another counter or opcode than its command")
         if decoded.signals["result"] == Result.DONE:
-            self._told.carry_out(asked)
+            self._told.carry_out(asked, decoded)
         self._command, self.found.commands = None, self.found.commands + 1
 
     def _sense(self, frame: Frame) -> None:

@@ -1,7 +1,7 @@
 """docs/protocol.md, generated from `hal/protocol/octet.dbc`: `tools/octet protocol > docs/protocol.md`."""
 
-from binascii import crc_hqx
 from collections.abc import Iterable
+from zlib import crc32
 
 import cantools
 from cantools.database.can import Database, Message
@@ -97,11 +97,16 @@ for the tick that it took last, with another CRC than those, `held` goes on over
 what the owner computes: somebody else sends SENSES (H6). One damaged frame in 256 has a right CRC: in a second
 in which frames were damaged, these SENSES may have to come twice (H6).
 
-`held` is a CRC-16 with polynomial 0x1021, start value 0, high bit first and no final xor (XMODEM; Python has it as
-`binascii.crc_hqx`) (H2). With each COMMAND that the robot has carried out it goes on over the frame's bytes 1 to 7,
-but for **get** and **report** (H3); a **stop** without an owner sets it to 0 (H4). While the robot has no owner,
-HEALTH goes on over its eight cells, too (H5): so the report that ends a run also proves its memory. For example,
-after `{start}` alone, `held` is 0x{held:04X}.
+`held` is the lower half of a CRC-32, that of Ethernet and zip (Python has it as `zlib.crc32`), 0 over nothing (H2).
+With each COMMAND that the robot has carried out it goes on over the frame's bytes 1 to 7, but for **get** and
+**report** (H3); a **stop** without an owner sets it to 0 (H4). While the robot has no owner, HEALTH goes on over its
+eight cells, too (H5): so the report that ends a run also proves its memory. For example, after `{start}` alone,
+`held` is 0x{held:04X}.
+
+Somebody who keeps the robot's answer back could compute a **start** whose seed leaves these 16 bits as they are. So
+the ANSWER to **stop** has more: in `value` all 32 bits over the commands before it, and in `which` the sum of their
+opcodes, modulo 256 (H7). The CRC shows a command that took the place of another of its kind; the sum shows one too
+many, or one of another kind.
 
 The cost on the bus is two bytes, at most 20 bits, a second for each robot, and no frame more.
 
@@ -145,7 +150,7 @@ def _overview() -> str:
     stop = Protocol().encode("COMMAND", {"counter": 0, "opcode": 1, "owner": 1})
     how = {"profile": 0, "lockstep": 1, "seed": 7}
     start = Protocol().encode("COMMAND", {"counter": 1, "opcode": 2, "owner": 1, **how})
-    held = crc_hqx(start.data[1:], 0)
+    held = crc32(start.data[1:]) & 0xFFFF
     return _HEAD.format(nodes=NODE_MAX, layout=LAYOUT_HASH, stop=_text(stop), start=_text(start), held=held)
 
 

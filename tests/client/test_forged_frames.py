@@ -5,48 +5,13 @@ from collections.abc import Callable
 import pytest
 
 from host_sim.base.errors import RivalError
-from host_sim.client.commands import freeze, start, stop, write_cells
-from host_sim.client.handshake import handshake
-from host_sim.client.pacing import Lockstep, RealTime
+from host_sim.client.commands import freeze, stop, write_cells
 from host_sim.client.robot_client import RobotClient
-from host_sim.client.session import Session
-from host_sim.protocol.codec import Frame, counter_of
-from host_sim.protocol.generated import Opcode
-from tests.client.meddled_link import ObeyedLink
-from tests.client.support import PROTOCOL, connected, senses
+from host_sim.protocol.codec import Frame
+from tests.client.meddled_link import OBEYED, Listener, begun, run_for
+from tests.client.support import PROTOCOL, senses
 
-TICK_S = 0.02
 AT, SECOND = 120, 50
-OBEYED = {
-    "write": {"mask": 15, "half": 1, "byte_0": 1, "byte_1": 2, "byte_2": 1, "byte_3": 2},
-    "erase": {},
-    "freeze": {"freeze": 1},
-    "set": {"parameter": 0, "value": 90},
-    "start": {"profile": 0, "seed": 7, "lockstep": 1},
-    "the same start": {"profile": 0, "seed": 1, "lockstep": 1},
-    "resume": {},
-}
-
-
-class Listener(ObeyedLink):
-    """A robot on a bus, and somebody who has listened to all that it was told."""
-
-    def forged(self, name: str, *, lockstep: bool) -> Frame:
-        """The command that the robot expects next, as far as anybody can tell."""
-        told = [frame for frame in self.sent if frame.id == PROTOCOL.id_of("COMMAND")][-1]
-        signals = {**OBEYED.get(name, {})}
-        if "lockstep" in signals:
-            signals["lockstep"] = int(lockstep)
-        opcode = Opcode[name.rsplit(maxsplit=1)[-1].upper()]
-        owner, counter = told.data[2], (counter_of(told) + 1) % 15
-        return PROTOCOL.encode("COMMAND", {"counter": counter, "opcode": opcode, "owner": owner, **signals})
-
-    def put_unheard(self, frame: Frame) -> None:
-        """The frame reaches the robot; what it answers is kept from the simulator, but for its new memory."""
-        heard, self.waiting = self.waiting, type(self.waiting)()
-        self.put(frame)
-        memory = PROTOCOL.id_of("MEMORY")
-        self.waiting = type(self.waiting)([*heard, *(each for each in self.waiting if each.id == memory)])
 
 
 def on_the_bus(link: Listener, frame: Frame) -> None:
@@ -59,19 +24,6 @@ WAYS: dict[str, Callable[[Listener, Frame], None]] = {
     "in between": Listener.put,
     "in between, and keeping the answer": Listener.put_unheard,
 }
-
-
-def begun(link: Listener, *, lockstep: bool) -> RobotClient:
-    with connected(link, lockstep=lockstep) as client:
-        handshake(client, client.connection.deadline_s)
-        start(client, Session(1))
-    return client
-
-
-def run_for(client: RobotClient, link: Listener, ticks: range) -> None:
-    pace = Lockstep([client]) if client.inbox.lockstep else RealTime([client], TICK_S)
-    for tick in ticks:
-        pace.exchange([senses(tick, link.odometer)])
 
 
 @pytest.mark.parametrize("name", OBEYED)

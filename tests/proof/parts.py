@@ -13,15 +13,17 @@ INCLUDED = (
 
 _CORE = sorted({*(ROOT / "firmware").rglob("*.c")} - {ROOT / "firmware/main.c"})
 
+_CRC32 = ROOT / "hal/flash_store/crc32.c"
+
 ROBOT = [HERE / "any_robot.c", *_CORE]
 """The core, with a robot in any state."""
 
 PARTS = {
     "core": ROBOT,
     "config": _CORE,
-    "wire": [*sorted((ROOT / "hal/protocol").glob("*.c")), *_CORE, GENERATED / "octet.c"],
+    "wire": [*sorted((ROOT / "hal/protocol").glob("*.c")), _CRC32, *_CORE, GENERATED / "octet.c"],
     "slcan": [ROOT / "hal/link/slcan.c"],
-    "store": [ROOT / "hal/flash_store/flash_store.c", ROOT / "hal/flash_store/crc32.c"],
+    "store": [ROOT / "hal/flash_store/flash_store.c", _CRC32],
 }
 
 _ON_THE_CHIP = {"boot_main.c", "challenge.c", "resident.c", "signer.c"}

@@ -66,6 +66,7 @@ WRONG = (
 
 HELP = (
     *("octet --help", "run --help", "bench --help", "bench -h", "octet dask --help", "octet study -h"),
+    *("octet dask scheduler --help", "octet dask worker tcp://host:8786 -h"),
     *("octet watch --listen --help", "octet page --help", "octet run --robot emulated --help"),
     *("coverage --help", "flash --help", "fresh --help", "generate --help", "legacy-fpu --help", "licences --help"),
     *("misra --help", "mutate --help", "prove --help", "requirements --help", "size --help", "test --help"),

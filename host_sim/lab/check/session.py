@@ -1,6 +1,6 @@
 """Checks of a session: what is accepted, repeated, owned and held."""
 
-from binascii import crc_hqx
+from zlib import crc32
 
 from host_sim.base.frame import Frame
 from host_sim.lab.check.registry import AT_ONCE_S, SECOND, damaged, sentence, unhurried
@@ -105,16 +105,13 @@ def _the_same_senses_get_the_same_drive(talk: Talk) -> None:
 
 @sentence("L4")
 def _the_same_command_gets_the_same_answer(talk: Talk) -> None:
-    talk.start()
-    talk.result(Opcode.SET, parameter=0, value=20)
-    held = talk.report()["held"]
+    held = _begun(talk)
     order = talk.result(Opcode.ERASE)
-    talk.send(next(said.frame for said in reversed(talk.said) if not said.by_robot))
+    command = next(said.frame for said in reversed(talk.said) if not said.by_robot)
+    talk.send(command)
     again = one(talk.hear(ANSWER_S, lambda said: said.name == "ANSWER"), "ANSWER")
     expect(order.frame == again.frame, "a COMMAND that comes again gets another ANSWER")
-    command = talk.order(Opcode.ERASE, owner=1)
-    once = crc_hqx(command.data[1:], held)
-    expect(talk.report()["held"] == once, "a COMMAND that came twice is carried out twice")
+    _expect_held(talk, crc32(command.data[1:], held))
 
 
 def _expect_of_another(talk: Talk, opcode: Opcode, wanted: Result, when: str) -> None:
@@ -176,31 +173,39 @@ def _twins_are_counted(talk: Talk) -> None:
 
 def _carried_out(talk: Talk, held: int, opcode: Opcode, **signals: int) -> int:
     talk.result(opcode, **signals)
-    return crc_hqx(talk.order(opcode, **{"owner": 1, **signals}).data[1:], held)
+    return crc32(talk.order(opcode, **{"owner": 1, **signals}).data[1:], held)
 
 
-def _expect_held(held: int, wanted: int) -> None:
-    expect(held == wanted, f"held is 0x{held:04X}, not 0x{wanted:04X}")
+def _begun(talk: Talk) -> int:
+    """Starts a robot that was told nothing before; returns what it holds then."""
+    talk.stop()
+    talk.stop()
+    talk.tick = -1
+    return _carried_out(talk, 0, Opcode.START, lockstep=1, seed=7)
+
+
+def _expect_held(talk: Talk, told: int, *, owned: bool = True) -> None:
+    said = talk.report()
+    cells = bytes(said[f"cell_{cell}"] for cell in range(CELL_COUNT))
+    wanted = (told if owned else crc32(cells, told)) & 0xFFFF
+    expect(said["held"] == wanted, f"held is 0x{said['held']:04X}, not 0x{wanted:04X}")
 
 
 @sentence("H1")
 def _held_covers_the_commands(talk: Talk) -> None:
-    talk.stop()
-    start = {"lockstep": 1, "seed": 7}
-    held = _carried_out(talk, 0, Opcode.START, **start)
-    _expect_held(talk.report()["held"], held)
+    held = _begun(talk)
+    _expect_held(talk, held)
     held = _carried_out(talk, held, Opcode.SET, value=20)
     held = _carried_out(talk, held, Opcode.WRITE, mask=2, byte_1=1)
     held = _carried_out(talk, held, Opcode.ERASE)
-    _expect_held(talk.report()["held"], held)
+    _expect_held(talk, held)
 
 
 @sentence("H3")
 def _held_leaves_out_get_and_report(talk: Talk) -> None:
-    talk.start()
-    before = talk.report()["held"]
+    held = _begun(talk)
     talk.result(Opcode.GET, wanted=3)
-    _expect_held(talk.report()["held"], before)
+    _expect_held(talk, held)
 
 
 @sentence("H4")
@@ -209,26 +214,31 @@ def _a_stop_without_an_owner_sets_held_to_0(talk: Talk) -> None:
     talk.start()
     talk.stop()
     talk.stop()
-    _expect_held(talk.report()["held"], crc_hqx(bytes(CELL_COUNT), 0))
+    _expect_held(talk, 0, owned=False)
 
 
 @sentence("H5")
 def _held_covers_the_cells_without_an_owner(talk: Talk) -> None:
-    talk.stop()
-    held = _carried_out(talk, 0, Opcode.ERASE)
-    held = _carried_out(talk, held, Opcode.WRITE, half=1, mask=15, byte_0=1, byte_1=2, byte_2=1, byte_3=2)
-    told = talk.report()
-    cells = bytes(told[f"cell_{cell}"] for cell in range(CELL_COUNT))
-    _expect_held(told["held"], crc_hqx(cells, held))
+    held = _carried_out(talk, _begun(talk), Opcode.WRITE, half=1, mask=15, byte_0=1, byte_1=2, byte_2=1, byte_3=2)
+    _expect_held(talk, _carried_out(talk, held, Opcode.STOP), owned=False)
 
 
 @sentence("H6")
 def _held_covers_senses_for_a_tick_that_had_others(talk: Talk) -> None:
-    talk.drive_once()
-    before = talk.report()["held"]
+    held = _begun(talk)
+    talk.drive()
     senses = talk.senses(talk.tick, feel=4)
     talk.send(senses)
-    _expect_held(talk.report()["held"], crc_hqx(senses.data[1:], before))
+    _expect_held(talk, crc32(senses.data[1:], held))
+
+
+@sentence("H7")
+def _the_answer_to_a_stop_has_it_whole(talk: Talk) -> None:
+    held = _carried_out(talk, _begun(talk), Opcode.FREEZE, freeze=1)
+    said = talk.result(Opcode.STOP).signals
+    expect(said["value"] == held, f"the answer to stop has 0x{said['value']:08X}, not 0x{held:08X}")
+    opcodes = Opcode.START + Opcode.FREEZE
+    expect(said["which"] == opcodes, f"the answer to stop has the sum {said['which']}, not {opcodes}")
 
 
 @sentence("MEMORY")

@@ -3,6 +3,7 @@
 import argparse
 import os
 import sys
+from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from host_sim.base.extra_library import library
@@ -33,10 +34,20 @@ def add(commands: "Subparsers") -> None:
         summary="be the scheduler or a worker of a cluster for studies",
         description="Starts Dask's own scheduler or worker, which find Octet and its libraries.",
         epilog=_EXAMPLES,
+        check=_help,
         stages=lambda _: ["cluster"],
     )
     parser.add_argument("role", choices=("scheduler", "worker"), help="what to be")
-    parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help="options of Dask; --help lists them")
+    told = "options of Dask; --help lists them, once it is installed"
+    parser.add_argument("words", nargs=argparse.REMAINDER, metavar="...", help=told)
+
+
+def _help(arguments: argparse.Namespace) -> None:
+    """Where Dask is not installed, it is not installed for its help."""
+    has_dask = (BUILD / "cluster").exists() or find_spec("distributed") is not None
+    if not has_dask and {"-h", "--help"} & {*arguments.words}:
+        arguments.parser.print_help()
+        raise SystemExit(0)
 
 
 def _here_only(role: str, words: list[str]) -> list[str]:

@@ -137,12 +137,3 @@ TEST(how_far_one_counter_is_ahead_of_another)
         }
     }
 }
-
-/* The catalogue of CRCs has 0x31C3 for "123456789" with this polynomial from 0 to 0, high bit first (XMODEM). */
-TEST(the_published_check_value_of_the_crc_of_16_bits)
-{
-    static const uint8_t digits[] = {'1', '2', '3', '4', '5', '6', '7', '8', '9'};
-
-    TEST_ASSERT_EQUAL_HEX16(0x31C3, e2e_crc16(0, digits, sizeof digits));
-    TEST_ASSERT_EQUAL_HEX16(0x31C3, e2e_crc16(e2e_crc16(0, digits, 4), digits + 4, 5));
-}

@@ -1,9 +1,10 @@
 /* HEALTH's check of what the robot was told and remembers. */
+#include "hal/flash_store/crc32.h"
 #include "hal/protocol/e2e.h"
 #include "tests/test.h"
 #include "writing_rig.h"
 
-static uint16_t told_here;   /* the check as a client computes it */
+static uint32_t told_here;   /* the check as a client computes it */
 static uint8_t counter;
 
 static uint16_t held(void)
@@ -27,17 +28,17 @@ static void tell(struct octet_command_t command, enum result result)
     command.owner = 3;
     frame = command_frame(command);
     (void)answer_to(command, result);
-    told_here = e2e_crc16(told_here, frame.data + 1, 7);
+    told_here = crc32_more(told_here, frame.data + 1, 7);
 }
 
 static void assert_held(void)
 {
-    TEST_ASSERT_EQUAL_HEX16(told_here, held());
+    TEST_ASSERT_EQUAL_HEX16((uint16_t)told_here, held());
 }
 
 static void assert_held_with_memory(void)
 {
-    TEST_ASSERT_EQUAL_HEX16(e2e_crc16(told_here, out.memory, CELL_COUNT), held());
+    TEST_ASSERT_EQUAL_HEX16((uint16_t)crc32_more(told_here, out.memory, CELL_COUNT), held());
 }
 
 static void begin(void)
@@ -81,7 +82,7 @@ TEST(the_same_start_again_does_not_leave_it_as_it_was)
 
 TEST(what_only_asks_changes_nothing)
 {
-    uint16_t before;
+    uint32_t before;
 
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START}, RESULT_DONE);
@@ -94,7 +95,7 @@ TEST(what_only_asks_changes_nothing)
 
 TEST(what_the_robot_refused_is_not_held)
 {
-    uint16_t before;
+    uint32_t before;
 
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START}, RESULT_DONE);
@@ -128,7 +129,7 @@ static void sense(uint8_t feel)
     frame = protected_frame(frame);
     (void)wire_read(&wire, &frame, &in);
     if (feel != 0)
-        told_here = e2e_crc16(told_here, frame.data + 1, 7);
+        told_here = crc32_more(told_here, frame.data + 1, 7);
 }
 
 static void senses_of_one_tick(uint8_t lockstep)
@@ -157,7 +158,7 @@ TEST(on_a_noisy_line_they_are_held_if_they_come_twice)
 {
     const struct frame damaged = {.id = OCTET_SENSES_FRAME_ID, .len = OCTET_SENSES_LENGTH, .data = {1}};
     struct input in;
-    uint16_t before;
+    uint32_t before;
 
     begin();
     tell((struct octet_command_t){.opcode = OPCODE_START, .lockstep = 1}, RESULT_DONE);
@@ -166,10 +167,11 @@ TEST(on_a_noisy_line_they_are_held_if_they_come_twice)
     before = wire.session.told;
     sense(4);
     sense(5);
-    TEST_ASSERT_EQUAL_HEX16(before, wire.session.told);
+    TEST_ASSERT_EQUAL_HEX32(before, wire.session.told);
     sense(5);
     TEST_ASSERT_NOT_EQUAL(before, wire.session.told);
-    told_here = held();   /* with a heartbeat, after which the line counts as clean */
+    (void)held();
+    told_here = wire.session.told;   /* with a heartbeat, after which the line counts as clean */
     sense(6);
     assert_held();
     expect(FAULT_DAMAGED, 1);
@@ -197,6 +199,21 @@ TEST(the_stop_of_a_robot_with_an_owner_is_held_too_and_the_next_one_forgets_all)
     tell((struct octet_command_t){.opcode = OPCODE_STOP}, RESULT_DONE);
     told_here = 0;
     assert_held_with_memory();
+}
+
+TEST(the_answer_to_a_stop_has_all_that_was_held_and_the_sum_of_opcodes)
+{
+    struct octet_answer_t answer;
+
+    begin();
+    tell((struct octet_command_t){.opcode = OPCODE_START, .seed = 5}, RESULT_DONE);
+    for (unsigned i = 0; i < 256; i++)   /* the sum has no more than the eight bits of a byte */
+        tell((struct octet_command_t){.opcode = OPCODE_ERASE}, RESULT_DONE);
+    tell((struct octet_command_t){.opcode = OPCODE_FREEZE}, RESULT_DONE);
+    counter = e2e_next(counter);
+    answer = answer_to((struct octet_command_t){.opcode = OPCODE_STOP, .counter = counter, .owner = 3}, RESULT_DONE);
+    TEST_ASSERT_EQUAL_HEX32(told_here, answer.value);
+    TEST_ASSERT_EQUAL_UINT8(OPCODE_START + OPCODE_FREEZE, answer.which);
 }
 
 TEST(every_cell_counts)

@@ -31,6 +31,8 @@ OF_OTHERS = (
     "For example, ",
     "Whoever knows the protocol",
     "Its owner computes the same",
+    "Somebody who keeps",
+    "The CRC shows",
     "The cost on the bus",
 )
 """How sentences begin that ask nothing of a robot."""

@@ -1,4 +1,4 @@
-"""Defects of an owner and of what is held: O1 to O8, H1 to H6."""
+"""Defects of an owner and of what is held: O1 to O8, H1 to H7."""
 
 from tests.lab.check.canaries.meddled import Commanded, Counting, Robot, Sensing, Silent, breaks, meddling
 from tests.lab.check.virtual import example
@@ -75,6 +75,13 @@ class HoldsNoMemory(Robot):
         said = super().report(message, silent)
         self.cells = cells
         return said
+
+
+@breaks("H7")
+class CountsNoCommands(Commanded):
+    def changed(self, obey, data, word, now_ms):
+        self.opcodes = 0
+        return obey(data, word, now_ms)
 
 
 @breaks("O8")

@@ -31,7 +31,7 @@ class ActsAgain(Sensing):
 class ObeysTwice(Commanded):
     def changed(self, obey, data, word, now_ms):
         if data == self.command and data[1] >> 4 == example.ERASE:
-            self.held = example.binascii.crc_hqx(data[1:], self.held)
+            self.held = example.binascii.crc32(data[1:], self.held)
         return obey(data, word, now_ms)
 
 
