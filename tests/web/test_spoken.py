@@ -16,6 +16,7 @@ from host_sim.view.languages import languages
 from tests.runs.support import octet
 from tests.web.lab.support import READY, go, settle
 from tests.web.live.test_class import board_url
+from tests.web.looks import violations_at
 from tests.web.support import next_frame, wait_for
 
 ENGLISH, GERMAN = (languages()[code] for code in ("en", "de"))
@@ -61,7 +62,13 @@ def esperanto(tmp_path_factory) -> Iterator[Path]:
         (home / f"texts/{code}.json").write_text(json.dumps(words))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(module, "WEB", home)
+        octet("run", "--bus", "none", "--quiet", "--world", "small", "--out", home / "run")
+        words = ("--robots", "40", "--worlds", "own", "--environments", "1", "--limit-s", "10")
+        octet("run", "--bus", "none", "--quiet", "--out", home / "fleet", *words)
         yield home
+
+
+KEPT = {"run/replay.html": "window.octet?.scene?.state", "fleet/fleet.html": "window.octet?.picture"}
 
 
 def foreign(page: Page) -> set[str]:
@@ -103,7 +110,6 @@ def test_what_goes_wrong_is_said_in_it_too(third):
 
 
 def test_the_page_of_a_run_speaks_it(esperanto, open_page):
-    assert octet("run", "--bus", "none", "--quiet", "--world", "small", "--out", esperanto / "run").returncode == 0
     page = open_page((esperanto / "run/replay.html").as_uri(), locale="eo")
     for tick in (0, 400, page.evaluate("octet.last")):
         page.evaluate("tick => octet.go(tick)", tick)
@@ -115,8 +121,6 @@ def test_the_page_of_a_run_speaks_it(esperanto, open_page):
 
 
 def test_the_page_of_a_fleet_speaks_it(esperanto, open_page):
-    words = ("--robots", "40", "--worlds", "own", "--environments", "1", "--limit-s", "10")
-    octet("run", "--bus", "none", "--quiet", "--out", esperanto / "fleet", *words)
     page = open_page((esperanto / "fleet/fleet.html").as_uri(), ready="window.octet?.picture", locale="eo")
     page.evaluate("octet.at = octet.last")
 
@@ -138,6 +142,15 @@ def test_the_board_and_the_pages_of_a_class_speak_it(watch, open_page):
         wait_for(page, "document.querySelector('#note').textContent !== ''")
 
     assert [foreign(page) for page in (board, *pages)] == [set()] * 4
+
+
+def test_axe_finds_nothing_in_german_on_a_phone_on_its_side(third, esperanto, watch, open_page):
+    watched = watch("--listen", "127.0.0.1", "--robots", "2")
+    kept = [((esperanto / name).as_uri(), ready) for name, ready in KEPT.items()]
+    served = [(board_url(watched), "window.octet?.message"), (watched.url, "window.octet?.scene?.state")]
+    for page in (third, *(open_page(url, ready) for url, ready in (*kept, *served))):
+        page.select_option("#language", "de")
+        assert violations_at(page, [(740, 360)]) == []
 
 
 def test_another_language_is_chosen_without_loading_the_page_again(third):
