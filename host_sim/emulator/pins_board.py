@@ -51,6 +51,7 @@ class PinsBoard(EmulatedBoard):
         Returns:
             What the board says that it senses; `senses` if it says nothing.
         """
+        self._drive = None
         self.robot.feel(body, senses, tick)
         self._waits = True
         deadline = self._clock.now + round(_ANSWER_S * SECOND)
@@ -88,7 +89,6 @@ class PinsBoard(EmulatedBoard):
             numbers = {"tick": senses.signals["tick"], "counter": counter_of(frame)}
             answer = self._protocol.encode("DRIVE", {**drive.signals, **numbers})
             self._said.append(CanFrame(answer.id, answer.data))
-            self._drive = None
 
     def status(self) -> str:
         """As in `EmulatedBoard`."""

@@ -10,8 +10,8 @@ from host_sim.protocol.generated import FEEL, Senses
 from host_sim.world.body import Body
 from host_sim.world.world_library import world_library
 
-_SIDES = ("LEFT", "RIGHT")
-_SENSORS = [f"PROXIMITY_{name.upper().replace('-', '_')}" for name in FEEL]
+SIDES = ("LEFT", "RIGHT")
+SENSORS = [f"PROXIMITY_{name.upper().replace('-', '_')}" for name in FEEL]
 _SAMPLE_PER_MV = 4096 / 3300 / 3
 _ONE = 65536
 
@@ -33,6 +33,9 @@ class RobotOnPins:
         ambient: What it receives without them.
         battery_v: The battery's voltage where there is no body with one.
         counts_by: What an encoder makes of each of its counts: -1 where its wires are swapped.
+        stalled: Whether something holds a motor.
+        swapped: Whether each motor is plugged where the other one belongs.
+        converts: Whether samples come; without, they stay as they are.
     """
 
     def __init__(
@@ -50,9 +53,9 @@ class RobotOnPins:
         self._core, self.wiring, self.motors, self.timers, self._converter = core, wiring, motors, timers, converter
         self.ffi, self.library = world_library()
         self.kit: Any = None
-        self.light, self.ambient, self.battery_v = [0] * len(_SENSORS), 300, 7.4
-        self._light: Any = self.ffi.new("uint16_t[]", len(_SENSORS))
-        self.counts_by = [1, 1]
+        self.light, self.ambient, self.battery_v = [0] * len(SENSORS), 300, 7.4
+        self._light: Any = self.ffi.new("uint16_t[]", len(SENSORS))
+        self.counts_by, self.stalled, self.swapped, self.converts = [1, 1], [False, False], False, True
         self._duty: Any = self.ffi.new("int32_t[2]")
         self._counts = [0, 0]
         self._channels = wiring.pins.channels
@@ -81,7 +84,7 @@ class RobotOnPins:
 
     def set_bumped(self, bumped: bool) -> None:
         """Something presses the bumpers, or nothing."""
-        for side in _SIDES:
+        for side in SIDES:
             self._set(f"BUMPER_{side}", high=not bumped)
 
     def set_button(self, pressed: bool) -> None:
@@ -112,22 +115,26 @@ class RobotOnPins:
         """What the bridge gives a motor, 1/65536 of the battery: the half that PWM drives less the other."""
         if not self._high("BRIDGE_AWAKE"):
             return 0
-        duty = self.motors.duty(2 + side) if self.wiring.meets(f"{_SIDES[side]}_PWM") else 0.0
-        return round((duty - self._high(f"{_SIDES[side]}_BACK")) * _ONE)
+        duty = self.motors.duty(2 + side) if self.wiring.meets(f"{SIDES[side]}_PWM") else 0.0
+        return round((duty - self._high(f"{SIDES[side]}_BACK")) * _ONE)
 
     def _beat(self) -> None:
         if self.kit is not None:
-            self._duty[0], self._duty[1] = self._push(0), self._push(1)
+            for side in range(2):
+                self._duty[side] = 0 if self.stalled[side] else self._push(1 - side if self.swapped else side)
+                if self.stalled[side]:
+                    self.kit.wheels[side].speed = 0
             self.library.kit_push(self.kit, self._duty)
             for side in range(2):
                 self._count(side)
-        self._fill()
+        if self.converts:
+            self._fill()
 
     def _count(self, side: int) -> None:
         """An encoder of which one wire is elsewhere counts nothing."""
         count = self.library.kit_count(self.kit, side)
         more, self._counts[side] = count - self._counts[side], count
-        timer, name = self.timers[f"TIM{3 + side}"], f"{_SIDES[side]}_ENCODER_"
+        timer, name = self.timers[f"TIM{3 + side}"], f"{SIDES[side]}_ENCODER_"
         if timer.follows_encoder() and self.wiring.meets(f"{name}A") and self.wiring.meets(f"{name}B"):
             timer.count(self.counts_by[side] * ((more + 0x8000) % 0x10000 - 0x8000))
 
@@ -139,7 +146,7 @@ class RobotOnPins:
     def _fill(self) -> None:
         shines, battery_v = self._high("INFRARED"), self.volts
         samples = {}
-        for light, signal in zip(self.light, _SENSORS, strict=True):
+        for light, signal in zip(self.light, SENSORS, strict=True):
             if self.wiring.meets(signal):
                 samples[self._channels[signal]] = self.ambient + light * shines
         if self.wiring.meets("BATTERY"):

@@ -11,7 +11,7 @@ from host_sim.faults.faulty_link import FaultyLink
 from host_sim.lab.campaign.setup import Happen
 from host_sim.sim.run_config import RunConfig
 
-_MS = SECOND // 1000
+MS = SECOND // 1000
 _NOWHERE = 0x60000000
 _BELOW_RAM = 0x20000008
 _WATCHDOG_S = 4
@@ -36,7 +36,7 @@ class Board:
             "reset": lambda _: self.board.restart("software"),
             "power": lambda _: self.board.cut_power(),
             "watchdog": lambda _: self.board.hardware.clock.skip(_WATCHDOG_S * SECOND),
-            "hang": lambda span_ms: self.board.hardware.clock.skip(span_ms * _MS),
+            "hang": lambda span_ms: self.board.hardware.clock.skip(span_ms * MS),
             "crash": lambda _: self.board.hardware.core.derail(_NOWHERE),
             "stack": lambda _: self.board.hardware.core.derail(_NOWHERE, _BELOW_RAM),
             "flash-cut": self._cut_in_flash,
@@ -79,7 +79,7 @@ class Board:
         """Something is wrong with the bus for a while of the board's time."""
         wire = self.board.hardware.can.wire
         setattr(wire, what, True)
-        _Later(self.board.hardware.clock, span_ms * _MS, lambda: setattr(wire, what, False))
+        Later(self.board.hardware.clock, span_ms * MS, lambda: setattr(wire, what, False))
 
     def _babble(self, span_ms: int) -> None:
         """Frames of the highest priority fill the bus."""
@@ -87,7 +87,7 @@ class Board:
             self.board.put(CanFrame(0, bytes(8)))
 
 
-class _Later:
+class Later:
     """Does something once, when the board's time has come to it."""
 
     def __init__(self, clock: Clock, span: int, happen: Callable[[], None]) -> None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from host_sim.lab.campaign.cell import Cell
     from host_sim.lab.campaign.outcome import Outcome
 
-_LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS)
+_LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, "pins")
 _EXAMPLES = """\
 examples:
   tools/octet campaign out/campaign.html                     every behaviour in lockstep, within this process
@@ -60,7 +60,7 @@ def add(commands: "Subparsers") -> None:
         metavar="LINK",
         help="how to reach the robot: none (in this process), fd (socket pair), external (your own program), slcan "
         "(serial line), vcan (inside tools/with-vcan), or an emulated board: "
-        f"{', '.join(BOARDS)} (default: none)",
+        f"{', '.join(BOARDS)}; or pins: a Blue Pill on its pins (default: none)",
     )
     add("--robot-command", default="", metavar="CMD", help="program to start as the robot, for --links external")
     add("--json", type=output_of(".json"), metavar="FILE.json", help="also write the outcomes as JSON")
@@ -92,7 +92,7 @@ def _check(arguments: argparse.Namespace) -> None:
 
 def _stages(arguments: argparse.Namespace) -> Sequence[str]:
     links = (arguments.repeat or arguments.shrink or "").split() or arguments.links
-    return ["images", "emulator"] if set(BOARDS) & set(links) else ["run"]
+    return ["images", "emulator"] if {*BOARDS, "pins"} & set(links) else ["run"]
 
 
 def _campaign(arguments: argparse.Namespace) -> int:

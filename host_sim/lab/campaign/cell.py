@@ -14,6 +14,15 @@ from host_sim.world.changes import Change
 SEED = 12
 LOCKSTEP, REAL_TIME = "lockstep", "real-time"
 PACES = (LOCKSTEP, REAL_TIME)
+PINS_LINK = "pins"
+"""A robot of its own, on the pins of an emulated Blue Pill."""
+
+PIN_EVENTS = (
+    *("sensor-off", "encoder-off", "encoder-back", "motor-stall", "motor-off", "motors-swapped", "bridge-fault"),
+    *("adc-stuck", "bounce"),
+)
+"""What can happen to its body there."""
+
 PROCESS_LINKS = ("none", "fd")
 """Where the robot is started by the run itself, as `tools/run --bus` names it."""
 
@@ -111,7 +120,8 @@ class Cell:
     @property
     def is_of_body(self) -> bool:
         """Whether only the body is faulty."""
-        return bool(self.changes) and not self.faults and not self.events
+        on_pins = bool(self.events) and all(event.name in PIN_EVENTS for event in self.events)
+        return not self.faults and (on_pins or (bool(self.changes) and not self.events))
 
     @property
     def config(self) -> RunConfig:

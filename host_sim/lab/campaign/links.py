@@ -8,6 +8,7 @@ from host_sim.backends.images import BOARDS
 from host_sim.base.errors import UsageError
 from host_sim.client.robot_client import RobotClient
 from host_sim.faults.event import Event
+from host_sim.lab.campaign.cell import PINS_LINK
 from host_sim.lab.campaign.setup import Happen, Setup
 from host_sim.sim.run_config import RunConfig
 
@@ -26,8 +27,8 @@ class InProcess:
         """As in `Setup`."""
 
 
-LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS)
-"""In this process, on a socket pair, there but of one's own, on a serial line, on vcan0, and on an emulated board."""
+LINKS = ("none", "fd", "external", "slcan", "vcan", *BOARDS, PINS_LINK)
+"""In this process, on a socket pair, there but of one's own, on a serial line, on vcan0, on a board, on its pins."""
 
 
 def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
@@ -59,6 +60,10 @@ def open_setup(link: str, command: str = "") -> AbstractContextManager[Setup]:
         from host_sim.lab.campaign.board_setup import Board  # noqa: PLC0415 - see above
 
         return nullcontext(Board(link))
+    if link == PINS_LINK:
+        from host_sim.lab.campaign.pins_setup import PinsRobot  # noqa: PLC0415 - see above
+
+        return nullcontext(PinsRobot("blue_pill"))
     raise UsageError(f"there is no link {link!r}; there are {', '.join(LINKS)}")
 
 

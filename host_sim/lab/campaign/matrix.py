@@ -6,7 +6,7 @@ from random import Random
 
 from host_sim.backends.images import BOARDS
 from host_sim.faults.event import Event
-from host_sim.lab.campaign.cell import LOCKSTEP, PACES, REAL_TIME, Cell
+from host_sim.lab.campaign.cell import LOCKSTEP, PACES, PINS_LINK, REAL_TIME, Cell
 from host_sim.protocol.generated import MESSAGES, Opcode
 from host_sim.protocol.words import SENSORS
 
@@ -14,7 +14,7 @@ _LINES, _PROCESSES = ("external", "slcan", "vcan"), ("fd", "external", "slcan", 
 _COMPARED = (LOCKSTEP,)
 """Where runs can be compared tick by tick."""
 
-_RECORD_WRITES = {"feather_stm32f405": 4, "blue_pill": 8, "nucleo_g431rb": 2}
+_RECORD_WRITES = {"feather_stm32f405": 4, "blue_pill": 8, "nucleo_g431rb": 2, PINS_LINK: 8}
 """Writes to flash that store a memory: of words, of half-words, of double words."""
 
 _INSTRUCTIONS, _SAVING_INSTRUCTIONS = 20_000, 400
@@ -58,7 +58,7 @@ class FaultClass:
 
     def can_happen(self, profile: str, link: str, pace: str) -> bool:
         """Whether it can happen in a configuration."""
-        is_there = pace in self.paces and (not self.links or link in self.links)
+        is_there = pace in self.paces and (link in self.links or (not self.links and link != PINS_LINK))
         is_there = is_there and (not self.profiles or profile in self.profiles)
         return is_there and not (self.in_lesson and profile in _NO_LESSONS)
 
@@ -214,7 +214,29 @@ HOST: tuple[FaultClass, ...] = (
 )
 """In the simulator's host."""
 
-CLASSES = (*BUS, *BODY, *ROBOT, *LINE, *HOST)
+
+def _on_pins(name: str, event: str, *, denies: bool = False, harmless: tuple[str, ...] = ()) -> FaultClass:
+    return FaultClass(name, event=event, links=(PINS_LINK,), paces=_COMPARED, denies=denies, harmless=harmless)
+
+
+def _of_pins() -> Iterator[FaultClass]:
+    for number, sensor in enumerate(SENSORS):
+        yield _on_pins(f"the wire of the {sensor} sensor is broken", f"sensor-off:{number}")
+    for number, side in enumerate(("left", "right")):
+        yield _on_pins(f"a channel of the {side} encoder is lost", f"encoder-off:{number}", denies=True)
+        yield _on_pins(f"the {side} encoder counts against its motor", f"encoder-back:{number}", denies=True)
+        yield _on_pins(f"the {side} motor is stalled", f"motor-stall:{number}", denies=True)
+        yield _on_pins(f"the wire of the {side} motor is off", f"motor-off:{number}", denies=True)
+    yield _on_pins("the motors' plugs are swapped", "motors-swapped", denies=True)
+    yield _on_pins("the bridge reports a fault", "bridge-fault", denies=True)
+    yield _on_pins("the converter is stuck", "adc-stuck")
+    yield _on_pins("the button's contacts bounce", "bounce:400", harmless=_COMPARED)
+
+
+PINS = tuple(_of_pins())
+"""On the pins of a robot of its own."""
+
+CLASSES = (*BUS, *BODY, *ROBOT, *LINE, *HOST, *PINS)
 """All that the campaign knows."""
 
 

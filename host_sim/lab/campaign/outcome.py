@@ -73,7 +73,7 @@ class Outcome:
     def problems(self) -> list[str]:
         """Why the campaign fails here; empty if it does not."""
         cell = self.cell
-        is_misled = self.wrong and (cell.denies or not (cell.changes or self.end or self.doubts))
+        is_misled = self.wrong and (cell.denies or not (cell.changes or cell.is_of_body or self.end or self.doubts))
         found = {
             "unsafe": self.oldest > HOLD_TICKS,
             "unseen": bool(cell.fault) and not self._is_seen and (self.differs or not cell.harmless),
