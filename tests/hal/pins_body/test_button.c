@@ -97,3 +97,59 @@ TEST(contacts_that_bounce_are_no_press)
     look(false, 2 * SECOND);
     TEST_ASSERT_EQUAL_UINT(0, tellings);
 }
+
+TEST(it_starts_exactly_a_second_after_it_is_known_to_be_let_go)
+{
+    look(true, PRESS);
+    look(false, 3 + SECOND - 1);
+    TEST_ASSERT_EQUAL_UINT(0, tellings);
+    look(false, 1);
+    TEST_ASSERT_EQUAL_UINT(1, tellings);
+}
+
+TEST(while_it_is_pressed_again_nothing_starts)
+{
+    press(PRESS);
+    look(true, 2 * SECOND);
+    TEST_ASSERT_EQUAL_UINT(0, tellings);
+}
+
+TEST(a_contact_that_bounces_just_after_a_press_is_known_makes_no_second_one)
+{
+    look(true, 3);
+    look(false, 2);
+    look(true, PRESS);
+    look(false, 2 * SECOND);
+    TEST_ASSERT_EQUAL_UINT(1, tellings);
+    TEST_ASSERT_EQUAL_UINT8(0, told.which);
+}
+
+TEST(presses_before_a_stop_start_nothing_later)
+{
+    press(PRESS);
+    running = true;
+    press(PRESS);
+    running = false;
+    look(false, 2 * SECOND);
+    TEST_ASSERT_EQUAL_UINT(1, tellings);
+    TEST_ASSERT_EQUAL_INT(OPCODE_STOP, told.opcode);
+    TEST_ASSERT_EQUAL_UINT8(0, told.which);
+}
+
+TEST(after_it_has_forgotten_it_can_be_started)
+{
+    press(6 * SECOND);
+    TEST_ASSERT_EQUAL_UINT8(0, told.which);
+    TEST_ASSERT_EQUAL_UINT16(PRESS - 3, button.ticks);
+    press(PRESS);
+    look(false, SECOND);
+    TEST_ASSERT_EQUAL_UINT(2, tellings);
+    TEST_ASSERT_EQUAL_INT(OPCODE_START, told.opcode);
+}
+
+TEST(its_time_stays_at_the_end_however_long_it_is_held)
+{
+    look(true, 400 * SECOND);
+    TEST_ASSERT_EQUAL_UINT16(5 * SECOND, button.ticks);
+    TEST_ASSERT_EQUAL_UINT(1, tellings);
+}
