@@ -25,6 +25,8 @@ NOT_ON_THE_HOST = {
     "hal/pins_body/body_main.c": "a main of its own; tests/image/test_body_node.py runs it",
     "hal/boot/signer.c": "the public key, and no code",
     "hal/stm32/stm32f103/layout.c": "numbers, and no code",
+    "hal/stm32/stm32f405/layout.c": "as above",
+    "hal/stm32/stm32g431/layout.c": "as above",
     "hal/stm32/stm32g431/nmi.c": "written in the core's own assembler; what it calls is tested as flash_forgives",
     "hal/stm32/build_id.c": "a text in the image, and no code",
 }

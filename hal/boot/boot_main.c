@@ -47,6 +47,7 @@ int main(int argc, char *argv[])
     server_begin(&server, &choices, node, machine_ms());
     if (link_open(&link, choice_link(&choices.now), &server.request_id, 1) < 0)
         return 1;
+    mcu_be_patient();
     if (asked)
         server_programming(&server);
     serve(&server, link);

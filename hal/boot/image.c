@@ -105,7 +105,7 @@ uint32_t image_written(unsigned slot)
 
     while (pages > 0 && is_blank(slot, pages - 1))
         pages--;
-    return pages > 0 ? (pages - 1) * flash_page_size() : 0;
+    return pages > 0 ? (pages - 1) / LAYOUT.at_once * LAYOUT.at_once * flash_page_size() : 0;
 }
 
 uint32_t image_version(unsigned slot)

@@ -11,7 +11,8 @@ struct layout {
     uint8_t number;               /* of this division of the chip's flash: an image for another one does not fit */
     uint16_t choice_page;         /* the first of two */
     uint16_t slot_page[SLOTS];    /* the first of each slot */
-    uint16_t slot_pages;          /* of a slot */
+    uint16_t slot_pages;          /* of a slot, */
+    uint16_t at_once;             /* of which so many are erased together */
 };
 
 extern const struct layout LAYOUT;

@@ -15,6 +15,11 @@ enum {
     TRANSFER_DATA = 2             /* where data begin in a request */
 };
 
+static uint32_t erased_at_once(void)
+{
+    return LAYOUT.at_once * flash_page_size();
+}
+
 static uint32_t slot_bytes(void)
 {
     return LAYOUT.slot_pages * flash_page_size();
@@ -41,7 +46,7 @@ static enum nrc begin_erase(struct uds *uds, const struct exchange *exchange)
     if (why != REFUSAL_NONE)
         return refuse(uds, why, why == REFUSAL_OLDER ? NRC_CONDITIONS : NRC_RANGE);
     uds->at = uds->from = uds_number(options);
-    if (uds->from % flash_page_size() != 0 || uds->from >= uds->image.size || uds->from > image_written(uds->slot))
+    if (uds->from % erased_at_once() != 0 || uds->from >= uds->image.size || uds->from > image_written(uds->slot))
         return NRC_RANGE;
     memcpy(uds->header, &options[4], IMAGE_HEADER);
     uds->why = REFUSAL_NONE;
@@ -174,7 +179,7 @@ static enum nrc erase_one(struct uds *uds)
 
     if (flash_erase(LAYOUT.slot_page[uds->slot] + page) < 0)
         return refuse(uds, REFUSAL_FLASH, NRC_FAILURE);
-    uds->at += flash_page_size();
+    uds->at += erased_at_once();
     if (uds->at < slot_bytes())
         return NRC_PENDING;
     uds->at = uds->from;

@@ -69,7 +69,7 @@ int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t
 
 int flash_erase(unsigned page)
 {
-    uint32_t setting = chip->erase + page * chip->next_page;
+    uint32_t setting = chip->erase | flash_number(page) << chip->number_at;
 
     if (unlock(setting) < 0)
         return lock(-1);

@@ -14,8 +14,8 @@ struct flash_table {
     uint32_t at_once;                   /* bytes that are written at once: a unit, or half of one */
     uint32_t erase_ms;                  /* at least twice what a page takes */
     uint32_t busy, errors, done;        /* SR */
-    uint32_t lock, write, erase, start; /* CR, with erase of the first page, */
-    uint32_t next_page;                 /* and what is added to that for the second */
+    uint32_t lock, write, erase, start; /* CR */
+    uint32_t number_at;                 /* and the lowest bit there of the page's number */
     bool slow;                          /* a unit takes longer than a byte on a serial line */
 };
 
@@ -27,6 +27,9 @@ void flash_begin(unsigned page, uint32_t offset, const uint32_t words[]);
 
 volatile void *flash_place(unsigned page, uint32_t offset);
         /* Where that is. */
+
+uint32_t flash_number(unsigned page);
+        /* The chip's own number of a page, for CR. */
 
 bool flash_has(unsigned page, uint32_t offset, const uint32_t words[]);
         /* Whether they read back as written. */

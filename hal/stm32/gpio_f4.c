@@ -5,7 +5,7 @@
 
 enum { OUTPUT = 1, ALTERNATE = 2, PULL_UP = 1 };
 
-static void set_bits(volatile uint32_t *reg, unsigned at, unsigned width, uint32_t value)
+__attribute__((noinline)) static void set_bits(volatile uint32_t *reg, unsigned at, unsigned width, uint32_t value)
 {
     *reg = (*reg & ~(((1u << width) - 1u) << at)) | value << at;
 }

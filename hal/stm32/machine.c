@@ -8,6 +8,7 @@ enum {
     WATCHDOG_FEED = 0xAAAA,
     WATCHDOG_ON = 0xCCCC,
     WATCHDOG_BY_32 = 3,
+    WATCHDOG_BY_128 = 5,
     WATCHDOG_COUNTS = 2000,      /* by the data sheets 1.07..2.13 s on an F103, 1.36..3.76 s on an F405, 1.88..2.17 s on a G431 */
     WATCHDOG_WAIT_MAX = 200000   /* looks: its clock is slow, the change takes up to 5 periods of it */
 };
@@ -22,11 +23,11 @@ enum {                           /* in RCC_CSR: RM0008 7.3.10, RM0090 7.3.21, RM
 static struct clocks clocks;     /* there is one machine */
 
 /* First of all: whatever hangs from here on ends in a reset. Where the update does not end, the longest period stays. */
-static void start_watchdog(void)
+static void start_watchdog(uint32_t divisor)
 {
     IWDG.kr = WATCHDOG_ON;
     IWDG.kr = WATCHDOG_UNLOCK;
-    IWDG.pr = WATCHDOG_BY_32;
+    IWDG.pr = divisor;
     IWDG.rlr = WATCHDOG_COUNTS;
     for (unsigned i = 0; i < WATCHDOG_WAIT_MAX && IWDG.sr != 0; i++)
         continue;
@@ -35,7 +36,7 @@ static void start_watchdog(void)
 
 uint32_t mcu_start(void)
 {
-    start_watchdog();
+    start_watchdog(WATCHDOG_BY_32);
     clocks = clock_start();
     pins_start();
     return clocks.core_hz;
@@ -49,6 +50,11 @@ bool mcu_clock_is_exact(void)
 struct clocks machine_clocks(void)
 {
     return clocks;
+}
+
+void mcu_be_patient(void)
+{
+    start_watchdog(WATCHDOG_BY_128);
 }
 
 void mcu_feed(void)

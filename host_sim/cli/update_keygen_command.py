@@ -142,7 +142,7 @@ def _images(arguments: argparse.Namespace, key: "Ed25519PrivateKey") -> "dict[in
     if arguments.image not in LAYOUTS:
         return read_file(Path(arguments.image))
     version = version_now() if arguments.version is None else arguments.version
-    return {image.slot: image for image in built_images(arguments.image, "bxcan", version, key)}
+    return {image.slot: image for image in built_images(arguments.image, LAYOUTS[arguments.image].link, version, key)}
 
 
 def _save(path: Path, images: "dict[int, SlotImage]") -> None:

@@ -12,7 +12,6 @@ from host_sim.emulator.can import CanFrame
 from host_sim.emulator.chips import CHIPS, Chip
 from host_sim.emulator.clock import NEVER, SECOND
 from host_sim.emulator.core import load_segments
-from host_sim.emulator.flash import BASE as FLASH
 from host_sim.emulator.hardware import Faults, Hardware
 from host_sim.emulator.registers import PowerCut
 from host_sim.protocol.codec import Frame
@@ -73,10 +72,9 @@ class EmulatedBoard:
         self._reset_cause: str | None = None
         self._deadline = NEVER
         self.hardware = Hardware(chip, faults or Faults(), self._receive, self._ask_reset)
-        segments = load_segments(image)
-        if slots is not None:
-            segments += [(FLASH + at, data) for at, data in slots.images]
-        self.hardware.flash_image(segments, slots.span if slots else (0, 0))
+        for at, data in slots.images if slots else ():
+            self.hardware.flash.memory[at : at + len(data)] = data
+        self.hardware.flash_image(load_segments(image), slots.span if slots else (0, 0))
         self._clock = self.hardware.clock
         self._alarm = self._clock.add(self._due)
         self._said.extend(self._listen(round(_BOOT_S * SECOND)))

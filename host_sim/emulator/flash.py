@@ -1,7 +1,7 @@
 """The chip's internal flash (F1: PM0075, F4: RM0090 3, G4: RM0440 5). The core stalls while it works."""
 
 from abc import abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
@@ -46,7 +46,7 @@ class FlashKind:
         pages: Size of each page or sector in bytes, from the lowest.
         hz_per_wait_state: Each wait state lets the core run faster by so much.
         write_span: Time to write one unit, fs.
-        erase_span: Time to erase a page, fs.
+        erase_span: Time to erase a page of a size, fs.
         start: Bit STRT of CR.
         lock: Bit LOCK of CR.
         failure: Flag of SR for what went wrong inside.
@@ -56,7 +56,7 @@ class FlashKind:
     pages: Sequence[int]
     hz_per_wait_state: int
     write_span: int
-    erase_span: int
+    erase_span: Mapping[int, int]
     start: int
     lock: int
     failure: int
@@ -171,7 +171,7 @@ class Flash(Peripheral):
         blank = _ERASED * size
         self._change(offset, blank, bytes(self.memory[offset : offset + _OUTLIVES]) + blank[_OUTLIVES:])
         self._half_erased.discard(page)
-        self._clock.skip(self.kind.erase_span)
+        self._clock.skip(self.kind.erase_span[size])
 
     def _change(self, offset: int, whole: bytes, partial: bytes) -> None:
         self.operations += 1
@@ -222,7 +222,7 @@ class FlashF1(Flash):
         pages=(1024,) * 64,
         hz_per_wait_state=24_000_000,
         write_span=52 * SECOND // 10**6,
-        erase_span=30 * SECOND // 1000,
+        erase_span={1024: 30 * SECOND // 1000},
         start=1 << 6,
         lock=1 << 7,
         failure=_F1_PGERR,
@@ -251,7 +251,7 @@ class FlashF4(Flash):
         pages=(16 << 10,) * 4 + (64 << 10,) + (128 << 10,) * 7,
         hz_per_wait_state=30_000_000,
         write_span=16 * SECOND // 10**6,
-        erase_span=SECOND // 2,
+        erase_span={16 << 10: SECOND // 2, 64 << 10: 11 * SECOND // 10, 128 << 10: 2 * SECOND},
         start=1 << 16,
         lock=1 << 31,
         failure=_F4_OPERR,
@@ -279,7 +279,7 @@ class FlashG4(Flash):
         pages=(2048,) * 64,
         hz_per_wait_state=30_000_000,
         write_span=82 * SECOND // 10**6,
-        erase_span=22 * SECOND // 1000,
+        erase_span={2048: 22 * SECOND // 1000},
         start=1 << 16,
         lock=1 << 31,
         failure=_F4_OPERR,

@@ -141,8 +141,7 @@ class Hardware:
         for address, data in segments:
             offset = address - FLASH
             flash.memory[offset : offset + len(data)] = data
-            if offset < slots[0] or not slots[0]:
-                flash.code_end = max(flash.code_end, -(-(offset + len(data)) // PAGE) * PAGE)
+            flash.code_end = max(flash.code_end, -(-(offset + len(data)) // PAGE) * PAGE)
         self._slots = slots
         self.core.add_rom(FLASH, bytes(flash.memory[: flash.code_end]))
         for begin, end in ((flash.code_end, slots[0]), slots, (max(flash.code_end, slots[1]), len(flash.memory))):

@@ -30,6 +30,7 @@ class Layout:
         slots: Where each slot begins.
         slot_bytes: Size of a slot.
         page: Size of what is erased at once.
+        link: The link of its CAN controller.
     """
 
     number: int
@@ -38,9 +39,16 @@ class Layout:
     slots: tuple[int, int]
     slot_bytes: int
     page: int
+    link: str = "bxcan"
 
 
-LAYOUTS = {"blue_pill": Layout(2, "stm32f103", 0x4000, (0x4000, 0x9800), 0x5800, 1024)}
+_F405 = Layout(1, "stm32f405", 0x4000, (0x20000, 0x40000), 0x20000, 0x20000)
+LAYOUTS = {
+    "blue_pill": Layout(2, "stm32f103", 0x4000, (0x4000, 0x9800), 0x5800, 1024),
+    "feather_stm32f405": _F405,
+    "olimex_stm32_h405": _F405,
+    "nucleo_g431rb": Layout(1, "stm32g431", 0x5000, (0x5000, 0x11000), 0xC000, 2048, "fdcan"),
+}
 """Of each board that has a boot loader, as hal/stm32 has them."""
 
 

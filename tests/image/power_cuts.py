@@ -1,7 +1,7 @@
 """Cuts an emulated board's power at each write and erase of its flash in an update, and in recoveries from such cuts.
 
     .venv/bin/python -m tests.image.power_cuts
-    .venv/bin/python -m tests.image.power_cuts --recoveries 40 --jobs 8
+    .venv/bin/python -m tests.image.power_cuts --board nucleo_g431rb --recoveries 40 --jobs 8
 
 Says after how many of them which image started, and how many left the board without one or without its memory; the
 exit code is 1 if any did. The recoveries are those from cuts that are spread evenly over the update.
@@ -16,10 +16,12 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from host_sim.emulator.board import EmulatedBoard
+from host_sim.emulator.flash import FlashG4
 from tests.image.support import Talk
-from tests.image.update_rig import LAYOUT, NEW, board_with, fresh_board, put_on, runs_in
+from tests.image.update_rig import NEW, RIGS, Rig
 
-CHOICE, STORE = 60 * 1024, 62 * 1024
+WRITE_MAX, DOUBLE_WORD = 8, 8
+"""Bytes: of the longest write, and of one with error correction."""
 LESSON = {"mask": 0b1111, "half": 0, "byte_0": 0, "byte_1": 1, "byte_2": 0, "byte_3": 0}
 _START_S, _LOOK_S = 0.1, 0.005
 
@@ -28,6 +30,7 @@ _START_S, _LOOK_S = 0.1, 0.005
 class Recording:
     """What was done to a flash: its bytes before; of each change place, bytes after, and bytes if it was cut."""
 
+    rig: Rig
     before: bytes = b""
     changes: list[tuple[int, bytes, bytes]] = field(default_factory=list)
 
@@ -40,11 +43,21 @@ class Recording:
         memory[offset : offset + len(partial_)] = partial_
         return bytes(memory)
 
+    def cut(self, board: EmulatedBoard, number: int) -> bytes:
+        """Gives a board the flash as it is if the power fails within that change; returns its bytes."""
+        flash, memory = board.hardware.flash, self.cut_at(number)
+        offset, whole, _ = self.changes[number]
+        flash.memory[:] = memory
+        flash._half_erased = {flash._page_of(offset)} if len(whole) > WRITE_MAX else set()
+        if isinstance(flash, FlashG4):
+            flash.unreadable = {offset} if len(whole) == DOUBLE_WORD else set()
+        return memory
 
-def recording_of(board: EmulatedBoard, work: Callable[[EmulatedBoard], None]) -> Recording:
+
+def recording_of(rig: Rig, board: EmulatedBoard, work: Callable[[EmulatedBoard], None]) -> Recording:
     """Has that work done, and notes all changes of the board's flash."""
     flash = board.hardware.flash
-    found = Recording(bytes(flash.memory))
+    found = Recording(rig, bytes(flash.memory))
     change = flash._change
 
     def recorded(offset: int, whole: bytes, partial_: bytes) -> None:
@@ -56,43 +69,43 @@ def recording_of(board: EmulatedBoard, work: Callable[[EmulatedBoard], None]) ->
     return found
 
 
-def update_to_the_end(board: EmulatedBoard) -> None:
+def update_to_the_end(rig: Rig, board: EmulatedBoard) -> None:
     """To the new image, until that is confirmed."""
-    updater = put_on(board, NEW)
+    updater = rig.put_on(board, NEW)
     updater.restart()
     updater.running()
     board.pass_time(6.0)
     assert updater.running() == (NEW, False)
 
 
-def recording_of_an_update() -> Recording:
+def recording_of_an_update(rig: Rig) -> Recording:
     """On a board that has learned something."""
-    board = fresh_board()
+    board = rig.fresh_board()
     talk = Talk(board)
     talk.order("write", **LESSON)
     talk.wait(0.2)
-    return recording_of(board, update_to_the_end)
+    return recording_of(rig, board, partial(update_to_the_end, rig))
 
 
-def restarted(memory: bytes) -> EmulatedBoard:
+def restarted(rig: Rig, memory: bytes) -> EmulatedBoard:
     """A board with that flash."""
-    return board_with((LAYOUT.boot, memory[LAYOUT.boot :]))
+    return rig.board_with((rig.layout.boot, memory[rig.layout.boot :]))
 
 
-def slot_after(board: EmulatedBoard, memory: bytes) -> int | None:
+def slot_after(rig: Rig, board: EmulatedBoard, memory: bytes) -> int | None:
     """The slot of the image that starts on a board with that flash, if one does and the memory is as it was."""
-    board.hardware.flash.memory[:] = memory
+    begin, store_end = rig.store
     board.cut_power()
     end = board.now() + _START_S
-    while runs_in(board) is None and board.now() < end:
+    while rig.runs_in(board) is None and board.now() < end:
         board.pass_time(_LOOK_S)
-    return runs_in(board) if board.hardware.flash.memory[STORE:] == memory[STORE:] else None
+    return rig.runs_in(board) if board.hardware.flash.memory[begin:store_end] == memory[begin:store_end] else None
 
 
 def slots_after(recording: Recording, cuts: Iterable[int]) -> list[int | None]:
     """The same after each of these cuts."""
-    board = restarted(recording.before)
-    return [slot_after(board, recording.cut_at(number)) for number in cuts]
+    board = restarted(recording.rig, recording.before)
+    return [slot_after(recording.rig, board, recording.cut(board, number)) for number in cuts]
 
 
 def _all_slots(recording: Recording, pool: ProcessPoolExecutor, parts: int) -> Counter[int | None]:
@@ -111,10 +124,13 @@ def _said(what: str, slots: Counter[int | None]) -> str:
 def main() -> int:
     """Cuts them all."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    boards = [rig.board for rig in RIGS]
+    parser.add_argument("--board", choices=boards, default=boards[0], help="which board (default: %(default)s)")
     parser.add_argument("--recoveries", type=int, default=4, metavar="N", help="recoveries to cut, too (default: 4)")
     parser.add_argument("--jobs", type=int, default=2, metavar="N", help="processes (default: 2)")
     arguments = parser.parse_args()
-    update = recording_of_an_update()
+    rig = Rig(arguments.board)
+    update = recording_of_an_update(rig)
     bricks = 0
     with ProcessPoolExecutor(arguments.jobs) as pool:
         slots = _all_slots(update, pool, arguments.jobs)
@@ -122,7 +138,11 @@ def main() -> int:
         bricks += slots[None]
         for number in range(arguments.recoveries):
             cut = (2 * number + 1) * len(update.changes) // (2 * arguments.recoveries)
-            recovery = recording_of(restarted(update.cut_at(cut)), update_to_the_end)
+            board = restarted(rig, update.before)
+            update.cut(board, cut)
+            board.cut_power()
+            board.pass_time(_START_S)
+            recovery = recording_of(rig, board, partial(update_to_the_end, rig))
             slots = _all_slots(recovery, pool, arguments.jobs)
             sys.stdout.write(_said(f"the recovery from cut {cut:,}", slots))
             bricks += slots[None]

@@ -12,23 +12,14 @@ from host_sim.update.hub import Hub
 from host_sim.update.image import built_images
 from host_sim.update.updater import UpdateError, Updater
 from tests.image.support import Talk
-from tests.image.update_rig import (
-    BOARD,
-    KEY,
-    LAYOUT,
-    NEW,
-    OLD,
-    Crowd,
-    LossyLink,
-    board_with,
-    fresh_board,
-    images,
-    put_on,
-    runs_in,
-)
+from tests.image.update_rig import BLUE_PILL, KEY, NEW, OLD, RIGS, Crowd, LossyLink
 
 LESSON = {"mask": 0b1111, "half": 0, "byte_0": 0, "byte_1": 1, "byte_2": 0, "byte_3": 0}
-STORE = 62 * 1024
+
+
+@pytest.fixture(params=RIGS, ids=lambda rig: rig.board)
+def rig(request):
+    return request.param
 
 
 def learn(board):
@@ -50,7 +41,7 @@ def number(board, node):
 def update(tester):
     tester.enter()
     tester.unlock()
-    tester.install(images(NEW)[tester.status().free], lambda _count: None)
+    tester.install(BLUE_PILL.images(NEW)[tester.status().free], lambda _count: None)
     tester.restart()
     tester.running()
 
@@ -61,36 +52,36 @@ def written(board):
     return flash.operations, bytes(flash.memory)
 
 
-def test_a_robot_starts_through_its_boot_loader():
-    board = fresh_board()
+def test_a_robot_starts_through_its_boot_loader(rig):
+    board = rig.fresh_board()
 
-    assert runs_in(board) == 0
+    assert rig.runs_in(board) == 0
     assert board.resets == []
     assert board.hardware.faults == []
 
 
-def test_a_start_takes_less_than_30_ms():
-    board = fresh_board()
+def test_a_start_takes_less_than_30_ms(rig):
+    board = rig.fresh_board()
     core = board.hardware.core
     board.cut_power()
     began = board.now()
-    while runs_in(board) is None:
+    while rig.runs_in(board) is None:
         board.pass_time(0.0005)
 
-    assert core.vectors == BASE + LAYOUT.slots[0] + 256
+    assert core.vectors == BASE + rig.layout.slots[0] + 256
     assert board.now() - began < 0.030
 
 
-def test_after_an_update_the_new_image_runs_with_the_memory():
-    board = fresh_board()
+def test_after_an_update_the_new_image_runs_with_the_memory(rig):
+    board = rig.fresh_board()
     learn(board)
     before = board.now()
-    tester = put_on(board, NEW)
+    tester = rig.put_on(board, NEW)
     took_s = board.now() - before
     tester.restart()
 
     assert tester.running() == (NEW, True)
-    assert runs_in(board) == 1
+    assert rig.runs_in(board) == 1
     assert took_s < 3.0
     board.pass_time(6.0)
     assert tester.running() == (NEW, False)
@@ -100,8 +91,8 @@ def test_after_an_update_the_new_image_runs_with_the_memory():
     assert talk.memory[1] == 1
 
 
-def test_a_robot_that_is_driven_is_not_updated():
-    board = fresh_board()
+def test_a_robot_that_is_driven_is_not_updated(rig):
+    board = rig.fresh_board()
     talk = Talk(board)
     talk.start()
     talk.live(5)
@@ -110,8 +101,8 @@ def test_a_robot_that_is_driven_is_not_updated():
         Updater(board, 1, KEY).enter()
 
 
-def test_another_key_is_refused_before_anything_is_changed():
-    board = fresh_board()
+def test_another_key_is_refused_before_anything_is_changed(rig):
+    board = rig.fresh_board()
     tester = Updater(board, 1, Ed25519PrivateKey.generate())
     tester.enter()
     before = written(board)
@@ -121,12 +112,12 @@ def test_another_key_is_refused_before_anything_is_changed():
     assert written(board) == before
 
 
-def test_an_image_of_another_signer_is_not_chosen():
-    board = fresh_board()
+def test_an_image_of_another_signer_is_not_chosen(rig):
+    board = rig.fresh_board()
     tester = Updater(board, 1, KEY)
     tester.enter()
     tester.unlock()
-    foreign = built_images(BOARD, "bxcan", NEW, Ed25519PrivateKey.generate())[1]
+    foreign = built_images(rig.board, rig.layout.link, NEW, Ed25519PrivateKey.generate())[1]
 
     with pytest.raises(UpdateError, match="not signed by the key of this board"):
         tester.install(foreign, lambda _count: None)
@@ -134,69 +125,71 @@ def test_an_image_of_another_signer_is_not_chosen():
     assert tester.running() == (OLD, False)
 
 
-def test_an_older_image_is_refused_before_anything_is_erased():
-    board = fresh_board()
+def test_an_older_image_is_refused_before_anything_is_erased(rig):
+    board = rig.fresh_board()
     tester = Updater(board, 1, KEY)
     tester.enter()
     tester.unlock()
     before = written(board)
 
     with pytest.raises(UpdateError, match="older than the board takes"):
-        tester.install(images(OLD - 1)[1], lambda _count: None)
+        tester.install(rig.images(OLD - 1)[1], lambda _count: None)
     assert written(board) == before
     tester.lower_floor(OLD - 1)
-    tester.install(images(OLD - 1)[1], lambda _count: None)
+    tester.install(rig.images(OLD - 1)[1], lambda _count: None)
 
 
-def test_a_new_image_that_is_never_confirmed_goes_back():
-    board = fresh_board()
-    put_on(board, NEW).restart()
+def test_a_new_image_that_is_never_confirmed_goes_back(rig):
+    board = rig.fresh_board()
+    rig.put_on(board, NEW).restart()
     slots = []
     for _ in range(5):
         board.pass_time(0.3)
-        slots.append(runs_in(board))
+        slots.append(rig.runs_in(board))
         board.cut_power()
 
     assert slots == [1, 1, 1, 0, 0]
 
 
-def test_an_update_that_was_cut_goes_on_where_it_was():
-    board = fresh_board()
+def test_an_update_that_was_cut_goes_on_where_it_was(rig):
+    board = rig.fresh_board()
     flash = board.hardware.flash
-    flash.cuts.add(flash.operations + 30 + 6000)
-    put_on(board, NEW)
+    pages, writes = rig.layout.slot_bytes // rig.layout.page, {"blue_pill": 7700, "nucleo_g431rb": 1960}
+    flash.cuts.add(flash.operations + pages + writes.get(rig.board, 3930) * 3 // 4)
+    rig.put_on(board, NEW)
 
     assert board.resets == ["software", "power", "software"]
-    assert flash.erasures < 2 * 20
-    assert bytes(flash.memory[LAYOUT.slots[1] :][: len(images(NEW)[1].data)]) == images(NEW)[1].data
+    assert flash.erasures < max(2 * pages, 6)
+    assert bytes(flash.memory[rig.layout.slots[1] :][: len(rig.images(NEW)[1].data)]) == rig.images(NEW)[1].data
 
 
-def test_a_chip_whose_image_is_not_signed_stays_in_the_boot_loader():
-    data = bytearray(images(OLD)[0].data)
+def test_a_chip_whose_image_is_not_signed_stays_in_the_boot_loader(rig):
+    data = bytearray(rig.images(OLD)[0].data)
     data[-1] ^= 1
-    board = board_with((LAYOUT.slots[0], bytes(data)))
+    board = rig.board_with((rig.layout.slots[0], bytes(data)))
 
-    assert runs_in(board) is None
-    tester = put_on(board, NEW)
+    assert rig.runs_in(board) is None
+    tester = rig.put_on(board, NEW)
     tester.restart()
     assert tester.running() == (NEW, True)
 
 
-def test_with_lost_frames_it_arrives_all_the_same():
-    board = fresh_board()
+@pytest.mark.parametrize("rig", [BLUE_PILL], ids=lambda rig: rig.board)
+def test_with_lost_frames_it_arrives_all_the_same(rig):
+    board = rig.fresh_board()
     updater = Updater(LossyLink(board, 0.02, seed=1), 1, KEY)
     updater.enter()
     updater.unlock()
-    updater.install(images(NEW)[1], lambda _count: None)
+    updater.install(rig.images(NEW)[1], lambda _count: None)
 
-    data = images(NEW)[1].data
-    assert bytes(board.hardware.flash.memory[LAYOUT.slots[1] :][: len(data)]) == data
+    data = rig.images(NEW)[1].data
+    assert bytes(board.hardware.flash.memory[rig.layout.slots[1] :][: len(data)]) == data
     updater.restart()
     assert updater.running() == (NEW, True)
 
 
-def test_one_image_serves_a_robot_of_another_number():
-    board = fresh_board()
+def test_one_image_serves_a_robot_of_another_number(rig):
+    board = rig.fresh_board()
     tester = Updater(board, 1, KEY)
     tester.enter()
     tester.unlock()
@@ -210,23 +203,24 @@ def test_one_image_serves_a_robot_of_another_number():
 
 
 @pytest.mark.parametrize("slot", [0, 1], ids=["image", "boot loader"])
-def test_robot_and_boot_loader_join_a_bus_of_the_bit_rate_that_was_set(slot):
-    board = fresh_board()
+def test_robot_and_boot_loader_join_a_bus_of_the_bit_rate_that_was_set(rig, slot):
+    board = rig.fresh_board()
     tester = Updater(board, 1, KEY)
     tester.enter()
     tester.unlock()
     tester.set_bitrate(250_000)
     if slot:
-        board.hardware.flash.memory[LAYOUT.slots[0] + 300] ^= 1
+        board.hardware.flash.memory[rig.layout.slots[0] + 300] ^= 1
     tester.restart()
 
     with pytest.raises(BoardError, match="set up for 250000 bit/s, on a bus of 500000"):
         board.pass_time(0.2)
-    assert (runs_in(board) is None) == bool(slot)
+    assert (rig.runs_in(board) is None) == bool(slot)
 
 
-def test_two_boards_of_one_number_are_told_apart_before_anything_is_changed():
-    boards = [fresh_board(), fresh_board()]
+@pytest.mark.parametrize("rig", [BLUE_PILL], ids=lambda rig: rig.board)
+def test_two_boards_of_one_number_are_told_apart_before_anything_is_changed(rig):
+    boards = [rig.fresh_board(), rig.fresh_board()]
     before = [written(board) for board in boards]
     tester = Updater(Crowd(boards), 1, KEY)
 
@@ -235,13 +229,15 @@ def test_two_boards_of_one_number_are_told_apart_before_anything_is_changed():
     assert [written(board) for board in boards] == before
 
 
-def test_a_node_that_is_not_there_is_named():
+@pytest.mark.parametrize("rig", [BLUE_PILL], ids=lambda rig: rig.board)
+def test_a_node_that_is_not_there_is_named(rig):
     with pytest.raises(UpdateError, match="node 9 does not answer"):
-        Updater(fresh_board(), 9, KEY).enter()
+        Updater(rig.fresh_board(), 9, KEY).enter()
 
 
-def test_four_robots_are_updated_at_once_though_a_tenth_of_the_frames_is_lost():
-    boards = {node: fresh_board() for node in (1, 2, 3, 4)}
+@pytest.mark.parametrize("rig", [BLUE_PILL], ids=lambda rig: rig.board)
+def test_four_robots_are_updated_at_once_though_a_tenth_of_the_frames_is_lost(rig):
+    boards = {node: rig.fresh_board() for node in (1, 2, 3, 4)}
     for node, board in boards.items():
         number(board, node)
     hub = Hub(LossyLink(Crowd(boards.values()), 0.1, seed=1))
@@ -250,7 +246,7 @@ def test_four_robots_are_updated_at_once_though_a_tenth_of_the_frames_is_lost():
 
     assert failed == dict.fromkeys(boards)
     assert {
-        bytes(board.hardware.flash.memory[LAYOUT.slots[1] :]).startswith(images(NEW)[1].data)
+        bytes(board.hardware.flash.memory[rig.layout.slots[1] :]).startswith(rig.images(NEW)[1].data)
         for board in boards.values()
     } == {True}
-    assert [runs_in(board) for board in boards.values()] == [1, 1, 1, 1]
+    assert [rig.runs_in(board) for board in boards.values()] == [1, 1, 1, 1]

@@ -4,7 +4,7 @@ import pytest
 
 from host_sim.cli.main import main
 from host_sim.transport import buses
-from tests.image.update_rig import NEW, OLD, Crowd, fresh_board, runs_in
+from tests.image.update_rig import BLUE_PILL, NEW, OLD, Crowd
 
 
 @pytest.fixture
@@ -30,7 +30,7 @@ def test_what_is_typed_wrong_is_said_in_one_line(words, said, capfd):
 
 
 def test_it_says_what_it_will_do_and_reads_back_what_runs(on_the_bus, capfd):
-    board = fresh_board()
+    board = BLUE_PILL.fresh_board()
     on_the_bus(board)
 
     assert main(["update", "blue_pill", "--bus", "any:bus", "--version", str(NEW)]) == 0
@@ -40,11 +40,11 @@ def test_it_says_what_it_will_do_and_reads_back_what_runs(on_the_bus, capfd):
         f"node 1: version {NEW} runs",
     ]
     assert "anybody can update it" in said.err
-    assert runs_in(board) == 1
+    assert BLUE_PILL.runs_in(board) == 1
 
 
 def test_a_robot_that_is_not_there_keeps_no_other_from_its_update(on_the_bus, capfd):
-    board = fresh_board()
+    board = BLUE_PILL.fresh_board()
     on_the_bus(board)
 
     assert main(["update", "blue_pill", "--bus", "any:bus", "--node", "1-2", "--version", str(NEW)]) == 2
@@ -54,13 +54,13 @@ def test_a_robot_that_is_not_there_keeps_no_other_from_its_update(on_the_bus, ca
 
 
 def test_number_and_bit_rate_are_set_without_an_image(on_the_bus, capfd):
-    board = fresh_board()
+    board = BLUE_PILL.fresh_board()
     on_the_bus(board)
 
     assert main(["update", "--bus", "any:bus", "--set-node", "7"]) == 0
     assert "node 1: has number 7 from now on" in capfd.readouterr().out
     assert main(["update", "blue_pill", "--bus", "any:bus", "--node", "7", "--version", str(NEW)]) == 0
-    assert runs_in(board) == 1
+    assert BLUE_PILL.runs_in(board) == 1
 
 
 def test_a_bus_that_takes_no_frames_is_said_to_be_full(monkeypatch, capfd):

@@ -19,6 +19,10 @@ enum reset_cause mcu_reset_cause(void);
 void mcu_feed(void);
         /* Without this the watchdog resets the chip, after 1 to 4 s. */
 
+void mcu_be_patient(void);
+        /* From here on until mcu_start, the watchdog waits four times as long: longer than the erase of any part of the flash,
+           during which the core stands still. */
+
 void mcu_light(bool on);
         /* The board's LED. */
 

@@ -6,4 +6,5 @@ const struct layout LAYOUT = {
     .choice_page = FLASH_PAGES + 60,
     .slot_page = {FLASH_PAGES + 16, FLASH_PAGES + 38},
     .slot_pages = 22,
+    .at_once = 1,
 };

@@ -1,14 +1,16 @@
-/* Sectors 1 and 2 (RM0090 3.6). */
+/* Sectors 1 and 2 are the store's (RM0090 3.6); longer ones begin at multiples of their length. */
 #include "hal/stm32/flash_table.h"
 #include "hal/stm32/stm32f405/registers.h"
 
 enum {
     SECTOR_SIZE = 16384,
-    CR_SECTOR_AT = 3,
+    FIRST_SECTOR = 1,
+    SMALL_SECTORS = 4,          /* one of 4 pages follows, and then those of 8 */
+    LONG_PAGES = 8,
     CR_WORDS = 2 << 8           /* four bytes at once, for 2.7 V and more */
 };
 
-extern volatile uint32_t STORE[FLASH_PAGES][SECTOR_SIZE / 4];
+extern volatile uint32_t PAGES[][SECTOR_SIZE / 4];
 
 const struct flash_table FLASH_TABLE = {
     .keyr = &FLASH.keyr, .sr = &FLASH.sr, .cr = &FLASH.cr, .supply = &PWR.csr,
@@ -16,35 +18,49 @@ const struct flash_table FLASH_TABLE = {
     .page_size = SECTOR_SIZE,
     .unit = 4,
     .at_once = 4,
-    .erase_ms = 1000,
+    .erase_ms = 4000,           /* a long one takes 2 s */
     .busy = 1u << 16,
     .errors = 0xF2,
     .done = 1u << 0,
     .lock = 1u << 31,
     .write = CR_WORDS | 1u << 0,
-    .erase = CR_WORDS | 1u << 1 | 1u << CR_SECTOR_AT,
-    .next_page = 1u << CR_SECTOR_AT,
+    .erase = CR_WORDS | 1u << 1,
+    .number_at = 3,
     .start = 1u << 16,
 };
 
-volatile void *flash_place(unsigned page, uint32_t offset)
+static uint32_t place_of(unsigned page)
 {
-    return &STORE[page][offset / 4];
+    return page < FLASH_PAGES ? FIRST_SECTOR + page : page - FLASH_PAGES;
+}
+
+__attribute__((noinline)) volatile void *flash_place(unsigned page, uint32_t offset)   /* once is small enough */
+{
+    return &PAGES[place_of(page)][offset / 4];
 }
 
 int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 {
-    for (uint32_t i = 0; i < count / 4; i++)
-        words[i] = STORE[page][offset / 4 + i];
+    const volatile uint32_t *at = flash_place(page, offset);
+
+    for (uint32_t i = count / 4; i-- > 0;)
+        words[i] = at[i];
     return 0;
 }
 
 void flash_begin(unsigned page, uint32_t offset, const uint32_t words[])
 {
-    STORE[page][offset / 4] = words[0];
+    *(volatile uint32_t *)flash_place(page, offset) = words[0];
+}
+
+uint32_t flash_number(unsigned page)
+{
+    uint32_t place = place_of(page);
+
+    return place < SMALL_SECTORS ? place : SMALL_SECTORS + place / LONG_PAGES;
 }
 
 bool flash_has(unsigned page, uint32_t offset, const uint32_t words[])
 {
-    return STORE[page][offset / 4] == words[0];
+    return *(volatile uint32_t *)flash_place(page, offset) == words[0];
 }

@@ -1,4 +1,4 @@
-/* Pages 62 and 63 (RM0440 5.3).
+/* 64 pages, the last two of them the store's (RM0440 5.3).
  *
  * Eight bytes are written at once, with eight bits to correct an error in them. A write that a loss of power cut short can leave
  * eight bytes that no correction fits: reading them causes a non-maskable interrupt. */
@@ -9,13 +9,12 @@
 enum {
     PAGE_SIZE = 2048,
     FIRST_PAGE = 62,
-    CR_PAGE_AT = 3,
     INTERRUPT_MAX = 100        /* looks at a flag until its interrupt has come, which is a matter of cycles */
 };
 
 static const uint32_t ECCR_TWO_BITS = 1u << 31;
 
-extern volatile uint32_t STORE[FLASH_PAGES][PAGE_SIZE / 4];
+extern volatile uint32_t STORE[][PAGE_SIZE / 4], PAGES[][PAGE_SIZE / 4];
 
 const struct flash_table FLASH_TABLE = {
     .keyr = &FLASH.keyr, .sr = &FLASH.sr, .cr = &FLASH.cr, .supply = &PWR.sr2,
@@ -29,8 +28,8 @@ const struct flash_table FLASH_TABLE = {
     .done = 1u << 0,
     .lock = 1u << 31,
     .write = 1u << 0,
-    .erase = 1u << 1 | (uint32_t)FIRST_PAGE << CR_PAGE_AT,
-    .next_page = 1u << CR_PAGE_AT,
+    .erase = 1u << 1,
+    .number_at = 3,
     .start = 1u << 16,
 };
 
@@ -45,17 +44,24 @@ __attribute__((used)) bool flash_forgives(void)   /* by nmi.c, in lines that the
     return true;
 }
 
-volatile void *flash_place(unsigned page, uint32_t offset)
+__attribute__((noinline)) volatile void *flash_place(unsigned page, uint32_t offset)
 {
-    return &STORE[page][offset / 4];
+    return page < FLASH_PAGES ? &STORE[page][offset / 4] : &PAGES[page - FLASH_PAGES][offset / 4];
+}
+
+uint32_t flash_number(unsigned page)
+{
+    return page < FLASH_PAGES ? FIRST_PAGE + page : page - FLASH_PAGES;
 }
 
 int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 {
+    const volatile uint32_t *at = flash_place(page, offset);
+
     unreadable = false;
     reading = true;
     for (uint32_t i = 0; i < count / 4; i++)
-        words[i] = STORE[page][offset / 4 + i];
+        words[i] = at[i];
     for (unsigned i = 0; i < INTERRUPT_MAX && FLASH.eccr & ECCR_TWO_BITS; i++)
         continue;
     reading = false;
@@ -64,8 +70,10 @@ int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
 
 void flash_begin(unsigned page, uint32_t offset, const uint32_t words[])
 {
-    STORE[page][offset / 4] = words[0];
-    STORE[page][offset / 4 + 1] = words[1];
+    volatile uint32_t *at = flash_place(page, offset);
+
+    at[0] = words[0];
+    at[1] = words[1];
 }
 
 bool flash_has(unsigned page, uint32_t offset, const uint32_t words[])

@@ -12,7 +12,7 @@ struct boot_flash boot_flash;
 
 const struct layout LAYOUT = {
     .chip = "stm32test", .board = "test_board", .number = 7,
-    .choice_page = CHOICE_PAGE, .slot_page = {SLOT_A, SLOT_B}, .slot_pages = SLOT_PAGES,
+    .choice_page = CHOICE_PAGE, .slot_page = {SLOT_A, SLOT_B}, .slot_pages = SLOT_PAGES, .at_once = 1,
 };
 
 void boot_flash_clear(void)

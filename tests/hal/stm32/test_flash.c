@@ -1,6 +1,6 @@
 /* What every chip's flash has to do. Built once for each chip, with FLASH_EXPECTED: the header that says what is expected of it. */
 #include "tests/test.h"
-#include "hal/flash_store/flash.h"
+#include "hal/stm32/flash_table.h"
 #include FLASH_EXPECTED
 #include "flash_model.h"
 
@@ -142,4 +142,21 @@ TEST(a_word_that_comes_out_greater_or_smaller_fails_and_ends_the_write)
         TEST_ASSERT_EQUAL(-1, write_all(0, 0));
         TEST_ASSERT_EQUAL_HEX((store_word)-1, STORE[0][COUNT * WRITES_EACH_WORD - 1]);
     }
+}
+
+TEST(pages_have_the_numbers_of_the_chip)
+{
+    for (unsigned i = 0; i < sizeof NUMBERS / sizeof NUMBERS[0]; i++)
+        TEST_ASSERT_EQUAL_UINT32(NUMBERS[i][1], flash_number(NUMBERS[i][0]));
+}
+
+TEST(behind_the_stores_pages_are_those_of_the_chip)
+{
+    static const uint32_t words[] = {0x5678, 0x9ABCDEF0};
+
+    memset((void *)PAGES, 0xFF, sizeof PAGES);
+    flash_begin(FLASH_PAGES, 8, words);
+    TEST_ASSERT_EQUAL_PTR((const char *)PAGES + 8, flash_place(FLASH_PAGES, 8));
+    TEST_ASSERT_EQUAL_HEX16(0x5678, *(const volatile uint16_t *)flash_place(FLASH_PAGES, 8));
+    TEST_ASSERT_TRUE(flash_has(FLASH_PAGES, 8, words));
 }

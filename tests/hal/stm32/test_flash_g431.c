@@ -18,6 +18,7 @@ static const uint32_t LOCK = 1u << 31, TWO_BITS = 1u << 31;
 volatile struct flash_registers FLASH;
 volatile struct power_registers PWR;
 __attribute__((aligned(HOST_PAGE))) volatile uint32_t STORE[FLASH_PAGES][WORDS];
+volatile uint32_t PAGES[1][WORDS];
 
 /* Whatever was asked for is done by the time that somebody looks at the clock. */
 uint32_t machine_ms(void)

@@ -43,6 +43,14 @@ TEST(it_starts_the_watchdog_for_2_seconds)
     TEST_ASSERT_EQUAL_UINT32(2000, IWDG.rlr);
 }
 
+TEST(a_patient_watchdog_waits_four_times_as_long)
+{
+    mcu_be_patient();
+    TEST_ASSERT_EQUAL_UINT32(5, IWDG.pr);   /* by 128 */
+    TEST_ASSERT_EQUAL_UINT32(2000, IWDG.rlr);
+    TEST_ASSERT_EQUAL_HEX32(0xAAAA, IWDG.kr);
+}
+
 TEST(a_watchdog_that_stays_busy_does_not_hold_up_the_start)
 {
     IWDG.sr = 3;
