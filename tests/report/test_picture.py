@@ -169,7 +169,7 @@ ORANGE = (213, 94, 0)
 def result(robot: int, finished: bool = True, environment: int = 1, sides: tuple[int, ...] = (0,) * 8) -> FleetResult:
     pose = Pose(100.0 + 35.0 * (robot % 100), 200.0 + 300.0 * (robot // 100), 0.0)
     none = Contacts(0, 0, 0, False)
-    return FleetResult(robot, robot, environment, (finished,), 1, 3000 + robot, {}, 0, 0, none, sides, pose)
+    return FleetResult(robot, robot, environment, (finished,), 1, 3000 + robot, {}, 0, 0, None, none, sides, pose)
 
 
 def drawn(folder, results, world=None) -> Image.Image:
