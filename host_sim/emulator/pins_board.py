@@ -12,7 +12,7 @@ from host_sim.emulator.clock import SECOND
 from host_sim.emulator.hardware import Faults
 from host_sim.emulator.robot_on_pins import RobotOnPins
 from host_sim.protocol.codec import Frame, Protocol, counter_of
-from host_sim.protocol.generated import Reason, Senses
+from host_sim.protocol.generated import Opcode, Reason, Senses
 from host_sim.world.body import Body
 
 PINS = "pins"
@@ -80,8 +80,14 @@ class PinsBoard(EmulatedBoard):
         """As in `Link`."""
         if frame.id != self._senses_id:
             self._asked = True
+            command = self._protocol.decode(frame)
+            if command is not None and command.signals.get("opcode") == Opcode.START:
+                self._drive = None  # what it did before is no answer
             super().send(frame)
-        elif self._drive is not None:
+            return
+        if self._drive is None and self._pairs:
+            _, self._drive = self._pairs.popleft()
+        if self._drive is not None:
             drive = self._protocol.decode(self._drive)
             senses = self._protocol.decode(frame)
             assert drive is not None  # it was checked when it came
