@@ -60,6 +60,17 @@ def test_a_warning_of_a_compiler_is_shown_and_goes_on(tree: Tree) -> None:
     assert done.stderr.splitlines()[-1] == "x.c:1:5: warning: unused"
 
 
+def test_what_is_compiled_is_said_once_for_each_folder(tree: Tree) -> None:
+    tree.setup("images")
+    (tree.bin / "ninja").write_text(STAND_IN + 'echo "[1/2] Building C object x.o"; echo "[2/2] Building C object y.o"\n')
+
+    done, _ = tree.setup("images")
+
+    said = sorted(done.stderr.splitlines())
+    boards = ("blue_pill", "feather_stm32f405", "host", "nucleo_g431rb")
+    assert said == [f"octet: compiling in build/{board}, which takes a while" for board in boards]
+
+
 def test_a_toolchain_that_changed_is_configured_anew(tree: Tree) -> None:
     tree.setup("images")
     (tree.folder / "tools/cmake/wasm32.cmake").write_text("# another one")
