@@ -10,6 +10,7 @@ import pytest
 
 from host_sim.cli import run_watch_command
 from host_sim.cli.run_options import RunOptions
+from tests.runs.support import octet_process
 
 ROOT = Path(__file__).resolve().parents[2]
 ROOM = "host_sim/base/system.py"
@@ -69,7 +70,7 @@ def test_a_file_that_asks_is_noticed(line):
 
 def test_without_what_windows_lacks_a_run_is_the_same(tmp_path):
     words = ("run", "--environments", "1", "--limit-s", "20", "--quiet", "--memory", tmp_path / "robot.mem", "--out")
-    subprocess.run([ROOT / "tools/octet", *words[:-3], "--out", tmp_path / "here"], check=True)
+    octet_process(*words[:-3], "--out", tmp_path / "here").check_returncode()
 
     command = [sys.executable, "-c", WITHOUT, *words, tmp_path / "there"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)

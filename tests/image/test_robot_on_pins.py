@@ -1,17 +1,16 @@
 """A robot of its own on the pins of an emulated Blue Pill: it drives, and what is wired wrong shows."""
 
-import subprocess
 from itertools import pairwise
 
 import pytest
 
 from host_sim.base.errors import RobotError, UsageError
-from host_sim.base.paths import ROOT
 from host_sim.emulator.pins_board import PinsBoard, start_robot
 from host_sim.protocol.codec import Frame, Protocol
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
 from host_sim.sim.simulation import Simulation
+from tests.runs.support import octet_process
 
 PINS = RunConfig(seed=2, environments=1, robot="emulated", board="blue_pill", body="pins", limit_s=20)
 TICKS = 250
@@ -34,11 +33,9 @@ def test_its_log_is_that_of_the_firmware_and_comes_again(tmp_path):
     for name in "ab":
         words = PINS.command().split()[1:]
         out = tmp_path / name
-        subprocess.run([ROOT / "tools/run", *words, "--out", out], check=True, capture_output=True)
+        octet_process("run", *words, "--out", out).check_returncode()
         logs.append((out / "run.log").read_bytes())
-    done = subprocess.run(
-        [ROOT / "tools/octet", "replay", out / "run.log"], capture_output=True, text=True, check=False
-    )
+    done = octet_process("replay", out / "run.log")
     assert (done.returncode, "no difference" in done.stdout) == (0, True)
     assert logs[0] == logs[1]
 

@@ -2,6 +2,7 @@
 
 import ast
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -199,6 +200,18 @@ def programs(source: str) -> list[str]:
     parsers = [call for call in calls if ast.unparse(call.func) == "argparse.ArgumentParser"]
     names = [[ast.literal_eval(word.value) for word in call.keywords if word.arg == "prog"] for call in parsers]
     return [name for found in names for name in found or [""]]
+
+
+BUILDS = re.compile(r'\[ROOT / "tools(/|" / ")(octet|run|setup|size)"')
+
+
+def test_no_test_builds_anew_what_others_run_meanwhile():
+    assert [path.name for path in (ROOT / "tests").rglob("test_*.py") if BUILDS.search(path.read_text())] == []
+
+
+@pytest.mark.parametrize("text", ['"tools/run", *words]', '"tools" / "size"]'])
+def test_a_test_that_builds_is_noticed(text):
+    assert BUILDS.search(f"[ROOT / {text}")
 
 
 def test_a_parser_without_a_name_is_found():

@@ -15,6 +15,7 @@ from pathlib import Path
 import pytest
 
 from host_sim.cli.main import parser_of
+from tests.runs.support import octet_process
 
 ROOT = Path(__file__).resolve().parents[2]
 PLAN = """\
@@ -79,7 +80,7 @@ def test_a_command_does_what_that_of_a_checkout_does(name, octet, tmp_path):
 
 def test_a_run_is_that_of_the_checkout(octet, tmp_path):
     octet(*RUN.split(), "--out", "here")
-    subprocess.run([ROOT / "tools/octet", *RUN.split(), "--out", tmp_path / "there"], check=True)
+    octet_process(*RUN.split(), "--out", tmp_path / "there").check_returncode()
 
     one, other = (json.loads((tmp_path / it / "summary.json").read_text()) for it in ("here", "there"))
 
