@@ -62,7 +62,7 @@ def test_a_warning_of_a_compiler_is_shown_and_goes_on(tree: Tree) -> None:
 
 def test_what_is_compiled_is_said_once_for_each_folder(tree: Tree) -> None:
     tree.setup("images")
-    (tree.bin / "ninja").write_text(STAND_IN + 'echo "[1/2] Building C object x.o"; echo "[2/2] Building C object y.o"\n')
+    (tree.bin / "ninja").write_text(STAND_IN + 'echo "[1/2] Building x.o"; echo "[2/2] Building y.o"\n')
 
     done, _ = tree.setup("images")
 
