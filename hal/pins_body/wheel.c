@@ -18,14 +18,10 @@ static int32_t limited(int32_t x, int32_t limit)
     return x > limit ? limit : x < -limit ? -limit : x;
 }
 
-/* What a duty has to be multiplied by at this voltage. It seldom changes. */
-static int32_t stronger(struct wheel *wheel, uint32_t battery_mv)
+/* What a duty has to be multiplied by at this voltage. */
+static int32_t stronger(uint32_t battery_mv)
 {
-    if (battery_mv != wheel->battery_mv || !wheel->known) {
-        wheel->battery_mv = battery_mv;
-        wheel->stronger = battery_mv < BATTERY_MIN_MV ? PRECISION : WHEEL_NOMINAL_MV * PRECISION / (int32_t)battery_mv;
-    }
-    return wheel->stronger;
+    return battery_mv < BATTERY_MIN_MV ? PRECISION : WHEEL_NOMINAL_MV * PRECISION / (int32_t)battery_mv;
 }
 
 /* How far the wheel has rolled since the last period, um. */
@@ -35,9 +31,7 @@ static int32_t moved_um(struct wheel *wheel, uint16_t count)
     int32_t way_256 = counts * WHEEL_COUNT_256 + wheel->rest_256;
     int32_t way_um = way_256 / 256;
 
-    wheel->way_256 += counts * WHEEL_COUNT_256;
-    if (wheel->way_256 >= SPAN_256 || wheel->way_256 <= -SPAN_256)
-        wheel->way_256 %= SPAN_256;
+    wheel->way_256 = (wheel->way_256 + counts * WHEEL_COUNT_256) % SPAN_256;
     wheel->rest_256 = way_256 - way_um * 256;
     wheel->count = count;
     wheel->known = true;
@@ -46,7 +40,7 @@ static int32_t moved_um(struct wheel *wheel, uint16_t count)
 
 int32_t wheel_run(struct wheel *wheel, uint16_t count, int16_t told_mm_s, uint32_t battery_mv)
 {
-    int32_t part = stronger(wheel, battery_mv), told_um = told_mm_s * WHEEL_PERIOD_MS, missing_256 = told_um * 256 - wheel->model_256;
+    int32_t part = stronger(battery_mv), told_um = told_mm_s * WHEEL_PERIOD_MS, missing_256 = told_um * 256 - wheel->model_256;
     int32_t model_um = wheel->model_256 / 256, error_um = model_um - moved_um(wheel, count);
     int32_t behind_um = limited(wheel->behind_um + error_um, BEHIND_MAX_UM), duty, out;
     int32_t dead = WHEEL_DEAD + wheel->dead_more, ahead_um = missing_256 / 256 * (WHEEL_LAG_MS + wheel->lag_more_ms) / MODEL_MS;

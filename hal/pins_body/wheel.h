@@ -19,8 +19,6 @@ struct wheel {
     int32_t behind_um;    /* the way that the wheel is behind the model */
     int32_t rest_256;     /* of a um that has been counted, 1/256 um */
     int32_t way_256;      /* rolled since the start, 1/256 um; wraps with the odometer */
-    int32_t stronger;     /* what a duty is multiplied by, 1/4096, */
-    uint32_t battery_mv;  /* at this voltage */
     uint16_t count;       /* of the encoder, when it was last read */
     bool known;
     int16_t forward_more, dead_more, lag_more_ms;   /* by so much its motor differs from the one above */

@@ -1,4 +1,5 @@
 #include "hal/pins_body/wheel.h"
+#include "robot_words.h"
 #include "tests/test.h"
 
 #include <math.h>
@@ -125,6 +126,103 @@ TEST(at_rest_a_motor_gets_nothing)
     TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, 0));
     wheel = (struct wheel){.known = false};
     TEST_ASSERT_EQUAL_INT32(0, wheel_run(&wheel, 7, 0, 0));
+}
+
+/* Its duty in the next period on a nominal battery, where it has counted so many. */
+static int32_t duty_after(struct wheel *wheel, int counts, int16_t told_mm_s)
+{
+    wheel->known = true;
+    return wheel_run(wheel, (uint16_t)(wheel->count + counts), told_mm_s, WHEEL_NOMINAL_MV);
+}
+
+TEST(feed_forward_leads_the_model_by_the_lag)
+{
+    struct wheel wheel = {.known = false};
+
+    /* Of 1000 um in a period, a lag of 60 ms and a model of 40 make 1500. */
+    TEST_ASSERT_EQUAL_INT32(1500 * 97 / 5 + 5243, duty_after(&wheel, 0, 200));
+    TEST_ASSERT_EQUAL_INT32(1000 * 256 / 8, wheel.model_256);
+}
+
+TEST(what_differs_in_its_motor_is_added)
+{
+    struct wheel wheel = {.forward_more = 10, .dead_more = 100, .lag_more_ms = 4};
+
+    TEST_ASSERT_EQUAL_INT32(1600 * 107 / 5 + 5343, duty_after(&wheel, 0, 200));
+}
+
+TEST(a_wheel_that_was_turned_back_is_pushed_by_what_is_missing_and_by_its_sum)
+{
+    struct wheel wheel = {.known = false};
+
+    /* 10 counts of 91.6 um: 916, and 4/256. */
+    TEST_ASSERT_EQUAL_INT32(916 * 23 + 916 * 31 / 16 + 5243, duty_after(&wheel, -10, 0));
+    TEST_ASSERT_EQUAL_INT32(916, wheel.behind_um);
+    TEST_ASSERT_EQUAL_INT32(-4, wheel.rest_256);
+    TEST_ASSERT_EQUAL_INT32(-10 * WHEEL_COUNT_256, wheel.way_256);
+    (void)duty_after(&wheel, -1, 0);
+    TEST_ASSERT_EQUAL_INT32(-4 - WHEEL_COUNT_256 + 91 * 256, wheel.rest_256);
+}
+
+TEST(it_makes_up_for_four_millimetres_and_no_more)
+{
+    struct wheel wheel = {.behind_um = 3990};
+
+    TEST_ASSERT_EQUAL_INT32(916 * 23 + 4000 * 31 / 16 + 5243, duty_after(&wheel, -10, 0));
+    TEST_ASSERT_EQUAL_INT32(4000, wheel.behind_um);
+}
+
+TEST(a_duty_jumps_over_the_dead_band_from_a_thousand_on)
+{
+    static const struct { int counts, behind_um, duty; } CASES[] = {
+        {2, 2872, 0}, {0, 517, 1001 + 5243},   /* of 1000 and 1001, */
+        {-2, -2872, 0}, {0, -517, -1001 - 5243},   /* and as much backward */
+    };
+
+    for (unsigned i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        struct wheel wheel = {.behind_um = CASES[i].behind_um};
+
+        TEST_ASSERT_EQUAL_INT32(CASES[i].duty, duty_after(&wheel, CASES[i].counts, 0));
+    }
+}
+
+TEST(a_duty_is_in_parts_of_the_battery_unless_that_is_not_measured)
+{
+    static const struct { uint32_t battery_mv; int16_t told_mm_s; int32_t duty; } CASES[] = {
+        {7200, 200, 34343}, {7201, 200, 34343 * 4095 / 4096}, {8400, 450, 70718 * 3510 / 4096},
+        {2999, 200, 34343}, {3000, 200, WHEEL_DUTY_MAX}, {16000, 2000, 2 * WHEEL_DUTY_MAX * 1843 / 4096},
+    };
+
+    for (unsigned i = 0; i < sizeof CASES / sizeof *CASES; i++) {
+        struct wheel wheel = {.known = false};
+
+        TEST_ASSERT_EQUAL_INT32(CASES[i].duty, wheel_run(&wheel, 0, CASES[i].told_mm_s, CASES[i].battery_mv));
+    }
+}
+
+TEST(nothing_is_gathered_while_the_motor_gives_all_it_has)
+{
+    struct wheel wheel = {.known = false};
+
+    TEST_ASSERT_EQUAL_INT32(WHEEL_DUTY_MAX, duty_after(&wheel, -1, 500));
+    TEST_ASSERT_EQUAL_INT32(0, wheel.behind_um);
+    wheel = (struct wheel){.known = false};
+    TEST_ASSERT_EQUAL_INT32(-WHEEL_DUTY_MAX, duty_after(&wheel, 1, -500));
+    TEST_ASSERT_EQUAL_INT32(0, wheel.behind_um);
+}
+
+TEST(the_way_wraps_with_the_odometer_and_keeps_what_is_less_than_a_tenth)
+{
+    const int32_t unit_256 = 25600, last_256 = ODOMETER_SPAN * unit_256 - 1;
+    struct wheel wheel = {.way_256 = unit_256 - 1};
+
+    TEST_ASSERT_EQUAL_UINT16(0, wheel_odometer(&wheel));
+    wheel.way_256 = last_256;
+    (void)duty_after(&wheel, 1, 0);
+    TEST_ASSERT_EQUAL_INT32(WHEEL_COUNT_256 - 1, wheel.way_256);
+    wheel.way_256 = -last_256;
+    (void)duty_after(&wheel, -1, 0);
+    TEST_ASSERT_EQUAL_INT32(1 - WHEEL_COUNT_256, wheel.way_256);
 }
 
 TEST(the_odometer_counts_tenths_of_a_millimetre_and_wraps_either_way)
