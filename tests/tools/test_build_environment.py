@@ -48,7 +48,7 @@ def test_flags_that_reach_a_build_are_seen(tmp_path: Path) -> None:
 
 
 def test_places_of_the_environment_mislead_no_compiler(configured: Path, misled: dict[str, str]) -> None:
-    (target,) = [
+    target, *_ = [
         line.split()[1].rstrip(":")
         for line in (configured / "build.ninja").read_text().splitlines()
         if re.match(r"build \S*/pattern\.c\.o(bj)?:", line)
