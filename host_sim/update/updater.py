@@ -163,8 +163,8 @@ class Updater:
 
     def restart(self) -> None:
         """Leaves the boot loader."""
-        with suppress(TimeoutException):  # it leaves by itself after 5 s, if it did not hear that
-            self._client.ecu_reset(1)
+        with suppress(TimeoutException, NegativeResponseException):  # 5 s later it does so by itself
+            self._persist(lambda: self._client.ecu_reset(1), tries=_FEW)
 
     def running(self) -> tuple[int, bool]:
         """Version of the image that runs, and whether it is on trial; waits until one does.
