@@ -16,6 +16,7 @@ enum { PAGE = 256, PAGES = 14, CHOICE_PAGE = 2, SLOT_PAGES = 5, BLANK = 0xFF, KN
 const struct layout LAYOUT = {
     .chip = "chip", .board = "board", .number = 1,
     .choice_page = CHOICE_PAGE, .slot_page = {CHOICE_PAGE + 2, CHOICE_PAGE + 2 + SLOT_PAGES}, .slot_pages = SLOT_PAGES,
+    .at_once = 1,
 };
 const uint8_t IMAGE_SIGNER[IMAGE_KEY] = {1};
 
