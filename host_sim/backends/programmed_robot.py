@@ -54,7 +54,7 @@ class ProgrammedLink(InProcessLink):
 
     def status(self) -> str:
         """As in `Connection`."""
-        return f"runs in this process, {self.told() or 'as it should'}"
+        return f"runs in this process, the program: {self.told() or 'runs'}"
 
 
 def read_program(path: Path) -> bytes:

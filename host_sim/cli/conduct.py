@@ -79,7 +79,8 @@ def conduct(options: RunOptions) -> Summary:
 def _tell_of_programs(options: RunOptions, simulation: Simulation) -> None:
     for client in simulation.clients if options.program and options.talks else ():
         with suppress(OctetError):  # the robot has ended, and that has been told
-            print(f"program   {options.program}: {client.connection.status()}")
+            _, stopped, told = client.connection.status().partition("the program: ")
+            print(f"program   {options.program}: {told if stopped else 'runs'}")
 
 
 def _stop(outputs: Outputs) -> None:

@@ -86,7 +86,7 @@ def test_a_mistake_is_told_with_its_line_before_anything_is_begun(tmp_path, caps
 def test_a_program_that_loops_for_ever_is_stopped_and_told(bus, tmp_path, capsys):
     program = written(tmp_path, "rForward 2\nwhile true\nwend\n")
 
-    short = ["--environments", "1", "--limit-s", "9"]
+    short = ["--environments", "1", "--limit-s", "3"]
     assert main(["run", "--program", program, "--out", str(tmp_path), "--bus", bus, *short]) == 0
 
     assert 'line 2: "while": expected rForward, rTurn or delay in the loop' in capsys.readouterr().out

@@ -16,5 +16,9 @@ bool programmed_brain_start(struct brain *brain, uint8_t profile, uint32_t seed)
 
 struct action programmed_brain_next(struct brain *brain, const struct config *config, const struct senses *senses)
 {
-    return program_next(programmed_program(brain), brain, config, senses);
+    struct program *program = programmed_program(brain);
+    struct action action = program_next(program, brain, config, senses);
+
+    programmed_decided(program);
+    return action;
 }

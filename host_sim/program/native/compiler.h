@@ -69,6 +69,9 @@ struct instruction compile_place(struct compiler *compiler, const struct token *
 unsigned compile_arguments(struct compiler *compiler, const char *close);
         /* Expressions between commas, up to a sign, or to the end of the statement if that is null. Returns how many. */
 
+unsigned compile_values(struct compiler *compiler, const struct token *word, const struct known_word *known, const char *close);
+        /* What a command, or with a closing sign a function, takes. Returns how many. */
+
 bool compiler_ends_statement(const struct compiler *compiler);
         /* Whether a statement can end here. */
 

@@ -50,6 +50,7 @@ void compile_sub(struct compiler *compiler)
 
     compile_unclosed(compiler);
     compile_end_of_sub(compiler);
+    (void)compiler_emit(compiler, OP_LINE, word.line, 0);
     (void)compiler_emit(compiler, OP_FALL, 0, 0);
     if (word.kind != TOKEN_WORD)
         compiler_fail(compiler, EXPECTED_NAME);
@@ -94,7 +95,7 @@ void compile_dim(struct compiler *compiler)
     if (word.kind != TOKEN_WORD || compiler_is_reserved(compiler->program->text + word.at, word.len))
         compiler_fail(compiler, EXPECTED_NAME);
     compiler_advance(compiler);
-    compiler_expect(compiler, "[", EXPECTED_BRACKET);
+    compiler_expect(compiler, "[", EXPECTED_OPEN);
     size = compiler->token.kind == TOKEN_NUMBER ? compiler->token.number : 0;
     name = compiler_name(compiler, &word, NAME_ARRAY);
     array = &compiler->program->names[name];

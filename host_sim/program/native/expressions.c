@@ -60,13 +60,26 @@ unsigned compile_arguments(struct compiler *compiler, const char *close)
     return count;
 }
 
-static void function(struct compiler *compiler, const struct token *word, int number)
+static enum program_expected expected_values(const struct known_word *known)
 {
-    const struct known_word *known = &CODE_FUNCTIONS[number];
-    unsigned count = compiler_takes(compiler, "(") ? compile_arguments(compiler, ")") : 0;
+    if (known->most <= 1)
+        return known->most == 0 ? EXPECTED_NO_VALUE : known->least == 0 ? EXPECTED_AHEAD : EXPECTED_ONE_VALUE;
+    return EXPECTED_PLACE;
+}
+
+unsigned compile_values(struct compiler *compiler, const struct token *word, const struct known_word *known, const char *close)
+{
+    unsigned count = !close || compiler_takes(compiler, "(") ? compile_arguments(compiler, close) : 0;
 
     if (count < known->least || count > known->most)
-        compiler_fail_at(compiler, word, EXPECTED_ARGUMENTS);
+        compiler_fail_at(compiler, word, expected_values(known));
+    return count;
+}
+
+static void function(struct compiler *compiler, const struct token *word, int number)
+{
+    unsigned count = compile_values(compiler, word, &CODE_FUNCTIONS[number], ")");
+
     (void)compiler_emit(compiler, OP_FUNCTION, (unsigned)number, count);
 }
 

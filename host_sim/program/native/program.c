@@ -6,22 +6,24 @@
 
 static const char *const expected_words[] = {
     [EXPECTED_NOTHING] = "nothing else", [EXPECTED_STATEMENT] = "a command, a label, or a variable with = after it",
-    [EXPECTED_VALUE] = "a number, a variable or a function", [EXPECTED_LINE_END] = "the end of the statement",
-    [EXPECTED_CLOSE] = ")", [EXPECTED_BRACKET] = "[ or ]", [EXPECTED_QUOTE] = "a text that ends with \" in the same line",
-    [EXPECTED_EQUALS] = "=", [EXPECTED_TO] = "to", [EXPECTED_NAME] = "a name, which is no word of the language",
+    [EXPECTED_VALUE] = "a number such as 0.5, a variable or a function", [EXPECTED_LINE_END] = "the end of the line, or \\ before another statement",
+    [EXPECTED_CLOSE] = "a closing )", [EXPECTED_BRACKET] = "a closing ]", [EXPECTED_QUOTE] = "a text that ends with \" in the same line",
+    [EXPECTED_EQUALS] = "=", [EXPECTED_TO] = "to, as in for i = 1 to 9", [EXPECTED_NAME] = "a name, which is no word of the language",
     [EXPECTED_COMMA] = "a comma", [EXPECTED_ENDIF] = "an endif for it", [EXPECTED_WEND] = "a wend for it",
-    [EXPECTED_NEXT] = "a next for it", [EXPECTED_IF] = "an if before it", [EXPECTED_WHILE] = "a while before it",
-    [EXPECTED_FOR] = "a for before it", [EXPECTED_LABEL] = "a label of this name", [EXPECTED_SUB] = "a sub of this name",
-    [EXPECTED_GIVEN] = "a name that is given a value somewhere", [EXPECTED_DIM] = "a dim for this array",
-    [EXPECTED_NEW_NAME] = "a name that is not used yet", [EXPECTED_SIZE] = "a number of cells, 1 to 1024; of Mem, 8",
+    [EXPECTED_NEXT] = "a next for it", [EXPECTED_IF] = "an if before it, in a line that ends after its condition or then", [EXPECTED_WHILE] = "a while before it",
+    [EXPECTED_FOR] = "a for before it", [EXPECTED_LABEL] = "a label of this name, with : after it", [EXPECTED_SUB] = "a sub of this name",
+    [EXPECTED_GIVEN] = "a variable that is given a value with = somewhere", [EXPECTED_DIM] = "a dim for this array, as in dim a[10]",
+    [EXPECTED_NEW_NAME] = "a name that neither the language nor another line has", [EXPECTED_SIZE] = "a number of cells, 1 to 1024; of Mem, 8",
     [EXPECTED_PLAIN] = "fewer blocks or brackets within each other", [EXPECTED_SHORTER] = "a shorter program, of up to 16383 bytes",
     [EXPECTED_END] = "an end before it: the program runs into it", [EXPECTED_INDEX] = "an index from 0 up to the size of the array less 1",
-    [EXPECTED_SIDE] = "0, 1 or 2 in Mem, and 0 in Mem[0]",
+    [EXPECTED_SIDE] = "0 (nothing), 1 (left) or 2 (right) in Mem, and 0 in Mem[0]",
     [EXPECTED_ACTION] = "rForward, rTurn or delay in the loop, which goes on for ever without",
     [EXPECTED_RETURN] = "fewer gosub and call without their return", [EXPECTED_GOSUB] = "a gosub or a call before it",
-    [EXPECTED_ARGUMENTS] = "as many arguments as it takes", [EXPECTED_DIVISOR] = "a divisor other than 0",
+    [EXPECTED_ARGUMENTS] = "a value for each parameter of its sub", [EXPECTED_DIVISOR] = "a divisor other than 0",
     [EXPECTED_DEGREES] = "-720 to 720 degrees", [EXPECTED_WAY] = "-800 to 800 pixels", [EXPECTED_DELAY] = "0 to 60000 ms",
     [EXPECTED_CHOICES] = "random of 1 to 1000000", [EXPECTED_AHEAD] = "rLook(0): the robot looks straight ahead only",
+    [EXPECTED_OPEN] = "[ and a number of cells, as in dim a[10]", [EXPECTED_ONE_VALUE] = "exactly one value with it, such as 2.5",
+    [EXPECTED_NO_VALUE] = "no value with it", [EXPECTED_PLACE] = "two or three values with it: x, y, and a heading",
 };
 
 const char *program_expected(uint8_t expected)

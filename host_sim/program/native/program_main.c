@@ -34,16 +34,20 @@ static int load(const char *path)
     return -1;
 }
 
-/* With each decision, whether it has stopped with the one before. */
 struct program *programmed_program(struct brain *brain)
+{
+    (void)brain;
+    return &program;
+}
+
+/* Says once that it has stopped. */
+void programmed_decided(const struct program *decided)
 {
     static uint8_t known = PROGRAM_RUNS;
 
-    (void)brain;
-    if (program.state != known && program.state != PROGRAM_RUNS)
+    if (decided->state != known && decided->state != PROGRAM_RUNS)
         tell("the program");
-    known = program.state;
-    return &program;
+    known = decided->state;
 }
 
 int main(int argc, char *argv[])

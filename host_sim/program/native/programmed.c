@@ -20,6 +20,12 @@ const struct program *programmed_state(const struct octet *octet)
     return &((const struct programmed *)octet)->program;
 }
 
+/* The caller asks programmed_state when it likes. */
+void programmed_decided(const struct program *decided)
+{
+    (void)decided;
+}
+
 struct program *programmed_program(struct brain *brain)
 {
     return &((struct programmed *)((char *)brain - offsetof(struct programmed, octet.robot.brain)))->program;

@@ -25,6 +25,9 @@ void programmed_tell(const struct program *program, char told[PROGRAMMED_TOLD_MA
 struct program *programmed_program(struct brain *brain);
         /* The program that is this brain. Exactly one implementation is linked in. */
 
+void programmed_decided(const struct program *program);
+        /* It has made a decision. Linked in likewise. */
+
 void programmed_robot_respond(struct robot *robot, enum input_kind kind, const struct input *in, struct output *out);
         /* robot_respond of a robot with a program. */
 

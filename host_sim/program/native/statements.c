@@ -28,16 +28,13 @@ static void compile_show(struct compiler *compiler)
 
 static void compile_command(struct compiler *compiler, const struct token *word, int command)
 {
-    const struct known_word *known = &CODE_COMMANDS[command];
     unsigned count;
 
     if (command == DO_SHOW) {
         compile_show(compiler);
         return;
     }
-    count = compile_arguments(compiler, NULL);
-    if (count < known->least || count > known->most)
-        compiler_fail_at(compiler, word, EXPECTED_ARGUMENTS);
+    count = compile_values(compiler, word, &CODE_COMMANDS[command], NULL);
     (void)compiler_emit(compiler, OP_COMMAND, (unsigned)command, count);
 }
 

@@ -11,6 +11,8 @@ static const struct {
     {"\xc2\xa0", ' '}, {"\xef\xbb\xbf", ' '},
 };
 
+enum { ASCII_MAX = 0x7F };   /* letters of other alphabets have bytes above it */
+
 static const double FINEST = 1e9;   /* parts of one: further digits say nothing */
 
 static const char *const PAIRS[] = {"==", "<>", "!=", "<=", ">=", "<<", ">>", "++", "--"};
@@ -34,7 +36,7 @@ static bool is_digit(char c)
 
 static bool is_letter(char c)
 {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || (unsigned char)c > ASCII_MAX;
 }
 
 static const char *skip_blanks(const char *at)
@@ -98,10 +100,10 @@ static size_t read_sign(const char *at, size_t bytes)
 
 static size_t read_word(const char *at)
 {
-    size_t len = 0;
+    size_t len = 0, bytes;
 
-    while (is_letter(at[len]) || is_digit(at[len]))
-        len++;
+    for (char c = character(at, &bytes); is_letter(c) || is_digit(c); c = character(at + len, &bytes))
+        len += bytes;
     return len;
 }
 

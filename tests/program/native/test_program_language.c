@@ -53,6 +53,12 @@ TEST(shifts_and_remainders_of_anything_are_numbers)
     comes_to(0, "(-2147483648) mod -1");
 }
 
+TEST(names_have_letters_of_any_alphabet)
+{
+    (void)rig_begin("Gr\xc3\xb6\xc3\x9f" "e = 3\nx = gr\xc3\xb6\xc3\x9f" "e\xe2\x80\x93" "1");   /* ends with a dash */
+    TEST_ASSERT_EQUAL_DOUBLE(2, rig_value("x"));
+}
+
 TEST(capital_and_small_letters_are_the_same)
 {
     (void)rig_begin("Dist = 3\nDIST = dist + 1\nrFORWARD dist");

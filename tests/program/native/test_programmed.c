@@ -94,5 +94,5 @@ TEST(a_line_that_ends_too_soon_is_told)
 
     open("x =");
     programmed_tell(programmed_state(octet), told);
-    TEST_ASSERT_EQUAL_STRING("line 1: the line ends: expected a number, a variable or a function", told);
+    TEST_ASSERT_EQUAL_STRING("line 1: the line ends: expected a number such as 0.5, a variable or a function", told);
 }
