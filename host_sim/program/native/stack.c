@@ -11,7 +11,7 @@ static void quote_line(const struct program *program, struct program_mistake *mi
     for (unsigned line = 1; line < mistake->line && strchr(at, '\n'); line++)
         at = strchr(at, '\n') + 1;
     at += strspn(at, " \t");
-    len = strcspn(at, " \t\r\n(/\\");
+    len = strcspn(at, " \t\r\n(=/\\");
     len = len < PROGRAM_WORD_MAX ? len : PROGRAM_WORD_MAX - 1;
     memcpy(mistake->word, at, len);
     mistake->word[len] = '\0';

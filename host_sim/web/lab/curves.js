@@ -2,7 +2,7 @@
 /* The curves of the runs, growing with time, and the table of what they have come to. */
 
 import { byId, setText, typedById } from "../core/elements.js";
-import { heard, inEachLanguage, nameIn, say } from "../core/language.js";
+import { heard, inEachLanguage, nameIn, say, robotWords } from "../core/language.js";
 import { paletteOf } from "../core/palette.js";
 import { drawChart, strokeOf } from "../draw/chart.js";
 import { NAMES, growthOf, rowsOf } from "./results.js";
@@ -92,7 +92,8 @@ export function csvOf(lanes) {
  * @param {string | number} value
  */
 function said(value) {
-  return value === "yes" || value === "no" ? say(value) : heard(`${value}`);
+  if (typeof value === "number") return `${value}`.replace(".", robotWords().point);
+  return value === "yes" || value === "no" ? say(value) : heard(value);
 }
 
 /** @param {string[]} row */

@@ -208,7 +208,7 @@ export class ProgramTab {
     const { texts } = this;
     const mistake = state?.mistake;
     const expected = mistake ? (texts.expected[mistake.expected] ?? mistake.words) : "";
-    const word = mistake?.word ? `“${mistake.word}”` : texts.lineEnds;
+    const word = mistake?.word ? filled(texts.quoted, { word: mistake.word }) : texts.lineEnds;
     const now = [
       this.isChanged ? texts.changed : "",
       mistake ? filled(texts.mistake, { line: `${mistake.line}`, word, expected }) : "",

@@ -75,7 +75,7 @@ static const struct {
     {"x = 1\nsub A()", 2, "sub", EXPECTED_END},
     {"dim a[3]\nx = a[3]", 2, "x", EXPECTED_INDEX},
     {"dim a[3]\na[-1] = 1", 2, "a[-1]", EXPECTED_INDEX},
-    {"Mem[2] = 3", 1, "Mem[2]", EXPECTED_SIDE},
+    {"Mem[2]=3", 1, "Mem[2]", EXPECTED_SIDE},
     {"Mem[0] = 1", 1, "Mem[0]", EXPECTED_SIDE},
     {"while 1\nwend", 1, "while", EXPECTED_ACTION},
     {"A:\ngosub A", 2, "gosub", EXPECTED_RETURN},
