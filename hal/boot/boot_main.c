@@ -2,12 +2,21 @@
 #include "hal/boot/handover.h"
 #include "hal/boot/server.h"
 #include "hal/boot/start.h"
+#include "hal/port/cortex_m/leave.h"
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/port/cortex_m/systick.h"
 
 enum { BLINK_BIT = 6 };   /* of the milliseconds: about 8 Hz */
 
 int main(int argc, char *argv[]);
+void startup_crashed(const uint32_t *frame);
+
+/* Nobody would read what an image's crash leaves behind. */
+__attribute__((used)) void startup_crashed(const uint32_t *frame)
+{
+    (void)frame;
+    leave_by_reset();
+}
 
 static void serve(struct server *server, struct link *link)
 {
@@ -15,7 +24,7 @@ static void serve(struct server *server, struct link *link)
     bool stays = true;
 
     while (stays) {
-        int result = link_receive(link, &frame, isotp_busy(&server->isotp) ? 0 : 1);
+        int result = link_receive(link, &frame, isotp_busy(&server->isotp) || server->hurries ? 0 : 1);
 
         mcu_feed();
         mcu_light(machine_ms() >> BLINK_BIT & 1u);

@@ -85,7 +85,7 @@ uint32_t image_crc(unsigned slot, uint32_t end, bool *readable)
     return crc;
 }
 
-static bool is_blank(unsigned slot, uint32_t page)
+bool image_page_is_blank(unsigned slot, uint32_t page)
 {
     uint32_t words[PIECE / 4];
     uint32_t all = UINT32_MAX;
@@ -103,7 +103,7 @@ uint32_t image_written(unsigned slot)
 {
     uint32_t pages = LAYOUT.slot_pages;
 
-    while (pages > 0 && is_blank(slot, pages - 1))
+    while (pages > 0 && image_page_is_blank(slot, pages - 1))
         pages--;
     return pages > 0 ? (pages - 1) / LAYOUT.at_once * LAYOUT.at_once * flash_page_size() : 0;
 }

@@ -42,6 +42,9 @@ uint32_t image_crc(unsigned slot, uint32_t end, bool *readable);
 uint32_t image_version(unsigned slot);
         /* As the header of what is in the slot has it; 0 if that cannot be read. Nothing is checked. */
 
+bool image_page_is_blank(unsigned slot, uint32_t page);
+        /* False also if it cannot be read. */
+
 uint32_t image_written(unsigned slot);
         /* Bytes of the whole pages that are written in a slot: up to the last that is not blank, without that one, which a
            loss of power may have cut short. */

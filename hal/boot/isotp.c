@@ -43,14 +43,19 @@ static void take_first(struct isotp *isotp, const struct frame *frame, uint32_t 
     memcpy(isotp->rx, &frame->data[2], FIRST_BYTES);
 }
 
+bool isotp_receives(struct isotp *isotp, uint32_t now_ms)
+{
+    isotp->receiving = isotp->receiving && now_ms - isotp->rx_ms <= ISOTP_TIMEOUT_MS;
+    return isotp->receiving;
+}
+
 static uint16_t take_consecutive(struct isotp *isotp, const struct frame *frame, uint32_t now_ms)
 {
     uint16_t count = smaller(isotp->rx_len - isotp->rx_at, NEXT_BYTES);
 
-    if (!isotp->receiving)
+    if (!isotp_receives(isotp, now_ms))
         return 0;
-    isotp->receiving = (frame->data[0] & LOW) == isotp->rx_number && frame->len > count &&
-                       now_ms - isotp->rx_ms <= ISOTP_TIMEOUT_MS;
+    isotp->receiving = (frame->data[0] & LOW) == isotp->rx_number && frame->len > count;
     if (!isotp->receiving)
         return 0;
     memcpy(&isotp->rx[isotp->rx_at], &frame->data[1], count);

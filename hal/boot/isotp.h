@@ -33,6 +33,9 @@ uint16_t isotp_take(struct isotp *isotp, const struct frame *frame, uint32_t now
         /* A frame of the connection has come. The length of the message that it completes, in rx until the next call; else 0.
            Frames that do not fit are left out, and what they interrupt is forgotten, as the standard has it. */
 
+bool isotp_receives(struct isotp *isotp, uint32_t now_ms);
+        /* A message is on its way here: the first rx_at bytes are in rx. */
+
 void isotp_send(struct isotp *isotp, uint16_t len);
         /* Begins to send the first bytes of tx, 1..ISOTP_TX_MAX; what was on its way is given up. */
 

@@ -28,6 +28,7 @@ void server_take(struct server *server, const struct frame *frame, uint32_t now_
 {
     uint16_t len = frame->id == server->request_id ? isotp_take(&server->isotp, frame, now_ms) : 0;
 
+    server->hurries = true;
     if (len == 0)
         return;
     uds_pass(&server->uds, now_ms, true);
@@ -60,9 +61,12 @@ static void work(struct server *server)
 
 bool server_work(struct server *server, uint32_t now_ms)
 {
-    uds_pass(&server->uds, now_ms, server->isotp.receiving);
+    bool receives = isotp_receives(&server->isotp, now_ms);
+
+    uds_pass(&server->uds, now_ms, receives);
     if (isotp_busy(&server->isotp))
         return true;
+    server->hurries = receives && uds_ahead(&server->uds, server->isotp.rx, server->isotp.rx_at);
     if (server->uds.work != WORK_NONE)
         work(server);
     if (!server->leaving) {

@@ -16,6 +16,7 @@ struct server {
     struct isotp isotp;
     struct uds uds;
     uint16_t request_id;
+    bool hurries;                 /* server_work may find something to do at once */
     bool leaving;
     uint32_t leaving_ms;          /* since when */
 };

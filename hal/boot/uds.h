@@ -36,6 +36,7 @@ struct uds {
     bool took;                    /* a block of this download */
     uint8_t number;               /* of the block that comes next */
     uint32_t at;                  /* where it goes, or what is erased next */
+    uint32_t ahead;               /* bytes from there on that are written already */
 };
 
 void uds_begin(struct uds *uds, struct choices *choices, uint32_t now_ms);
@@ -44,6 +45,10 @@ void uds_begin(struct uds *uds, struct choices *choices, uint32_t now_ms);
 uint16_t uds_serve(struct uds *uds, const uint8_t request[], uint16_t len, uint8_t answer[UDS_ANSWER_MAX]);
         /* A request of 1..UDS_BLOCK_MAX bytes. Returns the length of the answer, or 0 for none. While uds->work is not
            WORK_NONE, requests are answered with "busy". */
+
+bool uds_ahead(struct uds *uds, const uint8_t request[], uint16_t len);
+        /* The first 2..UDS_BLOCK_MAX bytes of a request that is still coming are there. If they are of the block that is due, its
+           next unit is written meanwhile, in under 0.2 ms. False: there was none to be written. */
 
 uint16_t uds_do(struct uds *uds, uint8_t answer[UDS_ANSWER_MAX]);
         /* A step of the work that is under way, up to 0.1 s. The length of the answer once it is done, else 0. */

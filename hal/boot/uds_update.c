@@ -41,6 +41,7 @@ static enum nrc begin_erase(struct uds *uds, const struct exchange *exchange)
     if (exchange->len != ROUTINE_OPTIONS + 4 + IMAGE_HEADER)
         return NRC_LENGTH;
     uds->loading = uds->loaded = uds->erased = false;
+    uds->ahead = 0;
     uds->slot = choice_free_slot(&uds->choices->now);
     why = image_judge(&options[4], uds->slot, uds->choices->now.floor, &uds->image);
     if (why != REFUSAL_NONE)
@@ -109,18 +110,26 @@ enum nrc uds_download(struct uds *uds, struct exchange *exchange)
     return NRC_NONE;
 }
 
-/* Page by page; the bytes may lie anywhere. */
-static bool write_bytes(unsigned slot, uint32_t at, const uint8_t *bytes, uint32_t count)
+/* The next unit of the block that comes; the bytes may lie anywhere. */
+static bool write_unit(struct uds *uds, const uint8_t *block)
 {
     uint32_t words[FLASH_UNIT_MAX / 4];
-    uint32_t unit = flash_unit();
+    uint32_t at = uds->at + uds->ahead;
 
-    for (uint32_t done = 0; done < count; done += unit, at += unit) {
-        memcpy(words, &bytes[done], unit);
-        if (flash_write(LAYOUT.slot_page[slot] + at / flash_page_size(), at % flash_page_size(), words, unit) < 0)
-            return false;
-    }
+    memcpy(words, &block[uds->ahead], flash_unit());
+    if (flash_write(LAYOUT.slot_page[uds->slot] + at / flash_page_size(), at % flash_page_size(), words, flash_unit()) < 0)
+        return false;
+    uds->ahead += flash_unit();
     return true;
+}
+
+/* If that fails, it is tried again, and refused, once the block is complete. */
+bool uds_ahead(struct uds *uds, const uint8_t request[], uint16_t len)
+{
+    uint32_t next = uds->ahead + flash_unit();
+
+    return uds->loading && request[0] == TRANSFER && request[1] == uds->number && next + TRANSFER_DATA <= len &&
+           next <= uds->image.size + IMAGE_SIGNATURE - uds->at && write_unit(uds, &request[TRANSFER_DATA]);
 }
 
 /* The block whose answer was lost comes again. */
@@ -135,11 +144,13 @@ static enum nrc take_block(struct uds *uds, const uint8_t *bytes, uint32_t count
 
     if (count == 0 || count % flash_unit() != 0 || count > end - uds->at)
         return NRC_RANGE;
-    if (!write_bytes(uds->slot, uds->at, bytes, count)) {
-        uds->loading = false;
-        return refuse(uds, REFUSAL_FLASH, NRC_FAILURE);
-    }
+    while (uds->ahead < count)
+        if (!write_unit(uds, bytes)) {
+            uds->loading = false;
+            return refuse(uds, REFUSAL_FLASH, NRC_FAILURE);
+        }
     uds->at += count;
+    uds->ahead -= count;
     uds->number++;
     uds->took = true;
     return NRC_NONE;
@@ -173,11 +184,13 @@ enum nrc uds_transfer_exit(struct uds *uds, struct exchange *exchange)
     return NRC_NONE;
 }
 
+/* Behind the image, what is blank stays: an erase takes as long as the frames that fill a page. */
 static enum nrc erase_one(struct uds *uds)
 {
     uint32_t page = uds->at / flash_page_size();
+    bool needed = uds->at < uds->image.size + IMAGE_SIGNATURE || !image_page_is_blank(uds->slot, page);
 
-    if (flash_erase(LAYOUT.slot_page[uds->slot] + page) < 0)
+    if (needed && flash_erase(LAYOUT.slot_page[uds->slot] + page) < 0)
         return refuse(uds, REFUSAL_FLASH, NRC_FAILURE);
     uds->at += erased_at_once();
     if (uds->at < slot_bytes())

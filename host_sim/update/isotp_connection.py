@@ -2,6 +2,7 @@
 
 import logging
 import time
+from collections.abc import Callable
 
 from host_sim.base.errors import OctetError
 from host_sim.base.frame import Frame
@@ -24,13 +25,15 @@ _PARAMS = {
     "tx_padding": 0xCC,
     "stmin": 0,
     "blocksize": 0,
-    "rx_flowcontrol_timeout": 300,
-    "rx_consecutive_frame_timeout": 300,
 }
 
 
 class IsoTpConnection(BaseConnection):
-    """A connection to the boot loader of one node, or to an image that one started."""
+    """A connection to the boot loader of one node, or to an image that one started.
+
+    Attributes:
+        now: The time by which it waits, s: that of an emulated board, or this computer's.
+    """
 
     def __init__(self, link: Link, node: int) -> None:
         """Over an open link, which the caller closes.
@@ -43,6 +46,7 @@ class IsoTpConnection(BaseConnection):
         self.logger.setLevel(logging.CRITICAL)  # what fails is said by who asks
         logging.getLogger(isotp.TransportLayerLogic.LOGGER_NAME).setLevel(logging.CRITICAL)
         self._link = link
+        self.now: Callable[[], float] = getattr(link, "now", time.monotonic)
         self._request_id, self._answer_id = REQUEST_ID + node, ANSWER_ID + node
         address = isotp.Address(isotp.AddressingMode.Normal_11bits, txid=self._request_id, rxid=self._answer_id)
         self._layer = isotp.TransportLayerLogic(self._receive, self._send, address, lambda _error: None, _PARAMS)
@@ -72,13 +76,13 @@ class IsoTpConnection(BaseConnection):
 
     def specific_wait_frame(self, timeout: float | None = None) -> bytes | None:
         """As in udsoncan."""
-        deadline = time.monotonic() + (timeout or 0.0)
+        deadline = self.now() + (timeout or 0.0)
         while True:
             self._layer.process(_SLICE_S)
             answer = self._layer.recv()
             if answer is not None:
                 return bytes(answer)
-            if time.monotonic() > deadline:
+            if self.now() > deadline:
                 raise TimeoutException(f"no answer within {timeout} s")  # type: ignore[no-untyped-call]
 
     def answers(self, service: int, timeout_s: float) -> int:
@@ -86,19 +90,19 @@ class IsoTpConnection(BaseConnection):
         self.empty_rxqueue()
         self._link.send(Frame(self._request_id, bytes([1, service, *_PADDING])))
         count = 0
-        deadline = time.monotonic() + timeout_s
-        while (left := deadline - time.monotonic()) > 0:
-            frame = self._link.receive(min(left, _SLICE_S))
+        deadline = self.now() + timeout_s
+        while self.now() < deadline:
+            frame = self._link.receive(_SLICE_S)
             if frame is not None and frame.id == self._answer_id and frame.data[1:3] == bytes([0x7F, service]):
                 count += 1
-                deadline = min(deadline, time.monotonic() + _OTHERS_S)
+                deadline = min(deadline, self.now() + _OTHERS_S)
         return count
 
     def _send(self, message: "isotp.CanMessage") -> None:
         self._link.send(Frame(message.arbitration_id, bytes(message.data)))
 
     def _receive(self, timeout_s: float) -> "isotp.CanMessage | None":
-        frame = self._link.receive(timeout_s)
+        frame = None if self._layer.available() else self._link.receive(timeout_s)  # what was asked for is there
         if frame is None or frame.id != self._answer_id:
             return None
         return isotp.CanMessage(arbitration_id=frame.id, data=frame.data)

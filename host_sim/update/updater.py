@@ -172,8 +172,8 @@ class Updater:
         Raises:
             UpdateError: None does.
         """
-        deadline = time.monotonic() + _START_S
-        while time.monotonic() < deadline:
+        deadline = self._connection.now() + _START_S
+        while self._connection.now() < deadline:
             with suppress(TimeoutException):
                 version = int.from_bytes(self._read(_VERSION, tries=1), "big")
                 return version, bool(self._read(_RUNNING, tries=1)[1])
@@ -186,8 +186,8 @@ class Updater:
             UpdateError: It is not that one, or still on trial.
         """
         runs, trial = self.running()
-        deadline = time.monotonic() + _START_S
-        while runs == version and trial and time.monotonic() < deadline:
+        deadline = self._connection.now() + _START_S
+        while runs == version and trial and self._connection.now() < deadline:
             time.sleep(_WAIT_S)
             runs, trial = self.running()
         if runs != version:

@@ -64,7 +64,8 @@ __attribute__((naked)) void startup_crash(void)
                      "b startup_crashed");
 }
 
-__attribute__((used)) void startup_crashed(const uint32_t *frame)   /* by the lines above, which the linker cannot read */
+/* Called by the lines above, which the linker cannot read. */
+__attribute__((used, weak)) void startup_crashed(const uint32_t *frame)   /* a boot loader has its own */
 {
     crash_keep(SCB.icsr & ICSR_VECTOR, frame, stack_bottom, stack_top);
     leave_by_reset();

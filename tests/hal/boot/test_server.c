@@ -121,3 +121,30 @@ TEST(long_work_is_done_in_steps_and_answered_at_its_end)
     TEST_ASSERT_EQUAL_UINT(SLOT_PAGES, steps);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){5, 0x71, 1, 0xFF, 0, 0}), said[1].data, 6);
 }
+
+TEST(a_session_ends_although_a_request_was_never_completed)
+{
+    server.uds.programming = true;
+    hear(REQUEST, (const uint8_t[8]){0x10, 20, 0x36, 1});
+    TEST_ASSERT_TRUE(server_work(&server, NOW_MS + ISOTP_TIMEOUT_MS));
+    TEST_ASSERT_TRUE(server_work(&server, NOW_MS + ISOTP_TIMEOUT_MS + UDS_SESSION_MS - 1));
+    TEST_ASSERT_TRUE(server.uds.programming);
+    TEST_ASSERT_TRUE(server_work(&server, NOW_MS + ISOTP_TIMEOUT_MS + UDS_SESSION_MS));
+    TEST_ASSERT_FALSE(server.uds.programming);
+}
+
+TEST(it_does_not_rest_while_more_of_a_block_can_be_written)
+{
+    server.uds.programming = server.uds.unlocked = server.uds.loading = true;
+    server.uds.slot = 1;
+    server.uds.number = 1;
+    server.uds.image.size = 2 * PAGE;
+    TEST_ASSERT_FALSE(server.hurries);
+    hear(REQUEST, (const uint8_t[8]){0x10, 20, 0x36, 1, 'O', 'C', 'T', 'E'});
+    TEST_ASSERT_TRUE(server.hurries);
+    TEST_ASSERT_TRUE(server_work(&server, NOW_MS));
+    TEST_ASSERT_EQUAL_MEMORY("OCTE\xFF", boot_flash_slot(1), 5);
+    TEST_ASSERT_TRUE(server.hurries);
+    TEST_ASSERT_TRUE(server_work(&server, NOW_MS));
+    TEST_ASSERT_FALSE(server.hurries);
+}

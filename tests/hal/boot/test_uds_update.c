@@ -183,6 +183,95 @@ TEST(a_block_that_comes_again_is_written_once_and_one_that_is_missing_is_noticed
     TEST_ASSERT_EQUAL_MEMORY("OCTETIMG\xFF", boot_flash_slot(1), 9);
 }
 
+static void begin_download(void)
+{
+    unlock();
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
+}
+
+TEST(what_has_come_of_a_block_is_written_while_the_rest_comes)
+{
+    static const uint8_t block[] = {0x36, 1, 'O', 'C', 'T', 'E', 'T', 'I', 'M', 'G'};
+    unsigned before;
+
+    begin_download();
+    before = boot_flash.operations;
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, 5));
+    TEST_ASSERT_TRUE(uds_ahead(&uds, block, 6));
+    TEST_ASSERT_EQUAL_MEMORY("OCTE\xFF", boot_flash_slot(1), 5);
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, 9));
+    TEST_ASSERT_TRUE(uds_ahead(&uds, block, 10));
+    TEST_ASSERT_EQUAL_HEX8(0, ask(block, sizeof block));
+    TEST_ASSERT_EQUAL_MEMORY("OCTETIMG\xFF", boot_flash_slot(1), 9);
+    TEST_ASSERT_EQUAL_UINT(before + 4, boot_flash.operations);
+}
+
+TEST(a_block_that_was_cut_short_comes_again_even_as_shorter_ones)
+{
+    uint8_t block[2 + SIGNED_BYTES] = {0x36, 1};
+
+    begin_download();
+    memcpy(&block[2], image.bytes, SIGNED_BYTES);
+    for (unsigned i = 0; i < 3; i++)
+        TEST_ASSERT_TRUE(uds_ahead(&uds, block, sizeof block));
+    TEST_ASSERT_EQUAL_HEX8(0, ask(block, 2 + 8));
+    block[1] = 2;
+    memcpy(&block[2], &image.bytes[8], SIGNED_BYTES - 8);
+    TEST_ASSERT_TRUE(uds_ahead(&uds, block, 2 + 8));
+    TEST_ASSERT_EQUAL_HEX8(0, ask(block, sizeof block - 8));
+    TEST_ASSERT_EQUAL_MEMORY(image.bytes, boot_flash_slot(1), SIGNED_BYTES);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x37));
+    TEST_ASSERT_EQUAL_HEX8(0, check());
+}
+
+TEST(nothing_but_the_block_that_is_due_is_written_ahead)
+{
+    uint8_t block[2 + SIGNED_BYTES + 4] = {0x36, 1};
+
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
+    unlock();
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
+    begin_download();
+    block[1] = 2;
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
+    block[0] = 0x31;
+    block[1] = 1;
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
+    block[0] = 0x36;
+    for (unsigned i = 0; i < SIGNED_BYTES / 4; i++)
+        TEST_ASSERT_TRUE(uds_ahead(&uds, block, sizeof block));
+    TEST_ASSERT_FALSE(uds_ahead(&uds, block, sizeof block));
+    TEST_ASSERT_EQUAL_HEX8(0x31, ask(block, sizeof block));
+}
+
+TEST(an_erase_forgets_what_was_written_ahead)
+{
+    static const uint8_t block[] = {0x36, 1, 1, 2, 3, 4};
+
+    begin_download();
+    TEST_ASSERT_TRUE(uds_ahead(&uds, block, sizeof block));
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, download(&image, 0));
+    TEST_ASSERT_EQUAL_HEX8(0, check());
+}
+
+TEST(behind_the_image_a_page_is_erased_if_it_is_not_blank)
+{
+    enum { IMAGE_PAGES = (SIGNED_BYTES + PAGE - 1) / PAGE };
+    unsigned before;
+
+    unlock();
+    before = boot_flash.operations;
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_UINT(before + IMAGE_PAGES, boot_flash.operations);
+    boot_flash_slot(1)[SLOT_BYTES - 1] = 0;
+    TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
+    TEST_ASSERT_EQUAL_UINT(before + 2 * IMAGE_PAGES + 1, boot_flash.operations);
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, boot_flash_slot(1), SLOT_BYTES);
+}
+
 TEST(a_request_whose_answer_was_lost_can_come_again)
 {
     unlock();
@@ -239,6 +328,7 @@ TEST(a_flash_that_fails_is_told)
     TEST_ASSERT_EQUAL_HEX8(0, erase_for(&image, 0));
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x34, 0, 0x44, 0, 0, 0, 0, 0, 0, SIGNED_BYTES >> 8, SIGNED_BYTES & 0xFF));
     boot_flash.failing = true;
+    TEST_ASSERT_FALSE(uds_ahead(&uds, (const uint8_t[]){0x36, 1, 'O', 'C', 'T', 'E'}, 6));
     TEST_ASSERT_EQUAL_HEX8(0x72, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
     TEST_ASSERT_EQUAL_HEX8(0x24, ASK(0x36, 1, 'O', 'C', 'T', 'E'));
     boot_flash.failing = false;
