@@ -70,7 +70,7 @@ def add(commands: "Subparsers") -> None:
         "--limit-s",
         type=number(1, 600, float),
         metavar="S",
-        help="robot time of each run, 1..600 s (default: 60, in real time 10)",
+        help="robot time of each run, 1..600 s (default: 60, in real time 10); more where a fault shows later",
     )
     add("--jobs", type=number(1, 64), default=1, metavar="N", help="processes at once (default: %(default)d)")
     add("--repeat", metavar="CELL", help="rerun one run of a report and print its outcome")
@@ -152,13 +152,6 @@ def _outcomes(arguments: argparse.Namespace) -> "Iterator[tuple[int, Iterable[Ou
         yield from run_all(run_group, every, pool)
 
 
-def _with_clean(cell: "Cell") -> "Sequence[Cell]":
-    """A cell after the same run without a fault, which shows what its fault does."""
-    from dataclasses import replace
-
-    return [replace(cell, faults=(), changes=(), events=(), fault=""), cell]
-
-
 def _repeat(text: str, program: str) -> int:
     from dataclasses import replace
 
@@ -167,7 +160,7 @@ def _repeat(text: str, program: str) -> int:
     from host_sim.lab.campaign.matrix import recognised
     from host_sim.lab.campaign.running import run_all
 
-    *_, outcome = run_all(_with_clean(replace(recognised(Cell.parse(text)), command_of_own=program)))
+    (outcome,) = run_all([replace(recognised(Cell.parse(text)), command_of_own=program)])
     print(account(outcome))
     return int(bool(outcome.problems))
 
@@ -180,7 +173,7 @@ def _shrink(text: str, program: str) -> int:
     from host_sim.lab.campaign.shrink import shrink
 
     def attempt(smaller: "Cell") -> "Outcome":
-        *_, outcome = run_all(_with_clean(smaller))
+        (outcome,) = run_all([smaller])
         return outcome
 
     for outcome in shrink(replace(Cell.parse(text), command_of_own=program), attempt):

@@ -43,6 +43,7 @@ class FaultClass:
         denies: Whether the robot itself must tell of it, and learn nothing wrong.
         in_lesson: Whether it happens when something is learned.
         profiles: The behaviours to which it can happen; empty for all.
+        least_s: Robot time within which it shows in lockstep, twice that for `searcher`; no run there is shorter.
     """
 
     name: str
@@ -55,6 +56,7 @@ class FaultClass:
     denies: bool = False
     in_lesson: bool = False
     profiles: tuple[str, ...] = ()
+    least_s: float = 0.0
 
     def can_happen(self, profile: str, link: str, pace: str) -> bool:
         """Whether it can happen in a configuration."""
@@ -66,8 +68,10 @@ class FaultClass:
         """A run without faults, with this one."""
         dice = Random(f"{self.name} {base}")
         event = self.event.format(any=dice.randint(1, _INSTRUCTIONS), saving=dice.randint(1, _SAVING_INSTRUCTIONS))
+        least_s = self.least_s * (2 if base.profile == "searcher" else 1) if base.pace == LOCKSTEP else 0.0
         return replace(
             base,
+            limit_s=max(base.limit_s, least_s),
             fault=self.name,
             faults=self.faults,
             changes=tuple(f"{change}@2s" for change in self.changes),
@@ -77,9 +81,10 @@ class FaultClass:
         )
 
 
-def _of_body(name: str, *changes: str, denies: bool = False) -> FaultClass:
+def _of_body(name: str, *changes: str, denies: bool = False, least_s: float = 10.0) -> FaultClass:
     """A fault of the body shows in what the robot does: in lockstep, in another run than without it."""
-    return FaultClass(name, changes=changes, harmless=() if denies else (REAL_TIME,), denies=denies)
+    harmless = () if denies else (REAL_TIME,)
+    return FaultClass(name, changes=changes, harmless=harmless, denies=denies, least_s=least_s)
 
 
 def _of_odometers() -> Iterator[FaultClass]:
@@ -143,7 +148,7 @@ BUS: tuple[FaultClass, ...] = (
 
 BODY: tuple[FaultClass, ...] = (
     *(_of_body(f"the {sensor} sensor is stuck on", f"stuck-on:{sensor}") for sensor in SENSORS),
-    *(_of_body(f"the {sensor} sensor is stuck off", f"stuck-off:{sensor}") for sensor in SENSORS),
+    *(_of_body(f"the {sensor} sensor is stuck off", f"stuck-off:{sensor}", least_s=30.0) for sensor in SENSORS),
     _of_body("sensors flicker", "noise:10/1000"),
     _of_body("the ring of sensors is mirrored", "mirror"),
     _of_body("motors are swapped", "swap-motors"),
@@ -154,8 +159,8 @@ BODY: tuple[FaultClass, ...] = (
     _of_body("both motors are dead", "weak-motor:left:0%", "weak-motor:right:0%", denies=True),
     *_of_odometers(),
     _of_body("the wheels follow late", "lag:60ms"),
-    _of_body("the wheels follow too late", "lag:300ms", denies=True),
-    _of_body("the gears have slack", "slack:3deg"),
+    _of_body("the wheels follow too late", "lag:300ms", denies=True, least_s=30.0),
+    _of_body("the gears have slack", "slack:3deg", least_s=20.0),
     _of_body("the wheels slip", "slip:5%"),
     _of_body("senses come a tick late", "latency:1"),
     _of_body("the walls are dark", "dark-wall"),
@@ -194,7 +199,9 @@ LINE: tuple[FaultClass, ...] = (
 
 HOST: tuple[FaultClass, ...] = (
     FaultClass("the simulator is killed at any instruction", event="kill-simulator:{any}"),
-    FaultClass("the simulator is killed while it saves a memory", event="kill-saving:{saving}", in_lesson=True),
+    FaultClass(
+        "the simulator is killed while it saves a memory", event="kill-saving:{saving}", in_lesson=True, least_s=15.0
+    ),
     FaultClass("the simulator is stopped for 0.5 s", event="hold-up:500", links=_PROCESSES, harmless=_COMPARED),
     FaultClass("the disk is full", event="disk-full"),
     FaultClass("the disk fills up in the middle of the log", event="disk-full:10000"),
@@ -267,7 +274,7 @@ def groups(
 def recognised(cell: Cell) -> Cell:
     """A cell with what is known of its fault, where it is one of the campaign's."""
     base = replace(cell, faults=(), changes=(), events=())
-    known = (each.cell(base) for each in CLASSES if cell.pace in each.paces)
+    known = (replace(each.cell(base), limit_s=cell.limit_s) for each in CLASSES if cell.pace in each.paces)
     return next((each for each in known if str(each) == str(cell)), cell)
 
 
