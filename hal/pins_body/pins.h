@@ -1,5 +1,5 @@
 /* pins.h: what the body of a robot of its own needs of the microcontroller's pins. Each family of chips provides it:
- * hal/stm32/stm32f103/robot_pins.c is one. Everything is done by timers and the converter by themselves; a beat of 5 ms, made
+ * hal/stm32/robot/robot_pins.c is one. Everything is done by timers and the converter by themselves; a beat of 5 ms, made
  * by the timer of the motors, tells when there is something to do. One thread calls all of it. */
 #ifndef OCTET_PINS_H
 #define OCTET_PINS_H

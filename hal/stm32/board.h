@@ -2,15 +2,8 @@
 #ifndef OCTET_BOARD_H
 #define OCTET_BOARD_H
 
-#include <stdbool.h>
-#include <stdint.h>
-
-enum { PORT_A, PORT_B, PORT_C };
-
-struct pin {
-    uint8_t port;
-    uint8_t number;   /* 0..15 */
-};
+/* A pin is a number: that of its port, from 0 for A, in its upper four bits. */
+enum { PORT_PINS = 16 };
 
 #include "board_pins.h"   /* BOARD_LED and its like, made by tools/pins */
 

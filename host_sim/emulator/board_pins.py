@@ -71,14 +71,17 @@ class ChipPins:
     def remap(self, signals: dict[str, str]) -> int:
         """The fields of AFIO_MAPR with which each function has its pins: all at one of the places that it can be.
 
+        Where pins choose their functions themselves, each is on its own, and the fields are 0.
+
         Raises:
             UsageError: It cannot be there.
         """
-        wanted: dict[str, dict[str, str]] = {}
+        wanted: dict[tuple[str, str], dict[str, str]] = {}
         for signal in (name for name, use in self.signals.items() if use != ADC and name in signals):
             function, role = self.signals[signal].split()
-            wanted.setdefault(function, {})[role] = signal
-        return sum(self._remap(function, roles, signals) for function, roles in wanted.items())
+            together = "" if "at" in self._functions[function][0] else role
+            wanted.setdefault((function, together), {})[role] = signal
+        return sum(self._remap(function, roles, signals) for (function, _), roles in wanted.items())
 
     def pin_of(self, use: str, mapr: int) -> str | None:
         """The pin of a function such as `CAN rx`, as AFIO_MAPR has it; None if there is none."""
@@ -92,9 +95,12 @@ class ChipPins:
         return None
 
     def function_of(self, use: str, pin: str) -> int | None:
-        """The number of the alternate function with which a pin is, for example, `CAN rx`; None if it cannot be."""
+        """The number of the function with which a pin is, for example, `CAN rx`; None if it cannot be.
+
+        Where functions have no numbers, it is 0.
+        """
         function, role = use.split()
-        return next((option["af"] for option in self._functions[function] if option.get(role) == pin), None)
+        return next((option.get("af", 0) for option in self._functions[function] if option.get(role) == pin), None)
 
     def _remap(self, function: str, roles: dict[str, str], signals: dict[str, str]) -> int:
         wanted = [signals[name] for name in roles.values()]
@@ -140,11 +146,15 @@ class Pins:
     def header(self) -> str:
         """What board.h includes."""
         lines = [f"/* Generated from hal/stm32/boards/{self.board}.cmake. */"]
+        numbers: dict[str, object] = {}
         for signal, pin in self.signals.items():
-            lines.append(f"static const struct pin BOARD_{signal} = {{PORT_{pin[1]}, {pin[2:]}}};")
-        lines += [f"enum {{ BOARD_{signal}_CHANNEL = {channel} }};" for signal, channel in self.channels.items()]
-        lines += [f"enum {{ BOARD_REMAP = 0x{self.remap:X} }};"]
-        lines += [f"static const bool BOARD_LED_HIGH = {str(self.led_high).lower()};   /* while it shines */"]
+            port, number = place_of(pin)
+            numbers[signal] = f"0x{port:X}{number:X}"
+            if self.chip.signals.get(signal, ADC) != ADC:
+                numbers[f"{signal}_FUNCTION"] = self.chip.function_of(self.chip.signals[signal], pin)
+        numbers |= {f"{signal}_CHANNEL": channel for signal, channel in self.channels.items()}
+        numbers |= {"REMAP": f"0x{self.remap:X}", "LED_HIGH": int(self.led_high)}
+        lines += [f"enum {{ BOARD_{name} = {number} }};" for name, number in numbers.items()]
         return "\n".join(lines) + "\n"
 
     def table(self) -> str:

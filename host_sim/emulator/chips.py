@@ -6,6 +6,7 @@ from functools import partial
 
 from host_sim.emulator.can import BxCan, CanController, CanFaults, CanFrame, FdCan
 from host_sim.emulator.clock import Clock
+from host_sim.emulator.converter import Converter, ConverterF1, ConverterG4
 from host_sim.emulator.flash import Factory as FlashFactory
 from host_sim.emulator.flash import FlashF1, FlashF4, FlashG4
 from host_sim.emulator.ports import GpioF1, GpioF4, GpioG4, Port
@@ -45,7 +46,7 @@ class Chip:
         usart_base: Where that lies.
         usart_gate: The gate of its clock.
         afio_gate: The gate of the clock of the alternate functions' registers; None if the chip has none.
-        robot: Whether the board has pins for a robot of its own.
+        robot: What the chip has for a robot of its own; None where the board has no pins for one.
     """
 
     name: str
@@ -69,7 +70,30 @@ class Chip:
     usart_base: int
     usart_gate: Gate
     afio_gate: Gate | None = None
-    robot: bool = False
+    robot: "RobotParts | None" = None
+
+
+@dataclass(frozen=True)
+class RobotParts:
+    """What a robot of its own uses of a chip.
+
+    Attributes:
+        motors: The gate of TIM1's clock.
+        counters: The gate of TIM2's; those of TIM3 and TIM4 are the next bits.
+        dma: That of DMA1's.
+        adc: That of ADC1's.
+        adc_base: Where that lies.
+        converter: Makes it, of its base, the speed of its clock and its DMA,
+        multiplexed: and of the multiplexer, with its gate and its base, if the chip has one.
+    """
+
+    motors: Gate
+    counters: Gate
+    dma: Gate
+    adc: Gate
+    adc_base: int
+    converter: Callable[..., Converter]
+    multiplexed: tuple[Gate, int] | None = None
 
 
 WATCHDOG_BASE, CAN_BASE, POWER_BASE, AFIO_BASE = 0x40003000, 0x40006400, 0x40007000, 0x40010000
@@ -131,7 +155,14 @@ STM32F103 = Chip(
     usart_base=0x40013800,
     usart_gate=(0x18, 14),
     afio_gate=(0x18, 0),
-    robot=True,
+    robot=RobotParts(
+        motors=(0x18, 11),
+        counters=(0x1C, 0),
+        dma=(0x14, 0),
+        adc=(0x18, 9),
+        adc_base=0x40012400,
+        converter=ConverterF1,
+    ),
 )
 """Blue Pill."""
 
@@ -158,6 +189,15 @@ STM32G431 = Chip(
     usart=UsartG4,
     usart_base=0x40004400,
     usart_gate=(0x58, 17),
+    robot=RobotParts(
+        motors=(0x60, 11),
+        counters=(0x58, 0),
+        dma=(0x48, 0),
+        adc=(0x4C, 13),
+        adc_base=0x50000000,
+        converter=ConverterG4,
+        multiplexed=((0x48, 2), 0x40020800),
+    ),
 )
 """ST NUCLEO-G431RB. To be faster, the chip needs a higher voltage and a rest at half speed: not modelled."""
 

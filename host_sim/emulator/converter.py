@@ -1,12 +1,16 @@
-"""The analogue to digital converter of an STM32F1 and the DMA that carries its samples off (RM0008 11, 13)."""
+"""The converters of STM32F1 (RM0008 11) and G4 (RM0440 21), and the DMA that carries their samples off."""
 
-from collections.abc import Callable, Mapping
+from abc import abstractmethod
+from collections.abc import Callable, Mapping, Sequence
 
 from host_sim.emulator.registers import BoardError, Peripheral, Register
 
 _ADON, _CONT, _CALIBRATIONS, _DMA, _SCAN = 1, 1 << 1, 1 << 2 | 1 << 3, 1 << 8, 1 << 8
 _BEGIN, _SOFTWARE = 1 << 22, 7 << 17 | 1 << 20
-_HZ_MAX, _SAMPLE_MAX, _PLACES_MAX = 14_000_000, 4095, 6
+_SAMPLE_MAX, _PLACES_MAX = 4095, 6
+_G4_ON, _G4_START, _G4_REGULATOR, _G4_ASLEEP, _G4_CALIBRATE = 1, 1 << 2, 1 << 28, 1 << 29, 1 << 31
+_G4_CFGR, _G4_DIVISORS = 1 << 13 | 3, (0, 1, 2, 4)
+_G4_ISR, _G4_SQR1, _G4_CCR, _ADC1_REQUEST = 0x00, 0x30, 0x308, 5
 _CHANNEL_ON, _CIRCULAR, _MINC, _HALVES = 1, 1 << 5, 1 << 7, 1 << 8 | 1 << 10
 _CCR, _CNDTR, _CPAR, _CMAR, _STRIDE = 0x08, 0x0C, 0x10, 0x14, 20
 
@@ -29,37 +33,59 @@ class Dma(Peripheral):
         return (memory, count) if control & wanted == wanted and peripheral == source else None
 
 
+class Multiplexer(Peripheral):
+    """DMAMUX (RM0440 13): the request that each channel of DMA serves."""
+
+    def __init__(self) -> None:
+        """None serves any."""
+        super().__init__("DMAMUX", {4 * channel: Register(f"C{channel}CR") for channel in range(12)})
+
+    def serves_converter(self) -> bool:
+        """Whether channel 1 of DMA1 serves ADC1."""
+        return self.registers[0].value == _ADC1_REQUEST
+
+
 class Converter(Peripheral):
     """ADC1, converting one channel after the other, over and over."""
 
-    def __init__(self, base: int, bus_hz: Callable[[], int], divisor: Callable[[], int], dma: Dma) -> None:
+    data: int
+    """Offset of its register DR."""
+    hz_max: int
+
+    def __init__(self, base: int, hz: Callable[[], int], dma: Dma, registers: Mapping[int, Register]) -> None:
         """At rest.
 
         Args:
             base: Its address.
-            bus_hz: Gives the speed of its bus.
-            divisor: Gives what its own clock is divided by.
+            hz: Gives the speed of its clock.
             dma: Carries its samples off.
+            registers: By offset.
         """
-        self._base, self._bus_hz, self._divisor, self._dma = base, bus_hz, divisor, dma
-        names = {
-            0x00: "SR",
-            0x04: "CR1",
-            0x0C: "SMPR1",
-            0x10: "SMPR2",
-            0x2C: "SQR1",
-            0x30: "SQR2",
-            0x34: "SQR3",
-            0x4C: "DR",
-        }
-        self._cr2 = Register("CR2", on_write=self._write_cr2)
-        super().__init__("ADC1", {offset: Register(name) for offset, name in names.items()} | {0x08: self._cr2})
-        self._calibrated = self._begun = False
+        self._base, self._hz, self._dma = base, hz, dma
+        self._begun = False
+        super().__init__("ADC1", registers)
+
+    @abstractmethod
+    def order(self) -> Sequence[int]:
+        """The channels of a round."""
+
+    def carried(self) -> bool:
+        """Whether DMA hears of its samples."""
+        return True
+
+    def switch_on(self) -> None:
+        """It is switched on.
+
+        Raises:
+            BoardError: Its clock is too fast.
+        """
+        if not 0 < self._hz() <= self.hz_max:
+            raise BoardError(f"ADC1 was switched on at {self._hz()} Hz, where {self.hz_max} is allowed")
 
     def reset(self) -> None:
         """As in `Peripheral`."""
         super().reset()
-        self._calibrated = self._begun = False
+        self._begun = False
 
     def convert(self, volts: Mapping[int, int]) -> tuple[int, bytes] | None:
         """What a round of it leaves in memory: where, and what; None if it does not run.
@@ -67,25 +93,87 @@ class Converter(Peripheral):
         Args:
             volts: What each channel measures, 0..4095; another one measures nothing.
         """
-        if not self._begun:
-            return None
-        target = self._dma.target(self._base + 0x4C)
+        target = self._dma.target(self._base + self.data) if self._begun and self.carried() else None
         if target is None:
             return None
-        places = (self.registers[0x2C].value >> 20 & 15) + 1
-        if places != target[1] or places > _PLACES_MAX:
-            raise BoardError(f"ADC1 converts {places} channels in a round, and DMA1 carries {target[1]} off")
-        order = self.registers[0x34].value
-        samples = (min(volts.get(order >> 5 * place & 31, 0), _SAMPLE_MAX) for place in range(places))
+        order = self.order()
+        if len(order) != target[1] or len(order) > _PLACES_MAX:
+            raise BoardError(f"ADC1 converts {len(order)} channels in a round, and DMA1 carries {target[1]} off")
+        samples = (min(volts.get(channel, 0), _SAMPLE_MAX) for channel in order)
         return target[0], b"".join(sample.to_bytes(2, "little") for sample in samples)
 
+
+class ConverterF1(Converter):
+    """That of an STM32F1."""
+
+    data, hz_max = 0x4C, 14_000_000
+
+    def __init__(self, base: int, hz: Callable[[], int], dma: Dma) -> None:
+        """As in `Converter`."""
+        self._cr2 = Register("CR2", on_write=self._write_cr2)
+        names = {0x00: "SR", 0x04: "CR1", 0x0C: "SMPR1", 0x10: "SMPR2", 0x2C: "SQR1", 0x30: "SQR2", 0x34: "SQR3"}
+        registers = {offset: Register(name) for offset, name in {**names, self.data: "DR"}.items()}
+        super().__init__(base, hz, dma, {**registers, 0x08: self._cr2})
+
+    def order(self) -> Sequence[int]:
+        """As in `Converter`."""
+        places = (self.registers[0x2C].value >> 20 & 15) + 1
+        return [self.registers[0x34].value >> 5 * place & 31 for place in range(places)]
+
     def _write_cr2(self, value: int) -> None:
-        hz = self._bus_hz() // self._divisor()
-        if value & _ADON and hz > _HZ_MAX:
-            raise BoardError(f"ADC1 was switched on at {hz} Hz, where {_HZ_MAX} is allowed")
+        if value & _ADON:
+            self.switch_on()
         if value & _CALIBRATIONS and not self._cr2.value & _ADON:
             raise BoardError("ADC1 was calibrated before it was switched on")
-        self._calibrated = self._calibrated or bool(value & 1 << 2)
         whole = _ADON | _CONT | _DMA | _SOFTWARE | _BEGIN
         self._begun = value & whole == whole and bool(self.registers[0x04].value & _SCAN)
         self._cr2.value = value & ~_CALIBRATIONS
+
+
+class ConverterG4(Converter):
+    """That of an STM32G4. What it does takes no time."""
+
+    data, hz_max = 0x40, 60_000_000
+
+    def __init__(self, base: int, hz: Callable[[], int], dma: Dma, multiplexer: Multiplexer) -> None:
+        """As in `Converter`.
+
+        Args:
+            base: Its address.
+            hz: Gives the speed of its bus.
+            dma: Carries its samples off.
+            multiplexer: Is before that.
+        """
+        self._multiplexer = multiplexer
+        self._cr = Register("CR", _G4_ASLEEP, on_write=self._write_cr)
+        names = {0x0C: "CFGR", 0x10: "CFGR2", 0x14: "SMPR1", 0x18: "SMPR2", 0x30: "SQR1", 0x34: "SQR2"}
+        registers = {offset: Register(name) for offset, name in {**names, _G4_CCR: "CCR", self.data: "DR"}.items()}
+        isr = Register("ISR", on_read=lambda: self._cr.value & _G4_ON)
+        super().__init__(base, lambda: self._divided(hz()), dma, {**registers, _G4_ISR: isr, 0x08: self._cr})
+
+    def order(self) -> Sequence[int]:
+        """As in `Converter`: six bits a place, the first of them for the number of places."""
+        fields = self.registers[_G4_SQR1].value | self.registers[_G4_SQR1 + 4].value << 30
+        return [fields >> 6 * place & 31 for place in range(1, (fields & 15) + 2)]
+
+    def carried(self) -> bool:
+        """As in `Converter`."""
+        return self._multiplexer.serves_converter()
+
+    def _divided(self, bus_hz: int) -> int:
+        divisor = _G4_DIVISORS[self.registers[_G4_CCR].value >> 16 & 3]
+        return bus_hz // divisor if divisor else 0
+
+    def _write_cr(self, value: int) -> None:
+        before = self._cr.value
+        on = (value | before) & _G4_ON
+        if (on or value & _G4_CALIBRATE) and not before & _G4_REGULATOR:
+            raise BoardError("ADC1 was switched on or calibrated before its regulator")
+        if value & _G4_CALIBRATE and before & _G4_ON:
+            raise BoardError("ADC1 was calibrated while it was on")
+        if value & _G4_ON:
+            self.switch_on()
+        self._begun = bool(value & before & _G4_ON and value & _G4_START) and (
+            self.registers[0x0C].value & _G4_CFGR == _G4_CFGR
+        )
+        self._cr.value = value & ~_G4_CALIBRATE | on

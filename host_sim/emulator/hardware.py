@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import cast
 
 from host_sim.emulator.board_pins import read_pins
 from host_sim.emulator.can import CanFaults, CanFrame
@@ -16,15 +15,15 @@ from host_sim.emulator.chips import (
     SYSTICK_BASE,
     WATCHDOG_BASE,
     Chip,
+    RobotParts,
 )
 from host_sim.emulator.clock import Clock
-from host_sim.emulator.converter import Converter, Dma
+from host_sim.emulator.converter import Dma, Multiplexer
 from host_sim.emulator.core import PAGE, Core, Fault
 from host_sim.emulator.flash import BASE as FLASH
 from host_sim.emulator.flash import FlashFaults
 from host_sim.emulator.interrupts import Interrupts
 from host_sim.emulator.rcc import RccFaults
-from host_sim.emulator.rcc_f1 import RccF1
 from host_sim.emulator.registers import AddressSpace, KeptPeripheral, Peripheral, Register, Window
 from host_sim.emulator.robot_on_pins import RobotOnPins
 from host_sim.emulator.serial import SlcanLine
@@ -35,8 +34,8 @@ from host_sim.emulator.wiring import Wiring
 _COUNTERS = {"TIM2": 0x40000000, "TIM3": 0x40000400, "TIM4": 0x40000800}
 _NMI = 2
 """Number of the exception."""
-_TIM1_BASE, _ADC_BASE, _DMA_BASE, _TIM1_UP = 0x40012C00, 0x40012400, 0x40020000, 25
-_WINDOWS = ((0x40000000, 0x80000), (0x48000000, 2 * PAGE), (0xE000E000, PAGE))
+_TIM1_BASE, _DMA_BASE, _TIM1_UP = 0x40012C00, 0x40020000, 25
+_WINDOWS = ((0x40000000, 0x80000), (0x48000000, 2 * PAGE), (0x50000000, PAGE), (0xE000E000, PAGE))
 """(base, bytes) of where registers can be."""
 
 
@@ -118,8 +117,8 @@ class Hardware:
         self._peripherals = self._always_clocked() + self._gated()
         afio = next((it for base, it in self._peripherals if base == AFIO_BASE), None)
         self.wiring = Wiring(read_pins(chip.name), self.pins, afio.registers[0x04] if afio else None)
-        if chip.robot:
-            self._peripherals += self._for_robot()
+        if chip.robot is not None:
+            self._peripherals += self._for_robot(chip.robot)
         self._map()
 
     @property
@@ -218,19 +217,26 @@ class Hardware:
             self.rcc.add_gate(*gate, peripheral)
         return gated
 
-    def _for_robot(self) -> list[tuple[int, Peripheral]]:
+    def _for_robot(self, parts: RobotParts) -> list[tuple[int, Peripheral]]:
         """What a robot of its own needs of the chip, and its wiring."""
-        rcc = cast("RccF1", self.rcc)
+        rcc = self.rcc
         motors = MotorTimer(self.clock, rcc.apb2_hz, lambda: self.interrupts.pend(_TIM1_UP))
         dma, timers = Dma(), {name: Timer(name) for name in _COUNTERS}
-        converter = Converter(_ADC_BASE, rcc.apb2_hz, rcc.adc_divisor, dma)
-        for gate, peripheral in (((0x18, 11), motors), ((0x18, 9), converter), ((0x14, 0), dma)):
+        made: list[tuple[int, Peripheral]] = [(_TIM1_BASE, motors), (_DMA_BASE, dma)]
+        made += [(_COUNTERS[name], timer) for name, timer in timers.items()]
+        gates = [parts.motors, parts.dma, *((parts.counters[0], parts.counters[1] + n) for n in range(len(timers)))]
+        before_dma = []
+        if parts.multiplexed is not None:
+            gate, base = parts.multiplexed
+            before_dma = [Multiplexer()]
+            made.append((base, before_dma[0]))
+            gates.append(gate)
+        converter = parts.converter(parts.adc_base, rcc.adc_hz, dma, *before_dma)
+        made.append((parts.adc_base, converter))
+        for gate, (_, peripheral) in zip([*gates, parts.adc], made, strict=True):
             rcc.add_gate(*gate, peripheral)
-        for bit, timer in enumerate(timers.values()):
-            rcc.add_gate(0x1C, bit, timer)
         self.robot = RobotOnPins(self.core, self.wiring, motors, timers, converter)
-        made: list[tuple[int, Peripheral]] = [(_TIM1_BASE, motors), (_ADC_BASE, converter), (_DMA_BASE, dma)]
-        return made + [(_COUNTERS[name], timer) for name, timer in timers.items()]
+        return made
 
     def _map(self) -> None:
         space = self.space

@@ -154,6 +154,10 @@ class Rcc(Peripheral):
         """Speed of the serial port's clock."""
         return self.apb2_hz()
 
+    def adc_hz(self) -> int:
+        """Speed of what the converter divides its clock from."""
+        return self.core_hz()
+
     def apb1_hz(self) -> int:
         """Speed of the slower bus."""
         return self._hclk() >> max(self.prescalers()[0] - 3, 0)

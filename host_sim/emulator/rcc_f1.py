@@ -44,9 +44,9 @@ class RccF1(Rcc):
         if self.pll_hz() > self._oscillators.core_max:
             raise BoardError(f"RCC CR was written to start the PLL at {self.pll_hz()} Hz, which it cannot make")
 
-    def adc_divisor(self) -> int:
-        """What the converter's clock is divided by."""
-        return 2 * ((self.cfgr.value >> 14 & 3) + 1)
+    def adc_hz(self) -> int:
+        """Speed of the converter's clock."""
+        return self.apb2_hz() // (2 * ((self.cfgr.value >> 14 & 3) + 1))
 
     def _write_cfgr(self, value: int) -> None:
         """The PLL's fields stay as they are while it is on."""

@@ -1,4 +1,4 @@
-"""The timers of an STM32F1 (RM0008 14, 15), as a robot uses them: PWM with a break, encoders, external clock."""
+"""The timers of STM32F1 and G4 (RM0008 14, 15; RM0440 28, 29) as a robot uses them: PWM, encoders, pulses."""
 
 from collections.abc import Callable
 

@@ -228,7 +228,8 @@ class RunConfig:
                 raise UsageError(f"{name} must be one of {row.range}, not {value!r}")
         if self.body == PINS and self.robot != "emulated":
             raise UsageError(
-                "--body pins is a robot on the pins of an emulated board: use --robot emulated --board blue_pill"
+                "--body pins is a robot on the pins of an emulated board: use --robot emulated --board blue_pill or "
+                "nucleo_g431rb"
             )
 
     def command(self) -> str:

@@ -1,4 +1,4 @@
-"""The other half of the wire: a body on the pins of a Blue Pill, and a brain on a Feather."""
+"""The other half of the wire: a body on the pins of a Blue Pill or a Nucleo, and a brain on a Feather."""
 
 from itertools import pairwise
 
@@ -75,8 +75,9 @@ def test_bodies_keep_the_contract_of_the_wire(source, profile, tmp_path):
     assert all(it.signals["result"] == Result.DONE for it in said if it.name == "ANSWER")
 
 
-def test_it_drives_and_touches_nothing(boards):
-    place = arena()
+@pytest.mark.parametrize("body", ["blue_pill", "nucleo_g431rb"])
+def test_it_drives_and_touches_nothing(body):
+    boards, place = TwoBoards(body=body), arena()
     start = place.body.pose
     started(boards).live(place, 300)
     assert abs(place.body.pose.x_mm - start.x_mm) + abs(place.body.pose.y_mm - start.y_mm) > 100

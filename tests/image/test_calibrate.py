@@ -8,7 +8,7 @@ from host_sim.client.connection import Connection
 from host_sim.client.frame_log import NoLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
-from host_sim.emulator.chips import STM32F103
+from host_sim.emulator.chips import STM32F103, STM32G431
 from host_sim.emulator.flash import FlashFaults
 from host_sim.emulator.hardware import Faults
 from host_sim.emulator.pins_board import PinsBoard, start_robot
@@ -98,12 +98,13 @@ def test_the_button_held_at_power_up_measures_light(rig):
     assert rig.calibration.get("body_near_front") == round(rig.places.true_traits()["body_near_front"])
 
 
-def test_a_power_cut_at_any_write_leaves_the_old_value_or_the_new_and_always_the_memory():
+@pytest.mark.parametrize("chip", [STM32F103, STM32G431], ids=lambda chip: chip.name)
+def test_a_power_cut_at_any_write_leaves_the_old_value_or_the_new_and_always_the_memory(chip):
     found, cut_at, operations = set(), 0, 1
     while cut_at < operations:
         cut_at += 1
         faults = Faults(flash=FlashFaults(cut_at=cut_at))
-        talk = Talk(PinsBoard(STM32F103, image_path("blue_pill", "pins"), faults))
+        talk = Talk(PinsBoard(chip, image_path(chip.name, "pins"), faults))
         talk.order("write", mask=0b1111, half=0, byte_0=0, byte_1=1, byte_2=0, byte_3=0)
         talk.wait(0.1)
         of_memory = talk.board.hardware.flash.operations

@@ -4,7 +4,7 @@ import pytest
 
 from host_sim.emulator.board_pins import read_pins
 from host_sim.emulator.clock import SECOND
-from host_sim.emulator.converter import Converter, Dma
+from host_sim.emulator.converter import ConverterF1, ConverterG4, Dma, Multiplexer
 from host_sim.emulator.interrupts import Interrupts
 from host_sim.emulator.ports import GpioF1, GpioG4
 from host_sim.emulator.registers import BoardError, Register
@@ -148,7 +148,7 @@ def test_a_duty_is_that_of_a_running_enabled_unbroken_channel(motors):
 @pytest.fixture
 def converter():
     dma = Dma()
-    made = Converter(0x40012400, lambda: 72_000_000, lambda: 6, dma)
+    made = ConverterF1(0x40012400, lambda: 12_000_000, dma)
     for offset, value in ((0x08, 0x5A1), (0x0C, 2), (0x10, 0x4001244C), (0x14, 0x20000100)):
         write(dma, offset, value)
     for offset, value in ((0x2C, 1 << 20), (0x34, 3 | 5 << 5), (0x04, 1 << 8), (0x08, 1), (0x08, 1 | 1 << 2)):
@@ -177,9 +177,68 @@ def test_a_round_of_another_length_and_a_clock_too_fast_are_refused(converter):
     write(dma, 0x0C, 3)
     with pytest.raises(BoardError, match="converts 2 channels in a round, and DMA1 carries 3 off"):
         made.convert({})
-    fast = Converter(0x40012400, lambda: 72_000_000, lambda: 2, dma)
+    fast = ConverterF1(0x40012400, lambda: 36_000_000, dma)
     with pytest.raises(BoardError, match="36000000 Hz, where 14000000 is allowed"):
         write(fast, 0x08, 1)
+
+
+ON, START, REGULATOR, CALIBRATE = 1, 4, 1 << 28, 1 << 31
+
+
+@pytest.fixture
+def converter_g4():
+    dma, before = Dma(), Multiplexer()
+    made = ConverterG4(0x50000000, lambda: 80_000_000, dma, before)
+    for offset, value in ((0x08, 0x5A1), (0x0C, 6), (0x10, 0x50000040), (0x14, 0x20000100)):
+        write(dma, offset, value)
+    write(before, 0, 5)
+    order = (9, 8, 7, 6, 1, 2)
+    write(made, 0x30, 5 | sum(channel << 6 * place for place, channel in enumerate(order[:4], 1)))
+    write(made, 0x34, order[4] | order[5] << 6)
+    write(made, 0x0C, 1 << 13 | 3)
+    write(made, 0x308, 3 << 16)
+    return made, before
+
+
+def switched_on(made):
+    for value in (0, CALIBRATE, ON, ON | START):
+        write(made, 0x08, REGULATOR | value)
+        assert read(made, 0x08) & CALIBRATE == 0
+    assert read(made, 0x00) == ON
+    return made
+
+
+def test_a_g4_converts_a_round_over_two_registers_in_its_order(converter_g4):
+    made, before = converter_g4
+    assert made.convert({}) is None
+    at, data = switched_on(made).convert({9: 9, 8: 8, 7: 7, 6: 6, 1: 1, 2: 2, 3: 3})
+    assert (at, data[::2]) == (0x20000100, bytes((9, 8, 7, 6, 1, 2)))
+    write(before, 0, 6)
+    assert made.convert({}) is None
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        ([ON], "before its regulator"),
+        ([REGULATOR, REGULATOR | ON, REGULATOR | CALIBRATE], "calibrated while it was on"),
+    ],
+)
+def test_what_a_g4s_converter_cannot_do_is_refused(converter_g4, words, why):
+    made, _ = converter_g4
+    for value in words[:-1]:
+        write(made, 0x08, value)
+    with pytest.raises(BoardError, match=why):
+        write(made, 0x08, words[-1])
+
+
+@pytest.mark.parametrize(("divisor", "hz"), [(0, 0), (1, 80_000_000)])
+def test_a_g4s_converter_needs_a_clock_that_it_can_follow(converter_g4, divisor, hz):
+    made, _ = converter_g4
+    write(made, 0x308, divisor << 16)
+    write(made, 0x08, REGULATOR)
+    with pytest.raises(BoardError, match=f"at {hz} Hz, where 60000000 is allowed"):
+        write(made, 0x08, REGULATOR | ON)
 
 
 def test_a_status_is_cleared_by_zeros_from_python_too():

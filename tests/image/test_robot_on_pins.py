@@ -1,5 +1,6 @@
-"""A robot of its own on the pins of an emulated Blue Pill: it drives, and what is wired wrong shows."""
+"""A robot of its own on the pins of an emulated board: it drives, and what is wired wrong shows."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -14,6 +15,7 @@ from tests.runs.support import octet_process
 
 PINS = RunConfig(seed=2, environments=1, robot="emulated", board="blue_pill", body="pins", limit_s=20)
 TICKS = 250
+BOARDS = ["blue_pill", "nucleo_g431rb"]
 
 
 def board_of(simulation: Simulation) -> PinsBoard:
@@ -28,10 +30,11 @@ def counts(simulation: Simulation) -> list[int]:
     return [robot.timers[name].registers[0x24].value for name in ("TIM3", "TIM4")]
 
 
-def test_its_log_is_that_of_the_firmware_and_comes_again(tmp_path):
+@pytest.mark.parametrize("board", BOARDS)
+def test_its_log_is_that_of_the_firmware_and_comes_again(board, tmp_path):
     logs = []
     for name in "ab":
-        words = PINS.command().split()[1:]
+        words = replace(PINS, board=board).command().split()[1:]
         out = tmp_path / name
         octet_process("run", *words, "--out", out).check_returncode()
         logs.append((out / "run.log").read_bytes())
@@ -40,8 +43,9 @@ def test_its_log_is_that_of_the_firmware_and_comes_again(tmp_path):
     assert logs[0] == logs[1]
 
 
-def test_it_drives_and_touches_nothing():
-    with make(PINS) as simulation:
+@pytest.mark.parametrize("board", BOARDS)
+def test_it_drives_and_touches_nothing(board):
+    with make(replace(PINS, board=board)) as simulation:
         simulation.enter(1)
         start = simulation.arena.bodies[0].pose
         for _ in range(TICKS):
@@ -75,8 +79,9 @@ def test_can_on_a_wrong_pin_is_heard_by_nobody():
     assert Frame in {type(frame) for frame in board.pass_time(0.1)}
 
 
-def test_a_sensor_whose_wire_is_broken_sees_nothing():
-    board = start_robot("blue_pill")
+@pytest.mark.parametrize("name", BOARDS)
+def test_a_sensor_whose_wire_is_broken_sees_nothing(name):
+    board = start_robot(name)
     board.robot.light = [4000] * 5
     board.robot.wiring.rewire("PROXIMITY_FRONT")
     assert feel_of(board) == 0b11011
@@ -111,8 +116,9 @@ def test_an_encoder_that_counts_against_its_motor_stops_the_robot_within_a_secon
         assert not port.drives(pin)
 
 
-def test_a_fault_of_the_bridge_stops_the_pwm_without_the_image():
-    with make(PINS) as simulation:
+@pytest.mark.parametrize("name", BOARDS)
+def test_a_fault_of_the_bridge_stops_the_pwm_without_the_image(name):
+    with make(replace(PINS, board=name)) as simulation:
         simulation.enter(1)
         for _ in range(20):
             simulation.step()
@@ -125,8 +131,9 @@ def test_a_fault_of_the_bridge_stops_the_pwm_without_the_image():
         assert not port.drives(pin)
 
 
-def test_the_button_starts_and_stops_it_without_a_pc():
-    board = start_robot("blue_pill")
+@pytest.mark.parametrize("name", BOARDS)
+def test_the_button_starts_and_stops_it_without_a_pc(name):
+    board = start_robot(name)
     board.robot.set_button(True)
     board.pass_time(0.3)
     board.robot.set_button(False)
@@ -140,24 +147,30 @@ def test_the_button_starts_and_stops_it_without_a_pc():
     assert board.robot.motors.duty(2) == 0
 
 
-def test_its_tick_has_no_jitter():
-    board = start_robot("blue_pill")
-    moments = []
-    take = board._take_pair
+@pytest.mark.parametrize("name", BOARDS)
+def test_its_beat_has_no_jitter(name):
+    with make(replace(PINS, board=name)) as simulation:
+        board = board_of(simulation)
+        moments = []
+        pwm = board.robot.motors.registers[0x38]
+        board.hardware.space.watch()
 
-    def note(sensed: Frame, drive: Frame) -> None:
-        moments.append(board.now())
-        take(sensed, drive)
+        def note(value: int) -> None:
+            moments.append(board.now())
+            pwm.value = value
 
-    board._take_pair = note  # type: ignore[method-assign]
-    board.pass_time(2.0)
+        pwm.on_write = note
+        simulation.enter(1)
+        for _ in range(50):
+            simulation.step()
     spans = [b - a for a, b in pairwise(moments)]
-    assert len(spans) > 90
-    assert max(abs(span - 0.02) for span in spans) < 1e-3
+    assert len(spans) > 190
+    assert max(abs(span - 0.005) for span in spans) < 1e-6
 
 
 def test_other_boards_and_robots_are_refused():
-    with pytest.raises(UsageError, match="no robot of its own runs on feather_stm32f405: use --board blue_pill"):
+    why = "no robot of its own runs on feather_stm32f405: use --board blue_pill or nucleo_g431rb"
+    with pytest.raises(UsageError, match=why):
         start_robot("feather_stm32f405")
     with pytest.raises(UsageError, match="use --robot emulated --board blue_pill"):
         RunConfig(body="pins")

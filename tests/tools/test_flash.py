@@ -53,7 +53,7 @@ def test_every_board_has_a_chip_and_its_links() -> None:
     assert {board.name: (board.chip, *board.links) for board in BOARDS.values()} == {
         "blue_pill": ("stm32f103", "bxcan", "slcan", "pins", "mute", "body"),
         "feather_stm32f405": ("stm32f405", "bxcan", "slcan"),
-        "nucleo_g431rb": ("stm32g431", "fdcan", "slcan"),
+        "nucleo_g431rb": ("stm32g431", "fdcan", "slcan", "pins", "mute", "body"),
         "olimex_stm32_h405": ("stm32f405", "bxcan", "slcan"),
     }
 
@@ -78,7 +78,7 @@ def test_a_board_that_does_not_exist_is_refused() -> None:
 def test_a_link_that_does_not_exist_is_refused() -> None:
     with pytest.raises(FlashError, match="no link usb on blue_pill; there are bxcan, slcan"):
         build(BOARDS["blue_pill"], "usb", 1, 500_000)
-    with pytest.raises(FlashError, match="no link bxcan on nucleo_g431rb; there are fdcan, slcan"):
+    with pytest.raises(FlashError, match="no link bxcan on nucleo_g431rb; there are fdcan, slcan, pins, mute, body"):
         build(BOARDS["nucleo_g431rb"], "bxcan", 1, 500_000)
 
 

@@ -1,27 +1,31 @@
-#include "hal/stm32/stm32f103/gpio.h"
+/* Four bits of mode a pin (RM0008 9.2); what a peripheral is joined to, AFIO says. */
+#include "hal/stm32/gpio/gpio.h"
 
 #include "hal/stm32/stm32f103/registers.h"
 
-void gpio_mode(struct pin pin, uint32_t mode)
-{
-    volatile uint32_t *reg = &GPIO[pin.port].at.cr[pin.number / 8u];
-    unsigned at = 4u * (pin.number % 8u);
+enum { ANALOGUE = 0, OUTPUT_2_MHZ = 2, PULLED = 8, ALTERNATE_50_MHZ = 11 };
 
-    *reg = (*reg & ~(15u << at)) | mode << at;
+void gpio_set(uint32_t pin, enum gpio_mode mode, uint32_t function)
+{
+    static const uint8_t modes[GPIO_MODES] = {
+        [GPIO_ANALOGUE] = ANALOGUE, [GPIO_OUTPUT] = OUTPUT_2_MHZ, [GPIO_PULLED_UP] = PULLED, [GPIO_FROM] = PULLED,
+        [GPIO_TO] = ALTERNATE_50_MHZ,
+    };
+    volatile uint32_t *reg = &GPIO[pin / PORT_PINS].at.cr[pin % PORT_PINS / 8];
+    unsigned at = 4 * (pin % 8);
+
+    (void)function;
+    if (modes[mode] == PULLED)
+        gpio_write(pin, true);
+    *reg = (*reg & ~(15u << at)) | (uint32_t)modes[mode] << at;
 }
 
-void gpio_pull_up(struct pin pin)
+void gpio_write(uint32_t pin, bool high)
 {
-    gpio_write(pin, true);
-    gpio_mode(pin, GPIO_PULLED);
+    GPIO[pin / PORT_PINS].at.bsrr = 1u << (pin % PORT_PINS + (high ? 0u : 16u));
 }
 
-void gpio_write(struct pin pin, bool high)
+bool gpio_read(uint32_t pin)
 {
-    GPIO[pin.port].at.bsrr = 1u << (pin.number + (high ? 0u : 16u));
-}
-
-bool gpio_read(struct pin pin)
-{
-    return GPIO[pin.port].at.idr >> pin.number & 1u;
+    return GPIO[pin / PORT_PINS].at.idr >> pin % PORT_PINS & 1u;
 }

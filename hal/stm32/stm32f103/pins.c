@@ -1,6 +1,5 @@
-#include "hal/port/cortex_m/mcu.h"
 #include "hal/stm32/chip.h"
-#include "hal/stm32/stm32f103/gpio.h"
+#include "hal/stm32/gpio/gpio.h"
 #include "hal/stm32/stm32f103/registers.h"
 
 enum {
@@ -13,21 +12,11 @@ enum {
     MAPR_NO_JTAG = 2u << 24       /* SWD stays: the other pins of JTAG are free */
 };
 
-/* An open receive pin reads idle. */
 void pins_start(void)
 {
     RCC.apb2enr |= AFIO_ON | GPIO_A_TO_C | USART1_ON;
     RCC.apb1enr |= CAN1_ON | PWR_ON;
     PWR.cr |= BELOW_2_9_V;
     AFIO.mapr = (uint32_t)BOARD_REMAP | MAPR_NO_JTAG;
-    gpio_pull_up(BOARD_CAN_RX);
-    gpio_pull_up(BOARD_UART_RX);
-    gpio_mode(BOARD_CAN_TX, GPIO_ALTERNATE);
-    gpio_mode(BOARD_UART_TX, GPIO_ALTERNATE);
-    gpio_mode(BOARD_LED, GPIO_OUTPUT);
-}
-
-void mcu_light(bool on)
-{
-    gpio_write(BOARD_LED, on == BOARD_LED_HIGH);
+    gpio_start();
 }

@@ -1,6 +1,6 @@
 # STM32F405: its own drivers, those that it shares, and the links that it has with what each is made of.
 set(OCTET_CHIP_SOURCES clock.c pins.c flash.c)
-set(OCTET_SHARED_SOURCES gpio_f4.c)
+set(OCTET_SHARED_SOURCES gpio/gpio_f4.c)
 
 # With a boot loader (docs/update.md): where it and the slots lie, bytes, and its RAM.
 set(OCTET_BOOT_SIZE 16384)

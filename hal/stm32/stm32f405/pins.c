@@ -1,5 +1,5 @@
 #include "hal/stm32/chip.h"
-#include "hal/stm32/gpio_f4.h"
+#include "hal/stm32/gpio/gpio.h"
 #include "hal/stm32/stm32f405/registers.h"
 
 enum {
@@ -7,9 +7,7 @@ enum {
     CAN1_ON = 1u << 25,           /* in apb1enr */
     PWR_ON = 1u << 28,
     BELOW_2_9_V = 1u << 4 | 7u << 5,
-    USART1_ON = 1u << 4,          /* in apb2enr */
-    AF_USART1 = 7,
-    AF_CAN1 = 9
+    USART1_ON = 1u << 4           /* in apb2enr */
 };
 
 void pins_start(void)
@@ -18,5 +16,5 @@ void pins_start(void)
     RCC.apb1enr |= CAN1_ON | PWR_ON;
     RCC.apb2enr |= USART1_ON;
     PWR.cr |= BELOW_2_9_V;
-    gpio_start(AF_CAN1, AF_USART1);
+    gpio_start();
 }

@@ -1,5 +1,5 @@
 #include "hal/stm32/chip.h"
-#include "hal/stm32/gpio_f4.h"
+#include "hal/stm32/gpio/gpio.h"
 #include "hal/stm32/stm32g431/registers.h"
 
 enum {
@@ -8,9 +8,7 @@ enum {
     USART2_ON = 1u << 17,
     PWR_ON = 1u << 28,
     BELOW_2_9_V = 1u << 0 | 6u << 1,
-    CCIPR_FDCAN_PCLK1 = 2u << 24, /* else straight from the crystal, which may not be there */
-    AF_USART2 = 7,
-    AF_FDCAN1 = 9
+    CCIPR_FDCAN_PCLK1 = 2u << 24  /* else straight from the crystal, which may not be there */
 };
 
 void pins_start(void)
@@ -19,5 +17,5 @@ void pins_start(void)
     RCC.ccipr = CCIPR_FDCAN_PCLK1;
     RCC.apb1enr1 |= FDCAN_ON | USART2_ON | PWR_ON;
     PWR.cr2 |= BELOW_2_9_V;
-    gpio_start(AF_FDCAN1, AF_USART2);
+    gpio_start();
 }

@@ -51,6 +51,30 @@ struct power_registers {      /* 6.4 */
     uint32_t sr2;             /* r   6.4.6 */
 };
 
+struct adc_registers {        /* 21.7 */
+    uint32_t isr;             /* w1c */
+    uint32_t ier;             /* rw */
+    uint32_t cr;              /* rw, bits 0..5 and 31 w1s and cleared when done */
+    uint32_t cfgr;            /* rw while not begun */
+    uint32_t cfgr2;           /* rw */
+    uint32_t smpr[2];         /* rw   three bits a channel: 0..9, 10..18 */
+    uint32_t reserved_1[5];
+    uint32_t sqr[4];          /* rw   six bits a place: the number of them less 1 and 1..4, 5..9, 10..14, 15 and 16 */
+    uint32_t dr;              /* r */
+    uint32_t reserved_2[175];
+    struct {                  /* of ADC1 and ADC2 */
+        uint32_t csr;         /* r */
+        uint32_t reserved;
+        uint32_t ccr;         /* rw */
+    } common;                 /* at 0x300 */
+};
+
+struct dmamux_registers {     /* 13.6 */
+    uint32_t ccr[12];         /* rw   whose request each channel serves */
+};
+
+extern volatile struct adc_registers ADC1;
+extern volatile struct dmamux_registers DMAMUX;
 extern volatile struct rcc_registers RCC;
 extern volatile struct power_registers PWR;
 extern volatile struct flash_registers FLASH;

@@ -7,7 +7,8 @@
 #include "hal/port/cortex_m/mcu.h"
 #include "hal/stm32/board.h"
 #include "hal/stm32/chip.h"
-#include "hal/stm32/gpio_f4.h"
+#include "hal/stm32/gpio/gpio.h"
+#include "hal/stm32/gpio/gpio_f4.h"
 #include PINS_EXPECTED
 
 enum { PORTS = 3, PINS = 16, OUTPUT = 1, ALTERNATE = 2, PULLED_UP = 1 };
@@ -31,24 +32,20 @@ static uint32_t field(uint32_t reg, unsigned pin)
     return reg >> 2 * pin & 3u;
 }
 
-static void assert_connected(struct pin pin, uint32_t function)
+static void assert_connected(unsigned pin, uint32_t function, bool pulled_up)
 {
-    const volatile struct gpio_registers *gpio = &GPIO[pin.port].at;
+    const volatile struct gpio_registers *gpio = &GPIO[pin / PINS].at;
 
-    TEST_ASSERT_EQUAL_HEX32(ALTERNATE, field(gpio->moder, pin.number));
-    TEST_ASSERT_EQUAL_HEX32(PULLED_UP, field(gpio->pupdr, pin.number));
-    TEST_ASSERT_EQUAL_HEX32(function, gpio->afr[pin.number / 8] >> 4 * (pin.number % 8) & 15u);
-}
-
-static bool is(struct pin one, unsigned port, unsigned number)
-{
-    return one.port == port && one.number == number;
+    TEST_ASSERT_EQUAL_HEX32(ALTERNATE, field(gpio->moder, pin % PINS));
+    TEST_ASSERT_EQUAL_HEX32(pulled_up ? PULLED_UP : 0, field(gpio->pupdr, pin % PINS));
+    TEST_ASSERT_EQUAL_HEX32(function, gpio->afr[pin % PINS / 8] >> 4 * (pin % 8) & 15u);
 }
 
 static bool is_used(unsigned port, unsigned number)
 {
-    return is(BOARD_LED, port, number) || is(BOARD_CAN_RX, port, number) || is(BOARD_CAN_TX, port, number)
-           || is(BOARD_UART_RX, port, number) || is(BOARD_UART_TX, port, number);
+    unsigned pin = port * PINS + number;
+
+    return pin == BOARD_LED || pin == BOARD_CAN_RX || pin == BOARD_CAN_TX || pin == BOARD_UART_RX || pin == BOARD_UART_TX;
 }
 
 TEST(the_registers_lie_where_the_manual_has_them)
@@ -60,10 +57,10 @@ TEST(the_registers_lie_where_the_manual_has_them)
 
 TEST(can_and_the_serial_port_have_their_pins)
 {
-    assert_connected(BOARD_CAN_RX, CAN_FUNCTION);
-    assert_connected(BOARD_CAN_TX, CAN_FUNCTION);
-    assert_connected(BOARD_UART_RX, UART_FUNCTION);
-    assert_connected(BOARD_UART_TX, UART_FUNCTION);
+    assert_connected(BOARD_CAN_RX, CAN_FUNCTION, true);
+    assert_connected(BOARD_CAN_TX, CAN_FUNCTION, false);
+    assert_connected(BOARD_UART_RX, UART_FUNCTION, true);
+    assert_connected(BOARD_UART_TX, UART_FUNCTION, false);
 }
 
 TEST(no_other_pin_is_touched)
@@ -85,9 +82,9 @@ TEST(what_is_used_has_power)
 
 TEST(the_led_is_lit_as_the_board_has_it)
 {
-    TEST_ASSERT_EQUAL_HEX32(OUTPUT, field(GPIO[BOARD_LED.port].at.moder, BOARD_LED.number));
+    TEST_ASSERT_EQUAL_HEX32(OUTPUT, field(GPIO[BOARD_LED / PINS].at.moder, BOARD_LED % PINS));
     mcu_light(true);
-    TEST_ASSERT_EQUAL_HEX32(LIT, GPIO[BOARD_LED.port].at.bsrr);
+    TEST_ASSERT_EQUAL_HEX32(LIT, GPIO[BOARD_LED / PINS].at.bsrr);
     mcu_light(false);
-    TEST_ASSERT_EQUAL_HEX32(DARK, GPIO[BOARD_LED.port].at.bsrr);
+    TEST_ASSERT_EQUAL_HEX32(DARK, GPIO[BOARD_LED / PINS].at.bsrr);
 }

@@ -24,8 +24,4 @@ struct gpio_port {            /* one each 1 KB */
 
 extern volatile struct gpio_port GPIO[];   /* from A on */
 
-void gpio_start(uint32_t can_function, uint32_t uart_function);
-        /* The board's pins, once their ports have power: those of CAN and of the serial port get these functions, with a
-           pull-up, so that an open receive pin reads idle; the LED's is an output. */
-
 #endif

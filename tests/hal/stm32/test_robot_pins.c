@@ -1,15 +1,19 @@
-/* The pins of a robot of its own on a Blue Pill, on registers that lie in the test's memory (RM0008). */
+/* The pins of a robot of its own, on registers that lie in the test's memory. Built once for each chip that has one, on one of its
+ * boards, with ROBOT_EXPECTED: the header that says what is expected of it. */
 #include <stddef.h>
 #include <string.h>
 
 #include "hal/pins_body/pins.h"
 #include "hal/port/cortex_m/core.h"
 #include "hal/stm32/machine.h"
-#include "hal/stm32/stm32f103/registers.h"
+#include "hal/stm32/robot/timer_registers.h"
 #include "tests/test.h"
 
-enum { PORTS = 5, TOP = 3600, ANALOGUE = 0, PULLED = 8, OUTPUT = 2, ALTERNATE = 11, FLOATING = 4 };
-enum { A = 0, B = 1 };
+enum { PORTS = 5, A = 0, B = 1, C = 2 };
+
+#include ROBOT_EXPECTED
+
+enum { TOP = CORE_HZ / 20000 };
 
 volatile struct rcc_registers RCC;
 volatile struct gpio_port GPIO[PORTS];
@@ -22,7 +26,7 @@ static unsigned slept;
 
 struct clocks machine_clocks(void)
 {
-    return (struct clocks){.core_hz = 72000000};
+    return (struct clocks){.core_hz = CORE_HZ};
 }
 
 void core_sleep(void)
@@ -36,16 +40,10 @@ void setUp(void)
     memset((void *)&RCC, 0, sizeof RCC);
     memset((void *)&ADC1, 0, sizeof ADC1);
     memset((void *)GPIO, 0, sizeof GPIO);
-    for (unsigned port = 0; port < PORTS; port++)
-        GPIO[port].at.cr[0] = GPIO[port].at.cr[1] = 0x44444444;
+    pins_after_reset();
     TIM1.sr = 1 << 7;   /* of before */
     slept = 0;
     pins_open();
-}
-
-static uint32_t mode(unsigned port, unsigned pin)
-{
-    return GPIO[port].at.cr[pin / 8] >> 4 * (pin % 8) & 15u;
 }
 
 TEST(the_registers_lie_where_the_manual_has_them)
@@ -53,25 +51,15 @@ TEST(the_registers_lie_where_the_manual_has_them)
     TEST_ASSERT_EQUAL_HEX(0x24, offsetof(struct timer_registers, cnt));
     TEST_ASSERT_EQUAL_HEX(0x34, offsetof(struct timer_registers, ccr));
     TEST_ASSERT_EQUAL_HEX(0x44, offsetof(struct timer_registers, bdtr));
-    TEST_ASSERT_EQUAL_HEX(0x2C, offsetof(struct adc_registers, sqr));
-    TEST_ASSERT_EQUAL_HEX(0x4C, offsetof(struct adc_registers, dr));
+    TEST_ASSERT_EQUAL_HEX(SQR_AT, offsetof(struct adc_registers, sqr));
+    TEST_ASSERT_EQUAL_HEX(DR_AT, offsetof(struct adc_registers, dr));
     TEST_ASSERT_EQUAL_HEX(0x14, offsetof(struct dma_registers, channel[0].cmar));
     TEST_ASSERT_EQUAL_HEX(0x180, offsetof(struct interrupt_registers, icpr));
 }
 
 TEST(each_pin_is_what_its_signal_needs)
 {
-    for (unsigned pin = 0; pin <= 5; pin++)
-        TEST_ASSERT_EQUAL_HEX32(ANALOGUE, mode(A, pin));
-    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(A, 6));
-    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(A, 8));
-    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(A, 15));
-    TEST_ASSERT_EQUAL_HEX32(PULLED, mode(B, 12));
-    TEST_ASSERT_EQUAL_HEX32(OUTPUT, mode(B, 5));
-    TEST_ASSERT_EQUAL_HEX32(OUTPUT, mode(B, 13));
-    TEST_ASSERT_EQUAL_HEX32(ALTERNATE, mode(B, 14));
-    TEST_ASSERT_EQUAL_HEX32(ALTERNATE, mode(B, 15));
-    TEST_ASSERT_EQUAL_HEX32(FLOATING, mode(A, 13));
+    assert_pins();
 }
 
 /* Power for all that is used; a beat of 5 ms of PWM at 20 kHz, which the bridge can break; encoders and bursts counted by
@@ -82,11 +70,7 @@ TEST(the_registers_are_as_the_manual_wants_them)
         const char *name;
         uint32_t wanted, is;
     } cases[] = {
-        {"RCC ahbenr", 1, RCC.ahbenr},
-        {"RCC apb2enr", 1 << 9 | 1 << 11, RCC.apb2enr},
-        {"RCC apb1enr", 7, RCC.apb1enr},
-        {"RCC cfgr", 2 << 14, RCC.cfgr},
-        {"TIM1 arr", 72000000 / 20000 - 1, TIM1.arr},
+        {"TIM1 arr", TOP - 1, TIM1.arr},
         {"TIM1 rcr", 20000 / 200 - 1, TIM1.rcr},
         {"TIM1 ccmr1", 0x6800, TIM1.ccmr[0]},
         {"TIM1 ccmr2", 0x0068, TIM1.ccmr[1]},
@@ -108,11 +92,7 @@ TEST(the_registers_are_as_the_manual_wants_them)
         {"DMA1 cndtr", 6, DMA1.channel[0].cndtr},
         {"DMA1 ccr", 0x5A1, DMA1.channel[0].ccr},
         {"DMA1 cpar", (uint32_t)(uintptr_t)&ADC1.dr, DMA1.channel[0].cpar},
-        {"ADC1 sqr1", 5 << 20, ADC1.sqr[0]},
-        {"ADC1 sqr3", 0 | 1 << 5 | 2 << 10 | 3 << 15 | 4 << 20 | 5 << 25, ADC1.sqr[2]},
-        {"ADC1 smpr2", 0x3FFFF, ADC1.smpr[1]},
-        {"ADC1 cr1", 1 << 8, ADC1.cr1},
-        {"ADC1 cr2", 1 << 22 | 1 << 20 | 7 << 17 | 1 << 8 | 3, ADC1.cr2},
+        CHIP_REGISTERS
     };
 
     for (unsigned i = 0; i < sizeof cases / sizeof *cases; i++)

@@ -1,18 +1,14 @@
-/* A robot of its own on an STM32F103 (RM0008): TIM1 makes the PWM of both motors and the beat, TIM3 and TIM4 count the encoders,
- * TIM2 the beacon's bursts, and the converter fills samples by DMA, over and over. */
+/* A robot of its own on an STM32F1 or G4 (RM0008, RM0440): TIM1 makes the PWM of both motors and the beat, TIM3 and TIM4 count the
+ * encoders, TIM2 the beacon's bursts, and the converter fills samples by DMA, over and over. */
 #include "hal/pins_body/pins.h"
 
 #include "hal/port/cortex_m/core.h"
-#include "hal/stm32/board.h"
+#include "hal/stm32/robot/converter.h"
+#include "hal/stm32/gpio/gpio.h"
 #include "hal/stm32/machine.h"
-#include "hal/stm32/stm32f103/gpio.h"
-#include "hal/stm32/stm32f103/registers.h"
+#include "hal/stm32/robot/timer_registers.h"
 
 enum {
-    DMA1_ON = 1u << 0,                             /* in ahbenr */
-    ADC1_TIM1_ON = 1u << 9 | 1u << 11,             /* in apb2enr */
-    TIM2_TO_4_ON = 7u << 0,                        /* in apb1enr */
-    ADC_BY_6 = 2u << 14,                           /* in cfgr: at most 14 MHz */
     PWM_HZ = 20000, PWM_PERIODS = 100,             /* in a beat of 5 ms */
     CEN = 1u << 0, UIE = 1u << 0, UIF = 1u << 0, UG = 1u << 0, ARPE = 1u << 7,
     TIM1_UP = 25,                                  /* its interrupt */
@@ -22,44 +18,42 @@ enum {
     ENCODER = 3, FROM_INPUTS = 0x0101 | 0x3030,    /* both edges of both inputs, which last 8 counts of the clock */
     EXTERNAL_BY_INPUT_1 = 7u | 5u << 4, FROM_INPUT_1 = 0x0031,
     TOP = 0xFFFF,
-    ADC_ON = 1u << 0, CONTINUOUS = 1u << 1, CALIBRATE = 1u << 2, RESET_CALIBRATION = 1u << 3, BY_DMA = 1u << 8,
-    BY_SOFTWARE = 7u << 17 | 1u << 20, BEGIN = 1u << 22,
-    SCAN = 1u << 8, LONGEST_SAMPLE = 7,            /* in cr1; 239.5 cycles of 12 MHz */
-    CALIBRATION_WAIT_MAX = 20000,                  /* looks; it takes some 90 cycles of the converter */
     CIRCULAR_HALVES = 1u << 0 | 1u << 5 | 1u << 7 | 1u << 8 | 1u << 10,   /* on, round and round, to memory, 16 bits each */
-    SAMPLES = FEEL_COUNT + 1, BATTERY = FEEL_COUNT,
+    BATTERY = FEEL_COUNT,
     SUPPLY_MV = 3300, BATTERY_PARTS = 3, SAMPLE_SPAN = 4096
 };
 
-static const uint8_t CHANNELS[SAMPLES] = {
+static const uint8_t CHANNELS[CONVERTER_SAMPLES] = {
     BOARD_PROXIMITY_RIGHT_CHANNEL, BOARD_PROXIMITY_FRONT_RIGHT_CHANNEL, BOARD_PROXIMITY_FRONT_CHANNEL,
     BOARD_PROXIMITY_FRONT_LEFT_CHANNEL, BOARD_PROXIMITY_LEFT_CHANNEL, BOARD_BATTERY_CHANNEL,
 };
-static volatile uint16_t samples[SAMPLES];   /* the converter's */
+static volatile uint16_t samples[CONVERTER_SAMPLES];   /* the converter's */
 
-static void set_modes(void)
-{
-    const struct pin analogue[SAMPLES] = {
-        BOARD_PROXIMITY_RIGHT, BOARD_PROXIMITY_FRONT_RIGHT, BOARD_PROXIMITY_FRONT, BOARD_PROXIMITY_FRONT_LEFT,
-        BOARD_PROXIMITY_LEFT, BOARD_BATTERY,
-    };
-    const struct pin pulled_up[] = {
-        BOARD_LEFT_ENCODER_A, BOARD_LEFT_ENCODER_B, BOARD_RIGHT_ENCODER_A, BOARD_RIGHT_ENCODER_B, BOARD_BEACON,
-        BOARD_BRIDGE_FAULT, BOARD_BUMPER_LEFT, BOARD_BUMPER_RIGHT, BOARD_BUTTON,
-    };
-    const struct pin outputs[] = {BOARD_BRIDGE_AWAKE, BOARD_LEFT_BACK, BOARD_RIGHT_BACK, BOARD_INFRARED};
-
-    for (unsigned i = 0; i < sizeof outputs / sizeof *outputs; i++) {
-        gpio_write(outputs[i], false);
-        gpio_mode(outputs[i], GPIO_OUTPUT);
-    }
-    for (unsigned i = 0; i < SAMPLES; i++)
-        gpio_mode(analogue[i], GPIO_ANALOGUE);
-    for (unsigned i = 0; i < sizeof pulled_up / sizeof *pulled_up; i++)
-        gpio_pull_up(pulled_up[i]);
-    gpio_mode(BOARD_LEFT_PWM, GPIO_ALTERNATE);
-    gpio_mode(BOARD_RIGHT_PWM, GPIO_ALTERNATE);
-}
+static const struct {
+    uint8_t pin, mode, function;
+} PINS[] = {
+    {BOARD_BRIDGE_AWAKE, GPIO_OUTPUT, 0},
+    {BOARD_LEFT_BACK, GPIO_OUTPUT, 0},
+    {BOARD_RIGHT_BACK, GPIO_OUTPUT, 0},
+    {BOARD_INFRARED, GPIO_OUTPUT, 0},
+    {BOARD_PROXIMITY_RIGHT, GPIO_ANALOGUE, 0},
+    {BOARD_PROXIMITY_FRONT_RIGHT, GPIO_ANALOGUE, 0},
+    {BOARD_PROXIMITY_FRONT, GPIO_ANALOGUE, 0},
+    {BOARD_PROXIMITY_FRONT_LEFT, GPIO_ANALOGUE, 0},
+    {BOARD_PROXIMITY_LEFT, GPIO_ANALOGUE, 0},
+    {BOARD_BATTERY, GPIO_ANALOGUE, 0},
+    {BOARD_BUMPER_LEFT, GPIO_PULLED_UP, 0},
+    {BOARD_BUMPER_RIGHT, GPIO_PULLED_UP, 0},
+    {BOARD_BUTTON, GPIO_PULLED_UP, 0},
+    {BOARD_LEFT_ENCODER_A, GPIO_FROM, BOARD_LEFT_ENCODER_A_FUNCTION},
+    {BOARD_LEFT_ENCODER_B, GPIO_FROM, BOARD_LEFT_ENCODER_B_FUNCTION},
+    {BOARD_RIGHT_ENCODER_A, GPIO_FROM, BOARD_RIGHT_ENCODER_A_FUNCTION},
+    {BOARD_RIGHT_ENCODER_B, GPIO_FROM, BOARD_RIGHT_ENCODER_B_FUNCTION},
+    {BOARD_BEACON, GPIO_FROM, BOARD_BEACON_FUNCTION},
+    {BOARD_BRIDGE_FAULT, GPIO_FROM, BOARD_BRIDGE_FAULT_FUNCTION},
+    {BOARD_LEFT_PWM, GPIO_TO, BOARD_LEFT_PWM_FUNCTION},
+    {BOARD_RIGHT_PWM, GPIO_TO, BOARD_RIGHT_PWM_FUNCTION},
+};
 
 static void start_counter(volatile struct timer_registers *timer, uint32_t inputs, uint32_t mode)
 {
@@ -85,46 +79,28 @@ static void start_motors(void)
     TIM1.cr1 = CEN | ARPE;
 }
 
-static void await_clear(uint32_t bit)
+static void start_converter(const volatile uint32_t *data)
 {
-    ADC1.cr2 = ADC_ON | bit;
-    for (unsigned i = 0; i < CALIBRATION_WAIT_MAX && (ADC1.cr2 & bit); i++)
-        continue;
-}
-
-static void start_converter(void)
-{
-    uint32_t order = 0;
-
-    for (unsigned i = 0; i < SAMPLES; i++) {
-        order |= (uint32_t)CHANNELS[i] << 5 * i;
-        ADC1.smpr[1] |= (uint32_t)LONGEST_SAMPLE << 3 * CHANNELS[i];
-    }
-    DMA1.channel[0].cndtr = SAMPLES;
-    DMA1.channel[0].cpar = (uint32_t)(uintptr_t)&ADC1.dr;
+    DMA1.channel[0].cndtr = CONVERTER_SAMPLES;
+    DMA1.channel[0].cpar = (uint32_t)(uintptr_t)data;
     DMA1.channel[0].cmar = (uint32_t)(uintptr_t)samples;
     DMA1.channel[0].ccr = CIRCULAR_HALVES;
-    ADC1.sqr[0] = (SAMPLES - 1u) << 20;
-    ADC1.sqr[2] = order;
-    ADC1.cr1 = SCAN;
-    ADC1.cr2 = ADC_ON;
-    await_clear(RESET_CALIBRATION);
-    await_clear(CALIBRATE);
-    ADC1.cr2 = ADC_ON | CONTINUOUS | BY_DMA | BY_SOFTWARE;
-    ADC1.cr2 = ADC_ON | CONTINUOUS | BY_DMA | BY_SOFTWARE | BEGIN;
+    converter_start(CHANNELS);
 }
 
 void pins_open(void)
 {
-    RCC.ahbenr |= DMA1_ON;
-    RCC.apb2enr |= ADC1_TIM1_ON;
-    RCC.apb1enr |= TIM2_TO_4_ON;
-    RCC.cfgr |= ADC_BY_6;
-    set_modes();
+    const volatile uint32_t *data = converter_power();
+
+    for (unsigned i = 0; i < sizeof PINS / sizeof *PINS; i++) {
+        if (PINS[i].mode == GPIO_OUTPUT)
+            gpio_write(PINS[i].pin, false);
+        gpio_set(PINS[i].pin, (enum gpio_mode)PINS[i].mode, PINS[i].function);
+    }
     start_counter(&TIM3, FROM_INPUTS, ENCODER);
     start_counter(&TIM4, FROM_INPUTS, ENCODER);
     start_counter(&TIM2, FROM_INPUT_1, EXTERNAL_BY_INPUT_1);
-    start_converter();
+    start_converter(data);
     start_motors();
 }
 

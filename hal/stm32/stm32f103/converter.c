@@ -1,0 +1,49 @@
+/* The converter of an STM32F1 (RM0008 11). */
+#include "hal/stm32/robot/converter.h"
+
+#include "hal/stm32/stm32f103/registers.h"
+
+enum {
+    DMA1_ON = 1u << 0,                             /* in ahbenr */
+    ADC1_TIM1_ON = 1u << 9 | 1u << 11,             /* in apb2enr */
+    TIM2_TO_4_ON = 7u << 0,                        /* in apb1enr */
+    ADC_BY_6 = 2u << 14,                           /* in cfgr: at most 14 MHz */
+    ADC_ON = 1u << 0, CONTINUOUS = 1u << 1, CALIBRATE = 1u << 2, RESET_CALIBRATION = 1u << 3, BY_DMA = 1u << 8,
+    BY_SOFTWARE = 7u << 17 | 1u << 20, BEGIN = 1u << 22,
+    SCAN = 1u << 8, LONGEST_SAMPLE = 7,            /* in cr1; 239.5 cycles of 12 MHz */
+    CALIBRATION_WAIT_MAX = 20000                   /* looks; it takes some 90 cycles of the converter */
+};
+
+const volatile uint32_t *converter_power(void)
+{
+    RCC.ahbenr |= DMA1_ON;
+    RCC.apb2enr |= ADC1_TIM1_ON;
+    RCC.apb1enr |= TIM2_TO_4_ON;
+    RCC.cfgr |= ADC_BY_6;
+    return &ADC1.dr;
+}
+
+static void await_clear(uint32_t bit)
+{
+    ADC1.cr2 = ADC_ON | bit;
+    for (unsigned i = 0; i < CALIBRATION_WAIT_MAX && (ADC1.cr2 & bit); i++)
+        continue;
+}
+
+void converter_start(const uint8_t channels[CONVERTER_SAMPLES])
+{
+    uint32_t order = 0;
+
+    for (unsigned i = 0; i < CONVERTER_SAMPLES; i++) {
+        order |= (uint32_t)channels[i] << 5 * i;
+        ADC1.smpr[1] |= (uint32_t)LONGEST_SAMPLE << 3 * channels[i];
+    }
+    ADC1.sqr[0] = (CONVERTER_SAMPLES - 1u) << 20;
+    ADC1.sqr[2] = order;
+    ADC1.cr1 = SCAN;
+    ADC1.cr2 = ADC_ON;
+    await_clear(RESET_CALIBRATION);
+    await_clear(CALIBRATE);
+    ADC1.cr2 = ADC_ON | CONTINUOUS | BY_DMA | BY_SOFTWARE;
+    ADC1.cr2 = ADC_ON | CONTINUOUS | BY_DMA | BY_SOFTWARE | BEGIN;
+}

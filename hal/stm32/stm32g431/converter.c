@@ -1,0 +1,61 @@
+/* The converter of an STM32G4 (RM0440 21), and the multiplexer before DMA (13). */
+#include "hal/stm32/robot/converter.h"
+
+#include "hal/stm32/stm32g431/registers.h"
+
+enum {
+    DMA1_DMAMUX_ON = 1u << 0 | 1u << 2,            /* in ahb1enr */
+    ADC12_ON = 1u << 13,                           /* in ahb2enr */
+    TIM1_ON = 1u << 11,                            /* in apb2enr */
+    TIM2_TO_4_ON = 7u << 0,                        /* in apb1enr1 */
+    FROM_ADC1 = 5,                                 /* in the multiplexer */
+    CORE_BY_4 = 3u << 16,                          /* in the common ccr: 20 MHz */
+    ADC_ON = 1u << 0, BEGIN = 1u << 2, REGULATOR_ON = 1u << 28,   /* in cr */
+    READY = 1u << 0,                               /* in isr */
+    ROUND_BY_DMA = 3u << 0, KEEP_LAST = 1u << 12, CONTINUOUS = 1u << 13,   /* in cfgr */
+    LONGEST_SAMPLE = 7,                            /* 640.5 cycles of 20 MHz */
+    PLACES_1 = 4,                                  /* of the order in sqr[0] */
+    WAIT_MAX = 20000,                              /* looks; calibration takes 116 cycles of the converter */
+    PAUSE = 2000                                   /* looks: more than 20 us, which the regulator takes */
+};
+
+const volatile uint32_t *converter_power(void)
+{
+    RCC.ahb1enr |= DMA1_DMAMUX_ON;
+    RCC.ahb2enr |= ADC12_ON;
+    RCC.apb2enr |= TIM1_ON;
+    RCC.apb1enr1 |= TIM2_TO_4_ON;
+    DMAMUX.ccr[0] = FROM_ADC1;
+    return &ADC1.dr;
+}
+
+/* A bit of cr is set beside its regulator, and some cycles pass. */
+static void set(uint32_t bit)
+{
+    ADC1.cr = REGULATOR_ON | bit;
+    for (unsigned i = 0; i < PAUSE; i++)
+        (void)ADC1.cr;
+}
+
+void converter_start(const uint8_t channels[CONVERTER_SAMPLES])
+{
+    const uint32_t calibrate = 1u << 31;   /* in cr */
+    uint32_t order[2] = {CONVERTER_SAMPLES - 1, 0};
+
+    for (unsigned i = 0; i < CONVERTER_SAMPLES; i++) {
+        order[i >= PLACES_1] |= (uint32_t)channels[i] << 6 * (i >= PLACES_1 ? i - PLACES_1 : i + 1);
+        ADC1.smpr[0] |= (uint32_t)LONGEST_SAMPLE << 3 * channels[i];
+    }
+    ADC1.common.ccr = CORE_BY_4;
+    set(0);
+    set(calibrate);
+    for (unsigned i = 0; i < WAIT_MAX && (ADC1.cr & calibrate); i++)
+        continue;
+    ADC1.sqr[0] = order[0];
+    ADC1.sqr[1] = order[1];
+    ADC1.cfgr = CONTINUOUS | KEEP_LAST | ROUND_BY_DMA;
+    set(ADC_ON);
+    for (unsigned i = 0; i < WAIT_MAX && !(ADC1.isr & READY); i++)
+        continue;
+    ADC1.cr = REGULATOR_ON | ADC_ON | BEGIN;
+}
