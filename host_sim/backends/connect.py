@@ -78,7 +78,7 @@ def _in_qemu(stack: ExitStack) -> Connection:
 def _on_emulated_board(stack: ExitStack, name: str) -> Connection:
     from host_sim.emulator.board import start_board  # noqa: PLC0415 - says what to install if Unicorn is missing
 
-    board = start_board(name)
+    board = start_board(name, boot=True)
     stack.callback(board.close)
     return Connection(board, f"emulated {name}", board.status, deadline_s=_EMULATED_S)
 

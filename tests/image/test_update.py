@@ -5,13 +5,14 @@ from functools import partial
 import pytest
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
+from host_sim.client.connection import Connection
 from host_sim.emulator.registers import BoardError
 from host_sim.protocol.codec import Protocol
 from host_sim.update.hub import Hub
 from host_sim.update.image import built_images
 from host_sim.update.isotp_connection import REQUEST_ID, IsoTpConnection
 from host_sim.update.updater import UpdateError, Updater
-from tests.image.support import Talk
+from tests.image.support import Talk, run_robot
 from tests.image.update_figures import TimedLink, figures_of
 from tests.image.update_rig import BLUE_PILL, KEY, NEW, OLD, RIGS, Crowd, LossyLink
 
@@ -91,6 +92,20 @@ def test_after_an_update_the_new_image_runs_with_the_memory(rig):
     talk.order("stop")
     talk.wait(0.05)
     assert talk.memory[1] == 1
+
+
+def test_a_run_an_update_and_the_next_run_has_the_memory(rig, tmp_path):
+    board = rig.fresh_board()
+    connection = Connection(board, now=board.now)
+    learned = run_robot(connection, 3, 1000, tmp_path / "before.log").memory
+    board.pass_time(1.0)
+    rig.put_on(board, NEW).restart()
+    board.pass_time(1.0)
+    client = run_robot(connection, 4, 1, tmp_path / "after.log")
+
+    assert any(learned)
+    assert client.memory == learned
+    assert rig.runs_in(board) == 1
 
 
 def test_a_robot_that_is_driven_is_not_updated(rig):

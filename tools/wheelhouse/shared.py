@@ -42,7 +42,7 @@ def copy_page_and_images() -> None:
         stripped.parent.mkdir(exist_ok=True)
         if image.with_suffix(".bin").exists() and image.stem.endswith(SLOTS):
             shutil.copyfile(image.with_suffix(".bin"), stripped.with_suffix(".bin"))
-        elif not image.stem.endswith("-boot"):
+        else:
             subprocess.run(["arm-none-eabi-strip", "--strip-debug", "-o", stripped, image], check=True)
 
 
