@@ -41,6 +41,11 @@ size_t octet_exchange(struct octet *octet, const struct frame *in)
     return wire_write(&octet->wire, &output, octet->answers);
 }
 
+void octet_outage(struct octet *octet)
+{
+    wire_outage(&octet->wire);
+}
+
 const struct frame *octet_answers(const struct octet *octet)
 {
     return octet->answers;

@@ -24,6 +24,9 @@ size_t octet_exchange(struct octet *octet, const struct frame *in);
         /* Takes one frame and returns how many frames the robot answers: 0 to one that is stale, damaged or foreign, which
            is counted. */
 
+void octet_outage(struct octet *octet);
+        /* In real time: no senses have come for HAL_SILENCE_MS. The next ones are fresh, whatever their counter. */
+
 const struct frame *octet_answers(const struct octet *octet);
         /* The answers to the last frame, in order. The address stays the same until octet_close. */
 

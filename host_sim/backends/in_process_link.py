@@ -20,6 +20,7 @@ struct frame { uint32_t id; uint8_t len; uint8_t data[8]; };
 struct octet;
 struct octet *octet_open(uint8_t node, const uint8_t memory[8]);
 size_t octet_exchange(struct octet *octet, const struct frame *in);
+void octet_outage(struct octet *octet);
 const struct frame *octet_answers(const struct octet *octet);
 void octet_close(struct octet *octet);
 struct octet *programmed_open(uint8_t node, const uint8_t memory[8], const char *text, size_t len);
@@ -99,6 +100,10 @@ class InProcessLink:
             self._answers.append(answer)
             if self._relay is not None:
                 self._relay.hear(self._node, answer)
+
+    def lose_touch(self) -> None:
+        """The robot has waited for senses in vain: it takes the next ones for fresh."""
+        self._library.octet_outage(self._octet)
 
     def hear_others(self) -> None:
         """Hands over what the robot has not heard yet of others."""

@@ -6,12 +6,15 @@ from host_sim.backends.in_process_link import InProcessLink
 from host_sim.backends.programmed_robot import ProgrammedLink
 from host_sim.base.errors import UsageError
 from host_sim.protocol.codec import MEMORY_IDS, DecodedFrame, Frame, Protocol, node_of
-from host_sim.protocol.generated import Opcode, Reason
+from host_sim.protocol.generated import Fault, Opcode, Reason
 from host_sim.protocol.memory_report import MemoryReport
 from host_sim.recording.log_reader import LogReader, Recorded, check_protocol, first_memory
 
 _TO_ROBOT = ("SENSES", "COMMAND")
 _AT_REST = (Reason.STOP, Reason.SILENCE)
+_SILENCE = 1 << Fault.SILENCE
+_MISSED = _SILENCE | 1 << Fault.MISSED | 1 << Fault.STALE
+_TRIES_MAX = 20
 
 
 @dataclass(frozen=True)
@@ -37,11 +40,13 @@ class Replay:
         drives: Number of equal drives.
         difference: The first difference; None if there is none.
         stopped: Whether the log has the end of the run.
+        unanswered: Number of senses that were sent in real time and never answered.
     """
 
     drives: int
     difference: Difference | None
     stopped: bool = True
+    unanswered: int = 0
 
 
 def replay(log: LogReader, protocol: Protocol, program: bytes | None = None) -> Replay:
@@ -61,9 +66,9 @@ def replay(log: LogReader, protocol: Protocol, program: bytes | None = None) -> 
         if line.frame.id in MEMORY_IDS and line.frame.id != protocol.id_of("MEMORY"):
             comparison.overhear(line.frame)
         elif node_of(line.frame.id) == protocol.node and (difference := comparison.accept(line)):
-            return Replay(comparison.drives, difference)
+            return Replay(comparison.drives, difference, unanswered=comparison.unanswered)
     difference = comparison.end() if comparison.stopped else None  # a log that was cut off has no last answer
-    return Replay(comparison.drives, difference, comparison.stopped)
+    return Replay(comparison.drives, difference, comparison.stopped, comparison.unanswered)
 
 
 class _Comparison:
@@ -72,20 +77,31 @@ class _Comparison:
     Attributes:
         drives: Number of equal drives so far.
         stopped: Whether the last command so far was to stop.
+        unanswered: Number of senses so far that were sent in real time and not answered.
     """
 
     def __init__(self, log: LogReader, protocol: Protocol, program: bytes | None) -> None:
         self.drives = 0
         self.stopped = False
+        self.unanswered = 0
         self._log, self._protocol = log, protocol
-        node, memory = protocol.node, first_memory(log, protocol)
-        self._link = InProcessLink(node, memory) if program is None else ProgrammedLink(program, node, memory=memory)
+        self._first_memory, self._program = first_memory(log, protocol), program
+        self._link = self._wake()
+        self._heard: list[Frame | None] = []  # None where it heard nothing for long
+        self._waiting: list[Frame] = []
+        self._faults = 0
         self._pending: dict[int, Frame] = {}
         self._lockstep, self._time_us = True, 0
         self._sent: Frame | None = None
         self._drive: Frame | None = None
         self._recorded, self._replayed = MemoryReport(), MemoryReport()
         self._memory: tuple[int, ...] | None = None
+
+    def _wake(self) -> InProcessLink:
+        node, memory = self._protocol.node, self._first_memory
+        if self._program is None:
+            return InProcessLink(node, memory)
+        return ProgrammedLink(self._program, node, memory=memory)
 
     def accept(self, line: Recorded) -> Difference | None:
         """Compares one frame of the log; None if it is as the firmware has it."""
@@ -106,13 +122,15 @@ class _Comparison:
             self._lockstep = bool(decoded.signals.get("lockstep", self._lockstep))
             self._feed(frame)
             return difference
+        if decoded.name == "EMERGENCY":
+            self._faults |= decoded.signals["kinds"]
         if decoded.name == "DRIVE":
             return self._compare_drive(frame, decoded)
         return self._compare_memory(frame, decoded) if decoded.name == "MEMORY" else None
 
     def overhear(self, frame: Frame) -> None:
         """The robot hears another one's memory."""
-        self._link.send(frame)
+        self._feed(frame)
 
     def end(self) -> Difference | None:
         """The drive of the firmware that the log does not have."""
@@ -121,6 +139,17 @@ class _Comparison:
         return Difference(self._time_us, None, self._pending.popitem()[1])
 
     def _feed(self, frame: Frame) -> None:
+        if not self._lockstep:
+            self._waiting.append(frame)
+            return
+        if frame.id == self._protocol.id_of("COMMAND"):
+            self._heard.append(frame)  # what goes before a start in real time
+        self._hand_over(frame)
+
+    def _hand_over(self, frame: Frame | None) -> None:
+        if frame is None:
+            self._link.lose_touch()
+            return
         self._link.send(frame)
         for answer in self._link.taken():
             decoded = self._protocol.decode(answer)
@@ -132,10 +161,10 @@ class _Comparison:
                 self._memory = self._replayed.join(decoded) or self._memory
 
     def _compare_drive(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
-        reason = decoded.signals["reason"]
-        if reason == Reason.SILENCE and not self._lockstep:
-            return None  # on its own clock, a robot that received nothing says so; here it receives everything
-        answer = self._pending.pop(decoded.signals["tick"], None)
+        reason, tick = decoded.signals["reason"], decoded.signals["tick"]
+        if reason in _AT_REST and not self._lockstep:
+            return None  # on its own clock, a robot that received nothing says so; here no time passes
+        answer = self._pending.pop(tick, None) if self._lockstep else self._answer_in_real_time(frame, tick)
         if answer is None and reason == Reason.STOP:
             return None  # a stopped robot rests, and a stop is sent again until all its reports have come
         if answer is None and frame == self._drive:
@@ -143,6 +172,39 @@ class _Comparison:
         self._drive = frame
         self.drives += answer == frame
         return None if answer == frame else Difference(self._time_us, frame, answer)
+
+    def _answer_in_real_time(self, drive: Frame, tick: int) -> Frame | None:
+        """What the firmware answers if it has heard as much of the unanswered senses as makes it drive like that.
+
+        The log has all senses that were sent. Of those that it does not answer, a robot hears none, the first or all:
+        they are lost on the way, or wait for so long that it skips to the newest.
+        """
+        sent, self._waiting = self._waiting, []
+        senses_id = self._protocol.id_of("SENSES")
+        senses = [i for i, frame in enumerate(sent) if frame.id == senses_id]
+        self.unanswered += len(senses[:-1])
+        outage = [None] if self._faults & _SILENCE else []
+        tries = sorted(range(max(len(senses), 1)), reverse=not self._faults & _MISSED)[:_TRIES_MAX]
+        self._faults = 0
+        answers = []
+        for first in tries:
+            if answers:
+                self._begin_anew()
+            heard = [frame for i, frame in enumerate(sent) if i not in senses[first:]]
+            heard += [*outage, *(sent[i] for i in senses[-1:])]
+            for frame in heard:
+                self._hand_over(frame)
+            answers.append(self._pending.pop(tick, None))
+            if answers[-1] == drive:
+                self._heard += heard
+                return drive
+        return answers[0]
+
+    def _begin_anew(self) -> None:
+        self._link = self._wake()
+        for frame in self._heard:
+            self._hand_over(frame)
+        self._pending.clear()
 
     def _compare_memory(self, frame: Frame, decoded: DecodedFrame) -> Difference | None:
         recorded = self._recorded.join(decoded)
@@ -158,13 +220,17 @@ def report(outcome: Replay, name: str, protocol: Protocol) -> str:
         ending = "" if outcome.stopped else "; the log ends before the run does"
         return f"{name}: {outcome.drives} drives, no difference{ending}"
     difference = outcome.difference
-    return "\n".join(
-        (
-            f"{name}: differs after {outcome.drives} equal drives, at {difference.time_us / 1e6:.2f} s of robot time",
-            f"  recorded  {_described(difference.recorded, protocol)}",
-            f"  replayed  {_described(difference.replayed, protocol)}",
+    lines = [
+        f"{name}: differs after {outcome.drives} equal drives, at {difference.time_us / 1e6:.2f} s of robot time",
+        f"  recorded  {_described(difference.recorded, protocol)}",
+        f"  replayed  {_described(difference.replayed, protocol)}",
+    ]
+    if outcome.unanswered:
+        lines.append(
+            f"  {outcome.unanswered} senses before it were not answered. The log does not tell which of them the "
+            "robot heard, so that the firmware may be the same"
         )
-    )
+    return "\n".join(lines)
 
 
 def _described(frame: Frame | None, protocol: Protocol) -> str:

@@ -1,5 +1,7 @@
 """A log of any firmware is checked for the protocol alone; on a bus that loses frames it tells the whole story."""
 
+import re
+
 import pytest
 
 from host_sim.client.commands import stop
@@ -12,7 +14,7 @@ from host_sim.recording.recording import read_recording
 from host_sim.recording.replay import replay
 from host_sim.sim.make import make
 from host_sim.sim.run_config import RunConfig
-from tests.runs.support import octet
+from tests.runs.support import BUSY_HOST, octet
 
 PROTOCOL = Protocol()
 
@@ -155,3 +157,34 @@ def test_a_robot_that_says_in_real_time_that_it_heard_nothing_makes_no_differenc
     outcome = replay(read_log(tmp_path / "run.log"), protocol)
 
     assert (outcome.drives, outcome.difference) == (20, None)
+
+
+def real_time_run(folder, *faults: str):
+    """The log of a run in real time, in which frames are lost."""
+    rules = [word for fault in faults for word in ("--fault", fault)]
+    words = ("--bus", "fd", "--environments", "1", "--limit-s", "2", "--real-time", *BUSY_HOST, *rules)
+    assert octet("run", *words, "--out", folder).returncode == 0
+    return folder / "run.log"
+
+
+@pytest.mark.parametrize(
+    "faults",
+    [("drop@23-37/to", "drop@80-92/to"), ("drop@23-28/to",), ("drop@23-28/from",)],
+    ids=["outages", "a gap", "lost answers"],
+)
+def test_senses_that_the_robot_has_not_heard_make_no_difference(faults, tmp_path):
+    outcome = replay(read_log(real_time_run(tmp_path, *faults)), PROTOCOL)
+
+    assert outcome.unanswered >= 6
+    assert outcome.difference is None
+
+
+def test_a_difference_after_unanswered_senses_says_so(tmp_path):
+    log = real_time_run(tmp_path, "drop@23-28/to")
+    edited(log, "DRIVE", 50, faster)
+
+    done = octet("replay", log)
+
+    assert done.returncode == 1
+    assert re.search(r"differs after \d+ equal drives", done.stdout)
+    assert re.search(r"\d+ senses before it were not answered", done.stdout)

@@ -150,3 +150,15 @@ TEST(the_first_boot_message_that_is_heard_is_the_second_one)
     TEST_ASSERT_EQUAL(0, octet_boot_unpack(&boot, data_of(OCTET_BOOT_FRAME_ID, count), OCTET_BOOT_LENGTH));
     TEST_ASSERT_EQUAL_UINT8(1, boot.counter);
 }
+
+TEST(after_an_outage_any_senses_are_fresh)
+{
+    struct frame start = command_frame((struct octet_command_t){.opcode = OPCODE_START, .counter = 1, .owner = 1});
+
+    exchange(start);
+    TEST_ASSERT_EQUAL_size_t(1, exchange(senses_frame(1, 0)));
+    TEST_ASSERT_EQUAL_size_t(0, exchange(senses_frame(1, 14)));
+    octet_outage(octet);
+    TEST_ASSERT_EQUAL_size_t(2, exchange(senses_frame(1, 14)));
+    TEST_ASSERT_EQUAL_UINT32(OCTET_EMERGENCY_FRAME_ID, out[0].id);
+}
