@@ -27,7 +27,7 @@ int tick(uint32_t now_ms, struct frame frames[16]);
 START_S = 5.0
 """A program that has said nothing by then says something only when it is asked."""
 
-_FRAMES_MAX, _SLICE_S = 16, 0.1
+_FRAMES_MAX, _SLICE_S, _LATE_S = 16, 0.1, 0.005
 
 
 class Device(Protocol):
@@ -118,7 +118,8 @@ def _build(source: Path, library: Path) -> None:
 class ProcessDevice:
     """A program on a socket pair, or on a bus such as vcan; a ms of its time is one of the wall clock.
 
-    Its time begins with its first frame, or after `START_S`.
+    Its time begins with its first frame, or after `START_S`. If this machine is late, time stands still meanwhile: the
+    program is not sent at once what it should have heard one by one.
     """
 
     def __init__(self, command: str, folder: Path, bus: str) -> None:
@@ -177,7 +178,9 @@ class ProcessDevice:
             LinkDownError: The program has ended.
         """
         self._process.status()
-        time.sleep(max(self._begun_s + now_ms / 1000 - time.monotonic(), 0.0))
+        early_s = self._begun_s + now_ms / 1000 - time.monotonic()
+        time.sleep(max(early_s, 0.0))
+        self._begun_s += max(-early_s - _LATE_S, 0.0)
 
     def close(self) -> None:
         """As in `Device`."""

@@ -1,6 +1,7 @@
 """The bench of the pytest plug-in: messages, devices, faults."""
 
 import sys
+import time
 from contextlib import closing
 from pathlib import Path
 
@@ -175,6 +176,19 @@ def test_a_program_is_a_device(open_bench, tmp_path, monkeypatch):
             break
 
     assert bench["STATUS.speed"] == 7
+
+
+def test_a_program_does_not_hear_at_once_what_a_late_machine_owes_it(tmp_path, monkeypatch):
+    monkeypatch.setattr(devices, "START_S", 0.0)
+    (tmp_path / "echo.py").write_text(ECHO)
+    with closing(open_device(f"{sys.executable} echo.py", tmp_path)) as device:
+        device.tick(0)
+        time.sleep(0.3)
+        device.tick(1)
+        before_s = time.monotonic()
+        device.tick(51)
+
+        assert time.monotonic() - before_s > 0.04
 
 
 def wrong(text, message):
