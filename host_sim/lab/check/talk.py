@@ -22,7 +22,7 @@ from host_sim.transport.link import Link
 ANSWER_S = 0.9
 """An answer takes no longer, on a busy machine either; after a second, a HEARTBEAT may come by itself."""
 
-_TICK_S = 0.02
+_TICK_S, _QUEUE_MAX = 0.02, 100
 _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
 
 
@@ -105,8 +105,17 @@ class Talk:
     def command(self, opcode: int, owner: int = 1, ahead: int = 1, **signals: int) -> list[Said]:
         """Sends a command with the next counter; returns all that the robot says up to its ANSWER."""
         self.counter = (self.counter + ahead) % COUNTERS
+        self._hear_before()
         self.send(self.order(opcode, owner=owner, **signals))
         return self.hear(ANSWER_S, lambda said: said.name == "ANSWER")
+
+    def _hear_before(self) -> None:
+        """Takes in what the robot has said of itself by now, such as its HEARTBEAT: no answer to what comes."""
+        for _ in range(_QUEUE_MAX):
+            frame = self.clock.receive(self.link, 0.0)
+            if frame is None:
+                break
+            self.said.append(self._read(frame))
 
     def order(self, opcode: int, **signals: int) -> Frame:
         """A command's frame."""

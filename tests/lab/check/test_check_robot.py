@@ -8,6 +8,7 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from host_sim.backends.robot_process import PROGRAM
+from host_sim.base.frame import Frame
 from host_sim.cli.main import main
 from host_sim.lab.check import robots
 from host_sim.lab.check.checking import CHECKS, check_robot
@@ -90,6 +91,13 @@ def test_a_robot_that_fails_is_shown_with_its_frames(capsys, tmp_path):
     assert "robot HEARTBEAT counter=" in out
     assert out.splitlines()[-1].endswith("1 fail: T6")
     assert "layout is 0x4B14" in ET.parse(tmp_path / "robot.xml").find(".//failure").get("message")
+
+
+def test_what_a_robot_has_said_before_it_is_told_to_stop_is_no_answer_to_that():
+    with virtual(example.Robot)() as talk:
+        talk.link.said.extend(Frame(*frame) for frame in talk.link.robot.report(example.HEARTBEAT))
+
+        CHECKS["T2"](talk)
 
 
 @pytest.mark.parametrize(
