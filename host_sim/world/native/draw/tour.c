@@ -39,13 +39,18 @@ static bool is_across(const struct capsule *line, struct vector from, struct vec
     return vector_cross(along, vector_to(line->a, from)) * vector_cross(along, vector_to(line->a, to)) < 0.0;
 }
 
+static bool cross(const struct capsule *one, const struct capsule *other)
+{
+    return is_across(one, other->a, other->b) && is_across(other, one->a, one->b);
+}
+
 /* Whether no point of a way, a capsule without a width, is in a thing. Two lines that do not cross are nearest at an end. */
 static bool is_clear(const struct capsule *thing, const struct capsule *way)
 {
     double apart_mm = thing->radius_mm;
 
     return is_far(thing, way->a, apart_mm) && is_far(thing, way->b, apart_mm) && is_far(way, thing->a, apart_mm)
-        && is_far(way, thing->b, apart_mm) && !(is_across(thing, way->a, way->b) && is_across(way, thing->a, thing->b));
+        && is_far(way, thing->b, apart_mm) && !cross(thing, way);
 }
 
 static bool is_free(const struct tour *tour, struct vector from, struct vector to)
