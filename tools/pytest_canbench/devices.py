@@ -118,8 +118,8 @@ def _build(source: Path, library: Path) -> None:
 class ProcessDevice:
     """A program on a socket pair, or on a bus such as vcan; a ms of its time is one of the wall clock.
 
-    Its time begins with its first frame, or after `START_S`. If this machine is late, time stands still meanwhile: the
-    program is not sent at once what it should have heard one by one.
+    Its time begins with its first frame, or after `START_S`. If this machine is late, time stands still meanwhile:
+    the program is not sent at once what it should have heard one by one.
     """
 
     def __init__(self, command: str, folder: Path, bus: str) -> None:

@@ -20,9 +20,9 @@ examples:
   tools/octet check-robot --robot-command 'python3 examples/robot/robot.py'
   tools/octet check-robot --bus socketcan:can0 --node 3 --junit robot.xml
 
-The command finds its bus in CAN_INTERFACE and CAN_CHANNEL, and its number in OCTET_NODE: see docs/bench.md. A sentence
-fails if its check fails three times, since a busy host may be late itself. The exit code is 1 if a sentence does not hold,
-and 2 if there is no robot that answers.
+The command finds its bus in CAN_INTERFACE and CAN_CHANNEL, and its number in OCTET_NODE: see docs/bench.md. A
+sentence fails if its check fails three times, since a busy host may be late itself. The exit code is 1 if a sentence
+does not hold, and 2 if there is no robot that answers.
 """
 
 
