@@ -183,15 +183,15 @@ class _Comparison:
         senses_id = self._protocol.id_of("SENSES")
         senses = [i for i, frame in enumerate(sent) if frame.id == senses_id]
         self.unanswered += len(senses[:-1])
-        outage = [None] if self._faults & _SILENCE else []
+        outage: list[Frame | None] = [None] if self._faults & _SILENCE else []
         tries = sorted(range(max(len(senses), 1)), reverse=not self._faults & _MISSED)[:_TRIES_MAX]
         self._faults = 0
-        answers = []
+        answers: list[Frame | None] = []
         for first in tries:
             if answers:
                 self._begin_anew()
-            heard = [frame for i, frame in enumerate(sent) if i not in senses[first:]]
-            heard += [*outage, *(sent[i] for i in senses[-1:])]
+            before = (frame for i, frame in enumerate(sent) if i not in senses[first:])
+            heard = [*before, *outage, *(sent[i] for i in senses[-1:])]
             for frame in heard:
                 self._hand_over(frame)
             answers.append(self._pending.pop(tick, None))
