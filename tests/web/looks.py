@@ -94,12 +94,15 @@ def violations(page: Page, rules: str = "") -> list[str]:
 def violations_at(page: Page, sizes: Sequence[tuple[int, int]] = THREE_SIZES) -> list[str]:
     """What axe-core finds at some sizes; in the dark at the last one only, where nothing differs but colours."""
     found = []
+    before = page.viewport_size
     page.emulate_media(color_scheme="light")
     for size in sizes:
         resize(page, size)
         found += [f"{size}: {it}" for it in violations(page)]
     page.emulate_media(color_scheme="dark")
-    return found + [f"dark: {it}" for it in violations(page, "cat.color")]
+    found += [f"dark: {it}" for it in violations(page, "cat.color")]
+    page.set_viewport_size(before)
+    return found
 
 
 def check(page: Page, name: str) -> None:

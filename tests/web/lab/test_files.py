@@ -94,4 +94,4 @@ def test_a_world_file_begins_a_run_in_it(page, tmp_path):
 
     wait_for_text(page, "#file-news", "A new run in two_walls.toml.")
     assert saved(page, "#save-log") == (tmp_path / "run.log").read_bytes()
-    assert page.evaluate("document.querySelector('#world').value") == "two_walls.toml"
+    assert page.evaluate("document.querySelector('#worlds input:checked').value") == "two_walls.toml"

@@ -38,7 +38,7 @@ def test_the_table_is_saved_for_a_spreadsheet(shared):
 
     lines = saved(shared, "#save-csv").decode().splitlines()
 
-    assert lines[0].startswith("run,robot,behaviour,seed,environment,finished,time s,trials")
+    assert lines[0].startswith("run,robot,behaviour,seed,environment,finished,time s,tour s,trials")
     assert len(lines) == 6
 
 
