@@ -79,7 +79,7 @@ class RobotClient:
         self.wants_ranges = False
         self.ranges: Ranges = NOTHING_NEAR
         self.unsettled: int | None = None
-        self._settled: tuple[int, ...] = ()
+        self._settled: tuple[int, tuple[int, ...]] | None = None
         self._senses = self._ranges = _NO_FRAME
         self._sent_s = 0.0
         self._timed = self._lossy = False
@@ -197,9 +197,10 @@ class RobotClient:
         self._lossy = self._lossy or self.inbox.owed > 0 or self.frames.lost > 0
         self.inbox.owed = 0
         self.reports.gap = None
-        self.unsettled, self._settled = None if self._lossy else self.tick, self.memory
+        self.unsettled = None if self._lossy else self.tick
         if self._lossy:
             self.dialogue.demand_reports("report")
+        self._settled = self.tick, self.memory
 
     def _note_lost_answers(self, ticks: int) -> None:
         """Answers come in order: those that are still owed from before the last answered tick are lost."""
@@ -207,11 +208,10 @@ class RobotClient:
 
     def check_settled(self) -> None:
         """Notes if it has turned out since that a memory was lost at the end of an environment."""
-        is_late = self.unsettled == self.tick and self.memory != self._settled
-        if self.unsettled is not None and (self.reports.gap or is_late):
-            self.distrust(
-                f"an environment ended at tick {self.unsettled}, and its last memory may have been lost on the way"
-            )
+        at, settled = self._settled or (self.tick, self.memory)
+        is_late = at == self.tick and settled != self.memory
+        if is_late or (self.unsettled is not None and self.reports.gap):
+            self.distrust(f"an environment ended at tick {at}, and its last memory may have been lost on the way")
         self.unsettled = None
 
     def _send_ranges(self, tick: int, counter: int) -> None:

@@ -23,6 +23,17 @@ def test_the_good_memory_is_as_it_was(run, tmp_path):
 
 
 @pytest.mark.faulty
+def test_a_memory_so_late_that_it_passes_for_the_last_one_is_noticed_at_the_end(run):
+    words = "--seed 12 --environments 3 --limit-s 30 --bus none --fault delay:3%:2000-4000ms/from"
+
+    done = run(*words.split())
+
+    assert done.code == 1
+    assert "its last memory may have been lost on the way" in done.errors
+    assert done.summary["environments"][-1]["robots"][0]["memory"] != done.memory
+
+
+@pytest.mark.faulty
 def test_a_run_that_somebody_ended_is_doubtful_too(run, tmp_path):
     memory = tmp_path / "robot.mem"
     memory.write_bytes(GOOD)
