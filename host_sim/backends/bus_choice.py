@@ -31,8 +31,8 @@ def check_robot(bus: str, robot: str, nodes: Sequence[int]) -> None:
     interface = bus.partition(":")[0]
     if robot in ("qemu", "emulated"):
         _check_emulated(bus, robot, nodes)
-    elif robot == "external" and interface in ("auto", "none", "fd"):
-        raise UsageError(f"--robot external needs --bus INTERFACE:CHANNEL, the bus that it is on, not --bus {bus}")
+    elif robot in ("external", "observe") and interface in ("auto", "none", "fd"):
+        raise UsageError(f"--robot {robot} needs --bus INTERFACE:CHANNEL, the bus that it is on, not --bus {bus}")
     elif robot == "spawn" and interface not in ("auto", "none") and not HAS_ROBOT_PROCESSES:
         raise UsageError(f"on this system a robot starts in this process only, not on {bus}: use --bus none")
     elif robot == "spawn" and ":" in bus and interface != "socketcan":

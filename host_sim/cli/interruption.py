@@ -1,7 +1,8 @@
 """Ends a run in order and soon when a signal asks for it: between two ticks, so that its log has no half tick."""
 
 import signal
-from collections.abc import Iterator, Sequence
+import time
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from types import FrameType
 
@@ -68,3 +69,21 @@ def stop_soon(clients: Sequence[RobotClient]) -> None:
         for client in clients:
             client.dialogue.stop_at_once()
         raise
+
+
+@contextmanager
+def until_ctrl_c(limit_s: float) -> Iterator[Callable[[], bool]]:
+    """Whether to go on: until some time has passed or the first Ctrl-C. The second one raises."""
+    end_s = time.monotonic() + limit_s
+    asked: list[int] = []
+
+    def ask(number: int, frame: FrameType | None) -> None:
+        asked.append(number)
+        if len(asked) > 1:
+            signal.default_int_handler(number, frame)
+
+    before = signal.signal(signal.SIGINT, ask)
+    try:
+        yield lambda: not asked and time.monotonic() < end_s
+    finally:
+        signal.signal(signal.SIGINT, before)

@@ -1,6 +1,7 @@
 """`tools/octet run` and `tools/octet watch`: a robot learns, while nobody or everybody looks on."""
 
 import argparse
+import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -32,6 +33,8 @@ examples:
   tools/octet watch --listen                         for other machines too: prints an address and a QR code
   tools/octet watch --listen --robots 30             for a class: a robot for each page, and a board for all
   tools/octet watch --terminal                       without a browser, for example over ssh
+  tools/octet watch --bus socketcan:can0 --robot observe
+                                                     look on while a robot runs by itself, in this terminal
 """
 _PROCESSES_MAX = 8
 """Maximum number of robots of a watched run that have a process each, unless a bus is named."""
@@ -79,7 +82,9 @@ def _add(commands: "Subparsers", name: str, *, examples: str, summary: str, desc
 def _conduct(options: RunOptions) -> int:
     from host_sim.cli.conduct import conduct
 
-    if options.is_fleet:
+    if options.robot == "observe":
+        _look_on(options)
+    elif options.is_fleet:
         from host_sim.cli.fleet_run import conduct_fleet
 
         conduct_fleet(options)
@@ -90,6 +95,30 @@ def _conduct(options: RunOptions) -> int:
 
         conduct(replace(options, bus=choose_bus(options.bus, options.robot)))
     return 0
+
+
+def _look_on(options: RunOptions) -> None:
+    """Follows a robot that runs by itself, until Ctrl-C or the limit; draws its log then."""
+    from host_sim.cli.interruption import until_ctrl_c
+    from host_sim.client.frame_log import FrameLog
+    from host_sim.live.observer import Line, observe
+    from host_sim.recording.resimulation import resimulate
+    from host_sim.recording.run_folder import run_folder
+    from host_sim.report.picture import write_picture
+    from host_sim.report.replay_page import write_page
+
+    path, page, picture = (options.out / f"observed.{kind}" for kind in ("log", "html", "png"))
+    with run_folder(options.out):
+        log = FrameLog(path)
+        try:
+            with until_ctrl_c(options.limit_s) as goes_on:
+                observe(Line(options.bus, options.node, options.bitrate), log, sys.stdout, goes_on)
+        finally:
+            log.close()
+        seen = resimulate(path, options.node, ignore_world=True)
+        write_page(page, seen.trajectory, seen.title, None)
+        write_picture(picture, seen.trajectory)
+    print(f"wrote     {path}, {page}, {picture}")
 
 
 def _watched(options: RunOptions) -> RunOptions:

@@ -17,7 +17,7 @@ _MARGIN_MM = 500.0
 
 
 @dataclass(frozen=True)
-class _Body:
+class Reckoned:
     """A body whose pose is all that is known."""
 
     pose: Pose
@@ -39,7 +39,7 @@ def reckon(recording: Recording, node: int, params: SimParams) -> Trajectory:
     for tick, pose in zip(recording.ticks, poses, strict=True):
         recorder.between(0, tick.started, tick.written)
         recorder.histories[0].frozen = tick.frozen
-        recorder.add(0, _Body(pose), tick.senses, tick.drive, tick.memory)
+        recorder.add(0, Reckoned(pose), tick.senses, tick.drive, tick.memory)
     return recorder.trajectory
 
 
@@ -47,17 +47,22 @@ def _poses(senses: Sequence[Senses], params: SimParams) -> list[Pose]:
     """The pose after each tick, that is, when the next one's odometers are read; the first heading is 0."""
     pose = Pose(0.0, 0.0, 0.0)
     poses = []
-    for before, after in pairwise(senses):
-        left_mm = _distance_mm(before.odometer_left, after.odometer_left)
-        right_mm = _distance_mm(before.odometer_right, after.odometer_right)
-        pose = rolled(pose, left_mm, right_mm, params.wheel_track_mm)
+    for before, next_ in pairwise(senses):
+        pose = after(pose, before, next_, params)
         poses.append(pose)
     return [*poses, pose]
 
 
-def _distance_mm(before: int, after: int) -> float:
+def after(pose: Pose, before: Senses, now: Senses, params: SimParams) -> Pose:
+    """The pose to which a body has rolled since it sensed `before`, at `pose`."""
+    left_mm = _distance_mm(before.odometer_left, now.odometer_left)
+    right_mm = _distance_mm(before.odometer_right, now.odometer_right)
+    return rolled(pose, left_mm, right_mm, params.wheel_track_mm)
+
+
+def _distance_mm(before: int, now: int) -> float:
     """The distance between two counts, which wrap, provided that it is less than half of their range."""
-    return ((after - before + ODOMETER_SPAN // 2) % ODOMETER_SPAN - ODOMETER_SPAN // 2) / ODOMETER_COUNTS_PER_MM
+    return ((now - before + ODOMETER_SPAN // 2) % ODOMETER_SPAN - ODOMETER_SPAN // 2) / ODOMETER_COUNTS_PER_MM
 
 
 def _framed(poses: Sequence[Pose], params: SimParams) -> tuple[SimParams, list[Pose]]:

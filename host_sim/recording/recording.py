@@ -65,14 +65,14 @@ class _Ticks:
     def __iter__(self) -> Iterator[Tick]:
         return self.reader().read(self.frames())
 
-    def reader(self) -> "_Reader":
-        return _Reader(self._protocol, self._first_memory)
+    def reader(self) -> "TickReader":
+        return TickReader(self._protocol, self._first_memory)
 
     def frames(self) -> Iterator[Frame]:
         return (line.frame for line in frames_of(self._log, self._protocol.node))
 
 
-class _Reader:
+class TickReader:
     """Groups frames into ticks. A tick ends with the next SENSES or order: drives after that are too late.
 
     Attributes:

@@ -60,9 +60,9 @@ def _as_function(name: str, places: Mapping[str, int]) -> str:
     """A module as a function that is called once and returns the module's exports, which go to its place."""
     text = _read(name)
     exported = ", ".join(match[2] for match in _EXPORT.finditer(text))
-    body = _IMPORT.sub(lambda match: f'const {match[1]} = modules[{places[_place(name, match[2])]}];', text)
+    body = _IMPORT.sub(lambda match: f"const {match[1]} = modules[{places[_place(name, match[2])]}];", text)
     body = _EXPORT.sub(r"\1", body)
-    return f'modules[{places[name]}] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n'
+    return f"modules[{places[name]}] = (() => {{\n{body}\nreturn {{ {exported} }};\n}})();\n"
 
 
 def _in_order(name: str, seen: set[str]) -> Iterator[str]:

@@ -14,7 +14,7 @@ from host_sim.world.body_kinds import PINS, body_kind
 from host_sim.world.physics_names import FAST, PHYSICS, PYMUNK
 from host_sim.world.world_names import RANDOM, WORLD_NAMES
 
-ROBOTS = ("spawn", "external", "qemu", "emulated")
+ROBOTS = ("spawn", "external", "qemu", "emulated", "observe")
 """The ways to get a robot."""
 
 FLEET_MAX = 100_000
@@ -142,7 +142,7 @@ class RunConfig:
     robot: str = option(
         ROBOTS[0],
         "spawn: start the firmware here; external: wait for a robot on the bus; qemu, emulated: run the flash image "
-        "in QEMU or on an emulated board",
+        "in QEMU or on an emulated board; observe (watch only): look on while a robot on the bus runs by itself",
         choices=ROBOTS,
         fleet=False,
     )
@@ -226,6 +226,8 @@ class RunConfig:
             value = getattr(self, name)
             if value != it.default and not row.allows(value):
                 raise UsageError(f"{name} must be one of {row.range}, not {value!r}")
+        if self.robot == "observe" and (self.robots > 1 or not getattr(self, "watch", False)):
+            raise UsageError("one robot that runs by itself is watched: tools/octet watch --bus BUS --robot observe")
         if self.body == PINS and self.robot != "emulated":
             raise UsageError(
                 "--body pins is a robot on the pins of an emulated board: use --robot emulated --board blue_pill or "

@@ -1,13 +1,8 @@
 """`tools/octet monitor`: shows what is on a bus, live."""
 
 import argparse
-import contextlib
 import math
-import signal
 import sys
-import time
-from collections.abc import Callable, Iterator
-from types import FrameType
 from typing import TYPE_CHECKING
 
 from host_sim.cli.parsing import add_command, number
@@ -49,13 +44,14 @@ def add(commands: "Subparsers") -> None:
 
 
 def _monitor(arguments: argparse.Namespace) -> int:
+    from host_sim.cli.interruption import until_ctrl_c
     from host_sim.lab.monitor.bus_watch import BusWatch
     from host_sim.lab.monitor.kernel_queue import lengthen
     from host_sim.lab.monitor.monitor import filter_robots, watch_lines, watch_table
     from host_sim.transport.buses import open_bus
 
     watch = BusWatch(arguments.bitrate)
-    with _until_ctrl_c(arguments.limit_s) as goes_on, open_bus(arguments.bus, bitrate=arguments.bitrate) as bus:
+    with until_ctrl_c(arguments.limit_s) as goes_on, open_bus(arguments.bus, bitrate=arguments.bitrate) as bus:
         lengthen(bus)
         if not arguments.all:
             filter_robots(bus)
@@ -64,21 +60,3 @@ def _monitor(arguments: argparse.Namespace) -> int:
         else:
             watch_lines(bus, watch, sys.stdout, goes_on)
     return 0
-
-
-@contextlib.contextmanager
-def _until_ctrl_c(limit_s: float) -> Iterator[Callable[[], bool]]:
-    """Whether to go on: until some time has passed or the first Ctrl-C. The second one raises."""
-    end_s = time.monotonic() + limit_s
-    asked: list[int] = []
-
-    def ask(number: int, frame: FrameType | None) -> None:
-        asked.append(number)
-        if len(asked) > 1:
-            signal.default_int_handler(number, frame)
-
-    before = signal.signal(signal.SIGINT, ask)
-    try:
-        yield lambda: not asked and time.monotonic() < end_s
-    finally:
-        signal.signal(signal.SIGINT, before)

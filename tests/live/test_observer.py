@@ -1,0 +1,107 @@
+"""`tools/octet watch --robot observe`: looks on while a robot runs by itself, on a bus within this process."""
+
+import contextlib
+import io
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import can
+import pytest
+
+from host_sim.api import run
+from host_sim.base.errors import OctetError
+from host_sim.cli.main import main
+from host_sim.client.frame_log import NoLog
+from host_sim.live.observer import Line, Observer, observe
+from host_sim.live.text_picture import draw_text
+from host_sim.recording.log_reader import Recorded, read_log
+from host_sim.sim.run_config import RunConfig
+
+SECONDS = 4.0
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory) -> list[Recorded]:
+    """What a robot and its body say in a run in which it learns."""
+    log = tmp_path_factory.mktemp("run") / "run.log"
+    run(RunConfig(seed=6, environments=1, limit_s=SECONDS), log)
+    return list(read_log(log))
+
+
+@contextlib.contextmanager
+def spoken(recorded: list[Recorded], channel: str) -> Iterator[list[can.Message]]:
+    """They say it on a virtual bus, once somebody listens; what else is said there is collected."""
+    heard: list[can.Message] = []
+
+    def speak() -> None:
+        with can.Bus(interface="virtual", channel=channel) as bus:
+            time.sleep(0.3)
+            for time_us, frame in recorded:
+                stamp = 1000.0 + time_us / 1e6
+                bus.send(can.Message(stamp, frame.id, is_extended_id=False, data=frame.data))
+            time.sleep(0.3)
+            while (message := bus.recv(0.0)) is not None:
+                heard.append(message)
+
+    thread = threading.Thread(target=speak)
+    thread.start()
+    yield heard
+    thread.join()
+
+
+def test_it_tells_what_the_robot_does_without_a_word_and_its_log_is_that_of_the_run(recorded, tmp_path, capsys):
+    with spoken(recorded, "observed") as heard:
+        words = ["watch", "--bus", "virtual:observed", "--robot", "observe", "--limit-s", "1.5"]
+        assert main([*words, "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    assert "I do not know what helps yet, so I try turning" in said
+    assert heard == []
+    assert [line.frame for line in read_log(tmp_path / "observed.log")] == [line.frame for line in recorded]
+    assert main(["replay", str(tmp_path / "observed.log")]) == 0
+    assert all((tmp_path / name).stat().st_size > 1000 for name in ("observed.html", "observed.png"))
+
+
+def test_its_picture_has_the_robot_in_the_middle_and_its_way(recorded):
+    observer = Observer(1)
+    *_, state = observer.follow(line.frame for line in recorded)
+    view = observer.view(state)
+    assert state["tick"] == round(SECONDS / 0.02) - 1
+    assert len(view.trails[0]) == state["tick"] + 1
+    assert view.trails[0][-1] == pytest.approx((view.params.width_mm / 2, view.params.height_mm / 2))
+    assert any("Ctrl-C ends it" in line for line in draw_text(view, 80, 24))
+
+
+def test_on_a_terminal_it_draws_and_tidies_up(recorded):
+    class Terminal(io.StringIO):
+        def isatty(self) -> bool:
+            return True
+
+    out, end = Terminal(), time.monotonic() + 1.0
+    with spoken(recorded, "terminal"), contextlib.closing(NoLog()) as log:
+        observe(Line("virtual:terminal", 1, 500_000), log, out, lambda: time.monotonic() < end)
+    assert "senses" in out.getvalue()
+    assert out.getvalue().endswith("\x1b[?25h\x1b[?1049l")
+
+
+def test_a_robot_that_is_not_heard_is_told(recorded):
+    end, line = time.monotonic() + 0.7, Line("virtual:other", 2, 500_000)
+    why = pytest.raises(OctetError, match="node 2 was not heard on virtual:other")
+    with spoken(recorded, "other"), contextlib.closing(NoLog()) as log, why:
+        observe(line, log, io.StringIO(), lambda: time.monotonic() < end)
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (["watch", "--robot", "observe"], "--robot observe needs --bus INTERFACE:CHANNEL"),
+        (["run", "--robot", "observe", "--bus", "virtual:x"], "tools/octet watch --bus BUS --robot observe"),
+        (["watch", "--robot", "observe", "--bus", "virtual:x", "--robots", "2"], "one robot"),
+    ],
+)
+def test_what_cannot_be_observed_is_said_in_a_line(words: list[str], why: str, tmp_path: Path, capsys):
+    assert main([*words, "--out", str(tmp_path)]) == 2
+    said = capsys.readouterr().err
+    assert why in said
+    assert said.count("\n") == 1
