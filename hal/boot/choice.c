@@ -41,7 +41,7 @@ static struct choice unpack(const uint8_t bytes[CELL_COUNT])
 
 int choices_open(struct choices *choices, unsigned first_page)
 {
-    uint8_t bytes[CELL_COUNT];
+    uint8_t bytes[CELL_COUNT] = {0};
     bool found = flash_store_open_at(&choices->store, first_page, bytes) == 1 && bytes[7] == FORMAT;
 
     choices->now = found ? unpack(bytes) : (struct choice){.slot = 0};

@@ -23,7 +23,7 @@ static uint16_t take_single(struct isotp *isotp, const struct frame *frame)
 
     if (len == 0 || len > SINGLE_MAX || len >= frame->len)
         return 0;
-    isotp->receiving = false;
+    isotp->rx_len = 0;
     memcpy(isotp->rx, &frame->data[1], len);
     return len;
 }
@@ -34,9 +34,8 @@ static void take_first(struct isotp *isotp, const struct frame *frame, uint32_t 
 
     if (frame->len < FRAME_BYTES || len <= SINGLE_MAX)
         return;
-    isotp->receiving = len <= ISOTP_RX_MAX;
-    isotp->flow = isotp->receiving ? FLOW | CONTINUE : FLOW | OVERFLOW;
-    isotp->rx_len = (uint16_t)len;
+    isotp->flow = len <= ISOTP_RX_MAX ? FLOW | CONTINUE : FLOW | OVERFLOW;
+    isotp->rx_len = len <= ISOTP_RX_MAX ? (uint16_t)len : 0;
     isotp->rx_at = FIRST_BYTES;
     isotp->rx_number = 1;
     isotp->rx_ms = now_ms;
@@ -45,8 +44,11 @@ static void take_first(struct isotp *isotp, const struct frame *frame, uint32_t 
 
 bool isotp_receives(struct isotp *isotp, uint32_t now_ms)
 {
-    isotp->receiving = isotp->receiving && now_ms - isotp->rx_ms <= ISOTP_TIMEOUT_MS;
-    return isotp->receiving;
+    if (isotp->rx_at >= isotp->rx_len)
+        return false;
+    if (now_ms - isotp->rx_ms > ISOTP_TIMEOUT_MS)
+        isotp->rx_len = 0;
+    return isotp->rx_len > 0;
 }
 
 static uint16_t take_consecutive(struct isotp *isotp, const struct frame *frame, uint32_t now_ms)
@@ -55,15 +57,15 @@ static uint16_t take_consecutive(struct isotp *isotp, const struct frame *frame,
 
     if (!isotp_receives(isotp, now_ms))
         return 0;
-    isotp->receiving = (frame->data[0] & LOW) == isotp->rx_number && frame->len > count;
-    if (!isotp->receiving)
+    if ((frame->data[0] & LOW) != isotp->rx_number || frame->len <= count) {
+        isotp->rx_len = 0;
         return 0;
+    }
     memcpy(&isotp->rx[isotp->rx_at], &frame->data[1], count);
     isotp->rx_at = (uint16_t)(isotp->rx_at + count);
     isotp->rx_number = (isotp->rx_number + 1) & LOW;
     isotp->rx_ms = now_ms;
-    isotp->receiving = isotp->rx_at < isotp->rx_len;
-    return isotp->receiving ? 0 : isotp->rx_len;
+    return isotp->rx_at < isotp->rx_len ? 0 : isotp->rx_len;
 }
 
 /* Gaps under a millisecond are one; those that the standard reserves are the longest. */

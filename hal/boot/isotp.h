@@ -15,9 +15,8 @@ enum {
 
 struct isotp {
     uint16_t id;                  /* of the frames that are sent */
-    uint16_t rx_len, rx_at;       /* bytes announced; bytes there */
+    uint16_t rx_len, rx_at;       /* bytes announced; bytes there: rx_at < rx_len: a message is on its way */
     uint8_t rx_number;            /* of the consecutive frame that comes next, 0..15 */
-    bool receiving;
     uint8_t flow;                 /* a flow control to be sent: its first byte, or 0 */
     uint16_t tx_len, tx_at;       /* tx_at < tx_len: on its way */
     uint8_t tx_number;
@@ -25,8 +24,8 @@ struct isotp {
     uint8_t gap_ms;               /* between two consecutive frames */
     bool waiting;                 /* for a flow control */
     uint32_t rx_ms, tx_ms;        /* when there was progress */
-    uint8_t rx[ISOTP_RX_MAX];
-    uint8_t tx[ISOTP_TX_MAX];
+    uint8_t rx[ISOTP_RX_MAX + 7];   /* a frame more, so that no length has to be trusted */
+    uint8_t tx[ISOTP_TX_MAX + 7];
 };
 
 uint16_t isotp_take(struct isotp *isotp, const struct frame *frame, uint32_t now_ms);

@@ -11,7 +11,7 @@ static bool is_in(const struct choice *choice)
 static struct choice found(const struct choice *now)
 {
     struct choice choice = {.node = now->node, .bitrate = now->bitrate};
-    struct image image;
+    struct image image = {0};
 
     for (uint8_t slot = 0; slot < SLOTS; slot++)
         if (image_verify(slot, &image) == REFUSAL_NONE) {

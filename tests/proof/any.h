@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 uint8_t any_u8(void);
 
@@ -13,6 +14,13 @@ bool any_more(void);
 
 void exercise(void);
         /* What a harness does: it calls one part with any values, in any order. */
+
+/* What has to hold: the fuzzer takes an abort for harm. */
+static inline void must(bool holds)
+{
+    if (!holds)
+        abort();
+}
 
 static inline bool any_bool(void)
 {

@@ -9,7 +9,6 @@
 #include "hal/boot/start.h"
 #include "hal/flash_store/crc32.h"
 #include "tests/proof/any.h"
-#include "tests/proof/must.h"
 
 enum { PAGE = 256, PAGES = 14, CHOICE_PAGE = 2, SLOT_PAGES = 5, BLANK = 0xFF, KNOWN = 3, STEPS = 16, SIZE = IMAGE_VECTORS + 64 };
 

@@ -5,7 +5,6 @@
 #include "hal/library/exchange.h"
 #include "tests/proof/any.h"
 #include "tests/proof/any_command.h"
-#include "tests/proof/must.h"
 
 static void check_parameters(const struct config *config)
 {

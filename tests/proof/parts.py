@@ -15,6 +15,8 @@ _CORE = sorted({*(ROOT / "firmware").rglob("*.c")} - {ROOT / "firmware/main.c"})
 
 _CRC32 = ROOT / "hal/flash_store/crc32.c"
 
+_STORE = [ROOT / "hal/flash_store/flash_store.c", _CRC32]
+
 ROBOT = [HERE / "any_robot.c", *_CORE]
 """The core, with a robot in any state."""
 
@@ -23,7 +25,8 @@ PARTS = {
     "config": _CORE,
     "wire": [*sorted((ROOT / "hal/protocol").glob("*.c")), _CRC32, *_CORE, GENERATED / "octet.c"],
     "slcan": [ROOT / "hal/link/slcan.c"],
-    "store": [ROOT / "hal/flash_store/flash_store.c", _CRC32],
+    "store": _STORE,
+    "update": [*(ROOT / f"hal/boot/{name}.c" for name in ("choice", "image", "isotp", "sha512", "start")), *_STORE],
 }
 
 _ON_THE_CHIP = {"boot_main.c", "challenge.c", "resident.c", "signer.c"}

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "tests/proof/any.h"
-#include "tests/proof/must.h"
 
 enum { DECISIONS_MAX = 40, WORDS = 128, DEGREES_MAX = 720, WAY_MAX_MM = 150 };
 

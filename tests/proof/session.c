@@ -8,7 +8,6 @@
 #include "hal/protocol/e2e.h"
 #include "tests/proof/any.h"
 #include "tests/proof/any_command.h"
-#include "tests/proof/must.h"
 
 enum { OWNER = 1, ANOTHER = 2, EVENTS = 12 };
 

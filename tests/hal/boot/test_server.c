@@ -111,7 +111,6 @@ TEST(long_work_is_done_in_steps_and_answered_at_its_end)
     server.isotp.rx_at = 71;
     server.isotp.rx_number = 5;
     server.isotp.rx_ms = NOW_MS;
-    server.isotp.receiving = true;
     hear(REQUEST, (const uint8_t[8]){0x25, image.bytes[63]});
     TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){3, 0x7F, 0x31, 0x78}), said[0].data, 4);
     while (said_count == 1 && steps++ < 20) {

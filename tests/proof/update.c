@@ -1,0 +1,124 @@
+/* The boot loader's ISO-TP, its check of an image and its choice of one: whatever frames come, whenever, whatever the flash
+ * holds, and whichever of its operations fail. */
+#include <monocypher.h>
+
+#include "hal/boot/image.h"
+#include "hal/boot/isotp.h"
+#include "hal/boot/start.h"
+#include "tests/proof/any.h"
+
+enum { PAGE = 1024, UNIT = 8, CHOICE = 2, SLOT_PAGES = 4, SLOT_A = 4, SLOT_B = SLOT_A + SLOT_PAGES, PAGES = SLOT_B + SLOT_PAGES };
+
+const struct layout LAYOUT = {
+    .chip = "stm32f103", .board = "blue_pill", .number = 1,
+    .choice_page = CHOICE, .slot_page = {SLOT_A, SLOT_B}, .slot_pages = SLOT_PAGES, .at_once = 1,
+};
+const uint8_t IMAGE_SIGNER[IMAGE_KEY] = {1};
+
+bool flash_exists(void)
+{
+    return true;
+}
+
+uint32_t flash_page_size(void)
+{
+    return PAGE;
+}
+
+uint32_t flash_unit(void)
+{
+    return UNIT;
+}
+
+int flash_read(unsigned page, uint32_t offset, uint32_t words[], uint32_t count)
+{
+    //@ assert reads_a_page: page < PAGES;
+    (void)page;
+    (void)offset;
+    for (uint32_t i = 0; i < count / sizeof words[0]; i++)
+        words[i] = any_u32();
+    return any_bool() ? 0 : -1;
+}
+
+int flash_write(unsigned page, uint32_t offset, const uint32_t words[], uint32_t count)
+{
+    //@ assert writes_a_page: page < PAGES;
+    (void)page;
+    (void)offset;
+    for (uint32_t i = 0; i < count / sizeof words[0]; i++)
+        (void)words[i];
+    return any_bool() ? 0 : -1;
+}
+
+int flash_erase(unsigned page)
+{
+    //@ assert erases_a_page: page < PAGES;
+    (void)page;
+    return any_bool() ? 0 : -1;
+}
+
+void crypto_eddsa_reduce(uint8_t reduced[32], const uint8_t expanded[64])
+{
+    for (unsigned i = 0; i < 32; i++)
+        reduced[i] = expanded[i];
+}
+
+int crypto_eddsa_check_equation(const uint8_t signature[64], const uint8_t public_key[32], const uint8_t h[32])
+{
+    for (unsigned i = 0; i < 32; i++)
+        (void)(signature[i] + signature[i + 32] + public_key[i] + h[i]);
+    return any_bool() ? 0 : -1;
+}
+
+static void take(struct isotp *isotp, uint32_t now_ms)
+{
+    struct frame frame = {.id = any_u32(), .len = any_u8() % 9};
+    uint16_t len;
+
+    for (unsigned i = 0; i < sizeof frame.data; i++)
+        frame.data[i] = any_u8();
+    len = isotp_take(isotp, &frame, now_ms);
+    //@ assert within: len <= ISOTP_RX_MAX;
+}
+
+static void say(struct isotp *isotp, uint32_t now_ms)
+{
+    struct frame frame;
+
+    if (any_bool())
+        isotp_send(isotp, any_u16());
+    if (isotp_next(isotp, &frame, now_ms) && any_bool())
+        isotp_sent(isotp, now_ms);
+}
+
+static void look(struct choices *choices, unsigned slot)
+{
+    uint8_t header[IMAGE_HEADER];
+    struct image image;
+    bool readable;
+
+    for (unsigned i = 0; i < IMAGE_HEADER; i++)
+        header[i] = any_u8();
+    (void)start_pick(choices);
+    (void)image_judge(header, slot, any_u32(), &image);
+    (void)image_has_header(slot, header);
+    (void)image_crc(slot, image_written(slot), &readable);
+    (void)image_verify(slot, &image);
+}
+
+void exercise(void)
+{
+    struct choices choices;
+    struct isotp isotp = {.id = 0};
+
+    (void)choices_open(&choices, CHOICE);
+    while (any_more()) {
+        uint32_t now_ms = any_u32();
+
+        take(&isotp, now_ms);
+        say(&isotp, now_ms);
+        (void)isotp_receives(&isotp, now_ms);
+        (void)isotp_busy(&isotp);
+        look(&choices, any_between(0, 1));
+    }
+}
