@@ -157,8 +157,8 @@ TEST(after_an_outage_any_senses_are_fresh)
 
     exchange(start);
     TEST_ASSERT_EQUAL_size_t(1, exchange(senses_frame(1, 0)));
-    TEST_ASSERT_EQUAL_size_t(0, exchange(senses_frame(1, 14)));
+    TEST_ASSERT_EQUAL_size_t(0, exchange(senses_frame(1, 15)));
     octet_outage(octet);
-    TEST_ASSERT_EQUAL_size_t(2, exchange(senses_frame(1, 14)));
+    TEST_ASSERT_EQUAL_size_t(2, exchange(senses_frame(1, 15)));
     TEST_ASSERT_EQUAL_UINT32(OCTET_EMERGENCY_FRAME_ID, out[0].id);
 }
