@@ -212,7 +212,7 @@ class Inbox:
             self._take_any_answer(frame, decoded)
         elif decoded is not None and decoded.name in REPORTS:
             self._take_report(frame, decoded)
-        elif decoded is None:
+        elif decoded is None or decoded.name == "DRIVE":
             self._refuse(frame, "damaged or foreign")
         else:
             self._refuse(frame, "of another simulator")

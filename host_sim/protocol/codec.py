@@ -12,6 +12,7 @@ from host_sim.protocol.generated import (
     SAME_LAYOUT,
     Drive,
     Ranges,
+    Reason,
     Senses,
     Signal,
 )
@@ -41,6 +42,7 @@ _COUNTER_START = 8
 _COUNTER_MASK = 15
 _LAYOUTS = {name: MessageLayout(message) for name, message in MESSAGES.items()}
 _SENSES, _DRIVE = (places(MESSAGES[name]) for name in ("SENSES", "DRIVE"))
+_REASONS = len(Reason)
 
 
 class DecodedFrame(NamedTuple):
@@ -162,7 +164,7 @@ class Protocol:
         return DecodedFrame(message.name, _LAYOUTS[message.name].unpack(frame.data))
 
     def decode_drive(self, frame: Frame) -> Drive | None:
-        """The drive in a frame; None if it is not a whole DRIVE of this node."""
+        """The drive in a frame; None if it is not a whole DRIVE of this node, or for no reason that there is."""
         data = frame.data
         if frame.id != self._drive_id or len(data) != _LENGTH:
             return None
@@ -173,7 +175,8 @@ class Protocol:
         for start, mask, sign in _DRIVE:
             # Taking the sign bit off and adding it again below zero is what makes a number signed.
             values.append(((word >> start & mask) ^ sign) - sign)
-        return Drive._make(values)
+        drive = Drive._make(values)
+        return drive if drive.reason < _REASONS else None
 
     def describe(self, frame: Frame) -> str:
         """One line for people: the message and its signals, choices by name."""

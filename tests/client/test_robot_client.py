@@ -15,7 +15,7 @@ from host_sim.client.pacing import HOLD_TICKS, Lockstep, Pace, RealTime
 from host_sim.client.robot_client import RobotClient
 from host_sim.client.session import Session
 from host_sim.protocol.codec import Frame, Protocol, crc8
-from host_sim.protocol.generated import NOTHING_SENSED, Drive, Senses
+from host_sim.protocol.generated import NOTHING_SENSED, Drive, Reason, Senses
 
 PROTOCOL = Protocol()
 Tamper = Callable[[Frame], list[Frame]]
@@ -126,6 +126,20 @@ def test_a_damaged_drive_is_refused_and_counted(client_with):
 
     assert drive.tick == 0
     assert client.frames.refused == 1
+
+
+def test_a_drive_for_a_reason_that_there_is_not_is_refused_and_counted(client_with):
+    client = started(client_with())
+
+    def altered(frame: Frame) -> Frame:
+        return PROTOCOL.encode("DRIVE", {**PROTOCOL.decode(frame).signals, "reason": len(Reason)})
+
+    client.connection.link.tamper = lambda frame: [*([altered(frame)] if is_a("DRIVE")(frame) else []), frame]
+
+    drive = exchange(Lockstep([client]), senses(0))
+
+    assert drive.reason < len(Reason)
+    assert (client.frames.refused, client.incidents) == (1, [])
 
 
 def test_a_drive_that_comes_twice_counts_once(client_with):

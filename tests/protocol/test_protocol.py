@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from host_sim.protocol.codec import DBC, Frame, Protocol, crc8, node_of
-from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, RANGE_NONE, Drive, Opcode, Ranges, Senses
+from host_sim.protocol.generated import LAYOUT_HASH, MESSAGES, RANGE_NONE, Drive, Opcode, Ranges, Reason, Senses
 from host_sim.protocol.signal_layout import MessageLayout
 
 PROTOCOL = Protocol()
@@ -27,7 +27,7 @@ any_drive = st.builds(
     tick=st.integers(0, 255),
     left_mm_s=st.integers(-2048, 2047),
     right_mm_s=st.integers(-2048, 2047),
-    reason=st.integers(0, 15),
+    reason=st.integers(0, len(Reason) - 1),
     repeat_count=st.integers(0, 255),
     action=st.integers(0, 127),
     eat=st.booleans(),

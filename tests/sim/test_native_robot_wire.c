@@ -82,6 +82,13 @@ TEST(a_drive_of_another_tick_or_at_rest_is_no_answer)
     TEST_ASSERT_FALSE(drives(7, REASON_SILENCE, &drive));
 }
 
+TEST(a_drive_for_a_reason_that_there_is_not_is_no_answer)
+{
+    struct drive drive;
+
+    TEST_ASSERT_FALSE(drives(7, (enum reason)(REASON_PROGRAM + 1), &drive));
+}
+
 static bool is_news(uint32_t id, uint8_t page, uint8_t counter, uint8_t content)
 {
     struct frame frame = {.id = id, .len = 8, .data = {counter, (uint8_t)(page << 4 | counter), content}};

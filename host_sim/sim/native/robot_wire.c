@@ -30,7 +30,8 @@ bool robot_wire_drive(const struct frame *frame, uint8_t tick, struct drive *out
     if (octet_drive_unpack(&message, frame->data, frame->len) != 0)
         return false;
     ROBOT_DRIVEN(TAKEN)
-    return message.tick == tick && message.reason != REASON_STOP && message.reason != REASON_SILENCE;
+    return message.tick == tick && message.reason != REASON_STOP && message.reason != REASON_SILENCE
+        && octet_drive_reason_is_in_range(message.reason);
 }
 
 enum { KIND = 1, CONTENT = 2 };   /* bytes: the counter and, in its upper half, which page this is; all that is told */
