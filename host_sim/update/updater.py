@@ -45,7 +45,8 @@ _QUICK_S, _WAIT_S, _WAIT_S_MAX, _LONG_S, _START_S = 0.1, 0.3, 1.0, 5.0, 20.0
 _UNUSED = (0xBA, 0xBB, 0xBC, 0xBD, 0xBE, 0xBA, 0xBB, 0xBC, 0xBD, 0xBE)
 """Services that no board has: the answers tell how many boards there are."""
 
-_NOT_NOW, _LOCKED, _WRONG_KEY, _TOO_MANY, _DELAYED, _NO_SESSION = 0x22, 0x33, 0x35, 0x36, 0x37, 0x7F
+_NOT_NOW, _OUT_OF_RANGE, _LOCKED, _WRONG_KEY = 0x22, 0x31, 0x33, 0x35
+_TOO_MANY, _DELAYED, _NO_SESSION = 0x36, 0x37, 0x7F
 
 
 class Updater:
@@ -153,7 +154,7 @@ class Updater:
             try:
                 return self._install(image, progress, _BLOCKS[min(number, len(_BLOCKS) - 1)])
             except (TimeoutException, NegativeResponseException) as error:  # noqa: PERF203 - a round takes seconds
-                if isinstance(error, NegativeResponseException) and error.response.code not in (_NO_SESSION, _LOCKED):
+                if isinstance(error, NegativeResponseException) and not self._may_go_on(error.response.code):
                     self._explain(error)
                 if number == _ROUNDS - 1:
                     raise
@@ -226,6 +227,10 @@ class Updater:
         page = LAYOUTS[image.board].page
         count = min(count, image.size // page * page)
         return count if count and zlib.crc32(image.data[_CRC_FROM:count]) == crc else 0
+
+    def _may_go_on(self, code: int | None) -> bool:
+        """Whether another round may help: the session ended, or less is written than was to be kept."""
+        return code in (_NO_SESSION, _LOCKED) or (code == _OUT_OF_RANGE and not self.status().reason)
 
     def _explain(self, error: NegativeResponseException) -> None:
         reason = REASONS.get(self.status().reason)

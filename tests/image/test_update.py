@@ -4,6 +4,7 @@ from functools import partial
 
 import pytest
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
+from udsoncan.exceptions import TimeoutException
 
 from host_sim.client.connection import Connection
 from host_sim.emulator.registers import BoardError
@@ -59,6 +60,16 @@ def written(board):
     """Writes and erases of the flash so far, and a copy of it."""
     flash = board.hardware.flash
     return flash.operations, bytes(flash.memory)
+
+
+def interrupt_after(count):
+    """Ends an update once so many bytes are there."""
+
+    def progress(there):
+        if there >= count:
+            raise KeyboardInterrupt
+
+    return progress
 
 
 def test_a_robot_starts_through_its_boot_loader(rig):
@@ -199,6 +210,32 @@ def test_an_update_that_was_cut_goes_on_where_it_was(rig):
     assert board.resets == ["software", "power", "software"]
     assert flash.erasures < max(2 * pages, 6)
     assert bytes(flash.memory[rig.layout.slots[1] :][: len(rig.images(NEW)[1].data)]) == rig.images(NEW)[1].data
+
+
+@pytest.mark.parametrize("rig", [BLUE_PILL], ids=lambda rig: rig.board)
+def test_an_update_that_goes_on_is_not_given_up_if_an_erase_comes_twice(rig, monkeypatch):
+    """Its answer was lost; the page before it is the last one now, which may not be whole."""
+    board, image = rig.fresh_board(), rig.images(NEW)[1]
+    updater = Updater(board, 1, KEY)
+    updater.enter()
+    updater.unlock()
+    with pytest.raises(KeyboardInterrupt):
+        updater.install(image, interrupt_after(len(image.data) // 2))
+    erase, asked = updater._client.start_routine, []
+
+    def lose_first(*words):
+        answer = erase(*words)
+        asked.append(words[0])
+        if len(asked) == 1:
+            raise TimeoutException
+        return answer
+
+    monkeypatch.setattr(updater._client, "start_routine", lose_first)
+
+    updater.install(image, lambda _count: None)
+
+    assert len(asked) > 2
+    assert bytes(board.hardware.flash.memory[rig.layout.slots[1] :][: len(image.data)]) == image.data
 
 
 def test_a_chip_whose_image_is_not_signed_stays_in_the_boot_loader(rig):
