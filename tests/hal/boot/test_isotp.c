@@ -259,3 +259,58 @@ TEST(each_frame_of_a_message_gives_it_time)
     now_ms += ISOTP_TIMEOUT_MS;
     TEST_ASSERT_EQUAL_UINT16(30, TAKE(0x24, 1, 2, 3));
 }
+
+TEST(an_empty_frame_or_one_without_its_length_ends_no_message)
+{
+    begin_message(13);
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(0, 1));
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(3, 1));
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(0x21));
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(0x10, 6, 1, 2, 3, 4, 5, 6));
+    TEST_ASSERT_EQUAL_UINT16(13, TAKE(0x21, 6, 7, 8, 9, 10, 11, 12));
+}
+
+TEST(what_a_single_frame_interrupts_does_not_go_on)
+{
+    TEST_ASSERT_EQUAL_UINT16(2, TAKE(2, 0x3E, 0));
+    TEST_ASSERT_FALSE(isotp_receives(&isotp, now_ms));
+    begin_message(13);
+    TEST_ASSERT_EQUAL_UINT16(2, TAKE(2, 0x3E, 0));
+    TEST_ASSERT_FALSE(isotp_receives(&isotp, now_ms));
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(0x21, 6, 7, 8, 9, 10, 11, 12));
+}
+
+TEST(eight_bytes_are_the_shortest_long_message_both_ways)
+{
+    begin_message(8);
+    TEST_ASSERT_TRUE(isotp_receives(&isotp, now_ms));
+    TEST_ASSERT_EQUAL_UINT16(8, TAKE(0x21, 6, 7));
+    TEST_ASSERT_FALSE(isotp_receives(&isotp, now_ms));
+    send(8);
+    TEST_ASSERT_TRUE(next());
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0x10, 8, 1, 2}), sent.data, 4);
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(0x30, 0, 0, 0xCC, 0xCC, 0xCC, 0xCC, 0xCC));
+    TEST_ASSERT_TRUE(next());
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(((uint8_t[]){0x21, 7, 8, 0xCC}), sent.data, 4);
+}
+
+TEST(a_frame_of_another_number_or_too_few_bytes_ends_the_message)
+{
+    static const uint8_t wrong[][8] = {{0x20, 6, 7, 8, 9, 10, 11, 12}, {0x22, 6, 7, 8, 9, 10, 11, 12}, {0x21, 6}, {0x21, 6}};
+    static const uint8_t lens[] = {8, 8, 7, 3};
+
+    for (unsigned i = 0; i < sizeof lens; i++) {
+        begin_message(13);
+        TEST_ASSERT_EQUAL_UINT16(0, take(wrong[i], lens[i]));
+        TEST_ASSERT_FALSE(isotp_receives(&isotp, now_ms));
+        TEST_ASSERT_EQUAL_UINT16(0, TAKE(0x21, 6, 7, 8, 9, 10, 11, 12));
+    }
+}
+
+TEST(of_a_message_that_is_too_long_nothing_is_awaited_and_no_answer_is)
+{
+    TEST_ASSERT_EQUAL_UINT16(0, TAKE(0x14, 3, 0, 1, 2, 3, 4, 5));
+    TEST_ASSERT_FALSE(isotp_receives(&isotp, now_ms));
+    isotp_send(&isotp, ISOTP_TX_MAX + 1);
+    TEST_ASSERT_EQUAL_UINT16(ISOTP_TX_MAX, isotp.tx_len);
+}

@@ -147,3 +147,29 @@ TEST(it_does_not_rest_while_more_of_a_block_can_be_written)
     TEST_ASSERT_TRUE(server_work(&server, NOW_MS));
     TEST_ASSERT_FALSE(server.hurries);
 }
+
+TEST(nothing_more_is_written_of_a_block_that_was_never_completed)
+{
+    server.uds.programming = server.uds.unlocked = server.uds.loading = true;
+    server.uds.slot = 1;
+    server.uds.number = 1;
+    server.uds.image.size = 2 * PAGE;
+    hear(REQUEST, (const uint8_t[8]){0x10, 20, 0x36, 1, 'O', 'C', 'T', 'E'});
+    TEST_ASSERT_TRUE(server_work(&server, NOW_MS + ISOTP_TIMEOUT_MS + 1));
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, boot_flash_slot(1), 8);
+}
+
+TEST(a_request_counts_as_one_when_it_came)
+{
+    server.uds.asked_ms = 0;
+    hear(REQUEST, (const uint8_t[8]){2, 0x3E, 0});
+    TEST_ASSERT_EQUAL_UINT32(NOW_MS, server.uds.asked_ms);
+}
+
+TEST(late_is_not_too_late_to_leave)
+{
+    choices.now.installed = 1;
+    TEST_ASSERT_TRUE(server_work(&server, NOW_MS + SERVER_IDLE_MS + 1));
+    TEST_ASSERT_TRUE(server.leaving);
+    TEST_ASSERT_FALSE(server_work(&server, NOW_MS + SERVER_IDLE_MS + SERVER_LAST_MS + 2));
+}
