@@ -21,6 +21,7 @@ int link_open(struct link **link, const char *name, const uint16_t ids[], size_t
     *link = NULL;
     TEST_ASSERT_EQUAL_UINT(2, id_count);
     TEST_ASSERT_EQUAL_HEX16(OCTET_DRIVE_FRAME_ID + NODE - 1, ids[0]);
+    TEST_ASSERT_EQUAL_HEX16(OCTET_ANSWER_FRAME_ID + NODE - 1, ids[1]);
     return result;
 }
 
@@ -234,4 +235,36 @@ TEST(a_link_that_cannot_be_opened_is_said)
     result = LINK_E_OPEN;
     TEST_ASSERT_EQUAL_INT(HAL_E_BODY, telemetry_open(&port));
     telemetry_output(&(struct output){.has_drive = false}, false);
+}
+
+TEST(a_body_that_is_opened_again_knows_nothing_of_before)
+{
+    const struct port port = {.node = NODE, .link = ""};
+
+    start(RESULT_DONE, ANSWER_WANTS_RANGES);
+    sense();
+    hear_drive(tick, counter(), REASON_WANDER);
+    TEST_ASSERT_EQUAL_INT(INPUT_PEER, telemetry_receive(&in));
+    body_node_order(&(struct command){OPCODE_STOP, 0, 0});
+    TEST_ASSERT_EQUAL_INT(0, telemetry_open(&port));
+    sense();
+    TEST_ASSERT_EQUAL_size_t(1, said_count);
+    TEST_ASSERT_FALSE(telemetry_wants_ranges() || driven().report.running);
+    TEST_ASSERT_EQUAL_INT(REASON_STOP, driven().drive.reason);
+    body_node_order(&(struct command){OPCODE_STOP, 0, 0});
+    sense();
+    TEST_ASSERT_EQUAL_HEX16(OCTET_COMMAND_FRAME_ID + NODE - 1, said[0].id);
+    TEST_ASSERT_EQUAL_UINT8(0, e2e_counter(&said[0]));
+}
+
+TEST(a_frame_of_another_identifier_is_neither_a_drive_nor_an_answer)
+{
+    body_node_order(&(struct command){OPCODE_START, 4, 1});
+    sense();
+    hear_drive(tick, counter(), REASON_WANDER);
+    heard[0].id++;
+    TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
+    hear_answer(OPCODE_START, e2e_counter(&said[0]), RESULT_DONE, 0);
+    TEST_ASSERT_TRUE(driven().report.running);
+    TEST_ASSERT_EQUAL_INT(REASON_STOP, driven().drive.reason);
 }
