@@ -8,6 +8,10 @@
 
 enum { TRIES_MAX = 4 };   /* worn places passed over in one go */
 
+/* Erased bytes and zeros in the right places, as an erase that is cut short leaves them behind a CRC that never was written,
+ * have this CRC: no record has it. */
+#define NOT_WRITTEN UINT32_MAX
+
 struct record {
     uint32_t number;
     uint8_t memory[CELL_COUNT];
@@ -53,7 +57,7 @@ static enum content look(unsigned page, uint32_t offset, union place *out)
     difference = out->record.crc ^ crc_of(&out->record);
     if (difference == UINT32_MAX)
         return MARK;
-    return difference == 0 ? RECORD : RUBBISH;
+    return difference == 0 && out->record.crc != NOT_WRITTEN ? RECORD : RUBBISH;
 }
 
 /* Where the rest of a page begins that is blank: what comes before is written, or half written, or worn. */
@@ -205,7 +209,7 @@ int flash_store_save(struct flash_store *store, const uint8_t memory[CELL_COUNT]
         if (result != 0)
             return result;
         make_record(&place, ++store->number, memory);
-        if (append(store, &place))
+        if (place.record.crc != NOT_WRITTEN && append(store, &place))
             return 0;
     }
     return HAL_E_STORE;

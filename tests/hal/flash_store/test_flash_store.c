@@ -132,6 +132,29 @@ TEST(pages_of_zeros_hold_no_memory)
     TEST_ASSERT_EQUAL(HAL_E_STORE, start());
 }
 
+/* Its CRC is right: that of four bytes 0xFF and eight zeros is 0xFFFFFFFF. */
+TEST(zeros_behind_the_beginning_of_an_erase_are_no_memory)
+{
+    FOR_EACH_KIND {
+        setUp();
+        memset(&fake_flash.bytes[0][4], 0, CELL_COUNT);
+        TEST_ASSERT_EQUAL(HAL_E_STORE, start());
+    }
+}
+
+TEST(a_number_whose_crc_looks_like_none_is_left_out)
+{
+    static const uint8_t before[] = {0xFE, 0xFF, 0xFF, 0xFF, 0x00, 0x01, 0x02, 0x01, 0x02, 0x01, 0x02, 0x02, 0x8D, 0x91, 0x76, 0xC5};
+    static const uint8_t zeros[CELL_COUNT];
+
+    memcpy(fake_flash.bytes[0], before, sizeof before);
+    TEST_ASSERT_EQUAL(1, start());
+    TEST_ASSERT_EQUAL(0, flash_store_save(&store, zeros, true));
+    TEST_ASSERT_EQUAL_HEX8(0, fake_flash.bytes[0][fake_flash_place()]);
+    TEST_ASSERT_EQUAL(1, start());
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(zeros, found, CELL_COUNT);
+}
+
 TEST(one_flipped_bit_makes_the_record_before_it_count)
 {
     for (unsigned bit = 0; bit < 8 * 16; bit++) {
