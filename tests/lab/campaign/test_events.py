@@ -75,8 +75,8 @@ def test_the_power_goes_twice_in_a_row_while_flash_is_erased_and_the_memory_is_k
     assert outcome.problems == []
     assert "its memory kept" in outcome.doubts[0]
     assert setup.board.resets == ["power"] * 3
-    at_first, cut_short, whole = 1, 2, 1
-    assert setup.board.hardware.flash.erasures == at_first + cut_short + whole
+    choice, memory, cut_short, whole = 1, 1, 2, 1
+    assert setup.board.hardware.flash.erasures == choice + memory + cut_short + whole
 
 
 @pytest.mark.parametrize(
