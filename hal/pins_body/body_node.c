@@ -57,7 +57,7 @@ static void read_answer(const struct frame *frame)
     struct octet_answer_t got;
 
     if (!e2e_is_whole(frame, OCTET_ANSWER_LENGTH) || octet_answer_unpack(&got, frame->data, frame->len) != 0
-        || orders[0].opcode == 0 || got.counter != counter || got.opcode != (uint8_t)orders[0].opcode)
+        || got.counter != counter || got.opcode != (uint8_t)orders[0].opcode)
         return;
     if (got.result == RESULT_OUT_OF_SEQUENCE) {
         counter = (uint8_t)((counter + JUMP) % E2E_COUNTERS);

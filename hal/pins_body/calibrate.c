@@ -38,7 +38,7 @@ static void take(struct calibration *calibration, struct traits *traits, unsigne
 {
     if (calibration->refused != 0)
         return;
-    if (value < 0 || !traits_fit((uint8_t)number, (uint32_t)value)) {
+    if (!traits_fit((uint8_t)number, (uint32_t)value)) {   /* what is negative is too much then */
         calibration->refused = (uint8_t)number;
         calibration->found = value;
     }

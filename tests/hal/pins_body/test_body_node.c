@@ -80,13 +80,20 @@ static void hear_drive(uint8_t of_tick, uint8_t with, enum reason reason)
     hear(&frame);
 }
 
-static void hear_answer(enum opcode opcode, uint8_t with, enum result why, uint32_t value)
+static struct frame make_answer(enum opcode opcode, uint8_t with, enum result why, uint32_t value)
 {
     const struct octet_answer_t answer = {.counter = with, .opcode = (uint8_t)opcode, .result = (uint8_t)why, .value = value};
     struct frame frame = {.id = OCTET_ANSWER_FRAME_ID + NODE - 1, .len = OCTET_ANSWER_LENGTH};
 
     (void)octet_answer_pack(frame.data, &answer, sizeof frame.data);
     e2e_protect(&frame);
+    return frame;
+}
+
+static void hear_answer(enum opcode opcode, uint8_t with, enum result why, uint32_t value)
+{
+    const struct frame frame = make_answer(opcode, with, why, value);
+
     hear(&frame);
     TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
 }
@@ -154,6 +161,7 @@ TEST(other_drives_are_not_done)
 TEST(an_order_is_said_before_each_senses_until_it_is_answered_and_then_the_next)
 {
     struct octet_command_t got;
+    struct frame damaged;
     uint8_t with;
 
     body_node_order(&(struct command){OPCODE_START, 4, 0x12345678});
@@ -170,6 +178,10 @@ TEST(an_order_is_said_before_each_senses_until_it_is_answered_and_then_the_next)
     with = got.counter;
     hear_answer(OPCODE_STOP, with, RESULT_DONE, 0);
     hear_answer(OPCODE_START, e2e_next(with), RESULT_DONE, 0);
+    damaged = make_answer(OPCODE_START, with, RESULT_DONE, 0);
+    damaged.data[OCTET_ANSWER_LENGTH - 1] ^= 1;
+    hear(&damaged);
+    TEST_ASSERT_EQUAL_INT(INPUT_SILENCE, telemetry_receive(&in));
     TEST_ASSERT_FALSE(driven().report.running);
     hear_answer(OPCODE_START, with, RESULT_DONE, 0);
     TEST_ASSERT_TRUE(driven().report.running);

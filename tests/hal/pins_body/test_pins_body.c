@@ -47,6 +47,8 @@ TEST(a_wall_is_felt_and_light_of_the_room_is_not)
     (void)sense();
     TEST_ASSERT_EQUAL_HEX8(31, sense()->feel);
     TEST_ASSERT_EQUAL_UINT8(RANGE_NONE, in.senses.range_mm[2]);
+    told.wants_ranges = true;
+    TEST_ASSERT_LESS_THAN_UINT8(RANGE_NONE, sense()->range_mm[2]);
 }
 
 TEST(the_leds_shine_for_one_beat_of_a_tick)
