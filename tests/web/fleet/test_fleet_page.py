@@ -10,7 +10,7 @@ from host_sim.sim.fleet_film import SAMPLE_TICKS, FleetFilm
 from host_sim.sim.run_config import RunConfig
 from host_sim.world.memory_kinds import sides_of
 from tests.runs.support import octet
-from tests.web.looks import PHONES, TOO_SMALL, violations_at
+from tests.web.looks import PHONES, TOO_SMALL, resize, violations_at
 from tests.web.support import next_frame, wait_for
 
 READY = "window.octet?.picture"
@@ -110,5 +110,6 @@ def test_axe_finds_nothing_and_fingers_hit_everything(page_of, open_page):
     page = open_page(page_of[1].as_uri(), ready=READY)
 
     assert violations_at(page, PHONES[:1]) == []
+    resize(page, PHONES[0])
     assert page.evaluate(TOO_SMALL) == []
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
