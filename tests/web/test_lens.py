@@ -13,6 +13,16 @@ AT = """([x, y]) => {
   return [place.x, place.y];
 }"""
 
+SEVERAL = """([type, ...each]) => {
+  const canvas = document.querySelector("#arena");
+  const box = canvas.getBoundingClientRect();
+  const [clientX, clientY] = [box.x + 0.4 * box.width, box.y + 0.6 * box.height];
+  const make = { keydown: (key) => new KeyboardEvent(type, { key, bubbles: true }),
+                 wheel: (deltaY) => new WheelEvent(type, { deltaY, clientX, clientY, bubbles: true }) }[type];
+  for (const it of each) canvas.dispatchEvent(make(it));
+}"""
+"""Events of one type in the arena, all before the next drawing."""
+
 
 @pytest.fixture
 def page(recorded: Path, open_page: Callable[..., Page]) -> Page:
@@ -59,6 +69,18 @@ def test_a_pointer_on_the_floor_and_arrows_in_the_arena_move_what_is_in_view(pag
     x, y = at(page, 0.5, 0.5)
     assert (x > before[0] + 100, y > before[1] + 100) == (True, True)
     assert page.evaluate("octet.tick") == tick
+
+
+def test_what_comes_before_the_next_drawing_is_not_lost(page):
+    page.click("#zoom-in")
+    before = at(page, 0.5, 0.5)
+    page.evaluate(SEVERAL, ["keydown", "ArrowRight", "ArrowDown"])
+    x, y = at(page, 0.5, 0.5)
+    assert (x > before[0] + 100, y > before[1] + 100) == (True, True)
+
+    before = at(page, 0.4, 0.6)
+    page.evaluate(SEVERAL, ["wheel", -100, -100])
+    assert at(page, 0.4, 0.6) == pytest.approx(before, abs=3)
 
 
 def test_it_follows_the_robot_up_to_the_walls_until_all_is_in_view_again(page):

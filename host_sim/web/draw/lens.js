@@ -63,9 +63,11 @@ export class Lens {
   magnify(factor, renderer, at) {
     const zoom = Math.min(ZOOM_MAX, Math.max(1, this.zoom * factor));
     if (zoom === this.zoom) return false;
-    const from = renderer?.middle;
     const part = this.zoom / zoom;
-    if (at && from) this.middle = { x: at.x + (from.x - at.x) * part, y: at.y + (from.y - at.y) * part };
+    if (renderer && at) {
+      const { x, y } = renderer.middle;
+      this.middle = renderer.middle = { x: at.x + (x - at.x) * part, y: at.y + (y - at.y) * part };
+    }
     this.zoom = zoom;
     if (zoom === 1) [this.follows, this.middle] = [false, undefined];
     this.show();
@@ -80,13 +82,14 @@ export class Lens {
   }
 
   /**
-   * Moves what is in view.
+   * Moves what is in view, as often as it is called before the next drawing.
    * @param {Renderer} renderer
    * @param {Place} by - mm
    */
-  move({ middle }, by) {
+  move(renderer, by) {
+    const { x, y } = renderer.middle;
     this.follows = false;
-    this.middle = { x: middle.x + by.x, y: middle.y + by.y };
+    this.middle = renderer.middle = { x: x + by.x, y: y + by.y };
     this.show();
   }
 
