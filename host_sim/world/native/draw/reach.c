@@ -51,10 +51,30 @@ static void block(struct reach *reach, const struct obstacles *obstacles, struct
     uint32_t left = line_of(box.low.x, reach->columns), right = line_of(box.high.x, reach->columns);
     uint32_t bottom = line_of(box.high.y, reach->rows);
 
-    for (uint32_t row = line_of(box.low.y, reach->rows); row <= bottom; row++)
+    for (uint32_t row = line_of(box.low.y, reach->rows); row <= bottom; row++) {
+        uint8_t *cells = reach->cells + row * reach->columns;
+
         for (uint32_t column = left; column <= right; column++)
-            if (!clearance_suffices(obstacles, (struct vector){middle_of(column), middle_of(row)}, room_mm))
-                reach->cells[row * reach->columns + column] = BLOCKED;
+            if (cells[column] != BLOCKED
+                && !clearance_suffices(obstacles, (struct vector){middle_of(column), middle_of(row)}, room_mm))
+                cells[column] = BLOCKED;
+    }
+}
+
+/* Whether the middles of a row, or of a column, are too near to a wall along it. */
+static bool is_at_wall(uint32_t line, double size_mm, double room_mm)
+{
+    return middle_of(line) < room_mm || size_mm - middle_of(line) < room_mm;
+}
+
+static void block_edges(struct reach *reach, const struct obstacles *obstacles, double room_mm)
+{
+    for (uint32_t row = 0; row < reach->rows; row++)
+        if (is_at_wall(row, obstacles->height_mm, room_mm))
+            memset(reach->cells + row * reach->columns, BLOCKED, reach->columns);
+    for (uint32_t column = 0; column < reach->columns; column++)
+        for (uint32_t row = 0; row < reach->rows && is_at_wall(column, obstacles->width_mm, room_mm); row++)
+            reach->cells[row * reach->columns + column] = BLOCKED;
 }
 
 static struct box around(struct vector a, struct vector b, double beyond_mm)
@@ -67,15 +87,8 @@ void reach_keep_clear(struct reach *reach, const struct obstacles *obstacles, do
 {
     struct obstacles one = {.width_mm = obstacles->width_mm, .height_mm = obstacles->height_mm,
                             .bar_radius_mm = obstacles->bar_radius_mm};
-    struct vector low = {-REACH_CELL_MM, -REACH_CELL_MM};
-    struct vector high = {one.width_mm + REACH_CELL_MM, one.height_mm + REACH_CELL_MM};
-    const struct box walls[] = {
-        {low, {room_mm, high.y}}, {{one.width_mm - room_mm, low.y}, high},
-        {low, {high.x, room_mm}}, {{low.x, one.height_mm - room_mm}, high},
-    };
 
-    for (unsigned i = 0; i < 4; i++)
-        block(reach, &one, walls[i], room_mm);
+    block_edges(reach, obstacles, room_mm);
     one.bar_count = 1;
     for (size_t i = 0; i < obstacles->bar_count; i++) {
         one.bars = &obstacles->bars[i];
@@ -89,21 +102,42 @@ void reach_keep_clear(struct reach *reach, const struct obstacles *obstacles, do
     }
 }
 
+/* The blocked cell after a cell: the border has one at the end of each row. */
+static uint8_t *end_of(uint8_t *cell, uint32_t columns)
+{
+    return memchr(cell, BLOCKED, columns);
+}
+
+/* Puts one cell of each free stretch beside another one on the stack. */
+static uint32_t *add_stretches(const struct reach *reach, uint32_t *top, uint8_t *first, const uint8_t *end)
+{
+    for (uint8_t *cell = first; cell < end; cell++) {
+        if (*cell == FREE)
+            *top++ = (uint32_t)(cell - reach->cells);
+        if (*cell != BLOCKED)
+            cell = end_of(cell, reach->columns);
+    }
+    return top;
+}
+
+/* Stretch by stretch of a row, from one blocked cell to the next. Two of them in a row have one between them, so that there
+ * are never more cells on the stack than in the arena. */
 static void flood(struct reach *reach, uint32_t start)
 {
-    uint32_t *top = reach->stack;
-    uint8_t *cells = reach->cells;
+    uint32_t *top = reach->stack, columns = reach->columns;
 
     *top++ = start;
     while (top > reach->stack) {
-        uint32_t cell = *--top;
-        const uint32_t neighbours[] = {cell - 1, cell + 1, cell - reach->columns, cell + reach->columns};
+        uint8_t *first = reach->cells + *--top, *end;
 
-        for (unsigned i = 0; i < 4; i++)
-            if (cells[neighbours[i]] == FREE) {
-                cells[neighbours[i]] = REACHED;
-                *top++ = neighbours[i];
-            }
+        if (*first != FREE)
+            continue;
+        while (first[-1] == FREE)
+            first--;
+        end = end_of(first, columns);
+        memset(first, REACHED, (size_t)(end - first));
+        top = add_stretches(reach, top, first - columns, end - columns);
+        top = add_stretches(reach, top, first + columns, end + columns);
     }
 }
 
@@ -112,17 +146,15 @@ void reach_find(struct reach *reach, const struct obstacles *obstacles, double b
     /* Clearance changes by at most the distance moved, and no point of a cell is farther from its middle than a corner. */
     double room = body_radius_mm + REACH_CELL_MM * sqrt(0.5);
     size_t count = reach_size(obstacles->width_mm, obstacles->height_mm);
+    uint8_t *cells = reach->cells;
 
     reach->columns = cells_along(obstacles->width_mm);
     reach->rows = cells_along(obstacles->height_mm);
-    memset(reach->cells, FREE, count);
+    memset(cells, FREE, count);
     reach_keep_clear(reach, obstacles, room);
-    if (reach->cells[cell_of(reach, start)] == FREE) {
-        reach->cells[cell_of(reach, start)] = REACHED;
-        flood(reach, cell_of(reach, start));
-    }
+    flood(reach, cell_of(reach, start));
     for (size_t i = 0; i < count; i++)
-        reach->cells[i] = reach->cells[i] == REACHED;
+        cells[i] = cells[i] == REACHED;
 }
 
 bool reach_has(const struct reach *reach, struct vector at)
