@@ -20,19 +20,23 @@ from host_sim.emulator.flash import FlashG4
 from tests.image.support import Talk
 from tests.image.update_rig import NEW, RIGS, Rig
 
-WRITE_MAX, DOUBLE_WORD = 8, 8
-"""Bytes: of the longest write, and of one with error correction."""
+WRITE_MAX = 8
+"""Bytes of the longest write."""
 LESSON = {"mask": 0b1111, "half": 0, "byte_0": 0, "byte_1": 1, "byte_2": 0, "byte_3": 0}
 _START_S, _LOOK_S = 0.1, 0.005
 
 
 @dataclass
 class Recording:
-    """What was done to a flash: its bytes before; of each change place, bytes after, and bytes if it was cut."""
+    """What was done to a flash: its bytes before; of each change place, bytes after, and bytes if it was cut.
+
+    And what cuts have left when a change begins: pages that are half erased, places that are unreadable.
+    """
 
     rig: Rig
     before: bytes = b""
     changes: list[tuple[int, bytes, bytes]] = field(default_factory=list)
+    left: list[tuple[set[int], set[int]]] = field(default_factory=list)
 
     def cut_at(self, number: int) -> bytes:
         """The flash as it is if the power fails within that change."""
@@ -47,10 +51,12 @@ class Recording:
         """Gives a board the flash as it is if the power fails within that change; returns its bytes."""
         flash, memory = board.hardware.flash, self.cut_at(number)
         offset, whole, _ = self.changes[number]
+        half_erased, unreadable = self.left[number]
         flash.memory[:] = memory
-        flash._half_erased = {flash._page_of(offset)} if len(whole) > WRITE_MAX else set()
+        flash._half_erased = set(half_erased)
         if isinstance(flash, FlashG4):
-            flash.unreadable = {offset} if len(whole) == DOUBLE_WORD else set()
+            flash.unreadable = set(unreadable)
+        flash.changed(offset, len(whole), cut=True)
         return memory
 
 
@@ -62,6 +68,7 @@ def recording_of(rig: Rig, board: EmulatedBoard, work: Callable[[EmulatedBoard],
 
     def recorded(offset: int, whole: bytes, partial_: bytes) -> None:
         found.changes.append((offset, whole, partial_))
+        found.left.append((set(flash._half_erased), set(getattr(flash, "unreadable", ()))))
         change(offset, whole, partial_)
 
     flash._change = recorded  # type: ignore[method-assign]

@@ -1,24 +1,27 @@
 """A robot of its own on an emulated Blue Pill measures itself: near the truth, or refused with a reason."""
 
+from dataclasses import replace
+
 import pytest
 
-from host_sim.base.paths import ROOT, image_path
+from host_sim.backends.images import BOARDS
+from host_sim.base.paths import ROOT
 from host_sim.cli.main import main
 from host_sim.client.connection import Connection
 from host_sim.client.frame_log import NoLog
 from host_sim.client.handshake import handshake
 from host_sim.client.robot_client import RobotClient
-from host_sim.emulator.chips import STM32F103, STM32G431
-from host_sim.emulator.flash import FlashFaults
-from host_sim.emulator.hardware import Faults
-from host_sim.emulator.pins_board import PinsBoard, start_robot
+from host_sim.emulator.pins_board import start_robot
 from host_sim.lab.calibrate.calibration import STEPS, TRAITS, Calibration
 from host_sim.lab.calibrate.places import Places
 from host_sim.protocol.codec import Protocol
+from host_sim.protocol.generated import Side
 from host_sim.protocol.words import BODY_PARAMETERS
-from tests.image.support import Talk
+from tests.image.calibrate_cuts import Robot, a_calibration, cut_again, outcomes
+from tests.image.power_cuts import WRITE_MAX
 
-TRACK = BODY_PARAMETERS["body_track_mm"].number
+SAMPLE = 60
+"""After one of so many cuts, the power is cut again at each write."""
 
 ODD = """\
 base = "kit"
@@ -98,28 +101,28 @@ def test_the_button_held_at_power_up_measures_light(rig):
     assert rig.calibration.get("body_near_front") == round(rig.places.true_traits()["body_near_front"])
 
 
-@pytest.mark.parametrize("chip", [STM32F103, STM32G431], ids=lambda chip: chip.name)
-def test_a_power_cut_at_any_write_leaves_the_old_value_or_the_new_and_always_the_memory(chip):
-    found, cut_at, operations = set(), 0, 1
-    while cut_at < operations:
-        cut_at += 1
-        faults = Faults(flash=FlashFaults(cut_at=cut_at))
-        talk = Talk(PinsBoard(chip, image_path(chip.name, "pins"), faults))
-        talk.order("write", mask=0b1111, half=0, byte_0=0, byte_1=1, byte_2=0, byte_3=0)
-        talk.wait(0.1)
-        of_memory = talk.board.hardware.flash.operations
-        for value in (163, 164):
-            talk.order("set", parameter=TRACK, value=value)
-            talk.wait(0.1)
-        operations = talk.board.hardware.flash.operations
-        talk.board.cut_power()
-        talk.wait(0.1)
-        talk.order("get", wanted=TRACK)
-        found.add(talk.last("ANSWER")["value"])
-        talk.order("stop")
-        talk.wait(0.1)
-        assert cut_at <= of_memory or talk.memory == (0, 1, 0, 0, 0, 0, 0, 0)
-    assert found == {163, 164}
+@pytest.fixture(scope="module", params=BOARDS)
+def life(request):
+    return a_calibration(request.param)
+
+
+def test_a_power_cut_at_any_write_leaves_the_old_values_or_the_new_and_always_the_memory(life):
+    cuts = range(len(life.recording.changes))
+    found, again = outcomes(life, cuts), cut_again(life, cuts[::SAMPLE])
+
+    erases = sum(len(whole) > WRITE_MAX for _, whole, _ in life.recording.changes)
+    assert erases == len(Robot(life.recording.rig.board).storing(Side.LEFT))
+    assert (found["neither"], again["neither"]) == (0, 0)
+    assert found.total() == len(cuts) > erases
+    assert again.total() > len(cuts[::SAMPLE])
+
+
+def test_a_cut_that_lost_something_would_be_noticed(life):
+    begin, end = life.recording.rig.store
+    before = life.recording.before
+    harmed = replace(life.recording, before=before[:begin] + bytes(end - begin) + before[end:])
+
+    assert outcomes(replace(life, recording=harmed), [0]) == {"old": 0, "new": 0, "neither": 1}
 
 
 def test_the_command_prints_what_the_document_shows(capsys):

@@ -1,0 +1,211 @@
+"""Cuts an emulated board's power at each write and erase of its flash while it learns and calibrates itself.
+
+    .venv/bin/python -m tests.image.calibrate_cuts
+    .venv/bin/python -m tests.image.calibrate_cuts --board nucleo_g431rb --again-every 1
+
+All pages of memory and traits are full, so that they are erased on the way. After one of N cuts the robot goes on
+and stores all anew, and each write of that is cut, too. Prints how many cuts left what was known before, how many
+what was being stored, and how many anything else; the exit code is 1 if any did. A board without a body on pins has
+its memory only.
+"""
+
+import argparse
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from host_sim.backends.images import BOARDS
+from host_sim.emulator.board import EmulatedBoard, start_board
+from host_sim.emulator.chips import CHIPS
+from host_sim.emulator.pins_board import PinsBoard, start_robot
+from host_sim.lab.calibrate.calibration import STEPS, TRAITS
+from host_sim.lab.calibrate.places import Places
+from host_sim.protocol.generated import Side
+from host_sim.protocol.words import BODY_PARAMETERS
+from tests.image.power_cuts import Recording, recording_of
+from tests.image.support import Talk
+from tests.image.update_rig import Rig
+
+State = tuple[tuple[int, ...], tuple[int, ...]]
+"""The eight cells; the traits in their order."""
+
+Step = Callable[[], None]
+
+RECORD = 16
+"""Bytes of the store's."""
+
+OF_EACH_RECORD = ("body_track_mm", "body_lag_ms")
+"""A trait of each record of them."""
+
+_UP_S = {True: 0.15, False: 0.6}  # an erase each of three small pages, or of a large one
+_STORED_S, _LONGEST_S = 0.1, 60.0
+_MEASURE = BODY_PARAMETERS["body_measure"].number
+_REFUSED = BODY_PARAMETERS["body_refused"].number
+
+
+@dataclass(frozen=True)
+class Life:
+    """What was stored, step by step.
+
+    Attributes:
+        before: What the robot knew at its begin.
+        steps: Number of changes of the flash up to the end of each step, and what it knew then.
+        recording: These changes.
+    """
+
+    before: State
+    steps: list[tuple[int, State]]
+    recording: Recording
+
+    def around(self, number: int) -> tuple[State, State]:
+        """What it knew before the step that a change is part of, and after it."""
+        states = [self.before, *(state for _, state in self.steps)]
+        step = next(i for i, (end, _) in enumerate(self.steps) if number < end)
+        return states[step], states[step + 1]
+
+
+class Robot:
+    """A board and what one does with it."""
+
+    def __init__(self, name: str) -> None:
+        self.board: EmulatedBoard = start_robot(name) if CHIPS[name].robot else start_board(name)
+        self.rig, self.talk = Rig(name), Talk(self.board)
+
+    def power_up(self) -> None:
+        self.board.cut_power()
+        self.talk.wait(_UP_S[isinstance(self.board, PinsBoard)])
+
+    def learn(self, side: int) -> None:
+        self.talk.order("write", mask=0b1111, half=0, byte_0=0, byte_1=side, byte_2=0, byte_3=0)
+        self.talk.wait(_STORED_S)
+
+    def get(self, number: int) -> int:
+        self.talk.order("get", wanted=number)
+        self.talk.wait(0.01)
+        return self.talk.last("ANSWER")["value"]
+
+    def set(self, name: str, value: int) -> None:
+        self.talk.order("set", parameter=BODY_PARAMETERS[name].number, value=value)
+        self.talk.wait(_STORED_S)
+
+    def knows(self) -> State:
+        self.talk.heard.clear()
+        self.talk.ask()
+        traits = TRAITS.values() if isinstance(self.board, PinsBoard) else ()
+        return self.talk.memory, tuple(self.get(row.number) for row in traits)
+
+    def measure(self, places: Places, step: str) -> None:
+        places.put(step)
+        self.talk.order("set", parameter=_MEASURE, value=1 + STEPS.index(step))
+        end = self.board.now() + _LONGEST_S
+        while self.get(_MEASURE) and self.board.now() < end:
+            places.wait(_STORED_S)
+        places.wait(_STORED_S)
+        assert (self.get(_MEASURE), self.get(_REFUSED)) == (0, 0)
+
+    def storing(self, side: int) -> list[Step]:
+        """Something new for each of its stores."""
+        steps: list[Step] = [partial(self.learn, side)]
+        if isinstance(self.board, PinsBoard):
+            steps += [partial(self.set, name, TRAITS[name].minimum + side) for name in OF_EACH_RECORD]
+        return steps
+
+    def fill(self, store: int, page: int) -> None:
+        """As after long use: what is newest in a page stands in all places but the last. After it, power up."""
+        memory, (begin, end) = self.board.hardware.flash.memory, self.rig.store
+        size = (end - begin) // 2
+        begin += (page - 2 * store) * size
+        used = begin + -(-len(memory[begin : begin + size].rstrip(b"\xff")) // RECORD) * RECORD
+        room = begin + size - RECORD - used
+        memory[used : used + room] = memory[used - RECORD : used] * (room // RECORD)
+
+    def live(self, before: State, steps: Iterable[Step]) -> Life:
+        """Has all of that done."""
+        flash = self.board.hardware.flash
+        first, known = flash.operations, list[tuple[int, State]]()
+
+        def work(_board: EmulatedBoard) -> None:
+            for step in steps:
+                step()
+                known.append((flash.operations - first, self.knows()))
+
+        return Life(before, known, recording_of(self.rig, self.board, work))
+
+
+def full_robot(name: str) -> Robot:
+    """One whose next stores need an erase each: of memory, of light and track, of motors."""
+    robot = Robot(name)
+    for page in range(2):
+        for store, step in enumerate(robot.storing(Side.LEFT)):
+            step()
+            robot.fill(store, page)
+        robot.power_up()
+        for step in robot.storing(Side.RIGHT):
+            step()
+    return robot
+
+
+def a_calibration(name: str) -> Life:
+    """The robot learns, calibrates all there is, and learns once more."""
+    robot = full_robot(name)
+    steps: list[Step] = [partial(robot.learn, Side.LEFT)]
+    if isinstance(robot.board, PinsBoard):
+        places = Places(robot.board, "kit", seed=3)
+        steps += [partial(robot.measure, places, step) for step in STEPS]
+    return robot.live(robot.knows(), [*steps, partial(robot.learn, Side.RIGHT)])
+
+
+def known_after(life: Life, cuts: Iterable[int]) -> list[State]:
+    """What the robot knows after a power cut at each of these changes."""
+    robot, found = Robot(life.recording.rig.board), []
+    for cut in cuts:
+        life.recording.cut(robot.board, cut)
+        robot.power_up()
+        found.append(robot.knows())
+    return found
+
+
+def outcomes(life: Life, cuts: Sequence[int]) -> Counter[str]:
+    """How many of these cuts left what was known before, how many what came then, how many neither."""
+    found = Counter({"old": 0, "new": 0, "neither": 0})
+    for cut, state in zip(cuts, known_after(life, cuts), strict=True):
+        old, new = life.around(cut)
+        found["old" if state == old else "new" if state == new else "neither"] += 1
+    return found
+
+
+def going_on(life: Life, cut: int) -> Life:
+    """A life after that cut: everything is stored anew."""
+    robot = Robot(life.recording.rig.board)
+    (before,) = known_after(life, [cut])
+    life.recording.cut(robot.board, cut)
+    return robot.live(before, [robot.power_up, *robot.storing(Side.LEFT + Side.RIGHT - before[0][1])])
+
+
+def cut_again(life: Life, cuts: Iterable[int]) -> Counter[str]:
+    """The same of all changes that come after these cuts."""
+    lives = (going_on(life, cut) for cut in cuts)
+    return sum((outcomes(again, range(len(again.recording.changes))) for again in lives), Counter())
+
+
+def main() -> int:
+    """Cuts them all."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--board", choices=BOARDS, default=BOARDS[0], help="which board (default: %(default)s)")
+    parser.add_argument(
+        "--again-every", type=int, default=10, metavar="N", help="cut again after 1 of N (default: 10)"
+    )
+    arguments = parser.parse_args()
+    life = a_calibration(arguments.board)
+    cuts = range(len(life.recording.changes))
+    once, twice = outcomes(life, cuts), cut_again(life, cuts[:: arguments.again_every])
+    for what, found in (("once", once), ("twice", twice)):
+        counts = ", ".join(f"{found[outcome]:,} {outcome}" for outcome in ("old", "new", "neither"))
+        sys.stdout.write(f"{arguments.board}, cut {what}: {found.total():,} cuts, {counts}\n")
+    return 1 if once["neither"] + twice["neither"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
