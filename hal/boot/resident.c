@@ -1,5 +1,5 @@
 /* What an image has to do with the boot loader that started it: its number, a word that it runs, and the way back. */
-#include <string.h>
+#include <stddef.h>
 
 #include "hal/boot/handover.h"
 #include "hal/boot/image.h"
@@ -11,7 +11,6 @@
 
 enum {
     CONFIRM_MS = 5000,            /* without a crash */
-    PROGRAMMING = 2, QUIET = 0x80,
     DID_VERSION = 0xFD02, DID_RUNNING = 0xFD03,
     SINGLE_MAX = 7
 };
@@ -22,7 +21,7 @@ static struct {
     uint8_t node;
     bool trial;          /* until it is confirmed, or could not be */
     bool heard;          /* a tester */
-    bool leaving;
+    bool at_rest, leaving;
     uint32_t leaving_ms;
 } resident;              /* there is one, and those who ask have nowhere to keep it */
 
@@ -67,67 +66,54 @@ void loader_alive(bool outage)
     }
 }
 
-static uint8_t refuse(uint8_t service, enum nrc why, uint8_t *out)
-{
-    out[0] = NEGATIVE;
-    out[1] = service;
-    out[2] = (uint8_t)why;
-    return 3;
-}
-
 /* The boot loader answers once it runs. */
-static uint8_t control_session(uint8_t session, bool at_rest, uint8_t *out)
+static enum nrc control_session(struct uds *uds, struct exchange *exchange)
 {
-    static const uint8_t usual[] = {SESSION_CONTROL | POSITIVE, 1, 0, 50, 1, 0xF4};
-
-    if (session == PROGRAMMING) {
-        resident.leaving = at_rest;
+    (void)uds;
+    if (exchange->function == PROGRAMMING_SESSION) {
+        resident.leaving = resident.at_rest;
         resident.leaving_ms = machine_ms();
-        return refuse(SESSION_CONTROL, at_rest ? NRC_PENDING : NRC_CONDITIONS, out);
+        return resident.at_rest ? NRC_PENDING : NRC_CONDITIONS;
     }
-    memcpy(out, usual, sizeof usual);
-    return sizeof usual;
+    uds_put_times(exchange);
+    return NRC_NONE;
 }
 
-static uint8_t read(unsigned id, uint8_t *out)
+static enum nrc read(struct uds *uds, struct exchange *exchange)
 {
     const struct choice *now = &resident.choices.now;
-    uint32_t value = id == DID_VERSION ? image_version(now->slot) : (uint32_t)now->slot << 24 | (now->trial ? 1u : 0u) << 16;
+    unsigned id = (unsigned)exchange->request[1] << 8 | exchange->request[2];
 
-    if (id != DID_VERSION && id != DID_RUNNING)
-        return refuse(READ, NRC_SESSION, out);
-    out[0] = READ | POSITIVE;
-    out[1] = (uint8_t)(id >> 8);
-    out[2] = (uint8_t)id;
-    for (unsigned i = 0; i < 4; i++)
-        out[3 + i] = (uint8_t)(value >> (24 - 8 * i));
-    return SINGLE_MAX;
-}
-
-static uint8_t serve(const uint8_t *request, uint8_t len, bool at_rest, uint8_t *out)
-{
-    if (request[0] == SESSION_CONTROL && len == 2)
-        return control_session(request[1] & (uint8_t)~QUIET, at_rest, out);
-    if (request[0] == READ && len == 3)
-        return read((unsigned)request[1] << 8 | request[2], out);
-    if (request[0] == TESTER_PRESENT && len == 2) {
-        out[0] = TESTER_PRESENT | POSITIVE;
-        out[1] = 0;
-        return request[1] & QUIET ? 0 : 2;
+    (void)uds;
+    uds_put(exchange, id, ID_LEN);
+    switch (id) {
+    case DID_SESSION: uds_put(exchange, DEFAULT_SESSION, 1); return NRC_NONE;
+    case DID_VERSION: uds_put(exchange, image_version(now->slot), 4); return NRC_NONE;
+    case DID_RUNNING: uds_put(exchange, (uint32_t)now->slot << 24 | (now->trial ? 1u : 0u) << 16, 4); return NRC_NONE;
+    default: return NRC_RANGE;
     }
-    return refuse(request[0], NRC_SESSION, out);
 }
+
+/* What there is in a programming session is the boot loader's. */
+static const struct entry ENTRIES[] = {
+    {SESSION_CONTROL, 2, FUNCTION_1 | FUNCTION_2, EXACT, control_session},
+    {READ, 3, 0, EXACT, read},
+    {TESTER_PRESENT, 2, FUNCTION_0, EXACT, NULL},
+    {RESET, 0, 0, PROGRAMMING, NULL}, {SECURITY, 0, 0, PROGRAMMING, NULL}, {WRITE, 0, 0, PROGRAMMING, NULL},
+    {ROUTINE, 0, 0, PROGRAMMING, NULL}, {DOWNLOAD, 0, 0, PROGRAMMING, NULL}, {TRANSFER, 0, 0, PROGRAMMING, NULL},
+    {TRANSFER_EXIT, 0, 0, PROGRAMMING, NULL},
+};
 
 bool loader_frame(const struct frame *frame, bool at_rest, struct frame *answer)
 {
     uint8_t len = frame->data[0];
-    uint8_t size;
+    struct exchange exchange = {.request = &frame->data[1], .len = len, .answer = &answer->data[1]};
 
     if (len == 0 || len > SINGLE_MAX || len >= frame->len)
         return false;
     resident.heard = true;
     *answer = (struct frame){.id = (uint16_t)(UPDATE_ANSWER_ID + resident.node), .len = 8};
-    size = serve(&frame->data[1], len, at_rest, &answer->data[1]);
-    answer->data[0] = size;
-    return size > 0;
+    resident.at_rest = at_rest;
+    answer->data[0] = (uint8_t)uds_answer(ENTRIES, &ENTRIES[sizeof ENTRIES / sizeof ENTRIES[0]], 0, NULL, &exchange);
+    return answer->data[0] > 0;
 }

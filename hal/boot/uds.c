@@ -6,14 +6,8 @@
 #include "hal/flash_store/flash.h"
 
 enum {
-    DEFAULT_SESSION = 1, PROGRAMMING_SESSION = 2,
-    HARD_RESET = 1,
-    SEED = 1, PROOF = 2,
-    QUIET = 0x80,                 /* in a subfunction: only a refusal is answered */
-    P2_MS = 50, P2_STAR_10_MS = 500,
-    ID_LEN = 2,
-    DID_BOOT = 0xF180, DID_SESSION = 0xF186, DID_BOARD = 0xF191, DID_STATUS = 0xFD00, DID_WRITTEN = 0xFD01, DID_WHO = 0xFD04,
-    DID_BITRATE = 0xFD05,
+    SEED = 1,
+    DID_BOOT = 0xF180, DID_BOARD = 0xF191, DID_STATUS = 0xFD00, DID_WRITTEN = 0xFD01, DID_WHO = 0xFD04, DID_BITRATE = 0xFD05,
     KEY_SHOWN = 4                 /* bytes of the public key, to tell one from another */
 };
 
@@ -44,49 +38,29 @@ static void enter(struct uds *uds, bool programming)
 
 static enum nrc control_session(struct uds *uds, struct exchange *exchange)
 {
-    uint8_t session = exchange->request[1] & (uint8_t)~QUIET;
-
-    if (session != DEFAULT_SESSION && session != PROGRAMMING_SESSION)
-        return NRC_FUNCTION;
-    if (exchange->len != 2)
-        return NRC_LENGTH;
-    enter(uds, session == PROGRAMMING_SESSION);
-    uds_put(exchange, session, 1);
-    uds_put(exchange, P2_MS, 2);
-    uds_put(exchange, P2_STAR_10_MS, 2);
+    enter(uds, exchange->function == PROGRAMMING_SESSION);
+    uds_put_times(exchange);
     return NRC_NONE;
 }
 
 static enum nrc reset(struct uds *uds, struct exchange *exchange)
 {
-    if ((exchange->request[1] & ~QUIET) != HARD_RESET)
-        return NRC_FUNCTION;
-    if (exchange->len != 2)
-        return NRC_LENGTH;
+    (void)exchange;
     uds->restart = true;
-    uds_put(exchange, HARD_RESET, 1);
     return NRC_NONE;
 }
 
-static enum nrc tester_present(struct uds *uds, struct exchange *exchange)
-{
-    (void)uds;
-    if ((exchange->request[1] & ~QUIET) != 0)
-        return NRC_FUNCTION;
-    if (exchange->len != 2)
-        return NRC_LENGTH;
-    uds_put(exchange, 0, 1);
-    return NRC_NONE;
-}
-
+/* Zeros: there is nothing to prove any more. */
 static enum nrc give_challenge(struct uds *uds, struct exchange *exchange)
 {
     if (exchange->len != 2)
         return NRC_LENGTH;
     if (uds->wrong >= UDS_TRIES)
         return NRC_DELAY;
-    boot_random(uds->challenge);
-    uds->asked = true;
+    memset(uds->challenge, 0, UDS_CHALLENGE);
+    uds->asked = !uds->unlocked;
+    if (uds->asked)
+        boot_random(uds->challenge);
     for (unsigned i = 0; i < UDS_CHALLENGE; i++)
         uds_put(exchange, uds->challenge[i], 1);
     return NRC_NONE;
@@ -114,12 +88,7 @@ static enum nrc take_proof(struct uds *uds, const struct exchange *exchange)
 
 static enum nrc secure(struct uds *uds, struct exchange *exchange)
 {
-    uint8_t function = exchange->request[1];
-
-    uds_put(exchange, function, 1);
-    if (function == SEED)
-        return give_challenge(uds, exchange);
-    return function == PROOF ? take_proof(uds, exchange) : NRC_FUNCTION;
+    return exchange->function == SEED ? give_challenge(uds, exchange) : take_proof(uds, exchange);
 }
 
 static uint32_t version_in(unsigned slot)
@@ -160,11 +129,8 @@ static void put_written(const struct uds *uds, struct exchange *exchange)
 
 static enum nrc read(struct uds *uds, struct exchange *exchange)
 {
-    unsigned id;
+    unsigned id = (unsigned)exchange->request[1] << 8 | exchange->request[2];
 
-    if (exchange->len != 1 + ID_LEN)
-        return NRC_LENGTH;
-    id = (unsigned)exchange->request[1] << 8 | exchange->request[2];
     uds_put(exchange, id, ID_LEN);
     switch (id) {
     case DID_BOOT: put_text(exchange, "octet boot 1"); return NRC_NONE;
@@ -201,72 +167,27 @@ static enum nrc write(struct uds *uds, struct exchange *exchange)
     return choices_save(uds->choices, &next, true) == 0 ? NRC_NONE : NRC_FAILURE;
 }
 
-struct entry {
-    uint8_t service;
-    uint8_t shortest;             /* request, bytes */
-    bool programming, unlocked;   /* what it takes */
-    enum nrc (*serve)(struct uds *uds, struct exchange *exchange);
-};
-
 static const struct entry ENTRIES[] = {
-    {SESSION_CONTROL, 2, false, false, control_session},
-    {RESET, 2, false, false, reset},
-    {READ, 3, false, false, read},
-    {SECURITY, 2, true, false, secure},
-    {WRITE, 4, true, false, write},
-    {ROUTINE, 4, true, true, uds_routine},
-    {DOWNLOAD, 3, true, true, uds_download},
-    {TRANSFER, 2, true, true, uds_transfer},
-    {TRANSFER_EXIT, 1, true, true, uds_transfer_exit},
-    {TESTER_PRESENT, 2, false, false, tester_present},
+    {SESSION_CONTROL, 2, FUNCTION_1 | FUNCTION_2, EXACT, control_session},
+    {RESET, 2, FUNCTION_1, EXACT, reset},
+    {READ, 3, 0, EXACT, read},
+    {SECURITY, 2, FUNCTION_1 | FUNCTION_2, PROGRAMMING, secure},
+    {WRITE, 4, 0, PROGRAMMING, write},
+    {ROUTINE, 4, FUNCTION_1, PROGRAMMING | UNLOCKED, uds_routine},
+    {DOWNLOAD, 11, 0, EXACT | PROGRAMMING | UNLOCKED, uds_download},
+    {TRANSFER, 2, 0, PROGRAMMING | UNLOCKED, uds_transfer},
+    {TRANSFER_EXIT, 1, 0, EXACT | PROGRAMMING | UNLOCKED, uds_transfer_exit},
+    {TESTER_PRESENT, 2, FUNCTION_0, EXACT, NULL},
 };
-
-static enum nrc dispatch(struct uds *uds, struct exchange *exchange)
-{
-    const struct entry *entry = ENTRIES;
-    const struct entry *end = &ENTRIES[sizeof ENTRIES / sizeof ENTRIES[0]];
-
-    while (entry < end && entry->service != exchange->request[0])
-        entry++;
-    if (entry == end)
-        return NRC_SERVICE;
-    if (entry->programming && !uds->programming)
-        return NRC_SESSION;
-    if (exchange->len < entry->shortest)
-        return NRC_LENGTH;
-    if (entry->unlocked && !uds->unlocked)
-        return NRC_LOCKED;
-    return entry->serve(uds, exchange);
-}
-
-static uint16_t refuse(uint8_t service, enum nrc why, uint8_t answer[UDS_ANSWER_MAX])
-{
-    answer[0] = NEGATIVE;
-    answer[1] = service;
-    answer[2] = (uint8_t)why;
-    return 3;
-}
-
-/* Of a request that was served: those that have a function are long enough for it. */
-static bool is_quiet(const uint8_t request[])
-{
-    bool has_function = request[0] == SESSION_CONTROL || request[0] == RESET || request[0] == TESTER_PRESENT;
-
-    return has_function && request[1] & QUIET;
-}
 
 uint16_t uds_serve(struct uds *uds, const uint8_t request[], uint16_t len, uint8_t answer[UDS_ANSWER_MAX])
 {
-    struct exchange exchange = {request, len, answer, 1};
-    enum nrc why;
+    struct exchange exchange = {.request = request, .len = len, .answer = answer};
+    unsigned given = (uds->programming ? PROGRAMMING : 0u) | (uds->unlocked ? UNLOCKED : 0u);
 
     if (uds->work != WORK_NONE)
-        return request[0] == TESTER_PRESENT ? 0 : refuse(request[0], NRC_BUSY, answer);
-    answer[0] = (uint8_t)(request[0] | POSITIVE);
-    why = dispatch(uds, &exchange);
-    if (why != NRC_NONE)
-        return refuse(request[0], why, answer);
-    return is_quiet(request) ? 0 : exchange.size;
+        return request[0] == TESTER_PRESENT ? 0 : uds_refuse(request[0], NRC_BUSY, answer);
+    return uds_answer(ENTRIES, &ENTRIES[sizeof ENTRIES / sizeof ENTRIES[0]], given, uds, &exchange);
 }
 
 uint16_t uds_do(struct uds *uds, uint8_t answer[UDS_ANSWER_MAX])
@@ -279,7 +200,7 @@ uint16_t uds_do(struct uds *uds, uint8_t answer[UDS_ANSWER_MAX])
         return 0;
     uds->work = WORK_NONE;
     if (why != NRC_NONE)
-        return refuse(ROUTINE, why, answer);
+        return uds_refuse(ROUTINE, why, answer);
     memcpy(answer, done[work], sizeof done[work]);
     return sizeof done[work];
 }

@@ -1,5 +1,4 @@
-/* uds_parts.h: what the two halves of uds.h's implementation have of each other, and UDS's numbers, which an image
- * answers with, too. */
+/* uds_parts.h: what the two halves of uds.h's implementation have of each other, and of UDS what an image has, too. */
 #ifndef OCTET_UDS_PARTS_H
 #define OCTET_UDS_PARTS_H
 
@@ -19,12 +18,33 @@ enum service {
     POSITIVE = 0x40, NEGATIVE = 0x7F
 };
 
+enum {
+    DEFAULT_SESSION = 1, PROGRAMMING_SESSION = 2,
+    ID_LEN = 2,
+    DID_SESSION = 0xF186
+};
+
 /* A request, and its answer behind the service: what is not negative begins with the service and POSITIVE. */
 struct exchange {
     const uint8_t *request;
     uint16_t len;
     uint8_t *answer;
     uint16_t size;       /* of the answer so far */
+    uint8_t function;    /* without the bit that asks for silence */
+};
+
+/* Functions of a service. */
+enum { FUNCTION_0 = 1, FUNCTION_1 = 2, FUNCTION_2 = 4 };
+
+/* What a service takes. */
+enum { EXACT = 1 /* no longer than the shortest request */, PROGRAMMING = 2 /* session */, UNLOCKED = 4 };
+
+struct entry {
+    uint8_t service;
+    uint8_t shortest;    /* request, bytes */
+    uint8_t functions;   /* with which the answer begins; 0: it has none */
+    uint8_t takes;
+    enum nrc (*serve)(struct uds *uds, struct exchange *exchange);   /* NULL: there is nothing to be done */
 };
 
 uint32_t uds_number(const uint8_t *bytes);
@@ -32,6 +52,15 @@ uint32_t uds_number(const uint8_t *bytes);
 
 void uds_put(struct exchange *exchange, uint32_t number, unsigned bytes);
         /* Appends to the answer. */
+
+uint16_t uds_refuse(uint8_t service, enum nrc why, uint8_t answer[]);
+uint16_t uds_answer(const struct entry *entry, const struct entry *end, unsigned given, struct uds *uds,
+                    struct exchange *exchange);
+        /* Serves a request with the entry for it, if what the entry takes is given; what is wrong is found in the order of the
+           standard. uds is handed on. The length of the answer, or 0 for none. */
+
+void uds_put_times(struct exchange *exchange);
+        /* What the answer to DiagnosticSessionControl ends with. */
 
 enum nrc uds_routine(struct uds *uds, struct exchange *exchange);
 enum nrc uds_download(struct uds *uds, struct exchange *exchange);

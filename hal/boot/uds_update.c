@@ -6,7 +6,6 @@
 #include "hal/flash_store/flash.h"
 
 enum {
-    START_ROUTINE = 1,
     ROUTINE_ERASE = 0xFF00, ROUTINE_CHECK = 0xFF01, ROUTINE_FLOOR = 0xF000,
     ROUTINE_OPTIONS = 4,          /* where they begin in a request */
     PLAIN = 0,                    /* not compressed, not encrypted */
@@ -63,7 +62,6 @@ static enum nrc set_floor(struct uds *uds, struct exchange *exchange)
     if (exchange->len != ROUTINE_OPTIONS + 4)
         return NRC_LENGTH;
     next.floor = uds_number(&exchange->request[ROUTINE_OPTIONS]);
-    uds_put(exchange, START_ROUTINE, 1);
     uds_put(exchange, ROUTINE_FLOOR, 2);
     uds_put(exchange, 0, 1);
     return choices_save(uds->choices, &next, true) == 0 ? NRC_NONE : NRC_FAILURE;
@@ -71,8 +69,6 @@ static enum nrc set_floor(struct uds *uds, struct exchange *exchange)
 
 enum nrc uds_routine(struct uds *uds, struct exchange *exchange)
 {
-    if (exchange->request[1] != START_ROUTINE)
-        return NRC_FUNCTION;
     switch ((unsigned)exchange->request[2] << 8 | exchange->request[3]) {
     case ROUTINE_ERASE: return begin_erase(uds, exchange);
     case ROUTINE_FLOOR: return set_floor(uds, exchange);
@@ -93,8 +89,6 @@ enum nrc uds_download(struct uds *uds, struct exchange *exchange)
 {
     uint32_t end = uds->image.size + IMAGE_SIGNATURE;
 
-    if (exchange->len != 3 + 8)
-        return NRC_LENGTH;
     if (exchange->request[1] != PLAIN || exchange->request[2] != FOUR_AND_FOUR)
         return NRC_RANGE;
     if (!uds->erased && (!uds->loading || uds->took))   /* its answer was lost, and it comes again */
@@ -173,8 +167,7 @@ enum nrc uds_transfer(struct uds *uds, struct exchange *exchange)
 
 enum nrc uds_transfer_exit(struct uds *uds, struct exchange *exchange)
 {
-    if (exchange->len != 1)
-        return NRC_LENGTH;
+    (void)exchange;
     if (uds->loaded)
         return NRC_NONE;   /* as above */
     if (!uds->loading || uds->at != uds->image.size + IMAGE_SIGNATURE)

@@ -101,21 +101,36 @@ TEST(it_says_what_runs)
     ASSERT_SAID(7, 0x62, 0xFD, 3, 1, 0, 0, 0);
 }
 
-TEST(all_else_is_the_boot_loaders)
+TEST(a_session_and_a_tester_are_answered)
 {
-    TEST_ASSERT_TRUE(HEARS(true, 3, 0x22, 0xFD, 0));
-    ASSERT_SAID(3, 0x7F, 0x22, 0x7F);
-    TEST_ASSERT_TRUE(HEARS(true, 2, 0x27, 1));
-    ASSERT_SAID(3, 0x7F, 0x27, 0x7F);
-    TEST_ASSERT_TRUE(HEARS(true, 1, 0x10));
-    ASSERT_SAID(3, 0x7F, 0x10, 0x7F);
-    TEST_ASSERT_TRUE(HEARS(true, 1, 0x22));
-    TEST_ASSERT_TRUE(HEARS(true, 1, 0x3E));
     TEST_ASSERT_TRUE(HEARS(true, 2, 0x10, 1));
     ASSERT_SAID(6, 0x50, 1, 0, 50, 1, 0xF4);
+    TEST_ASSERT_TRUE(HEARS(true, 3, 0x22, 0xF1, 0x86));
+    ASSERT_SAID(4, 0x62, 0xF1, 0x86, 1);
     TEST_ASSERT_TRUE(HEARS(true, 2, 0x3E, 0));
     ASSERT_SAID(2, 0x7E, 0);
     TEST_ASSERT_FALSE(HEARS(true, 2, 0x3E, 0x80));
+    TEST_ASSERT_FALSE(HEARS(true, 2, 0x10, 0x81));
+}
+
+/* {length, request}, and the code that it is refused with. */
+TEST(what_it_does_not_serve_is_refused_with_its_code)
+{
+    static const struct {
+        uint8_t frame[8], code;
+    } wrong[] = {
+        {{1, 0x00}, 0x11}, {{2, 0x85, 1}, 0x11}, {{1, 0x3F}, 0x11},
+        {{2, 0x11, 1}, 0x7F}, {{2, 0x27, 1}, 0x7F}, {{4, 0x2E, 0xFD, 4, 1}, 0x7F}, {{4, 0x31, 1, 0xFF, 1}, 0x7F},
+        {{3, 0x34, 0, 0x44}, 0x7F}, {{2, 0x36, 1}, 0x7F}, {{1, 0x37}, 0x7F},
+        {{1, 0x10}, 0x13}, {{2, 0x10, 0}, 0x12}, {{2, 0x10, 3}, 0x12}, {{2, 0x10, 0x83}, 0x12}, {{3, 0x10, 1, 0}, 0x13},
+        {{1, 0x3E}, 0x13}, {{2, 0x3E, 1}, 0x12}, {{2, 0x3E, 0x81}, 0x12}, {{3, 0x3E, 0, 0}, 0x13},
+        {{2, 0x22, 0xFD}, 0x13}, {{3, 0x22, 0xFD, 0}, 0x31}, {{4, 0x22, 0xFD, 2, 0}, 0x13},
+    };
+
+    for (unsigned i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        TEST_ASSERT_TRUE(hears(wrong[i].frame, (uint8_t)(wrong[i].frame[0] + 1), true));
+        assert_said((const uint8_t[]){3, 0x7F, wrong[i].frame[1], wrong[i].code}, 4);
+    }
 }
 
 TEST(what_is_no_single_frame_is_left_out)

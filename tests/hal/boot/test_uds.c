@@ -32,6 +32,9 @@ TEST(what_is_asked_to_be_quiet_is)
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 0x82));
     TEST_ASSERT_EQUAL_UINT16(0, answered);
     TEST_ASSERT_TRUE(uds.programming);
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x27, 0x81));
+    TEST_ASSERT_EQUAL_UINT16(0, answered);
+    TEST_ASSERT_TRUE(uds.asked);
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x3E, 0x80));
     TEST_ASSERT_EQUAL_UINT16(0, answered);
     TEST_ASSERT_EQUAL_HEX8(0x12, ASK(0x3E, 0x81));
@@ -56,7 +59,7 @@ TEST(what_does_not_fit_is_refused_with_its_code)
         {{0x27, 2}, 2, 0x7F, 0x13},
         {{0x2E, 0xFD, 4}, 3, 0x7F, 0x13}, {{0x2E, 0xFD, 6, 1}, 4, 0x7F, 0x31}, {{0x2E, 0xFD, 4, 1}, 4, 0x7F, 0x33},
         {{0x2E, 0xFD, 4, 1, 0}, 5, 0x7F, 0x13},
-        {{0x31, 1, 0xFF}, 3, 0x7F, 0x13}, {{0x31, 1, 0xFF, 1}, 4, 0x7F, 0x33}, {{0x34, 0, 0x44}, 3, 0x7F, 0x33},
+        {{0x31, 1, 0xFF}, 3, 0x7F, 0x33}, {{0x31, 1, 0xFF, 1}, 4, 0x7F, 0x33}, {{0x34, 0, 0x44}, 3, 0x7F, 0x33},
         {{0x36, 1, 0}, 3, 0x7F, 0x33}, {{0x37}, 1, 0x7F, 0x33},
     };
 
@@ -103,6 +106,16 @@ TEST(who_proves_the_key_is_let_in)
     TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
     TEST_ASSERT_EQUAL_HEX8(0, prove());
     TEST_ASSERT_EQUAL_HEX8(0x13, ASK(0x31, 1, 0xFF, 0));
+}
+
+TEST(who_is_let_in_already_need_not_prove_it_again)
+{
+    unlock();
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x27, 1));
+    TEST_ASSERT_EQUAL_UINT16(2 + UDS_CHALLENGE, answered);
+    TEST_ASSERT_EACH_EQUAL_HEX8(0, &answer[2], UDS_CHALLENGE);
+    TEST_ASSERT_FALSE(uds.asked);
+    TEST_ASSERT_TRUE(uds.unlocked);
 }
 
 TEST(a_session_that_is_entered_anew_is_locked)
@@ -152,6 +165,7 @@ TEST(who_guesses_three_times_waits)
     TEST_ASSERT_EQUAL_HEX8(0x37, ASK(0x27, 1));
     uds_pass(&uds, NOW_MS + UDS_DELAY_MS, true);
     TEST_ASSERT_EQUAL_HEX8(0, prove());
+    TEST_ASSERT_EQUAL_HEX8(0, ASK(0x10, 2));
     TEST_ASSERT_EQUAL_HEX8(0x35, prove_wrongly());
 }
 
