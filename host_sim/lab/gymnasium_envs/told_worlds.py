@@ -91,7 +91,10 @@ class ToldWorlds:
             seed: Their bodies are drawn from it.
         """
         arena = Arena(layout, self._params, kind=self._kind)
-        arena.begin(seed)
+        if self._kind is not None:
+            arena.begin(seed)
+        for body in arena.inside.bodies if self._kind is None else ():
+            body.kit = arena.inside.ffi.NULL  # it stays ideal
         self._arenas[world] = arena
         self._all[world].world = self._ffi.cast("struct world *", arena.inside.address)
         self._library.told_begin(self._ffi.addressof(self._all, world))

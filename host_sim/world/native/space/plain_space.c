@@ -212,6 +212,8 @@ static void place(struct world *world, struct body *body)
     place->lifted = body->lifted;
     if (space->grid)
         plain_grid_put(space->grid, (uint32_t)index_of(world, body), place->at);
+    if (world->body_count == 1 && place->free_mm > 0.0)
+        return;   /* alone, it still feels nothing */
     find(world, body);
     if (world->body_count > 1)
         tell_others(world, body, &before);
