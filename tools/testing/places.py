@@ -29,8 +29,8 @@ PROVE: Mapping[str, tuple[str, ...]] = {
 QUICK = ("studies", "web")
 """The stages of tools/prove that tools/test --quick runs as well, if a change concerns their tests."""
 
-PROVE_ON_VCAN = ("boards", "campaign")
-"""The stages of tools/prove with tests that need vcan0."""
+PROVE_ON_VCAN = (*PROVE["boards"], *PROVE["campaign"])
+"""Where tools/prove has tests that need vcan0."""
 
 
 def named() -> list[str]:
