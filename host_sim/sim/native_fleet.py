@@ -15,7 +15,7 @@ from host_sim.base.errors import UsageError
 from host_sim.base.paths import BUILD, PACKAGE
 from host_sim.protocol.generated import ANSWER_WANTS_RANGES, CELL_COUNT, PARAMETERS, PROFILES, Opcode
 from host_sim.world.body_kinds import BodyKind, draw_body
-from host_sim.world.geometry import Capsule, Pose
+from host_sim.world.geometry import Pose
 from host_sim.world.layouts import Layout
 from host_sim.world.native_library import load_native
 from host_sim.world.params import SimParams
@@ -122,7 +122,7 @@ class NativeFleet:
             kit = self._kits[index] = draw_body(self._kind, seed, 0)
             kit.ranges = self._ranges + index // self._each
             self._bodies[index].kit = self._ffi.cast("struct kit *", _address(kit))
-        self._library.fleet_wake(self._ffi.addressof(robot))
+        self._library.fleet_wake(self._robots + index)
         if self._command(robot, Opcode.START, PROFILES[profile], seed) & ANSWER_WANTS_RANGES:
             raise UsageError(f"profile {profile} needs distances, which a fleet's robots are not told; take another")
         for name, value in settings.items():
@@ -136,7 +136,6 @@ class NativeFleet:
             layout: The environment.
             ticks_max: Number of ticks after which it ends, finished or not.
         """
-        there = self._worlds[world]
         self._lay_out(world, layout)
         for i, pose in enumerate(layout.starts):
             index = world * self._each + i
@@ -146,9 +145,8 @@ class NativeFleet:
             robot.ticks, robot.ticks_max, robot.food_eaten = 0, ticks_max, 0
             robot.begun = [0] * self._library.FLEET_REASONS
             robot.denied = robot.contacts = robot.blocked_ticks = robot.blocked_longest = robot.blocked_now = 0
-        pointer = self._ffi.addressof(there)
-        self._library.world_begin(pointer)
-        self._library.plain_space_take(self._ffi.addressof(self._spaces[world]), pointer)
+        self._library.world_begin(self._worlds + world)
+        self._library.plain_space_take(self._spaces + world, self._worlds + world)
 
     def run(self, ticks: int) -> int:
         """Runs all robots for a number of ticks, or to the ends of their environments.
@@ -238,14 +236,11 @@ class NativeFleet:
 
     def _lay_out(self, world: int, layout: Layout) -> None:
         ffi, library, params = self._ffi, self._library, self._params
-        bars = [Capsule(bar.a, bar.b, params.bar_thickness_mm / 2) for bar in layout.bars]
-        count = library.WALLS + len(bars)
-        capsules, food = ffi.new("struct capsule[]", count), ffi.new("struct food[]", len(layout.food))
+        count = library.WALLS + len(layout.bars)
+        capsules, food = ffi.new("struct capsule[]", count), ffi.new("struct food[]", layout.food)
         library.capsule_set_walls(capsules, params.width_mm, params.height_mm)
-        for i, (a, b, radius_mm) in enumerate(bars, library.WALLS):
-            library.capsule_set(capsules + i, [*a], [*b], radius_mm)
-        for there, (x, y) in zip(food, layout.food, strict=True):
-            there.x_mm, there.y_mm = x, y
+        for i, (a, b) in enumerate(layout.bars, library.WALLS):
+            library.capsule_set(capsules + i, a, b, params.bar_thickness_mm / 2)
         if self._each >= _GRID_FROM:
             self._lay_grid(world, [(there.low, there.high) for there in capsules])
         words = -(-(count + self._each) // library.PLAIN_WORD_BITS)
